@@ -1,0 +1,35 @@
+# One interface target carries what every target of the project is compiled with.
+add_library(sbfmt_compiler INTERFACE)
+target_compile_options(sbfmt_compiler INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wmissing-prototypes -Wstrict-prototypes -Wundef -Wvla
+  -Wpointer-arith -Wwrite-strings
+  # The same bits on every machine: no fused multiply-add unless the source asks for it.
+  -ffp-contract=off)
+if(SBFMT_WERROR)
+  target_compile_options(sbfmt_compiler INTERFACE -Werror)
+endif()
+if(SBFMT_SANITIZE)
+  target_compile_options(sbfmt_compiler INTERFACE -fsanitize=${SBFMT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(sbfmt_compiler INTERFACE -fsanitize=${SBFMT_SANITIZE})
+  if(SBFMT_SANITIZE MATCHES "undefined")
+    target_compile_options(sbfmt_compiler INTERFACE -fno-sanitize-recover=undefined)
+  endif()
+endif()
+if(SBFMT_FUZZ)
+  target_compile_options(sbfmt_compiler INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# sbfmt_library(NAME ALIAS FOLDER...): a library of every .c file in the given folders. A folder is a
+# module here, so a new file joins its library by lying in the right place.
+function(sbfmt_library name alias)
+  set(sources)
+  foreach(folder IN LISTS ARGN)
+    file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.c")
+    list(APPEND sources ${found})
+  endforeach()
+  add_library(${name} ${sources})
+  add_library(sbfmt::${alias} ALIAS ${name})
+  target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:sbfmt_compiler>)
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${alias} VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR})
+endfunction()

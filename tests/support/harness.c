@@ -1,0 +1,83 @@
+#include "harness.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+int harness_run(Suite *suite) {
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_ENV);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
+
+static const char *joined(const char *variable, const char *fallback, const char *middle, const char *path) {
+  static char slots[4][1024];
+  static int next;
+  const char *root = getenv(variable);
+  char *slot = slots[next++ % 4];
+  snprintf(slot, sizeof slots[0], "%s%s/%s", root ? root : fallback, middle, path);
+  return slot;
+}
+
+const char *harness_source(const char *path) { return joined("SBFMT_SOURCE_DIR", ".", "", path); }
+
+const char *harness_scratch(const char *name) {
+  mkdir(joined("SBFMT_BUILD_DIR", "build", "", "scratch"), 0777);
+  return joined("SBFMT_BUILD_DIR", "build", "/scratch", name);
+}
+
+const char *harness_shared(const char *path_below_data) {
+  const char *path = joined("SBFMT_SOURCE_DIR", ".", "/../shared/data", path_below_data);
+  FILE *file = fopen(path, "rb");
+  if (!file) {
+    fprintf(stderr, "skipped: %s is not there (real input beside the checkout)\n", path);
+    return NULL;
+  }
+  fclose(file);
+  return path;
+}
+
+char *harness_read(const char *path, size_t *size) {
+  FILE *file = fopen(path, "rb");
+  if (!file) return NULL;
+  fseek(file, 0, SEEK_END);
+  long end = ftell(file);
+  rewind(file);
+  char *bytes = end >= 0 ? malloc((size_t)end + 1) : NULL;
+  if (bytes && fread(bytes, 1, (size_t)end, file) == (size_t)end) {
+    bytes[end] = 0;
+    if (size) *size = (size_t)end;
+  } else {
+    free(bytes);
+    bytes = NULL;
+  }
+  fclose(file);
+  return bytes;
+}
+
+bool harness_write(const char *path, const void *bytes, size_t size) {
+  FILE *file = fopen(path, "wb");
+  if (!file) return false;
+  bool good = fwrite(bytes, 1, size, file) == size;
+  return fclose(file) == 0 && good;
+}
+
+static void *counted(void *user, void *memory, size_t old_size, size_t new_size) {
+  harness_memory *m = user;
+  if (new_size == 0) {
+    free(memory);
+    m->held_bytes -= old_size;
+    return NULL;
+  }
+  if (m->calls++ >= m->allowed) return NULL;
+  void *moved = realloc(memory, new_size);
+  if (moved) m->held_bytes += new_size - (memory ? old_size : 0);
+  return moved;
+}
+
+void harness_memory_init(harness_memory *memory, size_t allowed) {
+  *memory = (harness_memory){.allocator = {counted, memory}, .allowed = allowed};
+}

@@ -1,0 +1,31 @@
+/* What every test program needs: a main, the shared data folder, an allocator that fails on demand. */
+#ifndef TEST_HARNESS_H
+#define TEST_HARNESS_H
+
+#include <check.h>
+
+#include "sbfmt/base.h"
+
+/* Runs the suite and gives the exit status: `int main(void) { return harness_run(my_suite()); }` */
+int harness_run(Suite *suite);
+
+/* Path of a file below the folder of real input that may stand beside the checkout; NULL, with a message
+ * on standard error, where that folder is absent: the test then returns. Valid until the next call. */
+const char *harness_shared(const char *path_below_data);
+
+/* Path inside the checkout, and in a folder for files the tests write. Valid until the next call but three. */
+const char *harness_source(const char *path);
+const char *harness_scratch(const char *name);
+
+/* Whole file, NUL after its end; free() it. NULL if it cannot be read. */
+char *harness_read(const char *path, size_t *size);
+bool harness_write(const char *path, const void *bytes, size_t size);
+
+/* Allocates until `allowed` calls have been served, then fails every one; counts what is still held. */
+typedef struct harness_memory {
+  sbf_allocator allocator;
+  size_t allowed, calls, held_bytes;
+} harness_memory;
+void harness_memory_init(harness_memory *memory, size_t allowed);
+
+#endif
