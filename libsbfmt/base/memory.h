@@ -26,7 +26,8 @@ typedef struct sbfi_arena {
 
 void sbfi_arena_init(sbfi_arena *arena, const sbf_allocator *allocator, size_t limit_bytes);
 void sbfi_arena_free(sbfi_arena *arena);
-void *sbfi_arena_allocate(sbfi_arena *arena, size_t count, size_t size); /* NULL on failure, overflow, limit */
+void *sbfi_arena_allocate(
+    sbfi_arena *arena, size_t count, size_t size); /* NULL on failure, overflow, limit */
 void *sbfi_arena_copy(sbfi_arena *arena, const void *from, size_t count, size_t size);
 char *sbfi_arena_string(sbfi_arena *arena, const char *text, size_t length); /* NUL-terminated copy */
 

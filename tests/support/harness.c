@@ -22,7 +22,9 @@ static const char *joined(const char *variable, const char *fallback, const char
   return slot;
 }
 
-const char *harness_source(const char *path) { return joined("SBFMT_SOURCE_DIR", ".", "", path); }
+const char *harness_source(const char *path) {
+  return joined("SBFMT_SOURCE_DIR", ".", "", path);
+}
 
 const char *harness_scratch(const char *name) {
   mkdir(joined("SBFMT_BUILD_DIR", "build", "", "scratch"), 0777);

@@ -13,7 +13,8 @@ int harness_run(Suite *suite);
  * on standard error, where that folder is absent: the test then returns. Valid until the next call. */
 const char *harness_shared(const char *path_below_data);
 
-/* Path inside the checkout, and in a folder for files the tests write. Valid until the next call but three. */
+/* Path inside the checkout, and in a folder for files the tests write. Valid until the next call but three.
+ */
 const char *harness_source(const char *path);
 const char *harness_scratch(const char *name);
 

@@ -41,14 +41,14 @@ typedef enum sbf_severity {
 /* One finding, with fixed storage so that reporting cannot itself fail. Texts are UTF-8 and cut to fit.
  * `code` is a number of sbfmt/codes.h: stable over versions. */
 typedef struct sbf_diagnostic {
-  int32_t code;          /* sbf_code; 0: none */
+  int32_t code; /* sbf_code; 0: none */
   sbf_severity severity;
-  char message[384];     /* what is wrong and what to do next, one line, no full stop needed */
-  char path[256];        /* element path, as in /sbf/soft_body[2]/surface/positions; "" where there is none */
-  char file[256];        /* the file's name as the caller gave it; "" for memory */
-  uint32_t line;         /* from 1; 0: not known */
-  int64_t offset;        /* byte offset from 0; -1: not known */
-  int64_t index;         /* index of the item in the list at `path`; -1: not about one item */
+  char message[384]; /* what is wrong and what to do next, one line, no full stop needed */
+  char path[256];    /* element path, as in /sbf/soft_body[2]/surface/positions; "" where there is none */
+  char file[256];    /* the file's name as the caller gave it; "" for memory */
+  uint32_t line;     /* from 1; 0: not known */
+  int64_t offset;    /* byte offset from 0; -1: not known */
+  int64_t index;     /* index of the item in the list at `path`; -1: not about one item */
 } sbf_diagnostic;
 
 /* Memory, as one function: size 0 frees, memory NULL allocates. `old_size` is what the block was asked with.
@@ -58,25 +58,67 @@ typedef struct sbf_allocator {
   void *user;
 } sbf_allocator;
 
-typedef struct sbf_vec2 { float x, y; } sbf_vec2;
-typedef struct sbf_vec3 { float x, y, z; } sbf_vec3;
-typedef struct sbf_vec4 { float x, y, z, w; } sbf_vec4;
-typedef struct sbf_quat { float x, y, z, w; } sbf_quat; /* unit length, w the real part */
-typedef struct sbf_uint2 { uint32_t at[2]; } sbf_uint2;
-typedef struct sbf_uint4 { uint32_t at[4]; } sbf_uint4;
+typedef struct sbf_vec2 {
+  float x, y;
+} sbf_vec2;
+typedef struct sbf_vec3 {
+  float x, y, z;
+} sbf_vec3;
+typedef struct sbf_vec4 {
+  float x, y, z, w;
+} sbf_vec4;
+typedef struct sbf_quat {
+  float x, y, z, w;
+} sbf_quat; /* unit length, w the real part */
+typedef struct sbf_uint2 {
+  uint32_t at[2];
+} sbf_uint2;
+typedef struct sbf_uint4 {
+  uint32_t at[4];
+} sbf_uint4;
 
 /* A list is a pointer and a count. All lists of a loaded asset are read only and live as long as it does.
  * `at` is NULL where count is 0. */
-typedef struct sbf_u8_list { const uint8_t *at; uint32_t count; } sbf_u8_list;
-typedef struct sbf_u32_list { const uint32_t *at; uint32_t count; } sbf_u32_list;
-typedef struct sbf_uint2_list { const sbf_uint2 *at; uint32_t count; } sbf_uint2_list;
-typedef struct sbf_uint4_list { const sbf_uint4 *at; uint32_t count; } sbf_uint4_list;
-typedef struct sbf_f32_list { const float *at; uint32_t count; } sbf_f32_list;
-typedef struct sbf_vec2_list { const sbf_vec2 *at; uint32_t count; } sbf_vec2_list;
-typedef struct sbf_vec3_list { const sbf_vec3 *at; uint32_t count; } sbf_vec3_list;
-typedef struct sbf_vec4_list { const sbf_vec4 *at; uint32_t count; } sbf_vec4_list;
-typedef struct sbf_quat_list { const sbf_quat *at; uint32_t count; } sbf_quat_list;
-typedef struct sbf_string_list { const char *const *at; uint32_t count; } sbf_string_list;
+typedef struct sbf_u8_list {
+  const uint8_t *at;
+  uint32_t count;
+} sbf_u8_list;
+typedef struct sbf_u32_list {
+  const uint32_t *at;
+  uint32_t count;
+} sbf_u32_list;
+typedef struct sbf_uint2_list {
+  const sbf_uint2 *at;
+  uint32_t count;
+} sbf_uint2_list;
+typedef struct sbf_uint4_list {
+  const sbf_uint4 *at;
+  uint32_t count;
+} sbf_uint4_list;
+typedef struct sbf_f32_list {
+  const float *at;
+  uint32_t count;
+} sbf_f32_list;
+typedef struct sbf_vec2_list {
+  const sbf_vec2 *at;
+  uint32_t count;
+} sbf_vec2_list;
+typedef struct sbf_vec3_list {
+  const sbf_vec3 *at;
+  uint32_t count;
+} sbf_vec3_list;
+typedef struct sbf_vec4_list {
+  const sbf_vec4 *at;
+  uint32_t count;
+} sbf_vec4_list;
+typedef struct sbf_quat_list {
+  const sbf_quat *at;
+  uint32_t count;
+} sbf_quat_list;
+typedef struct sbf_string_list {
+  const char *const *at;
+  uint32_t count;
+} sbf_string_list;
 
 #define SBF_NONE (-1) /* a reference to nothing */
 

@@ -1,0 +1,57 @@
+// clang-format off
+/* Made from spec/sbf.codes by spec/generate/generate.py: change that, not this file. */
+#include "sbfmt/codes.h"
+
+static const sbf_code_info table[] = {
+  {"IO_CANNOT_READ", SBF_CODE_IO_CANNOT_READ, SBF_SEVERITY_ERROR, SBF_FAILED, "The file cannot be read: check the path and its permissions."},
+  {"IO_CANNOT_WRITE", SBF_CODE_IO_CANNOT_WRITE, SBF_SEVERITY_ERROR, SBF_FAILED, "The file cannot be written: check the folder, its permissions and the free space."},
+  {"IO_UNKNOWN_FORMAT", SBF_CODE_IO_UNKNOWN_FORMAT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The content is none of the formats known: give a file of a listed format."},
+  {"IO_TOO_LARGE", SBF_CODE_IO_TOO_LARGE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The input is larger than the limit: raise the limit if the file is trusted."},
+  {"OUT_OF_MEMORY", SBF_CODE_OUT_OF_MEMORY, SBF_SEVERITY_ERROR, SBF_FAILED, "Memory ran out, or the limit on it was reached."},
+  {"BAD_CALL", SBF_CODE_BAD_CALL, SBF_SEVERITY_ERROR, SBF_FAILED, "An argument of the call is wrong."},
+  {"XML_SYNTAX", SBF_CODE_XML_SYNTAX, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The text is not well-formed XML: mend it at the line given."},
+  {"XML_DOCTYPE", SBF_CODE_XML_DOCTYPE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A DOCTYPE or an entity of its own stands in the file: remove it, the format has none."},
+  {"XML_UNKNOWN_ELEMENT", SBF_CODE_XML_UNKNOWN_ELEMENT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An element that the format does not have stands here: check its spelling and its place."},
+  {"XML_UNKNOWN_ATTRIBUTE", SBF_CODE_XML_UNKNOWN_ATTRIBUTE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An attribute that the element does not have: check its spelling."},
+  {"XML_BAD_VALUE", SBF_CODE_XML_BAD_VALUE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A value is not of its type, as a word where a number belongs."},
+  {"XML_REPEATED", SBF_CODE_XML_REPEATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An element that may stand once stands twice."},
+  {"XML_TOO_DEEP", SBF_CODE_XML_TOO_DEEP, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Elements lie inside each other deeper than the limit."},
+  {"XML_STRAY_TEXT", SBF_CODE_XML_STRAY_TEXT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Text stands where only elements belong."},
+  {"XML_NOT_SBF", SBF_CODE_XML_NOT_SBF, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The document's root is not <sbf>: this is another kind of XML."},
+  {"VERSION_TOO_NEW", SBF_CODE_VERSION_TOO_NEW, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file needs a newer version of the library: update, or save it with an older one."},
+  {"REQUIRED_MISSING", SBF_CODE_REQUIRED_MISSING, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A field that must be given is missing."},
+  {"VALUE_OUT_OF_RANGE", SBF_CODE_VALUE_OUT_OF_RANGE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A number lies outside its range."},
+  {"VALUE_NOT_FINITE", SBF_CODE_VALUE_NOT_FINITE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A number is infinite or not a number."},
+  {"WRONG_LENGTH", SBF_CODE_WRONG_LENGTH, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A list has not the length that goes with its neighbours."},
+  {"INDEX_OUT_OF_RANGE", SBF_CODE_INDEX_OUT_OF_RANGE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An index names an item that is not there."},
+  {"ENUM_OUT_OF_RANGE", SBF_CODE_ENUM_OUT_OF_RANGE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A value is none of the words of its enumeration."},
+  {"LIST_TOO_LONG", SBF_CODE_LIST_TOO_LONG, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A list is longer than the limit: raise the limit if the file is trusted."},
+  {"NOT_UTF8", SBF_CODE_NOT_UTF8, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A text is not valid UTF-8."},
+  {"ID_EMPTY", SBF_CODE_ID_EMPTY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An id is empty."},
+  {"ID_REPEATED", SBF_CODE_ID_REPEATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Two objects have the same id: ids are unique in a file."},
+  {"FIXED_VALUE", SBF_CODE_FIXED_VALUE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A field has another value than its place demands."},
+  {"REF_UNKNOWN", SBF_CODE_REF_UNKNOWN, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A reference names an id that nothing of its kind has."},
+  {"BONE_ORDER", SBF_CODE_BONE_ORDER, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A bone stands before its parent, or among its own ancestors."},
+  {"EXTENSION_REQUIRED", SBF_CODE_EXTENSION_REQUIRED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file requires an extension that this library does not know."},
+  {"TETRAHEDRON_INVERTED", SBF_CODE_TETRAHEDRON_INVERTED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A tetrahedron is inverted or flat: its volume is not positive."},
+  {"PACKED_MAGIC", SBF_CODE_PACKED_MAGIC, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file does not begin as a packed file does: it was damaged in transfer, or is another kind."},
+  {"PACKED_TRUNCATED", SBF_CODE_PACKED_TRUNCATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file ends before what its table names: it was cut short."},
+  {"PACKED_TABLE", SBF_CODE_PACKED_TABLE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The header or the table of contents contradicts itself."},
+  {"PACKED_CRC", SBF_CODE_PACKED_CRC, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A chunk's bytes do not match their CRC-32: the file is damaged."},
+  {"PACKED_INFLATE", SBF_CODE_PACKED_INFLATE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A chunk does not inflate to the size its entry names."},
+  {"PACKED_RATIO", SBF_CODE_PACKED_RATIO, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A chunk inflates to more than the limit allows."},
+  {"PACKED_RECORD", SBF_CODE_PACKED_RECORD, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A record does not hold together."},
+  {"PACKED_CODEC", SBF_CODE_PACKED_CODEC, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A chunk uses a codec or a filter that this library does not know."},
+  {"PACKED_UNKNOWN_PART", SBF_CODE_PACKED_UNKNOWN_PART, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A critical part of an unknown kind: the file needs a newer reader."},
+};
+
+const sbf_code_info *sbf_code_table(uint32_t *count) {
+  *count = (uint32_t)(sizeof table / sizeof *table);
+  return table;
+}
+
+const sbf_code_info *sbf_code_find(int32_t code) {
+  for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+    if ((int32_t)table[i].code == code) return &table[i];
+  return NULL;
+}

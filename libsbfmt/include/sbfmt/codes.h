@@ -1,0 +1,76 @@
+/* Numbers of the diagnostics: stable, never reused. The page spec/codes.md explains each.
+ *
+ * Made from spec/sbf.codes by spec/generate/generate.py: change that, not this file. */
+#ifndef SBFMT_CODES_H
+#define SBFMT_CODES_H
+
+#include "sbfmt/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// clang-format off
+typedef enum sbf_code {
+  SBF_CODE_NONE = 0,
+  SBF_CODE_IO_CANNOT_READ = 101, /* The file cannot be read: check the path and its permissions. */
+  SBF_CODE_IO_CANNOT_WRITE = 102, /* The file cannot be written: check the folder, its permissions and the free space. */
+  SBF_CODE_IO_UNKNOWN_FORMAT = 103, /* The content is none of the formats known: give a file of a listed format. */
+  SBF_CODE_IO_TOO_LARGE = 104, /* The input is larger than the limit: raise the limit if the file is trusted. */
+  SBF_CODE_OUT_OF_MEMORY = 105, /* Memory ran out, or the limit on it was reached. */
+  SBF_CODE_BAD_CALL = 106, /* An argument of the call is wrong. */
+  SBF_CODE_XML_SYNTAX = 201, /* The text is not well-formed XML: mend it at the line given. */
+  SBF_CODE_XML_DOCTYPE = 202, /* A DOCTYPE or an entity of its own stands in the file: remove it, the format has none. */
+  SBF_CODE_XML_UNKNOWN_ELEMENT = 203, /* An element that the format does not have stands here: check its spelling and its place. */
+  SBF_CODE_XML_UNKNOWN_ATTRIBUTE = 204, /* An attribute that the element does not have: check its spelling. */
+  SBF_CODE_XML_BAD_VALUE = 205, /* A value is not of its type, as a word where a number belongs. */
+  SBF_CODE_XML_REPEATED = 206, /* An element that may stand once stands twice. */
+  SBF_CODE_XML_TOO_DEEP = 207, /* Elements lie inside each other deeper than the limit. */
+  SBF_CODE_XML_STRAY_TEXT = 208, /* Text stands where only elements belong. */
+  SBF_CODE_XML_NOT_SBF = 209, /* The document's root is not <sbf>: this is another kind of XML. */
+  SBF_CODE_VERSION_TOO_NEW = 210, /* The file needs a newer version of the library: update, or save it with an older one. */
+  SBF_CODE_REQUIRED_MISSING = 301, /* A field that must be given is missing. */
+  SBF_CODE_VALUE_OUT_OF_RANGE = 302, /* A number lies outside its range. */
+  SBF_CODE_VALUE_NOT_FINITE = 303, /* A number is infinite or not a number. */
+  SBF_CODE_WRONG_LENGTH = 304, /* A list has not the length that goes with its neighbours. */
+  SBF_CODE_INDEX_OUT_OF_RANGE = 305, /* An index names an item that is not there. */
+  SBF_CODE_ENUM_OUT_OF_RANGE = 306, /* A value is none of the words of its enumeration. */
+  SBF_CODE_LIST_TOO_LONG = 307, /* A list is longer than the limit: raise the limit if the file is trusted. */
+  SBF_CODE_NOT_UTF8 = 308, /* A text is not valid UTF-8. */
+  SBF_CODE_ID_EMPTY = 309, /* An id is empty. */
+  SBF_CODE_ID_REPEATED = 310, /* Two objects have the same id: ids are unique in a file. */
+  SBF_CODE_FIXED_VALUE = 311, /* A field has another value than its place demands. */
+  SBF_CODE_REF_UNKNOWN = 401, /* A reference names an id that nothing of its kind has. */
+  SBF_CODE_BONE_ORDER = 402, /* A bone stands before its parent, or among its own ancestors. */
+  SBF_CODE_EXTENSION_REQUIRED = 403, /* The file requires an extension that this library does not know. */
+  SBF_CODE_TETRAHEDRON_INVERTED = 501, /* A tetrahedron is inverted or flat: its volume is not positive. */
+  SBF_CODE_PACKED_MAGIC = 801, /* The file does not begin as a packed file does: it was damaged in transfer, or is another kind. */
+  SBF_CODE_PACKED_TRUNCATED = 802, /* The file ends before what its table names: it was cut short. */
+  SBF_CODE_PACKED_TABLE = 803, /* The header or the table of contents contradicts itself. */
+  SBF_CODE_PACKED_CRC = 804, /* A chunk's bytes do not match their CRC-32: the file is damaged. */
+  SBF_CODE_PACKED_INFLATE = 805, /* A chunk does not inflate to the size its entry names. */
+  SBF_CODE_PACKED_RATIO = 806, /* A chunk inflates to more than the limit allows. */
+  SBF_CODE_PACKED_RECORD = 807, /* A record does not hold together. */
+  SBF_CODE_PACKED_CODEC = 808, /* A chunk uses a codec or a filter that this library does not know. */
+  SBF_CODE_PACKED_UNKNOWN_PART = 809, /* A critical part of an unknown kind: the file needs a newer reader. */
+} sbf_code;
+// clang-format on
+
+typedef struct sbf_code_info {
+  const char *name;
+  sbf_code code;
+  sbf_severity severity;
+  sbf_status fault; /* SBF_BAD_INPUT or SBF_FAILED */
+  const char *text;
+} sbf_code_info;
+
+/* What a code stands for; NULL for a number that is none. */
+SBF_API const sbf_code_info *sbf_code_find(int32_t code);
+
+/* All of them, by number. */
+SBF_API const sbf_code_info *sbf_code_table(uint32_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,82 @@
+/* Reading and writing assets: packed (.sbfz) here in the core, XML text (.sbf) with the format library.
+ *
+ * A load that succeeds promises: indices in range, counts consistent, numbers finite and in their ranges,
+ * strings UTF-8, ids unique, references to things that exist, the bone tree without cycles, parents before
+ * children. A load that fails says what, where and which rule in `*error` (may be NULL) and makes nothing.
+ * All functions are thread safe on different assets; a loaded asset may be saved from several threads. */
+#ifndef SBFMT_IO_H
+#define SBFMT_IO_H
+
+#include "sbfmt/asset.h"
+#include "sbfmt/codes.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Bounds on what a file may ask for. Zero means the default that stands behind each. */
+typedef struct sbf_limits {
+  uint64_t file_bytes;     /* 4 GiB */
+  uint64_t memory_bytes;   /* 4 GiB that the asset may take */
+  uint64_t inflated_bytes; /* 4 GiB that packed chunks may inflate to, all together */
+  uint32_t inflate_ratio;  /* 1100 times its stored size for one chunk */
+  uint32_t list_items;     /* 2^30 items in one list */
+  uint32_t depth;          /* 32 elements inside each other */
+} sbf_limits;
+
+typedef struct sbf_load_options {
+  size_t struct_size;             /* sizeof(sbf_load_options), or 0 for this version's */
+  const sbf_allocator *allocator; /* NULL: malloc */
+  sbf_limits limits;
+  bool check_crc;   /* compare each chunk's CRC-32 as it is read */
+  const char *name; /* the file's name for messages, with loads from memory; may be NULL */
+} sbf_load_options;
+
+typedef struct sbf_save_options {
+  size_t struct_size; /* sizeof(sbf_save_options), or 0 for this version's */
+  bool store;         /* packed: leave the chunks uncompressed, so that a load can use them in place */
+  int level;          /* packed: zlib's 1..9; 0: 6 */
+} sbf_save_options;
+
+/* Bytes made by a save into memory: free with sbf_buffer_free. */
+typedef struct sbf_buffer {
+  uint8_t *at;
+  size_t size;
+  sbf_allocator allocator;
+  size_t capacity;
+} sbf_buffer;
+SBF_API void sbf_buffer_free(sbf_buffer *buffer);
+
+/* Packed form. A stored (uncompressed) list of a file is used in place: the file is mapped as long as the
+ * asset lives. `options` may be NULL. Saving to a path writes a temporary file and renames it. */
+SBF_API sbf_status sbf_packed_load_file(
+    const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error);
+/* `bytes` must outlive the asset: lists may point into them (they do where 64-byte aligned and stored). */
+SBF_API sbf_status sbf_packed_load_memory(const void *bytes, size_t size, const sbf_load_options *options,
+    sbf_asset **asset, sbf_diagnostic *error);
+SBF_API sbf_status sbf_packed_save_file(
+    const sbf_asset *asset, const char *path, const sbf_save_options *options, sbf_diagnostic *error);
+SBF_API sbf_status sbf_packed_save_memory(const sbf_asset *asset, const sbf_save_options *options,
+    const sbf_allocator *allocator, sbf_buffer *buffer, sbf_diagnostic *error);
+
+/* XML form, in the format library. */
+SBF_API sbf_status sbf_xml_load_file(
+    const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error);
+SBF_API sbf_status sbf_xml_load_memory(const void *bytes, size_t size, const sbf_load_options *options,
+    sbf_asset **asset, sbf_diagnostic *error);
+SBF_API sbf_status sbf_xml_save_file(
+    const sbf_asset *asset, const char *path, const sbf_save_options *options, sbf_diagnostic *error);
+SBF_API sbf_status sbf_xml_save_memory(const sbf_asset *asset, const sbf_save_options *options,
+    const sbf_allocator *allocator, sbf_buffer *buffer, sbf_diagnostic *error);
+
+/* Either form: loads by what the bytes are, saves by the name's ending (.sbfz packed, anything else XML). In
+ * the format library. */
+SBF_API sbf_status sbf_load_file(
+    const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error);
+SBF_API sbf_status sbf_save_file(
+    const sbf_asset *asset, const char *path, const sbf_save_options *options, sbf_diagnostic *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

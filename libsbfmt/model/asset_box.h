@@ -1,0 +1,25 @@
+/* What stands around an asset: the arena that everything in it lives in, and a mapped file. */
+#ifndef SBFI_ASSET_BOX_H
+#define SBFI_ASSET_BOX_H
+
+#include <stddef.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "sbfmt/model.h"
+
+typedef struct sbfi_asset_box {
+  sbfi_arena arena;
+  void (*release)(void *released); /* called when the asset is freed, as to unmap a file; may be NULL */
+  void *released;
+  sbf_asset asset;
+} sbfi_asset_box;
+
+static inline sbfi_asset_box *sbfi_asset_box_of(const sbf_asset *asset) {
+  const char *place = (const char *)asset - offsetof(sbfi_asset_box, asset);
+  sbfi_asset_box *box;
+  memcpy(&box, &place, sizeof box);
+  return box;
+}
+
+#endif

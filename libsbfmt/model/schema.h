@@ -1,0 +1,153 @@
+/* The shape of the asset as data: what the generated tables describe and every generic pass walks.
+ *
+ * One walk over these tables is the XML reader, the writer, the packed codec, the structural check, equality,
+ * hashing and copying: none of them knows an element by name. */
+#ifndef SBFI_SCHEMA_H
+#define SBFI_SCHEMA_H
+
+#include <string.h>
+
+#include "sbfmt/base.h"
+
+typedef enum sbfi_type {
+  SBFI_BOOL,
+  SBFI_INT,
+  SBFI_UINT,
+  SBFI_FLOAT,
+  SBFI_VEC2,
+  SBFI_VEC3,
+  SBFI_VEC4,
+  SBFI_QUAT,
+  SBFI_STRING,   /* const char *, never NULL; an XML attribute */
+  SBFI_TEXT,     /* the same, as an XML element's content */
+  SBFI_ID,       /* a string that is unique in the file and not empty */
+  SBFI_ENUM,     /* int32_t */
+  SBFI_REF,      /* int32_t: place in a collection of the root, or SBF_NONE */
+  SBFI_LIST,     /* pointer and count; `item` says of what */
+  SBFI_ONE,      /* a child by value */
+  SBFI_OPTIONAL, /* a pointer to a child, or NULL */
+  SBFI_MANY      /* pointer and count of children */
+} sbfi_type;
+
+typedef enum sbfi_item { SBFI_ITEM_U8, SBFI_ITEM_U32, SBFI_ITEM_F32 } sbfi_item;
+
+/* What every list looks like, whatever its items are. */
+typedef struct sbfi_list {
+  const void *at;
+  uint32_t count;
+} sbfi_list;
+
+/* A length: the sum of its terms. */
+typedef enum sbfi_term_kind {
+  SBFI_TERM_NUMBER,
+  SBFI_TERM_COUNT,
+  SBFI_TERM_SUM,
+  SBFI_TERM_SIZE
+} sbfi_term_kind;
+typedef struct sbfi_term {
+  sbfi_term_kind kind;
+  int up;         /* elements above this one; -1: the root */
+  uint32_t value; /* the number, or the offset of the list counted or summed */
+} sbfi_term;
+typedef struct sbfi_length {
+  uint32_t term_count;
+  sbfi_term terms[2];
+  const char *text; /* for messages */
+} sbfi_length;
+
+typedef struct sbfi_element sbfi_element;
+
+typedef struct sbfi_field {
+  const char *name;     /* in C, and of the attribute or the list's element in XML */
+  const char *xml;      /* of the child elements in XML; NULL for others */
+  const char *wrapper;  /* element around the children; NULL: none */
+  const char *suffix;   /* the children's element name is the value of their field `by` with this suffix */
+  const char *by;       /* with suffix: the children's enum field */
+  const char *unit;     /* "" where there is none */
+  uint16_t number;      /* in the packed form */
+  uint16_t since_minor; /* version 1.x that brought it */
+  sbfi_type type;
+  sbfi_item item;  /* of a list */
+  uint32_t width;  /* scalars in an item of a list, or in a vector; else 1 */
+  uint32_t offset; /* in the struct */
+  bool required, volatile_, has_range, min_open, max_open;
+  double min, max; /* of each scalar, infinite where open-ended */
+  float defaults[4];
+  uint32_t default_integer;
+  const char *default_text;
+  const char *const *values; /* of an enum */
+  uint32_t value_count;
+  const sbfi_element *element; /* of children */
+  const char *fixed_name;      /* field of the child that always has fixed_value; NULL: none */
+  int32_t fixed_value;
+  uint32_t target;         /* of a reference: offset of the collection in the root */
+  const char *target_name; /* its name */
+  uint32_t length_count;   /* a list has one of these lengths; 0: any */
+  const sbfi_length *lengths;
+  const sbfi_length *index; /* every item is below it; NULL: no index */
+} sbfi_field;
+
+struct sbfi_element {
+  const char *name;
+  const char *xml;
+  uint32_t struct_size;
+  bool part; /* has a record of its own in the packed form */
+  uint32_t field_count;
+  const sbfi_field *fields;
+  const sbfi_length *size; /* what an index into it may name; NULL: not asked */
+};
+
+extern const sbfi_element sbfi_asset_element;
+
+/* Bytes of one item of a list. */
+static inline uint32_t sbfi_item_size(const sbfi_field *field) {
+  return (field->item == SBFI_ITEM_U8 ? 1u : 4u) * field->width;
+}
+
+/* The field of that name, or NULL. */
+const sbfi_field *sbfi_element_field(const sbfi_element *element, const char *name);
+
+/* Every field at its default; `memory` is struct_size bytes. */
+void sbfi_element_init(const sbfi_element *element, void *memory);
+
+/* Sets what the parent fixes in a child (as a mesh's target); true where it already was so. */
+bool sbfi_child_fix(const sbfi_field *field, void *child);
+
+/* Name of a child as XML writes it: with a suffix it is put together in `buffer`. */
+const char *sbfi_child_xml_name(const sbfi_field *field, const void *child, char *buffer, size_t size);
+
+static inline sbfi_list sbfi_get_list(const void *object, const sbfi_field *field) {
+  const char *place = (const char *)object + field->offset;
+  sbfi_list list;
+  memcpy(&list.at, place, sizeof list.at);
+  memcpy(&list.count, place + sizeof list.at, sizeof list.count);
+  return list;
+}
+
+static inline void sbfi_set_list(void *object, const sbfi_field *field, const void *at, uint32_t count) {
+  char *place = (char *)object + field->offset;
+  memcpy(place, &at, sizeof at);
+  memcpy(place + sizeof at, &count, sizeof count);
+}
+
+static inline const void *sbfi_get_pointer(const void *object, const sbfi_field *field) {
+  const void *pointer;
+  memcpy(&pointer, (const char *)object + field->offset, sizeof pointer);
+  return pointer;
+}
+
+static inline void sbfi_set_pointer(void *object, const sbfi_field *field, const void *pointer) {
+  memcpy((char *)object + field->offset, &pointer, sizeof pointer);
+}
+
+static inline int32_t sbfi_get_integer(const void *object, const sbfi_field *field) {
+  int32_t value;
+  memcpy(&value, (const char *)object + field->offset, sizeof value);
+  return value;
+}
+
+static inline void sbfi_set_integer(void *object, const sbfi_field *field, int32_t value) {
+  memcpy((char *)object + field->offset, &value, sizeof value);
+}
+
+#endif

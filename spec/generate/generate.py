@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Makes what is generated from spec/sbf.schema and spec/sbf.codes; with --check, says what is stale and fails."""
+import os
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+sys.dont_write_bytecode = True
+
+import emit_c
+import emit_codes
+import emit_docs
+import schema as schema_reader
+
+ROOT = os.path.dirname(os.path.dirname(HERE))
+
+
+def products():
+    schema = schema_reader.read(os.path.join(ROOT, "spec", "sbf.schema"))
+    codes = emit_codes.read(os.path.join(ROOT, "spec", "sbf.codes"))
+    return {
+        "libsbfmt/include/sbfmt/model.h": emit_c.model_header(schema),
+        "libsbfmt/generated/schema_tables.c": emit_c.tables(schema),
+        "libsbfmt/include/sbfmt/codes.h": emit_codes.header(codes),
+        "libsbfmt/generated/code_table.c": emit_codes.table(codes),
+        "spec/reference.md": emit_docs.reference(schema),
+        "spec/sbf.xsd": emit_docs.xsd(schema),
+        "spec/codes.md": emit_codes.page(codes),
+    }
+
+
+def main():
+    check, stale = "--check" in sys.argv[1:], []
+    for name, text in products().items():
+        path = os.path.join(ROOT, name)
+        try:
+            with open(path, encoding="utf-8") as file:
+                if file.read() == text:
+                    continue
+        except FileNotFoundError:
+            pass
+        if check:
+            stale.append(name)
+            continue
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        print("made", name)
+    if stale:
+        sys.exit("stale: " + ", ".join(stale) + "; run python3 spec/generate/generate.py")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,157 @@
+"""Reads spec/sbf.schema into plain objects. Errors name the line."""
+import re
+
+LISTS = {"float[]": ("f32", 1), "vec2[]": ("vec2", 2), "vec3[]": ("vec3", 3), "vec4[]": ("vec4", 4),
+         "quat[]": ("quat", 4), "uint[]": ("u32", 1), "uint2[]": ("uint2", 2), "uint4[]": ("uint4", 4),
+         "bytes": ("u8", 1)}
+SCALARS = {"bool", "int", "uint", "float", "vec2", "vec3", "vec4", "quat", "string", "text", "id"}
+CHILDREN = {"one", "optional", "many"}
+WIDTH = {"float": 1, "vec2": 2, "vec3": 3, "vec4": 4, "quat": 4}
+
+
+class Term:
+    """One summand of a length: a count `up` elements above (-1: the root), a sum, a size, or a number."""
+
+    def __init__(self, kind, up=0, path="", number=0):
+        self.kind, self.up, self.path, self.number = kind, up, path, number
+
+
+class Field:
+    def __init__(self, name, type_name, argument, line):
+        self.name, self.type, self.argument, self.line = name, type_name, argument, line
+        self.unit = self.default = self.wrapper = self.suffix = self.by = self.xml = self.fix = None
+        self.since, self.required, self.volatile = "1.0", False, False
+        self.range, self.lengths, self.index = None, [], None
+        self.meaning, self.number = "", 0
+
+    @property
+    def is_list(self):
+        return self.type in LISTS
+
+    @property
+    def is_child(self):
+        return self.type in CHILDREN
+
+
+class Element:
+    def __init__(self, name, xml, part, meaning, line):
+        self.name, self.xml, self.part, self.meaning, self.line = name, xml, part, meaning, line
+        self.fields, self.size = [], None
+
+    def field(self, name):
+        return next((f for f in self.fields if f.name == name), None)
+
+
+class Schema:
+    def __init__(self):
+        self.version, self.enums, self.elements = None, {}, {}
+
+    @property
+    def root(self):
+        return self.elements["asset"]
+
+
+def parse_terms(text):
+    terms = []
+    for part in (p.strip() for p in text.split("+")):
+        if re.fullmatch(r"\d+", part):
+            terms.append(Term("number", number=int(part)))
+            continue
+        kind = "count"
+        match = re.fullmatch(r"sum\((.*)\)", part)
+        if match:
+            kind, part = "sum", match.group(1)
+        up = len(part) - len(part.lstrip("^"))
+        part = part[up:]
+        if part.startswith("/"):
+            up, part = -1, part[1:]
+        if part == "size":
+            kind = "size"
+        terms.append(Term(kind, up, part))
+    return terms
+
+
+def parse_options(field, text, where):
+    for option in text.split():
+        key, _, value = option.partition("=")
+        if key in ("required", "volatile") and not value:
+            setattr(field, key, True)
+        elif key in ("unit", "default", "wrapper", "suffix", "by", "since", "xml", "fix"):
+            setattr(field, key, value)
+        elif key == "range":
+            match = re.fullmatch(r"([\[(])(-?[\w.]+),(-?[\w.]+)([\])])", value)
+            if not match:
+                raise SystemExit(f"{where}: range {value} is not of the form [a,b)")
+            field.range = (float(match[2]), match[1] == "(", float(match[3]), match[4] == ")")
+        elif key == "len":
+            field.lengths = [parse_terms(v) for v in value.split(",")]
+        elif key == "index":
+            field.index = parse_terms(value)
+        else:
+            raise SystemExit(f"{where}: unknown option {option}")
+
+
+def read(path):
+    schema, element = Schema(), None
+    with open(path, encoding="utf-8") as file:
+        lines = file.read().split("\n")
+    for number, line in enumerate(lines, 1):
+        where = f"{path}:{number}"
+        if not line.strip() or line.startswith("#"):
+            continue
+        head, _, meaning = line.partition(" -- ")
+        if match := re.fullmatch(r"version (\S+)", line):
+            schema.version = match[1]
+        elif match := re.fullmatch(r"enum (\w+): (.*)", line):
+            schema.enums[match[1]] = match[2].split()
+        elif match := re.fullmatch(r"element (\w+)(?: xml=(\w+))?( part)?", head):
+            element = Element(match[1], match[2] or match[1], bool(match[3]), meaning, number)
+            schema.elements[element.name] = element
+        elif match := re.fullmatch(r"  size = (.*)", line):
+            element.size = parse_terms(match[1])
+        elif match := re.fullmatch(r"  (\w+)\s*: ([a-z0-9]+(?:\[\])?)(?:\((\w+)\))?( .*)?", head):
+            field = Field(match[1], match[2], match[3], number)
+            parse_options(field, match[4] or "", where)
+            field.meaning, field.number = meaning, len(element.fields) + 1
+            element.fields.append(field)
+        else:
+            raise SystemExit(f"{where}: not understood: {line}")
+    check(schema, path)
+    return schema
+
+
+def check(schema, path):
+    for element in schema.elements.values():
+        for field in element.fields:
+            where = f"{path}:{field.line}"
+            known = field.type in SCALARS or field.is_list or field.is_child or field.type in ("enum", "ref")
+            if not known:
+                raise SystemExit(f"{where}: unknown type {field.type}")
+            if field.type == "enum" and field.argument not in schema.enums:
+                raise SystemExit(f"{where}: unknown enum {field.argument}")
+            if field.is_child and field.argument not in schema.elements:
+                raise SystemExit(f"{where}: unknown element {field.argument}")
+            if field.type == "ref" and schema.root.field(field.argument) is None:
+                raise SystemExit(f"{where}: the root has no collection {field.argument}")
+            if not field.meaning:
+                raise SystemExit(f"{where}: no meaning given")
+
+
+def ordered(schema):
+    """Elements with those they hold before them."""
+    done, order = set(), []
+
+    def visit(element):
+        if element.name in done:
+            return
+        done.add(element.name)
+        for field in element.fields:
+            if field.is_child:
+                visit(schema.elements[field.argument])
+        order.append(element)
+
+    visit(schema.root)
+    unused = set(schema.elements) - done
+    if unused:
+        raise SystemExit(f"elements that nothing holds: {', '.join(sorted(unused))}")
+    return order
