@@ -1,0 +1,50 @@
+/* The animation layer of one character: from a wanted motion to a pose, once a control tick.
+ *
+ * Its state is plain data in one block whose size depends only on the rig, so that a snapshot is a copy. All
+ * of it is relative to the character's origin and moves with sbri_gait_rebase. */
+#ifndef SBRI_GAIT_H
+#define SBRI_GAIT_H
+
+#include "skeleton/rig.h"
+
+typedef struct sbri_gait_input {
+  float forward, sideways, turn; /* m/s, m/s, rad/s */
+  float tick_s;
+  float scale;
+  bool hold;          /* rest pose, moved rigidly */
+  sbr_double3 origin; /* world place of the character's origin, for asking the ground */
+  const sbr_ground *ground;
+} sbri_gait_input;
+
+typedef struct sbri_gait_event {
+  sbr_event_kind kind;
+  uint32_t leg;
+  sbf_vec3 position;
+} sbri_gait_event;
+
+/* Bytes of state a rig needs (a multiple of 16). Works for an asset without a gait too: such a character is
+ * moved as a whole. */
+size_t sbri_gait_state_size(const sbri_rig *rig);
+
+/* Standing at `position` (relative to the origin; y counts from the ground) with `heading`. */
+void sbri_gait_place(
+    const sbri_rig *rig, void *state, const sbri_gait_input *input, sbf_vec3 position, float heading);
+
+/* One control tick: advances the state and writes the pose (bone_count transforms). Returns how many events
+ * were written (at most `capacity`). Never allocates. */
+uint32_t sbri_gait_tick(const sbri_rig *rig, void *state, const sbri_gait_input *input, sbr_transform *pose,
+    sbri_gait_event *events, uint32_t capacity);
+
+/* The pose of the present state, without advancing it. */
+void sbri_gait_pose(
+    const sbri_rig *rig, const void *state, const sbri_gait_input *input, sbr_transform *pose);
+
+/* The origin moved by `shift`: subtract it from every place. */
+void sbri_gait_rebase(const sbri_rig *rig, void *state, sbf_vec3 shift);
+
+uint32_t sbri_gait_legs(const sbri_rig *rig, const void *state, sbr_leg_state *legs, uint32_t capacity);
+double sbri_gait_distance(const void *state);
+/* Where the character is and where it faces, relative to the origin. */
+void sbri_gait_placement(const void *state, sbf_vec3 *position, float *heading);
+
+#endif

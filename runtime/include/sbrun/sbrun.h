@@ -1,0 +1,204 @@
+/* The runtime: brings loaded assets to life inside any engine.
+ *
+ * A model is what many characters share: made once from an asset, never changed afterwards. A world holds
+ * characters and steps them. Units are SI; world space is right-handed, +Y up; a character faces +Z when its
+ * heading is 0 and turns left (towards +X) with growing heading.
+ *
+ * Clocks. Control (gait, IK, clips) runs at a fixed tick, the asset's control_tick (1/60 s by default); each
+ * tick is divided into substeps of the soft bodies. sbr_world_step takes any frame time, runs the ticks that
+ * have become due, and lets reads sample between the last two, so every frame rate shows the same motion.
+ *
+ * The same inputs give the same bits: on any number of threads, at any lane width, after restoring a
+ * snapshot.
+ *
+ * Threads. A world and its characters belong to one thread at a time; different worlds are independent;
+ * models are read only and may be shared by worlds on different threads. A step never allocates.
+ *
+ * Errors. Calls that can fail return sbf_status and fill *error (may be NULL). Handles that name nothing are
+ * ignored by setters; getters then return zeros. */
+#ifndef SBRUN_H
+#define SBRUN_H
+
+#include "sbfmt/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct sbr_model sbr_model;
+typedef struct sbr_world sbr_world;
+
+/* Names a character: index and generation; 0 is none. */
+typedef struct sbr_character_id {
+  uint32_t value;
+} sbr_character_id;
+
+typedef struct sbr_double3 {
+  double x, y, z;
+} sbr_double3;
+
+/* ---- Ground ------------------------------------------------------------------------------------------- */
+
+/* Height y and unit normal of the ground at (x, z), world space. Must be a pure function: it is called from
+ * worker threads, many times a tick. */
+typedef struct sbr_ground {
+  double (*height)(const void *user, double x, double z, sbf_vec3 *normal);
+  const void *user;
+  double parameters[4]; /* of the built-in grounds, which set `user` to NULL and read these instead */
+} sbr_ground;
+
+SBF_API sbr_ground sbr_ground_flat(double height_m);
+/* Rises towards +Z from the line z = 0; level behind it. [-45, 45] degrees. */
+SBF_API sbr_ground sbr_ground_slope(double degrees);
+/* Steps up towards +Z, each `rise_m` high and `run_m` deep, from z = run_m on. */
+SBF_API sbr_ground sbr_ground_stairs(double rise_m, double run_m);
+/* Smooth gradient noise between -height_m / 2 and height_m / 2, fading to flat within 0.5 m of the origin. */
+SBF_API sbr_ground sbr_ground_noise(double height_m, uint32_t seed);
+
+/* ---- Tasks -------------------------------------------------------------------------------------------- */
+
+/* Runs task(context, i) for i below count, in any order, on any threads, and returns when all are done. */
+typedef void sbr_task(void *context, uint32_t index);
+typedef struct sbr_tasks {
+  void (*run)(void *user, sbr_task *task, void *context, uint32_t count); /* NULL: serial */
+  void *user;
+} sbr_tasks;
+
+/* ---- Model -------------------------------------------------------------------------------------------- */
+
+typedef struct sbr_model_options {
+  size_t struct_size;             /* sizeof(sbr_model_options), or 0 for this version's */
+  const sbf_allocator *allocator; /* NULL: malloc */
+  uint32_t level;                 /* of each body that has so many levels, else its coarsest */
+  sbf_scheme scheme;              /* automatic: the level's own */
+  uint32_t substeps;              /* of a control tick; 0: the level's own, or as many as the scheme needs */
+} sbr_model_options;
+
+/* `asset` must outlive the model. */
+SBF_API sbf_status sbr_model_create(
+    const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
+SBF_API void sbr_model_destroy(sbr_model *model);
+
+/* ---- World -------------------------------------------------------------------------------------------- */
+
+typedef struct sbr_world_definition {
+  uint32_t cookie; /* set by sbr_default_world_definition: catches a definition that was never initialised */
+  const sbf_allocator *allocator;
+  sbr_tasks tasks;
+  sbr_ground ground;
+  bool has_gravity;            /* use `gravity` instead of each asset's own */
+  sbf_vec3 gravity;            /* m/s^2 */
+  double control_tick_s;       /* 0: 1/60 */
+  double longest_frame_s;      /* a longer frame time is cut to it; 0: 0.25 */
+  uint32_t character_capacity; /* 0: 16; more than that cannot be created */
+} sbr_world_definition;
+
+SBF_API sbr_world_definition sbr_default_world_definition(void);
+SBF_API sbf_status sbr_world_create(
+    const sbr_world_definition *definition, sbr_world **world, sbf_diagnostic *error);
+SBF_API void sbr_world_destroy(sbr_world *world);
+
+/* Advances by a frame of `seconds` (>= 0). */
+SBF_API void sbr_world_step(sbr_world *world, double seconds);
+/* Advances by exactly one control tick. */
+SBF_API void sbr_world_tick(sbr_world *world);
+SBF_API uint64_t sbr_world_ticks(const sbr_world *world);
+/* Hash of all mutable state: equal states, equal hashes, on every machine. */
+SBF_API uint64_t sbr_world_state_hash(const sbr_world *world);
+
+/* A snapshot is a plain copy: save into `bytes` (sbr_world_snapshot_size of them), restore into the same
+ * world with the same characters. SBF_FAILED where the sizes or the characters differ. */
+SBF_API size_t sbr_world_snapshot_size(const sbr_world *world);
+SBF_API sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t size);
+SBF_API sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_t size);
+
+/* ---- Characters --------------------------------------------------------------------------------------- */
+
+typedef struct sbr_character_definition {
+  uint32_t cookie;      /* set by sbr_default_character_definition */
+  sbr_double3 position; /* of the asset's origin; y counts from the ground below it */
+  float heading;        /* rad */
+  float scale; /* (0, inf), default 1; masses and stiffnesses scale so that it moves as a body of that size */
+  bool hold;   /* bones stay in their rest pose */
+  bool free;   /* every pin is dropped */
+} sbr_character_definition;
+
+SBF_API sbr_character_definition sbr_default_character_definition(void);
+SBF_API sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
+    const sbr_character_definition *definition, sbr_character_id *character, sbf_diagnostic *error);
+SBF_API void sbr_character_destroy(sbr_world *world, sbr_character_id character);
+
+/* Wanted motion: forward speed in m/s, sideways (left) speed in m/s, turn in rad/s (left positive). */
+SBF_API void sbr_character_drive(
+    sbr_world *world, sbr_character_id character, float forward, float sideways, float turn);
+/* Moves it at once, soft bodies and feet with it, at rest relative to its bones. */
+SBF_API void sbr_character_teleport(
+    sbr_world *world, sbr_character_id character, sbr_double3 position, float heading);
+/* Back to the rest pose where it stands, all speeds zero. */
+SBF_API void sbr_character_reset(sbr_world *world, sbr_character_id character);
+SBF_API void sbr_character_pause(sbr_world *world, sbr_character_id character, bool paused);
+
+/* Origin that bones and vertices are relative to, as of the sampled moment. */
+SBF_API sbr_double3 sbr_character_origin(const sbr_world *world, sbr_character_id character);
+
+typedef struct sbr_transform {
+  sbf_vec3 position; /* relative to the character's origin, m */
+  sbf_quat rotation; /* bone frame to world */
+} sbr_transform;
+/* Bones of the asset, in its order, at the sampled moment. */
+SBF_API void sbr_character_bones(
+    const sbr_world *world, sbr_character_id character, sbr_transform *bones, uint32_t capacity);
+
+/* The skin: vertices of one render mesh at the sampled moment, with unit normals (and tangents with
+ * handedness where the mesh has uvs; both may be NULL), relative to the character's origin. A mesh without
+ * polygons' smoothing keeps one normal a vertex. */
+SBF_API uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
+    sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity);
+/* Surface vertices of one soft body, in source order; and the points of its simulated level. */
+SBF_API uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
+    sbf_vec3 *positions, uint32_t capacity);
+SBF_API uint32_t sbr_character_points(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
+    sbf_vec3 *positions, uint32_t capacity);
+
+/* What happened in a tick. */
+typedef enum sbr_event_kind { SBR_EVENT_FOOT_DOWN, SBR_EVENT_FOOT_UP, SBR_EVENT_LANDED } sbr_event_kind;
+typedef struct sbr_event {
+  sbr_event_kind kind;
+  sbr_character_id character;
+  uint32_t leg;
+  uint64_t tick;
+  sbr_double3 position; /* world */
+} sbr_event;
+/* Events since the last call, oldest first; returns how many were written. Older ones than the world keeps
+ * (256) are lost. */
+SBF_API uint32_t sbr_world_events(sbr_world *world, sbr_event *events, uint32_t capacity);
+
+/* What a step cost and how the bodies fare. */
+typedef struct sbr_body_health {
+  float volume_ratio; /* enclosed volume of the surface against rest; 1 for an open surface */
+  float max_strain;   /* greatest |strain| of an element */
+  bool finite;        /* every number is */
+  bool inverted;      /* an element, or the surface as a whole, is inside out */
+  double kinetic_j, elastic_j, potential_j;
+} sbr_body_health;
+SBF_API sbr_body_health sbr_character_health(
+    const sbr_world *world, sbr_character_id character, uint32_t soft_body);
+SBF_API uint32_t sbr_model_substeps(const sbr_model *model);
+
+/* Gait, for measuring: where a leg is and what it does. */
+typedef struct sbr_leg_state {
+  bool planted;
+  uint32_t steps_taken;
+  sbf_vec3 foot;   /* end bone's head, relative to the origin */
+  sbf_vec3 target; /* where it wants to be */
+  sbf_vec3 pole;
+  float phase; /* 0..1 of a step while lifted */
+} sbr_leg_state;
+SBF_API uint32_t sbr_character_legs(
+    const sbr_world *world, sbr_character_id character, sbr_leg_state *legs, uint32_t capacity);
+SBF_API double sbr_character_distance(const sbr_world *world, sbr_character_id character); /* m travelled */
+
+#ifdef __cplusplus
+}
+#endif
+#endif
