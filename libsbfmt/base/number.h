@@ -1,0 +1,50 @@
+/* Numbers as text, the same bytes in every locale and rounding mode.
+ *
+ * Reading accepts what XML Schema's xs:float accepts except INF and NaN:
+ *     [+-]? ( digits ( "." digits? )? | "." digits ) ( [eE] [+-]? digits )?
+ * and rounds to the nearest float32, ties to even, whatever the number of digits. A number too small becomes
+ * a subnormal or a zero of its sign; one that would round to infinity is refused. Integers are [+-]? digits.
+ * Nothing is skipped: white space, hexadecimal, and digit separators are not part of a number.
+ *
+ * Writing gives the canonical form, which is also what C++17's std::to_chars(first, last, float) gives:
+ *   - the fewest significant digits that read back to the same float32, and among those the nearest to it;
+ *   - laid out as 123.45 or as d.ddde±XX (sign always, at least two exponent digits), whichever is shorter,
+ *     the former when they are equally long: 1000, 0.001, 1e+05, 1.5e-07;
+ *   - no "+" in front, no needless leading or trailing zero, no trailing point; zeros are 0 and -0;
+ *   - a whole number laid out without exponent is written exactly, 123456792 and not 123456790.
+ *
+ * All functions are thread safe and allocate nothing. */
+#ifndef SBFI_NUMBER_H
+#define SBFI_NUMBER_H
+
+#include "sbfmt/base.h"
+
+typedef enum sbfi_number_status {
+  SBFI_NUMBER_READ = 0,
+  SBFI_NUMBER_MALFORMED,   /* no number stands there, or one that breaks off, as "1e" does */
+  SBFI_NUMBER_OUT_OF_RANGE /* a number, but not one of this type */
+} sbfi_number_status;
+
+/* Reads the number that the span begins with; what follows it is the caller's to judge ("1..2" gives 1 and
+ * stops at the second point). `*used` becomes the length of the number or, for a malformed one, the offset of
+ * the character that cannot stand there. `*value` is written only on SBFI_NUMBER_READ. */
+sbfi_number_status sbfi_scan_f32(const char *text, size_t length, float *value, size_t *used);
+sbfi_number_status sbfi_scan_i32(const char *text, size_t length, int32_t *value, size_t *used);
+sbfi_number_status sbfi_scan_u32(const char *text, size_t length, uint32_t *value, size_t *used);
+
+/* The same where the span must hold the number and nothing else. */
+sbfi_number_status sbfi_parse_f32(const char *text, size_t length, float *value);
+sbfi_number_status sbfi_parse_i32(const char *text, size_t length, int32_t *value);
+sbfi_number_status sbfi_parse_u32(const char *text, size_t length, uint32_t *value);
+
+/* The room a number needs; no NUL is written. */
+enum { SBFI_F32_TEXT_SIZE = 16, SBFI_INTEGER_TEXT_SIZE = 20 };
+
+/* Each writes the number to `to` and returns its length. sbfi_print_f32 returns 0 and writes nothing for an
+ * infinity or a NaN, which have no text. */
+size_t sbfi_print_f32(char *to, float value);
+size_t sbfi_print_i32(char *to, int32_t value);
+size_t sbfi_print_u32(char *to, uint32_t value);
+size_t sbfi_print_u64(char *to, uint64_t value);
+
+#endif
