@@ -28,13 +28,13 @@ static const sbfi_field author_fields[] = {
   {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_author, name), .width = 1, .unit = "", .required = true, .default_text = ""},
   {.name = "contact", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_author, contact), .width = 1, .unit = "", .default_text = ""},
 };
-static const sbfi_element author_element = {"author", "author", sizeof(sbf_author), false, 2, author_fields, NULL};
+static const sbfi_element author_element = {"author", "author", sizeof(sbf_author), 0, 2, author_fields, NULL};
 
 static const sbfi_field source_fields[] = {
   {.name = "path", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_source, path), .width = 1, .unit = "", .required = true, .default_text = ""},
   {.name = "sha256", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_source, sha256), .width = 1, .unit = "", .default_text = ""},
 };
-static const sbfi_element source_element = {"source", "source", sizeof(sbf_source), false, 2, source_fields, NULL};
+static const sbfi_element source_element = {"source", "source", sizeof(sbf_source), 0, 2, source_fields, NULL};
 
 static const sbfi_field info_fields[] = {
   {.name = "title", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_info, title), .width = 1, .unit = "", .default_text = ""},
@@ -45,7 +45,7 @@ static const sbfi_field info_fields[] = {
   {.name = "authors", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_info, authors), .width = 1, .unit = "", .element = &author_element, .xml = "author"},
   {.name = "sources", .type = SBFI_MANY, .number = 7, .since_minor = 0, .offset = offsetof(sbf_info, sources), .width = 1, .unit = "", .element = &source_element, .xml = "source"},
 };
-static const sbfi_element info_element = {"info", "info", sizeof(sbf_info), false, 7, info_fields, NULL};
+static const sbfi_element info_element = {"info", "info", sizeof(sbf_info), 0, 7, info_fields, NULL};
 
 static const sbfi_field derivation_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_derivation, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -53,7 +53,7 @@ static const sbfi_field derivation_fields[] = {
   {.name = "settings", .type = SBFI_STRING, .number = 3, .since_minor = 0, .offset = offsetof(sbf_derivation, settings), .width = 1, .unit = "", .default_text = ""},
   {.name = "source_hash", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_derivation, source_hash), .width = 1, .unit = "", .default_text = ""},
 };
-static const sbfi_element derivation_element = {"derivation", "derivation", sizeof(sbf_derivation), false, 4, derivation_fields, NULL};
+static const sbfi_element derivation_element = {"derivation", "derivation", sizeof(sbf_derivation), 0, 4, derivation_fields, NULL};
 
 static const sbfi_field texture_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_texture, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -62,7 +62,7 @@ static const sbfi_field texture_fields[] = {
   {.name = "media_type", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_texture, media_type), .width = 1, .unit = "", .default_text = ""},
   {.name = "bytes", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_texture, bytes), .width = 1, .unit = "", .item = SBFI_ITEM_U8},
 };
-static const sbfi_element texture_element = {"texture", "texture", sizeof(sbf_texture), true, 5, texture_fields, NULL};
+static const sbfi_element texture_element = {"texture", "texture", sizeof(sbf_texture), SBFI_KIND('T', 'X', 'T', 'R'), 5, texture_fields, NULL};
 
 static const sbfi_field material_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_material, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -78,7 +78,7 @@ static const sbfi_field material_fields[] = {
   {.name = "metallic_roughness_texture", .type = SBFI_REF, .number = 11, .since_minor = 0, .offset = offsetof(sbf_material, metallic_roughness_texture), .width = 1, .unit = "", .target = offsetof(sbf_asset, textures), .target_name = "textures"},
   {.name = "normal_texture", .type = SBFI_REF, .number = 12, .since_minor = 0, .offset = offsetof(sbf_material, normal_texture), .width = 1, .unit = "", .target = offsetof(sbf_asset, textures), .target_name = "textures"},
 };
-static const sbfi_element material_element = {"material", "material", sizeof(sbf_material), false, 12, material_fields, NULL};
+static const sbfi_element material_element = {"material", "material", sizeof(sbf_material), 0, 12, material_fields, NULL};
 
 static const sbfi_field bone_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_bone, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -90,7 +90,7 @@ static const sbfi_field bone_fields[] = {
   {.name = "inherit_rotation", .type = SBFI_BOOL, .number = 7, .since_minor = 0, .offset = offsetof(sbf_bone, inherit_rotation), .width = 1, .unit = "", .default_integer = 1},
   {.name = "inherit_scale", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_bone, inherit_scale), .width = 1, .unit = "", .default_integer = 1},
 };
-static const sbfi_element bone_element = {"bone", "bone", sizeof(sbf_bone), false, 8, bone_fields, NULL};
+static const sbfi_element bone_element = {"bone", "bone", sizeof(sbf_bone), 0, 8, bone_fields, NULL};
 
 static const sbfi_length polygon_mesh_polygon_points_lengths[] = {{1, {{SBFI_TERM_SUM, 0, offsetof(sbf_polygon_mesh, polygon_sizes)}}, "sum(polygon_sizes)"}};
 static const sbfi_length polygon_mesh_polygon_points_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_polygon_mesh, positions)}}, "positions"};
@@ -101,7 +101,7 @@ static const sbfi_field polygon_mesh_fields[] = {
   {.name = "polygon_sizes", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_polygon_mesh, polygon_sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .has_range = true, .min = 3.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "polygon_points", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_polygon_mesh, polygon_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = polygon_mesh_polygon_points_lengths, .index = &polygon_mesh_polygon_points_index},
 };
-static const sbfi_element polygon_mesh_element = {"polygon_mesh", "polygon_mesh", sizeof(sbf_polygon_mesh), false, 4, polygon_mesh_fields, &polygon_mesh_size};
+static const sbfi_element polygon_mesh_element = {"polygon_mesh", "polygon_mesh", sizeof(sbf_polygon_mesh), 0, 4, polygon_mesh_fields, &polygon_mesh_size};
 
 static const sbfi_field rigid_body_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_rigid_body, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -123,13 +123,13 @@ static const sbfi_field rigid_body_fields[] = {
   {.name = "hull", .type = SBFI_OPTIONAL, .number = 17, .since_minor = 0, .offset = offsetof(sbf_rigid_body, hull), .width = 1, .unit = "", .element = &polygon_mesh_element, .xml = "polygon_mesh", .fixed_name = "target", .fixed_value = 2},
   {.name = "hull_derived", .type = SBFI_REF, .number = 18, .since_minor = 0, .offset = offsetof(sbf_rigid_body, hull_derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
 };
-static const sbfi_element rigid_body_element = {"rigid_body", "rigid_body", sizeof(sbf_rigid_body), false, 18, rigid_body_fields, NULL};
+static const sbfi_element rigid_body_element = {"rigid_body", "rigid_body", sizeof(sbf_rigid_body), 0, 18, rigid_body_fields, NULL};
 
 static const sbfi_field frame_fields[] = {
   {.name = "position", .type = SBFI_VEC3, .number = 1, .since_minor = 0, .offset = offsetof(sbf_frame, position), .width = 3, .unit = "m"},
   {.name = "rotation", .type = SBFI_QUAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_frame, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
 };
-static const sbfi_element frame_element = {"frame", "frame", sizeof(sbf_frame), false, 2, frame_fields, NULL};
+static const sbfi_element frame_element = {"frame", "frame", sizeof(sbf_frame), 0, 2, frame_fields, NULL};
 
 static const sbfi_field limit_fields[] = {
   {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_limit, target), .width = 1, .unit = "", .required = true, .values = joint_axis_values, .value_count = 8},
@@ -139,7 +139,7 @@ static const sbfi_field limit_fields[] = {
   {.name = "damping", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_limit, damping), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "restitution", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_limit, restitution), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false},
 };
-static const sbfi_element limit_element = {"limit", "limit", sizeof(sbf_limit), false, 6, limit_fields, NULL};
+static const sbfi_element limit_element = {"limit", "limit", sizeof(sbf_limit), 0, 6, limit_fields, NULL};
 
 static const sbfi_field drive_fields[] = {
   {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_drive, target), .width = 1, .unit = "", .required = true, .values = joint_axis_values, .value_count = 8},
@@ -149,7 +149,7 @@ static const sbfi_field drive_fields[] = {
   {.name = "damping", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_drive, damping), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "maximum", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_drive, maximum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
 };
-static const sbfi_element drive_element = {"drive", "drive", sizeof(sbf_drive), false, 6, drive_fields, NULL};
+static const sbfi_element drive_element = {"drive", "drive", sizeof(sbf_drive), 0, 6, drive_fields, NULL};
 
 static const sbfi_field joint_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_joint, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -169,7 +169,7 @@ static const sbfi_field joint_fields[] = {
   {.name = "break_force", .type = SBFI_FLOAT, .number = 15, .since_minor = 0, .offset = offsetof(sbf_joint, break_force), .width = 1, .unit = "N", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "break_torque", .type = SBFI_FLOAT, .number = 16, .since_minor = 0, .offset = offsetof(sbf_joint, break_torque), .width = 1, .unit = "N*m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
 };
-static const sbfi_element joint_element = {"joint", "joint", sizeof(sbf_joint), false, 16, joint_fields, NULL};
+static const sbfi_element joint_element = {"joint", "joint", sizeof(sbf_joint), 0, 16, joint_fields, NULL};
 
 static const sbfi_length uv_set_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "parent.mesh.polygon_points"}};
 static const sbfi_length uv_set_corners_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_uv_set, coordinates)}}, "coordinates"};
@@ -178,12 +178,12 @@ static const sbfi_field uv_set_fields[] = {
   {.name = "coordinates", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_uv_set, coordinates), .width = 2, .unit = "", .item = SBFI_ITEM_F32},
   {.name = "corners", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_uv_set, corners), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = uv_set_corners_lengths, .index = &uv_set_corners_index},
 };
-static const sbfi_element uv_set_element = {"uv_set", "uv_set", sizeof(sbf_uv_set), false, 3, uv_set_fields, NULL};
+static const sbfi_element uv_set_element = {"uv_set", "uv_set", sizeof(sbf_uv_set), 0, 3, uv_set_fields, NULL};
 
 static const sbfi_field material_slot_fields[] = {
   {.name = "material", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_material_slot, material), .width = 1, .unit = "", .target = offsetof(sbf_asset, materials), .target_name = "materials"},
 };
-static const sbfi_element material_slot_element = {"material_slot", "material_slot", sizeof(sbf_material_slot), false, 1, material_slot_fields, NULL};
+static const sbfi_element material_slot_element = {"material_slot", "material_slot", sizeof(sbf_material_slot), 0, 1, material_slot_fields, NULL};
 
 static const sbfi_length skin_influence_counts_lengths[] = {{1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, mesh.positions)}}, "parent.mesh.positions"}};
 static const sbfi_length skin_bones_lengths[] = {{1, {{SBFI_TERM_SUM, 0, offsetof(sbf_skin, influence_counts)}}, "sum(influence_counts)"}};
@@ -194,7 +194,7 @@ static const sbfi_field skin_fields[] = {
   {.name = "bones", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_skin, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = skin_bones_lengths, .index = &skin_bones_index},
   {.name = "weights", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_skin, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 1, .lengths = skin_weights_lengths},
 };
-static const sbfi_element skin_element = {"skin", "skin", sizeof(sbf_skin), false, 3, skin_fields, NULL};
+static const sbfi_element skin_element = {"skin", "skin", sizeof(sbf_skin), 0, 3, skin_fields, NULL};
 
 static const sbfi_length shape_key_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"};
 static const sbfi_length shape_key_offsets_lengths[] = {{1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_shape_key, points)}}, "points"}};
@@ -203,7 +203,7 @@ static const sbfi_field shape_key_fields[] = {
   {.name = "points", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_shape_key, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &shape_key_points_index},
   {.name = "offsets", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_shape_key, offsets), .width = 3, .unit = "m", .item = SBFI_ITEM_F32, .length_count = 1, .lengths = shape_key_offsets_lengths},
 };
-static const sbfi_element shape_key_element = {"shape_key", "shape_key", sizeof(sbf_shape_key), false, 3, shape_key_fields, NULL};
+static const sbfi_element shape_key_element = {"shape_key", "shape_key", sizeof(sbf_shape_key), 0, 3, shape_key_fields, NULL};
 
 static const sbfi_length render_level_polygon_points_lengths[] = {{1, {{SBFI_TERM_SUM, 0, offsetof(sbf_render_level, polygon_sizes)}}, "sum(polygon_sizes)"}};
 static const sbfi_length render_level_polygon_points_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, mesh.positions)}}, "parent.mesh.positions"};
@@ -212,7 +212,7 @@ static const sbfi_field render_level_fields[] = {
   {.name = "polygon_sizes", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .has_range = true, .min = 3.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "polygon_points", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = render_level_polygon_points_lengths, .index = &render_level_polygon_points_index},
 };
-static const sbfi_element render_level_element = {"render_level", "render_level", sizeof(sbf_render_level), false, 3, render_level_fields, NULL};
+static const sbfi_element render_level_element = {"render_level", "render_level", sizeof(sbf_render_level), 0, 3, render_level_fields, NULL};
 
 static const sbfi_length render_mesh_normal_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "mesh.polygon_points"}};
 static const sbfi_length render_mesh_normal_corners_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, normals)}}, "normals"};
@@ -236,7 +236,7 @@ static const sbfi_field render_mesh_fields[] = {
   {.name = "source_points", .type = SBFI_LIST, .number = 13, .since_minor = 0, .offset = offsetof(sbf_render_mesh, source_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_mesh_source_points_lengths},
   {.name = "levels", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_render_mesh, levels), .width = 1, .unit = "", .element = &render_level_element, .xml = "render_level"},
 };
-static const sbfi_element render_mesh_element = {"render_mesh", "render_mesh", sizeof(sbf_render_mesh), true, 14, render_mesh_fields, &render_mesh_size};
+static const sbfi_element render_mesh_element = {"render_mesh", "render_mesh", sizeof(sbf_render_mesh), SBFI_KIND('M', 'E', 'S', 'H'), 14, render_mesh_fields, &render_mesh_size};
 
 static const sbfi_field attributes_fields[] = {
   {.name = "density", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_attributes, density), .width = 1, .unit = "kg/m^3", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1000.0f}},
@@ -261,7 +261,7 @@ static const sbfi_field attributes_fields[] = {
   {.name = "yield_flow", .type = SBFI_FLOAT, .number = 20, .since_minor = 0, .offset = offsetof(sbf_attributes, yield_flow), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "tear_strain", .type = SBFI_FLOAT, .number = 21, .since_minor = 0, .offset = offsetof(sbf_attributes, tear_strain), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
 };
-static const sbfi_element attributes_element = {"attributes", "attributes", sizeof(sbf_attributes), false, 21, attributes_fields, NULL};
+static const sbfi_element attributes_element = {"attributes", "attributes", sizeof(sbf_attributes), 0, 21, attributes_fields, NULL};
 
 static const sbfi_field collision_fields[] = {
   {.name = "particle_radius", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_collision, particle_radius), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.01f}},
@@ -271,14 +271,14 @@ static const sbfi_field collision_fields[] = {
   {.name = "layer", .type = SBFI_UINT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_collision, layer), .width = 1, .unit = "", .default_integer = 1u},
   {.name = "mask", .type = SBFI_UINT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_collision, mask), .width = 1, .unit = "", .default_integer = 4294967295u},
 };
-static const sbfi_element collision_element = {"collision", "collision", sizeof(sbf_collision), false, 6, collision_fields, NULL};
+static const sbfi_element collision_element = {"collision", "collision", sizeof(sbf_collision), 0, 6, collision_fields, NULL};
 
 static const sbfi_length weight_map_values_lengths[] = {{1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"}};
 static const sbfi_field weight_map_fields[] = {
   {.name = "property", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_weight_map, property), .width = 1, .unit = "", .required = true, .values = weight_property_values, .value_count = 9},
   {.name = "values", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_weight_map, values), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 1, .lengths = weight_map_values_lengths},
 };
-static const sbfi_element weight_map_element = {"weight_map", "weight_map", sizeof(sbf_weight_map), false, 2, weight_map_fields, NULL};
+static const sbfi_element weight_map_element = {"weight_map", "weight_map", sizeof(sbf_weight_map), 0, 2, weight_map_fields, NULL};
 
 static const sbfi_length pin_set_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"};
 static const sbfi_length pin_set_offsets_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_pin_set, points)}}, "points"}};
@@ -296,7 +296,7 @@ static const sbfi_field pin_set_fields[] = {
   {.name = "minimum", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_pin_set, minimum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false},
   {.name = "maximum", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_pin_set, maximum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
 };
-static const sbfi_element pin_set_element = {"pin_set", "pin_set", sizeof(sbf_pin_set), false, 11, pin_set_fields, NULL};
+static const sbfi_element pin_set_element = {"pin_set", "pin_set", sizeof(sbf_pin_set), 0, 11, pin_set_fields, NULL};
 
 static const sbfi_length attachment_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"};
 static const sbfi_field attachment_fields[] = {
@@ -305,7 +305,7 @@ static const sbfi_field attachment_fields[] = {
   {.name = "rigid_body", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_attachment, rigid_body), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, rigid_bodies), .target_name = "rigid_bodies"},
   {.name = "points", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_attachment, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &attachment_points_index},
 };
-static const sbfi_element attachment_element = {"attachment", "attachment", sizeof(sbf_attachment), false, 4, attachment_fields, NULL};
+static const sbfi_element attachment_element = {"attachment", "attachment", sizeof(sbf_attachment), 0, 4, attachment_fields, NULL};
 
 static const sbfi_length tetrahedron_mesh_tetrahedra_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_level, positions)}}, "parent.positions"};
 static const sbfi_length tetrahedron_mesh_young_modulus_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_tetrahedron_mesh, tetrahedra)}}, "tetrahedra"}};
@@ -319,7 +319,7 @@ static const sbfi_field tetrahedron_mesh_fields[] = {
   {.name = "densities", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, densities), .width = 1, .unit = "kg/m^3", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_densities_lengths},
   {.name = "color_counts", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, color_counts), .width = 1, .unit = "", .item = SBFI_ITEM_U32},
 };
-static const sbfi_element tetrahedron_mesh_element = {"tetrahedron_mesh", "tetrahedron_mesh", sizeof(sbf_tetrahedron_mesh), false, 6, tetrahedron_mesh_fields, NULL};
+static const sbfi_element tetrahedron_mesh_element = {"tetrahedron_mesh", "tetrahedron_mesh", sizeof(sbf_tetrahedron_mesh), 0, 6, tetrahedron_mesh_fields, NULL};
 
 static const sbfi_length spring_set_ends_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_level, positions)}}, "parent.positions"};
 static const sbfi_length spring_set_rest_lengths_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_spring_set, ends)}}, "ends"}};
@@ -341,7 +341,7 @@ static const sbfi_field spring_set_fields[] = {
   {.name = "inert_count", .type = SBFI_UINT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_spring_set, inert_count), .width = 1, .unit = ""},
   {.name = "color_counts", .type = SBFI_LIST, .number = 14, .since_minor = 0, .offset = offsetof(sbf_spring_set, color_counts), .width = 1, .unit = "", .item = SBFI_ITEM_U32},
 };
-static const sbfi_element spring_set_element = {"spring_set", "spring_set", sizeof(sbf_spring_set), false, 14, spring_set_fields, NULL};
+static const sbfi_element spring_set_element = {"spring_set", "spring_set", sizeof(sbf_spring_set), 0, 14, spring_set_fields, NULL};
 
 static const sbfi_length shape_regions_points_lengths[] = {{1, {{SBFI_TERM_SUM, 0, offsetof(sbf_shape_regions, sizes)}}, "sum(sizes)"}};
 static const sbfi_length shape_regions_points_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_level, positions)}}, "parent.positions"};
@@ -350,14 +350,14 @@ static const sbfi_field shape_regions_fields[] = {
   {.name = "points", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_shape_regions, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = shape_regions_points_lengths, .index = &shape_regions_points_index},
   {.name = "stiffness", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_shape_regions, stiffness), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {60.0f}},
 };
-static const sbfi_element shape_regions_element = {"shape_regions", "shape_regions", sizeof(sbf_shape_regions), false, 3, shape_regions_fields, NULL};
+static const sbfi_element shape_regions_element = {"shape_regions", "shape_regions", sizeof(sbf_shape_regions), 0, 3, shape_regions_fields, NULL};
 
 static const sbfi_field jiggle_fields[] = {
   {.name = "frequency", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_jiggle, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {3.0f}},
   {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_jiggle, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.4f}},
   {.name = "response", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_jiggle, response), .width = 1, .unit = "", .defaults = {0.0f}},
 };
-static const sbfi_element jiggle_element = {"jiggle", "jiggle", sizeof(sbf_jiggle), false, 3, jiggle_fields, NULL};
+static const sbfi_element jiggle_element = {"jiggle", "jiggle", sizeof(sbf_jiggle), 0, 3, jiggle_fields, NULL};
 
 static const sbfi_length embedding_points_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_level, positions)}}, "parent.positions"};
 static const sbfi_length embedding_weights_lengths[] = {{1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_embedding, points)}}, "points"}};
@@ -369,13 +369,13 @@ static const sbfi_field embedding_fields[] = {
   {.name = "weights", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_embedding, weights), .width = 4, .unit = "", .item = SBFI_ITEM_F32, .length_count = 1, .lengths = embedding_weights_lengths},
   {.name = "blends", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_embedding, blends), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 2, .lengths = embedding_blends_lengths},
 };
-static const sbfi_element embedding_element = {"embedding", "embedding", sizeof(sbf_embedding), false, 5, embedding_fields, NULL};
+static const sbfi_element embedding_element = {"embedding", "embedding", sizeof(sbf_embedding), 0, 5, embedding_fields, NULL};
 
 static const sbfi_field measured_fields[] = {
   {.name = "machine", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_measured, machine), .width = 1, .unit = "", .default_text = ""},
   {.name = "microseconds", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_measured, microseconds), .width = 1, .unit = "us", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
 };
-static const sbfi_element measured_element = {"measured", "measured", sizeof(sbf_measured), false, 2, measured_fields, NULL};
+static const sbfi_element measured_element = {"measured", "measured", sizeof(sbf_measured), 0, 2, measured_fields, NULL};
 
 static const sbfi_field simulation_fields[] = {
   {.name = "scheme", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_simulation, scheme), .width = 1, .unit = "", .default_integer = 0, .values = scheme_values, .value_count = 7},
@@ -384,7 +384,7 @@ static const sbfi_field simulation_fields[] = {
   {.name = "cost", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_simulation, cost), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "measured", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_simulation, measured), .width = 1, .unit = "", .volatile_ = true, .element = &measured_element, .xml = "measured"},
 };
-static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), false, 5, simulation_fields, NULL};
+static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 5, simulation_fields, NULL};
 
 static const sbfi_length level_masses_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_level, positions)}}, "positions"}};
 static const sbfi_length level_size = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_level, positions)}}, "positions"};
@@ -404,7 +404,7 @@ static const sbfi_field level_fields[] = {
   {.name = "embeddings", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_level, embeddings), .width = 1, .unit = "", .element = &embedding_element, .xml = "embedding"},
   {.name = "simulation", .type = SBFI_ONE, .number = 14, .since_minor = 0, .offset = offsetof(sbf_level, simulation), .width = 1, .unit = "", .element = &simulation_element, .xml = "simulation"},
 };
-static const sbfi_element level_element = {"level", "level", sizeof(sbf_level), true, 14, level_fields, &level_size};
+static const sbfi_element level_element = {"level", "level", sizeof(sbf_level), SBFI_KIND('L', 'E', 'V', 'L'), 14, level_fields, &level_size};
 
 static const sbfi_field legacy_fields[] = {
   {.name = "mass", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_legacy, mass), .width = 1, .unit = ""},
@@ -414,7 +414,7 @@ static const sbfi_field legacy_fields[] = {
   {.name = "particle_radius", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_legacy, particle_radius), .width = 1, .unit = ""},
   {.name = "solver_iterations", .type = SBFI_UINT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_legacy, solver_iterations), .width = 1, .unit = ""},
 };
-static const sbfi_element legacy_element = {"legacy", "legacy", sizeof(sbf_legacy), false, 6, legacy_fields, NULL};
+static const sbfi_element legacy_element = {"legacy", "legacy", sizeof(sbf_legacy), 0, 6, legacy_fields, NULL};
 
 static const sbfi_length soft_body_source_points_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_soft_body, surface.positions)}}, "surface.positions"}};
 static const sbfi_length soft_body_size = {2, {{SBFI_TERM_COUNT, 0, offsetof(sbf_soft_body, surface.positions)}, {SBFI_TERM_COUNT, 0, offsetof(sbf_soft_body, interior)}}, "surface.positions + interior"};
@@ -434,7 +434,7 @@ static const sbfi_field soft_body_fields[] = {
   {.name = "levels", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_soft_body, levels), .width = 1, .unit = "", .element = &level_element, .xml = "level"},
   {.name = "legacy", .type = SBFI_OPTIONAL, .number = 14, .since_minor = 0, .offset = offsetof(sbf_soft_body, legacy), .width = 1, .unit = "", .element = &legacy_element, .xml = "legacy"},
 };
-static const sbfi_element soft_body_element = {"soft_body", "soft_body", sizeof(sbf_soft_body), true, 14, soft_body_fields, &soft_body_size};
+static const sbfi_element soft_body_element = {"soft_body", "soft_body", sizeof(sbf_soft_body), SBFI_KIND('B', 'O', 'D', 'Y'), 14, soft_body_fields, &soft_body_size};
 
 static const sbfi_length cross_springs_rest_lengths_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_cross_springs, ends)}}, "ends"}};
 static const sbfi_length cross_springs_stiffness_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_cross_springs, ends)}}, "ends"}};
@@ -451,14 +451,14 @@ static const sbfi_field cross_springs_fields[] = {
   {.name = "stiffness", .type = SBFI_LIST, .number = 9, .since_minor = 0, .offset = offsetof(sbf_cross_springs, stiffness), .width = 1, .unit = "N/m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = cross_springs_stiffness_lengths},
   {.name = "damping", .type = SBFI_LIST, .number = 10, .since_minor = 0, .offset = offsetof(sbf_cross_springs, damping), .width = 1, .unit = "N*s/m", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = cross_springs_damping_lengths},
 };
-static const sbfi_element cross_springs_element = {"cross_springs", "cross_springs", sizeof(sbf_cross_springs), false, 10, cross_springs_fields, NULL};
+static const sbfi_element cross_springs_element = {"cross_springs", "cross_springs", sizeof(sbf_cross_springs), 0, 10, cross_springs_fields, NULL};
 
 static const sbfi_field comfort_fields[] = {
   {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_comfort, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
   {.name = "rotation", .type = SBFI_QUAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_comfort, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
   {.name = "weight", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_comfort, weight), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
 };
-static const sbfi_element comfort_element = {"comfort", "comfort", sizeof(sbf_comfort), false, 3, comfort_fields, NULL};
+static const sbfi_element comfort_element = {"comfort", "comfort", sizeof(sbf_comfort), 0, 3, comfort_fields, NULL};
 
 static const sbfi_field ik_chain_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_ik_chain, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -476,7 +476,7 @@ static const sbfi_field ik_chain_fields[] = {
   {.name = "comforts", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_ik_chain, comforts), .width = 1, .unit = "", .element = &comfort_element, .xml = "comfort"},
   {.name = "proposed", .type = SBFI_BOOL, .number = 14, .since_minor = 0, .offset = offsetof(sbf_ik_chain, proposed), .width = 1, .unit = "", .default_integer = 0},
 };
-static const sbfi_element ik_chain_element = {"ik_chain", "ik_chain", sizeof(sbf_ik_chain), false, 14, ik_chain_fields, NULL};
+static const sbfi_element ik_chain_element = {"ik_chain", "ik_chain", sizeof(sbf_ik_chain), 0, 14, ik_chain_fields, NULL};
 
 static const sbfi_field leg_fields[] = {
   {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_leg, name), .width = 1, .unit = "", .default_text = ""},
@@ -486,7 +486,7 @@ static const sbfi_field leg_fields[] = {
   {.name = "group", .type = SBFI_UINT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_leg, group), .width = 1, .unit = ""},
   {.name = "jump_margin", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_leg, jump_margin), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.5f}},
 };
-static const sbfi_element leg_element = {"leg", "leg", sizeof(sbf_leg), false, 6, leg_fields, NULL};
+static const sbfi_element leg_element = {"leg", "leg", sizeof(sbf_leg), 0, 6, leg_fields, NULL};
 
 static const sbfi_field head_turn_fields[] = {
   {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_head_turn, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
@@ -495,7 +495,7 @@ static const sbfi_field head_turn_fields[] = {
   {.name = "frequency", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_head_turn, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.5f}},
   {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_head_turn, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.8f}},
 };
-static const sbfi_element head_turn_element = {"head_turn", "head_turn", sizeof(sbf_head_turn), false, 5, head_turn_fields, NULL};
+static const sbfi_element head_turn_element = {"head_turn", "head_turn", sizeof(sbf_head_turn), 0, 5, head_turn_fields, NULL};
 
 static const sbfi_field tail_fields[] = {
   {.name = "chain", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tail, chain), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, chains), .target_name = "chains"},
@@ -503,7 +503,7 @@ static const sbfi_field tail_fields[] = {
   {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_tail, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.25f}},
   {.name = "limit", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_tail, limit), .width = 1, .unit = "rad", .has_range = true, .min = 0.0, .max = 3.15, .min_open = false, .max_open = false, .defaults = {0.6f}},
 };
-static const sbfi_element tail_element = {"tail", "tail", sizeof(sbf_tail), false, 4, tail_fields, NULL};
+static const sbfi_element tail_element = {"tail", "tail", sizeof(sbf_tail), 0, 4, tail_fields, NULL};
 
 static const sbfi_field gait_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_gait, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -523,7 +523,7 @@ static const sbfi_field gait_fields[] = {
   {.name = "head", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 0, .offset = offsetof(sbf_gait, head), .width = 1, .unit = "", .element = &head_turn_element, .xml = "head_turn"},
   {.name = "tails", .type = SBFI_MANY, .number = 16, .since_minor = 0, .offset = offsetof(sbf_gait, tails), .width = 1, .unit = "", .element = &tail_element, .xml = "tail"},
 };
-static const sbfi_element gait_element = {"gait", "gait", sizeof(sbf_gait), true, 16, gait_fields, NULL};
+static const sbfi_element gait_element = {"gait", "gait", sizeof(sbf_gait), SBFI_KIND('G', 'A', 'I', 'T'), 16, gait_fields, NULL};
 
 static const sbfi_length chain_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_length chain_spacing_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_chain, bones)}}, "bones"}};
@@ -537,7 +537,7 @@ static const sbfi_field chain_fields[] = {
   {.name = "damping", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_chain, damping), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "proposed", .type = SBFI_BOOL, .number = 8, .since_minor = 0, .offset = offsetof(sbf_chain, proposed), .width = 1, .unit = "", .default_integer = 0},
 };
-static const sbfi_element chain_element = {"chain", "chain", sizeof(sbf_chain), false, 8, chain_fields, NULL};
+static const sbfi_element chain_element = {"chain", "chain", sizeof(sbf_chain), 0, 8, chain_fields, NULL};
 
 static const sbfi_field follower_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_follower, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -548,7 +548,7 @@ static const sbfi_field follower_fields[] = {
   {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_follower, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.5f}},
   {.name = "response", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_follower, response), .width = 1, .unit = "", .defaults = {0.0f}},
 };
-static const sbfi_element follower_element = {"follower", "follower", sizeof(sbf_follower), false, 7, follower_fields, NULL};
+static const sbfi_element follower_element = {"follower", "follower", sizeof(sbf_follower), 0, 7, follower_fields, NULL};
 
 static const sbfi_field track_fields[] = {
   {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_track, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
@@ -557,7 +557,7 @@ static const sbfi_field track_fields[] = {
   {.name = "times", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_track, times), .width = 1, .unit = "s", .item = SBFI_ITEM_F32},
   {.name = "values", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_track, values), .width = 1, .unit = "", .item = SBFI_ITEM_F32},
 };
-static const sbfi_element track_element = {"track", "track", sizeof(sbf_track), false, 5, track_fields, NULL};
+static const sbfi_element track_element = {"track", "track", sizeof(sbf_track), 0, 5, track_fields, NULL};
 
 static const sbfi_field clip_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_clip, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -566,14 +566,14 @@ static const sbfi_field clip_fields[] = {
   {.name = "loop", .type = SBFI_BOOL, .number = 4, .since_minor = 0, .offset = offsetof(sbf_clip, loop), .width = 1, .unit = "", .default_integer = 1},
   {.name = "tracks", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_clip, tracks), .width = 1, .unit = "", .element = &track_element, .xml = "track"},
 };
-static const sbfi_element clip_element = {"clip", "clip", sizeof(sbf_clip), true, 5, clip_fields, NULL};
+static const sbfi_element clip_element = {"clip", "clip", sizeof(sbf_clip), SBFI_KIND('C', 'L', 'I', 'P'), 5, clip_fields, NULL};
 
 static const sbfi_field pose_key_fields[] = {
   {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pose_key, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
   {.name = "translation", .type = SBFI_VEC3, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pose_key, translation), .width = 3, .unit = "m"},
   {.name = "rotation", .type = SBFI_QUAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pose_key, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
 };
-static const sbfi_element pose_key_element = {"pose_key", "pose_key", sizeof(sbf_pose_key), false, 3, pose_key_fields, NULL};
+static const sbfi_element pose_key_element = {"pose_key", "pose_key", sizeof(sbf_pose_key), 0, 3, pose_key_fields, NULL};
 
 static const sbfi_field pose_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pose, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -581,7 +581,7 @@ static const sbfi_field pose_fields[] = {
   {.name = "distance", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pose, distance), .width = 1, .unit = "m"},
   {.name = "keys", .type = SBFI_MANY, .number = 4, .since_minor = 0, .offset = offsetof(sbf_pose, keys), .width = 1, .unit = "", .element = &pose_key_element, .xml = "pose_key"},
 };
-static const sbfi_element pose_element = {"pose", "pose", sizeof(sbf_pose), false, 4, pose_fields, NULL};
+static const sbfi_element pose_element = {"pose", "pose", sizeof(sbf_pose), 0, 4, pose_fields, NULL};
 
 static const sbfi_length bone_mask_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_length bone_mask_weights_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_bone_mask, bones)}}, "bones"}};
@@ -591,7 +591,7 @@ static const sbfi_field bone_mask_fields[] = {
   {.name = "bones", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_bone_mask, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &bone_mask_bones_index},
   {.name = "weights", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_bone_mask, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 2, .lengths = bone_mask_weights_lengths},
 };
-static const sbfi_element bone_mask_element = {"bone_mask", "bone_mask", sizeof(sbf_bone_mask), false, 4, bone_mask_fields, NULL};
+static const sbfi_element bone_mask_element = {"bone_mask", "bone_mask", sizeof(sbf_bone_mask), 0, 4, bone_mask_fields, NULL};
 
 static const sbfi_length retarget_chain_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_field retarget_chain_fields[] = {
@@ -599,7 +599,7 @@ static const sbfi_field retarget_chain_fields[] = {
   {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_retarget_chain, name), .width = 1, .unit = "", .default_text = ""},
   {.name = "bones", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_retarget_chain, bones), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &retarget_chain_bones_index},
 };
-static const sbfi_element retarget_chain_element = {"retarget_chain", "retarget_chain", sizeof(sbf_retarget_chain), false, 3, retarget_chain_fields, NULL};
+static const sbfi_element retarget_chain_element = {"retarget_chain", "retarget_chain", sizeof(sbf_retarget_chain), 0, 3, retarget_chain_fields, NULL};
 
 static const sbfi_field force_field_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_force_field, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -611,7 +611,7 @@ static const sbfi_field force_field_fields[] = {
   {.name = "radius", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_force_field, radius), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "falloff", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_force_field, falloff), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
 };
-static const sbfi_element force_field_element = {"force_field", "force_field", sizeof(sbf_force_field), false, 8, force_field_fields, NULL};
+static const sbfi_element force_field_element = {"force_field", "force_field", sizeof(sbf_force_field), 0, 8, force_field_fields, NULL};
 
 static const sbfi_field environment_fields[] = {
   {.name = "gravity", .type = SBFI_VEC3, .number = 1, .since_minor = 0, .offset = offsetof(sbf_environment, gravity), .width = 3, .unit = "m/s^2", .defaults = {0.0f, -9.81f, 0.0f}},
@@ -621,21 +621,21 @@ static const sbfi_field environment_fields[] = {
   {.name = "control_tick", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_environment, control_tick), .width = 1, .unit = "s", .has_range = true, .min = 0.0, .max = 1.0, .min_open = true, .max_open = false, .defaults = {0.016666668f}},
   {.name = "fields", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_environment, fields), .width = 1, .unit = "", .element = &force_field_element, .xml = "force_field"},
 };
-static const sbfi_element environment_element = {"environment", "environment", sizeof(sbf_environment), false, 6, environment_fields, NULL};
+static const sbfi_element environment_element = {"environment", "environment", sizeof(sbf_environment), 0, 6, environment_fields, NULL};
 
 static const sbfi_field relaxation_fields[] = {
   {.name = "stiffness", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_relaxation, stiffness), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.3f}},
   {.name = "damping", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_relaxation, damping), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {0.9f}},
   {.name = "gravity", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_relaxation, gravity), .width = 1, .unit = "m", .defaults = {0.001f}},
 };
-static const sbfi_element relaxation_element = {"relaxation", "relaxation", sizeof(sbf_relaxation), false, 3, relaxation_fields, NULL};
+static const sbfi_element relaxation_element = {"relaxation", "relaxation", sizeof(sbf_relaxation), 0, 3, relaxation_fields, NULL};
 
 static const sbfi_field extension_fields[] = {
   {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_extension, name), .width = 1, .unit = "", .required = true, .default_text = ""},
   {.name = "required", .type = SBFI_BOOL, .number = 2, .since_minor = 0, .offset = offsetof(sbf_extension, required), .width = 1, .unit = "", .default_integer = 0},
   {.name = "data", .type = SBFI_TEXT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_extension, data), .width = 1, .unit = "", .default_text = ""},
 };
-static const sbfi_element extension_element = {"extension", "extension", sizeof(sbf_extension), false, 3, extension_fields, NULL};
+static const sbfi_element extension_element = {"extension", "extension", sizeof(sbf_extension), 0, 3, extension_fields, NULL};
 
 static const sbfi_field asset_fields[] = {
   {.name = "version", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_asset, version), .width = 1, .unit = "", .required = true, .default_text = "1.0"},
@@ -661,7 +661,7 @@ static const sbfi_field asset_fields[] = {
   {.name = "relaxation", .type = SBFI_ONE, .number = 21, .since_minor = 0, .offset = offsetof(sbf_asset, relaxation), .width = 1, .unit = "", .element = &relaxation_element, .xml = "relaxation"},
   {.name = "extensions", .type = SBFI_MANY, .number = 22, .since_minor = 0, .offset = offsetof(sbf_asset, extensions), .width = 1, .unit = "", .element = &extension_element, .xml = "extension", .wrapper = "extensions"},
 };
-const sbfi_element sbfi_asset_element = {"asset", "sbf", sizeof(sbf_asset), true, 22, asset_fields, NULL};
+const sbfi_element sbfi_asset_element = {"asset", "sbf", sizeof(sbf_asset), SBFI_KIND('R', 'O', 'O', 'T'), 22, asset_fields, NULL};
 
 void sbf_author_init(sbf_author *author) { sbfi_element_init(&author_element, author); }
 void sbf_source_init(sbf_source *source) { sbfi_element_init(&source_element, source); }

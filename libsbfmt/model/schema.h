@@ -57,6 +57,9 @@ typedef struct sbfi_length {
 
 typedef struct sbfi_element sbfi_element;
 
+/* Four letters as a number that reads so in a little-endian file. */
+#define SBFI_KIND(a, b, c, d) ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
+
 typedef struct sbfi_field {
   const char *name;     /* in C, and of the attribute or the list's element in XML */
   const char *xml;      /* of the child elements in XML; NULL for others */
@@ -91,7 +94,7 @@ struct sbfi_element {
   const char *name;
   const char *xml;
   uint32_t struct_size;
-  bool part; /* has a record of its own in the packed form */
+  uint32_t kind; /* of a part, which has a record of its own in the packed form; 0: not a part */
   uint32_t field_count;
   const sbfi_field *fields;
   const sbfi_length *size; /* what an index into it may name; NULL: not asked */

@@ -171,9 +171,10 @@ class Tables:
         out += [self.field(element, f) for f in element.fields]
         out.append("};\n")
         static = "" if element is self.schema.root else "static "
+        kind = f"SBFI_KIND({', '.join(repr(c) for c in element.part)})" if element.part else "0"
         size = f"&{element.name}_size" if element.size else "NULL"
         out.append(f"{static}const sbfi_element {self.table(element)} = {{{c_string(element.name)}, "
-                   f"{c_string(element.xml)}, sizeof(sbf_{element.name}), {str(element.part).lower()}, "
+                   f"{c_string(element.xml)}, sizeof(sbf_{element.name}), {kind}, "
                    f"{len(element.fields)}, {element.name}_fields, {size}}};\n\n")
         return out
 

@@ -27,7 +27,8 @@ def reference(schema):
            "## Words\n\n| enumeration | values, numbered from 0 |\n|---|---|\n"]
     out += [f"| `{name}` | {', '.join(values)} |\n" for name, values in schema.enums.items()]
     for element in schema.elements.values():
-        out.append(f"\n## {element.name}\n\n`<{element.xml}>`: {element.meaning}\n\n"
+        part = f" A part of kind `{element.part}` in the packed form." if element.part else ""
+        out.append(f"\n## {element.name}\n\n`<{element.xml}>`: {element.meaning}{part}\n\n"
                    "| nr | field | written as | type | unit | default | range | length | indexes | meaning |\n"
                    "|---|---|---|---|---|---|---|---|---|---|\n")
         for f in element.fields:

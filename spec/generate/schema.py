@@ -104,8 +104,8 @@ def read(path):
             schema.version = match[1]
         elif match := re.fullmatch(r"enum (\w+): (.*)", line):
             schema.enums[match[1]] = match[2].split()
-        elif match := re.fullmatch(r"element (\w+)(?: xml=(\w+))?( part)?", head):
-            element = Element(match[1], match[2] or match[1], bool(match[3]), meaning, number)
+        elif match := re.fullmatch(r"element (\w+)(?: xml=(\w+))?(?: part=([A-Z]{4}))?", head):
+            element = Element(match[1], match[2] or match[1], match[3], meaning, number)
             schema.elements[element.name] = element
         elif match := re.fullmatch(r"  size = (.*)", line):
             element.size = parse_terms(match[1])
@@ -135,6 +135,24 @@ def check(schema, path):
                 raise SystemExit(f"{where}: the root has no collection {field.argument}")
             if not field.meaning:
                 raise SystemExit(f"{where}: no meaning given")
+    check_parts(schema, path)
+
+
+def check_parts(schema, path):
+    """A packed table names a part by its kind and two places, so parts lie at most two deep below the root."""
+    if not schema.root.part:
+        raise SystemExit(f"{path}:{schema.root.line}: the root is a part")
+    depth, order = {schema.root.name: 0}, [schema.root]
+    for element in order:
+        for field in (f for f in element.fields if f.is_child and schema.elements[f.argument].part):
+            if field.type != "many" or field.argument in depth or depth[element.name] == 2:
+                raise SystemExit(f"{path}:{field.line}: a part stands once in the schema, as `many`, two deep at most")
+            depth[field.argument] = depth[element.name] + 1
+            order.append(schema.elements[field.argument])
+    kinds = [e.part for e in schema.elements.values() if e.part]
+    for element in schema.elements.values():
+        if element.part and (element.name not in depth or kinds.count(element.part) > 1):
+            raise SystemExit(f"{path}:{element.line}: a part lies in a part and has a kind of its own")
 
 
 def ordered(schema):
