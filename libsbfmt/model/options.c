@@ -1,0 +1,36 @@
+#include "model/options.h"
+
+#include <string.h>
+
+#define GIBIBYTE ((uint64_t)1 << 30)
+
+static size_t given_size(size_t stated, size_t known) {
+  return stated && stated < known ? stated : known;
+}
+
+static void default_u64(uint64_t *limit, uint64_t value) {
+  if (*limit == 0) *limit = value;
+}
+
+static void default_u32(uint32_t *limit, uint32_t value) {
+  if (*limit == 0) *limit = value;
+}
+
+sbf_load_options sbfi_load_options_of(const sbf_load_options *given) {
+  sbf_load_options options = {0};
+  if (given) memcpy(&options, given, given_size(given->struct_size, sizeof options));
+  default_u64(&options.limits.file_bytes, 4 * GIBIBYTE);
+  default_u64(&options.limits.memory_bytes, 4 * GIBIBYTE);
+  default_u64(&options.limits.inflated_bytes, 4 * GIBIBYTE);
+  default_u32(&options.limits.inflate_ratio, 1100);
+  default_u32(&options.limits.list_items, 1u << 30);
+  default_u32(&options.limits.depth, 32);
+  return options;
+}
+
+sbf_save_options sbfi_save_options_of(const sbf_save_options *given) {
+  sbf_save_options options = {0};
+  if (given) memcpy(&options, given, given_size(given->struct_size, sizeof options));
+  if (options.level < 1 || options.level > 9) options.level = 6;
+  return options;
+}
