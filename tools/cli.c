@@ -1,0 +1,125 @@
+#include "cli.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "sbfmt/codes.h"
+
+const char *cli_value(const cli_call *call, const char *name) {
+  for (int i = 0; call->verb->options[i].name; i++)
+    if (strcmp(call->verb->options[i].name, name) == 0) return call->values[i];
+  abort(); /* a verb asks for an option that is not in its table */
+}
+
+bool cli_switch(const cli_call *call, const char *name) { return cli_value(call, name) != NULL; }
+
+int cli_wrong(const cli_call *call, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  fprintf(stderr, "sbfmt %s: error: ", call->verb->name);
+  vfprintf(stderr, format, arguments);
+  fprintf(stderr, "\n");
+  va_end(arguments);
+  return SBF_FAILED;
+}
+
+bool cli_number(const cli_call *call, const char *name, double min, double max, double *value) {
+  const char *text = cli_value(call, name);
+  if (!text) return true;
+  char *end;
+  double read = strtod(text, &end);
+  if (end == text || *end || !isfinite(read) || read < min || read > max) {
+    cli_wrong(call, "%s takes a number from %g to %g, not '%s'", name, min, max, text);
+    return false;
+  }
+  *value = read;
+  return true;
+}
+
+bool cli_integer(const cli_call *call, const char *name, long min, long max, long *value) {
+  const char *text = cli_value(call, name);
+  if (!text) return true;
+  char *end;
+  long read = strtol(text, &end, 10);
+  if (end == text || *end || read < min || read > max) {
+    cli_wrong(call, "%s takes a whole number from %ld to %ld, not '%s'", name, min, max, text);
+    return false;
+  }
+  *value = read;
+  return true;
+}
+
+bool cli_word(const cli_call *call, const char *name, const char *const *words, int count, int *value) {
+  const char *text = cli_value(call, name);
+  if (!text) return true;
+  for (int i = 0; i < count; i++)
+    if (strcmp(text, words[i]) == 0) {
+      *value = i;
+      return true;
+    }
+  fprintf(stderr, "sbfmt %s: error: %s takes one of", call->verb->name, name);
+  for (int i = 0; i < count; i++) fprintf(stderr, "%s %s", i ? "," : "", words[i]);
+  fprintf(stderr, ", not '%s'\n", text);
+  return false;
+}
+
+static const char *severity_word(sbf_severity severity) {
+  static const char *const words[] = {"error", "warning", "info"};
+  return (unsigned)severity < 3 ? words[severity] : "error";
+}
+
+static const char *code_name(int32_t code) {
+  const sbf_code_info *info = sbf_code_find(code);
+  return info ? info->name : "NONE";
+}
+
+void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
+  cli_progress_end();
+  fprintf(stderr, "sbfmt %s: %s: ", call->verb->name, severity_word(d->severity));
+  if (d->file[0]) fprintf(stderr, "%s:", d->file);
+  if (d->line) fprintf(stderr, "%u:", d->line);
+  if (d->file[0] || d->line) fprintf(stderr, " ");
+  fprintf(stderr, "%s [%s]", d->message, code_name(d->code));
+  if (d->path[0]) fprintf(stderr, " at %s", d->path);
+  if (d->index >= 0) fprintf(stderr, " item %lld", (long long)d->index);
+  if (d->offset >= 0 && !d->line) fprintf(stderr, " byte %lld", (long long)d->offset);
+  fprintf(stderr, "\n");
+}
+
+json_t *cli_diagnostic_json(const sbf_diagnostic *d) {
+  json_t *object = json_pack("{s:s, s:s, s:s, s:s}", "code", code_name(d->code), "severity",
+      severity_word(d->severity), "message", d->message, "path", d->path);
+  if (d->file[0]) json_object_set_new(object, "file", json_string(d->file));
+  if (d->line) json_object_set_new(object, "line", json_integer(d->line));
+  else if (d->offset >= 0) json_object_set_new(object, "offset", json_integer(d->offset));
+  if (d->index >= 0) json_object_set_new(object, "index", json_integer(d->index));
+  return object;
+}
+
+int cli_print_json(json_t *object, int status) {
+  char *text = object ? json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
+  json_decref(object);
+  if (!text || puts(text) == EOF || fflush(stdout) == EOF) {
+    fprintf(stderr, "sbfmt: error: the report could not be written to standard output\n");
+    status = SBF_FAILED;
+  }
+  free(text);
+  return status;
+}
+
+static bool progress_shown;
+
+void cli_progress(const char *what, double share) {
+  if (!isatty(STDERR_FILENO)) return;
+  fprintf(stderr, "\r\033[K%s %3.0f %%", what, 100 * share);
+  fflush(stderr);
+  progress_shown = true;
+}
+
+void cli_progress_end(void) {
+  if (progress_shown) fprintf(stderr, "\r\033[K");
+  progress_shown = false;
+}

@@ -1,0 +1,114 @@
+/* sbfmt: one program, a verb a file. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+
+#define VERSION_TEXT_(a, b, c) #a "." #b "." #c
+#define VERSION_TEXT(a, b, c) VERSION_TEXT_(a, b, c)
+
+static void print_help(void) {
+  printf("sbfmt: soft-bodied characters in one file\n\nUsage: sbfmt VERB ... (sbfmt VERB --help says more)\n\n");
+  for (int i = 0; cli_verbs[i]; i++) printf("  %-10s %s\n", cli_verbs[i]->name, cli_verbs[i]->summary);
+  printf("\nExit status: 0 good, 1 the input is at fault, 2 the call or the machine is.\n");
+}
+
+static void print_verb_help(const cli_verb *verb) {
+  printf("sbfmt %s: %s\n\nUsage: sbfmt %s %s\n\n%s\n\n", verb->name, verb->summary, verb->name, verb->synopsis,
+      verb->details);
+  for (const cli_option *o = verb->options; o->name; o++) {
+    char left[40];
+    snprintf(left, sizeof left, "%s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
+    printf("  %-24s %s\n", left, o->help);
+  }
+}
+
+static const cli_verb *find_verb(const char *name) {
+  for (int i = 0; cli_verbs[i]; i++)
+    if (strcmp(cli_verbs[i]->name, name) == 0) return cli_verbs[i];
+  return NULL;
+}
+
+/* The option an argument names, and its value where it is written as --name=value. -1: not one of the verb's. */
+static int find_option(const cli_verb *verb, const char *argument, const char **value) {
+  size_t length = strcspn(argument, "=");
+  *value = argument[length] ? argument + length + 1 : NULL;
+  for (int i = 0; verb->options[i].name; i++)
+    if (strlen(verb->options[i].name) == length && strncmp(verb->options[i].name, argument, length) == 0)
+      return i;
+  return -1;
+}
+
+/* Sorts the arguments into options and inputs; false, with a message, where they do not fit the verb. */
+static bool parse(cli_call *call, int count, char **arguments) {
+  const cli_verb *verb = call->verb;
+  bool options_over = false;
+  for (int i = 0; i < count; i++) {
+    const char *argument = arguments[i], *value;
+    bool is_option = !options_over && argument[0] == '-' && argument[1];
+    if (!is_option) {
+      call->inputs[call->input_count++] = argument;
+      continue;
+    }
+    if (strcmp(argument, "--") == 0) {
+      options_over = true;
+      continue;
+    }
+    int place = find_option(verb, argument, &value);
+    if (place < 0) {
+      cli_wrong(call, "no option %s; see sbfmt %s --help", argument, verb->name);
+      return false;
+    }
+    if (!verb->options[place].argument) {
+      call->values[place] = "";
+      continue;
+    }
+    if (!value && i + 1 == count) {
+      cli_wrong(call, "%s needs a value: %s", argument, verb->options[place].argument);
+      return false;
+    }
+    call->values[place] = value ? value : arguments[++i];
+  }
+  if (call->input_count < verb->least_inputs ||
+      (verb->most_inputs >= 0 && call->input_count > verb->most_inputs)) {
+    cli_wrong(call, "usage: sbfmt %s %s", verb->name, verb->synopsis);
+    return false;
+  }
+  return true;
+}
+
+int main(int argc, char **argv) {
+  if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 || strcmp(argv[1], "-h") == 0) {
+    print_help();
+    return argc < 2 ? SBF_FAILED : SBF_OK;
+  }
+  if (strcmp(argv[1], "--version") == 0) {
+    printf("sbfmt %s\n", VERSION_TEXT(SBF_VERSION_MAJOR, SBF_VERSION_MINOR, SBF_VERSION_PATCH));
+    return SBF_OK;
+  }
+  const cli_verb *verb = find_verb(argv[1]);
+  if (!verb) {
+    fprintf(stderr, "sbfmt: error: no verb '%s'; sbfmt --help lists them\n", argv[1]);
+    return SBF_FAILED;
+  }
+  for (int i = 2; i < argc; i++)
+    if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
+      print_verb_help(verb);
+      return SBF_OK;
+    }
+  cli_call call = {.verb = verb, .inputs = calloc((size_t)argc, sizeof(char *))};
+  if (!call.inputs) return cli_wrong(&call, "out of memory");
+  int status = SBF_FAILED;
+  if (parse(&call, argc - 2, argv + 2)) {
+    static const char *const formats[] = {"text", "json"};
+    int format = 0;
+    bool has_format = false;
+    for (const cli_option *o = verb->options; o->name; o++) has_format |= strcmp(o->name, "--format") == 0;
+    if (!has_format || cli_word(&call, "--format", formats, 2, &format)) {
+      call.json = format == 1;
+      status = verb->run(&call);
+    }
+  }
+  free(call.inputs);
+  return status;
+}

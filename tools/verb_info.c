@@ -1,0 +1,241 @@
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli.h"
+#include "sbfmt/io.h"
+#include "sbfmt/mechanics.h"
+
+static json_t *integer(uint64_t value) { return json_integer((json_int_t)value); }
+
+/* Triangles that polygons of the given sizes fall into. */
+static uint64_t triangle_count(const sbf_polygon_mesh *mesh) {
+  uint64_t count = 0;
+  for (uint32_t i = 0; i < mesh->polygon_sizes.count; i++) count += mesh->polygon_sizes.at[i] - 2;
+  return count;
+}
+
+static uint64_t pinned_points(const sbf_pin_set_list *pins) {
+  uint64_t count = 0;
+  for (uint32_t i = 0; i < pins->count; i++) count += pins->at[i].points.count;
+  return count;
+}
+
+static const sbf_level *finest(const sbf_soft_body *body) { return body->levels.count ? &body->levels.at[0] : NULL; }
+
+static uint64_t body_pins(const sbf_soft_body *body) {
+  const sbf_level *level = finest(body);
+  return pinned_points(level ? &level->pins : &body->pins);
+}
+
+static uint64_t interior_points(const sbf_soft_body *body) {
+  const sbf_level *level = finest(body);
+  if (level && level->model == SBF_ELASTIC_MODEL_SPRINGS && level->positions.count >= body->surface.positions.count)
+    return level->positions.count - body->surface.positions.count;
+  return body->interior.count;
+}
+
+static json_t *render_meshes(const sbf_asset *asset) {
+  json_t *list = json_array();
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
+    const sbf_render_mesh *mesh = &asset->render_meshes.at[i];
+    int32_t material = mesh->material_slots.count ? mesh->material_slots.at[0].material : SBF_NONE;
+    json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o, s:s}", "name", mesh->name, "vertices",
+        integer(mesh->mesh.positions.count), "polygons", integer(mesh->mesh.polygon_sizes.count), "triangles",
+        integer(triangle_count(&mesh->mesh)), "material",
+        material >= 0 ? asset->materials.at[material].name : ""));
+  }
+  return list;
+}
+
+/* The joint that holds a bone's body to another, by its id; null where there is none. */
+static json_t *joint_of_bone(const sbf_asset *asset, uint32_t bone) {
+  for (uint32_t i = 0; i < asset->joints.count; i++) {
+    const sbf_joint *joint = &asset->joints.at[i];
+    if (asset->rigid_bodies.at[joint->body_b].bone == (int32_t)bone) return json_string(joint->id);
+  }
+  return json_null();
+}
+
+static json_t *bones(const sbf_asset *asset) {
+  json_t *list = json_array();
+  for (uint32_t i = 0; i < asset->bones.count; i++) {
+    const sbf_bone *bone = &asset->bones.at[i];
+    json_t *parent = bone->parent >= 0 ? json_string(asset->bones.at[bone->parent].name) : json_null();
+    json_array_append_new(list, json_pack("{s:s, s:s, s:o, s:o}", "id", bone->id, "name", bone->name, "parent",
+        parent, "joint", joint_of_bone(asset, i)));
+  }
+  return list;
+}
+
+static json_t *sections(const sbf_asset *asset) {
+  json_t *list = json_array();
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[i];
+    const sbf_level *level = finest(body);
+    json_t *bone = body->bone >= 0 ? json_string(asset->bones.at[body->bone].name) : json_null();
+    json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "name", body->name, "bone", bone,
+        "vertices", integer(body->surface.positions.count), "polygons",
+        integer(body->surface.polygon_sizes.count), "interior_points", integer(interior_points(body)),
+        "tetrahedra", integer(level ? level->lattice.tetrahedra.count : 0), "pins", integer(body_pins(body))));
+  }
+  return list;
+}
+
+typedef struct totals {
+  uint64_t springs[SBF_SPRING_KIND_COUNT], inert, tetrahedra, pins, attachments, embedded, levels;
+  double mass;
+} totals;
+
+static totals count(const sbf_asset *asset) {
+  totals t = {.mass = 0};
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[i];
+    const sbf_level *level = finest(body);
+    t.attachments += body->attachments.count;
+    t.pins += body_pins(body);
+    if (body->levels.count > t.levels) t.levels = body->levels.count;
+    t.mass += sbf_body_mass(body);
+    if (!level) continue;
+    t.tetrahedra += level->lattice.tetrahedra.count;
+    for (uint32_t s = 0; s < level->springs.count; s++) {
+      t.springs[level->springs.at[s].kind] += level->springs.at[s].ends.count;
+      t.inert += level->springs.at[s].inert_count;
+    }
+    for (uint32_t e = 0; e < level->embeddings.count; e++)
+      if (level->embeddings.at[e].render_mesh >= 0) t.embedded += level->embeddings.at[e].points.count;
+  }
+  for (uint32_t i = 0; i < asset->cross_springs.count; i++)
+    t.springs[SBF_SPRING_KIND_CROSS_BODY] += asset->cross_springs.at[i].ends.count;
+  return t;
+}
+
+static void grow(sbf_vec3_list points, double low[3], double high[3]) {
+  for (uint32_t i = 0; i < points.count; i++) {
+    const double p[3] = {points.at[i].x, points.at[i].y, points.at[i].z};
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], p[k]);
+      high[k] = fmax(high[k], p[k]);
+    }
+  }
+}
+
+static json_t *bounds(const sbf_asset *asset) {
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    grow(asset->render_meshes.at[i].mesh.positions, low, high);
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
+    grow(asset->soft_bodies.at[i].surface.positions, low, high);
+  for (uint32_t i = 0; !(low[0] <= high[0]) && i < asset->soft_bodies.count; i++)
+    if (finest(&asset->soft_bodies.at[i])) grow(finest(&asset->soft_bodies.at[i])->positions, low, high);
+  if (!(low[0] <= high[0])) return json_null();
+  return json_pack("{s:[f,f,f], s:[f,f,f]}", "min", low[0], low[1], low[2], "max", high[0], high[1], high[2]);
+}
+
+static uint64_t leg_count(const sbf_asset *asset) {
+  uint64_t legs = 0;
+  for (uint32_t i = 0; i < asset->gaits.count; i++) legs += asset->gaits.at[i].legs.count;
+  return legs;
+}
+
+static json_t *describe(const sbf_asset *asset, uint64_t bytes) {
+  totals t = count(asset);
+  json_t *springs = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "structural",
+      integer(t.springs[SBF_SPRING_KIND_STRUCTURAL]), "shear", integer(t.springs[SBF_SPRING_KIND_SHEAR]),
+      "flexion", integer(t.springs[SBF_SPRING_KIND_FLEXION]), "internal",
+      integer(t.springs[SBF_SPRING_KIND_INTERNAL]), "cross", integer(t.springs[SBF_SPRING_KIND_CROSS_BODY]),
+      "inert", integer(t.inert));
+  json_t *object = json_object();
+  json_object_set_new(object, "format_version", json_string(asset->version));
+  json_object_set_new(object, "title", json_string(asset->info.title));
+  json_object_set_new(object, "render_meshes", render_meshes(asset));
+  json_object_set_new(object, "bones", bones(asset));
+  json_object_set_new(object, "sections", sections(asset));
+  json_object_set_new(object, "springs", springs);
+  json_object_set_new(object, "tetrahedra", integer(t.tetrahedra));
+  json_object_set_new(object, "embedded_vertices", integer(t.embedded));
+  json_object_set_new(object, "pins", integer(t.pins));
+  json_object_set_new(object, "attachments", integer(t.attachments));
+  json_object_set_new(object, "rigid_bodies", integer(asset->rigid_bodies.count));
+  json_object_set_new(object, "joints", integer(asset->joints.count));
+  json_object_set_new(object, "gait", json_pack("{s:o}", "legs", integer(leg_count(asset))));
+  json_object_set_new(object, "levels", integer(t.levels));
+  json_object_set_new(object, "bounds", bounds(asset));
+  json_object_set_new(object, "mass", json_real(t.mass));
+  json_object_set_new(object, "bytes", integer(bytes));
+  return object;
+}
+
+static long long number(const json_t *object, const char *key) {
+  return (long long)json_integer_value(json_object_get(object, key));
+}
+
+static const char *text_of(const json_t *object, const char *key) {
+  const char *text = json_string_value(json_object_get(object, key));
+  return text && *text ? text : "-";
+}
+
+static void print_sections(const json_t *object) {
+  size_t i;
+  json_t *row;
+  printf("sections       %zu\n", json_array_size(json_object_get(object, "sections")));
+  json_array_foreach(json_object_get(object, "sections"), i, row)
+    printf("  %-16s on %-16s %6lld vertices %6lld polygons %6lld interior %7lld tetrahedra %6lld pins\n",
+        text_of(row, "name"), text_of(row, "bone"), number(row, "vertices"), number(row, "polygons"),
+        number(row, "interior_points"), number(row, "tetrahedra"), number(row, "pins"));
+}
+
+static void print_text(const json_t *object) {
+  size_t i;
+  json_t *row;
+  const json_t *springs = json_object_get(object, "springs");
+  printf("format         sbf %s, %lld bytes\n", text_of(object, "format_version"), number(object, "bytes"));
+  printf("title          %s\n", text_of(object, "title"));
+  printf("render meshes  %zu\n", json_array_size(json_object_get(object, "render_meshes")));
+  json_array_foreach(json_object_get(object, "render_meshes"), i, row)
+    printf("  %-32s %7lld vertices %7lld polygons %7lld triangles, %s\n", text_of(row, "name"),
+        number(row, "vertices"), number(row, "polygons"), number(row, "triangles"), text_of(row, "material"));
+  print_sections(object);
+  printf("bones          %zu\n", json_array_size(json_object_get(object, "bones")));
+  printf("springs        %lld structural, %lld shear, %lld flexion, %lld internal (%lld inert left out), %lld cross\n",
+      number(springs, "structural"), number(springs, "shear"), number(springs, "flexion"),
+      number(springs, "internal"), number(springs, "inert"), number(springs, "cross"));
+  static const char *const totals_shown[] = {"tetrahedra", "embedded_vertices", "pins", "attachments",
+      "rigid_bodies", "joints", "levels"};
+  for (size_t k = 0; k < sizeof totals_shown / sizeof *totals_shown; k++)
+    printf("%-18s %lld\n", totals_shown[k], number(object, totals_shown[k]));
+  printf("gait legs          %lld\n", number(json_object_get(object, "gait"), "legs"));
+  printf("mass               %.6g kg\n", json_real_value(json_object_get(object, "mass")));
+  const json_t *box = json_object_get(object, "bounds");
+  for (int k = 0; json_is_object(box) && k < 3; k++)
+    printf("%c                  %9.4f to %9.4f m\n", "xyz"[k],
+        json_real_value(json_array_get(json_object_get(box, "min"), (size_t)k)),
+        json_real_value(json_array_get(json_object_get(box, "max"), (size_t)k)));
+}
+
+static int run(cli_call *call) {
+  sbf_asset *asset;
+  sbf_diagnostic error;
+  struct stat file;
+  sbf_status status = sbf_load_file(call->inputs[0], NULL, &asset, &error);
+  if (status != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+    return (int)status;
+  }
+  uint64_t bytes = stat(call->inputs[0], &file) == 0 ? (uint64_t)file.st_size : 0;
+  json_t *object = describe(asset, bytes);
+  sbf_asset_free(asset);
+  if (call->json) return cli_print_json(object, SBF_OK);
+  print_text(object);
+  json_decref(object);
+  return SBF_OK;
+}
+
+static const cli_option options[] = {
+    {"--format", "text|json", "how to print (text)"},
+    {NULL, NULL, NULL},
+};
+const cli_verb verb_info = {"info", "FILE [--format json]", "say what a file holds",
+    "Counts are of the finest level of every body. `inert` springs would join two pinned points: they are made\n"
+    "by the rules, counted, and left out of the file.",
+    options, 1, 1, run};
