@@ -30,6 +30,7 @@ static const sbf_code_info table[] = {
   {"ID_EMPTY", SBF_CODE_ID_EMPTY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An id is empty."},
   {"ID_REPEATED", SBF_CODE_ID_REPEATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "Two objects have the same id: ids are unique in a file."},
   {"FIXED_VALUE", SBF_CODE_FIXED_VALUE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A field has another value than its place demands."},
+  {"BAD_TEXT", SBF_CODE_BAD_TEXT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A text holds a control character, which XML cannot carry: remove it."},
   {"REF_UNKNOWN", SBF_CODE_REF_UNKNOWN, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A reference names an id that nothing of its kind has."},
   {"BONE_ORDER", SBF_CODE_BONE_ORDER, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A bone stands before its parent, or among its own ancestors."},
   {"EXTENSION_REQUIRED", SBF_CODE_EXTENSION_REQUIRED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file requires an extension that this library does not know."},

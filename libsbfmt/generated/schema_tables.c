@@ -83,7 +83,7 @@ static const sbfi_element material_element = {"material", "material", sizeof(sbf
 static const sbfi_field bone_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_bone, id), .width = 1, .unit = "", .required = true, .default_text = ""},
   {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_bone, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "parent", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_bone, parent), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
+  {.name = "parent", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_bone, parent), .width = 1, .unit = "", .earlier = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
   {.name = "head", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_bone, head), .width = 3, .unit = "m", .required = true},
   {.name = "rotation", .type = SBFI_QUAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_bone, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
   {.name = "length", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_bone, length), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
@@ -313,7 +313,7 @@ static const sbfi_length tetrahedron_mesh_reference_modulus_lengths[] = {{1, {{S
 static const sbfi_length tetrahedron_mesh_densities_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_tetrahedron_mesh, tetrahedra)}}, "tetrahedra"}};
 static const sbfi_field tetrahedron_mesh_fields[] = {
   {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, target), .width = 1, .unit = "", .required = true, .values = volume_target_values, .value_count = 1},
-  {.name = "tetrahedra", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, tetrahedra), .width = 4, .unit = "", .item = SBFI_ITEM_U32, .index = &tetrahedron_mesh_tetrahedra_index},
+  {.name = "tetrahedra", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, tetrahedra), .width = 4, .unit = "", .item = SBFI_ITEM_U32, .positive = true, .index = &tetrahedron_mesh_tetrahedra_index},
   {.name = "young_modulus", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, young_modulus), .width = 1, .unit = "Pa", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_young_modulus_lengths},
   {.name = "reference_modulus", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, reference_modulus), .width = 1, .unit = "Pa", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_reference_modulus_lengths},
   {.name = "densities", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, densities), .width = 1, .unit = "kg/m^3", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_densities_lengths},

@@ -74,6 +74,8 @@ typedef struct sbfi_field {
   uint32_t width;  /* scalars in an item of a list, or in a vector; else 1 */
   uint32_t offset; /* in the struct */
   bool required, volatile_, has_range, min_open, max_open;
+  bool earlier;    /* a reference to an item that stands before this one */
+  bool positive;   /* the four points of each item span a positive volume */
   double min, max; /* of each scalar, infinite where open-ended */
   float defaults[4];
   uint32_t default_integer;

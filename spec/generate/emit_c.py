@@ -192,6 +192,10 @@ class Tables:
             row.append(".required = true")
         if f.volatile:
             row.append(".volatile_ = true")
+        if f.earlier:
+            row.append(".earlier = true")
+        if f.positive:
+            row.append(".positive = true")
         if f.range:
             low, low_open, high, high_open = f.range
             number = lambda v: ("-" if v < 0 else "") + "INFINITY" if abs(v) == float("inf") else repr(v)

@@ -21,6 +21,7 @@ class Field:
         self.name, self.type, self.argument, self.line = name, type_name, argument, line
         self.unit = self.default = self.wrapper = self.suffix = self.by = self.xml = self.fix = None
         self.since, self.required, self.volatile = "1.0", False, False
+        self.earlier = self.positive = False
         self.range, self.lengths, self.index = None, [], None
         self.meaning, self.number = "", 0
 
@@ -74,7 +75,7 @@ def parse_terms(text):
 def parse_options(field, text, where):
     for option in text.split():
         key, _, value = option.partition("=")
-        if key in ("required", "volatile") and not value:
+        if key in ("required", "volatile", "earlier", "positive") and not value:
             setattr(field, key, True)
         elif key in ("unit", "default", "wrapper", "suffix", "by", "since", "xml", "fix"):
             setattr(field, key, value)
@@ -135,7 +136,33 @@ def check(schema, path):
                 raise SystemExit(f"{where}: the root has no collection {field.argument}")
             if not field.meaning:
                 raise SystemExit(f"{where}: no meaning given")
+            if field.positive and (field.type != "uint4[]" or not field.index):
+                raise SystemExit(f"{where}: only a uint4 list with an index can be positive")
+        check_names(schema, element, path)
+    check_depth(schema, schema.root, [], path)
     check_parts(schema, path)
+
+
+def check_names(schema, element, path):
+    """The XML reader tells fields apart by name alone, and keeps 64 marks of what it has seen."""
+    if len(element.fields) > 64:
+        raise SystemExit(f"{path}:{element.line}: more than 64 fields")
+    seen = {}
+    for field in element.fields:
+        child = schema.elements.get(field.argument) if field.is_child else None
+        name = field.wrapper or field.xml or (child.xml if child else field.name)
+        kind = "element" if child or field.is_list or field.type == "text" else "attribute"
+        if (kind, name) in seen:
+            raise SystemExit(f"{path}:{field.line}: the {kind} {name} stands on line {seen[kind, name]} already")
+        seen[kind, name] = field.line
+
+
+def check_depth(schema, element, above, path):
+    if element in above:
+        raise SystemExit(f"{path}:{element.line}: {element.name} holds itself")
+    for field in element.fields:
+        if field.is_child:
+            check_depth(schema, schema.elements[field.argument], above + [element], path)
 
 
 def check_parts(schema, path):

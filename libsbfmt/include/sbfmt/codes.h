@@ -40,6 +40,7 @@ typedef enum sbf_code {
   SBF_CODE_ID_EMPTY = 309, /* An id is empty. */
   SBF_CODE_ID_REPEATED = 310, /* Two objects have the same id: ids are unique in a file. */
   SBF_CODE_FIXED_VALUE = 311, /* A field has another value than its place demands. */
+  SBF_CODE_BAD_TEXT = 312, /* A text holds a control character, which XML cannot carry: remove it. */
   SBF_CODE_REF_UNKNOWN = 401, /* A reference names an id that nothing of its kind has. */
   SBF_CODE_BONE_ORDER = 402, /* A bone stands before its parent, or among its own ancestors. */
   SBF_CODE_EXTENSION_REQUIRED = 403, /* The file requires an extension that this library does not know. */

@@ -30,6 +30,8 @@ typedef struct sbf_load_options {
   sbf_limits limits;
   bool check_crc;   /* compare each chunk's CRC-32 as it is read */
   const char *name; /* the file's name for messages, with loads from memory; may be NULL */
+  const char *const *extensions; /* names of the extensions that the caller understands: a file that requires */
+  uint32_t extension_count;      /* another is refused */
 } sbf_load_options;
 
 typedef struct sbf_save_options {

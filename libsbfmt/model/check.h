@@ -1,0 +1,14 @@
+/* The structural check as loads and saves use it: the first fault decides. */
+#ifndef SBFI_CHECK_H
+#define SBFI_CHECK_H
+
+#include "sbfmt/io.h"
+
+/* What a load does last, with what it has read: the structure (sbf_asset_check), and that no extension is
+ * required which the caller does not know. Fills `*error` (may be NULL) with the first fault. */
+sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error);
+
+/* What a save does first: the structure alone. A file that could not be loaded again is not written. */
+sbf_status sbfi_check_saved(const sbf_asset *asset, sbf_diagnostic *error);
+
+#endif

@@ -1,0 +1,126 @@
+#include "model/place.h"
+
+#include <stdio.h>
+
+sbfi_place sbfi_place_root(const sbf_asset *asset) {
+  return (sbfi_place){.element = &sbfi_asset_element, .object = asset};
+}
+
+uint32_t sbfi_child_count(const void *object, const sbfi_field *field) {
+  switch (field->type) {
+  case SBFI_ONE:
+    return 1;
+  case SBFI_OPTIONAL:
+    return sbfi_get_pointer(object, field) != NULL;
+  case SBFI_MANY:
+    return sbfi_get_list(object, field).count;
+  default:
+    return 0;
+  }
+}
+
+sbfi_place sbfi_place_child(const sbfi_place *up, const sbfi_field *field, uint32_t index) {
+  sbfi_place child = {.up = up, .element = field->element, .field = field, .index = index};
+  if (field->type == SBFI_ONE)
+    child.object = (const char *)up->object + field->offset;
+  else if (field->type == SBFI_OPTIONAL)
+    child.object = sbfi_get_pointer(up->object, field);
+  else
+    child.object =
+        (const char *)sbfi_get_list(up->object, field).at + (size_t)index * field->element->struct_size;
+  return child;
+}
+
+/* XPath numbers siblings of the same name; where the name comes from the child, only some of them have it. */
+static uint32_t sibling_number(const sbfi_place *place) {
+  const sbfi_field *field = place->field;
+  if (!field->suffix) return place->index + 1;
+  const sbfi_field *by = sbfi_element_field(field->element, field->by);
+  uint32_t number = 1;
+  for (uint32_t i = 0; i < place->index; i++)
+    number += sbfi_get_integer(sbfi_place_child(place->up, field, i).object, by) ==
+              sbfi_get_integer(place->object, by);
+  return number;
+}
+
+typedef struct path_text {
+  char *at;
+  size_t size, length;
+} path_text;
+
+static void append(path_text *path, const char *separator, const char *name) {
+  int added = snprintf(path->at + path->length, path->size - path->length, "%s%s", separator, name);
+  if (added > 0) path->length += (size_t)added;
+  if (path->length >= path->size) path->length = path->size - 1;
+}
+
+static void append_place(path_text *path, const sbfi_place *place) {
+  if (!place->up) {
+    append(path, "/", place->element->xml);
+    return;
+  }
+  append_place(path, place->up);
+  if (place->field->wrapper) append(path, "/", place->field->wrapper);
+  char name[128], number[16];
+  append(path, "/", sbfi_child_xml_name(place->field, place->object, name, sizeof name));
+  if (place->field->type != SBFI_MANY) return;
+  snprintf(number, sizeof number, "[%u]", sibling_number(place));
+  append(path, number, "");
+}
+
+void sbfi_place_path(const sbfi_place *place, const sbfi_field *field, char *path, size_t size) {
+  path_text text = {path, size, 0};
+  path[0] = 0;
+  append_place(&text, place);
+  if (!field) return;
+  const char *name = field->wrapper ? field->wrapper : field->xml ? field->xml : field->name;
+  append(&text, sbfi_field_is_attribute(field) ? "/@" : "/", name);
+}
+
+bool sbfi_field_is_attribute(const sbfi_field *field) {
+  return field->type != SBFI_LIST && field->type != SBFI_TEXT && !field->element;
+}
+
+static const sbfi_place *place_above(const sbfi_place *place, int up) {
+  while (place->up && up != 0) {
+    place = place->up;
+    up--; /* from -1 on it never comes to 0: that means the root */
+  }
+  return place;
+}
+
+sbfi_list sbfi_term_list(const sbfi_term *term, const sbfi_place *place) {
+  const sbfi_field at = {.offset = term->value};
+  return sbfi_get_list(place_above(place, term->up)->object, &at);
+}
+
+static uint64_t sum_of(sbfi_list list) {
+  const uint32_t *items = list.at;
+  uint64_t sum = 0;
+  for (uint32_t i = 0; i < list.count; i++) sum += items[i];
+  return sum;
+}
+
+uint64_t sbfi_length_value(const sbfi_length *length, const sbfi_place *place) {
+  uint64_t value = 0;
+  for (uint32_t i = 0; i < length->term_count; i++) {
+    const sbfi_term *term = &length->terms[i];
+    const sbfi_place *owner;
+    switch (term->kind) {
+    case SBFI_TERM_NUMBER:
+      value += term->value;
+      break;
+    case SBFI_TERM_COUNT:
+      value += sbfi_term_list(term, place).count;
+      break;
+    case SBFI_TERM_SUM:
+      value += sum_of(sbfi_term_list(term, place));
+      break;
+    case SBFI_TERM_SIZE:
+      owner = place_above(place, term->up);
+      if (owner->element->size) value += sbfi_length_value(owner->element->size, owner);
+      break;
+    }
+  }
+  return value;
+}
