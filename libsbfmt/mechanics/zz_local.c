@@ -1,0 +1,1 @@
+typedef int sbfi_nothing;

@@ -1,0 +1,1 @@
+typedef int sbri_nothing;
