@@ -1,1 +1,0 @@
-typedef int sbfi_nothing;

@@ -1,1 +1,0 @@
-typedef int sbri_nothing;
