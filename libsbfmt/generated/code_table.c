@@ -9,6 +9,7 @@ static const sbf_code_info table[] = {
   {"IO_TOO_LARGE", SBF_CODE_IO_TOO_LARGE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The input is larger than the limit: raise the limit if the file is trusted."},
   {"OUT_OF_MEMORY", SBF_CODE_OUT_OF_MEMORY, SBF_SEVERITY_ERROR, SBF_FAILED, "Memory ran out, or the limit on it was reached."},
   {"BAD_CALL", SBF_CODE_BAD_CALL, SBF_SEVERITY_ERROR, SBF_FAILED, "An argument of the call is wrong."},
+  {"IO_CANNOT_RUN", SBF_CODE_IO_CANNOT_RUN, SBF_SEVERITY_ERROR, SBF_FAILED, "A helper program cannot be run: check that it is installed and may be executed."},
   {"XML_SYNTAX", SBF_CODE_XML_SYNTAX, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The text is not well-formed XML: mend it at the line given."},
   {"XML_DOCTYPE", SBF_CODE_XML_DOCTYPE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A DOCTYPE or an entity of its own stands in the file: remove it, the format has none."},
   {"XML_UNKNOWN_ELEMENT", SBF_CODE_XML_UNKNOWN_ELEMENT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An element that the format does not have stands here: check its spelling and its place."},

@@ -19,6 +19,7 @@ typedef enum sbf_code {
   SBF_CODE_IO_TOO_LARGE = 104, /* The input is larger than the limit: raise the limit if the file is trusted. */
   SBF_CODE_OUT_OF_MEMORY = 105, /* Memory ran out, or the limit on it was reached. */
   SBF_CODE_BAD_CALL = 106, /* An argument of the call is wrong. */
+  SBF_CODE_IO_CANNOT_RUN = 107, /* A helper program cannot be run: check that it is installed and may be executed. */
   SBF_CODE_XML_SYNTAX = 201, /* The text is not well-formed XML: mend it at the line given. */
   SBF_CODE_XML_DOCTYPE = 202, /* A DOCTYPE or an entity of its own stands in the file: remove it, the format has none. */
   SBF_CODE_XML_UNKNOWN_ELEMENT = 203, /* An element that the format does not have stands here: check its spelling and its place. */
