@@ -24,18 +24,40 @@ bool sbfi_base64_encode(sbfi_text *to, const uint8_t *bytes, size_t size) {
   return true;
 }
 
-/* The value of a digit, -1 for anything else. */
-static int digit_value(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' ? 62 : c == '/' ? 63 : -1;
+/* The value of each digit, -1 for what is none. */
+static const int8_t values[128] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1,
+    -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 62, -1,
+    -1, -1, 63, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, -1, -1, -1, -1, -1, -1, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8,
+    9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, -1, -1, -1, -1, -1, -1, 26, 27, 28, 29,
+    30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, -1, -1, -1, -1,
+    -1};
+
+static inline int digit_value(char c) {
+  return (unsigned char)c < 128 ? values[(unsigned char)c] : -1;
+}
+
+/* Decodes whole groups of four digits as far as they go; the offset behind them. */
+static size_t read_groups(const char *text, size_t length, uint8_t **to) {
+  uint8_t *at = *to;
+  size_t i = 0;
+  for (; length - i >= 4; i += 4) {
+    int a = digit_value(text[i]), b = digit_value(text[i + 1]);
+    int c = digit_value(text[i + 2]), d = digit_value(text[i + 3]);
+    if (a < 0 || b < 0 || c < 0 || d < 0) break;
+    *at++ = (uint8_t)(a << 2 | b >> 4);
+    *at++ = (uint8_t)(b << 4 | c >> 2);
+    *at++ = (uint8_t)(c << 6 | d);
+  }
+  *to = at;
+  return i;
 }
 
 size_t sbfi_base64_read(sbfi_base64_reader *r, const char *text, size_t length, uint8_t *to, size_t *size) {
   uint8_t *at = to;
   size_t i = 0;
   for (; i < length; i++) {
+    if (r->digits + r->paddings == 0 && !r->ended) i += read_groups(text + i, length - i, &at);
+    if (i == length) break;
     char c = text[i];
     if (sbfi_is_space(c)) continue;
     if (r->ended) break;

@@ -1,6 +1,7 @@
 /* float32 to the shortest digits that read back to it, after
  *   R. Giulietti, "The Schubfach way to render doubles", 2020 (its float32 form: 64-bit powers, 96-bit
- * products). The choice of layout, and whole numbers written exactly, are described in the header. */
+ * products), and compared with std::to_chars for each of the 2^31 positive values. The choice of layout, and
+ * whole numbers written exactly, are described in the header. */
 #include "base/number.h"
 
 #include <string.h>
