@@ -39,13 +39,14 @@ typedef struct sbr_double3 {
 
 /* ---- Ground ------------------------------------------------------------------------------------------- */
 
-/* Height y and unit normal of the ground at (x, z), world space. Must be a pure function: it is called from
- * worker threads, many times a tick. */
-typedef struct sbr_ground {
-  double (*height)(const void *user, double x, double z, sbf_vec3 *normal);
+/* Height y and unit normal of the ground at (x, z), world space. `height` must be a pure function: it is
+ * called from worker threads, many times a tick. `normal` is never NULL. */
+typedef struct sbr_ground sbr_ground;
+struct sbr_ground {
+  double (*height)(const sbr_ground *ground, double x, double z, sbf_vec3 *normal);
   const void *user;
-  double parameters[4]; /* of the built-in grounds, which set `user` to NULL and read these instead */
-} sbr_ground;
+  double parameters[4]; /* of the built-in grounds; free for others */
+};
 
 SBF_API sbr_ground sbr_ground_flat(double height_m);
 /* Rises towards +Z from the line z = 0; level behind it. [-45, 45] degrees. */

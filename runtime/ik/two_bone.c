@@ -1,0 +1,39 @@
+#include "ik/two_bone.h"
+
+#include "math/vec3.h"
+
+/* Distance eased towards the full reach: the identity up to (1 - soft) * reach, then a quadratic of the same
+ * slope there that meets the full reach, with no slope, twice the range further out. */
+static float ease_reach(float distance, float reach, float soft) {
+  float range = soft * reach, start = reach - range;
+  if (range <= 0 || distance <= start) return distance;
+  float t = sbri_clamp((distance - start) / (2 * range), 0, 1);
+  return start + range * t * (2 - t);
+}
+
+sbri_two_bone_result sbri_two_bone(sbf_vec3 hip, sbf_vec3 target, sbf_vec3 pole, sbf_vec3 fallback,
+    float upper, float lower, float soft_reach) {
+  float reach = upper + lower, nearest = fabsf(upper - lower);
+  sbf_vec3 to_target = sbri_sub(target, hip);
+  float wanted = sbri_length(to_target);
+  sbf_vec3 along = sbri_normalize(to_target, sbri_vec3(0, -1, 0));
+  float distance = sbri_clamp(ease_reach(wanted, reach, soft_reach), nearest, reach);
+
+  sbf_vec3 to_pole = sbri_sub(pole, hip);
+  sbf_vec3 out = sbri_add_scaled(to_pole, along, -sbri_dot(to_pole, along));
+  if (sbri_dot(out, out) < 1e-10f * reach * reach) {
+    to_pole = sbri_sub(fallback, hip);
+    out = sbri_add_scaled(to_pole, along, -sbri_dot(to_pole, along));
+  }
+  sbf_vec3 spare = sbri_cross(along, fabsf(along.x) < 0.9f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 0, 1));
+  out = sbri_normalize(out, sbri_normalize(spare, sbri_vec3(0, 0, 1)));
+
+  float x = distance > 0 ? (upper * upper - lower * lower + distance * distance) / (2 * distance) : 0;
+  float height = upper * upper - x * x;
+  height = height > 0 ? sqrtf(height) : 0;
+  sbri_two_bone_result result;
+  result.knee = sbri_add_scaled(sbri_add_scaled(hip, along, x), out, height);
+  result.ankle = sbri_add_scaled(hip, along, distance);
+  result.reached = fabsf(distance - wanted) <= 1e-6f * reach;
+  return result;
+}

@@ -1,0 +1,146 @@
+#include "skeleton/rig.h"
+
+#include <string.h>
+
+#include "math/quat.h"
+
+static size_t rounded(size_t size) {
+  return (size + 15) & ~(size_t)15;
+}
+
+static uint32_t tail_count(const sbf_asset *asset) {
+  return asset->gaits.count ? asset->gaits.at[0].tails.count : 0;
+}
+
+size_t sbri_rig_size(const sbf_asset *asset) {
+  size_t n = asset->bones.count;
+  return rounded(n * sizeof(int32_t)) + 2 * rounded(n * sizeof(sbr_transform)) + rounded(n * sizeof(float)) +
+         rounded(tail_count(asset) * sizeof(sbri_tail)) + 16;
+}
+
+static void *carve(char **memory, size_t size) {
+  void *at = *memory;
+  *memory += rounded(size);
+  return at;
+}
+
+static bool is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor) {
+  for (; bone >= 0; bone = rig->parents[bone])
+    if (bone == ancestor) return true;
+  return false;
+}
+
+/* Bones from hips to chest share the turn between the two evenly; all others follow their parent. */
+static void share_spine(const sbri_rig *rig, float *share) {
+  for (uint32_t i = 0; i < rig->bone_count; i++) share[i] = -1;
+  if (!rig->gait || rig->gait->hips < 0) return;
+  int32_t hips = rig->gait->hips, chest = rig->gait->chest;
+  share[hips] = 0;
+  if (chest < 0 || chest == hips || !is_below(rig, chest, hips)) return;
+  uint32_t steps = 0, place = 0;
+  for (int32_t b = chest; b != hips; b = rig->parents[b]) steps++;
+  for (int32_t b = chest; b != hips; b = rig->parents[b]) share[b] = 1 - (float)place++ / (float)steps;
+}
+
+static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
+  const sbf_ik_chain *chain = &rig->asset->ik_chains.at[from->ik];
+  int32_t foot = chain->end, lower = rig->parents[foot], upper = lower >= 0 ? rig->parents[lower] : -1;
+  if (upper < 0 || upper != chain->root) return false;
+  sbf_vec3 hip = rig->rest[upper].position, knee = rig->rest[lower].position,
+           ankle = rig->rest[foot].position;
+  *leg = (sbri_leg){.upper = upper,
+      .lower = lower,
+      .foot = foot,
+      .home = from->home,
+      .group = from->group,
+      .upper_length = sbri_length(sbri_sub(knee, hip)),
+      .lower_length = sbri_length(sbri_sub(ankle, knee)),
+      .copy_rotation = chain->copy_rotation,
+      .soft_reach = chain->soft_reach};
+  leg->home.y = from->sole;
+  /* Without a pole the leg goes on bending the way it is bent at rest. */
+  sbf_vec3 middle = sbri_lerp(hip, ankle, 0.5f), out = sbri_sub(knee, middle);
+  leg->pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
+  leg->hind = rig->gait->chest < 0 || !is_below(rig, upper, rig->gait->chest);
+  return leg->upper_length > 0 && leg->lower_length > 0;
+}
+
+static void init_legs(sbri_rig *rig) {
+  float hind = 0, fore = 0, width = 0;
+  uint32_t hind_count = 0;
+  for (uint32_t i = 0; i < rig->gait->legs.count && rig->leg_count < SBRI_MOST_LEGS; i++) {
+    sbri_leg *leg = &rig->legs[rig->leg_count];
+    if (!init_leg(rig, &rig->gait->legs.at[i], leg)) continue;
+    rig->leg_count++;
+    hind_count += leg->hind;
+    *(leg->hind ? &hind : &fore) += leg->home.z;
+    width += fabsf(leg->home.x);
+  }
+  uint32_t fore_count = rig->leg_count - hind_count;
+  rig->hind_z = hind_count ? hind / (float)hind_count : 0;
+  rig->fore_z = fore_count ? fore / (float)fore_count : rig->hind_z;
+  rig->half_width = rig->leg_count ? width / (float)rig->leg_count : 0;
+}
+
+static void init_tails(sbri_rig *rig, sbri_tail *tails) {
+  for (uint32_t i = 0; i < rig->tail_count; i++) {
+    const sbf_tail *from = &rig->gait->tails.at[i];
+    const sbf_chain *chain = &rig->asset->chains.at[from->chain];
+    tails[i] = (sbri_tail){chain->bones.at, chain->bones.count, rig->tail_bone_count, from->frequency,
+        from->damping_ratio, from->limit};
+    rig->tail_bone_count += chain->bones.count;
+  }
+}
+
+void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
+  uint32_t n = asset->bones.count;
+  char *free_memory = memory;
+  int32_t *parents = carve(&free_memory, n * sizeof *parents);
+  sbr_transform *rest = carve(&free_memory, n * sizeof *rest),
+                *local = carve(&free_memory, n * sizeof *local);
+  float *share = carve(&free_memory, n * sizeof *share);
+  sbri_tail *tails = carve(&free_memory, tail_count(asset) * sizeof *tails);
+  *rig = (sbri_rig){.asset = asset,
+      .bone_count = n,
+      .parents = parents,
+      .rest = rest,
+      .rest_local = local,
+      .spine_share = share,
+      .tails = tails,
+      .tail_count = tail_count(asset),
+      .gait = asset->gaits.count ? &asset->gaits.at[0] : NULL};
+  for (uint32_t i = 0; i < n; i++) {
+    const sbf_bone *bone = &asset->bones.at[i];
+    parents[i] = bone->parent;
+    local[i] = rest[i] = (sbr_transform){bone->head, sbri_quat_normalize(bone->rotation)};
+    if (bone->parent < 0) continue;
+    const sbr_transform *parent = &rest[bone->parent];
+    sbf_quat back = sbri_quat_conjugate(parent->rotation);
+    local[i].position = sbri_rotate(back, sbri_sub(rest[i].position, parent->position));
+    local[i].rotation = sbri_quat_multiply(back, rest[i].rotation);
+  }
+  share_spine(rig, share);
+  if (!rig->gait) return;
+  init_legs(rig);
+  init_tails(rig, tails);
+}
+
+void sbri_rig_place(
+    const sbri_rig *rig, const sbf_quat *rotations, sbr_transform root, float scale, sbr_transform *pose) {
+  for (uint32_t i = 0; i < rig->bone_count; i++) {
+    const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &root;
+    sbf_vec3 offset = sbri_scale(rig->rest_local[i].position, scale);
+    pose[i].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
+    pose[i].rotation = rotations[i];
+  }
+}
+
+void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose) {
+  sbf_vec3 pivot = pose[bone].position;
+  pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, pose[bone].rotation));
+  for (uint32_t i = bone + 1; i < rig->bone_count; i++) { /* parents stand before children */
+    if (!is_below(rig, rig->parents[i], (int32_t)bone)) continue;
+    pose[i].position = sbri_add(pivot, sbri_rotate(turn, sbri_sub(pose[i].position, pivot)));
+    pose[i].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, pose[i].rotation));
+  }
+}
