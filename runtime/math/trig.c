@@ -1,76 +1,106 @@
+/* Reductions: quarter turns for sine and cosine; thirds of the first octant for the arctangent; powers of two
+ * for the exponential. The series then converge within single precision in six to eight terms. */
 #include "math/trig.h"
 
+#include <float.h>
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
-/* Nearest whole number without a library call: adding and taking away 1.5 * 2^23 rounds to even. */
-static float nearest(float x) {
-  volatile float magic = 12582912.0f, sum = x + magic;
-  return sum - magic;
+static const double quarter_turn = 1.57079632679489661923;
+static const double quarter_turn_rest = 6.123233995736766036e-17; /* pi/2 less the constant above */
+
+/* The nearest whole number, halves away from 0; |x| < 2^62. */
+static int64_t nearest(double x) {
+  return (int64_t)(x < 0 ? x - 0.5 : x + 0.5);
+}
+
+/* Both for |x| <= pi/4. */
+static double sine_series(double x) {
+  double s = x * x;
+  return x * (1 + s * (-1.0 / 6 +
+                          s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 + s * (-1.0 / 39916800))))));
+}
+static double cosine_series(double x) {
+  double s = x * x;
+  return 1 + s * (-0.5 + s * (1.0 / 24 + s * (-1.0 / 720 +
+                                                 s * (1.0 / 40320 + s * (-1.0 / 3628800 + s / 479001600)))));
 }
 
 void sbri_sincos(float angle, float *sine, float *cosine) {
-  /* Cody and Waite: pi/2 in three parts, so that the remainder keeps its bits. */
-  float quadrant = nearest(angle * 0.636619772f);
-  float r = angle - quadrant * 1.5703125f;
-  r = r - quadrant * 4.837512969970703125e-4f;
-  r = r - quadrant * 7.54978995489188216e-8f;
-  float r2 = r * r;
-  float s = r + r * r2 * (-1.6666654611e-1f + r2 * (8.3321608736e-3f - r2 * 1.9515295891e-4f));
-  float c = 1 - 0.5f * r2 +
-            r2 * r2 * (4.166664568298827e-2f + r2 * (-1.388731625493765e-3f + r2 * 2.443315711809948e-5f));
-  int32_t q = (int32_t)quadrant & 3;
-  float swapped_s = q & 1 ? c : s, swapped_c = q & 1 ? s : c;
-  *sine = q & 2 ? -swapped_s : swapped_s;
-  *cosine = (q + 1) & 2 ? -swapped_c : swapped_c;
-}
-
-/* Of 0..1. */
-static float atan_unit(float t) {
-  /* Above tan(pi/8), atan t = pi/4 + atan((t - 1) / (t + 1)). */
-  float offset = 0;
-  if (t > 0.414213562f) {
-    offset = 0.785398163f;
-    t = (t - 1) / (t + 1);
+  double x = angle;
+  if (fabs(x) > 1e9) x = 0;
+  if (x != x) {
+    *sine = *cosine = angle;
+    return;
   }
-  float t2 = t * t;
-  float p = 8.05374449538e-2f;
-  p = p * t2 - 1.38776856032e-1f;
-  p = p * t2 + 1.99777106478e-1f;
-  p = p * t2 - 3.33329491539e-1f;
-  return offset + (t + t * t2 * p);
+  int64_t quarters = nearest(x / quarter_turn);
+  double r = (x - (double)quarters * quarter_turn) - (double)quarters * quarter_turn_rest;
+  double s = sine_series(r), c = cosine_series(r);
+  switch (quarters & 3) {
+  case 0:
+    *sine = (float)s, *cosine = (float)c;
+    break;
+  case 1:
+    *sine = (float)c, *cosine = (float)-s;
+    break;
+  case 2:
+    *sine = (float)-s, *cosine = (float)-c;
+    break;
+  default:
+    *sine = (float)-c, *cosine = (float)s;
+    break;
+  }
 }
 
-float sbri_atan2(float y, float x) {
-  float ax = fabsf(x), ay = fabsf(y), large = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
-  if (!(large > 0)) return 0;
-  float angle = atan_unit(small / large);
-  if (ay > ax) angle = 1.57079633f - angle;
-  if (x < 0) angle = 3.14159265f - angle;
+/* 0 <= x <= 1 */
+static double arctangent(double x) {
+  const double root3 = 1.73205080756887729353, sixth = 0.52359877559829887308;
+  double base = 0;
+  if (x > 0.26794919243112270647) { /* tan(pi/12) */
+    x = (x * root3 - 1) / (root3 + x);
+    base = sixth;
+  }
+  double s = x * x;
+  double series =
+      1 + s * (-1.0 / 3 +
+                  s * (0.2 + s * (-1.0 / 7 +
+                                     s * (1.0 / 9 +
+                                             s * (-1.0 / 11 + s * (1.0 / 13 + s * (-1.0 / 15 + s / 17)))))));
+  return base + x * series;
+}
+
+static double arctangent2(double y, double x) {
+  double ax = fabs(x), ay = fabs(y);
+  if (x != x || y != y) return x + y;
+  if (ax == 0 && ay == 0) return 0;
+  double angle = ay <= ax ? arctangent(ax > DBL_MAX ? (ay > DBL_MAX ? 1 : 0) : ay / ax)
+                          : quarter_turn - arctangent(ay > DBL_MAX ? 0 : ax / ay);
+  if (x < 0) angle = 2 * quarter_turn - angle;
   return y < 0 ? -angle : angle;
 }
 
+float sbri_atan2(float y, float x) {
+  return (float)arctangent2(y, x);
+}
+
 float sbri_acos(float x) {
-  float clamped = x < -1 ? -1 : x > 1 ? 1 : x;
-  return sbri_atan2(sqrtf((1 - clamped) * (1 + clamped)), clamped);
+  double v = x > 1 ? 1 : x < -1 ? -1 : x;
+  return (float)arctangent2(sqrt((1 - v) * (1 + v)), v);
 }
 
 float sbri_exp(float x) {
-  if (x > 88) x = 88;
-  if (!(x >= -87)) return 0;
-  float n = nearest(x * 1.44269504f);
-  float r = x - n * 0.693359375f;
-  r = r + n * 2.12194440e-4f;
-  float p = 1.9875691500e-4f;
-  p = p * r + 1.3981999507e-3f;
-  p = p * r + 8.3334519073e-3f;
-  p = p * r + 4.1665795894e-2f;
-  p = p * r + 1.6666665459e-1f;
-  p = p * r + 5.0000001201e-1f;
-  float e = 1 + r + r * r * p;
-  uint32_t bits = (uint32_t)((int32_t)n + 127) << 23;
-  float power;
-  memcpy(&power, &bits, sizeof power);
-  return e * power;
+  if (x != x) return x;
+  if (x < -87.0f) return 0;
+  if (x > 88.7f) return FLT_MAX;
+  const double ln2 = 0.69314718055994530942;
+  int64_t power = nearest(x / ln2);
+  double r = x - (double)power * ln2, term = 1, sum = 1;
+  for (int i = 1; i <= 11; i++) {
+    term *= r / i;
+    sum += term;
+  }
+  uint64_t bits = (uint64_t)(power + 1023) << 52;
+  double two_to_power;
+  memcpy(&two_to_power, &bits, sizeof two_to_power);
+  return (float)(sum * two_to_power);
 }

