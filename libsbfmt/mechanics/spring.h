@@ -1,0 +1,38 @@
+/* The spring between two points: E = k/2 (l - l0)^2, with k in N/m and l0 in m; and, where it is damped, a
+ * force c times the speed at which it lengthens.
+ *
+ * What every scheme, the tests and `build` take a spring to be. The schemes' own kernels are written out for
+ * eight lanes at once and are tested against these. */
+#ifndef SBFI_SPRING_H
+#define SBFI_SPRING_H
+
+#include <math.h>
+
+#include "sbfmt/base.h"
+
+typedef struct sbfi_spring {
+  uint32_t a, b; /* its ends */
+  float stiffness_n_m, rest_length_m, damping_ns_m;
+} sbfi_spring;
+
+/* (l - l0) / l0; of a spring without rest length the length itself, as strain against one metre. */
+static inline float sbfi_spring_strain(const sbfi_spring *s, float length_m) {
+  return s->rest_length_m > 0 ? (length_m - s->rest_length_m) / s->rest_length_m : length_m;
+}
+
+static inline double sbfi_spring_energy(const sbfi_spring *s, double length_m) {
+  double stretch = length_m - s->rest_length_m;
+  return 0.5 * s->stiffness_n_m * stretch * stretch;
+}
+
+/* What the vector from end a to end b is multiplied by to give the force on a, which is minus that on b. A
+ * spring of no length pulls nowhere. */
+static inline float sbfi_spring_pull(const sbfi_spring *s, float length_m) {
+  return length_m > 0 ? s->stiffness_n_m - s->stiffness_n_m * s->rest_length_m / length_m : 0;
+}
+
+/* Energy of all springs over `positions` (x, y, z of point i at positions[stride * i]), in list order. */
+double sbfi_springs_energy(
+    const sbfi_spring *springs, size_t spring_count, const float *positions, size_t stride);
+
+#endif
