@@ -125,22 +125,16 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   init_tails(rig, tails);
 }
 
-void sbri_rig_place(
-    const sbri_rig *rig, const sbf_quat *rotations, sbr_transform root, float scale, sbr_transform *pose) {
-  for (uint32_t i = 0; i < rig->bone_count; i++) {
-    const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &root;
-    sbf_vec3 offset = sbri_scale(rig->rest_local[i].position, scale);
-    pose[i].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
-    pose[i].rotation = rotations[i];
-  }
-}
-
 void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose) {
   sbf_vec3 pivot = pose[bone].position;
-  pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, pose[bone].rotation));
-  for (uint32_t i = bone + 1; i < rig->bone_count; i++) { /* parents stand before children */
-    if (!is_below(rig, rig->parents[i], (int32_t)bone)) continue;
+  for (uint32_t i = bone; i < rig->bone_count; i++) { /* parents stand before children */
+    if (!is_below(rig, (int32_t)i, (int32_t)bone)) continue;
     pose[i].position = sbri_add(pivot, sbri_rotate(turn, sbri_sub(pose[i].position, pivot)));
     pose[i].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, pose[i].rotation));
   }
+}
+
+void sbri_rig_shift(const sbri_rig *rig, uint32_t bone, sbf_vec3 by, sbr_transform *pose) {
+  for (uint32_t i = bone; i < rig->bone_count; i++)
+    if (is_below(rig, (int32_t)i, (int32_t)bone)) pose[i].position = sbri_add(pose[i].position, by);
 }

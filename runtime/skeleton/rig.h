@@ -49,12 +49,10 @@ typedef struct sbri_rig {
 size_t sbri_rig_size(const sbf_asset *asset);
 void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory);
 
-/* Frames of all bones from each bone's rotation in world axes: places follow from the parents'. `root` is
- * where the asset's origin and axes have gone. */
-void sbri_rig_place(
-    const sbri_rig *rig, const sbf_quat *rotations, sbr_transform root, float scale, sbr_transform *pose);
-
-/* Places of one bone's descendants again, after its own frame has changed by a rotation about its head. */
+/* Turns a bone, and all that hangs on it, about the bone's head. */
 void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose);
+
+/* Moves a bone, and all that hangs on it. */
+void sbri_rig_shift(const sbri_rig *rig, uint32_t bone, sbf_vec3 by, sbr_transform *pose);
 
 #endif
