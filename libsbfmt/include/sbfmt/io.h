@@ -24,14 +24,29 @@ typedef struct sbf_limits {
   uint32_t depth;          /* 32 elements inside each other */
 } sbf_limits;
 
+/* What to load of a packed file. Of the rest nothing is read but the table of contents and the root's record,
+ * which has every id and name of a part: a part left out keeps its place, id and name, so that references to
+ * it stay good; everything else in it is at its default, its lists are empty. An empty member selects all. */
+typedef struct sbf_selection {
+  sbf_string_list
+      kinds; /* elements by their names in sbf.schema: "soft_body", "level", "render_mesh", "texture",
+                "clip"; "asset" stands for the lists of what is no part (hulls, chains, masks) */
+  sbf_string_list parts; /* ids or names of parts, as of a section */
+  sbf_u32_list levels;   /* places of the levels wanted of each soft body selected */
+} sbf_selection;
+
 typedef struct sbf_load_options {
   size_t struct_size;             /* sizeof(sbf_load_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
   sbf_limits limits;
   bool check_crc;   /* compare each chunk's CRC-32 as it is read */
   const char *name; /* the file's name for messages, with loads from memory; may be NULL */
-  const char *const *extensions; /* names of the extensions that the caller understands: a file that requires */
-  uint32_t extension_count;      /* another is refused */
+  const char *const
+      *extensions;          /* names of the extensions that the caller understands: a file that requires */
+  uint32_t extension_count; /* another is refused */
+  const sbf_selection *selection; /* packed: what to load; NULL: all */
+  bool copy_file; /* packed: read the file instead of mapping it, so that it may change or shrink meanwhile */
+  uint64_t *read_bytes; /* packed: receives how much of the file was looked at; may be NULL */
 } sbf_load_options;
 
 typedef struct sbf_save_options {
@@ -50,10 +65,13 @@ typedef struct sbf_buffer {
 SBF_API void sbf_buffer_free(sbf_buffer *buffer);
 
 /* Packed form. A stored (uncompressed) list of a file is used in place: the file is mapped as long as the
- * asset lives. `options` may be NULL. Saving to a path writes a temporary file and renames it. */
+ * asset lives, and must not be changed in that time (to be replaced by a rename, as saving does, is safe).
+ * `options` may be NULL. Saving refuses what a load would refuse, and writes a temporary file that it
+ * renames; the same asset and options give the same bytes, with the same version of zlib. */
 SBF_API sbf_status sbf_packed_load_file(
     const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error);
-/* `bytes` must outlive the asset: lists may point into them (they do where 64-byte aligned and stored). */
+/* `bytes` must outlive the asset: lists may point into them (they do where stored and aligned to four bytes).
+ */
 SBF_API sbf_status sbf_packed_load_memory(const void *bytes, size_t size, const sbf_load_options *options,
     sbf_asset **asset, sbf_diagnostic *error);
 SBF_API sbf_status sbf_packed_save_file(

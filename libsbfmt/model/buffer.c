@@ -1,0 +1,8 @@
+#include "base/memory.h"
+#include "sbfmt/io.h"
+
+void sbf_buffer_free(sbf_buffer *buffer) {
+  sbfi_free(&buffer->allocator, buffer->at, buffer->capacity);
+  buffer->at = NULL;
+  buffer->size = buffer->capacity = 0;
+}

@@ -1,0 +1,33 @@
+/* Filters: reversible rearrangements that make lists of four-byte scalars easier to compress.
+ *
+ * A list is cut into blocks; a block of n scalars becomes four planes of n bytes, lowest bytes first. With
+ * SBFI_FILTER_DELTA each scalar v is first replaced by zigzag(v - u), where u is the same component of the
+ * item before (0 before the first), as unsigned 32-bit arithmetic whatever the scalar is: neighbours that are
+ * close, as integers or as floats of one sign, leave only small bytes. Byte planes after Blosc's shuffle
+ * (https://www.blosc.org), zigzag as in Protocol Buffers; xor instead of the difference was measured and is
+ * never much better. */
+#ifndef SBFI_PACKED_FILTER_H
+#define SBFI_PACKED_FILTER_H
+
+#include "packed/packed_format.h"
+
+/* Scalars in a block: the planes of one fit in the second-level cache, and items of 1 to 4 scalars never
+ * straddle two. */
+enum { SBFI_FILTER_BLOCK = 65520 };
+
+/* Outside the planes scalars are as the machine has them, whatever its byte order.
+ *
+ * Filters `count` scalars (SBFI_FILTER_BLOCK at most) from `from` + `done` scalars on into count * 4 bytes of
+ * planes. `width` is the scalars in an item, 1 to 4; `done` a multiple of it. */
+void sbfi_filter_block(sbfi_packed_filter filter, const uint8_t *from, size_t done, size_t count,
+    uint32_t width, uint8_t *planes);
+
+/* The way back. Reads what it has written before `done`. */
+void sbfi_unfilter_block(
+    sbfi_packed_filter filter, const uint8_t *planes, size_t count, uint32_t width, uint8_t *to, size_t done);
+
+/* Unfiltered scalars are little-endian in a file: turns each over on a big-endian machine, there or back. */
+void sbfi_scalars_to_host(void *at, size_t scalar_count);
+bool sbfi_host_is_little_endian(void);
+
+#endif

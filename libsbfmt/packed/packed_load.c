@@ -1,0 +1,100 @@
+/* Packed files to assets. */
+#include "base/diagnostic.h"
+#include "base/file.h"
+#include "model/asset_box.h"
+#include "model/check.h"
+#include "model/options.h"
+#include "packed/packed_reader.h"
+
+/* Every chunk that a reader of this version must understand is part of the asset. */
+static sbf_status check_all_used(sbfi_packed_reader *reader) {
+  const sbfi_packed_table *table = &reader->table;
+  if (table->newer || reader->options.selection) return SBF_OK;
+  for (uint32_t i = 0; i < table->header.chunk_count; i++) {
+    const sbfi_packed_chunk *chunk = &table->chunks[i];
+    if (reader->used[i] || !sbfi_packed_kind_is_known(chunk->kind)) continue;
+    sbf_status status = sbfi_diagnose(reader->error, SBF_CODE_PACKED_TABLE,
+        "chunk %u (%s) belongs to no record: the file was not written whole", i,
+        sbfi_packed_chunk_name(chunk).text);
+    if (reader->error) reader->error->offset = (int64_t)chunk->offset;
+    return status;
+  }
+  return SBF_OK;
+}
+
+/* Loads from `bytes`; `*in_place` says whether the asset points into them. */
+static sbf_status load(const void *bytes, size_t size, const sbf_load_options *options, sbf_asset **asset,
+    bool *in_place, sbf_diagnostic *error) {
+  sbf_asset *made = sbf_asset_create(options->allocator);
+  if (!made) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for an asset");
+  sbfi_asset_box *box = sbfi_asset_box_of(made);
+  uint64_t limit = options->limits.memory_bytes;
+  box->arena.limit_bytes = limit < SIZE_MAX ? (size_t)limit : SIZE_MAX;
+  sbfi_packed_reader reader;
+  sbf_status status =
+      sbfi_packed_reader_open(&reader, bytes, size, options, &box->arena.allocator, &box->arena, error);
+  if (status == SBF_OK) {
+    status = sbfi_packed_read_asset(&reader, made);
+    if (status == SBF_OK) status = check_all_used(&reader);
+    *in_place = reader.in_place;
+    if (options->read_bytes) *options->read_bytes = reader.read_bytes;
+    sbfi_packed_reader_close(&reader);
+  }
+  if (status == SBF_OK) status = sbfi_check_loaded(made, options, error);
+  box->arena.limit_bytes = 0;
+  if (status != SBF_OK) {
+    sbf_asset_free(made);
+    return status;
+  }
+  *asset = made;
+  return SBF_OK;
+}
+
+static void name_file(sbf_diagnostic *error, const char *name) {
+  if (error && name) sbfi_copy_text(error->file, sizeof error->file, name);
+}
+
+sbf_status sbf_packed_load_memory(const void *bytes, size_t size, const sbf_load_options *options,
+    sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_load_options filled = sbfi_load_options_of(options);
+  bool in_place;
+  *asset = NULL;
+  sbf_status status = load(bytes, size, &filled, asset, &in_place, error);
+  if (status != SBF_OK) name_file(error, filled.name);
+  return status;
+}
+
+static void release_content(void *content) {
+  sbfi_file_content_free(content);
+}
+
+/* Lets the asset keep the file that its lists lie in. */
+static sbf_status keep_content(sbf_asset *asset, sbfi_file_content *content, sbf_diagnostic *error) {
+  sbfi_asset_box *box = sbfi_asset_box_of(asset);
+  sbfi_file_content *kept = sbfi_arena_copy(&box->arena, content, 1, sizeof *content);
+  if (!kept) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for an asset");
+  box->release = release_content;
+  box->released = kept;
+  return SBF_OK;
+}
+
+sbf_status sbf_packed_load_file(
+    const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_load_options filled = sbfi_load_options_of(options);
+  sbfi_file_content content;
+  bool in_place = false;
+  *asset = NULL;
+  sbf_status status = (filled.copy_file ? sbfi_file_read : sbfi_file_map)(
+      path, filled.limits.file_bytes, filled.allocator, &content, error);
+  if (status != SBF_OK) return status;
+  status = load(content.at, content.size, &filled, asset, &in_place, error);
+  if (status == SBF_OK && in_place) {
+    status = keep_content(*asset, &content, error);
+    if (status == SBF_OK) return SBF_OK;
+    sbf_asset_free(*asset);
+    *asset = NULL;
+  }
+  sbfi_file_content_free(&content);
+  if (status != SBF_OK) name_file(error, path);
+  return status;
+}

@@ -1,0 +1,301 @@
+#include "packed/packed_table.h"
+
+#include <stdio.h>
+
+#include "base/diagnostic.h"
+#include "base/memory.h"
+#include "packed/packed_codec.h"
+
+/* Where the fields of the header and of an entry lie. */
+enum {
+  HEADER_MAJOR = 8,
+  HEADER_MINOR = 10,
+  HEADER_LEAST_MAJOR = 12,
+  HEADER_LEAST_MINOR = 14,
+  HEADER_FILE_SIZE = 16,
+  HEADER_TABLE_OFFSET = 24,
+  HEADER_TABLE_SIZE = 32,
+  HEADER_COUNT = 40,
+  HEADER_TABLE_CRC = 44,
+  HEADER_RESERVED = 48,
+  HEADER_CRC = 60,
+
+  ENTRY_KIND = 0,
+  ENTRY_OWNER = 4,
+  ENTRY_LEVEL = 8,
+  ENTRY_FIELD = 12,
+  ENTRY_LIST = 14,
+  ENTRY_FILTER = 16,
+  ENTRY_CODEC = 17,
+  ENTRY_FLAGS = 18,
+  ENTRY_STRIDE = 20,
+  ENTRY_OFFSET = 24,
+  ENTRY_STORED_SIZE = 32,
+  ENTRY_RAW_SIZE = 40,
+  ENTRY_COUNT = 48,
+  ENTRY_CRC = 56,
+  ENTRY_RESERVED = 60
+};
+
+static sbf_status fault(sbf_diagnostic *error, sbf_code code, uint64_t offset, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+static sbf_status fault(sbf_diagnostic *error, sbf_code code, uint64_t offset, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  sbf_status status = sbfi_diagnose_v(error, code, format, arguments);
+  va_end(arguments);
+  if (error) error->offset = (int64_t)offset;
+  return status;
+}
+
+void sbfi_packed_header_put(uint8_t *to, const sbfi_packed_header *header) {
+  memset(to, 0, SBFI_PACKED_HEADER_SIZE);
+  memcpy(to, SBFI_PACKED_MAGIC, 8);
+  sbfi_put_u16(to + HEADER_MAJOR, header->major);
+  sbfi_put_u16(to + HEADER_MINOR, header->minor);
+  sbfi_put_u16(to + HEADER_LEAST_MAJOR, header->least_major);
+  sbfi_put_u16(to + HEADER_LEAST_MINOR, header->least_minor);
+  sbfi_put_u64(to + HEADER_FILE_SIZE, header->file_size);
+  sbfi_put_u64(to + HEADER_TABLE_OFFSET, header->table_offset);
+  sbfi_put_u64(to + HEADER_TABLE_SIZE, header->table_size);
+  sbfi_put_u32(to + HEADER_COUNT, header->chunk_count);
+  sbfi_put_u32(to + HEADER_TABLE_CRC, header->table_crc);
+  sbfi_put_u32(to + HEADER_CRC, sbfi_crc32(to, HEADER_CRC));
+}
+
+static sbfi_packed_header get_header(const uint8_t *from) {
+  return (sbfi_packed_header){
+      .major = sbfi_get_u16(from + HEADER_MAJOR),
+      .minor = sbfi_get_u16(from + HEADER_MINOR),
+      .least_major = sbfi_get_u16(from + HEADER_LEAST_MAJOR),
+      .least_minor = sbfi_get_u16(from + HEADER_LEAST_MINOR),
+      .file_size = sbfi_get_u64(from + HEADER_FILE_SIZE),
+      .table_offset = sbfi_get_u64(from + HEADER_TABLE_OFFSET),
+      .table_size = sbfi_get_u64(from + HEADER_TABLE_SIZE),
+      .chunk_count = sbfi_get_u32(from + HEADER_COUNT),
+      .table_crc = sbfi_get_u32(from + HEADER_TABLE_CRC),
+  };
+}
+
+void sbfi_packed_chunk_put(uint8_t *to, const sbfi_packed_chunk *chunk) {
+  memset(to, 0, SBFI_PACKED_ENTRY_SIZE);
+  sbfi_put_u32(to + ENTRY_KIND, chunk->kind);
+  sbfi_put_u32(to + ENTRY_OWNER, chunk->owner);
+  sbfi_put_u32(to + ENTRY_LEVEL, chunk->level);
+  sbfi_put_u16(to + ENTRY_FIELD, chunk->field);
+  sbfi_put_u16(to + ENTRY_LIST, chunk->list);
+  to[ENTRY_FILTER] = chunk->filter;
+  to[ENTRY_CODEC] = chunk->codec;
+  sbfi_put_u16(to + ENTRY_FLAGS, chunk->flags);
+  sbfi_put_u32(to + ENTRY_STRIDE, chunk->stride);
+  sbfi_put_u64(to + ENTRY_OFFSET, chunk->offset);
+  sbfi_put_u64(to + ENTRY_STORED_SIZE, chunk->stored_size);
+  sbfi_put_u64(to + ENTRY_RAW_SIZE, chunk->raw_size);
+  sbfi_put_u64(to + ENTRY_COUNT, chunk->count);
+  sbfi_put_u32(to + ENTRY_CRC, chunk->crc);
+}
+
+static sbfi_packed_chunk get_chunk(const uint8_t *from) {
+  return (sbfi_packed_chunk){
+      .kind = sbfi_get_u32(from + ENTRY_KIND),
+      .owner = sbfi_get_u32(from + ENTRY_OWNER),
+      .level = sbfi_get_u32(from + ENTRY_LEVEL),
+      .field = sbfi_get_u16(from + ENTRY_FIELD),
+      .list = sbfi_get_u16(from + ENTRY_LIST),
+      .filter = from[ENTRY_FILTER],
+      .codec = from[ENTRY_CODEC],
+      .flags = sbfi_get_u16(from + ENTRY_FLAGS),
+      .stride = sbfi_get_u32(from + ENTRY_STRIDE),
+      .offset = sbfi_get_u64(from + ENTRY_OFFSET),
+      .stored_size = sbfi_get_u64(from + ENTRY_STORED_SIZE),
+      .raw_size = sbfi_get_u64(from + ENTRY_RAW_SIZE),
+      .count = sbfi_get_u64(from + ENTRY_COUNT),
+      .crc = sbfi_get_u32(from + ENTRY_CRC),
+  };
+}
+
+sbfi_chunk_name sbfi_packed_chunk_name(const sbfi_packed_chunk *chunk) {
+  sbfi_chunk_name name;
+  sbfi_kind_name kind = sbfi_kind_print(chunk->kind);
+  if (chunk->level == SBFI_PACKED_NO_LEVEL)
+    snprintf(name.text, sizeof name.text, "%s %u", kind.text, chunk->owner);
+  else
+    snprintf(name.text, sizeof name.text, "%s %u/%u", kind.text, chunk->owner, chunk->level);
+  return name;
+}
+
+static bool kind_is_in(const sbfi_element *element, uint32_t kind) {
+  if (element->kind == kind) return true;
+  for (uint32_t i = 0; i < element->field_count; i++) {
+    const sbfi_element *child = element->fields[i].element;
+    if (child && child->kind && kind_is_in(child, kind)) return true;
+  }
+  return false;
+}
+
+bool sbfi_packed_kind_is_known(uint32_t kind) {
+  return kind && kind_is_in(&sbfi_asset_element, kind);
+}
+
+/* What became of the magic says what became of the file. */
+static sbf_status magic_fault(sbf_diagnostic *error, const uint8_t *bytes, size_t size) {
+  static const char magic[] = SBFI_PACKED_MAGIC;
+  size_t same = 0;
+  while (same < size && same < 8 && bytes[same] == (uint8_t)magic[same]) same++;
+  if (same == size)
+    return fault(error, SBF_CODE_PACKED_TRUNCATED, size,
+        "the file ends after %zu bytes: copy it again from where it is whole", size);
+  if (same >= 4)
+    return fault(error, SBF_CODE_PACKED_MAGIC, same,
+        "line ends were converted, as by a transfer in text mode: copy the file again in binary mode");
+  if (same == 0 && size >= 4 && bytes[0] == 0x09 && memcmp(bytes + 1, "SBF", 3) == 0)
+    return fault(error, SBF_CODE_PACKED_MAGIC, 0,
+        "the eighth bit was stripped, as by an old transfer: copy the file again in binary mode");
+  return fault(error, SBF_CODE_PACKED_MAGIC, same, "this is not a packed asset (.sbfz)");
+}
+
+static bool is_zero(const uint8_t *bytes, size_t size) {
+  for (size_t i = 0; i < size; i++)
+    if (bytes[i]) return false;
+  return true;
+}
+
+static sbf_status check_header(
+    sbfi_packed_table *table, const uint8_t *bytes, size_t size, sbf_diagnostic *error) {
+  const sbfi_packed_header *h = &table->header;
+  if (size < 8 || memcmp(bytes, SBFI_PACKED_MAGIC, 8) != 0) return magic_fault(error, bytes, size);
+  if (size < SBFI_PACKED_HEADER_SIZE)
+    return fault(error, SBF_CODE_PACKED_TRUNCATED, size,
+        "the file ends inside its header, after %zu bytes: copy it again from where it is whole", size);
+  if (sbfi_crc32(bytes, HEADER_CRC) != sbfi_get_u32(bytes + HEADER_CRC))
+    return fault(error, SBF_CODE_PACKED_CRC, HEADER_CRC,
+        "the header does not match its checksum: the file is damaged, copy it again");
+  table->header = get_header(bytes);
+  if (h->least_major > SBFI_PACKED_MAJOR ||
+      (h->least_major == SBFI_PACKED_MAJOR && h->least_minor > SBFI_PACKED_MINOR))
+    return fault(error, SBF_CODE_VERSION_TOO_NEW, HEADER_LEAST_MAJOR,
+        "the file needs a reader of version %u.%u, this one is of %d.%d: update the library", h->least_major,
+        h->least_minor, SBFI_PACKED_MAJOR, SBFI_PACKED_MINOR);
+  if (h->major != SBFI_PACKED_MAJOR || h->least_major != SBFI_PACKED_MAJOR || (h->least_minor > h->minor))
+    return fault(error, SBF_CODE_PACKED_TABLE, HEADER_MAJOR,
+        "the header states version %u.%u for readers from %u.%u on, which no writer does", h->major, h->minor,
+        h->least_major, h->least_minor);
+  table->newer = h->minor > SBFI_PACKED_MINOR;
+  if (!table->newer && !is_zero(bytes + HEADER_RESERVED, HEADER_CRC - HEADER_RESERVED))
+    return fault(error, SBF_CODE_PACKED_TABLE, HEADER_RESERVED, "reserved bytes of the header are not zero");
+  if (h->file_size > size)
+    return fault(error, SBF_CODE_PACKED_TRUNCATED, size,
+        "the file has %zu of its %llu bytes: copy it again from where it is whole", size,
+        (unsigned long long)h->file_size);
+  if (h->file_size < size)
+    return fault(error, SBF_CODE_PACKED_TABLE, h->file_size,
+        "the file has %zu bytes, but its header says %llu: something was added to it", size,
+        (unsigned long long)h->file_size);
+  return SBF_OK;
+}
+
+static sbf_status check_table_place(
+    const sbfi_packed_header *h, const uint8_t *bytes, sbf_diagnostic *error) {
+  if (h->table_size != (uint64_t)h->chunk_count * SBFI_PACKED_ENTRY_SIZE || h->chunk_count == 0)
+    return fault(error, SBF_CODE_PACKED_TABLE, HEADER_TABLE_SIZE,
+        "a table of %llu bytes does not hold %u entries", (unsigned long long)h->table_size, h->chunk_count);
+  if (h->table_offset < SBFI_PACKED_HEADER_SIZE || h->table_offset % SBFI_PACKED_ALIGN ||
+      h->table_offset > h->file_size || h->table_size > h->file_size - h->table_offset)
+    return fault(error, SBF_CODE_PACKED_TABLE, HEADER_TABLE_OFFSET,
+        "the table of %llu bytes at %llu does not lie inside the file at a multiple of %d",
+        (unsigned long long)h->table_size, (unsigned long long)h->table_offset, SBFI_PACKED_ALIGN);
+  if (sbfi_crc32(bytes + h->table_offset, (size_t)h->table_size) != h->table_crc)
+    return fault(error, SBF_CODE_PACKED_CRC, h->table_offset,
+        "the table of contents does not match its checksum: the file is damaged, copy it again");
+  return SBF_OK;
+}
+
+/* One entry; `previous_end` is where the chunk before it ended. */
+static sbf_status check_chunk(const sbfi_packed_table *table, uint32_t number, const uint8_t *entry,
+    uint64_t previous_end, sbf_diagnostic *error) {
+  const sbfi_packed_header *h = &table->header;
+  const sbfi_packed_chunk *c = &table->chunks[number];
+  uint64_t at = h->table_offset + (uint64_t)number * SBFI_PACKED_ENTRY_SIZE;
+  sbfi_chunk_name name = sbfi_packed_chunk_name(c);
+  if (c->offset < SBFI_PACKED_HEADER_SIZE || c->offset % SBFI_PACKED_ALIGN)
+    return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_OFFSET,
+        "chunk %u (%s) begins at %llu, which is no multiple of %d behind the header", number, name.text,
+        (unsigned long long)c->offset, SBFI_PACKED_ALIGN);
+  if (c->offset > h->file_size || c->stored_size > h->file_size - c->offset)
+    return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_STORED_SIZE,
+        "chunk %u (%s) of %llu bytes at %llu does not lie inside the file", number, name.text,
+        (unsigned long long)c->stored_size, (unsigned long long)c->offset);
+  if (c->offset < previous_end ||
+      (c->offset < h->table_offset + h->table_size && c->offset + c->stored_size > h->table_offset))
+    return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_OFFSET,
+        "chunk %u (%s) lies over another one or over the table, or not in the order of the table", number,
+        name.text);
+  if (c->stride == 0 || c->count > UINT64_MAX / c->stride || c->raw_size != c->count * c->stride)
+    return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_COUNT,
+        "chunk %u (%s): %llu items of %u bytes are not %llu bytes", number, name.text,
+        (unsigned long long)c->count, c->stride, (unsigned long long)c->raw_size);
+  if (!table->newer && ((c->flags & ~SBFI_CHUNK_FLAGS) || !is_zero(entry + ENTRY_RESERVED, 4)))
+    return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_FLAGS,
+        "chunk %u (%s): flags or reserved bytes are set that this version does not have", number, name.text);
+  if (!sbfi_packed_kind_is_known(c->kind)) {
+    if (!(c->flags & SBFI_CHUNK_CRITICAL)) return SBF_OK;
+    return fault(error, SBF_CODE_PACKED_UNKNOWN_PART, at,
+        "chunk %u is critical and of the unknown kind %s: the file needs a newer library", number,
+        sbfi_kind_print(c->kind).text);
+  }
+  if (c->filter >= SBFI_FILTER_COUNT || c->codec >= SBFI_CODEC_COUNT)
+    return fault(error, SBF_CODE_PACKED_CODEC, at + ENTRY_FILTER,
+        "chunk %u (%s) uses filter %u and codec %u, of which one is not known: update the library", number,
+        name.text, c->filter, c->codec);
+  if (c->codec == SBFI_CODEC_NONE ? c->filter != SBFI_FILTER_NONE || c->stored_size != c->raw_size
+                                  : c->raw_size == 0)
+    return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_CODEC,
+        "chunk %u (%s): %llu bytes stored as %llu do not go with its filter and codec", number, name.text,
+        (unsigned long long)c->raw_size, (unsigned long long)c->stored_size);
+  if (c->filter != SBFI_FILTER_NONE && (c->stride % 4 || c->stride > 16))
+    return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_STRIDE,
+        "chunk %u (%s): its filter is for items of 4, 8, 12 or 16 bytes, not of %u", number, name.text,
+        c->stride);
+  return SBF_OK;
+}
+
+static sbf_status read_entries(sbfi_packed_table *table, const uint8_t *bytes, sbf_diagnostic *error) {
+  const sbfi_packed_header *h = &table->header;
+  uint64_t previous_end = 0;
+  for (uint32_t i = 0; i < h->chunk_count; i++) {
+    const uint8_t *entry = bytes + h->table_offset + (uint64_t)i * SBFI_PACKED_ENTRY_SIZE;
+    table->chunks[i] = get_chunk(entry);
+    sbf_status status = check_chunk(table, i, entry, previous_end, error);
+    if (status != SBF_OK) return status;
+    previous_end = table->chunks[i].offset + table->chunks[i].stored_size;
+  }
+  const sbfi_packed_chunk *root = &table->chunks[0];
+  if (root->kind != sbfi_asset_element.kind || root->field || root->list)
+    return fault(error, SBF_CODE_PACKED_TABLE, h->table_offset,
+        "the first chunk is not the record of the whole asset");
+  return SBF_OK;
+}
+
+sbf_status sbfi_packed_table_read(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
+    const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error) {
+  *table = (sbfi_packed_table){.allocator = sbfi_allocator_or_default(allocator)};
+  if (size > limits->file_bytes)
+    return fault(error, SBF_CODE_IO_TOO_LARGE, 0, "the file has %zu bytes, more than the limit of %llu", size,
+        (unsigned long long)limits->file_bytes);
+  sbf_status status = check_header(table, bytes, size, error);
+  if (status == SBF_OK) status = check_table_place(&table->header, bytes, error);
+  if (status != SBF_OK) return status;
+  size_t memory;
+  if (!sbfi_multiply_size(table->header.chunk_count, sizeof *table->chunks, &memory) ||
+      !(table->chunks = sbfi_allocate(&table->allocator, memory)))
+    return fault(
+        error, SBF_CODE_OUT_OF_MEMORY, 0, "no memory for a table of %u chunks", table->header.chunk_count);
+  status = read_entries(table, bytes, error);
+  if (status != SBF_OK) sbfi_packed_table_free(table);
+  return status;
+}
+
+void sbfi_packed_table_free(sbfi_packed_table *table) {
+  sbfi_free(&table->allocator, table->chunks, table->header.chunk_count * sizeof *table->chunks);
+  table->chunks = NULL;
+}

@@ -1,0 +1,36 @@
+/* Header and table of contents of a packed file, read as from an enemy. */
+#ifndef SBFI_PACKED_TABLE_H
+#define SBFI_PACKED_TABLE_H
+
+#include "packed/packed_format.h"
+#include "sbfmt/io.h"
+
+typedef struct sbfi_packed_table {
+  sbfi_packed_header header;
+  sbfi_packed_chunk *chunks; /* header.chunk_count of them, in the order of their offsets */
+  bool newer;                /* of a later minor version: may hold what we do not know */
+  sbf_allocator allocator;
+} sbfi_packed_table;
+
+/* Reads and checks both, checksums included. Afterwards every chunk lies inside the file at an aligned place,
+ * none overlaps another, sizes agree with counts, and kinds, filters and codecs are known or may be passed
+ * over. The first chunk is the root's record. Nothing is kept of `bytes`. On failure nothing is left to free.
+ */
+sbf_status sbfi_packed_table_read(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
+    const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error);
+void sbfi_packed_table_free(sbfi_packed_table *table);
+
+/* Whether the schema has a part of that kind. */
+bool sbfi_packed_kind_is_known(uint32_t kind);
+
+/* 64 bytes each; the header's own checksum is put in. */
+void sbfi_packed_header_put(uint8_t *to, const sbfi_packed_header *header);
+void sbfi_packed_chunk_put(uint8_t *to, const sbfi_packed_chunk *chunk);
+
+/* For messages: "BODY 3", "LEVL 3/1". */
+typedef struct sbfi_chunk_name {
+  char text[40];
+} sbfi_chunk_name;
+sbfi_chunk_name sbfi_packed_chunk_name(const sbfi_packed_chunk *chunk);
+
+#endif
