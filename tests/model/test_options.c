@@ -1,0 +1,50 @@
+#include "model/options.h"
+
+#include <stddef.h>
+
+#include "harness.h"
+
+START_TEST(test_zero_means_the_documented_default)
+{
+  sbf_load_options load = sbfi_load_options_of(NULL);
+  ck_assert_uint_eq(load.limits.file_bytes, UINT64_C(1) << 32);
+  ck_assert_uint_eq(load.limits.memory_bytes, UINT64_C(1) << 32);
+  ck_assert_uint_eq(load.limits.inflated_bytes, UINT64_C(1) << 32);
+  ck_assert_uint_eq(load.limits.inflate_ratio, 1100);
+  ck_assert_uint_eq(load.limits.list_items, 1u << 30);
+  ck_assert_uint_eq(load.limits.depth, 32);
+  ck_assert(!load.check_crc && !load.selection && !load.copy_file);
+  ck_assert_int_eq(sbfi_save_options_of(NULL).level, 6);
+}
+END_TEST
+
+START_TEST(test_what_is_given_stays)
+{
+  sbf_load_options load = sbfi_load_options_of(
+      &(sbf_load_options){.limits = {.inflate_ratio = 7}, .check_crc = true, .copy_file = true});
+  ck_assert_uint_eq(load.limits.inflate_ratio, 7);
+  ck_assert_uint_eq(load.limits.depth, 32);
+  ck_assert(load.check_crc && load.copy_file);
+  ck_assert_int_eq(sbfi_save_options_of(&(sbf_save_options){.level = 9}).level, 9);
+  ck_assert_int_eq(sbfi_save_options_of(&(sbf_save_options){.level = 10}).level, 6);
+}
+END_TEST
+
+START_TEST(test_a_shorter_struct_of_an_older_caller_is_not_read_past_its_end)
+{
+  sbf_load_options load = {.struct_size = offsetof(sbf_load_options, check_crc), .check_crc = true};
+  load.limits.depth = 5;
+  ck_assert(!sbfi_load_options_of(&load).check_crc);
+  ck_assert_uint_eq(sbfi_load_options_of(&load).limits.depth, 5);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("options");
+  TCase *tests = tcase_create("options");
+  tcase_add_test(tests, test_zero_means_the_documented_default);
+  tcase_add_test(tests, test_what_is_given_stays);
+  tcase_add_test(tests, test_a_shorter_struct_of_an_older_caller_is_not_read_past_its_end);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
