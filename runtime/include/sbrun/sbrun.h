@@ -4,9 +4,10 @@
  * characters and steps them. Units are SI; world space is right-handed, +Y up; a character faces +Z when its
  * heading is 0 and turns left (towards +X) with growing heading.
  *
- * Clocks. Control (gait, IK, clips) runs at a fixed tick, the asset's control_tick (1/60 s by default); each
- * tick is divided into substeps of the soft bodies. sbr_world_step takes any frame time, runs the ticks that
- * have become due, and lets reads sample between the last two, so every frame rate shows the same motion.
+ * Clocks. Control (gait, IK, clips) runs at a fixed tick of the world; each tick is divided into substeps of
+ * the soft bodies. sbr_world_step takes any frame time and runs ticks until they cover the time that has
+ * passed; reads sample between the last two ticks, at exactly that time, so every frame rate shows the same
+ * motion and none of it late.
  *
  * The same inputs give the same bits: on any number of threads, at any lane width, after restoring a
  * snapshot.
@@ -71,11 +72,13 @@ typedef struct sbr_model_options {
   size_t struct_size;             /* sizeof(sbr_model_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
   uint32_t level;                 /* of each body that has so many levels, else its coarsest */
-  sbf_scheme scheme;              /* automatic: the level's own */
+  sbf_scheme scheme;              /* automatic: the level's own, and where that is automatic, symplectic */
   uint32_t substeps;              /* of a control tick; 0: the level's own, or as many as the scheme needs */
+  bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass */
 } sbr_model_options;
 
-/* `asset` must outlive the model. */
+/* `asset` must outlive the model. SBF_FAILED where memory runs out or the scheme is not one of the runtime's
+ * (symplectic, relaxation); SBF_BAD_INPUT where the asset asks for something the runtime cannot simulate. */
 SBF_API sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
 SBF_API void sbr_model_destroy(sbr_model *model);
@@ -89,7 +92,7 @@ typedef struct sbr_world_definition {
   sbr_ground ground;
   bool has_gravity;            /* use `gravity` instead of each asset's own */
   sbf_vec3 gravity;            /* m/s^2 */
-  double control_tick_s;       /* 0: 1/60 */
+  double control_tick_s;       /* 0: 1/60; an asset's own is its environment.control_tick */
   double longest_frame_s;      /* a longer frame time is cut to it; 0: 0.25 */
   uint32_t character_capacity; /* 0: 16; more than that cannot be created */
 } sbr_world_definition;
@@ -119,9 +122,10 @@ typedef struct sbr_character_definition {
   uint32_t cookie;      /* set by sbr_default_character_definition */
   sbr_double3 position; /* of the asset's origin; y counts from the ground below it */
   float heading;        /* rad */
-  float scale; /* (0, inf), default 1; masses and stiffnesses scale so that it moves as a body of that size */
-  bool hold;   /* bones stay in their rest pose */
-  bool free;   /* every pin is dropped */
+  /* (0, inf), default 1. Lengths scale by it, masses by its cube, stiffnesses (N/m) by its square and times
+   * by its square root: the same shape under the same gravity, moving as a body of that size does. */
+  float scale;
+  bool hold; /* bones stay in their rest pose */
 } sbr_character_definition;
 
 SBF_API sbr_character_definition sbr_default_character_definition(void);
@@ -132,7 +136,8 @@ SBF_API void sbr_character_destroy(sbr_world *world, sbr_character_id character)
 /* Wanted motion: forward speed in m/s, sideways (left) speed in m/s, turn in rad/s (left positive). */
 SBF_API void sbr_character_drive(
     sbr_world *world, sbr_character_id character, float forward, float sideways, float turn);
-/* Moves it at once, soft bodies and feet with it, at rest relative to its bones. */
+/* Moves it at once, soft bodies and feet with it, at rest relative to its bones. `position` as in the
+ * definition. */
 SBF_API void sbr_character_teleport(
     sbr_world *world, sbr_character_id character, sbr_double3 position, float heading);
 /* Back to the rest pose where it stands, all speeds zero. */
@@ -150,11 +155,15 @@ typedef struct sbr_transform {
 SBF_API void sbr_character_bones(
     const sbr_world *world, sbr_character_id character, sbr_transform *bones, uint32_t capacity);
 
-/* The skin: vertices of one render mesh at the sampled moment, with unit normals (and tangents with
- * handedness where the mesh has uvs; both may be NULL), relative to the character's origin. A mesh without
- * polygons' smoothing keeps one normal a vertex. */
+/* The skin: vertices of one render mesh at the sampled moment, relative to the character's origin, with unit
+ * normals, and tangents whose w is the bitangent's sign (zeros where the mesh has no uvs); both may be NULL.
+ * One of each a vertex; returns how many vertices the mesh has. */
 SBF_API uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
     sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity);
+/* Unit normals of the same skin, one a corner of its polygons (mesh.polygon_points order): edges that the
+ * mesh's own normals show as hard stay hard. Returns how many corners there are. */
+SBF_API uint32_t sbr_character_corner_normals(const sbr_world *world, sbr_character_id character,
+    uint32_t render_mesh, sbf_vec3 *normals, uint32_t capacity);
 /* Surface vertices of one soft body, in source order; and the points of its simulated level. */
 SBF_API uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbf_vec3 *positions, uint32_t capacity);
@@ -171,19 +180,21 @@ typedef struct sbr_event {
   sbr_double3 position; /* world */
 } sbr_event;
 /* Events since the last call, oldest first; returns how many were written. Older ones than the world keeps
- * (256) are lost. */
+ * (256) are lost. They are output, not state: snapshots do not hold them. */
 SBF_API uint32_t sbr_world_events(sbr_world *world, sbr_event *events, uint32_t capacity);
 
-/* What a step cost and how the bodies fare. */
+/* How a body fares, as of the last tick. Springs between two bodies count for the first. */
 typedef struct sbr_body_health {
-  float volume_ratio; /* enclosed volume of the surface against rest; 1 for an open surface */
-  float max_strain;   /* greatest |strain| of an element */
-  bool finite;        /* every number is */
-  bool inverted;      /* an element, or the surface as a whole, is inside out */
-  double kinetic_j, elastic_j, potential_j;
+  float volume_ratio;  /* enclosed volume of the surface against rest; 1 for an open surface */
+  float max_strain;    /* greatest |strain| of an element */
+  bool finite;         /* every number is */
+  bool inverted;       /* an element, or the surface as a whole, is inside out */
+  uint32_t recoveries; /* how often it had to be put back into its rest shape, having lost it for good */
+  double kinetic_j, elastic_j, potential_j; /* potential: of weight, 0 at the height of world y = 0 */
 } sbr_body_health;
 SBF_API sbr_body_health sbr_character_health(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body);
+/* The most substeps of a tick that a body at rest and of scale 1 needs. */
 SBF_API uint32_t sbr_model_substeps(const sbr_model *model);
 
 /* Gait, for measuring: where a leg is and what it does. */
