@@ -1,0 +1,162 @@
+/* What building, validating and running a body share: how large it is, what it weighs, how stiff its springs
+ * are, how fast it swings.
+ *
+ * Functions allocate nothing: results and scratch memory are the caller's, with the shapes given. They are
+ * pure functions of their arguments, thread safe, and give the same bits on every machine (sums run in double
+ * in the order of the lists; no mathematical function but the square root). Units are SI. Assets are valid as
+ * sbfmt/io.h promises; nothing here fails. */
+#ifndef SBFMT_MECHANICS_H
+#define SBFMT_MECHANICS_H
+
+#include "sbfmt/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Surfaces ----------------------------------------------------------------------------------------- */
+
+typedef struct sbf_surface_measures {
+  double area;    /* m^2, sum of the lengths of the polygons' vector areas */
+  double volume;  /* m^3, enclosed; of an open surface, that of the cones over it from the mean of its points.
+                     Negative where the polygons face inwards. */
+  double opening; /* length of the sum of the vector areas over `area`: 0 closed, 1 a flat sheet */
+} sbf_surface_measures;
+
+/* By the divergence theorem, a polygon as the triangles from its corners' mean to its sides. `positions`
+ * (mesh->positions.count) stand in for the mesh's own, as of a deformed body; NULL: its own. */
+SBF_API void sbf_surface_measure(
+    const sbf_polygon_mesh *mesh, const sbf_vec3 *positions, sbf_surface_measures *measures);
+
+/* Tributary areas in m^2, (mesh->positions.count): each polygon's area, in equal parts to its corners. */
+SBF_API void sbf_surface_point_areas(const sbf_polygon_mesh *mesh, float *areas);
+
+/* The inside of a closed surface as a rigid body of density 1 kg/m^3: scale mass and inertia by the density.
+ * All zero where it encloses nothing. Integrals over tetrahedra from the mean of the points to the surface's
+ * triangles; principal axes by Jacobi rotations. */
+typedef struct sbf_solid {
+  double volume;             /* m^3 */
+  sbf_vec3 center;           /* m, centre of mass */
+  sbf_vec3 inertia;          /* m^5, principal moments about the centre, the least first */
+  sbf_quat inertia_rotation; /* from the principal axes to the space of the positions */
+} sbf_solid;
+SBF_API void sbf_solid_measure(const sbf_polygon_mesh *mesh, sbf_solid *solid);
+
+/* ---- Bodies: matter and mass -------------------------------------------------------------------------- */
+
+typedef struct sbf_body_measures {
+  double area;   /* m^2 of the surface */
+  double volume; /* m^3 of matter: enclosed, or of a sheet its area times its thickness */
+  double depth;  /* m of matter under the surface: 3 volume / area, which is the radius of a sphere and the
+                    height of pyramids that fill the volume; of a sheet the radius of a sphere of its area */
+  double mass;   /* kg by the attributes; 0 for a body without polygons that states none */
+  bool sheet;    /* an open surface rather than the skin of a volume */
+} sbf_body_measures;
+
+/* A surface counts as a sheet where the body states an area density, where its opening is above a quarter,
+ * or where it is open and its volume is next to nothing (below 0.005 of area^1.5; a sphere has 0.094). */
+SBF_API void sbf_body_measure(const sbf_soft_body *body, sbf_body_measures *measures);
+
+/* Marks the points of a level that a pin holds fast (weight 1 within the set's minimum and maximum): `held`
+ * (level->positions.count) receives 1 or 0. Returns how many are held. */
+SBF_API uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *held);
+
+/* Shares of the body's matter, (level->positions.count), summing to 1 over the points that are not held; held
+ * points have none, `held` NULL: none is. By tributary area; a point without area (inside, or in no polygon)
+ * counts as the mean of those with. */
+SBF_API void sbf_level_shares(
+    const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *shares);
+
+/* Masses in kg, (level->positions.count), and their sum; 0 at held points. Stated masses of the level as they
+ * are; else of tetrahedra a quarter of density times rest volume to each point; else the body's mass by
+ * shares times the weight map of the density; where there are no polygons, each point a ball of the
+ * particle radius. A mass that the body states rescales all to that sum. */
+SBF_API double sbf_level_masses(
+    const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *masses);
+
+/* ---- Springs: stiffness ------------------------------------------------------------------------------- */
+
+/* From Young's modulus to N/m.
+ *
+ * A network of springs of stiffness k, rest length L and directions n that strains by the small tensor e
+ * holds U = sum 1/2 k L^2 (n.e.n)^2. Over directions that are spread evenly in space the mean of (n.e.n)^2 is
+ * (2 e:e + (tr e)^2) / 15. A volume V of isotropic matter holds V (mu e:e + lambda/2 (tr e)^2). They agree
+ * for every e where lambda = mu, that is Poisson's ratio 1/4, and sum k L^2 = 15 mu V = 6 E V. In a plane the
+ * mean is (2 e:e + (tr e)^2) / 8, and a sheet of thickness t and area A in plane stress agrees for Poisson's
+ * ratio 1/3 and sum k L^2 = 3 E t A. (The classical result for central forces, by Cauchy; worked out here.)
+ *
+ * Sharing the volume among the springs, k = C E V_s / L^2 with sum V_s = V: each point's tributary volume is
+ * shared among its springs by their lengths, as rods of one cross-section would share it. A body of half the
+ * size then answers the same stress with the same strain, and a finer mesh is no stiffer. */
+#define SBF_STIFFNESS_VOLUME 6.0
+#define SBF_STIFFNESS_SHEET 3.0
+
+/* `volumes` (point_count) are the points' tributary volumes in m^3, times their factor of a weight map.
+ * Writes `stiffness` (spring_count) in N/m for C E = `modulus` in Pa; springs without length get 0.
+ * `length_sums` is scratch (point_count). */
+SBF_API void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions, uint32_t point_count,
+    const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, double *length_sums,
+    float *stiffness);
+
+/* Springs from held points (on the bone) to free ones on the surface. Here it is not the strain between the
+ * ends that counts, for the anchors' places are a matter of construction, but how the surface gives against
+ * the core: each free point is the base of a pyramid of volume V_i and height d, the depth, whose apex the
+ * bone holds. Displaced by u along its axis and w across, matter with lambda = mu holds
+ * V_i E (0.6 u^2 + 0.2 w^2) / d^2: a stiffness of 1.2 E V_i / d^2 along and 0.4 E V_i / d^2 across, trace
+ * SBF_STIFFNESS_ANCHOR E V_i / d^2. That trace is shared among the point's springs as k = a + b c^2, c the
+ * cosine between spring and axis, so that the stiffness along the axis comes out as well where the directions
+ * allow (none falls below a tenth of the mean). The pyramids take a third of the 6 E V above; springs over
+ * the surface get the rest, SBF_STIFFNESS_MEMBRANE, by sbf_stiffness_of_network.
+ *
+ * `modulus` is E in Pa, `center` the pyramids' apex, `held` (point_count) marks the anchors. Springs that do
+ * not join a held to a free point get 0. `scratch` is (3 * point_count). */
+#define SBF_STIFFNESS_ANCHOR 2.0
+#define SBF_STIFFNESS_MEMBRANE 4.0
+SBF_API void sbf_stiffness_of_anchors(double modulus, double depth, sbf_vec3 center,
+    const sbf_vec3 *positions, uint32_t point_count, const float *volumes, const uint8_t *held,
+    const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness);
+
+/* Stiffness of every spring of a level, set after set: what the sets state, and for sets that state nothing
+ * that of one network of them all. `volumes` and `length_sums` are scratch (level->positions.count). */
+SBF_API void sbf_level_stiffness(
+    const sbf_soft_body *body, const sbf_level *level, float *volumes, double *length_sums, float *stiffness);
+
+/* ---- Springs: how fast they swing --------------------------------------------------------------------- */
+
+/* Point masses joined by springs, linear about `positions`, where the springs are at rest. */
+typedef struct sbf_spring_network {
+  uint32_t point_count, spring_count;
+  const sbf_vec3 *positions; /* (point_count) */
+  const float *masses;       /* (point_count) kg; 0: held */
+  const float *anchors;      /* (point_count) N/m towards a fixed place in all directions; NULL: none */
+  const sbf_uint2 *ends;     /* (spring_count) */
+  const float *stiffness;    /* (spring_count) N/m */
+} sbf_spring_network;
+
+/* An angular frequency in rad/s that no mode exceeds: w^2 <= max over the points of
+ * (sum of 2 k to free neighbours + sum of k to held ones + anchor) / m, Gershgorin's theorem on blocks.
+ * It holds for stretched springs too, and for springs compressed down to half their length. An explicit
+ * scheme needs substeps below 2 / w. `scratch` is (point_count). */
+SBF_API double sbf_network_highest_bound(const sbf_spring_network *network, double *scratch);
+
+/* The highest mode itself, from below, by `iterations` steps of power iteration (20 come within a few per
+ * cent). `scratch` is (6 * point_count). */
+SBF_API double sbf_network_highest(const sbf_spring_network *network, uint32_t iterations, double *scratch);
+
+/* The lowest mode that deforms the body, rad/s: what damping_ratio refers to. Rayleigh-Ritz over polynomial
+ * displacement fields of second degree (translation, rotation, strain, bending, torsion), which a loose point
+ * cannot spoil; then, with `refine`, inverse iterations from there, kept where they stay with that mode.
+ * Within a few per cent where refined; else from above. 0: nothing resists, or nothing is free. `scratch` is
+ * (16 * point_count). */
+SBF_API double sbf_network_lowest(const sbf_spring_network *network, bool refine, double *scratch);
+
+/* Displacements at rest under small forces (3 * point_count, N): solves K u = f by conjugate gradients until
+ * the residual is `tolerance` of the force or `iterations` have passed. Returns the residual's share of the
+ * force: above the tolerance where springs alone cannot hold it. `scratch` is (10 * point_count). */
+SBF_API double sbf_network_static(const sbf_spring_network *network, const double *forces, double tolerance,
+    uint32_t iterations, double *displacements, double *scratch);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

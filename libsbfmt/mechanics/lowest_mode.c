@@ -1,0 +1,204 @@
+/* The lowest mode by Rayleigh and Ritz: the fields allowed are polynomials of second degree in the place, so
+ * a body can move, turn, stretch, bend and twist as a whole, and nothing else. Inverse iteration from there.
+ */
+#include <string.h>
+
+#include "mechanics/network.h"
+#include "mechanics/symmetric_eigen.h"
+#include "mechanics/vector.h"
+
+enum { MONOMIALS = 10, FIELDS = 3 * MONOMIALS, MOST_NULL = 6, INVERSE_STEPS = 4, SOLVE_STEPS = 200 };
+
+typedef struct basis {
+  const sbf_spring_network *network;
+  sbfi_d3 center;
+  double scale;                   /* 1 / size of the body */
+  uint32_t null_count;            /* fields that nothing resists */
+  double null[MOST_NULL][FIELDS]; /* their coefficients, monomial by monomial, orthonormal by mass */
+} basis;
+
+static void evaluate(const basis *of, uint32_t point, double monomials[MONOMIALS]) {
+  sbfi_d3 p = sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(of->network->positions[point]), of->center), of->scale);
+  const double values[MONOMIALS] = {
+      1, p.x, p.y, p.z, p.x * p.x, p.y * p.y, p.z * p.z, p.x * p.y, p.y * p.z, p.z * p.x};
+  memcpy(monomials, values, sizeof values);
+}
+
+static void place_basis(basis *of, const sbf_spring_network *network) {
+  double mass = 0, spread = 0;
+  *of = (basis){.network = network, .scale = 1};
+  for (uint32_t i = 0; i < network->point_count; i++) {
+    of->center =
+        sbfi_d3_add(of->center, sbfi_d3_scale(sbfi_d3_of(network->positions[i]), network->masses[i]));
+    mass += network->masses[i];
+  }
+  if (!(mass > 0)) return;
+  of->center = sbfi_d3_scale(of->center, 1 / mass);
+  for (uint32_t i = 0; i < network->point_count; i++) {
+    sbfi_d3 from = sbfi_d3_sub(sbfi_d3_of(network->positions[i]), of->center);
+    spread += network->masses[i] * sbfi_d3_dot(from, from);
+  }
+  if (spread > 0) of->scale = sqrt(mass / spread);
+}
+
+/* Scalar fields orthonormal by mass, `coefficients` (MONOMIALS x count) by columns. Combinations that vanish
+ * at all points, as z in a flat body, are left out. */
+static int orthonormalise(const basis *of, double coefficients[MONOMIALS * MONOMIALS]) {
+  double gram[MONOMIALS * MONOMIALS] = {0}, vectors[MONOMIALS * MONOMIALS], phi[MONOMIALS], most = 0;
+  for (uint32_t i = 0; i < of->network->point_count; i++) {
+    evaluate(of, i, phi);
+    for (int a = 0; a < MONOMIALS; a++)
+      for (int b = 0; b < MONOMIALS; b++) gram[a * MONOMIALS + b] += of->network->masses[i] * phi[a] * phi[b];
+  }
+  sbfi_symmetric_eigen(MONOMIALS, gram, vectors);
+  for (int a = 0; a < MONOMIALS; a++)
+    if (gram[a * (MONOMIALS + 1)] > most) most = gram[a * (MONOMIALS + 1)];
+  int count = 0;
+  for (int a = 0; a < MONOMIALS; a++) {
+    double value = gram[a * (MONOMIALS + 1)];
+    if (!(value > 1e-10 * most)) continue;
+    for (int m = 0; m < MONOMIALS; m++)
+      coefficients[m * MONOMIALS + count] = vectors[m * MONOMIALS + a] / sqrt(value);
+    count++;
+  }
+  return count;
+}
+
+/* Adds one element's part to the energy matrix: k g g^T. */
+static void add_energy(double stiffness[FIELDS * FIELDS], double k, const double g[FIELDS]) {
+  for (int a = 0; a < FIELDS; a++)
+    for (int b = 0; b <= a; b++) stiffness[a * FIELDS + b] += k * g[a] * g[b];
+}
+
+static void sum_stiffness(const basis *of, double stiffness[FIELDS * FIELDS]) {
+  const sbf_spring_network *network = of->network;
+  double from[MONOMIALS], to[MONOMIALS], g[FIELDS];
+  memset(stiffness, 0, FIELDS * FIELDS * sizeof *stiffness);
+  for (uint32_t s = 0; s < network->spring_count; s++) {
+    uint32_t a = network->ends[s].at[0], b = network->ends[s].at[1];
+    sbfi_d3 n =
+        sbfi_d3_normal(sbfi_d3_sub(sbfi_d3_of(network->positions[b]), sbfi_d3_of(network->positions[a])));
+    double a_moves = network->masses[a] > 0, b_moves = network->masses[b] > 0;
+    evaluate(of, a, from);
+    evaluate(of, b, to);
+    for (int m = 0; m < MONOMIALS; m++) {
+      double difference = b_moves * to[m] - a_moves * from[m];
+      g[3 * m] = n.x * difference;
+      g[3 * m + 1] = n.y * difference;
+      g[3 * m + 2] = n.z * difference;
+    }
+    add_energy(stiffness, network->stiffness[s], g);
+  }
+  for (uint32_t i = 0; network->anchors && i < network->point_count; i++) {
+    if (!(network->masses[i] > 0) || !(network->anchors[i] > 0)) continue;
+    evaluate(of, i, from);
+    for (int axis = 0; axis < 3; axis++) {
+      for (int f = 0; f < FIELDS; f++) g[f] = f % 3 == axis ? from[f / 3] : 0;
+      add_energy(stiffness, network->anchors[i], g);
+    }
+  }
+  for (int a = 0; a < FIELDS; a++)
+    for (int b = a + 1; b < FIELDS; b++) stiffness[a * FIELDS + b] = stiffness[b * FIELDS + a];
+}
+
+/* The lowest eigenvalue above nothing, with its field; the fields below go into the basis' null fields.
+ * Returns 0 where there is none. */
+static double ritz(basis *of, double threshold, double field[FIELDS]) {
+  double coefficients[MONOMIALS * MONOMIALS], full[FIELDS * FIELDS], small[FIELDS * FIELDS],
+      vectors[FIELDS * FIELDS], half[FIELDS];
+  int scalars = orthonormalise(of, coefficients), count = 3 * scalars, lowest = -1;
+  sum_stiffness(of, full);
+  for (int j = 0; j < count; j++) {
+    /* Column j of C^T K C: field j is scalar field j / 3 along axis j % 3. */
+    for (int a = 0; a < FIELDS; a++) {
+      half[a] = 0;
+      for (int m = 0; m < MONOMIALS; m++)
+        half[a] += full[a * FIELDS + 3 * m + j % 3] * coefficients[m * MONOMIALS + j / 3];
+    }
+    for (int i = 0; i < count; i++) {
+      double sum = 0;
+      for (int m = 0; m < MONOMIALS; m++) sum += coefficients[m * MONOMIALS + i / 3] * half[3 * m + i % 3];
+      small[i * count + j] = sum;
+    }
+  }
+  sbfi_symmetric_eigen(count, small, vectors);
+  of->null_count = 0;
+  for (int i = 0; i < count; i++) {
+    double value = small[i * (count + 1)], *target = field;
+    if (value > threshold) {
+      if (lowest >= 0 && value >= small[lowest * (count + 1)]) continue;
+      lowest = i;
+    } else {
+      if (of->null_count++ >= MOST_NULL) continue;
+      target = of->null[of->null_count - 1];
+    }
+    memset(target, 0, FIELDS * sizeof *target);
+    for (int j = 0; j < count; j++)
+      for (int m = 0; m < MONOMIALS; m++)
+        target[3 * m + j % 3] += vectors[j * count + i] * coefficients[m * MONOMIALS + j / 3];
+  }
+  return lowest < 0 ? 0 : small[lowest * (count + 1)];
+}
+
+/* The field's displacement at a point times the root of its mass. */
+static void weigh(const basis *of, const double field[FIELDS], uint32_t point, double v[3]) {
+  double phi[MONOMIALS], root = sqrt(of->network->masses[point]);
+  evaluate(of, point, phi);
+  for (int axis = 0; axis < 3; axis++) {
+    v[axis] = 0;
+    for (int m = 0; m < MONOMIALS; m++) v[axis] += root * field[3 * m + axis] * phi[m];
+  }
+}
+
+static void project(const void *user, double *v) {
+  const basis *of = user;
+  double part[3];
+  for (uint32_t n = 0; n < of->null_count; n++) {
+    double share = 0;
+    for (uint32_t i = 0; i < of->network->point_count; i++) {
+      weigh(of, of->null[n], i, part);
+      share += sbfi_dot(part, v + 3 * (size_t)i, 3);
+    }
+    for (uint32_t i = 0; i < of->network->point_count; i++) {
+      weigh(of, of->null[n], i, part);
+      for (int axis = 0; axis < 3; axis++) v[3 * (size_t)i + axis] -= share * part[axis];
+    }
+  }
+}
+
+/* Inverse iteration in coordinates scaled by the root of the mass; gives up, with `start`, where the quotient
+ * falls to less than a quarter: then it has left the body's mode for some loose part. */
+static double iterate(const basis *of, double start, const double field[FIELDS], double *scratch) {
+  const sbf_spring_network *network = of->network;
+  size_t size = 3 * (size_t)network->point_count;
+  double *scale = scratch, *v = scale + network->point_count, *r = v + size, *y = r + size, *work = y + size;
+  double best = start;
+  for (uint32_t i = 0; i < network->point_count; i++) {
+    scale[i] = network->masses[i] > 0 ? 1 / sqrt(network->masses[i]) : 0;
+    weigh(of, field, i, v + 3 * (size_t)i);
+  }
+  sbfi_null_fields none = {of->null_count ? project : NULL, of};
+  for (int n = 0; n < INVERSE_STEPS; n++) {
+    double length = sqrt(sbfi_dot(v, v, size));
+    if (!(length > 0)) return best;
+    for (size_t i = 0; i < size; i++) r[i] = v[i] /= length;
+    sbfi_network_solve(network, scale, none, 1e-3, SOLVE_STEPS, r, y, work);
+    sbfi_network_apply(network, scale, y, work);
+    double norm = sbfi_dot(y, y, size), value = norm > 0 ? sbfi_dot(y, work, size) / norm : 0;
+    if (!(value > start / 4)) return start;
+    if (value < best) best = value;
+    memcpy(v, y, size * sizeof *v);
+  }
+  return best;
+}
+
+double sbf_network_lowest(const sbf_spring_network *network, bool refine, double *scratch) {
+  basis of;
+  double field[FIELDS], bound = sbf_network_highest_bound(network, scratch);
+  if (!(bound > 0)) return 0;
+  place_basis(&of, network);
+  double value = ritz(&of, 1e-10 * bound * bound, field);
+  if (!(value > 0)) return 0;
+  if (refine && of.null_count <= MOST_NULL) value = iterate(&of, value, field, scratch);
+  return sqrt(value);
+}

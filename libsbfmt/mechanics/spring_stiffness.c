@@ -1,0 +1,120 @@
+#include "mechanics/vector.h"
+#include "sbfmt/mechanics.h"
+
+static double distance(const sbf_vec3 *positions, sbf_uint2 ends) {
+  return sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]])));
+}
+
+static void add_lengths(
+    const sbf_vec3 *positions, const sbf_uint2 *ends, uint32_t count, double *length_sums) {
+  for (uint32_t s = 0; s < count; s++) {
+    double length = distance(positions, ends[s]);
+    length_sums[ends[s].at[0]] += length;
+    length_sums[ends[s].at[1]] += length;
+  }
+}
+
+/* C E V_s / L^2 with V_s = L (V_a / sum_a + V_b / sum_b): one length cancels. */
+static void share_volumes(double modulus, const sbf_vec3 *positions, const float *volumes,
+    const sbf_uint2 *ends, uint32_t count, const double *length_sums, float *stiffness) {
+  for (uint32_t s = 0; s < count; s++) {
+    uint32_t a = ends[s].at[0], b = ends[s].at[1];
+    double length = distance(positions, ends[s]);
+    double section = length > 0 ? volumes[a] / length_sums[a] + volumes[b] / length_sums[b] : 0;
+    stiffness[s] = length > 0 ? (float)(modulus * section / length) : 0;
+  }
+}
+
+void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions, uint32_t point_count,
+    const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, double *length_sums,
+    float *stiffness) {
+  for (uint32_t i = 0; i < point_count; i++) length_sums[i] = 0;
+  add_lengths(positions, ends, spring_count, length_sums);
+  share_volumes(modulus, positions, volumes, ends, spring_count, length_sums, stiffness);
+}
+
+/* What is known of the anchored springs at one free point. */
+typedef struct anchored {
+  double count, squares, fourths; /* springs, sums of c^2 and c^4 */
+} anchored;
+
+/* The free end, or the point count where the spring does not join a held to a free point. */
+static uint32_t free_end(const uint8_t *held, sbf_uint2 ends, uint32_t point_count) {
+  if (!held[ends.at[0]] == !held[ends.at[1]]) return point_count;
+  return held[ends.at[0]] ? ends.at[1] : ends.at[0];
+}
+
+static double squared_cosine(
+    sbf_vec3 center, const sbf_vec3 *positions, sbf_uint2 ends, uint32_t free_point) {
+  uint32_t other = ends.at[0] == free_point ? ends.at[1] : ends.at[0];
+  sbfi_d3 axis = sbfi_d3_normal(sbfi_d3_sub(sbfi_d3_of(positions[free_point]), sbfi_d3_of(center)));
+  sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(positions[free_point]), sbfi_d3_of(positions[other]));
+  double c = sbfi_d3_dot(sbfi_d3_normal(way), axis);
+  return c * c;
+}
+
+/* a and b of k = a + b c^2 for a trace of 1, 0.6 of it along the axis:
+ * n a + S2 b = 1 and S2 a + S4 b = 0.6. Where all springs lean alike only the trace can be met; where the two
+ * would have a spring pull the wrong way, b is cut so that the weakest keeps a tenth of the mean. */
+static void fit(const anchored *at, double *a, double *b) {
+  double determinant = at->count * at->fourths - at->squares * at->squares, mean = 1 / at->count;
+  *b = determinant > 1e-6 * at->count * at->count ? (0.6 * at->count - at->squares) / determinant : 0;
+  double mean_square = at->squares / at->count;
+  /* With the trace kept, k = mean + b (c^2 - mean square), and c^2 lies in 0..1. */
+  double least = *b > 0 ? mean - *b * mean_square : mean + *b * (1 - mean_square);
+  if (least < 0.1 * mean) *b *= 0.9 * mean / (mean - least);
+  *a = mean - *b * mean_square;
+}
+
+void sbf_stiffness_of_anchors(double modulus, double depth, sbf_vec3 center, const sbf_vec3 *positions,
+    uint32_t point_count, const float *volumes, const uint8_t *held, const sbf_uint2 *ends,
+    uint32_t spring_count, double *scratch, float *stiffness) {
+  for (uint32_t i = 0; i < point_count; i++)
+    scratch[3 * (size_t)i] = scratch[3 * (size_t)i + 1] = scratch[3 * (size_t)i + 2] = 0;
+  for (uint32_t s = 0; s < spring_count; s++) {
+    uint32_t point = free_end(held, ends[s], point_count);
+    if (point == point_count || !(distance(positions, ends[s]) > 0)) continue;
+    double square = squared_cosine(center, positions, ends[s], point), *sums = scratch + 3 * (size_t)point;
+    sums[0] += 1;
+    sums[1] += square;
+    sums[2] += square * square;
+  }
+  for (uint32_t s = 0; s < spring_count; s++) {
+    uint32_t point = free_end(held, ends[s], point_count);
+    stiffness[s] = 0;
+    if (point == point_count || !(distance(positions, ends[s]) > 0) || !(depth > 0)) continue;
+    const double *sums = scratch + 3 * (size_t)point;
+    anchored at = {sums[0], sums[1], sums[2]};
+    double a, b, trace = SBF_STIFFNESS_ANCHOR * modulus * volumes[point] / (depth * depth);
+    fit(&at, &a, &b);
+    stiffness[s] = (float)(trace * (a + b * squared_cosine(center, positions, ends[s], point)));
+  }
+}
+
+void sbf_level_stiffness(const sbf_soft_body *body, const sbf_level *level, float *volumes,
+    double *length_sums, float *stiffness) {
+  sbf_body_measures measures;
+  sbf_body_measure(body, &measures);
+  sbf_level_shares(body, level, NULL, volumes);
+  double modulus =
+      body->attributes.young_modulus * (measures.sheet ? SBF_STIFFNESS_SHEET : SBF_STIFFNESS_VOLUME);
+  uint32_t count = level->positions.count;
+  for (uint32_t i = 0; i < count; i++) {
+    volumes[i] = (float)(volumes[i] * measures.volume);
+    length_sums[i] = 0;
+  }
+  for (uint32_t s = 0; s < level->springs.count; s++) {
+    const sbf_spring_set *set = &level->springs.at[s];
+    if (set->stiffness.count == 0)
+      add_lengths(level->positions.at, set->ends.at, set->ends.count, length_sums);
+  }
+  for (uint32_t s = 0; s < level->springs.count; s++) {
+    const sbf_spring_set *set = &level->springs.at[s];
+    if (set->stiffness.count == 0)
+      share_volumes(
+          modulus, level->positions.at, volumes, set->ends.at, set->ends.count, length_sums, stiffness);
+    for (uint32_t i = 0; i < set->ends.count && set->stiffness.count > 0; i++)
+      stiffness[i] = set->stiffness.at[set->stiffness.count == 1 ? 0 : i];
+    stiffness += set->ends.count;
+  }
+}
