@@ -55,6 +55,24 @@ typedef enum sbf_code {
   SBF_CODE_PACKED_RECORD = 807, /* A record does not hold together. */
   SBF_CODE_PACKED_CODEC = 808, /* A chunk uses a codec or a filter that this library does not know. */
   SBF_CODE_PACKED_UNKNOWN_PART = 809, /* A critical part of an unknown kind: the file needs a newer reader. */
+  SBF_CODE_IMPORT_SYNTAX = 901, /* A line of a text file of another program is not what its form demands: mend or export it again. */
+  SBF_CODE_IMPORT_INDEX = 902, /* A polygon refers to a vertex, normal or texture coordinate that the file does not have. */
+  SBF_CODE_IMPORT_NOT_FINITE = 903, /* A number of the imported file is infinite or not a number: export it again. */
+  SBF_CODE_IMPORT_POLYGON = 904, /* A polygon has fewer than three corners. */
+  SBF_CODE_IMPORT_EMPTY = 905, /* The imported file holds neither a surface nor bones. */
+  SBF_CODE_IMPORT_REFUSED = 906, /* The importer of this form refuses the file: export it as a current FBX, glTF 2.0 or OBJ. */
+  SBF_CODE_IMPORT_CRASHED = 907, /* The importer broke down on the file, which is damaged or unusual: export it again or in another form. */
+  SBF_CODE_IMPORT_LIMIT = 908, /* The importer needed more time, memory or output than it may have: raise the limit if the file is trusted. */
+  SBF_CODE_IMPORT_HELPER_MISSING = 909, /* The program sbfmt-import cannot be found or run: install it beside sbfmt or set SBFMT_IMPORT_HELPER. */
+  SBF_CODE_IMPORT_STREAM = 910, /* What sbfmt-import sent cannot be read: it is of another version, or was cut off. */
+  SBF_CODE_IMPORT_MATERIALS_MISSING = 931, /* A material library or a material of the file is missing: grey is used. */
+  SBF_CODE_IMPORT_IGNORED = 932, /* The file holds things that are passed over. */
+  SBF_CODE_IMPORT_POINTS_LEFT_OUT = 933, /* Vertices that no polygon uses belong to no object and are left out. */
+  SBF_CODE_IMPORT_MESH_INVENTED = 934, /* The importer made up a mesh for a file that has none: it is left out. */
+  SBF_CODE_IMPORT_NAME_AMBIGUOUS = 935, /* Several nodes have the name by which a skin or a clip refers to one of them. */
+  SBF_CODE_IMPORT_AXES = 936, /* The file states axes that make no frame: +Y up is assumed. */
+  SBF_CODE_IMPORT_KEYS = 937, /* Keys of an animation are left out: they do not hold together. */
+  SBF_CODE_IMPORT_IMAGE = 938, /* An image cannot be taken over. */
 } sbf_code;
 // clang-format on
 

@@ -1,0 +1,279 @@
+/* sbfmt-import FILE: reads FILE with assimp and writes the scene to standard output as import/stream_format.h
+ * says. A process of its own, because assimp aborts or crashes on some damaged files; the only place that
+ * knows assimp. No step that welds, triangulates, splits or merges is asked for. */
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "import/stream_format.h"
+#include "stream_writer.h"
+
+static void write_ai_string(const struct aiString *text) {
+  size_t length = text->length < sizeof text->data ? text->length : sizeof text->data;
+  write_string(text->data, length);
+}
+
+static const struct aiMetadataEntry *find_entry(const struct aiMetadata *data, const char *key) {
+  for (unsigned i = 0; data && i < data->mNumProperties; i++)
+    if (strcmp(data->mKeys[i].data, key) == 0) return &data->mValues[i];
+  return NULL;
+}
+
+/* The type under which a number is stored differs between importers and versions. */
+static double number_of(const struct aiMetadata *data, const char *key, double missing) {
+  const struct aiMetadataEntry *entry = find_entry(data, key);
+  if (!entry) return missing;
+  switch (entry->mType) {
+  case AI_FLOAT:
+    return *(const float *)entry->mData;
+  case AI_DOUBLE:
+    return *(const double *)entry->mData;
+  case AI_INT32:
+    return *(const int32_t *)entry->mData;
+  default:
+    return missing;
+  }
+}
+
+static void write_header(const struct aiScene *scene) {
+  static const char *const keys[] = {
+      "UpAxis", "UpAxisSign", "FrontAxis", "FrontAxisSign", "CoordAxis", "CoordAxisSign"};
+  const struct aiMetadata *data = scene->mMetaData;
+  const struct aiMetadataEntry *generator = find_entry(data, "SourceAsset_Generator");
+  write_u32(SBFI_STREAM_MAGIC);
+  write_u32(SBFI_STREAM_VERSION);
+  if (generator && generator->mType == AI_AISTRING)
+    write_ai_string(generator->mData);
+  else
+    write_string("", 0);
+  write_f64(number_of(data, "UnitScaleFactor", 0));
+  bool stated = find_entry(data, "UpAxis") && find_entry(data, "FrontAxis") && find_entry(data, "CoordAxis");
+  for (int i = 0; i < 6; i++) write_u32(stated ? (uint32_t)(int32_t)number_of(data, keys[i], i % 2) : 0);
+  write_u32(scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE ? 1 : 0);
+}
+
+static bool is_camera_or_light(const struct aiScene *scene, const struct aiNode *node) {
+  for (unsigned i = 0; i < scene->mNumCameras; i++)
+    if (strcmp(scene->mCameras[i]->mName.data, node->mName.data) == 0) return true;
+  for (unsigned i = 0; i < scene->mNumLights; i++)
+    if (strcmp(scene->mLights[i]->mName.data, node->mName.data) == 0) return true;
+  return false;
+}
+
+/* FBX keeps limbs, nulls and meshes apart; of that assimp hands on only whether a node is a null. */
+static sbfi_stream_kind kind_of(const struct aiScene *scene, const struct aiNode *node) {
+  const struct aiMetadataEntry *is_null = find_entry(node->mMetaData, "IsNull");
+  if (is_camera_or_light(scene, node)) return SBFI_STREAM_NO_BONE;
+  if (!is_null || is_null->mType != AI_BOOL) return SBFI_STREAM_PLAIN;
+  return *(const bool *)is_null->mData || node->mNumMeshes ? SBFI_STREAM_NO_BONE : SBFI_STREAM_BONE;
+}
+
+static uint32_t count_nodes(const struct aiNode *node) {
+  uint32_t count = 1;
+  for (unsigned i = 0; i < node->mNumChildren; i++) count += count_nodes(node->mChildren[i]);
+  return count;
+}
+
+/* Writes the node as number *next and everything below it; -1 stands for no parent. */
+static void write_nodes(
+    const struct aiScene *scene, const struct aiNode *node, int32_t parent, int32_t *next) {
+  int32_t number = (*next)++;
+  write_ai_string(&node->mName);
+  write_u32((uint32_t)parent);
+  write_u32(kind_of(scene, node));
+  write_f32s(&node->mTransformation.a1, 16);
+  write_u32(node->mNumMeshes);
+  for (unsigned i = 0; i < node->mNumMeshes; i++) write_u32(node->mMeshes[i]);
+  for (unsigned i = 0; i < node->mNumChildren; i++) write_nodes(scene, node->mChildren[i], number, next);
+}
+
+static void write_polygons(const struct aiMesh *mesh) {
+  uint32_t corner_count = 0;
+  write_u32(mesh->mNumFaces);
+  for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+    write_u32(mesh->mFaces[i].mNumIndices);
+    corner_count += mesh->mFaces[i].mNumIndices;
+  }
+  write_u32(corner_count);
+  for (unsigned i = 0; i < mesh->mNumFaces; i++)
+    for (unsigned k = 0; k < mesh->mFaces[i].mNumIndices; k++) write_u32(mesh->mFaces[i].mIndices[k]);
+}
+
+static void write_bones(const struct aiMesh *mesh) {
+  write_u32(mesh->mNumBones);
+  for (unsigned i = 0; i < mesh->mNumBones; i++) {
+    const struct aiBone *bone = mesh->mBones[i];
+    write_ai_string(&bone->mName);
+    write_f32s(&bone->mOffsetMatrix.a1, 16);
+    write_u32(bone->mNumWeights);
+    for (unsigned k = 0; k < bone->mNumWeights; k++) write_u32(bone->mWeights[k].mVertexId);
+    for (unsigned k = 0; k < bone->mNumWeights; k++) write_f32s(&bone->mWeights[k].mWeight, 1);
+  }
+}
+
+/* A shape that leaves the positions alone, or has another number of them, is none. */
+static bool is_shape(const struct aiMesh *mesh, const struct aiAnimMesh *shape) {
+  return shape->mVertices && shape->mNumVertices == mesh->mNumVertices;
+}
+
+static void write_shapes(const struct aiMesh *mesh) {
+  uint32_t count = 0;
+  for (unsigned i = 0; i < mesh->mNumAnimMeshes; i++) count += is_shape(mesh, mesh->mAnimMeshes[i]);
+  write_u32(count);
+  for (unsigned i = 0; i < mesh->mNumAnimMeshes; i++) {
+    const struct aiAnimMesh *shape = mesh->mAnimMeshes[i];
+    if (!is_shape(mesh, shape)) continue;
+    write_ai_string(&shape->mName);
+    write_f32s(&shape->mWeight, 1);
+    write_f32s(&shape->mVertices->x, 3 * (size_t)mesh->mNumVertices);
+  }
+}
+
+static void write_mesh(const struct aiMesh *mesh) {
+  write_ai_string(&mesh->mName);
+  write_u32(mesh->mMaterialIndex);
+  uint32_t vertex_count = mesh->mVertices ? mesh->mNumVertices : 0;
+  write_u32(vertex_count);
+  if (vertex_count) write_f32s(&mesh->mVertices->x, 3 * (size_t)vertex_count);
+  bool has_normals = mesh->mNormals && vertex_count;
+  write_u32(has_normals);
+  if (has_normals) write_f32s(&mesh->mNormals->x, 3 * (size_t)vertex_count);
+  uint32_t uv_set_count = 0;
+  while (uv_set_count < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh->mTextureCoords[uv_set_count]) uv_set_count++;
+  write_u32(uv_set_count);
+  for (uint32_t set = 0; set < uv_set_count; set++)
+    for (uint32_t i = 0; i < vertex_count; i++) write_f32s(&mesh->mTextureCoords[set][i].x, 2);
+  write_polygons(mesh);
+  write_bones(mesh);
+  write_shapes(mesh);
+}
+
+static float float_of(const struct aiMaterial *material, const char *key, float missing) {
+  ai_real value;
+  return aiGetMaterialFloatArray(material, key, 0, 0, &value, NULL) == AI_SUCCESS ? (float)value : missing;
+}
+
+static bool color_of(const struct aiMaterial *material, const char *key, struct aiColor4D *color) {
+  return aiGetMaterialColor(material, key, 0, 0, color) == AI_SUCCESS;
+}
+
+static void write_image_of(
+    const struct aiMaterial *material, enum aiTextureType first, enum aiTextureType second) {
+  struct aiString path = {0};
+  enum aiTextureType types[] = {first, second};
+  for (int i = 0; i < 2 && !path.length; i++)
+    if (aiGetMaterialTextureCount(material, types[i]))
+      aiGetMaterialTexture(material, types[i], 0, &path, NULL, NULL, NULL, NULL, NULL, NULL);
+  write_ai_string(&path);
+}
+
+static void write_material(const struct aiMaterial *material) {
+  struct aiString name = {0}, mode = {0};
+  struct aiColor4D base = {0.8f, 0.8f, 0.8f, 1}, emissive = {0, 0, 0, 1};
+  aiGetMaterialString(material, "?mat.name", 0, 0, &name);
+  aiGetMaterialString(material, "$mat.gltf.alphaMode", 0, 0, &mode);
+  bool physical = color_of(material, "$clr.base", &base);
+  if (!physical) color_of(material, "$clr.diffuse", &base);
+  color_of(material, "$clr.emissive", &emissive);
+  /* Elsewhere than in glTF exporters disagree on what 0 means, and nobody wants an invisible character. */
+  float opacity = float_of(material, "$mat.opacity", 1);
+  if (!physical) base.a = opacity > 0 ? opacity : 1;
+  uint32_t alpha_mode = strcmp(mode.data, "MASK") == 0    ? 1
+                        : strcmp(mode.data, "BLEND") == 0 ? 2
+                        : !mode.length && base.a < 1      ? 2
+                                                          : 0;
+  write_ai_string(&name);
+  write_f32s(&base.r, 4);
+  write_f32s(&emissive.r, 3);
+  float rest[] = {float_of(material, "$mat.metallicFactor", 0), float_of(material, "$mat.roughnessFactor", 1),
+      float_of(material, "$mat.gltf.alphaCutoff", 0.5f)};
+  write_f32s(rest, 3);
+  write_u32(alpha_mode);
+  int two_sided = 0;
+  aiGetMaterialIntegerArray(material, "$mat.twosided", 0, 0, &two_sided, NULL);
+  write_u32(two_sided != 0);
+  write_image_of(material, aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE);
+  write_image_of(
+      material, aiTextureType_UNKNOWN, aiTextureType_METALNESS); /* UNKNOWN: glTF's combined image */
+  write_image_of(material, aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA);
+}
+
+/* Height 0: the bytes of an image file. Else bare pixels, which no importer of a form in use gives. */
+static void write_image(const struct aiTexture *texture) {
+  size_t size = texture->mHeight == 0 && texture->pcData ? texture->mWidth : 0;
+  const char *hint = texture->achFormatHint, *end = memchr(hint, 0, sizeof texture->achFormatHint);
+  write_ai_string(&texture->mFilename);
+  write_string(hint, end ? (size_t)(end - hint) : sizeof texture->achFormatHint);
+  write_u32((uint32_t)size);
+  write_bytes(texture->pcData, size);
+}
+
+static void write_vector_keys(const struct aiVectorKey *keys, unsigned count) {
+  write_u32(count);
+  for (unsigned i = 0; i < count; i++) {
+    write_f64(keys[i].mTime);
+    write_f32s(&keys[i].mValue.x, 3);
+  }
+}
+
+static void write_channel(const struct aiNodeAnim *channel) {
+  write_ai_string(&channel->mNodeName);
+  write_vector_keys(channel->mPositionKeys, channel->mNumPositionKeys);
+  write_u32(channel->mNumRotationKeys);
+  for (unsigned i = 0; i < channel->mNumRotationKeys; i++) {
+    const struct aiQuaternion *q = &channel->mRotationKeys[i].mValue;
+    float xyzw[] = {q->x, q->y, q->z, q->w};
+    write_f64(channel->mRotationKeys[i].mTime);
+    write_f32s(xyzw, 4);
+  }
+  write_vector_keys(channel->mScalingKeys, channel->mNumScalingKeys);
+}
+
+static void write_clip(const struct aiAnimation *clip) {
+  write_ai_string(&clip->mName);
+  write_f64(clip->mDuration);
+  write_f64(clip->mTicksPerSecond);
+  write_u32(clip->mNumChannels);
+  for (unsigned i = 0; i < clip->mNumChannels; i++) write_channel(clip->mChannels[i]);
+}
+
+static void write_scene(const struct aiScene *scene) {
+  int32_t next = 0;
+  write_header(scene);
+  write_u32(count_nodes(scene->mRootNode));
+  write_nodes(scene, scene->mRootNode, -1, &next);
+  write_u32(scene->mNumMeshes);
+  for (unsigned i = 0; i < scene->mNumMeshes; i++) write_mesh(scene->mMeshes[i]);
+  write_u32(scene->mNumMaterials);
+  for (unsigned i = 0; i < scene->mNumMaterials; i++) write_material(scene->mMaterials[i]);
+  write_u32(scene->mNumTextures);
+  for (unsigned i = 0; i < scene->mNumTextures; i++) write_image(scene->mTextures[i]);
+  write_u32(scene->mNumAnimations);
+  for (unsigned i = 0; i < scene->mNumAnimations; i++) write_clip(scene->mAnimations[i]);
+  write_u32(SBFI_STREAM_END);
+}
+
+/* Never freed: to free a damaged scene is a further chance to crash. Static, so that leak checkers see it. */
+static struct aiPropertyStore *properties;
+static const struct aiScene *scene_read;
+
+int main(int argument_count, char **arguments) {
+  if (argument_count != 2) {
+    fprintf(stderr, "usage: sbfmt-import FILE: a part of sbfmt convert, of no use by itself\n");
+    return SBFI_CHILD_BAD_CALL;
+  }
+  properties = aiCreatePropertyStore();
+  aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
+  scene_read = aiImportFileExWithProperties(arguments[1], 0, NULL, properties);
+  if (!scene_read || !scene_read->mRootNode) {
+    const char *message = aiGetErrorString();
+    fprintf(stderr, "%s\n", message && *message ? message : "the file has no content");
+    return message && strstr(message, "bad_alloc") ? SBFI_CHILD_NO_MEMORY : SBFI_CHILD_REFUSED;
+  }
+  write_scene(scene_read);
+  return write_end() == 0 ? SBFI_CHILD_DONE : SBFI_CHILD_CANNOT_WRITE;
+}

@@ -1,0 +1,15 @@
+#include "import/path_beside.h"
+
+#include <string.h>
+
+bool sbfi_path_beside(char *to, size_t size, const char *path, sbfi_span name) {
+  const char *slash = strrchr(path, '/');
+  bool absolute = name.length && (*name.at == '/' || *name.at == '\\');
+  size_t folder = slash && !absolute ? (size_t)(slash - path) + 1 : 0;
+  if (!name.length || memchr(name.at, 0, name.length) || folder >= size || name.length >= size - folder)
+    return false;
+  memcpy(to, path, folder);
+  for (size_t i = 0; i < name.length; i++) to[folder + i] = (char)(name.at[i] == '\\' ? '/' : name.at[i]);
+  to[folder + name.length] = 0;
+  return true;
+}

@@ -1,0 +1,196 @@
+/* What a file of another program holds, as plain data: every importer fills a scene, the converter reads it.
+ *
+ * Nothing here is decided, only told: numbers are in the file's own unit and axes, weights as the file has
+ * them, rest pose and bind pose side by side. What a loaded scene promises: every index is in range, every
+ * number finite, every string UTF-8, nodes form a tree with parents first.
+ *
+ * All memory belongs to the scene's arena and goes with sbfi_scene_free. A scene is read only once loaded and
+ * may then be read from several threads. */
+#ifndef SBFI_SCENE_H
+#define SBFI_SCENE_H
+
+#include "base/text.h"
+#include "sbfmt/base.h"
+#include "sbfmt/codes.h"
+
+/* p' = M p: at[row][column], translation in the last column, last row 0 0 0 1. */
+typedef struct sbfi_matrix {
+  double at[4][4];
+} sbfi_matrix;
+
+typedef struct sbfi_scene_node {
+  const char *name;  /* need not be unique: lizart.glb has a bone and a section of the same name */
+  int32_t parent;    /* index of a node before this one, or SBF_NONE */
+  sbfi_matrix local; /* rest transform, node to parent */
+  sbfi_matrix world; /* node to scene: world of the parent times local */
+  bool is_bone;      /* a joint of a skin, or what the file declares to be a bone */
+  bool is_end;       /* a leaf that only marks the tip of its parent: "…_end" bones, BVH end sites */
+} sbfi_scene_node;
+
+typedef struct sbfi_scene_image {
+  const char *name;     /* "" where it has none */
+  const char *path;     /* as the file has it, with '/' between its parts; NULL where embedded */
+  const uint8_t *bytes; /* the embedded file (PNG, JPEG, ...), NULL otherwise (byte_count) */
+  uint32_t byte_count;
+  const char *extension; /* of an embedded file, as "png"; "" where it is not known */
+} sbfi_scene_image;
+
+typedef enum sbfi_alpha_mode { SBFI_ALPHA_OPAQUE, SBFI_ALPHA_MASK, SBFI_ALPHA_BLEND } sbfi_alpha_mode;
+
+typedef struct sbfi_scene_material {
+  const char *name;
+  float base_color[4]; /* red, green, blue, opacity, 0 to 1 */
+  float emissive[3];
+  float metallic, roughness; /* 0 to 1 */
+  sbfi_alpha_mode alpha_mode;
+  float alpha_cutoff; /* of SBFI_ALPHA_MASK */
+  bool double_sided;
+  int32_t base_color_image, metallic_roughness_image, normal_image; /* index or SBF_NONE */
+} sbfi_scene_material;
+
+/* Texture coordinates, in the file's own list of them: corners share an entry where the file says so. */
+typedef struct sbfi_scene_uvs {
+  const char *name; /* "" where it has none */
+  uint32_t count;
+  const sbf_vec2 *at;    /* (count), v upwards as in OBJ */
+  const int32_t *corner; /* (corner_count) index into `at`, SBF_NONE where the corner has none */
+} sbfi_scene_uvs;
+
+typedef struct sbfi_scene_joint {
+  int32_t node;
+  sbfi_matrix bind; /* mesh space to joint space, when the skin was bound */
+} sbfi_scene_joint;
+
+/* A form the points can be moved to. Deltas: what to add to a point at weight 1. */
+typedef struct sbfi_scene_shape {
+  const char *name;
+  float weight;          /* as the file sets it at rest */
+  const sbf_vec3 *delta; /* (point_count) */
+} sbfi_scene_shape;
+
+/* A surface under one node. Points are what the author made, one where several corners meet; positions are in
+ * the space of `node`. Polygons keep their number of sides and their order in the file; a polygon may name a
+ * point twice (a bridged hole).
+ *
+ * "Source vertex": in an OBJ the v-lines of the file from 0; elsewhere what the file stores split for
+ * rendering, counted over the parts of the mesh in their order. */
+typedef struct sbfi_scene_mesh {
+  const char *name; /* of the data block; the node's name is the object's. In an OBJ both are the same. */
+  int32_t node;
+
+  uint32_t point_count;
+  const sbf_vec3 *points;        /* (point_count) */
+  const uint32_t *point_sources; /* (point_count) the first source vertex at each point, ascending for OBJ */
+
+  uint32_t polygon_count, corner_count;
+  const uint32_t *polygon_starts;   /* (polygon_count + 1) first corner of each; the last is corner_count */
+  const int32_t *polygon_materials; /* (polygon_count) index or SBF_NONE */
+  const uint32_t *corner_points;    /* (corner_count) */
+
+  uint32_t normal_count;
+  const sbf_vec3 *normals;       /* (normal_count), as stored: not always of unit length */
+  const int32_t *corner_normals; /* (corner_count) index or SBF_NONE; NULL where the mesh has no normals */
+  uint32_t uv_set_count;
+  const sbfi_scene_uvs *uv_sets; /* (uv_set_count) */
+
+  uint32_t vertex_count;           /* source vertices of this mesh; 0 for OBJ, which shares them itself */
+  const uint32_t *vertex_points;   /* (vertex_count) source vertex to point */
+  const uint32_t *corner_vertices; /* (corner_count) source vertex of each corner; NULL for OBJ */
+
+  uint32_t joint_count;           /* 0: no skin */
+  const sbfi_scene_joint *joints; /* (joint_count) */
+  const uint32_t *skin_starts;    /* (point_count + 1) first influence of each point */
+  const uint32_t *skin_joints;    /* (skin_starts[point_count]) index into joints, ascending within a point */
+  const float *skin_weights;      /* as stored, above 0; their sum over a point need not be 1 */
+
+  uint32_t shape_count;
+  const sbfi_scene_shape *shapes; /* (shape_count) */
+} sbfi_scene_mesh;
+
+/* Keys of one node, times in seconds from the clip's start, ascending; linear between keys, the nearest key
+ * outside them. A kind without keys keeps the node's rest value. */
+typedef struct sbfi_scene_channel {
+  int32_t node;
+  uint32_t position_count, rotation_count, scale_count;
+  const float *position_times;
+  const sbf_vec3 *positions;
+  const float *rotation_times;
+  const sbf_quat *rotations; /* unit length */
+  const float *scale_times;
+  const sbf_vec3 *scales;
+} sbfi_scene_channel;
+
+typedef struct sbfi_scene_clip {
+  const char *name;
+  float duration_s;
+  uint32_t channel_count;
+  const sbfi_scene_channel *channels; /* at most one a node */
+} sbfi_scene_clip;
+
+typedef struct sbfi_scene {
+  sbfi_arena arena;
+  const char *file;      /* as the caller named it */
+  const char *format;    /* "obj", or assimp's name of the format in lower case, as "fbx", "glb", "bvh" */
+  const char *generator; /* the program that wrote it, "" where not known */
+
+  double unit_m; /* metres in one unit of the file; 1 where it does not say */
+  bool unit_known;
+  sbfi_matrix axes; /* file axes to +Y up, +Z forward; identity where it does not say */
+  bool axes_known;  /* scene to asset space is axes, times unit_m */
+
+  uint32_t node_count, mesh_count, material_count, image_count, clip_count, warning_count;
+  const sbfi_scene_node *nodes; /* parents before children */
+  const sbfi_scene_mesh *meshes;
+  const sbfi_scene_material *materials;
+  const sbfi_scene_image *images;
+  const sbfi_scene_clip *clips;
+  sbf_diagnostic *warnings; /* in the order found; what goes beyond SBFI_SCENE_WARNINGS is only counted */
+  uint32_t warnings_left_out;
+} sbfi_scene;
+
+enum { SBFI_SCENE_WARNINGS = 64 };
+
+typedef struct sbfi_scene_options {
+  const sbf_allocator *allocator;   /* NULL: malloc */
+  size_t input_limit_bytes;         /* largest file read; 0: 4 GiB */
+  size_t memory_limit_bytes;        /* of the scene, and of what the helper sends; 0: 8 GiB */
+  const char *helper_path;          /* the program sbfmt-import; NULL: environment, then its usual places */
+  double helper_time_limit_s;       /* 0: 120 s */
+  size_t helper_memory_limit_bytes; /* 0: 8 GiB */
+} sbfi_scene_options;
+
+/* Reads a file of any form known: .obj by our own reader, all else by assimp. On failure the
+ * scene is empty and `*error` (may be NULL) says why. `options` may be NULL. */
+sbf_status sbfi_scene_read(
+    sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error);
+
+/* Safe on a zeroed scene. */
+void sbfi_scene_free(sbfi_scene *scene);
+
+/* Bones in the tree; 0 for a scene without a rig. */
+uint32_t sbfi_scene_bone_count(const sbfi_scene *scene);
+
+/* --- For importers ---------------------------------------------------------------------------------- */
+
+/* An empty scene with its arena, unit 1 and identity axes. False where memory runs out. */
+bool sbfi_scene_init(
+    sbfi_scene *scene, const sbf_allocator *allocator, size_t memory_limit_bytes, const char *file);
+
+/* Adds a warning about line `line` (0: none), formatted as printf does; false where memory runs out. */
+bool sbfi_scene_warn(sbfi_scene *scene, sbf_code code, uint32_t line, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* A copy in the arena, NUL-terminated: what is not UTF-8, and control characters, become U+FFFD. NULL where
+ * memory runs out. */
+const char *sbfi_scene_string(sbfi_scene *scene, sbfi_span text);
+
+/* Sets the worlds of nodes from their locals; parents stand first. */
+void sbfi_scene_set_worlds(sbfi_scene_node *nodes, uint32_t node_count);
+
+/* Frees the scene, names the file in `*error` and gives `status` back: how an importer fails. */
+sbf_status sbfi_scene_fail(sbfi_scene *scene, sbf_diagnostic *error, sbf_status status);
+
+sbfi_matrix sbfi_matrix_identity(void);
+sbfi_matrix sbfi_matrix_multiply(const sbfi_matrix *a, const sbfi_matrix *b);
+
+#endif

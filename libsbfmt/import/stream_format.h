@@ -1,0 +1,56 @@
+/* What the program sbfmt-import writes and the library reads: private, both are of one build, and yet the
+ * reader trusts none of it, as the child reads hostile files with a parser that is not ours.
+ *
+ * Words of 4 bytes in the machine's order. str: u32 length, then the bytes, zeros up to a whole word. Doubles
+ * stand at whole words. A list is its count, then its items, unless a count is named.
+ *
+ *   u32 SBFI_STREAM_MAGIC, u32 SBFI_STREAM_VERSION
+ *   str generator
+ *   f64 unit_scale_factor       centimetres in a unit (FBX), 0 where the file has none
+ *   i32 axes[6]                 up axis, its sign, front, sign, right, sign (FBX); all 0 where it has none
+ *   u32 incomplete              the importer says that the scene is not whole
+ *   list of nodes, parents first:
+ *     str name, i32 parent, u32 kind (sbfi_stream_kind), f32 local[16] row after row, list of u32 meshes
+ *   list of meshes:
+ *     str name, u32 material
+ *     u32 vertex_count, f32 positions[3 * vertex_count]
+ *     u32 has_normals (0 or 1), f32 normals[3 * vertex_count] where it is 1
+ *     list of uv sets: f32 uv[2 * vertex_count]
+ *     list of u32 polygon sizes, list of u32 corners
+ *     list of bones: str node name, f32 bind[16], list of u32 vertices, f32 weights[as many]
+ *     list of shapes: str name, f32 weight, f32 positions[3 * vertex_count]
+ *   list of materials:
+ *     str name, f32 base_color[4], emissive[3], metallic, roughness, alpha_cutoff, u32 alpha_mode (as
+ *     sbfi_alpha_mode), u32 double_sided, str base colour, metallic-roughness, normal image: path, "*n" for
+ *     embedded image n, "" for none
+ *   list of embedded images: str name, str extension, u32 byte_count, bytes up to a whole word
+ *   list of clips:
+ *     str name, f64 duration, f64 ticks_per_second, list of channels:
+ *       str node name, three lists of keys (position, rotation x y z w, scale): f64 time, f32 values[3, 4, 3]
+ *   u32 SBFI_STREAM_END */
+#ifndef SBFI_STREAM_FORMAT_H
+#define SBFI_STREAM_FORMAT_H
+
+enum {
+  SBFI_STREAM_MAGIC = 0x53464253, /* "SBFS" where the low byte comes first */
+  SBFI_STREAM_VERSION = 1,
+  SBFI_STREAM_END = 0x21646e65
+};
+
+/* What the file says a node without a mesh is. */
+typedef enum sbfi_stream_kind {
+  SBFI_STREAM_PLAIN,   /* nothing */
+  SBFI_STREAM_NO_BONE, /* a null, a camera, a light */
+  SBFI_STREAM_BONE     /* a limb of an FBX */
+} sbfi_stream_kind;
+
+/* How the child ends: with the stream on its output, or a message in one line on its error output. */
+enum {
+  SBFI_CHILD_DONE = 0,
+  SBFI_CHILD_REFUSED = 1,
+  SBFI_CHILD_BAD_CALL = 2,
+  SBFI_CHILD_CANNOT_WRITE = 3,
+  SBFI_CHILD_NO_MEMORY = 4
+};
+
+#endif
