@@ -368,8 +368,9 @@ static const sbfi_field embedding_fields[] = {
   {.name = "points", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_embedding, points), .width = 4, .unit = "", .item = SBFI_ITEM_U32, .index = &embedding_points_index},
   {.name = "weights", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_embedding, weights), .width = 4, .unit = "", .item = SBFI_ITEM_F32, .length_count = 1, .lengths = embedding_weights_lengths},
   {.name = "blends", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_embedding, blends), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 2, .lengths = embedding_blends_lengths},
+  {.name = "derived", .type = SBFI_REF, .number = 6, .since_minor = 0, .offset = offsetof(sbf_embedding, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
 };
-static const sbfi_element embedding_element = {"embedding", "embedding", sizeof(sbf_embedding), 0, 5, embedding_fields, NULL};
+static const sbfi_element embedding_element = {"embedding", "embedding", sizeof(sbf_embedding), 0, 6, embedding_fields, NULL};
 
 static const sbfi_field measured_fields[] = {
   {.name = "machine", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_measured, machine), .width = 1, .unit = "", .default_text = ""},

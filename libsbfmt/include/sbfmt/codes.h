@@ -20,6 +20,7 @@ typedef enum sbf_code {
   SBF_CODE_OUT_OF_MEMORY = 105, /* Memory ran out, or the limit on it was reached. */
   SBF_CODE_BAD_CALL = 106, /* An argument of the call is wrong. */
   SBF_CODE_IO_CANNOT_RUN = 107, /* A helper program cannot be run: check that it is installed and may be executed. */
+  SBF_CODE_CANCELLED = 108, /* The caller stopped the work. */
   SBF_CODE_XML_SYNTAX = 201, /* The text is not well-formed XML: mend it at the line given. */
   SBF_CODE_XML_DOCTYPE = 202, /* A DOCTYPE or an entity of its own stands in the file: remove it, the format has none. */
   SBF_CODE_XML_UNKNOWN_ELEMENT = 203, /* An element that the format does not have stands here: check its spelling and its place. */
@@ -45,7 +46,13 @@ typedef enum sbf_code {
   SBF_CODE_REF_UNKNOWN = 401, /* A reference names an id that nothing of its kind has. */
   SBF_CODE_BONE_ORDER = 402, /* A bone stands before its parent, or among its own ancestors. */
   SBF_CODE_EXTENSION_REQUIRED = 403, /* The file requires an extension that this library does not know. */
+  SBF_CODE_DERIVED_LOST = 404, /* Something refers to a derived part that is not made any more: let it name an authored one. */
   SBF_CODE_TETRAHEDRON_INVERTED = 501, /* A tetrahedron is inverted or flat: its volume is not positive. */
+  SBF_CODE_HULL_FLAT = 551, /* A section has too little depth for a convex hull: it gets none. */
+  SBF_CODE_EMBEDDING_FLAT = 552, /* Vertices lie off a body without depth beside them, and are carried at its surface instead. */
+  SBF_CODE_EMBEDDING_NO_BODY = 553, /* No soft body carries a mesh: it moves with its bones alone. */
+  SBF_CODE_ATTACHMENT_NO_HULL = 554, /* An attachment names a rigid body without a hull: nothing lies inside it. */
+  SBF_CODE_BODY_WITHOUT_POINTS = 555, /* A soft body has no points: nothing can be built for it. */
   SBF_CODE_PACKED_MAGIC = 801, /* The file does not begin as a packed file does: it was damaged in transfer, or is another kind. */
   SBF_CODE_PACKED_TRUNCATED = 802, /* The file ends before what its table names: it was cut short. */
   SBF_CODE_PACKED_TABLE = 803, /* The header or the table of contents contradicts itself. */

@@ -785,6 +785,8 @@ typedef struct sbf_embedding {
   sbf_vec4_list weights;
   /* Share of this body in a vertex that several carry; empty: 1. [[0, 1]; length 0 or points] */
   sbf_f32_list blends;
+  /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
+  int32_t derived;
 } sbf_embedding;
 typedef struct sbf_embedding_list {
   const sbf_embedding *at;
