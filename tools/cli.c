@@ -14,7 +14,9 @@ const char *cli_value(const cli_call *call, const char *name) {
   abort(); /* a verb asks for an option that is not in its table */
 }
 
-bool cli_switch(const cli_call *call, const char *name) { return cli_value(call, name) != NULL; }
+bool cli_switch(const cli_call *call, const char *name) {
+  return cli_value(call, name) != NULL;
+}
 
 int cli_wrong(const cli_call *call, const char *format, ...) {
   va_list arguments;
@@ -93,8 +95,10 @@ json_t *cli_diagnostic_json(const sbf_diagnostic *d) {
   json_t *object = json_pack("{s:s, s:s, s:s, s:s}", "code", code_name(d->code), "severity",
       severity_word(d->severity), "message", d->message, "path", d->path);
   if (d->file[0]) json_object_set_new(object, "file", json_string(d->file));
-  if (d->line) json_object_set_new(object, "line", json_integer(d->line));
-  else if (d->offset >= 0) json_object_set_new(object, "offset", json_integer(d->offset));
+  if (d->line)
+    json_object_set_new(object, "line", json_integer(d->line));
+  else if (d->offset >= 0)
+    json_object_set_new(object, "offset", json_integer(d->offset));
   if (d->index >= 0) json_object_set_new(object, "index", json_integer(d->index));
   return object;
 }

@@ -18,10 +18,10 @@ typedef struct cli_call cli_call;
 
 typedef struct cli_verb {
   const char *name;
-  const char *synopsis; /* behind `sbfmt NAME` */
-  const char *summary;  /* one line */
-  const char *details;  /* paragraphs for --help and the manual page */
-  const cli_option *options; /* ends with a name of NULL */
+  const char *synopsis;          /* behind `sbfmt NAME` */
+  const char *summary;           /* one line */
+  const char *details;           /* paragraphs for --help and the manual page */
+  const cli_option *options;     /* ends with a name of NULL */
   int least_inputs, most_inputs; /* positional arguments; most -1: any number */
   int (*run)(cli_call *call);    /* exit status */
 } cli_verb;

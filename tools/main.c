@@ -8,14 +8,15 @@
 #define VERSION_TEXT(a, b, c) VERSION_TEXT_(a, b, c)
 
 static void print_help(void) {
-  printf("sbfmt: soft-bodied characters in one file\n\nUsage: sbfmt VERB ... (sbfmt VERB --help says more)\n\n");
+  printf(
+      "sbfmt: soft-bodied characters in one file\n\nUsage: sbfmt VERB ... (sbfmt VERB --help says more)\n\n");
   for (int i = 0; cli_verbs[i]; i++) printf("  %-10s %s\n", cli_verbs[i]->name, cli_verbs[i]->summary);
   printf("\nExit status: 0 good, 1 the input is at fault, 2 the call or the machine is.\n");
 }
 
 static void print_verb_help(const cli_verb *verb) {
-  printf("sbfmt %s: %s\n\nUsage: sbfmt %s %s\n\n%s\n\n", verb->name, verb->summary, verb->name, verb->synopsis,
-      verb->details);
+  printf("sbfmt %s: %s\n\nUsage: sbfmt %s %s\n\n%s\n\n", verb->name, verb->summary, verb->name,
+      verb->synopsis, verb->details);
   for (const cli_option *o = verb->options; o->name; o++) {
     char left[40];
     snprintf(left, sizeof left, "%s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
@@ -29,7 +30,8 @@ static const cli_verb *find_verb(const char *name) {
   return NULL;
 }
 
-/* The option an argument names, and its value where it is written as --name=value. -1: not one of the verb's. */
+/* The option an argument names, and its value where it is written as --name=value. -1: not one of the verb's.
+ */
 static int find_option(const cli_verb *verb, const char *argument, const char **value) {
   size_t length = strcspn(argument, "=");
   *value = argument[length] ? argument + length + 1 : NULL;
@@ -78,7 +80,8 @@ static bool parse(cli_call *call, int count, char **arguments) {
 }
 
 int main(int argc, char **argv) {
-  if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 || strcmp(argv[1], "-h") == 0) {
+  if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 ||
+      strcmp(argv[1], "-h") == 0) {
     print_help();
     return argc < 2 ? SBF_FAILED : SBF_OK;
   }

@@ -6,7 +6,9 @@
 #include "sbfmt/io.h"
 #include "sbfmt/mechanics.h"
 
-static json_t *integer(uint64_t value) { return json_integer((json_int_t)value); }
+static json_t *integer(uint64_t value) {
+  return json_integer((json_int_t)value);
+}
 
 /* Triangles that polygons of the given sizes fall into. */
 static uint64_t triangle_count(const sbf_polygon_mesh *mesh) {
@@ -21,7 +23,9 @@ static uint64_t pinned_points(const sbf_pin_set_list *pins) {
   return count;
 }
 
-static const sbf_level *finest(const sbf_soft_body *body) { return body->levels.count ? &body->levels.at[0] : NULL; }
+static const sbf_level *finest(const sbf_soft_body *body) {
+  return body->levels.count ? &body->levels.at[0] : NULL;
+}
 
 static uint64_t body_pins(const sbf_soft_body *body) {
   const sbf_level *level = finest(body);
@@ -30,7 +34,8 @@ static uint64_t body_pins(const sbf_soft_body *body) {
 
 static uint64_t interior_points(const sbf_soft_body *body) {
   const sbf_level *level = finest(body);
-  if (level && level->model == SBF_ELASTIC_MODEL_SPRINGS && level->positions.count >= body->surface.positions.count)
+  if (level && level->model == SBF_ELASTIC_MODEL_SPRINGS &&
+      level->positions.count >= body->surface.positions.count)
     return level->positions.count - body->surface.positions.count;
   return body->interior.count;
 }
@@ -40,10 +45,11 @@ static json_t *render_meshes(const sbf_asset *asset) {
   for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
     const sbf_render_mesh *mesh = &asset->render_meshes.at[i];
     int32_t material = mesh->material_slots.count ? mesh->material_slots.at[0].material : SBF_NONE;
-    json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o, s:s}", "name", mesh->name, "vertices",
-        integer(mesh->mesh.positions.count), "polygons", integer(mesh->mesh.polygon_sizes.count), "triangles",
-        integer(triangle_count(&mesh->mesh)), "material",
-        material >= 0 ? asset->materials.at[material].name : ""));
+    json_array_append_new(
+        list, json_pack("{s:s, s:o, s:o, s:o, s:s}", "name", mesh->name, "vertices",
+                  integer(mesh->mesh.positions.count), "polygons", integer(mesh->mesh.polygon_sizes.count),
+                  "triangles", integer(triangle_count(&mesh->mesh)), "material",
+                  material >= 0 ? asset->materials.at[material].name : ""));
   }
   return list;
 }
@@ -62,8 +68,8 @@ static json_t *bones(const sbf_asset *asset) {
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     const sbf_bone *bone = &asset->bones.at[i];
     json_t *parent = bone->parent >= 0 ? json_string(asset->bones.at[bone->parent].name) : json_null();
-    json_array_append_new(list, json_pack("{s:s, s:s, s:o, s:o}", "id", bone->id, "name", bone->name, "parent",
-        parent, "joint", joint_of_bone(asset, i)));
+    json_array_append_new(list, json_pack("{s:s, s:s, s:o, s:o}", "id", bone->id, "name", bone->name,
+                                    "parent", parent, "joint", joint_of_bone(asset, i)));
   }
   return list;
 }
@@ -74,10 +80,11 @@ static json_t *sections(const sbf_asset *asset) {
     const sbf_soft_body *body = &asset->soft_bodies.at[i];
     const sbf_level *level = finest(body);
     json_t *bone = body->bone >= 0 ? json_string(asset->bones.at[body->bone].name) : json_null();
-    json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "name", body->name, "bone", bone,
-        "vertices", integer(body->surface.positions.count), "polygons",
-        integer(body->surface.polygon_sizes.count), "interior_points", integer(interior_points(body)),
-        "tetrahedra", integer(level ? level->lattice.tetrahedra.count : 0), "pins", integer(body_pins(body))));
+    json_array_append_new(list,
+        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "name", body->name, "bone", bone, "vertices",
+            integer(body->surface.positions.count), "polygons", integer(body->surface.polygon_sizes.count),
+            "interior_points", integer(interior_points(body)), "tetrahedra",
+            integer(level ? level->lattice.tetrahedra.count : 0), "pins", integer(body_pins(body))));
   }
   return list;
 }
@@ -180,9 +187,9 @@ static void print_sections(const json_t *object) {
   json_t *row;
   printf("sections       %zu\n", json_array_size(json_object_get(object, "sections")));
   json_array_foreach(json_object_get(object, "sections"), i, row)
-    printf("  %-16s on %-16s %6lld vertices %6lld polygons %6lld interior %7lld tetrahedra %6lld pins\n",
-        text_of(row, "name"), text_of(row, "bone"), number(row, "vertices"), number(row, "polygons"),
-        number(row, "interior_points"), number(row, "tetrahedra"), number(row, "pins"));
+      printf("  %-16s on %-16s %6lld vertices %6lld polygons %6lld interior %7lld tetrahedra %6lld pins\n",
+          text_of(row, "name"), text_of(row, "bone"), number(row, "vertices"), number(row, "polygons"),
+          number(row, "interior_points"), number(row, "tetrahedra"), number(row, "pins"));
 }
 
 static void print_text(const json_t *object) {
@@ -192,16 +199,17 @@ static void print_text(const json_t *object) {
   printf("format         sbf %s, %lld bytes\n", text_of(object, "format_version"), number(object, "bytes"));
   printf("title          %s\n", text_of(object, "title"));
   printf("render meshes  %zu\n", json_array_size(json_object_get(object, "render_meshes")));
-  json_array_foreach(json_object_get(object, "render_meshes"), i, row)
-    printf("  %-32s %7lld vertices %7lld polygons %7lld triangles, %s\n", text_of(row, "name"),
-        number(row, "vertices"), number(row, "polygons"), number(row, "triangles"), text_of(row, "material"));
+  json_array_foreach(json_object_get(object, "render_meshes"), i, row) printf(
+      "  %-32s %7lld vertices %7lld polygons %7lld triangles, %s\n", text_of(row, "name"),
+      number(row, "vertices"), number(row, "polygons"), number(row, "triangles"), text_of(row, "material"));
   print_sections(object);
   printf("bones          %zu\n", json_array_size(json_object_get(object, "bones")));
-  printf("springs        %lld structural, %lld shear, %lld flexion, %lld internal (%lld inert left out), %lld cross\n",
+  printf("springs        %lld structural, %lld shear, %lld flexion, %lld internal (%lld inert left out), "
+         "%lld cross\n",
       number(springs, "structural"), number(springs, "shear"), number(springs, "flexion"),
       number(springs, "internal"), number(springs, "inert"), number(springs, "cross"));
-  static const char *const totals_shown[] = {"tetrahedra", "embedded_vertices", "pins", "attachments",
-      "rigid_bodies", "joints", "levels"};
+  static const char *const totals_shown[] = {
+      "tetrahedra", "embedded_vertices", "pins", "attachments", "rigid_bodies", "joints", "levels"};
   for (size_t k = 0; k < sizeof totals_shown / sizeof *totals_shown; k++)
     printf("%-18s %lld\n", totals_shown[k], number(object, totals_shown[k]));
   printf("gait legs          %lld\n", number(json_object_get(object, "gait"), "legs"));
@@ -236,6 +244,7 @@ static const cli_option options[] = {
     {NULL, NULL, NULL},
 };
 const cli_verb verb_info = {"info", "FILE [--format json]", "say what a file holds",
-    "Counts are of the finest level of every body. `inert` springs would join two pinned points: they are made\n"
+    "Counts are of the finest level of every body. `inert` springs would join two pinned points: they are "
+    "made\n"
     "by the rules, counted, and left out of the file.",
     options, 1, 1, run};

@@ -26,7 +26,9 @@ static int run_pack(cli_call *call) {
   return transcode(call, &options, sbf_packed_save_file);
 }
 
-static int run_unpack(cli_call *call) { return transcode(call, NULL, sbf_xml_save_file); }
+static int run_unpack(cli_call *call) {
+  return transcode(call, NULL, sbf_xml_save_file);
+}
 
 static const cli_option pack_options[] = {
     {"-o", "OUT.sbfz", "where to write"},
@@ -34,7 +36,8 @@ static const cli_option pack_options[] = {
     {"--level", "1..9", "how hard to compress (6)"},
     {NULL, NULL, NULL},
 };
-const cli_verb verb_pack = {"pack", "IN -o OUT.sbfz [--store] [--level 1..9]", "write the packed form of a file",
+const cli_verb verb_pack = {"pack", "IN -o OUT.sbfz [--store] [--level 1..9]",
+    "write the packed form of a file",
     "Reads either form and writes the packed one. The same content gives the same bytes.", pack_options, 1, 1,
     run_pack};
 
@@ -43,5 +46,5 @@ static const cli_option unpack_options[] = {
     {NULL, NULL, NULL},
 };
 const cli_verb verb_unpack = {"unpack", "IN -o OUT.sbf", "write the XML form of a file",
-    "Reads either form and writes canonical XML. The same content gives the same bytes.", unpack_options, 1, 1,
-    run_unpack};
+    "Reads either form and writes canonical XML. The same content gives the same bytes.", unpack_options, 1,
+    1, run_unpack};

@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""Every C file is as clang-format 14 leaves it, with the .clang-format at the root."""
+import os
+import shutil
+import subprocess
+import sys
+
+from repo_files import ROOT, SKIPPED, conclude, is_generated, project_files
+
+
+def formatter():
+    """clang-format of version 14, others lay out some lines differently; None where it is not installed."""
+    for name in ("clang-format-14", "clang-format"):
+        path = shutil.which(name)
+        if path and " version 14." in subprocess.run([path, "--version"], capture_output=True, text=True).stdout:
+            return path
+    return None
+
+
+def main():
+    program = formatter()
+    if not program:
+        print("skipped: clang-format 14 is not installed (Debian: apt-get install clang-format-14)")
+        sys.exit(SKIPPED)
+    files = [path for path in project_files() if path.endswith((".c", ".h")) and not is_generated(path)]
+    faults = []
+    for path in files:
+        with open(os.path.join(ROOT, path), "rb") as file:
+            before = file.read()
+        after = subprocess.run([program, "--style=file", path], cwd=ROOT, capture_output=True, check=True).stdout
+        if before != after:
+            faults.append(f"{path}: clang-format -i {path}")
+    conclude(f"layout of {len(files)} files", faults)
+
+
+if __name__ == "__main__":
+    main()

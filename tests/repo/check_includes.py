@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""Dependencies point one way: reads every #include and names those that point the other way.
+
+The rules are those of CONTRIBUTING.md: core <- mechanics <- format <- interchange, the runtime on core and mechanics
+alone, programs on the public headers alone, and each outside library in its one place."""
+import re
+import sys
+
+from repo_files import ROOT, conclude, project_files, read_text
+
+BASE = ["libsbfmt/base"]
+MODEL = BASE + ["libsbfmt/model"]
+CORE = MODEL + ["libsbfmt/packed", "libsbfmt/generated"]
+MECHANICS = MODEL + ["libsbfmt/mechanics"]
+FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
+RUNTIME_MATH = MECHANICS + ["runtime/math"]
+RUNTIME = MECHANICS + ["runtime/" + part for part in (
+    "math", "core", "solvers", "skeleton", "collide", "ik", "gait", "chain", "detail")]
+
+# Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.
+MAY_USE = {
+    "libsbfmt/base": BASE,
+    "libsbfmt/model": MODEL,
+    "libsbfmt/generated": MODEL,
+    "libsbfmt/packed": MODEL + ["libsbfmt/packed"],
+    "libsbfmt/mechanics": MECHANICS,
+    "libsbfmt/xml": MODEL + ["libsbfmt/xml"],
+    "libsbfmt/build": MECHANICS + ["libsbfmt/build"],
+    "libsbfmt/validate": CORE + ["libsbfmt/mechanics", "libsbfmt/build", "libsbfmt/validate"],
+    "libsbfmt/import": FORMAT + ["libsbfmt/import"],
+    "libsbfmt/export": FORMAT + ["libsbfmt/export"],
+    "libsbfmt/include": [],
+    "runtime": RUNTIME,
+    "runtime/math": RUNTIME_MATH,
+    "runtime/include": [],
+    "runtime/hosts": ["runtime/hosts"],
+    "tools": ["tools"],
+    "bench": ["bench"],
+    "examples": ["examples"],
+    "tests": None,  # anything: tests look inside
+}
+
+# Public header -> its box, and which boxes may use it.
+HEADER_BOX = {
+    "sbfmt/base.h": "core", "sbfmt/codes.h": "core", "sbfmt/model.h": "core", "sbfmt/asset.h": "core",
+    "sbfmt/io.h": "core", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
+    "sbfmt/build.h": "format", "sbfmt/interchange.h": "interchange", "sbrun/sbrun.h": "runtime",
+}
+BOX_USES = {
+    "core": {"core"},
+    "mechanics": {"core", "mechanics"},
+    "format": {"core", "mechanics", "format"},
+    "interchange": {"core", "mechanics", "format", "interchange"},
+    "runtime": {"core", "mechanics", "runtime"},
+    "program": {"core", "mechanics", "format", "interchange", "runtime"},
+}
+FOLDER_BOX = {
+    "libsbfmt/base": "core", "libsbfmt/model": "core", "libsbfmt/generated": "core", "libsbfmt/packed": "core",
+    "libsbfmt/mechanics": "mechanics", "libsbfmt/xml": "format", "libsbfmt/validate": "format",
+    "libsbfmt/build": "format", "libsbfmt/import": "interchange", "libsbfmt/export": "interchange",
+    "runtime": "runtime",
+}
+
+# Outside header -> the only places that may know it (tests aside).
+OUTSIDE = [
+    (r"libxml/", ["libsbfmt/xml/"], "libxml2"),
+    (r"zlib\.h|zconf\.h", ["libsbfmt/packed/"], "zlib"),
+    (r"assimp/", ["libsbfmt/import/assimp/", "bench/"], "assimp"),
+    (r"(lib)?qhull", ["libsbfmt/build/"], "qhull"),
+    (r"meshoptimizer", ["libsbfmt/build/"], "meshoptimizer"),
+    (r"jansson", ["tools/", "bench/"], "jansson"),
+    (r"(EGL|GL|GLES\d|KHR)/|png\.h", ["tools/render/", "tools/view/"], "drawing"),
+    (r"(sys|linux)/.*|unistd\.h|fcntl\.h|signal\.h|spawn\.h|dlfcn\.h|poll\.h|windows\.h",
+     [r"libsbfmt/base/\w+_(posix|windows)\.c", "libsbfmt/import/assimp/", "tools/", "bench/", "runtime/hosts/"],
+     "the operating system"),
+    (r"pthread\.h|threads\.h", ["tools/", "bench/", "examples/", "runtime/hosts/"], "threads: they come from the host"),
+    (r"locale\.h|xlocale\.h", [], "the locale: numbers and text do without"),
+]
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+
+
+def longest(table, path):
+    fits = [folder for folder in table if path.startswith(folder + "/")]
+    return max(fits, key=len) if fits else None
+
+
+def box_of(path):
+    for prefix in ("libsbfmt/include/", "runtime/include/"):
+        if path.startswith(prefix):
+            return HEADER_BOX.get(path[len(prefix):])
+    folder = longest(FOLDER_BOX, path)
+    return FOLDER_BOX[folder] if folder and not path.startswith("runtime/hosts/") else "program"
+
+
+def resolve(path, name, files):
+    """The project file that a quoted include names, seen from `path`; None where there is none."""
+    candidates = [path.rsplit("/", 1)[0] + "/" + name]
+    candidates += [root + name for root in ("libsbfmt/", "runtime/", "tools/", "tests/support/",
+                                            "libsbfmt/include/", "runtime/include/")]
+    return next((candidate for candidate in candidates if candidate in files), None)
+
+
+def faults_of(path, text, files):
+    """What is wrong with the includes of one file; `files` is the set of all of the project's."""
+    if path.startswith("tests/"):
+        return []
+    faults = []
+    if path.startswith(("libsbfmt/include/", "runtime/include/")) and box_of(path) is None:
+        return [f"{path}: a public header without a place: add it to HEADER_BOX in tests/repo/check_includes.py"]
+    for match in INCLUDE.finditer(text):
+        line = text.count("\n", 0, match.start()) + 1
+        name, where = match.group(2), f"{path}:{line}"
+        public = name.startswith(("sbfmt/", "sbrun/"))
+        if match.group(1) == "<" and not public:
+            for pattern, places, what in OUTSIDE:
+                if re.match(pattern, name) and not any(re.match(place, path) for place in places):
+                    faults.append(f"{where}: <{name}>: {what} has no place in this folder")
+        elif public:
+            if HEADER_BOX.get(name) not in BOX_USES[box_of(path)]:
+                faults.append(f"{where}: \"{name}\" belongs to {HEADER_BOX.get(name)}, which {box_of(path)} must not use")
+        else:
+            target = resolve(path, name, files)
+            if target is None:
+                if path.startswith(("libsbfmt/", "runtime/")):
+                    faults.append(f"{where}: \"{name}\" is nowhere in the project")
+                continue
+            folder = longest(MAY_USE, path)
+            allowed = MAY_USE[folder] if folder else []
+            if allowed is not None and not any(target.startswith(one + "/") for one in allowed):
+                faults.append(f"{where}: \"{name}\" lies in {target.rsplit('/', 1)[0]}, which {folder} must not use")
+    return faults
+
+
+def main():
+    files = project_files()
+    known, faults, read = set(files), [], 0
+    for path in files:
+        if path.endswith((".c", ".h", ".cpp")):
+            faults += faults_of(path, read_text(path) or "", known)
+            read += 1
+    if read < 20:
+        sys.exit(f"only {read} sources found below {ROOT}: the check would be empty")
+    conclude(f"include directions of {read} files", faults)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Each check of this folder finds what it is there for, and lets pass what is right."""
+import unittest
+
+import check_includes
+import check_names
+import check_symbols
+import check_words
+
+FILES = {"libsbfmt/base/memory.h", "libsbfmt/model/check.h", "libsbfmt/build/springs.h", "libsbfmt/xml/reader.h",
+         "libsbfmt/mechanics/spring.h", "runtime/core/world.h", "runtime/math/vec3.h", "tools/cli.h"}
+
+
+class Includes(unittest.TestCase):
+    def faults(self, path, *lines):
+        return check_includes.faults_of(path, "".join(f"#include {line}\n" for line in lines), FILES)
+
+    def test_right_arrows(self):
+        for path, line in [("libsbfmt/model/a.c", '"base/memory.h"'), ("libsbfmt/build/a.c", '"mechanics/spring.h"'),
+                           ("libsbfmt/xml/a.c", "<libxml/parser.h>"), ("libsbfmt/packed/a.c", "<zlib.h>"),
+                           ("libsbfmt/import/assimp/a.c", "<assimp/scene.h>"), ("runtime/core/a.c", '"base/memory.h"'),
+                           ("runtime/core/a.c", '"mechanics/spring.h"'), ("runtime/solvers/a.c", '"core/world.h"'),
+                           ("libsbfmt/base/file_posix.c", "<sys/mman.h>"), ("tools/a.c", '"sbfmt/interchange.h"'),
+                           ("tools/a.c", "<string.h>"), ("tests/base/a.c", '"runtime/core/world.h"')]:
+            self.assertEqual(self.faults(path, line), [], (path, line))
+
+    def test_wrong_arrows(self):
+        for path, line in [("libsbfmt/base/a.c", '"model/check.h"'), ("libsbfmt/mechanics/a.c", '"build/springs.h"'),
+                           ("libsbfmt/xml/a.c", '"build/springs.h"'), ("libsbfmt/build/a.c", '"xml/reader.h"'),
+                           ("libsbfmt/model/a.c", "<libxml/tree.h>"), ("libsbfmt/xml/a.c", "<zlib.h>"),
+                           ("libsbfmt/import/a.c", "<assimp/scene.h>"), ("runtime/core/a.c", '"build/springs.h"'),
+                           ("runtime/core/a.c", "<libxml/parser.h>"), ("runtime/core/a.c", '"sbfmt/build.h"'),
+                           ("runtime/core/a.c", "<sbfmt/interchange.h>"), ("runtime/math/a.h", '"core/world.h"'),
+                           ("runtime/hosts/web/a.c", '"core/world.h"'), ("tools/a.c", '"base/memory.h"'),
+                           ("libsbfmt/include/sbfmt/io.h", '"sbfmt/validate.h"'),
+                           ("libsbfmt/include/sbfmt/io.h", '"base/memory.h"'),
+                           ("libsbfmt/include/sbfmt/novel.h", '"sbfmt/base.h"'),
+                           ("libsbfmt/base/text.c", "<locale.h>"), ("libsbfmt/base/text.c", "<unistd.h>"),
+                           ("runtime/core/a.c", "<pthread.h>"), ("libsbfmt/base/a.c", '"base/nowhere.h"'),
+                           ("libsbfmt/base/a.c", '"sbrun/sbrun.h"')]:
+            self.assertEqual(len(self.faults(path, line)), 1, (path, line))
+
+    def test_line_is_named(self):
+        self.assertIn("libsbfmt/model/a.c:2:", self.faults("libsbfmt/model/a.c", "<string.h>", "<zlib.h>")[0])
+
+
+class Names(unittest.TestCase):
+    def test_names(self):
+        self.assertEqual(check_names.faults_of({"a/x.c": 10, "b/x.h": 10, "README.md": 9, "b/README.md": 900}), [])
+        self.assertEqual(len(check_names.faults_of({"a/x.c": 10, "b/x.c": 10})), 1)
+        self.assertEqual(len(check_names.faults_of({"a/x.c": 5000, "libsbfmt/generated/y.c": 5000})), 1)
+
+
+class Words(unittest.TestCase):
+    def test_words(self):
+        self.assertEqual(check_words.faults_of("a.c", "/* Good. */\nint a; /* usr/bin, /etc/x, a/work/b */\n", "/c/o"), [])
+        for text in ["/* TO" "DO */\n", "x; /* not imple" "mented */\n", "int a; \n", "int a;\r\n", "\tint a;\n", "int a;",
+                     'open("/ho' 'me/someone/x");\n', 'open("/c/o/build/x");\n']:
+            self.assertEqual(len(check_words.faults_of("a.c", text, "/c/o")), 1, text)
+
+
+class Symbols(unittest.TestCase):
+    def faults(self, *lines, library="libsbrun.a"):
+        return check_symbols.symbol_faults(library, "\n".join(["\nworld.c.o:", *lines]))
+
+    def test_symbols(self):
+        good = ["0000000000000000 T sbr_world_step", "0000000000000000 T sbri_step", "0000000000000000 t step",
+                "                 U sqrtf", "                 U memcpy", "0000000000000000 r table"]
+        self.assertEqual(self.faults(*good), [])
+        for bad in ["0000000000000000 T step", "0000000000000000 b counter", "0000000000000000 D sbr_state",
+                    "                 U sinf", "                 U pow"]:
+            self.assertEqual(len(self.faults(bad)), 1, bad)
+        self.assertEqual(self.faults("                 U sinf", library="libsbfmt-format.a"), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
