@@ -182,12 +182,15 @@ END_TEST
  * promised of it. */
 static void load_damaged(sbf_buffer *file, bool seal, uint8_t mask) {
   uint8_t *copy = malloc(file->size);
-  for (size_t i = 0; i < file->size; i++) {
+  uint64_t count = patch_get(file->at, 40, 4), lists = file->size; /* where the first list begins */
+  for (uint32_t i = (uint32_t)count; i-- > 0 && patch_get(file->at, patch_entry(i, PATCH_FIELD), 2);)
+    lists = patch_get(file->at, patch_entry(i, PATCH_OFFSET), 8);
+  for (size_t i = 0; i < file->size; i += i < lists ? 1 : 13) {
     sbf_asset *loaded;
     sbf_diagnostic error;
     memcpy(copy, file->at, file->size);
     copy[i] ^= mask;
-    if (seal) patch_seal(copy, file->size);
+    if (seal && i < patch_entry((uint32_t)count, 0)) patch_seal(copy, file->size);
     sbf_status status = sbf_packed_load_memory(copy, file->size, NULL, &loaded, &error);
     if (status == SBF_OK) {
       ck_assert_uint_eq(sbf_asset_check(loaded, NULL, NULL, 0), 0);
