@@ -56,8 +56,8 @@ def palm(put, quad, size, shin):
     # the heel's upper side grows into the round shaft of the ankle, which ends inside the lower leg
     rim = top[0] + top[1][::-1]
     lean = SHAFT_LEAN / shin[2]
-    shaft = [put(size * SHAFT_RADIUS * f + lean * shin[0], size * SHAFT_RADIUS * o + lean * shin[1], size * SHAFT_HEIGHT)
-            for f, o in SHAFT]
+    radius = size * SHAFT_RADIUS
+    shaft = [put(radius * f + lean * shin[0], radius * o + lean * shin[1], size * SHAFT_HEIGHT) for f, o in SHAFT]
     for i in range(10):
         quad(rim[i], shaft[i], shaft[(i + 1) % 10], rim[(i + 1) % 10])
     for i in range(4):

@@ -119,7 +119,7 @@ class Collar:
                                  for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))))
 
     def _spoke(self, angle):
-        """The radius at this angle where the tube leaves, turned from its cross-section into the tangent plane there."""
+        """The tube's radius at this angle where it leaves, turned into the other skin's tangent plane."""
         base, along = self.centre(self.at), unit(self.tube.axis.slope(self.at))
         radial = sub(self.tube.point(self.at, angle), base)
         # the smallest rotation that takes `along` to the normal, after Rodrigues
