@@ -37,6 +37,14 @@ function(sbfmt_library name alias)
   add_library(${name} ${sources})
   add_library(sbfmt::${alias} ALIAS ${name})
   target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:sbfmt_compiler>)
+  # Before 1.0 every minor version may change the ABI.
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${alias} VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR})
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  if(BUILD_SHARED_LIBS)
+    # The libraries share insides, so the list of exported names takes the place of hidden visibility.
+    set_target_properties(${name} PROPERTIES C_VISIBILITY_PRESET default)
+    target_compile_options(${name} PRIVATE -fno-semantic-interposition)
+    target_link_options(${name} PRIVATE LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/symbols.map)
+    set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/symbols.map)
+  endif()
 endfunction()

@@ -17,7 +17,7 @@ enum { PATH_SIZE = 4096 };
 
 /* Places of the helper relative to the folder of the program or library: beside it, an installed tree (bin,
  * or lib with or without the machine's name), a build tree. */
-static const char *const places[] = {"", "/../libexec", "/../../libexec", "/../libsbfmt", "/.."};
+static const char *const places[] = {"", "/../libexec/sbfmt", "/../../libexec/sbfmt", "/../libsbfmt", "/.."};
 
 static bool look_from(const char *folder, char *to, size_t size) {
   for (size_t i = 0; i < sizeof places / sizeof *places; i++) {

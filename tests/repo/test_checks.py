@@ -20,7 +20,7 @@ class Includes(unittest.TestCase):
                            ("libsbfmt/xml/a.c", "<libxml/parser.h>"), ("libsbfmt/packed/a.c", "<zlib.h>"),
                            ("libsbfmt/import/assimp/a.c", "<assimp/scene.h>"), ("runtime/core/a.c", '"base/memory.h"'),
                            ("runtime/core/a.c", '"mechanics/spring.h"'), ("runtime/solvers/a.c", '"core/world.h"'),
-                           ("libsbfmt/base/file_posix.c", "<sys/mman.h>"), ("tools/a.c", '"sbfmt/interchange.h"'),
+                           ("libsbfmt/base/file_posix.c", "<sys/mman.h>"), ("tools/a.c", '"sbfmt/convert.h"'),
                            ("tools/a.c", "<string.h>"), ("tests/base/a.c", '"runtime/core/world.h"')]:
             self.assertEqual(self.faults(path, line), [], (path, line))
 
@@ -30,7 +30,7 @@ class Includes(unittest.TestCase):
                            ("libsbfmt/model/a.c", "<libxml/tree.h>"), ("libsbfmt/xml/a.c", "<zlib.h>"),
                            ("libsbfmt/import/a.c", "<assimp/scene.h>"), ("runtime/core/a.c", '"build/springs.h"'),
                            ("runtime/core/a.c", "<libxml/parser.h>"), ("runtime/core/a.c", '"sbfmt/build.h"'),
-                           ("runtime/core/a.c", "<sbfmt/interchange.h>"), ("runtime/math/a.h", '"core/world.h"'),
+                           ("runtime/core/a.c", "<sbfmt/convert.h>"), ("runtime/math/a.h", '"core/world.h"'),
                            ("runtime/hosts/web/a.c", '"core/world.h"'), ("tools/a.c", '"base/memory.h"'),
                            ("libsbfmt/include/sbfmt/io.h", '"sbfmt/validate.h"'),
                            ("libsbfmt/include/sbfmt/io.h", '"base/memory.h"'),

@@ -1,0 +1,61 @@
+# What is installed: libraries and headers with a CMake package (one component a library) and pkg-config files, the
+# program, and the program it reads foreign files with. The tree may be moved as a whole.
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/sbfmt)
+
+set(SBFMT_COMPONENTS)
+foreach(component core mechanics format interchange runtime)
+  if(TARGET sbfmt::${component})
+    list(APPEND SBFMT_COMPONENTS ${component})
+    get_target_property(target sbfmt::${component} ALIASED_TARGET)
+    # An export set of its own, so that a project which asks for the runtime meets nothing of the others.
+    install(TARGETS ${target} EXPORT sbfmt-${component})
+    install(EXPORT sbfmt-${component} NAMESPACE sbfmt:: FILE sbfmt-${component}.cmake DESTINATION ${package_folder})
+  endif()
+endforeach()
+
+if(SBFMT_RUNTIME_ONLY)
+  set(sdk_headers PATTERN validate.h EXCLUDE PATTERN build.h EXCLUDE PATTERN convert.h EXCLUDE PATTERN export.h EXCLUDE)
+endif()
+install(DIRECTORY libsbfmt/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.h ${sdk_headers})
+install(DIRECTORY runtime/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.h)
+
+if(TARGET sbfmt)
+  install(TARGETS sbfmt)
+endif()
+if(TARGET sbfmt-import)
+  install(TARGETS sbfmt-import RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/sbfmt)
+endif()
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+configure_package_config_file(cmake/sbfmtConfig.cmake.in ${PROJECT_BINARY_DIR}/package/sbfmtConfig.cmake
+  INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/sbfmtConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/package/sbfmtConfig.cmake ${PROJECT_BINARY_DIR}/package/sbfmtConfigVersion.cmake
+  DESTINATION ${package_folder})
+
+# pkg-config. A static library's needs are its user's needs; a shared one keeps them to itself.
+set(private "")
+if(BUILD_SHARED_LIBS)
+  set(private .private)
+endif()
+file(RELATIVE_PATH PREFIX_FROM_PC ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+function(install_pc name description libraries requires)
+  set(PC_NAME ${name})
+  set(PC_DESCRIPTION ${description})
+  set(PC_LIBS ${libraries})
+  set(PC_NEEDS "Requires${private}: ${requires}\nLibs${private}: -lm")
+  if(NOT private)
+    set(PC_NEEDS "Requires: ${requires}")
+    string(APPEND PC_LIBS " -lm")
+  endif()
+  configure_file(cmake/package.pc.in ${PROJECT_BINARY_DIR}/package/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/package/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+install_pc(sbrun "Brings soft-bodied characters of the sbfmt format to life"
+  "-lsbrun -lsbfmt-mechanics -lsbfmt-core" "zlib")
+if(NOT SBFMT_RUNTIME_ONLY)
+  install_pc(sbfmt "Reads, checks, builds and converts soft-bodied characters of the sbfmt format"
+    "-lsbfmt-interchange -lsbfmt-format -lsbfmt-mechanics -lsbfmt-core" "zlib libxml-2.0 qhull_r")
+endif()
