@@ -43,6 +43,10 @@ static const sbf_code_info table[] = {
   {"EMBEDDING_NO_BODY", SBF_CODE_EMBEDDING_NO_BODY, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "No soft body carries a mesh: it moves with its bones alone."},
   {"ATTACHMENT_NO_HULL", SBF_CODE_ATTACHMENT_NO_HULL, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "An attachment names a rigid body without a hull: nothing lies inside it."},
   {"BODY_WITHOUT_POINTS", SBF_CODE_BODY_WITHOUT_POINTS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A soft body has no points: nothing can be built for it."},
+  {"RIG_SECTION_GUESSED", SBF_CODE_RIG_SECTION_GUESSED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A section was given to the nearest bone, because no name said where it belongs."},
+  {"RIG_UNWEIGHTED_POINTS", SBF_CODE_RIG_UNWEIGHTED_POINTS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Points of a skinned mesh have no weights: paint them in the source."},
+  {"RIG_NO_SECTIONS", SBF_CODE_RIG_NO_SECTIONS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Every mesh is skinned: there is no section of its own for any bone."},
+  {"RIG_NO_LEGS", SBF_CODE_RIG_NO_LEGS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "No chain of bones ends at the ground: no gait is proposed."},
   {"PACKED_MAGIC", SBF_CODE_PACKED_MAGIC, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file does not begin as a packed file does: it was damaged in transfer, or is another kind."},
   {"PACKED_TRUNCATED", SBF_CODE_PACKED_TRUNCATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file ends before what its table names: it was cut short."},
   {"PACKED_TABLE", SBF_CODE_PACKED_TABLE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The header or the table of contents contradicts itself."},
@@ -70,6 +74,10 @@ static const sbf_code_info table[] = {
   {"IMPORT_AXES", SBF_CODE_IMPORT_AXES, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The file states axes that make no frame: +Y up is assumed."},
   {"IMPORT_KEYS", SBF_CODE_IMPORT_KEYS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Keys of an animation are left out: they do not hold together."},
   {"IMPORT_IMAGE", SBF_CODE_IMPORT_IMAGE, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "An image cannot be taken over."},
+  {"IMPORT_NO_MESH", SBF_CODE_IMPORT_NO_MESH, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The file holds a skeleton and no mesh."},
+  {"IMPORT_NO_RIG", SBF_CODE_IMPORT_NO_RIG, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The file holds no skeleton: bodies are not held by bones."},
+  {"IMPORT_NO_BONES", SBF_CODE_IMPORT_NO_BONES, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file given as the rig holds no skeleton."},
+  {"IMPORT_PARTIAL_UVS", SBF_CODE_IMPORT_PARTIAL_UVS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A set of texture coordinates does not cover the whole mesh and was dropped."},
 };
 
 const sbf_code_info *sbf_code_table(uint32_t *count) {

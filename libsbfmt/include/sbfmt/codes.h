@@ -53,6 +53,10 @@ typedef enum sbf_code {
   SBF_CODE_EMBEDDING_NO_BODY = 553, /* No soft body carries a mesh: it moves with its bones alone. */
   SBF_CODE_ATTACHMENT_NO_HULL = 554, /* An attachment names a rigid body without a hull: nothing lies inside it. */
   SBF_CODE_BODY_WITHOUT_POINTS = 555, /* A soft body has no points: nothing can be built for it. */
+  SBF_CODE_RIG_SECTION_GUESSED = 701, /* A section was given to the nearest bone, because no name said where it belongs. */
+  SBF_CODE_RIG_UNWEIGHTED_POINTS = 702, /* Points of a skinned mesh have no weights: paint them in the source. */
+  SBF_CODE_RIG_NO_SECTIONS = 703, /* Every mesh is skinned: there is no section of its own for any bone. */
+  SBF_CODE_RIG_NO_LEGS = 704, /* No chain of bones ends at the ground: no gait is proposed. */
   SBF_CODE_PACKED_MAGIC = 801, /* The file does not begin as a packed file does: it was damaged in transfer, or is another kind. */
   SBF_CODE_PACKED_TRUNCATED = 802, /* The file ends before what its table names: it was cut short. */
   SBF_CODE_PACKED_TABLE = 803, /* The header or the table of contents contradicts itself. */
@@ -80,6 +84,10 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_AXES = 936, /* The file states axes that make no frame: +Y up is assumed. */
   SBF_CODE_IMPORT_KEYS = 937, /* Keys of an animation are left out: they do not hold together. */
   SBF_CODE_IMPORT_IMAGE = 938, /* An image cannot be taken over. */
+  SBF_CODE_IMPORT_NO_MESH = 950, /* The file holds a skeleton and no mesh. */
+  SBF_CODE_IMPORT_NO_RIG = 951, /* The file holds no skeleton: bodies are not held by bones. */
+  SBF_CODE_IMPORT_NO_BONES = 952, /* The file given as the rig holds no skeleton. */
+  SBF_CODE_IMPORT_PARTIAL_UVS = 953, /* A set of texture coordinates does not cover the whole mesh and was dropped. */
 } sbf_code;
 // clang-format on
 

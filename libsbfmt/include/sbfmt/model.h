@@ -1073,8 +1073,8 @@ typedef struct sbf_gait {
   float walk_speed;
   /* Share of the feet's line that hips and chest take. [[0, 1]; default 0.5] */
   float hip_tilt;
-  /* Share of the feet's height that the body takes. [[0, 1]; default 0.3] */
-  float body_sway;
+  /* Share of the slope between the feet that the body's pitch and roll take. [[0, 1]; default 0.7] */
+  float body_tilt;
   /* Its legs. */
   sbf_leg_list legs;
   /* A head that leads a turn. */

@@ -1,0 +1,150 @@
+#include "sbfmt/convert.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "import/conversion.h"
+#include "import/propose_gait.h"
+
+void sbfi_convert_warn(sbfi_conversion *c, sbf_code code, const char *format, ...) {
+  sbf_diagnostic warning;
+  va_list arguments;
+  va_start(arguments, format);
+  sbfi_diagnose_v(&warning, code, format, arguments);
+  va_end(arguments);
+  sbfi_copy_text(warning.file, sizeof warning.file, c->scene->file);
+  sbfi_report(&c->reporter, &warning);
+}
+
+sbf_status sbfi_convert_no_memory(sbfi_conversion *c) {
+  return sbfi_diagnose(
+      c->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while converting %s", c->scene->file);
+}
+
+/* File axes and unit to asset space; the caller's word counts more than the file's. */
+static sbfi_matrix matrix_to_asset(const sbfi_scene *scene, const sbf_convert_options *options) {
+  sbfi_matrix m = scene->axes;
+  if (options->up) {
+    static const sbfi_matrix z_up = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
+    m = options->up == 'z' ? z_up : sbfi_matrix_identity();
+  }
+  double unit = options->unit_m > 0 ? options->unit_m : scene->unit_m;
+  for (int r = 0; r < 3; r++)
+    for (int k = 0; k < 3; k++) m.at[r][k] *= unit;
+  return m;
+}
+
+static const char *file_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static sbf_status describe_sources(sbfi_conversion *c) {
+  const sbfi_scene *scenes[2] = {c->scene, c->rig && c->rig != c->scene ? c->rig : NULL};
+  sbf_source *sources = sbfi_convert_allocate(c, 2, sizeof *sources);
+  if (!sources) return sbfi_convert_no_memory(c);
+  uint32_t count = 0;
+  for (int i = 0; i < 2 && scenes[i]; i++, count++) {
+    sbf_source_init(&sources[i]);
+    char hex[65];
+    sbf_status status = sbfi_sha256_file(scenes[i]->file, hex, c->error);
+    if (status != SBF_OK) return status;
+    sources[i].path = sbf_asset_copy_text(c->asset, file_name(scenes[i]->file));
+    sources[i].sha256 = sbf_asset_copy_text(c->asset, hex);
+    if (!sources[i].path || !sources[i].sha256) return sbfi_convert_no_memory(c);
+  }
+  const char *name = sources[0].path, *dot = strrchr(name, '.');
+  size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+  char *title = sbfi_convert_allocate(c, length + 1, 1);
+  if (!title) return sbfi_convert_no_memory(c);
+  memcpy(title, name, length);
+  c->asset->info.title = title;
+  c->asset->info.tool = "sbfmt";
+  c->asset->info.sources = (sbf_source_list){sources, count};
+  return SBF_OK;
+}
+
+static void pass_on_warnings(sbfi_conversion *c, const sbfi_scene *scene) {
+  for (uint32_t i = 0; i < scene->warning_count; i++) sbfi_report(&c->reporter, &scene->warnings[i]);
+}
+
+static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
+  if (c->scene->mesh_count == 0 && !c->rig)
+    return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
+        "%s holds neither a mesh nor a skeleton: there is nothing to convert", c->scene->file);
+  if (c->scene->mesh_count == 0)
+    sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_MESH,
+        "the file holds a skeleton and no mesh: the bundle will have bones only; give a mesh file as the "
+        "input "
+        "and this one with --rig");
+  if (!c->rig)
+    sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
+        "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
+  static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
+      sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes};
+  for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
+    sbf_status status = passes[i](c);
+    if (status != SBF_OK) return status;
+  }
+  sbfi_measure_leaf_bones(c);
+  return options->no_gait ? SBF_OK : sbfi_propose_gait(c->asset, &c->reporter, c->error);
+}
+
+/* Makes the asset of scenes that have been read. */
+static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
+    const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbfi_conversion c = {
+      .scene = scene, .rig = rig, .reporter = {options->report, options->user, 0, 0}, .error = error};
+  c.to_asset = matrix_to_asset(scene, options);
+  c.rig_to_asset = rig == scene || !rig ? c.to_asset : matrix_to_asset(rig, &(sbf_convert_options){0});
+  sbfi_arena_init(&c.scratch, options->allocator, 0);
+  sbfi_array_init(&c.ids.slots, options->allocator, sizeof(char *));
+  c.asset = sbf_asset_create(options->allocator);
+  sbf_status status = c.asset ? SBF_OK : sbfi_convert_no_memory(&c);
+  if (status == SBF_OK) {
+    pass_on_warnings(&c, scene);
+    if (rig && rig != scene) pass_on_warnings(&c, rig);
+    status = run_passes(&c, options);
+  }
+  sbfi_array_free(&c.ids.slots);
+  sbfi_arena_free(&c.scratch);
+  if (status != SBF_OK) {
+    sbf_asset_free(c.asset);
+    return status;
+  }
+  *asset = c.asset;
+  return SBF_OK;
+}
+
+sbf_status sbf_convert(
+    const char *input, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  static const sbf_convert_options defaults = {0};
+  sbf_diagnostic unseen;
+  if (!error) error = &unseen;
+  if (!options) options = &defaults;
+  *asset = NULL;
+  if (options->struct_size && options->struct_size != sizeof *options)
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "sbf_convert_options has another size than this library's");
+  if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
+
+  sbfi_scene_options reading = {.allocator = options->allocator, .helper_path = options->import_helper};
+  sbfi_scene scene, rig_scene;
+  sbf_status status = sbfi_scene_read(&scene, input, &reading, error);
+  if (status != SBF_OK) return status;
+  const sbfi_scene *rig = sbfi_scene_bone_count(&scene) ? &scene : NULL;
+  if (options->rig) {
+    status = sbfi_scene_read(&rig_scene, options->rig, &reading, error);
+    if (status == SBF_OK && sbfi_scene_bone_count(&rig_scene) == 0)
+      status = sbfi_diagnose(error, SBF_CODE_IMPORT_NO_BONES,
+          "%s, given as the rig, holds no skeleton: give a file with bones", options->rig);
+    rig = &rig_scene;
+  }
+  if (status == SBF_OK) status = convert_scenes(&scene, rig, options, asset, error);
+  if (options->rig) sbfi_scene_free(&rig_scene);
+  sbfi_scene_free(&scene);
+  return status;
+}

@@ -1,0 +1,31 @@
+/* Writing what other programs read.
+ *
+ * Files are written beside their place and renamed when complete: after a failure the old one stands. Each
+ * writer belongs to one thread at a time. */
+#ifndef SBFMT_EXPORT_H
+#define SBFMT_EXPORT_H
+
+#include "sbfmt/asset.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A point cache, version 1 (.pc2), as Blender's Mesh Cache plays it: places of all points, sample after
+ * sample, single precision, little-endian. */
+typedef struct sbf_point_cache sbf_point_cache;
+
+/* `sample_count` samples of `point_count` points will follow, `samples_per_second` apart. */
+SBF_API sbf_status sbf_point_cache_open(const char *path, uint32_t point_count, uint32_t sample_count,
+    double samples_per_second, sbf_point_cache **cache, sbf_diagnostic *error);
+/* The next sample: point_count places. */
+SBF_API sbf_status sbf_point_cache_add(sbf_point_cache *cache, const sbf_vec3 *points, sbf_diagnostic *error);
+/* Completes the file; SBF_FAILED, and no file, where samples are missing or it cannot be written. */
+SBF_API sbf_status sbf_point_cache_commit(sbf_point_cache *cache, sbf_diagnostic *error);
+/* Gives it up; NULL does nothing. */
+SBF_API void sbf_point_cache_abandon(sbf_point_cache *cache);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,99 @@
+#include "script.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct command {
+  const char *word;
+  script_kind kind;
+  int least, most; /* numbers */
+} command;
+
+static const command commands[] = {
+    {"drive", SCRIPT_DRIVE, 2, 3},       /* forward, turn, sideways */
+    {"teleport", SCRIPT_TELEPORT, 3, 4}, /* x, y, z, heading */
+    {"reset", SCRIPT_RESET, 0, 0},
+    {"pause", SCRIPT_PAUSE, 0, 0},
+    {"resume", SCRIPT_RESUME, 0, 0},
+};
+
+/* Reads `SECONDS COMMAND NUMBERS`; false where the text is something else. */
+static bool parse_line(char *text, script_line *line) {
+  char *rest, *word, *end;
+  line->at_s = strtod(text, &rest);
+  if (rest == text || line->at_s < 0) return false;
+  word = strtok(rest, " \t\r\n");
+  if (!word) return false;
+  for (size_t c = 0; c < sizeof commands / sizeof *commands; c++) {
+    if (strcmp(word, commands[c].word) != 0) continue;
+    int count = 0;
+    for (char *number; (number = strtok(NULL, " \t\r\n")) != NULL; count++) {
+      if (count == commands[c].most) return false;
+      line->numbers[count] = strtod(number, &end);
+      if (end == number || *end) return false;
+    }
+    line->kind = commands[c].kind;
+    return count >= commands[c].least;
+  }
+  return false;
+}
+
+bool script_load(script *s, cli_call *call, const char *path, int *status) {
+  FILE *file = fopen(path, "r");
+  *s = (script){.lines = NULL};
+  if (!file) {
+    *status = cli_wrong(call, "the script %s cannot be read: %s", path, strerror(errno));
+    return false;
+  }
+  char text[512];
+  bool good = true;
+  for (unsigned number = 1; good && fgets(text, sizeof text, file); number++) {
+    char *hash = strchr(text, '#');
+    if (hash) *hash = 0;
+    if (text[strspn(text, " \t\r\n")] == 0) continue;
+    script_line line = {0}, *grown = realloc(s->lines, (s->count + 1) * sizeof *s->lines);
+    if (grown) s->lines = grown;
+    good = grown && parse_line(text, &line) && (s->count == 0 || line.at_s >= s->lines[s->count - 1].at_s);
+    if (good) {
+      s->lines[s->count++] = line;
+      continue;
+    }
+    cli_wrong(call,
+        "%s:%u: not a command `SECONDS drive|teleport|reset|pause|resume NUMBERS` in order of time", path,
+        number);
+    *status = SBF_BAD_INPUT;
+  }
+  fclose(file);
+  if (!good) script_free(s);
+  return good;
+}
+
+void script_free(script *s) {
+  free(s->lines);
+  *s = (script){.lines = NULL};
+}
+
+void script_play(script *s, double time_s, sbr_world *world, sbr_character_id character) {
+  for (; s->next < s->count && s->lines[s->next].at_s <= time_s + 1e-9; s->next++) {
+    const script_line *line = &s->lines[s->next];
+    const double *n = line->numbers;
+    switch (line->kind) {
+    case SCRIPT_DRIVE:
+      sbr_character_drive(world, character, (float)n[0], (float)n[2], (float)n[1]);
+      break;
+    case SCRIPT_TELEPORT:
+      sbr_character_teleport(world, character, (sbr_double3){n[0], n[1], n[2]}, (float)n[3]);
+      break;
+    case SCRIPT_RESET:
+      sbr_character_reset(world, character);
+      break;
+    case SCRIPT_PAUSE:
+      sbr_character_pause(world, character, true);
+      break;
+    case SCRIPT_RESUME:
+      sbr_character_pause(world, character, false);
+      break;
+    }
+  }
+}

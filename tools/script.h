@@ -1,0 +1,35 @@
+/* A small text of commands over time, one a line: `SECONDS COMMAND NUMBERS`, in order of time. */
+#ifndef SCRIPT_H
+#define SCRIPT_H
+
+#include "cli.h"
+#include "sbrun/sbrun.h"
+
+typedef enum script_kind {
+  SCRIPT_DRIVE,
+  SCRIPT_TELEPORT,
+  SCRIPT_RESET,
+  SCRIPT_PAUSE,
+  SCRIPT_RESUME
+} script_kind;
+
+typedef struct script_line {
+  double at_s;
+  script_kind kind;
+  double numbers[4];
+} script_line;
+
+typedef struct script {
+  script_line *lines;
+  uint32_t count, next;
+} script;
+
+/* False, with a message that names the line, where the file cannot be read or a line is not understood;
+ * *status then says whose fault it is. */
+bool script_load(script *s, cli_call *call, const char *path, int *status);
+void script_free(script *s);
+
+/* Plays what is due at `time_s`. */
+void script_play(script *s, double time_s, sbr_world *world, sbr_character_id character);
+
+#endif

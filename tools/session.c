@@ -1,0 +1,139 @@
+#include "session.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Numbers separated by commas; false where there are not `count` of them. */
+static bool parse_numbers(const char *text, int count, double *numbers) {
+  for (int i = 0; i < count; i++) {
+    char *end;
+    numbers[i] = strtod(text, &end);
+    if (end == text || !isfinite(numbers[i]) || *end != (i + 1 < count ? ',' : 0)) return false;
+    text = end + 1;
+  }
+  return true;
+}
+
+static bool parse_ground(cli_call *call, sbr_ground *ground) {
+  const char *text = cli_value(call, "--ground");
+  double n[2];
+  *ground = sbr_ground_flat(0);
+  if (!text || strcmp(text, "flat") == 0) return true;
+  if (strncmp(text, "slope:", 6) == 0 && parse_numbers(text + 6, 1, n) && fabs(n[0]) <= 45)
+    *ground = sbr_ground_slope(n[0]);
+  else if (strncmp(text, "stairs:", 7) == 0 && parse_numbers(text + 7, 2, n) && n[0] >= 0 && n[1] > 0)
+    *ground = sbr_ground_stairs(n[0], n[1]);
+  else if (strncmp(text, "noise:", 6) == 0 && parse_numbers(text + 6, 2, n) && n[0] >= 0 && n[1] >= 0)
+    *ground = sbr_ground_noise(n[0], (uint32_t)n[1]);
+  else {
+    cli_wrong(call,
+        "--ground takes flat, slope:DEGREES (-45 to 45), stairs:RISE,RUN or noise:HEIGHT,SEED in metres, not "
+        "'%s'",
+        text);
+    return false;
+  }
+  return true;
+}
+
+static bool parse_drive(cli_call *call, double drive[2]) {
+  const char *text = cli_value(call, "--drive");
+  drive[0] = drive[1] = 0;
+  if (!text || parse_numbers(text, 2, drive)) return true;
+  cli_wrong(call, "--drive takes a speed and a turn as M/S,RAD/S, as in 0.5,0.2, not '%s'", text);
+  return false;
+}
+
+static bool parse_scheme(cli_call *call, sbf_scheme *scheme) {
+  const char *names[SBF_SCHEME_COUNT];
+  int chosen = SBF_SCHEME_AUTOMATIC;
+  for (int i = 0; i < SBF_SCHEME_COUNT; i++) names[i] = sbf_scheme_name((sbf_scheme)i);
+  if (!cli_word(call, "--scheme", names, SBF_SCHEME_COUNT, &chosen)) return false;
+  *scheme = (sbf_scheme)chosen;
+  return true;
+}
+
+typedef struct settings {
+  sbr_model_options model;
+  double drive[2], raise, gravity;
+  long threads;
+} settings;
+
+static bool parse_settings(session *s, cli_call *call, settings *set) {
+  long substeps = 0, level = 0;
+  *set = (settings){.threads = 1};
+  s->seconds = 5;
+  s->fps = 60;
+  bool good =
+      cli_number(call, "--seconds", 0, 1e6, &s->seconds) && cli_number(call, "--fps", 1, 10000, &s->fps) &&
+      cli_integer(call, "--substeps", 1, 100000, &substeps) &&
+      cli_integer(call, "--level", 0, 1000, &level) && cli_integer(call, "--threads", 1, 64, &set->threads) &&
+      cli_number(call, "--raise", -1000, 1000, &set->raise) &&
+      cli_number(call, "--gravity", -1000, 1000, &set->gravity) && parse_drive(call, set->drive) &&
+      parse_ground(call, &s->ground) && parse_scheme(call, &set->model.scheme);
+  set->model.substeps = (uint32_t)substeps;
+  set->model.level = (uint32_t)level;
+  s->frame_count = (uint32_t)(s->seconds * s->fps + 0.5);
+  return good;
+}
+
+static sbf_status create(session *s, cli_call *call, const settings *set, sbf_diagnostic *error) {
+  sbf_status status = sbf_load_file(call->inputs[0], NULL, &s->asset, error);
+  if (status == SBF_OK) status = sbr_model_create(s->asset, &set->model, &s->model, error);
+  if (status != SBF_OK) return status;
+  sbr_world_definition world = sbr_default_world_definition();
+  world.tasks = thread_pool_tasks(s->threads);
+  world.ground = s->ground;
+  world.control_tick_s = (double)s->asset->environment.control_tick;
+  world.has_gravity = cli_value(call, "--gravity") != NULL;
+  world.gravity = (sbf_vec3){0, (float)-set->gravity, 0};
+  status = sbr_world_create(&world, &s->world, error);
+  if (status != SBF_OK) return status;
+  sbr_character_definition character = sbr_default_character_definition();
+  character.position.y = set->raise;
+  character.hold = cli_switch(call, "--hold");
+  character.free = cli_switch(call, "--free");
+  status = sbr_character_create(s->world, s->model, &character, &s->character, error);
+  if (status == SBF_OK)
+    sbr_character_drive(s->world, s->character, (float)set->drive[0], 0, (float)set->drive[1]);
+  return status;
+}
+
+bool session_open(session *s, cli_call *call, int *status) {
+  settings set;
+  sbf_diagnostic error;
+  *s = (session){.asset = NULL};
+  *status = SBF_FAILED;
+  if (!parse_settings(s, call, &set)) return false;
+  const char *script = cli_value(call, "--script");
+  if (script && !script_load(&s->script, call, script, status)) return false;
+  s->threads = thread_pool_create((uint32_t)set.threads);
+  if (!s->threads) {
+    cli_wrong(call, "the threads cannot be made: ask for fewer");
+    session_close(s);
+    return false;
+  }
+  *status = (int)create(s, call, &set, &error);
+  if (*status == SBF_OK) return true;
+  cli_print_diagnostic(call, &error);
+  session_close(s);
+  return false;
+}
+
+void session_close(session *s) {
+  sbr_world_destroy(s->world);
+  sbr_model_destroy(s->model);
+  sbf_asset_free(s->asset);
+  thread_pool_destroy(s->threads);
+  script_free(&s->script);
+  *s = (session){.asset = NULL};
+}
+
+bool session_step(session *s) {
+  if (s->frame >= s->frame_count) return false;
+  script_play(&s->script, s->time_s, s->world, s->character);
+  sbr_world_step(s->world, 1 / s->fps);
+  s->frame++;
+  s->time_s = s->frame / s->fps;
+  return true;
+}

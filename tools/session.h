@@ -1,0 +1,44 @@
+/* One character brought to life as the options of `run` and `render` say: loaded, placed, driven, stepped. */
+#ifndef SESSION_H
+#define SESSION_H
+
+#include "cli.h"
+#include "sbfmt/io.h"
+#include "sbrun/sbrun.h"
+#include "script.h"
+#include "thread_pool.h"
+
+/* The options that both verbs share; put them first in a verb's table. */
+#define SESSION_OPTIONS                                                                                      \
+  {"--seconds", "S", "how long (5)"}, {"--fps", "N", "frames a second (60)"},                                \
+      {"--scheme", "NAME", "automatic, symplectic, relaxation (automatic)"},                                 \
+      {"--substeps", "N", "of a control tick (as many as the scheme needs)"},                                \
+      {"--threads", "N", "worker threads; the motion is the same for any number (1)"},                       \
+      {"--drive", "M/S,RAD/S", "wanted speed and turn (0,0)"},                                               \
+      {"--ground", "KIND", "flat, slope:DEGREES, stairs:RISE,RUN or noise:HEIGHT,SEED (flat)"},              \
+      {"--hold", NULL, "keep the bones in their rest pose"}, {"--free", NULL, "drop every pin"},             \
+      {"--raise", "M", "start that much higher (0)"}, {"--gravity", "M/S2", "downward (the file's)"},        \
+      {"--level", "N", "simulation level, 0 the finest (0)"}, {                                              \
+    "--script", "FILE", "commands over time; see docs/scripts.md"                                            \
+  }
+
+typedef struct session {
+  sbf_asset *asset;
+  sbr_model *model;
+  sbr_world *world;
+  sbr_character_id character;
+  thread_pool *threads;
+  script script;
+  sbr_ground ground;
+  double seconds, fps, time_s;
+  uint32_t frame_count, frame;
+} session;
+
+/* False, with a message printed and *status set, where the options or the file do not allow it. */
+bool session_open(session *s, cli_call *call, int *status);
+void session_close(session *s);
+
+/* Plays the script's commands that are due and advances by one frame; false after the last. */
+bool session_step(session *s);
+
+#endif

@@ -1,0 +1,134 @@
+#include "sole.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { MOST_LEGS = 16 };
+static const double BAND = 0.12; /* the lowest part of a foot's height is its sole */
+
+typedef struct sole {
+  uint32_t *vertices; /* places in the skin */
+  double *rest_y;     /* height of each above the lowest, at rest */
+  uint32_t count;
+  double rest_low; /* of the lowest vertex against the ground at rest */
+  bool planted;
+  double x, z; /* where the stance began */
+} sole;
+
+struct soles {
+  sole at[MOST_LEGS];
+  uint32_t count;
+  sole_report report;
+};
+
+static bool is_below(const sbf_asset *asset, int32_t bone, int32_t ancestor) {
+  for (; bone >= 0; bone = asset->bones.at[bone].parent)
+    if (bone == ancestor) return true;
+  return false;
+}
+
+static uint32_t skin_offset(const sbf_asset *asset, int32_t mesh) {
+  uint32_t offset = 0;
+  for (int32_t i = 0; i < mesh; i++) offset += asset->render_meshes.at[i].mesh.positions.count;
+  return offset;
+}
+
+/* Vertices of the skin carried mostly by a bone or what hangs on it. */
+static bool gather(const sbf_asset *asset, int32_t foot, sole *s) {
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[b];
+    if (!is_below(asset, body->bone, foot) || body->levels.count == 0) continue;
+    for (uint32_t e = 0; e < body->levels.at[0].embeddings.count; e++) {
+      const sbf_embedding *embedding = &body->levels.at[0].embeddings.at[e];
+      if (embedding->render_mesh < 0) continue;
+      uint32_t offset = skin_offset(asset, embedding->render_mesh);
+      uint32_t *grown = realloc(s->vertices, (s->count + embedding->points.count + 1) * sizeof *grown);
+      if (!grown) return false;
+      s->vertices = grown;
+      for (uint32_t i = 0; i < embedding->points.count; i++) {
+        bool mostly = embedding->blends.count == 0 || embedding->blends.at[i] > 0.5f;
+        if (mostly)
+          s->vertices[s->count++] = offset + (embedding->vertices.count ? embedding->vertices.at[i] : i);
+      }
+    }
+  }
+  return true;
+}
+
+static double rest_height(const sbf_asset *asset, uint32_t vertex) {
+  uint32_t mesh = 0;
+  while (vertex >= asset->render_meshes.at[mesh].mesh.positions.count)
+    vertex -= asset->render_meshes.at[mesh++].mesh.positions.count;
+  return (double)asset->render_meshes.at[mesh].mesh.positions.at[vertex].y;
+}
+
+/* Keeps the lowest vertices and notes their heights. */
+static bool keep_lowest(const sbf_asset *asset, sole *s) {
+  double low = INFINITY, high = -INFINITY;
+  for (uint32_t i = 0; i < s->count; i++) {
+    low = fmin(low, rest_height(asset, s->vertices[i]));
+    high = fmax(high, rest_height(asset, s->vertices[i]));
+  }
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < s->count; i++)
+    if (rest_height(asset, s->vertices[i]) <= low + BAND * (high - low)) s->vertices[kept++] = s->vertices[i];
+  s->count = kept;
+  s->rest_low = low;
+  s->rest_y = malloc((kept + 1) * sizeof *s->rest_y);
+  if (!s->rest_y) return false;
+  for (uint32_t i = 0; i < kept; i++) s->rest_y[i] = rest_height(asset, s->vertices[i]);
+  return true;
+}
+
+soles *soles_create(const session *s) {
+  const sbf_asset *asset = s->asset;
+  if (asset->gaits.count == 0) return NULL;
+  soles *all = calloc(1, sizeof *all);
+  if (!all) return NULL;
+  const sbf_gait *gait = &asset->gaits.at[0];
+  for (uint32_t l = 0; l < gait->legs.count && l < MOST_LEGS; l++) {
+    sole *one = &all->at[all->count++];
+    if (gather(asset, asset->ik_chains.at[gait->legs.at[l].ik].end, one) && keep_lowest(asset, one)) continue;
+    soles_destroy(all);
+    return NULL;
+  }
+  return all;
+}
+
+void soles_destroy(soles *all) {
+  for (uint32_t l = 0; all && l < all->count; l++) {
+    free(all->at[l].vertices);
+    free(all->at[l].rest_y);
+  }
+  free(all);
+}
+
+void soles_measure(soles *all, const session *s, const sbf_vec3 *skin) {
+  sbr_leg_state legs[MOST_LEGS];
+  sbr_double3 origin = sbr_character_origin(s->world, s->character);
+  uint32_t leg_count = sbr_character_legs(s->world, s->character, legs, MOST_LEGS);
+  for (uint32_t l = 0; l < all->count && l < leg_count; l++) {
+    sole *one = &all->at[l];
+    double x = 0, z = 0;
+    for (uint32_t i = 0; i < one->count; i++) {
+      const sbf_vec3 p = skin[one->vertices[i]];
+      double wx = origin.x + (double)p.x, wy = origin.y + (double)p.y, wz = origin.z + (double)p.z;
+      sbf_vec3 normal;
+      double depth = s->ground.height(&s->ground, wx, wz, &normal) - wy + fmin(one->rest_low, 0);
+      all->report.penetration_m = fmax(all->report.penetration_m, depth);
+      x += wx / one->count;
+      z += wz / one->count;
+    }
+    if (legs[l].planted && !one->planted) {
+      one->x = x;
+      one->z = z;
+    }
+    one->planted = legs[l].planted;
+    if (one->planted && one->count)
+      all->report.slip_m = fmax(all->report.slip_m, hypot(x - one->x, z - one->z));
+  }
+}
+
+sole_report soles_report(const soles *all) {
+  return all->report;
+}

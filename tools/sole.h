@@ -1,0 +1,23 @@
+/* What a walk does to the ground, measured on the skin: the sole of each foot, its slip and how deep it goes.
+ */
+#ifndef SOLE_H
+#define SOLE_H
+
+#include "session.h"
+
+typedef struct sole_report {
+  double slip_m;        /* farthest that a planted sole moved over the ground during one stance */
+  double penetration_m; /* deepest that a sole went below the ground, its rest height taken off */
+} sole_report;
+
+typedef struct soles soles;
+
+/* NULL where the character has no legs, or memory runs out. */
+soles *soles_create(const session *s);
+void soles_destroy(soles *soles);
+
+/* Looks at the skin as it is now: `skin` holds every render mesh's vertices one after the other. */
+void soles_measure(soles *soles, const session *s, const sbf_vec3 *skin);
+sole_report soles_report(const soles *soles);
+
+#endif

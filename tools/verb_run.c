@@ -1,0 +1,228 @@
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "pose_file.h"
+#include "sbfmt/export.h"
+#include "session.h"
+#include "sole.h"
+
+/* What a run gathers beside the session. */
+typedef struct run_state {
+  session s;
+  soles *soles;
+  sbf_vec3 *skin, *normals, *surface, *sample;
+  uint32_t skin_count, surface_count;
+  sbf_point_cache *cache;
+  bool cache_of_surface;
+  pose_file poses;
+  double busy_s;                    /* spent stepping and skinning */
+  double least_volume, most_strain; /* over all frames */
+  double end_volume;
+  bool valid;
+} run_state;
+
+static double now_s(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool make_room(run_state *r) {
+  const sbf_asset *asset = r->s.asset;
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    r->skin_count += asset->render_meshes.at[i].mesh.positions.count;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
+    r->surface_count += asset->soft_bodies.at[i].surface.positions.count;
+  r->skin = calloc(r->skin_count + 1, sizeof *r->skin);
+  r->normals = calloc(r->skin_count + 1, sizeof *r->normals);
+  r->surface = calloc(r->surface_count + 1, sizeof *r->surface);
+  r->sample =
+      calloc((r->skin_count > r->surface_count ? r->skin_count : r->surface_count) + 1, sizeof *r->sample);
+  return r->skin && r->normals && r->surface && r->sample;
+}
+
+static void read_skin(run_state *r) {
+  uint32_t at = 0;
+  for (uint32_t i = 0; i < r->s.asset->render_meshes.count; i++)
+    at += sbr_character_skin(
+        r->s.world, r->s.character, i, r->skin + at, r->normals + at, NULL, r->skin_count - at);
+}
+
+static void read_health(run_state *r) {
+  r->end_volume = 1;
+  for (uint32_t i = 0; i < r->s.asset->soft_bodies.count; i++) {
+    sbr_body_health health = sbr_character_health(r->s.world, r->s.character, i);
+    r->valid = r->valid && health.finite && !health.inverted;
+    r->end_volume = fmin(r->end_volume, (double)health.volume_ratio);
+    r->most_strain = fmax(r->most_strain, (double)health.max_strain);
+  }
+  r->least_volume = fmin(r->least_volume, r->end_volume);
+}
+
+static double energy(const run_state *r) {
+  double sum = 0;
+  for (uint32_t i = 0; i < r->s.asset->soft_bodies.count; i++) {
+    sbr_body_health health = sbr_character_health(r->s.world, r->s.character, i);
+    sum += health.kinetic_j + health.elastic_j + health.potential_j;
+  }
+  return sum;
+}
+
+/* The skin, or the surfaces, in world space into the cache. */
+static bool add_to_cache(run_state *r, sbf_diagnostic *error) {
+  sbr_double3 origin = sbr_character_origin(r->s.world, r->s.character);
+  uint32_t count = r->cache_of_surface ? r->surface_count : r->skin_count, at = 0;
+  for (uint32_t i = 0; r->cache_of_surface && i < r->s.asset->soft_bodies.count; i++)
+    at += sbr_character_surface(r->s.world, r->s.character, i, r->surface + at, count - at);
+  const sbf_vec3 *from = r->cache_of_surface ? r->surface : r->skin;
+  for (uint32_t i = 0; i < count; i++)
+    r->sample[i] = (sbf_vec3){(float)(origin.x + (double)from[i].x), (float)(origin.y + (double)from[i].y),
+        (float)(origin.z + (double)from[i].z)};
+  return sbf_point_cache_add(r->cache, r->sample, error) == SBF_OK;
+}
+
+static bool record(run_state *r, sbf_diagnostic *error) {
+  read_health(r);
+  if (r->soles) soles_measure(r->soles, &r->s, r->skin);
+  if (r->cache && !add_to_cache(r, error)) return false;
+  if (!r->poses.file || pose_file_add(&r->poses, &r->s)) return true;
+  *error = (sbf_diagnostic){.severity = SBF_SEVERITY_ERROR, .offset = -1, .index = -1};
+  snprintf(error->message, sizeof error->message, "the pose file cannot be written: %s", strerror(errno));
+  return false;
+}
+
+static bool open_outputs(run_state *r, cli_call *call) {
+  sbf_diagnostic error;
+  static const char *const sources[] = {"skin", "surface"};
+  int of = 0;
+  if (!cli_word(call, "--of", sources, 2, &of)) return false;
+  const char *cache = cli_value(call, "--cache"), *poses = cli_value(call, "--pose");
+  r->cache_of_surface = of == 1;
+  uint32_t points = of ? r->surface_count : r->skin_count;
+  if (cache &&
+      sbf_point_cache_open(cache, points, r->s.frame_count + 1, r->s.fps, &r->cache, &error) != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+    return false;
+  }
+  if (poses && !pose_file_open(&r->poses, poses, &r->s)) {
+    cli_wrong(call, "the pose file %s cannot be made: %s", poses, strerror(errno));
+    return false;
+  }
+  return true;
+}
+
+static json_t *report(const run_state *r) {
+  sbr_leg_state legs[16];
+  uint32_t leg_count = sbr_character_legs(r->s.world, r->s.character, legs, 16);
+  char hash[24];
+  snprintf(hash, sizeof hash, "%016llx", (unsigned long long)sbr_world_state_hash(r->s.world));
+  uint64_t ticks = sbr_world_ticks(r->s.world);
+  json_t *o = json_object();
+  json_object_set_new(o, "seconds", json_real(r->s.time_s));
+  json_object_set_new(o, "frames", json_integer(r->s.frame));
+  json_object_set_new(o, "steps", json_integer((json_int_t)ticks));
+  json_object_set_new(o, "substeps", json_integer(sbr_model_substeps(r->s.model)));
+  json_object_set_new(o, "us_per_frame", json_real(r->s.frame ? 1e6 * r->busy_s / r->s.frame : 0));
+  json_object_set_new(o, "state_hash", json_string(hash));
+  json_object_set_new(o, "valid", json_boolean(r->valid));
+  json_object_set_new(o, "energy", json_real(energy(r)));
+  json_object_set_new(o, "volume_ratio", json_real(r->end_volume));
+  json_object_set_new(o, "volume_ratio_least", json_real(r->least_volume));
+  json_object_set_new(o, "max_strain", json_real(r->most_strain));
+  if (leg_count == 0 || !r->soles) return o;
+  const sbf_gait *gait = &r->s.asset->gaits.at[0];
+  json_t *steps = json_object();
+  for (uint32_t l = 0; l < leg_count && l < 16; l++)
+    json_object_set_new(steps, gait->legs.at[l].name, json_integer(legs[l].steps_taken));
+  sole_report soles = soles_report(r->soles);
+  json_object_set_new(o, "distance", json_real(sbr_character_distance(r->s.world, r->s.character)));
+  json_object_set_new(o, "steps_taken", steps);
+  json_object_set_new(o, "stance_slip", json_real(soles.slip_m));
+  json_object_set_new(o, "penetration", json_real(soles.penetration_m));
+  return o;
+}
+
+static void print_text(const json_t *o) {
+  const char *key;
+  json_t *value;
+  json_object_foreach((json_t *)(uintptr_t)o, key, value) {
+    char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_REAL_PRECISION(6));
+    printf("%-18s %s\n", key, text ? text : "");
+    free(text);
+  }
+}
+
+static bool play(run_state *r, cli_call *call) {
+  sbf_diagnostic error;
+  read_skin(r);
+  bool good = record(r, &error);
+  for (;;) {
+    double start = now_s();
+    if (!good || !session_step(&r->s)) break;
+    read_skin(r);
+    r->busy_s += now_s() - start;
+    good = record(r, &error);
+    if (r->s.frame % 30 == 0) cli_progress("running", (double)r->s.frame / r->s.frame_count);
+  }
+  cli_progress_end();
+  if (!good) cli_print_diagnostic(call, &error);
+  return good;
+}
+
+static int run(cli_call *call) {
+  run_state r = {.valid = true, .least_volume = 1, .end_volume = 1};
+  sbf_diagnostic error;
+  int status;
+  if (!session_open(&r.s, call, &status)) return status;
+  status = SBF_FAILED;
+  if (!make_room(&r))
+    cli_wrong(call, "memory ran out");
+  else if (open_outputs(&r, call)) {
+    r.soles = soles_create(&r.s);
+    if (play(&r, call)) status = SBF_OK;
+  }
+  bool keep = status == SBF_OK;
+  if (r.cache && keep && sbf_point_cache_commit(r.cache, &error) != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+    status = SBF_FAILED;
+  } else if (r.cache && !keep) {
+    sbf_point_cache_abandon(r.cache);
+  }
+  if (!pose_file_close(&r.poses, keep)) status = cli_wrong(call, "the pose file cannot be completed");
+  if (status == SBF_OK) {
+    json_t *object = report(&r);
+    if (call->json)
+      status = cli_print_json(object, SBF_OK);
+    else {
+      print_text(object);
+      json_decref(object);
+    }
+  }
+  soles_destroy(r.soles);
+  free(r.skin);
+  free(r.normals);
+  free(r.surface);
+  free(r.sample);
+  session_close(&r.s);
+  return status;
+}
+
+static const cli_option options[] = {
+    SESSION_OPTIONS,
+    {"--cache", "OUT.pc2", "write a point cache, a sample a frame"},
+    {"--of", "skin|surface", "what the cache holds: the skin, or every section's surface (skin)"},
+    {"--pose", "OUT.csv", "write every bone's place and rotation, frame by frame"},
+    {"--format", "text|json", "how to print (text)"},
+    {NULL, NULL, NULL},
+};
+const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S] [--ground KIND] ...",
+    "simulate and say how it went",
+    "Loads the file, steps it and prints measures: `valid` is true where no number was infinite and no "
+    "element\n"
+    "inverted at any frame; `volume_ratio` is the least of all sections at the end, `volume_ratio_least` at "
+    "any\n"
+    "frame; slip and penetration are measured on the skin's soles. The same call gives the same state_hash.",
+    options, 1, 1, run};
