@@ -73,6 +73,7 @@ static bool parse_settings(session *s, cli_call *call, settings *set) {
       parse_ground(call, &s->ground) && parse_scheme(call, &set->model.scheme);
   set->model.substeps = (uint32_t)substeps;
   set->model.level = (uint32_t)level;
+  set->model.free = cli_switch(call, "--free");
   s->frame_count = (uint32_t)(s->seconds * s->fps + 0.5);
   return good;
 }
@@ -92,7 +93,6 @@ static sbf_status create(session *s, cli_call *call, const settings *set, sbf_di
   sbr_character_definition character = sbr_default_character_definition();
   character.position.y = set->raise;
   character.hold = cli_switch(call, "--hold");
-  character.free = cli_switch(call, "--free");
   status = sbr_character_create(s->world, s->model, &character, &s->character, error);
   if (status == SBF_OK)
     sbr_character_drive(s->world, s->character, (float)set->drive[0], 0, (float)set->drive[1]);

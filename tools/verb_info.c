@@ -102,7 +102,9 @@ static totals count(const sbf_asset *asset) {
     t.attachments += body->attachments.count;
     t.pins += body_pins(body);
     if (body->levels.count > t.levels) t.levels = body->levels.count;
-    t.mass += sbf_body_mass(body);
+    sbf_body_measures measures;
+    sbf_body_measure(body, &measures);
+    t.mass += measures.mass;
     if (!level) continue;
     t.tetrahedra += level->lattice.tetrahedra.count;
     for (uint32_t s = 0; s < level->springs.count; s++) {

@@ -1,0 +1,67 @@
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "building.h"
+#include "sbfmt/convert.h"
+
+/* OUT-DIR/NAME.sbf for an input's NAME.ending. */
+static bool path_in(const char *folder, const char *input, char *path, size_t size) {
+  const char *slash = strrchr(input, '/'), *name = slash ? slash + 1 : input, *dot = strrchr(name, '.');
+  int length = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
+  int needed = snprintf(path, size, "%s/%.*s.sbf", folder, length, name);
+  return needed > 0 && (size_t)needed < size;
+}
+
+static void report(void *user, const sbf_diagnostic *diagnostic) { cli_print_diagnostic(user, diagnostic); }
+
+static int convert(cli_call *call, const char *input, const char *out, const sbf_convert_options *options) {
+  sbf_asset *asset;
+  sbf_diagnostic error;
+  sbf_status status = sbf_convert(input, options, &asset, &error);
+  if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
+  if (status == SBF_OK) {
+    status = sbf_save_file(asset, out, NULL, &error);
+    sbf_asset_free(asset);
+  }
+  if (status != SBF_OK) cli_print_diagnostic(call, &error);
+  return (int)status;
+}
+
+static int run(cli_call *call) {
+  const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
+  static const char *const axes[] = {"y", "z"};
+  int up = 0, status = SBF_OK;
+  sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
+  if (!out == !folder) return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
+  if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
+  if (!cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) || !cli_word(call, "--up", axes, 2, &up) ||
+      !building_check(call))
+    return SBF_FAILED;
+  if (cli_value(call, "--up")) options.up = axes[up][0];
+  for (int i = 0; i < call->input_count; i++) {
+    char path[4096];
+    if (folder && !path_in(folder, call->inputs[i], path, sizeof path))
+      return cli_wrong(call, "the path of %s in %s is too long", call->inputs[i], folder);
+    int one = convert(call, call->inputs[i], out ? out : path, &options);
+    if (one > status) status = one;
+  }
+  return status;
+}
+
+static const cli_option options[] = {
+    {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
+    {"--out-dir", "DIR", "write each input there, under its own name"},
+    {"--rig", "FILE", "take the skeleton from this file"},
+    {"--unit", "METRES", "metres in a unit of the input (what the file says, else 1)"},
+    {"--up", "y|z", "the input's upward axis (what the file says, else y)"},
+    {"--no-build", NULL, "leave the derived parts to `sbfmt build`"},
+    BUILDING_OPTIONS,
+    {NULL, NULL, NULL},
+};
+const cli_verb verb_convert = {"convert", "INPUT... (-o OUT.sbf[z] | --out-dir DIR) [--rig FILE] ...",
+    "make a bundle of a mesh and a rig",
+    "Reads OBJ, FBX, glTF, Collada and what else assimp knows. Objects become sections of the bones they hang on in\n"
+    "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed where legs are found. Then builds.",
+    options, 1, -1, run};
