@@ -131,6 +131,25 @@ static int32_t common_ancestor(const sbfi_assembly *a, uint32_t *bones_below) {
   return deepest;
 }
 
+/* A glTF without a skin may still hold a rig, its meshes hanging rigidly on it: the nodes that are no meshes
+ * themselves, below the top one, where at least two of them carry a mesh. */
+static void mark_rigid_rig(sbfi_assembly *a) {
+  sbfi_scene_node *nodes = a->nodes;
+  uint32_t count = a->scene->node_count, carriers = 0;
+  int32_t last = SBF_NONE;
+  for (uint32_t i = 0; i < count; i++) {
+    if (nodes[i].is_bone) return;
+    int32_t parent = nodes[i].parent;
+    if (!a->raw->nodes[a->old_from_new[i]].mesh_count || parent == SBF_NONE || parent == last) continue;
+    bool on_mesh = a->raw->nodes[a->old_from_new[parent]].mesh_count > 0;
+    if (on_mesh || nodes[parent].parent == SBF_NONE) continue;
+    carriers++;
+    last = parent;
+  }
+  for (uint32_t i = 0; i < count && carriers >= 2; i++)
+    nodes[i].is_bone = nodes[i].parent != SBF_NONE && !a->raw->nodes[a->old_from_new[i]].mesh_count;
+}
+
 /* glTF lists the joints of a skin, and FBX says of each node whether it is a limb. Elsewhere only the joints
  * that hold a point are known: to them come what joins them and what hangs on them, but never the root of the
  * file. In a BVH everything is a joint. */
@@ -140,6 +159,7 @@ static bool mark_bones(sbfi_assembly *a) {
   uint32_t count = a->scene->node_count;
   for (uint32_t i = 0; i < count; i++)
     if (a->raw->nodes[a->old_from_new[i]].kind == SBFI_STREAM_BONE) nodes[i].is_bone = true;
+  if (is_gltf(format)) mark_rigid_rig(a);
   if (is_gltf(format) || strcmp(format, "fbx") == 0) return true;
   uint32_t *bones_below = sbfi_arena_allocate(&a->scratch, count, sizeof *bones_below);
   if (!bones_below) return false;

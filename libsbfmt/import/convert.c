@@ -4,7 +4,8 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/hash.h"
+#include "base/file.h"
+#include "base/sha256.h"
 #include "import/conversion.h"
 #include "import/propose_gait.h"
 
@@ -41,6 +42,20 @@ static const char *file_name(const char *path) {
   return slash ? slash + 1 : path;
 }
 
+static sbf_status hash_file(sbfi_conversion *c, const char *path, char text[SBFI_SHA256_TEXT_SIZE]) {
+  sbfi_file_content content;
+  sbf_status status = sbfi_file_map(path, 0, &c->scratch.allocator, &content, c->error);
+  if (status != SBF_OK) return status;
+  sbfi_sha256 hash;
+  uint8_t digest[SBFI_SHA256_BYTES];
+  sbfi_sha256_init(&hash);
+  sbfi_sha256_update(&hash, content.at, content.size);
+  sbfi_sha256_finish(&hash, digest);
+  sbfi_sha256_text(digest, text);
+  sbfi_file_content_free(&content);
+  return SBF_OK;
+}
+
 static sbf_status describe_sources(sbfi_conversion *c) {
   const sbfi_scene *scenes[2] = {c->scene, c->rig && c->rig != c->scene ? c->rig : NULL};
   sbf_source *sources = sbfi_convert_allocate(c, 2, sizeof *sources);
@@ -48,8 +63,8 @@ static sbf_status describe_sources(sbfi_conversion *c) {
   uint32_t count = 0;
   for (int i = 0; i < 2 && scenes[i]; i++, count++) {
     sbf_source_init(&sources[i]);
-    char hex[65];
-    sbf_status status = sbfi_sha256_file(scenes[i]->file, hex, c->error);
+    char hex[SBFI_SHA256_TEXT_SIZE];
+    sbf_status status = hash_file(c, scenes[i]->file, hex);
     if (status != SBF_OK) return status;
     sources[i].path = sbf_asset_copy_text(c->asset, file_name(scenes[i]->file));
     sources[i].sha256 = sbf_asset_copy_text(c->asset, hex);
