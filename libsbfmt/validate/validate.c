@@ -44,7 +44,7 @@ sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_options *opti
   v.repeats = options->repeats ? options->repeats : 8;
   *v.result = (sbf_validate_result){0};
   static void (*const families[])(sbfi_validation *) = {sbfi_check_surfaces, sbfi_check_lattices, sbfi_check_springs,
-      sbfi_check_pins, sbfi_check_embeddings, sbfi_check_rig, sbfi_check_physics, sbfi_check_derived};
+      sbfi_check_pins, sbfi_check_embeddings, sbfi_check_rig, sbfi_check_physics};
   for (size_t i = 0; i < sizeof families / sizeof *families && !v.out_of_memory; i++) {
     sbfi_arena_init(&v.scratch, options->allocator, 0);
     families[i](&v);

@@ -41,6 +41,27 @@ static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
   return run > 1e-6f ? sbri_atan2(b.y - a.y, run) : 0;
 }
 
+/* How far the body must come down for every leg to reach its foot. */
+static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root) {
+  float most = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    const sbri_leg *leg = &rig->legs[i];
+    const sbri_foot *foot = &state->feet[i];
+    float reach = (leg->upper_length + leg->lower_length) * (1 - leg->soft_reach) * input->scale;
+    sbf_vec3 hip = sbri_scale(rig->rest[leg->upper].position, input->scale);
+    hip = sbri_add(root->position, sbri_rotate(root->rotation, hip));
+    sbf_vec3 ankle = sbri_add_scaled(foot->ground, foot->normal, leg->home.y * input->scale);
+    ankle.y += foot->lift + state->position.y;
+    sbf_vec3 away = sbri_sub(hip, ankle);
+    float left = reach * reach - away.x * away.x - away.z * away.z;
+    float drop =
+        left > 0 ? away.y - sqrtf(left) : 0; /* a leg that is too far to the side is not helped by it */
+    if (drop > most) most = drop;
+  }
+  return most;
+}
+
 sbri_stance sbri_body_stance(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stance stance = {.root = {state->position, yaw_rotation(state->heading)}};
@@ -64,6 +85,7 @@ sbri_stance sbri_body_stance(
   stance.root.rotation = sbri_quat_normalize(sbri_quat_multiply(heading, tilt));
   sbf_vec3 moved = sbri_sub(sbri_rotate(heading, middle), sbri_rotate(stance.root.rotation, middle));
   stance.root.position = sbri_add(stance.root.position, moved);
+  stance.root.position.y -= crouch(rig, state, input, &stance.root);
   stance.hips_yaw = line_yaw(rig, state, 1);
   stance.chest_yaw = rig->gait->chest >= 0 ? line_yaw(rig, state, 0) : stance.hips_yaw;
   return stance;

@@ -8,8 +8,11 @@
 #include "math/trig.h"
 
 static const float PI = 3.14159265f;
-static const float SAFE_REACH = 0.96f;   /* share of a leg's uneased reach beyond which its foot must step */
-static const float LOOK_AHEAD_S = 0.05f; /* a foot steps when it would be beyond it so much later */
+static const float SAFE_REACH =
+    0.96f; /* share of a leg's uneased reach beyond which its foot wants to step */
+static const float MOST_REACH = 0.88f;     /* the same over the ground alone: beyond it the foot must */
+static const float LOOK_AHEAD_S = 0.02f;   /* a foot that would be beyond it so soon steps at once */
+static const float STEPS_AHEAD = 1.6f;     /* and one that would be within so many steps wants to */
 static const float SETTLE_AFTER_S = 0.15f; /* of standing; then feet go home */
 static const float SETTLED = 0.15f;        /* share of the trigger within which a foot is at home */
 static const float COMPANION = 0.5f; /* share of the trigger at which a foot goes with one of its group */
@@ -141,19 +144,21 @@ static bool swing(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_i
   return false;
 }
 
-/* Whether the leg would be stretched beyond what it reaches a moment later. */
-static bool must_step(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    const sbri_stance *stance, uint32_t leg) {
+/* Whether the leg will be stretched beyond a share of its reach in a moment; a foot far ahead comes nearer by
+ * itself. `flat` leaves the height out, which the body can still make up for by coming down. */
+static bool overreaches(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stance *stance, uint32_t leg, float seconds, float share, bool flat) {
   const sbri_leg *l = &rig->legs[leg];
-  float reach = (l->upper_length + l->lower_length) * (1 - l->soft_reach) * SAFE_REACH * input->scale;
+  float reach = (l->upper_length + l->lower_length) * (1 - l->soft_reach) * share * input->scale;
   sbf_vec3 hip = sbri_scale(rig->rest[l->upper].position, input->scale);
   hip = sbri_add(stance->root.position, sbri_rotate(stance->root.rotation, hip));
   sbf_vec3 velocity = home_velocity(state, home_arm(rig, state, input, leg));
   sbf_vec3 ankle =
       sbri_add_scaled(state->feet[leg].ground, state->feet[leg].normal, l->home.y * input->scale);
+  if (flat) hip.y = ankle.y;
   float now = sbri_length(sbri_sub(ankle, hip));
-  float later = sbri_length(sbri_sub(ankle, sbri_add_scaled(hip, velocity, LOOK_AHEAD_S)));
-  return later > reach && later > now; /* a foot far ahead comes nearer by itself */
+  float later = sbri_length(sbri_sub(ankle, sbri_add_scaled(hip, velocity, seconds)));
+  return later > reach && later > now;
 }
 
 /* Groups with a foot in the air, as bits. */
@@ -187,10 +192,13 @@ static int32_t choose(const sbri_rig *rig, const sbri_gait_state *state, const s
     float away = displacement(rig, state, input, i);
     float wanted = in_air == own ? COMPANION : 1;
     if (state->standing_s > SETTLE_AFTER_S) wanted = SETTLED;
-    bool must = must_step(rig, state, input, stance, i);
+    float speed = sbri_length(home_velocity(state, home_arm(rig, state, input, i)));
+    float soon = STEPS_AHEAD * duration_of(rig, input, speed) + LOOK_AHEAD_S;
+    bool must = overreaches(rig, state, input, stance, i, LOOK_AHEAD_S, MOST_REACH, true);
+    bool wants = away >= wanted || overreaches(rig, state, input, stance, i, soon, SAFE_REACH, false);
     bool alone = (in_air & ~own) == 0;
-    if (!must && (!alone || away < wanted)) continue;
-    float urgency = must ? 10 + fabsf(away) : away;
+    if (!must && (!alone || !wants)) continue;
+    float urgency = must ? 10 + fabsf(away) : fmaxf(away, 0.01f);
     if (urgency <= worst) continue;
     worst = urgency;
     best = (int32_t)i;

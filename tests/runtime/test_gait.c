@@ -1,0 +1,310 @@
+#include "gait/gait.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness.h"
+#include "math/quat.h"
+#include "quadruped.h"
+
+enum { MOST_BONES = 32, TICKS_A_SECOND = 60 };
+
+typedef struct walk {
+  quadruped q;
+  void *state;
+  sbri_gait_input input;
+  sbr_ground ground;
+  sbr_transform pose[MOST_BONES];
+  uint32_t events;
+  float worst_slip, worst_stretch, most_lift;
+  uint32_t opposite_in_air;
+  sbf_vec3 stance[4];
+  bool was_planted[4];
+} walk;
+
+static double flat(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  (void)x;
+  (void)z;
+  *normal = (sbf_vec3){0, 1, 0};
+  return ground->parameters[0];
+}
+
+static double slope(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  (void)x;
+  double rise = ground->parameters[0], length = sqrt(1 + rise * rise);
+  *normal = (sbf_vec3){0, (float)(1 / length), (float)(-rise / length)};
+  return z * rise;
+}
+
+static void begin(
+    walk *w, double (*height)(const sbr_ground *, double, double, sbf_vec3 *), double parameter) {
+  memset(w, 0, sizeof *w);
+  quadruped_create(&w->q);
+  w->ground = (sbr_ground){height, NULL, {parameter, 0, 0, 0}};
+  w->input = (sbri_gait_input){.tick_s = 1.0f / TICKS_A_SECOND, .scale = 1, .ground = &w->ground};
+  w->state = malloc(sbri_gait_state_size(&w->q.rig));
+  sbri_gait_place(&w->q.rig, w->state, &w->input, (sbf_vec3){0, 0, 0}, 0);
+}
+
+static void end(walk *w) {
+  free(w->state);
+  quadruped_destroy(&w->q);
+}
+
+static float length_between(const walk *w, uint32_t a, uint32_t b) {
+  return sbri_length(sbri_sub(w->pose[a].position, w->pose[b].position));
+}
+
+/* One tick, and the measures that every walk is judged by. */
+static void tick(walk *w) {
+  sbri_gait_event events[16];
+  w->events += sbri_gait_tick(&w->q.rig, w->state, &w->input, w->pose, events, 16);
+  sbr_leg_state legs[4];
+  ck_assert_uint_eq(sbri_gait_legs(&w->q.rig, w->state, legs, 4), 4);
+  uint32_t groups = 0;
+  for (int l = 0; l < 4; l++) {
+    const sbri_leg *leg = &w->q.rig.legs[l];
+    sbf_vec3 ankle = w->pose[leg->foot].position;
+    if (legs[l].planted && !w->was_planted[l]) w->stance[l] = ankle;
+    w->was_planted[l] = legs[l].planted;
+    if (legs[l].planted) {
+      float slip = sbri_length(sbri_sub(ankle, w->stance[l]));
+      if (slip > w->worst_slip) w->worst_slip = slip;
+    } else {
+      groups |= 1u << leg->group;
+      if (legs[l].foot.y > w->most_lift) w->most_lift = legs[l].foot.y;
+    }
+    float upper = length_between(w, (uint32_t)leg->upper, (uint32_t)leg->lower) - leg->upper_length;
+    float lower = length_between(w, (uint32_t)leg->lower, (uint32_t)leg->foot) - leg->lower_length;
+    w->worst_stretch = fmaxf(w->worst_stretch, fmaxf(fabsf(upper), fabsf(lower)));
+  }
+  w->opposite_in_air += groups == 3;
+  for (uint32_t i = 0; i < w->q.rig.bone_count; i++) {
+    ck_assert(isfinite(w->pose[i].position.x) && isfinite(w->pose[i].rotation.w));
+    ck_assert_float_eq_tol(
+        w->pose[i].rotation.x * w->pose[i].rotation.x + w->pose[i].rotation.y * w->pose[i].rotation.y +
+            w->pose[i].rotation.z * w->pose[i].rotation.z + w->pose[i].rotation.w * w->pose[i].rotation.w,
+        1, 1e-4f);
+  }
+}
+
+static void run(walk *w, double seconds, float forward, float sideways, float turn) {
+  w->input.forward = forward;
+  w->input.sideways = sideways;
+  w->input.turn = turn;
+  for (int i = 0; i < (int)(seconds * TICKS_A_SECOND + 0.5); i++) tick(w);
+}
+
+static void expect_good_walk(const walk *w, uint32_t steps) {
+  sbr_leg_state legs[4];
+  sbri_gait_legs(&w->q.rig, w->state, legs, 4);
+  for (int l = 0; l < 4; l++) ck_assert_uint_ge(legs[l].steps_taken, steps);
+  ck_assert_float_le(w->worst_slip, 1e-4f);
+  ck_assert_float_le(w->worst_stretch, 1e-5f);
+  ck_assert_uint_eq(w->opposite_in_air, 0);
+}
+
+START_TEST(standing_is_the_rest_pose)
+{
+  walk w;
+  begin(&w, flat, 0);
+  run(&w, 1, 0, 0, 0);
+  for (uint32_t i = 0; i < w.q.rig.bone_count; i++) {
+    ck_assert_float_le(sbri_length(sbri_sub(w.pose[i].position, w.q.rig.rest[i].position)), 2e-5f);
+    sbf_quat a = w.pose[i].rotation, b = w.q.rig.rest[i].rotation;
+    ck_assert_float_ge(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 0.99999f);
+  }
+  ck_assert_uint_eq(w.events, 0);
+  end(&w);
+}
+END_TEST
+
+START_TEST(walks_forward_step_by_step)
+{
+  walk w;
+  begin(&w, flat, 0);
+  run(&w, 10, 0.3f, 0, 0);
+  expect_good_walk(&w, 8);
+  sbf_vec3 place;
+  float heading;
+  sbri_gait_placement(w.state, &place, &heading);
+  ck_assert_float_eq_tol(place.z, 3, 0.1f);
+  ck_assert_double_eq_tol(sbri_gait_distance(w.state), 3, 0.1);
+  ck_assert_float_eq_tol(w.most_lift, 0.04f, 0.002f);
+  ck_assert_uint_gt(w.events, 60);
+  end(&w);
+}
+END_TEST
+
+START_TEST(walks_backward_sideways_and_turns)
+{
+  const float drives[][3] = {{-0.25f, 0, 0}, {0, 0.15f, 0}, {0, 0, 0.8f}, {0.3f, 0, 0.6f}, {0.3f, 0, -0.6f}};
+  for (size_t d = 0; d < sizeof drives / sizeof *drives; d++) {
+    walk w;
+    begin(&w, flat, 0);
+    run(&w, 10, drives[d][0], drives[d][1], drives[d][2]);
+    expect_good_walk(&w, 4);
+    end(&w);
+  }
+}
+END_TEST
+
+START_TEST(feet_come_home_when_it_stops)
+{
+  walk w;
+  begin(&w, flat, 0);
+  run(&w, 3, 0.3f, 0, 0.3f);
+  run(&w, 4, 0, 0, 0);
+  sbf_vec3 place;
+  float heading;
+  sbri_gait_placement(w.state, &place, &heading);
+  sbr_leg_state legs[4];
+  sbri_gait_legs(&w.q.rig, w.state, legs, 4);
+  for (int l = 0; l < 4; l++) {
+    sbf_quat turn = {0, sinf(heading / 2), 0, cosf(heading / 2)};
+    sbf_vec3 home = w.q.rig.legs[l].home;
+    home.y = 0;
+    home = sbri_add(place, sbri_rotate(turn, home));
+    ck_assert(legs[l].planted);
+    ck_assert_float_le(sbri_length(sbri_sub(legs[l].foot, home)), 0.012f);
+  }
+  ck_assert_float_le(w.worst_slip, 1e-4f);
+  end(&w);
+}
+END_TEST
+
+START_TEST(feet_stand_on_a_slope_and_the_body_follows)
+{
+  walk w;
+  begin(&w, slope, 0.3);
+  run(&w, 8, 0.25f, 0, 0);
+  expect_good_walk(&w, 5);
+  sbr_leg_state legs[4];
+  sbri_gait_legs(&w.q.rig, w.state, legs, 4);
+  for (int l = 0; l < 4; l++)
+    if (legs[l].planted) ck_assert_float_eq_tol(legs[l].foot.y, 0.3f * legs[l].foot.z, 1e-4f);
+  sbf_vec3 chest = w.pose[3].position, hips = w.pose[1].position;
+  ck_assert_float_gt(chest.y - hips.y, 0.08f); /* uphill, the chest is higher */
+  end(&w);
+}
+END_TEST
+
+START_TEST(tail_lags_and_overshoots)
+{
+  walk w;
+  begin(&w, flat, 0);
+  float behind = 0, beyond = 0;
+  run(&w, 1.5, 0, 0, 1.2f);
+  sbf_vec3 forward = {0, 0, 1};
+  for (int phase = 0; phase < 2; phase++) {
+    for (int i = 0; i < 120; i++) {
+      if (phase == 1) w.input.turn = 0;
+      tick(&w);
+      sbf_vec3 place, tip = sbri_sub(w.pose[7].position, w.pose[5].position);
+      float heading;
+      sbri_gait_placement(w.state, &place, &heading);
+      sbf_quat back = {0, sinf(-heading / 2), 0, cosf(-heading / 2)};
+      sbf_vec3 local = sbri_rotate(back, tip); /* straight: (0, 0, -) */
+      if (phase == 0)
+        behind = fmaxf(behind, local.x);
+      else
+        beyond = fminf(beyond, local.x);
+    }
+  }
+  (void)forward;
+  ck_assert_float_gt(behind, 0.01f);   /* turning left, the tip hangs out on one side */
+  ck_assert_float_lt(beyond, -0.005f); /* and swings over to the other when the turn ends */
+  run(&w, 6, 0, 0, 0);
+  ck_assert_float_le(fabsf(sbri_sub(w.pose[7].position, w.pose[5].position).y), 0.01f);
+  end(&w);
+}
+END_TEST
+
+START_TEST(head_leads_a_turn_and_comes_back)
+{
+  walk w;
+  begin(&w, flat, 0);
+  run(&w, 1, 0, 0, 1);
+  sbf_vec3 place;
+  float heading;
+  sbri_gait_placement(w.state, &place, &heading);
+  sbf_vec3 looks = sbri_rotate(w.pose[4].rotation, (sbf_vec3){0, 0, 1});
+  float ahead = atan2f(looks.x, looks.z) - heading;
+  ck_assert_float_gt(ahead, 0.25f);
+  ck_assert_float_le(ahead, 0.75f);
+  run(&w, 4, 0, 0, 0);
+  sbri_gait_placement(w.state, &place, &heading);
+  looks = sbri_rotate(w.pose[4].rotation, (sbf_vec3){0, 0, 1});
+  ck_assert_float_eq_tol(remainderf(atan2f(looks.x, looks.z) - heading, 6.2831853f), 0, 0.02f);
+  end(&w);
+}
+END_TEST
+
+START_TEST(a_body_left_behind_puts_its_feet_down_anew)
+{
+  walk w;
+  begin(&w, flat, 0);
+  run(&w, 1, 0.3f, 0, 0);
+  sbri_gait_rebase(&w.q.rig, w.state, (sbf_vec3){0, 0, 0});
+  sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){50, 0, 0}, 1);
+  run(&w, 1, 0.3f, 0, 0);
+  ck_assert_float_le(w.worst_stretch, 1e-4f);
+  end(&w);
+}
+END_TEST
+
+START_TEST(moving_the_origin_changes_nothing)
+{
+  walk a, b;
+  begin(&a, flat, 0);
+  begin(&b, flat, 0);
+  run(&a, 2, 0.3f, 0, 0.2f);
+  run(&b, 2, 0.3f, 0, 0.2f);
+  sbf_vec3 shift = {4, 0, -8};
+  sbri_gait_rebase(&b.q.rig, b.state, shift);
+  b.input.origin = (sbr_double3){4, 0, -8};
+  for (int l = 0; l < 4; l++) b.stance[l] = sbri_sub(b.stance[l], shift);
+  run(&a, 2, 0.3f, 0, 0.2f);
+  run(&b, 2, 0.3f, 0, 0.2f);
+  for (uint32_t i = 0; i < a.q.rig.bone_count; i++)
+    ck_assert_float_le(sbri_length(sbri_sub(a.pose[i].position, sbri_add(b.pose[i].position, shift))), 2e-4f);
+  end(&a);
+  end(&b);
+}
+END_TEST
+
+START_TEST(a_taller_copy_walks_at_the_same_speed)
+{
+  walk w;
+  begin(&w, flat, 0);
+  w.input.scale = 3;
+  sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
+  w.input.forward = 0.5f;
+  for (int i = 0; i < 600; i++) {
+    sbri_gait_event events[16];
+    sbri_gait_tick(&w.q.rig, w.state, &w.input, w.pose, events, 16);
+  }
+  ck_assert_double_eq_tol(sbri_gait_distance(w.state), 5, 0.15);
+  ck_assert_float_eq_tol(w.pose[3].position.y, 0.9f, 0.02f);
+  end(&w);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("gait");
+  TCase *tests = tcase_create("all");
+  tcase_set_timeout(tests, 60);
+  tcase_add_test(tests, standing_is_the_rest_pose);
+  tcase_add_test(tests, walks_forward_step_by_step);
+  tcase_add_test(tests, walks_backward_sideways_and_turns);
+  tcase_add_test(tests, feet_come_home_when_it_stops);
+  tcase_add_test(tests, feet_stand_on_a_slope_and_the_body_follows);
+  tcase_add_test(tests, tail_lags_and_overshoots);
+  tcase_add_test(tests, head_leads_a_turn_and_comes_back);
+  tcase_add_test(tests, a_body_left_behind_puts_its_feet_down_anew);
+  tcase_add_test(tests, moving_the_origin_changes_nothing);
+  tcase_add_test(tests, a_taller_copy_walks_at_the_same_speed);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}

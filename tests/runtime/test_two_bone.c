@@ -1,0 +1,99 @@
+#include "ik/two_bone.h"
+
+#include <math.h>
+
+#include "harness.h"
+#include "math/vec3.h"
+
+static float distance(sbf_vec3 a, sbf_vec3 b) {
+  return sbri_length(sbri_sub(a, b));
+}
+
+/* A small generator of our own, so that every machine tests the same targets. */
+static float next(uint32_t *seed) {
+  *seed = *seed * 1664525u + 1013904223u;
+  return (float)(*seed >> 8) / 8388608.0f - 1;
+}
+
+START_TEST(reachable_targets_are_met)
+{
+  uint32_t seed = 1;
+  int met = 0;
+  for (int i = 0; i < 20000; i++) {
+    sbf_vec3 hip = {next(&seed), next(&seed), next(&seed)};
+    sbf_vec3 target = sbri_add(hip, sbri_vec3(next(&seed), next(&seed), next(&seed)));
+    sbf_vec3 pole = {3 * next(&seed), 3 * next(&seed), 3 * next(&seed)};
+    float upper = 0.5f, lower = 0.7f, away = distance(target, hip);
+    sbri_two_bone_result r = sbri_two_bone(hip, target, pole, sbri_vec3(9, 9, 9), upper, lower, 0);
+    ck_assert_float_le(fabsf(distance(r.knee, hip) - upper), 2e-6f);
+    ck_assert_float_le(fabsf(distance(r.knee, r.ankle) - lower), 4e-6f);
+    if (away >= 0.2f && away <= 1.2f) {
+      met++;
+      ck_assert(r.reached);
+      ck_assert_float_le(distance(r.ankle, target), 2e-6f);
+    } else {
+      ck_assert(!r.reached);
+    }
+  }
+  ck_assert_int_gt(met, 5000);
+}
+END_TEST
+
+START_TEST(knee_lies_towards_the_pole)
+{
+  uint32_t seed = 7;
+  for (int i = 0; i < 5000; i++) {
+    sbf_vec3 hip = {0, 1, 0}, target = {0.3f * next(&seed), 0.3f * next(&seed), 0.3f * next(&seed)};
+    sbf_vec3 pole = {2 * next(&seed), 2 * next(&seed), 2 * next(&seed)};
+    sbri_two_bone_result r = sbri_two_bone(hip, target, pole, sbri_vec3(0, 0, 5), 0.8f, 0.8f, 0);
+    sbf_vec3 along = sbri_normalize(sbri_sub(target, hip), sbri_vec3(0, 1, 0));
+    sbf_vec3 knee = sbri_sub(r.knee, hip), to_pole = sbri_sub(pole, hip);
+    knee = sbri_add_scaled(knee, along, -sbri_dot(knee, along));
+    to_pole = sbri_add_scaled(to_pole, along, -sbri_dot(to_pole, along));
+    ck_assert_float_ge(sbri_dot(sbri_normalize(knee, along), sbri_normalize(to_pole, along)), 0.999f);
+  }
+}
+END_TEST
+
+START_TEST(extension_is_eased_without_a_jump)
+{
+  float last = 0, last_step = 0;
+  for (int i = 0; i <= 1400; i++) {
+    sbf_vec3 target = {0, -0.001f * (float)i, 0};
+    sbri_two_bone_result r =
+        sbri_two_bone(sbri_vec3(0, 0, 0), target, sbri_vec3(0, 0, 1), sbri_vec3(1, 0, 0), 0.6f, 0.6f, 0.05f);
+    float out = sbri_length(r.ankle), step = out - last;
+    if (i > 1) {
+      ck_assert_float_ge(step, -1e-6f);                     /* never back */
+      ck_assert_float_le(fabsf(step - last_step), 2.5e-5f); /* no kink in the speed */
+    }
+    ck_assert_float_le(out, 1.2f + 1e-6f);
+    if (i <= 1140) ck_assert_float_eq_tol(out, 0.001f * (float)i, 1e-6f);
+    last = out;
+    last_step = step;
+  }
+  ck_assert_float_eq_tol(last, 1.2f, 1e-5f);
+}
+END_TEST
+
+START_TEST(degenerate_input_stays_finite)
+{
+  sbf_vec3 zero = {0, 0, 0};
+  sbri_two_bone_result r = sbri_two_bone(zero, zero, zero, zero, 1, 1, 0.02f);
+  ck_assert(isfinite(r.knee.x) && isfinite(r.knee.y) && isfinite(r.knee.z));
+  r = sbri_two_bone(zero, sbri_vec3(0, -1, 0), sbri_vec3(0, -3, 0), sbri_vec3(0, 4, 0), 1, 0.3f, 0);
+  ck_assert(isfinite(r.knee.x) && isfinite(r.ankle.y));
+  ck_assert_float_eq_tol(distance(r.knee, zero), 1, 1e-6f);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("two_bone");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, reachable_targets_are_met);
+  tcase_add_test(tests, knee_lies_towards_the_pole);
+  tcase_add_test(tests, extension_is_eased_without_a_jump);
+  tcase_add_test(tests, degenerate_input_stays_finite);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
