@@ -25,6 +25,7 @@ static sbf_status check_all_used(sbfi_packed_reader *reader) {
 /* Loads from `bytes`; `*in_place` says whether the asset points into them. */
 static sbf_status load(const void *bytes, size_t size, const sbf_load_options *options, sbf_asset **asset,
     bool *in_place, sbf_diagnostic *error) {
+  if (options->read_bytes) *options->read_bytes = 0;
   sbf_asset *made = sbf_asset_create(options->allocator);
   if (!made) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for an asset");
   sbfi_asset_box *box = sbfi_asset_box_of(made);

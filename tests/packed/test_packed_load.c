@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "fill_asset.h"
 #include "harness.h"
 #include "model/asset_box.h"
@@ -100,6 +101,13 @@ START_TEST(test_files_are_mapped_or_read_and_stay_as_long_as_the_asset)
     harness_memory_init(&memory, SIZE_MAX);
     options.allocator = &memory.allocator;
     ck_assert_int_eq(sbf_packed_load_file(path, &options, &loaded, NULL), SBF_OK);
+    const sbfi_file_content *content = sbfi_asset_box_of(loaded)->released;
+    const uint8_t *positions = (const uint8_t *)loaded->soft_bodies.at[1].surface.positions.at;
+    ck_assert_int_eq(content != NULL, i >> 1); /* compressed, nothing is left in the file */
+    if (content) {
+      ck_assert(positions > content->at && positions < content->at + content->size);
+      ck_assert_int_eq(content->allocated_bytes != 0, i & 1);
+    }
     ck_assert(harness_write(other, "x", 1));
     ck_assert_int_eq(rename(other, path), 0); /* the old file lives on in the mapping */
     ck_assert(sbf_asset_equal(asset, loaded, NULL, 0));
