@@ -1,0 +1,48 @@
+#include "model/defaults.h"
+
+static bool object_is_default(const sbfi_place *place) {
+  for (uint32_t i = 0; i < place->element->field_count; i++)
+    if (!sbfi_field_is_default(place, &place->element->fields[i])) return false;
+  return true;
+}
+
+/* The value the place demands, where it does, else the schema's default. */
+static int32_t expected_integer(const sbfi_place *place, const sbfi_field *field) {
+  const sbfi_field *holder = place->field;
+  bool fixed = holder && holder->fixed_name && strcmp(holder->fixed_name, field->name) == 0;
+  return fixed ? holder->fixed_value : (int32_t)field->default_integer;
+}
+
+bool sbfi_field_is_default(const sbfi_place *place, const sbfi_field *field) {
+  const char *at = (const char *)place->object + field->offset;
+  switch (field->type) {
+  case SBFI_BOOL:
+    return *(const bool *)at == (field->default_integer != 0);
+  case SBFI_INT:
+  case SBFI_UINT:
+  case SBFI_ENUM:
+    return sbfi_get_integer(place->object, field) == expected_integer(place, field);
+  case SBFI_REF:
+    return sbfi_get_integer(place->object, field) == SBF_NONE;
+  case SBFI_FLOAT:
+  case SBFI_VEC2:
+  case SBFI_VEC3:
+  case SBFI_VEC4:
+  case SBFI_QUAT:
+    return memcmp(at, field->defaults, field->width * sizeof(float)) == 0;
+  case SBFI_STRING:
+  case SBFI_TEXT:
+  case SBFI_ID:
+    return strcmp(sbfi_get_pointer(place->object, field), field->default_text) == 0;
+  case SBFI_LIST:
+    return sbfi_get_list(place->object, field).count == 0;
+  case SBFI_ONE: {
+    sbfi_place child = sbfi_place_child(place, field, 0);
+    return object_is_default(&child);
+  }
+  case SBFI_OPTIONAL:
+  case SBFI_MANY:
+    return sbfi_child_count(place->object, field) == 0;
+  }
+  return false;
+}
