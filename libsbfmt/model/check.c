@@ -403,16 +403,20 @@ static bool is_known(const char *extension, const sbf_load_options *options) {
   return false;
 }
 
-sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error) {
-  sbf_status status = sbfi_check_saved(asset, error);
-  if (status != SBF_OK) return status;
+sbf_status sbfi_check_extensions(
+    const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error) {
   for (uint32_t i = 0; i < asset->extensions.count; i++) {
     const sbf_extension *extension = &asset->extensions.at[i];
     if (!extension->required || is_known(extension->name, options)) continue;
-    status = sbfi_diagnose(error, SBF_CODE_EXTENSION_REQUIRED,
+    sbf_status status = sbfi_diagnose(error, SBF_CODE_EXTENSION_REQUIRED,
         "the file requires the extension `%s`: use a program that knows it", extension->name);
     if (error) snprintf(error->path, sizeof error->path, "/sbf/extensions/extension[%u]", i + 1);
     return status;
   }
   return SBF_OK;
+}
+
+sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error) {
+  sbf_status status = sbfi_check_saved(asset, error);
+  return status == SBF_OK ? sbfi_check_extensions(asset, options, error) : status;
 }

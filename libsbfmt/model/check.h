@@ -8,6 +8,10 @@
  * required which the caller does not know. Fills `*error` (may be NULL) with the first fault. */
 sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error);
 
+/* The last part of that alone. */
+sbf_status sbfi_check_extensions(
+    const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error);
+
 /* What a save does first: the structure alone. A file that could not be loaded again is not written. */
 sbf_status sbfi_check_saved(const sbf_asset *asset, sbf_diagnostic *error);
 

@@ -1,0 +1,279 @@
+#include "xml/xml_events.h"
+
+#include <libxml/parser.h>
+#include <libxml/xmlerror.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+
+enum { PROLOG_BYTES = 256, FOREIGN_NAME_SIZE = 256 };
+
+#if LIBXML_VERSION >= 21200
+typedef const xmlError *raised_error;
+#else
+typedef xmlErrorPtr raised_error;
+#endif
+
+typedef struct parse {
+  const sbfi_xml_source *source;
+  uint64_t offset;
+  sbfi_xml_events *events;
+  xmlParserCtxtPtr context;
+  sbfi_array attributes; /* sbfi_xml_attribute */
+  sbf_diagnostic *error;
+  sbf_status status;
+  bool stopped; /* by a handler or by an error */
+} parse;
+
+static void stop(parse *p) {
+  p->stopped = true;
+  xmlStopParser(p->context);
+}
+
+static uint32_t line_of(const parse *p) {
+  const xmlParserInput *input = p->context->input;
+  return input && input->line > 0 ? (uint32_t)input->line : 0;
+}
+
+__attribute__((format(printf, 4, 5))) static void fail(
+    parse *p, sbf_code code, uint32_t line, const char *format, ...) {
+  if (p->stopped) return;
+  va_list arguments;
+  va_start(arguments, format);
+  p->status = sbfi_diagnose_v(p->error, code, format, arguments);
+  va_end(arguments);
+  if (p->error) p->error->line = line;
+  stop(p);
+}
+
+/* --- bytes --- */
+
+static bool read_source(const sbfi_xml_source *source, uint64_t offset, void *to, size_t size,
+    sbf_status *status, sbf_diagnostic *error) {
+  if (!source->file) {
+    if (size) memcpy(to, (const char *)source->bytes + offset, size);
+    return true;
+  }
+  *status = sbfi_file_read_at(source->file, offset, to, size, error);
+  return *status == SBF_OK;
+}
+
+static int read_some(void *user, char *to, int room) {
+  parse *p = user;
+  uint64_t left = p->source->size - p->offset;
+  size_t size = left < (uint64_t)room ? (size_t)left : (size_t)room;
+  if (size == 0 || p->stopped) return 0;
+  if (!read_source(p->source, p->offset, to, size, &p->status, p->error)) {
+    p->stopped = true; /* the context may be in the making: it ends by itself, with an error we do not need */
+    return -1;
+  }
+  p->offset += size;
+  return (int)size;
+}
+
+static bool is_utf8_name(sbfi_span name) {
+  static const char *const known[] = {"utf-8", "utf8", "us-ascii", "ascii"};
+  char lower[16];
+  if (name.length >= sizeof lower) return false;
+  for (size_t i = 0; i < name.length; i++)
+    lower[i] = (char)(name.at[i] >= 'A' && name.at[i] <= 'Z' ? name.at[i] + 32 : name.at[i]);
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (sbfi_span_is((sbfi_span){lower, name.length}, known[i])) return true;
+  return false;
+}
+
+/* The encoding that an XML declaration names; empty where it names none. */
+static sbfi_span declared_encoding(sbfi_span prolog) {
+  static const char key[] = "encoding";
+  sbfi_span none = {NULL, 0};
+  if (sbfi_span_begins(prolog, "\xef\xbb\xbf")) prolog = (sbfi_span){prolog.at + 3, prolog.length - 3};
+  if (!sbfi_span_begins(prolog, "<?xml")) return none;
+  for (size_t i = 0; i + sizeof key < prolog.length && prolog.at[i] != '>'; i++) {
+    if (memcmp(prolog.at + i, key, sizeof key - 1) != 0) continue;
+    i += sizeof key - 1;
+    while (i < prolog.length && (sbfi_is_space(prolog.at[i]) || prolog.at[i] == '=')) i++;
+    if (i == prolog.length || (prolog.at[i] != '"' && prolog.at[i] != '\'')) return none;
+    const char *name = prolog.at + i + 1;
+    const char *end = memchr(name, prolog.at[i], prolog.length - i - 1);
+    return end ? (sbfi_span){name, (size_t)(end - name)} : none;
+  }
+  return none;
+}
+
+static sbf_status check_encoding(const sbfi_xml_source *source, sbf_diagnostic *error) {
+  char bytes[PROLOG_BYTES];
+  sbf_status status = SBF_OK;
+  sbfi_span prolog = {bytes, source->size < sizeof bytes ? (size_t)source->size : sizeof bytes};
+  if (!read_source(source, 0, bytes, prolog.length, &status, error)) return status;
+  sbfi_span name = declared_encoding(prolog);
+  if (sbfi_span_begins(prolog, "\xfe\xff") || sbfi_span_begins(prolog, "\xff\xfe") ||
+      memchr(prolog.at, 0, prolog.length < 4 ? prolog.length : 4)) {
+    name = sbfi_span_of("UTF-16 or UTF-32");
+  } else if (name.length == 0 || is_utf8_name(name)) {
+    return SBF_OK;
+  }
+  status = sbfi_diagnose(error, SBF_CODE_XML_SYNTAX, "the encoding is %.*s: save the file as UTF-8",
+      name.length < 40 ? (int)name.length : 40, name.at);
+  if (error) error->line = 1;
+  return status;
+}
+
+/* --- libxml2's callbacks --- */
+
+static bool push_attribute(parse *p, const xmlChar **raw) {
+  static const char *const passed_over[] = {
+      "http://www.w3.org/XML/1998/namespace", "http://www.w3.org/2001/XMLSchema-instance"};
+  for (size_t i = 0; raw[2] && i < sizeof passed_over / sizeof *passed_over; i++)
+    if (strcmp((const char *)raw[2], passed_over[i]) == 0) return true;
+  sbfi_xml_attribute *attribute = sbfi_array_push(&p->attributes, 1);
+  if (!attribute) return false;
+  /* one of another namespace is none that anybody here knows: its prefix alone says so */
+  attribute->name = (const char *)(raw[1] ? raw[1] : raw[0]);
+  attribute->value = (const char *)raw[3];
+  attribute->length = (size_t)(raw[4] - raw[3]);
+  return true;
+}
+
+static void on_start(void *user, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri,
+    int namespace_count, const xmlChar **namespaces, int attribute_count, int defaulted_count,
+    const xmlChar **raw) {
+  (void)prefix, (void)namespace_count, (void)namespaces, (void)defaulted_count;
+  parse *p = user;
+  if (p->stopped) return;
+  p->attributes.count = 0;
+  for (int i = 0; i < attribute_count; i++)
+    if (!push_attribute(p, raw + (size_t)i * 5)) {
+      fail(p, SBF_CODE_OUT_OF_MEMORY, line_of(p), "memory ran out for an element's attributes");
+      return;
+    }
+  const char *full = (const char *)name;
+  char foreign[FOREIGN_NAME_SIZE];
+  if (uri) {
+    snprintf(foreign, sizeof foreign, "{%s}%s", (const char *)uri, full);
+    full = foreign;
+  }
+  p->events->line = line_of(p);
+  if (!p->events->start(p->events->user, full, p->attributes.at, (uint32_t)p->attributes.count)) stop(p);
+}
+
+static void on_end(void *user, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri) {
+  (void)name, (void)prefix, (void)uri;
+  parse *p = user;
+  if (p->stopped) return;
+  p->events->line = line_of(p);
+  if (!p->events->end(p->events->user)) stop(p);
+}
+
+static void on_text(void *user, const xmlChar *text, int length) {
+  parse *p = user;
+  if (p->stopped) return;
+  p->events->line = line_of(p);
+  if (!p->events->text(p->events->user, (const char *)text, (size_t)length)) stop(p);
+}
+
+static void on_doctype(void *user, const xmlChar *name, const xmlChar *external, const xmlChar *system) {
+  (void)name, (void)external, (void)system;
+  parse *p = user;
+  fail(p, SBF_CODE_XML_DOCTYPE, line_of(p),
+      "a DOCTYPE stands here: remove it, the format needs none and has no entities");
+}
+
+static xmlEntityPtr on_entity(void *user, const xmlChar *name) {
+  parse *p = user;
+  fail(p, SBF_CODE_XML_DOCTYPE, line_of(p),
+      "the entity &%.60s; is none of XML's own five: write the character itself", (const char *)name);
+  return NULL;
+}
+
+static sbf_code code_of(const xmlError *found) {
+  switch (found->code) {
+  case XML_ERR_NO_MEMORY:
+    return SBF_CODE_OUT_OF_MEMORY;
+  case XML_ERR_INVALID_ENCODING:
+    return SBF_CODE_NOT_UTF8;
+  case XML_ERR_UNDECLARED_ENTITY:
+    return SBF_CODE_XML_DOCTYPE;
+  default:
+    return SBF_CODE_XML_SYNTAX;
+  }
+}
+
+static const char *advice_of(sbf_code code) {
+  switch (code) {
+  case SBF_CODE_OUT_OF_MEMORY:
+    return "memory ran out in the XML parser";
+  case SBF_CODE_NOT_UTF8:
+    return "the text is not valid UTF-8: save the file in that encoding";
+  case SBF_CODE_XML_DOCTYPE:
+    return "an entity that is none of XML's own five: write the character itself";
+  default:
+    return "not well-formed XML";
+  }
+}
+
+/* libxml2 tells of an error and may go on; we do not. */
+static void on_error(void *user, raised_error found) {
+  parse *p = user;
+  if (found->level < XML_ERR_ERROR || p->stopped) return;
+  sbf_code code = code_of(found);
+  const char *detail = found->message ? found->message : "";
+  size_t length = strcspn(detail, "\n");
+  if (code == SBF_CODE_XML_SYNTAX)
+    fail(p, code, found->line > 0 ? (uint32_t)found->line : 0, "%s: %.*s", advice_of(code), (int)length,
+        detail);
+  else
+    fail(p, code, found->line > 0 ? (uint32_t)found->line : 0, "%s", advice_of(code));
+}
+
+/* Takes what libxml2 says outside any parser (as when memory runs out), which it would print. */
+static void keep_silent(void *user, raised_error found) {
+  (void)user, (void)found;
+}
+
+static const xmlSAXHandler handlers = {.internalSubset = on_doctype,
+    .getEntity = on_entity,
+    .characters = on_text,
+    .ignorableWhitespace = on_text,
+    .cdataBlock = on_text,
+    .startElementNs = on_start,
+    .endElementNs = on_end,
+    .serror = on_error,
+    .initialized = XML_SAX2_MAGIC};
+
+/* --- the parse --- */
+
+static void run(parse *p) {
+  xmlSAXHandler sax = handlers;
+  /* The context is not there yet when its first bytes are read; errors before that have no place to go. */
+  p->context = xmlCreateIOParserCtxt(&sax, p, read_some, NULL, p, XML_CHAR_ENCODING_NONE);
+  if (!p->context) {
+    if (p->status == SBF_OK)
+      p->status = sbfi_diagnose(p->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for the XML parser");
+    return;
+  }
+  xmlCtxtUseOptions(p->context, XML_PARSE_NONET | XML_PARSE_BIG_LINES);
+  if (!p->stopped) xmlParseDocument(p->context);
+  if (!p->stopped && !p->context->wellFormed)
+    fail(p, p->context->errNo == XML_ERR_NO_MEMORY ? SBF_CODE_OUT_OF_MEMORY : SBF_CODE_XML_SYNTAX, line_of(p),
+        "not well-formed XML");
+  if (p->context->myDoc) xmlFreeDoc(p->context->myDoc);
+  xmlFreeParserCtxt(p->context);
+}
+
+sbf_status sbfi_xml_parse(const sbfi_xml_source *source, sbfi_xml_events *events,
+    const sbf_allocator *allocator, sbf_diagnostic *error) {
+  sbf_status status = check_encoding(source, error);
+  if (status != SBF_OK) return status;
+  parse p = {.source = source, .events = events, .error = error};
+  sbfi_array_init(&p.attributes, allocator, sizeof(sbfi_xml_attribute));
+  xmlInitParser();
+  xmlStructuredErrorFunc before = xmlStructuredError;
+  void *before_context = xmlStructuredErrorContext;
+  xmlSetStructuredErrorFunc(NULL, keep_silent);
+  run(&p);
+  xmlSetStructuredErrorFunc(before_context, before);
+  sbfi_array_free(&p.attributes);
+  return p.status;
+}

@@ -1,0 +1,98 @@
+#include "xml/xml_schema.h"
+
+#include <stdio.h>
+
+/* The name of a field's own element; NULL where several names stand for its children. */
+static const char *element_name(const sbfi_field *field) {
+  if (sbfi_field_is_attribute(field)) return NULL;
+  if (field->wrapper) return field->wrapper;
+  if (field->suffix) return NULL;
+  return field->element ? field->xml : field->name;
+}
+
+const sbfi_field *sbfi_xml_find_element(const sbfi_element *element, const char *name) {
+  for (uint32_t i = 0; i < element->field_count; i++) {
+    const sbfi_field *field = &element->fields[i];
+    const char *own = element_name(field);
+    int32_t value;
+    if (own ? strcmp(own, name) == 0 : field->suffix && sbfi_xml_is_child(field, name, &value)) return field;
+  }
+  return NULL;
+}
+
+bool sbfi_xml_is_child(const sbfi_field *field, const char *name, int32_t *value) {
+  *value = -1;
+  if (!field->element) return false;
+  if (!field->suffix) return strcmp(field->xml, name) == 0;
+  size_t length = strlen(name), suffix = strlen(field->suffix);
+  if (length <= suffix || strcmp(name + length - suffix, field->suffix) != 0) return false;
+  const sbfi_field *by = sbfi_element_field(field->element, field->by);
+  const sbfi_span word = {name, length - suffix};
+  for (uint32_t i = 0; i < by->value_count; i++)
+    if (sbfi_span_is(word, by->values[i])) *value = (int32_t)i;
+  return *value >= 0;
+}
+
+static bool is_said_by_name(const sbfi_field *holder, const sbfi_field *field) {
+  return holder && holder->by && strcmp(holder->by, field->name) == 0;
+}
+
+const sbfi_field *sbfi_xml_find_attribute(
+    const sbfi_element *element, const sbfi_field *holder, const char *name) {
+  const sbfi_field *field = sbfi_element_field(element, name);
+  return field && sbfi_field_is_attribute(field) && !is_said_by_name(holder, field) ? field : NULL;
+}
+
+static void consider_children(
+    sbfi_suggestion *suggestion, const sbfi_field *field, char (*names)[96], int *used) {
+  if (!field->suffix) {
+    sbfi_suggestion_consider(suggestion, field->xml);
+    return;
+  }
+  const sbfi_field *by = sbfi_element_field(field->element, field->by);
+  for (uint32_t i = 0; i < by->value_count; i++) {
+    /* two places in turn: the best so far must stay readable */
+    char *name = names[*used];
+    snprintf(name, sizeof *names, "%s%s", by->values[i], field->suffix);
+    sbfi_suggestion_consider(suggestion, name);
+    if (suggestion->best == name) *used = !*used;
+  }
+}
+
+sbfi_suggestion_text sbfi_xml_suggest_element(const sbfi_element *element, const char *name) {
+  sbfi_suggestion suggestion = sbfi_suggestion_for(sbfi_span_of(name));
+  char names[2][96];
+  int used = 0;
+  for (uint32_t i = 0; i < element->field_count; i++) {
+    const sbfi_field *field = &element->fields[i];
+    const char *own = element_name(field);
+    if (own)
+      sbfi_suggestion_consider(&suggestion, own);
+    else if (field->suffix)
+      consider_children(&suggestion, field, names, &used);
+  }
+  return sbfi_suggestion_text_of(&suggestion);
+}
+
+sbfi_suggestion_text sbfi_xml_suggest_child(const sbfi_field *field, const char *name) {
+  sbfi_suggestion suggestion = sbfi_suggestion_for(sbfi_span_of(name));
+  char names[2][96];
+  int used = 0;
+  consider_children(&suggestion, field, names, &used);
+  return sbfi_suggestion_text_of(&suggestion);
+}
+
+sbfi_suggestion_text sbfi_xml_suggest_attribute(
+    const sbfi_element *element, const sbfi_field *holder, const char *name) {
+  sbfi_suggestion suggestion = sbfi_suggestion_for(sbfi_span_of(name));
+  for (uint32_t i = 0; i < element->field_count; i++)
+    if (sbfi_xml_find_attribute(element, holder, element->fields[i].name))
+      sbfi_suggestion_consider(&suggestion, element->fields[i].name);
+  return sbfi_suggestion_text_of(&suggestion);
+}
+
+sbfi_suggestion_text sbfi_xml_suggest_word(const sbfi_field *field, sbfi_span word) {
+  sbfi_suggestion suggestion = sbfi_suggestion_for(word);
+  for (uint32_t i = 0; i < field->value_count; i++) sbfi_suggestion_consider(&suggestion, field->values[i]);
+  return sbfi_suggestion_text_of(&suggestion);
+}

@@ -1,0 +1,25 @@
+/* Names of the XML form looked up in the schema. */
+#ifndef SBFI_XML_SCHEMA_H
+#define SBFI_XML_SCHEMA_H
+
+#include "base/suggest.h"
+#include "model/place.h"
+
+/* The field that an element of that name inside `element` is about: a list, a text, a wrapper or children.
+ * NULL where there is none. */
+const sbfi_field *sbfi_xml_find_element(const sbfi_element *element, const char *name);
+/* Whether children of the field, or those in its wrapper, have that name. Where the name says the value of an
+ * enum field of theirs, `*value` becomes it, else -1. */
+bool sbfi_xml_is_child(const sbfi_field *field, const char *name, int32_t *value);
+/* The attribute of that name of an element held by `holder` (NULL: the root). */
+const sbfi_field *sbfi_xml_find_attribute(
+    const sbfi_element *element, const sbfi_field *holder, const char *name);
+
+/* What a wrong name may have been meant to be. */
+sbfi_suggestion_text sbfi_xml_suggest_element(const sbfi_element *element, const char *name);
+sbfi_suggestion_text sbfi_xml_suggest_child(const sbfi_field *field, const char *name);
+sbfi_suggestion_text sbfi_xml_suggest_attribute(
+    const sbfi_element *element, const sbfi_field *holder, const char *name);
+sbfi_suggestion_text sbfi_xml_suggest_word(const sbfi_field *field, sbfi_span word);
+
+#endif
