@@ -164,12 +164,13 @@ static void check_floats(
   int64_t item = field->type == SBFI_LIST ? (int64_t)(bad / field->width) : -1;
   char component[16] = "";
   if (field->width > 1) snprintf(component, sizeof component, ".%c", "xyzw"[bad % field->width]);
+  const char *verb = field->type == SBFI_LIST ? "holds" : "is";
   if (!is_finite(at[bad]))
-    fault(c, SBF_CODE_VALUE_NOT_FINITE, place, field, item, "`%s`%s is %s: every number must be finite",
-        field->name, component, text_of(at[bad]).at);
+    fault(c, SBF_CODE_VALUE_NOT_FINITE, place, field, item, "`%s`%s %s %s: every number must be finite",
+        field->name, component, verb, text_of(at[bad]).at);
   else
-    fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, place, field, item, "`%s`%s is %s, outside %s: give a value inside",
-        field->name, component, text_of(at[bad]).at, text_of_range(field).at);
+    fault(c, SBF_CODE_VALUE_OUT_OF_RANGE, place, field, item, "`%s`%s %s %s, outside %s: give a value inside",
+        field->name, component, verb, text_of(at[bad]).at, text_of_range(field).at);
 }
 
 static void check_integer(checker *c, const sbfi_place *place, const sbfi_field *field) {

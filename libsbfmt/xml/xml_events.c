@@ -22,6 +22,7 @@ typedef struct parse {
   sbfi_xml_events *events;
   xmlParserCtxtPtr context;
   sbfi_array attributes; /* sbfi_xml_attribute */
+  sbfi_text values;      /* of the attributes that had to be decoded */
   sbf_diagnostic *error;
   sbf_status status;
   bool stopped; /* by a handler or by an error */
@@ -122,6 +123,35 @@ static sbf_status check_encoding(const sbfi_xml_source *source, sbf_diagnostic *
 
 /* --- libxml2's callbacks --- */
 
+/* With entities kept, which is safe, libxml2 hands out an attribute's `&` as `&#38;`, whatever way it was
+ * written; no other reference is left in a value. */
+static void decode_value(sbfi_text *values, sbfi_xml_attribute *attribute) {
+  static const char reference[] = "&#38;";
+  const char *from = attribute->value, *end = from + attribute->length;
+  char *to = values->at + values->length, *begin = to; /* where there is room */
+  while (from < end) {
+    bool is_reference =
+        (size_t)(end - from) >= sizeof reference - 1 && memcmp(from, reference, sizeof reference - 1) == 0;
+    *to++ = *from;
+    from += is_reference ? sizeof reference - 1 : 1;
+  }
+  attribute->value = begin;
+  attribute->length = (size_t)(to - begin);
+  values->length += attribute->length;
+}
+
+static bool decode_values(parse *p) {
+  sbfi_xml_attribute *attributes = p->attributes.at;
+  size_t room = 0;
+  for (size_t i = 0; i < p->attributes.count; i++)
+    if (memchr(attributes[i].value, '&', attributes[i].length)) room += attributes[i].length;
+  sbfi_text_clear(&p->values);
+  if (room && !sbfi_text_reserve(&p->values, room)) return false;
+  for (size_t i = 0; room && i < p->attributes.count; i++)
+    if (memchr(attributes[i].value, '&', attributes[i].length)) decode_value(&p->values, &attributes[i]);
+  return true;
+}
+
 static bool push_attribute(parse *p, const xmlChar **raw) {
   static const char *const passed_over[] = {
       "http://www.w3.org/XML/1998/namespace", "http://www.w3.org/2001/XMLSchema-instance"};
@@ -143,11 +173,12 @@ static void on_start(void *user, const xmlChar *name, const xmlChar *prefix, con
   parse *p = user;
   if (p->stopped) return;
   p->attributes.count = 0;
-  for (int i = 0; i < attribute_count; i++)
-    if (!push_attribute(p, raw + (size_t)i * 5)) {
-      fail(p, SBF_CODE_OUT_OF_MEMORY, line_of(p), "memory ran out for an element's attributes");
-      return;
-    }
+  bool good = true;
+  for (int i = 0; i < attribute_count && good; i++) good = push_attribute(p, raw + (size_t)i * 5);
+  if (!good || !decode_values(p)) {
+    fail(p, SBF_CODE_OUT_OF_MEMORY, line_of(p), "memory ran out for an element's attributes");
+    return;
+  }
   const char *full = (const char *)name;
   char foreign[FOREIGN_NAME_SIZE];
   if (uri) {
@@ -187,12 +218,22 @@ static xmlEntityPtr on_entity(void *user, const xmlChar *name) {
   return NULL;
 }
 
-static sbf_code code_of(const xmlError *found) {
+/* libxml2 has one code for broken UTF-8 and for characters that XML forbids. */
+static bool stands_on_broken_utf8(const parse *p) {
+  const xmlParserInput *input = p->context->input;
+  if (!input || input->cur >= input->end) return false;
+  size_t left = (size_t)(input->end - input->cur);
+  return sbfi_utf8_check((const char *)input->cur, left < 4 ? left : 4) == 0;
+}
+
+static sbf_code code_of(const parse *p, raised_error found) {
   switch (found->code) {
   case XML_ERR_NO_MEMORY:
     return SBF_CODE_OUT_OF_MEMORY;
   case XML_ERR_INVALID_ENCODING:
     return SBF_CODE_NOT_UTF8;
+  case XML_ERR_INVALID_CHAR:
+    return stands_on_broken_utf8(p) ? SBF_CODE_NOT_UTF8 : SBF_CODE_XML_SYNTAX;
   case XML_ERR_UNDECLARED_ENTITY:
     return SBF_CODE_XML_DOCTYPE;
   default:
@@ -217,7 +258,7 @@ static const char *advice_of(sbf_code code) {
 static void on_error(void *user, raised_error found) {
   parse *p = user;
   if (found->level < XML_ERR_ERROR || p->stopped) return;
-  sbf_code code = code_of(found);
+  sbf_code code = code_of(p, found);
   const char *detail = found->message ? found->message : "";
   size_t length = strcspn(detail, "\n");
   if (code == SBF_CODE_XML_SYNTAX)
@@ -268,6 +309,7 @@ sbf_status sbfi_xml_parse(const sbfi_xml_source *source, sbfi_xml_events *events
   if (status != SBF_OK) return status;
   parse p = {.source = source, .events = events, .error = error};
   sbfi_array_init(&p.attributes, allocator, sizeof(sbfi_xml_attribute));
+  sbfi_text_init(&p.values, allocator);
   xmlInitParser();
   xmlStructuredErrorFunc before = xmlStructuredError;
   void *before_context = xmlStructuredErrorContext;
@@ -275,5 +317,6 @@ sbf_status sbfi_xml_parse(const sbfi_xml_source *source, sbfi_xml_events *events
   run(&p);
   xmlSetStructuredErrorFunc(before_context, before);
   sbfi_array_free(&p.attributes);
+  sbfi_text_free(&p.values);
   return p.status;
 }

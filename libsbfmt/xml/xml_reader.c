@@ -137,6 +137,13 @@ static bool fits_memory(const reader *r) {
   return used <= limit && staged <= limit - used;
 }
 
+/* What the numbers of a field are. */
+static const char *name_of_scalar(const sbfi_field *field) {
+  if (field->type == SBFI_INT) return "an integer of 32 bits";
+  bool is_uint = field->type == SBFI_UINT || (field->type == SBFI_LIST && field->item == SBFI_ITEM_U32);
+  return is_uint ? "an integer from 0 to 4294967295" : "within the range of 32-bit floats";
+}
+
 /* --- attributes --- */
 
 static bool fail_number(reader *r, const sbfi_field *field, sbfi_xml_fault fault, sbfi_span word) {
@@ -146,8 +153,8 @@ static bool fail_number(reader *r, const sbfi_field *field, sbfi_xml_fault fault
     return fail(r, SBF_CODE_VALUE_NOT_FINITE, field, "`%s` is `%.*s`: every number must be finite",
         field->name, length, word.at);
   case SBFI_XML_OUT_OF_RANGE:
-    return fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, field, "`%s` is `%.*s`, which does not fit %s", field->name,
-        length, word.at, field->type == SBFI_INT || field->type == SBFI_UINT ? "32 bits" : "a 32-bit float");
+    return fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, field, "`%s` is `%.*s`, which is not %s", field->name, length,
+        word.at, name_of_scalar(field));
   default:
     return fail(r, SBF_CODE_XML_BAD_VALUE, field, "`%s` is `%.*s` where a number belongs", field->name,
         length, word.at);
@@ -184,8 +191,8 @@ static bool read_enum(reader *r, const sbfi_field *field, sbfi_span value, void 
       sbfi_set_integer(object, field, (int32_t)i);
       return true;
     }
-  return fail(r, SBF_CODE_XML_BAD_VALUE, field, "`%s` is `%.*s`, which is none of its words%s", field->name,
-      (int)sbfi_utf8_cut(value.at, value.length, 60), value.at, sbfi_xml_suggest_word(field, value).at);
+  return fail(r, SBF_CODE_ENUM_OUT_OF_RANGE, field, "`%s` is `%.*s`: give one of %s", field->name,
+      (int)sbfi_utf8_cut(value.at, value.length, 60), value.at, sbfi_xml_words_of(field).at);
 }
 
 static const char *copy_text(reader *r, sbfi_span value) {
@@ -232,8 +239,10 @@ static bool unknown_attribute(reader *r, const char *name) {
   const open_element *self = top(r);
   if (r->newer_minor) return true;
   if (self->kind == OPEN_OBJECT) {
-    const sbfi_field *element = sbfi_xml_find_element(self->element, name);
-    if (element)
+    if (sbfi_element_field(self->element, name) && self->field && self->field->by &&
+        strcmp(self->field->by, name) == 0)
+      fail(r, SBF_CODE_XML_UNKNOWN_ATTRIBUTE, NULL, "`%.60s` is said by the element's name: remove it", name);
+    else if (sbfi_xml_find_element(self->element, name))
       fail(r, SBF_CODE_XML_UNKNOWN_ATTRIBUTE, NULL, "`%.60s` is an element: write it between the tags", name);
     else
       fail(r, SBF_CODE_XML_UNKNOWN_ATTRIBUTE, NULL, "<%s> has no attribute `%.60s`%s", self->element->xml,
@@ -443,8 +452,8 @@ static bool fail_list(reader *r, sbfi_xml_fault fault) {
         list->wrong);
     break;
   case SBFI_XML_OUT_OF_RANGE:
-    fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, NULL, "`%s` holds `%s`, which does not fit %s", name, list->wrong,
-        list->field->item == SBFI_ITEM_F32 ? "a 32-bit float" : "32 bits");
+    fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, NULL, "`%s` holds `%s`, which is not %s", name, list->wrong,
+        name_of_scalar(list->field));
     break;
   case SBFI_XML_NOT_WHOLE:
     if (bytes)
@@ -489,8 +498,10 @@ static bool on_text(void *user, const char *text, size_t length) {
   default:
     for (size_t i = 0; i < length; i++)
       if (!sbfi_is_space(text[i])) {
+        sbfi_span rest = {text + i, length - i}, line;
+        sbfi_span_next_line(&rest, &line);
         fail(r, SBF_CODE_XML_STRAY_TEXT, NULL, "text stands here where only elements belong: `%.*s`",
-            (int)sbfi_utf8_cut(text + i, length - i, 40), text + i);
+            (int)sbfi_utf8_cut(line.at, line.length, 40), line.at);
         r->error->line -= count_lines(text + i, length - i);
         return false;
       }

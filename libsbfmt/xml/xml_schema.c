@@ -91,8 +91,13 @@ sbfi_suggestion_text sbfi_xml_suggest_attribute(
   return sbfi_suggestion_text_of(&suggestion);
 }
 
-sbfi_suggestion_text sbfi_xml_suggest_word(const sbfi_field *field, sbfi_span word) {
-  sbfi_suggestion suggestion = sbfi_suggestion_for(word);
-  for (uint32_t i = 0; i < field->value_count; i++) sbfi_suggestion_consider(&suggestion, field->values[i]);
-  return sbfi_suggestion_text_of(&suggestion);
+sbfi_xml_words sbfi_xml_words_of(const sbfi_field *field) {
+  sbfi_xml_words words = {""};
+  size_t length = 0;
+  for (uint32_t i = 0; i < field->value_count && length < sizeof words.at; i++) {
+    int added =
+        snprintf(words.at + length, sizeof words.at - length, "%s%s", i ? ", " : "", field->values[i]);
+    length += added > 0 ? (size_t)added : 0;
+  }
+  return words;
 }

@@ -20,6 +20,11 @@ sbfi_suggestion_text sbfi_xml_suggest_element(const sbfi_element *element, const
 sbfi_suggestion_text sbfi_xml_suggest_child(const sbfi_field *field, const char *name);
 sbfi_suggestion_text sbfi_xml_suggest_attribute(
     const sbfi_element *element, const sbfi_field *holder, const char *name);
-sbfi_suggestion_text sbfi_xml_suggest_word(const sbfi_field *field, sbfi_span word);
+
+/* The words of an enum field, for a message: "lag, distance". */
+typedef struct sbfi_xml_words {
+  char at[160];
+} sbfi_xml_words;
+sbfi_xml_words sbfi_xml_words_of(const sbfi_field *field);
 
 #endif
