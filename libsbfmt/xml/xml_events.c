@@ -166,12 +166,18 @@ static bool push_attribute(parse *p, const xmlChar **raw) {
   return true;
 }
 
+/* A tag that breaks off is passed on all the same before the error is raised: as an element of a cut name. */
+static bool tag_is_closed(const parse *p) {
+  const xmlParserInput *input = p->context->input;
+  return input && input->cur < input->end && (*input->cur == '>' || *input->cur == '/');
+}
+
 static void on_start(void *user, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri,
     int namespace_count, const xmlChar **namespaces, int attribute_count, int defaulted_count,
     const xmlChar **raw) {
   (void)prefix, (void)namespace_count, (void)namespaces, (void)defaulted_count;
   parse *p = user;
-  if (p->stopped) return;
+  if (p->stopped || !tag_is_closed(p)) return;
   p->attributes.count = 0;
   bool good = true;
   for (int i = 0; i < attribute_count && good; i++) good = push_attribute(p, raw + (size_t)i * 5);
