@@ -451,15 +451,10 @@ static bool join_node(sbfi_assembly *a, uint32_t node, sbfi_scene_mesh *to, uint
   return good;
 }
 
-/* assimp makes up a mesh to show the bones of a file that has none; it says so, but not of every form. */
-static bool is_invented(const sbfi_assembly *a) {
-  return a->raw->incomplete || strcmp(a->scene->format, "bvh") == 0;
-}
-
 bool sbfi_assemble_meshes(sbfi_assembly *a) {
   sbfi_scene *scene = a->scene;
   if (!a->raw->mesh_count) return true;
-  if (is_invented(a))
+  if (sbfi_is_invented(a))
     return sbfi_scene_warn(scene, SBF_CODE_IMPORT_MESH_INVENTED, 0,
         "the file has no mesh of its own: the one that the importer made up is left out");
   uint32_t count = 0;

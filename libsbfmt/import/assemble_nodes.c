@@ -164,14 +164,14 @@ static bool mark_bones(sbfi_assembly *a) {
   uint32_t *bones_below = sbfi_arena_allocate(&a->scratch, count, sizeof *bones_below);
   if (!bones_below) return false;
   int32_t top = common_ancestor(a, bones_below);
-  bool all = strcmp(format, "bvh") == 0;
+  bool all = strcmp(format, "bvh") == 0, invented = sbfi_is_invented(a);
   for (uint32_t i = 0; i < count; i++) {
     const sbfi_raw_node *raw = &a->raw->nodes[a->old_from_new[i]];
     bool has_parent = nodes[i].parent != SBF_NONE;
     bool below = has_parent && nodes[nodes[i].parent].is_bone;
     bool joins = has_parent && (int32_t)i >= top && bones_below[i] > 0;
-    bool may =
-        raw->mesh_count == 0 && raw->kind != SBFI_STREAM_NO_BONE && !sbfi_span_begins(raw->name, "EndSite");
+    bool may = (raw->mesh_count == 0 || invented) && raw->kind != SBFI_STREAM_NO_BONE &&
+               !sbfi_span_begins(raw->name, "EndSite");
     if (may && (all || below || joins)) nodes[i].is_bone = true;
   }
   return true;

@@ -5,6 +5,10 @@
 
 #include "base/diagnostic.h"
 
+bool sbfi_is_invented(const sbfi_assembly *a) {
+  return a->raw->incomplete || strcmp(a->scene->format, "bvh") == 0;
+}
+
 bool sbfi_assembly_refuse(sbfi_assembly *a, sbf_code code, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -37,10 +41,13 @@ bool sbfi_assemble_frame(sbfi_assembly *a) {
   if (strcmp(format, "glb") == 0 || strcmp(format, "gltf") == 0 || strcmp(format, "dae") == 0)
     scene->unit_known = scene->axes_known = true;
   if (strcmp(format, "fbx") != 0) return true;
-  if (a->raw->unit_scale_factor > 0) {
-    scene->unit_m = 0.01 * a->raw->unit_scale_factor;
-    scene->unit_known = true;
-  }
+  double factor = a->raw->unit_scale_factor;
+  scene->unit_known = factor >= 1e-6 && factor <= 1e9;
+  if (scene->unit_known)
+    scene->unit_m = factor / 100;
+  else if (!sbfi_scene_warn(scene, SBF_CODE_IMPORT_UNIT, 0,
+               "the file states a unit of %g cm, which is no length of use: metres are assumed", factor))
+    return false;
   static const int32_t none[6];
   if (memcmp(a->raw->axes, none, sizeof none) == 0) return true;
   scene->axes_known = axes_of(a->raw->axes, &scene->axes);

@@ -40,6 +40,9 @@ bool sbfi_assemble_materials(sbfi_assembly *a);
 bool sbfi_assemble_meshes(sbfi_assembly *a);
 bool sbfi_assemble_clips(sbfi_assembly *a);
 
+/* assimp makes up a mesh to show the bones of a file that has none; it says so, but not of every form. */
+bool sbfi_is_invented(const sbfi_assembly *a);
+
 /* Whether the raw node is a helper that was folded away. */
 bool sbfi_is_folded(const sbfi_assembly *a, uint32_t raw_node);
 

@@ -1,5 +1,6 @@
 #include "import/scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -89,6 +90,25 @@ sbfi_matrix sbfi_matrix_multiply(const sbfi_matrix *a, const sbfi_matrix *b) {
       product.at[row][column] = sum;
     }
   return product;
+}
+
+bool sbfi_matrix_invert(const sbfi_matrix *matrix, sbfi_matrix *to) {
+  const double(*m)[4] = matrix->at;
+  sbfi_matrix inverse = {.at[3][3] = 1};
+  for (int row = 0; row < 3; row++)
+    for (int column = 0; column < 3; column++) {
+      int a = (column + 1) % 3, b = (column + 2) % 3, c = (row + 1) % 3, d = (row + 2) % 3;
+      inverse.at[row][column] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
+    }
+  double determinant = m[0][0] * inverse.at[0][0] + m[0][1] * inverse.at[1][0] + m[0][2] * inverse.at[2][0];
+  if (!(fabs(determinant) > 0) || !isfinite(1 / determinant)) return false;
+  for (int row = 0; row < 3; row++) {
+    for (int column = 0; column < 3; column++) inverse.at[row][column] /= determinant;
+    for (int k = 0; k < 3; k++) inverse.at[row][3] -= inverse.at[row][k] * m[k][3];
+    if (!isfinite(inverse.at[row][3])) return false;
+  }
+  *to = inverse;
+  return true;
 }
 
 void sbfi_scene_set_worlds(sbfi_scene_node *nodes, uint32_t node_count) {

@@ -192,5 +192,7 @@ sbf_status sbfi_scene_fail(sbfi_scene *scene, sbf_diagnostic *error, sbf_status 
 
 sbfi_matrix sbfi_matrix_identity(void);
 sbfi_matrix sbfi_matrix_multiply(const sbfi_matrix *a, const sbfi_matrix *b);
+/* False where it has no inverse; the last row is taken to be 0 0 0 1. `to` may be `matrix`. */
+bool sbfi_matrix_invert(const sbfi_matrix *matrix, sbfi_matrix *to);
 
 #endif
