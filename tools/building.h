@@ -5,8 +5,8 @@
 #include "cli.h"
 #include "sbfmt/io.h"
 
-#define BUILDING_OPTIONS                                                                                            \
-  {"--springs", "METHOD", "interior springs: centroid or none (centroid)"}
+#define BUILDING_OPTIONS                                                                                     \
+  { "--springs", "METHOD", "interior springs: centroid or none (centroid)" }
 
 /* False, with a message, where the options are wrong. */
 bool building_check(cli_call *call);

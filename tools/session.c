@@ -62,8 +62,6 @@ typedef struct settings {
 static bool parse_settings(session *s, cli_call *call, settings *set) {
   long substeps = 0, level = 0;
   *set = (settings){.threads = 1};
-  s->seconds = 5;
-  s->fps = 60;
   bool good =
       cli_number(call, "--seconds", 0, 1e6, &s->seconds) && cli_number(call, "--fps", 1, 10000, &s->fps) &&
       cli_integer(call, "--substeps", 1, 100000, &substeps) &&
@@ -99,10 +97,10 @@ static sbf_status create(session *s, cli_call *call, const settings *set, sbf_di
   return status;
 }
 
-bool session_open(session *s, cli_call *call, int *status) {
+bool session_open(session *s, cli_call *call, double seconds, double fps, int *status) {
   settings set;
   sbf_diagnostic error;
-  *s = (session){.asset = NULL};
+  *s = (session){.seconds = seconds, .fps = fps};
   *status = SBF_FAILED;
   if (!parse_settings(s, call, &set)) return false;
   const char *script = cli_value(call, "--script");

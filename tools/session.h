@@ -10,7 +10,7 @@
 
 /* The options that both verbs share; put them first in a verb's table. */
 #define SESSION_OPTIONS                                                                                      \
-  {"--seconds", "S", "how long (5)"}, {"--fps", "N", "frames a second (60)"},                                \
+  {"--seconds", "S", "how long"}, {"--fps", "N", "frames a second"},                                         \
       {"--scheme", "NAME", "automatic, symplectic, relaxation (automatic)"},                                 \
       {"--substeps", "N", "of a control tick (as many as the scheme needs)"},                                \
       {"--threads", "N", "worker threads; the motion is the same for any number (1)"},                       \
@@ -34,8 +34,9 @@ typedef struct session {
   uint32_t frame_count, frame;
 } session;
 
-/* False, with a message printed and *status set, where the options or the file do not allow it. */
-bool session_open(session *s, cli_call *call, int *status);
+/* `seconds` and `fps` are what the verb takes where the call does not say. False, with a message printed and
+ * *status set, where the options or the file do not allow it. */
+bool session_open(session *s, cli_call *call, double seconds, double fps, int *status);
 void session_close(session *s);
 
 /* Plays the script's commands that are due and advances by one frame; false after the last. */

@@ -14,7 +14,9 @@ static bool path_in(const char *folder, const char *input, char *path, size_t si
   return needed > 0 && (size_t)needed < size;
 }
 
-static void report(void *user, const sbf_diagnostic *diagnostic) { cli_print_diagnostic(user, diagnostic); }
+static void report(void *user, const sbf_diagnostic *diagnostic) {
+  cli_print_diagnostic(user, diagnostic);
+}
 
 static int convert(cli_call *call, const char *input, const char *out, const sbf_convert_options *options) {
   sbf_asset *asset;
@@ -34,7 +36,8 @@ static int run(cli_call *call) {
   static const char *const axes[] = {"y", "z"};
   int up = 0, status = SBF_OK;
   sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
-  if (!out == !folder) return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
+  if (!out == !folder)
+    return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
   if (!cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) || !cli_word(call, "--up", axes, 2, &up) ||
       !building_check(call))
@@ -62,6 +65,8 @@ static const cli_option options[] = {
 };
 const cli_verb verb_convert = {"convert", "INPUT... (-o OUT.sbf[z] | --out-dir DIR) [--rig FILE] ...",
     "make a bundle of a mesh and a rig",
-    "Reads OBJ, FBX, glTF, Collada and what else assimp knows. Objects become sections of the bones they hang on in\n"
-    "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed where legs are found. Then builds.",
+    "Reads OBJ, FBX, glTF, Collada and what else assimp knows. Objects become sections of the bones they "
+    "hang on in\n"
+    "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed where legs are found. Then "
+    "builds.",
     options, 1, -1, run};

@@ -176,7 +176,7 @@ static int run(cli_call *call) {
   run_state r = {.valid = true, .least_volume = 1, .end_volume = 1};
   sbf_diagnostic error;
   int status;
-  if (!session_open(&r.s, call, &status)) return status;
+  if (!session_open(&r.s, call, 5, 60, &status)) return status;
   status = SBF_FAILED;
   if (!make_room(&r))
     cli_wrong(call, "memory ran out");

@@ -14,8 +14,10 @@ static void add(void *user, const sbf_diagnostic *diagnostic) {
   findings *f = user;
   sbf_diagnostic named = *diagnostic;
   if (!named.file[0]) snprintf(named.file, sizeof named.file, "%s", f->file);
-  if (f->messages) json_array_append_new(f->messages, cli_diagnostic_json(&named));
-  else cli_print_diagnostic(f->call, &named);
+  if (f->messages)
+    json_array_append_new(f->messages, cli_diagnostic_json(&named));
+  else
+    cli_print_diagnostic(f->call, &named);
 }
 
 /* Loads and checks one file; SBF_FAILED where that could not be done at all. */
@@ -53,13 +55,15 @@ static int run(cli_call *call) {
     sbf_status loaded = check_file(&f, call->inputs[i], &result);
     bool valid = result.errors == 0 && !(strict && result.warnings);
     bad_files += !valid;
-    if (loaded == SBF_FAILED) status = SBF_FAILED;
-    else if (!valid && status == SBF_OK) status = SBF_BAD_INPUT;
+    if (loaded == SBF_FAILED)
+      status = SBF_FAILED;
+    else if (!valid && status == SBF_OK)
+      status = SBF_BAD_INPUT;
     total.errors += result.errors;
     total.warnings += result.warnings;
     total.infos += result.infos;
-    json_array_append_new(files, json_pack("{s:s, s:b, s:i, s:i}", "file", call->inputs[i], "valid", valid, "errors",
-        (int)result.errors, "warnings", (int)result.warnings));
+    json_array_append_new(files, json_pack("{s:s, s:b, s:i, s:i}", "file", call->inputs[i], "valid", valid,
+                                     "errors", (int)result.errors, "warnings", (int)result.warnings));
     if (!call->json)
       printf("%s: %s, %u errors, %u warnings, %u notes\n", call->inputs[i], valid ? "valid" : "not valid",
           result.errors, result.warnings, result.infos);
@@ -79,7 +83,9 @@ static const cli_option options[] = {
     {"--format", "text|json", "how to print (text)"},
     {NULL, NULL, NULL},
 };
-const cli_verb verb_validate = {"validate", "FILE... [--strict] [--format json]", "check files against all rules",
-    "Every finding has a stable code, listed in spec/codes.md. Exit status 0: valid; 1: a file is not; 2: a file\n"
+const cli_verb verb_validate = {"validate", "FILE... [--strict] [--format json]",
+    "check files against all rules",
+    "Every finding has a stable code, listed in spec/codes.md. Exit status 0: valid; 1: a file is not; 2: a "
+    "file\n"
     "could not be read.",
     options, 1, -1, run};

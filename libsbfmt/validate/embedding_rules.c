@@ -6,24 +6,27 @@
 static const float SUM_TOLERANCE = 1e-4f;
 static const float FAR_OUTSIDE = 4; /* weights beyond it make a vertex jump at the least strain */
 
-static void check_embedding(sbfi_validation *v, const sbf_embedding *e, float *share, uint32_t vertex_count,
-    const char *path) {
+static void check_embedding(
+    sbfi_validation *v, const sbf_embedding *e, float *share, uint32_t vertex_count, const char *path) {
   if (e->vertices.count && e->vertices.count != e->points.count)
-    sbfi_found(v, SBF_CODE_EMBEDDING_LENGTH, path, -1, "%u vertices are named and %u embedded", e->vertices.count,
-        e->points.count);
+    sbfi_found(v, SBF_CODE_EMBEDDING_LENGTH, path, -1, "%u vertices are named and %u embedded",
+        e->vertices.count, e->points.count);
   for (uint32_t i = 0; i < e->points.count; i++) {
     sbf_vec4 w = e->weights.at[i];
     float sum = w.x + w.y + w.z + w.w;
     float far = fmaxf(fmaxf(fabsf(w.x), fabsf(w.y)), fmaxf(fabsf(w.z), fabsf(w.w)));
     if (fabsf(sum - 1) > SUM_TOLERANCE * fmaxf(1, far))
-      sbfi_found(v, SBF_CODE_EMBEDDING_SUM, path, i, "the weights of vertex %u sum to %.6g, not 1", i, (double)sum);
+      sbfi_found(
+          v, SBF_CODE_EMBEDDING_SUM, path, i, "the weights of vertex %u sum to %.6g, not 1", i, (double)sum);
     else if (far > FAR_OUTSIDE)
-      sbfi_found(v, SBF_CODE_EMBEDDING_OUTSIDE, path, i, "vertex %u lies far outside its element: weight %.3g", i,
-          (double)far);
+      sbfi_found(v, SBF_CODE_EMBEDDING_OUTSIDE, path, i,
+          "vertex %u lies far outside its element: weight %.3g", i, (double)far);
     uint32_t vertex = e->vertices.count ? (i < e->vertices.count ? e->vertices.at[i] : vertex_count) : i;
     if (vertex >= vertex_count)
-      sbfi_found(v, SBF_CODE_EMBEDDING_VERTEX, path, i, "vertex %u is not one of the mesh's %u", vertex, vertex_count);
-    else share[vertex] += e->blends.count ? e->blends.at[i] : 1;
+      sbfi_found(v, SBF_CODE_EMBEDDING_VERTEX, path, i, "vertex %u is not one of the mesh's %u", vertex,
+          vertex_count);
+    else
+      share[vertex] += e->blends.count ? e->blends.at[i] : 1;
   }
 }
 
@@ -56,10 +59,11 @@ static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
   sbfi_path path = sbfi_path_of("/sbf/render_mesh[%u]", mesh + 1);
   const char *name = asset->render_meshes.at[mesh].name;
   if (partly)
-    sbfi_found(v, SBF_CODE_EMBEDDING_BLEND, path.text, -1, "%u vertices of '%s' have blends that do not sum to 1",
-        partly, name);
+    sbfi_found(v, SBF_CODE_EMBEDDING_BLEND, path.text, -1,
+        "%u vertices of '%s' have blends that do not sum to 1", partly, name);
   if (none && !asset->render_meshes.at[mesh].skin)
-    sbfi_found(v, SBF_CODE_EMBEDDING_MISSING, path.text, -1, "%u vertices of '%s' are carried by no body", none, name);
+    sbfi_found(v, SBF_CODE_EMBEDDING_MISSING, path.text, -1, "%u vertices of '%s' are carried by no body",
+        none, name);
 }
 
 static void check_weight_sums(sbfi_validation *v, uint32_t mesh) {

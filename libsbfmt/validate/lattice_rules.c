@@ -1,4 +1,5 @@
-/* Tetrahedra: well shaped, each once, all of one piece. That they are the right way out is part of the structure. */
+/* Tetrahedra: well shaped, each once, all of one piece. That they are the right way out is part of the
+ * structure. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,7 +100,8 @@ static void find_pieces(sbfi_validation *v, const sbf_level *level, const char *
     unused += !used[i];
     pieces += used[i] && parents[i] == i;
   }
-  if (pieces > 1) sbfi_found(v, SBF_CODE_LATTICE_PIECES, path, -1, "the lattice consists of %u pieces", pieces);
+  if (pieces > 1)
+    sbfi_found(v, SBF_CODE_LATTICE_PIECES, path, -1, "the lattice consists of %u pieces", pieces);
   if (unused && level->springs.count == 0)
     sbfi_found(v, SBF_CODE_LATTICE_POINT_UNUSED, path, -1, "%u points are in no tetrahedron", unused);
 }
@@ -114,7 +116,8 @@ static void check_lattice(sbfi_validation *v, const sbf_level *level, const char
   for (uint32_t i = 0; i < level->lattice.tetrahedra.count; i++) {
     double cosine = sharpest_cosine(level->positions.at, level->lattice.tetrahedra.at[i].at);
     if (cosine > limit)
-      sbfi_found(v, SBF_CODE_TETRAHEDRON_SLIVER, path, i, "tetrahedron %u has a dihedral angle of %.2f degrees", i,
+      sbfi_found(v, SBF_CODE_TETRAHEDRON_SLIVER, path, i,
+          "tetrahedron %u has a dihedral angle of %.2f degrees", i,
           acos(fmin(cosine, 1)) * 180 / 3.14159265358979);
   }
   find_duplicates(v, &level->lattice.tetrahedra, path);

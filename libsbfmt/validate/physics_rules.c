@@ -1,4 +1,5 @@
-/* What would move wrongly: no mass, a ratio that springs cannot show, too few substeps, a unit that looks wrong. */
+/* What would move wrongly: no mass, a ratio that springs cannot show, too few substeps, a unit that looks
+ * wrong. */
 #include <math.h>
 
 #include "sbfmt/mechanics.h"
@@ -17,15 +18,18 @@ static void check_size(sbfi_validation *v) {
   }
   if (high - low > TALLEST_M || high - low < SMALLEST_M)
     sbfi_found(v, SBF_CODE_UNIT_LOOKS_WRONG, "/sbf", -1,
-        "everything together measures %.4g m: was the source in another unit? convert it with --unit", high - low);
+        "everything together measures %.4g m: was the source in another unit? convert it with --unit",
+        high - low);
 }
 
 /* Substeps of a control tick below which an explicit scheme gains energy: n > tick * w / 2. */
-static void check_substeps(sbfi_validation *v, const sbf_soft_body *body, const sbf_level *level, const char *path) {
+static void check_substeps(
+    sbfi_validation *v, const sbf_soft_body *body, const sbf_level *level, const char *path) {
   uint32_t points = level->positions.count;
   size_t springs = 0, at = 0;
   for (uint32_t s = 0; s < level->springs.count; s++) springs += level->springs.at[s].ends.count;
-  if (springs == 0 || level->simulation.substeps == 0 || level->simulation.scheme != SBF_SCHEME_SYMPLECTIC) return;
+  if (springs == 0 || level->simulation.substeps == 0 || level->simulation.scheme != SBF_SCHEME_SYMPLECTIC)
+    return;
   uint8_t *held = sbfi_arena_allocate(&v->scratch, points, 1);
   float *masses = sbfi_arena_allocate(&v->scratch, points, sizeof *masses);
   float *volumes = sbfi_arena_allocate(&v->scratch, points, sizeof *volumes);
@@ -37,16 +41,19 @@ static void check_substeps(sbfi_validation *v, const sbf_soft_body *body, const 
     return;
   }
   for (uint32_t s = 0; s < level->springs.count; s++)
-    for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++) ends[at++] = level->springs.at[s].ends.at[i];
+    for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++)
+      ends[at++] = level->springs.at[s].ends.at[i];
   sbf_level_held_points(level, held);
   sbf_level_masses(body, level, held, masses);
   sbf_level_stiffness(body, level, volumes, sums, stiffness);
-  sbf_spring_network network = {points, (uint32_t)springs, level->positions.at, masses, NULL, ends, stiffness};
+  sbf_spring_network network = {
+      points, (uint32_t)springs, level->positions.at, masses, NULL, ends, stiffness};
   double bound = sbf_network_highest_bound(&network, sums);
   uint32_t needed = (uint32_t)ceil(0.5 * bound * (double)v->asset->environment.control_tick);
   if (level->simulation.substeps < needed)
-    sbfi_found(v, SBF_CODE_SUBSTEPS_TOO_FEW, path, -1, "%u substeps are asked for and the stiffness of '%s' needs %u",
-        level->simulation.substeps, body->name, needed);
+    sbfi_found(v, SBF_CODE_SUBSTEPS_TOO_FEW, path, -1,
+        "%u substeps are asked for and the stiffness of '%s' needs %u", level->simulation.substeps,
+        body->name, needed);
 }
 
 static void check_body(sbfi_validation *v, const sbf_soft_body *body, uint32_t place) {

@@ -3,7 +3,8 @@
 
 static void check_sets(
     sbfi_validation *v, const sbf_pin_set_list *sets, uint32_t point_count, const char *parent) {
-  uint32_t *holder = sbfi_arena_allocate(&v->scratch, point_count + 1u, sizeof *holder); /* set from 1; 0: none */
+  uint32_t *holder =
+      sbfi_arena_allocate(&v->scratch, point_count + 1u, sizeof *holder); /* set from 1; 0: none */
   if (!holder) {
     v->out_of_memory = true;
     return;
@@ -14,14 +15,18 @@ static void check_sets(
     if (set->points.count == 0)
       sbfi_found(v, SBF_CODE_PIN_SET_EMPTY, path.text, -1, "pin set '%s' holds no point", set->name);
     if (set->minimum > set->maximum)
-      sbfi_found(v, SBF_CODE_PIN_RANGE, path.text, -1, "pin set '%s' has a minimum above its maximum", set->name);
+      sbfi_found(
+          v, SBF_CODE_PIN_RANGE, path.text, -1, "pin set '%s' has a minimum above its maximum", set->name);
     if (set->bone >= 0 && set->rigid_body >= 0)
-      sbfi_found(v, SBF_CODE_PIN_TWO_FRAMES, path.text, -1, "pin set '%s' names a bone and a rigid body", set->name);
+      sbfi_found(
+          v, SBF_CODE_PIN_TWO_FRAMES, path.text, -1, "pin set '%s' names a bone and a rigid body", set->name);
     for (uint32_t i = 0; i < set->points.count; i++) {
       uint32_t p = set->points.at[i];
       if (holder[p])
-        sbfi_found(v, SBF_CODE_PIN_REPEATED, path.text, i, "point %u is held by set %u already", p, holder[p]);
-      else holder[p] = s + 1;
+        sbfi_found(
+            v, SBF_CODE_PIN_REPEATED, path.text, i, "point %u is held by set %u already", p, holder[p]);
+      else
+        holder[p] = s + 1;
     }
   }
 }
@@ -35,8 +40,8 @@ void sbfi_check_pins(sbfi_validation *v) {
       sbfi_path level = sbfi_path_of("/sbf/soft_body[%u]/level[%u]", b + 1, l + 1);
       check_sets(v, &body->levels.at[l].pins, body->levels.at[l].positions.count, level.text);
       if (body->bone >= 0 && body->levels.at[l].pins.count == 0)
-        sbfi_found(v, SBF_CODE_SECTION_UNHELD, level.text, -1, "section '%s' has a bone and no pins: it falls off",
-            body->name);
+        sbfi_found(v, SBF_CODE_SECTION_UNHELD, level.text, -1,
+            "section '%s' has a bone and no pins: it falls off", body->name);
     }
   }
 }

@@ -22,15 +22,17 @@ static double rest_length(const sbf_level *level, const sbf_spring_set *set, uin
   return a.x == b.x && a.y == b.y && a.z == b.z ? 0 : 1;
 }
 
-static void check_set(sbfi_validation *v, const sbf_level *level, const sbf_spring_set *set, const uint8_t *held,
-    const char *path) {
+static void check_set(sbfi_validation *v, const sbf_level *level, const sbf_spring_set *set,
+    const uint8_t *held, const char *path) {
   for (uint32_t i = 0; i < set->ends.count; i++) {
     const uint32_t *p = set->ends.at[i].at;
-    if (p[0] == p[1]) sbfi_found(v, SBF_CODE_SPRING_SAME_POINT, path, i, "spring %u joins point %u to itself", i, p[0]);
+    if (p[0] == p[1])
+      sbfi_found(v, SBF_CODE_SPRING_SAME_POINT, path, i, "spring %u joins point %u to itself", i, p[0]);
     else if (rest_length(level, set, i) == 0)
       sbfi_found(v, SBF_CODE_SPRING_NO_LENGTH, path, i, "spring %u has no rest length", i);
     if (p[0] != p[1] && held[p[0]] && held[p[1]])
-      sbfi_found(v, SBF_CODE_SPRING_INERT, path, i, "spring %u joins two held points, %u and %u", i, p[0], p[1]);
+      sbfi_found(
+          v, SBF_CODE_SPRING_INERT, path, i, "spring %u joins two held points, %u and %u", i, p[0], p[1]);
   }
 }
 
@@ -53,9 +55,10 @@ static void find_duplicates(sbfi_validation *v, const sbf_level *level, uint32_t
   for (size_t i = 1; i < count; i++)
     if (pairs[i].low == pairs[i - 1].low && pairs[i].high == pairs[i - 1].high)
       sbfi_found(v, SBF_CODE_SPRING_DUPLICATE,
-          sbfi_path_of("/sbf/soft_body[%u]/level[%u]/spring_set[%u]", body + 1, place + 1, pairs[i].set + 1).text,
-          pairs[i].place, "points %u and %u are joined already by spring %u of set %u", pairs[i].low, pairs[i].high,
-          pairs[i - 1].place, pairs[i - 1].set + 1);
+          sbfi_path_of("/sbf/soft_body[%u]/level[%u]/spring_set[%u]", body + 1, place + 1, pairs[i].set + 1)
+              .text,
+          pairs[i].place, "points %u and %u are joined already by spring %u of set %u", pairs[i].low,
+          pairs[i].high, pairs[i - 1].place, pairs[i - 1].set + 1);
 }
 
 static void check_level(sbfi_validation *v, const sbf_level *level, uint32_t body, uint32_t place) {
@@ -70,7 +73,8 @@ static void check_level(sbfi_validation *v, const sbf_level *level, uint32_t bod
         sbfi_path_of("/sbf/soft_body[%u]/level[%u]/spring_set[%u]", body + 1, place + 1, s + 1).text);
   find_duplicates(v, level, body, place);
   if (level->model == SBF_ELASTIC_MODEL_SPRINGS && level->springs.count == 0)
-    sbfi_found(v, SBF_CODE_LEVEL_EMPTY, sbfi_path_of("/sbf/soft_body[%u]/level[%u]", body + 1, place + 1).text, -1,
+    sbfi_found(v, SBF_CODE_LEVEL_EMPTY,
+        sbfi_path_of("/sbf/soft_body[%u]/level[%u]", body + 1, place + 1).text, -1,
         "the level's model is springs and it has none");
 }
 

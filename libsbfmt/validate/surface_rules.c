@@ -10,7 +10,8 @@ static uint32_t polygons_at(const sbfi_topology *t, uint32_t edge) {
 }
 
 /* A polygon that stands on edges which two others already share, and has an edge of its own. */
-static void find_stray_polygons(sbfi_validation *v, const sbfi_topology *t, const sbf_soft_body *body, const char *path) {
+static void find_stray_polygons(
+    sbfi_validation *v, const sbfi_topology *t, const sbf_soft_body *body, const char *path) {
   for (uint32_t p = 0; p < t->polygon_count; p++) {
     uint32_t crowded = 0, lonely = 0;
     for (uint32_t c = t->corner_begins[p]; c < t->corner_begins[p + 1]; c++) {
@@ -21,17 +22,19 @@ static void find_stray_polygons(sbfi_validation *v, const sbfi_topology *t, cons
     }
     if (crowded && lonely)
       sbfi_found(v, SBF_CODE_SURFACE_STRAY_POLYGON, path, p,
-          "polygon %u of '%s', with %u corners, stands on an edge that two others share already", p, body->name,
-          t->corner_begins[p + 1] - t->corner_begins[p]);
+          "polygon %u of '%s', with %u corners, stands on an edge that two others share already", p,
+          body->name, t->corner_begins[p + 1] - t->corner_begins[p]);
   }
 }
 
-static void find_unused(sbfi_validation *v, const sbfi_topology *t, const sbf_soft_body *body, const char *path) {
+static void find_unused(
+    sbfi_validation *v, const sbfi_topology *t, const sbf_soft_body *body, const char *path) {
   for (uint32_t i = 0; i < t->point_count; i++) {
     if (t->point_components[i] != SBFI_NO_INDEX) continue;
     if (body->source_points.count)
-      sbfi_found(v, SBF_CODE_POINT_UNUSED, path, i, "point %u of '%s' (vertex %u of the source, from 0) is in no polygon",
-          i, body->name, body->source_points.at[i]);
+      sbfi_found(v, SBF_CODE_POINT_UNUSED, path, i,
+          "point %u of '%s' (vertex %u of the source, from 0) is in no polygon", i, body->name,
+          body->source_points.at[i]);
     else
       sbfi_found(v, SBF_CODE_POINT_UNUSED, path, i, "point %u of '%s' is in no polygon", i, body->name);
   }
@@ -71,10 +74,11 @@ static void check_surface(sbfi_validation *v, const sbf_soft_body *body, const c
   }
   find_stray_polygons(v, &t, body, path);
   if (t.clashing_edge_count)
-    sbfi_found(v, SBF_CODE_SURFACE_WINDING, path, -1, "%u edges of '%s' lie between polygons that face opposite ways",
-        t.clashing_edge_count, body->name);
+    sbfi_found(v, SBF_CODE_SURFACE_WINDING, path, -1,
+        "%u edges of '%s' lie between polygons that face opposite ways", t.clashing_edge_count, body->name);
   if (t.component_count > 1)
-    sbfi_found(v, SBF_CODE_SURFACE_PIECES, path, -1, "'%s' consists of %u pieces", body->name, t.component_count);
+    sbfi_found(
+        v, SBF_CODE_SURFACE_PIECES, path, -1, "'%s' consists of %u pieces", body->name, t.component_count);
   if (measures.sheet) return;
   if (t.boundary_edge_count)
     sbfi_found(v, SBF_CODE_SURFACE_OPEN, path, -1, "'%s' is open: %u edges have one polygon only", body->name,
@@ -90,5 +94,6 @@ static void check_surface(sbfi_validation *v, const sbf_soft_body *body, const c
 
 void sbfi_check_surfaces(sbfi_validation *v) {
   for (uint32_t i = 0; i < v->asset->soft_bodies.count && !v->out_of_memory; i++)
-    check_surface(v, &v->asset->soft_bodies.at[i], sbfi_path_of("/sbf/soft_body[%u]/polygon_mesh", i + 1).text);
+    check_surface(
+        v, &v->asset->soft_bodies.at[i], sbfi_path_of("/sbf/soft_body[%u]/polygon_mesh", i + 1).text);
 }

@@ -14,8 +14,7 @@ sbfi_path sbfi_path_of(const char *format, ...) {
   return path;
 }
 
-void sbfi_found(
-    sbfi_validation *v, sbf_code code, const char *path, int64_t index, const char *format, ...) {
+void sbfi_found(sbfi_validation *v, sbf_code code, const char *path, int64_t index, const char *format, ...) {
   sbf_diagnostic d;
   va_list arguments;
   va_start(arguments, format);
@@ -33,18 +32,20 @@ void sbfi_found(
   v->options->report(v->options->user, &d);
 }
 
-sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_options *options, sbf_validate_result *result,
-    sbf_diagnostic *error) {
+sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_options *options,
+    sbf_validate_result *result, sbf_diagnostic *error) {
   static const sbf_validate_options defaults = {0};
   sbf_validate_result unseen;
   if (!options) options = &defaults;
   if (options->struct_size && options->struct_size != sizeof *options)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_validate_options has another size than this library's");
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "sbf_validate_options has another size than this library's");
   sbfi_validation v = {.asset = asset, .options = options, .result = result ? result : &unseen};
   v.repeats = options->repeats ? options->repeats : 8;
   *v.result = (sbf_validate_result){0};
-  static void (*const families[])(sbfi_validation *) = {sbfi_check_surfaces, sbfi_check_lattices, sbfi_check_springs,
-      sbfi_check_pins, sbfi_check_embeddings, sbfi_check_rig, sbfi_check_physics};
+  static void (*const families[])(sbfi_validation *) = {sbfi_check_surfaces, sbfi_check_lattices,
+      sbfi_check_springs, sbfi_check_pins, sbfi_check_embeddings, sbfi_check_rig, sbfi_check_physics,
+      sbfi_check_derived};
   for (size_t i = 0; i < sizeof families / sizeof *families && !v.out_of_memory; i++) {
     sbfi_arena_init(&v.scratch, options->allocator, 0);
     families[i](&v);

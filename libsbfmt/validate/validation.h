@@ -19,8 +19,8 @@ typedef struct sbfi_validation {
   bool out_of_memory;
 } sbfi_validation;
 
-/* A finding at an element path made from `path_format`'s %u, about one item of a list there (-1: none). The text
- * says what is wrong here; what the code says in general follows it. */
+/* A finding at an element path made from `path_format`'s %u, about one item of a list there (-1: none). The
+ * text says what is wrong here; what the code says in general follows it. */
 void sbfi_found(sbfi_validation *v, sbf_code code, const char *path, int64_t index, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 

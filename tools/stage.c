@@ -1,0 +1,306 @@
+#include "stage.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The triangles of one mesh that bear one material. */
+typedef struct patch {
+  uint32_t *triangles;
+  uint32_t triangle_count;
+  draw_colour colour;
+} patch;
+
+typedef struct mesh_look {
+  patch *patches;
+  uint32_t patch_count;
+} mesh_look;
+
+typedef struct body_look {
+  sbf_uint2 *edges; /* of its tetrahedra, each once */
+  uint32_t edge_count;
+} body_look;
+
+struct stage {
+  unsigned show;
+  mesh_look *meshes;
+  body_look *bodies;
+  uint32_t mesh_count, body_count;
+  sbf_vec3 *positions, *normals; /* room for the largest mesh or level */
+  sbr_transform *bones;
+  draw_colour *colours; /* room for the largest set of springs */
+  draw_colour_map strains;
+  uint32_t room;
+};
+
+static uint8_t srgb(float linear) {
+  double v = linear < 0 ? 0 : linear > 1 ? 1 : (double)linear;
+  v = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
+  return (uint8_t)(v * 255 + 0.5);
+}
+
+static draw_colour colour_of(const sbf_asset *asset, int32_t material) {
+  if (material < 0) return draw_colour_of_skin();
+  sbf_vec4 c = asset->materials.at[material].base_color;
+  return (draw_colour){srgb(c.x), srgb(c.y), srgb(c.z), 255};
+}
+
+/* Cuts a mesh's polygons into fans of triangles, by material. */
+static bool look_of_mesh(const sbf_asset *asset, const sbf_render_mesh *mesh, mesh_look *look) {
+  uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
+  look->patches = calloc(slots, sizeof *look->patches);
+  look->patch_count = slots;
+  for (uint32_t s = 0; look->patches && s < slots; s++) {
+    patch *p = &look->patches[s];
+    p->colour = colour_of(asset, mesh->material_slots.count ? mesh->material_slots.at[s].material : SBF_NONE);
+    p->triangles = malloc((3 * (size_t)mesh->mesh.polygon_points.count + 1) * sizeof *p->triangles);
+    if (!p->triangles) return false;
+    for (uint32_t i = 0, at = 0; i < mesh->mesh.polygon_sizes.count; at += mesh->mesh.polygon_sizes.at[i++]) {
+      uint32_t slot = mesh->polygon_materials.count ? mesh->polygon_materials.at[i] : 0;
+      const uint32_t *corner = mesh->mesh.polygon_points.at + at;
+      for (uint32_t k = 2; slot == s && k < mesh->mesh.polygon_sizes.at[i]; k++) {
+        uint32_t *t = &p->triangles[3 * p->triangle_count++];
+        t[0] = corner[0];
+        t[1] = corner[k - 1];
+        t[2] = corner[k];
+      }
+    }
+  }
+  return look->patches != NULL;
+}
+
+static int compare_edges(const void *a, const void *b) {
+  return memcmp(a, b, sizeof(sbf_uint2));
+}
+
+static bool look_of_lattice(const sbf_soft_body *body, body_look *look) {
+  static const int pairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+  uint32_t count = body->levels.count ? body->levels.at[0].lattice.tetrahedra.count : 0, kept = 0;
+  look->edges = malloc((6 * (size_t)count + 1) * sizeof *look->edges);
+  if (!look->edges) return false;
+  for (uint32_t t = 0; t < count; t++)
+    for (int k = 0; k < 6; k++) {
+      const uint32_t *p = body->levels.at[0].lattice.tetrahedra.at[t].at;
+      uint32_t a = p[pairs[k][0]], b = p[pairs[k][1]];
+      look->edges[6 * t + (uint32_t)k] = (sbf_uint2){{a < b ? a : b, a < b ? b : a}};
+    }
+  qsort(look->edges, 6 * (size_t)count, sizeof *look->edges, compare_edges);
+  for (uint32_t i = 0; i < 6 * count; i++)
+    if (kept == 0 || memcmp(&look->edges[i], &look->edges[kept - 1], sizeof *look->edges) != 0)
+      look->edges[kept++] = look->edges[i];
+  look->edge_count = kept;
+  return true;
+}
+
+static uint32_t largest_room(const sbf_asset *asset) {
+  uint32_t room = 1;
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    if (asset->render_meshes.at[i].mesh.positions.count > room)
+      room = asset->render_meshes.at[i].mesh.positions.count;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
+    for (uint32_t l = 0; l < asset->soft_bodies.at[i].levels.count; l++) {
+      const sbf_level *level = &asset->soft_bodies.at[i].levels.at[l];
+      if (level->positions.count > room) room = level->positions.count;
+      for (uint32_t s = 0; s < level->springs.count; s++)
+        if (level->springs.at[s].ends.count > room) room = level->springs.at[s].ends.count;
+    }
+  return room;
+}
+
+stage *stage_create(const session *s, unsigned show) {
+  const sbf_asset *asset = s->asset;
+  stage *st = calloc(1, sizeof *st);
+  if (!st) return NULL;
+  st->show = show;
+  st->mesh_count = asset->render_meshes.count;
+  st->body_count = asset->soft_bodies.count;
+  st->room = largest_room(asset);
+  st->meshes = calloc(st->mesh_count + 1u, sizeof *st->meshes);
+  st->bodies = calloc(st->body_count + 1u, sizeof *st->bodies);
+  st->positions = malloc(st->room * sizeof *st->positions);
+  st->normals = malloc(st->room * sizeof *st->normals);
+  st->bones = malloc((asset->bones.count + 1u) * sizeof *st->bones);
+  st->colours = malloc(st->room * sizeof *st->colours);
+  bool good = st->meshes && st->bodies && st->positions && st->normals && st->bones && st->colours;
+  for (uint32_t i = 0; good && i < st->mesh_count; i++)
+    good = look_of_mesh(asset, &asset->render_meshes.at[i], &st->meshes[i]);
+  for (uint32_t i = 0; good && i < st->body_count; i++)
+    good = look_of_lattice(&asset->soft_bodies.at[i], &st->bodies[i]);
+  draw_colour_map_init_diverging(&st->strains);
+  if (good) return st;
+  stage_destroy(st);
+  return NULL;
+}
+
+void stage_destroy(stage *st) {
+  if (!st) return;
+  for (uint32_t i = 0; st->meshes && i < st->mesh_count; i++) {
+    for (uint32_t p = 0; st->meshes[i].patches && p < st->meshes[i].patch_count; p++)
+      free(st->meshes[i].patches[p].triangles);
+    free(st->meshes[i].patches);
+  }
+  for (uint32_t i = 0; st->bodies && i < st->body_count; i++) free(st->bodies[i].edges);
+  free(st->meshes);
+  free(st->bodies);
+  free(st->positions);
+  free(st->normals);
+  free(st->bones);
+  free(st->colours);
+  free(st);
+}
+
+static sbf_vec3 world_origin(const session *s) {
+  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  return (sbf_vec3){(float)o.x, (float)o.y, (float)o.z};
+}
+
+static void to_world(sbf_vec3 origin, sbf_vec3 *points, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    points[i].x += origin.x;
+    points[i].y += origin.y;
+    points[i].z += origin.z;
+  }
+}
+
+static void show_skin(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
+  bool inside = (st->show & ~(unsigned)STAGE_SURFACE) != 0;
+  for (uint32_t m = 0; m < st->mesh_count; m++) {
+    uint32_t count =
+        sbr_character_skin(s->world, s->character, m, st->positions, st->normals, NULL, st->room);
+    to_world(origin, st->positions, count);
+    for (uint32_t p = 0; p < st->meshes[m].patch_count; p++) {
+      const patch *patch = &st->meshes[m].patches[p];
+      if (patch->triangle_count == 0) continue;
+      draw_scene_add_mesh(scene, &(draw_mesh){.positions = st->positions,
+                                     .normals = st->normals,
+                                     .triangles = patch->triangles,
+                                     .vertex_count = count,
+                                     .triangle_count = patch->triangle_count,
+                                     .colour = patch->colour,
+                                     .transparency = inside ? DRAW_XRAY : 0});
+    }
+  }
+}
+
+static float strain_of(const sbf_level *level, const sbf_spring_set *set, uint32_t i, const sbf_vec3 *now) {
+  const uint32_t *p = set->ends.at[i].at;
+  sbf_vec3 a = now[p[0]], b = now[p[1]], a0 = level->positions.at[p[0]], b0 = level->positions.at[p[1]];
+  float length = sqrtf((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
+  float rest = set->rest_lengths.count ? set->rest_lengths.at[i]
+                                       : sqrtf((a0.x - b0.x) * (a0.x - b0.x) + (a0.y - b0.y) * (a0.y - b0.y) +
+                                               (a0.z - b0.z) * (a0.z - b0.z));
+  return rest > 0 ? length / rest - 1 : 0;
+}
+
+static const float FULL_STRAIN = 0.2f;
+
+static void show_springs(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
+  bool by_strain = (st->show & STAGE_STRAIN) != 0;
+  unsigned seen = 0;
+  for (uint32_t b = 0; b < st->body_count; b++) {
+    const sbf_soft_body *body = &s->asset->soft_bodies.at[b];
+    if (body->levels.count == 0) continue;
+    const sbf_level *level = &body->levels.at[0];
+    uint32_t count = sbr_character_points(s->world, s->character, b, st->positions, st->room);
+    to_world(origin, st->positions, count);
+    for (uint32_t k = 0; k < level->springs.count && count == level->positions.count; k++) {
+      const sbf_spring_set *set = &level->springs.at[k];
+      const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)set->kind);
+      for (uint32_t i = 0; by_strain && i < set->ends.count; i++)
+        st->colours[i] =
+            draw_colour_map_at_strain(&st->strains, strain_of(level, set, i, st->positions), FULL_STRAIN);
+      draw_scene_add_lines(scene, st->positions, count, set->ends.at, by_strain ? st->colours : NULL,
+          set->ends.count, look->colour, look->width);
+      seen |= 1u << set->kind;
+    }
+  }
+  if (by_strain) draw_scene_add_scale(scene, &st->strains, "-20%", "0", "+20%");
+  for (int k = DRAW_SPRING_LOOK_COUNT - 1; !by_strain && k >= 0; k--) {
+    const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)k);
+    if (seen & 1u << k) draw_scene_add_legend(scene, look->name, look->colour);
+  }
+}
+
+static void show_lattices(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
+  for (uint32_t b = 0; b < st->body_count; b++) {
+    if (st->bodies[b].edge_count == 0) continue;
+    uint32_t count = sbr_character_points(s->world, s->character, b, st->positions, st->room);
+    to_world(origin, st->positions, count);
+    draw_scene_add_lines(scene, st->positions, count, st->bodies[b].edges, NULL, st->bodies[b].edge_count,
+        draw_colour_of_tetrahedron(), 0.8f);
+  }
+}
+
+static sbf_vec3 rotate(sbf_quat q, sbf_vec3 v) {
+  sbf_vec3 t = {2 * (q.y * v.z - q.z * v.y), 2 * (q.z * v.x - q.x * v.z), 2 * (q.x * v.y - q.y * v.x)};
+  return (sbf_vec3){v.x + q.w * t.x + q.y * t.z - q.z * t.y, v.y + q.w * t.y + q.z * t.x - q.x * t.z,
+      v.z + q.w * t.z + q.x * t.y - q.y * t.x};
+}
+
+static sbf_quat multiply(sbf_quat a, sbf_quat b) {
+  return (sbf_quat){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+static void show_bones(stage *st, const session *s, draw_scene *scene) {
+  for (uint32_t i = 0; i < s->asset->bones.count; i++) {
+    float length = s->asset->bones.at[i].length;
+    if (length <= 0) continue;
+    sbf_vec3 head = st->bones[i].position, along = rotate(st->bones[i].rotation, (sbf_vec3){0, length, 0});
+    draw_scene_add_bone(
+        scene, head, (sbf_vec3){head.x + along.x, head.y + along.y, head.z + along.z}, draw_colour_of_bone());
+  }
+}
+
+/* A hull's polygons as triangles, fans of each. */
+static void show_hull(stage *st, const sbf_asset *asset, const sbf_rigid_body *body, draw_scene *scene) {
+  const sbf_polygon_mesh *hull = body->hull;
+  uint32_t *triangles = malloc((3 * (size_t)hull->polygon_points.count + 1) * sizeof *triangles), count = 0;
+  for (uint32_t i = 0, at = 0; triangles && i < hull->polygon_sizes.count; at += hull->polygon_sizes.at[i++])
+    for (uint32_t k = 2; k < hull->polygon_sizes.at[i]; k++) {
+      triangles[3 * count] = hull->polygon_points.at[at];
+      triangles[3 * count + 1] = hull->polygon_points.at[at + k - 1];
+      triangles[3 * count++ + 2] = hull->polygon_points.at[at + k];
+    }
+  draw_place place = {{0, 0, 0, 1}, {0, 0, 0}};
+  if (body->bone >= 0) {
+    const sbf_bone *bone = &asset->bones.at[body->bone];
+    sbf_quat rest = bone->rotation, back = {-rest.x, -rest.y, -rest.z, rest.w};
+    place.rotation = multiply(st->bones[body->bone].rotation, back);
+    sbf_vec3 head = rotate(place.rotation, bone->head), now = st->bones[body->bone].position;
+    place.position = (sbf_vec3){now.x - head.x, now.y - head.y, now.z - head.z};
+  }
+  if (triangles)
+    draw_scene_add_hull(
+        scene, hull->positions.at, hull->positions.count, triangles, count, &place, draw_colour_of_hull());
+  free(triangles);
+}
+
+static float ground_height(void *user, float x, float z) {
+  const sbr_ground *ground = user;
+  sbf_vec3 normal;
+  return (float)ground->height(ground, (double)x, (double)z, &normal);
+}
+
+static void show_ground(const session *s, sbf_vec3 origin, draw_scene *scene) {
+  sbr_ground level = sbr_ground_flat(0);
+  if (s->ground.height == level.height)
+    draw_scene_set_floor(scene, (float)s->ground.parameters[0]);
+  else
+    draw_scene_set_terrain(scene, ground_height, (void *)(uintptr_t)&s->ground, origin.x, origin.z, 8);
+}
+
+void stage_show(stage *st, const session *s, draw_scene *scene) {
+  sbf_vec3 origin = world_origin(s);
+  draw_scene_clear(scene);
+  sbr_character_bones(s->world, s->character, st->bones, s->asset->bones.count);
+  for (uint32_t i = 0; i < s->asset->bones.count; i++) to_world(origin, &st->bones[i].position, 1);
+  if (st->show & STAGE_SURFACE) show_skin(st, s, origin, scene);
+  if (st->show & (STAGE_SPRINGS | STAGE_STRAIN)) show_springs(st, s, origin, scene);
+  if (st->show & STAGE_LATTICE) show_lattices(st, s, origin, scene);
+  if (st->show & STAGE_BONES) show_bones(st, s, scene);
+  for (uint32_t i = 0; st->show & STAGE_HULLS && i < s->asset->rigid_bodies.count; i++)
+    if (s->asset->rigid_bodies.at[i].hull) show_hull(st, s->asset, &s->asset->rigid_bodies.at[i], scene);
+  show_ground(s, origin, scene);
+}

@@ -1,0 +1,26 @@
+/* A character of a session on the stage of the renderer: its skin and what lies under it, as it is now. */
+#ifndef STAGE_H
+#define STAGE_H
+
+#include "render/draw_scene.h"
+#include "session.h"
+
+enum {
+  STAGE_SURFACE = 1,
+  STAGE_SPRINGS = 2,
+  STAGE_LATTICE = 4,
+  STAGE_BONES = 8,
+  STAGE_HULLS = 16,
+  STAGE_STRAIN = 32 /* springs coloured by strain rather than kind */
+};
+
+typedef struct stage stage;
+
+stage *stage_create(const session *s, unsigned show); /* NULL: no memory */
+void stage_destroy(stage *st);
+
+/* Fills the scene with the present frame, ground included. Places are relative to where the world's origin
+ * is. */
+void stage_show(stage *st, const session *s, draw_scene *scene);
+
+#endif

@@ -1,0 +1,167 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/camera.h"
+#include "render/canvas.h"
+#include "render/movie.h"
+#include "render/painter.h"
+#include "render/picture.h"
+#include "stage.h"
+
+typedef enum output { OUTPUT_PNG, OUTPUT_GIF, OUTPUT_MP4 } output;
+
+typedef struct studio {
+  session s;
+  stage *stage;
+  draw_canvas *canvas;
+  draw_painter *painter;
+  draw_scene *scene;
+  draw_camera camera;
+  uint8_t *rgb;
+  unsigned width, height;
+  output kind;
+  bool framed;
+} studio;
+
+static bool parse_output(cli_call *call, output *kind) {
+  static const char *const endings[] = {".png", ".gif", ".mp4"};
+  const char *path = cli_value(call, "-o"), *dot = path ? strrchr(path, '.') : NULL;
+  for (int i = 0; dot && i < 3; i++)
+    if (strcmp(dot, endings[i]) == 0) {
+      *kind = (output)i;
+      return true;
+    }
+  cli_wrong(call, "say where to draw: -o OUT.png, OUT.gif or OUT.mp4");
+  return false;
+}
+
+static bool parse_show(cli_call *call, unsigned *show) {
+  static const char *const words[] = {"surface", "springs", "lattice", "bones", "hulls", "strain"};
+  const char *text = cli_value(call, "--show");
+  *show = text ? 0 : STAGE_SURFACE;
+  while (text && *text) {
+    size_t length = strcspn(text, ",");
+    int found = -1;
+    for (int i = 0; i < 6; i++)
+      if (strlen(words[i]) == length && strncmp(words[i], text, length) == 0) found = i;
+    if (found < 0) {
+      cli_wrong(call,
+          "--show takes surface, springs, lattice, bones, hulls and strain with commas between, not '%s'",
+          cli_value(call, "--show"));
+      return false;
+    }
+    *show |= 1u << found;
+    text += length + (text[length] == ',');
+  }
+  return true;
+}
+
+static bool parse_size(cli_call *call, studio *st) {
+  static const unsigned usual[3][2] = {{1280, 960}, {640, 360}, {1280, 720}};
+  const char *text = cli_value(call, "--size");
+  char rest;
+  st->width = usual[st->kind][0];
+  st->height = usual[st->kind][1];
+  if (!text || (sscanf(text, "%ux%u%c", &st->width, &st->height, &rest) == 2 && st->width >= 16 &&
+                   st->height >= 16 && st->width <= DRAW_CANVAS_LARGEST && st->height <= DRAW_CANVAS_LARGEST))
+    return true;
+  cli_wrong(call, "--size takes WIDTHxHEIGHT from 16 to %d, not '%s'", DRAW_CANVAS_LARGEST, text);
+  return false;
+}
+
+static sbf_status open_studio(studio *st, unsigned show, sbf_diagnostic *error) {
+  draw_canvas_quality quality = st->kind == OUTPUT_PNG ? DRAW_CANVAS_STILL : DRAW_CANVAS_MOVIE;
+  sbf_status status = draw_canvas_open(&st->canvas, st->width, st->height, quality, error);
+  if (status == SBF_OK) status = draw_painter_create(&st->painter, st->canvas, error);
+  if (status != SBF_OK) return status;
+  st->stage = stage_create(&st->s, show);
+  st->scene = draw_scene_create();
+  st->rgb = malloc(3 * (size_t)st->width * st->height);
+  if (st->stage && st->scene && st->rgb) return SBF_OK;
+  *error = (sbf_diagnostic){.severity = SBF_SEVERITY_ERROR, .offset = -1, .index = -1};
+  snprintf(error->message, sizeof error->message, "memory ran out for the picture");
+  return SBF_FAILED;
+}
+
+static void close_studio(studio *st) {
+  stage_destroy(st->stage);
+  if (st->scene) draw_scene_destroy(st->scene);
+  draw_painter_destroy(st->painter);
+  draw_canvas_close(st->canvas);
+  free(st->rgb);
+  session_close(&st->s);
+}
+
+/* Paints the present frame; the camera frames the first and follows. */
+static sbf_status paint(studio *st, sbf_diagnostic *error) {
+  stage_show(st->stage, &st->s, st->scene);
+  box3 box = draw_scene_bounds(st->scene);
+  sbf_vec3 middle = {
+      (box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2, (box.low.z + box.high.z) / 2};
+  if (!st->framed)
+    draw_camera_frame(&st->camera, &box, (float)st->width / (float)st->height, DRAW_CAMERA_THREE_QUARTER_YAW,
+        DRAW_CAMERA_THREE_QUARTER_PITCH);
+  else
+    draw_camera_follow(&st->camera, middle, (float)(1 / st->s.fps));
+  st->framed = true;
+  sbf_status status = draw_painter_paint(st->painter, st->scene, &st->camera, error);
+  return status == SBF_OK ? draw_canvas_read(st->canvas, st->rgb, error) : status;
+}
+
+static sbf_status draw_picture(studio *st, const char *path, sbf_diagnostic *error) {
+  while (session_step(&st->s)) cli_progress("running", (double)st->s.frame / st->s.frame_count);
+  sbf_status status = paint(st, error);
+  return status == SBF_OK ? draw_picture_write_png(path, st->rgb, st->width, st->height, error) : status;
+}
+
+static sbf_status draw_film(studio *st, const char *path, sbf_diagnostic *error) {
+  draw_movie_options options = {.kind = st->kind == OUTPUT_GIF ? DRAW_MOVIE_GIF : DRAW_MOVIE_MP4,
+      .width = st->width,
+      .height = st->height,
+      .fps = (uint32_t)(st->s.fps + 0.5),
+      .frame_count = st->s.frame_count};
+  draw_movie *movie;
+  sbf_status status = draw_movie_open(&movie, path, &options, error);
+  if (status != SBF_OK) return status;
+  do {
+    status = paint(st, error);
+    if (status == SBF_OK) status = draw_movie_add_frame(movie, st->rgb, error);
+    cli_progress("drawing", (double)st->s.frame / (st->s.frame_count + 1));
+  } while (status == SBF_OK && session_step(&st->s));
+  if (status == SBF_OK) return draw_movie_finish(movie, error);
+  draw_movie_abandon(movie);
+  return status;
+}
+
+static int run(cli_call *call) {
+  static const double usual_fps[] = {60, 25, 30}, usual_seconds[] = {0, 5, 5};
+  studio st = {.width = 0};
+  unsigned show;
+  int status;
+  sbf_diagnostic error;
+  if (!parse_output(call, &st.kind) || !parse_show(call, &show) || !parse_size(call, &st)) return SBF_FAILED;
+  if (!session_open(&st.s, call, usual_seconds[st.kind], usual_fps[st.kind], &status)) return status;
+  status = (int)open_studio(&st, show, &error);
+  const char *path = cli_value(call, "-o");
+  if (status == SBF_OK)
+    status = (int)(st.kind == OUTPUT_PNG ? draw_picture(&st, path, &error) : draw_film(&st, path, &error));
+  if (status != SBF_OK) cli_print_diagnostic(call, &error);
+  cli_progress_end();
+  close_studio(&st);
+  return status;
+}
+
+static const cli_option options[] = {
+    {"-o", "OUT.png|gif|mp4", "where to draw; films need the program ffmpeg"},
+    {"--show", "LIST", "surface, springs, lattice, bones, hulls, strain (surface)"},
+    {"--size", "WxH", "pixels (1280x960, GIF 640x360, MP4 1280x720)"},
+    SESSION_OPTIONS,
+    {NULL, NULL, NULL},
+};
+const cli_verb verb_render = {"render", "FILE -o OUT.png|gif|mp4 [--show LIST] [--seconds S] ...",
+    "draw a picture or a film",
+    "Draws without a display. A picture shows the moment after --seconds (0), a film the time until then "
+    "(5). The\n"
+    "skin turns translucent when what lies under it is shown too. Springs are coloured by kind, or by "
+    "strain.",
+    options, 1, 1, run};
