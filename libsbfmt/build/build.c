@@ -1,0 +1,276 @@
+#include "sbfmt/build.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "build/embed.h"
+#include "build/level_pins.h"
+#include "build/section_hulls.h"
+#include "build/source_view.h"
+#include "build/topology.h"
+#include "sbfmt/mechanics.h"
+
+#define TEXT_OF(x) TEXT_OF_ARGUMENT(x)
+#define TEXT_OF_ARGUMENT(x) #x
+static const char default_tool[] =
+    "sbfmt " TEXT_OF(SBF_VERSION_MAJOR) "." TEXT_OF(SBF_VERSION_MINOR) "." TEXT_OF(SBF_VERSION_PATCH);
+
+enum { DERIVATION = 0 }; /* a build has one entry in `derivations` */
+
+typedef struct build {
+  sbf_build_options options;
+  const sbf_asset *from;
+  sbf_asset *asset; /* under construction */
+  sbf_soft_body *bodies;
+  sbfi_interior_map *maps; /* (bodies) of the levels made */
+  bool *made;              /* (bodies) the level is made here, the body's only one */
+  sbfi_arena scratch;
+  sbfi_ids ids;
+  sbfi_reporter reporter;
+  sbf_build_report report;
+  sbf_diagnostic *error;
+} build;
+
+static sbf_status no_memory(build *b) {
+  return sbfi_diagnose(b->error, SBF_CODE_OUT_OF_MEMORY, "no memory left to build in");
+}
+
+static sbf_status progress(build *b, const char *pass, double done) {
+  if (!b->options.progress || b->options.progress(b->options.user, pass, done)) return SBF_OK;
+  return sbfi_diagnose(b->error, SBF_CODE_CANCELLED, "cancelled while making %s", pass);
+}
+
+static sbf_build_options options_of(const sbf_build_options *given) {
+  sbf_build_options options = {0};
+  size_t size = given && given->struct_size && given->struct_size < sizeof options ? given->struct_size
+                                                                                   : sizeof options;
+  if (given) memcpy(&options, given, size);
+  if (!options.tool) options.tool = default_tool;
+  return options;
+}
+
+static const char *const interior_words[] = {"automatic", "centroid", "none"};
+
+/* The settings that shape what is made, in alphabetical order. */
+static const char *settings_of(const build *b) {
+  char text[160];
+  const sbf_build_options *o = &b->options;
+  snprintf(text, sizeof text, "embeddings=%s flexion=%s hulls=%s interior=%s",
+      o->without_embeddings ? "false" : "true", o->without_flexion ? "false" : "true",
+      o->without_hulls ? "false" : "true", interior_words[o->interior]);
+  return sbf_asset_copy_text(b->asset, text);
+}
+
+/* The source parts, as a copy that may be written to. */
+static sbf_status copy_source(build *b) {
+  sbf_asset view;
+  if (!sbfi_source_view(b->from, &b->scratch, &view)) return no_memory(b);
+  b->asset = sbf_asset_clone(&view, &b->scratch.allocator);
+  if (!b->asset) return no_memory(b);
+  uint32_t count = b->asset->soft_bodies.count;
+  b->bodies = sbf_asset_allocate(b->asset, count, sizeof *b->bodies);
+  b->maps = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *b->maps);
+  b->made = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *b->made);
+  if ((count && !b->bodies) || !b->maps || !b->made) return no_memory(b);
+  if (count) memcpy(b->bodies, b->asset->soft_bodies.at, count * sizeof *b->bodies);
+  b->asset->soft_bodies.at = b->bodies;
+  return SBF_OK;
+}
+
+static sbf_status record_derivation(build *b) {
+  sbf_derivation *made = sbf_asset_allocate(b->asset, 1, sizeof *made);
+  if (!made || !sbfi_ids_add_collections(&b->ids, b->asset)) return no_memory(b);
+  sbf_derivation_init(made);
+  made->id = sbfi_unique_id(&b->ids, "", "build", DERIVATION, b->asset);
+  made->tool = sbf_asset_copy_text(b->asset, b->options.tool);
+  made->settings = settings_of(b);
+  if (!made->id || !made->tool || !made->settings) return no_memory(b);
+  b->asset->derivations = (sbf_derivation_list){made, 1};
+  return SBF_OK;
+}
+
+static sbf_status make_hulls(build *b) {
+  if (b->options.without_hulls) return SBF_OK;
+  if (!sbfi_section_hulls_make(b->asset, DERIVATION, &b->ids, &b->reporter, &b->report.hulls, &b->scratch))
+    return no_memory(b);
+  return SBF_OK;
+}
+
+/* Old derived rigid bodies are found again among the new ones by their ids. */
+static void match_rigid_bodies(const build *b, int32_t *new_from_old) {
+  const sbf_rigid_body_list *old = &b->from->rigid_bodies, *now = &b->asset->rigid_bodies;
+  for (uint32_t i = 0; i < old->count; i++) {
+    const sbfi_id_entry *same = old->at[i].derived != SBF_NONE ? sbfi_ids_find(&b->ids, old->at[i].id) : NULL;
+    if (same && same->index < now->count && now->at[same->index].id == same->id)
+      new_from_old[i] = (int32_t)same->index;
+  }
+}
+
+/* Authored parts name others by their places, which have moved where derived ones stood between. */
+static sbf_status renumber(build *b) {
+  const sbf_asset *from = b->from;
+  const uint32_t counts[] = {from->rigid_bodies.count, from->soft_bodies.count, from->render_meshes.count};
+  int32_t *places[3];
+  for (int i = 0; i < 3; i++) {
+    places[i] = sbfi_arena_allocate(&b->scratch, (size_t)counts[i] + 1, sizeof *places[i]);
+    if (!places[i]) return no_memory(b);
+  }
+  sbfi_source_places(
+      from->rigid_bodies.at, counts[0], sizeof(sbf_rigid_body), offsetof(sbf_rigid_body, derived), places[0]);
+  sbfi_source_places(
+      from->soft_bodies.at, counts[1], sizeof(sbf_soft_body), offsetof(sbf_soft_body, derived), places[1]);
+  sbfi_source_places(from->render_meshes.at, counts[2], sizeof(sbf_render_mesh),
+      offsetof(sbf_render_mesh, derived), places[2]);
+  match_rigid_bodies(b, places[0]);
+  const sbfi_renumbering renumberings[] = {{offsetof(sbf_asset, rigid_bodies), places[0], counts[0]},
+      {offsetof(sbf_asset, soft_bodies), places[1], counts[1]},
+      {offsetof(sbf_asset, render_meshes), places[2], counts[2]}};
+  sbfi_lost_reference lost;
+  if (sbfi_references_renumber(b->asset, renumberings, 3, &lost)) return SBF_OK;
+  sbf_status status = sbfi_diagnose(b->error, SBF_CODE_DERIVED_LOST,
+      "refers to one of the %s that an earlier build made and this one does not: let it name an authored one",
+      lost.collection);
+  if (b->error) memcpy(b->error->path, lost.path, sizeof b->error->path);
+  return status;
+}
+
+static bool is_wanted_inside(const build *b, const sbf_soft_body *body) {
+  if (b->options.interior != SBF_BUILD_INTERIOR_AUTOMATIC)
+    return b->options.interior == SBF_BUILD_INTERIOR_CENTROID;
+  sbf_body_measures measures;
+  sbf_body_measure(body, &measures);
+  return body->bone != SBF_NONE || !measures.sheet;
+}
+
+static void warn_of_attachments(build *b, uint32_t body) {
+  for (uint32_t i = 0; i < b->bodies[body].attachments.count; i++) {
+    const sbf_attachment *rule = &b->bodies[body].attachments.at[i];
+    if (rule->rule != SBF_ATTACHMENT_RULE_INSIDE_HULL || b->asset->rigid_bodies.at[rule->rigid_body].hull)
+      continue;
+    sbf_diagnostic finding;
+    sbfi_diagnose(&finding, SBF_CODE_ATTACHMENT_NO_HULL,
+        "rigid body \"%s\" has no hull that points could be inside of",
+        b->asset->rigid_bodies.at[rule->rigid_body].name);
+    snprintf(
+        finding.path, sizeof finding.path, "/sbf/soft_body[%u]/attachments/attachment[%u]", body + 1, i + 1);
+    sbfi_report(&b->reporter, &finding);
+  }
+}
+
+static bool make_level(build *b, uint32_t number) {
+  sbf_soft_body *body = &b->bodies[number];
+  sbfi_spring_recipe recipe = {is_wanted_inside(b, body), !b->options.without_flexion, DERIVATION};
+  sbfi_spring_counts counts;
+  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
+  sbfi_interior_map *map = &b->maps[number];
+  bool good = level && sbfi_spring_level_make(level, body, &recipe, b->asset, map, &counts, &scratch);
+  if (good && map->polygon_points) {
+    map->polygon_points = sbfi_arena_copy(
+        &b->scratch, map->polygon_points, body->surface.polygon_sizes.count, sizeof *map->polygon_points);
+    good = map->polygon_points != NULL;
+  }
+  sbfi_arena_free(&scratch);
+  if (!good) return false;
+  body->levels = (sbf_level_list){level, 1};
+  b->made[number] = true;
+  b->report.bodies++;
+  b->report.interior_points += counts.interior_points;
+  b->report.inert_springs += counts.inert;
+  b->report.pins += counts.pins;
+  for (int kind = 0; kind < SBF_SPRING_KIND_COUNT; kind++) b->report.springs[kind] += counts.springs[kind];
+  return true;
+}
+
+/* Authored levels stay; the pins that the body's own stand for are put on them. */
+static bool pin_authored_levels(build *b, uint32_t number) {
+  sbf_soft_body *body = &b->bodies[number];
+  sbf_level *levels = sbf_asset_allocate(b->asset, body->levels.count, sizeof *levels);
+  if (!levels) return false;
+  memcpy(levels, body->levels.at, body->levels.count * sizeof *levels);
+  body->levels.at = levels;
+  for (uint32_t l = 0; l < body->levels.count; l++) {
+    uint32_t before = levels[l].pins.count;
+    if (!sbfi_level_pins_make(&levels[l], body, DERIVATION, b->asset, 0, 0, &b->scratch)) return false;
+    for (uint32_t p = before; l == 0 && p < levels[l].pins.count; p++)
+      b->report.pins += levels[l].pins.at[p].points.count;
+  }
+  return true;
+}
+
+static sbf_status make_levels(build *b) {
+  uint32_t count = b->asset->soft_bodies.count;
+  for (uint32_t i = 0; i < count; i++) {
+    sbf_status status = progress(b, "springs", 0.2 + 0.4 * i / count);
+    if (status != SBF_OK) return status;
+    warn_of_attachments(b, i);
+    if (b->bodies[i].levels.count > 0) {
+      if (!pin_authored_levels(b, i)) return no_memory(b);
+    } else if (b->bodies[i].surface.positions.count > 0) {
+      if (!make_level(b, i)) return no_memory(b);
+    } else {
+      sbf_diagnostic finding;
+      sbfi_diagnose(&finding, SBF_CODE_BODY_WITHOUT_POINTS,
+          "soft body \"%s\" has no surface points to build a level on", b->bodies[i].name);
+      snprintf(finding.path, sizeof finding.path, "/sbf/soft_body[%u]", i + 1);
+      sbfi_report(&b->reporter, &finding);
+    }
+  }
+  return SBF_OK;
+}
+
+static sbf_status embed(build *b) {
+  size_t count = 0, next = 0;
+  if (b->options.without_embeddings) return SBF_OK;
+  for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++) count += b->bodies[i].levels.count;
+  sbfi_embed_target *targets = sbfi_arena_allocate(&b->scratch, count + 1, sizeof *targets);
+  if (!targets) return no_memory(b);
+  for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
+    for (uint32_t l = 0; l < b->bodies[i].levels.count; l++)
+      /* The levels are the asset's, copied into memory that may be written to. */
+      targets[next++] = (sbfi_embed_target){
+          i, (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l], b->made[i] ? &b->maps[i] : NULL};
+  sbfi_embed_report report;
+  if (!sbfi_embed(b->asset, targets, (uint32_t)count, DERIVATION, &b->reporter, &report, &b->scratch))
+    return no_memory(b);
+  b->report.embedded_vertices = report.vertices;
+  return SBF_OK;
+}
+
+static sbf_status run(build *b) {
+  static const struct {
+    const char *name;
+    double done; /* before it */
+    sbf_status (*run)(build *);
+  } passes[] = {{"a copy of the source", 0, copy_source}, {"the derivation", 0.05, record_derivation},
+      {"hulls", 0.1, make_hulls}, {"references", 0.15, renumber}, {"springs", 0.2, make_levels},
+      {"embeddings", 0.6, embed}};
+  for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
+    sbf_status status = progress(b, passes[i].name, passes[i].done);
+    if (status == SBF_OK) status = passes[i].run(b);
+    if (status != SBF_OK) return status;
+  }
+  return progress(b, "the last of it", 1);
+}
+
+sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, sbf_asset **built,
+    sbf_build_report *report, sbf_diagnostic *error) {
+  *built = NULL;
+  build b = {.options = options_of(options), .from = asset, .error = error};
+  if ((unsigned)b.options.interior > SBF_BUILD_INTERIOR_NONE)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known interior");
+  b.reporter = (sbfi_reporter){.report = b.options.report, .user = b.options.user};
+  sbfi_arena_init(&b.scratch, b.options.allocator, 0);
+  sbfi_ids_init(&b.ids, b.options.allocator);
+  sbf_status status = run(&b);
+  sbfi_ids_free(&b.ids);
+  sbfi_arena_free(&b.scratch);
+  b.report.warnings = b.reporter.warnings;
+  if (report) *report = b.report;
+  if (status == SBF_OK)
+    *built = b.asset;
+  else
+    sbf_asset_free(b.asset);
+  return status;
+}

@@ -1,0 +1,126 @@
+#include "build/source_view.h"
+
+#include "model/place.h"
+
+/* The field by which an element says what derived it; NULL where it cannot be derived by itself. */
+static const sbfi_field *mark_of(const sbfi_element *element) {
+  return sbfi_element_field(element, "derived");
+}
+
+static bool is_derived(const sbfi_element *element, const void *object) {
+  const sbfi_field *mark = mark_of(element);
+  return mark && sbfi_get_integer(object, mark) != SBF_NONE;
+}
+
+static bool view_children(const sbfi_element *element, void *object, sbfi_arena *arena);
+
+/* Copies the children that stand in a row, less the derived ones, and gives the field the rest. */
+static bool view_row(const sbfi_field *field, void *object, sbfi_arena *arena) {
+  sbfi_list list = sbfi_get_list(object, field);
+  size_t size = field->element->struct_size;
+  uint32_t kept = 0;
+  if (list.count == 0) return true;
+  char *row = sbfi_arena_allocate(arena, list.count, size);
+  if (!row) return false;
+  for (uint32_t i = 0; i < list.count; i++) {
+    const char *child = (const char *)list.at + i * size;
+    if (is_derived(field->element, child)) continue;
+    memcpy(row + kept * size, child, size);
+    if (!view_children(field->element, row + kept++ * size, arena)) return false;
+  }
+  sbfi_set_list(object, field, kept ? row : NULL, kept);
+  return true;
+}
+
+/* A single child may be marked beside it, as hull by hull_derived: then the mark goes with it. */
+static bool view_optional(
+    const sbfi_element *element, const sbfi_field *field, void *object, sbfi_arena *arena) {
+  char mark_name[64] = "";
+  const void *child = sbfi_get_pointer(object, field);
+  if (!child) return true;
+  strncat(mark_name, field->name, sizeof mark_name - sizeof "_derived");
+  strcat(mark_name, "_derived");
+  const sbfi_field *mark = sbfi_element_field(element, mark_name);
+  if (mark && sbfi_get_integer(object, mark) != SBF_NONE) {
+    sbfi_set_integer(object, mark, SBF_NONE);
+    sbfi_set_pointer(object, field, NULL);
+    return true;
+  }
+  void *copy = sbfi_arena_copy(arena, child, 1, field->element->struct_size);
+  if (!copy) return false;
+  sbfi_set_pointer(object, field, copy);
+  return view_children(field->element, copy, arena);
+}
+
+static bool view_children(const sbfi_element *element, void *object, sbfi_arena *arena) {
+  for (uint32_t i = 0; i < element->field_count; i++) {
+    const sbfi_field *field = &element->fields[i];
+    bool good = true;
+    if (field->type == SBFI_ONE) good = view_children(field->element, (char *)object + field->offset, arena);
+    if (field->type == SBFI_OPTIONAL) good = view_optional(element, field, object, arena);
+    if (field->type == SBFI_MANY) good = view_row(field, object, arena);
+    if (!good) return false;
+  }
+  return true;
+}
+
+bool sbfi_source_view(const sbf_asset *asset, sbfi_arena *arena, sbf_asset *view) {
+  *view = *asset;
+  view->derivations = (sbf_derivation_list){NULL, 0};
+  return view_children(&sbfi_asset_element, view, arena);
+}
+
+void sbfi_source_places(
+    const void *items, uint32_t count, size_t size, size_t derived, int32_t *new_from_old) {
+  int32_t kept = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    int32_t mark;
+    memcpy(&mark, (const char *)items + i * size + derived, sizeof mark);
+    new_from_old[i] = mark == SBF_NONE ? kept++ : SBF_NONE;
+  }
+}
+
+typedef struct renumber_walk {
+  const sbfi_renumbering *renumberings;
+  uint32_t count;
+  sbfi_lost_reference *lost;
+  bool good;
+} renumber_walk;
+
+static void renumber_field(renumber_walk *walk, const sbfi_place *place, const sbfi_field *field) {
+  /* The walk sees the asset as constant; the caller says that its structs may be written to. */
+  void *object = (void *)(uintptr_t)place->object;
+  int32_t value = sbfi_get_integer(object, field);
+  for (uint32_t i = 0; i < walk->count && value != SBF_NONE; i++) {
+    const sbfi_renumbering *by = &walk->renumberings[i];
+    if (by->collection != field->target) continue;
+    int32_t new_value = (uint32_t)value < by->old_count ? by->new_from_old[value] : SBF_NONE;
+    if (new_value == SBF_NONE && field->required && walk->good) {
+      walk->good = false;
+      sbfi_place_path(place, field, walk->lost->path, sizeof walk->lost->path);
+      walk->lost->collection = field->target_name;
+    }
+    sbfi_set_integer(object, field, new_value);
+    return;
+  }
+}
+
+static void renumber(renumber_walk *walk, const sbfi_place *place) {
+  for (uint32_t i = 0; i < place->element->field_count; i++) {
+    const sbfi_field *field = &place->element->fields[i];
+    if (field->type == SBFI_REF) renumber_field(walk, place, field);
+    uint32_t children = sbfi_child_count(place->object, field);
+    for (uint32_t c = 0; c < children; c++) {
+      sbfi_place child = sbfi_place_child(place, field, c);
+      renumber(walk, &child);
+    }
+  }
+}
+
+bool sbfi_references_renumber(
+    sbf_asset *asset, const sbfi_renumbering *renumberings, uint32_t count, sbfi_lost_reference *lost) {
+  renumber_walk walk = {renumberings, count, lost, true};
+  sbfi_place root = sbfi_place_root(asset);
+  renumber(&walk, &root);
+  return walk.good;
+}

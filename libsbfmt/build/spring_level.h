@@ -1,0 +1,41 @@
+/* A body's level of springs: points, springs of every kind with their stiffness, pins. */
+#ifndef SBFI_SPRING_LEVEL_H
+#define SBFI_SPRING_LEVEL_H
+
+#include "base/memory.h"
+#include "sbfmt/asset.h"
+
+typedef struct sbfi_spring_recipe {
+  bool centroid; /* the centroid interior, held by the body's bone where it has one */
+  bool flexion;
+  int32_t derivation; /* what the parts made are marked with */
+} sbfi_spring_recipe;
+
+/* What was made of one body. */
+typedef struct sbfi_spring_counts {
+  uint32_t interior_points;                /* made, not an author's */
+  uint32_t springs[SBF_SPRING_KIND_COUNT]; /* in the file */
+  uint32_t inert;                          /* left out: both ends are held */
+  uint32_t pins;                           /* points of the level's pin sets */
+} sbfi_spring_counts;
+
+/* Where the made points are, for embedding. */
+typedef struct sbfi_interior_map {
+  uint32_t centre;          /* place in the level; SBFI_NO_INDEX: there is none */
+  uint32_t *polygon_points; /* (polygons) places in the level, or SBFI_NO_INDEX; NULL: none */
+} sbfi_interior_map;
+
+/* Fills `*level` for a body that has surface points; lists are memory of `asset`, the map's of `scratch`.
+ *
+ * Points: the surface's, the author's interior ones, the made ones. Springs: structural, shear, flexion,
+ * internal, each set in the order of springs.h, less those that join two held points, which its inert_count
+ * counts. Pins: the body's own, its attachments', and "interior", which binds the made points to the body's
+ * bone (see level_pins.h). A body without a bone keeps them free and gives them masses: of each polygon's
+ * pyramid from the centre, a quarter to its point, a fifth to the centre and the rest to its corners, as its
+ * tetrahedra would.
+ *
+ * Stiffness in N/m by sbfmt/mechanics.h, stated for each spring. False where memory runs out. */
+bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const sbfi_spring_recipe *recipe,
+    sbf_asset *asset, sbfi_interior_map *map, sbfi_spring_counts *counts, sbfi_arena *scratch);
+
+#endif
