@@ -6,6 +6,7 @@
 #include "build/embed.h"
 #include "build/level_pins.h"
 #include "build/section_hulls.h"
+#include "build/source_reading.h"
 #include "build/source_view.h"
 #include "build/topology.h"
 #include "sbfmt/mechanics.h"
@@ -21,6 +22,7 @@ typedef struct build {
   sbf_build_options options;
   const sbf_asset *from;
   sbf_asset *asset; /* under construction */
+  sbf_derivation *derivation;
   sbf_soft_body *bodies;
   sbfi_interior_map *maps; /* (bodies) of the levels made */
   bool *made;              /* (bodies) the level is made here, the body's only one */
@@ -85,6 +87,7 @@ static sbf_status record_derivation(build *b) {
   made->tool = sbf_asset_copy_text(b->asset, b->options.tool);
   made->settings = settings_of(b);
   if (!made->id || !made->tool || !made->settings) return no_memory(b);
+  b->derivation = made;
   b->asset->derivations = (sbf_derivation_list){made, 1};
   return SBF_OK;
 }
@@ -238,6 +241,17 @@ static sbf_status embed(build *b) {
   return SBF_OK;
 }
 
+/* Of the asset as it now is: what is derived does not count. */
+static sbf_status hash_source(build *b) {
+  char text[SBFI_SHA256_TEXT_SIZE];
+  sbf_status status = sbfi_build_source_hash(b->asset, text, b->error);
+  if (status != SBF_OK) return status;
+  const char *hash = sbf_asset_copy_text(b->asset, text);
+  if (!hash) return no_memory(b);
+  b->derivation->source_hash = hash;
+  return SBF_OK;
+}
+
 static sbf_status run(build *b) {
   static const struct {
     const char *name;
@@ -245,7 +259,7 @@ static sbf_status run(build *b) {
     sbf_status (*run)(build *);
   } passes[] = {{"a copy of the source", 0, copy_source}, {"the derivation", 0.05, record_derivation},
       {"hulls", 0.1, make_hulls}, {"references", 0.15, renumber}, {"springs", 0.2, make_levels},
-      {"embeddings", 0.6, embed}};
+      {"embeddings", 0.6, embed}, {"the hash of the source", 0.9, hash_source}};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     sbf_status status = progress(b, passes[i].name, passes[i].done);
     if (status == SBF_OK) status = passes[i].run(b);

@@ -1,8 +1,8 @@
 /* Derived parts remember what they were made from: another source now makes them stale. */
 #include <string.h>
 
+#include "build/source_reading.h"
 #include "validate/validation.h"
-#include "xml/source_hash.h"
 
 void sbfi_check_derived(sbfi_validation *v) {
   char hash[SBFI_SHA256_TEXT_SIZE];
@@ -10,7 +10,7 @@ void sbfi_check_derived(sbfi_validation *v) {
   for (uint32_t i = 0; i < v->asset->derivations.count; i++) {
     const sbf_derivation *derivation = &v->asset->derivations.at[i];
     if (derivation->source_hash[0] == 0) continue;
-    if (!hashed && sbfi_source_hash(v->asset, NULL, NULL, hash, NULL) != SBF_OK) {
+    if (!hashed && sbfi_build_source_hash(v->asset, hash, NULL) != SBF_OK) {
       v->out_of_memory = true;
       return;
     }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "build/source_reading.h"
 #include "fill_asset.h"
 #include "harness.h"
 #include "sbfmt/io.h"
@@ -138,6 +139,27 @@ START_TEST(building_twice_changes_nothing)
   sbf_asset_free(once);
   sbf_asset_free(twice);
   sbf_asset_free(again);
+}
+END_TEST
+
+START_TEST(the_hash_is_of_what_was_read)
+{
+  add_cube(asset);
+  sbf_asset *built = build(asset, NULL, NULL);
+  char first[65], hash[65];
+  snprintf(first, sizeof first, "%s", built->derivations.at[0].source_hash);
+  ck_assert_uint_eq(strlen(first), 64);
+  ck_assert_int_eq(sbfi_build_source_hash(built, hash, NULL), SBF_OK);
+  ck_assert_str_eq(hash, first);
+  built->environment.gravity.y = -1; /* not read */
+  ck_assert_int_eq(sbfi_build_source_hash(built, hash, NULL), SBF_OK);
+  ck_assert_str_eq(hash, first);
+  sbf_soft_body body = built->soft_bodies.at[0];
+  body.attributes.density = 999;
+  built->soft_bodies.at = &body;
+  ck_assert_int_eq(sbfi_build_source_hash(built, hash, NULL), SBF_OK);
+  ck_assert_str_ne(hash, first);
+  sbf_asset_free(built);
 }
 END_TEST
 
@@ -360,6 +382,7 @@ static Suite *suite(void) {
   tcase_add_test(c, reference_lizard);
   tcase_add_test(c, a_cube_in_full);
   tcase_add_test(c, building_twice_changes_nothing);
+  tcase_add_test(c, the_hash_is_of_what_was_read);
   tcase_add_test(c, settings_are_heeded);
   tcase_add_test(c, sheets_and_free_bodies);
   tcase_add_test(c, authored_parts_stay);

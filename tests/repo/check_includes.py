@@ -25,7 +25,7 @@ MAY_USE = {
     "libsbfmt/packed": MODEL + ["libsbfmt/packed"],
     "libsbfmt/mechanics": MECHANICS,
     "libsbfmt/xml": MODEL + ["libsbfmt/xml"],
-    "libsbfmt/build": MECHANICS + ["libsbfmt/build"],
+    "libsbfmt/build": MECHANICS + ["libsbfmt/xml", "libsbfmt/build"],
     "libsbfmt/validate": CORE + ["libsbfmt/mechanics", "libsbfmt/build", "libsbfmt/validate"],
     "libsbfmt/import": FORMAT + ["libsbfmt/import"],
     "libsbfmt/export": FORMAT + ["libsbfmt/export"],

@@ -20,8 +20,9 @@ extern "C" {
 /* What springs hold a body's surface from inside. */
 typedef enum sbf_build_interior {
   SBF_BUILD_INTERIOR_AUTOMATIC = 0, /* centroid, but none in a sheet without a bone */
-  SBF_BUILD_INTERIOR_CENTROID = 1,  /* a centre, a point for each polygon; held by the body's bone if it has one */
-  SBF_BUILD_INTERIOR_NONE = 2       /* springs over the surface alone */
+  SBF_BUILD_INTERIOR_CENTROID =
+      1,                      /* a centre, a point for each polygon; held by the body's bone if it has one */
+  SBF_BUILD_INTERIOR_NONE = 2 /* springs over the surface alone */
 } sbf_build_interior;
 
 typedef struct sbf_build_options {
