@@ -21,6 +21,10 @@ typedef enum sbf_code {
   SBF_CODE_BAD_CALL = 106, /* An argument of the call is wrong. */
   SBF_CODE_IO_CANNOT_RUN = 107, /* A helper program cannot be run: check that it is installed and may be executed. */
   SBF_CODE_CANCELLED = 108, /* The caller stopped the work. */
+  SBF_CODE_NO_OPENGL = 120, /* There is nothing to draw pictures with: install Mesa's EGL and OpenGL. */
+  SBF_CODE_OPENGL_FAILED = 121, /* OpenGL does not do what drawing needs of it: update the graphics driver. */
+  SBF_CODE_NO_FFMPEG = 122, /* The program ffmpeg, which makes films, is not in PATH: install it. */
+  SBF_CODE_FFMPEG_FAILED = 123, /* The program ffmpeg stopped with an error: it says why. */
   SBF_CODE_XML_SYNTAX = 201, /* The text is not well-formed XML: mend it at the line given. */
   SBF_CODE_XML_DOCTYPE = 202, /* A DOCTYPE or an entity of its own stands in the file: remove it, the format has none. */
   SBF_CODE_XML_UNKNOWN_ELEMENT = 203, /* An element that the format does not have stands here: check its spelling and its place. */

@@ -1,0 +1,200 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness.h"
+#include "left_behind.h"
+#include "render/child_pipe.h"
+#include "render/movie.h"
+#include "sbfmt/codes.h"
+
+enum { WIDTH = 33, HEIGHT = 21 };
+
+static uint8_t rgb[WIDTH * HEIGHT * 3];
+static const draw_movie_options gif = {.kind = DRAW_MOVIE_GIF, .width = WIDTH, .height = HEIGHT, .fps = 25};
+
+static bool have_ffmpeg(void) {
+  char name[] = "ffmpeg", version[] = "-version", said[8];
+  char *arguments[] = {name, version, NULL};
+  child_pipe child;
+  if (child_pipe_start(&child, arguments) != 0) {
+    fprintf(stderr, "skipped: ffmpeg is not in PATH\n");
+    return false;
+  }
+  return child_pipe_finish(&child, said, sizeof said);
+}
+
+static void draw_frame(uint32_t frame) {
+  for (uint32_t i = 0; i < sizeof rgb; i++) rgb[i] = (uint8_t)(i / 3 % WIDTH * 7 + frame * 20);
+}
+
+START_TEST(film_is_whole)
+{
+  static const struct {
+    const char *name, *magic;
+    size_t magic_at;
+    draw_movie_kind kind;
+    uint32_t expected;
+  } films[] = {{"film.gif", "GIF89a", 0, DRAW_MOVIE_GIF, 6}, {"stream.gif", "GIF89a", 0, DRAW_MOVIE_GIF, 0},
+      {"film.mp4", "ftyp", 4, DRAW_MOVIE_MP4, 6}};
+  draw_movie *movie;
+  sbf_diagnostic error = {0};
+  size_t size;
+  if (!have_ffmpeg()) return;
+  draw_movie_options options = gif;
+  options.kind = films[_i].kind;
+  options.frame_count = films[_i].expected;
+  const char *path = harness_scratch(films[_i].name);
+  unlink(path);
+  ck_assert_msg(draw_movie_open(&movie, path, &options, &error) == SBF_OK, "%s", error.message);
+  for (uint32_t frame = 0; frame < 6; frame++) {
+    draw_frame(frame);
+    ck_assert_msg(draw_movie_add_frame(movie, rgb, &error) == SBF_OK, "%s", error.message);
+  }
+  ck_assert_int_ne(access(path, F_OK), 0); /* not before it is finished */
+  ck_assert_msg(draw_movie_finish(movie, &error) == SBF_OK, "%s", error.message);
+  char *bytes = harness_read(path, &size);
+  ck_assert_ptr_nonnull(bytes);
+  ck_assert_uint_gt(size, 100);
+  ck_assert_mem_eq(bytes + films[_i].magic_at, films[_i].magic, strlen(films[_i].magic));
+  free(bytes);
+  ck_assert_int_eq(left_behind(films[_i].name), 1);
+}
+END_TEST
+
+START_TEST(no_ffmpeg)
+{
+  draw_movie *movie;
+  sbf_diagnostic error = {0};
+  draw_movie_options options = gif;
+  if (_i)
+    options.ffmpeg = "no-such-program-of-films";
+  else
+    setenv("PATH", "/nonexistent", 1);
+  ck_assert_int_eq(draw_movie_open(&movie, harness_scratch("none.gif"), &options, &error), SBF_FAILED);
+  ck_assert_int_eq(error.code, SBF_CODE_NO_FFMPEG);
+  ck_assert_ptr_nonnull(strstr(error.message, "install"));
+  ck_assert_ptr_null(movie);
+  ck_assert_int_eq(left_behind("none.gif"), 0);
+}
+END_TEST
+
+/* `cat` takes our arguments for options it does not have; `false` ends without a word. Both leave no film. */
+START_TEST(ffmpeg_fails)
+{
+  static const char *const programs[] = {"cat", "false"};
+  draw_movie *movie;
+  sbf_diagnostic error = {0};
+  draw_movie_options options = gif;
+  options.ffmpeg = programs[_i];
+  const char *path = harness_scratch("fails.gif");
+  ck_assert(harness_write(path, "old", 3));
+  ck_assert_msg(draw_movie_open(&movie, path, &options, &error) == SBF_OK, "%s", error.message);
+  sbf_status status = SBF_OK;
+  for (int frame = 0; frame < 1000 && status == SBF_OK; frame++)
+    status = draw_movie_add_frame(movie, rgb, &error);
+  if (status == SBF_OK)
+    status = draw_movie_finish(movie, &error);
+  else
+    draw_movie_abandon(movie);
+  ck_assert_int_eq(status, SBF_FAILED);
+  ck_assert_int_eq(error.code, SBF_CODE_FFMPEG_FAILED);
+  ck_assert_ptr_nonnull(strstr(error.message, _i ? "no reason" : "option"));
+  ck_assert_int_eq(left_behind("fails.gif"), 1); /* the old one */
+  unlink(path);
+}
+END_TEST
+
+START_TEST(abandoned)
+{
+  draw_movie *movie;
+  if (!have_ffmpeg()) return;
+  ck_assert_int_eq(draw_movie_open(&movie, harness_scratch("abandoned.gif"), &gif, NULL), SBF_OK);
+  ck_assert_int_eq(draw_movie_add_frame(movie, rgb, NULL), SBF_OK);
+  draw_movie_abandon(movie);
+  ck_assert_int_eq(left_behind("abandoned.gif"), 0);
+  draw_movie_abandon(NULL);
+}
+END_TEST
+
+START_TEST(interrupted)
+{
+  static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+  int ready[2], status;
+  char byte;
+  if (!have_ffmpeg()) return;
+  ck_assert_int_eq(pipe(ready), 0);
+  pid_t child = fork();
+  if (child == 0) {
+    draw_movie *movie;
+    for (int i = 0; i < 3; i++) signal(signals[i], SIG_DFL); /* Check has handlers of its own */
+    bool good = draw_movie_open(&movie, harness_scratch("interrupted.gif"), &gif, NULL) == SBF_OK;
+    if (write(ready[1], good ? "y" : "n", 1) == 1) pause();
+    _exit(99);
+  }
+  ck_assert_int_eq(read(ready[0], &byte, 1), 1);
+  ck_assert_int_eq(byte, 'y');
+  ck_assert_int_eq(left_behind("interrupted.gif"), 1);
+  kill(child, signals[_i]);
+  ck_assert_int_eq(waitpid(child, &status, 0), child);
+  ck_assert(WIFSIGNALED(status) && WTERMSIG(status) == signals[_i]);
+  ck_assert_int_eq(left_behind("interrupted.gif"), 0);
+}
+END_TEST
+
+START_TEST(wrong_calls)
+{
+  static const struct {
+    draw_movie_kind kind;
+    uint32_t width, height, fps;
+  } calls[] = {{DRAW_MOVIE_GIF, 8, 8, 0}, {DRAW_MOVIE_GIF, 8, 8, DRAW_MOVIE_GIF_FPS_MOST + 1},
+      {DRAW_MOVIE_MP4, 8, 8, 241}, {DRAW_MOVIE_GIF, 0, 8, 25}, {DRAW_MOVIE_MP4, 1, 8, 25}};
+  draw_movie *movie;
+  sbf_diagnostic error = {0};
+  draw_movie_options options = {
+      .kind = calls[_i].kind, .width = calls[_i].width, .height = calls[_i].height, .fps = calls[_i].fps};
+  ck_assert_int_eq(draw_movie_open(&movie, harness_scratch("wrong"), &options, &error), SBF_FAILED);
+  ck_assert_int_eq(error.code, SBF_CODE_BAD_CALL);
+  ck_assert_int_eq(left_behind("wrong"), 0);
+}
+END_TEST
+
+START_TEST(film_without_a_frame)
+{
+  draw_movie *movie;
+  sbf_diagnostic error = {0};
+  if (!have_ffmpeg()) return;
+  ck_assert_int_eq(draw_movie_open(&movie, harness_scratch("empty.gif"), &gif, &error), SBF_OK);
+  ck_assert_int_eq(draw_movie_finish(movie, &error), SBF_FAILED);
+  ck_assert_int_eq(left_behind("empty.gif"), 0);
+}
+END_TEST
+
+START_TEST(place_that_cannot_be_written)
+{
+  draw_movie *movie;
+  sbf_diagnostic error = {0};
+  ck_assert_int_eq(draw_movie_open(&movie, harness_scratch("no/such/film.gif"), &gif, &error), SBF_FAILED);
+  ck_assert_int_eq(error.code, SBF_CODE_IO_CANNOT_WRITE);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("movie");
+  TCase *tests = tcase_create("movie");
+  tcase_set_timeout(tests, 60);
+  tcase_add_loop_test(tests, film_is_whole, 0, 3);
+  tcase_add_loop_test(tests, no_ffmpeg, 0, 2);
+  tcase_add_loop_test(tests, ffmpeg_fails, 0, 2);
+  tcase_add_test(tests, abandoned);
+  tcase_add_loop_test(tests, interrupted, 0, 3);
+  tcase_add_loop_test(tests, wrong_calls, 0, 5);
+  tcase_add_test(tests, film_without_a_frame);
+  tcase_add_test(tests, place_that_cannot_be_written);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}

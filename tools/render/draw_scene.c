@@ -1,0 +1,253 @@
+#include "render/draw_scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/draw_scene_data.h"
+
+draw_scene *draw_scene_create(void) {
+  draw_scene *made = calloc(1, sizeof *made);
+  if (made) made->bounds = made->casters = box3_empty();
+  return made;
+}
+
+void draw_scene_destroy(draw_scene *scene) {
+  if (!scene) return;
+  draw_scene_list *lists[] = {&scene->positions, &scene->normals, &scene->colours, &scene->indices,
+      &scene->parts, &scene->lines, &scene->sorted_lines, &scene->line_corners, &scene->sorted_parts,
+      &scene->overlay, &scene->placed_overlay, &scene->ground_positions, &scene->ground_normals,
+      &scene->ground_indices};
+  for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) free(lists[i]->at);
+  free(scene);
+}
+
+void draw_scene_clear_ground(draw_scene *scene) {
+  scene->ground_positions.count = scene->ground_normals.count = scene->ground_indices.count = 0;
+  scene->has_floor = false;
+}
+
+void draw_scene_clear(draw_scene *scene) {
+  scene->positions.count = scene->normals.count = scene->colours.count = 0;
+  scene->indices.count = scene->parts.count = 0;
+  scene->lines.count = scene->sorted_lines.count = scene->sorted_parts.count = 0;
+  scene->overlay.count = scene->placed_overlay.count = 0;
+  scene->overlay_rows = 0;
+  draw_scene_clear_ground(scene);
+  scene->bounds = scene->casters = box3_empty();
+  scene->failed = false;
+}
+
+box3 draw_scene_bounds(const draw_scene *scene) {
+  return scene->bounds;
+}
+
+void *draw_scene_list_push(draw_scene *scene, draw_scene_list *list, size_t count, size_t item_size) {
+  if (count > SIZE_MAX / 4 / item_size - list->count) {
+    scene->failed = true;
+    return NULL;
+  }
+  if (!list->at || list->count + count > list->capacity) {
+    size_t capacity = list->capacity + list->capacity / 2 + 64;
+    if (capacity < list->count + count) capacity = list->count + count;
+    void *grown = realloc(list->at, capacity * item_size);
+    if (!grown) {
+      scene->failed = true;
+      return NULL;
+    }
+    list->at = grown;
+    list->capacity = capacity;
+  }
+  void *place = (char *)list->at + list->count * item_size;
+  list->count += count;
+  return place;
+}
+
+bool draw_scene_make_room(
+    draw_scene *scene, uint32_t vertex_count, uint32_t triangle_count, draw_scene_room *room) {
+  size_t vertices = scene->positions.count, indices = scene->indices.count;
+  room->first_vertex = (uint32_t)vertices;
+  room->positions = room->normals = NULL;
+  room->colours = NULL;
+  room->indices = NULL;
+  if (vertices + vertex_count <= UINT32_MAX && triangle_count <= UINT32_MAX / 3) {
+    room->positions = draw_scene_list_push(scene, &scene->positions, vertex_count, sizeof(sbf_vec3));
+    room->normals = draw_scene_list_push(scene, &scene->normals, vertex_count, sizeof(sbf_vec3));
+    room->colours = draw_scene_list_push(scene, &scene->colours, vertex_count, sizeof(draw_colour));
+    room->indices =
+        draw_scene_list_push(scene, &scene->indices, 3 * (size_t)triangle_count, sizeof(uint32_t));
+  }
+  if (room->positions && room->normals && room->colours && room->indices) return true;
+  scene->positions.count = scene->normals.count = scene->colours.count = vertices;
+  scene->indices.count = indices;
+  scene->failed = true;
+  return false;
+}
+
+static bool same_look(const draw_scene_part *a, const draw_scene_part *b) {
+  return a->transparency == b->transparency && a->casts_shadow == b->casts_shadow;
+}
+
+void draw_scene_close_part(draw_scene *scene, const draw_scene_room *room, uint32_t vertex_count,
+    uint32_t index_count, const draw_scene_part *look) {
+  draw_scene_part part = *look;
+  box3 box = box3_empty();
+  part.first_index = (uint32_t)(room->indices - (uint32_t *)scene->indices.at);
+  part.index_count = index_count;
+  scene->indices.count = part.first_index + index_count;
+  for (uint32_t i = 0; i < vertex_count; i++) box3_add(&box, room->positions[i]);
+  if (!box3_is_empty(&box)) {
+    part.middle = v3_scale(v3_add(box.min, box.max), 0.5f);
+    box3_add(&scene->bounds, box.min);
+    box3_add(&scene->bounds, box.max);
+    if (part.casts_shadow) {
+      box3_add(&scene->casters, box.min);
+      box3_add(&scene->casters, box.max);
+    }
+  }
+  /* Solid parts of one look are one call; those seen through must stay apart, to be drawn in order. */
+  draw_scene_part *last =
+      scene->parts.count ? (draw_scene_part *)scene->parts.at + scene->parts.count - 1 : NULL;
+  if (last && part.transparency <= 0 && same_look(last, &part)) {
+    last->index_count += index_count;
+    return;
+  }
+  draw_scene_part *place = draw_scene_list_push(scene, &scene->parts, 1, sizeof part);
+  if (place) *place = part;
+}
+
+void draw_scene_smooth_normals(const sbf_vec3 *positions, uint32_t vertex_count, const uint32_t *triangles,
+    uint32_t index_count, sbf_vec3 *normals) {
+  memset(normals, 0, vertex_count * sizeof *normals);
+  for (uint32_t i = 0; i + 2 < index_count; i += 3) {
+    const uint32_t *corner = triangles + i;
+    sbf_vec3 a = positions[corner[0]];
+    sbf_vec3 across = v3_cross(v3_sub(positions[corner[1]], a), v3_sub(positions[corner[2]], a));
+    for (int k = 0; k < 3; k++) normals[corner[k]] = v3_add(normals[corner[k]], across);
+  }
+  for (uint32_t i = 0; i < vertex_count; i++) normals[i] = v3_unit(normals[i], v3(0, 1, 0));
+}
+
+static bool in_range(const uint32_t *triangle, uint32_t vertex_count) {
+  return triangle[0] < vertex_count && triangle[1] < vertex_count && triangle[2] < vertex_count;
+}
+
+static sbf_vec3 placed(const draw_place *place, sbf_vec3 p) {
+  return place ? v3_add(v3_rotate(place->rotation, p), place->position) : p;
+}
+
+static void add_smooth(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *look) {
+  draw_scene_room room;
+  uint32_t index_count = 0;
+  if (!draw_scene_make_room(scene, mesh->vertex_count, mesh->triangle_count, &room)) return;
+  for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+    room.positions[i] = placed(mesh->place, mesh->positions[i]);
+    room.colours[i] = mesh->colours ? mesh->colours[i] : mesh->colour;
+  }
+  for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t *triangle = mesh->triangles + 3 * (size_t)t;
+    if (!in_range(triangle, mesh->vertex_count)) continue;
+    for (int k = 0; k < 3; k++) room.indices[index_count++] = triangle[k];
+  }
+  if (mesh->normals)
+    for (uint32_t i = 0; i < mesh->vertex_count; i++)
+      room.normals[i] = mesh->place ? v3_rotate(mesh->place->rotation, mesh->normals[i]) : mesh->normals[i];
+  else
+    draw_scene_smooth_normals(room.positions, mesh->vertex_count, room.indices, index_count, room.normals);
+  for (uint32_t i = 0; i < index_count; i++) room.indices[i] += room.first_vertex;
+  draw_scene_close_part(scene, &room, mesh->vertex_count, index_count, look);
+}
+
+static void add_flat(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *look) {
+  draw_scene_room room;
+  uint32_t count = 0;
+  if (mesh->triangle_count > UINT32_MAX / 3 ||
+      !draw_scene_make_room(scene, 3 * mesh->triangle_count, mesh->triangle_count, &room)) {
+    scene->failed = true;
+    return;
+  }
+  for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t *triangle = mesh->triangles + 3 * (size_t)t;
+    if (!in_range(triangle, mesh->vertex_count)) continue;
+    sbf_vec3 corner[3];
+    for (int k = 0; k < 3; k++) corner[k] = placed(mesh->place, mesh->positions[triangle[k]]);
+    sbf_vec3 across = v3_cross(v3_sub(corner[1], corner[0]), v3_sub(corner[2], corner[0]));
+    sbf_vec3 normal = v3_unit(across, v3(0, 1, 0));
+    for (int k = 0; k < 3; k++, count++) {
+      room.positions[count] = corner[k];
+      room.normals[count] = normal;
+      room.colours[count] = mesh->colours ? mesh->colours[triangle[k]] : mesh->colour;
+      room.indices[count] = room.first_vertex + count;
+    }
+  }
+  scene->positions.count = scene->normals.count = scene->colours.count = room.first_vertex + (size_t)count;
+  draw_scene_close_part(scene, &room, count, count, look);
+}
+
+void draw_scene_add_mesh(draw_scene *scene, const draw_mesh *mesh) {
+  draw_scene_part look = {.transparency = mesh->transparency, .casts_shadow = !mesh->no_shadow};
+  if (mesh->triangle_count == 0 || mesh->vertex_count == 0) return;
+  if (mesh->flat)
+    add_flat(scene, mesh, &look);
+  else
+    add_smooth(scene, mesh, &look);
+}
+
+void draw_scene_add_line(draw_scene *scene, const draw_line *line) {
+  draw_line *place = draw_scene_list_push(scene, &scene->lines, 1, sizeof *place);
+  if (!place) return;
+  *place = *line;
+  box3_add(&scene->bounds, line->from);
+  box3_add(&scene->bounds, line->to);
+}
+
+void draw_scene_add_dot(draw_scene *scene, sbf_vec3 at, float width, draw_colour colour) {
+  draw_scene_add_line(scene, &(draw_line){at, at, colour, colour, width});
+}
+
+void draw_scene_add_lines(draw_scene *scene, const sbf_vec3 *positions, uint32_t position_count,
+    const sbf_uint2 *ends, const draw_colour *colours, uint32_t line_count, draw_colour colour, float width) {
+  draw_line *place = draw_scene_list_push(scene, &scene->lines, line_count, sizeof *place);
+  if (!place) return;
+  size_t added = 0;
+  for (uint32_t i = 0; i < line_count; i++) {
+    if (ends[i].at[0] >= position_count || ends[i].at[1] >= position_count) continue;
+    draw_colour shown = colours ? colours[i] : colour;
+    draw_line line = {positions[ends[i].at[0]], positions[ends[i].at[1]], shown, shown, width};
+    place[added++] = line;
+    box3_add(&scene->bounds, line.from);
+    box3_add(&scene->bounds, line.to);
+  }
+  scene->lines.count -= line_count - added;
+}
+
+void draw_scene_set_floor(draw_scene *scene, float height) {
+  draw_scene_clear_ground(scene);
+  scene->has_floor = true;
+  scene->floor_height = height;
+}
+
+void draw_scene_set_ground(draw_scene *scene, const sbf_vec3 *positions, const sbf_vec3 *normals,
+    uint32_t vertex_count, const uint32_t *triangles, uint32_t triangle_count) {
+  draw_scene_clear_ground(scene);
+  if (triangle_count == 0 || vertex_count == 0 || triangle_count > UINT32_MAX / 3) return;
+  sbf_vec3 *to = draw_scene_list_push(scene, &scene->ground_positions, vertex_count, sizeof *to);
+  sbf_vec3 *normal = draw_scene_list_push(scene, &scene->ground_normals, vertex_count, sizeof *normal);
+  uint32_t *index =
+      draw_scene_list_push(scene, &scene->ground_indices, 3 * (size_t)triangle_count, sizeof *index);
+  if (!to || !normal || !index) {
+    draw_scene_clear_ground(scene);
+    return;
+  }
+  uint32_t count = 0;
+  memcpy(to, positions, vertex_count * sizeof *to);
+  for (uint32_t t = 0; t < triangle_count; t++) {
+    const uint32_t *triangle = triangles + 3 * (size_t)t;
+    if (!in_range(triangle, vertex_count)) continue;
+    for (int k = 0; k < 3; k++) index[count++] = triangle[k];
+  }
+  scene->ground_indices.count = count;
+  if (normals)
+    memcpy(normal, normals, vertex_count * sizeof *normal);
+  else
+    draw_scene_smooth_normals(to, vertex_count, index, count, normal);
+}

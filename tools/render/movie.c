@@ -1,0 +1,149 @@
+#include "render/movie.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/child_pipe.h"
+#include "render/fault.h"
+#include "render/output_file.h"
+
+struct draw_movie {
+  child_pipe child;
+  output_file output;
+  size_t frame_size;
+  uint32_t frames;
+};
+
+/* One palette for all frames must have seen them all first, and ffmpeg keeps them in memory until then:
+ * beyond this many bytes a palette is made for each frame instead. */
+#define PALETTE_BYTES_MOST ((uint64_t)1 << 30)
+
+/* Ordered dithering stands still where the picture does, which keeps a GIF both calm and small. */
+static const char *gif_filter(const draw_movie_options *options) {
+  uint64_t bytes = (uint64_t)options->width * options->height * 3 * options->frame_count;
+  if (options->frame_count && bytes <= PALETTE_BYTES_MOST)
+    return "[0:v]split[a][b];[a]palettegen=stats_mode=full[p];"
+           "[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle";
+  return "[0:v]split[a][b];[a]palettegen=stats_mode=single[p];"
+         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4:diff_mode=rectangle";
+}
+
+static sbf_status check(const char *path, const draw_movie_options *options, sbf_diagnostic *diagnostic) {
+  uint32_t most = options->kind == DRAW_MOVIE_GIF ? DRAW_MOVIE_GIF_FPS_MOST : 240;
+  if (options->width == 0 || options->height == 0 || options->width > 16384 || options->height > 16384)
+    return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "a film of %ux%u pixels cannot be made",
+        (unsigned)options->width, (unsigned)options->height);
+  if (options->kind == DRAW_MOVIE_MP4 && (options->width < 2 || options->height < 2))
+    return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "an MP4 needs at least 2x2 pixels");
+  if (options->fps == 0 || options->fps > most)
+    return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "%u frames a second: %s holds 1 to %u",
+        (unsigned)options->fps, options->kind == DRAW_MOVIE_GIF ? "a GIF" : "a film", (unsigned)most);
+  return SBF_OK;
+}
+
+static int start(draw_movie *movie, const draw_movie_options *options, const char *file) {
+  char size[32], rate[16];
+  const char *arguments[48];
+  size_t count = 0;
+  snprintf(size, sizeof size, "%ux%u", (unsigned)options->width, (unsigned)options->height);
+  snprintf(rate, sizeof rate, "%u", (unsigned)options->fps);
+  const char *const common[] = {options->ffmpeg ? options->ffmpeg : "ffmpeg", "-hide_banner", "-loglevel",
+      "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size, "-framerate", rate,
+      "-i", "pipe:0"};
+  const char *const gif[] = {"-filter_complex", gif_filter(options), "-loop", "0", "-f", "gif"};
+  /* yuv420p halves the colour both ways, so sides must be even: an odd last row or column is cut. */
+  const char *const mp4[] = {"-vf",
+      "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-c:v",
+      "libx264", "-preset", "medium", "-crf", "17", "-colorspace", "bt709", "-color_primaries", "bt709",
+      "-color_trc", "bt709", "-movflags", "+faststart", "-f", "mp4"};
+  for (size_t i = 0; i < sizeof common / sizeof *common; i++) arguments[count++] = common[i];
+  if (options->kind == DRAW_MOVIE_GIF)
+    for (size_t i = 0; i < sizeof gif / sizeof *gif; i++) arguments[count++] = gif[i];
+  else
+    for (size_t i = 0; i < sizeof mp4 / sizeof *mp4; i++) arguments[count++] = mp4[i];
+  arguments[count++] = file;
+  arguments[count] = NULL;
+  /* posix_spawn takes char *const * for the sake of old programs; it changes nothing. */
+  return child_pipe_start(&movie->child, (char *const *)(uintptr_t)arguments);
+}
+
+sbf_status draw_movie_open(
+    draw_movie **opened, const char *path, const draw_movie_options *options, sbf_diagnostic *diagnostic) {
+  *opened = NULL;
+  sbf_status status = check(path, options, diagnostic);
+  if (status != SBF_OK) return status;
+  draw_movie *made = calloc(1, sizeof *made);
+  if (!made) return fault_set_file(diagnostic, SBF_CODE_OUT_OF_MEMORY, path, "no memory for a film");
+  made->frame_size = (size_t)options->width * options->height * 3;
+  status = output_file_begin(&made->output, path, diagnostic);
+  if (status != SBF_OK) {
+    free(made);
+    return status;
+  }
+  /* "file:" keeps a colon or a leading dash in the name from meaning something to ffmpeg. */
+  size_t size = strlen(made->output.written_path) + 6;
+  char *file = malloc(size);
+  int error = ENOMEM;
+  if (file) {
+    snprintf(file, size, "file:%s", made->output.written_path);
+    error = start(made, options, file);
+    free(file);
+  }
+  if (error) {
+    output_file_abandon(&made->output);
+    free(made);
+    if (error == ENOENT)
+      return fault_set_file(diagnostic, SBF_CODE_NO_FFMPEG, path,
+          "the program %s is not in PATH, and films are made with it: install it (Debian, Ubuntu: apt "
+          "install "
+          "ffmpeg), or ask for a .png",
+          options->ffmpeg ? options->ffmpeg : "ffmpeg");
+    return fault_set_file(diagnostic, SBF_CODE_FFMPEG_FAILED, path, "the program %s cannot be started: %s",
+        options->ffmpeg ? options->ffmpeg : "ffmpeg", strerror(error));
+  }
+  output_file_tie(made->child.process);
+  *opened = made;
+  return SBF_OK;
+}
+
+/* True when it ended well. */
+static bool end_child(draw_movie *movie, char *said, size_t size) {
+  output_file_tie(0); /* its number may go to another process once it has been waited for */
+  return child_pipe_finish(&movie->child, said, size);
+}
+
+sbf_status draw_movie_add_frame(draw_movie *movie, const uint8_t *rgb, sbf_diagnostic *diagnostic) {
+  char said[256];
+  if (movie->child.process > 0 && child_pipe_write(&movie->child, rgb, movie->frame_size)) {
+    movie->frames++;
+    return SBF_OK;
+  }
+  said[0] = 0;
+  if (movie->child.process > 0) end_child(movie, said, sizeof said);
+  return fault_set_file(diagnostic, SBF_CODE_FFMPEG_FAILED, movie->output.given,
+      "ffmpeg stopped at frame %u: %s", (unsigned)movie->frames, said[0] ? said : "it gave no reason");
+}
+
+sbf_status draw_movie_finish(draw_movie *movie, sbf_diagnostic *diagnostic) {
+  char said[256];
+  sbf_status status = SBF_OK;
+  said[0] = 0;
+  if (movie->frames == 0)
+    status = fault_set_file(diagnostic, SBF_CODE_BAD_CALL, movie->output.given, "a film without a frame");
+  else if (movie->child.process <= 0 || !end_child(movie, said, sizeof said))
+    status = fault_set_file(diagnostic, SBF_CODE_FFMPEG_FAILED, movie->output.given, "ffmpeg failed: %s",
+        said[0] ? said : "it gave no reason");
+  if (status == SBF_OK) status = output_file_commit(&movie->output, diagnostic);
+  draw_movie_abandon(movie);
+  return status;
+}
+
+void draw_movie_abandon(draw_movie *movie) {
+  if (!movie) return;
+  output_file_tie(0);
+  child_pipe_kill(&movie->child);
+  output_file_abandon(&movie->output);
+  free(movie);
+}

@@ -1,0 +1,35 @@
+/* Frames into a GIF or MP4 file, through the program ffmpeg. */
+#ifndef RENDER_MOVIE_H
+#define RENDER_MOVIE_H
+
+#include "sbfmt/base.h"
+
+typedef enum draw_movie_kind {
+  DRAW_MOVIE_GIF, /* loops for ever; one palette for the whole film */
+  DRAW_MOVIE_MP4  /* H.264, yuv420p: plays everywhere */
+} draw_movie_kind;
+
+enum { DRAW_MOVIE_GIF_FPS_MOST = 50 }; /* a GIF counts hundredths of a second, and players slow below two */
+
+typedef struct draw_movie_options {
+  draw_movie_kind kind;
+  uint32_t width, height; /* of every frame, pixels */
+  uint32_t fps;           /* frames a second, 1 to 240; a GIF: to 50 */
+  uint32_t frame_count;   /* as expected; 0: not known */
+  const char *ffmpeg;     /* the program; NULL: "ffmpeg", found in PATH */
+} draw_movie_options;
+
+typedef struct draw_movie draw_movie;
+
+/* Starts ffmpeg. SBF_FAILED with a message where there is none, or where `path` cannot be written. The film
+ * is written under a temporary name beside `path`, and stands at `path` only once it is finished. */
+sbf_status draw_movie_open(
+    draw_movie **opened, const char *path, const draw_movie_options *options, sbf_diagnostic *diagnostic);
+
+/* `rgb`: width * height * 3 bytes, rows from the top. On SBF_FAILED the movie is still to be abandoned. */
+sbf_status draw_movie_add_frame(draw_movie *movie, const uint8_t *rgb, sbf_diagnostic *diagnostic);
+
+sbf_status draw_movie_finish(draw_movie *movie, sbf_diagnostic *diagnostic); /* frees the movie either way */
+void draw_movie_abandon(draw_movie *movie); /* stops ffmpeg, leaves no file; NULL is fine */
+
+#endif

@@ -1,0 +1,135 @@
+#include "render/output_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "render/fault.h"
+
+/* A signal handler sees only what is static: what it is to remove and to end. Set before the handlers are in
+ * place, and cleared after they are gone. */
+static const int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
+enum { ENDING_SIGNAL_COUNT = 3 };
+static const char *volatile pending_path;
+static volatile pid_t pending_process;
+static bool is_busy;
+static struct sigaction previous_actions[ENDING_SIGNAL_COUNT];
+
+static void remove_and_end(int signal_number) {
+  pid_t process = pending_process;
+  if (process > 0) {
+    /* Waited for, lest it make the file anew. */
+    kill(process, SIGKILL);
+    waitpid(process, NULL, 0);
+  }
+  if (pending_path) unlink(pending_path);
+  /* SA_RESETHAND has given the default action back: raising again ends this process as the sender meant. */
+  raise(signal_number);
+}
+
+static void watch_signals(const char *temporary) {
+  struct sigaction action = {.sa_handler = remove_and_end, .sa_flags = (int)SA_RESETHAND};
+  sigemptyset(&action.sa_mask);
+  pending_path = temporary;
+  pending_process = 0;
+  is_busy = true;
+  for (int i = 0; i < ENDING_SIGNAL_COUNT; i++) {
+    sigaction(ending_signals[i], NULL, &previous_actions[i]);
+    if (previous_actions[i].sa_handler == SIG_DFL) sigaction(ending_signals[i], &action, NULL);
+  }
+}
+
+static void unwatch_signals(void) {
+  for (int i = 0; i < ENDING_SIGNAL_COUNT; i++)
+    if (previous_actions[i].sa_handler == SIG_DFL) sigaction(ending_signals[i], &previous_actions[i], NULL);
+  pending_path = NULL;
+  pending_process = 0;
+  is_busy = false;
+}
+
+void output_file_tie(int process) {
+  pending_process = process;
+}
+
+static void release(output_file *output) {
+  free(output->final_path);
+  free(output->written_path);
+  *output = (output_file){0};
+}
+
+static sbf_status cannot_write(output_file *output, int why, sbf_diagnostic *diagnostic) {
+  sbf_status status = fault_set_file(diagnostic, SBF_CODE_IO_CANNOT_WRITE, output->given,
+      "cannot write: %s; check the folder, its permissions and the free space", strerror(why));
+  release(output);
+  return status;
+}
+
+static sbf_status out_of_memory(output_file *output, sbf_diagnostic *diagnostic) {
+  sbf_status status =
+      fault_set_file(diagnostic, SBF_CODE_OUT_OF_MEMORY, output->given, "no memory for a file's name");
+  release(output);
+  return status;
+}
+
+/* `there`: the file that stands there, or NULL. 0, or the errno. */
+static int make_temporary(const char *path, const struct stat *there) {
+  int why = 0;
+  int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return errno;
+  if (there && fchmod(file, there->st_mode & 0777) != 0) why = errno;
+  if (close(file) != 0 && !why) why = errno;
+  if (why) unlink(path);
+  return why;
+}
+
+sbf_status output_file_begin(output_file *output, const char *path, sbf_diagnostic *diagnostic) {
+  *output = (output_file){.given = path};
+  if (is_busy)
+    return fault_set_file(
+        diagnostic, SBF_CODE_BAD_CALL, path, "another file is being written: one at a time");
+  struct stat there;
+  bool exists = stat(path, &there) == 0;
+  if (exists && S_ISDIR(there.st_mode)) return cannot_write(output, EISDIR, diagnostic);
+  if (exists && access(path, W_OK) != 0) return cannot_write(output, errno, diagnostic);
+  output->direct = exists && !S_ISREG(there.st_mode);
+  output->final_path = exists && !output->direct ? realpath(path, NULL) : strdup(path);
+  if (!output->final_path) return out_of_memory(output, diagnostic);
+  size_t size = strlen(output->final_path) + 32;
+  output->written_path = malloc(size);
+  if (!output->written_path) return out_of_memory(output, diagnostic);
+  if (output->direct) {
+    memcpy(output->written_path, output->final_path, strlen(output->final_path) + 1);
+    watch_signals(NULL);
+    return SBF_OK;
+  }
+  snprintf(output->written_path, size, "%s.%ld.part", output->final_path, (long)getpid());
+  int why = make_temporary(output->written_path, exists ? &there : NULL);
+  if (why) return cannot_write(output, why, diagnostic);
+  watch_signals(output->written_path);
+  return SBF_OK;
+}
+
+sbf_status output_file_commit(output_file *output, sbf_diagnostic *diagnostic) {
+  int why = 0;
+  if (!output->direct && rename(output->written_path, output->final_path) != 0) {
+    why = errno;
+    unlink(output->written_path);
+  }
+  unwatch_signals();
+  if (why) return cannot_write(output, why, diagnostic);
+  release(output);
+  return SBF_OK;
+}
+
+void output_file_abandon(output_file *output) {
+  if (!output->written_path) return;
+  if (!output->direct) unlink(output->written_path);
+  unwatch_signals();
+  release(output);
+}

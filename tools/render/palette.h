@@ -1,0 +1,59 @@
+/* Colours as a picture file has them (sRGB, 8 bit), and what the project's pictures use them for. */
+#ifndef RENDER_PALETTE_H
+#define RENDER_PALETTE_H
+
+#include "sbfmt/base.h"
+
+typedef struct draw_colour {
+  uint8_t r, g, b, a; /* sRGB, not premultiplied; a = 255 is opaque */
+} draw_colour;
+
+draw_colour draw_colour_rgb(uint32_t hex); /* 0xrrggbb, opaque */
+draw_colour draw_colour_mix(
+    draw_colour from, draw_colour to, float t); /* plain blend of the stored values; t is clamped to 0..1 */
+
+/* Colour of the kind of a spring, and how wide a line shows it: thin where there are many. */
+typedef enum draw_spring_look_kind {
+  DRAW_SPRING_LOOK_STRUCTURAL,
+  DRAW_SPRING_LOOK_SHEAR,
+  DRAW_SPRING_LOOK_FLEXION,
+  DRAW_SPRING_LOOK_INTERNAL,
+  DRAW_SPRING_LOOK_CROSS, /* between two bodies */
+  DRAW_SPRING_LOOK_COUNT
+} draw_spring_look_kind;
+
+typedef struct spring_look {
+  const char *name;
+  draw_colour colour;
+  float width; /* as draw_line.width */
+} draw_spring_look;
+
+/* Never NULL; a kind out of range gives that of structural springs. */
+const draw_spring_look *draw_spring_look_of(draw_spring_look_kind kind);
+
+/* Further colours of the house, so that every picture looks alike. */
+draw_colour draw_colour_of_skin(void); /* where the asset names none */
+draw_colour draw_colour_of_bone(void);
+draw_colour draw_colour_of_hull(void);
+draw_colour draw_colour_of_tetrahedron(void);
+draw_colour draw_colour_of_target(void);  /* where a foot wants to go */
+draw_colour draw_colour_of_contact(void); /* where it stands */
+
+/* Two maps from numbers to colours, both running through OKLab in even steps of seen difference:
+ * diverging for signed strain (blue compressed, pale at rest, red stretched), sequential for magnitudes
+ * (dark violet, blue, green, yellow). Fill once, look up often. */
+enum { DRAW_COLOUR_MAP_SIZE = 256 };
+typedef struct draw_colour_map {
+  draw_colour at[DRAW_COLOUR_MAP_SIZE];
+} draw_colour_map;
+
+void draw_colour_map_init_diverging(draw_colour_map *map);
+void draw_colour_map_init_sequential(draw_colour_map *map);
+
+/* `t` from 0 to 1, clamped; not a number gives magenta, which no map holds. */
+draw_colour draw_colour_map_at(const draw_colour_map *map, float t);
+
+/* Diverging: strain (l - l0) / l0, full colour at +-full_strain. */
+draw_colour draw_colour_map_at_strain(const draw_colour_map *map, float strain, float full_strain);
+
+#endif

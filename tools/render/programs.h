@@ -1,0 +1,43 @@
+/* The shaders, compiled and linked. */
+#ifndef RENDER_PROGRAMS_H
+#define RENDER_PROGRAMS_H
+
+#include "render/gl_api.h"
+#include "sbfmt/base.h"
+
+typedef enum program_name {
+  PROGRAM_BACKDROP,
+  PROGRAM_DEPTH,
+  PROGRAM_OPEN_SKY,
+  PROGRAM_GROUND_LIGHT,
+  PROGRAM_SOFTEN,
+  PROGRAM_GROUND,
+  PROGRAM_MESH,
+  PROGRAM_VEIL, /* a mesh that is seen through */
+  PROGRAM_LINE,
+  PROGRAM_COUNT
+} program_name;
+
+/* Texture units, the same in all programs. */
+enum {
+  UNIT_SHADOW_MAP,
+  UNIT_SHADOW_DEPTHS,
+  UNIT_GROUND_LIGHT,
+  UNIT_GROUND_HEIGHTS,
+  UNIT_LOWEST_HEIGHTS,
+  UNIT_OPEN_SKY,
+  UNIT_VEIL_DEPTHS
+};
+
+typedef struct program_set {
+  GLuint at[PROGRAM_COUNT];
+  GLint opacity;        /* uniform of PROGRAM_VEIL */
+  GLint map_from_world; /* uniform of PROGRAM_DEPTH */
+  GLint murk;           /* uniform of PROGRAM_LINE */
+} program_set;
+
+/* On failure what was made is destroyed again. The uniform block Frame is bound to point 0. */
+sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnostic *diagnostic);
+void programs_destroy(program_set *programs, const gl_api *gl);
+
+#endif
