@@ -1,4 +1,5 @@
-/* The options of the build passes, which `convert` and `build` share. */
+/* The build passes as `convert` and `build` run them: their options, progress, and what they say they made.
+ */
 #ifndef BUILDING_H
 #define BUILDING_H
 
@@ -6,12 +7,13 @@
 #include "sbfmt/io.h"
 
 #define BUILDING_OPTIONS                                                                                     \
-  { "--springs", "METHOD", "interior springs: centroid or none (centroid)" }
+  { "--springs", "METHOD", "interior springs: automatic, centroid or none (automatic)" }
 
 /* False, with a message, where the options are wrong. */
-bool building_check(cli_call *call);
+bool building_check(const cli_call *call);
 
-/* Replaces *asset by what the passes make of it, and prints what they made. On failure *asset is freed. */
+/* Replaces *asset by what the passes make of it, and says what they made. *asset is freed where that fails.
+ */
 sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error);
 
 #endif

@@ -1,0 +1,29 @@
+#include "building.h"
+
+static int run(cli_call *call) {
+  const char *out = cli_value(call, "-o");
+  if (!out) return cli_wrong(call, "say where to write: -o FILE");
+  if (!building_check(call)) return SBF_FAILED;
+  sbf_asset *asset;
+  sbf_diagnostic error;
+  sbf_status status = sbf_load_file(call->inputs[0], &(sbf_load_options){.check_crc = true}, &asset, &error);
+  if (status == SBF_OK) status = building_run(call, &asset, &error);
+  if (status == SBF_OK) {
+    status = sbf_save_file(asset, out, NULL, &error);
+    sbf_asset_free(asset);
+  }
+  if (status != SBF_OK) cli_print_diagnostic(call, &error);
+  return (int)status;
+}
+
+static const cli_option options[] = {
+    {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
+    BUILDING_OPTIONS,
+    {NULL, NULL, NULL},
+};
+const cli_verb verb_build = {"build", "IN -o OUT [--springs METHOD]",
+    "make the derived parts of a bundle anew",
+    "Every part marked derived is dropped and made again from the source parts: springs, pins, embeddings, "
+    "hulls.\n"
+    "Authored parts are kept as they are. The same input and options give the same bytes.",
+    options, 1, 1, run};
