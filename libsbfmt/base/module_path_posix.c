@@ -27,7 +27,9 @@ bool sbfi_program_folder(char *to, size_t size) {
 bool sbfi_library_folder(char *to, size_t size) {
   static const char here = 0; /* any address of this module */
   Dl_info info;
-  return dladdr(&here, &info) && info.dli_fname && folder_of(info.dli_fname, to, size);
+  if (!dladdr(&here, &info) || !info.dli_fname) return false;
+  /* A program is named as it was called: without a slash that says nothing of where it lies. */
+  return strchr(info.dli_fname, '/') && folder_of(info.dli_fname, to, size);
 }
 
 bool sbfi_is_program(const char *path) {

@@ -6,13 +6,14 @@
 #include "import/scene.h"
 
 /* Worlds of all nodes (node_count) in the bind pose: a joint's from the first skin that has it, a bone above
- * joints from what hangs on it, everything below moved along, the rest as at rest. Returns how far a node
- * lies from its rest position at most, in units of the file: about 0 where the file was saved at rest. */
+ * joints from what hangs on it, everything below moved along, the rest as at rest. Returns how far that is
+ * from the rest pose at most: a bone's displacement as a share of the skeleton's size, or the sine of what it
+ * has turned by; rounding alone stays below 1e-4. */
 double sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds);
 
-/* Where a mesh stands in the bind pose: its points times this are in scene space. A skinned mesh stands where
- * its own node does at rest, whatever that node hangs on; any other moves with its node. */
-sbfi_matrix sbfi_bind_placement(
-    const sbfi_scene *scene, const sbfi_scene_mesh *mesh, const sbfi_matrix *bind_worlds);
+/* Makes the bind pose the rest pose of a scene that is not its owner's to share yet, if it is another one,
+ * and adds a note of it. Skinned meshes then stand where they were bound. Clips keep what they show: where a
+ * track is missing, a key holds what the node was at rest. False where memory runs out. */
+bool sbfi_scene_take_bind_pose(sbfi_scene *scene);
 
 #endif

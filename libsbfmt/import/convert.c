@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/sha256.h"
+#include "import/bind_pose.h"
 #include "import/conversion.h"
 #include "import/propose_gait.h"
 
@@ -107,6 +108,15 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
   return options->no_gait ? SBF_OK : sbfi_propose_gait(c->asset, &c->reporter, c->error);
 }
 
+/* A scene in the pose its skin was bound in, which is an asset's rest pose. */
+static sbf_status read_scene(
+    sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
+  sbf_status status = sbfi_scene_read(scene, path, options, error);
+  if (status != SBF_OK || sbfi_scene_take_bind_pose(scene)) return status;
+  status = sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", path);
+  return sbfi_scene_fail(scene, error, status);
+}
+
 /* Makes the asset of scenes that have been read. */
 static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
     const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
@@ -148,11 +158,11 @@ sbf_status sbf_convert(
 
   sbfi_scene_options reading = {.allocator = options->allocator, .helper_path = options->import_helper};
   sbfi_scene scene, rig_scene;
-  sbf_status status = sbfi_scene_read(&scene, input, &reading, error);
+  sbf_status status = read_scene(&scene, input, &reading, error);
   if (status != SBF_OK) return status;
   const sbfi_scene *rig = sbfi_scene_bone_count(&scene) ? &scene : NULL;
   if (options->rig) {
-    status = sbfi_scene_read(&rig_scene, options->rig, &reading, error);
+    status = read_scene(&rig_scene, options->rig, &reading, error);
     if (status == SBF_OK && sbfi_scene_bone_count(&rig_scene) == 0)
       status = sbfi_diagnose(error, SBF_CODE_IMPORT_NO_BONES,
           "%s, given as the rig, holds no skeleton: give a file with bones", options->rig);

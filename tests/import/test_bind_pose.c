@@ -30,17 +30,30 @@ START_TEST(bones_go_back_to_where_they_were_bound)
   sbfi_scene_mesh meshes[] = {{.node = 0, .joint_count = 2, .joints = joints}, {.node = 5}};
   sbfi_scene scene = {.nodes = nodes, .node_count = 6, .meshes = meshes, .mesh_count = 2};
   sbfi_matrix worlds[6];
-  double farthest = sbfi_bind_worlds(&scene, worlds);
+  double deviation = sbfi_bind_worlds(&scene, worlds);
   static const double expected[][3] = {
       {10, 0, 0}, {10, 0, 0}, {10, -0.25, 0}, {10, -0.75, 0}, {10, -0.875, 0}, {10, -0.75, 0.0625}};
   for (int i = 0; i < 6; i++)
     for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(worlds[i].at[k][3], expected[i][k], 1e-12);
   for (int i = 0; i < 6; i++) ck_assert_double_eq(worlds[i].at[3][3], 1);
-  ck_assert_double_eq_tol(farthest, sqrt(9 * 9 + 1 * 1), 1e-12); /* the hips */
-  sbfi_matrix skin = sbfi_bind_placement(&scene, &meshes[0], worlds),
-              rigid = sbfi_bind_placement(&scene, &meshes[1], worlds);
-  ck_assert_double_eq(skin.at[0][3], 10);
-  ck_assert_double_eq_tol(rigid.at[1][3], -0.75, 1e-12);
+  /* The hips moved by 9 and 1; from them the foot is 0.5 and 0.375 away. */
+  ck_assert_double_eq_tol(deviation, sqrt(9 * 9 + 1 * 1) / 0.625, 1e-12);
+}
+END_TEST
+
+START_TEST(a_turn_alone_is_another_pose)
+{
+  sbfi_scene_node nodes[] = {{.name = "skin", .parent = -1, .local = moved(0, 0, 0)},
+      {.name = "bone",
+          .parent = -1,
+          .local = {{{0, -1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
+          .is_bone = true}};
+  sbfi_scene_set_worlds(nodes, 2);
+  sbfi_scene_joint joints[] = {{1, moved(0, 0, 0)}};
+  sbfi_scene_mesh mesh = {.node = 0, .joint_count = 1, .joints = joints};
+  sbfi_scene scene = {.nodes = nodes, .node_count = 2, .meshes = &mesh, .mesh_count = 1};
+  sbfi_matrix worlds[2];
+  ck_assert_double_eq(sbfi_bind_worlds(&scene, worlds), 1);
 }
 END_TEST
 
@@ -59,10 +72,61 @@ START_TEST(real_files_saved_at_rest_or_not)
   sbf_diagnostic error = {0};
   ck_assert_msg(sbfi_scene_read(&scene, path, NULL, &error) == SBF_OK, "%s", error.message);
   sbfi_matrix *worlds = malloc(scene.node_count * sizeof *worlds);
-  double farthest_m = sbfi_bind_worlds(&scene, worlds) * scene.unit_m;
-  ck_assert_msg(
-      files[_i].at_rest ? farthest_m < 1e-4 : farthest_m > 0.1, "%s: %g", files[_i].file, farthest_m);
+  double deviation = sbfi_bind_worlds(&scene, worlds);
+  ck_assert_msg(files[_i].at_rest ? deviation < 1e-4 : deviation > 0.1, "%s: %g", files[_i].file, deviation);
+  const sbfi_scene_node *before = scene.nodes;
+  ck_assert(sbfi_scene_take_bind_pose(&scene));
+  ck_assert((scene.nodes == before) == files[_i].at_rest);
+  ck_assert_uint_eq(scene.warning_count, files[_i].at_rest ? 0 : 1);
+  const char *broken = scene_check(&scene);
+  ck_assert_msg(!broken, "%s: %s", files[_i].file, broken);
+  ck_assert_double_lt(sbfi_bind_worlds(&scene, worlds), 1e-4);
   free(worlds);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
+/* The tracks a clip did not have are filled with what the nodes were in the file. */
+START_TEST(clips_show_what_they_showed)
+{
+  const char *path = harness_shared("sausage/sausage_blender_7400.fbx");
+  if (!path) return;
+  sbfi_scene scene, posed;
+  ck_assert_int_eq(sbfi_scene_read(&scene, path, NULL, NULL), SBF_OK);
+  ck_assert_int_eq(sbfi_scene_read(&posed, path, NULL, NULL), SBF_OK);
+  ck_assert(sbfi_scene_take_bind_pose(&posed));
+  ck_assert_uint_eq(posed.clip_count, scene.clip_count);
+  for (uint32_t i = 0; i < posed.clip_count; i++) {
+    const sbfi_scene_clip *clip = &posed.clips[i];
+    ck_assert_uint_ge(clip->channel_count, sbfi_scene_bone_count(&posed));
+    for (uint32_t k = 0; k < clip->channel_count; k++) {
+      const sbfi_scene_channel *c = &clip->channels[k];
+      ck_assert(c->position_count && c->rotation_count && c->scale_count);
+      if (k >= scene.clips[i].channel_count) {
+        ck_assert_uint_eq(c->position_count, 1);
+        for (int r = 0; r < 3; r++)
+          ck_assert_float_eq_tol((&c->positions[0].x)[r], (float)scene.nodes[c->node].local.at[r][3], 1e-5f);
+      }
+    }
+  }
+  sbfi_scene_free(&scene);
+  sbfi_scene_free(&posed);
+}
+END_TEST
+
+START_TEST(memory_may_run_out)
+{
+  const char *path = harness_shared("letter-f/letter_f.dae");
+  if (!path) return;
+  sbfi_scene scene;
+  ck_assert_int_eq(sbfi_scene_read(&scene, path, NULL, NULL), SBF_OK);
+  ((sbfi_scene_node *)scene.nodes)[2].world.at[0][3] += 5; /* no longer as bound */
+  for (size_t room = 0;; room += 64) {
+    scene.arena.limit_bytes = scene.arena.used_bytes + room;
+    if (sbfi_scene_take_bind_pose(&scene)) break;
+    ck_assert_uint_lt(room, 1 << 20);
+  }
+  ck_assert_ptr_null(scene_check(&scene));
   sbfi_scene_free(&scene);
 }
 END_TEST
@@ -72,6 +136,9 @@ static Suite *bind_pose_suite(void) {
   TCase *tests = tcase_create("all");
   tcase_set_timeout(tests, 60);
   tcase_add_test(tests, bones_go_back_to_where_they_were_bound);
+  tcase_add_test(tests, a_turn_alone_is_another_pose);
+  tcase_add_test(tests, clips_show_what_they_showed);
+  tcase_add_test(tests, memory_may_run_out);
   tcase_add_loop_test(tests, real_files_saved_at_rest_or_not, 0, 8);
   suite_add_tcase(suite, tests);
   return suite;

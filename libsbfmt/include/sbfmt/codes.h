@@ -132,6 +132,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_KEYS = 937, /* Keys of an animation are left out: they do not hold together. */
   SBF_CODE_IMPORT_IMAGE = 938, /* An image cannot be taken over. */
   SBF_CODE_IMPORT_UNIT = 939, /* The file states no unit of use: metres are assumed. */
+  SBF_CODE_IMPORT_POSE = 940, /* The file was saved in the middle of a movement: bones and skin are taken as they were bound. */
   SBF_CODE_IMPORT_NO_MESH = 950, /* The file holds a skeleton and no mesh. */
   SBF_CODE_IMPORT_NO_RIG = 951, /* The file holds no skeleton: bodies are not held by bones. */
   SBF_CODE_IMPORT_NO_BONES = 952, /* The file given as the rig holds no skeleton. */
