@@ -121,8 +121,8 @@ START_TEST(test_invalid_samples)
   const sbf_code_info *codes = sbf_code_table(&count);
   for (uint32_t i = 0; i < count; i++) {
     int code = (int)codes[i].code;
-    /* a list longer than the limit is a large file; XML itself cannot carry what BAD_TEXT is about; DERIVED_LOST
-     * is what a build says */
+    /* a list longer than the limit is a large file; XML itself cannot carry what BAD_TEXT is about;
+     * DERIVED_LOST is what a build says */
     if (code < 200 || code >= 500 || code == SBF_CODE_LIST_TOO_LONG || code == SBF_CODE_BAD_TEXT ||
         code == SBF_CODE_DERIVED_LOST)
       continue;
