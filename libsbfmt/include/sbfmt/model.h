@@ -322,7 +322,7 @@ typedef struct sbf_polygon_mesh_list {
   uint32_t count;
 } sbf_polygon_mesh_list;
 
-/* A rigid part: a frame at its centre of mass' rest place, axes of asset space. */
+/* A rigid part. Its frame has its origin at `center` and, at rest, the axes of asset space. */
 typedef struct sbf_rigid_body {
   /* Identity. */
   const char *id;
@@ -340,9 +340,10 @@ typedef struct sbf_rigid_body {
   float mass;
   /* Density of the hull's inside, where no mass is given. [kg/m^3; (0, inf); default 1000] */
   float density;
-  /* Centre of mass, asset space, rest pose; used where inertia is given. [m] */
+  /* Origin of its frame, asset space, rest pose; where inertia is given its centre of mass, else that is the
+   * hull's. [m] */
   sbf_vec3 center;
-  /* Principal moments; all 0: those of the hull. [kg*m^2; [0, inf)] */
+  /* Principal moments about the centre; all 0: those of the hull. [kg*m^2; [0, inf)] */
   sbf_vec3 inertia;
   /* From the principal axes to asset space. */
   sbf_quat inertia_rotation;
@@ -442,9 +443,10 @@ typedef struct sbf_joint {
   sbf_limit_list limits;
   /* Motors. */
   sbf_drive_list drives;
-  /* Pulley: where the rope of body a hangs, world space. [m] */
+  /* Pulley: where the rope of body a hangs, asset space, fixed in the world from when the character is
+   * placed. [m] */
   sbf_vec3 pulley_a;
-  /* Pulley: where the rope of body b hangs, world space. [m] */
+  /* Pulley: where the rope of body b hangs, likewise. [m] */
   sbf_vec3 pulley_b;
   /* Pulley: rope on side b counts this much. [(0, inf); default 1] */
   float pulley_ratio;
@@ -593,7 +595,7 @@ typedef struct sbf_attributes {
   float media_friction;
   /* Of the gas inside above the outside, at rest. [Pa] */
   float pressure;
-  /* gas: p*V constant; volume: the volume is kept. [default none] */
+  /* none: no pressure; gas: pressure times volume is constant; volume: the volume is kept. [default none] */
   sbf_pressure_mode pressure_mode;
   /* Springs are kept from shrinking below; -1: no bound. [[-1, 0]; default -1] */
   float strain_min;
@@ -635,7 +637,7 @@ typedef struct sbf_collision_list {
 typedef struct sbf_weight_map {
   /* Which attribute. */
   sbf_weight_property property;
-  /* Factor at each source point. [[0, inf); length parent.size] */
+  /* Factor at each source point; an element takes the mean of its points'. [[0, inf); length parent.size] */
   sbf_f32_list values;
 } sbf_weight_map;
 typedef struct sbf_weight_map_list {
@@ -751,7 +753,8 @@ typedef struct sbf_shape_regions {
   sbf_u32_list sizes;
   /* Those points, region after region. [length sum(sizes); index into parent.positions] */
   sbf_u32_list points;
-  /* Rate at which a region regains its shape. [1/s; (0, inf); default 60] */
+  /* Angular frequency w with which a point is drawn to its place in the region: energy m/2 w^2 distance^2.
+   * [1/s; (0, inf); default 60] */
   float stiffness;
 } sbf_shape_regions;
 typedef struct sbf_shape_regions_list {
@@ -835,7 +838,8 @@ typedef struct sbf_level {
   float cell;
   /* Points at rest; they begin with the surface's points where the model is springs. [m] */
   sbf_vec3_list positions;
-  /* Place in this level of each source point, where the order differs. */
+  /* Place in this level of each source point, where the order differs; 4294967295: the level does not have
+   * it. */
   sbf_u32_list new_from_old;
   /* Of each point; empty: by the rules of the specification. [kg; [0, inf); length 0 or positions] */
   sbf_f32_list masses;
@@ -1055,7 +1059,8 @@ typedef struct sbf_gait {
   const char *name;
   /* Guessed from the rig, for a person to confirm. [default false] */
   bool proposed;
-  /* The bone that travels. [index into asset.bones, or SBF_NONE] */
+  /* The bone on which the rest hangs in a walk: it travels with the character. [index into asset.bones, or
+   * SBF_NONE] */
   int32_t body;
   /* Turns with the line between the hind feet. [index into asset.bones, or SBF_NONE] */
   int32_t hips;
@@ -1069,7 +1074,7 @@ typedef struct sbf_gait {
   float step_trigger;
   /* Time of a step at the walking speed. [s; (0, inf); default 0.25] */
   float step_duration;
-  /* Speed the other settings were made for. [m/s; (0, inf); default 0.5] */
+  /* Speed the other settings were made for; a note, which changes nothing. [m/s; (0, inf); default 0.5] */
   float walk_speed;
   /* Share of the feet's line that hips and chest take. [[0, 1]; default 0.5] */
   float hip_tilt;
@@ -1133,7 +1138,7 @@ typedef struct sbf_follower_list {
   uint32_t count;
 } sbf_follower_list;
 
-/* Keys of one property of one bone, relative to its parent. */
+/* Keys of one property of one bone's frame in its parent's. */
 typedef struct sbf_track {
   /* The bone. [index into asset.bones, or SBF_NONE] */
   int32_t bone;
@@ -1143,7 +1148,8 @@ typedef struct sbf_track {
   sbf_interpolation interpolation;
   /* Of the keys, increasing. [s] */
   sbf_f32_list times;
-  /* Of the keys: 3 numbers each, 4 for rotation; three times as many where cubic. */
+  /* Of the keys: 3 numbers each, 4 for rotation; where cubic three times as many: tangent in, value, tangent
+   * out. */
   sbf_f32_list values;
 } sbf_track;
 typedef struct sbf_track_list {
@@ -1173,7 +1179,7 @@ typedef struct sbf_clip_list {
 typedef struct sbf_pose_key {
   /* The bone. [index into asset.bones, or SBF_NONE] */
   int32_t bone;
-  /* Offset from rest. [m] */
+  /* Added to its place at rest, in the parent's frame. [m] */
   sbf_vec3 translation;
   /* On top of rest. */
   sbf_quat rotation;
@@ -1239,13 +1245,13 @@ typedef struct sbf_force_field {
   sbf_field_kind kind;
   /* Centre. [m] */
   sbf_vec3 position;
-  /* Axis. */
+  /* Axis of uniform and vortex, of any length. */
   sbf_vec3 direction;
-  /* At the centre. [m/s^2] */
+  /* At the centre; radial: away from it; drag: against a speed of 1 m/s. [m/s^2] */
   float strength;
   /* No force beyond; 0: everywhere. [m; [0, inf)] */
   float radius;
-  /* Power of distance. [[0, inf)] */
+  /* Power p with which strength falls: it is divided by (1 + d)^p, d metres from the centre. [[0, inf)] */
   float falloff;
 } sbf_force_field;
 typedef struct sbf_force_field_list {
