@@ -84,26 +84,34 @@ sbf_status sbf_xml_load_memory(const void *bytes, size_t size, const sbf_load_op
   return load(&source, &filled, filled.name, asset, error);
 }
 
-/* What cannot be read a second time, as a pipe, is read whole first. */
-static sbf_status load_stream(
+static sbf_status load_content(const sbfi_file_content *content, const char *path,
+    const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  const sbfi_xml_source source = {.bytes = content->at, .size = content->size};
+  return load(&source, options, path, asset, error);
+}
+
+/* Read in pieces: text that an editor saves in place would end a program that has it mapped. */
+static sbf_status load_pieces(
     const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
-  sbfi_file_content content;
-  sbf_status status = sbfi_file_read(path, options->limits.file_bytes, options->allocator, &content, error);
+  sbfi_file file;
+  sbf_status status = sbfi_file_open(path, &file, error);
   if (status != SBF_OK) return status;
-  const sbfi_xml_source source = {.bytes = content.at, .size = content.size};
+  const sbfi_xml_source source = {.file = &file, .size = file.size};
   status = load(&source, options, path, asset, error);
-  sbfi_file_content_free(&content);
+  sbfi_file_close(&file);
   return status;
 }
 
 sbf_status sbf_xml_load_file(
     const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
   sbf_load_options filled = sbfi_load_options_of(options);
-  sbfi_file file;
+  sbfi_file_content content;
   *asset = NULL;
-  if (sbfi_file_open(path, &file, NULL) != SBF_OK) return load_stream(path, &filled, asset, error);
-  const sbfi_xml_source source = {.file = &file, .size = file.size};
-  sbf_status status = load(&source, &filled, path, asset, error);
-  sbfi_file_close(&file);
-  return status;
+  /* what can be mapped can also be read in pieces, and twice; the rest, as a pipe, has been read whole */
+  sbf_status status = sbfi_file_map(path, filled.limits.file_bytes, filled.allocator, &content, error);
+  if (status != SBF_OK) return status;
+  bool is_mapped = content.size && !content.allocated_bytes;
+  if (!is_mapped) status = load_content(&content, path, &filled, asset, error);
+  sbfi_file_content_free(&content);
+  return is_mapped ? load_pieces(path, &filled, asset, error) : status;
 }

@@ -1,0 +1,103 @@
+/* Either form of the format: told apart by the first bytes when read, by the name when written. */
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "model/asset_box.h"
+#include "model/options.h"
+
+typedef enum form { FORM_UNKNOWN, FORM_EMPTY, FORM_XML, FORM_PACKED } form;
+
+static bool begins_packed(const uint8_t *bytes, size_t size) {
+  static const uint8_t magic[] = {0x89, 'S', 'B', 'F'};
+  size_t compared = size < sizeof magic ? size : sizeof magic;
+  /* one whose first byte lost its high bit still counts: its reader says what happened to it */
+  return (bytes[0] | 0x80) == magic[0] && memcmp(bytes + 1, magic + 1, compared - 1) == 0;
+}
+
+static form form_of(const uint8_t *bytes, size_t size) {
+  sbfi_span rest = {(const char *)bytes, size};
+  if (size == 0) return FORM_EMPTY;
+  if (begins_packed(bytes, size)) return FORM_PACKED;
+  if (sbfi_span_begins(rest, "\xef\xbb\xbf")) rest = (sbfi_span){rest.at + 3, rest.length - 3};
+  rest = sbfi_span_trim(rest);
+  if (rest.length && rest.at[0] == '<') return FORM_XML;
+  /* other encodings: the XML reader refuses them with advice */
+  bool wide = sbfi_span_begins(rest, "\xfe\xff") || sbfi_span_begins(rest, "\xff\xfe") || bytes[0] == 0;
+  return wide && memchr(bytes, '<', size < 4 ? size : 4) ? FORM_XML : FORM_UNKNOWN;
+}
+
+static sbf_status refuse(form found, const char *path, sbf_diagnostic *error) {
+  sbf_status status = sbfi_diagnose(error, SBF_CODE_IO_UNKNOWN_FORMAT,
+      found == FORM_EMPTY
+          ? "the file is empty"
+          : "the file is neither form of sbf: files of other formats are for `sbfmt convert`");
+  if (error) sbfi_copy_text(error->file, sizeof error->file, path);
+  return status;
+}
+
+static void release_content(void *content) {
+  sbfi_file_content_free(content);
+}
+
+/* A packed asset may lie in the bytes it was read from: it keeps them. */
+static sbf_status load_packed_content(
+    sbfi_file_content *content, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_status status = sbf_packed_load_memory(content->at, content->size, options, asset, error);
+  if (status != SBF_OK) return status;
+  sbfi_asset_box *box = sbfi_asset_box_of(*asset);
+  box->released = sbfi_arena_copy(&box->arena, content, 1, sizeof *content);
+  if (box->released) {
+    box->release = release_content;
+    content->at = NULL;
+    content->allocated_bytes = 0;
+    return SBF_OK;
+  }
+  sbf_asset_free(*asset);
+  *asset = NULL;
+  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for an asset");
+}
+
+/* From bytes that have been read whole, as from a pipe. */
+static sbf_status load_content(const char *path, sbfi_file_content *content, form found,
+    const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_load_options named = *options;
+  named.name = path;
+  if (found == FORM_PACKED) return load_packed_content(content, &named, asset, error);
+  return sbf_xml_load_memory(content->at, content->size, &named, asset, error);
+}
+
+sbf_status sbf_load_file(
+    const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_load_options filled = sbfi_load_options_of(options);
+  sbfi_file_content content;
+  *asset = NULL;
+  sbf_status status = sbfi_file_map(path, filled.limits.file_bytes, filled.allocator, &content, error);
+  if (status != SBF_OK) return status;
+  form found = form_of(content.at, content.size);
+  bool is_mapped = content.size && !content.allocated_bytes; /* then it can be opened again */
+  if (found == FORM_EMPTY || found == FORM_UNKNOWN)
+    status = refuse(found, path, error);
+  else if (!is_mapped)
+    status = load_content(path, &content, found, &filled, asset, error);
+  sbfi_file_content_free(&content);
+  if (!is_mapped || status != SBF_OK) return status;
+  return (found == FORM_PACKED ? sbf_packed_load_file : sbf_xml_load_file)(path, options, asset, error);
+}
+
+static bool ends_packed(const char *path) {
+  static const char ending[] = ".sbfz";
+  size_t length = strlen(path), tail = sizeof ending - 1;
+  if (length < tail) return false;
+  for (size_t i = 0; i < tail; i++) {
+    char c = path[length - tail + i];
+    if ((c >= 'A' && c <= 'Z' ? c + 32 : c) != ending[i]) return false;
+  }
+  return true;
+}
+
+sbf_status sbf_save_file(
+    const sbf_asset *asset, const char *path, const sbf_save_options *options, sbf_diagnostic *error) {
+  return (ends_packed(path) ? sbf_packed_save_file : sbf_xml_save_file)(asset, path, options, error);
+}

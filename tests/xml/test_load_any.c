@@ -1,0 +1,132 @@
+#define _XOPEN_SOURCE 700
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fill_asset.h"
+#include "xml_samples.h"
+
+static void save_and_load(const char *path, bool packed) {
+  sbf_asset *asset = fill_asset(&(fill_options){.seed = 3}), *again = NULL;
+  sbf_load_options options = fill_load_options(asset);
+  sbf_diagnostic error = {0};
+  size_t size;
+  ck_assert_msg(sbf_save_file(asset, path, NULL, &error) == SBF_OK, "%s", error.message);
+  char *bytes = harness_read(path, &size);
+  ck_assert_int_eq((unsigned char)bytes[0] == 0x89, packed);
+  ck_assert_msg(sbf_load_file(path, &options, &again, &error) == SBF_OK, "%s", error.message);
+  char where[256] = "";
+  ck_assert_msg(sbf_asset_equal(asset, again, where, sizeof where), "%s", where);
+  sbf_asset_free(again);
+  sbf_asset_free(asset);
+  free(bytes);
+}
+
+START_TEST(test_the_name_says_what_is_saved_and_the_bytes_what_is_loaded)
+{
+  save_and_load(harness_scratch("any.sbf"), false);
+  save_and_load(harness_scratch("any.sbfz"), true);
+  save_and_load(harness_scratch("ANY.SBFZ"), true);
+  save_and_load(harness_scratch("any"), false);
+  save_and_load(harness_scratch("sbfz"), false);
+  /* the name counts for nothing when loading */
+  char from[1024], to[1024];
+  snprintf(from, sizeof from, "%s", harness_scratch("any.sbfz"));
+  snprintf(to, sizeof to, "%s", harness_scratch("misnamed.sbf"));
+  ck_assert_int_eq(rename(from, to), 0);
+  sbf_asset *asset = fill_asset(&(fill_options){.seed = 3}), *again;
+  sbf_load_options options = fill_load_options(asset);
+  ck_assert_int_eq(sbf_load_file(to, &options, &again, NULL), SBF_OK);
+  sbf_asset_free(again);
+  sbf_asset_free(asset);
+}
+END_TEST
+
+static void expect(const char *bytes, size_t size, sbf_code code) {
+  const char *path = harness_scratch("odd");
+  sbf_asset *asset;
+  sbf_diagnostic error = {0};
+  ck_assert(harness_write(path, bytes, size));
+  ck_assert_int_eq(sbf_load_file(path, NULL, &asset, &error), SBF_BAD_INPUT);
+  ck_assert_ptr_null(asset);
+  ck_assert_msg(error.code == (int32_t)code, "code %d, not %d: %s", error.code, (int)code, error.message);
+  ck_assert_str_eq(error.file, path);
+}
+
+START_TEST(test_other_content)
+{
+  expect("", 0, SBF_CODE_IO_UNKNOWN_FORMAT);
+  expect("v 0 0 0\n", 8, SBF_CODE_IO_UNKNOWN_FORMAT);
+  expect("\xff\xff\xff", 3, SBF_CODE_IO_UNKNOWN_FORMAT);
+  expect("  \n<COLLADA/>", 13, SBF_CODE_XML_NOT_SBF);
+  expect("<COLLADA/>", 10, SBF_CODE_XML_NOT_SBF);
+  expect("\xef\xbb\xbf<COLLADA/>", 13, SBF_CODE_XML_NOT_SBF);
+  expect("\xff\xfe<\0s\0", 6, SBF_CODE_XML_SYNTAX);
+  expect("\0<\0s", 4, SBF_CODE_XML_SYNTAX);
+  expect("\x89", 1, SBF_CODE_PACKED_TRUNCATED);
+  expect("\x89SBF\n\x1a\n", 7, SBF_CODE_PACKED_MAGIC);
+  expect("\tSBF\r\n\x1a\n", 8, SBF_CODE_PACKED_MAGIC);
+}
+END_TEST
+
+START_TEST(test_missing_file)
+{
+  sbf_asset *asset;
+  sbf_diagnostic error = {0};
+  ck_assert_int_eq(sbf_load_file(harness_scratch("no such"), NULL, &asset, &error), SBF_FAILED);
+  ck_assert_int_eq(error.code, SBF_CODE_IO_CANNOT_READ);
+  ck_assert_int_eq(sbf_load_file(harness_scratch("no such"), NULL, &asset, NULL), SBF_FAILED);
+  ck_assert_int_eq(sbf_load_file("/", NULL, &asset, &error), SBF_FAILED);
+}
+END_TEST
+
+/* What cannot be sought in: a named pipe that another process writes to. */
+static sbf_status load_through_pipe(const char *name, sbf_asset **asset) {
+  char pipe_path[1024];
+  size_t size;
+  snprintf(pipe_path, sizeof pipe_path, "%s", harness_scratch("pipe"));
+  char *bytes = harness_read(harness_scratch(name), &size);
+  unlink(pipe_path);
+  ck_assert_int_eq(mkfifo(pipe_path, 0600), 0);
+  pid_t child = fork();
+  if (child == 0) _exit(harness_write(pipe_path, bytes, size) ? 0 : 1);
+  sbf_diagnostic error = {0};
+  sbf_status status = sbf_load_file(pipe_path, NULL, asset, &error);
+  if (status != SBF_OK) fprintf(stderr, "%s\n", error.message);
+  waitpid(child, NULL, 0);
+  unlink(pipe_path);
+  free(bytes);
+  return status;
+}
+
+START_TEST(test_pipes)
+{
+  sbf_diagnostic error;
+  sbf_asset *asset =
+      samples_load(samples_document("<soft_body id=\"a\"><interior>1 2 3</interior></soft_body>"), &error);
+  sbf_save_file(asset, harness_scratch("piped.sbf"), NULL, NULL);
+  sbf_save_file(asset, harness_scratch("piped.sbfz"), &(sbf_save_options){.store = true}, NULL);
+  static const char *const names[] = {"piped.sbf", "piped.sbfz"};
+  for (int i = 0; i < 2; i++) {
+    sbf_asset *again = NULL;
+    ck_assert_int_eq(load_through_pipe(names[i], &again), SBF_OK);
+    ck_assert(sbf_asset_equal(asset, again, NULL, 0));
+    sbf_asset_free(again);
+  }
+  sbf_asset_free(asset);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("load_any");
+  TCase *all = tcase_create("all");
+  tcase_add_test(all, test_the_name_says_what_is_saved_and_the_bytes_what_is_loaded);
+  tcase_add_test(all, test_other_content);
+  tcase_add_test(all, test_missing_file);
+  tcase_add_test(all, test_pipes);
+  suite_add_tcase(suite, all);
+  return harness_run(suite);
+}
