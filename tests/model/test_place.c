@@ -1,0 +1,110 @@
+#include "model/place.h"
+
+#include "fill_asset.h"
+#include "harness.h"
+
+static sbfi_place child(const sbfi_place *up, const char *field, uint32_t index) {
+  return sbfi_place_child(up, sbfi_element_field(up->element, field), index);
+}
+
+static void expect_path(const sbfi_place *place, const char *field, const char *expected) {
+  char path[256];
+  sbfi_place_path(place, field ? sbfi_element_field(place->element, field) : NULL, path, sizeof path);
+  ck_assert_str_eq(path, expected);
+}
+
+START_TEST(test_paths)
+{
+  sbf_asset *asset = fill_asset(&(fill_options){.seed = 1});
+  sbfi_place root = sbfi_place_root(asset);
+  expect_path(&root, NULL, "/sbf");
+  expect_path(&root, "version", "/sbf/@version");
+  expect_path(&root, "bones", "/sbf/skeleton");
+  sbfi_place bone = child(&root, "bones", 1);
+  expect_path(&bone, NULL, "/sbf/skeleton/bone[2]");
+  expect_path(&bone, "head", "/sbf/skeleton/bone[2]/@head");
+  sbfi_place joint = child(&root, "joints", 3);
+  expect_path(&joint, NULL, "/sbf/joints/spherical_joint[1]");
+  sbfi_place frame = child(&joint, "frame_b", 0);
+  expect_path(&frame, "rotation", "/sbf/joints/spherical_joint[1]/frame_b/@rotation");
+  sbfi_place body = child(&root, "soft_bodies", 0), surface = child(&body, "surface", 0);
+  expect_path(&surface, "positions", "/sbf/soft_body[1]/polygon_mesh/positions");
+  sbfi_place pin_set = child(&body, "pins", 1);
+  expect_path(&pin_set, "points", "/sbf/soft_body[1]/pins/pin_set[2]/points");
+  sbfi_place extension = child(&root, "extensions", 0);
+  expect_path(&extension, "data", "/sbf/extensions/extension[1]/data");
+
+  char little[12]; /* cut to fit, whatever the room */
+  sbfi_place_path(&pin_set, NULL, little, sizeof little);
+  ck_assert_str_eq(little, "/sbf/soft_b");
+  sbfi_place_path(&pin_set, NULL, little, 1);
+  ck_assert_str_eq(little, "");
+  sbf_asset_free(asset);
+}
+END_TEST
+
+START_TEST(test_siblings_of_the_same_name)
+{
+  sbf_joint joints[3];
+  sbf_asset *asset = sbf_asset_create(NULL);
+  for (int i = 0; i < 3; i++) sbf_joint_init(&joints[i]);
+  joints[0].kind = joints[2].kind = SBF_JOINT_KIND_FIXED;
+  joints[1].kind = SBF_JOINT_KIND_PULLEY;
+  asset->joints = (sbf_joint_list){joints, 3};
+  sbfi_place root = sbfi_place_root(asset), place = child(&root, "joints", 2);
+  expect_path(&place, NULL, "/sbf/joints/fixed_joint[2]");
+  place = child(&root, "joints", 1);
+  expect_path(&place, NULL, "/sbf/joints/pulley_joint[1]");
+  sbf_asset_free(asset);
+}
+END_TEST
+
+START_TEST(test_lengths)
+{
+  sbf_asset *asset = fill_asset(&(fill_options){.seed = 1});
+  sbfi_place root = sbfi_place_root(asset), body = child(&root, "soft_bodies", 1);
+  const sbf_soft_body *b = &asset->soft_bodies.at[1];
+  const uint64_t size = (uint64_t)b->surface.positions.count + b->interior.count;
+  ck_assert_uint_eq(sbfi_length_value(body.element->size, &body), size);
+  sbfi_place map = child(&body, "weight_maps", 0); /* ^size */
+  ck_assert_uint_eq(sbfi_length_value(&sbfi_element_field(map.element, "values")->lengths[0], &map), size);
+  sbfi_place mesh = child(&body, "surface", 0); /* sum(...) */
+  ck_assert_uint_eq(sbfi_length_value(&sbfi_element_field(mesh.element, "polygon_points")->lengths[0], &mesh),
+      b->surface.polygon_points.count);
+  sbfi_place render = child(&root, "render_meshes", 0),
+             skin = child(&render, "skin", 0); /* ^one.list, /list */
+  ck_assert_uint_eq(
+      sbfi_length_value(&sbfi_element_field(skin.element, "influence_counts")->lengths[0], &skin),
+      asset->render_meshes.at[0].mesh.positions.count);
+  ck_assert_uint_eq(
+      sbfi_length_value(sbfi_element_field(skin.element, "bones")->index, &skin), asset->bones.count);
+  sbf_asset_free(asset);
+}
+END_TEST
+
+START_TEST(test_children)
+{
+  sbf_asset *asset = fill_asset(&(fill_options){.seed = 1});
+  sbfi_place root = sbfi_place_root(asset);
+  const sbfi_element *element = root.element;
+  ck_assert_uint_eq(sbfi_child_count(asset, sbfi_element_field(element, "version")), 0);
+  ck_assert_uint_eq(sbfi_child_count(asset, sbfi_element_field(element, "environment")), 1);
+  ck_assert_uint_eq(sbfi_child_count(asset, sbfi_element_field(element, "bones")), 2);
+  ck_assert_ptr_eq(child(&root, "bones", 1).object, &asset->bones.at[1]);
+  ck_assert_ptr_eq(child(&root, "environment", 0).object, &asset->environment);
+  sbfi_place mesh = child(&root, "render_meshes", 0);
+  ck_assert_ptr_eq(child(&mesh, "skin", 0).object, asset->render_meshes.at[0].skin);
+  sbf_asset_free(asset);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("place");
+  TCase *all = tcase_create("all");
+  tcase_add_test(all, test_paths);
+  tcase_add_test(all, test_siblings_of_the_same_name);
+  tcase_add_test(all, test_lengths);
+  tcase_add_test(all, test_children);
+  suite_add_tcase(suite, all);
+  return harness_run(suite);
+}
