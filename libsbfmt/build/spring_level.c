@@ -147,9 +147,11 @@ static bool make_internal_of_held_core(const work *w, const float *volumes, floa
   double *sums = sbfi_arena_allocate(w->scratch, w->point_count, 3 * sizeof *sums);
   sbf_uint2 *free_ends = sbfi_arena_allocate(w->scratch, count, sizeof *free_ends);
   float *free_stiffness = sbfi_arena_allocate(w->scratch, count, sizeof *free_stiffness);
-  if (!sums || !free_ends || !free_stiffness) return false;
-  sbf_stiffness_of_anchors(modulus, w->measures.depth, w->interior.points[0], w->level->positions.at,
-      w->point_count, volumes, w->held, w->internal.at, count, sums, stiffness);
+  sbf_vec3 *normals = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *normals);
+  if (!sums || !free_ends || !free_stiffness || !normals) return false;
+  sbf_surface_point_normals(&w->body->surface, normals);
+  sbf_stiffness_of_anchors(modulus, w->measures.depth, normals, w->level->positions.at, w->point_count,
+      volumes, w->held, w->internal.at, count, sums, stiffness);
   for (uint32_t s = 0; s < count; s++)
     if (!w->held[w->internal.at[s].at[0]] && !w->held[w->internal.at[s].at[1]])
       free_ends[free_count++] = w->internal.at[s];

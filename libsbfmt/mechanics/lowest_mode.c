@@ -11,34 +11,55 @@ enum { MONOMIALS = 10, FIELDS = 3 * MONOMIALS, MOST_NULL = 6, INVERSE_STEPS = 4,
 
 typedef struct basis {
   const sbf_spring_network *network;
+  const double *scale_of; /* (point_count) 1 / root of the mass; 0: held, or too loose to count */
   sbfi_d3 center;
-  double scale;                   /* 1 / size of the body */
+  double shrink;                  /* 1 / size of the body */
   uint32_t null_count;            /* fields that nothing resists */
   double null[MOST_NULL][FIELDS]; /* their coefficients, monomial by monomial, orthonormal by mass */
 } basis;
 
 static void evaluate(const basis *of, uint32_t point, double monomials[MONOMIALS]) {
-  sbfi_d3 p = sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(of->network->positions[point]), of->center), of->scale);
+  sbfi_d3 p = sbfi_d3_scale(sbfi_d3_sub(sbfi_d3_of(of->network->positions[point]), of->center), of->shrink);
   const double values[MONOMIALS] = {
       1, p.x, p.y, p.z, p.x * p.x, p.y * p.y, p.z * p.z, p.x * p.y, p.y * p.z, p.z * p.x};
   memcpy(monomials, values, sizeof values);
 }
 
-static void place_basis(basis *of, const sbf_spring_network *network) {
-  double mass = 0, spread = 0;
-  *of = (basis){.network = network, .scale = 1};
+static double mass_of(const basis *of, uint32_t point) {
+  double scale = of->scale_of[point];
+  return scale > 0 ? 1 / (scale * scale) : 0;
+}
+
+/* A point on one spring, where others have three and more, swings loose about it: its pendulum modes say
+ * nothing of the body, and it is counted as held. */
+static void find_scales(const sbf_spring_network *network, double *scale_of) {
+  double most = 0;
+  for (uint32_t i = 0; i < network->point_count; i++)
+    scale_of[i] = network->anchors && network->anchors[i] > 0 ? 3 : 0;
+  for (uint32_t s = 0; s < network->spring_count; s++)
+    for (int end = 0; end < 2; end++) scale_of[network->ends[s].at[end]] += network->stiffness[s] > 0;
+  for (uint32_t i = 0; i < network->point_count; i++)
+    if (network->masses[i] > 0 && scale_of[i] > most) most = scale_of[i];
   for (uint32_t i = 0; i < network->point_count; i++) {
-    of->center =
-        sbfi_d3_add(of->center, sbfi_d3_scale(sbfi_d3_of(network->positions[i]), network->masses[i]));
-    mass += network->masses[i];
+    bool counts = network->masses[i] > 0 && (scale_of[i] > 1 || most < 3);
+    scale_of[i] = counts ? 1 / sqrt(network->masses[i]) : 0;
+  }
+}
+
+static void place_basis(basis *of, const sbf_spring_network *network, const double *scale_of) {
+  double mass = 0, spread = 0;
+  *of = (basis){.network = network, .scale_of = scale_of, .shrink = 1};
+  for (uint32_t i = 0; i < network->point_count; i++) {
+    of->center = sbfi_d3_add(of->center, sbfi_d3_scale(sbfi_d3_of(network->positions[i]), mass_of(of, i)));
+    mass += mass_of(of, i);
   }
   if (!(mass > 0)) return;
   of->center = sbfi_d3_scale(of->center, 1 / mass);
   for (uint32_t i = 0; i < network->point_count; i++) {
     sbfi_d3 from = sbfi_d3_sub(sbfi_d3_of(network->positions[i]), of->center);
-    spread += network->masses[i] * sbfi_d3_dot(from, from);
+    spread += mass_of(of, i) * sbfi_d3_dot(from, from);
   }
-  if (spread > 0) of->scale = sqrt(mass / spread);
+  if (spread > 0) of->shrink = sqrt(mass / spread);
 }
 
 /* Scalar fields orthonormal by mass, `coefficients` (MONOMIALS x count) by columns. Combinations that vanish
@@ -48,7 +69,7 @@ static int orthonormalise(const basis *of, double coefficients[MONOMIALS * MONOM
   for (uint32_t i = 0; i < of->network->point_count; i++) {
     evaluate(of, i, phi);
     for (int a = 0; a < MONOMIALS; a++)
-      for (int b = 0; b < MONOMIALS; b++) gram[a * MONOMIALS + b] += of->network->masses[i] * phi[a] * phi[b];
+      for (int b = 0; b < MONOMIALS; b++) gram[a * MONOMIALS + b] += mass_of(of, i) * phi[a] * phi[b];
   }
   sbfi_symmetric_eigen(MONOMIALS, gram, vectors);
   for (int a = 0; a < MONOMIALS; a++)
@@ -78,7 +99,7 @@ static void sum_stiffness(const basis *of, double stiffness[FIELDS * FIELDS]) {
     uint32_t a = network->ends[s].at[0], b = network->ends[s].at[1];
     sbfi_d3 n =
         sbfi_d3_normal(sbfi_d3_sub(sbfi_d3_of(network->positions[b]), sbfi_d3_of(network->positions[a])));
-    double a_moves = network->masses[a] > 0, b_moves = network->masses[b] > 0;
+    double a_moves = of->scale_of[a] > 0, b_moves = of->scale_of[b] > 0;
     evaluate(of, a, from);
     evaluate(of, b, to);
     for (int m = 0; m < MONOMIALS; m++) {
@@ -90,7 +111,7 @@ static void sum_stiffness(const basis *of, double stiffness[FIELDS * FIELDS]) {
     add_energy(stiffness, network->stiffness[s], g);
   }
   for (uint32_t i = 0; network->anchors && i < network->point_count; i++) {
-    if (!(network->masses[i] > 0) || !(network->anchors[i] > 0)) continue;
+    if (!(of->scale_of[i] > 0) || !(network->anchors[i] > 0)) continue;
     evaluate(of, i, from);
     for (int axis = 0; axis < 3; axis++) {
       for (int f = 0; f < FIELDS; f++) g[f] = f % 3 == axis ? from[f / 3] : 0;
@@ -142,7 +163,7 @@ static double ritz(basis *of, double threshold, double field[FIELDS]) {
 
 /* The field's displacement at a point times the root of its mass. */
 static void weigh(const basis *of, const double field[FIELDS], uint32_t point, double v[3]) {
-  double phi[MONOMIALS], root = sqrt(of->network->masses[point]);
+  double phi[MONOMIALS], root = sqrt(mass_of(of, point));
   evaluate(of, point, phi);
   for (int axis = 0; axis < 3; axis++) {
     v[axis] = 0;
@@ -171,19 +192,16 @@ static void project(const void *user, double *v) {
 static double iterate(const basis *of, double start, const double field[FIELDS], double *scratch) {
   const sbf_spring_network *network = of->network;
   size_t size = 3 * (size_t)network->point_count;
-  double *scale = scratch, *v = scale + network->point_count, *r = v + size, *y = r + size, *work = y + size;
+  double *v = scratch + network->point_count, *r = v + size, *y = r + size, *work = y + size;
   double best = start;
-  for (uint32_t i = 0; i < network->point_count; i++) {
-    scale[i] = network->masses[i] > 0 ? 1 / sqrt(network->masses[i]) : 0;
-    weigh(of, field, i, v + 3 * (size_t)i);
-  }
+  for (uint32_t i = 0; i < network->point_count; i++) weigh(of, field, i, v + 3 * (size_t)i);
   sbfi_null_fields none = {of->null_count ? project : NULL, of};
   for (int n = 0; n < INVERSE_STEPS; n++) {
     double length = sqrt(sbfi_dot(v, v, size));
     if (!(length > 0)) return best;
     for (size_t i = 0; i < size; i++) r[i] = v[i] /= length;
-    sbfi_network_solve(network, scale, none, 1e-3, SOLVE_STEPS, r, y, work);
-    sbfi_network_apply(network, scale, y, work);
+    sbfi_network_solve(network, of->scale_of, none, 1e-3, SOLVE_STEPS, r, y, work);
+    sbfi_network_apply(network, of->scale_of, y, work);
     double norm = sbfi_dot(y, y, size), value = norm > 0 ? sbfi_dot(y, work, size) / norm : 0;
     if (!(value > start / 4)) return start;
     if (value < best) best = value;
@@ -196,7 +214,8 @@ double sbf_network_lowest(const sbf_spring_network *network, bool refine, double
   basis of;
   double field[FIELDS], bound = sbf_network_highest_bound(network, scratch);
   if (!(bound > 0)) return 0;
-  place_basis(&of, network);
+  find_scales(network, scratch);
+  place_basis(&of, network, scratch);
   double value = ritz(&of, 1e-10 * bound * bound, field);
   if (!(value > 0)) return 0;
   if (refine && of.null_count <= MOST_NULL) value = iterate(&of, value, field, scratch);

@@ -49,21 +49,23 @@ void sbfi_network_solve(const sbf_spring_network *network, const double *scale, 
     y[i] = 0;
     p[i] = r[i];
   }
-  double left = sbfi_dot(r, r, size), enough = tolerance * tolerance * left;
+  double left = sbfi_dot(r, r, size), enough = tolerance * tolerance * left, stiffest = 0;
   for (uint32_t n = 0; n < iterations && left > enough; n++) {
     sbfi_network_apply(network, scale, p, q);
-    double resisted = sbfi_dot(p, q, size);
-    if (!(resisted > 0)) return;
+    double resisted = sbfi_dot(p, q, size), quotient = resisted / sbfi_dot(p, p, size);
+    if (quotient > stiffest) stiffest = quotient;
+    if (!(quotient > 1e-12 * stiffest)) break; /* nothing but rounding resists this way */
     double step = left / resisted;
     for (size_t i = 0; i < size; i++) {
       y[i] += step * p[i];
       r[i] -= step * q[i];
     }
-    if (null_fields.project) null_fields.project(null_fields.user, r);
     double before = left;
     left = sbfi_dot(r, r, size);
     for (size_t i = 0; i < size; i++) p[i] = r[i] + left / before * p[i];
   }
+  /* K takes nothing into the null fields, so that only rounding has to be swept out. */
+  if (null_fields.project) null_fields.project(null_fields.user, y);
 }
 
 double sbf_network_static(const sbf_spring_network *network, const double *forces, double tolerance,

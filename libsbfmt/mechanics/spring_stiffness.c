@@ -1,6 +1,8 @@
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
+enum { MOST_RAISED = 16 }; /* four times the frequency */
+
 static double distance(const sbf_vec3 *positions, sbf_uint2 ends) {
   return sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]])));
 }
@@ -44,18 +46,15 @@ static uint32_t free_end(const uint8_t *held, sbf_uint2 ends, uint32_t point_cou
   return held[ends.at[0]] ? ends.at[1] : ends.at[0];
 }
 
-static double squared_cosine(
-    sbf_vec3 center, const sbf_vec3 *positions, sbf_uint2 ends, uint32_t free_point) {
-  uint32_t other = ends.at[0] == free_point ? ends.at[1] : ends.at[0];
-  sbfi_d3 axis = sbfi_d3_normal(sbfi_d3_sub(sbfi_d3_of(positions[free_point]), sbfi_d3_of(center)));
-  sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(positions[free_point]), sbfi_d3_of(positions[other]));
-  double c = sbfi_d3_dot(sbfi_d3_normal(way), axis);
+static double squared_cosine(sbf_vec3 normal, const sbf_vec3 *positions, sbf_uint2 ends) {
+  sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]]));
+  double c = sbfi_d3_dot(sbfi_d3_normal(way), sbfi_d3_of(normal));
   return c * c;
 }
 
 /* a and b of k = a + b c^2 for a trace of 1, 0.6 of it along the axis:
  * n a + S2 b = 1 and S2 a + S4 b = 0.6. Where all springs lean alike only the trace can be met; where the two
- * would have a spring pull the wrong way, b is cut so that the weakest keeps a tenth of the mean. */
+ * would have a spring push for a pull, b is cut so that the weakest keeps a tenth of the mean. */
 static void fit(const anchored *at, double *a, double *b) {
   double determinant = at->count * at->fourths - at->squares * at->squares, mean = 1 / at->count;
   *b = determinant > 1e-6 * at->count * at->count ? (0.6 * at->count - at->squares) / determinant : 0;
@@ -64,17 +63,20 @@ static void fit(const anchored *at, double *a, double *b) {
   double least = *b > 0 ? mean - *b * mean_square : mean + *b * (1 - mean_square);
   if (least < 0.1 * mean) *b *= 0.9 * mean / (mean - least);
   *a = mean - *b * mean_square;
+  double along = *a * at->squares + *b * at->fourths, raised = 1;
+  if (at->squares > 0 && along < 0.2) raised = along > 0.2 / MOST_RAISED ? 0.2 / along : MOST_RAISED;
+  *a *= raised;
+  *b *= raised;
 }
 
-void sbf_stiffness_of_anchors(double modulus, double depth, sbf_vec3 center, const sbf_vec3 *positions,
-    uint32_t point_count, const float *volumes, const uint8_t *held, const sbf_uint2 *ends,
-    uint32_t spring_count, double *scratch, float *stiffness) {
-  for (uint32_t i = 0; i < point_count; i++)
-    scratch[3 * (size_t)i] = scratch[3 * (size_t)i + 1] = scratch[3 * (size_t)i + 2] = 0;
+void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_vec3 *normals,
+    const sbf_vec3 *positions, uint32_t point_count, const float *volumes, const uint8_t *held,
+    const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness) {
+  for (size_t i = 0; i < 3 * (size_t)point_count; i++) scratch[i] = 0;
   for (uint32_t s = 0; s < spring_count; s++) {
     uint32_t point = free_end(held, ends[s], point_count);
     if (point == point_count || !(distance(positions, ends[s]) > 0)) continue;
-    double square = squared_cosine(center, positions, ends[s], point), *sums = scratch + 3 * (size_t)point;
+    double square = squared_cosine(normals[point], positions, ends[s]), *sums = scratch + 3 * (size_t)point;
     sums[0] += 1;
     sums[1] += square;
     sums[2] += square * square;
@@ -87,7 +89,7 @@ void sbf_stiffness_of_anchors(double modulus, double depth, sbf_vec3 center, con
     anchored at = {sums[0], sums[1], sums[2]};
     double a, b, trace = SBF_STIFFNESS_ANCHOR * modulus * volumes[point] / (depth * depth);
     fit(&at, &a, &b);
-    stiffness[s] = (float)(trace * (a + b * squared_cosine(center, positions, ends[s], point)));
+    stiffness[s] = (float)(trace * (a + b * squared_cosine(normals[point], positions, ends[s])));
   }
 }
 

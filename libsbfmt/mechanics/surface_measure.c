@@ -39,6 +39,22 @@ void sbf_surface_point_areas(const sbf_polygon_mesh *mesh, float *areas) {
   }
 }
 
+void sbf_surface_point_normals(const sbf_polygon_mesh *mesh, sbf_vec3 *normals) {
+  const uint32_t *corners = mesh->polygon_points.at;
+  for (uint32_t i = 0; i < mesh->positions.count; i++) normals[i] = (sbf_vec3){0, 0, 0};
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++]) {
+    uint32_t size = mesh->polygon_sizes.at[p];
+    sbfi_d3 middle = sbfi_polygon_middle(mesh->positions.at, corners, size);
+    sbfi_d3 area = sbfi_polygon_area(mesh->positions.at, corners, size, middle);
+    for (uint32_t k = 0; k < size; k++) {
+      sbf_vec3 *sum = &normals[corners[k]];
+      *sum = sbfi_d3_rounded(sbfi_d3_add(sbfi_d3_of(*sum), area));
+    }
+  }
+  for (uint32_t i = 0; i < mesh->positions.count; i++)
+    normals[i] = sbfi_d3_rounded(sbfi_d3_normal(sbfi_d3_of(normals[i])));
+}
+
 /* Adds a tetrahedron from the origin: volume v, first moment v/4 (a+b+c), second moments from the closed form
  * int x y = v/20 (sum over corners of x_i y_i + sum x_i sum y_i), the origin's corner being zero. */
 static void add_tetrahedron(

@@ -78,8 +78,9 @@ START_TEST(anchors_give_the_pyramid)
   const sbf_uint2 springs[] = {{{1, 0}}, {{2, 0}}, {{0, 3}}, {{4, 0}}, {{5, 0}}, {{1, 2}}, {{0, 6}}};
   const uint8_t held[] = {0, 1, 1, 1, 1, 1, 0};
   const float share[] = {0.25f, 0, 0, 0, 0, 0, 1};
+  const sbf_vec3 up[7] = {{0, 0, 1}};
   double scratch[21], along = 0, trace = 0, k = 1000 * 0.25 / (0.5 * 0.5); /* E V / d^2 */
-  sbf_stiffness_of_anchors(1000, 0.5, at[1], at, 7, share, held, springs, 7, scratch, stiffness);
+  sbf_stiffness_of_anchors(1000, 0.5, up, at, 7, share, held, springs, 7, scratch, stiffness);
   for (int s = 0; s < 5; s++) {
     trace += stiffness[s];
     along += stiffness[s] * (s == 0 ? 1 : 0.25);
@@ -97,13 +98,30 @@ START_TEST(anchors_that_cannot_fit_keep_the_trace)
   const sbf_uint2 across[] = {{{1, 0}}, {{2, 0}}}, both[] = {{{3, 0}}, {{3, 0}}, {{3, 0}}, {{1, 0}}};
   const uint8_t held[] = {0, 1, 1, 1};
   const float share[] = {1, 0, 0, 0};
+  const sbf_vec3 up[4] = {{0, 0, 1}};
   double scratch[12];
-  sbf_stiffness_of_anchors(1, 1, at[3], at, 4, share, held, across, 2, scratch, stiffness);
+  sbf_stiffness_of_anchors(1, 1, up, at, 4, share, held, across, 2, scratch, stiffness);
   ck_assert_float_eq_tol(stiffness[0], 1, 1e-5f);
   ck_assert_float_eq_tol(stiffness[1], 1, 1e-5f);
-  sbf_stiffness_of_anchors(1, 1, at[3], at, 4, share, held, both, 4, scratch, stiffness);
+  sbf_stiffness_of_anchors(1, 1, up, at, 4, share, held, both, 4, scratch, stiffness);
   ck_assert_float_eq_tol(stiffness[0] + stiffness[1] + stiffness[2] + stiffness[3], 2, 1e-5f);
   ck_assert_float_eq_tol(3 * stiffness[0], 1.2f, 1e-5f);
+}
+END_TEST
+
+START_TEST(springs_that_lean_are_raised)
+{
+  /* Two springs at 80 degrees to the normal: c^2 = 0.0302 in place of 0.6. */
+  const sbf_vec3 at[] = {{0, 0, 0}, {0.98480775f, 0, -0.17364818f}, {-0.98480775f, 0, -0.17364818f}};
+  const sbf_vec3 up[3] = {{0, 0, 1}}, level[3] = {{0, 0, 0}};
+  const sbf_uint2 springs[] = {{{1, 0}}, {{2, 0}}};
+  const uint8_t held[] = {0, 1, 1};
+  const float share[] = {1, 0, 0};
+  double scratch[9];
+  sbf_stiffness_of_anchors(1, 1, up, at, 3, share, held, springs, 2, scratch, stiffness);
+  ck_assert_float_eq_tol(stiffness[0], 0.2f / 0.030153690f, 1e-4f);
+  sbf_stiffness_of_anchors(1, 1, level, at, 3, share, held, springs, 2, scratch, stiffness);
+  ck_assert_float_eq_tol(stiffness[0], 1, 1e-4f);
 }
 END_TEST
 
@@ -148,6 +166,7 @@ static Suite *suite(void) {
   tcase_add_test(c, no_length_no_stiffness);
   tcase_add_test(c, anchors_give_the_pyramid);
   tcase_add_test(c, anchors_that_cannot_fit_keep_the_trace);
+  tcase_add_test(c, springs_that_lean_are_raised);
   tcase_add_test(c, levels_fill_in_what_is_not_stated);
   suite_add_tcase(s, c);
   return s;

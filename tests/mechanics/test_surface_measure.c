@@ -1,3 +1,5 @@
+#include <math.h>
+
 #include "harness.h"
 #include "sbfmt/mechanics.h"
 #include "shapes.h"
@@ -66,6 +68,22 @@ START_TEST(tributary_areas)
 }
 END_TEST
 
+START_TEST(normals)
+{
+  sbf_polygon_mesh mesh = shape_cube(asset, 2, 2, (sbf_vec3){5, 0, 0});
+  sbf_vec3 found[26];
+  sbf_surface_point_normals(&mesh, found);
+  for (int i = 0; i < 26; i++) {
+    /* Of a cube about its centre, the way to the point with its coordinates made -1, 0, 1: along the
+     * diagonal. */
+    sbf_vec3 p = mesh.positions.at[i];
+    float length = sqrtf((p.x - 5) * (p.x - 5) + p.y * p.y + p.z * p.z);
+    ck_assert_float_eq_tol(found[i].x, (p.x - 5) / length, 1e-5f);
+    ck_assert_float_eq_tol(found[i].y, p.y / length, 1e-5f);
+  }
+}
+END_TEST
+
 static sbf_vec3 turned(sbf_quat q, sbf_vec3 v) {
   float tx = 2 * (q.y * v.z - q.z * v.y), ty = 2 * (q.z * v.x - q.x * v.z), tz = 2 * (q.x * v.y - q.y * v.x);
   return (sbf_vec3){v.x + q.w * tx + q.y * tz - q.z * ty, v.y + q.w * ty + q.z * tx - q.x * tz,
@@ -120,6 +138,7 @@ static Suite *suite(void) {
   tcase_add_test(c, deformed_positions_stand_in);
   tcase_add_test(c, open_surfaces);
   tcase_add_test(c, tributary_areas);
+  tcase_add_test(c, normals);
   tcase_add_test(c, solid_box);
   tcase_add_test(c, solid_of_nothing);
   suite_add_tcase(s, c);

@@ -31,6 +31,10 @@ SBF_API void sbf_surface_measure(
 /* Tributary areas in m^2, (mesh->positions.count): each polygon's area, in equal parts to its corners. */
 SBF_API void sbf_surface_point_areas(const sbf_polygon_mesh *mesh, float *areas);
 
+/* Unit normals at the points, (mesh->positions.count), by the polygons' areas; (0, 0, 0) where there is none.
+ */
+SBF_API void sbf_surface_point_normals(const sbf_polygon_mesh *mesh, sbf_vec3 *normals);
+
 /* The inside of a closed surface as a rigid body of density 1 kg/m^3: scale mass and inertia by the density.
  * All zero where it encloses nothing. Integrals over tetrahedra from the mean of the points to the surface's
  * triangles; principal axes by Jacobi rotations. */
@@ -100,19 +104,22 @@ SBF_API void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions,
 
 /* Springs from held points (on the bone) to free ones on the surface. Here it is not the strain between the
  * ends that counts, for the anchors' places are a matter of construction, but how the surface gives against
- * the core: each free point is the base of a pyramid of volume V_i and height d, the depth, whose apex the
- * bone holds. Displaced by u along its axis and w across, matter with lambda = mu holds
- * V_i E (0.6 u^2 + 0.2 w^2) / d^2: a stiffness of 1.2 E V_i / d^2 along and 0.4 E V_i / d^2 across, trace
- * SBF_STIFFNESS_ANCHOR E V_i / d^2. That trace is shared among the point's springs as k = a + b c^2, c the
- * cosine between spring and axis, so that the stiffness along the axis comes out as well where the directions
- * allow (none falls below a tenth of the mean). The pyramids take a third of the 6 E V above; springs over
- * the surface get the rest, SBF_STIFFNESS_MEMBRANE, by sbf_stiffness_of_network.
+ * the core: each free point is the base of a pyramid of volume V_i that stands on the surface, of height d,
+ * the depth, and whose apex the bone holds. Displaced by u along its axis, the surface's normal, and by w
+ * across, matter with lambda = mu holds V_i E (0.6 u^2 + 0.2 w^2) / d^2: a stiffness of 1.2 E V_i / d^2 along
+ * and 0.4 E V_i / d^2 across, trace SBF_STIFFNESS_ANCHOR E V_i / d^2. That trace is shared among the point's
+ * springs as k = a + b c^2, c the cosine between spring and axis, so that the stiffness along the axis comes
+ * out as well where the directions allow (none falls below a tenth of the mean). Where they are all nearly
+ * across, as at the rim of a flat body, all are raised together until the stiffness along the axis is the
+ * 0.4 that it should be across, but sixteen times at most. The pyramids take a third of the 6 E V above;
+ * springs over the surface get the rest, SBF_STIFFNESS_MEMBRANE, by sbf_stiffness_of_network.
  *
- * `modulus` is E in Pa, `center` the pyramids' apex, `held` (point_count) marks the anchors. Springs that do
- * not join a held to a free point get 0. `scratch` is (3 * point_count). */
+ * `modulus` is E in Pa; `normals` (point_count) need be right at free points only, where (0, 0, 0) shares the
+ * trace evenly; `held` (point_count) marks the anchors. Springs that do not join a held to a free point get
+ * 0. `scratch` is (3 * point_count). */
 #define SBF_STIFFNESS_ANCHOR 2.0
 #define SBF_STIFFNESS_MEMBRANE 4.0
-SBF_API void sbf_stiffness_of_anchors(double modulus, double depth, sbf_vec3 center,
+SBF_API void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_vec3 *normals,
     const sbf_vec3 *positions, uint32_t point_count, const float *volumes, const uint8_t *held,
     const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness);
 
@@ -144,10 +151,10 @@ SBF_API double sbf_network_highest_bound(const sbf_spring_network *network, doub
 SBF_API double sbf_network_highest(const sbf_spring_network *network, uint32_t iterations, double *scratch);
 
 /* The lowest mode that deforms the body, rad/s: what damping_ratio refers to. Rayleigh-Ritz over polynomial
- * displacement fields of second degree (translation, rotation, strain, bending, torsion), which a loose point
- * cannot spoil; then, with `refine`, inverse iterations from there, kept where they stay with that mode.
- * Within a few per cent where refined; else from above. 0: nothing resists, or nothing is free. `scratch` is
- * (16 * point_count). */
+ * displacement fields of second degree (translation, rotation, strain, bending, torsion), points that dangle
+ * on one spring left out; then, with `refine`, inverse iterations from there, kept where they stay with that
+ * mode. Within a few per cent where refined; else from above. 0: nothing resists, or nothing is free.
+ * `scratch` is (16 * point_count). */
 SBF_API double sbf_network_lowest(const sbf_spring_network *network, bool refine, double *scratch);
 
 /* Displacements at rest under small forces (3 * point_count, N): solves K u = f by conjugate gradients until
