@@ -53,21 +53,30 @@ static sbfi_planned compress_chunk(
   return SBFI_PLANNED;
 }
 
-sbfi_planned sbfi_packed_plan_compress(sbfi_packed_plan *plan, int level) {
+sbfi_planned sbfi_packed_best_filter(
+    sbfi_packed_coder *coder, const void *items, size_t size, uint32_t stride, sbfi_packed_filter *filter) {
+  uint8_t memory[2][SBFI_PACKED_CHUNK_FROM_COMPRESSED], *spare = memory[1];
+  const sbfi_planned_chunk planned = {.chunk = {.stride = stride, .raw_size = size}, .at = items};
+  attempt best = {.at = memory[0]};
+  sbfi_planned result = SBFI_PLANNED;
+  for (int f = SBFI_FILTER_NONE; f < SBFI_FILTER_COUNT && result == SBFI_PLANNED; f++)
+    result = try_filter(coder, &planned, (sbfi_packed_filter)f, &spare, &best, size - 1);
+  *filter = best.filter;
+  return result;
+}
+
+sbfi_planned sbfi_packed_plan_compress(sbfi_packed_plan *plan, sbfi_packed_coder *coder) {
   sbf_allocator *allocator = &plan->arena.allocator;
   size_t room = 1;
   for (size_t i = 0; i < plan->chunks.count; i++) {
     size_t needed = room_of((size_t)sbfi_packed_plan_chunk(plan, i)->chunk.raw_size);
     if (needed > room) room = needed;
   }
-  sbfi_packed_coder coder;
-  sbfi_packed_coder_init(&coder, allocator, level);
   uint8_t *memory[2] = {sbfi_allocate(allocator, room), sbfi_allocate(allocator, room)};
   sbfi_planned result = memory[0] && memory[1] ? SBFI_PLANNED : SBFI_PLANNED_NO_MEMORY;
   for (size_t i = 0; i < plan->chunks.count && result == SBFI_PLANNED; i++)
-    result = compress_chunk(plan, &coder, sbfi_packed_plan_chunk(plan, i), memory);
+    result = compress_chunk(plan, coder, sbfi_packed_plan_chunk(plan, i), memory);
   sbfi_free(allocator, memory[0], room);
   sbfi_free(allocator, memory[1], room);
-  sbfi_packed_coder_free(&coder);
   return result;
 }

@@ -14,7 +14,9 @@ enum {
   SBFI_PACKED_ENTRY_SIZE = 64,
   SBFI_PACKED_ALIGN = 64,       /* chunks begin at multiples of it */
   SBFI_PACKED_CHUNK_FROM = 256, /* lists of so many bytes and more have a chunk of their own */
-  SBFI_PACKED_FIELD_SIZE = 8    /* number, form and payload size, before each payload of a record */
+  /* ... where chunks are compressed: in a record, short lists share one stream and need no entry */
+  SBFI_PACKED_CHUNK_FROM_COMPRESSED = 1024,
+  SBFI_PACKED_FIELD_SIZE = 8 /* number, form and payload size, before each payload of a record */
 };
 
 #define SBFI_PACKED_MAGIC "\x89SBF\r\n\x1a\n"
@@ -57,7 +59,9 @@ typedef enum sbfi_packed_form {
   SBFI_FORM_CHUNK,   /* number of the chunk that holds the items */
   SBFI_FORM_RECORD,  /* fields of one child */
   SBFI_FORM_RECORDS, /* count, then size and fields of each child */
-  SBFI_FORM_PARTS    /* count, then chunk number, size and label fields of each part */
+  SBFI_FORM_PARTS,   /* count, then chunk number, size and label fields of each part */
+  SBFI_FORM_PLANES,  /* items, through SBFI_FILTER_PLANES */
+  SBFI_FORM_DELTA    /* items, through SBFI_FILTER_DELTA */
 } sbfi_packed_form;
 
 /* Whether the field belongs to the label that a part's parent keeps for it, so that a part is found by id or

@@ -2,7 +2,7 @@
 #include "packed/packed_plan.h"
 
 #include "base/memory.h"
-#include "packed/packed_codec.h"
+#include "packed/packed_filter.h"
 
 /* A part whose record is to be written; parts stand in a queue, the root first. */
 typedef struct queued_part {
@@ -14,8 +14,9 @@ typedef struct queued_part {
 
 typedef struct planner {
   sbfi_text *to;
-  sbfi_array parts; /* queued_part */
-  sbfi_array lists; /* sbfi_planned_chunk */
+  sbfi_packed_coder *coder; /* NULL: nothing will be compressed */
+  sbfi_array parts;         /* queued_part */
+  sbfi_array lists;         /* sbfi_planned_chunk */
   uint32_t part_count;
   sbfi_packed_chunk
       address; /* of the part being written; field: the part's field that the walk is inside of */
@@ -130,13 +131,33 @@ static void write_chunk_list(planner *p, const sbfi_field *field, sbfi_list list
   end_field(p, begin);
 }
 
+/* Of fewer bytes a filter makes nothing of note. */
+enum { FILTERED_FROM = 64 };
+
+/* Writes the list as it will compress best with the rest of the record; false where that is unfiltered. */
+static bool write_filtered_list(planner *p, const sbfi_field *field, sbfi_list list) {
+  size_t size = (size_t)list.count * sbfi_item_size(field);
+  sbfi_packed_filter filter;
+  uint8_t planes[SBFI_PACKED_CHUNK_FROM_COMPRESSED];
+  if (!p->coder || field->item == SBFI_ITEM_U8 || size < FILTERED_FROM) return false;
+  sbfi_planned result = sbfi_packed_best_filter(p->coder, list.at, size, sbfi_item_size(field), &filter);
+  if (result != SBFI_PLANNED) p->result = result;
+  if (result != SBFI_PLANNED || filter == SBFI_FILTER_NONE) return false;
+  sbfi_filter_block(filter, list.at, 0, size / 4, field->width, planes);
+  size_t begin = begin_field(p, field, filter == SBFI_FILTER_PLANES ? SBFI_FORM_PLANES : SBFI_FORM_DELTA);
+  sbfi_text_append(p->to, planes, size);
+  end_field(p, begin);
+  return true;
+}
+
 static void write_list(planner *p, const sbfi_field *field, const void *object) {
   sbfi_list list = sbfi_get_list(object, field);
   size_t size = (size_t)list.count * sbfi_item_size(field);
-  if (size >= SBFI_PACKED_CHUNK_FROM) {
+  if (size >= (p->coder ? SBFI_PACKED_CHUNK_FROM_COMPRESSED : SBFI_PACKED_CHUNK_FROM)) {
     write_chunk_list(p, field, list);
     return;
   }
+  if (write_filtered_list(p, field, list)) return;
   size_t begin = begin_field(p, field, SBFI_FORM_LIST);
   if (field->item == SBFI_ITEM_U8) {
     sbfi_text_append(p->to, list.at, size);
@@ -291,14 +312,14 @@ static void gather(planner *p, sbfi_packed_plan *plan) {
     sbfi_packed_plan_chunk(plan, i)->chunk.flags = SBFI_CHUNK_CRITICAL;
 }
 
-sbfi_planned sbfi_packed_plan_make(
-    sbfi_packed_plan *plan, const sbf_asset *asset, const sbf_allocator *allocator) {
+sbfi_planned sbfi_packed_plan_make(sbfi_packed_plan *plan, const sbf_asset *asset, sbfi_packed_coder *coder,
+    const sbf_allocator *allocator) {
   sbfi_array_init(&plan->chunks, allocator, sizeof(sbfi_planned_chunk));
   sbfi_text_init(&plan->records, allocator);
   sbfi_arena_init(&plan->arena, allocator, 0);
   uint64_t part_count = count_parts(&sbfi_asset_element, asset);
   if (part_count > UINT32_MAX) return SBFI_PLANNED_TOO_LARGE;
-  planner p = {.to = &plan->records, .part_count = (uint32_t)part_count};
+  planner p = {.to = &plan->records, .coder = coder, .part_count = (uint32_t)part_count};
   sbfi_array_init(&p.parts, allocator, sizeof(queued_part));
   sbfi_array_init(&p.lists, allocator, sizeof(sbfi_planned_chunk));
   write_queue(&p, asset);

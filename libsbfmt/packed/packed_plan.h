@@ -3,7 +3,7 @@
 #define SBFI_PACKED_PLAN_H
 
 #include "base/text.h"
-#include "packed/packed_format.h"
+#include "packed/packed_codec.h"
 #include "sbfmt/model.h"
 
 typedef struct sbfi_planned_chunk {
@@ -20,15 +20,20 @@ typedef struct sbfi_packed_plan {
 
 typedef enum sbfi_planned { SBFI_PLANNED, SBFI_PLANNED_NO_MEMORY, SBFI_PLANNED_TOO_LARGE } sbfi_planned;
 
-/* Plans all chunks, none of them compressed. The asset must stay as it is while the plan lives. Free the plan
- * whatever is returned; too large where a record would pass 4 GiB. */
+/* Plans all chunks, none of them compressed yet; with a coder (may be NULL) they are made to be. The asset
+ * must stay as it is while the plan lives. Free the plan whatever is returned; too large where a record would
+ * pass 4 GiB. */
 sbfi_planned sbfi_packed_plan_make(
-    sbfi_packed_plan *plan, const sbf_asset *asset, const sbf_allocator *allocator);
+    sbfi_packed_plan *plan, const sbf_asset *asset, sbfi_packed_coder *coder, const sbf_allocator *allocator);
 void sbfi_packed_plan_free(sbfi_packed_plan *plan);
 
-/* Compresses what becomes smaller by it with zlib's `level`, each list with the filter that serves it best.
- */
-sbfi_planned sbfi_packed_plan_compress(sbfi_packed_plan *plan, int level);
+/* Compresses what becomes smaller by it, each list with the filter that serves it best. */
+sbfi_planned sbfi_packed_plan_compress(sbfi_packed_plan *plan, sbfi_packed_coder *coder);
+
+/* The filter with which a list of less than SBFI_PACKED_CHUNK_FROM_COMPRESSED bytes would deflate to the
+ * least, the first of equals; none where no filter makes that less than `size`. */
+sbfi_planned sbfi_packed_best_filter(
+    sbfi_packed_coder *coder, const void *items, size_t size, uint32_t stride, sbfi_packed_filter *filter);
 
 static inline sbfi_planned_chunk *sbfi_packed_plan_chunk(const sbfi_packed_plan *plan, size_t number) {
   return (sbfi_planned_chunk *)plan->chunks.at + number;

@@ -112,7 +112,16 @@ static sbf_status read_text(const reading *r, const span *s, const sbfi_field *f
 
 /* --- lists --- */
 
-static sbf_status read_list(const reading *r, const span *s, const sbfi_field *field) {
+static void unfilter_list(
+    sbfi_packed_filter filter, const uint8_t *from, size_t count, uint32_t width, uint8_t *to) {
+  for (size_t done = 0; done < count; done += SBFI_FILTER_BLOCK) {
+    size_t some = count - done < SBFI_FILTER_BLOCK ? count - done : SBFI_FILTER_BLOCK;
+    sbfi_unfilter_block(filter, from + 4 * done, some, width, to, done);
+  }
+}
+
+static sbf_status read_list(
+    const reading *r, const span *s, const sbfi_field *field, sbfi_packed_filter filter) {
   size_t size = s->end - s->at, item_size = sbfi_item_size(field), count = size / item_size;
   if (r->part->without_lists || size == 0) return SBF_OK;
   if (size % item_size)
@@ -122,9 +131,15 @@ static sbf_status read_list(const reading *r, const span *s, const sbfi_field *f
     return fault(r, SBF_CODE_LIST_TOO_LONG, s, field,
         "`%s` has %zu items, more than the limit of %u: raise it if the file is trusted", field->name, count,
         r->reader->options.limits.list_items);
-  void *items = sbfi_arena_copy(r->reader->arena, s->record->at + s->at, count, item_size);
+  const uint8_t *from = s->record->at + s->at;
+  uint8_t *items = sbfi_arena_allocate(r->reader->arena, count, item_size);
   if (!items) return no_memory(r, s, field);
-  if (field->item != SBFI_ITEM_U8) sbfi_scalars_to_host(items, size / 4);
+  if (filter != SBFI_FILTER_NONE) {
+    unfilter_list(filter, from, size / 4, field->width, items);
+  } else {
+    memcpy(items, from, size);
+    if (field->item != SBFI_ITEM_U8) sbfi_scalars_to_host(items, size / 4);
+  }
   sbfi_set_list(r->object, field, items, (uint32_t)count);
   return SBF_OK;
 }
@@ -270,7 +285,10 @@ static sbfi_packed_form form_of(const sbfi_field *field, uint16_t stated) {
   case SBFI_ID:
     return SBFI_FORM_TEXT;
   case SBFI_LIST:
-    return stated == SBFI_FORM_CHUNK ? SBFI_FORM_CHUNK : SBFI_FORM_LIST;
+    if (stated == SBFI_FORM_CHUNK) return SBFI_FORM_CHUNK;
+    if (field->item == SBFI_ITEM_U8) return SBFI_FORM_LIST;
+    return stated == SBFI_FORM_PLANES || stated == SBFI_FORM_DELTA ? (sbfi_packed_form)stated
+                                                                   : SBFI_FORM_LIST;
   case SBFI_ONE:
   case SBFI_OPTIONAL:
     return SBFI_FORM_RECORD;
@@ -292,7 +310,11 @@ static sbf_status read_field(const reading *r, span s, const sbfi_field *field, 
   case SBFI_FORM_TEXT:
     return read_text(r, &s, field);
   case SBFI_FORM_LIST:
-    return read_list(r, &s, field);
+    return read_list(r, &s, field, SBFI_FILTER_NONE);
+  case SBFI_FORM_PLANES:
+    return read_list(r, &s, field, SBFI_FILTER_PLANES);
+  case SBFI_FORM_DELTA:
+    return read_list(r, &s, field, SBFI_FILTER_DELTA);
   case SBFI_FORM_CHUNK:
     return read_chunk_list(r, s, field);
   case SBFI_FORM_RECORD:

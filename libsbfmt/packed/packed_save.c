@@ -88,9 +88,11 @@ static sbf_status make_layout(layout *l, const sbf_asset *asset, const sbf_save_
     const sbf_allocator *allocator, sbf_diagnostic *error) {
   sbf_status status = sbfi_check_saved(asset, error);
   if (status != SBF_OK) return status;
-  sbfi_planned planned = sbfi_packed_plan_make(&l->plan, asset, allocator);
-  if (planned == SBFI_PLANNED && !options->store)
-    planned = sbfi_packed_plan_compress(&l->plan, options->level);
+  sbfi_packed_coder coder;
+  sbfi_packed_coder_init(&coder, allocator, options->level);
+  sbfi_planned planned = sbfi_packed_plan_make(&l->plan, asset, options->store ? NULL : &coder, allocator);
+  if (planned == SBFI_PLANNED && !options->store) planned = sbfi_packed_plan_compress(&l->plan, &coder);
+  sbfi_packed_coder_free(&coder);
   status = diagnose_plan(planned, error);
   if (status == SBF_OK) status = lay_out(l, asset, error);
   if (status != SBF_OK) sbfi_packed_plan_free(&l->plan);

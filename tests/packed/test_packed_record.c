@@ -257,6 +257,40 @@ START_TEST(test_lists)
 }
 END_TEST
 
+/* The example of the specification, short: 1, 0, 1, 1 through either filter. */
+START_TEST(test_filtered_lists)
+{
+  hand_made list = {.size = 16}, r;
+  const uint8_t planes[4] = {1, 0, 1, 1}, delta[4] = {2, 1, 2, 0};
+  memcpy(list.at, planes, 4);
+  for (int form = SBFI_FORM_PLANES; form <= SBFI_FORM_DELTA; form++) {
+    if (form == SBFI_FORM_DELTA) memcpy(list.at, delta, 4);
+    r = with_mask_list((sbfi_packed_form)form, &list);
+    hand_made bones = {.size = 0}, bone = {.size = 0}, with_bones = with_version();
+    put_number(&bones, 2); /* the indices name two bones, which stand before the masks */
+    for (int i = 0; i < 2; i++) {
+      bone.size = 0;
+      put_text(&bone, 1, i ? "b" : "a", 1);
+      put_head(&bone, field_of("bones", "head"), SBFI_FORM_VALUE, 12);
+      for (int k = 0; k < 3; k++) put_number(&bone, 0);
+      put_number(&bones, (uint32_t)bone.size);
+      put(&bones, bone.at, bone.size);
+    }
+    put_field(&with_bones, root_field("bones"), SBFI_FORM_RECORDS, &bones);
+    put(&with_bones, r.at + with_version().size, r.size - with_version().size);
+    sbf_asset *asset;
+    ck_assert_int_eq(load_minor(&with_bones, 0, &asset, NULL), SBF_OK);
+    const uint32_t expected[4] = {1, 0, 1, 1};
+    ck_assert_uint_eq(asset->bone_masks.at[0].bones.count, 4);
+    ck_assert_mem_eq(asset->bone_masks.at[0].bones.at, expected, sizeof expected);
+    sbf_asset_free(asset);
+  }
+  list.size = 15;
+  r = with_mask_list(SBFI_FORM_DELTA, &list);
+  expect(&r, SBF_CODE_PACKED_RECORD, "/sbf/bone_masks/bone_mask[1]/bones");
+}
+END_TEST
+
 /* --- chunks of a real file --- */
 
 static sbf_buffer file;
@@ -359,6 +393,7 @@ int main(void) {
   tcase_add_test(tests, test_bools_are_false_or_true);
   tcase_add_test(tests, test_counts_of_children);
   tcase_add_test(tests, test_lists);
+  tcase_add_test(tests, test_filtered_lists);
   tcase_add_test(tests, test_a_chunk_is_referred_to_once_and_by_its_owner);
   tcase_add_test(tests, test_addresses_of_the_table_must_agree);
   tcase_add_test(tests, test_chunks_that_nothing_refers_to);
