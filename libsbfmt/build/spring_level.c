@@ -144,7 +144,7 @@ static bool make_network(const work *w, double modulus, const float *volumes, co
 static bool make_internal_of_held_core(const work *w, const float *volumes, float *stiffness) {
   uint32_t count = w->internal.count, free_count = 0;
   double modulus = w->body->attributes.young_modulus;
-  double *sums = sbfi_arena_allocate(w->scratch, w->point_count, 3 * sizeof *sums);
+  double *sums = sbfi_arena_allocate(w->scratch, w->point_count, 9 * sizeof *sums);
   sbf_uint2 *free_ends = sbfi_arena_allocate(w->scratch, count, sizeof *free_ends);
   float *free_stiffness = sbfi_arena_allocate(w->scratch, count, sizeof *free_stiffness);
   sbf_vec3 *normals = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *normals);

@@ -1,7 +1,6 @@
+#include "mechanics/symmetric_eigen.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
-
-enum { MOST_RAISED = 16 }; /* four times the frequency */
 
 static double distance(const sbf_vec3 *positions, sbf_uint2 ends) {
   return sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]])));
@@ -35,10 +34,15 @@ void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions, uint32_
   share_volumes(modulus, positions, volumes, ends, spring_count, length_sums, stiffness);
 }
 
-/* What is known of the anchored springs at one free point. */
+/* What is gathered of the anchored springs at one free point. */
 typedef struct anchored {
-  double count, squares, fourths; /* springs, sums of c^2 and c^4 */
+  double count, squares,
+      fourths;      /* springs, sums of c^2 and c^4; then a, b of k = a + b c^2 in the first two */
+  double tensor[6]; /* sum of k n n^T: xx yy zz xy yz zx */
 } anchored;
+
+enum { ANCHORED_NUMBERS = 9, MOST_RAISED = 16 /* four times the frequency */ };
+static const double least_share = 0.05;
 
 /* The free end, or the point count where the spring does not join a held to a free point. */
 static uint32_t free_end(const uint8_t *held, sbf_uint2 ends, uint32_t point_count) {
@@ -46,50 +50,78 @@ static uint32_t free_end(const uint8_t *held, sbf_uint2 ends, uint32_t point_cou
   return held[ends.at[0]] ? ends.at[1] : ends.at[0];
 }
 
+static sbfi_d3 direction(const sbf_vec3 *positions, sbf_uint2 ends) {
+  return sbfi_d3_normal(sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]])));
+}
+
 static double squared_cosine(sbf_vec3 normal, const sbf_vec3 *positions, sbf_uint2 ends) {
-  sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]]));
-  double c = sbfi_d3_dot(sbfi_d3_normal(way), sbfi_d3_of(normal));
+  double c = sbfi_d3_dot(direction(positions, ends), sbfi_d3_of(normal));
   return c * c;
 }
 
 /* a and b of k = a + b c^2 for a trace of 1, 0.6 of it along the axis:
  * n a + S2 b = 1 and S2 a + S4 b = 0.6. Where all springs lean alike only the trace can be met; where the two
  * would have a spring push for a pull, b is cut so that the weakest keeps a tenth of the mean. */
-static void fit(const anchored *at, double *a, double *b) {
+static void fit(anchored *at) {
   double determinant = at->count * at->fourths - at->squares * at->squares, mean = 1 / at->count;
-  *b = determinant > 1e-6 * at->count * at->count ? (0.6 * at->count - at->squares) / determinant : 0;
+  double b = determinant > 1e-6 * at->count * at->count ? (0.6 * at->count - at->squares) / determinant : 0;
   double mean_square = at->squares / at->count;
   /* With the trace kept, k = mean + b (c^2 - mean square), and c^2 lies in 0..1. */
-  double least = *b > 0 ? mean - *b * mean_square : mean + *b * (1 - mean_square);
-  if (least < 0.1 * mean) *b *= 0.9 * mean / (mean - least);
-  *a = mean - *b * mean_square;
-  double along = *a * at->squares + *b * at->fourths, raised = 1;
-  if (at->squares > 0 && along < 0.2) raised = along > 0.2 / MOST_RAISED ? 0.2 / along : MOST_RAISED;
-  *a *= raised;
-  *b *= raised;
+  double least = b > 0 ? mean - b * mean_square : mean + b * (1 - mean_square);
+  if (least < 0.1 * mean) b *= 0.9 * mean / (mean - least);
+  at->count = mean - b * mean_square;
+  at->squares = b;
+}
+
+/* Raises all springs of a point where some direction is next to free. */
+static void raise(anchored *at) {
+  const double *t = at->tensor;
+  double matrix[9] = {t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2]}, vectors[9];
+  sbfi_symmetric_eigen(3, matrix, vectors);
+  double least = matrix[0] < matrix[4] ? matrix[0] : matrix[4];
+  if (matrix[8] < least) least = matrix[8];
+  double wanted = least_share / SBF_STIFFNESS_ANCHOR, raised = 1; /* of a trace of 1 */
+  if (least < wanted) raised = least > wanted / MOST_RAISED ? wanted / least : MOST_RAISED;
+  if (least < 1e-6) raised = 1; /* no spring leads there: none can help */
+  at->count *= raised;
+  at->squares *= raised;
 }
 
 void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_vec3 *normals,
     const sbf_vec3 *positions, uint32_t point_count, const float *volumes, const uint8_t *held,
     const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness) {
-  for (size_t i = 0; i < 3 * (size_t)point_count; i++) scratch[i] = 0;
+  _Static_assert(sizeof(anchored) == ANCHORED_NUMBERS * sizeof(double), "the scratch memory's shape");
+  anchored *gathered = (anchored *)scratch;
+  for (uint32_t i = 0; i < point_count; i++) gathered[i] = (anchored){0};
   for (uint32_t s = 0; s < spring_count; s++) {
     uint32_t point = free_end(held, ends[s], point_count);
     if (point == point_count || !(distance(positions, ends[s]) > 0)) continue;
-    double square = squared_cosine(normals[point], positions, ends[s]), *sums = scratch + 3 * (size_t)point;
-    sums[0] += 1;
-    sums[1] += square;
-    sums[2] += square * square;
+    double square = squared_cosine(normals[point], positions, ends[s]);
+    gathered[point].count += 1;
+    gathered[point].squares += square;
+    gathered[point].fourths += square * square;
   }
+  for (uint32_t i = 0; i < point_count; i++)
+    if (gathered[i].count > 0) fit(&gathered[i]);
+  for (uint32_t s = 0; s < spring_count; s++) {
+    uint32_t point = free_end(held, ends[s], point_count);
+    if (point == point_count) continue;
+    sbfi_d3 n = direction(positions, ends[s]);
+    anchored *at = &gathered[point];
+    double k = at->count + at->squares * squared_cosine(normals[point], positions, ends[s]);
+    const double products[6] = {n.x * n.x, n.y * n.y, n.z * n.z, n.x * n.y, n.y * n.z, n.z * n.x};
+    for (int i = 0; i < 6; i++) at->tensor[i] += k * products[i];
+  }
+  for (uint32_t i = 0; i < point_count; i++)
+    if (gathered[i].count > 0) raise(&gathered[i]);
   for (uint32_t s = 0; s < spring_count; s++) {
     uint32_t point = free_end(held, ends[s], point_count);
     stiffness[s] = 0;
     if (point == point_count || !(distance(positions, ends[s]) > 0) || !(depth > 0)) continue;
-    const double *sums = scratch + 3 * (size_t)point;
-    anchored at = {sums[0], sums[1], sums[2]};
-    double a, b, trace = SBF_STIFFNESS_ANCHOR * modulus * volumes[point] / (depth * depth);
-    fit(&at, &a, &b);
-    stiffness[s] = (float)(trace * (a + b * squared_cosine(normals[point], positions, ends[s])));
+    double trace = SBF_STIFFNESS_ANCHOR * modulus * volumes[point] / (depth * depth);
+    const anchored *at = &gathered[point];
+    stiffness[s] =
+        (float)(trace * (at->count + at->squares * squared_cosine(normals[point], positions, ends[s])));
   }
 }
 

@@ -79,7 +79,7 @@ START_TEST(anchors_give_the_pyramid)
   const uint8_t held[] = {0, 1, 1, 1, 1, 1, 0};
   const float share[] = {0.25f, 0, 0, 0, 0, 0, 1};
   const sbf_vec3 up[7] = {{0, 0, 1}};
-  double scratch[21], along = 0, trace = 0, k = 1000 * 0.25 / (0.5 * 0.5); /* E V / d^2 */
+  double scratch[63], along = 0, trace = 0, k = 1000 * 0.25 / (0.5 * 0.5); /* E V / d^2 */
   sbf_stiffness_of_anchors(1000, 0.5, up, at, 7, share, held, springs, 7, scratch, stiffness);
   for (int s = 0; s < 5; s++) {
     trace += stiffness[s];
@@ -94,34 +94,46 @@ END_TEST
 
 START_TEST(anchors_that_cannot_fit_keep_the_trace)
 {
+  /* Along the axis by three springs, across by two: 0.6 and 0.4 of the trace of 2 is what each should have,
+   * with k = a + b c^2 that is a third of 1.2 and a half of 0.8. */
   const sbf_vec3 at[] = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0}};
-  const sbf_uint2 across[] = {{{1, 0}}, {{2, 0}}}, both[] = {{{3, 0}}, {{3, 0}}, {{3, 0}}, {{1, 0}}};
+  const sbf_uint2 springs[] = {{{3, 0}}, {{3, 0}}, {{3, 0}}, {{1, 0}}, {{2, 0}}};
   const uint8_t held[] = {0, 1, 1, 1};
   const float share[] = {1, 0, 0, 0};
   const sbf_vec3 up[4] = {{0, 0, 1}};
-  double scratch[12];
-  sbf_stiffness_of_anchors(1, 1, up, at, 4, share, held, across, 2, scratch, stiffness);
-  ck_assert_float_eq_tol(stiffness[0], 1, 1e-5f);
-  ck_assert_float_eq_tol(stiffness[1], 1, 1e-5f);
-  sbf_stiffness_of_anchors(1, 1, up, at, 4, share, held, both, 4, scratch, stiffness);
-  ck_assert_float_eq_tol(stiffness[0] + stiffness[1] + stiffness[2] + stiffness[3], 2, 1e-5f);
-  ck_assert_float_eq_tol(3 * stiffness[0], 1.2f, 1e-5f);
+  double scratch[36];
+  sbf_stiffness_of_anchors(1, 1, up, at, 4, share, held, springs, 5, scratch, stiffness);
+  ck_assert_float_eq_tol(stiffness[0], 0.4f, 1e-5f);
+  ck_assert_float_eq_tol(stiffness[3], 0.4f, 1e-5f);
+  ck_assert_float_eq_tol(stiffness[4], 0.4f, 1e-5f);
+  /* One along and two across, all across the axis asked for: the trace stays, evenly shared. */
+  const sbf_vec3 none[4] = {{0, 0, 0}};
+  sbf_stiffness_of_anchors(1, 1, none, at, 4, share, held, springs + 2, 3, scratch, stiffness);
+  for (int s = 0; s < 3; s++) ck_assert_float_eq_tol(stiffness[s], 2 / 3.0f, 1e-5f);
 }
 END_TEST
 
-START_TEST(springs_that_lean_are_raised)
+START_TEST(no_direction_is_left_free)
 {
-  /* Two springs at 80 degrees to the normal: c^2 = 0.0302 in place of 0.6. */
-  const sbf_vec3 at[] = {{0, 0, 0}, {0.98480775f, 0, -0.17364818f}, {-0.98480775f, 0, -0.17364818f}};
-  const sbf_vec3 up[3] = {{0, 0, 1}}, level[3] = {{0, 0, 0}};
-  const sbf_uint2 springs[] = {{{1, 0}}, {{2, 0}}};
-  const uint8_t held[] = {0, 1, 1};
-  const float share[] = {1, 0, 0};
-  double scratch[9];
-  sbf_stiffness_of_anchors(1, 1, up, at, 3, share, held, springs, 2, scratch, stiffness);
-  ck_assert_float_eq_tol(stiffness[0], 0.2f / 0.030153690f, 1e-4f);
-  sbf_stiffness_of_anchors(1, 1, level, at, 3, share, held, springs, 2, scratch, stiffness);
-  ck_assert_float_eq_tol(stiffness[0], 1, 1e-4f);
+  /* Three springs in a plane that leans out of it by a little: across it they are too soft. */
+  const float h = 0.8660254f, z = 0.2f;
+  const sbf_vec3 at[] = {{0, 0, 0}, {1, 0, -z}, {-0.5f, h, -z}, {-0.5f, -h, -z}},
+                 flat[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+  const sbf_vec3 any[4] = {{0, 0, 0}};
+  const sbf_uint2 springs[] = {{{1, 0}}, {{2, 0}}, {{3, 0}}};
+  const uint8_t held[] = {0, 1, 1, 1};
+  const float share[] = {1, 0, 0, 0};
+  double scratch[36];
+  sbf_stiffness_of_anchors(1, 1, any, at, 4, share, held, springs, 3, scratch, stiffness);
+  /* Of a trace of 2, across the plane z^2 / (1 + z^2) = 0.0769: enough. */
+  ck_assert_float_eq_tol(stiffness[0], 2 / 3.0f, 1e-5f);
+  sbf_vec3 lower[4];
+  for (int i = 0; i < 4; i++) lower[i] = (sbf_vec3){at[i].x, at[i].y, at[i].z / 2};
+  /* 2 * 0.0099 falls short of 0.05. */
+  sbf_stiffness_of_anchors(1, 1, any, lower, 4, share, held, springs, 3, scratch, stiffness);
+  ck_assert_float_eq_tol(3 * stiffness[0] * 0.01f / 1.01f, 0.05f, 1e-4f);
+  sbf_stiffness_of_anchors(1, 1, any, flat, 4, share, held, springs, 3, scratch, stiffness);
+  ck_assert_float_eq_tol(stiffness[0], 2 / 3.0f, 1e-5f); /* nothing would help */
 }
 END_TEST
 
@@ -166,7 +178,7 @@ static Suite *suite(void) {
   tcase_add_test(c, no_length_no_stiffness);
   tcase_add_test(c, anchors_give_the_pyramid);
   tcase_add_test(c, anchors_that_cannot_fit_keep_the_trace);
-  tcase_add_test(c, springs_that_lean_are_raised);
+  tcase_add_test(c, no_direction_is_left_free);
   tcase_add_test(c, levels_fill_in_what_is_not_stated);
   suite_add_tcase(s, c);
   return s;

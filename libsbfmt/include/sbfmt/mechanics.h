@@ -109,10 +109,11 @@ SBF_API void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions,
  * across, matter with lambda = mu holds V_i E (0.6 u^2 + 0.2 w^2) / d^2: a stiffness of 1.2 E V_i / d^2 along
  * and 0.4 E V_i / d^2 across, trace SBF_STIFFNESS_ANCHOR E V_i / d^2. That trace is shared among the point's
  * springs as k = a + b c^2, c the cosine between spring and axis, so that the stiffness along the axis comes
- * out as well where the directions allow (none falls below a tenth of the mean). Where they are all nearly
- * across, as at the rim of a flat body, all are raised together until the stiffness along the axis is the
- * 0.4 that it should be across, but sixteen times at most. The pyramids take a third of the 6 E V above;
- * springs over the surface get the rest, SBF_STIFFNESS_MEMBRANE, by sbf_stiffness_of_network.
+ * out as well where the directions allow (none falls below a tenth of the mean). Where some
+ * direction is next to free, as across a thin rim, all the point's springs are raised together until the
+ * stiffness in the softest one is an eighth of what it should be across, but sixteen times at most. The
+ * pyramids take a third of the 6 E V above; springs over the surface get the rest, SBF_STIFFNESS_MEMBRANE, by
+ * sbf_stiffness_of_network.
  *
  * `modulus` is E in Pa; `normals` (point_count) need be right at free points only, where (0, 0, 0) shares the
  * trace evenly; `held` (point_count) marks the anchors. Springs that do not join a held to a free point get
