@@ -1,0 +1,146 @@
+"""The built program, called as a user calls it, and what its tests share.
+
+The program is that of the build folder SBFMT_BUILD_DIR, or SBFMT_PROGRAM itself; shared data lie in ../shared/data
+beside the checkout, or in SBFMT_SHARED_DATA. Where a whole test file has nothing to do it exits with 77, which ctest
+takes as skipped.
+"""
+
+import collections
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir))
+SHARED = os.environ.get("SBFMT_SHARED_DATA", os.path.join(ROOT, os.pardir, "shared", "data"))
+EXAMPLE = os.path.join(ROOT, "examples", "lizard")
+SKIPPED = 77
+
+Result = collections.namedtuple("Result", "status out err")
+
+
+def find_program():
+    named = os.environ.get("SBFMT_PROGRAM")
+    if named:
+        return named if os.access(named, os.X_OK) else None
+    build = os.environ.get("SBFMT_BUILD_DIR", os.path.join(ROOT, "build", "release"))
+    path = os.path.join(build, "tools", "sbfmt")
+    return path if os.access(path, os.X_OK) else None
+
+
+PROGRAM = find_program()
+
+
+def shared(*parts):
+    return os.path.join(SHARED, *parts)
+
+
+def call(*arguments, timeout=300, environment=None, output=subprocess.PIPE):
+    """Runs `sbfmt ARGUMENTS`. A negative status is the signal that ended it."""
+    done = subprocess.run([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=output,
+                          stderr=subprocess.PIPE, timeout=timeout, env={**os.environ, **(environment or {})},
+                          check=False)
+    return Result(done.returncode, (done.stdout or b"").decode("utf-8"), done.stderr.decode("utf-8", "replace"))
+
+
+def read_bytes(path):
+    with open(path, "rb") as stream:
+        return stream.read()
+
+
+def read_text(path):
+    with open(path, encoding="utf-8") as stream:
+        return stream.read()
+
+
+def write_bytes(path, content):
+    with open(path, "wb") as stream:
+        stream.write(content)
+    return path
+
+
+needs_lizard = unittest.skipUnless(os.path.exists(shared("lizard", "liz.obj")),
+                                   "the lizard of ../shared/data/lizard is not there")
+needs_bad_files = unittest.skipUnless(os.path.isdir(shared("bad")), "the files of ../shared/data/bad are not there")
+
+
+class ProgramTest(unittest.TestCase):
+    """Tests with a folder of their class, for files made once, and one of their own."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.class_folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.class_folder.cleanup)
+
+    def setUp(self):
+        own = tempfile.TemporaryDirectory()
+        self.addCleanup(own.cleanup)
+        self.folder = own.name
+
+    @classmethod
+    def made(cls, name):
+        return os.path.join(cls.class_folder.name, name)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def good(self, *arguments, **options):
+        result = call(*arguments, **options)
+        self.assertEqual(result.status, 0, f"sbfmt {' '.join(map(str, arguments))}\n{result.err}")
+        return result
+
+    def json_of(self, *arguments, status=0, **options):
+        """What `--format json` prints: one object and nothing else."""
+        result = call(*arguments, "--format", "json", **options)
+        self.assertEqual(result.status, status, result.err)
+        report = json.loads(result.out)
+        self.assertIsInstance(report, dict)
+        return report
+
+    def fails(self, status, *arguments, **options):
+        """A failure that says what is wrong, and is no crash. Returns the message."""
+        result = call(*arguments, **options)
+        self.assertEqual(result.status, status, f"{result.out}\n{result.err}")
+        self.assertIn("error: ", result.err)
+        return result.err
+
+    def assert_empty_folder(self, folder=None, but=()):
+        self.assertEqual(sorted(set(os.listdir(folder or self.folder)) - set(but)), [])
+
+
+def convert_once(folder, name, *arguments):
+    """A file made for a whole class; a failure is the class's."""
+    out = os.path.join(folder, name)
+    if not os.path.exists(out):
+        result = call("convert", *arguments, "-o", out)
+        if result.status != 0:
+            raise AssertionError(f"convert {' '.join(arguments)}: {result.err}")
+    return out
+
+
+def liz(folder):
+    """The lizard of the thesis: OBJ for the sections, FBX for the rig."""
+    return convert_once(folder, "liz.sbf", shared("lizard", "liz.obj"), "--rig", shared("lizard", "liz.fbx"))
+
+
+def lizart(folder):
+    return convert_once(folder, "lizart.sbf", shared("lizard", "lizart.glb"))
+
+
+def example(folder):
+    """Our own lizard, which is always there."""
+    return convert_once(folder, "example.sbf", os.path.join(EXAMPLE, "lizard.obj"), "--rig",
+                        os.path.join(EXAMPLE, "lizard.glb"))
+
+
+def main():
+    if not PROGRAM:
+        print("skipped: the program sbfmt is not built (SBFMT_BUILD_DIR says where to look)")
+        sys.exit(SKIPPED)
+    program = unittest.main(exit=False, verbosity=2)
+    result = program.result
+    if result.testsRun and len(result.skipped) == result.testsRun and result.wasSuccessful():
+        sys.exit(SKIPPED)
+    sys.exit(not result.wasSuccessful())

@@ -1,0 +1,227 @@
+"""Input that is at fault, and calls that are: a message that says what and where, the right exit status, no file left
+behind, no crash of ours even when a reader of others dies."""
+
+import os
+import unittest
+
+from sbfmt_program import (ProgramTest, ROOT, call, example, main, needs_bad_files, needs_lizard, read_bytes, shared,
+                           write_bytes)
+
+SAMPLES = os.path.join(ROOT, "spec", "samples", "valid")
+BAD_INPUT, FAILED = 1, 2
+
+
+@needs_bad_files
+class FilesThatBreakOthers(ProgramTest):
+    CODES = {"empty.obj": "IMPORT_EMPTY", "malformed.obj": "IMPORT_INDEX", "malformed2.obj": "IMPORT_POLYGON",
+             "empty_init_from.dae": "IMPORT_CRASHED", "md5_overflow_vertex.md5mesh": "IMPORT_CRASHED",
+             "position_bad_count.dae": "IMPORT_EMPTY"}
+
+    def test_every_file_is_refused_with_its_code(self):
+        for name, code in self.CODES.items():
+            with self.subTest(name):
+                message = self.fails(BAD_INPUT, "convert", shared("bad", name), "-o", self.path("out.sbf"))
+                self.assertIn(f"[{code}]", message)
+                self.assertIn(name, message)
+                self.assert_empty_folder()
+
+    def test_the_table_is_complete(self):
+        self.assertEqual(set(os.listdir(shared("bad"))) - {"README.md"}, set(self.CODES))
+
+    def test_an_old_file_stands_after_a_failure(self):
+        out = write_bytes(self.path("out.sbf"), b"what was there")
+        self.fails(BAD_INPUT, "convert", shared("bad", "empty_init_from.dae"), "-o", out)
+        self.assertEqual(read_bytes(out), b"what was there")
+        self.assert_empty_folder(but=["out.sbf"])
+
+    def test_several_inputs_end_with_the_worst_status_and_the_good_ones_are_written(self):
+        good = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
+        self.fails(BAD_INPUT, "convert", shared("bad", "malformed.obj"), good, shared("bad", "empty.obj"), "--out-dir",
+                   self.folder)
+        self.assert_empty_folder(but=["lizard.sbf"])
+
+
+class Calls(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.file = example(cls.class_folder.name)
+
+    def test_a_missing_file_is_the_machines_fault(self):
+        absent = self.path("absent.sbf")
+        for arguments in (("info", absent), ("validate", absent), ("pack", absent, "-o", self.path("x.sbfz")),
+                          ("unpack", absent, "-o", self.path("x.sbf")), ("build", absent, "-o", self.path("x.sbf")),
+                          ("run", absent), ("diff", absent, self.file),
+                          ("convert", self.path("absent.obj"), "-o", self.path("x.sbf")),
+                          ("convert", self.path("absent.fbx"), "-o", self.path("x.sbf"))):
+            with self.subTest(arguments):
+                self.assertIn("absent", self.fails(FAILED, *arguments))
+        self.assert_empty_folder()
+
+    def test_an_output_that_cannot_be_written(self):
+        nowhere = self.path("no such folder/out.sbf")
+        for arguments in (("pack", self.file, "-o", nowhere), ("unpack", self.file, "-o", nowhere),
+                          ("build", self.file, "-o", nowhere), ("run", self.file, "--seconds", "0", "--cache", nowhere),
+                          ("run", self.file, "--seconds", "0", "--pose", nowhere),
+                          ("convert", os.path.join(ROOT, "examples", "lizard", "lizard.glb"), "-o", nowhere)):
+            with self.subTest(arguments):
+                self.fails(FAILED, *arguments)
+        self.assert_empty_folder()
+
+    def test_a_folder_in_the_place_of_the_output(self):
+        os.mkdir(self.path("out.sbf"))
+        self.fails(FAILED, "unpack", self.file, "-o", self.path("out.sbf"))
+        self.assertEqual(os.listdir(self.path("out.sbf")), [])
+        self.assert_empty_folder(but=["out.sbf"])
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full here")
+    def test_a_full_standard_output(self):
+        with open("/dev/full", "wb") as full:
+            result = call("info", self.file, "--format", "json", output=full)
+        self.assertEqual(result.status, FAILED)
+        self.assertIn("error", result.err)
+
+    def test_calls_that_are_wrong(self):
+        for arguments in ((), ("frobnicate",), ("info",), ("info", self.file, self.file), ("info", "--no-such"),
+                          ("info", self.file, "--format", "xml"), ("pack", self.file), ("pack", self.file, "-o"),
+                          ("pack", self.file, "-o", self.path("x"), "--level", "10"), ("diff", self.file),
+                          ("convert", self.file), ("convert", self.file, "-o", "a", "--out-dir", "b"),
+                          ("convert", self.file, "-o", self.path("x"), "--unit", "0"),
+                          ("convert", self.file, "-o", self.path("x"), "--up", "x"),
+                          ("build", self.file, "-o", self.path("x"), "--springs", "rubber"),
+                          ("run", self.file, "--seconds", "-1"), ("run", self.file, "--seconds", "nan"),
+                          ("run", self.file, "--drive", "0.5"), ("run", self.file, "--drive", "0.5,0.2,1"),
+                          ("run", self.file, "--ground", "mud"), ("run", self.file, "--ground", "slope:60"),
+                          ("run", self.file, "--scheme", "magic"), ("run", self.file, "--threads", "0"),
+                          ("run", self.file, "--cache", self.path("x.pc2"), "--of", "hair")):
+            with self.subTest(arguments):
+                result = call(*arguments)
+                self.assertEqual(result.status, FAILED, result.err)
+                self.assertTrue(result.err or "Usage" in result.out)
+        self.assert_empty_folder()
+
+    def test_help_is_printed(self):
+        for arguments in (("--help",), ("--version",), ("info", "--help"), ("convert", "--help")):
+            self.assertTrue(self.good(*arguments).out.startswith("sbfmt"), arguments)
+
+    def test_every_verb_of_the_contract_is_there(self):
+        text = self.good("--help").out
+        for verb in ("convert", "build", "validate", "info", "pack", "unpack", "diff", "run", "render"):
+            self.assertIn(f"\n  {verb} ", text)
+
+    def test_a_missing_import_helper_is_named(self):
+        message = self.fails(FAILED, "convert", os.path.join(ROOT, "examples", "lizard", "lizard.glb"), "-o",
+                             self.path("x.sbf"), environment={"SBFMT_IMPORT_HELPER": self.path("absent")})
+        self.assertIn("IMPORT_HELPER_MISSING", message)
+
+
+class DamagedBundles(ProgramTest):
+    """A bundle cut short anywhere, or with a byte changed, is refused or read whole: nothing in between."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.xml = os.path.join(SAMPLES, "jelly.sbf")
+        cls.packed = cls.made("jelly.sbfz")
+        result = call("pack", cls.xml, "-o", cls.packed)
+        assert result.status == 0, result.err
+
+    def check_cut(self, path, lengths):
+        content = read_bytes(path)
+        for length in lengths(len(content)):
+            cut = write_bytes(self.path("cut"), content[:length])
+            result = call("info", cut)
+            self.assertEqual(result.status, BAD_INPUT, f"{length} of {len(content)} bytes: {result.err}")
+            self.assertIn("error: ", result.err)
+
+    def test_xml_cut_short(self):
+        self.check_cut(self.xml, lambda size: [*range(0, 60), *range(60, size - 8, 131), *range(size - 8, size - 1)])
+
+    def test_packed_cut_short(self):
+        self.check_cut(self.packed, lambda size: [*range(0, 130, 3), *range(130, size, 61), size - 1])
+
+    def test_packed_with_a_byte_changed(self):
+        content = bytearray(read_bytes(self.packed))
+        for place in [*range(0, 64), *range(64, len(content), 47)]:
+            content[place] ^= 0x5A
+            changed = write_bytes(self.path("changed"), bytes(content))
+            content[place] ^= 0x5A
+            result = call("validate", changed)
+            self.assertIn(result.status, (0, BAD_INPUT), f"byte {place}: {result.err}")
+            if result.status == 0:  # a gap between chunks, which no checksum covers
+                self.good("unpack", changed, "-o", self.path("whole.sbf"))
+                self.assertEqual(read_bytes(self.path("whole.sbf")), read_bytes(self.xml))
+
+    def test_what_is_no_bundle(self):
+        for content in (b"", b"\0", b"hello", b"<html></html>", b"\x89PNG\r\n\x1a\n", b"<?xml version='1.0'?>",
+                        b"\xff\xfe<\0s\0b\0f\0", b"<sbf/>", b"<sbf version='9.0'/>", b"<sbf version='1.0'>",
+                        b"<!DOCTYPE sbf [<!ENTITY a 'b'>]><sbf version='1.0'/>"):
+            path = write_bytes(self.path("x.sbf"), content)
+            self.fails(BAD_INPUT, "info", path)
+            self.assertFalse(self.json_of("validate", path, status=BAD_INPUT)["valid"])
+
+    def test_a_fault_is_given_with_its_line_and_path(self):
+        text = read_bytes(self.xml).replace(b'length="0.5"', b'length="long"')
+        line = text[:text.index(b'length="long"')].count(b"\n") + 1
+        report = self.json_of("validate", write_bytes(self.path("x.sbf"), text), status=BAD_INPUT)
+        error, = [m for m in report["messages"] if m["severity"] == "error"]
+        self.assertEqual((error["code"], error["line"]), ("XML_BAD_VALUE", line))
+        self.assertEqual(error["path"], "/sbf/skeleton/bone[2]/@length")
+
+    def test_a_required_extension_is_named(self):
+        text = b"<sbf version='1.0'><extensions><extension name='ACME_fur' required='true'/></extensions></sbf>"
+        message = self.fails(BAD_INPUT, "info", write_bytes(self.path("x.sbf"), text))
+        self.assertIn("ACME_fur", message)
+        self.assertIn("EXTENSION_REQUIRED", message)
+
+    def test_an_optional_extension_is_kept(self):
+        text = b"<sbf version='1.0'><extensions><extension name='ACME_fur'><data> a &lt;b/>\n\n\tc &amp; d \xc3\xa9" \
+               b"</data></extension></extensions></sbf>"
+        source = write_bytes(self.path("x.sbf"), text)
+        self.good("pack", source, "-o", self.path("x.sbfz"))
+        self.good("unpack", self.path("x.sbfz"), "-o", self.path("y.sbf"))
+        self.assertIn(b"<data> a &lt;b/&gt;\n\n\tc &amp; d \xc3\xa9</data>", read_bytes(self.path("y.sbf")))
+
+    def test_a_newer_minor_version_is_read_without_what_it_adds(self):
+        text = b"<sbf version='1.7' mood='calm'><skeleton><bone id='a' head='0 0 0' weather='fine'><fur/></bone>" \
+               b"</skeleton><fog density='2'><x>1</x></fog></sbf>"
+        self.good("unpack", write_bytes(self.path("x.sbf"), text), "-o", self.path("y.sbf"))
+        self.assertEqual(read_bytes(self.path("y.sbf")).split(b"\n", 1)[1],
+                         b'<sbf version="1.0">\n  <skeleton>\n    <bone id="a" head="0 0 0"/>\n  </skeleton>\n</sbf>\n')
+
+
+@needs_lizard
+class HalfACharacter(ProgramTest):
+    def test_a_mesh_without_a_rig_is_one_unpinned_body_each(self):
+        out = self.path("x.sbf")
+        result = self.good("convert", shared("lizard", "liz.obj"), "-o", out)
+        self.assertIn("IMPORT_NO_RIG", result.err)
+        info = self.json_of("info", out)
+        self.assertEqual((len(info["bones"]), len(info["sections"])), (0, 18))
+        self.assertEqual({s["bone"] for s in info["sections"]}, {None})
+        self.assertEqual(info["pins"], 0)
+
+    def test_a_rig_that_holds_no_skeleton(self):
+        message = self.fails(BAD_INPUT, "convert", shared("lizard", "liz.obj"), "--rig", shared("lizard", "liz.obj"),
+                             "-o", self.path("x.sbf"))
+        self.assertIn("IMPORT_NO_BONES", message)
+        self.assert_empty_folder()
+
+    @unittest.skipUnless(os.path.exists(shared("mocap", "cmu_01_01.bvh")), "no motion capture")
+    def test_a_skeleton_without_a_mesh(self):
+        out = self.path("x.sbf")
+        result = self.good("convert", shared("mocap", "cmu_01_01.bvh"), "-o", out)
+        self.assertIn("warning", result.err)
+        info = self.json_of("info", out)
+        self.assertEqual((info["render_meshes"], info["sections"]), ([], []))
+        self.assertGreaterEqual(len(info["bones"]), 31)
+
+    def test_a_missing_material_library_is_a_warning(self):
+        source = write_bytes(self.path("x.obj"), b"mtllib gone.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 1 0\n"
+                             b"usemtl skin\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n")
+        result = self.good("convert", source, "-o", self.path("x.sbf"))
+        self.assertIn("IMPORT_MATERIALS_MISSING", result.err)
+
+
+if __name__ == "__main__":
+    main()

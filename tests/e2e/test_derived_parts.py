@@ -1,0 +1,96 @@
+"""Derived parts remember their source: the hash is the one that the specification describes, a changed source makes
+them stale, a build makes them anew and leaves what is authored alone."""
+
+import re
+import xml.etree.ElementTree as ElementTree
+
+from canonical_source import source_hash, source_text
+from sbfmt_program import ProgramTest, example, liz, lizart, main, needs_lizard, read_bytes, read_text, write_bytes
+
+
+def stated_hash(path):
+    return ElementTree.parse(path).getroot().find("derivations/derivation").get("source_hash")
+
+
+class Derived(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.file = example(cls.class_folder.name)
+
+    def codes_of(self, path):
+        return {m["code"] for m in self.json_of("validate", path)["messages"]}
+
+    def changed(self, pattern, replacement):
+        text, count = re.subn(pattern, replacement, read_text(self.file), count=1)
+        self.assertEqual(count, 1)
+        return write_bytes(self.path("changed.sbf"), text.encode())
+
+    def test_the_hash_is_that_of_the_specification(self):
+        self.assertEqual(stated_hash(self.file), source_hash(self.file))
+
+    def test_what_a_build_reads_is_enough_for_it(self):
+        # Slots for materials are no part of it, so what names them has to go for the rest to be a file.
+        text = re.sub(r" *<polygon_materials>[^<]*</polygon_materials>\n", "", source_text(self.file))
+        source, built = write_bytes(self.path("source.sbf"), text.encode()), self.path("built.sbf")
+        self.good("unpack", source, "-o", self.path("again.sbf"))
+        self.assertEqual(read_bytes(self.path("again.sbf")), read_bytes(source), "canonical as the C library writes it")
+        self.good("build", source, "-o", built)
+        here, there = (self.json_of("info", path) for path in (built, self.file))
+        for key in ("springs", "pins", "embedded_vertices", "rigid_bodies", "mass", "sections"):
+            self.assertEqual(here[key], there[key], key)
+
+    def test_a_fresh_file_is_not_stale(self):
+        self.assertNotIn("DERIVED_STALE", self.codes_of(self.file))
+
+    def test_a_changed_source_makes_derived_parts_stale(self):
+        for pattern, replacement in ((r'(<bone id="[^"]*" name="[^"]*"[^>]* length=")', r"\g<1>1"),
+                                     (r'(<soft_body id="[^"]*" name=")', r"\g<1>another "),
+                                     (r"(<polygon_mesh target=\"surface\">\s*<positions>\s*)", r"\g<1>-")):
+            self.assertIn("DERIVED_STALE", self.codes_of(self.changed(pattern, replacement)), pattern)
+
+    def test_what_a_build_does_not_read_may_change(self):
+        for pattern, replacement in ((r'<asset title="', '<asset title="another '),
+                                     (r'step_height="[^"]*"', 'step_height="0.0625"'),
+                                     (r'roughness="[^"]*"', 'roughness="0.0625"')):
+            self.assertNotIn("DERIVED_STALE", self.codes_of(self.changed(pattern, replacement)), pattern)
+
+    def test_a_changed_derived_part_does_not(self):
+        text = read_text(self.file)
+        place = text.index("<stiffness>")
+        end = text.index("</stiffness>", place)
+        body = re.sub(r"\d+\.\d+", "1.5", text[place:end], count=1)
+        self.assertNotEqual(body, text[place:end])
+        other = write_bytes(self.path("other.sbf"), (text[:place] + body + text[end:]).encode())
+        self.assertNotIn("DERIVED_STALE", self.codes_of(other))
+        self.good("build", other, "-o", self.path("built.sbf"))
+        self.assertEqual(read_bytes(self.path("built.sbf")), read_bytes(self.file))
+
+    def test_an_authored_level_is_kept(self):
+        text = read_text(self.file)
+        authored = re.sub(r'<level name="([^"]*)" derived="[^"]*"', r'<level name="\1"', text, count=1)
+        self.assertNotEqual(authored, text)
+        source, out = write_bytes(self.path("a.sbf"), authored.encode()), self.path("b.sbf")
+        self.good("build", source, "-o", out)
+        root = ElementTree.parse(out).getroot()
+        self.assertIsNone(root.find("soft_body/level").get("derived"))
+        self.assertEqual([b.find("level").get("derived") is None for b in root.findall("soft_body")].count(True), 1)
+
+    def test_settings_are_recorded(self):
+        out = self.path("none.sbf")
+        self.good("build", self.file, "-o", out, "--springs", "none")
+        settings = ElementTree.parse(out).getroot().find("derivations/derivation").get("settings").split(" ")
+        self.assertIn("interior=none", settings)
+        self.assertEqual(settings, sorted(settings))
+        self.assertEqual(self.json_of("info", out)["springs"]["internal"], 0)
+
+
+@needs_lizard
+class Lizards(ProgramTest):
+    def test_the_hash_of_every_lizard(self):
+        for path in (liz(self.folder), lizart(self.folder)):
+            self.assertEqual(stated_hash(path), source_hash(path))
+
+
+if __name__ == "__main__":
+    main()
