@@ -41,6 +41,14 @@ box3 draw_scene_bounds(const draw_scene *scene) {
   return scene->bounds;
 }
 
+void draw_scene_frame(const draw_scene *scene, draw_camera *camera, float aspect, float yaw, float pitch) {
+  const sbf_vec3 *points = scene->positions.at;
+  if (scene->positions.count > 0 && scene->positions.count <= UINT32_MAX)
+    draw_camera_frame_points(camera, points, (uint32_t)scene->positions.count, aspect, yaw, pitch);
+  else
+    draw_camera_frame(camera, &scene->bounds, aspect, yaw, pitch);
+}
+
 void *draw_scene_list_push(draw_scene *scene, draw_scene_list *list, size_t count, size_t item_size) {
   if (count > SIZE_MAX / 4 / item_size - list->count) {
     scene->failed = true;

@@ -4,7 +4,7 @@
 #ifndef RENDER_DRAW_SCENE_H
 #define RENDER_DRAW_SCENE_H
 
-#include "render/draw_math.h"
+#include "render/camera.h"
 #include "render/palette.h"
 
 typedef struct draw_scene draw_scene;
@@ -84,6 +84,10 @@ void draw_scene_set_ground(draw_scene *scene, const sbf_vec3 *positions, const s
 typedef float (*draw_height)(void *user, float x, float z);
 void draw_scene_set_terrain(
     draw_scene *scene, draw_height height, void *user, float x, float z, float radius);
+
+/* Frames all that was added so far but the ground, closer than a box about it could: see draw_camera_frame.
+ */
+void draw_scene_frame(const draw_scene *scene, draw_camera *camera, float aspect, float yaw, float pitch);
 
 box3 draw_scene_bounds(
     const draw_scene *scene); /* of all that was added but the ground; empty where nothing was */

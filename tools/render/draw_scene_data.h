@@ -2,7 +2,6 @@
 #ifndef RENDER_DRAW_SCENE_DATA_H
 #define RENDER_DRAW_SCENE_DATA_H
 
-#include "render/camera.h"
 #include "render/draw_scene.h"
 
 /* A list that grows and is never given back before the scene is. */

@@ -6,6 +6,7 @@
 
 #include "render/draw_scene_data.h"
 #include "render/fault.h"
+#include "render/layers.h"
 #include "render/light_maps.h"
 #include "render/programs.h"
 
@@ -31,8 +32,7 @@ struct draw_painter {
   mesh_buffers meshes, ground;
   GLuint line_array, line_buffer, line_indices, empty_array, frame_buffer;
   size_t line_room; /* lines that line_indices has corners for */
-  GLuint veil_texture,
-      veil_frame; /* depths of what is seen through, the drawing surface's size; made at need */
+  layer_set layers;
   frame_block frame;
   GLsizei ground_indices; /* in this frame */
 };
@@ -112,8 +112,7 @@ void draw_painter_destroy(draw_painter *painter) {
       painter->meshes.array, painter->ground.array, painter->line_array, painter->empty_array};
   gl->DeleteBuffers((GLsizei)(sizeof buffers / sizeof *buffers), buffers); /* 0 is ignored */
   gl->DeleteVertexArrays((GLsizei)(sizeof arrays / sizeof *arrays), arrays);
-  gl->DeleteTextures(1, &painter->veil_texture);
-  gl->DeleteFramebuffers(1, &painter->veil_frame);
+  layers_destroy(&painter->layers, gl);
   light_maps_destroy(&painter->maps, gl);
   programs_destroy(&painter->programs, gl);
   free(painter);
@@ -248,57 +247,37 @@ static void paint_maps(
   paint_ground_light(painter, gl);
 }
 
-/* How deep the nearest surface lies that is seen through: lines behind it fade by the way light has inside.
- */
-static sbf_status paint_veil_depths(draw_painter *painter, const gl_api *gl, const draw_scene *scene,
-    uint32_t scale, sbf_diagnostic *diagnostic) {
-  GLsizei width = (GLsizei)(draw_canvas_width(painter->canvas) * scale);
-  GLsizei height = (GLsizei)(draw_canvas_height(painter->canvas) * scale);
+static void draw_solid(const gl_api *gl, const draw_scene *scene) {
   const draw_scene_part *parts = scene->parts.at;
-  gl->ActiveTexture(GL_TEXTURE0 + UNIT_VEIL_DEPTHS);
-  if (!painter->veil_texture &&
-      !light_maps_make_depth(gl, width, height, &painter->veil_texture, &painter->veil_frame))
-    return fault_set(diagnostic, SBF_CODE_OPENGL_FAILED, "this OpenGL cannot draw depths of %dx%d pixels",
-        (int)width, (int)height);
-  begin_depth_map(gl, painter->veil_frame, width, height, 1);
-  gl->Enable(GL_DEPTH_TEST);
-  gl->DepthFunc(GL_LESS);
-  gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
-  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, painter->frame.clip_from_world.at);
-  gl->BindVertexArray(painter->meshes.array);
   for (size_t i = 0; i < scene->parts.count; i++)
-    if (parts[i].transparency > 0) draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
-  bind_texture(gl, UNIT_VEIL_DEPTHS, painter->veil_texture, 0);
-  return SBF_OK;
+    if (parts[i].transparency <= 0) draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
 }
 
-/* The nearest layer of a surface that is seen through: its depth first, then its colour where that depth is,
- * so that its own far side does not pile up in it. */
-static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw_scene_part *part) {
+/* Depth alone, a hair behind where it is: colour drawn afterwards passes in front of it, and what lies
+ * farther back is never lit, which without a graphics card is most of the work. */
+static void begin_depth_first(const draw_painter *painter, const gl_api *gl) {
   gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
   gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, painter->frame.clip_from_world.at);
   gl->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   gl->DepthMask(GL_TRUE);
   gl->DepthFunc(GL_LESS);
-  gl->Enable(GL_POLYGON_OFFSET_FILL); /* a hair behind, lest rounding hide the colour */
+  gl->Enable(GL_POLYGON_OFFSET_FILL);
   gl->PolygonOffset(1, 2);
-  draw_indices(gl, part->first_index, (GLsizei)part->index_count);
+}
+
+static void end_depth_first(const gl_api *gl) {
   gl->Disable(GL_POLYGON_OFFSET_FILL);
-  gl->UseProgram(painter->programs.at[PROGRAM_VEIL]);
-  gl->Uniform1f(painter->programs.opacity, 1 - part->transparency);
   gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl->DepthMask(GL_FALSE);
-  draw_indices(gl, part->first_index, (GLsizei)part->index_count);
 }
 
 static void paint_solid(const draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
-  const draw_scene_part *parts = scene->parts.at;
   gl->Enable(GL_DEPTH_TEST);
-  gl->DepthFunc(GL_LESS);
-  gl->UseProgram(painter->programs.at[PROGRAM_MESH]);
   gl->BindVertexArray(painter->meshes.array);
-  for (size_t i = 0; i < scene->parts.count; i++)
-    if (parts[i].transparency <= 0) draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
+  begin_depth_first(painter, gl);
+  draw_solid(gl, scene);
+  end_depth_first(gl);
+  gl->UseProgram(painter->programs.at[PROGRAM_MESH]);
+  draw_solid(gl, scene);
   /* After what stands before them, so that what is hidden is not painted in vain. */
   gl->UseProgram(painter->programs.at[PROGRAM_GROUND]);
   gl->BindVertexArray(painter->ground.array);
@@ -307,6 +286,18 @@ static void paint_solid(const draw_painter *painter, const gl_api *gl, const dra
   gl->UseProgram(painter->programs.at[PROGRAM_BACKDROP]);
   gl->BindVertexArray(painter->empty_array);
   gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/* The nearest layer of a surface that is seen through: depth first, so that its own far side does not pile up
+ * in it. */
+static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw_scene_part *part) {
+  begin_depth_first(painter, gl);
+  draw_indices(gl, part->first_index, (GLsizei)part->index_count);
+  end_depth_first(gl);
+  gl->UseProgram(painter->programs.at[PROGRAM_VEIL]);
+  gl->Uniform1f(painter->programs.opacity, 1 - part->transparency);
+  gl->DepthMask(GL_FALSE);
+  draw_indices(gl, part->first_index, (GLsizei)part->index_count);
 }
 
 /* The far sides of what is seen through, faintly: they give the inside a back wall. */
@@ -344,8 +335,8 @@ static bool grow_line_indices(draw_painter *painter, const gl_api *gl, size_t li
 
 /* Each line goes to OpenGL four times, a corner of its rectangle each; instancing would say it once, but
  * costs llvmpipe a call of its own for every line. */
-static void paint_lines(
-    draw_painter *painter, const gl_api *gl, draw_scene *scene, const draw_scene_list *list, float murk) {
+static void paint_lines(draw_painter *painter, const gl_api *gl, draw_scene *scene,
+    const draw_scene_list *list, float murk, float thinness) {
   const draw_line *lines = list->at;
   scene->line_corners.count = 0;
   if (list->count == 0) return;
@@ -360,7 +351,45 @@ static void paint_lines(
   upload(gl, GL_ARRAY_BUFFER, painter->line_buffer, corners, 4 * list->count * sizeof *corners);
   gl->UseProgram(painter->programs.at[PROGRAM_LINE]);
   gl->Uniform1f(painter->programs.murk, murk);
+  gl->Uniform1f(painter->programs.thinness, thinness);
   draw_indices(gl, 0, (GLsizei)(6 * list->count));
+}
+
+/* How deep the nearest surface lies that is seen through: lines behind it fade by the way light has inside.
+ */
+static void paint_veil_depths(const draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
+  const draw_scene_part *parts = scene->parts.at;
+  begin_depth_map(gl, painter->layers.veil_frame, painter->layers.width, painter->layers.height, 1);
+  for (size_t i = 0; i < scene->parts.count; i++)
+    if (parts[i].transparency > 0) draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
+  bind_texture(gl, UNIT_VEIL_DEPTHS, painter->layers.veil_texture, 0);
+}
+
+static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene *scene) {
+  gl->Enable(GL_DEPTH_TEST);
+  gl->DepthMask(GL_TRUE);
+  gl->DepthFunc(GL_LESS);
+  gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
+  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, painter->frame.clip_from_world.at);
+  gl->BindVertexArray(painter->meshes.array);
+  if (scene->sorted_parts.count) paint_veil_depths(painter, gl, scene);
+  begin_depth_map(gl, painter->layers.line_frame, painter->layers.width, painter->layers.height, 1);
+  gl->ClearColor(0, 0, 0, 0);
+  gl->Clear(GL_COLOR_BUFFER_BIT);
+  gl->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_solid(gl, scene);
+  gl->BindVertexArray(painter->ground.array);
+  draw_indices(gl, 0, painter->ground_indices);
+  gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl->DepthMask(GL_FALSE);
+  gl->Enable(GL_BLEND);
+  gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  /* Twice the lines on the same body leave half the room between them. */
+  float thinness = fminf(fmaxf(sqrtf(4000 / (float)scene->sorted_lines.count), 0.5f), 1);
+  paint_lines(painter, gl, scene, &scene->sorted_lines, scene->sorted_parts.count ? 1.0f : 0.0f, thinness);
+  gl->Disable(GL_BLEND);
+  gl->DepthMask(GL_TRUE);
+  bind_texture(gl, UNIT_LINE_LAYER, painter->layers.line_texture, 0);
 }
 
 static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scene *scene) {
@@ -369,15 +398,22 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   gl->DepthMask(GL_FALSE);
   gl->DepthFunc(GL_LESS);
   paint_back_walls(painter, gl, scene);
-  paint_lines(painter, gl, scene, &scene->sorted_lines, scene->sorted_parts.count ? 1.0f : 0.0f);
-  gl->UseProgram(painter->programs.at[PROGRAM_VEIL]);
+  if (scene->sorted_lines.count) {
+    gl->Disable(GL_DEPTH_TEST);
+    gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl->UseProgram(painter->programs.at[PROGRAM_LAYER]);
+    gl->BindVertexArray(painter->empty_array);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl->Enable(GL_DEPTH_TEST);
+  }
   gl->BindVertexArray(painter->meshes.array);
   const uint32_t *order = scene->sorted_parts.at;
   const draw_scene_part *parts = scene->parts.at;
   for (size_t i = 0; i < scene->sorted_parts.count; i++) paint_veil(painter, gl, &parts[order[i]]);
   gl->DepthMask(GL_TRUE);
   gl->Disable(GL_DEPTH_TEST);
-  paint_lines(painter, gl, scene, &scene->placed_overlay, 0);
+  paint_lines(painter, gl, scene, &scene->placed_overlay, 0, 1);
   gl->Disable(GL_BLEND);
 }
 
@@ -421,7 +457,7 @@ static void fill_frame(draw_painter *painter, const draw_camera *camera, const l
   set4(frame->ground_map, v3(place->least_x, place->least_z, 1 / place->ground_side),
       place->ground_side / GROUND_MAP_SIDE);
   set4(frame->heights, v3(place->low, place->high, 0), 0);
-  set4(frame->depth, v3(0.5f * projection.at[14], 0.5f * projection.at[10] - 0.5f, 0.09f * size), 0);
+  set4(frame->depth, v3(0.5f * projection.at[14], 0.5f * projection.at[10] - 0.5f, 0.07f * size), 0);
   /* A light 14 degrees across: the penumbra is that share of the way from what throws the shadow. */
   float texel = 1.0f / SHADOW_MAP_SIDE, growth = 0.125f * place->shadow_depth / place->shadow_side;
   set4(frame->shadow, v3(0.028f, growth, 1.5f * texel), 2.0f * texel * place->shadow_side);
@@ -472,9 +508,12 @@ sbf_status draw_painter_paint(
   gl->BufferData(GL_UNIFORM_BUFFER, sizeof painter->frame, &painter->frame, GL_STREAM_DRAW);
   gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, painter->frame_buffer);
   paint_maps(painter, gl, scene, &place);
-  if (scene->sorted_parts.count && scene->sorted_lines.count) {
-    sbf_status status = paint_veil_depths(painter, gl, scene, scale, diagnostic);
+  if (scene->sorted_lines.count) {
+    GLsizei width = (GLsizei)(draw_canvas_width(painter->canvas) * scale);
+    GLsizei height = (GLsizei)(draw_canvas_height(painter->canvas) * scale);
+    sbf_status status = layers_make(&painter->layers, gl, width, height, diagnostic);
     if (status != SBF_OK) return status;
+    paint_line_layer(painter, gl, scene);
   }
 
   draw_canvas_bind(painter->canvas);

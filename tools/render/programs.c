@@ -47,7 +47,7 @@ static GLuint link(const gl_api *gl, const char *vertex_text, const char *const 
 
 static void bind_inputs(const gl_api *gl, GLuint program) {
   static const char *const samplers[] = {"shadow_map", "shadow_depths", "ground_light", "ground_heights",
-      "lowest_heights", "open_sky", "veil_depths"};
+      "lowest_heights", "open_sky", "veil_depths", "line_layer"};
   gl->UseProgram(program);
   for (GLint unit = 0; unit < (GLint)(sizeof samplers / sizeof *samplers); unit++) {
     GLint place = gl->GetUniformLocation(program, samplers[unit]);
@@ -69,13 +69,14 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
       [PROGRAM_SOFTEN] = {shader_backdrop_vert, {"", ""}, shader_soften_frag},
       [PROGRAM_GROUND] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 0\n", shader_light_glsl},
           shader_ground_frag},
-      [PROGRAM_MESH] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 12\n", shader_light_glsl},
+      [PROGRAM_MESH] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 8\n", shader_light_glsl},
           shader_mesh_frag},
       [PROGRAM_VEIL] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 0\n", shader_light_glsl},
           shader_mesh_frag},
       [PROGRAM_LINE] = {shader_line_vert, {"", ""}, shader_line_frag},
+      [PROGRAM_LAYER] = {shader_backdrop_vert, {"", ""}, shader_layer_frag},
   };
-  *programs = (program_set){{0}, -1, -1, -1};
+  *programs = (program_set){{0}, -1, -1, -1, -1};
   for (int i = 0; i < PROGRAM_COUNT; i++) {
     programs->at[i] = link(gl, texts[i].vertex, texts[i].included, texts[i].fragment, diagnostic);
     if (!programs->at[i]) {
@@ -86,6 +87,7 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
   }
   programs->opacity = gl->GetUniformLocation(programs->at[PROGRAM_VEIL], "opacity");
   programs->murk = gl->GetUniformLocation(programs->at[PROGRAM_LINE], "murk");
+  programs->thinness = gl->GetUniformLocation(programs->at[PROGRAM_LINE], "thinness");
   programs->map_from_world = gl->GetUniformLocation(programs->at[PROGRAM_DEPTH], "map_from_world");
   return SBF_OK;
 }
@@ -93,5 +95,5 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
 void programs_destroy(program_set *programs, const gl_api *gl) {
   for (int i = 0; i < PROGRAM_COUNT; i++)
     if (programs->at[i]) gl->DeleteProgram(programs->at[i]);
-  *programs = (program_set){{0}, -1, -1, -1};
+  *programs = (program_set){{0}, -1, -1, -1, -1};
 }

@@ -15,6 +15,7 @@ typedef enum program_name {
   PROGRAM_MESH,
   PROGRAM_VEIL, /* a mesh that is seen through */
   PROGRAM_LINE,
+  PROGRAM_LAYER,
   PROGRAM_COUNT
 } program_name;
 
@@ -26,14 +27,15 @@ enum {
   UNIT_GROUND_HEIGHTS,
   UNIT_LOWEST_HEIGHTS,
   UNIT_OPEN_SKY,
-  UNIT_VEIL_DEPTHS
+  UNIT_VEIL_DEPTHS,
+  UNIT_LINE_LAYER
 };
 
 typedef struct program_set {
   GLuint at[PROGRAM_COUNT];
   GLint opacity;        /* uniform of PROGRAM_VEIL */
   GLint map_from_world; /* uniform of PROGRAM_DEPTH */
-  GLint murk;           /* uniform of PROGRAM_LINE */
+  GLint murk, thinness; /* uniforms of PROGRAM_LINE */
 } program_set;
 
 /* On failure what was made is destroyed again. The uniform block Frame is bound to point 0. */

@@ -14,6 +14,7 @@ extern const char shader_soften_frag[];
 extern const char shader_mesh_vert[];
 extern const char shader_mesh_frag[];
 extern const char shader_ground_frag[];
+extern const char shader_layer_frag[];
 extern const char shader_line_vert[];
 extern const char shader_line_frag[];
 

@@ -2,7 +2,6 @@ flat in vec4 ends;
 flat in float radius;
 flat in float strength;
 in vec4 colour;
-in float away;
 
 uniform sampler2D veil_depths; // of the nearest surface that is seen through; 1: none
 uniform float murk;            // 0: veils are clear
@@ -14,13 +13,12 @@ void main() {
   float place = clamp(dot(at, run) / max(dot(run, run), 1e-8), 0.0, 1.0);
   float off = length(at - run * place);
   float covered = clamp(radius + 0.5 - off, 0.0, 1.0) * strength;
-  // Thick ones look round; far ones step back into the air.
+  // Thick ones look round.
   float round_off = off / max(radius, 1.0);
   vec3 seen = colour.rgb * (1.0 - 0.35 * smoothstep(1.2, 3.0, radius) * round_off * round_off);
-  seen = mix(seen, vec3(0.86, 0.87, 0.88), clamp(1.6 * away, 0.0, 0.55));
   // What lies deep inside is dimmer than what is near the skin: so near and far sides are told apart.
   float veil = texelFetch(veil_depths, ivec2(gl_FragCoord.xy), 0).r;
   float inside = veil < 1.0 ? max(1.0 / gl_FragCoord.w - depth.x / (depth.y + veil), 0.0) : 0.0;
-  float clear = mix(1.0, exp(-inside / depth.z), murk);
-  shown = vec4(seen, colour.a * covered * clear);
+  float dimmed = 1.0 / (1.0 + murk * inside / depth.z);
+  shown = vec4(seen, colour.a * covered * dimmed * dimmed);
 }

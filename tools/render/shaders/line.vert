@@ -5,11 +5,12 @@ layout(location = 2) in vec4 from_colour;
 layout(location = 3) in vec4 to_colour;
 layout(location = 4) in float width;
 
+uniform float thinness; // of all lines, where there are very many
+
 flat out vec4 ends;      // both ends, pixels
 flat out float radius;   // half the width, pixels
 flat out float strength; // below 1 for lines that would be thinner than can be drawn
 out vec4 colour;
-out float away; // from what is looked at, in its distance; below 0: nearer
 
 const float least_radius = 0.45;
 
@@ -32,13 +33,15 @@ void main() {
   bool at_end = (gl_VertexID & 1) == 1;
   float side = (gl_VertexID & 2) == 2 ? 1.0 : -1.0;
   vec4 middle = 0.5 * (a + b);
-  float wanted = 0.5 * width * screen.y / 720.0 * clamp(eye.w / middle.w, 0.4, 2.5);
+  float wanted = 0.5 * width * thinness * screen.y / 720.0 * clamp(eye.w / middle.w, 0.4, 2.5);
   radius = max(wanted, least_radius);
   strength = wanted / radius;
   ends = vec4(a_pixel, b_pixel);
-  colour = at_end ? to_colour : from_colour;
   vec4 corner = at_end ? b : a;
-  away = corner.w / eye.w - 1.0;
+  // Far ones step back into the air.
+  float away = clamp(1.6 * (corner.w / eye.w - 1.0), 0.0, 0.55);
+  colour = at_end ? to_colour : from_colour;
+  colour.rgb = mix(colour.rgb, vec3(0.86, 0.87, 0.88), away);
   float reach = radius + 0.75;
   vec2 shift = (at_end ? ahead : -ahead) * reach + vec2(-ahead.y, ahead.x) * side * reach;
   gl_Position = corner + vec4(shift / half_screen * corner.w, 0.0, 0.0);
