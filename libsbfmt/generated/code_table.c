@@ -77,6 +77,8 @@ static const sbf_code_info table[] = {
   {"SUBSTEPS_TOO_FEW", SBF_CODE_SUBSTEPS_TOO_FEW, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An explicit scheme with so few substeps gains energy and bursts: use at least the number named."},
   {"UNIT_LOOKS_WRONG", SBF_CODE_UNIT_LOOKS_WRONG, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The asset is as large as a house or as small as a grain: its unit looks wrong."},
   {"DERIVED_STALE", SBF_CODE_DERIVED_STALE, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Derived parts were made from another source: run sbfmt build again."},
+  {"LEVEL_NOT_SIMULATED", SBF_CODE_LEVEL_NOT_SIMULATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The runtime does not step this elastic model: build the file with springs."},
+  {"TOO_STIFF", SBF_CODE_TOO_STIFF, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A body is too stiff and light to be stepped explicitly: give it more mass, less stiffness or fewer points."},
   {"RIG_SECTION_GUESSED", SBF_CODE_RIG_SECTION_GUESSED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A section was given to the nearest bone, because no name said where it belongs."},
   {"RIG_UNWEIGHTED_POINTS", SBF_CODE_RIG_UNWEIGHTED_POINTS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Points of a skinned mesh have no weights: paint them in the source."},
   {"RIG_NO_SECTIONS", SBF_CODE_RIG_NO_SECTIONS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Every mesh is skinned: there is no section of its own for any bone."},

@@ -63,14 +63,13 @@ static void add_areas(const sbf_soft_body *body, const sbf_level *level, float *
 }
 
 void sbf_level_shares(const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *shares) {
-  uint32_t count = level->positions.count, with_area = 0, free_count = 0;
+  uint32_t count = level->positions.count, with_area = 0;
   for (uint32_t i = 0; i < count; i++) shares[i] = 0;
   add_areas(body, level, shares);
   double all = 0, sum = 0;
   for (uint32_t i = 0; i < count; i++) {
     all += shares[i];
     with_area += shares[i] > 0;
-    free_count += !(held && held[i]);
   }
   float mean = with_area ? (float)(all / with_area) : 1;
   for (uint32_t i = 0; i < count; i++) {

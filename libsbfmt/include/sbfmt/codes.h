@@ -87,6 +87,8 @@ typedef enum sbf_code {
   SBF_CODE_SUBSTEPS_TOO_FEW = 603, /* An explicit scheme with so few substeps gains energy and bursts: use at least the number named. */
   SBF_CODE_UNIT_LOOKS_WRONG = 604, /* The asset is as large as a house or as small as a grain: its unit looks wrong. */
   SBF_CODE_DERIVED_STALE = 605, /* Derived parts were made from another source: run sbfmt build again. */
+  SBF_CODE_LEVEL_NOT_SIMULATED = 641, /* The runtime does not step this elastic model: build the file with springs. */
+  SBF_CODE_TOO_STIFF = 642, /* A body is too stiff and light to be stepped explicitly: give it more mass, less stiffness or fewer points. */
   SBF_CODE_RIG_SECTION_GUESSED = 701, /* A section was given to the nearest bone, because no name said where it belongs. */
   SBF_CODE_RIG_UNWEIGHTED_POINTS = 702, /* Points of a skinned mesh have no weights: paint them in the source. */
   SBF_CODE_RIG_NO_SECTIONS = 703, /* Every mesh is skinned: there is no section of its own for any bone. */

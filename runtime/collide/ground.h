@@ -1,0 +1,13 @@
+/* Asking a ground, built in or the host's. */
+#ifndef SBRI_GROUND_H
+#define SBRI_GROUND_H
+
+#include "sbrun/sbrun.h"
+
+/* Height in m at (x, z), world space; `normal` (may be NULL) receives the unit normal. */
+double sbri_ground_height(const sbr_ground *ground, double x, double z, sbf_vec3 *normal);
+
+/* Whether it is one of the built-in flat ones; `height` receives where. */
+bool sbri_ground_is_flat(const sbr_ground *ground, double *height);
+
+#endif

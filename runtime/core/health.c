@@ -1,0 +1,67 @@
+#include "core/skin.h"
+#include "core/world.h"
+
+static float greatest_strain(const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
+  float greatest = 0;
+  for (uint32_t i = body->first_spring; i < body->spring_end; i++) {
+    const sbfi_spring *s = &island->springs[i];
+    if (!(s->rest_length_m > 0)) continue; /* a goal's */
+    const sbri_point *a = &positions[s->a], *b = &positions[s->b];
+    float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
+    float strain = fabsf(sbfi_spring_strain(s, sqrtf(x * x + y * y + z * z)));
+    greatest = strain > greatest ? strain : greatest;
+  }
+  return greatest;
+}
+
+static bool is_finite(const sbri_body *body, const sbri_point *positions, const float *velocities) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    float sum =
+        positions[slot].x + positions[slot].y + positions[slot].z + v[0] + v[SBRI_BLOCK] + v[2 * SBRI_BLOCK];
+    if (!(sum - sum == 0)) return false;
+  }
+  return true;
+}
+
+static void find_energies(const sbr_world *world, const sbri_character *c, const sbri_body *body,
+    const sbri_point *positions, const float *velocities, sbr_body_health *health) {
+  const sbri_island *island = &c->model->islands[body->island];
+  sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
+  double height = sbri_head(c)->origin.y / (double)c->scale, kinetic = 0, potential = 0;
+  double s = c->scale,
+         joules = s * s * s * s; /* masses s^3, speeds squared s; stiffnesses s^2, lengths squared s^2 */
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    double x = v[0], y = v[SBRI_BLOCK], z = v[2 * SBRI_BLOCK], m = island->masses[slot];
+    const sbri_point *p = &positions[slot];
+    kinetic += 0.5 * m * (x * x + y * y + z * z);
+    potential -= m * (double)island->gravity_scales[slot] *
+                 ((double)g.x * p->x + (double)g.y * ((double)p->y + height) + (double)g.z * p->z);
+  }
+  health->kinetic_j = island->scheme == SBF_SCHEME_RELAXATION ? 0 : kinetic * joules;
+  health->potential_j = potential * joules;
+  health->elastic_j = joules * sbfi_springs_energy(island->springs + body->first_spring,
+                                   body->spring_end - body->first_spring, &positions->x, 4);
+}
+
+sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id character, uint32_t soft_body) {
+  sbr_body_health health = {.volume_ratio = 1, .finite = true};
+  const sbri_character *c = sbri_character_of(world, character);
+  if (!c || soft_body >= c->model->asset->soft_bodies.count) return (sbr_body_health){0};
+  const sbri_body *body = &c->model->bodies[soft_body];
+  if (!body->level) return health;
+  const sbri_island *island = &c->model->islands[body->island];
+  const sbri_point *positions = sbri_positions(c) + island->first_slot;
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  health.recoveries = sbri_island_states(c)[body->island].recoveries;
+  health.finite = is_finite(body, positions, velocities);
+  health.max_strain = greatest_strain(island, body, positions);
+  if (body->rest_volume_m3 > 0) {
+    double volume = sbri_surface_volume(c, body, sbri_positions(c));
+    health.volume_ratio = (float)(volume / body->rest_volume_m3);
+    health.inverted = !(volume > 0);
+  }
+  find_energies(world, c, body, positions, velocities, &health);
+  return health;
+}

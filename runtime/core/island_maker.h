@@ -1,0 +1,45 @@
+/* What the making of an island passes from step to step. */
+#ifndef SBRI_ISLAND_MAKER_H
+#define SBRI_ISLAND_MAKER_H
+
+#include "core/model.h"
+
+/* A pin of weight below 1: a spring of no rest length to a held slot of its own. */
+typedef struct sbri_goal {
+  uint32_t body, point, frame; /* body: place in the island */
+  float stiffness, damping;
+  sbf_vec3 place;
+} sbri_goal;
+
+typedef struct sbri_island_maker {
+  sbr_model *model;
+  sbri_island *island;
+  bool free;           /* without pins */
+  sbfi_arena scratch;  /* until the island is made */
+  uint32_t **frames;   /* of each body, (points): what holds each point */
+  sbf_vec3 **places;   /* and where */
+  float **masses;      /* (points) kg */
+  sbfi_array goals;    /* sbri_goal */
+  uint32_t first_goal; /* slot of the first goal's far end */
+  sbfi_array springs;  /* sbfi_spring */
+} sbri_island_maker;
+
+static inline void *sbri_scratch(sbri_island_maker *m, size_t count, size_t size) {
+  return sbfi_arena_allocate(&m->scratch, count ? count : 1, size);
+}
+static inline void *sbri_keep(sbri_island_maker *m, size_t count, size_t size) {
+  return sbfi_arena_allocate(&m->model->arena, count ? count : 1, size);
+}
+static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t place) {
+  return &m->model->bodies[m->island->bodies[place]];
+}
+
+/* Young's modulus times the edge of the cube of matter that a point stands for: the stiffness of springs that
+ * state none and have no length to derive it from. */
+float sbri_natural_stiffness(const sbf_soft_body *body, float mass);
+
+/* Each false where memory runs out. */
+bool sbri_island_springs(sbri_island_maker *m);     /* lists all springs, then lays out the cells */
+bool sbri_island_frequencies(sbri_island_maker *m); /* and with them the damping */
+
+#endif

@@ -1,0 +1,215 @@
+/* The springs of an island: listed once each, then laid out for the eight points of a block at a time. */
+#include <string.h>
+
+#include "core/island_maker.h"
+
+static float rest_distance(const sbri_island *island, uint32_t a, uint32_t b) {
+  const sbri_point *p = &island->rest[a], *q = &island->rest[b];
+  float x = q->x - p->x, y = q->y - p->y, z = q->z - p->z;
+  return sqrtf(x * x + y * y + z * z);
+}
+
+static bool add(sbri_island_maker *m, sbfi_spring spring) {
+  uint32_t free_count = m->island->free_count;
+  bool inert = (spring.a >= free_count && spring.b >= free_count) || spring.a == spring.b ||
+               !(spring.stiffness_n_m > 0 || spring.damping_ns_m > 0);
+  return inert || sbfi_array_append(&m->springs, &spring, 1);
+}
+
+/* ---- Listing ---- */
+
+static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
+  const sbf_level *level = body->level;
+  size_t total = 0;
+  for (uint32_t s = 0; s < level->springs.count; s++) total += level->springs.at[s].ends.count;
+  float *stiffness = sbri_scratch(m, total, sizeof *stiffness);
+  float *volumes = sbri_scratch(m, level->positions.count, sizeof *volumes);
+  double *sums = sbri_scratch(m, level->positions.count, sizeof *sums);
+  if (!stiffness || !volumes || !sums) return false;
+  sbf_level_stiffness(body->source, level, volumes, sums, stiffness);
+  for (uint32_t s = 0; s < level->springs.count; s++) {
+    const sbf_spring_set *set = &level->springs.at[s];
+    for (uint32_t i = 0; i < set->ends.count; i++) {
+      const uint32_t *ends = set->ends.at[i].at;
+      uint32_t a = body->slot_from_point[ends[0]], b = body->slot_from_point[ends[1]];
+      float k = *stiffness++;
+      float rest = set->rest_lengths.count ? set->rest_lengths.at[i] : rest_distance(m->island, a, b);
+      float damping = set->damping.count ? set->damping.at[set->damping.count == 1 ? 0 : i]
+                                         : body->source->attributes.stiffness_damping * k;
+      if (!add(m, (sbfi_spring){a, b, k, rest, damping})) return false;
+    }
+  }
+  return true;
+}
+
+static bool add_goals(sbri_island_maker *m, uint32_t place) {
+  const sbri_goal *goals = m->goals.at;
+  for (uint32_t g = 0; g < m->goals.count; g++) {
+    if (goals[g].body != place) continue;
+    uint32_t slot = sbri_maker_body(m, place)->slot_from_point[goals[g].point];
+    if (!add(m, (sbfi_spring){slot, m->first_goal + g, goals[g].stiffness, 0, goals[g].damping}))
+      return false;
+  }
+  return true;
+}
+
+static bool add_cross_springs(sbri_island_maker *m, const sbf_cross_springs *cross) {
+  const sbri_body *a = &m->model->bodies[cross->body_a], *b = &m->model->bodies[cross->body_b];
+  const sbri_body *softer = b->source->attributes.young_modulus < a->source->attributes.young_modulus ? b : a;
+  for (uint32_t i = 0; i < cross->ends.count; i++) {
+    uint32_t at_a = a->slot_from_point[cross->ends.at[i].at[0]],
+             at_b = b->slot_from_point[cross->ends.at[i].at[1]];
+    uint32_t free_count = m->island->free_count;
+    float mass_a = at_a < free_count ? m->island->masses[at_a] : 0;
+    float mass_b = at_b < free_count ? m->island->masses[at_b] : 0;
+    float lighter = mass_a > 0 && (mass_a < mass_b || !(mass_b > 0)) ? mass_a : mass_b;
+    float k = cross->stiffness.count ? cross->stiffness.at[cross->stiffness.count == 1 ? 0 : i]
+                                     : sbri_natural_stiffness(softer->source, lighter);
+    float rest = cross->rest_lengths.count ? cross->rest_lengths.at[i] : rest_distance(m->island, at_a, at_b);
+    float damping = cross->damping.count ? cross->damping.at[cross->damping.count == 1 ? 0 : i]
+                                         : softer->source->attributes.stiffness_damping * k;
+    if (!add(m, (sbfi_spring){at_a, at_b, k, rest, damping})) return false;
+  }
+  return true;
+}
+
+static bool list_springs(sbri_island_maker *m) {
+  sbri_island *island = m->island;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    body->first_spring = (uint32_t)m->springs.count;
+    if (!add_sets(m, body) || !add_goals(m, b)) return false;
+    body->spring_end = (uint32_t)m->springs.count;
+  }
+  const sbf_asset *asset = m->model->asset;
+  for (uint32_t i = 0; i < asset->cross_springs.count; i++) {
+    const sbf_cross_springs *cross = &asset->cross_springs.at[i];
+    bool here = &m->model->islands[m->model->bodies[cross->body_a].island] == island;
+    if (here && sbri_cross_springs_act(m->model, cross) && !add_cross_springs(m, cross)) return false;
+  }
+  island->spring_count = (uint32_t)m->springs.count;
+  sbfi_spring *springs = sbri_keep(m, island->spring_count, sizeof *springs);
+  if (!springs) return false;
+  if (island->spring_count) memcpy(springs, m->springs.at, island->spring_count * sizeof *springs);
+  island->springs = springs;
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    const sbfi_spring *s = &springs[i];
+    double beta = s->stiffness_n_m > 0 ? (double)s->damping_ns_m / s->stiffness_n_m : 0;
+    if (beta > island->stiffness_damping_s) island->stiffness_damping_s = beta;
+    float length = rest_distance(island, s->a, s->b);
+    float stretch = length > 0 ? 1 - s->rest_length_m / length : 0;
+    if (s->rest_length_m > 0 && stretch > island->rest_stretch) island->rest_stretch = stretch;
+  }
+  return true;
+}
+
+/* ---- Cells ---- */
+
+static void put(const sbri_island *island, sbri_spring_cell *cells, float *damping, uint32_t *used,
+    const sbfi_spring *s, uint32_t slot, uint32_t other) {
+  if (slot >= island->free_count) return;
+  uint32_t lane = slot % SBRI_BLOCK, place = island->cell_begins[slot / SBRI_BLOCK] + used[slot]++;
+  cells[place].others[lane] = other;
+  cells[place].stiffness[lane] = s->stiffness_n_m;
+  cells[place].pull[lane] = s->stiffness_n_m * s->rest_length_m;
+  if (damping) damping[place * SBRI_BLOCK + lane] = s->damping_ns_m;
+}
+
+static bool make_cells(sbri_island_maker *m) {
+  sbri_island *island = m->island;
+  uint32_t block_count = island->free_count / SBRI_BLOCK;
+  uint32_t *begins = sbri_keep(m, (size_t)block_count + 1, sizeof *begins);
+  uint32_t *used = sbri_scratch(m, island->slot_count, sizeof *used);
+  if (!begins || !used) return false;
+  bool damped = false;
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    used[island->springs[i].a]++, used[island->springs[i].b]++;
+    damped = damped || island->springs[i].damping_ns_m > 0;
+  }
+  for (uint32_t block = 0; block < block_count; block++) {
+    uint32_t most = 0;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
+      if (used[block * SBRI_BLOCK + lane] > most) most = used[block * SBRI_BLOCK + lane];
+    begins[block + 1] = begins[block] + most;
+  }
+  uint32_t cell_count = begins[block_count];
+  sbri_spring_cell *cells = sbri_keep(m, cell_count, sizeof *cells);
+  float *damping = damped ? sbri_keep(m, (size_t)cell_count * SBRI_BLOCK, sizeof *damping) : NULL;
+  if (!cells || (damped && !damping)) return false;
+  for (uint32_t block = 0; block < block_count; block++)
+    for (uint32_t c = begins[block]; c < begins[block + 1]; c++)
+      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) cells[c].others[lane] = block * SBRI_BLOCK + lane;
+  island->cell_begins = begins, island->cells = cells, island->cell_damping = damping;
+  memset(used, 0, island->slot_count * sizeof *used);
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    const sbfi_spring *s = &island->springs[i];
+    put(island, cells, damping, used, s, s->a, s->b);
+    put(island, cells, damping, used, s, s->b, s->a);
+  }
+  return true;
+}
+
+bool sbri_island_springs(sbri_island_maker *m) {
+  return list_springs(m) && make_cells(m);
+}
+
+/* ---- Frequencies ---- */
+
+enum { POWER_ITERATIONS = 40 };
+
+/* Power iteration comes from below; what it may still lack. */
+static const double POWER_MARGIN = 1.03;
+
+static void find_damping(sbri_island_maker *m, sbf_spring_network network, float *masses, double *scratch) {
+  const sbf_environment *environment = &m->model->asset->environment;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    const sbf_attributes *is = &body->source->attributes;
+    memset(masses, 0, network.point_count * sizeof *masses);
+    memcpy(masses + body->slot_begin, m->island->masses + body->slot_begin,
+        (body->slot_end - body->slot_begin) * sizeof *masses);
+    sbf_spring_network own = network;
+    own.ends += body->first_spring;
+    own.stiffness += body->first_spring;
+    own.spring_count = body->spring_end - body->first_spring;
+    double lowest = is->damping_ratio > 0 ? sbf_network_lowest(&own, true, scratch) : 0;
+    body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
+    body->media_friction_1_s = is->media_friction + environment->media_friction;
+    body->friction = is->friction;
+    body->restitution = is->restitution;
+  }
+}
+
+bool sbri_island_frequencies(sbri_island_maker *m) {
+  sbri_island *island = m->island;
+  uint32_t points = island->slot_count, count = island->spring_count;
+  sbf_vec3 *positions = sbri_scratch(m, points, sizeof *positions);
+  float *masses = sbri_scratch(m, points, sizeof *masses),
+        *anchors = sbri_scratch(m, points, sizeof *anchors);
+  sbf_uint2 *ends = sbri_scratch(m, count, sizeof *ends);
+  float *stiffness = sbri_scratch(m, count, sizeof *stiffness);
+  double *scratch = sbri_scratch(m, 16 * (size_t)points, sizeof *scratch);
+  if (!positions || !masses || !anchors || !ends || !stiffness || !scratch) return false;
+  for (uint32_t i = 0; i < points; i++)
+    positions[i] = (sbf_vec3){island->rest[i].x, island->rest[i].y, island->rest[i].z};
+  if (island->free_count) memcpy(masses, island->masses, island->free_count * sizeof *masses);
+  for (uint32_t i = 0; i < count; i++) {
+    const sbfi_spring *s = &island->springs[i];
+    ends[i] = (sbf_uint2){{s->a, s->b}};
+    stiffness[i] = s->stiffness_n_m;
+    if (s->rest_length_m > 0) continue;
+    /* A spring of no length, as a goal's, pulls alike in all directions: as an anchor, and if both its ends
+     * are free no more than twice that. */
+    bool a_free = s->a < island->free_count, b_free = s->b < island->free_count;
+    float k = a_free && b_free ? 2 * s->stiffness_n_m : s->stiffness_n_m;
+    stiffness[i] = 0;
+    if (a_free) anchors[s->a] += k;
+    if (b_free) anchors[s->b] += k;
+  }
+  sbf_spring_network network = {points, count, positions, masses, anchors, ends, stiffness};
+  island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
+  island->fastest_rad_s = POWER_MARGIN * sbf_network_highest(&network, POWER_ITERATIONS, scratch);
+  if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;
+  find_damping(m, network, masses, scratch);
+  return true;
+}

@@ -1,0 +1,155 @@
+#include "core/model.h"
+
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "core/skin.h"
+
+/* A body that needs more substeps than this is not one to step explicitly. */
+enum { MOST_SUBSTEPS = 1024 };
+
+static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_RELAXATION};
+
+static sbf_status no_memory(sbf_diagnostic *error) {
+  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
+}
+
+static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic *error) {
+  if (options->struct_size != 0 && options->struct_size != sizeof *options)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_model_options: struct_size is %zu, this library's is %zu", options->struct_size,
+        sizeof *options);
+  bool known = options->scheme == SBF_SCHEME_AUTOMATIC;
+  for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++)
+    known = known || options->scheme == schemes[i];
+  if (known) return SBF_OK;
+  return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+      "scheme %s is not one of the runtime's: symplectic, relaxation", sbf_scheme_name(options->scheme));
+}
+
+/* What the call asks for, else what the level does; a scheme that the runtime does not have gives way to the
+ * default, which follows the same energy. */
+static void choose_scheme(sbr_model *model, sbri_island *island, const sbr_model_options *options) {
+  const sbf_simulation *stated = &model->bodies[island->bodies[0]].level->simulation;
+  sbf_scheme scheme = options->scheme != SBF_SCHEME_AUTOMATIC ? options->scheme : stated->scheme;
+  island->scheme = scheme == SBF_SCHEME_RELAXATION ? SBF_SCHEME_RELAXATION : SBF_SCHEME_SYMPLECTIC;
+  bool stated_for_this = stated->scheme == scheme || stated->scheme == SBF_SCHEME_AUTOMATIC;
+  island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
+}
+
+/* Diagonals of the boxes of each body and of all of them. */
+static void measure(sbr_model *model) {
+  float low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  bool any = false;
+  for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
+    sbri_body *body = &model->bodies[b];
+    const sbf_vec3_list *points = &body->source->surface.positions;
+    if (!points->count && body->level) points = &body->level->positions;
+    float body_low[3] = {0, 0, 0}, body_high[3] = {0, 0, 0}, square = 0;
+    for (uint32_t i = 0; i < points->count; i++) {
+      const float p[3] = {points->at[i].x, points->at[i].y, points->at[i].z};
+      for (int k = 0; k < 3; k++) {
+        if (i == 0 || p[k] < body_low[k]) body_low[k] = p[k];
+        if (i == 0 || p[k] > body_high[k]) body_high[k] = p[k];
+        if (!any || p[k] < low[k]) low[k] = p[k];
+        if (!any || p[k] > high[k]) high[k] = p[k];
+      }
+      any = true;
+    }
+    for (int k = 0; points->count && k < 3; k++)
+      square += (body_high[k] - body_low[k]) * (body_high[k] - body_low[k]);
+    body->rest_size_m = sqrtf(square);
+  }
+  float square = 0;
+  for (int k = 0; k < 3; k++) square += (high[k] - low[k]) * (high[k] - low[k]);
+  model->rest_size_m = sqrtf(square);
+}
+
+static sbf_status make_islands(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
+  sbf_status status = sbri_islands_group(model, options, error);
+  for (uint32_t i = 0; status == SBF_OK && i < model->island_count; i++) {
+    sbri_island *island = &model->islands[i];
+    choose_scheme(model, island, options);
+    status = sbri_island_make(model, island, options, error);
+    if (status != SBF_OK) break;
+    island->first_slot = model->slot_count;
+    model->slot_count += island->slot_count;
+    if (island->scheme == SBF_SCHEME_RELAXATION) {
+      if (!sbri_visits_make(model, island)) return no_memory(error);
+    } else if (sbri_island_substeps(island, 1.0 / 60, island->rest_stretch) > MOST_SUBSTEPS) {
+      const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
+      return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
+          "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it "
+          "more "
+          "mass, less stiffness or fewer points",
+          body->id, (int)MOST_SUBSTEPS, island->fastest_rad_s);
+    }
+  }
+  return status;
+}
+
+static bool make_skins(sbr_model *model) {
+  const sbf_asset *asset = model->asset;
+  if (asset->render_meshes.count) {
+    model->skins = sbfi_arena_allocate(&model->arena, asset->render_meshes.count, sizeof *model->skins);
+    if (!model->skins) return false;
+  }
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    if (!sbri_skin_make(model, i)) return false;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
+    if (!sbri_surface_make(model, i)) return false;
+  return true;
+}
+
+static sbf_status make(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
+  void *rig = sbfi_arena_allocate(&model->arena, 1, sbri_rig_size(model->asset));
+  if (!rig) return no_memory(error);
+  sbri_rig_init(&model->rig, model->asset, rig);
+  model->frame_count = model->rig.bone_count + 2;
+  sbf_status status = make_islands(model, options, error);
+  if (status != SBF_OK) return status;
+  if (!make_skins(model)) return no_memory(error);
+  measure(model);
+  sbri_layout_make(model);
+  if (!sbri_rest_volumes_find(model)) return no_memory(error);
+  return SBF_OK;
+}
+
+sbf_status sbr_model_create(
+    const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error) {
+  static const sbr_model_options defaults = {0};
+  if (!asset || !model) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_model_create: NULL argument");
+  *model = NULL;
+  if (!options) options = &defaults;
+  sbf_status status = check_options(options, error);
+  if (status != SBF_OK) return status;
+  sbf_allocator allocator = sbfi_allocator_or_default(options->allocator);
+  sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
+  if (!made) return no_memory(error);
+  *made = (sbr_model){.asset = asset};
+  sbfi_arena_init(&made->arena, &allocator, 0);
+  status = make(made, options, error);
+  if (status == SBF_OK)
+    *model = made;
+  else
+    sbr_model_destroy(made);
+  return status;
+}
+
+void sbr_model_destroy(sbr_model *model) {
+  if (!model) return;
+  sbf_allocator allocator = model->arena.allocator;
+  sbfi_arena_free(&model->arena);
+  sbfi_free(&allocator, model, sizeof *model);
+}
+
+uint32_t sbr_model_substeps(const sbr_model *model) {
+  uint32_t most = 1;
+  for (uint32_t i = 0; model && i < model->island_count; i++) {
+    const sbri_island *island = &model->islands[i];
+    if (island->scheme == SBF_SCHEME_RELAXATION) continue;
+    uint32_t substeps = sbri_island_substeps(island, 1.0 / 60, island->rest_stretch);
+    most = substeps > most ? substeps : most;
+  }
+  return most;
+}

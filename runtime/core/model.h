@@ -1,0 +1,138 @@
+/* The model: constant tables made once from an asset and shared by all characters.
+ *
+ * Points live in slots. An island is a group of bodies that act on each other, mostly one body alone; each is
+ * stepped by one task. Its slots are first the free points, body after body, each body's from a multiple of
+ * eight on and padded to one with inert lanes; then the held points, padded too. Within a body free points
+ * are ordered by falling number of springs, so that the eight points of a block have about equally many.
+ * Slots in tables of an island count from the island's first; skins count slots of the whole character.
+ *
+ * Frames are what holds and guides points: the rig's bones, then the character's root (the asset's origin,
+ * turned to the heading), then the anchor (where the root stood when the character was put there: what the
+ * world holds).
+ *
+ * Lengths are those of the asset. A character of scale s is simulated in its asset's metres, with time
+ * running sqrt(s) times slower: that is the similarity the public header promises, and it needs no second
+ * table. */
+#ifndef SBRI_MODEL_H
+#define SBRI_MODEL_H
+
+#include "base/memory.h"
+#include "core/skin_tables.h"
+#include "math/wide.h"
+#include "mechanics/spring.h"
+#include "sbfmt/mechanics.h"
+#include "skeleton/rig.h"
+
+/* One spring of each of eight points, seen from them. Inert lanes name the point itself and have zeros. */
+typedef struct sbri_spring_cell {
+  uint32_t others[SBRI_BLOCK]; /* slot of the other end */
+  float stiffness[SBRI_BLOCK]; /* N/m */
+  float pull[SBRI_BLOCK];      /* stiffness times rest length, N */
+} sbri_spring_cell;
+
+/* Up to four frames that carry a free point where no force moves it, as in a skin. */
+enum { SBRI_GUIDES = 4 };
+typedef struct sbri_guide {
+  uint32_t frames[SBRI_GUIDES];
+  float weights[SBRI_GUIDES]; /* summing to 1; unused ones are 0 */
+} sbri_guide;
+
+/* One visit of the relaxation scheme to a spring, from one of its ends. */
+typedef struct sbri_visit {
+  uint32_t from, to;
+  float rest_length_m;
+} sbri_visit;
+
+typedef struct sbri_body {
+  const sbf_soft_body *source;
+  const sbf_level *level; /* NULL: it has none, and moves with its bone */
+  uint32_t island;
+  uint32_t slot_begin, slot_real_end, slot_end; /* free slots; padding from slot_real_end on */
+  uint32_t *slot_from_point;                    /* (level->positions.count) slots of its island */
+  uint32_t first_spring, spring_end;            /* its own springs among the island's */
+  bool held;                /* by some pin: it is damped relative to its guide; else relative to itself */
+  uint32_t guide_frame;     /* of all its points, where `guides` is NULL */
+  const sbri_guide *guides; /* (slot_end - slot_begin), where several frames hold it */
+  float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
+  float media_friction_1_s;
+  float friction, restitution;
+  float rest_size_m;     /* diagonal of its box */
+  double rest_volume_m3; /* 0: open, or without polygons */
+  sbri_skin surface;     /* vertices of its surface */
+  uint32_t first_vertex; /* of them in a character's scratch */
+} sbri_body;
+
+typedef struct sbri_island {
+  sbf_scheme scheme;
+  uint32_t first_slot, slot_count, free_count; /* padding included */
+  const uint32_t *bodies;                      /* (body_count) */
+  uint32_t body_count;
+  const sbri_point *rest;      /* (slot_count) */
+  const float *masses;         /* (free_count) kg; 0: padding */
+  const float *inverse_masses; /* (free_count) 1/kg; 0: padding */
+  const float *gravity_scales; /* (free_count) 0: padding */
+  const uint32_t *cell_begins; /* (free_count / 8 + 1) */
+  const sbri_spring_cell *cells;
+  const float *cell_damping;     /* (cells x 8) N s/m; NULL: no spring is damped */
+  const uint32_t *frame_of_held; /* (slot_count - free_count) */
+  const sbfi_spring *springs;    /* (spring_count) each once, ends as slots */
+  uint32_t spring_count;
+  double fastest_rad_s;       /* mode at rest */
+  double bound_rad_s;         /* no mode is faster in any state */
+  float rest_stretch;         /* greatest share of a spring beyond its rest length, at rest */
+  double stiffness_damping_s; /* greatest damping over stiffness of its springs */
+  uint32_t substeps;          /* asked for; 0: as many as needed */
+  const sbri_visit *visits;   /* (visit_count) of the relaxation scheme, in order */
+  uint32_t visit_count;
+} sbri_island;
+
+/* Where things lie in a character's state and in its scratch memory, in bytes from their beginnings. */
+typedef struct sbri_layout {
+  size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, state_size;
+  size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
+  size_t surface_vertices, sampled, sampled_deltas, vertices, faces, sums, scratch_size;
+} sbri_layout;
+
+struct sbr_model {
+  sbfi_arena arena;
+  const sbf_asset *asset;
+  sbri_rig rig;
+  uint32_t frame_count; /* bones, root, anchor */
+  sbri_body *bodies;    /* (asset->soft_bodies.count) */
+  sbri_island *islands;
+  uint32_t island_count;
+  uint32_t slot_count; /* of all islands */
+  sbri_skin *skins;    /* (asset->render_meshes.count) */
+  float rest_size_m;   /* diagonal of the box of all bodies */
+  sbri_layout layout;
+};
+
+static inline uint32_t sbri_root_frame(const sbr_model *model) {
+  return model->rig.bone_count;
+}
+static inline uint32_t sbri_anchor_frame(const sbr_model *model) {
+  return model->rig.bone_count + 1;
+}
+/* Rest transform of a frame, asset space. */
+static inline sbr_transform sbri_frame_rest(const sbr_model *model, uint32_t frame) {
+  return frame < model->rig.bone_count ? model->rig.rest[frame] : (sbr_transform){{0, 0, 0}, {0, 0, 0, 1}};
+}
+
+/* ---- Making: each fills its part; SBF_FAILED where memory runs out. ---- */
+
+/* Groups the bodies into islands; gives each body its level. */
+sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
+/* Whether the springs join the levels that are simulated. */
+bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross);
+/* Slots, springs, pins and frequencies of one island. */
+sbf_status sbri_island_make(
+    sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error);
+/* Spreads the frames of held points over the free ones along the springs. */
+bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *body);
+bool sbri_visits_make(sbr_model *model, sbri_island *island);
+
+/* Substeps of a tick of `tick_s` with which the scheme is stable while no spring is stretched by more than
+ * `stretch`, the share of its length that is beyond its rest length. */
+uint32_t sbri_island_substeps(const sbri_island *island, double tick_s, float stretch);
+
+#endif

@@ -1,0 +1,78 @@
+/* Putting soft bodies somewhere at once: into their rest shape, or along with their frames. */
+#include <string.h>
+
+#include "core/state.h"
+#include "math/quat.h"
+
+/* At rest: no velocity, or for the relaxation scheme the same place a tick ago. */
+static void stop(sbri_character *c, uint32_t island_index) {
+  const sbri_island *island = &c->model->islands[island_index];
+  const sbri_point *positions = sbri_positions(c) + island->first_slot;
+  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  memset(velocities, 0, 3 * (size_t)island->free_count * sizeof *velocities);
+  if (island->scheme != SBF_SCHEME_RELAXATION) return;
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    float *before = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    before[0] = positions[slot].x, before[SBRI_BLOCK] = positions[slot].y;
+    before[2 * SBRI_BLOCK] = positions[slot].z;
+  }
+}
+
+void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
+  const sbri_island *island = &c->model->islands[island_index];
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    sbri_guide_places(c->model, body, sbri_deltas(c), positions + body->slot_begin);
+  }
+  sbri_held_places(island, sbri_deltas(c), positions);
+  stop(c, island_index);
+  sbri_island_states(c)[island_index].stretch = island->rest_stretch;
+  sbri_island_states(c)[island_index].folded_ticks = 0;
+}
+
+void sbri_settle(sbri_character *c) {
+  memcpy(sbri_previous_pose(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
+  memcpy(sbri_previous_positions(c), sbri_positions(c), c->model->slot_count * sizeof(sbri_point));
+}
+
+void sbri_place_at_rest(sbri_character *c) {
+  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_place_at_rest(c, i);
+  sbri_settle(c);
+}
+
+/* Points of a body go where their guides go, and what they are off their guides turns with it. */
+static void carry_body(sbri_character *c, const sbri_body *body, sbri_point *positions) {
+  const sbr_transform *from = sbri_previous_deltas(c), *to = sbri_deltas(c);
+  uint32_t frame = body->held && !body->guides ? body->guide_frame : sbri_root_frame(c->model);
+  sbf_quat turn =
+      sbri_quat_normalize(sbri_quat_multiply(to[frame].rotation, sbri_quat_conjugate(from[frame].rotation)));
+  size_t first = c->model->islands[body->island].first_slot;
+  sbri_point *old_guides = sbri_begins(c) + first, *new_guides = sbri_velocity_points(c) + first;
+  uint32_t count = body->slot_end - body->slot_begin;
+  if (body->held) {
+    sbri_guide_places(c->model, body, from, old_guides);
+    sbri_guide_places(c->model, body, to, new_guides);
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    sbri_point *p = &positions[body->slot_begin + i];
+    sbf_vec3 old_place = from[frame].position, new_place = to[frame].position;
+    if (body->held) {
+      old_place = sbri_vec3(old_guides[i].x, old_guides[i].y, old_guides[i].z);
+      new_place = sbri_vec3(new_guides[i].x, new_guides[i].y, new_guides[i].z);
+    }
+    sbf_vec3 off = sbri_sub(sbri_vec3(p->x, p->y, p->z), old_place);
+    sbf_vec3 at = sbri_add(new_place, sbri_rotate(turn, off));
+    *p = (sbri_point){at.x, at.y, at.z, 0};
+  }
+}
+
+void sbri_island_carry(sbri_character *c, uint32_t island_index) {
+  const sbri_island *island = &c->model->islands[island_index];
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++)
+    carry_body(c, &c->model->bodies[island->bodies[b]], positions);
+  sbri_held_places(island, sbri_deltas(c), positions);
+  stop(c, island_index);
+}

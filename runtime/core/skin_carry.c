@@ -1,0 +1,165 @@
+/* What carries each vertex: points of the bodies it is embedded in, else bones. */
+#include <string.h>
+
+#include "core/model.h"
+
+typedef struct carrier {
+  uint32_t vertex, slot;
+  float weight;
+} carrier;
+
+typedef struct carry {
+  sbr_model *model;
+  sbri_skin *skin;
+  sbfi_arena scratch;
+  sbfi_array carriers; /* carrier */
+} carry;
+
+static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
+  if (weight == 0) return true;
+  uint32_t slot = c->model->islands[body->island].first_slot + body->slot_from_point[point];
+  return sbfi_array_append(&c->carriers, &(carrier){vertex, slot, weight}, 1);
+}
+
+static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *embedding) {
+  for (uint32_t i = 0; i < embedding->points.count; i++) {
+    uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
+    if (vertex >= c->skin->vertex_count) continue;
+    const sbf_vec4 *w = &embedding->weights.at[i];
+    float weights[4] = {w->x, w->y, w->z, w->w};
+    float blend = embedding->blends.count ? embedding->blends.at[i] : 1;
+    for (int k = 0; k < 4; k++)
+      if (!add_carrier(c, body, vertex, embedding->points.at[i].at[k], blend * weights[k])) return false;
+  }
+  return true;
+}
+
+/* Weights that do not sum to one, as of shares painted by hand, are brought there. */
+static bool fill_cells(carry *c, uint32_t *counts) {
+  sbri_skin *skin = c->skin;
+  const carrier *carriers = c->carriers.at;
+  uint32_t block_count = (skin->vertex_count + SBRI_BLOCK - 1) / SBRI_BLOCK;
+  uint32_t *begins = sbfi_arena_allocate(&c->model->arena, (size_t)block_count + 1, sizeof *begins);
+  float *sums = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *sums);
+  if (!begins || !sums) return false;
+  for (size_t i = 0; i < c->carriers.count; i++) {
+    counts[carriers[i].vertex]++;
+    sums[carriers[i].vertex] += carriers[i].weight;
+  }
+  for (uint32_t block = 0; block < block_count; block++) {
+    uint32_t most = 0;
+    for (uint32_t v = block * SBRI_BLOCK; v < (block + 1) * SBRI_BLOCK && v < skin->vertex_count; v++)
+      most = counts[v] > most ? counts[v] : most;
+    begins[block + 1] = begins[block] + most;
+  }
+  size_t cell_count = begins[block_count];
+  sbri_carry_cell *cells = sbfi_arena_allocate(&c->model->arena, cell_count ? cell_count : 1, sizeof *cells);
+  uint32_t *used = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *used);
+  if (!cells || !used) return false;
+  for (size_t i = 0; i < c->carriers.count; i++) {
+    uint32_t vertex = carriers[i].vertex;
+    sbri_carry_cell *cell = &cells[begins[vertex / SBRI_BLOCK] + used[vertex]++];
+    float sum = sums[vertex];
+    cell->slots[vertex % SBRI_BLOCK] = carriers[i].slot;
+    cell->weights[vertex % SBRI_BLOCK] =
+        fabsf(sum - 1) < 1e-5f || fabsf(sum) < 1e-6f ? carriers[i].weight : carriers[i].weight / sum;
+  }
+  skin->cell_begins = begins;
+  skin->cells = cells;
+  return true;
+}
+
+/* The vertices that no body carries: they follow the skin's weights, else `frame`. */
+static bool fill_frames(
+    carry *c, const uint32_t *counts, const sbf_vec3 *rest, const sbf_skin *weights, uint32_t frame) {
+  sbri_skin *skin = c->skin;
+  uint32_t vertex_count = 0, influence_count = 0, first = 0;
+  for (uint32_t v = 0; v < skin->vertex_count; v++) {
+    if (counts[v]) continue;
+    vertex_count++;
+    influence_count += weights && weights->influence_counts.at[v] ? weights->influence_counts.at[v] : 1;
+  }
+  if (vertex_count == 0) return true;
+  sbri_frame_vertex *vertices = sbfi_arena_allocate(&c->model->arena, vertex_count, sizeof *vertices);
+  sbri_influence *influences = sbfi_arena_allocate(&c->model->arena, influence_count, sizeof *influences);
+  if (!vertices || !influences) return false;
+  uint32_t next = 0;
+  for (uint32_t v = 0, place = 0; v < skin->vertex_count; v++) {
+    uint32_t count = weights ? weights->influence_counts.at[v] : 0;
+    if (!counts[v]) {
+      sbri_frame_vertex *to = &vertices[place++];
+      *to = (sbri_frame_vertex){v, next, count ? count : 1, rest[v]};
+      float sum = 0;
+      for (uint32_t i = 0; i < count; i++) sum += weights->weights.at[first + i];
+      for (uint32_t i = 0; i < count; i++)
+        influences[next++] = (sbri_influence){weights->bones.at[first + i],
+            sum > 1e-6f ? weights->weights.at[first + i] / sum : 1 / (float)count};
+      if (!count) influences[next++] = (sbri_influence){frame, 1};
+    }
+    first += count;
+  }
+  skin->frame_vertices = vertices;
+  skin->frame_vertex_count = vertex_count;
+  skin->influences = influences;
+  return true;
+}
+
+static bool finish(carry *c, const sbf_vec3 *rest, const sbf_skin *weights, int32_t bone, bool good) {
+  uint32_t *counts = NULL;
+  if (good && c->skin->vertex_count) {
+    counts = sbfi_arena_allocate(&c->scratch, c->skin->vertex_count, sizeof *counts);
+    uint32_t frame = bone >= 0 ? (uint32_t)bone : sbri_root_frame(c->model);
+    good = counts && fill_cells(c, counts) && fill_frames(c, counts, rest, weights, frame);
+  }
+  sbfi_array_free(&c->carriers);
+  sbfi_arena_free(&c->scratch);
+  return good;
+}
+
+static carry begin(sbr_model *model, sbri_skin *skin, uint32_t vertex_count) {
+  carry c = {.model = model, .skin = skin};
+  sbfi_arena_init(&c.scratch, &model->arena.allocator, 0);
+  sbfi_array_init(&c.carriers, &model->arena.allocator, sizeof(carrier));
+  skin->vertex_count = vertex_count;
+  return c;
+}
+
+bool sbri_skin_make(sbr_model *model, uint32_t render_mesh) {
+  const sbf_render_mesh *mesh = &model->asset->render_meshes.at[render_mesh];
+  sbri_skin *skin = &model->skins[render_mesh];
+  carry c = begin(model, skin, mesh->mesh.positions.count);
+  bool good = true;
+  for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
+    const sbf_level *level = model->bodies[b].level;
+    for (uint32_t e = 0; good && level && e < level->embeddings.count; e++)
+      if (level->embeddings.at[e].render_mesh == (int32_t)render_mesh)
+        good = add_embedding(&c, &model->bodies[b], &level->embeddings.at[e]);
+  }
+  return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good) &&
+         sbri_shading_make(skin, &mesh->mesh, mesh, &model->arena);
+}
+
+/* Without an embedding of its own surface, a level's points begin with those of the surface. */
+static bool add_surface_points(carry *c, const sbri_body *body) {
+  const sbf_u32_list *new_from_old = &body->level->new_from_old;
+  for (uint32_t i = 0; i < c->skin->vertex_count; i++) {
+    uint32_t point = i < new_from_old->count ? new_from_old->at[i] : i;
+    if (point < body->level->positions.count && !add_carrier(c, body, i, point, 1)) return false;
+  }
+  return true;
+}
+
+bool sbri_surface_make(sbr_model *model, uint32_t soft_body) {
+  sbri_body *body = &model->bodies[soft_body];
+  const sbf_polygon_mesh *mesh = &body->source->surface;
+  carry c = begin(model, &body->surface, mesh->positions.count);
+  bool good = true, embedded = false;
+  for (uint32_t e = 0; good && body->level && e < body->level->embeddings.count; e++)
+    if (body->level->embeddings.at[e].render_mesh < 0) {
+      good = add_embedding(&c, body, &body->level->embeddings.at[e]);
+      embedded = true;
+    }
+  if (good && body->level && !embedded) good = add_surface_points(&c, body);
+  return finish(&c, mesh->positions.at, NULL, body->source->bone, good) &&
+         sbri_faces_make(&body->surface, mesh, &model->arena);
+}

@@ -1,0 +1,81 @@
+/* Tables by which the vertices of one mesh follow a character's points and bones, and by which their normals
+ * are found. Everything stands in blocks of eight lanes; inert lanes have weight 0 or no area. */
+#ifndef SBRI_SKIN_TABLES_H
+#define SBRI_SKIN_TABLES_H
+
+#include "base/memory.h"
+#include "math/wide.h"
+#include "sbrun/sbrun.h"
+
+/* One of the points that carry each of eight vertices. */
+typedef struct sbri_carry_cell {
+  uint32_t slots[SBRI_BLOCK]; /* of the whole character */
+  float weights[SBRI_BLOCK];
+} sbri_carry_cell;
+
+/* A vertex that follows frames (bones, or the character's root). */
+typedef struct sbri_frame_vertex {
+  uint32_t vertex;
+  uint32_t first, count; /* its influences */
+  sbf_vec3 rest;
+} sbri_frame_vertex;
+typedef struct sbri_influence {
+  uint32_t frame;
+  float weight;
+} sbri_influence;
+
+/* Polygons as quads, whose area vector is half the cross product of their diagonals: a triangle repeats its
+ * first corner; longer polygons are cut from their first corner on. */
+typedef struct sbri_face_block {
+  uint32_t corners[4][SBRI_BLOCK]; /* vertices; inert lanes repeat one */
+} sbri_face_block;
+
+/* Which faces make up the sum of each group, in blocks of eight groups. */
+typedef struct sbri_sum_cell {
+  uint32_t faces[SBRI_BLOCK]; /* inert lanes name a face without area */
+} sbri_sum_cell;
+typedef struct sbri_sum_table {
+  uint32_t group_count;
+  const uint32_t *cell_begins; /* (blocks + 1) */
+  const sbri_sum_cell *cells;
+} sbri_sum_table;
+
+/* Shares of a face's two diagonals in its tangent, times its area in the texture. */
+typedef struct sbri_tangent_block {
+  float shares[2][SBRI_BLOCK];
+} sbri_tangent_block;
+
+typedef struct sbri_skin {
+  uint32_t vertex_count;
+  const uint32_t *cell_begins; /* (blocks of vertices + 1) */
+  const sbri_carry_cell *cells;
+  const sbri_frame_vertex *frame_vertices; /* (frame_vertex_count) */
+  uint32_t frame_vertex_count;
+  const sbri_influence *influences;
+
+  uint32_t face_block_count; /* the last lane of the last block is inert */
+  const sbri_face_block *faces;
+  sbri_sum_table smooth;     /* one normal a vertex, shared where vertices lie at one place */
+  const uint32_t *smooth_of; /* (vertex_count) the group of each */
+  sbri_sum_table split;      /* a normal for each side of a hard edge */
+  const uint32_t *split_of;  /* (corner_count) */
+  uint32_t corner_count;
+
+  const sbri_tangent_block *tangent_blocks; /* (face_block_count); NULL: no uvs */
+  sbri_sum_table tangents;                  /* groups are vertices */
+  const float *handedness;                  /* (vertex_count) 1 or -1 */
+} sbri_skin;
+
+struct sbr_model;
+
+/* Both false where memory runs out. */
+bool sbri_skin_make(struct sbr_model *model, uint32_t render_mesh);
+/* Of a body's surface: no normals but the faces, for its volume. */
+bool sbri_surface_make(struct sbr_model *model, uint32_t soft_body);
+
+/* Normals and faces of `mesh`; `normals` and `corners` as in sbf_render_mesh, `uvs` may be NULL. */
+bool sbri_shading_make(
+    sbri_skin *skin, const sbf_polygon_mesh *mesh, const sbf_render_mesh *authored, sbfi_arena *arena);
+bool sbri_faces_make(sbri_skin *skin, const sbf_polygon_mesh *mesh, sbfi_arena *arena);
+
+#endif

@@ -1,0 +1,116 @@
+/* Saving and restoring all mutable state, and its hash. A snapshot is for the process that made it: it is no
+ * file format. */
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "base/hash64.h"
+#include "core/world.h"
+
+typedef struct snapshot_head {
+  uint64_t magic, size, ticks, ahead_units, characters;
+} snapshot_head;
+
+/* One before each character's state block. */
+typedef struct snapshot_part {
+  uint32_t index, generation;
+  uint64_t size;
+} snapshot_part;
+
+static const uint64_t MAGIC = 0x31706e7372627321; /* "!sbrsnp1" */
+
+size_t sbr_world_snapshot_size(const sbr_world *world) {
+  size_t size = sizeof(snapshot_head);
+  for (uint32_t i = 0; world && i < world->character_capacity; i++)
+    if (world->characters[i].model)
+      size += sizeof(snapshot_part) + world->characters[i].model->layout.state_size;
+  return world ? size : 0;
+}
+
+static uint64_t count_characters(const sbr_world *world) {
+  uint64_t count = 0;
+  for (uint32_t i = 0; i < world->character_capacity; i++) count += world->characters[i].model != NULL;
+  return count;
+}
+
+sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t size) {
+  if (!world || !bytes || size != sbr_world_snapshot_size(world)) return SBF_FAILED;
+  snapshot_head head = {MAGIC, size, world->ticks, world->ahead_units, count_characters(world)};
+  unsigned char *to = bytes;
+  memcpy(to, &head, sizeof head);
+  to += sizeof head;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    const sbri_character *c = &world->characters[i];
+    if (!c->model) continue;
+    snapshot_part part = {i, c->generation, c->model->layout.state_size};
+    memcpy(to, &part, sizeof part);
+    memcpy(to + sizeof part, c->state, part.size);
+    to += sizeof part + part.size;
+  }
+  return SBF_OK;
+}
+
+/* Whether the snapshot is of this world with these characters; nothing is changed before that is known. */
+static bool fits(const sbr_world *world, const unsigned char *bytes, size_t size) {
+  snapshot_head head;
+  if (size != sbr_world_snapshot_size(world)) return false;
+  memcpy(&head, bytes, sizeof head);
+  if (head.magic != MAGIC || head.size != size || head.characters != count_characters(world)) return false;
+  bytes += sizeof head;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    const sbri_character *c = &world->characters[i];
+    snapshot_part part;
+    if (!c->model) continue;
+    memcpy(&part, bytes, sizeof part);
+    if (part.index != i || part.generation != c->generation || part.size != c->model->layout.state_size)
+      return false;
+    bytes += sizeof part + part.size;
+  }
+  return true;
+}
+
+sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_t size) {
+  if (!world || !bytes || !fits(world, bytes, size)) return SBF_FAILED;
+  const unsigned char *from = bytes;
+  snapshot_head head;
+  memcpy(&head, from, sizeof head);
+  world->ticks = head.ticks;
+  world->ahead_units = head.ahead_units;
+  world->stamp++;
+  from += sizeof head;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    sbri_character *c = &world->characters[i];
+    if (!c->model) continue;
+    from += sizeof(snapshot_part);
+    memcpy(c->state, from, c->model->layout.state_size);
+    from += c->model->layout.state_size;
+    sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  }
+  return SBF_OK;
+}
+
+uint64_t sbr_world_state_hash(const sbr_world *world) {
+  sbfi_hash64 hash;
+  sbfi_hash64_init(&hash);
+  if (!world) return 0;
+  sbfi_hash64_u64(&hash, &world->ticks, 1);
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    const sbri_character *c = &world->characters[i];
+    if (!c->model) continue;
+    const sbri_layout *l = &c->model->layout;
+    const sbri_character_state *head = sbri_head(c);
+    const float wanted[3] = {head->forward, head->sideways, head->turn};
+    uint32_t id[2] = {i, head->paused};
+    sbfi_hash64_u32(&hash, id, 2);
+    sbfi_hash64_f64(&hash, &head->origin.x, 3);
+    sbfi_hash64_f32(&hash, wanted, 3);
+    sbfi_hash64_bytes(&hash, sbri_gait(c), sbri_gait_state_size(&c->model->rig));
+    sbfi_hash64_f32(&hash, &sbri_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
+    sbfi_hash64_f32(&hash, &sbri_previous_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
+    sbfi_hash64_u32(&hash, (const uint32_t *)(const void *)sbri_island_states(c),
+        (size_t)c->model->island_count * sizeof(sbri_island_state) / sizeof(uint32_t));
+    /* Positions, the tick before and velocities follow each other. */
+    sbfi_hash64_f32(&hash, (const float *)(const void *)(c->state + l->positions),
+        (l->state_size - l->positions) / sizeof(float));
+  }
+  return sbfi_hash64_value(&hash);
+}

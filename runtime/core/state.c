@@ -1,0 +1,54 @@
+#include "core/state.h"
+
+static size_t place(size_t *end, size_t count, size_t size) {
+  size_t at = (*end + 63) & ~(size_t)63;
+  *end = at + count * size;
+  return at;
+}
+
+static size_t padded(size_t count) {
+  return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
+}
+
+void sbri_layout_make(sbr_model *model) {
+  sbri_layout *l = &model->layout;
+  size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
+         surface = 0, end = 0;
+  for (uint32_t i = 0; i < model->asset->render_meshes.count; i++) {
+    const sbri_skin *skin = &model->skins[i];
+    vertices = skin->vertex_count > vertices ? skin->vertex_count : vertices;
+    faces = skin->face_block_count > faces ? skin->face_block_count : faces;
+    groups = skin->split.group_count > groups ? skin->split.group_count : groups;
+    groups = skin->smooth.group_count > groups ? skin->smooth.group_count : groups;
+  }
+  for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
+    sbri_body *body = &model->bodies[i];
+    body->first_vertex = (uint32_t)surface;
+    surface += padded(body->surface.vertex_count);
+  }
+  place(&end, 1, sizeof(sbri_character_state));
+  l->gait = place(&end, 1, sbri_gait_state_size(&model->rig));
+  l->pose = place(&end, frames, sizeof(sbr_transform));
+  l->previous_pose = place(&end, frames, sizeof(sbr_transform));
+  l->islands = place(&end, model->island_count, sizeof(sbri_island_state));
+  l->positions = place(&end, slots, sizeof(sbri_point));
+  l->previous_positions = place(&end, slots, sizeof(sbri_point));
+  l->velocities = place(&end, 3 * slots, sizeof(float));
+  l->state_size = (end + 63) & ~(size_t)63;
+  end = 0;
+  l->deltas = place(&end, frames, sizeof(sbr_transform));
+  l->previous_deltas = place(&end, frames, sizeof(sbr_transform));
+  l->targets = place(&end, slots, sizeof(sbri_point));
+  l->guide_velocities = place(&end, 3 * slots, sizeof(float));
+  l->begins = place(&end, slots, sizeof(sbri_point));
+  l->velocity_points = place(&end, slots, sizeof(sbri_point));
+  l->planes = place(&end, 4 * slots, sizeof(float));
+  l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
+  l->sampled = place(&end, slots, sizeof(sbri_point));
+  l->sampled_deltas = place(&end, frames, sizeof(sbr_transform));
+  l->vertices = place(&end, padded(vertices), sizeof(sbri_point));
+  l->faces = place(&end, faces * SBRI_BLOCK, sizeof(sbri_point));
+  l->sums = place(&end, padded(groups > vertices ? groups : vertices), sizeof(sbri_point));
+  l->surface_vertices = place(&end, surface, sizeof(sbri_point));
+  l->scratch_size = (end + 63) & ~(size_t)63;
+}

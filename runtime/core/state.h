@@ -1,0 +1,98 @@
+/* A character: constant settings, one block of mutable state (what a snapshot copies and the hash covers),
+ * and scratch memory whose content means nothing between calls. */
+#ifndef SBRI_STATE_H
+#define SBRI_STATE_H
+
+#include "core/model.h"
+#include "gait/gait.h"
+
+enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS };
+
+/* First in the state block. No padding: the hash reads it as words. */
+typedef struct sbri_character_state {
+  sbr_double3 origin;            /* m, world */
+  float forward, sideways, turn; /* wanted motion */
+  uint32_t paused;
+} sbri_character_state;
+
+typedef struct sbri_island_state {
+  float stretch;         /* greatest share of a spring beyond its rest length, in the last substep */
+  uint32_t folded_ticks; /* for how long its volume has been next to nothing */
+  uint32_t recoveries;
+  uint32_t unused;
+} sbri_island_state;
+
+typedef struct sbri_character {
+  const sbr_model *model; /* NULL: the place is free */
+  uint32_t generation;
+  bool hold;
+  float scale;
+  float time_scale; /* 1 / sqrt(scale): its own seconds in one of the world's */
+  unsigned char *state, *scratch;
+  uint64_t sampled_at;  /* stamp of the moment that `sampled` holds; 0: none */
+  uint32_t event_count; /* of the last tick */
+  sbri_gait_event events[SBRI_TICK_EVENTS];
+} sbri_character;
+
+void sbri_layout_make(sbr_model *model);
+
+#define SBRI_STATE_PART(name, type, offset)                                                                  \
+  static inline type *sbri_##name(const sbri_character *c) {                                                 \
+    return (type *)(void *)(c->state + (offset));                                                            \
+  }
+SBRI_STATE_PART(head, sbri_character_state, 0)
+SBRI_STATE_PART(gait, void, c->model->layout.gait)
+SBRI_STATE_PART(pose, sbr_transform, c->model->layout.pose)                          /* (frame_count) */
+SBRI_STATE_PART(previous_pose, sbr_transform, c->model->layout.previous_pose)        /* (frame_count) */
+SBRI_STATE_PART(island_states, sbri_island_state, c->model->layout.islands)          /* (island_count) */
+SBRI_STATE_PART(positions, sbri_point, c->model->layout.positions)                   /* (slot_count) */
+SBRI_STATE_PART(previous_positions, sbri_point, c->model->layout.previous_positions) /* (slot_count) */
+SBRI_STATE_PART(velocities, float, c->model->layout.velocities)                      /* (slot_count x 3) */
+#undef SBRI_STATE_PART
+
+#define SBRI_SCRATCH_PART(name, type, offset)                                                                \
+  static inline type *sbri_##name(const sbri_character *c) {                                                 \
+    return (type *)(void *)(c->scratch + (offset));                                                          \
+  }
+SBRI_SCRATCH_PART(deltas, sbr_transform, c->model->layout.deltas)                   /* (frame_count) */
+SBRI_SCRATCH_PART(previous_deltas, sbr_transform, c->model->layout.previous_deltas) /* (frame_count) */
+SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                    /* (slot_count) */
+SBRI_SCRATCH_PART(guide_velocities, float, c->model->layout.guide_velocities)       /* (slot_count x 3) */
+SBRI_SCRATCH_PART(begins, sbri_point, c->model->layout.begins)                      /* (slot_count) */
+SBRI_SCRATCH_PART(velocity_points, sbri_point, c->model->layout.velocity_points)    /* (slot_count) */
+SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                           /* (slot_count x 4) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)               /* (slot_count / 8) */
+SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)                    /* (slot_count) */
+SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas)   /* (frame_count) */
+SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */
+SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */
+SBRI_SCRATCH_PART(sums, sbri_point, c->model->layout.sums)         /* (most groups of a mesh, padded) */
+SBRI_SCRATCH_PART(surface_vertices, sbri_point, c->model->layout.surface_vertices) /* of all bodies */
+#undef SBRI_SCRATCH_PART
+
+/* ---- core/frames.c ---- */
+
+/* The frames' motion since the rest pose, in asset metres: what carries a rest position to where it is now.
+ */
+void sbri_deltas_make(const sbri_character *c, const sbr_transform *pose, sbr_transform *deltas);
+/* Where guides put the free points of a body (slot_end - slot_begin of them). */
+void sbri_guide_places(
+    const sbr_model *model, const sbri_body *body, const sbr_transform *deltas, sbri_point *places);
+/* Where frames put the held points of an island, at their slots in `places`. */
+void sbri_held_places(const sbri_island *island, const sbr_transform *deltas, sbri_point *places);
+/* The root frame of the present state. */
+sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground);
+
+/* ---- core/place.c ---- */
+
+/* Everything in its rest shape at the present pose, all speeds zero. */
+void sbri_place_at_rest(sbri_character *c);
+/* The same for one island, with the present `deltas`. */
+void sbri_island_place_at_rest(sbri_character *c, uint32_t island);
+/* An island goes where its frames have gone from `previous_deltas` to `deltas`, keeping its shape, and stops.
+ */
+void sbri_island_carry(sbri_character *c, uint32_t island);
+/* The tick before becomes the same as this one. */
+void sbri_settle(sbri_character *c);
+
+#endif

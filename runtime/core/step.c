@@ -1,0 +1,244 @@
+/* One control tick of everything: characters' poses first, each a task; then their islands, each a task. A
+ * task touches nothing that another one does, so neither the number of threads nor their order shows. */
+#include <string.h>
+
+#include "collide/contact.h"
+#include "core/skin.h"
+#include "core/world.h"
+#include "math/vec3.h"
+#include "solvers/island_tick.h"
+
+/* The origin follows when the character is this far from it, in m. */
+static const float REBASE_AT_M = 4;
+
+/* A surface that holds less than this share of its volume for so many ticks will not come back by itself. */
+static const double FOLDED_SHARE = 0.1;
+enum { FOLDED_TICKS = 60, FOLDED_LOOK_EVERY = 8 };
+
+sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c) {
+  const sbri_character_state *head = sbri_head(c);
+  return (sbri_gait_input){.forward = head->forward,
+      .sideways = head->sideways,
+      .turn = head->turn,
+      .tick_s = (float)world->tick_s,
+      .scale = c->scale,
+      .hold = c->hold,
+      .origin = head->origin,
+      .ground = &world->ground};
+}
+
+/* ---- The character ---- */
+
+static float whole(float metres) {
+  return (float)(int32_t)(metres < 0 ? metres - 0.5f : metres + 0.5f);
+}
+
+static void shift_frames(sbr_transform *pose, uint32_t count, sbf_vec3 shift) {
+  for (uint32_t f = 0; f < count; f++) pose[f].position = sbri_sub(pose[f].position, shift);
+}
+
+static void shift_points(sbri_point *points, uint32_t count, sbf_vec3 shift) {
+  for (uint32_t i = 0; i < count; i++)
+    points[i] = (sbri_point){points[i].x - shift.x, points[i].y - shift.y, points[i].z - shift.z, 0};
+}
+
+/* Moves the origin by whole metres to where the character is, and everything the other way. */
+static void rebase(sbri_character *c) {
+  const sbr_model *model = c->model;
+  sbf_vec3 at = sbri_pose(c)[sbri_root_frame(model)].position;
+  if (fabsf(at.x) < REBASE_AT_M && fabsf(at.y) < REBASE_AT_M && fabsf(at.z) < REBASE_AT_M) return;
+  if (!(fabsf(at.x) < 1e9f && fabsf(at.y) < 1e9f && fabsf(at.z) < 1e9f)) return;
+  sbf_vec3 shift = {whole(at.x), whole(at.y), whole(at.z)}, own = sbri_scale(shift, 1 / c->scale);
+  sbri_character_state *head = sbri_head(c);
+  head->origin.x += (double)shift.x, head->origin.y += (double)shift.y, head->origin.z += (double)shift.z;
+  sbri_gait_rebase(&model->rig, sbri_gait(c), shift);
+  shift_frames(sbri_pose(c), model->frame_count, shift);
+  shift_frames(sbri_previous_pose(c), model->frame_count, shift);
+  shift_points(sbri_positions(c), model->slot_count, own);
+  shift_points(sbri_previous_positions(c), model->slot_count, own);
+  for (uint32_t i = 0; i < model->island_count; i++) {
+    const sbri_island *island = &model->islands[i];
+    float *before = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+    if (island->scheme != SBF_SCHEME_RELAXATION) continue;
+    for (uint32_t k = 0; k < 3 * island->free_count; k++) {
+      uint32_t axis = k / SBRI_BLOCK % 3;
+      before[k] -= axis == 0 ? own.x : axis == 1 ? own.y : own.z;
+    }
+  }
+}
+
+static void tick_character(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_character *c = &world->characters[index];
+  c->event_count = 0;
+  if (!c->model) return;
+  rebase(c);
+  sbri_settle(c);
+  if (sbri_head(c)->paused) return;
+  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbr_transform *pose = sbri_pose(c);
+  sbri_deltas_make(c, pose, sbri_previous_deltas(c));
+  c->event_count = sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events, SBRI_TICK_EVENTS);
+  pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
+  sbri_deltas_make(c, pose, sbri_deltas(c));
+}
+
+/* ---- The islands ---- */
+
+/* Velocities of the guides over the tick, in blocks; `tick_s` is the character's own. */
+static void find_guide_velocities(sbri_character *c, const sbri_island *island, float tick_s, bool *jumped) {
+  float rate = 1 / tick_s;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    if (!body->held) continue;
+    sbri_point *from = sbri_begins(c) + island->first_slot + body->slot_begin;
+    sbri_point *to = sbri_velocity_points(c) + island->first_slot + body->slot_begin;
+    sbri_guide_places(c->model, body, sbri_previous_deltas(c), from);
+    sbri_guide_places(c->model, body, sbri_deltas(c), to);
+    float farthest = 0;
+    float *velocities = sbri_guide_velocities(c) + 3 * (size_t)(island->first_slot + body->slot_begin);
+    for (uint32_t i = 0; i < body->slot_end - body->slot_begin; i++) {
+      float x = to[i].x - from[i].x, y = to[i].y - from[i].y, z = to[i].z - from[i].z;
+      float *v = velocities + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK,
+            square = x * x + y * y + z * z;
+      v[0] = x * rate, v[SBRI_BLOCK] = y * rate, v[2 * SBRI_BLOCK] = z * rate;
+      farthest = square > farthest ? square : farthest;
+    }
+    float most = body->rest_size_m + 0.05f * c->model->rest_size_m;
+    *jumped = *jumped || farthest > most * most;
+  }
+}
+
+/* Inert lanes lie where their block's first point does. */
+static void tuck_padding(sbri_character *c, const sbri_island *island) {
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    for (uint32_t slot = body->slot_real_end; slot < body->slot_end; slot++)
+      positions[slot] = positions[slot / SBRI_BLOCK * SBRI_BLOCK];
+  }
+}
+
+static void prepare_contacts(
+    const sbr_world *world, sbri_character *c, const sbri_island *island, float tick_s) {
+  size_t first = island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_contact_input input = {.island = island,
+        .body = &c->model->bodies[island->bodies[b]],
+        .positions = sbri_positions(c) + first,
+        .velocities = sbri_velocities(c) + 3 * first,
+        .ground = &world->ground,
+        .origin = sbri_head(c)->origin,
+        .scale = c->scale,
+        .tick_s = tick_s};
+    sbri_contact_prepare(&input, sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first);
+  }
+}
+
+static bool all_finite(const sbri_point *points, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    float sum = points[i].x + points[i].y + points[i].z;
+    if (!(sum - sum == 0)) return false;
+  }
+  return true;
+}
+
+/* Whether a closed body of the island has next to no volume, or a negative one. */
+static bool is_folded(const sbri_character *c, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    if (!(body->rest_volume_m3 > 0)) continue;
+    if (sbri_surface_volume(c, body, sbri_positions(c)) < FOLDED_SHARE * body->rest_volume_m3) return true;
+  }
+  return false;
+}
+
+/* Puts the island back into its rest shape where its numbers or its shape are lost for good. */
+static void recover(const sbr_world *world, sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  if (all_finite(sbri_positions(c) + island->first_slot, island->slot_count)) {
+    if ((world->ticks + index) % FOLDED_LOOK_EVERY) return;
+    state->folded_ticks = is_folded(c, island) ? state->folded_ticks + FOLDED_LOOK_EVERY : 0;
+    if (state->folded_ticks < FOLDED_TICKS) return;
+  }
+  sbri_island_place_at_rest(c, index);
+  memcpy(sbri_previous_positions(c) + island->first_slot, sbri_positions(c) + island->first_slot,
+      island->slot_count * sizeof(sbri_point));
+  state->recoveries++;
+}
+
+static void tick_island(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_work work = world->work[index];
+  sbri_character *c = &world->characters[work.character];
+  if (sbri_head(c)->paused) return;
+  const sbr_model *model = c->model;
+  const sbri_island *island = &model->islands[work.island];
+  size_t first = island->first_slot;
+  float tick_s = (float)world->tick_s * c->time_scale;
+  bool jumped = false;
+  find_guide_velocities(c, island, tick_s, &jumped);
+  if (jumped) {
+    sbri_island_carry(c, work.island);
+    return;
+  }
+  sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
+  tuck_padding(c, island);
+  sbri_island_tick tick = {.model = model,
+      .island = island,
+      .tick_s = tick_s,
+      .gravity = world->has_gravity ? world->gravity : model->asset->environment.gravity,
+      .wind = sbri_scale(model->asset->environment.wind, c->time_scale),
+      .origin = sbri_head(c)->origin,
+      .scale = c->scale,
+      .ground = &world->ground,
+      .positions = sbri_positions(c) + first,
+      .velocities = sbri_velocities(c) + 3 * first,
+      .targets = sbri_targets(c) + first,
+      .guide_velocities = sbri_guide_velocities(c) + 3 * first,
+      .begins = sbri_begins(c) + first,
+      .velocity_points = sbri_velocity_points(c) + first,
+      .planes = sbri_planes(c) + 4 * first,
+      .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
+      .stretch = &sbri_island_states(c)[work.island].stretch};
+  if (island->scheme == SBF_SCHEME_RELAXATION) {
+    sbri_relaxation_tick(&tick);
+  } else {
+    prepare_contacts(world, c, island, tick_s);
+    sbri_symplectic_tick(&tick);
+  }
+  recover(world, c, work.island);
+}
+
+/* ---- The world ---- */
+
+static void run(sbr_world *world, sbr_task *task, size_t count) {
+  if (world->tasks.run)
+    world->tasks.run(world->tasks.user, task, world, (uint32_t)count);
+  else
+    for (uint32_t i = 0; i < count; i++) task(world, i);
+}
+
+static void gather_events(sbr_world *world) {
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    const sbri_character *c = &world->characters[i];
+    for (uint32_t e = 0; c->model && e < c->event_count; e++) {
+      sbr_double3 origin = sbri_head(c)->origin;
+      const sbri_gait_event *from = &c->events[e];
+      world->events[world->event_head++ % SBRI_EVENTS] = (sbr_event){.kind = from->kind,
+          .character = sbri_id_of(world, c),
+          .leg = from->leg,
+          .tick = world->ticks,
+          .position = {origin.x + (double)from->position.x, origin.y + (double)from->position.y,
+              origin.z + (double)from->position.z}};
+    }
+  }
+}
+
+void sbri_step_tick(sbr_world *world) {
+  world->ticks++;
+  run(world, tick_character, world->character_capacity);
+  run(world, tick_island, world->work_count);
+  gather_events(world);
+}

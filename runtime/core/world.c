@@ -1,0 +1,101 @@
+#include "core/world.h"
+
+#include <string.h>
+
+#include "base/diagnostic.h"
+
+enum { WORLD_COOKIE = 0x5b72776f, DEFAULT_CAPACITY = 16, MOST_CHARACTERS = 65534 };
+
+sbr_world_definition sbr_default_world_definition(void) {
+  return (sbr_world_definition){.cookie = WORLD_COOKIE,
+      .ground = sbr_ground_flat(0),
+      .gravity = {0, -9.81f, 0},
+      .control_tick_s = 1.0 / 60,
+      .longest_frame_s = 0.25,
+      .character_capacity = DEFAULT_CAPACITY};
+}
+
+static uint64_t units_of(double seconds) {
+  return (uint64_t)(seconds * SBRI_TIME_UNITS + 0.5);
+}
+
+sbf_status sbr_world_create(
+    const sbr_world_definition *definition, sbr_world **world, sbf_diagnostic *error) {
+  if (!definition || !world)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_world_create: NULL argument");
+  *world = NULL;
+  if (definition->cookie != WORLD_COOKIE)
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "sbr_world_create: begin the definition with sbr_default_world_definition");
+  double tick = definition->control_tick_s != 0 ? definition->control_tick_s : 1.0 / 60;
+  double longest = definition->longest_frame_s != 0 ? definition->longest_frame_s : 0.25;
+  uint32_t capacity = definition->character_capacity ? definition->character_capacity : DEFAULT_CAPACITY;
+  if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= 3600) || capacity > MOST_CHARACTERS)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_world_create: tick %g s (0.0001 to 1), longest frame %g s (to 3600) or capacity %u (to %d)",
+        tick, longest, capacity, (int)MOST_CHARACTERS);
+  sbf_allocator allocator = sbfi_allocator_or_default(definition->allocator);
+  sbr_world *made = sbfi_allocate(&allocator, sizeof *made);
+  sbri_character *characters = sbfi_allocate(&allocator, capacity * sizeof *characters);
+  if (!made || !characters) {
+    sbfi_free(&allocator, made, sizeof *made);
+    sbfi_free(&allocator, characters, capacity * sizeof *characters);
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the world");
+  }
+  memset(characters, 0, capacity * sizeof *characters);
+  *made = (sbr_world){.allocator = allocator,
+      .tasks = definition->tasks,
+      .ground = definition->ground.height ? definition->ground : sbr_ground_flat(0),
+      .has_gravity = definition->has_gravity,
+      .gravity = definition->gravity,
+      .tick_s = tick,
+      .tick_units = units_of(tick),
+      .longest_units = units_of(longest),
+      .stamp = 1,
+      .characters = characters,
+      .character_capacity = capacity};
+  *world = made;
+  return SBF_OK;
+}
+
+void sbr_world_destroy(sbr_world *world) {
+  if (!world) return;
+  for (uint32_t i = 0; i < world->character_capacity; i++)
+    if (world->characters[i].model) sbr_character_destroy(world, sbri_id_of(world, &world->characters[i]));
+  sbf_allocator allocator = world->allocator;
+  sbfi_free(&allocator, world->work, world->work_capacity * sizeof *world->work);
+  sbfi_free(&allocator, world->characters, world->character_capacity * sizeof *world->characters);
+  sbfi_free(&allocator, world, sizeof *world);
+}
+
+void sbr_world_step(sbr_world *world, double seconds) {
+  if (!world || !(seconds > 0)) return;
+  double longest = (double)world->longest_units / SBRI_TIME_UNITS;
+  uint64_t units = units_of(seconds < longest ? seconds : longest);
+  while (world->ahead_units < units) {
+    sbri_step_tick(world);
+    world->ahead_units += world->tick_units;
+  }
+  world->ahead_units -= units;
+  world->stamp++;
+}
+
+void sbr_world_tick(sbr_world *world) {
+  if (!world) return;
+  sbri_step_tick(world);
+  world->stamp++;
+}
+
+uint64_t sbr_world_ticks(const sbr_world *world) {
+  return world ? world->ticks : 0;
+}
+
+uint32_t sbr_world_events(sbr_world *world, sbr_event *events, uint32_t capacity) {
+  if (!world || !events) return 0;
+  if (world->event_head - world->event_tail > SBRI_EVENTS)
+    world->event_tail = world->event_head - SBRI_EVENTS;
+  uint32_t count = 0;
+  while (count < capacity && world->event_tail < world->event_head)
+    events[count++] = world->events[world->event_tail++ % SBRI_EVENTS];
+  return count;
+}

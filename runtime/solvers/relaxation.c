@@ -1,0 +1,93 @@
+/* The scheme of the bachelor's thesis behind the reference lizard, tick for tick: Verlet without a time step,
+ * then one pass over all springs that moves their ends at once, then a share of the tick's motion taken back.
+ * It knows no masses and no units of time: settings are asset.relaxation, per tick. What it makes of a
+ * spring's energy depends on the number of springs, their order and the tick; it is here to reproduce, not to
+ * be right.
+ *
+ * A point that lies exactly on the ground is not moved by gravity or inertia nor damped; springs still move
+ * it and may lift it, and its place before the landing is remembered till then. That is the reference's way.
+ */
+#include "collide/ground.h"
+#include "solvers/island_tick.h"
+
+typedef struct relaxing {
+  const sbri_island_tick *tick;
+  bool flat;
+  float flat_height;
+} relaxing;
+
+static float ground_under(const relaxing *r, const sbri_point *p) {
+  if (r->flat) return r->flat_height;
+  const sbri_island_tick *t = r->tick;
+  double x = t->origin.x + (double)t->scale * p->x, z = t->origin.z + (double)t->scale * p->z;
+  return (float)((sbri_ground_height(t->ground, x, z, NULL) - t->origin.y) / t->scale);
+}
+
+static void stop_at_ground(const relaxing *r, sbri_point *p) {
+  float ground = ground_under(r, p);
+  if (p->y <= ground) p->y = ground;
+}
+
+static float *before(const relaxing *r, uint32_t slot) {
+  return r->tick->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+
+static void move_on(const relaxing *r, uint32_t slot, float fall_m) {
+  sbri_point *p = &r->tick->positions[slot];
+  float *q = before(r, slot);
+  if (p->y == ground_under(r, p)) return;
+  sbri_point next = {2 * p->x - q[0], 2 * p->y - q[SBRI_BLOCK] - fall_m, 2 * p->z - q[2 * SBRI_BLOCK], 0};
+  q[0] = p->x, q[SBRI_BLOCK] = p->y, q[2 * SBRI_BLOCK] = p->z;
+  *p = next;
+  stop_at_ground(r, p);
+}
+
+static void visit(const relaxing *r, const sbri_visit *v, float stiffness) {
+  uint32_t free_count = r->tick->island->free_count;
+  sbri_point *a = &r->tick->positions[v->from], *b = &r->tick->positions[v->to];
+  float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
+  float length = sqrtf(x * x + y * y + z * z);
+  if (!(length > 0)) return;
+  float s = stiffness * (length - v->rest_length_m) / length;
+  bool a_free = v->from < free_count, b_free = v->to < free_count;
+  if (a_free && b_free) s *= 0.5f;
+  if (a_free) {
+    *a = (sbri_point){a->x + x * s, a->y + y * s, a->z + z * s, 0};
+    stop_at_ground(r, a);
+  }
+  if (b_free) {
+    *b = (sbri_point){b->x - x * s, b->y - y * s, b->z - z * s, 0};
+    stop_at_ground(r, b);
+  }
+}
+
+static void take_back(const relaxing *r, uint32_t slot, float kept) {
+  sbri_point *p = &r->tick->positions[slot];
+  const float *q = before(r, slot);
+  if (p->y == ground_under(r, p)) return;
+  p->x = q[0] + kept * (p->x - q[0]);
+  p->y = q[SBRI_BLOCK] + kept * (p->y - q[SBRI_BLOCK]);
+  p->z = q[2 * SBRI_BLOCK] + kept * (p->z - q[2 * SBRI_BLOCK]);
+  stop_at_ground(r, p);
+}
+
+void sbri_relaxation_tick(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  const sbf_relaxation *settings = &t->model->asset->relaxation;
+  double height;
+  relaxing r = {t, sbri_ground_is_flat(t->ground, &height), 0};
+  r.flat_height = (float)((height - t->origin.y) / t->scale);
+  float fall_m = settings->gravity / t->scale;
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++)
+    t->positions[slot] = t->targets[slot];
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[island->bodies[b]];
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) move_on(&r, slot, fall_m);
+  }
+  for (uint32_t i = 0; i < island->visit_count; i++) visit(&r, &island->visits[i], settings->stiffness);
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[island->bodies[b]];
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+      take_back(&r, slot, settings->damping);
+  }
+}

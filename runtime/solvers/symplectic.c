@@ -1,0 +1,180 @@
+/* Symplectic Euler with forces gathered point by point: each of the eight points of a block sums its own
+ * springs, so that nothing is written twice, the order of sums is fixed, and the two ends of a spring receive
+ * exactly opposite forces.
+ *
+ * Damping acts on what a point's velocity differs by from that of its frame: of what holds it, or of the body
+ * as a whole where nothing does. It neither slows a fall nor drags behind a walk. It is applied as the exact
+ * decay exp(-alpha h), that of the springs' own as a force from the velocities before the substep. */
+#include <string.h>
+
+#include "collide/contact.h"
+#include "math/trig.h"
+#include "solvers/island_tick.h"
+#include "solvers/rigid_motion.h"
+
+/* Penetration is undone at up to this speed. Contacts slower than BOUNCE_FROM do not bounce. */
+static const float PUSH_M_S = 2, BOUNCE_FROM_M_S = 0.05f;
+
+/* Keeps a length from being 0, in m^2: far below what single precision can tell from 0 between two points. */
+static const float LENGTH_FLOOR = 1e-30f;
+
+static inline sbri_wide3 load3(const float *block) {
+  return (sbri_wide3){
+      sbri_wide_load(block), sbri_wide_load(block + SBRI_BLOCK), sbri_wide_load(block + 2 * SBRI_BLOCK)};
+}
+static inline void store3(float *block, sbri_wide3 v) {
+  sbri_wide_store(block, v.x);
+  sbri_wide_store(block + SBRI_BLOCK, v.y);
+  sbri_wide_store(block + 2 * SBRI_BLOCK, v.z);
+}
+
+/* Force of its springs on each point of a group of lanes. With `stretches` also the greatest share of a
+ * spring beyond its rest length; with `damped` the springs' own damping. */
+static inline sbri_wide3 spring_forces(
+    const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, bool damped, bool track, float *stretches) {
+  const sbri_island *island = t->island;
+  uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+  sbri_wide3 f = {sbri_wide_all(0), sbri_wide_all(0), sbri_wide_all(0)}, v = f;
+  sbri_wide greatest = track ? sbri_wide_load(stretches + lane) : f.x;
+  if (damped) v = sbri_wide_load_points(t->velocity_points + slot);
+  for (uint32_t c = island->cell_begins[block]; c < island->cell_begins[block + 1]; c++) {
+    const sbri_spring_cell *cell = &island->cells[c];
+    sbri_wide3 other = sbri_wide_gather(t->positions, cell->others + lane);
+    sbri_wide dx = other.x - x.x, dy = other.y - x.y, dz = other.z - x.z;
+    sbri_wide square = dx * dx + dy * dy + dz * dz + sbri_wide_all(LENGTH_FLOOR);
+    sbri_wide k = sbri_wide_load(cell->stiffness + lane), pull = sbri_wide_load(cell->pull + lane);
+    sbri_wide s = k - pull / sbri_wide_sqrt(square);
+    if (track) { /* goals, which have no rest length, do not count */
+      sbri_wide share = s / sbri_wide_max(k, sbri_wide_all(1e-20f));
+      greatest = sbri_wide_select(pull > sbri_wide_all(0), sbri_wide_max(share, greatest), greatest);
+    }
+    if (damped) {
+      sbri_wide3 w = sbri_wide_gather(t->velocity_points, cell->others + lane);
+      sbri_wide rate = (w.x - v.x) * dx + (w.y - v.y) * dy + (w.z - v.z) * dz;
+      s = s + sbri_wide_load(island->cell_damping + c * SBRI_BLOCK + lane) * rate / square;
+    }
+    f.x = f.x + s * dx;
+    f.y = f.y + s * dy;
+    f.z = f.z + s * dz;
+  }
+  if (track) sbri_wide_store(stretches + lane, greatest);
+  return f;
+}
+
+typedef struct decay {
+  float frame; /* share of the velocity against the frame that a substep keeps */
+  float media; /* and against the medium */
+} decay;
+
+static inline void kick_body(const sbri_island_tick *t, const sbri_body *body, float h, decay keep,
+    bool damped, bool track, float *stretches) {
+  const sbri_island *island = t->island;
+  sbri_wide step = sbri_wide_all(h), kept = sbri_wide_all(keep.frame), drifting = sbri_wide_all(keep.media);
+  bool guided = body->held && keep.frame < 1;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    float *velocity = t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = load3(velocity);
+    sbri_wide3 f = spring_forces(t, slot, x, damped, track, stretches);
+    sbri_wide w = sbri_wide_load(island->inverse_masses + slot);
+    sbri_wide g = sbri_wide_load(island->gravity_scales + slot);
+    v.x = v.x + step * (f.x * w + g * sbri_wide_all(t->gravity.x));
+    v.y = v.y + step * (f.y * w + g * sbri_wide_all(t->gravity.y));
+    v.z = v.z + step * (f.z * w + g * sbri_wide_all(t->gravity.z));
+    if (guided) {
+      sbri_wide3 u = load3(t->guide_velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
+      v.x = u.x + (v.x - u.x) * kept;
+      v.y = u.y + (v.y - u.y) * kept;
+      v.z = u.z + (v.z - u.z) * kept;
+    }
+    if (keep.media < 1) {
+      sbri_wide3 u = {sbri_wide_all(t->wind.x), sbri_wide_all(t->wind.y), sbri_wide_all(t->wind.z)};
+      sbri_mask real = w > sbri_wide_all(0);
+      v.x = sbri_wide_select(real, u.x + (v.x - u.x) * drifting, v.x);
+      v.y = sbri_wide_select(real, u.y + (v.y - u.y) * drifting, v.y);
+      v.z = sbri_wide_select(real, u.z + (v.z - u.z) * drifting, v.z);
+    }
+    store3(velocity, v);
+  }
+}
+
+/* The velocities as points, for the springs' damping; `rate` is one over the tick's length. */
+static void spread_velocities(const sbri_island_tick *t, float rate) {
+  const sbri_island *island = t->island;
+  for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES)
+    sbri_wide_store_points(t->velocity_points + slot,
+        load3(t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK));
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
+    const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
+    t->velocity_points[slot] =
+        (sbri_point){(to->x - from->x) * rate, (to->y - from->y) * rate, (to->z - from->z) * rate, 0};
+  }
+}
+
+static void drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
+  sbri_wide step = sbri_wide_all(h);
+  const sbri_contact_rule rule = {body->friction, body->restitution, h, PUSH_M_S * h, BOUNCE_FROM_M_S};
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    float *velocity = t->velocities + 3 * (block * SBRI_BLOCK) + lane;
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = load3(velocity);
+    if (t->near_ground[block]) {
+      sbri_contact_move(&x, &v, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule);
+      store3(velocity, v);
+    } else {
+      x.x = x.x + step * v.x;
+      x.y = x.y + step * v.y;
+      x.z = x.z + step * v.z;
+    }
+    sbri_wide_store_points(t->positions + slot, x);
+  }
+}
+
+/* Held points on the straight way from where they were to where they shall be. */
+static void carry_held(const sbri_island_tick *t, float share) {
+  for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
+    const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
+    t->positions[slot] = (sbri_point){from->x + (to->x - from->x) * share,
+        from->y + (to->y - from->y) * share, from->z + (to->z - from->z) * share, 0};
+  }
+}
+
+static void kick(const sbri_island_tick *t, float h, bool last, float *stretches) {
+  bool damped = t->island->cell_damping != NULL;
+  for (uint32_t b = 0; b < t->island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+    decay keep = {body->alpha_1_s > 0 ? sbri_exp(-body->alpha_1_s * h) : 1,
+        body->media_friction_1_s > 0 ? sbri_exp(-body->media_friction_1_s * h) : 1};
+    /* Four copies of the loop, so that the common one carries no more than it needs. */
+    if (damped && last)
+      kick_body(t, body, h, keep, true, true, stretches);
+    else if (damped)
+      kick_body(t, body, h, keep, true, false, stretches);
+    else if (last)
+      kick_body(t, body, h, keep, false, true, stretches);
+    else
+      kick_body(t, body, h, keep, false, false, stretches);
+    if (!body->held && keep.frame < 1)
+      sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, keep.frame);
+  }
+}
+
+void sbri_symplectic_tick(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  uint32_t substeps = sbri_island_substeps(island, t->tick_s, *t->stretch);
+  float h = t->tick_s / (float)substeps;
+  float stretches[SBRI_BLOCK] = {0};
+  size_t held = island->slot_count - island->free_count;
+  memcpy(t->begins + island->free_count, t->positions + island->free_count, held * sizeof *t->begins);
+  for (uint32_t s = 0; s < substeps; s++) {
+    bool last = s + 1 == substeps;
+    if (island->cell_damping) spread_velocities(t, 1 / t->tick_s);
+    kick(t, h, last, stretches);
+    for (uint32_t b = 0; b < island->body_count; b++) drift_body(t, &t->model->bodies[island->bodies[b]], h);
+    if (!last) carry_held(t, (float)(s + 1) / (float)substeps);
+  }
+  memcpy(t->positions + island->free_count, t->targets + island->free_count, held * sizeof *t->positions);
+  float greatest = 0;
+  for (int lane = 0; lane < SBRI_BLOCK; lane++)
+    greatest = stretches[lane] > greatest ? stretches[lane] : greatest;
+  *t->stretch = greatest;
+}
