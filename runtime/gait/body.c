@@ -24,7 +24,7 @@ static bool feet_center(
     sum = sbri_add(sum, state->feet[i].ground);
     count += 1;
   }
-  if (count > 0) *center = sbri_scale(sum, 1 / count);
+  *center = sbri_scale(sum, count > 0 ? 1 / count : 0);
   return count > 0;
 }
 
