@@ -1,0 +1,278 @@
+#include "scenes.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sbfmt/mechanics.h"
+
+scene scene_begin(void) {
+  scene s = {.asset = sbf_asset_create(NULL),
+      .world_definition = sbr_default_world_definition(),
+      .character_definition = sbr_default_character_definition()};
+  ck_assert_ptr_nonnull(s.asset);
+  s.world_definition.ground = sbr_ground_flat(-1000);
+  s.character_definition.position.y = 1000;
+  scene_bodies(&s, 1);
+  return s;
+}
+
+void scene_bodies(scene *s, uint32_t count) {
+  sbf_soft_body *bodies = sbf_asset_allocate(s->asset, count, sizeof *bodies);
+  ck_assert_ptr_nonnull(bodies);
+  for (uint32_t i = 0; i < count; i++) {
+    sbf_soft_body_init(&bodies[i]);
+    bodies[i].id = "body";
+    bodies[i].attributes.damping_ratio = 0;
+  }
+  s->asset->soft_bodies = (sbf_soft_body_list){bodies, count};
+}
+
+sbf_soft_body *scene_body(scene *s, uint32_t index) {
+  return (sbf_soft_body *)(uintptr_t)&s->asset->soft_bodies.at[index];
+}
+
+static const void *copy(scene *s, const void *from, size_t count, size_t size) {
+  void *to = sbf_asset_allocate(s->asset, count, size);
+  ck_assert(count == 0 || to);
+  return count ? memcpy(to, from, count * size) : NULL;
+}
+
+sbf_level *scene_points(
+    scene *s, uint32_t body, const sbf_vec3 *positions, const float *masses, uint32_t count) {
+  sbf_level *level = sbf_asset_allocate(s->asset, 1, sizeof *level);
+  ck_assert_ptr_nonnull(level);
+  sbf_level_init(level);
+  level->positions = (sbf_vec3_list){copy(s, positions, count, sizeof *positions), count};
+  if (masses) level->masses = (sbf_f32_list){copy(s, masses, count, sizeof *masses), count};
+  scene_body(s, body)->levels = (sbf_level_list){level, 1};
+  return level;
+}
+
+void scene_springs(
+    scene *s, sbf_level *level, const sbf_uint2 *ends, const float *stiffness, uint32_t count) {
+  sbf_spring_set *set = sbf_asset_allocate(s->asset, 1, sizeof *set);
+  ck_assert_ptr_nonnull(set);
+  sbf_spring_set_init(set);
+  set->ends = (sbf_uint2_list){copy(s, ends, count, sizeof *ends), count};
+  set->stiffness = (sbf_f32_list){copy(s, stiffness, count, sizeof *stiffness), count};
+  level->springs = (sbf_spring_set_list){set, 1};
+}
+
+void scene_pin(scene *s, sbf_level *level, int32_t bone, const uint32_t *points, uint32_t count) {
+  sbf_pin_set *set = sbf_asset_allocate(s->asset, 1, sizeof *set);
+  ck_assert_ptr_nonnull(set);
+  sbf_pin_set_init(set);
+  set->bone = bone;
+  set->points = (sbf_u32_list){copy(s, points, count, sizeof *points), count};
+  level->pins = (sbf_pin_set_list){set, 1};
+}
+
+void scene_bone(scene *s, sbf_vec3 head) {
+  sbf_bone *bone = sbf_asset_allocate(s->asset, 1, sizeof *bone);
+  ck_assert_ptr_nonnull(bone);
+  sbf_bone_init(bone);
+  bone->id = "bone";
+  bone->head = head;
+  bone->rotation = (sbf_quat){0.70710678f, 0, 0, 0.70710678f}; /* +Y of the bone along +Z */
+  bone->length = 1;
+  s->asset->bones = (sbf_bone_list){bone, 1};
+}
+
+/* ---- The box ---- */
+
+typedef struct box {
+  uint32_t cells;
+  sbf_vec3 low, step;
+  sbf_vec3 *points;
+  uint32_t point_count;
+  uint32_t *quads; /* (quad_count x 4) */
+  uint32_t quad_count;
+  uint32_t *place; /* ((cells + 1)^3) number of the point at each lattice place of the surface */
+} box;
+
+static uint32_t box_point(box *b, const uint32_t at[3]) {
+  uint32_t n = b->cells + 1, *place = &b->place[(at[0] * n + at[1]) * n + at[2]];
+  if (*place == 0) {
+    b->points[b->point_count++] = (sbf_vec3){b->low.x + b->step.x * (float)at[0],
+        b->low.y + b->step.y * (float)at[1], b->low.z + b->step.z * (float)at[2]};
+    *place = b->point_count;
+  }
+  return *place - 1;
+}
+
+/* One side, square to `axis`, at its low or its high end, seen from outside counter-clockwise. */
+static void box_side(box *b, int axis, bool high) {
+  int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  for (uint32_t i = 0; i < b->cells; i++)
+    for (uint32_t j = 0; j < b->cells; j++) {
+      static const uint32_t corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+      for (int c = 0; c < 4; c++) {
+        const uint32_t *corner = corners[high ? c : 3 - c];
+        uint32_t at[3];
+        at[axis] = high ? b->cells : 0;
+        at[u] = i + corner[0];
+        at[v] = j + corner[1];
+        b->quads[4 * b->quad_count + (uint32_t)c] = box_point(b, at);
+      }
+      b->quad_count++;
+    }
+}
+
+static sbf_vec3 mean(const sbf_vec3 *points, const uint32_t *at, uint32_t count) {
+  sbf_vec3 sum = {0, 0, 0};
+  for (uint32_t i = 0; i < count; i++) {
+    const sbf_vec3 *p = &points[at ? at[i] : i];
+    sum = (sbf_vec3){sum.x + p->x, sum.y + p->y, sum.z + p->z};
+  }
+  float s = 1 / (float)count;
+  return (sbf_vec3){sum.x * s, sum.y * s, sum.z * s};
+}
+
+static bool has_pair(const sbf_uint2 *pairs, uint32_t count, uint32_t a, uint32_t b) {
+  for (uint32_t i = 0; i < count; i++)
+    if ((pairs[i].at[0] == a && pairs[i].at[1] == b) || (pairs[i].at[0] == b && pairs[i].at[1] == a))
+      return true;
+  return false;
+}
+
+static void add_set(scene *s, sbf_spring_set *sets, uint32_t *set_count, sbf_spring_kind kind,
+    const sbf_uint2 *ends, const float *stiffness, uint32_t count) {
+  sbf_spring_set *set = &sets[(*set_count)++];
+  sbf_spring_set_init(set);
+  set->kind = kind;
+  set->ends = (sbf_uint2_list){copy(s, ends, count, sizeof *ends), count};
+  set->stiffness = (sbf_f32_list){copy(s, stiffness, count, sizeof *stiffness), count};
+}
+
+void scene_section(scene *s, uint32_t body_index, sbf_vec3 center, sbf_vec3 size, uint32_t cells) {
+  sbf_soft_body *body = scene_body(s, body_index);
+  uint32_t lattice = (cells + 1) * (cells + 1) * (cells + 1), quad_count = 6 * cells * cells;
+  box b = {.cells = cells,
+      .low = {center.x - 0.5f * size.x, center.y - 0.5f * size.y, center.z - 0.5f * size.z},
+      .step = {size.x / (float)cells, size.y / (float)cells, size.z / (float)cells},
+      .points = calloc(lattice + quad_count + 1, sizeof *b.points),
+      .quads = calloc(quad_count, 4 * sizeof *b.quads),
+      .place = calloc(lattice, sizeof *b.place)};
+  for (int axis = 0; axis < 3; axis++)
+    for (int high = 0; high < 2; high++) box_side(&b, axis, high);
+
+  uint32_t *sizes = sbf_asset_allocate(s->asset, quad_count, sizeof *sizes);
+  for (uint32_t i = 0; i < quad_count; i++) sizes[i] = 4;
+  body->bone = 0;
+  body->surface.target = SBF_MESH_TARGET_SURFACE;
+  body->surface.positions =
+      (sbf_vec3_list){copy(s, b.points, b.point_count, sizeof *b.points), b.point_count};
+  body->surface.polygon_sizes = (sbf_u32_list){sizes, quad_count};
+  body->surface.polygon_points =
+      (sbf_u32_list){copy(s, b.quads, 4 * (size_t)quad_count, sizeof *b.quads), 4 * quad_count};
+
+  uint32_t surface = b.point_count, structural = 0, shear = 0, internal = 0;
+  b.points[b.point_count++] = mean(b.points, NULL, surface);
+  sbf_uint2 *pairs = calloc(12 * (size_t)quad_count + surface, sizeof *pairs),
+            *diagonals = pairs + 4 * quad_count;
+  sbf_uint2 *inner = pairs + 6 * quad_count;
+  for (uint32_t i = 0; i < surface; i++) inner[internal++] = (sbf_uint2){{surface, i}};
+  for (uint32_t q = 0; q < quad_count; q++) {
+    const uint32_t *at = b.quads + 4 * q;
+    sbf_vec3 middle = mean(b.points, at, 4), five = b.points[surface];
+    uint32_t point = b.point_count++;
+    b.points[point] = (sbf_vec3){
+        0.8f * middle.x + 0.2f * five.x, 0.8f * middle.y + 0.2f * five.y, 0.8f * middle.z + 0.2f * five.z};
+    for (int c = 0; c < 4; c++) {
+      if (!has_pair(pairs, structural, at[c], at[(c + 1) % 4]))
+        pairs[structural++] = (sbf_uint2){{at[c], at[(c + 1) % 4]}};
+      inner[internal++] = (sbf_uint2){{point, at[c]}};
+    }
+    diagonals[shear++] = (sbf_uint2){{at[0], at[2]}};
+    diagonals[shear++] = (sbf_uint2){{at[1], at[3]}};
+  }
+  sbf_level *level = scene_points(s, body_index, b.points, NULL, b.point_count);
+  uint32_t *held = calloc(b.point_count - surface, sizeof *held);
+  for (uint32_t i = surface; i < b.point_count; i++) held[i - surface] = i;
+  scene_pin(s, level, 0, held, b.point_count - surface);
+
+  sbf_body_measures measures;
+  sbf_body_measure(body, &measures);
+  float *volumes = calloc(b.point_count, sizeof *volumes);
+  uint8_t *is_held = calloc(b.point_count, 1);
+  double *scratch = calloc(3 * (size_t)b.point_count, sizeof *scratch);
+  float *stiffness = calloc(12 * (size_t)quad_count + surface, sizeof *stiffness);
+  sbf_level_held_points(level, is_held);
+  sbf_level_shares(body, level, is_held, volumes);
+  for (uint32_t i = 0; i < b.point_count; i++) volumes[i] *= (float)measures.volume;
+  memmove(pairs + structural, diagonals, shear * sizeof *pairs);
+  double modulus = body->attributes.young_modulus;
+  sbf_stiffness_of_network(SBF_STIFFNESS_MEMBRANE * modulus, b.points, b.point_count, volumes, pairs,
+      structural + shear, scratch, stiffness);
+  sbf_stiffness_of_anchors(modulus, measures.depth, b.points[surface], b.points, b.point_count, volumes,
+      is_held, inner, internal, scratch, stiffness + structural + shear);
+  sbf_spring_set *sets = sbf_asset_allocate(s->asset, 3, sizeof *sets);
+  uint32_t set_count = 0;
+  add_set(s, sets, &set_count, SBF_SPRING_KIND_STRUCTURAL, pairs, stiffness, structural);
+  add_set(s, sets, &set_count, SBF_SPRING_KIND_SHEAR, pairs + structural, stiffness + structural, shear);
+  add_set(s, sets, &set_count, SBF_SPRING_KIND_INTERNAL, inner, stiffness + structural + shear, internal);
+  level->springs = (sbf_spring_set_list){sets, set_count};
+  free(stiffness), free(scratch), free(is_held), free(volumes), free(held), free(pairs);
+  free(b.place), free(b.quads), free(b.points);
+}
+
+void scene_skin(scene *s, uint32_t body_index) {
+  const sbf_soft_body *body = scene_body(s, body_index);
+  sbf_render_mesh *mesh = sbf_asset_allocate(s->asset, 1, sizeof *mesh);
+  sbf_render_mesh_init(mesh);
+  mesh->id = "skin";
+  mesh->mesh = body->surface;
+  mesh->mesh.target = SBF_MESH_TARGET_RENDERING;
+  s->asset->render_meshes = (sbf_render_mesh_list){mesh, 1};
+  uint32_t count = body->surface.positions.count;
+  sbf_embedding *embedding = sbf_asset_allocate(s->asset, 1, sizeof *embedding);
+  sbf_uint4 *points = sbf_asset_allocate(s->asset, count, sizeof *points);
+  sbf_vec4 *weights = sbf_asset_allocate(s->asset, count, sizeof *weights);
+  sbf_embedding_init(embedding);
+  for (uint32_t i = 0; i < count; i++) {
+    points[i] = (sbf_uint4){{i, i, i, i}};
+    weights[i] = (sbf_vec4){1, 0, 0, 0};
+  }
+  embedding->render_mesh = 0;
+  embedding->points = (sbf_uint4_list){points, count};
+  embedding->weights = (sbf_vec4_list){weights, count};
+  sbf_level *level = (sbf_level *)(uintptr_t)&body->levels.at[0];
+  level->embeddings = (sbf_embedding_list){embedding, 1};
+}
+
+/* ---- Running ---- */
+
+static void expect_ok(sbf_status status, const sbf_diagnostic *error) {
+  ck_assert_msg(status == SBF_OK, "%s", error->message);
+}
+
+void scene_start(scene *s) {
+  sbf_diagnostic error = {0};
+  expect_ok(sbr_model_create(s->asset, &s->model_options, &s->model, &error), &error);
+  expect_ok(sbr_world_create(&s->world_definition, &s->world, &error), &error);
+  expect_ok(
+      sbr_character_create(s->world, s->model, &s->character_definition, &s->character, &error), &error);
+}
+
+void scene_free(scene *s) {
+  sbr_world_destroy(s->world);
+  sbr_model_destroy(s->model);
+  sbf_asset_free(s->asset);
+}
+
+void scene_ticks(scene *s, uint32_t ticks) {
+  for (uint32_t i = 0; i < ticks; i++) sbr_world_tick(s->world);
+}
+
+uint32_t scene_read(const scene *s, uint32_t body, sbf_vec3 *positions, uint32_t capacity) {
+  return sbr_character_points(s->world, s->character, body, positions, capacity);
+}
+
+sbf_vec3 scene_point(const scene *s, uint32_t body, uint32_t point) {
+  static sbf_vec3 positions[4096];
+  uint32_t count = scene_read(s, body, positions, 4096);
+  ck_assert_uint_lt(point, count);
+  return positions[point];
+}

@@ -1,0 +1,48 @@
+/* Small assets and worlds that the runtime's tests share. Everything made here is freed with scene_free. */
+#ifndef TEST_SCENES_H
+#define TEST_SCENES_H
+
+#include "sbfmt/asset.h"
+#include "sbrun/sbrun.h"
+
+typedef struct scene {
+  sbf_asset *asset;
+  sbr_model *model;
+  sbr_world *world;
+  sbr_character_id character;
+  sbr_model_options model_options;
+  sbr_world_definition world_definition;
+  sbr_character_definition character_definition;
+} scene;
+
+/* Definitions at their defaults, but the ground a kilometre down; a new asset with room for one soft body. */
+scene scene_begin(void);
+sbf_soft_body *scene_body(scene *s, uint32_t index);
+void scene_bodies(scene *s, uint32_t count);
+/* Model, world and character from the asset and the definitions. */
+void scene_start(scene *s);
+void scene_free(scene *s);
+
+/* A level of bare points: positions, masses in kg and springs; nothing is held and nothing damped. */
+sbf_level *scene_points(
+    scene *s, uint32_t body, const sbf_vec3 *positions, const float *masses, uint32_t count);
+void scene_springs(scene *s, sbf_level *level, const sbf_uint2 *ends, const float *stiffness, uint32_t count);
+/* Holds points by a bone, or by the world where `bone` is negative. Call once a level. */
+void scene_pin(scene *s, sbf_level *level, int32_t bone, const uint32_t *points, uint32_t count);
+/* One bone along +Z from `head`. */
+void scene_bone(scene *s, sbf_vec3 head);
+
+/* A closed box of `size` about `center` as a section of bone 0 (which scene_bone made): `cells` quads along
+ * each edge, springs over and inside it by the thesis's method, stiffness as sbfmt/mechanics.h gives it. The
+ * interior is held by the bone. */
+void scene_section(scene *s, uint32_t body, sbf_vec3 center, sbf_vec3 size, uint32_t cells);
+/* A render mesh over the section's surface, carried by it, without normals. */
+void scene_skin(scene *s, uint32_t body);
+
+/* Runs `ticks` control ticks. */
+void scene_ticks(scene *s, uint32_t ticks);
+/* Places of the points of a body relative to the origin. */
+uint32_t scene_read(const scene *s, uint32_t body, sbf_vec3 *positions, uint32_t capacity);
+sbf_vec3 scene_point(const scene *s, uint32_t body, uint32_t point);
+
+#endif

@@ -1,0 +1,224 @@
+#include <math.h>
+
+#include "harness.h"
+#include "scenes.h"
+
+static const double pi = 3.14159265358979323846;
+static const double tick = 1.0 / 60;
+
+/* One mass on a spring along x, held by the world at 0. */
+static scene oscillator(float mass, float stiffness, float length) {
+  scene s = scene_begin();
+  const sbf_vec3 positions[] = {{0, 0, 0}, {length, 0, 0}};
+  const float masses[] = {0, mass};
+  const uint32_t held = 0;
+  sbf_level *level = scene_points(&s, 0, positions, masses, 2);
+  scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &stiffness, 1);
+  scene_pin(&s, level, -1, &held, 1);
+  s.world_definition.has_gravity = true;
+  return s;
+}
+
+/* Mean time between upward crossings of `level` by the point's `axis`. */
+static double period(scene *s, int axis, float level, uint32_t ticks) {
+  double first = -1, last = -1, before = 0;
+  int crossings = 0;
+  for (uint32_t i = 0; i <= ticks; i++) {
+    sbf_vec3 p = scene_point(s, 0, 1);
+    double value = (axis == 0 ? p.x : axis == 1 ? p.y : p.z) - level;
+    if (i > 0 && before < 0 && value >= 0) {
+      double time = (i - 1 + before / (before - value)) * tick;
+      if (first < 0)
+        first = time;
+      else
+        crossings++;
+      last = time;
+    }
+    before = value;
+    scene_ticks(s, 1);
+  }
+  ck_assert_int_gt(crossings, 3);
+  return (last - first) / crossings;
+}
+
+START_TEST(a_spring_swings_with_its_period)
+{
+  scene s = oscillator(2, 50, 1);
+  s.world_definition.gravity = (sbf_vec3){0.5f, 0, 0}; /* swings about 0.02 m beyond its rest length */
+  s.model_options.substeps = 8;
+  scene_start(&s);
+  double exact = 2 * pi * sqrt(2.0 / 50), measured = period(&s, 0, 1.02f, 1200);
+  ck_assert_double_eq_tol(measured, exact, 2e-4 * exact);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(a_scaled_spring_swings_slower_by_the_root)
+{
+  scene s = oscillator(2, 50, 1);
+  s.world_definition.gravity = (sbf_vec3){0.5f, 0, 0};
+  s.model_options.substeps = 8;
+  s.character_definition.scale = 4;
+  scene_start(&s);
+  /* Lengths grow with the scale, the stretch under the same weight as well. */
+  double exact = 2 * 2 * pi * sqrt(2.0 / 50), measured = period(&s, 0, 4 * 1.02f, 1200);
+  ck_assert_double_eq_tol(measured, exact, 2e-4 * exact);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(energy_does_not_drift)
+{
+  scene s = oscillator(2, 50, 1);
+  s.world_definition.gravity = (sbf_vec3){3, -2, 1};
+  s.model_options.substeps = 4;
+  scene_start(&s);
+  double sums[2] = {0, 0};
+  for (int half = 0; half < 2; half++)
+    for (int i = 0; i < 6000; i++) {
+      scene_ticks(&s, 1);
+      sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+      sums[half] += h.kinetic_j + h.elastic_j + h.potential_j;
+    }
+  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  ck_assert(h.finite);
+  double swing = 2.0 * 3.74 * 3.74 / 50; /* about the work of the weight over the stretch */
+  ck_assert_double_eq_tol(sums[1] / 6000, sums[0] / 6000, 0.01 * swing);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(a_free_body_falls_as_it_should)
+{
+  scene s = scene_begin();
+  scene_body(&s, 0)->attributes.damping_ratio = 0.5f;
+  const sbf_vec3 positions[] = {{0, 0, 0}, {0.2f, 0, 0}, {0, 0.2f, 0}, {0, 0, 0.2f}};
+  const float masses[] = {1, 2, 1, 1}, stiffness[] = {400, 400, 400, 400, 400, 400};
+  const sbf_uint2 ends[] = {{{0, 1}}, {{0, 2}}, {{0, 3}}, {{1, 2}}, {{1, 3}}, {{2, 3}}};
+  sbf_level *level = scene_points(&s, 0, positions, masses, 4);
+  scene_springs(&s, level, ends, stiffness, 6);
+  s.model_options.substeps = 4;
+  scene_start(&s);
+  scene_ticks(&s, 60);
+  double h = tick / 4, n = 240;
+  sbf_vec3 p = scene_point(&s, 0, 0);
+  ck_assert_double_eq_tol(p.y, -9.81 * h * h * n * (n + 1) / 2, 2e-4);
+  ck_assert_double_eq_tol(p.x, 0, 1e-5);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(momentum_is_kept)
+{
+  scene s = scene_begin();
+  scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
+  scene_body(&s, 0)->attributes.stiffness_damping = 1e-3f;
+  sbf_vec3 positions[8];
+  float masses[8], stiffness[28], rest[28];
+  sbf_uint2 ends[28];
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < 8; i++) {
+    positions[i] = (sbf_vec3){(float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2)};
+    masses[i] = 1 + 0.25f * (float)i;
+    for (uint32_t k = 0; k < i; k++) {
+      ends[count] = (sbf_uint2){{k, i}};
+      rest[count] = 0.4f + 0.05f * (float)count; /* far from rest */
+      stiffness[count++] = 200;
+    }
+  }
+  sbf_level *level = scene_points(&s, 0, positions, masses, 8);
+  scene_springs(&s, level, ends, stiffness, count);
+  sbf_spring_set *set = (sbf_spring_set *)(uintptr_t)level->springs.at;
+  set->rest_lengths = (sbf_f32_list){rest, count};
+  s.world_definition.has_gravity = true;
+  s.world_definition.gravity = (sbf_vec3){0, 0, 0};
+  scene_start(&s);
+  double before[3] = {0, 0, 0}, mass = 0;
+  for (int i = 0; i < 8; i++) {
+    before[0] += masses[i] * positions[i].x, before[1] += masses[i] * positions[i].y;
+    before[2] += masses[i] * positions[i].z, mass += masses[i];
+  }
+  scene_ticks(&s, 1000);
+  sbf_vec3 after[8];
+  double sum[3] = {0, 0, 0};
+  ck_assert_uint_eq(scene_read(&s, 0, after, 8), 8);
+  for (int i = 0; i < 8; i++)
+    sum[0] += masses[i] * after[i].x, sum[1] += masses[i] * after[i].y, sum[2] += masses[i] * after[i].z;
+  for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(sum[k] / mass, before[k] / mass, 1e-4);
+  scene_free(&s);
+}
+END_TEST
+
+/* Small swings of a mass on a stiff spring: a pendulum of the spring's stretched length. */
+START_TEST(a_pendulum_keeps_its_period)
+{
+  scene s = oscillator(1, 20000, 1);
+  s.world_definition.gravity = (sbf_vec3){0.6f, -9.81f, 0};
+  scene_start(&s);
+  /* Weight slants by 3.5 degrees; it hangs out of its way by 86.5 and swings far: T/T0 of agm for that. */
+  double g = sqrt(0.36 + 9.81 * 9.81), amplitude = atan2(9.81, 0.6);
+  double a = 1, b = cos(amplitude / 2);
+  for (int i = 0; i < 20; i++) {
+    double middle = 0.5 * (a + b);
+    b = sqrt(a * b), a = middle;
+  }
+  double exact = 2 * pi * sqrt(1 / g) / a, measured = period(&s, 0, 0.061f, 1800);
+  ck_assert_double_eq_tol(measured, exact, 0.01 * exact);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(damping_takes_what_its_ratio_says)
+{
+  scene s = oscillator(2, 50, 1);
+  scene_body(&s, 0)->attributes.damping_ratio = 0.1f;
+  s.world_definition.gravity = (sbf_vec3){0.5f, 0, 0};
+  s.model_options.substeps = 16;
+  scene_start(&s);
+  double w = 5, decay = exp(-0.1 * w * 2), low = 9, high = -9;
+  for (int i = 0; i < 120 + 76; i++) {
+    scene_ticks(&s, 1);
+    double off = scene_point(&s, 0, 1).x - 1.02;
+    if (i >= 120) low = fmin(low, off), high = fmax(high, off);
+  }
+  /* After 2 s, over one period: extremes of 0.02 exp(-z w t). */
+  ck_assert_double_gt(high, 0.02 * decay * 0.5);
+  ck_assert_double_lt(high, 0.02 * decay);
+  ck_assert_double_gt(low, -0.02 * decay);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(springs_damp_their_own_stretching)
+{
+  scene s = oscillator(2, 50, 1);
+  scene_body(&s, 0)->attributes.stiffness_damping = 0.04f; /* ratio beta w / 2 = 0.1 */
+  s.world_definition.gravity = (sbf_vec3){0.5f, 0, 0};
+  s.model_options.substeps = 64;
+  scene_start(&s);
+  double w = 5, wd = w * sqrt(0.99), t = 1.5;
+  scene_ticks(&s, 90);
+  double off = -0.02 * exp(-0.1 * w * t) * (cos(wd * t) + 0.1 / sqrt(0.99) * sin(wd * t));
+  ck_assert_double_eq_tol(scene_point(&s, 0, 1).x - 1.02, off, 2e-4);
+  scene_free(&s);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("symplectic");
+  TCase *c = tcase_create("symplectic");
+  tcase_add_test(c, a_spring_swings_with_its_period);
+  tcase_add_test(c, a_scaled_spring_swings_slower_by_the_root);
+  tcase_add_test(c, energy_does_not_drift);
+  tcase_add_test(c, a_free_body_falls_as_it_should);
+  tcase_add_test(c, momentum_is_kept);
+  tcase_add_test(c, a_pendulum_keeps_its_period);
+  tcase_add_test(c, damping_takes_what_its_ratio_says);
+  tcase_add_test(c, springs_damp_their_own_stretching);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
