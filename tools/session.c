@@ -103,8 +103,8 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
   *s = (session){.seconds = seconds, .fps = fps};
   *status = SBF_FAILED;
   if (!parse_settings(s, call, &set)) return false;
-  const char *script = cli_value(call, "--script");
-  if (script && !script_load(&s->script, call, script, status)) return false;
+  const char *commands = cli_value(call, "--script");
+  if (commands && !script_load(&s->script, call, commands, status)) return false;
   s->threads = thread_pool_create((uint32_t)set.threads);
   if (!s->threads) {
     cli_wrong(call, "the threads cannot be made: ask for fewer");

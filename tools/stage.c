@@ -169,14 +169,14 @@ static void show_skin(stage *st, const session *s, sbf_vec3 origin, draw_scene *
         sbr_character_skin(s->world, s->character, m, st->positions, st->normals, NULL, st->room);
     to_world(origin, st->positions, count);
     for (uint32_t p = 0; p < st->meshes[m].patch_count; p++) {
-      const patch *patch = &st->meshes[m].patches[p];
-      if (patch->triangle_count == 0) continue;
+      const patch *one = &st->meshes[m].patches[p];
+      if (one->triangle_count == 0) continue;
       draw_scene_add_mesh(scene, &(draw_mesh){.positions = st->positions,
                                      .normals = st->normals,
-                                     .triangles = patch->triangles,
+                                     .triangles = one->triangles,
                                      .vertex_count = count,
-                                     .triangle_count = patch->triangle_count,
-                                     .colour = patch->colour,
+                                     .triangle_count = one->triangle_count,
+                                     .colour = one->colour,
                                      .transparency = inside ? DRAW_XRAY : 0});
     }
   }

@@ -137,11 +137,11 @@ static json_t *report(const run_state *r) {
   json_t *steps = json_object();
   for (uint32_t l = 0; l < leg_count && l < 16; l++)
     json_object_set_new(steps, gait->legs.at[l].name, json_integer(legs[l].steps_taken));
-  sole_report soles = soles_report(r->soles);
+  sole_report walked = soles_report(r->soles);
   json_object_set_new(o, "distance", json_real(sbr_character_distance(r->s.world, r->s.character)));
   json_object_set_new(o, "steps_taken", steps);
-  json_object_set_new(o, "stance_slip", json_real(soles.slip_m));
-  json_object_set_new(o, "penetration", json_real(soles.penetration_m));
+  json_object_set_new(o, "stance_slip", json_real(walked.slip_m));
+  json_object_set_new(o, "penetration", json_real(walked.penetration_m));
   return o;
 }
 
