@@ -96,8 +96,7 @@ static void close_studio(studio *st) {
 static sbf_status paint(studio *st, sbf_diagnostic *error) {
   stage_show(st->stage, &st->s, st->scene);
   box3 box = draw_scene_bounds(st->scene);
-  sbf_vec3 middle = {
-      (box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
+  sbf_vec3 middle = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
   if (!st->framed)
     draw_camera_frame(&st->camera, &box, (float)st->width / (float)st->height, DRAW_CAMERA_THREE_QUARTER_YAW,
         DRAW_CAMERA_THREE_QUARTER_PITCH);

@@ -313,9 +313,9 @@ static bool write_gait(draft *d) {
   gait->body = gait->hips;
   while (bone_at(d, gait->body)->parent >= 0) gait->body = bone_at(d, gait->body)->parent;
   gait->step_trigger = (float)fmax(0.08 * reach, fmin(0.22 * reach, 0.45 * play));
-  gait->step_height = (float)(0.16 * reach);
+  gait->step_height = (float)(0.12 * reach);
   gait->walk_speed = (float)(0.4 * reach);
-  gait->step_duration = (float)(0.30 * sqrt(reach)); /* as pendulums: time goes with the root of length */
+  gait->step_duration = (float)(0.42 * sqrt(reach)); /* as pendulums: time goes with the root of length */
   if (d->head != NO_BONE) {
     sbf_head_turn *head = sbf_asset_allocate(d->asset, 1, sizeof *head);
     if (!head) return false;

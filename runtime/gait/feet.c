@@ -137,7 +137,7 @@ static bool swing(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_i
   foot->normal = sbri_normalize(sbri_lerp(foot->from_normal, foot->to_normal, t), sbri_vec3(0, 1, 0));
   foot->heading = foot->from_heading * (1 - t);
   sbri_sincos(PI * foot->phase, &sine, &cosine);
-  foot->lift = rig->gait->step_height * input->scale * sine;
+  foot->lift = rig->gait->step_height * input->scale * sine * sine;
   /* Over a hump between the two places the foot keeps its height above the hump. */
   float hump = sbri_ground_below(input, foot->ground, NULL).y - foot->ground.y;
   if (hump > 0) foot->lift += hump;

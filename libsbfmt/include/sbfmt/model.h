@@ -573,7 +573,7 @@ typedef struct sbf_attributes {
   float area_density;
   /* Of an open surface. [m; (0, inf); default 0.001] */
   float thickness;
-  /* Stiffness. [Pa; (0, inf); default 50000] */
+  /* Stiffness. [Pa; (0, inf); default 100000] */
   float young_modulus;
   /* Sideways contraction; spring levels show a quarter. [(-1, 0.5); default 0.4] */
   float poisson_ratio;
@@ -583,7 +583,7 @@ typedef struct sbf_attributes {
   float mass_damping;
   /* Rayleigh beta. [s; [0, inf)] */
   float stiffness_damping;
-  /* At the body's lowest free mode, as further alpha. [[0, inf); default 0.15] */
+  /* At the body's lowest free mode, as further alpha. [[0, inf); default 0.2] */
   float damping_ratio;
   /* Coulomb coefficient. [[0, inf); default 0.6] */
   float friction;
