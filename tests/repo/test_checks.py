@@ -2,13 +2,14 @@
 """Each check of this folder finds what it is there for, and lets pass what is right."""
 import unittest
 
+import check_docs
 import check_includes
 import check_names
 import check_symbols
 import check_words
 
-FILES = {"libsbfmt/base/memory.h", "libsbfmt/model/check.h", "libsbfmt/build/springs.h", "libsbfmt/xml/reader.h", "libsbfmt/validate/rules.h",
-         "libsbfmt/mechanics/spring.h", "runtime/core/world.h", "runtime/math/vec3.h", "tools/cli.h"}
+FILES = {"libsbfmt/base/memory.h", "libsbfmt/model/check.h", "libsbfmt/build/springs.h", "libsbfmt/xml/reader.h",
+         "libsbfmt/validate/rules.h", "libsbfmt/mechanics/spring.h", "runtime/core/world.h", "runtime/math/vec3.h", "tools/cli.h"}
 
 
 class Includes(unittest.TestCase):
@@ -57,6 +58,21 @@ class Words(unittest.TestCase):
         for text in ["/* TO" "DO */\n", "x; /* not imple" "mented */\n", "int a; \n", "int a;\r\n", "\tint a;\n", "int a;",
                      'open("/ho' 'me/someone/x");\n', 'open("/c/o/build/x");\n']:
             self.assertEqual(len(check_words.faults_of("a.c", text, "/c/o")), 1, text)
+
+
+class Docs(unittest.TestCase):
+    def test_commands(self):
+        run_help = "Usage\n\n  test   build\n"
+        self.assertEqual(check_docs.command_faults("./run test\nls -l  # ./run away\n", run_help, None), [])
+        self.assertEqual(len(check_docs.command_faults("cd x && ./run away\n", run_help, None)), 1)
+
+    def test_programs(self):
+        compiler = [("cc", ["-x", "c", "-std=c11"])]
+        self.assertEqual(check_docs.compile_faults('#include "sbfmt/io.h"\nint main(void) { return 0; }\n', compiler), [])
+        self.assertEqual(len(check_docs.compile_faults("int main(void) { return sbr_none(); }\n", compiler)), 1)
+
+    def test_links(self):
+        self.assertEqual(check_docs.LINK.findall("[a](b/c.md) [d](e.md#f) [g](#h)"), ["b/c.md", "e.md"])
 
 
 class Symbols(unittest.TestCase):
