@@ -26,6 +26,8 @@ typedef struct parse {
   sbf_diagnostic *error;
   sbf_status status;
   bool stopped; /* by a handler or by an error */
+  bool ended;   /* the root element did */
+  int depth;
 } parse;
 
 static void stop(parse *p) {
@@ -67,7 +69,7 @@ static int read_some(void *user, char *to, int room) {
   size_t size = left < (uint64_t)room ? (size_t)left : (size_t)room;
   if (size == 0 || p->stopped) return 0;
   if (!read_source(p->source, p->offset, to, size, &p->status, p->error)) {
-    p->stopped = true; /* the context may be in the making: it ends by itself, with an error we do not need */
+    p->stopped = true; /* the parser ends with an error of its own, which nobody needs */
     return -1;
   }
   p->offset += size;
@@ -192,6 +194,7 @@ static void on_start(void *user, const xmlChar *name, const xmlChar *prefix, con
     full = foreign;
   }
   p->events->line = line_of(p);
+  p->depth++;
   if (!p->events->start(p->events->user, full, p->attributes.at, (uint32_t)p->attributes.count)) stop(p);
 }
 
@@ -200,6 +203,7 @@ static void on_end(void *user, const xmlChar *name, const xmlChar *prefix, const
   parse *p = user;
   if (p->stopped) return;
   p->events->line = line_of(p);
+  p->ended = --p->depth == 0;
   if (!p->events->end(p->events->user)) stop(p);
 }
 
@@ -292,20 +296,21 @@ static const xmlSAXHandler handlers = {.internalSubset = on_doctype,
 /* --- the parse --- */
 
 static void run(parse *p) {
-  xmlSAXHandler sax = handlers;
-  /* The context is not there yet when its first bytes are read; errors before that have no place to go. */
-  p->context = xmlCreateIOParserCtxt(&sax, p, read_some, NULL, p, XML_CHAR_ENCODING_NONE);
+  p->context = xmlNewParserCtxt();
   if (!p->context) {
-    if (p->status == SBF_OK)
-      p->status = sbfi_diagnose(p->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for the XML parser");
+    p->status = sbfi_diagnose(p->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for the XML parser");
     return;
   }
-  xmlCtxtUseOptions(p->context, XML_PARSE_NONET | XML_PARSE_BIG_LINES);
-  if (!p->stopped) xmlParseDocument(p->context);
-  if (!p->stopped && !p->context->wellFormed)
-    fail(p, p->context->errNo == XML_ERR_NO_MEMORY ? SBF_CODE_OUT_OF_MEMORY : SBF_CODE_XML_SYNTAX, line_of(p),
-        "not well-formed XML");
-  if (p->context->myDoc) xmlFreeDoc(p->context->myDoc);
+  *p->context->sax = handlers; /* which build no document: what the read returns is NULL */
+  p->context->userData = p;
+  xmlFreeDoc(
+      xmlCtxtReadIO(p->context, read_some, NULL, p, NULL, NULL, XML_PARSE_NONET | XML_PARSE_BIG_LINES));
+  /* it gives up without a word where memory for its input runs out */
+  bool no_memory = p->context->errNo == XML_ERR_NO_MEMORY || (p->context->wellFormed && !p->ended);
+  if (!p->stopped && (!p->context->wellFormed || !p->ended)) {
+    sbf_code code = no_memory ? SBF_CODE_OUT_OF_MEMORY : SBF_CODE_XML_SYNTAX;
+    fail(p, code, line_of(p), "%s", advice_of(code));
+  }
   xmlFreeParserCtxt(p->context);
 }
 
