@@ -1,41 +1,72 @@
-#include <string.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "cli.h"
 #include "sbfmt/io.h"
 #include "sbfmt/validate.h"
 
+enum { LOAD_FINDINGS = 100 }; /* where a file does not load, it is not asked for more */
+
+/* What was found in one file, until it is known which lines it is about. */
 typedef struct findings {
-  const cli_call *call;
-  const char *file;
-  json_t *messages; /* NULL: print */
+  sbf_diagnostic *at;
+  size_t count, capacity;
+  bool lost; /* memory ran out: counted, but not listed */
 } findings;
 
 static void add(void *user, const sbf_diagnostic *diagnostic) {
   findings *f = user;
-  sbf_diagnostic named = *diagnostic;
-  if (!named.file[0]) snprintf(named.file, sizeof named.file, "%s", f->file);
-  if (f->messages)
-    json_array_append_new(f->messages, cli_diagnostic_json(&named));
-  else
-    cli_print_diagnostic(f->call, &named);
+  if (f->count == f->capacity) {
+    size_t capacity = f->capacity ? f->capacity * 2 : LOAD_FINDINGS;
+    sbf_diagnostic *grown = realloc(f->at, capacity * sizeof *grown);
+    if (!grown) {
+      f->lost = true;
+      return;
+    }
+    f->at = grown;
+    f->capacity = capacity;
+  }
+  f->at[f->count++] = *diagnostic;
+}
+
+static sbf_status load(findings *f, const char *path, sbf_asset **asset, sbf_validate_result *result) {
+  static sbf_diagnostic found[LOAD_FINDINGS];
+  sbf_load_options loading = {.check_crc = true};
+  uint32_t count;
+  sbf_status status = sbf_load_file_findings(path, &loading, asset, found, LOAD_FINDINGS, &count);
+  for (uint32_t i = 0; i < count; i++) add(f, &found[i]);
+  result->errors += count;
+  return status;
 }
 
 /* Loads and checks one file; SBF_FAILED where that could not be done at all. */
 static sbf_status check_file(findings *f, const char *path, sbf_validate_result *result) {
   sbf_asset *asset;
   sbf_diagnostic error;
-  f->file = path;
   *result = (sbf_validate_result){0};
-  sbf_status status = sbf_load_file(path, &(sbf_load_options){.check_crc = true}, &asset, &error);
-  if (status == SBF_OK) {
-    status = sbf_validate(asset, &(sbf_validate_options){.report = add, .user = f}, result, &error);
-    sbf_asset_free(asset);
-  }
+  f->count = 0;
+  sbf_status status = load(f, path, &asset, result);
+  if (status != SBF_OK) return status;
+  status = sbf_validate(asset, &(sbf_validate_options){.report = add, .user = f}, result, &error);
+  sbf_asset_free(asset);
   if (status != SBF_OK) {
     result->errors++;
     add(f, &error);
   }
+  if (f->count) sbf_locate_findings(path, NULL, f->at, (uint32_t)f->count);
   return status;
+}
+
+/* Prints them, or adds them to `messages` where that is not NULL. */
+static void tell(const cli_call *call, findings *f, const char *path, json_t *messages) {
+  for (size_t i = 0; i < f->count; i++) {
+    if (!f->at[i].file[0]) snprintf(f->at[i].file, sizeof f->at[i].file, "%s", path);
+    if (messages)
+      json_array_append_new(messages, cli_diagnostic_json(&f->at[i]));
+    else
+      cli_print_diagnostic(call, &f->at[i]);
+  }
+  if (f->lost) fprintf(stderr, "%s: memory ran out, some findings are not listed\n", path);
 }
 
 static json_t *summary(const sbf_validate_result *result, bool valid, json_t *messages) {
@@ -45,14 +76,15 @@ static json_t *summary(const sbf_validate_result *result, bool valid, json_t *me
 
 static int run(cli_call *call) {
   bool strict = cli_switch(call, "--strict");
-  findings f = {.call = call};
+  findings f = {0};
+  json_t *messages = call->json ? json_array() : NULL;
   sbf_validate_result total = {0};
   int status = SBF_OK, bad_files = 0;
   json_t *files = json_array();
-  if (call->json) f.messages = json_array();
   for (int i = 0; i < call->input_count; i++) {
     sbf_validate_result result;
     sbf_status loaded = check_file(&f, call->inputs[i], &result);
+    tell(call, &f, call->inputs[i], messages);
     bool valid = result.errors == 0 && !(strict && result.warnings);
     bad_files += !valid;
     if (loaded == SBF_FAILED)
@@ -68,12 +100,13 @@ static int run(cli_call *call) {
       printf("%s: %s, %u errors, %u warnings, %u notes\n", call->inputs[i], valid ? "valid" : "not valid",
           result.errors, result.warnings, result.infos);
   }
+  free(f.at);
   if (!call->json) {
     if (call->input_count > 1) printf("%d files, %d not valid\n", call->input_count, bad_files);
     json_decref(files);
     return status;
   }
-  json_t *object = summary(&total, bad_files == 0, f.messages);
+  json_t *object = summary(&total, bad_files == 0, messages);
   json_object_set_new(object, "files", files);
   return cli_print_json(object, status);
 }

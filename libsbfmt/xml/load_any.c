@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "model/asset_box.h"
 #include "model/options.h"
+#include "xml/xml_reader.h"
 
 typedef enum form { FORM_UNKNOWN, FORM_EMPTY, FORM_XML, FORM_PACKED } form;
 
@@ -68,22 +69,39 @@ static sbf_status load_content(const char *path, sbfi_file_content *content, for
   return sbf_xml_load_memory(content->at, content->size, &named, asset, error);
 }
 
-sbf_status sbf_load_file(
-    const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+sbf_status sbf_load_file_findings(const char *path, const sbf_load_options *options, sbf_asset **asset,
+    sbf_diagnostic *findings, uint32_t capacity, uint32_t *count) {
   sbf_load_options filled = sbfi_load_options_of(options);
   sbfi_file_content content;
   *asset = NULL;
-  sbf_status status = sbfi_file_map(path, filled.limits.file_bytes, filled.allocator, &content, error);
+  *count = 1; /* all but the XML reader stop at the first */
+  sbf_status status = sbfi_file_map(path, filled.limits.file_bytes, filled.allocator, &content, findings);
   if (status != SBF_OK) return status;
   form found = form_of(content.at, content.size);
   bool is_mapped = content.size && !content.allocated_bytes; /* then it can be opened again */
   if (found == FORM_EMPTY || found == FORM_UNKNOWN)
-    status = refuse(found, path, error);
+    status = refuse(found, path, findings);
   else if (!is_mapped)
-    status = load_content(path, &content, found, &filled, asset, error);
+    status = load_content(path, &content, found, &filled, asset, findings);
   sbfi_file_content_free(&content);
-  if (!is_mapped || status != SBF_OK) return status;
-  return (found == FORM_PACKED ? sbf_packed_load_file : sbf_xml_load_file)(path, options, asset, error);
+  if (is_mapped && status == SBF_OK && found == FORM_XML) {
+    sbfi_xml_findings all = {findings, capacity, 0};
+    status = sbfi_xml_read_file(path, options, &all, asset);
+    *count = all.count;
+  } else if (is_mapped && status == SBF_OK) {
+    status = sbf_packed_load_file(path, options, asset, findings);
+  }
+  if (status == SBF_OK) *count = 0;
+  return status;
+}
+
+sbf_status sbf_load_file(
+    const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_diagnostic first;
+  uint32_t count;
+  sbf_status status = sbf_load_file_findings(path, options, asset, &first, 1, &count);
+  if (status != SBF_OK && error) *error = first;
+  return status;
 }
 
 static bool ends_packed(const char *path) {

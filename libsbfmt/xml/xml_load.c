@@ -32,11 +32,21 @@ static void read_into(const sbfi_xml_source *source, const sbf_load_options *opt
     add_finding(findings, &error);
 }
 
+static sbf_status refuse_size(const sbf_load_options *options, sbfi_xml_findings *findings) {
+  sbf_diagnostic diagnostic;
+  sbf_status status = sbfi_diagnose(&diagnostic, SBF_CODE_IO_TOO_LARGE,
+      "the input is larger than the limit of %llu bytes: raise the limit if it is trusted",
+      (unsigned long long)options->limits.file_bytes);
+  add_finding(findings, &diagnostic);
+  return status;
+}
+
 sbf_status sbfi_xml_read(const sbfi_xml_source *source, const sbf_load_options *options,
     sbfi_xml_findings *findings, sbf_asset **asset) {
-  sbf_asset *made = sbf_asset_create(options->allocator);
   *asset = NULL;
   findings->count = 0;
+  if (source->size > options->limits.file_bytes) return refuse_size(options, findings);
+  sbf_asset *made = sbf_asset_create(options->allocator);
   if (!made) {
     add_out_of_memory(findings);
     return SBF_FAILED;
@@ -56,62 +66,84 @@ sbf_status sbfi_xml_read(const sbfi_xml_source *source, const sbf_load_options *
   return sbf_code_find(findings->at[0].code)->fault;
 }
 
-static sbf_status check_size(
-    const sbfi_xml_source *source, const sbf_load_options *options, sbf_diagnostic *error) {
-  if (source->size <= options->limits.file_bytes) return SBF_OK;
-  return sbfi_diagnose(error, SBF_CODE_IO_TOO_LARGE,
-      "the input is larger than the limit of %llu bytes: raise the limit if it is trusted",
-      (unsigned long long)options->limits.file_bytes);
+/* A file that is open as a source. */
+typedef struct opened {
+  sbfi_xml_source source;
+  sbfi_file file;
+  sbfi_file_content content;
+} opened;
+
+/* What can be mapped can be read in pieces, and twice. It is not kept mapped: text that an editor saves in
+ * place would end the program. The rest, as a pipe, is read whole. */
+static sbf_status open_source(
+    opened *o, const char *path, const sbf_load_options *options, sbf_diagnostic *error) {
+  sbf_status status = sbfi_file_map(path, options->limits.file_bytes, options->allocator, &o->content, error);
+  if (status != SBF_OK) return status;
+  o->file.handle = -1;
+  o->source = (sbfi_xml_source){.bytes = o->content.at, .size = o->content.size};
+  if (o->content.allocated_bytes || !o->content.size) return SBF_OK;
+  sbfi_file_content_free(&o->content);
+  status = sbfi_file_open(path, &o->file, error);
+  o->source = (sbfi_xml_source){.file = &o->file, .size = o->file.size};
+  return status;
 }
 
-static sbf_status load(const sbfi_xml_source *source, const sbf_load_options *options, const char *name,
-    sbf_asset **asset, sbf_diagnostic *error) {
-  sbf_diagnostic first;
-  sbfi_xml_findings findings = {&first, 1, 0};
-  sbf_status status = check_size(source, options, &first);
-  if (status == SBF_OK) status = sbfi_xml_read(source, options, &findings, asset);
-  if (status == SBF_OK || !error) return status;
-  *error = first;
-  if (name) sbfi_copy_text(error->file, sizeof error->file, name);
-  return status;
+static void close_source(opened *o) {
+  sbfi_file_content_free(&o->content);
+  sbfi_file_close(&o->file);
+}
+
+static void name_findings(const sbfi_xml_findings *findings, const char *name) {
+  for (uint32_t i = 0; name && i < findings->count; i++)
+    sbfi_copy_text(findings->at[i].file, sizeof findings->at[i].file, name);
 }
 
 sbf_status sbf_xml_load_memory(const void *bytes, size_t size, const sbf_load_options *options,
     sbf_asset **asset, sbf_diagnostic *error) {
   sbf_load_options filled = sbfi_load_options_of(options);
   const sbfi_xml_source source = {.bytes = bytes, .size = size};
+  sbf_diagnostic first;
+  sbfi_xml_findings findings = {&first, 1, 0};
+  sbf_status status = sbfi_xml_read(&source, &filled, &findings, asset);
+  name_findings(&findings, filled.name);
+  if (status != SBF_OK && error) *error = first;
+  return status;
+}
+
+sbf_status sbfi_xml_read_file(
+    const char *path, const sbf_load_options *options, sbfi_xml_findings *findings, sbf_asset **asset) {
+  sbf_load_options filled = sbfi_load_options_of(options);
+  sbf_diagnostic error;
+  opened o;
   *asset = NULL;
-  return load(&source, &filled, filled.name, asset, error);
-}
-
-static sbf_status load_content(const sbfi_file_content *content, const char *path,
-    const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
-  const sbfi_xml_source source = {.bytes = content->at, .size = content->size};
-  return load(&source, options, path, asset, error);
-}
-
-/* Read in pieces: text that an editor saves in place would end a program that has it mapped. */
-static sbf_status load_pieces(
-    const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
-  sbfi_file file;
-  sbf_status status = sbfi_file_open(path, &file, error);
-  if (status != SBF_OK) return status;
-  const sbfi_xml_source source = {.file = &file, .size = file.size};
-  status = load(&source, options, path, asset, error);
-  sbfi_file_close(&file);
+  findings->count = 0;
+  sbf_status status = open_source(&o, path, &filled, &error);
+  if (status != SBF_OK) {
+    add_finding(findings, &error);
+    return status;
+  }
+  status = sbfi_xml_read(&o.source, &filled, findings, asset);
+  name_findings(findings, path);
+  close_source(&o);
   return status;
 }
 
 sbf_status sbf_xml_load_file(
     const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_diagnostic first;
+  sbfi_xml_findings findings = {&first, 1, 0};
+  sbf_status status = sbfi_xml_read_file(path, options, &findings, asset);
+  if (status != SBF_OK && error) *error = first;
+  return status;
+}
+
+void sbf_locate_findings(
+    const char *path, const sbf_load_options *options, sbf_diagnostic *findings, uint32_t count) {
   sbf_load_options filled = sbfi_load_options_of(options);
-  sbfi_file_content content;
-  *asset = NULL;
-  /* what can be mapped can also be read in pieces, and twice; the rest, as a pipe, has been read whole */
-  sbf_status status = sbfi_file_map(path, filled.limits.file_bytes, filled.allocator, &content, error);
-  if (status != SBF_OK) return status;
-  bool is_mapped = content.size && !content.allocated_bytes;
-  if (!is_mapped) status = load_content(&content, path, &filled, asset, error);
-  sbfi_file_content_free(&content);
-  return is_mapped ? load_pieces(path, &filled, asset, error) : status;
+  sbfi_xml_findings all = {findings, count, count};
+  opened o;
+  if (open_source(&o, path, &filled, NULL) != SBF_OK) return;
+  sbf_allocator allocator = sbfi_allocator_or_default(filled.allocator);
+  sbfi_xml_locate(&o.source, &allocator, &all);
+  close_source(&o);
 }

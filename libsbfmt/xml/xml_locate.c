@@ -15,6 +15,7 @@ typedef struct target {
   sbfi_span names[DEEPEST];
   uint32_t numbers[DEEPEST]; /* among siblings of the same name, from 1 */
   uint32_t depth;            /* steps */
+  uint32_t item_scalars;     /* of a list; 0: the element itself is what to find */
   uint64_t scalar;           /* of a list: the one to find */
   uint32_t matched;          /* steps that the innermost open elements took */
   uint32_t seen[DEEPEST];    /* elements of that name so far, in each step */
@@ -46,7 +47,7 @@ static void cut_path(target *t) {
   }
 }
 
-/* Scalars in an item of the list that the path leads to. */
+/* Scalars in an item of the list that the path leads to; 0 where it leads to no list. */
 static uint32_t width_of(const target *t) {
   const sbfi_element *element = &sbfi_asset_element;
   const sbfi_field *field = NULL;
@@ -60,10 +61,10 @@ static uint32_t width_of(const target *t) {
       continue;
     }
     field = sbfi_xml_find_element(element, name);
-    if (!field) return 1;
+    if (!field) return 0;
     if (field->element && !field->wrapper) element = field->element;
   }
-  return field && field->type == SBFI_LIST ? field->width : 1;
+  return field && field->type == SBFI_LIST ? field->width : 0;
 }
 
 static void hit(locator *l, target *t, uint32_t line) {
@@ -83,7 +84,7 @@ static bool on_start(void *user, const char *name, const sbfi_xml_attribute *att
     t->matched = step + 1;
     if (step + 1 < t->depth) {
       t->seen[step + 1] = 0;
-    } else if (t->finding->index < 0) {
+    } else if (!t->item_scalars) {
       hit(l, t, l->events.line);
     } else {
       t->finding->line = l->events.line; /* should the item not be there */
@@ -138,7 +139,9 @@ void sbfi_xml_locate(
     target *t = &l.targets[l.count++];
     *t = (target){.finding = finding};
     cut_path(t);
-    if (finding->index >= 0) t->scalar = (uint64_t)finding->index * width_of(t);
+    if (finding->index < 0) continue;
+    t->item_scalars = width_of(t);
+    t->scalar = (uint64_t)finding->index * t->item_scalars;
   }
   l.unfound = l.count;
   sbf_diagnostic ignored;

@@ -29,5 +29,8 @@ void sbfi_xml_locate(
  * the first finding. */
 sbf_status sbfi_xml_read(const sbfi_xml_source *source, const sbf_load_options *options,
     sbfi_xml_findings *findings, sbf_asset **asset);
+/* The same from a file; `options` as the caller gave them. */
+sbf_status sbfi_xml_read_file(
+    const char *path, const sbf_load_options *options, sbfi_xml_findings *findings, sbf_asset **asset);
 
 #endif

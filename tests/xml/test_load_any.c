@@ -120,6 +120,67 @@ START_TEST(test_pipes)
 }
 END_TEST
 
+START_TEST(test_all_findings_of_a_file)
+{
+  static const char text[] = "<sbf version=\"1.0\">\n"
+                             "<soft_body id=\"a\"><attributes density=\"0\"/></soft_body>\n"
+                             "<soft_body id=\"a\"/>\n"
+                             "</sbf>\n";
+  const char *path = harness_scratch("findings.sbf");
+  sbf_diagnostic found[5];
+  uint32_t count = 9;
+  sbf_asset *asset;
+  ck_assert(harness_write(path, text, sizeof text - 1));
+  ck_assert_int_eq(sbf_load_file_findings(path, NULL, &asset, found, 5, &count), SBF_BAD_INPUT);
+  ck_assert_ptr_null(asset);
+  ck_assert_uint_eq(count, 2);
+  ck_assert_int_eq(found[0].code, SBF_CODE_VALUE_OUT_OF_RANGE);
+  ck_assert_uint_eq(found[0].line, 2);
+  ck_assert_int_eq(found[1].code, SBF_CODE_ID_REPEATED);
+  ck_assert_uint_eq(found[1].line, 3);
+  ck_assert_str_eq(found[1].file, path);
+  ck_assert_int_eq(sbf_load_file_findings(path, NULL, &asset, found, 1, &count), SBF_BAD_INPUT);
+  ck_assert_uint_eq(count, 1);
+  ck_assert_int_eq(
+      sbf_load_file_findings(harness_scratch("no such"), NULL, &asset, found, 5, &count), SBF_FAILED);
+  ck_assert_uint_eq(count, 1);
+  path = harness_source("spec/samples/valid/minimal.sbf");
+  ck_assert_int_eq(sbf_load_file_findings(path, NULL, &asset, found, 5, &count), SBF_OK);
+  ck_assert_uint_eq(count, 0);
+  sbf_asset_free(asset);
+}
+END_TEST
+
+START_TEST(test_lines_of_findings_made_elsewhere)
+{
+  const char *path = harness_source("spec/samples/valid/jelly.sbf");
+  sbf_diagnostic found[] = {
+      {.path = "/sbf/skeleton/bone[2]/@length", .index = -1},
+      {.path = "/sbf/soft_body[1]/level[1]/tetrahedron_mesh", .index = 1}, /* an element has no items */
+      {.path = "/sbf/soft_body[1]/level[2]/spring_set[1]/ends", .index = 6},
+      {.path = "/sbf/soft_body[1]/level[2]/spring_set[1]/ends", .index = 600},
+      {.path = "/sbf/soft_body[7]", .index = -1},
+      {.path = "/sbf/skeleton", .index = -1, .line = 4242},
+      {.path = "", .index = -1},
+  };
+  sbf_locate_findings(path, NULL, found, 7);
+  size_t size;
+  char *text = harness_read(path, &size);
+  static const char *const begins[] = {"<bone id=\"tip\"", "<tetrahedron_mesh", "2 4 3 4", "<ends>"};
+  for (int i = 0; i < 4; i++) {
+    const char *line = text;
+    for (uint32_t k = 1; k < found[i].line; k++) line = strchr(line, '\n') + 1;
+    line += strspn(line, " ");
+    ck_assert_msg(strncmp(line, begins[i], strlen(begins[i])) == 0, "%d: %.30s", i, line);
+  }
+  ck_assert_uint_eq(found[4].line, 0);
+  ck_assert_uint_eq(found[5].line, 4242); /* as it was */
+  ck_assert_uint_eq(found[6].line, 0);
+  free(text);
+  sbf_locate_findings(harness_scratch("no such"), NULL, found, 7);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("load_any");
   TCase *all = tcase_create("all");
@@ -127,6 +188,8 @@ int main(void) {
   tcase_add_test(all, test_other_content);
   tcase_add_test(all, test_missing_file);
   tcase_add_test(all, test_pipes);
+  tcase_add_test(all, test_all_findings_of_a_file);
+  tcase_add_test(all, test_lines_of_findings_made_elsewhere);
   suite_add_tcase(suite, all);
   return harness_run(suite);
 }

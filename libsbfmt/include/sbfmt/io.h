@@ -2,8 +2,9 @@
  *
  * A load that succeeds promises: indices in range, counts consistent, numbers finite and in their ranges,
  * strings UTF-8, ids unique, references to things that exist, the bone tree without cycles, parents before
- * children. A load that fails says what, where and which rule in `*error` (may be NULL) and makes nothing.
- * All functions are thread safe on different assets; a loaded asset may be saved from several threads. */
+ * children, tetrahedra positively oriented. A load that fails says what, where and which rule in `*error`
+ * (may be NULL) and makes nothing. All functions are thread safe on different assets; a loaded asset may be
+ * saved from several threads. */
 #ifndef SBFMT_IO_H
 #define SBFMT_IO_H
 
@@ -95,6 +96,17 @@ SBF_API sbf_status sbf_load_file(
     const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error);
 SBF_API sbf_status sbf_save_file(
     const sbf_asset *asset, const char *path, const sbf_save_options *options, sbf_diagnostic *error);
+
+/* sbf_load_file for reports: where the structure of an XML file is at fault, it goes on to find more. Fills
+ * up to `capacity` (at least 1) findings and `*count`, which is 0 exactly where the load succeeds. */
+SBF_API sbf_status sbf_load_file_findings(const char *path, const sbf_load_options *options,
+    sbf_asset **asset, sbf_diagnostic *findings, uint32_t capacity, uint32_t *count);
+
+/* Looks up the lines of findings that have an element path and no line, as sbf_validate's, in one pass over
+ * the XML file that they are about. Leaves them as they are where the file is packed or cannot be read again.
+ */
+SBF_API void sbf_locate_findings(
+    const char *path, const sbf_load_options *options, sbf_diagnostic *findings, uint32_t count);
 
 #ifdef __cplusplus
 }
