@@ -1,6 +1,6 @@
 /* Which bodies are simulated, at which level, and which of them must be stepped together. */
 #include "base/diagnostic.h"
-#include "core/model.h"
+#include "core/runtime_model.h"
 
 /* The level with the wanted number, or the coarsest there is. */
 static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {

@@ -3,7 +3,7 @@
 #ifndef SBRI_STATE_H
 #define SBRI_STATE_H
 
-#include "core/model.h"
+#include "core/runtime_model.h"
 #include "gait/gait.h"
 
 enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS };
@@ -83,7 +83,7 @@ void sbri_held_places(const sbri_island *island, const sbr_transform *deltas, sb
 /* The root frame of the present state. */
 sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground);
 
-/* ---- core/place.c ---- */
+/* ---- core/placing.c ---- */
 
 /* Everything in its rest shape at the present pose, all speeds zero. */
 void sbri_place_at_rest(sbri_character *c);

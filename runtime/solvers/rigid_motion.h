@@ -2,7 +2,7 @@
 #ifndef SBRI_RIGID_MOTION_H
 #define SBRI_RIGID_MOTION_H
 
-#include "core/model.h"
+#include "core/runtime_model.h"
 
 typedef struct sbri_rigid_motion {
   float mass_kg;

@@ -196,6 +196,7 @@ void scene_section(scene *s, uint32_t body_index, sbf_vec3 center, sbf_vec3 size
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   float *volumes = calloc(b.point_count, sizeof *volumes);
+  sbf_vec3 *normals = calloc(b.point_count, sizeof *normals);
   uint8_t *is_held = calloc(b.point_count, 1);
   double *scratch = calloc(3 * (size_t)b.point_count, sizeof *scratch);
   float *stiffness = calloc(12 * (size_t)quad_count + surface, sizeof *stiffness);
@@ -206,15 +207,20 @@ void scene_section(scene *s, uint32_t body_index, sbf_vec3 center, sbf_vec3 size
   double modulus = body->attributes.young_modulus;
   sbf_stiffness_of_network(SBF_STIFFNESS_MEMBRANE * modulus, b.points, b.point_count, volumes, pairs,
       structural + shear, scratch, stiffness);
-  sbf_stiffness_of_anchors(modulus, measures.depth, b.points[surface], b.points, b.point_count, volumes,
-      is_held, inner, internal, scratch, stiffness + structural + shear);
+  for (uint32_t i = 0; i < surface; i++) {
+    sbf_vec3 n = {b.points[i].x - center.x, b.points[i].y - center.y, b.points[i].z - center.z};
+    float length = sqrtf(n.x * n.x + n.y * n.y + n.z * n.z);
+    normals[i] = (sbf_vec3){n.x / length, n.y / length, n.z / length};
+  }
+  sbf_stiffness_of_anchors(modulus, measures.depth, normals, b.points, b.point_count, volumes, is_held, inner,
+      internal, scratch, stiffness + structural + shear);
   sbf_spring_set *sets = sbf_asset_allocate(s->asset, 3, sizeof *sets);
   uint32_t set_count = 0;
   add_set(s, sets, &set_count, SBF_SPRING_KIND_STRUCTURAL, pairs, stiffness, structural);
   add_set(s, sets, &set_count, SBF_SPRING_KIND_SHEAR, pairs + structural, stiffness + structural, shear);
   add_set(s, sets, &set_count, SBF_SPRING_KIND_INTERNAL, inner, stiffness + structural + shear, internal);
   level->springs = (sbf_spring_set_list){sets, set_count};
-  free(stiffness), free(scratch), free(is_held), free(volumes), free(held), free(pairs);
+  free(normals), free(stiffness), free(scratch), free(is_held), free(volumes), free(held), free(pairs);
   free(b.place), free(b.quads), free(b.points);
 }
 

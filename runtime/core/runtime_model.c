@@ -1,4 +1,4 @@
-#include "core/model.h"
+#include "core/runtime_model.h"
 
 #include <string.h>
 

@@ -13,8 +13,8 @@
  * Lengths are those of the asset. A character of scale s is simulated in its asset's metres, with time
  * running sqrt(s) times slower: that is the similarity the public header promises, and it needs no second
  * table. */
-#ifndef SBRI_MODEL_H
-#define SBRI_MODEL_H
+#ifndef SBRI_RUNTIME_MODEL_H
+#define SBRI_RUNTIME_MODEL_H
 
 #include "base/memory.h"
 #include "core/skin_tables.h"
