@@ -157,8 +157,8 @@ START_TEST(test_lines_of_findings_made_elsewhere)
   sbf_diagnostic found[] = {
       {.path = "/sbf/skeleton/bone[2]/@length", .index = -1},
       {.path = "/sbf/soft_body[1]/level[1]/tetrahedron_mesh", .index = 1}, /* an element has no items */
-      {.path = "/sbf/soft_body[1]/level[2]/spring_set[1]/ends", .index = 6},
-      {.path = "/sbf/soft_body[1]/level[2]/spring_set[1]/ends", .index = 600},
+      {.path = "/sbf/soft_body[1]/level[2]/positions", .index = 4},
+      {.path = "/sbf/soft_body[1]/level[2]/positions", .index = 600},
       {.path = "/sbf/soft_body[7]", .index = -1},
       {.path = "/sbf/skeleton", .index = -1, .line = 4242},
       {.path = "", .index = -1},
@@ -166,7 +166,8 @@ START_TEST(test_lines_of_findings_made_elsewhere)
   sbf_locate_findings(path, NULL, found, 7);
   size_t size;
   char *text = harness_read(path, &size);
-  static const char *const begins[] = {"<bone id=\"tip\"", "<tetrahedron_mesh", "2 4 3 4", "<ends>"};
+  static const char *const begins[] = {
+      "<bone id=\"tip\"", "<tetrahedron_mesh", "0 1.6 0 0 1.2 0", "<positions>"};
   for (int i = 0; i < 4; i++) {
     const char *line = text;
     for (uint32_t k = 1; k < found[i].line; k++) line = strchr(line, '\n') + 1;
