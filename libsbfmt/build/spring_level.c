@@ -125,6 +125,8 @@ static float *make_volumes(const work *w, bool pyramids) {
     sbf_level_init(&surface);
     surface.positions = w->body->surface.positions;
     sbf_level_shares(w->body, &surface, NULL, volumes);
+    /* An author's interior points have no area either; like those they count as the mean. */
+    for (uint32_t i = w->surface_count; i < w->source_count; i++) volumes[i] = 1.0f / (float)w->surface_count;
   }
   for (uint32_t i = 0; i < w->point_count; i++) volumes[i] *= (float)w->measures.volume;
   apply_map(w, SBF_WEIGHT_PROPERTY_YOUNG_MODULUS, volumes);
