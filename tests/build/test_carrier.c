@@ -1,0 +1,214 @@
+#include "build/carrier.h"
+
+#include <math.h>
+
+#include "build/topology.h"
+#include "harness.h"
+#include "shapes.h"
+
+static sbf_asset *asset;
+static sbfi_arena arena;
+
+static void setup(void) {
+  asset = sbf_asset_create(NULL);
+  sbfi_arena_init(&arena, NULL, 0);
+}
+
+static void teardown(void) {
+  sbf_asset_free(asset);
+  sbfi_arena_free(&arena);
+}
+
+static uint32_t state = 7;
+static float random_number(float low, float high) {
+  state = state * 1664525u + 1013904223u;
+  return low + (high - low) * (float)(state >> 8) / 16777216.0f;
+}
+
+static sbfi_carrier carrier_of(const sbf_soft_body *body, sbf_level *level) {
+  sbfi_spring_recipe recipe = {true, false, 0};
+  sbfi_interior_map map;
+  sbfi_spring_counts counts;
+  sbfi_carrier carrier;
+  ck_assert(sbfi_spring_level_make(level, body, &recipe, asset, &map, &counts, &arena));
+  ck_assert(sbfi_carrier_make(&carrier, body, level, &map, &arena));
+  return carrier;
+}
+
+static void check_place(const sbf_level *level, sbfi_carried carried, sbf_vec3 p, float tolerance) {
+  const float w[4] = {carried.weights.x, carried.weights.y, carried.weights.z, carried.weights.w};
+  float x = 0, y = 0, z = 0;
+  for (int k = 0; k < 4; k++) {
+    sbf_vec3 at = level->positions.at[carried.points.at[k]];
+    x += w[k] * at.x, y += w[k] * at.y, z += w[k] * at.z;
+  }
+  ck_assert_float_eq_tol(w[0] + w[1] + w[2] + w[3], 1, 1e-6f);
+  ck_assert_float_eq_tol(x, p.x, tolerance);
+  ck_assert_float_eq_tol(y, p.y, tolerance);
+  ck_assert_float_eq_tol(z, p.z, tolerance);
+}
+
+START_TEST(surface_points_carry_themselves)
+{
+  sbf_polygon_mesh mesh = shape_cube(asset, 2, 2, (sbf_vec3){0, 0, 0});
+  sbf_level level;
+  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "cube", &mesh, true), &level);
+  for (uint32_t i = 0; i < 26; i++) {
+    for (uint32_t likely = 0; likely < 60; likely += 30) {
+      sbfi_carried carried = sbfi_carrier_carry(&carrier, mesh.positions.at[i], likely);
+      for (int k = 0; k < 4; k++) ck_assert_uint_eq(carried.points.at[k], i);
+      ck_assert(
+          carried.weights.x == 1 && carried.weights.y == 0 && carried.weights.w == 0 && carried.error == 0);
+    }
+  }
+}
+END_TEST
+
+START_TEST(of_equal_points_the_likely_one)
+{
+  const sbf_vec3 twice[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+  const uint32_t size = 4, corners[] = {0, 1, 2, 3};
+  sbf_polygon_mesh mesh;
+  sbf_polygon_mesh_init(&mesh);
+  mesh.positions = (sbf_vec3_list){twice, 4};
+  mesh.polygon_sizes = (sbf_u32_list){&size, 1};
+  mesh.polygon_points = (sbf_u32_list){corners, 4};
+  sbf_level level;
+  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "twice", &mesh, true), &level);
+  ck_assert_uint_eq(sbfi_carrier_carry(&carrier, twice[0], 3).points.at[0], 3);
+  ck_assert_uint_eq(sbfi_carrier_carry(&carrier, twice[0], 1).points.at[0], 0);
+}
+END_TEST
+
+START_TEST(anywhere_around_a_cube)
+{
+  sbf_polygon_mesh mesh = shape_cube(asset, 3, 2, (sbf_vec3){10, 20, 30});
+  sbf_level level;
+  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "cube", &mesh, true), &level);
+  for (int i = 0; i < 2000; i++) {
+    sbf_vec3 p = {
+        10 + random_number(-1.2f, 1.2f), 20 + random_number(-1.2f, 1.2f), 30 + random_number(-1.2f, 1.2f)};
+    sbfi_carried carried = sbfi_carrier_carry(&carrier, p, 0);
+    check_place(&level, carried, p, 1e-5f);
+    float size = carried.weights.x * carried.weights.x + carried.weights.y * carried.weights.y +
+                 carried.weights.z * carried.weights.z + carried.weights.w * carried.weights.w;
+    ck_assert_float_lt(size, 3);
+    ck_assert_float_lt(carried.error, 1e-5f);
+  }
+}
+END_TEST
+
+START_TEST(a_deformed_body_takes_its_vertices_along)
+{
+  sbf_polygon_mesh mesh = shape_cube(asset, 3, 2, (sbf_vec3){0, 0, 0});
+  sbf_level level;
+  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "cube", &mesh, true), &level);
+  /* Any map of the form A x + b is carried exactly: weights sum to one. */
+  sbf_vec3 moved[200];
+  for (uint32_t i = 0; i < level.positions.count; i++) {
+    sbf_vec3 p = level.positions.at[i];
+    moved[i] = (sbf_vec3){2 * p.x + p.y + 1, p.y - 0.5f * p.z, 3 * p.z - p.x};
+  }
+  sbf_level deformed = level;
+  deformed.positions.at = moved;
+  for (int i = 0; i < 200; i++) {
+    sbf_vec3 p = {random_number(-1.1f, 1.1f), random_number(-1.1f, 1.1f), random_number(-1.1f, 1.1f)};
+    sbf_vec3 image = {2 * p.x + p.y + 1, p.y - 0.5f * p.z, 3 * p.z - p.x};
+    check_place(&deformed, sbfi_carrier_carry(&carrier, p, 0), image, 2e-5f);
+  }
+}
+END_TEST
+
+START_TEST(long_bodies_keep_small_weights)
+{
+  /* A bar of 1 x 1 x 20: near its axis, far from the centre, the nearest triangle alone would do badly. */
+  sbf_polygon_mesh mesh = shape_cube(asset, 8, 1, (sbf_vec3){0, 0, 0});
+  sbf_vec3 stretched[386];
+  for (uint32_t i = 0; i < mesh.positions.count; i++) {
+    sbf_vec3 p = mesh.positions.at[i];
+    stretched[i] = (sbf_vec3){p.x, p.y, 20 * p.z};
+  }
+  mesh.positions.at = stretched;
+  sbf_level level;
+  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "bar", &mesh, true), &level);
+  for (int i = 0; i < 500; i++) {
+    sbf_vec3 p = {random_number(-0.5f, 0.5f), random_number(-0.5f, 0.5f), random_number(-10, 10)};
+    sbfi_carried c = sbfi_carrier_carry(&carrier, p, 0);
+    check_place(&level, c, p, 1e-4f);
+    ck_assert_float_lt(fabsf(c.weights.x) + fabsf(c.weights.y) + fabsf(c.weights.z) + fabsf(c.weights.w), 4);
+  }
+}
+END_TEST
+
+START_TEST(flat_bodies_say_how_far_off)
+{
+  sbf_polygon_mesh mesh = shape_sheet(asset, 3, 3);
+  sbf_level level;
+  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "sheet", &mesh, true), &level);
+  sbfi_carried carried = sbfi_carrier_carry(&carrier, (sbf_vec3){1.25f, 0.5f, 1.5f}, 0);
+  check_place(&level, carried, (sbf_vec3){1.25f, 0, 1.5f}, 1e-6f);
+  ck_assert_float_eq_tol(carried.error, 0.5f, 1e-6f);
+  ck_assert(carried.weights.w == 0);
+}
+END_TEST
+
+START_TEST(lattices)
+{
+  /* A cube of five tetrahedra; its own surface is carried by them as well. */
+  sbf_polygon_mesh mesh = shape_cube(asset, 1, 1, (sbf_vec3){0.5f, 0.5f, 0.5f});
+  sbf_soft_body *body = shape_add_body(asset, "cube", &mesh, true);
+  const sbf_vec3 corners[] = {
+      {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  const sbf_uint4 five[] = {{{0, 3, 6, 5}}, {{0, 1, 3, 5}}, {{0, 3, 2, 6}}, {{0, 6, 4, 5}}, {{3, 5, 6, 7}}};
+  sbf_level level;
+  sbf_level_init(&level);
+  level.positions = (sbf_vec3_list){corners, 8};
+  level.lattice.tetrahedra = (sbf_uint4_list){five, 5};
+  sbfi_carrier carrier;
+  ck_assert(sbfi_carrier_make(&carrier, body, &level, NULL, &arena));
+  for (int i = 0; i < 500; i++) {
+    sbf_vec3 p = {random_number(0, 1), random_number(0, 1), random_number(0, 1)};
+    sbfi_carried c = sbfi_carrier_carry(&carrier, p, 0);
+    check_place(&level, c, p, 1e-5f);
+    float least = fminf(fminf(c.weights.x, c.weights.y), fminf(c.weights.z, c.weights.w));
+    ck_assert_float_ge(least, -1e-6f);
+  }
+  check_place(&level, sbfi_carrier_carry(&carrier, (sbf_vec3){1.2f, 0.5f, 0.5f}, 0),
+      (sbf_vec3){1.2f, 0.5f, 0.5f}, 1e-5f);
+}
+END_TEST
+
+START_TEST(points_without_polygons)
+{
+  const sbf_vec3 rope[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  sbf_polygon_mesh mesh;
+  sbf_polygon_mesh_init(&mesh);
+  mesh.positions = (sbf_vec3_list){rope, 3};
+  sbf_level level;
+  sbfi_carrier carrier = carrier_of(shape_add_body(asset, "rope", &mesh, false), &level);
+  sbfi_carried carried = sbfi_carrier_carry(&carrier, (sbf_vec3){1.9f, 0.1f, 0}, 0);
+  ck_assert_uint_eq(carried.points.at[0], 2);
+  ck_assert_float_gt(carried.error, 0.1f);
+  ck_assert_double_lt(sbfi_carrier_distance(&carrier, (sbf_vec3){1.9f, 0.1f, 0}, INFINITY), 0.03);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("carrier");
+  TCase *c = tcase_create("carrier");
+  tcase_add_checked_fixture(c, setup, teardown);
+  tcase_add_test(c, surface_points_carry_themselves);
+  tcase_add_test(c, of_equal_points_the_likely_one);
+  tcase_add_test(c, anywhere_around_a_cube);
+  tcase_add_test(c, a_deformed_body_takes_its_vertices_along);
+  tcase_add_test(c, long_bodies_keep_small_weights);
+  tcase_add_test(c, flat_bodies_say_how_far_off);
+  tcase_add_test(c, lattices);
+  tcase_add_test(c, points_without_polygons);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
