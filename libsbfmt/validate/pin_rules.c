@@ -39,7 +39,8 @@ void sbfi_check_pins(sbfi_validation *v) {
     for (uint32_t l = 0; l < body->levels.count && !v->out_of_memory; l++) {
       sbfi_path level = sbfi_path_of("/sbf/soft_body[%u]/level[%u]", b + 1, l + 1);
       check_sets(v, &body->levels.at[l].pins, body->levels.at[l].positions.count, level.text);
-      if (body->bone >= 0 && body->levels.at[l].pins.count == 0)
+      bool carried = body->levels.at[l].model == SBF_ELASTIC_MODEL_JIGGLE; /* by its bone, without pins */
+      if (body->bone >= 0 && body->levels.at[l].pins.count == 0 && !carried)
         sbfi_found(v, SBF_CODE_SECTION_UNHELD, level.text, -1,
             "section '%s' has a bone and no pins: it falls off", body->name);
     }
