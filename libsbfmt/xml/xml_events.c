@@ -8,7 +8,14 @@
 
 #include "base/text.h"
 
-enum { PROLOG_BYTES = 256, FOREIGN_NAME_SIZE = 256 };
+enum { PROLOG_BYTES = 256, FOREIGN_NAME_SIZE = 256, MOST_ATTRIBUTES = 256 };
+
+/* Where the bytes read so far end, as far as tags go. */
+typedef struct tag_counter {
+  enum { OUTSIDE, BEGINNING, INSIDE } state;
+  char quote;      /* of the value begun; 0: none */
+  uint32_t values; /* of attributes */
+} tag_counter;
 
 #if LIBXML_VERSION >= 21200
 typedef const xmlError *raised_error;
@@ -23,6 +30,7 @@ typedef struct parse {
   xmlParserCtxtPtr context;
   sbfi_array attributes; /* sbfi_xml_attribute */
   sbfi_text values;      /* of the attributes that had to be decoded */
+  tag_counter tags;
   sbf_diagnostic *error;
   sbf_status status;
   bool stopped; /* by a handler or by an error */
@@ -63,6 +71,34 @@ static bool read_source(const sbfi_xml_source *source, uint64_t offset, void *to
   return *status == SBF_OK;
 }
 
+/* libxml2 (before 2.12) compares every attribute of an element with every other, so a megabyte of them takes
+ * minutes; no element has more than a few dozen. Follows tags as they pass by; false where one has too many.
+ * A `<` begins a tag wherever it stands, so what looks like one in a comment misleads no further than to the
+ * next. */
+static bool count_attributes(tag_counter *tags, const char *text, size_t size) {
+  const char *end = text + size;
+  while (text < end) {
+    if (tags->state == OUTSIDE) {
+      text = memchr(text, '<', (size_t)(end - text));
+      if (!text) return true;
+    }
+    char c = *text++;
+    if (c == '<')
+      *tags = (tag_counter){.state = BEGINNING};
+    else if (tags->state == BEGINNING)
+      tags->state = c == '!' || c == '?' ? OUTSIDE : INSIDE;
+    else if (tags->quote)
+      tags->quote = c == tags->quote ? 0 : tags->quote;
+    else if (c == '>')
+      tags->state = OUTSIDE;
+    else if (c == '"' || c == '\'') {
+      tags->quote = c;
+      if (++tags->values > MOST_ATTRIBUTES) return false;
+    }
+  }
+  return true;
+}
+
 static int read_some(void *user, char *to, int room) {
   parse *p = user;
   uint64_t left = p->source->size - p->offset;
@@ -70,6 +106,13 @@ static int read_some(void *user, char *to, int room) {
   if (size == 0 || p->stopped) return 0;
   if (!read_source(p->source, p->offset, to, size, &p->status, p->error)) {
     p->stopped = true; /* the parser ends with an error of its own, which nobody needs */
+    return -1;
+  }
+  if (!count_attributes(&p->tags, to, size)) {
+    p->status = sbfi_diagnose(
+        p->error, SBF_CODE_XML_SYNTAX, "an element has more than %d attributes", MOST_ATTRIBUTES);
+    if (p->error) p->error->line = line_of(p);
+    p->stopped = true;
     return -1;
   }
   p->offset += size;

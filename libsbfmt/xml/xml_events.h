@@ -1,9 +1,10 @@
 /* XML as a stream of events, from memory or from a file: the only place that knows libxml2.
  *
  * Hostile input: no tree is built, a DOCTYPE is refused as soon as its name is read (so there are no entities
- * but XML's five), nothing is ever fetched, and libxml2's own limits on names, attributes and comments stay
- * on. Text comes in pieces as it is read and may be of any length. Only UTF-8 is read: other encodings would
- * bring in the system's converters by a name that the file chooses. */
+ * but XML's five), nothing is ever fetched, an element has 256 attributes at most, and libxml2's own limits
+ * on the length of names, attributes and comments stay on (10 million characters). Text comes in pieces as it
+ * is read and may be of any length. Only UTF-8 is read: other encodings would bring in the system's
+ * converters by a name that the file chooses. */
 #ifndef SBFI_XML_EVENTS_H
 #define SBFI_XML_EVENTS_H
 

@@ -5,10 +5,12 @@
 void sbfi_xml_list_init(sbfi_xml_list *list, const sbf_allocator *allocator, uint32_t item_limit) {
   *list = (sbfi_xml_list){.item_limit = item_limit};
   sbfi_array_init(&list->scalars, allocator, sizeof(uint32_t));
+  sbfi_text_init(&list->begun, allocator);
 }
 
 void sbfi_xml_list_free(sbfi_xml_list *list) {
   sbfi_array_free(&list->scalars);
+  sbfi_text_free(&list->begun);
 }
 
 static bool is_bytes(const sbfi_field *field) {
@@ -25,7 +27,7 @@ void sbfi_xml_list_begin(sbfi_xml_list *list, const sbfi_field *field) {
   list->field = field;
   list->scalars.count = 0;
   list->base64 = (sbfi_base64_reader){0};
-  list->begun_length = 0;
+  sbfi_text_clear(&list->begun);
   list->wrong[0] = 0;
 }
 
@@ -34,7 +36,7 @@ uint32_t sbfi_xml_list_count(const sbfi_xml_list *list) {
 }
 
 size_t sbfi_xml_list_bytes(const sbfi_xml_list *list) {
-  return list->scalars.count * list->scalars.item_size;
+  return list->scalars.count * list->scalars.item_size + list->begun.length;
 }
 
 /* --- numbers --- */
@@ -101,23 +103,17 @@ static sbfi_xml_fault add_numbers(sbfi_xml_list *list, const char *text, size_t 
 
 /* A number that the last piece began goes on in this one. */
 static sbfi_xml_fault add_to_begun(sbfi_xml_list *list, const char *text, size_t length) {
-  if (length > sizeof list->begun - list->begun_length) {
-    keep_wrong(list, list->begun, list->begun_length);
-    return SBFI_XML_MALFORMED;
-  }
-  if (length) memcpy(list->begun + list->begun_length, text, length);
-  list->begun_length += length;
-  return SBFI_XML_FINE;
+  return sbfi_text_append(&list->begun, text, length) ? SBFI_XML_FINE : SBFI_XML_NO_MEMORY;
 }
 
 static sbfi_xml_fault finish_begun(sbfi_xml_list *list) {
-  size_t place, length = list->begun_length;
-  list->begun_length = 0;
-  return length ? add_numbers(list, list->begun, length, &place) : SBFI_XML_FINE;
+  size_t place, length = list->begun.length;
+  list->begun.length = 0;
+  return length ? add_numbers(list, list->begun.at, length, &place) : SBFI_XML_FINE;
 }
 
 static sbfi_xml_fault add_number_text(sbfi_xml_list *list, const char *text, size_t length, size_t *place) {
-  size_t first = list->begun_length ? word_length(text, length) : 0, last = length;
+  size_t first = list->begun.length ? word_length(text, length) : 0, last = length;
   sbfi_xml_fault fault = add_to_begun(list, text, first);
   *place = 0;
   if (fault || first == length) return fault;

@@ -16,17 +16,14 @@ typedef enum sbfi_xml_fault {
   SBFI_XML_NO_MEMORY
 } sbfi_xml_fault;
 
-enum { SBFI_XML_NUMBER_LENGTH = 512 }; /* characters a number may have; longer ones count as malformed */
-
 /* One for a whole load: its memory serves one list after the other. */
 typedef struct sbfi_xml_list {
   const sbfi_field *field;
   uint32_t item_limit;
   sbfi_array scalars; /* of four bytes, or of one with bytes */
   sbfi_base64_reader base64;
-  char begun[SBFI_XML_NUMBER_LENGTH]; /* the number that the last piece broke off in */
-  size_t begun_length;
-  char wrong[41]; /* beginning of the word at fault */
+  sbfi_text begun; /* the number that the last piece broke off in */
+  char wrong[41];  /* beginning of the word at fault */
 } sbfi_xml_list;
 
 void sbfi_xml_list_init(sbfi_xml_list *list, const sbf_allocator *allocator, uint32_t item_limit);
@@ -37,7 +34,7 @@ void sbfi_xml_list_begin(sbfi_xml_list *list, const sbfi_field *field);
 sbfi_xml_fault sbfi_xml_list_add(sbfi_xml_list *list, const char *text, size_t length, size_t *place);
 sbfi_xml_fault sbfi_xml_list_end(sbfi_xml_list *list);
 uint32_t sbfi_xml_list_count(const sbfi_xml_list *list); /* whole items so far */
-size_t sbfi_xml_list_bytes(const sbfi_xml_list *list);
+size_t sbfi_xml_list_bytes(const sbfi_xml_list *list);   /* of memory used */
 
 /* One number by itself, as an attribute holds it: `to` is a float, int32_t or uint32_t by the field's type.
  */

@@ -111,6 +111,36 @@ START_TEST(test_errors)
 }
 END_TEST
 
+static int write_attributes(char *text, int count) {
+  int length = sprintf(text, "<a><!-- it's --><b x0='>'");
+  for (int i = 1; i < count; i++) length += sprintf(text + length, " x%d = \n\"='>'\"", i);
+  return length + sprintf(text + length, "/></a>");
+}
+
+/* Where every attribute is compared with every other, a file of nothing else would take minutes. */
+START_TEST(test_many_attributes)
+{
+  static char text[1 << 22];
+  record r;
+  sbf_diagnostic error = {0};
+  int length = write_attributes(text, 256);
+  ck_assert_msg(parse(&r, text, (size_t)length, 0, &error) == SBF_OK, "%s", error.message);
+  sbfi_text_free(&r.text);
+  length = write_attributes(text, 100000);
+  ck_assert_int_eq(parse(&r, text, (size_t)length, 0, &error), SBF_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(error.message, "attributes"));
+  sbfi_text_free(&r.text);
+  /* quotes in texts are none of them */
+  length = sprintf(text, "<a><!-- don't -->");
+  for (int i = 0; i < 100000; i++) length += sprintf(text + length, "\"x\": '%d',", i);
+  length += sprintf(text + length, "<![CDATA[");
+  for (int i = 0; i < 1000; i++) length += sprintf(text + length, "\"x\": '%d',", i);
+  length += sprintf(text + length, "]]></a>");
+  ck_assert_msg(parse(&r, text, (size_t)length, 0, &error) == SBF_OK, "%s", error.message);
+  sbfi_text_free(&r.text);
+}
+END_TEST
+
 START_TEST(test_handlers_may_stop)
 {
   static const char text[] = "<a>x<b/>y</a>";
@@ -157,6 +187,7 @@ int main(void) {
   tcase_add_test(all, test_events);
   tcase_add_test(all, test_entities_of_xml_itself);
   tcase_add_test(all, test_errors);
+  tcase_add_test(all, test_many_attributes);
   tcase_add_test(all, test_handlers_may_stop);
   tcase_add_test(all, test_files);
   suite_add_tcase(suite, all);

@@ -118,18 +118,16 @@ END_TEST
 
 START_TEST(test_very_long_numbers)
 {
-  char text[SBFI_XML_NUMBER_LENGTH + 2];
+  enum { LENGTH = 5000 };
+  static char text[LENGTH + 8] = "1.5";
   sbfi_xml_list list;
   sbfi_xml_list_init(&list, NULL, 100);
-  memset(text, '0', sizeof text);
-  text[0] = '1';
-  text[1] = '.';
-  text[SBFI_XML_NUMBER_LENGTH] = 0;
-  ck_assert_int_eq(read_in_pieces(&list, &floats, text, 7), SBFI_XML_NOT_WHOLE); /* one number, read */
-  ck_assert_float_eq(*(const float *)list.scalars.at, 1);
-  text[SBFI_XML_NUMBER_LENGTH] = '0';
-  text[SBFI_XML_NUMBER_LENGTH + 1] = 0;
-  ck_assert_int_eq(read_in_pieces(&list, &floats, text, 7), SBFI_XML_MALFORMED);
+  memset(text + 3, '0', LENGTH - 3);
+  memcpy(text + LENGTH, "1e1 2 3", 8);
+  for (size_t piece = 1; piece < 2 * LENGTH; piece = piece * 3 + 1) {
+    ck_assert_int_eq(read_in_pieces(&list, &floats, text, piece), SBFI_XML_FINE);
+    ck_assert_float_eq(*(const float *)list.scalars.at, 15);
+  }
   sbfi_xml_list_free(&list);
 }
 END_TEST
