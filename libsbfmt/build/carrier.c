@@ -258,6 +258,10 @@ sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, 
   return same != SBFI_NO_INDEX ? carried_alone(same, 0) : carry_by_surface(carrier, position);
 }
 
+bool sbfi_carrier_has(const sbfi_carrier *carrier, sbf_vec3 position) {
+  return carrier->slots[slot_of(carrier, position)] != SBFI_NO_INDEX;
+}
+
 double sbfi_carrier_distance(const sbfi_carrier *carrier, sbf_vec3 position, double least) {
   const double at[3] = {position.x, position.y, position.z};
   if (carrier->points.node_count > 0)

@@ -38,6 +38,9 @@ typedef struct sbfi_carried {
  * outside 0..1 where the vertex lies outside the four points. */
 sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, uint32_t likely);
 
+/* Whether one of the body's surface points stands in that very place, bit by bit. */
+bool sbfi_carrier_has(const sbfi_carrier *carrier, sbf_vec3 position);
+
 /* Squared distance from the body's surface if below `least`, else `least`. */
 double sbfi_carrier_distance(const sbfi_carrier *carrier, sbf_vec3 position, double least);
 

@@ -117,11 +117,28 @@ static bool share_by_skin(work *w, const sbf_render_mesh *mesh) {
   return true;
 }
 
+static bool is_body_of(const work *w, uint32_t body, const sbf_vec3_list *positions) {
+  for (uint32_t v = 0; v < positions->count; v++)
+    if (!sbfi_carrier_has(&w->carriers[w->finest[body]], positions->at[v])) return false;
+  return true;
+}
+
+/* The body that the mesh shows; SBFI_NO_INDEX: none as a whole. */
+static uint32_t find_body_of(const work *w, const sbf_render_mesh *mesh) {
+  for (uint32_t b = 0; b < w->asset->soft_bodies.count; b++) {
+    bool possible = mesh->bone == SBF_NONE || mesh->bone == w->asset->soft_bodies.at[b].bone;
+    if (possible && w->finest[b] != SBFI_NO_INDEX && is_body_of(w, b, &mesh->mesh.positions)) return b;
+  }
+  return SBFI_NO_INDEX;
+}
+
 static bool share_whole(work *w, const sbf_render_mesh *mesh) {
-  uint32_t likely = SBFI_NO_INDEX;
+  uint32_t own = find_body_of(w, mesh), likely = own;
   for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
     sbf_vec3 position = mesh->mesh.positions.at[v];
-    if (mesh->bone != SBF_NONE)
+    if (own != SBFI_NO_INDEX)
+      likely = own;
+    else if (mesh->bone != SBF_NONE)
       likely = choose_on_bone(w, w->bone_bodies[mesh->bone], position);
     else
       likely = choose_nearest(w, position, likely);

@@ -22,8 +22,9 @@ typedef struct sbfi_embed_report {
  *
  * A skinned mesh goes by its weights: each bone's share to the body of the bone itself or of its nearest
  * ancestor that has one; shares are scaled to a sum of one, and a vertex none of whose bones has a body is
- * not carried. A mesh with a bone goes to that body, or its ancestor's, whole. A mesh with neither goes,
- * vertex by vertex, to the nearest body. Of several bodies on one bone the nearest to a vertex carries it.
+ * not carried. A mesh with a bone goes to that body, or its ancestor's, whole. A mesh with neither goes to
+ * the first body that has a surface point in the place of every vertex, as when mesh and body are one object
+ * of the source; else vertex by vertex to the nearest body. Of several bodies on one bone it is the same.
  * Meshes that nothing carries are reported.
  *
  * `asset` is the one under construction that the targets belong to. False where memory runs out. */

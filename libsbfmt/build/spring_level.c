@@ -186,12 +186,26 @@ static bool make_stiffness(const work *w, float *stiffness) {
                         w->internal.count, stiffness + count);
 }
 
-/* Writes one kind's set, less the springs between held points; nothing where it would be empty. */
+static bool is_inert(const work *w, sbf_uint2 ends) {
+  return w->held[ends.at[0]] && w->held[ends.at[1]];
+}
+
+/* Between two points in one place there is nothing to be stretched: no format or scheme has a use for it. */
+static bool is_nothing(const work *w, sbf_uint2 ends) {
+  sbf_vec3 a = w->level->positions.at[ends.at[0]], b = w->level->positions.at[ends.at[1]];
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Writes one kind's set, less the springs between held points and those without length; nothing where it
+ * would be empty. */
 static bool add_set(work *w, sbf_spring_kind kind, sbfi_spring_list list, const float *stiffness,
     sbf_spring_set *sets, sbfi_spring_counts *counts) {
-  uint32_t kept = 0;
-  for (uint32_t s = 0; s < list.count; s++) kept += !(w->held[list.at[s].at[0]] && w->held[list.at[s].at[1]]);
-  if (list.count == 0) return true;
+  uint32_t kept = 0, inert = 0;
+  for (uint32_t s = 0; s < list.count; s++) {
+    inert += is_inert(w, list.at[s]);
+    kept += !is_inert(w, list.at[s]) && !is_nothing(w, list.at[s]);
+  }
+  if (kept + inert == 0) return true;
   sbf_uint2 *ends = kept ? sbf_asset_allocate(w->asset, kept, sizeof *ends) : NULL;
   float *values = kept ? sbf_asset_allocate(w->asset, kept, sizeof *values) : NULL;
   if (kept && (!ends || !values)) return false;
@@ -199,16 +213,16 @@ static bool add_set(work *w, sbf_spring_kind kind, sbfi_spring_list list, const 
   sbf_spring_set_init(set);
   set->kind = kind;
   set->derived = w->recipe->derivation;
-  set->inert_count = list.count - kept;
+  set->inert_count = inert;
   set->ends = (sbf_uint2_list){ends, kept};
   set->stiffness = (sbf_f32_list){values, kept};
   for (uint32_t s = 0, next = 0; s < list.count; s++) {
-    if (w->held[list.at[s].at[0]] && w->held[list.at[s].at[1]]) continue;
+    if (is_inert(w, list.at[s]) || is_nothing(w, list.at[s])) continue;
     ends[next] = list.at[s];
     values[next++] = stiffness[s];
   }
   counts->springs[kind] += kept;
-  counts->inert += set->inert_count;
+  counts->inert += inert;
   return true;
 }
 

@@ -29,10 +29,10 @@ typedef struct sbfi_interior_map {
  *
  * Points: the surface's, the author's interior ones, the made ones. Springs: structural, shear, flexion,
  * internal, each set in the order of springs.h, less those that join two held points, which its inert_count
- * counts. Pins: the body's own, its attachments', and "interior", which binds the made points to the body's
- * bone (see level_pins.h). A body without a bone keeps them free and gives them masses: of each polygon's
- * pyramid from the centre, a quarter to its point, a fifth to the centre and the rest to its corners, as its
- * tetrahedra would.
+ * counts, and those between two points in the same place. Pins: the body's own, its attachments', and
+ * "interior", which binds the made points to the body's bone (see level_pins.h). A body without a bone keeps
+ * them free and gives them masses: of each polygon's pyramid from the centre, a quarter to its point, a fifth
+ * to the centre and the rest to its corners, as its tetrahedra would.
  *
  * Stiffness in N/m by sbfmt/mechanics.h, stated for each spring. False where memory runs out. */
 bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const sbfi_spring_recipe *recipe,

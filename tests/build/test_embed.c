@@ -128,6 +128,19 @@ START_TEST(a_mesh_without_bones_goes_to_the_nearest)
 }
 END_TEST
 
+START_TEST(a_body_carries_its_own_picture)
+{
+  /* Two cubes that share a face: the second's mesh goes to the second, also where they touch. */
+  mesh.mesh = asset->soft_bodies.at[1].surface;
+  mesh.mesh.target = SBF_MESH_TARGET_RENDERING;
+  sbf_asset *built = build(NULL);
+  ck_assert_ptr_null(embedding_of(built, 0));
+  ck_assert_ptr_null(embedding_of(built, 2));
+  ck_assert_uint_eq(embedding_of(built, 1)->points.count, 26);
+  sbf_asset_free(built);
+}
+END_TEST
+
 START_TEST(nothing_carries_a_mesh_apart)
 {
   const sbf_vec3 position = {0, 0, 0};
@@ -195,6 +208,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_mesh_on_a_bone_goes_whole);
   tcase_add_test(c, a_leaf_goes_with_its_ancestor);
   tcase_add_test(c, a_mesh_without_bones_goes_to_the_nearest);
+  tcase_add_test(c, a_body_carries_its_own_picture);
   tcase_add_test(c, nothing_carries_a_mesh_apart);
   tcase_add_test(c, authored_embeddings_stay);
   tcase_add_test(c, of_two_bodies_on_a_bone_the_nearer);

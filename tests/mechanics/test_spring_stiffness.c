@@ -150,6 +150,8 @@ START_TEST(levels_fill_in_what_is_not_stated)
   sets[2].stiffness = (sbf_f32_list){each, 3};
   sbf_soft_body body;
   sbf_soft_body_init(&body);
+  body.attributes.young_modulus = 5e4f;
+  body.attributes.thickness = 0.001f;
   sbf_level level;
   sbf_level_init(&level);
   level.positions = (sbf_vec3_list){positions, POINTS};
