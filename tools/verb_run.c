@@ -102,8 +102,7 @@ static bool open_outputs(run_state *r, cli_call *call) {
   const char *cache = cli_value(call, "--cache"), *poses = cli_value(call, "--pose");
   r->cache_of_surface = of == 1;
   uint32_t points = of ? r->surface_count : r->skin_count;
-  if (cache &&
-      sbf_point_cache_open(cache, points, r->s.frame_count + 1, r->s.fps, &r->cache, &error) != SBF_OK) {
+  if (cache && sbf_point_cache_open(cache, points, r->s.frame_count + 1, &r->cache, &error) != SBF_OK) {
     cli_print_diagnostic(call, &error);
     return false;
   }

@@ -21,18 +21,18 @@ static void put_f32(uint8_t *to, float value) {
   put_u32(to, bits);
 }
 
-static sbf_status write_header(sbf_point_cache *cache, double samples_per_second, sbf_diagnostic *error) {
+static sbf_status write_header(sbf_point_cache *cache, sbf_diagnostic *error) {
   uint8_t header[32] = "POINTCACHE2";
   put_u32(header + 12, 1);
   put_u32(header + 16, cache->point_count);
   put_f32(header + 20, 0);
-  put_f32(header + 24, (float)samples_per_second);
+  put_f32(header + 24, 1);
   put_u32(header + 28, cache->sample_count);
   return sbfi_file_writer_write(&cache->writer, header, sizeof header, error);
 }
 
 sbf_status sbf_point_cache_open(const char *path, uint32_t point_count, uint32_t sample_count,
-    double samples_per_second, sbf_point_cache **cache, sbf_diagnostic *error) {
+    sbf_point_cache **cache, sbf_diagnostic *error) {
   sbf_allocator allocator = sbfi_allocator_or_default(NULL);
   *cache = NULL;
   sbf_point_cache *made = sbfi_allocate(&allocator, sizeof *made);
@@ -41,7 +41,7 @@ sbf_status sbf_point_cache_open(const char *path, uint32_t point_count, uint32_t
   *made = (sbf_point_cache){.allocator = allocator, .point_count = point_count, .sample_count = sample_count};
   sbfi_copy_text(made->path, sizeof made->path, path);
   sbf_status status = sbfi_file_writer_open(&made->writer, made->path, &allocator, error);
-  if (status == SBF_OK) status = write_header(made, samples_per_second, error);
+  if (status == SBF_OK) status = write_header(made, error);
   if (status == SBF_OK)
     *cache = made;
   else

@@ -15,9 +15,9 @@ extern "C" {
  * sample, single precision, little-endian. */
 typedef struct sbf_point_cache sbf_point_cache;
 
-/* `sample_count` samples of `point_count` points will follow, `samples_per_second` apart. */
+/* `sample_count` samples of `point_count` points will follow, one for each frame of whoever plays them. */
 SBF_API sbf_status sbf_point_cache_open(const char *path, uint32_t point_count, uint32_t sample_count,
-    double samples_per_second, sbf_point_cache **cache, sbf_diagnostic *error);
+    sbf_point_cache **cache, sbf_diagnostic *error);
 /* The next sample: point_count places. */
 SBF_API sbf_status sbf_point_cache_add(sbf_point_cache *cache, const sbf_vec3 *points, sbf_diagnostic *error);
 /* Completes the file; SBF_FAILED, and no file, where samples are missing or it cannot be written. */
