@@ -141,6 +141,6 @@ def main():
         sys.exit(SKIPPED)
     program = unittest.main(exit=False, verbosity=2)
     result = program.result
-    if result.testsRun and len(result.skipped) == result.testsRun and result.wasSuccessful():
+    if result.wasSuccessful() and result.skipped and len(result.skipped) >= result.testsRun:
         sys.exit(SKIPPED)
     sys.exit(not result.wasSuccessful())

@@ -1,0 +1,119 @@
+"""`sbfmt render`: pictures and films of the kind and size asked for, with something in them. Skipped where the
+machine has no EGL or no ffmpeg to draw with."""
+
+import shutil
+import struct
+import unittest
+import zlib
+
+from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes
+
+SMALL = ("--size", "160x120")
+
+
+def draws(ending, folder, file):
+    """Whether this machine can draw such a file at all."""
+    result = call("render", file, "-o", f"{folder}/try.{ending}", "--seconds", "0.1", "--fps", "10", *SMALL)
+    return result.status == 0, result.err
+
+
+def read_png(data):
+    """Width, height and rows of RGB or RGBA bytes; checks signature and checksums on the way."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    place, packed, head = 8, b"", None
+    while place < len(data):
+        size, kind = struct.unpack_from(">I4s", data, place)
+        body = data[place + 8:place + 8 + size]
+        assert struct.unpack_from(">I", data, place + 8 + size)[0] == zlib.crc32(kind + body)
+        if kind == b"IHDR":
+            head = struct.unpack(">IIBBBBB", body)
+        elif kind == b"IDAT":
+            packed += body
+        place += 12 + size
+    width, height, depth, colour, _, _, interlaced = head
+    assert (depth, interlaced) == (8, 0) and colour in (2, 6)
+    channels = 3 if colour == 2 else 4
+    flat, step, rows, above = zlib.decompress(packed), width * channels, [], bytes(width * channels)
+    for y in range(height):
+        kind, row = flat[y * (step + 1)], bytearray(flat[y * (step + 1) + 1:(y + 1) * (step + 1)])
+        for x in range(step):
+            left = row[x - channels] if x >= channels else 0
+            corner = above[x - channels] if x >= channels else 0
+            row[x] = (row[x] + predictor(kind, left, above[x], corner)) & 255
+        rows.append(bytes(row))
+        above = row
+    return width, height, channels, rows
+
+
+def predictor(kind, left, up, corner):
+    if kind == 4:
+        guess = left + up - corner
+        return min((left, up, corner), key=lambda n: abs(guess - n))
+    return (0, left, up, (left + up) // 2)[kind]
+
+
+def colours(data):
+    _, _, channels, rows = read_png(data)
+    return {row[x:x + 3] for row in rows for x in range(0, len(row), channels)}
+
+
+class Render(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        if not PROGRAM:
+            return
+        cls.file = example(cls.class_folder.name)
+        able, why = draws("png", cls.class_folder.name, cls.file)
+        if not able:
+            raise unittest.SkipTest(f"nothing can be drawn here: {why.strip()}")
+
+    def draw(self, name, *arguments):
+        out = self.path(name)
+        self.good("render", self.file, "-o", out, *arguments)
+        return read_bytes(out)
+
+    def test_a_picture_has_the_size_asked_for(self):
+        for size in ("160x120", "97x41"):
+            width, height, _, _ = read_png(self.draw("a.png", "--size", size))
+            self.assertEqual(f"{width}x{height}", size)
+
+    def test_a_picture_shows_something(self):
+        self.assertGreater(len(colours(self.draw("a.png", *SMALL))), 500)
+
+    def test_what_is_shown_changes_the_picture(self):
+        pictures = {show: self.draw("a.png", *SMALL, "--show", show)
+                    for show in ("surface", "springs", "surface,springs", "bones", "hulls", "strain")}
+        self.assertEqual(len(set(pictures.values())), len(pictures))
+
+    def test_a_picture_of_a_later_moment_differs(self):
+        self.assertNotEqual(self.draw("a.png", *SMALL), self.draw("b.png", *SMALL, "--seconds", "1", "--drive", "0.3,0"))
+
+    def test_the_same_call_draws_the_same(self):
+        self.assertEqual(self.draw("a.png", *SMALL), self.draw("b.png", *SMALL))
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
+    def test_a_gif_of_a_walk(self):
+        data = self.draw("a.gif", *SMALL, "--seconds", "0.5", "--fps", "10", "--drive", "0.3,0")
+        self.assertIn(data[:6], (b"GIF87a", b"GIF89a"))
+        self.assertEqual(struct.unpack_from("<HH", data, 6), (160, 120))
+        self.assertGreaterEqual(data.count(b"\x21\xf9\x04"), 5)  # a control block for each frame
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
+    def test_a_film_of_a_walk(self):
+        data = self.draw("a.mp4", *SMALL, "--seconds", "0.5", "--fps", "10")
+        self.assertEqual(data[4:8], b"ftyp")
+        self.assertIn(b"moov", data)
+
+    def test_calls_that_are_wrong_leave_nothing(self):
+        for arguments in (("-o", self.path("a.bmp")), (), ("-o", self.path("a.png"), "--show", "hair"),
+                          ("-o", self.path("a.png"), "--size", "0x0"), ("-o", self.path("a.png"), "--size", "wide"),
+                          ("-o", self.path("no folder/a.png"), *SMALL)):
+            with self.subTest(arguments):
+                self.fails(2, "render", self.file, *arguments)
+        self.fails(2, "render", self.path("absent.sbf"), "-o", self.path("a.png"))
+        self.assert_empty_folder()
+
+
+if __name__ == "__main__":
+    main()
