@@ -135,7 +135,7 @@ static float *make_volumes(const work *w, bool pyramids) {
 
 static bool make_network(const work *w, double modulus, const float *volumes, const sbf_uint2 *ends,
     uint32_t count, float *stiffness) {
-  double *sums = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *sums);
+  double *sums = sbfi_arena_allocate(w->scratch, w->point_count, 2 * sizeof *sums);
   if (sums)
     sbf_stiffness_of_network(
         modulus, w->level->positions.at, w->point_count, volumes, ends, count, sums, stiffness);

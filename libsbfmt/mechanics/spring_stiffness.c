@@ -2,36 +2,50 @@
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
+/* Springs shorter than this share of the mean of their neighbours count as that long. */
+static const double short_share = 0.5;
+
 static double distance(const sbf_vec3 *positions, sbf_uint2 ends) {
   return sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(positions[ends.at[1]]), sbfi_d3_of(positions[ends.at[0]])));
 }
 
-static void add_lengths(
-    const sbf_vec3 *positions, const sbf_uint2 *ends, uint32_t count, double *length_sums) {
+/* Of the springs at a point: the sum of their lengths, and how many they are. */
+typedef struct length_sum {
+  double length, count;
+} length_sum;
+
+static void add_lengths(const sbf_vec3 *positions, const sbf_uint2 *ends, uint32_t count, length_sum *sums) {
   for (uint32_t s = 0; s < count; s++) {
     double length = distance(positions, ends[s]);
-    length_sums[ends[s].at[0]] += length;
-    length_sums[ends[s].at[1]] += length;
+    for (int end = 0; end < 2; end++) {
+      sums[ends[s].at[end]].length += length;
+      sums[ends[s].at[end]].count += 1;
+    }
   }
 }
 
 /* C E V_s / L^2 with V_s = L (V_a / sum_a + V_b / sum_b): one length cancels. */
 static void share_volumes(double modulus, const sbf_vec3 *positions, const float *volumes,
-    const sbf_uint2 *ends, uint32_t count, const double *length_sums, float *stiffness) {
+    const sbf_uint2 *ends, uint32_t count, const length_sum *sums, float *stiffness) {
   for (uint32_t s = 0; s < count; s++) {
     uint32_t a = ends[s].at[0], b = ends[s].at[1];
     double length = distance(positions, ends[s]);
-    double section = length > 0 ? volumes[a] / length_sums[a] + volumes[b] / length_sums[b] : 0;
-    stiffness[s] = length > 0 ? (float)(modulus * section / length) : 0;
+    stiffness[s] = 0;
+    if (!(length > 0)) continue;
+    double mean = (sums[a].length + sums[b].length) / (sums[a].count + sums[b].count);
+    double section = volumes[a] / sums[a].length + volumes[b] / sums[b].length;
+    double counted = length > short_share * mean ? length : short_share * mean;
+    stiffness[s] = (float)(modulus * section / counted);
   }
 }
 
 void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions, uint32_t point_count,
-    const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, double *length_sums,
-    float *stiffness) {
-  for (uint32_t i = 0; i < point_count; i++) length_sums[i] = 0;
-  add_lengths(positions, ends, spring_count, length_sums);
-  share_volumes(modulus, positions, volumes, ends, spring_count, length_sums, stiffness);
+    const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness) {
+  _Static_assert(sizeof(length_sum) == 2 * sizeof(double), "the scratch memory's shape");
+  length_sum *sums = (length_sum *)scratch;
+  for (uint32_t i = 0; i < point_count; i++) sums[i] = (length_sum){0, 0};
+  add_lengths(positions, ends, spring_count, sums);
+  share_volumes(modulus, positions, volumes, ends, spring_count, sums, stiffness);
 }
 
 /* What is gathered of the anchored springs at one free point. */
@@ -41,7 +55,7 @@ typedef struct anchored {
   double tensor[6]; /* sum of k n n^T: xx yy zz xy yz zx */
 } anchored;
 
-enum { ANCHORED_NUMBERS = 9, MOST_RAISED = 16 /* four times the frequency */ };
+enum { ANCHORED_NUMBERS = 9, MOST_RAISED = 4 /* twice the frequency */ };
 static const double least_share = 0.05;
 
 /* The free end, or the point count where the spring does not join a held to a free point. */
@@ -125,8 +139,9 @@ void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_vec3 *norm
   }
 }
 
-void sbf_level_stiffness(const sbf_soft_body *body, const sbf_level *level, float *volumes,
-    double *length_sums, float *stiffness) {
+void sbf_level_stiffness(
+    const sbf_soft_body *body, const sbf_level *level, float *volumes, double *scratch, float *stiffness) {
+  length_sum *sums = (length_sum *)scratch;
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   sbf_level_shares(body, level, NULL, volumes);
@@ -135,18 +150,16 @@ void sbf_level_stiffness(const sbf_soft_body *body, const sbf_level *level, floa
   uint32_t count = level->positions.count;
   for (uint32_t i = 0; i < count; i++) {
     volumes[i] = (float)(volumes[i] * measures.volume);
-    length_sums[i] = 0;
+    sums[i] = (length_sum){0, 0};
+  }
+  for (uint32_t s = 0; s < level->springs.count; s++) {
+    const sbf_spring_set *set = &level->springs.at[s];
+    if (set->stiffness.count == 0) add_lengths(level->positions.at, set->ends.at, set->ends.count, sums);
   }
   for (uint32_t s = 0; s < level->springs.count; s++) {
     const sbf_spring_set *set = &level->springs.at[s];
     if (set->stiffness.count == 0)
-      add_lengths(level->positions.at, set->ends.at, set->ends.count, length_sums);
-  }
-  for (uint32_t s = 0; s < level->springs.count; s++) {
-    const sbf_spring_set *set = &level->springs.at[s];
-    if (set->stiffness.count == 0)
-      share_volumes(
-          modulus, level->positions.at, volumes, set->ends.at, set->ends.count, length_sums, stiffness);
+      share_volumes(modulus, level->positions.at, volumes, set->ends.at, set->ends.count, sums, stiffness);
     for (uint32_t i = 0; i < set->ends.count && set->stiffness.count > 0; i++)
       stiffness[i] = set->stiffness.at[set->stiffness.count == 1 ? 0 : i];
     stiffness += set->ends.count;

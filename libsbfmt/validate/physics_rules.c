@@ -33,7 +33,7 @@ static void check_substeps(
   uint8_t *held = sbfi_arena_allocate(&v->scratch, points, 1);
   float *masses = sbfi_arena_allocate(&v->scratch, points, sizeof *masses);
   float *volumes = sbfi_arena_allocate(&v->scratch, points, sizeof *volumes);
-  double *sums = sbfi_arena_allocate(&v->scratch, points, sizeof *sums);
+  double *sums = sbfi_arena_allocate(&v->scratch, points, 2 * sizeof *sums);
   float *stiffness = sbfi_arena_allocate(&v->scratch, springs, sizeof *stiffness);
   sbf_uint2 *ends = sbfi_arena_allocate(&v->scratch, springs, sizeof *ends);
   if (!held || !masses || !volumes || !sums || !stiffness || !ends) {

@@ -24,7 +24,7 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
   for (uint32_t s = 0; s < level->springs.count; s++) total += level->springs.at[s].ends.count;
   float *stiffness = sbri_scratch(m, total, sizeof *stiffness);
   float *volumes = sbri_scratch(m, level->positions.count, sizeof *volumes);
-  double *sums = sbri_scratch(m, level->positions.count, sizeof *sums);
+  double *sums = sbri_scratch(m, level->positions.count, 2 * sizeof *sums);
   if (!stiffness || !volumes || !sums) return false;
   sbf_level_stiffness(body->source, level, volumes, sums, stiffness);
   for (uint32_t s = 0; s < level->springs.count; s++) {

@@ -15,7 +15,7 @@ static sbf_vec3 positions[POINTS];
 static float volumes[POINTS];
 static sbf_uint2 ends[POINTS * POINTS];
 static float stiffness[POINTS * POINTS];
-static double sums[POINTS];
+static double sums[2 * POINTS];
 static uint32_t spring_count;
 
 static void make_lattice(float cell) {
@@ -66,6 +66,18 @@ START_TEST(no_length_no_stiffness)
   sbf_stiffness_of_network(1, same, 3, share, two, 2, sums, stiffness);
   ck_assert(stiffness[0] == 0);
   ck_assert_float_eq_tol(stiffness[1], 2, 1e-6f); /* both ends' whole volume, length 1 */
+}
+END_TEST
+
+START_TEST(short_springs_count_as_longer)
+{
+  /* Lengths 1, 1 and 0.1 at one point: 0.1 is below half of the mean over both ends, (2.1 + 0.1) / 4. */
+  const sbf_vec3 at[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1f}};
+  const float share[] = {2.1f, 0, 0, 0};
+  const sbf_uint2 three[] = {{{0, 1}}, {{0, 2}}, {{0, 3}}};
+  sbf_stiffness_of_network(1, at, 4, share, three, 3, sums, stiffness);
+  ck_assert_float_eq_tol(stiffness[0], 1, 1e-5f);
+  ck_assert_float_eq_tol(stiffness[2], 1 / 0.275f, 1e-4f);
 }
 END_TEST
 
@@ -178,6 +190,7 @@ static Suite *suite(void) {
   tcase_add_test(c, energy_of_a_uniform_strain);
   tcase_add_test(c, half_the_size_half_the_stiffness);
   tcase_add_test(c, no_length_no_stiffness);
+  tcase_add_test(c, short_springs_count_as_longer);
   tcase_add_test(c, anchors_give_the_pyramid);
   tcase_add_test(c, anchors_that_cannot_fit_keep_the_trace);
   tcase_add_test(c, no_direction_is_left_free);

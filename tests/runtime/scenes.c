@@ -198,7 +198,7 @@ void scene_section(scene *s, uint32_t body_index, sbf_vec3 center, sbf_vec3 size
   float *volumes = calloc(b.point_count, sizeof *volumes);
   sbf_vec3 *normals = calloc(b.point_count, sizeof *normals);
   uint8_t *is_held = calloc(b.point_count, 1);
-  double *scratch = calloc(3 * (size_t)b.point_count, sizeof *scratch);
+  double *scratch = calloc(9 * (size_t)b.point_count, sizeof *scratch);
   float *stiffness = calloc(12 * (size_t)quad_count + surface, sizeof *stiffness);
   sbf_level_held_points(level, is_held);
   sbf_level_shares(body, level, is_held, volumes);

@@ -91,13 +91,15 @@ SBF_API double sbf_level_masses(
  *
  * Sharing the volume among the springs, k = C E V_s / L^2 with sum V_s = V: each point's tributary volume is
  * shared among its springs by their lengths, as rods of one cross-section would share it. A body of half the
- * size then answers the same stress with the same strain, and a finer mesh is no stiffer. */
+ * size then answers the same stress with the same strain, and a finer mesh is no stiffer. A spring shorter
+ * than half the mean of its neighbours is made no stiffer than one of that length: the sums above lose next
+ * to nothing by it, while a bevel's short edges would set the time step of the whole body. */
 #define SBF_STIFFNESS_VOLUME 6.0
 #define SBF_STIFFNESS_SHEET 3.0
 
 /* `volumes` (point_count) are the points' tributary volumes in m^3, times their factor of a weight map.
  * Writes `stiffness` (spring_count) in N/m for C E = `modulus` in Pa; springs without length get 0.
- * `length_sums` is scratch (point_count). */
+ * `scratch` is (2 * point_count). */
 SBF_API void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions, uint32_t point_count,
     const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, double *length_sums,
     float *stiffness);
@@ -111,7 +113,7 @@ SBF_API void sbf_stiffness_of_network(double modulus, const sbf_vec3 *positions,
  * springs as k = a + b c^2, c the cosine between spring and axis, so that the stiffness along the axis comes
  * out as well where the directions allow (none falls below a tenth of the mean). Where some
  * direction is next to free, as across a thin rim, all the point's springs are raised together until the
- * stiffness in the softest one is an eighth of what it should be across, but sixteen times at most. The
+ * stiffness in the softest one is an eighth of what it should be across, but four times at most. The
  * pyramids take a third of the 6 E V above; springs over the surface get the rest, SBF_STIFFNESS_MEMBRANE, by
  * sbf_stiffness_of_network.
  *
@@ -125,9 +127,10 @@ SBF_API void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_ve
     const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness);
 
 /* Stiffness of every spring of a level, set after set: what the sets state, and for sets that state nothing
- * that of one network of them all. `volumes` and `length_sums` are scratch (level->positions.count). */
+ * that of one network of them all. `volumes` (level->positions.count) and `scratch` (2 * that) are the
+ * caller's memory. */
 SBF_API void sbf_level_stiffness(
-    const sbf_soft_body *body, const sbf_level *level, float *volumes, double *length_sums, float *stiffness);
+    const sbf_soft_body *body, const sbf_level *level, float *volumes, double *scratch, float *stiffness);
 
 /* ---- Springs: how fast they swing --------------------------------------------------------------------- */
 
