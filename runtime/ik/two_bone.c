@@ -11,6 +11,13 @@ static float ease_reach(float distance, float reach, float soft) {
   return start + range * t * (2 - t);
 }
 
+/* The part of `v` at right angles to the unit vector `along`; taken twice, because of a `v` nearly along it
+ * the first leaves hardly more than its own rounding. */
+static sbf_vec3 across(sbf_vec3 v, sbf_vec3 along) {
+  for (int i = 0; i < 2; i++) v = sbri_add_scaled(v, along, -sbri_dot(v, along));
+  return v;
+}
+
 sbri_two_bone_result sbri_two_bone(sbf_vec3 hip, sbf_vec3 target, sbf_vec3 pole, sbf_vec3 fallback,
     float upper, float lower, float soft_reach) {
   float reach = upper + lower, nearest = fabsf(upper - lower);
@@ -19,12 +26,8 @@ sbri_two_bone_result sbri_two_bone(sbf_vec3 hip, sbf_vec3 target, sbf_vec3 pole,
   sbf_vec3 along = sbri_normalize(to_target, sbri_vec3(0, -1, 0));
   float distance = sbri_clamp(ease_reach(wanted, reach, soft_reach), nearest, reach);
 
-  sbf_vec3 to_pole = sbri_sub(pole, hip);
-  sbf_vec3 out = sbri_add_scaled(to_pole, along, -sbri_dot(to_pole, along));
-  if (sbri_dot(out, out) < 1e-10f * reach * reach) {
-    to_pole = sbri_sub(fallback, hip);
-    out = sbri_add_scaled(to_pole, along, -sbri_dot(to_pole, along));
-  }
+  sbf_vec3 out = across(sbri_sub(pole, hip), along);
+  if (sbri_dot(out, out) < 1e-10f * reach * reach) out = across(sbri_sub(fallback, hip), along);
   sbf_vec3 spare = sbri_cross(along, fabsf(along.x) < 0.9f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 0, 1));
   out = sbri_normalize(out, sbri_normalize(spare, sbri_vec3(0, 0, 1)));
 

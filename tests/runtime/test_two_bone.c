@@ -15,14 +15,19 @@ static float next(uint32_t *seed) {
   return (float)(*seed >> 8) / 8388608.0f - 1;
 }
 
+/* One after the other: the order of a call's arguments is the compiler's. */
+static sbf_vec3 next_point(uint32_t *seed, float scale) {
+  float x = next(seed), y = next(seed), z = next(seed);
+  return sbri_vec3(scale * x, scale * y, scale * z);
+}
+
 START_TEST(reachable_targets_are_met)
 {
   uint32_t seed = 1;
   int met = 0;
   for (int i = 0; i < 20000; i++) {
-    sbf_vec3 hip = {next(&seed), next(&seed), next(&seed)};
-    sbf_vec3 target = sbri_add(hip, sbri_vec3(next(&seed), next(&seed), next(&seed)));
-    sbf_vec3 pole = {3 * next(&seed), 3 * next(&seed), 3 * next(&seed)};
+    sbf_vec3 hip = next_point(&seed, 1), target = sbri_add(hip, next_point(&seed, 1));
+    sbf_vec3 pole = next_point(&seed, 3);
     float upper = 0.5f, lower = 0.7f, away = distance(target, hip);
     sbri_two_bone_result r = sbri_two_bone(hip, target, pole, sbri_vec3(9, 9, 9), upper, lower, 0);
     ck_assert_float_le(fabsf(distance(r.knee, hip) - upper), 2e-6f);
@@ -43,8 +48,7 @@ START_TEST(knee_lies_towards_the_pole)
 {
   uint32_t seed = 7;
   for (int i = 0; i < 5000; i++) {
-    sbf_vec3 hip = {0, 1, 0}, target = {0.3f * next(&seed), 0.3f * next(&seed), 0.3f * next(&seed)};
-    sbf_vec3 pole = {2 * next(&seed), 2 * next(&seed), 2 * next(&seed)};
+    sbf_vec3 hip = {0, 1, 0}, target = next_point(&seed, 0.3f), pole = next_point(&seed, 2);
     sbri_two_bone_result r = sbri_two_bone(hip, target, pole, sbri_vec3(0, 0, 5), 0.8f, 0.8f, 0);
     sbf_vec3 along = sbri_normalize(sbri_sub(target, hip), sbri_vec3(0, 1, 0));
     sbf_vec3 knee = sbri_sub(r.knee, hip), to_pole = sbri_sub(pole, hip);
