@@ -40,11 +40,13 @@ int main(int argc, char **argv) {
     uint32_t event_count = sbr_world_events(world, events, 64);
     for (uint32_t i = 0; i < event_count; i++) steps += events[i].kind == SBR_EVENT_FOOT_DOWN;
     if (frame % 60) continue;
-    sbr_double3 at = sbr_character_origin(world, character);
-    sbr_character_skin(
-        world, character, 0, skin, NULL, NULL, count); /* relative to `at`; an engine draws it */
-    printf("%d s: at %.2f %.2f %.2f m, %u steps taken, first of %u vertices %.3f m above it\n", frame / 60,
-        at.x, at.y, at.z, (unsigned)steps, (unsigned)count, count ? skin[0].y : 0);
+    sbr_double3 origin = sbr_character_origin(world, character); /* what follows is relative to it */
+    sbr_transform root;
+    sbr_character_bones(world, character, &root, 1);
+    sbr_character_skin(world, character, 0, skin, NULL, NULL, count); /* an engine draws it */
+    printf("%d s: root at %.2f %.2f %.2f m, %u steps taken, vertex 0 of %u at a height of %.3f m\n",
+        frame / 60, origin.x + root.position.x, origin.y + root.position.y, origin.z + root.position.z,
+        (unsigned)steps, (unsigned)count, origin.y + (count ? skin[0].y : 0));
   }
   printf("state %016llx\n", (unsigned long long)sbr_world_state_hash(world));
 
