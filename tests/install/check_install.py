@@ -196,14 +196,14 @@ def main():
     say(f"{len(programs)} builds of the engine's example: good, without libxml2 and assimp")
 
     if package.runtime_only:
-        code, said = run("cmake", "-S", os.path.join(arguments.source, "tests/install/load_any"), "-B",
+        code, said = run("cmake", "-S", os.path.join(arguments.source, "tests/install/sdk_user"), "-B",
                          os.path.join(arguments.scratch, "refused"), f"-DCMAKE_PREFIX_PATH={package.prefix}",
                          "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF", must=False)
         expect(code != 0, "a project that needs sbfmt::interchange configured against the runtime alone")
     else:
-        project = os.path.join(arguments.source, "tests", "install", "load_any")
+        project = os.path.join(arguments.source, "tests", "install", "sdk_user")
         package.with_cmake(project)
-        package.with_pkg_config("sbfmt", arguments.cc, os.path.join(project, "load_any.c"), "-std=c11")
+        package.with_pkg_config("sbfmt", arguments.cc, os.path.join(project, "sdk_user.c"), "-std=c11")
         say("SDK by find_package and by pkg-config: good")
 
     if package.has_program:
