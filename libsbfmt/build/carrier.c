@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "build/topology.h"
+#include "mechanics/level_points.h"
 #include "mechanics/vector.h"
 
 _Static_assert(sizeof(sbf_vec3) == 3 * sizeof(float), "places are compared and copied as three floats");
@@ -97,14 +98,6 @@ bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const s
          box_points(carrier, arena);
 }
 
-/* Place in the level of a surface point; SBFI_NO_INDEX where the level has none for it. */
-static uint32_t level_point(const sbf_level *level, uint32_t source_point) {
-  if (level->new_from_old.count > 0)
-    source_point =
-        source_point < level->new_from_old.count ? level->new_from_old.at[source_point] : SBFI_NO_INDEX;
-  return source_point < level->positions.count ? source_point : SBFI_NO_INDEX;
-}
-
 /* A choice of four points: the weights that give the position, and how large they are. */
 typedef struct choice {
   uint32_t points[4];
@@ -148,7 +141,7 @@ static void try_fourth(
 
 static bool level_corners(const sbfi_carrier *c, uint32_t triangle, uint32_t corners[3]) {
   for (int k = 0; k < 3; k++) {
-    corners[k] = level_point(c->level, c->surface.triangles[triangle].points[k]);
+    corners[k] = sbfi_level_point(c->level, c->surface.triangles[triangle].points[k]);
     if (corners[k] == SBFI_NO_INDEX) return false;
   }
   return true;
@@ -254,7 +247,7 @@ sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, 
   uint32_t same = likely;
   if (likely >= surface->count || memcmp(&surface->at[likely], &position, sizeof position) != 0)
     same = surface->count ? carrier->slots[slot_of(carrier, position)] : SBFI_NO_INDEX;
-  if (same != SBFI_NO_INDEX) same = level_point(carrier->level, same);
+  if (same != SBFI_NO_INDEX) same = sbfi_level_point(carrier->level, same);
   return same != SBFI_NO_INDEX ? carried_alone(same, 0) : carry_by_surface(carrier, position);
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "build/hulls.h"
+#include "mechanics/level_points.h"
 #include "sbfmt/mechanics.h"
 
 /* `v` in the frame that `q` turns out of: the conjugate's rotation, in double for the digits. */
@@ -11,13 +12,6 @@ static sbf_vec3 turned_back(sbf_quat q, const double v[3]) {
   double tx = 2 * (y * v[2] - z * v[1]), ty = 2 * (z * v[0] - x * v[2]), tz = 2 * (x * v[1] - y * v[0]);
   return (sbf_vec3){(float)(v[0] + w * tx + y * tz - z * ty), (float)(v[1] + w * ty + z * tx - x * tz),
       (float)(v[2] + w * tz + x * ty - y * tx)};
-}
-
-static uint32_t level_point(const sbf_level *level, uint32_t source_point) {
-  uint32_t place = source_point;
-  if (level->new_from_old.count > 0)
-    place = source_point < level->new_from_old.count ? level->new_from_old.at[source_point] : UINT32_MAX;
-  return place < level->positions.count ? place : UINT32_MAX;
 }
 
 /* The body's set at the level's points; points that the level does not have are left out. */
@@ -31,7 +25,7 @@ static bool copy_set(sbf_pin_set *to, const sbf_pin_set *from, const sbf_level *
   float *weights = with_weights ? sbf_asset_allocate(asset, count, sizeof *weights) : NULL;
   if (!points || (with_offsets && !offsets) || (with_weights && !weights)) return false;
   for (uint32_t i = 0; i < count; i++) {
-    points[kept] = level_point(level, from->points.at[i]);
+    points[kept] = sbfi_level_point(level, from->points.at[i]);
     if (points[kept] == UINT32_MAX) continue;
     if (offsets) offsets[kept] = from->offsets.at[i];
     if (weights) weights[kept] = from->weights.at[i];
@@ -51,7 +45,7 @@ static bool expand_attachment(sbf_pin_set *to, const sbf_attachment *from, const
   if (!found) return false;
   if (from->rule == SBF_ATTACHMENT_RULE_EXPLICIT) {
     for (uint32_t i = 0; i < most; i++) {
-      found[count] = level_point(level, from->points.at[i]);
+      found[count] = sbfi_level_point(level, from->points.at[i]);
       count += found[count] != UINT32_MAX;
     }
   } else if (hull) {

@@ -5,6 +5,7 @@
 #include "build/level_pins.h"
 #include "build/springs.h"
 #include "build/triangle_tree.h"
+#include "mechanics/level_points.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
 
@@ -101,20 +102,6 @@ static void share_by_pyramids(const work *w, float *shares) {
   for (uint32_t i = 0; i < w->point_count; i++) shares[i] = (float)(shares[i] / sum);
 }
 
-/* Multiplies by the factors that the body's weight map of the property gives; made points take the mean. */
-static void apply_map(const work *w, sbf_weight_property property, float *values) {
-  for (uint32_t m = 0; m < w->body->weight_maps.count; m++) {
-    const sbf_weight_map *map = &w->body->weight_maps.at[m];
-    if (map->property != property) continue;
-    double sum = 0;
-    for (uint32_t i = 0; i < map->values.count; i++) {
-      values[i] *= map->values.at[i];
-      sum += map->values.at[i];
-    }
-    for (uint32_t i = w->source_count; i < w->point_count; i++) values[i] *= (float)(sum / map->values.count);
-  }
-}
-
 static float *make_volumes(const work *w, bool pyramids) {
   float *volumes = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *volumes);
   if (!volumes) return NULL;
@@ -129,7 +116,7 @@ static float *make_volumes(const work *w, bool pyramids) {
     for (uint32_t i = w->surface_count; i < w->source_count; i++) volumes[i] = 1.0f / (float)w->surface_count;
   }
   for (uint32_t i = 0; i < w->point_count; i++) volumes[i] *= (float)w->measures.volume;
-  apply_map(w, SBF_WEIGHT_PROPERTY_YOUNG_MODULUS, volumes);
+  sbfi_level_weigh(w->body, w->level, SBF_WEIGHT_PROPERTY_YOUNG_MODULUS, volumes);
   return volumes;
 }
 
@@ -250,7 +237,7 @@ static bool state_masses(work *w) {
   if (!masses) return false;
   share_by_pyramids(w, masses);
   for (uint32_t i = 0; i < w->point_count; i++) masses[i] *= (float)w->measures.mass;
-  apply_map(w, SBF_WEIGHT_PROPERTY_DENSITY, masses);
+  sbfi_level_weigh(w->body, w->level, SBF_WEIGHT_PROPERTY_DENSITY, masses);
   w->level->masses = (sbf_f32_list){masses, w->point_count};
   return true;
 }

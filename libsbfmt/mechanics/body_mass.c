@@ -1,3 +1,4 @@
+#include "mechanics/level_points.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
 
@@ -37,15 +38,6 @@ uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *held) {
   return count;
 }
 
-/* Place in the level of a source point; the number of points where it has none. */
-static uint32_t level_point(const sbf_level *level, uint32_t source_point) {
-  uint32_t place = source_point;
-  if (level->new_from_old.count > 0)
-    place = source_point < level->new_from_old.count ? level->new_from_old.at[source_point]
-                                                     : level->positions.count;
-  return place < level->positions.count ? place : level->positions.count;
-}
-
 /* Tributary areas of the surface's points, at their places in the level. */
 static void add_areas(const sbf_soft_body *body, const sbf_level *level, float *areas) {
   const sbf_polygon_mesh *mesh = &body->surface;
@@ -56,8 +48,8 @@ static void add_areas(const sbf_soft_body *body, const sbf_level *level, float *
     float share =
         (float)(sbfi_d3_length(sbfi_polygon_area(mesh->positions.at, corners, size, middle)) / size);
     for (uint32_t k = 0; k < size; k++) {
-      uint32_t point = level_point(level, corners[k]);
-      if (point < level->positions.count) areas[point] += share;
+      uint32_t point = sbfi_level_point(level, corners[k]);
+      if (point != UINT32_MAX) areas[point] += share;
     }
   }
 }
@@ -97,17 +89,6 @@ static void add_tetrahedra(const sbf_soft_body *body, const sbf_level *level, fl
   }
 }
 
-static void apply_density_map(const sbf_soft_body *body, const sbf_level *level, float *masses) {
-  for (uint32_t m = 0; m < body->weight_maps.count; m++) {
-    const sbf_weight_map *map = &body->weight_maps.at[m];
-    if (map->property != SBF_WEIGHT_PROPERTY_DENSITY) continue;
-    for (uint32_t i = 0; i < map->values.count; i++) {
-      uint32_t point = level_point(level, i);
-      if (point < level->positions.count) masses[point] *= map->values.at[i];
-    }
-  }
-}
-
 static void share_mass(
     const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *masses) {
   sbf_body_measures measures;
@@ -120,7 +101,7 @@ static void share_mass(
     for (uint32_t i = 0; i < level->positions.count; i++) mass += masses[i] > 0 ? ball : 0;
   }
   for (uint32_t i = 0; i < level->positions.count; i++) masses[i] = (float)(masses[i] * mass);
-  apply_density_map(body, level, masses);
+  sbfi_level_weigh(body, level, SBF_WEIGHT_PROPERTY_DENSITY, masses);
 }
 
 double sbf_level_masses(
@@ -131,7 +112,10 @@ double sbf_level_masses(
     share_mass(body, level, held, masses);
   } else {
     for (uint32_t i = 0; i < count; i++) masses[i] = level->masses.count ? level->masses.at[i] : 0;
-    if (level->masses.count == 0) add_tetrahedra(body, level, masses);
+    if (level->masses.count == 0) {
+      add_tetrahedra(body, level, masses);
+      sbfi_level_weigh(body, level, SBF_WEIGHT_PROPERTY_DENSITY, masses);
+    }
   }
   for (uint32_t i = 0; i < count; i++) {
     if (held && held[i]) masses[i] = 0;

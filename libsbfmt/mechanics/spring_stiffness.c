@@ -1,3 +1,4 @@
+#include "mechanics/level_points.h"
 #include "mechanics/symmetric_eigen.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
@@ -148,6 +149,7 @@ void sbf_level_stiffness(
   double modulus =
       body->attributes.young_modulus * (measures.sheet ? SBF_STIFFNESS_SHEET : SBF_STIFFNESS_VOLUME);
   uint32_t count = level->positions.count;
+  sbfi_level_weigh(body, level, SBF_WEIGHT_PROPERTY_YOUNG_MODULUS, volumes);
   for (uint32_t i = 0; i < count; i++) {
     volumes[i] = (float)(volumes[i] * measures.volume);
     sums[i] = (length_sum){0, 0};

@@ -73,8 +73,8 @@ SBF_API void sbf_level_shares(
 
 /* Masses in kg, (level->positions.count), and their sum; 0 at held points. Stated masses of the level as they
  * are; else of tetrahedra a quarter of density times rest volume to each point; else the body's mass by
- * shares times the weight map of the density; where there are no polygons, each point a ball of the
- * particle radius. A mass that the body states rescales all to that sum. */
+ * shares; where there are no polygons, each point a ball of the particle radius; all but the first times the
+ * weight map of the density. A mass that the body states rescales all to that sum. */
 SBF_API double sbf_level_masses(
     const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *masses);
 
@@ -127,8 +127,8 @@ SBF_API void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_ve
     const sbf_uint2 *ends, uint32_t spring_count, double *scratch, float *stiffness);
 
 /* Stiffness of every spring of a level, set after set: what the sets state, and for sets that state nothing
- * that of one network of them all. `volumes` (level->positions.count) and `scratch` (2 * that) are the
- * caller's memory. */
+ * that of one network of them all, with the weight map of the modulus. `volumes` (level->positions.count) and
+ * `scratch` (2 * that) are the caller's memory. */
 SBF_API void sbf_level_stiffness(
     const sbf_soft_body *body, const sbf_level *level, float *volumes, double *scratch, float *stiffness);
 
