@@ -42,66 +42,88 @@ static bool make_rigid_body(sbf_rigid_body *to, const sbf_soft_body *body, const
   return give_hull(to, hull, derivation, asset);
 }
 
-/* Whether the section needs a hull at all: 1 for authored rigid bodies of its bone, 2 for one of its own. */
-static int hull_wanted(const hull_list *list, const sbf_soft_body *body) {
-  int wanted = 2;
-  for (uint32_t i = 0; i < list->authored_count; i++) {
-    if (list->at[i].bone != body->bone) continue;
-    if (!list->at[i].hull) return 1;
-    wanted = 0;
-  }
-  return wanted;
+static bool has_authored_body(const hull_list *list, int32_t bone) {
+  for (uint32_t i = 0; i < list->authored_count; i++)
+    if (list->at[i].bone == bone) return true;
+  return false;
 }
 
-static bool add_hull(hull_list *list, const sbf_soft_body *body, int wanted, const sbf_polygon_mesh *hull,
-    int32_t derivation, sbf_asset *asset) {
-  if (wanted == 2) return make_rigid_body(&list->at[list->count++], body, hull, derivation, asset);
-  for (uint32_t i = 0; i < list->authored_count; i++)
-    if (list->at[i].bone == body->bone && !list->at[i].hull &&
-        !give_hull(&list->at[i], hull, derivation, asset))
-      return false;
+static void report_flat(const char *what, const char *name, sbfi_reporter *reporter) {
+  sbf_diagnostic finding;
+  sbfi_diagnose(&finding, SBF_CODE_HULL_FLAT, "%s \"%s\" is flat: it gets no convex hull", what, name);
+  sbfi_report(reporter, &finding);
+}
+
+/* Surface points of all sections of a bone, one section after the other. */
+static bool points_of_bone(const sbf_asset *asset, int32_t bone, sbf_vec3_list *points, sbfi_arena *scratch) {
+  size_t count = 0;
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
+    if (asset->soft_bodies.at[b].bone == bone) count += asset->soft_bodies.at[b].surface.positions.count;
+  *points = (sbf_vec3_list){NULL, 0};
+  if (count == 0) return true;
+  sbf_vec3 *all = sbfi_arena_allocate(scratch, count, sizeof *all);
+  if (!all) return false;
+  points->at = all;
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
+    const sbf_vec3_list from = asset->soft_bodies.at[b].surface.positions;
+    if (asset->soft_bodies.at[b].bone != bone || from.count == 0) continue;
+    memcpy(all + points->count, from.at, from.count * sizeof *all);
+    points->count += from.count;
+  }
   return true;
 }
 
-static void report_flat(const sbf_soft_body *body, sbfi_reporter *reporter) {
-  sbf_diagnostic finding;
-  sbfi_diagnose(&finding, SBF_CODE_HULL_FLAT,
-      "section \"%s\" is flat: it gets no convex hull, and its bone no rigid body", body->name);
-  sbfi_report(reporter, &finding);
+static bool fill_authored(hull_list *list, sbf_asset *asset, int32_t derivation, sbfi_reporter *reporter,
+    uint32_t *made, sbfi_arena *scratch) {
+  for (uint32_t i = 0; i < list->authored_count; i++) {
+    sbf_rigid_body *body = &list->at[i];
+    sbf_vec3_list points;
+    sbf_polygon_mesh hull;
+    if (body->hull || body->bone == SBF_NONE) continue;
+    if (!points_of_bone(asset, body->bone, &points, scratch)) return false;
+    if (points.count == 0) continue;
+    sbfi_hull_outcome outcome = sbfi_hull_make(points.at, points.count, asset, &hull, scratch);
+    if (outcome == SBFI_HULL_FLAT) report_flat("what moves with rigid body", body->name, reporter);
+    if (outcome == SBFI_HULL_FLAT) continue;
+    if (outcome == SBFI_HULL_NO_MEMORY || !give_hull(body, &hull, derivation, asset)) return false;
+    ++*made;
+  }
+  return true;
+}
+
+static bool make_own(hull_list *list, sbf_asset *asset, int32_t derivation, sbfi_ids *ids,
+    sbfi_reporter *reporter, uint32_t *made, sbfi_arena *scratch) {
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[b];
+    sbf_polygon_mesh hull;
+    if (body->bone == SBF_NONE || has_authored_body(list, body->bone) || body->surface.positions.count == 0)
+      continue;
+    sbfi_hull_outcome outcome =
+        sbfi_hull_make(body->surface.positions.at, body->surface.positions.count, asset, &hull, scratch);
+    if (outcome == SBFI_HULL_FLAT) report_flat("section", body->name, reporter);
+    if (outcome == SBFI_HULL_FLAT) continue;
+    sbf_rigid_body *own = &list->at[list->count];
+    if (outcome == SBFI_HULL_NO_MEMORY || !make_rigid_body(own, body, &hull, derivation, asset)) return false;
+    own->id = sbfi_unique_id(ids, "hull_", body->id, list->count, asset);
+    if (!own->id) return false;
+    list->count++;
+    ++*made;
+  }
+  return true;
 }
 
 bool sbfi_section_hulls_make(sbf_asset *asset, int32_t derivation, sbfi_ids *ids, sbfi_reporter *reporter,
     uint32_t *made, sbfi_arena *scratch) {
   uint32_t authored = asset->rigid_bodies.count;
   size_t most = (size_t)authored + asset->soft_bodies.count;
-  hull_list list = {sbf_asset_allocate(asset, most, sizeof *list.at), authored, authored};
   *made = 0;
   if (most == 0) return true;
+  hull_list list = {sbf_asset_allocate(asset, most, sizeof *list.at), authored, authored};
   if (!list.at) return false;
   if (authored) memcpy(list.at, asset->rigid_bodies.at, authored * sizeof *list.at);
-  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
-    const sbf_soft_body *body = &asset->soft_bodies.at[b];
-    int wanted = body->bone == SBF_NONE ? 0 : hull_wanted(&list, body);
-    if (!wanted || body->surface.positions.count == 0) continue;
-    sbf_polygon_mesh hull;
-    switch (
-        sbfi_hull_make(body->surface.positions.at, body->surface.positions.count, asset, &hull, scratch)) {
-    case SBFI_HULL_NO_MEMORY:
-      return false;
-    case SBFI_HULL_FLAT:
-      report_flat(body, reporter);
-      continue;
-    case SBFI_HULL_MADE:
-      break;
-    }
-    if (!add_hull(&list, body, wanted, &hull, derivation, asset)) return false;
-    if (wanted == 2) {
-      sbf_rigid_body *own = &list.at[list.count - 1];
-      own->id = sbfi_unique_id(ids, "hull_", body->id, list.count - 1, asset);
-      if (!own->id) return false;
-    }
-    ++*made;
-  }
+  if (!fill_authored(&list, asset, derivation, reporter, made, scratch) ||
+      !make_own(&list, asset, derivation, ids, reporter, made, scratch))
+    return false;
   asset->rigid_bodies = (sbf_rigid_body_list){list.count ? list.at : NULL, list.count};
   return true;
 }

@@ -33,6 +33,19 @@ static void mark_ends(sbfi_assembly *a, uint32_t node_count) {
     if (a->nodes[i].parent != SBF_NONE) a->nodes[a->nodes[i].parent].is_end = false;
 }
 
+static bool take_limits(sbfi_assembly *a, sbfi_scene_node *node, const sbfi_scene_limit *limits) {
+  bool good = true;
+  for (int i = 0; i < SBFI_LIMITS; i++) {
+    node->limits[i] = limits[i];
+    if (!limits[i].stated || limits[i].min <= limits[i].max) continue;
+    node->limits[i].stated = false;
+    good = good && sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_IGNORED, 0,
+                       "node \"%s\" states a joint limit from %g to %g, which bounds nothing: it is left out",
+                       node->name, (double)limits[i].min, (double)limits[i].max);
+  }
+  return good;
+}
+
 /* A helper's transform goes into every node below it. */
 static bool fold(sbfi_assembly *a) {
   const sbfi_raw_scene *raw = a->raw;
@@ -61,6 +74,7 @@ static bool fold(sbfi_assembly *a) {
     const char *name = sbfi_scene_string(a->scene, node->name);
     if (!name) return false;
     a->nodes[count] = (sbfi_scene_node){.name = name, .parent = kept, .local = local};
+    if (!take_limits(a, &a->nodes[count], raw->nodes[i].limits)) return false;
     a->old_from_new[count] = i;
     a->new_from_old[i] = (int32_t)count++;
   }

@@ -21,6 +21,7 @@ typedef struct sbfi_conversion {
   sbfi_arena scratch;
   sbfi_id_set ids;
   int32_t *bone_of_node;     /* (rig->node_count) bone of each node of the rig, or SBF_NONE */
+  uint32_t *node_of_bone;    /* (asset->bones.count) */
   int32_t *bone_of_mesh;     /* (scene->mesh_count) bone that carries each mesh, or SBF_NONE */
   const char **name_of_mesh; /* (scene->mesh_count) what the section is called */
   sbfi_reporter reporter;
@@ -32,6 +33,8 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c);
 sbf_status sbfi_match_sections(sbfi_conversion *c);
 sbf_status sbfi_convert_materials(sbfi_conversion *c);
 sbf_status sbfi_convert_meshes(sbfi_conversion *c);
+/* After the meshes: a rigid body for each bone that carries sections, joints between those. */
+sbf_status sbfi_convert_joints(sbfi_conversion *c);
 /* After the meshes: lengths of bones that end in nothing but a section. */
 void sbfi_measure_leaf_bones(sbfi_conversion *c);
 

@@ -5,13 +5,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "build/topology.h"
 #include "import/conversion.h"
+#include "mechanics/polygon.h"
+#include "sbfmt/mechanics.h"
 
 typedef struct geometry {
   sbf_polygon_mesh mesh;
   uint32_t *
       corner_order; /* (corner_count) scene's corner at each corner: differs where a mirror turned polygons */
   sbfi_matrix to_asset;
+  bool turned; /* it was drawn inside out */
 } geometry;
 
 /* Rest places of a skinned mesh's points: sum of weight * joint * bind, as at run time. */
@@ -42,7 +46,42 @@ static sbf_status place_skinned(sbfi_conversion *c, const sbfi_scene_mesh *mesh,
   return SBF_OK;
 }
 
-/* Points and polygons in asset space; a mirroring transform turns every polygon round. */
+/* Below this share of area^1.5 a volume is that of a sheet's two sides (a sphere has 0.094). */
+static const double LEAST_VOLUME = 1e-3;
+
+/* Whether a surface encloses its volume from the wrong side: closed, its polygons of one mind, all inwards.
+ */
+static sbf_status find_inside_out(sbfi_conversion *c, const sbf_polygon_mesh *mesh, bool *inside_out) {
+  sbfi_arena scratch;
+  sbfi_topology t;
+  sbf_surface_measures measures;
+  sbfi_arena_init(&scratch, &c->scratch.allocator, 0);
+  bool good = sbfi_topology_build(&t, mesh, &scratch);
+  *inside_out =
+      good && t.edge_count && !t.boundary_edge_count && !t.nonmanifold_edge_count && !t.clashing_edge_count;
+  sbfi_arena_free(&scratch);
+  if (!good) return sbfi_convert_no_memory(c);
+  if (!*inside_out) return SBF_OK;
+  sbf_surface_measure(mesh, NULL, &measures);
+  *inside_out = measures.volume < -LEAST_VOLUME * pow(measures.area, 1.5);
+  return SBF_OK;
+}
+
+static void write_polygons(
+    const sbfi_scene_mesh *mesh, bool turned, uint32_t *sizes, uint32_t *points, uint32_t *corner_order) {
+  for (uint32_t p = 0; p < mesh->polygon_count; p++) {
+    uint32_t start = mesh->polygon_starts[p], size = mesh->polygon_starts[p + 1] - start;
+    sizes[p] = size;
+    for (uint32_t k = 0; k < size; k++) {
+      uint32_t from = start + (turned ? (size - k) % size : k);
+      corner_order[start + k] = from;
+      points[start + k] = mesh->corner_points[from];
+    }
+  }
+}
+
+/* Points and polygons in asset space, counter-clockwise from outside: a mirroring transform turns every
+ * polygon round, and so does a closed surface that was drawn inside out. */
 static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *mesh, geometry *g) {
   sbf_vec3 *positions = sbfi_convert_allocate(c, mesh->point_count, sizeof *positions);
   uint32_t *sizes = sbfi_convert_allocate(c, mesh->polygon_count, sizeof *sizes);
@@ -58,20 +97,17 @@ static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *me
     positions[i] = sbfi_transform_point(&g->to_asset, mesh->points[i]);
   sbf_status status = mesh->joint_count ? place_skinned(c, mesh, positions) : SBF_OK;
   bool mirrored = sbfi_matrix_determinant(&g->to_asset) < 0;
-  for (uint32_t p = 0; p < mesh->polygon_count; p++) {
-    uint32_t start = mesh->polygon_starts[p], size = mesh->polygon_starts[p + 1] - start;
-    sizes[p] = size;
-    for (uint32_t k = 0; k < size; k++) {
-      uint32_t from = start + (mirrored ? (size - k) % size : k);
-      g->corner_order[start + k] = from;
-      points[start + k] = mesh->corner_points[from];
-    }
-  }
+  write_polygons(mesh, mirrored, sizes, points, g->corner_order);
   sbf_polygon_mesh_init(&g->mesh);
   g->mesh.positions = (sbf_vec3_list){positions, mesh->point_count};
   g->mesh.polygon_sizes = (sbf_u32_list){sizes, mesh->polygon_count};
   g->mesh.polygon_points = (sbf_u32_list){points, mesh->corner_count};
-  return status;
+  if (status == SBF_OK) status = find_inside_out(c, &g->mesh, &g->turned);
+  if (status != SBF_OK || !g->turned) return status;
+  write_polygons(mesh, !mirrored, sizes, points, g->corner_order);
+  sbfi_convert_warn(c, SBF_CODE_IMPORT_INSIDE_OUT,
+      "all polygons of object '%s' face inwards: they were turned round", c->scene->nodes[mesh->node].name);
+  return SBF_OK;
 }
 
 static sbf_status copy_sources(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_u32_list *list) {
@@ -108,6 +144,18 @@ static bool reorder_corners(const int32_t *from, const uint32_t *order, uint32_t
   return true;
 }
 
+/* Whether normals point to the back of their polygons, on the whole. */
+static bool point_backwards(const sbf_polygon_mesh *mesh, const sbf_vec3 *normals, const uint32_t *corners) {
+  double sum = 0;
+  for (uint32_t p = 0, at = 0; p < mesh->polygon_sizes.count; at += mesh->polygon_sizes.at[p++]) {
+    const uint32_t *points = mesh->polygon_points.at + at, size = mesh->polygon_sizes.at[p];
+    sbfi_d3 middle = sbfi_polygon_middle(mesh->positions.at, points, size);
+    sbfi_d3 area = sbfi_polygon_area(mesh->positions.at, points, size, middle);
+    for (uint32_t k = 0; k < size; k++) sum += sbfi_d3_dot(area, sbfi_d3_of(normals[corners[at + k]]));
+  }
+  return sum < 0;
+}
+
 static sbf_status convert_normals(
     sbfi_conversion *c, const sbfi_scene_mesh *mesh, const geometry *g, sbf_render_mesh *render) {
   if (!mesh->corner_normals || mesh->corner_count == 0 || mesh->normal_count == 0) return SBF_OK;
@@ -117,6 +165,9 @@ static sbf_status convert_normals(
   if (!reorder_corners(mesh->corner_normals, g->corner_order, mesh->corner_count, corners)) return SBF_OK;
   for (uint32_t i = 0; i < mesh->normal_count; i++)
     normals[i] = transform_normal(&g->to_asset, mesh->normals[i]);
+  if (g->turned && point_backwards(&g->mesh, normals, corners))
+    for (uint32_t i = 0; i < mesh->normal_count; i++)
+      normals[i] = (sbf_vec3){-normals[i].x, -normals[i].y, -normals[i].z};
   render->normals = (sbf_vec3_list){normals, mesh->normal_count};
   render->normal_corners = (sbf_u32_list){corners, mesh->corner_count};
   return SBF_OK;

@@ -150,7 +150,8 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c) {
   uint32_t node_count = c->rig->node_count, count = 0;
   c->bone_of_node = sbfi_arena_allocate(&c->scratch, node_count, sizeof *c->bone_of_node);
   draft *drafts = sbfi_arena_allocate(&c->scratch, node_count, sizeof *drafts);
-  if (!c->bone_of_node || !drafts) return sbfi_convert_no_memory(c);
+  c->node_of_bone = sbfi_arena_allocate(&c->scratch, node_count, sizeof *c->node_of_bone);
+  if (!c->bone_of_node || !c->node_of_bone || !drafts) return sbfi_convert_no_memory(c);
   for (uint32_t i = 0; i < node_count; i++) {
     const sbfi_scene_node *node = &c->rig->nodes[i];
     int32_t above = node->parent >= 0 ? c->bone_of_node[node->parent] : SBF_NONE;
@@ -162,6 +163,7 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c) {
         .head = column(&world, 3),
         .x = column(&world, 0),
         .y = column(&world, 1)};
+    c->node_of_bone[count] = i;
     c->bone_of_node[i] = (int32_t)count++;
   }
   find_continuations(drafts, count);

@@ -119,8 +119,18 @@ static void read_header(cursor *c, sbfi_raw_scene *scene) {
   scene->incomplete = take_u32(c, "the header") != 0;
 }
 
+static void read_limits(cursor *c, sbfi_raw_node *node) {
+  uint32_t stated = take_u32(c, "the limits of a node");
+  if (stated >> SBFI_LIMITS) fail(c, "the limits of a node");
+  for (int i = 0; !c->status && i < SBFI_LIMITS; i++) {
+    if (!(stated >> i & 1)) continue;
+    const float *bounds = take_f32s(c, 1, 2, "the limits", node->name);
+    if (bounds) node->limits[i] = (sbfi_scene_limit){true, bounds[0], bounds[1]};
+  }
+}
+
 static void read_nodes(cursor *c, sbfi_raw_scene *scene) {
-  scene->node_count = take_count(c, 80, "the nodes");
+  scene->node_count = take_count(c, 84, "the nodes");
   if (scene->node_count > INT32_MAX) fail(c, "the nodes");
   scene->nodes = make(c, scene->node_count, sizeof *scene->nodes);
   for (uint32_t i = 0; !c->status && i < scene->node_count; i++) {
@@ -129,6 +139,7 @@ static void read_nodes(cursor *c, sbfi_raw_scene *scene) {
     node->parent = (int32_t)take_u32(c, "a node");
     uint32_t kind = take_u32(c, "a node");
     node->local = take_matrix(c, "the transform", node->name);
+    read_limits(c, node);
     node->mesh_count = take_count(c, 4, "the meshes of a node");
     node->meshes = take(c, node->mesh_count, 4, "the meshes of a node");
     if (node->parent < SBF_NONE || node->parent >= (int32_t)i) fail(c, "the parent of a node");

@@ -10,6 +10,7 @@ typedef struct sbfi_raw_node {
   int32_t parent; /* before this one, or SBF_NONE */
   sbfi_stream_kind kind;
   sbfi_matrix local;
+  sbfi_scene_limit limits[SBFI_LIMITS]; /* in whatever order the file has least and greatest */
   uint32_t mesh_count;
   const uint32_t *meshes; /* (mesh_count) */
 } sbfi_raw_node;

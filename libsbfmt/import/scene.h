@@ -18,6 +18,15 @@ typedef struct sbfi_matrix {
   double at[4][4];
 } sbfi_matrix;
 
+/* Bounds of a joint's motion at a node, rad from the rest pose. They are about the bone's own axes: twist
+ * about +Y, swing_y about +Z, swing_z about +X (as axes of a joint frame, whose +X is the twist axis). */
+enum { SBFI_LIMIT_TWIST, SBFI_LIMIT_SWING_Y, SBFI_LIMIT_SWING_Z, SBFI_LIMITS };
+
+typedef struct sbfi_scene_limit {
+  bool stated;
+  float min, max; /* min is not above max */
+} sbfi_scene_limit;
+
 typedef struct sbfi_scene_node {
   const char *name;  /* need not be unique: lizart.glb has a bone and a section of the same name */
   int32_t parent;    /* index of a node before this one, or SBF_NONE */
@@ -25,6 +34,7 @@ typedef struct sbfi_scene_node {
   sbfi_matrix world; /* node to scene: world of the parent times local */
   bool is_bone;      /* a joint of a skin, or what the file declares to be a bone */
   bool is_end;       /* a leaf that only marks the tip of its parent: "…_end" bones, BVH end sites */
+  sbfi_scene_limit limits[SBFI_LIMITS]; /* of the joint between the node and its parent */
 } sbfi_scene_node;
 
 typedef struct sbfi_scene_image {

@@ -10,7 +10,9 @@
  *   i32 axes[6]                 up axis, its sign, front, sign, right, sign (FBX); all 0 where it has none
  *   u32 incomplete              the importer says that the scene is not whole
  *   list of nodes, parents first:
- *     str name, i32 parent, u32 kind (sbfi_stream_kind), f32 local[16] row after row, list of u32 meshes
+ *     str name, i32 parent, u32 kind (sbfi_stream_kind), f32 local[16] row after row,
+ *     u32 limited (bits 0 to 2: twist, swing_y, swing_z), f32 least and greatest (rad) for each bit set,
+ *     list of u32 meshes
  *   list of meshes:
  *     str name, u32 material
  *     u32 vertex_count, f32 positions[3 * vertex_count]
@@ -33,8 +35,9 @@
 
 enum {
   SBFI_STREAM_MAGIC = 0x53464253, /* "SBFS" where the low byte comes first */
-  SBFI_STREAM_VERSION = 1,
-  SBFI_STREAM_END = 0x21646e65
+  SBFI_STREAM_VERSION = 2,
+  SBFI_STREAM_END = 0x21646e65,
+  SBFI_STREAM_LIMITS = 3 /* kinds of limits a node may state */
 };
 
 /* What the file says a node without a mesh is. */

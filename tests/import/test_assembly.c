@@ -495,6 +495,7 @@ START_TEST(transforms_that_multiply_beyond_measure_are_refused)
     stream_u32(&s, (uint32_t)(i - 1));
     stream_u32(&s, SBFI_STREAM_BONE);
     stream_f32s(&s, rows, 16);
+    stream_u32(&s, 0);
     stream_none(&s);
   }
   stream_none(&s);
@@ -504,10 +505,40 @@ START_TEST(transforms_that_multiply_beyond_measure_are_refused)
 }
 END_TEST
 
+/* Limits go with their node past a folded helper; one that bounds nothing is left out with a word. */
+START_TEST(limits_are_kept_where_they_bound_something)
+{
+  static const float square[] = SQUARE(0, 0, 0), bounds[] = {-0.5f, 0.25f, 1, -1, 0, 0};
+  stream_builder s = {0};
+  stream_header(&s);
+  stream_u32(&s, 2);
+  stream_node(&s, "root", -1, SBFI_STREAM_PLAIN, 0, 0, 0);
+  stream_u32(&s, 1);
+  stream_u32(&s, 0);
+  stream_limited_node(&s, "arm", 0, 7, bounds, 6);
+  stream_none(&s);
+  stream_u32(&s, 1);
+  stream_triangles(&s, "square", 0, square, 2);
+  finish(&s);
+  sbfi_scene scene;
+  put_together(&scene, &s, "glb");
+  const sbfi_scene_limit *limits = scene.nodes[1].limits;
+  ck_assert(!scene.nodes[0].limits[0].stated);
+  ck_assert(limits[SBFI_LIMIT_TWIST].stated && !limits[SBFI_LIMIT_SWING_Y].stated);
+  ck_assert(limits[SBFI_LIMIT_TWIST].min == -0.5f && limits[SBFI_LIMIT_TWIST].max == 0.25f);
+  ck_assert(limits[SBFI_LIMIT_SWING_Z].stated && limits[SBFI_LIMIT_SWING_Z].max == 0);
+  ck_assert_uint_eq(scene.warning_count, 1);
+  ck_assert_int_eq(scene.warnings[0].code, SBF_CODE_IMPORT_IGNORED);
+  ck_assert_ptr_nonnull(strstr(scene.warnings[0].message, "arm"));
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
 static Suite *assembly_suite(void) {
   Suite *suite = suite_create("assembly");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, corners_at_one_place_are_one_point);
+  tcase_add_test(tests, limits_are_kept_where_they_bound_something);
   tcase_add_test(tests, zero_has_no_sign_but_the_last_bit_counts);
   tcase_add_test(tests, parts_of_a_node_become_one_mesh);
   tcase_add_test(tests, nodes_are_never_welded);

@@ -38,6 +38,11 @@ START_TEST(everything_is_read)
   ck_assert_msg(status == SBF_OK, "%s", error.message);
   ck_assert(sbfi_span_is(raw.generator, "a test"));
   ck_assert_uint_eq(raw.node_count, 4);
+  const sbfi_scene_limit *limits = raw.nodes[0].limits;
+  ck_assert(limits[SBFI_LIMIT_TWIST].stated && limits[SBFI_LIMIT_SWING_Z].stated);
+  ck_assert(!limits[SBFI_LIMIT_SWING_Y].stated);
+  ck_assert_float_eq(limits[SBFI_LIMIT_TWIST].max, 0.5f);
+  ck_assert_float_eq(limits[SBFI_LIMIT_SWING_Z].min, -1);
   ck_assert(sbfi_span_is(raw.nodes[2].name, "bone") && raw.nodes[2].parent == 1);
   ck_assert_double_eq(raw.nodes[2].local.at[2][3], 1);
   ck_assert_uint_eq(raw.meshes[0].polygon_sizes[0], 4);

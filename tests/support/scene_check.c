@@ -139,6 +139,9 @@ const char *scene_check(const sbfi_scene *scene) {
     const sbfi_scene_node *n = &scene->nodes[i];
     REQUIRE(good_text(n->name) && n->parent >= SBF_NONE && n->parent < (int32_t)i);
     REQUIRE(finite_matrix(&n->local) && finite_matrix(&n->world));
+    for (int k = 0; k < SBFI_LIMITS; k++)
+      REQUIRE(!n->limits[k].stated || (n->limits[k].min <= n->limits[k].max && isfinite(n->limits[k].min) &&
+                                          isfinite(n->limits[k].max)));
   }
   const char *broken = check_materials(scene);
   for (uint32_t i = 0; !broken && i < scene->mesh_count; i++) {

@@ -65,6 +65,17 @@ void stream_node(
   stream_u32(s, (uint32_t)parent);
   stream_u32(s, kind);
   stream_translation(s, x, y, z);
+  stream_u32(s, 0);
+}
+
+void stream_limited_node(stream_builder *s, const char *name, int32_t parent, uint32_t stated,
+    const float *bounds, size_t bound_count) {
+  stream_string(s, name);
+  stream_u32(s, (uint32_t)parent);
+  stream_u32(s, 0);
+  stream_translation(s, 0, 0, 0);
+  stream_u32(s, stated);
+  stream_f32s(s, bounds, bound_count);
 }
 
 void stream_triangles(
@@ -106,7 +117,8 @@ void stream_everything(stream_builder *s) {
   static const float normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, uvs[] = {0, 0, 1, 0, 1, 1, 0, 1};
   stream_header(s);
   stream_u32(s, 4);
-  stream_node(s, "root", -1, SBFI_STREAM_PLAIN, 0, 0, 0);
+  static const float bounds[] = {-0.25f, 0.5f, -1, 1};
+  stream_limited_node(s, "root", -1, 5, bounds, 4);
   stream_none(s);
   stream_node(s, "bone_$AssimpFbx$_Translation", 0, SBFI_STREAM_PLAIN, 0, 1, 0);
   stream_none(s);

@@ -23,6 +23,10 @@ void stream_header(stream_builder *s);
 /* A node without meshes that lies `x, y, z` from its parent, -1 for none; its mesh count still to come. */
 void stream_node(
     stream_builder *s, const char *name, int32_t parent, uint32_t kind, float x, float y, float z);
+/* A plain node at its parent's place with joint limits: `stated` bits 0 to 2 for twist, swing_y, swing_z, and
+ * least and greatest of each. */
+void stream_limited_node(stream_builder *s, const char *name, int32_t parent, uint32_t stated,
+    const float *bounds, size_t bound_count);
 /* Four rows of a matrix that moves by x, y, z. */
 void stream_translation(stream_builder *s, float x, float y, float z);
 /* A mesh of `count` triangles, three vertices each, without normals, uv sets, bones or shapes. */

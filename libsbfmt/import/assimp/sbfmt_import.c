@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "import/stream_format.h"
+#include "node_limits.h"
 #include "stream_writer.h"
 
 static void write_ai_string(const struct aiString *text) {
@@ -23,20 +24,10 @@ static const struct aiMetadataEntry *find_entry(const struct aiMetadata *data, c
   return NULL;
 }
 
-/* The type under which a number is stored differs between importers and versions. */
 static double number_of(const struct aiMetadata *data, const char *key, double missing) {
   const struct aiMetadataEntry *entry = find_entry(data, key);
-  if (!entry) return missing;
-  switch (entry->mType) {
-  case AI_FLOAT:
-    return *(const float *)entry->mData;
-  case AI_DOUBLE:
-    return *(const double *)entry->mData;
-  case AI_INT32:
-    return *(const int32_t *)entry->mData;
-  default:
-    return missing;
-  }
+  double number;
+  return entry && metadata_number(entry, &number) ? number : missing;
 }
 
 static void write_header(const struct aiScene *scene) {
@@ -86,6 +77,7 @@ static void write_nodes(
   write_u32((uint32_t)parent);
   write_u32(kind_of(scene, node));
   write_f32s(&node->mTransformation.a1, 16);
+  write_limits(node->mMetaData);
   write_u32(node->mNumMeshes);
   for (unsigned i = 0; i < node->mNumMeshes; i++) write_u32(node->mMeshes[i]);
   for (unsigned i = 0; i < node->mNumChildren; i++) write_nodes(scene, node->mChildren[i], number, next);

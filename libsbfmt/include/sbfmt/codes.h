@@ -139,6 +139,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_NO_RIG = 951, /* The file holds no skeleton: bodies are not held by bones. */
   SBF_CODE_IMPORT_NO_BONES = 952, /* The file given as the rig holds no skeleton. */
   SBF_CODE_IMPORT_PARTIAL_UVS = 953, /* A set of texture coordinates does not cover the whole mesh and was dropped. */
+  SBF_CODE_IMPORT_INSIDE_OUT = 954, /* All polygons of a closed surface faced inwards: they were turned round. */
 } sbf_code;
 // clang-format on
 
