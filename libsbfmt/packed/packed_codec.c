@@ -3,12 +3,16 @@
 #define ZLIB_CONST
 #include <zlib.h>
 
+#include "base/crc32_fold.h"
 #include "packed/packed_filter.h"
 
 enum { BLOCK_BYTES = SBFI_FILTER_BLOCK * 4, PIECE = 1 << 30, HEAD = 16 };
 
 uint32_t sbfi_crc32(const void *bytes, size_t size) {
-  return (uint32_t)crc32_z(0, bytes, size);
+  uint8_t folded[SBFI_CRC32_FOLDED];
+  size_t done = sbfi_crc32_fold(0, bytes, size, folded);
+  uLong crc = done ? crc32_z(0xFFFFFFFF, folded, sizeof folded) : 0;
+  return (uint32_t)crc32_z(crc, (const uint8_t *)bytes + done, size - done);
 }
 
 /* zlib does not say how much it frees, our allocators want to know: the size stands before the block. */

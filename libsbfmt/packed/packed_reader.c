@@ -41,7 +41,6 @@ __attribute__((format(printf, 4, 5))) static sbf_status fault(
 }
 
 sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const sbfi_packed_chunk *wanted) {
-  sbfi_chunk_name name = sbfi_packed_chunk_name(wanted);
   if (number >= reader->table.header.chunk_count)
     return sbfi_diagnose(reader->error, SBF_CODE_PACKED_RECORD,
         "chunk %u is referred to, but the table has %u", number, reader->table.header.chunk_count);
@@ -52,8 +51,8 @@ sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const 
       chunk->field != wanted->field || chunk->list != wanted->list)
     return fault(reader, SBF_CODE_PACKED_RECORD, number,
         "chunk %u is %s, field %u.%u, but is referred to as %s, field %u.%u", number,
-        sbfi_packed_chunk_name(chunk).text, chunk->field, chunk->list, name.text, wanted->field,
-        wanted->list);
+        sbfi_packed_chunk_name(chunk).text, chunk->field, chunk->list, sbfi_packed_chunk_name(wanted).text,
+        wanted->field, wanted->list);
   reader->used[number] = 1;
   return SBF_OK;
 }

@@ -216,27 +216,27 @@ static sbf_status check_chunk(const sbfi_packed_table *table, uint32_t number, c
   const sbfi_packed_header *h = &table->header;
   const sbfi_packed_chunk *c = &table->chunks[number];
   uint64_t at = h->table_offset + (uint64_t)number * SBFI_PACKED_ENTRY_SIZE;
-  sbfi_chunk_name name = sbfi_packed_chunk_name(c);
   if (c->offset < SBFI_PACKED_HEADER_SIZE || c->offset % SBFI_PACKED_ALIGN)
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_OFFSET,
-        "chunk %u (%s) begins at %llu, which is no multiple of %d behind the header", number, name.text,
-        (unsigned long long)c->offset, SBFI_PACKED_ALIGN);
+        "chunk %u (%s) begins at %llu, which is no multiple of %d behind the header", number,
+        sbfi_packed_chunk_name(c).text, (unsigned long long)c->offset, SBFI_PACKED_ALIGN);
   if (c->offset > h->file_size || c->stored_size > h->file_size - c->offset)
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_STORED_SIZE,
-        "chunk %u (%s) of %llu bytes at %llu does not lie inside the file", number, name.text,
-        (unsigned long long)c->stored_size, (unsigned long long)c->offset);
+        "chunk %u (%s) of %llu bytes at %llu does not lie inside the file", number,
+        sbfi_packed_chunk_name(c).text, (unsigned long long)c->stored_size, (unsigned long long)c->offset);
   if (c->offset < previous_end ||
       (c->offset < h->table_offset + h->table_size && c->offset + c->stored_size > h->table_offset))
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_OFFSET,
         "chunk %u (%s) lies over another one or over the table, or not in the order of the table", number,
-        name.text);
+        sbfi_packed_chunk_name(c).text);
   if (c->stride == 0 || c->count > UINT64_MAX / c->stride || c->raw_size != c->count * c->stride)
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_COUNT,
-        "chunk %u (%s): %llu items of %u bytes are not %llu bytes", number, name.text,
+        "chunk %u (%s): %llu items of %u bytes are not %llu bytes", number, sbfi_packed_chunk_name(c).text,
         (unsigned long long)c->count, c->stride, (unsigned long long)c->raw_size);
   if (!table->newer && ((c->flags & ~SBFI_CHUNK_FLAGS) || !is_zero(entry + ENTRY_RESERVED, 4)))
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_FLAGS,
-        "chunk %u (%s): flags or reserved bytes are set that this version does not have", number, name.text);
+        "chunk %u (%s): flags or reserved bytes are set that this version does not have", number,
+        sbfi_packed_chunk_name(c).text);
   if (!sbfi_packed_kind_is_known(c->kind)) {
     if (!(c->flags & SBFI_CHUNK_CRITICAL)) return SBF_OK;
     return fault(error, SBF_CODE_PACKED_UNKNOWN_PART, at,
@@ -246,16 +246,16 @@ static sbf_status check_chunk(const sbfi_packed_table *table, uint32_t number, c
   if (c->filter >= SBFI_FILTER_COUNT || c->codec >= SBFI_CODEC_COUNT)
     return fault(error, SBF_CODE_PACKED_CODEC, at + ENTRY_FILTER,
         "chunk %u (%s) uses filter %u and codec %u, of which one is not known: update the library", number,
-        name.text, c->filter, c->codec);
+        sbfi_packed_chunk_name(c).text, c->filter, c->codec);
   if (c->codec == SBFI_CODEC_NONE ? c->filter != SBFI_FILTER_NONE || c->stored_size != c->raw_size
                                   : c->raw_size == 0)
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_CODEC,
-        "chunk %u (%s): %llu bytes stored as %llu do not go with its filter and codec", number, name.text,
-        (unsigned long long)c->raw_size, (unsigned long long)c->stored_size);
+        "chunk %u (%s): %llu bytes stored as %llu do not go with its filter and codec", number,
+        sbfi_packed_chunk_name(c).text, (unsigned long long)c->raw_size, (unsigned long long)c->stored_size);
   if (c->filter != SBFI_FILTER_NONE && (c->stride % 4 || c->stride > 16))
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_STRIDE,
-        "chunk %u (%s): its filter is for items of 4, 8, 12 or 16 bytes, not of %u", number, name.text,
-        c->stride);
+        "chunk %u (%s): its filter is for items of 4, 8, 12 or 16 bytes, not of %u", number,
+        sbfi_packed_chunk_name(c).text, c->stride);
   return SBF_OK;
 }
 
