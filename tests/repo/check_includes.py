@@ -35,7 +35,7 @@ MAY_USE = {
     "runtime/include": [],
     "runtime/hosts": ["runtime/hosts"],
     "tools": ["tools"],
-    "bench": ["bench"],
+    "bench": ["bench", "tools", "runtime/math"],  # thread pool; width of the lanes
     "examples": ["examples"],
     "tests": None,  # anything: tests look inside
 }
@@ -63,8 +63,8 @@ FOLDER_BOX = {
 
 # Outside header -> the only places that may know it (tests aside).
 OUTSIDE = [
-    (r"libxml/", ["libsbfmt/xml/"], "libxml2"),
-    (r"zlib\.h|zconf\.h", ["libsbfmt/packed/"], "zlib"),
+    (r"libxml/", ["libsbfmt/xml/", "bench/"], "libxml2"),
+    (r"zlib\.h|zconf\.h", ["libsbfmt/packed/", "bench/"], "zlib"),
     (r"assimp/", ["libsbfmt/import/assimp/", "bench/"], "assimp"),
     (r"(lib)?qhull", ["libsbfmt/build/"], "qhull"),
     (r"meshoptimizer", ["libsbfmt/build/"], "meshoptimizer"),
