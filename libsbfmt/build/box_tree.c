@@ -27,7 +27,7 @@ static uint32_t place_on_curve(const sbfi_box *box, const sbfi_box *all) {
     double middle = ((double)box->low[k] + box->high[k]) / 2 - all->low[k];
     double cell = size > 0 ? middle / size * (1 << CURVE_BITS) : 0;
     uint32_t most = (1u << CURVE_BITS) - 1;
-    code |= spread(cell >= most ? most : (uint32_t)cell) << k;
+    code |= spread(cell < most ? (uint32_t)cell : most) << k;
   }
   return code;
 }

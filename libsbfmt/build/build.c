@@ -252,6 +252,22 @@ static sbf_status hash_source(build *b) {
   return SBF_OK;
 }
 
+static void take_finding(void *user, const sbf_diagnostic *finding) {
+  *(sbf_diagnostic *)user = *finding;
+}
+
+/* Sizes and moduli beyond all measure can make numbers that no file may hold. */
+static sbf_status check_made(build *b) {
+  sbf_diagnostic finding;
+  if (sbf_asset_check(b->asset, take_finding, &finding, 1) == 0) return SBF_OK;
+  if (finding.code == SBF_CODE_OUT_OF_MEMORY) return no_memory(b);
+  sbf_status status = sbfi_diagnose(b->error, SBF_CODE_VALUE_NOT_FINITE,
+      "what the build makes here is no sound number (%.200s): look at the source's sizes and attributes",
+      finding.message);
+  if (b->error) memcpy(b->error->path, finding.path, sizeof b->error->path);
+  return status;
+}
+
 static sbf_status run(build *b) {
   static const struct {
     const char *name;
@@ -259,7 +275,8 @@ static sbf_status run(build *b) {
     sbf_status (*run)(build *);
   } passes[] = {{"a copy of the source", 0, copy_source}, {"the derivation", 0.05, record_derivation},
       {"hulls", 0.1, make_hulls}, {"references", 0.15, renumber}, {"springs", 0.2, make_levels},
-      {"embeddings", 0.6, embed}, {"the hash of the source", 0.9, hash_source}};
+      {"embeddings", 0.6, embed}, {"the check of what was made", 0.9, check_made},
+      {"the hash of the source", 0.95, hash_source}};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     sbf_status status = progress(b, passes[i].name, passes[i].done);
     if (status == SBF_OK) status = passes[i].run(b);

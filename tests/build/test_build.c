@@ -295,6 +295,19 @@ START_TEST(any_sound_asset_builds)
 }
 END_TEST
 
+START_TEST(sizes_beyond_measure_are_refused)
+{
+  sbf_polygon_mesh cube = shape_cube(asset, 2, 1e30f, (sbf_vec3){0, 0, 0});
+  shape_add_body(asset, "huge", &cube, true);
+  sbf_asset *built;
+  sbf_diagnostic error;
+  ck_assert_int_eq(sbf_build(asset, NULL, &built, NULL, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(error.code, SBF_CODE_VALUE_NOT_FINITE);
+  ck_assert_str_ne(error.path, "");
+  ck_assert_ptr_null(built);
+}
+END_TEST
+
 static int warnings[8], warning_count;
 static void note(void *user, const sbf_diagnostic *finding) {
   (void)user;
@@ -388,6 +401,7 @@ static Suite *suite(void) {
   tcase_add_test(c, authored_parts_stay);
   tcase_add_test(c, references_to_derived_parts_are_found_again);
   tcase_add_test(c, any_sound_asset_builds);
+  tcase_add_test(c, sizes_beyond_measure_are_refused);
   tcase_add_test(c, warnings_say_what_was_not_made);
   tcase_add_test(c, cancelling_leaves_nothing);
   tcase_add_test(c, every_allocation_may_fail);
