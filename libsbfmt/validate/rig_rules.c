@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/place.h"
 #include "validate/validation.h"
 
 static bool is_unit(sbf_quat q) {
@@ -77,9 +78,13 @@ static void check_bodies(sbfi_validation *v) {
 }
 
 static void check_joints(sbfi_validation *v) {
+  const sbfi_place root = sbfi_place_root(v->asset);
+  const sbfi_field *joints = sbfi_element_field(&sbfi_asset_element, "joints");
   for (uint32_t i = 0; i < v->asset->joints.count; i++) {
     const sbf_joint *joint = &v->asset->joints.at[i];
-    sbfi_path path = sbfi_path_of("/sbf/joints/%s_joint[%u]", sbf_joint_kind_name(joint->kind), i + 1);
+    sbfi_place place = sbfi_place_child(&root, joints, i); /* numbered among joints of its kind */
+    sbfi_path path;
+    sbfi_place_path(&place, NULL, path.text, sizeof path.text);
     if (joint->body_a == joint->body_b)
       sbfi_found(v, SBF_CODE_JOINT_ONE_BODY, path.text, -1, "joint '%s' joins a body to itself", joint->name);
     if (!is_unit(joint->frame_a.rotation) || !is_unit(joint->frame_b.rotation))
