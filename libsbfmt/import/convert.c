@@ -8,6 +8,7 @@
 #include "base/sha256.h"
 #include "import/bind_pose.h"
 #include "import/conversion.h"
+#include "import/convert_tets.h"
 #include "import/propose_gait.h"
 
 void sbfi_convert_warn(sbfi_conversion *c, sbf_code code, const char *format, ...) {
@@ -86,6 +87,12 @@ static void pass_on_warnings(sbfi_conversion *c, const sbfi_scene *scene) {
   for (uint32_t i = 0; i < scene->warning_count; i++) sbfi_report(&c->reporter, &scene->warnings[i]);
 }
 
+/* A file of tetrahedra: no rig, no materials, one body. */
+static sbf_status run_tet_passes(sbfi_conversion *c, const sbfi_tet_mesh *tets) {
+  sbf_status status = describe_sources(c);
+  return status == SBF_OK ? sbfi_convert_tets(c, tets, c->asset->info.title) : status;
+}
+
 static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
   if (c->scene->mesh_count == 0 && !c->rig)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
@@ -119,8 +126,8 @@ static sbf_status read_scene(
   return sbfi_scene_fail(scene, error, status);
 }
 
-/* Makes the asset of scenes that have been read. */
-static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
+/* Makes the asset of scenes that have been read, or of tetrahedra (then the scene only names the file). */
+static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig, const sbfi_tet_mesh *tets,
     const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
   sbfi_conversion c = {
       .scene = scene, .rig = rig, .reporter = {options->report, options->user, 0, 0}, .error = error};
@@ -133,7 +140,7 @@ static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
   if (status == SBF_OK) {
     pass_on_warnings(&c, scene);
     if (rig && rig != scene) pass_on_warnings(&c, rig);
-    status = run_passes(&c, options);
+    status = tets ? run_tet_passes(&c, tets) : run_passes(&c, options);
   }
   sbfi_array_free(&c.ids.slots);
   sbfi_arena_free(&c.scratch);
@@ -143,6 +150,23 @@ static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
   }
   *asset = c.asset;
   return SBF_OK;
+}
+
+static sbf_status convert_tet_file(
+    const char *input, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  sbfi_scene scene;
+  sbfi_tet_mesh tets;
+  if (options->rig)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s holds tetrahedra alone: it cannot take a rig", input);
+  if (!sbfi_scene_init(&scene, options->allocator, 0, input))
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", input);
+  sbf_status status = sbfi_tet_mesh_read(&tets, input, options->allocator, 0, error);
+  if (status == SBF_OK) {
+    status = convert_scenes(&scene, NULL, &tets, options, asset, error);
+    sbfi_tet_mesh_free(&tets);
+  }
+  sbfi_scene_free(&scene);
+  return status;
 }
 
 sbf_status sbf_convert(
@@ -158,6 +182,7 @@ sbf_status sbf_convert(
   if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
 
+  if (sbfi_tet_mesh_knows(input)) return convert_tet_file(input, options, asset, error);
   sbfi_scene_options reading = {.allocator = options->allocator, .helper_path = options->import_helper};
   sbfi_scene scene, rig_scene;
   sbf_status status = read_scene(&scene, input, &reading, error);
@@ -170,7 +195,7 @@ sbf_status sbf_convert(
           "%s, given as the rig, holds no skeleton: give a file with bones", options->rig);
     rig = &rig_scene;
   }
-  if (status == SBF_OK) status = convert_scenes(&scene, rig, options, asset, error);
+  if (status == SBF_OK) status = convert_scenes(&scene, rig, NULL, options, asset, error);
   if (options->rig) sbfi_scene_free(&rig_scene);
   sbfi_scene_free(&scene);
   return status;

@@ -1,0 +1,12 @@
+/* Tetrahedra of another program to an asset: one body, its level authored. */
+#ifndef SBFI_CONVERT_TETS_H
+#define SBFI_CONVERT_TETS_H
+
+#include "import/conversion.h"
+#include "import/tet_mesh.h"
+
+/* Fills the conversion's asset with a body whose surface is the boundary of the tetrahedra and whose one
+ * level holds them as they are, and with a mesh that shows it. c->scene is not read; `name` is the body's. */
+sbf_status sbfi_convert_tets(sbfi_conversion *c, const sbfi_tet_mesh *mesh, const char *name);
+
+#endif
