@@ -98,8 +98,8 @@ static sbf_status paint(studio *st, sbf_diagnostic *error) {
   box3 box = draw_scene_bounds(st->scene);
   sbf_vec3 middle = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
   if (!st->framed)
-    draw_camera_frame(&st->camera, &box, (float)st->width / (float)st->height, DRAW_CAMERA_THREE_QUARTER_YAW,
-        DRAW_CAMERA_THREE_QUARTER_PITCH);
+    draw_scene_frame(st->scene, &st->camera, (float)st->width / (float)st->height,
+        DRAW_CAMERA_THREE_QUARTER_YAW, DRAW_CAMERA_THREE_QUARTER_PITCH);
   else
     draw_camera_follow(&st->camera, middle, (float)(1 / st->s.fps));
   st->framed = true;

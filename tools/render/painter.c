@@ -443,7 +443,8 @@ static void fill_frame(draw_painter *painter, const draw_camera *camera, const l
   uint32_t width = draw_canvas_width(painter->canvas) * scale,
            height = draw_canvas_height(painter->canvas) * scale;
   float aspect = (float)width / (float)height, size = 2 * camera->distance * camera->half_height;
-  matrix4 view = draw_camera_view(camera), projection = draw_camera_projection(camera, aspect, ground_radius);
+  matrix4 view = draw_camera_view(camera),
+          projection = draw_camera_projection(camera, aspect, 12 * camera->distance * camera->half_height);
   frame->clip_from_world = matrix4_product(&projection, &view);
   const matrix4 half = {{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
   frame->shadow_from_world = matrix4_product(&half, &place->shadow_clip_from_world);
@@ -481,6 +482,15 @@ static float measure_ground(const draw_scene *scene, const box3 *casters, box3 *
   return box3_is_empty(&near) ? ground->min.y : near.min.y;
 }
 
+/* How far the ground is seen: six times the picture's height, and not to where it ends. */
+static float fade_radius(const draw_scene *scene, const draw_camera *camera, const box3 *ground) {
+  float radius = 12 * camera->distance * camera->half_height;
+  if (scene->has_floor || box3_is_empty(ground)) return radius;
+  float end = fminf(fminf(camera->subject.x - ground->min.x, ground->max.x - camera->subject.x),
+      fminf(camera->subject.z - ground->min.z, ground->max.z - camera->subject.z));
+  return end > 0 ? fminf(radius, end) : radius;
+}
+
 static sbf_status out_of_memory(sbf_diagnostic *diagnostic) {
   return fault_set(diagnostic, SBF_CODE_OUT_OF_MEMORY, "no memory for what the picture shows");
 }
@@ -488,7 +498,6 @@ static sbf_status out_of_memory(sbf_diagnostic *diagnostic) {
 sbf_status draw_painter_paint(
     draw_painter *painter, draw_scene *scene, const draw_camera *camera, sbf_diagnostic *diagnostic) {
   const gl_api *gl = draw_canvas_gl(painter->canvas);
-  float ground_radius = 12 * camera->distance * camera->half_height;
   light_place place;
   box3 ground = box3_empty();
   sbf_vec3 eye = draw_camera_eye(camera), back = draw_camera_back(camera);
@@ -498,6 +507,7 @@ sbf_status draw_painter_paint(
   if (scene->failed) return out_of_memory(diagnostic);
   const box3 *casters = box3_is_empty(&scene->casters) ? &scene->bounds : &scene->casters;
   float ground_near = measure_ground(scene, casters, &ground);
+  float ground_radius = fade_radius(scene, camera, &ground);
   light_maps_place(&painter->maps, casters, &ground, ground_near, key_direction(camera), &place);
 
   upload_scene(painter, gl, scene, camera->subject, ground_radius);
