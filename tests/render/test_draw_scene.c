@@ -87,6 +87,20 @@ START_TEST(far_veils_come_first)
 }
 END_TEST
 
+START_TEST(sections_seen_through_are_one_skin)
+{
+  draw_mesh section = square;
+  section.transparency = DRAW_XRAY;
+  draw_scene_add_mesh(scene, &section);
+  draw_scene_add_mesh(scene, &section);
+  ck_assert_uint_eq(scene->parts.count, 1);
+  section.no_shadow = true; /* as hulls are: each is to be seen through the next */
+  draw_scene_add_mesh(scene, &section);
+  draw_scene_add_mesh(scene, &section);
+  ck_assert_uint_eq(scene->parts.count, 3);
+}
+END_TEST
+
 START_TEST(solid_meshes_of_one_look_are_one_part)
 {
   draw_scene_add_mesh(scene, &square);
@@ -141,6 +155,7 @@ int main(void) {
   tcase_add_loop_test(tests, placed_mesh_is_turned_and_moved, 0, 2);
   tcase_add_test(tests, far_lines_come_first);
   tcase_add_test(tests, far_veils_come_first);
+  tcase_add_test(tests, sections_seen_through_are_one_skin);
   tcase_add_test(tests, solid_meshes_of_one_look_are_one_part);
   tcase_add_test(tests, steady_frames_allocate_nothing);
   tcase_add_test(tests, hull_shows_its_edges_but_not_its_cuts);

@@ -112,10 +112,12 @@ void draw_scene_close_part(draw_scene *scene, const draw_scene_room *room, uint3
       box3_add(&scene->casters, box.max);
     }
   }
-  /* Solid parts of one look are one call; those seen through must stay apart, to be drawn in order. */
+  /* Meshes of one look that follow each other are one thing: one call, and one skin when seen through, where
+   * the sections of a body do not show inside each other. What throws no shadow stays apart, to be drawn in
+   * order. */
   draw_scene_part *last =
       scene->parts.count ? (draw_scene_part *)scene->parts.at + scene->parts.count - 1 : NULL;
-  if (last && part.transparency <= 0 && same_look(last, &part)) {
+  if (last && same_look(last, &part) && (part.transparency <= 0 || part.casts_shadow)) {
     last->index_count += index_count;
     return;
   }

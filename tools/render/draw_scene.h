@@ -37,10 +37,13 @@ typedef struct draw_mesh {
 
 #define DRAW_XRAY 0.75f /* transparency of a skin whose springs or bones are shown */
 
+/* Meshes of one transparency that follow each other and throw shadows are one skin: seen through, they do not
+ * show inside each other. */
 void draw_scene_add_mesh(draw_scene *scene, const draw_mesh *mesh);
 
 /* A straight line with round ends. A width of 1 reads as a fine line at any picture size: it is 1 pixel in a
- * picture 720 high, at the distance of what the camera looks at, and more nearer by. */
+ * picture 720 high, at the distance of what the camera looks at, and more nearer by. Beyond some thousands of
+ * lines all are drawn thinner. */
 typedef struct draw_line {
   sbf_vec3 from, to;
   draw_colour from_colour, to_colour; /* a < 255 lets what is behind shine through */

@@ -9,7 +9,6 @@
 #define RENDER_GL_FUNCTIONS(X)                                                                               \
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                                   \
   X(PFNGLATTACHSHADERPROC, AttachShader)                                                                     \
-  X(PFNGLBINDATTRIBLOCATIONPROC, BindAttribLocation)                                                         \
   X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                         \
   X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                 \
   X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                               \
@@ -20,7 +19,6 @@
   X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                           \
   X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                                               \
   X(PFNGLBUFFERDATAPROC, BufferData)                                                                         \
-  X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                                   \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                 \
   X(PFNGLCLEARPROC, Clear)                                                                                   \
   X(PFNGLCLEARCOLORPROC, ClearColor)                                                                         \
@@ -29,7 +27,6 @@
   X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                   \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                   \
   X(PFNGLCREATESHADERPROC, CreateShader)                                                                     \
-  X(PFNGLCULLFACEPROC, CullFace)                                                                             \
   X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                   \
   X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                         \
   X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                   \

@@ -300,21 +300,6 @@ static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw
   draw_indices(gl, part->first_index, (GLsizei)part->index_count);
 }
 
-/* The far sides of what is seen through, faintly: they give the inside a back wall. */
-static void paint_back_walls(const draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
-  const draw_scene_part *parts = scene->parts.at;
-  gl->Enable(GL_CULL_FACE);
-  gl->CullFace(GL_FRONT);
-  gl->UseProgram(painter->programs.at[PROGRAM_VEIL]);
-  gl->BindVertexArray(painter->meshes.array);
-  for (size_t i = 0; i < scene->parts.count; i++) {
-    if (parts[i].transparency <= 0) continue;
-    gl->Uniform1f(painter->programs.opacity, 0.6f * (1 - parts[i].transparency));
-    draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
-  }
-  gl->Disable(GL_CULL_FACE);
-}
-
 /* Corners 0 1 2 and 2 1 3 of every line, for as many as were ever shown. */
 static bool grow_line_indices(draw_painter *painter, const gl_api *gl, size_t line_count) {
   gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, painter->line_indices);
@@ -385,7 +370,7 @@ static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene
   gl->Enable(GL_BLEND);
   gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   /* Twice the lines on the same body leave half the room between them. */
-  float thinness = fminf(fmaxf(sqrtf(4000 / (float)scene->sorted_lines.count), 0.5f), 1);
+  float thinness = fminf(fmaxf(sqrtf(4000 / (float)scene->sorted_lines.count), 0.35f), 1);
   paint_lines(painter, gl, scene, &scene->sorted_lines, scene->sorted_parts.count ? 1.0f : 0.0f, thinness);
   gl->Disable(GL_BLEND);
   gl->DepthMask(GL_TRUE);
@@ -397,7 +382,6 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   gl->DepthMask(GL_FALSE);
   gl->DepthFunc(GL_LESS);
-  paint_back_walls(painter, gl, scene);
   if (scene->sorted_lines.count) {
     gl->Disable(GL_DEPTH_TEST);
     gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
