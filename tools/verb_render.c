@@ -95,13 +95,12 @@ static void close_studio(studio *st) {
 /* Paints the present frame; the camera frames the first and follows. */
 static sbf_status paint(studio *st, sbf_diagnostic *error) {
   stage_show(st->stage, &st->s, st->scene);
-  box3 box = draw_scene_bounds(st->scene);
-  sbf_vec3 middle = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
+  float aspect = (float)st->width / (float)st->height;
   if (!st->framed)
-    draw_scene_frame(st->scene, &st->camera, (float)st->width / (float)st->height,
-        DRAW_CAMERA_THREE_QUARTER_YAW, DRAW_CAMERA_THREE_QUARTER_PITCH);
+    draw_scene_frame(
+        st->scene, &st->camera, aspect, DRAW_CAMERA_THREE_QUARTER_YAW, DRAW_CAMERA_THREE_QUARTER_PITCH);
   else
-    draw_camera_follow(&st->camera, middle, (float)(1 / st->s.fps));
+    draw_scene_follow(st->scene, &st->camera, aspect, (float)(1 / st->s.fps));
   st->framed = true;
   sbf_status status = draw_painter_paint(st->painter, st->scene, &st->camera, error);
   return status == SBF_OK ? draw_canvas_read(st->canvas, st->rgb, error) : status;

@@ -63,34 +63,79 @@ START_TEST(front_is_towards_positive_z)
 }
 END_TEST
 
-START_TEST(follows_without_swinging_past)
-{
-  const box3 box = {{-1, -1, -1}, {1, 1, 1}};
+static draw_camera framed_at(float x, float y, float z) {
+  const box3 box = {{x - 1, y - 1, z - 1}, {x + 1, y + 1, z + 1}};
   draw_camera camera;
   draw_camera_frame(&camera, &box, aspect, 0, 0);
-  float before = camera.subject.x;
-  for (int i = 0; i < 200; i++) {
-    draw_camera_follow(&camera, v3(3, 0, 0), 0.04f);
+  return camera;
+}
+
+/* Starts, walks, stops: behind while it gains speed, with it while it walks, at rest with it in the end. */
+START_TEST(follows_a_walk)
+{
+  const float step = 0.04f, speed = 0.5f;
+  draw_camera camera = framed_at(0, 0, 0);
+  float at = 0, before = camera.subject.x;
+  for (int i = 0; i < 250; i++) {
+    at += speed * step;
+    draw_camera best = framed_at(at, 0, 0);
+    draw_camera_follow(&camera, &best, step);
     ck_assert_float_ge(camera.subject.x, before);
-    ck_assert_float_le(camera.subject.x, 3.0001f);
+    ck_assert_float_le(camera.subject.x, at + 1e-4f);
     before = camera.subject.x;
   }
-  ck_assert_float_eq_tol(camera.subject.x, 3, 1e-3f);
+  ck_assert_float_eq_tol(camera.subject.x, at, 1e-3f);
+  ck_assert_float_eq_tol(camera.velocity.x, speed, 1e-3f);
+  draw_camera best = framed_at(at, 0, 0);
+  for (int i = 0; i < 250; i++) {
+    draw_camera_follow(&camera, &best, step);
+    ck_assert_float_le(camera.subject.x, at + speed * DRAW_CAMERA_FOLLOW_SECONDS);
+  }
+  ck_assert_float_eq_tol(camera.subject.x, at, 1e-3f);
+}
+END_TEST
+
+START_TEST(bobbing_is_smoothed)
+{
+  draw_camera camera = framed_at(0, 0, 0);
+  float most = 0;
+  for (int i = 0; i < 250; i++) {
+    draw_camera best = framed_at(0, 0.1f * sinf(15 * 0.04f * (float)i), 0);
+    draw_camera_follow(&camera, &best, 0.04f);
+    if (i > 100) most = fmaxf(most, fabsf(camera.subject.y));
+  }
+  ck_assert_float_lt(most, 0.03f);
+}
+END_TEST
+
+START_TEST(steps_back_for_what_grows)
+{
+  const box3 big = {{-3, -3, -3}, {3, 3, 3}};
+  draw_camera camera = framed_at(0, 0, 0), best;
+  draw_camera_frame(&best, &big, aspect, 0, 0);
+  float before = camera.distance;
+  for (int i = 0; i < 150; i++) {
+    draw_camera_follow(&camera, &best, 0.04f);
+    ck_assert(camera.distance >= before - 0.02f * before && camera.distance <= 1.2f * best.distance);
+    before = camera.distance;
+  }
+  ck_assert_float_eq_tol(camera.distance, best.distance, 0.01f);
 }
 END_TEST
 
 START_TEST(frame_rate_does_not_matter)
 {
-  const box3 box = {{-1, -1, -1}, {1, 1, 1}};
-  draw_camera slow, fast;
-  draw_camera_frame(&slow, &box, aspect, 0, 0);
-  fast = slow;
-  for (int i = 0; i < 10; i++) draw_camera_follow(&slow, v3(0, 1, 2), 0.04f);
-  for (int i = 0; i < 40; i++) draw_camera_follow(&fast, v3(0, 1, 2), 0.01f);
+  draw_camera slow = framed_at(0, 0, 0), fast = slow;
+  for (int i = 1; i <= 10; i++) {
+    draw_camera best = framed_at(0, 0.1f * (float)i, -0.3f);
+    draw_camera_follow(&slow, &best, 0.04f);
+  }
+  for (int i = 1; i <= 40; i++) {
+    draw_camera best = framed_at(0, 0.025f * (float)i, -0.3f * fminf((float)i / 4, 1));
+    draw_camera_follow(&fast, &best, 0.01f);
+  }
   ck_assert_float_eq_tol(slow.subject.y, fast.subject.y, 1e-4f);
   ck_assert_float_eq_tol(slow.subject.z, fast.subject.z, 1e-4f);
-  draw_camera_follow(&slow, v3(NAN, 0, 0), 0.04f);
-  ck_assert(isfinite(slow.subject.x));
 }
 END_TEST
 
@@ -115,7 +160,9 @@ int main(void) {
   tcase_add_loop_test(tests, box_fills_the_picture, 0, 3);
   tcase_add_test(tests, points_that_are_not_finite_are_left_out);
   tcase_add_test(tests, front_is_towards_positive_z);
-  tcase_add_test(tests, follows_without_swinging_past);
+  tcase_add_test(tests, follows_a_walk);
+  tcase_add_test(tests, bobbing_is_smoothed);
+  tcase_add_test(tests, steps_back_for_what_grows);
   tcase_add_test(tests, frame_rate_does_not_matter);
   tcase_add_test(tests, orbit_keeps_the_subject_and_the_distance);
   suite_add_tcase(suite, tests);

@@ -9,9 +9,7 @@ sbf_vec3 draw_camera_back(const draw_camera *camera) {
 }
 
 sbf_vec3 draw_camera_eye(const draw_camera *camera) {
-  sbf_vec3 back = draw_camera_back(camera), right = v3_unit(v3_cross(v3(0, 1, 0), back), v3(1, 0, 0));
-  sbf_vec3 aside = v3_add(v3_scale(right, camera->right), v3_scale(v3_cross(back, right), camera->over));
-  return v3_add(v3_add(camera->subject, aside), v3_scale(back, camera->distance));
+  return v3_add(camera->subject, v3_scale(draw_camera_back(camera), camera->distance));
 }
 
 matrix4 draw_camera_view(const draw_camera *camera) {
@@ -60,10 +58,10 @@ void draw_camera_frame_points(
       frame_point(&all, v3(v3_dot(p, right), v3_dot(p, over), v3_dot(p, back)), wide, high);
   }
   float distance = fmaxf((all.right + all.left) / (2 * wide), (all.over + all.under) / (2 * high));
-  camera->distance = fmaxf(distance, 1e-3f);
-  camera->right = 0.5f * (all.right - all.left);
-  camera->over = 0.5f * (all.over - all.under);
-  camera->subject = middle;
+  camera->distance = camera->seen_distance = fmaxf(distance, 1e-3f);
+  sbf_vec3 aside =
+      v3_add(v3_scale(right, 0.5f * (all.right - all.left)), v3_scale(over, 0.5f * (all.over - all.under)));
+  camera->subject = camera->seen = v3_add(middle, aside);
 }
 
 void draw_camera_frame(draw_camera *camera, const box3 *box, float aspect, float yaw, float pitch) {
@@ -74,19 +72,32 @@ void draw_camera_frame(draw_camera *camera, const box3 *box, float aspect, float
   draw_camera_frame_points(camera, corners, box3_is_empty(box) ? 0 : 8, aspect, yaw, pitch);
 }
 
-/* x'' = w^2 (target - x) - 2 w x', solved exactly over the step, so any frame rate shows the same path. */
-static void follow_axis(float *x, float *velocity, float target, float seconds) {
-  float w = 1 / DRAW_CAMERA_FOLLOW_SECONDS, offset = *x - target;
-  float decay = expf(-w * seconds), slope = *velocity + w * offset;
-  *x = target + (offset + slope * seconds) * decay;
-  *velocity = (*velocity - w * slope * seconds) * decay;
+/* e'' = -w^2 e - 2 w e', where e is the way from where x should be, which is taken to move evenly over the
+ * step: solved exactly, so any frame rate shows the same path. */
+static void follow_axis(float *x, float *velocity, float before, float now, float seconds) {
+  float w = 1 / DRAW_CAMERA_FOLLOW_SECONDS, pace = (now - before) / seconds;
+  float error = *x - before, decay = expf(-w * seconds), slope = *velocity - pace + w * error;
+  *x = now + (error + slope * seconds) * decay;
+  *velocity = pace + (slope - w * (error + slope * seconds)) * decay;
 }
 
-void draw_camera_follow(draw_camera *camera, sbf_vec3 subject, float seconds) {
-  if (!isfinite(subject.x) || !isfinite(subject.y) || !isfinite(subject.z)) return;
-  follow_axis(&camera->subject.x, &camera->velocity.x, subject.x, seconds);
-  follow_axis(&camera->subject.y, &camera->velocity.y, subject.y, seconds);
-  follow_axis(&camera->subject.z, &camera->velocity.z, subject.z, seconds);
+/* How far the eye must be from the subject it has, to show what is best seen around another: as far off as
+ * there, and farther by what the picture's middle is aside. */
+static float safe_distance(const draw_camera *camera, const draw_camera *best) {
+  sbf_vec3 off = v3_sub(best->subject, camera->subject), back = draw_camera_back(camera);
+  float nearer = v3_dot(off, back), aside = v3_length(v3_sub(off, v3_scale(back, nearer)));
+  return best->distance + nearer + aside / (2 * camera->half_height);
+}
+
+void draw_camera_follow(draw_camera *camera, const draw_camera *best, float seconds) {
+  if (!(seconds > 0)) return;
+  follow_axis(&camera->subject.x, &camera->velocity.x, camera->seen.x, best->subject.x, seconds);
+  follow_axis(&camera->subject.y, &camera->velocity.y, camera->seen.y, best->subject.y, seconds);
+  follow_axis(&camera->subject.z, &camera->velocity.z, camera->seen.z, best->subject.z, seconds);
+  camera->seen = best->subject;
+  float distance = safe_distance(camera, best);
+  follow_axis(&camera->distance, &camera->distance_rate, camera->seen_distance, distance, seconds);
+  camera->seen_distance = distance;
 }
 
 void draw_camera_orbit(draw_camera *camera, float radians) {

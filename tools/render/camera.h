@@ -5,15 +5,16 @@
 #include "render/draw_math.h"
 
 typedef struct draw_camera {
-  sbf_vec3
-      subject; /* what is looked at, metres: the middle of the framed box, then where it was followed to */
-  sbf_vec3 velocity; /* of that point while it follows, m/s */
-  float right, over; /* the picture's middle from the subject's, metres along the picture's axes */
-  float distance;    /* from the picture's middle to the eye, metres */
-  float yaw;         /* about +Y, radians; 0 looks at the subject's front, that is from +Z */
-  float pitch;       /* above the horizon, radians */
-  float half_height; /* tangent of half the vertical view angle */
-  float home_yaw;    /* as framed: the lights stand where the camera first stood */
+  sbf_vec3 subject;    /* what stands in the middle of the picture, metres */
+  sbf_vec3 seen;       /* where that should have been when it was last followed */
+  float seen_distance; /* and how far off */
+  sbf_vec3 velocity;   /* of the subject while it is followed, m/s */
+  float distance;      /* from the subject to the eye, metres */
+  float distance_rate; /* while it is followed, m/s */
+  float yaw;           /* about +Y, radians; 0 looks at the subject's front, that is from +Z */
+  float pitch;         /* above the horizon, radians */
+  float half_height;   /* tangent of half the vertical view angle */
+  float home_yaw;      /* as framed: the lights stand where the camera first stood */
 } draw_camera;
 
 /* The view a product is shown in: three quarters from the front, a little from above, through a long lens. */
@@ -28,10 +29,11 @@ void draw_camera_frame_points(
 /* The same for the corners of a box: of all places a moving thing will be at, say. */
 void draw_camera_frame(draw_camera *camera, const box3 *box, float aspect, float yaw, float pitch);
 
-/* Goes after a subject whose middle is now at `subject`, without ever jerking; `seconds` since the last call.
- * Critically damped: it lags by velocity * 2 * DRAW_CAMERA_FOLLOW_SECONDS and never swings past. */
-#define DRAW_CAMERA_FOLLOW_SECONDS 0.35f
-void draw_camera_follow(draw_camera *camera, sbf_vec3 subject, float seconds);
+/* Goes, in `seconds` since the last call, towards how the subject is best seen now: `best`, framed anew from
+ * the camera's own side. It never jerks: it keeps up with steady motion, lags or runs on a little, for about
+ * DRAW_CAMERA_FOLLOW_SECONDS, while the subject gains or loses speed, and smooths its bobbing away. */
+#define DRAW_CAMERA_FOLLOW_SECONDS 0.5f
+void draw_camera_follow(draw_camera *camera, const draw_camera *best, float seconds);
 
 /* Circles the subject; the lights stay. */
 void draw_camera_orbit(draw_camera *camera, float radians);

@@ -49,6 +49,13 @@ void draw_scene_frame(const draw_scene *scene, draw_camera *camera, float aspect
     draw_camera_frame(camera, &scene->bounds, aspect, yaw, pitch);
 }
 
+void draw_scene_follow(const draw_scene *scene, draw_camera *camera, float aspect, float seconds) {
+  draw_camera best;
+  if (box3_is_empty(&scene->bounds)) return;
+  draw_scene_frame(scene, &best, aspect, camera->yaw, camera->pitch);
+  draw_camera_follow(camera, &best, seconds);
+}
+
 void *draw_scene_list_push(draw_scene *scene, draw_scene_list *list, size_t count, size_t item_size) {
   if (count > SIZE_MAX / 4 / item_size - list->count) {
     scene->failed = true;

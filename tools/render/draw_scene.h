@@ -92,6 +92,9 @@ void draw_scene_set_terrain(
  */
 void draw_scene_frame(const draw_scene *scene, draw_camera *camera, float aspect, float yaw, float pitch);
 
+/* Follows all that was added so far, to keep it as well framed as it was: see draw_camera_follow. */
+void draw_scene_follow(const draw_scene *scene, draw_camera *camera, float aspect, float seconds);
+
 box3 draw_scene_bounds(
     const draw_scene *scene); /* of all that was added but the ground; empty where nothing was */
 

@@ -25,9 +25,9 @@ static const char *gif_filter(const draw_movie_options *options) {
   uint64_t bytes = (uint64_t)options->width * options->height * 3 * options->frame_count;
   if (options->frame_count && bytes <= PALETTE_BYTES_MOST)
     return "[0:v]split[a][b];[a]palettegen=stats_mode=full[p];"
-           "[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle";
+           "[b][p]paletteuse=dither=bayer:bayer_scale=5:diff_mode=rectangle";
   return "[0:v]split[a][b];[a]palettegen=stats_mode=single[p];"
-         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4:diff_mode=rectangle";
+         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=5:diff_mode=rectangle";
 }
 
 static sbf_status check(const char *path, const draw_movie_options *options, sbf_diagnostic *diagnostic) {
