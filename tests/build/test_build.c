@@ -391,6 +391,7 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("build");
   TCase *c = tcase_create("build");
+  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, reference_lizard);
   tcase_add_test(c, a_cube_in_full);
