@@ -148,6 +148,16 @@ static sbf_quat turn_between(sbf_vec3 along0, sbf_vec3 side0, sbf_vec3 along1, s
   return sbri_quat_multiply(to, sbri_quat_conjugate(from));
 }
 
+/* The leg's pole, carried by its bone as posed so far. */
+static sbf_vec3 pole_of(const sbri_rig *rig, const sbri_leg *leg, const sbr_transform *root, float scale,
+    const sbr_transform *pose) {
+  const sbr_transform asset = {{0, 0, 0}, {0, 0, 0, 1}};
+  const sbr_transform *rest = leg->pole_bone >= 0 ? &rig->rest[leg->pole_bone] : &asset;
+  const sbr_transform *now = leg->pole_bone >= 0 ? &pose[leg->pole_bone] : root;
+  sbf_vec3 own = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(leg->pole, rest->position));
+  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(own, scale)));
+}
+
 static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
     const sbri_gait_input *input, uint32_t index, sbr_transform *pose) {
   const sbri_leg *leg = &rig->legs[index];
@@ -156,8 +166,7 @@ static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sb
   sbf_vec3 hip = pose[leg->upper].position;
   sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
   sbf_vec3 ankle = sbri_add_scaled(sole, foot->normal, leg->home.y * scale);
-  sbf_vec3 pole =
-      sbri_add(stance->root.position, sbri_rotate(stance->root.rotation, sbri_scale(leg->pole, scale)));
+  sbf_vec3 pole = pole_of(rig, leg, &stance->root, scale, pose);
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
   sbri_two_bone_result solved = sbri_two_bone(
       hip, ankle, pole, fallback, leg->upper_length * scale, leg->lower_length * scale, leg->soft_reach);

@@ -55,6 +55,7 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
       .group = from->group,
       .upper_length = sbri_length(sbri_sub(knee, hip)),
       .lower_length = sbri_length(sbri_sub(ankle, knee)),
+      .pole_bone = chain->pole_bone >= 0 ? chain->pole_bone : rig->parents[upper],
       .copy_rotation = chain->copy_rotation,
       .soft_reach = chain->soft_reach};
   leg->home.y = from->sole;

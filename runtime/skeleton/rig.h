@@ -10,7 +10,8 @@
 /* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. */
 typedef struct sbri_leg {
   int32_t upper, lower, foot; /* bones: thigh, shin, and the one whose head is the ankle */
-  sbf_vec3 pole;              /* asset space */
+  sbf_vec3 pole;              /* asset space, rest pose */
+  int32_t pole_bone;          /* the pole moves with it; -1: with the root */
   sbf_vec3 home;              /* ankle at rest, asset space, y above the sole's ground */
   float upper_length, lower_length;
   uint32_t group;

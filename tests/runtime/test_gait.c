@@ -241,6 +241,25 @@ START_TEST(head_leads_a_turn_and_comes_back)
 }
 END_TEST
 
+START_TEST(a_knee_turns_with_the_bone_of_its_pole)
+{
+  walk with_hips, with_head;
+  begin(&with_hips, flat, 0);
+  begin(&with_head, flat, 0);
+  ck_assert_int_eq(with_hips.q.rig.legs[QUADRUPED_HIND_L].pole_bone, 1); /* the thigh hangs on it */
+  with_head.q.rig.legs[QUADRUPED_HIND_L].pole_bone = 4;
+  run(&with_hips, 0.1, 0, 0, 0);
+  run(&with_head, 0.1, 0, 0, 0);
+  ck_assert_float_le(sbri_length(sbri_sub(with_hips.pose[9].position, with_head.pose[9].position)), 1e-5f);
+  run(&with_hips, 1, 0, 0, 1); /* the head leads */
+  run(&with_head, 1, 0, 0, 1);
+  ck_assert_float_gt(sbri_length(sbri_sub(with_hips.pose[9].position, with_head.pose[9].position)), 1e-3f);
+  ck_assert_float_le(sbri_length(sbri_sub(with_hips.pose[10].position, with_head.pose[10].position)), 1e-5f);
+  end(&with_hips);
+  end(&with_head);
+}
+END_TEST
+
 START_TEST(a_body_left_behind_puts_its_feet_down_anew)
 {
   walk w;
@@ -302,6 +321,7 @@ int main(void) {
   tcase_add_test(tests, feet_stand_on_a_slope_and_the_body_follows);
   tcase_add_test(tests, tail_lags_and_overshoots);
   tcase_add_test(tests, head_leads_a_turn_and_comes_back);
+  tcase_add_test(tests, a_knee_turns_with_the_bone_of_its_pole);
   tcase_add_test(tests, a_body_left_behind_puts_its_feet_down_anew);
   tcase_add_test(tests, moving_the_origin_changes_nothing);
   tcase_add_test(tests, a_taller_copy_walks_at_the_same_speed);
