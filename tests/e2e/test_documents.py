@@ -10,9 +10,11 @@ import sys
 import unittest
 
 from motion_files import read_poses
-from sbfmt_program import PROGRAM, ROOT, ProgramTest, call, example, main, read_bytes, read_text, write_bytes
+from sbfmt_program import (PROGRAM, ROOT, ProgramTest, call, example, main, needs_lizard, read_bytes, read_text, shared,
+                           write_bytes)
 
 DOCUMENTS = [os.path.join(ROOT, "docs", name) for name in ("hello.md", "format-tour.md", "scripts.md")]
+README = os.path.join(ROOT, "README.md")
 TOURED = os.path.join(ROOT, "spec", "samples", "valid", "jelly.sbf")
 BUILD = os.environ.get("SBFMT_BUILD_DIR", "")
 LIBRARIES = [os.path.join(BUILD, *path) for path in (("runtime", "libsbrun.a"), ("libsbfmt", "libsbfmt-mechanics.a"),
@@ -38,20 +40,33 @@ class Documents(ProgramTest):
             os.symlink(os.path.join(ROOT, name), self.path(name))
         write_bytes(self.path("lizard.sbf"), read_bytes(self.lizard))
 
+    def run_commands(self, document):
+        count = 0
+        for line, text in blocks(document, "sh"):
+            for command in text.splitlines():
+                words = shlex.split(command, comments=True)
+                # Drawing needs a driver (test_render_files.py), ./run is tested by tests/repo/test_run.py.
+                if words[0] != "sbfmt" or words[1] == "render":
+                    self.assertIn(words[0], ("sbfmt", "./run"), f"{document}:{line}")
+                    continue
+                done = subprocess.run([PROGRAM, *words[1:]], cwd=self.folder, capture_output=True, text=True,
+                                      check=False)
+                self.assertEqual(done.returncode, 0, f"{document}:{line}: {command}\n{done.stderr}")
+                count += 1
+        self.assertTrue(count, document)
+
     def test_commands_work(self):
         for document in DOCUMENTS:
             scripts = blocks(document, "script")
             if scripts:
                 write_bytes(self.path("out-and-back.txt"), scripts[0][1].encode())
-            for line, text in blocks(document, "sh"):
-                for command in text.splitlines():
-                    words = shlex.split(command)
-                    self.assertEqual(words[0], "sbfmt", f"{document}:{line}")
-                    if words[1] == "render":
-                        continue  # needs a driver to draw with: test_render_files.py
-                    done = subprocess.run([PROGRAM, *words[1:]], cwd=self.folder, capture_output=True, text=True,
-                                          check=False)
-                    self.assertEqual(done.returncode, 0, f"{document}:{line}: {command}\n{done.stderr}")
+            self.run_commands(document)
+
+    @needs_lizard
+    def test_commands_of_the_readme_work(self):
+        for name, target in (("body.obj", "liz.obj"), ("rig.fbx", "liz.fbx")):
+            os.symlink(os.path.abspath(shared("lizard", target)), self.path(name))
+        self.run_commands(README)
 
     def test_pieces_of_the_tour_stand_in_the_file(self):
         toured = read_text(TOURED)
@@ -107,10 +122,19 @@ class Documents(ProgramTest):
             "int main(void)", "void draw(uint32_t, const sbf_vec3 *, const sbf_vec3 *, uint32_t, sbr_double3);\n"
                               "int main(void)")
         self.assertNotEqual(whole, text)
-        check = subprocess.run([*compiler, *INCLUDES, "-fsyntax-only",
-                                write_bytes(self.path("draw.c"), whole.encode())], capture_output=True, text=True,
-                               check=False)
+        self.compile(whole)
+
+    def compile(self, text):
+        check = subprocess.run([os.environ.get("SBFMT_CC", "cc"), "-std=c11", "-Wall", "-Wextra", "-Werror", *INCLUDES,
+                                "-fsyntax-only", write_bytes(self.path("piece.c"), text.encode())],
+                               capture_output=True, text=True, check=False)
         self.assertEqual(check.returncode, 0, check.stderr)
+
+    def test_the_program_of_the_readme_compiles(self):
+        programs = blocks(README, "c")
+        self.assertTrue(programs)
+        for _, text in programs:
+            self.compile(text)
 
     def test_links_lead_somewhere(self):
         texts = [*DOCUMENTS, *glob.glob(os.path.join(ROOT, "spec", "*.md")), *glob.glob(os.path.join(ROOT, "*.md")),
