@@ -61,6 +61,9 @@ static const letter letters[] = {
 static const float letter_scale = 1.9f, letter_gap = 3.6f, word_gap = 7.0f, stroke = 1.35f; /* units */
 static const float left = 22, bottom = 26, row = 23, swatch = 26;
 static const draw_colour ink = {52, 58, 68, 255};
+/* Around what is written, lest it be lost before something dark. */
+static const draw_colour halo = {236, 238, 240, 110};
+static const float halo_width = 5;
 
 static const char *strokes_of(char c) {
   if (c >= 'A' && c <= 'Z') c = (char)(c - 'A' + 'a');
@@ -75,7 +78,8 @@ static void add_overlay_line(draw_scene *scene, sbf_vec2 from, sbf_vec2 to, draw
 }
 
 /* Draws one letter with its left foot at `at`, or only measures it where there is no scene; its width. */
-static float add_letter(draw_scene *scene, const char *strokes, sbf_vec2 at) {
+static float add_letter(
+    draw_scene *scene, const char *strokes, sbf_vec2 at, draw_colour colour, float width) {
   float wide = 0;
   bool down = false;
   sbf_vec2 before = at;
@@ -84,21 +88,26 @@ static float add_letter(draw_scene *scene, const char *strokes, sbf_vec2 at) {
     sbf_vec2 here = {(float)(c[0] - '0') * letter_scale, (float)(c[1] - '2') * letter_scale};
     if (here.x > wide) wide = here.x;
     here.x += at.x, here.y += at.y;
-    if (scene && (down || c[2] == ' ' || c[2] == 0)) add_overlay_line(scene, before, here, ink, stroke);
+    if (scene && (down || c[2] == ' ' || c[2] == 0)) add_overlay_line(scene, before, here, colour, width);
     before = here;
     down = true;
   }
   return wide;
 }
 
-/* Its width. */
-static float add_words(draw_scene *scene, const char *words, sbf_vec2 at) {
+static float add_run(draw_scene *scene, const char *words, sbf_vec2 at, draw_colour colour, float width) {
   float start = at.x;
   for (const char *c = words; *c; c++) {
     const char *strokes = strokes_of(*c);
-    at.x += strokes ? add_letter(scene, strokes, at) + letter_gap : word_gap;
+    at.x += strokes ? add_letter(scene, strokes, at, colour, width) + letter_gap : word_gap;
   }
   return at.x > start ? at.x - start - letter_gap : 0;
+}
+
+/* Its width. */
+static float add_words(draw_scene *scene, const char *words, sbf_vec2 at) {
+  if (scene) add_run(scene, words, at, halo, halo_width);
+  return add_run(scene, words, at, ink, stroke);
 }
 
 void draw_scene_add_legend(draw_scene *scene, const char *name, draw_colour colour) {

@@ -14,7 +14,9 @@ void main() {
   float off = length(at - run * place);
   float covered = clamp(radius + 0.5 - off, 0.0, 1.0) * strength;
   // Thick ones look round.
-  float round_off = off / max(radius, 1.0);
+  float span = length(run);
+  float across = span > 0.1 ? abs(run.x * at.y - run.y * at.x) / span : off; // so that joints do not show
+  float round_off = across / max(radius, 1.0);
   vec3 seen = colour.rgb * (1.0 - 0.35 * smoothstep(1.2, 3.0, radius) * round_off * round_off);
   // What lies deep inside is dimmer than what is near the skin: so near and far sides are told apart.
   float veil = texelFetch(veil_depths, ivec2(gl_FragCoord.xy), 0).r;
