@@ -1,0 +1,205 @@
+/* Walking: microseconds of each part of a frame of 1/60 s, on one thread and on two.
+ *
+ * A character walks for some seconds, again and again, and every time does the very same: the benchmark fails
+ * where two runs end in different states. So each frame has a least time over all runs, which is what it
+ * costs on a quiet machine; `least_us` is the mean of these over the walk, `worst_us` that of the frame that
+ * costs most. `median_us` is the median run's mean.
+ *
+ * Parts: `frame` is what a game pays, `pose` (gait, inverse kinematics, tail, head) and `bodies` and `skin`
+ * (positions and normals of all render meshes) together, with what lies between them. Of `bodies`, `substep`
+ * is one substep of all bodies, from two more runs with once and twice as many substeps for each body as the
+ * stiffest one needs; the automatic count, `substeps` at most, gives a softer body fewer. `health` (volumes,
+ * strains, energies) is for measuring, and not part of a frame. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "measured_assets.h"
+#include "measuring.h"
+#include "sbrun/sbrun.h"
+#include "thread_pool.h"
+
+typedef enum part { FRAME, POSE, BODIES, SKIN, HEALTH, PART_COUNT } part;
+static const char *const part_names[PART_COUNT] = {"frame", "pose", "bodies", "skin", "health"};
+
+/* One way of walking, and its times. */
+typedef struct walk {
+  const sbf_asset *asset;
+  sbr_model *model;
+  thread_pool *pool;
+  uint32_t thread_count, frame_count, run_count, run;
+  uint64_t hash;
+  double *least[PART_COUNT]; /* of each frame, over the runs so far, in s */
+  double *means[PART_COUNT]; /* of each run */
+  sbr_tasks workers;
+  uint32_t
+      task_run; /* how many rounds of tasks were run in this tick: the poses come first, then the bodies */
+  double now[PART_COUNT];
+} walk;
+
+/* The world's rounds of tasks come through here, and so their times. */
+static void run_tasks(void *user, sbr_task *task, void *context, uint32_t count) {
+  walk *w = user;
+  double begin = bench_now_s();
+  if (w->workers.run)
+    w->workers.run(w->workers.user, task, context, count);
+  else
+    for (uint32_t i = 0; i < count; i++) task(context, i);
+  w->now[w->task_run++ % 2 ? BODIES : POSE] += bench_now_s() - begin;
+}
+
+static sbr_world *make_world(walk *w, sbr_character_id *character) {
+  sbf_diagnostic error;
+  sbr_world *world;
+  sbr_world_definition definition = sbr_default_world_definition();
+  sbr_character_definition standing = sbr_default_character_definition();
+  definition.tasks = (sbr_tasks){run_tasks, w};
+  definition.ground = sbr_ground_flat(0);
+  definition.character_capacity = 1;
+  bench_require(sbr_world_create(&definition, &world, &error), &error);
+  bench_require(sbr_character_create(world, w->model, &standing, character, &error), &error);
+  sbr_character_drive(world, *character, 0.5f, 0, 0.2f);
+  return world;
+}
+
+static void read_skin(const walk *w, const sbr_world *world, sbr_character_id character, sbf_vec3 *room) {
+  uint32_t count = vertex_count_of(w->asset), at = 0;
+  for (uint32_t i = 0; i < w->asset->render_meshes.count; i++)
+    at += sbr_character_skin(world, character, i, room + at, room + count + at, NULL, count - at);
+}
+
+static void read_health(const walk *w, const sbr_world *world, sbr_character_id character) {
+  for (uint32_t i = 0; i < w->asset->soft_bodies.count; i++) {
+    sbr_body_health health = sbr_character_health(world, character, i);
+    if (!health.finite || health.inverted) bench_fail("a body lost its shape");
+  }
+}
+
+static void walk_once(walk *w) {
+  sbr_character_id character;
+  sbr_world *world = make_world(w, &character);
+  sbf_vec3 *skin = bench_allocate(2 * (size_t)vertex_count_of(w->asset), sizeof *skin);
+  double sums[PART_COUNT] = {0};
+  for (uint32_t f = 0; f < w->frame_count; f++) {
+    memset(w->now, 0, sizeof w->now);
+    w->task_run = 0;
+    double begin = bench_now_s();
+    sbr_world_step(world, 1 / 60.0);
+    double stepped = bench_now_s();
+    read_skin(w, world, character, skin);
+    double skinned = bench_now_s();
+    read_health(w, world, character);
+    w->now[FRAME] = skinned - begin;
+    w->now[SKIN] = skinned - stepped;
+    w->now[HEALTH] = bench_now_s() - skinned;
+    for (int p = 0; p < PART_COUNT; p++) {
+      if (w->run == 0 || w->now[p] < w->least[p][f]) w->least[p][f] = w->now[p];
+      sums[p] += w->now[p];
+    }
+  }
+  for (int p = 0; p < PART_COUNT; p++) w->means[p][w->run] = sums[p] / w->frame_count;
+  uint64_t hash = sbr_world_state_hash(world);
+  if (w->run++ && hash != w->hash) bench_fail("two runs of the same walk ended in different states");
+  w->hash = hash;
+  free(skin);
+  sbr_world_destroy(world);
+}
+
+static void open_walk(
+    walk *w, const sbf_asset *asset, uint32_t threads, uint32_t substeps, uint32_t frames, uint32_t runs) {
+  sbf_diagnostic error;
+  *w = (walk){.asset = asset, .thread_count = threads, .frame_count = frames, .run_count = runs};
+  bench_require(
+      sbr_model_create(asset, &(sbr_model_options){.substeps = substeps}, &w->model, &error), &error);
+  w->pool = thread_pool_create(threads);
+  if (!w->pool) bench_fail("no threads");
+  w->workers = thread_pool_tasks(w->pool);
+  for (int p = 0; p < PART_COUNT; p++) {
+    w->least[p] = bench_allocate(frames, sizeof(double));
+    w->means[p] = bench_allocate(runs, sizeof(double));
+  }
+}
+
+static void close_walk(walk *w) {
+  sbr_model_destroy(w->model);
+  thread_pool_destroy(w->pool);
+  for (int p = 0; p < PART_COUNT; p++) {
+    free(w->least[p]);
+    free(w->means[p]);
+  }
+}
+
+static double least_mean(const walk *w, part p) {
+  double sum = 0;
+  for (uint32_t f = 0; f < w->frame_count; f++) sum += w->least[p][f];
+  return sum / w->frame_count;
+}
+
+/* What is simulated: of the finest levels. */
+static void count_elements(const sbf_asset *asset, uint32_t *points, uint32_t *springs) {
+  *points = *springs = 0;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[i];
+    if (!body->levels.count) continue;
+    *points += body->levels.at[0].positions.count;
+    for (uint32_t s = 0; s < body->levels.at[0].springs.count; s++)
+      *springs += body->levels.at[0].springs.at[s].ends.count;
+  }
+}
+
+typedef struct about {
+  const char *name;
+  uint32_t points, springs, substeps;
+} about;
+
+static void print_walk(walk *w, const about *a) {
+  for (int p = 0; p < PART_COUNT; p++) {
+    bench_spread least = bench_spread_of(w->least[p], w->frame_count);
+    double mean = least_mean(w, (part)p);
+    bench_print_row("%s,%u,%u,%u,%u,%s,%u,%u,%.2f,%.2f,%.2f", a->name, a->points, a->springs, a->substeps,
+        w->thread_count, part_names[p], w->frame_count, w->run_count, mean * 1e6,
+        bench_spread_of(w->means[p], w->run_count).median * 1e6, least.most * 1e6);
+  }
+}
+
+/* `once` and `twice` differ by as many substeps as the stiffest body needs. */
+static void print_substep(const walk *once, const walk *twice, const about *a) {
+  double one = (least_mean(twice, BODIES) - least_mean(once, BODIES)) / a->substeps;
+  bench_print_row("%s,%u,%u,%u,1,substep,%u,%u,%.2f,,", a->name, a->points, a->springs, a->substeps,
+      once->frame_count, once->run_count, one * 1e6);
+}
+
+enum { ONE_THREAD, TWO_THREADS, ONCE, TWICE, WALK_COUNT };
+
+static void measure(const char *name, sbf_asset *asset, uint32_t frames, uint32_t runs) {
+  walk walks[WALK_COUNT];
+  about a = {.name = name};
+  count_elements(asset, &a.points, &a.springs);
+  open_walk(&walks[ONE_THREAD], asset, 1, 0, frames, runs);
+  a.substeps = sbr_model_substeps(walks[ONE_THREAD].model);
+  open_walk(&walks[TWO_THREADS], asset, 2, 0, frames, runs);
+  open_walk(&walks[ONCE], asset, 1, a.substeps, frames, runs);
+  open_walk(&walks[TWICE], asset, 1, 2 * a.substeps, frames, runs);
+  for (uint32_t r = 0; r < runs; r++)
+    for (int i = 0; i < WALK_COUNT; i++) walk_once(&walks[r % 2 ? WALK_COUNT - 1 - i : i]);
+  if (walks[ONE_THREAD].hash != walks[TWO_THREADS].hash) bench_fail("two threads give other bits than one");
+  print_walk(&walks[ONE_THREAD], &a);
+  print_substep(&walks[ONCE], &walks[TWICE], &a);
+  print_walk(&walks[TWO_THREADS], &a);
+  for (int i = 0; i < WALK_COUNT; i++) close_walk(&walks[i]);
+  sbf_asset_free(asset);
+}
+
+int main(int argument_count, char **arguments) {
+  bool quick = bench_is_quick(argument_count, arguments);
+  uint32_t frames = quick ? 20 : 300, runs = quick ? 2 : 9;
+  bench_print_columns(
+      "character,points,springs,substeps,threads,part,frames,runs,least_us,median_us,worst_us");
+  measure("lizard", character_asset(OUR_LIZARD_FOLDER, "lizard.obj", "lizard.glb", true), frames, runs);
+  sbf_asset *reference = character_asset(SHARED_FOLDER "/lizard", "liz.obj", "liz.fbx", true);
+  if (reference)
+    measure("liz", reference, frames, runs);
+  else
+    fprintf(stderr, "bench_run: ../shared/data is not there: the reference character is left out\n");
+  return 0;
+}
