@@ -37,15 +37,19 @@ typedef struct walk {
   double now[PART_COUNT];
 } walk;
 
+static double now_s(const walk *w) {
+  return w->thread_count > 1 ? bench_wall_clock_s() : bench_now_s();
+}
+
 /* The world's rounds of tasks come through here, and so their times. */
 static void run_tasks(void *user, sbr_task *task, void *context, uint32_t count) {
   walk *w = user;
-  double begin = bench_now_s();
+  double begin = now_s(w);
   if (w->workers.run)
     w->workers.run(w->workers.user, task, context, count);
   else
     for (uint32_t i = 0; i < count; i++) task(context, i);
-  w->now[w->task_run++ % 2 ? BODIES : POSE] += bench_now_s() - begin;
+  w->now[w->task_run++ % 2 ? BODIES : POSE] += now_s(w) - begin;
 }
 
 static sbr_world *make_world(walk *w, sbr_character_id *character) {
@@ -83,15 +87,15 @@ static void walk_once(walk *w) {
   for (uint32_t f = 0; f < w->frame_count; f++) {
     memset(w->now, 0, sizeof w->now);
     w->task_run = 0;
-    double begin = bench_now_s();
+    double begin = now_s(w);
     sbr_world_step(world, 1 / 60.0);
-    double stepped = bench_now_s();
+    double stepped = now_s(w);
     read_skin(w, world, character, skin);
-    double skinned = bench_now_s();
+    double skinned = now_s(w);
     read_health(w, world, character);
     w->now[FRAME] = skinned - begin;
     w->now[SKIN] = skinned - stepped;
-    w->now[HEALTH] = bench_now_s() - skinned;
+    w->now[HEALTH] = now_s(w) - skinned;
     for (int p = 0; p < PART_COUNT; p++) {
       if (w->run == 0 || w->now[p] < w->least[p][f]) w->least[p][f] = w->now[p];
       sums[p] += w->now[p];
