@@ -199,7 +199,7 @@ int main(int argument_count, char **arguments) {
   uint32_t frames = quick ? 20 : 300, runs = quick ? 2 : 9;
   bench_print_columns(
       "character,points,springs,substeps,threads,part,frames,runs,least_us,median_us,worst_us");
-  measure("lizard", character_asset(OUR_LIZARD_FOLDER, "lizard.obj", "lizard.glb", true), frames, runs);
+  measure("lizard", our_lizard(true), frames, runs);
   sbf_asset *reference = character_asset(SHARED_FOLDER "/lizard", "liz.obj", "liz.fbx", true);
   if (reference)
     measure("liz", reference, frames, runs);

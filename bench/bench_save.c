@@ -87,6 +87,6 @@ int main(int argument_count, char **arguments) {
   uint32_t rounds = quick ? 1 : 15;
   bench_print_columns("asset,action,form,bytes,rounds,least_ms,median_ms,most_ms,MB/s");
   measure("surface", surface_asset(quick ? 20 : SURFACE_CELLS), rounds);
-  measure("lizard", character_asset(OUR_LIZARD_FOLDER, "lizard.obj", "lizard.glb", true), rounds);
+  measure("lizard", our_lizard(true), rounds);
   return 0;
 }

@@ -81,6 +81,33 @@ sbf_asset *character_asset(const char *folder, const char *mesh, const char *rig
   return built;
 }
 
+sbf_asset *our_lizard(bool build) {
+  sbf_asset *asset =
+      character_asset(BENCH_SOURCE_FOLDER "/examples/lizard", "lizard.obj", "lizard.glb", build);
+  if (!asset) bench_fail("examples/lizard/lizard.obj is not there");
+  return asset;
+}
+
+sbf_asset *meshes_alone(sbf_asset *asset) {
+  sbf_asset *alone = sbf_asset_create(NULL);
+  if (!alone) bench_fail("memory ran out");
+  uint32_t count = asset->render_meshes.count;
+  sbf_render_mesh *meshes = allocate(alone, count, sizeof *meshes);
+  for (uint32_t i = 0; i < count; i++) {
+    meshes[i] = asset->render_meshes.at[i];
+    meshes[i].bone = meshes[i].derived = SBF_NONE;
+    meshes[i].skin = NULL;
+    meshes[i].material_slots = (sbf_material_slot_list){NULL, 0};
+    meshes[i].polygon_materials = meshes[i].source_points = (sbf_u32_list){NULL, 0};
+  }
+  alone->render_meshes = (sbf_render_mesh_list){meshes, count};
+  sbf_asset *clone = sbf_asset_clone(alone, NULL);
+  if (!clone) bench_fail("memory ran out");
+  sbf_asset_free(alone);
+  sbf_asset_free(asset);
+  return clone;
+}
+
 uint32_t vertex_count_of(const sbf_asset *asset) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < asset->render_meshes.count; i++)

@@ -13,9 +13,12 @@ enum { SURFACE_CELLS = 316 }; /* 100,489 points, 99,856 quads */
  * it; without derived parts where `build` is false. NULL where the folder has no such mesh. */
 sbf_asset *character_asset(const char *folder, const char *mesh, const char *rig, bool build);
 
-/* Where our own lizard lies, and the reference characters, which are not ours to publish and may be absent.
- */
-#define OUR_LIZARD_FOLDER BENCH_SOURCE_FOLDER "/examples/lizard"
+/* Its render meshes and nothing else: the geometry that GLB and OBJ have. Frees what it is given. */
+sbf_asset *meshes_alone(sbf_asset *asset);
+
+/* The lizard of examples/. */
+sbf_asset *our_lizard(bool build);
+/* The reference characters, which are not ours to publish and may be absent. */
 #define SHARED_FOLDER BENCH_SOURCE_FOLDER "/../shared/data"
 
 uint32_t vertex_count_of(const sbf_asset *asset); /* of all render meshes */
