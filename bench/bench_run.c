@@ -139,18 +139,6 @@ static double least_mean(const walk *w, part p) {
   return sum / w->frame_count;
 }
 
-/* What is simulated: of the finest levels. */
-static void count_elements(const sbf_asset *asset, uint32_t *points, uint32_t *springs) {
-  *points = *springs = 0;
-  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
-    const sbf_soft_body *body = &asset->soft_bodies.at[i];
-    if (!body->levels.count) continue;
-    *points += body->levels.at[0].positions.count;
-    for (uint32_t s = 0; s < body->levels.at[0].springs.count; s++)
-      *springs += body->levels.at[0].springs.at[s].ends.count;
-  }
-}
-
 typedef struct about {
   const char *name;
   uint32_t points, springs, substeps;

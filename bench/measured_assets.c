@@ -121,3 +121,14 @@ uint32_t polygon_count_of(const sbf_asset *asset) {
     count += asset->render_meshes.at[i].mesh.polygon_sizes.count;
   return count;
 }
+
+void count_elements(const sbf_asset *asset, uint32_t *points, uint32_t *springs) {
+  *points = *springs = 0;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[i];
+    if (!body->levels.count) continue;
+    *points += body->levels.at[0].positions.count;
+    for (uint32_t s = 0; s < body->levels.at[0].springs.count; s++)
+      *springs += body->levels.at[0].springs.at[s].ends.count;
+  }
+}

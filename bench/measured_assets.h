@@ -23,5 +23,7 @@ sbf_asset *our_lizard(bool build);
 
 uint32_t vertex_count_of(const sbf_asset *asset); /* of all render meshes */
 uint32_t polygon_count_of(const sbf_asset *asset);
+/* What is simulated: of the finest levels. */
+void count_elements(const sbf_asset *asset, uint32_t *points, uint32_t *springs);
 
 #endif
