@@ -33,6 +33,8 @@ def reference(schema):
                    "|---|---|---|---|---|---|---|---|---|---|\n")
         for f in element.fields:
             default = "required" if f.required else (f.default or ("0,0,0,1" if f.type == "quat" else ""))
+            if f.fix:
+                default = "always `{}`: {}".format(*f.fix.split(":"))
             out.append(f"| {f.number} | {f.name} | {written_as(f, schema)} | {type_text(f)} | {f.unit or ''} | "
                        f"{default} | {range_text(f)} | {' or '.join(length_text(l) for l in f.lengths)} | "
                        f"{length_text(f.index) if f.index else ''} | {f.meaning} |\n")
