@@ -260,8 +260,9 @@ static const sbfi_field attributes_fields[] = {
   {.name = "yield_strain", .type = SBFI_FLOAT, .number = 19, .since_minor = 0, .offset = offsetof(sbf_attributes, yield_strain), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "yield_flow", .type = SBFI_FLOAT, .number = 20, .since_minor = 0, .offset = offsetof(sbf_attributes, yield_flow), .width = 1, .unit = "1/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "tear_strain", .type = SBFI_FLOAT, .number = 21, .since_minor = 0, .offset = offsetof(sbf_attributes, tear_strain), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "sag_free", .type = SBFI_BOOL, .number = 22, .since_minor = 0, .offset = offsetof(sbf_attributes, sag_free), .width = 1, .unit = "", .default_integer = 0},
 };
-static const sbfi_element attributes_element = {"attributes", "attributes", sizeof(sbf_attributes), 0, 21, attributes_fields, NULL};
+static const sbfi_element attributes_element = {"attributes", "attributes", sizeof(sbf_attributes), 0, 22, attributes_fields, NULL};
 
 static const sbfi_field collision_fields[] = {
   {.name = "particle_radius", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_collision, particle_radius), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.01f}},

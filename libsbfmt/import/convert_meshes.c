@@ -323,6 +323,10 @@ static sbf_status fill_body(sbfi_conversion *c, uint32_t place, const geometry *
   body->bone = c->bone_of_mesh[place];
   body->surface = g->mesh;
   body->surface.target = SBF_MESH_TARGET_SURFACE;
+  if (body->bone != SBF_NONE) { /* flesh on a bone: as drawn when it stands, and of constant volume */
+    body->attributes.sag_free = true;
+    body->attributes.pressure_mode = SBF_PRESSURE_MODE_VOLUME;
+  }
   return copy_sources(c, &c->scene->meshes[place], &body->source_points);
 }
 

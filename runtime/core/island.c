@@ -155,7 +155,7 @@ static bool fill_slots(sbri_island_maker *m) {
     rest[slot] = (sbri_point){goals[g].place.x, goals[g].place.y, goals[g].place.z, 0};
     frames[slot - island->free_count] = goals[g].frame;
   }
-  island->rest = rest, island->masses = masses, island->inverse_masses = inverse_masses;
+  island->rest = m->rest = rest, island->masses = masses, island->inverse_masses = inverse_masses;
   island->gravity_scales = gravity_scales, island->frame_of_held = frames;
   return true;
 }
@@ -173,7 +173,7 @@ static bool make(sbri_island_maker *m) {
   if (!make_slots(m) || !fill_slots(m) || !sbri_island_springs(m)) return false;
   for (uint32_t b = 0; b < count; b++)
     if (!sbri_guides_make(m->model, m->island, sbri_maker_body(m, b))) return false;
-  return sbri_island_frequencies(m);
+  return true;
 }
 
 sbf_status sbri_island_make(

@@ -21,7 +21,10 @@ typedef struct sbri_island_maker {
   float **masses;      /* (points) kg */
   sbfi_array goals;    /* sbri_goal */
   uint32_t first_goal; /* slot of the first goal's far end */
-  sbfi_array springs;  /* sbfi_spring */
+  sbfi_array springs;  /* sbfi_spring, while they are listed */
+  bool states_rest_lengths;
+  sbri_point *rest; /* the island's own tables, while they are filled */
+  sbfi_spring *listed;
 } sbri_island_maker;
 
 static inline void *sbri_scratch(sbri_island_maker *m, size_t count, size_t size) {
@@ -39,7 +42,8 @@ static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t pl
 float sbri_natural_stiffness(const sbf_soft_body *body, float mass);
 
 /* Each false where memory runs out. */
-bool sbri_island_springs(sbri_island_maker *m);     /* lists all springs, then lays out the cells */
-bool sbri_island_frequencies(sbri_island_maker *m); /* and with them the damping */
+bool sbri_island_springs(sbri_island_maker *m); /* lists them, finds frequencies and damping, lays them out */
+/* Sets rest lengths so that they bear the weight, where the bodies ask for it and something holds them. */
+bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network);
 
 #endif

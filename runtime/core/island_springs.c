@@ -21,7 +21,10 @@ static bool add(sbri_island_maker *m, sbfi_spring spring) {
 static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
   const sbf_level *level = body->level;
   size_t total = 0;
-  for (uint32_t s = 0; s < level->springs.count; s++) total += level->springs.at[s].ends.count;
+  for (uint32_t s = 0; s < level->springs.count; s++) {
+    total += level->springs.at[s].ends.count;
+    m->states_rest_lengths = m->states_rest_lengths || level->springs.at[s].rest_lengths.count;
+  }
   float *stiffness = sbri_scratch(m, total, sizeof *stiffness);
   float *volumes = sbri_scratch(m, level->positions.count, sizeof *volumes);
   double *sums = sbri_scratch(m, level->positions.count, 2 * sizeof *sums);
@@ -84,6 +87,7 @@ static bool list_springs(sbri_island_maker *m) {
   const sbf_asset *asset = m->model->asset;
   for (uint32_t i = 0; i < asset->cross_springs.count; i++) {
     const sbf_cross_springs *cross = &asset->cross_springs.at[i];
+    m->states_rest_lengths = m->states_rest_lengths || cross->rest_lengths.count;
     bool here = &m->model->islands[m->model->bodies[cross->body_a].island] == island;
     if (here && sbri_cross_springs_act(m->model, cross) && !add_cross_springs(m, cross)) return false;
   }
@@ -91,16 +95,20 @@ static bool list_springs(sbri_island_maker *m) {
   sbfi_spring *springs = sbri_keep(m, island->spring_count, sizeof *springs);
   if (!springs) return false;
   if (island->spring_count) memcpy(springs, m->springs.at, island->spring_count * sizeof *springs);
-  island->springs = springs;
+  island->springs = m->listed = springs;
+  return true;
+}
+
+/* What the springs are like at rest. */
+static void measure_springs(sbri_island *island) {
   for (uint32_t i = 0; i < island->spring_count; i++) {
-    const sbfi_spring *s = &springs[i];
+    const sbfi_spring *s = &island->springs[i];
     double beta = s->stiffness_n_m > 0 ? (double)s->damping_ns_m / s->stiffness_n_m : 0;
     if (beta > island->stiffness_damping_s) island->stiffness_damping_s = beta;
     float length = rest_distance(island, s->a, s->b);
     float stretch = length > 0 ? 1 - s->rest_length_m / length : 0;
     if (s->rest_length_m > 0 && stretch > island->rest_stretch) island->rest_stretch = stretch;
   }
-  return true;
 }
 
 /* ---- Cells ---- */
@@ -149,10 +157,6 @@ static bool make_cells(sbri_island_maker *m) {
   return true;
 }
 
-bool sbri_island_springs(sbri_island_maker *m) {
-  return list_springs(m) && make_cells(m);
-}
-
 /* ---- Frequencies ---- */
 
 enum { POWER_ITERATIONS = 40 };
@@ -180,7 +184,7 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
   }
 }
 
-bool sbri_island_frequencies(sbri_island_maker *m) {
+static bool find_frequencies(sbri_island_maker *m) {
   sbri_island *island = m->island;
   uint32_t points = island->slot_count, count = island->spring_count;
   sbf_vec3 *positions = sbri_scratch(m, points, sizeof *positions);
@@ -210,6 +214,13 @@ bool sbri_island_frequencies(sbri_island_maker *m) {
   island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
   island->fastest_rad_s = POWER_MARGIN * sbf_network_highest(&network, POWER_ITERATIONS, scratch);
   if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;
+  if (!sbri_island_preload(m, &network)) return false;
   find_damping(m, network, masses, scratch);
   return true;
+}
+
+bool sbri_island_springs(sbri_island_maker *m) {
+  if (!list_springs(m) || !find_frequencies(m)) return false;
+  measure_springs(m->island);
+  return make_cells(m);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/diagnostic.h"
+#include "core/kernels.h"
 #include "core/skin.h"
 
 /* A body that needs more substeps than this is not one to step explicitly. */
@@ -126,7 +127,7 @@ sbf_status sbr_model_create(
   sbf_allocator allocator = sbfi_allocator_or_default(options->allocator);
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
   if (!made) return no_memory(error);
-  *made = (sbr_model){.asset = asset};
+  *made = (sbr_model){.asset = asset, .kernels = sbri_kernels_choose()};
   sbfi_arena_init(&made->arena, &allocator, 0);
   status = make(made, options, error);
   if (status == SBF_OK)

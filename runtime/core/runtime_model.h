@@ -56,10 +56,13 @@ typedef struct sbri_body {
   float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
   float media_friction_1_s;
   float friction, restitution;
-  float rest_size_m;     /* diagonal of its box */
-  double rest_volume_m3; /* 0: open, or without polygons */
-  sbri_skin surface;     /* vertices of its surface */
-  uint32_t first_vertex; /* of them in a character's scratch */
+  float rest_size_m;                 /* diagonal of its box */
+  double rest_volume_m3;             /* 0: open, or without polygons */
+  sbri_skin surface;                 /* vertices of its surface */
+  uint32_t first_vertex, first_face; /* of them in a character's scratch */
+  bool keeps_volume;
+  const uint32_t *volume_begins;       /* (blocks of its slots + 1), where it keeps its volume */
+  const sbri_carry_cell *volume_cells; /* faces, as `slots`, with their shares in each slot's gradient */
 } sbri_body;
 
 typedef struct sbri_island {
@@ -90,11 +93,13 @@ typedef struct sbri_island {
 typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, state_size;
   size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
-  size_t surface_vertices, sampled, sampled_deltas, vertices, faces, sums, scratch_size;
+  size_t surface_vertices, surface_faces, sampled, sampled_deltas, vertices, faces, sums, scratch_size;
 } sbri_layout;
 
+struct sbri_kernels;
 struct sbr_model {
   sbfi_arena arena;
+  const struct sbri_kernels *kernels;
   const sbf_asset *asset;
   sbri_rig rig;
   uint32_t frame_count; /* bones, root, anchor */
@@ -130,6 +135,8 @@ sbf_status sbri_island_make(
 /* Spreads the frames of held points over the free ones along the springs. */
 bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *body);
 bool sbri_visits_make(sbr_model *model, sbri_island *island);
+/* The gradient's table of a body that keeps its volume. */
+bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
 
 /* Substeps of a tick of `tick_s` with which the scheme is stable while no spring is stretched by more than
  * `stretch`, the share of its length that is beyond its rest length. */

@@ -1,6 +1,7 @@
 /* What the host reads: the moment between the last two ticks. */
 #include <string.h>
 
+#include "core/kernels.h"
 #include "core/skin.h"
 #include "core/world.h"
 #include "math/quat.h"
@@ -66,8 +67,8 @@ static uint32_t least(uint32_t a, uint32_t b) {
 /* Tangents square to the normals, in place of the sums of the faces'. */
 static void write_tangents(const sbri_character *c, const sbri_skin *skin, const sbri_point *vertices,
     const sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t count) {
-  sbri_skin_tangents(skin, vertices, sbri_faces(c));
-  sbri_skin_sums(&skin->tangents, sbri_faces(c), sbri_sums(c));
+  c->model->kernels->tangents(skin, vertices, sbri_faces(c));
+  c->model->kernels->sums(&skin->tangents, sbri_faces(c), sbri_sums(c));
   for (uint32_t v = 0; v < count; v++) {
     const sbri_point *sum = &sbri_sums(c)[v];
     sbf_vec3 n = normals[v], t = {sum->x, sum->y, sum->z};
@@ -86,11 +87,11 @@ uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id character, 
   uint32_t count = least(capacity, skin->vertex_count);
   sample(world, c);
   sbri_point *vertices = sbri_vertices(c);
-  sbri_skin_vertices(skin, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
+  sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
   if (positions) write_points(c, vertices, count, positions);
   if (!normals && !tangents) return skin->vertex_count;
-  sbri_skin_faces(skin, vertices, sbri_faces(c));
-  sbri_skin_normals(&skin->smooth, sbri_faces(c), sbri_sums(c));
+  c->model->kernels->faces(skin, vertices, sbri_faces(c));
+  c->model->kernels->normals(&skin->smooth, sbri_faces(c), sbri_sums(c));
   for (uint32_t v = 0; normals && v < count; v++) {
     const sbri_point *n = &sbri_sums(c)[skin->smooth_of[v]];
     normals[v] = (sbf_vec3){n->x, n->y, n->z};
@@ -110,9 +111,9 @@ uint32_t sbr_character_corner_normals(const sbr_world *world, sbr_character_id c
   const sbri_skin *skin = &c->model->skins[render_mesh];
   if (!normals || skin->vertex_count == 0) return skin->corner_count;
   sample(world, c);
-  sbri_skin_vertices(skin, sbri_sampled(c), sbri_sampled_deltas(c), sbri_vertices(c));
-  sbri_skin_faces(skin, sbri_vertices(c), sbri_faces(c));
-  sbri_skin_normals(&skin->split, sbri_faces(c), sbri_sums(c));
+  sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), sbri_vertices(c));
+  c->model->kernels->faces(skin, sbri_vertices(c), sbri_faces(c));
+  c->model->kernels->normals(&skin->split, sbri_faces(c), sbri_sums(c));
   for (uint32_t k = 0; k < skin->corner_count && k < capacity; k++) {
     const sbri_point *n = &sbri_sums(c)[skin->split_of[k]];
     normals[k] = (sbf_vec3){n->x, n->y, n->z};
@@ -127,7 +128,7 @@ uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id characte
   const sbri_body *body = &c->model->bodies[soft_body];
   sample(world, c);
   sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
-  sbri_skin_vertices(&body->surface, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
+  sbri_skin_vertices(c->model, &body->surface, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
   if (positions) write_points(c, vertices, least(capacity, body->surface.vertex_count), positions);
   return body->surface.vertex_count;
 }

@@ -6,17 +6,8 @@
 
 /* Vertices of a skin, in asset metres: `points` are those of the whole character. `vertices` holds
  * vertex_count, padded to a multiple of eight. */
-void sbri_skin_vertices(
-    const sbri_skin *skin, const sbri_point *points, const sbr_transform *deltas, sbri_point *vertices);
-
-/* Twice the area vector of every face, or its tangent; `faces` holds face_block_count x 8. */
-void sbri_skin_faces(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
-void sbri_skin_tangents(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
-
-/* Sums of face vectors, one a group, padded to a multiple of eight; as normals of unit length, +Y where a
- * group has no area. */
-void sbri_skin_sums(const sbri_sum_table *table, const sbri_point *faces, sbri_point *sums);
-void sbri_skin_normals(const sbri_sum_table *table, const sbri_point *faces, sbri_point *normals);
+void sbri_skin_vertices(const sbr_model *model, const sbri_skin *skin, const sbri_point *points,
+    const sbr_transform *deltas, sbri_point *vertices);
 
 /* Volume that the faces enclose, m^3. */
 double sbri_skin_volume(const sbri_skin *skin, const sbri_point *vertices);

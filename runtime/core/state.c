@@ -13,7 +13,7 @@ static size_t padded(size_t count) {
 void sbri_layout_make(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
-         surface = 0, end = 0;
+         surface = 0, surface_faces = 0, end = 0;
   for (uint32_t i = 0; i < model->asset->render_meshes.count; i++) {
     const sbri_skin *skin = &model->skins[i];
     vertices = skin->vertex_count > vertices ? skin->vertex_count : vertices;
@@ -24,7 +24,9 @@ void sbri_layout_make(sbr_model *model) {
   for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
     sbri_body *body = &model->bodies[i];
     body->first_vertex = (uint32_t)surface;
+    body->first_face = (uint32_t)surface_faces;
     surface += padded(body->surface.vertex_count);
+    surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
   }
   place(&end, 1, sizeof(sbri_character_state));
   l->gait = place(&end, 1, sbri_gait_state_size(&model->rig));
@@ -50,5 +52,6 @@ void sbri_layout_make(sbr_model *model) {
   l->faces = place(&end, faces * SBRI_BLOCK, sizeof(sbri_point));
   l->sums = place(&end, padded(groups > vertices ? groups : vertices), sizeof(sbri_point));
   l->surface_vertices = place(&end, surface, sizeof(sbri_point));
+  l->surface_faces = place(&end, surface_faces, sizeof(sbri_point));
   l->scratch_size = (end + 63) & ~(size_t)63;
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "collide/contact.h"
+#include "core/kernels.h"
 #include "core/skin.h"
 #include "core/world.h"
 #include "math/vec3.h"
@@ -199,6 +200,8 @@ static void tick_island(void *context, uint32_t index) {
       .guide_velocities = sbri_guide_velocities(c) + 3 * first,
       .begins = sbri_begins(c) + first,
       .velocity_points = sbri_velocity_points(c) + first,
+      .surface_vertices = sbri_surface_vertices(c),
+      .surface_faces = sbri_surface_faces(c),
       .planes = sbri_planes(c) + 4 * first,
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
       .stretch = &sbri_island_states(c)[work.island].stretch};
@@ -206,7 +209,7 @@ static void tick_island(void *context, uint32_t index) {
     sbri_relaxation_tick(&tick);
   } else {
     prepare_contacts(world, c, island, tick_s);
-    sbri_symplectic_tick(&tick);
+    model->kernels->symplectic_tick(&tick);
   }
   recover(world, c, work.island);
 }

@@ -109,7 +109,7 @@ static void lift_off(
 }
 
 static float smooth(float t) {
-  return t * t * (3 - 2 * t);
+  return t * t * t * (10 + t * (6 * t - 15));
 }
 
 /* Moves a foot in the air; true when it comes down. The target follows the body until the last part of the

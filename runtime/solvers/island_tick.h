@@ -24,17 +24,12 @@ typedef struct sbri_island_tick {
   const float *guide_velocities; /* (free_count x 3) of the guides, where a body is held */
   sbri_point *begins;            /* (slot_count) scratch: where held points were at the tick's beginning */
   sbri_point *velocity_points;   /* (slot_count) scratch */
-  const float *planes;           /* (free_count x 4) of the ground */
-  const uint8_t *near_ground;    /* (free_count / 8) */
+  sbri_point *surface_vertices, *surface_faces; /* scratch of the character; see sbri_body.first_vertex */
+  const float *planes;                          /* (free_count x 4) of the ground */
+  const uint8_t *near_ground;                   /* (free_count / 8) */
   float *stretch; /* greatest share of a spring beyond its rest length: in of the last tick, out
                      of this one's last substep */
 } sbri_island_tick;
-
-/* Symplectic Euler: v += h a(x), then x += h v. Second order where it counts (its energy oscillates and does
- * not drift), no damping of its own; bias against the energy: a mode of frequency w runs fast by (w h)^2
- * / 24.
- */
-void sbri_symplectic_tick(const sbri_island_tick *tick);
 
 /* The thesis's Verlet with a share of each spring's error corrected a visit and a share of each tick's motion
  * kept; see solvers/relaxation.c. */

@@ -1,20 +1,110 @@
-/* A body's motion as a whole: the rigid one that has its momentum and its angular momentum. */
+/* A body's motion as a whole: the rigid one that has its momentum and its angular momentum. Written for the
+ * lanes of the file that includes it; see core/kernels.h. */
 #ifndef SBRI_RIGID_MOTION_H
 #define SBRI_RIGID_MOTION_H
 
 #include "core/runtime_model.h"
+#include "math/reduce.h"
+#include "math/vec3.h"
 
 typedef struct sbri_rigid_motion {
   float mass_kg;
   sbf_vec3 center, velocity, spin; /* m, m/s, rad/s about the centre */
 } sbri_rigid_motion;
 
+enum { SBRI_RIGID_SUMS = 9 };
+
+static inline sbri_wide3 sbri_velocity_at(const float *velocities, uint32_t slot) {
+  const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+  return (sbri_wide3){sbri_wide_load(v), sbri_wide_load(v + SBRI_BLOCK), sbri_wide_load(v + 2 * SBRI_BLOCK)};
+}
+
+static inline void sbri_add_to_lanes(float lanes[SBRI_BLOCK], uint32_t slot, sbri_wide value) {
+  float *at = lanes + slot % SBRI_BLOCK;
+  sbri_wide_store(at, sbri_wide_load(at) + value);
+}
+
+/* The inertia matrix (xx, yy, zz, xy, xz, yz) solved for the spin. A body on a line has no inertia about it:
+ * a millionth of the trace is added so that it has no spin about it either. */
+static inline sbf_vec3 sbri_spin_of(const float inertia[6], sbf_vec3 momentum) {
+  float least = 1e-6f * (inertia[0] + inertia[1] + inertia[2]);
+  float a = inertia[0] + least, b = inertia[1] + least, c = inertia[2] + least;
+  float d = inertia[3], e = inertia[4], f = inertia[5];
+  sbf_vec3 x = {b * c - f * f, e * f - c * d, d * f - b * e};
+  sbf_vec3 y = {x.y, a * c - e * e, d * e - a * f}, z = {x.z, y.z, a * b - d * d};
+  float determinant = a * x.x + d * x.y + e * x.z;
+  if (!(determinant > 0)) return (sbf_vec3){0, 0, 0};
+  return sbri_scale(
+      (sbf_vec3){sbri_dot(x, momentum), sbri_dot(y, momentum), sbri_dot(z, momentum)}, 1 / determinant);
+}
+
 /* Of the body's free points; arrays of its island. */
-sbri_rigid_motion sbri_rigid_motion_find(
-    const sbri_island *island, const sbri_body *body, const sbri_point *positions, const float *velocities);
+static inline sbri_rigid_motion sbri_rigid_motion_find(
+    const sbri_island *island, const sbri_body *body, const sbri_point *positions, const float *velocities) {
+  float lanes[SBRI_RIGID_SUMS][SBRI_BLOCK] = {{0}}, sums[SBRI_RIGID_SUMS];
+  sbri_rigid_motion motion = {0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  if (body->slot_begin == body->slot_end) return motion;
+  const sbri_point *near = &positions[body->slot_begin]; /* sums relative to it lose fewer bits */
+  sbri_wide nx = sbri_wide_all(near->x), ny = sbri_wide_all(near->y), nz = sbri_wide_all(near->z);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide m = sbri_wide_load(island->masses + slot);
+    sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
+    sbri_add_to_lanes(lanes[0], slot, m);
+    sbri_add_to_lanes(lanes[1], slot, m * (x.x - nx)), sbri_add_to_lanes(lanes[2], slot, m * (x.y - ny));
+    sbri_add_to_lanes(lanes[3], slot, m * (x.z - nz)), sbri_add_to_lanes(lanes[4], slot, m * v.x);
+    sbri_add_to_lanes(lanes[5], slot, m * v.y), sbri_add_to_lanes(lanes[6], slot, m * v.z);
+  }
+  for (int i = 0; i < 7; i++) sums[i] = sbri_tree_sum(lanes[i]);
+  if (!(sums[0] > 0)) return motion;
+  float s = 1 / sums[0];
+  motion.mass_kg = sums[0];
+  motion.center = (sbf_vec3){near->x + sums[1] * s, near->y + sums[2] * s, near->z + sums[3] * s};
+  motion.velocity = (sbf_vec3){sums[4] * s, sums[5] * s, sums[6] * s};
+
+  for (int i = 0; i < SBRI_RIGID_SUMS; i++)
+    for (int lane = 0; lane < SBRI_BLOCK; lane++) lanes[i][lane] = 0;
+  sbri_wide cx = sbri_wide_all(motion.center.x), cy = sbri_wide_all(motion.center.y);
+  sbri_wide cz = sbri_wide_all(motion.center.z);
+  sbri_wide ux = sbri_wide_all(motion.velocity.x), uy = sbri_wide_all(motion.velocity.y);
+  sbri_wide uz = sbri_wide_all(motion.velocity.z);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide m = sbri_wide_load(island->masses + slot);
+    sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
+    sbri_wide rx = x.x - cx, ry = x.y - cy, rz = x.z - cz, wx = v.x - ux, wy = v.y - uy, wz = v.z - uz;
+    sbri_add_to_lanes(lanes[0], slot, m * (ry * wz - rz * wy));
+    sbri_add_to_lanes(lanes[1], slot, m * (rz * wx - rx * wz));
+    sbri_add_to_lanes(lanes[2], slot, m * (rx * wy - ry * wx));
+    sbri_add_to_lanes(lanes[3], slot, m * (ry * ry + rz * rz));
+    sbri_add_to_lanes(lanes[4], slot, m * (rx * rx + rz * rz));
+    sbri_add_to_lanes(lanes[5], slot, m * (rx * rx + ry * ry));
+    sbri_add_to_lanes(lanes[6], slot, sbri_wide_all(0) - m * (rx * ry));
+    sbri_add_to_lanes(lanes[7], slot, sbri_wide_all(0) - m * (rx * rz));
+    sbri_add_to_lanes(lanes[8], slot, sbri_wide_all(0) - m * (ry * rz));
+  }
+  for (int i = 0; i < SBRI_RIGID_SUMS; i++) sums[i] = sbri_tree_sum(lanes[i]);
+  motion.spin = sbri_spin_of(sums + 3, (sbf_vec3){sums[0], sums[1], sums[2]});
+  return motion;
+}
 
 /* Keeps the share `kept` of what each velocity differs from that motion, which stays as it is. */
-void sbri_rigid_motion_damp(const sbri_island *island, const sbri_body *body, const sbri_point *positions,
-    float *velocities, float kept);
+static inline void sbri_rigid_motion_damp(const sbri_island *island, const sbri_body *body,
+    const sbri_point *positions, float *velocities, float kept) {
+  sbri_rigid_motion m = sbri_rigid_motion_find(island, body, positions, velocities);
+  sbri_wide k = sbri_wide_all(kept), zero = sbri_wide_all(0);
+  sbri_wide sx = sbri_wide_all(m.spin.x), sy = sbri_wide_all(m.spin.y), sz = sbri_wide_all(m.spin.z);
+  sbri_wide cx = sbri_wide_all(m.center.x), cy = sbri_wide_all(m.center.y), cz = sbri_wide_all(m.center.z);
+  sbri_wide vx = sbri_wide_all(m.velocity.x), vy = sbri_wide_all(m.velocity.y),
+            vz = sbri_wide_all(m.velocity.z);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
+    sbri_wide rx = x.x - cx, ry = x.y - cy, rz = x.z - cz;
+    sbri_wide ux = vx + (sy * rz - sz * ry), uy = vy + (sz * rx - sx * rz), uz = vz + (sx * ry - sy * rx);
+    sbri_mask real = sbri_wide_load(island->masses + slot) > zero;
+    float *to = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    sbri_wide_store(to, sbri_wide_select(real, ux + (v.x - ux) * k, v.x));
+    sbri_wide_store(to + SBRI_BLOCK, sbri_wide_select(real, uy + (v.y - uy) * k, v.y));
+    sbri_wide_store(to + 2 * SBRI_BLOCK, sbri_wide_select(real, uz + (v.z - uz) * k, v.z));
+  }
+}
 
 #endif

@@ -607,6 +607,9 @@ typedef struct sbf_attributes {
   float yield_flow;
   /* Beyond it the element stops; 0: never. [[0, inf)] */
   float tear_strain;
+  /* Bears its weight in the authored shape: springs without stated rest lengths are loaded so. [default
+   * false] */
+  bool sag_free;
 } sbf_attributes;
 typedef struct sbf_attributes_list {
   const sbf_attributes *at;

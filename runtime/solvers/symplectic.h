@@ -4,25 +4,32 @@
  *
  * Damping acts on what a point's velocity differs by from that of its frame: of what holds it, or of the body
  * as a whole where nothing does. It neither slows a fall nor drags behind a walk. It is applied as the exact
- * decay exp(-alpha h), that of the springs' own as a force from the velocities before the substep. */
+ * decay exp(-alpha h), that of the springs' own as a force from the velocities before the substep.
+ *
+ * Written for the lanes of the file that includes it; see core/kernels.h. */
+#ifndef SBRI_SYMPLECTIC_H
+#define SBRI_SYMPLECTIC_H
+
 #include <string.h>
 
 #include "collide/contact.h"
 #include "math/trig.h"
 #include "solvers/island_tick.h"
 #include "solvers/rigid_motion.h"
+#include "solvers/volume_keep.h"
 
-/* Penetration is undone at up to this speed. Contacts slower than BOUNCE_FROM do not bounce. */
-static const float PUSH_M_S = 2, BOUNCE_FROM_M_S = 0.05f;
+/* Penetration is undone at up to this speed. Contacts slower than that do not bounce. */
+#define SBRI_PUSH_M_S 2.0f
+#define SBRI_BOUNCE_FROM_M_S 0.05f
 
 /* Keeps a length from being 0, in m^2: far below what single precision can tell from 0 between two points. */
-static const float LENGTH_FLOOR = 1e-30f;
+#define SBRI_LENGTH_FLOOR 1e-30f
 
-static inline sbri_wide3 load3(const float *block) {
+static inline sbri_wide3 sbri_load3(const float *block) {
   return (sbri_wide3){
       sbri_wide_load(block), sbri_wide_load(block + SBRI_BLOCK), sbri_wide_load(block + 2 * SBRI_BLOCK)};
 }
-static inline void store3(float *block, sbri_wide3 v) {
+static inline void sbri_store3(float *block, sbri_wide3 v) {
   sbri_wide_store(block, v.x);
   sbri_wide_store(block + SBRI_BLOCK, v.y);
   sbri_wide_store(block + 2 * SBRI_BLOCK, v.z);
@@ -30,7 +37,7 @@ static inline void store3(float *block, sbri_wide3 v) {
 
 /* Force of its springs on each point of a group of lanes. With `stretches` also the greatest share of a
  * spring beyond its rest length; with `damped` the springs' own damping. */
-static inline sbri_wide3 spring_forces(
+static inline sbri_wide3 sbri_spring_forces(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, bool damped, bool track, float *stretches) {
   const sbri_island *island = t->island;
   uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
@@ -41,7 +48,7 @@ static inline sbri_wide3 spring_forces(
     const sbri_spring_cell *cell = &island->cells[c];
     sbri_wide3 other = sbri_wide_gather(t->positions, cell->others + lane);
     sbri_wide dx = other.x - x.x, dy = other.y - x.y, dz = other.z - x.z;
-    sbri_wide square = dx * dx + dy * dy + dz * dz + sbri_wide_all(LENGTH_FLOOR);
+    sbri_wide square = dx * dx + dy * dy + dz * dz + sbri_wide_all(SBRI_LENGTH_FLOOR);
     sbri_wide k = sbri_wide_load(cell->stiffness + lane), pull = sbri_wide_load(cell->pull + lane);
     sbri_wide s = k - pull / sbri_wide_sqrt(square);
     if (track) { /* goals, which have no rest length, do not count */
@@ -61,27 +68,28 @@ static inline sbri_wide3 spring_forces(
   return f;
 }
 
-typedef struct decay {
+typedef struct sbri_decay {
   float frame; /* share of the velocity against the frame that a substep keeps */
   float media; /* and against the medium */
-} decay;
+} sbri_decay;
 
-static inline void kick_body(const sbri_island_tick *t, const sbri_body *body, float h, decay keep,
+static inline void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep,
     bool damped, bool track, float *stretches) {
   const sbri_island *island = t->island;
   sbri_wide step = sbri_wide_all(h), kept = sbri_wide_all(keep.frame), drifting = sbri_wide_all(keep.media);
   bool guided = body->held && keep.frame < 1;
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = load3(velocity);
-    sbri_wide3 f = spring_forces(t, slot, x, damped, track, stretches);
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
+    sbri_wide3 f = sbri_spring_forces(t, slot, x, damped, track, stretches);
     sbri_wide w = sbri_wide_load(island->inverse_masses + slot);
     sbri_wide g = sbri_wide_load(island->gravity_scales + slot);
     v.x = v.x + step * (f.x * w + g * sbri_wide_all(t->gravity.x));
     v.y = v.y + step * (f.y * w + g * sbri_wide_all(t->gravity.y));
     v.z = v.z + step * (f.z * w + g * sbri_wide_all(t->gravity.z));
     if (guided) {
-      sbri_wide3 u = load3(t->guide_velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
+      sbri_wide3 u =
+          sbri_load3(t->guide_velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
       v.x = u.x + (v.x - u.x) * kept;
       v.y = u.y + (v.y - u.y) * kept;
       v.z = u.z + (v.z - u.z) * kept;
@@ -93,16 +101,16 @@ static inline void kick_body(const sbri_island_tick *t, const sbri_body *body, f
       v.y = sbri_wide_select(real, u.y + (v.y - u.y) * drifting, v.y);
       v.z = sbri_wide_select(real, u.z + (v.z - u.z) * drifting, v.z);
     }
-    store3(velocity, v);
+    sbri_store3(velocity, v);
   }
 }
 
 /* The velocities as points, for the springs' damping; `rate` is one over the tick's length. */
-static void spread_velocities(const sbri_island_tick *t, float rate) {
+static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate) {
   const sbri_island *island = t->island;
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES)
     sbri_wide_store_points(t->velocity_points + slot,
-        load3(t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK));
+        sbri_load3(t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK));
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
     const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
     t->velocity_points[slot] =
@@ -110,16 +118,17 @@ static void spread_velocities(const sbri_island_tick *t, float rate) {
   }
 }
 
-static void drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
+static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   sbri_wide step = sbri_wide_all(h);
-  const sbri_contact_rule rule = {body->friction, body->restitution, h, PUSH_M_S * h, BOUNCE_FROM_M_S};
+  const sbri_contact_rule rule = {
+      body->friction, body->restitution, h, SBRI_PUSH_M_S * h, SBRI_BOUNCE_FROM_M_S};
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     float *velocity = t->velocities + 3 * (block * SBRI_BLOCK) + lane;
-    sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = load3(velocity);
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
     if (t->near_ground[block]) {
       sbri_contact_move(&x, &v, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule);
-      store3(velocity, v);
+      sbri_store3(velocity, v);
     } else {
       x.x = x.x + step * v.x;
       x.y = x.y + step * v.y;
@@ -130,7 +139,13 @@ static void drift_body(const sbri_island_tick *t, const sbri_body *body, float h
 }
 
 /* Held points on the straight way from where they were to where they shall be. */
-static void carry_held(const sbri_island_tick *t, float share) {
+static inline void sbri_carry_held(const sbri_island_tick *t, float share) {
+  size_t held = t->island->slot_count - t->island->free_count;
+  if (share >= 1) { /* without rounding */
+    memcpy(t->positions + t->island->free_count, t->targets + t->island->free_count,
+        held * sizeof *t->positions);
+    return;
+  }
   for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
     const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
     t->positions[slot] = (sbri_point){from->x + (to->x - from->x) * share,
@@ -138,27 +153,27 @@ static void carry_held(const sbri_island_tick *t, float share) {
   }
 }
 
-static void kick(const sbri_island_tick *t, float h, bool last, float *stretches) {
+static inline void sbri_kick(const sbri_island_tick *t, float h, bool last, float *stretches) {
   bool damped = t->island->cell_damping != NULL;
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-    decay keep = {body->alpha_1_s > 0 ? sbri_exp(-body->alpha_1_s * h) : 1,
+    sbri_decay keep = {body->alpha_1_s > 0 ? sbri_exp(-body->alpha_1_s * h) : 1,
         body->media_friction_1_s > 0 ? sbri_exp(-body->media_friction_1_s * h) : 1};
     /* Four copies of the loop, so that the common one carries no more than it needs. */
     if (damped && last)
-      kick_body(t, body, h, keep, true, true, stretches);
+      sbri_kick_body(t, body, h, keep, true, true, stretches);
     else if (damped)
-      kick_body(t, body, h, keep, true, false, stretches);
+      sbri_kick_body(t, body, h, keep, true, false, stretches);
     else if (last)
-      kick_body(t, body, h, keep, false, true, stretches);
+      sbri_kick_body(t, body, h, keep, false, true, stretches);
     else
-      kick_body(t, body, h, keep, false, false, stretches);
+      sbri_kick_body(t, body, h, keep, false, false, stretches);
     if (!body->held && keep.frame < 1)
       sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, keep.frame);
   }
 }
 
-void sbri_symplectic_tick(const sbri_island_tick *t) {
+static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   uint32_t substeps = sbri_island_substeps(island, t->tick_s, *t->stretch);
   float h = t->tick_s / (float)substeps;
@@ -167,14 +182,19 @@ void sbri_symplectic_tick(const sbri_island_tick *t) {
   memcpy(t->begins + island->free_count, t->positions + island->free_count, held * sizeof *t->begins);
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
-    if (island->cell_damping) spread_velocities(t, 1 / t->tick_s);
-    kick(t, h, last, stretches);
-    for (uint32_t b = 0; b < island->body_count; b++) drift_body(t, &t->model->bodies[island->bodies[b]], h);
-    if (!last) carry_held(t, (float)(s + 1) / (float)substeps);
+    if (island->cell_damping) sbri_spread_velocities(t, 1 / t->tick_s);
+    sbri_kick(t, h, last, stretches);
+    for (uint32_t b = 0; b < island->body_count; b++)
+      sbri_drift_body(t, &t->model->bodies[island->bodies[b]], h);
+    sbri_carry_held(t, last ? 1 : (float)(s + 1) / (float)substeps);
+    for (uint32_t b = 0; b < island->body_count; b++)
+      if (t->model->bodies[island->bodies[b]].keeps_volume)
+        sbri_volume_keep(t, &t->model->bodies[island->bodies[b]], h);
   }
-  memcpy(t->positions + island->free_count, t->targets + island->free_count, held * sizeof *t->positions);
   float greatest = 0;
   for (int lane = 0; lane < SBRI_BLOCK; lane++)
     greatest = stretches[lane] > greatest ? stretches[lane] : greatest;
   *t->stretch = greatest;
 }
+
+#endif

@@ -1,0 +1,29 @@
+/* Makes the table of kernels named SBRI_KERNELS, for the instruction set that the including file is compiled
+ * for. */
+#include "core/kernels.h"
+#include "core/skin_lanes.h"
+#include "solvers/symplectic.h"
+
+static void vertices(const sbri_skin *skin, const sbri_point *points, sbri_point *to) {
+  sbri_lanes_vertices(skin, points, to);
+}
+static void faces(const sbri_skin *skin, const sbri_point *from, sbri_point *to) {
+  sbri_lanes_faces(skin, from, to);
+}
+static void tangents(const sbri_skin *skin, const sbri_point *from, sbri_point *to) {
+  sbri_lanes_tangents(skin, from, to);
+}
+static void sums(const sbri_sum_table *table, const sbri_point *from, sbri_point *to) {
+  sbri_lanes_sums(table, from, to);
+}
+static void normals(const sbri_sum_table *table, const sbri_point *from, sbri_point *to) {
+  sbri_lanes_normals(table, from, to);
+}
+static void symplectic_tick(const sbri_island_tick *tick) {
+  sbri_lanes_symplectic_tick(tick);
+}
+
+#define SBRI_TEXT(word) #word
+#define SBRI_TEXT_OF(macro) SBRI_TEXT(macro)
+const sbri_kernels SBRI_KERNELS = {
+    SBRI_TEXT_OF(SBRI_KERNELS), vertices, faces, tangents, sums, normals, symplectic_tick};

@@ -1,0 +1,31 @@
+/* The inner loops, compiled for each instruction set that the library is built with. All give the same bits:
+ * lanes do not mix, sums go through a fixed tree, and nothing is contracted. */
+#ifndef SBRI_KERNELS_H
+#define SBRI_KERNELS_H
+
+#include "core/skin_tables.h"
+#include "solvers/island_tick.h"
+
+typedef struct sbri_kernels {
+  const char *name;
+  void (*vertices)(const sbri_skin *skin, const sbri_point *points, sbri_point *vertices);
+  void (*faces)(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
+  void (*tangents)(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
+  void (*sums)(const sbri_sum_table *table, const sbri_point *faces, sbri_point *sums);
+  void (*normals)(const sbri_sum_table *table, const sbri_point *faces, sbri_point *normals);
+  /* Symplectic Euler: v += h a(x), then x += h v. Second order where it counts (its energy oscillates and
+   * does not drift), no damping of its own; bias against the energy: a mode of frequency w runs fast by (w
+   * h)^2 / 24. */
+  void (*symplectic_tick)(const sbri_island_tick *tick);
+} sbri_kernels;
+
+extern const sbri_kernels sbri_kernels_plain; /* what the compiler was told to assume */
+#if defined(__x86_64__) && defined(__GNUC__)
+#define SBRI_HAS_AVX2 1
+extern const sbri_kernels sbri_kernels_avx2; /* for processors that have it */
+#endif
+
+/* The fastest that this machine can run. */
+const sbri_kernels *sbri_kernels_choose(void);
+
+#endif
