@@ -72,6 +72,8 @@ static bool parse_settings(session *s, cli_call *call, settings *set) {
   set->model.substeps = (uint32_t)substeps;
   set->model.level = (uint32_t)level;
   set->model.free = cli_switch(call, "--free");
+  set->model.has_gravity = cli_value(call, "--gravity") != NULL;
+  set->model.gravity = (sbf_vec3){0, (float)-set->gravity, 0};
   s->frame_count = (uint32_t)(s->seconds * s->fps + 0.5);
   return good;
 }
@@ -84,8 +86,8 @@ static sbf_status create(session *s, cli_call *call, const settings *set, sbf_di
   world.tasks = thread_pool_tasks(s->threads);
   world.ground = s->ground;
   world.control_tick_s = (double)s->asset->environment.control_tick;
-  world.has_gravity = cli_value(call, "--gravity") != NULL;
-  world.gravity = (sbf_vec3){0, (float)-set->gravity, 0};
+  world.has_gravity = set->model.has_gravity;
+  world.gravity = set->model.gravity;
   status = sbr_world_create(&world, &s->world, error);
   if (status != SBF_OK) return status;
   sbr_character_definition character = sbr_default_character_definition();

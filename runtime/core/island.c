@@ -52,7 +52,7 @@ static bool read_body(sbri_island_maker *m, uint32_t place) {
   uint8_t *held = sbri_scratch(m, count, 1);
   if (!frames || !m->places[place] || !masses || !held) return false;
   sbri_pins_read(m->model, body->level, frames, m->places[place]);
-  for (uint32_t i = 0; i < count && m->free; i++) {
+  for (uint32_t i = 0; i < count && m->options->free; i++) {
     frames[i] = SBRI_FREE;
     m->places[place][i] = body->level->positions.at[i];
   }
@@ -65,7 +65,7 @@ static bool read_body(sbri_island_maker *m, uint32_t place) {
   float least = free_count ? (float)(sum / free_count) * LEAST_MASS_SHARE : 0;
   for (uint32_t i = 0; i < count; i++)
     if (!held[i] && masses[i] < least) masses[i] = least;
-  return m->free || read_goals(m, place);
+  return m->options->free || read_goals(m, place);
 }
 
 /* ---- Slots ---- */
@@ -178,7 +178,7 @@ static bool make(sbri_island_maker *m) {
 
 sbf_status sbri_island_make(
     sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error) {
-  sbri_island_maker m = {.model = model, .island = island, .free = options->free};
+  sbri_island_maker m = {.model = model, .island = island, .options = options};
   sbfi_arena_init(&m.scratch, &model->arena.allocator, 0);
   sbfi_array_init(&m.goals, &model->arena.allocator, sizeof(sbri_goal));
   sbfi_array_init(&m.springs, &model->arena.allocator, sizeof(sbfi_spring));

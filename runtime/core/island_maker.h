@@ -14,7 +14,7 @@ typedef struct sbri_goal {
 typedef struct sbri_island_maker {
   sbr_model *model;
   sbri_island *island;
-  bool free;           /* without pins */
+  const sbr_model_options *options;
   sbfi_arena scratch;  /* until the island is made */
   uint32_t **frames;   /* of each body, (points): what holds each point */
   sbf_vec3 **places;   /* and where */

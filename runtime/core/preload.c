@@ -18,7 +18,7 @@ bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network
   for (uint32_t b = 0; b < island->body_count; b++)
     wanted = wanted && sbri_maker_body(m, b)->source->attributes.sag_free;
   if (!wanted || points == 0) return true;
-  sbf_vec3 g = m->model->asset->environment.gravity;
+  sbf_vec3 g = m->options->has_gravity ? m->options->gravity : m->model->asset->environment.gravity;
   double *forces = sbri_scratch(m, 3 * (size_t)points, sizeof *forces);
   double *u = sbri_scratch(m, 3 * (size_t)points, sizeof *u);
   double *scratch = sbri_scratch(m, 10 * (size_t)points, sizeof *scratch);

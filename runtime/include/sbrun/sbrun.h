@@ -75,6 +75,8 @@ typedef struct sbr_model_options {
   sbf_scheme scheme;              /* automatic: the level's own, and where that is automatic, symplectic */
   uint32_t substeps;              /* of a control tick; 0: the level's own, or as many as the scheme needs */
   bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass */
+  bool has_gravity; /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
+  sbf_vec3 gravity; /* m/s^2 */
 } sbr_model_options;
 
 /* `asset` must outlive the model. SBF_FAILED where memory runs out or the scheme is not one of the runtime's
