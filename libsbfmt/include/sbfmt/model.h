@@ -573,7 +573,7 @@ typedef struct sbf_attributes {
   float area_density;
   /* Of an open surface. [m; (0, inf); default 0.001] */
   float thickness;
-  /* Stiffness. [Pa; (0, inf); default 200000] */
+  /* Stiffness. [Pa; (0, inf); default 80000] */
   float young_modulus;
   /* Sideways contraction; spring levels show a quarter. [(-1, 0.5); default 0.4] */
   float poisson_ratio;
