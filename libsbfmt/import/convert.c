@@ -114,7 +114,7 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
   sbfi_measure_leaf_bones(c);
   sbf_status status = sbfi_convert_joints(c);
   if (status != SBF_OK) return status;
-  return options->no_gait ? SBF_OK : sbfi_propose_gait(c->asset, &c->reporter, c->error);
+  return options->no_gait ? SBF_OK : sbfi_propose_gait(c);
 }
 
 /* A scene in the pose its skin was bound in, which is an asset's rest pose. */

@@ -1,366 +1,216 @@
 #include "import/propose_gait.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_LEGS = 16, NO_BONE = SBF_NONE };
-
-typedef struct leg_draft {
-  int32_t upper, lower, foot;
-  double reach;
-  int32_t twin; /* place of the leg on the other side, or -1 */
-} leg_draft;
-
-typedef struct draft {
-  sbf_asset *asset;
-  double ground, height, length; /* lowest point, extent along y and z, of everything seen */
-  leg_draft legs[MOST_LEGS];
-  uint32_t leg_count;
-  int32_t head;
-  uint32_t *tail; /* bones from the leading one */
-  uint32_t tail_count;
-} draft;
-
-static const sbf_bone *bone_at(const draft *d, int32_t bone) {
-  return &d->asset->bones.at[bone];
-}
-
-static double distance(sbf_vec3 a, sbf_vec3 b) {
-  double x = (double)a.x - b.x, y = (double)a.y - b.y, z = (double)a.z - b.z;
-  return sqrt(x * x + y * y + z * z);
-}
-
-/* Whether a name holds a word, whatever its case. */
-static bool says(const char *name, const char *word) {
-  size_t length = strlen(word);
-  for (; *name; name++) {
-    size_t k = 0;
-    while (k < length && tolower((unsigned char)name[k]) == word[k]) k++;
-    if (k == length) return true;
-  }
-  return false;
-}
-
-static bool is_end(const sbf_bone *bone) {
-  size_t length = strlen(bone->name);
-  return length > 4 && strcmp(bone->name + length - 4, "_end") == 0;
-}
-
-/* Children that are bones of their own, without those that only mark a tip. */
-static uint32_t children(const draft *d, int32_t bone, int32_t *only) {
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < d->asset->bones.count; i++) {
-    if (bone_at(d, (int32_t)i)->parent != bone || is_end(bone_at(d, (int32_t)i))) continue;
-    count++;
-    *only = (int32_t)i;
-  }
-  return count;
-}
-
-static void measure(draft *d) {
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  const sbf_asset *a = d->asset;
-  for (uint32_t b = 0; b < a->soft_bodies.count + a->render_meshes.count; b++) {
-    const sbf_vec3_list points = b < a->soft_bodies.count
-                                     ? a->soft_bodies.at[b].surface.positions
-                                     : a->render_meshes.at[b - a->soft_bodies.count].mesh.positions;
-    for (uint32_t i = 0; i < points.count; i++) {
-      const double p[3] = {points.at[i].x, points.at[i].y, points.at[i].z};
-      for (int k = 0; k < 3; k++) {
-        low[k] = fmin(low[k], p[k]);
-        high[k] = fmax(high[k], p[k]);
-      }
-    }
-  }
-  d->ground = low[1];
-  d->height = high[1] - low[1];
-  d->length = high[2] - low[2];
-}
-
-/* Lowest y of what a bone and the bones below it carry; INFINITY where they carry nothing. */
-static double lowest_of(const draft *d, int32_t bone) {
-  double lowest = INFINITY;
-  for (uint32_t b = 0; b < d->asset->soft_bodies.count; b++) {
-    const sbf_soft_body *body = &d->asset->soft_bodies.at[b];
-    int32_t above = body->bone;
-    while (above >= 0 && above != bone) above = bone_at(d, above)->parent;
-    if (above != bone) continue;
-    for (uint32_t i = 0; i < body->surface.positions.count; i++)
-      lowest = fmin(lowest, (double)body->surface.positions.at[i].y);
-  }
-  for (uint32_t m = 0; m < d->asset->render_meshes.count; m++) {
-    const sbf_render_mesh *mesh = &d->asset->render_meshes.at[m];
-    for (uint32_t i = 0, at = 0; mesh->skin && i < mesh->mesh.positions.count; i++) {
-      for (uint32_t s = 0; s < mesh->skin->influence_counts.at[i]; s++, at++)
-        if (mesh->skin->bones.at[at] == (uint32_t)bone && mesh->skin->weights.at[at] > 0.5f)
-          lowest = fmin(lowest, (double)mesh->mesh.positions.at[i].y);
-    }
-  }
-  return lowest;
-}
-
-/* A bone is a foot if it carries what touches the ground, hangs below two others in one line, and neither of
- * those carries a limb of its own. The highest such bone of a chain counts: toes go with it. */
-static bool is_foot(const draft *d, int32_t foot) {
-  const sbf_bone *bone = bone_at(d, foot);
-  int32_t lower = bone->parent, upper = lower >= 0 ? bone_at(d, lower)->parent : NO_BONE, only;
-  if (upper < 0 || is_end(bone) || bone_at(d, upper)->parent < 0) return false;
-  if (children(d, lower, &only) != 1 || children(d, upper, &only) != 1) return false;
-  double lowest = lowest_of(d, foot), tolerance = 0.08 * d->height;
-  if (!isfinite(lowest)) lowest = (double)bone->head.y;
-  if (lowest > d->ground + tolerance) return false;
-  double hip = (double)bone_at(d, upper)->head.y, ankle = (double)bone->head.y;
-  return hip - ankle > 0.2 * d->height && fabs((double)bone->head.x) > 0.02 * d->height;
-}
-
-static void find_legs(draft *d) {
-  for (uint32_t i = 0; i < d->asset->bones.count && d->leg_count < MOST_LEGS; i++) {
-    int32_t foot = (int32_t)i, lower = bone_at(d, foot)->parent;
-    if (!is_foot(d, foot)) continue;
-    bool toe = false;
-    for (uint32_t l = 0; l < d->leg_count; l++)
-      for (int32_t b = lower; b >= 0; b = bone_at(d, b)->parent) toe |= b == d->legs[l].foot;
-    if (toe) continue;
-    int32_t upper = bone_at(d, lower)->parent;
-    double reach = distance(bone_at(d, upper)->head, bone_at(d, lower)->head) +
-                   distance(bone_at(d, lower)->head, bone_at(d, foot)->head);
-    d->legs[d->leg_count++] = (leg_draft){upper, lower, foot, reach, -1};
-  }
-  for (uint32_t a = 0; a < d->leg_count; a++)
-    for (uint32_t b = 0; b < d->leg_count; b++) {
-      sbf_vec3 mirrored = bone_at(d, d->legs[b].foot)->head;
-      mirrored.x = -mirrored.x;
-      if (a != b && distance(mirrored, bone_at(d, d->legs[a].foot)->head) < 0.1 * d->height)
-        d->legs[a].twin = (int32_t)b;
-    }
-}
-
-static bool is_leg_bone(const draft *d, int32_t bone) {
-  for (uint32_t l = 0; l < d->leg_count; l++)
-    for (int32_t b = d->legs[l].foot; b >= 0; b = bone_at(d, b)->parent) {
-      if (b == bone) return true;
-      if (b == d->legs[l].upper) break;
-    }
-  return false;
-}
-
-/* By name, else the foremost leaf that is no leg and lies ahead of the legs. */
-static void find_head(draft *d) {
-  d->head = NO_BONE;
-  double best = -INFINITY, foremost = -INFINITY;
-  for (uint32_t i = 0; i < d->asset->bones.count; i++)
-    if (says(bone_at(d, (int32_t)i)->name, "head") && !is_end(bone_at(d, (int32_t)i))) {
-      d->head = (int32_t)i;
-      return;
-    }
-  for (uint32_t l = 0; l < d->leg_count; l++)
-    foremost = fmax(foremost, (double)bone_at(d, d->legs[l].foot)->head.z);
-  for (uint32_t i = 0; i < d->asset->bones.count; i++) {
-    const sbf_bone *bone = bone_at(d, (int32_t)i);
-    int32_t only;
-    if (children(d, (int32_t)i, &only) || is_leg_bone(d, (int32_t)i) || is_end(bone) || bone->parent < 0)
-      continue;
-    if (fabs((double)bone->head.x) > 0.05 * d->height || (double)bone->head.z < foremost) continue;
-    if ((double)bone->head.z <= best) continue;
-    best = (double)bone->head.z;
-    d->head = (int32_t)i;
-  }
-}
-
-/* From a first tail bone on: one child after the other. */
-static bool take_tail(draft *d, int32_t first) {
-  d->tail = sbf_asset_allocate(d->asset, d->asset->bones.count, sizeof *d->tail);
-  if (!d->tail) return false;
-  int32_t bone = first, only = NO_BONE;
-  d->tail[d->tail_count++] = (uint32_t)bone;
-  while (children(d, bone, &only) == 1) {
-    bone = only;
-    d->tail[d->tail_count++] = (uint32_t)bone;
-  }
-  return true;
-}
-
-/* By name, else a chain of at least two bones that leads away behind the legs. */
-static bool find_tail(draft *d) {
-  int32_t first = NO_BONE;
-  double rearmost = INFINITY;
-  for (uint32_t l = 0; l < d->leg_count; l++)
-    rearmost = fmin(rearmost, (double)bone_at(d, d->legs[l].upper)->head.z);
-  for (uint32_t i = 0; i < d->asset->bones.count && first == NO_BONE; i++)
-    if (says(bone_at(d, (int32_t)i)->name, "tail") && !is_end(bone_at(d, (int32_t)i))) first = (int32_t)i;
-  for (uint32_t i = 0; i < d->asset->bones.count && first == NO_BONE; i++) {
-    int32_t only = NO_BONE;
-    const sbf_bone *bone = bone_at(d, (int32_t)i);
-    if (bone->parent < 0 || is_leg_bone(d, (int32_t)i) || children(d, (int32_t)i, &only) != 1) continue;
-    bool back = (double)bone->head.z <= rearmost && (double)bone_at(d, only)->head.z < (double)bone->head.z;
-    if (back && fabs((double)bone_at(d, only)->head.x) < 0.05 * d->height) first = (int32_t)i;
-  }
-  return first == NO_BONE || take_tail(d, first);
-}
-
-/* The bone on which a leg hangs. */
-static int32_t girdle(const draft *d, const leg_draft *leg) {
-  return bone_at(d, leg->upper)->parent;
-}
-
-/* Fore and hind: by the girdles' place; one girdle serves as hips alone. */
-static void find_girdles(const draft *d, int32_t *hips, int32_t *chest) {
-  *hips = *chest = NO_BONE;
-  for (uint32_t l = 0; l < d->leg_count; l++) {
-    int32_t bone = girdle(d, &d->legs[l]);
-    if (*hips == NO_BONE || bone_at(d, bone)->head.z < bone_at(d, *hips)->head.z) *hips = bone;
-    if (*chest == NO_BONE || bone_at(d, bone)->head.z > bone_at(d, *chest)->head.z) *chest = bone;
-  }
-  if (*chest == *hips) *chest = NO_BONE;
-}
-
-static const char *proposed_id(draft *d, const char *kind, const char *name) {
-  char *id = sbf_asset_allocate(d->asset, strlen(kind) + strlen(name) + 2, 1);
-  if (!id) return NULL;
-  sprintf(id, "%s.%s", kind, name);
-  for (char *at = id; *at; at++)
-    if ((unsigned char)*at <= ' ') *at = '_';
-  return id;
-}
+#include "import/gait_draft.h"
 
 /* Beyond the knee, away from the line between hip and ankle: the leg goes on bending as it is bent at rest. A
  * straight leg bends forward. */
-static sbf_vec3 pole_of(const draft *d, const leg_draft *leg) {
-  sbf_vec3 hip = bone_at(d, leg->upper)->head, knee = bone_at(d, leg->lower)->head;
-  sbf_vec3 ankle = bone_at(d, leg->foot)->head;
-  double along[3] = {(double)ankle.x - hip.x, (double)ankle.y - hip.y, (double)ankle.z - hip.z};
-  double to_knee[3] = {(double)knee.x - hip.x, (double)knee.y - hip.y, (double)knee.z - hip.z}, out[3];
+static sbf_vec3 pole_of(const sbfi_gait_draft *d, const sbfi_leg_draft *leg) {
+  sbf_vec3 hip = sbfi_draft_bone(d, leg->upper)->head, knee = sbfi_draft_bone(d, leg->lower)->head;
+  sbf_vec3 ankle = sbfi_draft_bone(d, leg->end)->head;
+  double along[3] = {
+      (double)ankle.x - (double)hip.x, (double)ankle.y - (double)hip.y, (double)ankle.z - (double)hip.z};
+  double to_knee[3] = {
+      (double)knee.x - (double)hip.x, (double)knee.y - (double)hip.y, (double)knee.z - (double)hip.z};
   double squared = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
-  double t = (to_knee[0] * along[0] + to_knee[1] * along[1] + to_knee[2] * along[2]) / squared, size = 0;
+  double dot = to_knee[0] * along[0] + to_knee[1] * along[1] + to_knee[2] * along[2];
+  double t = squared > 0 ? dot / squared : 0, out[3], size = 0;
   for (int k = 0; k < 3; k++) {
     out[k] = to_knee[k] - t * along[k];
     size += out[k] * out[k];
   }
   size = sqrt(size);
-  double scale = size > 0.01 * leg->reach ? leg->reach / size : 0;
-  sbf_vec3 pole = {
-      (float)(knee.x + scale * out[0]), (float)(knee.y + scale * out[1]), (float)(knee.z + scale * out[2])};
-  if (scale == 0) pole.z += (float)leg->reach;
-  return pole;
+  bool bent = size > 0.01 * leg->reach;
+  double scale = bent ? leg->reach / size : 0;
+  return (sbf_vec3){(float)((double)knee.x + scale * out[0]), (float)((double)knee.y + scale * out[1]),
+      (float)((double)knee.z + scale * out[2] + (bent ? 0 : leg->reach))};
 }
 
 /* How far a foot may fall behind or get ahead of its home before the leg is stretched. */
-static double play_of(const draft *d, const leg_draft *leg) {
-  sbf_vec3 hip = bone_at(d, leg->upper)->head, ankle = bone_at(d, leg->foot)->head;
-  double x = (double)ankle.x - hip.x, y = (double)ankle.y - hip.y, z = (double)ankle.z - hip.z;
+static double play_of(const sbfi_gait_draft *d, const sbfi_leg_draft *leg) {
+  sbf_vec3 hip = sbfi_draft_bone(d, leg->upper)->head, ankle = sbfi_draft_bone(d, leg->end)->head;
+  double x = (double)ankle.x - (double)hip.x, y = (double)ankle.y - (double)hip.y;
   double reach = 0.93 * leg->reach, left = reach * reach - x * x - y * y;
-  return left > 0 ? sqrt(left) - fabs(z) : 0;
+  return left > 0 ? sqrt(left) - fabs((double)ankle.z - (double)hip.z) : 0;
 }
 
-static bool write_chains(draft *d) {
+static bool write_ik_chains(sbfi_conversion *c, sbfi_gait_draft *d) {
   sbf_ik_chain *chains = sbf_asset_allocate(d->asset, d->leg_count, sizeof *chains);
   if (!chains) return false;
   for (uint32_t l = 0; l < d->leg_count; l++) {
+    const sbfi_leg_draft *leg = &d->legs[l];
     sbf_ik_chain_init(&chains[l]);
-    chains[l].name = bone_at(d, d->legs[l].foot)->name;
-    chains[l].id = proposed_id(d, "ik", chains[l].name);
+    chains[l].name = sbfi_draft_bone(d, leg->end)->name;
+    chains[l].id = sbfi_new_id(c, "ik", chains[l].name);
     if (!chains[l].id) return false;
-    chains[l].root = d->legs[l].upper;
-    chains[l].end = d->legs[l].foot;
-    chains[l].has_pole = true;
-    chains[l].pole = pole_of(d, &d->legs[l]);
+    chains[l].root = leg->upper;
+    chains[l].end = leg->end;
     chains[l].proposed = true;
+    if (leg->lower == SBF_NONE) {
+      chains[l].solver = SBF_IK_SOLVER_CCD;
+      continue;
+    }
+    chains[l].has_pole = true;
+    chains[l].pole = pole_of(d, leg);
   }
   d->asset->ik_chains = (sbf_ik_chain_list){chains, d->leg_count};
   return true;
 }
 
-/* Diagonal pairs: left and right of a pair take turns, and so do pairs one behind the other. */
-static void group_legs(const draft *d, sbf_leg *legs) {
-  for (uint32_t l = 0; l < d->leg_count; l++) {
-    uint32_t ahead = 0; /* pairs of legs ahead of this one on its side */
-    const sbf_bone *foot = bone_at(d, d->legs[l].foot);
-    for (uint32_t k = 0; k < d->leg_count; k++) {
-      const sbf_bone *other = bone_at(d, d->legs[k].foot);
-      ahead += k != l && (other->head.x > 0) == (foot->head.x > 0) &&
-               (double)other->head.z > (double)foot->head.z + 0.02 * d->height;
-    }
-    legs[l].group = (ahead + (foot->head.x > 0)) % 2;
+/* Legs of the leg's own side, and how many of them stand ahead of it. */
+static uint32_t place_in_row(const sbfi_gait_draft *d, uint32_t leg, uint32_t *row) {
+  uint32_t ahead = 0;
+  double here = (double)sbfi_draft_bone(d, d->legs[leg].end)->head.z;
+  *row = 0;
+  for (uint32_t k = 0; k < d->leg_count; k++) {
+    if (d->legs[k].side != d->legs[leg].side) continue;
+    ++*row;
+    double z = (double)sbfi_draft_bone(d, d->legs[k].end)->head.z;
+    ahead += z > here || (z == here && k < leg);
   }
+  return ahead;
 }
 
-static bool write_gait(draft *d) {
+/* "left", "fore left", or "left 1" from the front where there are more; NULL where memory runs out. */
+static const char *name_leg(const sbfi_gait_draft *d, uint32_t leg, uint32_t ahead, uint32_t row) {
+  char name[32];
+  const char *side = d->legs[leg].side > 0 ? "left" : "right";
+  if (row == 1)
+    snprintf(name, sizeof name, "%s", side);
+  else if (row == 2)
+    snprintf(name, sizeof name, "%s %s", ahead ? "hind" : "fore", side);
+  else
+    snprintf(name, sizeof name, "%s %u", side, (unsigned)ahead + 1);
+  return sbf_asset_copy_text(d->asset, name);
+}
+
+/* Left and right of a pair take turns, and so do pairs one behind the other: groups are diagonals. */
+static bool write_legs(sbfi_gait_draft *d, sbf_gait *gait) {
   sbf_leg *legs = sbf_asset_allocate(d->asset, d->leg_count, sizeof *legs);
-  sbf_gait *gait = sbf_asset_allocate(d->asset, 1, sizeof *gait);
-  if (!legs || !gait) return false;
-  double play = INFINITY, reach = INFINITY;
+  if (!legs) return false;
   for (uint32_t l = 0; l < d->leg_count; l++) {
-    const leg_draft *from = &d->legs[l];
+    const sbfi_leg_draft *from = &d->legs[l];
+    uint32_t row, ahead = place_in_row(d, l, &row);
+    double lowest = d->shapes[from->end].low_below;
     sbf_leg_init(&legs[l]);
-    legs[l].name = bone_at(d, from->foot)->name;
+    legs[l].name = name_leg(d, l, ahead, row);
+    if (!legs[l].name) return false;
     legs[l].ik = (int32_t)l;
-    legs[l].home = bone_at(d, from->foot)->head;
-    double lowest = lowest_of(d, from->foot);
-    legs[l].sole = (float)fmax(0, legs[l].home.y - (isfinite(lowest) ? lowest : d->ground));
+    legs[l].home = sbfi_draft_bone(d, from->end)->head;
+    legs[l].sole = (float)fmax(0, (double)legs[l].home.y - (isfinite(lowest) ? lowest : d->ground));
     legs[l].jump_margin = (float)(0.5 * from->reach);
-    play = fmin(play, play_of(d, from));
-    reach = fmin(reach, from->reach);
+    legs[l].group = (ahead + (from->side > 0)) % 2;
   }
-  group_legs(d, legs);
-  sbf_gait_init(gait);
-  gait->id = "gait.walk";
-  gait->name = "walk";
-  gait->proposed = true;
   gait->legs = (sbf_leg_list){legs, d->leg_count};
-  find_girdles(d, &gait->hips, &gait->chest);
-  gait->body = gait->hips;
-  while (bone_at(d, gait->body)->parent >= 0) gait->body = bone_at(d, gait->body)->parent;
-  gait->step_trigger = (float)fmax(0.08 * reach, fmin(0.22 * reach, 0.45 * play));
-  gait->step_height = (float)(0.12 * reach);
-  gait->walk_speed = (float)(0.4 * reach);
-  gait->step_duration = (float)(0.42 * sqrt(reach)); /* as pendulums: time goes with the root of length */
-  if (d->head != NO_BONE) {
-    sbf_head_turn *head = sbf_asset_allocate(d->asset, 1, sizeof *head);
-    if (!head) return false;
-    sbf_head_turn_init(head);
-    head->bone = d->head;
-    gait->head = head;
-  }
-  d->asset->gaits = (sbf_gait_list){gait, 1};
   return true;
 }
 
-static bool write_tail(draft *d) {
-  if (d->tail_count == 0) return true;
-  sbf_chain *chain = sbf_asset_allocate(d->asset, 1, sizeof *chain);
-  sbf_tail *tail = sbf_asset_allocate(d->asset, 1, sizeof *tail);
-  if (!chain || !tail) return false;
+/* Lengths go with the shortest leg, times with its root, as a pendulum's do. */
+static void set_steps(const sbfi_gait_draft *d, sbf_gait *gait) {
+  double play = INFINITY, reach = INFINITY;
+  for (uint32_t l = 0; l < d->leg_count; l++) {
+    play = fmin(play, play_of(d, &d->legs[l]));
+    reach = fmin(reach, d->legs[l].reach);
+  }
+  gait->step_trigger = (float)fmax(0.08 * reach, fmin(0.22 * reach, 0.45 * play));
+  gait->step_height = (float)(0.12 * reach);
+  gait->walk_speed = (float)(0.4 * reach);
+  gait->step_duration = (float)(0.42 * sqrt(reach));
+}
+
+static bool write_head(sbfi_gait_draft *d, sbf_gait *gait) {
+  if (d->head == SBF_NONE) return true;
+  sbf_head_turn *head = sbf_asset_allocate(d->asset, 1, sizeof *head);
+  if (!head) return false;
+  sbf_head_turn_init(head);
+  head->bone = d->head;
+  gait->head = head;
+  return true;
+}
+
+static bool write_chain(
+    sbfi_conversion *c, const char *name, sbf_chain_kind kind, const uint32_t *bones, uint32_t count) {
+  sbf_chain *chain = sbfi_convert_allocate(c, 1, sizeof *chain);
+  if (!chain) return false;
   sbf_chain_init(chain);
-  chain->id = "chain.tail";
-  chain->name = "tail";
-  chain->bones = (sbf_u32_list){d->tail, d->tail_count};
+  chain->id = sbfi_new_id(c, "chain", name);
+  chain->name = sbf_asset_copy_text(c->asset, name);
+  if (!chain->id || !chain->name) return false;
+  chain->kind = kind;
+  chain->bones = (sbf_u32_list){bones, count};
   chain->proposed = true;
-  d->asset->chains = (sbf_chain_list){chain, 1};
+  c->asset->chains = (sbf_chain_list){chain, 1};
+  return true;
+}
+
+static bool write_tail(sbfi_conversion *c, sbfi_gait_draft *d, sbf_gait *gait) {
+  if (d->tail_count == 0) return true;
+  sbf_tail *tail = sbf_asset_allocate(d->asset, 1, sizeof *tail);
+  if (!tail || !write_chain(c, "tail", SBF_CHAIN_KIND_LAG, d->tail, d->tail_count)) return false;
   sbf_tail_init(tail);
   tail->chain = 0;
-  sbf_gait *gait = (sbf_gait *)(uintptr_t)d->asset->gaits.at; /* made above: still ours to fill */
   gait->tails = (sbf_tail_list){tail, 1};
   return true;
 }
 
-sbf_status sbfi_propose_gait(sbf_asset *asset, sbfi_reporter *reporter, sbf_diagnostic *error) {
-  if (asset->bones.count == 0 || asset->gaits.count) return SBF_OK;
-  draft d = {.asset = asset};
-  measure(&d);
-  if (d.height > 0) find_legs(&d);
-  if (d.leg_count == 0) {
-    sbf_diagnostic warning;
-    sbfi_diagnose(&warning, SBF_CODE_RIG_NO_LEGS,
-        "no chain of thigh, shin and foot ends at the ground: no gait is proposed, and the character moves "
-        "as a "
-        "whole; add a gait to the bundle to make it walk");
-    sbfi_report(reporter, &warning);
-    return SBF_OK;
-  }
-  find_head(&d);
-  if (!find_tail(&d) || !write_chains(&d) || !write_gait(&d) || !write_tail(&d))
-    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while proposing a gait");
-  return SBF_OK;
+static bool write_gait(sbfi_conversion *c, sbfi_gait_draft *d) {
+  sbf_gait *gait = sbf_asset_allocate(d->asset, 1, sizeof *gait);
+  if (!gait || !write_ik_chains(c, d)) return false;
+  sbf_gait_init(gait);
+  gait->id = sbfi_new_id(c, "gait", "walk");
+  gait->name = "walk";
+  if (!gait->id) return false;
+  gait->proposed = true;
+  gait->hips = d->hips;
+  gait->chest = d->chest;
+  gait->body = d->legs[0].limb;
+  while (sbfi_draft_bone(d, gait->body)->parent != SBF_NONE)
+    gait->body = sbfi_draft_bone(d, gait->body)->parent;
+  set_steps(d, gait);
+  if (!write_legs(d, gait) || !write_head(d, gait) || !write_tail(c, d, gait)) return false;
+  d->asset->gaits = (sbf_gait_list){gait, 1};
+  return true;
+}
+
+/* What crawls: each bone is dragged behind the one before at the distance it has at rest. */
+static bool write_spine(sbfi_conversion *c, sbfi_gait_draft *d) {
+  float *spacing = sbf_asset_allocate(d->asset, d->spine_count, sizeof *spacing);
+  if (!spacing || !write_chain(c, "spine", SBF_CHAIN_KIND_DISTANCE, d->spine, d->spine_count)) return false;
+  for (uint32_t i = 0; i + 1 < d->spine_count; i++)
+    spacing[i] = (float)sbfi_draft_distance(d, (int32_t)d->spine[i], (int32_t)d->spine[i + 1]);
+  spacing[d->spine_count - 1] = sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1])->length;
+  sbf_chain *chain = (sbf_chain *)(uintptr_t)d->asset->chains.at; /* made above: still ours to fill */
+  chain->spacing = (sbf_f32_list){spacing, d->spine_count};
+  return true;
+}
+
+static bool propose_spine(sbfi_conversion *c, sbfi_gait_draft *d) {
+  if (!sbfi_draft_spine(d, &c->scratch) || (d->spine_count && !write_spine(c, d))) return false;
+  char chain[200] = "";
+  if (d->spine_count)
+    snprintf(chain, sizeof chain,
+        "; the %u bones from '%.40s' to '%.40s' are proposed as a chain that follows its first",
+        (unsigned)d->spine_count, sbfi_draft_bone(d, (int32_t)d->spine[0])->name,
+        sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1])->name);
+  sbfi_convert_warn(c, SBF_CODE_RIG_NO_LEGS,
+      "no limb of the rig comes down to the ground: no gait is proposed, and the character moves as a "
+      "whole%s; "
+      "add a gait to the bundle to make it walk",
+      chain);
+  return true;
+}
+
+sbf_status sbfi_propose_gait(sbfi_conversion *c) {
+  const sbf_asset *a = c->asset;
+  if (a->bones.count == 0 || a->gaits.count || a->chains.count || a->ik_chains.count) return SBF_OK;
+  sbfi_gait_draft d = {.asset = c->asset};
+  bool good = sbfi_draft_shapes(&d, &c->scratch) && sbfi_draft_legs(&d, &c->scratch);
+  if (good && d.leg_count)
+    good = sbfi_draft_ends(&d) && write_gait(c, &d);
+  else if (good)
+    good = propose_spine(c, &d);
+  return good ? SBF_OK : sbfi_convert_no_memory(c);
 }

@@ -3,12 +3,11 @@
 #ifndef SBFI_PROPOSE_GAIT_H
 #define SBFI_PROPOSE_GAIT_H
 
-#include "base/diagnostic.h"
-#include "sbfmt/asset.h"
+#include "import/conversion.h"
 
-/* Adds ik chains, chains and a gait to an asset that has none of its own. Legs are chains of thigh, shin and
- * foot whose foot is near the lowest point of the body, in pairs left and right of the middle; head and tail
- * go by name first, then by shape. A rig without legs gets no gait, and a warning says so. */
-sbf_status sbfi_propose_gait(sbf_asset *asset, sbfi_reporter *reporter, sbf_diagnostic *error);
+/* Adds ik chains, chains and a gait to an asset that has none of them. Legs are limbs of one side that come
+ * down to the ground, named by side (+X is left) and place; head and tail go by name first, then by shape. A
+ * rig without legs gets no gait, and a warning says so; its bones from head to tail become a chain. */
+sbf_status sbfi_propose_gait(sbfi_conversion *c);
 
 #endif

@@ -1,0 +1,59 @@
+/* What a rig looks like, and what of it walks: between the passes that propose a gait. */
+#ifndef SBFI_GAIT_DRAFT_H
+#define SBFI_GAIT_DRAFT_H
+
+#include "base/memory.h"
+#include "sbfmt/asset.h"
+
+/* A bone "bears" if it, or a bone below it, holds part of a mesh. Bones that do not are left out of account:
+ * tips, sockets, controls. In a rig without meshes all bear but those named as tips. */
+typedef struct sbfi_bone_shape {
+  uint32_t points;   /* of meshes that it holds more than any other bone does */
+  bool bears;        /* it or one below holds points */
+  uint32_t children; /* that bear */
+  double low;        /* y of its lowest point; of its head in a rig without meshes; INFINITY without points */
+  double low_below;  /* the same of it and all below */
+  double least_x, most_x; /* of the heads and the points' middles of it and all below that bear */
+  int side;               /* 1: all of it and below is on the left (+X), -1: on the right, 0: neither */
+} sbfi_bone_shape;
+
+typedef struct sbfi_leg_draft {
+  int32_t limb;              /* topmost bone of the leg: its parent is the girdle */
+  int32_t upper, lower, end; /* consecutive; lower is SBF_NONE where end hangs on upper itself */
+  double reach;              /* m, from upper's head by lower's to the end's */
+  int side;
+} sbfi_leg_draft;
+
+typedef struct sbfi_gait_draft {
+  sbf_asset *asset;
+  sbfi_bone_shape *shapes; /* (asset->bones.count) */
+  bool has_mesh;
+  double ground, height, low_z, high_z; /* m, of all that is seen, or of the bones' heads */
+  sbfi_leg_draft *legs;
+  uint32_t leg_count;
+  int32_t hips, chest; /* SBF_NONE where there is none */
+  int32_t head;
+  uint32_t *tail, *spine; /* bones from the leading one on; in the asset's memory */
+  uint32_t tail_count, spine_count;
+} sbfi_gait_draft;
+
+/* In this order; each returns false where memory runs out. Extents and sides; legs and girdles; head and
+ * tail, or for a rig without legs the bones from one end to the other. */
+bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch);
+bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch);
+bool sbfi_draft_ends(sbfi_gait_draft *d);
+bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch);
+
+static inline const sbf_bone *sbfi_draft_bone(const sbfi_gait_draft *d, int32_t bone) {
+  return &d->asset->bones.at[bone];
+}
+
+double sbfi_draft_distance(const sbfi_gait_draft *d, int32_t a, int32_t b); /* between two heads, m */
+
+/* Whether `bone` is `ancestor` or hangs below it. */
+bool sbfi_draft_is_below(const sbfi_gait_draft *d, int32_t bone, int32_t ancestor);
+
+/* The child that bears, of a bone that has one such alone; else SBF_NONE. */
+int32_t sbfi_draft_only_child(const sbfi_gait_draft *d, int32_t bone);
+
+#endif
