@@ -83,6 +83,7 @@ static const sbf_code_info table[] = {
   {"RIG_UNWEIGHTED_POINTS", SBF_CODE_RIG_UNWEIGHTED_POINTS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Points of a skinned mesh have no weights: paint them in the source."},
   {"RIG_NO_SECTIONS", SBF_CODE_RIG_NO_SECTIONS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Every mesh is skinned: there is no section of its own for any bone."},
   {"RIG_NO_LEGS", SBF_CODE_RIG_NO_LEGS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "No chain of bones ends at the ground: no gait is proposed."},
+  {"RIG_BONE_REHUNG", SBF_CODE_RIG_BONE_REHUNG, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "A bone that was moved by hand and holds skin now hangs on the limb that ends at it."},
   {"SECTION_NO_BONE", SBF_CODE_SECTION_NO_BONE, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A body of a file with a skeleton hangs on nothing."},
   {"SECTION_UNHELD", SBF_CODE_SECTION_UNHELD, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A section has a bone and no pins."},
   {"NAME_REPEATED", SBF_CODE_NAME_REPEATED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Two objects of one kind have one name."},

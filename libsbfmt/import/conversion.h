@@ -35,8 +35,8 @@ sbf_status sbfi_convert_materials(sbfi_conversion *c);
 sbf_status sbfi_convert_meshes(sbfi_conversion *c);
 /* After the meshes: a rigid body for each bone that carries sections, joints between those. */
 sbf_status sbfi_convert_joints(sbfi_conversion *c);
-/* After the meshes: lengths of bones that end in nothing but a section. */
-void sbfi_measure_leaf_bones(sbfi_conversion *c);
+/* After the meshes: lengths of bones that end in nothing but a section or a part of a skin. */
+sbf_status sbfi_measure_leaf_bones(sbfi_conversion *c);
 
 /* An id that no other object has: kind and name with what an id may not hold replaced, numbered where taken.
  */

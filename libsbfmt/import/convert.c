@@ -106,14 +106,12 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
         "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
-      sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes};
+      sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes, sbfi_measure_leaf_bones,
+      sbfi_convert_joints};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     sbf_status status = passes[i](c);
     if (status != SBF_OK) return status;
   }
-  sbfi_measure_leaf_bones(c);
-  sbf_status status = sbfi_convert_joints(c);
-  if (status != SBF_OK) return status;
   return options->no_gait ? SBF_OK : sbfi_propose_gait(c);
 }
 

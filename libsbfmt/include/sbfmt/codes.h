@@ -93,6 +93,7 @@ typedef enum sbf_code {
   SBF_CODE_RIG_UNWEIGHTED_POINTS = 702, /* Points of a skinned mesh have no weights: paint them in the source. */
   SBF_CODE_RIG_NO_SECTIONS = 703, /* Every mesh is skinned: there is no section of its own for any bone. */
   SBF_CODE_RIG_NO_LEGS = 704, /* No chain of bones ends at the ground: no gait is proposed. */
+  SBF_CODE_RIG_BONE_REHUNG = 705, /* A bone that was moved by hand and holds skin now hangs on the limb that ends at it. */
   SBF_CODE_SECTION_NO_BONE = 710, /* A body of a file with a skeleton hangs on nothing. */
   SBF_CODE_SECTION_UNHELD = 711, /* A section has a bone and no pins. */
   SBF_CODE_NAME_REPEATED = 712, /* Two objects of one kind have one name. */
