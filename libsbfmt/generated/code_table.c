@@ -131,6 +131,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_NO_BONES", SBF_CODE_IMPORT_NO_BONES, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file given as the rig holds no skeleton."},
   {"IMPORT_PARTIAL_UVS", SBF_CODE_IMPORT_PARTIAL_UVS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A set of texture coordinates does not cover the whole mesh and was dropped."},
   {"IMPORT_INSIDE_OUT", SBF_CODE_IMPORT_INSIDE_OUT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "All polygons of a closed surface faced inwards: they were turned round."},
+  {"IMPORT_GROUND", SBF_CODE_IMPORT_GROUND, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character did not stand on y = 0 and was moved there."},
   {"IMPORT_TETRAHEDRA_TURNED", SBF_CODE_IMPORT_TETRAHEDRA_TURNED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra were listed the other way round: they have been turned."},
   {"IMPORT_TETRAHEDRA_FLAT", SBF_CODE_IMPORT_TETRAHEDRA_FLAT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra without volume were left out."},
 };

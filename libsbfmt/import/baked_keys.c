@@ -43,7 +43,8 @@ static void sample(const sbfi_track *track, uint32_t next, float time, uint32_t 
   }
 }
 
-static sbfi_matrix link_at(const sbfi_link *link, const sbfi_trs *rest, const uint32_t *next, float time) {
+static sbfi_matrix transform_at(
+    const sbfi_link *link, const sbfi_trs *rest, const uint32_t *next, float time) {
   const sbfi_track *tracks = link->keys.tracks;
   if (!tracks[0].count && !tracks[1].count && !tracks[2].count) return link->local;
   sbfi_trs trs = *rest;
@@ -51,6 +52,12 @@ static sbfi_matrix link_at(const sbfi_link *link, const sbfi_trs *rest, const ui
   sample(&tracks[SBFI_RAW_ROTATION], next[SBFI_RAW_ROTATION], time, 4, trs.rotation);
   sample(&tracks[SBFI_RAW_SCALE], next[SBFI_RAW_SCALE], time, 3, trs.scale);
   return sbfi_trs_compose(&trs);
+}
+
+static sbfi_matrix link_at(const sbfi_link *link, const sbfi_trs *rest, const uint32_t *next, float time) {
+  sbfi_matrix m = transform_at(link, rest, next, time);
+  if (link->undone && !sbfi_matrix_invert(&m, &m)) return sbfi_matrix_identity();
+  return m;
 }
 
 static bool is_constant(const float *values, uint32_t count, uint32_t width) {

@@ -17,6 +17,7 @@ typedef struct sbfi_keys {
 /* A transform of the chain: what it is at rest, and keys in its place. */
 typedef struct sbfi_link {
   sbfi_matrix local;
+  bool undone;    /* its inverse stands in the product; one that flattens everything is passed over then */
   sbfi_keys keys; /* a track without keys keeps the rest value; without any, `local` stays as it is */
 } sbfi_link;
 

@@ -33,8 +33,12 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c);
 sbf_status sbfi_match_sections(sbfi_conversion *c);
 sbf_status sbfi_convert_materials(sbfi_conversion *c);
 sbf_status sbfi_convert_meshes(sbfi_conversion *c);
-/* After the meshes: a rigid body for each bone that carries sections, joints between those. */
+/* After the gait: moves what walks onto y = 0. */
+sbf_status sbfi_stand_on_ground(sbfi_conversion *c);
+/* After the meshes and the ground: a rigid body for each bone that carries sections, joints between those. */
 sbf_status sbfi_convert_joints(sbfi_conversion *c);
+/* After the ground: the rig's animations, as tracks of bones. */
+sbf_status sbfi_convert_clips(sbfi_conversion *c);
 /* After the meshes: lengths of bones that end in nothing but a section or a part of a skin. */
 sbf_status sbfi_measure_leaf_bones(sbfi_conversion *c);
 

@@ -141,6 +141,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_NO_BONES = 952, /* The file given as the rig holds no skeleton. */
   SBF_CODE_IMPORT_PARTIAL_UVS = 953, /* A set of texture coordinates does not cover the whole mesh and was dropped. */
   SBF_CODE_IMPORT_INSIDE_OUT = 954, /* All polygons of a closed surface faced inwards: they were turned round. */
+  SBF_CODE_IMPORT_GROUND = 955, /* The character did not stand on y = 0 and was moved there. */
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra were listed the other way round: they have been turned. */
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out. */
 } sbf_code;
