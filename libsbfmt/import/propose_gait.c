@@ -60,31 +60,15 @@ static bool write_ik_chains(sbfi_conversion *c, sbfi_gait_draft *d) {
   return true;
 }
 
-/* Legs of the leg's own side, and how many of them stand ahead of it. */
-static uint32_t place_in_row(const sbfi_gait_draft *d, uint32_t leg, uint32_t *row) {
+/* How many legs of the same side stand ahead of this one. */
+static uint32_t legs_ahead(const sbfi_gait_draft *d, uint32_t leg) {
   uint32_t ahead = 0;
   double here = (double)sbfi_draft_bone(d, d->legs[leg].end)->head.z;
-  *row = 0;
   for (uint32_t k = 0; k < d->leg_count; k++) {
-    if (d->legs[k].side != d->legs[leg].side) continue;
-    ++*row;
     double z = (double)sbfi_draft_bone(d, d->legs[k].end)->head.z;
-    ahead += z > here || (z == here && k < leg);
+    ahead += d->legs[k].side == d->legs[leg].side && (z > here || (z == here && k < leg));
   }
   return ahead;
-}
-
-/* "left", "fore left", or "left 1" from the front where there are more; NULL where memory runs out. */
-static const char *name_leg(const sbfi_gait_draft *d, uint32_t leg, uint32_t ahead, uint32_t row) {
-  char name[32];
-  const char *side = d->legs[leg].side > 0 ? "left" : "right";
-  if (row == 1)
-    snprintf(name, sizeof name, "%s", side);
-  else if (row == 2)
-    snprintf(name, sizeof name, "%s %s", ahead ? "hind" : "fore", side);
-  else
-    snprintf(name, sizeof name, "%s %u", side, (unsigned)ahead + 1);
-  return sbf_asset_copy_text(d->asset, name);
 }
 
 /* Left and right of a pair take turns, and so do pairs one behind the other: groups are diagonals. */
@@ -93,16 +77,14 @@ static bool write_legs(sbfi_gait_draft *d, sbf_gait *gait) {
   if (!legs) return false;
   for (uint32_t l = 0; l < d->leg_count; l++) {
     const sbfi_leg_draft *from = &d->legs[l];
-    uint32_t row, ahead = place_in_row(d, l, &row);
     double lowest = d->shapes[from->end].low_below;
     sbf_leg_init(&legs[l]);
-    legs[l].name = name_leg(d, l, ahead, row);
-    if (!legs[l].name) return false;
+    legs[l].name = sbfi_draft_bone(d, from->end)->name;
     legs[l].ik = (int32_t)l;
     legs[l].home = sbfi_draft_bone(d, from->end)->head;
     legs[l].sole = (float)fmax(0, (double)legs[l].home.y - (isfinite(lowest) ? lowest : d->ground));
     legs[l].jump_margin = (float)(0.5 * from->reach);
-    legs[l].group = (ahead + (from->side > 0)) % 2;
+    legs[l].group = (legs_ahead(d, l) + (from->side > 0)) % 2;
   }
   gait->legs = (sbf_leg_list){legs, d->leg_count};
   return true;

@@ -6,8 +6,9 @@
 #include "import/conversion.h"
 
 /* Adds ik chains, chains and a gait to an asset that has none of them. Legs are limbs of one side that come
- * down to the ground, named by side (+X is left) and place; head and tail go by name first, then by shape. A
- * rig without legs gets no gait, and a warning says so; its bones from head to tail become a chain. */
+ * down to the ground, left those on +X, each named after its foot; head and tail go by name first, then by
+ * shape. A rig without legs gets no gait, and a warning says so; its bones from head to tail become a chain.
+ */
 sbf_status sbfi_propose_gait(sbfi_conversion *c);
 
 #endif
