@@ -13,15 +13,16 @@ BAD_INPUT, FAILED = 1, 2
 
 @needs_bad_files
 class FilesThatBreakOthers(ProgramTest):
+    # In the md5mesh assimp writes beyond its memory: whether it dies of it is chance.
     CODES = {"empty.obj": "IMPORT_EMPTY", "malformed.obj": "IMPORT_INDEX", "malformed2.obj": "IMPORT_POLYGON",
-             "empty_init_from.dae": "IMPORT_CRASHED", "md5_overflow_vertex.md5mesh": "IMPORT_CRASHED",
+             "empty_init_from.dae": "IMPORT_CRASHED", "md5_overflow_vertex.md5mesh": "IMPORT_(CRASHED|EMPTY)",
              "position_bad_count.dae": "IMPORT_EMPTY"}
 
     def test_every_file_is_refused_with_its_code(self):
         for name, code in self.CODES.items():
             with self.subTest(name):
                 message = self.fails(BAD_INPUT, "convert", shared("bad", name), "-o", self.path("out.sbf"))
-                self.assertIn(f"[{code}]", message)
+                self.assertRegex(message, rf"\[{code}\]")
                 self.assertIn(name, message)
                 self.assert_empty_folder()
 

@@ -7,7 +7,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 # Written by spec/generate/generate.py: as long as they need to be.
 GENERATED = ("libsbfmt/generated/", "libsbfmt/include/sbfmt/model.h", "libsbfmt/include/sbfmt/codes.h",
              "spec/reference.md", "spec/codes.md", "spec/sbf.xsd")
-LEFT_OUT = {"build", "out", ".git", "__pycache__", "node_modules"}
+LEFT_OUT = {".git", "__pycache__", "node_modules"}
+LEFT_OUT_AT_ROOT = LEFT_OUT | {"build", "out"}
 SKIPPED = 77  # exit status by which ctest knows a test that could not run
 
 
@@ -20,7 +21,8 @@ def project_files(root=ROOT):
     except (OSError, subprocess.CalledProcessError):
         names = []
         for folder, folders, files in os.walk(root):
-            folders[:] = [name for name in folders if name not in LEFT_OUT]
+            ignored = LEFT_OUT_AT_ROOT if folder == root else LEFT_OUT
+            folders[:] = [name for name in folders if name not in ignored]
             names += [os.path.relpath(os.path.join(folder, name), root).replace(os.sep, "/") for name in files]
     return sorted(name for name in names if os.path.isfile(os.path.join(root, name)))
 

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """Each check of this folder finds what it is there for, and lets pass what is right."""
+import os
+import tempfile
 import unittest
 
 import check_docs
@@ -7,6 +9,7 @@ import check_includes
 import check_names
 import check_symbols
 import check_words
+import repo_files
 
 FILES = {"libsbfmt/base/memory.h", "libsbfmt/model/check.h", "libsbfmt/build/springs.h", "libsbfmt/xml/reader.h",
          "libsbfmt/validate/rules.h", "libsbfmt/mechanics/spring.h", "runtime/core/world.h", "runtime/math/vec3.h", "tools/cli.h"}
@@ -43,6 +46,17 @@ class Includes(unittest.TestCase):
 
     def test_line_is_named(self):
         self.assertIn("libsbfmt/model/a.c:2:", self.faults("libsbfmt/model/a.c", "<string.h>", "<zlib.h>")[0])
+
+
+class Files(unittest.TestCase):
+    def test_without_git(self):
+        """A tree that git does not know is walked: builds are left out, a source folder called build is not."""
+        with tempfile.TemporaryDirectory() as root:
+            for path in ("run", "lib/build/a.c", "build/release/b.c", "out/c.png", "lib/__pycache__/d.pyc"):
+                os.makedirs(os.path.join(root, os.path.dirname(path)), exist_ok=True)
+                with open(os.path.join(root, path), "w", encoding="utf-8"):
+                    pass
+            self.assertEqual(repo_files.project_files(root), ["lib/build/a.c", "run"])
 
 
 class Names(unittest.TestCase):
