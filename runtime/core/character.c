@@ -41,14 +41,14 @@ static bool reserve_work(sbr_world *world, size_t more) {
   return true;
 }
 
-static float whole(double metres) {
-  return (float)(double)(int64_t)(metres < 0 ? metres - 0.5 : metres + 0.5);
+static double whole(double metres) {
+  return (double)(int64_t)(metres < 0 ? metres - 0.5 : metres + 0.5);
 }
 
 /* The origin at whole metres near `position`, and the gait's state standing there. */
 static void put(const sbr_world *world, sbri_character *c, sbr_double3 position, float heading) {
   double ground = sbri_ground_height(&world->ground, position.x, position.z, NULL);
-  sbri_head(c)->origin = (sbr_double3){whole(position.x), whole(ground), whole(position.z)};
+  sbri_head(c)->origin = (sbr_double3){whole(position.x), whole(ground + position.y), whole(position.z)};
   sbr_double3 origin = sbri_head(c)->origin;
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbf_vec3 place = {(float)(position.x - origin.x), (float)position.y, (float)(position.z - origin.z)};
