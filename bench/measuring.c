@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "math/wide.h"
+#include "sbrun/sbrun.h"
 
 static double seconds_on(clockid_t clock) {
   struct timespec t;
@@ -128,7 +128,7 @@ static const char *where_and_when(void) {
   snprintf(built_by, sizeof built_by, "%s", compiler());
   clean(commit), clean(processor), clean(built_by);
   strftime(date, sizeof date, "%Y-%m-%d", gmtime_r(&now, &day));
-  snprintf(text, sizeof text, "%s,%s,%d,%s,%s", commit, built_by, SBRI_LANES, processor, date);
+  snprintf(text, sizeof text, "%s,%s,%u,%s,%s", commit, built_by, sbr_lanes(), processor, date);
   return text;
 }
 

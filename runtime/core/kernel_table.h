@@ -26,4 +26,4 @@ static void symplectic_tick(const sbri_island_tick *tick) {
 #define SBRI_TEXT(word) #word
 #define SBRI_TEXT_OF(macro) SBRI_TEXT(macro)
 const sbri_kernels SBRI_KERNELS = {
-    SBRI_TEXT_OF(SBRI_KERNELS), vertices, faces, tangents, sums, normals, symplectic_tick};
+    SBRI_TEXT_OF(SBRI_KERNELS), SBRI_LANES, vertices, faces, tangents, sums, normals, symplectic_tick};

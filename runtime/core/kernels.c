@@ -6,3 +6,7 @@ const sbri_kernels *sbri_kernels_choose(void) {
 #endif
   return &sbri_kernels_plain;
 }
+
+uint32_t sbr_lanes(void) {
+  return sbri_kernels_choose()->lanes;
+}

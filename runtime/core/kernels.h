@@ -8,6 +8,7 @@
 
 typedef struct sbri_kernels {
   const char *name;
+  uint32_t lanes; /* at once */
   void (*vertices)(const sbri_skin *skin, const sbri_point *points, sbri_point *vertices);
   void (*faces)(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
   void (*tangents)(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);

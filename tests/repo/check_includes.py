@@ -35,7 +35,7 @@ MAY_USE = {
     "runtime/include": [],
     "runtime/hosts": ["runtime/hosts"],
     "tools": ["tools"],
-    "bench": ["bench", "tools", "runtime/math"],  # thread pool; width of the lanes
+    "bench": ["bench", "tools"],  # for its thread pool
     "examples": ["examples"],
     "tests": None,  # anything: tests look inside
 }

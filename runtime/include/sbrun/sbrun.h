@@ -85,6 +85,10 @@ SBF_API sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
 SBF_API void sbr_model_destroy(sbr_model *model);
 
+/* How many numbers of single precision the solvers compute at once on this processor: 1, 4 or 8. For reports
+ * of speed; results do not depend on it. */
+SBF_API uint32_t sbr_lanes(void);
+
 /* ---- World -------------------------------------------------------------------------------------------- */
 
 typedef struct sbr_world_definition {

@@ -1,0 +1,76 @@
+#include "harness.h"
+
+#include "core/runtime_model.h"
+#include "kernels_scalar.h"
+#include "scenes.h"
+
+enum { BODIES = 3, CELLS = 4, TICKS = 150 };
+
+/* Falls onto the ground, slides and swings there: a section held by a bone, one with damped springs, and one
+ * that nothing holds, which is what every branch of the kernel is about. */
+static scene make_scene(void) {
+  scene s = scene_begin();
+  scene_bodies(&s, BODIES);
+  scene_bone(&s, (sbf_vec3){0, 0.1f, 0});
+  for (uint32_t b = 0; b < BODIES; b++) {
+    scene_section(&s, b, (sbf_vec3){0.5f * (float)b, 0.1f, 0}, (sbf_vec3){0.3f, 0.2f, 0.4f}, CELLS);
+    scene_body(&s, b)->attributes.damping_ratio = 0.1f;
+    scene_body(&s, b)->attributes.friction = 0.3f;
+    scene_body(&s, b)->attributes.restitution = 0.4f;
+  }
+  scene_body(&s, 1)->attributes.stiffness_damping = 1e-4f;
+  scene_body(&s, 2)->attributes.media_friction = 0.2f;
+  s.asset->environment.wind = (sbf_vec3){1, 0, 2};
+  s.world_definition.ground = sbr_ground_slope(10);
+  s.character_definition.position = (sbr_double3){0, 0.2, 1};
+  return s;
+}
+
+static uint64_t hash_after(const sbri_kernels *kernels, bool held) {
+  scene s = make_scene();
+  s.model_options.free = !held;
+  scene_start(&s);
+  s.model->kernels = kernels;
+  sbr_character_drive(s.world, s.character, 0.3f, 0, 0.5f);
+  scene_ticks(&s, TICKS);
+  for (uint32_t b = 0; b < BODIES; b++) {
+    sbr_body_health health = sbr_character_health(s.world, s.character, b);
+    ck_assert(health.finite);
+    ck_assert_uint_eq(health.recoveries, 0);
+    ck_assert_float_gt(health.max_strain, 1e-4f); /* they do move */
+  }
+  uint64_t hash = sbr_world_state_hash(s.world);
+  scene_free(&s);
+  return hash;
+}
+
+START_TEST(every_width_gives_the_same_bits)
+{
+  bool held = _i != 0;
+  uint64_t hash = hash_after(&kernels_scalar, held);
+  ck_assert_uint_eq(hash_after(&sbri_kernels_plain, held), hash);
+  ck_assert_uint_eq(hash_after(sbri_kernels_choose(), held), hash);
+}
+END_TEST
+
+START_TEST(a_model_takes_the_widest)
+{
+  scene s = make_scene();
+  scene_start(&s);
+  ck_assert_ptr_eq(s.model->kernels, sbri_kernels_choose());
+  ck_assert_uint_ge(s.model->kernels->lanes, sbri_kernels_plain.lanes);
+  ck_assert_uint_eq(sbr_lanes(), s.model->kernels->lanes);
+  ck_assert_uint_eq(kernels_scalar.lanes, 1);
+  scene_free(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *s = suite_create("kernels");
+  TCase *c = tcase_create("kernels");
+  tcase_set_timeout(c, 60);
+  tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 2);
+  tcase_add_test(c, a_model_takes_the_widest);
+  suite_add_tcase(s, c);
+  return harness_run(s);
+}
