@@ -41,9 +41,20 @@ box3 draw_scene_bounds(const draw_scene *scene) {
   return scene->bounds;
 }
 
+/* Lines and dots may be drawn without the surface they lie in: then the surfaces' points do not tell the
+ * size. */
+static bool lines_reach_beyond(const draw_scene *scene) {
+  const box3 *all = &scene->bounds, *solid = &scene->casters;
+  if (box3_is_empty(all) || box3_is_empty(solid)) return !box3_is_empty(all);
+  float margin = 0.01f * (all->max.x - all->min.x + all->max.y - all->min.y + all->max.z - all->min.z);
+  return all->min.x < solid->min.x - margin || all->min.y < solid->min.y - margin ||
+         all->min.z < solid->min.z - margin || all->max.x > solid->max.x + margin ||
+         all->max.y > solid->max.y + margin || all->max.z > solid->max.z + margin;
+}
+
 void draw_scene_frame(const draw_scene *scene, draw_camera *camera, float aspect, float yaw, float pitch) {
   const sbf_vec3 *points = scene->positions.at;
-  if (scene->positions.count > 0 && scene->positions.count <= UINT32_MAX)
+  if (!lines_reach_beyond(scene) && scene->positions.count > 0 && scene->positions.count <= UINT32_MAX)
     draw_camera_frame_points(camera, points, (uint32_t)scene->positions.count, aspect, yaw, pitch);
   else
     draw_camera_frame(camera, &scene->bounds, aspect, yaw, pitch);
