@@ -1,4 +1,3 @@
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -10,11 +9,12 @@ static json_t *integer(uint64_t value) {
   return json_integer((json_int_t)value);
 }
 
-/* Triangles that polygons of the given sizes fall into. */
-static uint64_t triangle_count(const sbf_polygon_mesh *mesh) {
-  uint64_t count = 0;
-  for (uint32_t i = 0; i < mesh->polygon_sizes.count; i++) count += mesh->polygon_sizes.at[i] - 2;
-  return count;
+/* Below so many bytes a file is read whole: its figures are worked out anew. */
+enum { READ_WHOLE_BYTES = 1 << 20 };
+
+/* Triangles that the polygons fall into; by the counts alone, so that no item need have been read. */
+static int64_t triangle_count(const sbf_polygon_mesh *mesh) {
+  return (int64_t)mesh->polygon_points.count - 2 * (int64_t)mesh->polygon_sizes.count;
 }
 
 static uint64_t pinned_points(const sbf_pin_set_list *pins) {
@@ -48,7 +48,7 @@ static json_t *render_meshes(const sbf_asset *asset) {
     json_array_append_new(
         list, json_pack("{s:s, s:o, s:o, s:o, s:s}", "name", mesh->name, "vertices",
                   integer(mesh->mesh.positions.count), "polygons", integer(mesh->mesh.polygon_sizes.count),
-                  "triangles", integer(triangle_count(&mesh->mesh)), "material",
+                  "triangles", integer((uint64_t)triangle_count(&mesh->mesh)), "material",
                   material >= 0 ? asset->materials.at[material].name : ""));
   }
   return list;
@@ -91,20 +91,16 @@ static json_t *sections(const sbf_asset *asset) {
 
 typedef struct totals {
   uint64_t springs[SBF_SPRING_KIND_COUNT], inert, tetrahedra, pins, attachments, embedded, levels;
-  double mass;
 } totals;
 
 static totals count(const sbf_asset *asset) {
-  totals t = {.mass = 0};
+  totals t = {.inert = 0};
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_soft_body *body = &asset->soft_bodies.at[i];
     const sbf_level *level = finest(body);
     t.attachments += body->attachments.count;
     t.pins += body_pins(body);
     if (body->levels.count > t.levels) t.levels = body->levels.count;
-    sbf_body_measures measures;
-    sbf_body_measure(body, &measures);
-    t.mass += measures.mass;
     if (!level) continue;
     t.tetrahedra += level->lattice.tetrahedra.count;
     for (uint32_t s = 0; s < level->springs.count; s++) {
@@ -119,26 +115,10 @@ static totals count(const sbf_asset *asset) {
   return t;
 }
 
-static void grow(sbf_vec3_list points, double low[3], double high[3]) {
-  for (uint32_t i = 0; i < points.count; i++) {
-    const double p[3] = {points.at[i].x, points.at[i].y, points.at[i].z};
-    for (int k = 0; k < 3; k++) {
-      low[k] = fmin(low[k], p[k]);
-      high[k] = fmax(high[k], p[k]);
-    }
-  }
-}
-
-static json_t *bounds(const sbf_asset *asset) {
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    grow(asset->render_meshes.at[i].mesh.positions, low, high);
-  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
-    grow(asset->soft_bodies.at[i].surface.positions, low, high);
-  for (uint32_t i = 0; !(low[0] <= high[0]) && i < asset->soft_bodies.count; i++)
-    if (finest(&asset->soft_bodies.at[i])) grow(finest(&asset->soft_bodies.at[i])->positions, low, high);
-  if (!(low[0] <= high[0])) return json_null();
-  return json_pack("{s:[f,f,f], s:[f,f,f]}", "min", low[0], low[1], low[2], "max", high[0], high[1], high[2]);
+static json_t *bounds(const sbf_asset_measures *m) {
+  if (!m->bounded) return json_null();
+  return json_pack("{s:[f,f,f], s:[f,f,f]}", "min", (double)m->low.x, (double)m->low.y, (double)m->low.z,
+      "max", (double)m->high.x, (double)m->high.y, (double)m->high.z);
 }
 
 static uint64_t leg_count(const sbf_asset *asset) {
@@ -147,7 +127,7 @@ static uint64_t leg_count(const sbf_asset *asset) {
   return legs;
 }
 
-static json_t *describe(const sbf_asset *asset, uint64_t bytes) {
+static json_t *describe(const sbf_asset *asset, const sbf_asset_measures *measures, uint64_t bytes) {
   totals t = count(asset);
   json_t *springs = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "structural",
       integer(t.springs[SBF_SPRING_KIND_STRUCTURAL]), "shear", integer(t.springs[SBF_SPRING_KIND_SHEAR]),
@@ -169,8 +149,8 @@ static json_t *describe(const sbf_asset *asset, uint64_t bytes) {
   json_object_set_new(object, "joints", integer(asset->joints.count));
   json_object_set_new(object, "gait", json_pack("{s:o}", "legs", integer(leg_count(asset))));
   json_object_set_new(object, "levels", integer(t.levels));
-  json_object_set_new(object, "bounds", bounds(asset));
-  json_object_set_new(object, "mass", json_real(t.mass));
+  json_object_set_new(object, "bounds", bounds(measures));
+  json_object_set_new(object, "mass", json_real((double)(float)measures->mass));
   json_object_set_new(object, "bytes", integer(bytes));
   return object;
 }
@@ -194,11 +174,12 @@ static void print_sections(const json_t *object) {
           number(row, "interior_points"), number(row, "tetrahedra"), number(row, "pins"));
 }
 
-static void print_text(const json_t *object) {
+static void print_text(const json_t *object, uint64_t read_bytes) {
   size_t i;
   json_t *row;
   const json_t *springs = json_object_get(object, "springs");
-  printf("format         sbf %s, %lld bytes\n", text_of(object, "format_version"), number(object, "bytes"));
+  printf("format         sbf %s, %lld bytes, %llu of them read\n", text_of(object, "format_version"),
+      number(object, "bytes"), (unsigned long long)read_bytes);
   printf("title          %s\n", text_of(object, "title"));
   printf("render meshes  %zu\n", json_array_size(json_object_get(object, "render_meshes")));
   json_array_foreach(json_object_get(object, "render_meshes"), i, row) printf(
@@ -223,20 +204,53 @@ static void print_text(const json_t *object) {
         json_real_value(json_array_get(json_object_get(box, "max"), (size_t)k)));
 }
 
-static int run(cli_call *call) {
+/* The figures that the last build stated; false where none did. */
+static bool stated_measures(const sbf_asset *asset, sbf_asset_measures *m) {
+  for (uint32_t i = asset->derivations.count; i-- > 0;) {
+    const sbf_derivation *d = &asset->derivations.at[i];
+    bool bounded = d->low.x != d->high.x || d->low.y != d->high.y || d->low.z != d->high.z;
+    *m = (sbf_asset_measures){(double)d->mass, bounded, d->low, d->high};
+    if (bounded) return true;
+  }
+  return false;
+}
+
+typedef struct loaded {
   sbf_asset *asset;
-  sbf_diagnostic error;
+  sbf_asset_measures measures;
+  uint64_t bytes, read_bytes;
+} loaded;
+
+/* Of a large packed file the outline, if it states the figures that its geometry would give; else all. */
+static sbf_status load(const char *path, loaded *l, sbf_diagnostic *error) {
   struct stat file;
-  sbf_status status = sbf_load_file(call->inputs[0], NULL, &asset, &error);
+  l->bytes = stat(path, &file) == 0 ? (uint64_t)file.st_size : 0;
+  sbf_load_options options = {.outline = l->bytes >= READ_WHOLE_BYTES, .read_bytes = &l->read_bytes};
+  sbf_status status = sbf_load_file(path, &options, &l->asset, error);
+  if (status != SBF_OK) return status;
+  bool is_outline = options.outline && l->read_bytes > 0; /* XML counts nothing */
+  if (is_outline && stated_measures(l->asset, &l->measures)) return SBF_OK;
+  if (is_outline) {
+    sbf_asset_free(l->asset);
+    status = sbf_load_file(path, NULL, &l->asset, error);
+  }
+  if (status == SBF_OK) sbf_asset_measure(l->asset, &l->measures);
+  l->read_bytes = l->bytes;
+  return status;
+}
+
+static int run(cli_call *call) {
+  loaded l = {.asset = NULL};
+  sbf_diagnostic error;
+  sbf_status status = load(call->inputs[0], &l, &error);
   if (status != SBF_OK) {
     cli_print_diagnostic(call, &error);
     return (int)status;
   }
-  uint64_t bytes = stat(call->inputs[0], &file) == 0 ? (uint64_t)file.st_size : 0;
-  json_t *object = describe(asset, bytes);
-  sbf_asset_free(asset);
+  json_t *object = describe(l.asset, &l.measures, l.bytes);
+  sbf_asset_free(l.asset);
   if (call->json) return cli_print_json(object, SBF_OK);
-  print_text(object);
+  print_text(object, l.read_bytes);
   json_decref(object);
   return SBF_OK;
 }
@@ -248,5 +262,7 @@ static const cli_option options[] = {
 const cli_verb verb_info = {"info", "FILE [--format json]", "say what a file holds",
     "Counts are of the finest level of every body. `inert` springs would join two pinned points: they are "
     "made\n"
-    "by the rules, counted, and left out of the file.",
+    "by the rules, counted, and left out of the file. Of a packed file of a megabyte and more only the "
+    "table\n"
+    "of contents and the records are read; its bounds and mass are then those that the build stated.",
     options, 1, 1, run};

@@ -118,7 +118,9 @@ bool sbfi_array_reserve(sbfi_array *array, size_t capacity) {
 
 void *sbfi_array_push(sbfi_array *array, size_t count) {
   size_t total;
-  if (!sbfi_add_size(array->count, count, &total) || !sbfi_array_reserve(array, total)) return NULL;
+  /* Room for one even where none is asked for: NULL means that memory ran out. */
+  if (!sbfi_add_size(array->count, count, &total) || !sbfi_array_reserve(array, total ? total : 1))
+    return NULL;
   char *place = (char *)array->at + array->count * array->item_size;
   array->count = total;
   return memset(place, 0, count * array->item_size);

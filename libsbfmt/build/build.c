@@ -1,5 +1,6 @@
 #include "sbfmt/build.h"
 
+#include <float.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -241,6 +242,17 @@ static sbf_status embed(build *b) {
   return SBF_OK;
 }
 
+/* What a report says of the whole without reading the geometry. Beyond all measure: nothing is said. */
+static sbf_status record_figures(build *b) {
+  sbf_asset_measures measures;
+  sbf_asset_measure(b->asset, &measures);
+  if (!(measures.mass <= FLT_MAX)) return SBF_OK;
+  b->derivation->mass = (float)measures.mass;
+  b->derivation->low = measures.low;
+  b->derivation->high = measures.high;
+  return SBF_OK;
+}
+
 /* Of the asset as it now is: what is derived does not count. */
 static sbf_status hash_source(build *b) {
   char text[SBFI_SHA256_TEXT_SIZE];
@@ -275,8 +287,8 @@ static sbf_status run(build *b) {
     sbf_status (*run)(build *);
   } passes[] = {{"a copy of the source", 0, copy_source}, {"the derivation", 0.05, record_derivation},
       {"hulls", 0.1, make_hulls}, {"references", 0.15, renumber}, {"springs", 0.2, make_levels},
-      {"embeddings", 0.6, embed}, {"the check of what was made", 0.9, check_made},
-      {"the hash of the source", 0.95, hash_source}};
+      {"embeddings", 0.6, embed}, {"figures of the whole", 0.9, record_figures},
+      {"the check of what was made", 0.92, check_made}, {"the hash of the source", 0.95, hash_source}};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     sbf_status status = progress(b, passes[i].name, passes[i].done);
     if (status == SBF_OK) status = passes[i].run(b);

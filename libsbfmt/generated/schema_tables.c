@@ -52,8 +52,11 @@ static const sbfi_field derivation_fields[] = {
   {.name = "tool", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_derivation, tool), .width = 1, .unit = "", .default_text = ""},
   {.name = "settings", .type = SBFI_STRING, .number = 3, .since_minor = 0, .offset = offsetof(sbf_derivation, settings), .width = 1, .unit = "", .default_text = ""},
   {.name = "source_hash", .type = SBFI_STRING, .number = 4, .since_minor = 0, .offset = offsetof(sbf_derivation, source_hash), .width = 1, .unit = "", .default_text = ""},
+  {.name = "mass", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_derivation, mass), .width = 1, .unit = "kg", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "low", .type = SBFI_VEC3, .number = 6, .since_minor = 0, .offset = offsetof(sbf_derivation, low), .width = 3, .unit = "m"},
+  {.name = "high", .type = SBFI_VEC3, .number = 7, .since_minor = 0, .offset = offsetof(sbf_derivation, high), .width = 3, .unit = "m"},
 };
-static const sbfi_element derivation_element = {"derivation", "derivation", sizeof(sbf_derivation), 0, 4, derivation_fields, NULL};
+static const sbfi_element derivation_element = {"derivation", "derivation", sizeof(sbf_derivation), 0, 7, derivation_fields, NULL};
 
 static const sbfi_field texture_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_texture, id), .width = 1, .unit = "", .required = true, .default_text = ""},

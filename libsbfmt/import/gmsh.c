@@ -34,7 +34,8 @@ static int compare_numbers(const void *a, const void *b) {
 static bool place_of(gmsh *g, uint64_t number, uint32_t *place) {
   numbered wanted = {number, 0};
   const numbered *found =
-      bsearch(&wanted, g->numbers.at, g->numbers.count, sizeof(numbered), compare_numbers);
+      g->numbers.count ? bsearch(&wanted, g->numbers.at, g->numbers.count, sizeof(numbered), compare_numbers)
+                       : NULL;
   if (!found)
     return sbfi_word_fail(g->r, SBF_CODE_IMPORT_INDEX, "an element names node %llu, which is not there",
         (unsigned long long)number);

@@ -28,17 +28,25 @@ void sbfi_tet_mesh_free(sbfi_tet_mesh *mesh) {
   sbfi_array_free(&mesh->tetrahedra);
 }
 
+typedef bool read_function(sbfi_word_reader *, sbfi_tet_mesh *, uint32_t *);
+
+static sbf_status read_text(sbfi_tet_mesh *mesh, const char *name, sbfi_span text, sbf_diagnostic *error,
+    read_function *read, uint32_t *first) {
+  sbfi_word_reader r;
+  sbfi_word_reader_init(&r, text.at, text.length, name, error);
+  read(&r, mesh, first);
+  return r.status;
+}
+
 /* Reads one whole file with one reader. */
 static sbf_status read_file(sbfi_tet_mesh *mesh, const char *path, uint64_t limit_bytes,
-    sbf_diagnostic *error, bool (*read)(sbfi_word_reader *, sbfi_tet_mesh *, uint32_t *), uint32_t *first) {
+    sbf_diagnostic *error, read_function *read, uint32_t *first) {
   sbfi_file_content content;
-  sbfi_word_reader r;
   sbf_status status = sbfi_file_map(path, limit_bytes, &mesh->allocator, &content, error);
   if (status != SBF_OK) return status;
-  sbfi_word_reader_init(&r, (const char *)content.at, content.size, path, error);
-  read(&r, mesh, first);
+  status = read_text(mesh, path, (sbfi_span){(const char *)content.at, content.size}, error, read, first);
   sbfi_file_content_free(&content);
-  return r.status;
+  return status;
 }
 
 static bool elements(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_t *first) {
@@ -112,17 +120,40 @@ static sbf_status mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *er
   return status;
 }
 
-sbf_status sbfi_tet_mesh_read(sbfi_tet_mesh *mesh, const char *path, const sbf_allocator *allocator,
-    uint64_t limit_bytes, sbf_diagnostic *error) {
+static void begin(sbfi_tet_mesh *mesh, const sbf_allocator *allocator) {
   *mesh = (sbfi_tet_mesh){.allocator = sbfi_allocator_or_default(allocator), .format = ""};
   sbfi_array_init(&mesh->points, allocator, sizeof(sbf_vec3));
   sbfi_array_init(&mesh->tetrahedra, allocator, sizeof(sbf_uint4));
-  bool pair = ends_with(path, ".node") || ends_with(path, ".ele");
-  sbf_status status = pair ? read_tetgen(mesh, path, limit_bytes, error)
-                           : read_file(mesh, path, limit_bytes, error, any_other, NULL);
+}
+
+static bool is_pair(const char *path) {
+  return ends_with(path, ".node") || ends_with(path, ".ele");
+}
+
+static sbf_status end(sbfi_tet_mesh *mesh, sbf_status status, const char *path, sbf_diagnostic *error) {
   if (status == SBF_OK) status = mend(mesh, path, error);
   if (status != SBF_OK) sbfi_tet_mesh_free(mesh);
   return status;
+}
+
+sbf_status sbfi_tet_mesh_read(sbfi_tet_mesh *mesh, const char *path, const sbf_allocator *allocator,
+    uint64_t limit_bytes, sbf_diagnostic *error) {
+  begin(mesh, allocator);
+  sbf_status status = is_pair(path) ? read_tetgen(mesh, path, limit_bytes, error)
+                                    : read_file(mesh, path, limit_bytes, error, any_other, NULL);
+  return end(mesh, status, path, error);
+}
+
+sbf_status sbfi_tet_mesh_read_memory(sbfi_tet_mesh *mesh, const char *name, sbfi_span first, sbfi_span second,
+    const sbf_allocator *allocator, sbf_diagnostic *error) {
+  uint32_t first_number = 0;
+  begin(mesh, allocator);
+  bool pair = is_pair(name);
+  if (pair) mesh->format = "tetgen";
+  sbf_status status =
+      read_text(mesh, name, first, error, pair ? sbfi_read_tetgen_nodes : any_other, &first_number);
+  if (status == SBF_OK && pair) status = read_text(mesh, name, second, error, elements, &first_number);
+  return end(mesh, status, name, error);
 }
 
 typedef struct side {

@@ -22,6 +22,10 @@ bool sbfi_tet_mesh_knows(const char *path);
  */
 sbf_status sbfi_tet_mesh_read(sbfi_tet_mesh *mesh, const char *path, const sbf_allocator *allocator,
     uint64_t limit_bytes, sbf_diagnostic *error);
+/* The same from memory: `name` has the ending that says which form. Of TetGen's pair `first` is the .node,
+ * `second` the .ele; of the others `first` is all. */
+sbf_status sbfi_tet_mesh_read_memory(sbfi_tet_mesh *mesh, const char *name, sbfi_span first, sbfi_span second,
+    const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_tet_mesh_free(sbfi_tet_mesh *mesh);
 
 /* Triangles that bound the tetrahedra, each once, facing outwards, in the order of the tetrahedra: appended

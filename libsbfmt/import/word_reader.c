@@ -7,6 +7,7 @@
 
 void sbfi_word_reader_init(
     sbfi_word_reader *r, const char *bytes, size_t size, const char *file, sbf_diagnostic *error) {
+  if (!bytes) bytes = ""; /* of an empty file */
   *r = (sbfi_word_reader){.at = bytes, .end = bytes + size, .file = file, .line = 1, .error = error};
 }
 

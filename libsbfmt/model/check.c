@@ -18,6 +18,7 @@ typedef struct checker {
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user;
   uint32_t limit, found;
+  bool outline; /* a list may have a count and no items */
   sbfi_ids ids;
 } checker;
 
@@ -214,6 +215,7 @@ static void check_length(checker *c, const sbfi_place *place, const sbfi_field *
   size_t used = 0;
   for (uint32_t i = 0; i < field->length_count; i++) {
     const sbfi_length *length = &field->lengths[i];
+    if (c->outline && !sbfi_length_is_known(length, place)) return;
     uint64_t value = sbfi_length_value(length, place);
     if (value == count) return;
     const char *before = i == 0 ? "" : " or ";
@@ -246,7 +248,7 @@ static void check_integers(
 static bool check_indices(
     checker *c, const sbfi_place *place, const sbfi_field *field, const uint32_t *at, size_t count) {
   uint64_t limit = sbfi_length_value(field->index, place);
-  if (!count || limit > UINT32_MAX) return true;
+  if (!count || limit > UINT32_MAX || !sbfi_length_is_known(field->index, place)) return true;
   size_t bad = limit ? sbfi_find_u32_outside(at, count, 0, (uint32_t)limit - 1) : 0;
   if (bad == count) return true;
   fault(c, SBF_CODE_INDEX_OUT_OF_RANGE, place, field, (int64_t)(bad / field->width),
@@ -257,6 +259,7 @@ static bool check_indices(
 
 static void check_positive(checker *c, const sbfi_place *place, const sbfi_field *field, sbfi_list list) {
   sbfi_list positions = sbfi_term_list(&field->index->terms[0], place);
+  if (!positions.at) return;
   size_t bad = sbfi_find_not_positive(list.at, list.count, positions.at);
   if (bad < list.count)
     fault(c, SBF_CODE_TETRAHEDRON_INVERTED, place, field, (int64_t)bad,
@@ -268,6 +271,7 @@ static void check_list(checker *c, const sbfi_place *place, const sbfi_field *fi
   size_t scalars = (size_t)list.count * field->width;
   check_length(c, place, field, list.count);
   if (list.count && !list.at) {
+    if (c->outline) return;
     fault(c, SBF_CODE_WRONG_LENGTH, place, field, -1, "`%s` has %u items, but points nowhere", field->name,
         list.count);
     return;
@@ -373,15 +377,19 @@ static void check_version(checker *c, const sbfi_place *root) {
   }
 }
 
+static uint32_t check_asset(checker *c) {
+  sbfi_ids_init(&c->ids, &sbfi_asset_box_of(c->asset)->arena.allocator);
+  sbfi_place root = sbfi_place_root(c->asset);
+  check_version(c, &root);
+  check_object(c, &root);
+  sbfi_ids_free(&c->ids);
+  return c->found;
+}
+
 uint32_t sbf_asset_check(const sbf_asset *asset, void (*report)(void *user, const sbf_diagnostic *diagnostic),
     void *user, uint32_t limit) {
   checker c = {.asset = asset, .report = report, .user = user, .limit = limit};
-  sbfi_ids_init(&c.ids, &sbfi_asset_box_of(asset)->arena.allocator);
-  sbfi_place root = sbfi_place_root(asset);
-  check_version(&c, &root);
-  check_object(&c, &root);
-  sbfi_ids_free(&c.ids);
-  return c.found;
+  return check_asset(&c);
 }
 
 /* --- loads and saves --- */
@@ -390,11 +398,16 @@ static void keep_diagnostic(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
-sbf_status sbfi_check_saved(const sbf_asset *asset, sbf_diagnostic *error) {
+static sbf_status check_first(const sbf_asset *asset, bool outline, sbf_diagnostic *error) {
   sbf_diagnostic first;
-  if (sbf_asset_check(asset, keep_diagnostic, &first, 1) == 0) return SBF_OK;
+  checker c = {.asset = asset, .report = keep_diagnostic, .user = &first, .limit = 1, .outline = outline};
+  if (check_asset(&c) == 0) return SBF_OK;
   if (error) *error = first;
   return sbf_code_find(first.code)->fault;
+}
+
+sbf_status sbfi_check_saved(const sbf_asset *asset, sbf_diagnostic *error) {
+  return check_first(asset, false, error);
 }
 
 static bool is_known(const char *extension, const sbf_load_options *options) {
@@ -418,6 +431,6 @@ sbf_status sbfi_check_extensions(
 }
 
 sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error) {
-  sbf_status status = sbfi_check_saved(asset, error);
+  sbf_status status = check_first(asset, options && options->outline, error);
   return status == SBF_OK ? sbfi_check_extensions(asset, options, error) : status;
 }

@@ -4,8 +4,9 @@
 
 #include "sbfmt/io.h"
 
-/* What a load does last, with what it has read: the structure (sbf_asset_check), and that no extension is
- * required which the caller does not know. Fills `*error` (may be NULL) with the first fault. */
+/* What a load does last, with what it has read: the structure (sbf_asset_check; of an outline what is there),
+ * and that no extension is required which the caller does not know. Fills `*error` (may be NULL) with the
+ * first fault. */
 sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error);
 
 /* The last part of that alone. */

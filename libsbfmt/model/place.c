@@ -97,8 +97,17 @@ sbfi_list sbfi_term_list(const sbfi_term *term, const sbfi_place *place) {
 static uint64_t sum_of(sbfi_list list) {
   const uint32_t *items = list.at;
   uint64_t sum = 0;
-  for (uint32_t i = 0; i < list.count; i++) sum += items[i];
+  for (uint32_t i = 0; items && i < list.count; i++) sum += items[i];
   return sum;
+}
+
+bool sbfi_length_is_known(const sbfi_length *length, const sbfi_place *place) {
+  for (uint32_t i = 0; i < length->term_count; i++) {
+    sbfi_list list = {NULL, 0};
+    if (length->terms[i].kind == SBFI_TERM_SUM) list = sbfi_term_list(&length->terms[i], place);
+    if (list.count && !list.at) return false;
+  }
+  return true;
 }
 
 uint64_t sbfi_length_value(const sbfi_length *length, const sbfi_place *place) {

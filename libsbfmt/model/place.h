@@ -29,6 +29,8 @@ void sbfi_place_path(const sbfi_place *place, const sbfi_field *field, char *pat
 
 /* What a length rule asks for here. */
 uint64_t sbfi_length_value(const sbfi_length *length, const sbfi_place *place);
+/* False where it sums the items of a list that an outline has left out. */
+bool sbfi_length_is_known(const sbfi_length *length, const sbfi_place *place);
 /* The list that a counting or summing term looks at. */
 sbfi_list sbfi_term_list(const sbfi_term *term, const sbfi_place *place);
 

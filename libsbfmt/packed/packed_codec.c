@@ -145,7 +145,7 @@ sbfi_coded sbfi_packed_deflate(sbfi_packed_coder *coder, const uint8_t *raw, siz
   stream->next_out = to;
   size_t left = room;
   bool fits = true;
-  if (!filter) fits = deflate_some(stream, raw, raw_size, &left, true);
+  if (!filter || raw_size == 0) fits = deflate_some(stream, raw, raw_size, &left, true);
   for (size_t done = 0; filter && fits && done < raw_size;) {
     size_t some = raw_size - done < BLOCK_BYTES ? raw_size - done : BLOCK_BYTES;
     sbfi_filter_block(filter, raw, done / 4, some / 4, width, coder->block);

@@ -120,10 +120,11 @@ sbf_status sbfi_packed_fetch_list(
     return fault(reader, SBF_CODE_LIST_TOO_LONG, number,
         "`%s` has %llu items, more than the limit of %u: raise it if the file is trusted", field->name,
         (unsigned long long)c->count, reader->options.limits.list_items);
+  *items = NULL;
+  if (reader->options.outline) return SBF_OK;
   sbf_status status = admit(reader, number);
   if (status != SBF_OK) return status;
   bool bytes = field->item == SBFI_ITEM_U8;
-  *items = NULL;
   if (c->count == 0) return SBF_OK;
   if (c->codec == SBFI_CODEC_NONE && (bytes || sbfi_host_is_little_endian()) &&
       (bytes || (uintptr_t)stored % sizeof(uint32_t) == 0)) {

@@ -28,7 +28,8 @@ void sbfi_packed_reader_close(sbfi_packed_reader *reader);
  * kind, owner, level, field and list. */
 sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const sbfi_packed_chunk *wanted);
 
-/* The items of a list's chunk: in the file itself where they can be used there, else in the arena. */
+/* The items of a list's chunk: in the file itself where they can be used there, else in the arena; NULL where
+ * an outline is read. */
 sbf_status sbfi_packed_fetch_list(
     sbfi_packed_reader *reader, uint32_t number, const sbfi_field *field, const void **items);
 

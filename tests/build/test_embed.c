@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "harness.h"
+#include "promises.h"
 #include "sbfmt/build.h"
 #include "shapes.h"
 
@@ -38,7 +39,7 @@ static sbf_asset *build(sbf_build_report *report) {
   sbf_asset *built;
   sbf_diagnostic error;
   ck_assert_int_eq(sbf_build(asset, NULL, &built, report, &error), SBF_OK);
-  ck_assert_uint_eq(sbf_asset_check(built, NULL, NULL, 0), 0);
+  ck_assert_promises_kept(built);
   return built;
 }
 

@@ -12,9 +12,19 @@ typedef sbf_status fuzz_save(const sbf_asset *asset, const sbf_save_options *opt
 typedef sbf_status fuzz_load(const void *bytes, size_t size, const sbf_load_options *options,
     sbf_asset **asset, sbf_diagnostic *error);
 
-/* After a load: a failure explains itself and made nothing; what was made is sound, and writing and reading
- * it gives the same again. Frees the asset. */
+/* A failure explains itself and made nothing. */
+void fuzz_check_failure(sbf_status status, const sbf_asset *asset, const sbf_diagnostic *error);
+/* What was made keeps every promise of support/promises.h. */
+void fuzz_check_promises(const sbf_asset *asset);
+/* Writing and reading it gives the same again. */
+void fuzz_check_round_trip(const sbf_asset *asset, fuzz_save *save, fuzz_load *load);
+
+/* All of that after a load. Frees the asset. */
 void fuzz_check_load(
     sbf_status status, sbf_asset *asset, const sbf_diagnostic *error, fuzz_save *save, fuzz_load *load);
+
+/* Loads whichever form the first byte announces, within the bounds; NULL, checked too, where it is refused.
+ */
+sbf_asset *fuzz_load_either(const uint8_t *data, size_t size);
 
 #endif

@@ -1,36 +1,85 @@
-/* fuzz_seeds FOLDER: writes good files of each form below FOLDER, for a fuzzer to start from. */
+/* fuzz_seeds FOLDER: writes good files of each form below FOLDER, for a fuzzer to start from. The short ones
+ * of text stand in corpus/. */
 #include <string.h>
 #include <sys/stat.h>
 
 #include "fill_asset.h"
 #include "fuzz.h"
 #include "harness.h"
+#include "packed/packed_codec.h"
+#include "shapes.h"
 #include "small_asset.h"
+#include "stream_builder.h"
 
-static void put(const char *folder, const char *form, const char *name, const sbf_buffer *bytes) {
+static void put_in(const char *folder, const char *target, const char *name, const void *bytes, size_t size) {
   char path[1024];
-  snprintf(path, sizeof path, "%s/%s", folder, form);
+  snprintf(path, sizeof path, "%s/%s", folder, target);
+  mkdir(folder, 0777);
   mkdir(path, 0777);
-  snprintf(path, sizeof path, "%s/%s/%s", folder, form, name);
-  FUZZ_MUST(harness_write(path, bytes->at, bytes->size));
+  snprintf(path, sizeof path, "%s/%s/%s", folder, target, name);
+  FUZZ_MUST(harness_write(path, bytes, size));
+}
+
+static void put(const char *folder, const char *const *targets, const char *name, const sbf_buffer *bytes) {
+  for (; *targets; targets++) put_in(folder, *targets, name, bytes->at, bytes->size);
 }
 
 static void put_forms(const char *folder, const char *name, const sbf_asset *asset) {
+  static const char *const of_packed[] = {"packed", "table", "validate", "build", NULL};
+  static const char *const of_xml[] = {"xml", "validate", "build", NULL};
+  char full[64];
   for (int store = 0; store < 2; store++) {
     sbf_buffer bytes = {0};
     sbf_save_options options = {.store = store};
-    char full[64];
     snprintf(full, sizeof full, "%s%s.sbfz", name, store ? "_stored" : "");
     FUZZ_MUST(sbf_packed_save_memory(asset, &options, NULL, &bytes, NULL) == SBF_OK);
-    put(folder, "packed", full, &bytes);
+    put(folder, of_packed, full, &bytes);
     sbf_buffer_free(&bytes);
   }
   sbf_buffer bytes = {0};
-  char full[64];
   snprintf(full, sizeof full, "%s.sbf", name);
   FUZZ_MUST(sbf_xml_save_memory(asset, NULL, NULL, &bytes, NULL) == SBF_OK);
-  put(folder, "xml", full, &bytes);
+  put(folder, of_xml, full, &bytes);
   sbf_buffer_free(&bytes);
+}
+
+/* What build has most to do with: a closed section on a bone, and a sheet that nothing holds. */
+static sbf_asset *bodies_to_build(void) {
+  sbf_asset *asset = sbf_asset_create(NULL);
+  FUZZ_MUST(asset);
+  sbf_polygon_mesh cube = shape_cube(asset, 2, 1, (sbf_vec3){0, 1, 0}), sheet = shape_sheet(asset, 2, 2);
+  shape_add_body(asset, "cube", &cube, true);
+  shape_add_body(asset, "sheet", &sheet, false);
+  return asset;
+}
+
+/* A stream of each filter, behind the bytes that fuzz_inflate takes for its arguments. */
+static void put_chunks(const char *folder) {
+  enum { ITEMS = 40, WIDTH = 3, FRONT = 4 };
+  float raw[ITEMS * WIDTH];
+  for (int i = 0; i < ITEMS * WIDTH; i++) raw[i] = (float)i * 0.25f;
+  for (int filter = 0; filter < SBFI_FILTER_COUNT; filter++) {
+    uint8_t bytes[FRONT + 2 * sizeof raw];
+    size_t stored, expected = filter == SBFI_FILTER_NONE ? sizeof raw : ITEMS;
+    sbfi_packed_coder coder;
+    char name[32];
+    sbfi_packed_coder_init(&coder, NULL, 9);
+    FUZZ_MUST(sbfi_packed_deflate(&coder, (const uint8_t *)raw, sizeof raw, (sbfi_packed_filter)filter, WIDTH,
+                  bytes + FRONT, sizeof bytes - FRONT, &stored) == SBFI_CODED);
+    sbfi_packed_coder_free(&coder);
+    const uint8_t front[FRONT] = {
+        (uint8_t)filter, WIDTH - 1, (uint8_t)(expected & 0xff), (uint8_t)(expected >> 8)};
+    memcpy(bytes, front, FRONT);
+    snprintf(name, sizeof name, "filter_%d.bin", filter);
+    put_in(folder, "inflate", name, bytes, FRONT + stored);
+  }
+}
+
+static void put_stream(const char *folder) {
+  stream_builder stream = {0};
+  stream_everything(&stream);
+  put_in(folder, "stream", "everything.bin", stream.at, stream.size);
+  free(stream.at);
 }
 
 int main(int argc, char **argv) {
@@ -38,12 +87,18 @@ int main(int argc, char **argv) {
     fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
     return 2;
   }
-  sbf_asset *small = small_asset(), *full = fill_asset(&(fill_options){.seed = 1});
+  sbf_asset *small = small_asset(), *full = fill_asset(&(fill_options){.seed = 1}),
+            *bodies = bodies_to_build();
   FUZZ_MUST(small && full);
   full->extensions.count = 0; /* those it requires, a load without them refuses */
+  full->extensions.at = NULL;
   put_forms(argv[1], "small", small);
   put_forms(argv[1], "full", full);
+  put_forms(argv[1], "bodies", bodies);
   sbf_asset_free(small);
   sbf_asset_free(full);
+  sbf_asset_free(bodies);
+  put_chunks(argv[1]);
+  put_stream(argv[1]);
   return EXIT_SUCCESS;
 }

@@ -166,6 +166,47 @@ START_TEST(test_any_kind_alone_is_a_sound_asset)
 }
 END_TEST
 
+/* An outline has every count of the asset and none of the long lists; where those lie nothing is read. */
+START_TEST(test_outline)
+{
+  for (int store = 0; store < 2; store++) {
+    sbf_asset *asset = fill_asset(&(fill_options){.seed = 9, .items = 3000}), *outline;
+    sbf_buffer file, again;
+    sbf_diagnostic error;
+    uint64_t lists = 0, read_bytes = 0;
+    ck_assert_int_eq(
+        sbf_packed_save_memory(asset, &(sbf_save_options){.store = store}, NULL, &file, NULL), SBF_OK);
+    for (uint32_t i = 0; i < patch_get(file.at, 40, 4); i++) {
+      const uint8_t *entry = file.at + patch_entry(i, 0);
+      uint64_t size = patch_get(entry, PATCH_STORED_SIZE, 8);
+      if (!patch_get(entry, PATCH_FIELD, 2)) continue;
+      memset(file.at + patch_get(entry, PATCH_OFFSET, 8), 0xee, size);
+      lists += size;
+    }
+    sbf_load_options options = fill_load_options(asset);
+    options.outline = true;
+    options.check_crc = true;
+    options.read_bytes = &read_bytes;
+    sbf_status status = sbf_packed_load_memory(file.at, file.size, &options, &outline, &error);
+    ck_assert_msg(status == SBF_OK, "%s: %s", error.path, error.message);
+    ck_assert_uint_le(read_bytes + lists, file.size);
+    ck_assert_uint_gt(lists, read_bytes);
+    const sbf_soft_body *body = &outline->soft_bodies.at[0], *whole = &asset->soft_bodies.at[0];
+    ck_assert_str_eq(body->name, whole->name);
+    ck_assert_ptr_null(body->surface.positions.at);
+    ck_assert_uint_eq(body->surface.positions.count, whole->surface.positions.count);
+    ck_assert_uint_eq(
+        body->levels.at[0].springs.at[0].ends.count, whole->levels.at[0].springs.at[0].ends.count);
+    ck_assert_int_eq(body->levels.at[0].springs.at[0].kind, whole->levels.at[0].springs.at[0].kind);
+    ck_assert_int_eq(sbf_packed_save_memory(outline, NULL, NULL, &again, &error), SBF_BAD_INPUT);
+    ck_assert_int_eq(error.code, SBF_CODE_WRONG_LENGTH);
+    sbf_asset_free(outline);
+    sbf_buffer_free(&file);
+    sbf_asset_free(asset);
+  }
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("packed_select");
   TCase *tests = tcase_create("packed_select");
@@ -173,6 +214,7 @@ int main(void) {
   tcase_add_test(tests, test_members_left_empty_select_all);
   tcase_add_test(tests, test_chunks_left_out_are_not_touched);
   tcase_add_test(tests, test_any_kind_alone_is_a_sound_asset);
+  tcase_add_test(tests, test_outline);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -48,6 +48,11 @@ typedef struct sbf_load_options {
   const sbf_selection *selection; /* packed: what to load; NULL: all */
   bool copy_file; /* packed: read the file instead of mapping it, so that it may change or shrink meanwhile */
   uint64_t *read_bytes; /* packed: receives how much of the file was looked at; may be NULL */
+  /* Packed: read the table of contents and the records, and leave the lists that have chunks of their own
+   * where they are: they have their count, and `at` is NULL. What else the asset holds keeps the promises
+   * above, apart from those about the items of such lists. For reports on large files: saving it is refused,
+   * and no other function but sbf_asset_free may be given it. XML is read whole. */
+  bool outline;
 } sbf_load_options;
 
 typedef struct sbf_save_options {

@@ -61,6 +61,15 @@ typedef struct sbf_body_measures {
  * or where it is open and its volume is next to nothing (below 0.005 of area^1.5; a sphere has 0.094). */
 SBF_API void sbf_body_measure(const sbf_soft_body *body, sbf_body_measures *measures);
 
+/* A whole asset: what its soft bodies weigh together, and the box around all render meshes and surfaces (of
+ * bodies without a surface: around the points of their finest level, where nothing else is there). */
+typedef struct sbf_asset_measures {
+  double mass;        /* kg */
+  bool bounded;       /* false: there are no points; then low and high are 0 */
+  sbf_vec3 low, high; /* m, asset space, rest pose */
+} sbf_asset_measures;
+SBF_API void sbf_asset_measure(const sbf_asset *asset, sbf_asset_measures *measures);
+
 /* Marks the points of a level that a pin holds fast (weight 1 within the set's minimum and maximum): `held`
  * (level->positions.count) receives 1 or 0. Returns how many are held. */
 SBF_API uint32_t sbf_level_held_points(const sbf_level *level, uint8_t *held);

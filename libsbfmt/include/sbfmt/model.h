@@ -225,6 +225,13 @@ typedef struct sbf_derivation {
   const char *settings;
   /* SHA-256 of the canonical XML of the parts that were read, 64 hexadecimal digits. */
   const char *source_hash;
+  /* Of all soft bodies together, as built; so that a file can be described without its geometry. [kg; [0,
+   * inf)] */
+  float mass;
+  /* Least coordinates of all render meshes and surfaces, as built. [m] */
+  sbf_vec3 low;
+  /* Greatest coordinates; equal to `low`: not stated. [m] */
+  sbf_vec3 high;
 } sbf_derivation;
 typedef struct sbf_derivation_list {
   const sbf_derivation *at;
