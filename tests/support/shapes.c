@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness.h"
+
 static void *allocate(sbf_asset *asset, size_t count, size_t size) {
   void *memory = sbf_asset_allocate(asset, count ? count : 1, size);
   if (!memory) abort();
@@ -148,4 +150,43 @@ void shape_sections_of_obj(sbf_asset *asset, const char *path) {
     }
   }
   fclose(file);
+}
+
+sbf_polygon_mesh shape_of_obj(sbf_asset *asset, const char *path) {
+  size_t size, points = 0, faces = 0, words = 0;
+  char *text = harness_read(path, &size);
+  ck_assert_ptr_nonnull(text);
+  for (size_t i = 0; i < size; i++) {
+    bool begins = i == 0 || text[i - 1] == '\n';
+    points += begins && text[i] == 'v' && text[i + 1] == ' ';
+    faces += begins && text[i] == 'f';
+    words += text[i] == ' ';
+  }
+  sbf_vec3 *positions = sbf_asset_allocate(asset, points + 1, sizeof *positions);
+  uint32_t *sizes = sbf_asset_allocate(asset, faces + 1, sizeof *sizes);
+  uint32_t *corners = sbf_asset_allocate(asset, words + 1, sizeof *corners);
+  ck_assert(positions && sizes && corners);
+  sbf_polygon_mesh mesh;
+  sbf_polygon_mesh_init(&mesh);
+  mesh.target = SBF_MESH_TARGET_SURFACE;
+  for (char *line = strtok(text, "\r\n"); line; line = strtok(NULL, "\r\n")) {
+    if (line[0] == 'v' && line[1] == ' ') {
+      sbf_vec3 *p = &positions[mesh.positions.count++];
+      ck_assert_int_eq(sscanf(line + 2, "%f %f %f", &p->x, &p->y, &p->z), 3);
+    } else if (line[0] == 'f') {
+      for (char *word = strchr(line, ' '); word; word = strchr(word + 1, ' ')) {
+        long corner = strtol(word, NULL, 10); /* 0 for the nothing behind a last blank */
+        if (corner == 0) continue;
+        corners[mesh.polygon_points.count++] =
+            (uint32_t)(corner > 0 ? corner - 1 : (long)mesh.positions.count + corner);
+        sizes[mesh.polygon_sizes.count]++;
+      }
+      mesh.polygon_sizes.count++;
+    }
+  }
+  free(text);
+  mesh.positions.at = positions;
+  mesh.polygon_sizes.at = sizes;
+  mesh.polygon_points.at = corners;
+  return mesh;
 }

@@ -18,6 +18,9 @@ sbf_polygon_mesh shape_triangulated(sbf_asset *asset, const sbf_polygon_mesh *me
  * vertex; nothing but v, f and the group names is read. */
 void shape_sections_of_obj(sbf_asset *asset, const char *path);
 
+/* All vertices and faces of an OBJ file of any size as one surface. */
+sbf_polygon_mesh shape_of_obj(sbf_asset *asset, const char *path);
+
 /* Adds a soft body (and its bone, where `with_bone`) to an asset made by sbf_asset_create. */
 sbf_soft_body *shape_add_body(
     sbf_asset *asset, const char *name, const sbf_polygon_mesh *surface, bool with_bone);

@@ -1,0 +1,49 @@
+/* A body-centred cubic grid: the corners of cubes and their middles.
+ *
+ * Nodes have whole coordinates, two to a cube's edge: all even at corners, all odd at middles. Each node owns
+ * seven of its fourteen edges: three long ones (a cube's edge long) along the axes, and four short ones
+ * (sqrt(3)/2 of that) to the nodes one step further along z. */
+#ifndef SBFI_LATTICE_GRID_H
+#define SBFI_LATTICE_GRID_H
+
+#include "mechanics/vector.h"
+
+enum { SBFI_LATTICE_EDGES = 7, SBFI_LATTICE_LONG_EDGES = 3 };
+
+/* The four ways of the short edges in x and y; all go up in z. */
+extern const int sbfi_lattice_ways[SBFI_LATTICE_EDGES][3];
+
+typedef struct sbfi_lattice_grid {
+  double cell;         /* m, a cube's edge */
+  sbfi_d3 origin;      /* m, of the node (0, 0, 0) */
+  uint32_t counts[3];  /* corners along each axis; there are as many middles */
+  uint32_t node_count; /* below 2^28 */
+  /* From a node's number to that of the other end of edge k; [0] from a corner, [1] from a middle. Every node
+   * two cubes within the border has all fourteen edges. */
+  int32_t steps[2][SBFI_LATTICE_EDGES];
+} sbfi_lattice_grid;
+
+/* Fits a grid around the box: its cubes fill the box where its sides are multiples of `cell`, else they stand
+ * out alike on both sides; two to three cubes more lie around. False where it would have 2^28 nodes or more.
+ */
+bool sbfi_lattice_grid_fit(sbfi_lattice_grid *grid, sbfi_d3 low, sbfi_d3 high, double cell);
+
+/* Nodes lie row by row along x; rows of corners and of middles in turns. */
+static inline uint32_t sbfi_lattice_row(const sbfi_lattice_grid *g, int32_t y, int32_t z) {
+  return 2 * (((uint32_t)z >> 1) * g->counts[1] + ((uint32_t)y >> 1)) + ((uint32_t)z & 1);
+}
+static inline uint32_t sbfi_lattice_node(const sbfi_lattice_grid *g, int32_t x, int32_t y, int32_t z) {
+  return sbfi_lattice_row(g, y, z) * g->counts[0] + ((uint32_t)x >> 1);
+}
+void sbfi_lattice_coordinates(const sbfi_lattice_grid *grid, uint32_t node, int32_t at[3]);
+
+/* Corner (0) or middle (1). */
+static inline uint32_t sbfi_lattice_kind(const sbfi_lattice_grid *g, uint32_t node) {
+  return node / g->counts[0] & 1;
+}
+
+static inline sbfi_d3 sbfi_lattice_place(const sbfi_lattice_grid *g, sbfi_d3 coordinates) {
+  return sbfi_d3_add(g->origin, sbfi_d3_scale(coordinates, g->cell / 2));
+}
+
+#endif
