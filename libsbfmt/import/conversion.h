@@ -17,6 +17,7 @@ typedef struct sbfi_conversion {
   const sbfi_scene *scene; /* the meshes */
   const sbfi_scene *rig;   /* the bones: the same scene where it has its own; NULL where there are none */
   sbfi_matrix to_asset, rig_to_asset;
+  double lift_m; /* by which the asset was moved up from where these matrices put it */
   sbf_asset *asset;
   sbfi_arena scratch;
   sbfi_id_set ids;
@@ -27,6 +28,10 @@ typedef struct sbfi_conversion {
   sbfi_reporter reporter;
   sbf_diagnostic *error;
 } sbfi_conversion;
+
+/* Makes an asset of scenes that have been read: `rig` is the same scene, another, or NULL. */
+sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
+    const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error);
 
 /* Every pass returns SBF_OK, or a status with c->error filled. */
 sbf_status sbfi_convert_skeleton(sbfi_conversion *c);

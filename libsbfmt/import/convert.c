@@ -151,6 +151,11 @@ static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
   return SBF_OK;
 }
 
+sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
+    const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  return convert_scenes(scene, rig, NULL, options, asset, error);
+}
+
 static sbf_status convert_tet_file(
     const char *input, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
   sbfi_scene scene;
@@ -194,7 +199,7 @@ sbf_status sbf_convert(
           "%s, given as the rig, holds no skeleton: give a file with bones", options->rig);
     rig = &rig_scene;
   }
-  if (status == SBF_OK) status = convert_scenes(&scene, rig, NULL, options, asset, error);
+  if (status == SBF_OK) status = sbfi_convert_scenes(&scene, rig, options, asset, error);
   if (options->rig) sbfi_scene_free(&rig_scene);
   sbfi_scene_free(&scene);
   return status;

@@ -190,13 +190,24 @@ static void rest_of(const sbf_bone *bones, uint32_t bone, sbfi_trs *rest) {
   *rest = sbfi_trs_decompose(&own);
 }
 
+/* A character that was moved onto the ground is moved in its clips too, unless they have it there already, as
+ * motions recorded on the ground that are tied to a skin drawn around the hips. */
+static void lift_root(const sbfi_track *track, double lift, const double *rest) {
+  float *values = (float *)(uintptr_t)track->values; /* of this bone alone */
+  if (track->count == 0) return;
+  double y = (double)values[1];
+  if (fabs(y + lift - rest[1]) > fabs(y - rest[1])) return;
+  for (uint32_t i = 0; i < track->count; i++) values[3 * i + 1] = (float)((double)values[3 * i + 1] + lift);
+}
+
 static bool convert_bone(clip_work *w, uint32_t bone, sbf_track *tracks, uint32_t *count) {
   link_list links;
   sbfi_keys keys;
   sbfi_trs rest;
   sbfi_arena scratch;
   if (!gather_links(w, bone, &links)) {
-    w->lost_bones++;
+    w->lost_bones += moves(w->channel_of[w->c->node_of_bone[bone]]);
+    w->used[w->c->node_of_bone[bone]] = true;
     return true;
   }
   if (links.keyed == 0) return true;
@@ -206,6 +217,8 @@ static bool convert_bone(clip_work *w, uint32_t bone, sbf_track *tracks, uint32_
   if (good && is_finite(&t[SBFI_RAW_POSITION], 3) && is_finite(&t[SBFI_RAW_SCALE], 3)) {
     static const double no_scale[3] = {1, 1, 1};
     rest_of(w->c->asset->bones.at, bone, &rest);
+    if (w->c->asset->bones.at[bone].parent == SBF_NONE)
+      lift_root(&t[SBFI_RAW_POSITION], w->c->lift_m, rest.position);
     good =
         add_track(w, bone, SBF_TRACK_PROPERTY_TRANSLATION, &t[SBFI_RAW_POSITION], rest.position,
             SAME_PLACE * w->size, tracks, count) &&

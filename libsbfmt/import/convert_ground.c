@@ -35,10 +35,19 @@ static void lift_one(const sbf_vec3 *point, double by) {
   lift((sbf_vec3_list){point, 1}, by);
 }
 
+/* A section that is seen shares its points with the mesh that shows it. */
+static bool is_of_section(const sbf_asset *a, const sbf_vec3_list points) {
+  for (uint32_t i = 0; i < a->soft_bodies.count; i++)
+    if (a->soft_bodies.at[i].surface.positions.at == points.at) return true;
+  return false;
+}
+
 static void lift_asset(const sbf_asset *a, double by) {
   for (uint32_t i = 0; i < a->bones.count; i++) lift_one(&a->bones.at[i].head, by);
   for (uint32_t i = 0; i < a->soft_bodies.count; i++) lift(a->soft_bodies.at[i].surface.positions, by);
-  for (uint32_t i = 0; i < a->render_meshes.count; i++) lift(a->render_meshes.at[i].mesh.positions, by);
+  for (uint32_t i = 0; i < a->render_meshes.count; i++)
+    if (!is_of_section(a, a->render_meshes.at[i].mesh.positions))
+      lift(a->render_meshes.at[i].mesh.positions, by);
   for (uint32_t i = 0; i < a->ik_chains.count; i++)
     if (a->ik_chains.at[i].has_pole) lift_one(&a->ik_chains.at[i].pole, by);
   for (uint32_t g = 0; g < a->gaits.count; g++)
@@ -51,8 +60,7 @@ sbf_status sbfi_stand_on_ground(sbfi_conversion *c) {
   double height = s.high - s.low;
   if (!(fabs(s.low) > STANDS * height)) return SBF_OK;
   lift_asset(c->asset, -s.low);
-  c->to_asset.at[1][3] -= s.low;
-  c->rig_to_asset.at[1][3] -= s.low;
+  c->lift_m = -s.low;
   sbfi_convert_warn(c, SBF_CODE_IMPORT_GROUND,
       "the character's feet are at y = %.3g m and not at 0, where the ground is: all of it was moved by %.3g "
       "m",

@@ -85,6 +85,26 @@ START_TEST(rotations_follow_on)
 }
 END_TEST
 
+/* Seen from something that moves: its transform is undone; where it has no size it is passed over. */
+START_TEST(a_link_may_be_undone)
+{
+  static const float moves[] = {1, 0, 0, 5, 0, 0}, sizes[] = {1, 1, 1, 0, 0, 0};
+  sbfi_link links[] = {{.local = sbfi_matrix_identity()}, {.local = sbfi_matrix_identity(), .undone = true}};
+  links[0].local.at[1][3] = 2;
+  links[1].keys.tracks[SBFI_RAW_POSITION] = (sbfi_track){2, two_times, moves};
+  sbfi_keys keys;
+  ck_assert(sbfi_bake_keys(links, 2, &arena, &scratch, &keys));
+  const sbfi_track *p = &keys.tracks[SBFI_RAW_POSITION];
+  ck_assert_uint_eq(p->count, 2);
+  ck_assert_float_eq(p->values[0], -1);
+  ck_assert_float_eq(p->values[3], -5);
+  ck_assert_float_eq(p->values[4], 2);
+  links[1].keys.tracks[SBFI_RAW_SCALE] = (sbfi_track){2, two_times, sizes};
+  ck_assert(sbfi_bake_keys(links, 2, &arena, &scratch, &keys));
+  ck_assert_float_eq(keys.tracks[SBFI_RAW_POSITION].values[3], 0);
+}
+END_TEST
+
 START_TEST(no_keys_no_tracks)
 {
   sbfi_link link = {.local = sbfi_matrix_identity()};
@@ -101,6 +121,7 @@ static Suite *baked_keys_suite(void) {
   tcase_add_test(tests, a_chain_becomes_one_transform);
   tcase_add_test(tests, what_has_no_keys_rests);
   tcase_add_test(tests, rotations_follow_on);
+  tcase_add_test(tests, a_link_may_be_undone);
   tcase_add_test(tests, no_keys_no_tracks);
   suite_add_tcase(suite, tests);
   return suite;

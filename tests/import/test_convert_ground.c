@@ -1,0 +1,112 @@
+#include <math.h>
+#include <string.h>
+
+#include "conversions.h"
+
+/* A biped whose soles are at `sole`; with boots and a coat for it to wear. */
+static void make(sbfi_scene *scene, double sole, bool legs) {
+  scene_begin(scene);
+  int32_t hips = scene_node(scene, "hips", SBF_NONE, true, 0, sole + 1, 0);
+  int32_t coat = scene_node(scene, "coat", hips, false, 0, 0.5, 0);
+  scene_box(scene, coat, 0.25, 0, 0, 0, false);
+  for (int side = -1; legs && side <= 1; side += 2) {
+    int32_t thigh = scene_node(scene, side > 0 ? "thigh.L" : "thigh.R", hips, true, 0.25 * side, 0, 0);
+    int32_t shin = scene_node(scene, side > 0 ? "shin.L" : "shin.R", thigh, true, 0, -0.5, 0.0625);
+    int32_t foot = scene_node(scene, side > 0 ? "foot.L" : "foot.R", shin, true, 0, -0.4375, -0.0625);
+    scene_box(scene, scene_node(scene, side > 0 ? "boot.L" : "boot.R", foot, false, 0, 0, 0), 0.0625, 0, 0, 0,
+        false);
+  }
+  scene_end(scene);
+}
+
+START_TEST(walkers_are_moved_onto_the_ground)
+{
+  sbfi_scene scene;
+  converted c;
+  make(&scene, -0.75, true);
+  converted_scene(&c, &scene, &scene, NULL);
+  const sbf_asset *a = c.asset;
+  check_near(a->bones.at[0].head, 0, 1, 0, 1e-6);
+  check_near(body_named(a, "coat")->surface.positions.at[0], -0.25, 1.25, -0.25, 1e-6);
+  check_near(mesh_named(a, "boot.L")->mesh.positions.at[0], 0.1875, 0, -0.0625, 1e-6);
+  ck_assert_uint_eq(a->gaits.count, 1);
+  check_near(
+      a->gaits.at[0].legs.at[0].home, a->gaits.at[0].legs.at[0].home.x > 0 ? 0.25 : -0.25, 0.0625, 0, 1e-6);
+  ck_assert_float_eq_tol(a->gaits.at[0].legs.at[0].sole, 0.0625f, 1e-6f);
+  ck_assert_float_gt(a->ik_chains.at[0].pole.y, 0.25f);
+  ck_assert_float_gt(a->rigid_bodies.at[0].center.y, 1);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_GROUND), 1);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
+/* A sole that is a little off, as on a soft floor, is no reason to move a file's vertices. */
+START_TEST(who_stands_stays)
+{
+  sbfi_scene scene;
+  converted c;
+  make(&scene, -0.03125, true);
+  converted_scene(&c, &scene, &scene, NULL);
+  ck_assert_float_eq(c.asset->bones.at[0].head.y, 0.96875f);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_GROUND), 0);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
+START_TEST(what_does_not_walk_stays)
+{
+  sbfi_scene scene;
+  converted c;
+  make(&scene, 5, false);
+  converted_scene(&c, &scene, &scene, NULL);
+  ck_assert_float_eq(c.asset->bones.at[0].head.y, 6);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+  sbf_convert_options options = {.no_gait = true};
+  make(&scene, 5, true);
+  converted_scene(&c, &scene, &scene, &options);
+  ck_assert_float_eq(c.asset->bones.at[0].head.y, 6);
+  ck_assert_uint_eq(c.asset->gaits.count, 0);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
+/* Clips go along, unless they have the character on the ground already. */
+START_TEST(clips_go_along)
+{
+  static const float times[2] = {0, 1};
+  static const sbf_vec3 drawn[2] = {{0, 0.25f, 0}, {0, 0.5f, 1}}, recorded[2] = {{0, 1.125f, 0}, {0, 1, 1}};
+  sbfi_scene scene;
+  converted c;
+  make(&scene, -0.75, true);
+  for (int i = 0; i < 2; i++) {
+    sbfi_scene_channel *channel = scene_clip(&scene, i ? "recorded" : "drawn", 1, 1);
+    *channel = (sbfi_scene_channel){
+        .node = 0, .position_count = 2, .position_times = times, .positions = i ? recorded : drawn};
+  }
+  converted_scene(&c, &scene, &scene, NULL);
+  ck_assert_uint_eq(c.asset->clips.count, 2);
+  const float *first = c.asset->clips.at[0].tracks.at[0].values.at;
+  ck_assert_float_eq_tol(first[1], 1, 1e-6f);
+  ck_assert_float_eq_tol(first[4], 1.25f, 1e-6f);
+  const float *second = c.asset->clips.at[1].tracks.at[0].values.at;
+  ck_assert_float_eq_tol(second[1], 1.125f, 1e-6f);
+  ck_assert_float_eq_tol(second[5], 1, 1e-6f);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("convert_ground");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, walkers_are_moved_onto_the_ground);
+  tcase_add_test(tests, who_stands_stays);
+  tcase_add_test(tests, what_does_not_walk_stays);
+  tcase_add_test(tests, clips_go_along);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}

@@ -1,0 +1,103 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "conversions.h"
+
+/* A root, a limb of three bones downwards that holds skin, and a foot on the root that holds the skin below
+ * it. `foot_first`: it stands before the limb in the file. */
+static void make(sbfi_scene *scene, bool foot_first, bool foot_holds, double foot_x) {
+  static const uint32_t spread[8] = {0, 0, 1, 1, 2, 2, 3, 3}, without_foot[8] = {0, 0, 1, 1, 2, 2, 2, 2};
+  int32_t joints[4], foot = 0;
+  scene_begin(scene);
+  int32_t root = scene_node(scene, "root", SBF_NONE, true, 0, 0, 0);
+  if (foot_first) foot = scene_node(scene, "foot", root, true, foot_x, 0, 0);
+  int32_t body = scene_node(scene, "body", root, true, 0, 3, 0);
+  for (int i = 0; i < 3; i++) {
+    static const char *const names[] = {"upper", "lower", "last"};
+    joints[i] = scene_node(scene, names[i], i ? joints[i - 1] : body, true, i ? 0 : 0.25, i ? 1 : 0, 0);
+    if (i == 0) { /* its Y points down */
+      sbfi_matrix *m = scene_local(scene, joints[0]);
+      m->at[1][1] = m->at[0][0] = -1;
+    }
+  }
+  if (!foot_first) foot = scene_node(scene, "foot", root, true, foot_x, 0, 0);
+  joints[3] = foot;
+  int32_t skin = scene_node(scene, "skin", SBF_NONE, false, 0, 0, 0);
+  scene_skin(
+      scene, scene_box(scene, skin, 0.5, 0, 1, 0, false), 4, joints, foot_holds ? spread : without_foot);
+  scene_end(scene);
+}
+
+START_TEST(a_foot_on_the_root_hangs_on_its_limb)
+{
+  for (int first = 0; first < 2; first++) {
+    sbfi_scene scene;
+    converted c;
+    make(&scene, first, true, 0.25);
+    converted_scene(&c, &scene, &scene, NULL);
+    int32_t foot = bone_named(c.asset, "foot"), last = bone_named(c.asset, "last");
+    ck_assert_int_eq(c.asset->bones.at[foot].parent, last);
+    ck_assert_int_gt(foot, last); /* parents first, whatever the file's order */
+    ck_assert_float_eq_tol(c.asset->bones.at[last].length, 1, 1e-6f);
+    ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_BONE_REHUNG), 1);
+    const char *message = converted_note(&c, SBF_CODE_RIG_BONE_REHUNG)->message;
+    ck_assert(strstr(message, "'foot'") && strstr(message, "'last'"));
+    /* The skin still names the right bones. */
+    const sbf_skin *skin = mesh_named(c.asset, "skin")->skin;
+    ck_assert_uint_eq(skin->bones.at[6], (uint32_t)foot);
+    ck_assert_uint_eq(skin->bones.at[5], (uint32_t)last);
+    converted_free(&c);
+    sbfi_scene_free(&scene);
+  }
+}
+END_TEST
+
+/* A target without skin, and a bone that no limb points at, stay where they are. */
+START_TEST(other_bones_stay)
+{
+  for (int i = 0; i < 2; i++) {
+    sbfi_scene scene;
+    converted c;
+    make(&scene, false, i == 1, i == 1 ? 0.75 : 0.25);
+    converted_scene(&c, &scene, &scene, NULL);
+    ck_assert_int_eq(c.asset->bones.at[bone_named(c.asset, "foot")].parent, bone_named(c.asset, "root"));
+    ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_BONE_REHUNG), 0);
+    converted_free(&c);
+    sbfi_scene_free(&scene);
+  }
+}
+END_TEST
+
+START_TEST(real_rigs)
+{
+  static const struct {
+    const char *file;
+    uint32_t rehung;
+    const char *bone, *parent;
+  } rigs[] = {{"spider/spider.glb", 8, "FrontFoot2.R", "FrontLeg3.R"},
+      {"snake/snake.glb", 1, "Mouth", "Head"},
+      {"kenney-fbx/kenney_character.fbx", 0, "LeftFootIK", "LeftToeRoll"},
+      {"fox/fox.glb", 0, "b_Hip_01", "b_Root_00"}};
+  for (size_t i = 0; i < sizeof rigs / sizeof *rigs; i++) {
+    const char *path = harness_shared(rigs[i].file);
+    if (!path) return;
+    converted c;
+    converted_file(&c, path, NULL);
+    ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_BONE_REHUNG), rigs[i].rehung);
+    int32_t parent = c.asset->bones.at[bone_named(c.asset, rigs[i].bone)].parent;
+    ck_assert_str_eq(c.asset->bones.at[parent].name, rigs[i].parent);
+    converted_free(&c);
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("detached_bones");
+  TCase *tests = tcase_create("all");
+  tcase_set_timeout(tests, 60);
+  tcase_add_test(tests, a_foot_on_the_root_hangs_on_its_limb);
+  tcase_add_test(tests, other_bones_stay);
+  tcase_add_test(tests, real_rigs);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
