@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Writes the tables of docs/benchmarks.md and docs/sizes.md from the results that are committed.
+
+    bench/write_tables.py [--check]      with --check, says which document is stale and changes nothing
+
+A table stands between the lines `<!-- table NAME MACHINE -->` and `<!-- end of table -->`; it comes from
+bench/results/MACHINE/NAME.csv. New results: ./run bench, then copy out/bench/*.csv there."""
+import csv
+import os
+import re
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md")
+BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
+
+
+def number(text, digits=3):
+    """So many digits that count, thousands apart."""
+    if not text:
+        return ""
+    value = float(text)
+    if value == int(value) and "." not in text:
+        return f"{int(value):,}"
+    whole = len(str(int(abs(value))))
+    return f"{value:,.{max(0, digits - whole)}f}"
+
+
+def load_row(r):
+    form = r["form"] + {"yes": ", CRC checked", "no": ", CRC not checked", "": ""}[r["crc"]]
+    if r["reader"] == "sbfmt" and r["form"] == "stored" and r["file"] == "read":
+        form += ", copied"
+    return [r["asset"], r["reader"], form, number(r["bytes"]), number(r["median_ms"]), number(r["MB/s"]),
+            number(r["times_glb"]), number(r["peak_KiB"]), number(r["private_KiB"])]
+
+
+def save_row(r):
+    return [r["asset"], r["action"], r["form"], number(r["bytes"]) if r["bytes"] != "0" else "", number(r["median_ms"]), number(r["MB/s"])]
+
+
+def run_row(r):
+    return [r["character"], r["threads"], r["part"], number(r["springs"]), r["substeps"], number(r["least_us"]),
+            number(r["median_us"]), number(r["worst_us"])]
+
+
+def size_row(r):
+    return [r["file"], number(r["vertices"]), number(r["springs"]), number(r["xml"]), number(r["gzip"]),
+            number(r["packed"]), number(r["stored"]), r["packed/xml"], r["packed/gzip"], number(r["meshes"]),
+            number(r["glb"]), r["meshes/glb"]]
+
+
+TABLES = {
+    "load": (load_row, "asset | reader | form | bytes | ms | MB/s | × assimp on GLB | peak KiB | private KiB", 3),
+    "save": (save_row, "asset | action | form | bytes | ms | MB/s", 3),
+    "run": (run_row, "character | threads | part | springs | substeps | least µs | median µs | worst µs", 3),
+    "size": (size_row, "file | vertices | springs | XML | gzip of it | packed | stored | packed / XML | "
+                       "packed / gzip | meshes | GLB | meshes / GLB", 1),
+}
+
+
+def table(name, machine):
+    make_row, head, text_columns = TABLES[name]
+    with open(os.path.join(ROOT, "bench/results", machine, name + ".csv"), newline="") as file:
+        rows = list(csv.DictReader(file))
+    columns = head.split(" | ")
+    rule = ["---" if i < text_columns else "---:" for i in range(len(columns))]
+    lines = [columns, rule] + [make_row(row) for row in rows]
+    first = rows[0]
+    lanes = f", {first['lanes']} lanes" if name == "run" else ""
+    return (f"{first['processor']}, {first['compiler']}{lanes}, commit {first['commit']}, {first['date']}:\n\n"
+            + "".join("| " + " | ".join(line) + " |\n" for line in lines))
+
+
+def main():
+    stale = []
+    for path in DOCUMENTS:
+        with open(os.path.join(ROOT, path)) as file:
+            text = file.read()
+        fresh = BLOCK.sub(lambda match: match[1] + table(match[2], match[3]) + match[4], text)
+        if fresh == text:
+            continue
+        stale.append(path)
+        if "--check" not in sys.argv:
+            with open(os.path.join(ROOT, path), "w") as file:
+                file.write(fresh)
+    if stale and "--check" in sys.argv:
+        sys.exit(f"not what bench/results says: {', '.join(stale)}; run bench/write_tables.py")
+    print(f"tables {'written in' if stale else 'are fresh in'}: {', '.join(stale or DOCUMENTS)}")
+
+
+if __name__ == "__main__":
+    main()
