@@ -1,124 +1,139 @@
-#include <stdio.h>
+#include <pthread.h>
 #include <stdlib.h>
+#include <unistd.h>
 
-#include "cli.h"
-#include "sbfmt/io.h"
-#include "sbfmt/validate.h"
+#include "checking.h"
+#include "file_list.h"
+#include "thread_pool.h"
 
-enum { LOAD_FINDINGS = 100 }; /* where a file does not load, it is not asked for more */
+enum { BATCH = 64 }; /* files whose findings are in memory at one time */
 
-/* What was found in one file, until it is known which lines it is about. */
-typedef struct findings {
-  sbf_diagnostic *at;
-  size_t count, capacity;
-  bool lost; /* memory ran out: counted, but not listed */
-} findings;
+typedef struct batch {
+  char **paths;
+  checked *results;
+  size_t done, all; /* files, of all batches */
+  pthread_mutex_t mutex;
+} batch;
 
-static void add(void *user, const sbf_diagnostic *diagnostic) {
-  findings *f = user;
-  if (f->count == f->capacity) {
-    size_t capacity = f->capacity ? f->capacity * 2 : LOAD_FINDINGS;
-    sbf_diagnostic *grown = realloc(f->at, capacity * sizeof *grown);
-    if (!grown) {
-      f->lost = true;
-      return;
+static void check_one(void *context, uint32_t number) {
+  batch *b = context;
+  check_file(b->paths[number], &b->results[number]);
+  pthread_mutex_lock(&b->mutex);
+  if (b->all > 1) cli_progress("validating", (double)++b->done / (double)b->all);
+  pthread_mutex_unlock(&b->mutex);
+}
+
+typedef struct totals {
+  sbf_validate_result found;
+  size_t files, bad_files;
+  int status;
+} totals;
+
+static void add(totals *t, const checked *one, bool strict) {
+  bool valid = checked_is_valid(one, strict);
+  t->files++;
+  t->bad_files += !valid;
+  if (one->status == SBF_FAILED)
+    t->status = SBF_FAILED;
+  else if (!valid && t->status == SBF_OK)
+    t->status = SBF_BAD_INPUT;
+  t->found.errors += one->result.errors;
+  t->found.warnings += one->result.warnings;
+  t->found.infos += one->result.infos;
+}
+
+static json_t *file_json(const checked *one, bool strict) {
+  return json_pack("{s:s, s:b, s:i, s:i, s:i}", "file", one->path, "valid", checked_is_valid(one, strict),
+      "errors", (int)one->result.errors, "warnings", (int)one->result.warnings, "infos",
+      (int)one->result.infos);
+}
+
+static void print_counts(const sbf_validate_result *r) {
+  printf("%u error%s, %u warning%s, %u note%s\n", r->errors, r->errors == 1 ? "" : "s", r->warnings,
+      r->warnings == 1 ? "" : "s", r->infos, r->infos == 1 ? "" : "s");
+}
+
+static void tell(const cli_call *call, checked *one, bool strict, json_t *messages, json_t *files) {
+  checked_tell(call, one, messages);
+  if (call->json) {
+    json_array_append_new(files, file_json(one, strict));
+  } else {
+    printf("%s: %s, ", one->path, checked_is_valid(one, strict) ? "valid" : "not valid");
+    print_counts(&one->result);
+  }
+}
+
+static int finish(const cli_call *call, const totals *t, json_t *messages, json_t *files) {
+  if (call->json)
+    return cli_print_json(json_pack("{s:b, s:i, s:i, s:i, s:o, s:o}", "valid", t->bad_files == 0, "errors",
+                              (int)t->found.errors, "warnings", (int)t->found.warnings, "infos",
+                              (int)t->found.infos, "messages", messages, "files", files),
+        t->status);
+  if (t->files > 1) {
+    printf("%zu files, %zu not valid: ", t->files, t->bad_files);
+    print_counts(&t->found);
+  }
+  return t->status;
+}
+
+static int validate(const cli_call *call, const file_list *list, thread_pool *pool) {
+  bool strict = cli_switch(call, "--strict");
+  json_t *messages = call->json ? json_array() : NULL, *files = call->json ? json_array() : NULL;
+  checked *results = calloc(BATCH, sizeof *results);
+  sbr_tasks tasks = thread_pool_tasks(pool);
+  totals t = {.status = SBF_OK};
+  batch b = {.results = results, .all = list->count, .mutex = PTHREAD_MUTEX_INITIALIZER};
+  if (!results) {
+    json_decref(messages);
+    json_decref(files);
+    return cli_wrong(call, "out of memory");
+  }
+  for (size_t begin = 0; begin < list->count; begin += BATCH) {
+    uint32_t count = (uint32_t)(list->count - begin < BATCH ? list->count - begin : BATCH);
+    b.paths = list->paths + begin;
+    for (uint32_t i = 0; i < count && !tasks.run; i++) check_one(&b, i);
+    if (tasks.run) tasks.run(tasks.user, check_one, &b, count);
+    cli_progress_end();
+    for (uint32_t i = 0; i < count; i++) {
+      tell(call, &results[i], strict, messages, files);
+      add(&t, &results[i], strict);
+      findings_free(&results[i].found);
     }
-    f->at = grown;
-    f->capacity = capacity;
   }
-  f->at[f->count++] = *diagnostic;
-}
-
-static sbf_status load(findings *f, const char *path, sbf_asset **asset, sbf_validate_result *result) {
-  static sbf_diagnostic found[LOAD_FINDINGS];
-  sbf_load_options loading = {.check_crc = true};
-  uint32_t count;
-  sbf_status status = sbf_load_file_findings(path, &loading, asset, found, LOAD_FINDINGS, &count);
-  for (uint32_t i = 0; i < count; i++) add(f, &found[i]);
-  result->errors += count;
-  return status;
-}
-
-/* Loads and checks one file; SBF_FAILED where that could not be done at all. */
-static sbf_status check_file(findings *f, const char *path, sbf_validate_result *result) {
-  sbf_asset *asset;
-  sbf_diagnostic error;
-  *result = (sbf_validate_result){0};
-  f->count = 0;
-  sbf_status status = load(f, path, &asset, result);
-  if (status != SBF_OK) return status;
-  status = sbf_validate(asset, &(sbf_validate_options){.report = add, .user = f}, result, &error);
-  sbf_asset_free(asset);
-  if (status != SBF_OK) {
-    result->errors++;
-    add(f, &error);
-  }
-  if (f->count) sbf_locate_findings(path, NULL, f->at, (uint32_t)f->count);
-  return status;
-}
-
-/* Prints them, or adds them to `messages` where that is not NULL. */
-static void tell(const cli_call *call, findings *f, const char *path, json_t *messages) {
-  for (size_t i = 0; i < f->count; i++) {
-    if (!f->at[i].file[0]) snprintf(f->at[i].file, sizeof f->at[i].file, "%s", path);
-    if (messages)
-      json_array_append_new(messages, cli_diagnostic_json(&f->at[i]));
-    else
-      cli_print_diagnostic(call, &f->at[i]);
-  }
-  if (f->lost) fprintf(stderr, "%s: memory ran out, some findings are not listed\n", path);
-}
-
-static json_t *summary(const sbf_validate_result *result, bool valid, json_t *messages) {
-  return json_pack("{s:b, s:i, s:i, s:i, s:o}", "valid", valid, "errors", (int)result->errors, "warnings",
-      (int)result->warnings, "infos", (int)result->infos, "messages", messages);
+  free(results);
+  return finish(call, &t, messages, files);
 }
 
 static int run(cli_call *call) {
-  bool strict = cli_switch(call, "--strict");
-  findings f = {0};
-  json_t *messages = call->json ? json_array() : NULL;
-  sbf_validate_result total = {0};
-  int status = SBF_OK, bad_files = 0;
-  json_t *files = json_array();
-  for (int i = 0; i < call->input_count; i++) {
-    sbf_validate_result result;
-    sbf_status loaded = check_file(&f, call->inputs[i], &result);
-    tell(call, &f, call->inputs[i], messages);
-    bool valid = result.errors == 0 && !(strict && result.warnings);
-    bad_files += !valid;
-    if (loaded == SBF_FAILED)
-      status = SBF_FAILED;
-    else if (!valid && status == SBF_OK)
-      status = SBF_BAD_INPUT;
-    total.errors += result.errors;
-    total.warnings += result.warnings;
-    total.infos += result.infos;
-    json_array_append_new(files, json_pack("{s:s, s:b, s:i, s:i}", "file", call->inputs[i], "valid", valid,
-                                     "errors", (int)result.errors, "warnings", (int)result.warnings));
-    if (!call->json)
-      printf("%s: %s, %u errors, %u warnings, %u notes\n", call->inputs[i], valid ? "valid" : "not valid",
-          result.errors, result.warnings, result.infos);
+  file_list list = {NULL, 0, 0};
+  long threads = sysconf(_SC_NPROCESSORS_ONLN);
+  int status = SBF_FAILED;
+  if (threads < 1) threads = 1;
+  if (threads > 64) threads = 64;
+  if (!cli_integer(call, "--threads", 1, 64, &threads)) return SBF_FAILED;
+  bool listed = true;
+  for (int i = 0; i < call->input_count && listed; i++) listed = file_list_add(&list, call->inputs[i]);
+  if (listed && list.count == 0) {
+    status = cli_wrong(call, "no .sbf or .sbfz lies in %s", call->inputs[0]);
+  } else if (listed) {
+    uint32_t useful = list.count < (size_t)threads ? (uint32_t)list.count : (uint32_t)threads;
+    thread_pool *pool = thread_pool_create(useful); /* without one, files are checked one by one */
+    status = validate(call, &list, pool);
+    thread_pool_destroy(pool);
   }
-  free(f.at);
-  if (!call->json) {
-    if (call->input_count > 1) printf("%d files, %d not valid\n", call->input_count, bad_files);
-    json_decref(files);
-    return status;
-  }
-  json_t *object = summary(&total, bad_files == 0, messages);
-  json_object_set_new(object, "files", files);
-  return cli_print_json(object, status);
+  file_list_free(&list);
+  return status;
 }
 
 static const cli_option options[] = {
     {"--strict", NULL, "let warnings fail as errors do"},
+    {"--threads", "N", "files checked at one time (as many as there are processors)"},
     {"--format", "text|json", "how to print (text)"},
     {NULL, NULL, NULL},
 };
-const cli_verb verb_validate = {"validate", "FILE... [--strict] [--format json]",
+const cli_verb verb_validate = {"validate", "FILE|FOLDER... [--strict] [--format json]",
     "check files against all rules",
-    "Every finding has a stable code, listed in spec/codes.md. Exit status 0: valid; 1: a file is not; 2: a "
-    "file\n"
-    "could not be read.",
+    "Of a folder, every .sbf and .sbfz in it and below is checked. Every finding has a stable code, listed "
+    "in\n"
+    "spec/codes.md. Exit status 0: all are valid; 1: a file is not; 2: a file could not be read.",
     options, 1, -1, run};

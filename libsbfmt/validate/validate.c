@@ -14,6 +14,54 @@ sbfi_path sbfi_path_of(const char *format, ...) {
   return path;
 }
 
+void *sbfi_scratch(sbfi_validation *v, size_t count, size_t size) {
+  void *memory = sbfi_arena_allocate(&v->scratch, count ? count : 1, size);
+  if (!memory) v->out_of_memory = true;
+  return memory;
+}
+
+/* What stands behind the colon of the code's text: what to do. */
+static void add_advice(sbf_diagnostic *d) {
+  const char *text = sbf_code_find(d->code)->text, *advice = strstr(text, ": ");
+  size_t used = strlen(d->message), length = advice ? strlen(advice) : 0;
+  if (length && advice[length - 1] == '.') length--;
+  if (used + length < sizeof d->message) {
+    memcpy(d->message + used, advice ? advice : "", length);
+    d->message[used + length] = 0;
+  }
+}
+
+static void tell(const sbfi_validation *v, sbf_diagnostic *d, const char *path, int64_t index) {
+  if (!v->options->report) return;
+  sbfi_copy_text(d->path, sizeof d->path, path);
+  d->index = index;
+  v->options->report(v->options->user, d);
+}
+
+/* Says how many findings were not listed at the place that is left now. */
+static void leave_place(sbfi_validation *v) {
+  for (uint32_t i = 0; i < v->tally_count; i++) {
+    sbf_diagnostic d;
+    uint32_t unlisted = v->tallies[i].count - v->repeats;
+    if (v->tallies[i].count <= v->repeats) continue;
+    sbfi_diagnose(&d, v->tallies[i].code, "and %u more of this kind here", unlisted);
+    tell(v, &d, v->place, -1);
+  }
+  v->tally_count = 0;
+}
+
+static uint32_t count_here(sbfi_validation *v, sbf_code code, const char *path) {
+  if (strcmp(path, v->place) != 0) {
+    leave_place(v);
+    sbfi_copy_text(v->place, sizeof v->place, path);
+  }
+  for (uint32_t i = 0; i < v->tally_count; i++)
+    if (v->tallies[i].code == code) return ++v->tallies[i].count;
+  if (v->tally_count == SBFI_MOST_TALLIES) leave_place(v);
+  v->tallies[v->tally_count++] = (sbfi_tally){code, 1};
+  return 1;
+}
+
 void sbfi_found(sbfi_validation *v, sbf_code code, const char *path, int64_t index, const char *format, ...) {
   sbf_diagnostic d;
   va_list arguments;
@@ -22,35 +70,39 @@ void sbfi_found(sbfi_validation *v, sbf_code code, const char *path, int64_t ind
   va_end(arguments);
   uint32_t *counts[] = {&v->result->errors, &v->result->warnings, &v->result->infos};
   ++*counts[d.severity];
-  bool same = code == v->last_code && strcmp(path, v->last_path) == 0;
-  v->run_length = same ? v->run_length + 1 : 1;
-  v->last_code = code;
-  sbfi_copy_text(v->last_path, sizeof v->last_path, path);
-  if (v->run_length > v->repeats || !v->options->report) return;
-  sbfi_copy_text(d.path, sizeof d.path, path);
-  d.index = index;
-  v->options->report(v->options->user, &d);
+  if (count_here(v, code, path) > v->repeats) return;
+  add_advice(&d);
+  tell(v, &d, path, index);
 }
 
-sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_options *options,
+static sbf_validate_options options_of(const sbf_validate_options *given) {
+  sbf_validate_options options = {0};
+  size_t size = given && given->struct_size && given->struct_size < sizeof options ? given->struct_size
+                                                                                   : sizeof options;
+  if (given) memcpy(&options, given, size);
+  if (!options.repeats) options.repeats = 8;
+  return options;
+}
+
+sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_options *given,
     sbf_validate_result *result, sbf_diagnostic *error) {
-  static const sbf_validate_options defaults = {0};
+  static void (*const families[])(sbfi_validation *) = {sbfi_check_names, sbfi_check_rotations,
+      sbfi_check_textures, sbfi_check_sections, sbfi_check_rigid_bodies, sbfi_check_joints, sbfi_check_meshes,
+      sbfi_check_skins, sbfi_check_surfaces, sbfi_check_weight_maps, sbfi_check_pins, sbfi_check_levels,
+      sbfi_check_lattices, sbfi_check_regions, sbfi_check_springs, sbfi_check_colors, sbfi_check_embeddings,
+      sbfi_check_collisions, sbfi_check_cross_springs, sbfi_check_ik, sbfi_check_gaits, sbfi_check_chains,
+      sbfi_check_clips, sbfi_check_environment, sbfi_check_physics, sbfi_check_derived};
   sbf_validate_result unseen;
-  if (!options) options = &defaults;
-  if (options->struct_size && options->struct_size != sizeof *options)
-    return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "sbf_validate_options has another size than this library's");
-  sbfi_validation v = {.asset = asset, .options = options, .result = result ? result : &unseen};
-  v.repeats = options->repeats ? options->repeats : 8;
+  sbf_validate_options options = options_of(given);
+  sbfi_validation v = {.asset = asset, .options = &options, .result = result ? result : &unseen};
+  v.repeats = options.repeats;
   *v.result = (sbf_validate_result){0};
-  static void (*const families[])(sbfi_validation *) = {sbfi_check_surfaces, sbfi_check_lattices,
-      sbfi_check_springs, sbfi_check_pins, sbfi_check_embeddings, sbfi_check_rig, sbfi_check_physics,
-      sbfi_check_derived};
   for (size_t i = 0; i < sizeof families / sizeof *families && !v.out_of_memory; i++) {
-    sbfi_arena_init(&v.scratch, options->allocator, 0);
+    sbfi_arena_init(&v.scratch, options.allocator, 0);
     families[i](&v);
     sbfi_arena_free(&v.scratch);
   }
+  leave_place(&v);
   if (v.out_of_memory) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while validating");
   return SBF_OK;
 }

@@ -18,6 +18,7 @@ typedef struct sbf_validate_options {
   uint32_t repeats; /* findings of one code at one place beyond so many are counted, not listed; 0: 8 */
   void (*report)(void *user, const sbf_diagnostic *diagnostic); /* may be NULL */
   void *user;
+  const char *folder; /* where the file lies ("": here), to look for images beside it; NULL: not looked for */
 } sbf_validate_options;
 
 typedef struct sbf_validate_result {

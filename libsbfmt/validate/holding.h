@@ -1,0 +1,15 @@
+/* What holds the points of a level. */
+#ifndef SBFI_HOLDING_H
+#define SBFI_HOLDING_H
+
+#include "sbfmt/model.h"
+
+typedef enum sbfi_hold { SBFI_FREE = 0, SBFI_HELD_SOFTLY = 1, SBFI_HELD_FAST = 2 } sbfi_hold;
+
+/* The weight of a pin: the set's own, raised to its minimum and lowered to its maximum. */
+float sbfi_pin_weight(const sbf_pin_set *set, uint32_t pin);
+
+/* How pins hold each point (level->positions.count). */
+void sbfi_holds_of(const sbf_level *level, uint8_t *holds);
+
+#endif

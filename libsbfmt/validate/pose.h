@@ -1,0 +1,50 @@
+/* Places and rotations at rest, in doubles. */
+#ifndef SBFI_POSE_H
+#define SBFI_POSE_H
+
+#include "mechanics/vector.h"
+#include "sbfmt/model.h"
+
+typedef struct sbfi_rotation {
+  sbfi_d3 v;
+  double w;
+} sbfi_rotation;
+
+/* Normalised; none where the quaternion has no length, as the specification says. */
+static inline sbfi_rotation sbfi_rotation_of(sbf_quat q) {
+  double length = sqrt((double)q.x * q.x + (double)q.y * q.y + (double)q.z * q.z + (double)q.w * q.w);
+  if (!(length > 0)) return (sbfi_rotation){{0, 0, 0}, 1};
+  return (sbfi_rotation){{q.x / length, q.y / length, q.z / length}, q.w / length};
+}
+
+static inline sbfi_d3 sbfi_rotated(sbfi_rotation q, sbfi_d3 v) {
+  sbfi_d3 t = sbfi_d3_scale(sbfi_d3_cross(q.v, v), 2);
+  return sbfi_d3_add(v, sbfi_d3_add(sbfi_d3_scale(t, q.w), sbfi_d3_cross(q.v, t)));
+}
+
+static inline sbfi_rotation sbfi_rotation_inverse(sbfi_rotation q) {
+  return (sbfi_rotation){sbfi_d3_scale(q.v, -1), q.w};
+}
+
+static inline sbfi_rotation sbfi_rotation_product(sbfi_rotation a, sbfi_rotation b) {
+  sbfi_d3 v = sbfi_d3_add(sbfi_d3_scale(b.v, a.w), sbfi_d3_scale(a.v, b.w));
+  return (sbfi_rotation){sbfi_d3_add(v, sbfi_d3_cross(a.v, b.v)), a.w * b.w - sbfi_d3_dot(a.v, b.v)};
+}
+
+/* Whether the quaternion is of unit length, as nearly as rotations written with three digits are. */
+static inline bool sbfi_is_unit(sbf_quat q) {
+  return fabs((double)q.x * q.x + (double)q.y * q.y + (double)q.z * q.z + (double)q.w * q.w - 1) < 1e-3;
+}
+
+/* The length of a set of points: the diagonal of their box. */
+static inline double sbfi_extent(sbf_vec3_list points) {
+  sbfi_d3 low = {0, 0, 0}, high = {0, 0, 0};
+  for (uint32_t i = 0; i < points.count; i++) {
+    sbfi_d3 at = sbfi_d3_of(points.at[i]);
+    low = i ? (sbfi_d3){fmin(low.x, at.x), fmin(low.y, at.y), fmin(low.z, at.z)} : at;
+    high = i ? (sbfi_d3){fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z)} : at;
+  }
+  return sbfi_d3_length(sbfi_d3_sub(high, low));
+}
+
+#endif

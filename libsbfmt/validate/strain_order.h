@@ -1,0 +1,14 @@
+/* Bounds on the strain of springs, which must come in an order in which each can be reached. */
+#ifndef SBFI_STRAIN_ORDER_H
+#define SBFI_STRAIN_ORDER_H
+
+#include "validate/validation.h"
+
+/* As attributes and spring sets state them: -1 and 0 mean no bound. */
+typedef struct sbfi_strains {
+  float min, max, yield, tear;
+} sbfi_strains;
+
+void sbfi_check_strain_order(sbfi_validation *v, const sbfi_strains *strains, const char *path);
+
+#endif

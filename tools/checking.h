@@ -1,0 +1,38 @@
+/* One file checked against all rules, with what was found. */
+#ifndef CHECKING_H
+#define CHECKING_H
+
+#include "cli.h"
+#include "sbfmt/io.h"
+#include "sbfmt/validate.h"
+
+typedef struct findings {
+  sbf_diagnostic *at;
+  size_t count, capacity;
+  bool lost; /* memory ran out: counted, but not listed */
+} findings;
+
+void findings_add(findings *to, const sbf_diagnostic *diagnostic);
+/* As a callback: `user` is the findings. */
+void findings_take(void *user, const sbf_diagnostic *diagnostic);
+void findings_free(findings *f);
+
+typedef struct checked {
+  const char *path;
+  findings found;
+  sbf_validate_result result;
+  sbf_status status; /* SBF_FAILED: could not be read, or memory ran out */
+} checked;
+
+/* Loads and checks a file. Thread safe on different results. */
+void check_file(const char *path, checked *result);
+
+/* The rules alone, on an asset that lies, or will lie, at `path`; lines are not looked up. */
+void check_asset(const sbf_asset *asset, const char *path, checked *result);
+
+bool checked_is_valid(const checked *one, bool strict);
+
+/* Prints what was found, or adds it to `messages` where that is not NULL. */
+void checked_tell(const cli_call *call, checked *one, json_t *messages);
+
+#endif
