@@ -65,7 +65,9 @@ static const cli_option options[] = {
 };
 const cli_verb verb_convert = {"convert", "INPUT... (-o OUT.sbf[z] | --out-dir DIR) [--rig FILE] ...",
     "make a bundle of a mesh and a rig",
-    "Reads OBJ, FBX, glTF, Collada and what else assimp knows. Objects become sections of the bones they "
+    "Reads OBJ, FBX, glTF, Collada and what else assimp knows; tetrahedra of TetGen, Gmsh, VTK and PhysX; "
+    "and\n"
+    "the 2012 dialect, .xml. Objects become sections of the bones they "
     "hang on in\n"
     "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed where legs are found. Then "
     "builds.",

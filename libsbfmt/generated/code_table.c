@@ -229,6 +229,8 @@ static const sbf_code_info table[] = {
   {"IMPORT_GROUND", SBF_CODE_IMPORT_GROUND, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character did not stand on y = 0 and was moved there."},
   {"IMPORT_TETRAHEDRA_TURNED", SBF_CODE_IMPORT_TETRAHEDRA_TURNED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra were listed the other way round: they have been turned."},
   {"IMPORT_TETRAHEDRA_FLAT", SBF_CODE_IMPORT_TETRAHEDRA_FLAT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra without volume were left out."},
+  {"EXPORT_EMPTY", SBF_CODE_EXPORT_EMPTY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The asset has nothing that the form to be written could hold."},
+  {"EXPORT_LEFT_OUT", SBF_CODE_EXPORT_LEFT_OUT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The form to be written has no place for parts of the asset: they are left out."},
 };
 
 const sbf_code_info *sbf_code_table(uint32_t *count) {

@@ -9,6 +9,7 @@
 #include "import/bind_pose.h"
 #include "import/conversion.h"
 #include "import/convert_tets.h"
+#include "import/dialect2012.h"
 #include "import/propose_gait.h"
 
 void sbfi_convert_warn(sbfi_conversion *c, sbf_code code, const char *format, ...) {
@@ -93,6 +94,11 @@ static sbf_status run_tet_passes(sbfi_conversion *c, const sbfi_tet_mesh *tets) 
   return status == SBF_OK ? sbfi_convert_tets(c, tets, c->asset->info.title) : status;
 }
 
+static sbf_status run_paper_passes(sbfi_conversion *c, const sbfi_paper_model *paper) {
+  sbf_status status = describe_sources(c);
+  return status == SBF_OK ? sbfi_convert_paper(c, paper, c->asset->info.title) : status;
+}
+
 static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
   if (c->scene->mesh_count == 0 && !c->rig)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
@@ -125,9 +131,16 @@ static sbf_status read_scene(
   return sbfi_scene_fail(scene, error, status);
 }
 
-/* Makes the asset of scenes that have been read, or of tetrahedra (then the scene only names the file). */
-static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig, const sbfi_tet_mesh *tets,
-    const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+/* What was read: scenes; or tetrahedra or a model of the 2012 dialect, then the scene only names the file. */
+typedef struct readings {
+  const sbfi_scene *scene, *rig;
+  const sbfi_tet_mesh *tets;
+  const sbfi_paper_model *paper;
+} readings;
+
+static sbf_status convert_readings(
+    const readings *from, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  const sbfi_scene *scene = from->scene, *rig = from->rig;
   sbfi_conversion c = {
       .scene = scene, .rig = rig, .reporter = {options->report, options->user, 0, 0}, .error = error};
   c.to_asset = matrix_to_asset(scene, options);
@@ -139,7 +152,9 @@ static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
   if (status == SBF_OK) {
     pass_on_warnings(&c, scene);
     if (rig && rig != scene) pass_on_warnings(&c, rig);
-    status = tets ? run_tet_passes(&c, tets) : run_passes(&c, options);
+    status = from->tets    ? run_tet_passes(&c, from->tets)
+             : from->paper ? run_paper_passes(&c, from->paper)
+                           : run_passes(&c, options);
   }
   sbfi_array_free(&c.ids.slots);
   sbfi_arena_free(&c.scratch);
@@ -153,21 +168,33 @@ static sbf_status convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
 
 sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
     const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
-  return convert_scenes(scene, rig, NULL, options, asset, error);
+  return convert_readings(&(readings){.scene = scene, .rig = rig}, options, asset, error);
 }
 
-static sbf_status convert_tet_file(
-    const char *input, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+/* A file without a scene: of tetrahedra, or of the 2012 dialect. */
+static sbf_status convert_other_file(const char *input, bool is_paper, const sbf_convert_options *options,
+    sbf_asset **asset, sbf_diagnostic *error) {
   sbfi_scene scene;
   sbfi_tet_mesh tets;
+  sbfi_paper_model paper;
+  readings from = {.scene = &scene};
   if (options->rig)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s holds tetrahedra alone: it cannot take a rig", input);
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s %s: it cannot take a rig", input,
+        is_paper ? "has a skeleton of its own" : "holds tetrahedra alone");
   if (!sbfi_scene_init(&scene, options->allocator, 0, input))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", input);
-  sbf_status status = sbfi_tet_mesh_read(&tets, input, options->allocator, 0, error);
+  sbf_status status = is_paper ? sbfi_paper_read(&paper, input, options->allocator, error)
+                               : sbfi_tet_mesh_read(&tets, input, options->allocator, 0, error);
   if (status == SBF_OK) {
-    status = convert_scenes(&scene, NULL, &tets, options, asset, error);
-    sbfi_tet_mesh_free(&tets);
+    if (is_paper)
+      from.paper = &paper;
+    else
+      from.tets = &tets;
+    status = convert_readings(&from, options, asset, error);
+    if (is_paper)
+      sbfi_paper_free(&paper);
+    else
+      sbfi_tet_mesh_free(&tets);
   }
   sbfi_scene_free(&scene);
   return status;
@@ -186,7 +213,9 @@ sbf_status sbf_convert(
   if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
 
-  if (sbfi_tet_mesh_knows(input)) return convert_tet_file(input, options, asset, error);
+  bool is_paper = sbfi_paper_knows(input);
+  if (is_paper || sbfi_tet_mesh_knows(input))
+    return convert_other_file(input, is_paper, options, asset, error);
   sbfi_scene_options reading = {.allocator = options->allocator, .helper_path = options->import_helper};
   sbfi_scene scene, rig_scene;
   sbf_status status = read_scene(&scene, input, &reading, error);

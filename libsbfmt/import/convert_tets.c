@@ -74,44 +74,56 @@ static void say_what_changed(sbfi_conversion *c, const sbfi_tet_mesh *mesh) {
         c, SBF_CODE_IMPORT_IGNORED, "%u elements that are no tetrahedra were passed over", mesh->passed_over);
 }
 
-static sbf_status fill(
-    sbfi_conversion *c, const sbfi_tet_mesh *mesh, const sbfi_array *triangles, const char *name) {
+static sbf_status fill_body(sbfi_conversion *c, const sbfi_tet_mesh *mesh, const sbfi_array *triangles,
+    const char *name, sbf_soft_body *body, const uint32_t **new_from_old) {
   order o;
   if (!find_order(c, mesh, triangles, &o)) return sbfi_convert_no_memory(c);
   sbf_vec3 *points = sbfi_convert_allocate(c, o.count, sizeof *points);
   uint32_t *sources = sbfi_convert_allocate(c, o.surface_count, sizeof *sources);
-  sbf_soft_body *body = sbfi_convert_allocate(c, 1, sizeof *body);
-  sbf_render_mesh *render = sbfi_convert_allocate(c, 1, sizeof *render);
-  if (!points || !sources || !body || !render) return sbfi_convert_no_memory(c);
+  if (!points || !sources) return sbfi_convert_no_memory(c);
   const sbf_vec3 *from = mesh->points.at;
   for (uint32_t i = 0; i < o.count; i++)
     points[i] = sbfi_transform_point(&c->to_asset, from[o.old_from_new[i]]);
   memcpy(sources, o.old_from_new, o.surface_count * sizeof *sources);
   sbf_soft_body_init(body);
-  sbf_render_mesh_init(render);
   body->id = sbfi_new_id(c, "body", name);
-  render->id = sbfi_new_id(c, "mesh", name);
-  body->name = render->name = sbf_asset_copy_text(c->asset, name);
-  if (!body->id || !render->id || !body->name) return sbfi_convert_no_memory(c);
+  body->name = sbf_asset_copy_text(c->asset, name);
+  if (!body->id || !body->name) return sbfi_convert_no_memory(c);
   sbf_status status = fill_surface(c, triangles, &o, points, &body->surface);
   if (status == SBF_OK) status = fill_level(c, mesh, &o, points, body);
   body->interior =
       (sbf_vec3_list){o.count > o.surface_count ? points + o.surface_count : NULL, o.count - o.surface_count};
   body->source_points = (sbf_u32_list){sources, o.surface_count};
+  if (new_from_old) *new_from_old = o.new_from_old;
+  say_what_changed(c, mesh);
+  return status;
+}
+
+sbf_status sbfi_convert_tet_body(sbfi_conversion *c, const sbfi_tet_mesh *mesh, const char *name,
+    sbf_soft_body *body, const uint32_t **new_from_old) {
+  sbfi_array triangles;
+  sbfi_array_init(&triangles, &mesh->allocator, sizeof(uint32_t));
+  sbf_status status = sbfi_tet_mesh_boundary(mesh, &triangles)
+                          ? fill_body(c, mesh, &triangles, name, body, new_from_old)
+                          : sbfi_convert_no_memory(c);
+  sbfi_array_free(&triangles);
+  return status;
+}
+
+sbf_status sbfi_convert_tets(sbfi_conversion *c, const sbfi_tet_mesh *mesh, const char *name) {
+  sbf_soft_body *body = sbfi_convert_allocate(c, 1, sizeof *body);
+  sbf_render_mesh *render = sbfi_convert_allocate(c, 1, sizeof *render);
+  if (!body || !render) return sbfi_convert_no_memory(c);
+  sbf_status status = sbfi_convert_tet_body(c, mesh, name, body, NULL);
+  if (status != SBF_OK) return status;
+  sbf_render_mesh_init(render);
+  render->id = sbfi_new_id(c, "mesh", name);
+  if (!render->id) return sbfi_convert_no_memory(c);
+  render->name = body->name;
   render->mesh = body->surface;
   render->mesh.target = SBF_MESH_TARGET_RENDERING;
   render->source_points = body->source_points;
   c->asset->soft_bodies = (sbf_soft_body_list){body, 1};
   c->asset->render_meshes = (sbf_render_mesh_list){render, 1};
-  say_what_changed(c, mesh);
-  return status;
-}
-
-sbf_status sbfi_convert_tets(sbfi_conversion *c, const sbfi_tet_mesh *mesh, const char *name) {
-  sbfi_array triangles;
-  sbfi_array_init(&triangles, &mesh->allocator, sizeof(uint32_t));
-  sbf_status status =
-      sbfi_tet_mesh_boundary(mesh, &triangles) ? fill(c, mesh, &triangles, name) : sbfi_convert_no_memory(c);
-  sbfi_array_free(&triangles);
-  return status;
+  return SBF_OK;
 }

@@ -87,8 +87,7 @@ static double volume_of(const sbf_vec3 *points, const uint32_t *p) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/* Checks every index, turns what is listed the other way round, leaves out what is flat. */
-static sbf_status mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error) {
+sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error) {
   sbf_uint4 *tetrahedra = mesh->tetrahedra.at;
   size_t kept = 0;
   for (size_t i = 0; i < mesh->tetrahedra.count; i++) {
@@ -131,7 +130,7 @@ static bool is_pair(const char *path) {
 }
 
 static sbf_status end(sbfi_tet_mesh *mesh, sbf_status status, const char *path, sbf_diagnostic *error) {
-  if (status == SBF_OK) status = mend(mesh, path, error);
+  if (status == SBF_OK) status = sbfi_tet_mesh_mend(mesh, path, error);
   if (status != SBF_OK) sbfi_tet_mesh_free(mesh);
   return status;
 }

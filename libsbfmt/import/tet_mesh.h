@@ -28,6 +28,10 @@ sbf_status sbfi_tet_mesh_read_memory(sbfi_tet_mesh *mesh, const char *name, sbfi
     const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_tet_mesh_free(sbfi_tet_mesh *mesh);
 
+/* Checks every index, turns what is listed the other way round, leaves out what is flat; an error where
+ * nothing is left. `path` is the file's, for messages. */
+sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error);
+
 /* Triangles that bound the tetrahedra, each once, facing outwards, in the order of the tetrahedra: appended
  * to an array of uint32_t, three each. False where memory runs out. */
 bool sbfi_tet_mesh_boundary(const sbfi_tet_mesh *mesh, sbfi_array *triangles);

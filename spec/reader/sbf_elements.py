@@ -72,6 +72,9 @@ derivation
   tool: string
   settings: string
   source_hash: string
+  mass: float range=[0,inf)
+  low: vec3
+  high: vec3
 texture TXTR
   id: id required
   name: string
@@ -211,7 +214,7 @@ attributes
   mass: float range=[0,inf)
   area_density: float range=[0,inf)
   thickness: float default=0.001 range=(0,inf)
-  young_modulus: float default=200000 range=(0,inf)
+  young_modulus: float default=80000 range=(0,inf)
   poisson_ratio: float default=0.4 range=(-1,0.5)
   bending_stiffness: float range=[0,inf)
   mass_damping: float range=[0,inf)
@@ -228,6 +231,7 @@ attributes
   yield_strain: float range=[0,inf)
   yield_flow: float range=[0,inf)
   tear_strain: float range=[0,inf)
+  sag_free: bool default=false
 weight_map
   property: enum(weight_property) required
   values: float[] range=[0,inf) length=parent.size

@@ -38,7 +38,7 @@ def difference(a, b):
     return f"\nlibrary: …{a[max(at - 80, 0):at + 40]}\nreader:  …{b[max(at - 80, 0):at + 40]}"
 
 
-class SecondReader(ProgramTest):
+class Comparison(ProgramTest):
     def assert_same(self, path):
         ours, theirs = first(path), second(path)
         self.assertEqual((ours[0], theirs[0]), (0, 0), ours[2] + theirs[2])
@@ -51,6 +51,8 @@ class SecondReader(ProgramTest):
             self.good("pack", path, "-o", packed, *options)
             self.assert_same(packed)
 
+
+class Samples(Comparison):
     def test_valid_samples(self):
         samples = sorted(glob.glob(os.path.join(SAMPLES, "**", "*.sbf*"), recursive=True))
         samples = [path for path in samples if os.sep + "invalid" + os.sep not in path]
@@ -64,19 +66,6 @@ class SecondReader(ProgramTest):
 
     def test_the_built_example(self):
         self.assert_same_in_all_forms(example(self.class_folder.name))
-
-    def test_shared_data(self):
-        if not os.path.isdir(shared()):
-            self.skipTest("../shared/data is not there")
-        for number, arguments in enumerate(CONVERTED):
-            given = [a if a.startswith("--") else shared(*a.split("/")) for a in arguments]
-            if not all(a.startswith("--") or os.path.exists(a) for a in given):
-                continue
-            with self.subTest(arguments[0]):
-                path = self.path(f"{number}.sbfz")
-                result = call("convert", *given, "-o", path)
-                self.assertEqual(result.status, 0, result.err)
-                self.assert_same(path)
 
     def test_invalid_samples_are_refused(self):
         samples = sorted(glob.glob(os.path.join(SAMPLES, "invalid", "*.sbf*")))
@@ -119,6 +108,25 @@ class SecondReader(ProgramTest):
             path = write_bytes(self.path("b.sbfz"), content[:size])
             self.assertEqual((first(path)[0], second(path)[0]), (1, 1), size)
 
+    def test_it_has_every_field_of_the_reference(self):
+        """A new field is added to sbf_elements.py by hand, from its row in reference.md."""
+        sys.path.insert(0, os.path.dirname(READER))
+        from sbf_elements import ELEMENTS  # pylint: disable=import-outside-toplevel
+        stated, element = [], None
+        for line in read_bytes(os.path.join(ROOT, "spec", "reference.md")).decode().splitlines():
+            if line.startswith("## "):
+                element = line[3:]
+            elif line.startswith("| ") and line[2].isdigit():
+                number, name, _written, kind, _unit, default = (cell.strip() for cell in line.split(" | ")[:6])
+                stated.append((element, int(number.strip("| ")), name, kind, default))
+        known = {(e.name, f.number, f.name): f for e in ELEMENTS.values() for f in e.fields}
+        self.assertEqual(sorted(key[:3] for key in stated), sorted(known))
+        for element, number, name, kind, default in stated:
+            field = known[element, number, name]
+            self.assertEqual((field.kind, field.argument), tuple(kind.rstrip(")").partition("(")[::2]), name)
+            if not default.startswith("always") and default != "required":
+                self.assertEqual(field.default_text or "", default, f"{element}.{name}")
+
     def test_it_imports_nothing_of_ours(self):
         allowed = {"array", "base64", "binascii", "decimal", "fractions", "functools", "math", "os", "re", "struct",
                    "sys", "xml", "zlib"}
@@ -129,6 +137,21 @@ class SecondReader(ProgramTest):
                     name = words[1].split(".")[0]
                     self.assertTrue(name in allowed or os.path.exists(os.path.join(ROOT, "spec", "reader", name + ".py")),
                                     f"{path}: {line}")
+
+
+class Converted(Comparison):
+    def test_shared_data(self):
+        if not os.path.isdir(shared()):
+            self.skipTest("../shared/data is not there")
+        for number, arguments in enumerate(CONVERTED):
+            given = [a if a.startswith("--") else shared(*a.split("/")) for a in arguments]
+            if not all(a.startswith("--") or os.path.exists(a) for a in given):
+                continue
+            with self.subTest(arguments[0]):
+                path = self.path(f"{number}.sbfz")
+                result = call("convert", *given, "-o", path)
+                self.assertEqual(result.status, 0, result.err)
+                self.assert_same(path)
 
 
 if __name__ == "__main__":

@@ -27,8 +27,9 @@ MAY_USE = {
     "libsbfmt/xml": MODEL + ["libsbfmt/xml"],
     "libsbfmt/build": MECHANICS + ["libsbfmt/xml", "libsbfmt/build"],
     "libsbfmt/validate": CORE + ["libsbfmt/mechanics", "libsbfmt/build", "libsbfmt/validate"],
-    "libsbfmt/import": FORMAT + ["libsbfmt/import"],
-    "libsbfmt/export": FORMAT + ["libsbfmt/export"],
+    "libsbfmt/interchange": FORMAT + ["libsbfmt/interchange"],  # what import and export share
+    "libsbfmt/import": FORMAT + ["libsbfmt/interchange", "libsbfmt/import"],
+    "libsbfmt/export": FORMAT + ["libsbfmt/interchange", "libsbfmt/export"],
     "libsbfmt/include": [],
     "runtime": RUNTIME,
     "runtime/math": RUNTIME_MATH,
@@ -57,7 +58,7 @@ BOX_USES = {
 FOLDER_BOX = {
     "libsbfmt/base": "core", "libsbfmt/model": "core", "libsbfmt/generated": "core", "libsbfmt/packed": "core",
     "libsbfmt/mechanics": "mechanics", "libsbfmt/xml": "format", "libsbfmt/validate": "format",
-    "libsbfmt/build": "format", "libsbfmt/import": "interchange", "libsbfmt/export": "interchange",
+    "libsbfmt/build": "format", "libsbfmt/interchange": "interchange", "libsbfmt/import": "interchange", "libsbfmt/export": "interchange",
     "runtime": "runtime",
 }
 

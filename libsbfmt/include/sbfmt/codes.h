@@ -239,6 +239,8 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_GROUND = 955, /* The character did not stand on y = 0 and was moved there. */
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra were listed the other way round: they have been turned. */
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out. */
+  SBF_CODE_EXPORT_EMPTY = 980, /* The asset has nothing that the form to be written could hold. */
+  SBF_CODE_EXPORT_LEFT_OUT = 981, /* The form to be written has no place for parts of the asset: they are left out. */
 } sbf_code;
 // clang-format on
 

@@ -11,6 +11,21 @@
 extern "C" {
 #endif
 
+typedef struct sbf_export_options {
+  size_t struct_size;             /* sizeof(sbf_export_options), or 0 for this version's */
+  const sbf_allocator *allocator; /* NULL: malloc */
+  /* Warnings: what the form has no place for and was left out. May be NULL. */
+  void (*report)(void *user, const sbf_diagnostic *diagnostic);
+  void *user;
+} sbf_export_options;
+
+/* Writes the asset in the form that the ending of `path` names: .obj (the render meshes at rest, or where
+ * there are none the bodies' surfaces; materials to a .mtl of the same name), .tet (the bodies' first levels
+ * of tetrahedra, as PhysX reads them), .xml (the 2012 dialect, section 16 of the specification).
+ * SBF_BAD_INPUT where the asset has nothing that the form could hold. `options` may be NULL. */
+SBF_API sbf_status sbf_export(
+    const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error);
+
 /* A point cache, version 1 (.pc2), as Blender's Mesh Cache plays it: places of all points, sample after
  * sample, single precision, little-endian. */
 typedef struct sbf_point_cache sbf_point_cache;

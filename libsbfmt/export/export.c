@@ -1,0 +1,93 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "export/exporting.h"
+
+sbf_status sbfi_export_no_memory(sbfi_export *e) {
+  return sbfi_diagnose(e->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while writing %s", e->path);
+}
+
+sbf_status sbfi_export_commit(sbfi_export *e, const char *path) {
+  sbf_status status = e->text.failed
+                          ? sbfi_export_no_memory(e)
+                          : sbfi_file_write(path, e->text.at, e->text.length, &e->allocator, e->error);
+  sbfi_text_clear(&e->text);
+  return status;
+}
+
+void sbfi_export_warn(sbfi_export *e, const char *format, ...) {
+  sbf_diagnostic warning;
+  va_list arguments;
+  va_start(arguments, format);
+  sbfi_diagnose_v(&warning, SBF_CODE_EXPORT_LEFT_OUT, format, arguments);
+  va_end(arguments);
+  sbfi_copy_text(warning.file, sizeof warning.file, e->path);
+  sbfi_report(&e->reporter, &warning);
+}
+
+void sbfi_export_left_out(sbfi_export *e, const char *form, const sbfi_left_out *things, size_t count) {
+  char list[320] = "";
+  size_t length = 0;
+  for (size_t i = 0; i < count; i++) {
+    if (!things[i].count || length >= sizeof list) continue;
+    int more = snprintf(
+        list + length, sizeof list - length, "%s%s: %u", length ? ", " : "", things[i].what, things[i].count);
+    length += more > 0 ? (size_t)more : 0;
+  }
+  if (length) sbfi_export_warn(e, "%s has no place for all of this, which is left out. %s", form, list);
+}
+
+void sbfi_export_format(sbfi_export *e, const char *format, ...) {
+  char piece[256];
+  va_list arguments;
+  va_start(arguments, format);
+  int length = vsnprintf(piece, sizeof piece, format, arguments);
+  va_end(arguments);
+  if (length > 0)
+    sbfi_text_append(&e->text, piece, (size_t)length < sizeof piece ? (size_t)length : sizeof piece - 1);
+}
+
+void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v) {
+  const float numbers[3] = {v.x, v.y, v.z};
+  for (int k = 0; k < 3; k++) {
+    sbfi_text_char(&e->text, ' ');
+    sbfi_text_f32(&e->text, numbers[k]);
+  }
+}
+
+const sbf_level *sbfi_export_lattice(const sbf_soft_body *body) {
+  for (uint32_t i = 0; i < body->levels.count; i++)
+    if (body->levels.at[i].model == SBF_ELASTIC_MODEL_TETRAHEDRA &&
+        body->levels.at[i].lattice.tetrahedra.count)
+      return &body->levels.at[i];
+  return NULL;
+}
+
+static const struct {
+  const char *ending;
+  sbf_status (*write)(sbfi_export *e);
+} forms[] = {{".xml", sbfi_export_paper}, {".obj", sbfi_export_obj}, {".tet", sbfi_export_tet}};
+
+sbf_status sbf_export(
+    const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error) {
+  static const sbf_export_options defaults = {0};
+  if (!options) options = &defaults;
+  if (options->struct_size && options->struct_size != sizeof *options)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_export_options has another size than this library's");
+  const char *ending = strrchr(path, '.');
+  for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+    if (!ending || strcmp(ending, forms[i].ending) != 0) continue;
+    sbfi_export e = {.asset = asset,
+        .path = path,
+        .allocator = sbfi_allocator_or_default(options->allocator),
+        .reporter = {options->report, options->user, 0, 0},
+        .error = error};
+    sbfi_text_init(&e.text, &e.allocator);
+    sbf_status status = forms[i].write(&e);
+    sbfi_text_free(&e.text);
+    return status;
+  }
+  return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+      "%s: the ending says which form to write, and there are .obj, .tet and .xml (the 2012 dialect)", path);
+}

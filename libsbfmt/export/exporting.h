@@ -1,0 +1,43 @@
+/* What the writers of other programs' forms share. */
+#ifndef SBFI_EXPORTING_H
+#define SBFI_EXPORTING_H
+
+#include "base/diagnostic.h"
+#include "base/text.h"
+#include "sbfmt/export.h"
+
+typedef struct sbfi_export {
+  const sbf_asset *asset;
+  const char *path;
+  sbf_allocator allocator;
+  sbfi_reporter reporter;
+  sbfi_text text; /* of the file */
+  sbf_diagnostic *error;
+} sbfi_export;
+
+/* Each fills e->text and writes it, and what belongs to it. */
+sbf_status sbfi_export_paper(sbfi_export *e);
+sbf_status sbfi_export_obj(sbfi_export *e);
+sbf_status sbfi_export_tet(sbfi_export *e);
+
+sbf_status sbfi_export_no_memory(sbfi_export *e);
+/* Writes e->text to `path` and empties it. */
+sbf_status sbfi_export_commit(sbfi_export *e, const char *path);
+
+/* Things of the asset that a form has no place for. */
+typedef struct sbfi_left_out {
+  uint32_t count;
+  const char *what; /* plural */
+} sbfi_left_out;
+/* One warning that names all those of a count above 0; `form` as in "OBJ". */
+void sbfi_export_left_out(sbfi_export *e, const char *form, const sbfi_left_out *things, size_t count);
+void sbfi_export_warn(sbfi_export *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Text: "name=" style pieces without a NUL byte in them. */
+void sbfi_export_format(sbfi_export *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v); /* three numbers, each behind a space */
+
+/* The body's first level of tetrahedra, or NULL. */
+const sbf_level *sbfi_export_lattice(const sbf_soft_body *body);
+
+#endif
