@@ -10,7 +10,7 @@ static json_t *integer(uint64_t value) {
 }
 
 /* Below so many bytes a file is read whole: its figures are worked out anew. */
-enum { READ_WHOLE_BYTES = 1 << 20 };
+enum { READ_WHOLE_BYTES = 1 << 16 };
 
 /* Triangles that the polygons fall into; by the counts alone, so that no item need have been read. */
 static int64_t triangle_count(const sbf_polygon_mesh *mesh) {

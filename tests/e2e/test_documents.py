@@ -13,7 +13,7 @@ from motion_files import read_poses
 from sbfmt_program import (PROGRAM, ROOT, ProgramTest, call, example, main, needs_lizard, read_bytes, read_text, shared,
                            write_bytes)
 
-DOCUMENTS = [os.path.join(ROOT, "docs", name) for name in ("hello.md", "format-tour.md", "scripts.md")]
+DOCUMENTS = [os.path.join(ROOT, "docs", name) for name in ("hello.md", "format-tour.md", "scripts.md", "partial-loading.md")]
 README = os.path.join(ROOT, "README.md")
 TOURED = os.path.join(ROOT, "spec", "samples", "valid", "jelly.sbf")
 BUILD = os.environ.get("SBFMT_BUILD_DIR", "")
@@ -104,19 +104,32 @@ class Documents(ProgramTest):
         self.assertGreater(poses[180][root][2] - poses[0][root][2], 0.7)  # out
         self.assertAlmostEqual(poses[720][root][2], 2, delta=0.5)  # put down two metres ahead
 
-    @unittest.skipUnless(all(map(os.path.exists, LIBRARIES)), "no static libraries in the build folder")
-    def test_the_first_program_compiles_and_walks(self):
-        (_, text), = blocks(DOCUMENTS[0], "c")
-        source = write_bytes(self.path("hello.c"), text.encode())
+    def output_of(self, text):
+        """Of a C program, compiled against the libraries and run beside a stored lizard.sbfz."""
+        source = write_bytes(self.path("program.c"), text.encode())
         compiler = [os.environ.get("SBFMT_CC", "cc"), "-std=c11", "-Wall", "-Wextra", "-Werror",
                     *os.environ.get("SBFMT_CFLAGS", "").split()]
-        build = subprocess.run([*compiler, *INCLUDES, source, "-o", self.path("hello"), *LIBRARIES, "-lz", "-lm"],
+        build = subprocess.run([*compiler, *INCLUDES, source, "-o", self.path("program"), *LIBRARIES, "-lz", "-lm"],
                                capture_output=True, text=True, check=False)
         self.assertEqual(build.returncode, 0, build.stderr)
         self.good("pack", self.lizard, "--store", "-o", self.path("lizard.sbfz"))
-        run = subprocess.run([self.path("hello")], cwd=self.folder, capture_output=True, text=True, check=False)
+        run = subprocess.run([self.path("program")], cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertRegex(run.stdout, r"^walked 2\.[34]\d m\n$")
+        return run.stdout
+
+    @unittest.skipUnless(all(map(os.path.exists, LIBRARIES)), "no static libraries in the build folder")
+    def test_the_partial_load_reads_a_part(self):
+        (_, text), = blocks(DOCUMENTS[3], "c")
+        output = self.output_of(text)
+        sections = {s["name"]: s for s in self.json_of("info", self.lizard)["sections"]}
+        head = sections["Head"]["vertices"] + sections["Head"]["interior_points"]
+        read_bytes = int(re.fullmatch(rf"Head: {head} points\nread (\d+) bytes\n", output).group(1))
+        self.assertLess(read_bytes, os.path.getsize(self.path("lizard.sbfz")) / 4)
+
+    @unittest.skipUnless(all(map(os.path.exists, LIBRARIES)), "no static libraries in the build folder")
+    def test_the_first_program_compiles_and_walks(self):
+        (_, text), = blocks(DOCUMENTS[0], "c")
+        self.assertRegex(self.output_of(text), r"^walked 2\.[34]\d m\n$")
         part, = blocks(DOCUMENTS[0], "c part")
         whole = text.replace("  sbr_world_destroy(world);", part[1] + "\n  sbr_world_destroy(world);").replace(
             "int main(void)", "void draw(uint32_t, const sbf_vec3 *, const sbf_vec3 *, uint32_t, sbr_double3);\n"

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "fill_asset.h"
+#include "model/asset_box.h"
 #include "xml_samples.h"
 
 static void save_and_load(const char *path, bool packed) {
@@ -182,6 +183,63 @@ START_TEST(test_lines_of_findings_made_elsewhere)
 }
 END_TEST
 
+/* Loads the file with `limits`: the code of the failure, or SBF_CODE_NONE. */
+static int32_t code_with(const char *path, const sbf_asset *asset, sbf_limits limits, uint64_t *used_bytes) {
+  sbf_load_options options = fill_load_options(asset);
+  sbf_asset *loaded;
+  sbf_diagnostic error = {0};
+  harness_memory memory;
+  harness_memory_init(&memory, SIZE_MAX);
+  options.allocator = &memory.allocator;
+  options.limits = limits;
+  options.copy_file = true;
+  sbf_status status = sbf_load_file(path, &options, &loaded, &error);
+  if (status == SBF_OK && used_bytes) *used_bytes = sbfi_asset_box_of(loaded)->arena.used_bytes;
+  ck_assert((status == SBF_OK) == (loaded != NULL));
+  sbf_asset_free(loaded);
+  ck_assert_uint_eq(memory.held_bytes, 0);
+  return status == SBF_OK ? SBF_CODE_NONE : error.code;
+}
+
+/* Every limit of either form, from a file: at it the file loads, one past it nothing is made. What a packed
+ * file inflates to is limited in test_packed_load.c. */
+START_TEST(test_limits_of_files_at_and_past)
+{
+  static const char *const names[] = {"limited.sbf", "limited.sbfz"};
+  static const int32_t too_deep[] = {SBF_CODE_XML_TOO_DEEP, SBF_CODE_PACKED_RECORD};
+  sbf_asset *asset = fill_asset(&(fill_options){.seed = 4, .items = 600});
+  const char *path = harness_scratch(names[_i]);
+  ck_assert_int_eq(sbf_save_file(asset, path, NULL, NULL), SBF_OK);
+  uint64_t used = 0;
+  size_t size;
+  ck_assert_int_eq(code_with(path, asset, (sbf_limits){0}, &used), SBF_CODE_NONE);
+  free(harness_read(path, &size));
+
+  ck_assert_int_eq(code_with(path, asset, (sbf_limits){.file_bytes = size}, NULL), SBF_CODE_NONE);
+  ck_assert_int_eq(code_with(path, asset, (sbf_limits){.file_bytes = size - 1}, NULL), SBF_CODE_IO_TOO_LARGE);
+  uint64_t memory = used; /* the least that will do: what keeps the file itself is not the asset's */
+  ck_assert_int_eq(code_with(path, asset, (sbf_limits){.memory_bytes = memory}, NULL), SBF_CODE_NONE);
+  while (code_with(path, asset, (sbf_limits){.memory_bytes = memory - 1}, NULL) == SBF_CODE_NONE) memory--;
+  ck_assert_uint_lt(used - memory, 128);
+  ck_assert_int_eq(
+      code_with(path, asset, (sbf_limits){.memory_bytes = memory - 1}, NULL), SBF_CODE_OUT_OF_MEMORY);
+
+  uint32_t items = 1, depth = 1;
+  while (code_with(path, asset, (sbf_limits){.list_items = items}, NULL) != SBF_CODE_NONE) items *= 2;
+  for (uint32_t step = items / 2; step; step /= 2)
+    if (code_with(path, asset, (sbf_limits){.list_items = items - step}, NULL) == SBF_CODE_NONE)
+      items -= step;
+  ck_assert_uint_ge(items, 600);
+  ck_assert_int_eq(
+      code_with(path, asset, (sbf_limits){.list_items = items - 1}, NULL), SBF_CODE_LIST_TOO_LONG);
+  while (code_with(path, asset, (sbf_limits){.depth = depth}, NULL) != SBF_CODE_NONE)
+    ck_assert_int_eq(code_with(path, asset, (sbf_limits){.depth = depth++}, NULL), too_deep[_i]);
+  ck_assert_uint_gt(depth, 3);
+  ck_assert_uint_lt(depth, 32);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("load_any");
   TCase *all = tcase_create("all");
@@ -191,6 +249,7 @@ int main(void) {
   tcase_add_test(all, test_pipes);
   tcase_add_test(all, test_all_findings_of_a_file);
   tcase_add_test(all, test_lines_of_findings_made_elsewhere);
+  tcase_add_loop_test(all, test_limits_of_files_at_and_past, 0, 2);
   suite_add_tcase(suite, all);
   return harness_run(suite);
 }
