@@ -9,7 +9,7 @@
  * one 10.5 to 163.8, over millions of tetrahedra of surfaces made at random. */
 static const double warp_long = 0.28, warp_short = 0.40, short_length = 0.86602540378443865;
 
-enum { NONE = UINT32_MAX };
+static const uint32_t NONE = UINT32_MAX;
 
 size_t sbfi_lattice_cuts_slot(const sbfi_lattice_cuts *cuts, uint32_t edge) {
   size_t slot = (size_t)((edge * UINT64_C(0x9e3779b97f4a7c15)) >> 32) & (cuts->slot_count - 1);
