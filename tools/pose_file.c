@@ -1,19 +1,27 @@
 #include "pose_file.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-bool pose_file_open(pose_file *p, const char *path, const session *s) {
+#include "render/fault.h"
+
+static sbf_status fault(const pose_file *p, int why, sbf_diagnostic *error) {
+  return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, p->output.given,
+      "cannot write: %s; check the folder, its permissions and the free space", strerror(why));
+}
+
+sbf_status pose_file_open(pose_file *p, const char *path, const session *s, sbf_diagnostic *error) {
   *p = (pose_file){.file = NULL};
-  if (strlen(path) >= sizeof p->path) return false;
-  strcpy(p->path, path);
-  snprintf(p->temporary, sizeof p->temporary, "%s.%ld.tmp", path, (long)getpid());
+  sbf_status status = output_file_begin(&p->output, path, error);
+  if (status != SBF_OK) return status;
   p->bones = calloc(s->asset->bones.count + 1, sizeof *p->bones);
-  p->file = p->bones ? fopen(p->temporary, "w") : NULL;
-  if (p->file && fputs("frame,time,bone,px,py,pz,qx,qy,qz,qw\n", p->file) >= 0) return true;
-  pose_file_close(p, false);
-  return false;
+  p->file = p->bones ? fopen(p->output.written_path, "w") : NULL;
+  if (p->file && fputs("frame,time,bone,px,py,pz,qx,qy,qz,qw\n", p->file) >= 0) return SBF_OK;
+  status = fault(p, errno, error);
+  pose_file_close(p, false, NULL);
+  return status;
 }
 
 bool pose_file_add(pose_file *p, const session *s) {
@@ -30,13 +38,17 @@ bool pose_file_add(pose_file *p, const session *s) {
   return good;
 }
 
-bool pose_file_close(pose_file *p, bool keep) {
-  if (!p->file && !p->bones) return true;
-  bool good = p->file && fflush(p->file) == 0 && fsync(fileno(p->file)) == 0;
-  if (p->file) good = fclose(p->file) == 0 && good;
-  if (keep && good) good = rename(p->temporary, p->path) == 0;
-  if (!keep || !good) unlink(p->temporary);
+sbf_status pose_file_close(pose_file *p, bool keep, sbf_diagnostic *error) {
+  sbf_status status = SBF_OK;
+  if (p->file) {
+    bool good = fflush(p->file) == 0 && (p->output.direct || fsync(fileno(p->file)) == 0);
+    int why = errno;
+    if (fclose(p->file) != 0 && good) good = false, why = errno;
+    if (keep && !good) status = fault(p, why, error);
+    if (keep && good) status = output_file_commit(&p->output, error);
+  }
+  output_file_abandon(&p->output);
   free(p->bones);
   *p = (pose_file){.file = NULL};
-  return good;
+  return status;
 }

@@ -2,18 +2,19 @@
 #ifndef POSE_FILE_H
 #define POSE_FILE_H
 
+#include "render/output_file.h"
 #include "session.h"
 
 typedef struct pose_file {
   FILE *file;
-  char path[1024], temporary[1040];
+  output_file output;
   sbr_transform *bones;
 } pose_file;
 
-/* False where it cannot be made; errno says why. */
-bool pose_file_open(pose_file *p, const char *path, const session *s);
+/* `path` must stay until the end. */
+sbf_status pose_file_open(pose_file *p, const char *path, const session *s, sbf_diagnostic *error);
 bool pose_file_add(pose_file *p, const session *s);
-/* Renames the complete file into its place, or removes what was written. False where that fails. */
-bool pose_file_close(pose_file *p, bool keep);
+/* Puts the complete file into its place, or removes what was written. Fine when never opened. */
+sbf_status pose_file_close(pose_file *p, bool keep, sbf_diagnostic *error);
 
 #endif

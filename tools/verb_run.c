@@ -106,8 +106,8 @@ static bool open_outputs(run_state *r, cli_call *call) {
     cli_print_diagnostic(call, &error);
     return false;
   }
-  if (poses && !pose_file_open(&r->poses, poses, &r->s)) {
-    cli_wrong(call, "the pose file %s cannot be made: %s", poses, strerror(errno));
+  if (poses && pose_file_open(&r->poses, poses, &r->s, &error) != SBF_OK) {
+    cli_print_diagnostic(call, &error);
     return false;
   }
   return true;
@@ -190,7 +190,10 @@ static int run(cli_call *call) {
   } else if (r.cache && !keep) {
     sbf_point_cache_abandon(r.cache);
   }
-  if (!pose_file_close(&r.poses, keep)) status = cli_wrong(call, "the pose file cannot be completed");
+  if (pose_file_close(&r.poses, keep, &error) != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+    status = SBF_FAILED;
+  }
   if (status == SBF_OK) {
     json_t *object = report(&r);
     if (call->json)

@@ -2,6 +2,8 @@
 
 import math
 import os
+import stat
+import threading
 
 from motion_files import PointCache, read_poses, read_sections
 from sbfmt_program import ProgramTest, call, example, main, read_bytes, write_bytes
@@ -148,6 +150,17 @@ class Run(ProgramTest):
     def test_nothing_is_left_beside_the_files(self):
         self.run_json("--cache", self.path("a.pc2"), "--pose", self.path("b.csv"))
         self.assert_empty_folder(but=["a.pc2", "b.csv"])
+
+    def test_a_pipe_is_written_to_and_not_replaced(self):
+        """What holds for it holds for a device, as in `--pose /dev/null` by root."""
+        pipe, said = self.path("pipe"), []
+        os.mkfifo(pipe)
+        reader = threading.Thread(target=lambda: said.append(read_bytes(pipe)))
+        reader.start()
+        self.run_json("--pose", pipe, seconds=0.1)
+        reader.join(10)
+        self.assertTrue(stat.S_ISFIFO(os.stat(pipe).st_mode))
+        self.assertTrue(said and said[0].startswith(b"frame,time,bone"))
 
     # ---- Scripts ----
 
