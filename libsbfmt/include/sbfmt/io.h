@@ -75,10 +75,10 @@ SBF_API void sbf_buffer_free(sbf_buffer *buffer);
  * `options` may be NULL. Saving refuses what a load would refuse; the same asset and
  * options give the same bytes, with the same version of zlib.
  *
- * Saving, of either form, writes a temporary file in the same folder, syncs and renames it: whoever reads sees
- * the old file or the new one, whole, also where the disk is full or the process is ended. A process that is
- * killed meanwhile leaves the temporary file behind, .sbf-XXXXXXXX.tmp with eight hexadecimal digits: it may be
- * removed whenever nothing is being saved. */
+ * Saving, of either form, writes a temporary file in the same folder, syncs and renames it: whoever reads
+ * sees the old file or the new one, whole, also where the disk is full or the process is ended. A process
+ * that is killed meanwhile leaves the temporary file behind, .sbf-XXXXXXXX.tmp with eight hexadecimal digits:
+ * it may be removed whenever nothing is being saved. */
 SBF_API sbf_status sbf_packed_load_file(
     const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error);
 /* `bytes` must outlive the asset: lists may point into them (they do where stored and aligned to four bytes).
