@@ -24,7 +24,7 @@ sbf_status pose_file_open(pose_file *p, const char *path, const session *s, sbf_
   return status;
 }
 
-bool pose_file_add(pose_file *p, const session *s) {
+sbf_status pose_file_add(pose_file *p, const session *s, sbf_diagnostic *error) {
   sbr_double3 origin = sbr_character_origin(s->world, s->character);
   sbr_character_bones(s->world, s->character, p->bones, s->asset->bones.count);
   bool good = true;
@@ -35,7 +35,7 @@ bool pose_file_add(pose_file *p, const session *s) {
                origin.z + (double)b->position.z, (double)b->rotation.x, (double)b->rotation.y,
                (double)b->rotation.z, (double)b->rotation.w) > 0;
   }
-  return good;
+  return good ? SBF_OK : fault(p, errno, error);
 }
 
 sbf_status pose_file_close(pose_file *p, bool keep, sbf_diagnostic *error) {

@@ -13,7 +13,7 @@ typedef struct pose_file {
 
 /* `path` must stay until the end. */
 sbf_status pose_file_open(pose_file *p, const char *path, const session *s, sbf_diagnostic *error);
-bool pose_file_add(pose_file *p, const session *s);
+sbf_status pose_file_add(pose_file *p, const session *s, sbf_diagnostic *error);
 /* Puts the complete file into its place, or removes what was written. Fine when never opened. */
 sbf_status pose_file_close(pose_file *p, bool keep, sbf_diagnostic *error);
 

@@ -1,4 +1,3 @@
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,10 +87,7 @@ static bool record(run_state *r, sbf_diagnostic *error) {
   read_health(r);
   if (r->soles) soles_measure(r->soles, &r->s, r->skin);
   if (r->cache && !add_to_cache(r, error)) return false;
-  if (!r->poses.file || pose_file_add(&r->poses, &r->s)) return true;
-  *error = (sbf_diagnostic){.severity = SBF_SEVERITY_ERROR, .offset = -1, .index = -1};
-  snprintf(error->message, sizeof error->message, "the pose file cannot be written: %s", strerror(errno));
-  return false;
+  return !r->poses.file || pose_file_add(&r->poses, &r->s, error) == SBF_OK;
 }
 
 static bool open_outputs(run_state *r, cli_call *call) {
