@@ -46,8 +46,8 @@ static int32_t head_by_name(const sbfi_gait_draft *d) {
   return SBF_NONE;
 }
 
-/* The end that reaches farthest ahead of the feet, or where all legs hang on one bone highest above it. Jaws,
- * ears and eyes count with the bone they hang on. */
+/* The end that reaches farthest ahead of the feet, or where all legs hang on one bone highest above it. Ears,
+ * eyes and jaws count with the bone they hang on. */
 static int32_t head_by_shape(const sbfi_gait_draft *d) {
   double foremost = -INFINITY, best = -INFINITY;
   int32_t head = SBF_NONE;
@@ -55,7 +55,7 @@ static int32_t head_by_shape(const sbfi_gait_draft *d) {
     foremost = fmax(foremost, (double)sbfi_draft_bone(d, d->legs[l].end)->head.z);
   for (uint32_t i = 0; i < d->asset->bones.count; i++) {
     const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
-    if (!is_middle(d, (int32_t)i) || d->shapes[i].children || bone->parent == SBF_NONE) continue;
+    if (!is_middle(d, (int32_t)i) || d->shapes[i].middle_children || bone->parent == SBF_NONE) continue;
     bool upright = d->chest == SBF_NONE && (double)bone->head.y - d->ground > 0.6 * d->height;
     if (!upright && (double)bone->head.z <= foremost) continue;
     double score = upright ? (double)bone->head.y : (double)bone->head.z;

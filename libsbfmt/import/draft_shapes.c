@@ -110,6 +110,7 @@ static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
     if (!shape->bears) continue;
     parent->bears = true;
     parent->children++;
+    parent->middle_children += shape->side == 0;
     widen(parent, shape->least_x, shape->most_x);
   }
 }

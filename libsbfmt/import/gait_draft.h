@@ -8,11 +8,12 @@
 /* A bone "bears" if it, or a bone below it, holds part of a mesh. Bones that do not are left out of account:
  * tips, sockets, controls. In a rig without meshes all bear but those named as tips. */
 typedef struct sbfi_bone_shape {
-  uint32_t points;   /* of meshes that it holds more than any other bone does */
-  bool bears;        /* it or one below holds points */
-  uint32_t children; /* that bear */
-  double low;        /* y of its lowest point; of its head in a rig without meshes; INFINITY without points */
-  double low_below;  /* the same of it and all below */
+  uint32_t points;          /* of meshes that it holds more than any other bone does */
+  bool bears;               /* it or one below holds points */
+  uint32_t children;        /* that bear */
+  uint32_t middle_children; /* those of neither side */
+  double low;       /* y of its lowest point; of its head in a rig without meshes; INFINITY without points */
+  double low_below; /* the same of it and all below */
   double least_x, most_x; /* of the heads and the points' middles of it and all below that bear */
   int side;               /* 1: all of it and below is on the left (+X), -1: on the right, 0: neither */
 } sbfi_bone_shape;
