@@ -58,7 +58,8 @@ static int32_t match_object(sbfi_conversion *c, const sbfi_scene_mesh *mesh, con
   return best;
 }
 
-/* The bone whose segment lies nearest to a point. */
+/* The bone whose segment lies nearest to a point; of equals the last, for what lies beyond a bone's end is
+ * its child's. */
 static int32_t nearest_bone(const sbf_asset *asset, place p) {
   int32_t best = SBF_NONE;
   double best_squared = INFINITY;
@@ -72,7 +73,7 @@ static int32_t nearest_bone(const sbf_asset *asset, place p) {
     for (int k = 0; k < 3; k++) along += (p.center[k] - head[k]) * axis[k];
     along = fmin(fmax(along, 0), bone->length);
     for (int k = 0; k < 3; k++) squared += pow(p.center[k] - head[k] - along * axis[k], 2);
-    if (squared >= best_squared) continue;
+    if (squared > best_squared) continue;
     best_squared = squared;
     best = (int32_t)i;
   }

@@ -35,6 +35,13 @@ static bool is_middle(const sbfi_gait_draft *d, int32_t bone) {
   return d->shapes[bone].bears && d->shapes[bone].side == 0 && !is_leg_bone(d, bone);
 }
 
+/* Whether the bone or one above it is called a tail. */
+static bool is_called_tail(const sbfi_gait_draft *d, int32_t bone) {
+  for (; bone != SBF_NONE; bone = sbfi_draft_bone(d, bone)->parent)
+    if (says(sbfi_draft_bone(d, bone)->name, "tail")) return true;
+  return false;
+}
+
 static int32_t head_by_name(const sbfi_gait_draft *d) {
   for (int pass = 0; pass < 2; pass++) /* better one that holds something itself */
     for (uint32_t i = 0; i < d->asset->bones.count; i++) {
@@ -55,7 +62,9 @@ static int32_t head_by_shape(const sbfi_gait_draft *d) {
     foremost = fmax(foremost, (double)sbfi_draft_bone(d, d->legs[l].end)->head.z);
   for (uint32_t i = 0; i < d->asset->bones.count; i++) {
     const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
-    if (!is_middle(d, (int32_t)i) || d->shapes[i].middle_children || bone->parent == SBF_NONE) continue;
+    if (!is_middle(d, (int32_t)i) || d->shapes[i].middle_children || bone->parent == SBF_NONE ||
+        is_called_tail(d, (int32_t)i))
+      continue;
     bool upright = d->chest == SBF_NONE && (double)bone->head.y - d->ground > 0.6 * d->height;
     if (!upright && (double)bone->head.z <= foremost) continue;
     double score = upright ? (double)bone->head.y : (double)bone->head.z;
@@ -191,10 +200,8 @@ bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch) {
   take_down(d, first, second[top].next);
   turn_round(d->spine, d->spine_count);
   take_down(d, first, top);
-  if (d->spine_count < LEAST_SPINE)
-    d->spine_count = 0;
-  else if (leads_from_its_end(d))
-    turn_round(d->spine, d->spine_count);
+  if (d->spine_count && leads_from_its_end(d)) turn_round(d->spine, d->spine_count);
   cut_before_head(d);
+  if (d->spine_count < LEAST_SPINE) d->spine_count = 0;
   return true;
 }
