@@ -1,4 +1,4 @@
-/* Head and tail, by name first and then by shape; of a rig without legs the bones from end to end. */
+/* Head and tail, by name first and then by shape; of a rig without legs the body that is dragged along. */
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
@@ -155,36 +155,16 @@ static int32_t find_top(const sbfi_gait_draft *d, reach_down *first, reach_down 
   return top;
 }
 
-/* Only bones that hold something are taken: a control between them is none of the body. */
-static void take_down(sbfi_gait_draft *d, const reach_down *first, int32_t bone) {
-  for (; bone != SBF_NONE; bone = first[bone].next)
+/* Bones of a way down that hold something: a control between them is none of the body. Returns whether the
+ * head is on it. */
+static bool take_down(sbfi_gait_draft *d, const reach_down *first, int32_t bone) {
+  bool has_head = false;
+  d->spine_count = 0;
+  for (; bone != SBF_NONE; bone = first[bone].next) {
+    has_head = has_head || bone == d->head;
     if (!d->has_mesh || d->shapes[bone].points) d->spine[d->spine_count++] = (uint32_t)bone;
-}
-
-static void turn_round(uint32_t *bones, uint32_t count) {
-  for (uint32_t i = 0; i < count / 2; i++) {
-    uint32_t other = bones[count - 1 - i];
-    bones[count - 1 - i] = bones[i];
-    bones[i] = other;
   }
-}
-
-/* The head leads, or what lies farthest ahead. */
-static bool leads_from_its_end(const sbfi_gait_draft *d) {
-  const sbf_bone *first = sbfi_draft_bone(d, (int32_t)d->spine[0]);
-  const sbf_bone *last = sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1]);
-  if (d->head != SBF_NONE) return sbfi_draft_is_below(d, (int32_t)d->spine[d->spine_count - 1], d->head);
-  return last->head.z > first->head.z;
-}
-
-/* A tongue goes along with the head. */
-static void cut_before_head(sbfi_gait_draft *d) {
-  for (uint32_t i = 1; i < d->spine_count; i++) {
-    if ((int32_t)d->spine[i] != d->head) continue;
-    d->spine_count -= i;
-    memmove(d->spine, d->spine + i, d->spine_count * sizeof *d->spine);
-    return;
-  }
+  return has_head;
 }
 
 bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch) {
@@ -196,12 +176,9 @@ bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch) {
   for (uint32_t i = 0; i < count; i++) first[i].next = second[i].next = SBF_NONE;
   d->head = head_by_name(d);
   int32_t top = find_top(d, first, second);
-  if (top == SBF_NONE) return true;
-  take_down(d, first, second[top].next);
-  turn_round(d->spine, d->spine_count);
-  take_down(d, first, top);
-  if (d->spine_count && leads_from_its_end(d)) turn_round(d->spine, d->spine_count);
-  cut_before_head(d);
+  /* What is dragged along is the way that does not lead to the head, where there are two. */
+  if (top != SBF_NONE && take_down(d, first, top) && second[top].next != SBF_NONE)
+    take_down(d, first, second[top].next);
   if (d->spine_count < LEAST_SPINE) d->spine_count = 0;
   return true;
 }

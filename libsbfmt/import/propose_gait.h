@@ -7,7 +7,8 @@
 
 /* Adds ik chains, chains and a gait to an asset that has none of them. Legs are limbs of one side that come
  * down to the ground, left those on +X, each named after its foot; head and tail go by name first, then by
- * shape. A rig without legs gets no gait, and a warning says so; its bones from head to tail become a chain.
+ * shape. A rig without legs gets no gait, and a warning says so; the body that it drags along becomes a
+ * chain.
  */
 sbf_status sbfi_propose_gait(sbfi_conversion *c);
 
