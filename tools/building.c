@@ -1,14 +1,24 @@
 #include "building.h"
 
+#include <inttypes.h>
+
 #include "sbfmt/build.h"
 
-static const char *const methods[] = {"automatic", "centroid", "none"}; /* as sbf_build_interior */
+/* As sbf_build_interior, and another word for one of them. */
+static const char *const methods[] = {
+    "automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "surface"};
+enum { METHOD_COUNT = sizeof methods / sizeof *methods, SURFACE = METHOD_COUNT - 1 };
 
 static bool read_options(const cli_call *call, sbf_build_options *options) {
   int method = SBF_BUILD_INTERIOR_AUTOMATIC;
   *options = (sbf_build_options){.user = NULL};
-  if (!cli_word(call, "--springs", methods, 3, &method)) return false;
-  options->interior = (sbf_build_interior)method;
+  long elements = 0;
+  if (!cli_word(call, "--springs", methods, METHOD_COUNT, &method) ||
+      !cli_number(call, "--cell", 1e-9, 1e9, &options->cell_m) ||
+      !cli_integer(call, "--elements", 1, 100000000, &elements))
+    return false;
+  options->interior = method == SURFACE ? SBF_BUILD_INTERIOR_NONE : (sbf_build_interior)method;
+  options->elements = (uint32_t)elements;
   return true;
 }
 
@@ -27,9 +37,18 @@ static void report(void *user, const sbf_diagnostic *diagnostic) {
   cli_print_diagnostic(user, diagnostic);
 }
 
+static void print_lattices(const sbf_build_report *r) {
+  printf("tetrahedra: %u, %.4g m^3, dihedral angles %.1f to %.1f degrees, vertices within %.3g m\n",
+      r->tetrahedra, r->lattice_volume, r->least_dihedral_deg, r->most_dihedral_deg, r->farthest_m);
+  printf("dihedral angles by tens of degrees:");
+  for (int i = 0; i < 18; i++) printf(" %" PRIu64, r->dihedrals[i]);
+  printf("\n");
+}
+
 static void print_report(const sbf_build_report *r) {
   printf("built %u bodies: %u interior points, %u pins, %u hulls, %u embedded vertices\n", r->bodies,
       r->interior_points, r->pins, r->hulls, r->embedded_vertices);
+  if (r->tetrahedra) print_lattices(r);
   printf("springs: %u structural, %u shear, %u flexion, %u internal", r->springs[SBF_SPRING_KIND_STRUCTURAL],
       r->springs[SBF_SPRING_KIND_SHEAR], r->springs[SBF_SPRING_KIND_FLEXION],
       r->springs[SBF_SPRING_KIND_INTERNAL] + r->inert_springs);

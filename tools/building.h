@@ -7,7 +7,12 @@
 #include "sbfmt/io.h"
 
 #define BUILDING_OPTIONS                                                                                     \
-  { "--springs", "METHOD", "interior springs: automatic, centroid or none (automatic)" }
+  {"--springs", "METHOD",                                                                                    \
+      "automatic, centroid, lattice, surface (or none), brute: springs; tetrahedra: no springs "             \
+      "(automatic)"},                                                                                        \
+      {"--cell", "METRES", "edge of a lattice's cubes (by --elements)"}, {                                   \
+    "--elements", "N", "about so many tetrahedra a body (2000, thin ones up to 16000)"                       \
+  }
 
 /* False, with a message, where the options are wrong. */
 bool building_check(const cli_call *call);

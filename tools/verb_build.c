@@ -21,9 +21,9 @@ static const cli_option options[] = {
     BUILDING_OPTIONS,
     {NULL, NULL, NULL},
 };
-const cli_verb verb_build = {"build", "IN -o OUT [--springs METHOD]",
+const cli_verb verb_build = {"build", "IN -o OUT [--springs METHOD] [--cell METRES] [--elements N]",
     "make the derived parts of a bundle anew",
-    "Every part marked derived is dropped and made again from the source parts: springs, pins, embeddings, "
-    "hulls.\n"
+    "Every part marked derived is dropped and made again from the source parts: springs or tetrahedra, pins, "
+    "embeddings, hulls.\n"
     "Authored parts are kept as they are. The same input and options give the same bytes.",
     options, 1, 1, run};

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "build/embed.h"
+#include "build/lattice_level.h"
 #include "build/level_pins.h"
 #include "build/section_hulls.h"
 #include "build/source_reading.h"
@@ -52,13 +53,18 @@ static sbf_build_options options_of(const sbf_build_options *given) {
   return options;
 }
 
-static const char *const interior_words[] = {"automatic", "centroid", "none"};
+static const char *const interior_words[] = {
+    "automatic", "centroid", "none", "lattice", "brute", "tetrahedra"};
+enum { INTERIOR_COUNT = sizeof interior_words / sizeof *interior_words };
 
 /* The settings that shape what is made, in alphabetical order. */
 static const char *settings_of(const build *b) {
-  char text[160];
+  char text[240], cell[40] = "", elements[32] = "";
   const sbf_build_options *o = &b->options;
-  snprintf(text, sizeof text, "embeddings=%s flexion=%s hulls=%s interior=%s",
+  /* Millionths of a metre are fine enough for a cell, and whole numbers read alike everywhere. */
+  if (o->cell_m > 0) snprintf(cell, sizeof cell, "cell_um=%.0f ", o->cell_m * 1e6);
+  if (o->elements > 0) snprintf(elements, sizeof elements, "elements=%u ", (unsigned)o->elements);
+  snprintf(text, sizeof text, "%s%sembeddings=%s flexion=%s hulls=%s interior=%s", cell, elements,
       o->without_embeddings ? "false" : "true", o->without_flexion ? "false" : "true",
       o->without_hulls ? "false" : "true", interior_words[o->interior]);
   return sbf_asset_copy_text(b->asset, text);
@@ -138,12 +144,15 @@ static sbf_status renumber(build *b) {
   return status;
 }
 
-static bool is_wanted_inside(const build *b, const sbf_soft_body *body) {
-  if (b->options.interior != SBF_BUILD_INTERIOR_AUTOMATIC)
-    return b->options.interior == SBF_BUILD_INTERIOR_CENTROID;
+static sbf_build_interior interior_of(const build *b, const sbf_soft_body *body) {
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
-  return body->bone != SBF_NONE || !measures.sheet;
+  sbf_build_interior wanted = b->options.interior;
+  if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC)
+    wanted =
+        body->bone != SBF_NONE || !measures.sheet ? SBF_BUILD_INTERIOR_CENTROID : SBF_BUILD_INTERIOR_NONE;
+  if (wanted == SBF_BUILD_INTERIOR_CENTROID || wanted == SBF_BUILD_INTERIOR_BRUTE) return wanted;
+  return measures.sheet ? SBF_BUILD_INTERIOR_NONE : wanted;
 }
 
 static void warn_of_attachments(build *b, uint32_t body) {
@@ -161,30 +170,121 @@ static void warn_of_attachments(build *b, uint32_t body) {
   }
 }
 
-static bool make_level(build *b, uint32_t number) {
-  sbf_soft_body *body = &b->bodies[number];
-  sbfi_spring_recipe recipe = {is_wanted_inside(b, body), !b->options.without_flexion, DERIVATION};
-  sbfi_spring_counts counts;
-  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
-  sbfi_arena scratch;
-  sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
-  sbfi_interior_map *map = &b->maps[number];
-  bool good = level && sbfi_spring_level_make(level, body, &recipe, b->asset, map, &counts, &scratch);
-  if (good && map->polygon_points) {
-    map->polygon_points = sbfi_arena_copy(
-        &b->scratch, map->polygon_points, body->surface.polygon_sizes.count, sizeof *map->polygon_points);
-    good = map->polygon_points != NULL;
-  }
-  sbfi_arena_free(&scratch);
-  if (!good) return false;
-  body->levels = (sbf_level_list){level, 1};
+static sbf_status report_of_body(build *b, uint32_t number, sbf_code code, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+static sbf_status report_of_body(build *b, uint32_t number, sbf_code code, const char *format, ...) {
+  sbf_diagnostic finding;
+  va_list arguments;
+  va_start(arguments, format);
+  sbf_status status = sbfi_diagnose_v(&finding, code, format, arguments);
+  va_end(arguments);
+  snprintf(finding.path, sizeof finding.path, "/sbf/soft_body[%u]", number + 1);
+  if (status == SBF_OK)
+    sbfi_report(&b->reporter, &finding);
+  else if (b->error)
+    *b->error = finding;
+  return status;
+}
+
+static void take_level(build *b, uint32_t number, const sbf_level *level, uint32_t pins) {
+  b->bodies[number].levels = (sbf_level_list){level, 1};
   b->made[number] = true;
   b->report.bodies++;
+  b->report.pins += pins;
+}
+
+static bool make_springs(build *b, uint32_t number, sbf_build_interior interior, sbfi_arena *scratch) {
+  sbf_soft_body *body = &b->bodies[number];
+  sbfi_spring_recipe recipe = {
+      interior == SBF_BUILD_INTERIOR_CENTROID, !b->options.without_flexion, DERIVATION};
+  sbfi_spring_counts counts;
+  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
+  sbfi_interior_map *map = &b->maps[number];
+  if (!level || !sbfi_spring_level_make(level, body, &recipe, b->asset, map, &counts, scratch)) return false;
+  if (map->polygon_points) {
+    map->polygon_points = sbfi_arena_copy(
+        &b->scratch, map->polygon_points, body->surface.polygon_sizes.count, sizeof *map->polygon_points);
+    if (!map->polygon_points) return false;
+  }
+  take_level(b, number, level, counts.pins);
   b->report.interior_points += counts.interior_points;
   b->report.inert_springs += counts.inert;
-  b->report.pins += counts.pins;
   for (int kind = 0; kind < SBF_SPRING_KIND_COUNT; kind++) b->report.springs[kind] += counts.springs[kind];
   return true;
+}
+
+static void add_quality(sbf_build_report *report, const sbfi_lattice_quality *of) {
+  bool first = report->most_dihedral_deg == 0;
+  if (first || of->least_deg < report->least_dihedral_deg) report->least_dihedral_deg = of->least_deg;
+  if (of->most_deg > report->most_dihedral_deg) report->most_dihedral_deg = of->most_deg;
+  for (int i = 0; i < SBFI_DIHEDRAL_BINS; i++) report->dihedrals[i] += of->histogram[i];
+  report->lattice_volume += of->volume;
+}
+
+/* Where the lattice of one body stands among all. */
+typedef struct lattice_share {
+  build *b;
+  uint32_t number;
+} lattice_share;
+
+static bool lattice_progress(void *user, double done) {
+  const lattice_share *share = user;
+  build *b = share->b;
+  return progress(b, "lattices", 0.2 + 0.4 * (share->number + done) / b->asset->soft_bodies.count) == SBF_OK;
+}
+
+static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_arena *scratch) {
+  const sbf_soft_body *body = &b->bodies[number];
+  const sbfi_lattice_recipe recipe = {b->options.cell_m, b->options.elements, DERIVATION};
+  sbfi_lattice_counts counts;
+  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
+  if (!level) return no_memory(b);
+  lattice_share share = {b, number};
+  switch (sbfi_lattice_level_make(
+      level, body, &recipe, b->asset, &counts, (sbfi_lattice_progress){lattice_progress, &share}, scratch)) {
+  case SBFI_LATTICE_MADE:
+    break;
+  case SBFI_LATTICE_NO_MEMORY:
+    return no_memory(b);
+  case SBFI_LATTICE_CANCELLED:
+    return SBF_FAILED; /* `error` says so */
+  case SBFI_LATTICE_TOO_FINE:
+    return report_of_body(b, number, SBF_CODE_LATTICE_TOO_FINE,
+        "a lattice of this cell in soft body \"%s\" would have more than 2^28 nodes: give a larger cell",
+        body->name);
+  }
+  if (counts.tetrahedra == 0) {
+    report_of_body(b, number, SBF_CODE_LATTICE_EMPTY,
+        "soft body \"%s\" encloses nothing that a lattice of %.4g m could fill: it gets springs over its "
+        "surface",
+        body->name, (double)level->cell);
+    return make_springs(b, number, SBF_BUILD_INTERIOR_NONE, scratch) ? SBF_OK : no_memory(b);
+  }
+  /* Tips and rims are thin everywhere: a few such points are no thin limb. */
+  if (counts.thinness.thin_count > counts.thinness.sample_count / 50)
+    report_of_body(b, number, SBF_CODE_LATTICE_THIN,
+        "%u of %u points looked at on soft body \"%s\" stand on matter thinner than two elements, the "
+        "thinnest "
+        "%.4g m at a cell of %.4g m",
+        (unsigned)counts.thinness.thin_count, (unsigned)counts.thinness.sample_count, body->name,
+        counts.thinness.least, (double)level->cell);
+  take_level(b, number, level, counts.pins);
+  b->report.tetrahedra += counts.tetrahedra;
+  add_quality(&b->report, &counts.quality);
+  return SBF_OK;
+}
+
+static sbf_status make_level(build *b, uint32_t number) {
+  sbfi_arena scratch;
+  sbf_build_interior interior = interior_of(b, &b->bodies[number]);
+  sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
+  sbf_status status = SBF_OK;
+  if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
+    status = make_tetrahedra(b, number, &scratch);
+  else if (!make_springs(b, number, interior, &scratch))
+    status = no_memory(b);
+  sbfi_arena_free(&scratch);
+  return status;
 }
 
 /* Authored levels stay; the pins that the body's own stand for are put on them. */
@@ -196,7 +296,7 @@ static bool pin_authored_levels(build *b, uint32_t number) {
   body->levels.at = levels;
   for (uint32_t l = 0; l < body->levels.count; l++) {
     uint32_t before = levels[l].pins.count;
-    if (!sbfi_level_pins_make(&levels[l], body, DERIVATION, b->asset, 0, 0, &b->scratch)) return false;
+    if (!sbfi_level_pins_make(&levels[l], body, DERIVATION, b->asset, NULL, 0, &b->scratch)) return false;
     for (uint32_t p = before; l == 0 && p < levels[l].pins.count; p++)
       b->report.pins += levels[l].pins.at[p].points.count;
   }
@@ -212,13 +312,11 @@ static sbf_status make_levels(build *b) {
     if (b->bodies[i].levels.count > 0) {
       if (!pin_authored_levels(b, i)) return no_memory(b);
     } else if (b->bodies[i].surface.positions.count > 0) {
-      if (!make_level(b, i)) return no_memory(b);
+      status = make_level(b, i);
+      if (status != SBF_OK) return status;
     } else {
-      sbf_diagnostic finding;
-      sbfi_diagnose(&finding, SBF_CODE_BODY_WITHOUT_POINTS,
+      report_of_body(b, i, SBF_CODE_BODY_WITHOUT_POINTS,
           "soft body \"%s\" has no surface points to build a level on", b->bodies[i].name);
-      snprintf(finding.path, sizeof finding.path, "/sbf/soft_body[%u]", i + 1);
-      sbfi_report(&b->reporter, &finding);
     }
   }
   return SBF_OK;
@@ -239,6 +337,7 @@ static sbf_status embed(build *b) {
   if (!sbfi_embed(b->asset, targets, (uint32_t)count, DERIVATION, &b->reporter, &report, &b->scratch))
     return no_memory(b);
   b->report.embedded_vertices = report.vertices;
+  b->report.farthest_m = report.farthest;
   return SBF_OK;
 }
 
@@ -301,8 +400,10 @@ sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, s
     sbf_build_report *report, sbf_diagnostic *error) {
   *built = NULL;
   build b = {.options = options_of(options), .from = asset, .error = error};
-  if ((unsigned)b.options.interior > SBF_BUILD_INTERIOR_NONE)
+  if ((unsigned)b.options.interior >= INTERIOR_COUNT)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known interior");
+  if (!(b.options.cell_m >= 0 && b.options.cell_m <= 1e9))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name a cell that is no length");
   b.reporter = (sbfi_reporter){.report = b.options.report, .user = b.options.user};
   sbfi_arena_init(&b.scratch, b.options.allocator, 0);
   sbfi_ids_init(&b.ids, b.options.allocator);

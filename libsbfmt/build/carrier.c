@@ -57,22 +57,11 @@ static void find_extremes(sbfi_carrier *c) {
   }
 }
 
-static bool box_lattice(sbfi_carrier *c, sbfi_arena *arena) {
+static bool find_in_lattice(sbfi_carrier *c, sbfi_arena *arena) {
   const sbf_uint4_list *tetrahedra = &c->level->lattice.tetrahedra;
   if (tetrahedra->count == 0) return true;
-  sbfi_box *boxes = sbfi_arena_allocate(arena, tetrahedra->count, sizeof *boxes);
-  if (!boxes) return false;
-  for (uint32_t t = 0; t < tetrahedra->count; t++) {
-    for (int k = 0; k < 4; k++) {
-      sbf_vec3 p = c->level->positions.at[tetrahedra->at[t].at[k]];
-      const float at[3] = {p.x, p.y, p.z};
-      for (int axis = 0; axis < 3; axis++) {
-        if (k == 0 || at[axis] < boxes[t].low[axis]) boxes[t].low[axis] = at[axis];
-        if (k == 0 || at[axis] > boxes[t].high[axis]) boxes[t].high[axis] = at[axis];
-      }
-    }
-  }
-  return sbfi_box_tree_build(&c->lattice, boxes, tetrahedra->count, arena);
+  return sbfi_tetrahedron_finder_make(
+      &c->lattice, c->level->positions.at, tetrahedra->at, tetrahedra->count, arena);
 }
 
 /* A body without polygons carries by its points. */
@@ -94,8 +83,8 @@ bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const s
   if (interior) carrier->interior = *interior;
   find_extremes(carrier);
   return hash_positions(carrier, arena) &&
-         sbfi_triangle_tree_build(&carrier->surface, &body->surface, arena) && box_lattice(carrier, arena) &&
-         box_points(carrier, arena);
+         sbfi_triangle_tree_build(&carrier->surface, &body->surface, arena) &&
+         find_in_lattice(carrier, arena) && box_points(carrier, arena);
 }
 
 /* A choice of four points: the weights that give the position, and how large they are. */
@@ -110,21 +99,7 @@ static sbfi_d3 at_rest(const sbfi_carrier *c, uint32_t point) {
 
 /* Weights of a position in a tetrahedron; false where that is as good as flat. */
 static bool weigh(const sbfi_carrier *c, choice *in, sbfi_d3 position) {
-  sbfi_d3 origin = at_rest(c, in->points[3]), edges[3], cofactors[3];
-  double longest = 0;
-  for (int k = 0; k < 3; k++) {
-    edges[k] = sbfi_d3_sub(at_rest(c, in->points[k]), origin);
-    if (sbfi_d3_length(edges[k]) > longest) longest = sbfi_d3_length(edges[k]);
-  }
-  for (int k = 0; k < 3; k++) cofactors[k] = sbfi_d3_cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
-  double volume = sbfi_d3_dot(edges[0], cofactors[0]);
-  if (!(fabs(volume) > 1e-6 * longest * longest * longest)) return false;
-  sbfi_d3 from = sbfi_d3_sub(position, origin);
-  in->weights[3] = 1;
-  for (int k = 0; k < 3; k++) {
-    in->weights[k] = sbfi_d3_dot(from, cofactors[k]) / volume;
-    in->weights[3] -= in->weights[k];
-  }
+  if (!sbfi_tetrahedron_weigh(c->level->positions.at, in->points, position, in->weights)) return false;
   in->size = 0;
   for (int k = 0; k < 4; k++) in->size += in->weights[k] * in->weights[k];
   return true;
@@ -148,7 +123,7 @@ static bool level_corners(const sbfi_carrier *c, uint32_t triangle, uint32_t cor
 }
 
 static sbfi_carried written(const sbfi_carrier *c, const choice *chosen, sbfi_d3 position) {
-  sbfi_carried carried;
+  sbfi_carried carried = {.outside = 0};
   float weights[4];
   for (int k = 0; k < 3; k++) weights[k] = (float)chosen->weights[k];
   weights[3] = (float)(1.0 - weights[0] - weights[1] - weights[2]);
@@ -163,7 +138,7 @@ static sbfi_carried written(const sbfi_carrier *c, const choice *chosen, sbfi_d3
 }
 
 static sbfi_carried carried_alone(uint32_t point, double error) {
-  return (sbfi_carried){{{point, point, point, point}}, {1, 0, 0, 0}, (float)error};
+  return (sbfi_carried){{{point, point, point, point}}, {1, 0, 0, 0}, (float)error, 0};
 }
 
 static double point_distance(const void *user, uint32_t point, const double position[3]) {
@@ -211,39 +186,19 @@ static sbfi_carried carry_by_surface(const sbfi_carrier *c, sbf_vec3 position) {
   return best.size < INFINITY ? written(c, &best, at) : carried_flat(c, corners, at);
 }
 
-/* How far outside a tetrahedron a point is: squared distance to it. */
-static double tetrahedron_distance(const void *user, uint32_t tetrahedron, const double point[3]) {
-  static const int faces[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
-  const sbfi_carrier *c = user;
-  choice in;
-  double corners[4][3], unused[3], least = INFINITY;
-  memcpy(in.points, c->level->lattice.tetrahedra.at[tetrahedron].at, sizeof in.points);
-  bool solid = weigh(c, &in, (sbfi_d3){point[0], point[1], point[2]});
-  if (solid && in.weights[0] >= 0 && in.weights[1] >= 0 && in.weights[2] >= 0 && in.weights[3] >= 0) return 0;
-  for (int k = 0; k < 4; k++) {
-    sbfi_d3 p = at_rest(c, in.points[k]);
-    corners[k][0] = p.x, corners[k][1] = p.y, corners[k][2] = p.z;
-  }
-  for (int f = 0; f < 4; f++) {
-    double d = sbfi_triangle_closest(
-        corners[faces[f][0]], corners[faces[f][1]], corners[faces[f][2]], point, unused);
-    if (d < least) least = d;
-  }
-  return least;
-}
-
 static sbfi_carried carry_by_lattice(const sbfi_carrier *c, sbf_vec3 position) {
-  double least = INFINITY, at[3] = {position.x, position.y, position.z};
-  uint32_t nearest = sbfi_box_tree_nearest(&c->lattice, at, tetrahedron_distance, c, &least);
+  sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&c->lattice, position);
   choice in = {.size = 0};
-  memcpy(in.points, c->level->lattice.tetrahedra.at[nearest].at, sizeof in.points);
-  if (!weigh(c, &in, sbfi_d3_of(position))) return carried_alone(in.points[0], sqrt(least));
-  return written(c, &in, sbfi_d3_of(position));
+  memcpy(in.points, c->level->lattice.tetrahedra.at[found.tetrahedron].at, sizeof in.points);
+  sbfi_carried carried = weigh(c, &in, sbfi_d3_of(position)) ? written(c, &in, sbfi_d3_of(position))
+                                                             : carried_alone(in.points[0], found.distance);
+  carried.outside = (float)found.distance;
+  return carried;
 }
 
 sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, uint32_t likely) {
   const sbf_vec3_list *surface = &carrier->body->surface.positions;
-  if (carrier->lattice.node_count > 0) return carry_by_lattice(carrier, position);
+  if (carrier->lattice.items) return carry_by_lattice(carrier, position);
   uint32_t same = likely;
   if (likely >= surface->count || memcmp(&surface->at[likely], &position, sizeof position) != 0)
     same = surface->count ? carrier->slots[slot_of(carrier, position)] : SBFI_NO_INDEX;

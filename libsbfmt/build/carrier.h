@@ -3,18 +3,19 @@
 #define SBFI_CARRIER_H
 
 #include "build/spring_level.h"
+#include "build/tetrahedron_finder.h"
 #include "build/triangle_tree.h"
 
 typedef struct sbfi_carrier {
   const sbf_soft_body *body;
   const sbf_level *level;
   sbfi_interior_map interior;
-  sbfi_triangle_tree surface; /* of the body, at rest */
-  sbfi_box_tree lattice;      /* of the level's tetrahedra, where it has some */
-  sbfi_box_tree points;       /* of the level, where the body has no polygons */
-  uint32_t extremes[6];       /* level points farthest out along the axes */
-  double size;                /* m, the longest way between two opposite ones */
-  uint32_t *slots;            /* hash of the surface's positions, bit by bit, to their points */
+  sbfi_triangle_tree surface;      /* of the body, at rest */
+  sbfi_tetrahedron_finder lattice; /* of the level's tetrahedra, where it has some */
+  sbfi_box_tree points;            /* of the level, where the body has no polygons */
+  uint32_t extremes[6];            /* level points farthest out along the axes */
+  double size;                     /* m, the longest way between two opposite ones */
+  uint32_t *slots;                 /* hash of the surface's positions, bit by bit, to their points */
   size_t slot_count;
 } sbfi_carrier;
 
@@ -27,11 +28,12 @@ typedef struct sbfi_carried {
   sbf_uint4 points;
   sbf_vec4 weights; /* summing to 1, and giving the vertex back but for `error` */
   float error;      /* m; not 0 where the body has no depth beside the vertex */
+  float outside;    /* m, from the lattice, where one carries it */
 } sbfi_carried;
 
 /* How the level carries a vertex at `position`:
  *   a surface point in the very same place (bit by bit; `likely` first) carries it alone;
- *   a lattice by the tetrahedron around the vertex, or nearest to it;
+ *   a lattice by the tetrahedron around the vertex, or one near it (tetrahedron_finder.h);
  *   else by the nearest triangle of the surface (of polygons cut as fans from their first corner) and a
  * fourth point: the polygon's own, the centre, or the level's extremes, whichever leaves the smallest
  * weights; and deep inside, the triangle that the ray from the centre through the vertex meets. Weights lie

@@ -193,6 +193,8 @@ static bool embed_in(const work *w, uint32_t target, int32_t mesh, const sbf_vec
     weights[i] = carried.weights;
     if (vertices) vertices[i] = v;
     if (blends) blends[i] = list[i].blend;
+    if (count_it && carried.outside > w->report->farthest) w->report->farthest = carried.outside;
+    w->report->far += count_it && level->cell > 0 && carried.outside > level->cell;
     w->report->flat += count_it && carried.error > 1e-3f * (float)w->carriers[target].size;
   }
   sbf_embedding *embedding = add_embedding(level, mesh, w->derivation);
@@ -239,7 +241,7 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
   const sbf_render_mesh *mesh = &w->asset->render_meshes.at[number];
   if (mesh->mesh.positions.count == 0) return true;
   w->shares.count = 0;
-  uint32_t flat_before = w->report->flat;
+  uint32_t flat_before = w->report->flat, far_before = w->report->far;
   if (!(mesh->skin ? share_by_skin(w, mesh) : share_whole(w, mesh))) return false;
   if (!hand_out(w, (int32_t)number, &mesh->mesh.positions)) return false;
   sbf_diagnostic finding;
@@ -253,6 +255,14 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
         (unsigned)(w->report->flat - flat_before), mesh->name);
     sbfi_report(reporter, &finding);
   }
+  if (w->report->far > far_before) {
+    sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_FAR,
+        "%u vertices of render mesh \"%s\" lie farther than a cell outside the lattice that carries them, "
+        "the "
+        "farthest of all %.3g m",
+        (unsigned)(w->report->far - far_before), mesh->name, w->report->farthest);
+    sbfi_report(reporter, &finding);
+  }
   return true;
 }
 
@@ -264,7 +274,7 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
       .derivation = derivation,
       .report = report,
       .scratch = scratch};
-  *report = (sbfi_embed_report){0, 0};
+  *report = (sbfi_embed_report){0, 0, 0, 0};
   if (target_count == 0) return true;
   sbfi_array_init(&w.shares, &scratch->allocator, sizeof(share));
   w.carriers = sbfi_arena_allocate(scratch, target_count, sizeof *w.carriers);

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "build/lattice_crossings.h"
+#include "build/lattice_limbs.h"
 #include "build/lattice_signs.h"
 
 static bool go_on(sbfi_lattice_progress progress, double done) {
@@ -17,7 +18,7 @@ static void place_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_
     size_t slot = sbfi_lattice_cuts_slot(cuts, at[i].edge);
     if (cuts->edges[slot] != at[i].edge) continue;
     float *share = &cuts->shares[slot];
-    bool outwards = inside[at[i].edge >> 3] != 0;
+    bool outwards = inside[at[i].edge >> 3] & SBFI_LATTICE_INSIDE;
     if (*share < 0 || (outwards ? at[i].share > *share : at[i].share < *share)) *share = at[i].share;
   }
 }
@@ -53,6 +54,19 @@ static uint32_t bisect_cuts(const sbfi_lattice_grid *grid, const sbfi_winding *w
   return count;
 }
 
+/* A forced node is not inside by right: cuts keep so far from it that it is not warped away. */
+static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_lattice_cuts *cuts) {
+  for (size_t s = 0; s < cuts->slot_count; s++) {
+    if (cuts->edges[s] == UINT32_MAX) continue;
+    uint32_t edge = cuts->edges[s], owner = edge >> 3;
+    uint32_t other = (uint32_t)((int64_t)owner + grid->steps[sbfi_lattice_kind(grid, owner)][edge & 7]);
+    float least = (float)sbfi_lattice_least_share((int)(edge & 7)), share = cuts->shares[s];
+    if (inside[owner] & SBFI_LATTICE_FORCED) cuts->shares[s] = share < least ? least : share;
+    if (inside[other] & SBFI_LATTICE_FORCED)
+      cuts->shares[s] = share < 0 || share > 1 - least ? 1 - least : share;
+  }
+}
+
 static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *winding,
     sbfi_lattice_progress progress, sbfi_arena *arena, sbfi_array *crossings, sbfi_arena *scratch) {
   sbfi_lattice_grid grid;
@@ -67,9 +81,14 @@ static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *wind
   if (!go_on(progress, 0.1)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_signs(&grid, winding, cut, inside, scratch)) return SBFI_LATTICE_NO_MEMORY;
   if (!go_on(progress, 0.4)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_lattice_keep_limbs(&grid, winding, crossings, inside, &lattice->forced_count, scratch))
+    return SBFI_LATTICE_NO_MEMORY;
   if (!sbfi_lattice_cuts_find(&cuts, &grid, inside, scratch)) return SBFI_LATTICE_NO_MEMORY;
   place_cuts(crossings, inside, &cuts);
+  if (lattice->forced_count > 0) widen_forced(&grid, inside, &cuts);
   lattice->dim_count = bisect_cuts(&grid, winding, inside, &cuts);
+  for (uint32_t n = 0; n < grid.node_count && lattice->forced_count > 0; n++)
+    inside[n] &= SBFI_LATTICE_INSIDE;
   if (!go_on(progress, 0.6)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_stuff(&grid, inside, &cuts, &lattice->made, arena, scratch))
     return SBFI_LATTICE_NO_MEMORY;

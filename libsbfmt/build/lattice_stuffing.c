@@ -11,6 +11,10 @@ static const double warp_long = 0.28, warp_short = 0.40, short_length = 0.866025
 
 static const uint32_t NONE = UINT32_MAX;
 
+double sbfi_lattice_least_share(int way) {
+  return (way < SBFI_LATTICE_LONG_EDGES ? warp_long : warp_short) + 1e-3;
+}
+
 size_t sbfi_lattice_cuts_slot(const sbfi_lattice_cuts *cuts, uint32_t edge) {
   size_t slot = (size_t)((edge * UINT64_C(0x9e3779b97f4a7c15)) >> 32) & (cuts->slot_count - 1);
   while (cuts->edges[slot] != NONE && cuts->edges[slot] != edge) slot = (slot + 1) & (cuts->slot_count - 1);
@@ -32,7 +36,7 @@ static size_t visit_cuts(const sbfi_lattice_grid *grid, const uint8_t *inside, s
     if (!is_inner_row(grid, row)) continue;
     for (uint32_t n = row * length + 1; n + 1 < (row + 1) * length; n++) {
       for (uint32_t k = 0; k < SBFI_LATTICE_EDGES; k++) {
-        if (inside[n] == inside[(int64_t)n + steps[k]]) continue;
+        if (((inside[n] ^ inside[(int64_t)n + steps[k]]) & 1) == 0) continue;
         count++;
         if (!cuts->slot_count) continue;
         size_t slot = sbfi_lattice_cuts_slot(cuts, 8 * n + k);

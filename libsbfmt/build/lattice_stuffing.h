@@ -17,9 +17,12 @@ typedef struct sbfi_lattice_cuts {
   size_t slot_count, count;
 } sbfi_lattice_cuts;
 
-/* Finds those edges; every share is -1. Memory of `arena`; false where it runs out. */
+/* Finds those edges, by bit 0 of `inside`; every share is -1. Memory of `arena`; false where it runs out. */
 bool sbfi_lattice_cuts_find(
     sbfi_lattice_cuts *cuts, const sbfi_lattice_grid *grid, const uint8_t *inside, sbfi_arena *arena);
+
+/* The share of an edge of the way, from a node, within which a cut warps that node; a little more. */
+double sbfi_lattice_least_share(int way);
 
 /* The edge's slot, or where it would be. */
 size_t sbfi_lattice_cuts_slot(const sbfi_lattice_cuts *cuts, uint32_t edge);
@@ -31,9 +34,9 @@ typedef struct sbfi_tetrahedra {
   uint32_t flat_count; /* left out: single precision has no room for them so far from the origin */
 } sbfi_tetrahedra;
 
-/* Fills `*made`; `inside` is used up. Nodes next to the grid's border must be outside. Points and tetrahedra
- * lie in the order of the grid. Memory of `arena`, scratch memory of `scratch`; false where either runs out,
- * or there are 2^32 / 8 tetrahedra. */
+/* Fills `*made`; `inside` is 1 or 0, and used up. Nodes next to the grid's border must be outside. Points and
+ * tetrahedra lie in the order of the grid. Memory of `arena`, scratch memory of `scratch`; false where either
+ * runs out, or there are 2^32 / 8 tetrahedra. */
 bool sbfi_lattice_stuff(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_lattice_cuts *cuts,
     sbfi_tetrahedra *made, sbfi_arena *arena, sbfi_arena *scratch);
 

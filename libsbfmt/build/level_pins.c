@@ -62,18 +62,18 @@ static bool expand_attachment(sbf_pin_set *to, const sbf_attachment *from, const
   return true;
 }
 
-static bool pin_interior(
-    sbf_pin_set *to, const sbf_level *level, int32_t bone, uint32_t first, uint32_t count, sbf_asset *asset) {
+static bool pin_interior(sbf_pin_set *to, const sbf_level *level, int32_t bone, const uint32_t *interior,
+    uint32_t count, sbf_asset *asset) {
   uint32_t *points = sbf_asset_allocate(asset, count, sizeof *points);
   sbf_vec3 *offsets = sbf_asset_allocate(asset, count, sizeof *offsets);
   const char *name = sbf_asset_copy_text(asset, "interior");
   if (!points || !offsets || !name) return false;
   const sbf_bone *frame = &asset->bones.at[bone];
   for (uint32_t i = 0; i < count; i++) {
-    sbf_vec3 p = level->positions.at[first + i];
+    sbf_vec3 p = level->positions.at[interior[i]];
     double from_head[3] = {
         (double)p.x - frame->head.x, (double)p.y - frame->head.y, (double)p.z - frame->head.z};
-    points[i] = first + i;
+    points[i] = interior[i];
     offsets[i] = turned_back(frame->rotation, from_head);
   }
   sbf_pin_set_init(to);
@@ -85,7 +85,7 @@ static bool pin_interior(
 }
 
 bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t derivation, sbf_asset *asset,
-    uint32_t interior_first, uint32_t interior_count, sbfi_arena *scratch) {
+    const uint32_t *interior, uint32_t interior_count, sbfi_arena *scratch) {
   uint32_t kept = level->pins.count, count = kept;
   size_t most = (size_t)kept + body->pins.count + body->attachments.count + 1;
   sbf_pin_set *sets = sbf_asset_allocate(asset, most, sizeof *sets);
@@ -95,8 +95,7 @@ bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t d
   for (uint32_t i = 0; i < body->pins.count; i++)
     if (!copy_set(&sets[count++], &body->pins.at[i], level, asset)) return false;
   /* Attachments come last of the author's wishes, and leave alone what is held already. */
-  if (interior_count > 0 &&
-      !pin_interior(&sets[count++], level, body->bone, interior_first, interior_count, asset))
+  if (interior_count > 0 && !pin_interior(&sets[count++], level, body->bone, interior, interior_count, asset))
     return false;
   for (uint32_t i = 0; i < body->attachments.count; i++) {
     level->pins = (sbf_pin_set_list){sets, count};

@@ -7,10 +7,10 @@
 
 /* Gives the level, whose positions are in place, its pin sets, marked with `derivation`: those it has already
  * stay first; then the body's sets, at the level's points; then, where `interior_count` is not 0, "interior":
- * that many points from `interior_first` on, at their places in the frame of the body's bone; then a set for
+ * those points of the level, at their places in the frame of the body's bone; then a set for
  * each attachment: the points listed, or every point inside the rigid body's hull that no set before holds.
  * `asset` has the bones and the rigid bodies. False where memory runs out. */
 bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t derivation, sbf_asset *asset,
-    uint32_t interior_first, uint32_t interior_count, sbfi_arena *scratch);
+    const uint32_t *interior, uint32_t interior_count, sbfi_arena *scratch);
 
 #endif

@@ -274,8 +274,10 @@ bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const s
     return false;
   if (!place_points(&w) || !join_authored(&w) || !map_interior(&w, map)) return false;
   uint32_t to_bone = is_core_held(&w) ? w.interior.point_count : 0;
-  if (!sbfi_level_pins_make(level, body, recipe->derivation, asset, w.source_count, to_bone, scratch))
-    return false;
+  uint32_t *core = sbfi_arena_allocate(scratch, (size_t)to_bone + 1, sizeof *core);
+  if (!core) return false;
+  for (uint32_t i = 0; i < to_bone; i++) core[i] = w.source_count + i;
+  if (!sbfi_level_pins_make(level, body, recipe->derivation, asset, core, to_bone, scratch)) return false;
   w.held = sbfi_arena_allocate(scratch, w.point_count, 1);
   if (!w.held) return false;
   sbf_level_held_points(level, w.held);

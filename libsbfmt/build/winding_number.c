@@ -43,7 +43,8 @@ static double half_angle(const sbfi_soup *soup, uint32_t triangle, sbfi_d3 point
   double rest = lengths[0] * lengths[1] * lengths[2] + sbfi_d3_dot(corners[0], corners[1]) * lengths[2] +
                 sbfi_d3_dot(corners[1], corners[2]) * lengths[0] +
                 sbfi_d3_dot(corners[2], corners[0]) * lengths[1];
-  return sbfi_angle(volume, rest);
+  /* In the triangle itself both sides have a say. */
+  return volume != 0 ? sbfi_angle(volume, rest) : 0;
 }
 
 /* Sums of a node from its children or triangles: the middle still times the weight. Children stand behind
@@ -146,5 +147,6 @@ double sbfi_winding_of_caps(const sbfi_winding *winding, sbfi_d3 point) {
 }
 
 bool sbfi_winding_inside(int closed, double caps) {
-  return fabs(closed - caps) > 0.5;
+  /* On a single sheet it is a half: that is not inside, however it is rounded. */
+  return fabs(closed - caps) > 0.5001;
 }

@@ -47,7 +47,7 @@ START_TEST(the_bodys_pins_are_taken_over)
   own.name = "own";
   body->pins = (sbf_pin_set_list){&pins, 1};
   level.pins = (sbf_pin_set_list){&own, 1};
-  ck_assert(sbfi_level_pins_make(&level, body, 4, asset, 0, 0, &scratch));
+  ck_assert(sbfi_level_pins_make(&level, body, 4, asset, NULL, 0, &scratch));
   ck_assert_uint_eq(level.pins.count, 2);
   ck_assert_str_eq(level.pins.at[0].name, "own");
   ck_assert_int_eq(level.pins.at[0].derived, SBF_NONE);
@@ -66,7 +66,7 @@ START_TEST(points_go_by_the_levels_order)
   body->pins = (sbf_pin_set_list){&pins, 1};
   const uint32_t places[] = {5, 6, 7, 900}; /* the level has no place for 3, nor for 25 */
   level.new_from_old = (sbf_u32_list){places, 4};
-  ck_assert(sbfi_level_pins_make(&level, body, 0, asset, 0, 0, &scratch));
+  ck_assert(sbfi_level_pins_make(&level, body, 0, asset, NULL, 0, &scratch));
   const sbf_pin_set *taken = &level.pins.at[0];
   ck_assert_uint_eq(taken->points.count, 1);
   ck_assert_uint_eq(taken->points.at[0], 5);
@@ -105,7 +105,7 @@ START_TEST(attachments)
   const uint32_t held[] = {0}; /* (-1, -1, -1) */
   pins.points = (sbf_u32_list){held, 1};
   body->pins = (sbf_pin_set_list){&pins, 1};
-  ck_assert(sbfi_level_pins_make(&level, body, 0, asset, 0, 0, &scratch));
+  ck_assert(sbfi_level_pins_make(&level, body, 0, asset, NULL, 0, &scratch));
   ck_assert_uint_eq(level.pins.count, 3);
   const sbf_pin_set *left = &level.pins.at[1];
   ck_assert_str_eq(left->name, "left");

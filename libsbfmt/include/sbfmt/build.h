@@ -1,10 +1,10 @@
 /* Derived parts: makes from what an artist made all that can be computed from it.
  *
  * A build copies the source parts of an asset, drops every part marked derived, and makes the derived ones
- * again: a level of springs for each soft body, pins, embeddings, convex hulls. Authored parts are kept as
- * they are: a body with a level of its own gets no other, a rigid body with a hull keeps it. What is made is
- * marked with an entry of `derivations` that records tool, settings and the hash of the source, so that what
- * no longer fits its source can be told.
+ * again: a level of springs or tetrahedra for each soft body, pins, embeddings, convex hulls. Authored parts
+ * are kept as they are: a body with a level of its own gets no other, a rigid body with a hull keeps it. What
+ * is made is marked with an entry of `derivations` that records tool, settings and the hash of the source, so
+ * that what no longer fits its source can be told.
  *
  * The same source and settings give the same bits, on every machine. Thread safe. */
 #ifndef SBFMT_BUILD_H
@@ -17,12 +17,20 @@
 extern "C" {
 #endif
 
-/* What springs hold a body's surface from inside. */
+/* What a body's level is made of. A flat sheet has no inside: whatever is chosen, it gets springs over its
+ * surface, which with its thickness make it cloth; but the centroid is heeded in a section.
+ *
+ * Centroid: a centre and a point for each polygon. Lattice: interior points on a body-centred grid, springs
+ * along those of its edges that stay inside, so that no spring leaves a concave body. Brute: springs between
+ * all points of the surface, to compare with. Tetrahedra: isosurface stuffing, any surface, open ones and
+ * soups included, dihedral angles between 10 and 165 degrees. */
 typedef enum sbf_build_interior {
   SBF_BUILD_INTERIOR_AUTOMATIC = 0, /* centroid, but none in a sheet without a bone */
-  SBF_BUILD_INTERIOR_CENTROID =
-      1,                      /* a centre, a point for each polygon; held by the body's bone if it has one */
-  SBF_BUILD_INTERIOR_NONE = 2 /* springs over the surface alone */
+  SBF_BUILD_INTERIOR_CENTROID = 1,  /* springs; held by the body's bone if it has one */
+  SBF_BUILD_INTERIOR_NONE = 2,      /* springs over the surface alone */
+  SBF_BUILD_INTERIOR_LATTICE = 3,   /* springs */
+  SBF_BUILD_INTERIOR_BRUTE = 4,     /* springs */
+  SBF_BUILD_INTERIOR_TETRAHEDRA = 5 /* held by the body's bone, if it has one, in its inner half */
 } sbf_build_interior;
 
 typedef struct sbf_build_options {
@@ -38,6 +46,12 @@ typedef struct sbf_build_options {
   /* Warnings, one by one; may be NULL. */
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user; /* for both callbacks */
+  /* The size of lattices: the edge of the grid's cubes in metres; where that is 0, about so many tetrahedra a
+   * body; where that is 0 too, 2000, or up to 16000 where much of a body is thinner than two elements.
+   * Interior springs on a grid of no stated cell go by the polygons' size.
+   */
+  double cell_m;
+  uint32_t elements;
 } sbf_build_options;
 
 /* What was made. Counts are of derived parts; springs by sbf_spring_kind. */
@@ -50,12 +64,17 @@ typedef struct sbf_build_report {
   uint32_t hulls;
   uint32_t embedded_vertices; /* of render meshes, that at least one body carries */
   uint32_t warnings;
+  uint32_t tetrahedra;
+  double least_dihedral_deg, most_dihedral_deg; /* of the tetrahedra; 0 where there are none */
+  uint64_t dihedrals[18];                       /* how many of the angles lie in each ten degrees */
+  double lattice_volume;                        /* m^3, of the tetrahedra */
+  double farthest_m; /* greatest distance of an embedded vertex from the lattice that carries it */
 } sbf_build_report;
 
 /* Makes `*built` from `asset`, which stays as it is and need not outlive the call. On failure `*built` is
  * NULL and `*error` says why. `options`, `report` and `error` may be NULL.
- * Failures: no memory; CANCELLED by `progress`; DERIVED_LOST, an authored part refers to a derived one that
- * this build does not make. */
+ * Failures: no memory; CANCELLED by `progress`; LATTICE_TOO_FINE, INTERIOR_TOO_MANY; DERIVED_LOST, an
+ * authored part refers to a derived one that this build does not make. */
 SBF_API sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, sbf_asset **built,
     sbf_build_report *report, sbf_diagnostic *error);
 

@@ -125,6 +125,11 @@ typedef enum sbf_code {
   SBF_CODE_WEIGHT_MAP_ZERO = 580, /* A weight map takes all mass or stiffness from a free point: give it a factor above 0. */
   SBF_CODE_WEIGHT_MAP_IDLE = 581, /* A weight map scales an attribute that is 0: set the attribute or remove the map. */
   SBF_CODE_MESH_POINT_UNUSED = 586, /* Points of a render mesh are in no polygon and only cost memory: remove them in the source, or by --fix. */
+  SBF_CODE_LATTICE_THIN = 590, /* Parts of a body are thinner than two elements of its lattice, which is thicker there than the body: give a smaller cell, or more elements. */
+  SBF_CODE_LATTICE_EMPTY = 591, /* A body encloses nothing that a lattice of that cell could fill: it gets springs over its surface. */
+  SBF_CODE_LATTICE_TOO_FINE = 592, /* The cell is too small for a body of that size: give a larger one. */
+  SBF_CODE_EMBEDDING_FAR = 593, /* Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell. */
+  SBF_CODE_INTERIOR_TOO_MANY = 594, /* A body has too many points for springs between all of them: give another method. */
   SBF_CODE_BODY_NO_MASS = 601, /* A body that moves has no mass: give it a density, an area density or a mass. */
   SBF_CODE_POISSON_UNSHOWN = 602, /* A spring level cannot show the Poisson ratio that the material asks for: take 0.25, or tetrahedra. */
   SBF_CODE_SUBSTEPS_TOO_FEW = 603, /* An explicit scheme with so few substeps gains energy and bursts: use at least the number named. */

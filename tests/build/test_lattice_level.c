@@ -1,0 +1,276 @@
+#include "build/lattice_level.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "harness.h"
+#include "sbfmt/build.h"
+#include "sbfmt/mechanics.h"
+#include "sbfmt/validate.h"
+#include "shapes.h"
+
+static sbf_asset *asset;
+
+static void setup(void) {
+  asset = sbf_asset_create(NULL);
+}
+static void teardown(void) {
+  sbf_asset_free(asset);
+}
+
+static void print(void *user, const sbf_diagnostic *finding) {
+  (void)user;
+  fprintf(stderr, "%s %s\n", finding->path, finding->message);
+}
+
+static int codes[16], code_count;
+static void note(void *user, const sbf_diagnostic *finding) {
+  (void)user;
+  if (code_count < 16) codes[code_count++] = finding->code;
+}
+static bool was_noted(int code) {
+  for (int i = 0; i < code_count; i++)
+    if (codes[i] == code) return true;
+  return false;
+}
+
+static sbf_asset *build(sbf_build_options options, sbf_build_report *report) {
+  sbf_asset *built;
+  sbf_diagnostic error;
+  sbf_validate_result result;
+  code_count = 0;
+  options.report = note;
+  if (!options.interior) options.interior = SBF_BUILD_INTERIOR_TETRAHEDRA;
+  sbf_status status = sbf_build(asset, &options, &built, report, &error);
+  ck_assert_msg(status == SBF_OK, "%s (%s)", error.message, error.path);
+  ck_assert_uint_eq(sbf_asset_check(built, print, NULL, 0), 0);
+  ck_assert_int_eq(sbf_validate(built, &(sbf_validate_options){.report = print}, &result, NULL), SBF_OK);
+  ck_assert_uint_eq(result.errors, 0);
+  return built;
+}
+
+/* Adds a render mesh of the same surface. */
+static void add_skin(const sbf_polygon_mesh *mesh) {
+  sbf_render_mesh *skin = sbf_asset_allocate(asset, 1, sizeof *skin);
+  sbf_render_mesh_init(skin);
+  skin->id = skin->name = "skin";
+  skin->mesh = *mesh;
+  skin->mesh.target = SBF_MESH_TARGET_RENDERING;
+  asset->render_meshes = (sbf_render_mesh_list){skin, 1};
+}
+
+static sbf_soft_body *add_cube(uint32_t n, bool with_bone) {
+  sbf_polygon_mesh cube = shape_cube(asset, n, 0.4f, (sbf_vec3){0, 1, 0});
+  add_skin(&cube);
+  return shape_add_body(asset, "cube", &cube, with_bone);
+}
+
+/* How far the embedded vertices lie from their places. */
+static double misplaced(const sbf_level *level, const sbf_embedding *e, const sbf_vec3_list *positions) {
+  double most = 0;
+  ck_assert_uint_eq(e->points.count, positions->count);
+  for (uint32_t i = 0; i < e->points.count; i++) {
+    const float weights[4] = {e->weights.at[i].x, e->weights.at[i].y, e->weights.at[i].z, e->weights.at[i].w};
+    double at[3] = {0, 0, 0};
+    for (int k = 0; k < 4; k++) {
+      sbf_vec3 p = level->positions.at[e->points.at[i].at[k]];
+      at[0] += weights[k] * p.x, at[1] += weights[k] * p.y, at[2] += weights[k] * p.z;
+    }
+    sbf_vec3 p = positions->at[i];
+    most = fmax(most, sqrt(pow(at[0] - p.x, 2) + pow(at[1] - p.y, 2) + pow(at[2] - p.z, 2)));
+  }
+  return most;
+}
+
+START_TEST(a_cube_of_tetrahedra)
+{
+  add_cube(2, false);
+  sbf_build_report report;
+  sbf_asset *built = build((sbf_build_options){.cell_m = 0.1}, &report);
+  const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+  ck_assert_int_eq(level->model, SBF_ELASTIC_MODEL_TETRAHEDRA);
+  ck_assert_float_eq(level->cell, 0.1f);
+  ck_assert_uint_eq(level->lattice.tetrahedra.count, 12 * 64 + 12 * 16);
+  ck_assert_uint_eq(report.tetrahedra, level->lattice.tetrahedra.count);
+  ck_assert_double_eq_tol(report.lattice_volume, 0.064, 1e-6);
+  ck_assert_double_ge(report.least_dihedral_deg, 44.9);
+  uint64_t angles = 0;
+  for (int i = 0; i < 18; i++) angles += report.dihedrals[i];
+  ck_assert_uint_eq(angles, 6 * (uint64_t)report.tetrahedra);
+  ck_assert_double_lt(report.farthest_m, 1e-6);
+  ck_assert_uint_eq(level->springs.count + level->pins.count, 0);
+  ck_assert_uint_eq(level->new_from_old.count, 26);
+  ck_assert_uint_eq(level->new_from_old.at[25], UINT32_MAX);
+  ck_assert_str_eq(built->derivations.at[0].settings,
+      "cell_um=100000 embeddings=true flexion=true hulls=true interior=tetrahedra");
+  float *masses = sbf_asset_allocate(built, level->positions.count, sizeof *masses);
+  ck_assert_double_eq_tol(sbf_level_masses(&built->soft_bodies.at[0], level, NULL, masses), 64, 1e-3);
+  ck_assert_uint_eq(level->embeddings.count, 2);
+  for (int e = 0; e < 2; e++)
+    ck_assert_double_lt(
+        misplaced(level, &level->embeddings.at[e], &built->render_meshes.at[0].mesh.positions), 1e-6);
+  sbf_asset *again = build((sbf_build_options){.cell_m = 0.1}, NULL);
+  ck_assert(sbf_asset_equal(built, again, NULL, 0));
+  sbf_asset_free(again);
+  sbf_asset_free(built);
+}
+END_TEST
+
+START_TEST(a_section_is_held_in_its_inner_half)
+{
+  add_cube(2, true);
+  sbf_asset *built = build((sbf_build_options){.cell_m = 0.05}, NULL);
+  const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+  ck_assert_uint_eq(level->pins.count, 1);
+  const sbf_pin_set *pins = &level->pins.at[0];
+  ck_assert_int_eq(pins->bone, 0);
+  uint32_t within = 0;
+  for (uint32_t i = 0; i < level->positions.count; i++) {
+    sbf_vec3 p = level->positions.at[i];
+    within += fmaxf(fabsf(p.x), fmaxf(fabsf(p.y - 1), fabsf(p.z))) < 0.1001f;
+  }
+  ck_assert_uint_eq(pins->points.count, within);
+  sbf_asset_free(built);
+}
+END_TEST
+
+START_TEST(pins_on_the_surface_are_taken_over)
+{
+  sbf_soft_body *body = add_cube(4, false);
+  uint32_t points[40], count = 0;
+  for (uint32_t i = 0; i < body->surface.positions.count; i++)
+    if (body->surface.positions.at[i].y > 1.19f) points[count++] = i;
+  ck_assert_uint_eq(count, 25);
+  const float weight = 0.5f;
+  sbf_pin_set pins[2];
+  sbf_pin_set_init(&pins[0]);
+  pins[0].points = (sbf_u32_list){points, count};
+  sbf_pin_set_init(&pins[1]);
+  pins[1].points = (sbf_u32_list){points, 1}; /* taken already */
+  pins[1].weights = (sbf_f32_list){&weight, 1};
+  body->pins = (sbf_pin_set_list){pins, 2};
+  sbf_asset *built = build((sbf_build_options){.cell_m = 0.1}, NULL);
+  const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+  ck_assert_uint_eq(level->pins.count, 2);
+  ck_assert_uint_eq(level->pins.at[1].points.count, 0);
+  const sbf_pin_set *held = &level->pins.at[0];
+  ck_assert_int_eq(held->derived, 0);
+  ck_assert_uint_ge(held->points.count, 41); /* of the top's 25 corners and 16 middles */
+  for (uint32_t i = 0; i < held->points.count; i++)
+    ck_assert_float_gt(level->positions.at[held->points.at[i]].y, 1.1f);
+  sbf_asset_free(built);
+}
+END_TEST
+
+START_TEST(sheets_become_cloth)
+{
+  sbf_polygon_mesh sheet = shape_sheet(asset, 4, 4);
+  shape_add_body(asset, "sheet", &sheet, false);
+  sbf_asset *built = build((sbf_build_options){.elements = 500}, NULL);
+  const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+  ck_assert_int_eq(level->model, SBF_ELASTIC_MODEL_SPRINGS);
+  ck_assert_uint_eq(level->lattice.tetrahedra.count, 0);
+  ck_assert_uint_eq(level->positions.count, 25);
+  sbf_asset_free(built);
+}
+END_TEST
+
+START_TEST(what_goes_wrong_is_said)
+{
+  sbf_soft_body *body = add_cube(2, false);
+  sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)body->surface.positions.at;
+  for (uint32_t i = 0; i < body->surface.positions.count; i++) at[i].x *= 0.1f;
+  sbf_asset *built = build((sbf_build_options){.cell_m = 0.11}, NULL);
+  ck_assert(was_noted(SBF_CODE_LATTICE_THIN) || was_noted(SBF_CODE_LATTICE_EMPTY));
+  sbf_asset_free(built);
+  built = build((sbf_build_options){.cell_m = 0.015}, NULL);
+  ck_assert_int_eq(code_count, 0);
+  sbf_asset_free(built);
+  sbf_diagnostic error;
+  sbf_build_options fine = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = 1e-5};
+  ck_assert_int_eq(sbf_build(asset, &fine, &built, NULL, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(error.code, SBF_CODE_LATTICE_TOO_FINE);
+  fine.cell_m = -1;
+  ck_assert_int_eq(sbf_build(asset, &fine, &built, NULL, &error), SBF_FAILED);
+}
+END_TEST
+
+static const char *const real[] = {"spot/spot.obj", "bunny/bunny_902.obj", "armadillo/armadillo_25k.obj",
+    "soup/suzanne.obj", "soup/spider.obj", "bunny/bunny_holes.obj", "ngon/concave_polygon.obj"};
+
+START_TEST(real_surfaces)
+{
+  const char *path = harness_shared(real[_i]);
+  if (!path) return;
+  sbf_polygon_mesh mesh = shape_of_obj(asset, path);
+  shape_add_body(asset, "body", &mesh, false);
+  add_skin(&mesh);
+  sbf_build_report report;
+  sbf_asset *built = build((sbf_build_options){.elements = 20000}, &report);
+  const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+  if (strstr(real[_i], "concave")) {
+    ck_assert_int_eq(level->model, SBF_ELASTIC_MODEL_SPRINGS);
+  } else {
+    ck_assert_double_ge(report.least_dihedral_deg, 10);
+    ck_assert_double_le(report.most_dihedral_deg, 165);
+    double size = 20 * (double)level->cell;
+    ck_assert_double_lt(misplaced(level, &level->embeddings.at[1], &mesh.positions), 1e-5 * size);
+    if (!strstr(real[_i], "spider")) ck_assert_double_lt(report.farthest_m, 0.8 * (double)level->cell);
+    sbf_surface_measures surface;
+    sbf_surface_measure(&mesh, NULL, &surface);
+    float *masses = sbf_asset_allocate(built, level->positions.count, sizeof *masses);
+    double mass = sbf_level_masses(&built->soft_bodies.at[0], level, NULL, masses);
+    if (surface.opening < 1e-3) ck_assert_double_eq_tol(mass / (1000 * surface.volume), 1, 1e-4);
+  }
+  sbf_asset_free(built);
+}
+END_TEST
+
+static bool stop_at(void *user, const char *pass, double done) {
+  (void)pass;
+  int *left = user;
+  ck_assert(done >= 0 && done <= 1);
+  return --*left >= 0;
+}
+
+START_TEST(cancelled_or_without_memory_it_leaves_nothing)
+{
+  add_cube(1, true);
+  sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = 0.2};
+  for (int what = 0; what < 2; what++) {
+    for (int allowed = 0;; allowed++) {
+      int left = allowed;
+      harness_memory memory;
+      harness_memory_init(&memory, what ? (size_t)allowed : SIZE_MAX);
+      options.allocator = &memory.allocator;
+      options.progress = what ? NULL : stop_at;
+      options.user = &left;
+      sbf_asset *built;
+      sbf_diagnostic error;
+      sbf_status status = sbf_build(asset, &options, &built, NULL, &error);
+      if (status == SBF_OK) sbf_asset_free(built);
+      ck_assert_uint_eq(memory.held_bytes, 0);
+      if (status == SBF_OK) break;
+      ck_assert_int_eq(error.code, what ? SBF_CODE_OUT_OF_MEMORY : SBF_CODE_CANCELLED);
+      ck_assert_int_lt(allowed, 400);
+    }
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *s = suite_create("lattice_level");
+  TCase *c = tcase_create("lattice_level");
+  tcase_set_timeout(c, 120);
+  tcase_add_checked_fixture(c, setup, teardown);
+  tcase_add_test(c, a_cube_of_tetrahedra);
+  tcase_add_test(c, a_section_is_held_in_its_inner_half);
+  tcase_add_test(c, pins_on_the_surface_are_taken_over);
+  tcase_add_test(c, sheets_become_cloth);
+  tcase_add_test(c, what_goes_wrong_is_said);
+  tcase_add_loop_test(c, real_surfaces, 0, (int)(sizeof real / sizeof *real));
+  tcase_add_test(c, cancelled_or_without_memory_it_leaves_nothing);
+  suite_add_tcase(s, c);
+  return harness_run(s);
+}
