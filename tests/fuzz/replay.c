@@ -38,7 +38,7 @@ static void replay(const char *path) {
     char inside[4096];
     if (entry->d_name[0] == '.') continue;
     snprintf(inside, sizeof inside, "%s/%s", path, entry->d_name);
-    replay_file(inside);
+    replay(inside);
   }
   closedir(folder);
 }
