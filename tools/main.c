@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "generate.h"
 
 #define VERSION_TEXT_(a, b, c) #a "." #b "." #c
 #define VERSION_TEXT(a, b, c) VERSION_TEXT_(a, b, c)
@@ -88,6 +89,11 @@ int main(int argc, char **argv) {
   if (strcmp(argv[1], "--version") == 0) {
     printf("sbfmt %s\n", VERSION_TEXT(SBF_VERSION_MAJOR, SBF_VERSION_MINOR, SBF_VERSION_PATCH));
     return SBF_OK;
+  }
+  if (strcmp(argv[1], "--generate") == 0) {
+    if (argc == 4) return generate_files(argv[2], argv[3]);
+    fprintf(stderr, "sbfmt: error: usage: sbfmt --generate man|bash|zsh|fish DIR\n");
+    return SBF_FAILED;
   }
   const cli_verb *verb = find_verb(argv[1]);
   if (!verb) {
