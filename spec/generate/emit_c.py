@@ -76,9 +76,9 @@ def model_header(schema):
            " * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */\n"
            "#ifndef SBFMT_MODEL_H\n#define SBFMT_MODEL_H\n\n#include \"sbfmt/base.h\"\n\n"
            "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n// clang-format off\n\n"
-           f"#define SBF_FORMAT_VERSION \"{schema.version}\"\n\n"]
+           f"/* Of the format this library writes. */\n#define SBF_FORMAT_VERSION \"{schema.version}\"\n\n"]
     for name, values in schema.enums.items():
-        out.append(f"typedef enum sbf_{name} {{\n")
+        out.append(f"/* Words of {name}, in the file's spelling by sbf_{name}_name. */\ntypedef enum sbf_{name} {{\n")
         out += [f"  SBF_{name.upper()}_{v.upper()} = {i},\n" for i, v in enumerate(values)]
         out.append(f"  SBF_{name.upper()}_COUNT = {len(values)}\n}} sbf_{name};\n\n")
     for element in ordered(schema):

@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Marks what the shared libraries export. */
 #if defined(_WIN32) && defined(SBFMT_SHARED)
 #define SBF_API __declspec(dllexport)
 #elif defined(__GNUC__)
@@ -21,6 +22,7 @@
 extern "C" {
 #endif
 
+/* Of the library, as in 0.1.0. */
 #define SBF_VERSION_MAJOR 0
 #define SBF_VERSION_MINOR 1
 #define SBF_VERSION_PATCH 0
@@ -32,6 +34,7 @@ typedef enum sbf_status {
   SBF_FAILED = 2     /* the call or the machine is: wrong argument, no memory, cannot write */
 } sbf_status;
 
+/* How much a finding weighs. */
 typedef enum sbf_severity {
   SBF_SEVERITY_ERROR = 0,
   SBF_SEVERITY_WARNING = 1,
@@ -41,21 +44,21 @@ typedef enum sbf_severity {
 /* One finding, with fixed storage so that reporting cannot itself fail. Texts are UTF-8 and cut to fit.
  * `code` is a number of sbfmt/codes.h: stable over versions. */
 typedef struct sbf_diagnostic {
-  int32_t code; /* sbf_code; 0: none */
-  sbf_severity severity;
-  char message[384]; /* what is wrong and what to do next, one line, no full stop needed */
-  char path[256];    /* element path, as in /sbf/soft_body[2]/surface/positions; "" where there is none */
-  char file[256];    /* the file's name as the caller gave it; "" for memory */
-  uint32_t line;     /* from 1; 0: not known */
-  int64_t offset;    /* byte offset from 0; -1: not known */
-  int64_t index;     /* index of the item in the list at `path`; -1: not about one item */
+  int32_t code;          /* sbf_code; 0: none */
+  sbf_severity severity; /* how much it weighs */
+  char message[384];     /* what is wrong and what to do next, one line, no full stop needed */
+  char path[256];        /* element path, as in /sbf/soft_body[2]/surface/positions; "" where there is none */
+  char file[256];        /* the file's name as the caller gave it; "" for memory */
+  uint32_t line;         /* from 1; 0: not known */
+  int64_t offset;        /* byte offset from 0; -1: not known */
+  int64_t index;         /* index of the item in the list at `path`; -1: not about one item */
 } sbf_diagnostic;
 
 /* Memory, as one function: size 0 frees, memory NULL allocates. `old_size` is what the block was asked with.
  * Must return memory aligned for any type, or NULL (then the old block still stands). */
 typedef struct sbf_allocator {
-  void *(*reallocate)(void *user, void *memory, size_t old_size, size_t new_size);
-  void *user;
+  void *(*reallocate)(void *user, void *memory, size_t old_size, size_t new_size); /* as above */
+  void *user; /* handed to the function */
 } sbf_allocator;
 
 typedef struct sbf_vec2 {

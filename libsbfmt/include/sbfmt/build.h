@@ -33,14 +33,15 @@ typedef enum sbf_build_interior {
   SBF_BUILD_INTERIOR_TETRAHEDRA = 5 /* held by the body's bone, if it has one, in its inner half */
 } sbf_build_interior;
 
+/* Settings of a build. */
 typedef struct sbf_build_options {
   size_t struct_size;             /* sizeof(sbf_build_options), or 0 for this version's */
   const sbf_allocator *allocator; /* for the asset made and for scratch memory; NULL: malloc */
   const char *tool;               /* what the derivation names as its maker; NULL: "sbfmt" and its version */
-  sbf_build_interior interior;
-  bool without_flexion;    /* no springs between second neighbours */
-  bool without_embeddings; /* no embeddings */
-  bool without_hulls;      /* no hulls */
+  sbf_build_interior interior;    /* what fills the bodies */
+  bool without_flexion;           /* no springs between second neighbours */
+  bool without_embeddings;        /* no embeddings */
+  bool without_hulls;             /* no hulls */
   /* Called now and then with the share of the work done, 0..1; false cancels the build. May be NULL. */
   bool (*progress)(void *user, const char *pass, double done);
   /* Warnings, one by one; may be NULL. */
@@ -51,20 +52,20 @@ typedef struct sbf_build_options {
    * Interior springs on a grid of no stated cell go by the polygons' size.
    */
   double cell_m;
-  uint32_t elements;
+  uint32_t elements; /* see above */
 } sbf_build_options;
 
 /* What was made. Counts are of derived parts; springs by sbf_spring_kind. */
 typedef struct sbf_build_report {
-  uint32_t bodies;          /* that got a level */
-  uint32_t interior_points; /* made inside them */
-  uint32_t springs[SBF_SPRING_KIND_COUNT];
+  uint32_t bodies;                         /* that got a level */
+  uint32_t interior_points;                /* made inside them */
+  uint32_t springs[SBF_SPRING_KIND_COUNT]; /* of each kind */
   uint32_t inert_springs; /* left out: they would join two points held fast. The kinds do not count them */
   uint32_t pins;          /* points in the pin sets made */
-  uint32_t hulls;
-  uint32_t embedded_vertices; /* of render meshes, that at least one body carries */
-  uint32_t warnings;
-  uint32_t tetrahedra;
+  uint32_t hulls;         /* of rigid bodies */
+  uint32_t embedded_vertices;                   /* of render meshes, that at least one body carries */
+  uint32_t warnings;                            /* reported */
+  uint32_t tetrahedra;                          /* of lattices */
   double least_dihedral_deg, most_dihedral_deg; /* of the tetrahedra; 0 where there are none */
   uint64_t dihedrals[18];                       /* how many of the angles lie in each ten degrees */
   double lattice_volume;                        /* m^3, of the tetrahedra */

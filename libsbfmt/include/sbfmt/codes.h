@@ -11,6 +11,7 @@ extern "C" {
 #endif
 
 // clang-format off
+/* Findings, by numbers that never change. */
 typedef enum sbf_code {
   SBF_CODE_NONE = 0,
   SBF_CODE_IO_CANNOT_READ = 101, /* The file cannot be read: check the path and its permissions. */
@@ -249,12 +250,13 @@ typedef enum sbf_code {
 } sbf_code;
 // clang-format on
 
+/* What a code stands for. */
 typedef struct sbf_code_info {
-  const char *name;
-  sbf_code code;
-  sbf_severity severity;
-  sbf_status fault; /* SBF_BAD_INPUT or SBF_FAILED */
-  const char *text;
+  const char *name;      /* as in reports */
+  sbf_code code;         /* its number */
+  sbf_severity severity; /* how much it weighs */
+  sbf_status fault;      /* SBF_BAD_INPUT or SBF_FAILED */
+  const char *text;      /* what it says and what to do */
 } sbf_code_info;
 
 /* What a code stands for; NULL for a number that is none. */

@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 
+/* Settings of a conversion. */
 typedef struct sbf_convert_options {
   size_t struct_size;             /* sizeof(sbf_convert_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
@@ -20,7 +21,7 @@ typedef struct sbf_convert_options {
   const char *import_helper;      /* path of the program sbfmt-import; NULL: its usual places */
   /* Warnings, and errors that did not stop the conversion; may be NULL. */
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
-  void *user;
+  void *user; /* for the callback */
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names

@@ -11,12 +11,13 @@
 extern "C" {
 #endif
 
+/* Settings of sbf_export. */
 typedef struct sbf_export_options {
   size_t struct_size;             /* sizeof(sbf_export_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
   /* Warnings: what the form has no place for and was left out. May be NULL. */
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
-  void *user;
+  void *user; /* for the callback */
 } sbf_export_options;
 
 /* Writes the asset in the form that the ending of `path` names: .obj (the render meshes at rest, or where

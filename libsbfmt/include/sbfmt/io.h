@@ -36,12 +36,13 @@ typedef struct sbf_selection {
   sbf_u32_list levels;   /* places of the levels wanted of each soft body selected */
 } sbf_selection;
 
+/* Settings of a load. */
 typedef struct sbf_load_options {
   size_t struct_size;             /* sizeof(sbf_load_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
-  sbf_limits limits;
-  bool check_crc;   /* compare each chunk's CRC-32 as it is read */
-  const char *name; /* the file's name for messages, with loads from memory; may be NULL */
+  sbf_limits limits;              /* on what the file may ask for */
+  bool check_crc;                 /* compare each chunk's CRC-32 as it is read */
+  const char *name;               /* the file's name for messages, with loads from memory; may be NULL */
   const char *const
       *extensions;          /* names of the extensions that the caller understands: a file that requires */
   uint32_t extension_count; /* another is refused */
@@ -55,6 +56,7 @@ typedef struct sbf_load_options {
   bool outline;
 } sbf_load_options;
 
+/* Settings of a save. */
 typedef struct sbf_save_options {
   size_t struct_size; /* sizeof(sbf_save_options), or 0 for this version's */
   bool store;         /* packed: leave the chunks uncompressed, so that a load can use them in place */
@@ -63,11 +65,12 @@ typedef struct sbf_save_options {
 
 /* Bytes made by a save into memory: free with sbf_buffer_free. */
 typedef struct sbf_buffer {
-  uint8_t *at;
-  size_t size;
-  sbf_allocator allocator;
-  size_t capacity;
+  uint8_t *at;             /* the bytes */
+  size_t size;             /* how many */
+  sbf_allocator allocator; /* that they came from */
+  size_t capacity;         /* bytes allocated */
 } sbf_buffer;
+/* Frees the bytes; a buffer that is {0} does nothing. */
 SBF_API void sbf_buffer_free(sbf_buffer *buffer);
 
 /* Packed form. A stored (uncompressed) list of a file is used in place: the file is mapped as long as the

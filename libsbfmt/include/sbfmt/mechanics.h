@@ -16,6 +16,7 @@ extern "C" {
 
 /* ---- Surfaces ----------------------------------------------------------------------------------------- */
 
+/* What sbf_surface_measure finds. */
 typedef struct sbf_surface_measures {
   double area;    /* m^2, sum of the lengths of the polygons' vector areas */
   double volume;  /* m^3, enclosed; of an open surface, that of the cones over it from the mean of its points.
@@ -48,6 +49,7 @@ SBF_API void sbf_solid_measure(const sbf_polygon_mesh *mesh, sbf_solid *solid);
 
 /* ---- Bodies: matter and mass -------------------------------------------------------------------------- */
 
+/* What sbf_body_measure finds. */
 typedef struct sbf_body_measures {
   double area;   /* m^2 of the surface */
   double volume; /* m^3 of matter: enclosed, or of a sheet its area times its thickness */
@@ -145,7 +147,8 @@ SBF_API void sbf_level_stiffness(
 
 /* Point masses joined by springs, linear about `positions`, where the springs are at rest. */
 typedef struct sbf_spring_network {
-  uint32_t point_count, spring_count;
+  uint32_t point_count;      /* of positions */
+  uint32_t spring_count;     /* of ends */
   const sbf_vec3 *positions; /* (point_count) */
   const float *masses;       /* (point_count) kg; 0: held */
   const float *anchors;      /* (point_count) N/m towards a fixed place in all directions; NULL: none */

@@ -18,8 +18,10 @@ extern "C" {
 
 // clang-format off
 
+/* Of the format this library writes. */
 #define SBF_FORMAT_VERSION "1.0"
 
+/* Words of mesh_target, in the file's spelling by sbf_mesh_target_name. */
 typedef enum sbf_mesh_target {
   SBF_MESH_TARGET_RENDERING = 0,
   SBF_MESH_TARGET_SURFACE = 1,
@@ -27,11 +29,13 @@ typedef enum sbf_mesh_target {
   SBF_MESH_TARGET_COUNT = 3
 } sbf_mesh_target;
 
+/* Words of volume_target, in the file's spelling by sbf_volume_target_name. */
 typedef enum sbf_volume_target {
   SBF_VOLUME_TARGET_VOLUME = 0,
   SBF_VOLUME_TARGET_COUNT = 1
 } sbf_volume_target;
 
+/* Words of elastic_model, in the file's spelling by sbf_elastic_model_name. */
 typedef enum sbf_elastic_model {
   SBF_ELASTIC_MODEL_SPRINGS = 0,
   SBF_ELASTIC_MODEL_TETRAHEDRA = 1,
@@ -40,6 +44,7 @@ typedef enum sbf_elastic_model {
   SBF_ELASTIC_MODEL_COUNT = 4
 } sbf_elastic_model;
 
+/* Words of spring_kind, in the file's spelling by sbf_spring_kind_name. */
 typedef enum sbf_spring_kind {
   SBF_SPRING_KIND_STRUCTURAL = 0,
   SBF_SPRING_KIND_SHEAR = 1,
@@ -49,6 +54,7 @@ typedef enum sbf_spring_kind {
   SBF_SPRING_KIND_COUNT = 5
 } sbf_spring_kind;
 
+/* Words of pressure_mode, in the file's spelling by sbf_pressure_mode_name. */
 typedef enum sbf_pressure_mode {
   SBF_PRESSURE_MODE_NONE = 0,
   SBF_PRESSURE_MODE_GAS = 1,
@@ -56,12 +62,14 @@ typedef enum sbf_pressure_mode {
   SBF_PRESSURE_MODE_COUNT = 3
 } sbf_pressure_mode;
 
+/* Words of body_motion, in the file's spelling by sbf_body_motion_name. */
 typedef enum sbf_body_motion {
   SBF_BODY_MOTION_KINEMATIC = 0,
   SBF_BODY_MOTION_DYNAMIC = 1,
   SBF_BODY_MOTION_COUNT = 2
 } sbf_body_motion;
 
+/* Words of joint_kind, in the file's spelling by sbf_joint_kind_name. */
 typedef enum sbf_joint_kind {
   SBF_JOINT_KIND_PRISMATIC = 0,
   SBF_JOINT_KIND_REVOLUTE = 1,
@@ -76,6 +84,7 @@ typedef enum sbf_joint_kind {
   SBF_JOINT_KIND_COUNT = 10
 } sbf_joint_kind;
 
+/* Words of joint_axis, in the file's spelling by sbf_joint_axis_name. */
 typedef enum sbf_joint_axis {
   SBF_JOINT_AXIS_LINEAR_X = 0,
   SBF_JOINT_AXIS_LINEAR_Y = 1,
@@ -88,12 +97,14 @@ typedef enum sbf_joint_axis {
   SBF_JOINT_AXIS_COUNT = 8
 } sbf_joint_axis;
 
+/* Words of attachment_rule, in the file's spelling by sbf_attachment_rule_name. */
 typedef enum sbf_attachment_rule {
   SBF_ATTACHMENT_RULE_EXPLICIT = 0,
   SBF_ATTACHMENT_RULE_INSIDE_HULL = 1,
   SBF_ATTACHMENT_RULE_COUNT = 2
 } sbf_attachment_rule;
 
+/* Words of weight_property, in the file's spelling by sbf_weight_property_name. */
 typedef enum sbf_weight_property {
   SBF_WEIGHT_PROPERTY_DENSITY = 0,
   SBF_WEIGHT_PROPERTY_YOUNG_MODULUS = 1,
@@ -107,6 +118,7 @@ typedef enum sbf_weight_property {
   SBF_WEIGHT_PROPERTY_COUNT = 9
 } sbf_weight_property;
 
+/* Words of scheme, in the file's spelling by sbf_scheme_name. */
 typedef enum sbf_scheme {
   SBF_SCHEME_AUTOMATIC = 0,
   SBF_SCHEME_SYMPLECTIC = 1,
@@ -118,6 +130,7 @@ typedef enum sbf_scheme {
   SBF_SCHEME_COUNT = 7
 } sbf_scheme;
 
+/* Words of ik_solver, in the file's spelling by sbf_ik_solver_name. */
 typedef enum sbf_ik_solver {
   SBF_IK_SOLVER_TWO_BONE = 0,
   SBF_IK_SOLVER_CCD = 1,
@@ -127,12 +140,14 @@ typedef enum sbf_ik_solver {
   SBF_IK_SOLVER_COUNT = 5
 } sbf_ik_solver;
 
+/* Words of chain_kind, in the file's spelling by sbf_chain_kind_name. */
 typedef enum sbf_chain_kind {
   SBF_CHAIN_KIND_LAG = 0,
   SBF_CHAIN_KIND_DISTANCE = 1,
   SBF_CHAIN_KIND_COUNT = 2
 } sbf_chain_kind;
 
+/* Words of follower_channel, in the file's spelling by sbf_follower_channel_name. */
 typedef enum sbf_follower_channel {
   SBF_FOLLOWER_CHANNEL_ROTATION = 0,
   SBF_FOLLOWER_CHANNEL_POSITION = 1,
@@ -140,6 +155,7 @@ typedef enum sbf_follower_channel {
   SBF_FOLLOWER_CHANNEL_COUNT = 3
 } sbf_follower_channel;
 
+/* Words of track_property, in the file's spelling by sbf_track_property_name. */
 typedef enum sbf_track_property {
   SBF_TRACK_PROPERTY_TRANSLATION = 0,
   SBF_TRACK_PROPERTY_ROTATION = 1,
@@ -147,6 +163,7 @@ typedef enum sbf_track_property {
   SBF_TRACK_PROPERTY_COUNT = 3
 } sbf_track_property;
 
+/* Words of interpolation, in the file's spelling by sbf_interpolation_name. */
 typedef enum sbf_interpolation {
   SBF_INTERPOLATION_LINEAR = 0,
   SBF_INTERPOLATION_STEP = 1,
@@ -154,6 +171,7 @@ typedef enum sbf_interpolation {
   SBF_INTERPOLATION_COUNT = 3
 } sbf_interpolation;
 
+/* Words of field_kind, in the file's spelling by sbf_field_kind_name. */
 typedef enum sbf_field_kind {
   SBF_FIELD_KIND_UNIFORM = 0,
   SBF_FIELD_KIND_RADIAL = 1,
@@ -162,6 +180,7 @@ typedef enum sbf_field_kind {
   SBF_FIELD_KIND_COUNT = 4
 } sbf_field_kind;
 
+/* Words of alpha_mode, in the file's spelling by sbf_alpha_mode_name. */
 typedef enum sbf_alpha_mode {
   SBF_ALPHA_MODE_OPAQUE = 0,
   SBF_ALPHA_MODE_MASK = 1,

@@ -12,15 +12,17 @@
 extern "C" {
 #endif
 
+/* Settings of a validation. */
 typedef struct sbf_validate_options {
   size_t struct_size;             /* sizeof(sbf_validate_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc; for scratch memory */
   uint32_t repeats; /* findings of one code at one place beyond so many are counted, not listed; 0: 8 */
   void (*report)(void *user, const sbf_diagnostic *diagnostic); /* may be NULL */
-  void *user;
+  void *user;                                                   /* for the callback */
   const char *folder; /* where the file lies ("": here), to look for images beside it; NULL: not looked for */
 } sbf_validate_options;
 
+/* How a validation came out. */
 typedef struct sbf_validate_result {
   uint32_t errors, warnings, infos; /* found, listed or not */
 } sbf_validate_result;

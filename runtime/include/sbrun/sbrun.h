@@ -26,16 +26,18 @@
 extern "C" {
 #endif
 
+/* What characters of one asset share, and where they live; both opaque. */
 typedef struct sbr_model sbr_model;
 typedef struct sbr_world sbr_world;
 
 /* Names a character: index and generation; 0 is none. */
 typedef struct sbr_character_id {
-  uint32_t value;
+  uint32_t value; /* 0: none */
 } sbr_character_id;
 
+/* A place far from any origin. */
 typedef struct sbr_double3 {
-  double x, y, z;
+  double x, y, z; /* m */
 } sbr_double3;
 
 /* ---- Ground ------------------------------------------------------------------------------------------- */
@@ -44,11 +46,12 @@ typedef struct sbr_double3 {
  * called from worker threads, many times a tick. `normal` is never NULL. */
 typedef struct sbr_ground sbr_ground;
 struct sbr_ground {
-  double (*height)(const sbr_ground *ground, double x, double z, sbf_vec3 *normal);
-  const void *user;
+  double (*height)(const sbr_ground *ground, double x, double z, sbf_vec3 *normal); /* m */
+  const void *user;                                                                 /* the host's */
   double parameters[4]; /* of the built-in grounds; free for others */
 };
 
+/* Level, at that height. */
 SBF_API sbr_ground sbr_ground_flat(double height_m);
 /* Rises towards +Z from the line z = 0; level behind it. [-45, 45] degrees. */
 SBF_API sbr_ground sbr_ground_slope(double degrees);
@@ -61,13 +64,15 @@ SBF_API sbr_ground sbr_ground_noise(double height_m, uint32_t seed);
 
 /* Runs task(context, i) for i below count, in any order, on any threads, and returns when all are done. */
 typedef void sbr_task(void *context, uint32_t index);
+/* The host's threads. */
 typedef struct sbr_tasks {
   void (*run)(void *user, sbr_task *task, void *context, uint32_t count); /* NULL: serial */
-  void *user;
+  void *user;                                                             /* the host's */
 } sbr_tasks;
 
 /* ---- Model -------------------------------------------------------------------------------------------- */
 
+/* Settings of a model. */
 typedef struct sbr_model_options {
   size_t struct_size;             /* sizeof(sbr_model_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
@@ -91,18 +96,20 @@ SBF_API uint32_t sbr_lanes(void);
 
 /* ---- World -------------------------------------------------------------------------------------------- */
 
+/* Settings of a world. */
 typedef struct sbr_world_definition {
   uint32_t cookie; /* set by sbr_default_world_definition: catches a definition that was never initialised */
-  const sbf_allocator *allocator;
-  sbr_tasks tasks;
-  sbr_ground ground;
-  bool has_gravity;            /* use `gravity` instead of each asset's own */
-  sbf_vec3 gravity;            /* m/s^2 */
-  double control_tick_s;       /* 0: 1/60; an asset's own is its environment.control_tick */
-  double longest_frame_s;      /* a longer frame time is cut to it; 0: 0.25 */
-  uint32_t character_capacity; /* 0: 16; more than that cannot be created */
+  const sbf_allocator *allocator; /* NULL: malloc */
+  sbr_tasks tasks;                /* serial where empty */
+  sbr_ground ground;              /* what characters stand on */
+  bool has_gravity;               /* use `gravity` instead of each asset's own */
+  sbf_vec3 gravity;               /* m/s^2 */
+  double control_tick_s;          /* 0: 1/60; an asset's own is its environment.control_tick */
+  double longest_frame_s;         /* a longer frame time is cut to it; 0: 0.25 */
+  uint32_t character_capacity;    /* 0: 16; more than that cannot be created */
 } sbr_world_definition;
 
+/* A world is made from a definition that begins as the default, and destroyed with all its characters. */
 SBF_API sbr_world_definition sbr_default_world_definition(void);
 SBF_API sbf_status sbr_world_create(
     const sbr_world_definition *definition, sbr_world **world, sbf_diagnostic *error);
@@ -124,6 +131,7 @@ SBF_API sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *byte
 
 /* ---- Characters --------------------------------------------------------------------------------------- */
 
+/* Where and how a character begins. */
 typedef struct sbr_character_definition {
   uint32_t cookie;      /* set by sbr_default_character_definition */
   sbr_double3 position; /* of the asset's origin; y counts from the ground below it */
@@ -134,6 +142,7 @@ typedef struct sbr_character_definition {
   bool hold; /* bones stay in their rest pose */
 } sbr_character_definition;
 
+/* A character likewise; its model must outlive it. */
 SBF_API sbr_character_definition sbr_default_character_definition(void);
 SBF_API sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
     const sbr_character_definition *definition, sbr_character_id *character, sbf_diagnostic *error);
@@ -153,6 +162,7 @@ SBF_API void sbr_character_pause(sbr_world *world, sbr_character_id character, b
 /* Origin that bones and vertices are relative to, as of the sampled moment. */
 SBF_API sbr_double3 sbr_character_origin(const sbr_world *world, sbr_character_id character);
 
+/* A place and an orientation. */
 typedef struct sbr_transform {
   sbf_vec3 position; /* relative to the character's origin, m */
   sbf_quat rotation; /* bone frame to world */
@@ -178,12 +188,13 @@ SBF_API uint32_t sbr_character_points(const sbr_world *world, sbr_character_id c
 
 /* What happened in a tick. */
 typedef enum sbr_event_kind { SBR_EVENT_FOOT_DOWN, SBR_EVENT_FOOT_UP, SBR_EVENT_LANDED } sbr_event_kind;
+/* Something that happened in a step. */
 typedef struct sbr_event {
-  sbr_event_kind kind;
-  sbr_character_id character;
-  uint32_t leg;
-  uint64_t tick;
-  sbr_double3 position; /* world */
+  sbr_event_kind kind;        /* what happened */
+  sbr_character_id character; /* to whom */
+  uint32_t leg;               /* of the gait, from 0 */
+  uint64_t tick;              /* since the world began */
+  sbr_double3 position;       /* world */
 } sbr_event;
 /* Events since the last call, oldest first; returns how many were written. Older ones than the world keeps
  * (256) are lost. They are output, not state: snapshots do not hold them. */
@@ -196,7 +207,7 @@ typedef struct sbr_body_health {
   bool finite;         /* every number is */
   bool inverted;       /* an element, or the surface as a whole, is inside out */
   uint32_t recoveries; /* how often it had to be put back into its rest shape, having lost it for good */
-  double kinetic_j, elastic_j, potential_j; /* potential: of weight, 0 at the height of world y = 0 */
+  double kinetic_j, elastic_j, potential_j; /* potential is that of weight, 0 at the height of world y = 0 */
 } sbr_body_health;
 SBF_API sbr_body_health sbr_character_health(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body);
@@ -205,12 +216,12 @@ SBF_API uint32_t sbr_model_substeps(const sbr_model *model);
 
 /* Gait, for measuring: where a leg is and what it does. */
 typedef struct sbr_leg_state {
-  bool planted;
-  uint32_t steps_taken;
-  sbf_vec3 foot;   /* end bone's head, relative to the origin */
-  sbf_vec3 target; /* where it wants to be */
-  sbf_vec3 pole;
-  float phase; /* 0..1 of a step while lifted */
+  bool planted;         /* stands on the ground */
+  uint32_t steps_taken; /* since it was placed */
+  sbf_vec3 foot;        /* end bone's head, relative to the origin */
+  sbf_vec3 target;      /* where it wants to be */
+  sbf_vec3 pole;        /* that its knee points to */
+  float phase;          /* 0..1 of a step while lifted */
 } sbr_leg_state;
 SBF_API uint32_t sbr_character_legs(
     const sbr_world *world, sbr_character_id character, sbr_leg_state *legs, uint32_t capacity);
