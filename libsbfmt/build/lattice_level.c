@@ -80,7 +80,7 @@ sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_bo
     return SBFI_LATTICE_NO_MEMORY;
   counts->tetrahedra = lattice.made.count;
   counts->points = lattice.made.point_count;
-  sbfi_lattice_measure(&counts->quality, lattice.made.positions, lattice.made.at, lattice.made.count);
+  sbfi_dihedrals_measure(&counts->quality, lattice.made.positions, lattice.made.at, lattice.made.count);
   if (!weigh(level, body, counts->quality.volume, asset)) return SBFI_LATTICE_NO_MEMORY;
   for (uint32_t i = 0; i < level->pins.count; i++) counts->pins += level->pins.at[i].points.count;
   return SBFI_LATTICE_MADE;

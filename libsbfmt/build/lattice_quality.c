@@ -9,7 +9,7 @@ static void add_angle(sbfi_lattice_quality *quality, double degrees) {
   quality->histogram[bin < 0 ? 0 : bin < SBFI_DIHEDRAL_BINS ? bin : SBFI_DIHEDRAL_BINS - 1]++;
 }
 
-void sbfi_lattice_measure(
+void sbfi_dihedrals_measure(
     sbfi_lattice_quality *quality, const sbf_vec3 *positions, const sbf_uint4 *tetrahedra, uint32_t count) {
   static const int faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   const double degrees = 180 / 3.14159265358979323846;

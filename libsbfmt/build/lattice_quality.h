@@ -14,7 +14,7 @@ typedef struct sbfi_lattice_quality {
 
 /* Adds tetrahedra to what was measured; begin with SBFI_LATTICE_QUALITY_NONE. */
 #define SBFI_LATTICE_QUALITY_NONE ((sbfi_lattice_quality){.least_deg = 180})
-void sbfi_lattice_measure(
+void sbfi_dihedrals_measure(
     sbfi_lattice_quality *quality, const sbf_vec3 *positions, const sbf_uint4 *tetrahedra, uint32_t count);
 
 #endif

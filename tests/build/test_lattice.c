@@ -35,7 +35,7 @@ static void wind(made *m, const sbf_polygon_mesh *mesh) {
 static void check(made *m) {
   const sbfi_tetrahedra *all = &m->lattice.made;
   m->quality = SBFI_LATTICE_QUALITY_NONE;
-  sbfi_lattice_measure(&m->quality, all->positions, all->at, all->count);
+  sbfi_dihedrals_measure(&m->quality, all->positions, all->at, all->count);
   ck_assert_uint_eq(all->flat_count, 0);
   ck_assert_double_ge(m->quality.least_deg, 10);
   ck_assert_double_le(m->quality.most_deg, 165);

@@ -90,7 +90,7 @@ static void check_conforming(const sbfi_tetrahedra *made) {
 
 static void check_volume(const sbfi_tetrahedra *made, double most) {
   sbfi_lattice_quality quality = SBFI_LATTICE_QUALITY_NONE;
-  sbfi_lattice_measure(&quality, made->positions, made->at, made->count);
+  sbfi_dihedrals_measure(&quality, made->positions, made->at, made->count);
   ck_assert_double_le(quality.volume, most);
   ck_assert_double_ge(quality.least_deg, 10);
   ck_assert_double_le(quality.most_deg, 165);

@@ -84,6 +84,16 @@ class Derived(ProgramTest):
         self.assertEqual(settings, sorted(settings))
         self.assertEqual(self.json_of("info", out)["springs"]["internal"], 0)
 
+    def test_lattices_are_made_of_the_size_asked_for(self):
+        out, again = self.path("lattice.sbf"), self.path("again.sbf")
+        self.good("build", self.file, "-o", out, "--springs", "tetrahedra", "--elements", "300")
+        self.good("build", self.file, "-o", again, "--springs", "tetrahedra", "--elements", "300")
+        self.assertEqual(read_bytes(out), read_bytes(again))
+        for section in self.json_of("info", out)["sections"]:
+            self.assertGreater(section["tetrahedra"], 200, section["name"])
+            self.assertLess(section["tetrahedra"], 400, section["name"])
+        self.good("validate", out)
+
 
 @needs_lizard
 class Lizards(ProgramTest):
