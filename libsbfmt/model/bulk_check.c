@@ -29,6 +29,7 @@ INTO_BOTH size_t pass_f32(const float *at, size_t count, float low, float high, 
 }
 
 INTO_BOTH size_t find_f32(const float *at, size_t count, float low, float high) {
+  if (count == 0) return 0; /* then there may be no list at all */
   size_t done = pass_f32(at, count, low, high, LONG);
   done += pass_f32(at + done, count - done, low, high, SHORT);
   while (done < count && !f32_outside(at[done], low, high)) done++;
@@ -47,6 +48,7 @@ INTO_BOTH size_t pass_u32(const uint32_t *at, size_t count, uint32_t low, uint32
 }
 
 INTO_BOTH size_t find_u32(const uint32_t *at, size_t count, uint32_t low, uint32_t span) {
+  if (count == 0) return 0;
   size_t done = pass_u32(at, count, low, span, LONG);
   done += pass_u32(at + done, count - done, low, span, SHORT);
   while (done < count && at[done] - low <= span) done++;

