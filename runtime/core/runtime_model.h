@@ -61,6 +61,7 @@ typedef struct sbri_body {
   sbri_skin surface;                 /* vertices of its surface */
   uint32_t first_vertex, first_face; /* of them in a character's scratch */
   bool keeps_volume;
+  const sbri_face_block *volume_faces; /* the surface's over slots; NULL: its points are embedded */
   const uint32_t *volume_begins;       /* (blocks of its slots + 1), where it keeps its volume */
   const sbri_carry_cell *volume_cells; /* faces, as `slots`, with their shares in each slot's gradient */
 } sbri_body;

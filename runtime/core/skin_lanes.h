@@ -26,7 +26,7 @@ static inline void sbri_lanes_vertices(
 }
 
 typedef struct sbri_diagonals {
-  sbri_wide3 a, b;
+  sbri_wide3 a, b, corner; /* the first corner */
 } sbri_diagonals;
 
 static inline sbri_diagonals sbri_face_diagonals(
@@ -35,7 +35,7 @@ static inline sbri_diagonals sbri_face_diagonals(
   sbri_wide3 q = sbri_wide_gather(vertices, face->corners[1] + lane);
   sbri_wide3 r = sbri_wide_gather(vertices, face->corners[2] + lane);
   sbri_wide3 s = sbri_wide_gather(vertices, face->corners[3] + lane);
-  return (sbri_diagonals){{r.x - p.x, r.y - p.y, r.z - p.z}, {s.x - q.x, s.y - q.y, s.z - q.z}};
+  return (sbri_diagonals){{r.x - p.x, r.y - p.y, r.z - p.z}, {s.x - q.x, s.y - q.y, s.z - q.z}, p};
 }
 
 /* Twice the area vector of every face. */
@@ -94,16 +94,19 @@ static inline void sbri_lanes_normals(
   }
 }
 
-/* Volume of the cones from the first vertex to the faces, given their area vectors. */
+/* Faces as above, and the volume of the cones over them from the first corner of the first one. */
 static inline float sbri_lanes_volume(
-    const sbri_skin *skin, const sbri_point *vertices, const sbri_point *faces) {
+    const sbri_face_block *blocks, uint32_t block_count, const sbri_point *vertices, sbri_point *faces) {
   float lanes[SBRI_BLOCK] = {0};
-  sbri_wide ox = sbri_wide_all(vertices->x), oy = sbri_wide_all(vertices->y), oz = sbri_wide_all(vertices->z);
-  for (uint32_t block = 0; block < skin->face_block_count; block++)
+  const sbri_point *o = &vertices[blocks[0].corners[0][0]];
+  sbri_wide ox = sbri_wide_all(o->x), oy = sbri_wide_all(o->y), oz = sbri_wide_all(o->z);
+  for (uint32_t block = 0; block < block_count; block++)
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
-      sbri_wide3 p = sbri_wide_gather(vertices, skin->faces[block].corners[0] + lane);
-      sbri_wide3 n = sbri_wide_load_points(faces + block * SBRI_BLOCK + lane);
-      sbri_wide six_fold = (p.x - ox) * n.x + (p.y - oy) * n.y + (p.z - oz) * n.z;
+      sbri_diagonals d = sbri_face_diagonals(&blocks[block], vertices, lane);
+      sbri_wide3 n = {
+          d.a.y * d.b.z - d.a.z * d.b.y, d.a.z * d.b.x - d.a.x * d.b.z, d.a.x * d.b.y - d.a.y * d.b.x};
+      sbri_wide_store_points(faces + block * SBRI_BLOCK + lane, n);
+      sbri_wide six_fold = (d.corner.x - ox) * n.x + (d.corner.y - oy) * n.y + (d.corner.z - oz) * n.z;
       sbri_wide_store(lanes + lane, sbri_wide_load(lanes + lane) + six_fold);
     }
   return sbri_tree_sum(lanes) * (1.0f / 6);

@@ -61,6 +61,28 @@ static bool fill_table(sbr_model *model, sbri_body *body, const share *shares, s
   return true;
 }
 
+/* Where each vertex is one point, faces may name the points: `volume_faces`. */
+static bool name_points(sbri_body *body, uint32_t first_slot, sbfi_arena *arena) {
+  const sbri_skin *skin = &body->surface;
+  for (uint32_t v = 0; v < skin->vertex_count; v++) {
+    uint32_t block = v / SBRI_BLOCK, begin = skin->cell_begins[block], end = skin->cell_begins[block + 1];
+    for (uint32_t c = begin; c < end; c++)
+      if (skin->cells[c].weights[v % SBRI_BLOCK] != (c == begin ? 1.0f : 0.0f)) return true;
+    if (begin == end) return true;
+  }
+  sbri_face_block *faces = sbfi_arena_allocate(arena, skin->face_block_count, sizeof *faces);
+  if (!faces) return false;
+  for (uint32_t block = 0; block < skin->face_block_count; block++)
+    for (int k = 0; k < 4; k++)
+      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+        uint32_t v = skin->faces[block].corners[k][lane];
+        faces[block].corners[k][lane] =
+            skin->cells[skin->cell_begins[v / SBRI_BLOCK]].slots[v % SBRI_BLOCK] - first_slot;
+      }
+  body->volume_faces = faces;
+  return true;
+}
+
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body) {
   uint32_t count = body->slot_end - body->slot_begin;
   if (count == 0) return true;
@@ -74,5 +96,5 @@ bool sbri_volume_table_make(sbr_model *model, sbri_body *body) {
   }
   sbfi_free(&model->arena.allocator, used, count * sizeof *used);
   sbfi_array_free(&shares);
-  return good;
+  return good && name_points(body, model->islands[body->island].first_slot, &model->arena);
 }

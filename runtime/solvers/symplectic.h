@@ -146,11 +146,9 @@ static inline void sbri_carry_held(const sbri_island_tick *t, float share) {
         held * sizeof *t->positions);
     return;
   }
-  for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
-    const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
-    t->positions[slot] = (sbri_point){from->x + (to->x - from->x) * share,
-        from->y + (to->y - from->y) * share, from->z + (to->z - from->z) * share, 0};
-  }
+  const float *from = &t->begins[t->island->free_count].x, *to = &t->targets[t->island->free_count].x;
+  float *at = &t->positions[t->island->free_count].x;
+  for (size_t i = 0; i < 4 * held; i++) at[i] = from[i] + (to[i] - from[i]) * share;
 }
 
 static inline void sbri_kick(const sbri_island_tick *t, float h, bool last, float *stretches) {

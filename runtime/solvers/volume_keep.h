@@ -45,12 +45,16 @@ static inline float sbri_volume_gradients(
  * their inverse masses, until the rest volume is enclosed again, and changes their velocities by as much per
  * second. Momentum is kept. */
 static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *body, float h) {
-  sbri_point *vertices = t->surface_vertices + body->first_vertex,
-             *faces = t->surface_faces + body->first_face;
-  sbri_lanes_vertices(&body->surface, t->positions - t->island->first_slot, vertices);
-  sbri_lanes_faces(&body->surface, vertices, faces);
+  const sbri_skin *skin = &body->surface;
+  sbri_point *vertices = t->positions, *faces = t->surface_faces + body->first_face;
+  const sbri_face_block *named = body->volume_faces;
+  if (!named) {
+    vertices = t->surface_vertices + body->first_vertex;
+    named = skin->faces;
+    sbri_lanes_vertices(skin, t->positions - t->island->first_slot, vertices);
+  }
   float rest = (float)body->rest_volume_m3, most = SBRI_MOST_VOLUME_SHARE * rest;
-  float missing = rest - sbri_lanes_volume(&body->surface, vertices, faces);
+  float missing = rest - sbri_lanes_volume(named, skin->face_block_count, vertices, faces);
   float sum = sbri_volume_gradients(t, body, faces);
   if (!(sum > 0) || !(missing - missing == 0)) return;
   float s = (missing > most ? most : missing < -most ? -most : missing) / sum, rate = 1 / h;
