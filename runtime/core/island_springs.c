@@ -164,6 +164,10 @@ enum { POWER_ITERATIONS = 40 };
 /* Power iteration comes from below; what it may still lack. */
 static const double POWER_MARGIN = 1.03;
 
+/* Bones that would throw a body about by more than this share of its size take it along instead: its springs
+ * know no inside and outside, and would not bring back all of it. */
+static const float MOST_SWAY = 0.25f;
+
 static void find_damping(sbri_island_maker *m, sbf_spring_network network, float *masses, double *scratch) {
   const sbf_environment *environment = &m->model->asset->environment;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
@@ -176,7 +180,10 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     own.ends += body->first_spring;
     own.stiffness += body->first_spring;
     own.spring_count = body->spring_end - body->first_spring;
-    double lowest = is->damping_ratio > 0 ? sbf_network_lowest(&own, true, scratch) : 0;
+    double lowest = sbf_network_lowest(&own, true, scratch);
+    float most = MOST_SWAY * body->rest_size_m * (float)(lowest * lowest);
+    float *bound = &m->island->most_acceleration_m_s2;
+    if (*bound == 0 || most < *bound) *bound = most;
     body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
     body->media_friction_1_s = is->media_friction + environment->media_friction;
     body->friction = is->friction;

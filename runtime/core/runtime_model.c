@@ -68,6 +68,7 @@ static void measure(sbr_model *model) {
 
 static sbf_status make_islands(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
   sbf_status status = sbri_islands_group(model, options, error);
+  if (status == SBF_OK) measure(model);
   for (uint32_t i = 0; status == SBF_OK && i < model->island_count; i++) {
     sbri_island *island = &model->islands[i];
     choose_scheme(model, island, options);
@@ -110,7 +111,6 @@ static sbf_status make(sbr_model *model, const sbr_model_options *options, sbf_d
   sbf_status status = make_islands(model, options, error);
   if (status != SBF_OK) return status;
   if (!make_skins(model)) return no_memory(error);
-  measure(model);
   sbri_layout_make(model);
   if (!sbri_rest_volumes_find(model)) return no_memory(error);
   return SBF_OK;

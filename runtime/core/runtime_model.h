@@ -81,12 +81,13 @@ typedef struct sbri_island {
   const uint32_t *frame_of_held; /* (slot_count - free_count) */
   const sbfi_spring *springs;    /* (spring_count) each once, ends as slots */
   uint32_t spring_count;
-  double fastest_rad_s;       /* mode at rest */
-  double bound_rad_s;         /* no mode is faster in any state */
-  float rest_stretch;         /* greatest share of a spring beyond its rest length, at rest */
-  double stiffness_damping_s; /* greatest damping over stiffness of its springs */
-  uint32_t substeps;          /* asked for; 0: as many as needed */
-  const sbri_visit *visits;   /* (visit_count) of the relaxation scheme, in order */
+  float most_acceleration_m_s2; /* of what holds it, that it is made to feel; 0: no bound */
+  double fastest_rad_s;         /* mode at rest */
+  double bound_rad_s;           /* no mode is faster in any state */
+  float rest_stretch;           /* greatest share of a spring beyond its rest length, at rest */
+  double stiffness_damping_s;   /* greatest damping over stiffness of its springs */
+  uint32_t substeps;            /* asked for; 0: as many as needed */
+  const sbri_visit *visits;     /* (visit_count) of the relaxation scheme, in order */
   uint32_t visit_count;
 } sbri_island;
 

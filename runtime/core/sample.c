@@ -7,6 +7,7 @@
 #include "math/quat.h"
 
 static float share_of_tick(const sbr_world *world) {
+  if (world->ahead_units <= 0) return 1;
   return (float)(1.0 - (double)world->ahead_units / (double)world->tick_units);
 }
 

@@ -7,7 +7,8 @@
 #include "core/world.h"
 
 typedef struct snapshot_head {
-  uint64_t magic, size, ticks, ahead_units, characters;
+  uint64_t magic, size, ticks, characters;
+  int64_t ahead_units;
 } snapshot_head;
 
 /* One before each character's state block. */
@@ -34,7 +35,7 @@ static uint64_t count_characters(const sbr_world *world) {
 
 sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t size) {
   if (!world || !bytes || size != sbr_world_snapshot_size(world)) return SBF_FAILED;
-  snapshot_head head = {MAGIC, size, world->ticks, world->ahead_units, count_characters(world)};
+  snapshot_head head = {MAGIC, size, world->ticks, count_characters(world), world->ahead_units};
   unsigned char *to = bytes;
   memcpy(to, &head, sizeof head);
   to += sizeof head;

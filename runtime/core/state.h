@@ -19,7 +19,7 @@ typedef struct sbri_island_state {
   float stretch;         /* greatest share of a spring beyond its rest length, in the last substep */
   uint32_t folded_ticks; /* for how long its volume has been next to nothing */
   uint32_t recoveries;
-  uint32_t unused;
+  sbf_vec3 guide_velocity; /* mean of what holds it, in the last tick */
 } sbri_island_state;
 
 typedef struct sbri_character {

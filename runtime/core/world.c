@@ -15,8 +15,8 @@ sbr_world_definition sbr_default_world_definition(void) {
       .character_capacity = DEFAULT_CAPACITY};
 }
 
-static uint64_t units_of(double seconds) {
-  return (uint64_t)(seconds * SBRI_TIME_UNITS + 0.5);
+static int64_t units_of(double seconds) {
+  return (int64_t)(seconds * SBRI_TIME_UNITS + 0.5);
 }
 
 sbf_status sbr_world_create(
@@ -71,12 +71,11 @@ void sbr_world_destroy(sbr_world *world) {
 void sbr_world_step(sbr_world *world, double seconds) {
   if (!world || !(seconds > 0)) return;
   double longest = (double)world->longest_units / SBRI_TIME_UNITS;
-  uint64_t units = units_of(seconds < longest ? seconds : longest);
-  while (world->ahead_units < units) {
+  world->ahead_units -= units_of(seconds < longest ? seconds : longest);
+  while (world->ahead_units < -SBRI_TIME_SLACK) {
     sbri_step_tick(world);
     world->ahead_units += world->tick_units;
   }
-  world->ahead_units -= units;
   world->stamp++;
 }
 

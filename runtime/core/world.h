@@ -8,6 +8,9 @@ enum { SBRI_EVENTS = 256 };
 /* Time is counted in parts of 2^-32 s, so that frames add up without rounding. */
 #define SBRI_TIME_UNITS 4294967296.0
 
+/* Of those, about a microsecond: a tick that would only cover so little is left for later. */
+enum { SBRI_TIME_SLACK = 4096 };
+
 /* One island of one character: what a task steps. */
 typedef struct sbri_work {
   uint32_t character, island;
@@ -20,10 +23,11 @@ struct sbr_world {
   bool has_gravity;
   sbf_vec3 gravity;
   double tick_s;
-  uint64_t tick_units, longest_units;
+  int64_t tick_units, longest_units;
   uint64_t ticks;
-  uint64_t ahead_units;       /* by how much the last tick lies beyond the sampled moment */
-  uint64_t stamp;             /* counts sampled moments; from 1 */
+  int64_t
+      ahead_units; /* by how much the last tick lies beyond the sampled moment; may lag by SBRI_TIME_SLACK */
+  uint64_t stamp;  /* counts sampled moments; from 1 */
   sbri_character *characters; /* (character_capacity) */
   uint32_t character_capacity;
   sbri_work *work; /* (work_count) of all characters, in their order */

@@ -1,0 +1,174 @@
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "core/world.h"
+#include "harness.h"
+#include "scenes.h"
+
+/* ---- Threads: the host's tasks, started anew for each batch, last index first ---- */
+
+typedef struct batch {
+  sbr_task *task;
+  void *context;
+  atomic_uint left;
+} batch;
+
+static void *work(void *argument) {
+  batch *b = argument;
+  for (;;) {
+    unsigned left = atomic_load(&b->left);
+    do {
+      if (left == 0) return NULL;
+    } while (!atomic_compare_exchange_weak(&b->left, &left, left - 1));
+    b->task(b->context, left - 1);
+  }
+}
+
+static void run_on_threads(void *user, sbr_task *task, void *context, uint32_t count) {
+  int thread_count = *(const int *)user;
+  batch b = {task, context, count};
+  pthread_t threads[8];
+  for (int i = 1; i < thread_count; i++) ck_assert_int_eq(pthread_create(&threads[i], NULL, work, &b), 0);
+  work(&b);
+  for (int i = 1; i < thread_count; i++) pthread_join(threads[i], NULL);
+}
+
+static scene crowd(sbr_tasks tasks) {
+  scene s = scene_begin();
+  scene_bodies(&s, 3);
+  scene_bone(&s, (sbf_vec3){0, 0.5f, 0});
+  for (uint32_t i = 0; i < 3; i++) {
+    scene_body(&s, i)->attributes.damping_ratio = 0.15f;
+    scene_body(&s, i)->attributes.pressure_mode = i ? SBF_PRESSURE_MODE_VOLUME : SBF_PRESSURE_MODE_NONE;
+    scene_section(&s, i, (sbf_vec3){0, 0.1f, 0.5f * (float)i}, (sbf_vec3){0.3f, 0.22f, 0.4f}, 2 + i);
+  }
+  s.character_definition.position.y = 0;
+  s.world_definition.ground = sbr_ground_noise(0.1, 5);
+  s.world_definition.tasks = tasks;
+  scene_start(&s);
+  for (int i = 0; i < 3; i++) {
+    sbr_character_id id;
+    s.character_definition.position.x += 1.5;
+    s.character_definition.scale = 1 + (float)i;
+    ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &id, NULL), SBF_OK);
+    sbr_character_drive(s.world, id, 0.5f, 0.1f * (float)i, 0.3f);
+  }
+  return s;
+}
+
+START_TEST(any_number_of_threads_gives_the_same_bits)
+{
+  scene serial = crowd((sbr_tasks){NULL, NULL});
+  scene_ticks(&serial, 90);
+  uint64_t expected = sbr_world_state_hash(serial.world);
+  scene_free(&serial);
+  for (int threads = 1; threads <= 8; threads = threads == 3 ? 8 : threads + 1) {
+    scene s = crowd((sbr_tasks){run_on_threads, &threads});
+    scene_ticks(&s, 90);
+    ck_assert_uint_eq(sbr_world_state_hash(s.world), expected);
+    scene_free(&s);
+  }
+}
+END_TEST
+
+/* ---- Bodies that lose themselves ---- */
+
+static scene walker(void) {
+  scene s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 0.5f, 0});
+  scene_body(&s, 0)->attributes.damping_ratio = 0.15f;
+  scene_section(&s, 0, (sbf_vec3){0, 0.5f, 0}, (sbf_vec3){0.3f, 0.2f, 0.5f}, 3);
+  s.character_definition.position.y = 0;
+  s.world_definition.ground = sbr_ground_flat(0);
+  scene_start(&s);
+  return s;
+}
+
+START_TEST(numbers_that_are_none_are_recovered_from)
+{
+  scene s = walker();
+  scene_ticks(&s, 10);
+  sbri_positions(sbri_character_of(s.world, s.character))[3].y = NAN;
+  scene_ticks(&s, 1);
+  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  ck_assert(h.finite);
+  ck_assert_uint_eq(h.recoveries, 1);
+  ck_assert_float_eq_tol(h.volume_ratio, 1, 0.01f);
+  scene_ticks(&s, 60);
+  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 1);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(a_body_inside_out_comes_back)
+{
+  scene s = scene_begin(); /* nothing holds it: its springs are at rest inside out as well */
+  scene_bone(&s, (sbf_vec3){0, 0.5f, 0});
+  scene_section(&s, 0, (sbf_vec3){0, 0.5f, 0}, (sbf_vec3){0.3f, 0.2f, 0.5f}, 2);
+  s.model_options.free = true;
+  s.world_definition.has_gravity = true;
+  scene_start(&s);
+  sbri_character *c = sbri_character_of(s.world, s.character);
+  for (uint32_t i = 0; i < c->model->slot_count; i++) sbri_positions(c)[i].x *= -1;
+  scene_ticks(&s, 1);
+  ck_assert(sbr_character_health(s.world, s.character, 0).inverted);
+  scene_ticks(&s, 80);
+  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  ck_assert_uint_eq(h.recoveries, 1);
+  ck_assert_float_eq_tol(h.volume_ratio, 1, 0.01f);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(bones_that_jump_take_their_bodies_along)
+{
+  scene s = walker();
+  scene_ticks(&s, 10);
+  sbr_character_drive(s.world, s.character, 3000, 0, 0); /* soon metres a tick */
+  for (int i = 0; i < 30; i++) {
+    scene_ticks(&s, 1);
+    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    ck_assert(h.finite);
+    ck_assert_float_lt(h.max_strain, 2);
+  }
+  sbr_character_drive(s.world, s.character, 0, 0, 0);
+  scene_ticks(&s, 240);
+  sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+  ck_assert_float_eq_tol(h.volume_ratio, 1, 0.05f);
+  ck_assert_uint_eq(h.recoveries, 0);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(a_quarter_second_hitch_is_survived)
+{
+  scene s = walker();
+  sbr_character_drive(s.world, s.character, 1.5f, 0, 2);
+  for (int i = 0; i < 40; i++) {
+    sbr_world_step(s.world, i % 3 ? 0.25 : 0.001);
+    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    ck_assert(h.finite && !h.inverted);
+    ck_assert_float_gt(h.volume_ratio, 0.9f);
+  }
+  scene_free(&s);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("step");
+  TCase *c = tcase_create("step");
+  tcase_set_timeout(c, 120);
+  tcase_add_test(c, any_number_of_threads_gives_the_same_bits);
+  tcase_add_test(c, numbers_that_are_none_are_recovered_from);
+  tcase_add_test(c, a_body_inside_out_comes_back);
+  tcase_add_test(c, bones_that_jump_take_their_bodies_along);
+  tcase_add_test(c, a_quarter_second_hitch_is_survived);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
