@@ -109,6 +109,7 @@ START_TEST(a_body_inside_out_comes_back)
   scene_section(&s, 0, (sbf_vec3){0, 0.5f, 0}, (sbf_vec3){0.3f, 0.2f, 0.5f}, 2);
   s.model_options.free = true;
   s.world_definition.has_gravity = true;
+  s.world_definition.gravity = (sbf_vec3){0, 0, 0};
   scene_start(&s);
   sbri_character *c = sbri_character_of(s.world, s.character);
   for (uint32_t i = 0; i < c->model->slot_count; i++) sbri_positions(c)[i].x *= -1;

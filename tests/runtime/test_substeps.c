@@ -1,0 +1,136 @@
+#include <math.h>
+
+#include "core/world.h"
+#include "harness.h"
+#include "sbfmt/codes.h"
+#include "scenes.h"
+
+static scene section(float modulus, float beta) {
+  scene s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 0, 0});
+  scene_body(&s, 0)->attributes.young_modulus = modulus;
+  scene_body(&s, 0)->attributes.stiffness_damping = beta;
+  scene_section(&s, 0, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.15f, 0.3f}, 4);
+  s.world_definition.has_gravity = true;
+  s.world_definition.gravity = (sbf_vec3){0, 0, 0};
+  return s;
+}
+
+/* Energy after two seconds over that at the start, in which all points lie a little off. */
+static double growth(scene *s) {
+  sbri_character *c = sbri_character_of(s->world, s->character);
+  uint32_t random = 1;
+  for (uint32_t i = 0; i < c->model->islands[0].free_count; i++) {
+    random = random * 1664525u + 1013904223u;
+    sbri_positions(c)[i].x += 1e-4f * (float)(int32_t)random / 2147483648.0f;
+  }
+  double before = sbr_character_health(s->world, s->character, 0).elastic_j;
+  scene_ticks(s, 120);
+  sbr_body_health h = sbr_character_health(s->world, s->character, 0);
+  return h.finite && h.recoveries == 0 ? (h.elastic_j + h.kinetic_j) / before : INFINITY;
+}
+
+START_TEST(as_many_as_are_needed_and_hardly_more)
+{
+  const float moduli[] = {2e4f, 3e5f, 2e6f};
+  for (int i = 0; i < 3; i++) {
+    scene s = section(moduli[i], 0);
+    scene_start(&s);
+    uint32_t needed = sbr_model_substeps(s.model);
+    ck_assert_double_lt(growth(&s), 4); /* it swings, the more the nearer the bound */
+    scene_free(&s);
+
+    if (needed < 8) continue; /* rounding up leaves a wide margin */
+    scene few = section(moduli[i], 0);
+    few.model_options.substeps = (uint32_t)((double)needed / 1.35);
+    scene_start(&few);
+    ck_assert_uint_lt(few.model_options.substeps, needed);
+    ck_assert_double_gt(growth(&few), 100);
+    scene_free(&few);
+  }
+}
+END_TEST
+
+START_TEST(damped_springs_need_more)
+{
+  scene plain = section(3e5f, 0), damped = section(3e5f, 1e-3f);
+  scene_start(&plain);
+  scene_start(&damped);
+  ck_assert_uint_gt(sbr_model_substeps(damped.model), sbr_model_substeps(plain.model));
+  ck_assert_double_lt(growth(&damped), 0.01);
+  scene_free(&plain);
+  scene_free(&damped);
+}
+END_TEST
+
+START_TEST(stretched_springs_need_more_up_to_a_bound)
+{
+  scene s = section(3e5f, 0);
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  uint32_t rest = sbri_island_substeps(island, 1.0 / 60, 0),
+           some = sbri_island_substeps(island, 1.0 / 60, 0.2f);
+  uint32_t much = sbri_island_substeps(island, 1.0 / 60, 0.95f);
+  ck_assert_uint_gt(some, rest);
+  ck_assert_uint_gt(much, some);
+  ck_assert_double_le(much, ceil(1.02 * island->bound_rad_s / 120));
+  ck_assert_uint_eq(sbri_island_substeps(island, 1.0 / 60, -3), rest);
+  scene_free(&s);
+}
+END_TEST
+
+/* Thrown into a knot, every point somewhere in a box: springs stretched tenfold and more. */
+START_TEST(a_body_thrown_into_a_knot_does_not_burst)
+{
+  scene s = section(1e5f, 0);
+  scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
+  scene_start(&s);
+  sbri_character *c = sbri_character_of(s.world, s.character);
+  uint32_t random = 5;
+  for (uint32_t i = 0; i < c->model->islands[0].free_count; i++) {
+    float *p = &sbri_positions(c)[i].x;
+    for (int k = 0; k < 3; k++) {
+      random = random * 1664525u + 1013904223u;
+      p[k] = 0.5f * (float)(int32_t)random / 2147483648.0f;
+    }
+  }
+  sbri_island_states(c)[0].stretch = 0.95f; /* as it would be, had it come there by itself */
+  double before = sbr_character_health(s.world, s.character, 0).elastic_j, most = 0;
+  for (int i = 0; i < 300; i++) {
+    scene_ticks(&s, 1);
+    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    ck_assert(h.finite);
+    most = fmax(most, h.elastic_j + h.kinetic_j);
+  }
+  ck_assert_double_lt(most, 1.5 * before);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(what_is_too_stiff_is_refused)
+{
+  scene s = section(1e12f, 0);
+  sbf_diagnostic error;
+  ck_assert_int_eq(sbr_model_create(s.asset, NULL, &s.model, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(error.code, SBF_CODE_TOO_STIFF);
+  ck_assert_ptr_null(s.model);
+  scene_free(&s);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("substeps");
+  TCase *c = tcase_create("substeps");
+  tcase_set_timeout(c, 60);
+  tcase_add_test(c, as_many_as_are_needed_and_hardly_more);
+  tcase_add_test(c, damped_springs_need_more);
+  tcase_add_test(c, stretched_springs_need_more_up_to_a_bound);
+  tcase_add_test(c, a_body_thrown_into_a_knot_does_not_burst);
+  tcase_add_test(c, what_is_too_stiff_is_refused);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
