@@ -168,6 +168,67 @@ START_TEST(a_pendulum_keeps_its_period)
 }
 END_TEST
 
+/* Ten links that hang: each stretches by the weight below it, u = (m g / k) n (n + 1) / 2 all together. */
+START_TEST(a_hanging_chain_stretches_by_its_weight)
+{
+  enum { LINKS = 10 };
+  scene s = scene_begin();
+  scene_body(&s, 0)->attributes.damping_ratio = 1;
+  sbf_vec3 positions[LINKS + 1];
+  float masses[LINKS + 1], stiffness[LINKS];
+  sbf_uint2 ends[LINKS];
+  for (uint32_t i = 0; i <= LINKS; i++) {
+    positions[i] = (sbf_vec3){0, -0.1f * (float)i, 0};
+    masses[i] = 0.2f;
+    if (i < LINKS) ends[i] = (sbf_uint2){{i, i + 1}}, stiffness[i] = 400;
+  }
+  const uint32_t held = 0;
+  sbf_level *level = scene_points(&s, 0, positions, masses, LINKS + 1);
+  scene_springs(&s, level, ends, stiffness, LINKS);
+  scene_pin(&s, level, -1, &held, 1);
+  scene_start(&s);
+  scene_ticks(&s, 600);
+  double stretch = 0.2 * 9.81 / 400 * LINKS * (LINKS + 1) / 2;
+  ck_assert_double_eq_tol(scene_point(&s, 0, LINKS).y, -0.1 * LINKS - stretch, 1e-4);
+  scene_free(&s);
+}
+END_TEST
+
+/* The same chain let go from level: no energy may come of it, and its links stay together. */
+START_TEST(a_pendulum_chain_swings_without_gain)
+{
+  enum { LINKS = 10 };
+  scene s = scene_begin();
+  sbf_vec3 positions[LINKS + 1];
+  float masses[LINKS + 1], stiffness[LINKS];
+  sbf_uint2 ends[LINKS];
+  for (uint32_t i = 0; i <= LINKS; i++) {
+    positions[i] = (sbf_vec3){0.1f * (float)i, 0, 0};
+    masses[i] = 0.2f;
+    if (i < LINKS) ends[i] = (sbf_uint2){{i, i + 1}}, stiffness[i] = 20000;
+  }
+  const uint32_t held = 0;
+  sbf_level *level = scene_points(&s, 0, positions, masses, LINKS + 1);
+  scene_springs(&s, level, ends, stiffness, LINKS);
+  scene_pin(&s, level, -1, &held, 1);
+  s.model_options.substeps = 20;
+  scene_start(&s);
+  double depth = 0.2 * 9.81 * 0.1 * LINKS * (LINKS + 1) / 2; /* J from level to hanging */
+  double lowest = 0;
+  sbr_body_health begin = sbr_character_health(s.world, s.character, 0);
+  for (int i = 0; i < 600; i++) {
+    scene_ticks(&s, 1);
+    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+    double gained = h.kinetic_j + h.elastic_j + h.potential_j - begin.potential_j;
+    ck_assert_double_lt(fabs(gained), 0.05 * depth);
+    ck_assert_float_lt(h.max_strain, 0.3f); /* as its end cracks */
+    lowest = fmin(lowest, scene_point(&s, 0, LINKS).y);
+  }
+  ck_assert_double_lt(lowest, -0.8);
+  scene_free(&s);
+}
+END_TEST
+
 START_TEST(damping_takes_what_its_ratio_says)
 {
   scene s = oscillator(2, 50, 1);
@@ -213,6 +274,8 @@ static Suite *suite(void) {
   tcase_add_test(c, a_free_body_falls_as_it_should);
   tcase_add_test(c, momentum_is_kept);
   tcase_add_test(c, a_pendulum_keeps_its_period);
+  tcase_add_test(c, a_hanging_chain_stretches_by_its_weight);
+  tcase_add_test(c, a_pendulum_chain_swings_without_gain);
   tcase_add_test(c, damping_takes_what_its_ratio_says);
   tcase_add_test(c, springs_damp_their_own_stretching);
   suite_add_tcase(s, c);

@@ -1,0 +1,102 @@
+#include "harness.h"
+#include "solvers/rigid_motion.h"
+
+enum { POINTS = 16, REAL = 13 };
+
+static float masses[POINTS], velocities[3 * POINTS];
+static sbri_point positions[POINTS];
+static sbri_island island;
+static sbri_body body;
+
+static float *velocity_of(uint32_t slot, int axis) {
+  return &velocities[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + (uint32_t)axis * SBRI_BLOCK + slot % SBRI_BLOCK];
+}
+
+/* Points that move as v + w x r, with some noise of their own. */
+static void make(sbf_vec3 v, sbf_vec3 w, float noise) {
+  uint32_t random = 3;
+  for (uint32_t i = 0; i < POINTS; i++) {
+    float n[6];
+    for (int k = 0; k < 6; k++) {
+      random = random * 1664525u + 1013904223u;
+      n[k] = (float)(int32_t)random / 2147483648.0f;
+    }
+    masses[i] = i < REAL ? 0.5f + 0.1f * (float)i : 0;
+    positions[i] = (sbri_point){10 + n[0], 2 * n[1], -5 + 3 * n[2], 0};
+    sbf_vec3 r = {positions[i].x, positions[i].y, positions[i].z}, turn = sbri_cross(w, r);
+    *velocity_of(i, 0) = v.x + turn.x + noise * n[3];
+    *velocity_of(i, 1) = v.y + turn.y + noise * n[4];
+    *velocity_of(i, 2) = v.z + turn.z + noise * n[5];
+  }
+  island = (sbri_island){.masses = masses, .free_count = POINTS};
+  body = (sbri_body){.slot_begin = 0, .slot_real_end = REAL, .slot_end = POINTS};
+}
+
+static void momenta(double linear[3], double angular[3]) {
+  for (int k = 0; k < 3; k++) linear[k] = angular[k] = 0;
+  for (uint32_t i = 0; i < REAL; i++) {
+    double m = masses[i], x = positions[i].x, y = positions[i].y, z = positions[i].z;
+    double u = *velocity_of(i, 0), v = *velocity_of(i, 1), w = *velocity_of(i, 2);
+    linear[0] += m * u, linear[1] += m * v, linear[2] += m * w;
+    angular[0] += m * (y * w - z * v), angular[1] += m * (z * u - x * w), angular[2] += m * (x * v - y * u);
+  }
+}
+
+START_TEST(a_rigid_motion_is_found)
+{
+  make((sbf_vec3){1, -2, 0.5f}, (sbf_vec3){0.3f, 2, -1}, 0);
+  sbri_rigid_motion m = sbri_rigid_motion_find(&island, &body, positions, velocities);
+  ck_assert_float_eq_tol(m.spin.x, 0.3f, 1e-4f);
+  ck_assert_float_eq_tol(m.spin.y, 2, 1e-4f);
+  ck_assert_float_eq_tol(m.spin.z, -1, 1e-4f);
+  ck_assert_float_eq_tol(m.mass_kg, 13 * 0.5f + 0.1f * 78, 1e-4f);
+}
+END_TEST
+
+START_TEST(damping_leaves_it_alone)
+{
+  double before[2][3], after[2][3];
+  make((sbf_vec3){1, -2, 0.5f}, (sbf_vec3){0.3f, 2, -1}, 0.5f);
+  momenta(before[0], before[1]);
+  sbri_rigid_motion first = sbri_rigid_motion_find(&island, &body, positions, velocities);
+  for (int i = 0; i < 200; i++) sbri_rigid_motion_damp(&island, &body, positions, velocities, 0.9f);
+  momenta(after[0], after[1]);
+  for (int k = 0; k < 3; k++) {
+    ck_assert_double_eq_tol(after[0][k], before[0][k], 1e-3);
+    ck_assert_double_eq_tol(after[1][k], before[1][k], 1e-2);
+  }
+  sbf_vec3 r = {
+      positions[4].x - first.center.x, positions[4].y - first.center.y, positions[4].z - first.center.z};
+  sbf_vec3 rigid = sbri_add(first.velocity, sbri_cross(first.spin, r));
+  ck_assert_float_eq_tol(*velocity_of(4, 0), rigid.x, 1e-3f);
+  ck_assert_float_eq_tol(*velocity_of(4, 1), rigid.y, 1e-3f);
+}
+END_TEST
+
+START_TEST(points_on_a_line_have_no_spin_about_it)
+{
+  make((sbf_vec3){0, 0, 0}, (sbf_vec3){0, 0, 0}, 0.1f);
+  for (uint32_t i = 0; i < POINTS; i++) positions[i] = (sbri_point){(float)i, 0, 0, 0};
+  sbri_rigid_motion m = sbri_rigid_motion_find(&island, &body, positions, velocities);
+  ck_assert_float_eq_tol(m.spin.x, 0, 1e-3f);
+  for (uint32_t i = 0; i < POINTS; i++) positions[i] = (sbri_point){1, 2, 3, 0};
+  m = sbri_rigid_motion_find(&island, &body, positions, velocities);
+  ck_assert(m.spin.x == 0 && m.spin.y == 0 && m.spin.z == 0);
+  body.slot_end = body.slot_real_end = 0;
+  ck_assert_float_eq(sbri_rigid_motion_find(&island, &body, positions, velocities).mass_kg, 0);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("rigid motion");
+  TCase *c = tcase_create("rigid motion");
+  tcase_add_test(c, a_rigid_motion_is_found);
+  tcase_add_test(c, damping_leaves_it_alone);
+  tcase_add_test(c, points_on_a_line_have_no_spin_about_it);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}

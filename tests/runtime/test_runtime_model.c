@@ -1,0 +1,122 @@
+#include <string.h>
+
+#include "core/world.h"
+#include "harness.h"
+#include "scenes.h"
+
+static scene section(void) {
+  scene s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 1, 0});
+  scene_section(&s, 0, (sbf_vec3){0, 1, 0}, (sbf_vec3){0.4f, 0.3f, 0.6f}, 2);
+  return s;
+}
+
+START_TEST(calls_are_checked)
+{
+  scene s = section();
+  sbf_diagnostic error;
+  ck_assert_int_eq(sbr_model_create(NULL, NULL, &s.model, &error), SBF_FAILED);
+  ck_assert_int_eq(sbr_model_create(s.asset, NULL, NULL, NULL), SBF_FAILED);
+  s.model_options.struct_size = 3;
+  ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_FAILED);
+  s.model_options.struct_size = sizeof s.model_options;
+  s.model_options.scheme = SBF_SCHEME_HEUN;
+  ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_FAILED);
+  ck_assert_ptr_nonnull(strstr(error.message, "heun"));
+  ck_assert_ptr_null(s.model);
+  sbr_model_destroy(NULL);
+  ck_assert_uint_eq(sbr_model_substeps(NULL), 1);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(scheme_and_substeps_come_from_the_call_or_the_level)
+{
+  scene s = section();
+  sbf_simulation *stated = (sbf_simulation *)(uintptr_t)&s.asset->soft_bodies.at[0].levels.at[0].simulation;
+  stated->scheme = SBF_SCHEME_RELAXATION;
+  stated->substeps = 7;
+  const struct {
+    sbf_scheme asked;
+    uint32_t substeps_asked;
+    sbf_scheme scheme;
+    uint32_t substeps;
+  } cases[] = {{SBF_SCHEME_AUTOMATIC, 0, SBF_SCHEME_RELAXATION, 7},
+      {SBF_SCHEME_SYMPLECTIC, 0, SBF_SCHEME_SYMPLECTIC, 0},
+      {SBF_SCHEME_SYMPLECTIC, 9, SBF_SCHEME_SYMPLECTIC, 9}};
+  for (int i = 0; i < 3; i++) {
+    s.model_options.scheme = cases[i].asked;
+    s.model_options.substeps = cases[i].substeps_asked;
+    scene_start(&s);
+    ck_assert_int_eq(s.model->islands[0].scheme, cases[i].scheme);
+    ck_assert_uint_eq(s.model->islands[0].substeps, cases[i].substeps);
+    sbr_world_destroy(s.world);
+    sbr_model_destroy(s.model);
+  }
+  s.world = NULL, s.model = NULL;
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(points_of_a_block_have_about_as_many_springs)
+{
+  scene s = section();
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  ck_assert_uint_eq(island->free_count, 32); /* 26 and padding */
+  ck_assert_uint_eq(island->slot_count % SBRI_BLOCK, 0);
+  uint32_t visits = 0;
+  for (uint32_t i = 0; i < island->spring_count; i++)
+    visits += (island->springs[i].a < island->free_count) + (island->springs[i].b < island->free_count);
+  uint32_t cells = island->cell_begins[island->free_count / SBRI_BLOCK];
+  ck_assert_uint_le(SBRI_BLOCK * cells, visits + visits / 3); /* little of it padding */
+  for (uint32_t slot = 26; slot < 32; slot++) ck_assert_float_eq(island->masses[slot], 0);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(freed_bodies_have_their_whole_mass)
+{
+  double masses[2] = {0, 0};
+  for (int free = 0; free < 2; free++) {
+    scene s = section();
+    s.model_options.free = free;
+    scene_start(&s);
+    const sbri_island *island = &s.model->islands[0];
+    for (uint32_t i = 0; i < island->free_count; i++) masses[free] += (double)island->masses[i];
+    ck_assert(s.model->bodies[0].held != free);
+    scene_free(&s);
+  }
+  ck_assert_double_eq_tol(masses[0], 72, 0.01); /* 0.4 x 0.3 x 0.6 m of water */
+  ck_assert_double_eq_tol(masses[1], 72, 0.01);
+}
+END_TEST
+
+START_TEST(an_empty_asset_makes_an_empty_model)
+{
+  scene s = scene_begin();
+  s.asset->soft_bodies.count = 0;
+  scene_start(&s);
+  sbr_character_drive(s.world, s.character, 1, 0, 0);
+  scene_ticks(&s, 60);
+  ck_assert_double_gt(sbr_character_distance(s.world, s.character), 0.5);
+  ck_assert_uint_ne(sbr_world_state_hash(s.world), 0);
+  scene_free(&s);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("runtime model");
+  TCase *c = tcase_create("runtime model");
+  tcase_add_test(c, calls_are_checked);
+  tcase_add_test(c, scheme_and_substeps_come_from_the_call_or_the_level);
+  tcase_add_test(c, points_of_a_block_have_about_as_many_springs);
+  tcase_add_test(c, freed_bodies_have_their_whole_mass);
+  tcase_add_test(c, an_empty_asset_makes_an_empty_model);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
