@@ -29,6 +29,11 @@ if(TARGET sbfmt)
   add_dependencies(products sbfmt)
   install(TARGETS sbfmt)
 endif()
+if(NOT SBFMT_RUNTIME_ONLY AND BUILD_SHARED_LIBS)
+  # A folder to put on PYTHONPATH; it finds the library by itself where that is beside or in the system's places.
+  install(DIRECTORY exporters/python/sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/sbfmt/python
+    FILES_MATCHING PATTERN *.py)
+endif()
 if(TARGET sbfmt-manual)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(FILES ${PROJECT_BINARY_DIR}/generated/bash/sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

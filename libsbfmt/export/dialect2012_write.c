@@ -228,8 +228,8 @@ static sbf_status write_attributes(paper_writer *w, const sbf_soft_body *body, c
   if (body->legacy) {
     sliders = *body->legacy;
   } else {
-    sbfi_lattice_sums sums;
-    if (!sbfi_lattice_measure(level->positions, level->lattice.tetrahedra, &w->e->allocator, &sums))
+    sbfi_paper_sums sums;
+    if (!sbfi_paper_measure(level->positions, level->lattice.tetrahedra, &w->e->allocator, &sums))
       return sbfi_export_no_memory(w->e);
     sbfi_paper_from_si(&body->attributes, &body->collision, &sums, SBFI_PAPER_ITERATIONS, &sliders);
   }

@@ -215,13 +215,13 @@ static sbf_status fill_lattice(
 
 static sbf_status fill_attributes(sbfi_conversion *c, const sbfi_paper_body *from, sbf_soft_body *body) {
   const sbf_level *level = &body->levels.at[0];
-  sbfi_lattice_sums sums;
+  sbfi_paper_sums sums;
   bool any = false;
   for (int i = 0; i < SBFI_PAPER_ATTRIBUTES; i++) any |= from->given[i];
   if (!any) return SBF_OK;
   sbf_legacy *sliders = sbfi_convert_allocate(c, 1, sizeof *sliders);
   if (!sliders ||
-      !sbfi_lattice_measure(level->positions, level->lattice.tetrahedra, &c->scratch.allocator, &sums))
+      !sbfi_paper_measure(level->positions, level->lattice.tetrahedra, &c->scratch.allocator, &sums))
     return sbfi_convert_no_memory(c);
   const float *value = from->attributes;
   uint32_t iterations = from->given[SBFI_PAPER_SOLVER_ITERATIONS]

@@ -14,10 +14,10 @@ static int compare_edges(const void *a, const void *b) {
   return x < y ? -1 : x > y;
 }
 
-bool sbfi_lattice_measure(sbf_vec3_list positions, sbf_uint4_list tetrahedra, const sbf_allocator *allocator,
-    sbfi_lattice_sums *sums) {
+bool sbfi_paper_measure(sbf_vec3_list positions, sbf_uint4_list tetrahedra, const sbf_allocator *allocator,
+    sbfi_paper_sums *sums) {
   static const int sides[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-  *sums = (sbfi_lattice_sums){.point_count = positions.count};
+  *sums = (sbfi_paper_sums){.point_count = positions.count};
   if (!tetrahedra.count) return true;
   sbf_allocator memory = sbfi_allocator_or_default(allocator);
   size_t count = (size_t)tetrahedra.count * 6, bytes;
@@ -57,11 +57,11 @@ static double slider_of(double share, uint32_t iterations) {
 }
 
 /* Pa at a share of one half. */
-static double modulus_scale(double mass, const sbfi_lattice_sums *sums) {
+static double modulus_scale(double mass, const sbfi_paper_sums *sums) {
   return mass / sums->point_count / (2 * TICK * TICK) * sums->edge_squares / (6 * sums->volume);
 }
 
-void sbfi_paper_to_si(const sbf_legacy *sliders, const sbfi_lattice_sums *sums, sbf_attributes *to) {
+void sbfi_paper_to_si(const sbf_legacy *sliders, const sbfi_paper_sums *sums, sbf_attributes *to) {
   double mass = (double)sliders->mass;
   to->friction = sliders->friction;
   to->poisson_ratio =
@@ -77,7 +77,7 @@ void sbfi_paper_to_si(const sbf_legacy *sliders, const sbfi_lattice_sums *sums, 
 }
 
 void sbfi_paper_from_si(const sbf_attributes *from, const sbf_collision *collision,
-    const sbfi_lattice_sums *sums, uint32_t iterations, sbf_legacy *sliders) {
+    const sbfi_paper_sums *sums, uint32_t iterations, sbf_legacy *sliders) {
   double mass = from->mass > 0 ? (double)from->mass : (double)from->density * sums->volume;
   sliders->mass = (float)mass;
   sliders->solver_iterations = iterations;

@@ -45,6 +45,12 @@ def symbol_faults(library, table):
     return faults
 
 
+def repeated(definitions):
+    """Names that two libraries define: who links both gets one of them, and nobody is told."""
+    return [f"{name}: defined in {' and '.join(sorted(libraries))}" for name, libraries in sorted(definitions.items())
+            if len(libraries) > 1]
+
+
 def drop_relocated_constants(library, table):
     """`nm` calls constants that hold addresses (.data.rel.ro) writable: leave them out by their section."""
     constants = set()
@@ -60,11 +66,14 @@ def main():
     if not libraries:
         print("skipped: no static library given, as in a build with BUILD_SHARED_LIBS")
         sys.exit(SKIPPED)
-    faults, seen = [], 0
+    faults, seen, definitions = [], 0, {}
     for path in libraries:
         table = run("nm", path)
         seen += table.count(" T ")
+        for name in re.findall(r" [TDRB] (\w+)$", table, re.MULTILINE):
+            definitions.setdefault(name, set()).add(os.path.basename(path))
         faults += symbol_faults(os.path.basename(path), drop_relocated_constants(path, table))
+    faults += repeated(definitions)
     if seen < 20:
         faults.append(f"only {seen} functions seen: the check would be empty")
     conclude(f"{seen} functions of {len(libraries)} libraries", faults)

@@ -93,6 +93,10 @@ class Symbols(unittest.TestCase):
     def faults(self, *lines, library="libsbrun.a"):
         return check_symbols.symbol_faults(library, "\n".join(["\nworld.c.o:", *lines]))
 
+    def test_repeated_symbols(self):
+        self.assertEqual(check_symbols.repeated({"sbfi_one": {"a"}, "sbfi_two": {"b", "a"}}),
+                         ["sbfi_two: defined in a and b"])
+
     def test_symbols(self):
         good = ["0000000000000000 T sbr_world_step", "0000000000000000 T sbri_step", "0000000000000000 t step",
                 "                 U sqrtf", "                 U memcpy", "0000000000000000 r table"]

@@ -1,0 +1,135 @@
+"""Assets: loaded, converted, built, validated, saved."""
+
+import ctypes
+import os
+import weakref
+import xml.etree.ElementTree as ElementTree
+
+from .description import describe
+from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertOptions, DiagnosticStruct, ExportOptions, \
+    LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, check, library
+
+INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra")
+
+
+class Validation:
+    """Findings of a validation: `valid` where no error is among `findings`, a list of Diagnostic."""
+
+    def __init__(self, result, findings):
+        self.errors, self.warnings, self.infos = result.errors, result.warnings, result.infos
+        self.valid = result.errors == 0
+        self.findings = findings
+
+
+def path_bytes(path):
+    return os.fsencode(path) if path is not None else None
+
+
+class Asset:
+    """An asset in memory. It is made by `load`, `convert` and `build`, and never changed."""
+
+    def __init__(self, pointer):
+        self._pointer = pointer
+        self._finalizer = weakref.finalize(self, library().sbf_asset_free, pointer)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        """Frees the memory now rather than when Python finds time for it."""
+        self._finalizer()
+        self._pointer = None
+
+    @property
+    def pointer(self):
+        """The library's `const sbf_asset *`, for further calls by ctypes."""
+        if self._pointer is None:
+            raise ValueError("the asset is closed")
+        return self._pointer
+
+    def save(self, path, store=False, level=0):
+        """Writes the file, packed where the name ends in .sbfz; a failure leaves the old one whole."""
+        error = DiagnosticStruct()
+        options = SaveOptions(ctypes.sizeof(SaveOptions), store, level)
+        check(library().sbf_save_file(self.pointer, path_bytes(path), ctypes.byref(options), ctypes.byref(error)), error)
+
+    def to_xml(self):
+        """The canonical XML, as bytes."""
+        buffer, error = Buffer(), DiagnosticStruct()
+        check(library().sbf_xml_save_memory(self.pointer, None, None, ctypes.byref(buffer), ctypes.byref(error)), error)
+        try:
+            return ctypes.string_at(buffer.at, buffer.size)
+        finally:
+            library().sbf_buffer_free(ctypes.byref(buffer))
+
+    def export(self, path, report=None):
+        """Writes another program's form, named by the ending (.obj, .tet, .xml); `report` hears what it has no place for."""
+        callbacks, error = Callbacks(report), DiagnosticStruct()
+        options = ExportOptions(ctypes.sizeof(ExportOptions), None, callbacks.report, None)
+        callbacks.check(library().sbf_export(self.pointer, path_bytes(path), ctypes.byref(options), ctypes.byref(error)),
+                        error)
+
+    def build(self, progress=None, report=None, interior="automatic", flexion=True, embeddings=True, hulls=True, cell=0.0,
+              elements=0):
+        """A new asset with the derived parts made anew. `progress(pass, share)` may return False to cancel."""
+        if interior not in INTERIORS:
+            raise ValueError(f"interior is one of {', '.join(INTERIORS)}, not {interior!r}")
+        callbacks, error, built = Callbacks(report, progress), DiagnosticStruct(), ctypes.c_void_p()
+        options = BuildOptions(ctypes.sizeof(BuildOptions), None, None, INTERIORS.index(interior), not flexion,
+                               not embeddings, not hulls, callbacks.progress, callbacks.report, None, cell, elements)
+        status = library().sbf_build(self.pointer, ctypes.byref(options), ctypes.byref(built), None, ctypes.byref(error))
+        made = Asset(built.value) if status == OK else None
+        callbacks.check(status, error)
+        return made
+
+    def validate(self, folder=None):
+        """Applies the rules; `folder` is where the file lies, to look for images beside it."""
+        findings = []
+        callbacks, error, result = Callbacks(findings.append), DiagnosticStruct(), ValidateResult()
+        options = ValidateOptions(ctypes.sizeof(ValidateOptions), None, 0, callbacks.report, None, path_bytes(folder))
+        callbacks.check(library().sbf_validate(self.pointer, ctypes.byref(options), ctypes.byref(result),
+                                               ctypes.byref(error)), error)
+        return Validation(result, findings)
+
+    def measure(self):
+        """{"mass": kg, "bounds": {"min", "max"} in metres, or None where nothing has a place}."""
+        found = AssetMeasures()
+        library().sbf_asset_measure(self.pointer, ctypes.byref(found))
+        bounds = {"min": list(found.low), "max": list(found.high)} if found.bounded else None
+        return {"mass": found.mass, "bounds": bounds}
+
+    def info(self):
+        """What the asset holds, as a dict; see `description`."""
+        return {**describe(ElementTree.fromstring(self.to_xml())), **self.measure()}
+
+    def equals(self, other):
+        """None where both say the same, else the path of the first difference."""
+        path = ctypes.create_string_buffer(512)
+        same = library().sbf_asset_equal(self.pointer, other.pointer, path, len(path))
+        return None if same else path.value.decode()
+
+
+def load(path, check_crc=True, extensions=()):
+    """Reads an .sbf or .sbfz file; `extensions` names those that the caller understands."""
+    names = (ctypes.c_char_p * len(extensions))(*(name.encode() for name in extensions))
+    options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), check_crc=check_crc, extension_count=len(extensions),
+                          extensions=ctypes.cast(names, ctypes.POINTER(ctypes.c_char_p)), copy_file=True)
+    loaded, error = ctypes.c_void_p(), DiagnosticStruct()
+    check(library().sbf_load_file(path_bytes(path), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
+    return Asset(loaded.value)
+
+
+def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=None):
+    """Reads another program's file into an asset of source parts; `build` makes the rest."""
+    if up not in (None, "y", "z"):
+        raise ValueError(f"up is y or z, not {up!r}")
+    callbacks, made, error = Callbacks(report), ctypes.c_void_p(), DiagnosticStruct()
+    options = ConvertOptions(ctypes.sizeof(ConvertOptions), None, path_bytes(rig), unit, up.encode() if up else b"\0",
+                             not gait, path_bytes(helper), callbacks.report, None)
+    status = library().sbf_convert(path_bytes(path), ctypes.byref(options), ctypes.byref(made), ctypes.byref(error))
+    asset = Asset(made.value) if status == OK else None
+    callbacks.check(status, error)
+    return asset

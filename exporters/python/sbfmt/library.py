@@ -1,0 +1,202 @@
+"""The shared library: where it is, and its structures and calls as ctypes has them.
+
+The structures are those of base.h, io.h, build.h, convert.h, validate.h and export.h of this very version: the library
+refuses options of another size than its own.
+"""
+
+import ctypes
+import ctypes.util
+import functools
+import glob
+import os
+from ctypes import POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_int32, c_int64, c_size_t, \
+    c_uint32, c_uint64, c_void_p
+
+from .messages import SEVERITIES, Cancelled, Diagnostic, Error
+
+NAME = "sbfmt-interchange"
+FOLDERS = (os.path.dirname(os.path.abspath(__file__)),
+           os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+OK, BAD_INPUT, FAILED = range(3)
+
+
+class DiagnosticStruct(Structure):
+    _fields_ = [("code", c_int32), ("severity", c_int), ("message", c_char * 384), ("path", c_char * 256),
+                ("file", c_char * 256), ("line", c_uint32), ("offset", c_int64), ("index", c_int64)]
+
+
+Report = ctypes.CFUNCTYPE(None, c_void_p, POINTER(DiagnosticStruct))
+Progress = ctypes.CFUNCTYPE(c_bool, c_void_p, c_char_p, c_double)
+
+
+class CodeInfo(Structure):
+    _fields_ = [("name", c_char_p), ("code", c_int), ("severity", c_int), ("fault", c_int), ("text", c_char_p)]
+
+
+class Limits(Structure):
+    _fields_ = [("file_bytes", c_uint64), ("memory_bytes", c_uint64), ("inflated_bytes", c_uint64),
+                ("inflate_ratio", c_uint32), ("list_items", c_uint32), ("depth", c_uint32)]
+
+
+class LoadOptions(Structure):
+    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("limits", Limits), ("check_crc", c_bool),
+                ("name", c_char_p), ("extensions", POINTER(c_char_p)), ("extension_count", c_uint32),
+                ("selection", c_void_p), ("copy_file", c_bool), ("read_bytes", POINTER(c_uint64)), ("outline", c_bool)]
+
+
+class SaveOptions(Structure):
+    _fields_ = [("struct_size", c_size_t), ("store", c_bool), ("level", c_int)]
+
+
+class BuildOptions(Structure):
+    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("tool", c_char_p), ("interior", c_int),
+                ("without_flexion", c_bool), ("without_embeddings", c_bool), ("without_hulls", c_bool),
+                ("progress", Progress), ("report", Report), ("user", c_void_p), ("cell_m", c_double),
+                ("elements", c_uint32)]
+
+
+class ConvertOptions(Structure):
+    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("rig", c_char_p), ("unit_m", c_double),
+                ("up", c_char), ("no_gait", c_bool), ("import_helper", c_char_p), ("report", Report), ("user", c_void_p)]
+
+
+class ValidateOptions(Structure):
+    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("repeats", c_uint32), ("report", Report),
+                ("user", c_void_p), ("folder", c_char_p)]
+
+
+class ValidateResult(Structure):
+    _fields_ = [("errors", c_uint32), ("warnings", c_uint32), ("infos", c_uint32)]
+
+
+class ExportOptions(Structure):
+    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("report", Report), ("user", c_void_p)]
+
+
+class Buffer(Structure):
+    _fields_ = [("at", POINTER(ctypes.c_uint8)), ("size", c_size_t), ("reallocate", c_void_p), ("user", c_void_p),
+                ("capacity", c_size_t)]
+
+
+class AssetMeasures(Structure):
+    _fields_ = [("mass", c_double), ("bounded", c_bool), ("low", c_float * 3), ("high", c_float * 3)]
+
+
+# Options whose struct_size the library compares with its own: tests look that they are of its size.
+OPTIONS = {"sbf_load_options": LoadOptions, "sbf_save_options": SaveOptions, "sbf_build_options": BuildOptions,
+           "sbf_convert_options": ConvertOptions, "sbf_validate_options": ValidateOptions,
+           "sbf_export_options": ExportOptions, "sbf_diagnostic": DiagnosticStruct, "sbf_buffer": Buffer,
+           "sbf_validate_result": ValidateResult, "sbf_asset_measures": AssetMeasures, "sbf_code_info": CodeInfo}
+
+CALLS = {
+    "sbf_load_file": [c_char_p, POINTER(LoadOptions), POINTER(c_void_p), POINTER(DiagnosticStruct)],
+    "sbf_save_file": [c_void_p, c_char_p, POINTER(SaveOptions), POINTER(DiagnosticStruct)],
+    "sbf_xml_load_memory": [c_char_p, c_size_t, POINTER(LoadOptions), POINTER(c_void_p), POINTER(DiagnosticStruct)],
+    "sbf_xml_save_memory": [c_void_p, POINTER(SaveOptions), c_void_p, POINTER(Buffer), POINTER(DiagnosticStruct)],
+    "sbf_build": [c_void_p, POINTER(BuildOptions), POINTER(c_void_p), c_void_p, POINTER(DiagnosticStruct)],
+    "sbf_convert": [c_char_p, POINTER(ConvertOptions), POINTER(c_void_p), POINTER(DiagnosticStruct)],
+    "sbf_validate": [c_void_p, POINTER(ValidateOptions), POINTER(ValidateResult), POINTER(DiagnosticStruct)],
+    "sbf_export": [c_void_p, c_char_p, POINTER(ExportOptions), POINTER(DiagnosticStruct)],
+}
+
+
+def candidates():
+    """Where the library may be, in order: what the environment names, beside the package, what the system knows."""
+    named = os.environ.get("SBFMT_LIBRARY")
+    folders = FOLDERS
+    if named:
+        if not os.path.isdir(named):
+            return [named]
+        folders = (named,)
+    found = [path for folder in folders for pattern in (f"lib{NAME}.so", f"lib{NAME}.so.*", f"lib{NAME}.dylib", f"{NAME}.dll")
+             for path in sorted(glob.glob(os.path.join(folder, pattern)))]
+    system = None if named else ctypes.util.find_library(NAME)
+    return found + ([system] if system else [])
+
+
+@functools.lru_cache(maxsize=None)
+def library():
+    """The library, loaded once."""
+    tried = []
+    for path in candidates():
+        try:
+            return declare(ctypes.CDLL(path))
+        except OSError as error:
+            tried.append(f"{path}: {error}")
+    raise ImportError(f"lib{NAME} is not found: install sbfmt built with -DBUILD_SHARED_LIBS=ON, or let SBFMT_LIBRARY name the"
+                      " library or its folder" + "".join("\n  " + line for line in tried))
+
+
+def declare(loaded):
+    for name, arguments in CALLS.items():
+        function = getattr(loaded, name)
+        function.argtypes, function.restype = arguments, c_int
+    loaded.sbf_asset_free.argtypes, loaded.sbf_asset_free.restype = [c_void_p], None
+    loaded.sbf_buffer_free.argtypes, loaded.sbf_buffer_free.restype = [POINTER(Buffer)], None
+    loaded.sbf_asset_measure.argtypes, loaded.sbf_asset_measure.restype = [c_void_p, POINTER(AssetMeasures)], None
+    loaded.sbf_asset_equal.argtypes = [c_void_p, c_void_p, c_char_p, c_size_t]
+    loaded.sbf_asset_equal.restype = c_bool
+    loaded.sbf_code_find.argtypes, loaded.sbf_code_find.restype = [c_int32], POINTER(CodeInfo)
+    return loaded
+
+
+def library_path():
+    """The file that is in use."""
+    return library()._name  # pylint: disable=protected-access
+
+
+def library_version():
+    """The format version it writes, as the root of an empty asset states it: found by saving one."""
+    create = library().sbf_asset_create
+    create.argtypes, create.restype = [c_void_p], c_void_p
+    made = create(None)
+    buffer, error = Buffer(), DiagnosticStruct()
+    try:
+        check(library().sbf_xml_save_memory(made, None, None, ctypes.byref(buffer), ctypes.byref(error)), error)
+        text = ctypes.string_at(buffer.at, buffer.size).decode()
+    finally:
+        library().sbf_buffer_free(ctypes.byref(buffer))
+        library().sbf_asset_free(made)
+    return text.split('version="')[2].split('"')[0]
+
+
+def diagnostic_of(found):
+    info = library().sbf_code_find(found.code)
+    code = info.contents.name.decode() if info else "NONE"
+    return Diagnostic(code, SEVERITIES[found.severity], *(text.decode("utf-8", "replace") for text in
+                                                          (found.message, found.path, found.file)),
+                      found.line, found.offset, found.index)
+
+
+def check(status, error):
+    """Raises where a call failed."""
+    if status != OK:
+        found = diagnostic_of(error)
+        raise (Cancelled if found.code == "CANCELLED" else Error)(found, "input" if status == BAD_INPUT else "call")
+
+
+class Callbacks:
+    """Python's callbacks as C's; what they raise stops the work and is raised again from the call."""
+
+    def __init__(self, report, progress=None):
+        self.raised = None
+        self.report = Report(lambda _user, found: self.guard(report, diagnostic_of(found.contents))) if report else Report()
+        self.progress = Progress(lambda _user, name, share: self.go_on(progress, name.decode(), share)) if progress \
+            else Progress()
+
+    def guard(self, function, *arguments):
+        try:
+            return function(*arguments)
+        except BaseException as error:  # pylint: disable=broad-except
+            self.raised = self.raised or error
+            return None
+
+    def go_on(self, progress, name, share):
+        """A callback that returns nothing goes on; False stops."""
+        answer = self.guard(progress, name, share)
+        return self.raised is None and answer is not False
+
+    def check(self, status, error):
+        if self.raised is not None:
+            raise self.raised
+        check(status, error)

@@ -1,0 +1,48 @@
+/* Prints the structs that the Python module mirrors: name, size, and the offsets of some members. */
+#include <stdio.h>
+
+#include "sbfmt/build.h"
+#include "sbfmt/convert.h"
+#include "sbfmt/export.h"
+#include "sbfmt/io.h"
+#include "sbfmt/mechanics.h"
+#include "sbfmt/validate.h"
+
+#define SIZE(type) printf(#type " %zu\n", sizeof(type))
+#define OFFSET(type, member) printf(#type "." #member " %zu\n", offsetof(type, member))
+
+int main(void) {
+  SIZE(sbf_load_options);
+  SIZE(sbf_save_options);
+  SIZE(sbf_build_options);
+  SIZE(sbf_convert_options);
+  SIZE(sbf_validate_options);
+  SIZE(sbf_export_options);
+  SIZE(sbf_diagnostic);
+  SIZE(sbf_buffer);
+  SIZE(sbf_validate_result);
+  SIZE(sbf_asset_measures);
+  SIZE(sbf_code_info);
+  OFFSET(sbf_load_options, check_crc);
+  OFFSET(sbf_load_options, extension_count);
+  OFFSET(sbf_load_options, copy_file);
+  OFFSET(sbf_load_options, outline);
+  OFFSET(sbf_save_options, level);
+  OFFSET(sbf_build_options, interior);
+  OFFSET(sbf_build_options, without_hulls);
+  OFFSET(sbf_build_options, progress);
+  OFFSET(sbf_build_options, report);
+  OFFSET(sbf_build_options, elements);
+  OFFSET(sbf_convert_options, up);
+  OFFSET(sbf_convert_options, import_helper);
+  OFFSET(sbf_convert_options, report);
+  OFFSET(sbf_validate_options, report);
+  OFFSET(sbf_validate_options, folder);
+  OFFSET(sbf_export_options, report);
+  OFFSET(sbf_diagnostic, path);
+  OFFSET(sbf_diagnostic, line);
+  OFFSET(sbf_diagnostic, index);
+  OFFSET(sbf_asset_measures, low);
+  OFFSET(sbf_code_info, fault);
+  return 0;
+}

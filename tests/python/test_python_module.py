@@ -1,0 +1,191 @@
+"""The Python module: the calls of the library, its errors as exceptions, callbacks, and where it looks for it."""
+
+import ctypes
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.realpath(os.path.join(HERE, os.pardir, os.pardir))
+MODULE = os.path.join(ROOT, "exporters", "python")
+sys.path.insert(0, MODULE)
+if not os.path.exists(os.environ.get("SBFMT_LIBRARY", "")):
+    print("skipped: SBFMT_LIBRARY names no shared library")
+    sys.exit(77)
+import sbfmt  # noqa: E402
+from sbfmt import library  # noqa: E402
+
+LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard.obj")
+RIG = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
+SAMPLES = os.path.join(ROOT, "spec", "samples")
+
+
+class ModuleTest(unittest.TestCase):
+    def setUp(self):
+        own = tempfile.TemporaryDirectory()
+        self.addCleanup(own.cleanup)
+        self.folder = own.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+
+class Calls(ModuleTest):
+    def test_convert_build_save_and_load(self):
+        source = sbfmt.convert(LIZARD, rig=RIG)
+        built = source.build()
+        self.assertTrue(built.validate().valid)
+        for name, options in (("a.sbf", {}), ("a.sbfz", {}), ("b.sbfz", {"store": True})):
+            built.save(self.path(name), **options)
+            self.assertIsNone(sbfmt.load(self.path(name)).equals(built))
+        self.assertGreater(os.path.getsize(self.path("b.sbfz")), os.path.getsize(self.path("a.sbfz")))
+        self.assertIn("/sbf/", source.equals(built))
+        with open(self.path("a.sbf"), "rb") as stream:
+            self.assertEqual(stream.read(), built.to_xml())
+
+    def test_info_agrees_with_the_program(self):
+        program = os.path.join(os.environ["SBFMT_BUILD_DIR"], "tools", "sbfmt")
+        if not os.access(program, os.X_OK):
+            self.skipTest("the program is not built")
+        built = sbfmt.convert(LIZARD, rig=RIG).build()
+        built.save(self.path("a.sbf"))
+        told = json.loads(subprocess.check_output([program, "info", self.path("a.sbf"), "--format", "json"]))
+        info = built.info()
+        for key in ("format_version", "tetrahedra", "pins", "attachments", "rigid_bodies", "joints", "gait", "levels"):
+            self.assertEqual(info[key], told[key], key)
+        for kind, count in info["springs"].items():
+            self.assertEqual(count, told["springs"][kind], kind)
+        for one, other in zip(info["sections"], told["sections"]):
+            self.assertEqual({key: one[key] for key in ("name", "vertices", "polygons", "interior_points", "pins")},
+                             {key: other[key] for key in ("name", "vertices", "polygons", "interior_points", "pins")})
+        self.assertEqual(len(info["bones"]), len(told["bones"]))
+        self.assertAlmostEqual(info["mass"] / told["mass"], 1, delta=1e-6)
+        for one, other in zip(info["bounds"]["min"], told["bounds"]["min"]):
+            self.assertAlmostEqual(one, other, delta=1e-6)
+
+    def test_export(self):
+        said = []
+        sbfmt.load(os.path.join(SAMPLES, "valid", "everything.sbf")).export(self.path("a.obj"), report=said.append)
+        self.assertTrue(os.path.exists(self.path("a.obj")))
+        self.assertEqual(said[0].code, "EXPORT_LEFT_OUT")
+
+    def test_versions_and_places(self):
+        self.assertEqual(sbfmt.library_version(), "1.0")
+        self.assertEqual(sbfmt.library_path(), os.environ["SBFMT_LIBRARY"])
+
+    def test_assets_may_be_closed(self):
+        with sbfmt.load(os.path.join(SAMPLES, "valid", "minimal.sbf")) as asset:
+            self.assertEqual(asset.info()["sections"], [])
+        with self.assertRaises(ValueError):
+            asset.to_xml()
+        asset.close()
+
+    def test_threads_may_work_at_once(self):
+        results = []
+        path = os.path.join(SAMPLES, "valid", "jelly.sbf")
+        threads = [threading.Thread(target=lambda: results.append(sbfmt.load(path).build().to_xml())) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(results), 4)
+        self.assertEqual(len(set(results)), 1)
+
+
+class Errors(ModuleTest):
+    def test_a_bad_file_says_what_and_where(self):
+        with self.assertRaises(sbfmt.Error) as caught:
+            sbfmt.load(os.path.join(SAMPLES, "invalid", "bone_before_parent.sbf"))
+        error = caught.exception
+        self.assertEqual((error.code, error.line, error.path, error.fault),
+                         ("BONE_ORDER", 4, "/sbf/skeleton/bone[1]/@parent", "input"))
+        self.assertIn("bone_before_parent.sbf:4", str(error))
+
+    def test_the_machine_is_at_fault_otherwise(self):
+        with self.assertRaises(sbfmt.Error) as caught:
+            sbfmt.load(self.path("none.sbf"))
+        self.assertEqual((caught.exception.code, caught.exception.fault), ("IO_CANNOT_READ", "call"))
+        with self.assertRaises(sbfmt.Error) as caught:
+            sbfmt.load(os.path.join(SAMPLES, "valid", "minimal.sbf")).save(self.path("no/folder/a.sbf"))
+        self.assertEqual(caught.exception.code, "IO_CANNOT_WRITE")
+
+    def test_an_extension_that_is_understood_is_taken(self):
+        path = os.path.join(SAMPLES, "invalid", "extension_required.sbf")
+        with self.assertRaises(sbfmt.Error) as caught:
+            sbfmt.load(path)
+        self.assertEqual(caught.exception.code, "EXTENSION_REQUIRED")
+        with open(path, encoding="utf-8") as stream:
+            name = stream.read().split('<extension name="')[1].split('"')[0]
+        self.assertIn(name.encode(), sbfmt.load(path, extensions=[name]).to_xml())
+
+    def test_wrong_words(self):
+        asset = sbfmt.load(os.path.join(SAMPLES, "valid", "minimal.sbf"))
+        with self.assertRaises(ValueError):
+            asset.build(interior="jam")
+        with self.assertRaises(ValueError):
+            sbfmt.convert(LIZARD, up="x")
+
+
+class Callbacks(ModuleTest):
+    def setUp(self):
+        super().setUp()
+        self.source = sbfmt.convert(LIZARD, rig=RIG)
+
+    def test_progress_is_told(self):
+        shares = []
+        self.source.build(progress=lambda name, share: shares.append((name, share)))
+        self.assertGreater(len(shares), 3)
+        self.assertTrue(all(0 <= share <= 1 for _, share in shares))
+
+    def test_false_cancels(self):
+        with self.assertRaises(sbfmt.Cancelled) as caught:
+            self.source.build(progress=lambda name, share: False)
+        self.assertEqual(caught.exception.code, "CANCELLED")
+
+    def test_what_a_callback_raises_comes_out(self):
+        def progress(_name, _share):
+            raise KeyError("mine")
+        with self.assertRaises(KeyError):
+            self.source.build(progress=progress)
+
+    def test_warnings_are_reported(self):
+        said = []
+        sbfmt.convert(LIZARD, report=said.append)
+        self.assertIn("IMPORT_NO_RIG", [one.code for one in said])
+        self.assertEqual({one.severity for one in said}, {"warning"})
+
+
+class Binary(ModuleTest):
+    def test_structs_are_those_of_the_headers(self):
+        told = subprocess.check_output([os.environ["SBFMT_STRUCT_SIZES"]], text=True).splitlines()
+        self.assertGreater(len(told), 25)
+        for line in told:
+            name, number = line.rsplit(" ", 1)
+            struct, _, member = name.partition(".")
+            mirrored = library.OPTIONS[struct]
+            found = getattr(mirrored, member).offset if member else ctypes.sizeof(mirrored)
+            self.assertEqual(found, int(number), name)
+
+    def test_without_a_library_it_says_what_to_do(self):
+        environment = {**os.environ, "SBFMT_LIBRARY": self.path("none"), "PYTHONPATH": MODULE}
+        done = subprocess.run([sys.executable, "-B", "-c", "import sbfmt; sbfmt.library_path()"], env=environment,
+                              capture_output=True, text=True, check=False)
+        self.assertIn("SBFMT_LIBRARY", done.stderr.splitlines()[-2] + done.stderr.splitlines()[-1])
+        self.assertIn("ImportError", done.stderr)
+
+    def test_a_folder_may_be_named(self):
+        os.mkdir(self.path("lib"))
+        target = os.environ["SBFMT_LIBRARY"]
+        os.symlink(target, os.path.join(self.path("lib"), "libsbfmt-interchange.so"))
+        environment = {**os.environ, "SBFMT_LIBRARY": self.path("lib"), "PYTHONPATH": MODULE}
+        done = subprocess.run([sys.executable, "-B", "-c", "import sbfmt; print(sbfmt.library_path())"], env=environment,
+                              capture_output=True, text=True, check=True)
+        self.assertEqual(os.path.realpath(done.stdout.strip()), os.path.realpath(target))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
