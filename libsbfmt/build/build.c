@@ -18,6 +18,7 @@
 static const char default_tool[] =
     "sbfmt " TEXT_OF(SBF_VERSION_MAJOR) "." TEXT_OF(SBF_VERSION_MINOR) "." TEXT_OF(SBF_VERSION_PATCH);
 
+enum { MOST_BRUTE_POINTS = 4096 };
 enum { DERIVATION = 0 }; /* a build has one entry in `derivations` */
 
 typedef struct build {
@@ -195,8 +196,12 @@ static void take_level(build *b, uint32_t number, const sbf_level *level, uint32
 
 static bool make_springs(build *b, uint32_t number, sbf_build_interior interior, sbfi_arena *scratch) {
   sbf_soft_body *body = &b->bodies[number];
+  static const sbfi_spring_interior interiors[] = {[SBF_BUILD_INTERIOR_CENTROID] = SBFI_INTERIOR_CENTROID,
+      [SBF_BUILD_INTERIOR_NONE] = SBFI_INTERIOR_NONE,
+      [SBF_BUILD_INTERIOR_LATTICE] = SBFI_INTERIOR_LATTICE,
+      [SBF_BUILD_INTERIOR_BRUTE] = SBFI_INTERIOR_BRUTE};
   sbfi_spring_recipe recipe = {
-      interior == SBF_BUILD_INTERIOR_CENTROID, !b->options.without_flexion, DERIVATION};
+      interiors[interior], b->options.cell_m, !b->options.without_flexion, DERIVATION};
   sbfi_spring_counts counts;
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   sbfi_interior_map *map = &b->maps[number];
@@ -279,7 +284,12 @@ static sbf_status make_level(build *b, uint32_t number) {
   sbf_build_interior interior = interior_of(b, &b->bodies[number]);
   sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
   sbf_status status = SBF_OK;
-  if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
+  if (interior == SBF_BUILD_INTERIOR_BRUTE && b->bodies[number].surface.positions.count > MOST_BRUTE_POINTS)
+    status = report_of_body(b, number, SBF_CODE_INTERIOR_TOO_MANY,
+        "soft body \"%s\" has more than %d points: springs between all of them are for comparing small "
+        "bodies",
+        b->bodies[number].name, MOST_BRUTE_POINTS);
+  else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
     status = make_tetrahedra(b, number, &scratch);
   else if (!make_springs(b, number, interior, &scratch))
     status = no_memory(b);

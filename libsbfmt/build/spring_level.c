@@ -18,7 +18,10 @@ typedef struct work {
   sbf_level *level;
   sbf_body_measures measures;
   sbfi_surface_springs surface;
-  sbfi_centroid_interior interior;
+  sbfi_centroid_interior interior; /* or a lattice's points and springs, with no points for polygons */
+  double cell;                     /* of a lattice; 0: none */
+  uint32_t deep_count;             /* of the interior points, those a bone holds */
+  bool one_network;
   sbfi_spring_list internal; /* the interior's, then those of the author's points */
   uint32_t surface_count, source_count, point_count;
   uint8_t *held; /* (point_count) */
@@ -57,7 +60,7 @@ static bool join_authored(work *w) {
     uint32_t triangle = sbfi_triangle_tree_nearest(&tree, w->body->interior.at[i], &least);
     for (int k = 0; good && k < 3 && triangle != UINT32_MAX; k++)
       good = sbfi_array_append(&springs, &(sbf_uint2){{point, tree.triangles[triangle].points[k]}}, 1);
-    if (good && w->interior.point_count)
+    if (good && w->interior.polygon_points)
       good = sbfi_array_append(&springs, &(sbf_uint2){{w->source_count, point}}, 1);
   }
   if (good) {
@@ -102,10 +105,27 @@ static void share_by_pyramids(const work *w, float *shares) {
   for (uint32_t i = 0; i < w->point_count; i++) shares[i] = (float)(shares[i] / sum);
 }
 
+/* Shares of the matter at all points of a body with a lattice inside; see spring_level.h. Nodes have four
+ * fifths of it at most. */
+static void share_by_lattice(const work *w, float *shares) {
+  sbf_level surface;
+  sbf_level_init(&surface);
+  surface.positions = w->body->surface.positions;
+  double node = w->cell * w->cell * w->cell / 2, volume = w->measures.volume,
+         most = 0.8 / w->interior.point_count;
+  double share = volume > 0 && node / volume < most ? node / volume : most;
+  sbf_level_shares(w->body, &surface, NULL, shares);
+  for (uint32_t i = w->surface_count; i < w->source_count; i++) shares[i] = 1.0f / (float)w->source_count;
+  for (uint32_t i = 0; i < w->source_count; i++) shares[i] *= (float)(1 - share * w->interior.point_count);
+  for (uint32_t i = w->source_count; i < w->point_count; i++) shares[i] = (float)share;
+}
+
 static float *make_volumes(const work *w, bool pyramids) {
   float *volumes = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *volumes);
   if (!volumes) return NULL;
-  if (pyramids) {
+  if (w->cell > 0) {
+    share_by_lattice(w, volumes);
+  } else if (pyramids) {
     share_by_pyramids(w, volumes);
   } else {
     sbf_level surface;
@@ -152,8 +172,24 @@ static bool make_internal_of_held_core(const work *w, const float *volumes, floa
   return true;
 }
 
+/* All springs as one network. */
+static bool make_stiffness_of_all(const work *w, float *stiffness) {
+  const sbfi_spring_list lists[] = {w->surface.structural, w->surface.shear, w->surface.flexion, w->internal};
+  size_t total = 1;
+  uint32_t next = 0;
+  for (int i = 0; i < 4; i++) total += lists[i].count;
+  sbf_uint2 *ends = sbfi_arena_allocate(w->scratch, total, sizeof *ends);
+  float *volumes = make_volumes(w, false);
+  if (!ends || !volumes) return false;
+  for (int i = 0; i < 4; i++)
+    for (uint32_t s = 0; s < lists[i].count; s++) ends[next++] = lists[i].at[s];
+  double constant = w->measures.sheet ? SBF_STIFFNESS_SHEET : SBF_STIFFNESS_VOLUME;
+  return make_network(w, constant * w->body->attributes.young_modulus, volumes, ends, next, stiffness);
+}
+
 /* `stiffness` receives structural, shear, flexion and internal, one after the other. */
 static bool make_stiffness(const work *w, float *stiffness) {
+  if (w->one_network) return make_stiffness_of_all(w, stiffness);
   const sbfi_surface_springs *on = &w->surface;
   uint32_t count = on->structural.count + on->shear.count + on->flexion.count;
   double modulus = w->body->attributes.young_modulus;
@@ -235,8 +271,14 @@ static bool add_springs(work *w, sbfi_spring_counts *counts) {
 static bool state_masses(work *w) {
   float *masses = sbf_asset_allocate(w->asset, w->point_count, sizeof *masses);
   if (!masses) return false;
-  share_by_pyramids(w, masses);
-  for (uint32_t i = 0; i < w->point_count; i++) masses[i] *= (float)w->measures.mass;
+  double sum = 0;
+  if (w->cell > 0)
+    share_by_lattice(w, masses);
+  else
+    share_by_pyramids(w, masses);
+  for (uint32_t i = 0; i < w->point_count; i++) sum += masses[i] = w->held[i] ? 0 : masses[i];
+  for (uint32_t i = 0; i < w->point_count && sum > 0; i++)
+    masses[i] = (float)(masses[i] / sum * w->measures.mass);
   sbfi_level_weigh(w->body, w->level, SBF_WEIGHT_PROPERTY_DENSITY, masses);
   w->level->masses = (sbf_f32_list){masses, w->point_count};
   return true;
@@ -244,14 +286,41 @@ static bool state_masses(work *w) {
 
 static bool map_interior(const work *w, sbfi_interior_map *map) {
   uint32_t polygons = w->body->surface.polygon_sizes.count;
-  *map = (sbfi_interior_map){.centre = w->interior.point_count ? w->source_count : SBFI_NO_INDEX};
-  if (w->interior.point_count == 0 || polygons == 0) return true;
+  *map = (sbfi_interior_map){.centre = w->interior.polygon_points ? w->source_count : SBFI_NO_INDEX};
+  if (!w->interior.polygon_points || polygons == 0) return true;
   map->polygon_points = sbfi_arena_allocate(w->scratch, polygons, sizeof *map->polygon_points);
   for (uint32_t p = 0; map->polygon_points && p < polygons; p++) {
     uint32_t own = w->interior.polygon_points[p];
     map->polygon_points[p] = own == SBFI_NO_INDEX ? own : w->source_count + own;
   }
   return map->polygon_points != NULL;
+}
+
+static bool make_interior(work *w) {
+  const sbf_soft_body *body = w->body;
+  sbfi_lattice_interior lattice;
+  switch (w->recipe->interior) {
+  case SBFI_INTERIOR_NONE:
+    break;
+  case SBFI_INTERIOR_CENTROID:
+    if (!sbfi_springs_centroid(&w->interior, &body->surface, body->interior.count, w->scratch)) return false;
+    w->deep_count = w->interior.point_count;
+    break;
+  case SBFI_INTERIOR_LATTICE:
+    if (!sbfi_springs_lattice(&lattice, &body->surface, body->interior.count, w->recipe->cell, w->scratch))
+      return false;
+    if (lattice.point_count == 0) break;
+    w->interior = (sbfi_centroid_interior){lattice.points, lattice.point_count, NULL, lattice.internal};
+    w->cell = lattice.cell;
+    w->deep_count = lattice.deep_count;
+    w->level->cell = (float)lattice.cell;
+    break;
+  case SBFI_INTERIOR_BRUTE:
+    if (!sbfi_springs_brute(&w->interior.internal, w->surface_count, &w->surface, w->scratch)) return false;
+    break;
+  }
+  w->one_network = w->cell > 0 || w->recipe->interior == SBFI_INTERIOR_BRUTE;
+  return true;
 }
 
 bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const sbfi_spring_recipe *recipe,
@@ -270,10 +339,8 @@ bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const s
   sbf_body_measure(body, &w.measures);
   if (!level->name || !sbfi_topology_build(&topology, &body->surface, scratch)) return false;
   if (!sbfi_springs_surface(&w.surface, &body->surface, &topology, recipe->flexion, scratch)) return false;
-  if (recipe->centroid && !sbfi_springs_centroid(&w.interior, &body->surface, body->interior.count, scratch))
-    return false;
-  if (!place_points(&w) || !join_authored(&w) || !map_interior(&w, map)) return false;
-  uint32_t to_bone = is_core_held(&w) ? w.interior.point_count : 0;
+  if (!make_interior(&w) || !place_points(&w) || !join_authored(&w) || !map_interior(&w, map)) return false;
+  uint32_t to_bone = is_core_held(&w) ? w.deep_count : 0;
   uint32_t *core = sbfi_arena_allocate(scratch, (size_t)to_bone + 1, sizeof *core);
   if (!core) return false;
   for (uint32_t i = 0; i < to_bone; i++) core[i] = w.source_count + i;
@@ -281,7 +348,8 @@ bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const s
   w.held = sbfi_arena_allocate(scratch, w.point_count, 1);
   if (!w.held) return false;
   sbf_level_held_points(level, w.held);
-  if (w.interior.point_count && !to_bone && w.measures.mass > 0 && !state_masses(&w)) return false;
+  if (w.interior.point_count && (!to_bone || w.cell > 0) && w.measures.mass > 0 && !state_masses(&w))
+    return false;
   counts->interior_points = w.interior.point_count;
   for (uint32_t i = 0; i < level->pins.count; i++) counts->pins += level->pins.at[i].points.count;
   return add_springs(&w, counts);

@@ -5,8 +5,16 @@
 #include "base/memory.h"
 #include "sbfmt/asset.h"
 
+typedef enum sbfi_spring_interior {
+  SBFI_INTERIOR_NONE,
+  SBFI_INTERIOR_CENTROID, /* held by the body's bone where it has one */
+  SBFI_INTERIOR_LATTICE,  /* its deep points held by the body's bone where it has one */
+  SBFI_INTERIOR_BRUTE
+} sbfi_spring_interior;
+
 typedef struct sbfi_spring_recipe {
-  bool centroid; /* the centroid interior, held by the body's bone where it has one */
+  sbfi_spring_interior interior;
+  double cell; /* m, of the lattice; 0: by the polygons */
   bool flexion;
   int32_t derivation; /* what the parts made are marked with */
 } sbfi_spring_recipe;
@@ -33,6 +41,9 @@ typedef struct sbfi_interior_map {
  * "interior", which binds the made points to the body's bone (see level_pins.h). A body without a bone keeps
  * them free and gives them masses: of each polygon's pyramid from the centre, a quarter to its point, a fifth
  * to the centre and the rest to its corners, as its tetrahedra would.
+ *
+ * A lattice's nodes have half a cube of its grid each, and together with the free surface points all of the
+ * mass; all springs of a level with a lattice, and of a brute one, are one network in stiffness.
  *
  * Stiffness in N/m by sbfmt/mechanics.h, stated for each spring. False where memory runs out. */
 bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const sbfi_spring_recipe *recipe,

@@ -43,4 +43,25 @@ typedef struct sbfi_centroid_interior {
 bool sbfi_springs_centroid(
     sbfi_centroid_interior *interior, const sbf_polygon_mesh *mesh, uint32_t given, sbfi_arena *arena);
 
+/* An interior on a body-centred grid: its nodes inside the surface, but for those next to it, and springs
+ * along the grid's edges between them that the surface does not cut. Every surface point has springs to the
+ * up to four nearest nodes that it sees, within five quarters of a cell, or, where there are none, two cells
+ * and a half. So no spring leaves a concave body. Places as with the centroid interior: surface, given,
+ * these. */
+typedef struct sbfi_lattice_interior {
+  sbf_vec3 *points; /* (point_count) first those at least half as deep under the surface as the deepest */
+  uint32_t point_count, deep_count;
+  double cell; /* m, of the grid */
+  sbfi_spring_list internal;
+} sbfi_lattice_interior;
+
+/* `cell` 0: by the length of the polygons' sides, and finer where that leaves no node inside. No points where
+ * none are inside, or the grid would be too fine. */
+bool sbfi_springs_lattice(sbfi_lattice_interior *interior, const sbf_polygon_mesh *mesh, uint32_t given,
+    double cell, sbfi_arena *arena);
+
+/* All pairs of the first `count` points that are no spring of `known` yet, in the order of their numbers. */
+bool sbfi_springs_brute(
+    sbfi_spring_list *springs, uint32_t count, const sbfi_surface_springs *known, sbfi_arena *arena);
+
 #endif

@@ -26,7 +26,7 @@ static float random_number(float low, float high) {
 }
 
 static sbfi_carrier carrier_of(const sbf_soft_body *body, sbf_level *level) {
-  sbfi_spring_recipe recipe = {true, false, 0};
+  sbfi_spring_recipe recipe = {.interior = SBFI_INTERIOR_CENTROID};
   sbfi_interior_map map;
   sbfi_spring_counts counts;
   sbfi_carrier carrier;

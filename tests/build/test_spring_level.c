@@ -22,7 +22,8 @@ static void teardown(void) {
 }
 
 static sbf_level make(const sbf_soft_body *body, bool centroid) {
-  sbfi_spring_recipe recipe = {centroid, true, 0};
+  sbfi_spring_recipe recipe = {
+      .interior = centroid ? SBFI_INTERIOR_CENTROID : SBFI_INTERIOR_NONE, .flexion = true};
   sbfi_interior_map map;
   sbfi_spring_counts counts;
   sbf_level level;
@@ -202,7 +203,7 @@ START_TEST(held_ends_are_inert)
   sbf_pin_set_init(&pins);
   pins.points = (sbf_u32_list){points, 2};
   body->pins = (sbf_pin_set_list){&pins, 1};
-  sbfi_spring_recipe recipe = {true, true, 0};
+  sbfi_spring_recipe recipe = {.interior = SBFI_INTERIOR_CENTROID, .flexion = true};
   sbfi_interior_map map;
   sbfi_spring_counts counts;
   sbf_level level;
