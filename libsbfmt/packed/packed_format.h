@@ -16,10 +16,12 @@ enum {
   SBFI_PACKED_CHUNK_FROM = 256, /* lists of so many bytes and more have a chunk of their own */
   /* ... where chunks are compressed: in a record, short lists share one stream and need no entry */
   SBFI_PACKED_CHUNK_FROM_COMPRESSED = 1024,
-  SBFI_PACKED_FIELD_SIZE = 8 /* number, form and payload size, before each payload of a record */
+  SBFI_PACKED_OUTLINE_FROM = 128, /* files of so many chunks have an outline, behind all others */
+  SBFI_PACKED_FIELD_SIZE = 8      /* number, form and payload size, before each payload of a record */
 };
 
 #define SBFI_PACKED_MAGIC "\x89SBF\r\n\x1a\n"
+#define SBFI_PACKED_OUTLINE SBFI_KIND('O', 'U', 'T', 'L')
 #define SBFI_PACKED_NO_LEVEL UINT32_MAX /* of a chunk that belongs to no nested part */
 
 typedef enum sbfi_packed_filter {
@@ -61,7 +63,8 @@ typedef enum sbfi_packed_form {
   SBFI_FORM_RECORDS, /* count, then size and fields of each child */
   SBFI_FORM_PARTS,   /* count, then chunk number, size and label fields of each part */
   SBFI_FORM_PLANES,  /* items, through SBFI_FILTER_PLANES */
-  SBFI_FORM_DELTA    /* items, through SBFI_FILTER_DELTA */
+  SBFI_FORM_DELTA,   /* items, through SBFI_FILTER_DELTA */
+  SBFI_FORM_COUNT    /* how many items there are; in an outline */
 } sbfi_packed_form;
 
 /* Whether the field belongs to the label that a part's parent keeps for it, so that a part is found by id or

@@ -10,7 +10,7 @@
 static sbf_status check_all_used(sbfi_packed_reader *reader) {
   const sbfi_packed_table *table = &reader->table;
   if (table->newer || reader->options.selection) return SBF_OK;
-  for (uint32_t i = 0; i < table->header.chunk_count; i++) {
+  for (uint32_t i = 0; i < table->chunk_count; i++) {
     const sbfi_packed_chunk *chunk = &table->chunks[i];
     if (reader->used[i] || !sbfi_packed_kind_is_known(chunk->kind)) continue;
     sbf_status status = sbfi_diagnose(reader->error, SBF_CODE_PACKED_TABLE,

@@ -18,6 +18,8 @@ typedef struct planner {
   sbfi_array parts;         /* queued_part */
   sbfi_array lists;         /* sbfi_planned_chunk */
   uint32_t part_count;
+  size_t outline_begin;
+  bool outline; /* counts for lists, and parts in the record itself */
   sbfi_packed_chunk
       address; /* of the part being written; field: the part's field that the walk is inside of */
   sbfi_planned result;
@@ -153,6 +155,12 @@ static bool write_filtered_list(planner *p, const sbfi_field *field, sbfi_list l
 static void write_list(planner *p, const sbfi_field *field, const void *object) {
   sbfi_list list = sbfi_get_list(object, field);
   size_t size = (size_t)list.count * sbfi_item_size(field);
+  if (p->outline) {
+    size_t count_begin = begin_field(p, field, SBFI_FORM_COUNT);
+    put_u32(p, list.count);
+    end_field(p, count_begin);
+    return;
+  }
   if (size >= (p->coder ? SBFI_PACKED_CHUNK_FROM_COMPRESSED : SBFI_PACKED_CHUNK_FROM)) {
     write_chunk_list(p, field, list);
     return;
@@ -235,7 +243,7 @@ static void write_field(planner *p, const sbfi_field *field, const void *object)
     end_field(p, begin);
     break;
   case SBFI_MANY:
-    if (field->element->kind)
+    if (field->element->kind && !p->outline)
       write_parts(p, field, object);
     else
       write_records(p, field, object);
@@ -292,6 +300,28 @@ static void write_queue(planner *p, const sbf_asset *asset) {
   if (p->to->failed) p->result = SBFI_PLANNED_NO_MEMORY;
 }
 
+/* Another record of the whole asset, behind the others. */
+static void write_outline(planner *p, const sbf_asset *asset) {
+  p->outline = true;
+  p->outline_begin = p->to->length;
+  write_fields(p, &sbfi_asset_element, asset, ALL_FIELDS);
+  if (p->to->failed) p->result = SBFI_PLANNED_NO_MEMORY;
+}
+
+static void gather_outline(planner *p, sbfi_packed_plan *plan) {
+  sbfi_planned_chunk *planned = sbfi_array_push(&plan->chunks, 1);
+  if (!planned) {
+    p->result = SBFI_PLANNED_NO_MEMORY;
+    return;
+  }
+  sbfi_packed_chunk *chunk = &planned->chunk;
+  planned->at = plan->records.at + p->outline_begin;
+  chunk->kind = SBFI_PACKED_OUTLINE;
+  chunk->level = SBFI_PACKED_NO_LEVEL;
+  chunk->stride = 1;
+  chunk->count = chunk->raw_size = chunk->stored_size = p->to->length - p->outline_begin;
+}
+
 /* Parts and lists, in this order, become the chunks. */
 static void gather(planner *p, sbfi_packed_plan *plan) {
   for (size_t i = 0; i < p->parts.count; i++) {
@@ -323,9 +353,12 @@ sbfi_planned sbfi_packed_plan_make(sbfi_packed_plan *plan, const sbf_asset *asse
   sbfi_array_init(&p.parts, allocator, sizeof(queued_part));
   sbfi_array_init(&p.lists, allocator, sizeof(sbfi_planned_chunk));
   write_queue(&p, asset);
-  if (p.result == SBFI_PLANNED && p.lists.count > UINT32_MAX - p.part_count)
+  if (p.result == SBFI_PLANNED && p.lists.count > UINT32_MAX - 1 - p.part_count)
     p.result = SBFI_PLANNED_TOO_LARGE;
+  bool outlined = p.parts.count + p.lists.count >= SBFI_PACKED_OUTLINE_FROM;
+  if (p.result == SBFI_PLANNED && outlined) write_outline(&p, asset);
   if (p.result == SBFI_PLANNED) gather(&p, plan);
+  if (p.result == SBFI_PLANNED && outlined) gather_outline(&p, plan);
   sbfi_array_free(&p.parts);
   sbfi_array_free(&p.lists);
   return p.result;

@@ -3,27 +3,41 @@
 #include "base/diagnostic.h"
 #include "packed/packed_filter.h"
 
+/* The table of what is to be read: of an outline, where the file has one, its entry alone. */
+static sbf_status read_table(
+    sbfi_packed_reader *reader, size_t size, const sbf_allocator *allocator, sbf_diagnostic *error) {
+  const sbf_limits *limits = &reader->options.limits;
+  sbf_status status = SBF_OK;
+  if (reader->options.outline) {
+    status = sbfi_packed_table_read_outline(&reader->table, reader->bytes, size, limits, allocator, error);
+    reader->has_outline = status == SBF_OK && reader->table.chunks;
+  }
+  if (status == SBF_OK && !reader->has_outline)
+    status = sbfi_packed_table_read(&reader->table, reader->bytes, size, limits, allocator, error);
+  if (reader->has_outline) reader->options.check_crc = true;
+  return status;
+}
+
 sbf_status sbfi_packed_reader_open(sbfi_packed_reader *reader, const uint8_t *bytes, size_t size,
     const sbf_load_options *filled, const sbf_allocator *allocator, sbfi_arena *arena,
     sbf_diagnostic *error) {
   *reader = (sbfi_packed_reader){.bytes = bytes, .options = *filled, .arena = arena, .error = error};
   sbfi_packed_coder_init(&reader->coder, allocator, 0);
-  sbf_status status = sbfi_packed_table_read(&reader->table, bytes, size, &filled->limits, allocator, error);
+  sbf_status status = read_table(reader, size, allocator, error);
   if (status != SBF_OK) return status;
-  const sbfi_packed_header *header = &reader->table.header;
-  reader->read_bytes = SBFI_PACKED_HEADER_SIZE + header->table_size;
-  reader->used = sbfi_allocate(&reader->coder.allocator, header->chunk_count);
+  uint32_t chunk_count = reader->table.chunk_count;
+  reader->read_bytes = SBFI_PACKED_HEADER_SIZE + (uint64_t)chunk_count * SBFI_PACKED_ENTRY_SIZE;
+  reader->used = sbfi_allocate(&reader->coder.allocator, chunk_count);
   if (!reader->used) {
     sbfi_packed_reader_close(reader);
-    return sbfi_diagnose(
-        error, SBF_CODE_OUT_OF_MEMORY, "no memory for a table of %u chunks", header->chunk_count);
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a table of %u chunks", chunk_count);
   }
-  memset(reader->used, 0, header->chunk_count);
+  memset(reader->used, 0, chunk_count);
   return SBF_OK;
 }
 
 void sbfi_packed_reader_close(sbfi_packed_reader *reader) {
-  sbfi_free(&reader->coder.allocator, reader->used, reader->table.header.chunk_count);
+  sbfi_free(&reader->coder.allocator, reader->used, reader->table.chunk_count);
   reader->used = NULL;
   sbfi_packed_coder_free(&reader->coder);
   sbfi_packed_table_free(&reader->table);
@@ -41,9 +55,9 @@ __attribute__((format(printf, 4, 5))) static sbf_status fault(
 }
 
 sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const sbfi_packed_chunk *wanted) {
-  if (number >= reader->table.header.chunk_count)
+  if (number >= reader->table.chunk_count)
     return sbfi_diagnose(reader->error, SBF_CODE_PACKED_RECORD,
-        "chunk %u is referred to, but the table has %u", number, reader->table.header.chunk_count);
+        "chunk %u is referred to, but the table has %u", number, reader->table.chunk_count);
   const sbfi_packed_chunk *chunk = &reader->table.chunks[number];
   if (reader->used[number])
     return fault(reader, SBF_CODE_PACKED_RECORD, number, "chunk %u is referred to twice", number);

@@ -163,6 +163,19 @@ static sbf_status read_chunk_list(const reading *r, span s, const sbfi_field *fi
   return status;
 }
 
+/* How many items a list of an outline has; where they are nobody needs to know. */
+static sbf_status read_count(const reading *r, span s, const sbfi_field *field) {
+  if (s.end - s.at != 4)
+    return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "`%s` does not state its count", field->name);
+  uint32_t count = take_u32(&s);
+  if (count > r->reader->options.limits.list_items)
+    return fault(r, SBF_CODE_LIST_TOO_LONG, &s, field,
+        "`%s` has %u items, more than the limit of %u: raise it if the file is trusted", field->name, count,
+        r->reader->options.limits.list_items);
+  sbfi_set_list(r->object, field, NULL, count);
+  return SBF_OK;
+}
+
 /* --- children --- */
 
 static sbf_status read_optional(const reading *r, const span *s, const sbfi_field *field) {
@@ -278,13 +291,14 @@ static sbf_status read_parts(const reading *r, span s, const sbfi_field *field) 
 
 /* --- fields --- */
 
-static sbfi_packed_form form_of(const sbfi_field *field, uint16_t stated) {
+static sbfi_packed_form form_of(const sbfi_field *field, bool outline, uint16_t stated) {
   switch (field->type) {
   case SBFI_STRING:
   case SBFI_TEXT:
   case SBFI_ID:
     return SBFI_FORM_TEXT;
   case SBFI_LIST:
+    if (outline) return SBFI_FORM_COUNT;
     if (stated == SBFI_FORM_CHUNK) return SBFI_FORM_CHUNK;
     if (field->item == SBFI_ITEM_U8) return SBFI_FORM_LIST;
     return stated == SBFI_FORM_PLANES || stated == SBFI_FORM_DELTA ? (sbfi_packed_form)stated
@@ -293,14 +307,14 @@ static sbfi_packed_form form_of(const sbfi_field *field, uint16_t stated) {
   case SBFI_OPTIONAL:
     return SBFI_FORM_RECORD;
   case SBFI_MANY:
-    return field->element->kind ? SBFI_FORM_PARTS : SBFI_FORM_RECORDS;
+    return field->element->kind && !outline ? SBFI_FORM_PARTS : SBFI_FORM_RECORDS;
   default:
     return SBFI_FORM_VALUE;
   }
 }
 
 static sbf_status read_field(const reading *r, span s, const sbfi_field *field, uint16_t stated) {
-  sbfi_packed_form form = form_of(field, stated);
+  sbfi_packed_form form = form_of(field, r->reader->has_outline, stated);
   if (form != stated)
     return fault(r, SBF_CODE_PACKED_RECORD, &s, field, "`%s` is written in form %u where form %u belongs",
         field->name, stated, (unsigned)form);
@@ -324,6 +338,8 @@ static sbf_status read_field(const reading *r, span s, const sbfi_field *field, 
     return read_records(r, s, field);
   case SBFI_FORM_PARTS:
     return read_parts(r, s, field);
+  case SBFI_FORM_COUNT:
+    return read_count(r, s, field);
   }
   return SBF_OK;
 }
@@ -379,5 +395,6 @@ sbf_status sbfi_packed_read_asset(sbfi_packed_reader *reader, sbf_asset *asset) 
       .depth = 1, .without_lists = !sbfi_packed_selects_root_lists(reader->options.selection)};
   root.address.kind = sbfi_asset_element.kind;
   root.address.level = SBFI_PACKED_NO_LEVEL;
+  if (reader->has_outline) root.address.kind = SBFI_PACKED_OUTLINE;
   return read_part(reader, 0, &root, &place, asset, ALL_FIELDS);
 }

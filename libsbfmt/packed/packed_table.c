@@ -194,8 +194,7 @@ static sbf_status check_header(
   return SBF_OK;
 }
 
-static sbf_status check_table_place(
-    const sbfi_packed_header *h, const uint8_t *bytes, sbf_diagnostic *error) {
+static sbf_status check_table_place(const sbfi_packed_header *h, sbf_diagnostic *error) {
   if (h->table_size != (uint64_t)h->chunk_count * SBFI_PACKED_ENTRY_SIZE || h->chunk_count == 0)
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_TABLE_SIZE,
         "a table of %llu bytes does not hold %u entries", (unsigned long long)h->table_size, h->chunk_count);
@@ -204,6 +203,10 @@ static sbf_status check_table_place(
     return fault(error, SBF_CODE_PACKED_TABLE, HEADER_TABLE_OFFSET,
         "the table of %llu bytes at %llu does not lie inside the file at a multiple of %d",
         (unsigned long long)h->table_size, (unsigned long long)h->table_offset, SBFI_PACKED_ALIGN);
+  return SBF_OK;
+}
+
+static sbf_status check_table_crc(const sbfi_packed_header *h, const uint8_t *bytes, sbf_diagnostic *error) {
   if (sbfi_crc32(bytes + h->table_offset, (size_t)h->table_size) != h->table_crc)
     return fault(error, SBF_CODE_PACKED_CRC, h->table_offset,
         "the table of contents does not match its checksum: the file is damaged, copy it again");
@@ -237,7 +240,7 @@ static sbf_status check_chunk(const sbfi_packed_table *table, uint32_t number, c
     return fault(error, SBF_CODE_PACKED_TABLE, at + ENTRY_FLAGS,
         "chunk %u (%s): flags or reserved bytes are set that this version does not have", number,
         sbfi_packed_chunk_name(c).text);
-  if (!sbfi_packed_kind_is_known(c->kind)) {
+  if (!sbfi_packed_kind_is_known(c->kind) && c->kind != SBFI_PACKED_OUTLINE) {
     if (!(c->flags & SBFI_CHUNK_CRITICAL)) return SBF_OK;
     return fault(error, SBF_CODE_PACKED_UNKNOWN_PART, at,
         "chunk %u is critical and of the unknown kind %s: the file needs a newer library", number,
@@ -276,26 +279,50 @@ static sbf_status read_entries(sbfi_packed_table *table, const uint8_t *bytes, s
   return SBF_OK;
 }
 
-sbf_status sbfi_packed_table_read(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
-    const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error) {
+/* What stands before the entries, and room for as many of them as are to be read. */
+static sbf_status begin_table(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
+    const sbf_limits *limits, const sbf_allocator *allocator, bool last_only, sbf_diagnostic *error) {
   *table = (sbfi_packed_table){.allocator = sbfi_allocator_or_default(allocator)};
   if (size > limits->file_bytes)
     return fault(error, SBF_CODE_IO_TOO_LARGE, 0, "the file has %zu bytes, more than the limit of %llu", size,
         (unsigned long long)limits->file_bytes);
   sbf_status status = check_header(table, bytes, size, error);
-  if (status == SBF_OK) status = check_table_place(&table->header, bytes, error);
+  if (status == SBF_OK) status = check_table_place(&table->header, error);
+  if (status == SBF_OK && !last_only) status = check_table_crc(&table->header, bytes, error);
   if (status != SBF_OK) return status;
+  table->chunk_count = last_only ? 1 : table->header.chunk_count;
   size_t memory;
-  if (!sbfi_multiply_size(table->header.chunk_count, sizeof *table->chunks, &memory) ||
+  if (!sbfi_multiply_size(table->chunk_count, sizeof *table->chunks, &memory) ||
       !(table->chunks = sbfi_allocate(&table->allocator, memory)))
-    return fault(
-        error, SBF_CODE_OUT_OF_MEMORY, 0, "no memory for a table of %u chunks", table->header.chunk_count);
+    return fault(error, SBF_CODE_OUT_OF_MEMORY, 0, "no memory for a table of %u chunks", table->chunk_count);
+  return SBF_OK;
+}
+
+sbf_status sbfi_packed_table_read(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
+    const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error) {
+  sbf_status status = begin_table(table, bytes, size, limits, allocator, false, error);
+  if (status != SBF_OK) return status;
   status = read_entries(table, bytes, error);
   if (status != SBF_OK) sbfi_packed_table_free(table);
   return status;
 }
 
+sbf_status sbfi_packed_table_read_outline(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
+    const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error) {
+  sbf_status status = begin_table(table, bytes, size, limits, allocator, true, error);
+  if (status != SBF_OK) return status;
+  const sbfi_packed_header *h = &table->header;
+  const uint8_t *entry = bytes + h->table_offset + h->table_size - SBFI_PACKED_ENTRY_SIZE;
+  table->chunks[0] = get_chunk(entry);
+  if (table->chunks[0].kind == SBFI_PACKED_OUTLINE)
+    status = check_chunk(table, 0, entry, 0, error);
+  else
+    sbfi_packed_table_free(table);
+  if (status != SBF_OK) sbfi_packed_table_free(table);
+  return status;
+}
+
 void sbfi_packed_table_free(sbfi_packed_table *table) {
-  sbfi_free(&table->allocator, table->chunks, table->header.chunk_count * sizeof *table->chunks);
+  sbfi_free(&table->allocator, table->chunks, table->chunk_count * sizeof *table->chunks);
   table->chunks = NULL;
 }

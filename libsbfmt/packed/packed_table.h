@@ -7,7 +7,8 @@
 
 typedef struct sbfi_packed_table {
   sbfi_packed_header header;
-  sbfi_packed_chunk *chunks; /* header.chunk_count of them, in the order of their offsets */
+  sbfi_packed_chunk *chunks; /* chunk_count of them, in the order of their offsets */
+  uint32_t chunk_count;      /* header.chunk_count, or 1 where only the outline's entry was read */
   bool newer;                /* of a later minor version: may hold what we do not know */
   sbf_allocator allocator;
 } sbfi_packed_table;
@@ -17,6 +18,10 @@ typedef struct sbfi_packed_table {
  * over. The first chunk is the root's record. Nothing is kept of `bytes`. On failure nothing is left to free.
  */
 sbf_status sbfi_packed_table_read(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
+    const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error);
+/* The header and the last entry alone, if that is an outline's: then `chunks` has it, else it is NULL. Its
+ * checksum guards the outline; that of the table is not looked at. */
+sbf_status sbfi_packed_table_read_outline(sbfi_packed_table *table, const uint8_t *bytes, size_t size,
     const sbf_limits *limits, const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_packed_table_free(sbfi_packed_table *table);
 

@@ -53,6 +53,16 @@ void fuzz_check_load(
   sbf_asset_free(asset);
 }
 
+void fuzz_check_outline(const uint8_t *data, size_t size) {
+  sbf_load_options options = fuzz_load_options();
+  sbf_asset *asset = NULL;
+  sbf_diagnostic error = {0};
+  options.outline = true;
+  sbf_status status = sbf_packed_load_memory(data, size, &options, &asset, &error);
+  if (status != SBF_OK) fuzz_check_failure(status, asset, &error);
+  sbf_asset_free(asset);
+}
+
 sbf_asset *fuzz_load_either(const uint8_t *data, size_t size) {
   sbf_load_options options = fuzz_load_options();
   sbf_asset *asset = NULL;

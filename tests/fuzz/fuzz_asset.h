@@ -23,6 +23,9 @@ void fuzz_check_round_trip(const sbf_asset *asset, fuzz_save *save, fuzz_load *l
 void fuzz_check_load(
     sbf_status status, sbf_asset *asset, const sbf_diagnostic *error, fuzz_save *save, fuzz_load *load);
 
+/* Reads the outline of a packed file, which is refused or made, and holds nothing that cannot be freed. */
+void fuzz_check_outline(const uint8_t *data, size_t size);
+
 /* Loads whichever form the first byte announces, within the bounds; NULL, checked too, where it is refused.
  */
 sbf_asset *fuzz_load_either(const uint8_t *data, size_t size);

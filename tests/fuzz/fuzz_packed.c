@@ -11,5 +11,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sbf_status status = sbf_packed_load_memory(data, size, &options, &asset, &error);
     fuzz_check_load(status, asset, &error, sbf_packed_save_memory, sbf_packed_load_memory);
   }
+  fuzz_check_outline(data, size);
   return 0;
 }

@@ -88,16 +88,19 @@ int main(int argc, char **argv) {
     return 2;
   }
   sbf_asset *small = small_asset(), *full = fill_asset(&(fill_options){.seed = 1}),
-            *bodies = bodies_to_build();
-  FUZZ_MUST(small && full);
+            *bodies = bodies_to_build(), *outlined = fill_asset(&(fill_options){.seed = 2, .items = 70});
+  FUZZ_MUST(small && full && outlined);
   full->extensions.count = 0; /* those it requires, a load without them refuses */
   full->extensions.at = NULL;
+  outlined->extensions = full->extensions;
+  put_forms(argv[1], "outlined", outlined);
   put_forms(argv[1], "small", small);
   put_forms(argv[1], "full", full);
   put_forms(argv[1], "bodies", bodies);
   sbf_asset_free(small);
   sbf_asset_free(full);
   sbf_asset_free(bodies);
+  sbf_asset_free(outlined);
   put_chunks(argv[1]);
   put_stream(argv[1]);
   return EXIT_SUCCESS;

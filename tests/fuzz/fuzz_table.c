@@ -23,6 +23,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   options.check_crc = true;
   sbf_status status = sbf_packed_load_memory(mended, size, &options, &asset, &error);
   fuzz_check_load(status, asset, &error, sbf_packed_save_memory, sbf_packed_load_memory);
+  fuzz_check_outline(mended, size);
   free(mended);
   return 0;
 }

@@ -347,6 +347,7 @@ START_TEST(test_limits_at_and_past)
   for (uint32_t i = 0; i < patch_get(file.at, 40, 4); i++) {
     const uint8_t *entry = file.at + patch_entry(i, 0);
     uint64_t raw = patch_get(entry, PATCH_RAW_SIZE, 8), stored = patch_get(entry, PATCH_STORED_SIZE, 8);
+    if (memcmp(entry, "OUTL", 4) == 0) continue; /* not read */
     if (patch_get(entry, PATCH_CODEC, 1)) {
       inflated += raw;
       if ((raw + stored - 1) / stored > ratio) ratio = (raw + stored - 1) / stored;

@@ -70,11 +70,12 @@ START_TEST(test_layout)
       ck_assert_uint_eq(offset, (end + 63) / 64 * 64);
       for (; end < offset; end++) ck_assert_uint_eq(file.at[end], 0);
       end = offset + stored;
-      bool is_list = patch_get(entry, PATCH_FIELD, 2) != 0;
-      ck_assert(is_list || !lists); /* records first */
+      bool is_list = patch_get(entry, PATCH_FIELD, 2) != 0, is_outline = memcmp(entry, "OUTL", 4) == 0;
+      ck_assert_int_eq(is_outline, count > 128 && i == count - 1);
+      ck_assert(is_list || is_outline || !lists); /* records first */
       lists = is_list;
       if (is_list) ck_assert_uint_ge(raw, store ? 256 : 1024);
-      ck_assert_uint_eq(patch_get(entry, PATCH_FLAGS, 2), 1);
+      ck_assert_uint_eq(patch_get(entry, PATCH_FLAGS, 2), is_outline ? 0 : 1);
       if (patch_get(entry, PATCH_CODEC, 1)) {
         compressed++;
         ck_assert_uint_le(stored, raw - raw / 16);

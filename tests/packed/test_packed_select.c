@@ -1,5 +1,6 @@
 #include "sbfmt/io.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "fill_asset.h"
@@ -174,12 +175,14 @@ START_TEST(test_outline)
     sbf_buffer file, again;
     sbf_diagnostic error;
     uint64_t lists = 0, read_bytes = 0;
+    bool with_outline = false;
     ck_assert_int_eq(
         sbf_packed_save_memory(asset, &(sbf_save_options){.store = store}, NULL, &file, NULL), SBF_OK);
     for (uint32_t i = 0; i < patch_get(file.at, 40, 4); i++) {
       const uint8_t *entry = file.at + patch_entry(i, 0);
       uint64_t size = patch_get(entry, PATCH_STORED_SIZE, 8);
       if (!patch_get(entry, PATCH_FIELD, 2)) continue;
+      with_outline |= patch_get(file.at, 40, 4) > 128;
       memset(file.at + patch_get(entry, PATCH_OFFSET, 8), 0xee, size);
       lists += size;
     }
@@ -191,6 +194,7 @@ START_TEST(test_outline)
     ck_assert_msg(status == SBF_OK, "%s: %s", error.path, error.message);
     ck_assert_uint_le(read_bytes + lists, file.size);
     ck_assert_uint_gt(lists, read_bytes);
+    ck_assert(with_outline); /* else the table and the records would be read */
     const sbf_soft_body *body = &outline->soft_bodies.at[0], *whole = &asset->soft_bodies.at[0];
     ck_assert_str_eq(body->name, whole->name);
     ck_assert_ptr_null(body->surface.positions.at);
@@ -207,6 +211,46 @@ START_TEST(test_outline)
 }
 END_TEST
 
+/* The outline of a file is as little to be trusted as all else in it. */
+START_TEST(test_outline_that_lies)
+{
+  sbf_asset *asset = fill_asset(&(fill_options){.seed = 9, .items = 90}), *outline;
+  sbf_buffer file;
+  sbf_diagnostic error;
+  ck_assert_int_eq(
+      sbf_packed_save_memory(asset, &(sbf_save_options){.store = true}, NULL, &file, NULL), SBF_OK);
+  uint32_t last = (uint32_t)patch_get(file.at, 40, 4) - 1;
+  ck_assert_int_eq(memcmp(file.at + patch_entry(last, 0), "OUTL", 4), 0);
+  size_t begin = patch_get(file.at, patch_entry(last, PATCH_OFFSET), 8);
+  uint8_t *copy = malloc(file.size);
+  sbf_load_options options = fill_load_options(asset);
+  options.outline = true;
+  options.limits.memory_bytes = 1 << 24;
+  uint32_t refused = 0;
+  for (size_t at = begin; at < file.size; at += 11)
+    for (int seal = 0; seal < 2; seal++) {
+      memcpy(copy, file.at, file.size);
+      copy[at] ^= (uint8_t)(1 + at % 255);
+      if (seal) patch_seal(copy, file.size);
+      sbf_status status = sbf_packed_load_memory(copy, file.size, &options, &outline, &error);
+      refused += status != SBF_OK;
+      ck_assert(seal || (status == SBF_BAD_INPUT && error.code == SBF_CODE_PACKED_CRC));
+      ck_assert((status == SBF_OK) == (outline != NULL));
+      sbf_asset_free(outline);
+    }
+  ck_assert_uint_gt(refused, (file.size - begin) / 11);
+  /* Of no use to a load of the whole, it may say anything. */
+  options.outline = false;
+  options.limits.memory_bytes = 0;
+  memset(file.at + begin, 0xee, file.size - begin);
+  ck_assert_int_eq(sbf_packed_load_memory(file.at, file.size, &options, &outline, &error), SBF_OK);
+  sbf_asset_free(outline);
+  free(copy);
+  sbf_buffer_free(&file);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("packed_select");
   TCase *tests = tcase_create("packed_select");
@@ -215,6 +259,7 @@ int main(void) {
   tcase_add_test(tests, test_chunks_left_out_are_not_touched);
   tcase_add_test(tests, test_any_kind_alone_is_a_sound_asset);
   tcase_add_test(tests, test_outline);
+  tcase_add_test(tests, test_outline_that_lies);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
