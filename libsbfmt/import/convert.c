@@ -183,8 +183,9 @@ static sbf_status convert_other_file(const char *input, bool is_paper, const sbf
         is_paper ? "has a skeleton of its own" : "holds tetrahedra alone");
   if (!sbfi_scene_init(&scene, options->allocator, 0, input))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", input);
-  sbf_status status = is_paper ? sbfi_paper_read(&paper, input, options->allocator, error)
-                               : sbfi_tet_mesh_read(&tets, input, options->allocator, 0, error);
+  sbf_status status = is_paper
+                          ? sbfi_paper_read(&paper, input, options->allocator, error)
+                          : sbfi_tet_mesh_read(&tets, input, options->allocator, (uint64_t)4 << 30, error);
   if (status == SBF_OK) {
     if (is_paper)
       from.paper = &paper;
