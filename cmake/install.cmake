@@ -1,6 +1,7 @@
 # What is installed: libraries and headers with a CMake package (one component a library) and pkg-config files, the
 # program, and the program it reads foreign files with. The tree may be moved as a whole.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev) # components are packages: see package.cmake
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/sbfmt)
 
 set(SBFMT_COMPONENTS)
@@ -9,7 +10,8 @@ foreach(component core mechanics format interchange runtime)
     list(APPEND SBFMT_COMPONENTS ${component})
     get_target_property(target sbfmt::${component} ALIASED_TARGET)
     # An export set of its own, so that a project which asks for the runtime meets nothing of the others.
-    install(TARGETS ${target} EXPORT sbfmt-${component})
+    install(TARGETS ${target} EXPORT sbfmt-${component}
+      RUNTIME COMPONENT runtime LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev ARCHIVE COMPONENT dev)
     install(EXPORT sbfmt-${component} NAMESPACE sbfmt:: FILE sbfmt-${component}.cmake DESTINATION ${package_folder})
   endif()
 endforeach()
@@ -27,22 +29,25 @@ foreach(component IN LISTS SBFMT_COMPONENTS)
 endforeach()
 if(TARGET sbfmt)
   add_dependencies(products sbfmt)
-  install(TARGETS sbfmt)
+  install(TARGETS sbfmt COMPONENT tools)
 endif()
 if(NOT SBFMT_RUNTIME_ONLY AND BUILD_SHARED_LIBS)
   # A folder to put on PYTHONPATH; it finds the library by itself where that is beside or in the system's places.
   install(DIRECTORY exporters/python/sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/sbfmt/python
-    FILES_MATCHING PATTERN *.py)
+    COMPONENT runtime FILES_MATCHING PATTERN *.py)
 endif()
 if(TARGET sbfmt-manual)
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  install(FILES ${PROJECT_BINARY_DIR}/generated/bash/sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-  install(FILES ${PROJECT_BINARY_DIR}/generated/zsh/_sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-  install(FILES ${PROJECT_BINARY_DIR}/generated/fish/sbfmt.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+  install(FILES ${PROJECT_BINARY_DIR}/generated/bash/sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    COMPONENT tools)
+  install(FILES ${PROJECT_BINARY_DIR}/generated/zsh/_sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+    COMPONENT tools)
+  install(FILES ${PROJECT_BINARY_DIR}/generated/fish/sbfmt.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+    COMPONENT tools)
 endif()
 if(TARGET sbfmt-import)
   add_dependencies(products sbfmt-import)
-  install(TARGETS sbfmt-import RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/sbfmt)
+  install(TARGETS sbfmt-import RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/sbfmt COMPONENT tools)
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
