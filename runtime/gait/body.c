@@ -48,6 +48,7 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
+    if (leg->lower < 0) continue;
     float reach = (leg->upper_length + leg->lower_length) * (1 - leg->soft_reach) * input->scale;
     sbf_vec3 hip = sbri_scale(rig->rest[leg->upper].position, input->scale);
     hip = sbri_add(root->position, sbri_rotate(root->rotation, hip));
@@ -158,6 +159,28 @@ static sbf_vec3 pole_of(const sbri_rig *rig, const sbri_leg *leg, const sbr_tran
   return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(own, scale)));
 }
 
+/* Turns the foot, and what hangs on it (toes), to a rotation, by as much as the chain says to that of the
+ * ground.
+ */
+static void pose_foot(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float heading,
+    sbf_quat own, sbr_transform *pose) {
+  sbf_quat level = sbri_quat_multiply(sbri_quat_between(UP, foot->normal), yaw_rotation(heading));
+  sbf_quat flat = sbri_quat_multiply(level, rig->rest[leg->foot].rotation);
+  sbf_quat after = sbri_quat_blend(own, flat, leg->copy_rotation);
+  sbf_quat before = pose[leg->foot].rotation;
+  sbri_rig_turn(rig, (uint32_t)leg->foot, sbri_quat_multiply(after, sbri_quat_conjugate(before)), pose);
+}
+
+/* One bone: it points at where the foot should be. */
+static void pose_peg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float heading,
+    sbf_vec3 ankle, sbr_transform *pose) {
+  sbf_vec3 hip = pose[leg->upper].position, spare = sbri_vec3(0, -1, 0);
+  sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), spare);
+  sbf_quat turn = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
+  sbri_rig_turn(rig, (uint32_t)leg->upper, turn, pose);
+  pose_foot(rig, leg, foot, heading, pose[leg->foot].rotation, pose);
+}
+
 static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
     const sbri_gait_input *input, uint32_t index, sbr_transform *pose) {
   const sbri_leg *leg = &rig->legs[index];
@@ -166,6 +189,11 @@ static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sb
   sbf_vec3 hip = pose[leg->upper].position;
   sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
   sbf_vec3 ankle = sbri_add_scaled(sole, foot->normal, leg->home.y * scale);
+  float heading = state->heading + foot->heading;
+  if (leg->lower < 0) {
+    pose_peg(rig, leg, foot, heading, ankle, pose);
+    return;
+  }
   sbf_vec3 pole = pole_of(rig, leg, &stance->root, scale, pose);
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
   sbri_two_bone_result solved = sbri_two_bone(
@@ -178,19 +206,10 @@ static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sb
   if (sbri_dot(side1, side1) < 1e-12f) side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(pole, hip));
   sbf_quat upper = turn_between(sbri_sub(knee0, hip0), side0, sbri_sub(solved.knee, hip), side1);
   sbf_quat lower = turn_between(sbri_sub(ankle0, knee0), side0, sbri_sub(solved.ankle, solved.knee), side1);
-  sbf_quat level =
-      sbri_quat_multiply(sbri_quat_between(UP, foot->normal), yaw_rotation(state->heading + foot->heading));
-  sbf_quat own = sbri_quat_multiply(lower, rig->rest[leg->foot].rotation);
-  sbf_quat flat = sbri_quat_multiply(level, rig->rest[leg->foot].rotation);
-
-  sbr_transform before = pose[leg->foot];
   pose[leg->upper].rotation = sbri_quat_normalize(sbri_quat_multiply(upper, rig->rest[leg->upper].rotation));
   pose[leg->lower] = (sbr_transform){
       solved.knee, sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation))};
-  /* What hangs on the foot (toes) goes with it. */
-  sbf_quat after = sbri_quat_blend(own, flat, leg->copy_rotation);
-  sbri_rig_turn(
-      rig, (uint32_t)leg->foot, sbri_quat_multiply(after, sbri_quat_conjugate(before.rotation)), pose);
+  pose_foot(rig, leg, foot, heading, sbri_quat_multiply(lower, rig->rest[leg->foot].rotation), pose);
   sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(solved.ankle, pose[leg->foot].position), pose);
 }
 

@@ -149,6 +149,7 @@ static bool swing(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_i
 static bool overreaches(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stance *stance, uint32_t leg, float seconds, float share, bool flat) {
   const sbri_leg *l = &rig->legs[leg];
+  if (l->lower < 0) return false;
   float reach = (l->upper_length + l->lower_length) * (1 - l->soft_reach) * share * input->scale;
   sbf_vec3 hip = sbri_scale(rig->rest[l->upper].position, input->scale);
   hip = sbri_add(stance->root.position, sbri_rotate(stance->root.rotation, hip));

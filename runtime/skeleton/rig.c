@@ -45,11 +45,13 @@ static void share_spine(const sbri_rig *rig, float *share) {
 static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   const sbf_ik_chain *chain = &rig->asset->ik_chains.at[from->ik];
   int32_t foot = chain->end, lower = rig->parents[foot], upper = lower >= 0 ? rig->parents[lower] : -1;
+  bool peg = lower >= 0 && lower == chain->root;
+  if (peg) upper = lower;
   if (upper < 0 || upper != chain->root) return false;
-  sbf_vec3 hip = rig->rest[upper].position, knee = rig->rest[lower].position,
-           ankle = rig->rest[foot].position;
+  sbf_vec3 hip = rig->rest[upper].position, ankle = rig->rest[foot].position;
+  sbf_vec3 knee = peg ? ankle : rig->rest[lower].position;
   *leg = (sbri_leg){.upper = upper,
-      .lower = lower,
+      .lower = peg ? -1 : lower,
       .foot = foot,
       .home = from->home,
       .group = from->group,
@@ -63,7 +65,7 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   sbf_vec3 middle = sbri_lerp(hip, ankle, 0.5f), out = sbri_sub(knee, middle);
   leg->pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
   leg->hind = rig->gait->chest < 0 || !is_below(rig, upper, rig->gait->chest);
-  return leg->upper_length > 0 && leg->lower_length > 0;
+  return leg->upper_length > 0 && (peg || leg->lower_length > 0);
 }
 
 static void init_legs(sbri_rig *rig) {

@@ -7,9 +7,10 @@
 
 #include "sbrun/sbrun.h"
 
-/* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. */
+/* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. Or two, a peg: the
+ * upper one swings the foot, and how far the foot is from it says nothing of how far the leg may reach. */
 typedef struct sbri_leg {
-  int32_t upper, lower, foot; /* bones: thigh, shin, and the one whose head is the ankle */
+  int32_t upper, lower, foot; /* bones: thigh, shin (-1: a peg), and the one whose head is the ankle */
   sbf_vec3 pole;              /* asset space, rest pose */
   int32_t pole_bone;          /* the pole moves with it; -1: with the root */
   sbf_vec3 home;              /* ankle at rest, asset space, y above the sole's ground */
@@ -46,7 +47,7 @@ typedef struct sbri_rig {
 } sbri_rig;
 
 /* Bytes the tables take, and their making in a block of that size. The asset must outlive the rig. A leg
- * whose chain is not thigh, shin and foot is left out. */
+ * whose chain is neither thigh, shin and foot nor a peg and its foot is left out. */
 size_t sbri_rig_size(const sbf_asset *asset);
 void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory);
 

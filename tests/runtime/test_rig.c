@@ -1,0 +1,134 @@
+#include "skeleton/rig.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "gait/gait.h"
+#include "harness.h"
+#include "math/vec3.h"
+#include "quadruped.h"
+#include "sbfmt/asset.h"
+
+/* A body on two pegs: hips that swing a foot each, sideways of them. */
+static const struct {
+  const char *name;
+  int32_t parent;
+  sbf_vec3 head;
+} rows[] = {{"root", -1, {0, 0, 0}}, {"hip.L", 0, {0.1f, 0.3f, 0}}, {"foot.L", 1, {0.4f, 0.25f, 0}},
+    {"toe.L", 2, {0.4f, 0.05f, 0.1f}}, {"hip.R", 0, {-0.1f, 0.3f, 0}}, {"foot.R", 4, {-0.4f, 0.25f, 0}}};
+enum { BONES = sizeof rows / sizeof *rows };
+
+static sbf_bone bones[BONES];
+static sbf_ik_chain chains[3];
+static sbf_leg legs[3];
+static sbf_gait gait;
+
+static sbf_asset *make(void) {
+  sbf_asset *asset = sbf_asset_create(NULL);
+  for (int i = 0; i < BONES; i++) {
+    sbf_bone_init(&bones[i]);
+    bones[i].id = bones[i].name = rows[i].name;
+    bones[i].parent = rows[i].parent;
+    bones[i].head = rows[i].head;
+  }
+  static const int32_t ends[3] = {2, 5, 3}, roots[3] = {1, 4, 0}; /* the last: three bones below its root */
+  for (int i = 0; i < 3; i++) {
+    sbf_ik_chain_init(&chains[i]);
+    chains[i].root = roots[i];
+    chains[i].end = ends[i];
+    sbf_leg_init(&legs[i]);
+    legs[i].name = rows[ends[i]].name;
+    legs[i].ik = i;
+    legs[i].home = rows[ends[i]].head;
+    legs[i].sole = 0.25f;
+    legs[i].group = (uint32_t)i;
+  }
+  sbf_gait_init(&gait);
+  gait.body = gait.hips = 0;
+  gait.step_trigger = 0.03f;
+  gait.step_height = 0.03f;
+  gait.legs = (sbf_leg_list){legs, 3};
+  asset->bones = (sbf_bone_list){bones, BONES};
+  asset->ik_chains = (sbf_ik_chain_list){chains, 3};
+  asset->gaits = (sbf_gait_list){&gait, 1};
+  return asset;
+}
+
+START_TEST(legs_are_three_bones_or_a_peg)
+{
+  sbf_asset *asset = make();
+  sbri_rig rig;
+  void *memory = malloc(sbri_rig_size(asset));
+  sbri_rig_init(&rig, asset, memory);
+  ck_assert_uint_eq(rig.leg_count, 2); /* what is neither is left out */
+  ck_assert(rig.legs[0].upper == 1 && rig.legs[0].lower == -1 && rig.legs[0].foot == 2);
+  ck_assert_float_eq_tol(rig.legs[0].upper_length, sqrtf(0.09f + 0.0025f), 1e-6f);
+  free(memory);
+  sbf_asset_free(asset);
+  quadruped q;
+  quadruped_create(&q);
+  ck_assert_uint_eq(q.rig.leg_count, 4);
+  for (uint32_t l = 0; l < 4; l++) ck_assert_int_eq(q.rig.legs[l].lower, q.rig.legs[l].upper + 1);
+  quadruped_destroy(&q);
+}
+END_TEST
+
+static double flat(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  (void)ground;
+  (void)x;
+  (void)z;
+  *normal = (sbf_vec3){0, 1, 0};
+  return 0;
+}
+
+/* Five seconds at 0.2 m/s: both feet step in turn, and stay where they stand but for the swing of their pegs.
+ */
+START_TEST(a_character_walks_on_pegs)
+{
+  sbf_asset *asset = make();
+  sbri_rig rig;
+  void *memory = malloc(sbri_rig_size(asset));
+  sbri_rig_init(&rig, asset, memory);
+  void *state = malloc(sbri_gait_state_size(&rig));
+  sbr_ground ground = {flat, NULL, {0}};
+  sbri_gait_input input = {.tick_s = 1.0f / 60, .scale = 1, .ground = &ground, .forward = 0.2f};
+  sbr_transform pose[BONES];
+  sbri_gait_place(&rig, state, &input, (sbf_vec3){0, 0, 0}, 0);
+  sbf_vec3 stance[2] = {{0}};
+  bool was_planted[2] = {false, false};
+  float slip = 0;
+  for (int i = 0; i < 300; i++) {
+    sbri_gait_event events[8];
+    sbri_gait_tick(&rig, state, &input, pose, events, 8);
+    sbr_leg_state now[2];
+    ck_assert_uint_eq(sbri_gait_legs(&rig, state, now, 2), 2);
+    ck_assert(now[0].planted || now[1].planted);
+    for (int l = 0; l < 2; l++) {
+      sbf_vec3 foot = pose[rig.legs[l].foot].position, hip = pose[rig.legs[l].upper].position;
+      ck_assert_float_eq_tol(sbri_length(sbri_sub(foot, hip)), rig.legs[l].upper_length, 1e-5f);
+      if (now[l].planted && !was_planted[l]) stance[l] = foot;
+      if (now[l].planted) slip = fmaxf(slip, sbri_length(sbri_sub(foot, stance[l])));
+      was_planted[l] = now[l].planted;
+    }
+    /* The toe hangs on its foot and stays level with it. */
+    ck_assert_float_eq_tol(pose[2].position.y - pose[3].position.y, 0.2f, 1e-5f);
+  }
+  sbr_leg_state now[2];
+  sbri_gait_legs(&rig, state, now, 2);
+  ck_assert_uint_ge(now[0].steps_taken, 8);
+  ck_assert_uint_ge(now[1].steps_taken, 8);
+  ck_assert_float_lt(slip, 0.01f);
+  free(state);
+  free(memory);
+  sbf_asset_free(asset);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("rig");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, legs_are_three_bones_or_a_peg);
+  tcase_add_test(tests, a_character_walks_on_pegs);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
