@@ -13,7 +13,8 @@ from motion_files import read_poses
 from sbfmt_program import (PROGRAM, ROOT, ProgramTest, call, example, main, needs_lizard, read_bytes, read_text, shared,
                            write_bytes)
 
-DOCUMENTS = [os.path.join(ROOT, "docs", name) for name in ("hello.md", "format-tour.md", "scripts.md", "partial-loading.md")]
+DOCUMENTS = [os.path.join(ROOT, "docs", name) for name in ("hello.md", "format-tour.md", "scripts.md", "partial-loading.md",
+                                                             "converting.md")]
 README = os.path.join(ROOT, "README.md")
 TOURED = os.path.join(ROOT, "spec", "samples", "valid", "jelly.sbf")
 BUILD = os.environ.get("SBFMT_BUILD_DIR", "")
