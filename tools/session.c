@@ -78,10 +78,15 @@ static bool parse_settings(session *s, cli_call *call, settings *set) {
   return good;
 }
 
+static void tell(void *user, const sbf_diagnostic *finding) {
+  cli_print_diagnostic(user, finding);
+}
+
 static sbf_status create(session *s, cli_call *call, const settings *set, sbf_diagnostic *error) {
   sbf_status status = sbf_load_file(call->inputs[0], NULL, &s->asset, error);
   if (status == SBF_OK) status = sbr_model_create(s->asset, &set->model, &s->model, error);
   if (status != SBF_OK) return status;
+  sbr_model_left_out(s->model, tell, call);
   sbr_world_definition world = sbr_default_world_definition();
   world.tasks = thread_pool_tasks(s->threads);
   world.ground = s->ground;

@@ -139,6 +139,7 @@ static const sbf_code_info table[] = {
   {"PRESSURE_OPEN", SBF_CODE_PRESSURE_OPEN, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Pressure acts on closed surfaces only: close the surface or set the mode to none."},
   {"LEVEL_NOT_SIMULATED", SBF_CODE_LEVEL_NOT_SIMULATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The runtime does not step this elastic model: build the file with springs."},
   {"TOO_STIFF", SBF_CODE_TOO_STIFF, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A body is too stiff and light to be stepped explicitly: give it more mass, less stiffness or fewer points."},
+  {"PART_LEFT_OUT", SBF_CODE_PART_LEFT_OUT, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The file holds something that this runtime does not move: another runtime, or a later one, does."},
   {"RIG_SECTION_GUESSED", SBF_CODE_RIG_SECTION_GUESSED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A section was given to the nearest bone, because no name said where it belongs."},
   {"RIG_UNWEIGHTED_POINTS", SBF_CODE_RIG_UNWEIGHTED_POINTS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Points of a skinned mesh have no weights: paint them in the source."},
   {"RIG_NO_SECTIONS", SBF_CODE_RIG_NO_SECTIONS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Every mesh is skinned: there is no section of its own for any bone."},

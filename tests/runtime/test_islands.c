@@ -84,6 +84,32 @@ START_TEST(levels_are_chosen)
 }
 END_TEST
 
+START_TEST(a_level_of_springs_is_taken_where_there_is_one)
+{
+  scene s = scene_begin();
+  const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const float masses[] = {1, 1, 1};
+  scene_points(&s, 0, positions, masses, 3);
+  sbf_level *levels = sbf_asset_allocate(s.asset, 3, sizeof *levels);
+  for (uint32_t i = 0; i < 3; i++) {
+    levels[i] = s.asset->soft_bodies.at[0].levels.at[0];
+    levels[i].positions.count = levels[i].masses.count = 3 - i;
+  }
+  levels[1].model = SBF_ELASTIC_MODEL_TETRAHEDRA;
+  scene_body(&s, 0)->levels = (sbf_level_list){levels, 3};
+  s.model_options.level = 1;
+  scene_start(&s);
+  ck_assert_uint_eq(scene_read(&s, 0, NULL, 0), 1); /* the coarser */
+  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 1);
+  sbr_world_destroy(s.world);
+  sbr_model_destroy(s.model);
+  levels[2].model = SBF_ELASTIC_MODEL_JIGGLE;
+  scene_start(&s);
+  ck_assert_uint_eq(scene_read(&s, 0, NULL, 0), 3); /* else the finer */
+  scene_free(&s);
+}
+END_TEST
+
 START_TEST(what_is_not_simulated_is_refused)
 {
   scene s = scene_begin();
@@ -104,6 +130,7 @@ static Suite *suite(void) {
   tcase_add_test(c, springs_between_bodies_act);
   tcase_add_test(c, springs_between_levels_that_are_not_simulated_do_not);
   tcase_add_test(c, levels_are_chosen);
+  tcase_add_test(c, a_level_of_springs_is_taken_where_there_is_one);
   tcase_add_test(c, what_is_not_simulated_is_refused);
   suite_add_tcase(s, c);
   return s;

@@ -76,9 +76,10 @@ typedef struct sbr_tasks {
 typedef struct sbr_model_options {
   size_t struct_size;             /* sizeof(sbr_model_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
-  uint32_t level;                 /* of each body that has so many levels, else its coarsest */
-  sbf_scheme scheme;              /* automatic: the level's own, and where that is automatic, symplectic */
-  uint32_t substeps;              /* of a control tick; 0: the level's own, or as many as the scheme needs */
+  uint32_t
+      level; /* of each body that has so many levels, else its coarsest; of those of springs the nearest */
+  sbf_scheme scheme; /* automatic: the level's own, and where that is automatic, symplectic */
+  uint32_t substeps; /* of a control tick; 0: the level's own, or as many as the scheme needs */
   bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass */
   bool has_gravity; /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
   sbf_vec3 gravity; /* m/s^2 */
@@ -89,6 +90,11 @@ typedef struct sbr_model_options {
 SBF_API sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
 SBF_API void sbr_model_destroy(sbr_model *model);
+
+/* Tells of everything in the asset that the runtime leaves out (what it neither moves nor lets act), a
+ * finding each, through `report` (may be NULL). Returns how many there are. */
+SBF_API uint32_t sbr_model_left_out(
+    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *finding), void *user);
 
 /* How many numbers of single precision the solvers compute at once on this processor: 1, 4 or 8. For reports
  * of speed; results do not depend on it. */

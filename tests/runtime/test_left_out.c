@@ -1,0 +1,72 @@
+#include <string.h>
+
+#include "harness.h"
+#include "sbfmt/codes.h"
+#include "scenes.h"
+
+typedef struct heard {
+  uint32_t count;
+  char all[2048];
+} heard;
+
+static void hear(void *user, const sbf_diagnostic *finding) {
+  heard *h = user;
+  h->count++;
+  ck_assert_int_eq(finding->code, SBF_CODE_PART_LEFT_OUT);
+  ck_assert_int_eq(finding->severity, SBF_SEVERITY_INFO);
+  strcat(h->all, finding->message);
+  strcat(h->all, "\n");
+}
+
+static scene section(void) {
+  scene s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 1, 0});
+  scene_section(&s, 0, (sbf_vec3){0, 1, 0}, (sbf_vec3){0.4f, 0.3f, 0.6f}, 2);
+  return s;
+}
+
+START_TEST(nothing_is_left_out_of_what_it_does)
+{
+  scene s = section();
+  scene_body(&s, 0)->attributes.pressure_mode = SBF_PRESSURE_MODE_VOLUME;
+  scene_body(&s, 0)->attributes.sag_free = true;
+  scene_start(&s);
+  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 0);
+  ck_assert_uint_eq(sbr_model_left_out(NULL, NULL, NULL), 0);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(what_it_does_not_do_is_told)
+{
+  scene s = section();
+  sbf_attributes *is = &scene_body(&s, 0)->attributes;
+  is->strain_max = 0.5f;
+  is->tear_strain = 2;
+  is->pressure_mode = SBF_PRESSURE_MODE_GAS;
+  ((sbf_spring_set *)(uintptr_t)s.asset->soft_bodies.at[0].levels.at[0].springs.at)->yield_strain = 0.1f;
+  sbf_force_field *field = sbf_asset_allocate(s.asset, 1, sizeof *field);
+  sbf_force_field_init(field);
+  s.asset->environment.fields = (sbf_force_field_list){field, 1};
+  scene_start(&s);
+  heard h = {0, ""};
+  ck_assert_uint_eq(sbr_model_left_out(s.model, hear, &h), 5);
+  ck_assert_uint_eq(h.count, 5);
+  const char *expected[] = {"strain limits of bodies are left out", "yield", "tear", "gas", "force fields"};
+  for (int i = 0; i < 5; i++) ck_assert_ptr_nonnull(strstr(h.all, expected[i]));
+  scene_free(&s);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("left out");
+  TCase *c = tcase_create("left out");
+  tcase_add_test(c, nothing_is_left_out_of_what_it_does);
+  tcase_add_test(c, what_it_does_not_do_is_told);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
