@@ -63,12 +63,14 @@ static void tell(const cli_call *call, checked *one, bool strict, json_t *messag
   }
 }
 
+static json_t *report_json(const totals *t, json_t *messages, json_t *files) {
+  return json_pack("{s:b, s:i, s:i, s:i, s:o, s:o}", "valid", t->bad_files == 0, "errors",
+      (int)t->found.errors, "warnings", (int)t->found.warnings, "infos", (int)t->found.infos, "messages",
+      messages, "files", files);
+}
+
 static int finish(const cli_call *call, const totals *t, json_t *messages, json_t *files) {
-  if (call->json)
-    return cli_print_json(json_pack("{s:b, s:i, s:i, s:i, s:o, s:o}", "valid", t->bad_files == 0, "errors",
-                              (int)t->found.errors, "warnings", (int)t->found.warnings, "infos",
-                              (int)t->found.infos, "messages", messages, "files", files),
-        t->status);
+  if (call->json) return cli_print_json(report_json(t, messages, files), t->status);
   if (t->files > 1) {
     printf("%zu files, %zu not valid: ", t->files, t->bad_files);
     print_counts(&t->found);
@@ -104,10 +106,97 @@ static int validate(const cli_call *call, const file_list *list, thread_pool *po
   return finish(call, &t, messages, files);
 }
 
+/* What was mended of a file, and what is left to find in the one written. */
+typedef struct mended {
+  findings done;
+  checked left;
+} mended;
+
+/* A file that is refused for what can be mended is loaded all the same. */
+static sbf_status load_for_mending(const char *path, sbf_asset **asset, checked *refused) {
+  sbf_load_options loading = {.check_crc = true, .mendable = true};
+  sbf_diagnostic error;
+  sbf_status status = sbf_load_file(path, &loading, asset, &error);
+  if (status != SBF_OK) check_file(path, refused); /* for all that is wrong, as without --fix */
+  return status;
+}
+
+static sbf_status mend(const char *from, const char *to, mended *m, sbf_diagnostic *error) {
+  sbf_asset *asset, *fixed;
+  sbf_fix_options options = {.report = findings_take, .user = &m->done};
+  sbf_status status = load_for_mending(from, &asset, &m->left);
+  if (status != SBF_OK) return status;
+  status = sbf_fix(asset, &options, &fixed, NULL, error);
+  sbf_asset_free(asset);
+  if (status != SBF_OK) {
+    findings_add(&m->left.found, error);
+    m->left.result.errors++;
+    sbf_locate_findings(from, NULL, m->left.found.at, (uint32_t)m->left.found.count);
+    return status;
+  }
+  if (m->done.count) sbf_locate_findings(from, NULL, m->done.at, (uint32_t)m->done.count);
+  check_asset(fixed, to, &m->left);
+  status = sbf_save_file(fixed, to, NULL, error);
+  sbf_asset_free(fixed);
+  if (status != SBF_OK) {
+    findings_add(&m->left.found, error);
+    m->left.result.errors++;
+  } else if (m->left.found.count) {
+    sbf_locate_findings(to, NULL, m->left.found.at, (uint32_t)m->left.found.count);
+  }
+  return status;
+}
+
+static json_t *mended_json(const cli_call *call, const mended *m, const char *from) {
+  json_t *list = json_array();
+  for (size_t i = 0; i < m->done.count; i++) {
+    sbf_diagnostic *d = &m->done.at[i];
+    snprintf(d->file, sizeof d->file, "%s", from);
+    if (call->json)
+      json_array_append_new(list, cli_diagnostic_json(d));
+    else
+      printf("%s%s%s: %s [%s]\n", from, d->path[0] ? " " : "", d->path, d->message,
+          sbf_code_find(d->code)->name);
+  }
+  return list;
+}
+
+static int fix(const cli_call *call, const char *from, const char *to) {
+  bool strict = cli_switch(call, "--strict");
+  sbf_diagnostic error;
+  mended m = {.left = {.path = from}};
+  json_t *messages = call->json ? json_array() : NULL, *files = call->json ? json_array() : NULL;
+  m.left.status = mend(from, to, &m, &error);
+  bool written = m.left.status == SBF_OK;
+  json_t *done = mended_json(call, &m, from);
+  totals t = {.status = SBF_OK};
+  tell(call, &m.left, strict, messages, files);
+  add(&t, &m.left, strict);
+  findings_free(&m.done);
+  findings_free(&m.left.found);
+  if (!call->json) {
+    json_decref(done);
+    return t.status;
+  }
+  json_t *report = report_json(&t, messages, files);
+  json_object_set_new(report, "fixed", done);
+  if (written) json_object_set_new(report, "output", json_string(to));
+  return cli_print_json(report, t.status);
+}
+
+static int run_fix(const cli_call *call) {
+  const char *to = cli_value(call, "-o");
+  if (!to) return cli_wrong(call, "--fix needs -o OUT: the file given is not changed");
+  if (call->input_count != 1) return cli_wrong(call, "--fix mends one file at a time");
+  return fix(call, call->inputs[0], to);
+}
+
 static int run(cli_call *call) {
   file_list list = {NULL, 0, 0};
   long threads = sysconf(_SC_NPROCESSORS_ONLN);
   int status = SBF_FAILED;
+  if (cli_switch(call, "--fix")) return run_fix(call);
+  if (cli_value(call, "-o")) return cli_wrong(call, "-o is for --fix");
   if (threads < 1) threads = 1;
   if (threads > 64) threads = 64;
   if (!cli_integer(call, "--threads", 1, 64, &threads)) return SBF_FAILED;
@@ -127,13 +216,16 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     {"--strict", NULL, "let warnings fail as errors do"},
+    {"--fix", NULL, "mend what has one right answer, and write the result"},
+    {"-o", "OUT", "the file that --fix writes; .sbfz: packed"},
     {"--threads", "N", "files checked at one time (as many as there are processors)"},
     {"--format", "text|json", "how to print (text)"},
     {NULL, NULL, NULL},
 };
-const cli_verb verb_validate = {"validate", "FILE|FOLDER... [--strict] [--format json]",
+const cli_verb verb_validate = {"validate", "FILE|FOLDER... [--strict] [--fix -o OUT] [--format json]",
     "check files against all rules",
     "Of a folder, every .sbf and .sbfz in it and below is checked. Every finding has a stable code, listed "
     "in\n"
-    "spec/codes.md. Exit status 0: all are valid; 1: a file is not; 2: a file could not be read.",
+    "spec/codes.md. Exit status 0: all are valid; 1: a file is not; 2: a file could not be read.\n"
+    "With --fix, what is told is what is left to find in the file written.",
     options, 1, -1, run};

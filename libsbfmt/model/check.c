@@ -18,7 +18,8 @@ typedef struct checker {
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user;
   uint32_t limit, found;
-  bool outline; /* a list may have a count and no items */
+  bool outline;  /* a list may have a count and no items */
+  bool mendable; /* what sbf_fix mends is no fault */
   sbfi_ids ids;
 } checker;
 
@@ -157,9 +158,19 @@ static bool is_finite(float value) {
   return value >= -FLT_MAX && value <= FLT_MAX;
 }
 
+/* Lists of weights that sbf_fix brings back into their range. */
+static bool is_mendable(const sbfi_place *place, const sbfi_field *field) {
+  static const char *const lists[][2] = {
+      {"skin", "weights"}, {"pin_set", "weights"}, {"embedding", "blends"}};
+  for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+    if (strcmp(place->element->name, lists[i][0]) == 0 && strcmp(field->name, lists[i][1]) == 0) return true;
+  return false;
+}
+
 static void check_floats(
     checker *c, const sbfi_place *place, const sbfi_field *field, const float *at, size_t count) {
   bounds b = bounds_of(field);
+  if (c->mendable && is_mendable(place, field)) b = (bounds){-FLT_MAX, FLT_MAX};
   size_t bad = sbfi_find_f32_outside(at, count, b.low, b.high);
   if (bad == count) return;
   int64_t item = field->type == SBFI_LIST ? (int64_t)(bad / field->width) : -1;
@@ -259,7 +270,7 @@ static bool check_indices(
 
 static void check_positive(checker *c, const sbfi_place *place, const sbfi_field *field, sbfi_list list) {
   sbfi_list positions = sbfi_term_list(&field->index->terms[0], place);
-  if (!positions.at) return;
+  if (!positions.at || c->mendable) return;
   size_t bad = sbfi_find_not_positive(list.at, list.count, positions.at);
   if (bad < list.count)
     fault(c, SBF_CODE_TETRAHEDRON_INVERTED, place, field, (int64_t)bad,
@@ -398,16 +409,24 @@ static void keep_diagnostic(void *user, const sbf_diagnostic *diagnostic) {
   *(sbf_diagnostic *)user = *diagnostic;
 }
 
-static sbf_status check_first(const sbf_asset *asset, bool outline, sbf_diagnostic *error) {
+uint32_t sbfi_check_structure(const sbf_asset *asset, const sbf_load_options *options,
+    void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user, uint32_t limit) {
+  checker c = {.asset = asset, .report = report, .user = user, .limit = limit};
+  if (options) c.outline = options->outline;
+  if (options) c.mendable = options->mendable;
+  return check_asset(&c);
+}
+
+static sbf_status check_first(
+    const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error) {
   sbf_diagnostic first;
-  checker c = {.asset = asset, .report = keep_diagnostic, .user = &first, .limit = 1, .outline = outline};
-  if (check_asset(&c) == 0) return SBF_OK;
+  if (sbfi_check_structure(asset, options, keep_diagnostic, &first, 1) == 0) return SBF_OK;
   if (error) *error = first;
   return sbf_code_find(first.code)->fault;
 }
 
 sbf_status sbfi_check_saved(const sbf_asset *asset, sbf_diagnostic *error) {
-  return check_first(asset, false, error);
+  return check_first(asset, NULL, error);
 }
 
 static bool is_known(const char *extension, const sbf_load_options *options) {
@@ -431,6 +450,6 @@ sbf_status sbfi_check_extensions(
 }
 
 sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error) {
-  sbf_status status = check_first(asset, options && options->outline, error);
+  sbf_status status = check_first(asset, options, error);
   return status == SBF_OK ? sbfi_check_extensions(asset, options, error) : status;
 }

@@ -9,6 +9,10 @@
  * first fault. */
 sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error);
 
+/* The first part of that alone: reports like sbf_asset_check, less what the options let pass. */
+uint32_t sbfi_check_structure(const sbf_asset *asset, const sbf_load_options *options,
+    void (*report)(void *user, const sbf_diagnostic *diagnostic), void *user, uint32_t limit);
+
 /* The last part of that alone. */
 sbf_status sbfi_check_extensions(
     const sbf_asset *asset, const sbf_load_options *options, sbf_diagnostic *error);

@@ -2,6 +2,7 @@
  * finer ones. */
 #include <math.h>
 
+#include "validate/mesh_use.h"
 #include "validate/validation.h"
 
 typedef struct seen {
@@ -60,7 +61,7 @@ static void check_points(const seen *s) {
         sbfi_label(s->mesh->name, s->mesh->id));
     return;
   }
-  for (uint32_t c = 0; c < mesh->polygon_points.count; c++) used[mesh->polygon_points.at[c]] = 1;
+  sbfi_mesh_use_of(s->mesh, used);
   for (uint32_t i = 0; i < mesh->positions.count; i++)
     if (!used[i] && unused++ == 0) first = i;
   if (unused)

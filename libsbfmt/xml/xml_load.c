@@ -27,7 +27,7 @@ static void read_into(const sbfi_xml_source *source, const sbf_load_options *opt
   else if (!sbfi_xml_resolve_refs(asset, &refs, findings))
     add_out_of_memory(findings);
   sbfi_array_free(&refs);
-  if (!findings->count) sbf_asset_check(asset, add_finding, findings, findings->capacity);
+  if (!findings->count) sbfi_check_structure(asset, options, add_finding, findings, findings->capacity);
   if (!findings->count && sbfi_check_extensions(asset, options, &error) != SBF_OK)
     add_finding(findings, &error);
 }

@@ -54,6 +54,10 @@ typedef struct sbf_load_options {
    * above, apart from those about the items of such lists. For reports on large files: saving it is refused,
    * and no other function but sbf_asset_free may be given it. XML is read whole. */
   bool outline;
+  /* For sbf_fix (sbfmt/validate.h): let pass what it may mend, inverted and flat tetrahedra and weights of
+   * skins, pins and embeddings outside their ranges. No other function but sbf_asset_free may be given what
+   * is loaded so. */
+  bool mendable;
 } sbf_load_options;
 
 /* Settings of a save. */
