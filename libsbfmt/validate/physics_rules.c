@@ -61,7 +61,7 @@ static void check_substeps(
   sbf_spring_network network = {
       points, (uint32_t)springs, level->positions.at, masses, NULL, ends, stiffness};
   double bound = sbf_network_highest_bound(&network, sums);
-  double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick); /* n > tick * w / 2 */
+  double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick - 1e-3); /* tick * w / 2 */
   if ((double)level->simulation.substeps < needed)
     sbfi_found(v, SBF_CODE_SUBSTEPS_TOO_FEW, path, -1,
         "%u substep%s asked for and the stiffness of '%s' needs %.0f", level->simulation.substeps,
