@@ -31,12 +31,21 @@ FOLDS static inline __m128i load(const uint8_t *from) {
   return _mm_loadu_si128((const __m128i *)(const void *)from);
 }
 
+/* Processors look ahead within a page only: measured, a quarter of the time where the bytes lie in the
+ * third-level cache. As a number, since there may be nothing so far on. */
+enum { AHEAD = 8192 };
+
+FOLDS static inline void announce(const uint8_t *at) {
+  __builtin_prefetch((const void *)((uintptr_t)at + AHEAD));
+}
+
 FOLDS static size_t fold(uint32_t crc, const uint8_t *bytes, size_t size, uint8_t *folded) {
   __m128i far = over_512_bits(), near = over_128_bits();
   __m128i a = _mm_xor_si128(load(bytes), _mm_cvtsi32_si128((int32_t)~crc));
   __m128i b = load(bytes + 16), c = load(bytes + 32), d = load(bytes + 48);
   size_t done = 64;
   for (; size - done >= 64; done += 64) {
+    announce(bytes + done);
     a = carry_over(a, far, load(bytes + done));
     b = carry_over(b, far, load(bytes + done + 16));
     c = carry_over(c, far, load(bytes + done + 32));
