@@ -9,18 +9,10 @@
 
 #include "sbrun/sbrun.h"
 
-static double seconds_on(clockid_t clock) {
-  struct timespec t;
-  clock_gettime(clock, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 double bench_now_s(void) {
-  return seconds_on(CLOCK_THREAD_CPUTIME_ID);
-}
-
-double bench_wall_clock_s(void) {
-  return seconds_on(CLOCK_MONOTONIC);
+  struct timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 void bench_fail(const char *format, ...) {

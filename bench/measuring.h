@@ -16,7 +16,6 @@
 /* Processor time of the calling thread: what else a busy machine does meanwhile does not count. Files are in
  * the page cache, so that loads do not wait. */
 double bench_now_s(void);
-double bench_wall_clock_s(void); /* for what runs on several threads */
 
 /* Ends the program with a message; with the text of `error` where `status` is none of success. */
 _Noreturn void bench_fail(const char *format, ...);

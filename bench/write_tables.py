@@ -6,6 +6,7 @@
 A table stands between the lines `<!-- table NAME MACHINE -->` and `<!-- end of table -->`; it comes from
 bench/results/MACHINE/NAME.csv. New results: ./run bench, then copy out/bench/*.csv there."""
 import csv
+import math
 import os
 import re
 import sys
@@ -15,15 +16,13 @@ DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
-def number(text, digits=3):
-    """So many digits that count, thousands apart."""
-    if not text:
-        return ""
+def number(text):
+    """Three digits that count, or all of a whole number, thousands apart."""
+    if not text or "." not in text:
+        return f"{int(text):,}" if text else ""
     value = float(text)
-    if value == int(value) and "." not in text:
-        return f"{int(value):,}"
-    whole = len(str(int(abs(value))))
-    return f"{value:,.{max(0, digits - whole)}f}"
+    before = math.floor(math.log10(abs(value))) + 1 if value else 0
+    return f"{value:,.{max(0, 3 - before)}f}"
 
 
 def load_row(r):
