@@ -34,6 +34,7 @@ SBF_API sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_optio
 
 /* ---- Mending ------------------------------------------------------------------------------------------ */
 
+/* Settings of a mending. */
 typedef struct sbf_fix_options {
   size_t struct_size;             /* sizeof(sbf_fix_options), or 0 for this version's */
   const sbf_allocator *allocator; /* of the asset made and of scratch memory; NULL: malloc */
@@ -41,9 +42,10 @@ typedef struct sbf_fix_options {
   /* What was mended, one call for each kind and place: `code` is that of the finding, `message` says what was
    * done, `path` and `index` say where in the asset given. May be NULL. */
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
-  void *user;
+  void *user; /* for the callback */
 } sbf_fix_options;
 
+/* What a mending did. */
 typedef struct sbf_fix_result {
   uint32_t mended; /* faults */
   bool rebuilt;    /* derived parts were made anew */
