@@ -12,6 +12,10 @@
  * The same inputs give the same bits: on any number of threads, at any lane width, after restoring a
  * snapshot.
  *
+ * Robustness. A body that its bones would throw about by more than a quarter of its size feels no more than
+ * that, and one whose bones jump by more than its size in a tick goes along with them. One whose numbers or
+ * whose shape are lost for good is put back into its rest shape; sbr_body_health.recoveries counts that.
+ *
  * Threads. A world and its characters belong to one thread at a time; different worlds are independent;
  * models are read only and may be shared by worlds on different threads. A step never allocates.
  *
@@ -126,7 +130,8 @@ SBF_API void sbr_world_step(sbr_world *world, double seconds);
 /* Advances by exactly one control tick. */
 SBF_API void sbr_world_tick(sbr_world *world);
 SBF_API uint64_t sbr_world_ticks(const sbr_world *world);
-/* Hash of all mutable state: equal states, equal hashes, on every machine. */
+/* Hash of all mutable state, but for the fraction of a tick by which reads lie before the last one: equal
+ * states, equal hashes, on every machine and at every frame rate. */
 SBF_API uint64_t sbr_world_state_hash(const sbr_world *world);
 
 /* A snapshot is a plain copy: save into `bytes` (sbr_world_snapshot_size of them), restore into the same
