@@ -22,7 +22,7 @@ def number(text):
         return f"{int(text):,}" if text else ""
     value = float(text)
     before = math.floor(math.log10(abs(value))) + 1 if value else 0
-    return f"{value:,.{max(0, 3 - before)}f}"
+    return f"{value:,.{min(max(0, 3 - before), len(text.split('.')[1]))}f}"
 
 
 def load_row(r):
