@@ -26,9 +26,11 @@ endif()
 function(sbfmt_library name alias)
   set(sources)
   foreach(folder IN LISTS ARGN)
-    file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.c")
+    file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.c"
+      "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*/*.c")
     list(APPEND sources ${found})
   endforeach()
+  list(FILTER sources EXCLUDE REGEX "/import/assimp/") # a program of its own
   if(NOT sources)
     # A library needs a source; a declaration makes an honest empty one.
     file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/${name}-empty.c" "typedef int ${alias}_has_no_sources;\n")

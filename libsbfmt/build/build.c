@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "build/embed.h"
-#include "build/lattice_level.h"
-#include "build/level_pins.h"
-#include "build/section_hulls.h"
+#include "build/embed/embed.h"
+#include "build/geometry/topology.h"
+#include "build/lattice/lattice_level.h"
+#include "build/sections/level_pins.h"
+#include "build/sections/section_hulls.h"
 #include "build/source_reading.h"
 #include "build/source_view.h"
-#include "build/topology.h"
 #include "sbfmt/mechanics.h"
 
 #define TEXT_OF(x) TEXT_OF_ARGUMENT(x)

@@ -1,4 +1,4 @@
-/* PhysX's .tet, as read by import/physx_tet.c: `v x y z`, `t a b c d` from 0. */
+/* PhysX's .tet, as read by import/tetrahedra/physx_tet.c: `v x y z`, `t a b c d` from 0. */
 #include "export/exporting.h"
 
 sbf_status sbfi_export_tet(sbfi_export *e) {

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "model/schema.h"
-#include "validate/mending.h"
+#include "validate/mend/mending.h"
 
 void sbfi_mended(sbfi_mending *m, sbf_code code, uint32_t count, const char *path, int64_t index,
     const char *format, ...) {

@@ -1,4 +1,4 @@
-#include "build/box_tree.h"
+#include "build/geometry/box_tree.h"
 
 #include <math.h>
 

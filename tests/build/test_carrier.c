@@ -1,8 +1,8 @@
-#include "build/carrier.h"
+#include "build/embed/carrier.h"
 
 #include <math.h>
 
-#include "build/topology.h"
+#include "build/geometry/topology.h"
 #include "harness.h"
 #include "shapes.h"
 

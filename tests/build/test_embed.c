@@ -1,4 +1,4 @@
-#include "build/embed.h"
+#include "build/embed/embed.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "build/hulls.h"
+#include "build/geometry/hulls.h"
 
 #include <math.h>
 

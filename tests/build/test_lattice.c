@@ -1,8 +1,8 @@
-#include "build/lattice.h"
+#include "build/lattice/lattice.h"
 
 #include <math.h>
 
-#include "build/lattice_quality.h"
+#include "build/lattice/lattice_quality.h"
 #include "harness.h"
 #include "sbfmt/mechanics.h"
 #include "shapes.h"

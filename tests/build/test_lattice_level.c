@@ -1,4 +1,4 @@
-#include "build/lattice_level.h"
+#include "build/lattice/lattice_level.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
-#include "build/lattice_stuffing.h"
+#include "build/lattice/lattice_stuffing.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "build/lattice_quality.h"
+#include "build/lattice/lattice_quality.h"
 #include "harness.h"
 
 static uint64_t state;

@@ -1,8 +1,8 @@
-#include "build/level_pins.h"
+#include "build/sections/level_pins.h"
 
 #include <string.h>
 
-#include "build/hulls.h"
+#include "build/geometry/hulls.h"
 #include "harness.h"
 #include "shapes.h"
 

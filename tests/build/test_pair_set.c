@@ -1,4 +1,4 @@
-#include "build/pair_set.h"
+#include "build/springs/pair_set.h"
 
 #include "harness.h"
 

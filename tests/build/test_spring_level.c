@@ -1,9 +1,9 @@
-#include "build/spring_level.h"
+#include "build/springs/spring_level.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "build/topology.h"
+#include "build/geometry/topology.h"
 #include "harness.h"
 #include "sbfmt/mechanics.h"
 #include "shapes.h"

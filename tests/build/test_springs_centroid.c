@@ -1,4 +1,4 @@
-#include "build/springs.h"
+#include "build/springs/springs.h"
 
 #include "harness.h"
 #include "shapes.h"

@@ -1,9 +1,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "build/spring_level.h"
-#include "build/springs.h"
-#include "build/winding_number.h"
+#include "build/geometry/winding_number.h"
+#include "build/springs/spring_level.h"
+#include "build/springs/springs.h"
 #include "harness.h"
 #include "sbfmt/mechanics.h"
 #include "shapes.h"

@@ -1,8 +1,8 @@
-#include "build/tetrahedron_finder.h"
+#include "build/embed/tetrahedron_finder.h"
 
 #include <math.h>
 
-#include "build/lattice.h"
+#include "build/lattice/lattice.h"
 #include "harness.h"
 #include "shapes.h"
 

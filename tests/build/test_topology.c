@@ -1,4 +1,4 @@
-#include "build/topology.h"
+#include "build/geometry/topology.h"
 
 #include "harness.h"
 #include "shapes.h"

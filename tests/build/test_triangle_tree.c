@@ -1,4 +1,4 @@
-#include "build/triangle_tree.h"
+#include "build/geometry/triangle_tree.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "build/winding_number.h"
+#include "build/geometry/winding_number.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* Wavefront OBJ. */
 #include "fuzz.h"
-#include "import/obj.h"
+#include "import/obj/obj.h"
 #include "scene_check.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

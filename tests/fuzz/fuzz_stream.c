@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "import/assimp_bridge.h"
+#include "import/scene/assimp_bridge.h"
 #include "scene_check.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

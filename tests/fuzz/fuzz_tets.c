@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "import/tet_mesh.h"
+#include "import/tetrahedra/tet_mesh.h"
 #include "model/bulk_check.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

@@ -3,7 +3,7 @@
 #define TEST_CONVERSIONS_H
 
 #include "harness.h"
-#include "import/conversion.h"
+#include "import/convert/conversion.h"
 
 enum { CONVERTED_NOTES = 256 };
 

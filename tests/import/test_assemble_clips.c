@@ -2,8 +2,8 @@
 #include <stdlib.h>
 
 #include "harness.h"
-#include "import/assimp_bridge.h"
-#include "import/stream_format.h"
+#include "import/scene/assimp_bridge.h"
+#include "import/scene/stream_format.h"
 #include "scene_check.h"
 #include "stream_builder.h"
 

@@ -1,10 +1,10 @@
-#include "import/assembly.h"
+#include "import/scene/assembly.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness.h"
-#include "import/assimp_bridge.h"
+#include "import/scene/assimp_bridge.h"
 #include "scene_check.h"
 #include "stream_builder.h"
 

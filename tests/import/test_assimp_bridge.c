@@ -1,5 +1,5 @@
 #define _GNU_SOURCE
-#include "import/assimp_bridge.h"
+#include "import/scene/assimp_bridge.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "harness.h"
-#include "import/stream_format.h"
+#include "import/scene/stream_format.h"
 #include "scene_check.h"
 
 static sbf_status read_with(

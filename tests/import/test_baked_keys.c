@@ -1,4 +1,4 @@
-#include "import/baked_keys.h"
+#include "import/scene/baked_keys.h"
 
 #include <math.h>
 

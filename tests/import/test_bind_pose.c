@@ -1,4 +1,4 @@
-#include "import/bind_pose.h"
+#include "import/scene/bind_pose.h"
 
 #include <math.h>
 #include <stdlib.h>

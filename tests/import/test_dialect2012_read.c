@@ -1,4 +1,4 @@
-#include "import/dialect2012.h"
+#include "import/paper/dialect2012.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "harness.h"
-#include "import/conversion.h"
+#include "import/convert/conversion.h"
 
 static void begin(sbfi_conversion *c, const sbf_allocator *allocator) {
   *c = (sbfi_conversion){.asset = sbf_asset_create(NULL)};

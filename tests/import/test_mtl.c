@@ -1,4 +1,4 @@
-#include "import/mtl.h"
+#include "import/obj/mtl.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "import/name_table.h"
+#include "import/scene/name_table.h"
 
 #include <stdio.h>
 

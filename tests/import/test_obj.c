@@ -1,4 +1,4 @@
-#include "import/obj.h"
+#include "import/obj/obj.h"
 
 #include <stdio.h>
 #include <string.h>

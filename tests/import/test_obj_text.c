@@ -1,4 +1,4 @@
-#include "import/obj_text.h"
+#include "import/obj/obj_text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

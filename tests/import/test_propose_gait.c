@@ -1,4 +1,4 @@
-#include "import/propose_gait.h"
+#include "import/gait/propose_gait.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,11 +1,11 @@
-#include "import/raw_scene.h"
+#include "import/scene/raw_scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness.h"
-#include "import/assimp_bridge.h"
+#include "import/scene/assimp_bridge.h"
 #include "scene_check.h"
 #include "stream_builder.h"
 

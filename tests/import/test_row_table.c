@@ -1,4 +1,4 @@
-#include "import/row_table.h"
+#include "import/scene/row_table.h"
 
 #include "harness.h"
 

@@ -1,4 +1,4 @@
-#include "import/scene.h"
+#include "import/scene/scene.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "import/tet_mesh.h"
+#include "import/tetrahedra/tet_mesh.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "import/trs.h"
+#include "import/scene/trs.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
-/* Whether a scene keeps every promise of import/scene.h. */
+/* Whether a scene keeps every promise of import/scene/scene.h. */
 #ifndef TEST_SCENE_CHECK_H
 #define TEST_SCENE_CHECK_H
 
-#include "import/scene.h"
+#include "import/scene/scene.h"
 
 /* What is broken first, in words; NULL where all is well. */
 const char *scene_check(const sbfi_scene *scene);

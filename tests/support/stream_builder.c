@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/stream_format.h"
+#include "import/scene/stream_format.h"
 
 static void append(stream_builder *s, const void *bytes, size_t size) {
   if (s->size + size > s->capacity) {

@@ -1,7 +1,7 @@
 #include <math.h>
 
 #include "legs.h"
-#include "validate/bone_chain.h"
+#include "validate/rules/bone_chain.h"
 
 enum { BODY_BONE, LEFT, LEFT_SHIN, LEFT_FOOT, RIGHT };
 

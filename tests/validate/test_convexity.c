@@ -2,7 +2,7 @@
 
 #include "rules.h"
 #include "shapes.h"
-#include "validate/convexity.h"
+#include "validate/rules/convexity.h"
 
 static sbfi_hull_fault judge(const sbf_polygon_mesh *hull) {
   sbfi_arena arena;

@@ -3,7 +3,7 @@
 
 #include "rules.h"
 #include "shapes.h"
-#include "validate/crossing.h"
+#include "validate/rules/crossing.h"
 
 static sbfi_arena arena;
 static sbf_asset *asset;

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "rules.h"
-#include "validate/mending.h"
+#include "validate/mend/mending.h"
 
 START_TEST(test_nothing_to_do)
 {

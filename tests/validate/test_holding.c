@@ -1,5 +1,5 @@
 #include "rules.h"
-#include "validate/holding.h"
+#include "validate/rules/holding.h"
 
 START_TEST(test_weight_within_its_bounds)
 {

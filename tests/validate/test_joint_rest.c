@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "joints.h"
-#include "validate/joint_rest.h"
+#include "validate/rules/joint_rest.h"
 
 static sbfi_joint_rest rest_of(const char *inside) {
   sbf_asset *asset = rules_load(inside, false);

@@ -1,5 +1,5 @@
 #include "rules.h"
-#include "validate/key_set.h"
+#include "validate/rules/key_set.h"
 
 START_TEST(test_values_stay_with_their_keys)
 {

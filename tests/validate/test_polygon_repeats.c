@@ -1,5 +1,5 @@
 #include "rules.h"
-#include "validate/polygon_repeats.h"
+#include "validate/rules/polygon_repeats.h"
 
 START_TEST(test_whatever_order)
 {

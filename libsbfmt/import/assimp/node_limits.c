@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "import/stream_format.h"
+#include "import/scene/stream_format.h"
 #include "stream_writer.h"
 
 bool metadata_number(const struct aiMetadataEntry *entry, double *to) {

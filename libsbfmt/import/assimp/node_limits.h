@@ -6,7 +6,7 @@
 #include <assimp/scene.h> /* metadata.h does not stand by itself */
 #include <stdbool.h>
 
-/* Writes which limits are stated, then those; see import/stream_format.h. `data` may be NULL. */
+/* Writes which limits are stated, then those; see import/scene/stream_format.h. `data` may be NULL. */
 void write_limits(const struct aiMetadata *data);
 
 /* The type under which a number is stored differs between importers and versions. False where it is none. */

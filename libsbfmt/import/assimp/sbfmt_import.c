@@ -1,6 +1,7 @@
-/* sbfmt-import FILE: reads FILE with assimp and writes the scene to standard output as import/stream_format.h
- * says. A process of its own, because assimp aborts or crashes on some damaged files; the only place that
- * knows assimp. No step that welds, triangulates, splits or merges is asked for. */
+/* sbfmt-import FILE: reads FILE with assimp and writes the scene to standard output as
+ * import/scene/stream_format.h says. A process of its own, because assimp aborts or crashes on some damaged
+ * files; the only place that knows assimp. No step that welds, triangulates, splits or merges is asked for.
+ */
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "import/stream_format.h"
+#include "import/scene/stream_format.h"
 #include "node_limits.h"
 #include "stream_writer.h"
 

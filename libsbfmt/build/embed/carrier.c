@@ -1,0 +1,219 @@
+#include "build/embed/carrier.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "build/geometry/topology.h"
+#include "mechanics/level_points.h"
+#include "mechanics/vector.h"
+
+_Static_assert(sizeof(sbf_vec3) == 3 * sizeof(float), "places are compared and copied as three floats");
+
+static size_t slot_of(const sbfi_carrier *c, sbf_vec3 position) {
+  uint32_t bits[3];
+  memcpy(bits, &position, sizeof bits);
+  uint64_t mixed = bits[0] * UINT64_C(0x9e3779b97f4a7c15) ^ bits[1] * UINT64_C(0xc2b2ae3d27d4eb4f) ^
+                   bits[2] * UINT64_C(0x165667b19e3779f9);
+  size_t slot = (size_t)(mixed ^ mixed >> 29 ^ mixed >> 47) & (c->slot_count - 1);
+  const sbf_vec3 *positions = c->body->surface.positions.at;
+  while (
+      c->slots[slot] != SBFI_NO_INDEX && memcmp(&positions[c->slots[slot]], &position, sizeof position) != 0)
+    slot = (slot + 1) & (c->slot_count - 1);
+  return slot;
+}
+
+static bool hash_positions(sbfi_carrier *c, sbfi_arena *arena) {
+  uint32_t count = c->body->surface.positions.count;
+  for (c->slot_count = 16; c->slot_count < 2 * (size_t)count;) c->slot_count *= 2;
+  c->slots = sbfi_arena_allocate(arena, c->slot_count, sizeof *c->slots);
+  if (!c->slots) return false;
+  memset(c->slots, 0xff, c->slot_count * sizeof *c->slots);
+  for (uint32_t i = 0; i < count; i++) {
+    size_t slot = slot_of(c, c->body->surface.positions.at[i]);
+    if (c->slots[slot] == SBFI_NO_INDEX) c->slots[slot] = i;
+  }
+  return true;
+}
+
+static void find_extremes(sbfi_carrier *c) {
+  const sbf_vec3_list *points = &c->level->positions;
+  for (uint32_t i = 1; i < points->count; i++) {
+    const sbf_vec3 p = points->at[i];
+    for (int k = 0; k < 6; k++) {
+      const sbf_vec3 best = points->at[c->extremes[k]];
+      float here = k % 3 == 0   ? p.x
+                   : k % 3 == 1 ? p.y
+                                : p.z,
+            there = k % 3 == 0   ? best.x
+                    : k % 3 == 1 ? best.y
+                                 : best.z;
+      if (k < 3 ? here < there : here > there) c->extremes[k] = i;
+    }
+  }
+  for (int k = 0; k < 3 && points->count > 0; k++) {
+    sbfi_d3 across =
+        sbfi_d3_sub(sbfi_d3_of(points->at[c->extremes[k + 3]]), sbfi_d3_of(points->at[c->extremes[k]]));
+    if (sbfi_d3_length(across) > c->size) c->size = sbfi_d3_length(across);
+  }
+}
+
+static bool find_in_lattice(sbfi_carrier *c, sbfi_arena *arena) {
+  const sbf_uint4_list *tetrahedra = &c->level->lattice.tetrahedra;
+  if (tetrahedra->count == 0) return true;
+  return sbfi_tetrahedron_finder_make(
+      &c->lattice, c->level->positions.at, tetrahedra->at, tetrahedra->count, arena);
+}
+
+/* A body without polygons carries by its points. */
+static bool box_points(sbfi_carrier *c, sbfi_arena *arena) {
+  const sbf_vec3_list *points = &c->level->positions;
+  if (c->surface.triangle_count > 0 || points->count == 0) return true;
+  sbfi_box *boxes = sbfi_arena_allocate(arena, points->count, sizeof *boxes);
+  if (!boxes) return false;
+  for (uint32_t i = 0; i < points->count; i++) {
+    memcpy(boxes[i].low, &points->at[i], sizeof boxes[i].low);
+    memcpy(boxes[i].high, &points->at[i], sizeof boxes[i].high);
+  }
+  return sbfi_box_tree_build(&c->points, boxes, points->count, arena);
+}
+
+bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const sbf_level *level,
+    const sbfi_interior_map *interior, sbfi_arena *arena) {
+  *carrier = (sbfi_carrier){.body = body, .level = level, .interior = {SBFI_NO_INDEX, NULL}};
+  if (interior) carrier->interior = *interior;
+  find_extremes(carrier);
+  return hash_positions(carrier, arena) &&
+         sbfi_triangle_tree_build(&carrier->surface, &body->surface, arena) &&
+         find_in_lattice(carrier, arena) && box_points(carrier, arena);
+}
+
+/* A choice of four points: the weights that give the position, and how large they are. */
+typedef struct choice {
+  uint32_t points[4];
+  double weights[4], size; /* sum of squares: 1 and below inside, growing with the distance outside */
+} choice;
+
+static sbfi_d3 at_rest(const sbfi_carrier *c, uint32_t point) {
+  return sbfi_d3_of(c->level->positions.at[point]);
+}
+
+/* Weights of a position in a tetrahedron; false where that is as good as flat. */
+static bool weigh(const sbfi_carrier *c, choice *in, sbfi_d3 position) {
+  if (!sbfi_tetrahedron_weigh(c->level->positions.at, in->points, position, in->weights)) return false;
+  in->size = 0;
+  for (int k = 0; k < 4; k++) in->size += in->weights[k] * in->weights[k];
+  return true;
+}
+
+/* Tries the triangle with a fourth point; keeps it in `best` where its weights are smaller. */
+static void try_fourth(
+    const sbfi_carrier *c, const uint32_t corners[3], uint32_t fourth, sbfi_d3 position, choice *best) {
+  choice tried = {.points = {corners[0], corners[1], corners[2], fourth}};
+  if (fourth == SBFI_NO_INDEX) return;
+  /* A little smaller will not do: then the choice would hang on rounding. */
+  if (weigh(c, &tried, position) && tried.size < best->size * (1 - 1e-6)) *best = tried;
+}
+
+static bool level_corners(const sbfi_carrier *c, uint32_t triangle, uint32_t corners[3]) {
+  for (int k = 0; k < 3; k++) {
+    corners[k] = sbfi_level_point(c->level, c->surface.triangles[triangle].points[k]);
+    if (corners[k] == SBFI_NO_INDEX) return false;
+  }
+  return true;
+}
+
+static sbfi_carried written(const sbfi_carrier *c, const choice *chosen, sbfi_d3 position) {
+  sbfi_carried carried = {.outside = 0};
+  float weights[4];
+  for (int k = 0; k < 3; k++) weights[k] = (float)chosen->weights[k];
+  weights[3] = (float)(1.0 - weights[0] - weights[1] - weights[2]);
+  sbfi_d3 place = {0, 0, 0};
+  for (int k = 0; k < 4; k++) {
+    carried.points.at[k] = chosen->points[k];
+    place = sbfi_d3_add(place, sbfi_d3_scale(at_rest(c, chosen->points[k]), weights[k]));
+  }
+  carried.weights = (sbf_vec4){weights[0], weights[1], weights[2], weights[3]};
+  carried.error = (float)sbfi_d3_length(sbfi_d3_sub(place, position));
+  return carried;
+}
+
+static sbfi_carried carried_alone(uint32_t point, double error) {
+  return (sbfi_carried){{{point, point, point, point}}, {1, 0, 0, 0}, (float)error, 0};
+}
+
+static double point_distance(const void *user, uint32_t point, const double position[3]) {
+  const sbfi_carrier *c = user;
+  sbfi_d3 way = sbfi_d3_sub(at_rest(c, point), (sbfi_d3){position[0], position[1], position[2]});
+  return sbfi_d3_dot(way, way);
+}
+
+static sbfi_carried carry_by_points(const sbfi_carrier *c, sbf_vec3 position) {
+  double least = INFINITY, at[3] = {position.x, position.y, position.z};
+  uint32_t nearest = sbfi_box_tree_nearest(&c->points, at, point_distance, c, &least);
+  return carried_alone(nearest != SBFI_NO_INDEX ? nearest : 0, sqrt(least));
+}
+
+/* Without a fourth point out of the plane: the place on the triangle nearest to the vertex. */
+static sbfi_carried carried_flat(const sbfi_carrier *c, const uint32_t corners[3], sbfi_d3 position) {
+  sbfi_d3 a = at_rest(c, corners[0]), b = at_rest(c, corners[1]), d = at_rest(c, corners[2]);
+  choice flat = {.points = {corners[0], corners[1], corners[2], corners[0]}};
+  sbfi_triangle_closest((double[]){a.x, a.y, a.z}, (double[]){b.x, b.y, b.z}, (double[]){d.x, d.y, d.z},
+      (double[]){position.x, position.y, position.z}, flat.weights);
+  sbfi_carried carried = written(c, &flat, position);
+  /* What rounding left for the fourth goes to the first, which is the same point. */
+  carried.weights.x += carried.weights.w;
+  carried.weights.w = 0;
+  return carried;
+}
+
+static sbfi_carried carry_by_surface(const sbfi_carrier *c, sbf_vec3 position) {
+  const double deep = 2; /* weights of this size call for another triangle */
+  double least = INFINITY;
+  sbfi_d3 at = sbfi_d3_of(position);
+  uint32_t corners[3], triangle = sbfi_triangle_tree_nearest(&c->surface, position, &least);
+  if (triangle == SBFI_NO_INDEX || !level_corners(c, triangle, corners)) return carry_by_points(c, position);
+  choice best = {.size = INFINITY};
+  uint32_t polygon = c->surface.triangles[triangle].polygon;
+  try_fourth(c, corners, c->interior.centre, at, &best);
+  if (c->interior.polygon_points) try_fourth(c, corners, c->interior.polygon_points[polygon], at, &best);
+  if (best.size > deep && c->interior.centre != SBFI_NO_INDEX) {
+    uint32_t through[3], pierced = sbfi_triangle_tree_pierced(
+                             &c->surface, c->level->positions.at[c->interior.centre], position);
+    if (pierced != SBFI_NO_INDEX && level_corners(c, pierced, through))
+      try_fourth(c, through, c->interior.centre, at, &best);
+  }
+  for (int k = 0; k < 6 && best.size > deep; k++) try_fourth(c, corners, c->extremes[k], at, &best);
+  return best.size < INFINITY ? written(c, &best, at) : carried_flat(c, corners, at);
+}
+
+static sbfi_carried carry_by_lattice(const sbfi_carrier *c, sbf_vec3 position) {
+  sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&c->lattice, position);
+  choice in = {.size = 0};
+  memcpy(in.points, c->level->lattice.tetrahedra.at[found.tetrahedron].at, sizeof in.points);
+  sbfi_carried carried = weigh(c, &in, sbfi_d3_of(position)) ? written(c, &in, sbfi_d3_of(position))
+                                                             : carried_alone(in.points[0], found.distance);
+  carried.outside = (float)found.distance;
+  return carried;
+}
+
+sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, uint32_t likely) {
+  const sbf_vec3_list *surface = &carrier->body->surface.positions;
+  if (carrier->lattice.items) return carry_by_lattice(carrier, position);
+  uint32_t same = likely;
+  if (likely >= surface->count || memcmp(&surface->at[likely], &position, sizeof position) != 0)
+    same = surface->count ? carrier->slots[slot_of(carrier, position)] : SBFI_NO_INDEX;
+  if (same != SBFI_NO_INDEX) same = sbfi_level_point(carrier->level, same);
+  return same != SBFI_NO_INDEX ? carried_alone(same, 0) : carry_by_surface(carrier, position);
+}
+
+bool sbfi_carrier_has(const sbfi_carrier *carrier, sbf_vec3 position) {
+  return carrier->slots[slot_of(carrier, position)] != SBFI_NO_INDEX;
+}
+
+double sbfi_carrier_distance(const sbfi_carrier *carrier, sbf_vec3 position, double least) {
+  const double at[3] = {position.x, position.y, position.z};
+  if (carrier->points.node_count > 0)
+    sbfi_box_tree_nearest(&carrier->points, at, point_distance, carrier, &least);
+  sbfi_triangle_tree_nearest(&carrier->surface, position, &least);
+  return least;
+}

@@ -1,0 +1,49 @@
+/* A body's level as something that carries vertices: which of its points, with which weights. */
+#ifndef SBFI_CARRIER_H
+#define SBFI_CARRIER_H
+
+#include "build/embed/tetrahedron_finder.h"
+#include "build/geometry/triangle_tree.h"
+#include "build/springs/spring_level.h"
+
+typedef struct sbfi_carrier {
+  const sbf_soft_body *body;
+  const sbf_level *level;
+  sbfi_interior_map interior;
+  sbfi_triangle_tree surface;      /* of the body, at rest */
+  sbfi_tetrahedron_finder lattice; /* of the level's tetrahedra, where it has some */
+  sbfi_box_tree points;            /* of the level, where the body has no polygons */
+  uint32_t extremes[6];            /* level points farthest out along the axes */
+  double size;                     /* m, the longest way between two opposite ones */
+  uint32_t *slots;                 /* hash of the surface's positions, bit by bit, to their points */
+  size_t slot_count;
+} sbfi_carrier;
+
+/* `interior` may be NULL for a level that was not made by sbfi_spring_level_make. Memory of `arena`; body and
+ * level must outlive the carrier. False where memory runs out. */
+bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const sbf_level *level,
+    const sbfi_interior_map *interior, sbfi_arena *arena);
+
+typedef struct sbfi_carried {
+  sbf_uint4 points;
+  sbf_vec4 weights; /* summing to 1, and giving the vertex back but for `error` */
+  float error;      /* m; not 0 where the body has no depth beside the vertex */
+  float outside;    /* m, from the lattice, where one carries it */
+} sbfi_carried;
+
+/* How the level carries a vertex at `position`:
+ *   a surface point in the very same place (bit by bit; `likely` first) carries it alone;
+ *   a lattice by the tetrahedron around the vertex, or one near it (tetrahedron_finder.h);
+ *   else by the nearest triangle of the surface (of polygons cut as fans from their first corner) and a
+ * fourth point: the polygon's own, the centre, or the level's extremes, whichever leaves the smallest
+ * weights; and deep inside, the triangle that the ray from the centre through the vertex meets. Weights lie
+ * outside 0..1 where the vertex lies outside the four points. */
+sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, uint32_t likely);
+
+/* Whether one of the body's surface points stands in that very place, bit by bit. */
+bool sbfi_carrier_has(const sbfi_carrier *carrier, sbf_vec3 position);
+
+/* Squared distance from the body's surface if below `least`, else `least`. */
+double sbfi_carrier_distance(const sbfi_carrier *carrier, sbf_vec3 position, double least);
+
+#endif

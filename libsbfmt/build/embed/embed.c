@@ -1,0 +1,290 @@
+#include "build/embed/embed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "build/geometry/topology.h"
+
+/* One body's share in one vertex. */
+typedef struct share {
+  uint32_t vertex, body;
+  float blend;
+} share;
+
+typedef struct work {
+  sbf_asset *asset;
+  const sbfi_embed_target *targets;
+  uint32_t target_count;
+  int32_t derivation;
+  sbfi_embed_report *report;
+  sbfi_arena *scratch;
+  sbfi_carrier *carriers; /* (target_count) */
+  uint32_t *finest;       /* (bodies) first target of each; SBFI_NO_INDEX: it has none */
+  uint32_t *bone_bodies;  /* (bones) first body of the bone or of its nearest ancestor; SBFI_NO_INDEX: none */
+  uint32_t *next_of_bone; /* (bodies) the next body on the same bone */
+  sbfi_array shares;      /* of the mesh at hand, in vertex order */
+} work;
+
+static bool index_bodies(work *w) {
+  uint32_t bodies = w->asset->soft_bodies.count, bones = w->asset->bones.count;
+  w->finest = sbfi_arena_allocate(w->scratch, (size_t)bodies + 1, sizeof(uint32_t));
+  w->next_of_bone = sbfi_arena_allocate(w->scratch, (size_t)bodies + 1, sizeof(uint32_t));
+  w->bone_bodies = sbfi_arena_allocate(w->scratch, (size_t)bones + 1, sizeof(uint32_t));
+  if (!w->finest || !w->next_of_bone || !w->bone_bodies) return false;
+  memset(w->finest, 0xff, bodies * sizeof(uint32_t));
+  memset(w->next_of_bone, 0xff, bodies * sizeof(uint32_t));
+  memset(w->bone_bodies, 0xff, bones * sizeof(uint32_t));
+  for (uint32_t t = w->target_count; t-- > 0;) w->finest[w->targets[t].body] = t;
+  for (uint32_t b = bodies; b-- > 0;) {
+    int32_t bone = w->asset->soft_bodies.at[b].bone;
+    if (bone == SBF_NONE || w->finest[b] == SBFI_NO_INDEX) continue;
+    w->next_of_bone[b] = w->bone_bodies[bone];
+    w->bone_bodies[bone] = b;
+  }
+  /* Parents stand before their children. */
+  for (uint32_t i = 0; i < bones; i++)
+    if (w->bone_bodies[i] == SBFI_NO_INDEX && w->asset->bones.at[i].parent != SBF_NONE)
+      w->bone_bodies[i] = w->bone_bodies[w->asset->bones.at[i].parent];
+  return true;
+}
+
+static double distance_to(const work *w, uint32_t body, sbf_vec3 position, double least) {
+  return sbfi_carrier_distance(&w->carriers[w->finest[body]], position, least);
+}
+
+/* Of the bodies on one bone, the nearest. */
+static uint32_t choose_on_bone(const work *w, uint32_t first, sbf_vec3 position) {
+  if (first == SBFI_NO_INDEX || w->next_of_bone[first] == SBFI_NO_INDEX) return first;
+  double least = INFINITY;
+  uint32_t chosen = first;
+  for (uint32_t b = first; b != SBFI_NO_INDEX; b = w->next_of_bone[b]) {
+    double d = distance_to(w, b, position, least);
+    if (!(d < least)) continue;
+    least = d;
+    chosen = b;
+  }
+  return chosen;
+}
+
+static uint32_t choose_nearest(const work *w, sbf_vec3 position, uint32_t likely) {
+  double least = INFINITY;
+  uint32_t chosen = SBFI_NO_INDEX;
+  /* The last vertex's body first: it bounds the search in the others. Of equals the lowest wins. */
+  if (likely != SBFI_NO_INDEX) {
+    least = distance_to(w, likely, position, least);
+    chosen = likely;
+  }
+  for (uint32_t b = 0; b < w->asset->soft_bodies.count; b++) {
+    if (b == likely || w->finest[b] == SBFI_NO_INDEX) continue;
+    double d = distance_to(w, b, position, least);
+    if (!(d < least) && !(d == least && chosen == likely && b < likely)) continue;
+    least = d;
+    chosen = b;
+  }
+  return chosen;
+}
+
+/* Adds a body's share, joined with what it has in that vertex already; `begin` is the vertex's first. */
+static bool add_share(work *w, size_t begin, uint32_t vertex, uint32_t body, float blend) {
+  share *shares = w->shares.at;
+  for (size_t i = begin; i < w->shares.count; i++) {
+    if (shares[i].body != body) continue;
+    shares[i].blend += blend;
+    return true;
+  }
+  return sbfi_array_append(&w->shares, &(share){vertex, body, blend}, 1);
+}
+
+static bool share_by_skin(work *w, const sbf_render_mesh *mesh) {
+  uint32_t influence = 0;
+  for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
+    size_t begin = w->shares.count;
+    double sum = 0;
+    for (uint32_t end = influence + mesh->skin->influence_counts.at[v]; influence < end; influence++) {
+      uint32_t first = w->bone_bodies[mesh->skin->bones.at[influence]];
+      float weight = mesh->skin->weights.at[influence];
+      if (first == SBFI_NO_INDEX || !(weight > 0)) continue;
+      uint32_t body = choose_on_bone(w, first, mesh->mesh.positions.at[v]);
+      if (!add_share(w, begin, v, body, weight)) return false;
+      sum += weight;
+    }
+    share *shares = w->shares.at;
+    for (size_t i = begin; i < w->shares.count; i++) {
+      double blend = shares[i].blend / sum;
+      shares[i].blend = blend < 1 ? (float)blend : 1;
+    }
+  }
+  return true;
+}
+
+static bool is_body_of(const work *w, uint32_t body, const sbf_vec3_list *positions) {
+  for (uint32_t v = 0; v < positions->count; v++)
+    if (!sbfi_carrier_has(&w->carriers[w->finest[body]], positions->at[v])) return false;
+  return true;
+}
+
+/* The body that the mesh shows; SBFI_NO_INDEX: none as a whole. */
+static uint32_t find_body_of(const work *w, const sbf_render_mesh *mesh) {
+  for (uint32_t b = 0; b < w->asset->soft_bodies.count; b++) {
+    bool possible = mesh->bone == SBF_NONE || mesh->bone == w->asset->soft_bodies.at[b].bone;
+    if (possible && w->finest[b] != SBFI_NO_INDEX && is_body_of(w, b, &mesh->mesh.positions)) return b;
+  }
+  return SBFI_NO_INDEX;
+}
+
+static bool share_whole(work *w, const sbf_render_mesh *mesh) {
+  uint32_t own = find_body_of(w, mesh), likely = own;
+  for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
+    sbf_vec3 position = mesh->mesh.positions.at[v];
+    if (own != SBFI_NO_INDEX)
+      likely = own;
+    else if (mesh->bone != SBF_NONE)
+      likely = choose_on_bone(w, w->bone_bodies[mesh->bone], position);
+    else
+      likely = choose_nearest(w, position, likely);
+    if (likely != SBFI_NO_INDEX && !sbfi_array_append(&w->shares, &(share){v, likely, 1}, 1)) return false;
+  }
+  return true;
+}
+
+static bool has_embedding(const sbf_level *level, int32_t mesh) {
+  for (uint32_t i = 0; i < level->embeddings.count; i++)
+    if (level->embeddings.at[i].render_mesh == mesh) return true;
+  return false;
+}
+
+/* Gives the level one more embedding. The list has room: see make_room. */
+static sbf_embedding *add_embedding(sbf_level *level, int32_t mesh, int32_t derivation) {
+  sbf_embedding *list = (sbf_embedding *)(uintptr_t)level->embeddings.at;
+  sbf_embedding *embedding = &list[level->embeddings.count++];
+  sbf_embedding_init(embedding);
+  embedding->render_mesh = mesh;
+  embedding->derived = derivation;
+  return embedding;
+}
+
+/* Room for an embedding of each mesh and of the surface, in memory that may be written to. */
+static bool make_room(const work *w, sbf_level *level) {
+  uint32_t count = level->embeddings.count;
+  sbf_embedding *list =
+      sbf_asset_allocate(w->asset, (size_t)count + w->asset->render_meshes.count + 1, sizeof *list);
+  if (!list) return false;
+  if (count) memcpy(list, level->embeddings.at, count * sizeof *list);
+  level->embeddings.at = list;
+  return true;
+}
+
+/* Embeds the vertices of `list` (all of them in order where `whole`) in one target's level. */
+static bool embed_in(const work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
+    const share *list, uint32_t count, bool count_it) {
+  sbf_level *level = w->targets[target].level;
+  if (count == 0 || level->positions.count == 0 || has_embedding(level, mesh)) return true;
+  bool whole = count == positions->count, blended = false;
+  for (uint32_t i = 0; i < count; i++) blended |= list[i].blend != 1;
+  uint32_t *vertices = whole ? NULL : sbf_asset_allocate(w->asset, count, sizeof *vertices);
+  sbf_uint4 *points = sbf_asset_allocate(w->asset, count, sizeof *points);
+  sbf_vec4 *weights = sbf_asset_allocate(w->asset, count, sizeof *weights);
+  float *blends = blended ? sbf_asset_allocate(w->asset, count, sizeof *blends) : NULL;
+  if ((!whole && !vertices) || !points || !weights || (blended && !blends)) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    uint32_t v = list[i].vertex;
+    sbfi_carried carried = sbfi_carrier_carry(&w->carriers[target], positions->at[v], v);
+    points[i] = carried.points;
+    weights[i] = carried.weights;
+    if (vertices) vertices[i] = v;
+    if (blends) blends[i] = list[i].blend;
+    if (count_it && carried.outside > w->report->farthest) w->report->farthest = carried.outside;
+    w->report->far += count_it && level->cell > 0 && carried.outside > level->cell;
+    w->report->flat += count_it && carried.error > 1e-3f * (float)w->carriers[target].size;
+  }
+  sbf_embedding *embedding = add_embedding(level, mesh, w->derivation);
+  embedding->vertices = (sbf_u32_list){vertices, whole ? 0 : count};
+  embedding->points = (sbf_uint4_list){points, count};
+  embedding->weights = (sbf_vec4_list){weights, count};
+  embedding->blends = (sbf_f32_list){blends, blends ? count : 0};
+  return true;
+}
+
+/* Hands the shares of a mesh to their bodies' levels, body by body. */
+static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions) {
+  uint32_t bodies = w->asset->soft_bodies.count, count = (uint32_t)w->shares.count;
+  const share *shares = w->shares.at;
+  uint32_t *begins = sbfi_arena_allocate(w->scratch, (size_t)bodies + 2, sizeof *begins);
+  share *sorted = sbfi_arena_allocate(w->scratch, (size_t)count + 1, sizeof *sorted);
+  if (!begins || !sorted) return false;
+  for (uint32_t i = 0; i < count; i++) begins[shares[i].body + 2]++;
+  for (uint32_t b = 0; b < bodies; b++) begins[b + 2] += begins[b + 1];
+  for (uint32_t i = 0; i < count; i++) sorted[begins[shares[i].body + 1]++] = shares[i];
+  for (uint32_t t = 0; t < w->target_count; t++) {
+    uint32_t body = w->targets[t].body;
+    if (!embed_in(w, t, mesh, positions, sorted + begins[body], begins[body + 1] - begins[body],
+            w->finest[body] == t))
+      return false;
+  }
+  for (uint32_t i = 0; i < count; i++)
+    w->report->vertices += i == 0 || shares[i].vertex != shares[i - 1].vertex;
+  return true;
+}
+
+static bool embed_surfaces(work *w) {
+  for (uint32_t t = 0; t < w->target_count; t++) {
+    const sbf_vec3_list *positions = &w->asset->soft_bodies.at[w->targets[t].body].surface.positions;
+    share *all = sbfi_arena_allocate(w->scratch, (size_t)positions->count + 1, sizeof *all);
+    if (!all) return false;
+    for (uint32_t v = 0; v < positions->count; v++) all[v] = (share){v, 0, 1};
+    if (!embed_in(w, t, SBF_NONE, positions, all, positions->count, false)) return false;
+  }
+  return true;
+}
+
+static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
+  const sbf_render_mesh *mesh = &w->asset->render_meshes.at[number];
+  if (mesh->mesh.positions.count == 0) return true;
+  w->shares.count = 0;
+  uint32_t flat_before = w->report->flat, far_before = w->report->far;
+  if (!(mesh->skin ? share_by_skin(w, mesh) : share_whole(w, mesh))) return false;
+  if (!hand_out(w, (int32_t)number, &mesh->mesh.positions)) return false;
+  sbf_diagnostic finding;
+  if (w->shares.count == 0) {
+    sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_NO_BODY,
+        "no soft body carries render mesh \"%s\": give its bones (or one above them) a section", mesh->name);
+    sbfi_report(reporter, &finding);
+  } else if (w->report->flat > flat_before) {
+    sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_FLAT,
+        "%u vertices of render mesh \"%s\" lie off a flat body and are carried at its surface",
+        (unsigned)(w->report->flat - flat_before), mesh->name);
+    sbfi_report(reporter, &finding);
+  }
+  if (w->report->far > far_before) {
+    sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_FAR,
+        "%u vertices of render mesh \"%s\" lie farther than a cell outside the lattice that carries them, "
+        "the "
+        "farthest of all %.3g m",
+        (unsigned)(w->report->far - far_before), mesh->name, w->report->farthest);
+    sbfi_report(reporter, &finding);
+  }
+  return true;
+}
+
+bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t target_count, int32_t derivation,
+    sbfi_reporter *reporter, sbfi_embed_report *report, sbfi_arena *scratch) {
+  work w = {.asset = asset,
+      .targets = targets,
+      .target_count = target_count,
+      .derivation = derivation,
+      .report = report,
+      .scratch = scratch};
+  *report = (sbfi_embed_report){0, 0, 0, 0};
+  if (target_count == 0) return true;
+  sbfi_array_init(&w.shares, &scratch->allocator, sizeof(share));
+  w.carriers = sbfi_arena_allocate(scratch, target_count, sizeof *w.carriers);
+  bool good = w.carriers && index_bodies(&w);
+  for (uint32_t t = 0; good && t < target_count; t++)
+    good = make_room(&w, targets[t].level) &&
+           sbfi_carrier_make(&w.carriers[t], &asset->soft_bodies.at[targets[t].body], targets[t].level,
+               targets[t].interior, scratch);
+  good = good && embed_surfaces(&w);
+  for (uint32_t m = 0; good && m < asset->render_meshes.count; m++) good = embed_mesh(&w, m, reporter);
+  sbfi_array_free(&w.shares);
+  return good;
+}

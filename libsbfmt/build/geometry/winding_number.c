@@ -1,0 +1,152 @@
+#include "build/geometry/winding_number.h"
+
+#include "build/geometry/box_tree.h"
+
+enum { MOST_WAITING = 128 };
+static const double pi = 3.14159265358979323846, far_radii = 2;
+
+double sbfi_angle(double y, double x) {
+  double along = fabs(x), across = fabs(y);
+  bool steep = across > along;
+  double high = steep ? across : along;
+  if (high == 0) return 0;
+  double z = (steep ? along : across) / high;
+  /* The angle is halved twice, and the rest is small enough for a short series. */
+  z = z / (1 + sqrt(1 + z * z));
+  z = z / (1 + sqrt(1 + z * z));
+  double q = z * z, series = 1.0 / 13;
+  for (int k = 11; k > 0; k -= 2) series = 1.0 / k - q * series;
+  double angle = 4 * z * series;
+  if (steep) angle = pi / 2 - angle;
+  if (x < 0) angle = pi - angle;
+  return y < 0 ? -angle : angle;
+}
+
+static void corners_of(const sbfi_soup *soup, uint32_t triangle, sbfi_d3 corners[3]) {
+  for (int k = 0; k < 3; k++) corners[k] = soup->points[soup->triangles[triangle][k]];
+}
+
+static sbfi_d3 twice_area(const sbfi_d3 c[3]) {
+  return sbfi_d3_cross(sbfi_d3_sub(c[1], c[0]), sbfi_d3_sub(c[2], c[0]));
+}
+
+/* Half the solid angle (van Oosterom, Strackee 1983). */
+static double half_angle(const sbfi_soup *soup, uint32_t triangle, sbfi_d3 point) {
+  sbfi_d3 corners[3];
+  double lengths[3];
+  corners_of(soup, triangle, corners);
+  for (int k = 0; k < 3; k++) {
+    corners[k] = sbfi_d3_sub(corners[k], point);
+    lengths[k] = sbfi_d3_length(corners[k]);
+  }
+  double volume = sbfi_d3_dot(corners[0], sbfi_d3_cross(corners[1], corners[2]));
+  double rest = lengths[0] * lengths[1] * lengths[2] + sbfi_d3_dot(corners[0], corners[1]) * lengths[2] +
+                sbfi_d3_dot(corners[1], corners[2]) * lengths[0] +
+                sbfi_d3_dot(corners[2], corners[0]) * lengths[1];
+  /* In the triangle itself both sides have a say. */
+  return volume != 0 ? sbfi_angle(volume, rest) : 0;
+}
+
+/* Sums of a node from its children or triangles: the middle still times the weight. Children stand behind
+ * their parents, so one walk from the end meets them first. */
+static void sum_node(const sbfi_soup *soup, const sbfi_winding_tree *w, const sbfi_box_node *from,
+    uint32_t place, double *weights) {
+  sbfi_d3 moment = {0, 0, 0};
+  sbfi_winding_node *to = &w->nodes[place];
+  *to = (sbfi_winding_node){.first = from->first, .count = from->count};
+  weights[place] = 0;
+  for (uint32_t i = 0; i < from->count; i++) {
+    sbfi_d3 corners[3];
+    corners_of(soup, w->triangles[from->first + i], corners);
+    sbfi_d3 area = twice_area(corners), sum = sbfi_d3_add(corners[0], sbfi_d3_add(corners[1], corners[2]));
+    double size = sbfi_d3_length(area);
+    to->area = sbfi_d3_add(to->area, sbfi_d3_scale(area, 0.5));
+    moment = sbfi_d3_add(moment, sbfi_d3_scale(sum, size / 3));
+    weights[place] += size;
+  }
+  for (uint32_t child = from->first; from->count == 0 && child < from->first + 2; child++) {
+    to->area = sbfi_d3_add(to->area, w->nodes[child].area);
+    moment = sbfi_d3_add(moment, sbfi_d3_scale(w->nodes[child].middle, weights[child]));
+    weights[place] += weights[child];
+  }
+  sbfi_d3 low = {from->box.low[0], from->box.low[1], from->box.low[2]};
+  sbfi_d3 high = {from->box.high[0], from->box.high[1], from->box.high[2]};
+  to->middle = weights[place] > 0 ? sbfi_d3_scale(moment, 1 / weights[place])
+                                  : sbfi_d3_scale(sbfi_d3_add(low, high), 0.5);
+  /* The farthest corner of the box. */
+  sbfi_d3 reach = {fmax(high.x - to->middle.x, to->middle.x - low.x),
+      fmax(high.y - to->middle.y, to->middle.y - low.y), fmax(high.z - to->middle.z, to->middle.z - low.z)};
+  to->far2 = far_radii * far_radii * sbfi_d3_dot(reach, reach);
+}
+
+static void box_of(const sbfi_soup *soup, uint32_t triangle, sbfi_box *box) {
+  for (int k = 0; k < 3; k++) {
+    sbfi_d3 p = soup->points[soup->triangles[triangle][k]];
+    /* Places come from single precision, so nothing is lost. */
+    const float at[3] = {(float)p.x, (float)p.y, (float)p.z};
+    for (int axis = 0; axis < 3; axis++) {
+      if (k == 0 || at[axis] < box->low[axis]) box->low[axis] = at[axis];
+      if (k == 0 || at[axis] > box->high[axis]) box->high[axis] = at[axis];
+    }
+  }
+}
+
+/* Over the soup's triangles from `first` on. */
+static bool make_tree(
+    sbfi_winding_tree *made, const sbfi_soup *soup, uint32_t first, uint32_t end, sbfi_arena *arena) {
+  uint32_t count = end - first;
+  if (count == 0) return true;
+  sbfi_box_tree tree;
+  sbfi_box *boxes = sbfi_arena_allocate(arena, count, sizeof *boxes);
+  if (!boxes) return false;
+  for (uint32_t t = 0; t < count; t++) box_of(soup, first + t, &boxes[t]);
+  if (!sbfi_box_tree_build(&tree, boxes, count, arena)) return false;
+  for (uint32_t t = 0; t < count; t++) tree.items[t] += first;
+  double *weights = sbfi_arena_allocate(arena, tree.node_count, sizeof *weights);
+  *made = (sbfi_winding_tree){
+      sbfi_arena_allocate(arena, tree.node_count, sizeof *made->nodes), tree.items, tree.node_count};
+  if (!weights || !made->nodes) return false;
+  for (uint32_t n = tree.node_count; n-- > 0;) sum_node(soup, made, &tree.nodes[n], n, weights);
+  return true;
+}
+
+bool sbfi_winding_make(sbfi_winding *winding, const sbfi_soup *soup, sbfi_arena *arena) {
+  uint32_t surface = soup->triangle_count, all = surface + soup->cap_count;
+  *winding = (sbfi_winding){.soup = soup};
+  return make_tree(&winding->closed, soup, 0, all, arena) &&
+         make_tree(&winding->caps, soup, surface, all, arena);
+}
+
+static double number_of(const sbfi_soup *soup, const sbfi_winding_tree *tree, sbfi_d3 point) {
+  uint32_t waiting[MOST_WAITING], waiting_count = 0;
+  double halves = 0, dipoles = 0;
+  if (tree->node_count > 0) waiting[waiting_count++] = 0;
+  while (waiting_count > 0) {
+    const sbfi_winding_node *node = &tree->nodes[waiting[--waiting_count]];
+    sbfi_d3 way = sbfi_d3_sub(node->middle, point);
+    double squared = sbfi_d3_dot(way, way);
+    if (squared > node->far2) {
+      dipoles += sbfi_d3_dot(node->area, way) / (squared * sqrt(squared));
+    } else if (node->count > 0) {
+      for (uint32_t i = 0; i < node->count; i++)
+        halves += half_angle(soup, tree->triangles[node->first + i], point);
+    } else {
+      waiting[waiting_count++] = node->first + 1;
+      waiting[waiting_count++] = node->first;
+    }
+  }
+  return (2 * halves + dipoles) / (4 * pi);
+}
+
+int sbfi_winding_of_closed(const sbfi_winding *winding, sbfi_d3 point) {
+  return (int)floor(number_of(winding->soup, &winding->closed, point) + 0.5);
+}
+
+double sbfi_winding_of_caps(const sbfi_winding *winding, sbfi_d3 point) {
+  return number_of(winding->soup, &winding->caps, point);
+}
+
+bool sbfi_winding_inside(int closed, double caps) {
+  /* On a single sheet it is a half: that is not inside, however it is rounded. */
+  return fabs(closed - caps) > 0.5001;
+}

@@ -1,0 +1,160 @@
+#include "build/lattice/lattice.h"
+
+#include <math.h>
+
+#include "build/lattice/lattice_crossings.h"
+#include "build/lattice/lattice_limbs.h"
+#include "build/lattice/lattice_signs.h"
+
+static bool go_on(sbfi_lattice_progress progress, double done) {
+  return !progress.call || progress.call(progress.user, done);
+}
+
+/* Where the surface cuts an edge with unlike ends: of several places that nearest to the outer end, so that
+ * all of the surface is in. */
+static void place_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_lattice_cuts *cuts) {
+  const sbfi_lattice_crossing *at = crossings->at;
+  for (size_t i = 0; i < crossings->count; i++) {
+    size_t slot = sbfi_lattice_cuts_slot(cuts, at[i].edge);
+    if (cuts->edges[slot] != at[i].edge) continue;
+    float *share = &cuts->shares[slot];
+    bool outwards = inside[at[i].edge >> 3] & SBFI_LATTICE_INSIDE;
+    if (*share < 0 || (outwards ? at[i].share > *share : at[i].share < *share)) *share = at[i].share;
+  }
+}
+
+/* Through a hole: where the winding number passes a half. */
+static float bisect(const sbfi_lattice_grid *grid, const sbfi_winding *winding, uint32_t edge, bool inside) {
+  enum { ROUNDS = 12 };
+  double low = 0, high = 1;
+  int32_t at[3];
+  const int *way = sbfi_lattice_ways[edge & 7];
+  sbfi_lattice_coordinates(grid, edge >> 3, at);
+  for (int round = 0; round < ROUNDS; round++) {
+    double share = (low + high) / 2;
+    sbfi_d3 place = {at[0] + share * way[0], at[1] + share * way[1], at[2] + share * way[2]};
+    sbfi_d3 point = sbfi_lattice_place(grid, place);
+    if (sbfi_winding_inside(sbfi_winding_of_closed(winding, point), sbfi_winding_of_caps(winding, point)) ==
+        inside)
+      low = share;
+    else
+      high = share;
+  }
+  return (float)((low + high) / 2);
+}
+
+static uint32_t bisect_cuts(const sbfi_lattice_grid *grid, const sbfi_winding *winding, const uint8_t *inside,
+    sbfi_lattice_cuts *cuts) {
+  uint32_t count = 0;
+  for (size_t s = 0; s < cuts->slot_count; s++) {
+    if (cuts->edges[s] == UINT32_MAX || cuts->shares[s] >= 0) continue;
+    cuts->shares[s] = bisect(grid, winding, cuts->edges[s], inside[cuts->edges[s] >> 3] != 0);
+    count++;
+  }
+  return count;
+}
+
+/* A forced node is not inside by right: cuts keep so far from it that it is not warped away. */
+static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_lattice_cuts *cuts) {
+  for (size_t s = 0; s < cuts->slot_count; s++) {
+    if (cuts->edges[s] == UINT32_MAX) continue;
+    uint32_t edge = cuts->edges[s], owner = edge >> 3;
+    uint32_t other = (uint32_t)((int64_t)owner + grid->steps[sbfi_lattice_kind(grid, owner)][edge & 7]);
+    float least = (float)sbfi_lattice_least_share((int)(edge & 7)), share = cuts->shares[s];
+    if (inside[owner] & SBFI_LATTICE_FORCED) cuts->shares[s] = share < least ? least : share;
+    if (inside[other] & SBFI_LATTICE_FORCED)
+      cuts->shares[s] = share < 0 || share > 1 - least ? 1 - least : share;
+  }
+}
+
+static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *winding,
+    sbfi_lattice_progress progress, sbfi_arena *arena, sbfi_array *crossings, sbfi_arena *scratch) {
+  sbfi_lattice_grid grid;
+  sbfi_lattice_cuts cuts;
+  const sbfi_soup *soup = winding->soup;
+  if (!sbfi_lattice_grid_fit(&grid, soup->low, soup->high, lattice->cell)) return SBFI_LATTICE_TOO_FINE;
+  uint8_t *cut = sbfi_arena_allocate(scratch, grid.node_count, 1);
+  uint8_t *inside = sbfi_arena_allocate(scratch, grid.node_count, 1);
+  if (!cut || !inside) return SBFI_LATTICE_NO_MEMORY;
+  if (!go_on(progress, 0)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_lattice_cross(&grid, soup, cut, crossings)) return SBFI_LATTICE_NO_MEMORY;
+  if (!go_on(progress, 0.1)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_lattice_signs(&grid, winding, cut, inside, scratch)) return SBFI_LATTICE_NO_MEMORY;
+  if (!go_on(progress, 0.4)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_lattice_keep_limbs(&grid, winding, crossings, inside, &lattice->forced_count, scratch))
+    return SBFI_LATTICE_NO_MEMORY;
+  if (!sbfi_lattice_cuts_find(&cuts, &grid, inside, scratch)) return SBFI_LATTICE_NO_MEMORY;
+  place_cuts(crossings, inside, &cuts);
+  if (lattice->forced_count > 0) widen_forced(&grid, inside, &cuts);
+  lattice->dim_count = bisect_cuts(&grid, winding, inside, &cuts);
+  for (uint32_t n = 0; n < grid.node_count && lattice->forced_count > 0; n++)
+    inside[n] &= SBFI_LATTICE_INSIDE;
+  if (!go_on(progress, 0.6)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_lattice_stuff(&grid, inside, &cuts, &lattice->made, arena, scratch))
+    return SBFI_LATTICE_NO_MEMORY;
+  return go_on(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
+}
+
+sbfi_lattice_outcome sbfi_lattice_make(sbfi_lattice *lattice, const sbfi_winding *winding, double cell,
+    sbfi_lattice_progress progress, sbfi_arena *arena) {
+  *lattice = (sbfi_lattice){.cell = cell};
+  if (winding->soup->triangle_count == 0) return SBFI_LATTICE_MADE;
+  sbfi_arena scratch;
+  sbfi_array crossings;
+  sbfi_arena_init(&scratch, &arena->allocator, 0);
+  sbfi_array_init(&crossings, &arena->allocator, sizeof(sbfi_lattice_crossing));
+  sbfi_lattice_outcome outcome = make(lattice, winding, progress, arena, &crossings, &scratch);
+  sbfi_array_free(&crossings);
+  sbfi_arena_free(&scratch);
+  return outcome;
+}
+
+/* How far a count is off, as a factor of at least 1. */
+static double misses(uint32_t count, uint32_t elements) {
+  double ratio = (count + 1.0) / (elements + 1.0);
+  return ratio < 1 ? 1 / ratio : ratio;
+}
+
+/* Cube root by Newton's steps, from above. */
+static double cube_root(double x) {
+  double root = x > 1 ? x : 1;
+  for (int step = 0; step < 200; step++) {
+    double next = (2 * root + x / (root * root)) / 3;
+    if (!(next < root)) break;
+    root = next;
+  }
+  return root;
+}
+
+sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_winding *winding,
+    uint32_t elements, sbfi_lattice_progress progress, sbfi_arena *arena) {
+  enum { ROUNDS = 8 };
+  const double near_enough = 1.03;
+  const sbfi_soup *soup = winding->soup;
+  sbfi_d3 size = sbfi_d3_sub(soup->high, soup->low);
+  double largest = fmax(size.x, fmax(size.y, size.z));
+  /* Twelve tetrahedra fill a cube. A third of the box is a fair guess at what a body fills of it. */
+  double volume = size.x * size.y * size.z / 3, cell = largest / 16;
+  *lattice = (sbfi_lattice){.cell = cell};
+  if (soup->triangle_count == 0) return SBFI_LATTICE_MADE;
+  if (volume > 0) cell = fmin(cell, cube_root(12 * volume / elements));
+  double best_cell = cell, best = INFINITY;
+  sbfi_arena trial;
+  for (int round = 0; round < ROUNDS && best > near_enough; round++) {
+    sbfi_arena_init(&trial, &arena->allocator, 0);
+    sbfi_lattice_outcome outcome =
+        sbfi_lattice_make(lattice, winding, cell, (sbfi_lattice_progress){NULL, NULL}, &trial);
+    uint32_t count = lattice->made.count;
+    sbfi_arena_free(&trial);
+    if (outcome != SBFI_LATTICE_MADE) return outcome;
+    if (!go_on(progress, round / (ROUNDS + 1.0))) return SBFI_LATTICE_CANCELLED;
+    if (misses(count, elements) < best) {
+      best = misses(count, elements);
+      best_cell = cell;
+    }
+    /* Nothing at all: the body is thinner than the cell. */
+    double ratio = count ? (double)count / elements : 1.0 / 8;
+    cell *= cube_root(ratio < 1.0 / 64 ? 1.0 / 64 : ratio > 64 ? 64 : ratio);
+  }
+  return sbfi_lattice_make(lattice, winding, best_cell, progress, arena);
+}

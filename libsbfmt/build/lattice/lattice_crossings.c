@@ -1,0 +1,131 @@
+#include "build/lattice/lattice_crossings.h"
+
+/* A cut so near to a node (as a share of the edge) is a cut at the node. Places in single precision are off
+ * by less. */
+static const double at_node = 1e-5;
+
+typedef struct work {
+  const sbfi_lattice_grid *grid;
+  uint8_t *cut;
+  sbfi_array *crossings;
+  uint32_t points[3];            /* of the triangle at hand */
+  double at[3][3];               /* in grid coordinates */
+  double across[3][2], along[3]; /* seen along the lines of the way at hand */
+  bool is_cap, good;
+} work;
+
+static void add(work *w, int way, const int32_t at[3], double share) {
+  uint32_t node = sbfi_lattice_node(w->grid, at[0], at[1], at[2]);
+  sbfi_lattice_crossing crossing = {8 * node + (uint32_t)way, (float)share};
+  w->cut[node] |= (uint8_t)(1u << way);
+  if (!w->is_cap && !sbfi_array_append(w->crossings, &crossing, 1)) w->good = false;
+}
+
+/* A cut of the line at `place` along it; `base` is a node of the line with `along` 0 or 1. */
+static void add_on_line(work *w, int way, const int32_t base[3], double step, double place) {
+  int32_t at[3], steps = (int32_t)floor(place / step);
+  double share = place / step - steps;
+  for (int k = 0; k < 3; k++) at[k] = base[k] + steps * sbfi_lattice_ways[way][k];
+  add(w, way, at, share);
+  if (share >= at_node && share <= 1 - at_node) return;
+  int32_t other = share < at_node ? -1 : 1;
+  for (int k = 0; k < 3; k++) at[k] += other * sbfi_lattice_ways[way][k];
+  add(w, way, at, share < at_node ? 1 : 0);
+}
+
+/* On which side of a triangle's side, as seen along the line, (u, v) lies. The ends are taken in the order of
+ * their numbers, so that two triangles that share the side agree to the bit. */
+static double side_of(const work *w, int from, int to, double u, double v) {
+  bool swap = w->points[from] > w->points[to];
+  const double *a = w->across[swap ? to : from], *b = w->across[swap ? from : to];
+  double side = (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0]);
+  return swap ? -side : side;
+}
+
+/* Where the triangle cuts the line at (u, v), if it does. */
+static bool meet(const work *w, double u, double v, double *place) {
+  double c = side_of(w, 0, 1, u, v), a = side_of(w, 1, 2, u, v), b = side_of(w, 2, 0, u, v);
+  bool within = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
+  double sum = a + b + c;
+  if (!within || sum == 0) return false;
+  *place = (a * w->along[0] + b * w->along[1] + c * w->along[2]) / sum;
+  return true;
+}
+
+static double least_of(double p[3][2], int k) {
+  double least = p[0][k] < p[1][k] ? p[0][k] : p[1][k];
+  return p[2][k] < least ? p[2][k] : least;
+}
+
+static double most_of(double p[3][2], int k) {
+  double most = p[0][k] > p[1][k] ? p[0][k] : p[1][k];
+  return p[2][k] > most ? p[2][k] : most;
+}
+
+/* The first of the numbers with the remainder (0 or 1) by 2 that is not below `least`. */
+static int32_t first_from(double least, int32_t remainder) {
+  return 2 * (int32_t)ceil((least - remainder) / 2) + remainder;
+}
+
+/* All lines of one way whose (u, v) have the remainder. */
+static void cross_lines(work *w, int way, int32_t remainder) {
+  bool is_long = way < SBFI_LATTICE_LONG_EDGES;
+  const int *go = sbfi_lattice_ways[way];
+  int32_t u_first = first_from(least_of(w->across, 0), remainder);
+  int32_t v_first = first_from(least_of(w->across, 1), remainder);
+  double u_most = most_of(w->across, 0), v_most = most_of(w->across, 1), place;
+  for (int32_t v = v_first; v <= v_most; v += 2) {
+    for (int32_t u = u_first; u <= u_most; u += 2) {
+      if (!meet(w, u, v, &place)) continue;
+      if (is_long) {
+        int32_t base[3];
+        base[way] = remainder;
+        base[(way + 1) % 3] = u;
+        base[(way + 2) % 3] = v;
+        add_on_line(w, way, base, 2, place - remainder);
+      } else {
+        /* u and v are x and y where the line passes z = 0. */
+        int32_t steps = (int32_t)floor(place);
+        const int32_t base[3] = {u + steps * go[0], v + steps * go[1], steps};
+        add_on_line(w, way, base, 1, place - steps);
+      }
+    }
+  }
+}
+
+static void cross_triangle(work *w) {
+  for (int way = 0; way < SBFI_LATTICE_LONG_EDGES; way++) {
+    for (int k = 0; k < 3; k++) {
+      w->along[k] = w->at[k][way];
+      w->across[k][0] = w->at[k][(way + 1) % 3];
+      w->across[k][1] = w->at[k][(way + 2) % 3];
+    }
+    cross_lines(w, way, 0);
+    cross_lines(w, way, 1);
+  }
+  for (int way = SBFI_LATTICE_LONG_EDGES; way < SBFI_LATTICE_EDGES; way++) {
+    const int *go = sbfi_lattice_ways[way];
+    for (int k = 0; k < 3; k++) {
+      w->along[k] = w->at[k][2];
+      w->across[k][0] = w->at[k][0] - go[0] * w->at[k][2];
+      w->across[k][1] = w->at[k][1] - go[1] * w->at[k][2];
+    }
+    cross_lines(w, way, 0);
+  }
+}
+
+bool sbfi_lattice_cross(
+    const sbfi_lattice_grid *grid, const sbfi_soup *soup, uint8_t *cut, sbfi_array *crossings) {
+  work w = {.grid = grid, .cut = cut, .crossings = crossings, .good = true};
+  double scale = 2 / grid->cell;
+  for (uint32_t t = 0; t < soup->triangle_count + soup->cap_count && w.good; t++) {
+    w.is_cap = t >= soup->triangle_count;
+    for (int k = 0; k < 3; k++) {
+      w.points[k] = soup->triangles[t][k];
+      sbfi_d3 p = sbfi_d3_sub(soup->points[w.points[k]], grid->origin);
+      w.at[k][0] = p.x * scale, w.at[k][1] = p.y * scale, w.at[k][2] = p.z * scale;
+    }
+    cross_triangle(&w);
+  }
+  return w.good;
+}

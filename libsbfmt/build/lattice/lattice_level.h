@@ -1,0 +1,32 @@
+/* A body's level of tetrahedra. */
+#ifndef SBFI_LATTICE_LEVEL_H
+#define SBFI_LATTICE_LEVEL_H
+
+#include "build/lattice/lattice.h"
+#include "build/lattice/lattice_quality.h"
+#include "build/lattice/lattice_thin.h"
+#include "sbfmt/asset.h"
+
+typedef struct sbfi_lattice_recipe {
+  double cell;       /* m; 0: by `elements` */
+  uint32_t elements; /* about so many tetrahedra; 0: 2000, or up to 16000 where much of the body is thin */
+  int32_t derivation;
+} sbfi_lattice_recipe;
+
+/* What was made of one body. */
+typedef struct sbfi_lattice_counts {
+  uint32_t tetrahedra, points, pins;
+  sbfi_lattice_quality quality;
+  sbfi_thinness thinness; /* against one cell, which holds two elements */
+} sbfi_lattice_counts;
+
+/* Fills `*level` for a body that has polygons: the points of the lattice, none of which are the body's own;
+ * tetrahedra, whose rest shape is the points' places and which have the body's modulus, and its density,
+ * scaled by one factor so that the mass is that of the volume inside a closed surface; pins as
+ * lattice_pins.h says. Masses are left to the rule of sbf_level_masses. A lattice without tetrahedra leaves
+ * the level without points. Lists are memory of `asset`. */
+sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_body *body,
+    const sbfi_lattice_recipe *recipe, sbf_asset *asset, sbfi_lattice_counts *counts,
+    sbfi_lattice_progress progress, sbfi_arena *scratch);
+
+#endif

@@ -1,0 +1,177 @@
+#include "build/lattice/lattice_pins.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "build/geometry/topology.h"
+#include "build/geometry/triangle_tree.h"
+#include "build/sections/level_pins.h"
+
+/* As a share of the cell: so near to the surface a point is on it. */
+static const double on_surface = 0.01;
+
+typedef struct work {
+  sbf_level *level;
+  const sbf_soft_body *body;
+  sbf_asset *asset;
+  sbfi_arena *scratch;
+  sbfi_triangle_tree surface;
+  sbfi_box_tree points; /* of the level */
+  double *depths2;      /* (level points) squared distances from the surface */
+  uint32_t *corners;    /* (level points) source point of one on the surface; SBFI_NO_INDEX: it is not */
+  uint8_t *taken;       /* (level points) some set has it */
+} work;
+
+static double squared_between(sbf_vec3 a, const double b[3]) {
+  double x = a.x - b[0], y = a.y - b[1], z = a.z - b[2];
+  return x * x + y * y + z * z;
+}
+
+static void load(sbf_vec3 from, double to[3]) {
+  to[0] = from.x, to[1] = from.y, to[2] = from.z;
+}
+
+static double point_distance(const void *user, uint32_t point, const double at[3]) {
+  return squared_between(((const work *)user)->level->positions.at[point], at);
+}
+
+static bool box_points(work *w) {
+  const sbf_vec3_list *points = &w->level->positions;
+  sbfi_box *boxes = sbfi_arena_allocate(w->scratch, points->count, sizeof *boxes);
+  if (!boxes) return false;
+  for (uint32_t i = 0; i < points->count; i++) {
+    memcpy(boxes[i].low, &points->at[i], sizeof boxes[i].low);
+    memcpy(boxes[i].high, &points->at[i], sizeof boxes[i].high);
+  }
+  return sbfi_box_tree_build(&w->points, boxes, points->count, w->scratch);
+}
+
+/* How deep every point lies, and the corner nearest to those on the surface. */
+static bool find_depths(work *w) {
+  const sbf_vec3_list *points = &w->level->positions;
+  w->depths2 = sbfi_arena_allocate(w->scratch, points->count, sizeof *w->depths2);
+  w->corners = sbfi_arena_allocate(w->scratch, points->count, sizeof *w->corners);
+  w->taken = sbfi_arena_allocate(w->scratch, points->count, 1);
+  if (!w->depths2 || !w->corners || !w->taken) return false;
+  double near = on_surface * w->level->cell;
+  for (uint32_t i = 0; i < points->count; i++) {
+    double least = INFINITY, at[3], nearest = INFINITY;
+    uint32_t triangle = sbfi_triangle_tree_nearest(&w->surface, points->at[i], &least);
+    w->depths2[i] = least;
+    w->corners[i] = SBFI_NO_INDEX;
+    if (triangle == UINT32_MAX || least > near * near) continue;
+    load(points->at[i], at);
+    for (int k = 0; k < 3; k++) {
+      uint32_t corner = w->surface.triangles[triangle].points[k];
+      double distance = squared_between(w->body->surface.positions.at[corner], at);
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      w->corners[i] = corner;
+    }
+  }
+  return true;
+}
+
+static sbf_vec3 source_point(const work *w, uint32_t point) {
+  uint32_t surface = w->body->surface.positions.count;
+  return point < surface ? w->body->surface.positions.at[point] : w->body->interior.at[point - surface];
+}
+
+static float weight_of(const sbf_pin_set *set, uint32_t i) {
+  if (set->weights.count == 0) return 1;
+  return set->weights.at[set->weights.count == 1 ? 0 : i];
+}
+
+/* The set at the level's points. */
+static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
+  uint32_t sources = w->body->surface.positions.count + w->body->interior.count;
+  uint32_t points = w->level->positions.count, count = 0;
+  float *at_source = sbfi_arena_allocate(w->scratch, (size_t)sources + 1, sizeof *at_source);
+  float *at_level = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *at_level);
+  if (!at_source || !at_level) return false;
+  for (uint32_t i = 0; i < sources; i++) at_source[i] = -1;
+  for (uint32_t i = 0; i < from->points.count; i++) at_source[from->points.at[i]] = weight_of(from, i);
+  for (uint32_t i = 0; i < points; i++)
+    at_level[i] = w->corners[i] == SBFI_NO_INDEX ? -1 : at_source[w->corners[i]];
+  for (uint32_t i = 0; i < from->points.count; i++) {
+    double at[3], least = INFINITY;
+    load(source_point(w, from->points.at[i]), at);
+    uint32_t nearest = sbfi_box_tree_nearest(&w->points, at, point_distance, w, &least);
+    if (nearest != UINT32_MAX) at_level[nearest] = fmaxf(at_level[nearest], weight_of(from, i));
+  }
+  for (uint32_t i = 0; i < points; i++) {
+    if (w->taken[i]) at_level[i] = -1;
+    count += at_level[i] >= 0;
+  }
+  uint32_t *list = sbf_asset_allocate(w->asset, (size_t)count + 1, sizeof *list);
+  float *weights = sbf_asset_allocate(w->asset, (size_t)count + 1, sizeof *weights);
+  if (!list || !weights) return false;
+  count = 0;
+  for (uint32_t i = 0; i < points; i++) {
+    if (at_level[i] < 0) continue;
+    w->taken[i] = 1;
+    list[count] = i;
+    weights[count++] = at_level[i];
+  }
+  *to = *from;
+  to->points = (sbf_u32_list){count ? list : NULL, count};
+  to->offsets = (sbf_vec3_list){NULL, 0};
+  if (from->weights.count > 1) to->weights = (sbf_f32_list){count ? weights : NULL, count};
+  return true;
+}
+
+/* The points of the inner half, by depth. */
+static bool find_core(work *w, uint32_t **core, uint32_t *count) {
+  double deepest = 0;
+  uint32_t points = w->level->positions.count;
+  *count = 0;
+  *core = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof **core);
+  if (!*core) return false;
+  for (uint32_t i = 0; i < points; i++) deepest = fmax(deepest, w->depths2[i]);
+  for (uint32_t i = 0; i < points && deepest > 0; i++)
+    if (w->depths2[i] >= deepest / 4 && !w->taken[i]) (*core)[(*count)++] = i;
+  return true;
+}
+
+static bool carry_attachment(work *w, sbf_pin_set *to, const sbf_attachment *from) {
+  sbf_pin_set set;
+  sbf_pin_set_init(&set);
+  set.name = from->name;
+  set.rigid_body = from->rigid_body;
+  set.points = from->points;
+  return carry_set(w, to, &set);
+}
+
+static bool make(work *w, int32_t derivation) {
+  const sbf_soft_body *body = w->body;
+  size_t most = (size_t)body->pins.count + body->attachments.count + 1;
+  sbf_pin_set *sets = sbf_asset_allocate(w->asset, most, sizeof *sets);
+  sbf_attachment *by_hull = sbfi_arena_allocate(w->scratch, most, sizeof *by_hull);
+  uint32_t count = 0, hull_count = 0, core_count = 0, *core = NULL;
+  if (!sets || !by_hull) return false;
+  for (uint32_t i = 0; i < body->pins.count; i++)
+    if (!carry_set(w, &sets[count++], &body->pins.at[i])) return false;
+  for (uint32_t i = 0; i < body->attachments.count; i++) {
+    const sbf_attachment *rule = &body->attachments.at[i];
+    if (rule->rule != SBF_ATTACHMENT_RULE_EXPLICIT)
+      by_hull[hull_count++] = *rule;
+    else if (!carry_attachment(w, &sets[count++], rule))
+      return false;
+  }
+  for (uint32_t i = 0; i < count; i++) sets[i].derived = derivation;
+  w->level->pins = (sbf_pin_set_list){count ? sets : NULL, count};
+  if (body->bone != SBF_NONE && !find_core(w, &core, &core_count)) return false;
+  /* What is left of the body's wishes needs no source points. */
+  sbf_soft_body rest = *body;
+  rest.pins = (sbf_pin_set_list){NULL, 0};
+  rest.attachments = (sbf_attachment_list){by_hull, hull_count};
+  return sbfi_level_pins_make(w->level, &rest, derivation, w->asset, core, core_count, w->scratch);
+}
+
+bool sbfi_lattice_pins_make(
+    sbf_level *level, const sbf_soft_body *body, int32_t derivation, sbf_asset *asset, sbfi_arena *scratch) {
+  work w = {.level = level, .body = body, .asset = asset, .scratch = scratch};
+  if (body->bone == SBF_NONE && body->pins.count == 0 && body->attachments.count == 0) return true;
+  return sbfi_triangle_tree_build(&w.surface, &body->surface, scratch) && box_points(&w) && find_depths(&w) &&
+         make(&w, derivation);
+}

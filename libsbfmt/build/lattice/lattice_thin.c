@@ -1,0 +1,43 @@
+#include "build/lattice/lattice_thin.h"
+
+#include <math.h>
+
+#include "build/geometry/triangle_tree.h"
+#include "mechanics/vector.h"
+#include "sbfmt/mechanics.h"
+
+enum { MOST_SAMPLES = 2000 };
+
+/* Distance along `way` (a unit vector) from `from` to the triangle's plane. */
+static double distance_to(const sbfi_triangle_tree *tree, uint32_t triangle, sbfi_d3 from, sbfi_d3 way) {
+  sbfi_d3 c[3];
+  for (int k = 0; k < 3; k++) c[k] = sbfi_d3_of(tree->positions[tree->triangles[triangle].points[k]]);
+  sbfi_d3 normal = sbfi_d3_cross(sbfi_d3_sub(c[1], c[0]), sbfi_d3_sub(c[2], c[0]));
+  double slope = sbfi_d3_dot(normal, way);
+  return slope != 0 ? sbfi_d3_dot(normal, sbfi_d3_sub(c[0], from)) / slope : INFINITY;
+}
+
+bool sbfi_lattice_thinness(
+    sbfi_thinness *thinness, const sbf_polygon_mesh *mesh, double limit, sbfi_arena *scratch) {
+  uint32_t count = mesh->positions.count, stride = count / MOST_SAMPLES + 1;
+  sbfi_triangle_tree tree;
+  *thinness = (sbfi_thinness){.least = INFINITY};
+  sbf_vec3 *normals = sbfi_arena_allocate(scratch, (size_t)count + 1, sizeof *normals);
+  if (!normals || !sbfi_triangle_tree_build(&tree, mesh, scratch)) return false;
+  sbf_surface_point_normals(mesh, normals);
+  for (uint32_t i = 0; i < count; i += stride) {
+    sbfi_d3 inwards = sbfi_d3_scale(sbfi_d3_of(normals[i]), -1);
+    if (!(sbfi_d3_dot(inwards, inwards) > 0.5)) continue;
+    /* A little inside, so as not to meet the point's own triangles. */
+    sbfi_d3 from = sbfi_d3_add(sbfi_d3_of(mesh->positions.at[i]), sbfi_d3_scale(inwards, 1e-3 * limit));
+    sbf_vec3 start = sbfi_d3_rounded(from), end = sbfi_d3_rounded(sbfi_d3_add(from, inwards));
+    uint32_t met = sbfi_triangle_tree_pierced(&tree, start, end);
+    thinness->sample_count++;
+    if (met == UINT32_MAX) continue;
+    double way = distance_to(&tree, met, from, inwards) + 1e-3 * limit;
+    if (!(way > 0)) continue;
+    if (way < thinness->least) thinness->least = way;
+    thinness->thin_count += way < limit;
+  }
+  return true;
+}

@@ -1,0 +1,220 @@
+#include "sbfmt/convert.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/sha256.h"
+#include "import/convert/conversion.h"
+#include "import/convert/convert_tets.h"
+#include "import/gait/propose_gait.h"
+#include "import/paper/dialect2012.h"
+#include "import/scene/bind_pose.h"
+
+/* File axes and unit to asset space; the caller's word counts more than the file's. */
+static sbfi_matrix matrix_to_asset(const sbfi_scene *scene, const sbf_convert_options *options) {
+  sbfi_matrix m = scene->axes;
+  if (options->up) {
+    static const sbfi_matrix z_up = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
+    m = options->up == 'z' ? z_up : sbfi_matrix_identity();
+  }
+  double unit = options->unit_m > 0 ? options->unit_m : scene->unit_m;
+  for (int r = 0; r < 3; r++)
+    for (int k = 0; k < 3; k++) m.at[r][k] *= unit;
+  return m;
+}
+
+static const char *file_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static sbf_status hash_file(sbfi_conversion *c, const char *path, char text[SBFI_SHA256_TEXT_SIZE]) {
+  sbfi_file_content content;
+  sbf_status status = sbfi_file_map(path, 0, &c->scratch.allocator, &content, c->error);
+  if (status != SBF_OK) return status;
+  sbfi_sha256 hash;
+  uint8_t digest[SBFI_SHA256_BYTES];
+  sbfi_sha256_init(&hash);
+  sbfi_sha256_update(&hash, content.at, content.size);
+  sbfi_sha256_finish(&hash, digest);
+  sbfi_sha256_text(digest, text);
+  sbfi_file_content_free(&content);
+  return SBF_OK;
+}
+
+static sbf_status describe_sources(sbfi_conversion *c) {
+  const sbfi_scene *scenes[2] = {c->scene, c->rig && c->rig != c->scene ? c->rig : NULL};
+  sbf_source *sources = sbfi_convert_allocate(c, 2, sizeof *sources);
+  if (!sources) return sbfi_convert_no_memory(c);
+  uint32_t count = 0;
+  for (int i = 0; i < 2 && scenes[i]; i++, count++) {
+    sbf_source_init(&sources[i]);
+    char hex[SBFI_SHA256_TEXT_SIZE];
+    sbf_status status = hash_file(c, scenes[i]->file, hex);
+    if (status != SBF_OK) return status;
+    sources[i].path = sbf_asset_copy_text(c->asset, file_name(scenes[i]->file));
+    sources[i].sha256 = sbf_asset_copy_text(c->asset, hex);
+    if (!sources[i].path || !sources[i].sha256) return sbfi_convert_no_memory(c);
+  }
+  const char *name = sources[0].path, *dot = strrchr(name, '.');
+  size_t length = dot && dot != name ? (size_t)(dot - name) : strlen(name);
+  char *title = sbfi_convert_allocate(c, length + 1, 1);
+  if (!title) return sbfi_convert_no_memory(c);
+  memcpy(title, name, length);
+  c->asset->info.title = title;
+  c->asset->info.tool = "sbfmt";
+  c->asset->info.sources = (sbf_source_list){sources, count};
+  return SBF_OK;
+}
+
+static void pass_on_warnings(sbfi_conversion *c, const sbfi_scene *scene) {
+  for (uint32_t i = 0; i < scene->warning_count; i++) sbfi_report(&c->reporter, &scene->warnings[i]);
+}
+
+/* A file of tetrahedra: no rig, no materials, one body. */
+static sbf_status run_tet_passes(sbfi_conversion *c, const sbfi_tet_mesh *tets) {
+  sbf_status status = describe_sources(c);
+  return status == SBF_OK ? sbfi_convert_tets(c, tets, c->asset->info.title) : status;
+}
+
+static sbf_status run_paper_passes(sbfi_conversion *c, const sbfi_paper_model *paper) {
+  sbf_status status = describe_sources(c);
+  return status == SBF_OK ? sbfi_convert_paper(c, paper, c->asset->info.title) : status;
+}
+
+static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
+  if (c->scene->mesh_count == 0 && !c->rig)
+    return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
+        "%s holds neither a mesh nor a skeleton: there is nothing to convert", c->scene->file);
+  if (c->scene->mesh_count == 0)
+    sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_MESH,
+        "the file holds a skeleton and no mesh: the bundle will have bones only; give a mesh file as the "
+        "input "
+        "and this one with --rig");
+  if (!c->rig)
+    sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
+        "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
+  static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
+      sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes, sbfi_measure_leaf_bones,
+      sbfi_propose_gait, sbfi_stand_on_ground, sbfi_convert_joints, sbfi_convert_clips};
+  for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
+    if (passes[i] == sbfi_propose_gait && options->no_gait) continue;
+    sbf_status status = passes[i](c);
+    if (status != SBF_OK) return status;
+  }
+  return SBF_OK;
+}
+
+/* A scene in the pose its skin was bound in, which is an asset's rest pose. */
+static sbf_status read_scene(
+    sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
+  sbf_status status = sbfi_scene_read(scene, path, options, error);
+  if (status != SBF_OK || sbfi_scene_take_bind_pose(scene)) return status;
+  status = sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", path);
+  return sbfi_scene_fail(scene, error, status);
+}
+
+/* What was read: scenes; or tetrahedra or a model of the 2012 dialect, then the scene only names the file. */
+typedef struct readings {
+  const sbfi_scene *scene, *rig;
+  const sbfi_tet_mesh *tets;
+  const sbfi_paper_model *paper;
+} readings;
+
+static sbf_status convert_readings(
+    const readings *from, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  const sbfi_scene *scene = from->scene, *rig = from->rig;
+  sbfi_conversion c = {
+      .scene = scene, .rig = rig, .reporter = {options->report, options->user, 0, 0}, .error = error};
+  c.to_asset = matrix_to_asset(scene, options);
+  c.rig_to_asset = rig == scene || !rig ? c.to_asset : matrix_to_asset(rig, &(sbf_convert_options){0});
+  sbfi_arena_init(&c.scratch, options->allocator, 0);
+  sbfi_array_init(&c.ids.slots, options->allocator, sizeof(char *));
+  c.asset = sbf_asset_create(options->allocator);
+  sbf_status status = c.asset ? SBF_OK : sbfi_convert_no_memory(&c);
+  if (status == SBF_OK) {
+    pass_on_warnings(&c, scene);
+    if (rig && rig != scene) pass_on_warnings(&c, rig);
+    status = from->tets    ? run_tet_passes(&c, from->tets)
+             : from->paper ? run_paper_passes(&c, from->paper)
+                           : run_passes(&c, options);
+  }
+  sbfi_array_free(&c.ids.slots);
+  sbfi_arena_free(&c.scratch);
+  if (status != SBF_OK) {
+    sbf_asset_free(c.asset);
+    return status;
+  }
+  *asset = c.asset;
+  return SBF_OK;
+}
+
+sbf_status sbfi_convert_scenes(const sbfi_scene *scene, const sbfi_scene *rig,
+    const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  return convert_readings(&(readings){.scene = scene, .rig = rig}, options, asset, error);
+}
+
+/* A file without a scene: of tetrahedra, or of the 2012 dialect. */
+static sbf_status convert_other_file(const char *input, bool is_paper, const sbf_convert_options *options,
+    sbf_asset **asset, sbf_diagnostic *error) {
+  sbfi_scene scene;
+  sbfi_tet_mesh tets;
+  sbfi_paper_model paper;
+  readings from = {.scene = &scene};
+  if (options->rig)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "%s %s: it cannot take a rig", input,
+        is_paper ? "has a skeleton of its own" : "holds tetrahedra alone");
+  if (!sbfi_scene_init(&scene, options->allocator, 0, input))
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while reading %s", input);
+  sbf_status status = is_paper
+                          ? sbfi_paper_read(&paper, input, options->allocator, error)
+                          : sbfi_tet_mesh_read(&tets, input, options->allocator, (uint64_t)4 << 30, error);
+  if (status == SBF_OK) {
+    if (is_paper)
+      from.paper = &paper;
+    else
+      from.tets = &tets;
+    status = convert_readings(&from, options, asset, error);
+    if (is_paper)
+      sbfi_paper_free(&paper);
+    else
+      sbfi_tet_mesh_free(&tets);
+  }
+  sbfi_scene_free(&scene);
+  return status;
+}
+
+sbf_status sbf_convert(
+    const char *input, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
+  static const sbf_convert_options defaults = {0};
+  sbf_diagnostic unseen;
+  if (!error) error = &unseen;
+  if (!options) options = &defaults;
+  *asset = NULL;
+  if (options->struct_size && options->struct_size != sizeof *options)
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "sbf_convert_options has another size than this library's");
+  if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
+
+  bool is_paper = sbfi_paper_knows(input);
+  if (is_paper || sbfi_tet_mesh_knows(input))
+    return convert_other_file(input, is_paper, options, asset, error);
+  sbfi_scene_options reading = {.allocator = options->allocator, .helper_path = options->import_helper};
+  sbfi_scene scene, rig_scene;
+  sbf_status status = read_scene(&scene, input, &reading, error);
+  if (status != SBF_OK) return status;
+  const sbfi_scene *rig = sbfi_scene_bone_count(&scene) ? &scene : NULL;
+  if (options->rig) {
+    status = read_scene(&rig_scene, options->rig, &reading, error);
+    if (status == SBF_OK && sbfi_scene_bone_count(&rig_scene) == 0)
+      status = sbfi_diagnose(error, SBF_CODE_IMPORT_NO_BONES,
+          "%s, given as the rig, holds no skeleton: give a file with bones", options->rig);
+    rig = &rig_scene;
+  }
+  if (status == SBF_OK) status = sbfi_convert_scenes(&scene, rig, options, asset, error);
+  if (options->rig) sbfi_scene_free(&rig_scene);
+  sbfi_scene_free(&scene);
+  return status;
+}

@@ -1,0 +1,69 @@
+/* The ground: in asset space a character stands on y = 0, wherever its file has put the origin. */
+#include <math.h>
+
+#include "import/convert/conversion.h"
+
+/* Share of the height within which a character is taken to stand on y = 0 as it is. */
+static const double STANDS = 0.05;
+
+typedef struct span {
+  double low, high;
+} span;
+
+static void see(span *s, const sbf_vec3_list points) {
+  for (uint32_t i = 0; i < points.count; i++) {
+    s->low = fmin(s->low, (double)points.at[i].y);
+    s->high = fmax(s->high, (double)points.at[i].y);
+  }
+}
+
+static span span_of(const sbf_asset *a) {
+  span s = {INFINITY, -INFINITY};
+  for (uint32_t i = 0; i < a->soft_bodies.count; i++) see(&s, a->soft_bodies.at[i].surface.positions);
+  for (uint32_t i = 0; i < a->render_meshes.count; i++) see(&s, a->render_meshes.at[i].mesh.positions);
+  if (s.low <= s.high) return s;
+  for (uint32_t i = 0; i < a->bones.count; i++) see(&s, (sbf_vec3_list){&a->bones.at[i].head, 1});
+  return s;
+}
+
+static void lift(const sbf_vec3_list points, double by) {
+  sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)points.at; /* the asset is ours until it is handed out */
+  for (uint32_t i = 0; i < points.count; i++) at[i].y = (float)((double)at[i].y + by);
+}
+
+static void lift_one(const sbf_vec3 *point, double by) {
+  lift((sbf_vec3_list){point, 1}, by);
+}
+
+/* A section that is seen shares its points with the mesh that shows it. */
+static bool is_of_section(const sbf_asset *a, const sbf_vec3_list points) {
+  for (uint32_t i = 0; i < a->soft_bodies.count; i++)
+    if (a->soft_bodies.at[i].surface.positions.at == points.at) return true;
+  return false;
+}
+
+static void lift_asset(const sbf_asset *a, double by) {
+  for (uint32_t i = 0; i < a->bones.count; i++) lift_one(&a->bones.at[i].head, by);
+  for (uint32_t i = 0; i < a->soft_bodies.count; i++) lift(a->soft_bodies.at[i].surface.positions, by);
+  for (uint32_t i = 0; i < a->render_meshes.count; i++)
+    if (!is_of_section(a, a->render_meshes.at[i].mesh.positions))
+      lift(a->render_meshes.at[i].mesh.positions, by);
+  for (uint32_t i = 0; i < a->ik_chains.count; i++)
+    if (a->ik_chains.at[i].has_pole) lift_one(&a->ik_chains.at[i].pole, by);
+  for (uint32_t g = 0; g < a->gaits.count; g++)
+    for (uint32_t l = 0; l < a->gaits.at[g].legs.count; l++) lift_one(&a->gaits.at[g].legs.at[l].home, by);
+}
+
+sbf_status sbfi_stand_on_ground(sbfi_conversion *c) {
+  if (c->asset->gaits.count == 0) return SBF_OK; /* nothing says that it stands at all */
+  span s = span_of(c->asset);
+  double height = s.high - s.low;
+  if (!(fabs(s.low) > STANDS * height)) return SBF_OK;
+  lift_asset(c->asset, -s.low);
+  c->lift_m = -s.low;
+  sbfi_convert_warn(c, SBF_CODE_IMPORT_GROUND,
+      "the character's feet are at y = %.3g m and not at 0, where the ground is: all of it was moved by %.3g "
+      "m",
+      s.low, -s.low);
+  return SBF_OK;
+}

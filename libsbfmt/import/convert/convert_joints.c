@@ -1,0 +1,129 @@
+/* Rigid bodies of the bones that carry sections, and the joints that the skeleton makes between them.
+ *
+ * A body moves with its bone and gets its hull from the build. A joint sits at the head of the lower bone, in
+ * the frame that joint limits refer to: +X, the twist axis, is the bone's +Y, +Y its +Z, +Z its +X. */
+#include <math.h>
+
+#include "import/convert/conversion.h"
+
+typedef struct body_place {
+  double sum[3];
+  uint32_t corners, first_section, section_count;
+} body_place;
+
+/* Centres are means over polygon corners: a stray point in no polygon does not pull at them. */
+static void add_section(body_place *place, const sbf_soft_body *section, uint32_t number) {
+  const sbf_polygon_mesh *mesh = &section->surface;
+  if (place->section_count++ == 0) place->first_section = number;
+  for (uint32_t k = 0; k < mesh->polygon_points.count; k++) {
+    sbf_vec3 p = mesh->positions.at[mesh->polygon_points.at[k]];
+    place->sum[0] += (double)p.x;
+    place->sum[1] += (double)p.y;
+    place->sum[2] += (double)p.z;
+  }
+  place->corners += mesh->polygon_points.count;
+}
+
+static bool fill_rigid_body(sbfi_conversion *c, int32_t bone, const body_place *place, sbf_rigid_body *body) {
+  const sbf_soft_body *section = &c->asset->soft_bodies.at[place->first_section];
+  double scale = place->corners ? 1.0 / place->corners : 0;
+  sbf_rigid_body_init(body);
+  body->name = c->asset->bones.at[bone].name;
+  body->id = sbfi_new_id(c, "rigid", body->name);
+  body->bone = bone;
+  body->center = (sbf_vec3){
+      (float)(place->sum[0] * scale), (float)(place->sum[1] * scale), (float)(place->sum[2] * scale)};
+  body->density = section->attributes.density;
+  body->friction = section->attributes.friction;
+  body->restitution = section->attributes.restitution;
+  body->layer = section->collision.layer;
+  body->mask = section->collision.mask;
+  return body->id != NULL;
+}
+
+/* The bone's frame with its axes renamed in turn: right multiplication by a third of a turn about (1, 1, 1).
+ */
+static sbf_quat joint_rotation(sbf_quat q) {
+  const double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w;
+  double out[4] = {w + x + y - z, w - x + y + z, w + x - y + z, w - x - y - z};
+  double scale = out[3] < 0 ? -0.5 : 0.5;
+  return (sbf_quat){
+      (float)(out[0] * scale), (float)(out[1] * scale), (float)(out[2] * scale), (float)(out[3] * scale)};
+}
+
+static sbf_frame frame_at(const sbf_bone *bone, const sbf_rigid_body *body) {
+  sbf_frame frame;
+  sbf_frame_init(&frame);
+  frame.position =
+      (sbf_vec3){bone->head.x - body->center.x, bone->head.y - body->center.y, bone->head.z - body->center.z};
+  frame.rotation = joint_rotation(bone->rotation);
+  return frame;
+}
+
+static bool fill_limits(sbfi_conversion *c, const sbfi_scene_limit *from, sbf_limit_list *to) {
+  static const sbf_joint_axis axes[SBFI_LIMITS] = {
+      SBF_JOINT_AXIS_TWIST, SBF_JOINT_AXIS_SWING_Y, SBF_JOINT_AXIS_SWING_Z};
+  uint32_t count = 0;
+  sbf_limit *limits = sbfi_convert_allocate(c, SBFI_LIMITS, sizeof *limits);
+  if (!limits) return false;
+  for (int i = 0; i < SBFI_LIMITS; i++) {
+    if (!from[i].stated) continue;
+    sbf_limit *limit = &limits[count++];
+    sbf_limit_init(limit);
+    limit->target = axes[i];
+    limit->min = from[i].min;
+    limit->max = from[i].max;
+  }
+  *to = (sbf_limit_list){count ? limits : NULL, count};
+  return true;
+}
+
+/* `a` and `b`: places of the upper and the lower body. */
+static bool fill_joint(
+    sbfi_conversion *c, int32_t a, int32_t b, const sbf_rigid_body *bodies, sbf_joint *joint) {
+  int32_t bone = bodies[b].bone;
+  sbf_joint_init(joint);
+  joint->name = c->asset->bones.at[bone].name;
+  joint->id = sbfi_new_id(c, "joint", joint->name);
+  joint->kind = SBF_JOINT_KIND_SPHERICAL;
+  joint->body_a = a;
+  joint->body_b = b;
+  joint->frame_a = frame_at(&c->asset->bones.at[bone], &bodies[a]);
+  joint->frame_b = frame_at(&c->asset->bones.at[bone], &bodies[b]);
+  if (!joint->id || !fill_limits(c, c->rig->nodes[c->node_of_bone[bone]].limits, &joint->limits))
+    return false;
+  joint->proposed = joint->limits.count == 0; /* nobody has said yet how far it turns */
+  return true;
+}
+
+sbf_status sbfi_convert_joints(sbfi_conversion *c) {
+  const sbf_bone_list bones = c->asset->bones;
+  const sbf_soft_body_list sections = c->asset->soft_bodies;
+  if (bones.count == 0 || sections.count == 0) return SBF_OK;
+  body_place *places = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *places);
+  int32_t *body_of_bone = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *body_of_bone);
+  if (!places || !body_of_bone) return sbfi_convert_no_memory(c);
+  for (uint32_t s = 0; s < sections.count; s++)
+    if (sections.at[s].bone >= 0) add_section(&places[sections.at[s].bone], &sections.at[s], s);
+  uint32_t count = 0, joint_count = 0;
+  for (uint32_t i = 0; i < bones.count; i++) count += places[i].section_count > 0;
+  if (count == 0) return SBF_OK;
+  sbf_rigid_body *bodies = sbfi_convert_allocate(c, count, sizeof *bodies);
+  sbf_joint *joints = sbfi_convert_allocate(c, count, sizeof *joints);
+  if (!bodies || !joints) return sbfi_convert_no_memory(c);
+  count = 0;
+  for (uint32_t i = 0; i < bones.count; i++) {
+    /* What hangs on a bone without sections of its own hangs on the nearest body above. */
+    int32_t above = bones.at[i].parent >= 0 ? body_of_bone[bones.at[i].parent] : SBF_NONE;
+    body_of_bone[i] = above;
+    if (places[i].section_count == 0) continue;
+    body_of_bone[i] = (int32_t)count;
+    if (!fill_rigid_body(c, (int32_t)i, &places[i], &bodies[count])) return sbfi_convert_no_memory(c);
+    if (above >= 0 && !fill_joint(c, above, (int32_t)count, bodies, &joints[joint_count++]))
+      return sbfi_convert_no_memory(c);
+    count++;
+  }
+  c->asset->rigid_bodies = (sbf_rigid_body_list){bodies, count};
+  c->asset->joints = (sbf_joint_list){joint_count ? joints : NULL, joint_count};
+  return SBF_OK;
+}

@@ -1,0 +1,63 @@
+/* Materials and their images. */
+#include <string.h>
+
+#include "import/convert/conversion.h"
+
+static const char *media_type_of(const char *extension) {
+  if (strcmp(extension, "png") == 0) return "image/png";
+  if (strcmp(extension, "jpg") == 0 || strcmp(extension, "jpeg") == 0) return "image/jpeg";
+  return "";
+}
+
+static sbf_status convert_images(sbfi_conversion *c) {
+  uint32_t count = c->scene->image_count;
+  if (count == 0) return SBF_OK;
+  sbf_texture *textures = sbfi_convert_allocate(c, count, sizeof *textures);
+  if (!textures) return sbfi_convert_no_memory(c);
+  for (uint32_t i = 0; i < count; i++) {
+    const sbfi_scene_image *image = &c->scene->images[i];
+    sbf_texture *texture = &textures[i];
+    sbf_texture_init(texture);
+    texture->id = sbfi_new_id(c, "texture", image->name);
+    texture->name = sbf_asset_copy_text(c->asset, image->name);
+    texture->path = sbf_asset_copy_text(c->asset, image->path ? image->path : "");
+    if (!texture->id || !texture->name || !texture->path) return sbfi_convert_no_memory(c);
+    if (!image->bytes) continue;
+    uint8_t *bytes = sbfi_convert_allocate(c, image->byte_count, 1);
+    if (!bytes) return sbfi_convert_no_memory(c);
+    memcpy(bytes, image->bytes, image->byte_count);
+    texture->bytes = (sbf_u8_list){bytes, image->byte_count};
+    texture->media_type = media_type_of(image->extension);
+  }
+  c->asset->textures = (sbf_texture_list){textures, count};
+  return SBF_OK;
+}
+
+sbf_status sbfi_convert_materials(sbfi_conversion *c) {
+  sbf_status status = convert_images(c);
+  uint32_t count = c->scene->material_count;
+  if (status != SBF_OK || count == 0) return status;
+  sbf_material *materials = sbfi_convert_allocate(c, count, sizeof *materials);
+  if (!materials) return sbfi_convert_no_memory(c);
+  for (uint32_t i = 0; i < count; i++) {
+    const sbfi_scene_material *from = &c->scene->materials[i];
+    sbf_material *to = &materials[i];
+    sbf_material_init(to);
+    to->id = sbfi_new_id(c, "material", from->name);
+    to->name = sbf_asset_copy_text(c->asset, from->name);
+    if (!to->id || !to->name) return sbfi_convert_no_memory(c);
+    to->base_color =
+        (sbf_vec4){from->base_color[0], from->base_color[1], from->base_color[2], from->base_color[3]};
+    to->emissive = (sbf_vec3){from->emissive[0], from->emissive[1], from->emissive[2]};
+    to->metallic = from->metallic;
+    to->roughness = from->roughness;
+    to->alpha_mode = (sbf_alpha_mode)from->alpha_mode; /* the same three in the same order */
+    if (from->alpha_mode == SBFI_ALPHA_MASK) to->alpha_cutoff = from->alpha_cutoff;
+    to->double_sided = from->double_sided;
+    to->base_color_texture = from->base_color_image;
+    to->metallic_roughness_texture = from->metallic_roughness_image;
+    to->normal_texture = from->normal_image;
+  }
+  c->asset->materials = (sbf_material_list){materials, count};
+  return SBF_OK;
+}

@@ -1,0 +1,79 @@
+#include "import/convert/skeleton_draft.h"
+
+/* How often the length of the bone before it a limb's last bone may have. */
+static const double LONGEST_TIP = 3;
+
+/* Points go to the joint that holds most of them. */
+static void count_points(const sbfi_conversion *c, sbfi_skeleton_draft *s) {
+  for (uint32_t m = 0; m < c->rig->mesh_count; m++) {
+    const sbfi_scene_mesh *mesh = &c->rig->meshes[m];
+    for (uint32_t i = 0; mesh->joint_count && i < mesh->point_count; i++) {
+      uint32_t most = mesh->skin_starts[i], end = mesh->skin_starts[i + 1];
+      if (most == end) continue;
+      for (uint32_t k = most; k < end; k++)
+        if (mesh->skin_weights[k] > mesh->skin_weights[most]) most = k;
+      int32_t bone = c->bone_of_node[mesh->joints[mesh->skin_joints[most]].node];
+      if (bone != SBF_NONE) s->bones[bone].points++;
+    }
+  }
+}
+
+/* Moved by hand: it holds skin and hangs on nothing, or on a root that holds none. */
+static bool is_detached(const sbfi_skeleton_draft *s, uint32_t bone) {
+  int32_t parent = s->bones[bone].parent;
+  if (!s->bones[bone].points) return false;
+  return parent == SBF_NONE || (s->bones[parent].parent == SBF_NONE && !s->bones[parent].points);
+}
+
+/* The last bone of a limb of at least two, with skin on it. */
+static bool is_tip(const sbfi_skeleton_draft *s, uint32_t bone) {
+  const sbfi_bone_draft *b = &s->bones[bone];
+  return b->next == SBF_NONE && b->points && b->parent != SBF_NONE && s->bones[b->parent].parent != SBF_NONE;
+}
+
+static bool hangs_below(const sbfi_skeleton_draft *s, int32_t bone, int32_t above) {
+  while (bone != above && bone != SBF_NONE) bone = s->bones[bone].parent;
+  return bone == above;
+}
+
+/* The limb whose last bone points at the head of `bone` and is nearest to it; SBF_NONE where there is none.
+ */
+static int32_t find_limb(const sbfi_skeleton_draft *s, uint32_t bone) {
+  int32_t best = SBF_NONE;
+  double nearest = 0;
+  for (uint32_t i = 0; i < s->count; i++) {
+    if (!is_tip(s, i) || hangs_below(s, (int32_t)i, (int32_t)bone)) continue;
+    const sbfi_bone_draft *tip = &s->bones[i];
+    sbfi_d3 way = sbfi_d3_sub(s->bones[bone].head, tip->head);
+    double length = sbfi_d3_length(way);
+    double before = sbfi_d3_length(sbfi_d3_sub(tip->head, s->bones[tip->parent].head));
+    if (sbfi_d3_dot(sbfi_d3_normal(way), sbfi_d3_normal(tip->y)) <= SBFI_STRAIGHT) continue;
+    if (length > LONGEST_TIP * before || (best != SBF_NONE && length >= nearest)) continue;
+    best = (int32_t)i;
+    nearest = length;
+  }
+  return best;
+}
+
+sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s) {
+  if (!s->along_y) return SBF_OK; /* then the last bone of a limb does not say where it points */
+  count_points(c, s);
+  int32_t *limbs = sbfi_arena_allocate(&c->scratch, s->count, sizeof *limbs);
+  if (!limbs) return sbfi_convert_no_memory(c);
+  /* All are found before any is moved, so that their order does not matter. */
+  for (uint32_t i = 0; i < s->count; i++) limbs[i] = is_detached(s, i) ? find_limb(s, i) : SBF_NONE;
+  bool moved = false;
+  for (uint32_t i = 0; i < s->count; i++) {
+    if (limbs[i] == SBF_NONE || hangs_below(s, limbs[i], (int32_t)i)) continue;
+    s->bones[i].parent = limbs[i];
+    moved = true;
+    sbfi_convert_warn(c, SBF_CODE_RIG_BONE_REHUNG,
+        "bone '%s' holds the skin where '%s' ends but hangs on the root, to be moved by hand: it now hangs "
+        "on "
+        "'%s'",
+        c->rig->nodes[s->bones[i].node].name, c->rig->nodes[s->bones[limbs[i]].node].name,
+        c->rig->nodes[s->bones[limbs[i]].node].name);
+  }
+  if (moved) sbfi_draft_continue(s);
+  return SBF_OK;
+}

@@ -1,0 +1,36 @@
+/* Bones on their way from the nodes of a rig to the asset. */
+#ifndef SBFI_SKELETON_DRAFT_H
+#define SBFI_SKELETON_DRAFT_H
+
+#include "import/convert/conversion.h"
+#include "mechanics/vector.h"
+
+typedef struct sbfi_bone_draft {
+  uint32_t node;
+  int32_t parent;     /* a draft, or SBF_NONE */
+  sbfi_d3 head, x, y; /* asset space; axes as the node has them, not of unit length */
+  uint32_t below;     /* bones that hang on it */
+  int32_t next;       /* the child that continues it, or SBF_NONE */
+  sbfi_d3 along;      /* from its head to that child's; 0 where there is none */
+  uint32_t points;    /* of skins that it holds more than any other bone does */
+} sbfi_bone_draft;
+
+typedef struct sbfi_skeleton_draft {
+  sbfi_bone_draft *bones;
+  uint32_t count;
+  bool along_y; /* the file's bones run along their own Y, as Blender's do: rotations are kept as they are */
+} sbfi_skeleton_draft;
+
+/* Cosine of the angle within which an axis runs along a bone. */
+#define SBFI_STRAIGHT 0.995
+
+/* Finds `below`, `next`, `along` and `along_y`; what was there is overwritten. */
+void sbfi_draft_continue(sbfi_skeleton_draft *s);
+
+/* Bones that a person moves and the limb follows, as feet and hands with inverse kinematics, often hang on
+ * the root and hold the skin at the limb's tip all the same. Here nothing moves them but their parents: such
+ * a bone is hung where its limb ends, and a note says so. Afterwards parents may stand behind their children.
+ */
+sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s);
+
+#endif

@@ -1,0 +1,184 @@
+/* Head and tail, by name first and then by shape; of a rig without legs the body that is dragged along. */
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+#include "import/gait/gait_draft.h"
+
+enum { LEAST_TAIL = 2, LEAST_SPINE = 4 }; /* bones that count as one by their shape alone */
+
+/* Whether a name holds a word, whatever its case. */
+static bool says(const char *name, const char *word) {
+  size_t length = strlen(word);
+  for (; *name; name++) {
+    size_t k = 0;
+    while (k < length && tolower((unsigned char)name[k]) == word[k]) k++;
+    if (k == length) return true;
+  }
+  return false;
+}
+
+static bool is_leg_bone(const sbfi_gait_draft *d, int32_t bone) {
+  for (uint32_t l = 0; l < d->leg_count; l++)
+    if (sbfi_draft_is_below(d, bone, d->legs[l].limb)) return true;
+  return false;
+}
+
+/* Whether legs hang on the bone or below it. */
+static bool bears_legs(const sbfi_gait_draft *d, int32_t bone) {
+  for (uint32_t l = 0; l < d->leg_count; l++)
+    if (sbfi_draft_is_below(d, d->legs[l].limb, bone)) return true;
+  return false;
+}
+
+static bool is_middle(const sbfi_gait_draft *d, int32_t bone) {
+  return d->shapes[bone].bears && d->shapes[bone].side == 0 && !is_leg_bone(d, bone);
+}
+
+/* Whether the bone or one above it is called a tail. */
+static bool is_called_tail(const sbfi_gait_draft *d, int32_t bone) {
+  for (; bone != SBF_NONE; bone = sbfi_draft_bone(d, bone)->parent)
+    if (says(sbfi_draft_bone(d, bone)->name, "tail")) return true;
+  return false;
+}
+
+static int32_t head_by_name(const sbfi_gait_draft *d) {
+  for (int pass = 0; pass < 2; pass++) /* better one that holds something itself */
+    for (uint32_t i = 0; i < d->asset->bones.count; i++) {
+      int32_t bone = (int32_t)i;
+      bool holds = pass || !d->has_mesh || d->shapes[i].points;
+      if (holds && is_middle(d, bone) && !bears_legs(d, bone) && says(sbfi_draft_bone(d, bone)->name, "head"))
+        return bone;
+    }
+  return SBF_NONE;
+}
+
+/* The end that reaches farthest ahead of the feet, or where all legs hang on one bone highest above it. Ears,
+ * eyes and jaws count with the bone they hang on. */
+static int32_t head_by_shape(const sbfi_gait_draft *d) {
+  double foremost = -INFINITY, best = -INFINITY;
+  int32_t head = SBF_NONE;
+  for (uint32_t l = 0; l < d->leg_count; l++)
+    foremost = fmax(foremost, (double)sbfi_draft_bone(d, d->legs[l].end)->head.z);
+  for (uint32_t i = 0; i < d->asset->bones.count; i++) {
+    const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
+    if (!is_middle(d, (int32_t)i) || d->shapes[i].middle_children || bone->parent == SBF_NONE ||
+        is_called_tail(d, (int32_t)i))
+      continue;
+    bool upright = d->chest == SBF_NONE && (double)bone->head.y - d->ground > 0.6 * d->height;
+    if (!upright && (double)bone->head.z <= foremost) continue;
+    double score = upright ? (double)bone->head.y : (double)bone->head.z;
+    if (score <= best) continue;
+    best = score;
+    head = (int32_t)i;
+  }
+  int32_t parent = head != SBF_NONE ? sbfi_draft_bone(d, head)->parent : SBF_NONE;
+  bool shared = parent != SBF_NONE && d->shapes[parent].children > 1 && is_middle(d, parent);
+  return shared && !bears_legs(d, parent) && parent != d->hips && parent != d->chest ? parent : head;
+}
+
+/* Bones from `first` on as long as each has one child; their number. */
+static uint32_t follow(const sbfi_gait_draft *d, int32_t first, uint32_t *bones) {
+  uint32_t count = 0;
+  for (int32_t bone = first; bone != SBF_NONE; bone = sbfi_draft_only_child(d, bone))
+    bones[count++] = (uint32_t)bone;
+  return count;
+}
+
+/* A chain that leads back from behind the hips, longer than it drops, and ends in nothing. */
+static bool leads_back(const sbfi_gait_draft *d, const uint32_t *bones, uint32_t count) {
+  if (count < LEAST_TAIL || d->shapes[bones[count - 1]].children) return false;
+  const sbf_vec3 from = sbfi_draft_bone(d, (int32_t)bones[0])->head;
+  const sbf_vec3 to = sbfi_draft_bone(d, (int32_t)bones[count - 1])->head;
+  double back = (double)from.z - (double)to.z, rearmost = INFINITY;
+  for (uint32_t l = 0; l < d->leg_count; l++)
+    rearmost = fmin(rearmost, (double)sbfi_draft_bone(d, d->legs[l].upper)->head.z);
+  return back > 0.5 * fabs((double)from.y - (double)to.y) && (double)to.z < rearmost &&
+         back > 0.05 * (d->high_z - d->low_z);
+}
+
+static bool find_tail(sbfi_gait_draft *d) {
+  uint32_t count = d->asset->bones.count;
+  d->tail = sbf_asset_allocate(d->asset, count, sizeof *d->tail);
+  if (!d->tail) return false;
+  for (int by_shape = 0; by_shape < 2; by_shape++)
+    for (uint32_t i = 0; i < count; i++) {
+      int32_t bone = (int32_t)i;
+      if (!is_middle(d, bone) || bears_legs(d, bone)) continue;
+      if (d->head != SBF_NONE &&
+          (sbfi_draft_is_below(d, bone, d->head) || sbfi_draft_is_below(d, d->head, bone)))
+        continue;
+      if (!by_shape && !says(sbfi_draft_bone(d, bone)->name, "tail")) continue;
+      d->tail_count = follow(d, bone, d->tail);
+      if (!by_shape || leads_back(d, d->tail, d->tail_count)) return true;
+      d->tail_count = 0;
+    }
+  return true;
+}
+
+bool sbfi_draft_ends(sbfi_gait_draft *d) {
+  d->head = head_by_name(d);
+  if (d->head == SBF_NONE) d->head = head_by_shape(d);
+  return find_tail(d);
+}
+
+/* --- Without legs ------------------------------------------------------------------------------------ */
+
+typedef struct reach_down {
+  double length; /* m, to the far end of the longest way down */
+  int32_t next;  /* the child on that way */
+} reach_down;
+
+/* The longest way between two ends of the tree has its topmost bone where the two longest ways down meet. */
+static int32_t find_top(const sbfi_gait_draft *d, reach_down *first, reach_down *second) {
+  double longest = 0;
+  int32_t top = SBF_NONE;
+  for (uint32_t i = d->asset->bones.count; i-- > 0;) {
+    const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
+    if (!is_middle(d, (int32_t)i)) continue;
+    if (first[i].next == SBF_NONE) first[i].length = (double)bone->length;
+    double through = first[i].length + second[i].length;
+    if (through > longest) {
+      longest = through;
+      top = (int32_t)i;
+    }
+    if (bone->parent == SBF_NONE) continue;
+    reach_down down = {first[i].length + sbfi_draft_distance(d, bone->parent, (int32_t)i), (int32_t)i};
+    reach_down *one = &first[bone->parent], *two = &second[bone->parent];
+    if (one->next == SBF_NONE || down.length > one->length) {
+      *two = *one;
+      *one = down;
+    } else if (two->next == SBF_NONE || down.length > two->length) {
+      *two = down;
+    }
+  }
+  return top;
+}
+
+/* Bones of a way down that hold something: a control between them is none of the body. Returns whether the
+ * head is on it. */
+static bool take_down(sbfi_gait_draft *d, const reach_down *first, int32_t bone) {
+  bool has_head = false;
+  d->spine_count = 0;
+  for (; bone != SBF_NONE; bone = first[bone].next) {
+    has_head = has_head || bone == d->head;
+    if (!d->has_mesh || d->shapes[bone].points) d->spine[d->spine_count++] = (uint32_t)bone;
+  }
+  return has_head;
+}
+
+bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch) {
+  uint32_t count = d->asset->bones.count;
+  reach_down *first = sbfi_arena_allocate(scratch, count, sizeof *first);
+  reach_down *second = sbfi_arena_allocate(scratch, count, sizeof *second);
+  d->spine = sbf_asset_allocate(d->asset, count, sizeof *d->spine);
+  if (!first || !second || !d->spine) return false;
+  for (uint32_t i = 0; i < count; i++) first[i].next = second[i].next = SBF_NONE;
+  d->head = head_by_name(d);
+  int32_t top = find_top(d, first, second);
+  /* What is dragged along is the way that does not lead to the head, where there are two. */
+  if (top != SBF_NONE && take_down(d, first, top) && second[top].next != SBF_NONE)
+    take_down(d, first, second[top].next);
+  if (d->spine_count < LEAST_SPINE) d->spine_count = 0;
+  return true;
+}

@@ -1,0 +1,90 @@
+/* Legs: limbs of one side that end at the ground.
+ *
+ * A limb begins where everything below a bone lies on one side. It is a leg where it comes down to the
+ * ground; the way from its root to what stands there is followed, and of the bones on that way the three that
+ * follow each other with the longest reach are thigh, shin and foot: a collar bone before them, or the long
+ * middle foot of an animal that walks on its toes, goes along with its neighbour. */
+#include <math.h>
+
+#include "import/gait/gait_draft.h"
+
+static const double GROUND_SHARE = 0.05;  /* of the height: a leg ends no higher above the ground */
+static const double FOOT_SHARE = 0.02;    /* of the height: what stands as low as the leg's lowest point */
+static const double HIP_SHARE = 0.05;     /* of the height: a leg begins higher than that above its sole */
+static const double LEAST_SEGMENT = 0.05; /* share of the reach that thigh and shin have at least */
+
+/* The child by which the ground is reached; the longer way where several reach it. */
+static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
+  int32_t best = SBF_NONE;
+  for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++) {
+    const sbfi_bone_shape *shape = &d->shapes[i];
+    if (sbfi_draft_bone(d, (int32_t)i)->parent != bone || !shape->bears) continue;
+    if (best == SBF_NONE || shape->low_below < d->shapes[best].low_below) best = (int32_t)i;
+  }
+  return best;
+}
+
+/* Thigh, shin and foot among the bones of a way down; false where it has none. */
+static bool choose_bones(const sbfi_gait_draft *d, const int32_t *way, uint32_t count, sbfi_leg_draft *leg) {
+  leg->reach = 0;
+  for (uint32_t i = 0; i + 2 < count; i++) {
+    double thigh = sbfi_draft_distance(d, way[i], way[i + 1]);
+    double shin = sbfi_draft_distance(d, way[i + 1], way[i + 2]), reach = thigh + shin;
+    if (fmin(thigh, shin) < LEAST_SEGMENT * reach || reach < leg->reach) continue;
+    leg->upper = way[i];
+    leg->lower = way[i + 1];
+    leg->end = way[i + 2];
+    leg->reach = reach;
+  }
+  if (leg->reach > 0) return true;
+  if (count < 2) return false;
+  leg->upper = way[count - 2]; /* a peg: one bone swings the foot */
+  leg->lower = SBF_NONE;
+  leg->end = way[count - 1];
+  leg->reach = sbfi_draft_distance(d, leg->upper, leg->end);
+  return leg->reach > 0;
+}
+
+static bool take_leg(sbfi_gait_draft *d, int32_t limb, int32_t *way) {
+  const sbfi_bone_shape *shape = &d->shapes[limb];
+  uint32_t count = 0;
+  if (shape->low_below > d->ground + GROUND_SHARE * d->height) return false;
+  if ((double)sbfi_draft_bone(d, limb)->head.y < shape->low_below + HIP_SHARE * d->height) return false;
+  for (int32_t bone = limb; bone != SBF_NONE; bone = next_down(d, bone)) {
+    way[count++] = bone;
+    if (d->shapes[bone].low <= shape->low_below + FOOT_SHARE * d->height) break;
+  }
+  sbfi_leg_draft *leg = &d->legs[d->leg_count];
+  *leg = (sbfi_leg_draft){.limb = limb, .side = shape->side};
+  return choose_bones(d, way, count, leg);
+}
+
+/* Hips and chest: the bones on which the hindmost and the foremost legs hang. One of them serves as hips. */
+static void find_girdles(sbfi_gait_draft *d) {
+  double hindmost = INFINITY, foremost = -INFINITY;
+  d->hips = d->chest = SBF_NONE;
+  for (uint32_t l = 0; l < d->leg_count; l++) {
+    int32_t girdle = sbfi_draft_bone(d, d->legs[l].limb)->parent;
+    double z = (double)sbfi_draft_bone(d, d->legs[l].end)->head.z;
+    if (girdle == SBF_NONE) continue;
+    if (z < hindmost) d->hips = girdle;
+    if (z > foremost) d->chest = girdle;
+    hindmost = fmin(hindmost, z);
+    foremost = fmax(foremost, z);
+  }
+  if (d->chest == d->hips) d->chest = SBF_NONE;
+}
+
+bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch) {
+  uint32_t count = d->asset->bones.count;
+  int32_t *way = sbfi_arena_allocate(scratch, count, sizeof *way);
+  d->legs = sbfi_arena_allocate(scratch, count, sizeof *d->legs);
+  if (!way || !d->legs) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    int32_t parent = sbfi_draft_bone(d, (int32_t)i)->parent;
+    bool begins = d->shapes[i].side && parent != SBF_NONE && d->shapes[parent].side == 0;
+    if (begins && d->height > 0 && take_leg(d, (int32_t)i, way)) d->leg_count++;
+  }
+  find_girdles(d);
+  return true;
+}

@@ -1,0 +1,134 @@
+#include <math.h>
+#include <string.h>
+
+#include "import/gait/gait_draft.h"
+
+static const double SIDE_SHARE = 0.02; /* of the height: what is nearer to x = 0 is in the middle */
+
+double sbfi_draft_distance(const sbfi_gait_draft *d, int32_t a, int32_t b) {
+  const sbf_vec3 p = sbfi_draft_bone(d, a)->head, q = sbfi_draft_bone(d, b)->head;
+  double x = (double)p.x - (double)q.x, y = (double)p.y - (double)q.y, z = (double)p.z - (double)q.z;
+  return sqrt(x * x + y * y + z * z);
+}
+
+bool sbfi_draft_is_below(const sbfi_gait_draft *d, int32_t bone, int32_t ancestor) {
+  while (bone != ancestor && bone != SBF_NONE) bone = sbfi_draft_bone(d, bone)->parent;
+  return bone == ancestor;
+}
+
+int32_t sbfi_draft_only_child(const sbfi_gait_draft *d, int32_t bone) {
+  if (d->shapes[bone].children != 1) return SBF_NONE;
+  for (uint32_t i = (uint32_t)bone + 1; i < d->asset->bones.count; i++)
+    if (sbfi_draft_bone(d, (int32_t)i)->parent == bone && d->shapes[i].bears) return (int32_t)i;
+  return SBF_NONE;
+}
+
+typedef struct extents {
+  double low[3], high[3];
+  double *sum_x; /* (bones) of the points each holds */
+} extents;
+
+static void see(extents *e, sbf_vec3 point) {
+  const double p[3] = {(double)point.x, (double)point.y, (double)point.z};
+  for (int k = 0; k < 3; k++) {
+    e->low[k] = fmin(e->low[k], p[k]);
+    e->high[k] = fmax(e->high[k], p[k]);
+  }
+}
+
+static void hold(sbfi_gait_draft *d, extents *e, uint32_t bone, sbf_vec3 point) {
+  sbfi_bone_shape *shape = &d->shapes[bone];
+  shape->points++;
+  shape->low = fmin(shape->low, (double)point.y);
+  e->sum_x[bone] += (double)point.x;
+}
+
+static void see_points(sbfi_gait_draft *d, extents *e, const sbf_vec3_list points, int32_t bone) {
+  for (uint32_t i = 0; i < points.count; i++) {
+    see(e, points.at[i]);
+    if (bone >= 0) hold(d, e, (uint32_t)bone, points.at[i]);
+  }
+}
+
+static void see_skin(sbfi_gait_draft *d, extents *e, const sbf_render_mesh *mesh) {
+  const sbf_skin *skin = mesh->skin;
+  for (uint32_t i = 0, at = 0; i < mesh->mesh.positions.count; at += skin->influence_counts.at[i++]) {
+    uint32_t most = at;
+    for (uint32_t s = at; s < at + skin->influence_counts.at[i]; s++)
+      if (skin->weights.at[s] > skin->weights.at[most]) most = s;
+    see(e, mesh->mesh.positions.at[i]);
+    if (skin->influence_counts.at[i]) hold(d, e, skin->bones.at[most], mesh->mesh.positions.at[i]);
+  }
+}
+
+static void see_everything(sbfi_gait_draft *d, extents *e) {
+  const sbf_asset *a = d->asset;
+  for (uint32_t b = 0; b < a->soft_bodies.count; b++)
+    see_points(d, e, a->soft_bodies.at[b].surface.positions, a->soft_bodies.at[b].bone);
+  for (uint32_t m = 0; m < a->render_meshes.count; m++) {
+    const sbf_render_mesh *mesh = &a->render_meshes.at[m];
+    if (mesh->skin)
+      see_skin(d, e, mesh);
+    else
+      see_points(d, e, mesh->mesh.positions, mesh->bone);
+  }
+  d->has_mesh = e->low[0] <= e->high[0];
+  for (uint32_t i = 0; i < a->bones.count && !d->has_mesh; i++) see(e, a->bones.at[i].head);
+}
+
+static bool is_tip(const sbf_bone *bone) {
+  size_t length = strlen(bone->name);
+  return length > 4 &&
+         (strcmp(bone->name + length - 4, "_end") == 0 || strcmp(bone->name + length - 4, "_End") == 0);
+}
+
+static void widen(sbfi_bone_shape *shape, double least_x, double most_x) {
+  shape->least_x = fmin(shape->least_x, least_x);
+  shape->most_x = fmax(shape->most_x, most_x);
+}
+
+/* Children stand behind their parents: each is done when its parent's turn comes. */
+static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
+  double margin = SIDE_SHARE * d->height;
+  for (uint32_t i = d->asset->bones.count; i-- > 0;) {
+    sbfi_bone_shape *shape = &d->shapes[i];
+    const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
+    if (!d->has_mesh) {
+      shape->bears |= !is_tip(bone);
+      shape->low = (double)bone->head.y; /* tips mark how far the bones above them reach */
+    }
+    shape->bears |= shape->points > 0;
+    shape->low_below = fmin(shape->low_below, shape->low);
+    if (shape->points) widen(shape, e->sum_x[i] / shape->points, e->sum_x[i] / shape->points);
+    if (shape->bears) widen(shape, (double)bone->head.x, (double)bone->head.x);
+    shape->side = shape->bears && shape->least_x > -margin && shape->most_x > margin   ? 1
+                  : shape->bears && shape->most_x < margin && shape->least_x < -margin ? -1
+                                                                                       : 0;
+    if (bone->parent == SBF_NONE) continue;
+    sbfi_bone_shape *parent = &d->shapes[bone->parent];
+    parent->low_below = fmin(parent->low_below, shape->low_below);
+    if (!shape->bears) continue;
+    parent->bears = true;
+    parent->children++;
+    parent->middle_children += shape->side == 0;
+    widen(parent, shape->least_x, shape->most_x);
+  }
+}
+
+bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch) {
+  uint32_t count = d->asset->bones.count;
+  extents e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, NULL};
+  d->shapes = sbfi_arena_allocate(scratch, count, sizeof *d->shapes);
+  e.sum_x = sbfi_arena_allocate(scratch, count, sizeof *e.sum_x);
+  if (!d->shapes || !e.sum_x) return false;
+  for (uint32_t i = 0; i < count; i++)
+    d->shapes[i] =
+        (sbfi_bone_shape){.low = INFINITY, .low_below = INFINITY, .least_x = INFINITY, .most_x = -INFINITY};
+  see_everything(d, &e);
+  d->ground = e.low[1];
+  d->height = e.high[1] - e.low[1];
+  d->low_z = e.low[2];
+  d->high_z = e.high[2];
+  gather_upwards(d, &e);
+  return true;
+}

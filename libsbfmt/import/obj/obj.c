@@ -1,0 +1,124 @@
+#include "import/obj/obj.h"
+
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "base/file.h"
+#include "import/obj/mtl.h"
+#include "import/path_beside.h"
+#include "import/quote.h"
+
+enum { LIBRARY_LIMIT_BYTES = 64 << 20 };
+
+typedef struct materials {
+  sbfi_scene *scene;
+  const sbfi_obj_text *text;
+  sbfi_arena scratch;
+  sbfi_scene_material *at; /* (count) */
+  bool *described;         /* (count) */
+  bool library_missing;
+  sbfi_array images;
+} materials;
+
+static sbf_status out_of_memory(sbf_diagnostic *error) {
+  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while the OBJ file was read");
+}
+
+/* Reads the library `name`, which stands beside the OBJ file, and is small and a regular file: a name in a
+ * hostile OBJ could lead anywhere. False where memory runs out. */
+static bool read_library(materials *m, sbfi_span name, bool *found) {
+  char path[4096];
+  sbfi_file file;
+  *found = sbfi_path_beside(path, sizeof path, m->scene->file, name) &&
+           sbfi_file_open(path, &file, NULL) == SBF_OK;
+  if (!*found) return true;
+  size_t size = file.size <= LIBRARY_LIMIT_BYTES ? (size_t)file.size : 0;
+  char *bytes = size ? sbfi_arena_allocate(&m->scratch, size, 1) : NULL;
+  *found = size == file.size && (!bytes || sbfi_file_read_at(&file, 0, bytes, size, NULL) == SBF_OK);
+  sbfi_file_close(&file);
+  if (size && !bytes) return false;
+  return !*found ||
+         sbfi_mtl_read(m->scene, bytes, size, &m->text->materials, m->at, m->described, &m->images);
+}
+
+/* One line may name several libraries, or one whose name holds blanks: the whole is tried first. */
+static bool read_libraries_of_line(materials *m, sbfi_span line) {
+  bool found;
+  if (!read_library(m, line, &found)) return false;
+  if (found) return true;
+  sbfi_span rest = line, name;
+  while (sbfi_span_next_word(&rest, &name)) {
+    if (name.length == line.length)
+      found = false;
+    else if (!read_library(m, name, &found))
+      return false;
+    m->library_missing = m->library_missing || !found;
+    if (!found &&
+        !sbfi_scene_warn(m->scene, SBF_CODE_IMPORT_MATERIALS_MISSING, 0,
+            "the material library \"%s\" cannot be read: its materials are grey", sbfi_quote_of(name).text))
+      return false;
+  }
+  return true;
+}
+
+static bool read_materials(materials *m) {
+  sbfi_scene *scene = m->scene;
+  const sbfi_span *names = m->text->materials.names.at, *libraries = m->text->libraries.at;
+  uint32_t count = (uint32_t)m->text->materials.names.count;
+  if (!count) return true;
+  m->at = sbfi_arena_allocate(&scene->arena, count, sizeof *m->at);
+  m->described = sbfi_arena_allocate(&scene->arena, count, sizeof *m->described);
+  if (!m->at || !m->described) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    const char *name = sbfi_scene_string(scene, names[i]);
+    if (!name) return false;
+    m->at[i] = sbfi_mtl_default(name);
+  }
+  for (size_t i = 0; i < m->text->libraries.count; i++)
+    if (!read_libraries_of_line(m, libraries[i])) return false;
+  for (uint32_t i = 0; i < count; i++)
+    if (!m->described[i] && m->text->libraries.count && !m->library_missing &&
+        !sbfi_scene_warn(scene, SBF_CODE_IMPORT_MATERIALS_MISSING, 0,
+            "no material library describes \"%s\": it is grey", m->at[i].name))
+      return false;
+  scene->materials = m->at;
+  scene->material_count = count;
+  if (!m->images.count) return true;
+  scene->images = sbfi_arena_copy(&scene->arena, m->images.at, m->images.count, sizeof *scene->images);
+  scene->image_count = scene->images ? (uint32_t)m->images.count : 0;
+  return scene->images != NULL;
+}
+
+static sbf_status fill(
+    sbfi_scene *scene, const sbfi_obj_text *text, const sbf_allocator *allocator, sbf_diagnostic *error) {
+  if (!text->polygons.count) {
+    const char *why = !text->points.count ? "it has no vertices" : "its vertices are joined by no face";
+    return sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the OBJ file holds no surface: %s", why);
+  }
+  sbf_status status = sbfi_obj_divide(scene, text, allocator, error);
+  if (status) return status;
+  materials m = {.scene = scene, .text = text};
+  sbfi_arena_init(&m.scratch, allocator, 0);
+  sbfi_array_init(&m.images, allocator, sizeof(sbfi_scene_image));
+  bool good = read_materials(&m);
+  sbfi_array_free(&m.images);
+  sbfi_arena_free(&m.scratch);
+  if (!good) return out_of_memory(error);
+  if (text->ignored_count &&
+      !sbfi_scene_warn(scene, SBF_CODE_IMPORT_IGNORED, text->ignored_line,
+          "%u lines of kinds that make no polygon are passed over, the first is \"%s\"", text->ignored_count,
+          sbfi_quote_of(text->ignored_keyword).text))
+    return out_of_memory(error);
+  return SBF_OK;
+}
+
+sbf_status sbfi_obj_read(sbfi_scene *scene, const char *bytes, size_t size, const sbf_allocator *allocator,
+    sbf_diagnostic *error) {
+  sbfi_obj_text text;
+  sbf_status status = sbfi_obj_text_read(&text, bytes, size, allocator, error);
+  if (status) return status;
+  scene->format = "obj";
+  status = fill(scene, &text, allocator, error);
+  sbfi_obj_text_free(&text);
+  return status;
+}

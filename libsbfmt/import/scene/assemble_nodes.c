@@ -1,0 +1,213 @@
+#include <string.h>
+
+#include "import/scene/assembly.h"
+
+/* assimp splits the transform of an FBX node into a chain of helpers, one for each pivot and offset. */
+static const char pivot_mark[] = "_$AssimpFbx$_";
+enum { LONGEST_PIVOT_CHAIN = 32 }; /* assimp makes 16 at most */
+
+static bool contains(sbfi_span text, const char *part) {
+  size_t length = strlen(part);
+  for (size_t i = 0; i + length <= text.length; i++)
+    if (memcmp(text.at + i, part, length) == 0) return true;
+  return false;
+}
+
+bool sbfi_is_folded(const sbfi_assembly *a, uint32_t raw_node) {
+  return a->new_from_old[raw_node] == SBF_NONE;
+}
+
+static bool ends_with(sbfi_span text, const char *end) {
+  size_t length = strlen(end);
+  return text.length >= length && memcmp(text.at + text.length - length, end, length) == 0;
+}
+
+/* By name as well as by place: any tool writes leaves that are bones of their own. */
+static void mark_ends(sbfi_assembly *a, uint32_t node_count) {
+  for (uint32_t i = 0; i < node_count; i++) {
+    sbfi_span name = a->raw->nodes[a->old_from_new[i]].name;
+    a->nodes[i].is_end =
+        ends_with(name, "_end") || ends_with(name, "_End") || sbfi_span_begins(name, "EndSite");
+  }
+  for (uint32_t i = 0; i < node_count; i++)
+    if (a->nodes[i].parent != SBF_NONE) a->nodes[a->nodes[i].parent].is_end = false;
+}
+
+static bool take_limits(sbfi_assembly *a, sbfi_scene_node *node, const sbfi_scene_limit *limits) {
+  bool good = true;
+  for (int i = 0; i < SBFI_LIMITS; i++) {
+    node->limits[i] = limits[i];
+    if (!limits[i].stated || limits[i].min <= limits[i].max) continue;
+    node->limits[i].stated = false;
+    good = good && sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_IGNORED, 0,
+                       "node \"%s\" states a joint limit from %g to %g, which bounds nothing: it is left out",
+                       node->name, (double)limits[i].min, (double)limits[i].max);
+  }
+  return good;
+}
+
+/* A helper's transform goes into every node below it. */
+static bool fold(sbfi_assembly *a) {
+  const sbfi_raw_scene *raw = a->raw;
+  sbfi_matrix *above =
+      sbfi_arena_allocate(&a->scratch, raw->node_count, sizeof *above); /* helpers' product */
+  int32_t *kept_parent = sbfi_arena_allocate(&a->scratch, raw->node_count, sizeof *kept_parent);
+  uint8_t *chain = sbfi_arena_allocate(&a->scratch, raw->node_count, 1); /* helpers that end in this node */
+  if (!above || !kept_parent || !chain) return false;
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < raw->node_count; i++) {
+    const sbfi_raw_node *node = &raw->nodes[i];
+    int32_t parent = node->parent;
+    bool below_helper = parent != SBF_NONE && sbfi_is_folded(a, (uint32_t)parent);
+    sbfi_matrix local = below_helper ? sbfi_matrix_multiply(&above[parent], &node->local) : node->local;
+    int32_t kept = parent == SBF_NONE ? SBF_NONE
+                   : below_helper     ? kept_parent[parent]
+                                      : a->new_from_old[parent];
+    uint8_t length = below_helper ? chain[parent] : 0;
+    if (!node->mesh_count && length < LONGEST_PIVOT_CHAIN && contains(node->name, pivot_mark)) {
+      a->new_from_old[i] = SBF_NONE;
+      above[i] = local;
+      kept_parent[i] = kept;
+      chain[i] = (uint8_t)(length + 1);
+      continue;
+    }
+    const char *name = sbfi_scene_string(a->scene, node->name);
+    if (!name) return false;
+    a->nodes[count] = (sbfi_scene_node){.name = name, .parent = kept, .local = local};
+    if (!take_limits(a, &a->nodes[count], raw->nodes[i].limits)) return false;
+    a->old_from_new[count] = i;
+    a->new_from_old[i] = (int32_t)count++;
+  }
+  a->scene->node_count = count;
+  return true;
+}
+
+bool sbfi_assemble_nodes(sbfi_assembly *a) {
+  uint32_t count = a->raw->node_count;
+  if (!count) return true;
+  a->nodes = sbfi_arena_allocate(&a->scene->arena, count, sizeof *a->nodes);
+  a->new_from_old = sbfi_arena_allocate(&a->scratch, count, sizeof *a->new_from_old);
+  a->old_from_new = sbfi_arena_allocate(&a->scratch, count, sizeof *a->old_from_new);
+  if (!a->nodes || !a->new_from_old || !a->old_from_new || !fold(a)) return false;
+  sbfi_scene_set_worlds(a->nodes, a->scene->node_count);
+  mark_ends(a, a->scene->node_count);
+  a->scene->nodes = a->nodes;
+  return true;
+}
+
+/* How likely a skin or a clip means this one of several nodes of a name. */
+static int rank_of(const sbfi_assembly *a, uint32_t node) {
+  const sbfi_raw_node *raw = &a->raw->nodes[a->old_from_new[node]];
+  if (a->nodes[node].is_bone) return 3;
+  return raw->kind == SBFI_STREAM_BONE ? 2 : raw->mesh_count == 0 ? 1 : 0;
+}
+
+static void choose(sbfi_assembly *a) {
+  for (size_t i = 0; i < a->names.names.count; i++) a->node_of_name[i] = SBF_NONE;
+  for (uint32_t node = 0; node < a->scene->node_count; node++) {
+    int64_t name = sbfi_name_table_find(&a->names, a->raw->nodes[a->old_from_new[node]].name);
+    int32_t *chosen = &a->node_of_name[name];
+    int difference = *chosen == SBF_NONE ? 1 : rank_of(a, node) - rank_of(a, (uint32_t)*chosen);
+    if (difference > 0) *chosen = (int32_t)node;
+    a->ties[name] = difference > 0 ? 0 : a->ties[name] + (difference == 0);
+  }
+}
+
+int32_t sbfi_assembly_find(sbfi_assembly *a, sbfi_span name, bool *good) {
+  int64_t found = sbfi_name_table_find(&a->names, name);
+  if (found < 0) return SBF_NONE;
+  int32_t node = a->node_of_name[found];
+  if (a->ties[found]) {
+    if (!sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_NAME_AMBIGUOUS, 0,
+            "%u nodes are named \"%s\" and a skin or a clip refers to one: the first is taken",
+            a->ties[found] + 1, a->nodes[node].name))
+      *good = false;
+    a->ties[found] = 0; /* one warning is enough */
+  }
+  return node;
+}
+
+static bool is_gltf(const char *format) {
+  return strcmp(format, "glb") == 0 || strcmp(format, "gltf") == 0;
+}
+
+/* The node deepest down with every bone in or below it, and how many bones each subtree has. */
+static int32_t common_ancestor(const sbfi_assembly *a, uint32_t *bones_below) {
+  uint32_t all = 0;
+  int32_t deepest = SBF_NONE;
+  for (uint32_t i = a->scene->node_count; i-- > 0;) {
+    bones_below[i] += a->nodes[i].is_bone;
+    all += a->nodes[i].is_bone;
+    if (a->nodes[i].parent != SBF_NONE) bones_below[a->nodes[i].parent] += bones_below[i];
+  }
+  for (uint32_t i = 0; i < a->scene->node_count; i++)
+    if (all && bones_below[i] == all) deepest = (int32_t)i;
+  return deepest;
+}
+
+/* A glTF without a skin may still hold a rig, its meshes hanging rigidly on it: the nodes that are no meshes
+ * themselves, below the top one, where at least two of them carry a mesh. */
+static void mark_rigid_rig(sbfi_assembly *a) {
+  sbfi_scene_node *nodes = a->nodes;
+  uint32_t count = a->scene->node_count, carriers = 0;
+  int32_t last = SBF_NONE;
+  for (uint32_t i = 0; i < count; i++) {
+    if (nodes[i].is_bone) return;
+    int32_t parent = nodes[i].parent;
+    if (!a->raw->nodes[a->old_from_new[i]].mesh_count || parent == SBF_NONE || parent == last) continue;
+    bool on_mesh = a->raw->nodes[a->old_from_new[parent]].mesh_count > 0;
+    if (on_mesh || nodes[parent].parent == SBF_NONE) continue;
+    carriers++;
+    last = parent;
+  }
+  for (uint32_t i = 0; i < count && carriers >= 2; i++)
+    nodes[i].is_bone = nodes[i].parent != SBF_NONE && !a->raw->nodes[a->old_from_new[i]].mesh_count;
+}
+
+/* glTF lists the joints of a skin, and FBX says of each node whether it is a limb. Elsewhere only the joints
+ * that hold a point are known: to them come what joins them and what hangs on them, but never the root of the
+ * file. In a BVH everything is a joint. */
+static bool mark_bones(sbfi_assembly *a) {
+  const char *format = a->scene->format;
+  sbfi_scene_node *nodes = a->nodes;
+  uint32_t count = a->scene->node_count;
+  for (uint32_t i = 0; i < count; i++)
+    if (a->raw->nodes[a->old_from_new[i]].kind == SBFI_STREAM_BONE) nodes[i].is_bone = true;
+  if (is_gltf(format)) mark_rigid_rig(a);
+  if (is_gltf(format) || strcmp(format, "fbx") == 0) return true;
+  uint32_t *bones_below = sbfi_arena_allocate(&a->scratch, count, sizeof *bones_below);
+  if (!bones_below) return false;
+  int32_t top = common_ancestor(a, bones_below);
+  bool all = strcmp(format, "bvh") == 0, invented = sbfi_is_invented(a);
+  for (uint32_t i = 0; i < count; i++) {
+    const sbfi_raw_node *raw = &a->raw->nodes[a->old_from_new[i]];
+    bool has_parent = nodes[i].parent != SBF_NONE;
+    bool below = has_parent && nodes[nodes[i].parent].is_bone;
+    bool joins = has_parent && (int32_t)i >= top && bones_below[i] > 0;
+    bool may = (raw->mesh_count == 0 || invented) && raw->kind != SBFI_STREAM_NO_BONE &&
+               !sbfi_span_begins(raw->name, "EndSite");
+    if (may && (all || below || joins)) nodes[i].is_bone = true;
+  }
+  return true;
+}
+
+bool sbfi_assemble_bones(sbfi_assembly *a) {
+  sbfi_name_table_init(&a->names, a->allocator);
+  for (uint32_t i = 0; i < a->scene->node_count; i++)
+    if (sbfi_name_table_add(&a->names, a->raw->nodes[a->old_from_new[i]].name) < 0) return false;
+  size_t name_count = a->names.names.count;
+  if (!name_count) return true;
+  a->node_of_name = sbfi_arena_allocate(&a->scratch, name_count, sizeof *a->node_of_name);
+  a->ties = sbfi_arena_allocate(&a->scratch, name_count, sizeof *a->ties);
+  if (!a->node_of_name || !a->ties) return false;
+  choose(a);
+  bool good = true;
+  for (uint32_t m = 0; m < a->raw->mesh_count && good; m++)
+    for (uint32_t b = 0; b < a->raw->meshes[m].bone_count && good; b++) {
+      int32_t node = sbfi_assembly_find(a, a->raw->meshes[m].bones[b].name, &good);
+      if (node != SBF_NONE) a->nodes[node].is_bone = true;
+    }
+  if (!good || !mark_bones(a)) return false;
+  choose(a);
+  return true;
+}

@@ -1,0 +1,90 @@
+#include "import/scene/assembly.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/diagnostic.h"
+
+bool sbfi_is_invented(const sbfi_assembly *a) {
+  return a->raw->incomplete || strcmp(a->scene->format, "bvh") == 0;
+}
+
+bool sbfi_assembly_refuse(sbfi_assembly *a, sbf_code code, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  a->status = sbfi_diagnose_v(a->error, code, format, arguments);
+  va_end(arguments);
+  return false;
+}
+
+/* Rows: which axis of the file is +X, +Y and +Z here. FBX states them as up, front and right ("coord"). */
+static bool axes_of(const int32_t stated[6], sbfi_matrix *to) {
+  static const int row_of[] = {1, 2, 0};
+  sbfi_matrix m = {.at[3][3] = 1};
+  for (int i = 0; i < 3; i++) {
+    int32_t axis = stated[2 * i], sign = stated[2 * i + 1];
+    if (axis < 0 || axis > 2 || (sign != 1 && sign != -1)) return false;
+    m.at[row_of[i]][axis] = sign;
+  }
+  double determinant = m.at[0][0] * (m.at[1][1] * m.at[2][2] - m.at[1][2] * m.at[2][1]) -
+                       m.at[0][1] * (m.at[1][0] * m.at[2][2] - m.at[1][2] * m.at[2][0]) +
+                       m.at[0][2] * (m.at[1][0] * m.at[2][1] - m.at[1][1] * m.at[2][0]);
+  if (determinant != 1) return false; /* an axis twice, or a left-handed file */
+  *to = m;
+  return true;
+}
+
+/* glTF is in metres with +Y up; Collada is turned and scaled so by assimp, in its root node. */
+bool sbfi_assemble_frame(sbfi_assembly *a) {
+  sbfi_scene *scene = a->scene;
+  const char *format = scene->format;
+  if (strcmp(format, "glb") == 0 || strcmp(format, "gltf") == 0 || strcmp(format, "dae") == 0)
+    scene->unit_known = scene->axes_known = true;
+  if (strcmp(format, "fbx") != 0) return true;
+  double factor = a->raw->unit_scale_factor;
+  scene->unit_known = factor >= 1e-6 && factor <= 1e9;
+  if (scene->unit_known)
+    scene->unit_m = factor / 100;
+  else if (!sbfi_scene_warn(scene, SBF_CODE_IMPORT_UNIT, 0,
+               "the file states a unit of %g cm, which is no length of use: metres are assumed", factor))
+    return false;
+  static const int32_t none[6];
+  if (memcmp(a->raw->axes, none, sizeof none) == 0) return true;
+  scene->axes_known = axes_of(a->raw->axes, &scene->axes);
+  return scene->axes_known || sbfi_scene_warn(scene, SBF_CODE_IMPORT_AXES, 0,
+                                  "the file's axes (up %d, front %d, right %d, signs %d %d %d) make no "
+                                  "right-handed frame: +Y up and "
+                                  "+Z forward are assumed",
+                                  (int)a->raw->axes[0], (int)a->raw->axes[2], (int)a->raw->axes[4],
+                                  (int)a->raw->axes[1], (int)a->raw->axes[3], (int)a->raw->axes[5]);
+}
+
+static bool check_worlds(sbfi_assembly *a) {
+  for (uint32_t i = 0; i < a->scene->node_count; i++)
+    for (int k = 0; k < 12; k++)
+      if (!(fabs(a->nodes[i].world.at[k / 4][k % 4]) <= 1e30))
+        return sbfi_assembly_refuse(a, SBF_CODE_IMPORT_NOT_FINITE,
+            "the transforms above node \"%s\" multiply beyond single precision", a->nodes[i].name);
+  return true;
+}
+
+static bool check_content(sbfi_assembly *a) {
+  if (a->scene->mesh_count || sbfi_scene_bone_count(a->scene)) return true;
+  return sbfi_assembly_refuse(
+      a, SBF_CODE_IMPORT_EMPTY, "the file holds neither a surface nor bones that can be read");
+}
+
+sbf_status sbfi_assemble(
+    sbfi_scene *scene, const sbfi_raw_scene *raw, const sbf_allocator *allocator, sbf_diagnostic *error) {
+  sbfi_assembly a = {.scene = scene, .raw = raw, .allocator = allocator, .error = error};
+  sbfi_arena_init(&a.scratch, allocator, 0);
+  scene->generator = sbfi_scene_string(scene, raw->generator);
+  bool good = scene->generator && sbfi_assemble_frame(&a) && sbfi_assemble_nodes(&a) && check_worlds(&a) &&
+              sbfi_assemble_bones(&a) && sbfi_assemble_materials(&a) && sbfi_assemble_meshes(&a) &&
+              sbfi_assemble_clips(&a) && check_content(&a);
+  sbfi_name_table_free(&a.names);
+  sbfi_arena_free(&a.scratch);
+  if (good) return SBF_OK;
+  if (a.status) return a.status;
+  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while the scene was put together");
+}

@@ -1,0 +1,170 @@
+#include "import/scene/assimp_bridge.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/module_path.h"
+#include "base/process.h"
+#include "import/quote.h"
+#include "import/scene/assembly.h"
+
+static const char helper_name[] = "sbfmt-import";
+
+enum { PATH_SIZE = 4096 };
+
+/* Places of the helper relative to the folder of the program or library: beside it, an installed tree (bin,
+ * or lib with or without the machine's name), a build tree. */
+static const char *const places[] = {"", "/../libexec/sbfmt", "/../../libexec/sbfmt", "/../libsbfmt", "/.."};
+
+static bool look_from(const char *folder, char *to, size_t size) {
+  for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+    int length = snprintf(to, size, "%s%s/%s", folder, places[i], helper_name);
+    if (length > 0 && (size_t)length < size && sbfi_is_program(to)) return true;
+  }
+  return false;
+}
+
+static sbf_status helper_missing(sbf_diagnostic *error, const char *path, const char *from) {
+  return sbfi_diagnose(error, SBF_CODE_IMPORT_HELPER_MISSING,
+      "%s, which %s names, is no program: this form is read by the program %s", path, from, helper_name);
+}
+
+static sbf_status find_helper(const char *stated, char *to, size_t size, sbf_diagnostic *error) {
+  const char *from = "the option";
+  if (!stated || !*stated) {
+    stated = getenv("SBFMT_IMPORT_HELPER");
+    from = "SBFMT_IMPORT_HELPER";
+  }
+  if (stated && *stated) {
+    /* A bare name would be looked for along PATH by some systems: it means the folder we are in. */
+    int length = snprintf(to, size, "%s%s", strchr(stated, '/') ? "" : "./", stated);
+    if (length < 0 || (size_t)length >= size || !sbfi_is_program(to))
+      return helper_missing(error, stated, from);
+    return SBF_OK;
+  }
+  char folder[PATH_SIZE];
+  if (sbfi_library_folder(folder, sizeof folder) && look_from(folder, to, size)) return SBF_OK;
+  if (sbfi_program_folder(folder, sizeof folder) && look_from(folder, to, size)) return SBF_OK;
+#ifdef SBFMT_LIBEXEC_FOLDER
+  if (look_from(SBFMT_LIBEXEC_FOLDER, to, size)) return SBF_OK;
+#endif
+  return sbfi_diagnose(error, SBF_CODE_IMPORT_HELPER_MISSING,
+      "the program %s, which reads this form, lies neither beside this program or library nor in the libexec "
+      "folder of their tree: install it, or name it in SBFMT_IMPORT_HELPER",
+      helper_name);
+}
+
+/* The last line of what the child said. */
+static void last_words(const char *text, char *to, size_t size) {
+  sbfi_span rest = sbfi_span_of(text), line, last = {"nothing", 7};
+  while (sbfi_span_next_line(&rest, &line)) {
+    line = sbfi_span_trim(line);
+    if (line.length) last = line;
+  }
+  sbfi_quote_into(to, size, last);
+}
+
+static sbf_status limit_reached(sbf_diagnostic *error, const char *what) {
+  return sbfi_diagnose(error, SBF_CODE_IMPORT_LIMIT,
+      "reading took more %s than it may: if the file is trusted, raise the limit, or export it smaller",
+      what);
+}
+
+static sbf_status judge_exit(const sbfi_process_result *result, sbf_diagnostic *error) {
+  char words[200];
+  last_words(result->error_tail, words, sizeof words);
+  switch (result->exit_status) {
+  case SBFI_CHILD_DONE:
+    return SBF_OK;
+  case SBFI_CHILD_REFUSED:
+    return sbfi_diagnose(error, SBF_CODE_IMPORT_REFUSED,
+        "assimp refuses the file: %s; export it as a current FBX (2011 or later), glTF 2.0 or OBJ", words);
+  case SBFI_CHILD_NO_MEMORY:
+    return limit_reached(error, "memory");
+  default:
+    return sbfi_diagnose(error, SBF_CODE_IMPORT_CRASHED,
+        "the importer ended with status %d: \"%s\"; export the file again or in another form",
+        result->exit_status, words);
+  }
+}
+
+static sbf_status judge_end(const sbfi_process_result *result, sbf_diagnostic *error) {
+  char how[128];
+  switch (result->end) {
+  case SBFI_PROCESS_EXITED:
+    return judge_exit(result, error);
+  case SBFI_PROCESS_TIMED_OUT:
+  case SBFI_PROCESS_CPU_LIMIT:
+    return limit_reached(error, "time");
+  case SBFI_PROCESS_OUTPUT_TOO_LARGE:
+    return limit_reached(error, "room");
+  case SBFI_PROCESS_KILLED:
+    break;
+  }
+  sbfi_process_describe(result, how, sizeof how);
+  return sbfi_diagnose(error, SBF_CODE_IMPORT_CRASHED,
+      "assimp broke down on the file (%s): it is damaged or unusual; export it again or in another form",
+      how);
+}
+
+/* Looked at first, so that a missing file is told from one that is refused. */
+static sbf_status check_input(const char *path, size_t limit_bytes, sbf_diagnostic *error) {
+  sbfi_file file;
+  sbf_status status = sbfi_file_open(path, &file, error);
+  if (status) return status;
+  uint64_t size = file.size;
+  sbfi_file_close(&file);
+  if (size == 0) return sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the file is empty");
+  if (size > limit_bytes)
+    return sbfi_diagnose(error, SBF_CODE_IO_TOO_LARGE, "the file has %llu bytes, the limit is %zu",
+        (unsigned long long)size, limit_bytes);
+  return SBF_OK;
+}
+
+/* The ending of the name in small letters, "" where there is none. */
+static const char *format_of(sbfi_scene *scene, const char *path) {
+  const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+  char *format = (char *)sbfi_scene_string(scene, sbfi_span_of(dot ? dot + 1 : ""));
+  for (char *c = format; c && *c; c++)
+    if (*c >= 'A' && *c <= 'Z') *c = (char)(*c | 0x20);
+  return format;
+}
+
+sbf_status sbfi_assimp_take(sbfi_scene *scene, const uint8_t *bytes, size_t size,
+    const sbf_allocator *allocator, sbf_diagnostic *error) {
+  sbfi_raw_scene raw;
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, allocator, 0);
+  sbf_status status = sbfi_raw_scene_read(&raw, bytes, size, &scratch, error);
+  if (!status) status = sbfi_assemble(scene, &raw, allocator, error);
+  sbfi_arena_free(&scratch);
+  return status;
+}
+
+sbf_status sbfi_assimp_read(
+    sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
+  char helper[PATH_SIZE];
+  double seconds = options->helper_time_limit_s > 0 ? options->helper_time_limit_s : 120;
+  if (seconds > 4e6) seconds = 4e6; /* what 32 bits of milliseconds hold */
+  sbfi_process_limits limits = {.wall_ms = (uint32_t)(seconds * 1000),
+      .cpu_s = (uint32_t)seconds + 1,
+      .memory_bytes =
+          options->helper_memory_limit_bytes ? options->helper_memory_limit_bytes : (uint64_t)8 << 30,
+      .output_bytes = options->memory_limit_bytes};
+  sbf_status status = check_input(path, options->input_limit_bytes, error);
+  if (!status) status = find_helper(options->helper_path, helper, sizeof helper, error);
+  if (status) return status;
+  scene->format = format_of(scene, path);
+  if (!scene->format) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to read a scene");
+  const char *arguments[] = {helper, path, NULL};
+  sbfi_process_result result;
+  status = sbfi_process_run(arguments, &limits, options->allocator, &result, error);
+  if (status) return status;
+  status = judge_end(&result, error);
+  if (!status) status = sbfi_assimp_take(scene, result.output, result.output_size, options->allocator, error);
+  sbfi_process_result_free(&result);
+  return status;
+}

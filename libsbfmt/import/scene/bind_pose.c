@@ -1,0 +1,203 @@
+#include "import/scene/bind_pose.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "import/scene/trs.h"
+
+/* A pose further than this from the bind pose, as sbfi_bind_worlds measures it, is another one. */
+static const double SAME_POSE = 1e-3;
+
+/* While worlds are worked out their last corner, which is 1 in the end, says where they come from. */
+enum { UNSET = 0, FROM_SKIN = 1, FROM_BELOW = 2 };
+
+/* A skinned mesh stays where its node is, whatever that hangs on; its joints are where they were from there.
+ */
+static void set_joints(const sbfi_scene *scene, sbfi_matrix *worlds) {
+  for (uint32_t m = 0; m < scene->mesh_count; m++)
+    if (scene->meshes[m].joint_count)
+      worlds[scene->meshes[m].node] = scene->nodes[scene->meshes[m].node].world;
+  /* Later skins first, so that the first one stays. */
+  for (uint32_t m = scene->mesh_count; m-- > 0;) {
+    const sbfi_scene_mesh *mesh = &scene->meshes[m];
+    for (uint32_t j = 0; j < mesh->joint_count; j++) {
+      sbfi_matrix to_mesh;
+      if (!sbfi_matrix_invert(&mesh->joints[j].bind, &to_mesh)) continue;
+      worlds[mesh->joints[j].node] = sbfi_matrix_multiply(&scene->nodes[mesh->node].world, &to_mesh);
+    }
+  }
+}
+
+/* A bone that no skin has, with a joint somewhere below: from its first child, as if that had not moved in it
+ * since. Children stand behind their parents, so each is done when its parent's turn comes. */
+static void set_bones_above(const sbfi_scene *scene, sbfi_matrix *worlds) {
+  for (uint32_t i = scene->node_count; i-- > 0;) {
+    int32_t parent = scene->nodes[i].parent;
+    sbfi_matrix to_parent;
+    if (worlds[i].at[3][3] == UNSET || !scene->nodes[i].is_bone) continue;
+    if (parent == SBF_NONE || !scene->nodes[parent].is_bone) continue;
+    if (worlds[parent].at[3][3] == FROM_SKIN) continue;
+    if (!sbfi_matrix_invert(&scene->nodes[i].local, &to_parent)) continue;
+    worlds[parent] = sbfi_matrix_multiply(&worlds[i], &to_parent);
+    worlds[parent].at[3][3] = FROM_BELOW;
+  }
+}
+
+static double distance(const sbfi_matrix *a, const sbfi_matrix *b) {
+  double squared = 0;
+  for (int k = 0; k < 3; k++) squared += (a->at[k][3] - b->at[k][3]) * (a->at[k][3] - b->at[k][3]);
+  return sqrt(squared);
+}
+
+/* The largest sine of an angle between axes of the same name. */
+static double turned(const sbfi_matrix *a, const sbfi_matrix *b) {
+  double most = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    double aa = 0, bb = 0, ab = 0;
+    for (int k = 0; k < 3; k++) {
+      aa += a->at[k][axis] * a->at[k][axis];
+      bb += b->at[k][axis] * b->at[k][axis];
+      ab += a->at[k][axis] * b->at[k][axis];
+    }
+    double cosine = aa > 0 && bb > 0 ? ab / sqrt(aa * bb) : 1;
+    double sine = cosine <= 0 ? 1 : cosine >= 1 ? 0 : sqrt(1 - cosine * cosine);
+    most = sine > most ? sine : most;
+  }
+  return most;
+}
+
+static double deviation(const sbfi_scene *scene, const sbfi_matrix *worlds) {
+  double most_moved = 0, most_turned = 0, size = 0;
+  const sbfi_matrix *first = NULL;
+  for (uint32_t i = 0; i < scene->node_count; i++) {
+    const sbfi_matrix *rest = &scene->nodes[i].world;
+    if (!scene->nodes[i].is_bone) continue;
+    if (!first) first = rest;
+    size = fmax(size, distance(first, rest));
+    most_moved = fmax(most_moved, distance(&worlds[i], rest));
+    most_turned = fmax(most_turned, turned(&worlds[i], rest));
+  }
+  return size > 0 ? fmax(most_turned, most_moved / size) : most_turned;
+}
+
+double sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds) {
+  for (uint32_t i = 0; i < scene->node_count; i++) worlds[i].at[3][3] = UNSET;
+  set_joints(scene, worlds);
+  set_bones_above(scene, worlds);
+  for (uint32_t i = 0; i < scene->node_count; i++) {
+    const sbfi_scene_node *node = &scene->nodes[i];
+    if (worlds[i].at[3][3] == UNSET)
+      worlds[i] =
+          node->parent == SBF_NONE ? node->local : sbfi_matrix_multiply(&worlds[node->parent], &node->local);
+    worlds[i].at[3][3] = 1;
+  }
+  return deviation(scene, worlds);
+}
+
+/* --- Taking it as the rest pose --------------------------------------------------------------------- */
+
+typedef struct rest_key {
+  float time;
+  sbf_vec3 position, scale;
+  sbf_quat rotation;
+} rest_key;
+
+/* Gives a channel, where it has no track, one key that holds the node at what it was. */
+static void complete(sbfi_scene_channel *channel, const rest_key *rest) {
+  if (!channel->position_count) {
+    channel->position_count = 1;
+    channel->position_times = &rest->time;
+    channel->positions = &rest->position;
+  }
+  if (!channel->rotation_count) {
+    channel->rotation_count = 1;
+    channel->rotation_times = &rest->time;
+    channel->rotations = &rest->rotation;
+  }
+  if (!channel->scale_count) {
+    channel->scale_count = 1;
+    channel->scale_times = &rest->time;
+    channel->scales = &rest->scale;
+  }
+}
+
+static rest_key *rest_keys(sbfi_scene *scene) {
+  rest_key *keys = sbfi_arena_allocate(&scene->arena, scene->node_count, sizeof *keys);
+  for (uint32_t i = 0; keys && i < scene->node_count; i++) {
+    sbfi_trs t = sbfi_trs_decompose(&scene->nodes[i].local);
+    keys[i].position = (sbf_vec3){(float)t.position[0], (float)t.position[1], (float)t.position[2]};
+    keys[i].scale = (sbf_vec3){(float)t.scale[0], (float)t.scale[1], (float)t.scale[2]};
+    keys[i].rotation =
+        (sbf_quat){(float)t.rotation[0], (float)t.rotation[1], (float)t.rotation[2], (float)t.rotation[3]};
+  }
+  return keys;
+}
+
+/* Every bone gets a channel: what the clip leaves alone stayed in the pose the file was saved in. */
+static bool complete_clip(sbfi_scene *scene, sbfi_scene_clip *clip, const rest_key *rest) {
+  sbfi_scene_channel *channels =
+      sbfi_arena_allocate(&scene->arena, (size_t)clip->channel_count + scene->node_count, sizeof *channels);
+  bool *moved = sbfi_arena_allocate(&scene->arena, scene->node_count, sizeof *moved);
+  if (!channels || !moved) return false;
+  uint32_t count = clip->channel_count;
+  if (count) memcpy(channels, clip->channels, count * sizeof *channels);
+  for (uint32_t i = 0; i < count; i++) {
+    moved[channels[i].node] = true;
+    complete(&channels[i], &rest[channels[i].node]);
+  }
+  for (uint32_t i = 0; i < scene->node_count; i++) {
+    if (moved[i] || !scene->nodes[i].is_bone) continue;
+    channels[count].node = (int32_t)i;
+    complete(&channels[count++], &rest[i]);
+  }
+  clip->channels = channels;
+  clip->channel_count = count;
+  return true;
+}
+
+static bool complete_clips(sbfi_scene *scene) {
+  if (!scene->clip_count) return true;
+  const rest_key *rest = rest_keys(scene);
+  sbfi_scene_clip *clips = sbfi_arena_copy(&scene->arena, scene->clips, scene->clip_count, sizeof *clips);
+  if (!rest || !clips) return false;
+  for (uint32_t i = 0; i < scene->clip_count; i++)
+    if (!complete_clip(scene, &clips[i], rest)) return false;
+  scene->clips = clips;
+  return true;
+}
+
+static bool is_usable(const sbfi_matrix *m) {
+  for (int k = 0; k < 12; k++)
+    if (!(fabs(m->at[k / 4][k % 4]) <= 1e30)) return false;
+  return true;
+}
+
+/* A damaged file may hold bind transforms that are nearly flat: their inverses lead out of single precision.
+ */
+static bool all_usable(const sbfi_scene *scene, const sbfi_matrix *worlds) {
+  for (uint32_t i = 0; i < scene->node_count; i++)
+    if (!is_usable(&worlds[i]) || !is_usable(&scene->nodes[i].local)) return false;
+  return true;
+}
+
+bool sbfi_scene_take_bind_pose(sbfi_scene *scene) {
+  bool skinned = false;
+  for (uint32_t i = 0; i < scene->mesh_count; i++) skinned = skinned || scene->meshes[i].joint_count;
+  if (!skinned) return true;
+  sbfi_matrix *worlds = sbfi_arena_allocate(&scene->arena, scene->node_count, sizeof *worlds);
+  sbfi_scene_node *nodes = sbfi_arena_copy(&scene->arena, scene->nodes, scene->node_count, sizeof *nodes);
+  if (!worlds || !nodes) return false;
+  if (sbfi_bind_worlds(scene, worlds) <= SAME_POSE || !all_usable(scene, worlds)) return true;
+  if (!complete_clips(scene)) return false;
+  for (uint32_t i = 0; i < scene->node_count; i++) {
+    sbfi_matrix to_parent;
+    nodes[i].world = worlds[i];
+    if (nodes[i].parent == SBF_NONE)
+      nodes[i].local = worlds[i];
+    else if (sbfi_matrix_invert(&worlds[nodes[i].parent], &to_parent))
+      nodes[i].local = sbfi_matrix_multiply(&to_parent, &worlds[i]);
+  }
+  scene->nodes = nodes;
+  return sbfi_scene_warn(scene, SBF_CODE_IMPORT_POSE, 0,
+      "the file was saved in the middle of a movement: bones and skin are taken as they were bound");
+}

@@ -1,0 +1,100 @@
+/* A scene as sbfmt-import sends it: checked, not yet put together. Numbers point into the stream. */
+#ifndef SBFI_RAW_SCENE_H
+#define SBFI_RAW_SCENE_H
+
+#include "import/scene/scene.h"
+#include "import/scene/stream_format.h"
+
+typedef struct sbfi_raw_node {
+  sbfi_span name;
+  int32_t parent; /* before this one, or SBF_NONE */
+  sbfi_stream_kind kind;
+  sbfi_matrix local;
+  sbfi_scene_limit limits[SBFI_LIMITS]; /* in whatever order the file has least and greatest */
+  uint32_t mesh_count;
+  const uint32_t *meshes; /* (mesh_count) */
+} sbfi_raw_node;
+
+typedef struct sbfi_raw_bone {
+  sbfi_span name; /* of a node */
+  sbfi_matrix bind;
+  uint32_t weight_count;
+  const uint32_t *vertices; /* (weight_count) */
+  const float *weights;     /* (weight_count) */
+} sbfi_raw_bone;
+
+typedef struct sbfi_raw_shape {
+  sbfi_span name;
+  float weight;
+  const sbf_vec3 *positions; /* (vertex_count) */
+} sbfi_raw_shape;
+
+/* Vertices are split wherever an attribute differs, or at every corner; polygons may have less than three. */
+typedef struct sbfi_raw_mesh {
+  sbfi_span name;
+  int32_t material; /* SBF_NONE where it is no material of the scene */
+  uint32_t vertex_count, uv_set_count, polygon_count, corner_count, bone_count, shape_count;
+  const sbf_vec3 *positions;     /* (vertex_count) */
+  const sbf_vec3 *normals;       /* (vertex_count), or NULL */
+  const sbf_vec2 *const *uvs;    /* (uv_set_count)(vertex_count) */
+  const uint32_t *polygon_sizes; /* (polygon_count) */
+  const uint32_t *corners;       /* (corner_count) */
+  const sbfi_raw_bone *bones;
+  const sbfi_raw_shape *shapes;
+} sbfi_raw_mesh;
+
+enum { SBFI_RAW_BASE_COLOR, SBFI_RAW_METALLIC_ROUGHNESS, SBFI_RAW_NORMAL, SBFI_RAW_MAPS };
+
+typedef struct sbfi_raw_material {
+  sbfi_scene_material values; /* without name and images */
+  sbfi_span name, images[SBFI_RAW_MAPS];
+} sbfi_raw_material;
+
+typedef struct sbfi_raw_image {
+  sbfi_span name, extension;
+  uint32_t byte_count; /* 0: no image file */
+  const uint8_t *bytes;
+} sbfi_raw_image;
+
+/* Times are in ticks; keys stand in the stream as f64 time, f32 values, so they are read one by one. */
+typedef struct sbfi_raw_keys {
+  uint32_t count;
+  const uint8_t *at;
+} sbfi_raw_keys;
+
+enum { SBFI_RAW_POSITION, SBFI_RAW_ROTATION, SBFI_RAW_SCALE, SBFI_RAW_TRACKS };
+
+typedef struct sbfi_raw_channel {
+  sbfi_span node_name;
+  sbfi_raw_keys keys[SBFI_RAW_TRACKS];
+} sbfi_raw_channel;
+
+typedef struct sbfi_raw_clip {
+  sbfi_span name;
+  double duration_ticks, ticks_per_second;
+  uint32_t channel_count;
+  const sbfi_raw_channel *channels;
+} sbfi_raw_clip;
+
+typedef struct sbfi_raw_scene {
+  sbfi_span generator;
+  double unit_scale_factor;
+  int32_t axes[6];
+  bool incomplete;
+  uint32_t node_count, mesh_count, material_count, image_count, clip_count;
+  sbfi_raw_node *nodes;
+  sbfi_raw_mesh *meshes;
+  const sbfi_raw_material *materials;
+  const sbfi_raw_image *images;
+  const sbfi_raw_clip *clips;
+} sbfi_raw_scene;
+
+/* Reads a stream, `bytes` at a multiple of 4, which must stay as long as the scene is used. Lists are made in
+ * `scratch`. What it gives: indices in range, numbers finite, parents before children. */
+sbf_status sbfi_raw_scene_read(
+    sbfi_raw_scene *scene, const uint8_t *bytes, size_t size, sbfi_arena *scratch, sbf_diagnostic *error);
+
+/* Key `index` of a track: its time and 3 or 4 values. */
+double sbfi_raw_key(const sbfi_raw_keys *keys, uint32_t width, uint32_t index, float *values);
+
+#endif

@@ -1,0 +1,37 @@
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "base/file.h"
+#include "import/obj/obj.h"
+#include "import/scene/assimp_bridge.h"
+#include "import/scene/scene.h"
+
+static bool ends_in_obj(const char *path) {
+  size_t length = strlen(path);
+  if (length < 4) return false;
+  const char *end = path + length - 4;
+  return end[0] == '.' && (end[1] | 0x20) == 'o' && (end[2] | 0x20) == 'b' && (end[3] | 0x20) == 'j';
+}
+
+sbf_status sbfi_scene_read(
+    sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
+  sbfi_scene_options o = options ? *options : (sbfi_scene_options){0};
+  if (!o.input_limit_bytes) o.input_limit_bytes = (size_t)4 << 30;
+  if (!o.memory_limit_bytes) o.memory_limit_bytes = (size_t)8 << 30;
+  if (!sbfi_scene_init(scene, o.allocator, o.memory_limit_bytes, path)) {
+    sbf_status status = sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to read a scene");
+    return sbfi_scene_fail(scene, error, status);
+  }
+  sbf_status status;
+  if (ends_in_obj(path)) {
+    sbfi_file_content file;
+    status = sbfi_file_read(path, o.input_limit_bytes, o.allocator, &file, error);
+    if (!status) {
+      status = sbfi_obj_read(scene, (const char *)file.at, file.size, o.allocator, error);
+      sbfi_file_content_free(&file);
+    }
+  } else {
+    status = sbfi_assimp_read(scene, path, &o, error);
+  }
+  return status ? sbfi_scene_fail(scene, error, status) : SBF_OK;
+}

@@ -1,0 +1,21 @@
+/* Transforms in parts: translation, rotation and scale, for keys. */
+#ifndef SBFI_TRS_H
+#define SBFI_TRS_H
+
+#include "import/scene/scene.h"
+
+typedef struct sbfi_trs {
+  double position[3];
+  double rotation[4]; /* x y z w, unit length */
+  double scale[3];    /* along the rotated axes; all of one mirrored transform's mirroring is in x */
+} sbfi_trs;
+
+sbfi_matrix sbfi_trs_compose(const sbfi_trs *trs); /* scale first, then rotation, then translation */
+
+/* Shear is lost: no key can hold it. */
+sbfi_trs sbfi_trs_decompose(const sbfi_matrix *matrix);
+
+/* Along the shorter arc at constant speed; t from 0 to 1. */
+void sbfi_quat_slerp(const double a[4], const double b[4], double t, double to[4]);
+
+#endif

@@ -1,0 +1,62 @@
+/* Collision: layers and masks by which things do meet, sizes that fit the body. */
+#include "validate/rules/pose.h"
+#include "validate/validation.h"
+
+/* Things with the same layer and mask are one kind; files hold few kinds. */
+typedef struct kind {
+  uint32_t layer, mask;
+  const char *name;
+  sbfi_path path; /* of the first of them */
+} kind;
+
+enum { MOST_KINDS = 64 };
+
+static void add_kind(kind *kinds, uint32_t *count, const kind *one) {
+  for (uint32_t i = 0; i < *count; i++)
+    if (kinds[i].layer == one->layer && kinds[i].mask == one->mask) return;
+  if (*count < MOST_KINDS) kinds[(*count)++] = *one;
+}
+
+static void check_pairs(sbfi_validation *v, const kind *kinds, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++)
+    for (uint32_t k = 0; k < i; k++) {
+      bool this_way = kinds[i].mask & kinds[k].layer, that_way = kinds[k].mask & kinds[i].layer;
+      if (this_way == that_way) continue;
+      const kind *meets = this_way ? &kinds[i] : &kinds[k], *other = this_way ? &kinds[k] : &kinds[i];
+      sbfi_found(v, SBF_CODE_COLLISION_ONE_SIDED, meets->path.text, -1,
+          "the mask of '%s' has the layer of '%s', whose mask has not the layer of the former", meets->name,
+          other->name);
+    }
+}
+
+static void check_body(sbfi_validation *v, const sbf_soft_body *body, const char *path) {
+  const sbf_collision *is = &body->collision;
+  double size = sbfi_extent(body->surface.positions);
+  if (is->self && !(is->layer & is->mask))
+    sbfi_found(v, SBF_CODE_COLLISION_SELF_MASKED, path, -1, "'%s' is of layer %u and its mask is %u",
+        sbfi_label(body->name, body->id), is->layer, is->mask);
+  if (size > 0 && (double)is->particle_radius > size)
+    sbfi_found(v, SBF_CODE_PARTICLE_TOO_LARGE, path, -1,
+        "the particle radius of '%s' is %.3g m and the body %.3g m", sbfi_label(body->name, body->id),
+        (double)is->particle_radius, size);
+}
+
+void sbfi_check_collisions(sbfi_validation *v) {
+  const sbf_soft_body_list soft = v->asset->soft_bodies;
+  const sbf_rigid_body_list rigid = v->asset->rigid_bodies;
+  uint32_t count = 0;
+  kind *kinds = sbfi_scratch(v, MOST_KINDS, sizeof *kinds);
+  if (!kinds) return;
+  for (uint32_t i = 0; i < soft.count; i++) {
+    kind one = {soft.at[i].collision.layer, soft.at[i].collision.mask,
+        sbfi_label(soft.at[i].name, soft.at[i].id), sbfi_path_of("/sbf/soft_body[%u]", i + 1)};
+    check_body(v, &soft.at[i], sbfi_path_of("%s/collision", one.path.text).text);
+    add_kind(kinds, &count, &one);
+  }
+  for (uint32_t i = 0; i < rigid.count; i++) {
+    kind one = {rigid.at[i].layer, rigid.at[i].mask, sbfi_label(rigid.at[i].name, rigid.at[i].id),
+        sbfi_path_of("/sbf/rigid_bodies/rigid_body[%u]", i + 1)};
+    add_kind(kinds, &count, &one);
+  }
+  check_pairs(v, kinds, count);
+}

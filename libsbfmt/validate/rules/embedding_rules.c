@@ -1,0 +1,147 @@
+/* Embeddings: weights that sum to one and do not reach far outside, vertices where the mesh has them, every
+ * one carried. */
+#include "validate/rules/pose.h"
+#include "validate/validation.h"
+
+static const float SUM_TOLERANCE = 1e-4f, BLEND_TOLERANCE = 1e-3f;
+static const float FAR_OUTSIDE = 4;       /* weights beyond it make a vertex jump at the least strain */
+static const double OFF_TOLERANCE = 0.01; /* of the mesh's size */
+
+/* The mesh whose vertices are carried: a render mesh, or a body's own surface. */
+typedef struct carried {
+  sbfi_validation *v;
+  sbf_vec3_list positions;
+  const char *name;
+  double size;
+  float *shares;    /* what the bodies carry of each vertex together */
+  uint32_t *stamps; /* the embedding, from 1, that carried the vertex last */
+  uint32_t stamp;
+  bool broken; /* an embedding is not read for its length: nothing can be said of the whole */
+} carried;
+
+static bool carried_init(carried *c, sbfi_validation *v, sbf_vec3_list positions, const char *name) {
+  *c = (carried){.v = v,
+      .positions = positions,
+      .name = name,
+      .size = sbfi_extent(positions),
+      .shares = sbfi_scratch(v, positions.count, sizeof *c->shares),
+      .stamps = sbfi_scratch(v, positions.count, sizeof *c->stamps)};
+  return c->shares && c->stamps;
+}
+
+static double distance_off(const sbf_level *level, const sbf_embedding *e, uint32_t i, sbf_vec3 vertex) {
+  const float weights[4] = {e->weights.at[i].x, e->weights.at[i].y, e->weights.at[i].z, e->weights.at[i].w};
+  sbfi_d3 place = {0, 0, 0};
+  for (int k = 0; k < 4; k++)
+    place = sbfi_d3_add(
+        place, sbfi_d3_scale(sbfi_d3_of(level->positions.at[e->points.at[i].at[k]]), (double)weights[k]));
+  return sbfi_d3_length(sbfi_d3_sub(place, sbfi_d3_of(vertex)));
+}
+
+/* True where the weights are good enough for the vertex to have a place. */
+static bool check_weights(const carried *c, const sbf_embedding *e, uint32_t i, const char *path) {
+  sbf_vec4 w = e->weights.at[i];
+  float sum = w.x + w.y + w.z + w.w;
+  float far = fmaxf(fmaxf(fabsf(w.x), fabsf(w.y)), fmaxf(fabsf(w.z), fabsf(w.w)));
+  if (fabsf(sum - 1) > SUM_TOLERANCE * fmaxf(1, far)) {
+    sbfi_found(c->v, SBF_CODE_EMBEDDING_SUM, path, i, "the weights of item %u sum to %.6g", i, (double)sum);
+    return false;
+  }
+  if (far > FAR_OUTSIDE)
+    sbfi_found(c->v, SBF_CODE_EMBEDDING_OUTSIDE, path, i,
+        "item %u lies far outside its element, by weight %.3g", i, (double)far);
+  return true;
+}
+
+static void check_embedding(carried *c, const sbf_level *level, const sbf_embedding *e, const char *path) {
+  sbfi_path weights = sbfi_path_of("%s/weights", path), vertices = sbfi_path_of("%s/vertices", path);
+  uint32_t off = 0, first = 0;
+  double most = 0;
+  c->stamp++;
+  if (e->vertices.count && e->vertices.count != e->points.count) {
+    sbfi_found(c->v, SBF_CODE_EMBEDDING_LENGTH, path, -1, "%u vertices are named and %u embedded",
+        e->vertices.count, e->points.count);
+    c->broken = true;
+    return;
+  }
+  for (uint32_t i = 0; i < e->points.count; i++) {
+    uint32_t vertex = e->vertices.count ? e->vertices.at[i] : i;
+    bool good = check_weights(c, e, i, weights.text);
+    if (vertex >= c->positions.count) {
+      sbfi_found(c->v, SBF_CODE_EMBEDDING_VERTEX, e->vertices.count ? vertices.text : path,
+          e->vertices.count ? (int64_t)i : -1, "vertex %u is not one of the %u of '%s'", vertex,
+          c->positions.count, c->name);
+      continue;
+    }
+    if (c->stamps[vertex] == c->stamp)
+      sbfi_found(c->v, SBF_CODE_EMBEDDING_REPEATED, vertices.text, i, "vertex %u of '%s' is carried twice",
+          vertex, c->name);
+    c->stamps[vertex] = c->stamp;
+    c->shares[vertex] += e->blends.count ? e->blends.at[i] : 1;
+    double distance = good ? distance_off(level, e, i, c->positions.at[vertex]) : 0;
+    if (!(distance > OFF_TOLERANCE * c->size)) continue;
+    if (off++ == 0) first = i;
+    most = fmax(most, distance);
+  }
+  if (off)
+    sbfi_found(c->v, SBF_CODE_EMBEDDING_OFF, sbfi_path_of("%s/points", path).text, first,
+        "%u %s of '%s' %s carried off %s place%s, by up to %.3g m", off, off == 1 ? "vertex" : "vertices",
+        c->name, off == 1 ? "is" : "are", off == 1 ? "its" : "their", sbfi_plural(off), most);
+}
+
+/* The shares that all bodies take of one mesh's vertices, at each body's level `l` or its coarsest. */
+static void check_mesh(sbfi_validation *v, uint32_t mesh, uint32_t l) {
+  const sbf_asset *asset = v->asset;
+  const sbf_render_mesh *at = &asset->render_meshes.at[mesh];
+  uint32_t partly = 0, none = 0;
+  bool found = false;
+  carried c;
+  if (!carried_init(&c, v, at->mesh.positions, sbfi_label(at->name, at->id))) return;
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[b];
+    if (body->levels.count == 0) continue;
+    uint32_t place = l < body->levels.count ? l : body->levels.count - 1;
+    const sbf_level *level = &body->levels.at[place];
+    for (uint32_t e = 0; e < level->embeddings.count; e++) {
+      if (level->embeddings.at[e].render_mesh != (int32_t)mesh) continue;
+      found = true;
+      check_embedding(&c, level, &level->embeddings.at[e],
+          sbfi_path_of("/sbf/soft_body[%u]/level[%u]/embedding[%u]", b + 1, place + 1, e + 1).text);
+    }
+  }
+  for (uint32_t i = 0; i < c.positions.count && found; i++) {
+    none += c.shares[i] == 0;
+    partly += c.shares[i] != 0 && fabsf(c.shares[i] - 1) > BLEND_TOLERANCE;
+  }
+  sbfi_path path = sbfi_path_of("/sbf/render_mesh[%u]", mesh + 1);
+  if (partly)
+    sbfi_found(v, SBF_CODE_EMBEDDING_BLEND, path.text, -1, "the blends of %u %s of '%s' do not sum to 1",
+        partly, partly == 1 ? "vertex" : "vertices", sbfi_label(at->name, at->id));
+  if (none && !at->skin && !c.broken)
+    sbfi_found(v, SBF_CODE_EMBEDDING_MISSING, path.text, -1, "%u %s of '%s' %s carried by no body", none,
+        none == 1 ? "vertex" : "vertices", sbfi_label(at->name, at->id), none == 1 ? "is" : "are");
+}
+
+/* Embeddings of a body's own surface, which no other body can carry. */
+static void check_surface(sbfi_validation *v, uint32_t body, uint32_t l) {
+  const sbf_soft_body *at = &v->asset->soft_bodies.at[body];
+  const sbf_level *level = &at->levels.at[l];
+  carried c = {.shares = NULL};
+  for (uint32_t e = 0; e < level->embeddings.count; e++) {
+    if (level->embeddings.at[e].render_mesh != SBF_NONE) continue;
+    if (!c.shares && !carried_init(&c, v, at->surface.positions, sbfi_label(at->name, at->id))) return;
+    check_embedding(&c, level, &level->embeddings.at[e],
+        sbfi_path_of("/sbf/soft_body[%u]/level[%u]/embedding[%u]", body + 1, l + 1, e + 1).text);
+  }
+}
+
+void sbfi_check_embeddings(sbfi_validation *v) {
+  uint32_t levels = 0;
+  for (uint32_t b = 0; b < v->asset->soft_bodies.count; b++) {
+    const sbf_soft_body *body = &v->asset->soft_bodies.at[b];
+    if (body->levels.count > levels) levels = body->levels.count;
+    for (uint32_t l = 0; l < body->levels.count && !v->out_of_memory; l++) check_surface(v, b, l);
+  }
+  for (uint32_t m = 0; m < v->asset->render_meshes.count; m++)
+    for (uint32_t l = 0; l < levels && !v->out_of_memory; l++) check_mesh(v, m, l);
+}

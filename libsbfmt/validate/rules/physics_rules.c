@@ -1,0 +1,148 @@
+/* What would move wrongly: no mass, matter that is none, a ratio that springs cannot show, a body that its
+ * own weight crushes, too few substeps, a unit that looks wrong. */
+#include "build/geometry/topology.h"
+#include "sbfmt/mechanics.h"
+#include "validate/rules/pose.h"
+#include "validate/rules/strain_order.h"
+#include "validate/validation.h"
+
+static const double TALLEST_M = 30, SMALLEST_M = 0.005;
+static const double LEAST_DENSITY = 0.9, MOST_DENSITY = 30000; /* kg/m^3: air, and more than osmium */
+static const double MOST_SAG = 10; /* strain under the own weight beyond which a body is a puddle */
+
+typedef struct span {
+  double low[3], high[3];
+  bool any;
+} span;
+
+static void span_points(span *s, sbf_vec3_list points) {
+  for (uint32_t i = 0; i < points.count; i++) {
+    const double at[3] = {points.at[i].x, points.at[i].y, points.at[i].z};
+    for (int k = 0; k < 3; k++) {
+      if (!s->any || at[k] < s->low[k]) s->low[k] = at[k];
+      if (!s->any || at[k] > s->high[k]) s->high[k] = at[k];
+    }
+    s->any = true;
+  }
+}
+
+static void check_size(sbfi_validation *v) {
+  span s = {.any = false};
+  for (uint32_t b = 0; b < v->asset->soft_bodies.count; b++)
+    span_points(&s, v->asset->soft_bodies.at[b].surface.positions);
+  for (uint32_t m = 0; m < v->asset->render_meshes.count; m++)
+    span_points(&s, v->asset->render_meshes.at[m].mesh.positions);
+  double size = fmax(s.high[0] - s.low[0], fmax(s.high[1] - s.low[1], s.high[2] - s.low[2]));
+  if (s.any && (size > TALLEST_M || size < SMALLEST_M))
+    sbfi_found(v, SBF_CODE_UNIT_LOOKS_WRONG, "/sbf", -1, "everything together measures %.4g m", size);
+}
+
+/* A spring network's bound on its angular frequencies needs flat arrays of all sets. */
+static void check_substeps(
+    sbfi_validation *v, const sbf_soft_body *body, const sbf_level *level, const char *path) {
+  uint32_t points = level->positions.count;
+  size_t springs = 0, at = 0;
+  for (uint32_t s = 0; s < level->springs.count; s++) springs += level->springs.at[s].ends.count;
+  if (springs == 0 || level->simulation.substeps == 0 || level->simulation.scheme != SBF_SCHEME_SYMPLECTIC)
+    return;
+  uint8_t *held = sbfi_scratch(v, points, 1);
+  float *masses = sbfi_scratch(v, points, sizeof *masses);
+  float *volumes = sbfi_scratch(v, points, sizeof *volumes);
+  double *sums = sbfi_scratch(v, points, 2 * sizeof *sums);
+  float *stiffness = sbfi_scratch(v, springs, sizeof *stiffness);
+  sbf_uint2 *ends = sbfi_scratch(v, springs, sizeof *ends);
+  if (v->out_of_memory) return;
+  for (uint32_t s = 0; s < level->springs.count; s++)
+    for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++)
+      ends[at++] = level->springs.at[s].ends.at[i];
+  sbf_level_held_points(level, held);
+  sbf_level_masses(body, level, held, masses);
+  sbf_level_stiffness(body, level, volumes, sums, stiffness);
+  sbf_spring_network network = {
+      points, (uint32_t)springs, level->positions.at, masses, NULL, ends, stiffness};
+  double bound = sbf_network_highest_bound(&network, sums);
+  double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick - 1e-3); /* tick * w / 2 */
+  if ((double)level->simulation.substeps < needed)
+    sbfi_found(v, SBF_CODE_SUBSTEPS_TOO_FEW, path, -1,
+        "%u substep%s asked for and the stiffness of '%s' needs %.0f", level->simulation.substeps,
+        level->simulation.substeps == 1 ? " is" : "s are", sbfi_label(body->name, body->id), needed);
+}
+
+static bool is_no_matter(double density) {
+  return density < LEAST_DENSITY || density > MOST_DENSITY;
+}
+
+/* Under gravity a column of height h and density d strains by d g h / E at its foot. */
+static void check_weight(
+    sbfi_validation *v, const sbf_soft_body *body, const sbf_body_measures *is, const char *path) {
+  sbf_vec3 g = v->asset->environment.gravity;
+  double gravity = sqrt((double)g.x * g.x + (double)g.y * g.y + (double)g.z * g.z);
+  double height = sbfi_extent(body->surface.positions);
+  if (is->sheet || !(is->volume > 0)) return;
+  double stress = is->mass / is->volume * gravity * fabs((double)body->attributes.gravity_scale) * height;
+  if (stress > MOST_SAG * (double)body->attributes.young_modulus)
+    sbfi_found(v, SBF_CODE_BODY_COLLAPSES, path, -1,
+        "the weight of '%s' presses with %.3g Pa and its Young's modulus is %.3g Pa",
+        sbfi_label(body->name, body->id), stress, (double)body->attributes.young_modulus);
+}
+
+static void check_pressure(
+    sbfi_validation *v, const sbf_soft_body *body, const sbf_body_measures *is, const char *path) {
+  sbfi_topology t;
+  if (body->attributes.pressure_mode == SBF_PRESSURE_MODE_NONE || body->surface.polygon_sizes.count == 0)
+    return;
+  if (!sbfi_topology_build(&t, &body->surface, &v->scratch)) {
+    v->out_of_memory = true;
+    return;
+  }
+  if (is->sheet || t.boundary_edge_count)
+    sbfi_found(v, SBF_CODE_PRESSURE_OPEN, path, -1, "the pressure mode of '%s' is %s and its surface is open",
+        sbfi_label(body->name, body->id), sbf_pressure_mode_name(body->attributes.pressure_mode));
+}
+
+static void check_attributes(
+    sbfi_validation *v, const sbf_soft_body *body, const sbf_body_measures *is, const char *path) {
+  const sbf_attributes *a = &body->attributes;
+  const char *name = sbfi_label(body->name, body->id);
+  sbfi_path attributes = sbfi_path_of("%s/attributes", path);
+  if (body->surface.polygon_sizes.count && !(is->mass > 0))
+    sbfi_found(v, SBF_CODE_BODY_NO_MASS, path, -1,
+        "'%s' encloses nothing and states neither mass nor area density", name);
+  if (is_no_matter((double)a->density))
+    sbfi_found(v, SBF_CODE_DENSITY_LOOKS_WRONG, attributes.text, -1, "the density of '%s' is %.4g kg/m^3",
+        name, (double)a->density);
+  sbfi_check_strain_order(
+      v, &(sbfi_strains){a->strain_min, a->strain_max, a->yield_strain, a->tear_strain}, attributes.text);
+  check_weight(v, body, is, path);
+  check_pressure(v, body, is, attributes.text);
+}
+
+static void check_body(sbfi_validation *v, uint32_t number) {
+  const sbf_soft_body *body = &v->asset->soft_bodies.at[number];
+  sbfi_path path = sbfi_path_of("/sbf/soft_body[%u]", number + 1);
+  sbf_body_measures measures;
+  sbf_body_measure(body, &measures);
+  check_attributes(v, body, &measures, path.text);
+  for (uint32_t l = 0; l < body->levels.count && !v->out_of_memory; l++) {
+    const sbf_level *level = &body->levels.at[l];
+    sbfi_path there = sbfi_path_of("%s/level[%u]", path.text, l + 1);
+    if (level->model == SBF_ELASTIC_MODEL_SPRINGS && !measures.sheet &&
+        fabsf(body->attributes.poisson_ratio - 0.25f) > 0.2f)
+      sbfi_found(v, SBF_CODE_POISSON_UNSHOWN, there.text, -1,
+          "'%s' asks for the Poisson ratio %.3g, and central springs show a quarter",
+          sbfi_label(body->name, body->id), (double)body->attributes.poisson_ratio);
+    check_substeps(v, body, level, there.text);
+  }
+}
+
+void sbfi_check_physics(sbfi_validation *v) {
+  check_size(v);
+  for (uint32_t b = 0; b < v->asset->soft_bodies.count && !v->out_of_memory; b++) check_body(v, b);
+  for (uint32_t r = 0; r < v->asset->rigid_bodies.count; r++) {
+    const sbf_rigid_body *body = &v->asset->rigid_bodies.at[r];
+    if (is_no_matter((double)body->density))
+      sbfi_found(v, SBF_CODE_DENSITY_LOOKS_WRONG,
+          sbfi_path_of("/sbf/rigid_bodies/rigid_body[%u]", r + 1).text, -1,
+          "the density of '%s' is %.4g kg/m^3", sbfi_label(body->name, body->id), (double)body->density);
+  }
+}
