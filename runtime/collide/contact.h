@@ -8,7 +8,7 @@
 #ifndef SBRI_CONTACT_H
 #define SBRI_CONTACT_H
 
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 typedef struct sbri_contact_input {
   const sbri_island *island;

@@ -1,5 +1,5 @@
-#include "core/skin.h"
 #include "core/world.h"
+#include "skin/skin.h"
 
 static float greatest_strain(const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
   float greatest = 0;

@@ -1,10 +1,10 @@
 /* What the host reads: the moment between the last two ticks. */
 #include <string.h>
 
-#include "core/kernels.h"
-#include "core/skin.h"
 #include "core/world.h"
+#include "kernels/kernels.h"
 #include "math/quat.h"
+#include "skin/skin.h"
 
 static float share_of_tick(const sbr_world *world) {
   if (world->ahead_units <= 0) return 1;

@@ -3,8 +3,8 @@
 #ifndef SBRI_STATE_H
 #define SBRI_STATE_H
 
-#include "core/runtime_model.h"
 #include "gait/gait.h"
+#include "model/runtime_model.h"
 
 enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS };
 

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "collide/contact.h"
-#include "core/kernels.h"
-#include "core/skin.h"
 #include "core/world.h"
+#include "kernels/kernels.h"
 #include "math/vec3.h"
+#include "skin/skin.h"
 #include "solvers/island_tick.h"
 
 /* The origin follows when the character is this far from it, in m. */

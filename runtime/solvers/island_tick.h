@@ -5,7 +5,7 @@
 #ifndef SBRI_ISLAND_TICK_H
 #define SBRI_ISLAND_TICK_H
 
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 typedef struct sbri_island_tick {
   const sbr_model *model;

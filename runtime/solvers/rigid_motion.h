@@ -1,11 +1,11 @@
 /* A body's motion as a whole: the rigid one that has its momentum and its angular momentum. Written for the
- * lanes of the file that includes it; see core/kernels.h. */
+ * lanes of the file that includes it; see kernels/kernels.h. */
 #ifndef SBRI_RIGID_MOTION_H
 #define SBRI_RIGID_MOTION_H
 
-#include "core/runtime_model.h"
 #include "math/reduce.h"
 #include "math/vec3.h"
+#include "model/runtime_model.h"
 
 typedef struct sbri_rigid_motion {
   float mass_kg;

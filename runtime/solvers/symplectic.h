@@ -6,7 +6,7 @@
  * as a whole where nothing does. It neither slows a fall nor drags behind a walk. It is applied as the exact
  * decay exp(-alpha h), that of the springs' own as a force from the velocities before the substep.
  *
- * Written for the lanes of the file that includes it; see core/kernels.h. */
+ * Written for the lanes of the file that includes it; see kernels/kernels.h. */
 #ifndef SBRI_SYMPLECTIC_H
 #define SBRI_SYMPLECTIC_H
 

@@ -1,5 +1,5 @@
 /* Keeping the volume within a body's surface, for pressure mode `volume`. Written for the lanes of the file
- * that includes it; see core/kernels.h.
+ * that includes it; see kernels/kernels.h.
  *
  * The constraint V(x) = V0, by one Newton step a substep: dx_i = s w_i g_i with g the gradient of the volume,
  * w the inverse masses and s = (V0 - V) / sum w_i |g_i|^2 (Hong, Jung, Choi and Welch, Fast Volume
@@ -12,7 +12,7 @@
 #ifndef SBRI_VOLUME_KEEP_H
 #define SBRI_VOLUME_KEEP_H
 
-#include "core/skin_lanes.h"
+#include "skin/skin_lanes.h"
 #include "solvers/island_tick.h"
 
 /* No more than this share of the volume is regained in a substep: a body turned inside out comes back slowly.

@@ -15,7 +15,7 @@ MECHANICS = MODEL + ["libsbfmt/mechanics"]
 FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
 RUNTIME_MATH = MECHANICS + ["runtime/math"]
 RUNTIME = MECHANICS + ["runtime/" + part for part in (
-    "math", "core", "solvers", "skeleton", "collide", "ik", "gait", "chain", "detail")]
+    "math", "model", "core", "kernels", "skin", "solvers", "skeleton", "collide", "ik", "gait", "chain", "detail")]
 
 # Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.
 MAY_USE = {

@@ -2,4 +2,4 @@
 #include "kernels_scalar.h"
 
 #define SBRI_KERNELS kernels_scalar
-#include "core/kernel_table.h"
+#include "kernels/kernel_table.h"

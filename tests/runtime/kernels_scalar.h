@@ -2,7 +2,7 @@
 #ifndef TEST_KERNELS_SCALAR_H
 #define TEST_KERNELS_SCALAR_H
 
-#include "core/kernels.h"
+#include "kernels/kernels.h"
 
 extern const sbri_kernels kernels_scalar;
 

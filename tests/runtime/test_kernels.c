@@ -1,7 +1,7 @@
 #include "harness.h"
 
-#include "core/runtime_model.h"
 #include "kernels_scalar.h"
+#include "model/runtime_model.h"
 #include "scenes.h"
 
 enum { BODIES = 3, CELLS = 4, TICKS = 150 };

@@ -5,7 +5,7 @@
  * damping against the body's frame is exact and bounds nothing). w is that of the fastest mode at rest, plus
  * what tension adds: a spring stretched to length l resists sideways with k (1 - l0 / l), no more than that
  * share of k in all directions at once, of which `bound_rad_s` is the fastest mode. */
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 /* Springs that turn against each other under large strains change the fastest mode a little. */
 static const double MARGIN = 1.1;

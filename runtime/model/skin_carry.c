@@ -1,7 +1,7 @@
 /* What carries each vertex: points of the bodies it is embedded in, else bones. */
 #include <string.h>
 
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 typedef struct carrier {
   uint32_t vertex, slot;

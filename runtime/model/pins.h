@@ -2,7 +2,7 @@
 #ifndef SBRI_PINS_H
 #define SBRI_PINS_H
 
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 /* Weight of the set's pin i, within the set's minimum and maximum. */
 float sbri_pin_weight(const sbf_pin_set *set, uint32_t i);

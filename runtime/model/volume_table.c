@@ -1,7 +1,7 @@
 /* Which faces make up each slot's share in the gradient of a body's volume; see solvers/volume_keep.h. */
 #include <string.h>
 
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 typedef struct share {
   uint32_t slot, face;

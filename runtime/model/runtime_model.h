@@ -17,11 +17,11 @@
 #define SBRI_RUNTIME_MODEL_H
 
 #include "base/memory.h"
-#include "core/skin_tables.h"
 #include "math/wide.h"
 #include "mechanics/spring.h"
 #include "sbfmt/mechanics.h"
 #include "skeleton/rig.h"
+#include "skin/skin_tables.h"
 
 /* One spring of each of eight points, seen from them. Inert lanes name the point itself and have zeros. */
 typedef struct sbri_spring_cell {

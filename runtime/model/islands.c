@@ -1,6 +1,6 @@
 /* Which bodies are simulated, at which level, and which of them must be stepped together. */
 #include "base/diagnostic.h"
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 /* The level with the wanted number, or the coarsest there is; where it is of a model that is not stepped, the
  * next coarser one of springs, else the next finer. */

@@ -1,6 +1,6 @@
 /* What a file asks for and this runtime does not do. */
 #include "base/diagnostic.h"
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 typedef struct listing {
   void (*report)(void *user, const sbf_diagnostic *finding);

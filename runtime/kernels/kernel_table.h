@@ -1,7 +1,7 @@
 /* Makes the table of kernels named SBRI_KERNELS, for the instruction set that the including file is compiled
  * for. */
-#include "core/kernels.h"
-#include "core/skin_lanes.h"
+#include "kernels/kernels.h"
+#include "skin/skin_lanes.h"
 #include "solvers/symplectic.h"
 
 static void vertices(const sbri_skin *skin, const sbri_point *points, sbri_point *to) {

@@ -1,2 +1,2 @@
 #define SBRI_KERNELS sbri_kernels_plain
-#include "core/kernel_table.h"
+#include "kernels/kernel_table.h"

@@ -3,7 +3,7 @@
 #ifndef SBRI_KERNELS_H
 #define SBRI_KERNELS_H
 
-#include "core/skin_tables.h"
+#include "skin/skin_tables.h"
 #include "solvers/island_tick.h"
 
 typedef struct sbri_kernels {

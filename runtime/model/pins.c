@@ -1,5 +1,5 @@
 /* What the pins of a level hold, and which frames carry the points that no pin holds fast. */
-#include "core/pins.h"
+#include "model/pins.h"
 
 #include "math/quat.h"
 

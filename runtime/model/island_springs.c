@@ -1,7 +1,7 @@
 /* The springs of an island: listed once each, then laid out for the eight points of a block at a time. */
 #include <string.h>
 
-#include "core/island_maker.h"
+#include "model/island_maker.h"
 
 static float rest_distance(const sbri_island *island, uint32_t a, uint32_t b) {
   const sbri_point *p = &island->rest[a], *q = &island->rest[b];

@@ -4,7 +4,7 @@
  * With rest lengths shorter by n.(u_b - u_a) the springs pull just so where they are, and the authored shape
  * is at rest. (The inverse of a static solve, to first order exact; what Twigg and Kacic-Alesic, Optimization
  * for Sag-Free Simulations, 2011, ask of it.) */
-#include "core/island_maker.h"
+#include "model/island_maker.h"
 
 static const double TOLERANCE = 1e-4, ENOUGH = 1e-2;
 

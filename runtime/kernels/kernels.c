@@ -1,4 +1,4 @@
-#include "core/kernels.h"
+#include "kernels/kernels.h"
 
 const sbri_kernels *sbri_kernels_choose(void) {
 #ifdef SBRI_HAS_AVX2

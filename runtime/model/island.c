@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "base/diagnostic.h"
-#include "core/island_maker.h"
-#include "core/pins.h"
+#include "model/island_maker.h"
+#include "model/pins.h"
 
 /* A free point without mass would answer any force at once: it gets this share of the mean. */
 static const float LEAST_MASS_SHARE = 1e-3f;

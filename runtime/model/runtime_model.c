@@ -1,10 +1,10 @@
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 #include <string.h>
 
 #include "base/diagnostic.h"
-#include "core/kernels.h"
-#include "core/skin.h"
+#include "kernels/kernels.h"
+#include "skin/skin.h"
 
 /* A body that needs more substeps than this is not one to step explicitly. */
 enum { MOST_SUBSTEPS = 1024 };

@@ -2,7 +2,7 @@
  * springs as they are listed, then the structural and then the shear springs, each of these by a walk over
  * the points that visits every spring of a point in the order listed, and so each spring twice, once from
  * each end. */
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 typedef struct visit_list {
   const sbri_island *island;

@@ -2,7 +2,7 @@
 #ifndef SBRI_ISLAND_MAKER_H
 #define SBRI_ISLAND_MAKER_H
 
-#include "core/runtime_model.h"
+#include "model/runtime_model.h"
 
 /* A pin of weight below 1: a spring of no rest length to a held slot of its own. */
 typedef struct sbri_goal {

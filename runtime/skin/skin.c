@@ -1,6 +1,6 @@
-#include "core/skin.h"
+#include "skin/skin.h"
 
-#include "core/kernels.h"
+#include "kernels/kernels.h"
 #include "math/quat.h"
 
 void sbri_skin_vertices(const sbr_model *model, const sbri_skin *skin, const sbri_point *points,

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/skin_tables.h"
+#include "skin/skin_tables.h"
 
 /* Authored normals nearer than this (1.8 degrees) are one smooth side of an edge. */
 static const float SAME_SIDE = 0.9995f;
