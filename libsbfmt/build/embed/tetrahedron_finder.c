@@ -57,7 +57,8 @@ static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, size_t *bins) {
     }
   }
   const double sizes[3] = {high.x - low.x, high.y - low.y, high.z - low.z};
-  f->radius = sqrt(radius2);
+  /* With room for what rounding does to the middles. */
+  f->radius = sqrt(radius2) * (1 + 1e-6) + 1e-6 * (sizes[0] + sizes[1] + sizes[2]);
   f->origin = low;
   /* No more bins than twice the tetrahedra, however long and thin the body lies. */
   for (f->width = fmax(2 * f->radius, 1e-30);; f->width *= 2) {
@@ -77,11 +78,16 @@ bool sbfi_tetrahedron_finder_make(sbfi_tetrahedron_finder *finder, const sbf_vec
   lay_out(finder, count, &bins);
   finder->begins = sbfi_arena_allocate(arena, bins + 2, sizeof *finder->begins);
   finder->items = sbfi_arena_allocate(arena, count, sizeof *finder->items);
-  if (!finder->begins || !finder->items) return false;
+  finder->middles = sbfi_arena_allocate(arena, count, sizeof *finder->middles);
+  if (!finder->begins || !finder->items || !finder->middles) return false;
   for (uint32_t t = 0; t < count; t++) finder->begins[bin_of(finder, middle_of(finder, t)) + 2]++;
   for (size_t b = 2; b < bins + 2; b++) finder->begins[b] += finder->begins[b - 1];
-  for (uint32_t t = 0; t < count; t++)
-    finder->items[finder->begins[bin_of(finder, middle_of(finder, t)) + 1]++] = t;
+  for (uint32_t t = 0; t < count; t++) {
+    sbfi_d3 middle = middle_of(finder, t);
+    uint32_t place = finder->begins[bin_of(finder, middle) + 1]++;
+    finder->items[place] = t;
+    finder->middles[place] = sbfi_d3_rounded(sbfi_d3_sub(middle, finder->origin));
+  }
   return true;
 }
 
@@ -95,41 +101,61 @@ static void bins_around(
   }
 }
 
-/* Calls for each tetrahedron in those bins. */
-static void visit_around(const sbfi_tetrahedron_finder *f, sbfi_d3 at, double reach,
-    void (*visit)(void *user, uint32_t tetrahedron), void *user) {
+typedef struct search search;
+typedef void visitor(search *s, uint32_t tetrahedron, double middle2);
+
+struct search {
+  const sbfi_tetrahedron_finder *finder;
+  sbfi_d3 at;
+  double within2; /* squared distance of the middles that are looked at; visitors may lower it */
+  uint32_t best;
+  double distance, most, size; /* m; m; what is to be small in the best one */
+};
+
+/* Calls for each tetrahedron whose middle lies so near. */
+static void visit_within(search *s, double within, visitor *visit) {
+  const sbfi_tetrahedron_finder *f = s->finder;
   uint32_t first[3], last[3];
-  bins_around(f, at, reach, first, last);
+  sbfi_d3 at = sbfi_d3_sub(s->at, f->origin);
+  s->within2 = within * within;
+  bins_around(f, s->at, within, first, last);
   for (uint32_t z = first[2]; z <= last[2]; z++) {
     for (uint32_t y = first[1]; y <= last[1]; y++) {
       size_t row = ((size_t)z * f->counts[1] + y) * f->counts[0];
-      for (uint32_t i = f->begins[row + first[0]]; i < f->begins[row + last[0] + 1]; i++)
-        visit(user, f->items[i]);
+      for (uint32_t i = f->begins[row + first[0]]; i < f->begins[row + last[0] + 1]; i++) {
+        sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(f->middles[i]), at);
+        double middle2 = sbfi_d3_dot(way, way);
+        if (middle2 <= s->within2) visit(s, f->items[i], middle2);
+      }
     }
   }
 }
 
-typedef struct search {
-  const sbfi_tetrahedron_finder *finder;
-  sbfi_d3 at;
-  uint32_t best;
-  double distance, most, size; /* m; m; sum of the squares of the best one's weights */
-} search;
-
-static double squared(sbfi_d3 way) {
-  return sbfi_d3_dot(way, way);
-}
-
-static void look_inside(void *user, uint32_t tetrahedron) {
-  search *s = user;
+static void look_inside(search *s, uint32_t tetrahedron, double middle2) {
+  (void)middle2;
   double weights[4];
   const sbfi_tetrahedron_finder *f = s->finder;
   if (tetrahedron >= s->best) return;
-  if (squared(sbfi_d3_sub(middle_of(f, tetrahedron), s->at)) > f->radius * f->radius * (1 + slack)) return;
   if (!sbfi_tetrahedron_weigh(f->positions, f->tetrahedra[tetrahedron].at, s->at, weights)) return;
   for (int k = 0; k < 4; k++)
     if (weights[k] < -slack) return;
   s->best = tetrahedron;
+}
+
+/* Whether one of the sides' planes has the tetrahedron on its one side and, farther off than that, the point
+ * on the other. */
+static bool is_farther(const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_d3 at, double distance) {
+  static const int faces[4][4] = {{1, 2, 3, 0}, {0, 3, 2, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
+  sbfi_d3 c[4];
+  for (int k = 0; k < 4; k++) c[k] = sbfi_d3_of(f->positions[f->tetrahedra[tetrahedron].at[k]]);
+  for (int i = 0; i < 4; i++) {
+    sbfi_d3 from = c[faces[i][0]];
+    sbfi_d3 normal = sbfi_d3_cross(sbfi_d3_sub(c[faces[i][1]], from), sbfi_d3_sub(c[faces[i][2]], from));
+    double own = sbfi_d3_dot(normal, sbfi_d3_sub(c[faces[i][3]], from));
+    double side = sbfi_d3_dot(normal, sbfi_d3_sub(at, from));
+    if (own * side < 0 && side * side > distance * distance * sbfi_d3_dot(normal, normal)) return true;
+  }
+  return false;
 }
 
 /* To the nearest of the sides. */
@@ -147,37 +173,45 @@ static double distance_to(const sbfi_tetrahedron_finder *f, uint32_t tetrahedron
   return sqrt(least);
 }
 
-static void look_near(void *user, uint32_t tetrahedron) {
-  search *s = user;
-  double within = s->distance + s->finder->radius;
-  if (squared(sbfi_d3_sub(middle_of(s->finder, tetrahedron), s->at)) > within * within) return;
-  s->distance = fmin(s->distance, distance_to(s->finder, tetrahedron, s->at));
+/* The middle nearest to the point, for a first distance. */
+static void look_for_middle(search *s, uint32_t tetrahedron, double middle2) {
+  if (middle2 == s->within2 && tetrahedron > s->best) return;
+  s->within2 = middle2;
+  s->best = tetrahedron;
 }
 
-static void look_for_small(void *user, uint32_t tetrahedron) {
-  search *s = user;
-  double within = s->most + s->finder->radius, weights[4], size = 0;
+static void look_near(search *s, uint32_t tetrahedron, double middle2) {
+  (void)middle2;
+  if (is_farther(s->finder, tetrahedron, s->at, s->distance)) return;
+  s->distance = fmin(s->distance, distance_to(s->finder, tetrahedron, s->at));
+  double within = s->distance + s->finder->radius;
+  s->within2 = within * within;
+}
+
+static void look_for_small(search *s, uint32_t tetrahedron, double middle2) {
+  double weights[4], size = 0;
   const uint32_t *corners = s->finder->tetrahedra[tetrahedron].at;
-  if (squared(sbfi_d3_sub(middle_of(s->finder, tetrahedron), s->at)) > within * within) return;
+  (void)middle2;
   if (!sbfi_tetrahedron_weigh(s->finder->positions, corners, s->at, weights)) return;
   for (int k = 0; k < 4; k++) size += weights[k] * weights[k];
   if (size > s->size || (size == s->size && tetrahedron > s->best)) return;
+  if (is_farther(s->finder, tetrahedron, s->at, s->most)) return;
   if (distance_to(s->finder, tetrahedron, s->at) > s->most) return;
   s->size = size;
   s->best = tetrahedron;
 }
 
 sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *finder, sbf_vec3 point) {
-  search s = {finder, sbfi_d3_of(point), UINT32_MAX, INFINITY, 0, INFINITY};
-  visit_around(finder, s.at, finder->radius * (1 + slack), look_inside, &s);
+  search s = {finder, sbfi_d3_of(point), 0, UINT32_MAX, INFINITY, 0, INFINITY};
+  visit_within(&s, finder->radius, look_inside);
   if (s.best != UINT32_MAX) return (sbfi_found_tetrahedron){s.best, 0};
-  double reach = finder->radius;
-  while (!(s.distance + finder->radius <= reach)) {
-    /* Once something is near, what is nearer has its middle within that way and a radius. */
-    reach = s.distance < INFINITY ? s.distance + finder->radius : 2 * reach;
-    visit_around(finder, s.at, reach, look_near, &s);
-  }
+  for (double reach = finder->radius; s.best == UINT32_MAX; reach *= 2)
+    visit_within(&s, reach, look_for_middle);
+  s.distance = distance_to(finder, s.best, s.at);
+  /* What is nearer has its middle within that way and a radius. */
+  visit_within(&s, s.distance + finder->radius, look_near);
   s.most = s.distance + finder->width / 4;
-  visit_around(finder, s.at, s.most + finder->radius, look_for_small, &s);
+  s.best = UINT32_MAX;
+  visit_within(&s, s.most + finder->radius, look_for_small);
   return (sbfi_found_tetrahedron){s.best != UINT32_MAX ? s.best : 0, s.distance};
 }

@@ -14,8 +14,9 @@ typedef struct sbfi_tetrahedron_finder {
   sbfi_d3 origin;
   double width, radius; /* m, of a bin; from a middle to a corner at most */
   uint32_t counts[3];
-  uint32_t *begins; /* (bins + 1) */
-  uint32_t *items;  /* tetrahedra, bin by bin */
+  uint32_t *begins;  /* (bins + 1) */
+  uint32_t *items;   /* tetrahedra, bin by bin */
+  sbf_vec3 *middles; /* of the items, from the origin */
 } sbfi_tetrahedron_finder;
 
 /* Positions and tetrahedra, at least one, must outlive the finder. Memory of `arena`; false where it runs

@@ -1,0 +1,169 @@
+/* Lattices: tetrahedra a second of the whole pass from a converted surface to a level with its embeddings
+ * (inside test, stuffing, embedding; the build's own bookkeeping, as the hash of the source, counts too), by
+ * number of tetrahedra; the least and the greatest dihedral angle, how much of the surface's volume it holds,
+ * how far vertices lie outside, and the memory it takes.
+ *
+ * Beside it, where it is installed, the program tetgen on the same surface with its quality bounds and the
+ * volume that the lattice's tetrahedra have on average: the seconds that it says it takes for all but its
+ * files, and its own count. It keeps the surface's polygons, which a lattice does not, and takes no surface
+ * that is open or crosses itself. */
+#define _DEFAULT_SOURCE /* mkstemps */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "measured_assets.h"
+#include "measuring.h"
+#include "process_memory.h"
+#include "sbfmt/build.h"
+#include "sbfmt/mechanics.h"
+
+static const struct {
+  const char *folder, *mesh;
+  bool closed;
+} surfaces[] = {
+    {SHARED_FOLDER "/spot", "spot.obj", true},
+    {SHARED_FOLDER "/bunny", "bunny_902.obj", true},
+    {SHARED_FOLDER "/armadillo", "armadillo_25k.obj", true},
+    {SHARED_FOLDER "/soup", "suzanne.obj", false},
+    {SHARED_FOLDER "/bunny", "bunny_holes.obj", false},
+};
+enum { SURFACE_COUNT = sizeof surfaces / sizeof *surfaces };
+
+typedef struct stuffing {
+  const sbf_asset *source;
+  sbf_build_options options;
+  sbf_build_report report;
+  double begin_s, end_s; /* of the pass */
+} stuffing;
+
+static double processor_s(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static bool note_pass(void *user, const char *pass, double done) {
+  stuffing *s = user;
+  (void)done;
+  if (s->begin_s == 0 && strcmp(pass, "springs") == 0) s->begin_s = processor_s();
+  if (strcmp(pass, "the check of what was made") == 0) s->end_s = processor_s();
+  return true;
+}
+
+static void stuff(stuffing *s) {
+  sbf_asset *made;
+  sbf_diagnostic error;
+  s->begin_s = s->end_s = 0;
+  s->options.progress = note_pass;
+  s->options.user = s;
+  bench_require(sbf_build(s->source, &s->options, &made, &s->report, &error), &error);
+  sbf_asset_free(made);
+}
+
+/* What the child does: surface number `arguments[0]` at a cell of `arguments[1]` metres. */
+static void stuff_in_child(char **arguments) {
+  static stuffing s;
+  unsigned long number = strtoul(arguments[0], NULL, 10) % SURFACE_COUNT;
+  s.source = character_asset(surfaces[number].folder, surfaces[number].mesh, NULL, false);
+  s.options.interior = SBF_BUILD_INTERIOR_TETRAHEDRA;
+  s.options.cell_m = strtod(arguments[1], NULL);
+  stuff(&s);
+}
+
+static void write_off(const char *path, const sbf_polygon_mesh *mesh) {
+  FILE *file = fopen(path, "w");
+  if (!file) bench_fail("%s cannot be written", path);
+  fprintf(file, "OFF\n%u %u 0\n", mesh->positions.count, mesh->polygon_sizes.count);
+  for (uint32_t i = 0; i < mesh->positions.count; i++) {
+    sbf_vec3 p = mesh->positions.at[i];
+    fprintf(file, "%.9g %.9g %.9g\n", (double)p.x, (double)p.y, (double)p.z);
+  }
+  const uint32_t *corners = mesh->polygon_points.at;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++) {
+    fprintf(file, "%u", mesh->polygon_sizes.at[p]);
+    for (uint32_t k = 0; k < mesh->polygon_sizes.at[p]; k++) fprintf(file, " %u", *corners++);
+    fputc('\n', file);
+  }
+  fclose(file);
+}
+
+/* False where tetgen is absent or makes nothing of the surface. */
+static bool run_tetgen(const char *off, double volume, double *seconds, unsigned long *count) {
+  char command[512], line[256];
+  snprintf(command, sizeof command, "tetgen -pqNEFBa%.9g %s 2>/dev/null", volume, off);
+  FILE *said = popen(command, "r");
+  *seconds = 0;
+  *count = 0;
+  if (!said) return false;
+  while (fgets(line, sizeof line, said)) {
+    const char *value = strchr(line, ':');
+    if (value && strncmp(line, "Total running seconds", 21) == 0) *seconds = strtod(value + 1, NULL);
+    if (value && strstr(line, "Mesh tetrahedra:")) *count = strtoul(value + 1, NULL, 10);
+  }
+  return pclose(said) == 0 && *count > 0;
+}
+
+static void measure_tetgen(unsigned number, const sbf_soft_body *body, const stuffing *s) {
+  char path[] = "/tmp/bench_lattice_XXXXXX.off";
+  double seconds;
+  unsigned long count;
+  int file = mkstemps(path, 4);
+  if (file < 0) bench_fail("no file can be made in /tmp");
+  close(file);
+  write_off(path, &body->surface);
+  if (run_tetgen(path, s->report.lattice_volume / s->report.tetrahedra, &seconds, &count))
+    bench_print_row("%s,tetgen,%lu,1,%.2f,%.2f,,%.0f,,,,,", surfaces[number].mesh, count, seconds * 1e3,
+        seconds * 1e3, (double)count / seconds);
+  unlink(path);
+}
+
+static void measure(unsigned number, double elements, uint32_t rounds, bool beside) {
+  sbf_asset *source = character_asset(surfaces[number].folder, surfaces[number].mesh, NULL, false);
+  if (!source) return;
+  const sbf_soft_body *body = &source->soft_bodies.at[0];
+  sbf_surface_measures surface;
+  sbf_surface_measure(&body->surface, NULL, &surface);
+  /* Twelve tetrahedra fill a cube of the grid: so the cell is given, and nothing is tried. */
+  double cube = 12 * surface.volume / elements, cell = 1;
+  for (int step = 0; step < 100; step++) cell = (2 * cell + cube / (cell * cell)) / 3;
+  stuffing s = {.source = source, .options = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = cell}};
+  enum { MOST_ROUNDS = 15 };
+  double pass[MOST_ROUNDS], whole[MOST_ROUNDS];
+  stuff(&s);
+  for (uint32_t r = 0; r < rounds; r++) {
+    double begin = processor_s();
+    stuff(&s);
+    whole[r] = processor_s() - begin;
+    pass[r] = s.end_s - s.begin_s;
+  }
+  bench_spread of_pass = bench_spread_of(pass, rounds), of_whole = bench_spread_of(whole, rounds);
+  char name[12], size[40];
+  snprintf(name, sizeof name, "%u", number);
+  snprintf(size, sizeof size, "%.17g", cell);
+  process_memory memory = process_memory_of((const char *const[]){name, size, NULL});
+  bench_print_row("%s,sbfmt,%u,%u,%.2f,%.2f,%.2f,%.0f,%.1f,%.1f,%.4f,%.3g,%zu", surfaces[number].mesh,
+      s.report.tetrahedra, rounds, of_pass.least * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
+      s.report.tetrahedra / of_pass.median, s.report.least_dihedral_deg, s.report.most_dihedral_deg,
+      s.report.lattice_volume / surface.volume, s.report.farthest_m / cell, memory.peak_bytes / 1024);
+  if (beside && surfaces[number].closed) measure_tetgen(number, body, &s);
+  sbf_asset_free(source);
+}
+
+int main(int argument_count, char **arguments) {
+  process_memory_work(argument_count, arguments, stuff_in_child);
+  bool quick = bench_is_quick(argument_count, arguments);
+  bench_print_columns(
+      "surface,by,tetrahedra,rounds,least_ms,median_ms,build_ms,tetrahedra/s,least_deg,most_deg,volume,"
+      "farthest_cells,peak_KiB");
+  for (unsigned i = 0; i < SURFACE_COUNT; i++) {
+    measure(i, 2000, quick ? 1 : 15, false);
+    if (quick) continue;
+    measure(i, 20000, 9, true);
+    measure(i, 200000, 5, true);
+    measure(i, 1000000, 3, false);
+  }
+  return 0;
+}
