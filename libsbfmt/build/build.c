@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "build/build_settings.h"
 #include "build/embed/embed.h"
 #include "build/geometry/topology.h"
 #include "build/lattice/lattice_level.h"
@@ -54,20 +55,9 @@ static sbf_build_options options_of(const sbf_build_options *given) {
   return options;
 }
 
-static const char *const interior_words[] = {
-    "automatic", "centroid", "none", "lattice", "brute", "tetrahedra"};
-enum { INTERIOR_COUNT = sizeof interior_words / sizeof *interior_words };
-
-/* The settings that shape what is made, in alphabetical order. */
 static const char *settings_of(const build *b) {
-  char text[240], cell[40] = "", elements[32] = "";
-  const sbf_build_options *o = &b->options;
-  /* Millionths of a metre are fine enough for a cell, and whole numbers read alike everywhere. */
-  if (o->cell_m > 0) snprintf(cell, sizeof cell, "cell_um=%.0f ", o->cell_m * 1e6);
-  if (o->elements > 0) snprintf(elements, sizeof elements, "elements=%u ", (unsigned)o->elements);
-  snprintf(text, sizeof text, "%s%sembeddings=%s flexion=%s hulls=%s interior=%s", cell, elements,
-      o->without_embeddings ? "false" : "true", o->without_flexion ? "false" : "true",
-      o->without_hulls ? "false" : "true", interior_words[o->interior]);
+  char text[SBFI_BUILD_SETTINGS_SIZE];
+  sbfi_build_settings_write(&b->options, text);
   return sbf_asset_copy_text(b->asset, text);
 }
 
@@ -410,10 +400,11 @@ sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, s
     sbf_build_report *report, sbf_diagnostic *error) {
   *built = NULL;
   build b = {.options = options_of(options), .from = asset, .error = error};
-  if ((unsigned)b.options.interior >= INTERIOR_COUNT)
+  if ((unsigned)b.options.interior >= SBFI_BUILD_INTERIOR_COUNT)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known interior");
   if (!(b.options.cell_m >= 0 && b.options.cell_m <= 1e9))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name a cell that is no length");
+  b.options.cell_m = sbfi_build_settings_cell(b.options.cell_m); /* what is recorded is what is built with */
   b.reporter = (sbfi_reporter){.report = b.options.report, .user = b.options.user};
   sbfi_arena_init(&b.scratch, b.options.allocator, 0);
   sbfi_ids_init(&b.ids, b.options.allocator);

@@ -1,19 +1,108 @@
 #include "build/build_settings.h"
 
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/number.h"
 #include "base/text.h"
+
+typedef enum setting_kind {
+  WITHOUT,     /* bool, stated as its opposite */
+  INTERIOR,    /* sbf_build_interior, by name */
+  COUNT,       /* uint32_t; 0 is not stated */
+  MICROMETRES, /* double, metres; 0 is not stated. Whole numbers read alike everywhere */
+} setting_kind;
+
+/* Each setting that shapes what is made, in alphabetical order. Writing and reading go through it both. */
+static const struct {
+  const char *name;
+  setting_kind kind;
+  size_t offset;
+} settings[] = {
+    {"cell_um", MICROMETRES, offsetof(sbf_build_options, cell_m)},
+    {"elements", COUNT, offsetof(sbf_build_options, elements)},
+    {"embeddings", WITHOUT, offsetof(sbf_build_options, without_embeddings)},
+    {"flexion", WITHOUT, offsetof(sbf_build_options, without_flexion)},
+    {"hulls", WITHOUT, offsetof(sbf_build_options, without_hulls)},
+    {"interior", INTERIOR, offsetof(sbf_build_options, interior)},
+};
+enum { SETTING_COUNT = sizeof settings / sizeof *settings };
+
+static const char *const interior_words[SBFI_BUILD_INTERIOR_COUNT] = {
+    "automatic", "centroid", "none", "lattice", "brute", "tetrahedra"};
+
+static const double most_um = 4e9; /* fits 32 bits */
+
+double sbfi_build_settings_cell(double cell_m) {
+  if (!(cell_m > 0)) return 0;
+  double um = cell_m * 1e6;
+  if (!(um < most_um)) return most_um / 1e6;
+  uint32_t whole = (uint32_t)(um + 0.5);
+  return (whole ? whole : 1) / 1e6;
+}
+
+void sbfi_build_settings_write(const sbf_build_options *options, char text[SBFI_BUILD_SETTINGS_SIZE]) {
+  size_t length = 0;
+  text[0] = 0;
+  for (int i = 0; i < SETTING_COUNT; i++) {
+    const void *field = (const char *)options + settings[i].offset;
+    const char *word = NULL;
+    uint32_t number = 0;
+    switch (settings[i].kind) {
+    case WITHOUT:
+      word = *(const bool *)field ? "false" : "true";
+      break;
+    case INTERIOR:
+      word = interior_words[*(const sbf_build_interior *)field];
+      break;
+    case COUNT:
+      number = *(const uint32_t *)field;
+      break;
+    case MICROMETRES:
+      number = (uint32_t)(sbfi_build_settings_cell(*(const double *)field) * 1e6 + 0.5);
+      break;
+    }
+    if (!word && !number) continue;
+    int written = word ? snprintf(text + length, SBFI_BUILD_SETTINGS_SIZE - length, "%s%s=%s",
+                             length ? " " : "", settings[i].name, word)
+                       : snprintf(text + length, SBFI_BUILD_SETTINGS_SIZE - length, "%s%s=%u",
+                             length ? " " : "", settings[i].name, (unsigned)number);
+    length += (size_t)written;
+  }
+}
 
 static bool take_flag(sbfi_span value, bool *without) {
   *without = sbfi_span_is(value, "false");
   return *without || sbfi_span_is(value, "true");
 }
 
-static bool take_interior(sbfi_span value, sbf_build_options *options) {
-  static const char *const words[] = {"automatic", "centroid", "none"}; /* as sbf_build_interior */
-  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    if (sbfi_span_is(value, words[i])) {
-      options->interior = (sbf_build_interior)i;
+static bool take_interior(sbfi_span value, sbf_build_interior *interior) {
+  for (int i = 0; i < SBFI_BUILD_INTERIOR_COUNT; i++)
+    if (sbfi_span_is(value, interior_words[i])) {
+      *interior = (sbf_build_interior)i;
       return true;
     }
+  return false;
+}
+
+static bool take_number(sbfi_span value, uint32_t *number) {
+  return sbfi_parse_u32(value.at, value.length, number) == SBFI_NUMBER_READ && *number > 0;
+}
+
+static bool take(setting_kind kind, sbfi_span value, void *field) {
+  uint32_t number;
+  switch (kind) {
+  case WITHOUT:
+    return take_flag(value, field);
+  case INTERIOR:
+    return take_interior(value, field);
+  case COUNT:
+    return take_number(value, field);
+  case MICROMETRES:
+    if (!take_number(value, &number)) return false;
+    *(double *)field = number / 1e6;
+    return true;
+  }
   return false;
 }
 
@@ -24,12 +113,10 @@ bool sbfi_build_settings_read(const char *text, sbf_build_options *options) {
     while (equals < word.length && word.at[equals] != '=') equals++;
     if (equals == word.length) return false;
     sbfi_span name = {word.at, equals}, value = {word.at + equals + 1, word.length - equals - 1};
-    bool known = sbfi_span_is(name, "embeddings") ? take_flag(value, &options->without_embeddings)
-                 : sbfi_span_is(name, "flexion")  ? take_flag(value, &options->without_flexion)
-                 : sbfi_span_is(name, "hulls")    ? take_flag(value, &options->without_hulls)
-                 : sbfi_span_is(name, "interior") ? take_interior(value, options)
-                                                  : false;
-    if (!known) return false;
+    int i = 0;
+    while (i < SETTING_COUNT && !sbfi_span_is(name, settings[i].name)) i++;
+    if (i == SETTING_COUNT || !take(settings[i].kind, value, (char *)options + settings[i].offset))
+      return false;
   }
   return true;
 }

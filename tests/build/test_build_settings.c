@@ -14,6 +14,42 @@ START_TEST(test_what_a_build_states)
 }
 END_TEST
 
+START_TEST(test_what_is_written_is_read)
+{
+  static const sbf_build_options samples[] = {
+      {0},
+      {.cell_m = 0.0125, .interior = SBF_BUILD_INTERIOR_TETRAHEDRA},
+      {.elements = 4000000000u, .interior = SBF_BUILD_INTERIOR_LATTICE, .without_hulls = true},
+      {.cell_m = 1e-6, .elements = 1, .interior = SBF_BUILD_INTERIOR_BRUTE, .without_embeddings = true},
+      {.cell_m = 4000, .interior = SBF_BUILD_INTERIOR_NONE, .without_flexion = true},
+  };
+  for (size_t i = 0; i < sizeof samples / sizeof *samples; i++) {
+    const sbf_build_options *o = &samples[i];
+    sbf_build_options read = {0};
+    char text[SBFI_BUILD_SETTINGS_SIZE], again[SBFI_BUILD_SETTINGS_SIZE];
+    sbfi_build_settings_write(o, text);
+    ck_assert(sbfi_build_settings_read(text, &read));
+    ck_assert(read.cell_m == sbfi_build_settings_cell(o->cell_m));
+    ck_assert_uint_eq(read.elements, o->elements);
+    ck_assert_int_eq(read.interior, o->interior);
+    ck_assert_int_eq(read.without_embeddings, o->without_embeddings);
+    ck_assert_int_eq(read.without_flexion, o->without_flexion);
+    ck_assert_int_eq(read.without_hulls, o->without_hulls);
+    sbfi_build_settings_write(&read, again);
+    ck_assert_str_eq(text, again);
+  }
+}
+END_TEST
+
+START_TEST(test_cells_are_whole_micrometres)
+{
+  ck_assert(sbfi_build_settings_cell(0) == 0);
+  ck_assert(sbfi_build_settings_cell(1e-9) == 1e-6);
+  ck_assert(sbfi_build_settings_cell(0.1 / 3) == 33333 / 1e6);
+  ck_assert(sbfi_build_settings_cell(1e9) == 4000);
+}
+END_TEST
+
 START_TEST(test_what_it_does_not_know)
 {
   sbf_build_options options = {0};
@@ -21,6 +57,10 @@ START_TEST(test_what_it_does_not_know)
   ck_assert(!sbfi_build_settings_read("flexion=perhaps", &options));
   ck_assert(!sbfi_build_settings_read("magic=true", &options));
   ck_assert(!sbfi_build_settings_read("flexion", &options));
+  ck_assert(!sbfi_build_settings_read("cell_um=0", &options));
+  ck_assert(!sbfi_build_settings_read("cell_um=1.5", &options));
+  ck_assert(!sbfi_build_settings_read("elements=", &options));
+  ck_assert(!sbfi_build_settings_read("elements=5000000000", &options));
 }
 END_TEST
 
@@ -28,6 +68,8 @@ int main(void) {
   Suite *suite = suite_create("build_settings");
   TCase *all = tcase_create("all");
   tcase_add_test(all, test_what_a_build_states);
+  tcase_add_test(all, test_what_is_written_is_read);
+  tcase_add_test(all, test_cells_are_whole_micrometres);
   tcase_add_test(all, test_what_it_does_not_know);
   suite_add_tcase(suite, all);
   return harness_run(suite);

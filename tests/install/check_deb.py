@@ -3,7 +3,11 @@
 
 Usage: check_deb.py --source DIR --scratch DIR --cc CC [--build DIR]
 Builds a tree of shared libraries unless --build names one. Skips (77) where it is not root's to do, or where debootstrap,
-dpkg-shlibdeps or the archive of packages is out of reach."""
+dpkg-shlibdeps or the archive of packages is out of reach.
+
+Whatever is mounted for the clean system is mounted in a namespace of the command that needs it, and is gone with that command,
+however it ends. Here nothing is ever mounted below the folder, so that removing it removes nothing else; that is looked at
+before it is removed."""
 import argparse
 import glob
 import os
@@ -27,6 +31,32 @@ def run(*command, folder=None, must=True):
     return done
 
 
+# The command that follows, in a mount namespace of its own, in which the clean system has a /proc.
+APART = ("unshare", "--mount", "--propagation", "private")
+INSIDE = 'mount -t proc proc "$0/proc" && exec chroot "$0" "$@"'
+
+
+def mounted_below(folder):
+    with open("/proc/self/mountinfo", encoding="utf-8") as file:
+        places = [line.split()[4].encode().decode("unicode_escape") for line in file]
+    return [place for place in places if place.startswith(os.path.realpath(folder) + os.sep)]
+
+
+def remove(folder):
+    places = mounted_below(folder)
+    if places:
+        sys.exit(f"{folder} is left: {', '.join(places)} is mounted in it")
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def enter(system, *words, must=True):
+    return run(*APART, "sh", "-c", INSIDE, system, *words, must=must)
+
+
+def last_line(done):
+    return ((done.stdout + done.stderr).strip().splitlines() or ["no message"])[-1]
+
+
 def codename():
     with open("/etc/os-release", encoding="utf-8") as file:
         release = dict(line.strip().split("=", 1) for line in file if "=" in line)
@@ -43,7 +73,7 @@ def build_packages(arguments):
     packages = os.path.join(arguments.scratch, "packages")
     run("cpack", "-G", "DEB", "-B", packages, folder=build)
     found = sorted(glob.glob(os.path.join(packages, "*.deb")))
-    names = [os.path.basename(path).split("_")[0] for path in found]
+    names = sorted(os.path.basename(path).split("_")[0] for path in found)
     if names != ["libsbfmt", "libsbfmt-dev", "sbfmt"]:
         sys.exit(f"packages made: {names}")
     return found
@@ -51,18 +81,17 @@ def build_packages(arguments):
 
 def use(system, source):
     """What a user does first; the figures are those of the lizard."""
-    inside = lambda *words, **options: run("chroot", system, *words, **options)  # noqa: E731
     for name in ("lizard.obj", "lizard.mtl", "lizard.glb"):
         shutil.copy(os.path.join(source, "examples", "lizard", name), os.path.join(system, "tmp"))
-    inside("sbfmt", "convert", "/tmp/lizard.obj", "--rig", "/tmp/lizard.glb", "-o", "/tmp/lizard.sbfz")
-    inside("sbfmt", "validate", "/tmp/lizard.sbfz")
-    said = inside("sbfmt", "run", "/tmp/lizard.sbfz", "--seconds", "0.5", "--format", "json").stdout
+    enter(system, "sbfmt", "convert", "/tmp/lizard.obj", "--rig", "/tmp/lizard.glb", "-o", "/tmp/lizard.sbfz")
+    enter(system, "sbfmt", "validate", "/tmp/lizard.sbfz")
+    said = enter(system, "sbfmt", "run", "/tmp/lizard.sbfz", "--seconds", "0.5", "--format", "json").stdout
     if '"valid": true' not in said:
         sys.exit("the lizard does not move well:\n" + said)
     for path in ("usr/share/man/man1/sbfmt.1", "usr/include/sbfmt/io.h", "usr/share/sbfmt/python/sbfmt/__init__.py"):
         if not os.path.exists(os.path.join(system, path)):
             sys.exit(f"/{path} is not there")
-    inside("dpkg", "--purge", "sbfmt", "libsbfmt-dev", "libsbfmt")
+    enter(system, "dpkg", "--purge", "sbfmt", "libsbfmt-dev", "libsbfmt")
     left = [path for path in glob.glob(os.path.join(system, "usr", "lib", "*", "libsb*")) +
             glob.glob(os.path.join(system, "usr", "bin", "sbfmt*"))]
     if left:
@@ -75,28 +104,32 @@ def main():
         parser.add_argument("--" + name, required=True)
     parser.add_argument("--build")
     arguments = parser.parse_args()
+    arguments.scratch = os.path.abspath(arguments.scratch)
     if os.geteuid() != 0:
         skip("a clean system can be made and entered by root only")
-    missing = [name for name in ("debootstrap", "dpkg-shlibdeps", "cpack", "chroot") if not shutil.which(name)]
+    missing = [name for name in ("debootstrap", "dpkg-shlibdeps", "cpack", "chroot", "unshare") if not shutil.which(name)]
     if missing:
         skip(f"{', '.join(missing)}: not installed")
-    shutil.rmtree(arguments.scratch, ignore_errors=True)
+    if run(*APART, "true", must=False).returncode:
+        skip("a mount namespace cannot be made here")
+    remove(arguments.scratch)
     system = os.path.join(arguments.scratch, "system")
     os.makedirs(system)
     try:
-        done = run("debootstrap", "--variant=minbase", codename(), system, must=False)
+        done = run(*APART, "debootstrap", "--variant=minbase", codename(), system, must=False)
         if done.returncode:
-            skip("debootstrap could not make a clean system: " + done.stdout.strip().splitlines()[-1])
+            skip("debootstrap could not make a clean system: " + last_line(done))
         inner = os.path.join(system, "packages")
         os.mkdir(inner)
         names = [shutil.copy(path, inner) for path in build_packages(arguments)]
-        if run("chroot", system, "apt-get", "update", must=False).returncode:
-            skip("the archive of packages is out of reach")
-        run("chroot", system, "apt-get", "install", "-y", "--no-install-recommends",
-            *("/packages/" + os.path.basename(name) for name in names))
+        done = enter(system, "apt-get", "update", must=False)
+        if done.returncode:
+            skip("the archive of packages is out of reach: " + last_line(done))
+        enter(system, "apt-get", "install", "-y", "--no-install-recommends",
+              *("/packages/" + os.path.basename(name) for name in names))
         use(system, arguments.source)
     finally:
-        shutil.rmtree(system, ignore_errors=True)
+        remove(system)
     print("Debian packages: install, run and purge in a clean system")
 
 

@@ -36,6 +36,26 @@ START_TEST(test_stale_parts_are_made_anew_with_their_settings)
 }
 END_TEST
 
+START_TEST(test_lattices_are_made_anew_as_they_were)
+{
+  static const sbf_build_options kinds[] = {
+      {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = 0.1 / 3},
+      {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 300},
+      {.interior = SBF_BUILD_INTERIOR_LATTICE, .cell_m = 0.25},
+  };
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    sbf_asset *built = build(ROOT_BONE SECTION(TETRA), &kinds[i]), *expected;
+    ((sbf_vec3 *)(uintptr_t)built->soft_bodies.at[0].surface.positions.at)[3].z = 1.25f;
+    ck_assert_int_eq(sbf_build(built, &kinds[i], &expected, NULL, NULL), SBF_OK);
+    sbf_asset *fixed = fix(built, true);
+    ck_assert(sbf_asset_equal(fixed, expected, NULL, 0));
+    sbf_asset_free(fixed);
+    sbf_asset_free(expected);
+    sbf_asset_free(built);
+  }
+}
+END_TEST
+
 START_TEST(test_what_others_made_stays)
 {
   static const char *const texts[][2] = {{"another program", "interior=centroid"},
@@ -79,5 +99,6 @@ START_TEST(test_without_build)
 }
 END_TEST
 
-RULES_MAIN("mend_derived", test_stale_parts_are_made_anew_with_their_settings, test_what_others_made_stays,
+RULES_MAIN("mend_derived", test_stale_parts_are_made_anew_with_their_settings,
+    test_lattices_are_made_anew_as_they_were, test_what_others_made_stays,
     test_mending_the_source_makes_stale, test_without_build)

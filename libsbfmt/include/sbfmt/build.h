@@ -49,7 +49,8 @@ typedef struct sbf_build_options {
   void *user; /* for both callbacks */
   /* The size of lattices: the edge of the grid's cubes in metres; where that is 0, about so many tetrahedra a
    * body; where that is 0 too, 2000, or up to 16000 where much of a body is thinner than two elements.
-   * Interior springs on a grid of no stated cell go by the polygons' size.
+   * Interior springs on a grid of no stated cell go by the polygons' size. Cells are rounded to whole
+   * micrometres, which the derivation records.
    */
   double cell_m;
   uint32_t elements; /* see above */
