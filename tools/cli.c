@@ -14,6 +14,14 @@ const char *cli_value(const cli_call *call, const char *name) {
   abort(); /* a verb asks for an option that is not in its table */
 }
 
+const char *cli_next_value(const cli_call *call, const char *name, int *at) {
+  while (*at < call->given_count) {
+    const struct cli_given *given = &call->given[(*at)++];
+    if (strcmp(call->verb->options[given->place].name, name) == 0) return given->value;
+  }
+  return NULL;
+}
+
 bool cli_switch(const cli_call *call, const char *name) {
   return cli_value(call, name) != NULL;
 }

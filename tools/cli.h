@@ -32,7 +32,12 @@ struct cli_call {
   const char **inputs;
   int input_count;
   const char *values[CLI_MOST_OPTIONS]; /* by place in verb->options; NULL: not given; "" for a switch */
-  bool json;                            /* --format json */
+  struct cli_given {                    /* every option with a value as it was given, in order */
+    int place;
+    const char *value;
+  } * given;
+  int given_count;
+  bool json; /* --format json */
 };
 
 extern const cli_verb *const cli_verbs[]; /* ends with NULL */
@@ -40,6 +45,10 @@ extern const cli_verb *const cli_verbs[]; /* ends with NULL */
 /* What was given for an option; NULL if it was not. `name` must be one of the verb's. */
 const char *cli_value(const cli_call *call, const char *name);
 bool cli_switch(const cli_call *call, const char *name);
+
+/* The values of an option that may be given several times, in order: begin with *at 0; NULL after the last.
+ */
+const char *cli_next_value(const cli_call *call, const char *name, int *at);
 
 /* Numbers and words among the options: false, with a message, where the value is not one in [min, max]. */
 bool cli_number(const cli_call *call, const char *name, double min, double max, double *value);

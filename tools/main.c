@@ -71,6 +71,7 @@ static bool parse(cli_call *call, int count, char **arguments) {
       return false;
     }
     call->values[place] = value ? value : arguments[++i];
+    call->given[call->given_count++] = (struct cli_given){place, call->values[place]};
   }
   if (call->input_count < verb->least_inputs ||
       (verb->most_inputs >= 0 && call->input_count > verb->most_inputs)) {
@@ -105,8 +106,10 @@ int main(int argc, char **argv) {
       print_verb_help(verb);
       return SBF_OK;
     }
-  cli_call call = {.verb = verb, .inputs = calloc((size_t)argc, sizeof(char *))};
-  if (!call.inputs) return cli_wrong(&call, "out of memory");
+  cli_call call = {.verb = verb,
+      .inputs = calloc((size_t)argc, sizeof(char *)),
+      .given = calloc((size_t)argc, sizeof *call.given)};
+  if (!call.inputs || !call.given) return cli_wrong(&call, "out of memory");
   int status = SBF_FAILED;
   if (parse(&call, argc - 2, argv + 2)) {
     static const char *const formats[] = {"text", "json"};
@@ -118,6 +121,7 @@ int main(int argc, char **argv) {
       status = verb->run(&call);
     }
   }
+  free(call.given);
   free(call.inputs);
   return status;
 }

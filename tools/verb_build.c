@@ -1,12 +1,17 @@
 #include "building.h"
+#include "material_options.h"
 
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o");
   if (!out) return cli_wrong(call, "say where to write: -o FILE");
-  if (!building_check(call)) return SBF_FAILED;
+  if (!building_check(call) || !materials_check(call)) return SBF_FAILED;
   sbf_asset *asset;
   sbf_diagnostic error;
   sbf_status status = sbf_load_file(call->inputs[0], &(sbf_load_options){.check_crc = true}, &asset, &error);
+  if (status == SBF_OK && !materials_apply(call, asset)) {
+    sbf_asset_free(asset);
+    return SBF_FAILED;
+  }
   if (status == SBF_OK) status = building_run(call, &asset, &error);
   if (status == SBF_OK) {
     status = sbf_save_file(asset, out, NULL, &error);
@@ -19,6 +24,7 @@ static int run(cli_call *call) {
 static const cli_option options[] = {
     {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
     BUILDING_OPTIONS,
+    MATERIALS_OPTION,
     {NULL, NULL, NULL},
 };
 const cli_verb verb_build = {"build", "IN -o OUT [--springs METHOD] [--cell METRES] [--elements N]",

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "building.h"
+#include "material_options.h"
 #include "sbfmt/convert.h"
 
 /* OUT-DIR/NAME.sbf for an input's NAME.ending. */
@@ -22,6 +23,10 @@ static int convert(cli_call *call, const char *input, const char *out, const sbf
   sbf_asset *asset;
   sbf_diagnostic error;
   sbf_status status = sbf_convert(input, options, &asset, &error);
+  if (status == SBF_OK && !materials_apply(call, asset)) {
+    sbf_asset_free(asset);
+    return SBF_FAILED;
+  }
   if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
   if (status == SBF_OK) {
     status = sbf_save_file(asset, out, NULL, &error);
@@ -40,7 +45,7 @@ static int run(cli_call *call) {
     return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
   if (!cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) || !cli_word(call, "--up", axes, 2, &up) ||
-      !building_check(call))
+      !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   if (cli_value(call, "--up")) options.up = axes[up][0];
   for (int i = 0; i < call->input_count; i++) {
@@ -61,6 +66,7 @@ static const cli_option options[] = {
     {"--up", "y|z", "the input's upward axis (what the file says, else y)"},
     {"--no-build", NULL, "leave the derived parts to `sbfmt build`"},
     BUILDING_OPTIONS,
+    MATERIALS_OPTION,
     {NULL, NULL, NULL},
 };
 const cli_verb verb_convert = {"convert", "INPUT... (-o OUT.sbf[z] | --out-dir DIR) [--rig FILE] ...",

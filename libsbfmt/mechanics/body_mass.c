@@ -114,7 +114,9 @@ double sbf_level_masses(
     for (uint32_t i = 0; i < count; i++) masses[i] = level->masses.count ? level->masses.at[i] : 0;
     if (level->masses.count == 0) {
       add_tetrahedra(body, level, masses);
-      sbfi_level_weigh(body, level, SBF_WEIGHT_PROPERTY_DENSITY, masses);
+      /* Densities that the lattice states have the maps in them. */
+      if (level->lattice.densities.count < 2)
+        sbfi_level_weigh(body, level, SBF_WEIGHT_PROPERTY_DENSITY, masses);
     }
   }
   for (uint32_t i = 0; i < count; i++) {

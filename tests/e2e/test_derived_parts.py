@@ -1,11 +1,14 @@
 """Derived parts remember their source: the hash is the one that the specification describes, a changed source makes
 them stale, a build makes them anew and leaves what is authored alone."""
 
+import os
 import re
+import subprocess
 import xml.etree.ElementTree as ElementTree
 
 from canonical_source import source_hash, source_text
-from sbfmt_program import ProgramTest, example, liz, lizart, main, needs_lizard, read_bytes, read_text, write_bytes
+from sbfmt_program import (PROGRAM, ROOT, ProgramTest, call, example, liz, lizart, main, needs_lizard, read_bytes, read_text,
+                           write_bytes)
 
 
 def stated_hash(path):
@@ -83,6 +86,21 @@ class Derived(ProgramTest):
         self.assertIn("interior=none", settings)
         self.assertEqual(settings, sorted(settings))
         self.assertEqual(self.json_of("info", out)["springs"]["internal"], 0)
+
+    def test_bodies_are_made_of_what_is_said(self):
+        call("build", self.file, "--material", "flesh", "--material", "Head=muscle", "-o", self.path("firm.sbf"))
+        text = read_text(self.path("firm.sbf"))
+        self.assertEqual(text.count('young_modulus="30000"'), 1)
+        self.assertGreater(text.count('young_modulus="20000"'), 10)
+        for wrong in ("unobtainium", "Head=unobtainium", "Nobody=fat"):
+            done = subprocess.run([PROGRAM, "build", self.file, "--material", wrong, "-o", self.path("wrong.sbf")],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 2, wrong)
+            self.assertIn("material" if "unobtainium" in wrong else "Nobody", done.stderr)
+            self.assertFalse(os.path.exists(self.path("wrong.sbf")))
+        listed = subprocess.run([PROGRAM, "convert", "--help"], capture_output=True, text=True, check=True).stdout
+        for name in re.findall(r"^\| (\w+) \| [0-9]", read_text(os.path.join(ROOT, "docs", "materials.md")), re.M):
+            self.assertIn(name, listed)
 
     def test_lattices_are_made_of_the_size_asked_for(self):
         out, again = self.path("lattice.sbf"), self.path("again.sbf")

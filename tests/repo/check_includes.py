@@ -45,7 +45,7 @@ MAY_USE = {
 HEADER_BOX = {
     "sbfmt/base.h": "core", "sbfmt/codes.h": "core", "sbfmt/model.h": "core", "sbfmt/asset.h": "core",
     "sbfmt/io.h": "core", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
-    "sbfmt/build.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange", "sbrun/sbrun.h": "runtime",
+    "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange", "sbrun/sbrun.h": "runtime",
 }
 BOX_USES = {
     "core": {"core"},

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "build/lattice/lattice_pins.h"
+#include "build/materials/point_factors.h"
 #include "sbfmt/mechanics.h"
 
 enum { USUAL_ELEMENTS = 2000, MOST_ELEMENTS = 16000 };
@@ -81,7 +82,8 @@ sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_bo
   counts->tetrahedra = lattice.made.count;
   counts->points = lattice.made.point_count;
   sbfi_dihedrals_measure(&counts->quality, lattice.made.positions, lattice.made.at, lattice.made.count);
-  if (!weigh(level, body, counts->quality.volume, asset)) return SBFI_LATTICE_NO_MEMORY;
+  if (!weigh(level, body, counts->quality.volume, asset) || !sbfi_lattice_weigh(level, body, asset, scratch))
+    return SBFI_LATTICE_NO_MEMORY;
   for (uint32_t i = 0; i < level->pins.count; i++) counts->pins += level->pins.at[i].points.count;
   return SBFI_LATTICE_MADE;
 }

@@ -22,6 +22,7 @@ typedef struct work {
   double cell;                     /* of a lattice; 0: none */
   uint32_t deep_count;             /* of the interior points, those a bone holds */
   bool one_network;
+  float *damping;            /* (point_count) factors on stiffness_damping; NULL: none is stated */
   sbfi_spring_list internal; /* the interior's, then those of the author's points */
   uint32_t surface_count, source_count, point_count;
   uint8_t *held; /* (point_count) */
@@ -231,7 +232,8 @@ static bool add_set(work *w, sbf_spring_kind kind, sbfi_spring_list list, const 
   if (kept + inert == 0) return true;
   sbf_uint2 *ends = kept ? sbf_asset_allocate(w->asset, kept, sizeof *ends) : NULL;
   float *values = kept ? sbf_asset_allocate(w->asset, kept, sizeof *values) : NULL;
-  if (kept && (!ends || !values)) return false;
+  float *damping = kept && w->damping ? sbf_asset_allocate(w->asset, kept, sizeof *damping) : NULL;
+  if (kept && (!ends || !values || (w->damping && !damping))) return false;
   sbf_spring_set *set = &sets[w->level->springs.count++];
   sbf_spring_set_init(set);
   set->kind = kind;
@@ -239,13 +241,30 @@ static bool add_set(work *w, sbf_spring_kind kind, sbfi_spring_list list, const 
   set->inert_count = inert;
   set->ends = (sbf_uint2_list){ends, kept};
   set->stiffness = (sbf_f32_list){values, kept};
+  set->damping = (sbf_f32_list){damping, damping ? kept : 0};
   for (uint32_t s = 0, next = 0; s < list.count; s++) {
     if (is_inert(w, list.at[s]) || is_nothing(w, list.at[s])) continue;
     ends[next] = list.at[s];
+    if (damping)
+      damping[next] = w->body->attributes.stiffness_damping * stiffness[s] *
+                      (w->damping[list.at[s].at[0]] + w->damping[list.at[s].at[1]]) / 2;
     values[next++] = stiffness[s];
   }
   counts->springs[kind] += kept;
   counts->inert += inert;
+  return true;
+}
+
+/* The map's factors, where there is one and something for it to scale. */
+static bool weigh_damping(work *w) {
+  bool mapped = false;
+  for (uint32_t m = 0; m < w->body->weight_maps.count; m++)
+    mapped |= w->body->weight_maps.at[m].property == SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING;
+  if (!mapped || !(w->body->attributes.stiffness_damping > 0)) return true;
+  w->damping = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *w->damping);
+  if (!w->damping) return false;
+  for (uint32_t i = 0; i < w->point_count; i++) w->damping[i] = 1;
+  sbfi_level_weigh(w->body, w->level, SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, w->damping);
   return true;
 }
 
@@ -257,7 +276,7 @@ static bool add_springs(work *w, sbfi_spring_counts *counts) {
   for (int i = 0; i < 4; i++) total += lists[i].count;
   sbf_spring_set *sets = sbf_asset_allocate(w->asset, 4, sizeof *sets);
   float *stiffness = sbfi_arena_allocate(w->scratch, total, sizeof *stiffness);
-  if (!sets || !stiffness || !make_stiffness(w, stiffness)) return false;
+  if (!sets || !stiffness || !make_stiffness(w, stiffness) || !weigh_damping(w)) return false;
   w->level->springs = (sbf_spring_set_list){sets, 0};
   for (int i = 0; i < 4; i++) {
     if (!add_set(w, kinds[i], lists[i], stiffness, sets, counts)) return false;

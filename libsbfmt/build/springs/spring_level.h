@@ -45,7 +45,8 @@ typedef struct sbfi_interior_map {
  * A lattice's nodes have half a cube of its grid each, and together with the free surface points all of the
  * mass; all springs of a level with a lattice, and of a brute one, are one network in stiffness.
  *
- * Stiffness in N/m by sbfmt/mechanics.h, stated for each spring. False where memory runs out. */
+ * Stiffness in N/m by sbfmt/mechanics.h, stated for each spring; damping too where a weight map scales the
+ * body's stiffness_damping. False where memory runs out. */
 bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const sbfi_spring_recipe *recipe,
     sbf_asset *asset, sbfi_interior_map *map, sbfi_spring_counts *counts, sbfi_arena *scratch);
 

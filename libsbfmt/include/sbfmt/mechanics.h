@@ -85,7 +85,8 @@ SBF_API void sbf_level_shares(
 /* Masses in kg, (level->positions.count), and their sum; 0 at held points. Stated masses of the level as they
  * are; else of tetrahedra a quarter of density times rest volume to each point; else the body's mass by
  * shares; where there are no polygons, each point a ball of the particle radius; all but the first times the
- * weight map of the density. A mass that the body states rescales all to that sum. */
+ * weight map of the density, which a density for each tetrahedron has in it already. A mass that the body
+ * states rescales all to that sum. */
 SBF_API double sbf_level_masses(
     const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *masses);
 

@@ -1,0 +1,88 @@
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness.h"
+#include "sbfmt/materials.h"
+
+static const char *const asked_for[] = {
+    "cotton", "denim", "fat", "flesh", "jelly", "leather", "muscle", "rubber", "silk"};
+
+START_TEST(every_preset_is_found_and_sound)
+{
+  uint32_t count;
+  const sbf_material_preset *presets = sbf_material_presets(&count);
+  ck_assert_uint_eq(count, sizeof asked_for / sizeof *asked_for);
+  for (uint32_t i = 0; i < count; i++) {
+    const sbf_material_preset *p = &presets[i];
+    ck_assert_str_eq(p->name, asked_for[i]);
+    ck_assert_ptr_eq(sbf_material_find(p->name), p);
+    ck_assert(p->density > 100 && p->density < 3000 && p->young_modulus > 0);
+    ck_assert(p->poisson_ratio > 0 && p->poisson_ratio <= 0.48f);
+    ck_assert_uint_gt(strlen(p->source), 20);
+    ck_assert_int_eq(p->cloth, p->area_density > 0);
+    if (!p->cloth) continue;
+    /* A weave bends more easily than a plate, but not by more than the square of its threads. */
+    double plate = p->young_modulus * p->thickness * p->thickness * p->thickness / 12;
+    ck_assert(p->bending_stiffness < 1.2 * plate && p->bending_stiffness > 1e-3 * plate);
+    ck_assert_float_eq_tol(p->density, p->area_density / p->thickness, 10);
+  }
+  ck_assert_ptr_null(sbf_material_find("unobtainium"));
+}
+END_TEST
+
+START_TEST(a_preset_sets_what_it_knows)
+{
+  sbf_attributes attributes;
+  sbf_attributes_init(&attributes);
+  attributes.mass = 7;
+  attributes.gravity_scale = 0.5f;
+  attributes.pressure_mode = SBF_PRESSURE_MODE_VOLUME;
+  sbf_material_apply(sbf_material_find("fat"), &attributes);
+  ck_assert_float_eq(attributes.young_modulus, 4000);
+  ck_assert_float_eq(attributes.mass, 7);
+  ck_assert_float_eq(attributes.gravity_scale, 0.5f);
+  ck_assert_int_eq(attributes.pressure_mode, SBF_PRESSURE_MODE_VOLUME);
+  sbf_material_apply(sbf_material_find("silk"), &attributes);
+  ck_assert_float_eq(attributes.area_density, 0.06f);
+  ck_assert_int_eq(attributes.pressure_mode, SBF_PRESSURE_MODE_NONE);
+  sbf_material_apply(sbf_material_find("rubber"), &attributes);
+  ck_assert_float_eq(attributes.area_density, 0);
+  ck_assert_float_eq(attributes.bending_stiffness, 0);
+}
+END_TEST
+
+START_TEST(the_document_has_these_numbers)
+{
+  size_t size;
+  uint32_t count;
+  char *text = harness_read(harness_source("docs/materials.md"), &size), row[900];
+  ck_assert_ptr_nonnull(text);
+  const sbf_material_preset *p = sbf_material_presets(&count);
+  for (uint32_t i = 0; i < count; i++, p++) {
+    int length = snprintf(row, sizeof row, "| %s | %g | %g | %g | %g | %g | ", p->name, p->density,
+        p->young_modulus, p->poisson_ratio, p->damping_ratio, p->friction);
+    if (p->cloth)
+      snprintf(row + length, sizeof row - (size_t)length, "%g | %g | %g | %s |", p->area_density,
+          p->thickness, p->bending_stiffness, p->source);
+    else
+      snprintf(row + length, sizeof row - (size_t)length, "| | | %s |", p->source);
+    ck_assert_msg(strstr(text, row) != NULL, "docs/materials.md should have the row\n%s", row);
+  }
+  free(text);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("material_presets");
+  TCase *c = tcase_create("material_presets");
+  tcase_add_test(c, every_preset_is_found_and_sound);
+  tcase_add_test(c, a_preset_sets_what_it_knows);
+  tcase_add_test(c, the_document_has_these_numbers);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
