@@ -38,6 +38,8 @@ static void find_scales(const sbf_spring_network *network, double *scale_of) {
     scale_of[i] = network->anchors && network->anchors[i] > 0 ? 3 : 0;
   for (uint32_t s = 0; s < network->spring_count; s++)
     for (int end = 0; end < 2; end++) scale_of[network->ends[s].at[end]] += network->stiffness[s] > 0;
+  for (uint32_t t = 0; t < network->tetrahedron_count; t++)
+    for (int k = 0; k < 4; k++) scale_of[network->tetrahedra[t].at[k]] += 3;
   for (uint32_t i = 0; i < network->point_count; i++)
     if (network->masses[i] > 0 && scale_of[i] > most) most = scale_of[i];
   for (uint32_t i = 0; i < network->point_count; i++) {
@@ -91,6 +93,39 @@ static void add_energy(double stiffness[FIELDS * FIELDS], double k, const double
     for (int b = 0; b <= a; b++) stiffness[a * FIELDS + b] += k * g[a] * g[b];
 }
 
+/* Hooke's law as a sum of squares: lambda (tr e)^2 + 2 mu sum e_ii^2 + mu sum of the squared shears, halved.
+ */
+static void add_tetrahedra(const basis *of, double stiffness[FIELDS * FIELDS]) {
+  const sbf_spring_network *network = of->network;
+  double phi[MONOMIALS], slopes[3][MONOMIALS], g[FIELDS];
+  sbfi_tetrahedron element;
+  for (uint32_t t = 0; t < network->tetrahedron_count; t++) {
+    if (!sbfi_network_tetrahedron(network, t, &element)) continue;
+    memset(slopes, 0, sizeof slopes);
+    for (int k = 0; k < 4; k++) {
+      uint32_t point = network->tetrahedra[t].at[k];
+      if (!(of->scale_of[point] > 0)) continue;
+      evaluate(of, point, phi);
+      for (int m = 0; m < MONOMIALS; m++) {
+        slopes[0][m] += phi[m] * element.gradients[k].x;
+        slopes[1][m] += phi[m] * element.gradients[k].y;
+        slopes[2][m] += phi[m] * element.gradients[k].z;
+      }
+    }
+    double mu = element.volume * element.lame.mu, first = element.volume * element.lame.lambda - mu;
+    for (int f = 0; f < FIELDS; f++) g[f] = slopes[f % 3][f / 3];
+    add_energy(stiffness, first, g);
+    for (int axis = 0; axis < 3; axis++) {
+      int next = (axis + 1) % 3;
+      for (int f = 0; f < FIELDS; f++) g[f] = f % 3 == axis ? slopes[axis][f / 3] : 0;
+      add_energy(stiffness, 2 * mu, g);
+      for (int f = 0; f < FIELDS; f++)
+        g[f] = f % 3 == axis ? slopes[next][f / 3] : f % 3 == next ? slopes[axis][f / 3] : 0;
+      add_energy(stiffness, mu, g);
+    }
+  }
+}
+
 static void sum_stiffness(const basis *of, double stiffness[FIELDS * FIELDS]) {
   const sbf_spring_network *network = of->network;
   double from[MONOMIALS], to[MONOMIALS], g[FIELDS];
@@ -118,6 +153,7 @@ static void sum_stiffness(const basis *of, double stiffness[FIELDS * FIELDS]) {
       add_energy(stiffness, network->anchors[i], g);
     }
   }
+  add_tetrahedra(of, stiffness);
   for (int a = 0; a < FIELDS; a++)
     for (int b = a + 1; b < FIELDS; b++) stiffness[a * FIELDS + b] = stiffness[b * FIELDS + a];
 }

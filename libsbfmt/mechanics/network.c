@@ -20,6 +20,31 @@ static void add(double *y, uint32_t point, sbfi_d3 way, double factor) {
   at[2] += way.z * factor;
 }
 
+bool sbfi_network_tetrahedron(const sbf_spring_network *network, uint32_t t, sbfi_tetrahedron *made) {
+  sbfi_d3 rest[4];
+  for (int k = 0; k < 4; k++) rest[k] = sbfi_d3_of(network->positions[network->tetrahedra[t].at[k]]);
+  return sbfi_tetrahedron_make(
+      made, rest, sbfi_lame_of(network->young_modulus[t], network->poisson_ratios[t]));
+}
+
+static void apply_tetrahedra(
+    const sbf_spring_network *network, const double *scale, const double *x, double *y) {
+  sbfi_tetrahedron element;
+  sbfi_d3 rest[4], u[4], products[4];
+  for (uint32_t t = 0; t < network->tetrahedron_count; t++) {
+    const uint32_t *at = network->tetrahedra[t].at;
+    double scales[4];
+    if (!sbfi_network_tetrahedron(network, t, &element)) continue;
+    for (int k = 0; k < 4; k++) {
+      scales[k] = network->masses[at[k]] > 0 ? (scale ? scale[at[k]] : 1) : 0;
+      rest[k] = sbfi_d3_of(network->positions[at[k]]);
+      u[k] = load(x, at[k], scales[k]);
+    }
+    sbfi_tetrahedron_product(&element, rest, u, products);
+    for (int k = 0; k < 4; k++) add(y, at[k], products[k], scales[k]);
+  }
+}
+
 void sbfi_network_apply(const sbf_spring_network *network, const double *scale, const double *x, double *y) {
   for (uint32_t i = 0; i < network->point_count; i++) {
     double anchor = network->anchors && network->masses[i] > 0 ? network->anchors[i] : 0;
@@ -38,6 +63,7 @@ void sbfi_network_apply(const sbf_spring_network *network, const double *scale, 
     add(y, a, way, -pull * a_scale);
     add(y, b, way, pull * b_scale);
   }
+  apply_tetrahedra(network, scale, x, y);
 }
 
 void sbfi_network_solve(const sbf_spring_network *network, const double *scale, sbfi_null_fields null_fields,
@@ -73,11 +99,18 @@ double sbf_network_static(const sbf_spring_network *network, const double *force
   uint32_t count = network->point_count;
   size_t size = 3 * (size_t)count;
   double *scale = scratch, *r = scratch + count, *work = r + size;
-  /* Scaled by the sum of the springs at each point: the cheapest preconditioner there is. */
+  /* Scaled by the sum of what resists at each point: the cheapest preconditioner there is. */
   for (uint32_t i = 0; i < count; i++)
     scale[i] = network->anchors && network->masses[i] > 0 ? network->anchors[i] : 0;
   for (uint32_t s = 0; s < network->spring_count; s++)
     for (int end = 0; end < 2; end++) scale[network->ends[s].at[end]] += network->stiffness[s];
+  for (uint32_t t = 0; t < network->tetrahedron_count; t++) {
+    sbfi_tetrahedron element;
+    if (!sbfi_network_tetrahedron(network, t, &element)) continue;
+    for (int k = 0; k < 4; k++)
+      scale[network->tetrahedra[t].at[k]] += element.volume * (3 * element.lame.mu + element.lame.lambda) *
+                                             sbfi_d3_dot(element.gradients[k], element.gradients[k]);
+  }
   double total = 0;
   for (uint32_t i = 0; i < count; i++) {
     scale[i] = network->masses[i] > 0 && scale[i] > 0 ? 1 / sqrt(scale[i]) : 0;

@@ -1,8 +1,9 @@
-/* The stiffness matrix of a spring network, never written down: only its product with a vector. Vectors are
+/* The stiffness matrix of a network, never written down: only its product with a vector. Vectors are
  * (3 * point_count); held points count as unmoved and receive nothing. */
 #ifndef SBFI_NETWORK_H
 #define SBFI_NETWORK_H
 
+#include "mechanics/neo_hookean.h"
 #include "sbfmt/mechanics.h"
 
 /* y = S K S x with S = diag(scale), (point_count) factors, or K x where `scale` is NULL. */
@@ -19,6 +20,9 @@ typedef struct sbfi_null_fields {
  * (6 * point_count). */
 void sbfi_network_solve(const sbf_spring_network *network, const double *scale, sbfi_null_fields null_fields,
     double tolerance, uint32_t iterations, double *r, double *y, double *work);
+
+/* The tetrahedron as the network has it; false where it is none. */
+bool sbfi_network_tetrahedron(const sbf_spring_network *network, uint32_t t, sbfi_tetrahedron *made);
 
 double sbfi_dot(const double *a, const double *b, size_t count);
 

@@ -3,6 +3,22 @@
 #include "mechanics/network.h"
 #include "mechanics/vector.h"
 
+/* K_e = V B^T C B with |dF|^2 <= |G| |u|^2: no more than this resists at each corner. */
+static void add_tetrahedra(const sbf_spring_network *network, double *sums) {
+  sbfi_tetrahedron element;
+  for (uint32_t t = 0; t < network->tetrahedron_count; t++) {
+    if (!sbfi_network_tetrahedron(network, t, &element)) continue;
+    double gram = 0, mu = element.lame.mu, first = element.lame.lambda - mu;
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) {
+        double product = sbfi_d3_dot(element.gradients[i], element.gradients[j]);
+        gram += product * product;
+      }
+    double stiffest = first > 0 ? 3 * first + 2 * mu : 2 * mu;
+    for (int k = 0; k < 4; k++) sums[network->tetrahedra[t].at[k]] += element.volume * stiffest * sqrt(gram);
+  }
+}
+
 double sbf_network_highest_bound(const sbf_spring_network *network, double *scratch) {
   double highest = 0;
   for (uint32_t i = 0; i < network->point_count; i++) scratch[i] = network->anchors ? network->anchors[i] : 0;
@@ -13,6 +29,7 @@ double sbf_network_highest_bound(const sbf_spring_network *network, double *scra
     scratch[a] += network->masses[b] > 0 ? 2 * k : k;
     scratch[b] += network->masses[a] > 0 ? 2 * k : k;
   }
+  add_tetrahedra(network, scratch);
   for (uint32_t i = 0; i < network->point_count; i++) {
     double squared = network->masses[i] > 0 ? scratch[i] / network->masses[i] : 0;
     if (squared > highest) highest = squared;

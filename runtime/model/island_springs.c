@@ -217,7 +217,13 @@ static bool find_frequencies(sbri_island_maker *m) {
     if (a_free) anchors[s->a] += k;
     if (b_free) anchors[s->b] += k;
   }
-  sbf_spring_network network = {points, count, positions, masses, anchors, ends, stiffness};
+  sbf_spring_network network = {.point_count = points,
+      .spring_count = count,
+      .positions = positions,
+      .masses = masses,
+      .anchors = anchors,
+      .ends = ends,
+      .stiffness = stiffness};
   island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
   island->fastest_rad_s = POWER_MARGIN * sbf_network_highest(&network, POWER_ITERATIONS, scratch);
   if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;

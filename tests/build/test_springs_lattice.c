@@ -102,7 +102,12 @@ static double sag_of(sbfi_spring_interior interior, uint32_t n, double cell, uin
     }
   sbf_level_held_points(&level, held);
   ck_assert_double_eq_tol(sbf_level_masses(body, &level, held, masses), 8, 1e-3);
-  sbf_spring_network network = {points, *springs, level.positions.at, masses, NULL, ends, stiffness};
+  sbf_spring_network network = {.point_count = points,
+      .spring_count = *springs,
+      .positions = level.positions.at,
+      .masses = masses,
+      .ends = ends,
+      .stiffness = stiffness};
   for (uint32_t i = 0; i < points; i++) forces[3 * i + 1] = -9.81 * masses[i];
   ck_assert_double_lt(sbf_network_static(&network, forces, 1e-8, 5000, moved, work), 1e-4);
   for (uint32_t i = 0; i < points; i++) {

@@ -1,5 +1,5 @@
 /* What building, validating and running a body share: how large it is, what it weighs, how stiff its springs
- * are, how fast it swings.
+ * and tetrahedra are, how fast it swings.
  *
  * Functions allocate nothing: results and scratch memory are the caller's, with the shapes given. They are
  * pure functions of their arguments, thread safe, and give the same bits on every machine (sums run in double
@@ -144,9 +144,19 @@ SBF_API void sbf_stiffness_of_anchors(double modulus, double depth, const sbf_ve
 SBF_API void sbf_level_stiffness(
     const sbf_soft_body *body, const sbf_level *level, float *volumes, double *scratch, float *stiffness);
 
-/* ---- Springs: how fast they swing --------------------------------------------------------------------- */
+/* ---- Tetrahedra: modulus ------------------------------------------------------------------------------ */
 
-/* Point masses joined by springs, linear about `positions`, where the springs are at rest. */
+/* Young's modulus in Pa of every tetrahedron of a level, (level->lattice.tetrahedra.count): what the lattice
+ * states, else the body's times the mean of its weight maps at the corners. `factors` is scratch
+ * (level->positions.count). */
+SBF_API void sbf_level_moduli(
+    const sbf_soft_body *body, const sbf_level *level, float *factors, float *moduli);
+
+/* ---- Springs and tetrahedra: how fast they swing ------------------------------------------------------ */
+
+/* Point masses joined by springs and by tetrahedra, linear about `positions`, where both are at rest. A
+ * tetrahedron is isotropic matter of its modulus and Poisson's ratio that strains evenly. What is not there
+ * has the count 0. */
 typedef struct sbf_spring_network {
   uint32_t point_count;      /* of positions */
   uint32_t spring_count;     /* of ends */
@@ -155,12 +165,20 @@ typedef struct sbf_spring_network {
   const float *anchors;      /* (point_count) N/m towards a fixed place in all directions; NULL: none */
   const sbf_uint2 *ends;     /* (spring_count) */
   const float *stiffness;    /* (spring_count) N/m */
+
+  uint32_t tetrahedron_count;  /* of tetrahedra */
+  const sbf_uint4 *tetrahedra; /* (tetrahedron_count) positively oriented; others count as not there */
+  const float *young_modulus;  /* (tetrahedron_count) Pa */
+  const float *poisson_ratios; /* (tetrahedron_count) in (-1, 0.5) */
 } sbf_spring_network;
 
 /* An angular frequency in rad/s that no mode exceeds: w^2 <= max over the points of
- * (sum of 2 k to free neighbours + sum of k to held ones + anchor) / m, Gershgorin's theorem on blocks.
- * It holds for stretched springs too, and for springs compressed down to half their length. An explicit
- * scheme needs substeps below 2 / w. `scratch` is (point_count). */
+ * (sum of 2 k to free neighbours + sum of k to held ones + anchor + sum over its tetrahedra of the greatest
+ * eigenvalue's bound V (3 lambda + 2 mu) |G|, lambda and mu Lame's, |G| the Gram matrix of the shape
+ * functions' gradients in the Frobenius norm) / m, Gershgorin's theorem on blocks. It holds for stretched
+ * springs too, and for springs compressed down to half their length; of tetrahedra it holds at rest,
+ * about 1.5 times the fastest mode. An explicit scheme needs substeps below 2 / w. `scratch` is
+ * (point_count). */
 SBF_API double sbf_network_highest_bound(const sbf_spring_network *network, double *scratch);
 
 /* The highest mode itself, from below, by `iterations` steps of power iteration (20 come within a few per

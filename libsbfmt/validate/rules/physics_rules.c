@@ -58,8 +58,12 @@ static void check_substeps(
   sbf_level_held_points(level, held);
   sbf_level_masses(body, level, held, masses);
   sbf_level_stiffness(body, level, volumes, sums, stiffness);
-  sbf_spring_network network = {
-      points, (uint32_t)springs, level->positions.at, masses, NULL, ends, stiffness};
+  sbf_spring_network network = {.point_count = points,
+      .spring_count = (uint32_t)springs,
+      .positions = level->positions.at,
+      .masses = masses,
+      .ends = ends,
+      .stiffness = stiffness};
   double bound = sbf_network_highest_bound(&network, sums);
   double needed = ceil(0.5 * bound * (double)v->asset->environment.control_tick - 1e-3); /* tick * w / 2 */
   if ((double)level->simulation.substeps < needed)
