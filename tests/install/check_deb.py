@@ -122,6 +122,8 @@ def main():
         inner = os.path.join(system, "packages")
         os.mkdir(inner)
         names = [shutil.copy(path, inner) for path in build_packages(arguments)]
+        with open(os.path.join(system, "etc", "dpkg", "dpkg.cfg.d", "thrown-away"), "w", encoding="utf-8") as file:
+            file.write("force-unsafe-io\n")  # nothing need survive a loss of power
         done = enter(system, "apt-get", "update", must=False)
         if done.returncode:
             skip("the archive of packages is out of reach: " + last_line(done))
