@@ -25,12 +25,12 @@ class Calls(unittest.TestCase):
     def test_help(self):
         done = call("help")
         self.assertEqual(done.returncode, 0)
-        for command in ("demo", "test", "bench", "build", "fuzz", "coverage", "format"):
+        for command in ("demo", "test", "bench", "build", "fuzz", "coverage", "abi", "format"):
             self.assertIn(f"\n  {command} ", done.stdout)
         self.assertEqual(call().stdout, done.stdout)
 
     def test_wrong_calls(self):
-        for arguments in (["nonsense"], ["test", "--most"], ["fuzz", "long"], ["demo", "now"]):
+        for arguments in (["nonsense"], ["test", "--most"], ["fuzz", "long"], ["demo", "now"], ["abi", "now"]):
             done = call(*arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn("run: ", done.stderr)
