@@ -1,5 +1,6 @@
 #include "core/world.h"
 #include "skin/skin.h"
+#include "solvers/scheme.h"
 
 static float greatest_strain(const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
   float greatest = 0;
@@ -39,7 +40,7 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
     potential -= m * (double)island->gravity_scales[slot] *
                  ((double)g.x * p->x + (double)g.y * ((double)p->y + height) + (double)g.z * p->z);
   }
-  health->kinetic_j = island->scheme == SBF_SCHEME_RELAXATION ? 0 : kinetic * joules;
+  health->kinetic_j = island->scheme->forceless ? 0 : kinetic * joules;
   health->potential_j = potential * joules;
   health->elastic_j = joules * sbfi_springs_energy(island->springs + body->first_spring,
                                    body->spring_end - body->first_spring, &positions->x, 4);

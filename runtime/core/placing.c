@@ -3,6 +3,7 @@
 
 #include "core/state.h"
 #include "math/quat.h"
+#include "solvers/scheme.h"
 
 /* At rest: no velocity, or for the relaxation scheme the same place a tick ago. */
 static void stop(sbri_character *c, uint32_t island_index) {
@@ -11,7 +12,7 @@ static void stop(sbri_character *c, uint32_t island_index) {
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   memset(velocities, 0, 3 * (size_t)island->free_count * sizeof *velocities);
-  if (island->scheme != SBF_SCHEME_RELAXATION) return;
+  if (!island->scheme->forceless) return;
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
     float *before = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     before[0] = positions[slot].x, before[SBRI_BLOCK] = positions[slot].y;

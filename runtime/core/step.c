@@ -4,10 +4,9 @@
 
 #include "collide/contact.h"
 #include "core/world.h"
-#include "kernels/kernels.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
-#include "solvers/island_tick.h"
+#include "solvers/scheme.h"
 
 /* The origin follows when the character is this far from it, in m. */
 static const float REBASE_AT_M = 4;
@@ -60,7 +59,7 @@ static void rebase(sbri_character *c) {
   for (uint32_t i = 0; i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
     float *before = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-    if (island->scheme != SBF_SCHEME_RELAXATION) continue;
+    if (!island->scheme->forceless) continue;
     for (uint32_t k = 0; k < 3 * island->free_count; k++) {
       uint32_t axis = k / SBRI_BLOCK % 3;
       before[k] -= axis == 0 ? own.x : axis == 1 ? own.y : own.z;
@@ -122,7 +121,7 @@ static void soften_start(sbri_character *c, uint32_t index, sbf_vec3 guide_veloc
   sbf_vec3 change = sbri_sub(guide_velocity, state->guide_velocity);
   float most = island->most_acceleration_m_s2 * tick_s, size = sbri_length(change);
   state->guide_velocity = guide_velocity;
-  if (island->scheme == SBF_SCHEME_RELAXATION || !(most > 0) || !(size > most)) return;
+  if (island->scheme->forceless || !(most > 0) || !(size > most)) return;
   sbf_vec3 excess = sbri_scale(change, 1 - most / size);
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
@@ -141,8 +140,7 @@ static void ride_along(sbri_character *c, uint32_t index, float tick_s) {
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     for (uint32_t i = 3 * body->slot_begin; body->held && i < 3 * body->slot_end; i++)
-      velocities[i] =
-          island->scheme == SBF_SCHEME_RELAXATION ? velocities[i] - guides[i] * tick_s : guides[i];
+      velocities[i] = island->scheme->forceless ? velocities[i] - guides[i] * tick_s : guides[i];
   }
 }
 
@@ -243,12 +241,8 @@ static void tick_island(void *context, uint32_t index) {
       .planes = sbri_planes(c) + 4 * first,
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
       .stretch = &sbri_island_states(c)[work.island].stretch};
-  if (island->scheme == SBF_SCHEME_RELAXATION) {
-    sbri_relaxation_tick(&tick);
-  } else {
-    prepare_contacts(world, c, island, tick_s);
-    model->kernels->symplectic_tick(&tick);
-  }
+  if (!island->scheme->forceless) prepare_contacts(world, c, island, tick_s);
+  island->scheme->tick(&tick);
   recover(world, c, work.island);
 }
 

@@ -4,7 +4,7 @@
 #define SBRI_KERNELS_H
 
 #include "skin/skin_tables.h"
-#include "solvers/island_tick.h"
+#include "solvers/scheme.h"
 
 typedef struct sbri_kernels {
   const char *name;
@@ -14,9 +14,7 @@ typedef struct sbri_kernels {
   void (*tangents)(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
   void (*sums)(const sbri_sum_table *table, const sbri_point *faces, sbri_point *sums);
   void (*normals)(const sbri_sum_table *table, const sbri_point *faces, sbri_point *normals);
-  /* Symplectic Euler: v += h a(x), then x += h v. Second order where it counts (its energy oscillates and
-   * does not drift), no damping of its own; bias against the energy: a mode of frequency w runs fast by (w
-   * h)^2 / 24. */
+  /* One control tick of an island by each scheme that has lanes. */
   void (*symplectic_tick)(const sbri_island_tick *tick);
 } sbri_kernels;
 

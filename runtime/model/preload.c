@@ -5,6 +5,7 @@
  * is at rest. (The inverse of a static solve, to first order exact; what Twigg and Kacic-Alesic, Optimization
  * for Sag-Free Simulations, 2011, ask of it.) */
 #include "model/island_maker.h"
+#include "solvers/scheme.h"
 
 static const double TOLERANCE = 1e-4, ENOUGH = 1e-2;
 
@@ -14,7 +15,7 @@ static const float LEAST_SHARE = 0.05f;
 bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network) {
   sbri_island *island = m->island;
   uint32_t points = island->slot_count;
-  bool wanted = !m->states_rest_lengths && island->scheme != SBF_SCHEME_RELAXATION;
+  bool wanted = !m->states_rest_lengths && !island->scheme->forceless;
   for (uint32_t b = 0; b < island->body_count; b++)
     wanted = wanted && sbri_maker_body(m, b)->source->attributes.sag_free;
   if (!wanted || points == 0) return true;

@@ -9,8 +9,6 @@
 /* A body that needs more substeps than this is not one to step explicitly. */
 enum { MOST_SUBSTEPS = 1024 };
 
-static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_RELAXATION};
-
 static sbf_status no_memory(sbf_diagnostic *error) {
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
 }
@@ -20,22 +18,29 @@ static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_model_options: struct_size is %zu, this library's is %zu", options->struct_size,
         sizeof *options);
-  bool known = options->scheme == SBF_SCHEME_AUTOMATIC;
-  for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++)
-    known = known || options->scheme == schemes[i];
-  if (known) return SBF_OK;
-  return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-      "scheme %s is not one of the runtime's: symplectic, relaxation", sbf_scheme_name(options->scheme));
+  if (options->scheme == SBF_SCHEME_AUTOMATIC || sbri_scheme_of(options->scheme)) return SBF_OK;
+  return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "scheme %s is not one of the runtime's: %s",
+      sbf_scheme_name(options->scheme), sbri_scheme_names());
 }
 
-/* What the call asks for, else what the level does; a scheme that the runtime does not have gives way to the
- * default, which follows the same energy. */
-static void choose_scheme(sbr_model *model, sbri_island *island, const sbr_model_options *options) {
-  const sbf_simulation *stated = &model->bodies[island->bodies[0]].level->simulation;
-  sbf_scheme scheme = options->scheme != SBF_SCHEME_AUTOMATIC ? options->scheme : stated->scheme;
-  island->scheme = scheme == SBF_SCHEME_RELAXATION ? SBF_SCHEME_RELAXATION : SBF_SCHEME_SYMPLECTIC;
-  bool stated_for_this = stated->scheme == scheme || stated->scheme == SBF_SCHEME_AUTOMATIC;
+/* What the call asks for; else what the level does, and where the runtime does not have that or it cannot
+ * step the island, the default, which follows the same energy. */
+static sbf_status choose_scheme(
+    sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error) {
+  const sbri_body *first = &model->bodies[island->bodies[0]];
+  const sbf_simulation *stated = &first->level->simulation;
+  const sbri_scheme *asked = sbri_scheme_of(options->scheme), *scheme = asked;
+  const char *reason = asked ? sbri_scheme_refuses(asked, model, island) : NULL;
+  if (reason)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "scheme %s cannot step body \"%s\", %s: ask for another, or for automatic",
+        sbf_scheme_name(options->scheme), first->source->id, reason);
+  if (!scheme) scheme = sbri_scheme_of(stated->scheme);
+  if (!scheme || sbri_scheme_refuses(scheme, model, island)) scheme = &sbri_symplectic;
+  island->scheme = scheme;
+  bool stated_for_this = stated->scheme == scheme->word || stated->scheme == SBF_SCHEME_AUTOMATIC;
   island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
+  return SBF_OK;
 }
 
 /* Diagonals of the boxes of each body and of all of them. */
@@ -71,14 +76,13 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
   if (status == SBF_OK) measure(model);
   for (uint32_t i = 0; status == SBF_OK && i < model->island_count; i++) {
     sbri_island *island = &model->islands[i];
-    choose_scheme(model, island, options);
-    status = sbri_island_make(model, island, options, error);
+    status = choose_scheme(model, island, options, error);
+    if (status == SBF_OK) status = sbri_island_make(model, island, options, error);
     if (status != SBF_OK) break;
     island->first_slot = model->slot_count;
     model->slot_count += island->slot_count;
-    if (island->scheme == SBF_SCHEME_RELAXATION) {
-      if (!sbri_visits_make(model, island)) return no_memory(error);
-    } else if (sbri_island_substeps(island, 1.0 / 60, island->rest_stretch) > MOST_SUBSTEPS) {
+    if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);
+    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) > MOST_SUBSTEPS) {
       const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
       return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
           "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it "
@@ -148,8 +152,7 @@ uint32_t sbr_model_substeps(const sbr_model *model) {
   uint32_t most = 1;
   for (uint32_t i = 0; model && i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
-    if (island->scheme == SBF_SCHEME_RELAXATION) continue;
-    uint32_t substeps = sbri_island_substeps(island, 1.0 / 60, island->rest_stretch);
+    uint32_t substeps = sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
     most = substeps > most ? substeps : most;
   }
   return most;

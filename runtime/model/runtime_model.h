@@ -66,8 +66,10 @@ typedef struct sbri_body {
   const sbri_carry_cell *volume_cells; /* faces, as `slots`, with their shares in each slot's gradient */
 } sbri_body;
 
+typedef struct sbri_scheme sbri_scheme; /* solvers/scheme.h */
+
 typedef struct sbri_island {
-  sbf_scheme scheme;
+  const sbri_scheme *scheme;
   uint32_t first_slot, slot_count, free_count; /* padding included */
   const uint32_t *bodies;                      /* (body_count) */
   uint32_t body_count;
@@ -140,8 +142,8 @@ bool sbri_visits_make(sbr_model *model, sbri_island *island);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
 
-/* Substeps of a tick of `tick_s` with which the scheme is stable while no spring is stretched by more than
- * `stretch`, the share of its length that is beyond its rest length. */
-uint32_t sbri_island_substeps(const sbri_island *island, double tick_s, float stretch);
+/* Substeps of a tick of `tick_s` with which symplectic Euler is stable while no spring is stretched by more
+ * than `stretch`, the share of its length that is beyond its rest length. */
+uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float stretch);
 
 #endif

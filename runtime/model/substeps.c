@@ -10,7 +10,7 @@
 /* Springs that turn against each other under large strains change the fastest mode a little. */
 static const double MARGIN = 1.1;
 
-uint32_t sbri_island_substeps(const sbri_island *island, double tick_s, float stretch) {
+uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float stretch) {
   if (island->substeps) return island->substeps;
   double rest = MARGIN * island->fastest_rad_s, most = 1.02 * island->bound_rad_s;
   double across = stretch > 0 ? stretch : 0;

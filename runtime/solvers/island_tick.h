@@ -31,8 +31,4 @@ typedef struct sbri_island_tick {
                      of this one's last substep */
 } sbri_island_tick;
 
-/* The thesis's Verlet with a share of each spring's error corrected a visit and a share of each tick's motion
- * kept; see solvers/relaxation.c. */
-void sbri_relaxation_tick(const sbri_island_tick *tick);
-
 #endif

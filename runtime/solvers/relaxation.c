@@ -8,7 +8,7 @@
  * it and may lift it, and its place before the landing is remembered till then. That is the reference's way.
  */
 #include "collide/ground.h"
-#include "solvers/island_tick.h"
+#include "solvers/scheme.h"
 
 typedef struct relaxing {
   const sbri_island_tick *tick;
@@ -71,7 +71,7 @@ static void take_back(const relaxing *r, uint32_t slot, float kept) {
   stop_at_ground(r, p);
 }
 
-void sbri_relaxation_tick(const sbri_island_tick *t) {
+static void tick_relaxation(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   const sbf_relaxation *settings = &t->model->asset->relaxation;
   double height;
@@ -91,3 +91,16 @@ void sbri_relaxation_tick(const sbri_island_tick *t) {
       take_back(&r, slot, settings->damping);
   }
 }
+
+static const char *refuse(const sbr_model *model, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++)
+    if (model->bodies[island->bodies[b]].level->model != SBF_ELASTIC_MODEL_SPRINGS)
+      return "whose level is not of springs";
+  return NULL;
+}
+
+const sbri_scheme sbri_relaxation = {.word = SBF_SCHEME_RELAXATION,
+    .forceless = true,
+    .refuse = refuse,
+    .prepare = sbri_visits_make,
+    .tick = tick_relaxation};

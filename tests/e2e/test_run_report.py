@@ -100,9 +100,9 @@ class Run(ProgramTest):
         hashes = {scheme: self.run_json("--scheme", scheme)["state_hash"] for scheme in ("symplectic", "relaxation")}
         self.assertEqual(len(set(hashes.values())), 2)
         self.assertEqual(self.run_json("--scheme", "automatic")["state_hash"], hashes["symplectic"])
-        result = call("run", self.file, "--scheme", "heun")
+        result = call("run", self.file, "--scheme", "block_descent")
         self.assertNotEqual(result.status, 0)
-        self.assertIn("heun", result.err)
+        self.assertIn("block_descent", result.err)
 
     def test_no_time_is_a_good_run(self):
         report = self.run_json(seconds=0)

@@ -3,6 +3,7 @@
 #include "core/world.h"
 #include "harness.h"
 #include "scenes.h"
+#include "solvers/scheme.h"
 
 static scene section(void) {
   scene s = scene_begin();
@@ -20,9 +21,9 @@ START_TEST(calls_are_checked)
   s.model_options.struct_size = 3;
   ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_FAILED);
   s.model_options.struct_size = sizeof s.model_options;
-  s.model_options.scheme = SBF_SCHEME_HEUN;
+  s.model_options.scheme = SBF_SCHEME_BLOCK_DESCENT;
   ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_FAILED);
-  ck_assert_ptr_nonnull(strstr(error.message, "heun"));
+  ck_assert_ptr_nonnull(strstr(error.message, "block_descent"));
   ck_assert_ptr_null(s.model);
   sbr_model_destroy(NULL);
   ck_assert_uint_eq(sbr_model_substeps(NULL), 1);
@@ -48,12 +49,33 @@ START_TEST(scheme_and_substeps_come_from_the_call_or_the_level)
     s.model_options.scheme = cases[i].asked;
     s.model_options.substeps = cases[i].substeps_asked;
     scene_start(&s);
-    ck_assert_int_eq(s.model->islands[0].scheme, cases[i].scheme);
+    ck_assert_int_eq(s.model->islands[0].scheme->word, cases[i].scheme);
     ck_assert_uint_eq(s.model->islands[0].substeps, cases[i].substeps);
     sbr_world_destroy(s.world);
     sbr_model_destroy(s.model);
   }
   s.world = NULL, s.model = NULL;
+  scene_free(&s);
+}
+END_TEST
+
+/* A stated scheme is a hint, an asked one is not. */
+START_TEST(a_scheme_that_cannot_step_a_level_is_refused)
+{
+  scene s = section();
+  sbf_level *level = (sbf_level *)(uintptr_t)s.asset->soft_bodies.at[0].levels.at;
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  ck_assert_ptr_null(sbri_scheme_refuses(&sbri_relaxation, s.model, island));
+  level->model = SBF_ELASTIC_MODEL_TETRAHEDRA;
+  ck_assert_ptr_nonnull(sbri_scheme_refuses(&sbri_relaxation, s.model, island));
+  level->model = SBF_ELASTIC_MODEL_SPRINGS;
+  ck_assert_ptr_null(sbri_scheme_of(SBF_SCHEME_AUTOMATIC));
+  level->simulation.scheme = SBF_SCHEME_BLOCK_DESCENT;
+  sbr_model *model;
+  ck_assert_int_eq(sbr_model_create(s.asset, NULL, &model, NULL), SBF_OK);
+  ck_assert_ptr_eq(model->islands[0].scheme, &sbri_symplectic);
+  sbr_model_destroy(model);
   scene_free(&s);
 }
 END_TEST
@@ -110,6 +132,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("runtime model");
   tcase_add_test(c, calls_are_checked);
   tcase_add_test(c, scheme_and_substeps_come_from_the_call_or_the_level);
+  tcase_add_test(c, a_scheme_that_cannot_step_a_level_is_refused);
   tcase_add_test(c, points_of_a_block_have_about_as_many_springs);
   tcase_add_test(c, freed_bodies_have_their_whole_mass);
   tcase_add_test(c, an_empty_asset_makes_an_empty_model);

@@ -68,13 +68,13 @@ START_TEST(stretched_springs_need_more_up_to_a_bound)
   scene s = section(3e5f, 0);
   scene_start(&s);
   const sbri_island *island = &s.model->islands[0];
-  uint32_t rest = sbri_island_substeps(island, 1.0 / 60, 0),
-           some = sbri_island_substeps(island, 1.0 / 60, 0.2f);
-  uint32_t much = sbri_island_substeps(island, 1.0 / 60, 0.95f);
+  uint32_t rest = sbri_stable_substeps(island, 1.0 / 60, 0),
+           some = sbri_stable_substeps(island, 1.0 / 60, 0.2f);
+  uint32_t much = sbri_stable_substeps(island, 1.0 / 60, 0.95f);
   ck_assert_uint_gt(some, rest);
   ck_assert_uint_gt(much, some);
   ck_assert_double_le(much, ceil(1.02 * island->bound_rad_s / 120));
-  ck_assert_uint_eq(sbri_island_substeps(island, 1.0 / 60, -3), rest);
+  ck_assert_uint_eq(sbri_stable_substeps(island, 1.0 / 60, -3), rest);
   scene_free(&s);
 }
 END_TEST

@@ -1,0 +1,13 @@
+#include "solvers/scheme.h"
+
+static const sbri_scheme *const schemes[] = {&sbri_symplectic, &sbri_relaxation};
+
+const sbri_scheme *sbri_scheme_of(sbf_scheme word) {
+  for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++)
+    if (schemes[i]->word == word) return schemes[i];
+  return NULL;
+}
+
+const char *sbri_scheme_names(void) {
+  return "symplectic, relaxation";
+}

@@ -1,0 +1,9 @@
+/* Its loops are in solvers/symplectic.h. */
+#include "kernels/kernels.h"
+
+static void tick_symplectic(const sbri_island_tick *tick) {
+  tick->model->kernels->symplectic_tick(tick);
+}
+
+const sbri_scheme sbri_symplectic = {
+    .word = SBF_SCHEME_SYMPLECTIC, .substeps = sbri_stable_substeps, .tick = tick_symplectic};
