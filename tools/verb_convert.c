@@ -5,6 +5,7 @@
 
 #include "building.h"
 #include "material_options.h"
+#include "pin_options.h"
 #include "sbfmt/convert.h"
 
 /* OUT-DIR/NAME.sbf for an input's NAME.ending. */
@@ -36,10 +37,24 @@ static int convert(cli_call *call, const char *input, const char *out, const sbf
   return (int)status;
 }
 
+static int convert_all(cli_call *call, const sbf_convert_options *options) {
+  const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
+  int status = SBF_OK;
+  for (int i = 0; i < call->input_count; i++) {
+    char path[4096];
+    if (folder && !path_in(folder, call->inputs[i], path, sizeof path))
+      return cli_wrong(call, "the path of %s in %s is too long", call->inputs[i], folder);
+    int one = convert(call, call->inputs[i], out ? out : path, options);
+    if (one > status) status = one;
+  }
+  return status;
+}
+
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
   static const char *const axes[] = {"y", "z"};
-  int up = 0, status = SBF_OK;
+  int up = 0, status = SBF_FAILED;
+  pin_options pins;
   sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
   if (!out == !folder)
     return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
@@ -48,13 +63,8 @@ static int run(cli_call *call) {
       !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   if (cli_value(call, "--up")) options.up = axes[up][0];
-  for (int i = 0; i < call->input_count; i++) {
-    char path[4096];
-    if (folder && !path_in(folder, call->inputs[i], path, sizeof path))
-      return cli_wrong(call, "the path of %s in %s is too long", call->inputs[i], folder);
-    int one = convert(call, call->inputs[i], out ? out : path, &options);
-    if (one > status) status = one;
-  }
+  if (pin_options_read(call, &pins, &options)) status = convert_all(call, &options);
+  pin_options_free(&pins);
   return status;
 }
 
@@ -64,6 +74,7 @@ static const cli_option options[] = {
     {"--rig", "FILE", "take the skeleton from this file"},
     {"--unit", "METRES", "metres in a unit of the input (what the file says, else 1)"},
     {"--up", "y|z", "the input's upward axis (what the file says, else y)"},
+    PIN_OPTIONS,
     {"--no-build", NULL, "leave the derived parts to `sbfmt build`"},
     BUILDING_OPTIONS,
     MATERIALS_OPTION,

@@ -217,7 +217,12 @@ START_TEST(points_that_move_differently_stay_apart)
   ck_assert_uint_eq(m->skin_starts[2] - m->skin_starts[1], 0); /* its only weight is 0 */
   ck_assert_uint_eq(m->skin_starts[3] - m->skin_starts[2], 2);
   ck_assert_uint_eq(sbfi_scene_bone_count(&scene), 2);
-  ck_assert_uint_eq(scene.warning_count, 1); /* no node is named nobody */
+  ck_assert_uint_eq(scene.warning_count, 1); /* no node is named nobody: it is a group of the points */
+  ck_assert_uint_eq(m->group_count, 1);
+  ck_assert_str_eq(m->groups[0].name, "nobody");
+  ck_assert_float_eq(m->groups[0].weights[m->vertex_points[3]], 1);
+  ck_assert_float_eq(m->groups[0].weights[m->vertex_points[2]], 0.5f);
+  ck_assert_float_eq(m->groups[0].weights[m->vertex_points[0]], 0);
   sbfi_scene_free(&scene);
 }
 END_TEST

@@ -126,7 +126,8 @@ static bool is_body_of(const work *w, uint32_t body, const sbf_vec3_list *positi
 /* The body that the mesh shows; SBFI_NO_INDEX: none as a whole. */
 static uint32_t find_body_of(const work *w, const sbf_render_mesh *mesh) {
   for (uint32_t b = 0; b < w->asset->soft_bodies.count; b++) {
-    bool possible = mesh->bone == SBF_NONE || mesh->bone == w->asset->soft_bodies.at[b].bone;
+    int32_t bone = w->asset->soft_bodies.at[b].bone;
+    bool possible = mesh->skin ? bone == SBF_NONE : mesh->bone == SBF_NONE || mesh->bone == bone;
     if (possible && w->finest[b] != SBFI_NO_INDEX && is_body_of(w, b, &mesh->mesh.positions)) return b;
   }
   return SBFI_NO_INDEX;
@@ -242,7 +243,9 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
   if (mesh->mesh.positions.count == 0) return true;
   w->shares.count = 0;
   uint32_t flat_before = w->report->flat, far_before = w->report->far;
-  if (!(mesh->skin ? share_by_skin(w, mesh) : share_whole(w, mesh))) return false;
+  /* A skin whose mesh is a body as a whole, pinned by its weights, moves with that. */
+  bool by_skin = mesh->skin && find_body_of(w, mesh) == SBFI_NO_INDEX;
+  if (!(by_skin ? share_by_skin(w, mesh) : share_whole(w, mesh))) return false;
   if (!hand_out(w, (int32_t)number, &mesh->mesh.positions)) return false;
   sbf_diagnostic finding;
   if (w->shares.count == 0) {

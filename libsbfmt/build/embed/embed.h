@@ -22,12 +22,12 @@ typedef struct sbfi_embed_report {
 /* Gives every target an embedding of its body's own surface and of the render meshes it carries, beside those
  * it has already, which stay in place of new ones for the same mesh; marked with `derivation`.
  *
- * A skinned mesh goes by its weights: each bone's share to the body of the bone itself or of its nearest
- * ancestor that has one; shares are scaled to a sum of one, and a vertex none of whose bones has a body is
- * not carried. A mesh with a bone goes to that body, or its ancestor's, whole. A mesh with neither goes to
- * the first body that has a surface point in the place of every vertex, as when mesh and body are one object
- * of the source; else vertex by vertex to the nearest body. Of several bodies on one bone it is the same.
- * Meshes that nothing carries are reported.
+ * A skinned mesh of which a body without a bone has every vertex goes to that. Any other goes by its weights:
+ * each bone's share to the body of the bone itself or of its nearest ancestor that has one; shares are scaled
+ * to a sum of one, and a vertex none of whose bones has a body is not carried. A mesh with a bone goes to
+ * that body, or its ancestor's, whole. A mesh with neither goes to the first body that has a surface point in
+ * the place of every vertex, as when mesh and body are one object of the source; else vertex by vertex to the
+ * nearest body. Of several bodies on one bone it is the same. Meshes that nothing carries are reported.
  *
  * `asset` is the one under construction that the targets belong to. False where memory runs out. */
 bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t target_count, int32_t derivation,

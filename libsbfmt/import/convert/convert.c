@@ -1,11 +1,13 @@
 #include "sbfmt/convert.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/file.h"
 #include "base/sha256.h"
 #include "import/convert/conversion.h"
+#include "import/convert/convert_pins.h"
 #include "import/convert/convert_tets.h"
 #include "import/gait/propose_gait.h"
 #include "import/paper/dialect2012.h"
@@ -96,8 +98,9 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
         "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
-      sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes, sbfi_measure_leaf_bones,
-      sbfi_propose_gait, sbfi_stand_on_ground, sbfi_convert_joints, sbfi_convert_clips};
+      sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes,
+      sbfi_measure_leaf_bones, sbfi_propose_gait, sbfi_stand_on_ground, sbfi_convert_joints,
+      sbfi_convert_clips};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     if (passes[i] == sbfi_propose_gait && options->no_gait) continue;
     sbf_status status = passes[i](c);
@@ -125,8 +128,11 @@ typedef struct readings {
 static sbf_status convert_readings(
     const readings *from, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
   const sbfi_scene *scene = from->scene, *rig = from->rig;
-  sbfi_conversion c = {
-      .scene = scene, .rig = rig, .reporter = {options->report, options->user, 0, 0}, .error = error};
+  sbfi_conversion c = {.scene = scene,
+      .rig = rig,
+      .options = options,
+      .reporter = {options->report, options->user, 0, 0},
+      .error = error};
   c.to_asset = matrix_to_asset(scene, options);
   c.rig_to_asset = rig == scene || !rig ? c.to_asset : matrix_to_asset(rig, &(sbf_convert_options){0});
   sbfi_arena_init(&c.scratch, options->allocator, 0);
@@ -197,6 +203,10 @@ sbf_status sbf_convert(
         error, SBF_CODE_BAD_CALL, "sbf_convert_options has another size than this library's");
   if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
+  if (!(options->goal_minimum >= 0 && options->goal_minimum <= 1 && options->goal_maximum >= 0 &&
+          options->goal_maximum <= 1 && options->goal_stiffness >= 0 && options->goal_stiffness <= FLT_MAX))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "goals have a minimum and a maximum from 0 to 1, stiffness is no less than 0");
 
   bool is_paper = sbfi_paper_knows(input);
   if (is_paper || sbfi_tet_mesh_knows(input))

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "build/geometry/topology.h"
-#include "import/convert/conversion.h"
+#include "import/convert/convert_pins.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
 
@@ -315,12 +315,13 @@ static sbf_status fill_render_mesh(
   return status;
 }
 
-static sbf_status fill_body(sbfi_conversion *c, uint32_t place, const geometry *g, sbf_soft_body *body) {
+static sbf_status fill_body(
+    sbfi_conversion *c, uint32_t place, bool skinned, const geometry *g, sbf_soft_body *body) {
   sbf_soft_body_init(body);
   body->id = sbfi_new_id(c, "body", c->name_of_mesh[place]);
   body->name = sbf_asset_copy_text(c->asset, c->name_of_mesh[place]);
   if (!body->id || !body->name) return sbfi_convert_no_memory(c);
-  body->bone = c->bone_of_mesh[place];
+  body->bone = skinned ? SBF_NONE : c->bone_of_mesh[place];
   body->surface = g->mesh;
   body->surface.target = SBF_MESH_TARGET_SURFACE;
   if (body->bone != SBF_NONE) { /* flesh on a bone: as drawn when it stands, and of constant volume */
@@ -391,10 +392,14 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   const box *boxes = boxes_of_skin(c, renders, render_count);
   if (!boxes) return sbfi_convert_no_memory(c);
   for (uint32_t i = 0; i < count && status == SBF_OK; i++) {
-    if (c->scene->meshes[i].joint_count && c->asset->bones.count) continue;
+    bool skinned = c->scene->meshes[i].joint_count && c->asset->bones.count;
+    bool pinned = sbfi_mesh_is_pinned(c, &c->scene->meshes[i]);
+    if (skinned && !pinned) continue;
     sbf_soft_body *body = &bodies[body_count++];
-    status = fill_body(c, i, &geometries[i], body);
-    if (status == SBF_OK && !is_covered(boxes, body))
+    status = fill_body(c, i, skinned, &geometries[i], body);
+    if (status == SBF_OK && pinned && !sbfi_pin_body(c, &c->scene->meshes[i], body))
+      status = sbfi_convert_no_memory(c);
+    if (status == SBF_OK && !skinned && !is_covered(boxes, body))
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
   }
   c->asset->soft_bodies = (sbf_soft_body_list){bodies, body_count};

@@ -28,6 +28,7 @@ typedef struct joining {
   uint32_t vertex_count, shape_count, uv_set_count;
   uint32_t *influence_starts; /* (vertex_count + 1), NULL without a skin */
   influence *influences;
+  uint32_t nodeless_count; /* bones of parts without a node */
   sbfi_row_table table, classes;
 } joining;
 
@@ -131,9 +132,11 @@ static bool join_joints(joining *j, sbfi_array *joints, const sbfi_raw_mesh *par
     int32_t node = sbfi_assembly_find(a, part->bones[b].name, &good);
     joint_of_bone[b] = NO_JOINT;
     if (node == SBF_NONE) {
+      j->nodeless_count++;
       const char *name = sbfi_scene_string(a->scene, part->bones[b].name);
-      good = name && sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_IGNORED, 0,
-                         "a skin refers to \"%s\", which is no node: its weights are left out", name);
+      good = name &&
+             sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_IGNORED, 0,
+                 "a skin refers to \"%s\", which is no node: its weights move nothing, but can pin", name);
       continue;
     }
     int64_t joint = add_joint(j, joints, node, &part->bones[b].bind);
@@ -358,6 +361,41 @@ static bool take_shapes(joining *j) {
   return true;
 }
 
+/* The group of that name, a new one without weights if there is none; NULL where memory runs out. */
+static sbfi_scene_group *group_named(joining *j, sbfi_scene_group *groups, const char *name) {
+  for (uint32_t g = 0; g < j->to->group_count; g++)
+    if (strcmp(groups[g].name, name) == 0) return &groups[g];
+  sbfi_scene_group *group = &groups[j->to->group_count];
+  group->name = name;
+  group->weights = room(j, j->to->point_count, sizeof *group->weights);
+  if (!group->weights) return NULL;
+  j->to->group_count++;
+  return group;
+}
+
+/* What bones without a node say of the points; of vertices welded to one, the greatest. */
+static bool take_groups(joining *j) {
+  if (!j->nodeless_count) return true;
+  sbfi_scene_group *groups = room(j, j->nodeless_count, sizeof *groups);
+  if (!groups) return false;
+  for (uint32_t i = 0; i < j->part_count; i++)
+    for (uint32_t b = 0; b < j->parts[i]->bone_count; b++) {
+      const sbfi_raw_bone *bone = &j->parts[i]->bones[b];
+      bool good = true;
+      if (sbfi_assembly_find(j->assembly, bone->name, &good) != SBF_NONE) continue;
+      const char *name = good ? sbfi_scene_string(j->assembly->scene, bone->name) : NULL;
+      sbfi_scene_group *group = name ? group_named(j, groups, name) : NULL;
+      if (!group) return false;
+      float *weights = (float *)(uintptr_t)group->weights; /* made above */
+      for (uint32_t k = 0; k < bone->weight_count; k++) {
+        float *weight = &weights[j->to->vertex_points[j->part_vertices[i] + bone->vertices[k]]];
+        *weight = fminf(1, fmaxf(*weight, bone->weights[k])); /* what is no number stays out */
+      }
+    }
+  j->to->groups = groups;
+  return true;
+}
+
 typedef const float *(*attribute)(const sbfi_raw_mesh *part, uint32_t set);
 
 static const float *normals_of(const sbfi_raw_mesh *part, uint32_t set) {
@@ -424,8 +462,8 @@ static bool take_attributes(joining *j) {
 
 static bool join(joining *j) {
   j->to->name = sbfi_scene_string(j->assembly->scene, shared_name(j));
-  return j->to->name && join_polygons(j) && join_skin(j) && weld(j) && take_skin(j) && take_shapes(j) &&
-         take_attributes(j);
+  return j->to->name && join_polygons(j) && join_skin(j) && weld(j) && take_skin(j) && take_groups(j) &&
+         take_shapes(j) && take_attributes(j);
 }
 
 /* Makes the mesh of a node in `*to`, unless it has no polygons; those it leaves out are counted. */

@@ -71,6 +71,12 @@ typedef struct sbfi_scene_joint {
   sbfi_matrix bind; /* mesh space to joint space, when the skin was bound */
 } sbfi_scene_joint;
 
+/* Weights under a name that is no node: a vertex group that moves nothing. */
+typedef struct sbfi_scene_group {
+  const char *name;
+  const float *weights; /* (point_count), 0 to 1 */
+} sbfi_scene_group;
+
 /* A form the points can be moved to. Deltas: what to add to a point at weight 1. */
 typedef struct sbfi_scene_shape {
   const char *name;
@@ -115,6 +121,8 @@ typedef struct sbfi_scene_mesh {
 
   uint32_t shape_count;
   const sbfi_scene_shape *shapes; /* (shape_count) */
+  uint32_t group_count;
+  const sbfi_scene_group *groups; /* (group_count) names differ */
 } sbfi_scene_mesh;
 
 /* Keys of one node, times in seconds from the clip's start, ascending; linear between keys, the nearest key

@@ -10,6 +10,12 @@
 extern "C" {
 #endif
 
+/* Points to be held: those that a vertex group, or the weights of a bone, name. */
+typedef struct sbf_convert_pin {
+  const char *group; /* a bone of the rig that a skin has weights of, or a vertex group that is no bone */
+  const char *bone;  /* that is to hold; "": the world; NULL: the bone of the group's name, else the world */
+} sbf_convert_pin;
+
 /* Settings of a conversion. */
 typedef struct sbf_convert_options {
   size_t struct_size;             /* sizeof(sbf_convert_options), or 0 for this version's */
@@ -22,6 +28,17 @@ typedef struct sbf_convert_options {
   /* Warnings, and errors that did not stop the conversion; may be NULL. */
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user; /* for the callback */
+  /* Each mesh that has one of these groups becomes a soft body of its own, all of it, pinned where the group
+   * has weights; a skin it may have moves nothing then. Weight 1 holds fast, less draws with the stiffness
+   *
+   *     k(w) = goal_stiffness * w / (2 - w),     w cut to goal_minimum ... goal_maximum
+   *
+   * which is Blender's rule s / (1 - s), s = w * goal spring constant, for its constant of 1/2; a constant g
+   * is the stiffness times g / (1 - g). */
+  const sbf_convert_pin *pins;       /* (pin_count) */
+  uint32_t pin_count;                /* of pins */
+  double goal_minimum, goal_maximum; /* 0..1; a maximum of 0 counts as 1 */
+  double goal_stiffness;             /* N/m at weight 1; 0: by the body's modulus and the point's mass */
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names

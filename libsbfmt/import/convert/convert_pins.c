@@ -1,0 +1,105 @@
+#include "import/convert/convert_pins.h"
+
+#include <string.h>
+
+/* So near to 1 a weight is meant to hold fast: exporters divide by sums. */
+static const double fast = 0.9999;
+
+/* The mesh's joint of that name; -1: none. */
+static int64_t joint_named(const sbfi_conversion *c, const sbfi_scene_mesh *mesh, const char *name) {
+  for (uint32_t j = 0; j < mesh->joint_count; j++)
+    if (strcmp(c->scene->nodes[mesh->joints[j].node].name, name) == 0) return j;
+  return -1;
+}
+
+static const sbfi_scene_group *group_named(const sbfi_scene_mesh *mesh, const char *name) {
+  for (uint32_t g = 0; g < mesh->group_count; g++)
+    if (strcmp(mesh->groups[g].name, name) == 0) return &mesh->groups[g];
+  return NULL;
+}
+
+static bool has_group(const sbfi_conversion *c, const sbfi_scene_mesh *mesh, const char *name) {
+  return group_named(mesh, name) || joint_named(c, mesh, name) >= 0;
+}
+
+static int32_t bone_named(const sbfi_conversion *c, const char *name) {
+  for (uint32_t i = 0; i < c->asset->bones.count; i++)
+    if (strcmp(c->asset->bones.at[i].name, name) == 0) return (int32_t)i;
+  return SBF_NONE;
+}
+
+bool sbfi_mesh_is_pinned(const sbfi_conversion *c, const sbfi_scene_mesh *mesh) {
+  for (uint32_t i = 0; i < c->options->pin_count; i++)
+    if (has_group(c, mesh, c->options->pins[i].group)) return true;
+  return false;
+}
+
+sbf_status sbfi_convert_check_pins(sbfi_conversion *c) {
+  for (uint32_t i = 0; i < c->options->pin_count; i++) {
+    const sbf_convert_pin *pin = &c->options->pins[i];
+    bool found = false;
+    for (uint32_t m = 0; m < c->scene->mesh_count; m++)
+      found |= has_group(c, &c->scene->meshes[m], pin->group);
+    if (!found)
+      return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
+          "no mesh of %s has a vertex group or weights on a bone named '%s'", c->scene->file, pin->group);
+    if (pin->bone && pin->bone[0] && bone_named(c, pin->bone) == SBF_NONE)
+      return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "no bone '%s' is there to hold group '%s'",
+          pin->bone, pin->group);
+  }
+  return SBF_OK;
+}
+
+/* Weights of the points under a name, as bone and as group together; 0 where it has none. */
+static float *weights_of(sbfi_conversion *c, const sbfi_scene_mesh *mesh, const char *name) {
+  float *weights = sbfi_arena_allocate(&c->scratch, (size_t)mesh->point_count + 1, sizeof *weights);
+  const sbfi_scene_group *group = group_named(mesh, name);
+  int64_t joint = joint_named(c, mesh, name);
+  if (!weights) return NULL;
+  if (group) memcpy(weights, group->weights, mesh->point_count * sizeof *weights);
+  for (uint32_t i = 0; i < mesh->point_count && joint >= 0; i++)
+    for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++)
+      if (mesh->skin_joints[s] == joint && mesh->skin_weights[s] > weights[i])
+        weights[i] = mesh->skin_weights[s];
+  return weights;
+}
+
+static bool fill_set(
+    sbfi_conversion *c, const sbfi_scene_mesh *mesh, const sbf_convert_pin *pin, sbf_pin_set *set) {
+  const sbf_convert_options *o = c->options;
+  const float *weights = weights_of(c, mesh, pin->group);
+  uint32_t *points = sbfi_convert_allocate(c, (size_t)mesh->point_count + 1, sizeof *points);
+  float *goals = sbfi_convert_allocate(c, (size_t)mesh->point_count + 1, sizeof *goals);
+  uint32_t count = 0, held = 0;
+  sbf_pin_set_init(set);
+  set->name = sbf_asset_copy_text(c->asset, pin->group);
+  if (!weights || !points || !goals || !set->name) return false;
+  for (uint32_t i = 0; i < mesh->point_count; i++) {
+    if (!(weights[i] > 0)) continue;
+    goals[count] = (double)weights[i] > fast ? 1 : sbfi_goal_weight((double)weights[i]);
+    held += goals[count] >= 1;
+    points[count++] = i;
+  }
+  set->points = (sbf_u32_list){count ? points : NULL, count};
+  if (held < count) set->weights = (sbf_f32_list){goals, count};
+  set->minimum = sbfi_goal_weight(o->goal_minimum);
+  set->maximum = o->goal_maximum > 0 ? sbfi_goal_weight(o->goal_maximum) : 1;
+  set->stiffness = (float)o->goal_stiffness;
+  if (!pin->bone)
+    set->bone = bone_named(c, pin->group);
+  else if (pin->bone[0])
+    set->bone = bone_named(c, pin->bone);
+  return true;
+}
+
+bool sbfi_pin_body(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_soft_body *body) {
+  sbf_pin_set *sets = sbfi_convert_allocate(c, (size_t)c->options->pin_count + 1, sizeof *sets);
+  uint32_t count = 0;
+  if (!sets) return false;
+  for (uint32_t i = 0; i < c->options->pin_count; i++)
+    if (has_group(c, mesh, c->options->pins[i].group) &&
+        !fill_set(c, mesh, &c->options->pins[i], &sets[count++]))
+      return false;
+  body->pins = (sbf_pin_set_list){count ? sets : NULL, count};
+  return true;
+}

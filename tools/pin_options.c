@@ -1,0 +1,49 @@
+#include "pin_options.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool read_goal(const cli_call *call, sbf_convert_options *options) {
+  const char *text = cli_value(call, "--goal");
+  char *end;
+  if (!text) return true;
+  double least = strtod(text, &end), most = *end == ',' ? strtod(end + 1, &end) : -1;
+  if (end != text && !*end && least >= 0 && most > 0 && most <= 1 && least <= most) {
+    options->goal_minimum = least;
+    options->goal_maximum = most;
+    return true;
+  }
+  cli_wrong(call, "--goal takes two numbers from 0 to 1, as 0.2,0.7, not '%s'", text);
+  return false;
+}
+
+bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
+  const char *value;
+  size_t size = 1;
+  uint32_t count = 0;
+  for (int at = 0; (value = cli_next_value(call, "--pin", &at)); count++) size += strlen(value) + 1;
+  pins->pins = calloc(count + 1, sizeof *pins->pins);
+  pins->text = malloc(size);
+  if (!pins->pins || !pins->text) {
+    cli_wrong(call, "out of memory");
+    return false;
+  }
+  char *next = pins->text;
+  count = 0;
+  for (int at = 0; (value = cli_next_value(call, "--pin", &at)); count++) {
+    size_t length = strlen(value) + 1;
+    memcpy(next, value, length);
+    char *equals = strrchr(next, '=');
+    if (equals) *equals++ = 0;
+    pins->pins[count] = (sbf_convert_pin){next, equals && strcmp(equals, "world") == 0 ? "" : equals};
+    next += length;
+  }
+  options->pins = pins->pins;
+  options->pin_count = count;
+  return read_goal(call, options) && cli_number(call, "--goal-stiffness", 0, 1e9, &options->goal_stiffness);
+}
+
+void pin_options_free(pin_options *pins) {
+  free(pins->pins);
+  free(pins->text);
+}

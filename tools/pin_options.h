@@ -1,0 +1,27 @@
+/* `--pin GROUP[=BONE]` and the bounds and stiffness of goals, for sbf_convert. */
+#ifndef PIN_OPTIONS_H
+#define PIN_OPTIONS_H
+
+#include "cli.h"
+#include "sbfmt/convert.h"
+
+#define PIN_OPTIONS                                                                                          \
+  {"--pin", "GROUP[=BONE]",                                                                                  \
+      "pin what a vertex group or a bone's weights name to a bone (that of its name, else the world); may "  \
+      "be "                                                                                                  \
+      "given again"},                                                                                        \
+      {"--goal", "MIN,MAX", "bounds of pin weights; below 1 a pin is a goal spring (0,1)"}, {                \
+    "--goal-stiffness", "N/M", "of a goal spring at weight 1 (by the body's modulus)"                        \
+  }
+
+typedef struct pin_options {
+  sbf_convert_pin *pins;
+  char *text; /* of all names */
+} pin_options;
+
+/* Sets what the call asks for in `*options`; "world", and nothing behind the =, are the world. False, with a
+ * message, where a value is wrong. `*pins` is to be freed either way. */
+bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options);
+void pin_options_free(pin_options *pins);
+
+#endif
