@@ -57,13 +57,6 @@ static void find_extremes(sbfi_carrier *c) {
   }
 }
 
-static bool find_in_lattice(sbfi_carrier *c, sbfi_arena *arena) {
-  const sbf_uint4_list *tetrahedra = &c->level->lattice.tetrahedra;
-  if (tetrahedra->count == 0) return true;
-  return sbfi_tetrahedron_finder_make(
-      &c->lattice, c->level->positions.at, tetrahedra->at, tetrahedra->count, arena);
-}
-
 /* A body without polygons carries by its points. */
 static bool box_points(sbfi_carrier *c, sbfi_arena *arena) {
   const sbf_vec3_list *points = &c->level->positions;
@@ -75,16 +68,6 @@ static bool box_points(sbfi_carrier *c, sbfi_arena *arena) {
     memcpy(boxes[i].high, &points->at[i], sizeof boxes[i].high);
   }
   return sbfi_box_tree_build(&c->points, boxes, points->count, arena);
-}
-
-bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const sbf_level *level,
-    const sbfi_interior_map *interior, sbfi_arena *arena) {
-  *carrier = (sbfi_carrier){.body = body, .level = level, .interior = {SBFI_NO_INDEX, NULL}};
-  if (interior) carrier->interior = *interior;
-  find_extremes(carrier);
-  return hash_positions(carrier, arena) &&
-         sbfi_triangle_tree_build(&carrier->surface, &body->surface, arena) &&
-         find_in_lattice(carrier, arena) && box_points(carrier, arena);
 }
 
 /* A choice of four points: the weights that give the position, and how large they are. */
@@ -196,12 +179,36 @@ static sbfi_carried carry_by_lattice(const sbfi_carrier *c, sbf_vec3 position) {
   return carried;
 }
 
+/* A render mesh mostly is the surface: what carries that is found once. */
+static bool find_in_lattice(sbfi_carrier *c, sbfi_arena *arena) {
+  const sbf_uint4_list *tetrahedra = &c->level->lattice.tetrahedra;
+  const sbf_vec3_list *surface = &c->body->surface.positions;
+  if (tetrahedra->count == 0) return true;
+  c->in_lattice = sbfi_arena_allocate(arena, (size_t)surface->count + 1, sizeof *c->in_lattice);
+  if (!c->in_lattice || !sbfi_tetrahedron_finder_make(
+                            &c->lattice, c->level->positions.at, tetrahedra->at, tetrahedra->count, arena))
+    return false;
+  for (uint32_t i = 0; i < surface->count; i++) c->in_lattice[i] = carry_by_lattice(c, surface->at[i]);
+  return true;
+}
+
+bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const sbf_level *level,
+    const sbfi_interior_map *interior, sbfi_arena *arena) {
+  *carrier = (sbfi_carrier){.body = body, .level = level, .interior = {SBFI_NO_INDEX, NULL}};
+  if (interior) carrier->interior = *interior;
+  find_extremes(carrier);
+  return hash_positions(carrier, arena) &&
+         sbfi_triangle_tree_build(&carrier->surface, &body->surface, arena) &&
+         find_in_lattice(carrier, arena) && box_points(carrier, arena);
+}
+
 sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, uint32_t likely) {
   const sbf_vec3_list *surface = &carrier->body->surface.positions;
-  if (carrier->lattice.items) return carry_by_lattice(carrier, position);
   uint32_t same = likely;
   if (likely >= surface->count || memcmp(&surface->at[likely], &position, sizeof position) != 0)
     same = surface->count ? carrier->slots[slot_of(carrier, position)] : SBFI_NO_INDEX;
+  if (carrier->in_lattice)
+    return same != SBFI_NO_INDEX ? carrier->in_lattice[same] : carry_by_lattice(carrier, position);
   if (same != SBFI_NO_INDEX) same = sbfi_level_point(carrier->level, same);
   return same != SBFI_NO_INDEX ? carried_alone(same, 0) : carry_by_surface(carrier, position);
 }

@@ -6,12 +6,20 @@
 #include "build/geometry/triangle_tree.h"
 #include "build/springs/spring_level.h"
 
+typedef struct sbfi_carried {
+  sbf_uint4 points;
+  sbf_vec4 weights; /* summing to 1, and giving the vertex back but for `error` */
+  float error;      /* m; not 0 where the body has no depth beside the vertex */
+  float outside;    /* m, from the lattice, where one carries it */
+} sbfi_carried;
+
 typedef struct sbfi_carrier {
   const sbf_soft_body *body;
   const sbf_level *level;
   sbfi_interior_map interior;
   sbfi_triangle_tree surface;      /* of the body, at rest */
   sbfi_tetrahedron_finder lattice; /* of the level's tetrahedra, where it has some */
+  sbfi_carried *in_lattice;        /* of the surface's points, where the level has tetrahedra */
   sbfi_box_tree points;            /* of the level, where the body has no polygons */
   uint32_t extremes[6];            /* level points farthest out along the axes */
   double size;                     /* m, the longest way between two opposite ones */
@@ -23,13 +31,6 @@ typedef struct sbfi_carrier {
  * level must outlive the carrier. False where memory runs out. */
 bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const sbf_level *level,
     const sbfi_interior_map *interior, sbfi_arena *arena);
-
-typedef struct sbfi_carried {
-  sbf_uint4 points;
-  sbf_vec4 weights; /* summing to 1, and giving the vertex back but for `error` */
-  float error;      /* m; not 0 where the body has no depth beside the vertex */
-  float outside;    /* m, from the lattice, where one carries it */
-} sbfi_carried;
 
 /* How the level carries a vertex at `position`:
  *   a surface point in the very same place (bit by bit; `likely` first) carries it alone;

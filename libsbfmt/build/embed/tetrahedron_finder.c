@@ -60,11 +60,11 @@ static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, size_t *bins) {
   /* With room for what rounding does to the middles. */
   f->radius = sqrt(radius2) * (1 + 1e-6) + 1e-6 * (sizes[0] + sizes[1] + sizes[2]);
   f->origin = low;
-  /* No more bins than twice the tetrahedra, however long and thin the body lies. */
-  for (f->width = fmax(2 * f->radius, 1e-30);; f->width *= 2) {
+  /* No more bins than four times the tetrahedra, however long and thin the body lies. */
+  for (f->width = fmax(f->radius, 1e-30);; f->width *= 2) {
     double all = 1;
     for (int k = 0; k < 3; k++) all *= floor(sizes[k] / f->width) + 1;
-    if (all > 2.0 * count + 64) continue;
+    if (all > 4.0 * count + 64) continue;
     *bins = 1;
     for (int k = 0; k < 3; k++) *bins *= f->counts[k] = (uint32_t)(sizes[k] / f->width) + 1;
     return true;
@@ -183,7 +183,9 @@ static void look_for_middle(search *s, uint32_t tetrahedron, double middle2) {
 static void look_near(search *s, uint32_t tetrahedron, double middle2) {
   (void)middle2;
   if (is_farther(s->finder, tetrahedron, s->at, s->distance)) return;
-  s->distance = fmin(s->distance, distance_to(s->finder, tetrahedron, s->at));
+  double distance = distance_to(s->finder, tetrahedron, s->at);
+  if (distance < s->distance || (distance == s->distance && tetrahedron < s->best)) s->best = tetrahedron;
+  s->distance = fmin(s->distance, distance);
   double within = s->distance + s->finder->radius;
   s->within2 = within * within;
 }
@@ -194,7 +196,7 @@ static void look_for_small(search *s, uint32_t tetrahedron, double middle2) {
   (void)middle2;
   if (!sbfi_tetrahedron_weigh(s->finder->positions, corners, s->at, weights)) return;
   for (int k = 0; k < 4; k++) size += weights[k] * weights[k];
-  if (size > s->size || (size == s->size && tetrahedron > s->best)) return;
+  if (size > s->size || (size == s->size && tetrahedron >= s->best)) return;
   if (is_farther(s->finder, tetrahedron, s->at, s->most)) return;
   if (distance_to(s->finder, tetrahedron, s->at) > s->most) return;
   s->size = size;
@@ -210,8 +212,11 @@ sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *find
   s.distance = distance_to(finder, s.best, s.at);
   /* What is nearer has its middle within that way and a radius. */
   visit_within(&s, s.distance + finder->radius, look_near);
-  s.most = s.distance + finder->width / 4;
+  s.most = s.distance + finder->radius / 2;
+  /* The nearest itself first: few others have smaller weights, and of those alone the distance is asked. */
+  uint32_t nearest = s.best;
   s.best = UINT32_MAX;
+  look_for_small(&s, nearest, 0);
   visit_within(&s, s.most + finder->radius, look_for_small);
-  return (sbfi_found_tetrahedron){s.best != UINT32_MAX ? s.best : 0, s.distance};
+  return (sbfi_found_tetrahedron){s.best != UINT32_MAX ? s.best : nearest, s.distance};
 }
