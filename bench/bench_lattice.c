@@ -8,9 +8,11 @@
  * files, and its own count. It keeps the surface's polygons, which a lattice does not, and takes no surface
  * that is open or crosses itself. */
 #define _DEFAULT_SOURCE /* mkstemps */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -28,15 +30,59 @@ static const struct {
     {SHARED_FOLDER "/bunny", "bunny_902.obj", true},
     {SHARED_FOLDER "/armadillo", "armadillo_25k.obj", true},
     {SHARED_FOLDER "/soup", "suzanne.obj", false},
+    {SHARED_FOLDER "/soup", "spider.obj", false},
     {SHARED_FOLDER "/bunny", "bunny_holes.obj", false},
 };
 enum { SURFACE_COUNT = sizeof surfaces / sizeof *surfaces };
+
+/* Mesh after mesh, points and polygons. */
+static void append_mesh(sbf_asset *asset, sbf_polygon_mesh *to, const sbf_polygon_mesh *from) {
+  uint32_t points = to->positions.count, sizes = to->polygon_sizes.count, corners = to->polygon_points.count;
+  sbf_vec3 *positions = sbf_asset_allocate(asset, (size_t)points + from->positions.count, sizeof *positions);
+  uint32_t *all_sizes =
+      sbf_asset_allocate(asset, (size_t)sizes + from->polygon_sizes.count, sizeof *all_sizes);
+  uint32_t *all = sbf_asset_allocate(asset, (size_t)corners + from->polygon_points.count, sizeof *all);
+  if (!positions || !all_sizes || !all) bench_fail("memory ran out");
+  memcpy(positions, to->positions.at, points * sizeof *positions);
+  memcpy(positions + points, from->positions.at, from->positions.count * sizeof *positions);
+  memcpy(all_sizes, to->polygon_sizes.at, sizes * sizeof *all_sizes);
+  memcpy(all_sizes + sizes, from->polygon_sizes.at, from->polygon_sizes.count * sizeof *all_sizes);
+  memcpy(all, to->polygon_points.at, corners * sizeof *all);
+  for (uint32_t i = 0; i < from->polygon_points.count; i++)
+    all[corners + i] = points + from->polygon_points.at[i];
+  to->positions = (sbf_vec3_list){positions, points + from->positions.count};
+  to->polygon_sizes = (sbf_u32_list){all_sizes, sizes + from->polygon_sizes.count};
+  to->polygon_points = (sbf_u32_list){all, corners + from->polygon_points.count};
+}
+
+/* A source of one body, whose surface is the render mesh's, of whatever a file holds. */
+static sbf_asset *one_body_of(unsigned number) {
+  sbf_asset *from = character_asset(surfaces[number].folder, surfaces[number].mesh, NULL, false);
+  if (!from || from->soft_bodies.count == 0) return NULL;
+  sbf_asset *source = sbf_asset_create(NULL);
+  sbf_soft_body *body = source ? sbf_asset_allocate(source, 1, sizeof *body) : NULL;
+  sbf_render_mesh *mesh = body ? sbf_asset_allocate(source, 1, sizeof *mesh) : NULL;
+  if (!mesh) bench_fail("memory ran out");
+  sbf_soft_body_init(body);
+  sbf_render_mesh_init(mesh);
+  body->id = body->name = "body";
+  mesh->id = mesh->name = "skin";
+  for (uint32_t i = 0; i < from->soft_bodies.count; i++)
+    append_mesh(source, &body->surface, &from->soft_bodies.at[i].surface);
+  mesh->mesh = body->surface;
+  mesh->mesh.target = SBF_MESH_TARGET_RENDERING;
+  source->soft_bodies = (sbf_soft_body_list){body, 1};
+  source->render_meshes = (sbf_render_mesh_list){mesh, 1};
+  sbf_asset_free(from);
+  return source;
+}
 
 typedef struct stuffing {
   const sbf_asset *source;
   sbf_build_options options;
   sbf_build_report report;
   double begin_s, end_s; /* of the pass */
+  double cell;           /* m, of the lattice made */
 } stuffing;
 
 static double processor_s(void) {
@@ -60,6 +106,7 @@ static void stuff(stuffing *s) {
   s->options.progress = note_pass;
   s->options.user = s;
   bench_require(sbf_build(s->source, &s->options, &made, &s->report, &error), &error);
+  s->cell = (double)made->soft_bodies.at[0].levels.at[0].cell;
   sbf_asset_free(made);
 }
 
@@ -67,7 +114,7 @@ static void stuff(stuffing *s) {
 static void stuff_in_child(char **arguments) {
   static stuffing s;
   unsigned long number = strtoul(arguments[0], NULL, 10) % SURFACE_COUNT;
-  s.source = character_asset(surfaces[number].folder, surfaces[number].mesh, NULL, false);
+  s.source = one_body_of((unsigned)number);
   s.options.interior = SBF_BUILD_INTERIOR_TETRAHEDRA;
   s.options.cell_m = strtod(arguments[1], NULL);
   stuff(&s);
@@ -90,7 +137,7 @@ static void write_off(const char *path, const sbf_polygon_mesh *mesh) {
   fclose(file);
 }
 
-/* False where tetgen is absent or makes nothing of the surface. */
+/* False where tetgen is absent; no tetrahedra where it makes nothing of the surface. */
 static bool run_tetgen(const char *off, double volume, double *seconds, unsigned long *count) {
   char command[512], line[256];
   snprintf(command, sizeof command, "tetgen -pqNEFBa%.9g %s 2>/dev/null", volume, off);
@@ -103,7 +150,9 @@ static bool run_tetgen(const char *off, double volume, double *seconds, unsigned
     if (value && strncmp(line, "Total running seconds", 21) == 0) *seconds = strtod(value + 1, NULL);
     if (value && strstr(line, "Mesh tetrahedra:")) *count = strtoul(value + 1, NULL, 10);
   }
-  return pclose(said) == 0 && *count > 0;
+  int status = pclose(said);
+  if (status != 0) *count = 0;
+  return !(WIFEXITED(status) && WEXITSTATUS(status) == 127);
 }
 
 static void measure_tetgen(unsigned number, const sbf_soft_body *body, const stuffing *s) {
@@ -114,22 +163,28 @@ static void measure_tetgen(unsigned number, const sbf_soft_body *body, const stu
   if (file < 0) bench_fail("no file can be made in /tmp");
   close(file);
   write_off(path, &body->surface);
-  if (run_tetgen(path, s->report.lattice_volume / s->report.tetrahedra, &seconds, &count))
+  if (!run_tetgen(path, s->report.lattice_volume / s->report.tetrahedra, &seconds, &count))
+    fprintf(stderr, "tetgen is not installed\n");
+  else if (count == 0)
+    bench_print_row("%s,tetgen,,1,,,,,,,,,", surfaces[number].mesh);
+  else
     bench_print_row("%s,tetgen,%lu,1,%.2f,%.2f,,%.0f,,,,,", surfaces[number].mesh, count, seconds * 1e3,
         seconds * 1e3, (double)count / seconds);
   unlink(path);
 }
 
-static void measure(unsigned number, double elements, uint32_t rounds, bool beside) {
-  sbf_asset *source = character_asset(surfaces[number].folder, surfaces[number].mesh, NULL, false);
+static void measure(unsigned number, uint32_t elements, uint32_t rounds, bool beside) {
+  sbf_asset *source = one_body_of(number);
   if (!source) return;
   const sbf_soft_body *body = &source->soft_bodies.at[0];
   sbf_surface_measures surface;
   sbf_surface_measure(&body->surface, NULL, &surface);
-  /* Twelve tetrahedra fill a cube of the grid: so the cell is given, and nothing is tried. */
-  double cube = 12 * surface.volume / elements, cell = 1;
-  for (int step = 0; step < 100; step++) cell = (2 * cell + cube / (cell * cell)) / 3;
-  stuffing s = {.source = source, .options = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = cell}};
+  stuffing s = {
+      .source = source, .options = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = elements}};
+  stuff(&s);
+  /* The cell that gives so many is named from here on, so that nothing is tried. */
+  s.options.elements = 0;
+  s.options.cell_m = s.cell;
   enum { MOST_ROUNDS = 15 };
   double pass[MOST_ROUNDS], whole[MOST_ROUNDS];
   stuff(&s);
@@ -142,12 +197,15 @@ static void measure(unsigned number, double elements, uint32_t rounds, bool besi
   bench_spread of_pass = bench_spread_of(pass, rounds), of_whole = bench_spread_of(whole, rounds);
   char name[12], size[40];
   snprintf(name, sizeof name, "%u", number);
-  snprintf(size, sizeof size, "%.17g", cell);
+  snprintf(size, sizeof size, "%.17g", s.cell);
+  char volume[24] = "";
+  if (surface.opening < 1e-3)
+    snprintf(volume, sizeof volume, "%.4f", s.report.lattice_volume / fabs(surface.volume));
   process_memory memory = process_memory_of((const char *const[]){name, size, NULL});
-  bench_print_row("%s,sbfmt,%u,%u,%.2f,%.2f,%.2f,%.0f,%.1f,%.1f,%.4f,%.3g,%zu", surfaces[number].mesh,
+  bench_print_row("%s,sbfmt,%u,%u,%.2f,%.2f,%.2f,%.0f,%.1f,%.1f,%s,%.3g,%zu", surfaces[number].mesh,
       s.report.tetrahedra, rounds, of_pass.least * 1e3, of_pass.median * 1e3, of_whole.median * 1e3,
-      s.report.tetrahedra / of_pass.median, s.report.least_dihedral_deg, s.report.most_dihedral_deg,
-      s.report.lattice_volume / surface.volume, s.report.farthest_m / cell, memory.peak_bytes / 1024);
+      s.report.tetrahedra / of_pass.median, s.report.least_dihedral_deg, s.report.most_dihedral_deg, volume,
+      s.report.farthest_m / s.cell, memory.peak_bytes / 1024);
   if (beside && surfaces[number].closed) measure_tetgen(number, body, &s);
   sbf_asset_free(source);
 }

@@ -38,8 +38,10 @@ static void report(void *user, const sbf_diagnostic *diagnostic) {
 }
 
 static void print_lattices(const sbf_build_report *r) {
-  printf("tetrahedra: %u, %.4g m^3, dihedral angles %.1f to %.1f degrees, vertices within %.3g m\n",
-      r->tetrahedra, r->lattice_volume, r->least_dihedral_deg, r->most_dihedral_deg, r->farthest_m);
+  printf("tetrahedra: %u, %.4g m^3, dihedral angles %.1f to %.1f degrees, vertices within %.3g m, "
+         "%u points thicken thin parts\n",
+      r->tetrahedra, r->lattice_volume, r->least_dihedral_deg, r->most_dihedral_deg, r->farthest_m,
+      r->thickened_points);
   printf("dihedral angles by tens of degrees:");
   for (int i = 0; i < 18; i++) printf(" %" PRIu64, r->dihedrals[i]);
   printf("\n");

@@ -155,6 +155,31 @@ static json_t *describe(const sbf_asset *asset, const sbf_asset_measures *measur
   return object;
 }
 
+/* Shape of the tetrahedra of all finest levels together. */
+static json_t *quality(const sbf_asset *asset) {
+  sbf_lattice_measures all = {.least_dihedral_deg = 180};
+  uint64_t count = 0;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_level *level = finest(&asset->soft_bodies.at[i]);
+    sbf_lattice_measures m;
+    if (!level || level->lattice.tetrahedra.count == 0) continue;
+    sbf_lattice_measure(
+        level->positions.at, level->lattice.tetrahedra.at, level->lattice.tetrahedra.count, &m);
+    if (m.least_dihedral_deg < all.least_dihedral_deg) all.least_dihedral_deg = m.least_dihedral_deg;
+    if (m.most_dihedral_deg > all.most_dihedral_deg) all.most_dihedral_deg = m.most_dihedral_deg;
+    for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) all.dihedrals[k] += m.dihedrals[k];
+    all.volume += m.volume;
+    all.inverted_count += m.inverted_count;
+    count += level->lattice.tetrahedra.count;
+  }
+  if (count == 0) return json_null();
+  json_t *histogram = json_array();
+  for (int k = 0; k < SBF_DIHEDRAL_BINS; k++) json_array_append_new(histogram, integer(all.dihedrals[k]));
+  return json_pack("{s:o, s:o, s:f, s:f, s:f, s:o}", "tetrahedra", integer(count), "inverted",
+      integer(all.inverted_count), "volume", all.volume, "least_dihedral_deg", all.least_dihedral_deg,
+      "most_dihedral_deg", all.most_dihedral_deg, "dihedrals", histogram);
+}
+
 static long long number(const json_t *object, const char *key) {
   return (long long)json_integer_value(json_object_get(object, key));
 }
@@ -204,6 +229,19 @@ static void print_text(const json_t *object, uint64_t read_bytes) {
         json_real_value(json_array_get(json_object_get(box, "max"), (size_t)k)));
 }
 
+static void print_quality(const json_t *q) {
+  size_t i;
+  json_t *value;
+  if (!json_is_object(q)) return;
+  printf("lattice            %.4g m^3, %lld inverted, dihedral angles %.1f to %.1f degrees, by tens:\n ",
+      json_real_value(json_object_get(q, "volume")), number(q, "inverted"),
+      json_real_value(json_object_get(q, "least_dihedral_deg")),
+      json_real_value(json_object_get(q, "most_dihedral_deg")));
+  json_array_foreach(json_object_get(q, "dihedrals"), i, value)
+      printf(" %lld", (long long)json_integer_value(value));
+  printf("\n");
+}
+
 /* The figures that the last build stated; false where none did. */
 static bool stated_measures(const sbf_asset *asset, sbf_asset_measures *m) {
   for (uint32_t i = asset->derivations.count; i-- > 0;) {
@@ -222,10 +260,11 @@ typedef struct loaded {
 } loaded;
 
 /* Of a large packed file the outline, if it states the figures that its geometry would give; else all. */
-static sbf_status load(const char *path, loaded *l, sbf_diagnostic *error) {
+static sbf_status load(const char *path, bool whole, loaded *l, sbf_diagnostic *error) {
   struct stat file;
   l->bytes = stat(path, &file) == 0 ? (uint64_t)file.st_size : 0;
-  sbf_load_options options = {.outline = l->bytes >= READ_WHOLE_BYTES, .read_bytes = &l->read_bytes};
+  sbf_load_options options = {
+      .outline = !whole && l->bytes >= READ_WHOLE_BYTES, .read_bytes = &l->read_bytes};
   sbf_status status = sbf_load_file(path, &options, &l->asset, error);
   if (status != SBF_OK) return status;
   bool is_outline = options.outline && l->read_bytes > 0; /* XML counts nothing */
@@ -242,24 +281,28 @@ static sbf_status load(const char *path, loaded *l, sbf_diagnostic *error) {
 static int run(cli_call *call) {
   loaded l = {.asset = NULL};
   sbf_diagnostic error;
-  sbf_status status = load(call->inputs[0], &l, &error);
+  bool with_quality = cli_switch(call, "--quality");
+  sbf_status status = load(call->inputs[0], with_quality, &l, &error);
   if (status != SBF_OK) {
     cli_print_diagnostic(call, &error);
     return (int)status;
   }
   json_t *object = describe(l.asset, &l.measures, l.bytes);
+  if (with_quality) json_object_set_new(object, "lattice", quality(l.asset));
   sbf_asset_free(l.asset);
   if (call->json) return cli_print_json(object, SBF_OK);
   print_text(object, l.read_bytes);
+  if (with_quality) print_quality(json_object_get(object, "lattice"));
   json_decref(object);
   return SBF_OK;
 }
 
 static const cli_option options[] = {
     {"--format", "text|json", "how to print (text)"},
+    {"--quality", NULL, "read all of it, and tell the shape of the tetrahedra"},
     {NULL, NULL, NULL},
 };
-const cli_verb verb_info = {"info", "FILE [--format json]", "say what a file holds",
+const cli_verb verb_info = {"info", "FILE [--quality] [--format json]", "say what a file holds",
     "Counts are of the finest level of every body. `inert` springs would join two pinned points: they are "
     "made\n"
     "by the rules, counted, and left out of the file. Of a packed file of a megabyte and more only the "

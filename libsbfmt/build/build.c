@@ -208,11 +208,12 @@ static bool make_springs(build *b, uint32_t number, sbf_build_interior interior,
   return true;
 }
 
-static void add_quality(sbf_build_report *report, const sbfi_lattice_quality *of) {
+static void add_quality(sbf_build_report *report, const sbf_lattice_measures *of) {
   bool first = report->most_dihedral_deg == 0;
-  if (first || of->least_deg < report->least_dihedral_deg) report->least_dihedral_deg = of->least_deg;
-  if (of->most_deg > report->most_dihedral_deg) report->most_dihedral_deg = of->most_deg;
-  for (int i = 0; i < SBFI_DIHEDRAL_BINS; i++) report->dihedrals[i] += of->histogram[i];
+  if (first || of->least_dihedral_deg < report->least_dihedral_deg)
+    report->least_dihedral_deg = of->least_dihedral_deg;
+  if (of->most_dihedral_deg > report->most_dihedral_deg) report->most_dihedral_deg = of->most_dihedral_deg;
+  for (int i = 0; i < SBF_DIHEDRAL_BINS; i++) report->dihedrals[i] += of->dihedrals[i];
   report->lattice_volume += of->volume;
 }
 
@@ -265,6 +266,7 @@ static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_arena *scratch
         counts.thinness.least, (double)level->cell);
   take_level(b, number, level, counts.pins);
   b->report.tetrahedra += counts.tetrahedra;
+  b->report.thickened_points += counts.thickened;
   add_quality(&b->report, &counts.quality);
   return SBF_OK;
 }

@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "build/lattice/lattice_quality.h"
 #include "harness.h"
 #include "sbfmt/mechanics.h"
 #include "shapes.h"
@@ -24,7 +23,7 @@ typedef struct made {
   sbfi_soup soup;
   sbfi_winding winding;
   sbfi_lattice lattice;
-  sbfi_lattice_quality quality;
+  sbf_lattice_measures quality;
 } made;
 
 static void wind(made *m, const sbf_polygon_mesh *mesh) {
@@ -34,11 +33,10 @@ static void wind(made *m, const sbf_polygon_mesh *mesh) {
 
 static void check(made *m) {
   const sbfi_tetrahedra *all = &m->lattice.made;
-  m->quality = SBFI_LATTICE_QUALITY_NONE;
-  sbfi_dihedrals_measure(&m->quality, all->positions, all->at, all->count);
+  sbf_lattice_measure(all->positions, all->at, all->count, &m->quality);
   ck_assert_uint_eq(all->flat_count, 0);
-  ck_assert_double_ge(m->quality.least_deg, 10);
-  ck_assert_double_le(m->quality.most_deg, 165);
+  ck_assert_double_ge(m->quality.least_dihedral_deg, 10);
+  ck_assert_double_le(m->quality.most_dihedral_deg, 165);
 }
 
 static void stuff(made *m, const sbf_polygon_mesh *mesh, double cell) {
@@ -54,7 +52,7 @@ START_TEST(a_cube_of_whole_cells_is_met_exactly)
     made m;
     stuff(&m, &cube, 0.6 / n);
     ck_assert_double_eq_tol(m.quality.volume, 0.216, 1e-6);
-    ck_assert_double_ge(m.quality.least_deg, 44.9);
+    ck_assert_double_ge(m.quality.least_dihedral_deg, 44.9);
     /* A middle and a side's corners for each of a cube's inner and half outer pyramids. */
     ck_assert_uint_eq(m.lattice.made.count, (uint32_t)(12 * n * n * n + 4 * 3 * n * n));
   }

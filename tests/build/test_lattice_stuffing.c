@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "build/lattice/lattice_quality.h"
 #include "harness.h"
+#include "sbfmt/mechanics.h"
 
 static uint64_t state;
 static double random_share(void) {
@@ -89,11 +89,11 @@ static void check_conforming(const sbfi_tetrahedra *made) {
 }
 
 static void check_volume(const sbfi_tetrahedra *made, double most) {
-  sbfi_lattice_quality quality = SBFI_LATTICE_QUALITY_NONE;
-  sbfi_dihedrals_measure(&quality, made->positions, made->at, made->count);
+  sbf_lattice_measures quality;
+  sbf_lattice_measure(made->positions, made->at, made->count, &quality);
   ck_assert_double_le(quality.volume, most);
-  ck_assert_double_ge(quality.least_deg, 10);
-  ck_assert_double_le(quality.most_deg, 165);
+  ck_assert_double_ge(quality.least_dihedral_deg, 10);
+  ck_assert_double_le(quality.most_dihedral_deg, 165);
 }
 
 START_TEST(whatever_the_surface)

@@ -29,16 +29,6 @@ static double number_at(double x, double y, double z) {
   return sbfi_winding_of_closed(&winding, at) - sbfi_winding_of_caps(&winding, at);
 }
 
-START_TEST(angles_are_those_of_the_library)
-{
-  for (int i = -50; i <= 50; i++)
-    for (int j = -50; j <= 50; j++)
-      if (j != 0 || i > 0) ck_assert_double_eq_tol(sbfi_angle(j, i), atan2(j, i), 2e-11);
-  ck_assert_double_eq(sbfi_angle(0, 0), 0);
-  ck_assert_double_eq_tol(sbfi_angle(0, -1), atan2(0, -1), 2e-11);
-}
-END_TEST
-
 START_TEST(a_closed_cube)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 4, 2, (sbf_vec3){0, 0, 0});
@@ -147,7 +137,6 @@ int main(void) {
   Suite *s = suite_create("winding_number");
   TCase *c = tcase_create("winding_number");
   tcase_add_checked_fixture(c, setup, teardown);
-  tcase_add_test(c, angles_are_those_of_the_library);
   tcase_add_test(c, a_closed_cube);
   tcase_add_test(c, turned_patches_are_found);
   tcase_add_test(c, an_open_cube);

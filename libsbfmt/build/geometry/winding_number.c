@@ -1,26 +1,10 @@
 #include "build/geometry/winding_number.h"
 
 #include "build/geometry/box_tree.h"
+#include "mechanics/angle.h"
 
 enum { MOST_WAITING = 128 };
-static const double pi = 3.14159265358979323846, far_radii = 2;
-
-double sbfi_angle(double y, double x) {
-  double along = fabs(x), across = fabs(y);
-  bool steep = across > along;
-  double high = steep ? across : along;
-  if (high == 0) return 0;
-  double z = (steep ? along : across) / high;
-  /* The angle is halved twice, and the rest is small enough for a short series. */
-  z = z / (1 + sqrt(1 + z * z));
-  z = z / (1 + sqrt(1 + z * z));
-  double q = z * z, series = 1.0 / 13;
-  for (int k = 11; k > 0; k -= 2) series = 1.0 / k - q * series;
-  double angle = 4 * z * series;
-  if (steep) angle = pi / 2 - angle;
-  if (x < 0) angle = pi - angle;
-  return y < 0 ? -angle : angle;
-}
+static const double far_radii = 2;
 
 static void corners_of(const sbfi_soup *soup, uint32_t triangle, sbfi_d3 corners[3]) {
   for (int k = 0; k < 3; k++) corners[k] = soup->points[soup->triangles[triangle][k]];
@@ -135,7 +119,7 @@ static double number_of(const sbfi_soup *soup, const sbfi_winding_tree *tree, sb
       waiting[waiting_count++] = node->first;
     }
   }
-  return (2 * halves + dipoles) / (4 * pi);
+  return (2 * halves + dipoles) / (4 * SBFI_PI);
 }
 
 int sbfi_winding_of_closed(const sbfi_winding *winding, sbfi_d3 point) {

@@ -44,7 +44,4 @@ double sbfi_winding_of_caps(const sbfi_winding *winding, sbfi_d3 point);
  * inwards, than to 0. */
 bool sbfi_winding_inside(int closed, double caps);
 
-/* The angle from the x axis to (x, y), in (-pi, pi], to 1e-11; 0 at the origin. */
-double sbfi_angle(double y, double x);
-
 #endif

@@ -4,7 +4,6 @@
 
 #include "build/lattice/lattice_pins.h"
 #include "build/materials/point_factors.h"
-#include "sbfmt/mechanics.h"
 
 enum { USUAL_ELEMENTS = 2000, MOST_ELEMENTS = 16000 };
 
@@ -67,7 +66,7 @@ sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_bo
     sbfi_lattice_progress progress, sbfi_arena *scratch) {
   sbfi_lattice lattice;
   sbf_level_init(level);
-  *counts = (sbfi_lattice_counts){.quality = SBFI_LATTICE_QUALITY_NONE};
+  *counts = (sbfi_lattice_counts){.tetrahedra = 0};
   sbfi_lattice_outcome outcome = make_lattice(&lattice, body, recipe, &counts->thinness, progress, scratch);
   if (outcome != SBFI_LATTICE_MADE) return outcome;
   level->model = SBF_ELASTIC_MODEL_TETRAHEDRA;
@@ -81,7 +80,8 @@ sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_bo
     return SBFI_LATTICE_NO_MEMORY;
   counts->tetrahedra = lattice.made.count;
   counts->points = lattice.made.point_count;
-  sbfi_dihedrals_measure(&counts->quality, lattice.made.positions, lattice.made.at, lattice.made.count);
+  counts->thickened = lattice.forced_count;
+  sbf_lattice_measure(lattice.made.positions, lattice.made.at, lattice.made.count, &counts->quality);
   if (!weigh(level, body, counts->quality.volume, asset) || !sbfi_lattice_weigh(level, body, asset, scratch))
     return SBFI_LATTICE_NO_MEMORY;
   for (uint32_t i = 0; i < level->pins.count; i++) counts->pins += level->pins.at[i].points.count;

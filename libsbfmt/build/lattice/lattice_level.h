@@ -3,9 +3,9 @@
 #define SBFI_LATTICE_LEVEL_H
 
 #include "build/lattice/lattice.h"
-#include "build/lattice/lattice_quality.h"
 #include "build/lattice/lattice_thin.h"
 #include "sbfmt/asset.h"
+#include "sbfmt/mechanics.h"
 
 typedef struct sbfi_lattice_recipe {
   double cell;       /* m; 0: by `elements` */
@@ -16,7 +16,8 @@ typedef struct sbfi_lattice_recipe {
 /* What was made of one body. */
 typedef struct sbfi_lattice_counts {
   uint32_t tetrahedra, points, pins;
-  sbfi_lattice_quality quality;
+  uint32_t thickened; /* nodes taken in to keep thin limbs, see lattice_limbs.h */
+  sbf_lattice_measures quality;
   sbfi_thinness thinness; /* against one cell, which holds two elements */
 } sbfi_lattice_counts;
 

@@ -71,6 +71,9 @@ typedef struct sbf_build_report {
   uint64_t dihedrals[18];                       /* how many of the angles lie in each ten degrees */
   double lattice_volume;                        /* m^3, of the tetrahedra */
   double farthest_m; /* greatest distance of an embedded vertex from the lattice that carries it */
+  /* Points of lattices that stand in for parts thinner than two elements, which are thicker there than the
+   * body. Every other element, too, has a corner inside: nowhere is there but one across. */
+  uint32_t thickened_points;
 } sbf_build_report;
 
 /* Makes `*built` from `asset`, which stays as it is and need not outlive the call. On failure `*built` is

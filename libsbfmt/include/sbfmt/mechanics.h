@@ -90,6 +90,24 @@ SBF_API void sbf_level_shares(
 SBF_API double sbf_level_masses(
     const sbf_soft_body *body, const sbf_level *level, const uint8_t *held, float *masses);
 
+/* ---- Tetrahedra: shape -------------------------------------------------------------------------------- */
+
+#define SBF_DIHEDRAL_BINS 18 /* of ten degrees */
+
+/* How well tetrahedra are shaped. */
+typedef struct sbf_lattice_measures {
+  double volume;                         /* m^3, sum of all; inverted ones count below nothing */
+  double least_dihedral_deg;             /* 180 where there is no tetrahedron */
+  double most_dihedral_deg;              /* 0 where there is none */
+  uint64_t dihedrals[SBF_DIHEDRAL_BINS]; /* six angles a tetrahedron: how many lie in each ten degrees */
+  uint32_t inverted_count;               /* without volume, or turned inside out */
+} sbf_lattice_measures;
+
+/* Of `count` tetrahedra over `positions`. The angles are good to 1e-6 degrees, but for those within a
+ * hundredth of 0 and 180. */
+SBF_API void sbf_lattice_measure(
+    const sbf_vec3 *positions, const sbf_uint4 *tetrahedra, uint32_t count, sbf_lattice_measures *measures);
+
 /* ---- Springs: stiffness ------------------------------------------------------------------------------- */
 
 /* From Young's modulus to N/m.
