@@ -227,6 +227,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_IMAGE", SBF_CODE_IMPORT_IMAGE, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "An image cannot be taken over."},
   {"IMPORT_UNIT", SBF_CODE_IMPORT_UNIT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The file states no unit of use: metres are assumed."},
   {"IMPORT_POSE", SBF_CODE_IMPORT_POSE, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The file was saved in the middle of a movement: bones and skin are taken as they were bound."},
+  {"IMPORT_POINTS_JOINED", SBF_CODE_IMPORT_POINTS_JOINED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Vertices stored apart for drawing stand in one place and move alike: they are one point."},
   {"IMPORT_NO_MESH", SBF_CODE_IMPORT_NO_MESH, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The file holds a skeleton and no mesh."},
   {"IMPORT_NO_RIG", SBF_CODE_IMPORT_NO_RIG, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The file holds no skeleton: bodies are not held by bones."},
   {"IMPORT_NO_BONES", SBF_CODE_IMPORT_NO_BONES, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file given as the rig holds no skeleton."},

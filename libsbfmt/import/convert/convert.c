@@ -85,6 +85,22 @@ static sbf_status run_paper_passes(sbfi_conversion *c, const sbfi_paper_model *p
   return status == SBF_OK ? sbfi_convert_paper(c, paper, c->asset->info.title) : status;
 }
 
+/* What assimp does not hand on is which corners shared a vertex in the file: points that an author had in one
+ * place on purpose cannot be told from those, so the number is said. */
+static void say_joined(sbfi_conversion *c) {
+  uint64_t vertices = 0, points = 0;
+  for (uint32_t i = 0; i < c->scene->mesh_count; i++) {
+    vertices += c->scene->meshes[i].vertex_count;
+    points += c->scene->meshes[i].vertex_count ? c->scene->meshes[i].point_count : 0;
+  }
+  if (points < vertices)
+    sbfi_convert_warn(c, SBF_CODE_IMPORT_POINTS_JOINED,
+        "%llu vertices, as stored for drawing, stand for %llu points: those of an object that are in one "
+        "place "
+        "and move alike are joined",
+        (unsigned long long)vertices, (unsigned long long)points);
+}
+
 static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *options) {
   if (c->scene->mesh_count == 0 && !c->rig)
     return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
@@ -94,6 +110,7 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
         "the file holds a skeleton and no mesh: the bundle will have bones only; give a mesh file as the "
         "input "
         "and this one with --rig");
+  say_joined(c);
   if (!c->rig)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
         "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");

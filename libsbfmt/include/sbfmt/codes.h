@@ -238,6 +238,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_IMAGE = 938, /* An image cannot be taken over. */
   SBF_CODE_IMPORT_UNIT = 939, /* The file states no unit of use: metres are assumed. */
   SBF_CODE_IMPORT_POSE = 940, /* The file was saved in the middle of a movement: bones and skin are taken as they were bound. */
+  SBF_CODE_IMPORT_POINTS_JOINED = 941, /* Vertices stored apart for drawing stand in one place and move alike: they are one point. */
   SBF_CODE_IMPORT_NO_MESH = 950, /* The file holds a skeleton and no mesh. */
   SBF_CODE_IMPORT_NO_RIG = 951, /* The file holds no skeleton: bodies are not held by bones. */
   SBF_CODE_IMPORT_NO_BONES = 952, /* The file given as the rig holds no skeleton. */
