@@ -176,6 +176,33 @@ START_TEST(what_is_not_finite_is_the_files_fault)
 }
 END_TEST
 
+START_TEST(an_index_beyond_the_vertices_is_the_files_fault)
+{
+  stream_builder s = {0};
+  sbf_diagnostic error = {0};
+  const float corner[] = {0, 0, 0};
+  stream_header(&s);
+  stream_u32(&s, 1);
+  stream_node(&s, "n", -1, 0, 0, 0, 0);
+  stream_u32(&s, 1);
+  stream_u32(&s, 0);
+  stream_u32(&s, 1);
+  stream_string(&s, "cut");
+  stream_u32(&s, 0);
+  stream_u32(&s, 1);
+  stream_f32s(&s, corner, 3);
+  stream_u32(&s, 0);
+  stream_none(&s);
+  stream_u32(&s, 1);
+  stream_u32(&s, 3);
+  stream_u32(&s, 3);
+  for (uint32_t i = 0; i < 3; i++) stream_u32(&s, i);
+  ck_assert_int_eq(take(s.at, s.size, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(error.code, SBF_CODE_IMPORT_INDEX);
+  free(s.at);
+}
+END_TEST
+
 static Suite *raw_scene_suite(void) {
   Suite *suite = suite_create("raw_scene");
   TCase *tests = tcase_create("all");
@@ -187,6 +214,7 @@ static Suite *raw_scene_suite(void) {
   tcase_add_test(tests, every_allocation_may_fail);
   tcase_add_test(tests, large_counts_ask_for_no_memory);
   tcase_add_test(tests, what_is_not_finite_is_the_files_fault);
+  tcase_add_test(tests, an_index_beyond_the_vertices_is_the_files_fault);
   suite_add_tcase(suite, tests);
   return suite;
 }

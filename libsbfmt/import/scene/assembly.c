@@ -59,6 +59,36 @@ bool sbfi_assemble_frame(sbfi_assembly *a) {
                                   (int)a->raw->axes[1], (int)a->raw->axes[3], (int)a->raw->axes[5]);
 }
 
+/* What assimp calls a node of which the file has no name: "", "<STL_BINARY>", "$dummy_node". */
+static bool is_invented_name(const char *name) {
+  size_t length = strlen(name);
+  return length == 0 || (name[0] == '<' && name[length - 1] == '>') || strcmp(name, "$dummy_node") == 0;
+}
+
+/* An object without a name of its own is called as its data are, else as the file is. */
+static bool name_objects(sbfi_assembly *a) {
+  const char *path = a->scene->file, *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
+  const char *dot = strrchr(file, '.');
+  sbfi_span stem = {file, dot && dot > file ? (size_t)(dot - file) : strlen(file)};
+  for (uint32_t i = 0; i < a->scene->mesh_count; i++) {
+    const sbfi_scene_mesh *mesh = &a->scene->meshes[i];
+    sbfi_scene_node *node = &a->nodes[mesh->node];
+    if (!is_invented_name(node->name)) continue;
+    node->name = is_invented_name(mesh->name) ? sbfi_scene_string(a->scene, stem) : mesh->name;
+    if (!node->name) return false;
+  }
+  return true;
+}
+
+/* Forms that state a unit which assimp 5.2.5 does not hand on. */
+static bool say_lost_unit(sbfi_assembly *a) {
+  bool lost = strcmp(a->scene->format, "3mf") == 0 || strcmp(a->scene->format, "amf") == 0;
+  return !lost || sbfi_scene_warn(a->scene, SBF_CODE_IMPORT_UNIT, 0,
+                      "a %s file states its unit, usually millimetres, and the importer does not hand it on: "
+                      "metres are assumed; say --unit 0.001 for millimetres",
+                      a->scene->format);
+}
+
 static bool check_worlds(sbfi_assembly *a) {
   for (uint32_t i = 0; i < a->scene->node_count; i++)
     for (int k = 0; k < 12; k++)
@@ -81,7 +111,7 @@ sbf_status sbfi_assemble(
   scene->generator = sbfi_scene_string(scene, raw->generator);
   bool good = scene->generator && sbfi_assemble_frame(&a) && sbfi_assemble_nodes(&a) && check_worlds(&a) &&
               sbfi_assemble_bones(&a) && sbfi_assemble_materials(&a) && sbfi_assemble_meshes(&a) &&
-              sbfi_assemble_clips(&a) && check_content(&a);
+              name_objects(&a) && say_lost_unit(&a) && sbfi_assemble_clips(&a) && check_content(&a);
   sbfi_name_table_free(&a.names);
   sbfi_arena_free(&a.scratch);
   if (good) return SBF_OK;

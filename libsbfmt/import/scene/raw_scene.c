@@ -30,6 +30,13 @@ static void fail_not_finite(cursor *c, const char *what, sbfi_span name, size_t 
       sbfi_quote_of(name).text, index);
 }
 
+/* Some of assimp's readers hand out the indices of a damaged file unchecked. */
+static void fail_index(cursor *c, const char *what) {
+  if (c->status) return;
+  c->status = sbfi_diagnose(c->error, SBF_CODE_IMPORT_INDEX,
+      "%s refer to vertices that the file does not have: it is damaged or cut off", what);
+}
+
 /* `count` items of `size` bytes each, a whole number of words; NULL where the stream ends before. */
 static const void *take(cursor *c, size_t count, size_t size, const char *what) {
   if (c->status || count > left(c) / size) {
@@ -157,7 +164,7 @@ static void read_polygons(cursor *c, sbfi_raw_mesh *mesh) {
   uint64_t sum = 0;
   for (uint32_t i = 0; i < mesh->polygon_count; i++) sum += mesh->polygon_sizes[i];
   if (sum != mesh->corner_count) fail(c, "the sizes of the polygons");
-  if (!all_below(mesh->corners, mesh->corner_count, mesh->vertex_count)) fail(c, "the corners");
+  if (!all_below(mesh->corners, mesh->corner_count, mesh->vertex_count)) fail_index(c, "polygons");
 }
 
 static void read_bones(cursor *c, sbfi_raw_mesh *mesh) {
@@ -171,7 +178,7 @@ static void read_bones(cursor *c, sbfi_raw_mesh *mesh) {
     bones[i].vertices = take(c, bones[i].weight_count, 4, "the weights of a bone");
     bones[i].weights = take_f32s(c, bones[i].weight_count, 1, "the weights", bones[i].name);
     if (!c->status && !all_below(bones[i].vertices, bones[i].weight_count, mesh->vertex_count))
-      fail(c, "the weights of a bone");
+      fail_index(c, "weights of a bone");
   }
 }
 
