@@ -48,7 +48,15 @@ def size_row(r):
             number(r["glb"]), r["meshes/glb"]]
 
 
+def elements_row(r):
+    return [r["file"], r["cell_m"], number(r["points"]), number(r["tetrahedra"]), number(r["elements_xml"]),
+            number(r["elements_packed"]), r["elements_xml/elements_packed"], number(r["xml"]), number(r["packed"]),
+            r["packed/xml"]]
+
+
 TABLES = {
+    "elements": (elements_row, "file | cell, m | points | tetrahedra | their XML | packed | × smaller | bundle, XML | "
+                               "bundle, packed | packed / XML", 1),
     "load": (load_row, "asset | reader | form | bytes | ms | MB/s | × assimp on GLB | peak KiB | private KiB", 3),
     "save": (save_row, "asset | action | form | bytes | ms | MB/s", 3),
     "run": (run_row, "character | threads | part | springs | substeps | least µs | median µs | worst µs", 3),

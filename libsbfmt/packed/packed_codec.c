@@ -102,8 +102,9 @@ sbfi_coded sbfi_packed_inflate(sbfi_packed_coder *coder, const uint8_t *stored, 
     size_t some = raw_size - done < BLOCK_BYTES ? raw_size - done : BLOCK_BYTES;
     result = inflate_some(stream, &stored, &stored_size, coder->block, some);
     if (result != Z_OK && result != Z_STREAM_END) break;
-    sbfi_unfilter_block(filter, coder->block, some / 4, width, to, done / 4);
+    bool sound = sbfi_unfilter_block(filter, coder->block, some / 4, width, to, done / 4);
     done += some;
+    if (!sound) result = Z_DATA_ERROR;
     if (result == Z_STREAM_END && done < raw_size) result = Z_DATA_ERROR;
   }
   uint8_t beyond;
@@ -148,9 +149,9 @@ sbfi_coded sbfi_packed_deflate(sbfi_packed_coder *coder, const uint8_t *raw, siz
   if (!filter || raw_size == 0) fits = deflate_some(stream, raw, raw_size, &left, true);
   for (size_t done = 0; filter && fits && done < raw_size;) {
     size_t some = raw_size - done < BLOCK_BYTES ? raw_size - done : BLOCK_BYTES;
-    sbfi_filter_block(filter, raw, done / 4, some / 4, width, coder->block);
+    fits = sbfi_filter_block(filter, raw, done / 4, some / 4, width, coder->block);
     done += some;
-    fits = deflate_some(stream, coder->block, some, &left, done == raw_size);
+    fits = fits && deflate_some(stream, coder->block, some, &left, done == raw_size);
   }
   *stored_size = room - left;
   return fits ? SBFI_CODED : SBFI_CODED_TOO_LONG;

@@ -30,7 +30,8 @@ typedef enum sbfi_coded {
 sbfi_coded sbfi_packed_inflate(sbfi_packed_coder *coder, const uint8_t *stored, size_t stored_size,
     sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t raw_size);
 
-/* Filters and deflates into `room` bytes; too long where they do not suffice. */
+/* Filters and deflates into `room` bytes; too long where they do not suffice, or where the filter is not for
+ * such scalars. */
 sbfi_coded sbfi_packed_deflate(sbfi_packed_coder *coder, const uint8_t *raw, size_t raw_size,
     sbfi_packed_filter filter, uint32_t width, uint8_t *to, size_t room, size_t *stored_size);
 

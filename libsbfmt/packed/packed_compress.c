@@ -42,6 +42,8 @@ static sbfi_planned compress_chunk(
   } else {
     result = try_filter(coder, planned, SBFI_FILTER_PLANES, &spare, &best, room);
     if (result == SBFI_PLANNED) result = try_filter(coder, planned, SBFI_FILTER_DELTA, &spare, &best, room);
+    if (result == SBFI_PLANNED && planned->item == SBFI_ITEM_U32)
+      result = try_filter(coder, planned, SBFI_FILTER_RECENT, &spare, &best, room);
   }
   if (result != SBFI_PLANNED || best.size == 0) return result;
   void *kept = sbfi_arena_copy(&plan->arena, best.at, best.size, 1);
@@ -59,7 +61,7 @@ sbfi_planned sbfi_packed_best_filter(
   const sbfi_planned_chunk planned = {.chunk = {.stride = stride, .raw_size = size}, .at = items};
   attempt best = {.at = memory[0]};
   sbfi_planned result = SBFI_PLANNED;
-  for (int f = SBFI_FILTER_NONE; f < SBFI_FILTER_COUNT && result == SBFI_PLANNED; f++)
+  for (int f = SBFI_FILTER_NONE; f <= SBFI_FILTER_DELTA && result == SBFI_PLANNED; f++)
     result = try_filter(coder, &planned, (sbfi_packed_filter)f, &spare, &best, size - 1);
   *filter = best.filter;
   return result;

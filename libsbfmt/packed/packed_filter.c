@@ -1,5 +1,7 @@
 #include "packed/packed_filter.h"
 
+#include "packed/packed_recent.h"
+
 enum { STEP = 2048 }; /* scalars joined and summed up while they lie in the first-level cache */
 
 bool sbfi_host_is_little_endian(void) {
@@ -28,14 +30,16 @@ static uint32_t zigzag(uint32_t difference) {
   return difference << 1 ^ (0u - (difference >> 31));
 }
 
-void sbfi_filter_block(sbfi_packed_filter filter, const uint8_t *from, size_t done, size_t count,
+bool sbfi_filter_block(sbfi_packed_filter filter, const uint8_t *from, size_t done, size_t count,
     uint32_t width, uint8_t *planes) {
+  if (filter == SBFI_FILTER_RECENT) return sbfi_filter_recent(from, done, count, planes);
   for (size_t i = 0; i < count; i++) {
     uint32_t value = load_scalar(from, done + i);
     if (filter == SBFI_FILTER_DELTA)
       value = zigzag(value - (done + i < width ? 0 : load_scalar(from, done + i - width)));
     for (size_t plane = 0; plane < 4; plane++) planes[plane * count + i] = (uint8_t)(value >> (8 * plane));
   }
+  return true;
 }
 
 /* Both loops become vector code: bytes of four streams widened and put together. */
@@ -89,8 +93,9 @@ static void sum_4(uint32_t *values, size_t count, uint32_t *before) {
   before[3] = d;
 }
 
-void sbfi_unfilter_block(sbfi_packed_filter filter, const uint8_t *planes, size_t count, uint32_t width,
+bool sbfi_unfilter_block(sbfi_packed_filter filter, const uint8_t *planes, size_t count, uint32_t width,
     uint8_t *to, size_t done) {
+  if (filter == SBFI_FILTER_RECENT) return sbfi_unfilter_recent(planes, count, to, done);
   static void (*const sums[])(uint32_t *, size_t, uint32_t *) = {sum_1, sum_2, sum_3, sum_4};
   uint32_t values[STEP / 12 * 12], before[4] = {0};
   size_t step = sizeof values / sizeof *values;
@@ -104,4 +109,5 @@ void sbfi_unfilter_block(sbfi_packed_filter filter, const uint8_t *planes, size_
     }
     memcpy(to + 4 * (done + i), values, some * sizeof *values);
   }
+  return true;
 }

@@ -3,7 +3,8 @@
  * A list is cut into blocks; a block of n scalars becomes four planes of n bytes, lowest bytes first. With
  * SBFI_FILTER_DELTA each scalar v is first replaced by zigzag(v - u), where u is the same component of the
  * item before (0 before the first), as unsigned 32-bit arithmetic whatever the scalar is: neighbours that are
- * close, as integers or as floats of one sign, leave only small bytes. Byte planes after Blosc's shuffle
+ * close, as integers or as floats of one sign, leave only small bytes. SBFI_FILTER_RECENT is that of
+ * packed_recent.h. Byte planes after Blosc's shuffle
  * (https://www.blosc.org), zigzag as in Protocol Buffers; xor instead of the difference was measured and is
  * never much better. */
 #ifndef SBFI_PACKED_FILTER_H
@@ -18,12 +19,14 @@ enum { SBFI_FILTER_BLOCK = 65520 };
 /* Outside the planes scalars are as the machine has them, whatever its byte order.
  *
  * Filters `count` scalars (SBFI_FILTER_BLOCK at most) from `from` + `done` scalars on into count * 4 bytes of
- * planes. `width` is the scalars in an item, 1 to 4; `done` a multiple of it. */
-void sbfi_filter_block(sbfi_packed_filter filter, const uint8_t *from, size_t done, size_t count,
+ * planes. `width` is the scalars in an item, 1 to 4; `done` a multiple of it. False, of SBFI_FILTER_RECENT
+ * alone, where the scalars are not such as it is for. */
+bool sbfi_filter_block(sbfi_packed_filter filter, const uint8_t *from, size_t done, size_t count,
     uint32_t width, uint8_t *planes);
 
-/* The way back. Reads what it has written before `done`. */
-void sbfi_unfilter_block(
+/* The way back. Reads what it has written before `done`. False, of SBFI_FILTER_RECENT alone, where the planes
+ * say what cannot be. */
+bool sbfi_unfilter_block(
     sbfi_packed_filter filter, const uint8_t *planes, size_t count, uint32_t width, uint8_t *to, size_t done);
 
 /* Unfiltered scalars are little-endian in a file: turns each over on a big-endian machine, there or back. */

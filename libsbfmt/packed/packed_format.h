@@ -28,6 +28,7 @@ typedef enum sbfi_packed_filter {
   SBFI_FILTER_NONE,
   SBFI_FILTER_PLANES, /* bytes of equal weight stand together */
   SBFI_FILTER_DELTA,  /* the same, of the zigzag differences to the item before */
+  SBFI_FILTER_RECENT, /* places among the scalars named last, and differences of new ones */
   SBFI_FILTER_COUNT
 } sbfi_packed_filter;
 

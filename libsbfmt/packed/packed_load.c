@@ -4,6 +4,7 @@
 #include "model/asset_box.h"
 #include "model/check.h"
 #include "model/options.h"
+#include "model/version.h"
 #include "packed/packed_reader.h"
 
 /* Every chunk that a reader of this version must understand is part of the asset. */
@@ -43,6 +44,9 @@ static sbf_status load(const void *bytes, size_t size, const sbf_load_options *o
   }
   if (status == SBF_OK) status = sbfi_check_loaded(made, options, error);
   box->arena.limit_bytes = 0;
+  /* What the file says beyond this version has been passed over. */
+  if (status == SBF_OK && sbfi_version_judge(made->version) == SBFI_VERSION_NEWER_MINOR)
+    made->version = SBF_FORMAT_VERSION;
   if (status != SBF_OK) {
     sbf_asset_free(made);
     return status;

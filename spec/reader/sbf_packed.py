@@ -104,7 +104,7 @@ class PackedReader:
                 if entry.flags & 1:
                     raise Fault(f"{where} is critical and of the unknown kind {entry.kind!r}")
                 continue
-            if entry.codec > 1 or entry.filter > 2 or (entry.codec == 0 and entry.filter):
+            if entry.codec > 1 or entry.filter > 3 or (entry.codec == 0 and entry.filter):
                 raise Fault(f"{where} has a filter or codec that is not known")
             if entry.raw != entry.count * entry.stride or (entry.codec == 0 and entry.raw != entry.stored):
                 raise Fault(f"{where}: its sizes contradict each other")
@@ -288,6 +288,8 @@ def unfilter(data, kind, width):
     if kind == 0:
         return data
     count, values = len(data) // 4, []
+    if kind == 3:
+        return unfilter_recent(data, count)
     for begin in range(0, count, 65520):
         n = min(65520, count - begin)
         block = data[4 * begin:4 * (begin + n)]
@@ -300,6 +302,30 @@ def unfilter(data, kind, width):
             difference = x >> 1 if not x & 1 else -((x + 1) >> 1)
             values[i] = ((values[i - width] if i >= width else 0) + difference) & 0xFFFFFFFF
     return struct.pack(f"<{len(values)}I", *values)
+
+
+def unfilter_recent(data, count):
+    """Section 6, filter 3."""
+    values = []
+    for begin in range(0, count, 65520):
+        n = min(65520, count - begin)
+        places, rest = data[4 * begin:4 * begin + n], data[4 * begin + n:4 * (begin + n)]
+        new_count, new = places.count(0), 0
+        if max(places) > 32 or 4 * new_count > 3 * n:
+            raise Fault("a filtered block says what cannot be")
+        row, last = [0] * 32, values[-1] if values else 0
+        for place in places:
+            if place:
+                value = row.pop(place - 1)
+            else:
+                x = sum(rest[plane * new_count + new] << 8 * plane for plane in range(4))
+                last = (last + (x >> 1 if not x & 1 else -((x + 1) >> 1))) & 0xFFFFFFFF
+                value = last
+                new += 1
+                row.pop()
+            row.insert(0, value)
+            values.append(value)
+    return struct.pack(f"<{count}I", *values)
 
 
 def resolve(root):

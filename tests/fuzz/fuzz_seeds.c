@@ -67,7 +67,7 @@ static sbf_asset *bodies_to_build(void) {
 static void put_chunks(const char *folder) {
   enum { ITEMS = 40, WIDTH = 3, FRONT = 4 };
   float raw[ITEMS * WIDTH];
-  for (int i = 0; i < ITEMS * WIDTH; i++) raw[i] = (float)i * 0.25f;
+  for (int i = 0; i < ITEMS * WIDTH; i++) raw[i] = (float)(i / 3) * 0.25f;
   for (int filter = 0; filter < SBFI_FILTER_COUNT; filter++) {
     uint8_t bytes[FRONT + 2 * sizeof raw];
     size_t stored, expected = filter == SBFI_FILTER_NONE ? sizeof raw : ITEMS;

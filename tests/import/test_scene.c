@@ -14,6 +14,10 @@ START_TEST(strings_become_text)
                                                                         "b");
   ck_assert_str_eq(sbfi_scene_string(&scene, (sbfi_span){"a\0b", 3}), "a\xEF\xBF\xBD"
                                                                       "b");
+  ck_assert_str_eq(sbfi_scene_string(&scene, sbfi_span_of("a\xEF\xBF\xBE"
+                                                          "b\xEF\xBF\xBD")),
+      "a\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD"
+      "b\xEF\xBF\xBD");
   ck_assert_str_eq(sbfi_scene_string(&scene, (sbfi_span){NULL, 0}), "");
   static char longest[5000];
   memset(longest, 'n', sizeof longest - 1);

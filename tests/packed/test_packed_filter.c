@@ -30,7 +30,7 @@ static void round_trip(sbfi_packed_filter filter, uint32_t width, size_t count, 
 START_TEST(test_what_is_filtered_comes_back)
 {
   for (uint32_t width = 1; width <= 4; width++)
-    for (int filter = SBFI_FILTER_PLANES; filter < SBFI_FILTER_COUNT; filter++) {
+    for (int filter = SBFI_FILTER_PLANES; filter <= SBFI_FILTER_DELTA; filter++) {
       for (size_t items = 1; items < 40; items++)
         round_trip((sbfi_packed_filter)filter, width, items * width, (uint32_t)items);
       round_trip((sbfi_packed_filter)filter, width, 2041 * width, 5);

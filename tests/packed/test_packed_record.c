@@ -95,6 +95,7 @@ static void expect_loads(const hand_made *r, uint16_t minor) {
   sbf_diagnostic error;
   sbf_status status = load_minor(r, minor, &asset, &error);
   ck_assert_msg(status == SBF_OK, "%s: %s", error.path, error.message);
+  ck_assert_str_eq(asset->version, SBF_FORMAT_VERSION); /* what it holds is no more than that */
   sbf_asset_free(asset);
 }
 
@@ -147,6 +148,10 @@ START_TEST(test_fields_of_a_newer_version_are_passed_over)
   put_head(&r, 1000, (sbfi_packed_form)77, 0);
   expect(&r, SBF_CODE_PACKED_RECORD, "/sbf");
   expect_loads(&r, 1);
+  r.size = 0;
+  put_text(&r, 1, "1.99", 4); /* whatever the header says */
+  expect_loads(&r, 99);
+  expect_loads(&r, 0);
 }
 END_TEST
 

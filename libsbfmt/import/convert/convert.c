@@ -53,7 +53,7 @@ static sbf_status describe_sources(sbfi_conversion *c) {
   for (int i = 0; i < 2 && scenes[i]; i++, count++) {
     sbf_source_init(&sources[i]);
     char hex[SBFI_SHA256_TEXT_SIZE];
-    sbf_status status = hash_file(c, scenes[i]->file, hex);
+    sbf_status status = hash_file(c, scenes[i]->path, hex);
     if (status != SBF_OK) return status;
     sources[i].path = sbf_asset_copy_text(c->asset, file_name(scenes[i]->file));
     sources[i].sha256 = sbf_asset_copy_text(c->asset, hex);

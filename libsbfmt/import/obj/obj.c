@@ -29,7 +29,7 @@ static sbf_status out_of_memory(sbf_diagnostic *error) {
 static bool read_library(materials *m, sbfi_span name, bool *found) {
   char path[4096];
   sbfi_file file;
-  *found = sbfi_path_beside(path, sizeof path, m->scene->file, name) &&
+  *found = sbfi_path_beside(path, sizeof path, m->scene->path, name) &&
            sbfi_file_open(path, &file, NULL) == SBF_OK;
   if (!*found) return true;
   size_t size = file.size <= LIBRARY_LIMIT_BYTES ? (size_t)file.size : 0;

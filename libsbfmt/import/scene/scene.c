@@ -12,7 +12,8 @@ bool sbfi_scene_init(
   *scene = (sbfi_scene){.unit_m = 1, .axes = sbfi_matrix_identity(), .format = "", .generator = ""};
   sbfi_arena_init(&scene->arena, allocator, memory_limit_bytes);
   scene->file = sbfi_scene_string(scene, sbfi_span_of(file));
-  return scene->file != NULL;
+  scene->path = sbfi_arena_string(&scene->arena, file, strlen(file));
+  return scene->file && scene->path;
 }
 
 void sbfi_scene_free(sbfi_scene *scene) {
@@ -44,11 +45,15 @@ bool sbfi_scene_warn(sbfi_scene *scene, sbf_code code, uint32_t line, const char
   return true;
 }
 
-/* Bytes of text at the front that may stand as they are, at most `length`. */
+/* Bytes of text at the front that may stand as they are, at most `length`: neither control characters nor
+ * U+FFFE and U+FFFF, which XML has no way to write. */
 static size_t good_length(const char *text, size_t length) {
   size_t good = sbfi_utf8_check(text, length);
-  for (size_t i = 0; i < good; i++)
-    if ((uint8_t)text[i] < 0x20 || text[i] == 0x7f) return i;
+  for (size_t i = 0; i < good; i++) {
+    const uint8_t *at = (const uint8_t *)text + i;
+    if (*at < 0x20 || *at == 0x7f) return i;
+    if (*at == 0xef && at[1] == 0xbf && at[2] >= 0xbe) return i;
+  }
   return good;
 }
 

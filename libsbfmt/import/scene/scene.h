@@ -147,7 +147,8 @@ typedef struct sbfi_scene_clip {
 
 typedef struct sbfi_scene {
   sbfi_arena arena;
-  const char *file;      /* as the caller named it */
+  const char *file;      /* as the caller named it, as text that may stand in a message or an asset */
+  const char *path;      /* the same, byte for byte */
   const char *format;    /* "obj", or assimp's name of the format in lower case, as "fbx", "glb", "bvh" */
   const char *generator; /* the program that wrote it, "" where not known */
 

@@ -1,0 +1,20 @@
+/* The filter for indices: neighbouring elements name the same points, so that most indices are among the last
+ * few different ones. Those are written as one byte, the place in a list that moves what was named to its
+ * front (move-to-front coding: Bentley, Sleator, Tarjan and Wei 1986); the others as differences. */
+#ifndef SBFI_PACKED_RECENT_H
+#define SBFI_PACKED_RECENT_H
+
+#include "sbfmt/base.h"
+
+/* Scalars that are remembered. 16 to 64 are within some hundredths of each other on lattices, springs and
+ * polygons. */
+enum { SBFI_RECENT_COUNT = 32 };
+
+/* One block of `count` scalars from `from` + `done` on into count * 4 bytes; false where so many are new that
+ * they do not fit. */
+bool sbfi_filter_recent(const uint8_t *from, size_t done, size_t count, uint8_t *block);
+
+/* The way back; false where a block says what cannot be. */
+bool sbfi_unfilter_recent(const uint8_t *block, size_t count, uint8_t *to, size_t done);
+
+#endif
