@@ -11,7 +11,8 @@
 /* The options that both verbs share; put them first in a verb's table. */
 #define SESSION_OPTIONS                                                                                      \
   {"--seconds", "S", "how long"}, {"--fps", "N", "frames a second"},                                         \
-      {"--scheme", "NAME", "automatic, symplectic, relaxation (automatic)"},                                 \
+      {"--scheme", "NAME",                                                                                   \
+          "automatic, symplectic, position_based, relaxation, explicit_euler, heun (automatic)"},            \
       {"--substeps", "N", "of a control tick (as many as the scheme needs)"},                                \
       {"--threads", "N", "worker threads; the motion is the same for any number (1)"},                       \
       {"--drive", "M/S,RAD/S", "wanted speed and turn (0,0)"},                                               \

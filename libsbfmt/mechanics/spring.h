@@ -31,6 +31,22 @@ static inline float sbfi_spring_pull(const sbfi_spring *s, float length_m) {
   return length_m > 0 ? s->stiffness_n_m - s->stiffness_n_m * s->rest_length_m / length_m : 0;
 }
 
+/* How far a spring may go: as attributes and spring_set state it. */
+typedef struct sbfi_spring_bounds {
+  float strain_min, strain_max;  /* -1 and 0: no bound */
+  float yield_strain, yield_1_s; /* beyond it the rest length flows, at that rate; either 0: never */
+  float tear_strain;             /* beyond it the spring stops for good; 0: never */
+} sbfi_spring_bounds;
+
+/* The rest length at which the strain would be just the yield strain, or the present one where it is within.
+ */
+static inline float sbfi_spring_yielded(float rest_length_m, float length_m, float yield_strain) {
+  float strain = rest_length_m > 0 ? (length_m - rest_length_m) / rest_length_m : length_m;
+  if (strain > yield_strain) return length_m / (1 + yield_strain);
+  if (strain < -yield_strain && yield_strain < 1) return length_m / (1 - yield_strain);
+  return rest_length_m;
+}
+
 /* Energy of all springs over `positions` (x, y, z of point i at positions[stride * i]), in list order. */
 double sbfi_springs_energy(
     const sbfi_spring *springs, size_t spring_count, const float *positions, size_t stride);

@@ -33,6 +33,19 @@ void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
   sbri_island_states(c)[island_index].folded_ticks = 0;
 }
 
+void sbri_island_unflow(sbri_character *c, uint32_t island_index) {
+  const sbri_island *island = &c->model->islands[island_index];
+  if (!island->link_flows) return;
+  float *rests = sbri_rests(c) + island->first_flow;
+  for (uint32_t block = 0; block < island->link_block_count; block++)
+    memcpy(rests + (size_t)block * SBRI_BLOCK, island->links[block].rest, sizeof island->links[block].rest);
+}
+
+void sbri_mend_springs(sbri_character *c) {
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_unflow(c, i);
+  for (uint32_t i = 0; i < c->model->flow_count; i++) sbri_strengths(c)[i] = 1;
+}
+
 void sbri_settle(sbri_character *c) {
   memcpy(sbri_previous_pose(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
   memcpy(sbri_previous_positions(c), sbri_positions(c), c->model->slot_count * sizeof(sbri_point));

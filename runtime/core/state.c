@@ -36,6 +36,8 @@ void sbri_layout_make(sbr_model *model) {
   l->positions = place(&end, slots, sizeof(sbri_point));
   l->previous_positions = place(&end, slots, sizeof(sbri_point));
   l->velocities = place(&end, 3 * slots, sizeof(float));
+  l->rests = place(&end, model->flow_count, sizeof(float));
+  l->strengths = place(&end, model->flow_count, sizeof(float));
   l->state_size = (end + 63) & ~(size_t)63;
   end = 0;
   l->deltas = place(&end, frames, sizeof(sbr_transform));
@@ -44,6 +46,12 @@ void sbri_layout_make(sbr_model *model) {
   l->guide_velocities = place(&end, 3 * slots, sizeof(float));
   l->begins = place(&end, slots, sizeof(sbri_point));
   l->velocity_points = place(&end, slots, sizeof(sbri_point));
+  l->outer = place(&end, slots, sizeof(sbri_point));
+  l->accelerations = place(&end, 3 * slots, sizeof(float));
+  l->older_velocities = place(&end, 3 * slots, sizeof(float));
+  l->moves = place(&end, slots, sizeof(sbri_point));
+  l->edges = place(&end, (size_t)model->link_block_count * 3 * SBRI_BLOCK, sizeof(float));
+  l->tears = place(&end, model->island_count, sizeof(sbri_tears));
   l->planes = place(&end, 4 * slots, sizeof(float));
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
   l->sampled = place(&end, slots, sizeof(sbri_point));

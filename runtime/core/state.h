@@ -5,6 +5,7 @@
 
 #include "gait/gait.h"
 #include "model/runtime_model.h"
+#include "solvers/island_tick.h"
 
 enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS };
 
@@ -48,6 +49,8 @@ SBRI_STATE_PART(island_states, sbri_island_state, c->model->layout.islands)     
 SBRI_STATE_PART(positions, sbri_point, c->model->layout.positions)                   /* (slot_count) */
 SBRI_STATE_PART(previous_positions, sbri_point, c->model->layout.previous_positions) /* (slot_count) */
 SBRI_STATE_PART(velocities, float, c->model->layout.velocities)                      /* (slot_count x 3) */
+SBRI_STATE_PART(rests, float, c->model->layout.rests)         /* (flow_count) m, rest lengths */
+SBRI_STATE_PART(strengths, float, c->model->layout.strengths) /* (flow_count) 1, or 0 where torn */
 #undef SBRI_STATE_PART
 
 #define SBRI_SCRATCH_PART(name, type, offset)                                                                \
@@ -60,10 +63,16 @@ SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                
 SBRI_SCRATCH_PART(guide_velocities, float, c->model->layout.guide_velocities)       /* (slot_count x 3) */
 SBRI_SCRATCH_PART(begins, sbri_point, c->model->layout.begins)                      /* (slot_count) */
 SBRI_SCRATCH_PART(velocity_points, sbri_point, c->model->layout.velocity_points)    /* (slot_count) */
-SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                           /* (slot_count x 4) */
-SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)               /* (slot_count / 8) */
-SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)                    /* (slot_count) */
-SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas)   /* (frame_count) */
+SBRI_SCRATCH_PART(outer, sbri_point, c->model->layout.outer)                        /* (slot_count) */
+SBRI_SCRATCH_PART(accelerations, float, c->model->layout.accelerations)             /* (slot_count x 3) */
+SBRI_SCRATCH_PART(older_velocities, float, c->model->layout.older_velocities)       /* (slot_count x 3) */
+SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                        /* (slot_count) */
+SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)               /* (link_block_count x 24) */
+SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)       /* (island_count) */
+SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)             /* (slot_count x 4) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground) /* (slot_count / 8) */
+SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)      /* (slot_count) */
+SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */
 SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */
 SBRI_SCRATCH_PART(sums, sbri_point, c->model->layout.sums)         /* (most groups of a mesh, padded) */
@@ -88,6 +97,10 @@ sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground)
 
 /* Everything in its rest shape at the present pose, all speeds zero. */
 void sbri_place_at_rest(sbri_character *c);
+/* All springs whole again, with the rest lengths they were made with. */
+void sbri_mend_springs(sbri_character *c);
+/* Rest lengths of one island's springs as they were made; torn ones stay torn. */
+void sbri_island_unflow(sbri_character *c, uint32_t island);
 /* The same for one island, with the present `deltas`. */
 void sbri_island_place_at_rest(sbri_character *c, uint32_t island);
 /* An island goes where its frames have gone from `previous_deltas` to `deltas`, keeping its shape, and stops.

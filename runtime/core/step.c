@@ -170,12 +170,14 @@ static void prepare_contacts(
   }
 }
 
-static bool all_finite(const sbri_point *points, uint32_t count) {
-  for (uint32_t i = 0; i < count; i++) {
-    float sum = points[i].x + points[i].y + points[i].z;
-    if (!(sum - sum == 0)) return false;
-  }
-  return true;
+/* Places beyond this many metres from the origin and speeds beyond as many metres a second are no motion any
+ * more, though the numbers may be finite yet. */
+static const float LOST_BEYOND = 1e6f;
+
+static bool are_sound(const float *numbers, size_t count) {
+  uint32_t lost = 0;
+  for (size_t i = 0; i < count; i++) lost += !(fabsf(numbers[i]) < LOST_BEYOND);
+  return lost == 0;
 }
 
 /* Whether a closed body of the island has next to no volume, or a negative one. */
@@ -192,11 +194,13 @@ static bool is_folded(const sbri_character *c, const sbri_island *island) {
 static void recover(const sbr_world *world, sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
-  if (all_finite(sbri_positions(c) + island->first_slot, island->slot_count)) {
+  if (are_sound(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) &&
+      are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count)) {
     if ((world->ticks + index) % FOLDED_LOOK_EVERY) return;
     state->folded_ticks = is_folded(c, island) ? state->folded_ticks + FOLDED_LOOK_EVERY : 0;
     if (state->folded_ticks < FOLDED_TICKS) return;
   }
+  sbri_island_unflow(c, index);
   sbri_island_place_at_rest(c, index);
   memcpy(sbri_previous_positions(c) + island->first_slot, sbri_positions(c) + island->first_slot,
       island->slot_count * sizeof(sbri_point));
@@ -240,7 +244,16 @@ static void tick_island(void *context, uint32_t index) {
       .surface_faces = sbri_surface_faces(c),
       .planes = sbri_planes(c) + 4 * first,
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
+      .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
+      .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
+      .accelerations = sbri_accelerations(c) + 3 * first,
+      .older_velocities = sbri_older_velocities(c) + 3 * first,
+      .moves = sbri_moves(c) + first,
+      .edges = sbri_edges(c) + 3 * SBRI_BLOCK * (size_t)island->first_link_block,
+      .tears = &sbri_tears_of(c)[work.island],
+      .step_error_m = model->step_error_m,
       .stretch = &sbri_island_states(c)[work.island].stretch};
+  tick.tears->count = 0;
   if (!island->scheme->forceless) prepare_contacts(world, c, island, tick_s);
   island->scheme->tick(&tick);
   recover(world, c, work.island);

@@ -2,6 +2,9 @@
  * for. */
 #include "kernels/kernels.h"
 #include "skin/skin_lanes.h"
+#include "solvers/explicit_euler.h"
+#include "solvers/heun.h"
+#include "solvers/position_based.h"
 #include "solvers/symplectic.h"
 
 static void vertices(const sbri_skin *skin, const sbri_point *points, sbri_point *to) {
@@ -22,8 +25,17 @@ static void normals(const sbri_sum_table *table, const sbri_point *from, sbri_po
 static void symplectic_tick(const sbri_island_tick *tick) {
   sbri_lanes_symplectic_tick(tick);
 }
+static void explicit_euler_tick(const sbri_island_tick *tick) {
+  sbri_lanes_explicit_euler_tick(tick);
+}
+static void heun_tick(const sbri_island_tick *tick) {
+  sbri_lanes_heun_tick(tick);
+}
+static void position_based_tick(const sbri_island_tick *tick) {
+  sbri_lanes_position_based_tick(tick);
+}
 
 #define SBRI_TEXT(word) #word
 #define SBRI_TEXT_OF(macro) SBRI_TEXT(macro)
-const sbri_kernels SBRI_KERNELS = {
-    SBRI_TEXT_OF(SBRI_KERNELS), SBRI_LANES, vertices, faces, tangents, sums, normals, symplectic_tick};
+const sbri_kernels SBRI_KERNELS = {SBRI_TEXT_OF(SBRI_KERNELS), SBRI_LANES, vertices, faces, tangents, sums,
+    normals, symplectic_tick, explicit_euler_tick, heun_tick, position_based_tick};

@@ -16,6 +16,9 @@ typedef struct sbri_kernels {
   void (*normals)(const sbri_sum_table *table, const sbri_point *faces, sbri_point *normals);
   /* One control tick of an island by each scheme that has lanes. */
   void (*symplectic_tick)(const sbri_island_tick *tick);
+  void (*explicit_euler_tick)(const sbri_island_tick *tick);
+  void (*heun_tick)(const sbri_island_tick *tick);
+  void (*position_based_tick)(const sbri_island_tick *tick);
 } sbri_kernels;
 
 extern const sbri_kernels sbri_kernels_plain; /* what the compiler was told to assume */

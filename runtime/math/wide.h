@@ -154,6 +154,77 @@ static inline sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32
   return r;
 }
 
+/* Points with all four of their numbers. */
+typedef struct sbri_wide4 {
+  sbri_wide x, y, z, w;
+} sbri_wide4;
+
+static inline sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_t *places) {
+  sbri_wide4 r;
+#if SBRI_LANES == 8
+#define SBRI_PAIR(i)                                                                                         \
+  _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&points[places[i]].x)),                           \
+      _mm_loadu_ps(&points[places[(i) + 4]].x), 1)
+  __m256 a = SBRI_PAIR(0), b = SBRI_PAIR(1), c = SBRI_PAIR(2), d = SBRI_PAIR(3);
+#undef SBRI_PAIR
+  __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
+  __m256 ab_high = _mm256_unpackhi_ps(a, b), cd_high = _mm256_unpackhi_ps(c, d);
+  r.x = (sbri_wide)_mm256_shuffle_ps(ab, cd, 0x44);
+  r.y = (sbri_wide)_mm256_shuffle_ps(ab, cd, 0xee);
+  r.z = (sbri_wide)_mm256_shuffle_ps(ab_high, cd_high, 0x44);
+  r.w = (sbri_wide)_mm256_shuffle_ps(ab_high, cd_high, 0xee);
+#elif SBRI_LANES == 4
+  sbri_quad a, b, c, d;
+  memcpy(&a, &points[places[0]], sizeof a);
+  memcpy(&b, &points[places[1]], sizeof b);
+  memcpy(&c, &points[places[2]], sizeof c);
+  memcpy(&d, &points[places[3]], sizeof d);
+  sbri_quad ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  sbri_quad ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  sbri_quad cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  r.x = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
+  r.y = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  r.z = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  r.w = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+#else
+  const sbri_point *p = points + places[0];
+  r.x = p->x, r.y = p->y, r.z = p->z, r.w = p->w;
+#endif
+  return r;
+}
+
+/* Each lane to its own place; where two lanes name one place the last one stays. */
+static inline void sbri_wide_scatter4(sbri_point *points, const uint32_t *places, sbri_wide4 v) {
+#if SBRI_LANES == 8
+  __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y),
+         xy_high = _mm256_unpackhi_ps((__m256)v.x, (__m256)v.y);
+  __m256 zw = _mm256_unpacklo_ps((__m256)v.z, (__m256)v.w),
+         zw_high = _mm256_unpackhi_ps((__m256)v.z, (__m256)v.w);
+  __m256 rows[4] = {_mm256_shuffle_ps(xy, zw, 0x44), _mm256_shuffle_ps(xy, zw, 0xee),
+      _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
+  for (int i = 0; i < 4; i++) _mm_storeu_ps(&points[places[i]].x, _mm256_castps256_ps128(rows[i]));
+  for (int i = 0; i < 4; i++) _mm_storeu_ps(&points[places[i + 4]].x, _mm256_extractf128_ps(rows[i], 1));
+#elif SBRI_LANES == 4
+  sbri_quad xy = __builtin_shufflevector(v.x, v.y, 0, 4, 1, 5),
+            zw = __builtin_shufflevector(v.z, v.w, 0, 4, 1, 5);
+  sbri_quad xy_high = __builtin_shufflevector(v.x, v.y, 2, 6, 3, 7);
+  sbri_quad zw_high = __builtin_shufflevector(v.z, v.w, 2, 6, 3, 7);
+  sbri_quad rows[4] = {__builtin_shufflevector(xy, zw, 0, 1, 4, 5),
+      __builtin_shufflevector(xy, zw, 2, 3, 6, 7), __builtin_shufflevector(xy_high, zw_high, 0, 1, 4, 5),
+      __builtin_shufflevector(xy_high, zw_high, 2, 3, 6, 7)};
+  for (int i = 0; i < 4; i++) memcpy(&points[places[i]], &rows[i], sizeof rows[i]);
+#else
+  points[places[0]] = (sbri_point){v.x, v.y, v.z, v.w};
+#endif
+}
+
+/* The numbers at those places. */
+static inline sbri_wide sbri_wide_gather_floats(const float *numbers, const uint32_t *places) {
+  float lanes[SBRI_LANES];
+  for (int i = 0; i < SBRI_LANES; i++) lanes[i] = numbers[places[i]];
+  return sbri_wide_load(lanes);
+}
+
 /* The SBRI_LANES points from `points` on. */
 static inline sbri_wide3 sbri_wide_load_points(const sbri_point *points) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};

@@ -182,7 +182,9 @@ sbf_status sbri_island_make(
   sbfi_arena_init(&m.scratch, &model->arena.allocator, 0);
   sbfi_array_init(&m.goals, &model->arena.allocator, sizeof(sbri_goal));
   sbfi_array_init(&m.springs, &model->arena.allocator, sizeof(sbfi_spring));
+  sbfi_array_init(&m.bounds, &model->arena.allocator, sizeof(sbfi_spring_bounds));
   bool good = make(&m);
+  sbfi_array_free(&m.bounds);
   sbfi_array_free(&m.springs);
   sbfi_array_free(&m.goals);
   sbfi_arena_free(&m.scratch);

@@ -22,6 +22,7 @@ typedef struct sbri_island_maker {
   sbfi_array goals;    /* sbri_goal */
   uint32_t first_goal; /* slot of the first goal's far end */
   sbfi_array springs;  /* sbfi_spring, while they are listed */
+  sbfi_array bounds;   /* sbfi_spring_bounds of each */
   bool states_rest_lengths;
   sbri_point *rest; /* the island's own tables, while they are filled */
   sbfi_spring *listed;

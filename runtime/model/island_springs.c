@@ -1,7 +1,9 @@
 /* The springs of an island: listed once each, then laid out for the eight points of a block at a time. */
 #include <string.h>
 
+#include "mechanics/level_points.h"
 #include "model/island_maker.h"
+#include "solvers/scheme.h"
 
 static float rest_distance(const sbri_island *island, uint32_t a, uint32_t b) {
   const sbri_point *p = &island->rest[a], *q = &island->rest[b];
@@ -9,14 +11,52 @@ static float rest_distance(const sbri_island *island, uint32_t a, uint32_t b) {
   return sqrtf(x * x + y * y + z * z);
 }
 
-static bool add(sbri_island_maker *m, sbfi_spring spring) {
+static const sbfi_spring_bounds unbounded = {.strain_min = -1};
+
+static bool add(sbri_island_maker *m, sbfi_spring spring, const sbfi_spring_bounds *bounds) {
   uint32_t free_count = m->island->free_count;
   bool inert = (spring.a >= free_count && spring.b >= free_count) || spring.a == spring.b ||
                !(spring.stiffness_n_m > 0 || spring.damping_ns_m > 0);
-  return inert || sbfi_array_append(&m->springs, &spring, 1);
+  return inert || (sbfi_array_append(&m->springs, &spring, 1) && sbfi_array_append(&m->bounds, bounds, 1));
 }
 
 /* ---- Listing ---- */
+
+/* What weight maps make of the attributes of springs: factors at the level's points; NULL: 1 everywhere. */
+typedef struct spring_factors {
+  const float *damping, *yield, *tear;
+} spring_factors;
+
+static bool find_factors(
+    sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors) {
+  bool weighed = false;
+  *factors = NULL;
+  for (uint32_t i = 0; i < body->source->weight_maps.count; i++)
+    weighed = weighed || body->source->weight_maps.at[i].property == property;
+  if (!weighed) return true;
+  float *values = sbri_scratch(m, body->level->positions.count, sizeof *values);
+  if (!values) return false;
+  for (uint32_t i = 0; i < body->level->positions.count; i++) values[i] = 1;
+  sbfi_level_weigh(body->source, body->level, property, values);
+  *factors = values;
+  return true;
+}
+
+static float factor_of(const float *factors, const uint32_t ends[2]) {
+  return factors ? 0.5f * (factors[ends[0]] + factors[ends[1]]) : 1;
+}
+
+/* What a set does not state is the body's. */
+static sbfi_spring_bounds bounds_of(
+    const sbf_attributes *is, const sbf_spring_set *set, const spring_factors *by, const uint32_t ends[2]) {
+  sbfi_spring_bounds bounds = {set->strain_min > -1 ? set->strain_min : is->strain_min,
+      set->strain_max > 0 ? set->strain_max : is->strain_max,
+      set->yield_strain > 0 ? set->yield_strain : is->yield_strain, is->yield_flow,
+      set->tear_strain > 0 ? set->tear_strain : is->tear_strain};
+  bounds.yield_strain *= factor_of(by->yield, ends);
+  bounds.tear_strain *= factor_of(by->tear, ends);
+  return bounds;
+}
 
 static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
   const sbf_level *level = body->level;
@@ -30,6 +70,12 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
   double *sums = sbri_scratch(m, level->positions.count, 2 * sizeof *sums);
   if (!stiffness || !volumes || !sums) return false;
   sbf_level_stiffness(body->source, level, volumes, sums, stiffness);
+  const sbf_attributes *is = &body->source->attributes;
+  spring_factors by;
+  if (!find_factors(m, body, SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, &by.damping) ||
+      !find_factors(m, body, SBF_WEIGHT_PROPERTY_YIELD_STRAIN, &by.yield) ||
+      !find_factors(m, body, SBF_WEIGHT_PROPERTY_TEAR_STRAIN, &by.tear))
+    return false;
   for (uint32_t s = 0; s < level->springs.count; s++) {
     const sbf_spring_set *set = &level->springs.at[s];
     for (uint32_t i = 0; i < set->ends.count; i++) {
@@ -38,8 +84,9 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
       float k = *stiffness++;
       float rest = set->rest_lengths.count ? set->rest_lengths.at[i] : rest_distance(m->island, a, b);
       float damping = set->damping.count ? set->damping.at[set->damping.count == 1 ? 0 : i]
-                                         : body->source->attributes.stiffness_damping * k;
-      if (!add(m, (sbfi_spring){a, b, k, rest, damping})) return false;
+                                         : is->stiffness_damping * factor_of(by.damping, ends) * k;
+      sbfi_spring_bounds bounds = bounds_of(is, set, &by, ends);
+      if (!add(m, (sbfi_spring){a, b, k, rest, damping}, &bounds)) return false;
     }
   }
   return true;
@@ -50,7 +97,7 @@ static bool add_goals(sbri_island_maker *m, uint32_t place) {
   for (uint32_t g = 0; g < m->goals.count; g++) {
     if (goals[g].body != place) continue;
     uint32_t slot = sbri_maker_body(m, place)->slot_from_point[goals[g].point];
-    if (!add(m, (sbfi_spring){slot, m->first_goal + g, goals[g].stiffness, 0, goals[g].damping}))
+    if (!add(m, (sbfi_spring){slot, m->first_goal + g, goals[g].stiffness, 0, goals[g].damping}, &unbounded))
       return false;
   }
   return true;
@@ -71,7 +118,7 @@ static bool add_cross_springs(sbri_island_maker *m, const sbf_cross_springs *cro
     float rest = cross->rest_lengths.count ? cross->rest_lengths.at[i] : rest_distance(m->island, at_a, at_b);
     float damping = cross->damping.count ? cross->damping.at[cross->damping.count == 1 ? 0 : i]
                                          : softer->source->attributes.stiffness_damping * k;
-    if (!add(m, (sbfi_spring){at_a, at_b, k, rest, damping})) return false;
+    if (!add(m, (sbfi_spring){at_a, at_b, k, rest, damping}, &unbounded)) return false;
   }
   return true;
 }
@@ -113,14 +160,16 @@ static void measure_springs(sbri_island *island) {
 
 /* ---- Cells ---- */
 
-static void put(const sbri_island *island, sbri_spring_cell *cells, float *damping, uint32_t *used,
-    const sbfi_spring *s, uint32_t slot, uint32_t other) {
+static void put(const sbri_island *island, sbri_spring_cell *cells, float *damping, uint32_t *links,
+    uint32_t *used, uint32_t spring, uint32_t slot, uint32_t other) {
+  const sbfi_spring *s = &island->springs[spring];
   if (slot >= island->free_count) return;
   uint32_t lane = slot % SBRI_BLOCK, place = island->cell_begins[slot / SBRI_BLOCK] + used[slot]++;
   cells[place].others[lane] = other;
   cells[place].stiffness[lane] = s->stiffness_n_m;
   cells[place].pull[lane] = s->stiffness_n_m * s->rest_length_m;
   if (damping) damping[place * SBRI_BLOCK + lane] = s->damping_ns_m;
+  if (links) links[place * SBRI_BLOCK + lane] = island->link_of_spring[spring];
 }
 
 static bool make_cells(sbri_island_maker *m) {
@@ -143,16 +192,19 @@ static bool make_cells(sbri_island_maker *m) {
   uint32_t cell_count = begins[block_count];
   sbri_spring_cell *cells = sbri_keep(m, cell_count, sizeof *cells);
   float *damping = damped ? sbri_keep(m, (size_t)cell_count * SBRI_BLOCK, sizeof *damping) : NULL;
-  if (!cells || (damped && !damping)) return false;
+  bool flows = island->link_flows != NULL;
+  uint32_t *links = flows ? sbri_keep(m, (size_t)cell_count * SBRI_BLOCK, sizeof *links) : NULL;
+  if (!cells || (damped && !damping) || (flows && !links)) return false;
   for (uint32_t block = 0; block < block_count; block++)
     for (uint32_t c = begins[block]; c < begins[block + 1]; c++)
       for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) cells[c].others[lane] = block * SBRI_BLOCK + lane;
   island->cell_begins = begins, island->cells = cells, island->cell_damping = damping;
+  island->cell_links = links;
   memset(used, 0, island->slot_count * sizeof *used);
   for (uint32_t i = 0; i < island->spring_count; i++) {
     const sbfi_spring *s = &island->springs[i];
-    put(island, cells, damping, used, s, s->a, s->b);
-    put(island, cells, damping, used, s, s->b, s->a);
+    put(island, cells, damping, links, used, i, s->a, s->b);
+    put(island, cells, damping, links, used, i, s->b, s->a);
   }
   return true;
 }
@@ -235,5 +287,12 @@ static bool find_frequencies(sbri_island_maker *m) {
 bool sbri_island_springs(sbri_island_maker *m) {
   if (!list_springs(m) || !find_frequencies(m)) return false;
   measure_springs(m->island);
+  bool bounded = false;
+  const sbfi_spring_bounds *bounds = m->bounds.at;
+  for (size_t i = 0; i < m->bounds.count; i++)
+    bounded = bounded || bounds[i].strain_min > -1 || bounds[i].strain_max > 0 || bounds[i].tear_strain > 0 ||
+              bounds[i].yield_strain > 0;
+  bool linked = m->island->scheme->sweeps || (bounded && !m->island->scheme->forceless);
+  if (linked && !sbri_links_make(m->model, m->island, bounds)) return false;
   return make_cells(m);
 }

@@ -6,8 +6,8 @@
 #include "kernels/kernels.h"
 #include "skin/skin.h"
 
-/* A body that needs more substeps than this is not one to step explicitly. */
-enum { MOST_SUBSTEPS = 1024 };
+/* Error of a step, of schemes that control it, where nothing else is said: a tenth of a millimetre. */
+static const float STEP_ERROR_M = 1e-4f;
 
 static sbf_status no_memory(sbf_diagnostic *error) {
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
@@ -81,14 +81,18 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     if (status != SBF_OK) break;
     island->first_slot = model->slot_count;
     model->slot_count += island->slot_count;
+    island->first_link_block = model->link_block_count;
+    model->link_block_count += island->link_block_count;
+    island->first_flow = model->flow_count;
+    if (island->link_flows) model->flow_count += island->link_block_count * SBRI_BLOCK;
     if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);
-    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) > MOST_SUBSTEPS) {
+    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) > SBRI_MOST_SUBSTEPS) {
       const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
       return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
           "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it "
           "more "
           "mass, less stiffness or fewer points",
-          body->id, (int)MOST_SUBSTEPS, island->fastest_rad_s);
+          body->id, (int)SBRI_MOST_SUBSTEPS, island->fastest_rad_s);
     }
   }
   return status;
@@ -131,7 +135,9 @@ sbf_status sbr_model_create(
   sbf_allocator allocator = sbfi_allocator_or_default(options->allocator);
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
   if (!made) return no_memory(error);
-  *made = (sbr_model){.asset = asset, .kernels = sbri_kernels_choose()};
+  *made = (sbr_model){.asset = asset,
+      .kernels = sbri_kernels_choose(),
+      .step_error_m = options->step_error_m > 0 ? options->step_error_m : STEP_ERROR_M};
   sbfi_arena_init(&made->arena, &allocator, 0);
   status = make(made, options, error);
   if (status == SBF_OK)

@@ -30,6 +30,24 @@ typedef struct sbri_spring_cell {
   float pull[SBRI_BLOCK];      /* stiffness times rest length, N */
 } sbri_spring_cell;
 
+/* Eight springs of which no two share a free point, so that they may be worked on at once: what sweeps over
+ * springs go by. Inert lanes have stiffness 0 and both ends at a point that no other lane of the block has.
+ */
+typedef struct sbri_link_block {
+  uint32_t a[SBRI_BLOCK], b[SBRI_BLOCK]; /* slots */
+  float stiffness[SBRI_BLOCK];           /* N/m */
+  float rest[SBRI_BLOCK];                /* m */
+} sbri_link_block;
+
+/* Of such a block, where some spring of the island has any. */
+typedef struct sbri_link_limits {
+  float least[SBRI_BLOCK], most[SBRI_BLOCK]; /* strain; -1 and 0: no bound */
+} sbri_link_limits;
+typedef struct sbri_link_flows {
+  float yield[SBRI_BLOCK], rate[SBRI_BLOCK]; /* strain and 1/s; rate 0: never */
+  float tear[SBRI_BLOCK];                    /* strain; 0: never */
+} sbri_link_flows;
+
 /* Up to four frames that carry a free point where no force moves it, as in a skin. */
 enum { SBRI_GUIDES = 4 };
 typedef struct sbri_guide {
@@ -66,6 +84,9 @@ typedef struct sbri_body {
   const sbri_carry_cell *volume_cells; /* faces, as `slots`, with their shares in each slot's gradient */
 } sbri_body;
 
+/* A body that needs more substeps than this is not one to step explicitly. A power of two. */
+enum { SBRI_MOST_SUBSTEPS = 1024 };
+
 typedef struct sbri_scheme sbri_scheme; /* solvers/scheme.h */
 
 typedef struct sbri_island {
@@ -83,20 +104,30 @@ typedef struct sbri_island {
   const uint32_t *frame_of_held; /* (slot_count - free_count) */
   const sbfi_spring *springs;    /* (spring_count) each once, ends as slots */
   uint32_t spring_count;
-  float most_acceleration_m_s2; /* of what holds it, that it is made to feel; 0: no bound */
-  double fastest_rad_s;         /* mode at rest */
-  double bound_rad_s;           /* no mode is faster in any state */
-  float rest_stretch;           /* greatest share of a spring beyond its rest length, at rest */
-  double stiffness_damping_s;   /* greatest damping over stiffness of its springs */
-  uint32_t substeps;            /* asked for; 0: as many as needed */
-  const sbri_visit *visits;     /* (visit_count) of the relaxation scheme, in order */
+  const sbri_link_block *links; /* (link_block_count) colour after colour; NULL: nothing sweeps */
+  uint32_t link_block_count, first_link_block;
+  const float *link_damping;           /* (links x 8) N s/m; NULL: no spring is damped */
+  const sbri_link_limits *link_limits; /* NULL: no spring is bounded */
+  const sbri_link_flows *link_flows;   /* NULL: none yields or tears; else rest lengths are state */
+  const uint32_t *link_of_spring;      /* (spring_count) block x 8 + lane */
+  const uint32_t *cell_links;          /* (cells x 8) likewise, where link_flows is not NULL */
+  uint32_t first_flow;                 /* of its links in the character's state */
+  float most_acceleration_m_s2;        /* of what holds it, that it is made to feel; 0: no bound */
+  double fastest_rad_s;                /* mode at rest */
+  double bound_rad_s;                  /* no mode is faster in any state */
+  float rest_stretch;                  /* greatest share of a spring beyond its rest length, at rest */
+  double stiffness_damping_s;          /* greatest damping over stiffness of its springs */
+  uint32_t substeps;                   /* asked for; 0: as many as needed */
+  const sbri_visit *visits;            /* (visit_count) of the relaxation scheme, in order */
   uint32_t visit_count;
 } sbri_island;
 
 /* Where things lie in a character's state and in its scratch memory, in bytes from their beginnings. */
 typedef struct sbri_layout {
-  size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, state_size;
+  size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, rests, strengths,
+      state_size;
   size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
+  size_t outer, accelerations, older_velocities, moves, edges, tears;
   size_t surface_vertices, surface_faces, sampled, sampled_deltas, vertices, faces, sums, scratch_size;
 } sbri_layout;
 
@@ -110,9 +141,12 @@ struct sbr_model {
   sbri_body *bodies;    /* (asset->soft_bodies.count) */
   sbri_island *islands;
   uint32_t island_count;
-  uint32_t slot_count; /* of all islands */
-  sbri_skin *skins;    /* (asset->render_meshes.count) */
-  float rest_size_m;   /* diagonal of the box of all bodies */
+  uint32_t slot_count;       /* of all islands */
+  uint32_t link_block_count; /* of all islands */
+  uint32_t flow_count;       /* links of islands whose springs yield or tear */
+  float step_error_m;        /* of the schemes that control their error */
+  sbri_skin *skins;          /* (asset->render_meshes.count) */
+  float rest_size_m;         /* diagonal of the box of all bodies */
   sbri_layout layout;
 };
 
@@ -138,6 +172,8 @@ sbf_status sbri_island_make(
     sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error);
 /* Spreads the frames of held points over the free ones along the springs. */
 bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *body);
+/* The springs as links; false where memory runs out. */
+bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds);
 bool sbri_visits_make(sbr_model *model, sbri_island *island);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);

@@ -7,6 +7,17 @@
 
 #include "model/runtime_model.h"
 
+/* Springs that tore in a tick: how many, and the first of them. */
+enum { SBRI_TEARS = 16 };
+typedef struct sbri_tear {
+  uint32_t link;  /* block x 8 + lane */
+  sbf_vec3 place; /* its middle, asset metres */
+} sbri_tear;
+typedef struct sbri_tears {
+  uint32_t count; /* more than SBRI_TEARS: the others are counted only */
+  sbri_tear at[SBRI_TEARS];
+} sbri_tears;
+
 typedef struct sbri_island_tick {
   const sbr_model *model;
   const sbri_island *island;
@@ -27,6 +38,13 @@ typedef struct sbri_island_tick {
   sbri_point *surface_vertices, *surface_faces; /* scratch of the character; see sbri_body.first_vertex */
   const float *planes;                          /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                   /* (free_count / 8) */
+  float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
+  sbri_point *outer;        /* (free_count) N; scratch of what is neither springs nor weight; NULL: nothing */
+  float *accelerations, *older_velocities; /* (free_count x 3) scratch, blocks as `velocities` */
+  sbri_point *moves;                       /* (slot_count) scratch */
+  float *edges;                            /* (links x 8 x 3) scratch */
+  sbri_tears *tears;                       /* scratch: what tore in this tick */
+  float step_error_m;                      /* of schemes that control their error, asset metres */
   float *stretch; /* greatest share of a spring beyond its rest length: in of the last tick, out
                      of this one's last substep */
 } sbri_island_tick;

@@ -1,5 +1,5 @@
-/* The steps that explicit schemes are put together from: velocities changed by forces (a kick), places by
- * velocities (a drift) within the bounds of the ground, and held points carried along.
+/* The steps that schemes are put together from: velocities changed by forces (a kick) and by damping (a
+ * decay), places by velocities (a drift) within the bounds of the ground, and held points carried along.
  *
  * Damping acts on what a point's velocity differs by from that of its frame: of what holds it, or of the body
  * as a whole where nothing does. It neither slows a fall nor drags behind a walk. It is applied as the exact
@@ -13,6 +13,7 @@
 
 #include "collide/contact.h"
 #include "math/trig.h"
+#include "solvers/outer_forces.h"
 #include "solvers/rigid_motion.h"
 #include "solvers/spring_forces.h"
 
@@ -20,40 +21,107 @@
 #define SBRI_PUSH_M_S 2.0f
 #define SBRI_BOUNCE_FROM_M_S 0.05f
 
+/* Of a group of lanes in arrays that stand in blocks of three by eight, as velocities do. */
+static inline float *sbri_triple(float *blocks, uint32_t slot) {
+  return blocks + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+static inline const float *sbri_const_triple(const float *blocks, uint32_t slot) {
+  return blocks + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+
 typedef struct sbri_decay {
   float frame; /* share of the velocity against the frame that a substep keeps */
   float media; /* and against the medium */
 } sbri_decay;
 
-static inline void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep,
-    bool damped, bool track, float *stretches) {
-  const sbri_island *island = t->island;
-  sbri_wide step = sbri_wide_all(h), kept = sbri_wide_all(keep.frame), drifting = sbri_wide_all(keep.media);
+static inline sbri_decay sbri_decay_of(const sbri_body *body, float h) {
+  return (sbri_decay){body->alpha_1_s > 0 ? sbri_exp(-body->alpha_1_s * h) : 1,
+      body->media_friction_1_s > 0 ? sbri_exp(-body->media_friction_1_s * h) : 1};
+}
+
+/* Of a group of lanes; not of a body that nothing holds against itself, which takes all its lanes. */
+static inline sbri_wide3 sbri_decayed(
+    const sbri_island_tick *t, uint32_t slot, sbri_wide3 v, sbri_decay keep, bool guided) {
+  sbri_wide kept = sbri_wide_all(keep.frame), drifting = sbri_wide_all(keep.media);
+  if (guided) {
+    sbri_wide3 u = sbri_load3(sbri_const_triple(t->guide_velocities, slot));
+    v.x = u.x + (v.x - u.x) * kept;
+    v.y = u.y + (v.y - u.y) * kept;
+    v.z = u.z + (v.z - u.z) * kept;
+  }
+  if (keep.media < 1) {
+    sbri_wide3 u = {sbri_wide_all(t->wind.x), sbri_wide_all(t->wind.y), sbri_wide_all(t->wind.z)};
+    sbri_mask real = sbri_wide_load(t->island->inverse_masses + slot) > sbri_wide_all(0);
+    v.x = sbri_wide_select(real, u.x + (v.x - u.x) * drifting, v.x);
+    v.y = sbri_wide_select(real, u.y + (v.y - u.y) * drifting, v.y);
+    v.z = sbri_wide_select(real, u.z + (v.z - u.z) * drifting, v.z);
+  }
+  return v;
+}
+
+/* v += h a(x), and what damping leaves of it. */
+static inline void sbri_kick_body(
+    const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep, int kind, float *stretches) {
+  sbri_wide step = sbri_wide_all(h);
   bool guided = body->held && keep.frame < 1;
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
-    float *velocity = t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
-    sbri_wide3 f = sbri_spring_forces(t, slot, x, damped, track, stretches);
-    sbri_wide w = sbri_wide_load(island->inverse_masses + slot);
-    sbri_wide g = sbri_wide_load(island->gravity_scales + slot);
-    v.x = v.x + step * (f.x * w + g * sbri_wide_all(t->gravity.x));
-    v.y = v.y + step * (f.y * w + g * sbri_wide_all(t->gravity.y));
-    v.z = v.z + step * (f.z * w + g * sbri_wide_all(t->gravity.z));
-    if (guided) {
-      sbri_wide3 u =
-          sbri_load3(t->guide_velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
-      v.x = u.x + (v.x - u.x) * kept;
-      v.y = u.y + (v.y - u.y) * kept;
-      v.z = u.z + (v.z - u.z) * kept;
+    sbri_wide3 a = sbri_acceleration(t, slot, x, kind, stretches);
+    v.x = v.x + step * a.x;
+    v.y = v.y + step * a.y;
+    v.z = v.z + step * a.z;
+    sbri_store3(velocity, sbri_decayed(t, slot, v, keep, guided));
+  }
+}
+
+static inline void sbri_kick(const sbri_island_tick *t, float h, bool last, float *stretches) {
+  int kind = sbri_force_kind(t, last);
+  if (t->outer) sbri_outer_forces(t);
+  for (uint32_t b = 0; b < t->island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+    sbri_decay keep = sbri_decay_of(body, h);
+#define SBRI_CALL(known) sbri_kick_body(t, body, h, keep, known, stretches)
+    SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
+#undef SBRI_CALL
+    if (!body->held && keep.frame < 1)
+      sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, keep.frame);
+  }
+}
+
+/* The damping alone, over h seconds. */
+static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
+  for (uint32_t b = 0; b < t->island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+    sbri_decay keep = sbri_decay_of(body, h);
+    bool guided = body->held && keep.frame < 1;
+    for (uint32_t slot = body->slot_begin; (guided || keep.media < 1) && slot < body->slot_end;
+         slot += SBRI_LANES) {
+      float *velocity = sbri_triple(t->velocities, slot);
+      sbri_store3(velocity, sbri_decayed(t, slot, sbri_load3(velocity), keep, guided));
     }
-    if (keep.media < 1) {
-      sbri_wide3 u = {sbri_wide_all(t->wind.x), sbri_wide_all(t->wind.y), sbri_wide_all(t->wind.z)};
-      sbri_mask real = w > sbri_wide_all(0);
-      v.x = sbri_wide_select(real, u.x + (v.x - u.x) * drifting, v.x);
-      v.y = sbri_wide_select(real, u.y + (v.y - u.y) * drifting, v.y);
-      v.z = sbri_wide_select(real, u.z + (v.z - u.z) * drifting, v.z);
-    }
-    sbri_store3(velocity, v);
+    if (!body->held && keep.frame < 1)
+      sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, keep.frame);
+  }
+}
+
+static inline void sbri_accelerate_body(
+    const sbri_island_tick *t, const sbri_body *body, int kind, float *stretches) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
+    sbri_store3(sbri_triple(t->accelerations, slot), sbri_acceleration(t, slot, x, kind, stretches));
+  }
+}
+
+/* a(x) of all free points, into t->accelerations. */
+static inline void sbri_accelerate(const sbri_island_tick *t, float *stretches) {
+  int kind = sbri_force_kind(t, stretches != NULL);
+  if (t->outer) sbri_outer_forces(t);
+  for (uint32_t b = 0; b < t->island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+#define SBRI_CALL(known) sbri_accelerate_body(t, body, known, stretches)
+    SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
+#undef SBRI_CALL
   }
 }
 
@@ -61,8 +129,7 @@ static inline void sbri_kick_body(const sbri_island_tick *t, const sbri_body *bo
 static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate) {
   const sbri_island *island = t->island;
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES)
-    sbri_wide_store_points(t->velocity_points + slot,
-        sbri_load3(t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK));
+    sbri_wide_store_points(t->velocity_points + slot, sbri_load3(sbri_const_triple(t->velocities, slot)));
   for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
     const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
     t->velocity_points[slot] =
@@ -70,13 +137,16 @@ static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate)
   }
 }
 
+static inline sbri_contact_rule sbri_contact_rule_of(const sbri_body *body, float h) {
+  return (sbri_contact_rule){body->friction, body->restitution, h, SBRI_PUSH_M_S * h, SBRI_BOUNCE_FROM_M_S};
+}
+
 static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   sbri_wide step = sbri_wide_all(h);
-  const sbri_contact_rule rule = {
-      body->friction, body->restitution, h, SBRI_PUSH_M_S * h, SBRI_BOUNCE_FROM_M_S};
+  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
-    float *velocity = t->velocities + 3 * (block * SBRI_BLOCK) + lane;
+    float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
     if (t->near_ground[block]) {
       sbri_contact_move(&x, &v, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule);
@@ -88,6 +158,18 @@ static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *b
     }
     sbri_wide_store_points(t->positions + slot, x);
   }
+}
+
+/* x += h v, within the bounds of the ground. */
+static inline void sbri_drift(const sbri_island_tick *t, float h) {
+  for (uint32_t b = 0; b < t->island->body_count; b++)
+    sbri_drift_body(t, &t->model->bodies[t->island->bodies[b]], h);
+}
+
+/* Held points where they were at the tick's beginning. */
+static inline void sbri_remember_held(const sbri_island_tick *t) {
+  size_t held = t->island->slot_count - t->island->free_count;
+  memcpy(t->begins + t->island->free_count, t->positions + t->island->free_count, held * sizeof *t->begins);
 }
 
 /* Held points on the straight way from where they were to where they shall be. */
@@ -103,24 +185,12 @@ static inline void sbri_carry_held(const sbri_island_tick *t, float share) {
   for (size_t i = 0; i < 4 * held; i++) at[i] = from[i] + (to[i] - from[i]) * share;
 }
 
-static inline void sbri_kick(const sbri_island_tick *t, float h, bool last, float *stretches) {
-  bool damped = t->island->cell_damping != NULL;
-  for (uint32_t b = 0; b < t->island->body_count; b++) {
-    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
-    sbri_decay keep = {body->alpha_1_s > 0 ? sbri_exp(-body->alpha_1_s * h) : 1,
-        body->media_friction_1_s > 0 ? sbri_exp(-body->media_friction_1_s * h) : 1};
-    /* Four copies of the loop, so that the common one carries no more than it needs. */
-    if (damped && last)
-      sbri_kick_body(t, body, h, keep, true, true, stretches);
-    else if (damped)
-      sbri_kick_body(t, body, h, keep, true, false, stretches);
-    else if (last)
-      sbri_kick_body(t, body, h, keep, false, true, stretches);
-    else
-      sbri_kick_body(t, body, h, keep, false, false, stretches);
-    if (!body->held && keep.frame < 1)
-      sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, keep.frame);
-  }
+/* Remembers the greatest of the lanes. */
+static inline void sbri_keep_stretch(const sbri_island_tick *t, const float stretches[SBRI_BLOCK]) {
+  float greatest = 0;
+  for (int lane = 0; lane < SBRI_BLOCK; lane++)
+    greatest = stretches[lane] > greatest ? stretches[lane] : greatest;
+  *t->stretch = greatest;
 }
 
 #endif

@@ -92,15 +92,8 @@ static void tick_relaxation(const sbri_island_tick *t) {
   }
 }
 
-static const char *refuse(const sbr_model *model, const sbri_island *island) {
-  for (uint32_t b = 0; b < island->body_count; b++)
-    if (model->bodies[island->bodies[b]].level->model != SBF_ELASTIC_MODEL_SPRINGS)
-      return "whose level is not of springs";
-  return NULL;
-}
-
 const sbri_scheme sbri_relaxation = {.word = SBF_SCHEME_RELAXATION,
     .forceless = true,
-    .refuse = refuse,
+    .refuse = sbri_refuse_all_but_springs,
     .prepare = sbri_visits_make,
     .tick = tick_relaxation};

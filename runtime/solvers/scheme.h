@@ -9,6 +9,7 @@
 struct sbri_scheme {
   sbf_scheme word;
   bool forceless; /* it knows no forces, masses or seconds: `velocities` hold the places of the tick before */
+  bool sweeps;    /* it works on the springs as links */
   /* Why it cannot step the island, as "whose ..."; NULL: it can. Asked before the island's tables are made:
    * of its bodies and their levels. May be NULL itself: it steps all. */
   const char *(*refuse)(const sbr_model *model, const sbri_island *island);
@@ -21,12 +22,19 @@ struct sbri_scheme {
   void (*tick)(const sbri_island_tick *tick);
 };
 
-extern const sbri_scheme sbri_symplectic, sbri_relaxation;
+extern const sbri_scheme sbri_symplectic, sbri_relaxation, sbri_explicit_euler, sbri_heun,
+    sbri_position_based;
 
 static inline const char *sbri_scheme_refuses(
     const sbri_scheme *scheme, const sbr_model *model, const sbri_island *island) {
   return scheme->refuse ? scheme->refuse(model, island) : NULL;
 }
+
+/* For those that step springs alone. */
+const char *sbri_refuse_all_but_springs(const sbr_model *model, const sbri_island *island);
+
+/* Of position-based substeps, whatever the state. */
+uint32_t sbri_position_substeps(const sbri_island *island, double tick_s);
 
 /* NULL: the runtime does not have it. */
 const sbri_scheme *sbri_scheme_of(sbf_scheme word);

@@ -19,11 +19,25 @@ static inline void sbri_store3(float *block, sbri_wide3 v) {
   sbri_wide_store(block + 2 * SBRI_BLOCK, v.z);
 }
 
-/* Force of its springs on each point of a group of lanes. With `stretches` also the greatest share of a
- * spring beyond its rest length; with `damped` the springs' own damping. */
+/* What the forces on a group of lanes ask for; known where the function is made, so that the common ones
+ * carry no more than they need. */
+enum {
+  SBRI_DAMPED = 1,  /* springs have damping of their own */
+  SBRI_TRACKED = 2, /* the greatest share of a spring beyond its rest length is wanted */
+  SBRI_FLOWING = 4, /* rest lengths are state, and springs may be torn */
+  SBRI_FORCE_KINDS = 8
+};
+
+static inline int sbri_force_kind(const sbri_island_tick *t, bool tracked) {
+  return (t->island->cell_damping ? SBRI_DAMPED : 0) | (tracked ? SBRI_TRACKED : 0) |
+         (t->rests ? SBRI_FLOWING : 0);
+}
+
+/* Force of its springs on each point of a group of lanes; `stretches` (8) where tracked. */
 static inline sbri_wide3 sbri_spring_forces(
-    const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, bool damped, bool track, float *stretches) {
+    const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, int kind, float *stretches) {
   const sbri_island *island = t->island;
+  const bool damped = kind & SBRI_DAMPED, track = kind & SBRI_TRACKED, flowing = kind & SBRI_FLOWING;
   uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
   sbri_wide3 f = {sbri_wide_all(0), sbri_wide_all(0), sbri_wide_all(0)}, v = f;
   sbri_wide greatest = track ? sbri_wide_load(stretches + lane) : f.x;
@@ -34,6 +48,13 @@ static inline sbri_wide3 sbri_spring_forces(
     sbri_wide dx = other.x - x.x, dy = other.y - x.y, dz = other.z - x.z;
     sbri_wide square = dx * dx + dy * dy + dz * dz + sbri_wide_all(SBRI_LENGTH_FLOOR);
     sbri_wide k = sbri_wide_load(cell->stiffness + lane), pull = sbri_wide_load(cell->pull + lane);
+    sbri_wide strength = sbri_wide_all(1);
+    if (flowing) {
+      const uint32_t *links = island->cell_links + c * SBRI_BLOCK + lane;
+      strength = sbri_wide_gather_floats(t->strengths, links);
+      k = k * strength;
+      pull = k * sbri_wide_gather_floats(t->rests, links);
+    }
     sbri_wide s = k - pull / sbri_wide_sqrt(square);
     if (track) { /* goals, which have no rest length, do not count */
       sbri_wide share = s / sbri_wide_max(k, sbri_wide_all(1e-20f));
@@ -42,7 +63,9 @@ static inline sbri_wide3 sbri_spring_forces(
     if (damped) {
       sbri_wide3 w = sbri_wide_gather(t->velocity_points, cell->others + lane);
       sbri_wide rate = (w.x - v.x) * dx + (w.y - v.y) * dy + (w.z - v.z) * dz;
-      s = s + sbri_wide_load(island->cell_damping + c * SBRI_BLOCK + lane) * rate / square;
+      sbri_wide damping = sbri_wide_load(island->cell_damping + c * SBRI_BLOCK + lane);
+      if (flowing) damping = damping * strength;
+      s = s + damping * rate / square;
     }
     f.x = f.x + s * dx;
     f.y = f.y + s * dy;
@@ -51,5 +74,47 @@ static inline sbri_wide3 sbri_spring_forces(
   if (track) sbri_wide_store(stretches + lane, greatest);
   return f;
 }
+
+/* Acceleration of each point of a group of lanes by all forces but frame damping and media friction. */
+static inline sbri_wide3 sbri_acceleration(
+    const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, int kind, float *stretches) {
+  sbri_wide3 f = sbri_spring_forces(t, slot, x, kind, stretches);
+  if (t->outer) {
+    sbri_wide3 more = sbri_wide_load_points(t->outer + slot);
+    f.x = f.x + more.x, f.y = f.y + more.y, f.z = f.z + more.z;
+  }
+  sbri_wide w = sbri_wide_load(t->island->inverse_masses + slot);
+  sbri_wide g = sbri_wide_load(t->island->gravity_scales + slot);
+  return (sbri_wide3){f.x * w + g * sbri_wide_all(t->gravity.x), f.y * w + g * sbri_wide_all(t->gravity.y),
+      f.z * w + g * sbri_wide_all(t->gravity.z)};
+}
+
+/* The switch over kinds of forces: CALL with each as a constant. */
+#define SBRI_FOR_FORCE_KIND(kind, CALL)                                                                      \
+  switch (kind) {                                                                                            \
+  case 0:                                                                                                    \
+    CALL(0);                                                                                                 \
+    break;                                                                                                   \
+  case 1:                                                                                                    \
+    CALL(1);                                                                                                 \
+    break;                                                                                                   \
+  case 2:                                                                                                    \
+    CALL(2);                                                                                                 \
+    break;                                                                                                   \
+  case 3:                                                                                                    \
+    CALL(3);                                                                                                 \
+    break;                                                                                                   \
+  case 4:                                                                                                    \
+    CALL(4);                                                                                                 \
+    break;                                                                                                   \
+  case 5:                                                                                                    \
+    CALL(5);                                                                                                 \
+    break;                                                                                                   \
+  case 6:                                                                                                    \
+    CALL(6);                                                                                                 \
+    break;                                                                                                   \
+  default:                                                                                                   \
+    CALL(7);                                                                                                 \
+  }
 
 #endif

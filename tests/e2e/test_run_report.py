@@ -97,8 +97,8 @@ class Run(ProgramTest):
             self.assertTrue(report["valid"], ground)
 
     def test_each_scheme_offered_runs_and_others_are_refused(self):
-        hashes = {scheme: self.run_json("--scheme", scheme)["state_hash"] for scheme in ("symplectic", "relaxation")}
-        self.assertEqual(len(set(hashes.values())), 2)
+        hashes = {scheme: self.run_json("--scheme", scheme)["state_hash"] for scheme in ("symplectic", "position_based", "relaxation", "explicit_euler", "heun")}
+        self.assertEqual(len(set(hashes.values())), 5)
         self.assertEqual(self.run_json("--scheme", "automatic")["state_hash"], hashes["symplectic"])
         result = call("run", self.file, "--scheme", "block_descent")
         self.assertNotEqual(result.status, 0)

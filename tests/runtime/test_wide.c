@@ -8,7 +8,7 @@ static float next(uint32_t *state) {
 
 START_TEST(one_lane_and_all_lanes_give_the_same_bits)
 {
-  sbri_point points[TWIN_POINTS], wide[TWIN_POINTS], scalar[TWIN_POINTS];
+  sbri_point points[TWIN_POINTS], wide[2 * TWIN_POINTS], scalar[2 * TWIN_POINTS];
   uint32_t places[TWIN_POINTS], state = 7;
   for (int round = 0; round < 200; round++) {
     for (uint32_t i = 0; i < TWIN_POINTS; i++) {
@@ -19,6 +19,8 @@ START_TEST(one_lane_and_all_lanes_give_the_same_bits)
     twin_scalar(points, places, scalar);
     ck_assert_mem_eq(wide, scalar, sizeof wide);
     ck_assert_float_eq(wide[3].w, 0);
+    ck_assert_float_eq(wide[TWIN_POINTS + 3].w, 9);
+    ck_assert_float_eq(wide[TWIN_POINTS + 3].x, points[places[3]].x);
   }
 }
 END_TEST

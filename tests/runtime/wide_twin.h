@@ -1,4 +1,5 @@
-/* One kernel that uses every operation of math/wide.h, compiled twice: at the machine's width (test_wide.c)
+/* One kernel that uses every operation of math/wide.h. Results are twice
+ * TWIN_POINTS; it is compiled twice: at the machine's width (test_wide.c)
  * and with one lane (wide_twin.c). */
 #ifndef TEST_WIDE_TWIN_H
 #define TEST_WIDE_TWIN_H
@@ -18,6 +19,12 @@ static inline void twin_kernel(const sbri_point *points, const uint32_t *places,
       r.z = sbri_wide_select((a.z < b.z) & (a.x > b.y), a.z * dz, b.z - dy);
       if (sbri_mask_any(r.z > sbri_wide_all(1e6f))) r.z = sbri_wide_all(0);
       sbri_wide_store_points(results + lane, r);
+      sbri_wide4 q = sbri_wide_gather4(points, places + lane);
+      const float *numbers = &points[0].x;
+      q.y = q.y + sbri_wide_gather_floats(numbers, places + lane);
+      uint32_t own[SBRI_BLOCK];
+      for (int i = 0; i < SBRI_LANES; i++) own[i] = (uint32_t)(TWIN_POINTS + lane + i);
+      sbri_wide_scatter4(results, own, q);
     }
 }
 

@@ -85,12 +85,14 @@ typedef struct sbr_model_options {
   sbf_scheme scheme; /* automatic: the level's own, and where that is automatic, symplectic */
   uint32_t substeps; /* of a control tick; 0: the level's own, or as many as the scheme needs */
   bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass */
-  bool has_gravity; /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
-  sbf_vec3 gravity; /* m/s^2 */
+  bool has_gravity;   /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
+  sbf_vec3 gravity;   /* m/s^2 */
+  float step_error_m; /* error that a step of a scheme with error control (heun) may have; 0: 0.0001 */
 } sbr_model_options;
 
 /* `asset` must outlive the model. SBF_FAILED where memory runs out or the scheme is not one of the runtime's
- * (symplectic, relaxation); SBF_BAD_INPUT where the asset asks for something the runtime cannot simulate. */
+ * (symplectic, position_based, relaxation, explicit_euler, heun) or cannot step a body; SBF_BAD_INPUT where
+ * the asset asks for something the runtime cannot simulate. */
 SBF_API sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
 SBF_API void sbr_model_destroy(sbr_model *model);

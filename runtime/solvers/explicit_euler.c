@@ -1,0 +1,21 @@
+/* Its loops are in solvers/explicit_euler.h. */
+#include "kernels/kernels.h"
+
+/* As many as the springs' own damping holds it at, else as symplectic Euler takes: nothing holds it there. */
+static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
+  uint32_t stable = sbri_stable_substeps(island, tick_s, stretch);
+  double w = island->fastest_rad_s, z = 0.5 * island->stiffness_damping_s * w;
+  if (island->substeps || !(z > 0) || z >= 1) return stable;
+  double needed = 1.1 * tick_s * w / (2 * z);
+  if (!(needed < SBRI_MOST_SUBSTEPS)) return stable > SBRI_MOST_SUBSTEPS ? stable : SBRI_MOST_SUBSTEPS;
+  return needed > stable ? (uint32_t)needed + 1 : stable;
+}
+
+static void tick_explicit_euler(const sbri_island_tick *tick) {
+  tick->model->kernels->explicit_euler_tick(tick);
+}
+
+const sbri_scheme sbri_explicit_euler = {.word = SBF_SCHEME_EXPLICIT_EULER,
+    .refuse = sbri_refuse_all_but_springs,
+    .substeps = substeps,
+    .tick = tick_explicit_euler};

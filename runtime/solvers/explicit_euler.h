@@ -1,0 +1,40 @@
+/* Explicit Euler: x += h v, v += h a, both of the state before. The first thing anyone tries, and here to
+ * show how it fails: an undamped mode of frequency w grows by sqrt(1 + (w h)^2) in every substep, which is a
+ * damping ratio of -w h / 2. Springs that damp their own stretching at the ratio z hold it while w h < 2 z.
+ * First order.
+ *
+ * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+#ifndef SBRI_EXPLICIT_EULER_H
+#define SBRI_EXPLICIT_EULER_H
+
+#include "solvers/finish.h"
+#include "solvers/motion.h"
+
+/* v += h a, of the accelerations found before. */
+static inline void sbri_add_accelerations(const sbri_island_tick *t, float h) {
+  sbri_wide step = sbri_wide_all(h);
+  for (uint32_t i = 0; i < 3 * t->island->free_count; i += SBRI_LANES)
+    sbri_wide_store(
+        t->velocities + i, sbri_wide_load(t->velocities + i) + step * sbri_wide_load(t->accelerations + i));
+}
+
+static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  uint32_t substeps = sbri_scheme_substeps(island, t->tick_s, *t->stretch);
+  float h = t->tick_s / (float)substeps;
+  float stretches[SBRI_BLOCK] = {0};
+  sbri_remember_held(t);
+  for (uint32_t s = 0; s < substeps; s++) {
+    bool last = s + 1 == substeps;
+    if (island->cell_damping) sbri_spread_velocities(t, 1 / t->tick_s);
+    sbri_accelerate(t, last ? stretches : NULL);
+    sbri_drift(t, h);
+    sbri_add_accelerations(t, h);
+    sbri_decay_all(t, h);
+    sbri_carry_held(t, last ? 1 : (float)(s + 1) / (float)substeps);
+    sbri_finish_substep(t, h);
+  }
+  sbri_keep_stretch(t, stretches);
+}
+
+#endif

@@ -1,0 +1,20 @@
+/* What every scheme that follows the energy does at the end of a substep, once all points are where it puts
+ * them: volumes kept, springs held within their strain limits, then yield and tear.
+ *
+ * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+#ifndef SBRI_FINISH_H
+#define SBRI_FINISH_H
+
+#include "solvers/flow.h"
+#include "solvers/strain_limit.h"
+#include "solvers/volume_keep.h"
+
+static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
+  for (uint32_t b = 0; b < t->island->body_count; b++)
+    if (t->model->bodies[t->island->bodies[b]].keeps_volume)
+      sbri_volume_keep(t, &t->model->bodies[t->island->bodies[b]], h);
+  if (t->island->link_limits) sbri_limit_strains(t);
+  if (t->rests) sbri_flow(t, h);
+}
+
+#endif

@@ -1,0 +1,17 @@
+/* Its loops are in solvers/heun.h. */
+#include "kernels/kernels.h"
+
+/* At least so many that no mode turns by more than half a radian in one: twice two times what is stable for
+ * symplectic Euler. A count that is asked for takes the place of the error's say; it is raised to the next
+ * power of two. */
+static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
+  uint32_t stable = sbri_stable_substeps(island, tick_s, stretch);
+  return island->substeps ? stable : stable < SBRI_MOST_SUBSTEPS / 4 ? 4 * stable : SBRI_MOST_SUBSTEPS;
+}
+
+static void tick_heun(const sbri_island_tick *tick) {
+  tick->model->kernels->heun_tick(tick);
+}
+
+const sbri_scheme sbri_heun = {
+    .word = SBF_SCHEME_HEUN, .refuse = sbri_refuse_all_but_springs, .substeps = substeps, .tick = tick_heun};

@@ -1,0 +1,122 @@
+/* Heun's method with a step that follows its error: the corrector's places differ from the predictor's by
+ * h^2/2 a, which is the error of the predictor; a step is halved until that is below the limit for every
+ * point, and doubled again where it fits. Second order; Blender's soft bodies go by the same rule.
+ *
+ * Steps are the tick divided by powers of two and begin at multiples of themselves, so that the division does
+ * not depend on rounding. Frame damping and media friction are exact decays of half a step before and after.
+ * An undamped mode of frequency w grows by sqrt(1 + (w h)^4 / 4) a step, a damping ratio of -(w h)^3 / 8: it
+ * wants some damping, and steps that the error alone would leave larger are kept at w h <= 1/2.
+ *
+ * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+#ifndef SBRI_HEUN_H
+#define SBRI_HEUN_H
+
+#include "solvers/finish.h"
+#include "solvers/motion.h"
+
+/* h^2/2 of the greatest acceleration of a point: the places' difference between corrector and predictor. */
+static inline float sbri_heun_error(const sbri_island_tick *t, float h) {
+  float lanes[SBRI_BLOCK] = {0}, greatest = 0;
+  for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES) {
+    sbri_wide3 a = sbri_load3(sbri_const_triple(t->accelerations, slot));
+    sbri_wide square = a.x * a.x + a.y * a.y + a.z * a.z;
+    float *at = lanes + slot % SBRI_BLOCK;
+    sbri_wide_store(at, sbri_wide_max(square, sbri_wide_load(at)));
+  }
+  for (int lane = 0; lane < SBRI_BLOCK; lane++) greatest = lanes[lane] > greatest ? lanes[lane] : greatest;
+  return 0.5f * h * h * sqrtf(greatest);
+}
+
+/* To x + h v and v + h a; what was there is kept in velocity_points' stead: `moves` and `older_velocities`.
+ */
+static inline void sbri_heun_predict(const sbri_island_tick *t, float h) {
+  sbri_wide step = sbri_wide_all(h);
+  for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES) {
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
+    sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+    sbri_wide3 a = sbri_load3(sbri_const_triple(t->accelerations, slot));
+    sbri_wide_store_points(t->moves + slot, x);
+    sbri_store3(sbri_triple(t->older_velocities, slot), v);
+    x.x = x.x + step * v.x, x.y = x.y + step * v.y, x.z = x.z + step * v.z;
+    sbri_wide_store_points(t->positions + slot, x);
+    v.x = v.x + step * a.x, v.y = v.y + step * a.y, v.z = v.z + step * a.z;
+    sbri_store3(sbri_triple(t->velocities, slot), v);
+  }
+}
+
+/* From the place before by the mean of both velocities, bounded by the ground, and then the velocity by the
+ * mean of both accelerations: v + h a0 is there, h/2 (a1 - a0) is added. `first` holds a0. */
+static inline void sbri_heun_correct_body(
+    const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
+  sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    sbri_wide3 x = sbri_wide_load_points(t->moves + slot), a0 = sbri_wide_load_points(first + slot);
+    sbri_wide3 a1 = sbri_load3(sbri_const_triple(t->accelerations, slot));
+    sbri_wide3 v0 = sbri_load3(sbri_const_triple(t->older_velocities, slot));
+    sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+    sbri_wide3 mean = {half * (v0.x + v.x), half * (v0.y + v.y), half * (v0.z + v.z)};
+    v.x = v.x + half_step * (a1.x - a0.x);
+    v.y = v.y + half_step * (a1.y - a0.y);
+    v.z = v.z + half_step * (a1.z - a0.z);
+    if (t->near_ground[block]) {
+      sbri_wide3 bounded = mean;
+      sbri_contact_move(&x, &bounded, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule);
+      v.x = v.x + (bounded.x - mean.x), v.y = v.y + (bounded.y - mean.y), v.z = v.z + (bounded.z - mean.z);
+    } else {
+      x.x = x.x + step * mean.x, x.y = x.y + step * mean.y, x.z = x.z + step * mean.z;
+    }
+    sbri_wide_store_points(t->positions + slot, x);
+    sbri_store3(sbri_triple(t->velocities, slot), v);
+  }
+}
+
+/* The first accelerations out of the way of the second ones. */
+static inline void sbri_heun_keep_first(const sbri_island_tick *t, sbri_point *first) {
+  for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES)
+    sbri_wide_store_points(first + slot, sbri_load3(sbri_const_triple(t->accelerations, slot)));
+}
+
+static inline void sbri_heun_evaluate(const sbri_island_tick *t, float *stretches) {
+  if (t->island->cell_damping) sbri_spread_velocities(t, 1 / t->tick_s);
+  sbri_accelerate(t, stretches);
+}
+
+/* The tick in units of its 2^-10th, and how far and how fast it has come in them. */
+enum { SBRI_HEUN_UNITS = SBRI_MOST_SUBSTEPS };
+
+static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  float unit = t->tick_s / (float)SBRI_HEUN_UNITS, stretches[SBRI_BLOCK] = {0};
+  sbri_point *first = t->begins; /* of free points; those of held ones are in use */
+  uint32_t wanted = sbri_scheme_substeps(island, t->tick_s, *t->stretch), longest = SBRI_HEUN_UNITS;
+  while (longest > 1 && SBRI_HEUN_UNITS / longest < wanted) longest /= 2;
+  sbri_remember_held(t);
+  sbri_heun_evaluate(t, NULL);
+  for (uint32_t done = 0, step = longest; done < SBRI_HEUN_UNITS;) {
+    if (step > 1 && !island->substeps && sbri_heun_error(t, unit * (float)step) > t->step_error_m) {
+      step /= 2;
+      continue;
+    }
+    float h = unit * (float)step;
+    sbri_decay_all(t, 0.5f * h);
+    if (island->cell_damping) sbri_heun_evaluate(t, NULL); /* which goes by the velocities */
+    sbri_heun_keep_first(t, first);
+    sbri_heun_predict(t, h);
+    done += step;
+    sbri_carry_held(t, (float)done / (float)SBRI_HEUN_UNITS);
+    sbri_heun_evaluate(t, NULL);
+    for (uint32_t b = 0; b < island->body_count; b++)
+      sbri_heun_correct_body(t, &t->model->bodies[island->bodies[b]], h, first);
+    sbri_decay_all(t, 0.5f * h);
+    sbri_finish_substep(t, h);
+    sbri_heun_evaluate(t, done == SBRI_HEUN_UNITS ? stretches : NULL);
+    while (step < longest && done % (2 * step) == 0 &&
+           sbri_heun_error(t, 2 * unit * (float)step) <= t->step_error_m)
+      step *= 2;
+  }
+  sbri_keep_stretch(t, stretches);
+}
+
+#endif

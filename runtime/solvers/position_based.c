@@ -1,0 +1,26 @@
+/* Its loops are in solvers/position_based.h. */
+#include "kernels/kernels.h"
+
+/* Few enough to be cheap, many enough that a sweep settles most of what a substep brings. */
+enum { LEAST_SUBSTEPS = 8, MOST_SUBSTEPS = 20 };
+
+uint32_t sbri_position_substeps(const sbri_island *island, double tick_s) {
+  if (island->substeps) return island->substeps;
+  uint32_t stable = sbri_stable_substeps(island, tick_s, island->rest_stretch);
+  return stable < LEAST_SUBSTEPS ? LEAST_SUBSTEPS : stable > MOST_SUBSTEPS ? MOST_SUBSTEPS : stable;
+}
+
+static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {
+  (void)stretch;
+  return sbri_position_substeps(island, tick_s);
+}
+
+static void tick_position_based(const sbri_island_tick *tick) {
+  tick->model->kernels->position_based_tick(tick);
+}
+
+const sbri_scheme sbri_position_based = {.word = SBF_SCHEME_POSITION_BASED,
+    .sweeps = true,
+    .refuse = sbri_refuse_all_but_springs,
+    .substeps = substeps,
+    .tick = tick_position_based};
