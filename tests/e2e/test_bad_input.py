@@ -181,7 +181,14 @@ class DamagedBundles(ProgramTest):
         source = write_bytes(self.path("x.sbf"), text)
         self.good("pack", source, "-o", self.path("x.sbfz"))
         self.good("unpack", self.path("x.sbfz"), "-o", self.path("y.sbf"))
-        self.assertIn(b"<data> a &lt;b/&gt;\n\n\tc &amp; d \xc3\xa9</data>", read_bytes(self.path("y.sbf")))
+        kept = b"<data> a &lt;b/&gt;\n\n\tc &amp; d \xc3\xa9</data>"
+        self.assertIn(kept, read_bytes(self.path("y.sbf")))
+        self.good("pack", self.path("y.sbf"), "-o", self.path("y.sbfz"))
+        self.assertEqual(read_bytes(self.path("x.sbfz")), read_bytes(self.path("y.sbfz")))
+        self.good("build", self.path("x.sbfz"), "-o", self.path("built.sbf"))
+        self.assertIn(kept, read_bytes(self.path("built.sbf")))
+        self.good("validate", "--fix", "-o", self.path("fixed.sbf"), self.path("x.sbfz"))
+        self.assertIn(kept, read_bytes(self.path("fixed.sbf")))
 
     def test_a_newer_minor_version_is_read_without_what_it_adds(self):
         text = b"<sbf version='1.7' mood='calm'><skeleton><bone id='a' head='0 0 0' weather='fine'><fur/></bone>" \

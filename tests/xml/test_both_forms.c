@@ -71,12 +71,47 @@ START_TEST(test_an_empty_asset_goes_round)
 }
 END_TEST
 
+/* An extension that nobody here knows: optional, it is kept byte for byte; required, it is refused by name.
+ */
+START_TEST(test_unknown_extensions)
+{
+  sbf_extension extension;
+  sbf_extension_init(&extension);
+  extension.name = "ACME_fur";
+  extension.data = " { \"length\": [1, 2] } <b a='1'>&amp;</b>\n\t\r\n \xc3\xa9 ]]> ";
+  sbf_asset *asset = sbf_asset_create(NULL), *none;
+  asset->extensions = (sbf_extension_list){&extension, 1};
+  go_round(asset, NULL, false);
+  go_round(asset, NULL, true);
+  extension.required = true;
+  sbf_buffer forms[] = {save_xml(asset), save_packed(asset, false), save_packed(asset, true)};
+  for (int i = 0; i < 3; i++) {
+    const char *known[] = {"ACME_scales", "ACME_fur"};
+    sbf_load_options options = {.extensions = known, .extension_count = 1};
+    sbf_status (*load)(const void *, size_t, const sbf_load_options *, sbf_asset **, sbf_diagnostic *) =
+        i ? sbf_packed_load_memory : sbf_xml_load_memory;
+    ck_assert_int_eq(load(forms[i].at, forms[i].size, &options, &none, &error), SBF_BAD_INPUT);
+    ck_assert_int_eq(error.code, SBF_CODE_EXTENSION_REQUIRED);
+    ck_assert_ptr_nonnull(strstr(error.message, "`ACME_fur`"));
+    ck_assert_str_eq(error.path, "/sbf/extensions/extension[1]");
+    ck_assert_ptr_null(none);
+    options.extension_count = 2;
+    require(load(forms[i].at, forms[i].size, &options, &none, &error));
+    ck_assert_str_eq(none->extensions.at[0].data, extension.data);
+    sbf_asset_free(none);
+    sbf_buffer_free(&forms[i]);
+  }
+  sbf_asset_free(asset);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("both_forms");
   TCase *tests = tcase_create("both_forms");
   tcase_set_timeout(tests, 60);
   tcase_add_test(tests, test_filled_assets_go_round);
   tcase_add_test(tests, test_an_empty_asset_goes_round);
+  tcase_add_test(tests, test_unknown_extensions);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
