@@ -8,11 +8,11 @@
 #include "model/bulk_check.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-  static const char *const names[] = {"fuzz.ele", "fuzz.msh", "fuzz.vtk", "fuzz.tet"};
+  static const char *const names[] = {"fuzz.ele", "fuzz.msh", "fuzz.vtk", "fuzz.tet", "fuzz.vtu"};
   if (size == 0) return 0;
-  const char *name = names[data[0] % 4], *text = (const char *)data + 1;
+  const char *name = names[data[0] % 5], *text = (const char *)data + 1;
   sbfi_span first = {text, size - 1}, second = {text, 0};
-  const char *divide = data[0] % 4 == 0 ? memchr(text, 0, size - 1) : NULL;
+  const char *divide = data[0] % 5 == 0 ? memchr(text, 0, size - 1) : NULL;
   if (divide) {
     first.length = (size_t)(divide - text);
     second = (sbfi_span){divide + 1, size - 2 - first.length};

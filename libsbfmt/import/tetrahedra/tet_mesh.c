@@ -11,7 +11,7 @@ static bool ends_with(const char *text, const char *ending) {
 }
 
 bool sbfi_tet_mesh_knows(const char *path) {
-  static const char *const endings[] = {".node", ".ele", ".msh", ".vtk", ".tet"};
+  static const char *const endings[] = {".node", ".ele", ".msh", ".vtk", ".vtu", ".tet"};
   for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
     if (ends_with(path, endings[i])) return true;
   return false;
@@ -50,6 +50,7 @@ static bool elements(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_t *first) 
 static bool any_other(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_t *first) {
   (void)first;
   if (ends_with(r->file, ".msh")) return sbfi_read_gmsh(r, mesh);
+  if (ends_with(r->file, ".vtu")) return sbfi_read_vtu(r, mesh);
   return ends_with(r->file, ".vtk") ? sbfi_read_vtk(r, mesh) : sbfi_read_physx_tet(r, mesh);
 }
 

@@ -7,7 +7,7 @@
 
 typedef struct sbfi_tet_mesh {
   sbf_allocator allocator;
-  const char *format;    /* "tetgen", "gmsh", "vtk", "physx tet" */
+  const char *format;    /* "tetgen", "gmsh", "vtk", "vtu", "physx tet" */
   sbfi_array points;     /* sbf_vec3, in the file's unit and axes, in its order */
   sbfi_array tetrahedra; /* sbf_uint4 */
   uint32_t turned_count; /* listed the other way round in the file: two corners were exchanged */
@@ -15,7 +15,7 @@ typedef struct sbfi_tet_mesh {
   uint32_t passed_over;  /* elements of other kinds */
 } sbfi_tet_mesh;
 
-/* Whether a path's ending is one of those read here: .node .ele .msh .vtk .tet */
+/* Whether a path's ending is one of those read here: .node .ele .msh .vtk .vtu .tet */
 bool sbfi_tet_mesh_knows(const char *path);
 
 /* Reads the file; of TetGen's pair either may be named and both must be there. On failure the mesh is empty.
@@ -42,6 +42,7 @@ bool sbfi_read_tetgen_nodes(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_t *
 bool sbfi_read_tetgen_elements(sbfi_word_reader *r, sbfi_tet_mesh *mesh, uint32_t first_number);
 bool sbfi_read_gmsh(sbfi_word_reader *r, sbfi_tet_mesh *mesh);
 bool sbfi_read_vtk(sbfi_word_reader *r, sbfi_tet_mesh *mesh);
+bool sbfi_read_vtu(sbfi_word_reader *r, sbfi_tet_mesh *mesh);
 bool sbfi_read_physx_tet(sbfi_word_reader *r, sbfi_tet_mesh *mesh);
 
 #endif
