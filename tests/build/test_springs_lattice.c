@@ -55,10 +55,7 @@ START_TEST(no_spring_leaves_a_concave_body)
           sbfi_winding_of_closed(&winding, sbfi_d3_add(a, sbfi_d3_scale(sbfi_d3_sub(b, a), k / 4.0))), 0);
     if (in.internal.at[s].at[1] < mesh.positions.count) joined[in.internal.at[s].at[1]]++;
   }
-  for (uint32_t i = 0; i < mesh.positions.count; i++) {
-    ck_assert_uint_ge(joined[i], 1);
-    ck_assert_uint_le(joined[i], 4);
-  }
+  for (uint32_t i = 0; i < mesh.positions.count; i++) ck_assert_uint_ge(joined[i], 1);
   free(joined);
 }
 END_TEST

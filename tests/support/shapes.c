@@ -54,6 +54,36 @@ sbf_polygon_mesh shape_cube(sbf_asset *asset, uint32_t n, float side, sbf_vec3 c
   return mesh_of_quads(asset, positions, point_count, corners, 6 * n * n);
 }
 
+sbf_polygon_mesh shape_bar(sbf_asset *asset, uint32_t along, uint32_t n, float length, float side) {
+  const uint32_t sizes[3] = {along, n, n};
+  uint32_t row = n + 1, point_count = 0, corner_count = 0, quads = 2 * n * n + 4 * along * n;
+  uint32_t *numbers = allocate(asset, (size_t)(along + 1) * row * row, sizeof *numbers);
+  sbf_vec3 *positions = allocate(asset, (size_t)quads + 2, sizeof *positions);
+  uint32_t *corners = allocate(asset, 4 * (size_t)quads, sizeof *corners);
+  for (uint32_t x = 0; x <= along; x++)
+    for (uint32_t y = 0; y < row; y++)
+      for (uint32_t z = 0; z < row; z++) {
+        if (x % along && y % n && z % n) continue;
+        numbers[(x * row + y) * row + z] = point_count;
+        positions[point_count++] = (sbf_vec3){length * (float)x / (float)along,
+            side * ((float)y / (float)n - 0.5f), side * ((float)z / (float)n - 0.5f)};
+      }
+  for (int face = 0; face < 6; face++) {
+    int axis = face % 3, across = (axis + 1) % 3, up = (axis + 2) % 3;
+    for (uint32_t i = 0; i < sizes[across]; i++)
+      for (uint32_t j = 0; j < sizes[up]; j++)
+        for (uint32_t k = 0; k < 4; k++) {
+          /* Corners around the face; the near faces run the other way round. */
+          uint32_t turn = face < 3 ? 3 - k : k, at[3];
+          at[axis] = face < 3 ? 0 : sizes[axis];
+          at[across] = i + ((turn == 1) | (turn == 2));
+          at[up] = j + (turn >= 2);
+          corners[corner_count++] = numbers[(at[0] * row + at[1]) * row + at[2]];
+        }
+  }
+  return mesh_of_quads(asset, positions, point_count, corners, quads);
+}
+
 sbf_polygon_mesh shape_sheet(sbf_asset *asset, uint32_t n, uint32_t m) {
   sbf_vec3 *positions = allocate(asset, (size_t)(n + 1) * (m + 1), sizeof *positions);
   uint32_t *corners = allocate(asset, 4 * (size_t)n * m, sizeof *corners);

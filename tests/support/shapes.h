@@ -8,6 +8,10 @@
  * 6 n^2 + 2 points. Lives in the asset; a failed allocation ends the test program. */
 sbf_polygon_mesh shape_cube(sbf_asset *asset, uint32_t n, float side, sbf_vec3 centre);
 
+/* Closed bar from x = 0 to `length`, of squares `side` / n wide where `along` = length n / side; its other
+ * sides lie around the x axis. */
+sbf_polygon_mesh shape_bar(sbf_asset *asset, uint32_t along, uint32_t n, float length, float side);
+
 /* A flat sheet of n x m unit quads in the plane y = 0, facing up: (n + 1)(m + 1) points. */
 sbf_polygon_mesh shape_sheet(sbf_asset *asset, uint32_t n, uint32_t m);
 

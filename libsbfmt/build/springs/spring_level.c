@@ -5,6 +5,7 @@
 #include "build/geometry/triangle_tree.h"
 #include "build/sections/level_pins.h"
 #include "build/springs/springs.h"
+#include "build/springs/springs_matched.h"
 #include "mechanics/level_points.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
@@ -113,7 +114,7 @@ static void share_by_lattice(const work *w, float *shares) {
   sbf_level_init(&surface);
   surface.positions = w->body->surface.positions;
   double node = w->cell * w->cell * w->cell / 2, volume = w->measures.volume,
-         most = 0.8 / w->interior.point_count;
+         most = 0.97 / w->interior.point_count;
   double share = volume > 0 && node / volume < most ? node / volume : most;
   sbf_level_shares(w->body, &surface, NULL, shares);
   for (uint32_t i = w->surface_count; i < w->source_count; i++) shares[i] = 1.0f / (float)w->source_count;
@@ -184,8 +185,11 @@ static bool make_stiffness_of_all(const work *w, float *stiffness) {
   if (!ends || !volumes) return false;
   for (int i = 0; i < 4; i++)
     for (uint32_t s = 0; s < lists[i].count; s++) ends[next++] = lists[i].at[s];
-  double constant = w->measures.sheet ? SBF_STIFFNESS_SHEET : SBF_STIFFNESS_VOLUME;
-  return make_network(w, constant * w->body->attributes.young_modulus, volumes, ends, next, stiffness);
+  double modulus = w->body->attributes.young_modulus;
+  if (w->measures.sheet)
+    return make_network(w, SBF_STIFFNESS_SHEET * modulus, volumes, ends, next, stiffness);
+  return sbfi_springs_matched(
+      modulus, w->level->positions.at, w->point_count, volumes, ends, next, stiffness, w->scratch);
 }
 
 /* `stiffness` receives structural, shear, flexion and internal, one after the other. */

@@ -46,8 +46,9 @@ bool sbfi_springs_centroid(
 /* An interior on a body-centred grid: its nodes inside the surface, but for those next to it, and springs
  * along the grid's edges between them that the surface does not cut. Every surface point has springs to the
  * up to four nearest nodes that it sees, within five quarters of a cell, or, where there are none, two cells
- * and a half. So no spring leaves a concave body. Places as with the centroid interior: surface, given,
- * these. */
+ * and a half; and every node that lacks one of its fourteen neighbours to those corners of the nearest
+ * triangle that it sees. So no spring leaves a concave body. Places as with the centroid interior: surface,
+ * given, these. */
 typedef struct sbfi_lattice_interior {
   sbf_vec3 *points; /* (point_count) first those at least half as deep under the surface as the deepest */
   uint32_t point_count, deep_count;

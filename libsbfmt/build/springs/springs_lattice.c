@@ -5,6 +5,7 @@
 #include "build/geometry/triangle_tree.h"
 #include "build/lattice/lattice_crossings.h"
 #include "build/lattice/lattice_signs.h"
+#include "build/springs/pair_set.h"
 #include "build/springs/springs.h"
 
 /* A node nearer to a cut than this share of an edge is left out: its springs would be short and stiff. */
@@ -163,6 +164,40 @@ static bool join_surface(const work *w, const sbf_vec3 *interior, uint32_t first
   return true;
 }
 
+static bool lacks_neighbour(const work *w, uint32_t node) {
+  uint32_t kind = sbfi_lattice_kind(&w->grid, node);
+  for (int k = 0; k < SBFI_LATTICE_EDGES; k++) {
+    uint32_t back = k < SBFI_LATTICE_LONG_EDGES ? kind : !kind;
+    uint32_t before = (uint32_t)((int64_t)node - w->grid.steps[back][k]);
+    uint32_t after = (uint32_t)((int64_t)node + w->grid.steps[kind][k]);
+    if (w->points[after] == SBFI_NO_INDEX || (w->cut[node] >> k & 1)) return true;
+    if (w->points[before] == SBFI_NO_INDEX || (w->cut[before] >> k & 1)) return true;
+  }
+  return false;
+}
+
+/* Nodes at the lattice's border hang on the corners of the triangle of the surface that is nearest: where the
+ * surface's points stand farther apart than the nodes, most of them are no point's nearest. */
+static bool join_border(const work *w, const sbf_vec3 *interior, uint32_t first, sbfi_array *springs) {
+  sbfi_pair_set known;
+  const sbf_uint2 *at = springs->at;
+  if (!sbfi_pair_set_init(&known, springs->count + 3 * (size_t)w->count, w->arena)) return false;
+  for (size_t i = 0; i < springs->count; i++) sbfi_pair_set_add(&known, at[i].at[0], at[i].at[1], 0);
+  for (uint32_t i = 0; i < w->count; i++) {
+    if (!lacks_neighbour(w, w->nodes[i])) continue;
+    double least = INFINITY;
+    uint32_t triangle = sbfi_triangle_tree_nearest(&w->tree, interior[i], &least);
+    for (int k = 0; k < 3; k++) {
+      uint32_t corner = w->tree.triangles[triangle].points[k];
+      if (!is_clear(w, interior[i], w->mesh->positions.at[corner])) continue;
+      if (sbfi_pair_set_has(&known, first + i, corner)) continue;
+      sbfi_pair_set_add(&known, first + i, corner, 0);
+      if (!sbfi_array_append(springs, &(sbf_uint2){{first + i, corner}}, 1)) return false;
+    }
+  }
+  return true;
+}
+
 /* By the mean length of the surface's sides: nodes then lie about as far apart. */
 static double usual_cell(const sbf_polygon_mesh *mesh) {
   double sum = 0;
@@ -181,7 +216,8 @@ static bool make(work *w, sbfi_lattice_interior *interior, uint32_t given) {
   uint32_t first = w->mesh->positions.count + given;
   if (!number_nodes(w, interior)) return false;
   sbfi_array_init(&springs, &w->arena->allocator, sizeof(sbf_uint2));
-  bool good = join_surface(w, interior->points, first, &springs) && join_nodes(w, first, &springs);
+  bool good = join_surface(w, interior->points, first, &springs) &&
+              join_border(w, interior->points, first, &springs) && join_nodes(w, first, &springs);
   if (good && springs.count > 0) {
     interior->internal.at = sbfi_arena_copy(w->arena, springs.at, springs.count, sizeof(sbf_uint2));
     interior->internal.count = (uint32_t)springs.count;
