@@ -137,7 +137,7 @@ static const sbf_code_info table[] = {
   {"COLLISION_ONE_SIDED", SBF_CODE_COLLISION_ONE_SIDED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "One of two things is to meet the other and not the reverse, so they never meet: let each mask have the other's layer."},
   {"PARTICLE_TOO_LARGE", SBF_CODE_PARTICLE_TOO_LARGE, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A particle radius is larger than the body: state it in metres."},
   {"PRESSURE_OPEN", SBF_CODE_PRESSURE_OPEN, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Pressure acts on closed surfaces only: close the surface or set the mode to none."},
-  {"LEVEL_NOT_SIMULATED", SBF_CODE_LEVEL_NOT_SIMULATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The runtime does not step this elastic model: build the file with springs."},
+  {"LEVEL_NOT_SIMULATED", SBF_CODE_LEVEL_NOT_SIMULATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The runtime does not step this elastic model: build the file with springs or tetrahedra."},
   {"TOO_STIFF", SBF_CODE_TOO_STIFF, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A body is too stiff and light to be stepped explicitly: give it more mass, less stiffness or fewer points."},
   {"PART_LEFT_OUT", SBF_CODE_PART_LEFT_OUT, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The file holds something that this runtime does not move: another runtime, or a later one, does."},
   {"RIG_SECTION_GUESSED", SBF_CODE_RIG_SECTION_GUESSED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A section was given to the nearest bone, because no name said where it belongs."},

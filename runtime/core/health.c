@@ -1,4 +1,5 @@
 #include "core/world.h"
+#include "mechanics/neo_hookean.h"
 #include "skin/skin.h"
 #include "solvers/scheme.h"
 
@@ -15,6 +16,42 @@ static float greatest_strain(const sbri_island *island, const sbri_body *body, c
   return greatest;
 }
 
+/* Of its tetrahedra: the energy, J at or below 0, and the greatest strain. Elements whose squares tell that
+ * their strain cannot be the greatest are not looked at any closer: |s - 1| <= |s^2 - 1| <= |C - 1|, C = F^T
+ * F.
+ */
+typedef struct solid_health {
+  double energy_j;
+  float max_strain;
+  bool inverted;
+} solid_health;
+
+static solid_health look_at_tetrahedra(const sbri_body *body, const sbri_point *positions) {
+  solid_health found = {0, 0, false};
+  sbfi_tetrahedron element;
+  sbfi_d3 x[4];
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    if (!sbri_body_tetrahedron(body, t, &element)) continue;
+    for (int k = 0; k < 4; k++) {
+      const sbri_point *p = &positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]];
+      x[k] = (sbfi_d3){p->x, p->y, p->z};
+    }
+    sbfi_columns f = sbfi_tetrahedron_gradient(&element, x);
+    found.energy_j += sbfi_tetrahedron_energy(&element, x);
+    found.inverted = found.inverted || !(sbfi_determinant(&f) > 0);
+    double square = 0;
+    for (int i = 0; i < 3; i++)
+      for (int k = 0; k < 3; k++) {
+        double off = sbfi_d3_dot(f.at[i], f.at[k]) - (i == k);
+        square += off * off;
+      }
+    if (!(square > (double)found.max_strain * (double)found.max_strain)) continue;
+    float strain = (float)sbfi_tetrahedron_strains(&element, x).most;
+    found.max_strain = strain > found.max_strain ? strain : found.max_strain;
+  }
+  return found;
+}
+
 static bool is_finite(const sbri_body *body, const sbri_point *positions, const float *velocities) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
@@ -26,7 +63,7 @@ static bool is_finite(const sbri_body *body, const sbri_point *positions, const 
 }
 
 static void find_energies(const sbr_world *world, const sbri_character *c, const sbri_body *body,
-    const sbri_point *positions, const float *velocities, sbr_body_health *health) {
+    const sbri_point *positions, const float *velocities, double solid_j, sbr_body_health *health) {
   const sbri_island *island = &c->model->islands[body->island];
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
   double height = sbri_head(c)->origin.y / (double)c->scale, kinetic = 0, potential = 0;
@@ -42,8 +79,8 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
   }
   health->kinetic_j = island->scheme->forceless ? 0 : kinetic * joules;
   health->potential_j = potential * joules;
-  health->elastic_j = joules * sbfi_springs_energy(island->springs + body->first_spring,
-                                   body->spring_end - body->first_spring, &positions->x, 4);
+  health->elastic_j = joules * (solid_j + sbfi_springs_energy(island->springs + body->first_spring,
+                                              body->spring_end - body->first_spring, &positions->x, 4));
 }
 
 sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id character, uint32_t soft_body) {
@@ -58,11 +95,14 @@ sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id ch
   health.recoveries = sbri_island_states(c)[body->island].recoveries;
   health.finite = is_finite(body, positions, velocities);
   health.max_strain = greatest_strain(island, body, positions);
+  solid_health solid = look_at_tetrahedra(body, positions);
+  if (solid.max_strain > health.max_strain) health.max_strain = solid.max_strain;
+  health.inverted = solid.inverted;
   if (body->rest_volume_m3 > 0) {
     double volume = sbri_surface_volume(c, body, sbri_positions(c));
     health.volume_ratio = (float)(volume / body->rest_volume_m3);
-    health.inverted = !(volume > 0);
+    health.inverted = health.inverted || !(volume > 0);
   }
-  find_energies(world, c, body, positions, velocities, &health);
+  find_energies(world, c, body, positions, velocities, solid.energy_j, &health);
   return health;
 }

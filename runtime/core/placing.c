@@ -30,6 +30,8 @@ void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
   sbri_held_places(island, sbri_deltas(c), positions);
   stop(c, island_index);
   sbri_island_states(c)[island_index].stretch = island->rest_stretch;
+  sbri_island_states(c)[island_index].stiffening = 1;
+  sbri_island_states(c)[island_index].least_ratio = 1;
   sbri_island_states(c)[island_index].folded_ticks = 0;
 }
 

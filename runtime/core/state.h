@@ -18,7 +18,9 @@ typedef struct sbri_character_state {
 
 typedef struct sbri_island_state {
   float stretch;         /* greatest share of a spring beyond its rest length, in the last substep */
-  uint32_t folded_ticks; /* for how long its volume has been next to nothing */
+  float stiffening;      /* greatest share of a tetrahedron's stiffness to that at rest then, 1 at rest */
+  float least_ratio;     /* least J of its tetrahedra then: below 0 one is inside out; 1: it has none */
+  uint32_t folded_ticks; /* for how long its volume has been next to nothing, or such elements inverted */
   uint32_t recoveries;
   sbf_vec3 guide_velocity; /* mean of what holds it, in the last tick */
 } sbri_island_state;
@@ -67,11 +69,12 @@ SBRI_SCRATCH_PART(outer, sbri_point, c->model->layout.outer)                    
 SBRI_SCRATCH_PART(accelerations, float, c->model->layout.accelerations)             /* (slot_count x 3) */
 SBRI_SCRATCH_PART(older_velocities, float, c->model->layout.older_velocities)       /* (slot_count x 3) */
 SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                        /* (slot_count) */
-SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)               /* (link_block_count x 24) */
-SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)       /* (island_count) */
-SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)             /* (slot_count x 4) */
-SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground) /* (slot_count / 8) */
-SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)      /* (slot_count) */
+SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)                        /* (link_block_count x 24) */
+SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)                /* (island_count) */
+SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces) /* (slot_count) */
+SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                      /* (slot_count x 4) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)          /* (slot_count / 8) */
+SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)               /* (slot_count) */
 SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */
 SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */

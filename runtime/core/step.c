@@ -180,8 +180,10 @@ static bool are_sound(const float *numbers, size_t count) {
   return lost == 0;
 }
 
-/* Whether a closed body of the island has next to no volume, or a negative one. */
+/* Whether a closed body of the island has next to no volume, or a negative one; or a tetrahedron is inside
+ * out. */
 static bool is_folded(const sbri_character *c, const sbri_island *island) {
+  if (!(sbri_island_states(c)[island - c->model->islands].least_ratio > 0)) return true;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     if (!(body->rest_volume_m3 > 0)) continue;
@@ -252,7 +254,10 @@ static void tick_island(void *context, uint32_t index) {
       .edges = sbri_edges(c) + 3 * SBRI_BLOCK * (size_t)island->first_link_block,
       .tears = &sbri_tears_of(c)[work.island],
       .step_error_m = model->step_error_m,
-      .stretch = &sbri_island_states(c)[work.island].stretch};
+      .element_forces = sbri_element_forces(c) + first,
+      .stretch = &sbri_island_states(c)[work.island].stretch,
+      .stiffening = &sbri_island_states(c)[work.island].stiffening,
+      .least_ratio = &sbri_island_states(c)[work.island].least_ratio};
   tick.tears->count = 0;
   if (!island->scheme->forceless) prepare_contacts(world, c, island, tick_s);
   island->scheme->tick(&tick);

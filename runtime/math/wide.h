@@ -259,4 +259,31 @@ static inline void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
 #endif
 }
 
+/* points[places[i]] += lane i of v, one after the other. */
+static inline void sbri_wide_scatter_add(sbri_point *points, const uint32_t *places, sbri_wide3 v) {
+#if SBRI_LANES == 8
+  __m256 zero = _mm256_setzero_ps();
+  __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y),
+         xy_high = _mm256_unpackhi_ps((__m256)v.x, (__m256)v.y);
+  __m256 zw = _mm256_unpacklo_ps((__m256)v.z, zero), zw_high = _mm256_unpackhi_ps((__m256)v.z, zero);
+  __m256 rows[4] = {_mm256_shuffle_ps(xy, zw, 0x44), _mm256_shuffle_ps(xy, zw, 0xee),
+      _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
+  for (int i = 0; i < 4; i++) {
+    float *low = &points[places[i]].x;
+    _mm_storeu_ps(low, _mm_add_ps(_mm_loadu_ps(low), _mm256_castps256_ps128(rows[i])));
+  }
+  for (int i = 0; i < 4; i++) {
+    float *high = &points[places[i + 4]].x;
+    _mm_storeu_ps(high, _mm_add_ps(_mm_loadu_ps(high), _mm256_extractf128_ps(rows[i], 1)));
+  }
+#else
+  sbri_point rows[SBRI_LANES];
+  sbri_wide_store_points(rows, v);
+  for (int i = 0; i < SBRI_LANES; i++) {
+    sbri_point *to = &points[places[i]];
+    to->x += rows[i].x, to->y += rows[i].y, to->z += rows[i].z;
+  }
+#endif
+}
+
 #endif

@@ -43,6 +43,11 @@ static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t pl
 float sbri_natural_stiffness(const sbf_soft_body *body, float mass);
 
 /* Each false where memory runs out. */
+bool sbri_tetrahedra_list(sbri_island_maker *m); /* finds which act, and their moduli */
+/* The island's tetrahedra for a network over its slots; the arrays are scratch. */
+bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network);
+/* Lays them out; `network` has them. */
+bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *network);
 bool sbri_island_springs(sbri_island_maker *m); /* lists them, finds frequencies and damping, lays them out */
 /* Sets rest lengths so that they bear the weight, where the bodies ask for it and something holds them. */
 bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network);

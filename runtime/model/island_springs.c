@@ -1,4 +1,5 @@
-/* The springs of an island: listed once each, then laid out for the eight points of a block at a time. */
+/* The springs of an island, and what it swings by: springs are listed once each, then laid out for the eight
+ * points of a block at a time. */
 #include <string.h>
 
 #include "mechanics/level_points.h"
@@ -78,6 +79,10 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
     return false;
   for (uint32_t s = 0; s < level->springs.count; s++) {
     const sbf_spring_set *set = &level->springs.at[s];
+    if (level->model != SBF_ELASTIC_MODEL_SPRINGS && !set->extra) { /* beside another model only these act */
+      stiffness += set->ends.count;
+      continue;
+    }
     for (uint32_t i = 0; i < set->ends.count; i++) {
       const uint32_t *ends = set->ends.at[i].at;
       uint32_t a = body->slot_from_point[ends[0]], b = body->slot_from_point[ends[1]];
@@ -213,6 +218,10 @@ static bool make_cells(sbri_island_maker *m) {
 
 enum { POWER_ITERATIONS = 40 };
 
+/* Lattices above this size have their lowest mode from above alone: refining it would take longer than a
+ * tenth of a second, and what a fine lattice's mode lies above by is little. */
+enum { MOST_REFINED = 3000 };
+
 /* Power iteration comes from below; what it may still lack. */
 static const double POWER_MARGIN = 1.03;
 
@@ -232,7 +241,11 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     own.ends += body->first_spring;
     own.stiffness += body->first_spring;
     own.spring_count = body->spring_end - body->first_spring;
-    double lowest = sbf_network_lowest(&own, true, scratch);
+    own.tetrahedra += body->first_tetrahedron;
+    own.young_modulus += body->first_tetrahedron;
+    own.poisson_ratios += body->first_tetrahedron;
+    own.tetrahedron_count = body->tetrahedron_count;
+    double lowest = sbf_network_lowest(&own, body->tetrahedron_count < MOST_REFINED, scratch);
     float most = MOST_SWAY * body->rest_size_m * (float)(lowest * lowest);
     float *bound = &m->island->most_acceleration_m_s2;
     if (*bound == 0 || most < *bound) *bound = most;
@@ -243,7 +256,7 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
   }
 }
 
-static bool find_frequencies(sbri_island_maker *m) {
+static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   sbri_island *island = m->island;
   uint32_t points = island->slot_count, count = island->spring_count;
   sbf_vec3 *positions = sbri_scratch(m, points, sizeof *positions);
@@ -276,16 +289,19 @@ static bool find_frequencies(sbri_island_maker *m) {
       .anchors = anchors,
       .ends = ends,
       .stiffness = stiffness};
+  if (!sbri_tetrahedra_network(m, &network)) return false;
   island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
   island->fastest_rad_s = POWER_MARGIN * sbf_network_highest(&network, POWER_ITERATIONS, scratch);
   if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;
   if (!sbri_island_preload(m, &network)) return false;
   find_damping(m, network, masses, scratch);
+  *found = network;
   return true;
 }
 
 bool sbri_island_springs(sbri_island_maker *m) {
-  if (!list_springs(m) || !find_frequencies(m)) return false;
+  sbf_spring_network network;
+  if (!list_springs(m) || !sbri_tetrahedra_list(m) || !find_frequencies(m, &network)) return false;
   measure_springs(m->island);
   bool bounded = false;
   const sbfi_spring_bounds *bounds = m->bounds.at;
@@ -294,5 +310,5 @@ bool sbri_island_springs(sbri_island_maker *m) {
               bounds[i].yield_strain > 0;
   bool linked = m->island->scheme->sweeps || (bounded && !m->island->scheme->forceless);
   if (linked && !sbri_links_make(m->model, m->island, bounds)) return false;
-  return make_cells(m);
+  return make_cells(m) && sbri_tetrahedra_make(m, &network);
 }

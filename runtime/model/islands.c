@@ -2,24 +2,27 @@
 #include "base/diagnostic.h"
 #include "model/runtime_model.h"
 
+static bool is_stepped(const sbf_level *level) {
+  return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+}
+
 /* The level with the wanted number, or the coarsest there is; where it is of a model that is not stepped, the
- * next coarser one of springs, else the next finer. */
+ * next coarser one that is, else the next finer. */
 static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {
   uint32_t count = body->levels.count, first = wanted < count ? wanted : count - 1;
   if (count == 0) return NULL;
   for (uint32_t i = first; i < count; i++)
-    if (body->levels.at[i].model == SBF_ELASTIC_MODEL_SPRINGS) return &body->levels.at[i];
+    if (is_stepped(&body->levels.at[i])) return &body->levels.at[i];
   for (uint32_t i = first; i-- > 0;)
-    if (body->levels.at[i].model == SBF_ELASTIC_MODEL_SPRINGS) return &body->levels.at[i];
+    if (is_stepped(&body->levels.at[i])) return &body->levels.at[i];
   return &body->levels.at[first];
 }
 
 static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level, sbf_diagnostic *error) {
-  if (level->model == SBF_ELASTIC_MODEL_SPRINGS) return SBF_OK;
+  if (is_stepped(level)) return SBF_OK;
   return sbfi_diagnose(error, SBF_CODE_LEVEL_NOT_SIMULATED,
-      "body \"%s\": its level is of model %s and none is of springs, which the runtime steps: build the file "
-      "with "
-      "--springs",
+      "body \"%s\": its level is of model %s and none is of springs or tetrahedra, which the runtime steps: "
+      "build the file with --springs",
       body->id, sbf_elastic_model_name(level->model));
 }
 

@@ -55,8 +55,10 @@ static body_counts count_bodies(const sbr_model *model) {
     n.media += model->asset->environment.media_density > 0 && body->surface.polygon_sizes.count;
     n.self += body->collision.self;
     for (uint32_t i = 0; i < body->levels.count; i++)
-      n.levels += body->levels.at[i].model != SBF_ELASTIC_MODEL_SPRINGS;
-    n.beside += level->regions != NULL || level->jiggle != NULL || level->lattice.tetrahedra.count > 0;
+      n.levels += body->levels.at[i].model != SBF_ELASTIC_MODEL_SPRINGS &&
+                  body->levels.at[i].model != SBF_ELASTIC_MODEL_TETRAHEDRA;
+    n.beside += level->regions != NULL || level->jiggle != NULL ||
+                (level->lattice.tetrahedra.count > 0 && level->model != SBF_ELASTIC_MODEL_TETRAHEDRA);
   }
   return n;
 }
@@ -74,8 +76,9 @@ uint32_t sbr_model_left_out(
   list(&l, n.bending, "bending stiffnesses of sheets without flexion springs", "they bend freely");
   list(&l, n.media, "pushes of a dense medium on bodies", "only media_friction acts");
   list(&l, n.self, "collisions of bodies with themselves", "they pass through");
-  list(&l, n.levels, "levels that are not of springs", "other levels of their bodies act");
-  list(&l, n.beside, "tetrahedra, regions and jiggles beside springs", "only the springs act");
+  list(&l, n.levels, "levels that are neither of springs nor of tetrahedra",
+      "other levels of their bodies act");
+  list(&l, n.beside, "tetrahedra, regions and jiggles beside a level's own model", "only that acts");
   uint32_t dynamic = 0;
   for (uint32_t i = 0; i < asset->rigid_bodies.count; i++)
     dynamic += asset->rigid_bodies.at[i].motion == SBF_BODY_MOTION_DYNAMIC;

@@ -53,7 +53,8 @@ typedef struct spread {
   uint32_t *frames;      /* (frame_count) the frames that hold the body */
   uint32_t frame_count;
   float *shares; /* (count x frame_count) */
-  float *sums;   /* (count) stiffness of each point's springs */
+  uint32_t *link_begins,
+      *links; /* corners that share a tetrahedron with each point, once for each; NULL: none */
 } spread;
 
 static uint32_t frame_place(const spread *s, uint32_t frame) {
@@ -72,6 +73,29 @@ static void add_shares(const spread *s, float *to, uint32_t other, float weight)
   }
 }
 
+/* What tetrahedra join with each point. */
+static bool list_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
+  if (body->tetrahedron_count == 0) return true;
+  const sbf_uint4 *tetrahedra = body->level->lattice.tetrahedra.at;
+  uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)s->count + 2, sizeof *begins);
+  uint32_t *links = sbfi_arena_allocate(scratch, 12 * (size_t)body->tetrahedron_count, sizeof *links);
+  if (!begins || !links) return false;
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+    for (int k = 0; k < 4; k++) {
+      uint32_t place = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
+      if (place < s->count) begins[place + 2] += 3;
+    }
+  for (uint32_t i = 0; i < s->count; i++) begins[i + 2] += begins[i + 1];
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+    for (int k = 0; k < 4; k++) {
+      uint32_t place = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
+      for (int j = 1; j < 4 && place < s->count; j++)
+        links[begins[place + 1]++] = body->slot_from_point[tetrahedra[t].at[(k + j) % 4]];
+    }
+  s->link_begins = begins, s->links = links;
+  return true;
+}
+
 /* One pass of relaxation towards the mean of the neighbours, weighted by stiffness. */
 static void sweep(const spread *s, float *scratch) {
   for (uint32_t i = 0; i < s->count; i++) {
@@ -86,6 +110,11 @@ static void sweep(const spread *s, float *scratch) {
       if (!(k > 0) || !within) continue;
       add_shares(s, scratch, other, k);
       sum += k;
+    }
+    for (uint32_t l = s->link_begins ? s->link_begins[i] : 0; s->link_begins && l < s->link_begins[i + 1];
+         l++) {
+      add_shares(s, scratch, s->links[l], 1);
+      sum += 1;
     }
     float *to = s->shares + (size_t)i * s->frame_count;
     for (uint32_t k = 0; k < s->frame_count && sum > 0; k++) to[k] = scratch[k] / sum;
@@ -129,6 +158,12 @@ bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *bo
       uint32_t frame = island->frame_of_held[other - island->free_count];
       if (frame_place(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
     }
+  good = good && list_links(&s, body, &scratch);
+  for (uint32_t l = 0; good && s.links && l < s.link_begins[s.count]; l++) {
+    if (s.links[l] < island->free_count) continue;
+    uint32_t frame = island->frame_of_held[s.links[l] - island->free_count];
+    if (frame_place(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
+  }
   body->held = good && s.frame_count > 0;
   if (good && s.frame_count == 1) body->guide_frame = s.frames[0];
   if (good && s.frame_count > 1) {

@@ -47,6 +47,16 @@ typedef struct sbri_link_flows {
   float yield[SBRI_BLOCK], rate[SBRI_BLOCK]; /* strain and 1/s; rate 0: never */
   float tear[SBRI_BLOCK];                    /* strain; 0: never */
 } sbri_link_flows;
+/* Eight tetrahedra, sharing no point where that can be, for solvers/tetrahedron_forces.h. Inert lanes have
+ * the corners of the block's first one and zeros. */
+typedef struct sbri_tetrahedron_block {
+  uint32_t corners[4][SBRI_BLOCK];  /* slots */
+  float stiffness[6][SBRI_BLOCK];   /* N/m: V mu g_i.g_j for ij = 11, 22, 33, 12, 23, 31, g_i the gradients of
+                                       the shape functions at rest */
+  float inverse_volume[SBRI_BLOCK]; /* 1/m^3: 1 / (6 V) */
+  float bulk[SBRI_BLOCK];           /* Pa: lambda / 6, with the lambda of mechanics/neo_hookean.h */
+  float shear[SBRI_BLOCK];          /* Pa: mu / 6 */
+} sbri_tetrahedron_block;
 
 /* Up to four frames that carry a free point where no force moves it, as in a skin. */
 enum { SBRI_GUIDES = 4 };
@@ -68,6 +78,9 @@ typedef struct sbri_body {
   uint32_t slot_begin, slot_real_end, slot_end; /* free slots; padding from slot_real_end on */
   uint32_t *slot_from_point;                    /* (level->positions.count) slots of its island */
   uint32_t first_spring, spring_end;            /* its own springs among the island's */
+  uint32_t first_tetrahedron;                   /* of its own among the island's as they are listed */
+  uint32_t tetrahedron_count;                   /* those of its level, where they are its model; else 0 */
+  const float *moduli;                          /* (tetrahedron_count) Pa */
   bool held;                /* by some pin: it is damped relative to its guide; else relative to itself */
   uint32_t guide_frame;     /* of all its points, where `guides` is NULL */
   const sbri_guide *guides; /* (slot_end - slot_begin), where several frames hold it */
@@ -104,7 +117,11 @@ typedef struct sbri_island {
   const uint32_t *frame_of_held; /* (slot_count - free_count) */
   const sbfi_spring *springs;    /* (spring_count) each once, ends as slots */
   uint32_t spring_count;
-  const sbri_link_block *links; /* (link_block_count) colour after colour; NULL: nothing sweeps */
+  uint32_t tetrahedron_count; /* of all bodies, body after body */
+  uint32_t tetrahedron_block_count;
+  const sbri_tetrahedron_block *tetrahedron_blocks;
+  const float *tetrahedron_damping; /* (tetrahedron_block_count x 8) s: beta; NULL: none is damped so */
+  const sbri_link_block *links;     /* (link_block_count) colour after colour; NULL: nothing sweeps */
   uint32_t link_block_count, first_link_block;
   const float *link_damping;           /* (links x 8) N s/m; NULL: no spring is damped */
   const sbri_link_limits *link_limits; /* NULL: no spring is bounded */
@@ -114,11 +131,11 @@ typedef struct sbri_island {
   uint32_t first_flow;                 /* of its links in the character's state */
   float most_acceleration_m_s2;        /* of what holds it, that it is made to feel; 0: no bound */
   double fastest_rad_s;                /* mode at rest */
-  double bound_rad_s;                  /* no mode is faster in any state */
-  float rest_stretch;                  /* greatest share of a spring beyond its rest length, at rest */
-  double stiffness_damping_s;          /* greatest damping over stiffness of its springs */
-  uint32_t substeps;                   /* asked for; 0: as many as needed */
-  const sbri_visit *visits;            /* (visit_count) of the relaxation scheme, in order */
+  double bound_rad_s;         /* no mode is faster in any state of the springs, the tetrahedra at rest */
+  float rest_stretch;         /* greatest share of a spring beyond its rest length, at rest */
+  double stiffness_damping_s; /* greatest damping over stiffness of its springs */
+  uint32_t substeps;          /* asked for; 0: as many as needed */
+  const sbri_visit *visits;   /* (visit_count) of the relaxation scheme, in order */
   uint32_t visit_count;
 } sbri_island;
 
@@ -127,10 +144,12 @@ typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, rests, strengths,
       state_size;
   size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
+  size_t element_forces;
   size_t outer, accelerations, older_velocities, moves, edges, tears;
   size_t surface_vertices, surface_faces, sampled, sampled_deltas, vertices, faces, sums, scratch_size;
 } sbri_layout;
 
+struct sbfi_tetrahedron;
 struct sbri_kernels;
 struct sbr_model {
   sbfi_arena arena;
@@ -177,6 +196,9 @@ bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bo
 bool sbri_visits_make(sbr_model *model, sbri_island *island);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
+
+/* The body's tetrahedron at rest; false where it encloses nothing. */
+bool sbri_body_tetrahedron(const sbri_body *body, uint32_t tetrahedron, struct sbfi_tetrahedron *made);
 
 /* Substeps of a tick of `tick_s` with which symplectic Euler is stable while no spring is stretched by more
  * than `stretch`, the share of its length that is beyond its rest length. */

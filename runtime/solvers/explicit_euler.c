@@ -15,7 +15,5 @@ static void tick_explicit_euler(const sbri_island_tick *tick) {
   tick->model->kernels->explicit_euler_tick(tick);
 }
 
-const sbri_scheme sbri_explicit_euler = {.word = SBF_SCHEME_EXPLICIT_EULER,
-    .refuse = sbri_refuse_all_but_springs,
-    .substeps = substeps,
-    .tick = tick_explicit_euler};
+const sbri_scheme sbri_explicit_euler = {
+    .word = SBF_SCHEME_EXPLICIT_EULER, .substeps = substeps, .tick = tick_explicit_euler};

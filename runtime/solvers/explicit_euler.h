@@ -20,13 +20,13 @@ static inline void sbri_add_accelerations(const sbri_island_tick *t, float h) {
 
 static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  uint32_t substeps = sbri_scheme_substeps(island, t->tick_s, *t->stretch);
+  uint32_t substeps = sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->stretch);
   float h = t->tick_s / (float)substeps;
   float stretches[SBRI_BLOCK] = {0};
   sbri_remember_held(t);
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
-    if (island->cell_damping) sbri_spread_velocities(t, 1 / t->tick_s);
+    if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
     sbri_accelerate(t, last ? stretches : NULL);
     sbri_drift(t, h);
     sbri_add_accelerations(t, h);

@@ -13,5 +13,4 @@ static void tick_heun(const sbri_island_tick *tick) {
   tick->model->kernels->heun_tick(tick);
 }
 
-const sbri_scheme sbri_heun = {
-    .word = SBF_SCHEME_HEUN, .refuse = sbri_refuse_all_but_springs, .substeps = substeps, .tick = tick_heun};
+const sbri_scheme sbri_heun = {.word = SBF_SCHEME_HEUN, .substeps = substeps, .tick = tick_heun};

@@ -79,7 +79,7 @@ static inline void sbri_heun_keep_first(const sbri_island_tick *t, sbri_point *f
 }
 
 static inline void sbri_heun_evaluate(const sbri_island_tick *t, float *stretches) {
-  if (t->island->cell_damping) sbri_spread_velocities(t, 1 / t->tick_s);
+  if (sbri_has_damping(t->island)) sbri_spread_velocities(t, 1 / t->tick_s);
   sbri_accelerate(t, stretches);
 }
 
@@ -90,7 +90,8 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   float unit = t->tick_s / (float)SBRI_HEUN_UNITS, stretches[SBRI_BLOCK] = {0};
   sbri_point *first = t->begins; /* of free points; those of held ones are in use */
-  uint32_t wanted = sbri_scheme_substeps(island, t->tick_s, *t->stretch), longest = SBRI_HEUN_UNITS;
+  uint32_t wanted = sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->stretch),
+           longest = SBRI_HEUN_UNITS;
   while (longest > 1 && SBRI_HEUN_UNITS / longest < wanted) longest /= 2;
   sbri_remember_held(t);
   sbri_heun_evaluate(t, NULL);
@@ -101,7 +102,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
     }
     float h = unit * (float)step;
     sbri_decay_all(t, 0.5f * h);
-    if (island->cell_damping) sbri_heun_evaluate(t, NULL); /* which goes by the velocities */
+    if (sbri_has_damping(island)) sbri_heun_evaluate(t, NULL); /* which goes by the velocities */
     sbri_heun_keep_first(t, first);
     sbri_heun_predict(t, h);
     done += step;

@@ -35,6 +35,7 @@ typedef struct sbri_island_tick {
   const float *guide_velocities; /* (free_count x 3) of the guides, where a body is held */
   sbri_point *begins;            /* (slot_count) scratch: where held points were at the tick's beginning */
   sbri_point *velocity_points;   /* (slot_count) scratch */
+  sbri_point *element_forces;    /* (slot_count) scratch: of the tetrahedra */
   sbri_point *surface_vertices, *surface_faces; /* scratch of the character; see sbri_body.first_vertex */
   const float *planes;                          /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                   /* (free_count / 8) */
@@ -45,8 +46,10 @@ typedef struct sbri_island_tick {
   float *edges;                            /* (links x 8 x 3) scratch */
   sbri_tears *tears;                       /* scratch: what tore in this tick */
   float step_error_m;                      /* of schemes that control their error, asset metres */
-  float *stretch; /* greatest share of a spring beyond its rest length: in of the last tick, out
-                     of this one's last substep */
+  float *stiffening;  /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */
+  float *least_ratio; /* out: least J of the tetrahedra when last looked at, 1 without them */
+  float *stretch;     /* greatest share of a spring beyond its rest length: in of the last tick, out
+                         of this one's last substep */
 } sbri_island_tick;
 
 #endif

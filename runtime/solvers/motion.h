@@ -16,6 +16,7 @@
 #include "solvers/outer_forces.h"
 #include "solvers/rigid_motion.h"
 #include "solvers/spring_forces.h"
+#include "solvers/tetrahedron_forces.h"
 
 /* Penetration is undone at up to this speed. Contacts slower than that do not bounce. */
 #define SBRI_PUSH_M_S 2.0f
@@ -117,6 +118,7 @@ static inline void sbri_accelerate_body(
 static inline void sbri_accelerate(const sbri_island_tick *t, float *stretches) {
   int kind = sbri_force_kind(t, stretches != NULL);
   if (t->outer) sbri_outer_forces(t);
+  if (t->island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, stretches != NULL);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
 #define SBRI_CALL(known) sbri_accelerate_body(t, body, known, stretches)
@@ -125,7 +127,12 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float *stretches) 
   }
 }
 
-/* The velocities as points, for the springs' damping; `rate` is one over the tick's length. */
+/* Whether springs or tetrahedra have damping of their own, which goes by velocity_points. */
+static inline bool sbri_has_damping(const sbri_island *island) {
+  return island->cell_damping || island->tetrahedron_damping;
+}
+
+/* The velocities as points, for that damping; `rate` is one over the tick's length. */
 static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate) {
   const sbri_island *island = t->island;
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES)

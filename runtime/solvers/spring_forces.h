@@ -83,6 +83,10 @@ static inline sbri_wide3 sbri_acceleration(
     sbri_wide3 more = sbri_wide_load_points(t->outer + slot);
     f.x = f.x + more.x, f.y = f.y + more.y, f.z = f.z + more.z;
   }
+  if (t->island->tetrahedron_block_count > 0) {
+    sbri_wide3 more = sbri_wide_load_points(t->element_forces + slot);
+    f.x = f.x + more.x, f.y = f.y + more.y, f.z = f.z + more.z;
+  }
   sbri_wide w = sbri_wide_load(t->island->inverse_masses + slot);
   sbri_wide g = sbri_wide_load(t->island->gravity_scales + slot);
   return (sbri_wide3){f.x * w + g * sbri_wide_all(t->gravity.x), f.y * w + g * sbri_wide_all(t->gravity.y),

@@ -9,8 +9,44 @@
 #include "solvers/finish.h"
 #include "solvers/motion.h"
 
+/* Tetrahedra are looked at in every so many substeps, and in the last one. */
+enum { SBRI_LOOK_EVERY = 4 };
+
+static inline uint32_t sbri_solid_substeps(const sbri_island_tick *t, float time_s) {
+  uint32_t needed = sbri_stable_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
+  return needed < SBRI_MOST_SUBSTEPS ? needed : SBRI_MOST_SUBSTEPS;
+}
+
+/* With tetrahedra: where they have stiffened beyond what the substep allows for, the rest of the tick is
+ * divided anew. */
+static inline void sbri_symplectic_tick_of_solids(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  uint32_t left = sbri_solid_substeps(t, t->tick_s);
+  float h = t->tick_s / (float)left, rest = t->tick_s, stretches[SBRI_BLOCK] = {0};
+  sbri_remember_held(t);
+  for (uint32_t s = 1; left > 0; s++) {
+    bool last = left == 1, looks = last || s % SBRI_LOOK_EVERY == 0;
+    if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
+    sbri_tetrahedron_pass(t, looks);
+    if (looks && !last && !island->substeps) {
+      uint32_t needed = sbri_solid_substeps(t, rest);
+      if (needed > left) left = needed, h = rest / (float)left;
+    }
+    sbri_kick(t, h, last, stretches);
+    sbri_drift(t, h);
+    rest = (float)--left * h;
+    sbri_carry_held(t, last ? 1 : 1 - rest / t->tick_s);
+    sbri_finish_substep(t, h);
+  }
+  sbri_keep_stretch(t, stretches);
+}
+
 static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
+  if (island->tetrahedron_block_count > 0) {
+    sbri_symplectic_tick_of_solids(t);
+    return;
+  }
   uint32_t substeps = sbri_stable_substeps(island, t->tick_s, *t->stretch);
   float h = t->tick_s / (float)substeps;
   float stretches[SBRI_BLOCK] = {0};

@@ -80,6 +80,23 @@ void scene_bone(scene *s, sbf_vec3 head) {
   s->asset->bones = (sbf_bone_list){bone, 1};
 }
 
+sbf_level *scene_lattice(scene *s, uint32_t body, const lattice_box *box) {
+  sbf_level *level = scene_points(s, body, box->positions, box->masses, box->point_count);
+  uint32_t held_count = 0, *held = sbf_asset_allocate(s->asset, box->point_count, sizeof *held);
+  ck_assert_ptr_nonnull(held);
+  for (uint32_t i = 0; i < box->point_count; i++)
+    if (!(box->masses[i] > 0)) held[held_count++] = i;
+  if (held_count) scene_pin(s, level, -1, held, held_count);
+  uint32_t count = box->tetrahedron_count;
+  level->model = SBF_ELASTIC_MODEL_TETRAHEDRA;
+  level->lattice.tetrahedra =
+      (sbf_uint4_list){copy(s, box->tetrahedra, count, sizeof *box->tetrahedra), count};
+  level->lattice.young_modulus =
+      (sbf_f32_list){copy(s, box->young_modulus, count, sizeof *box->young_modulus), count};
+  scene_body(s, body)->attributes.poisson_ratio = box->poisson_ratios[0];
+  return level;
+}
+
 /* ---- The box ---- */
 
 typedef struct box {

@@ -2,6 +2,7 @@
 #ifndef TEST_SCENES_H
 #define TEST_SCENES_H
 
+#include "lattice_box.h"
 #include "sbfmt/asset.h"
 #include "sbrun/sbrun.h"
 
@@ -38,6 +39,10 @@ void scene_bone(scene *s, sbf_vec3 head);
 void scene_section(scene *s, uint32_t body, sbf_vec3 center, sbf_vec3 size, uint32_t cells);
 /* A render mesh over the section's surface, carried by it, without normals. */
 void scene_skin(scene *s, uint32_t body);
+
+/* A level of tetrahedra, the box's points, masses and modulus; Poisson's ratio is the body's. Points without
+ * mass are held by the world. */
+sbf_level *scene_lattice(scene *s, uint32_t body, const lattice_box *box);
 
 /* Runs `ticks` control ticks. */
 void scene_ticks(scene *s, uint32_t ticks);

@@ -84,7 +84,7 @@ START_TEST(levels_are_chosen)
 }
 END_TEST
 
-START_TEST(a_level_of_springs_is_taken_where_there_is_one)
+START_TEST(a_level_that_is_stepped_is_taken_where_there_is_one)
 {
   scene s = scene_begin();
   const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
@@ -95,7 +95,7 @@ START_TEST(a_level_of_springs_is_taken_where_there_is_one)
     levels[i] = s.asset->soft_bodies.at[0].levels.at[0];
     levels[i].positions.count = levels[i].masses.count = 3 - i;
   }
-  levels[1].model = SBF_ELASTIC_MODEL_TETRAHEDRA;
+  levels[1].model = SBF_ELASTIC_MODEL_SHAPE_MATCHING;
   scene_body(&s, 0)->levels = (sbf_level_list){levels, 3};
   s.model_options.level = 1;
   scene_start(&s);
@@ -115,11 +115,11 @@ START_TEST(what_is_not_simulated_is_refused)
   scene s = scene_begin();
   const sbf_vec3 position = {0, 0, 0};
   sbf_level *level = scene_points(&s, 0, &position, NULL, 1);
-  level->model = SBF_ELASTIC_MODEL_TETRAHEDRA;
+  level->model = SBF_ELASTIC_MODEL_SHAPE_MATCHING;
   sbf_diagnostic error;
   ck_assert_int_eq(sbr_model_create(s.asset, NULL, &s.model, &error), SBF_BAD_INPUT);
   ck_assert_int_eq(error.code, SBF_CODE_LEVEL_NOT_SIMULATED);
-  ck_assert_ptr_nonnull(strstr(error.message, "tetrahedra"));
+  ck_assert_ptr_nonnull(strstr(error.message, "shape_matching"));
   scene_free(&s);
 }
 END_TEST
@@ -130,7 +130,7 @@ static Suite *suite(void) {
   tcase_add_test(c, springs_between_bodies_act);
   tcase_add_test(c, springs_between_levels_that_are_not_simulated_do_not);
   tcase_add_test(c, levels_are_chosen);
-  tcase_add_test(c, a_level_of_springs_is_taken_where_there_is_one);
+  tcase_add_test(c, a_level_that_is_stepped_is_taken_where_there_is_one);
   tcase_add_test(c, what_is_not_simulated_is_refused);
   suite_add_tcase(s, c);
   return s;

@@ -148,7 +148,7 @@ typedef enum sbf_code {
   SBF_CODE_COLLISION_ONE_SIDED = 615, /* One of two things is to meet the other and not the reverse, so they never meet: let each mask have the other's layer. */
   SBF_CODE_PARTICLE_TOO_LARGE = 616, /* A particle radius is larger than the body: state it in metres. */
   SBF_CODE_PRESSURE_OPEN = 617, /* Pressure acts on closed surfaces only: close the surface or set the mode to none. */
-  SBF_CODE_LEVEL_NOT_SIMULATED = 641, /* The runtime does not step this elastic model: build the file with springs. */
+  SBF_CODE_LEVEL_NOT_SIMULATED = 641, /* The runtime does not step this elastic model: build the file with springs or tetrahedra. */
   SBF_CODE_TOO_STIFF = 642, /* A body is too stiff and light to be stepped explicitly: give it more mass, less stiffness or fewer points. */
   SBF_CODE_PART_LEFT_OUT = 643, /* The file holds something that this runtime does not move: another runtime, or a later one, does. */
   SBF_CODE_RIG_SECTION_GUESSED = 701, /* A section was given to the nearest bone, because no name said where it belongs. */

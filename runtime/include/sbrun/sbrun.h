@@ -80,8 +80,8 @@ typedef struct sbr_tasks {
 typedef struct sbr_model_options {
   size_t struct_size;             /* sizeof(sbr_model_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
-  uint32_t
-      level; /* of each body that has so many levels, else its coarsest; of those of springs the nearest */
+  uint32_t level;    /* of each body that has so many levels, else its coarsest; of those of springs and of
+                        tetrahedra the nearest */
   sbf_scheme scheme; /* automatic: the level's own, and where that is automatic, symplectic */
   uint32_t substeps; /* of a control tick; 0: the level's own, or as many as the scheme needs */
   bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass */

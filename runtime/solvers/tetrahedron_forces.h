@@ -1,0 +1,200 @@
+/* Forces of neo-Hookean tetrahedra (mechanics/neo_hookean.h states the energy), eight at a time. Written for
+ * the lanes of the file that includes it; see kernels/kernels.h.
+ *
+ * With edges d_j = x_j - x_0 and the area vectors n_1 = d_2 x d_3 and so on, J = d_1.n_1 / (6 V) and the
+ * force on corner i is
+ *
+ *   f_i = -sum_j K_ij d_j - (lambda (J - 1) - mu) / 6 n_i,     K_ij = V mu g_i.g_j
+ *
+ * for i, j = 1..3, and f_0 minus their sum: the same as -V P g_i without ever forming F, in two thirds of the
+ * operations. Forces are added up point by point in the order of the blocks, within one first all that meet
+ * its first corners, lane after lane, then the second: the same order for lanes of every width. */
+#ifndef SBRI_TETRAHEDRON_FORCES_H
+#define SBRI_TETRAHEDRON_FORCES_H
+
+#include "math/vec3.h"
+#include "solvers/island_tick.h"
+
+static inline sbri_wide3 sbri_wide3_sub(sbri_wide3 a, sbri_wide3 b) {
+  return (sbri_wide3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static inline sbri_wide3 sbri_wide3_add(sbri_wide3 a, sbri_wide3 b) {
+  return (sbri_wide3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline sbri_wide3 sbri_wide3_scale(sbri_wide3 a, sbri_wide s) {
+  return (sbri_wide3){a.x * s, a.y * s, a.z * s};
+}
+static inline sbri_wide sbri_wide3_dot(sbri_wide3 a, sbri_wide3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline sbri_wide3 sbri_wide3_cross(sbri_wide3 a, sbri_wide3 b) {
+  return (sbri_wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* How much faster than at rest the running state may swing, and how near to inside out it is; a lane each. */
+typedef struct sbri_tetrahedron_watch {
+  float stiffening[SBRI_BLOCK];  /* greatest share of an element's stiffness to that at rest, a bound */
+  float least_ratio[SBRI_BLOCK]; /* least J */
+} sbri_tetrahedron_watch;
+
+/* The block of a corner is V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T) with |cof F g| = |n| / (6 V): its
+ * largest eigenvalue against that at rest, the greatest of the corners'; and what the curvature of J adds
+ * between corners, lambda |J - 1| at most beyond the mu that is there at rest. */
+static inline void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, sbri_wide3 n1,
+    sbri_wide3 n2, sbri_wide3 n3, sbri_wide ratio, sbri_tetrahedron_watch *watch) {
+  sbri_wide zero = sbri_wide_all(0), tiny = sbri_wide_all(1e-30f);
+  sbri_wide k11 = sbri_wide_load(block->stiffness[0] + lane),
+            k22 = sbri_wide_load(block->stiffness[1] + lane);
+  sbri_wide k33 = sbri_wide_load(block->stiffness[2] + lane),
+            k12 = sbri_wide_load(block->stiffness[3] + lane);
+  sbri_wide k23 = sbri_wide_load(block->stiffness[4] + lane),
+            k31 = sbri_wide_load(block->stiffness[5] + lane);
+  sbri_wide bulk = sbri_wide_load(block->bulk + lane), shear = sbri_wide_load(block->shear + lane);
+  sbri_wide side = bulk * sbri_wide_load(block->inverse_volume + lane), two = sbri_wide_all(2);
+  sbri_wide3 n0 = sbri_wide3_add(sbri_wide3_add(n1, n2), n3);
+  sbri_wide k00 = k11 + k22 + k33 + two * (k12 + k23 + k31);
+  sbri_wide a = side * sbri_wide3_dot(n0, n0) / sbri_wide_max(k00, tiny);
+  a = sbri_wide_max(a, side * sbri_wide3_dot(n1, n1) / sbri_wide_max(k11, tiny));
+  a = sbri_wide_max(a, side * sbri_wide3_dot(n2, n2) / sbri_wide_max(k22, tiny));
+  a = sbri_wide_max(a, side * sbri_wide3_dot(n3, n3) / sbri_wide_max(k33, tiny));
+  /* a is lambda |cof F g|^2 / (mu |g|^2). */
+  sbri_wide share = sbri_wide_max(shear, tiny), most = sbri_wide_max(bulk + shear, tiny);
+  sbri_wide off = ratio - sbri_wide_all(1), curved = bulk * off - shear;
+  curved = sbri_wide_max(sbri_wide_max(curved, zero - curved) - shear, zero);
+  sbri_wide stiffening = (sbri_wide_all(1) + a) * share / most + curved / most;
+  sbri_mask real = shear > zero;
+  sbri_wide before = sbri_wide_load(watch->stiffening + lane),
+            least = sbri_wide_load(watch->least_ratio + lane);
+  sbri_wide_store(
+      watch->stiffening + lane, sbri_wide_select(real, sbri_wide_max(stiffening, before), before));
+  sbri_wide_store(watch->least_ratio + lane, sbri_wide_select(real, sbri_wide_min(ratio, least), least));
+}
+
+/* Viscous forces, taken off f: -beta V F S g_i, S Hooke's stress of the rate E' of Green's strain. In edges,
+ * E' has the coefficients c_jk = (d_j.w_k + w_j.d_k) / 2, w the rates of the edges, and V g_j^T S g_i = 2 /
+ * (V mu) K c K + (lambda - mu) / (V mu^2) (K:c) K. */
+static inline void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
+    uint32_t lane, const float *betas, const sbri_wide3 d[3], sbri_wide3 f[3]) {
+  sbri_wide3 v = sbri_wide_gather(t->velocity_points, block->corners[0] + lane), w[3];
+  for (int i = 0; i < 3; i++)
+    w[i] = sbri_wide3_sub(sbri_wide_gather(t->velocity_points, block->corners[i + 1] + lane), v);
+  static const int places[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  sbri_wide k[6], c[6], half = sbri_wide_all(0.5f), two = sbri_wide_all(2), tiny = sbri_wide_all(1e-30f);
+  for (int i = 0; i < 6; i++) k[i] = sbri_wide_load(block->stiffness[i] + lane);
+  for (int i = 0; i < 3; i++)
+    for (int j = i; j < 3; j++)
+      c[places[i][j]] = half * (sbri_wide3_dot(d[i], w[j]) + sbri_wide3_dot(w[i], d[j]));
+  sbri_wide trace = k[0] * c[0] + k[1] * c[1] + k[2] * c[2] + two * (k[3] * c[3] + k[4] * c[4] + k[5] * c[5]);
+  sbri_wide six = sbri_wide_all(6), mu = sbri_wide_max(six * sbri_wide_load(block->shear + lane), tiny);
+  sbri_wide first = six * sbri_wide_load(block->bulk + lane) - mu;
+  sbri_wide per_volume = six * sbri_wide_load(block->inverse_volume + lane) / mu; /* 1 / (V mu) */
+  sbri_wide beta = sbri_wide_load(betas + lane), even = first / mu * per_volume * trace;
+  for (int i = 0; i < 3; i++) {
+    sbri_wide row[3]; /* (c K) column i */
+    for (int j = 0; j < 3; j++)
+      row[j] = c[places[j][0]] * k[places[0][i]] + c[places[j][1]] * k[places[1][i]] +
+               c[places[j][2]] * k[places[2][i]];
+    for (int j = 0; j < 3; j++) {
+      sbri_wide s = two * per_volume *
+                        (k[places[j][0]] * row[0] + k[places[j][1]] * row[1] + k[places[j][2]] * row[2]) +
+                    even * k[places[j][i]];
+      f[i] = sbri_wide3_sub(f[i], sbri_wide3_scale(d[j], beta * s));
+    }
+  }
+}
+
+/* The forces of a group of lanes on its corners. */
+static inline void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
+    uint32_t lane, const float *betas, sbri_tetrahedron_watch *watch, sbri_wide3 forces[4]) {
+  sbri_wide3 x0 = sbri_wide_gather(t->positions, block->corners[0] + lane), d[3], *f = forces + 1;
+  for (int i = 0; i < 3; i++)
+    d[i] = sbri_wide3_sub(sbri_wide_gather(t->positions, block->corners[i + 1] + lane), x0);
+  sbri_wide3 n1 = sbri_wide3_cross(d[1], d[2]), n2 = sbri_wide3_cross(d[2], d[0]),
+             n3 = sbri_wide3_cross(d[0], d[1]);
+  sbri_wide ratio = sbri_wide3_dot(d[0], n1) * sbri_wide_load(block->inverse_volume + lane);
+  sbri_wide p =
+      sbri_wide_load(block->shear + lane) - sbri_wide_load(block->bulk + lane) * (ratio - sbri_wide_all(1));
+  sbri_wide k11 = sbri_wide_load(block->stiffness[0] + lane),
+            k22 = sbri_wide_load(block->stiffness[1] + lane);
+  sbri_wide k33 = sbri_wide_load(block->stiffness[2] + lane),
+            k12 = sbri_wide_load(block->stiffness[3] + lane);
+  sbri_wide k23 = sbri_wide_load(block->stiffness[4] + lane),
+            k31 = sbri_wide_load(block->stiffness[5] + lane);
+#define SBRI_FORCE(n, a, b, c, axis) p *n.axis - (a * d[0].axis + b * d[1].axis + c * d[2].axis)
+#define SBRI_FORCES(n, a, b, c)                                                                              \
+  (sbri_wide3){SBRI_FORCE(n, a, b, c, x), SBRI_FORCE(n, a, b, c, y), SBRI_FORCE(n, a, b, c, z)}
+  f[0] = SBRI_FORCES(n1, k11, k12, k31);
+  f[1] = SBRI_FORCES(n2, k12, k22, k23);
+  f[2] = SBRI_FORCES(n3, k31, k23, k33);
+#undef SBRI_FORCES
+#undef SBRI_FORCE
+  if (betas) sbri_tetrahedron_damping(t, block, lane, betas, d, f);
+  if (watch) sbri_watch(block, lane, n1, n2, n3, ratio, watch);
+  sbri_wide zero = sbri_wide_all(0);
+  sbri_wide3 others = sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]);
+  forces[0] = (sbri_wide3){zero - others.x, zero - others.y, zero - others.z};
+}
+
+static inline void sbri_tetrahedron_block_forces(const sbri_island_tick *t,
+    const sbri_tetrahedron_block *block, const float *betas, sbri_tetrahedron_watch *watch) {
+  sbri_wide3 forces[SBRI_BLOCK / SBRI_LANES][4];
+  for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++)
+    sbri_tetrahedron_lanes(t, block, group * SBRI_LANES, betas, watch, forces[group]);
+  for (int k = 0; k < 4; k++)
+    for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++)
+      sbri_wide_scatter_add(t->element_forces, block->corners[k] + group * SBRI_LANES, forces[group][k]);
+}
+
+/* Forces in N of the island's tetrahedra on its slots, into t->element_forces. `watch`: NULL, or what begins
+ * as sbri_watch_begin makes it and is filled. */
+static inline void sbri_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
+  const sbri_island *island = t->island;
+  uint32_t count = island->tetrahedron_block_count;
+  const sbri_tetrahedron_block *blocks = island->tetrahedron_blocks;
+  memset(t->element_forces, 0, island->slot_count * sizeof *t->element_forces);
+  /* Copies of the loop, so that the common one carries no more than it needs. */
+  if (island->tetrahedron_damping)
+    for (uint32_t b = 0; b < count; b++)
+      sbri_tetrahedron_block_forces(t, &blocks[b], island->tetrahedron_damping + b * SBRI_BLOCK, watch);
+  else if (watch)
+    for (uint32_t b = 0; b < count; b++) sbri_tetrahedron_block_forces(t, &blocks[b], NULL, watch);
+  else
+    for (uint32_t b = 0; b < count; b++) sbri_tetrahedron_block_forces(t, &blocks[b], NULL, NULL);
+}
+
+static inline void sbri_watch_begin(sbri_tetrahedron_watch *watch) {
+  for (int lane = 0; lane < SBRI_BLOCK; lane++) watch->stiffening[lane] = 0, watch->least_ratio[lane] = 1;
+}
+static inline float sbri_watch_stiffening(const sbri_tetrahedron_watch *watch) {
+  float greatest = 1;
+  for (int lane = 0; lane < SBRI_BLOCK; lane++)
+    greatest = watch->stiffening[lane] > greatest ? watch->stiffening[lane] : greatest;
+  return greatest;
+}
+static inline float sbri_watch_least_ratio(const sbri_tetrahedron_watch *watch) {
+  float least = 1;
+  for (int lane = 0; lane < SBRI_BLOCK; lane++)
+    least = watch->least_ratio[lane] < least ? watch->least_ratio[lane] : least;
+  return least;
+}
+
+/* The forces, and if `looks` what is watched into the tick's state. */
+static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool looks) {
+  sbri_tetrahedron_watch watch;
+  sbri_watch_begin(&watch);
+  sbri_tetrahedron_forces(t, looks ? &watch : NULL);
+  if (!looks) return;
+  *t->stiffening = sbri_watch_stiffening(&watch);
+  *t->least_ratio = sbri_watch_least_ratio(&watch);
+}
+
+/* As many substeps as that time takes at rest are stable for `time_s` where tetrahedra are stiffer than at
+ * rest as last looked at: frequencies grow by the root of it, and what their own damping asks for by all of
+ * it. */
+static inline double sbri_stiffened_time(const sbri_island_tick *t, float time_s) {
+  const float most = 1e4f; /* beyond it nothing would help */
+  float share = *t->stiffening < most ? *t->stiffening : most;
+  return (double)time_s * (double)(t->island->stiffness_damping_s > 0 ? share : sqrtf(share));
+}
+
+#endif

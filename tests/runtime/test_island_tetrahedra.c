@@ -1,0 +1,161 @@
+#include <stdlib.h>
+
+#include "harness.h"
+#include "mechanics/neo_hookean.h"
+#include "model/runtime_model.h"
+#include "scenes.h"
+#include "solvers/scheme.h"
+
+static lattice_box box;
+
+static void setup(void) {
+  box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0.4f, 0.6f}, 5, 2, 3, 1000, 5e4f, 0.4f);
+}
+static void teardown(void) {
+  lattice_box_free(&box);
+}
+
+static bool is_inert(const sbri_tetrahedron_block *block, uint32_t lane) {
+  return block->shear[lane] == 0;
+}
+
+START_TEST(blocks_hold_each_once_and_share_few_points)
+{
+  scene s = scene_begin();
+  lattice_box_hold(&box);
+  scene_lattice(&s, 0, &box);
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  uint32_t count = 0, shared = 0, *used = calloc(island->slot_count, sizeof *used);
+  ck_assert_ptr_nonnull(used);
+  double volume = 0;
+  ck_assert_uint_eq(island->tetrahedron_count, box.tetrahedron_count);
+  for (uint32_t b = 0; b < island->tetrahedron_block_count; b++) {
+    const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[b];
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+      if (is_inert(block, lane)) {
+        ck_assert_float_eq(block->bulk[lane], 0);
+        for (int i = 0; i < 6; i++) ck_assert_float_eq(block->stiffness[i][lane], 0);
+        continue;
+      }
+      count++;
+      volume += 1 / (6 * (double)block->inverse_volume[lane]);
+      for (int k = 0; k < 4; k++) {
+        uint32_t slot = block->corners[k][lane];
+        ck_assert_uint_lt(slot, island->slot_count);
+        shared += used[slot] == b + 1;
+        used[slot] = b + 1;
+      }
+    }
+  }
+  free(used);
+  ck_assert_uint_eq(count, box.tetrahedron_count);
+  ck_assert_double_eq_tol(volume, 0.24, 1e-6);
+  ck_assert_uint_eq(island->tetrahedron_block_count, (box.tetrahedron_count + 7) / SBRI_BLOCK);
+  /* In the order of the lattice more than half of the 720 corners would be; the body is too small for none.
+   */
+  ck_assert_uint_le(shared, 260);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(numbers_of_a_lane)
+{
+  /* One tetrahedron: corners (0,0,0), (1,0,0), (0,1,0), (0,0,1); V = 1/6, and the gradients are the axes. */
+  scene s = scene_begin();
+  const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  sbf_uint4 corners = {{0, 1, 2, 3}};
+  sbf_level *level = scene_points(&s, 0, positions, NULL, 4);
+  level->model = SBF_ELASTIC_MODEL_TETRAHEDRA;
+  level->lattice.tetrahedra = (sbf_uint4_list){&corners, 1};
+  scene_body(&s, 0)->attributes.young_modulus = 1000;
+  scene_body(&s, 0)->attributes.poisson_ratio = 0.25f;
+  scene_body(&s, 0)->attributes.density = 24;
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[0];
+  ck_assert_uint_eq(island->tetrahedron_block_count, 1);
+  const float expected[6] = {400.0f / 6, 400.0f / 6, 400.0f / 6, 0, 0, 0}; /* mu = 400 Pa */
+  for (int i = 0; i < 6; i++) ck_assert_float_eq_tol(block->stiffness[i][0], expected[i], 1e-4f);
+  ck_assert_float_eq_tol(block->inverse_volume[0], 1, 1e-6f);
+  ck_assert_float_eq_tol(block->bulk[0], 800.0f / 6, 1e-4f);
+  ck_assert_float_eq_tol(block->shear[0], 400.0f / 6, 1e-4f);
+  for (int i = 0; i < 4; i++) ck_assert_float_eq_tol(island->masses[i], 1, 1e-6f); /* a quarter each */
+  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 0);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(beside_tetrahedra_only_extra_springs_act)
+{
+  scene s = scene_begin();
+  sbf_level *level = scene_lattice(&s, 0, &box);
+  const float stiffness = 10;
+  scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &stiffness, 1);
+  scene_start(&s);
+  ck_assert_uint_eq(s.model->islands[0].spring_count, 0);
+  sbr_world_destroy(s.world);
+  sbr_model_destroy(s.model);
+  ((sbf_spring_set *)(uintptr_t)level->springs.at)->extra = true;
+  scene_start(&s);
+  ck_assert_uint_eq(s.model->islands[0].spring_count, 1);
+  ck_assert_uint_eq(s.model->islands[0].tetrahedron_count, box.tetrahedron_count);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(tetrahedra_of_a_level_of_springs_do_not_act)
+{
+  scene s = scene_begin();
+  scene_lattice(&s, 0, &box)->model = SBF_ELASTIC_MODEL_SPRINGS;
+  scene_start(&s);
+  ck_assert_uint_eq(s.model->islands[0].tetrahedron_count, 0);
+  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 1);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(the_relaxation_scheme_gives_way)
+{
+  scene s = scene_begin();
+  scene_lattice(&s, 0, &box)->simulation.scheme = SBF_SCHEME_RELAXATION;
+  scene_start(&s);
+  ck_assert_ptr_eq(s.model->islands[0].scheme, &sbri_symplectic);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(memory_may_run_out)
+{
+  scene s = scene_begin();
+  lattice_box_hold(&box);
+  scene_lattice(&s, 0, &box);
+  scene_body(&s, 0)->attributes.stiffness_damping = 1e-4f;
+  bool done = false;
+  for (size_t allowed = 0; !done && allowed < 200; allowed++) {
+    harness_memory memory;
+    harness_memory_init(&memory, allowed);
+    sbr_model_options options = {.allocator = &memory.allocator};
+    done = sbr_model_create(s.asset, &options, &s.model, NULL) == SBF_OK;
+    if (done) sbr_model_destroy(s.model);
+    ck_assert_uint_eq(memory.held_bytes, 0);
+  }
+  s.model = NULL;
+  ck_assert(done);
+  scene_free(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *s = suite_create("island_tetrahedra");
+  TCase *c = tcase_create("island_tetrahedra");
+  tcase_add_checked_fixture(c, setup, teardown);
+  tcase_add_test(c, blocks_hold_each_once_and_share_few_points);
+  tcase_add_test(c, numbers_of_a_lane);
+  tcase_add_test(c, beside_tetrahedra_only_extra_springs_act);
+  tcase_add_test(c, tetrahedra_of_a_level_of_springs_do_not_act);
+  tcase_add_test(c, the_relaxation_scheme_gives_way);
+  tcase_add_test(c, memory_may_run_out);
+  suite_add_tcase(s, c);
+  return harness_run(s);
+}

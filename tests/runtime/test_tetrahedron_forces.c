@@ -1,0 +1,386 @@
+#include "solvers/tetrahedron_forces.h"
+
+#include <stdlib.h>
+
+#include "core/state.h"
+#include "core/world.h"
+#include "harness.h"
+#include "mechanics/neo_hookean.h"
+#include "mechanics/static_solve.h"
+#include "scenes.h"
+
+static lattice_box box;
+static scene s;
+static sbri_island_tick tick;
+static sbri_point *positions, *velocities, *forces;
+static const float beta = 2e-3f;
+
+static void begin(float damping_s) {
+  box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){0.6f, 0.4f, 0.4f}, 3, 2, 2, 1000, 5e4f, 0.4f);
+  s = scene_begin();
+  scene_lattice(&s, 0, &box);
+  scene_body(&s, 0)->attributes.stiffness_damping = damping_s;
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  positions = calloc(island->slot_count, sizeof *positions);
+  velocities = calloc(island->slot_count, sizeof *velocities);
+  forces = calloc(island->slot_count, sizeof *forces);
+  ck_assert(positions && velocities && forces);
+  memcpy(positions, island->rest, island->slot_count * sizeof *positions);
+  tick = (sbri_island_tick){.model = s.model,
+      .island = island,
+      .positions = positions,
+      .velocity_points = velocities,
+      .element_forces = forces};
+}
+static void end(void) {
+  free(positions);
+  free(velocities);
+  free(forces);
+  scene_free(&s);
+  lattice_box_free(&box);
+}
+
+static float scattered(uint32_t i) {
+  return (float)(i * 2654435761u >> 8 & 0xffff) / 32768.0f - 1;
+}
+
+static sbfi_d3 place(const sbri_point *points, uint32_t slot) {
+  return (sbfi_d3){points[slot].x, points[slot].y, points[slot].z};
+}
+
+/* What double precision says, by slots. */
+static void expected_forces(sbfi_d3 *sums) {
+  const sbri_body *body = &s.model->bodies[0];
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    sbfi_tetrahedron element;
+    sbfi_d3 x[4], f[4];
+    ck_assert(sbri_body_tetrahedron(body, t, &element));
+    for (int k = 0; k < 4; k++) x[k] = place(positions, body->slot_from_point[box.tetrahedra[t].at[k]]);
+    sbfi_tetrahedron_forces(&element, x, f);
+    for (int k = 0; k < 4; k++) {
+      sbfi_d3 *to = &sums[body->slot_from_point[box.tetrahedra[t].at[k]]];
+      *to = sbfi_d3_add(*to, f[k]);
+    }
+  }
+}
+
+START_TEST(forces_are_those_of_the_energy)
+{
+  /* Shaken a little, and so that most elements are inside out. */
+  begin(0);
+  float shake = _i ? 0.4f : 0.03f;
+  const sbri_island *island = tick.island;
+  for (uint32_t i = 0; i < island->slot_count; i++) {
+    positions[i].x += shake * scattered(3 * i);
+    positions[i].y += shake * scattered(3 * i + 1);
+    positions[i].z += shake * scattered(3 * i + 2);
+  }
+  sbfi_d3 *sums = calloc(island->slot_count, sizeof *sums);
+  expected_forces(sums);
+  sbri_tetrahedron_forces(&tick, NULL);
+  double most = 0, worst = 0;
+  sbfi_d3 total = {0, 0, 0};
+  for (uint32_t i = 0; i < island->slot_count; i++) {
+    worst = fmax(worst, sbfi_d3_length(sbfi_d3_sub(place(forces, i), sums[i])));
+    most = fmax(most, sbfi_d3_length(sums[i]));
+    total = sbfi_d3_add(total, place(forces, i));
+  }
+  ck_assert_double_gt(most, 1);
+  ck_assert_double_le(worst, 2e-5 * most);
+  ck_assert_double_le(sbfi_d3_length(total), 1e-4 * most);
+  free(sums);
+  end();
+}
+END_TEST
+
+START_TEST(damping_is_the_second_derivative_times_the_velocity)
+{
+  begin(beta);
+  const sbri_body *body = &s.model->bodies[0];
+  sbfi_d3 *sums = calloc(tick.island->slot_count, sizeof *sums);
+  for (uint32_t i = 0; i < tick.island->slot_count; i++)
+    velocities[i] = (sbri_point){scattered(7 * i), scattered(7 * i + 1), scattered(7 * i + 2), 0};
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    sbfi_tetrahedron element;
+    sbfi_d3 x[4], v[4], f[4];
+    ck_assert(sbri_body_tetrahedron(body, t, &element));
+    for (int k = 0; k < 4; k++) {
+      x[k] = place(positions, body->slot_from_point[box.tetrahedra[t].at[k]]);
+      v[k] = place(velocities, body->slot_from_point[box.tetrahedra[t].at[k]]);
+    }
+    sbfi_tetrahedron_product(&element, x, v, f);
+    for (int k = 0; k < 4; k++) {
+      sbfi_d3 *to = &sums[body->slot_from_point[box.tetrahedra[t].at[k]]];
+      *to = sbfi_d3_sub(*to, sbfi_d3_scale(f[k], (double)beta));
+    }
+  }
+  sbri_tetrahedron_forces(&tick, NULL);
+  double most = 0, worst = 0;
+  for (uint32_t i = 0; i < tick.island->slot_count; i++) {
+    worst = fmax(worst, sbfi_d3_length(sbfi_d3_sub(place(forces, i), sums[i])));
+    most = fmax(most, sbfi_d3_length(sums[i]));
+  }
+  ck_assert_double_gt(most, 1);
+  ck_assert_double_le(worst, 1e-4 * most);
+  free(sums);
+  end();
+}
+END_TEST
+
+START_TEST(damping_leaves_turning_alone)
+{
+  /* Deformed and spinning as a rigid body: the same forces as at rest. In any motion it takes energy. */
+  begin(beta);
+  uint32_t count = tick.island->slot_count;
+  for (uint32_t i = 0; i < count; i++) {
+    sbri_point *p = &positions[i];
+    p->x *= 1.4f, p->y += 0.3f * p->x, p->z *= 0.7f;
+  }
+  sbri_point *still = calloc(count, sizeof *still);
+  sbri_tetrahedron_forces(&tick, NULL);
+  memcpy(still, forces, count * sizeof *still);
+  for (uint32_t i = 0; i < count; i++) {
+    const sbri_point *p = &positions[i];
+    velocities[i] = (sbri_point){3 * p->z - 2 * p->y, 2 * p->x - p->z, p->y - 3 * p->x, 0};
+  }
+  sbri_tetrahedron_forces(&tick, NULL);
+  double most = 0;
+  for (uint32_t i = 0; i < count; i++) most = fmax(most, sbfi_d3_length(place(still, i)));
+  for (uint32_t i = 0; i < count; i++)
+    ck_assert_double_le(sbfi_d3_length(sbfi_d3_sub(place(forces, i), place(still, i))), 1e-4 * most);
+  for (uint32_t i = 0; i < count; i++)
+    velocities[i] = (sbri_point){scattered(7 * i), scattered(7 * i + 1), scattered(7 * i + 2), 0};
+  sbri_tetrahedron_forces(&tick, NULL);
+  double power = 0;
+  for (uint32_t i = 0; i < count; i++)
+    power += sbfi_d3_dot(sbfi_d3_sub(place(forces, i), place(still, i)), place(velocities, i));
+  ck_assert_double_lt(power, 0);
+  free(still);
+  end();
+}
+END_TEST
+
+START_TEST(what_is_watched)
+{
+  begin(0);
+  sbri_tetrahedron_watch watch;
+  sbri_watch_begin(&watch);
+  sbri_tetrahedron_forces(&tick, &watch);
+  ck_assert_float_eq_tol(sbri_watch_stiffening(&watch), 1, 1e-4f);
+  ck_assert_float_eq_tol(sbri_watch_least_ratio(&watch), 1, 1e-4f);
+  /* Grown alike by a half: cof F grows by 2.25, and lambda (J - 1) - mu beyond the mu of rest. */
+  for (uint32_t i = 0; i < tick.island->slot_count; i++)
+    positions[i] = (sbri_point){1.5f * positions[i].x, 1.5f * positions[i].y, 1.5f * positions[i].z, 0};
+  sbfi_lame lame = sbfi_lame_of(5e4, 0.4);
+  double most = lame.mu + lame.lambda;
+  double expected = (lame.mu + 2.25 * 2.25 * lame.lambda + lame.lambda * 2.375 - 2 * lame.mu) / most;
+  sbri_watch_begin(&watch);
+  sbri_tetrahedron_forces(&tick, &watch);
+  ck_assert_double_eq_tol(sbri_watch_stiffening(&watch), expected, 1e-3 * expected);
+  ck_assert_float_eq(sbri_watch_least_ratio(&watch), 1);
+  for (uint32_t i = 0; i < tick.island->slot_count; i++) positions[i].y *= -0.5f;
+  sbri_watch_begin(&watch);
+  sbri_tetrahedron_forces(&tick, &watch);
+  ck_assert_float_eq_tol(sbri_watch_least_ratio(&watch), -0.5f * 1.5f * 1.5f * 1.5f, 1e-3f);
+  end();
+}
+END_TEST
+
+/* ---- Bodies ---- */
+
+/* 1 x 0.2 x 0.2 m along x, held at x = 0, E = 1e6 Pa, nu = 0.4. */
+static void begin_beam(uint32_t along, float damping_ratio, sbf_vec3 gravity) {
+  box = lattice_box_make(
+      (sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0.2f, 0.2f}, along, along / 5, along / 5, 1000, 1e6f, 0.4f);
+  lattice_box_hold(&box);
+  s = scene_begin();
+  scene_lattice(&s, 0, &box);
+  scene_body(&s, 0)->attributes.damping_ratio = damping_ratio;
+  s.world_definition.has_gravity = true;
+  s.world_definition.gravity = gravity;
+  scene_start(&s);
+}
+static void end_beam(void) {
+  scene_free(&s);
+  lattice_box_free(&box);
+}
+static float tip_height(void) {
+  return scene_point(&s, 0, lattice_box_point(&box, box.cells[0], 0, 0)).y;
+}
+
+START_TEST(a_beam_comes_to_rest_where_the_statics_say)
+{
+  begin_beam(10, 1, (sbf_vec3){0, -9.81f, 0});
+  sbf_spring_network network = {.point_count = box.point_count,
+      .positions = box.positions,
+      .masses = box.masses,
+      .tetrahedron_count = box.tetrahedron_count,
+      .tetrahedra = box.tetrahedra,
+      .young_modulus = box.young_modulus,
+      .poisson_ratios = box.poisson_ratios};
+  double *places = calloc(3 * (size_t)box.point_count, sizeof *places);
+  sbfi_static_problem problem = {.network = &network, .gravity = {0, -9.81f, 0}};
+  sbfi_static_outcome outcome;
+  sbfi_static_start(&network, places);
+  ck_assert(sbfi_static_solve(&problem, places, &outcome, NULL) && outcome.converged);
+  scene_ticks(&s, 240);
+  static sbf_vec3 read[1024];
+  uint32_t count = scene_read(&s, 0, read, 1024);
+  ck_assert_uint_eq(count, box.point_count);
+  for (uint32_t i = 0; i < count; i++) {
+    ck_assert_double_eq_tol(read[i].x, places[3 * i], 2e-4);
+    ck_assert_double_eq_tol(read[i].y, places[3 * i + 1], 2e-4);
+    ck_assert_double_eq_tol(read[i].z, places[3 * i + 2], 2e-4);
+  }
+  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  ck_assert(!health.inverted && health.finite);
+  ck_assert_float_gt(health.max_strain, 0.05f);
+  ck_assert_float_lt(health.max_strain, 0.6f);
+  ck_assert_uint_eq(health.recoveries, 0);
+  free(places);
+  end_beam();
+}
+END_TEST
+
+START_TEST(a_beam_swings_at_its_lowest_frequency)
+{
+  /* So weakly loaded that it stays linear; the mode itself is tested in tests/mechanics. */
+  begin_beam(10, 0, (sbf_vec3){0, -0.02f, 0});
+  sbf_spring_network network = {.point_count = box.point_count,
+      .positions = box.positions,
+      .masses = box.masses,
+      .tetrahedron_count = box.tetrahedron_count,
+      .tetrahedra = box.tetrahedra,
+      .young_modulus = box.young_modulus,
+      .poisson_ratios = box.poisson_ratios};
+  double *scratch = calloc(16 * (size_t)box.point_count, sizeof *scratch);
+  double exact = 2 * 3.14159265358979 / sbf_network_lowest(&network, true, scratch), low = 0;
+  free(scratch);
+  /* From rest it falls and comes back after a period: the mean of the height over whole periods is where it
+   * would hang, and it crosses that twice in each. */
+  uint32_t ticks = 400, crossings = 0;
+  float heights[400];
+  for (uint32_t i = 0; i < ticks; i++) {
+    heights[i] = tip_height();
+    low += heights[i] / (double)ticks;
+    scene_ticks(&s, 1);
+  }
+  double first = -1, last = -1;
+  for (uint32_t i = 1; i < ticks; i++) {
+    if (!(heights[i - 1] < low && heights[i] >= low)) continue;
+    last = ((i - 1) + (low - heights[i - 1]) / (heights[i] - heights[i - 1])) / 60;
+    if (first < 0) first = last;
+    crossings++;
+  }
+  ck_assert_uint_gt(crossings, 4);
+  ck_assert_double_eq_tol((last - first) / (crossings - 1), exact, 0.01 * exact);
+  end_beam();
+}
+END_TEST
+
+START_TEST(energy_and_momentum_are_kept)
+{
+  begin(0);
+  s.world_definition.has_gravity = true;
+  sbr_world_destroy(s.world);
+  s.world = NULL;
+  sbr_model_destroy(s.model);
+  s.world_definition.gravity = (sbf_vec3){0, 0, 0};
+  s.model_options.substeps = 8; /* always the same */
+  scene_start(&s);
+  sbri_character *c = &s.world->characters[0];
+  const sbri_island *island = &s.model->islands[0];
+  float *v = sbri_velocities(c);
+  sbri_point *x = sbri_positions(c);
+  for (uint32_t i = 0; i < island->free_count; i++) {
+    float *at = v + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK;
+    if (!(island->masses[i] > 0)) continue;
+    x[i].x *= 1.15f, x[i].y *= 0.9f;
+    at[0] = 0.5f - x[i].y, at[SBRI_BLOCK] = x[i].x, at[2 * SBRI_BLOCK] = 0.3f * scattered(i);
+  }
+  double sums[2][7] = {{0}}, energies[2] = {0};
+  for (int n = 0; n < 2; n++) {
+    for (uint32_t i = 0; i < island->free_count; i++) {
+      const float *at = v + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK;
+      double m = island->masses[i];
+      sbfi_d3 p = {m * at[0], m * at[SBRI_BLOCK], m * at[2 * SBRI_BLOCK]},
+              turn = sbfi_d3_cross(place(x, i), p);
+      const double parts[6] = {p.x, p.y, p.z, turn.x, turn.y, turn.z};
+      for (int k = 0; k < 6; k++) sums[n][k] += parts[k];
+    }
+    for (int i = 0; i < 600; i++) {
+      sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+      energies[n] += (h.kinetic_j + h.elastic_j) / 600;
+      scene_ticks(&s, 1);
+    }
+  }
+  for (int k = 0; k < 6; k++) ck_assert_double_eq_tol(sums[1][k], sums[0][k], 2e-4 * fabs(sums[0][0]));
+  ck_assert_double_eq_tol(energies[1], energies[0], 2e-3 * energies[0]);
+  end();
+}
+END_TEST
+
+START_TEST(far_from_the_world_s_origin_as_near)
+{
+  sbf_vec3 tips[2];
+  for (int n = 0; n < 2; n++) {
+    begin_beam(5, 0.2f, (sbf_vec3){0, -9.81f, 0});
+    if (n) sbr_character_teleport(s.world, s.character, (sbr_double3){1e6, 1000, -2e6}, 0);
+    scene_ticks(&s, 60);
+    tips[n] = scene_point(&s, 0, lattice_box_point(&box, 5, 0, 0));
+    end_beam();
+  }
+  ck_assert_float_eq_tol(tips[1].x, tips[0].x, 1e-5f);
+  ck_assert_float_eq_tol(tips[1].y, tips[0].y, 1e-5f);
+  ck_assert_float_eq_tol(tips[1].z, tips[0].z, 1e-5f);
+}
+END_TEST
+
+/* Flattened to a plane, mirrored, thrown into a heap: no number is lost, and after two seconds the shape is
+ * back, by itself or by being put there. */
+START_TEST(bad_starts_come_back)
+{
+  begin(0);
+  sbr_world_destroy(s.world);
+  s.world = NULL;
+  sbr_model_destroy(s.model);
+  scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
+  s.world_definition.has_gravity = true;
+  s.world_definition.gravity = (sbf_vec3){0, 0, 0};
+  scene_start(&s);
+  sbri_character *c = &s.world->characters[0];
+  const sbri_island *island = &s.model->islands[0];
+  sbri_point *x = sbri_positions(c);
+  for (uint32_t i = 0; i < island->free_count; i++) {
+    if (_i == 0) x[i].y = 0.1f;
+    if (_i == 1) x[i].x = -x[i].x;
+    if (_i == 2) x[i] = (sbri_point){scattered(5 * i), scattered(5 * i + 1), scattered(5 * i + 2), 0};
+  }
+  for (int i = 0; i < 180; i++) {
+    scene_ticks(&s, 1);
+    ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  }
+  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  ck_assert(!health.inverted);
+  ck_assert_float_lt(health.max_strain, 0.1f);
+  end();
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("tetrahedron_forces");
+  TCase *c = tcase_create("tetrahedron_forces");
+  tcase_set_timeout(c, 60);
+  tcase_add_loop_test(c, forces_are_those_of_the_energy, 0, 2);
+  tcase_add_test(c, damping_is_the_second_derivative_times_the_velocity);
+  tcase_add_test(c, damping_leaves_turning_alone);
+  tcase_add_test(c, what_is_watched);
+  tcase_add_test(c, a_beam_comes_to_rest_where_the_statics_say);
+  tcase_add_test(c, a_beam_swings_at_its_lowest_frequency);
+  tcase_add_test(c, energy_and_momentum_are_kept);
+  tcase_add_test(c, far_from_the_world_s_origin_as_near);
+  tcase_add_loop_test(c, bad_starts_come_back, 0, 3);
+  suite_add_tcase(suite, c);
+  return harness_run(suite);
+}
