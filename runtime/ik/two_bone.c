@@ -1,15 +1,6 @@
 #include "ik/two_bone.h"
 
-#include "math/vec3.h"
-
-/* Distance eased towards the full reach: the identity up to (1 - soft) * reach, then a quadratic of the same
- * slope there that meets the full reach, with no slope, twice the range further out. */
-static float ease_reach(float distance, float reach, float soft) {
-  float range = soft * reach, start = reach - range;
-  if (range <= 0 || distance <= start) return distance;
-  float t = sbri_clamp((distance - start) / (2 * range), 0, 1);
-  return start + range * t * (2 - t);
-}
+#include "ik/ik.h"
 
 /* The part of `v` at right angles to the unit vector `along`; taken twice, because of a `v` nearly along it
  * the first leaves hardly more than its own rounding. */
@@ -24,7 +15,7 @@ sbri_two_bone_result sbri_two_bone(sbf_vec3 hip, sbf_vec3 target, sbf_vec3 pole,
   sbf_vec3 to_target = sbri_sub(target, hip);
   float wanted = sbri_length(to_target);
   sbf_vec3 along = sbri_normalize(to_target, sbri_vec3(0, -1, 0));
-  float distance = sbri_clamp(ease_reach(wanted, reach, soft_reach), nearest, reach);
+  float distance = sbri_clamp(sbri_ease_reach(wanted, reach, soft_reach), nearest, reach);
 
   sbf_vec3 out = across(sbri_sub(pole, hip), along);
   if (sbri_dot(out, out) < 1e-10f * reach * reach) out = across(sbri_sub(fallback, hip), along);
@@ -39,4 +30,19 @@ sbri_two_bone_result sbri_two_bone(sbf_vec3 hip, sbf_vec3 target, sbf_vec3 pole,
   result.ankle = sbri_add_scaled(hip, along, distance);
   result.reached = fabsf(distance - wanted) <= 1e-6f * reach;
   return result;
+}
+
+sbri_ik_result sbri_ik_two_bone(sbri_ik_chain *chain) {
+  sbr_transform frames[SBRI_IK_MOST_JOINTS];
+  sbf_vec3 target = sbri_ik_begin(chain, frames), hip = frames[0].position, knee = frames[1].position;
+  float upper = sbri_length(chain->joints[1].offset), lower = sbri_length(chain->joints[2].offset);
+  sbf_vec3 middle = sbri_lerp(hip, frames[2].position, 0.5f), out = sbri_sub(knee, middle);
+  sbf_vec3 pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
+  sbri_two_bone_result solved = sbri_two_bone(hip, target, pole, knee, upper, lower, 0);
+  const sbf_vec3 places[3] = {hip, solved.knee, solved.ankle};
+  sbri_ik_through(chain, places, frames);
+  sbri_ik_result result = sbri_ik_finish(chain, target, frames, 1);
+  float away = sbri_length(sbri_sub(solved.ankle, target));
+  if (result.error <= away + chain->tolerance) return result;
+  return sbri_ccd(chain); /* a limit is in the way */
 }

@@ -1,0 +1,137 @@
+/* Damped least squares. Every joint turns about any axis, so that the Jacobian of the end's place is, joint
+ * by joint, the cross product with the arm to the end: its square is a sum of 3 x 3 blocks, and what is
+ * solved is a system of three rows, or of six with the end's rotation, however long the chain is. */
+#include <string.h>
+
+#include "ik/ik.h"
+
+static const float MOST_STEP = 0.5f;      /* of the reach: what the end is asked to move in one pass */
+static const float MOST_TURN = 0.8f;      /* rad, of a joint in one pass */
+static const float LEAST_DAMPING = 1e-5f; /* share of the reach, squared */
+
+typedef struct system {
+  double a[6][6], b[6];
+  int size;
+} system;
+
+/* Cholesky; the matrix is symmetric and, being damped, positive. */
+static void solve_system(system *s, float *x) {
+  int n = s->size;
+  for (int i = 0; i < n; i++) {
+    for (int j = 0; j <= i; j++) {
+      double sum = s->a[i][j];
+      for (int k = 0; k < j; k++) sum -= s->a[i][k] * s->a[j][k];
+      if (i == j)
+        s->a[i][i] = sqrt(sum > 1e-30 ? sum : 1e-30);
+      else
+        s->a[i][j] = sum / s->a[j][j];
+    }
+  }
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k < i; k++) s->b[i] -= s->a[i][k] * s->b[k];
+    s->b[i] /= s->a[i][i];
+  }
+  for (int i = n; i-- > 0;) {
+    for (int k = i + 1; k < n; k++) s->b[i] -= s->a[k][i] * s->b[k];
+    s->b[i] /= s->a[i][i];
+    x[i] = (float)s->b[i];
+  }
+}
+
+static void add_joint(system *s, sbf_vec3 r, double unit) {
+  double square = (double)sbri_dot(r, r), v[3] = {(double)r.x, (double)r.y, (double)r.z};
+  const double cross[3][3] = {{0, v[2], -v[1]}, {-v[2], 0, v[0]}, {v[1], -v[0], 0}}; /* -[r]x */
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 3; k++) s->a[i][k] += (i == k ? square : 0) - v[i] * v[k];
+  if (s->size == 3) return;
+  for (int i = 0; i < 3; i++) {
+    s->a[3 + i][3 + i] += unit * unit;
+    for (int k = 0; k < 3; k++) {
+      s->a[i][3 + k] += unit * cross[i][k];
+      s->a[3 + k][i] += unit * cross[i][k];
+    }
+  }
+}
+
+static sbf_vec3 cut(sbf_vec3 v, float most) {
+  float size = sbri_length(v);
+  return size > most ? sbri_scale(v, most / size) : v;
+}
+
+/* What a joint's comfort asks for in this pass, a rotation vector in world axes. */
+static sbf_vec3 comfort_of(const sbri_ik_chain *chain, uint32_t i, const sbr_transform *frames) {
+  const sbri_ik_joint *joint = &chain->joints[i];
+  if (joint->comfort_weight <= 0) return sbri_vec3(0, 0, 0);
+  sbf_quat before = i ? frames[i - 1].rotation : chain->base.rotation;
+  sbf_quat wanted = sbri_quat_multiply(before, joint->comfort);
+  sbf_quat turn = sbri_quat_multiply(wanted, sbri_quat_conjugate(frames[i].rotation));
+  return sbri_scale(sbri_quat_log(turn), 0.5f * joint->comfort_weight);
+}
+
+/* One pass; `reach` makes turns and metres comparable. */
+static void pass(sbri_ik_chain *chain, sbf_vec3 target, float reach, const sbr_transform *frames) {
+  uint32_t n = chain->count;
+  bool turns = chain->copy_rotation > 0;
+  float unit = 0.5f * reach;
+  sbf_vec3 end = frames[n - 1].position, off = cut(sbri_sub(target, end), MOST_STEP * reach);
+  sbf_vec3 asks[SBRI_IK_MOST_JOINTS], drift = {0, 0, 0}, spin = {0, 0, 0}, turn_off = {0, 0, 0};
+  system s;
+  memset(&s, 0, sizeof s);
+  s.size = turns ? 6 : 3;
+  for (uint32_t i = 0; i < n; i++) {
+    sbf_vec3 r = sbri_sub(end, frames[i].position);
+    add_joint(&s, r, (double)unit);
+    asks[i] = comfort_of(chain, i, frames);
+    drift = sbri_add(drift, sbri_cross(asks[i], r));
+    spin = sbri_add(spin, asks[i]);
+  }
+  if (turns) {
+    sbf_quat turn = sbri_quat_multiply(chain->target_rotation, sbri_quat_conjugate(frames[n - 1].rotation));
+    turn_off = sbri_scale(sbri_quat_log(turn), chain->copy_rotation);
+    turn_off = sbri_scale(cut(sbri_sub(turn_off, spin), 1), unit);
+  }
+  sbf_vec3 move = sbri_sub(off, drift);
+  const float b[6] = {move.x, move.y, move.z, turn_off.x, turn_off.y, turn_off.z};
+  double square = 0;
+  for (int i = 0; i < s.size; i++) s.b[i] = (double)b[i], square += s.b[i] * s.b[i];
+  double damping = 0.02 * square + (double)(LEAST_DAMPING * reach * reach);
+  for (int i = 0; i < s.size; i++) s.a[i][i] += damping;
+  float y[6] = {0};
+  solve_system(&s, y);
+  sbf_vec3 push = {y[0], y[1], y[2]}, twist = sbri_scale(sbri_vec3(y[3], y[4], y[5]), unit);
+  /* From the end on: a turn changes nothing of the frames before it. Turns of the world are carried on by the
+   * frames after, so each joint's own share is its whole turn. */
+  for (uint32_t i = n; i-- > 0;) {
+    sbf_vec3 r = sbri_sub(end, frames[i].position);
+    sbf_vec3 turn = sbri_add(asks[i], sbri_cross(r, push));
+    if (turns) turn = sbri_add(turn, twist);
+    sbri_ik_turn(chain, i, sbri_quat_exp(cut(turn, MOST_TURN)), frames);
+  }
+}
+
+static bool rotation_reached(const sbri_ik_chain *chain, const sbr_transform *frames) {
+  if (chain->copy_rotation < 1) return true;
+  sbf_quat back = sbri_quat_conjugate(frames[chain->count - 1].rotation);
+  return sbri_length(sbri_quat_log(sbri_quat_multiply(chain->target_rotation, back))) < 1e-3f;
+}
+
+sbri_ik_result sbri_damped_least_squares(sbri_ik_chain *chain) {
+  sbr_transform frames[SBRI_IK_MOST_JOINTS];
+  sbf_vec3 target = sbri_ik_begin(chain, frames);
+  float reach = sbri_ik_reach(chain);
+  uint32_t passes = 0, last = chain->count - 1;
+  /* What is too far is reached for at full length: asked for more, the chain would swing about. */
+  sbf_vec3 far = target, root = frames[0].position, away = sbri_sub(target, root);
+  if (sbri_length(away) > reach) target = sbri_add_scaled(root, away, reach / sbri_length(away));
+  while (passes < chain->iterations && reach > 0) {
+    sbf_vec3 before = frames[last].position;
+    bool there = sbri_length(sbri_sub(before, target)) <= chain->tolerance;
+    if (there && rotation_reached(chain, frames)) break;
+    pass(chain, target, reach, frames);
+    sbri_ik_frames(chain, frames);
+    passes++;
+    if (there || sbri_length(sbri_sub(frames[last].position, before)) >= 0.001f * chain->tolerance) continue;
+    break;
+  }
+  return sbri_ik_finish(chain, far, frames, passes);
+}

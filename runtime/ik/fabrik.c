@@ -1,0 +1,206 @@
+/* Forward and backward reaching, on a tree of joints; a chain is a tree without branches.
+ *
+ * The backward pass moves places alone. The forward pass turns the joints towards those places, from the root
+ * on, and so keeps lengths, limits and the least twist. */
+#include "ik/ik.h"
+
+typedef struct places {
+  sbf_vec3 at[SBRI_IK_MOST_JOINTS];   /* where the backward pass puts the joints */
+  sbf_vec3 sums[SBRI_IK_MOST_JOINTS]; /* of what the children ask for */
+  float counts[SBRI_IK_MOST_JOINTS];  /* how many ask; 0: nothing below has a goal */
+  float lengths[SBRI_IK_MOST_JOINTS]; /* from the parent */
+  sbr_transform frames[SBRI_IK_MOST_JOINTS];
+} places;
+
+static void find_frames(const sbri_ik_tree *tree, places *p) {
+  for (uint32_t i = 0; i < tree->count; i++) {
+    const sbr_transform *before = i ? &p->frames[tree->parents[i]] : &tree->base;
+    const sbri_ik_joint *joint = &tree->joints[i];
+    p->frames[i].position = sbri_add(before->position, sbri_rotate(before->rotation, joint->offset));
+    p->frames[i].rotation = sbri_quat_normalize(sbri_quat_multiply(before->rotation, joint->rotation));
+  }
+}
+
+static void backward(const sbri_ik_tree *tree, places *p) {
+  for (uint32_t i = 0; i < tree->count; i++) p->sums[i] = sbri_vec3(0, 0, 0), p->counts[i] = 0;
+  for (uint32_t g = 0; g < tree->goal_count; g++) {
+    uint32_t joint = tree->goals[g].joint;
+    p->sums[joint] = sbri_add(p->sums[joint], tree->goals[g].position);
+    p->counts[joint] += 1;
+  }
+  for (uint32_t i = tree->count; i-- > 0;) {
+    p->at[i] = p->frames[i].position;
+    if (p->counts[i] == 0) continue;
+    p->at[i] = sbri_scale(p->sums[i], 1 / p->counts[i]);
+    if (i == 0) break;
+    uint32_t parent = tree->parents[i];
+    sbf_vec3 is = sbri_sub(p->frames[parent].position, p->frames[i].position);
+    sbf_vec3 towards = sbri_normalize(sbri_sub(p->frames[parent].position, p->at[i]), sbri_normalize(is, is));
+    p->sums[parent] = sbri_add(p->sums[parent], sbri_add_scaled(p->at[i], towards, p->lengths[i]));
+    p->counts[parent] += 1;
+  }
+}
+
+/* Turn that brings a joint's children nearest to where they should be: the sum of their arms into the sum of
+ * those wanted, then about that line for the arm farthest off it. */
+static sbf_quat turn_of(const sbri_ik_tree *tree, const places *p, uint32_t joint) {
+  sbf_vec3 is = {0, 0, 0}, wanted = {0, 0, 0}, side_is = {0, 0, 0}, side_wanted = {0, 0, 0};
+  const sbr_transform *frame = &p->frames[joint];
+  uint32_t children = 0;
+  for (uint32_t i = joint + 1; i < tree->count; i++) {
+    if (tree->parents[i] != joint || p->counts[i] == 0 || p->lengths[i] <= 0) continue;
+    is = sbri_add(is, sbri_rotate(frame->rotation, tree->joints[i].offset));
+    sbf_vec3 to = sbri_sub(p->at[i], frame->position);
+    wanted = sbri_add(wanted, sbri_scale(sbri_normalize(to, to), p->lengths[i]));
+    children++;
+  }
+  if (children == 0) return sbri_quat_identity();
+  sbf_vec3 from_unit = sbri_normalize(is, sbri_vec3(0, 1, 0)), to_unit = sbri_normalize(wanted, from_unit);
+  sbf_quat turn = sbri_quat_between(from_unit, to_unit);
+  if (children == 1) return turn;
+  float farthest = 0;
+  for (uint32_t i = joint + 1; i < tree->count; i++) {
+    if (tree->parents[i] != joint || p->counts[i] == 0) continue;
+    sbf_vec3 arm = sbri_rotate(turn, sbri_rotate(frame->rotation, tree->joints[i].offset));
+    sbf_vec3 off = sbri_add_scaled(arm, to_unit, -sbri_dot(arm, to_unit));
+    if (sbri_length(off) <= farthest) continue;
+    farthest = sbri_length(off);
+    sbf_vec3 to = sbri_sub(p->at[i], frame->position);
+    side_is = off, side_wanted = sbri_add_scaled(to, to_unit, -sbri_dot(to, to_unit));
+  }
+  float angle =
+      sbri_atan2(sbri_dot(to_unit, sbri_cross(side_is, side_wanted)), sbri_dot(side_is, side_wanted));
+  return sbri_quat_multiply(sbri_quat_about(to_unit, angle), turn);
+}
+
+/* Whether the limits let every joint go where the backward pass put it. */
+static bool forward(sbri_ik_tree *tree, places *p) {
+  bool free = true;
+  for (uint32_t i = 0; i < tree->count; i++) {
+    const sbr_transform *before = i ? &p->frames[tree->parents[i]] : &tree->base;
+    sbri_ik_joint *joint = &tree->joints[i];
+    p->frames[i].position = sbri_add(before->position, sbri_rotate(before->rotation, joint->offset));
+    p->frames[i].rotation = sbri_quat_normalize(sbri_quat_multiply(before->rotation, joint->rotation));
+    sbf_quat world = sbri_quat_multiply(turn_of(tree, p, i), p->frames[i].rotation);
+    sbf_quat local = sbri_quat_normalize(sbri_quat_multiply(sbri_quat_conjugate(before->rotation), world));
+    joint->rotation = sbri_joint_limit_clamp(joint->limit, local);
+    free = free && joint->rotation.x == local.x && joint->rotation.y == local.y &&
+           joint->rotation.z == local.z && joint->rotation.w == local.w;
+    p->frames[i].rotation = sbri_quat_normalize(sbri_quat_multiply(before->rotation, joint->rotation));
+  }
+  return free;
+}
+
+static float worst_error(const sbri_ik_tree *tree, const places *p) {
+  float worst = 0;
+  for (uint32_t g = 0; g < tree->goal_count; g++) {
+    sbf_vec3 off = sbri_sub(p->frames[tree->goals[g].joint].position, tree->goals[g].position);
+    float error = sbri_length(off);
+    worst = error > worst ? error : worst;
+  }
+  return worst;
+}
+
+/* One goal beyond the chain's whole length: all joints on the line to it, in one pass. */
+static bool stretch_out(sbri_ik_tree *tree, places *p, bool *free) {
+  if (tree->goal_count != 1) return false;
+  uint32_t end = tree->goals[0].joint;
+  sbf_vec3 root = p->frames[0].position, to = sbri_sub(tree->goals[0].position, root);
+  float reach = 0, at = 0;
+  for (uint32_t i = end; i != 0; i = tree->parents[i]) reach += p->lengths[i];
+  if (sbri_length(to) < reach) return false;
+  sbf_vec3 along = sbri_normalize(to, sbri_vec3(0, 1, 0));
+  for (uint32_t i = 0; i < tree->count; i++) p->counts[i] = 0;
+  for (uint32_t i = end; i != 0; i = tree->parents[i]) {
+    p->counts[i] = 1;
+    p->at[i] = sbri_add_scaled(root, along, reach - at);
+    at += p->lengths[i];
+  }
+  *free = forward(tree, p);
+  return true;
+}
+
+/* A chain without limits needs no rotations until it is there: places alone, to and fro. */
+static bool is_free_chain(const sbri_ik_tree *tree) {
+  if (tree->goal_count != 1 || tree->goals[0].joint != tree->count - 1) return false;
+  for (uint32_t i = 1; i < tree->count; i++)
+    if (tree->parents[i] != i - 1) return false;
+  for (uint32_t i = 0; i + 1 < tree->count; i++)
+    if (tree->joints[i].limit && tree->joints[i].limit->active) return false;
+  return true;
+}
+
+static sbf_vec3 at_length(sbf_vec3 from, sbf_vec3 towards, float length) {
+  sbf_vec3 way = sbri_sub(towards, from);
+  return sbri_add_scaled(from, sbri_normalize(way, sbri_vec3(0, 1, 0)), length);
+}
+
+static uint32_t solve_places(sbri_ik_tree *tree, places *p) {
+  uint32_t passes = 0, last = tree->count - 1;
+  sbf_vec3 target = tree->goals[0].position, root = p->frames[0].position;
+  for (uint32_t i = 0; i <= last; i++) p->at[i] = p->frames[i].position, p->counts[i] = 1;
+  float error = sbri_length(sbri_sub(p->at[last], target));
+  while (passes < tree->iterations && error > tree->tolerance) {
+    p->at[last] = target;
+    for (uint32_t i = last; i-- > 0;) p->at[i] = at_length(p->at[i + 1], p->at[i], p->lengths[i + 1]);
+    p->at[0] = root;
+    for (uint32_t i = 1; i <= last; i++) p->at[i] = at_length(p->at[i - 1], p->at[i], p->lengths[i]);
+    passes++;
+    float before = error;
+    error = sbri_length(sbri_sub(p->at[last], target));
+    if (fabsf(error - before) < 1e-3f * tree->tolerance) break;
+  }
+  forward(tree, p);
+  return passes;
+}
+
+static uint32_t solve(sbri_ik_tree *tree, places *p) {
+  uint32_t passes = 0;
+  bool free = true;
+  for (uint32_t i = 0; i < tree->count; i++) p->lengths[i] = sbri_length(tree->joints[i].offset);
+  find_frames(tree, p);
+  float error = worst_error(tree, p);
+  if (error > tree->tolerance && stretch_out(tree, p, &free)) {
+    passes = 1;
+    if (free) return passes;
+    error = worst_error(tree, p);
+  } else if (is_free_chain(tree)) {
+    return solve_places(tree, p);
+  }
+  while (passes < tree->iterations && error > tree->tolerance) {
+    backward(tree, p);
+    forward(tree, p);
+    passes++;
+    float before = error;
+    error = worst_error(tree, p);
+    if (fabsf(error - before) < 1e-3f * tree->tolerance) break; /* no nearer than this */
+  }
+  return passes;
+}
+
+sbri_ik_result sbri_fabrik_tree(sbri_ik_tree *tree) {
+  places p;
+  for (uint32_t i = 0; i < tree->count; i++)
+    tree->joints[i].rotation = sbri_joint_limit_clamp(tree->joints[i].limit, tree->joints[i].rotation);
+  uint32_t passes = solve(tree, &p);
+  float error = worst_error(tree, &p);
+  return (sbri_ik_result){passes, error, error <= tree->tolerance};
+}
+
+sbri_ik_result sbri_fabrik(sbri_ik_chain *chain) {
+  places p;
+  uint32_t parents[SBRI_IK_MOST_JOINTS];
+  sbf_vec3 target = sbri_ik_begin(chain, p.frames);
+  sbri_ik_goal goal = {chain->count - 1, target};
+  for (uint32_t i = 0; i < chain->count; i++) parents[i] = i ? i - 1 : 0;
+  sbri_ik_tree tree = {.base = chain->base,
+      .joints = chain->joints,
+      .parents = parents,
+      .count = chain->count,
+      .goals = &goal,
+      .goal_count = 1,
+      .tolerance = chain->tolerance,
+      .iterations = chain->iterations};
+  uint32_t passes = solve(&tree, &p);
+  return sbri_ik_finish(chain, target, p.frames, passes);
+}

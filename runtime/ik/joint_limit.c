@@ -1,0 +1,75 @@
+#include "ik/joint_limit.h"
+
+static const float PI = 3.14159265f;
+static const float SLACK = 1e-5f; /* rad: what rounding may put beyond a bound it was cut to */
+
+sbri_swing_twist sbri_swing_twist_of(sbf_quat q) {
+  float sign = q.w < 0 ? -1.0f : 1.0f;
+  q = (sbf_quat){sign * q.x, sign * q.y, sign * q.z, sign * q.w};
+  float size = sqrtf(q.x * q.x + q.w * q.w);
+  sbri_swing_twist parts = {0, 0, 0};
+  if (size < 1e-9f) { /* half a turn of swing: any twist would do */
+    float half_turn = PI / sqrtf(q.y * q.y + q.z * q.z + 1e-30f);
+    parts.swing_y = q.y * half_turn, parts.swing_z = q.z * half_turn;
+    return parts;
+  }
+  float x = q.x / size, w = q.w / size;
+  parts.twist = 2 * sbri_atan2(x, w);
+  if (parts.twist > PI) parts.twist -= 2 * PI;
+  if (parts.twist <= -PI) parts.twist += 2 * PI;
+  /* S = Q T^-1; its x is 0 and its w is `size`. */
+  float y = w * q.y - x * q.z, z = w * q.z + x * q.y;
+  float sine = sqrtf(y * y + z * z);
+  float rate = sine < 1e-7f ? 2 : 2 * sbri_atan2(sine, size) / sine;
+  parts.swing_y = y * rate, parts.swing_z = z * rate;
+  return parts;
+}
+
+sbf_quat sbri_swing_twist_join(sbri_swing_twist parts) {
+  sbf_quat swing = sbri_quat_exp(sbri_vec3(0, parts.swing_y, parts.swing_z));
+  return sbri_quat_multiply(swing, sbri_quat_about(sbri_vec3(1, 0, 0), parts.twist));
+}
+
+/* By how much `angle` lies outside; `bound` receives the nearer one, the circle taken into account. */
+static float outside(float angle, const float range[2], float *bound) {
+  if (angle >= range[0] && angle <= range[1]) return 0;
+  float below = range[0] - angle, above = angle - range[1];
+  if (below < 0) below += 2 * PI;
+  if (above < 0) above += 2 * PI;
+  *bound = below < above ? range[0] : range[1];
+  return below < above ? below : above;
+}
+
+static sbri_swing_twist seen(const sbri_joint_limit *limit, sbf_quat local) {
+  return sbri_swing_twist_of(sbri_quat_multiply(sbri_quat_multiply(limit->before, local), limit->after));
+}
+
+static float larger(float a, float b) {
+  return a > b ? a : b;
+}
+
+float sbri_joint_limit_excess(const sbri_joint_limit *limit, sbf_quat local) {
+  if (!limit || !limit->active) return 0;
+  sbri_swing_twist p = seen(limit, local);
+  float unused, swing = sqrtf(p.swing_y * p.swing_y + p.swing_z * p.swing_z);
+  float most = larger(0, swing - limit->cone);
+  most = larger(most, outside(p.twist, limit->twist, &unused));
+  most = larger(most, outside(p.swing_y, limit->swing_y, &unused));
+  return larger(most, outside(p.swing_z, limit->swing_z, &unused));
+}
+
+sbf_quat sbri_joint_limit_clamp(const sbri_joint_limit *limit, sbf_quat local) {
+  if (!limit || !limit->active || sbri_joint_limit_excess(limit, local) <= SLACK) return local;
+  sbri_swing_twist p = seen(limit, local);
+  (void)outside(p.twist, limit->twist, &p.twist);
+  p.swing_y = sbri_clamp(p.swing_y, limit->swing_y[0], limit->swing_y[1]);
+  p.swing_z = sbri_clamp(p.swing_z, limit->swing_z[0], limit->swing_z[1]);
+  float swing = sqrtf(p.swing_y * p.swing_y + p.swing_z * p.swing_z);
+  if (swing > limit->cone) { /* a box without 0 wins over the cone */
+    float share = limit->cone / swing;
+    p.swing_y = sbri_clamp(p.swing_y * share, limit->swing_y[0], limit->swing_y[1]);
+    p.swing_z = sbri_clamp(p.swing_z * share, limit->swing_z[0], limit->swing_z[1]);
+  }
+  sbf_quat q = sbri_quat_multiply(sbri_quat_conjugate(limit->before), sbri_swing_twist_join(p));
+  return sbri_quat_normalize(sbri_quat_multiply(q, sbri_quat_conjugate(limit->after)));
+}

@@ -1,0 +1,58 @@
+#include "harness.h"
+#include "ik_chains.h"
+
+START_TEST(reaches_what_can_be_reached)
+{ ik_expect_reaches(sbri_damped_least_squares, 30, 195); }
+END_TEST
+
+START_TEST(keeps_limits)
+{ ik_expect_keeps_limits(sbri_damped_least_squares, 150); }
+END_TEST
+
+START_TEST(stretches_out_to_what_is_too_far)
+{ ik_expect_stretches_to(sbri_damped_least_squares); }
+END_TEST
+
+START_TEST(bows_towards_the_pole)
+{ ik_expect_bows_to_pole(sbri_damped_least_squares); }
+END_TEST
+
+START_TEST(copies_the_target_s_rotation)
+{ ik_expect_copies_rotation(sbri_damped_least_squares); }
+END_TEST
+
+START_TEST(odd_targets_leave_it_whole)
+{ ik_expect_survives(sbri_damped_least_squares); }
+END_TEST
+
+START_TEST(comforts_act_without_moving_the_end)
+{
+  ik_chain_fixture f, comfortable;
+  ik_chain_bent(&f);
+  f.chain.target = sbri_vec3(3, 4, 2);
+  comfortable = f;
+  comfortable.chain.joints = comfortable.joints;
+  comfortable.joints[1].comfort = sbri_quat_about(sbri_vec3(0, 0, 1), 1.2f);
+  comfortable.joints[1].comfort_weight = 1;
+  ck_assert(sbri_damped_least_squares(&f.chain).reached);
+  ck_assert(sbri_damped_least_squares(&comfortable.chain).reached);
+  sbf_quat wanted = comfortable.joints[1].comfort;
+  sbf_quat off = sbri_quat_multiply(wanted, sbri_quat_conjugate(f.joints[1].rotation));
+  sbf_quat near = sbri_quat_multiply(wanted, sbri_quat_conjugate(comfortable.joints[1].rotation));
+  ck_assert_float_lt(sbri_length(sbri_quat_log(near)), 0.6f * sbri_length(sbri_quat_log(off)));
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("damped_least_squares");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, reaches_what_can_be_reached);
+  tcase_add_test(tests, keeps_limits);
+  tcase_add_test(tests, stretches_out_to_what_is_too_far);
+  tcase_add_test(tests, bows_towards_the_pole);
+  tcase_add_test(tests, copies_the_target_s_rotation);
+  tcase_add_test(tests, odd_targets_leave_it_whole);
+  tcase_add_test(tests, comforts_act_without_moving_the_end);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}

@@ -1,0 +1,97 @@
+#include "harness.h"
+#include "ik_chains.h"
+
+static float apart(sbf_quat a, sbf_quat b) {
+  return sbri_length(sbri_quat_log(sbri_quat_multiply(a, sbri_quat_conjugate(b))));
+}
+
+static bool same(sbf_quat a, sbf_quat b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+}
+
+static sbri_joint_limit random_limit(uint32_t *seed) {
+  sbri_joint_limit limit = {
+      .before = ik_random_rotation(seed), .after = ik_random_rotation(seed), .active = true};
+  float *ranges[3] = {limit.twist, limit.swing_y, limit.swing_z};
+  for (int i = 0; i < 3; i++) {
+    ranges[i][0] = -1.5f * fabsf(ik_random(seed));
+    ranges[i][1] = 1.5f * fabsf(ik_random(seed));
+  }
+  limit.cone = 0.2f + 2 * fabsf(ik_random(seed));
+  return limit;
+}
+
+START_TEST(parts_make_the_whole_again)
+{
+  uint32_t seed = 1;
+  for (int i = 0; i < 20000; i++) {
+    sbf_quat q = ik_random_rotation(&seed);
+    sbri_swing_twist p = sbri_swing_twist_of(q);
+    ck_assert_float_le(apart(sbri_swing_twist_join(p), q), 2e-5f);
+    ck_assert_float_le(fabsf(p.twist), 3.1415928f);
+    ck_assert_float_le(p.swing_y * p.swing_y + p.swing_z * p.swing_z, 9.8697f);
+  }
+}
+END_TEST
+
+START_TEST(what_is_within_is_not_touched)
+{
+  uint32_t seed = 2;
+  int within = 0;
+  for (int i = 0; i < 20000; i++) {
+    sbri_joint_limit limit = random_limit(&seed);
+    sbf_quat q = ik_random_rotation(&seed);
+    if (sbri_joint_limit_excess(&limit, q) > 0) continue;
+    within++;
+    ck_assert(same(sbri_joint_limit_clamp(&limit, q), q));
+  }
+  ck_assert_int_gt(within, 100);
+}
+END_TEST
+
+START_TEST(twice_is_once)
+{
+  uint32_t seed = 3;
+  for (int i = 0; i < 20000; i++) {
+    sbri_joint_limit limit = random_limit(&seed);
+    sbf_quat once = sbri_joint_limit_clamp(&limit, ik_random_rotation(&seed));
+    ck_assert_float_le(sbri_joint_limit_excess(&limit, once), 1e-5f);
+    ck_assert(same(sbri_joint_limit_clamp(&limit, once), once));
+  }
+}
+END_TEST
+
+START_TEST(a_hinge_keeps_the_turn_about_its_axis)
+{
+  sbri_joint_limit hinge = {
+      .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {-0.5f, 2}, .cone = 0, .active = true};
+  sbf_quat about_x = sbri_quat_about(sbri_vec3(1, 0, 0), 1.1f);
+  sbf_quat off = sbri_quat_multiply(sbri_quat_about(sbri_vec3(0, 0.6f, 0.8f), 0.4f), about_x);
+  ck_assert_float_le(apart(sbri_joint_limit_clamp(&hinge, off), about_x), 1e-5f);
+  sbf_quat far = sbri_quat_about(sbri_vec3(1, 0, 0), 2.9f), bound = sbri_quat_about(sbri_vec3(1, 0, 0), 2);
+  ck_assert_float_le(apart(sbri_joint_limit_clamp(&hinge, far), bound), 1e-5f);
+}
+END_TEST
+
+START_TEST(the_nearer_bound_is_taken_across_half_a_turn)
+{
+  sbri_joint_limit limit = {
+      .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {-3, 1}, .cone = 1, .active = true};
+  sbf_quat q = sbri_quat_about(sbri_vec3(1, 0, 0), 3.1f); /* nearer to -3 than to 1 */
+  sbf_quat bound = sbri_quat_about(sbri_vec3(1, 0, 0), -3);
+  ck_assert_float_le(apart(sbri_joint_limit_clamp(&limit, q), bound), 1e-5f);
+  ck_assert(same(sbri_joint_limit_clamp(NULL, q), q));
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("joint_limit");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, parts_make_the_whole_again);
+  tcase_add_test(tests, what_is_within_is_not_touched);
+  tcase_add_test(tests, twice_is_once);
+  tcase_add_test(tests, a_hinge_keeps_the_turn_about_its_axis);
+  tcase_add_test(tests, the_nearer_bound_is_taken_across_half_a_turn);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
