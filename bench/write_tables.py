@@ -54,12 +54,18 @@ def elements_row(r):
             r["packed/xml"]]
 
 
+def ik_row(r):
+    return [r["solver"], r["limits"], r["targets"], r["tolerance_m"], r["passes"], r["us"], f"{float(r['error_mean_m']):.1g}",
+            f"{float(r['error_most_m']):.1g}", f"{r['missed']} of {r['of']}"]
+
+
 TABLES = {
     "elements": (elements_row, "file | cell, m | points | tetrahedra | their XML | packed | × smaller | bundle, XML | "
                                "bundle, packed | packed / XML", 1),
     "load": (load_row, "asset | reader | form | bytes | ms | MB/s | × assimp on GLB | peak KiB | private KiB", 3),
     "save": (save_row, "asset | action | form | bytes | ms | MB/s", 3),
     "run": (run_row, "character | threads | part | springs | substeps | least µs | median µs | worst µs", 3),
+    "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | greatest, m | missed", 3),
     "size": (size_row, "file | vertices | springs | XML | gzip of it | packed | stored | packed / XML | "
                        "packed / gzip | meshes | GLB | meshes / GLB", 1),
 }

@@ -137,7 +137,8 @@ void session_close(session *s) {
 bool session_step(session *s) {
   if (s->frame >= s->frame_count) return false;
   script_play(&s->script, s->time_s, s->world, s->character);
-  sbr_world_step(s->world, 1 / s->fps);
+  s->frame_s = 1 / s->fps;
+  sbr_world_step(s->world, s->frame_s);
   s->frame++;
   s->time_s = s->frame / s->fps;
   return true;

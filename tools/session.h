@@ -32,6 +32,7 @@ typedef struct session {
   script script;
   sbr_ground ground;
   double seconds, fps, time_s;
+  double frame_s; /* length of the last frame */
   uint32_t frame_count, frame;
 } session;
 

@@ -55,6 +55,24 @@ static bool gather(const sbf_asset *asset, int32_t foot, sole *s) {
   return true;
 }
 
+/* The same of skinned meshes, where nothing soft hangs on the foot. */
+static bool gather_skinned(const sbf_asset *asset, int32_t foot, sole *s) {
+  for (uint32_t m = 0; m < asset->render_meshes.count; m++) {
+    const sbf_render_mesh *mesh = &asset->render_meshes.at[m];
+    uint32_t offset = skin_offset(asset, (int32_t)m), count = mesh->mesh.positions.count;
+    uint32_t *grown = realloc(s->vertices, (s->count + (size_t)count + 1) * sizeof *grown);
+    if (!grown) return false;
+    s->vertices = grown;
+    for (uint32_t i = 0, at = 0; mesh->skin && i < count; at += mesh->skin->influence_counts.at[i++]) {
+      float held = 0;
+      for (uint32_t k = at; k < at + mesh->skin->influence_counts.at[i]; k++)
+        if (is_below(asset, (int32_t)mesh->skin->bones.at[k], foot)) held += mesh->skin->weights.at[k];
+      if (held > 0.99f) s->vertices[s->count++] = offset + i; /* others give as the leg bends */
+    }
+  }
+  return true;
+}
+
 static double rest_height(const sbf_asset *asset, uint32_t vertex) {
   uint32_t mesh = 0;
   while (vertex >= asset->render_meshes.at[mesh].mesh.positions.count)
@@ -88,7 +106,9 @@ soles *soles_create(const session *s) {
   const sbf_gait *gait = &asset->gaits.at[0];
   for (uint32_t l = 0; l < gait->legs.count && l < MOST_LEGS; l++) {
     sole *one = &all->at[all->count++];
-    if (gather(asset, asset->ik_chains.at[gait->legs.at[l].ik].end, one) && keep_lowest(asset, one)) continue;
+    int32_t foot = asset->ik_chains.at[gait->legs.at[l].ik].end;
+    bool good = gather(asset, foot, one) && (one->count || gather_skinned(asset, foot, one));
+    if (good && keep_lowest(asset, one)) continue;
     soles_destroy(all);
     return NULL;
   }
@@ -127,6 +147,11 @@ void soles_measure(soles *all, const session *s, const sbf_vec3 *skin) {
     if (one->planted && one->count)
       all->report.slip_m = fmax(all->report.slip_m, hypot(x - one->x, z - one->z));
   }
+}
+
+uint32_t soles_vertices(const soles *all, uint32_t leg, const uint32_t **vertices) {
+  *vertices = leg < all->count ? all->at[leg].vertices : NULL;
+  return leg < all->count ? all->at[leg].count : 0;
 }
 
 sole_report soles_report(const soles *all) {

@@ -18,6 +18,8 @@ void soles_destroy(soles *soles);
 
 /* Looks at the skin as it is now: `skin` holds every render mesh's vertices one after the other. */
 void soles_measure(soles *soles, const session *s, const sbf_vec3 *skin);
+/* Places in the skin of a leg's sole; returns how many. */
+uint32_t soles_vertices(const soles *soles, uint32_t leg, const uint32_t **vertices);
 sole_report soles_report(const soles *soles);
 
 #endif

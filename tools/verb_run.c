@@ -6,12 +6,13 @@
 #include "pose_file.h"
 #include "sbfmt/export.h"
 #include "session.h"
-#include "sole.h"
+#include "walk_report.h"
 
 /* What a run gathers beside the session. */
 typedef struct run_state {
   session s;
   soles *soles;
+  walk_report *walk;
   sbf_vec3 *skin, *normals, *surface, *sample;
   uint32_t skin_count, surface_count;
   sbf_point_cache *cache;
@@ -86,6 +87,7 @@ static bool add_to_cache(run_state *r, sbf_diagnostic *error) {
 static bool record(run_state *r, sbf_diagnostic *error) {
   read_health(r);
   if (r->soles) soles_measure(r->soles, &r->s, r->skin);
+  if (r->walk) walk_report_measure(r->walk, &r->s, r->skin);
   if (r->cache && !add_to_cache(r, error)) return false;
   return !r->poses.file || pose_file_add(&r->poses, &r->s, error) == SBF_OK;
 }
@@ -137,6 +139,7 @@ static json_t *report(const run_state *r) {
   json_object_set_new(o, "steps_taken", steps);
   json_object_set_new(o, "stance_slip", json_real(walked.slip_m));
   json_object_set_new(o, "penetration", json_real(walked.penetration_m));
+  if (r->walk) walk_report_add(r->walk, &r->s, o);
   return o;
 }
 
@@ -177,6 +180,7 @@ static int run(cli_call *call) {
     cli_wrong(call, "memory ran out");
   else if (open_outputs(&r, call)) {
     r.soles = soles_create(&r.s);
+    r.walk = walk_report_create(&r.s, r.soles);
     if (play(&r, call)) status = SBF_OK;
   }
   bool keep = status == SBF_OK;
@@ -199,6 +203,7 @@ static int run(cli_call *call) {
       json_decref(object);
     }
   }
+  walk_report_destroy(r.walk);
   soles_destroy(r.soles);
   free(r.skin);
   free(r.normals);

@@ -153,7 +153,8 @@ uint32_t sbr_character_points(const sbr_world *world, sbr_character_id character
 uint32_t sbr_character_legs(
     const sbr_world *world, sbr_character_id character, sbr_leg_state *legs, uint32_t capacity) {
   const sbri_character *c = sbri_character_of(world, character);
-  return c ? sbri_gait_legs(&c->model->rig, sbri_gait(c), legs, legs ? capacity : 0) : 0;
+  if (!c) return 0;
+  return sbri_gait_legs(&c->model->rig, sbri_gait(c), share_of_tick(world), legs, legs ? capacity : 0);
 }
 
 double sbr_character_distance(const sbr_world *world, sbr_character_id character) {

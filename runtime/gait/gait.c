@@ -4,9 +4,11 @@
 
 #include "gait/gait_state.h"
 #include "math/quat.h"
+#include "math/trig.h"
 
-static const float EASE_S = 0.18f; /* time over which wanted motion takes effect */
-static const float STILL = 0.004f; /* m/s and rad/s, per metre of leg: below it the character stands */
+static const float EASE_S = 0.18f;  /* time over which wanted motion takes effect */
+static const float STILL = 0.004f;  /* m/s and rad/s, per metre of leg: below it the character stands */
+static const float HURRY_S = 0.12f; /* over which it takes up its pace again after waiting for a foot */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
   size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tail_bone_count;
@@ -22,12 +24,18 @@ void sbri_gait_place(
   state->standing_s = 1;
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tail_bone_count;
+  state->pace = 1;
+  state->since_lift_m = 1e6f; /* the first step waits for nothing */
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
+  state->root = sbri_body_stance(rig, state, input).root;
+  sbri_body_tick(rig, state, input, 0, true);
+  state->root = sbri_body_stance(rig, state, input).root;
 }
 
-/* Eases the motion towards what is wanted and moves the body on. Returns the turn made. */
-static float move_body(sbri_gait_state *state, const sbri_gait_input *input) {
-  float ease = input->tick_s / (EASE_S + input->tick_s);
+/* Eases the motion towards what is wanted and moves the body on, as fast as the feet allow. Returns the turn
+ * made. */
+static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  float ease = 1 - sbri_exp(-input->tick_s / EASE_S);
   state->forward += (input->forward - state->forward) * ease;
   state->sideways += (input->sideways - state->sideways) * ease;
   state->turn += (input->turn - state->turn) * ease;
@@ -39,9 +47,12 @@ static float move_body(sbri_gait_state *state, const sbri_gait_input *input) {
   } else {
     state->standing_s = 0;
   }
-  float turned = state->turn * input->tick_s;
-  sbf_vec3 step = sbri_turned(sbri_vec3(state->sideways * input->tick_s, 0, state->forward * input->tick_s),
-      state->heading + 0.5f * turned);
+  float pace = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input) : 1;
+  state->pace = pace < state->pace
+                    ? pace
+                    : state->pace + (pace - state->pace) * (1 - sbri_exp(-input->tick_s / HURRY_S));
+  float h = input->tick_s * state->pace, turned = state->turn * h;
+  sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
   state->position = sbri_add(state->position, step);
   state->heading = sbri_wrap_angle(state->heading + turned);
   state->distance_m += (double)sbri_length(step);
@@ -53,21 +64,39 @@ static void lead_head(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   const sbf_head_turn *head = rig->gait ? rig->gait->head : NULL;
   if (!head) return;
   float target = sbri_clamp(input->turn * head->lead, -head->limit, head->limit);
-  sbri_lag_tick(&state->head_yaw, target, head->frequency, head->damping_ratio, input->tick_s);
+  sbri_follower_step step = sbri_follower_step_of(head->frequency, head->damping_ratio, 0, input->tick_s);
+  sbri_lag_tick(&state->head_yaw, target, &step);
+}
+
+/* Where the centre of mass is when the body does not lean: over the middle of the homes, where nothing is
+ * known of masses. */
+static void find_center(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, const sbr_transform *pose) {
+  sbf_vec3 center = {0, 0, 0};
+  if (sbri_rig_center(rig, pose, input->scale, &center)) {
+    center = sbri_sub(center, state->position);
+    center.x -= state->sway_x.value, center.z -= state->sway_z.value;
+  } else {
+    for (uint32_t i = 0; i < rig->leg_count; i++)
+      center = sbri_add_scaled(center, sbri_home_arm(rig, state, input, i), 1 / (float)rig->leg_count);
+  }
+  state->center = center;
 }
 
 uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input *input, sbr_transform *pose,
     sbri_gait_event *events, uint32_t capacity) {
   sbri_gait_state *state = memory;
   uint32_t count = 0;
-  float turned = move_body(state, input);
+  float turned = move_body(rig, state, input);
   for (uint32_t i = 0; i < rig->leg_count; i++) /* a planted foot does not turn with the body */
     if (state->feet[i].planted) state->feet[i].heading = sbri_wrap_angle(state->feet[i].heading - turned);
   if (!input->hold && rig->leg_count) count = sbri_feet_tick(rig, state, input, events, capacity);
   sbri_stance stance = sbri_body_stance(rig, state, input);
   lead_head(rig, state, input);
   sbri_tails_tick(rig, state, stance.hips_yaw, turned, input->tick_s);
+  state->root = stance.root;
   sbri_body_pose(rig, state, input, pose);
+  find_center(rig, state, input, pose);
   return count;
 }
 
@@ -80,6 +109,7 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
   sbri_gait_state *state = memory;
   state->position.x -= shift.x;
   state->position.z -= shift.z; /* its y counts from the ground */
+  state->root.position = sbri_sub(state->root.position, shift);
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->ground = sbri_sub(foot->ground, shift);
@@ -88,11 +118,12 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
   }
 }
 
-uint32_t sbri_gait_legs(const sbri_rig *rig, const void *memory, sbr_leg_state *legs, uint32_t capacity) {
+uint32_t sbri_gait_legs(
+    const sbri_rig *rig, const void *memory, float share, sbr_leg_state *legs, uint32_t capacity) {
   const sbri_gait_state *state = memory;
   for (uint32_t i = 0; i < rig->leg_count && i < capacity; i++) {
     const sbri_foot *foot = &state->feet[i];
-    legs[i] = (sbr_leg_state){.planted = foot->planted,
+    legs[i] = (sbr_leg_state){.planted = share > 0.999f ? foot->planted : foot->was_planted,
         .steps_taken = foot->steps_taken,
         .foot = sbri_add(foot->ground, sbri_vec3(0, foot->lift, 0)),
         .target = foot->planted ? foot->ground : foot->to,

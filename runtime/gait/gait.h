@@ -42,7 +42,9 @@ void sbri_gait_pose(
 /* The origin moved by `shift`: subtract it from every place. */
 void sbri_gait_rebase(const sbri_rig *rig, void *state, sbf_vec3 shift);
 
-uint32_t sbri_gait_legs(const sbri_rig *rig, const void *state, sbr_leg_state *legs, uint32_t capacity);
+/* At a share of the last tick: what came down or lifted off at its end had not done so before. */
+uint32_t sbri_gait_legs(
+    const sbri_rig *rig, const void *state, float share, sbr_leg_state *legs, uint32_t capacity);
 double sbri_gait_distance(const void *state);
 /* Where the character is and where it faces, relative to the origin. */
 void sbri_gait_placement(const void *state, sbf_vec3 *position, float *heading);

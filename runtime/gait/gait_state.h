@@ -3,12 +3,8 @@
 #ifndef SBRI_GAIT_STATE_H
 #define SBRI_GAIT_STATE_H
 
+#include "chain/follower.h"
 #include "gait/gait.h"
-
-/* A second-order follower of one number: `value` lags and overshoots. */
-typedef struct sbri_lag {
-  float value, rate;
-} sbri_lag;
 
 typedef struct sbri_foot {
   sbf_vec3 ground; /* where the sole stands, or the place below it on the line of its step */
@@ -19,7 +15,9 @@ typedef struct sbri_foot {
   float from_heading;
   float phase; /* 0..1 of the step under way */
   float duration_s;
-  uint32_t planted; /* 1 or 0 */
+  float clearance;               /* greatest lift of the step under way, m */
+  float waits;                   /* share of its time in which it only rises, and again only comes down */
+  uint32_t planted, was_planted; /* 1 or 0: now, and a tick ago */
   uint32_t steps_taken;
 } sbri_foot;
 
@@ -27,7 +25,16 @@ typedef struct sbri_gait_state {
   sbf_vec3 position; /* where the asset's origin stands; y: how far all is raised above the ground */
   float heading;     /* rad, in (-pi, pi] */
   float forward, sideways, turn; /* eased, m/s and rad/s */
+  float pace;                    /* share of them that the feet allow, 0 to 1 */
   float standing_s;              /* since it stopped moving; 0 while it moves */
+  float since_lift_m;            /* travelled since a foot lifted off */
+  float waiting_s;               /* for how long a foot has wanted to step and could not */
+  uint32_t together;             /* 1: feet of a group go together; 0: as many as balance allows */
+  uint32_t pivot;                /* leg that it turns about, plus 1; 0: none */
+  sbri_lag sway_x, sway_z;       /* of the body over its feet, world axes, m */
+  sbri_lag crouch;               /* how far it comes down for its feet, m */
+  sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
+  sbr_transform root;            /* of the last stance */
   double distance_m;
   sbri_lag head_yaw;
   uint32_t foot_count, tail_bone_count;
@@ -39,20 +46,81 @@ static inline sbri_lag *sbri_tail_lags(sbri_gait_state *state) {
   return (sbri_lag *)(void *)(state + 1);
 }
 
-/* Advances a follower: y'' = w^2 (target - y) - 2 z w y', w = 2 pi f, semi-implicit with the tick cut into
- * parts of at most a tenth of a radian of w, so that it is stable for any tick. */
-void sbri_lag_tick(sbri_lag *lag, float target, float frequency_hz, float damping_ratio, float tick_s);
-
 /* An angle brought into (-pi, pi]. */
 float sbri_wrap_angle(float angle);
 
 /* `v` turned about +Y. */
 sbf_vec3 sbri_turned(sbf_vec3 v, float yaw);
 
+/* Rises from 0 to 1 with t from 0 to 1; speed and acceleration are 0 at both ends. */
+float sbri_smooth(float t);
+
 /* The place on the ground above or below `place`; `normal` may be NULL. */
 sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 place, sbf_vec3 *normal);
 
-/* ---- gait/feet.c ---- */
+float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b);
+
+/* ---- gait/stride.c: how far feet go, and how fast ---- */
+
+/* What follows from the speed, for all feet of a tick. */
+typedef struct sbri_stride {
+  float speed;      /* of the fastest home over the ground, m/s */
+  float half_m;     /* a foot comes down so far ahead of its home, and lifts off so far behind */
+  float duration_s; /* of a step */
+  float spacing_m;  /* between two lift-offs */
+  bool together;    /* feet of a group go together */
+} sbri_stride;
+sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
+
+/* A foot's home relative to the body's place, level. */
+sbf_vec3 sbri_home_arm(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
+/* Velocity of a foot's home over the ground. */
+sbf_vec3 sbri_home_velocity(const sbri_gait_state *state, sbf_vec3 arm);
+/* Velocity of the body, world axes. */
+sbf_vec3 sbri_body_velocity(const sbri_gait_state *state);
+/* Where the ankle stands over the middle of a sole, m. */
+sbf_vec3 sbri_ankle_over(const sbri_leg *leg, sbf_vec3 sole, sbf_vec3 normal, float heading, float scale);
+/* How far ahead of its home a foot comes down, which moves along `way` (of unit length); `half` is half its
+ * stride. */
+float sbri_ahead(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 way, float half);
+/* How far a foot may be from its home in a direction (of unit length, world axes), m. */
+float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg,
+    sbf_vec3 way);
+/* How far a planted foot is from its home, in shares of how far it may be. */
+float sbri_strain(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
+/* Share of the wanted motion that leaves every planted foot within its reach. */
+float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
+
+/* ---- gait/footing.c: where a foot may stand ---- */
+
+/* The best place near `wanted`; false where there is none and the foot had better stay. */
+bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 wanted, sbf_vec3 *place, sbf_vec3 *normal);
+
+/* ---- gait/support.c: balance ---- */
+
+/* Signed distance of the centre of mass from the edge of what feet stand on, those of `lifted` (bits) not
+ * counted; positive inside. */
+float sbri_support_margin(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifted);
+/* Where the body should lean so that the feet but those of `lifted` bear it, from `position`, level. */
+sbf_vec3 sbri_support_sway(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifted);
+/* How far inside the centre must be before a foot lifts off, m. */
+float sbri_support_needed(const sbri_rig *rig, const sbri_gait_input *input);
+
+/* ---- gait/swing.c: the way of a foot through the air ---- */
+
+void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stride *stride, uint32_t leg);
+/* True when it comes down. */
+bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stride *stride, uint32_t leg);
+
+/* ---- gait/feet.c: who steps ---- */
 
 /* Puts a leg's foot down at its home. */
 void sbri_foot_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
@@ -61,7 +129,7 @@ void sbri_foot_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_gait_event *events, uint32_t capacity);
 
-/* ---- gait/body.c ---- */
+/* ---- gait/body.c: the body over its feet ---- */
 
 /* How the body stands over its feet. */
 typedef struct sbri_stance {
@@ -69,6 +137,11 @@ typedef struct sbri_stance {
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
 } sbri_stance;
 sbri_stance sbri_body_stance(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
+/* Moves the followers that bear the body; `settle` puts them where they lead to. */
+void sbri_body_tick(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifting, bool settle);
+
+/* ---- gait/pose.c ---- */
 
 /* The whole pose: body, head, tails, legs. */
 void sbri_body_pose(

@@ -15,7 +15,8 @@ static uint32_t tail_count(const sbf_asset *asset) {
 size_t sbri_rig_size(const sbf_asset *asset) {
   size_t n = asset->bones.count;
   return rounded(n * sizeof(int32_t)) + 2 * rounded(n * sizeof(sbr_transform)) + rounded(n * sizeof(float)) +
-         rounded(tail_count(asset) * sizeof(sbri_tail)) + 16;
+         rounded(tail_count(asset) * sizeof(sbri_tail)) + rounded(n) + rounded(n * sizeof(sbri_joint_limit)) +
+         3 * rounded(n * sizeof(uint32_t)) + rounded(n * sizeof(sbri_bone_mass)) + 16;
 }
 
 static void *carve(char **memory, size_t size) {
@@ -24,7 +25,7 @@ static void *carve(char **memory, size_t size) {
   return at;
 }
 
-static bool is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor) {
+bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor) {
   for (; bone >= 0; bone = rig->parents[bone])
     if (bone == ancestor) return true;
   return false;
@@ -36,7 +37,7 @@ static void share_spine(const sbri_rig *rig, float *share) {
   if (!rig->gait || rig->gait->hips < 0) return;
   int32_t hips = rig->gait->hips, chest = rig->gait->chest;
   share[hips] = 0;
-  if (chest < 0 || chest == hips || !is_below(rig, chest, hips)) return;
+  if (chest < 0 || chest == hips || !sbri_rig_is_below(rig, chest, hips)) return;
   uint32_t steps = 0, place = 0;
   for (int32_t b = chest; b != hips; b = rig->parents[b]) steps++;
   for (int32_t b = chest; b != hips; b = rig->parents[b]) share[b] = 1 - (float)place++ / (float)steps;
@@ -64,7 +65,7 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   /* Without a pole the leg goes on bending the way it is bent at rest. */
   sbf_vec3 middle = sbri_lerp(hip, ankle, 0.5f), out = sbri_sub(knee, middle);
   leg->pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
-  leg->hind = rig->gait->chest < 0 || !is_below(rig, upper, rig->gait->chest);
+  leg->hind = rig->gait->chest < 0 || !sbri_rig_is_below(rig, upper, rig->gait->chest);
   return leg->upper_length > 0 && (peg || leg->lower_length > 0);
 }
 
@@ -75,6 +76,9 @@ static void init_legs(sbri_rig *rig) {
     sbri_leg *leg = &rig->legs[rig->leg_count];
     if (!init_leg(rig, &rig->gait->legs.at[i], leg)) continue;
     rig->leg_count++;
+    sbri_rig_find_sole(rig, leg);
+    rig->reach += leg->upper_length + leg->lower_length;
+    if (leg->group + 1 > rig->group_count) rig->group_count = leg->group + 1;
     hind_count += leg->hind;
     *(leg->hind ? &hind : &fore) += leg->home.z;
     width += fabsf(leg->home.x);
@@ -82,6 +86,7 @@ static void init_legs(sbri_rig *rig) {
   uint32_t fore_count = rig->leg_count - hind_count;
   rig->hind_z = hind_count ? hind / (float)hind_count : 0;
   rig->fore_z = fore_count ? fore / (float)fore_count : rig->hind_z;
+  rig->reach = rig->leg_count ? rig->reach / (float)rig->leg_count : 0;
   rig->half_width = rig->leg_count ? width / (float)rig->leg_count : 0;
 }
 
@@ -95,6 +100,31 @@ static void init_tails(sbri_rig *rig, sbri_tail *tails) {
   }
 }
 
+/* Every bone's stretch in an order in which what hangs on a bone follows it at once. */
+static void order_bones(const sbri_rig *rig, uint32_t *subtree, uint32_t *begin, uint32_t *end) {
+  uint32_t n = rig->bone_count, roots = 0;
+  for (uint32_t i = 0; i < n; i++) end[i] = 1; /* how many bones its stretch has */
+  for (uint32_t i = n; i-- > 0;)
+    if (rig->parents[i] >= 0) end[rig->parents[i]] += end[i];
+  for (uint32_t i = 0; i < n; i++) { /* `subtree` serves for where the next child of a bone begins */
+    int32_t parent = rig->parents[i];
+    begin[i] = parent >= 0 ? subtree[parent] : roots;
+    *(parent >= 0 ? &subtree[parent] : &roots) += end[i];
+    subtree[i] = begin[i] + 1;
+  }
+  for (uint32_t i = 0; i < n; i++) end[i] += begin[i];
+  for (uint32_t i = 0; i < n; i++) subtree[i] = 0;
+  for (uint32_t i = 0; i < n; i++) subtree[begin[i]] = i;
+}
+
+static void find_roles(const sbri_rig *rig, uint8_t *roles) {
+  for (uint32_t i = 0; i < rig->bone_count; i++)
+    roles[i] = rig->spine_share[i] >= 0 ? SBRI_ROLE_SPINE : SBRI_ROLE_NONE;
+  if (rig->gait && rig->gait->head) roles[rig->gait->head->bone] = SBRI_ROLE_HEAD;
+  for (uint32_t t = 0; t < rig->tail_count; t++)
+    for (uint32_t k = 0; k < rig->tails[t].bone_count; k++) roles[rig->tails[t].bones[k]] = SBRI_ROLE_TAIL;
+}
+
 void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   uint32_t n = asset->bones.count;
   char *free_memory = memory;
@@ -103,6 +133,11 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
                 *local = carve(&free_memory, n * sizeof *local);
   float *share = carve(&free_memory, n * sizeof *share);
   sbri_tail *tails = carve(&free_memory, tail_count(asset) * sizeof *tails);
+  uint8_t *roles = carve(&free_memory, n);
+  sbri_joint_limit *limits = carve(&free_memory, n * sizeof *limits);
+  uint32_t *subtree = carve(&free_memory, n * sizeof *subtree),
+           *begin = carve(&free_memory, n * sizeof *begin), *end = carve(&free_memory, n * sizeof *end);
+  sbri_bone_mass *masses = carve(&free_memory, n * sizeof *masses);
   *rig = (sbri_rig){.asset = asset,
       .bone_count = n,
       .parents = parents,
@@ -110,6 +145,12 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
       .rest_local = local,
       .spine_share = share,
       .tails = tails,
+      .roles = roles,
+      .limits = limits,
+      .subtree = subtree,
+      .subtree_begin = begin,
+      .subtree_end = end,
+      .masses = masses,
       .tail_count = tail_count(asset),
       .gait = asset->gaits.count ? &asset->gaits.at[0] : NULL};
   for (uint32_t i = 0; i < n; i++) {
@@ -122,22 +163,29 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
     local[i].position = sbri_rotate(back, sbri_sub(rest[i].position, parent->position));
     local[i].rotation = sbri_quat_multiply(back, rest[i].rotation);
   }
+  order_bones(rig, subtree, begin, end);
   share_spine(rig, share);
-  if (!rig->gait) return;
-  init_legs(rig);
-  init_tails(rig, tails);
+  sbri_rig_find_limits(rig, limits);
+  sbri_rig_find_masses(rig, masses);
+  if (rig->gait) {
+    init_legs(rig);
+    init_tails(rig, tails);
+  }
+  find_roles(rig, roles);
 }
 
 void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose) {
   sbf_vec3 pivot = pose[bone].position;
-  for (uint32_t i = bone; i < rig->bone_count; i++) { /* parents stand before children */
-    if (!is_below(rig, (int32_t)i, (int32_t)bone)) continue;
-    pose[i].position = sbri_add(pivot, sbri_rotate(turn, sbri_sub(pose[i].position, pivot)));
-    pose[i].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, pose[i].rotation));
+  for (uint32_t k = rig->subtree_begin[bone]; k < rig->subtree_end[bone]; k++) {
+    sbr_transform *b = &pose[rig->subtree[k]];
+    b->position = sbri_add(pivot, sbri_rotate(turn, sbri_sub(b->position, pivot)));
+    b->rotation = sbri_quat_normalize(sbri_quat_multiply(turn, b->rotation));
   }
 }
 
 void sbri_rig_shift(const sbri_rig *rig, uint32_t bone, sbf_vec3 by, sbr_transform *pose) {
-  for (uint32_t i = bone; i < rig->bone_count; i++)
-    if (is_below(rig, (int32_t)i, (int32_t)bone)) pose[i].position = sbri_add(pose[i].position, by);
+  for (uint32_t k = rig->subtree_begin[bone]; k < rig->subtree_end[bone]; k++) {
+    sbr_transform *b = &pose[rig->subtree[k]];
+    b->position = sbri_add(b->position, by);
+  }
 }

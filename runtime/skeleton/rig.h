@@ -5,7 +5,13 @@
 #ifndef SBRI_RIG_H
 #define SBRI_RIG_H
 
+#include "ik/joint_limit.h"
 #include "sbrun/sbrun.h"
+
+/* What a foot stands on, from its middle: left (+x), right, toe (+z), heel; m. */
+typedef struct sbri_sole {
+  float left, right, toe, heel;
+} sbri_sole;
 
 /* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. Or two, a peg: the
  * upper one swings the foot, and how far the foot is from it says nothing of how far the leg may reach. */
@@ -13,11 +19,13 @@ typedef struct sbri_leg {
   int32_t upper, lower, foot; /* bones: thigh, shin (-1: a peg), and the one whose head is the ankle */
   sbf_vec3 pole;              /* asset space, rest pose */
   int32_t pole_bone;          /* the pole moves with it; -1: with the root */
-  sbf_vec3 home;              /* ankle at rest, asset space, y above the sole's ground */
+  sbf_vec3 home; /* middle of the sole at rest, asset space, y that of the ankle above the ground */
   float upper_length, lower_length;
   uint32_t group;
   bool hind; /* hangs on the hips; else on the chest */
   float copy_rotation, soft_reach;
+  sbf_vec3 ankle; /* from the middle of the sole, m; `home` is above that middle */
+  sbri_sole sole;
 } sbri_leg;
 
 typedef struct sbri_tail {
@@ -29,6 +37,20 @@ typedef struct sbri_tail {
 
 enum { SBRI_MOST_LEGS = 16 };
 
+/* What turns a bone beside its parent. */
+typedef enum sbri_bone_role {
+  SBRI_ROLE_NONE,
+  SBRI_ROLE_SPINE,
+  SBRI_ROLE_HEAD,
+  SBRI_ROLE_TAIL
+} sbri_bone_role;
+
+/* Share of the body's mass that a bone carries, and its middle at rest, in asset space. */
+typedef struct sbri_bone_mass {
+  float share;
+  sbf_vec3 place;
+} sbri_bone_mass;
+
 typedef struct sbri_rig {
   const sbf_asset *asset;
   uint32_t bone_count;
@@ -36,6 +58,11 @@ typedef struct sbri_rig {
   const sbr_transform *rest;       /* bone_count, asset space */
   const sbr_transform *rest_local; /* bone_count, in the parent's rest frame; a root's as it is */
   const float *spine_share; /* bone_count: 0 turns with the hips, 1 with the chest, -1 with its parent */
+  const uint8_t *roles;     /* bone_count, of sbri_bone_role */
+  const sbri_joint_limit *limits; /* bone_count, against the parent */
+  const uint32_t *subtree;        /* bone_count: the bones so ordered that what hangs on one follows it */
+  const uint32_t *subtree_begin, *subtree_end; /* bone_count: a bone's own stretch of them */
+  const sbri_bone_mass *masses;                /* bone_count, shares summing to 1, or all 0 */
 
   const sbf_gait *gait; /* the asset's first; NULL: the character is moved as a whole */
   sbri_leg legs[SBRI_MOST_LEGS];
@@ -44,12 +71,30 @@ typedef struct sbri_rig {
   uint32_t tail_count, tail_bone_count;
   float hind_z, fore_z; /* mean z of the homes of hind and fore legs, asset space */
   float half_width;     /* mean |x| of the homes */
+  float reach;          /* mean of the legs' reaches, m */
+  uint32_t group_count; /* of the legs */
 } sbri_rig;
 
 /* Bytes the tables take, and their making in a block of that size. The asset must outlive the rig. A leg
  * whose chain is neither thigh, shin and foot nor a peg and its foot is left out. */
 size_t sbri_rig_size(const sbf_asset *asset);
 void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory);
+
+/* Whether a bone is another or hangs on it. */
+bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor);
+
+/* ---- skeleton/rig_limits.c: limits of the bones, from the joints of the bodies that move with them. ---- */
+void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits);
+/* ---- skeleton/rig_mass.c: what each bone carries, by the volume of what is seen of it. ---- */
+void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses);
+
+/* ---- skeleton/rig_soles.c ---- */
+void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg);
+
+/* The centre of mass of a pose; false where nothing is known of masses. */
+bool sbri_rig_center(const sbri_rig *rig, const sbr_transform *pose, float scale, sbf_vec3 *center);
+/* By how much the worst bone of a pose breaks its limit, rad. */
+float sbri_rig_limit_excess(const sbri_rig *rig, const sbr_transform *pose);
 
 /* Turns a bone, and all that hangs on it, about the bone's head. */
 void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose);

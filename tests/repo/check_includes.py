@@ -36,7 +36,7 @@ MAY_USE = {
     "runtime/include": [],
     "runtime/hosts": ["runtime/hosts"],
     "tools": ["tools"],
-    "bench": ["bench", "tools"],  # for its thread pool
+    "bench": ["bench", "tools", "runtime/math", "runtime/ik"],  # for its thread pool; solvers alone are not public
     "examples": ["examples"],
     "tests": None,  # anything: tests look inside
 }
@@ -46,6 +46,7 @@ HEADER_BOX = {
     "sbfmt/base.h": "core", "sbfmt/codes.h": "core", "sbfmt/model.h": "core", "sbfmt/asset.h": "core",
     "sbfmt/io.h": "core", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
     "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange", "sbrun/sbrun.h": "runtime",
+    "sbrun/animation.h": "runtime",
 }
 BOX_USES = {
     "core": {"core"},

@@ -61,7 +61,7 @@ static void tick(walk *w) {
   sbri_gait_event events[16];
   w->events += sbri_gait_tick(&w->q.rig, w->state, &w->input, w->pose, events, 16);
   sbr_leg_state legs[4];
-  ck_assert_uint_eq(sbri_gait_legs(&w->q.rig, w->state, legs, 4), 4);
+  ck_assert_uint_eq(sbri_gait_legs(&w->q.rig, w->state, 1, legs, 4), 4);
   uint32_t groups = 0;
   for (int l = 0; l < 4; l++) {
     const sbri_leg *leg = &w->q.rig.legs[l];
@@ -98,7 +98,7 @@ static void run(walk *w, double seconds, float forward, float sideways, float tu
 
 static void expect_good_walk(const walk *w, uint32_t steps) {
   sbr_leg_state legs[4];
-  sbri_gait_legs(&w->q.rig, w->state, legs, 4);
+  sbri_gait_legs(&w->q.rig, w->state, 1, legs, 4);
   for (int l = 0; l < 4; l++) ck_assert_uint_ge(legs[l].steps_taken, steps);
   ck_assert_float_le(w->worst_slip, 1e-4f);
   ck_assert_float_le(w->worst_stretch, 1e-5f);
@@ -160,7 +160,7 @@ START_TEST(feet_come_home_when_it_stops)
   float heading;
   sbri_gait_placement(w.state, &place, &heading);
   sbr_leg_state legs[4];
-  sbri_gait_legs(&w.q.rig, w.state, legs, 4);
+  sbri_gait_legs(&w.q.rig, w.state, 1, legs, 4);
   for (int l = 0; l < 4; l++) {
     sbf_quat turn = {0, sinf(heading / 2), 0, cosf(heading / 2)};
     sbf_vec3 home = w.q.rig.legs[l].home;
@@ -181,7 +181,7 @@ START_TEST(feet_stand_on_a_slope_and_the_body_follows)
   run(&w, 8, 0.25f, 0, 0);
   expect_good_walk(&w, 5);
   sbr_leg_state legs[4];
-  sbri_gait_legs(&w.q.rig, w.state, legs, 4);
+  sbri_gait_legs(&w.q.rig, w.state, 1, legs, 4);
   for (int l = 0; l < 4; l++)
     if (legs[l].planted) ck_assert_float_eq_tol(legs[l].foot.y, 0.3f * legs[l].foot.z, 1e-4f);
   sbf_vec3 chest = w.pose[3].position, hips = w.pose[1].position;

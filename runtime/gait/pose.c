@@ -1,0 +1,170 @@
+/* The pose: the spine shares the turn of hips and chest, the head leads, tails follow, legs reach for their
+ * feet. */
+#include "gait/gait_state.h"
+#include "ik/ik.h"
+#include "ik/two_bone.h"
+#include "math/quat.h"
+#include "math/trig.h"
+
+static const sbf_vec3 UP = {0, 1, 0};
+
+static sbf_quat yaw_rotation(float yaw) {
+  return sbri_quat_about(UP, yaw);
+}
+
+/* Yaw against the heading that a bone of the spine has, or that its parent hands on. */
+static float spine_yaw(const sbri_rig *rig, const sbri_stance *stance, int32_t bone) {
+  if (bone < 0 || rig->spine_share[bone] < 0) return 0;
+  return stance->hips_yaw + rig->spine_share[bone] * (stance->chest_yaw - stance->hips_yaw);
+}
+
+/* Turns of a tail's bone in world axes, beyond what the bones before it have turned. */
+static sbf_quat tail_turn(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
+    uint32_t bone, sbf_vec3 up) {
+  const sbri_lag *lags = (const sbri_lag *)(const void *)(state + 1);
+  for (uint32_t t = 0; t < rig->tail_count; t++) {
+    const sbri_tail *tail = &rig->tails[t];
+    for (uint32_t k = 0; k < tail->bone_count; k++) {
+      if (tail->bones[k] != bone) continue;
+      const sbri_lag *lag = &lags[2 * (tail->first_state + k)];
+      /* A first bone may hang on the root rather than on the hips: what it already turned is taken off. */
+      float yaw_done = k ? lag[-2].value : rig->parents[bone] == rig->gait->hips ? stance->hips_yaw : 0;
+      float pitch_done = k ? lag[-1].value : 0;
+      sbf_vec3 side = sbri_rotate(stance->root.rotation, sbri_turned(sbri_vec3(1, 0, 0), lag[0].value));
+      return sbri_quat_multiply(
+          sbri_quat_about(side, lag[1].value - pitch_done), sbri_quat_about(up, lag[0].value - yaw_done));
+    }
+  }
+  return sbri_quat_identity();
+}
+
+/* Limits a bone's rotation against its parent's. */
+static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *parent, sbr_transform *pose) {
+  if (!rig->limits[bone].active) return;
+  sbf_quat local = sbri_quat_multiply(sbri_quat_conjugate(parent->rotation), pose[bone].rotation);
+  sbf_quat held = sbri_joint_limit_clamp(&rig->limits[bone], local);
+  if (held.x == local.x && held.y == local.y && held.z == local.z && held.w == local.w) return;
+  pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, held));
+}
+
+/* All bones before the legs are solved, parents first. */
+static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
+    float scale, sbr_transform *pose) {
+  sbf_vec3 up = sbri_rotate(stance->root.rotation, UP);
+  for (uint32_t i = 0; i < rig->bone_count; i++) {
+    const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &stance->root;
+    sbf_vec3 offset = sbri_scale(rig->rest_local[i].position, scale);
+    pose[i].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
+    sbf_quat is = sbri_quat_multiply(parent->rotation, rig->rest_local[i].rotation), turn;
+    switch (rig->roles[i]) {
+    case SBRI_ROLE_SPINE:
+      turn =
+          sbri_quat_about(up, spine_yaw(rig, stance, (int32_t)i) - spine_yaw(rig, stance, rig->parents[i]));
+      break;
+    case SBRI_ROLE_HEAD:
+      turn = sbri_quat_about(up, state->head_yaw.value - stance->chest_yaw);
+      break;
+    case SBRI_ROLE_TAIL:
+      turn = tail_turn(rig, state, stance, i, up);
+      break;
+    default:
+      pose[i].rotation = is;
+      continue;
+    }
+    pose[i].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, is));
+    limit_bone(rig, i, parent, pose);
+  }
+}
+
+/* Rotation that takes the rest directions (along, side) to new ones; both pairs are made orthonormal. */
+static sbf_quat turn_between(sbf_vec3 along0, sbf_vec3 side0, sbf_vec3 along1, sbf_vec3 side1) {
+  sbf_vec3 y0 = sbri_normalize(along0, UP), y1 = sbri_normalize(along1, UP);
+  sbf_vec3 x0 = sbri_normalize(sbri_add_scaled(side0, y0, -sbri_dot(side0, y0)), sbri_vec3(1, 0, 0));
+  sbf_vec3 x1 = sbri_normalize(sbri_add_scaled(side1, y1, -sbri_dot(side1, y1)), sbri_vec3(1, 0, 0));
+  sbf_quat from = sbri_quat_from_axes(x0, y0, sbri_cross(x0, y0));
+  sbf_quat to = sbri_quat_from_axes(x1, y1, sbri_cross(x1, y1));
+  return sbri_quat_multiply(to, sbri_quat_conjugate(from));
+}
+
+/* The leg's pole, carried by its bone as posed so far. */
+static sbf_vec3 pole_of(const sbri_rig *rig, const sbri_leg *leg, const sbr_transform *root, float scale,
+    const sbr_transform *pose) {
+  const sbr_transform asset = {{0, 0, 0}, {0, 0, 0, 1}};
+  const sbr_transform *rest = leg->pole_bone >= 0 ? &rig->rest[leg->pole_bone] : &asset;
+  const sbr_transform *now = leg->pole_bone >= 0 ? &pose[leg->pole_bone] : root;
+  sbf_vec3 own = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(leg->pole, rest->position));
+  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(own, scale)));
+}
+
+/* Turns the foot, and what hangs on it (toes), to a rotation, by as much as the chain says to that of the
+ * ground.
+ */
+static void pose_foot(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float heading,
+    sbf_quat own, sbr_transform *pose) {
+  sbf_quat level = sbri_quat_multiply(sbri_quat_between(UP, foot->normal), yaw_rotation(heading));
+  sbf_quat flat = sbri_quat_multiply(level, rig->rest[leg->foot].rotation);
+  sbf_quat after = sbri_quat_blend(own, flat, leg->copy_rotation);
+  sbf_quat before = pose[leg->foot].rotation;
+  sbri_rig_turn(rig, (uint32_t)leg->foot, sbri_quat_multiply(after, sbri_quat_conjugate(before)), pose);
+}
+
+/* One bone: it points at where the foot should be. */
+static void pose_peg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float heading,
+    sbf_vec3 ankle, sbr_transform *pose) {
+  sbf_vec3 hip = pose[leg->upper].position, spare = sbri_vec3(0, -1, 0);
+  sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), spare);
+  sbf_quat turn = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
+  sbri_rig_turn(rig, (uint32_t)leg->upper, turn, pose);
+  /* What its one length leaves over or lacks is the foot's: it stands where it stands. */
+  sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(ankle, pose[leg->foot].position), pose);
+  pose_foot(rig, leg, foot, heading, pose[leg->foot].rotation, pose);
+}
+
+static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
+    const sbri_gait_input *input, uint32_t index, sbr_transform *pose) {
+  const sbri_leg *leg = &rig->legs[index];
+  const sbri_foot *foot = &state->feet[index];
+  float scale = input->scale;
+  sbf_vec3 hip = pose[leg->upper].position;
+  sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
+  float heading = state->heading + foot->heading;
+  sbf_vec3 ankle = sbri_ankle_over(leg, sole, foot->normal, heading, scale);
+  if (leg->lower < 0) {
+    pose_peg(rig, leg, foot, heading, ankle, pose);
+    return;
+  }
+  sbf_vec3 pole = pole_of(rig, leg, &stance->root, scale, pose);
+  sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
+  sbri_two_bone_result solved = sbri_two_bone(
+      hip, ankle, pole, fallback, leg->upper_length * scale, leg->lower_length * scale, leg->soft_reach);
+
+  sbf_vec3 hip0 = rig->rest[leg->upper].position, knee0 = rig->rest[leg->lower].position;
+  sbf_vec3 ankle0 = rig->rest[leg->foot].position;
+  sbf_vec3 side0 = sbri_cross(sbri_sub(ankle0, hip0), sbri_sub(leg->pole, hip0));
+  sbf_vec3 side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(solved.knee, hip));
+  if (sbri_dot(side1, side1) < 1e-12f) side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(pole, hip));
+  sbf_quat upper = turn_between(sbri_sub(knee0, hip0), side0, sbri_sub(solved.knee, hip), side1);
+  sbf_quat lower = turn_between(sbri_sub(ankle0, knee0), side0, sbri_sub(solved.ankle, solved.knee), side1);
+  pose[leg->upper].rotation = sbri_quat_normalize(sbri_quat_multiply(upper, rig->rest[leg->upper].rotation));
+  pose[leg->lower] = (sbr_transform){
+      solved.knee, sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation))};
+  pose_foot(rig, leg, foot, heading, sbri_quat_multiply(lower, rig->rest[leg->foot].rotation), pose);
+  sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(solved.ankle, pose[leg->foot].position), pose);
+}
+
+void sbri_body_pose(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbr_transform *pose) {
+  sbri_stance stance = sbri_body_stance(rig, state, input);
+  if (input->hold) {
+    stance.hips_yaw = stance.chest_yaw = 0;
+    stance.root.rotation = yaw_rotation(state->heading);
+  }
+  for (uint32_t i = 0; input->hold && i < rig->bone_count; i++) {
+    sbf_vec3 place = sbri_scale(rig->rest[i].position, input->scale);
+    pose[i].position = sbri_add(stance.root.position, sbri_rotate(stance.root.rotation, place));
+    pose[i].rotation = sbri_quat_multiply(stance.root.rotation, rig->rest[i].rotation);
+  }
+  if (input->hold) return;
+  pose_bones(rig, state, &stance, input->scale, pose);
+  for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, pose);
+}

@@ -1,0 +1,109 @@
+/* Balance: the centre of mass over the polygon of the feet that stand. Soles count as boxes. */
+#include "gait/gait_state.h"
+
+static const float NEEDED = 0.02f;   /* of the legs' reach: how far inside before a foot lifts off */
+static const float SOUGHT = 0.05f;   /* and where the body leans to */
+static const float SAFE_SOLE = 0.8f; /* share of a sole that counts */
+static const float MOST = 0.3f;      /* of the reach: farthest that it leans */
+
+typedef struct polygon {
+  sbf_vec3 at[4 * SBRI_MOST_LEGS + 1];
+  uint32_t count;
+} polygon;
+
+static float side(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
+  return (b.x - a.x) * (c.z - a.z) - (b.z - a.z) * (c.x - a.x);
+}
+
+/* Convex hull of the planted feet, one way round (Andrew 1979). */
+static polygon hull_of(const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t lifted) {
+  sbf_vec3 points[4 * SBRI_MOST_LEGS];
+  uint32_t n = 0;
+  for (uint32_t i = 0; i < 4 * rig->leg_count; i++) {
+    const sbri_foot *foot = &state->feet[i / 4];
+    const sbri_sole *sole = &rig->legs[i / 4].sole;
+    if (!foot->planted || lifted & 1u << (i / 4)) continue;
+    sbf_vec3 corner = {i & 1 ? sole->left : sole->right, 0, i & 2 ? sole->toe : sole->heel};
+    corner = sbri_turned(sbri_scale(corner, SAFE_SOLE * scale), state->heading + foot->heading);
+    sbf_vec3 p = sbri_add(foot->ground, corner);
+    uint32_t k = n++;
+    for (; k > 0 && (points[k - 1].x > p.x || (points[k - 1].x == p.x && points[k - 1].z > p.z)); k--)
+      points[k] = points[k - 1];
+    points[k] = p;
+  }
+  sbf_vec3 ring[8 * SBRI_MOST_LEGS + 2];
+  uint32_t m = 0;
+  for (uint32_t i = 0; i < n; i++) {
+    while (m >= 2 && side(ring[m - 2], ring[m - 1], points[i]) <= 0) m--;
+    ring[m++] = points[i];
+  }
+  for (uint32_t i = n > 1 ? n - 1 : 0, least = m + 1; i-- > 0;) {
+    while (m >= least && side(ring[m - 2], ring[m - 1], points[i]) <= 0) m--;
+    ring[m++] = points[i];
+  }
+  polygon p = {.count = m > 1 ? m - 1 : m};
+  for (uint32_t i = 0; i < p.count; i++) p.at[i] = ring[i];
+  return p;
+}
+
+static sbf_vec3 nearest_on(sbf_vec3 p, sbf_vec3 a, sbf_vec3 b) {
+  sbf_vec3 along = {b.x - a.x, 0, b.z - a.z}, to = {p.x - a.x, 0, p.z - a.z};
+  float square = sbri_dot(along, along);
+  float t = square > 0 ? sbri_clamp(sbri_dot(to, along) / square, 0, 1) : 0;
+  return sbri_add_scaled(sbri_vec3(a.x, 0, a.z), along, t);
+}
+
+/* Signed distance of p from the polygon's edge, positive inside; `inwards` receives the way to more. */
+static float margin_of(const polygon *hull, sbf_vec3 p, sbf_vec3 *inwards) {
+  bool inside = hull->count > 2;
+  float nearest = 1e30f;
+  sbf_vec3 spot = p;
+  p.y = 0;
+  for (uint32_t i = 0; i < hull->count; i++) {
+    sbf_vec3 a = hull->at[i], b = hull->at[(i + 1) % hull->count], on = nearest_on(p, a, b);
+    float distance = sbri_flat_distance(p, on);
+    inside = inside && side(a, b, p) >= 0;
+    if (distance < nearest) nearest = distance, spot = on;
+  }
+  sbf_vec3 to = sbri_sub(spot, p);
+  *inwards = sbri_normalize(inside ? sbri_scale(to, -1) : to, sbri_vec3(0, 0, 0));
+  return inside ? nearest : -nearest;
+}
+
+static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway_z) {
+  sbf_vec3 c = sbri_add(state->position, state->center);
+  return sbri_vec3(c.x + sway_x, 0, c.z + sway_z);
+}
+
+float sbri_support_needed(const sbri_rig *rig, const sbri_gait_input *input) {
+  return NEEDED * rig->reach * input->scale;
+}
+
+float sbri_support_margin(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifted) {
+  polygon hull = hull_of(rig, state, input->scale, lifted);
+  sbf_vec3 unused;
+  if (hull.count == 0) return -1e30f;
+  return margin_of(&hull, center_at(state, state->sway_x.value, state->sway_z.value), &unused);
+}
+
+sbf_vec3 sbri_support_sway(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifted) {
+  polygon hull = hull_of(rig, state, input->scale, lifted);
+  sbf_vec3 sway = {0, 0, 0}, middle = {0, 0, 0};
+  if (hull.count == 0) return sway;
+  for (uint32_t i = 0; i < hull.count; i++)
+    middle = sbri_add_scaled(middle, hull.at[i], 1 / (float)hull.count);
+  float size = rig->reach * input->scale, sought = SOUGHT * size;
+  for (int pass = 0; pass < 6; pass++) {
+    sbf_vec3 inwards, at = center_at(state, sway.x, sway.z);
+    float missing = sought - margin_of(&hull, at, &inwards);
+    if (missing <= 1e-5f * size) break;
+    sbf_vec3 to_middle = sbri_vec3(middle.x - at.x, 0, middle.z - at.z);
+    float away = sbri_length(to_middle); /* a small polygon has no place so far inside */
+    sway = missing >= away ? sbri_add(sway, to_middle) : sbri_add_scaled(sway, inwards, missing);
+    if (missing >= away) break;
+  }
+  float length = sbri_length(sway), most = MOST * size;
+  return length > most ? sbri_scale(sway, most / length) : sway;
+}

@@ -1,0 +1,68 @@
+/* Limits of bones against their parents, from the joints between the bodies that move with them. */
+#include "skeleton/rig.h"
+
+static const float ALL_ROUND = 3.2f; /* beyond half a turn: no bound */
+
+static int32_t bone_of(const sbf_asset *asset, int32_t body) {
+  return body >= 0 ? asset->rigid_bodies.at[body].bone : -1;
+}
+
+/* What the kind alone says of the rotations: free, or held at 0. */
+static void open_kind(sbf_joint_kind kind, sbri_joint_limit *limit) {
+  bool twists = kind == SBF_JOINT_KIND_REVOLUTE || kind == SBF_JOINT_KIND_CYLINDRICAL;
+  bool turns = kind != SBF_JOINT_KIND_PRISMATIC && kind != SBF_JOINT_KIND_FIXED && !twists;
+  float twist = twists || turns ? ALL_ROUND : 0, swing = turns ? ALL_ROUND : 0;
+  limit->twist[0] = -twist, limit->twist[1] = twist;
+  limit->swing_y[0] = limit->swing_z[0] = -swing;
+  limit->swing_y[1] = limit->swing_z[1] = limit->cone = swing;
+}
+
+static void narrow(float range[2], const sbf_limit *limit) {
+  if (limit->min > range[0]) range[0] = limit->min;
+  if (limit->max < range[1]) range[1] = limit->max;
+}
+
+static void take_limit(const sbf_limit *from, sbri_joint_limit *limit) {
+  if (from->target == SBF_JOINT_AXIS_TWIST) narrow(limit->twist, from);
+  if (from->target == SBF_JOINT_AXIS_SWING_Y) narrow(limit->swing_y, from);
+  if (from->target == SBF_JOINT_AXIS_SWING_Z) narrow(limit->swing_z, from);
+  if (from->target == SBF_JOINT_AXIS_SWING && from->max < limit->cone) limit->cone = from->max;
+}
+
+static bool rotates(sbf_joint_kind kind) {
+  return kind != SBF_JOINT_KIND_DISTANCE && kind != SBF_JOINT_KIND_PULLEY;
+}
+
+void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits) {
+  const sbf_asset *asset = rig->asset;
+  for (uint32_t i = 0; i < rig->bone_count; i++) limits[i] = (sbri_joint_limit){.active = false};
+  for (uint32_t j = 0; j < asset->joints.count; j++) {
+    const sbf_joint *joint = &asset->joints.at[j];
+    int32_t bone = bone_of(asset, joint->body_b), parent = bone_of(asset, joint->body_a);
+    if (!rotates(joint->kind) || bone < 0 || rig->parents[bone] != parent || limits[bone].active) continue;
+    sbri_joint_limit *limit = &limits[bone];
+    sbf_quat frame_a = sbri_quat_normalize(joint->frame_a.rotation);
+    sbf_quat frame_b = sbri_quat_normalize(joint->frame_b.rotation);
+    sbf_quat above = parent >= 0 ? rig->rest[parent].rotation : sbri_quat_identity();
+    /* Q = frame_a^-1 (parent's rotation since rest)^-1 (bone's rotation since rest) frame_b */
+    limit->before = sbri_quat_multiply(sbri_quat_conjugate(frame_a), above);
+    limit->after = sbri_quat_multiply(sbri_quat_conjugate(rig->rest[bone].rotation), frame_b);
+    open_kind(joint->kind, limit);
+    for (uint32_t k = 0; k < joint->limits.count; k++) take_limit(&joint->limits.at[k], limit);
+    limit->active = true;
+    /* A pose that breaks it at rest would never be left alone. */
+    if (sbri_joint_limit_excess(limit, rig->rest_local[bone].rotation) > 1e-3f) limit->active = false;
+  }
+}
+
+float sbri_rig_limit_excess(const sbri_rig *rig, const sbr_transform *pose) {
+  float worst = 0;
+  for (uint32_t i = 0; i < rig->bone_count; i++) {
+    int32_t parent = rig->parents[i];
+    if (!rig->limits[i].active || parent < 0) continue;
+    sbf_quat local = sbri_quat_multiply(sbri_quat_conjugate(pose[parent].rotation), pose[i].rotation);
+    float excess = sbri_joint_limit_excess(&rig->limits[i], local);
+    worst = excess > worst ? excess : worst;
+  }
+  return worst;
+}

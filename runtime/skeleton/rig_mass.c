@@ -1,0 +1,77 @@
+/* What each bone carries: the volume of the soft bodies that hang on it; where there are none, as many points
+ * of the skinned meshes as follow it. Volumes are sums of signed tetrahedra from the bone's head. */
+#include "skeleton/rig.h"
+
+#include <string.h>
+
+static sbf_vec3 third_of(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
+  return sbri_scale(sbri_add(sbri_add(a, b), c), 0.25f);
+}
+
+static void add_triangle(
+    const sbri_rig *rig, int32_t bone, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, sbri_bone_mass *masses) {
+  sbf_vec3 from = rig->rest[bone].position;
+  sbf_vec3 p = sbri_sub(a, from), q = sbri_sub(b, from), r = sbri_sub(c, from);
+  float volume = sbri_dot(p, sbri_cross(q, r)) / 6;
+  masses[bone].share += volume;
+  masses[bone].place = sbri_add_scaled(masses[bone].place, sbri_add(from, third_of(p, q, r)), volume);
+}
+
+static void add_points(const sbf_render_mesh *mesh, sbri_bone_mass *masses) {
+  uint32_t at = 0;
+  for (uint32_t i = 0; mesh->skin && i < mesh->skin->influence_counts.count; i++)
+    for (uint32_t k = 0; k < mesh->skin->influence_counts.at[i]; k++, at++) {
+      sbri_bone_mass *mass = &masses[mesh->skin->bones.at[at]];
+      float weight = mesh->skin->weights.at[at];
+      mass->share += weight;
+      mass->place = sbri_add_scaled(mass->place, mesh->mesh.positions.at[i], weight);
+    }
+}
+
+static void add_body(const sbri_rig *rig, const sbf_soft_body *body, sbri_bone_mass *masses) {
+  const sbf_polygon_mesh *m = &body->surface;
+  for (uint32_t p = 0, at = 0; p < m->polygon_sizes.count; at += m->polygon_sizes.at[p++]) {
+    const uint32_t *corner = m->polygon_points.at + at;
+    for (uint32_t k = 2; k < m->polygon_sizes.at[p]; k++)
+      add_triangle(rig, body->bone, m->positions.at[corner[0]], m->positions.at[corner[k - 1]],
+          m->positions.at[corner[k]], masses);
+  }
+}
+
+void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses) {
+  const sbf_asset *asset = rig->asset;
+  memset(masses, 0, rig->bone_count * sizeof *masses);
+  bool bodies = false;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    if (asset->soft_bodies.at[i].bone < 0) continue;
+    bodies = true;
+    add_body(rig, &asset->soft_bodies.at[i], masses);
+  }
+  for (uint32_t i = 0; !bodies && i < asset->render_meshes.count; i++)
+    add_points(&asset->render_meshes.at[i], masses);
+  float total = 0;
+  for (uint32_t i = 0; i < rig->bone_count; i++) {
+    if (!(masses[i].share > 0)) masses[i] = (sbri_bone_mass){0};
+    total += masses[i].share;
+  }
+  for (uint32_t i = 0; total > 0 && i < rig->bone_count; i++) {
+    if (masses[i].share > 0) masses[i].place = sbri_scale(masses[i].place, 1 / masses[i].share);
+    masses[i].share /= total;
+  }
+}
+
+bool sbri_rig_center(const sbri_rig *rig, const sbr_transform *pose, float scale, sbf_vec3 *center) {
+  sbf_vec3 sum = {0, 0, 0};
+  float total = 0;
+  for (uint32_t i = 0; i < rig->bone_count; i++) {
+    const sbri_bone_mass *mass = &rig->masses[i];
+    if (mass->share <= 0) continue;
+    sbf_vec3 own =
+        sbri_rotate(sbri_quat_conjugate(rig->rest[i].rotation), sbri_sub(mass->place, rig->rest[i].position));
+    sbf_vec3 at = sbri_add(pose[i].position, sbri_rotate(pose[i].rotation, sbri_scale(own, scale)));
+    sum = sbri_add_scaled(sum, at, mass->share);
+    total += mass->share;
+  }
+  *center = sum;
+  return total > 0;
+}

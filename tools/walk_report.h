@@ -1,0 +1,19 @@
+/* How well a character walks: rhythm, knees, balance, body, limits; frame by frame. */
+#ifndef WALK_REPORT_H
+#define WALK_REPORT_H
+
+#include "sole.h"
+
+typedef struct walk_report walk_report;
+
+/* NULL where the character has no legs, or memory runs out. `feet` must outlive it. */
+walk_report *walk_report_create(const session *s, const soles *feet);
+void walk_report_destroy(walk_report *r);
+
+/* Looks at the frame as it is now: `skin` holds every render mesh's vertices one after the other. */
+void walk_report_measure(walk_report *r, const session *s, const sbf_vec3 *skin);
+
+/* Adds its keys to the report of a run. */
+void walk_report_add(const walk_report *r, const session *s, json_t *object);
+
+#endif
