@@ -13,10 +13,15 @@ static bool read_options(const cli_call *call, sbf_build_options *options) {
   int method = SBF_BUILD_INTERIOR_AUTOMATIC;
   *options = (sbf_build_options){.user = NULL};
   long elements = 0;
+  static const char *const cuts[] = {"auto", "none"}; /* as sbf_build_sections */
+  int sections = SBF_BUILD_SECTIONS_AUTOMATIC;
   if (!cli_word(call, "--springs", methods, METHOD_COUNT, &method) ||
       !cli_number(call, "--cell", 1e-9, 1e9, &options->cell_m) ||
-      !cli_integer(call, "--elements", 1, 100000000, &elements))
+      !cli_integer(call, "--elements", 1, 100000000, &elements) ||
+      !cli_word(call, "--sections", cuts, 2, &sections) ||
+      !cli_number(call, "--overlap", 1e-9, 1e9, &options->overlap_m))
     return false;
+  options->sections = (sbf_build_sections)sections;
   options->interior = method == SURFACE ? SBF_BUILD_INTERIOR_NONE : (sbf_build_interior)method;
   options->elements = (uint32_t)elements;
   return true;
@@ -48,6 +53,7 @@ static void print_lattices(const sbf_build_report *r) {
 }
 
 static void print_report(const sbf_build_report *r) {
+  if (r->sections) printf("cut %u sections along the bones\n", r->sections);
   printf("built %u bodies: %u interior points, %u pins, %u hulls, %u embedded vertices\n", r->bodies,
       r->interior_points, r->pins, r->hulls, r->embedded_vertices);
   if (r->tetrahedra) print_lattices(r);

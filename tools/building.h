@@ -10,8 +10,10 @@
   {"--springs", "METHOD",                                                                                    \
       "automatic, centroid, lattice, surface (or none), brute: springs; tetrahedra: no springs "             \
       "(automatic)"},                                                                                        \
-      {"--cell", "METRES", "edge of a lattice's cubes (by --elements)"}, {                                   \
-    "--elements", "N", "about so many tetrahedra a body (2000, thin ones up to 16000)"                       \
+      {"--cell", "METRES", "edge of a lattice's cubes (by --elements)"},                                     \
+      {"--elements", "N", "about so many tetrahedra a body (2000, thin ones up to 16000)"},                  \
+      {"--sections", "auto|none", "cut skinned meshes into sections, where no body is on a bone (auto)"}, {  \
+    "--overlap", "METRES", "how far sections reach over a cut (half the limb's radius there)"                \
   }
 
 /* False, with a message, where the options are wrong. */

@@ -34,10 +34,14 @@ static uint64_t body_pins(const sbf_soft_body *body) {
 
 static uint64_t interior_points(const sbf_soft_body *body) {
   const sbf_level *level = finest(body);
-  if (level && level->model == SBF_ELASTIC_MODEL_SPRINGS &&
-      level->positions.count >= body->surface.positions.count)
-    return level->positions.count - body->surface.positions.count;
-  return body->interior.count;
+  if (!level || level->model != SBF_ELASTIC_MODEL_SPRINGS) return body->interior.count;
+  uint32_t of_surface = 0, surface = body->surface.positions.count;
+  for (uint32_t i = 0; i < surface; i++) {
+    uint32_t point = i < level->new_from_old.count ? level->new_from_old.at[i] : i;
+    of_surface +=
+        (i < level->new_from_old.count || !level->new_from_old.count) && point < level->positions.count;
+  }
+  return level->positions.count - of_surface;
 }
 
 static json_t *render_meshes(const sbf_asset *asset) {

@@ -9,7 +9,10 @@
 #include "build/geometry/topology.h"
 #include "build/lattice/lattice_level.h"
 #include "build/sections/level_pins.h"
+#include "build/sections/section_frame.h"
 #include "build/sections/section_hulls.h"
+#include "build/sections/section_level.h"
+#include "build/sections/sections.h"
 #include "build/source_reading.h"
 #include "build/source_view.h"
 #include "sbfmt/mechanics.h"
@@ -20,6 +23,8 @@ static const char default_tool[] =
     "sbfmt " TEXT_OF(SBF_VERSION_MAJOR) "." TEXT_OF(SBF_VERSION_MINOR) "." TEXT_OF(SBF_VERSION_PATCH);
 
 enum { MOST_BRUTE_POINTS = 4096 };
+/* How far sections reach over a cut, by the limb's radius. */
+static const double USUAL_OVERLAP = 0.5;
 enum { DERIVATION = 0 }; /* a build has one entry in `derivations` */
 
 typedef struct build {
@@ -30,6 +35,8 @@ typedef struct build {
   sbf_soft_body *bodies;
   sbfi_interior_map *maps; /* (bodies) of the levels made */
   bool *made;              /* (bodies) the level is made here, the body's only one */
+  uint32_t *frames;        /* (bodies) first frame point of the level made; SBFI_NO_INDEX: none */
+  sbfi_sections sections;  /* cut here: the last of the bodies */
   sbfi_arena scratch;
   sbfi_ids ids;
   sbfi_reporter reporter;
@@ -67,13 +74,6 @@ static sbf_status copy_source(build *b) {
   if (!sbfi_source_view(b->from, &b->scratch, &view)) return no_memory(b);
   b->asset = sbf_asset_clone(&view, &b->scratch.allocator);
   if (!b->asset) return no_memory(b);
-  uint32_t count = b->asset->soft_bodies.count;
-  b->bodies = sbf_asset_allocate(b->asset, count, sizeof *b->bodies);
-  b->maps = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *b->maps);
-  b->made = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *b->made);
-  if ((count && !b->bodies) || !b->maps || !b->made) return no_memory(b);
-  if (count) memcpy(b->bodies, b->asset->soft_bodies.at, count * sizeof *b->bodies);
-  b->asset->soft_bodies.at = b->bodies;
   return SBF_OK;
 }
 
@@ -90,6 +90,48 @@ static sbf_status record_derivation(build *b) {
   return SBF_OK;
 }
 
+static sbf_status make_sections(build *b) {
+  double overlap = b->options.overlap_m > 0 ? b->options.overlap_m : -USUAL_OVERLAP;
+  if (b->options.sections == SBF_BUILD_SECTIONS_AUTOMATIC &&
+      !sbfi_sections_make(&b->sections, b->asset, overlap, DERIVATION, &b->ids, &b->reporter, &b->scratch))
+    return no_memory(b);
+  b->report.sections = b->sections.count;
+  return SBF_OK;
+}
+
+/* All bodies in memory that may be written to, the sections behind the source's. */
+static sbf_status line_up_bodies(build *b) {
+  uint32_t source = b->asset->soft_bodies.count, count = source + b->sections.count;
+  b->bodies = sbf_asset_allocate(b->asset, count, sizeof *b->bodies);
+  b->maps = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *b->maps);
+  b->made = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *b->made);
+  b->frames = sbfi_arena_allocate(&b->scratch, (size_t)count + 1, sizeof *b->frames);
+  if ((count && !b->bodies) || !b->maps || !b->made || !b->frames) return no_memory(b);
+  if (source) memcpy(b->bodies, b->asset->soft_bodies.at, source * sizeof *b->bodies);
+  if (b->sections.count)
+    memcpy(b->bodies + source, b->sections.bodies, b->sections.count * sizeof *b->bodies);
+  b->asset->soft_bodies = (sbf_soft_body_list){b->bodies, count};
+  memset(b->frames, 0xff, count * sizeof *b->frames);
+  return SBF_OK;
+}
+
+/* What sections carry beyond their surfaces. */
+static sbf_status make_frames(build *b) {
+  uint32_t source = b->asset->soft_bodies.count - b->sections.count;
+  for (uint32_t i = 0; i < b->sections.count && !b->options.without_embeddings; i++) {
+    uint32_t number = source + i;
+    if (!b->made[number]) continue;
+    /* The level is the asset's, made here. */
+    sbf_level *level = (sbf_level *)(uintptr_t)b->bodies[number].levels.at;
+    uint32_t before = level->positions.count;
+    if (!sbfi_section_frame_add(
+            level, &b->sections, i, DERIVATION, b->asset, &b->frames[number], &b->scratch))
+      return no_memory(b);
+    b->report.pins += level->positions.count - before;
+  }
+  return SBF_OK;
+}
+
 static sbf_status make_hulls(build *b) {
   if (b->options.without_hulls) return SBF_OK;
   if (!sbfi_section_hulls_make(b->asset, DERIVATION, &b->ids, &b->reporter, &b->report.hulls, &b->scratch))
@@ -97,9 +139,18 @@ static sbf_status make_hulls(build *b) {
   return SBF_OK;
 }
 
-/* Old derived rigid bodies are found again among the new ones by their ids. */
+/* Old derived rigid bodies and sections are found again among the new ones by their ids. */
 static void match_rigid_bodies(const build *b, int32_t *new_from_old) {
   const sbf_rigid_body_list *old = &b->from->rigid_bodies, *now = &b->asset->rigid_bodies;
+  for (uint32_t i = 0; i < old->count; i++) {
+    const sbfi_id_entry *same = old->at[i].derived != SBF_NONE ? sbfi_ids_find(&b->ids, old->at[i].id) : NULL;
+    if (same && same->index < now->count && now->at[same->index].id == same->id)
+      new_from_old[i] = (int32_t)same->index;
+  }
+}
+
+static void match_sections(const build *b, int32_t *new_from_old) {
+  const sbf_soft_body_list *old = &b->from->soft_bodies, *now = &b->asset->soft_bodies;
   for (uint32_t i = 0; i < old->count; i++) {
     const sbfi_id_entry *same = old->at[i].derived != SBF_NONE ? sbfi_ids_find(&b->ids, old->at[i].id) : NULL;
     if (same && same->index < now->count && now->at[same->index].id == same->id)
@@ -123,6 +174,7 @@ static sbf_status renumber(build *b) {
   sbfi_source_places(from->render_meshes.at, counts[2], sizeof(sbf_render_mesh),
       offsetof(sbf_render_mesh, derived), places[2]);
   match_rigid_bodies(b, places[0]);
+  match_sections(b, places[1]);
   const sbfi_renumbering renumberings[] = {{offsetof(sbf_asset, rigid_bodies), places[0], counts[0]},
       {offsetof(sbf_asset, soft_bodies), places[1], counts[1]},
       {offsetof(sbf_asset, render_meshes), places[2], counts[2]}};
@@ -135,10 +187,12 @@ static sbf_status renumber(build *b) {
   return status;
 }
 
+/* Automatic: of a section that was cut here (section_level.h). */
 static sbf_build_interior interior_of(const build *b, const sbf_soft_body *body) {
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   sbf_build_interior wanted = b->options.interior;
+  if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC && body->derived != SBF_NONE) return wanted;
   if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC)
     wanted =
         body->bone != SBF_NONE || !measures.sheet ? SBF_BUILD_INTERIOR_CENTROID : SBF_BUILD_INTERIOR_NONE;
@@ -229,6 +283,12 @@ static bool lattice_progress(void *user, double done) {
   return progress(b, "lattices", 0.2 + 0.4 * (share->number + done) / b->asset->soft_bodies.count) == SBF_OK;
 }
 
+static sbf_status too_fine(build *b, uint32_t number) {
+  return report_of_body(b, number, SBF_CODE_LATTICE_TOO_FINE,
+      "a lattice of this cell in soft body \"%s\" would have more than 2^28 nodes: give a larger cell",
+      b->bodies[number].name);
+}
+
 static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
   const sbfi_lattice_recipe recipe = {b->options.cell_m, b->options.elements, DERIVATION};
@@ -245,9 +305,7 @@ static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_arena *scratch
   case SBFI_LATTICE_CANCELLED:
     return SBF_FAILED; /* `error` says so */
   case SBFI_LATTICE_TOO_FINE:
-    return report_of_body(b, number, SBF_CODE_LATTICE_TOO_FINE,
-        "a lattice of this cell in soft body \"%s\" would have more than 2^28 nodes: give a larger cell",
-        body->name);
+    return too_fine(b, number);
   }
   if (counts.tetrahedra == 0) {
     report_of_body(b, number, SBF_CODE_LATTICE_EMPTY,
@@ -271,6 +329,45 @@ static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_arena *scratch
   return SBF_OK;
 }
 
+/* A section that was cut here; where it encloses nothing, as a sheet does, springs to its centre hold it. */
+static sbf_status make_section(build *b, uint32_t number, sbfi_arena *scratch) {
+  const sbf_soft_body *body = &b->bodies[number];
+  const sbfi_section_recipe recipe = {b->options.cell_m, b->options.elements, DERIVATION};
+  sbfi_section_counts counts;
+  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
+  if (!level) return no_memory(b);
+  lattice_share share = {b, number};
+  switch (sbfi_section_level_make(
+      level, body, &recipe, b->asset, &counts, (sbfi_lattice_progress){lattice_progress, &share}, scratch)) {
+  case SBFI_LATTICE_MADE:
+    break;
+  case SBFI_LATTICE_NO_MEMORY:
+    return no_memory(b);
+  case SBFI_LATTICE_CANCELLED:
+    return SBF_FAILED; /* `error` says so */
+  case SBFI_LATTICE_TOO_FINE:
+    return too_fine(b, number);
+  }
+  if (counts.points == 0)
+    return make_springs(b, number, SBF_BUILD_INTERIOR_CENTROID, scratch) ? SBF_OK : no_memory(b);
+  take_level(b, number, level, counts.pins);
+  b->report.interior_points += counts.points;
+  b->report.springs[SBF_SPRING_KIND_INTERNAL] += counts.springs;
+  b->report.inert_springs += counts.inert;
+  return SBF_OK;
+}
+
+/* Tetrahedra that embeddings went by and that move nothing. */
+static sbf_status clear_lattices(build *b) {
+  for (uint32_t i = b->asset->soft_bodies.count - b->sections.count; i < b->asset->soft_bodies.count; i++) {
+    if (!b->made[i] || b->bodies[i].levels.at[0].model != SBF_ELASTIC_MODEL_SPRINGS) continue;
+    /* The level is the asset's, made here. */
+    sbf_level *level = (sbf_level *)(uintptr_t)b->bodies[i].levels.at;
+    level->lattice.tetrahedra = (sbf_uint4_list){NULL, 0};
+  }
+  return SBF_OK;
+}
+
 static sbf_status make_level(build *b, uint32_t number) {
   sbfi_arena scratch;
   sbf_build_interior interior = interior_of(b, &b->bodies[number]);
@@ -283,6 +380,8 @@ static sbf_status make_level(build *b, uint32_t number) {
         b->bodies[number].name, MOST_BRUTE_POINTS);
   else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
     status = make_tetrahedra(b, number, &scratch);
+  else if (interior == SBF_BUILD_INTERIOR_AUTOMATIC)
+    status = make_section(b, number, &scratch);
   else if (!make_springs(b, number, interior, &scratch))
     status = no_memory(b);
   sbfi_arena_free(&scratch);
@@ -333,10 +432,11 @@ static sbf_status embed(build *b) {
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
     for (uint32_t l = 0; l < b->bodies[i].levels.count; l++)
       /* The levels are the asset's, copied into memory that may be written to. */
-      targets[next++] = (sbfi_embed_target){
-          i, (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l], b->made[i] ? &b->maps[i] : NULL};
+      targets[next++] = (sbfi_embed_target){i, (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l],
+          b->made[i] ? &b->maps[i] : NULL, l == 0 ? b->frames[i] : SBFI_NO_INDEX};
   sbfi_embed_report report;
-  if (!sbfi_embed(b->asset, targets, (uint32_t)count, DERIVATION, &b->reporter, &report, &b->scratch))
+  if (!sbfi_embed(
+          b->asset, targets, (uint32_t)count, &b->sections, DERIVATION, &b->reporter, &report, &b->scratch))
     return no_memory(b);
   b->report.embedded_vertices = report.vertices;
   b->report.farthest_m = report.farthest;
@@ -387,8 +487,10 @@ static sbf_status run(build *b) {
     double done; /* before it */
     sbf_status (*run)(build *);
   } passes[] = {{"a copy of the source", 0, copy_source}, {"the derivation", 0.05, record_derivation},
-      {"hulls", 0.1, make_hulls}, {"references", 0.15, renumber}, {"springs", 0.2, make_levels},
-      {"embeddings", 0.6, embed}, {"figures of the whole", 0.9, record_figures},
+      {"sections", 0.06, make_sections}, {"the list of bodies", 0.1, line_up_bodies},
+      {"hulls", 0.11, make_hulls}, {"references", 0.15, renumber}, {"springs", 0.2, make_levels},
+      {"frames of sections", 0.59, make_frames}, {"embeddings", 0.6, embed},
+      {"lattices no longer needed", 0.89, clear_lattices}, {"figures of the whole", 0.9, record_figures},
       {"the check of what was made", 0.92, check_made}, {"the hash of the source", 0.95, hash_source}};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     sbf_status status = progress(b, passes[i].name, passes[i].done);
@@ -404,8 +506,12 @@ sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, s
   build b = {.options = options_of(options), .from = asset, .error = error};
   if ((unsigned)b.options.interior >= SBFI_BUILD_INTERIOR_COUNT)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known interior");
+  if ((unsigned)b.options.sections > SBF_BUILD_SECTIONS_NONE ||
+      !(b.options.overlap_m >= 0 && b.options.overlap_m <= 1e9))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known way to cut sections");
   if (!(b.options.cell_m >= 0 && b.options.cell_m <= 1e9))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name a cell that is no length");
+  b.options.overlap_m = sbfi_build_settings_cell(b.options.overlap_m);
   b.options.cell_m = sbfi_build_settings_cell(b.options.cell_m); /* what is recorded is what is built with */
   b.reporter = (sbfi_reporter){.report = b.options.report, .user = b.options.user};
   sbfi_arena_init(&b.scratch, b.options.allocator, 0);

@@ -9,6 +9,7 @@
 typedef enum setting_kind {
   WITHOUT,     /* bool, stated as its opposite */
   INTERIOR,    /* sbf_build_interior, by name */
+  SECTIONS,    /* sbf_build_sections, by name; automatic is not stated */
   COUNT,       /* uint32_t; 0 is not stated */
   MICROMETRES, /* double, metres; 0 is not stated. Whole numbers read alike everywhere */
 } setting_kind;
@@ -25,6 +26,8 @@ static const struct {
     {"flexion", WITHOUT, offsetof(sbf_build_options, without_flexion)},
     {"hulls", WITHOUT, offsetof(sbf_build_options, without_hulls)},
     {"interior", INTERIOR, offsetof(sbf_build_options, interior)},
+    {"overlap_um", MICROMETRES, offsetof(sbf_build_options, overlap_m)},
+    {"sections", SECTIONS, offsetof(sbf_build_options, sections)},
 };
 enum { SETTING_COUNT = sizeof settings / sizeof *settings };
 
@@ -54,6 +57,9 @@ void sbfi_build_settings_write(const sbf_build_options *options, char text[SBFI_
       break;
     case INTERIOR:
       word = interior_words[*(const sbf_build_interior *)field];
+      break;
+    case SECTIONS:
+      if (*(const sbf_build_sections *)field == SBF_BUILD_SECTIONS_NONE) word = "none";
       break;
     case COUNT:
       number = *(const uint32_t *)field;
@@ -96,6 +102,9 @@ static bool take(setting_kind kind, sbfi_span value, void *field) {
     return take_flag(value, field);
   case INTERIOR:
     return take_interior(value, field);
+  case SECTIONS:
+    *(sbf_build_sections *)field = SBF_BUILD_SECTIONS_NONE;
+    return sbfi_span_is(value, "none");
   case COUNT:
     return take_number(value, field);
   case MICROMETRES:

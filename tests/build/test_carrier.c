@@ -31,7 +31,7 @@ static sbfi_carrier carrier_of(const sbf_soft_body *body, sbf_level *level) {
   sbfi_spring_counts counts;
   sbfi_carrier carrier;
   ck_assert(sbfi_spring_level_make(level, body, &recipe, asset, &map, &counts, &arena));
-  ck_assert(sbfi_carrier_make(&carrier, body, level, &map, &arena));
+  ck_assert(sbfi_carrier_make(&carrier, body, level, &map, SBFI_NO_INDEX, &arena));
   return carrier;
 }
 
@@ -165,7 +165,7 @@ START_TEST(lattices)
   level.positions = (sbf_vec3_list){corners, 8};
   level.lattice.tetrahedra = (sbf_uint4_list){five, 5};
   sbfi_carrier carrier;
-  ck_assert(sbfi_carrier_make(&carrier, body, &level, NULL, &arena));
+  ck_assert(sbfi_carrier_make(&carrier, body, &level, NULL, SBFI_NO_INDEX, &arena));
   for (int i = 0; i < 500; i++) {
     sbf_vec3 p = {random_number(0, 1), random_number(0, 1), random_number(0, 1)};
     sbfi_carried c = sbfi_carrier_carry(&carrier, p, 0);

@@ -20,7 +20,9 @@ def section(body):
     surface = body.find("polygon_mesh")
     counts = mesh_counts(surface)
     springs = level is not None and level.get("model", "springs") == "springs"
-    interior = len(words(level, "positions")) // 3 - counts["vertices"] if springs else len(words(body, "interior")) // 3
+    places = words(level, "new_from_old")[:counts["vertices"]] if springs else []
+    of_surface = sum(place != "4294967295" for place in places) if places else counts["vertices"]
+    interior = (len(words(level, "positions")) // 3 - of_surface if springs else len(words(body, "interior")) // 3)
     lattice = level.find("tetrahedron_mesh") if level is not None else None
     return {"id": body.get("id"), "name": body.get("name", ""), "bone": body.get("bone"), **counts,
             "interior_points": max(interior, 0), "tetrahedra": len(words(lattice, "tetrahedra")) // 4,

@@ -169,12 +169,23 @@ static sbfi_carried carry_by_surface(const sbfi_carrier *c, sbf_vec3 position) {
   return best.size < INFINITY ? written(c, &best, at) : carried_flat(c, corners, at);
 }
 
+static sbfi_carried carry_by_frame(const sbfi_carrier *c, sbf_vec3 position) {
+  choice by = {.size = 0};
+  for (int k = 0; k < 4; k++) by.points[k] = c->frame + (uint32_t)k;
+  return weigh(c, &by, sbfi_d3_of(position)) ? written(c, &by, sbfi_d3_of(position))
+                                             : carried_alone(c->frame, 0);
+}
+
+/* Where there are frame points, what lies far outside hangs on them. */
 static sbfi_carried carry_by_lattice(const sbfi_carrier *c, sbf_vec3 position) {
+  const double most = 3; /* sum of squares of the weights; 1 and below inside */
   sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&c->lattice, position);
   choice in = {.size = 0};
   memcpy(in.points, c->level->lattice.tetrahedra.at[found.tetrahedron].at, sizeof in.points);
-  sbfi_carried carried = weigh(c, &in, sbfi_d3_of(position)) ? written(c, &in, sbfi_d3_of(position))
-                                                             : carried_alone(in.points[0], found.distance);
+  bool good = weigh(c, &in, sbfi_d3_of(position));
+  if (c->frame != SBFI_NO_INDEX && (!good || in.size > most)) return carry_by_frame(c, position);
+  sbfi_carried carried =
+      good ? written(c, &in, sbfi_d3_of(position)) : carried_alone(in.points[0], found.distance);
   carried.outside = (float)found.distance;
   return carried;
 }
@@ -193,8 +204,8 @@ static bool find_in_lattice(sbfi_carrier *c, sbfi_arena *arena) {
 }
 
 bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const sbf_level *level,
-    const sbfi_interior_map *interior, sbfi_arena *arena) {
-  *carrier = (sbfi_carrier){.body = body, .level = level, .interior = {SBFI_NO_INDEX, NULL}};
+    const sbfi_interior_map *interior, uint32_t frame, sbfi_arena *arena) {
+  *carrier = (sbfi_carrier){.body = body, .level = level, .interior = {SBFI_NO_INDEX, NULL}, .frame = frame};
   if (interior) carrier->interior = *interior;
   find_extremes(carrier);
   return hash_positions(carrier, arena) &&
@@ -210,7 +221,9 @@ sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, 
   if (carrier->in_lattice)
     return same != SBFI_NO_INDEX ? carrier->in_lattice[same] : carry_by_lattice(carrier, position);
   if (same != SBFI_NO_INDEX) same = sbfi_level_point(carrier->level, same);
-  return same != SBFI_NO_INDEX ? carried_alone(same, 0) : carry_by_surface(carrier, position);
+  if (same != SBFI_NO_INDEX) return carried_alone(same, 0);
+  return carrier->frame != SBFI_NO_INDEX ? carry_by_frame(carrier, position)
+                                         : carry_by_surface(carrier, position);
 }
 
 bool sbfi_carrier_has(const sbfi_carrier *carrier, sbf_vec3 position) {

@@ -17,6 +17,7 @@ typedef struct sbfi_carrier {
   const sbf_soft_body *body;
   const sbf_level *level;
   sbfi_interior_map interior;
+  uint32_t frame;                  /* first of four points that carry what lies beyond; SBFI_NO_INDEX: none */
   sbfi_triangle_tree surface;      /* of the body, at rest */
   sbfi_tetrahedron_finder lattice; /* of the level's tetrahedra, where it has some */
   sbfi_carried *in_lattice;        /* of the surface's points, where the level has tetrahedra */
@@ -27,13 +28,15 @@ typedef struct sbfi_carrier {
   size_t slot_count;
 } sbfi_carrier;
 
-/* `interior` may be NULL for a level that was not made by sbfi_spring_level_make. Memory of `arena`; body and
+/* `interior` may be NULL for a level that was not made by sbfi_spring_level_make, `frame` is the first of its
+ * points by section_frame.h or SBFI_NO_INDEX. Memory of `arena`; body and
  * level must outlive the carrier. False where memory runs out. */
 bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const sbf_level *level,
-    const sbfi_interior_map *interior, sbfi_arena *arena);
+    const sbfi_interior_map *interior, uint32_t frame, sbfi_arena *arena);
 
 /* How the level carries a vertex at `position`:
  *   a surface point in the very same place (bit by bit; `likely` first) carries it alone;
+ *   frame points what lies elsewhere, with a lattice what lies far outside of it;
  *   a lattice by the tetrahedron around the vertex, or one near it (tetrahedron_finder.h);
  *   else by the nearest triangle of the surface (of polygons cut as fans from their first corner) and a
  * fourth point: the polygon's own, the centre, or the level's extremes, whichever leaves the smallest

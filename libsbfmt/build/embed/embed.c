@@ -9,6 +9,7 @@
 typedef struct share {
   uint32_t vertex, body;
   float blend;
+  const sbfi_mix *mix; /* by which the body carries it; NULL: by its carrier */
 } share;
 
 typedef struct work {
@@ -22,7 +23,8 @@ typedef struct work {
   uint32_t *finest;       /* (bodies) first target of each; SBFI_NO_INDEX: it has none */
   uint32_t *bone_bodies;  /* (bones) first body of the bone or of its nearest ancestor; SBFI_NO_INDEX: none */
   uint32_t *next_of_bone; /* (bodies) the next body on the same bone */
-  sbfi_array shares;      /* of the mesh at hand, in vertex order */
+  const sbfi_sections *sections;
+  sbfi_array shares; /* of the mesh at hand, in vertex order */
 } work;
 
 static bool index_bodies(work *w) {
@@ -85,27 +87,31 @@ static uint32_t choose_nearest(const work *w, sbf_vec3 position, uint32_t likely
 }
 
 /* Adds a body's share, joined with what it has in that vertex already; `begin` is the vertex's first. */
-static bool add_share(work *w, size_t begin, uint32_t vertex, uint32_t body, float blend) {
+static bool add_share(
+    work *w, size_t begin, uint32_t vertex, uint32_t body, float blend, const sbfi_mix *mix) {
   share *shares = w->shares.at;
   for (size_t i = begin; i < w->shares.count; i++) {
     if (shares[i].body != body) continue;
     shares[i].blend += blend;
     return true;
   }
-  return sbfi_array_append(&w->shares, &(share){vertex, body, blend}, 1);
+  return sbfi_array_append(&w->shares, &(share){vertex, body, blend, mix}, 1);
 }
 
-static bool share_by_skin(work *w, const sbf_render_mesh *mesh) {
+/* `mixes`: of each weight its place among those of the sections; NULL: none has one. */
+static bool share_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *skin, const uint32_t *mixes) {
   uint32_t influence = 0;
   for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
     size_t begin = w->shares.count;
     double sum = 0;
-    for (uint32_t end = influence + mesh->skin->influence_counts.at[v]; influence < end; influence++) {
-      uint32_t first = w->bone_bodies[mesh->skin->bones.at[influence]];
-      float weight = mesh->skin->weights.at[influence];
+    for (uint32_t end = influence + skin->influence_counts.at[v]; influence < end; influence++) {
+      uint32_t first = w->bone_bodies[skin->bones.at[influence]];
+      float weight = skin->weights.at[influence];
       if (first == SBFI_NO_INDEX || !(weight > 0)) continue;
       uint32_t body = choose_on_bone(w, first, mesh->mesh.positions.at[v]);
-      if (!add_share(w, begin, v, body, weight)) return false;
+      uint32_t number = mixes ? mixes[influence] : SBFI_NO_INDEX;
+      const sbfi_mix *mix = number != SBFI_NO_INDEX ? &w->sections->mixes[number] : NULL;
+      if (!add_share(w, begin, v, body, weight, mix)) return false;
       sum += weight;
     }
     share *shares = w->shares.at;
@@ -143,7 +149,8 @@ static bool share_whole(work *w, const sbf_render_mesh *mesh) {
       likely = choose_on_bone(w, w->bone_bodies[mesh->bone], position);
     else
       likely = choose_nearest(w, position, likely);
-    if (likely != SBFI_NO_INDEX && !sbfi_array_append(&w->shares, &(share){v, likely, 1}, 1)) return false;
+    if (likely != SBFI_NO_INDEX && !sbfi_array_append(&w->shares, &(share){v, likely, 1, NULL}, 1))
+      return false;
   }
   return true;
 }
@@ -175,6 +182,12 @@ static bool make_room(const work *w, sbf_level *level) {
   return true;
 }
 
+static sbfi_carried carried_mixed(const sbfi_mix *mix) {
+  sbfi_carried carried = {.weights = {mix->weights[0], mix->weights[1], mix->weights[2], mix->weights[3]}};
+  memcpy(carried.points.at, mix->points, sizeof mix->points);
+  return carried;
+}
+
 /* Embeds the vertices of `list` (all of them in order where `whole`) in one target's level. */
 static bool embed_in(const work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
     const share *list, uint32_t count, bool count_it) {
@@ -189,7 +202,9 @@ static bool embed_in(const work *w, uint32_t target, int32_t mesh, const sbf_vec
   if ((!whole && !vertices) || !points || !weights || (blended && !blends)) return false;
   for (uint32_t i = 0; i < count; i++) {
     uint32_t v = list[i].vertex;
-    sbfi_carried carried = sbfi_carrier_carry(&w->carriers[target], positions->at[v], v);
+    sbfi_carried carried = list[i].mix && w->targets[target].frame != SBFI_NO_INDEX
+                               ? carried_mixed(list[i].mix)
+                               : sbfi_carrier_carry(&w->carriers[target], positions->at[v], v);
     points[i] = carried.points;
     weights[i] = carried.weights;
     if (vertices) vertices[i] = v;
@@ -232,7 +247,7 @@ static bool embed_surfaces(work *w) {
     const sbf_vec3_list *positions = &w->asset->soft_bodies.at[w->targets[t].body].surface.positions;
     share *all = sbfi_arena_allocate(w->scratch, (size_t)positions->count + 1, sizeof *all);
     if (!all) return false;
-    for (uint32_t v = 0; v < positions->count; v++) all[v] = (share){v, 0, 1};
+    for (uint32_t v = 0; v < positions->count; v++) all[v] = (share){v, 0, 1, NULL};
     if (!embed_in(w, t, SBF_NONE, positions, all, positions->count, false)) return false;
   }
   return true;
@@ -240,12 +255,18 @@ static bool embed_surfaces(work *w) {
 
 static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
   const sbf_render_mesh *mesh = &w->asset->render_meshes.at[number];
+  const sbf_skin *skin = mesh->skin, *blends = w->sections ? w->sections->blends : NULL;
+  const uint32_t *mixes = NULL;
+  if (blends && blends[number].influence_counts.count) {
+    skin = &blends[number];
+    mixes = w->sections->mixes_of_blends[number];
+  }
   if (mesh->mesh.positions.count == 0) return true;
   w->shares.count = 0;
   uint32_t flat_before = w->report->flat, far_before = w->report->far;
   /* A skin whose mesh is a body as a whole, pinned by its weights, moves with that. */
-  bool by_skin = mesh->skin && find_body_of(w, mesh) == SBFI_NO_INDEX;
-  if (!(by_skin ? share_by_skin(w, mesh) : share_whole(w, mesh))) return false;
+  bool by_skin = mixes || (skin && find_body_of(w, mesh) == SBFI_NO_INDEX);
+  if (!(by_skin ? share_by_skin(w, mesh, skin, mixes) : share_whole(w, mesh))) return false;
   if (!hand_out(w, (int32_t)number, &mesh->mesh.positions)) return false;
   sbf_diagnostic finding;
   if (w->shares.count == 0) {
@@ -269,12 +290,14 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
   return true;
 }
 
-bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t target_count, int32_t derivation,
-    sbfi_reporter *reporter, sbfi_embed_report *report, sbfi_arena *scratch) {
+bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t target_count,
+    const sbfi_sections *sections, int32_t derivation, sbfi_reporter *reporter, sbfi_embed_report *report,
+    sbfi_arena *scratch) {
   work w = {.asset = asset,
       .targets = targets,
       .target_count = target_count,
       .derivation = derivation,
+      .sections = sections,
       .report = report,
       .scratch = scratch};
   *report = (sbfi_embed_report){0, 0, 0, 0};
@@ -285,7 +308,7 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
   for (uint32_t t = 0; good && t < target_count; t++)
     good = make_room(&w, targets[t].level) &&
            sbfi_carrier_make(&w.carriers[t], &asset->soft_bodies.at[targets[t].body], targets[t].level,
-               targets[t].interior, scratch);
+               targets[t].interior, targets[t].frame, scratch);
   good = good && embed_surfaces(&w);
   for (uint32_t m = 0; good && m < asset->render_meshes.count; m++) good = embed_mesh(&w, m, reporter);
   sbfi_array_free(&w.shares);

@@ -4,12 +4,14 @@
 
 #include "base/diagnostic.h"
 #include "build/embed/carrier.h"
+#include "build/sections/sections.h"
 
 /* One level that is to carry. */
 typedef struct sbfi_embed_target {
   uint32_t body; /* in asset->soft_bodies; targets stand in body order, levels finest first */
   sbf_level *level;
   const sbfi_interior_map *interior; /* NULL: not made by sbfi_spring_level_make */
+  uint32_t frame; /* first of the level's frame points (section_frame.h); SBFI_NO_INDEX: it has none */
 } sbfi_embed_target;
 
 typedef struct sbfi_embed_report {
@@ -29,8 +31,12 @@ typedef struct sbfi_embed_report {
  * the place of every vertex, as when mesh and body are one object of the source; else vertex by vertex to the
  * nearest body. Of several bodies on one bone it is the same. Meshes that nothing carries are reported.
  *
+ * What `sections` says of a mesh stands in for the weights of its skin (sections.h); they are the last of the
+ * asset's bodies. It may be NULL or have no blends.
+ *
  * `asset` is the one under construction that the targets belong to. False where memory runs out. */
-bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t target_count, int32_t derivation,
-    sbfi_reporter *reporter, sbfi_embed_report *report, sbfi_arena *scratch);
+bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t target_count,
+    const sbfi_sections *sections, int32_t derivation, sbfi_reporter *reporter, sbfi_embed_report *report,
+    sbfi_arena *scratch);
 
 #endif

@@ -62,11 +62,11 @@ static bool expand_attachment(sbf_pin_set *to, const sbf_attachment *from, const
   return true;
 }
 
-static bool pin_interior(sbf_pin_set *to, const sbf_level *level, int32_t bone, const uint32_t *interior,
-    uint32_t count, sbf_asset *asset) {
+bool sbfi_bone_pins_make(sbf_pin_set *to, const char *set_name, const sbf_level *level, int32_t bone,
+    const uint32_t *interior, uint32_t count, sbf_asset *asset) {
   uint32_t *points = sbf_asset_allocate(asset, count, sizeof *points);
   sbf_vec3 *offsets = sbf_asset_allocate(asset, count, sizeof *offsets);
-  const char *name = sbf_asset_copy_text(asset, "interior");
+  const char *name = sbf_asset_copy_text(asset, set_name);
   if (!points || !offsets || !name) return false;
   const sbf_bone *frame = &asset->bones.at[bone];
   for (uint32_t i = 0; i < count; i++) {
@@ -95,7 +95,8 @@ bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t d
   for (uint32_t i = 0; i < body->pins.count; i++)
     if (!copy_set(&sets[count++], &body->pins.at[i], level, asset)) return false;
   /* Attachments come last of the author's wishes, and leave alone what is held already. */
-  if (interior_count > 0 && !pin_interior(&sets[count++], level, body->bone, interior, interior_count, asset))
+  if (interior_count > 0 &&
+      !sbfi_bone_pins_make(&sets[count++], "interior", level, body->bone, interior, interior_count, asset))
     return false;
   for (uint32_t i = 0; i < body->attachments.count; i++) {
     level->pins = (sbf_pin_set_list){sets, count};

@@ -13,4 +13,9 @@
 bool sbfi_level_pins_make(sbf_level *level, const sbf_soft_body *body, int32_t derivation, sbf_asset *asset,
     const uint32_t *interior, uint32_t interior_count, sbfi_arena *scratch);
 
+/* A set that binds the points to the bone, each where it is at rest, named `set_name`. False where memory
+ * runs out. */
+bool sbfi_bone_pins_make(sbf_pin_set *to, const char *set_name, const sbf_level *level, int32_t bone,
+    const uint32_t *points, uint32_t count, sbf_asset *asset);
+
 #endif

@@ -406,6 +406,6 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   c->asset->render_meshes = (sbf_render_mesh_list){renders, render_count};
   if (status == SBF_OK && body_count == 0)
     sbfi_convert_warn(c, SBF_CODE_RIG_NO_SECTIONS,
-        "every mesh is skinned and none hangs on a bone by itself: the bundle has no soft sections yet");
+        "every mesh is skinned and none hangs on a bone by itself: the build cuts sections along the bones");
   return status;
 }

@@ -1,10 +1,10 @@
 /* Derived parts: makes from what an artist made all that can be computed from it.
  *
  * A build copies the source parts of an asset, drops every part marked derived, and makes the derived ones
- * again: a level of springs or tetrahedra for each soft body, pins, embeddings, convex hulls. Authored parts
- * are kept as they are: a body with a level of its own gets no other, a rigid body with a hull keeps it. What
- * is made is marked with an entry of `derivations` that records tool, settings and the hash of the source, so
- * that what no longer fits its source can be told.
+ * again: sections of skinned meshes, a level of springs or tetrahedra for each soft body, pins, embeddings,
+ * convex hulls. Authored parts are kept as they are: a body with a level of its own gets no other, a rigid
+ * body with a hull keeps it. What is made is marked with an entry of `derivations` that records tool,
+ * settings and the hash of the source, so that what no longer fits its source can be told.
  *
  * The same source and settings give the same bits, on every machine. Thread safe. */
 #ifndef SBFMT_BUILD_H
@@ -25,13 +25,21 @@ extern "C" {
  * all points of the surface, to compare with. Tetrahedra: isosurface stuffing, any surface, open ones and
  * soups included, dihedral angles between 10 and 165 degrees. */
 typedef enum sbf_build_interior {
-  SBF_BUILD_INTERIOR_AUTOMATIC = 0, /* centroid, but none in a sheet without a bone */
+  SBF_BUILD_INTERIOR_AUTOMATIC = 0, /* lattice in a section cut here; else centroid, but none in a sheet
+                                       without a bone */
   SBF_BUILD_INTERIOR_CENTROID = 1,  /* springs; held by the body's bone if it has one */
   SBF_BUILD_INTERIOR_NONE = 2,      /* springs over the surface alone */
   SBF_BUILD_INTERIOR_LATTICE = 3,   /* springs */
   SBF_BUILD_INTERIOR_BRUTE = 4,     /* springs */
   SBF_BUILD_INTERIOR_TETRAHEDRA = 5 /* held by the body's bone, if it has one, in its inner half */
 } sbf_build_interior;
+
+/* Whether skinned meshes are cut into sections: soft bodies on bones, each the part of the skin that its bone
+ * holds, with an overlap over the cuts and closed by caps. */
+typedef enum sbf_build_sections {
+  SBF_BUILD_SECTIONS_AUTOMATIC = 0, /* where no body of the source is on a bone */
+  SBF_BUILD_SECTIONS_NONE = 1
+} sbf_build_sections;
 
 /* Settings of a build. */
 typedef struct sbf_build_options {
@@ -53,7 +61,10 @@ typedef struct sbf_build_options {
    * micrometres, which the derivation records.
    */
   double cell_m;
-  uint32_t elements; /* see above */
+  uint32_t elements;           /* see above */
+  sbf_build_sections sections; /* of skinned meshes */
+  /* How far along the surface a section reaches over a cut; 0: half the limb's radius there. */
+  double overlap_m;
 } sbf_build_options;
 
 /* What was made. Counts are of derived parts; springs by sbf_spring_kind. */
@@ -74,6 +85,7 @@ typedef struct sbf_build_report {
   /* Points of lattices that stand in for parts thinner than two elements, which are thicker there than the
    * body. Every other element, too, has a corner inside: nowhere is there but one across. */
   uint32_t thickened_points;
+  uint32_t sections; /* cut from skinned meshes */
 } sbf_build_report;
 
 /* Makes `*built` from `asset`, which stays as it is and need not outlive the call. On failure `*built` is

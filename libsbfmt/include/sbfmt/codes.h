@@ -153,9 +153,12 @@ typedef enum sbf_code {
   SBF_CODE_PART_LEFT_OUT = 643, /* The file holds something that this runtime does not move: another runtime, or a later one, does. */
   SBF_CODE_RIG_SECTION_GUESSED = 701, /* A section was given to the nearest bone, because no name said where it belongs. */
   SBF_CODE_RIG_UNWEIGHTED_POINTS = 702, /* Points of a skinned mesh have no weights: paint them in the source. */
-  SBF_CODE_RIG_NO_SECTIONS = 703, /* Every mesh is skinned: there is no section of its own for any bone. */
+  SBF_CODE_RIG_NO_SECTIONS = 703, /* Every mesh is skinned: no bone has a section of its own until a build cuts some. */
   SBF_CODE_RIG_NO_LEGS = 704, /* No chain of bones ends at the ground: no gait is proposed. */
   SBF_CODE_RIG_BONE_REHUNG = 705, /* A bone that was moved by hand and holds skin now hangs on the limb that ends at it. */
+  SBF_CODE_SECTION_MERGED = 706, /* What a bone holds is too little for a section: it goes to another bone's. */
+  SBF_CODE_SECTION_OPEN = 707, /* A section cut from a skin could not be closed: remove in the source what joins more than two polygons at an edge. */
+  SBF_CODE_SECTION_STRETCHED = 708, /* Triangles of a skin stretch far where a joint bends: smooth the weights there in the source. */
   SBF_CODE_SECTION_NO_BONE = 710, /* A body of a file with a skeleton hangs on nothing: name its bone or pin it. */
   SBF_CODE_SECTION_UNHELD = 711, /* A section has a bone and no pins: pin it, or build again. */
   SBF_CODE_NAME_REPEATED = 712, /* Two objects of one kind have one name: rename one of them. */

@@ -1,8 +1,8 @@
 /* Tetrahedra the right way round, flat ones and repeated ones taken out. A flat one holds no matter and no
  * energy; a repeated one is dropped where it says nothing else than the first. */
+#include "build/geometry/key_set.h"
 #include "mechanics/vector.h"
 #include "validate/mend/mending.h"
-#include "validate/rules/key_set.h"
 
 static double determinant(const sbf_vec3 *positions, const uint32_t p[4]) {
   sbfi_d3 origin = sbfi_d3_of(positions[p[0]]), edges[3];

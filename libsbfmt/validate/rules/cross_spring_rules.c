@@ -1,7 +1,7 @@
 /* Springs between bodies: levels and points that are there, two bodies, some length, each pair once. */
+#include "build/geometry/key_set.h"
 #include "mechanics/vector.h"
 #include "validate/rules/holding.h"
-#include "validate/rules/key_set.h"
 #include "validate/validation.h"
 
 typedef struct side {

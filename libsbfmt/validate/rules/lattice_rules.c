@@ -1,7 +1,7 @@
 /* Tetrahedra: well shaped, each once, filling space once, all of one piece. That they are the right way out
  * is part of the structure. */
+#include "build/geometry/key_set.h"
 #include "mechanics/vector.h"
-#include "validate/rules/key_set.h"
 #include "validate/validation.h"
 
 static const double LEAST_DIHEDRAL_DEG = 5, DEG_IN_RAD = 57.29577951308232;

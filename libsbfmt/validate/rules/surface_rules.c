@@ -1,12 +1,14 @@
-/* Surfaces of bodies: closed where a volume is asked for, two polygons at an edge, all facing outwards. */
+/* Surfaces of bodies: closed where a volume is asked for, two polygons at an edge, all facing outwards. Those
+ * that a build cut from a skin are as the skin is, crossings and all, and move by lattices, which do not
+ * mind: the build says what it could not close. */
 #include <math.h>
 
+#include "build/geometry/key_set.h"
+#include "build/geometry/polygon_repeats.h"
 #include "build/geometry/topology.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
 #include "validate/rules/crossing.h"
-#include "validate/rules/key_set.h"
-#include "validate/rules/polygon_repeats.h"
 #include "validate/validation.h"
 
 typedef struct surface {
@@ -224,5 +226,7 @@ static void check_surface(sbfi_validation *v, uint32_t number) {
 }
 
 void sbfi_check_surfaces(sbfi_validation *v) {
-  for (uint32_t i = 0; i < v->asset->soft_bodies.count && !v->out_of_memory; i++) check_surface(v, i);
+  for (uint32_t i = 0; i < v->asset->soft_bodies.count && !v->out_of_memory; i++)
+    if (v->asset->soft_bodies.at[i].derived == SBF_NONE || !v->asset->soft_bodies.at[i].levels.count)
+      check_surface(v, i);
 }

@@ -1,5 +1,6 @@
-#include "rules.h"
-#include "validate/rules/polygon_repeats.h"
+#include "build/geometry/polygon_repeats.h"
+
+#include "harness.h"
 
 START_TEST(test_whatever_order)
 {
@@ -39,4 +40,15 @@ START_TEST(test_large_polygons)
 }
 END_TEST
 
-RULES_MAIN("polygon_repeats", test_whatever_order, test_large_polygons)
+static Suite *suite(void) {
+  Suite *s = suite_create("polygon_repeats");
+  TCase *c = tcase_create("polygon_repeats");
+  tcase_add_test(c, test_whatever_order);
+  tcase_add_test(c, test_large_polygons);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}

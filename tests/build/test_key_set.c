@@ -1,5 +1,6 @@
-#include "rules.h"
-#include "validate/rules/key_set.h"
+#include "build/geometry/key_set.h"
+
+#include "harness.h"
 
 START_TEST(test_values_stay_with_their_keys)
 {
@@ -36,4 +37,16 @@ START_TEST(test_places)
 }
 END_TEST
 
-RULES_MAIN("key_set", test_values_stay_with_their_keys, test_sorting, test_places)
+static Suite *suite(void) {
+  Suite *s = suite_create("key_set");
+  TCase *c = tcase_create("key_set");
+  tcase_add_test(c, test_values_stay_with_their_keys);
+  tcase_add_test(c, test_sorting);
+  tcase_add_test(c, test_places);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}

@@ -1,4 +1,4 @@
-#include "validate/rules/key_set.h"
+#include "build/geometry/key_set.h"
 
 #include <string.h>
 

@@ -1,8 +1,8 @@
-#include "validate/rules/polygon_repeats.h"
+#include "build/geometry/polygon_repeats.h"
 
 #include <string.h>
 
-#include "validate/rules/key_set.h"
+#include "build/geometry/key_set.h"
 
 static int compare(uint32_t a, uint32_t b) {
   return a < b ? -1 : a > b;

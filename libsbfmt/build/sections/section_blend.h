@@ -1,0 +1,19 @@
+/* Blends that bend well. */
+#ifndef SBFI_SECTION_BLEND_H
+#define SBFI_SECTION_BLEND_H
+
+#include "build/geometry/topology.h"
+#include "build/sections/skin_union.h"
+
+/* Smooths the weights of the union's points where a skin would tear: bent by 60 degrees at any one joint,
+ * about any axis of the bone's frame and either way, no triangle (of polygons as fans from their first
+ * corner) shall be stretched to more than twice its area. Where one is, the weights of its corners are drawn
+ * towards their mean, which leaves each point's sum as it is, and so on over its neighbours until all hold: a
+ * step in the weights becomes a slope about as long as the limb is thick. Elsewhere the weights stay as they
+ * were.
+ * `*left` receives how many triangles are above that at the end (none but on degenerate skins).
+ * `t` is the union's topology. False where memory runs out. */
+bool sbfi_section_blend_smooth(
+    sbfi_skin_union *skin, const sbfi_topology *t, const sbf_asset *asset, uint32_t *left, sbfi_arena *arena);
+
+#endif

@@ -1,0 +1,293 @@
+#include "build/sections/sections.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "build/sections/section_blend.h"
+#include "build/sections/section_caps.h"
+#include "build/sections/section_cut.h"
+#include "build/sections/section_frame.h"
+#include "build/sections/section_labels.h"
+#include "build/sections/section_merge.h"
+#include "mechanics/vector.h"
+#include "sbfmt/mechanics.h"
+
+/* The earth's, m/s^2, whatever the file's environment: sections hang on source parts that it is none of. */
+static const double GRAVITY = 9.81;
+static const double MOST_STRAIN = 0.05; /* of a column as high as the section, by its weight */
+
+typedef struct share {
+  uint32_t bone, mix;
+  float weight;
+} share;
+
+typedef struct work {
+  sbf_asset *asset;
+  sbfi_sections *made;
+  sbfi_ids *ids;
+  sbfi_reporter *reporter;
+  sbfi_arena *scratch;
+  int32_t derivation;
+  sbfi_skin_union skin;
+  sbfi_topology t;
+  uint32_t *labels;       /* (polygons) */
+  uint32_t *owners;       /* (bones) */
+  uint32_t *share_begins; /* (points + 1) */
+  share *shares;          /* what sections have of each point */
+  sbfi_array mixes;
+} work;
+
+static bool has_sections(const sbf_asset *asset) {
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
+    if (asset->soft_bodies.at[b].bone != SBF_NONE) return true;
+  return false;
+}
+
+static void report(const work *w, uint32_t bone, sbf_code code, uint32_t sides) {
+  sbf_diagnostic finding;
+  sbfi_diagnose(&finding, code,
+      "%u sides of polygons of the section on bone \"%s\" lie where several sheets meet: it stays open there",
+      (unsigned)sides, w->asset->bones.at[bone].name);
+  sbfi_report(w->reporter, &finding);
+}
+
+/* Of two digits, so that it reads as the round figure it is. */
+static double rounded_up(double value) {
+  double unit = 1;
+  while (value / unit >= 100) unit *= 10;
+  return ceil(value / unit) * unit;
+}
+
+static void set_attributes(sbf_soft_body *body) {
+  const sbf_vec3_list *at = &body->surface.positions;
+  sbf_vec3 low = at->at[0], high = at->at[0];
+  for (uint32_t i = 1; i < at->count; i++) {
+    sbf_vec3 p = at->at[i];
+    low = (sbf_vec3){fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z)};
+    high = (sbf_vec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
+  }
+  double height = fmax(fmax((double)high.x - low.x, (double)high.y - low.y), (double)high.z - low.z);
+  sbf_attributes *is = &body->attributes;
+  double needed = is->density * GRAVITY * height / MOST_STRAIN;
+  if (needed > (double)is->young_modulus && needed <= 1e30) is->young_modulus = (float)rounded_up(needed);
+  is->sag_free = true;
+}
+
+static bool own(sbf_asset *asset, const void **at, size_t count, size_t size) {
+  void *copy = sbf_asset_allocate(asset, count ? count : 1, size);
+  if (copy && count) memcpy(copy, *at, count * size);
+  *at = copy;
+  return copy != NULL;
+}
+
+/* All polygons turned round. */
+static void turn_over(sbf_polygon_mesh *mesh) {
+  uint32_t *points = (uint32_t *)(uintptr_t)mesh->polygon_points.at; /* this pass's own */
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; points += mesh->polygon_sizes.at[p++])
+    for (uint32_t i = 0, j = mesh->polygon_sizes.at[p] - 1; i < j; i++, j--) {
+      uint32_t point = points[i];
+      points[i] = points[j];
+      points[j] = point;
+    }
+}
+
+static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_soft_body *body) {
+  sbf_soft_body_init(body);
+  sbf_polygon_mesh *mesh = &body->surface;
+  sbfi_caps caps;
+  sbf_surface_measures measures;
+  if (!sbfi_section_cut(cutter, bone, mesh, w->scratch)) return false;
+  if (!sbfi_section_caps_make(mesh, &caps, w->scratch)) return false;
+  sbf_surface_measure(mesh, NULL, &measures);
+  if (measures.volume < 0) turn_over(mesh);
+  if (caps.left_sides) report(w, bone, SBF_CODE_SECTION_OPEN, caps.left_sides);
+  if (!own(w->asset, (const void **)&mesh->positions.at, mesh->positions.count, sizeof(sbf_vec3)) ||
+      !own(w->asset, (const void **)&mesh->polygon_sizes.at, mesh->polygon_sizes.count, sizeof(uint32_t)) ||
+      !own(w->asset, (const void **)&mesh->polygon_points.at, mesh->polygon_points.count, sizeof(uint32_t)))
+    return false;
+  const sbf_bone *on = &w->asset->bones.at[bone];
+  body->name = on->name;
+  body->id =
+      sbfi_unique_id(w->ids, "section_", on->id, w->asset->soft_bodies.count + w->made->count, w->asset);
+  body->bone = (int32_t)bone;
+  body->derived = w->derivation;
+  set_attributes(body);
+  return body->id != NULL;
+}
+
+static bool make_bodies(work *w, double overlap_m) {
+  uint32_t bones = w->asset->bones.count;
+  sbfi_section_cutter cutter = {.skin = &w->skin, .t = &w->t, .labels = w->labels, .overlap_m = overlap_m};
+  uint8_t *used = sbfi_arena_allocate(w->scratch, (size_t)bones + 1, 1);
+  w->made->bodies = sbf_asset_allocate(w->asset, (size_t)bones + 1, sizeof *w->made->bodies);
+  if (!used || !w->made->bodies || !sbfi_section_cutter_init(&cutter, bones, w->scratch)) return false;
+  for (uint32_t p = 0; p < w->t.polygon_count; p++)
+    if (w->labels[p] != SBFI_NO_INDEX) used[w->labels[p]] = 1;
+  for (uint32_t b = 0; b < bones; b++)
+    if (used[b] && !make_body(w, &cutter, b, &w->made->bodies[w->made->count++])) return false;
+  return true;
+}
+
+/* Where no smoothing helps, as on triangles that are as good as flat, a note says so. */
+static bool smooth_blends(work *w) {
+  uint32_t left;
+  sbf_diagnostic finding;
+  if (!sbfi_section_blend_smooth(&w->skin, &w->t, w->asset, &left, w->scratch)) return false;
+  if (left == 0) return true;
+  sbfi_diagnose(&finding, SBF_CODE_SECTION_STRETCHED,
+      "%u triangles of the skin still stretch to more than twice their area where a joint bends by 60 "
+      "degrees",
+      (unsigned)left);
+  sbfi_report(w->reporter, &finding);
+  return true;
+}
+
+static uint32_t section_on(const work *w, uint32_t bone) {
+  uint32_t section = 0;
+  while (w->made->bodies[section].bone != (int32_t)bone) section++;
+  return section;
+}
+
+/* The mix of what `owner` has of the point; SBFI_NO_INDEX where its own bone is all. */
+static bool make_mix(work *w, uint32_t point, uint32_t owner, uint32_t *number) {
+  sbfi_mix mix = {.section = section_on(w, owner), .place = w->skin.mesh.positions.at[point]};
+  bool foreign = false;
+  float sum = 0;
+  for (uint32_t h = w->skin.hold_begins[point]; h < w->skin.hold_begins[point + 1]; h++) {
+    sbfi_hold hold = w->skin.holds[h];
+    if (w->owners[hold.bone] != owner) continue;
+    foreign = foreign || hold.bone != owner;
+    uint32_t at = mix.count < 4 ? mix.count++ : 3;
+    if (at == 3 && mix.weights[3] >= hold.weight) continue;
+    for (; at > 0 && mix.weights[at - 1] < hold.weight; at--) {
+      mix.bones[at] = mix.bones[at - 1];
+      mix.weights[at] = mix.weights[at - 1];
+    }
+    mix.bones[at] = hold.bone;
+    mix.weights[at] = hold.weight;
+  }
+  *number = SBFI_NO_INDEX;
+  if (!foreign) return true;
+  for (uint32_t k = 0; k < mix.count; k++) sum += mix.weights[k];
+  for (uint32_t k = 0; k < mix.count; k++) mix.weights[k] /= sum;
+  *number = (uint32_t)w->mixes.count;
+  return sbfi_array_append(&w->mixes, &mix, 1);
+}
+
+/* What each section has of each point. */
+static bool share_points(work *w) {
+  uint32_t points = w->skin.mesh.positions.count;
+  w->share_begins = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *w->share_begins);
+  w->shares = sbfi_arena_allocate(w->scratch, (size_t)w->skin.hold_begins[points] + 1, sizeof *w->shares);
+  if (!w->share_begins || !w->shares) return false;
+  uint32_t next = 0;
+  for (uint32_t p = 0; p < points; p++) {
+    uint32_t begin = w->share_begins[p] = next;
+    for (uint32_t h = w->skin.hold_begins[p]; h < w->skin.hold_begins[p + 1]; h++) {
+      uint32_t owner = w->owners[w->skin.holds[h].bone], at = begin;
+      if (owner == SBFI_NO_INDEX) continue;
+      while (at < next && w->shares[at].bone != owner) at++;
+      if (at == next) w->shares[next++].bone = owner;
+      w->shares[at].weight += w->skin.holds[h].weight;
+    }
+    for (uint32_t i = begin; i < next; i++)
+      if (!make_mix(w, p, w->shares[i].bone, &w->shares[i].mix)) return false;
+  }
+  w->share_begins[points] = next;
+  return true;
+}
+
+/* The shares of the points as those of a mesh's vertices. */
+static bool make_blends(work *w, uint32_t mesh, sbf_skin *skin) {
+  const uint32_t *points = w->skin.points_of_mesh[mesh];
+  uint32_t vertices = w->asset->render_meshes.at[mesh].mesh.positions.count, total = 0, next = 0;
+  if (!points) return true;
+  for (uint32_t v = 0; v < vertices; v++)
+    total += w->share_begins[points[v] + 1] - w->share_begins[points[v]];
+  uint32_t *counts = sbfi_arena_allocate(w->scratch, (size_t)vertices + 1, sizeof *counts);
+  uint32_t *bones = sbfi_arena_allocate(w->scratch, (size_t)total + 1, sizeof *bones);
+  float *weights = sbfi_arena_allocate(w->scratch, (size_t)total + 1, sizeof *weights);
+  uint32_t *mixes = sbfi_arena_allocate(w->scratch, (size_t)total + 1, sizeof *mixes);
+  if (!counts || !bones || !weights || !mixes) return false;
+  for (uint32_t v = 0; v < vertices; v++) {
+    counts[v] = w->share_begins[points[v] + 1] - w->share_begins[points[v]];
+    for (uint32_t i = w->share_begins[points[v]]; i < w->share_begins[points[v] + 1]; i++) {
+      bones[next] = w->shares[i].bone;
+      weights[next] = w->shares[i].weight;
+      mixes[next++] = w->shares[i].mix;
+    }
+  }
+  sbf_skin_init(skin);
+  skin->influence_counts = (sbf_u32_list){counts, vertices};
+  skin->bones = (sbf_u32_list){bones, next};
+  skin->weights = (sbf_f32_list){weights, next};
+  w->made->mixes_of_blends[mesh] = mixes;
+  return true;
+}
+
+static bool make_all_blends(work *w) {
+  sbfi_array_init(&w->mixes, &w->scratch->allocator, sizeof(sbfi_mix));
+  bool good = share_points(w);
+  for (uint32_t m = 0; good && m < w->asset->render_meshes.count; m++)
+    good = make_blends(w, m, &w->made->blends[m]);
+  w->made->mix_count = (uint32_t)w->mixes.count;
+  if (good && w->mixes.count) {
+    w->made->mixes = sbfi_arena_copy(w->scratch, w->mixes.at, w->mixes.count, sizeof(sbfi_mix));
+    good = w->made->mixes != NULL;
+  }
+  sbfi_array_free(&w->mixes);
+  return good;
+}
+
+/* How far from its middle each section has a share in something. */
+static bool measure_reaches(work *w) {
+  sbfi_sections *made = w->made;
+  uint32_t *section_of_bone =
+      sbfi_arena_allocate(w->scratch, (size_t)w->asset->bones.count + 1, sizeof(uint32_t));
+  sbfi_d3 *middles = sbfi_arena_allocate(w->scratch, (size_t)made->count + 1, sizeof *middles);
+  made->reaches_m = sbfi_arena_allocate(w->scratch, (size_t)made->count + 1, sizeof *made->reaches_m);
+  if (!section_of_bone || !middles || !made->reaches_m) return false;
+  for (uint32_t i = 0; i < made->count; i++) {
+    section_of_bone[made->bodies[i].bone] = i;
+    middles[i] = sbfi_section_middle(&made->bodies[i]);
+  }
+  for (uint32_t m = 0; m < w->asset->render_meshes.count; m++) {
+    const sbf_skin *skin = &made->blends[m];
+    const sbf_vec3 *at = w->asset->render_meshes.at[m].mesh.positions.at;
+    for (uint32_t v = 0, i = 0; v < skin->influence_counts.count; v++)
+      for (uint32_t end = i + skin->influence_counts.at[v]; i < end; i++) {
+        uint32_t section = section_of_bone[skin->bones.at[i]];
+        double away = sbfi_d3_length(sbfi_d3_sub(sbfi_d3_of(at[v]), middles[section]));
+        if (away > made->reaches_m[section]) made->reaches_m[section] = away;
+      }
+  }
+  return true;
+}
+
+bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,
+    sbfi_ids *ids, sbfi_reporter *reporter, sbfi_arena *scratch) {
+  work w = {.asset = asset,
+      .made = made,
+      .ids = ids,
+      .reporter = reporter,
+      .scratch = scratch,
+      .derivation = derivation};
+  *made = (sbfi_sections){.count = 0};
+  uint32_t chosen_count;
+  uint8_t *chosen = sbfi_arena_allocate(scratch, (size_t)asset->render_meshes.count + 1, 1);
+  if (!chosen || !sbfi_skins_choose(asset, chosen, &chosen_count, scratch)) return false;
+  if (chosen_count == 0 || asset->bones.count == 0 || has_sections(asset)) return true;
+  if (!sbfi_skin_union_make(&w.skin, asset, chosen, scratch)) return false;
+  if (!sbfi_topology_build(&w.t, &w.skin.mesh, scratch)) return false;
+  w.labels = sbfi_arena_allocate(scratch, (size_t)w.t.polygon_count + 1, sizeof *w.labels);
+  w.owners = sbfi_arena_allocate(scratch, (size_t)asset->bones.count + 1, sizeof *w.owners);
+  made->blends = sbfi_arena_allocate(scratch, (size_t)asset->render_meshes.count + 1, sizeof *made->blends);
+  made->mixes_of_blends =
+      sbfi_arena_allocate(scratch, (size_t)asset->render_meshes.count + 1, sizeof *made->mixes_of_blends);
+  if (!w.labels || !w.owners || !made->blends || !made->mixes_of_blends) return false;
+  if (!sbfi_section_labels_make(w.labels, &w.skin, &w.t, asset->bones.count, scratch) ||
+      !sbfi_sections_merge(w.labels, w.owners, &w.skin, &w.t, asset, reporter, scratch) ||
+      !make_bodies(&w, overlap_m) || !smooth_blends(&w))
+    return false;
+  return make_all_blends(&w) && measure_reaches(&w);
+}

@@ -1,0 +1,41 @@
+/* Sections cut from skinned meshes. */
+#ifndef SBFI_SECTIONS_H
+#define SBFI_SECTIONS_H
+
+#include "base/diagnostic.h"
+#include "build/unique_id.h"
+#include "sbfmt/asset.h"
+
+/* What a section carries of a point that bones without sections hold too: places of the point in the frames
+ * of the section's own bone and of those, so that it moves as skinning moves it. */
+typedef struct sbfi_mix {
+  uint32_t section; /* which of the sections */
+  sbf_vec3 place;
+  uint32_t count; /* of bones, up to four: those with the greatest weights */
+  uint32_t bones[4];
+  float weights[4];   /* summing to one */
+  uint32_t points[4]; /* of the section's level, once section_frame.h has made them */
+} sbfi_mix;
+
+typedef struct sbfi_sections {
+  sbf_soft_body *bodies; /* (count) derived, in the order of their bones; memory of the asset */
+  uint32_t count;
+  double *reaches_m; /* (count) from the section's middle to the farthest vertex it has a share in */
+  sbf_skin *blends;  /* (render meshes) how sections share the vertices: weights of their bones; a mesh
+                        without skin has none. NULL: no sections were made */
+  uint32_t **mixes_of_blends; /* (render meshes) for each of those weights its mix; SBFI_NO_INDEX: none */
+  sbfi_mix *mixes;            /* (mix_count) by section */
+  uint32_t mix_count;
+} sbfi_sections;
+
+/* Cuts skinned meshes along their bones, but for pictures of bodies (sbfi_skins_choose), and only where the
+ * asset has bones and none of its bodies is on one: that would be a section which somebody made
+ * (section_labels.h, section_merge.h, section_cut.h, section_caps.h). What could not be closed is reported.
+ * `overlap_m` as sbfi_section_cutter has it.
+ *
+ * A section's modulus is 80 kPa, or as much as it takes for a column as high as the section to strain by a
+ * twentieth under its own weight: a character of any size keeps its shape. */
+bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,
+    sbfi_ids *ids, sbfi_reporter *reporter, sbfi_arena *scratch);
+
+#endif
