@@ -76,7 +76,7 @@ static void say_what_changed(sbfi_conversion *c, const sbfi_tet_mesh *mesh) {
 
 static sbf_status fill_body(sbfi_conversion *c, const sbfi_tet_mesh *mesh, const sbfi_array *triangles,
     const char *name, sbf_soft_body *body, const uint32_t **new_from_old) {
-  order o;
+  order o = {0};
   if (!find_order(c, mesh, triangles, &o)) return sbfi_convert_no_memory(c);
   sbf_vec3 *points = sbfi_convert_allocate(c, o.count, sizeof *points);
   uint32_t *sources = sbfi_convert_allocate(c, o.surface_count, sizeof *sources);
