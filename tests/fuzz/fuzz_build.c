@@ -1,4 +1,5 @@
-/* The whole way: loaded, built, written in both forms, loaded again. */
+/* The whole way: loaded, built with what the length of the input chooses, written in both forms, loaded
+ * again. */
 #include "fuzz.h"
 #include "fuzz_asset.h"
 #include "sbfmt/build.h"
@@ -8,7 +9,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (!asset) return 0;
   sbf_build_report report;
   sbf_diagnostic error = {0};
-  sbf_status status = sbf_build(asset, NULL, &built, &report, &error);
+  /* Few elements and short lists: what is to be met here are shapes, not sizes. */
+  const sbf_build_options options = {
+      .interior = (sbf_build_interior)(size % (SBF_BUILD_INTERIOR_TETRAHEDRA + 1)), .elements = 200};
+  sbf_status status = sbf_build(asset, &options, &built, &report, &error);
   sbf_asset_free(asset); /* what was built shares nothing with it */
   if (status != SBF_OK) {
     fuzz_check_failure(status, built, &error);
