@@ -6,6 +6,7 @@
 #include "fill_asset.h"
 #include "fuzz.h"
 #include "harness.h"
+#include "model/schema.h"
 #include "packed/packed_codec.h"
 #include "shapes.h"
 #include "small_asset.h"
@@ -92,6 +93,33 @@ static void put_stream(const char *folder) {
   free(stream.at);
 }
 
+/* ---- The words of XML, for libFuzzer to put together: what it would not come upon by chance ---- */
+
+static void put_words_of(const sbfi_element *element, FILE *to) {
+  for (uint32_t i = 0; i < element->field_count; i++) {
+    const sbfi_field *field = &element->fields[i];
+    if (field->wrapper) fprintf(to, "\"<%s>\"\n\"</%s>\"\n", field->wrapper, field->wrapper);
+    if (field->type == SBFI_LIST || field->type == SBFI_TEXT)
+      fprintf(to, "\"<%s>1 2 3</%s>\"\n", field->name, field->name);
+    else if (field->type < SBFI_ONE)
+      fprintf(to, "\" %s=\\\"1\\\"\"\n", field->name);
+    for (uint32_t v = 0; v < field->value_count; v++)
+      fprintf(to, "\" %s=\\\"%s\\\"\"\n", field->name, field->values[v]);
+    if (!field->element) continue;
+    if (field->xml && !field->suffix) fprintf(to, "\"<%s\"\n\"</%s>\"\n", field->xml, field->xml);
+    put_words_of(field->element, to); /* no element is inside itself */
+  }
+}
+
+static void put_words(const char *folder) {
+  char path[1024];
+  snprintf(path, sizeof path, "%s/xml.words", folder);
+  FILE *to = fopen(path, "w");
+  FUZZ_MUST(to);
+  put_words_of(&sbfi_asset_element, to);
+  FUZZ_MUST(fclose(to) == 0);
+}
+
 int main(int argc, char **argv) {
   if (argc != 2) {
     fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
@@ -113,5 +141,6 @@ int main(int argc, char **argv) {
   sbf_asset_free(outlined);
   put_chunks(argv[1]);
   put_stream(argv[1]);
+  put_words(argv[1]);
   return EXIT_SUCCESS;
 }
