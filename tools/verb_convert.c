@@ -20,10 +20,28 @@ static void report(void *user, const sbf_diagnostic *diagnostic) {
   cli_print_diagnostic(user, diagnostic);
 }
 
+static bool is_bundle(const char *path) {
+  const char *dot = strrchr(path, '.');
+  return dot && (strcmp(dot, ".sbf") == 0 || strcmp(dot, ".sbfz") == 0);
+}
+
+/* The source parts of an input; a bundle is taken as it is, to add motion to it. */
+static sbf_status read_input(cli_call *call, const char *input, const sbf_convert_options *options,
+    sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_status status =
+      is_bundle(input) ? sbf_load_file(input, NULL, asset, error) : sbf_convert(input, options, asset, error);
+  int at = 0;
+  for (const char *motion; status == SBF_OK && (motion = cli_next_value(call, "--motion", &at)) != NULL;) {
+    status = sbf_convert_motion(*asset, motion, options, error);
+    if (status != SBF_OK) sbf_asset_free(*asset);
+  }
+  return status;
+}
+
 static int convert(cli_call *call, const char *input, const char *out, const sbf_convert_options *options) {
   sbf_asset *asset;
   sbf_diagnostic error;
-  sbf_status status = sbf_convert(input, options, &asset, &error);
+  sbf_status status = read_input(call, input, options, &asset, &error);
   if (status == SBF_OK && !materials_apply(call, asset)) {
     sbf_asset_free(asset);
     return SBF_FAILED;
@@ -72,6 +90,7 @@ static const cli_option options[] = {
     {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
     {"--out-dir", "DIR", "write each input there, under its own name"},
     {"--rig", "FILE", "take the skeleton from this file"},
+    {"--motion", "FILE", "carry its clips over to the skeleton; several allowed"},
     {"--unit", "METRES", "metres in a unit of the input (what the file says, else 1)"},
     {"--up", "y|z", "the input's upward axis (what the file says, else y)"},
     PIN_OPTIONS,
@@ -84,7 +103,7 @@ const cli_verb verb_convert = {"convert", "INPUT... (-o OUT.sbf[z] | --out-dir D
     "make a bundle of a mesh and a rig",
     "Reads OBJ, FBX, glTF, Collada and what else assimp knows; tetrahedra of TetGen, Gmsh, VTK and PhysX; "
     "and\n"
-    "the 2012 dialect, .xml. Objects become sections of the bones they "
+    "the 2012 dialect, .xml; a bundle, to add motion to. Objects become sections of the bones they "
     "hang on in\n"
     "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed where legs are found. Then "
     "builds.",

@@ -79,6 +79,7 @@ void sbfi_draft_continue(sbfi_skeleton_draft *s) {
 static sbfi_d3 direction_of(const sbfi_skeleton_draft *s, const sbfi_bone_draft *bone) {
   if (s->along_y) return bone->y;
   if (bone->next != SBF_NONE) return bone->along;
+  if (sbfi_d3_length(bone->tip) > 1e-9) return bone->tip;
   bool below = bone->parent != SBF_NONE && s->bones[bone->parent].next != SBF_NONE;
   return below ? s->bones[bone->parent].along : bone->y;
 }
@@ -110,7 +111,9 @@ static bool write_bone(sbfi_conversion *c, const sbfi_skeleton_draft *s, const s
   bone->parent = from->parent == SBF_NONE ? SBF_NONE : new_from_old[from->parent];
   bone->head = sbfi_d3_rounded(from->head);
   bone->rotation = rotation_from_axes(from->x, turned.y);
-  bone->length = from->next != SBF_NONE && runs_straight(&turned) ? (float)sbfi_d3_length(from->along) : 0;
+  if (from->next == SBF_NONE) turned.along = from->tip;
+  bool has_end = sbfi_d3_length(turned.along) > 1e-9;
+  bone->length = has_end && runs_straight(&turned) ? (float)sbfi_d3_length(turned.along) : 0;
   return bone->id && bone->name;
 }
 
@@ -143,8 +146,10 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c) {
     const sbfi_scene_node *node = &c->rig->nodes[i];
     int32_t above = node->parent != SBF_NONE ? c->bone_of_node[node->parent] : SBF_NONE;
     c->bone_of_node[i] = above; /* what is no bone hangs on the nearest above */
-    if (!node->is_bone) continue;
     sbfi_matrix world = sbfi_matrix_multiply(&c->rig_to_asset, &node->world);
+    bool marks_tip = node->is_end && above != SBF_NONE && s.bones[above].node == (uint32_t)node->parent;
+    if (!node->is_bone && marks_tip) s.bones[above].tip = sbfi_d3_sub(column(&world, 3), s.bones[above].head);
+    if (!node->is_bone) continue;
     s.bones[s.count] = (sbfi_bone_draft){.node = i,
         .parent = above,
         .head = column(&world, 3),

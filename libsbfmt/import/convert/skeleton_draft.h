@@ -12,7 +12,8 @@ typedef struct sbfi_bone_draft {
   uint32_t below;     /* bones that hang on it */
   int32_t next;       /* the child that continues it, or SBF_NONE */
   sbfi_d3 along;      /* from its head to that child's; 0 where there is none */
-  uint32_t points;    /* of skins that it holds more than any other bone does */
+  sbfi_d3 tip;     /* from its head to the end that the file marks without a bone (BVH end sites); else 0 */
+  uint32_t points; /* of skins that it holds more than any other bone does */
 } sbfi_bone_draft;
 
 typedef struct sbfi_skeleton_draft {

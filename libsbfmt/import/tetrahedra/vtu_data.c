@@ -159,7 +159,7 @@ static bool copy_plain(byte_source *s, sbfi_vtu_coding *c, sbfi_array *to) {
 static bool take_bytes(sbfi_word_reader *r, sbfi_vtu_coding *c, const sbfi_vtu_array *from, sbfi_array *to) {
   byte_source s = {.r = r, .is_text = true, .from = {from->text.at, from->text.length}};
   if (from->format == SBFI_VTU_APPENDED) {
-    if (from->offset > c->appended.length)
+    if (!c->appended.at || from->offset > c->appended.length)
       return sbfi_word_fail(r, SBF_CODE_IMPORT_SYNTAX,
           "an array begins at byte %llu of the appended data, which have %llu",
           (unsigned long long)from->offset, (unsigned long long)c->appended.length);

@@ -242,6 +242,9 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_UNIT = 939, /* The file states no unit of use: metres are assumed. */
   SBF_CODE_IMPORT_POSE = 940, /* The file was saved in the middle of a movement: bones and skin are taken as they were bound. */
   SBF_CODE_IMPORT_POINTS_JOINED = 941, /* Vertices stored apart for drawing stand in one place and move alike: they are one point. */
+  SBF_CODE_IMPORT_MOTION = 942, /* A clip of a motion file was carried over: which bones it moves, how far it goes. */
+  SBF_CODE_IMPORT_MOTION_UNMATCHED = 943, /* Bones found no counterpart in the other skeleton: here they go along with their parents, there their motion is lost. */
+  SBF_CODE_IMPORT_MOTION_NONE = 944, /* A motion file has no clip, or no bone of it stands for one of the skeleton: name bones alike, or add retarget chains. */
   SBF_CODE_IMPORT_NO_MESH = 950, /* The file holds a skeleton and no mesh. */
   SBF_CODE_IMPORT_NO_RIG = 951, /* The file holds no skeleton: bodies are not held by bones. */
   SBF_CODE_IMPORT_NO_BONES = 952, /* The file given as the rig holds no skeleton. */

@@ -46,6 +46,21 @@ typedef struct sbf_convert_options {
 SBF_API sbf_status sbf_convert(
     const char *input, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error);
 
+/* Adds the clips of another file to an asset that is under construction, carried over to its bones: `file` is
+ * of any form that holds a skeleton and its animation (BVH, FBX, glTF ...), or a bundle.
+ *
+ * Bones stand for each other by retarget chains of one name, by their names, or by names that mean the same
+ * part of the same side (LeftUpLeg, thigh.L, mixamorig:LeftUpLeg). Each turns away from its rest pose as its
+ * counterpart does in asset space; thighs, shins, upper and lower arms point as their counterparts do,
+ * whatever the two rest poses. The hips travel in proportion to their height above the ground, from where the
+ * asset stands; all other bones keep their lengths. Said are the clips (IMPORT_MOTION) and the bones without
+ * a counterpart (IMPORT_MOTION_UNMATCHED).
+ *
+ * Of `options` (may be NULL) only allocator, import_helper, report and user are heeded. On failure the asset
+ * has the clips it had. IMPORT_MOTION_NONE: the file has no clip, or no bone that stands for one. */
+SBF_API sbf_status sbf_convert_motion(
+    sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,448 @@
+/* Clips of another skeleton, onto the bones of an asset.
+ *
+ * A matched bone turns in asset space as its source has turned away from its own rest pose: with T0 and S0
+ * the rest rotations and S the source's, T = S S0^-1 A T0. A is no turn, but for thighs, shins, upper and
+ * lower arms: there it lays the bone along its source's rest direction, so that a figure with its arms down
+ * takes on the pose of one with its arms out; a hand goes with the arm above it. Bones in between go along
+ * with their parents. The hips move as the source's do, times the ratio of the two heights of the hips above
+ * the lowest point of the skeleton; a clip begins where the asset stands. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "build/unique_id.h"
+#include "import/motion/carried_motion.h"
+#include "model/ids.h"
+#include "sbfmt/convert.h"
+#include "sbfmt/io.h"
+
+enum { PIVOTS = 4 };
+
+typedef struct motion {
+  sbf_asset *to;
+  const sbf_asset *from;
+  const char *file;
+  sbfi_arena scratch;
+  sbfi_bone_match *matches;
+  sbfi_bone_frame *rest; /* of the asset */
+  double (*aligned)[4];  /* (bones) A T0 of each matched bone, before it S0^-1: S times this is T */
+  double (*align)[4];    /* (bones) A */
+  int32_t traveller;     /* the bone that also moves */
+  int32_t leader;        /* the source's bone after which it does */
+  double ratio;          /* of the ways they go */
+  int32_t pivots[PIVOTS], leaders[PIVOTS]; /* bones whose middle goes the way, there and here */
+  uint32_t pivot_count;
+  double pivot[3], arm[3]; /* that middle at rest, in asset space and in the traveller's frame */
+  float *times;            /* of the clip at hand */
+  uint32_t time_count;
+  sbfi_reporter reporter;
+  sbf_diagnostic *error;
+} motion;
+
+static sbf_status no_memory(motion *m) {
+  return sbfi_diagnose(m->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for the motion of %s", m->file);
+}
+
+static void say(motion *m, sbf_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void say(motion *m, sbf_code code, const char *format, ...) {
+  sbf_diagnostic note;
+  va_list arguments;
+  va_start(arguments, format);
+  sbfi_diagnose_v(&note, code, format, arguments);
+  va_end(arguments);
+  sbfi_copy_text(note.file, sizeof note.file, m->file);
+  sbfi_report(&m->reporter, &note);
+}
+
+/* --- What is the same for all clips ------------------------------------------------------------------- */
+
+/* Cosine of the angle between rest directions from which on two limbs are not the same thing. */
+static const double LEAST_ALIKE = -0.2;
+
+static void align_bones(motion *m, const sbfi_bone_frame *from_rest) {
+  static const double along[3] = {0, 1, 0}, none[4] = {0, 0, 0, 1};
+  for (uint32_t i = 0; i < m->to->bones.count; i++) {
+    const sbfi_bone_match *match = &m->matches[i];
+    int32_t parent = m->to->bones.at[i].parent;
+    memcpy(m->align[i], none, sizeof none);
+    if (match->source == SBF_NONE) continue;
+    const double *source = from_rest[match->source].rotation;
+    double back[4];
+    if (match->part == SBFI_PART_LIMB || match->part == SBFI_PART_THIGH) {
+      double here[3], there[3];
+      sbfi_turn_vector(m->rest[i].rotation, along, here);
+      sbfi_turn_vector(source, along, there);
+      double dot = here[0] * there[0] + here[1] * there[1] + here[2] * there[2];
+      if (dot > LEAST_ALIKE) sbfi_turn_between(here, there, m->align[i]);
+    } else if (match->part == SBFI_PART_HAND && parent != SBF_NONE &&
+               m->matches[parent].part == SBFI_PART_LIMB) {
+      memcpy(m->align[i], m->align[parent], sizeof none);
+    }
+    sbfi_turn_undo(source, back);
+    sbfi_turn_product(m->align[i], m->rest[i].rotation, m->aligned[i]);
+    sbfi_turn_product(back, m->aligned[i], m->aligned[i]);
+  }
+}
+
+static double lowest(const sbf_asset *asset, const sbfi_bone_frame *rest) {
+  static const double along[3] = {0, 1, 0};
+  double low = INFINITY;
+  for (uint32_t i = 0; i < asset->bones.count; i++) {
+    double tail[3];
+    sbfi_turn_vector(rest[i].rotation, along, tail);
+    low = fmin(low, rest[i].place[1]);
+    low = fmin(low, rest[i].place[1] + tail[1] * (double)asset->bones.at[i].length);
+  }
+  return low;
+}
+
+/* The middle of some bones' heads. */
+static void middle_of(const sbfi_bone_frame *frames, const int32_t *bones, uint32_t count, double *to) {
+  for (int k = 0; k < 3; k++) {
+    to[k] = 0;
+    for (uint32_t i = 0; i < count; i++) to[k] += frames[bones[i]].place[k] / count;
+  }
+}
+
+/* Who travels: the hips, else the root that matched bones hang on. What is carried along the source's way is
+ * the middle between the thighs, where there are some, and not the traveller's own head, which may lie
+ * anywhere. */
+static void find_traveller(motion *m, const sbfi_bone_frame *from_rest) {
+  double here = lowest(m->to, m->rest), there = lowest(m->from, from_rest), own[3], other[3];
+  m->traveller = SBF_NONE;
+  for (int32_t i = (int32_t)m->to->bones.count; i-- > 0;) {
+    const sbfi_bone_match *match = &m->matches[i];
+    if (match->source == SBF_NONE) continue;
+    if (match->part == SBFI_PART_THIGH && m->pivot_count < PIVOTS) {
+      m->pivots[m->pivot_count] = i;
+      m->leaders[m->pivot_count++] = match->source;
+    }
+    if (m->traveller == SBF_NONE || m->matches[m->traveller].part != SBFI_PART_HIPS ||
+        match->part == SBFI_PART_HIPS)
+      m->traveller = i;
+  }
+  m->leader = m->matches[m->traveller].source;
+  if (m->matches[m->traveller].part != SBFI_PART_HIPS) {
+    while (m->to->bones.at[m->traveller].parent != SBF_NONE)
+      m->traveller = m->to->bones.at[m->traveller].parent;
+    while (m->from->bones.at[m->leader].parent != SBF_NONE) m->leader = m->from->bones.at[m->leader].parent;
+  }
+  if (m->pivot_count == 0) {
+    m->pivots[0] = m->traveller;
+    m->leaders[m->pivot_count++] = m->leader;
+  }
+  middle_of(m->rest, m->pivots, m->pivot_count, own);
+  middle_of(from_rest, m->leaders, m->pivot_count, other);
+  m->ratio = own[1] > here && other[1] > there ? (own[1] - here) / (other[1] - there) : 1;
+  double back[4];
+  for (int k = 0; k < 3; k++) {
+    m->pivot[k] = own[k];
+    m->arm[k] = own[k] - m->rest[m->traveller].place[k];
+  }
+  sbfi_turn_undo(m->rest[m->traveller].rotation, back);
+  sbfi_turn_vector(back, m->arm, m->arm);
+}
+
+static sbf_status prepare(motion *m) {
+  size_t count = m->to->bones.count + 1;
+  sbfi_bone_frame *from_rest = sbfi_arena_allocate(&m->scratch, m->from->bones.count + 1, sizeof *from_rest);
+  m->matches = sbfi_arena_allocate(&m->scratch, count, sizeof *m->matches);
+  m->rest = sbfi_arena_allocate(&m->scratch, count, sizeof *m->rest);
+  m->aligned = sbfi_arena_allocate(&m->scratch, count, sizeof *m->aligned);
+  m->align = sbfi_arena_allocate(&m->scratch, count, sizeof *m->align);
+  if (!from_rest || !m->matches || !m->rest || !m->aligned || !m->align) return no_memory(m);
+  int64_t matched = sbfi_match_bones(m->from, m->to, &m->scratch, m->matches);
+  if (matched < 0) return no_memory(m);
+  if (matched == 0)
+    return sbfi_diagnose(m->error, SBF_CODE_IMPORT_MOTION_NONE,
+        "none of its %u bones stands for one of the skeleton's %u: name bones alike (LeftUpLeg, thigh.L "
+        "...), or "
+        "give both bundles retarget chains",
+        m->from->bones.count, m->to->bones.count);
+  sbfi_rest_frames(m->to, m->rest);
+  sbfi_rest_frames(m->from, from_rest);
+  align_bones(m, from_rest);
+  find_traveller(m, from_rest);
+  return SBF_OK;
+}
+
+/* --- Who goes without --------------------------------------------------------------------------------- */
+
+enum { NAMES_SHOWN = 8, NAMES_ROOM = 240 };
+
+static void add_name(char *list, uint32_t *count, const char *name) {
+  size_t length = strlen(list);
+  if ((*count)++ < NAMES_SHOWN && length + strlen(name) + 4 < NAMES_ROOM)
+    snprintf(list + length, NAMES_ROOM - length, "%s%s", length ? ", " : "", name);
+}
+
+static sbf_status say_unmatched(motion *m) {
+  char here[NAMES_ROOM] = "", there[NAMES_ROOM] = "";
+  uint32_t here_count = 0, there_count = 0;
+  bool *taken = sbfi_arena_allocate(&m->scratch, m->from->bones.count + 1, sizeof *taken);
+  if (!taken) return no_memory(m);
+  for (uint32_t i = 0; i < m->to->bones.count; i++)
+    if (m->matches[i].source == SBF_NONE)
+      add_name(here, &here_count, m->to->bones.at[i].name);
+    else
+      taken[m->matches[i].source] = true;
+  for (uint32_t i = 0; i < m->from->bones.count; i++)
+    if (!taken[i]) add_name(there, &there_count, m->from->bones.at[i].name);
+  if (here_count)
+    say(m, SBF_CODE_IMPORT_MOTION_UNMATCHED,
+        "%u of the skeleton's %u bones have no counterpart and go along with their parents: %s%s", here_count,
+        m->to->bones.count, here, here_count > NAMES_SHOWN ? ", ..." : "");
+  if (there_count)
+    say(m, SBF_CODE_IMPORT_MOTION_UNMATCHED, "%u of the file's %u bones have no counterpart: %s%s",
+        there_count, m->from->bones.count, there, there_count > NAMES_SHOWN ? ", ..." : "");
+  return SBF_OK;
+}
+
+/* --- One clip ----------------------------------------------------------------------------------------- */
+
+static int compare_times(const void *a, const void *b) {
+  float x = *(const float *)a, y = *(const float *)b;
+  return x < y ? -1 : x > y;
+}
+
+/* All times at which anything is keyed, each once; 0 where nothing is. */
+static bool gather_times(motion *m, const sbf_clip *clip, sbfi_arena *scratch) {
+  size_t count = 1, kept = 1;
+  for (uint32_t i = 0; i < clip->tracks.count; i++) count += clip->tracks.at[i].times.count;
+  m->times = sbfi_arena_allocate(scratch, count, sizeof *m->times);
+  if (!m->times) return false;
+  count = 0;
+  for (uint32_t i = 0; i < clip->tracks.count; i++) {
+    const sbf_f32_list *times = &clip->tracks.at[i].times;
+    if (times->count) memcpy(m->times + count, times->at, times->count * sizeof *times->at);
+    count += times->count;
+  }
+  if (count == 0) m->times[count++] = 0;
+  qsort(m->times, count, sizeof *m->times, compare_times);
+  for (size_t i = 1; i < count; i++)
+    if (m->times[i] > m->times[kept - 1]) m->times[kept++] = m->times[i];
+  m->time_count = (uint32_t)kept;
+  return kept <= INT32_MAX / 4;
+}
+
+typedef struct bone_keys {
+  float *rotations, *places; /* NULL where the bone has none */
+} bone_keys;
+
+/* A key of the shorter way round from the one before. */
+static void put_rotation(float *to, const double *q, bool first) {
+  double dot = 1;
+  if (!first) {
+    dot = 0;
+    for (int k = 0; k < 4; k++) dot += q[k] * (double)to[k - 4];
+  }
+  for (int k = 0; k < 4; k++) to[k] = (float)(dot < 0 ? -q[k] : q[k]);
+}
+
+/* The pose of the asset in one frame of the source. `start`: where the source's hips were at the beginning.
+ */
+static void put_pose(motion *m, const sbfi_clip_poses *rest, const sbfi_bone_frame *source,
+    const double *start, uint32_t key, sbfi_bone_frame *frames, const bone_keys *keys) {
+  for (uint32_t i = 0; i < m->to->bones.count; i++) {
+    int32_t parent = m->to->bones.at[i].parent;
+    static const sbfi_bone_frame root = {.rotation = {0, 0, 0, 1}};
+    const sbfi_bone_frame *above = parent == SBF_NONE ? &root : &frames[parent];
+    double back[4], local[4];
+    sbfi_bone_frame *f = &frames[i];
+    sbfi_turn_product(above->rotation, rest->rest_local[i].rotation, f->rotation);
+    sbfi_turn_vector(above->rotation, rest->rest_local[i].place, f->place);
+    for (int k = 0; k < 3; k++) f->place[k] += above->place[k];
+    sbfi_turn_undo(above->rotation, back);
+    if (m->matches[i].source != SBF_NONE) {
+      sbfi_turn_product(source[m->matches[i].source].rotation, m->aligned[i], f->rotation);
+      sbfi_turn_product(back, f->rotation, local);
+      put_rotation(keys[i].rotations + 4 * (size_t)key, local, key == 0);
+    }
+    if ((int32_t)i != m->traveller) continue;
+    double way[3], arm[3], within[3];
+    middle_of(source, m->leaders, m->pivot_count, way);
+    sbfi_turn_vector(f->rotation, m->arm, arm);
+    for (int k = 0; k < 3; k++) {
+      f->place[k] = m->pivot[k] + m->ratio * (way[k] - start[k]) - arm[k];
+      within[k] = f->place[k] - above->place[k];
+    }
+    sbfi_turn_vector(back, within, within);
+    for (int k = 0; k < 3; k++) keys[i].places[3 * (size_t)key + (size_t)k] = (float)within[k];
+  }
+}
+
+/* Where the source's pivot stands when it is at rest on the ground its clip walks on. A file may have its
+ * skeleton around the hips and its motion on the ground. */
+static void find_start(
+    const motion *m, const sbfi_clip_poses *poses, const sbfi_bone_frame *first, double *start) {
+  double rest[3];
+  middle_of(poses->rest, m->leaders, m->pivot_count, rest);
+  middle_of(first, m->leaders, m->pivot_count, start);
+  double height = rest[1] - lowest(m->from, poses->rest);
+  start[1] = fabs(start[1] - height) < fabs(start[1] - rest[1]) ? height : rest[1];
+}
+
+static bool add_track(sbf_asset *asset, uint32_t bone, sbf_track_property property, const motion *m,
+    const float *values, const float *times, sbf_track *tracks, uint32_t *count) {
+  uint32_t width = property == SBF_TRACK_PROPERTY_ROTATION ? 4 : 3;
+  float *kept = sbf_asset_allocate(asset, m->time_count, width * sizeof *kept);
+  if (!kept) return false;
+  memcpy(kept, values, (size_t)m->time_count * width * sizeof *kept);
+  sbf_track *track = &tracks[(*count)++];
+  sbf_track_init(track);
+  track->bone = (int32_t)bone;
+  track->property = property;
+  track->times = (sbf_f32_list){times, m->time_count};
+  track->values = (sbf_f32_list){kept, m->time_count * width};
+  return true;
+}
+
+static bool fill_clip(motion *m, const sbf_clip *from, sbf_clip *to, sbfi_arena *scratch) {
+  sbfi_clip_poses poses, here;
+  static const sbf_clip still = {.tracks = {NULL, 0}};
+  uint32_t bone_count = m->to->bones.count, count = 0, matched = 0;
+  double start[3];
+  sbfi_bone_frame *source = sbfi_arena_allocate(scratch, m->from->bones.count + 1, sizeof *source);
+  sbfi_bone_frame *frames = sbfi_arena_allocate(scratch, bone_count + 1, sizeof *frames);
+  bone_keys *keys = sbfi_arena_allocate(scratch, bone_count + 1, sizeof *keys);
+  if (!source || !frames || !keys || !gather_times(m, from, scratch) ||
+      !sbfi_clip_poses_init(&poses, m->from, from, scratch) ||
+      !sbfi_clip_poses_init(&here, m->to, &still, scratch))
+    return false;
+  for (uint32_t i = 0; i < bone_count; i++) {
+    bool follows = m->matches[i].source != SBF_NONE, travels = (int32_t)i == m->traveller;
+    matched += follows;
+    if (follows) keys[i].rotations = sbfi_arena_allocate(scratch, m->time_count, 4 * sizeof(float));
+    if (travels) keys[i].places = sbfi_arena_allocate(scratch, m->time_count, 3 * sizeof(float));
+    if ((follows && !keys[i].rotations) || (travels && !keys[i].places)) return false;
+  }
+  for (uint32_t k = 0; k < m->time_count; k++) {
+    sbfi_clip_pose(&poses, m->times[k], source);
+    if (k == 0) find_start(m, &poses, source, start);
+    put_pose(m, &here, source, start, k, frames, keys);
+  }
+  float *times = sbf_asset_allocate(m->to, m->time_count, sizeof *times);
+  sbf_track *tracks = sbf_asset_allocate(m->to, matched + 1, sizeof *tracks);
+  if (!times || !tracks) return false;
+  memcpy(times, m->times, m->time_count * sizeof *times);
+  for (uint32_t i = 0; i < bone_count; i++) {
+    if (keys[i].places &&
+        !add_track(m->to, i, SBF_TRACK_PROPERTY_TRANSLATION, m, keys[i].places, times, tracks, &count))
+      return false;
+    if (keys[i].rotations &&
+        !add_track(m->to, i, SBF_TRACK_PROPERTY_ROTATION, m, keys[i].rotations, times, tracks, &count))
+      return false;
+  }
+  to->duration = fmaxf(from->duration, m->times[m->time_count - 1]);
+  to->loop = from->loop;
+  to->tracks = (sbf_track_list){tracks, count};
+  say(m, SBF_CODE_IMPORT_MOTION, "clip '%s', %.2f s: %u bones follow, '%s' travels %.3g times as far as '%s'",
+      to->name, (double)to->duration, matched, m->to->bones.at[m->traveller].name, m->ratio,
+      m->from->bones.at[m->leader].name);
+  return true;
+}
+
+/* The file's name without folders and ending, where the clip has none of its own. */
+static const char *name_clip(motion *m, const sbf_clip *from) {
+  if (from->name && from->name[0]) return sbf_asset_copy_text(m->to, from->name);
+  const char *slash = strrchr(m->file, '/'), *name = slash ? slash + 1 : m->file, *dot = strrchr(name, '.');
+  char *copy = (char *)(uintptr_t)sbf_asset_copy_text(m->to, name);
+  if (copy && dot && dot != name) copy[dot - name] = 0;
+  return copy;
+}
+
+/* An id holds no white space. */
+static const char *clip_id(motion *m, sbfi_ids *ids, const char *name, uint32_t index) {
+  char *word = sbfi_arena_string(&m->scratch, *name ? name : "motion", strlen(*name ? name : "motion"));
+  for (char *c = word; c && *c; c++)
+    if ((unsigned char)*c <= ' ') *c = '_';
+  return word ? sbfi_unique_id(ids, "clip.", word, index, m->to) : NULL;
+}
+
+static bool make_clips(motion *m, sbfi_ids *ids, sbf_clip *clips) {
+  uint32_t before = m->to->clips.count;
+  if (!sbfi_ids_add_collections(ids, m->to)) return false;
+  if (before) memcpy(clips, m->to->clips.at, before * sizeof *clips);
+  for (uint32_t i = 0; i < m->from->clips.count; i++) {
+    sbf_clip *to = &clips[before + i];
+    sbfi_arena scratch;
+    sbf_clip_init(to);
+    sbfi_arena_init(&scratch, &m->scratch.allocator, 0);
+    to->name = name_clip(m, &m->from->clips.at[i]);
+    to->id = to->name ? clip_id(m, ids, to->name, before + i) : NULL;
+    bool good = to->id && fill_clip(m, &m->from->clips.at[i], to, &scratch);
+    sbfi_arena_free(&scratch);
+    if (!good) return false;
+  }
+  return true;
+}
+
+static sbf_status add_clips(motion *m) {
+  uint32_t count = m->to->clips.count + m->from->clips.count;
+  sbf_clip *clips = sbf_asset_allocate(m->to, count, sizeof *clips);
+  sbfi_ids ids;
+  sbfi_ids_init(&ids, &m->scratch.allocator);
+  bool good = clips && make_clips(m, &ids, clips);
+  sbfi_ids_free(&ids);
+  if (!good) return no_memory(m);
+  m->to->clips = (sbf_clip_list){clips, count};
+  return SBF_OK;
+}
+
+/* --- The call ----------------------------------------------------------------------------------------- */
+
+static bool is_bundle(const char *path) {
+  size_t length = strlen(path);
+  return (length > 4 && strcmp(path + length - 4, ".sbf") == 0) ||
+         (length > 5 && strcmp(path + length - 5, ".sbfz") == 0);
+}
+
+/* What is said of a motion file's own meshes and gait matters to nobody here. */
+static void pass_on(void *user, const sbf_diagnostic *diagnostic) {
+  if (diagnostic->code == SBF_CODE_IMPORT_KEYS || diagnostic->severity == SBF_SEVERITY_ERROR)
+    sbfi_report(user, diagnostic);
+}
+
+static sbf_status read_motion(motion *m, const sbf_convert_options *options, sbf_asset **from) {
+  if (is_bundle(m->file))
+    return sbf_load_file(m->file, &(sbf_load_options){.allocator = options->allocator}, from, m->error);
+  const sbf_convert_options reading = {.allocator = options->allocator,
+      .no_gait = true,
+      .import_helper = options->import_helper,
+      .report = pass_on,
+      .user = &m->reporter};
+  return sbf_convert(m->file, &reading, from, m->error);
+}
+
+sbf_status sbf_convert_motion(
+    sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error) {
+  static const sbf_convert_options defaults = {.struct_size = 0};
+  sbf_diagnostic unseen;
+  if (!options) options = &defaults;
+  if (options->struct_size && options->struct_size != sizeof *options)
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "sbf_convert_options has another size than this library's");
+  motion m = {.to = asset,
+      .file = file,
+      .reporter = {options->report, options->user, 0, 0},
+      .error = error ? error : &unseen};
+  sbf_asset *from = NULL;
+  if (asset->bones.count == 0)
+    return sbfi_diagnose(
+        error, SBF_CODE_IMPORT_MOTION_NONE, "%s: there is no skeleton to move: give one with --rig", file);
+  sbf_status status = read_motion(&m, options, &from);
+  if (status != SBF_OK) return status;
+  m.from = from;
+  sbfi_arena_init(&m.scratch, options->allocator, 0);
+  if (from->clips.count == 0 || from->bones.count == 0)
+    status = sbfi_diagnose(m.error, SBF_CODE_IMPORT_MOTION_NONE, "the file holds no motion of bones");
+  if (status == SBF_OK) status = prepare(&m);
+  if (status == SBF_OK) status = say_unmatched(&m);
+  if (status == SBF_OK) status = add_clips(&m);
+  if (status != SBF_OK) sbfi_copy_text(m.error->file, sizeof m.error->file, file);
+  sbfi_arena_free(&m.scratch);
+  sbf_asset_free(from);
+  return status;
+}

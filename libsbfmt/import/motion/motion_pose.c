@@ -1,0 +1,141 @@
+#include <math.h>
+#include <string.h>
+
+#include "import/motion/carried_motion.h"
+
+void sbfi_turn_product(const double a[4], const double b[4], double to[4]) {
+  const double p[4] = {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
+      a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
+      a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
+      a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
+  memcpy(to, p, sizeof p);
+}
+
+void sbfi_turn_undo(const double a[4], double to[4]) {
+  for (int k = 0; k < 4; k++) to[k] = k < 3 ? -a[k] : a[k];
+}
+
+void sbfi_turn_vector(const double a[4], const double v[3], double to[3]) {
+  const double pure[4] = {v[0], v[1], v[2], 0};
+  double back[4], p[4];
+  sbfi_turn_undo(a, back);
+  sbfi_turn_product(a, pure, p);
+  sbfi_turn_product(p, back, p);
+  memcpy(to, p, 3 * sizeof *p);
+}
+
+void sbfi_turn_between(const double from[3], const double to[3], double turn[4]) {
+  double dot = from[0] * to[0] + from[1] * to[1] + from[2] * to[2], length = 0;
+  if (dot < -0.999999) { /* opposite: about any axis across */
+    const double spare[3] = {fabs(from[0]) < 0.9, fabs(from[0]) >= 0.9, 0};
+    turn[0] = from[1] * spare[2] - from[2] * spare[1];
+    turn[1] = from[2] * spare[0] - from[0] * spare[2];
+    turn[2] = from[0] * spare[1] - from[1] * spare[0];
+    turn[3] = 0;
+  } else {
+    turn[0] = from[1] * to[2] - from[2] * to[1];
+    turn[1] = from[2] * to[0] - from[0] * to[2];
+    turn[2] = from[0] * to[1] - from[1] * to[0];
+    turn[3] = 1 + dot;
+  }
+  for (int k = 0; k < 4; k++) length += turn[k] * turn[k];
+  for (int k = 0; k < 4; k++) turn[k] /= sqrt(length);
+}
+
+void sbfi_rest_frames(const sbf_asset *asset, sbfi_bone_frame *frames) {
+  for (uint32_t i = 0; i < asset->bones.count; i++) {
+    const sbf_bone *b = &asset->bones.at[i];
+    frames[i] = (sbfi_bone_frame){.place = {(double)b->head.x, (double)b->head.y, (double)b->head.z},
+        .rotation = {
+            (double)b->rotation.x, (double)b->rotation.y, (double)b->rotation.z, (double)b->rotation.w}};
+  }
+}
+
+bool sbfi_clip_poses_init(
+    sbfi_clip_poses *p, const sbf_asset *asset, const sbf_clip *clip, sbfi_arena *scratch) {
+  size_t count = asset->bones.count + 1;
+  *p = (sbfi_clip_poses){.asset = asset,
+      .translations = sbfi_arena_allocate(scratch, count, sizeof *p->translations),
+      .rotations = sbfi_arena_allocate(scratch, count, sizeof *p->rotations),
+      .rest = sbfi_arena_allocate(scratch, count, sizeof *p->rest),
+      .rest_local = sbfi_arena_allocate(scratch, count, sizeof *p->rest_local)};
+  if (!p->translations || !p->rotations || !p->rest || !p->rest_local) return false;
+  for (uint32_t i = 0; i < clip->tracks.count; i++) {
+    const sbf_track *track = &clip->tracks.at[i];
+    if (track->bone == SBF_NONE || track->times.count == 0) continue;
+    if (track->property == SBF_TRACK_PROPERTY_TRANSLATION) p->translations[track->bone] = track;
+    if (track->property == SBF_TRACK_PROPERTY_ROTATION) p->rotations[track->bone] = track;
+  }
+  sbfi_rest_frames(asset, p->rest);
+  for (uint32_t i = 0; i < asset->bones.count; i++) {
+    int32_t parent = asset->bones.at[i].parent;
+    p->rest_local[i] = p->rest[i];
+    if (parent == SBF_NONE) continue;
+    double back[4], from[3];
+    sbfi_turn_undo(p->rest[parent].rotation, back);
+    for (int k = 0; k < 3; k++) from[k] = p->rest[i].place[k] - p->rest[parent].place[k];
+    sbfi_turn_product(back, p->rest[i].rotation, p->rest_local[i].rotation);
+    sbfi_turn_vector(back, from, p->rest_local[i].place);
+  }
+  return true;
+}
+
+/* The key at or before a time; the first where all are later. */
+static uint32_t key_before(const sbf_track *track, float time_s) {
+  uint32_t low = 0, high = track->times.count;
+  while (high - low > 1) {
+    uint32_t middle = (low + high) / 2;
+    if (track->times.at[middle] <= time_s)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+static void cubic(const sbf_track *track, uint32_t key, uint32_t width, double t, double span, double *to) {
+  const float *a = track->values.at + (size_t)3 * width * key, *b = a + (size_t)3 * width;
+  double t2 = t * t, t3 = t2 * t;
+  for (uint32_t k = 0; k < width; k++)
+    to[k] = (2 * t3 - 3 * t2 + 1) * (double)a[width + k] +
+            (t3 - 2 * t2 + t) * span * (double)a[2 * width + k] + (3 * t2 - 2 * t3) * (double)b[width + k] +
+            (t3 - t2) * span * (double)b[k];
+}
+
+/* A track's value as the specification has it (14.1): three numbers, or four of unit length. */
+static void value_at(const sbf_track *track, float time_s, uint32_t width, double *to) {
+  bool is_cubic = track->interpolation == SBF_INTERPOLATION_CUBIC;
+  uint32_t key = key_before(track, time_s), stride = is_cubic ? 3 * width : width;
+  const float *a = track->values.at + (size_t)stride * key + (is_cubic ? width : 0);
+  double before[4], after[4], length = 0;
+  bool between = key + 1 < track->times.count && time_s > track->times.at[key];
+  for (uint32_t k = 0; k < width; k++) to[k] = before[k] = (double)a[k];
+  if (between && track->interpolation != SBF_INTERPOLATION_STEP) {
+    double span = (double)track->times.at[key + 1] - (double)track->times.at[key];
+    double t = ((double)time_s - (double)track->times.at[key]) / span;
+    for (uint32_t k = 0; k < width; k++) after[k] = (double)a[stride + k];
+    if (is_cubic)
+      cubic(track, key, width, t, span, to);
+    else if (width == 4)
+      sbfi_quat_slerp(before, after, t, to);
+    else
+      for (uint32_t k = 0; k < width; k++) to[k] = before[k] + (after[k] - before[k]) * t;
+  }
+  if (width != 4) return;
+  for (int k = 0; k < 4; k++) length += to[k] * to[k];
+  for (int k = 0; k < 4; k++) to[k] = length > 0 ? to[k] / sqrt(length) : k == 3;
+}
+
+void sbfi_clip_pose(const sbfi_clip_poses *p, float time_s, sbfi_bone_frame *frames) {
+  for (uint32_t i = 0; i < p->asset->bones.count; i++) {
+    int32_t parent = p->asset->bones.at[i].parent;
+    sbfi_bone_frame own = p->rest_local[i];
+    if (p->translations[i]) value_at(p->translations[i], time_s, 3, own.place);
+    if (p->rotations[i]) value_at(p->rotations[i], time_s, 4, own.rotation);
+    frames[i] = own;
+    if (parent == SBF_NONE) continue;
+    sbfi_turn_product(frames[parent].rotation, own.rotation, frames[i].rotation);
+    sbfi_turn_vector(frames[parent].rotation, own.place, frames[i].place);
+    for (int k = 0; k < 3; k++) frames[i].place[k] += frames[parent].place[k];
+  }
+}

@@ -1,0 +1,132 @@
+"""`sbfmt convert --motion`: clips of another skeleton, carried over to the one at hand."""
+
+import os
+import unittest
+
+from bundle_file import Bundle
+from bvh_file import Bvh
+from sbfmt_program import ProgramTest, ROOT, SHARED, main, read_bytes, shared
+
+CMU = shared("mocap", "cmu_01_01.bvh")
+FRAMES = (0, 600, 1200, 2400)
+
+
+def direction(frame):
+    return tuple(row[1] for row in frame)
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def place(frame):
+    return tuple(row[3] for row in frame)
+
+
+@unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
+class MotionCapture(ProgramTest):
+    def moved(self, path):
+        said = self.good("convert", "--no-build", path, "--motion", CMU, "-o", self.path("out.sbf")).err
+        bundle = Bundle(self.path("out.sbf"))
+        return bundle, bundle.tracks(bundle.clips[-1]), said
+
+    def source(self):
+        self.good("convert", "--no-build", CMU, "-o", self.path("source.sbf"))
+        bundle = Bundle(self.path("source.sbf"))
+        return bundle, bundle.tracks(bundle.clips[0])
+
+    def test_onto_itself_the_motion_is_the_same(self):
+        bundle, tracks, said = self.moved(CMU)
+        own = bundle.tracks(bundle.clips[0])
+        self.assertNotIn("UNMATCHED", said)
+        time_s = Bvh(CMU).frame_time
+        first = place(bundle.pose(own, 0)[0])
+        for frame in FRAMES:
+            ours, theirs = bundle.pose(tracks, frame * time_s), bundle.pose(own, frame * time_s)
+            for a, b in zip(ours, theirs):
+                for k, start in ((0, first[0] - bundle.rest[0][0][3]), (2, first[2] - bundle.rest[0][2][3])):
+                    self.assertAlmostEqual(a[k][3], b[k][3] - start, delta=0.01)
+                self.assertGreater(dot(direction(a), direction(b)), 1 - 1e-5)
+
+    def check_limbs(self, bundle, tracks, pairs, least=1 - 1e-4):
+        source, own = self.source()
+        time_s = Bvh(CMU).frame_time
+        names, theirs = bundle.bone_names(), source.bone_names()
+        for frame in FRAMES:
+            here, there = bundle.pose(tracks, frame * time_s), source.pose(own, frame * time_s)
+            for name, other in pairs:
+                a, b = direction(here[names.index(name)]), direction(there[theirs.index(other)])
+                self.assertGreater(dot(a, b), least, f"{name} in frame {frame}")
+
+    def test_a_human_of_the_same_names(self):
+        bundle, tracks, _ = self.moved(shared("walk-dae", "walk.dae"))
+        limbs = [side + limb for side in ("Left", "Right") for limb in ("UpLeg", "Leg", "Arm", "ForeArm")]
+        self.check_limbs(bundle, tracks, [(limb, limb) for limb in limbs])
+
+    def test_a_figure_of_other_names_and_another_pose(self):
+        bundle, tracks, said = self.moved(shared("greenman", "greenman.glb"))
+        self.assertEqual(len(bundle.clips), 5)
+        self.assertIn("IMPORT_MOTION_UNMATCHED", said)
+        self.assertIn("9 bones follow", said)
+        self.check_limbs(bundle, tracks, [("leg_L", "LeftUpLeg"), ("leg_R", "RightUpLeg")])
+        bvh = Bvh(CMU)
+        names = bundle.bone_names()
+        legs = [names.index("leg_L"), names.index("leg_R")]
+        there = [bvh.names.index("LeftUpLeg"), bvh.names.index("RightUpLeg")]
+
+        def middle(frames, bones):
+            return [sum(frames[b][k][3] for b in bones) / 2 for k in range(3)]
+
+        start, origin = middle(bvh.worlds(0), there), middle(bundle.pose(tracks, 0), legs)
+        for frame in FRAMES[1:]:
+            theirs = middle(bvh.worlds(frame), there)
+            ours = middle(bundle.pose(tracks, frame * bvh.frame_time), legs)
+            way, gone = theirs[2] - start[2], ours[2] - origin[2]
+            self.assertAlmostEqual(gone / way, 0.0249, delta=0.002)
+
+    def test_a_kenney_character_keeps_its_bones_lengths(self):
+        bundle, tracks, _ = self.moved(shared("kenney-fbx", "kenney_character.fbx"))
+        frames = bundle.pose(tracks, 5)
+        for bone, name in enumerate(bundle.bone_names()):
+            parent = bundle.parents[bone]
+            if parent is None or name == "Hips":
+                continue
+            lengths = [sum((a - b) ** 2 for a, b in zip(place(pose[bone]), place(pose[parent])))
+                       for pose in (frames, bundle.rest)]
+            self.assertAlmostEqual(lengths[0], lengths[1], places=5)
+
+
+class Calls(ProgramTest):
+    LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
+
+    def test_wrong_files_leave_nothing(self):
+        self.fails(2, "convert", self.LIZARD, "--motion", self.path("absent.bvh"), "-o", self.path("out.sbf"))
+        message = self.fails(1, "convert", os.path.join(ROOT, "examples", "lizard", "lizard.obj"), "--motion",
+                             self.LIZARD, "-o", self.path("out.sbf"))
+        self.assertIn("IMPORT_MOTION_NONE", message)
+        self.assert_empty_folder()
+
+    @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
+    def test_several_files_and_a_bundle(self):
+        fox = shared("fox", "fox.glb")
+        self.good("convert", "--no-build", fox, "-o", self.path("fox.sbf"))
+        self.good("convert", "--no-build", self.path("fox.sbf"), "--motion", fox, "--motion", self.path("fox.sbf"), "-o",
+                  self.path("more.sbf"))
+        bundle = Bundle(self.path("more.sbf"))
+        self.assertEqual([c.get("name") for c in bundle.clips], ["Survey", "Walk", "Run"] * 3)
+        self.good("validate", self.path("more.sbf"))
+        old, new = bundle.tracks(bundle.clips[1]), bundle.tracks(bundle.clips[4])
+        for bone in range(len(bundle.bones)):
+            a, b = bundle.pose(old, 0.3)[bone], bundle.pose(new, 0.3)[bone]
+            self.assertGreater(dot(direction(a), direction(b)), 1 - 1e-5)
+
+    @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
+    def test_the_same_call_gives_the_same_bytes(self):
+        arguments = ("convert", "--no-build", self.LIZARD, "--motion", shared("fox", "fox.glb"))
+        self.good(*arguments, "-o", self.path("a.sbf"))
+        self.good(*arguments, "-o", self.path("b.sbf"))
+        self.assertEqual(read_bytes(self.path("a.sbf")), read_bytes(self.path("b.sbf")))
+
+
+if __name__ == "__main__":
+    main()
