@@ -12,7 +12,7 @@ import re
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md")
+DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -59,7 +59,22 @@ def ik_row(r):
             f"{float(r['error_most_m']):.1g}", f"{r['missed']} of {r['of']}"]
 
 
+def lattice_row(r):
+    if not r["tetrahedra"]:
+        return [r["surface"], r["by"], "ends with an error"] + 7 * [""]
+    return [r["surface"], r["by"], number(r["tetrahedra"]), number(r["median_ms"]), number(r["tetrahedra/s"]), r["least_deg"],
+            r["most_deg"], r["volume"], r["farthest_cells"], number(r["peak_KiB"])]
+
+
+def springs_row(r):
+    return [r["body"], r["method"], number(r["points"]), number(r["elements"]), r["leaving"], r["spread"], r["fall"], r["off"],
+            r["substeps"]]
+
+
 TABLES = {
+    "lattice": (lattice_row, "surface | by | tetrahedra | ms | tetrahedra/s | least angle | greatest | volume | farthest, cells | "
+                             "peak KiB", 2),
+    "springs": (springs_row, "body | method | points | elements | leaving | spread | falls | off | substeps", 2),
     "elements": (elements_row, "file | cell, m | points | tetrahedra | their XML | packed | × smaller | bundle, XML | "
                                "bundle, packed | packed / XML", 1),
     "load": (load_row, "asset | reader | form | bytes | ms | MB/s | × assimp on GLB | peak KiB | private KiB", 3),
