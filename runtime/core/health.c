@@ -1,19 +1,32 @@
 #include "core/world.h"
 #include "mechanics/neo_hookean.h"
 #include "skin/skin.h"
+#include "solvers/outer_forces.h"
 #include "solvers/scheme.h"
 
-static float greatest_strain(const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
-  float greatest = 0;
+/* A spring of the island as it is now: yielded, or without stiffness where it is torn. */
+static sbfi_spring spring_now(const sbri_character *c, const sbri_island *island, uint32_t spring) {
+  sbfi_spring s = island->springs[spring];
+  if (!island->link_flows) return s;
+  uint32_t at = island->first_flow + island->link_of_spring[spring];
+  s.rest_length_m = sbri_rests(c)[at];
+  s.stiffness_n_m *= sbri_strengths(c)[at];
+  return s;
+}
+
+static void look_at_springs(const sbri_character *c, const sbri_island *island, const sbri_body *body,
+    const sbri_point *positions, sbr_body_health *health) {
   for (uint32_t i = body->first_spring; i < body->spring_end; i++) {
-    const sbfi_spring *s = &island->springs[i];
-    if (!(s->rest_length_m > 0)) continue; /* a goal's */
-    const sbri_point *a = &positions[s->a], *b = &positions[s->b];
+    sbfi_spring s = spring_now(c, island, i);
+    bool torn = s.stiffness_n_m < island->springs[i].stiffness_n_m;
+    health->torn += torn;
+    health->elastic_j += sbfi_springs_energy(&s, 1, &positions->x, 4);
+    if (torn || !(s.rest_length_m > 0)) continue; /* a goal's */
+    const sbri_point *a = &positions[s.a], *b = &positions[s.b];
     float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z;
-    float strain = fabsf(sbfi_spring_strain(s, sqrtf(x * x + y * y + z * z)));
-    greatest = strain > greatest ? strain : greatest;
+    float strain = fabsf(sbfi_spring_strain(&s, sqrtf(x * x + y * y + z * z)));
+    health->max_strain = strain > health->max_strain ? strain : health->max_strain;
   }
-  return greatest;
 }
 
 /* Of its tetrahedra: the energy, J at or below 0, and the greatest strain. Elements whose squares tell that
@@ -79,8 +92,9 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
   }
   health->kinetic_j = island->scheme->forceless ? 0 : kinetic * joules;
   health->potential_j = potential * joules;
-  health->elastic_j = joules * (solid_j + sbfi_springs_energy(island->springs + body->first_spring,
-                                              body->spring_end - body->first_spring, &positions->x, 4));
+  health->elastic_j +=
+      solid_j + sbri_outer_energy(island, body, positions, sbri_surface_vertices(c) + body->first_vertex);
+  health->elastic_j *= joules;
 }
 
 sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id character, uint32_t soft_body) {
@@ -94,7 +108,7 @@ sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id ch
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   health.recoveries = sbri_island_states(c)[body->island].recoveries;
   health.finite = is_finite(body, positions, velocities);
-  health.max_strain = greatest_strain(island, body, positions);
+  look_at_springs(c, island, body, positions, &health);
   solid_health solid = look_at_tetrahedra(body, positions);
   if (solid.max_strain > health.max_strain) health.max_strain = solid.max_strain;
   health.inverted = solid.inverted;

@@ -61,6 +61,8 @@ void sbri_layout_make(sbr_model *model) {
   l->faces = place(&end, faces * SBRI_BLOCK, sizeof(sbri_point));
   l->sums = place(&end, padded(groups > vertices ? groups : vertices), sizeof(sbri_point));
   l->surface_vertices = place(&end, surface, sizeof(sbri_point));
+  l->surface_forces = place(&end, surface, sizeof(sbri_point));
+  l->surface_velocities = place(&end, surface, sizeof(sbri_point));
   l->surface_faces = place(&end, surface_faces, sizeof(sbri_point));
   l->scratch_size = (end + 63) & ~(size_t)63;
 }

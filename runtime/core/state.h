@@ -80,7 +80,9 @@ SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vert
 SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */
 SBRI_SCRATCH_PART(sums, sbri_point, c->model->layout.sums)         /* (most groups of a mesh, padded) */
 SBRI_SCRATCH_PART(surface_vertices, sbri_point, c->model->layout.surface_vertices) /* of all bodies */
-SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces)       /* of all bodies */
+SBRI_SCRATCH_PART(surface_forces, sbri_point, c->model->layout.surface_forces)
+SBRI_SCRATCH_PART(surface_velocities, sbri_point, c->model->layout.surface_velocities)
+SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces) /* of all bodies */
 #undef SBRI_SCRATCH_PART
 
 /* ---- core/frames.c ---- */

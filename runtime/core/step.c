@@ -72,6 +72,7 @@ static void tick_character(void *context, uint32_t index) {
   sbri_character *c = &world->characters[index];
   c->event_count = 0;
   if (!c->model) return;
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_tears_of(c)[i].count = 0;
   rebase(c);
   sbri_settle(c);
   if (sbri_head(c)->paused) return;
@@ -248,6 +249,10 @@ static void tick_island(void *context, uint32_t index) {
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
       .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
       .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
+      .outer = island->has_outer ? sbri_outer(c) + first : NULL,
+      .anchor = sbri_deltas(c)[sbri_anchor_frame(model)],
+      .surface_forces = sbri_surface_forces(c),
+      .surface_velocities = sbri_surface_velocities(c),
       .accelerations = sbri_accelerations(c) + 3 * first,
       .older_velocities = sbri_older_velocities(c) + 3 * first,
       .moves = sbri_moves(c) + first,
@@ -258,7 +263,6 @@ static void tick_island(void *context, uint32_t index) {
       .stretch = &sbri_island_states(c)[work.island].stretch,
       .stiffening = &sbri_island_states(c)[work.island].stiffening,
       .least_ratio = &sbri_island_states(c)[work.island].least_ratio};
-  tick.tears->count = 0;
   if (!island->scheme->forceless) prepare_contacts(world, c, island, tick_s);
   island->scheme->tick(&tick);
   recover(world, c, work.island);
@@ -273,18 +277,40 @@ static void run(sbr_world *world, sbr_task *task, size_t count) {
     for (uint32_t i = 0; i < count; i++) task(world, i);
 }
 
+static void add_event(sbr_world *world, const sbri_character *c, sbr_event event, sbf_vec3 place) {
+  sbr_double3 origin = sbri_head(c)->origin;
+  event.character = sbri_id_of(world, c);
+  event.tick = world->ticks;
+  event.position =
+      (sbr_double3){origin.x + (double)place.x, origin.y + (double)place.y, origin.z + (double)place.z};
+  world->events[world->event_head++ % SBRI_EVENTS] = event;
+}
+
+/* The body that lists the spring: of one between bodies, the first. */
+static uint32_t body_of_link(const sbr_model *model, const sbri_island *island, uint32_t link) {
+  uint32_t spring = 0;
+  while (spring < island->spring_count && island->link_of_spring[spring] != link) spring++;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &model->bodies[island->bodies[b]];
+    if (spring >= body->first_spring && spring < body->spring_end) return island->bodies[b];
+  }
+  return island->bodies[0];
+}
+
 static void gather_events(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbri_character *c = &world->characters[i];
     for (uint32_t e = 0; c->model && e < c->event_count; e++) {
-      sbr_double3 origin = sbri_head(c)->origin;
       const sbri_gait_event *from = &c->events[e];
-      world->events[world->event_head++ % SBRI_EVENTS] = (sbr_event){.kind = from->kind,
-          .character = sbri_id_of(world, c),
-          .leg = from->leg,
-          .tick = world->ticks,
-          .position = {origin.x + (double)from->position.x, origin.y + (double)from->position.y,
-              origin.z + (double)from->position.z}};
+      add_event(world, c, (sbr_event){.kind = from->kind, .leg = from->leg}, from->position);
+    }
+    for (uint32_t k = 0; c->model && k < c->model->island_count; k++) {
+      const sbri_tears *tears = &sbri_tears_of(c)[k];
+      for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++) {
+        uint32_t body = body_of_link(c->model, &c->model->islands[k], tears->at[e].link);
+        add_event(world, c, (sbr_event){.kind = SBR_EVENT_TEAR, .soft_body = body},
+            sbri_scale(tears->at[e].place, c->scale));
+      }
     }
   }
 }

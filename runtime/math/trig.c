@@ -105,3 +105,28 @@ float sbri_exp(float x) {
   memcpy(&two_to_power, &bits, sizeof two_to_power);
   return (float)(sum * two_to_power);
 }
+
+float sbri_log(float x) {
+  if (x != x) return x;
+  if (!(x > 0)) return -87;
+  if (x > FLT_MAX) return x;
+  const double ln2 = 0.69314718055994530942, root2 = 1.41421356237309504880;
+  double value = x;
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  int64_t power = (int64_t)(bits >> 52) - 1023;
+  bits = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1023) << 52;
+  memcpy(&value, &bits, sizeof value);
+  if (value > root2) value *= 0.5, power++;
+  /* 2 artanh((v - 1) / (v + 1)), |argument| below 0.172 */
+  double s = (value - 1) / (value + 1), square = s * s, sum = 0;
+  for (int i = 17; i >= 1; i -= 2) sum = sum * square + 1.0 / i;
+  return (float)((double)power * ln2 + 2 * s * sum);
+}
+
+float sbri_angle_between(float a, float b) {
+  const float turn = 6.28318530717958647692f;
+  float difference = a - b;
+  if (difference > 0.5f * turn) return difference - turn;
+  return difference < -0.5f * turn ? difference + turn : difference;
+}

@@ -12,6 +12,12 @@ float sbri_atan2(float y, float x);
 /* Arc cosine, the argument clamped to [-1, 1], within 1 unit in the last place. */
 float sbri_acos(float x);
 
+/* Natural logarithm within 1 unit in the last place; of 0 and less, -87. */
+float sbri_log(float x);
+
+/* a - b, brought into [-pi, pi] from up to a turn beyond it. */
+float sbri_angle_between(float a, float b);
+
 /* e^x within 1 unit in the last place; 0 below -87, the largest float above 88.7. */
 float sbri_exp(float x);
 

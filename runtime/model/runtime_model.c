@@ -86,16 +86,24 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     island->first_flow = model->flow_count;
     if (island->link_flows) model->flow_count += island->link_block_count * SBRI_BLOCK;
     if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);
-    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) > SBRI_MOST_SUBSTEPS) {
-      const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
-      return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
-          "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it "
-          "more "
-          "mass, less stiffness or fewer points",
-          body->id, (int)SBRI_MOST_SUBSTEPS, island->fastest_rad_s);
-    }
   }
   return status;
+}
+
+/* With all that makes them fast known. */
+static sbf_status check_substeps(const sbr_model *model, sbf_diagnostic *error) {
+  for (uint32_t i = 0; i < model->island_count; i++) {
+    const sbri_island *island = &model->islands[i];
+    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MOST_SUBSTEPS) continue;
+    const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
+    double w =
+        sqrt(island->fastest_rad_s * island->fastest_rad_s + island->outer_rad_s * island->outer_rad_s);
+    return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
+        "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it more "
+        "mass, less stiffness or fewer points, or step it by position_based",
+        body->id, (int)SBRI_MOST_SUBSTEPS, w);
+  }
+  return SBF_OK;
 }
 
 static bool make_skins(sbr_model *model) {
@@ -120,8 +128,8 @@ static sbf_status make(sbr_model *model, const sbr_model_options *options, sbf_d
   if (status != SBF_OK) return status;
   if (!make_skins(model)) return no_memory(error);
   sbri_layout_make(model);
-  if (!sbri_rest_volumes_find(model)) return no_memory(error);
-  return SBF_OK;
+  if (!sbri_rest_volumes_find(model) || !sbri_outer_make(model)) return no_memory(error);
+  return check_substeps(model, error);
 }
 
 sbf_status sbr_model_create(

@@ -71,6 +71,14 @@ typedef struct sbri_visit {
   float rest_length_m;
 } sbri_visit;
 
+/* Two triangles of a sheet over one side, which bends against the angle at rest: see
+ * solvers/surface_forces.h.
+ */
+typedef struct sbri_hinge {
+  uint32_t slots[4];
+  float stiffness, rest_angle; /* J/rad^2, rad */
+} sbri_hinge;
+
 typedef struct sbri_body {
   const sbf_soft_body *source;
   const sbf_level *level; /* NULL: it has none, and moves with its bone */
@@ -91,6 +99,11 @@ typedef struct sbri_body {
   double rest_volume_m3;             /* 0: open, or without polygons */
   sbri_skin surface;                 /* vertices of its surface */
   uint32_t first_vertex, first_face; /* of them in a character's scratch */
+  float gas_pa;                      /* pressure of the gas inside at rest; 0: none */
+  double gas_volume_m3;              /* of that gas at rest */
+  float medium_kg_m3;                /* density of what pushes on its faces; 0: nothing does */
+  const sbri_hinge *hinges;
+  uint32_t hinge_count;
   bool keeps_volume;
   const sbri_face_block *volume_faces; /* the surface's over slots; NULL: its points are embedded */
   const uint32_t *volume_begins;       /* (blocks of its slots + 1), where it keeps its volume */
@@ -132,6 +145,8 @@ typedef struct sbri_island {
   float most_acceleration_m_s2;        /* of what holds it, that it is made to feel; 0: no bound */
   double fastest_rad_s;                /* mode at rest */
   double bound_rad_s;         /* no mode is faster in any state of the springs, the tetrahedra at rest */
+  double outer_rad_s;         /* what gas and bending add to any mode, as a root of squares, at most */
+  bool has_outer;             /* something acts beside springs, tetrahedra and weight */
   float rest_stretch;         /* greatest share of a spring beyond its rest length, at rest */
   double stiffness_damping_s; /* greatest damping over stiffness of its springs */
   uint32_t substeps;          /* asked for; 0: as many as needed */
@@ -146,7 +161,8 @@ typedef struct sbri_layout {
   size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
   size_t element_forces;
   size_t outer, accelerations, older_velocities, moves, edges, tears;
-  size_t surface_vertices, surface_faces, sampled, sampled_deltas, vertices, faces, sums, scratch_size;
+  size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
+      vertices, faces, sums, scratch_size;
 } sbri_layout;
 
 struct sbfi_tetrahedron;
@@ -194,6 +210,8 @@ bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *bo
 /* The springs as links; false where memory runs out. */
 bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds);
 bool sbri_visits_make(sbr_model *model, sbri_island *island);
+/* Gas, medium, hinges and fields, and how fast they make the islands; after surfaces and rest volumes. */
+bool sbri_outer_make(sbr_model *model);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
 

@@ -16,6 +16,7 @@ uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float st
   double across = stretch > 0 ? stretch : 0;
   double w = sqrt(rest * rest + across * most * most);
   if (w > most) w = most;
+  w = sqrt(w * w + MARGIN * MARGIN * island->outer_rad_s * island->outer_rad_s);
   double z = 0.5 * island->stiffness_damping_s * w;
   double needed = tick_s * w / (2 * (sqrt(1 + z * z) - z));
   return needed < 1 ? 1 : (uint32_t)needed + ((double)(uint32_t)needed < needed);

@@ -27,7 +27,7 @@ static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
     if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
-    sbri_accelerate(t, last ? stretches : NULL);
+    sbri_accelerate(t, h, last ? stretches : NULL);
     sbri_drift(t, h);
     sbri_add_accelerations(t, h);
     sbri_decay_all(t, h);

@@ -78,9 +78,9 @@ static inline void sbri_heun_keep_first(const sbri_island_tick *t, sbri_point *f
     sbri_wide_store_points(first + slot, sbri_load3(sbri_const_triple(t->accelerations, slot)));
 }
 
-static inline void sbri_heun_evaluate(const sbri_island_tick *t, float *stretches) {
+static inline void sbri_heun_evaluate(const sbri_island_tick *t, float h, float *stretches) {
   if (sbri_has_damping(t->island)) sbri_spread_velocities(t, 1 / t->tick_s);
-  sbri_accelerate(t, stretches);
+  sbri_accelerate(t, h, stretches);
 }
 
 /* The tick in units of its 2^-10th, and how far and how fast it has come in them. */
@@ -94,7 +94,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
            longest = SBRI_HEUN_UNITS;
   while (longest > 1 && SBRI_HEUN_UNITS / longest < wanted) longest /= 2;
   sbri_remember_held(t);
-  sbri_heun_evaluate(t, NULL);
+  sbri_heun_evaluate(t, unit * (float)longest, NULL);
   for (uint32_t done = 0, step = longest; done < SBRI_HEUN_UNITS;) {
     if (step > 1 && !island->substeps && sbri_heun_error(t, unit * (float)step) > t->step_error_m) {
       step /= 2;
@@ -102,17 +102,17 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
     }
     float h = unit * (float)step;
     sbri_decay_all(t, 0.5f * h);
-    if (sbri_has_damping(island)) sbri_heun_evaluate(t, NULL); /* which goes by the velocities */
+    if (sbri_has_damping(island)) sbri_heun_evaluate(t, h, NULL); /* which goes by the velocities */
     sbri_heun_keep_first(t, first);
     sbri_heun_predict(t, h);
     done += step;
     sbri_carry_held(t, (float)done / (float)SBRI_HEUN_UNITS);
-    sbri_heun_evaluate(t, NULL);
+    sbri_heun_evaluate(t, h, NULL);
     for (uint32_t b = 0; b < island->body_count; b++)
       sbri_heun_correct_body(t, &t->model->bodies[island->bodies[b]], h, first);
     sbri_decay_all(t, 0.5f * h);
     sbri_finish_substep(t, h);
-    sbri_heun_evaluate(t, done == SBRI_HEUN_UNITS ? stretches : NULL);
+    sbri_heun_evaluate(t, h, done == SBRI_HEUN_UNITS ? stretches : NULL);
     while (step < longest && done % (2 * step) == 0 &&
            sbri_heun_error(t, 2 * unit * (float)step) <= t->step_error_m)
       step *= 2;

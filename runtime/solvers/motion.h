@@ -78,7 +78,7 @@ static inline void sbri_kick_body(
 
 static inline void sbri_kick(const sbri_island_tick *t, float h, bool last, float *stretches) {
   int kind = sbri_force_kind(t, last);
-  if (t->outer) sbri_outer_forces(t);
+  if (t->outer) sbri_outer_forces(t, h);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbri_decay keep = sbri_decay_of(body, h);
@@ -114,10 +114,10 @@ static inline void sbri_accelerate_body(
   }
 }
 
-/* a(x) of all free points, into t->accelerations. */
-static inline void sbri_accelerate(const sbri_island_tick *t, float *stretches) {
+/* a(x) of all free points, into t->accelerations, for a substep of h. */
+static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *stretches) {
   int kind = sbri_force_kind(t, stretches != NULL);
-  if (t->outer) sbri_outer_forces(t);
+  if (t->outer) sbri_outer_forces(t, h);
   if (t->island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, stretches != NULL);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];

@@ -5,7 +5,15 @@
 
 #include "solvers/scheme.h"
 
-/* Their sum on each free point, into t->outer, at the present positions and velocities. */
-void sbri_outer_forces(const sbri_island_tick *t);
+/* Their sum on each free point, into t->outer, at the present positions and velocities, for a substep of h
+ * seconds. */
+void sbri_outer_forces(const sbri_island_tick *t, float h);
+
+/* Acceleration of a point at x with velocity v, all in the field's space; m/s^2. */
+sbf_vec3 sbri_field_at(const sbf_force_field *field, sbf_vec3 x, sbf_vec3 v);
+
+/* Energy of a body's hinges and its gas, J; `positions` of its island, `vertices` scratch of its surface. */
+double sbri_outer_energy(
+    const sbri_island *island, const sbri_body *body, const sbri_point *positions, sbri_point *vertices);
 
 #endif

@@ -4,10 +4,15 @@
 /* Few enough to be cheap, many enough that a sweep settles most of what a substep brings. */
 enum { LEAST_SUBSTEPS = 8, MOST_SUBSTEPS = 20 };
 
+static const double MARGIN = 1.1;
+
 uint32_t sbri_position_substeps(const sbri_island *island, double tick_s) {
   if (island->substeps) return island->substeps;
   uint32_t stable = sbri_stable_substeps(island, tick_s, island->rest_stretch);
-  return stable < LEAST_SUBSTEPS ? LEAST_SUBSTEPS : stable > MOST_SUBSTEPS ? MOST_SUBSTEPS : stable;
+  double outer = MARGIN * tick_s * island->outer_rad_s / 2; /* gas and bending are not swept */
+  uint32_t most = outer > MOST_SUBSTEPS ? (uint32_t)outer + 1 : MOST_SUBSTEPS;
+  if (most > SBRI_MOST_SUBSTEPS) most = SBRI_MOST_SUBSTEPS;
+  return stable < LEAST_SUBSTEPS ? LEAST_SUBSTEPS : stable > most ? most : stable;
 }
 
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {

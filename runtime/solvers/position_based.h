@@ -44,7 +44,7 @@ static inline void sbri_moves_begin(const sbri_island_tick *t) {
 static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float share) {
   const sbri_island *island = t->island;
   sbri_wide step = sbri_wide_all(h);
-  if (t->outer) sbri_outer_forces(t);
+  if (t->outer) sbri_outer_forces(t, h);
   sbri_decay_all(t, h); /* first: what rests must feel all of its weight */
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);

@@ -62,12 +62,27 @@ START_TEST(exponential)
 }
 END_TEST
 
+START_TEST(logarithm)
+{
+  for (int i = -1200; i <= 1200; i++) {
+    float x = (float)exp2(0.1 * i + 0.003 * (i % 7));
+    ck_assert_double_le(ulps(sbri_log(x), log((double)x)), 1.0);
+  }
+  ck_assert_float_eq(sbri_log(1), 0);
+  ck_assert_float_eq(sbri_log(0), -87);
+  ck_assert_float_eq(sbri_log(-3), -87);
+  ck_assert_float_eq_tol(sbri_angle_between(3, -3), 6 - 6.2831853f, 1e-6f);
+  ck_assert_float_eq_tol(sbri_angle_between(-3, 3), 6.2831853f - 6, 1e-6f);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("trig");
   TCase *c = tcase_create("trig");
   tcase_add_test(c, sine_and_cosine);
   tcase_add_test(c, arcs);
   tcase_add_test(c, exponential);
+  tcase_add_test(c, logarithm);
   suite_add_tcase(s, c);
   return s;
 }

@@ -200,14 +200,20 @@ SBF_API uint32_t sbr_character_points(const sbr_world *world, sbr_character_id c
     sbf_vec3 *positions, uint32_t capacity);
 
 /* What happened in a tick. */
-typedef enum sbr_event_kind { SBR_EVENT_FOOT_DOWN, SBR_EVENT_FOOT_UP, SBR_EVENT_LANDED } sbr_event_kind;
+typedef enum sbr_event_kind {
+  SBR_EVENT_FOOT_DOWN,
+  SBR_EVENT_FOOT_UP,
+  SBR_EVENT_LANDED,
+  SBR_EVENT_TEAR /* a spring tore; of more than 16 in one tick of bodies that hang together, the first */
+} sbr_event_kind;
 /* Something that happened in a step. */
 typedef struct sbr_event {
   sbr_event_kind kind;        /* what happened */
   sbr_character_id character; /* to whom */
-  uint32_t leg;               /* of the gait, from 0 */
+  uint32_t leg;               /* of the gait, from 0; 0 for a tear */
   uint64_t tick;              /* since the world began */
   sbr_double3 position;       /* world */
+  uint32_t soft_body;         /* of a tear: whose spring; else 0 */
 } sbr_event;
 /* Events since the last call, oldest first; returns how many were written. Older ones than the world keeps
  * (256) are lost. They are output, not state: snapshots do not hold them. */
@@ -221,6 +227,7 @@ typedef struct sbr_body_health {
   bool inverted;       /* an element, or the surface as a whole, is inside out */
   uint32_t recoveries; /* how often it had to be put back into its rest shape, having lost it for good */
   double kinetic_j, elastic_j, potential_j; /* potential is that of weight, 0 at the height of world y = 0 */
+  uint32_t torn;                            /* springs that have torn since it was made or reset */
 } sbr_body_health;
 SBF_API sbr_body_health sbr_character_health(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body);
