@@ -123,7 +123,7 @@ static int32_t choose(
     if (state->standing_s > 0) least = SETTLED;
     if (c->off[i] < least) continue;
     uint32_t lifted = in_air | 1u << i;
-    bool bears = c->stride.together && state->standing_s == 0;
+    bool bears = c->stride.together && (state->standing_s == 0 || rig->has_pegs);
     if (!bears) {
       float margin = sbri_support_margin(rig, state, input, lifted);
       bears = margin >= sbri_support_needed(rig, input);
@@ -187,7 +187,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     c.next = worst >= 0 ? 1u << worst : 0;
   }
   uint32_t in_air = feet_in_air(rig, state, &groups);
-  bool leans = !c.stride.together || state->standing_s > 0;
+  bool leans = !rig->has_pegs && (!c.stride.together || state->standing_s > 0);
   uint32_t lifting = leans ? (in_air ? in_air : c.next) : 0;
   if (leans && !in_air && state->standing_s == 0 && !c.next) lifting = 0;
   sbri_body_tick(rig, state, input, lifting, false);

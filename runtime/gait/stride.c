@@ -93,6 +93,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * usual + lean);
   s.together = turns > groups && one_by_one > (state->together ? 0.6f : 0.72f) * most;
   if (rig->leg_count == 2) s.together = one_by_one > (state->together ? 0.6f : 0.72f) * most;
+  if (rig->has_pegs) s.together = true; /* they could not follow a body that leans */
   s.duration_s = usual;
   float needed = one_by_one;
   if (s.together || needed > most) { /* as much time as the reach allows: the quicker a step, the harder */

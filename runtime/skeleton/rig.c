@@ -76,6 +76,7 @@ static void init_legs(sbri_rig *rig) {
     sbri_leg *leg = &rig->legs[rig->leg_count];
     if (!init_leg(rig, &rig->gait->legs.at[i], leg)) continue;
     rig->leg_count++;
+    rig->has_pegs = rig->has_pegs || leg->lower < 0;
     sbri_rig_find_sole(rig, leg);
     rig->reach += leg->upper_length + leg->lower_length;
     if (leg->group + 1 > rig->group_count) rig->group_count = leg->group + 1;

@@ -73,6 +73,7 @@ typedef struct sbri_rig {
   float half_width;     /* mean |x| of the homes */
   float reach;          /* mean of the legs' reaches, m */
   uint32_t group_count; /* of the legs */
+  bool has_pegs;        /* some leg has no knee */
 } sbri_rig;
 
 /* Bytes the tables take, and their making in a block of that size. The asset must outlive the rig. A leg
