@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sbrun/animation.h"
+
 typedef struct command {
   const char *word;
   script_kind kind;
@@ -14,6 +16,9 @@ static const command commands[] = {
     {"drive", SCRIPT_DRIVE, 2, 3},       /* forward, turn, sideways */
     {"teleport", SCRIPT_TELEPORT, 3, 4}, /* x, y, z, heading */
     {"reset", SCRIPT_RESET, 0, 0},
+    {"reach", SCRIPT_REACH, 4, 5},     /* chain, x, y, z, weight */
+    {"release", SCRIPT_RELEASE, 1, 1}, /* chain */
+    {"pivot", SCRIPT_PIVOT, 1, 1},     /* leg, or -1 */
     {"pause", SCRIPT_PAUSE, 0, 0},
     {"resume", SCRIPT_RESUME, 0, 0},
 };
@@ -34,6 +39,7 @@ static bool parse_line(char *text, script_line *line) {
       if (end == number || *end) return false;
     }
     line->kind = commands[c].kind;
+    line->count = count;
     return count >= commands[c].least;
   }
   return false;
@@ -59,9 +65,7 @@ bool script_load(script *s, cli_call *call, const char *path, int *status) {
       s->lines[s->count++] = line;
       continue;
     }
-    cli_wrong(call,
-        "%s:%u: not a command `SECONDS drive|teleport|reset|pause|resume NUMBERS` in order of time", path,
-        number);
+    cli_wrong(call, "%s:%u: not a command `SECONDS COMMAND NUMBERS` in order of time", path, number);
     *status = SBF_BAD_INPUT;
   }
   fclose(file);
@@ -87,6 +91,19 @@ void script_play(script *s, double time_s, sbr_world *world, sbr_character_id ch
       break;
     case SCRIPT_RESET:
       sbr_character_reset(world, character);
+      break;
+    case SCRIPT_REACH: {
+      const sbr_ik_target target = {.position = {n[1], n[2], n[3]},
+          .rotation = {0, 0, 0, 1},
+          .weight = line->count > 4 ? (float)n[4] : 1};
+      if (n[0] >= 0) sbr_character_ik_target(world, character, (uint32_t)n[0], &target);
+      break;
+    }
+    case SCRIPT_RELEASE:
+      if (n[0] >= 0) sbr_character_ik_target(world, character, (uint32_t)n[0], NULL);
+      break;
+    case SCRIPT_PIVOT:
+      sbr_character_pivot(world, character, (int32_t)n[0]);
       break;
     case SCRIPT_PAUSE:
       sbr_character_pause(world, character, true);

@@ -9,6 +9,9 @@ typedef enum script_kind {
   SCRIPT_DRIVE,
   SCRIPT_TELEPORT,
   SCRIPT_RESET,
+  SCRIPT_REACH,
+  SCRIPT_RELEASE,
+  SCRIPT_PIVOT,
   SCRIPT_PAUSE,
   SCRIPT_RESUME
 } script_kind;
@@ -16,7 +19,8 @@ typedef enum script_kind {
 typedef struct script_line {
   double at_s;
   script_kind kind;
-  double numbers[4];
+  double numbers[5];
+  int count; /* of them */
 } script_line;
 
 typedef struct script {

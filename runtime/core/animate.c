@@ -1,6 +1,27 @@
 /* The animation layer as hosts see it. */
 #include "core/world.h"
+#include "gait/gait_state.h"
 #include "sbrun/animation.h"
+
+void sbr_character_ik_target(
+    sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c || ik_chain >= c->model->asset->ik_chains.count) return;
+  sbri_limb_target *to = &sbri_limb_targets(&c->model->rig, sbri_gait(c))[ik_chain];
+  *to = (sbri_limb_target){.weight = 0};
+  if (!target || !(target->weight > 0)) return;
+  sbr_double3 origin = sbri_head(c)->origin;
+  to->position = (sbf_vec3){(float)(target->position.x - origin.x), (float)(target->position.y - origin.y),
+      (float)(target->position.z - origin.z)};
+  to->rotation = sbri_quat_normalize(target->rotation);
+  to->weight = sbri_clamp(target->weight, 0, 1);
+}
+
+void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t leg) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c || leg >= (int32_t)c->model->rig.leg_count) return;
+  ((sbri_gait_state *)sbri_gait(c))->pivot = leg < 0 ? 0 : (uint32_t)leg + 1;
+}
 
 float sbr_character_limit_excess(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);

@@ -53,7 +53,7 @@ static void put(const sbr_world *world, sbri_character *c, sbr_double3 position,
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbf_vec3 place = {(float)(position.x - origin.x), (float)position.y, (float)(position.z - origin.z)};
   sbri_gait_place(&c->model->rig, sbri_gait(c), &input, place, heading);
-  sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, sbri_pose(c));
+  sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, true, sbri_pose(c));
   sbr_transform root = sbri_root_place(c, &world->ground);
   sbri_pose(c)[sbri_root_frame(c->model)] = root;
   sbri_pose(c)[sbri_anchor_frame(c->model)] = root;

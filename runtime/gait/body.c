@@ -49,10 +49,9 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
-    if (leg->lower < 0) continue;
+    if (leg->lower < 0 || leg->carrier >= 0) continue;
     float reach = share * (leg->upper_length + leg->lower_length) * (1 - leg->soft_reach) * input->scale;
-    sbf_vec3 hip = sbri_scale(rig->rest[leg->upper].position, input->scale);
-    hip = sbri_add(root->position, sbri_rotate(root->rotation, hip));
+    sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
     sbf_vec3 ankle =
         sbri_ankle_over(leg, foot->ground, foot->normal, state->heading + foot->heading, input->scale);
     ankle.y += foot->lift + state->position.y;

@@ -80,7 +80,7 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
     const sbri_stride *stride, uint32_t leg) {
   const sbri_foot *foot = &state->feet[leg];
   sbf_vec3 arm = sbri_home_arm(rig, state, input, leg), home = sbri_add(state->position, arm);
-  sbf_vec3 away = sbri_sub(home, foot->ground), velocity = sbri_home_velocity(state, arm);
+  sbf_vec3 away = sbri_sub(home, foot->ground), velocity = sbri_home_velocity(rig, state, leg, arm);
   away.y = 0;
   float trigger = rig->gait->step_trigger * input->scale, twist = fabsf(foot->heading) / TWISTED;
   if (state->standing_s > 0) return sbri_length(away) / trigger + 0.15f * twist;

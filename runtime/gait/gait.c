@@ -11,7 +11,10 @@ static const float STILL = 0.004f;  /* m/s and rad/s, per metre of leg: below it
 static const float HURRY_S = 0.12f; /* over which it takes up its pace again after waiting for a foot */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
-  size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tail_bone_count;
+  size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tail_bone_count +
+                sizeof(sbri_chain_bone) * rig->chain_bone_count +
+                sizeof(sbri_limb_target) * rig->asset->ik_chains.count +
+                sizeof(sbri_bone_follower) * rig->asset->followers.count;
   return (size + 15) & ~(size_t)15;
 }
 
@@ -26,8 +29,18 @@ void sbri_gait_place(
   state->tail_bone_count = rig->tail_bone_count;
   state->pace = 1;
   state->since_lift_m = 1e6f; /* the first step waits for nothing */
-  for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
+  sbri_chain_bone *chain_bones = sbri_chain_bones(rig, state);
+  for (uint32_t c = 0; c < rig->chain_count; c++)
+    for (uint32_t k = 0; k < rig->chains[c].source->bones.count; k++) {
+      const sbr_transform *rest = &rig->rest[rig->chains[c].source->bones.at[k]];
+      sbr_transform *frame = &chain_bones[rig->chains[c].first_state + k].frame;
+      sbf_quat turn = {0, 0, 0, 1};
+      sbri_sincos(0.5f * heading, &turn.y, &turn.w);
+      frame->position = sbri_add(position, sbri_rotate(turn, sbri_scale(rest->position, input->scale)));
+      frame->rotation = sbri_quat_multiply(turn, rest->rotation);
+    }
   state->root = sbri_body_stance(rig, state, input).root;
+  for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
   sbri_body_tick(rig, state, input, 0, true);
   state->root = sbri_body_stance(rig, state, input).root;
 }
@@ -95,14 +108,14 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   lead_head(rig, state, input);
   sbri_tails_tick(rig, state, stance.hips_yaw, turned, input->tick_s);
   state->root = stance.root;
-  sbri_body_pose(rig, state, input, pose);
+  sbri_body_pose(rig, state, input, SBRI_ADVANCE_TICK, pose);
   find_center(rig, state, input, pose);
   return count;
 }
 
 void sbri_gait_pose(
-    const sbri_rig *rig, const void *state, const sbri_gait_input *input, sbr_transform *pose) {
-  sbri_body_pose(rig, state, input, pose);
+    const sbri_rig *rig, void *state, const sbri_gait_input *input, bool placed, sbr_transform *pose) {
+  sbri_body_pose(rig, state, input, placed ? SBRI_ADVANCE_RESET : SBRI_ADVANCE_NOT, pose);
 }
 
 void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
@@ -116,6 +129,14 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
     foot->from = sbri_sub(foot->from, shift);
     foot->to = sbri_sub(foot->to, shift);
   }
+  sbri_chain_bone *bones = sbri_chain_bones(rig, state);
+  for (uint32_t i = 0; i < rig->chain_bone_count; i++) {
+    bones[i].frame.position = sbri_sub(bones[i].frame.position, shift);
+    bones[i].tip = sbri_sub(bones[i].tip, shift);
+  }
+  sbri_limb_target *targets = sbri_limb_targets(rig, state);
+  for (uint32_t i = 0; i < rig->asset->ik_chains.count; i++)
+    targets[i].position = sbri_sub(targets[i].position, shift);
 }
 
 uint32_t sbri_gait_legs(

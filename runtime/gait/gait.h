@@ -35,9 +35,11 @@ void sbri_gait_place(
 uint32_t sbri_gait_tick(const sbri_rig *rig, void *state, const sbri_gait_input *input, sbr_transform *pose,
     sbri_gait_event *events, uint32_t capacity);
 
-/* The pose of the present state, without advancing it. */
+/* The pose of the present state, without advancing it; what lags begins anew where the character was
+ * `placed`.
+ */
 void sbri_gait_pose(
-    const sbri_rig *rig, const void *state, const sbri_gait_input *input, sbr_transform *pose);
+    const sbri_rig *rig, void *state, const sbri_gait_input *input, bool placed, sbr_transform *pose);
 
 /* The origin moved by `shift`: subtract it from every place. */
 void sbri_gait_rebase(const sbri_rig *rig, void *state, sbf_vec3 shift);

@@ -39,11 +39,40 @@ typedef struct sbri_gait_state {
   sbri_lag head_yaw;
   uint32_t foot_count, tail_bone_count;
   sbri_foot feet[SBRI_MOST_LEGS];
-  /* behind it: tail_bone_count x {yaw, pitch} as sbri_lag, relative to the body's heading */
+  /* Behind it: tail_bone_count x {yaw, pitch} as sbri_lag, relative to the body's heading; chain_bone_count
+   * sbri_chain_bone; a sbri_limb_target for each IK chain; a sbri_bone_follower for each follower. */
 } sbri_gait_state;
+
+/* A bone of a chain. */
+typedef struct sbri_chain_bone {
+  sbr_transform frame; /* world axes, as it was last posed */
+  sbf_vec3 tip;        /* where the next one begins */
+  sbf_vec3 velocity;   /* of its head */
+} sbri_chain_bone;
+
+/* What a host asks of an IK chain. */
+typedef struct sbri_limb_target {
+  sbf_vec3 position; /* relative to the origin */
+  sbf_quat rotation;
+  float weight; /* 0: none */
+} sbri_limb_target;
+
+typedef struct sbri_bone_follower {
+  sbri_place_follower place; /* in the parent's frame, asset metres */
+  sbri_turn_follower turn;   /* against the parent */
+} sbri_bone_follower;
 
 static inline sbri_lag *sbri_tail_lags(sbri_gait_state *state) {
   return (sbri_lag *)(void *)(state + 1);
+}
+static inline sbri_chain_bone *sbri_chain_bones(const sbri_rig *rig, sbri_gait_state *state) {
+  return (sbri_chain_bone *)(void *)(sbri_tail_lags(state) + 2 * rig->tail_bone_count);
+}
+static inline sbri_limb_target *sbri_limb_targets(const sbri_rig *rig, sbri_gait_state *state) {
+  return (sbri_limb_target *)(void *)(sbri_chain_bones(rig, state) + rig->chain_bone_count);
+}
+static inline sbri_bone_follower *sbri_bone_followers(const sbri_rig *rig, sbri_gait_state *state) {
+  return (sbri_bone_follower *)(void *)(sbri_limb_targets(rig, state) + rig->asset->ik_chains.count);
 }
 
 /* An angle brought into (-pi, pi]. */
@@ -76,7 +105,10 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
 sbf_vec3 sbri_home_arm(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 /* Velocity of a foot's home over the ground. */
-sbf_vec3 sbri_home_velocity(const sbri_gait_state *state, sbf_vec3 arm);
+sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm);
+/* Where a leg's upper bone begins when the body stands at `root`. */
+sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, const sbr_transform *root);
 /* Velocity of the body, world axes. */
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state);
 /* Where the ankle stands over the middle of a sole, m. */
@@ -143,9 +175,29 @@ void sbri_body_tick(
 
 /* ---- gait/pose.c ---- */
 
-/* The whole pose: body, head, tails, legs. */
-void sbri_body_pose(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbr_transform *pose);
+/* How far time goes on with a pose. */
+typedef enum sbri_advance { SBRI_ADVANCE_TICK, SBRI_ADVANCE_NOT, SBRI_ADVANCE_RESET } sbri_advance;
+
+/* The whole pose: body, head, tails, chains, legs, limbs with targets, followers. The state changes in what
+ * lags: chains and followers; with a reset they begin where they are led. */
+void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_advance advance, sbr_transform *pose);
+
+/* ---- gait/limbs.c ---- */
+
+/* Keeps a solved leg within its limits, as near to its foot as they allow. */
+void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sbf_vec3 pole, float scale,
+    sbr_transform *pose);
+/* Moves the limbs that the host has given targets. */
+void sbri_limbs_reach(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root, sbr_transform *pose);
+
+/* ---- chain/trailing_chain.c, chain/bone_follower.c ---- */
+
+void sbri_chains_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root, sbri_advance advance, sbr_transform *pose);
+void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root, sbri_advance advance, sbr_transform *pose);
 
 /* ---- chain/tail.c ---- */
 

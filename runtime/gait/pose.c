@@ -150,10 +150,11 @@ static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sb
       solved.knee, sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation))};
   pose_foot(rig, leg, foot, heading, sbri_quat_multiply(lower, rig->rest[leg->foot].rotation), pose);
   sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(solved.ankle, pose[leg->foot].position), pose);
+  sbri_leg_limit(rig, leg, ankle, pole, scale, pose);
 }
 
-void sbri_body_pose(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbr_transform *pose) {
+void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_advance advance, sbr_transform *pose) {
   sbri_stance stance = sbri_body_stance(rig, state, input);
   if (input->hold) {
     stance.hips_yaw = stance.chest_yaw = 0;
@@ -166,5 +167,8 @@ void sbri_body_pose(
   }
   if (input->hold) return;
   pose_bones(rig, state, &stance, input->scale, pose);
+  sbri_chains_pose(rig, state, input, &stance.root, advance, pose);
   for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, pose);
+  sbri_limbs_reach(rig, state, input, &stance.root, pose);
+  sbri_followers_pose(rig, state, input, &stance.root, advance, pose);
 }

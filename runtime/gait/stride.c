@@ -32,15 +32,39 @@ sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
 sbf_vec3 sbri_home_arm(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbf_vec3 home = rig->legs[leg].home;
+  if (rig->legs[leg].carrier >= 0) {
+    const sbr_transform *bone =
+        &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[rig->legs[leg].carrier].frame;
+    home = sbri_rotate(bone->rotation, sbri_scale(rig->legs[leg].carried_home, input->scale));
+    home = sbri_sub(sbri_add(bone->position, home), state->position);
+    return sbri_vec3(home.x, 0, home.z);
+  }
   float width = rig->gait->step_width;
   if (state->standing_s == 0 && width > 0 && home.x != 0) home.x = home.x < 0 ? -width : width;
   home.y = 0;
   return sbri_turned(sbri_scale(home, input->scale), state->heading);
 }
 
-sbf_vec3 sbri_home_velocity(const sbri_gait_state *state, sbf_vec3 arm) {
+sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm) {
+  int32_t carrier = rig->legs[leg].carrier;
+  if (carrier >= 0) {
+    sbf_vec3 v = sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[carrier].velocity;
+    return sbri_vec3(v.x, 0, v.z);
+  }
   sbf_vec3 v = sbri_body_velocity(state);
   return sbri_vec3(v.x + state->turn * arm.z, 0, v.z - state->turn * arm.x);
+}
+
+sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, const sbr_transform *root) {
+  const sbri_leg *l = &rig->legs[leg];
+  if (l->carrier >= 0) {
+    const sbr_transform *bone = &sbri_chain_bones(rig, (sbri_gait_state *)(uintptr_t)state)[l->carrier].frame;
+    sbf_vec3 own = sbri_scale(rig->rest_local[l->upper].position, input->scale);
+    return sbri_add(bone->position, sbri_rotate(bone->rotation, own));
+  }
+  sbf_vec3 hip = sbri_scale(rig->rest[l->upper].position, input->scale);
+  return sbri_add(root->position, sbri_rotate(root->rotation, hip));
 }
 
 float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg,
@@ -49,8 +73,7 @@ float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_ga
   const sbri_foot *foot = &state->feet[leg];
   float scale = input->scale, length = l->upper_length + l->lower_length,
         reach = length * (1 - l->soft_reach);
-  sbf_vec3 hip = sbri_scale(rig->rest[l->upper].position, scale);
-  hip = sbri_add(state->root.position, sbri_rotate(state->root.rotation, hip));
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
   sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
   home.y = foot->ground.y + state->position.y;
   sbf_vec3 off = sbri_sub(sbri_ankle_over(l, home, foot->normal, state->heading, scale), hip);
@@ -78,7 +101,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   sbri_stride s = {0};
   float roam = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    sbf_vec3 v = sbri_home_velocity(state, sbri_home_arm(rig, state, input, i));
+    sbf_vec3 v = sbri_home_velocity(rig, state, i, sbri_home_arm(rig, state, input, i));
     float speed = sbri_length(v);
     s.speed = speed > s.speed ? speed : s.speed;
     sbf_vec3 way = sbri_normalize(v, sbri_turned(sbri_vec3(0, 0, 1), state->heading));
@@ -125,7 +148,7 @@ float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri
     const sbri_foot *foot = &state->feet[i];
     if (!foot->planted) continue;
     sbf_vec3 arm = sbri_home_arm(rig, state, input, i), home = sbri_add(state->position, arm);
-    sbf_vec3 away = sbri_sub(home, foot->ground), v = sbri_home_velocity(state, arm);
+    sbf_vec3 away = sbri_sub(home, foot->ground), v = sbri_home_velocity(rig, state, i, arm);
     away.y = 0;
     float distance = sbri_length(away), speed = sbri_length(v), strain = sbri_strain(rig, state, input, i);
     if (strain < SLOWS_FROM || speed <= 0) continue;

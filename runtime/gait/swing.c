@@ -35,13 +35,18 @@ static float travel(const sbri_foot *foot, float t) {
 /* Ahead of where its home will be when it comes down. */
 static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg, float left_s) {
-  sbf_vec3 arm = sbri_turned(sbri_home_arm(rig, state, input, leg), state->turn * left_s);
-  sbf_vec3 drift = sbri_turned(sbri_body_velocity(state), 0.5f * state->turn * left_s);
   left_s *= state->pace;
-  sbf_vec3 home = sbri_add(sbri_add_scaled(state->position, drift, left_s), arm);
+  sbf_vec3 now = sbri_home_arm(rig, state, input, leg), drift = sbri_body_velocity(state);
+  float turned = state->turn * left_s;
+  sbf_vec3 home, velocity = sbri_home_velocity(rig, state, leg, now);
+  if (rig->legs[leg].carrier >= 0) {
+    home = sbri_add_scaled(sbri_add(state->position, now), velocity, left_s);
+  } else {
+    drift = sbri_turned(drift, 0.5f * turned);
+    home = sbri_add(sbri_add_scaled(state->position, drift, left_s), sbri_turned(now, turned));
+    velocity = sbri_turned(velocity, turned);
+  }
   if (state->standing_s > 0 || stride->speed <= 0) return home;
-  sbf_vec3 velocity =
-      sbri_turned(sbri_home_velocity(state, sbri_turned(arm, -state->turn * left_s)), state->turn * left_s);
   float speed = sbri_length(velocity);
   sbf_vec3 way = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
   return sbri_add_scaled(

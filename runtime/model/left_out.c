@@ -86,7 +86,6 @@ uint32_t sbr_model_left_out(
     dynamic += asset->rigid_bodies.at[i].motion == SBF_BODY_MOTION_DYNAMIC;
   list(&l, dynamic, "dynamic rigid bodies", "they follow their bones");
   list(&l, dynamic ? asset->joints.count : 0, "joints", "they hold nothing");
-  list(&l, asset->followers.count, "followers", "their bones do not lag");
   list(&l, asset->clips.count, "clips", "they are not played");
   return l.count;
 }

@@ -16,7 +16,8 @@ size_t sbri_rig_size(const sbf_asset *asset) {
   size_t n = asset->bones.count;
   return rounded(n * sizeof(int32_t)) + 2 * rounded(n * sizeof(sbr_transform)) + rounded(n * sizeof(float)) +
          rounded(tail_count(asset) * sizeof(sbri_tail)) + rounded(n) + rounded(n * sizeof(sbri_joint_limit)) +
-         3 * rounded(n * sizeof(uint32_t)) + rounded(n * sizeof(sbri_bone_mass)) + 16;
+         3 * rounded(n * sizeof(uint32_t)) + rounded(n * sizeof(sbri_bone_mass)) +
+         rounded(asset->chains.count * sizeof(sbri_bone_chain)) + 16;
 }
 
 static void *carve(char **memory, size_t size) {
@@ -101,6 +102,39 @@ static void init_tails(sbri_rig *rig, sbri_tail *tails) {
   }
 }
 
+static bool moves_as_tail(const sbri_rig *rig, uint32_t chain) {
+  for (uint32_t t = 0; rig->gait && t < rig->gait->tails.count; t++)
+    if (rig->gait->tails.at[t].chain == (int32_t)chain) return true;
+  return false;
+}
+
+static void init_chains(sbri_rig *rig, sbri_bone_chain *chains) {
+  for (uint32_t i = 0; i < rig->asset->chains.count; i++) {
+    const sbf_chain *source = &rig->asset->chains.at[i];
+    if (source->bones.count < 2 || moves_as_tail(rig, i)) continue;
+    chains[rig->chain_count++] = (sbri_bone_chain){source, rig->chain_bone_count};
+    rig->chain_bone_count += source->bones.count;
+  }
+}
+
+/* Legs that hang on a chain have their homes where it goes. */
+static void find_carriers(sbri_rig *rig) {
+  for (uint32_t l = 0; l < rig->leg_count; l++) {
+    sbri_leg *leg = &rig->legs[l];
+    leg->carrier = -1;
+    for (uint32_t c = 0; c < rig->chain_count; c++) {
+      const sbf_u32_list *bones = &rig->chains[c].source->bones;
+      for (uint32_t k = 0; k < bones->count; k++) {
+        const sbr_transform *rest = &rig->rest[bones->at[k]];
+        if (rig->parents[leg->upper] != (int32_t)bones->at[k]) continue;
+        leg->carrier = (int32_t)(rig->chains[c].first_state + k);
+        sbf_vec3 home = sbri_vec3(leg->home.x, 0, leg->home.z);
+        leg->carried_home = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(home, rest->position));
+      }
+    }
+  }
+}
+
 /* Every bone's stretch in an order in which what hangs on a bone follows it at once. */
 static void order_bones(const sbri_rig *rig, uint32_t *subtree, uint32_t *begin, uint32_t *end) {
   uint32_t n = rig->bone_count, roots = 0;
@@ -139,6 +173,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   uint32_t *subtree = carve(&free_memory, n * sizeof *subtree),
            *begin = carve(&free_memory, n * sizeof *begin), *end = carve(&free_memory, n * sizeof *end);
   sbri_bone_mass *masses = carve(&free_memory, n * sizeof *masses);
+  sbri_bone_chain *chains = carve(&free_memory, asset->chains.count * sizeof *chains);
   *rig = (sbri_rig){.asset = asset,
       .bone_count = n,
       .parents = parents,
@@ -152,6 +187,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
       .subtree_begin = begin,
       .subtree_end = end,
       .masses = masses,
+      .chains = chains,
       .tail_count = tail_count(asset),
       .gait = asset->gaits.count ? &asset->gaits.at[0] : NULL};
   for (uint32_t i = 0; i < n; i++) {
@@ -172,6 +208,8 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
     init_legs(rig);
     init_tails(rig, tails);
   }
+  init_chains(rig, chains);
+  find_carriers(rig);
   find_roles(rig, roles);
 }
 

@@ -24,7 +24,9 @@ typedef struct sbri_leg {
   uint32_t group;
   bool hind; /* hangs on the hips; else on the chest */
   float copy_rotation, soft_reach;
-  sbf_vec3 ankle; /* from the middle of the sole, m; `home` is above that middle */
+  int32_t carrier;       /* place among the chains' bones of the one it hangs on; -1: none */
+  sbf_vec3 carried_home; /* in that bone's frame, m */
+  sbf_vec3 ankle;        /* from the middle of the sole, m; `home` is above that middle */
   sbri_sole sole;
 } sbri_leg;
 
@@ -34,6 +36,12 @@ typedef struct sbri_tail {
   uint32_t first_state; /* place of its first bone among all tails' bones */
   float frequency, damping_ratio, limit;
 } sbri_tail;
+
+/* A chain that no tail moves. */
+typedef struct sbri_bone_chain {
+  const sbf_chain *source;
+  uint32_t first_state; /* place of its first bone among all such chains' bones */
+} sbri_bone_chain;
 
 enum { SBRI_MOST_LEGS = 16 };
 
@@ -69,6 +77,8 @@ typedef struct sbri_rig {
   uint32_t leg_count;
   const sbri_tail *tails;
   uint32_t tail_count, tail_bone_count;
+  const sbri_bone_chain *chains;
+  uint32_t chain_count, chain_bone_count;
   float hind_z, fore_z; /* mean z of the homes of hind and fore legs, asset space */
   float half_width;     /* mean |x| of the homes */
   float reach;          /* mean of the legs' reaches, m */

@@ -11,6 +11,26 @@
 extern "C" {
 #endif
 
+/* ---- Targets for limbs -------------------------------------------------------------------------------- */
+
+/* What the end of an IK chain reaches for. Begin with zeros and rotation {0, 0, 0, 1}. */
+typedef struct sbr_ik_target {
+  sbr_double3 position; /* world: where the end bone's head should be */
+  sbf_quat rotation;    /* world: what the end bone takes as much of as the chain's copy_rotation says */
+  float weight;         /* 0 (none) to 1: between the pose without it and the solved one */
+} sbr_ik_target;
+
+/* Gives one of the asset's ik_chains a target from the next tick on, until it is given another; NULL takes it
+ * away. It acts on the finished pose, legs that walk included, with the chain's own method, pole, comforts and
+ * tolerance, within the joints' limits. Chains that share their root and name FABRIK reach as one tree. A chain
+ * of more than 64 bones has no effect. */
+SBF_API void sbr_character_ik_target(
+    sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target);
+
+/* Turns about the foot of a leg of the gait, from 0, which stays planted as the others walk round it; -1: about
+ * the body's middle again. */
+SBF_API void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t leg);
+
 /* ---- Judging a pose ----------------------------------------------------------------------------------- */
 
 /* By how much the worst bone breaks its joint's limits, rad, as of the last tick; 0: none does. */

@@ -1,0 +1,34 @@
+/* Followers: bones that go after their own animated pose as second-order systems. */
+#include "gait/gait_state.h"
+
+void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root, sbri_advance advance, sbr_transform *pose) {
+  sbri_bone_follower *followers = sbri_bone_followers(rig, state);
+  for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
+    const sbf_follower *source = &rig->asset->followers.at[i];
+    uint32_t b = (uint32_t)source->bone;
+    const sbr_transform *parent = rig->parents[b] >= 0 ? &pose[rig->parents[b]] : root;
+    sbf_quat back = sbri_quat_conjugate(parent->rotation);
+    sbf_vec3 place = sbri_rotate(back, sbri_sub(pose[b].position, parent->position));
+    place = sbri_scale(place, 1 / input->scale);
+    sbf_quat turn = sbri_quat_normalize(sbri_quat_multiply(back, pose[b].rotation));
+    if (advance == SBRI_ADVANCE_RESET) {
+      sbri_place_follower_reset(&followers[i].place, place);
+      sbri_turn_follower_reset(&followers[i].turn, turn);
+    } else if (advance == SBRI_ADVANCE_TICK) {
+      sbri_follower_step step =
+          sbri_follower_step_of(source->frequency, source->damping_ratio, source->response, input->tick_s);
+      sbri_place_follower_tick(&followers[i].place, place, &step);
+      sbri_turn_follower_tick(&followers[i].turn, turn, &step);
+    }
+    if (source->channel != SBF_FOLLOWER_CHANNEL_POSITION) {
+      sbf_quat to = sbri_quat_multiply(parent->rotation, followers[i].turn.value);
+      sbri_rig_turn(rig, b, sbri_quat_multiply(to, sbri_quat_conjugate(pose[b].rotation)), pose);
+    }
+    if (source->channel != SBF_FOLLOWER_CHANNEL_ROTATION) {
+      sbf_vec3 at = sbri_scale(followers[i].place.value, input->scale);
+      at = sbri_add(parent->position, sbri_rotate(parent->rotation, at));
+      sbri_rig_shift(rig, b, sbri_sub(at, pose[b].position), pose);
+    }
+  }
+}

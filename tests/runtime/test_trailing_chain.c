@@ -1,0 +1,165 @@
+#include "gait/gait_state.h"
+#include "harness.h"
+#include "sbfmt/asset.h"
+
+#include <stdlib.h>
+
+/* A snake of eight bones of 0.2 m, head first, its body behind it. */
+enum { BONES = 8 };
+static const float LENGTH = 0.2f;
+
+typedef struct snake {
+  sbf_asset *asset;
+  sbri_rig rig;
+  void *memory, *state;
+  sbri_gait_input input;
+  sbr_ground ground;
+  sbr_transform pose[BONES];
+} snake;
+
+static void begin(snake *s, sbf_chain_kind kind, float damping) {
+  static const uint32_t order[BONES] = {0, 1, 2, 3, 4, 5, 6, 7};
+  sbf_asset *a = s->asset = sbf_asset_create(NULL);
+  sbf_bone *bones = sbf_asset_allocate(a, BONES, sizeof *bones);
+  for (int i = 0; i < BONES; i++) {
+    sbf_bone_init(&bones[i]);
+    bones[i].id = bones[i].name = "bone";
+    bones[i].parent = i - 1;
+    bones[i].head = sbri_vec3(0, 0.1f, -LENGTH * (float)i);
+    bones[i].rotation = sbri_quat_between(sbri_vec3(0, 1, 0), sbri_vec3(0, 0, -1));
+    bones[i].length = LENGTH;
+  }
+  a->bones = (sbf_bone_list){bones, BONES};
+  sbf_chain *chain = sbf_asset_allocate(a, 1, sizeof *chain);
+  sbf_chain_init(chain);
+  chain->id = "body";
+  chain->kind = kind;
+  chain->bones = (sbf_u32_list){order, BONES};
+  chain->angle_limit = 0.4f;
+  chain->damping = damping;
+  a->chains = (sbf_chain_list){chain, 1};
+  s->memory = malloc(sbri_rig_size(a));
+  sbri_rig_init(&s->rig, a, s->memory);
+  s->ground = sbr_ground_flat(0);
+  s->input = (sbri_gait_input){.tick_s = 1.0f / 60, .scale = 1, .ground = &s->ground};
+  s->state = malloc(sbri_gait_state_size(&s->rig));
+  sbri_gait_place(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
+  sbri_gait_pose(&s->rig, s->state, &s->input, true, s->pose);
+}
+
+static void end(snake *s) {
+  free(s->state);
+  free(s->memory);
+  sbf_asset_free(s->asset);
+}
+
+static void run(snake *s, double seconds, float forward, float turn) {
+  s->input.forward = forward;
+  s->input.turn = turn;
+  for (int i = 0; i < (int)(60 * seconds); i++) {
+    sbri_gait_tick(&s->rig, s->state, &s->input, s->pose, NULL, 0);
+    for (int k = 1; k < BONES; k++) {
+      float apart = sbri_length(sbri_sub(s->pose[k].position, s->pose[k - 1].position));
+      ck_assert_float_eq_tol(apart, LENGTH, 1e-4f);
+    }
+  }
+}
+
+static sbf_vec3 along(const snake *s, int k) {
+  return sbri_rotate(s->pose[k].rotation, sbri_vec3(0, 1, 0));
+}
+
+static float most_bend(const snake *s) {
+  float most = 0;
+  for (int k = 1; k < BONES; k++)
+    most = fmaxf(most, acosf(sbri_clamp(sbri_dot(along(s, k), along(s, k - 1)), -1, 1)));
+  return most;
+}
+
+START_TEST(at_rest_it_is_as_modelled)
+{
+  snake s;
+  begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
+  run(&s, 1, 0, 0);
+  for (int k = 0; k < BONES; k++)
+    ck_assert_float_le(sbri_length(sbri_sub(s.pose[k].position, s.rig.rest[k].position)), 1e-4f);
+  end(&s);
+}
+END_TEST
+
+START_TEST(the_body_goes_where_the_head_went)
+{
+  snake s;
+  begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
+  run(&s, 3, 0.5f, 0);
+  run(&s, 2, 0.5f, 0.8f);
+  ck_assert_float_gt(most_bend(&s), 0.05f);
+  ck_assert_float_le(most_bend(&s), 0.41f);
+  /* Its last bone still lies near the straight line that the head came along. */
+  ck_assert_float_lt(fabsf(s.pose[BONES - 1].position.x), 0.5f * fabsf(s.pose[0].position.x));
+  end(&s);
+}
+END_TEST
+
+START_TEST(the_bend_is_bounded)
+{
+  snake s;
+  begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
+  run(&s, 4, 0.05f, 3);
+  ck_assert_float_le(most_bend(&s), 0.401f);
+  end(&s);
+}
+END_TEST
+
+START_TEST(damping_straightens_it_at_rest)
+{
+  snake stiff, limp;
+  begin(&stiff, SBF_CHAIN_KIND_DISTANCE, 3);
+  begin(&limp, SBF_CHAIN_KIND_DISTANCE, 0);
+  run(&stiff, 3, 0.4f, 1.2f), run(&limp, 3, 0.4f, 1.2f);
+  run(&stiff, 5, 0, 0), run(&limp, 5, 0, 0);
+  ck_assert_float_lt(most_bend(&stiff), 0.12f);
+  ck_assert_float_gt(most_bend(&limp), 2 * most_bend(&stiff));
+  end(&stiff), end(&limp);
+}
+END_TEST
+
+START_TEST(a_lagging_chain_keeps_its_direction_for_a_while)
+{
+  snake s;
+  begin(&s, SBF_CHAIN_KIND_LAG, 4);
+  run(&s, 1, 0, 1);
+  ck_assert_float_gt(most_bend(&s), 0.02f);
+  run(&s, 5, 0, 0);
+  ck_assert_float_lt(most_bend(&s), 0.01f);
+  end(&s);
+}
+END_TEST
+
+START_TEST(it_lies_on_the_ground)
+{
+  snake s;
+  begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
+  s.ground = sbr_ground_slope(15);
+  run(&s, 6, 0.5f, 0);
+  for (int k = 0; k < BONES; k++) {
+    sbf_vec3 p = s.pose[k].position, normal;
+    float ground = (float)s.ground.height(&s.ground, (double)p.x, (double)p.z, &normal);
+    ck_assert_float_eq_tol(p.y - ground, 0.1f, 0.06f); /* its head is held level */
+  }
+  end(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("trailing_chain");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, at_rest_it_is_as_modelled);
+  tcase_add_test(tests, the_body_goes_where_the_head_went);
+  tcase_add_test(tests, the_bend_is_bounded);
+  tcase_add_test(tests, damping_straightens_it_at_rest);
+  tcase_add_test(tests, a_lagging_chain_keeps_its_direction_for_a_while);
+  tcase_add_test(tests, it_lies_on_the_ground);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
