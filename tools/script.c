@@ -18,6 +18,7 @@ static const command commands[] = {
     {"reset", SCRIPT_RESET, 0, 0},
     {"reach", SCRIPT_REACH, 4, 5},     /* chain, x, y, z, weight */
     {"release", SCRIPT_RELEASE, 1, 1}, /* chain */
+    {"play", SCRIPT_PLAY, 1, 4},       /* clip, weight, fade, layer */
     {"pivot", SCRIPT_PIVOT, 1, 1},     /* leg, or -1 */
     {"pause", SCRIPT_PAUSE, 0, 0},
     {"resume", SCRIPT_RESUME, 0, 0},
@@ -102,6 +103,14 @@ void script_play(script *s, double time_s, sbr_world *world, sbr_character_id ch
     case SCRIPT_RELEASE:
       if (n[0] >= 0) sbr_character_ik_target(world, character, (uint32_t)n[0], NULL);
       break;
+    case SCRIPT_PLAY: {
+      const sbr_clip_play how = {.weight = line->count > 1 ? (float)n[1] : 1,
+          .fade_s = (float)n[2],
+          .speed = 1,
+          .bone_mask = SBF_NONE};
+      sbr_character_play(world, character, n[3] > 0 ? (uint32_t)n[3] : 0, (int32_t)n[0], &how);
+      break;
+    }
     case SCRIPT_PIVOT:
       sbr_character_pivot(world, character, (int32_t)n[0]);
       break;

@@ -23,6 +23,20 @@ void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t l
   ((sbri_gait_state *)sbri_gait(c))->pivot = leg < 0 ? 0 : (uint32_t)leg + 1;
 }
 
+void sbr_character_play(
+    sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c || !how || layer >= SBRI_CLIP_LAYERS || clip >= (int32_t)c->model->asset->clips.count) return;
+  sbri_clip_layer *l = &((sbri_gait_state *)sbri_gait(c))->clips[layer];
+  l->fade_s = how->fade_s > 0 ? how->fade_s : 0;
+  l->wanted = clip < 0 ? 0 : sbri_clamp(how->weight, 0, 1);
+  if (clip < 0) return;
+  if (l->clip_plus_1 != (uint32_t)clip + 1) l->time_s = how->start_s, l->weight = 0;
+  l->clip_plus_1 = (uint32_t)clip + 1;
+  l->mask_plus_1 = how->bone_mask < 0 ? 0 : (uint32_t)how->bone_mask + 1;
+  l->speed = how->speed;
+}
+
 float sbr_character_limit_excess(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);
   return c ? sbri_rig_limit_excess(&c->model->rig, sbri_pose(c)) : 0;

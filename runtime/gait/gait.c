@@ -101,6 +101,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   sbri_gait_state *state = memory;
   uint32_t count = 0;
   float turned = move_body(rig, state, input);
+  sbri_clips_tick(rig, state, input->tick_s);
   for (uint32_t i = 0; i < rig->leg_count; i++) /* a planted foot does not turn with the body */
     if (state->feet[i].planted) state->feet[i].heading = sbri_wrap_angle(state->feet[i].heading - turned);
   if (!input->hold && rig->leg_count) count = sbri_feet_tick(rig, state, input, events, capacity);

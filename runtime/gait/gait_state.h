@@ -21,6 +21,13 @@ typedef struct sbri_foot {
   uint32_t steps_taken;
 } sbri_foot;
 
+/* A clip that plays, or none. */
+enum { SBRI_CLIP_LAYERS = 4 };
+typedef struct sbri_clip_layer {
+  uint32_t clip_plus_1, mask_plus_1; /* 0: none */
+  float time_s, speed, weight, wanted, fade_s;
+} sbri_clip_layer;
+
 typedef struct sbri_gait_state {
   sbf_vec3 position; /* where the asset's origin stands; y: how far all is raised above the ground */
   float heading;     /* rad, in (-pi, pi] */
@@ -38,6 +45,7 @@ typedef struct sbri_gait_state {
   double distance_m;
   sbri_lag head_yaw;
   uint32_t foot_count, tail_bone_count;
+  sbri_clip_layer clips[SBRI_CLIP_LAYERS];
   sbri_foot feet[SBRI_MOST_LEGS];
   /* Behind it: tail_bone_count x {yaw, pitch} as sbri_lag, relative to the body's heading; chain_bone_count
    * sbri_chain_bone; a sbri_limb_target for each IK chain; a sbri_bone_follower for each follower. */
@@ -182,6 +190,12 @@ typedef enum sbri_advance { SBRI_ADVANCE_TICK, SBRI_ADVANCE_NOT, SBRI_ADVANCE_RE
  * lags: chains and followers; with a reset they begin where they are led. */
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *pose);
+
+/* ---- gait/clips.c ---- */
+
+void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s);
+/* Every bone against its parent before the gait: place in asset metres, rotation. */
+void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals);
 
 /* ---- gait/limbs.c ---- */
 

@@ -47,15 +47,16 @@ static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *
   pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, held));
 }
 
-/* All bones before the legs are solved, parents first. */
+/* All bones before the legs are solved, parents first: `pose` holds them against their parents, and then in
+ * world axes. */
 static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
     float scale, sbr_transform *pose) {
   sbf_vec3 up = sbri_rotate(stance->root.rotation, UP);
   for (uint32_t i = 0; i < rig->bone_count; i++) {
     const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &stance->root;
-    sbf_vec3 offset = sbri_scale(rig->rest_local[i].position, scale);
+    sbf_vec3 offset = sbri_scale(pose[i].position, scale); /* against its parent so far */
+    sbf_quat is = sbri_quat_multiply(parent->rotation, pose[i].rotation), turn;
     pose[i].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
-    sbf_quat is = sbri_quat_multiply(parent->rotation, rig->rest_local[i].rotation), turn;
     switch (rig->roles[i]) {
     case SBRI_ROLE_SPINE:
       turn =
@@ -68,7 +69,8 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
       turn = tail_turn(rig, state, stance, i, up);
       break;
     default:
-      pose[i].rotation = is;
+      pose[i].rotation = sbri_quat_normalize(is);
+      if (state->clips[0].clip_plus_1 || rig->asset->poses.count) limit_bone(rig, i, parent, pose);
       continue;
     }
     pose[i].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, is));
@@ -166,6 +168,7 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
     pose[i].rotation = sbri_quat_multiply(stance.root.rotation, rig->rest[i].rotation);
   }
   if (input->hold) return;
+  sbri_clips_pose(rig, state, input->scale, pose);
   pose_bones(rig, state, &stance, input->scale, pose);
   sbri_chains_pose(rig, state, input, &stance.root, advance, pose);
   for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, pose);

@@ -86,6 +86,5 @@ uint32_t sbr_model_left_out(
     dynamic += asset->rigid_bodies.at[i].motion == SBF_BODY_MOTION_DYNAMIC;
   list(&l, dynamic, "dynamic rigid bodies", "they follow their bones");
   list(&l, dynamic ? asset->joints.count : 0, "joints", "they hold nothing");
-  list(&l, asset->clips.count, "clips", "they are not played");
   return l.count;
 }

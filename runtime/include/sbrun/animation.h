@@ -21,15 +21,33 @@ typedef struct sbr_ik_target {
 } sbr_ik_target;
 
 /* Gives one of the asset's ik_chains a target from the next tick on, until it is given another; NULL takes it
- * away. It acts on the finished pose, legs that walk included, with the chain's own method, pole, comforts and
- * tolerance, within the joints' limits. Chains that share their root and name FABRIK reach as one tree. A chain
- * of more than 64 bones has no effect. */
+ * away. It acts on the finished pose, legs that walk included, with the chain's own method, pole, comforts
+ * and tolerance, within the joints' limits. Chains that share their root and name FABRIK reach as one tree. A
+ * chain of more than 64 bones has no effect. */
 SBF_API void sbr_character_ik_target(
     sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target);
 
-/* Turns about the foot of a leg of the gait, from 0, which stays planted as the others walk round it; -1: about
- * the body's middle again. */
+/* Turns about the foot of a leg of the gait, from 0, which stays planted as the others walk round it; -1:
+ * about the body's middle again. */
 SBF_API void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t leg);
+
+/* ---- Clips -------------------------------------------------------------------------------------------- */
+
+/* How a clip is played. Begin with zeros and weight, speed 1. */
+typedef struct sbr_clip_play {
+  float weight;      /* 0 to 1, of the layer over those below */
+  float fade_s;      /* over which the weight goes there from what it is; 0: at once */
+  float speed;       /* 1: as keyed; negative: backwards */
+  float start_s;     /* where in the clip it begins, if it is not the one that plays in the layer already */
+  int32_t bone_mask; /* of the asset's bone_masks; SBF_NONE: all bones */
+} sbr_clip_play;
+
+/* Plays a clip of the asset in one of four layers (from 0; higher ones over lower ones), under the gait:
+ * heads, tails, chains, legs and limbs with targets move as ever on top of it. What a clip does to the gait's
+ * body bone along the ground is left to the gait; scales are not played. SBF_NONE fades the layer's clip out.
+ */
+SBF_API void sbr_character_play(
+    sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how);
 
 /* ---- Judging a pose ----------------------------------------------------------------------------------- */
 
