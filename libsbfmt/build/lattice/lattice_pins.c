@@ -10,6 +10,12 @@
 /* As a share of the cell: so near to the surface a point is on it. */
 static const double on_surface = 0.01;
 
+/* Where a point on the surface stands: on which source points, with which weights. */
+typedef struct footing {
+  uint32_t corners[3]; /* the first is SBFI_NO_INDEX where it is not on the surface */
+  double weights[3];
+} footing;
+
 typedef struct work {
   sbf_level *level;
   const sbf_soft_body *body;
@@ -18,7 +24,7 @@ typedef struct work {
   sbfi_triangle_tree surface;
   sbfi_box_tree points; /* of the level */
   double *depths2;      /* (level points) squared distances from the surface */
-  uint32_t *corners;    /* (level points) source point of one on the surface; SBFI_NO_INDEX: it is not */
+  footing *footings;    /* (level points) */
   uint8_t *taken;       /* (level points) some set has it */
 } work;
 
@@ -46,28 +52,27 @@ static bool box_points(work *w) {
   return sbfi_box_tree_build(&w->points, boxes, points->count, w->scratch);
 }
 
-/* How deep every point lies, and the corner nearest to those on the surface. */
+/* How deep every point lies, and where those on the surface stand. */
 static bool find_depths(work *w) {
   const sbf_vec3_list *points = &w->level->positions;
   w->depths2 = sbfi_arena_allocate(w->scratch, points->count, sizeof *w->depths2);
-  w->corners = sbfi_arena_allocate(w->scratch, points->count, sizeof *w->corners);
+  w->footings = sbfi_arena_allocate(w->scratch, points->count, sizeof *w->footings);
   w->taken = sbfi_arena_allocate(w->scratch, points->count, 1);
-  if (!w->depths2 || !w->corners || !w->taken) return false;
+  if (!w->depths2 || !w->footings || !w->taken) return false;
   double near = on_surface * w->level->cell;
   for (uint32_t i = 0; i < points->count; i++) {
-    double least = INFINITY, at[3], nearest = INFINITY;
+    double least = INFINITY, at[3], ends[3][3];
     uint32_t triangle = sbfi_triangle_tree_nearest(&w->surface, points->at[i], &least);
+    footing *on = &w->footings[i];
     w->depths2[i] = least;
-    w->corners[i] = SBFI_NO_INDEX;
+    on->corners[0] = SBFI_NO_INDEX;
     if (triangle == UINT32_MAX || least > near * near) continue;
     load(points->at[i], at);
     for (int k = 0; k < 3; k++) {
-      uint32_t corner = w->surface.triangles[triangle].points[k];
-      double distance = squared_between(w->body->surface.positions.at[corner], at);
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      w->corners[i] = corner;
+      on->corners[k] = w->surface.triangles[triangle].points[k];
+      load(w->body->surface.positions.at[on->corners[k]], ends[k]);
     }
+    sbfi_triangle_closest(ends[0], ends[1], ends[2], at, on->weights);
   }
   return true;
 }
@@ -82,6 +87,18 @@ static float weight_of(const sbf_pin_set *set, uint32_t i) {
   return set->weights.at[set->weights.count == 1 ? 0 : i];
 }
 
+/* Of a point between source points all of which the set has, their mean weight; else -1. */
+static float weight_between(const footing *on, const float *at_source) {
+  double sum = 0;
+  if (on->corners[0] == SBFI_NO_INDEX) return -1;
+  for (int k = 0; k < 3; k++) {
+    if (!(on->weights[k] > 1e-3)) continue;
+    if (at_source[on->corners[k]] < 0) return -1;
+    sum += on->weights[k] * at_source[on->corners[k]];
+  }
+  return sum > 0.999 ? 1 : (float)sum;
+}
+
 /* The set at the level's points. */
 static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   uint32_t sources = w->body->surface.positions.count + w->body->interior.count;
@@ -91,8 +108,7 @@ static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   if (!at_source || !at_level) return false;
   for (uint32_t i = 0; i < sources; i++) at_source[i] = -1;
   for (uint32_t i = 0; i < from->points.count; i++) at_source[from->points.at[i]] = weight_of(from, i);
-  for (uint32_t i = 0; i < points; i++)
-    at_level[i] = w->corners[i] == SBFI_NO_INDEX ? -1 : at_source[w->corners[i]];
+  for (uint32_t i = 0; i < points; i++) at_level[i] = weight_between(&w->footings[i], at_source);
   for (uint32_t i = 0; i < from->points.count; i++) {
     double at[3], least = INFINITY;
     load(source_point(w, from->points.at[i]), at);

@@ -6,9 +6,10 @@
 #include "sbfmt/asset.h"
 
 /* Gives the level, whose positions are in place, its pin sets, marked with `derivation`:
- *   each set of the body, and each explicit attachment: the level's points on the surface whose nearest
- * corner of the nearest triangle is in it, with that corner's weight, and the level's point nearest to each
- * of the set's points, which so holds something however small it is. Of several sets the first has a point.
+ *   each set of the body, and each explicit attachment: the level's points on the surface that lie between
+ * source points all of which are in it, with the weight between theirs, and the level's point nearest to each
+ * of the set's points, which so holds something however small it is: a finer lattice is held in no other
+ * place. Of several sets the first has a point.
  * They are held where they are at rest: offsets, which are those of the body's points, are left out;
  *   "interior" in a body with a bone: the points at least half as deep under the surface as the deepest, less
  * those; attachments by a hull: the points inside it that no set before holds. False where memory runs out.

@@ -1,0 +1,62 @@
+/* The modulus with which a coarse lattice stands for what it was made of.
+ *
+ * Linear tetrahedra bend too stiffly, the more so the coarser they are: numerical coarsening (Kharevych et
+ * al. 2009) gives them another modulus. Here it is one factor a level: that with which the level gives as
+ * much under small loads (level_statics.h), averaged over the surface and summed over the loads, as a
+ * reference of some 16,000 tetrahedra does. What is softest, mostly bending, so counts most. */
+#ifndef SBFI_CALIBRATE_H
+#define SBFI_CALIBRATE_H
+
+#include "build/lattice/lattice_level.h"
+#include "build/levels/level_statics.h"
+
+enum { SBFI_REFERENCE_ELEMENTS = 16000 };
+
+/* A level that others are compared with, and how it gives. */
+typedef struct sbfi_reference {
+  sbf_asset *memory; /* of a level made for it; NULL: the level is another's */
+  sbfi_arena arena;  /* of the rest */
+  sbf_level made;
+  sbfi_level_statics statics;
+  bool sound;   /* it resists; else nothing below is known */
+  double small; /* m/s^2, of the loads for the fit */
+  double fall;  /* m/s^2, of gravity */
+  sbfi_rest rests[SBFI_MOST_LOADS];
+  double *gives[SBFI_MOST_LOADS];    /* (3 x surface points) m, under small loads */
+  double *falls[SBFI_MOST_LOADS];    /* the same under gravity; NULL: not asked for, or it comes to no rest */
+  double yieldings[SBFI_MOST_LOADS]; /* m, under small loads */
+} sbfi_reference;
+
+/* Makes a lattice of the body, which has polygons, and measures how it gives; under gravity only where that
+ * `falls` is asked for. Where nothing is enclosed it is not sound. `asset` has bones and rigid bodies. To be
+ * freed whatever the outcome. */
+sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_soft_body *body,
+    const sbf_asset *asset, bool falls, sbfi_lattice_progress progress, const sbf_allocator *allocator);
+
+/* The same of a level that is there, and stays so as long as the reference; `interior` as for a carrier. */
+sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
+    const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset, bool falls,
+    sbfi_lattice_progress progress, const sbf_allocator *allocator);
+
+void sbfi_reference_free(sbfi_reference *reference);
+
+/* Angular frequency of its slowest swing under one of the loads, rad/s; 0: not known. */
+double sbfi_reference_frequency(const sbfi_reference *reference);
+
+/* How a level compares. */
+typedef struct sbfi_calibration {
+  double factor;       /* on the modulus; 1 where nothing was changed */
+  double residual;     /* greatest share by which it yields otherwise under one of the small loads */
+  double period_error; /* share by which it swings slower under the load it yields to most; NAN: not known */
+  double error;        /* m, greatest distance of a surface point from where the reference has it under
+                          gravity along one of the axes; 0: the reference has no falls */
+} sbfi_calibration;
+
+/* Calibrates a level of tetrahedra, whose lists become memory of `asset`, and compares it; another level is
+ * compared alone, and one of jiggle as one that does not give. Sets the level's simulation error, and its
+ * cost for a control tick of `tick` s. `interior` as for a carrier. False where memory runs out. */
+bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
+    const sbfi_reference *reference, double tick, sbf_asset *asset, sbfi_calibration *calibration,
+    const sbf_allocator *allocator);
+
+#endif
