@@ -12,18 +12,23 @@ enum { METHOD_COUNT = sizeof methods / sizeof *methods, SURFACE = METHOD_COUNT -
 static bool read_options(const cli_call *call, sbf_build_options *options) {
   int method = SBF_BUILD_INTERIOR_AUTOMATIC;
   *options = (sbf_build_options){.user = NULL};
-  long elements = 0;
+  long elements = 0, levels = 1;
   static const char *const cuts[] = {"auto", "none"}; /* as sbf_build_sections */
   int sections = SBF_BUILD_SECTIONS_AUTOMATIC;
   if (!cli_word(call, "--springs", methods, METHOD_COUNT, &method) ||
       !cli_number(call, "--cell", 1e-9, 1e9, &options->cell_m) ||
       !cli_integer(call, "--elements", 1, 100000000, &elements) ||
       !cli_word(call, "--sections", cuts, 2, &sections) ||
-      !cli_number(call, "--overlap", 1e-9, 1e9, &options->overlap_m))
+      !cli_number(call, "--overlap", 1e-9, 1e9, &options->overlap_m) ||
+      !cli_number(call, "--error", 1e-9, 1e9, &options->error_m) ||
+      !cli_integer(call, "--levels", 1, 8, &levels))
     return false;
   options->sections = (sbf_build_sections)sections;
+  if (options->error_m > 0 && !cli_value(call, "--springs")) method = SBF_BUILD_INTERIOR_TETRAHEDRA;
   options->interior = method == SURFACE ? SBF_BUILD_INTERIOR_NONE : (sbf_build_interior)method;
   options->elements = (uint32_t)elements;
+  options->levels = levels > 1 ? (uint32_t)levels : 0;
+  options->without_calibration = cli_switch(call, "--no-calibration");
   return true;
 }
 
@@ -57,6 +62,12 @@ static void print_report(const sbf_build_report *r) {
   printf("built %u bodies: %u interior points, %u pins, %u hulls, %u embedded vertices\n", r->bodies,
       r->interior_points, r->pins, r->hulls, r->embedded_vertices);
   if (r->tetrahedra) print_lattices(r);
+  if (r->calibrated)
+    printf("calibrated %u lattices: modulus times %.3g to %.3g, gives within %.3g %% of the reference under "
+           "every "
+           "load, swings within %.3g %%\n",
+        r->calibrated, r->least_factor, r->most_factor, 100 * r->most_residual, 100 * r->most_period_error);
+  if (r->levels) printf("levels: %u beside the finest\n", r->levels);
   printf("springs: %u structural, %u shear, %u flexion, %u internal", r->springs[SBF_SPRING_KIND_STRUCTURAL],
       r->springs[SBF_SPRING_KIND_SHEAR], r->springs[SBF_SPRING_KIND_FLEXION],
       r->springs[SBF_SPRING_KIND_INTERNAL] + r->inert_springs);

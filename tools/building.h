@@ -12,6 +12,10 @@
       "(automatic)"},                                                                                        \
       {"--cell", "METRES", "edge of a lattice's cubes (by --elements)"},                                     \
       {"--elements", "N", "about so many tetrahedra a body (2000, thin ones up to 16000)"},                  \
+      {"--error", "METRES",                                                                                  \
+          "the coarsest lattice that gives so nearly as a fine one does; takes tetrahedra"},                 \
+      {"--levels", "N", "levels a body, finest first: coarser lattices, springs, jiggle (1)"},               \
+      {"--no-calibration", NULL, "leave the modulus of coarse lattices as it is"},                           \
       {"--sections", "auto|none", "cut skinned meshes into sections, where no body is on a bone (auto)"}, {  \
     "--overlap", "METRES", "how far sections reach over a cut (half the limb's radius there)"                \
   }

@@ -1,6 +1,7 @@
 #include "sbfmt/build.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,6 +9,7 @@
 #include "build/embed/embed.h"
 #include "build/geometry/topology.h"
 #include "build/lattice/lattice_level.h"
+#include "build/levels/ladder.h"
 #include "build/sections/level_pins.h"
 #include "build/sections/section_frame.h"
 #include "build/sections/section_hulls.h"
@@ -283,30 +285,67 @@ static bool lattice_progress(void *user, double done) {
   return progress(b, "lattices", 0.2 + 0.4 * (share->number + done) / b->asset->soft_bodies.count) == SBF_OK;
 }
 
-static sbf_status too_fine(build *b, uint32_t number) {
-  return report_of_body(b, number, SBF_CODE_LATTICE_TOO_FINE,
-      "a lattice of this cell in soft body \"%s\" would have more than 2^28 nodes: give a larger cell",
-      b->bodies[number].name);
-}
-
-static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_arena *scratch) {
-  const sbf_soft_body *body = &b->bodies[number];
-  const sbfi_lattice_recipe recipe = {b->options.cell_m, b->options.elements, DERIVATION};
-  sbfi_lattice_counts counts;
-  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
-  if (!level) return no_memory(b);
-  lattice_share share = {b, number};
-  switch (sbfi_lattice_level_make(
-      level, body, &recipe, b->asset, &counts, (sbfi_lattice_progress){lattice_progress, &share}, scratch)) {
-  case SBFI_LATTICE_MADE:
-    break;
+static sbf_status outcome_status(build *b, uint32_t number, sbfi_lattice_outcome outcome) {
+  switch (outcome) {
   case SBFI_LATTICE_NO_MEMORY:
     return no_memory(b);
   case SBFI_LATTICE_CANCELLED:
     return SBF_FAILED; /* `error` says so */
   case SBFI_LATTICE_TOO_FINE:
-    return too_fine(b, number);
+    return report_of_body(b, number, SBF_CODE_LATTICE_TOO_FINE,
+        "a lattice of this cell in soft body \"%s\" would have more than 2^28 nodes: give a larger cell",
+        b->bodies[number].name);
+  case SBFI_LATTICE_MADE:
+    break;
   }
+  return SBF_OK;
+}
+
+static void note_calibration(build *b, const sbfi_calibration *c) {
+  sbf_build_report *r = &b->report;
+  if (r->calibrated == 0 || c->factor < r->least_factor) r->least_factor = c->factor;
+  if (c->factor > r->most_factor) r->most_factor = c->factor;
+  if (c->residual > r->most_residual) r->most_residual = c->residual;
+  if (fabs(c->period_error) > r->most_period_error) r->most_period_error = fabs(c->period_error);
+  r->calibrated++;
+}
+
+/* The rest of the levels of a body whose finest has been made, and what they are worth. */
+static sbf_status make_ladder(build *b, uint32_t number, sbfi_ladder *ladder) {
+  sbf_soft_body *body = &b->bodies[number];
+  sbfi_interior_map *map = &b->maps[number], springs = {SBFI_NO_INDEX, NULL};
+  bool of_springs = body->levels.at[0].model == SBF_ELASTIC_MODEL_SPRINGS;
+  sbf_status status = outcome_status(
+      b, number, sbfi_ladder_make(ladder, body->levels.at, of_springs ? map : NULL, &springs, &b->scratch));
+  if (status != SBF_OK) return status;
+  if (!of_springs) *map = springs;
+  body->levels = (sbf_level_list){ladder->levels, ladder->level_count};
+  b->report.levels += ladder->level_count - 1;
+  for (uint32_t l = 0; l < ladder->level_count; l++)
+    if (ladder->measured[l] && ladder->levels[l].model == SBF_ELASTIC_MODEL_TETRAHEDRA)
+      note_calibration(b, &ladder->calibrations[l]);
+  return SBF_OK;
+}
+
+static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
+  const sbf_soft_body *body = &b->bodies[number];
+  sbfi_lattice_recipe recipe = {b->options.cell_m, b->options.elements, DERIVATION};
+  sbfi_lattice_counts counts;
+  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
+  if (!level) return no_memory(b);
+  if (b->options.error_m > 0) {
+    bool met;
+    recipe.cell = 0;
+    sbf_status status = outcome_status(b, number, sbfi_ladder_pick(ladder, &recipe.elements, &met));
+    if (status != SBF_OK) return status;
+    if (!met)
+      report_of_body(b, number, SBF_CODE_LEVEL_ERROR_MISSED,
+          "no lattice of soft body \"%s\" coarser than %u tetrahedra comes within %.4g m: it gets so many",
+          body->name, (unsigned)recipe.elements, b->options.error_m);
+  }
+  sbf_status status = outcome_status(
+      b, number, sbfi_lattice_level_make(level, body, &recipe, b->asset, &counts, ladder->progress, scratch));
+  if (status != SBF_OK) return status;
   if (counts.tetrahedra == 0) {
     report_of_body(b, number, SBF_CODE_LATTICE_EMPTY,
         "soft body \"%s\" encloses nothing that a lattice of %.4g m could fill: it gets springs over its "
@@ -337,17 +376,10 @@ static sbf_status make_section(build *b, uint32_t number, sbfi_arena *scratch) {
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   if (!level) return no_memory(b);
   lattice_share share = {b, number};
-  switch (sbfi_section_level_make(
-      level, body, &recipe, b->asset, &counts, (sbfi_lattice_progress){lattice_progress, &share}, scratch)) {
-  case SBFI_LATTICE_MADE:
-    break;
-  case SBFI_LATTICE_NO_MEMORY:
-    return no_memory(b);
-  case SBFI_LATTICE_CANCELLED:
-    return SBF_FAILED; /* `error` says so */
-  case SBFI_LATTICE_TOO_FINE:
-    return too_fine(b, number);
-  }
+  sbf_status status = outcome_status(b, number,
+      sbfi_section_level_make(level, body, &recipe, b->asset, &counts,
+          (sbfi_lattice_progress){lattice_progress, &share}, scratch));
+  if (status != SBF_OK) return status;
   if (counts.points == 0)
     return make_springs(b, number, SBF_BUILD_INTERIOR_CENTROID, scratch) ? SBF_OK : no_memory(b);
   take_level(b, number, level, counts.pins);
@@ -373,17 +405,26 @@ static sbf_status make_level(build *b, uint32_t number) {
   sbf_build_interior interior = interior_of(b, &b->bodies[number]);
   sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
   sbf_status status = SBF_OK;
+  const sbf_build_options *o = &b->options;
+  lattice_share share = {b, number};
+  const sbfi_ladder_recipe recipe = {o->levels > 1 ? o->levels : 1, o->error_m, !o->without_calibration,
+      !o->without_flexion, (double)b->asset->environment.control_tick, DERIVATION};
+  sbfi_ladder ladder;
+  sbfi_ladder_init(&ladder, &b->bodies[number], &recipe, b->asset,
+      (sbfi_lattice_progress){lattice_progress, &share}, &b->scratch.allocator);
   if (interior == SBF_BUILD_INTERIOR_BRUTE && b->bodies[number].surface.positions.count > MOST_BRUTE_POINTS)
     status = report_of_body(b, number, SBF_CODE_INTERIOR_TOO_MANY,
         "soft body \"%s\" has more than %d points: springs between all of them are for comparing small "
         "bodies",
         b->bodies[number].name, MOST_BRUTE_POINTS);
   else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
-    status = make_tetrahedra(b, number, &scratch);
+    status = make_tetrahedra(b, number, &ladder, &scratch);
   else if (interior == SBF_BUILD_INTERIOR_AUTOMATIC)
     status = make_section(b, number, &scratch);
   else if (!make_springs(b, number, interior, &scratch))
     status = no_memory(b);
+  if (status == SBF_OK && b->made[number]) status = make_ladder(b, number, &ladder);
+  sbfi_ladder_free(&ladder);
   sbfi_arena_free(&scratch);
   return status;
 }
@@ -423,6 +464,19 @@ static sbf_status make_levels(build *b) {
   return SBF_OK;
 }
 
+/* Of the level of springs, where one was made. */
+static const sbfi_interior_map *map_of(const build *b, uint32_t body, uint32_t level) {
+  bool springs = b->bodies[body].levels.at[level].model == SBF_ELASTIC_MODEL_SPRINGS;
+  return b->made[body] && springs ? &b->maps[body] : NULL;
+}
+
+/* The first of four points around the body, from which all places follow where it moves as one piece. */
+static uint32_t frame_of(const build *b, uint32_t body, uint32_t level) {
+  const sbf_level *of = &b->bodies[body].levels.at[level];
+  if (of->model == SBF_ELASTIC_MODEL_JIGGLE && b->made[body]) return 0;
+  return level == 0 ? b->frames[body] : SBFI_NO_INDEX;
+}
+
 static sbf_status embed(build *b) {
   size_t count = 0, next = 0;
   if (b->options.without_embeddings) return SBF_OK;
@@ -432,8 +486,8 @@ static sbf_status embed(build *b) {
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
     for (uint32_t l = 0; l < b->bodies[i].levels.count; l++)
       /* The levels are the asset's, copied into memory that may be written to. */
-      targets[next++] = (sbfi_embed_target){i, (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l],
-          b->made[i] ? &b->maps[i] : NULL, l == 0 ? b->frames[i] : SBFI_NO_INDEX};
+      targets[next++] = (sbfi_embed_target){
+          i, (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l], map_of(b, i, l), frame_of(b, i, l)};
   sbfi_embed_report report;
   if (!sbfi_embed(
           b->asset, targets, (uint32_t)count, &b->sections, DERIVATION, &b->reporter, &report, &b->scratch))
@@ -511,8 +565,12 @@ sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, s
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known way to cut sections");
   if (!(b.options.cell_m >= 0 && b.options.cell_m <= 1e9))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name a cell that is no length");
+  if (b.options.levels > SBFI_MOST_LEVELS || !(b.options.error_m >= 0 && b.options.error_m <= 1e9))
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "the build options name more than 8 levels, or an error that is no length");
   b.options.overlap_m = sbfi_build_settings_cell(b.options.overlap_m);
   b.options.cell_m = sbfi_build_settings_cell(b.options.cell_m); /* what is recorded is what is built with */
+  b.options.error_m = sbfi_build_settings_cell(b.options.error_m);
   b.reporter = (sbfi_reporter){.report = b.options.report, .user = b.options.user};
   sbfi_arena_init(&b.scratch, b.options.allocator, 0);
   sbfi_ids_init(&b.ids, b.options.allocator);

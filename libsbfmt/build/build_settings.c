@@ -8,6 +8,7 @@
 
 typedef enum setting_kind {
   WITHOUT,     /* bool, stated as its opposite */
+  UNLESS,      /* the same, stated where it is set: false */
   INTERIOR,    /* sbf_build_interior, by name */
   SECTIONS,    /* sbf_build_sections, by name; automatic is not stated */
   COUNT,       /* uint32_t; 0 is not stated */
@@ -20,12 +21,15 @@ static const struct {
   setting_kind kind;
   size_t offset;
 } settings[] = {
+    {"calibration", UNLESS, offsetof(sbf_build_options, without_calibration)},
     {"cell_um", MICROMETRES, offsetof(sbf_build_options, cell_m)},
     {"elements", COUNT, offsetof(sbf_build_options, elements)},
     {"embeddings", WITHOUT, offsetof(sbf_build_options, without_embeddings)},
+    {"error_um", MICROMETRES, offsetof(sbf_build_options, error_m)},
     {"flexion", WITHOUT, offsetof(sbf_build_options, without_flexion)},
     {"hulls", WITHOUT, offsetof(sbf_build_options, without_hulls)},
     {"interior", INTERIOR, offsetof(sbf_build_options, interior)},
+    {"levels", COUNT, offsetof(sbf_build_options, levels)},
     {"overlap_um", MICROMETRES, offsetof(sbf_build_options, overlap_m)},
     {"sections", SECTIONS, offsetof(sbf_build_options, sections)},
 };
@@ -52,6 +56,9 @@ void sbfi_build_settings_write(const sbf_build_options *options, char text[SBFI_
     const char *word = NULL;
     uint32_t number = 0;
     switch (settings[i].kind) {
+    case UNLESS:
+      word = *(const bool *)field ? "false" : NULL;
+      break;
     case WITHOUT:
       word = *(const bool *)field ? "false" : "true";
       break;
@@ -98,6 +105,7 @@ static bool take_number(sbfi_span value, uint32_t *number) {
 static bool take(setting_kind kind, sbfi_span value, void *field) {
   uint32_t number;
   switch (kind) {
+  case UNLESS:
   case WITHOUT:
     return take_flag(value, field);
   case INTERIOR:

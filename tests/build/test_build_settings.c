@@ -21,6 +21,7 @@ START_TEST(test_what_is_written_is_read)
       {.cell_m = 0.0125, .interior = SBF_BUILD_INTERIOR_TETRAHEDRA},
       {.elements = 4000000000u, .interior = SBF_BUILD_INTERIOR_LATTICE, .without_hulls = true},
       {.cell_m = 1e-6, .elements = 1, .interior = SBF_BUILD_INTERIOR_BRUTE, .without_embeddings = true},
+      {.levels = 4, .error_m = 0.002, .without_calibration = true, .interior = SBF_BUILD_INTERIOR_TETRAHEDRA},
       {.cell_m = 4000, .interior = SBF_BUILD_INTERIOR_NONE, .without_flexion = true},
   };
   for (size_t i = 0; i < sizeof samples / sizeof *samples; i++) {
@@ -35,6 +36,9 @@ START_TEST(test_what_is_written_is_read)
     ck_assert_int_eq(read.without_embeddings, o->without_embeddings);
     ck_assert_int_eq(read.without_flexion, o->without_flexion);
     ck_assert_int_eq(read.without_hulls, o->without_hulls);
+    ck_assert_int_eq(read.without_calibration, o->without_calibration);
+    ck_assert_uint_eq(read.levels, o->levels);
+    ck_assert(read.error_m == o->error_m);
     sbfi_build_settings_write(&read, again);
     ck_assert_str_eq(text, again);
   }

@@ -284,7 +284,8 @@ static bool stop_at(void *user, const char *pass, double done) {
 START_TEST(cancelled_or_without_memory_it_leaves_nothing)
 {
   add_cube(1, true);
-  sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = 0.2};
+  sbf_build_options options = {
+      .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = 0.2, .without_calibration = true};
   for (int what = 0; what < 2; what++) {
     for (int allowed = 0;; allowed++) {
       int left = allowed;

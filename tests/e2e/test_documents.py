@@ -14,7 +14,7 @@ from sbfmt_program import (PROGRAM, ROOT, ProgramTest, call, example, main, need
                            write_bytes)
 
 DOCUMENTS = [os.path.join(ROOT, "docs", name) for name in ("hello.md", "format-tour.md", "scripts.md", "partial-loading.md",
-                                                             "converting.md", "validate.md", "materials.md")]
+                                                             "converting.md", "validate.md", "materials.md", "levels.md")]
 README = os.path.join(ROOT, "README.md")
 TOURED = os.path.join(ROOT, "spec", "samples", "valid", "jelly.sbf")
 BUILD = os.environ.get("SBFMT_BUILD_DIR", "")

@@ -5,6 +5,13 @@
 
 #include "mechanics/vector.h"
 
+/* Of Newton's method: what has not come to rest by then folds up. */
+enum { MOST_STEPS = 15 };
+
+/* Of the square of the lowest frequency: so weakly a body that nothing holds is drawn to its place, which
+ * moves nothing, the loads being balanced, and keeps the equations solvable. */
+static const double tether = 1e-3;
+
 static double component(sbf_vec3 v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
@@ -97,14 +104,25 @@ static bool take_anchors(sbfi_level_statics *s, const float *masses, sbfi_arena 
   return true;
 }
 
+static bool add_tethers(sbfi_level_statics *s, sbfi_arena *arena) {
+  uint32_t count = s->network.point_count;
+  float *anchors = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *anchors);
+  if (!anchors) return false;
+  double lowest = sbfi_level_lowest(s, arena);
+  for (uint32_t i = 0; i < count; i++) anchors[i] = (float)(tether * lowest * lowest * s->network.masses[i]);
+  s->network.anchors = anchors;
+  return true;
+}
+
 /* ---- The surface ---- */
 
 static bool carry_surface(sbfi_level_statics *s, const sbfi_interior_map *interior, sbfi_arena *arena) {
   const sbf_vec3_list *points = &s->body->surface.positions;
   sbfi_carrier carrier;
+  uint32_t frame = s->level->model == SBF_ELASTIC_MODEL_JIGGLE ? 0 : UINT32_MAX;
   s->carried = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *s->carried);
   s->areas = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *s->areas);
-  if (!s->carried || !s->areas || !sbfi_carrier_make(&carrier, s->body, s->level, interior, arena))
+  if (!s->carried || !s->areas || !sbfi_carrier_make(&carrier, s->body, s->level, interior, frame, arena))
     return false;
   sbf_surface_point_areas(&s->body->surface, s->areas);
   for (int k = 0; k < 3; k++) s->low[k] = INFINITY, s->high[k] = -INFINITY;
@@ -134,6 +152,7 @@ bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *b
   if (!take_springs(statics, arena) || !take_tetrahedra(statics, arena) ||
       !take_anchors(statics, masses, arena) || !carry_surface(statics, interior, arena))
     return false;
+  if (!statics->held && !add_tethers(statics, arena)) return false;
   statics->load_count = statics->held ? SBFI_HELD_LOADS : SBFI_FREE_LOADS;
   return true;
 }
@@ -235,7 +254,8 @@ bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, do
   double *places = sbfi_arena_allocate(scratch, numbers + 1, sizeof *places);
   if (!forces || !places) return false;
   find_forces(s, load, size, forces);
-  sbfi_static_problem problem = {.network = n, .forces = forces, .tolerance = tolerance};
+  sbfi_static_problem problem = {
+      .network = n, .forces = forces, .tolerance = tolerance, .most_steps = MOST_STEPS};
   sbfi_static_outcome outcome;
   sbfi_static_start(n, places);
   if (!sbfi_static_solve(&problem, places, &outcome, &scratch->allocator)) return false;

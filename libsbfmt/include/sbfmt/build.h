@@ -65,6 +65,18 @@ typedef struct sbf_build_options {
   sbf_build_sections sections; /* of skinned meshes */
   /* How far along the surface a section reaches over a cut; 0: half the limb's radius there. */
   double overlap_m;
+  /* Lattices of fewer than 8000 tetrahedra bend too stiffly; unless this is set they get a modulus with which
+   * they give as much as a lattice of 16,000, and `reference_modulus` says what it stands for. */
+  bool without_calibration;
+  /* How many levels a body gets, up to 8; 0 and 1: one. Of tetrahedra: lattices, each of twice the cell of
+   * the one before; the last of three and more is jiggle, the one before it, of four and more, springs. Of
+   * springs: these and, with two and more, jiggle. Where there are several, each states its error and its
+   * cost. */
+  uint32_t levels;
+  /* m; not 0: instead of by cell and number, a lattice is the coarsest of some 60, 240, 960 and 3840
+   * tetrahedra no point of whose surface is farther off under gravity along any axis, against one of 16,000.
+   * Recorded in whole micrometres as cells are. */
+  double error_m;
 } sbf_build_options;
 
 /* What was made. Counts are of derived parts; springs by sbf_spring_kind. */
@@ -85,7 +97,12 @@ typedef struct sbf_build_report {
   /* Points of lattices that stand in for parts thinner than two elements, which are thicker there than the
    * body. Every other element, too, has a corner inside: nowhere is there but one across. */
   uint32_t thickened_points;
-  uint32_t sections; /* cut from skinned meshes */
+  uint32_t sections;                /* cut from skinned meshes */
+  uint32_t levels;                  /* beside the finest of each body */
+  uint32_t calibrated;              /* lattices; the rest is of these */
+  double least_factor, most_factor; /* of the moduli */
+  double most_residual; /* greatest share by which one gives otherwise than the reference under some load */
+  double most_period_error; /* and swings slower or faster */
 } sbf_build_report;
 
 /* Makes `*built` from `asset`, which stays as it is and need not outlive the call. On failure `*built` is

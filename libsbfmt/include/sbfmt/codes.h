@@ -131,6 +131,7 @@ typedef enum sbf_code {
   SBF_CODE_LATTICE_TOO_FINE = 592, /* The cell is too small for a body of that size: give a larger one. */
   SBF_CODE_EMBEDDING_FAR = 593, /* Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell. */
   SBF_CODE_INTERIOR_TOO_MANY = 594, /* A body has too many points for springs between all of them: give another method. */
+  SBF_CODE_LEVEL_ERROR_MISSED = 598, /* No lattice coarser than the reference comes within the error asked for: the body got one as fine as that. */
   SBF_CODE_BODY_NO_MASS = 601, /* A body that moves has no mass: give it a density, an area density or a mass. */
   SBF_CODE_POISSON_UNSHOWN = 602, /* A spring level cannot show the Poisson ratio that the material asks for: take 0.25, or tetrahedra. */
   SBF_CODE_SUBSTEPS_TOO_FEW = 603, /* An explicit scheme with so few substeps gains energy and bursts: use at least the number named. */

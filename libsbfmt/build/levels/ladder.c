@@ -1,0 +1,162 @@
+#include "build/levels/ladder.h"
+
+#include <stdio.h>
+
+#include "build/levels/jiggle_level.h"
+
+/* A lattice of so many elements or more is not compared: it is as fine as the reference, near enough. */
+enum { FINE_ELEMENTS = SBFI_REFERENCE_ELEMENTS / 2, COARSEST_ELEMENTS = 60, FEWEST_ELEMENTS = 12 };
+
+uint32_t sbfi_ladder_lattices(uint32_t levels) {
+  return levels >= 4 ? levels - 2 : levels >= 3 ? levels - 1 : levels;
+}
+
+void sbfi_ladder_init(sbfi_ladder *ladder, const sbf_soft_body *body, const sbfi_ladder_recipe *recipe,
+    sbf_asset *asset, sbfi_lattice_progress progress, const sbf_allocator *allocator) {
+  *ladder = (sbfi_ladder){
+      .body = body, .recipe = recipe, .asset = asset, .progress = progress, .allocator = allocator};
+}
+
+void sbfi_ladder_free(sbfi_ladder *ladder) {
+  if (ladder->has_reference) sbfi_reference_free(&ladder->reference);
+}
+
+static bool has_falls(const sbfi_ladder *l) {
+  return l->recipe->error > 0 || l->recipe->levels > 1;
+}
+
+static sbfi_lattice_outcome make_reference(sbfi_ladder *l) {
+  if (l->has_reference) return SBFI_LATTICE_MADE;
+  l->has_reference = true;
+  return sbfi_reference_make(&l->reference, l->body, l->asset, has_falls(l), l->progress, l->allocator);
+}
+
+/* Compares the level, where there is something to compare it with. */
+static sbfi_lattice_outcome measure(
+    sbfi_ladder *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
+  if (l->progress.call && !l->progress.call(l->progress.user, 1)) return SBFI_LATTICE_CANCELLED;
+  return sbfi_level_calibrate(
+             level, l->body, interior, &l->reference, l->recipe->tick, l->asset, calibration, l->allocator)
+             ? SBFI_LATTICE_MADE
+             : SBFI_LATTICE_NO_MEMORY;
+}
+
+/* A lattice, without points where there is nothing to fill. */
+static sbfi_lattice_outcome make_lattice(
+    sbfi_ladder *l, double cell, uint32_t elements, sbf_asset *asset, sbf_level *level) {
+  const sbfi_lattice_recipe recipe = {cell, elements, l->recipe->derivation};
+  sbfi_lattice_counts counts;
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, l->allocator, 0);
+  sbfi_lattice_outcome outcome =
+      sbfi_lattice_level_make(level, l->body, &recipe, asset, &counts, l->progress, &scratch);
+  sbfi_arena_free(&scratch);
+  return outcome;
+}
+
+sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, bool *met) {
+  sbfi_lattice_outcome outcome = make_reference(ladder);
+  *met = false;
+  *elements = SBFI_REFERENCE_ELEMENTS;
+  if (outcome != SBFI_LATTICE_MADE || !ladder->reference.sound) return outcome;
+  for (uint32_t tried = COARSEST_ELEMENTS; tried < FINE_ELEMENTS && outcome == SBFI_LATTICE_MADE;
+       tried *= 4) {
+    sbf_level level;
+    sbfi_calibration calibration = {.factor = 1};
+    /* What is only tried takes no memory of the asset's. */
+    sbf_asset *memory = sbf_asset_create(ladder->allocator);
+    if (!memory) return SBFI_LATTICE_NO_MEMORY;
+    memory->bones = ladder->asset->bones;
+    memory->rigid_bodies = ladder->asset->rigid_bodies;
+    outcome = make_lattice(ladder, 0, tried, memory, &level);
+    bool some = outcome == SBFI_LATTICE_MADE && level.lattice.tetrahedra.count >= FEWEST_ELEMENTS;
+    if (some && !sbfi_level_calibrate(&level, ladder->body, NULL, &ladder->reference, ladder->recipe->tick,
+                    memory, &calibration, ladder->allocator))
+      outcome = SBFI_LATTICE_NO_MEMORY;
+    sbf_asset_free(memory);
+    if (!some || outcome != SBFI_LATTICE_MADE || calibration.error > ladder->recipe->error) continue;
+    *elements = tried;
+    *met = true;
+    break;
+  }
+  return outcome;
+}
+
+/* The finest level: calibrated, or itself what the others are compared with. */
+static sbfi_lattice_outcome take_finest(sbfi_ladder *l, const sbfi_interior_map *interior) {
+  sbf_level *level = &l->levels[l->level_count++];
+  bool lattice = level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+  bool coarse = lattice && level->lattice.tetrahedra.count < FINE_ELEMENTS;
+  if (coarse && (l->recipe->calibrate || has_falls(l))) {
+    sbfi_lattice_outcome outcome = make_reference(l);
+    if (outcome != SBFI_LATTICE_MADE || !l->reference.sound || !l->recipe->calibrate) return outcome;
+    l->measured[0] = true;
+    return measure(l, level, interior, &l->calibrations[0]);
+  }
+  if (l->recipe->levels < 2 || l->has_reference) return SBFI_LATTICE_MADE;
+  l->has_reference = true;
+  return sbfi_reference_take(
+      &l->reference, l->body, level, interior, l->asset, has_falls(l), l->progress, l->allocator);
+}
+
+static sbfi_lattice_outcome add_lattices(sbfi_ladder *l) {
+  double cell = l->levels[0].cell;
+  uint32_t last = l->levels[0].lattice.tetrahedra.count;
+  for (uint32_t n = 2; n <= sbfi_ladder_lattices(l->recipe->levels); n++) {
+    sbf_level *level = &l->levels[l->level_count];
+    char name[24];
+    cell *= 2;
+    sbfi_lattice_outcome outcome = make_lattice(l, cell, 0, l->asset, level);
+    if (outcome != SBFI_LATTICE_MADE) return outcome;
+    uint32_t count = level->lattice.tetrahedra.count;
+    if (count < FEWEST_ELEMENTS || count >= last) continue;
+    last = count;
+    snprintf(name, sizeof name, "lattice %u", n);
+    level->name = sbf_asset_copy_text(l->asset, name);
+    if (!level->name) return SBFI_LATTICE_NO_MEMORY;
+    l->level_count++;
+    if (!l->reference.sound || !l->recipe->calibrate) continue;
+    l->measured[l->level_count - 1] = true;
+    outcome = measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
+    if (outcome != SBFI_LATTICE_MADE) return outcome;
+  }
+  return SBFI_LATTICE_MADE;
+}
+
+static sbfi_lattice_outcome add_springs(sbfi_ladder *l, sbfi_interior_map *map, sbfi_arena *arena) {
+  sbf_level *level = &l->levels[l->level_count];
+  const sbfi_spring_recipe recipe = {SBFI_INTERIOR_CENTROID, 0, l->recipe->flexion, l->recipe->derivation};
+  sbfi_spring_counts counts;
+  if (!sbfi_spring_level_make(level, l->body, &recipe, l->asset, map, &counts, arena))
+    return SBFI_LATTICE_NO_MEMORY;
+  l->level_count++;
+  if (!l->reference.sound) return SBFI_LATTICE_MADE;
+  l->measured[l->level_count - 1] = true;
+  return measure(l, level, map, &l->calibrations[l->level_count - 1]);
+}
+
+static sbfi_lattice_outcome add_jiggle(sbfi_ladder *l) {
+  const double turn = 6.283185307179586;
+  sbf_level *level = &l->levels[l->level_count];
+  double frequency = l->reference.sound ? sbfi_reference_frequency(&l->reference) / turn : 0;
+  if (!sbfi_jiggle_level_make(level, l->body, frequency, l->recipe->derivation, l->asset))
+    return SBFI_LATTICE_NO_MEMORY;
+  l->level_count++;
+  if (!l->reference.sound) return SBFI_LATTICE_MADE;
+  l->measured[l->level_count - 1] = true;
+  return measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
+}
+
+sbfi_lattice_outcome sbfi_ladder_make(sbfi_ladder *ladder, const sbf_level *finest,
+    const sbfi_interior_map *interior, sbfi_interior_map *springs, sbfi_arena *arena) {
+  uint32_t levels = ladder->recipe->levels;
+  ladder->levels = sbf_asset_allocate(ladder->asset, levels, sizeof *ladder->levels);
+  if (!ladder->levels) return SBFI_LATTICE_NO_MEMORY;
+  ladder->levels[0] = *finest;
+  sbfi_lattice_outcome outcome = take_finest(ladder, interior);
+  bool lattice = finest->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+  if (outcome == SBFI_LATTICE_MADE && lattice) outcome = add_lattices(ladder);
+  if (outcome == SBFI_LATTICE_MADE && lattice && levels >= 4) outcome = add_springs(ladder, springs, arena);
+  if (outcome == SBFI_LATTICE_MADE && levels >= (lattice ? 3 : 2)) outcome = add_jiggle(ladder);
+  return outcome;
+}

@@ -1,0 +1,52 @@
+/* The levels of one body, finest first: lattices of twice the cell each, springs, jiggle; each compared with
+ * what the body does as a fine lattice, lattices calibrated to it. */
+#ifndef SBFI_LADDER_H
+#define SBFI_LADDER_H
+
+#include "build/levels/calibrate.h"
+
+enum { SBFI_MOST_LEVELS = 8 };
+
+typedef struct sbfi_ladder_recipe {
+  uint32_t levels; /* in all, 1 to SBFI_MOST_LEVELS */
+  double error;    /* m, that the finest may be off; 0: whatever it is */
+  bool calibrate;  /* lattices */
+  bool flexion;    /* for a level of springs */
+  double tick;     /* s, that costs are for */
+  int32_t derivation;
+} sbfi_ladder_recipe;
+
+typedef struct sbfi_ladder {
+  const sbf_soft_body *body;
+  const sbfi_ladder_recipe *recipe;
+  sbf_asset *asset; /* under construction */
+  sbfi_lattice_progress progress;
+  const sbf_allocator *allocator;
+  bool has_reference;
+  sbfi_reference reference;
+  sbf_level *levels; /* (level_count) memory of the asset */
+  uint32_t level_count;
+  sbfi_calibration calibrations[SBFI_MOST_LEVELS]; /* of each, where `measured` */
+  bool measured[SBFI_MOST_LEVELS];
+} sbfi_ladder;
+
+/* How many of `levels` are lattices, where the finest is one: with three and more the last is jiggle, with
+ * four and more the one before is springs. */
+uint32_t sbfi_ladder_lattices(uint32_t levels);
+
+/* Everything stays the caller's. To be freed whatever comes of it. */
+void sbfi_ladder_init(sbfi_ladder *ladder, const sbf_soft_body *body, const sbfi_ladder_recipe *recipe,
+    sbf_asset *asset, sbfi_lattice_progress progress, const sbf_allocator *allocator);
+void sbfi_ladder_free(sbfi_ladder *ladder);
+
+/* About how many tetrahedra the coarsest lattice has that meets the recipe's error when calibrated, in steps
+ * of four times as many; `*met` is false where none of fewer than the reference's does. */
+sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, bool *met);
+
+/* From the finest level, of springs or tetrahedra, `interior` its map, makes the list of all and measures
+ * them. A lattice that finds nothing to fill, or is no coarser than the one before, is left out. `*springs`
+ * receives the map of a level of springs that is made, in memory of `arena`. */
+sbfi_lattice_outcome sbfi_ladder_make(sbfi_ladder *ladder, const sbf_level *finest,
+    const sbfi_interior_map *interior, sbfi_interior_map *springs, sbfi_arena *arena);
+
+#endif
