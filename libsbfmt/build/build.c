@@ -13,6 +13,7 @@
 #include "build/sections/level_pins.h"
 #include "build/sections/section_frame.h"
 #include "build/sections/section_hulls.h"
+#include "build/sections/section_joints.h"
 #include "build/sections/section_level.h"
 #include "build/sections/sections.h"
 #include "build/source_reading.h"
@@ -187,6 +188,13 @@ static sbf_status renumber(build *b) {
       lost.collection);
   if (b->error) memcpy(b->error->path, lost.path, sizeof b->error->path);
   return status;
+}
+
+/* After the references: what is made names the new places. */
+static sbf_status make_joints(build *b) {
+  bool wanted = b->sections.count > 0 && !b->options.without_hulls;
+  if (wanted && !sbfi_section_joints_make(b->asset, DERIVATION, &b->ids, &b->scratch)) return no_memory(b);
+  return SBF_OK;
 }
 
 /* Automatic: of a section that was cut here (section_level.h). */
@@ -542,8 +550,8 @@ static sbf_status run(build *b) {
     sbf_status (*run)(build *);
   } passes[] = {{"a copy of the source", 0, copy_source}, {"the derivation", 0.05, record_derivation},
       {"sections", 0.06, make_sections}, {"the list of bodies", 0.1, line_up_bodies},
-      {"hulls", 0.11, make_hulls}, {"references", 0.15, renumber}, {"springs", 0.2, make_levels},
-      {"frames of sections", 0.59, make_frames}, {"embeddings", 0.6, embed},
+      {"hulls", 0.11, make_hulls}, {"references", 0.15, renumber}, {"joints", 0.18, make_joints},
+      {"springs", 0.2, make_levels}, {"frames of sections", 0.59, make_frames}, {"embeddings", 0.6, embed},
       {"lattices no longer needed", 0.89, clear_lattices}, {"figures of the whole", 0.9, record_figures},
       {"the check of what was made", 0.92, check_made}, {"the hash of the source", 0.95, hash_source}};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {

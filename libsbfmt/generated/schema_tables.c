@@ -171,8 +171,9 @@ static const sbfi_field joint_fields[] = {
   {.name = "pulley_ratio", .type = SBFI_FLOAT, .number = 14, .since_minor = 0, .offset = offsetof(sbf_joint, pulley_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.0f}},
   {.name = "break_force", .type = SBFI_FLOAT, .number = 15, .since_minor = 0, .offset = offsetof(sbf_joint, break_force), .width = 1, .unit = "N", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "break_torque", .type = SBFI_FLOAT, .number = 16, .since_minor = 0, .offset = offsetof(sbf_joint, break_torque), .width = 1, .unit = "N*m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "derived", .type = SBFI_REF, .number = 17, .since_minor = 0, .offset = offsetof(sbf_joint, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
 };
-static const sbfi_element joint_element = {"joint", "joint", sizeof(sbf_joint), 0, 16, joint_fields, NULL};
+static const sbfi_element joint_element = {"joint", "joint", sizeof(sbf_joint), 0, 17, joint_fields, NULL};
 
 static const sbfi_length uv_set_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "parent.mesh.polygon_points"}};
 static const sbfi_length uv_set_corners_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_uv_set, coordinates)}}, "coordinates"};

@@ -142,6 +142,7 @@ joint
   pulley_ratio: float default=1 range=(0,inf)
   break_force: float range=[0,inf)
   break_torque: float range=[0,inf)
+  derived: ref(derivations)
 limit
   target: enum(joint_axis) required
   min: float required

@@ -4,6 +4,7 @@
 
 #include "mechanics/vector.h"
 
+static const double NOT_REACHED = -1e300;
 static const double TWO_PI = 6.283185307179586;
 
 bool sbfi_section_cutter_init(sbfi_section_cutter *c, uint32_t bone_count, sbfi_arena *arena) {
@@ -38,7 +39,7 @@ static uint32_t label_beyond(const sbfi_section_cutter *c, uint32_t edge, uint32
 
 /* What each point of the border may spend on its way out. */
 static void begin_at_border(sbfi_section_cutter *c, uint32_t bone) {
-  for (uint32_t p = 0; p < c->t->point_count; p++) c->reach[p] = -1;
+  for (uint32_t p = 0; p < c->t->point_count; p++) c->reach[p] = NOT_REACHED;
   memset(c->shared, 0, c->bone_count * sizeof *c->shared);
   for (uint32_t e = 0; e < c->t->edge_count; e++) {
     uint32_t beyond = label_beyond(c, e, bone);
@@ -67,9 +68,9 @@ static void spread(sbfi_section_cutter *c) {
     for (uint32_t i = c->t->point_edge_begins[p]; i < c->t->point_edge_begins[p + 1]; i++) {
       uint32_t edge = c->t->point_edges[i], other = sbfi_edge_other(c->t, edge, p);
       double left = c->reach[p] - length_of(c, edge);
-      if (left < 0 || left <= c->reach[other]) continue;
+      if (left <= c->reach[other]) continue;
       c->reach[other] = left;
-      if (c->queued[other]) continue;
+      if (left <= 0 || c->queued[other]) continue;
       c->queued[other] = 1;
       c->queue[tail] = other;
       tail = tail + 1 < room ? tail + 1 : 0;
@@ -78,10 +79,14 @@ static void spread(sbfi_section_cutter *c) {
 }
 
 static bool is_taken(const sbfi_section_cutter *c, uint32_t polygon, uint32_t bone) {
+  double sum = 0;
   if (c->labels[polygon] == bone) return true;
-  for (uint32_t k = c->t->corner_begins[polygon]; k < c->t->corner_begins[polygon + 1]; k++)
-    if (c->reach[c->skin->mesh.polygon_points.at[k]] < 0) return false;
-  return true;
+  for (uint32_t k = c->t->corner_begins[polygon]; k < c->t->corner_begins[polygon + 1]; k++) {
+    double reach = c->reach[c->skin->mesh.polygon_points.at[k]];
+    if (reach <= NOT_REACHED) return false;
+    sum += reach;
+  }
+  return sum > 0;
 }
 
 bool sbfi_section_cut(sbfi_section_cutter *c, uint32_t bone, sbf_polygon_mesh *mesh, sbfi_arena *arena) {

@@ -10,7 +10,7 @@ typedef struct sbfi_section_cutter {
   const sbfi_topology *t;
   const uint32_t *labels; /* (polygons) */
   double overlap_m;       /* how far sections reach over the cut, along the surface; below 0: see below */
-  double *reach;          /* (points) m that are left at each; below 0: not reached */
+  double *reach;          /* (points) m that are left at each; below 0: beyond */
   double *shared;         /* (bones) length of border */
   uint32_t *queue, *new_points;
   uint8_t *queued;
@@ -20,7 +20,7 @@ typedef struct sbfi_section_cutter {
 /* Room for the work; `skin`, `t`, `labels` and `overlap_m` are the caller's to fill first. */
 bool sbfi_section_cutter_init(sbfi_section_cutter *cutter, uint32_t bone_count, sbfi_arena *arena);
 
-/* Fills `*mesh` with the polygons of `bone` and those of others of which all corners lie
+/* Fills `*mesh` with the polygons of `bone` and those of others of which the middle lies
  * within the overlap, in the order of the skin, over points of its own. An overlap below 0 stands for that
  * share of the limb's radius, which is taken as the length of the border with each neighbour over 2 pi: -0.5
  * is half of it. Memory of `arena`; false where it runs out. */

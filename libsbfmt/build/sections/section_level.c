@@ -10,6 +10,8 @@
 #include "sbfmt/mechanics.h"
 
 enum { USUAL_ELEMENTS = 160 };
+/* Of the area to the power of 3/2: a limb ten thousand times as long as thick still has more. */
+static const double LEAST_VOLUME = 0.002;
 /* Of the stiffness of a point's springs, added up, that of its goal. */
 static const double GOAL_SHARE = 1.0 / 12;
 
@@ -199,8 +201,11 @@ sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_bo
       .level = level, .body = body, .recipe = recipe, .asset = asset, .scratch = scratch, .counts = counts};
   sbfi_soup soup;
   sbfi_winding winding;
+  sbf_surface_measures surface;
   sbf_level_init(level);
   *counts = (sbfi_section_counts){0};
+  sbf_surface_measure(&body->surface, NULL, &surface);
+  if (!(surface.volume > LEAST_VOLUME * surface.area * sqrt(surface.area))) return SBFI_LATTICE_MADE;
   if (!sbfi_soup_make(&soup, &body->surface, scratch) || !sbfi_winding_make(&winding, &soup, scratch))
     return SBFI_LATTICE_NO_MEMORY;
   sbfi_lattice_outcome outcome =

@@ -4,6 +4,7 @@
  * the frame that joint limits refer to: +X, the twist axis, is the bone's +Y, +Y its +Z, +Z its +X. */
 #include <math.h>
 
+#include "build/sections/section_joints.h"
 #include "import/convert/conversion.h"
 
 typedef struct body_place {
@@ -41,25 +42,6 @@ static bool fill_rigid_body(sbfi_conversion *c, int32_t bone, const body_place *
   return body->id != NULL;
 }
 
-/* The bone's frame with its axes renamed in turn: right multiplication by a third of a turn about (1, 1, 1).
- */
-static sbf_quat joint_rotation(sbf_quat q) {
-  const double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w;
-  double out[4] = {w + x + y - z, w - x + y + z, w + x - y + z, w - x - y - z};
-  double scale = out[3] < 0 ? -0.5 : 0.5;
-  return (sbf_quat){
-      (float)(out[0] * scale), (float)(out[1] * scale), (float)(out[2] * scale), (float)(out[3] * scale)};
-}
-
-static sbf_frame frame_at(const sbf_bone *bone, const sbf_rigid_body *body) {
-  sbf_frame frame;
-  sbf_frame_init(&frame);
-  frame.position =
-      (sbf_vec3){bone->head.x - body->center.x, bone->head.y - body->center.y, bone->head.z - body->center.z};
-  frame.rotation = joint_rotation(bone->rotation);
-  return frame;
-}
-
 static bool fill_limits(sbfi_conversion *c, const sbfi_scene_limit *from, sbf_limit_list *to) {
   static const sbf_joint_axis axes[SBFI_LIMITS] = {
       SBF_JOINT_AXIS_TWIST, SBF_JOINT_AXIS_SWING_Y, SBF_JOINT_AXIS_SWING_Z};
@@ -88,8 +70,8 @@ static bool fill_joint(
   joint->kind = SBF_JOINT_KIND_SPHERICAL;
   joint->body_a = a;
   joint->body_b = b;
-  joint->frame_a = frame_at(&c->asset->bones.at[bone], &bodies[a]);
-  joint->frame_b = frame_at(&c->asset->bones.at[bone], &bodies[b]);
+  joint->frame_a = sbfi_bone_joint_frame(&c->asset->bones.at[bone], &bodies[a]);
+  joint->frame_b = sbfi_bone_joint_frame(&c->asset->bones.at[bone], &bodies[b]);
   if (!joint->id || !fill_limits(c, c->rig->nodes[c->node_of_bone[bone]].limits, &joint->limits))
     return false;
   joint->proposed = joint->limits.count == 0; /* nobody has said yet how far it turns */

@@ -480,6 +480,8 @@ typedef struct sbf_joint {
   float break_force;
   /* Breaks above it; 0: never. [N*m; [0, inf)] */
   float break_torque;
+  /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
+  int32_t derived;
 } sbf_joint;
 typedef struct sbf_joint_list {
   const sbf_joint *at;
