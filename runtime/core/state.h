@@ -22,6 +22,7 @@ typedef struct sbri_island_state {
   float least_ratio;     /* least J of its tetrahedra then: below 0 one is inside out; 1: it has none */
   uint32_t folded_ticks; /* for how long its volume has been next to nothing, or such elements inverted */
   uint32_t recoveries;
+  uint32_t recovering;     /* ticks for which the router still keeps to the scheme that recovers */
   sbf_vec3 guide_velocity; /* mean of what holds it, in the last tick */
 } sbri_island_state;
 

@@ -6,13 +6,12 @@
 #include "core/world.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
-#include "solvers/scheme.h"
+#include "solvers/router.h"
 
 /* The origin follows when the character is this far from it, in m. */
 static const float REBASE_AT_M = 4;
 
-/* A surface that holds less than this share of its volume for so many ticks will not come back by itself. */
-static const double FOLDED_SHARE = 0.1;
+/* What has been folded for so many ticks will not come back by itself. */
 enum { FOLDED_TICKS = 60, FOLDED_LOOK_EVERY = 8 };
 
 sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c) {
@@ -181,18 +180,6 @@ static bool are_sound(const float *numbers, size_t count) {
   return lost == 0;
 }
 
-/* Whether a closed body of the island has next to no volume, or a negative one; or a tetrahedron is inside
- * out. */
-static bool is_folded(const sbri_character *c, const sbri_island *island) {
-  if (!(sbri_island_states(c)[island - c->model->islands].least_ratio > 0)) return true;
-  for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (!(body->rest_volume_m3 > 0)) continue;
-    if (sbri_surface_volume(c, body, sbri_positions(c)) < FOLDED_SHARE * body->rest_volume_m3) return true;
-  }
-  return false;
-}
-
 /* Puts the island back into its rest shape where its numbers or its shape are lost for good. */
 static void recover(const sbr_world *world, sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
@@ -200,7 +187,8 @@ static void recover(const sbr_world *world, sbri_character *c, uint32_t index) {
   if (are_sound(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) &&
       are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count)) {
     if ((world->ticks + index) % FOLDED_LOOK_EVERY) return;
-    state->folded_ticks = is_folded(c, island) ? state->folded_ticks + FOLDED_LOOK_EVERY : 0;
+    state->folded_ticks = sbri_is_folded(world, c, index) ? state->folded_ticks + FOLDED_LOOK_EVERY : 0;
+    if (state->folded_ticks) state->recovering = SBRI_RECOVERING_TICKS;
     if (state->folded_ticks < FOLDED_TICKS) return;
   }
   sbri_island_unflow(c, index);
@@ -208,6 +196,7 @@ static void recover(const sbr_world *world, sbri_character *c, uint32_t index) {
   memcpy(sbri_previous_positions(c) + island->first_slot, sbri_positions(c) + island->first_slot,
       island->slot_count * sizeof(sbri_point));
   state->recoveries++;
+  state->recovering = SBRI_RECOVERING_TICKS;
 }
 
 static void tick_island(void *context, uint32_t index) {
@@ -264,7 +253,7 @@ static void tick_island(void *context, uint32_t index) {
       .stiffening = &sbri_island_states(c)[work.island].stiffening,
       .least_ratio = &sbri_island_states(c)[work.island].least_ratio};
   if (!island->scheme->forceless) prepare_contacts(world, c, island, tick_s);
-  island->scheme->tick(&tick);
+  sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
   recover(world, c, work.island);
 }
 

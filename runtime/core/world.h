@@ -46,6 +46,8 @@ void sbri_work_list(sbr_world *world);
 /* ---- core/step.c ---- */
 
 void sbri_step_tick(sbr_world *world);
+/* core/folded.c: whether an island has lost its shape, as it now is. */
+bool sbri_is_folded(const sbr_world *world, const sbri_character *c, uint32_t island);
 sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c);
 
 #endif

@@ -153,6 +153,7 @@ static bool list_springs(sbri_island_maker *m) {
 
 /* What the springs are like at rest. */
 static void measure_springs(sbri_island *island) {
+  double lengths = 0;
   for (uint32_t i = 0; i < island->spring_count; i++) {
     const sbfi_spring *s = &island->springs[i];
     double beta = s->stiffness_n_m > 0 ? (double)s->damping_ns_m / s->stiffness_n_m : 0;
@@ -160,7 +161,9 @@ static void measure_springs(sbri_island *island) {
     float length = rest_distance(island, s->a, s->b);
     float stretch = length > 0 ? 1 - s->rest_length_m / length : 0;
     if (s->rest_length_m > 0 && stretch > island->rest_stretch) island->rest_stretch = stretch;
+    lengths += (double)length;
   }
+  if (island->spring_count) island->cell_m = (float)(lengths / island->spring_count);
 }
 
 /* ---- Cells ---- */
@@ -308,7 +311,7 @@ bool sbri_island_springs(sbri_island_maker *m) {
   for (size_t i = 0; i < m->bounds.count; i++)
     bounded = bounded || bounds[i].strain_min > -1 || bounds[i].strain_max > 0 || bounds[i].tear_strain > 0 ||
               bounds[i].yield_strain > 0;
-  bool linked = m->island->scheme->sweeps || (bounded && !m->island->scheme->forceless);
+  bool linked = m->island->scheme->sweeps || m->island->routed || (bounded && !m->island->scheme->forceless);
   if (linked && !sbri_links_make(m->model, m->island, bounds)) return false;
   return make_cells(m) && sbri_tetrahedra_make(m, &network);
 }

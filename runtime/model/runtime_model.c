@@ -5,6 +5,7 @@
 #include "base/diagnostic.h"
 #include "kernels/kernels.h"
 #include "skin/skin.h"
+#include "solvers/router.h"
 
 /* Error of a step, of schemes that control it, where nothing else is said: a tenth of a millimetre. */
 static const float STEP_ERROR_M = 1e-4f;
@@ -38,8 +39,11 @@ static sbf_status choose_scheme(
   if (!scheme) scheme = sbri_scheme_of(stated->scheme);
   if (!scheme || sbri_scheme_refuses(scheme, model, island)) scheme = &sbri_symplectic;
   island->scheme = scheme;
+  bool left_open = options->scheme == SBF_SCHEME_AUTOMATIC && scheme != sbri_scheme_of(stated->scheme);
   bool stated_for_this = stated->scheme == scheme->word || stated->scheme == SBF_SCHEME_AUTOMATIC;
   island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
+  island->routed =
+      left_open && !island->substeps && !sbri_scheme_refuses(&sbri_position_based, model, island);
   return SBF_OK;
 }
 
@@ -129,6 +133,12 @@ static sbf_status make(sbr_model *model, const sbr_model_options *options, sbf_d
   if (!make_skins(model)) return no_memory(error);
   sbri_layout_make(model);
   if (!sbri_rest_volumes_find(model) || !sbri_outer_make(model)) return no_memory(error);
+  for (uint32_t i = 0; i < model->island_count; i++) {
+    sbri_island *island = &model->islands[i];
+    if (!island->routed || sbri_router_begins_explicit(island)) continue;
+    island->scheme = &sbri_position_based;
+    island->routed = false;
+  }
   return check_substeps(model, error);
 }
 

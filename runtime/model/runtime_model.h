@@ -134,7 +134,9 @@ typedef struct sbri_island {
   uint32_t tetrahedron_block_count;
   const sbri_tetrahedron_block *tetrahedron_blocks;
   const float *tetrahedron_damping; /* (tetrahedron_block_count x 8) s: beta; NULL: none is damped so */
-  const sbri_link_block *links;     /* (link_block_count) colour after colour; NULL: nothing sweeps */
+  bool routed;  /* the runtime may step it by another scheme where that is wiser; see solvers/router.h */
+  float cell_m; /* mean length of its springs at rest */
+  const sbri_link_block *links; /* (link_block_count) colour after colour; NULL: nothing sweeps */
   uint32_t link_block_count, first_link_block;
   const float *link_damping;           /* (links x 8) N s/m; NULL: no spring is damped */
   const sbri_link_limits *link_limits; /* NULL: no spring is bounded */

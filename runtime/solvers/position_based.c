@@ -2,7 +2,7 @@
 #include "kernels/kernels.h"
 
 /* Few enough to be cheap, many enough that a sweep settles most of what a substep brings. */
-enum { LEAST_SUBSTEPS = 8, MOST_SUBSTEPS = 20 };
+enum { LEAST_SUBSTEPS = 8, MOST_SUBSTEPS = 32 };
 
 static const double MARGIN = 1.1;
 

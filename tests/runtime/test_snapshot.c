@@ -4,7 +4,11 @@
 #include "harness.h"
 #include "scenes.h"
 
-static scene walker(void) {
+static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN,
+    SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_RELAXATION};
+enum { SCHEME_COUNT = 5 };
+
+static scene walker_by(sbf_scheme scheme) {
   scene s = scene_begin();
   scene_bodies(&s, 2);
   scene_bone(&s, (sbf_vec3){0, 0.5f, 0});
@@ -12,14 +16,19 @@ static scene walker(void) {
   scene_section(&s, 1, (sbf_vec3){0, 0.5f, 0.6f}, (sbf_vec3){0.2f, 0.2f, 0.5f}, 3);
   s.character_definition.position.y = 0;
   s.world_definition.ground = sbr_ground_noise(0.05, 3);
+  s.model_options.scheme = scheme;
   scene_start(&s);
   sbr_character_drive(s.world, s.character, 1, 0, 0.8f);
   return s;
 }
 
+static scene walker(void) {
+  return walker_by(SBF_SCHEME_AUTOMATIC);
+}
+
 START_TEST(a_restored_world_goes_on_alike)
 {
-  scene s = walker();
+  scene s = walker_by(schemes[_i]);
   scene_ticks(&s, 37);
   size_t size = sbr_world_snapshot_size(s.world);
   void *bytes = malloc(size);
@@ -92,7 +101,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("snapshot");
   TCase *c = tcase_create("snapshot");
   tcase_set_timeout(c, 60);
-  tcase_add_test(c, a_restored_world_goes_on_alike);
+  tcase_add_loop_test(c, a_restored_world_goes_on_alike, 0, SCHEME_COUNT);
   tcase_add_test(c, two_worlds_agree_to_the_bit);
   tcase_add_test(c, what_does_not_fit_is_refused);
   suite_add_tcase(s, c);

@@ -35,7 +35,11 @@ static void run_on_threads(void *user, sbr_task *task, void *context, uint32_t c
   for (int i = 1; i < thread_count; i++) pthread_join(threads[i], NULL);
 }
 
-static scene crowd(sbr_tasks tasks) {
+static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN,
+    SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_RELAXATION};
+enum { SCHEME_COUNT = 5 };
+
+static scene crowd(sbr_tasks tasks, sbf_scheme scheme) {
   scene s = scene_begin();
   scene_bodies(&s, 3);
   scene_bone(&s, (sbf_vec3){0, 0.5f, 0});
@@ -47,6 +51,7 @@ static scene crowd(sbr_tasks tasks) {
   s.character_definition.position.y = 0;
   s.world_definition.ground = sbr_ground_noise(0.1, 5);
   s.world_definition.tasks = tasks;
+  s.model_options.scheme = scheme;
   scene_start(&s);
   for (int i = 0; i < 3; i++) {
     sbr_character_id id;
@@ -60,12 +65,12 @@ static scene crowd(sbr_tasks tasks) {
 
 START_TEST(any_number_of_threads_gives_the_same_bits)
 {
-  scene serial = crowd((sbr_tasks){NULL, NULL});
+  scene serial = crowd((sbr_tasks){NULL, NULL}, schemes[_i]);
   scene_ticks(&serial, 90);
   uint64_t expected = sbr_world_state_hash(serial.world);
   scene_free(&serial);
   for (int threads = 1; threads <= 8; threads = threads == 3 ? 8 : threads + 1) {
-    scene s = crowd((sbr_tasks){run_on_threads, &threads});
+    scene s = crowd((sbr_tasks){run_on_threads, &threads}, schemes[_i]);
     scene_ticks(&s, 90);
     ck_assert_uint_eq(sbr_world_state_hash(s.world), expected);
     scene_free(&s);
@@ -161,7 +166,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("step");
   TCase *c = tcase_create("step");
   tcase_set_timeout(c, 120);
-  tcase_add_test(c, any_number_of_threads_gives_the_same_bits);
+  tcase_add_loop_test(c, any_number_of_threads_gives_the_same_bits, 0, SCHEME_COUNT);
   tcase_add_test(c, numbers_that_are_none_are_recovered_from);
   tcase_add_test(c, a_body_inside_out_comes_back);
   tcase_add_test(c, bones_that_jump_take_their_bodies_along);

@@ -82,7 +82,8 @@ typedef struct sbr_model_options {
   const sbf_allocator *allocator; /* NULL: malloc */
   uint32_t level;    /* of each body that has so many levels, else its coarsest; of those of springs and of
                         tetrahedra the nearest */
-  sbf_scheme scheme; /* automatic: the level's own, and where that is automatic, symplectic */
+  sbf_scheme scheme; /* automatic: the level's own, and where that is automatic, symplectic, or position_based
+                        where that would be too many substeps or in trouble: docs/solvers.md */
   uint32_t substeps; /* of a control tick; 0: the level's own, or as many as the scheme needs */
   bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass */
   bool has_gravity;   /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */

@@ -1,0 +1,22 @@
+/* Which scheme steps an island whose choice is left to the runtime, tick by tick. */
+#ifndef SBRI_ROUTER_H
+#define SBRI_ROUTER_H
+
+#include "solvers/scheme.h"
+
+/* Explicit while it needs no more substeps a tick than this. Up to here position-based steps of the same
+ * error cost more: they are as good with about as many substeps as explicit ones need, at twice the price. */
+enum { SBRI_MOST_EXPLICIT_SUBSTEPS = 96 };
+
+/* For so many ticks after the last sign of trouble the recovering scheme goes on. */
+enum { SBRI_RECOVERING_TICKS = 10 };
+
+/* Whether the island, at rest, is one to step explicitly. */
+bool sbri_router_begins_explicit(const sbri_island *island);
+
+/* The scheme of the coming tick. Trouble is: springs so strained that explicit steps would be too many, or
+ * points that move by more than a cell in a substep against their body; `recovering` counts down from there,
+ * or from where the caller has set it. */
+const sbri_scheme *sbri_router_choose(const sbri_island_tick *tick, uint32_t *recovering);
+
+#endif

@@ -1,0 +1,127 @@
+/* What is left to the runtime: explicit steps where they are enough, position-based ones for what is too
+ * stiff and for what is in trouble, and the rest shape for what does not come back. */
+#include "solvers/router.h"
+
+#include <math.h>
+
+#include "core/world.h"
+#include "harness.h"
+#include "scenes.h"
+
+static scene section(float modulus) {
+  scene s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 1, 0});
+  scene_body(&s, 0)->attributes.young_modulus = modulus;
+  scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
+  scene_section(&s, 0, (sbf_vec3){0, 1, 0}, (sbf_vec3){0.4f, 0.3f, 0.6f}, 3);
+  return s;
+}
+
+static uint32_t recovering(const scene *s) {
+  return sbri_island_states(&s->world->characters[0])[0].recovering;
+}
+
+START_TEST(what_is_soft_is_stepped_explicitly)
+{
+  uint64_t hashes[2];
+  for (int k = 0; k < 2; k++) {
+    scene s = section(8e4f);
+    s.model_options.scheme = k ? SBF_SCHEME_SYMPLECTIC : SBF_SCHEME_AUTOMATIC;
+    scene_start(&s);
+    ck_assert_ptr_eq(s.model->islands[0].scheme, &sbri_symplectic);
+    ck_assert(s.model->islands[0].routed == (k == 0));
+    sbr_character_drive(s.world, s.character, 0.5f, 0, 1);
+    scene_ticks(&s, 120);
+    ck_assert_uint_eq(recovering(&s), 0);
+    hashes[k] = sbr_world_state_hash(s.world);
+    scene_free(&s);
+  }
+  ck_assert_uint_eq(hashes[0], hashes[1]);
+}
+END_TEST
+
+START_TEST(what_is_stiff_is_not)
+{
+  scene s = section(1e12f);
+  scene_start(&s);
+  ck_assert_ptr_eq(s.model->islands[0].scheme, &sbri_position_based);
+  ck_assert_uint_le(sbr_model_substeps(s.model), 32);
+  sbr_character_drive(s.world, s.character, 1, 0, 1);
+  scene_ticks(&s, 120);
+  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  ck_assert(health.finite);
+  ck_assert_float_eq_tol(health.volume_ratio, 1, 0.05f);
+  ck_assert_uint_eq(health.recoveries, 0);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(what_is_asked_for_is_done)
+{
+  scene s = section(8e4f);
+  s.model_options.substeps = 9;
+  scene_start(&s);
+  ck_assert(!s.model->islands[0].routed);
+  ck_assert_uint_eq(sbr_model_substeps(s.model), 9);
+  scene_free(&s);
+}
+END_TEST
+
+/* Speeds of more than a cell a substep, at random. */
+START_TEST(what_is_thrown_about_recovers_and_is_let_go)
+{
+  scene s = section(8e4f);
+  scene_start(&s);
+  scene_ticks(&s, 5);
+  float *velocities = sbri_velocities(&s.world->characters[0]);
+  uint32_t state = 7;
+  for (uint32_t i = 0; i < 3 * s.model->islands[0].free_count; i++) {
+    state = state * 1664525u + 1013904223u;
+    velocities[i] = 300 * ((float)(state >> 8) / 8388608.0f - 1);
+  }
+  scene_ticks(&s, 1);
+  ck_assert_uint_eq(recovering(&s), SBRI_RECOVERING_TICKS);
+  for (int i = 0; i < 240; i++) {
+    scene_ticks(&s, 1);
+    ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  }
+  ck_assert_uint_eq(recovering(&s), 0);
+  ck_assert_float_eq_tol(sbr_character_health(s.world, s.character, 0).volume_ratio, 1, 0.1f);
+  scene_free(&s);
+}
+END_TEST
+
+/* Pushed through itself, all of it. */
+START_TEST(what_is_inside_out_is_whole_within_two_seconds)
+{
+  scene s = section(8e4f);
+  scene_start(&s);
+  sbri_point *at = sbri_positions(&s.world->characters[0]);
+  const sbri_island *island = &s.model->islands[0];
+  for (uint32_t i = 0; i < island->free_count; i++) at[i].x = -at[i].x;
+  ck_assert_float_lt(sbr_character_health(s.world, s.character, 0).volume_ratio, 0);
+  for (int i = 0; i < 120; i++) {
+    scene_ticks(&s, 1);
+    ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  }
+  ck_assert_float_eq_tol(sbr_character_health(s.world, s.character, 0).volume_ratio, 1, 0.1f);
+  scene_free(&s);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("router");
+  TCase *c = tcase_create("router");
+  tcase_set_timeout(c, 60);
+  tcase_add_test(c, what_is_soft_is_stepped_explicitly);
+  tcase_add_test(c, what_is_stiff_is_not);
+  tcase_add_test(c, what_is_asked_for_is_done);
+  tcase_add_test(c, what_is_thrown_about_recovers_and_is_let_go);
+  tcase_add_test(c, what_is_inside_out_is_whole_within_two_seconds);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
