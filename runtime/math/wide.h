@@ -34,6 +34,13 @@ enum { SBRI_BLOCK = 8 }; /* lanes of a block */
 #define SBRI_LANES 1
 #endif
 
+/* For inner loops that are called with constants, which a copy of their own is to know. */
+#if defined(__GNUC__)
+#define SBRI_INLINE static inline __attribute__((always_inline))
+#else
+#define SBRI_INLINE static inline
+#endif
+
 /* Four numbers side by side: a point's x, y, z and an unused 0. */
 typedef struct sbri_point {
   float x, y, z, w;
@@ -120,7 +127,7 @@ typedef struct sbri_wide3 {
 } sbri_wide3;
 
 /* The points at `places[0]` to `places[SBRI_LANES - 1]`, turned so that each coordinate fills a wide. */
-static inline sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *places) {
+SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *places) {
   sbri_wide3 r;
 #if SBRI_LANES == 8
 #define SBRI_PAIR(i)                                                                                         \
@@ -260,22 +267,25 @@ static inline void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
 }
 
 /* points[places[i]] += lane i of v, one after the other. */
-static inline void sbri_wide_scatter_add(sbri_point *points, const uint32_t *places, sbri_wide3 v) {
+SBRI_INLINE void sbri_wide_scatter_add(sbri_point *points, const uint32_t *places, sbri_wide3 v) {
 #if SBRI_LANES == 8
   __m256 zero = _mm256_setzero_ps();
   __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y),
          xy_high = _mm256_unpackhi_ps((__m256)v.x, (__m256)v.y);
   __m256 zw = _mm256_unpacklo_ps((__m256)v.z, zero), zw_high = _mm256_unpackhi_ps((__m256)v.z, zero);
-  __m256 rows[4] = {_mm256_shuffle_ps(xy, zw, 0x44), _mm256_shuffle_ps(xy, zw, 0xee),
-      _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
-  for (int i = 0; i < 4; i++) {
-    float *low = &points[places[i]].x;
-    _mm_storeu_ps(low, _mm_add_ps(_mm_loadu_ps(low), _mm256_castps256_ps128(rows[i])));
-  }
-  for (int i = 0; i < 4; i++) {
-    float *high = &points[places[i + 4]].x;
-    _mm_storeu_ps(high, _mm_add_ps(_mm_loadu_ps(high), _mm256_extractf128_ps(rows[i], 1)));
-  }
+  __m256 a = _mm256_shuffle_ps(xy, zw, 0x44), b = _mm256_shuffle_ps(xy, zw, 0xee);
+  __m256 c = _mm256_shuffle_ps(xy_high, zw_high, 0x44), d = _mm256_shuffle_ps(xy_high, zw_high, 0xee);
+#define SBRI_ADD(i, row)                                                                                     \
+  _mm_storeu_ps(&points[places[i]].x, _mm_add_ps(_mm_loadu_ps(&points[places[i]].x), row))
+  SBRI_ADD(0, _mm256_castps256_ps128(a));
+  SBRI_ADD(1, _mm256_castps256_ps128(b));
+  SBRI_ADD(2, _mm256_castps256_ps128(c));
+  SBRI_ADD(3, _mm256_castps256_ps128(d));
+  SBRI_ADD(4, _mm256_extractf128_ps(a, 1));
+  SBRI_ADD(5, _mm256_extractf128_ps(b, 1));
+  SBRI_ADD(6, _mm256_extractf128_ps(c, 1));
+  SBRI_ADD(7, _mm256_extractf128_ps(d, 1));
+#undef SBRI_ADD
 #else
   sbri_point rows[SBRI_LANES];
   sbri_wide_store_points(rows, v);

@@ -40,8 +40,8 @@ typedef struct sbri_tetrahedron_watch {
 /* The block of a corner is V (mu |g|^2 1 + lambda (cof F g)(cof F g)^T) with |cof F g| = |n| / (6 V): its
  * largest eigenvalue against that at rest, the greatest of the corners'; and what the curvature of J adds
  * between corners, lambda |J - 1| at most beyond the mu that is there at rest. */
-static inline void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, sbri_wide3 n1,
-    sbri_wide3 n2, sbri_wide3 n3, sbri_wide ratio, sbri_tetrahedron_watch *watch) {
+SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, sbri_wide3 n1, sbri_wide3 n2,
+    sbri_wide3 n3, sbri_wide ratio, sbri_tetrahedron_watch *watch) {
   sbri_wide zero = sbri_wide_all(0), tiny = sbri_wide_all(1e-30f);
   sbri_wide k11 = sbri_wide_load(block->stiffness[0] + lane),
             k22 = sbri_wide_load(block->stiffness[1] + lane);
@@ -73,7 +73,7 @@ static inline void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane
 /* Viscous forces, taken off f: -beta V F S g_i, S Hooke's stress of the rate E' of Green's strain. In edges,
  * E' has the coefficients c_jk = (d_j.w_k + w_j.d_k) / 2, w the rates of the edges, and V g_j^T S g_i = 2 /
  * (V mu) K c K + (lambda - mu) / (V mu^2) (K:c) K. */
-static inline void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
+SBRI_INLINE void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     uint32_t lane, const float *betas, const sbri_wide3 d[3], sbri_wide3 f[3]) {
   sbri_wide3 v = sbri_wide_gather(t->velocity_points, block->corners[0] + lane), w[3];
   for (int i = 0; i < 3; i++)
@@ -104,11 +104,13 @@ static inline void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbr
 }
 
 /* The forces of a group of lanes on its corners. */
-static inline void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
+SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     uint32_t lane, const float *betas, sbri_tetrahedron_watch *watch, sbri_wide3 forces[4]) {
-  sbri_wide3 x0 = sbri_wide_gather(t->positions, block->corners[0] + lane), d[3], *f = forces + 1;
-  for (int i = 0; i < 3; i++)
-    d[i] = sbri_wide3_sub(sbri_wide_gather(t->positions, block->corners[i + 1] + lane), x0);
+  const sbri_point *x = t->positions;
+  sbri_wide3 x0 = sbri_wide_gather(x, block->corners[0] + lane), *f = forces + 1;
+  sbri_wide3 d[3] = {sbri_wide3_sub(sbri_wide_gather(x, block->corners[1] + lane), x0),
+      sbri_wide3_sub(sbri_wide_gather(x, block->corners[2] + lane), x0),
+      sbri_wide3_sub(sbri_wide_gather(x, block->corners[3] + lane), x0)};
   sbri_wide3 n1 = sbri_wide3_cross(d[1], d[2]), n2 = sbri_wide3_cross(d[2], d[0]),
              n3 = sbri_wide3_cross(d[0], d[1]);
   sbri_wide ratio = sbri_wide3_dot(d[0], n1) * sbri_wide_load(block->inverse_volume + lane);
@@ -135,14 +137,19 @@ static inline void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_
   forces[0] = (sbri_wide3){zero - others.x, zero - others.y, zero - others.z};
 }
 
-static inline void sbri_tetrahedron_block_forces(const sbri_island_tick *t,
-    const sbri_tetrahedron_block *block, const float *betas, sbri_tetrahedron_watch *watch) {
+SBRI_INLINE void sbri_tetrahedron_block_forces(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
+    const float *betas, sbri_tetrahedron_watch *watch) {
   sbri_wide3 forces[SBRI_BLOCK / SBRI_LANES][4];
   for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++)
     sbri_tetrahedron_lanes(t, block, group * SBRI_LANES, betas, watch, forces[group]);
-  for (int k = 0; k < 4; k++)
-    for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++)
-      sbri_wide_scatter_add(t->element_forces, block->corners[k] + group * SBRI_LANES, forces[group][k]);
+#define SBRI_SCATTER(k)                                                                                      \
+  for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++)                                         \
+  sbri_wide_scatter_add(t->element_forces, block->corners[k] + group * SBRI_LANES, forces[group][k])
+  SBRI_SCATTER(0);
+  SBRI_SCATTER(1);
+  SBRI_SCATTER(2);
+  SBRI_SCATTER(3);
+#undef SBRI_SCATTER
 }
 
 /* Forces in N of the island's tetrahedra on its slots, into t->element_forces. `watch`: NULL, or what begins
