@@ -203,9 +203,11 @@ static sbf_build_interior interior_of(const build *b, const sbf_soft_body *body)
   sbf_body_measure(body, &measures);
   sbf_build_interior wanted = b->options.interior;
   if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC && body->derived != SBF_NONE) return wanted;
+  /* A section hangs on its bone by its centroid; what no bone runs through is filled, or a sheet. */
   if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC)
-    wanted =
-        body->bone != SBF_NONE || !measures.sheet ? SBF_BUILD_INTERIOR_CENTROID : SBF_BUILD_INTERIOR_NONE;
+    wanted = body->bone != SBF_NONE ? SBF_BUILD_INTERIOR_CENTROID
+             : measures.sheet       ? SBF_BUILD_INTERIOR_NONE
+                                    : SBF_BUILD_INTERIOR_TETRAHEDRA;
   if (wanted == SBF_BUILD_INTERIOR_CENTROID || wanted == SBF_BUILD_INTERIOR_BRUTE) return wanted;
   return measures.sheet ? SBF_BUILD_INTERIOR_NONE : wanted;
 }

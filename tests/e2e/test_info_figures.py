@@ -35,7 +35,7 @@ class InfoFigures(ProgramTest):
     def test_of_a_large_file_little_is_read(self):
         source, packed, text = self.path("tube.obj"), self.path("tube.sbfz"), self.path("tube.sbf")
         with open(source, "w", encoding="ascii") as stream:
-            stream.write(tube(160, 100))
+            stream.write(tube(300, 180))
         self.good("convert", source, "-o", packed)
         self.assertGreater(os.path.getsize(packed), 1 << 20, "large enough for an outline")
         self.good("unpack", packed, "-o", text)

@@ -25,8 +25,8 @@ extern "C" {
  * all points of the surface, to compare with. Tetrahedra: isosurface stuffing, any surface, open ones and
  * soups included, dihedral angles between 10 and 165 degrees. */
 typedef enum sbf_build_interior {
-  SBF_BUILD_INTERIOR_AUTOMATIC = 0, /* lattice in a section cut here; else centroid, but none in a sheet
-                                       without a bone */
+  SBF_BUILD_INTERIOR_AUTOMATIC = 0, /* lattice in a section cut here, centroid in another, tetrahedra in a
+                                       body without a bone, none in a sheet without one */
   SBF_BUILD_INTERIOR_CENTROID = 1,  /* springs; held by the body's bone if it has one */
   SBF_BUILD_INTERIOR_NONE = 2,      /* springs over the surface alone */
   SBF_BUILD_INTERIOR_LATTICE = 3,   /* springs */
