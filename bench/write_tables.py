@@ -54,6 +54,11 @@ def elements_row(r):
             r["packed/xml"]]
 
 
+def solids_row(r):
+    return [number(r["tetrahedra"]), number(r["points"]), r["substeps"], number(r["frame_us"]), number(r["substep_us"]),
+            r["ns_per_element"], r["slope"]]
+
+
 def ik_row(r):
     return [r["solver"], r["limits"], r["targets"], r["tolerance_m"], r["passes"], r["us"], f"{float(r['error_mean_m']):.1g}",
             f"{float(r['error_most_m']):.1g}", f"{r['missed']} of {r['of']}"]
@@ -75,6 +80,7 @@ TABLES = {
     "lattice": (lattice_row, "surface | by | tetrahedra | ms | tetrahedra/s | least angle | greatest | volume | farthest, cells | "
                              "peak KiB", 2),
     "springs": (springs_row, "body | method | points | elements | leaving | spread | falls | off | substeps", 2),
+    "solids": (solids_row, "tetrahedra | points | substeps | frame, µs | substep, µs | ns for each and substep | slope", 0),
     "elements": (elements_row, "file | cell, m | points | tetrahedra | their XML | packed | × smaller | bundle, XML | "
                                "bundle, packed | packed / XML", 1),
     "load": (load_row, "asset | reader | form | bytes | ms | MB/s | × assimp on GLB | peak KiB | private KiB", 3),
