@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "export/exporting.h"
+#include "model/options.h"
 
 sbf_status sbfi_export_no_memory(sbfi_export *e) {
   return sbfi_diagnose(e->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while writing %s", e->path);
@@ -71,10 +72,10 @@ static const struct {
 
 sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error) {
-  static const sbf_export_options defaults = {0};
-  if (!options) options = &defaults;
-  if (options->struct_size && options->struct_size != sizeof *options)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_export_options has another size than this library's");
+  sbf_export_options taken = {0};
+  if (!sbfi_options_take(&taken, sizeof taken, options))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_export_options has a size that no version had");
+  options = &taken;
   const char *ending = strrchr(path, '.');
   for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
     if (!ending || strcmp(ending, forms[i].ending) != 0) continue;

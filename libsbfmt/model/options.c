@@ -8,6 +8,14 @@ static size_t given_size(size_t stated, size_t known) {
   return stated && stated < known ? stated : known;
 }
 
+bool sbfi_options_take(void *to, size_t known, const void *given) {
+  size_t stated = 0;
+  if (given) memcpy(&stated, given, sizeof stated);
+  if (stated && stated < sizeof stated) return false;
+  if (given) memcpy(to, given, given_size(stated, known));
+  return true;
+}
+
 static void default_u64(uint64_t *limit, uint64_t value) {
   if (*limit == 0) *limit = value;
 }

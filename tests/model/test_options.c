@@ -39,12 +39,35 @@ START_TEST(test_a_shorter_struct_of_an_older_caller_is_not_read_past_its_end)
 }
 END_TEST
 
+START_TEST(test_options_of_any_age_are_taken)
+{
+  struct {
+    size_t struct_size;
+    int old, young;
+  } given = {0, 1, 2}, taken = {0};
+  ck_assert(sbfi_options_take(&taken, sizeof taken, NULL));
+  ck_assert_int_eq(taken.old, 0);
+  ck_assert(sbfi_options_take(&taken, sizeof taken, &given));
+  ck_assert_int_eq(taken.young, 2);
+  taken.young = 0;
+  given.struct_size = sizeof(size_t) + sizeof(int);
+  ck_assert(sbfi_options_take(&taken, sizeof taken, &given));
+  ck_assert(taken.old == 1 && taken.young == 0);
+  given.struct_size = sizeof given + 100; /* of a newer one: what is known of it */
+  ck_assert(sbfi_options_take(&taken, sizeof taken, &given));
+  ck_assert_int_eq(taken.young, 2);
+  given.struct_size = 3;
+  ck_assert(!sbfi_options_take(&taken, sizeof taken, &given));
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("options");
   TCase *tests = tcase_create("options");
   tcase_add_test(tests, test_zero_means_the_documented_default);
   tcase_add_test(tests, test_what_is_given_stays);
   tcase_add_test(tests, test_a_shorter_struct_of_an_older_caller_is_not_read_past_its_end);
+  tcase_add_test(tests, test_options_of_any_age_are_taken);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

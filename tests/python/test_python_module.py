@@ -128,6 +128,12 @@ class Errors(ModuleTest):
             asset.build(interior="jam")
         with self.assertRaises(ValueError):
             sbfmt.convert(LIZARD, up="x")
+        said = []
+        try:
+            sbfmt.convert(LIZARD, rig=RIG, pins={"nowhere": None}, report=said.append)
+        except sbfmt.Error as error:
+            said.append(error.diagnostic)
+        self.assertIn("IMPORT_PIN_UNKNOWN", [message.code for message in said])
 
 
 class Callbacks(ModuleTest):

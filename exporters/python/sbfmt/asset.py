@@ -6,7 +6,7 @@ import weakref
 import xml.etree.ElementTree as ElementTree
 
 from .description import describe
-from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertOptions, DiagnosticStruct, ExportOptions, \
+from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertOptions, ConvertPin, DiagnosticStruct, ExportOptions, \
     LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, check, library
 
 INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra")
@@ -122,13 +122,19 @@ def load(path, check_crc=True, extensions=()):
     return Asset(loaded.value)
 
 
-def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=None):
-    """Reads another program's file into an asset of source parts; `build` makes the rest."""
+def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=None, pins=None, goals=(0.0, 1.0),
+            goal_stiffness=0.0):
+    """Reads another program's file into an asset of source parts; `build` makes the rest.
+
+    `pins` is a dict from vertex groups or bones with weights to the bone that holds them, "" for the world, None for
+    the bone of that name. `goals` are the least and the largest weight, `goal_stiffness` is in N/m at weight 1; 0: by the body."""
     if up not in (None, "y", "z"):
         raise ValueError(f"up is y or z, not {up!r}")
     callbacks, made, error = Callbacks(report), ctypes.c_void_p(), DiagnosticStruct()
+    held = [(group.encode(), None if bone is None else bone.encode()) for group, bone in (pins or {}).items()]
     options = ConvertOptions(ctypes.sizeof(ConvertOptions), None, path_bytes(rig), unit, up.encode() if up else b"\0",
-                             not gait, path_bytes(helper), callbacks.report, None)
+                             not gait, path_bytes(helper), callbacks.report, None,
+                             (ConvertPin * len(held))(*held), len(held), *goals, goal_stiffness)
     status = library().sbf_convert(path_bytes(path), ctypes.byref(options), ctypes.byref(made), ctypes.byref(error))
     asset = Asset(made.value) if status == OK else None
     callbacks.check(status, error)

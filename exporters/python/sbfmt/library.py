@@ -1,7 +1,7 @@
 """The shared library: where it is, and its structures and calls as ctypes has them.
 
-The structures are those of base.h, io.h, build.h, convert.h, validate.h and export.h of this very version: the library
-refuses options of another size than its own.
+The structures are those of base.h, io.h, build.h, convert.h, validate.h and export.h of this very version; a newer
+library takes them as well, since options grow at their end alone and begin with their size.
 """
 
 import ctypes
@@ -55,9 +55,15 @@ class BuildOptions(Structure):
                 ("elements", c_uint32), ("sections", c_int), ("overlap_m", c_double)]
 
 
+class ConvertPin(Structure):
+    _fields_ = [("group", c_char_p), ("bone", c_char_p)]
+
+
 class ConvertOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("rig", c_char_p), ("unit_m", c_double),
-                ("up", c_char), ("no_gait", c_bool), ("import_helper", c_char_p), ("report", Report), ("user", c_void_p)]
+                ("up", c_char), ("no_gait", c_bool), ("import_helper", c_char_p), ("report", Report), ("user", c_void_p),
+                ("pins", POINTER(ConvertPin)), ("pin_count", c_uint32), ("goal_minimum", c_double),
+                ("goal_maximum", c_double), ("goal_stiffness", c_double)]
 
 
 class ValidateOptions(Structure):

@@ -12,6 +12,7 @@
 #include "import/gait/propose_gait.h"
 #include "import/paper/dialect2012.h"
 #include "import/scene/bind_pose.h"
+#include "model/options.h"
 
 /* File axes and unit to asset space; the caller's word counts more than the file's. */
 static sbfi_matrix matrix_to_asset(const sbfi_scene *scene, const sbf_convert_options *options) {
@@ -210,14 +211,13 @@ static sbf_status convert_other_file(const char *input, bool is_paper, const sbf
 
 sbf_status sbf_convert(
     const char *input, const sbf_convert_options *options, sbf_asset **asset, sbf_diagnostic *error) {
-  static const sbf_convert_options defaults = {0};
+  sbf_convert_options taken = {0};
   sbf_diagnostic unseen;
   if (!error) error = &unseen;
-  if (!options) options = &defaults;
   *asset = NULL;
-  if (options->struct_size && options->struct_size != sizeof *options)
-    return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "sbf_convert_options has another size than this library's");
+  if (!sbfi_options_take(&taken, sizeof taken, options))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
+  options = &taken;
   if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
   if (!(options->goal_minimum >= 0 && options->goal_minimum <= 1 && options->goal_maximum >= 0 &&

@@ -15,6 +15,7 @@
 #include "build/unique_id.h"
 #include "import/motion/carried_motion.h"
 #include "model/ids.h"
+#include "model/options.h"
 #include "sbfmt/convert.h"
 #include "sbfmt/io.h"
 
@@ -418,12 +419,11 @@ static sbf_status read_motion(motion *m, const sbf_convert_options *options, sbf
 
 sbf_status sbf_convert_motion(
     sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error) {
-  static const sbf_convert_options defaults = {.struct_size = 0};
+  sbf_convert_options taken = {.struct_size = 0};
   sbf_diagnostic unseen;
-  if (!options) options = &defaults;
-  if (options->struct_size && options->struct_size != sizeof *options)
-    return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "sbf_convert_options has another size than this library's");
+  if (!sbfi_options_take(&taken, sizeof taken, options))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
+  options = &taken;
   motion m = {.to = asset,
       .file = file,
       .reporter = {options->report, options->user, 0, 0},
