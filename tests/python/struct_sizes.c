@@ -33,6 +33,8 @@ int main(void) {
   OFFSET(sbf_build_options, progress);
   OFFSET(sbf_build_options, report);
   OFFSET(sbf_build_options, elements);
+  OFFSET(sbf_build_options, error_m);
+  OFFSET(sbf_convert_options, goal_stiffness);
   OFFSET(sbf_convert_options, up);
   OFFSET(sbf_convert_options, import_helper);
   OFFSET(sbf_convert_options, report);

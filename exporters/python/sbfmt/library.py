@@ -52,7 +52,8 @@ class BuildOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("tool", c_char_p), ("interior", c_int),
                 ("without_flexion", c_bool), ("without_embeddings", c_bool), ("without_hulls", c_bool),
                 ("progress", Progress), ("report", Report), ("user", c_void_p), ("cell_m", c_double),
-                ("elements", c_uint32), ("sections", c_int), ("overlap_m", c_double)]
+                ("elements", c_uint32), ("sections", c_int), ("overlap_m", c_double),
+                ("without_calibration", c_bool), ("levels", c_uint32), ("error_m", c_double)]
 
 
 class ConvertPin(Structure):
