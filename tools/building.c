@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 
+#include "mesh_quality.h"
 #include "sbfmt/build.h"
 
 /* As sbf_build_interior, and another word for one of them. */
@@ -87,6 +88,11 @@ sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error
   cli_progress_end();
   sbf_asset_free(*asset);
   *asset = built;
-  if (status == SBF_OK) print_report(&made);
+  if (status == SBF_OK) {
+    mesh_quality quality;
+    mesh_quality_measure(built, NULL, &quality);
+    print_report(&made);
+    mesh_quality_print(&quality);
+  }
   return status;
 }

@@ -88,6 +88,7 @@ static const char *code_name(int32_t code) {
 
 void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
   cli_progress_end();
+  if (call->messages) json_array_append_new(call->messages, cli_diagnostic_json(d));
   fprintf(stderr, "sbfmt %s: %s: ", call->verb->name, severity_word(d->severity));
   if (d->file[0]) fprintf(stderr, "%s:", d->file);
   if (d->line) fprintf(stderr, "%u:", d->line);

@@ -37,7 +37,8 @@ struct cli_call {
     const char *value;
   } * given;
   int given_count;
-  bool json; /* --format json */
+  bool json;        /* --format json */
+  json_t *messages; /* where not NULL: every diagnostic printed is added to this list */
 };
 
 extern const cli_verb *const cli_verbs[]; /* ends with NULL */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "building.h"
+#include "conversion_report.h"
 #include "material_options.h"
 #include "pin_options.h"
 #include "sbfmt/convert.h"
@@ -38,9 +39,28 @@ static sbf_status read_input(cli_call *call, const char *input, const sbf_conver
   return status;
 }
 
-static int convert(cli_call *call, const char *input, const char *out, const sbf_convert_options *options) {
+/* The report of a conversion that went well; its own failure fails the call. */
+static sbf_status write_report(cli_call *call, const char *input, const char *out,
+    const sbf_convert_options *options, const sbf_asset *asset, sbf_diagnostic *error) {
+  const conversion_report of = {.input = input,
+      .rig = options->rig,
+      .output = out,
+      .options = options,
+      .summary = options->summary,
+      .asset = asset,
+      .messages = call->messages};
+  json_t *report = conversion_report_make(&of);
+  if (!report) return (sbf_status)cli_wrong(call, "memory ran out for the report");
+  sbf_status status = conversion_report_write(report, cli_value(call, "--report"), error);
+  json_decref(report);
+  return status;
+}
+
+static int convert(cli_call *call, const char *input, const char *out, sbf_convert_options *options) {
   sbf_asset *asset;
   sbf_diagnostic error;
+  sbf_convert_summary summary = {.source_count = 0};
+  options->summary = &summary;
   sbf_status status = read_input(call, input, options, &asset, &error);
   if (status == SBF_OK && !materials_apply(call, asset)) {
     sbf_asset_free(asset);
@@ -49,13 +69,14 @@ static int convert(cli_call *call, const char *input, const char *out, const sbf
   if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
   if (status == SBF_OK) {
     status = sbf_save_file(asset, out, NULL, &error);
+    if (status == SBF_OK && call->messages) status = write_report(call, input, out, options, asset, &error);
     sbf_asset_free(asset);
   }
   if (status != SBF_OK) cli_print_diagnostic(call, &error);
   return (int)status;
 }
 
-static int convert_all(cli_call *call, const sbf_convert_options *options) {
+static int convert_all(cli_call *call, sbf_convert_options *options) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
   int status = SBF_OK;
   for (int i = 0; i < call->input_count; i++) {
@@ -81,8 +102,15 @@ static int run(cli_call *call) {
       !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   if (cli_value(call, "--up")) options.up = axes[up][0];
+  const char *page = cli_value(call, "--report");
+  if (page && call->input_count > 1) return cli_wrong(call, "--report takes one input");
+  if (page && !conversion_report_knows(page))
+    return cli_wrong(call, "a report is a page or an object: --report OUT.html or OUT.json, not '%s'", page);
+  call->messages = page ? json_array() : NULL;
   if (pin_options_read(call, &pins, &options)) status = convert_all(call, &options);
   pin_options_free(&pins);
+  json_decref(call->messages);
+  call->messages = NULL;
   return status;
 }
 
@@ -94,6 +122,8 @@ static const cli_option options[] = {
     {"--unit", "METRES", "metres in a unit of the input (what the file says, else 1)"},
     {"--up", "y|z", "the input's upward axis (what the file says, else y)"},
     PIN_OPTIONS,
+    {"--report", "OUT.html|json",
+        "tell what came in, what was mended and guessed, how good the elements are"},
     {"--no-build", NULL, "leave the derived parts to `sbfmt build`"},
     BUILDING_OPTIONS,
     MATERIALS_OPTION,

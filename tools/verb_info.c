@@ -1,6 +1,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "bundle_description.h"
 #include "cli.h"
 #include "sbfmt/io.h"
 #include "sbfmt/mechanics.h"
@@ -131,7 +132,7 @@ static uint64_t leg_count(const sbf_asset *asset) {
   return legs;
 }
 
-static json_t *describe(const sbf_asset *asset, const sbf_asset_measures *measures, uint64_t bytes) {
+json_t *bundle_description(const sbf_asset *asset, const sbf_asset_measures *measures, uint64_t bytes) {
   totals t = count(asset);
   json_t *springs = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "structural",
       integer(t.springs[SBF_SPRING_KIND_STRUCTURAL]), "shear", integer(t.springs[SBF_SPRING_KIND_SHEAR]),
@@ -291,7 +292,7 @@ static int run(cli_call *call) {
     cli_print_diagnostic(call, &error);
     return (int)status;
   }
-  json_t *object = describe(l.asset, &l.measures, l.bytes);
+  json_t *object = bundle_description(l.asset, &l.measures, l.bytes);
   if (with_quality) json_object_set_new(object, "lattice", quality(l.asset));
   sbf_asset_free(l.asset);
   if (call->json) return cli_print_json(object, SBF_OK);

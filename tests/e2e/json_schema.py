@@ -1,13 +1,15 @@
-"""As much of JSON Schema as spec/report.schema.json uses, and an error for every word of it that is not known here."""
+"""As much of JSON Schema as spec/*.schema.json use, and an error for every word of it that is not known here."""
 
 import re
 
-TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int}
+TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int, "number": (int, float), "null": type(None)}
 NOTES = {"$schema", "$id", "$defs", "title", "description"}
 
 
 def is_of_type(value, name):
-    return isinstance(value, TYPES[name]) and not (name == "integer" and isinstance(value, bool))
+    if isinstance(name, list):
+        return any(is_of_type(value, one) for one in name)
+    return isinstance(value, TYPES[name]) and not (name in ("integer", "number") and isinstance(value, bool))
 
 
 def resolve(root, reference):
@@ -35,9 +37,9 @@ def faults(value, schema, root=None, path="$"):
         elif word == "minimum":
             found += [] if value >= rule else [f"{path} is below {rule}"]
         elif word == "required":
-            found += [f"{path} lacks {key}" for key in rule if key not in value]
+            found += [f"{path} lacks {key}" for key in rule if value is not None and key not in value]
         elif word == "properties":
-            for key in rule.keys() & value.keys():
+            for key in rule.keys() & (value or {}).keys():
                 found += faults(value[key], rule[key], root, f"{path}.{key}")
         elif word == "additionalProperties" and rule is False:
             found += [f"{path} has {key} as well" for key in value if key not in schema["properties"]]

@@ -4,6 +4,7 @@
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "render/fault.h"
@@ -44,4 +45,17 @@ sbf_status draw_picture_write_png(
         "cannot write: %s; check the folder, its permissions and the free space", strerror(why));
   }
   return output_file_commit(&output, diagnostic);
+}
+
+sbf_status draw_picture_encode_png(const uint8_t *rgb, uint32_t width, uint32_t height, uint8_t **png,
+    size_t *size, sbf_diagnostic *diagnostic) {
+  char *bytes = NULL;
+  FILE *file = open_memstream(&bytes, size);
+  bool good = file && encode(file, rgb, width, height);
+  if (file && fclose(file) != 0) good = false;
+  *png = (uint8_t *)bytes;
+  if (good) return SBF_OK;
+  free(bytes);
+  *png = NULL;
+  return fault_set(diagnostic, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a picture");
 }

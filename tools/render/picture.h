@@ -1,4 +1,4 @@
-/* A picture into a PNG file. */
+/* A picture as PNG, in a file or in memory. */
 #ifndef RENDER_PICTURE_H
 #define RENDER_PICTURE_H
 
@@ -7,5 +7,9 @@
 /* `rgb`: width * height * 3 bytes, rows from the top, sRGB. The file is there whole or not at all. */
 sbf_status draw_picture_write_png(
     const char *path, const uint8_t *rgb, uint32_t width, uint32_t height, sbf_diagnostic *diagnostic);
+
+/* The same bytes in memory from malloc, which is the caller's to free. */
+sbf_status draw_picture_encode_png(const uint8_t *rgb, uint32_t width, uint32_t height, uint8_t **png,
+    size_t *size, sbf_diagnostic *diagnostic);
 
 #endif

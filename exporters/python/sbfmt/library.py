@@ -64,7 +64,8 @@ class ConvertOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("rig", c_char_p), ("unit_m", c_double),
                 ("up", c_char), ("no_gait", c_bool), ("import_helper", c_char_p), ("report", Report), ("user", c_void_p),
                 ("pins", POINTER(ConvertPin)), ("pin_count", c_uint32), ("goal_minimum", c_double),
-                ("goal_maximum", c_double), ("goal_stiffness", c_double)]
+                ("goal_maximum", c_double), ("goal_stiffness", c_double),
+                ("summary", c_void_p)]
 
 
 class ValidateOptions(Structure):

@@ -8,6 +8,7 @@
 #include "base/sha256.h"
 #include "import/convert/conversion.h"
 #include "import/convert/convert_pins.h"
+#include "import/convert/convert_summary.h"
 #include "import/convert/convert_tets.h"
 #include "import/gait/propose_gait.h"
 #include "import/paper/dialect2012.h"
@@ -158,6 +159,7 @@ static sbf_status convert_readings(
   c.asset = sbf_asset_create(options->allocator);
   sbf_status status = c.asset ? SBF_OK : sbfi_convert_no_memory(&c);
   if (status == SBF_OK) {
+    sbfi_summarize(&c, from->tets, from->paper, options);
     pass_on_warnings(&c, scene);
     if (rig && rig != scene) pass_on_warnings(&c, rig);
     status = from->tets    ? run_tet_passes(&c, from->tets)

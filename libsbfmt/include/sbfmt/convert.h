@@ -16,6 +16,30 @@ typedef struct sbf_convert_pin {
   const char *bone;  /* that is to hold; "": the world; NULL: the bone of the group's name, else the world */
 } sbf_convert_pin;
 
+/* What one file of a conversion held, as it came in. */
+typedef struct sbf_convert_source {
+  char form[16];       /* "obj", "fbx", "glb", "vtu", "xml" ... */
+  char generator[64];  /* the program that wrote it, "" where it does not say */
+  double unit_m;       /* metres in one of its units, as they were taken */
+  bool unit_stated;    /* by the file; else by the call, or metres are assumed */
+  bool axes_stated;    /* likewise; +Y up is assumed */
+  uint32_t objects;    /* surfaces */
+  uint32_t vertices;   /* as stored: of OBJ its points, elsewhere split for drawing */
+  uint32_t points;     /* of the surfaces, or of the tetrahedra */
+  uint32_t polygons;   /* of the surfaces */
+  uint32_t bones;      /* in the node tree */
+  uint32_t materials;  /* as the file has them */
+  uint32_t images;     /* that materials name, or that are embedded */
+  uint32_t clips;      /* animations */
+  uint32_t tetrahedra; /* of a file of tetrahedra */
+} sbf_convert_source;
+
+/* What came in. */
+typedef struct sbf_convert_summary {
+  uint32_t source_count;         /* of sources */
+  sbf_convert_source sources[2]; /* the input and, where it is a file of its own, the rig */
+} sbf_convert_summary;
+
 /* Settings of a conversion. */
 typedef struct sbf_convert_options {
   size_t struct_size;             /* sizeof(sbf_convert_options), or 0 for this version's */
@@ -39,6 +63,7 @@ typedef struct sbf_convert_options {
   uint32_t pin_count;                /* of pins */
   double goal_minimum, goal_maximum; /* 0..1; a maximum of 0 counts as 1 */
   double goal_stiffness;             /* N/m at weight 1; 0: by the body's modulus and the point's mass */
+  sbf_convert_summary *summary;      /* receives what came in; may be NULL */
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names

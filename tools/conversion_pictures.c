@@ -1,0 +1,283 @@
+#include "conversion_pictures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh_quality.h"
+#include "render/camera.h"
+#include "render/canvas.h"
+#include "render/draw_scene.h"
+#include "render/painter.h"
+#include "render/picture.h"
+
+enum { WIDTH = 960, HEIGHT = 720 };
+
+static uint8_t srgb(float linear) {
+  double v = linear < 0 ? 0 : linear > 1 ? 1 : (double)linear;
+  v = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
+  return (uint8_t)(v * 255 + 0.5);
+}
+
+static draw_colour colour_of(const sbf_asset *asset, int32_t material) {
+  if (material < 0) return draw_colour_of_skin();
+  sbf_vec4 c = asset->materials.at[material].base_color;
+  return (draw_colour){srgb(c.x), srgb(c.y), srgb(c.z), 255};
+}
+
+/* Polygons as fans of triangles: those of one material slot, or all where `slots` is NULL. */
+static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const sbf_u32_list *slots,
+    uint32_t slot, draw_colour colour, float transparency) {
+  uint32_t *triangles = malloc((3 * (size_t)mesh->polygon_points.count + 1) * sizeof *triangles), count = 0;
+  for (uint32_t i = 0, at = 0; triangles && i < mesh->polygon_sizes.count; at += mesh->polygon_sizes.at[i++])
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[i] && (!slots || !slots->count || slots->at[i] == slot);
+         k++) {
+      triangles[3 * count] = mesh->polygon_points.at[at];
+      triangles[3 * count + 1] = mesh->polygon_points.at[at + k - 1];
+      triangles[3 * count++ + 2] = mesh->polygon_points.at[at + k];
+    }
+  if (count)
+    draw_scene_add_mesh(scene, &(draw_mesh){.positions = mesh->positions.at,
+                                   .triangles = triangles,
+                                   .vertex_count = mesh->positions.count,
+                                   .triangle_count = count,
+                                   .colour = colour,
+                                   .transparency = transparency});
+  free(triangles);
+}
+
+static bool add_skin(const sbf_asset *asset, draw_scene *scene, float transparency) {
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
+    const sbf_render_mesh *mesh = &asset->render_meshes.at[i];
+    uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
+    for (uint32_t s = 0; s < slots; s++)
+      add_polygons(scene, &mesh->mesh, &mesh->polygon_materials, s,
+          colour_of(asset, mesh->material_slots.count ? mesh->material_slots.at[s].material : SBF_NONE),
+          transparency);
+  }
+  return asset->render_meshes.count > 0;
+}
+
+static bool add_whole_skin(const sbf_asset *asset, draw_scene *scene) {
+  return add_skin(asset, scene, 0);
+}
+
+/* Hues a golden angle apart, so that neighbours in the list never look alike. */
+static draw_colour colour_of_section(uint32_t i) {
+  double hue = fmod(0.08 + i * 0.6180339887, 1) * 6, rgb[3];
+  for (int k = 0; k < 3; k++) {
+    double away = fabs(fmod(hue + 6 - 2 * k, 6) - 3) - 1, full = away < 0 ? 0 : away > 1 ? 1 : away;
+    rgb[k] = 0.36 + 0.5 * full;
+  }
+  return (draw_colour){(uint8_t)(255 * rgb[0]), (uint8_t)(255 * rgb[1]), (uint8_t)(255 * rgb[2]), 255};
+}
+
+static bool add_sections(const sbf_asset *asset, draw_scene *scene) {
+  uint32_t shown = 0;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_polygon_mesh *surface = &asset->soft_bodies.at[i].surface;
+    add_polygons(scene, surface, NULL, 0, colour_of_section(i), 0);
+    shown += surface->polygon_sizes.count > 0;
+  }
+  return shown > 0;
+}
+
+/* --- Tetrahedra, the nearer half taken off --------------------------------------------------------- */
+
+static const sbf_level *finest(const sbf_soft_body *body) {
+  return body->levels.count ? &body->levels.at[0] : NULL;
+}
+
+/* The side from which the camera looks: what lies before the middle, along +X and +Z, is left out. */
+static bool is_kept(const sbf_level *level, const uint32_t *p, float middle) {
+  float at = 0;
+  for (int k = 0; k < 4; k++) at += level->positions.at[p[k]].x / 4;
+  return at <= middle;
+}
+
+static void middle_of(const sbf_level *level, float *x) {
+  float low = INFINITY, high = -INFINITY;
+  for (uint32_t i = 0; i < level->positions.count; i++) {
+    low = fminf(low, level->positions.at[i].x);
+    high = fmaxf(high, level->positions.at[i].x);
+  }
+  *x = (low + high) / 2;
+}
+
+/* All sides of the tetrahedra kept, each with points of its own to bear its tetrahedron's colour: those
+ * inside are hidden by those outside. */
+static bool add_cut(const sbf_level *level, const draw_colour_map *map, draw_scene *scene) {
+  static const int sides[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  const sbf_uint4_list *all = &level->lattice.tetrahedra;
+  size_t room = 12 * (size_t)all->count + 1;
+  sbf_vec3 *points = malloc(room * sizeof *points);
+  draw_colour *colours = malloc(room * sizeof *colours);
+  uint32_t *triangles = malloc(room * sizeof *triangles), count = 0;
+  float middle;
+  middle_of(level, &middle);
+  for (uint32_t i = 0; points && colours && triangles && i < all->count; i++) {
+    const uint32_t *p = all->at[i].at;
+    if (!is_kept(level, p, middle)) continue;
+    draw_colour colour = draw_colour_map_at(map, (float)mesh_radius_ratio(level->positions.at, p));
+    for (int s = 0; s < 4; s++)
+      for (int k = 0; k < 3; k++) {
+        points[count] = level->positions.at[p[sides[s][k]]];
+        colours[count] = colour;
+        triangles[count] = count;
+        count++;
+      }
+  }
+  if (count)
+    draw_scene_add_mesh(scene, &(draw_mesh){.positions = points,
+                                   .colours = colours,
+                                   .triangles = triangles,
+                                   .vertex_count = count,
+                                   .triangle_count = count / 3,
+                                   .flat = true});
+  free(points);
+  free(colours);
+  free(triangles);
+  return count > 0;
+}
+
+static bool add_lattices(const sbf_asset *asset, draw_scene *scene) {
+  draw_colour_map map;
+  bool shown = false;
+  draw_colour_map_init_sequential(&map);
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_level *level = finest(&asset->soft_bodies.at[i]);
+    if (level && level->lattice.tetrahedra.count && add_cut(level, &map, scene)) shown = true;
+  }
+  if (shown) draw_scene_add_scale(scene, &map, "0", NULL, "1 = regular");
+  return shown;
+}
+
+static bool add_springs(const sbf_asset *asset, draw_scene *scene) {
+  unsigned seen = 0;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_level *level = finest(&asset->soft_bodies.at[i]);
+    for (uint32_t s = 0; level && s < level->springs.count; s++) {
+      const sbf_spring_set *set = &level->springs.at[s];
+      const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)set->kind);
+      draw_scene_add_lines(scene, level->positions.at, level->positions.count, set->ends.at, NULL,
+          set->ends.count, look->colour, look->width);
+      seen |= set->ends.count ? 1u << set->kind : 0;
+    }
+  }
+  if (!seen) return false;
+  add_skin(asset, scene, 0.88f);
+  for (int k = DRAW_SPRING_LOOK_COUNT - 1; k >= 0; k--) {
+    const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)k);
+    if (seen & 1u << k) draw_scene_add_legend(scene, look->name, look->colour);
+  }
+  return true;
+}
+
+static bool add_bones(const sbf_asset *asset, draw_scene *scene) {
+  for (uint32_t i = 0; i < asset->bones.count; i++) {
+    const sbf_bone *b = &asset->bones.at[i];
+    sbf_vec3 along = v3_scale(v3_rotate(b->rotation, v3(0, 1, 0)), b->length);
+    if (b->length > 0) draw_scene_add_bone(scene, b->head, v3_add(b->head, along), draw_colour_of_bone());
+  }
+  if (asset->bones.count) add_skin(asset, scene, DRAW_XRAY);
+  return asset->bones.count > 0;
+}
+
+/* --- Drawing ------------------------------------------------------------------------------------------- */
+
+static const struct {
+  const char *name, *title, *caption;
+  bool (*add)(const sbf_asset *, draw_scene *);
+} views[] = {
+    {"skin", "Skin", "The render meshes at rest, in their base colours; images are not drawn.",
+        add_whole_skin},
+    {"sections", "Sections", "The surface of every soft body in a colour of its own.", add_sections},
+    {"lattice", "Lattice",
+        "The tetrahedra of the finest levels, half of each body taken off, by how near they are to regular.",
+        add_lattices},
+    {"springs", "Springs", "The springs of the finest levels, by kind.", add_springs},
+    {"bones", "Bones", "The skeleton at rest.", add_bones},
+};
+
+typedef struct easel {
+  draw_canvas *canvas;
+  draw_painter *painter;
+  draw_scene *scene;
+  uint8_t *rgb;
+} easel;
+
+static sbf_status open_easel(easel *e, sbf_diagnostic *error) {
+  sbf_status status = draw_canvas_open(&e->canvas, WIDTH, HEIGHT, DRAW_CANVAS_STILL, error);
+  if (status == SBF_OK) status = draw_painter_create(&e->painter, e->canvas, error);
+  if (status != SBF_OK) return status;
+  e->scene = draw_scene_create();
+  e->rgb = malloc((size_t)3 * WIDTH * HEIGHT);
+  if (e->scene && e->rgb) return SBF_OK;
+  snprintf(error->message, sizeof error->message, "memory ran out for the pictures");
+  return SBF_FAILED;
+}
+
+static void close_easel(easel *e) {
+  if (e->scene) draw_scene_destroy(e->scene);
+  draw_painter_destroy(e->painter);
+  draw_canvas_close(e->canvas);
+  free(e->rgb);
+}
+
+static sbf_status paint(easel *e, sbf_diagnostic *error) {
+  draw_camera camera;
+  box3 box = draw_scene_bounds(e->scene);
+  if (!box3_is_empty(&box)) draw_scene_set_floor(e->scene, box.min.y);
+  draw_scene_frame(e->scene, &camera, (float)WIDTH / HEIGHT, DRAW_CAMERA_THREE_QUARTER_YAW,
+      DRAW_CAMERA_THREE_QUARTER_PITCH);
+  sbf_status status = draw_painter_paint(e->painter, e->scene, &camera, error);
+  return status == SBF_OK ? draw_canvas_read(e->canvas, e->rgb, error) : status;
+}
+
+/* As RFC 4648 has it. */
+static char *base64_of(const uint8_t *bytes, size_t size) {
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  char *text = malloc((size + 2) / 3 * 4 + 1), *to = text;
+  for (size_t i = 0; text && i < size; i += 3) {
+    uint32_t bits = (uint32_t)bytes[i] << 16;
+    if (i + 1 < size) bits |= (uint32_t)bytes[i + 1] << 8;
+    if (i + 2 < size) bits |= bytes[i + 2];
+    *to++ = digits[bits >> 18];
+    *to++ = digits[bits >> 12 & 63];
+    *to++ = i + 1 < size ? digits[bits >> 6 & 63] : '=';
+    *to++ = i + 2 < size ? digits[bits & 63] : '=';
+  }
+  if (text) *to = 0;
+  return text;
+}
+
+static bool append(json_t *list, size_t view, const uint8_t *png, size_t size) {
+  char *text = base64_of(png, size);
+  json_t *one =
+      text ? json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", views[view].name, "title", views[view].title,
+                 "caption", views[view].caption, "width", WIDTH, "height", HEIGHT, "png", text)
+           : NULL;
+  free(text);
+  return one && json_array_append_new(list, one) == 0;
+}
+
+bool conversion_pictures_draw(const sbf_asset *asset, json_t *list, char **why) {
+  easel e = {.canvas = NULL};
+  sbf_diagnostic error = {.code = 0};
+  sbf_status status = open_easel(&e, &error);
+  bool good = true;
+  for (size_t i = 0; status == SBF_OK && good && i < sizeof views / sizeof *views; i++) {
+    uint8_t *png = NULL;
+    size_t size = 0;
+    draw_scene_clear(e.scene);
+    if (!views[i].add(asset, e.scene)) continue;
+    status = paint(&e, &error);
+    if (status == SBF_OK) status = draw_picture_encode_png(e.rgb, WIDTH, HEIGHT, &png, &size, &error);
+    if (status == SBF_OK) good = append(list, i, png, size);
+    free(png);
+  }
+  close_easel(&e);
+  *why = status == SBF_OK ? NULL : strdup(error.message);
+  return good && (status == SBF_OK || *why);
+}
