@@ -42,6 +42,7 @@ static inline void sbri_moves_begin(const sbri_island_tick *t) {
 /* Weight, outer forces and damping of the velocities; then the moves go on by them, and what they are before
  * any spring is kept in t->accelerations. */
 static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float share) {
+  static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
   const sbri_island *island = t->island;
   sbri_wide step = sbri_wide_all(h);
   if (t->outer) sbri_outer_forces(t, h);
@@ -57,11 +58,8 @@ static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float 
       sbri_wide w = sbri_wide_load(island->inverse_masses + slot);
       a.x = a.x + f.x * w, a.y = a.y + f.y * w, a.z = a.z + f.z * w;
     }
-    sbri_store3(velocity, (sbri_wide3){v.x + step * a.x, v.y + step * a.y, v.z + step * a.z});
-  }
-  for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
-    static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
-    sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+    v.x = v.x + step * a.x, v.y = v.y + step * a.y, v.z = v.z + step * a.z;
+    sbri_store3(velocity, v);
     sbri_wide4 u = sbri_wide_gather4(t->moves + slot, in_order);
     u.x = u.x + step * v.x, u.y = u.y + step * v.y, u.z = u.z + step * v.z;
     sbri_store3(sbri_triple(t->accelerations, slot), (sbri_wide3){u.x, u.y, u.z});

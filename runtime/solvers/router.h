@@ -5,7 +5,7 @@
 #include "solvers/scheme.h"
 
 /* Explicit while it needs no more substeps a tick than this. Up to here position-based steps of the same
- * error cost more: they are as good with about as many substeps as explicit ones need, at twice the price. */
+ * error cost four times as much (docs/benchmarks.md). */
 enum { SBRI_MOST_EXPLICIT_SUBSTEPS = 96 };
 
 /* For so many ticks after the last sign of trouble the recovering scheme goes on. */
