@@ -92,15 +92,17 @@ static int convert_all(cli_call *call, sbf_convert_options *options) {
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
   static const char *const axes[] = {"y", "z"};
-  int up = 0, status = SBF_FAILED;
+  static const char *const animals[] = {"none", "human", "quadruped", "reptile"}; /* as sbf_convert_limits */
+  int up = 0, limits = 0, status = SBF_FAILED;
   pin_options pins;
   sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
   if (!out == !folder)
     return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
   if (!cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) || !cli_word(call, "--up", axes, 2, &up) ||
-      !building_check(call) || !materials_check(call))
+      !cli_word(call, "--limits", animals, 4, &limits) || !building_check(call) || !materials_check(call))
     return SBF_FAILED;
+  options.limits = (sbf_convert_limits)limits;
   if (cli_value(call, "--up")) options.up = axes[up][0];
   const char *page = cli_value(call, "--report");
   if (page && call->input_count > 1) return cli_wrong(call, "--report takes one input");
@@ -124,6 +126,8 @@ static const cli_option options[] = {
     PIN_OPTIONS,
     {"--report", "OUT.html|json",
         "tell what came in, what was mended and guessed, how good the elements are"},
+    {"--limits", "none|human|quadruped|reptile",
+        "propose joint limits by the bones' names and places (none)"},
     {"--no-build", NULL, "leave the derived parts to `sbfmt build`"},
     BUILDING_OPTIONS,
     MATERIALS_OPTION,

@@ -158,6 +158,7 @@ static const sbf_code_info table[] = {
   {"JOINT_ONE_BODY", SBF_CODE_JOINT_ONE_BODY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A joint joins a body to itself: name two bodies."},
   {"LIMIT_ORDER", SBF_CODE_LIMIT_ORDER, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A limit has its minimum above its maximum: swap them."},
   {"IK_CHAIN_BROKEN", SBF_CODE_IK_CHAIN_BROKEN, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The end of a chain does not hang below its root: choose a root above the end."},
+  {"RIG_LIMITS_PROPOSED", SBF_CODE_RIG_LIMITS_PROPOSED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Joint limits are proposed by the names and places of bones: confirm or change them."},
   {"PIN_SET_EMPTY", SBF_CODE_PIN_SET_EMPTY, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A pin set holds nothing: name points or remove it."},
   {"PIN_REPEATED", SBF_CODE_PIN_REPEATED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A point is held twice, of which the first counts: keep one, as --fix does."},
   {"PIN_RANGE", SBF_CODE_PIN_RANGE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A pin set's minimum is above its maximum: swap them."},

@@ -10,6 +10,7 @@
 #include "import/convert/convert_pins.h"
 #include "import/convert/convert_summary.h"
 #include "import/convert/convert_tets.h"
+#include "import/convert/propose_limits.h"
 #include "import/gait/propose_gait.h"
 #include "import/paper/dialect2012.h"
 #include "import/scene/bind_pose.h"
@@ -119,7 +120,7 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
       sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes,
       sbfi_measure_leaf_bones, sbfi_propose_gait, sbfi_stand_on_ground, sbfi_convert_joints,
-      sbfi_convert_clips};
+      sbfi_propose_limits, sbfi_convert_clips};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     if (passes[i] == sbfi_propose_gait && options->no_gait) continue;
     sbf_status status = passes[i](c);
@@ -222,6 +223,8 @@ sbf_status sbf_convert(
   options = &taken;
   if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
+  if ((unsigned)options->limits > SBF_CONVERT_LIMITS_REPTILE)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the options name no known kind of limits");
   if (!(options->goal_minimum >= 0 && options->goal_minimum <= 1 && options->goal_maximum >= 0 &&
           options->goal_maximum <= 1 && options->goal_stiffness >= 0 && options->goal_stiffness <= FLT_MAX))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,

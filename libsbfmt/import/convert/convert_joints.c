@@ -10,6 +10,7 @@
 typedef struct body_place {
   double sum[3];
   uint32_t corners, first_section, section_count;
+  bool of_skin; /* no section, but points of a skin */
 } body_place;
 
 /* Centres are means over polygon corners: a stray point in no polygon does not pull at them. */
@@ -26,7 +27,8 @@ static void add_section(body_place *place, const sbf_soft_body *section, uint32_
 }
 
 static bool fill_rigid_body(sbfi_conversion *c, int32_t bone, const body_place *place, sbf_rigid_body *body) {
-  const sbf_soft_body *section = &c->asset->soft_bodies.at[place->first_section];
+  const sbf_soft_body *section =
+      place->section_count ? &c->asset->soft_bodies.at[place->first_section] : NULL;
   double scale = place->corners ? 1.0 / place->corners : 0;
   sbf_rigid_body_init(body);
   body->name = c->asset->bones.at[bone].name;
@@ -34,11 +36,13 @@ static bool fill_rigid_body(sbfi_conversion *c, int32_t bone, const body_place *
   body->bone = bone;
   body->center = (sbf_vec3){
       (float)(place->sum[0] * scale), (float)(place->sum[1] * scale), (float)(place->sum[2] * scale)};
-  body->density = section->attributes.density;
-  body->friction = section->attributes.friction;
-  body->restitution = section->attributes.restitution;
-  body->layer = section->collision.layer;
-  body->mask = section->collision.mask;
+  if (section) {
+    body->density = section->attributes.density;
+    body->friction = section->attributes.friction;
+    body->restitution = section->attributes.restitution;
+    body->layer = section->collision.layer;
+    body->mask = section->collision.mask;
+  }
   return body->id != NULL;
 }
 
@@ -78,17 +82,40 @@ static bool fill_joint(
   return true;
 }
 
+/* Bones that hold points of a skin more than any other does, at the mean of those points. */
+static void add_skin(const sbf_render_mesh *mesh, body_place *places) {
+  const sbf_skin *skin = mesh->skin;
+  uint32_t at = 0;
+  for (uint32_t i = 0; skin && i < skin->influence_counts.count; at += skin->influence_counts.at[i++]) {
+    uint32_t most = at;
+    for (uint32_t s = at; s < at + skin->influence_counts.at[i]; s++)
+      if (skin->weights.at[s] > skin->weights.at[most]) most = s;
+    if (skin->influence_counts.at[i] == 0) continue;
+    body_place *place = &places[skin->bones.at[most]];
+    if (place->section_count) continue;
+    sbf_vec3 p = mesh->mesh.positions.at[i];
+    place->sum[0] += (double)p.x;
+    place->sum[1] += (double)p.y;
+    place->sum[2] += (double)p.z;
+    place->corners++;
+    place->of_skin = true;
+  }
+}
+
 sbf_status sbfi_convert_joints(sbfi_conversion *c) {
   const sbf_bone_list bones = c->asset->bones;
   const sbf_soft_body_list sections = c->asset->soft_bodies;
-  if (bones.count == 0 || sections.count == 0) return SBF_OK;
+  bool of_skin = c->options->limits != SBF_CONVERT_LIMITS_NONE;
+  if (bones.count == 0 || (sections.count == 0 && !of_skin)) return SBF_OK;
   body_place *places = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *places);
   int32_t *body_of_bone = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *body_of_bone);
   if (!places || !body_of_bone) return sbfi_convert_no_memory(c);
   for (uint32_t s = 0; s < sections.count; s++)
     if (sections.at[s].bone >= 0) add_section(&places[sections.at[s].bone], &sections.at[s], s);
+  for (uint32_t m = 0; of_skin && m < c->asset->render_meshes.count; m++)
+    add_skin(&c->asset->render_meshes.at[m], places);
   uint32_t count = 0, joint_count = 0;
-  for (uint32_t i = 0; i < bones.count; i++) count += places[i].section_count > 0;
+  for (uint32_t i = 0; i < bones.count; i++) count += places[i].section_count > 0 || places[i].of_skin;
   if (count == 0) return SBF_OK;
   sbf_rigid_body *bodies = sbfi_convert_allocate(c, count, sizeof *bodies);
   sbf_joint *joints = sbfi_convert_allocate(c, count, sizeof *joints);
@@ -98,7 +125,7 @@ sbf_status sbfi_convert_joints(sbfi_conversion *c) {
     /* What hangs on a bone without sections of its own hangs on the nearest body above. */
     int32_t above = bones.at[i].parent >= 0 ? body_of_bone[bones.at[i].parent] : SBF_NONE;
     body_of_bone[i] = above;
-    if (places[i].section_count == 0) continue;
+    if (places[i].section_count == 0 && !places[i].of_skin) continue;
     body_of_bone[i] = (int32_t)count;
     if (!fill_rigid_body(c, (int32_t)i, &places[i], &bodies[count])) return sbfi_convert_no_memory(c);
     if (above >= 0 && !fill_joint(c, above, (int32_t)count, bodies, &joints[joint_count++]))

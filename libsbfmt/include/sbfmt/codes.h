@@ -169,6 +169,7 @@ typedef enum sbf_code {
   SBF_CODE_JOINT_ONE_BODY = 716, /* A joint joins a body to itself: name two bodies. */
   SBF_CODE_LIMIT_ORDER = 717, /* A limit has its minimum above its maximum: swap them. */
   SBF_CODE_IK_CHAIN_BROKEN = 718, /* The end of a chain does not hang below its root: choose a root above the end. */
+  SBF_CODE_RIG_LIMITS_PROPOSED = 719, /* Joint limits are proposed by the names and places of bones: confirm or change them. */
   SBF_CODE_PIN_SET_EMPTY = 720, /* A pin set holds nothing: name points or remove it. */
   SBF_CODE_PIN_REPEATED = 721, /* A point is held twice, of which the first counts: keep one, as --fix does. */
   SBF_CODE_PIN_RANGE = 722, /* A pin set's minimum is above its maximum: swap them. */

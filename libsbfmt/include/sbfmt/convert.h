@@ -40,6 +40,14 @@ typedef struct sbf_convert_summary {
   sbf_convert_source sources[2]; /* the input and, where it is a file of its own, the rig */
 } sbf_convert_summary;
 
+/* Whose joints they are like, where the input does not say how far they turn. */
+typedef enum sbf_convert_limits {
+  SBF_CONVERT_LIMITS_NONE = 0,
+  SBF_CONVERT_LIMITS_HUMAN = 1,
+  SBF_CONVERT_LIMITS_QUADRUPED = 2,
+  SBF_CONVERT_LIMITS_REPTILE = 3
+} sbf_convert_limits;
+
 /* Settings of a conversion. */
 typedef struct sbf_convert_options {
   size_t struct_size;             /* sizeof(sbf_convert_options), or 0 for this version's */
@@ -64,6 +72,9 @@ typedef struct sbf_convert_options {
   double goal_minimum, goal_maximum; /* 0..1; a maximum of 0 counts as 1 */
   double goal_stiffness;             /* N/m at weight 1; 0: by the body's modulus and the point's mass */
   sbf_convert_summary *summary;      /* receives what came in; may be NULL */
+  /* Limits proposed for joints that have none, by the names of the bones and their places; bones of skins get
+   * joints too then. */
+  sbf_convert_limits limits;
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names
