@@ -402,6 +402,31 @@ START_TEST(a_pendulum_keeps_its_period)
 }
 END_TEST
 
+/* A pin of weight 0.5 is a spring of half its set's stiffness and no length: m g / k below its place. */
+START_TEST(a_goal_pulls_a_point_to_its_place)
+{
+  scene s = scene_begin();
+  const sbf_vec3 positions[] = {{0.2f, 0, 0}, {0.5f, 0, 0}};
+  const float masses[] = {1, 1}, stiffness = 1e-3f;
+  static const float weight = 0.5f;
+  const uint32_t held = 0;
+  sbf_level *level = scene_points(&s, 0, positions, masses, 2);
+  scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &stiffness, 1); /* next to nothing */
+  scene_pin(&s, level, -1, &held, 1);
+  sbf_pin_set *set = (sbf_pin_set *)(uintptr_t)level->pins.at;
+  set->weights = (sbf_f32_list){&weight, 1};
+  set->stiffness = 200, set->damping = 20;
+  s.model_options.scheme = schemes[_i];
+  if (_i == EXPLICIT_EULER) s.model_options.substeps = 64;
+  scene_start(&s);
+  scene_ticks(&s, 240);
+  sbf_vec3 p = scene_point(&s, 0, 0);
+  ck_assert_float_eq_tol(p.y, -9.81f / 100, 1e-3f);
+  ck_assert_float_eq_tol(p.x, 0.2f, 1e-3f);
+  scene_free(&s);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("schemes");
   TCase *c = tcase_create("schemes");
@@ -415,6 +440,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, a_hanging_chain_stretches_by_its_weight, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_chain_has_its_lowest_frequency, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_rope_hangs_as_a_catenary, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, a_goal_pulls_a_point_to_its_place, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_pendulum_keeps_its_period, 0, SCHEME_COUNT);
   suite_add_tcase(s, c);
   return s;
