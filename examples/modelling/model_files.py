@@ -28,7 +28,7 @@ def bone_frame(bone):
     return x, y, cross(x, y)
 
 
-def _quaternion(columns):
+def quaternion(columns):
     """x, y, z, w of a rotation given by its columns, w >= 0."""
     (m00, m10, m20), (m01, m11, m21), (m02, m12, m22) = columns
     parts = [math.sqrt(max(0.0, 1.0 + a + b + c)) * 0.5
@@ -44,7 +44,7 @@ def _quaternion(columns):
     return [sign * c for c in (x, y, z, w)]
 
 
-def _float32(value):
+def float32(value):
     return struct.unpack("<f", struct.pack("<f", value))[0] + 0.0
 
 
@@ -86,7 +86,7 @@ def mtl_text(materials, title):
     return "\n".join(lines) + "\n"
 
 
-class _Buffer:
+class Buffer:
     def __init__(self):
         self.data, self.views, self.accessors = bytearray(), [], []
 
@@ -95,14 +95,14 @@ class _Buffer:
         code = {"f": 5126, "H": 5123, "I": 5125}[component]
         flat = [c for row in rows for c in row]
         raw = struct.pack(f"<{len(flat)}{component}", *flat)
-        target = 34962 if component == "f" else 34963
+        target = 34963 if kind == "SCALAR" else 34962
         self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(raw), "target": target})
         self.data += raw + b"\0" * (-len(raw) % 4)
         accessor = {"bufferView": len(self.views) - 1, "componentType": code, "count": len(rows), "type": kind}
         if bounds:
             columns = list(zip(*rows))
-            accessor["min"] = [_float32(min(c)) for c in columns]
-            accessor["max"] = [_float32(max(c)) for c in columns]
+            accessor["min"] = [float32(min(c)) for c in columns]
+            accessor["max"] = [float32(max(c)) for c in columns]
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
@@ -111,7 +111,7 @@ def glb_bytes(armature, bones, sections, bone_of_section, materials, title, lice
     """A GLB: node `armature`, below it the bones, and each section's mesh node under its bone (no skin). Triangles, as
     glTF has nothing else; a vertex is shared wherever position, uv and material are the same. Limits go into the
     bone's extras."""
-    buffer, nodes, meshes = _Buffer(), [{"name": armature, "children": []}], []
+    buffer, nodes, meshes = Buffer(), [{"name": armature, "children": []}], []
     material_index = {m.name: i for i, m in enumerate(materials)}
     by_name = {b.name: b for b in bones}
     node_of, frame_of = {}, {}
@@ -129,9 +129,9 @@ def glb_bytes(armature, bones, sections, bone_of_section, materials, title, lice
             offset = tuple(dot(axis, sub(bone.head, parent.head)) for axis in outer)
             basis = tuple(tuple(dot(axis, column) for axis in outer) for column in frame_of[bone.name])
         if bone.tail is not None:
-            rotation = _quaternion(basis)
-        node = {"name": bone.name, "translation": [_float32(round(c, 7)) for c in offset],
-                "rotation": [_float32(c if abs(c) > 1e-9 else 0.0) for c in rotation]}
+            rotation = quaternion(basis)
+        node = {"name": bone.name, "translation": [float32(round(c, 7)) for c in offset],
+                "rotation": [float32(c if abs(c) > 1e-9 else 0.0) for c in rotation]}
         if bone.limits:
             node["extras"] = {"sbf_limits": {key: list(bone.limits[key]) for key in ("swing_y", "swing_z", "twist")}}
         node_of[bone.name] = len(nodes)
@@ -144,7 +144,7 @@ def glb_bytes(armature, bones, sections, bone_of_section, materials, title, lice
         normals = mesh.normals()
 
         def local(vector):
-            return tuple(_float32(dot(axis, vector)) for axis in frame)
+            return tuple(float32(dot(axis, vector)) for axis in frame)
 
         primitives = []
         for name in sorted({f.material for f in mesh.faces}, key=material_index.get):

@@ -191,6 +191,7 @@ static d3 carried_normal(const work *w, const uint32_t *t, d3 normal) {
 }
 
 static void take_pose(work *w, skin_bend *r) {
+  uint32_t flips = r->flips, lbs_flips = r->lbs_flips;
   evaluate(w);
   r->poses++;
   for (uint32_t v = 0; v < w->count; v++) {
@@ -217,6 +218,7 @@ static void take_pose(work *w, skin_bend *r) {
     r->lbs_stretched += lbs > 2;
     r->seam_count += r->poses == 1;
   }
+  r->worse_poses += r->flips - flips > r->lbs_flips - lbs_flips;
 }
 
 static void stand_still(work *w) {

@@ -9,12 +9,13 @@ typedef struct skin_bend {
   double
       lbs_distance; /* farthest of a vertex from where linear blend skinning has it, in sizes of the mesh */
   double crack;     /* farthest apart of two vertices that stand in one place at rest, in sizes */
-  double seam_stretch; /* greatest area of a triangle between sections, in areas at rest */
-  double lbs_stretch;  /* the same of linear blend skinning */
-  uint32_t seam_count; /* triangles of which the corners do not hang on one and the same section alone */
-  uint32_t poses;      /* joints times axes times directions */
-  uint32_t flips,
-      lbs_flips; /* triangles whose normal turned over against what its corners' bones turn it to */
+  double seam_stretch;  /* greatest area of a triangle between sections, in areas at rest */
+  double lbs_stretch;   /* the same of linear blend skinning */
+  uint32_t seam_count;  /* triangles of which the corners do not hang on one and the same section alone */
+  uint32_t poses;       /* joints times axes times directions */
+  uint32_t worse_poses; /* with more flips than linear blend skinning has in them */
+  /* Triangles whose normal turned over against what its corners' bones turn it to. */
+  uint32_t flips, lbs_flips;
   uint32_t stretched, lbs_stretched; /* seam triangles above twice their area */
 } skin_bend;
 

@@ -1,0 +1,90 @@
+"""Writes one QuadMesh under a skin as a GLB. Same input, same bytes. Python 3 standard library only."""
+
+import json
+import struct
+
+from model_files import Buffer, bone_frame, float32, quaternion
+from quad_mesh import dot, sub
+
+
+def smooth_weights(points, bones, reach, most=4, least=0.02):
+    """For each point [(bone, weight)]: shares of the bones' lines, falling off with the distance d as
+    (1 + (d / reach)^2)^-4; of `most` bones at most, those above `least`, summing to one."""
+    def distance(point, bone):
+        way, along = sub(point, bone.head), sub(bone.tail, bone.head)
+        t = min(max(dot(way, along) / dot(along, along), 0.0), 1.0)
+        off = tuple(w - t * a for w, a in zip(way, along))
+        return dot(off, off) ** 0.5
+
+    weights = []
+    for point in points:
+        near = min(distance(point, bone) for bone in bones)
+        shares = [((1.0 + ((distance(point, bone) - near) / reach) ** 2) ** -4, i) for i, bone in enumerate(bones)]
+        shares = sorted(shares, key=lambda share: (-share[0], share[1]))[:most]
+        total = sum(share for share, _ in shares)
+        kept = [(i, share / total) for share, i in shares if share / total >= least]
+        total = sum(share for _, share in kept)
+        weights.append([(i, round(share / total, 5)) for i, share in kept])
+    return weights
+
+
+def skinned_glb_bytes(armature, bones, mesh, weights, materials, title, licence):
+    """A GLB of the mesh as triangles, skinned to the bones; `weights` as smooth_weights gives them. A vertex is stored
+    once for each texture coordinate it has, as glTF wants it: those in one place are one point of the surface."""
+    buffer, nodes = Buffer(), [{"name": armature, "children": []}]
+    by_name = {bone.name: bone for bone in bones}
+    matrices = []
+    for bone in bones:
+        frame, parent = bone_frame(bone), by_name.get(bone.parent)
+        outer = bone_frame(parent) if parent else ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+        offset = tuple(dot(axis, sub(bone.head, parent.head if parent else (0.0, 0.0, 0.0))) for axis in outer)
+        basis = tuple(tuple(dot(axis, column) for axis in outer) for column in frame)
+        nodes.append({"name": bone.name, "translation": [float32(round(c, 7)) for c in offset],
+                      "rotation": [float32(c if abs(c) > 1e-9 else 0.0) for c in quaternion(basis)]})
+        owner = nodes[1 + [b.name for b in bones].index(bone.parent)] if parent else nodes[0]
+        owner.setdefault("children", []).append(len(nodes) - 1)
+        # columns of the inverse of the bone's rest transform
+        matrices.append(tuple(c for k in range(3) for c in (frame[0][k], frame[1][k], frame[2][k], 0.0))
+                        + tuple(-dot(axis, bone.head) for axis in frame) + (1.0,))
+    normals, index_of_material = mesh.normals(), {m.name: i for i, m in enumerate(materials)}
+    primitives = []
+    for material in materials:
+        vertex_of, rows, indices = {}, [], []
+        for face in mesh.faces:
+            if face.material != material.name:
+                continue
+            corners = []
+            for c, uv in zip(face.corners, face.uvs):
+                key = (c, f"{uv[0]:.5f} {uv[1]:.5f}")
+                if key not in vertex_of:
+                    vertex_of[key] = len(rows)
+                    rows.append((c, uv))
+                corners.append(vertex_of[key])
+            indices += [(corners[i],) for i in (0, 1, 2, 0, 2, 3)]
+        held = [weights[c] + [(0, 0.0)] * (4 - len(weights[c])) for c, _ in rows]
+        primitives.append({
+            "attributes": {"POSITION": buffer.put([mesh.points[c] for c, _ in rows], "VEC3", "f", bounds=True),
+                           "NORMAL": buffer.put([normals[c] for c, _ in rows], "VEC3", "f"),
+                           "TEXCOORD_0": buffer.put([(round(u, 5), round(1.0 - v, 5)) for _, (u, v) in rows], "VEC2", "f"),
+                           "JOINTS_0": buffer.put([tuple(i for i, _ in h) for h in held], "VEC4", "H"),
+                           "WEIGHTS_0": buffer.put([tuple(w for _, w in h) for h in held], "VEC4", "f")},
+            "indices": buffer.put(indices, "SCALAR", "H"), "material": index_of_material[material.name]})
+    inverse = buffer.put(matrices, "MAT4", "f")
+    del buffer.views[-1]["target"]
+    nodes[0]["children"].append(len(nodes))
+    nodes.append({"name": mesh.name, "mesh": 0, "skin": 0})
+    document = {
+        "asset": {"version": "2.0", "generator": "sbfmt examples/modelling", "copyright": licence,
+                  "extras": {"title": title}},
+        "scene": 0, "scenes": [{"name": armature, "nodes": [0]}], "nodes": nodes,
+        "meshes": [{"name": mesh.name, "primitives": primitives}],
+        "skins": [{"joints": list(range(1, 1 + len(bones))), "inverseBindMatrices": inverse}],
+        "materials": [{"name": m.name, "pbrMetallicRoughness": {
+            "baseColorFactor": list(m.colour) + [1.0], "metallicFactor": 0.0, "roughnessFactor": m.roughness}}
+            for m in materials],
+        "accessors": buffer.accessors, "bufferViews": buffer.views, "buffers": [{"byteLength": len(buffer.data)}]}
+    text = json.dumps(document, separators=(",", ":")).encode("ascii")
+    text += b" " * (-len(text) % 4)
+    total = 12 + 8 + len(text) + 8 + len(buffer.data)
+    return (struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(text), b"JSON") + text
+            + struct.pack("<I4s", len(buffer.data), b"BIN\0") + bytes(buffer.data))

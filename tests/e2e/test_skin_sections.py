@@ -1,0 +1,79 @@
+"""A character that is one skinned mesh: cut into sections, built again, walked, and left to its bones where that is asked
+for. Real ones where they are at hand."""
+
+import os
+import xml.etree.ElementTree as ElementTree
+
+from sbfmt_program import ROOT, ProgramTest, convert_once, main, read_bytes, shared
+
+CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
+# file, at least so many sections, and whether it walks
+CHARACTERS = ((("fox", "fox.glb"), 15, True), (("greenman", "greenman.glb"), 6, True), (("spider", "spider.glb"), 20, True),
+              (("snake", "snake.glb"), 10, False), (("kenney-fbx", "kenney_character.fbx"), 20, True),
+              (("walk-dae", "walk.dae"), 18, True))
+ABOUT_THE_SOURCE = {"UNIT_LOOKS_WRONG", "CLIP_EMPTY"}
+
+
+class SkinSections(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.calf = convert_once(cls.class_folder.name, "calf.sbf", CALF)
+
+    def walks(self, path, walks=True):
+        report = self.json_of("run", path, "--seconds", "2", "--drive", "0.3,0")
+        self.assertTrue(report["valid"])
+        self.assertGreater(report["volume_ratio"], 0.9)
+        if walks:
+            self.assertGreater(report["distance"], 0.3)
+
+    def test_the_calf(self):
+        info = self.json_of("info", self.calf)
+        self.assertEqual(len(info["sections"]), 22)
+        self.assertEqual({s["bone"] for s in info["sections"]}, {b["name"] for b in info["bones"]})
+        self.assertEqual((info["rigid_bodies"], info["joints"], info["gait"]["legs"]), (22, 21, 4))
+        self.assertGreaterEqual(info["embedded_vertices"], 4258)
+        self.assertEqual(info["tetrahedra"], 0, "what the embeddings went by is no second model")
+        self.assertEqual(self.json_of("validate", self.calf)["messages"], [])
+        self.walks(self.calf)
+
+    def test_a_build_of_a_built_file_gives_its_bytes(self):
+        again = self.path("again.sbf")
+        self.good("build", self.calf, "-o", again)
+        self.assertEqual(read_bytes(again), read_bytes(self.calf))
+
+    def test_the_source_stays(self):
+        root = ElementTree.parse(self.calf).getroot()
+        self.assertIsNone(root.find("render_mesh").get("derived"))
+        self.assertIsNotNone(root.find("render_mesh/skin"))
+        for part in (*root.findall("soft_body"), *root.findall("joints/spherical_joint"),
+                     *root.findall("rigid_bodies/rigid_body")):
+            self.assertIsNotNone(part.get("derived"), part.get("id"))
+
+    def test_none(self):
+        plain = self.path("plain.sbf")
+        self.good("build", self.calf, "-o", plain, "--sections", "none")
+        self.assertEqual(self.json_of("info", plain)["sections"], [])
+        self.fails(2, "build", self.calf, "-o", plain, "--sections", "some")
+
+    def test_an_overlap_of_ones_own(self):
+        wide = self.path("wide.sbf")
+        self.good("build", self.calf, "-o", wide, "--overlap", "0.1")
+        points = [sum(s["vertices"] for s in self.json_of("info", path)["sections"]) for path in (self.calf, wide)]
+        self.assertGreater(points[1], 1.2 * points[0])
+
+    def test_real_characters(self):
+        for number, (file, sections, walks) in enumerate(CHARACTERS):
+            path = shared(*file)
+            if not os.path.exists(path):
+                self.skipTest("no shared data")
+            with self.subTest(file[-1]):
+                out = self.path(f"{number}.sbf")
+                self.good("convert", path, "-o", out)
+                self.assertGreaterEqual(len(self.json_of("info", out)["sections"]), sections)
+                self.assertLessEqual({m["code"] for m in self.json_of("validate", out)["messages"]}, ABOUT_THE_SOURCE)
+                self.walks(out, walks)
+
+
+if __name__ == "__main__":
+    main()
