@@ -7,6 +7,7 @@
 
 enum { MOST_SWEEPS = 400, POSES = 6 };
 static const double MOST_STRETCH = 1.9; /* leaves room for rounding and for what is dropped */
+static const double FLIPPED = 2.2;
 static const double LEAST_WEIGHT = 2e-4;
 static const double COSINE = 0.5, SINE = 0.8660254037844386; /* of 60 degrees */
 
@@ -27,7 +28,8 @@ typedef struct work {
   column *columns;
   uint32_t column_count;
   uint32_t *column_of_bone;
-  double *sums; /* (points x columns) */
+  double *sums;     /* (points x columns) */
+  double *authored; /* the same as they were */
   uint32_t (*triangles)[3];
   uint32_t triangle_count;
   uint32_t *begins, *at_point; /* triangles at each point */
@@ -84,7 +86,8 @@ static bool make_columns(work *w) {
            c = w->columns[c].parent)
         row[c] += w->skin->holds[h].weight;
   }
-  return true;
+  w->authored = sbfi_arena_copy(w->arena, w->sums, (size_t)points * w->column_count + 1, sizeof *w->sums);
+  return w->authored != NULL;
 }
 
 static bool has_weights(const work *w, uint32_t point) {
@@ -123,38 +126,50 @@ static sbfi_d3 turned(const double m[3][3], sbfi_d3 p) {
       m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z, m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z};
 }
 
-/* Squared area, four times over, of the triangle with its corners moved by shares of a turn. */
-static double stretched(const column *c, int pose, const sbfi_d3 corners[3], const double shares[3]) {
+/* Twice the vector area of the triangle with its corners moved by shares of a turn. */
+static sbfi_d3 moved_normal(const column *c, int pose, const sbfi_d3 corners[3], const double shares[3]) {
   sbfi_d3 at[3];
   for (int k = 0; k < 3; k++)
     at[k] = sbfi_d3_add(
         corners[k], sbfi_d3_scale(turned(c->turns[pose], sbfi_d3_sub(corners[k], c->head)), shares[k]));
-  sbfi_d3 normal = sbfi_d3_cross(sbfi_d3_sub(at[1], at[0]), sbfi_d3_sub(at[2], at[0]));
-  return sbfi_d3_dot(normal, normal);
+  return sbfi_d3_cross(sbfi_d3_sub(at[1], at[0]), sbfi_d3_sub(at[2], at[0]));
 }
 
-/* The greatest area over that at rest; 1 where nothing differs between the corners. */
+/* Whether a normal lies against what the turn, by its shares at the corners, makes of the one at rest. */
+static bool is_flipped(const column *c, int pose, sbfi_d3 normal, sbfi_d3 rest, const double shares[3]) {
+  sbfi_d3 turn = sbfi_d3_scale(turned(c->turns[pose], rest), (shares[0] + shares[1] + shares[2]) / 3);
+  return sbfi_d3_dot(normal, sbfi_d3_add(rest, turn)) < 0;
+}
+
+/* The greatest area over that at rest; 1 where nothing differs between the corners. What is turned over, and
+ * by the weights as they were is not, counts as stretched to FLIPPED. */
 static double worst_stretch(const work *w, uint32_t triangle) {
   const uint32_t *points = w->triangles[triangle];
-  const double *rows[3];
   sbfi_d3 corners[3];
   double worst = 0;
-  for (int k = 0; k < 3; k++) {
-    rows[k] = w->sums + (size_t)points[k] * w->column_count;
-    corners[k] = sbfi_d3_of(w->skin->mesh.positions.at[points[k]]);
-  }
-  sbfi_d3 normal = sbfi_d3_cross(sbfi_d3_sub(corners[1], corners[0]), sbfi_d3_sub(corners[2], corners[0]));
-  double area = sbfi_d3_dot(normal, normal);
+  bool flipped = false;
+  for (int k = 0; k < 3; k++) corners[k] = sbfi_d3_of(w->skin->mesh.positions.at[points[k]]);
+  sbfi_d3 rest = sbfi_d3_cross(sbfi_d3_sub(corners[1], corners[0]), sbfi_d3_sub(corners[2], corners[0]));
+  double area = sbfi_d3_dot(rest, rest);
   if (!(area > 0)) return 1;
   for (uint32_t c = 0; c < w->column_count; c++) {
-    const double shares[3] = {rows[0][c], rows[1][c], rows[2][c]};
+    double shares[3], before[3];
+    for (int k = 0; k < 3; k++) {
+      shares[k] = w->sums[(size_t)points[k] * w->column_count + c];
+      before[k] = w->authored[(size_t)points[k] * w->column_count + c];
+    }
     if (!w->columns[c].joint || (shares[0] == shares[1] && shares[0] == shares[2])) continue;
     for (int pose = 0; pose < POSES; pose++) {
-      double here = stretched(&w->columns[c], pose, corners, shares);
-      if (here > worst) worst = here;
+      sbfi_d3 here = moved_normal(&w->columns[c], pose, corners, shares);
+      double square = sbfi_d3_dot(here, here);
+      if (square > worst) worst = square;
+      flipped = flipped || (is_flipped(&w->columns[c], pose, here, rest, before) &&
+                               !is_flipped(&w->columns[c], pose,
+                                   moved_normal(&w->columns[c], pose, corners, before), rest, before));
     }
   }
-  return worst > area ? sqrt(worst / area) : 1;
+  double stretch = worst > area ? sqrt(worst / area) : 1;
+  return flipped && stretch < FLIPPED ? FLIPPED : stretch;
 }
 
 /* Draws the corners towards their mean, keeping the share of the differences that would just do. */
