@@ -5,7 +5,7 @@
 
 #include "base/diagnostic.h"
 #include "base/memory.h"
-#include "sbrun/ground.h"
+#include "sbrun/terrain.h"
 
 struct sbr_ground_mesh {
   sbf_allocator allocator;

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "math/trig.h"
-#include "sbrun/ground.h"
+#include "sbrun/terrain.h"
 
 static const sbf_vec3 up = {0, 1, 0};
 

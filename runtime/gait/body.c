@@ -5,6 +5,7 @@
 #include "math/trig.h"
 
 static const float LEAN_HZ = 1.6f, CROUCH_HZ = 3; /* of critically damped followers */
+static const float MOST_YAW = 0.8f;               /* rad: hips and chest turn less than so */
 static const float LOWEST = 0.3f;  /* of a leg's reach: no hip comes nearer to the ground than so */
 static const float SPARE = 0.985f; /* share of the uneased reach that the body comes down for ahead of need */
 
@@ -34,7 +35,8 @@ static float line_yaw(const sbri_rig *rig, const sbri_gait_state *state, int hin
   sbf_vec3 left, right;
   if (!feet_center(rig, state, hind, 1, &left) || !feet_center(rig, state, hind, 0, &right)) return 0;
   sbf_vec3 line = sbri_turned(sbri_sub(left, right), -state->heading);
-  return rig->gait->hip_tilt * -sbri_atan2(line.z, line.x > 1e-6f ? line.x : 1e-6f);
+  float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, line.x > 1e-6f ? line.x : 1e-6f);
+  return MOST_YAW * yaw / (MOST_YAW + fabsf(yaw)); /* feet may cross, hips do not turn round */
 }
 
 /* Slope, as an angle, between two places `run` apart. */

@@ -92,8 +92,10 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
   if (half < least) half = least;
   float late = half - sbri_ahead(rig, state, input, leg, way, half); /* it comes down so much short */
   float off = (behind - late) / half, wide = 0.7f * beside / stride->half_m;
-  float strain = sbri_strain(rig, state, input, leg) / STRAINED;
-  if (strain > DUE && strain > off && behind > 0) off = strain;
+  if (behind > 0 && off < DUE) {
+    float strain = sbri_strain(rig, state, input, leg) / STRAINED;
+    if (strain > DUE) off = strain;
+  }
   if (wide > NOTED && wide > off) off = wide;
   return twist > NOTED && twist > off ? twist : off;
 }

@@ -47,7 +47,7 @@ bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_
   footing f = {.level = level_of(rig, state)};
   for (int k = 0; k < 4; k++) {
     sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
-    f.corners[k] = sbri_turned(sbri_scale(corner, AROUND * input->scale), state->heading);
+    f.corners[k] = sbri_headed(state, sbri_scale(corner, AROUND * input->scale));
   }
   float step = SPACING * rig->reach * input->scale;
   ground_spot spot, uneven;
@@ -56,7 +56,7 @@ bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_
   sbf_vec3 way = sbri_sub(wanted, state->feet[leg].planted ? state->feet[leg].ground : state->feet[leg].from);
   way.y = 0;
   float length = sbri_length(way);
-  way = sbri_normalize(way, sbri_turned(sbri_vec3(0, 0, 1), state->heading));
+  way = sbri_normalize(way, sbri_headed(state, sbri_vec3(0, 0, 1)));
   /* Nearer and farther along its way, then back to where it came from. */
   for (int k = 1; best < 2 && k <= 6; k++) {
     float offset = step * (float)((k + 1) / 2) * (k % 2 ? -1.0f : 1.0f);

@@ -18,12 +18,21 @@ size_t sbri_gait_state_size(const sbri_rig *rig) {
   return (size + 15) & ~(size_t)15;
 }
 
+static void keep_stance(sbri_gait_state *state, const sbri_stance *stance) {
+  state->root = stance->root;
+  state->hips_yaw = stance->hips_yaw;
+  state->chest_yaw = stance->chest_yaw;
+  sbri_sincos(state->hips_yaw, &state->hips_sine, &state->hips_cosine);
+  sbri_sincos(state->chest_yaw, &state->chest_sine, &state->chest_cosine);
+}
+
 void sbri_gait_place(
     const sbri_rig *rig, void *memory, const sbri_gait_input *input, sbf_vec3 position, float heading) {
   sbri_gait_state *state = memory;
   memset(memory, 0, sbri_gait_state_size(rig));
   state->position = position;
   state->heading = sbri_wrap_angle(heading);
+  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
   state->standing_s = 1;
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tail_bone_count;
@@ -42,7 +51,8 @@ void sbri_gait_place(
   state->root = sbri_body_stance(rig, state, input).root;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
   sbri_body_tick(rig, state, input, 0, true);
-  state->root = sbri_body_stance(rig, state, input).root;
+  sbri_stance stance = sbri_body_stance(rig, state, input);
+  keep_stance(state, &stance);
 }
 
 /* Eases the motion towards what is wanted and moves the body on, as fast as the feet allow. Returns the turn
@@ -68,6 +78,7 @@ static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
   state->position = sbri_add(state->position, step);
   state->heading = sbri_wrap_angle(state->heading + turned);
+  sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
   state->distance_m += (double)sbri_length(step);
   return turned;
 }
@@ -108,7 +119,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   sbri_stance stance = sbri_body_stance(rig, state, input);
   lead_head(rig, state, input);
   sbri_tails_tick(rig, state, stance.hips_yaw, turned, input->tick_s);
-  state->root = stance.root;
+  keep_stance(state, &stance);
   sbri_body_pose(rig, state, input, SBRI_ADVANCE_TICK, pose);
   find_center(rig, state, input, pose);
   return count;

@@ -31,6 +31,7 @@ typedef struct sbri_clip_layer {
 typedef struct sbri_gait_state {
   sbf_vec3 position; /* where the asset's origin stands; y: how far all is raised above the ground */
   float heading;     /* rad, in (-pi, pi] */
+  float heading_sine, heading_cosine;
   float forward, sideways, turn; /* eased, m/s and rad/s */
   float pace;                    /* share of them that the feet allow, 0 to 1 */
   float standing_s;              /* since it stopped moving; 0 while it moves */
@@ -41,7 +42,9 @@ typedef struct sbri_gait_state {
   sbri_lag sway_x, sway_z;       /* of the body over its feet, world axes, m */
   sbri_lag crouch;               /* how far it comes down for its feet, m */
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
-  sbr_transform root;            /* of the last stance */
+  sbr_transform root;            /* of the last stance, and its turns */
+  float hips_yaw, chest_yaw;
+  float hips_sine, hips_cosine, chest_sine, chest_cosine; /* of them */
   double distance_m;
   sbri_lag head_yaw;
   uint32_t foot_count, tail_bone_count;
@@ -88,6 +91,12 @@ float sbri_wrap_angle(float angle);
 
 /* `v` turned about +Y. */
 sbf_vec3 sbri_turned(sbf_vec3 v, float yaw);
+
+/* `v` turned as the body is. */
+static inline sbf_vec3 sbri_headed(const sbri_gait_state *state, sbf_vec3 v) {
+  float s = state->heading_sine, c = state->heading_cosine;
+  return sbri_vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+}
 
 /* Rises from 0 to 1 with t from 0 to 1; speed and acceleration are 0 at both ends. */
 float sbri_smooth(float t);

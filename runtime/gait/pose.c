@@ -78,16 +78,6 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
   }
 }
 
-/* Rotation that takes the rest directions (along, side) to new ones; both pairs are made orthonormal. */
-static sbf_quat turn_between(sbf_vec3 along0, sbf_vec3 side0, sbf_vec3 along1, sbf_vec3 side1) {
-  sbf_vec3 y0 = sbri_normalize(along0, UP), y1 = sbri_normalize(along1, UP);
-  sbf_vec3 x0 = sbri_normalize(sbri_add_scaled(side0, y0, -sbri_dot(side0, y0)), sbri_vec3(1, 0, 0));
-  sbf_vec3 x1 = sbri_normalize(sbri_add_scaled(side1, y1, -sbri_dot(side1, y1)), sbri_vec3(1, 0, 0));
-  sbf_quat from = sbri_quat_from_axes(x0, y0, sbri_cross(x0, y0));
-  sbf_quat to = sbri_quat_from_axes(x1, y1, sbri_cross(x1, y1));
-  return sbri_quat_multiply(to, sbri_quat_conjugate(from));
-}
-
 /* The leg's pole, carried by its bone as posed so far. */
 static sbf_vec3 pole_of(const sbri_rig *rig, const sbri_leg *leg, const sbr_transform *root, float scale,
     const sbr_transform *pose) {
@@ -140,13 +130,11 @@ static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sb
   sbri_two_bone_result solved = sbri_two_bone(
       hip, ankle, pole, fallback, leg->upper_length * scale, leg->lower_length * scale, leg->soft_reach);
 
-  sbf_vec3 hip0 = rig->rest[leg->upper].position, knee0 = rig->rest[leg->lower].position;
-  sbf_vec3 ankle0 = rig->rest[leg->foot].position;
-  sbf_vec3 side0 = sbri_cross(sbri_sub(ankle0, hip0), sbri_sub(leg->pole, hip0));
   sbf_vec3 side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(solved.knee, hip));
   if (sbri_dot(side1, side1) < 1e-12f) side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(pole, hip));
-  sbf_quat upper = turn_between(sbri_sub(knee0, hip0), side0, sbri_sub(solved.knee, hip), side1);
-  sbf_quat lower = turn_between(sbri_sub(ankle0, knee0), side0, sbri_sub(solved.ankle, solved.knee), side1);
+  sbf_quat upper = sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.knee, hip), side1), leg->upper_back);
+  sbf_quat lower =
+      sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.ankle, solved.knee), side1), leg->lower_back);
   pose[leg->upper].rotation = sbri_quat_normalize(sbri_quat_multiply(upper, rig->rest[leg->upper].rotation));
   pose[leg->lower] = (sbr_transform){
       solved.knee, sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation))};
@@ -157,7 +145,7 @@ static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sb
 
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *pose) {
-  sbri_stance stance = sbri_body_stance(rig, state, input);
+  sbri_stance stance = {state->root, state->hips_yaw, state->chest_yaw};
   if (input->hold) {
     stance.hips_yaw = stance.chest_yaw = 0;
     stance.root.rotation = yaw_rotation(state->heading);

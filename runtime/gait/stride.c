@@ -21,7 +21,7 @@ static const float SLOWS_FROM = 0.82f; /* share of the roam from which on the bo
 static const uint32_t MANY_LEGS = 6;   /* that balance while half of them are in the air */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
-  sbf_vec3 v = sbri_turned(sbri_vec3(state->sideways, 0, state->forward), state->heading);
+  sbf_vec3 v = sbri_headed(state, sbri_vec3(state->sideways, 0, state->forward));
   if (state->pivot) { /* about a foot: it carries the body round */
     sbf_vec3 arm = sbri_sub(state->position, state->feet[state->pivot - 1].ground);
     v.x += state->turn * arm.z, v.z -= state->turn * arm.x;
@@ -42,7 +42,7 @@ sbf_vec3 sbri_home_arm(
   float width = rig->gait->step_width;
   if (state->standing_s == 0 && width > 0 && home.x != 0) home.x = home.x < 0 ? -width : width;
   home.y = 0;
-  return sbri_turned(sbri_scale(home, input->scale), state->heading);
+  return sbri_headed(state, sbri_scale(home, input->scale));
 }
 
 sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm) {
@@ -63,8 +63,16 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
     sbf_vec3 own = sbri_scale(rig->rest_local[l->upper].position, input->scale);
     return sbri_add(bone->position, sbri_rotate(bone->rotation, own));
   }
-  sbf_vec3 hip = sbri_scale(rig->rest[l->upper].position, input->scale);
-  return sbri_add(root->position, sbri_rotate(root->rotation, hip));
+  /* Hips and chest turn about their own heads. */
+  sbf_vec3 hip = rig->rest[l->upper].position;
+  int32_t girdle = l->hind ? rig->gait->hips : rig->gait->chest;
+  if (girdle >= 0) {
+    sbf_vec3 pivot = rig->rest[girdle].position, arm = sbri_sub(hip, pivot);
+    float s = l->hind ? state->hips_sine : state->chest_sine;
+    float c = l->hind ? state->hips_cosine : state->chest_cosine;
+    hip = sbri_add(pivot, sbri_vec3(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x));
+  }
+  return sbri_add(root->position, sbri_rotate(root->rotation, sbri_scale(hip, input->scale)));
 }
 
 float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg,
@@ -77,7 +85,7 @@ float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_ga
   sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
   home.y = foot->ground.y + state->position.y;
   sbf_vec3 off = sbri_sub(sbri_ankle_over(l, home, foot->normal, state->heading, scale), hip);
-  float height = LOWERED * off.y; /* the body comes down for its feet */
+  float height = off.y < 0 ? LOWERED * off.y : off.y; /* the body comes down for its feet */
   reach *= STRETCH * scale;
   off.y = 0;
   float over = reach * reach - height * height, away = sbri_length(off),
@@ -104,7 +112,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
     sbf_vec3 v = sbri_home_velocity(rig, state, i, sbri_home_arm(rig, state, input, i));
     float speed = sbri_length(v);
     s.speed = speed > s.speed ? speed : s.speed;
-    sbf_vec3 way = sbri_normalize(v, sbri_turned(sbri_vec3(0, 0, 1), state->heading));
+    sbf_vec3 way = sbri_normalize(v, sbri_headed(state, sbri_vec3(0, 0, 1)));
     float own =
         0.5f * (sbri_roam(rig, state, input, i, way) + sbri_roam(rig, state, input, i, sbri_scale(way, -1)));
     roam = i == 0 || own < roam ? own : roam;
@@ -114,8 +122,8 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
   float lean = rig->leg_count == 2 ? LEAN_TWO_S : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
   float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * usual + lean);
-  s.together = turns > groups && one_by_one > (state->together ? 0.6f : 0.72f) * most;
-  if (rig->leg_count == 2) s.together = one_by_one > (state->together ? 0.6f : 0.72f) * most;
+  s.together = turns > groups && one_by_one > (state->together ? 0.7f : 0.82f) * most;
+  if (rig->leg_count == 2) s.together = one_by_one > (state->together ? 0.7f : 0.82f) * most;
   if (rig->has_pegs) s.together = true; /* they could not follow a body that leans */
   s.duration_s = usual;
   float needed = one_by_one;

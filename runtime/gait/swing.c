@@ -1,4 +1,5 @@
 /* The way of a foot through the air: to a place ahead of its home, over what lies between. */
+#include "collide/ground.h"
 #include "gait/gait_state.h"
 
 static const float SETTLED_PHASE = 0.75f; /* from here on the target stands */
@@ -64,6 +65,8 @@ static float clearance_of(
   const sbri_foot *foot = &state->feet[leg];
   const sbri_sole *sole = &rig->legs[leg].sole;
   float usual = rig->gait->step_height * input->scale, most = usual, rise = foot->to.y - foot->from.y;
+  double level;
+  if (sbri_ground_is_flat(input->ground, &level)) return usual;
   sbf_vec3 way = sbri_sub(foot->to, foot->from);
   way.y = 0;
   way = sbri_normalize(way, sbri_vec3(0, 0, 0));

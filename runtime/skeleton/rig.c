@@ -44,6 +44,12 @@ static void share_spine(const sbri_rig *rig, float *share) {
   for (int32_t b = chest; b != hips; b = rig->parents[b]) share[b] = 1 - (float)place++ / (float)steps;
 }
 
+sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side) {
+  sbf_vec3 y = sbri_normalize(along, sbri_vec3(0, 1, 0));
+  sbf_vec3 x = sbri_normalize(sbri_add_scaled(side, y, -sbri_dot(side, y)), sbri_vec3(1, 0, 0));
+  return sbri_quat_from_axes(x, y, sbri_cross(x, y));
+}
+
 static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   const sbf_ik_chain *chain = &rig->asset->ik_chains.at[from->ik];
   int32_t foot = chain->end, lower = rig->parents[foot], upper = lower >= 0 ? rig->parents[lower] : -1;
@@ -66,6 +72,9 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   /* Without a pole the leg goes on bending the way it is bent at rest. */
   sbf_vec3 middle = sbri_lerp(hip, ankle, 0.5f), out = sbri_sub(knee, middle);
   leg->pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
+  sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
+  leg->upper_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
+  leg->lower_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(ankle, knee), side));
   leg->hind = rig->gait->chest < 0 || !sbri_rig_is_below(rig, upper, rig->gait->chest);
   return leg->upper_length > 0 && (peg || leg->lower_length > 0);
 }

@@ -24,9 +24,10 @@ typedef struct sbri_leg {
   uint32_t group;
   bool hind; /* hangs on the hips; else on the chest */
   float copy_rotation, soft_reach;
-  int32_t carrier;       /* place among the chains' bones of the one it hangs on; -1: none */
-  sbf_vec3 carried_home; /* in that bone's frame, m */
-  sbf_vec3 ankle;        /* from the middle of the sole, m; `home` is above that middle */
+  sbf_quat upper_back, lower_back; /* undo how thigh and shin face at rest */
+  int32_t carrier;                 /* place among the chains' bones of the one it hangs on; -1: none */
+  sbf_vec3 carried_home;           /* in that bone's frame, m */
+  sbf_vec3 ankle;                  /* from the middle of the sole, m; `home` is above that middle */
   sbri_sole sole;
 } sbri_leg;
 
@@ -90,6 +91,9 @@ typedef struct sbri_rig {
  * whose chain is neither thigh, shin and foot nor a peg and its foot is left out. */
 size_t sbri_rig_size(const sbf_asset *asset);
 void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory);
+
+/* Rotation whose +Y runs along a bone and whose +X is square to it, towards `side`. */
+sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side);
 
 /* Whether a bone is another or hangs on it. */
 bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor);

@@ -1,7 +1,7 @@
 #include <math.h>
 
 #include "harness.h"
-#include "sbrun/ground.h"
+#include "sbrun/terrain.h"
 
 enum { SIDE = 20, POINTS = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
 static sbf_vec3 points[POINTS];

@@ -1,7 +1,7 @@
 #include <math.h>
 
 #include "harness.h"
-#include "sbrun/ground.h"
+#include "sbrun/terrain.h"
 
 static double height(const sbr_ground *g, double x, double z) {
   sbf_vec3 normal;

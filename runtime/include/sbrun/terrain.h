@@ -2,8 +2,8 @@
  *
  * Each call gives an sbr_ground for a world's definition. What it was made from must outlive the world and
  * must not change meanwhile. Grounds are asked from worker threads. */
-#ifndef SBRUN_GROUND_H
-#define SBRUN_GROUND_H
+#ifndef SBRUN_TERRAIN_H
+#define SBRUN_TERRAIN_H
 
 #include "sbrun/sbrun.h"
 
