@@ -6,7 +6,7 @@ static const float STEEPEST = 0.6f; /* cosine of the slope */
 static const float HIGHEST = 0.6f;  /* of the reach: up or down from where the other feet stand */
 static const float AROUND = 1.15f;  /* of the sole: what is looked at */
 static const float UNEVEN = 0.03f;  /* of the reach: how far the ground may depart from a plane there */
-static const float SPACING = 0.07f; /* of the reach: between the places tried */
+static const float SPACING = 0.1f;  /* of the reach: between the places tried */
 
 typedef struct ground_spot {
   sbf_vec3 place, normal;
