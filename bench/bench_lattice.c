@@ -1,7 +1,7 @@
 /* Lattices: tetrahedra a second of the whole pass from a converted surface to a level with its embeddings
- * (inside test, stuffing, embedding; the build's own bookkeeping, as the hash of the source, counts too), by
- * number of tetrahedra; the least and the greatest dihedral angle, how much of the surface's volume it holds,
- * how far vertices lie outside, and the memory it takes.
+ * (inside test, stuffing, embedding, no calibration; the build's own bookkeeping, as the hash of the source,
+ * counts too), by number of tetrahedra; the least and the greatest dihedral angle, how much of the surface's
+ * volume it holds, how far vertices lie outside, and the memory it takes.
  *
  * Beside it, where it is installed, the program tetgen on the same surface with its quality bounds and the
  * volume that the lattice's tetrahedra have on average: the seconds that it says it takes for all but its
@@ -117,6 +117,7 @@ static void stuff_in_child(char **arguments) {
   s.source = one_body_of((unsigned)number);
   s.options.interior = SBF_BUILD_INTERIOR_TETRAHEDRA;
   s.options.cell_m = strtod(arguments[1], NULL);
+  s.options.without_calibration = true;
   stuff(&s);
 }
 
@@ -179,8 +180,9 @@ static void measure(unsigned number, uint32_t elements, uint32_t rounds, bool be
   const sbf_soft_body *body = &source->soft_bodies.at[0];
   sbf_surface_measures surface;
   sbf_surface_measure(&body->surface, NULL, &surface);
-  stuffing s = {
-      .source = source, .options = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = elements}};
+  stuffing s = {.source = source,
+      .options = {
+          .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = elements, .without_calibration = true}};
   stuff(&s);
   /* The cell that gives so many is named from here on, so that nothing is tried. */
   s.options.elements = 0;

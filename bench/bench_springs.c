@@ -303,6 +303,7 @@ static void carry(const sbf_level *level, const double *moved, uint32_t count, d
 }
 
 static answer ask(const sbf_asset *source, sbf_build_options options) {
+  options.without_calibration = true;
   answer a = {.built = NULL};
   sbf_diagnostic error;
   bench_require(sbf_build(source, &options, &a.built, NULL, &error), &error);

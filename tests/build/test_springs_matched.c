@@ -168,6 +168,7 @@ START_TEST(sag_goes_with_weight_over_modulus)
     for (int s = 0; s < 3; s++) {
       bar b = scales[s];
       b.options.interior = interiors[i];
+      b.options.without_calibration = true;
       double share = sag(&b, 1) / b.length / (b.density * 9.81 * b.length / b.modulus);
       if (s == 0) first = share;
       ck_assert_double_gt(share, 0);
