@@ -135,8 +135,8 @@ class Reports(ProgramTest):
 
     def test_the_same_call_gives_the_same_object(self):
         path = write_bytes(self.path("a.ply"), scene_files.ply())
-        first = self.report(path, drawn=True)
-        self.assertEqual(self.report(path, drawn=True), first)
+        first = self.report(path, "--springs", "surface", drawn=True)
+        self.assertEqual(self.report(path, "--springs", "surface", drawn=True), first)
         if not first["drawing_failed"]:
             self.assertEqual([p["name"] for p in first["pictures"]], ["skin", "sections", "springs"])
 
