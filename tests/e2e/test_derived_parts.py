@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 from canonical_source import source_hash, source_text
 from sbfmt_program import (PROGRAM, ROOT, ProgramTest, call, example, liz, lizart, main, needs_lizard, read_bytes, read_text,
-                           write_bytes)
+                           shared, write_bytes)
 
 
 def stated_hash(path):
@@ -101,6 +101,17 @@ class Derived(ProgramTest):
         listed = subprocess.run([PROGRAM, "convert", "--help"], capture_output=True, text=True, check=True).stdout
         for name in re.findall(r"^\| (\w+) \| [0-9]", read_text(os.path.join(ROOT, "docs", "materials.md")), re.M):
             self.assertIn(name, listed)
+
+    def test_sections_with_levels_are_built_anew_as_they_were(self):
+        fox = shared("fox/fox.glb")
+        if not os.path.exists(fox):
+            self.skipTest("no shared data")
+        options = ("--material", "flesh", "--levels", "2")
+        call("convert", fox, "--unit", "0.01", "--limits", "quadruped", *options, "-o", self.path("fox.sbf"))
+        call("build", self.path("fox.sbf"), *options, "-o", self.path("again.sbf"))
+        self.assertEqual(read_bytes(self.path("fox.sbf")), read_bytes(self.path("again.sbf")))
+        self.assertEqual(read_text(self.path("fox.sbf")).count('model="jiggle"'), 21)
+        call("validate", self.path("fox.sbf"))
 
     def test_lattices_are_made_of_the_size_asked_for(self):
         out, again = self.path("lattice.sbf"), self.path("again.sbf")

@@ -202,9 +202,11 @@ static bool embed_in(const work *w, uint32_t target, int32_t mesh, const sbf_vec
   if ((!whole && !vertices) || !points || !weights || (blended && !blends)) return false;
   for (uint32_t i = 0; i < count; i++) {
     uint32_t v = list[i].vertex;
-    sbfi_carried carried = list[i].mix && w->targets[target].frame != SBFI_NO_INDEX
-                               ? carried_mixed(list[i].mix)
-                               : sbfi_carrier_carry(&w->carriers[target], positions->at[v], v);
+    /* What the sections mixed are points of the finest level. */
+    bool mixed = list[i].mix && w->finest[w->targets[target].body] == target &&
+                 w->targets[target].frame != SBFI_NO_INDEX;
+    sbfi_carried carried =
+        mixed ? carried_mixed(list[i].mix) : sbfi_carrier_carry(&w->carriers[target], positions->at[v], v);
     points[i] = carried.points;
     weights[i] = carried.weights;
     if (vertices) vertices[i] = v;
