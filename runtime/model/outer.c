@@ -96,13 +96,10 @@ static bool make_hinge(const sbri_island *island, const sbri_body *body, const f
   return true;
 }
 
-static bool find_hinges(
-    sbr_model *model, sbri_body *body, sbfi_array *sides, const float *factors, sbfi_arena *scratch) {
-  (void)scratch;
+static bool find_hinges(sbr_model *model, sbri_body *body, sbfi_array *sides, const float *factors) {
   const sbri_island *island = &model->islands[body->island];
-  side *at = sides->at;
   if (!list_sides(&body->source->surface, sides)) return false;
-  at = sides->at;
+  side *at = sides->at;
   sort_sides(at, sides->count);
   sbri_hinge *hinges = sbfi_arena_allocate(&model->arena, sides->count / 2 + 1, sizeof *hinges);
   if (!hinges) return false;
@@ -133,7 +130,7 @@ static bool make_hinges(sbr_model *model, sbri_body *body) {
   for (uint32_t i = 0; good && i < count; i++) factors[i] = 1;
   if (good) {
     sbfi_level_weigh(body->source, body->level, SBF_WEIGHT_PROPERTY_BENDING_STIFFNESS, factors);
-    good = find_hinges(model, body, &sides, factors, &scratch);
+    good = find_hinges(model, body, &sides, factors);
   }
   sbfi_array_free(&sides);
   sbfi_arena_free(&scratch);
@@ -209,30 +206,36 @@ static double gas_bound(const sbri_island *island, const sbri_body *body) {
   return pressure * body->gas_volume_m3 / (volume * volume) * sum + pressure * turning / LEAST_GAS_SHARE;
 }
 
-bool sbri_outer_make(sbr_model *model) {
+static bool make_island(sbr_model *model, sbri_island *island, sbfi_arena *scratch) {
   const sbf_environment *environment = &model->asset->environment;
-  for (uint32_t i = 0; i < model->island_count; i++) {
-    sbri_island *island = &model->islands[i];
-    double *rows = sbfi_arena_allocate(&model->arena, (size_t)island->slot_count + 1, sizeof *rows),
-           square = 0;
-    if (!rows) return false;
-    island->has_outer = environment->fields.count > 0;
-    for (uint32_t b = 0; b < island->body_count; b++) {
-      sbri_body *body = &model->bodies[island->bodies[b]];
-      const sbf_attributes *is = &body->source->attributes;
-      bool carried = body->surface.vertex_count && body->surface.frame_vertex_count == 0;
-      if (!make_hinges(model, body)) return false;
-      if (is->pressure_mode == SBF_PRESSURE_MODE_GAS && carried && body->rest_volume_m3 > 0) {
-        body->gas_pa = is->pressure;
-        body->gas_volume_m3 = sbri_surface_rest_volume(body);
-        square += gas_bound(island, body);
-      }
-      if (carried) body->medium_kg_m3 = environment->media_density;
-      square += hinges_bound(island, body, rows);
-      island->has_outer =
-          island->has_outer || body->hinge_count || body->gas_pa != 0 || body->medium_kg_m3 > 0;
+  double *rows = sbfi_arena_allocate(scratch, (size_t)island->slot_count + 1, sizeof *rows), square = 0;
+  if (!rows) return false;
+  island->has_outer = environment->fields.count > 0;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_body *body = &model->bodies[island->bodies[b]];
+    const sbf_attributes *is = &body->source->attributes;
+    bool carried = body->surface.vertex_count && body->surface.frame_vertex_count == 0;
+    if (!make_hinges(model, body)) return false;
+    if (is->pressure_mode == SBF_PRESSURE_MODE_GAS && carried && body->rest_volume_m3 > 0) {
+      body->gas_pa = is->pressure;
+      body->gas_volume_m3 = sbri_surface_rest_volume(body);
+      square += gas_bound(island, body);
     }
-    island->outer_rad_s = sqrt(square);
+    if (carried) body->medium_kg_m3 = environment->media_density;
+    square += hinges_bound(island, body, rows);
+    island->has_outer = island->has_outer || body->hinge_count || body->gas_pa != 0 || body->medium_kg_m3 > 0;
   }
+  island->outer_rad_s = sqrt(square);
   return true;
+}
+
+bool sbri_outer_make(sbr_model *model) {
+  bool good = true;
+  for (uint32_t i = 0; good && i < model->island_count; i++) {
+    sbfi_arena scratch;
+    sbfi_arena_init(&scratch, &model->arena.allocator, 0);
+    good = make_island(model, &model->islands[i], &scratch);
+    sbfi_arena_free(&scratch);
+  }
+  return good;
 }
