@@ -1,0 +1,61 @@
+#include "build/sections/section_blend.h"
+
+#include <math.h>
+
+#include "harness.h"
+#include "skinned_limb.h"
+
+/* Smooths a tube of two bones; the greatest change of a weight. */
+static double smoothed(float slope) {
+  const skinned_limb of = {.bones = 2, .sides = 8, .rings_a_bone = 10, .radius = 0.2f, .slope = slope};
+  sbf_asset *asset = skinned_limb_make(&of);
+  sbfi_arena arena;
+  sbfi_skin_union skin;
+  sbfi_topology t;
+  uint8_t chosen[1];
+  uint32_t count, left;
+  double most = 0;
+  sbfi_arena_init(&arena, NULL, 0);
+  ck_assert(sbfi_skins_choose(asset, chosen, &count, &arena));
+  ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
+  ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
+  const sbfi_skin_union before = skin;
+  ck_assert(sbfi_section_blend_smooth(&skin, &t, asset, &left, &arena));
+  ck_assert_uint_eq(left, 0);
+  for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
+    double weights[2] = {0, 0}, old[2] = {0, 0};
+    for (uint32_t h = skin.hold_begins[p]; h < skin.hold_begins[p + 1]; h++)
+      weights[skin.holds[h].bone] += (double)skin.holds[h].weight;
+    for (uint32_t h = before.hold_begins[p]; h < before.hold_begins[p + 1]; h++)
+      old[before.holds[h].bone] += (double)before.holds[h].weight;
+    ck_assert_double_eq_tol(weights[0] + weights[1], 1, 1e-5);
+    most = fmax(most, fabs(weights[0] - old[0]));
+    /* A smoothed step still goes over from one bone to the other about the joint. */
+    if (skin.mesh.positions.at[p].y < 0.5f) ck_assert_double_gt(weights[0], 0.9);
+    if (skin.mesh.positions.at[p].y > 1.5f) ck_assert_double_gt(weights[1], 0.9);
+  }
+  sbfi_arena_free(&arena);
+  sbf_asset_free(asset);
+  return most;
+}
+
+START_TEST(a_step_becomes_a_slope)
+{ ck_assert_double_gt(smoothed(0), 0.1); }
+END_TEST
+
+START_TEST(a_gentle_slope_stays)
+{ ck_assert_double_eq(smoothed(0.6f), 0); }
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("section_blend");
+  TCase *c = tcase_create("section_blend");
+  tcase_add_test(c, a_step_becomes_a_slope);
+  tcase_add_test(c, a_gentle_slope_stays);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
