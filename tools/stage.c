@@ -21,7 +21,17 @@ typedef struct body_look {
   uint32_t edge_count;
 } body_look;
 
+enum { MOST_LEGS = 16, PRINTS = 64 };
+
+/* Where a foot came down. */
+typedef struct footprint {
+  sbf_vec3 place, normal;
+} footprint;
+
 struct stage {
+  footprint prints[PRINTS];
+  uint32_t print_count; /* ever; the last PRINTS are kept */
+  bool was_planted[MOST_LEGS];
   unsigned show;
   mesh_look *meshes;
   body_look *bodies;
@@ -163,7 +173,7 @@ static void to_world(sbf_vec3 origin, sbf_vec3 *points, uint32_t count) {
 }
 
 static void show_skin(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
-  bool inside = (st->show & ~(unsigned)STAGE_SURFACE) != 0;
+  bool inside = (st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET)) != 0;
   for (uint32_t m = 0; m < st->mesh_count; m++) {
     uint32_t count =
         sbr_character_skin(s->world, s->character, m, st->positions, st->normals, NULL, st->room);
@@ -253,6 +263,34 @@ static void show_bones(stage *st, const session *s, draw_scene *scene) {
   }
 }
 
+/* Footprints as rings; of a foot in the air where it goes, and the ray below it. */
+static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
+  sbr_leg_state legs[MOST_LEGS];
+  uint32_t count = sbr_character_legs(s->world, s->character, legs, MOST_LEGS);
+  float size = 0;
+  for (uint32_t i = 0; i < count && i < MOST_LEGS; i++) {
+    int32_t foot = s->asset->ik_chains.at[s->asset->gaits.at[0].legs.at[i].ik].end;
+    float length = s->asset->bones.at[s->asset->bones.at[foot].parent].length;
+    size = length > size ? 0.25f * length : size;
+  }
+  for (uint32_t i = 0; i < count && i < MOST_LEGS; i++) {
+    sbf_vec3 ends[2] = {legs[i].foot, legs[i].target}, below;
+    to_world(origin, ends, 2);
+    footprint print = {.place = ends[0]};
+    float y = (float)s->ground.height(&s->ground, (double)ends[0].x, (double)ends[0].z, &print.normal);
+    if (legs[i].planted && !st->was_planted[i]) st->prints[st->print_count++ % PRINTS] = print;
+    st->was_planted[i] = legs[i].planted;
+    if (legs[i].planted) continue;
+    below = (sbf_vec3){ends[0].x, y, ends[0].z};
+    sbf_vec3 points[3] = {ends[0], ends[1], below};
+    static const sbf_uint2 lines[2] = {{{0, 1}}, {{0, 2}}};
+    draw_scene_add_lines(scene, points, 3, lines, NULL, 2, draw_colour_of_bone(), 1.5f);
+    draw_scene_add_sphere(scene, ends[1], 0.3f * size, draw_colour_of_bone());
+  }
+  for (uint32_t i = 0; i < st->print_count && i < PRINTS; i++)
+    draw_scene_add_ring(scene, st->prints[i].place, st->prints[i].normal, size, 1.5f, draw_colour_of_hull());
+}
+
 /* A hull's polygons as triangles, fans of each. */
 static void show_hull(stage *st, const sbf_asset *asset, const sbf_rigid_body *body, draw_scene *scene) {
   const sbf_polygon_mesh *hull = body->hull;
@@ -302,5 +340,6 @@ void stage_show(stage *st, const session *s, draw_scene *scene) {
   if (st->show & STAGE_BONES) show_bones(st, s, scene);
   for (uint32_t i = 0; st->show & STAGE_HULLS && i < s->asset->rigid_bodies.count; i++)
     if (s->asset->rigid_bodies.at[i].hull) show_hull(st, s->asset, &s->asset->rigid_bodies.at[i], scene);
+  if (st->show & STAGE_FEET) show_feet(st, s, origin, scene);
   show_ground(s, origin, scene);
 }

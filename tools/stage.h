@@ -11,6 +11,7 @@ enum {
   STAGE_LATTICE = 4,
   STAGE_BONES = 8,
   STAGE_HULLS = 16,
+  STAGE_FEET = 64,  /* footprints, where steps go, rays to the ground */
   STAGE_STRAIN = 32 /* springs coloured by strain rather than kind */
 };
 

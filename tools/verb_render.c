@@ -36,17 +36,18 @@ static bool parse_output(cli_call *call, output *kind) {
 }
 
 static bool parse_show(cli_call *call, unsigned *show) {
-  static const char *const words[] = {"surface", "springs", "lattice", "bones", "hulls", "strain"};
+  static const char *const words[] = {"surface", "springs", "lattice", "bones", "hulls", "strain", "feet"};
   const char *text = cli_value(call, "--show");
   *show = text ? 0 : STAGE_SURFACE;
   while (text && *text) {
     size_t length = strcspn(text, ",");
     int found = -1;
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; i < 7; i++)
       if (strlen(words[i]) == length && strncmp(words[i], text, length) == 0) found = i;
     if (found < 0) {
       cli_wrong(call,
-          "--show takes surface, springs, lattice, bones, hulls and strain with commas between, not '%s'",
+          "--show takes surface, springs, lattice, bones, hulls, strain and feet with commas between, not "
+          "'%s'",
           cli_value(call, "--show"));
       return false;
     }
@@ -151,7 +152,7 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     {"-o", "OUT.png|gif|mp4", "where to draw; films need the program ffmpeg"},
-    {"--show", "LIST", "surface, springs, lattice, bones, hulls, strain (surface)"},
+    {"--show", "LIST", "surface, springs, lattice, bones, hulls, strain, feet (surface)"},
     {"--size", "WxH", "pixels (1280x960, GIF 640x360, MP4 1280x720)"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},
