@@ -37,7 +37,7 @@ static void teardown(void) {
 static sbf_asset *build(sbf_build_interior interior, double cell) {
   sbf_asset *built;
   sbf_diagnostic error;
-  sbf_build_options options = {.interior = interior, .cell_m = cell};
+  sbf_build_options options = {.interior = interior, .cell_m = cell, .without_calibration = true};
   ck_assert_int_eq(sbf_build(asset, &options, &built, NULL, &error), SBF_OK);
   return built;
 }

@@ -128,6 +128,8 @@ class Errors(ModuleTest):
             asset.build(interior="jam")
         with self.assertRaises(ValueError):
             sbfmt.convert(LIZARD, up="x")
+        with self.assertRaises(ValueError):
+            sbfmt.convert(LIZARD, limits="fish")
         said = []
         try:
             sbfmt.convert(LIZARD, rig=RIG, pins={"nowhere": None}, report=said.append)
