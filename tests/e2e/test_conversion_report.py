@@ -138,8 +138,10 @@ class Reports(ProgramTest):
         first = self.report(path, "--springs", "surface", drawn=True)
         self.assertEqual(self.report(path, "--springs", "surface", drawn=True), first)
         if not first["drawing_failed"]:
-            # A body that no bone runs through is filled with tetrahedra.
-            self.assertEqual([p["name"] for p in first["pictures"]], ["skin", "sections", "lattice"])
+            self.assertEqual([p["name"] for p in first["pictures"]], ["skin", "sections", "springs"])
+            # Unasked, a body that no bone runs through is filled with tetrahedra.
+            unasked = self.report(path, drawn=True)
+            self.assertEqual([p["name"] for p in unasked["pictures"]], ["skin", "sections", "lattice"])
 
     def test_wrong_calls_leave_nothing(self):
         for arguments in (("--report", self.path("out.txt")), ("--report", self.path("no folder/out.html"))):

@@ -19,7 +19,8 @@ typedef struct sbr_height_field {
   const float *heights_m; /* (rows x columns), columns along +X, rows along +Z */
   uint32_t columns, rows; /* at least 2 each */
   double cell_m;          /* > 0: side of a square */
-  double x, z;            /* world: of the first height */
+  double x;               /* m, world: of the first height */
+  double z;               /* m, likewise */
 } sbr_height_field;
 SBF_API sbr_ground sbr_ground_height_field(const sbr_height_field *field);
 
@@ -39,27 +40,31 @@ typedef enum sbr_obstacle_kind {
   SBR_OBSTACLE_CYLINDER,
   SBR_OBSTACLE_SPHERE
 } sbr_obstacle_kind;
+/* One of them. */
 typedef struct sbr_obstacle {
-  sbr_obstacle_kind kind;
-  sbr_double3 center; /* world */
+  sbr_obstacle_kind kind; /* its shape */
+  sbr_double3 center;     /* world */
   sbf_vec3
       half_sizes; /* box: along its own x, y, z; cylinder (upright): x the radius, y; sphere: x the radius */
   float heading;  /* of a box, rad */
 } sbr_obstacle;
+/* All of them; the host's, and lives as long as the ground does. */
 typedef struct sbr_obstacle_set {
-  const sbr_ground *base; /* what they stand on */
-  const sbr_obstacle *obstacles;
-  uint32_t count;
+  const sbr_ground *base;        /* what they stand on */
+  const sbr_obstacle *obstacles; /* (count) */
+  uint32_t count;                /* of obstacles */
 } sbr_obstacle_set;
 SBF_API sbr_ground sbr_ground_obstacles(const sbr_obstacle_set *set);
 
 /* A host's rays: casts one straight down. Returns how far it goes until it hits, at most `length`; negative
  * where it hits nothing. `normal` receives the unit normal there. */
 typedef struct sbr_ray_caster {
+  /* m; called by worker threads */
   double (*cast)(void *user, sbr_double3 from, double length, sbf_vec3 *normal);
-  void *user;
-  double top_m, length_m; /* rays begin at y = top_m */
-  double otherwise_m;     /* height where nothing is hit */
+  void *user;         /* the host's, handed to `cast` */
+  double top_m;       /* rays begin at this y */
+  double length_m;    /* and go down so far */
+  double otherwise_m; /* height where nothing is hit */
 } sbr_ray_caster;
 SBF_API sbr_ground sbr_ground_rays(const sbr_ray_caster *caster);
 
