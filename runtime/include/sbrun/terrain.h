@@ -66,6 +66,7 @@ typedef struct sbr_ray_caster {
   double length_m;    /* and go down so far */
   double otherwise_m; /* height where nothing is hit */
 } sbr_ray_caster;
+/* The ground that they find; `caster` must outlive it. */
 SBF_API sbr_ground sbr_ground_rays(const sbr_ray_caster *caster);
 
 #ifdef __cplusplus
