@@ -417,8 +417,11 @@ static sbf_status make_level(build *b, uint32_t number) {
   sbf_status status = SBF_OK;
   const sbf_build_options *o = &b->options;
   lattice_share share = {b, number};
-  const sbfi_ladder_recipe recipe = {o->levels > 1 ? o->levels : 1, o->error_m, !o->without_calibration,
-      !o->without_flexion, (double)b->asset->environment.control_tick, DERIVATION};
+  /* The reference takes a second or two a body: that is for those who choose a size. */
+  bool sized = o->cell_m > 0 || o->elements > 0 || o->error_m > 0 || o->levels > 1;
+  const sbfi_ladder_recipe recipe = {o->levels > 1 ? o->levels : 1, o->error_m,
+      sized && !o->without_calibration, !o->without_flexion, (double)b->asset->environment.control_tick,
+      DERIVATION};
   sbfi_ladder ladder;
   sbfi_ladder_init(&ladder, &b->bodies[number], &recipe, b->asset,
       (sbfi_lattice_progress){lattice_progress, &share}, &b->scratch.allocator);

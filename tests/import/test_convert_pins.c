@@ -51,7 +51,8 @@ START_TEST(weights_of_a_bone_pin_to_another)
   /* The skin moves with the body, whole: its weights say nothing any more. */
   sbf_asset *built;
   sbf_build_report report;
-  ck_assert_int_eq(sbf_build(c.asset, NULL, &built, &report, NULL), SBF_OK);
+  const sbf_build_options springs = {.interior = SBF_BUILD_INTERIOR_CENTROID};
+  ck_assert_int_eq(sbf_build(c.asset, &springs, &built, &report, NULL), SBF_OK);
   ck_assert_uint_eq(report.embedded_vertices, 8);
   const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
   bool carried = false;
@@ -106,7 +107,8 @@ START_TEST(level_pins_keep_weights)
   converted_scene(&c, &scene, &scene, &(sbf_convert_options){.pins = &pin, .pin_count = 1});
   for (int tetrahedra = 0; tetrahedra < 2; tetrahedra++) {
     sbf_asset *built;
-    sbf_build_options options = {.interior = tetrahedra ? SBF_BUILD_INTERIOR_TETRAHEDRA : 0, .cell_m = 0.25};
+    sbf_build_options options = {
+        .interior = tetrahedra ? SBF_BUILD_INTERIOR_TETRAHEDRA : SBF_BUILD_INTERIOR_CENTROID, .cell_m = 0.25};
     ck_assert_int_eq(sbf_build(c.asset, &options, &built, NULL, NULL), SBF_OK);
     const sbf_pin_set *set = &built->soft_bodies.at[0].levels.at[0].pins.at[0];
     uint32_t fast = 0, goals = 0;

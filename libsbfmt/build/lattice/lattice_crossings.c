@@ -11,6 +11,7 @@ typedef struct work {
   uint32_t points[3];            /* of the triangle at hand */
   double at[3][3];               /* in grid coordinates */
   double across[3][2], along[3]; /* seen along the lines of the way at hand */
+  double least_area; /* twice: below it the triangle is seen from its side, where rounding rules */
   bool is_cap, good;
 } work;
 
@@ -47,7 +48,7 @@ static bool meet(const work *w, double u, double v, double *place) {
   double c = side_of(w, 0, 1, u, v), a = side_of(w, 1, 2, u, v), b = side_of(w, 2, 0, u, v);
   bool within = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
   double sum = a + b + c;
-  if (!within || sum == 0) return false;
+  if (!within || fabs(sum) <= w->least_area) return false;
   *place = (a * w->along[0] + b * w->along[1] + c * w->along[2]) / sum;
   return true;
 }
@@ -74,6 +75,7 @@ static void cross_lines(work *w, int way, int32_t remainder) {
   int32_t u_first = first_from(least_of(w->across, 0), remainder);
   int32_t v_first = first_from(least_of(w->across, 1), remainder);
   double u_most = most_of(w->across, 0), v_most = most_of(w->across, 1), place;
+  w->least_area = 1e-9 * (u_most - least_of(w->across, 0)) * (v_most - least_of(w->across, 1));
   for (int32_t v = v_first; v <= v_most; v += 2) {
     for (int32_t u = u_first; u <= u_most; u += 2) {
       if (!meet(w, u, v, &place)) continue;

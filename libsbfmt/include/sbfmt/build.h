@@ -65,8 +65,9 @@ typedef struct sbf_build_options {
   sbf_build_sections sections; /* of skinned meshes */
   /* How far along the surface a section reaches over a cut; 0: half the limb's radius there. */
   double overlap_m;
-  /* Lattices of fewer than 8000 tetrahedra bend too stiffly; unless this is set they get a modulus with which
-   * they give as much as a lattice of 16,000, and `reference_modulus` says what it stands for. */
+  /* Lattices of fewer than 8000 tetrahedra bend too stiffly; where their size is stated (cell, number, error
+   * or several levels) and unless this is set, they get a modulus with which they give as much as a lattice
+   * of 16,000, and `reference_modulus` says what it stands for. That takes a second or two a body. */
   bool without_calibration;
   /* How many levels a body gets, up to 8; 0 and 1: one. Of tetrahedra: lattices, each of twice the cell of
    * the one before; the last of three and more is jiggle, the one before it, of four and more, springs. Of
