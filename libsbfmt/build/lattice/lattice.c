@@ -126,6 +126,14 @@ static double cube_root(double x) {
   return root;
 }
 
+/* Whether a body in which no tetrahedron of this cell fits will hardly hold so many of any: where elements of
+ * a thin layer or rod would fill it, nodes of its grid are not many times as many. */
+static bool is_hollow(const sbfi_soup *soup, double cell, uint32_t elements) {
+  sbfi_lattice_grid grid;
+  return !sbfi_lattice_grid_fit(&grid, soup->low, soup->high, cell) ||
+         grid.node_count > 64.0 * elements + 65536;
+}
+
 sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_winding *winding,
     uint32_t elements, sbfi_lattice_progress progress, sbfi_arena *arena) {
   enum { ROUNDS = 8 };
@@ -152,6 +160,7 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
       best = misses(count, elements);
       best_cell = cell;
     }
+    if (count == 0 && is_hollow(soup, cell, elements)) break;
     /* Nothing at all: the body is thinner than the cell. */
     double ratio = count ? (double)count / elements : 1.0 / 8;
     cell *= cube_root(ratio < 1.0 / 64 ? 1.0 / 64 : ratio > 64 ? 64 : ratio);
