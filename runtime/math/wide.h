@@ -126,47 +126,12 @@ typedef struct sbri_wide3 {
   sbri_wide x, y, z;
 } sbri_wide3;
 
-/* The points at `places[0]` to `places[SBRI_LANES - 1]`, turned so that each coordinate fills a wide. */
-SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *places) {
-  sbri_wide3 r;
-#if SBRI_LANES == 8
-#define SBRI_PAIR(i)                                                                                         \
-  (sbri_wide) _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&points[places[i]].x)),               \
-      _mm_loadu_ps(&points[places[(i) + 4]].x), 1)
-  sbri_wide a = SBRI_PAIR(0), b = SBRI_PAIR(1), c = SBRI_PAIR(2), d = SBRI_PAIR(3);
-#undef SBRI_PAIR
-  sbri_wide ab = (sbri_wide)_mm256_unpacklo_ps((__m256)a, (__m256)b); /* ax bx ay by */
-  sbri_wide cd = (sbri_wide)_mm256_unpacklo_ps((__m256)c, (__m256)d);
-  sbri_wide ab_high = (sbri_wide)_mm256_unpackhi_ps((__m256)a, (__m256)b); /* az bz aw bw */
-  sbri_wide cd_high = (sbri_wide)_mm256_unpackhi_ps((__m256)c, (__m256)d);
-  r.x = (sbri_wide)_mm256_shuffle_ps((__m256)ab, (__m256)cd, 0x44);
-  r.y = (sbri_wide)_mm256_shuffle_ps((__m256)ab, (__m256)cd, 0xee);
-  r.z = (sbri_wide)_mm256_shuffle_ps((__m256)ab_high, (__m256)cd_high, 0x44);
-#elif SBRI_LANES == 4
-  sbri_quad a, b, c, d;
-  memcpy(&a, &points[places[0]], sizeof a);
-  memcpy(&b, &points[places[1]], sizeof b);
-  memcpy(&c, &points[places[2]], sizeof c);
-  memcpy(&d, &points[places[3]], sizeof d);
-  sbri_quad ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-  sbri_quad ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-  sbri_quad cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  r.x = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
-  r.y = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-  r.z = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-#else
-  const sbri_point *p = points + places[0];
-  r.x = p->x, r.y = p->y, r.z = p->z;
-#endif
-  return r;
-}
-
 /* Points with all four of their numbers. */
 typedef struct sbri_wide4 {
   sbri_wide x, y, z, w;
 } sbri_wide4;
 
-static inline sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_t *places) {
+SBRI_INLINE sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_t *places) {
   sbri_wide4 r;
 #if SBRI_LANES == 8
 #define SBRI_PAIR(i)                                                                                         \
@@ -198,6 +163,12 @@ static inline sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint3
   r.x = p->x, r.y = p->y, r.z = p->z, r.w = p->w;
 #endif
   return r;
+}
+
+/* The points at `places[0]` to `places[SBRI_LANES - 1]`, turned so that each coordinate fills a wide. */
+SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *places) {
+  sbri_wide4 r = sbri_wide_gather4(points, places);
+  return (sbri_wide3){r.x, r.y, r.z};
 }
 
 /* Each lane to its own place; where two lanes name one place the last one stays. */
