@@ -53,6 +53,16 @@ static bool parse_scheme(cli_call *call, sbf_scheme *scheme) {
   return true;
 }
 
+static bool parse_instructions(cli_call *call, sbr_instructions *instructions) {
+  enum { COUNT = SBR_INSTRUCTIONS_WASM_SIMD128 + 1 };
+  const char *names[COUNT];
+  int chosen = SBR_INSTRUCTIONS_AUTOMATIC;
+  for (int i = 0; i < COUNT; i++) names[i] = sbr_instructions_name((sbr_instructions)i);
+  if (!cli_word(call, "--instructions", names, COUNT, &chosen)) return false;
+  *instructions = (sbr_instructions)chosen;
+  return true;
+}
+
 typedef struct settings {
   sbr_model_options model;
   double drive[2], raise, gravity;
@@ -68,7 +78,8 @@ static bool parse_settings(session *s, cli_call *call, settings *set) {
       cli_integer(call, "--level", 0, 1000, &level) && cli_integer(call, "--threads", 1, 64, &set->threads) &&
       cli_number(call, "--raise", -1000, 1000, &set->raise) &&
       cli_number(call, "--gravity", -1000, 1000, &set->gravity) && parse_drive(call, set->drive) &&
-      parse_ground(call, &s->ground) && parse_scheme(call, &set->model.scheme);
+      parse_ground(call, &s->ground) && parse_scheme(call, &set->model.scheme) &&
+      parse_instructions(call, &set->model.instructions);
   set->model.substeps = (uint32_t)substeps;
   set->model.level = (uint32_t)level;
   set->model.free = cli_switch(call, "--free");

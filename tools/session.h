@@ -14,6 +14,8 @@
       {"--scheme", "NAME",                                                                                   \
           "automatic, symplectic, position_based, relaxation, explicit_euler, heun (automatic)"},            \
       {"--substeps", "N", "of a control tick (as many as the scheme needs)"},                                \
+      {"--instructions", "NAME",                                                                             \
+          "automatic, scalar, sse2, avx2, avx512, neon; the motion is the same for all (automatic)"},        \
       {"--threads", "N", "worker threads; the motion is the same for any number (1)"},                       \
       {"--drive", "M/S,RAD/S", "wanted speed and turn (0,0)"},                                               \
       {"--ground", "KIND", "flat, slope:DEGREES, stairs:RISE,RUN or noise:HEIGHT,SEED (flat)"},              \

@@ -35,7 +35,19 @@ static void position_based_tick(const sbri_island_tick *tick) {
   sbri_lanes_position_based_tick(tick);
 }
 
-#define SBRI_TEXT(word) #word
-#define SBRI_TEXT_OF(macro) SBRI_TEXT(macro)
-const sbri_kernels SBRI_KERNELS = {SBRI_TEXT_OF(SBRI_KERNELS), SBRI_LANES, vertices, faces, tangents, sums,
-    normals, symplectic_tick, explicit_euler_tick, heun_tick, position_based_tick};
+#if SBRI_LANES == 1
+#define SBRI_INSTRUCTIONS SBR_INSTRUCTIONS_SCALAR
+#elif defined(__AVX512VL__)
+#define SBRI_INSTRUCTIONS SBR_INSTRUCTIONS_AVX512
+#elif defined(__AVX2__)
+#define SBRI_INSTRUCTIONS SBR_INSTRUCTIONS_AVX2
+#elif defined(__SSE2__)
+#define SBRI_INSTRUCTIONS SBR_INSTRUCTIONS_SSE2
+#elif defined(__wasm_simd128__)
+#define SBRI_INSTRUCTIONS SBR_INSTRUCTIONS_WASM_SIMD128
+#else
+#define SBRI_INSTRUCTIONS SBR_INSTRUCTIONS_NEON
+#endif
+
+const sbri_kernels SBRI_KERNELS = {SBRI_INSTRUCTIONS, SBRI_LANES, vertices, faces, tangents, sums, normals,
+    symplectic_tick, explicit_euler_tick, heun_tick, position_based_tick};

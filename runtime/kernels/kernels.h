@@ -3,11 +3,12 @@
 #ifndef SBRI_KERNELS_H
 #define SBRI_KERNELS_H
 
+#include "sbrun/sbrun.h"
 #include "skin/skin_tables.h"
 #include "solvers/scheme.h"
 
 typedef struct sbri_kernels {
-  const char *name;
+  sbr_instructions instructions;
   uint32_t lanes; /* at once */
   void (*vertices)(const sbri_skin *skin, const sbri_point *points, sbri_point *vertices);
   void (*faces)(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
@@ -21,13 +22,14 @@ typedef struct sbri_kernels {
   void (*position_based_tick)(const sbri_island_tick *tick);
 } sbri_kernels;
 
-extern const sbri_kernels sbri_kernels_plain; /* what the compiler was told to assume */
+extern const sbri_kernels sbri_kernels_scalar; /* one lane */
+extern const sbri_kernels sbri_kernels_plain;  /* what the compiler was told to assume: may be one lane too */
 #if defined(__x86_64__) && defined(__GNUC__)
-#define SBRI_HAS_AVX2 1
-extern const sbri_kernels sbri_kernels_avx2; /* for processors that have it */
+#define SBRI_HAS_X86_64 1
+extern const sbri_kernels sbri_kernels_avx2, sbri_kernels_avx512; /* for processors that have them */
 #endif
 
-/* The fastest that this machine can run. */
-const sbri_kernels *sbri_kernels_choose(void);
+/* Those for the instructions, or the fastest that this machine can run; NULL: it cannot run them. */
+const sbri_kernels *sbri_kernels_of(sbr_instructions instructions);
 
 #endif

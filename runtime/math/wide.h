@@ -1,6 +1,6 @@
 /* Eight lanes of single precision, whatever the machine has.
  *
- * sbri_wide holds SBRI_LANES floats: 8 with AVX, 4 with SSE, NEON and WebAssembly, and 1 elsewhere, where it
+ * sbri_wide holds SBRI_LANES floats: 8 with AVX2, 4 with SSE, NEON and WebAssembly, and 1 elsewhere, where it
  * is a plain float. Kernels work on blocks of eight lanes, SBRI_LANES at a time:
  *
  *   for (int lane = 0; lane < 8; lane += SBRI_LANES) { sbri_wide x = sbri_wide_load(block + lane); ... }
@@ -21,7 +21,7 @@
 
 enum { SBRI_BLOCK = 8 }; /* lanes of a block */
 
-#if !defined(SBRI_WIDE_SCALAR) && defined(__GNUC__) && defined(__AVX__)
+#if !defined(SBRI_WIDE_SCALAR) && defined(__GNUC__) && defined(__AVX2__)
 #define SBRI_LANES 8
 #include <immintrin.h>
 #elif !defined(SBRI_WIDE_SCALAR) && defined(__GNUC__) && defined(__SSE2__)

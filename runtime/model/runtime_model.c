@@ -19,6 +19,12 @@ static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_model_options: struct_size is %zu, this library's is %zu", options->struct_size,
         sizeof *options);
+  if (!sbri_kernels_of(options->instructions)) {
+    const char *name = sbr_instructions_name(options->instructions);
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "this processor, or this library, does not have instructions %s: ask for automatic",
+        name ? name : "of that number");
+  }
   if (options->scheme == SBF_SCHEME_AUTOMATIC || sbri_scheme_of(options->scheme)) return SBF_OK;
   return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "scheme %s is not one of the runtime's: %s",
       sbf_scheme_name(options->scheme), sbri_scheme_names());
@@ -154,7 +160,7 @@ sbf_status sbr_model_create(
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
   if (!made) return no_memory(error);
   *made = (sbr_model){.asset = asset,
-      .kernels = sbri_kernels_choose(),
+      .kernels = sbri_kernels_of(options->instructions),
       .step_error_m = options->step_error_m > 0 ? options->step_error_m : STEP_ERROR_M};
   sbfi_arena_init(&made->arena, &allocator, 0);
   status = make(made, options, error);
@@ -170,6 +176,10 @@ void sbr_model_destroy(sbr_model *model) {
   sbf_allocator allocator = model->arena.allocator;
   sbfi_arena_free(&model->arena);
   sbfi_free(&allocator, model, sizeof *model);
+}
+
+sbr_instructions sbr_model_instructions(const sbr_model *model) {
+  return model ? model->kernels->instructions : SBR_INSTRUCTIONS_AUTOMATIC;
 }
 
 uint32_t sbr_model_substeps(const sbr_model *model) {

@@ -96,6 +96,15 @@ class Run(ProgramTest):
             report = self.run_json("--ground", ground, "--drive", "0.2,0", seconds=2)
             self.assertTrue(report["valid"], ground)
 
+    def test_all_instructions_give_the_same_state(self):
+        expected = self.run_json("--instructions", "scalar")["state_hash"]
+        ran = [name for name in ("automatic", "sse2", "avx2", "avx512", "neon")
+               if call("run", self.file, "--seconds", "0", "--instructions", name).status == 0]
+        self.assertGreaterEqual(len(ran), 2)
+        for name in ran:
+            self.assertEqual(self.run_json("--instructions", name)["state_hash"], expected, name)
+        self.assertNotEqual(call("run", self.file, "--instructions", "mmx").status, 0)
+
     def test_each_scheme_offered_runs_and_others_are_refused(self):
         hashes = {scheme: self.run_json("--scheme", scheme)["state_hash"] for scheme in ("symplectic", "position_based", "relaxation", "explicit_euler", "heun")}
         self.assertEqual(len(set(hashes.values())), 5)

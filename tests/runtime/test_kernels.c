@@ -1,6 +1,9 @@
+#include <stdio.h>
+#include <string.h>
+
 #include "harness.h"
 
-#include "kernels_scalar.h"
+#include "kernels/kernels.h"
 #include "model/runtime_model.h"
 #include "scenes.h"
 
@@ -34,13 +37,14 @@ static scene make_scene(bool solids) {
   return s;
 }
 
-static uint64_t hash_after(const sbri_kernels *kernels, bool held, sbf_scheme scheme) {
+static uint64_t hash_after(sbr_instructions instructions, bool held, sbf_scheme scheme) {
   bool solids = scheme != SBF_SCHEME_POSITION_BASED; /* which steps springs alone */
   scene s = make_scene(solids);
   s.model_options.free = !held;
   s.model_options.scheme = scheme;
+  s.model_options.instructions = instructions;
   scene_start(&s);
-  s.model->kernels = kernels;
+  ck_assert_int_eq(sbr_model_instructions(s.model), instructions);
   sbr_character_drive(s.world, s.character, 0.3f, 0, 0.5f);
   scene_ticks(&s, TICKS);
   for (uint32_t b = 0; b < s.asset->soft_bodies.count; b++) {
@@ -55,15 +59,23 @@ static uint64_t hash_after(const sbri_kernels *kernels, bool held, sbf_scheme sc
   return hash;
 }
 
+enum { WIDTHS = SBR_INSTRUCTIONS_WASM_SIMD128 };
+
 START_TEST(every_width_gives_the_same_bits)
 {
   static const sbf_scheme schemes[] = {
       SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN};
   bool held = _i % 2 != 0;
   sbf_scheme scheme = schemes[_i / 2];
-  uint64_t hash = hash_after(&kernels_scalar, held, scheme);
-  ck_assert_uint_eq(hash_after(&sbri_kernels_plain, held, scheme), hash);
-  ck_assert_uint_eq(hash_after(sbri_kernels_choose(), held, scheme), hash);
+  uint64_t hash = hash_after(SBR_INSTRUCTIONS_SCALAR, held, scheme);
+  for (int i = SBR_INSTRUCTIONS_SCALAR + 1; i <= WIDTHS; i++) {
+    sbr_instructions instructions = (sbr_instructions)i;
+    if (sbr_instructions_available(instructions))
+      ck_assert_msg(
+          hash_after(instructions, held, scheme) == hash, "%s", sbr_instructions_name(instructions));
+    else if (_i == 0)
+      printf("skipped: %s, which this processor does not have\n", sbr_instructions_name(instructions));
+  }
 }
 END_TEST
 
@@ -71,10 +83,33 @@ START_TEST(a_model_takes_the_widest)
 {
   scene s = make_scene(true);
   scene_start(&s);
-  ck_assert_ptr_eq(s.model->kernels, sbri_kernels_choose());
+  ck_assert_ptr_eq(s.model->kernels, sbri_kernels_of(SBR_INSTRUCTIONS_AUTOMATIC));
+  ck_assert_int_ne(sbr_model_instructions(s.model), SBR_INSTRUCTIONS_AUTOMATIC);
   ck_assert_uint_ge(s.model->kernels->lanes, sbri_kernels_plain.lanes);
   ck_assert_uint_eq(sbr_lanes(), s.model->kernels->lanes);
-  ck_assert_uint_eq(kernels_scalar.lanes, 1);
+  ck_assert_uint_eq(sbri_kernels_scalar.lanes, 1);
+#if defined(__x86_64__) || defined(__aarch64__)
+  ck_assert_uint_ge(sbri_kernels_plain.lanes, 4);
+#endif
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(instructions_of_other_processors_are_refused)
+{
+  scene s = make_scene(true);
+  sbf_diagnostic error;
+  sbr_model *model = NULL;
+  s.model_options.instructions = SBR_INSTRUCTIONS_WASM_SIMD128;
+#if defined(__x86_64__) || defined(__aarch64__)
+  ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &model, &error), SBF_FAILED);
+  ck_assert_ptr_nonnull(strstr(error.message, "wasm_simd128"));
+#endif
+  s.model_options.instructions = (sbr_instructions)(WIDTHS + 1);
+  ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &model, &error), SBF_FAILED);
+  ck_assert_ptr_null(sbr_instructions_name(s.model_options.instructions));
+  ck_assert_ptr_null(model);
+  ck_assert_int_eq(sbr_model_instructions(NULL), SBR_INSTRUCTIONS_AUTOMATIC);
   scene_free(&s);
 }
 END_TEST
@@ -85,6 +120,7 @@ int main(void) {
   tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 8);
   tcase_add_test(c, a_model_takes_the_widest);
+  tcase_add_test(c, instructions_of_other_processors_are_refused);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

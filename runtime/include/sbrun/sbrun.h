@@ -76,6 +76,22 @@ typedef struct sbr_tasks {
 
 /* ---- Model -------------------------------------------------------------------------------------------- */
 
+/* What the solvers' loops are compiled for. Every one gives the same bits; they differ in speed alone. */
+typedef enum sbr_instructions {
+  SBR_INSTRUCTIONS_AUTOMATIC,   /* the fastest that the processor has */
+  SBR_INSTRUCTIONS_SCALAR,      /* one number at a time, on any processor */
+  SBR_INSTRUCTIONS_SSE2,        /* four, x86-64 */
+  SBR_INSTRUCTIONS_AVX2,        /* eight, x86-64 */
+  SBR_INSTRUCTIONS_AVX512,      /* eight in twice as many registers, x86-64 */
+  SBR_INSTRUCTIONS_NEON,        /* four, aarch64 */
+  SBR_INSTRUCTIONS_WASM_SIMD128 /* four, WebAssembly */
+} sbr_instructions;
+
+/* Whether this library has loops for them and this processor runs those. Any thread may call it. */
+SBF_API bool sbr_instructions_available(sbr_instructions instructions);
+/* "automatic", "scalar", "sse2", "avx2", "avx512", "neon", "wasm_simd128"; NULL for anything else. */
+SBF_API const char *sbr_instructions_name(sbr_instructions instructions);
+
 /* Settings of a model. */
 typedef struct sbr_model_options {
   size_t struct_size;             /* sizeof(sbr_model_options), or 0 for this version's */
@@ -89,11 +105,12 @@ typedef struct sbr_model_options {
   bool has_gravity;   /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
   sbf_vec3 gravity;   /* m/s^2 */
   float step_error_m; /* error that a step of a scheme with error control (heun) may have; 0: 0.0001 */
+  sbr_instructions instructions; /* for the solvers' loops */
 } sbr_model_options;
 
-/* `asset` must outlive the model. SBF_FAILED where memory runs out or the scheme is not one of the runtime's
- * (symplectic, position_based, relaxation, explicit_euler, heun) or cannot step a body; SBF_BAD_INPUT where
- * the asset asks for something the runtime cannot simulate. */
+/* `asset` must outlive the model. SBF_FAILED where memory runs out, the instructions are not available, or
+ * the scheme is not one of the runtime's (symplectic, position_based, relaxation, explicit_euler, heun) or
+ * cannot step a body; SBF_BAD_INPUT where the asset asks for something the runtime cannot simulate. */
 SBF_API sbf_status sbr_model_create(
     const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error);
 SBF_API void sbr_model_destroy(sbr_model *model);
@@ -103,8 +120,10 @@ SBF_API void sbr_model_destroy(sbr_model *model);
 SBF_API uint32_t sbr_model_left_out(
     const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *finding), void *user);
 
-/* How many numbers of single precision the solvers compute at once on this processor: 1, 4 or 8. For reports
- * of speed; results do not depend on it. */
+/* What the model's loops run with: never automatic. */
+SBF_API sbr_instructions sbr_model_instructions(const sbr_model *model);
+/* How many numbers of single precision the solvers compute at once on this processor, unless a model's
+ * options say otherwise: 1, 4 or 8. For reports of speed; results do not depend on it. */
 SBF_API uint32_t sbr_lanes(void);
 
 /* ---- World -------------------------------------------------------------------------------------------- */
