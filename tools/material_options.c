@@ -29,31 +29,94 @@ static bool is(const char *text, const char *wanted, size_t length) {
   return strlen(text) == length && memcmp(text, wanted, length) == 0;
 }
 
+/* A copy of the list that may be written to, with `more` behind it. */
+static void *own(sbf_asset *asset, const void *at, size_t count, size_t more, size_t size) {
+  char *copy = sbf_asset_allocate(asset, count + more + 1, size);
+  if (copy && count) memcpy(copy, at, count * size);
+  return copy;
+}
+
+/* Of source bodies; those that a build made, it makes again. */
+static uint32_t apply_to_bodies(const sbf_asset *asset, sbf_soft_body *bodies, const char *name,
+    size_t length, const sbf_material_preset *preset) {
+  uint32_t found = 0;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    if (bodies[i].derived != SBF_NONE) continue;
+    if (name && !is(bodies[i].name, name, length) && !is(bodies[i].id, name, length)) continue;
+    sbf_material_apply(preset, &bodies[i].attributes);
+    found++;
+  }
+  return found;
+}
+
+/* Whether a build cuts sections: where there is a skin and no body on a bone. */
+static bool is_to_be_cut(const sbf_asset *asset) {
+  bool skinned = false;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
+    if (asset->soft_bodies.at[i].derived == SBF_NONE && asset->soft_bodies.at[i].bone != SBF_NONE)
+      return false;
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    skinned = skinned || asset->render_meshes.at[i].skin;
+  return skinned;
+}
+
+/* The recipe of the sections on a bone, a new one, like that of all others, where there is none. */
+static sbf_section_recipe *recipe_for(sbf_asset *asset, sbf_section_recipe *recipes, int32_t bone) {
+  sbf_section_recipe *general = NULL, *made = &recipes[asset->section_recipes.count];
+  for (uint32_t i = 0; i < asset->section_recipes.count; i++) {
+    if (recipes[i].bone == bone) return &recipes[i];
+    if (recipes[i].bone == SBF_NONE) general = &recipes[i];
+  }
+  sbf_section_recipe_init(made);
+  made->attributes.sag_free = true; /* as drawn when it stands */
+  if (general) *made = *general;
+  made->bone = bone;
+  asset->section_recipes.count++;
+  return made;
+}
+
+/* On a bone of that name or id, of which there may be several; NULL: whatever has no recipe of its own. */
+static uint32_t apply_to_sections(sbf_asset *asset, sbf_section_recipe *recipes, const char *name,
+    size_t length, const sbf_material_preset *preset) {
+  uint32_t found = 0;
+  for (uint32_t b = 0; name && b < asset->bones.count; b++) {
+    const sbf_bone *bone = &asset->bones.at[b];
+    if (!is(bone->name, name, length) && !is(bone->id, name, length)) continue;
+    sbf_material_apply(preset, &recipe_for(asset, recipes, (int32_t)b)->attributes);
+    found++;
+  }
+  if (name) return found;
+  recipe_for(asset, recipes, SBF_NONE);
+  for (uint32_t i = 0; i < asset->section_recipes.count; i++)
+    sbf_material_apply(preset, &recipes[i].attributes);
+  return 1;
+}
+
 bool materials_apply(const cli_call *call, sbf_asset *asset) {
-  uint32_t count = asset->soft_bodies.count;
   const char *value, *name;
   size_t length;
   int at = 0;
   if (!cli_value(call, "--material")) return true;
-  sbf_soft_body *bodies = sbf_asset_allocate(asset, (size_t)count + 1, sizeof *bodies);
-  if (!bodies) {
+  sbf_soft_body *bodies =
+      own(asset, asset->soft_bodies.at, asset->soft_bodies.count, 0, sizeof *asset->soft_bodies.at);
+  sbf_section_recipe *recipes = own(asset, asset->section_recipes.at, asset->section_recipes.count,
+      (size_t)asset->bones.count + 1, sizeof *recipes);
+  if (!bodies || !recipes) {
     cli_wrong(call, "out of memory");
     return false;
   }
-  if (count) memcpy(bodies, asset->soft_bodies.at, count * sizeof *bodies);
-  asset->soft_bodies.at = bodies;
+  if (asset->soft_bodies.count) asset->soft_bodies.at = bodies;
+  bool cut = is_to_be_cut(asset);
   while ((value = cli_next_value(call, "--material", &at))) {
     const sbf_material_preset *preset = sbf_material_find(divide(value, &name, &length));
-    uint32_t found = 0;
-    for (uint32_t i = 0; i < count; i++) {
-      if (name && !is(bodies[i].name, name, length) && !is(bodies[i].id, name, length)) continue;
-      sbf_material_apply(preset, &bodies[i].attributes);
-      found++;
-    }
+    uint32_t found = apply_to_bodies(asset, bodies, name, length, preset);
+    if (cut && !(name && found)) found += apply_to_sections(asset, recipes, name, length, preset);
     if (name && !found) {
-      cli_wrong(call, "no soft body '%.*s' to be made of %s", (int)length, name, preset->name);
+      cli_wrong(call, "no soft body %s'%.*s' to be made of %s", cut ? "or bone " : "", (int)length, name,
+          preset->name);
       return false;
     }
   }
+  if (asset->section_recipes.count) asset->section_recipes.at = recipes;
   return true;
 }

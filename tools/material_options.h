@@ -1,4 +1,5 @@
-/* `--material NAME` and `--material BODY=NAME`: presets onto the bodies of an asset. */
+/* `--material NAME` and `--material BODY=NAME`: presets onto the bodies of an asset, and onto the sections
+ * that a build will cut from its skins. */
 #ifndef MATERIAL_OPTIONS_H
 #define MATERIAL_OPTIONS_H
 
@@ -8,15 +9,16 @@
 #define MATERIALS_OPTION                                                                                     \
   {                                                                                                          \
     "--material", "[BODY=]NAME",                                                                             \
-        "what bodies are made of, all or the one of that name or id; may be given again: "                   \
-        "cotton, denim, fat, flesh, jelly, leather, muscle, rubber, silk"                                    \
+        "what bodies are made of, all or the one of that name or id, of a skin the section of that bone; "   \
+        "may be given again: cotton, denim, fat, flesh, jelly, leather, muscle, rubber, silk"                \
   }
 
 /* False, with a message, where a material is named that there is none of. */
 bool materials_check(const cli_call *call);
 
-/* Sets the attributes of the asset's soft bodies, in the order of the options. False, with a message, where
- * the asset has no such body, or memory runs out. */
+/* Sets the attributes of the asset's soft bodies, or its section recipes where sections are to be cut, in the
+ * order of the options. False, with a message, where the asset has no such body or bone, or memory runs out.
+ */
 bool materials_apply(const cli_call *call, sbf_asset *asset);
 
 #endif

@@ -9,7 +9,8 @@ static bool is_one_of(const char *name, const char *const *names, size_t count) 
 }
 
 static bool is_read(void *user, const sbfi_place *child) {
-  static const char *const of_asset[] = {"bones", "rigid_bodies", "render_meshes", "soft_bodies"};
+  static const char *const of_asset[] = {
+      "bones", "rigid_bodies", "render_meshes", "soft_bodies", "section_recipes"};
   static const char *const not_of_meshes[] = {"uv_sets", "material_slots", "shape_keys", "levels"};
   static const char *const not_of_bodies[] = {"legacy"};
   const char *element = child->up->element->name, *field = child->field->name;

@@ -643,6 +643,13 @@ static const sbfi_field extension_fields[] = {
 };
 static const sbfi_element extension_element = {"extension", "extension", sizeof(sbf_extension), 0, 3, extension_fields, NULL};
 
+static const sbfi_field section_recipe_fields[] = {
+  {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_section_recipe, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
+  {.name = "attributes", .type = SBFI_ONE, .number = 2, .since_minor = 0, .offset = offsetof(sbf_section_recipe, attributes), .width = 1, .unit = "", .element = &attributes_element, .xml = "attributes"},
+  {.name = "collision", .type = SBFI_ONE, .number = 3, .since_minor = 0, .offset = offsetof(sbf_section_recipe, collision), .width = 1, .unit = "", .element = &collision_element, .xml = "collision"},
+};
+static const sbfi_element section_recipe_element = {"section_recipe", "section_recipe", sizeof(sbf_section_recipe), 0, 3, section_recipe_fields, NULL};
+
 static const sbfi_field asset_fields[] = {
   {.name = "version", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_asset, version), .width = 1, .unit = "", .required = true, .default_text = "1.0"},
   {.name = "info", .type = SBFI_ONE, .number = 2, .since_minor = 0, .offset = offsetof(sbf_asset, info), .width = 1, .unit = "", .element = &info_element, .xml = "asset"},
@@ -666,8 +673,9 @@ static const sbfi_field asset_fields[] = {
   {.name = "environment", .type = SBFI_ONE, .number = 20, .since_minor = 0, .offset = offsetof(sbf_asset, environment), .width = 1, .unit = "", .element = &environment_element, .xml = "environment"},
   {.name = "relaxation", .type = SBFI_ONE, .number = 21, .since_minor = 0, .offset = offsetof(sbf_asset, relaxation), .width = 1, .unit = "", .element = &relaxation_element, .xml = "relaxation"},
   {.name = "extensions", .type = SBFI_MANY, .number = 22, .since_minor = 0, .offset = offsetof(sbf_asset, extensions), .width = 1, .unit = "", .element = &extension_element, .xml = "extension", .wrapper = "extensions"},
+  {.name = "section_recipes", .type = SBFI_MANY, .number = 23, .since_minor = 0, .offset = offsetof(sbf_asset, section_recipes), .width = 1, .unit = "", .element = &section_recipe_element, .xml = "section_recipe", .wrapper = "section_recipes"},
 };
-const sbfi_element sbfi_asset_element = {"asset", "sbf", sizeof(sbf_asset), SBFI_KIND('R', 'O', 'O', 'T'), 22, asset_fields, NULL};
+const sbfi_element sbfi_asset_element = {"asset", "sbf", sizeof(sbf_asset), SBFI_KIND('R', 'O', 'O', 'T'), 23, asset_fields, NULL};
 
 void sbf_author_init(sbf_author *author) { sbfi_element_init(&author_element, author); }
 void sbf_source_init(sbf_source *source) { sbfi_element_init(&source_element, source); }
@@ -722,6 +730,7 @@ void sbf_force_field_init(sbf_force_field *force_field) { sbfi_element_init(&for
 void sbf_environment_init(sbf_environment *environment) { sbfi_element_init(&environment_element, environment); }
 void sbf_relaxation_init(sbf_relaxation *relaxation) { sbfi_element_init(&relaxation_element, relaxation); }
 void sbf_extension_init(sbf_extension *extension) { sbfi_element_init(&extension_element, extension); }
+void sbf_section_recipe_init(sbf_section_recipe *section_recipe) { sbfi_element_init(&section_recipe_element, section_recipe); }
 void sbf_asset_init(sbf_asset *asset) { sbfi_element_init(&sbfi_asset_element, asset); }
 
 const char *sbf_mesh_target_name(sbf_mesh_target value) {

@@ -53,6 +53,7 @@ asset <sbf> ROOT
   environment: one(environment)
   relaxation: one(relaxation)
   extensions: many(extension) as=<extensions><extension>
+  section_recipes: many(section_recipe) as=<section_recipes><section_recipe>
 info
   title: string
   licence: string
@@ -460,6 +461,10 @@ relaxation
   stiffness: float default=0.3 range=[0,1]
   damping: float default=0.9 range=[0,1]
   gravity: float default=0.001
+section_recipe
+  bone: ref(bones)
+  attributes: one(attributes)
+  collision: one(collision)
 extension
   name: string required
   required: bool default=false

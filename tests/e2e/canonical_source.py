@@ -9,7 +9,7 @@ SILENT = {"asset", "polygon_mesh", "attributes", "collision", "tetrahedron_mesh"
           "environment", "relaxation"}
 WRAPPERS = {"derivations", "textures", "materials", "skeleton", "rigid_bodies", "joints", "limits", "pins",
             "attachments", "ik", "chains", "followers", "clips", "poses", "bone_masks", "retarget_chains",
-            "extensions"}
+            "section_recipes", "extensions"}
 DERIVED_MARKS = {"derived", "hull_derived"}
 SCALARS_A_LINE, DIGITS_A_LINE = 12, 76
 TEXTS = {"data"}  # stand as they are
@@ -37,7 +37,7 @@ def list_lines(element, depth):
     return [f"{indent}<{element.tag}>", *rows, f"{indent}</{element.tag}>"]
 
 
-READ_OF_ROOT = {"skeleton", "rigid_bodies", "render_mesh", "soft_body"}
+READ_OF_ROOT = {"skeleton", "rigid_bodies", "render_mesh", "soft_body", "section_recipes"}
 NOT_READ = {("render_mesh", "uv_set"), ("render_mesh", "material_slot"), ("render_mesh", "shape_key"),
             ("render_mesh", "render_level"), ("soft_body", "legacy"), ("simulation", "measured")}
 

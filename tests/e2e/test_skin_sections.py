@@ -1,10 +1,12 @@
 """A character that is one skinned mesh: cut into sections, built again, walked, and left to its bones where that is asked
 for. Real ones where they are at hand."""
 
+import json
 import os
+import struct
 import xml.etree.ElementTree as ElementTree
 
-from sbfmt_program import ROOT, ProgramTest, convert_once, main, read_bytes, shared
+from sbfmt_program import ROOT, ProgramTest, convert_once, main, read_bytes, shared, write_bytes
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
 # file, at least so many sections, and whether it walks
@@ -12,6 +14,18 @@ CHARACTERS = ((("fox", "fox.glb"), 15, True), (("greenman", "greenman.glb"), 6, 
               (("snake", "snake.glb"), 10, False), (("kenney-fbx", "kenney_character.fbx"), 20, True),
               (("walk-dae", "walk.dae"), 18, True))
 ABOUT_THE_SOURCE = {"UNIT_LOOKS_WRONG", "CLIP_EMPTY"}
+
+
+def with_limits(glb, node_name, limits):
+    """The bytes of a GLB in which a node states limits."""
+    size, = struct.unpack_from("<I", glb, 12)
+    scene = json.loads(glb[20:20 + size])
+    node, = [n for n in scene["nodes"] if n.get("name") == node_name]
+    node["extras"] = {"sbf_limits": limits}
+    text = json.dumps(scene).encode()
+    text += b" " * (-len(text) % 4)
+    rest = glb[20 + size:]
+    return (glb[:8] + struct.pack("<III", 20 + len(text) + len(rest), len(text), 0x4E4F534A)) + text + rest
 
 
 class SkinSections(ProgramTest):
@@ -61,6 +75,39 @@ class SkinSections(ProgramTest):
         self.good("build", self.calf, "-o", wide, "--overlap", "0.1")
         points = [sum(s["vertices"] for s in self.json_of("info", path)["sections"]) for path in (self.calf, wide)]
         self.assertGreater(points[1], 1.2 * points[0])
+
+    def test_limits_that_the_rig_states_are_those_of_the_sections(self):
+        rig, out = self.path("limits.glb"), self.path("limits.sbf")
+        write_bytes(rig, with_limits(read_bytes(CALF), "fore_lower.L", {"swing_z": [-0.5, 1.25], "twist": [-0.25, 0.25]}))
+        self.good("convert", rig, "-o", out)
+        root = ElementTree.parse(out).getroot()
+        joints = {j.get("name"): j for j in root.findall("joints/*")}
+        self.assertEqual(len(joints), 21)
+        stated = joints.pop("fore_lower.L")
+        self.assertIsNone(stated.get("proposed"))
+        self.assertEqual([(e.get("target"), e.get("min"), e.get("max")) for e in stated.iter("limit")],
+                         [("twist", "-0.25", "0.25"), ("swing_z", "-0.5", "1.25")])
+        for joint in joints.values():
+            self.assertEqual((joint.get("proposed"), list(joint.iter("limit"))), ("true", []), joint.get("name"))
+        self.assertEqual(len(root.findall("rigid_bodies/rigid_body/polygon_mesh")), 22, "hulls of all")
+        self.assertEqual(self.json_of("validate", out)["messages"], [])
+
+    def test_materials_of_sections(self):
+        out, again = self.path("flesh.sbf"), self.path("again.sbf")
+        self.good("convert", CALF, "-o", out, "--material", "flesh", "--material", "tail2=rubber")
+
+        def moduli(path):
+            return {b.get("name"): b.find("attributes").get("young_modulus")
+                    for b in ElementTree.parse(path).getroot().findall("soft_body")}
+
+        self.assertEqual(moduli(out), {name: "1200000" if name == "tail2" else "20000" for name in moduli(self.calf)})
+        self.good("build", out, "-o", again)
+        self.assertEqual(read_bytes(again), read_bytes(out), "what sections are made of is source")
+        self.good("build", out, "-o", again, "--material", "bone.head=muscle")
+        self.assertEqual({n: m for n, m in moduli(again).items() if m != "20000"}, {"tail2": "1200000", "head": "30000"})
+        self.good("build", self.calf, "-o", again, "--material", "tail2=rubber")
+        self.assertEqual({n: m for n, m in moduli(again).items() if m != moduli(self.calf)[n]}, {"tail2": "1200000"})
+        self.assertIn("no soft body or bone 'tail9'", self.fails(2, "build", out, "-o", again, "--material", "tail9=fat"))
 
     def test_real_characters(self):
         for number, (file, sections, walks) in enumerate(CHARACTERS):

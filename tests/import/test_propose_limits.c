@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "conversions.h"
+#include "sbfmt/build.h"
 
 START_TEST(names_tell_parts)
 {
@@ -72,7 +73,7 @@ START_TEST(a_fox)
   if (!path) return;
   converted c;
   converted_file(&c, path, &(sbf_convert_options){.limits = SBF_CONVERT_LIMITS_QUADRUPED});
-  check_all(c.asset, 21);
+  check_all(c.asset, 20);
   ck_assert_float_eq_tol(
       limit_of(joint_named(c.asset, "b_Head_05"), SBF_JOINT_AXIS_SWING)->max, 0.698f, 1e-3f);
   /* Elbows bend forward, knees as they are bent. */
@@ -85,6 +86,31 @@ START_TEST(a_fox)
     ck_assert_float_gt(bend->max, 1);
     ck_assert_float_lt(bend->max, 2.5f);
   }
+  converted_free(&c);
+}
+END_TEST
+
+/* Every joint between sections that a build cuts is proposed at the conversion: none is left for the build to
+ * make without limits, and every rigid body gets a hull but what such sections hang on. */
+START_TEST(sections_of_a_skin)
+{
+  converted c;
+  converted_file(&c, harness_source("examples/calf/calf.glb"),
+      &(sbf_convert_options){.limits = SBF_CONVERT_LIMITS_QUADRUPED});
+  sbf_asset *built;
+  sbf_build_report report;
+  ck_assert_int_eq(sbf_build(c.asset, NULL, &built, &report, NULL), SBF_OK);
+  ck_assert_uint_eq(report.sections, 22);
+  ck_assert_uint_eq(built->rigid_bodies.count, 22);
+  ck_assert_uint_eq(built->joints.count, 21);
+  uint32_t limited = 0;
+  for (uint32_t j = 0; j < 21; j++) {
+    ck_assert_int_eq(built->joints.at[j].derived, SBF_NONE);
+    limited += built->joints.at[j].limits.count > 0;
+  }
+  ck_assert_uint_ge(limited, 19); /* ears are none that a table knows */
+  for (uint32_t i = 0; i < 22; i++) ck_assert_ptr_nonnull(built->rigid_bodies.at[i].hull);
+  sbf_asset_free(built);
   converted_free(&c);
 }
 END_TEST
@@ -136,6 +162,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_human_rig);
   tcase_add_test(c, a_fox);
   tcase_add_test(c, the_example_lizard);
+  tcase_add_test(c, sections_of_a_skin);
   tcase_add_test(c, without_the_wish_nothing_is_proposed);
   suite_add_tcase(s, c);
   return s;

@@ -58,7 +58,19 @@ static double rounded_up(double value) {
   return ceil(value / unit) * unit;
 }
 
-static void set_attributes(sbf_soft_body *body) {
+/* What the author says of the sections on a bone: by name, or of all; NULL: nothing. */
+static const sbf_section_recipe *recipe_of(const sbf_asset *asset, int32_t bone) {
+  const sbf_section_recipe *general = NULL;
+  for (uint32_t i = asset->section_recipes.count; i-- > 0;) {
+    const sbf_section_recipe *recipe = &asset->section_recipes.at[i];
+    if (recipe->bone == bone) return recipe;
+    if (recipe->bone == SBF_NONE && !general) general = recipe;
+  }
+  return general;
+}
+
+/* Nobody said what it is made of: as stiff as it has to be. */
+static void guess_attributes(sbf_soft_body *body) {
   const sbf_vec3_list *at = &body->surface.positions;
   sbf_vec3 low = at->at[0], high = at->at[0];
   for (uint32_t i = 1; i < at->count; i++) {
@@ -111,7 +123,13 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
       sbfi_unique_id(w->ids, "section_", on->id, w->asset->soft_bodies.count + w->made->count, w->asset);
   body->bone = (int32_t)bone;
   body->derived = w->derivation;
-  set_attributes(body);
+  const sbf_section_recipe *recipe = recipe_of(w->asset, body->bone);
+  if (recipe) {
+    body->attributes = recipe->attributes;
+    body->collision = recipe->collision;
+  } else {
+    guess_attributes(body);
+  }
   return body->id != NULL;
 }
 
@@ -264,6 +282,33 @@ static bool measure_reaches(work *w) {
   return true;
 }
 
+/* Which bone's section each polygon of the skin belongs to, and who carries each bone's shares. False in
+ * `*wanted` where there is nothing to cut. */
+static bool divide(work *w, bool *wanted) {
+  const sbf_asset *asset = w->asset;
+  uint32_t chosen_count;
+  uint8_t *chosen = sbfi_arena_allocate(w->scratch, (size_t)asset->render_meshes.count + 1, 1);
+  if (!chosen || !sbfi_skins_choose(asset, chosen, &chosen_count, w->scratch)) return false;
+  *wanted = chosen_count > 0 && asset->bones.count > 0 && !has_sections(asset);
+  if (!*wanted) return true;
+  if (!sbfi_skin_union_make(&w->skin, asset, chosen, w->scratch)) return false;
+  if (!sbfi_topology_build(&w->t, &w->skin.mesh, w->scratch)) return false;
+  w->labels = sbfi_arena_allocate(w->scratch, (size_t)w->t.polygon_count + 1, sizeof *w->labels);
+  w->owners = sbfi_arena_allocate(w->scratch, (size_t)asset->bones.count + 1, sizeof *w->owners);
+  return w->labels && w->owners &&
+         sbfi_section_labels_make(w->labels, &w->skin, &w->t, asset->bones.count, w->scratch) &&
+         sbfi_sections_merge(w->labels, w->owners, &w->skin, &w->t, asset, w->reporter, w->scratch);
+}
+
+bool sbfi_section_owners_find(const uint32_t **owners, const sbf_asset *asset, sbfi_arena *scratch) {
+  sbfi_reporter nobody = {.report = NULL};
+  /* Nothing is written to the asset here. */
+  work w = {.asset = (sbf_asset *)(uintptr_t)asset, .reporter = &nobody, .scratch = scratch};
+  bool wanted, good = divide(&w, &wanted);
+  *owners = w.owners;
+  return good;
+}
+
 bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,
     sbfi_ids *ids, sbfi_reporter *reporter, sbfi_arena *scratch) {
   work w = {.asset = asset,
@@ -273,21 +318,13 @@ bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m,
       .scratch = scratch,
       .derivation = derivation};
   *made = (sbfi_sections){.count = 0};
-  uint32_t chosen_count;
-  uint8_t *chosen = sbfi_arena_allocate(scratch, (size_t)asset->render_meshes.count + 1, 1);
-  if (!chosen || !sbfi_skins_choose(asset, chosen, &chosen_count, scratch)) return false;
-  if (chosen_count == 0 || asset->bones.count == 0 || has_sections(asset)) return true;
-  if (!sbfi_skin_union_make(&w.skin, asset, chosen, scratch)) return false;
-  if (!sbfi_topology_build(&w.t, &w.skin.mesh, scratch)) return false;
-  w.labels = sbfi_arena_allocate(scratch, (size_t)w.t.polygon_count + 1, sizeof *w.labels);
-  w.owners = sbfi_arena_allocate(scratch, (size_t)asset->bones.count + 1, sizeof *w.owners);
-  made->blends = sbfi_arena_allocate(scratch, (size_t)asset->render_meshes.count + 1, sizeof *made->blends);
-  made->mixes_of_blends =
-      sbfi_arena_allocate(scratch, (size_t)asset->render_meshes.count + 1, sizeof *made->mixes_of_blends);
-  if (!w.labels || !w.owners || !made->blends || !made->mixes_of_blends) return false;
-  if (!sbfi_section_labels_make(w.labels, &w.skin, &w.t, asset->bones.count, scratch) ||
-      !sbfi_sections_merge(w.labels, w.owners, &w.skin, &w.t, asset, reporter, scratch) ||
-      !make_bodies(&w, overlap_m) || !smooth_blends(&w))
-    return false;
+  bool wanted;
+  if (!divide(&w, &wanted)) return false;
+  if (!wanted) return true;
+  size_t meshes = (size_t)asset->render_meshes.count + 1;
+  made->blends = sbfi_arena_allocate(scratch, meshes, sizeof *made->blends);
+  made->mixes_of_blends = sbfi_arena_allocate(scratch, meshes, sizeof *made->mixes_of_blends);
+  if (!made->blends || !made->mixes_of_blends) return false;
+  if (!make_bodies(&w, overlap_m) || !smooth_blends(&w)) return false;
   return make_all_blends(&w) && measure_reaches(&w);
 }

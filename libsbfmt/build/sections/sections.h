@@ -33,9 +33,14 @@ typedef struct sbfi_sections {
  * (section_labels.h, section_merge.h, section_cut.h, section_caps.h). What could not be closed is reported.
  * `overlap_m` as sbfi_section_cutter has it.
  *
- * A section's modulus is 80 kPa, or as much as it takes for a column as high as the section to strain by a
+ * A section is what the asset's section_recipes say, of several for a bone the last. Without one its modulus
+ * is 80 kPa, or as much as it takes for a column as high as the section to strain by a
  * twentieth under its own weight: a character of any size keeps its shape. */
 bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,
     sbfi_ids *ids, sbfi_reporter *reporter, sbfi_arena *scratch);
+
+/* For each bone, the one whose section carries what it holds (section_merge.h), in memory of `scratch`; NULL
+ * where nothing is to be cut. False where memory runs out. */
+bool sbfi_section_owners_find(const uint32_t **owners, const sbf_asset *asset, sbfi_arena *scratch);
 
 #endif

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "build/sections/section_joints.h"
+#include "build/sections/sections.h"
 #include "import/convert/conversion.h"
 
 typedef struct body_place {
@@ -82,8 +83,8 @@ static bool fill_joint(
   return true;
 }
 
-/* Bones that hold points of a skin more than any other does, at the mean of those points. */
-static void add_skin(const sbf_render_mesh *mesh, body_place *places) {
+/* The points of a skin go to the bones that hold most of them, or to those whose sections will have them. */
+static void add_skin(const sbf_render_mesh *mesh, const uint32_t *owners, body_place *places) {
   const sbf_skin *skin = mesh->skin;
   uint32_t at = 0;
   for (uint32_t i = 0; skin && i < skin->influence_counts.count; at += skin->influence_counts.at[i++]) {
@@ -91,7 +92,8 @@ static void add_skin(const sbf_render_mesh *mesh, body_place *places) {
     for (uint32_t s = at; s < at + skin->influence_counts.at[i]; s++)
       if (skin->weights.at[s] > skin->weights.at[most]) most = s;
     if (skin->influence_counts.at[i] == 0) continue;
-    body_place *place = &places[skin->bones.at[most]];
+    uint32_t bone = skin->bones.at[most];
+    body_place *place = &places[owners ? owners[bone] : bone];
     if (place->section_count) continue;
     sbf_vec3 p = mesh->mesh.positions.at[i];
     place->sum[0] += (double)p.x;
@@ -102,18 +104,55 @@ static void add_skin(const sbf_render_mesh *mesh, body_place *places) {
   }
 }
 
+static void add_head(const sbf_bone *bone, body_place *place) {
+  *place = (body_place){{(double)bone->head.x, (double)bone->head.y, (double)bone->head.z}, 1, 0, 0, true};
+}
+
+/* What hangs on a bone that holds nothing, as legs on the hips of many rigs, turns against that bone. */
+static void add_tops(const sbf_bone_list *bones, body_place *places, uint8_t *below_one) {
+  for (uint32_t i = 0; i < bones->count; i++) {
+    int32_t above = bones->at[i].parent;
+    if (above == SBF_NONE) continue;
+    below_one[i] = below_one[above] || places[above].section_count || places[above].of_skin;
+    if (places[i].of_skin && !below_one[i]) add_head(&bones->at[above], &places[above]);
+  }
+}
+
+/* Bones that have no section but hold a skin, at the mean of its points: of those skins that a build cuts,
+ * the bones whose sections it makes. */
+static bool add_skins(sbfi_conversion *c, body_place *places) {
+  const uint32_t *owners;
+  uint8_t *below_one = sbfi_arena_allocate(&c->scratch, c->asset->bones.count, 1);
+  if (!below_one || !sbfi_section_owners_find(&owners, c->asset, &c->scratch)) return false;
+  if (!owners && c->options->limits == SBF_CONVERT_LIMITS_NONE)
+    return true; /* sections have what was stated */
+  for (uint32_t m = 0; m < c->asset->render_meshes.count; m++)
+    add_skin(&c->asset->render_meshes.at[m], owners, places);
+  for (uint32_t i = 0; owners && i < c->asset->bones.count; i++)
+    if (owners[i] == i && !places[i].of_skin) add_head(&c->asset->bones.at[i], &places[i]);
+  if (owners) add_tops(&c->asset->bones, places, below_one);
+  return true;
+}
+
+/* Whether somebody said how far some bone turns, or it is to be proposed. */
+static bool limits_known(const sbfi_conversion *c) {
+  bool known = c->options->limits != SBF_CONVERT_LIMITS_NONE;
+  for (uint32_t i = 0; i < c->asset->bones.count && !known; i++)
+    for (int k = 0; k < SBFI_LIMITS; k++) known = known || c->rig->nodes[c->node_of_bone[i]].limits[k].stated;
+  return known;
+}
+
 sbf_status sbfi_convert_joints(sbfi_conversion *c) {
   const sbf_bone_list bones = c->asset->bones;
   const sbf_soft_body_list sections = c->asset->soft_bodies;
-  bool of_skin = c->options->limits != SBF_CONVERT_LIMITS_NONE;
+  bool of_skin = limits_known(c);
   if (bones.count == 0 || (sections.count == 0 && !of_skin)) return SBF_OK;
   body_place *places = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *places);
   int32_t *body_of_bone = sbfi_arena_allocate(&c->scratch, bones.count, sizeof *body_of_bone);
   if (!places || !body_of_bone) return sbfi_convert_no_memory(c);
   for (uint32_t s = 0; s < sections.count; s++)
     if (sections.at[s].bone >= 0) add_section(&places[sections.at[s].bone], &sections.at[s], s);
-  for (uint32_t m = 0; of_skin && m < c->asset->render_meshes.count; m++)
-    add_skin(&c->asset->render_meshes.at[m], places);
+  if (of_skin && !add_skins(c, places)) return sbfi_convert_no_memory(c);
   uint32_t count = 0, joint_count = 0;
   for (uint32_t i = 0; i < bones.count; i++) count += places[i].section_count > 0 || places[i].of_skin;
   if (count == 0) return SBF_OK;

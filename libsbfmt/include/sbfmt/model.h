@@ -1338,6 +1338,20 @@ typedef struct sbf_extension_list {
   uint32_t count;
 } sbf_extension_list;
 
+/* What the section that `build` cuts from a skin for a bone is like. */
+typedef struct sbf_section_recipe {
+  /* The section's bone; none: every one that no other recipe names. [index into asset.bones, or SBF_NONE] */
+  int32_t bone;
+  /* What it is made of. */
+  sbf_attributes attributes;
+  /* How it meets other things. */
+  sbf_collision collision;
+} sbf_section_recipe;
+typedef struct sbf_section_recipe_list {
+  const sbf_section_recipe *at;
+  uint32_t count;
+} sbf_section_recipe_list;
+
 /* A whole file: metres, kilograms, seconds, radians; right-handed, +Y up, +Z forward, rest pose. */
 typedef struct sbf_asset {
   /* Version of the format the file is written in, major.minor. [default 1.0] */
@@ -1384,6 +1398,8 @@ typedef struct sbf_asset {
   sbf_relaxation relaxation;
   /* Parts beyond this specification. */
   sbf_extension_list extensions;
+  /* What sections that `build` cuts are like. */
+  sbf_section_recipe_list section_recipes;
 } sbf_asset;
 
 /* Every field at its default, lists empty, references SBF_NONE. */
@@ -1440,6 +1456,7 @@ SBF_API void sbf_force_field_init(sbf_force_field *force_field);
 SBF_API void sbf_environment_init(sbf_environment *environment);
 SBF_API void sbf_relaxation_init(sbf_relaxation *relaxation);
 SBF_API void sbf_extension_init(sbf_extension *extension);
+SBF_API void sbf_section_recipe_init(sbf_section_recipe *section_recipe);
 SBF_API void sbf_asset_init(sbf_asset *asset);
 
 /* The word the format uses for a value, or "?" for one out of range. */
