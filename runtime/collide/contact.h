@@ -32,15 +32,47 @@ typedef struct sbri_contact_rule {
   float bounce_from_m_s; /* slower contacts do not bounce */
 } sbri_contact_rule;
 
-/* One group of lanes in a substep: corrects velocity and place; `x` comes in as at the beginning of the
- * substep and goes out as at its end. */
-static inline void sbri_contact_move(
-    sbri_wide3 *x, sbri_wide3 *v, const float *plane, const sbri_contact_rule *rule) {
-  sbri_wide nx = sbri_wide_load(plane), ny = sbri_wide_load(plane + SBRI_BLOCK);
-  sbri_wide nz = sbri_wide_load(plane + 2 * SBRI_BLOCK), offset = sbri_wide_load(plane + 3 * SBRI_BLOCK);
+/* A plane for each of a group of lanes. */
+typedef struct sbri_contact_planes {
+  sbri_wide3 normal;
+  sbri_wide offset;
+} sbri_contact_planes;
+
+static inline sbri_contact_planes sbri_planes_load(const float *block) {
+  return (sbri_contact_planes){
+      {sbri_wide_load(block), sbri_wide_load(block + SBRI_BLOCK), sbri_wide_load(block + 2 * SBRI_BLOCK)},
+      sbri_wide_load(block + 3 * SBRI_BLOCK)};
+}
+static inline sbri_wide sbri_planes_along(const sbri_contact_planes *p, sbri_wide3 v) {
+  return p->normal.x * v.x + p->normal.y * v.y + p->normal.z * v.z;
+}
+static inline sbri_wide sbri_planes_gap(const sbri_contact_planes *p, sbri_wide3 x) {
+  return sbri_planes_along(p, x) - p->offset;
+}
+
+/* A velocity that has gained `gain` along the normal, less what friction takes for it. */
+static inline sbri_wide3 sbri_contact_gain(
+    const sbri_contact_planes *p, sbri_wide3 v, sbri_wide gain, float friction) {
+  sbri_wide speed = sbri_planes_along(p, v), one = sbri_wide_all(1);
+  sbri_wide3 n = p->normal, s = {v.x - n.x * speed, v.y - n.y * speed, v.z - n.z * speed};
+  sbri_wide sideways = sbri_wide_sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
+  sbri_wide most = sbri_wide_all(friction) * gain;
+  sbri_wide share = sbri_wide_min(most / sbri_wide_max(sideways, sbri_wide_all(1e-20f)), one);
+  return (sbri_wide3){
+      v.x + n.x * gain - s.x * share, v.y + n.y * gain - s.y * share, v.z + n.z * gain - s.z * share};
+}
+
+/* What the ground makes of a velocity, and by how much it moves the place up at once; `x` as at the beginning
+ * of the substep. */
+typedef struct sbri_contact_answer {
+  sbri_wide3 velocity;
+  sbri_wide up;
+} sbri_contact_answer;
+
+static inline sbri_contact_answer sbri_contact_ask(
+    const sbri_contact_planes *p, sbri_wide3 x, sbri_wide3 v, const sbri_contact_rule *rule) {
   sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(rule->step_s);
-  sbri_wide gap = nx * x->x + ny * x->y + nz * x->z - offset;
-  sbri_wide speed = nx * v->x + ny * v->y + nz * v->z;
+  sbri_wide gap = sbri_planes_gap(p, x), speed = sbri_planes_along(p, v);
   sbri_mask touches = gap + h * speed < zero;
   /* To where it just arrives; nowhere, where it lies below already. */
   sbri_wide wanted = zero - sbri_wide_max(gap, zero) / h;
@@ -48,19 +80,36 @@ static inline void sbri_contact_move(
   wanted = sbri_wide_select(
       bounces, sbri_wide_max(wanted, zero - sbri_wide_all(rule->restitution) * speed), wanted);
   sbri_wide gain = sbri_wide_select(touches, sbri_wide_max(wanted - speed, zero), zero);
-  sbri_wide sx = v->x - nx * speed, sy = v->y - ny * speed, sz = v->z - nz * speed;
-  sbri_wide sideways = sbri_wide_sqrt(sx * sx + sy * sy + sz * sz);
-  sbri_wide most = sbri_wide_all(rule->friction) * gain;
-  /* Share of the sideways speed that friction takes. */
-  sbri_wide share = sbri_wide_min(most / sbri_wide_max(sideways, sbri_wide_all(1e-20f)), sbri_wide_all(1));
-  v->x = v->x + nx * gain - sx * share;
-  v->y = v->y + ny * gain - sy * share;
-  v->z = v->z + nz * gain - sz * share;
   sbri_wide up = sbri_wide_min(sbri_wide_max(zero - gap, zero), sbri_wide_all(rule->push_m));
-  up = sbri_wide_select(touches, up, zero);
-  x->x = x->x + h * v->x + nx * up;
-  x->y = x->y + h * v->y + ny * up;
-  x->z = x->z + h * v->z + nz * up;
+  return (sbri_contact_answer){
+      sbri_contact_gain(p, v, gain, rule->friction), sbri_wide_select(touches, up, zero)};
+}
+
+/* One group of lanes in a substep: corrects velocity and place; `x` comes in as at the beginning of the
+ * substep and goes out as at its end. */
+static inline void sbri_contact_move(
+    sbri_wide3 *x, sbri_wide3 *v, const float *plane, const sbri_contact_rule *rule) {
+  sbri_contact_planes p = sbri_planes_load(plane);
+  sbri_contact_answer a = sbri_contact_ask(&p, *x, *v, rule);
+  sbri_wide h = sbri_wide_all(rule->step_s);
+  *v = a.velocity;
+  x->x = x->x + h * v->x + p.normal.x * a.up;
+  x->y = x->y + h * v->y + p.normal.y * a.up;
+  x->z = x->z + h * v->z + p.normal.z * a.up;
+}
+
+/* A correction of places from `from` to `to` after the substep's own motion, which changed velocities by as
+ * much per second: it does not go into the ground, or deeper into it, and what that takes of it rubs. */
+static inline void sbri_contact_bound(const sbri_contact_planes *p, sbri_wide3 from, sbri_wide3 *to,
+    sbri_wide3 *v, const sbri_contact_rule *rule) {
+  sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(rule->step_s);
+  sbri_wide least = sbri_wide_min(sbri_planes_gap(p, from), zero);
+  sbri_wide lift = sbri_wide_max(least - sbri_planes_gap(p, *to), zero);
+  sbri_wide3 bounded = sbri_contact_gain(p, *v, lift / h, rule->friction);
+  to->x = to->x + h * (bounded.x - v->x);
+  to->y = to->y + h * (bounded.y - v->y);
+  to->z = to->z + h * (bounded.z - v->z);
+  *v = bounded;
 }
 
 #endif

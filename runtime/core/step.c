@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "collide/contact.h"
+#include "collide/rolling.h"
 #include "core/world.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
@@ -252,7 +253,11 @@ static void tick_island(void *context, uint32_t index) {
       .stretch = &sbri_island_states(c)[work.island].stretch,
       .stiffening = &sbri_island_states(c)[work.island].stiffening,
       .least_ratio = &sbri_island_states(c)[work.island].least_ratio};
-  if (!island->scheme->forceless) prepare_contacts(world, c, island, tick_s);
+  if (!island->scheme->forceless) {
+    prepare_contacts(world, c, island, tick_s);
+    for (uint32_t b = 0; b < island->body_count; b++)
+      sbri_rolling_resist(&tick, &model->bodies[island->bodies[b]]);
+  }
   sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
   recover(world, c, work.island);
 }

@@ -2,6 +2,7 @@
  * points of a block at a time. */
 #include <string.h>
 
+#include "collide/rolling.h"
 #include "mechanics/level_points.h"
 #include "model/island_maker.h"
 #include "solvers/scheme.h"
@@ -253,6 +254,8 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     float *bound = &m->island->most_acceleration_m_s2;
     if (*bound == 0 || most < *bound) *bound = most;
     body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
+
+    body->rolling_share = lowest > 0 ? sbri_rolling_share(0.5f * body->alpha_1_s / (float)lowest) : 0;
     body->media_friction_1_s = is->media_friction + environment->media_friction;
     body->friction = is->friction;
     body->restitution = is->restitution;

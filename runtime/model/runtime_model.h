@@ -95,6 +95,7 @@ typedef struct sbri_body {
   float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
   float media_friction_1_s;
   float friction, restitution;
+  float rolling_share;               /* see collide/rolling.h */
   float rest_size_m;                 /* diagonal of its box */
   double rest_volume_m3;             /* 0: open, or without polygons */
   sbri_skin surface;                 /* vertices of its surface */

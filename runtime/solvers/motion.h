@@ -148,6 +148,11 @@ static inline sbri_contact_rule sbri_contact_rule_of(const sbri_body *body, floa
   return (sbri_contact_rule){body->friction, body->restitution, h, SBRI_PUSH_M_S * h, SBRI_BOUNCE_FROM_M_S};
 }
 
+/* Of a group of lanes near the ground. */
+static inline sbri_contact_planes sbri_planes_of(const sbri_island_tick *t, uint32_t slot) {
+  return sbri_planes_load(t->planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
+}
+
 static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   sbri_wide step = sbri_wide_all(h);
   const sbri_contact_rule rule = sbri_contact_rule_of(body, h);

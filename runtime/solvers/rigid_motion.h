@@ -10,6 +10,7 @@
 typedef struct sbri_rigid_motion {
   float mass_kg;
   sbf_vec3 center, velocity, spin; /* m, m/s, rad/s about the centre */
+  float inertia[6];                /* about it, kg m^2: xx, yy, zz, xy, xz, yz of the matrix */
 } sbri_rigid_motion;
 
 enum { SBRI_RIGID_SUMS = 9 };
@@ -38,11 +39,17 @@ static inline sbf_vec3 sbri_spin_of(const float inertia[6], sbf_vec3 momentum) {
       (sbf_vec3){sbri_dot(x, momentum), sbri_dot(y, momentum), sbri_dot(z, momentum)}, 1 / determinant);
 }
 
+/* About an axis of unit length. */
+static inline float sbri_inertia_about(const float inertia[6], sbf_vec3 u) {
+  float even = inertia[0] * u.x * u.x + inertia[1] * u.y * u.y + inertia[2] * u.z * u.z;
+  return even + 2 * (inertia[3] * u.x * u.y + inertia[4] * u.x * u.z + inertia[5] * u.y * u.z);
+}
+
 /* Of the body's free points; arrays of its island. */
 static inline sbri_rigid_motion sbri_rigid_motion_find(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions, const float *velocities) {
   float lanes[SBRI_RIGID_SUMS][SBRI_BLOCK] = {{0}}, sums[SBRI_RIGID_SUMS];
-  sbri_rigid_motion motion = {0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  sbri_rigid_motion motion = {0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0}};
   if (body->slot_begin == body->slot_end) return motion;
   const sbri_point *near = &positions[body->slot_begin]; /* sums relative to it lose fewer bits */
   sbri_wide nx = sbri_wide_all(near->x), ny = sbri_wide_all(near->y), nz = sbri_wide_all(near->z);
@@ -82,6 +89,7 @@ static inline sbri_rigid_motion sbri_rigid_motion_find(
     sbri_add_to_lanes(lanes[8], slot, sbri_wide_all(0) - m * (ry * rz));
   }
   for (int i = 0; i < SBRI_RIGID_SUMS; i++) sums[i] = sbri_tree_sum(lanes[i]);
+  for (int i = 0; i < 6; i++) motion.inertia[i] = sums[3 + i];
   motion.spin = sbri_spin_of(sums + 3, (sbf_vec3){sums[0], sums[1], sums[2]});
   return motion;
 }

@@ -1,11 +1,14 @@
 /* Keeping the volume within a body's surface, for pressure mode `volume`. Written for the lanes of the file
  * that includes it; see kernels/kernels.h.
  *
- * The constraint V(x) = V0, by one Newton step a substep: dx_i = s w_i g_i with g the gradient of the volume,
- * w the inverse masses and s = (V0 - V) / sum w_i |g_i|^2 (Hong, Jung, Choi and Welch, Fast Volume
- * Preservation for a Mass-Spring System, 2006, use the same multiplier). It holds whatever pressure that
- * takes, and needs no more substeps, as a bulk modulus would. What a step leaves is of second order in the
- * step.
+ * The constraint V(x) = V0, by Newton steps at the end of a substep: dx_i = s w_i g_i with g the gradient of
+ * the volume, w the inverse masses and s = (V0 - V) / sum w_i |g_i|^2 (Hong, Jung, Choi and Welch, Fast
+ * Volume Preservation for a Mass-Spring System, 2006, use the same multiplier). It holds whatever pressure
+ * that takes, and needs no more substeps, as a bulk modulus would. What a step leaves is of second order in
+ * it: one is enough but where a body strikes the ground.
+ *
+ * Points on the ground have nowhere to go below it. They count in the sum with that of their gradient which
+ * leads along the ground or off it; what presses them down is taken by the ground, and rubs.
  *
  * Bias against the energy: none in the volume; the multiplier acts along the gradient at the end of the
  * substep instead of its beginning, which is of first order in h. */
@@ -13,15 +16,35 @@
 #define SBRI_VOLUME_KEEP_H
 
 #include "skin/skin_lanes.h"
-#include "solvers/island_tick.h"
+#include "solvers/motion.h"
 
-/* No more than this share of the volume is regained in a substep: a body turned inside out comes back slowly.
- */
+/* No more than this share of the volume is regained in a step: a body turned inside out comes back slowly. */
 #define SBRI_MOST_VOLUME_SHARE 0.1f
 
-/* Gradients of the volume at the body's slots, and the sum of w |g|^2. */
+/* Steps in a substep, while more than this share of the volume was missing before the last one: that leaves
+ * about its square. */
+enum { SBRI_MOST_VOLUME_STEPS = 4 };
+#define SBRI_VOLUME_SHARE_LEFT 0.01f
+
+/* A point this near to the ground rests on it, in m. */
+#define SBRI_RESTING_M 1e-5f
+
+/* Of the gradients of a group of lanes that touch the ground, what does not lead into it; `sign` of the
+ * multiplier. */
+static inline sbri_wide3 sbri_volume_off_ground(
+    const sbri_island_tick *t, uint32_t slot, sbri_wide3 g, float sign) {
+  sbri_contact_planes p = sbri_planes_of(t, slot);
+  sbri_wide gap = sbri_planes_gap(&p, sbri_wide_load_points(t->positions + slot));
+  sbri_wide along = sbri_planes_along(&p, g), zero = sbri_wide_all(0);
+  sbri_mask into = (gap <= sbri_wide_all(SBRI_RESTING_M)) & (along * sbri_wide_all(sign) < zero);
+  along = sbri_wide_select(into, along, zero);
+  return (sbri_wide3){g.x - along * p.normal.x, g.y - along * p.normal.y, g.z - along * p.normal.z};
+}
+
+/* Gradients of the volume at the body's slots, and the sum of w |g|^2 of what may move by a multiplier of
+ * that sign. */
 static inline float sbri_volume_gradients(
-    const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces) {
+    const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces, float sign) {
   float lanes[SBRI_BLOCK] = {0};
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t lane = slot % SBRI_BLOCK, block = (slot - body->slot_begin) / SBRI_BLOCK;
@@ -35,17 +58,17 @@ static inline float sbri_volume_gradients(
       g.z = g.z + w * n.z;
     }
     sbri_wide_store_points(t->velocity_points + slot, g);
+    if (t->near_ground[slot / SBRI_BLOCK]) g = sbri_volume_off_ground(t, slot, g, sign);
     sbri_wide w = sbri_wide_load(t->island->inverse_masses + slot);
     sbri_wide_store(lanes + lane, sbri_wide_load(lanes + lane) + w * (g.x * g.x + g.y * g.y + g.z * g.z));
   }
   return sbri_tree_sum(lanes);
 }
 
-/* At the end of a substep of `h` seconds: moves the body's free points along the gradient of the volume, by
- * their inverse masses, until the rest volume is enclosed again, and changes their velocities by as much per
- * second. Momentum is kept. */
-static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *body, float h) {
+/* One step at the end of a substep of `h` seconds; the share of the volume that was missing before it. */
+static inline float sbri_volume_step(const sbri_island_tick *t, const sbri_body *body, float h) {
   const sbri_skin *skin = &body->surface;
+  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
   sbri_point *vertices = t->positions, *faces = t->surface_faces + body->first_face;
   const sbri_face_block *named = body->volume_faces;
   if (!named) {
@@ -55,20 +78,35 @@ static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *
   }
   float rest = (float)body->rest_volume_m3, most = SBRI_MOST_VOLUME_SHARE * rest;
   float missing = rest - sbri_lanes_volume(named, skin->face_block_count, vertices, faces);
-  float sum = sbri_volume_gradients(t, body, faces);
-  if (!(sum > 0) || !(missing - missing == 0)) return;
-  float s = (missing > most ? most : missing < -most ? -most : missing) / sum, rate = 1 / h;
+  float sum = sbri_volume_gradients(t, body, faces, missing);
+  if (!(sum > 0) || !(missing - missing == 0)) return 0;
+  float s = (missing > most ? most : missing < -most ? -most : missing) / sum;
+  sbri_wide rate = sbri_wide_all(1 / h);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
-    float *velocity = t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    sbri_wide3 g = sbri_wide_load_points(t->velocity_points + slot),
-               x = sbri_wide_load_points(t->positions + slot);
-    sbri_wide k = sbri_wide_all(s) * sbri_wide_load(t->island->inverse_masses + slot),
-              r = sbri_wide_all(rate);
+    float *velocity = sbri_triple(t->velocities, slot);
+    sbri_wide3 g = sbri_wide_load_points(t->velocity_points + slot), v = sbri_load3(velocity);
+    sbri_wide3 from = sbri_wide_load_points(t->positions + slot);
+    sbri_wide k = sbri_wide_all(s) * sbri_wide_load(t->island->inverse_masses + slot);
     g.x = k * g.x, g.y = k * g.y, g.z = k * g.z;
-    sbri_wide_store_points(t->positions + slot, (sbri_wide3){x.x + g.x, x.y + g.y, x.z + g.z});
-    sbri_wide_store(velocity, sbri_wide_load(velocity) + r * g.x);
-    sbri_wide_store(velocity + SBRI_BLOCK, sbri_wide_load(velocity + SBRI_BLOCK) + r * g.y);
-    sbri_wide_store(velocity + 2 * SBRI_BLOCK, sbri_wide_load(velocity + 2 * SBRI_BLOCK) + r * g.z);
+    sbri_wide3 to = {from.x + g.x, from.y + g.y, from.z + g.z};
+    v.x = v.x + rate * g.x, v.y = v.y + rate * g.y, v.z = v.z + rate * g.z;
+    if (t->near_ground[slot / SBRI_BLOCK]) {
+      sbri_contact_planes p = sbri_planes_of(t, slot);
+      sbri_contact_bound(&p, from, &to, &v, &rule);
+    }
+    sbri_wide_store_points(t->positions + slot, to);
+    sbri_store3(velocity, v);
+  }
+  return missing / rest;
+}
+
+/* At the end of a substep of `h` seconds: moves the body's free points along the gradient of the volume, by
+ * their inverse masses, until the rest volume is enclosed again, and changes their velocities by as much per
+ * second. Momentum is kept, but for what the ground takes. */
+static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *body, float h) {
+  for (int i = 0; i < SBRI_MOST_VOLUME_STEPS; i++) {
+    float missing = sbri_volume_step(t, body, h);
+    if (missing < SBRI_VOLUME_SHARE_LEFT && -missing < SBRI_VOLUME_SHARE_LEFT) return;
   }
 }
 
