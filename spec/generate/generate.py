@@ -10,6 +10,7 @@ sys.dont_write_bytecode = True
 import emit_c
 import emit_codes
 import emit_docs
+import emit_python
 import schema as schema_reader
 
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -23,6 +24,7 @@ def products():
         "libsbfmt/generated/schema_tables.c": emit_c.tables(schema),
         "libsbfmt/include/sbfmt/codes.h": emit_codes.header(codes),
         "libsbfmt/generated/code_table.c": emit_codes.table(codes),
+        "exporters/python/sbfmt/document/elements.py": emit_python.elements(schema),
         "spec/reference.md": emit_docs.reference(schema),
         "spec/sbf.xsd": emit_docs.xsd(schema),
         "spec/codes.md": emit_codes.page(codes),
