@@ -49,6 +49,7 @@ ELEMENTS = {element.name: element for element in (
         Field('environment', 'one', 'environment', xml='environment'),
         Field('relaxation', 'one', 'relaxation', xml='relaxation'),
         Field('extensions', 'many', 'extension', xml='extension', wrapper='extensions'),
+        Field('section_recipes', 'many', 'section_recipe', xml='section_recipe', wrapper='section_recipes'),
     )),
     Element('info', 'info', (
         Field('title', 'string', default=''),
@@ -508,6 +509,11 @@ ELEMENTS = {element.name: element for element in (
         Field('stiffness', 'float', default=0.3),
         Field('damping', 'float', default=0.9),
         Field('gravity', 'float', default=0.001),
+    )),
+    Element('section_recipe', 'section_recipe', (
+        Field('bone', 'ref', 'bones'),
+        Field('attributes', 'one', 'attributes', xml='attributes'),
+        Field('collision', 'one', 'collision', xml='collision'),
     )),
     Element('extension', 'extension', (
         Field('name', 'string', default='', required=True),
