@@ -51,6 +51,7 @@ void sbri_layout_make(sbr_model *model) {
   l->older_velocities = place(&end, 3 * slots, sizeof(float));
   l->moves = place(&end, slots, sizeof(sbri_point));
   l->edges = place(&end, (size_t)model->link_block_count * 3 * SBRI_BLOCK, sizeof(float));
+  l->solid_edges = place(&end, (size_t)model->tetrahedron_block_count * 9 * SBRI_BLOCK, sizeof(float));
   l->tears = place(&end, model->island_count, sizeof(sbri_tears));
   l->element_forces = place(&end, slots, sizeof(sbri_point));
   l->planes = place(&end, 4 * slots, sizeof(float));

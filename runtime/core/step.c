@@ -247,6 +247,7 @@ static void tick_island(void *context, uint32_t index) {
       .older_velocities = sbri_older_velocities(c) + 3 * first,
       .moves = sbri_moves(c) + first,
       .edges = sbri_edges(c) + 3 * SBRI_BLOCK * (size_t)island->first_link_block,
+      .solid_edges = sbri_solid_edges(c) + 9 * SBRI_BLOCK * (size_t)island->first_tetrahedron_block,
       .tears = &sbri_tears_of(c)[work.island],
       .step_error_m = model->step_error_m,
       .element_forces = sbri_element_forces(c) + first,

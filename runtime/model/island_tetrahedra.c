@@ -4,11 +4,6 @@
 #include "mechanics/neo_hookean.h"
 #include "model/island_maker.h"
 
-/* Tetrahedra that share a point wait for each other's sums, so that blocks are made of ones that do not where
- * there are. So many are chosen from: enough to spread those around a point, few enough that neighbours in
- * the list stay close in memory. */
-enum { WAITING = 96 };
-
 static bool acts(const sbri_body *body) {
   return body->level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
 }
@@ -60,37 +55,144 @@ bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network) 
 
 /* ---- Blocks ---- */
 
+/* So many blocks are open at a time, and a tetrahedron goes into the first that has none of its free points:
+ * more than a point has tetrahedra as a rule, few enough that a block's stay close in memory. */
+enum { OPEN_BLOCKS = 64 };
+enum { NO_ELEMENT = UINT32_MAX };
+
 typedef struct packing {
-  const sbf_uint4 *corners; /* (count) slots */
-  uint32_t *places;         /* (count) block * 8 + lane of each */
-  uint32_t *taken;          /* (slot_count) number of the block that has the slot, from 1 */
-  uint32_t count, next;     /* of the tetrahedra; the first that does not wait yet */
-  uint32_t waiting[WAITING], waiting_count;
+  const sbri_island *island;
+  const sbf_uint4 *corners; /* slots */
+  uint32_t *elements;       /* (count x 8) of each lane, NO_ELEMENT where it is inert; block after block */
+  uint64_t *users;          /* (free_count) which of the open blocks have the slot */
+  uint64_t open;
+  uint32_t at[OPEN_BLOCKS], filled[OPEN_BLOCKS]; /* number and lanes of each open block */
+  uint32_t block_count;
 } packing;
 
-static bool fits(const packing *p, uint32_t t, uint32_t block) {
-  for (int k = 0; k < 4; k++)
-    if (p->taken[p->corners[t].at[k]] == block + 1) return false;
-  return true;
+static void shut(packing *p, uint32_t place) {
+  const uint32_t *lanes = p->elements + (size_t)p->at[place] * SBRI_BLOCK;
+  p->open &= ~(UINT64_C(1) << place);
+  for (uint32_t lane = 0; lane < p->filled[place]; lane++)
+    for (int k = 0; k < 4; k++) {
+      uint32_t slot = p->corners[lanes[lane]].at[k];
+      if (slot < p->island->free_count) p->users[slot] &= ~(UINT64_C(1) << place);
+    }
 }
 
-/* The first of those that wait that shares no point with the block, or the first of all. */
-static uint32_t take(packing *p, uint32_t block) {
-  while (p->waiting_count < WAITING && p->next < p->count) p->waiting[p->waiting_count++] = p->next++;
-  uint32_t i = 0;
-  while (i < p->waiting_count && !fits(p, p->waiting[i], block)) i++;
-  if (i == p->waiting_count) i = 0;
-  uint32_t taken = p->waiting[i];
-  memmove(p->waiting + i, p->waiting + i + 1, (--p->waiting_count - i) * sizeof *p->waiting);
-  return taken;
+static uint32_t least_bit(uint64_t mask) {
+  uint32_t bit = 0;
+  while (!(mask >> bit & 1)) bit++;
+  return bit;
 }
 
-static void pack(packing *p) {
-  for (uint32_t n = 0; n < p->count; n++) {
-    uint32_t block = n / SBRI_BLOCK, t = take(p, block);
-    p->places[t] = n;
-    for (int k = 0; k < 4; k++) p->taken[p->corners[t].at[k]] = block + 1;
+/* Where the next block may be opened; the oldest gives way where there is no room. */
+static uint32_t open_block(packing *p) {
+  uint32_t place = 0;
+  if (p->open == UINT64_MAX) {
+    for (uint32_t i = 1; i < OPEN_BLOCKS; i++)
+      if (p->at[i] < p->at[place]) place = i;
+    shut(p, place);
+  } else {
+    place = least_bit(~p->open);
   }
+  p->open |= UINT64_C(1) << place;
+  p->at[place] = p->block_count++, p->filled[place] = 0;
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
+    p->elements[(size_t)p->at[place] * SBRI_BLOCK + lane] = NO_ELEMENT;
+  return place;
+}
+
+static void put(packing *p, uint32_t t) {
+  uint64_t fitting = p->open;
+  uint32_t place = OPEN_BLOCKS;
+  for (int k = 0; k < 4; k++) {
+    uint32_t slot = p->corners[t].at[k];
+    if (slot < p->island->free_count) fitting &= ~p->users[slot];
+  }
+  for (; fitting; fitting &= fitting - 1) {
+    uint32_t other = least_bit(fitting);
+    if (place == OPEN_BLOCKS || p->at[other] < p->at[place]) place = other;
+  }
+  if (place == OPEN_BLOCKS) place = open_block(p);
+  p->elements[(size_t)p->at[place] * SBRI_BLOCK + p->filled[place]++] = t;
+  for (int k = 0; k < 4; k++) {
+    uint32_t slot = p->corners[t].at[k];
+    if (slot < p->island->free_count) p->users[slot] |= UINT64_C(1) << place;
+  }
+  if (p->filled[place] == SBRI_BLOCK) shut(p, place);
+}
+static bool is_corner(const packing *p, const uint32_t *lanes, uint32_t slot) {
+  for (uint32_t lane = 0; lane < SBRI_BLOCK && lanes[lane] != NO_ELEMENT; lane++)
+    for (int k = 0; k < 4; k++)
+      if (p->corners[lanes[lane]].at[k] == slot) return true;
+  return false;
+}
+
+/* A slot that no lane of the block moves: a held one, or a free one that is none of its corners; slot_count:
+ * there is none. */
+static uint32_t find_spare(const packing *p, const uint32_t *lanes) {
+  for (uint32_t slot = p->island->slot_count; slot-- > 0;)
+    if (slot >= p->island->free_count || !is_corner(p, lanes, slot)) return slot;
+  return p->island->slot_count;
+}
+
+static uint32_t lanes_filled(const packing *p, uint32_t block) {
+  uint32_t count = 0;
+  while (count < SBRI_BLOCK && p->elements[(size_t)block * SBRI_BLOCK + count] != NO_ELEMENT) count++;
+  return count;
+}
+
+/* The last lanes of a block move to blocks of their own while it leaves no spare slot. */
+static void leave_spare(packing *p, uint32_t block) {
+  uint32_t *lanes = p->elements + (size_t)block * SBRI_BLOCK, count = lanes_filled(p, block);
+  while (count < SBRI_BLOCK && find_spare(p, lanes) == p->island->slot_count) {
+    uint32_t *own = p->elements + (size_t)p->block_count++ * SBRI_BLOCK;
+    for (uint32_t lane = 1; lane < SBRI_BLOCK; lane++) own[lane] = NO_ELEMENT;
+    own[0] = lanes[--count];
+    lanes[count] = NO_ELEMENT;
+  }
+}
+
+/* Full blocks first, then those that are not once more without the inert lanes, then as they are. */
+static void arrange(const packing *p, uint32_t *ordered, sbri_island *island) {
+  uint32_t full = 0, loose = 0, next;
+  for (uint32_t block = 0; block < p->block_count; block++) {
+    uint32_t count = lanes_filled(p, block);
+    if (count == SBRI_BLOCK)
+      memcpy(ordered + (size_t)SBRI_BLOCK * full++, p->elements + (size_t)block * SBRI_BLOCK,
+          SBRI_BLOCK * sizeof *ordered);
+    else
+      loose += count;
+  }
+  island->tetrahedron_full_count = full;
+  island->tetrahedron_dense_count = full + (loose + SBRI_BLOCK - 1) / SBRI_BLOCK;
+  island->tetrahedron_block_count = island->tetrahedron_dense_count;
+  next = full * SBRI_BLOCK;
+  for (uint32_t block = 0; block < p->block_count; block++) {
+    const uint32_t *lanes = p->elements + (size_t)block * SBRI_BLOCK;
+    uint32_t count = lanes_filled(p, block);
+    if (count == SBRI_BLOCK) continue;
+    memcpy(ordered + next, lanes, count * sizeof *ordered);
+    memcpy(ordered + (size_t)SBRI_BLOCK * island->tetrahedron_block_count++, lanes,
+        SBRI_BLOCK * sizeof *ordered);
+    next += count;
+  }
+  for (; next < island->tetrahedron_dense_count * SBRI_BLOCK; next++) ordered[next] = NO_ELEMENT;
+}
+
+static bool pack(sbri_island_maker *m, packing *p) {
+  sbri_island *island = m->island;
+  size_t count = island->tetrahedron_count;
+  p->elements = sbri_scratch(m, count * SBRI_BLOCK, sizeof *p->elements);
+  p->users = sbri_scratch(m, island->free_count, sizeof *p->users);
+  uint32_t *ordered = sbri_scratch(m, 2 * count * SBRI_BLOCK, sizeof *ordered);
+  if (!p->elements || !p->users || !ordered) return false;
+  for (uint32_t t = 0; t < count; t++) put(p, t);
+  for (uint32_t block = 0; block < p->block_count; block++) leave_spare(p, block);
+  arrange(p, ordered, island);
+  p->elements = ordered;
+  return true;
 }
 
 static void fill_lane(sbri_tetrahedron_block *block, uint32_t lane, const sbfi_tetrahedron *t) {
@@ -104,49 +206,70 @@ static void fill_lane(sbri_tetrahedron_block *block, uint32_t lane, const sbfi_t
   block->shear[lane] = (float)(t->lame.mu / 6);
 }
 
-static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block *blocks, float *damping) {
-  uint32_t next = 0;
-  sbfi_tetrahedron element;
-  /* Empty lanes name a point of their block, and give it nothing. */
-  for (uint32_t t = 0; t < m->island->tetrahedron_count; t++)
-    if (p->places[t] % SBRI_BLOCK == 0)
-      for (int lane = 0; lane < SBRI_BLOCK; lane++)
-        for (int k = 0; k < 4; k++) blocks[p->places[t] / SBRI_BLOCK].corners[k][lane] = p->corners[t].at[k];
-  for (uint32_t b = 0; b < m->island->body_count; b++) {
-    const sbri_body *body = sbri_maker_body(m, b);
-    for (uint32_t t = 0; t < body->tetrahedron_count; t++, next++) {
-      uint32_t at = p->places[next], lane = at % SBRI_BLOCK;
-      sbri_tetrahedron_block *block = &blocks[at / SBRI_BLOCK];
-      for (int k = 0; k < 4; k++) block->corners[k][lane] = p->corners[next].at[k];
-      if (sbri_body_tetrahedron(body, t, &element)) fill_lane(block, lane, &element);
-      if (damping) damping[at] = body->source->attributes.stiffness_damping;
+static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block *blocks, float *damping,
+    uint32_t *lanes_of) {
+  for (uint32_t n = 0; n < m->island->tetrahedron_block_count; n++) {
+    const uint32_t *lanes = p->elements + (size_t)n * SBRI_BLOCK;
+    uint32_t spare = lanes[SBRI_BLOCK - 1] == NO_ELEMENT ? find_spare(p, lanes) : 0;
+    bool again = n >= m->island->tetrahedron_dense_count;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+      uint32_t t = lanes[lane], b = 0;
+      for (int k = 0; k < 4; k++) blocks[n].corners[k][lane] = t == NO_ELEMENT ? spare : p->corners[t].at[k];
+      if (t == NO_ELEMENT) continue;
+      while (t >= sbri_maker_body(m, b)->first_tetrahedron + sbri_maker_body(m, b)->tetrahedron_count) b++;
+      const sbri_body *body = sbri_maker_body(m, b);
+      sbfi_tetrahedron element;
+      if (sbri_body_tetrahedron(body, t - body->first_tetrahedron, &element))
+        fill_lane(&blocks[n], lane, &element);
+      if (damping) damping[(size_t)n * SBRI_BLOCK + lane] = body->source->attributes.stiffness_damping;
+      lanes_of[2 * t + again] = n * SBRI_BLOCK + lane;
+      if (!again) lanes_of[2 * t + 1] = n * SBRI_BLOCK + lane;
     }
   }
+}
+
+/* Greatest beta, and whether there is any. */
+static bool find_damping(sbri_island_maker *m) {
+  bool damped = false;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    double beta = body->source->attributes.stiffness_damping;
+    if (body->tetrahedron_count == 0 || !(beta > 0)) continue;
+    damped = true;
+    if (beta > m->island->stiffness_damping_s) m->island->stiffness_damping_s = beta;
+  }
+  return damped;
+}
+
+/* Mean length of their sides at rest, m. */
+static float mean_side(const sbri_island *island, const sbf_uint4 *corners) {
+  double sum = 0;
+  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+    for (int i = 0; i < 4; i++)
+      for (int k = 0; k < i; k++) {
+        const sbri_point *p = &island->rest[corners[t].at[i]], *q = &island->rest[corners[t].at[k]];
+        float x = p->x - q->x, y = p->y - q->y, z = p->z - q->z;
+        sum += (double)sqrtf(x * x + y * y + z * z);
+      }
+  return (float)(sum / (6.0 * island->tetrahedron_count));
 }
 
 bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *network) {
   sbri_island *island = m->island;
   if (island->tetrahedron_count == 0) return true;
-  bool damped = false;
-  for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_body *body = sbri_maker_body(m, b);
-    double beta = body->source->attributes.stiffness_damping;
-    if (body->tetrahedron_count == 0 || !(beta > 0)) continue;
-    damped = true;
-    if (beta > island->stiffness_damping_s) island->stiffness_damping_s = beta;
-  }
-  packing p = {.corners = network->tetrahedra, .count = island->tetrahedron_count};
-  p.places = sbri_scratch(m, island->tetrahedron_count, sizeof *p.places);
-  p.taken = sbri_scratch(m, island->slot_count, sizeof *p.taken);
-  if (!p.places || !p.taken) return false;
-  pack(&p);
-  uint32_t block_count = (p.count + SBRI_BLOCK - 1) / SBRI_BLOCK;
-  sbri_tetrahedron_block *blocks = sbri_keep(m, block_count, sizeof *blocks);
-  float *damping = damped ? sbri_keep(m, (size_t)block_count * SBRI_BLOCK, sizeof *damping) : NULL;
-  if (!blocks || (damped && !damping)) return false;
-  fill(m, &p, blocks, damping);
+  packing p = {.island = island, .corners = network->tetrahedra};
+  if (!pack(m, &p)) return false;
+  bool damped = find_damping(m);
+  size_t count = island->tetrahedron_block_count;
+  sbri_tetrahedron_block *blocks = sbri_keep(m, count, sizeof *blocks);
+  uint32_t *lanes = sbri_keep(m, 2 * (size_t)island->tetrahedron_count, sizeof *lanes);
+  float *damping = damped ? sbri_keep(m, count * SBRI_BLOCK, sizeof *damping) : NULL;
+  if (!blocks || !lanes || (damped && !damping)) return false;
+  fill(m, &p, blocks, damping, lanes);
+  float side = mean_side(island, network->tetrahedra);
+  if (!(island->cell_m > 0) || side < island->cell_m) island->cell_m = side;
   island->tetrahedron_blocks = blocks;
-  island->tetrahedron_block_count = block_count;
   island->tetrahedron_damping = damping;
+  island->lanes_of_tetrahedra = lanes;
   return true;
 }

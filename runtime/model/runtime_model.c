@@ -93,6 +93,8 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     model->slot_count += island->slot_count;
     island->first_link_block = model->link_block_count;
     model->link_block_count += island->link_block_count;
+    island->first_tetrahedron_block = model->tetrahedron_block_count;
+    model->tetrahedron_block_count += island->tetrahedron_block_count;
     island->first_flow = model->flow_count;
     if (island->link_flows) model->flow_count += island->link_block_count * SBRI_BLOCK;
     if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);

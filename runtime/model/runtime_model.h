@@ -47,8 +47,12 @@ typedef struct sbri_link_flows {
   float yield[SBRI_BLOCK], rate[SBRI_BLOCK]; /* strain and 1/s; rate 0: never */
   float tear[SBRI_BLOCK];                    /* strain; 0: never */
 } sbri_link_flows;
-/* Eight tetrahedra, sharing no point where that can be, for solvers/tetrahedron_forces.h. Inert lanes have
- * the corners of the block's first one and zeros. */
+/* Eight tetrahedra. An island has blocks of three sorts, one after the other: full ones, of which no two
+ * lanes share a free point; those that are left over, in full blocks again, which may share points; and the
+ * same ones once more in blocks that share none and have inert lanes. Forces take the first two
+ * (solvers/tetrahedron_forces.h), sweeps, which move points at once, the first and the last
+ * (solvers/tetrahedron_sweep.h). Inert lanes have zeros, and all corners at a point that no other lane of the
+ * block moves. */
 typedef struct sbri_tetrahedron_block {
   uint32_t corners[4][SBRI_BLOCK];  /* slots */
   float stiffness[6][SBRI_BLOCK];   /* N/m: V mu g_i.g_j for ij = 11, 22, 33, 12, 23, 31, g_i the gradients of
@@ -131,12 +135,14 @@ typedef struct sbri_island {
   const uint32_t *frame_of_held; /* (slot_count - free_count) */
   const sbfi_spring *springs;    /* (spring_count) each once, ends as slots */
   uint32_t spring_count;
-  uint32_t tetrahedron_count; /* of all bodies, body after body */
-  uint32_t tetrahedron_block_count;
+  uint32_t tetrahedron_count;                               /* of all bodies, body after body */
+  uint32_t tetrahedron_full_count, tetrahedron_dense_count; /* ends of the first two sorts of blocks */
+  uint32_t tetrahedron_block_count, first_tetrahedron_block;
   const sbri_tetrahedron_block *tetrahedron_blocks;
-  const float *tetrahedron_damping; /* (tetrahedron_block_count x 8) s: beta; NULL: none is damped so */
+  const uint32_t *lanes_of_tetrahedra; /* (tetrahedron_count x 2) block x 8 + lane for forces, for sweeps */
+  const float *tetrahedron_damping;    /* (tetrahedron_block_count x 8) s: beta; NULL: none is damped so */
   bool routed;  /* the runtime may step it by another scheme where that is wiser; see solvers/router.h */
-  float cell_m; /* mean length of its springs at rest */
+  float cell_m; /* mean length of its springs at rest, or of its tetrahedra's sides where that is less */
   const sbri_link_block *links; /* (link_block_count) colour after colour; NULL: nothing sweeps */
   uint32_t link_block_count, first_link_block;
   const float *link_damping;           /* (links x 8) N s/m; NULL: no spring is damped */
@@ -163,7 +169,7 @@ typedef struct sbri_layout {
       state_size;
   size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
   size_t element_forces;
-  size_t outer, accelerations, older_velocities, moves, edges, tears;
+  size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
       vertices, faces, sums, scratch_size;
 } sbri_layout;
@@ -179,12 +185,13 @@ struct sbr_model {
   sbri_body *bodies;    /* (asset->soft_bodies.count) */
   sbri_island *islands;
   uint32_t island_count;
-  uint32_t slot_count;       /* of all islands */
-  uint32_t link_block_count; /* of all islands */
-  uint32_t flow_count;       /* links of islands whose springs yield or tear */
-  float step_error_m;        /* of the schemes that control their error */
-  sbri_skin *skins;          /* (asset->render_meshes.count) */
-  float rest_size_m;         /* diagonal of the box of all bodies */
+  uint32_t slot_count;              /* of all islands */
+  uint32_t link_block_count;        /* of all islands */
+  uint32_t tetrahedron_block_count; /* likewise */
+  uint32_t flow_count;              /* links of islands whose springs yield or tear */
+  float step_error_m;               /* of the schemes that control their error */
+  sbri_skin *skins;                 /* (asset->render_meshes.count) */
+  float rest_size_m;                /* diagonal of the box of all bodies */
   sbri_layout layout;
 };
 

@@ -46,6 +46,7 @@ typedef struct sbri_island_tick {
   float *accelerations, *older_velocities; /* (free_count x 3) scratch, blocks as `velocities` */
   sbri_point *moves;                       /* (slot_count) scratch */
   float *edges;                            /* (links x 8 x 3) scratch */
+  float *solid_edges;                      /* (tetrahedra's lanes x 9) scratch */
   sbri_tears *tears;                       /* scratch: what tore in this tick */
   float step_error_m;                      /* of schemes that control their error, asset metres */
   float *stiffening;  /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */

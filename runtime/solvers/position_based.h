@@ -1,4 +1,4 @@
-/* Position-based with compliance, in small steps: one sweep over all springs a substep.
+/* Position-based with compliance, in small steps: one sweep over all springs and tetrahedra a substep.
  *
  * Points move on freely (x + h v); then each spring, one after the other, puts its ends where an implicit
  * Euler step of that spring alone would: with its ends' inverse masses w_a + w_b = w, too long by C,
@@ -7,7 +7,7 @@
  *
  * and velocities change by the shifts per second. Nothing is accumulated over sweeps or substeps (Macklin and
  * others, Small Steps in Physics Simulation, 2019, for why one sweep of many substeps beats many sweeps of
- * one). Springs go in colours, eight at a time.
+ * one). Springs go in colours, eight at a time; then tetrahedra (tetrahedron_sweep.h).
  *
  * Stable at any stiffness and any step. Bias against the energy, of a mode of frequency w: damped at the
  * ratio w h / 2, slow by (w h)^2 / 3, exactly as by implicit Euler; and springs that share points rest softer
@@ -23,6 +23,7 @@
 
 #include "solvers/finish.h"
 #include "solvers/motion.h"
+#include "solvers/tetrahedron_sweep.h"
 
 /* Where the tick begins, and each spring's vector there. */
 static inline void sbri_moves_begin(const sbri_island_tick *t) {
@@ -164,6 +165,8 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < island->body_count; b++)
     followed = followed || t->model->bodies[island->bodies[b]].keeps_volume;
   sbri_moves_begin(t);
+  bool solid = island->tetrahedron_block_count > 0;
+  if (solid) sbri_solid_edges_begin(t);
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
     float share = last ? 1 : (float)(s + 1) / (float)substeps;
@@ -171,6 +174,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
 #define SBRI_CALL(known) sbri_sweep_springs(t, h, known, stretches)
     SBRI_FOR_FORCE_KIND(sbri_force_kind(t, last), SBRI_CALL)
 #undef SBRI_CALL
+    if (solid) sbri_sweep_tetrahedra(t, h, s % 2 != 0);
     for (uint32_t b = 0; b < island->body_count; b++)
       sbri_moves_end_body(t, &t->model->bodies[island->bodies[b]], h);
     sbri_carry_held(t, share);
@@ -178,6 +182,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
     if (followed && !last) sbri_moves_follow(t);
   }
   sbri_keep_stretch(t, stretches);
+  if (solid) sbri_tetrahedron_pass(t, true);
 }
 
 #endif

@@ -1,9 +1,14 @@
 #include "solvers/router.h"
 
 #include "math/vec3.h"
+#include "solvers/tetrahedron_forces.h"
+
+static uint32_t most_explicit(const sbri_island *island) {
+  return island->tetrahedron_count ? SBRI_MOST_EXPLICIT_SOLID_SUBSTEPS : SBRI_MOST_EXPLICIT_SUBSTEPS;
+}
 
 bool sbri_router_begins_explicit(const sbri_island *island) {
-  return sbri_stable_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MOST_EXPLICIT_SUBSTEPS;
+  return sbri_stable_substeps(island, 1.0 / 60, island->rest_stretch) <= most_explicit(island);
 }
 
 static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
@@ -33,9 +38,10 @@ static float greatest_square(const sbri_island_tick *t) {
 const sbri_scheme *sbri_router_choose(const sbri_island_tick *t, uint32_t *recovering) {
   const sbri_island *island = t->island;
   if (!island->routed) return island->scheme;
-  uint32_t substeps = sbri_stable_substeps(island, t->tick_s, *t->stretch);
+  uint32_t substeps = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->stretch);
   float reach = island->cell_m * (float)substeps / t->tick_s;
-  bool trouble = substeps > SBRI_MOST_EXPLICIT_SUBSTEPS || (reach > 0 && greatest_square(t) > reach * reach);
+  bool trouble = substeps > most_explicit(island) || !(*t->least_ratio > 0) ||
+                 (reach > 0 && greatest_square(t) > reach * reach);
   if (trouble)
     *recovering = SBRI_RECOVERING_TICKS;
   else if (*recovering > 0)

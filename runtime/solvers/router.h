@@ -5,8 +5,9 @@
 #include "solvers/scheme.h"
 
 /* Explicit while it needs no more substeps a tick than this. Up to here position-based steps of the same
- * error cost four times as much (docs/benchmarks.md). */
-enum { SBRI_MOST_EXPLICIT_SUBSTEPS = 96 };
+ * error cost four times as much (docs/benchmarks.md). Tetrahedra go on for longer: their position-based steps
+ * need as many substeps as explicit ones to be near the energy. */
+enum { SBRI_MOST_EXPLICIT_SUBSTEPS = 96, SBRI_MOST_EXPLICIT_SOLID_SUBSTEPS = 256 };
 
 /* For so many ticks after the last sign of trouble the recovering scheme goes on. */
 enum { SBRI_RECOVERING_TICKS = 10 };
@@ -14,9 +15,9 @@ enum { SBRI_RECOVERING_TICKS = 10 };
 /* Whether the island, at rest, is one to step explicitly. */
 bool sbri_router_begins_explicit(const sbri_island *island);
 
-/* The scheme of the coming tick. Trouble is: springs so strained that explicit steps would be too many, or
- * points that move by more than a cell in a substep against their body; `recovering` counts down from there,
- * or from where the caller has set it. */
+/* The scheme of the coming tick. Trouble is: elements so strained that explicit steps would be too many, a
+ * tetrahedron inside out, or points that move by more than a cell in a substep against their body;
+ * `recovering` counts down from there, or from where the caller has set it. */
 const sbri_scheme *sbri_router_choose(const sbri_island_tick *tick, uint32_t *recovering);
 
 #endif

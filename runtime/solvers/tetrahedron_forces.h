@@ -70,14 +70,11 @@ SBRI_INLINE void sbri_watch(const sbri_tetrahedron_block *block, uint32_t lane, 
   sbri_wide_store(watch->least_ratio + lane, sbri_wide_select(real, sbri_wide_min(ratio, least), least));
 }
 
-/* Viscous forces, taken off f: -beta V F S g_i, S Hooke's stress of the rate E' of Green's strain. In edges,
- * E' has the coefficients c_jk = (d_j.w_k + w_j.d_k) / 2, w the rates of the edges, and V g_j^T S g_i = 2 /
- * (V mu) K c K + (lambda - mu) / (V mu^2) (K:c) K. */
-SBRI_INLINE void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
-    uint32_t lane, const float *betas, const sbri_wide3 d[3], sbri_wide3 f[3]) {
-  sbri_wide3 v = sbri_wide_gather(t->velocity_points, block->corners[0] + lane), w[3];
-  for (int i = 0; i < 3; i++)
-    w[i] = sbri_wide3_sub(sbri_wide_gather(t->velocity_points, block->corners[i + 1] + lane), v);
+/* Viscous forces, taken off f, at the rates w of the edges d: -beta V F S g_i, S Hooke's stress of the rate
+ * E' of Green's strain. In edges, E' has the coefficients c_jk = (d_j.w_k + w_j.d_k) / 2, w the rates of the
+ * edges, and V g_j^T S g_i = 2 / (V mu) K c K + (lambda - mu) / (V mu^2) (K:c) K. */
+SBRI_INLINE void sbri_tetrahedron_viscous(const sbri_tetrahedron_block *block, uint32_t lane,
+    const float *betas, const sbri_wide3 d[3], const sbri_wide3 w[3], sbri_wide3 f[3]) {
   static const int places[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   sbri_wide k[6], c[6], half = sbri_wide_all(0.5f), two = sbri_wide_all(2), tiny = sbri_wide_all(1e-30f);
   for (int i = 0; i < 6; i++) k[i] = sbri_wide_load(block->stiffness[i] + lane);
@@ -101,6 +98,15 @@ SBRI_INLINE void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_
       f[i] = sbri_wide3_sub(f[i], sbri_wide3_scale(d[j], beta * s));
     }
   }
+}
+
+/* The same at the velocities that points have now. */
+SBRI_INLINE void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
+    uint32_t lane, const float *betas, const sbri_wide3 d[3], sbri_wide3 f[3]) {
+  sbri_wide3 v = sbri_wide_gather(t->velocity_points, block->corners[0] + lane), w[3];
+  for (int i = 0; i < 3; i++)
+    w[i] = sbri_wide3_sub(sbri_wide_gather(t->velocity_points, block->corners[i + 1] + lane), v);
+  sbri_tetrahedron_viscous(block, lane, betas, d, w, f);
 }
 
 /* The forces of a group of lanes on its corners. */
@@ -156,7 +162,7 @@ SBRI_INLINE void sbri_tetrahedron_block_forces(const sbri_island_tick *t, const 
  * as sbri_watch_begin makes it and is filled. */
 static inline void sbri_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
   const sbri_island *island = t->island;
-  uint32_t count = island->tetrahedron_block_count;
+  uint32_t count = island->tetrahedron_dense_count;
   const sbri_tetrahedron_block *blocks = island->tetrahedron_blocks;
   memset(t->element_forces, 0, island->slot_count * sizeof *t->element_forces);
   /* Copies of the loop, so that the common one carries no more than it needs. */

@@ -12,9 +12,9 @@ enum { BODIES = 4, CELLS = 4, TICKS = 150 };
 /* Falls onto the ground, slides and swings there: a section held by a bone, one with damped springs, and one
  * that nothing holds; and tetrahedra held at one end with damping of their own: every branch of the kernel.
  */
-static scene make_scene(bool solids) {
+static scene make_scene(void) {
   scene s = scene_begin();
-  scene_bodies(&s, solids ? BODIES : BODIES - 1);
+  scene_bodies(&s, BODIES);
   scene_bone(&s, (sbf_vec3){0, 0.1f, 0});
   for (uint32_t b = 0; b + 1 < BODIES; b++) {
     scene_section(&s, b, (sbf_vec3){0.5f * (float)b, 0.1f, 0}, (sbf_vec3){0.3f, 0.2f, 0.4f}, CELLS);
@@ -27,7 +27,6 @@ static scene make_scene(bool solids) {
   s.asset->environment.wind = (sbf_vec3){1, 0, 2};
   s.world_definition.ground = sbr_ground_slope(10);
   s.character_definition.position = (sbr_double3){0, 0.2, 1};
-  if (!solids) return s;
   lattice_box box =
       lattice_box_make((sbf_vec3){1.5f, 0, 0}, (sbf_vec3){0.6f, 0.2f, 0.2f}, 6, 2, 2, 1000, 4e4f, 0.4f);
   lattice_box_hold(&box);
@@ -38,8 +37,7 @@ static scene make_scene(bool solids) {
 }
 
 static uint64_t hash_after(sbr_instructions instructions, bool held, sbf_scheme scheme) {
-  bool solids = scheme != SBF_SCHEME_POSITION_BASED; /* which steps springs alone */
-  scene s = make_scene(solids);
+  scene s = make_scene();
   s.model_options.free = !held;
   s.model_options.scheme = scheme;
   s.model_options.instructions = instructions;
@@ -81,7 +79,7 @@ END_TEST
 
 START_TEST(a_model_takes_the_widest)
 {
-  scene s = make_scene(true);
+  scene s = make_scene();
   scene_start(&s);
   ck_assert_ptr_eq(s.model->kernels, sbri_kernels_of(SBR_INSTRUCTIONS_AUTOMATIC));
   ck_assert_int_ne(sbr_model_instructions(s.model), SBR_INSTRUCTIONS_AUTOMATIC);
@@ -97,7 +95,7 @@ END_TEST
 
 START_TEST(instructions_of_other_processors_are_refused)
 {
-  scene s = make_scene(true);
+  scene s = make_scene();
   sbf_diagnostic error;
   sbr_model *model = NULL;
   s.model_options.instructions = SBR_INSTRUCTIONS_WASM_SIMD128;

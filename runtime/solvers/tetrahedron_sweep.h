@@ -1,0 +1,175 @@
+/* One position-based sweep over neo-Hookean tetrahedra (mechanics/neo_hookean.h states the energy), eight at
+ * a time: each, one after the other, goes where an implicit Euler step of it alone would take it.
+ *
+ * Such a step turns the stress P = mu F + s cof F, s = lambda (J - 1) - mu, into the impulses h V P' g_i with
+ * P' = (1 + h^2 V A H)^-1 P, where H are the second derivatives of the energy and A is sum w_i g_i g_i^T. The
+ * inverse is not computed. P is split into its part along cof F, which the stiff lambda answers, and the
+ * rest,
+ *
+ *   P = mu (F - (3 J / c) cof F)  +  (s + 3 mu J / c) cof F,     c = |cof F|^2,
+ *
+ * and each is divided by sqrt(1 + W^4): 1 where the substep resolves it, and where it does not W^2, h^2 times
+ * a number for A and H of that part, exact at rest for matter alike in all directions:
+ *
+ *   across:  0.6 V (sum w_i |g_i|^2) (mu + |s| e),    e^2 = max(F:F - 2, F:F / 3), the greatest stretch
+ * nearly along:   V (sum w_i |cof F g_i|^2 / c) (mu + lambda c + 2 s J F:F / c)
+ *
+ * No element overshoots: 0.6 sum w_i |g_i|^2 is more than half of A's greatest eigenvalue, and e of the
+ * greatest stretch. (1 + W^2 would be the implicit step itself where points belong to one element each; where
+ * they share theirs it rests four times as far from where it should.) Nothing moves where P is 0, so that the
+ * rest state is exact, which two constraints that are projected one after the other (Macklin and Mueller, A
+ * Constraint-based Formulation of Stable Neo-Hookean Materials, 2021) do not have. Flat and inverted elements
+ * are nothing special. Momentum is kept, angular momentum to the second order, since both parts of P F^T are
+ * symmetric. No multiplier is accumulated.
+ *
+ * Every other sweep goes through the blocks backwards, so that neither end of the list is preferred. Written
+ * for the lanes of the file that includes it; see kernels/kernels.h. */
+#ifndef SBRI_TETRAHEDRON_SWEEP_H
+#define SBRI_TETRAHEDRON_SWEEP_H
+
+#include "solvers/motion.h"
+
+/* Each tetrahedron's edges from its first corner where the tick begins. */
+static inline void sbri_solid_edges_begin(const sbri_island_tick *t) {
+  for (uint32_t b = 0; b < t->island->tetrahedron_block_count; b++) {
+    const sbri_tetrahedron_block *block = &t->island->tetrahedron_blocks[b];
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
+      float *edges = t->solid_edges + 9 * SBRI_BLOCK * (size_t)b + lane;
+      sbri_wide3 x0 = sbri_wide_gather(t->begins, block->corners[0] + lane);
+      for (int k = 0; k < 3; k++)
+        sbri_store3(edges + 3 * SBRI_BLOCK * k,
+            sbri_wide3_sub(sbri_wide_gather(t->begins, block->corners[k + 1] + lane), x0));
+    }
+  }
+}
+
+typedef struct sbri_sweep_step {
+  float h, square; /* s, s^2 */
+} sbri_sweep_step;
+
+SBRI_INLINE sbri_wide3 sbri_wide3_of(sbri_wide4 a) {
+  return (sbri_wide3){a.x, a.y, a.z};
+}
+static inline void sbri_wide4_move(sbri_wide4 *u, sbri_wide3 way, sbri_wide s) {
+  u->x = u->x + s * way.x, u->y = u->y + s * way.y, u->z = u->z + s * way.z;
+}
+
+/* Viscous forces into f, as sbri_tetrahedron_damping has them, at the rates by which the edges have changed
+ * since the substep's beginning; already divided by 1 + h^2 times their own stiffness, beta / h of the
+ * greatest at rest. `reach` is 0.6 sum w_i K_ii. */
+SBRI_INLINE void sbri_sweep_damping(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
+    uint32_t lane, const float *betas, const sbri_wide3 d[3], sbri_wide reach, sbri_wide squares,
+    const sbri_sweep_step *step, sbri_wide3 f[3]) {
+  sbri_wide3 x0 = sbri_wide_gather(t->positions, block->corners[0] + lane), w[3], viscous[3];
+  sbri_wide zero = sbri_wide_all(0), one = sbri_wide_all(1), rate = sbri_wide_all(1 / step->h);
+  for (int i = 0; i < 3; i++) {
+    sbri_wide3 before = sbri_wide3_sub(sbri_wide_gather(t->positions, block->corners[i + 1] + lane), x0);
+    w[i] = sbri_wide3_scale(sbri_wide3_sub(d[i], before), rate);
+    viscous[i] = (sbri_wide3){zero, zero, zero};
+  }
+  sbri_tetrahedron_viscous(block, lane, betas, d, w, viscous);
+  sbri_wide shear = sbri_wide_max(sbri_wide_load(block->shear + lane), sbri_wide_all(1e-30f));
+  sbri_wide bulk = sbri_wide_load(block->bulk + lane), third = sbri_wide_all(1.0f / 3);
+  sbri_wide stiffest = (sbri_wide_all(3) * bulk - shear) / shear * squares * third;
+  sbri_wide share = one / (one + sbri_wide_all(step->h) * sbri_wide_load(betas + lane) * reach *
+                                     sbri_wide_max(stiffest, one));
+  for (int i = 0; i < 3; i++) f[i] = sbri_wide3_add(f[i], sbri_wide3_scale(viscous[i], share));
+}
+
+/* The settling of a group of lanes. */
+SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
+    const float *edges, uint32_t lane, const float *betas, const sbri_sweep_step *step) {
+  sbri_wide4 u[4];
+  for (int k = 0; k < 4; k++) u[k] = sbri_wide_gather4(t->moves, block->corners[k] + lane);
+  sbri_wide3 d[3], n[3], kd[3], f[3];
+  for (int k = 0; k < 3; k++) {
+    sbri_wide3 edge = sbri_load3(edges + 3 * SBRI_BLOCK * k + lane);
+    d[k] = (sbri_wide3){
+        edge.x + (u[k + 1].x - u[0].x), edge.y + (u[k + 1].y - u[0].y), edge.z + (u[k + 1].z - u[0].z)};
+  }
+  for (int k = 0; k < 3; k++) n[k] = sbri_wide3_cross(d[(k + 1) % 3], d[(k + 2) % 3]);
+  sbri_wide k11 = sbri_wide_load(block->stiffness[0] + lane);
+  sbri_wide k22 = sbri_wide_load(block->stiffness[1] + lane);
+  sbri_wide k33 = sbri_wide_load(block->stiffness[2] + lane);
+  sbri_wide k12 = sbri_wide_load(block->stiffness[3] + lane);
+  sbri_wide k23 = sbri_wide_load(block->stiffness[4] + lane);
+  sbri_wide k31 = sbri_wide_load(block->stiffness[5] + lane);
+  sbri_wide inverse_volume = sbri_wide_load(block->inverse_volume + lane);
+  sbri_wide bulk = sbri_wide_load(block->bulk + lane), shear = sbri_wide_load(block->shear + lane);
+  sbri_wide one = sbri_wide_all(1), two = sbri_wide_all(2), tiny = sbri_wide_all(1e-30f);
+  sbri_wide some_shear = sbri_wide_max(shear, tiny);
+#define SBRI_ROW(a, b, c, axis) a *d[0].axis + b *d[1].axis + c *d[2].axis
+#define SBRI_ROWS(a, b, c) (sbri_wide3){SBRI_ROW(a, b, c, x), SBRI_ROW(a, b, c, y), SBRI_ROW(a, b, c, z)}
+  kd[0] = SBRI_ROWS(k11, k12, k31);
+  kd[1] = SBRI_ROWS(k12, k22, k23);
+  kd[2] = SBRI_ROWS(k31, k23, k33);
+#undef SBRI_ROWS
+#undef SBRI_ROW
+  sbri_wide ratio = sbri_wide3_dot(d[0], n[0]) * inverse_volume;
+  /* F:F, and |cof F|^2 by the minors of K: those of its Gram matrix are that of the edges at rest. */
+  sbri_wide per_stiffness = inverse_volume / some_shear; /* 1 / (V mu) */
+  sbri_wide squares = per_stiffness * (sbri_wide3_dot(d[0], kd[0]) + sbri_wide3_dot(d[1], kd[1]) +
+                                          sbri_wide3_dot(d[2], kd[2]));
+  sbri_wide n11 = sbri_wide3_dot(n[0], n[0]), n22 = sbri_wide3_dot(n[1], n[1]);
+  sbri_wide n33 = sbri_wide3_dot(n[2], n[2]), n12 = sbri_wide3_dot(n[0], n[1]);
+  sbri_wide n23 = sbri_wide3_dot(n[1], n[2]), n31 = sbri_wide3_dot(n[2], n[0]);
+  sbri_wide even =
+      (k22 * k33 - k23 * k23) * n11 + (k33 * k11 - k31 * k31) * n22 + (k11 * k22 - k12 * k12) * n33;
+  sbri_wide mixed =
+      (k23 * k31 - k12 * k33) * n12 + (k12 * k31 - k23 * k11) * n23 + (k12 * k23 - k31 * k22) * n31;
+  sbri_wide areas = sbri_wide_max((even + two * mixed) * per_stiffness * per_stiffness, tiny);
+  /* A sixth of s, of 3 mu J / c, and of the pressure-like part of P. */
+  sbri_wide s = bulk * (ratio - one) - shear, per_area = ratio / areas;
+  sbri_wide q = sbri_wide_all(3) * shear * per_area, p = s + q;
+  sbri_wide reach = sbri_wide_all(0.6f) * (u[0].w * (k11 + k22 + k33 + two * (k12 + k23 + k31)) +
+                                              u[1].w * k11 + u[2].w * k22 + u[3].w * k33);
+  sbri_wide sides =
+      u[0].w * (n11 + n22 + n33 + two * (n12 + n23 + n31)) + u[1].w * n11 + u[2].w * n22 + u[3].w * n33;
+  sbri_wide third = sbri_wide_all(1.0f / 3);
+  sbri_wide stretch = sbri_wide_sqrt(sbri_wide_max(squares - two, squares * third));
+  sbri_wide size = sbri_wide_max(s, sbri_wide_all(0) - s);
+  sbri_wide across = reach * (one + size * stretch / some_shear);
+  sbri_wide curved = shear + bulk * areas + two * s * per_area * squares;
+  sbri_wide along = sides * inverse_volume / areas * sbri_wide_max(curved, shear);
+  sbri_wide square = sbri_wide_all(step->square);
+  across = square * across, along = square * along;
+  sbri_wide a = one / sbri_wide_sqrt(one + across * across), b = one / sbri_wide_sqrt(one + along * along);
+  sbri_wide push = b * p - a * q; /* along -n */
+  for (int k = 0; k < 3; k++)
+    f[k] =
+        (sbri_wide3){push * n[k].x + a * kd[k].x, push * n[k].y + a * kd[k].y, push * n[k].z + a * kd[k].z};
+  sbri_wide sign = sbri_wide_all(0) - square;
+  if (betas) {
+    for (int k = 0; k < 3; k++) f[k] = sbri_wide3_scale(f[k], sbri_wide_all(-1));
+    sbri_sweep_damping(t, block, lane, betas, d, reach, squares, step, f);
+    sign = square;
+  }
+  sbri_wide4_move(
+      &u[0], sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]), (sbri_wide_all(0) - sign) * u[0].w);
+  for (int k = 0; k < 3; k++) sbri_wide4_move(&u[k + 1], f[k], sign * u[k + 1].w);
+  for (int k = 0; k < 4; k++) sbri_wide_scatter4(t->moves, block->corners[k] + lane, u[k]);
+}
+
+SBRI_INLINE void sbri_sweep_blocks(
+    const sbri_island_tick *t, const sbri_sweep_step *step, bool backwards, const float *betas) {
+  const sbri_tetrahedron_block *blocks = t->island->tetrahedron_blocks;
+  uint32_t full = t->island->tetrahedron_full_count, left_out = t->island->tetrahedron_dense_count - full;
+  uint32_t count = t->island->tetrahedron_block_count - left_out;
+  for (uint32_t n = 0; n < count; n++) {
+    uint32_t b = backwards ? count - 1 - n : n;
+    if (b >= full) b += left_out;
+    const float *edges = t->solid_edges + 9 * SBRI_BLOCK * (size_t)b;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES)
+      sbri_sweep_lanes(t, &blocks[b], edges, lane, betas ? betas + b * SBRI_BLOCK : NULL, step);
+  }
+}
+
+static inline void sbri_sweep_tetrahedra(const sbri_island_tick *t, float h, bool backwards) {
+  const sbri_sweep_step step = {h, h * h};
+  if (t->island->tetrahedron_damping)
+    sbri_sweep_blocks(t, &step, backwards, t->island->tetrahedron_damping);
+  else
+    sbri_sweep_blocks(t, &step, backwards, NULL);
+}
+
+#endif
