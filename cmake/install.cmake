@@ -58,27 +58,28 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/sbfmtConfigVersio
 install(FILES ${PROJECT_BINARY_DIR}/package/sbfmtConfig.cmake ${PROJECT_BINARY_DIR}/package/sbfmtConfigVersion.cmake
   DESTINATION ${package_folder})
 
-# pkg-config. A static library's needs are its user's needs; a shared one keeps them to itself.
+# pkg-config. A static library's needs are its user's needs; a shared one keeps them to itself. `unnamed` are needs that
+# have no file of pkg-config's.
 set(private "")
 if(BUILD_SHARED_LIBS)
   set(private .private)
 endif()
 file(RELATIVE_PATH PREFIX_FROM_PC ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-function(install_pc name description libraries requires)
+function(install_pc name description libraries requires unnamed)
   set(PC_NAME ${name})
   set(PC_DESCRIPTION ${description})
   set(PC_LIBS ${libraries})
-  set(PC_NEEDS "Requires${private}: ${requires}\nLibs${private}: -lm")
+  set(PC_NEEDS "Requires${private}: ${requires}\nLibs${private}:${unnamed} -lm")
   if(NOT private)
     set(PC_NEEDS "Requires: ${requires}")
-    string(APPEND PC_LIBS " -lm")
+    string(APPEND PC_LIBS "${unnamed} -lm")
   endif()
   configure_file(cmake/package.pc.in ${PROJECT_BINARY_DIR}/package/${name}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/package/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()
 install_pc(sbrun "Brings soft-bodied characters of the sbfmt format to life"
-  "-lsbrun -lsbfmt-mechanics -lsbfmt-core" "zlib")
+  "-lsbrun -lsbfmt-mechanics -lsbfmt-core" "zlib" "")
 if(NOT SBFMT_RUNTIME_ONLY)
   install_pc(sbfmt "Reads, checks, builds and converts soft-bodied characters of the sbfmt format"
-    "-lsbfmt-interchange -lsbfmt-format -lsbfmt-mechanics -lsbfmt-core" "zlib libxml-2.0 qhull_r")
+    "-lsbfmt-interchange -lsbfmt-format -lsbfmt-mechanics -lsbfmt-core" "zlib libxml-2.0 qhull_r" " -lmeshoptimizer")
 endif()

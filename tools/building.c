@@ -13,7 +13,7 @@ enum { METHOD_COUNT = sizeof methods / sizeof *methods, SURFACE = METHOD_COUNT -
 static bool read_options(const cli_call *call, sbf_build_options *options) {
   int method = SBF_BUILD_INTERIOR_AUTOMATIC;
   *options = (sbf_build_options){.user = NULL};
-  long elements = 0, levels = 1;
+  long elements = 0, levels = 1, render_levels = 0;
   static const char *const cuts[] = {"auto", "none"}; /* as sbf_build_sections */
   int sections = SBF_BUILD_SECTIONS_AUTOMATIC;
   if (!cli_word(call, "--springs", methods, METHOD_COUNT, &method) ||
@@ -22,13 +22,16 @@ static bool read_options(const cli_call *call, sbf_build_options *options) {
       !cli_word(call, "--sections", cuts, 2, &sections) ||
       !cli_number(call, "--overlap", 1e-9, 1e9, &options->overlap_m) ||
       !cli_number(call, "--error", 1e-9, 1e9, &options->error_m) ||
-      !cli_integer(call, "--levels", 1, 8, &levels))
+      !cli_integer(call, "--levels", 1, 8, &levels) ||
+      !cli_integer(call, "--render-levels", 0, 8, &render_levels) ||
+      !cli_number(call, "--render-error", 1e-9, 1e9, &options->render_error_m))
     return false;
   options->sections = (sbf_build_sections)sections;
   if (options->error_m > 0 && !cli_value(call, "--springs")) method = SBF_BUILD_INTERIOR_TETRAHEDRA;
   options->interior = method == SURFACE ? SBF_BUILD_INTERIOR_NONE : (sbf_build_interior)method;
   options->elements = (uint32_t)elements;
   options->levels = levels > 1 ? (uint32_t)levels : 0;
+  options->render_levels = (uint32_t)render_levels;
   options->without_calibration = cli_switch(call, "--no-calibration");
   return true;
 }
@@ -69,6 +72,7 @@ static void print_report(const sbf_build_report *r) {
            "load, swings within %.3g %%\n",
         r->calibrated, r->least_factor, r->most_factor, 100 * r->most_residual, 100 * r->most_period_error);
   if (r->levels) printf("levels: %u beside the finest\n", r->levels);
+  if (r->render_levels) printf("render levels: %u beside the full meshes\n", r->render_levels);
   printf("springs: %u structural, %u shear, %u flexion, %u internal", r->springs[SBF_SPRING_KIND_STRUCTURAL],
       r->springs[SBF_SPRING_KIND_SHEAR], r->springs[SBF_SPRING_KIND_FLEXION],
       r->springs[SBF_SPRING_KIND_INTERNAL] + r->inert_springs);

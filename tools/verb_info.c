@@ -45,16 +45,28 @@ static uint64_t interior_points(const sbf_soft_body *body) {
   return level->positions.count - of_surface;
 }
 
+static json_t *render_levels(const sbf_render_mesh *mesh) {
+  json_t *list = json_array();
+  for (uint32_t i = 0; i < mesh->levels.count; i++) {
+    const sbf_render_level *level = &mesh->levels.at[i];
+    json_array_append_new(
+        list, json_pack("{s:o, s:f}", "triangles",
+                  integer(level->polygon_points.count - 2 * (uint64_t)level->polygon_sizes.count), "error",
+                  (double)level->error));
+  }
+  return list;
+}
+
 static json_t *render_meshes(const sbf_asset *asset) {
   json_t *list = json_array();
   for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
     const sbf_render_mesh *mesh = &asset->render_meshes.at[i];
     int32_t material = mesh->material_slots.count ? mesh->material_slots.at[0].material : SBF_NONE;
     json_array_append_new(
-        list, json_pack("{s:s, s:o, s:o, s:o, s:s}", "name", mesh->name, "vertices",
+        list, json_pack("{s:s, s:o, s:o, s:o, s:s, s:o}", "name", mesh->name, "vertices",
                   integer(mesh->mesh.positions.count), "polygons", integer(mesh->mesh.polygon_sizes.count),
                   "triangles", integer((uint64_t)triangle_count(&mesh->mesh)), "material",
-                  material >= 0 ? asset->materials.at[material].name : ""));
+                  material >= 0 ? asset->materials.at[material].name : "", "levels", render_levels(mesh)));
   }
   return list;
 }
@@ -204,6 +216,13 @@ static void print_sections(const json_t *object) {
           number(row, "interior_points"), number(row, "tetrahedra"), number(row, "pins"));
 }
 
+static void print_render_levels(const json_t *levels) {
+  size_t i;
+  json_t *level;
+  json_array_foreach(levels, i, level) printf("    level %zu: %7lld triangles within %.3g m\n", i + 1,
+      number(level, "triangles"), json_real_value(json_object_get(level, "error")));
+}
+
 static void print_text(const json_t *object, uint64_t read_bytes) {
   size_t i;
   json_t *row;
@@ -212,9 +231,11 @@ static void print_text(const json_t *object, uint64_t read_bytes) {
       number(object, "bytes"), (unsigned long long)read_bytes);
   printf("title          %s\n", text_of(object, "title"));
   printf("render meshes  %zu\n", json_array_size(json_object_get(object, "render_meshes")));
-  json_array_foreach(json_object_get(object, "render_meshes"), i, row) printf(
-      "  %-32s %7lld vertices %7lld polygons %7lld triangles, %s\n", text_of(row, "name"),
-      number(row, "vertices"), number(row, "polygons"), number(row, "triangles"), text_of(row, "material"));
+  json_array_foreach(json_object_get(object, "render_meshes"), i, row) {
+    printf("  %-32s %7lld vertices %7lld polygons %7lld triangles, %s\n", text_of(row, "name"),
+        number(row, "vertices"), number(row, "polygons"), number(row, "triangles"), text_of(row, "material"));
+    print_render_levels(json_object_get(row, "levels"));
+  }
   print_sections(object);
   printf("bones          %zu\n", json_array_size(json_object_get(object, "bones")));
   printf("springs        %lld structural, %lld shear, %lld flexion, %lld internal (%lld inert left out), "

@@ -10,6 +10,7 @@
 #include "build/geometry/topology.h"
 #include "build/lattice/lattice_level.h"
 #include "build/levels/ladder.h"
+#include "build/render/render_levels.h"
 #include "build/sections/level_pins.h"
 #include "build/sections/section_frame.h"
 #include "build/sections/section_hulls.h"
@@ -510,6 +511,20 @@ static sbf_status embed(build *b) {
   return SBF_OK;
 }
 
+static bool render_progress(void *user, double done) {
+  return progress(user, "render levels", 0.8 + 0.09 * done) == SBF_OK;
+}
+
+static sbf_status make_render_levels(build *b) {
+  const sbf_build_options *o = &b->options;
+  uint32_t levels = o->render_levels || !(o->render_error_m > 0) ? o->render_levels : SBFI_MOST_RENDER_LEVELS;
+  const sbfi_render_recipe recipe = {levels, o->render_error_m, DERIVATION};
+  sbfi_outcome outcome = sbfi_render_levels_make(
+      b->asset, &recipe, &b->report.render_levels, sbfi_progress_whole(render_progress, b), &b->scratch);
+  if (outcome == SBFI_NO_MEMORY) return no_memory(b);
+  return outcome == SBFI_DONE ? SBF_OK : SBF_FAILED; /* cancelled: `error` says so */
+}
+
 /* What a report says of the whole without reading the geometry. Beyond all measure: nothing is said. */
 static sbf_status record_figures(build *b) {
   sbf_asset_measures measures;
@@ -557,8 +572,9 @@ static sbf_status run(build *b) {
       {"sections", 0.06, make_sections}, {"the list of bodies", 0.1, line_up_bodies},
       {"hulls", 0.11, make_hulls}, {"references", 0.15, renumber}, {"joints", 0.18, make_joints},
       {"springs", 0.2, make_levels}, {"frames of sections", 0.59, make_frames}, {"embeddings", 0.6, embed},
-      {"lattices no longer needed", 0.89, clear_lattices}, {"figures of the whole", 0.9, record_figures},
-      {"the check of what was made", 0.92, check_made}, {"the hash of the source", 0.95, hash_source}};
+      {"render levels", 0.8, make_render_levels}, {"lattices no longer needed", 0.89, clear_lattices},
+      {"figures of the whole", 0.9, record_figures}, {"the check of what was made", 0.92, check_made},
+      {"the hash of the source", 0.95, hash_source}};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     sbf_status status = progress(b, passes[i].name, passes[i].done);
     if (status == SBF_OK) status = passes[i].run(b);
@@ -571,23 +587,12 @@ sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, s
     sbf_build_report *report, sbf_diagnostic *error) {
   *built = NULL;
   build b = {.options = options_of(options), .from = asset, .error = error};
-  if ((unsigned)b.options.interior >= SBFI_BUILD_INTERIOR_COUNT)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known interior");
-  if ((unsigned)b.options.sections > SBF_BUILD_SECTIONS_NONE ||
-      !(b.options.overlap_m >= 0 && b.options.overlap_m <= 1e9))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known way to cut sections");
-  if (!(b.options.cell_m >= 0 && b.options.cell_m <= 1e9))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name a cell that is no length");
-  if (b.options.levels > SBFI_MOST_LEVELS || !(b.options.error_m >= 0 && b.options.error_m <= 1e9))
-    return sbfi_diagnose(
-        error, SBF_CODE_BAD_CALL, "the build options name more than 8 levels, or an error that is no length");
-  b.options.overlap_m = sbfi_build_settings_cell(b.options.overlap_m);
-  b.options.cell_m = sbfi_build_settings_cell(b.options.cell_m); /* what is recorded is what is built with */
-  b.options.error_m = sbfi_build_settings_cell(b.options.error_m);
+  sbf_status status = sbfi_build_settings_check(&b.options, error);
+  if (status != SBF_OK) return status;
   b.reporter = (sbfi_reporter){.report = b.options.report, .user = b.options.user};
   sbfi_arena_init(&b.scratch, b.options.allocator, 0);
   sbfi_ids_init(&b.ids, b.options.allocator);
-  sbf_status status = run(&b);
+  status = run(&b);
   sbfi_ids_free(&b.ids);
   sbfi_arena_free(&b.scratch);
   b.report.warnings = b.reporter.warnings;

@@ -3,8 +3,11 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "base/diagnostic.h"
 #include "base/number.h"
 #include "base/text.h"
+#include "build/levels/ladder.h"
+#include "build/render/render_levels.h"
 
 typedef enum setting_kind {
   WITHOUT,     /* bool, stated as its opposite */
@@ -31,6 +34,8 @@ static const struct {
     {"interior", INTERIOR, offsetof(sbf_build_options, interior)},
     {"levels", COUNT, offsetof(sbf_build_options, levels)},
     {"overlap_um", MICROMETRES, offsetof(sbf_build_options, overlap_m)},
+    {"render_error_um", MICROMETRES, offsetof(sbf_build_options, render_error_m)},
+    {"render_levels", COUNT, offsetof(sbf_build_options, render_levels)},
     {"sections", SECTIONS, offsetof(sbf_build_options, sections)},
 };
 enum { SETTING_COUNT = sizeof settings / sizeof *settings };
@@ -136,4 +141,25 @@ bool sbfi_build_settings_read(const char *text, sbf_build_options *options) {
       return false;
   }
   return true;
+}
+
+static bool is_length(double metres) {
+  return metres >= 0 && metres <= 1e9;
+}
+
+sbf_status sbfi_build_settings_check(sbf_build_options *o, sbf_diagnostic *error) {
+  if ((unsigned)o->interior >= SBFI_BUILD_INTERIOR_COUNT)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known interior");
+  if ((unsigned)o->sections > SBF_BUILD_SECTIONS_NONE || !is_length(o->overlap_m))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name no known way to cut sections");
+  if (!is_length(o->cell_m))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the build options name a cell that is no length");
+  if (o->levels > SBFI_MOST_LEVELS || o->render_levels > SBFI_MOST_RENDER_LEVELS || !is_length(o->error_m) ||
+      !is_length(o->render_error_m))
+    return sbfi_diagnose(
+        error, SBF_CODE_BAD_CALL, "the build options name more than 8 levels, or an error that is no length");
+  double *lengths[] = {&o->overlap_m, &o->cell_m, &o->error_m, &o->render_error_m};
+  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++)
+    *lengths[i] = sbfi_build_settings_cell(*lengths[i]);
+  return SBF_OK;
 }

@@ -4,7 +4,7 @@
 
 #include "sbfmt/build.h"
 
-enum { SBFI_BUILD_SETTINGS_SIZE = 256, SBFI_BUILD_INTERIOR_COUNT = SBF_BUILD_INTERIOR_TETRAHEDRA + 1 };
+enum { SBFI_BUILD_SETTINGS_SIZE = 320, SBFI_BUILD_INTERIOR_COUNT = SBF_BUILD_INTERIOR_TETRAHEDRA + 1 };
 
 /* The settings that shape what is made, in alphabetical order; sizes that are left to the build have no word.
  */
@@ -17,5 +17,8 @@ bool sbfi_build_settings_read(const char *text, sbf_build_options *options);
 /* The cell that is recorded, and is therefore the one to build with: whole micrometres, at least one. 0, a
  * cell that is not stated, stays. */
 double sbfi_build_settings_cell(double cell_m);
+
+/* Whether they name what there is, with a message where not; sizes become those that are recorded. */
+sbf_status sbfi_build_settings_check(sbf_build_options *options, sbf_diagnostic *error);
 
 #endif

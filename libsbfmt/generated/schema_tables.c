@@ -211,12 +211,19 @@ static const sbfi_element shape_key_element = {"shape_key", "shape_key", sizeof(
 
 static const sbfi_length render_level_polygon_points_lengths[] = {{1, {{SBFI_TERM_SUM, 0, offsetof(sbf_render_level, polygon_sizes)}}, "sum(polygon_sizes)"}};
 static const sbfi_length render_level_polygon_points_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, mesh.positions)}}, "parent.mesh.positions"};
+static const sbfi_length render_level_polygon_materials_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_level, polygon_sizes)}}, "polygon_sizes"}};
+static const sbfi_length render_level_polygon_materials_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, material_slots)}}, "parent.material_slots"};
+static const sbfi_length render_level_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_level, polygon_points)}}, "polygon_points"}};
+static const sbfi_length render_level_corners_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "parent.mesh.polygon_points"};
 static const sbfi_field render_level_fields[] = {
   {.name = "error", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_render_level, error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "polygon_sizes", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_sizes), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .has_range = true, .min = 3.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "polygon_points", .type = SBFI_LIST, .number = 3, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 1, .lengths = render_level_polygon_points_lengths, .index = &render_level_polygon_points_index},
+  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_render_level, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
+  {.name = "polygon_materials", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_render_level, polygon_materials), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_level_polygon_materials_lengths, .index = &render_level_polygon_materials_index},
+  {.name = "corners", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_render_level, corners), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_level_corners_lengths, .index = &render_level_corners_index},
 };
-static const sbfi_element render_level_element = {"render_level", "render_level", sizeof(sbf_render_level), 0, 3, render_level_fields, NULL};
+static const sbfi_element render_level_element = {"render_level", "render_level", sizeof(sbf_render_level), 0, 6, render_level_fields, NULL};
 
 static const sbfi_length render_mesh_normal_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "mesh.polygon_points"}};
 static const sbfi_length render_mesh_normal_corners_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, normals)}}, "normals"};

@@ -88,10 +88,11 @@ sbf_status sbf_validate(const sbf_asset *asset, const sbf_validate_options *give
     sbf_validate_result *result, sbf_diagnostic *error) {
   static void (*const families[])(sbfi_validation *) = {sbfi_check_names, sbfi_check_rotations,
       sbfi_check_textures, sbfi_check_sections, sbfi_check_rigid_bodies, sbfi_check_joints, sbfi_check_meshes,
-      sbfi_check_skins, sbfi_check_surfaces, sbfi_check_weight_maps, sbfi_check_pins, sbfi_check_levels,
-      sbfi_check_lattices, sbfi_check_regions, sbfi_check_springs, sbfi_check_colors, sbfi_check_embeddings,
-      sbfi_check_collisions, sbfi_check_cross_springs, sbfi_check_ik, sbfi_check_gaits, sbfi_check_chains,
-      sbfi_check_clips, sbfi_check_environment, sbfi_check_physics, sbfi_check_derived};
+      sbfi_check_render_levels, sbfi_check_skins, sbfi_check_surfaces, sbfi_check_weight_maps,
+      sbfi_check_pins, sbfi_check_levels, sbfi_check_lattices, sbfi_check_regions, sbfi_check_springs,
+      sbfi_check_colors, sbfi_check_embeddings, sbfi_check_collisions, sbfi_check_cross_springs,
+      sbfi_check_ik, sbfi_check_gaits, sbfi_check_chains, sbfi_check_clips, sbfi_check_environment,
+      sbfi_check_physics, sbfi_check_derived};
   sbf_validate_result unseen;
   sbf_validate_options options = options_of(given);
   sbfi_validation v = {.asset = asset, .options = &options, .result = result ? result : &unseen};

@@ -68,6 +68,7 @@ void sbfi_check_pins(sbfi_validation *v);
 void sbfi_check_collisions(sbfi_validation *v);
 void sbfi_check_embeddings(sbfi_validation *v);
 void sbfi_check_meshes(sbfi_validation *v);
+void sbfi_check_render_levels(sbfi_validation *v);
 void sbfi_check_skins(sbfi_validation *v);
 void sbfi_check_textures(sbfi_validation *v);
 void sbfi_check_names(sbfi_validation *v);

@@ -196,6 +196,9 @@ render_level
   error: float range=[0,inf)
   polygon_sizes: uint[] range=[3,inf)
   polygon_points: uint[] length=sum(polygon_sizes) below=parent.mesh.positions
+  derived: ref(derivations)
+  polygon_materials: uint[] length=0|polygon_sizes below=parent.material_slots
+  corners: uint[] length=0|polygon_points below=parent.mesh.polygon_points
 soft_body BODY
   id: id required
   name: string

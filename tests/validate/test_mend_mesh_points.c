@@ -35,9 +35,10 @@ END_TEST
 
 START_TEST(test_points_of_coarser_levels_are_used)
 {
-  rules_expect("<render_mesh id=\"r\" name=\"R\">" MESH("rendering", "0 0 0 1 0 0 0 1 0 1 1 0", "3 3",
-                   "0 1 2 0 2 1") "<render_level><polygon_sizes>3</polygon_sizes><polygon_points>0 1 "
-                                  "3</polygon_points></render_level></render_mesh>",
+  rules_expect(
+      "<render_mesh id=\"r\" name=\"R\">" MESH("rendering", "0 0 0 1 0 0 0 1 0 1 1 0", "3 3",
+          "0 1 2 0 2 1") "<render_level error=\"1\"><polygon_sizes>3</polygon_sizes><polygon_points>0 1 "
+                         "3</polygon_points></render_level></render_mesh>",
       "");
 }
 END_TEST

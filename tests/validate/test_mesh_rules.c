@@ -62,16 +62,4 @@ START_TEST(test_shape_keys)
 }
 END_TEST
 
-START_TEST(test_levels)
-{
-#define COARSER(sizes, points)                                                                               \
-  "<render_level error=\"0.1\"><polygon_sizes>" sizes "</polygon_sizes><polygon_points>" points              \
-  "</polygon_points></render_level>"
-  rules_expect(RENDER(COARSER("3 3", "0 1 2 0 2 3") COARSER("3", "0 1 2")), "");
-  rules_expect(
-      RENDER(COARSER("3", "0 1 2") COARSER("3", "0 2 1")), "RENDER_LEVEL_ORDER " PATH "/render_level[2]");
-}
-END_TEST
-
-RULES_MAIN(
-    "mesh_rules", test_normals, test_uvs, test_images_need_uvs, test_points, test_shape_keys, test_levels)
+RULES_MAIN("mesh_rules", test_normals, test_uvs, test_images_need_uvs, test_points, test_shape_keys)

@@ -162,3 +162,24 @@ uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3]
   }
   return first;
 }
+
+static bool touch(const sbfi_box *a, const sbfi_box *b) {
+  for (int k = 0; k < 3; k++)
+    if (a->low[k] > b->high[k] || b->low[k] > a->high[k]) return false;
+  return true;
+}
+
+void sbfi_box_tree_visit(
+    const sbfi_box_tree *tree, const sbfi_box *box, bool (*visit)(void *user, uint32_t item), void *user) {
+  uint32_t waiting[MOST_DEPTH], waiting_count = 0;
+  if (tree->node_count > 0) waiting[waiting_count++] = 0;
+  while (waiting_count > 0) {
+    const sbfi_box_node *node = &tree->nodes[waiting[--waiting_count]];
+    if (!touch(&node->box, box)) continue;
+    for (uint32_t i = 0; i < node->count; i++)
+      if (!visit(user, tree->items[node->first + i])) return;
+    if (node->count > 0) continue;
+    waiting[waiting_count++] = node->first + 1;
+    waiting[waiting_count++] = node->first;
+  }
+}

@@ -41,4 +41,8 @@ uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3]
     double (*meet)(const void *user, uint32_t item, const double origin[3], const double way[3]),
     const void *user);
 
+/* Hands over the items of all leaves that touch the box, until `visit` is false. */
+void sbfi_box_tree_visit(
+    const sbfi_box_tree *tree, const sbfi_box *box, bool (*visit)(void *user, uint32_t item), void *user);
+
 #endif

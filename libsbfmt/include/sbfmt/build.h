@@ -6,7 +6,8 @@
  * body with a hull keeps it. What is made is marked with an entry of `derivations` that records tool,
  * settings and the hash of the source, so that what no longer fits its source can be told.
  *
- * The same source and settings give the same bits, on every machine. Thread safe. */
+ * The same source and settings give the same bits, on every machine; render levels with the same version of
+ * meshoptimizer. Thread safe. */
 #ifndef SBFMT_BUILD_H
 #define SBFMT_BUILD_H
 
@@ -78,6 +79,14 @@ typedef struct sbf_build_options {
    * tetrahedra no point of whose surface is farther off under gravity along any axis, against one of 16,000.
    * Recorded in whole micrometres as cells are. */
   double error_m;
+  /* Render levels of every render mesh that has none, up to 8: each of half the triangles of the one before,
+   * and none where that is fewer than 32; 0 and no `render_error_m`: none. They are over the same points, so
+   * that what carries the mesh carries them. Which triangles they have depends on the version of
+   * meshoptimizer. */
+  uint32_t render_levels;
+  /* m; not 0: no render level is farther than this from its mesh at rest; and where `render_levels` is 0, as
+   * many as that allows. Recorded in whole micrometres. */
+  double render_error_m;
 } sbf_build_options;
 
 /* What was made. Counts are of derived parts; springs by sbf_spring_kind. */
@@ -104,6 +113,7 @@ typedef struct sbf_build_report {
   double least_factor, most_factor; /* of the moduli */
   double most_residual; /* greatest share by which one gives otherwise than the reference under some load */
   double most_period_error; /* and swings slower or faster */
+  uint32_t render_levels;   /* of render meshes */
 } sbf_build_report;
 
 /* Makes `*built` from `asset`, which stays as it is and need not outlive the call. On failure `*built` is

@@ -120,11 +120,13 @@ typedef enum sbf_code {
   SBF_CODE_NORMAL_NOT_UNIT = 574, /* A normal is not of unit length: normalise it, as --fix does. */
   SBF_CODE_UV_LENGTH = 575, /* There is not one texture coordinate a point: give one each, or name them by corners. */
   SBF_CODE_SHAPE_KEY_REPEATED = 576, /* A shape key names a point twice: add the two offsets up. */
-  SBF_CODE_RENDER_LEVEL_ORDER = 577, /* A render level has no fewer polygons than the one before it: list the finest first. */
+  SBF_CODE_RENDER_LEVEL_ORDER = 577, /* A render level has no fewer triangles than the one before it: list the finest first. */
   SBF_CODE_MESH_EMPTY = 578, /* A render mesh has no polygons, nothing is seen of it: give it some or remove it. */
   SBF_CODE_MATERIAL_NO_UVS = 579, /* A mesh with an image on it has no texture coordinates: unwrap it, or take the image off the material. */
   SBF_CODE_WEIGHT_MAP_ZERO = 580, /* A weight map takes all mass or stiffness from a free point: give it a factor above 0. */
   SBF_CODE_WEIGHT_MAP_IDLE = 581, /* A weight map scales an attribute that is 0: set the attribute or remove the map. */
+  SBF_CODE_RENDER_LEVEL_CORNER = 582, /* A corner of a render level takes its looks from a corner of the full mesh at another point: name one at the same. */
+  SBF_CODE_RENDER_LEVEL_ERROR = 583, /* A render level is farther from the full mesh than it states: state the true distance, or build it again. */
   SBF_CODE_MESH_POINT_UNUSED = 586, /* Points of a render mesh are in no polygon and only cost memory: remove them in the source, or by --fix. */
   SBF_CODE_LATTICE_THIN = 590, /* Parts of a body are thinner than two elements of its lattice, which is thicker there than the body: give a smaller cell, or more elements. */
   SBF_CODE_LATTICE_EMPTY = 591, /* A body encloses nothing that a lattice of that cell could fill: it gets springs over its surface. */

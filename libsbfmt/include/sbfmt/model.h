@@ -549,6 +549,13 @@ typedef struct sbf_render_level {
   sbf_u32_list polygon_sizes;
   /* The corners' points. [length sum(polygon_sizes); index into parent.mesh.positions] */
   sbf_u32_list polygon_points;
+  /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
+  int32_t derived;
+  /* Slot of each polygon; empty: the first. [length 0 or polygon_sizes; index into parent.material_slots] */
+  sbf_u32_list polygon_materials;
+  /* For each corner one of the full mesh at the same point, whose normal and texture coordinates it has;
+   * empty: the first there. [length 0 or polygon_points; index into parent.mesh.polygon_points] */
+  sbf_u32_list corners;
 } sbf_render_level;
 typedef struct sbf_render_level_list {
   const sbf_render_level *at;

@@ -1,5 +1,4 @@
-/* Render meshes: something to see, normals and texture coordinates for every corner, coarser levels behind
- * finer ones. */
+/* Render meshes: something to see, normals and texture coordinates for every corner. */
 #include <math.h>
 
 #include "validate/rules/mesh_use.h"
@@ -85,19 +84,6 @@ static void check_shape_keys(const seen *s) {
   }
 }
 
-static void check_levels(const seen *s) {
-  uint32_t before = s->mesh->mesh.polygon_sizes.count;
-  for (uint32_t l = 0; l < s->mesh->levels.count; l++) {
-    uint32_t here = s->mesh->levels.at[l].polygon_sizes.count;
-    if (here >= before)
-      sbfi_found(s->v, SBF_CODE_RENDER_LEVEL_ORDER,
-          sbfi_path_of("%s/render_level[%u]", s->path.text, l + 1).text, -1,
-          "render level %u of '%s' has %u polygons and the one before it %u", l + 1,
-          sbfi_label(s->mesh->name, s->mesh->id), here, before);
-    before = here;
-  }
-}
-
 void sbfi_check_meshes(sbfi_validation *v) {
   for (uint32_t m = 0; m < v->asset->render_meshes.count && !v->out_of_memory; m++) {
     seen s = {v, &v->asset->render_meshes.at[m], sbfi_path_of("/sbf/render_mesh[%u]", m + 1)};
@@ -106,6 +92,5 @@ void sbfi_check_meshes(sbfi_validation *v) {
     check_uv_sets(&s);
     check_materials(&s);
     check_shape_keys(&s);
-    check_levels(&s);
   }
 }

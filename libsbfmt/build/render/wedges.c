@@ -1,0 +1,170 @@
+#include "build/render/wedges.h"
+
+#include <string.h>
+
+#include "build/geometry/key_set.h"
+
+enum { LONG_POLYGON = 64 };
+
+typedef struct splitting {
+  uint32_t *of_corner; /* the class of each corner so far */
+  uint32_t corner_count, class_count;
+  sbfi_arena *arena;
+} splitting;
+
+/* Classes whose corners have unlike keys fall apart; `at[0]` of a key is the class's. */
+static bool split(splitting *s, sbfi_key (*key_of)(const void *user, uint32_t corner), const void *user) {
+  sbfi_key_set set;
+  uint32_t count = 0;
+  if (!sbfi_key_set_init(&set, s->corner_count, s->arena)) return false;
+  for (uint32_t c = 0; c < s->corner_count; c++) {
+    sbfi_key key = key_of(user, c);
+    key.at[0] = s->of_corner[c];
+    uint32_t *value = sbfi_key_set_find(&set, key);
+    if (*value == UINT32_MAX) *value = count++;
+    s->of_corner[c] = *value;
+  }
+  s->class_count = count;
+  return true;
+}
+
+static sbfi_key key_of_number(const void *user, uint32_t corner) {
+  const uint32_t *numbers = user;
+  return (sbfi_key){{0, numbers[corner], 0, 0}};
+}
+
+static sbfi_key key_of_coordinates(const void *user, uint32_t corner) {
+  const sbf_vec2 *at = (const sbf_vec2 *)user + corner;
+  float numbers[2] = {at->x + 0.0f, at->y + 0.0f};
+  sbfi_key key = {{0, 0, 0, 0}};
+  memcpy(key.at + 1, numbers, sizeof numbers);
+  return key;
+}
+
+static sbfi_key key_of_normal(const void *user, uint32_t corner) {
+  sbfi_key place = sbfi_key_of_place(((const sbf_vec3 *)user)[corner]);
+  return (sbfi_key){{0, place.at[0], place.at[1], place.at[2]}};
+}
+
+static bool split_by_coordinates(splitting *s, const sbf_render_mesh *mesh, const sbf_uv_set *set) {
+  sbf_vec2 *of_corner = sbfi_arena_allocate(s->arena, (size_t)s->corner_count + 1, sizeof *of_corner);
+  if (!of_corner) return false;
+  for (uint32_t c = 0; c < s->corner_count; c++) {
+    uint32_t place = set->corners.count ? set->corners.at[c] : mesh->mesh.polygon_points.at[c];
+    if (place < set->coordinates.count) of_corner[c] = set->coordinates.at[place];
+  }
+  return split(s, key_of_coordinates, of_corner);
+}
+
+/* Normals of points split nothing. */
+static bool split_by_normals(splitting *s, const sbf_render_mesh *mesh) {
+  if (!mesh->normal_corners.count) return true;
+  sbf_vec3 *of_corner = sbfi_arena_allocate(s->arena, (size_t)s->corner_count + 1, sizeof *of_corner);
+  if (!of_corner) return false;
+  for (uint32_t c = 0; c < s->corner_count; c++) of_corner[c] = mesh->normals.at[mesh->normal_corners.at[c]];
+  return split(s, key_of_normal, of_corner);
+}
+
+/* Of each point: the bone that holds most of it, the first of several; UINT32_MAX: none. */
+static void find_holders(uint32_t *holders, const sbf_render_mesh *mesh) {
+  const sbf_skin *skin = mesh->skin;
+  for (uint32_t p = 0, i = 0; p < skin->influence_counts.count; p++) {
+    float most = 0;
+    holders[p] = UINT32_MAX;
+    for (uint32_t left = skin->influence_counts.at[p]; left > 0; left--, i++)
+      if (skin->weights.at[i] > most) {
+        most = skin->weights.at[i];
+        holders[p] = skin->bones.at[i];
+      }
+  }
+}
+
+/* The holder of most of a polygon's corners, the first of several; of a very long one that of the first. */
+static uint32_t holder_of_polygon(const uint32_t *holders, const uint32_t *points, uint32_t size) {
+  uint32_t best = holders[points[0]], most = 0;
+  if (size > LONG_POLYGON) return best;
+  for (uint32_t k = 0; k < size; k++) {
+    uint32_t same = 0;
+    for (uint32_t o = 0; o < size; o++) same += holders[points[o]] == holders[points[k]];
+    if (same > most) {
+      most = same;
+      best = holders[points[k]];
+    }
+    if (2 * most > size) break;
+  }
+  return best;
+}
+
+static bool split_by_bones(splitting *s, const sbf_render_mesh *mesh) {
+  const sbf_polygon_mesh *m = &mesh->mesh;
+  if (!mesh->skin || !mesh->skin->influence_counts.count) return true;
+  uint32_t *holders = sbfi_arena_allocate(s->arena, (size_t)m->positions.count + 1, sizeof *holders);
+  uint32_t *of_corner = sbfi_arena_allocate(s->arena, (size_t)s->corner_count + 1, sizeof *of_corner);
+  if (!holders || !of_corner) return false;
+  find_holders(holders, mesh);
+  for (uint32_t p = 0, first = 0; p < m->polygon_sizes.count; first += m->polygon_sizes.at[p++]) {
+    uint32_t holder = holder_of_polygon(holders, m->polygon_points.at + first, m->polygon_sizes.at[p]);
+    for (uint32_t k = 0; k < m->polygon_sizes.at[p]; k++) of_corner[first + k] = holder;
+  }
+  return split(s, key_of_number, of_corner);
+}
+
+static bool split_by_materials(splitting *s, const sbf_render_mesh *mesh, uint32_t *slot_of_corner) {
+  const sbf_polygon_mesh *m = &mesh->mesh;
+  for (uint32_t p = 0, c = 0; p < m->polygon_sizes.count; p++)
+    for (uint32_t k = 0; k < m->polygon_sizes.at[p]; k++)
+      slot_of_corner[c++] = mesh->polygon_materials.count ? mesh->polygon_materials.at[p] : 0;
+  return !mesh->polygon_materials.count || split(s, key_of_number, slot_of_corner);
+}
+
+static bool list_wedges(
+    sbfi_wedges *wedges, const sbf_render_mesh *mesh, const uint32_t *slots, sbfi_arena *arena) {
+  uint32_t corner_count = mesh->mesh.polygon_points.count;
+  wedges->corners = sbfi_arena_allocate(arena, (size_t)wedges->count + 1, sizeof *wedges->corners);
+  wedges->slots = sbfi_arena_allocate(arena, (size_t)wedges->count + 1, sizeof *wedges->slots);
+  wedges->places = sbfi_arena_allocate(arena, (size_t)wedges->count + 1, sizeof *wedges->places);
+  if (!wedges->corners || !wedges->slots || !wedges->places) return false;
+  for (uint32_t c = corner_count; c-- > 0;) {
+    uint32_t wedge = wedges->of_corner[c];
+    wedges->corners[wedge] = c;
+    wedges->slots[wedge] = slots[c];
+    wedges->places[wedge] = mesh->mesh.positions.at[mesh->mesh.polygon_points.at[c]];
+  }
+  return true;
+}
+
+static bool list_triangles(sbfi_wedges *wedges, const sbf_polygon_mesh *mesh, sbfi_arena *arena) {
+  size_t most = mesh->polygon_points.count - 2 * (size_t)mesh->polygon_sizes.count;
+  wedges->triangles = sbfi_arena_allocate(arena, 3 * most + 1, sizeof *wedges->triangles);
+  if (!wedges->triangles) return false;
+  const uint32_t *points = mesh->polygon_points.at;
+  for (uint32_t p = 0, first = 0; p < mesh->polygon_sizes.count; first += mesh->polygon_sizes.at[p++])
+    for (uint32_t k = first + 2; k < first + mesh->polygon_sizes.at[p]; k++) {
+      if (points[first] == points[k - 1] || points[k - 1] == points[k] || points[k] == points[first])
+        continue;
+      uint32_t *to = wedges->triangles + 3 * (size_t)wedges->triangle_count++;
+      to[0] = wedges->of_corner[first];
+      to[1] = wedges->of_corner[k - 1];
+      to[2] = wedges->of_corner[k];
+    }
+  return true;
+}
+
+bool sbfi_wedges_make(
+    sbfi_wedges *wedges, const sbf_render_mesh *mesh, sbfi_wedge_rule rule, sbfi_arena *arena) {
+  uint32_t corner_count = mesh->mesh.polygon_points.count;
+  *wedges = (sbfi_wedges){.of_corner = sbfi_arena_copy(
+                              arena, mesh->mesh.polygon_points.at, (size_t)corner_count, sizeof(uint32_t))};
+  uint32_t *slots = sbfi_arena_allocate(arena, (size_t)corner_count + 1, sizeof *slots);
+  splitting s = {wedges->of_corner, corner_count, 0, arena};
+  /* The first of them, by the points themselves, numbers the classes without gaps. */
+  if (!wedges->of_corner || !slots || !split(&s, key_of_number, wedges->of_corner) ||
+      !split_by_materials(&s, mesh, slots))
+    return false;
+  for (uint32_t u = 0; u < mesh->uv_sets.count; u++)
+    if (!split_by_coordinates(&s, mesh, &mesh->uv_sets.at[u])) return false;
+  if ((rule.normals && !split_by_normals(&s, mesh)) || (rule.bones && !split_by_bones(&s, mesh)))
+    return false;
+  wedges->count = s.class_count;
+  return list_wedges(wedges, mesh, slots, arena) && list_triangles(wedges, &mesh->mesh, arena);
+}
