@@ -84,14 +84,20 @@ class Boxes(ProgramTest):
     def test_cut_files_are_refused_or_read_whole(self):
         for name, make in scene_files.FILES.items():
             content = make()
-            shares = (0.9,) if name.endswith(".ply") else (0.1, 0.5, 0.9)  # assimp never ends on half a PLY's head
-            for share in shares:
+            for share in (0.1, 0.5, 0.9):
                 with self.subTest(name, share=share):
                     path = write_bytes(self.path(name), content[:int(len(content) * share)])
                     result = self.call_convert(path)
                     self.assertIn(result.status, (0, 1), result.err)
                     if result.status == 1:
                         self.assertRegex(result.err, r"error: .*\[IMPORT_[A-Z]+\]")
+
+    def test_a_ply_that_ends_in_its_header_is_refused_at_once(self):
+        content = scene_files.ply_binary()
+        for size in (1, 4, 20, content.index(b"end_header") + 6):
+            path = write_bytes(self.path("cut.ply"), content[:size])
+            self.assertRegex(self.fails(1, "convert", path, "-o", self.path("out.sbf")),
+                             r"cut\.ply: the header of the PLY file does not end.* \[IMPORT_SYNTAX\]")
 
     def call_convert(self, path):
         return call("convert", "--no-build", path, "-o", self.path("out.sbf"))

@@ -14,6 +14,7 @@
 #include "import/gait/propose_gait.h"
 #include "import/paper/dialect2012.h"
 #include "import/scene/bind_pose.h"
+#include "mechanics/plausible_size.h"
 #include "model/options.h"
 
 /* File axes and unit to asset space; the caller's word counts more than the file's. */
@@ -129,6 +130,18 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
   return SBF_OK;
 }
 
+/* Forms and files are often wrong about their unit; whoever states one has looked. */
+static void check_size(sbfi_conversion *c) {
+  double unit_m = c->scene->unit_m, size = sbfi_asset_extent(c->asset), scale = sbfi_plausible_scale(size);
+  if (scale == 1 || c->options->unit_m > 0) return;
+  sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
+      "everything together measures %.4g m with a unit of %.4g m, as %s: --unit %.3g makes it %.4g m, --unit "
+      "%.3g "
+      "says that it is right",
+      size, unit_m, c->scene->unit_known ? "the form or the file says" : "is assumed", unit_m * scale,
+      size * scale, unit_m);
+}
+
 /* A scene in the pose its skin was bound in, which is an asset's rest pose. */
 static sbf_status read_scene(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
@@ -166,6 +179,7 @@ static sbf_status convert_readings(
     status = from->tets    ? run_tet_passes(&c, from->tets)
              : from->paper ? run_paper_passes(&c, from->paper)
                            : run_passes(&c, options);
+    if (status == SBF_OK && !from->paper) check_size(&c);
   }
   sbfi_array_free(&c.ids.slots);
   sbfi_arena_free(&c.scratch);

@@ -10,6 +10,7 @@
 #include "base/process.h"
 #include "import/quote.h"
 #include "import/scene/assembly.h"
+#include "import/scene/ply_header.h"
 
 static const char helper_name[] = "sbfmt-import";
 
@@ -69,8 +70,18 @@ static void last_words(const char *text, char *to, size_t size) {
 
 static sbf_status limit_reached(sbf_diagnostic *error, const char *what) {
   return sbfi_diagnose(error, SBF_CODE_IMPORT_LIMIT,
-      "reading took more %s than it may: if the file is trusted, raise the limit, or export it smaller",
+      "reading took more %s than a file of its size may: it is damaged, or to be exported smaller or in "
+      "another "
+      "form",
       what);
+}
+
+/* Sound files take a second for some megabytes; on damaged ones assimp can run for ever. */
+static double time_limit_s(const sbfi_scene_options *options, uint64_t size_bytes) {
+  double by_size = 20 + 10e-6 * (double)size_bytes;
+  if (options->helper_time_limit_s > 4e6) return 4e6; /* what 32 bits of milliseconds hold */
+  if (options->helper_time_limit_s > 0) return options->helper_time_limit_s;
+  return by_size < 120 ? by_size : 120;
 }
 
 static sbf_status judge_exit(const sbfi_process_result *result, sbf_diagnostic *error) {
@@ -110,13 +121,18 @@ static sbf_status judge_end(const sbfi_process_result *result, sbf_diagnostic *e
       how);
 }
 
-/* Looked at first, so that a missing file is told from one that is refused. */
-static sbf_status check_input(const char *path, size_t limit_bytes, sbf_diagnostic *error) {
+/* Looked at first, so that a missing file is told from one that is refused, and one that would never be read
+ * to its end is not tried. */
+static sbf_status check_input(const char *path, const char *format, const sbfi_scene_options *options,
+    uint64_t *size_bytes, sbf_diagnostic *error) {
+  size_t limit_bytes = options->input_limit_bytes;
   sbfi_file file;
   sbf_status status = sbfi_file_open(path, &file, error);
   if (status) return status;
-  uint64_t size = file.size;
+  uint64_t size = *size_bytes = file.size;
+  if (size && strcmp(format, "ply") == 0) status = sbfi_ply_header_check(&file, options->allocator, error);
   sbfi_file_close(&file);
+  if (status) return status;
   if (size == 0) return sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the file is empty");
   if (size > limit_bytes)
     return sbfi_diagnose(error, SBF_CODE_IO_TOO_LARGE, "the file has %llu bytes, the limit is %zu",
@@ -147,18 +163,18 @@ sbf_status sbfi_assimp_take(sbfi_scene *scene, const uint8_t *bytes, size_t size
 sbf_status sbfi_assimp_read(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
   char helper[PATH_SIZE];
-  double seconds = options->helper_time_limit_s > 0 ? options->helper_time_limit_s : 120;
-  if (seconds > 4e6) seconds = 4e6; /* what 32 bits of milliseconds hold */
+  uint64_t size_bytes = 0;
+  scene->format = format_of(scene, path);
+  if (!scene->format) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to read a scene");
+  sbf_status status = check_input(path, scene->format, options, &size_bytes, error);
+  if (!status) status = find_helper(options->helper_path, helper, sizeof helper, error);
+  if (status) return status;
+  double seconds = time_limit_s(options, size_bytes);
   sbfi_process_limits limits = {.wall_ms = (uint32_t)(seconds * 1000),
       .cpu_s = (uint32_t)seconds + 1,
       .memory_bytes =
           options->helper_memory_limit_bytes ? options->helper_memory_limit_bytes : (uint64_t)8 << 30,
       .output_bytes = options->memory_limit_bytes};
-  sbf_status status = check_input(path, options->input_limit_bytes, error);
-  if (!status) status = find_helper(options->helper_path, helper, sizeof helper, error);
-  if (status) return status;
-  scene->format = format_of(scene, path);
-  if (!scene->format) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory to read a scene");
   const char *arguments[] = {helper, path, NULL};
   sbfi_process_result result;
   status = sbfi_process_run(arguments, &limits, options->allocator, &result, error);

@@ -174,7 +174,7 @@ typedef struct sbfi_scene_options {
   size_t input_limit_bytes;         /* largest file read; 0: 4 GiB */
   size_t memory_limit_bytes;        /* of the scene, and of what the helper sends; 0: 8 GiB */
   const char *helper_path;          /* the program sbfmt-import; NULL: environment, then its usual places */
-  double helper_time_limit_s;       /* 0: 120 s */
+  double helper_time_limit_s;       /* 0: 20 s and 10 s for each megabyte, up to 120 s */
   size_t helper_memory_limit_bytes; /* 0: 8 GiB */
 } sbfi_scene_options;
 

@@ -1,40 +1,21 @@
 /* What would move wrongly: no mass, matter that is none, a ratio that springs cannot show, a body that its
  * own weight crushes, too few substeps, a unit that looks wrong. */
 #include "build/geometry/topology.h"
+#include "mechanics/plausible_size.h"
 #include "sbfmt/mechanics.h"
 #include "validate/rules/pose.h"
 #include "validate/rules/strain_order.h"
 #include "validate/validation.h"
 
-static const double TALLEST_M = 30, SMALLEST_M = 0.005;
 static const double LEAST_DENSITY = 0.9, MOST_DENSITY = 30000; /* kg/m^3: air, and more than osmium */
 static const double MOST_SAG = 10; /* strain under the own weight beyond which a body is a puddle */
 
-typedef struct span {
-  double low[3], high[3];
-  bool any;
-} span;
-
-static void span_points(span *s, sbf_vec3_list points) {
-  for (uint32_t i = 0; i < points.count; i++) {
-    const double at[3] = {points.at[i].x, points.at[i].y, points.at[i].z};
-    for (int k = 0; k < 3; k++) {
-      if (!s->any || at[k] < s->low[k]) s->low[k] = at[k];
-      if (!s->any || at[k] > s->high[k]) s->high[k] = at[k];
-    }
-    s->any = true;
-  }
-}
-
 static void check_size(sbfi_validation *v) {
-  span s = {.any = false};
-  for (uint32_t b = 0; b < v->asset->soft_bodies.count; b++)
-    span_points(&s, v->asset->soft_bodies.at[b].surface.positions);
-  for (uint32_t m = 0; m < v->asset->render_meshes.count; m++)
-    span_points(&s, v->asset->render_meshes.at[m].mesh.positions);
-  double size = fmax(s.high[0] - s.low[0], fmax(s.high[1] - s.low[1], s.high[2] - s.low[2]));
-  if (s.any && (size > TALLEST_M || size < SMALLEST_M))
-    sbfi_found(v, SBF_CODE_UNIT_LOOKS_WRONG, "/sbf", -1, "everything together measures %.4g m", size);
+  double size = sbfi_asset_extent(v->asset), scale = sbfi_plausible_scale(size);
+  if (scale != 1)
+    sbfi_found(v, SBF_CODE_UNIT_LOOKS_WRONG, "/sbf", -1,
+        "everything together measures %.4g m; %.4g times as large it would be %.4g m", size, scale,
+        size * scale);
 }
 
 /* A spring network's bound on its angular frequencies needs flat arrays of all sets. */
