@@ -120,7 +120,7 @@ static const sbf_code_info table[] = {
   {"LATTICE_THIN", SBF_CODE_LATTICE_THIN, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Parts of a body are thinner than two elements of its lattice, which is thicker there than the body: give a smaller cell, or more elements."},
   {"LATTICE_EMPTY", SBF_CODE_LATTICE_EMPTY, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A body encloses nothing that a lattice of that cell could fill: it gets springs over its surface."},
   {"LATTICE_TOO_FINE", SBF_CODE_LATTICE_TOO_FINE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The cell is too small for a body of that size: give a larger one."},
-  {"EMBEDDING_FAR", SBF_CODE_EMBEDDING_FAR, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell."},
+  {"EMBEDDING_FAR", SBF_CODE_EMBEDDING_FAR, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell, or take those in no polygon out of the source."},
   {"INTERIOR_TOO_MANY", SBF_CODE_INTERIOR_TOO_MANY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A body has too many points for springs between all of them: give another method."},
   {"LEVEL_ERROR_MISSED", SBF_CODE_LEVEL_ERROR_MISSED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "No lattice coarser than the reference comes within the error asked for: the body got one as fine as that."},
   {"BODY_NO_MASS", SBF_CODE_BODY_NO_MASS, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A body that moves has no mass: give it a density, an area density or a mass."},

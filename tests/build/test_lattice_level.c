@@ -25,8 +25,10 @@ static void print(void *user, const sbf_diagnostic *finding) {
 }
 
 static int codes[16], code_count;
+static char last_message[1024];
 static void note(void *user, const sbf_diagnostic *finding) {
   (void)user;
+  snprintf(last_message, sizeof last_message, "%s", finding->message);
   if (code_count < 16) codes[code_count++] = finding->code;
 }
 static bool was_noted(int code) {
@@ -159,6 +161,33 @@ START_TEST(pins_on_the_surface_are_taken_over)
   ck_assert_uint_ge(held->points.count, 41); /* of the top's 25 corners and 16 middles */
   for (uint32_t i = 0; i < held->points.count; i++)
     ck_assert_float_gt(level->positions.at[held->points.at[i]].y, 1.1f);
+  sbf_asset_free(built);
+}
+END_TEST
+
+/* A vertex that was left lying about, in no polygon: it is said so, and goes along with the body as a whole.
+ */
+START_TEST(a_stray_vertex)
+{
+  sbf_polygon_mesh cube = shape_cube(asset, 4, 0.4f, (sbf_vec3){0, 1, 0});
+  uint32_t count = cube.positions.count;
+  sbf_vec3 *positions = sbf_asset_allocate(asset, count + 1, sizeof *positions);
+  memcpy(positions, cube.positions.at, count * sizeof *positions);
+  positions[count] = (sbf_vec3){3, 1, 0.05f};
+  cube.positions = (sbf_vec3_list){positions, count + 1};
+  add_skin(&cube);
+  shape_add_body(asset, "cube", &cube, false);
+  sbf_asset *built = build((sbf_build_options){.cell_m = 0.1}, NULL);
+  ck_assert(was_noted(SBF_CODE_EMBEDDING_FAR));
+  ck_assert_int_eq(code_count, 1);
+  ck_assert_ptr_nonnull(strstr(last_message, "vertex 98 of render mesh \"skin\" lies farther"));
+  ck_assert_ptr_nonnull(strstr(last_message, "2.8 m from that of soft body \"cube\": it is in no polygon"));
+  const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+  for (uint32_t e = 0; e < level->embeddings.count; e++) {
+    sbf_vec4 w = level->embeddings.at[e].weights.at[count];
+    ck_assert_float_lt(fabsf(w.x) + fabsf(w.y) + fabsf(w.z) + fabsf(w.w), 20);
+    ck_assert_double_lt(misplaced(level, &level->embeddings.at[e], &cube.positions), 1e-5);
+  }
   sbf_asset_free(built);
 }
 END_TEST
@@ -315,6 +344,7 @@ int main(void) {
   tcase_add_test(c, a_cube_of_tetrahedra);
   tcase_add_test(c, a_section_is_held_in_its_inner_half);
   tcase_add_test(c, pins_on_the_surface_are_taken_over);
+  tcase_add_test(c, a_stray_vertex);
   tcase_add_test(c, sheets_become_cloth);
   tcase_add_test(c, what_goes_wrong_is_said);
   tcase_add_loop_test(c, real_surfaces, 0, (int)(sizeof real / sizeof *real));

@@ -176,7 +176,19 @@ static sbfi_carried carry_by_frame(const sbfi_carrier *c, sbf_vec3 position) {
                                              : carried_alone(c->frame, 0);
 }
 
-/* Where there are frame points, what lies far outside hangs on them. */
+/* The four of the level's extremes with the smallest weights, where those are smaller than the given ones. */
+static void try_extremes(const sbfi_carrier *c, sbfi_d3 position, choice *best) {
+  for (int left = 0; left < 6; left++)
+    for (int out = left + 1; out < 6; out++) {
+      choice tried = {.size = 0};
+      for (int k = 0, next = 0; k < 6; k++)
+        if (k != left && k != out) tried.points[next++] = c->extremes[k];
+      if (weigh(c, &tried, position) && tried.size < best->size * (1 - 1e-6)) *best = tried;
+    }
+}
+
+/* What lies far outside hangs on the frame points where there are some, else on points far apart, which take
+ * it along with the body as a whole: a small tetrahedron would throw it about. */
 static sbfi_carried carry_by_lattice(const sbfi_carrier *c, sbf_vec3 position) {
   const double most = 3; /* sum of squares of the weights; 1 and below inside */
   sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&c->lattice, position);
@@ -184,6 +196,7 @@ static sbfi_carried carry_by_lattice(const sbfi_carrier *c, sbf_vec3 position) {
   memcpy(in.points, c->level->lattice.tetrahedra.at[found.tetrahedron].at, sizeof in.points);
   bool good = weigh(c, &in, sbfi_d3_of(position));
   if (c->frame != SBFI_NO_INDEX && (!good || in.size > most)) return carry_by_frame(c, position);
+  if (good && in.size > most) try_extremes(c, sbfi_d3_of(position), &in);
   sbfi_carried carried =
       good ? written(c, &in, sbfi_d3_of(position)) : carried_alone(in.points[0], found.distance);
   carried.outside = (float)found.distance;

@@ -36,7 +36,8 @@ bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const s
 
 /* How the level carries a vertex at `position`:
  *   a surface point in the very same place (bit by bit; `likely` first) carries it alone;
- *   frame points what lies elsewhere, with a lattice what lies far outside of it;
+ *   frame points what lies elsewhere, with a lattice what lies far outside of it (without frame points the
+ * level's extremes);
  *   a lattice by the tetrahedron around the vertex, or one near it (tetrahedron_finder.h);
  *   else by the nearest triangle of the surface (of polygons cut as fans from their first corner) and a
  * fourth point: the polygon's own, the centre, or the level's extremes, whichever leaves the smallest

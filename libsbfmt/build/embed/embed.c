@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "build/embed/far_vertices.h"
 #include "build/geometry/topology.h"
 
 /* One body's share in one vertex. */
@@ -24,7 +25,8 @@ typedef struct work {
   uint32_t *bone_bodies;  /* (bones) first body of the bone or of its nearest ancestor; SBFI_NO_INDEX: none */
   uint32_t *next_of_bone; /* (bodies) the next body on the same bone */
   const sbfi_sections *sections;
-  sbfi_array shares; /* of the mesh at hand, in vertex order */
+  sbfi_array shares;     /* of the mesh at hand, in vertex order */
+  sbfi_far_vertices far; /* of it */
 } work;
 
 static bool index_bodies(work *w) {
@@ -189,7 +191,7 @@ static sbfi_carried carried_mixed(const sbfi_mix *mix) {
 }
 
 /* Embeds the vertices of `list` (all of them in order where `whole`) in one target's level. */
-static bool embed_in(const work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
+static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
     const share *list, uint32_t count, bool count_it) {
   sbf_level *level = w->targets[target].level;
   if (count == 0 || level->positions.count == 0 || has_embedding(level, mesh)) return true;
@@ -212,7 +214,9 @@ static bool embed_in(const work *w, uint32_t target, int32_t mesh, const sbf_vec
     if (vertices) vertices[i] = v;
     if (blends) blends[i] = list[i].blend;
     if (count_it && carried.outside > w->report->farthest) w->report->farthest = carried.outside;
-    w->report->far += count_it && level->cell > 0 && carried.outside > level->cell;
+    bool far = count_it && level->cell > 0 && carried.outside > level->cell;
+    if (far && !sbfi_far_vertices_add(&w->far, v, carried.outside, w->targets[target].body, w->scratch))
+      return false;
     w->report->flat += count_it && carried.error > 1e-3f * (float)w->carriers[target].size;
   }
   sbf_embedding *embedding = add_embedding(level, mesh, w->derivation);
@@ -265,7 +269,8 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
   }
   if (mesh->mesh.positions.count == 0) return true;
   w->shares.count = 0;
-  uint32_t flat_before = w->report->flat, far_before = w->report->far;
+  uint32_t flat_before = w->report->flat;
+  w->far = (sbfi_far_vertices){.mesh = mesh};
   /* A skin whose mesh is a body as a whole, pinned by its weights, moves with that. */
   bool by_skin = mixes || (skin && find_body_of(w, mesh) == SBFI_NO_INDEX);
   if (!(by_skin ? share_by_skin(w, mesh, skin, mixes) : share_whole(w, mesh))) return false;
@@ -281,14 +286,7 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
         (unsigned)(w->report->flat - flat_before), mesh->name);
     sbfi_report(reporter, &finding);
   }
-  if (w->report->far > far_before) {
-    sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_FAR,
-        "%u vertices of render mesh \"%s\" lie farther than a cell outside the lattice that carries them, "
-        "the "
-        "farthest of all %.3g m",
-        (unsigned)(w->report->far - far_before), mesh->name, w->report->farthest);
-    sbfi_report(reporter, &finding);
-  }
+  sbfi_far_vertices_report(&w->far, w->asset, reporter);
   return true;
 }
 
@@ -302,7 +300,7 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
       .sections = sections,
       .report = report,
       .scratch = scratch};
-  *report = (sbfi_embed_report){0, 0, 0, 0};
+  *report = (sbfi_embed_report){0, 0, 0};
   if (target_count == 0) return true;
   sbfi_array_init(&w.shares, &scratch->allocator, sizeof(share));
   w.carriers = sbfi_arena_allocate(scratch, target_count, sizeof *w.carriers);

@@ -17,7 +17,6 @@ typedef struct sbfi_embed_target {
 typedef struct sbfi_embed_report {
   uint32_t vertices; /* of render meshes that bodies carry at their finest level */
   uint32_t flat;     /* of them, those that are carried beside their place */
-  uint32_t far;      /* those farther than a cell outside of a lattice that was made with one */
   double farthest;   /* m, greatest distance outside a lattice */
 } sbfi_embed_report;
 

@@ -131,7 +131,7 @@ typedef enum sbf_code {
   SBF_CODE_LATTICE_THIN = 590, /* Parts of a body are thinner than two elements of its lattice, which is thicker there than the body: give a smaller cell, or more elements. */
   SBF_CODE_LATTICE_EMPTY = 591, /* A body encloses nothing that a lattice of that cell could fill: it gets springs over its surface. */
   SBF_CODE_LATTICE_TOO_FINE = 592, /* The cell is too small for a body of that size: give a larger one. */
-  SBF_CODE_EMBEDDING_FAR = 593, /* Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell. */
+  SBF_CODE_EMBEDDING_FAR = 593, /* Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell, or take those in no polygon out of the source. */
   SBF_CODE_INTERIOR_TOO_MANY = 594, /* A body has too many points for springs between all of them: give another method. */
   SBF_CODE_LEVEL_ERROR_MISSED = 598, /* No lattice coarser than the reference comes within the error asked for: the body got one as fine as that. */
   SBF_CODE_BODY_NO_MASS = 601, /* A body that moves has no mass: give it a density, an area density or a mass. */
