@@ -7,6 +7,7 @@
 static const float LEAN_HZ = 1.6f, CROUCH_HZ = 3; /* of critically damped followers */
 static const float MOST_YAW = 0.8f;               /* rad: hips and chest turn less than so */
 static const float LOWEST = 0.3f;  /* of a leg's reach: no hip comes nearer to the ground than so */
+static const float EASY = 0.95f;   /* share of it that it comes down for in a stride */
 static const float SPARE = 0.985f; /* share of the uneased reach that the body comes down for ahead of need */
 
 static sbf_quat yaw_rotation(float yaw) {
@@ -44,7 +45,18 @@ static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
   return run > 1e-6f ? sbri_atan2(b.y - a.y, run) : 0;
 }
 
-/* How far the body must come down for every leg to reach its foot with a share of its reach. */
+/* How far the body must come down for a leg to have its ankle at a place with a share of its reach. */
+static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, const sbr_transform *root, sbf_vec3 ankle, float share) {
+  const sbri_leg *l = &rig->legs[leg];
+  float reach = share * l->reach * (1 - l->soft_reach) * input->scale;
+  sbf_vec3 away = sbri_sub(sbri_hip_of(rig, state, input, leg, root), ankle);
+  float left = reach * reach - away.x * away.x - away.z * away.z;
+  float least = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
+  return away.y - sqrtf(left > least ? left : least);
+}
+
+/* The same for every leg and where its foot is. */
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float share) {
   float most = 0;
@@ -52,16 +64,36 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
     if (leg->lower < 0 || leg->carrier >= 0) continue;
-    float reach = share * (leg->upper_length + leg->lower_length) * (1 - leg->soft_reach) * input->scale;
-    sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
     sbf_vec3 ankle =
         sbri_ankle_over(leg, foot->ground, foot->normal, state->heading + foot->heading, input->scale);
     ankle.y += foot->lift + state->position.y;
-    sbf_vec3 away = sbri_sub(hip, ankle);
-    float left = reach * reach - away.x * away.x - away.z * away.z;
-    float least = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
-    float drop = away.y - sqrtf(left > least ? left : least);
-    if (drop > most) most = drop;
+    float drop = drop_for(rig, state, input, i, root, ankle, share);
+    most = drop > most ? drop : most;
+  }
+  return most;
+}
+
+/* The same for where every foot comes down and lifts off in a stride: the wider, the lower the body goes, and
+ * stays, so that it need not bob. */
+static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, const sbr_transform *root, const sbri_stride *stride) {
+  float most = 0;
+  for (uint32_t i = 0; stride->speed > 0 && i < rig->leg_count; i++) {
+    const sbri_leg *leg = &rig->legs[i];
+    const sbri_foot *foot = &state->feet[i];
+    if (leg->lower < 0 || leg->carrier >= 0) continue;
+    sbf_vec3 arm = sbri_home_arm(rig, state, input, i), v = sbri_home_velocity(rig, state, i, arm);
+    float speed = sbri_length(v), half = stride->half_m * speed / stride->speed;
+    sbf_vec3 way = sbri_normalize(v, sbri_vec3(0, 0, 0)), home = sbri_add(state->position, arm);
+    home.y = foot->ground.y + state->position.y;
+    sbf_vec3 ankle = sbri_ankle_over(leg, home, foot->normal, state->heading, input->scale);
+    float ahead = sbri_ahead(rig, state, input, i, way, half);
+    float touch = drop_for(rig, state, input, i, root, sbri_add_scaled(ankle, way, ahead), EASY);
+    float leave = drop_for(rig, state, input, i, root, sbri_add_scaled(ankle, way, ahead - 2 * half), EASY);
+    sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
+    float bound = (1 - SBRI_LOWERED) * (hip.y - ankle.y), drop = touch > leave ? touch : leave;
+    drop = drop < bound ? drop : bound;
+    most = drop > most ? drop : most;
   }
   return most;
 }
@@ -105,17 +137,36 @@ sbri_stance sbri_body_stance(
   return stance;
 }
 
+/* Leans on towards `lean`, no farther than the feet that stand allow. */
+static void sway_to(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 lean) {
+  sbri_lag x = state->sway_x, z = state->sway_z;
+  sbri_follower_step step = sbri_follower_step_of(LEAN_HZ, 1, 0, input->tick_s);
+  sbri_lag_tick(&x, lean.x, &step);
+  sbri_lag_tick(&z, lean.z, &step);
+  sbf_vec3 by = sbri_vec3(x.value - state->sway_x.value, 0, z.value - state->sway_z.value);
+  float size = sbri_length(by), share = 1;
+  sbf_vec3 way = sbri_normalize(by, sbri_vec3(0, 0, 0));
+  for (uint32_t i = 0; size > 0 && i < rig->leg_count; i++) {
+    if (!state->feet[i].planted) continue;
+    float left = sbri_way_left(rig, state, input, i, way) / size;
+    if (left < share) share = left > 0 ? left : 0;
+  }
+  state->sway_x = (sbri_lag){state->sway_x.value + share * by.x, share * x.rate};
+  state->sway_z = (sbri_lag){state->sway_z.value + share * by.z, share * z.rate};
+}
+
 void sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t lifting, bool settle) {
+    const sbri_stride *stride, uint32_t lifting, sbf_vec3 way) {
   if (!rig->leg_count) return;
   sbf_vec3 lean = {0, 0, 0};
-  if (lifting) lean = sbri_support_sway(rig, state, input, lifting);
-  sbri_follower_step step = sbri_follower_step_of(LEAN_HZ, 1, 0, input->tick_s);
-  sbri_lag_tick(&state->sway_x, lean.x, &step);
-  sbri_lag_tick(&state->sway_z, lean.z, &step);
+  if (lifting) lean = sbri_support_sway(rig, state, input, lifting, way);
+  sway_to(rig, state, input, lean);
   sbri_stance stance = stance_over(rig, state, input);
   float wanted = crouch(rig, state, input, &stance.root, SPARE);
-  step = sbri_follower_step_of(CROUCH_HZ, 1, 0, input->tick_s);
+  float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
+  wanted = steady > wanted ? steady : wanted;
+  sbri_follower_step step = sbri_follower_step_of(CROUCH_HZ, 1, 0, input->tick_s);
   sbri_lag_tick(&state->crouch, wanted, &step);
-  if (settle) state->crouch = (sbri_lag){wanted, 0}, state->sway_x = state->sway_z = (sbri_lag){0, 0};
+  if (!stride) state->crouch = (sbri_lag){wanted, 0}, state->sway_x = state->sway_z = (sbri_lag){0, 0};
 }

@@ -17,7 +17,8 @@ static const float TWISTED = 0.6f;         /* rad that a planted foot may be tur
 static const float NOTED = 0.4f;           /* sideways and twisted: less than this does not count */
 static const float STRAINED = 0.7f;        /* share of its roam that a foot may be from home */
 static const float JOINS = 0.4f;           /* phase of a step up to which others of its group join it */
-static const float WAIT_S = 0.7f;          /* for balance; then a foot steps all the same */
+static const float WAIT_S =
+    0.7f; /* for balance; then, sooner where the body waits too, a foot steps all the same */
 
 float sbri_wrap_angle(float angle) {
   while (angle > PI) angle -= 2 * PI;
@@ -54,8 +55,7 @@ float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b) {
 void sbri_foot_place(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
-  uint32_t steps = foot->steps_taken;
-  *foot = (sbri_foot){.planted = 1, .was_planted = 1, .steps_taken = steps};
+  *foot = (sbri_foot){.planted = 1, .was_planted = 1, .steps_taken = foot->steps_taken, .hip = foot->hip};
   foot->ground = sbri_ground_below(
       input, sbri_add(state->position, sbri_home_arm(rig, state, input, leg)), &foot->normal);
 }
@@ -107,6 +107,22 @@ typedef struct choice {
   uint32_t next;             /* bit of the foot to go next, lifted or not; 0: none */
 } choice;
 
+/* How far the body goes in a time. */
+static sbf_vec3 way_in(const sbri_gait_state *state, float time_s) {
+  return sbri_scale(sbri_body_velocity(state), state->pace * time_s);
+}
+
+/* Time until the feet in the air are down; that of a step, where none is. */
+static float time_in_air(const sbri_rig *rig, const sbri_gait_state *state, float step_s) {
+  float most = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    const sbri_foot *foot = &state->feet[i];
+    float left = foot->planted ? 0 : (1 - foot->phase) * foot->duration_s;
+    most = left > most ? left : most;
+  }
+  return most > 0 ? most : step_s;
+}
+
 /* The foot that should step now, or -1: the worst placed of those that want to and may. */
 static int32_t choose(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, choice *c, bool *unbalanced) {
@@ -127,8 +143,10 @@ static int32_t choose(
     uint32_t lifted = in_air | 1u << i;
     bool bears = c->stride.together && (state->standing_s == 0 || rig->has_pegs);
     if (!bears) {
-      float margin = sbri_support_margin(rig, state, input, lifted);
-      bears = margin >= sbri_support_needed(rig, input);
+      const sbf_vec3 none = {0, 0, 0};
+      sbf_vec3 way = way_in(state, c->stride.duration_s);
+      bears = sbri_support_margin(rig, state, input, lifted, none) >= sbri_support_needed(rig, input) &&
+              sbri_support_margin(rig, state, input, lifted, way) >= 0;
       if (!bears && !in_air && state->waiting_s > WAIT_S) bears = true;
       if (!bears) {
         *unbalanced = *unbalanced || !in_air;
@@ -180,7 +198,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     unbalanced = false;
     state->waiting_s = 0;
   }
-  state->waiting_s = unbalanced ? state->waiting_s + input->tick_s : 0;
+  state->waiting_s = unbalanced ? state->waiting_s + (3 - 2 * state->pace) * input->tick_s : 0;
   if (state->standing_s > 0) { /* the next one to go home, if any is not */
     int32_t worst = -1;
     for (uint32_t i = 0; i < rig->leg_count; i++)
@@ -192,6 +210,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   bool leans = !rig->has_pegs && (!c.stride.together || state->standing_s > 0);
   uint32_t lifting = leans ? (in_air ? in_air : c.next) : 0;
   if (leans && !in_air && state->standing_s == 0 && !c.next) lifting = 0;
-  sbri_body_tick(rig, state, input, lifting, false);
+  sbf_vec3 way = way_in(state, time_in_air(rig, state, c.stride.duration_s));
+  sbri_body_tick(rig, state, input, &c.stride, lifting, way);
   return count;
 }

@@ -7,6 +7,7 @@
 #include "math/trig.h"
 
 static const float EASE_S = 0.18f;  /* time over which wanted motion takes effect */
+static const float ACCELERATES = 5; /* 1/s^2, in reaches: no faster than so */
 static const float STILL = 0.004f;  /* m/s and rad/s, per metre of leg: below it the character stands */
 static const float HURRY_S = 0.12f; /* over which it takes up its pace again after waiting for a foot */
 
@@ -22,8 +23,6 @@ static void keep_stance(sbri_gait_state *state, const sbri_stance *stance) {
   state->root = stance->root;
   state->hips_yaw = stance->hips_yaw;
   state->chest_yaw = stance->chest_yaw;
-  sbri_sincos(state->hips_yaw, &state->hips_sine, &state->hips_cosine);
-  sbri_sincos(state->chest_yaw, &state->chest_sine, &state->chest_cosine);
 }
 
 void sbri_gait_place(
@@ -36,7 +35,7 @@ void sbri_gait_place(
   state->standing_s = 1;
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tail_bone_count;
-  state->pace = 1;
+  state->pace = state->limit = 1;
   state->since_lift_m = 1e6f; /* the first step waits for nothing */
   sbri_chain_bone *chain_bones = sbri_chain_bones(rig, state);
   for (uint32_t c = 0; c < rig->chain_count; c++)
@@ -48,9 +47,11 @@ void sbri_gait_place(
       frame->position = sbri_add(position, sbri_rotate(turn, sbri_scale(rest->position, input->scale)));
       frame->rotation = sbri_quat_multiply(turn, rest->rotation);
     }
+  for (uint32_t i = 0; i < rig->leg_count; i++)
+    state->feet[i].hip = sbri_scale(rig->rest[rig->legs[i].upper].position, input->scale);
   state->root = sbri_body_stance(rig, state, input).root;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
-  sbri_body_tick(rig, state, input, 0, true);
+  sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   sbri_stance stance = sbri_body_stance(rig, state, input);
   keep_stance(state, &stance);
 }
@@ -58,10 +59,14 @@ void sbri_gait_place(
 /* Eases the motion towards what is wanted and moves the body on, as fast as the feet allow. Returns the turn
  * made. */
 static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  float ease = 1 - sbri_exp(-input->tick_s / EASE_S);
-  state->forward += (input->forward - state->forward) * ease;
-  state->sideways += (input->sideways - state->sideways) * ease;
-  state->turn += (input->turn - state->turn) * ease;
+  float ease = 1 - sbri_exp(-input->tick_s / EASE_S), most = ACCELERATES * rig->reach * input->scale;
+  float ahead = (state->limit * input->forward - state->forward) * ease;
+  float aside = (state->limit * input->sideways - state->sideways) * ease;
+  float change = sqrtf(ahead * ahead + aside * aside), share = 1;
+  if (rig->leg_count && change > most * input->tick_s) share = most * input->tick_s / change;
+  state->forward += share * ahead;
+  state->sideways += share * aside;
+  state->turn += (state->limit * input->turn - state->turn) * ease;
   bool wanted = input->forward != 0 || input->sideways != 0 || input->turn != 0;
   float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
   if (!wanted && speed < STILL * input->scale && fabsf(state->turn) < STILL) {
@@ -139,7 +144,9 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
     sbri_foot *foot = &state->feet[i];
     foot->ground = sbri_sub(foot->ground, shift);
     foot->from = sbri_sub(foot->from, shift);
-    foot->to = sbri_sub(foot->to, shift);
+    foot->to = sbri_sub(foot->to, shift), foot->planned = sbri_sub(foot->planned, shift);
+    foot->x.at -= shift.x, foot->z.at -= shift.z;
+    foot->base.at -= shift.y;
   }
   sbri_chain_bone *bones = sbri_chain_bones(rig, state);
   for (uint32_t i = 0; i < rig->chain_bone_count; i++) {

@@ -5,6 +5,7 @@
 
 #include "chain/follower.h"
 #include "gait/gait.h"
+#include "gait/glide.h"
 
 typedef struct sbri_foot {
   sbf_vec3 ground; /* where the sole stands, or the place below it on the line of its step */
@@ -12,11 +13,14 @@ typedef struct sbri_foot {
   float heading;   /* the foot's own, rad, less the body's: kept as the body turns */
   float lift;      /* of the sole above `ground`, m */
   sbf_vec3 from, from_normal, to, to_normal; /* of the step under way */
-  float from_heading;
-  float phase; /* 0..1 of the step under way */
+  sbf_vec3 planned;                          /* `to` when it was last planned */
+  float phase;                               /* 0..1 of it */
   float duration_s;
-  float clearance;               /* greatest lift of the step under way, m */
-  float waits;                   /* share of its time in which it only rises, and again only comes down */
+  float clearance;                                    /* greatest lift, m */
+  float leaves, arrives;                              /* phases between which it moves over the ground */
+  float climbs, climbed;                              /* the same of the height between its places */
+  sbri_glide x, z, base, rise, tilt_x, tilt_z, twist; /* of `ground`, `lift`, `normal`, `heading` */
+  sbf_vec3 hip;                  /* where its leg begins, as last posed: from the root's place, in its axes */
   uint32_t planted, was_planted; /* 1 or 0: now, and a tick ago */
   uint32_t steps_taken;
 } sbri_foot;
@@ -35,6 +39,9 @@ typedef struct sbri_gait_state {
   float forward, sideways, turn; /* eased, m/s and rad/s */
   float pace;                    /* share of them that the feet allow, 0 to 1 */
   float standing_s;              /* since it stopped moving; 0 while it moves */
+  float limit;                   /* share of the wanted motion that its steps have time for, 0 to 1 */
+  float needed_s;                /* time that steps needed lately */
+  float half_m;                  /* half a stride */
   float since_lift_m;            /* travelled since a foot lifted off */
   float waiting_s;               /* for how long a foot has wanted to step and could not */
   uint32_t together;             /* 1: feet of a group go together; 0: as many as balance allows */
@@ -44,7 +51,6 @@ typedef struct sbri_gait_state {
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
   sbr_transform root;            /* of the last stance, and its turns */
   float hips_yaw, chest_yaw;
-  float hips_sine, hips_cosine, chest_sine, chest_cosine; /* of them */
   double distance_m;
   sbri_lag head_yaw;
   uint32_t foot_count, tail_bone_count;
@@ -108,14 +114,23 @@ float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b);
 
 /* ---- gait/stride.c: how far feet go, and how fast ---- */
 
+/* Share of the hips' height that a body keeps in its widest strides. */
+#define SBRI_LOWERED 0.9f
+
 /* What follows from the speed, for all feet of a tick. */
 typedef struct sbri_stride {
-  float speed;      /* of the fastest home over the ground, m/s */
-  float half_m;     /* a foot comes down so far ahead of its home, and lifts off so far behind */
-  float duration_s; /* of a step */
-  float spacing_m;  /* between two lift-offs */
-  bool together;    /* feet of a group go together */
+  float speed;       /* of the fastest home over the ground, m/s */
+  float half_m;      /* a foot comes down so far ahead of its home, and lifts off so far behind */
+  float duration_s;  /* of a step */
+  float spacing_m;   /* between two lift-offs */
+  float available_s; /* for a step, when feet of a group go together as wide as they can */
+  bool together;     /* feet of a group go together */
 } sbri_stride;
+
+/* How far a foot goes from its home, m. */
+typedef struct sbri_span {
+  float ahead, behind;
+} sbri_span;
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 
 /* A foot's home relative to the body's place, level. */
@@ -123,7 +138,7 @@ sbf_vec3 sbri_home_arm(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 /* Velocity of a foot's home over the ground. */
 sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm);
-/* Where a leg's upper bone begins when the body stands at `root`. */
+/* Where a leg's upper bone begins when the body stands at `root`, its spine as it was last posed. */
 sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, const sbr_transform *root);
 /* Velocity of the body, world axes. */
@@ -140,6 +155,10 @@ float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_ga
 /* How far a planted foot is from its home, in shares of how far it may be. */
 float sbri_strain(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
+/* How far a leg's hip may go along a level way (of unit length) before its foot, where it stands, is at the
+ * end of its reach. */
+float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 way);
 /* Share of the wanted motion that leaves every planted foot within its reach. */
 float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 
@@ -151,15 +170,23 @@ bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_
 
 /* ---- gait/support.c: balance ---- */
 
-/* Signed distance of the centre of mass from the edge of what feet stand on, those of `lifted` (bits) not
- * counted; positive inside. */
-float sbri_support_margin(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifted);
+/* Signed distance of the centre of mass, now and `way` further, from the edge of what feet stand on, those of
+ * `lifted` (bits) not counted; positive inside. */
+float sbri_support_margin(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t lifted, sbf_vec3 way);
 /* Where the body should lean so that the feet but those of `lifted` bear it, from `position`, level. */
-sbf_vec3 sbri_support_sway(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifted);
+sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t lifted, sbf_vec3 way);
 /* How far inside the centre must be before a foot lifts off, m. */
 float sbri_support_needed(const sbri_rig *rig, const sbri_gait_input *input);
+
+/* ---- gait/step_plan.c: a step before it goes ---- */
+
+/* How high the step goes, and when over the ground; what it has begun with stays. */
+void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
+/* About how long the leg's knee needs for the step as planned, `wanted_s` being what it is asked for. */
+float sbri_step_time(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float wanted_s);
 
 /* ---- gait/swing.c: the way of a foot through the air ---- */
 
@@ -186,9 +213,10 @@ typedef struct sbri_stance {
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
 } sbri_stance;
 sbri_stance sbri_body_stance(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
-/* Moves the followers that bear the body; `settle` puts them where they lead to. */
-void sbri_body_tick(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifting, bool settle);
+/* Moves the followers that bear the body: it leans over the feet but `lifting` (bits; 0: upright), while it
+ * goes `way` further. Without a stride it is put where they lead to. */
+void sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stride *stride, uint32_t lifting, sbf_vec3 way);
 
 /* ---- gait/pose.c ---- */
 

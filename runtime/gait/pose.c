@@ -127,8 +127,11 @@ static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sb
   }
   sbf_vec3 pole = pole_of(rig, leg, &stance->root, scale, pose);
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
-  sbri_two_bone_result solved = sbri_two_bone(
-      hip, ankle, pole, fallback, leg->upper_length * scale, leg->lower_length * scale, leg->soft_reach);
+  sbf_vec3 away = sbri_sub(ankle, hip);
+  float distance = sbri_length(away), eased = sbri_ease_reach(distance, leg->reach * scale, leg->soft_reach);
+  if (eased < distance) ankle = sbri_add_scaled(hip, away, eased / distance);
+  sbri_two_bone_result solved =
+      sbri_two_bone(hip, ankle, pole, fallback, leg->upper_length * scale, leg->lower_length * scale, 0);
 
   sbf_vec3 side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(solved.knee, hip));
   if (sbri_dot(side1, side1) < 1e-12f) side1 = sbri_cross(sbri_sub(solved.ankle, hip), sbri_sub(pole, hip));
@@ -159,6 +162,9 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   sbri_clips_pose(rig, state, input->scale, pose);
   pose_bones(rig, state, &stance, input->scale, pose);
   sbri_chains_pose(rig, state, input, &stance.root, advance, pose);
+  sbf_quat back = sbri_quat_conjugate(stance.root.rotation);
+  for (uint32_t i = 0; i < rig->leg_count; i++)
+    state->feet[i].hip = sbri_rotate(back, sbri_sub(pose[rig->legs[i].upper].position, stance.root.position));
   for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, pose);
   sbri_limbs_reach(rig, state, input, &stance.root, pose);
   sbri_followers_pose(rig, state, input, &stance.root, advance, pose);

@@ -6,19 +6,17 @@
  * still, steps get shorter in time. */
 #include "gait/gait_state.h"
 
-static const float USED_ROAM = 0.62f;  /* share of what a foot may roam that a stride uses */
-static const float USED = 0.7f;        /* of what lies ahead of home, or behind */
-static const float LOWERED = 0.9f;     /* share of the hip's height that the body keeps in a stride */
-static const float STRETCH = 0.97f;    /* of the uneased reach */
-static const float LEAST = 0.05f;      /* of a leg's length: a foot may always be so far off */
-static const float PEG = 0.25f;        /* the same of a leg of one bone */
-static const float SLACK = 1.15f;      /* time of a turn, in steps */
-static const float LEAN_S = 0.12f;     /* for the body to lean before a foot lifts off */
-static const float LEAN_TWO_S = 0.3f;  /* the same on two legs */
-static const float LONGEST = 1.35f;    /* share of the usual time of a step, at speed */
-static const float SHORTEST = 0.25f;   /* share of the usual time below which no step goes */
-static const float SLOWS_FROM = 0.82f; /* share of the roam from which on the body waits for its feet */
-static const uint32_t MANY_LEGS = 6;   /* that balance while half of them are in the air */
+static const float USED = 0.75f;      /* share of what a foot may roam that a stride uses */
+static const float STRETCH = 0.97f;   /* of the uneased reach */
+static const float LEAST = 0.05f;     /* of a leg's length: a foot may always be so far off */
+static const float PEG = 0.25f;       /* the same of a leg of one bone */
+static const float SLACK = 1.15f;     /* time of a turn, in steps */
+static const float LEAN_S = 0.12f;    /* for the body to lean before a foot lifts off */
+static const float LEAN_TWO_S = 0.3f; /* the same on two legs */
+static const float LONGEST = 1.35f;   /* share of the usual time of a step, at speed */
+static const float SHORTEST = 0.25f;  /* share of the usual time below which no step goes */
+static const float BRAKES = 25;       /* 1/s^2, in reaches: how hard the body brakes for a foot left behind */
+static const uint32_t MANY_LEGS = 6;  /* that balance while half of them are in the air */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
   sbf_vec3 v = sbri_headed(state, sbri_vec3(state->sideways, 0, state->forward));
@@ -63,74 +61,86 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
     sbf_vec3 own = sbri_scale(rig->rest_local[l->upper].position, input->scale);
     return sbri_add(bone->position, sbri_rotate(bone->rotation, own));
   }
-  /* Hips and chest turn about their own heads. */
-  sbf_vec3 hip = rig->rest[l->upper].position;
-  int32_t girdle = l->hind ? rig->gait->hips : rig->gait->chest;
-  if (girdle >= 0) {
-    sbf_vec3 pivot = rig->rest[girdle].position, arm = sbri_sub(hip, pivot);
-    float s = l->hind ? state->hips_sine : state->chest_sine;
-    float c = l->hind ? state->hips_cosine : state->chest_cosine;
-    hip = sbri_add(pivot, sbri_vec3(c * arm.x + s * arm.z, arm.y, c * arm.z - s * arm.x));
-  }
-  return sbri_add(root->position, sbri_rotate(root->rotation, sbri_scale(hip, input->scale)));
+  return sbri_add(root->position, sbri_rotate(root->rotation, state->feet[leg].hip));
+}
+
+/* The circle over the ground, about its hip, that a leg's foot may be in while it stands as high as it does:
+ * its radius; `off` receives where the ankle over `sole` is from its middle, level. */
+static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 sole, float heading, sbf_vec3 *off) {
+  const sbri_leg *l = &rig->legs[leg];
+  const sbri_foot *foot = &state->feet[leg];
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
+  sole.y = foot->ground.y + state->position.y;
+  sbf_vec3 from = sbri_sub(sbri_ankle_over(l, sole, foot->normal, heading, input->scale), hip);
+  float height = from.y < 0 ? SBRI_LOWERED * from.y : from.y; /* the body comes down for its feet */
+  float reach = STRETCH * (1 - l->soft_reach) * l->reach * input->scale;
+  *off = sbri_vec3(from.x, 0, from.z);
+  float over = reach * reach - height * height;
+  return over > 0 ? sqrtf(over) : 0;
+}
+
+/* How far a place in a circle is from its edge along a way (of unit length). */
+static float to_edge(sbf_vec3 off, float radius, sbf_vec3 way) {
+  float along = sbri_dot(off, way), square = along * along - sbri_dot(off, off) + radius * radius;
+  return (square > 0 ? sqrtf(square) : 0) - along;
 }
 
 float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg,
     sbf_vec3 way) {
   const sbri_leg *l = &rig->legs[leg];
-  const sbri_foot *foot = &state->feet[leg];
-  float scale = input->scale, length = l->upper_length + l->lower_length,
-        reach = length * (1 - l->soft_reach);
-  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
-  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
-  home.y = foot->ground.y + state->position.y;
-  sbf_vec3 off = sbri_sub(sbri_ankle_over(l, home, foot->normal, state->heading, scale), hip);
-  float height = off.y < 0 ? LOWERED * off.y : off.y; /* the body comes down for its feet */
-  reach *= STRETCH * scale;
-  off.y = 0;
-  float over = reach * reach - height * height, away = sbri_length(off),
-        least = away + LEAST * length * scale;
-  over = over > 0 ? sqrtf(over) : 0;
-  if (l->lower < 0) over = away + PEG * length * scale;
-  if (over < least) over = least;
-  float along = sbri_dot(off, way), square = along * along - away * away + over * over;
-  return (square > 0 ? sqrtf(square) : 0) - along; /* where the way leaves the circle about the hip */
+  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg)), off;
+  float radius = circle(rig, state, input, leg, home, state->heading, &off), away = sbri_length(off);
+  float length = (l->upper_length + l->lower_length) * input->scale;
+  if (l->lower < 0) radius = away + PEG * length;
+  if (radius < away + LEAST * length) radius = away + LEAST * length;
+  return to_edge(off, radius, way);
+}
+
+/* How far ahead of its home, and behind, a foot goes at most. */
+static sbri_span span_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 way) {
+  return (sbri_span){USED * sbri_roam(rig, state, input, leg, way),
+      USED * sbri_roam(rig, state, input, leg, sbri_scale(way, -1))};
 }
 
 float sbri_ahead(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 way, float half) {
-  float ahead = USED * sbri_roam(rig, state, input, leg, way);
-  float behind = USED * sbri_roam(rig, state, input, leg, sbri_scale(way, -1));
-  if (half > ahead) return ahead;
-  return half > behind ? 2 * half - behind : half;
+  sbri_span most = span_of(rig, state, input, leg, way);
+  float middle = 0.5f * (most.ahead - most.behind), widest = 0.5f * (most.ahead + most.behind);
+  if (half >= widest) return most.ahead;
+  float ahead = half + middle * sbri_smooth(2 * half / widest - 1); /* wide ones are about its hip */
+  if (ahead > most.ahead) return most.ahead;
+  return 2 * half - ahead > most.behind ? 2 * half - most.behind : ahead;
 }
 
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stride s = {0};
-  float roam = 0;
+  float most = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbf_vec3 v = sbri_home_velocity(rig, state, i, sbri_home_arm(rig, state, input, i));
     float speed = sbri_length(v);
     s.speed = speed > s.speed ? speed : s.speed;
-    sbf_vec3 way = sbri_normalize(v, sbri_headed(state, sbri_vec3(0, 0, 1)));
-    float own =
-        0.5f * (sbri_roam(rig, state, input, i, way) + sbri_roam(rig, state, input, i, sbri_scale(way, -1)));
-    roam = i == 0 || own < roam ? own : roam;
+    sbri_span own = span_of(rig, state, input, i, sbri_normalize(v, sbri_headed(state, sbri_vec3(0, 0, 1))));
+    float half = 0.5f * (own.ahead + own.behind);
+    most = i == 0 || half < most ? half : most;
   }
-  float usual = rig->gait->step_duration, most = USED_ROAM * roam;
+  float usual = rig->gait->step_duration, needed_s = state->needed_s > usual ? state->needed_s : usual;
   float groups = (float)(rig->group_count > 1 ? rig->group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
   float lean = rig->leg_count == 2 ? LEAN_TWO_S : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
-  float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * usual + lean);
-  s.together = turns > groups && one_by_one > (state->together ? 0.7f : 0.82f) * most;
-  if (rig->leg_count == 2) s.together = one_by_one > (state->together ? 0.7f : 0.82f) * most;
-  if (rig->has_pegs) s.together = true; /* they could not follow a body that leans */
+  float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * needed_s + lean);
+  s.together =
+      (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.7f : 0.82f) * most;
+  if (rig->has_pegs) s.together = true;               /* they could not follow a body that leans */
+  float each = 0.5f * s.speed * (groups - 1) * SLACK; /* half a stride for each second of a step */
+  s.available_s = each > 0 ? most / each : 1e6f;
   s.duration_s = usual;
   float needed = one_by_one;
   if (s.together || needed > most) { /* as much time as the reach allows: the quicker a step, the harder */
-    float each_s = 0.5f * s.speed * (groups - 1) * SLACK * usual;
-    s.duration_s = sbri_clamp(0.9f * most / each_s, SHORTEST, LONGEST) * usual;
-    needed = 0.5f * s.speed * (groups - 1) * SLACK * s.duration_s;
+    float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
+    s.duration_s = sbri_clamp(0.9f * s.available_s, SHORTEST * usual, longest);
+    needed = each * s.duration_s;
     if (needed > most) needed = most;
   }
   float trigger = rig->gait->step_trigger * input->scale;
@@ -150,21 +160,30 @@ float sbri_strain(
   return distance / (roam > 1e-6f ? roam : 1e-6f);
 }
 
+float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 way) {
+  const sbri_leg *l = &rig->legs[leg];
+  const sbri_foot *foot = &state->feet[leg];
+  sbf_vec3 off, back = sbri_scale(way, -1), unused;
+  float radius = circle(rig, state, input, leg, foot->ground, state->heading + foot->heading, &off);
+  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
+  (void)circle(rig, state, input, leg, home, state->heading, &unused);
+  float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(unused);
+  if (l->lower < 0) radius = rest + PEG * length;
+  if (radius < rest + LEAST * length) radius = rest + LEAST * length;
+  return to_edge(off, radius, back);
+}
+
 float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float least = 1;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    const sbri_foot *foot = &state->feet[i];
-    if (!foot->planted) continue;
-    sbf_vec3 arm = sbri_home_arm(rig, state, input, i), home = sbri_add(state->position, arm);
-    sbf_vec3 away = sbri_sub(home, foot->ground), v = sbri_home_velocity(rig, state, i, arm);
-    away.y = 0;
-    float distance = sbri_length(away), speed = sbri_length(v), strain = sbri_strain(rig, state, input, i);
-    if (strain < SLOWS_FROM || speed <= 0) continue;
-    float leaving = sbri_dot(away, v) / (distance * speed); /* 1: straight away from the foot */
-    if (leaving <= 0) continue;
-    float left = sbri_clamp((1 - strain) / (1 - SLOWS_FROM), 0, 1);
-    float pace = 1 - leaving * (1 - sbri_smooth(left));
-    least = pace < least ? pace : least;
+    if (!state->feet[i].planted) continue;
+    sbf_vec3 v = sbri_home_velocity(rig, state, i, sbri_home_arm(rig, state, input, i));
+    float speed = sbri_length(v);
+    if (speed <= 0) continue;
+    float left = sbri_way_left(rig, state, input, i, sbri_scale(v, 1 / speed));
+    float most = left > 0 ? sqrtf(2 * BRAKES * rig->reach * input->scale * left) : 0;
+    if (most < least * speed) least = most / speed;
   }
   return least;
 }

@@ -1,10 +1,9 @@
-/* Balance: the centre of mass over the polygon of the feet that stand. Soles count as boxes. */
+/* Balance: the centre of mass over the polygon of the feet that stand, now and as far as it will go. */
 #include "gait/gait_state.h"
 
-static const float NEEDED = 0.02f;   /* of the legs' reach: how far inside before a foot lifts off */
-static const float SOUGHT = 0.05f;   /* and where the body leans to */
-static const float SAFE_SOLE = 0.8f; /* share of a sole that counts */
-static const float MOST = 0.3f;      /* of the reach: farthest that it leans */
+static const float NEEDED = 0.02f; /* of the legs' reach: how far inside before a foot lifts off */
+static const float SOUGHT = 0.05f; /* and where the body leans to */
+static const float MOST = 0.3f;    /* of the reach: farthest that it leans */
 
 typedef struct polygon {
   sbf_vec3 at[4 * SBRI_MOST_LEGS + 1];
@@ -21,10 +20,9 @@ static polygon hull_of(const sbri_rig *rig, const sbri_gait_state *state, float 
   uint32_t n = 0;
   for (uint32_t i = 0; i < 4 * rig->leg_count; i++) {
     const sbri_foot *foot = &state->feet[i / 4];
-    const sbri_sole *sole = &rig->legs[i / 4].sole;
     if (!foot->planted || lifted & 1u << (i / 4)) continue;
-    sbf_vec3 corner = {i & 1 ? sole->left : sole->right, 0, i & 2 ? sole->toe : sole->heel};
-    corner = sbri_turned(sbri_scale(corner, SAFE_SOLE * scale), state->heading + foot->heading);
+    sbf_vec3 corner = sbri_scale(rig->legs[i / 4].sole.corners[i % 4], scale);
+    corner = sbri_turned(corner, state->heading + foot->heading);
     sbf_vec3 p = sbri_add(foot->ground, corner);
     uint32_t k = n++;
     for (; k > 0 && (points[k - 1].x > p.x || (points[k - 1].x == p.x && points[k - 1].z > p.z)); k--)
@@ -79,25 +77,35 @@ float sbri_support_needed(const sbri_rig *rig, const sbri_gait_input *input) {
   return NEEDED * rig->reach * input->scale;
 }
 
-float sbri_support_margin(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifted) {
+/* The worse of the margins where the centre is and where it will be, `way` further; with it the way to more.
+ */
+static float least_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 way, sbf_vec3 *inwards) {
+  sbf_vec3 then;
+  float now = margin_of(hull, at, inwards), later = margin_of(hull, sbri_add(at, way), &then);
+  if (later < now) *inwards = then;
+  return later < now ? later : now;
+}
+
+float sbri_support_margin(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t lifted, sbf_vec3 way) {
   polygon hull = hull_of(rig, state, input->scale, lifted);
   sbf_vec3 unused;
   if (hull.count == 0) return -1e30f;
-  return margin_of(&hull, center_at(state, state->sway_x.value, state->sway_z.value), &unused);
+  return least_margin(&hull, center_at(state, state->sway_x.value, state->sway_z.value), way, &unused);
 }
 
-sbf_vec3 sbri_support_sway(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t lifted) {
+sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t lifted, sbf_vec3 way) {
   polygon hull = hull_of(rig, state, input->scale, lifted);
   sbf_vec3 sway = {0, 0, 0}, middle = {0, 0, 0};
   if (hull.count == 0) return sway;
   for (uint32_t i = 0; i < hull.count; i++)
     middle = sbri_add_scaled(middle, hull.at[i], 1 / (float)hull.count);
+  middle = sbri_add_scaled(middle, way, -0.5f);
   float size = rig->reach * input->scale, sought = SOUGHT * size;
   for (int pass = 0; pass < 6; pass++) {
     sbf_vec3 inwards, at = center_at(state, sway.x, sway.z);
-    float missing = sought - margin_of(&hull, at, &inwards);
+    float missing = sought - least_margin(&hull, at, way, &inwards);
     if (missing <= 1e-5f * size) break;
     sbf_vec3 to_middle = sbri_vec3(middle.x - at.x, 0, middle.z - at.z);
     float away = sbri_length(to_middle); /* a small polygon has no place so far inside */

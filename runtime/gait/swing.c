@@ -1,36 +1,16 @@
-/* The way of a foot through the air: to a place ahead of its home, over what lies between. */
-#include "collide/ground.h"
+/* The way of a foot through the air: to a place ahead of its home. */
 #include "gait/gait_state.h"
 
 static const float SETTLED_PHASE = 0.75f; /* from here on the target stands */
-static const float FOLLOW = 0.3f;         /* share by which the target is taken over in a tick */
-static const float CLEAR = 0.35f;         /* of the usual lift: kept above what lies between */
-static const float NOTICED = 0.05f;       /* of the usual lift: lower humps do not count */
-static const float MOST_OVER = 2.5f;      /* of a hump's height: how far a step over it goes up at most */
-static const float WAITS = 0.16f; /* of a step's time, in which a foot beside an obstacle only rises */
-static const float LEAD = 0.6f;   /* of a step's time, in which it goes up to a higher place */
-enum { LOOKS = 10 };
+static const float SET_PHASE = 0.3f;      /* from here on its height does */
+static const float FOLLOW = 0.3f;         /* share by which the target is taken over in a tick, at first */
+static const float SPARE_TIME = 1.15f;    /* of what a step needs: what it should have */
+static const float SLOWEST = 0.1f;        /* share of the wanted motion that is always tried */
+static const float REPLANNED = 0.02f;     /* of the reach: a target so far off makes a new plan */
 
 float sbri_smooth(float t) {
   t = sbri_clamp(t, 0, 1);
   return t * t * t * (10 + t * (6 * t - 15));
-}
-
-/* Rises to 1 in the middle and back; flat at both ends, its acceleration too. */
-static float bump(float t) {
-  float p = 4 * t * (1 - t);
-  return p * p * p;
-}
-
-/* Share of the height between both places that is made at phase t: early upwards, late downwards. */
-static float climb(float rise, float t) {
-  return rise > 0 ? sbri_smooth(t / LEAD) : sbri_smooth((t - (1 - LEAD)) / LEAD);
-}
-
-/* Share of the way over the ground at phase t. A foot that has to go high first rises, and comes down last.
- */
-static float travel(const sbri_foot *foot, float t) {
-  return sbri_smooth((t - foot->waits) / (1 - 2 * foot->waits));
 }
 
 /* Ahead of where its home will be when it comes down. */
@@ -54,39 +34,6 @@ static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, 
       home, way, sbri_ahead(rig, state, input, leg, way, stride->half_m * speed / stride->speed));
 }
 
-/* Slope of the ground along a level way, from its normal. */
-static float slope_along(sbf_vec3 normal, sbf_vec3 way) {
-  return normal.y > 0.1f ? -(normal.x * way.x + normal.z * way.z) / normal.y : 0;
-}
-
-/* How high the step must go so that toe and heel clear the ground on the way. */
-static float clearance_of(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
-  const sbri_foot *foot = &state->feet[leg];
-  const sbri_sole *sole = &rig->legs[leg].sole;
-  float usual = rig->gait->step_height * input->scale, most = usual, rise = foot->to.y - foot->from.y;
-  double level;
-  if (sbri_ground_is_flat(input->ground, &level)) return usual;
-  sbf_vec3 way = sbri_sub(foot->to, foot->from);
-  way.y = 0;
-  way = sbri_normalize(way, sbri_vec3(0, 0, 0));
-  float half = (sole->toe > sole->left ? sole->toe : sole->left) * input->scale, highest = 0;
-  float from_slope = slope_along(foot->from_normal, way), to_slope = slope_along(foot->to_normal, way);
-  for (int k = 1; k < LOOKS; k++) {
-    float t = (float)k / LOOKS, share = travel(foot, t), over = foot->from.y + climb(rise, t) * rise;
-    float tilt = half * (from_slope + share * (to_slope - from_slope));
-    sbf_vec3 at = sbri_lerp(foot->from, foot->to, share);
-    float fore = sbri_ground_below(input, sbri_add_scaled(at, way, half), NULL).y - over - tilt;
-    float hind = sbri_ground_below(input, sbri_add_scaled(at, way, -half), NULL).y - over + tilt;
-    float hump = fore > hind ? fore : hind;
-    if (hump <= NOTICED * usual) continue;
-    highest = hump > highest ? hump : highest;
-    if (hump / bump(t) + CLEAR * usual > most) most = hump / bump(t) + CLEAR * usual;
-  }
-  float bound = usual + MOST_OVER * highest;
-  return most < bound ? most : bound;
-}
-
 static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg, float share) {
   sbri_foot *foot = &state->feet[leg];
@@ -98,6 +45,21 @@ static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_inp
   foot->to_normal = sbri_normalize(sbri_lerp(foot->to_normal, normal, share), normal);
 }
 
+static void plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+  state->feet[leg].planned = state->feet[leg].to;
+  sbri_step_plan(rig, state, input, leg);
+}
+
+/* Steps that take longer than wanted make the next ones slower, and the body where its legs have no more time
+ * to give: up stairs it walks slower than on level ground. */
+static void learn(sbri_gait_state *state, const sbri_stride *stride, float needed_s, uint32_t leg_count) {
+  float share = 2 / (float)(leg_count > 2 ? leg_count : 2);
+  state->needed_s += (needed_s > state->needed_s ? 1 : share) * (needed_s - state->needed_s);
+  float faster = sbri_clamp(stride->available_s / (SPARE_TIME * needed_s), 0.5f, 1.5f);
+  float learns = faster < 1 ? 1 : 0.5f * share;
+  state->limit = sbri_clamp(state->limit * (1 + learns * (faster - 1)), SLOWEST, 1);
+}
+
 void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
@@ -106,12 +68,19 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->duration_s = stride->duration_s;
   foot->from = foot->ground;
   foot->from_normal = foot->normal;
-  foot->from_heading = foot->heading;
-  foot->waits = 0;
   aim(rig, state, input, stride, leg, 1);
-  foot->clearance = clearance_of(rig, state, input, leg);
-  float usual = rig->gait->step_height * input->scale;
-  foot->waits = WAITS * sbri_clamp(foot->clearance / usual - 1, 0, 1);
+  plan(rig, state, input, leg);
+  float needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
+  learn(state, stride, needed, rig->leg_count);
+  if (needed > foot->duration_s) { /* it comes down later, so farther on */
+    foot->duration_s = needed;
+    aim(rig, state, input, stride, leg, 1);
+    plan(rig, state, input, leg);
+  }
+  foot->x = sbri_glide_at(foot->ground.x), foot->z = sbri_glide_at(foot->ground.z);
+  foot->base = sbri_glide_at(foot->ground.y), foot->rise = sbri_glide_at(0);
+  foot->tilt_x = sbri_glide_at(foot->normal.x), foot->tilt_z = sbri_glide_at(foot->normal.z);
+  foot->twist = sbri_glide_at(foot->heading);
 }
 
 static void put_down(sbri_foot *foot) {
@@ -124,14 +93,41 @@ static void put_down(sbri_foot *foot) {
   foot->steps_taken++;
 }
 
+/* Of a tick that ends at phase `now`, the part after `begins`: moves `g` so that it arrives at phase `ends`.
+ */
+static void glide(
+    sbri_glide *g, float target, const sbri_foot *foot, float tick_s, float begins, float ends) {
+  float since = (foot->phase - begins) * foot->duration_s, step = since < tick_s ? since : tick_s;
+  if (step > 0) sbri_glide_tick(g, target, (ends - foot->phase) * foot->duration_s + step, step);
+}
+
+/* Moves the foot along the plan to its phase. */
+static void move(sbri_foot *foot, float tick_s) {
+  glide(&foot->x, foot->to.x, foot, tick_s, foot->leaves, foot->arrives);
+  glide(&foot->z, foot->to.z, foot, tick_s, foot->leaves, foot->arrives);
+  glide(&foot->base, foot->to.y, foot, tick_s, foot->climbs, foot->climbed);
+  float past = (foot->phase - 0.5f) * foot->duration_s; /* up to the middle, then down */
+  if (past < tick_s) glide(&foot->rise, foot->clearance, foot, tick_s, 0, 0.5f);
+  if (past > 0) glide(&foot->rise, 0, foot, tick_s, 0.5f, 1);
+  glide(&foot->tilt_x, foot->to_normal.x, foot, tick_s, 0, 1);
+  glide(&foot->tilt_z, foot->to_normal.z, foot, tick_s, 0, 1);
+  glide(&foot->twist, 0, foot, tick_s, 0, 1);
+  foot->ground = sbri_vec3(foot->x.at, foot->base.at, foot->z.at);
+  foot->lift = foot->rise.at;
+  float x = foot->tilt_x.at, z = foot->tilt_z.at, y = 1 - x * x - z * z;
+  foot->normal = sbri_normalize(sbri_vec3(x, y > 0 ? sqrtf(y) : 0, z), sbri_vec3(0, 1, 0));
+  foot->heading = foot->twist.at;
+}
+
 bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   foot->phase += input->tick_s / foot->duration_s;
   if (foot->phase < SETTLED_PHASE) {
-    aim(rig, state, input, stride, leg, FOLLOW);
-    float needed = clearance_of(rig, state, input, leg);
-    foot->clearance += 0.3f * (needed - foot->clearance);
+    float left = 1 - foot->phase / SETTLED_PHASE;
+    aim(rig, state, input, stride, leg, FOLLOW * left);
+    float off = sbri_length(sbri_sub(foot->to, foot->planned));
+    if (foot->phase < SET_PHASE && off > REPLANNED * rig->reach * input->scale) plan(rig, state, input, leg);
   } else if (foot->to_normal.y != 0) {
     foot->to = sbri_ground_below(input, foot->to, &foot->to_normal);
   }
@@ -139,11 +135,6 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     put_down(foot);
     return true;
   }
-  float t = foot->phase, share = travel(foot, t), rise = foot->to.y - foot->from.y;
-  foot->ground = sbri_lerp(foot->from, foot->to, share);
-  foot->ground.y = foot->from.y + climb(rise, t) * rise;
-  foot->normal = sbri_normalize(sbri_lerp(foot->from_normal, foot->to_normal, share), sbri_vec3(0, 1, 0));
-  foot->heading = foot->from_heading * (1 - share);
-  foot->lift = foot->clearance * bump(t);
+  move(foot, input->tick_s);
   return false;
 }

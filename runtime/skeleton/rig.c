@@ -75,6 +75,7 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
   leg->upper_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
   leg->lower_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(ankle, knee), side));
+  leg->reach = sbri_rig_leg_reach(rig, leg);
   leg->hind = rig->gait->chest < 0 || !sbri_rig_is_below(rig, upper, rig->gait->chest);
   return leg->upper_length > 0 && (peg || leg->lower_length > 0);
 }

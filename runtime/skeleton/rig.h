@@ -11,6 +11,7 @@
 /* What a foot stands on, from its middle: left (+x), right, toe (+z), heel; m. */
 typedef struct sbri_sole {
   float left, right, toe, heel;
+  sbf_vec3 corners[4]; /* its outermost points towards right heel, left heel, right toe, left toe; y 0 */
 } sbri_sole;
 
 /* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. Or two, a peg: the
@@ -21,6 +22,8 @@ typedef struct sbri_leg {
   int32_t pole_bone;          /* the pole moves with it; -1: with the root */
   sbf_vec3 home; /* middle of the sole at rest, asset space, y that of the ankle above the ground */
   float upper_length, lower_length;
+  float
+      reach; /* farthest that the ankle may be from the hip, as far as the knee's limits let it stretch, m */
   uint32_t group;
   bool hind; /* hangs on the hips; else on the chest */
   float copy_rotation, soft_reach;
@@ -82,7 +85,7 @@ typedef struct sbri_rig {
   uint32_t chain_count, chain_bone_count;
   float hind_z, fore_z; /* mean z of the homes of hind and fore legs, asset space */
   float half_width;     /* mean |x| of the homes */
-  float reach;          /* mean of the legs' reaches, m */
+  float reach;          /* mean of the legs' lengths, m */
   uint32_t group_count; /* of the legs */
   bool has_pegs;        /* some leg has no knee */
 } sbri_rig;
@@ -100,6 +103,8 @@ bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor);
 
 /* ---- skeleton/rig_limits.c: limits of the bones, from the joints of the bodies that move with them. ---- */
 void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits);
+/* How far a leg stretches before its knee is at its limit, m. */
+float sbri_rig_leg_reach(const sbri_rig *rig, const sbri_leg *leg);
 /* ---- skeleton/rig_mass.c: what each bone carries, by the volume of what is seen of it. ---- */
 void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses);
 

@@ -1,4 +1,5 @@
 /* Limits of bones against their parents, from the joints between the bodies that move with them. */
+#include "math/trig.h"
 #include "skeleton/rig.h"
 
 static const float ALL_ROUND = 3.2f; /* beyond half a turn: no bound */
@@ -65,4 +66,36 @@ float sbri_rig_limit_excess(const sbri_rig *rig, const sbr_transform *pose) {
     worst = excess > worst ? excess : worst;
   }
   return worst;
+}
+
+/* Distance of hip and ankle at a bend of the knee: 0 is straight. */
+static float span_at(const sbri_leg *leg, float bend) {
+  float a = leg->upper_length, b = leg->lower_length, sine, cosine;
+  sbri_sincos(bend, &sine, &cosine);
+  return sqrtf(a * a + b * b + 2 * a * b * cosine);
+}
+
+float sbri_rig_leg_reach(const sbri_rig *rig, const sbri_leg *leg) {
+  float length = leg->upper_length + leg->lower_length;
+  if (leg->lower < 0 || !rig->limits[leg->lower].active) return length;
+  sbf_vec3 hip = rig->rest[leg->upper].position, knee = rig->rest[leg->lower].position;
+  sbf_vec3 ankle = rig->rest[leg->foot].position, thigh = sbri_sub(knee, hip), shin = sbri_sub(ankle, knee);
+  float cosine = sbri_dot(thigh, shin) / (leg->upper_length * leg->lower_length), bend = sbri_acos(cosine);
+  sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(knee, hip)); /* as the leg is solved */
+  if (sbri_length(side) < 1e-6f * length * length)
+    side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
+  side = sbri_normalize(side, sbri_vec3(1, 0, 0));
+  if (sbri_dot(sbri_rotate(sbri_quat_about(side, 0.1f), shin), thigh) > sbri_dot(shin, thigh))
+    side = sbri_scale(side, -1); /* turns about it bend the knee more */
+  sbf_quat back = sbri_quat_conjugate(rig->rest[leg->upper].rotation);
+  float low = 0, high = bend; /* stretched, as at rest */
+  for (int pass = 0; pass < 16; pass++) {
+    float middle = pass == 0 ? 0 : 0.5f * (low + high);
+    sbf_quat turned =
+        sbri_quat_multiply(sbri_quat_about(side, middle - bend), rig->rest[leg->lower].rotation);
+    bool free = sbri_joint_limit_excess(&rig->limits[leg->lower], sbri_quat_multiply(back, turned)) <= 1e-4f;
+    if (free && pass == 0) return length;
+    *(free ? &high : &low) = middle;
+  }
+  return span_at(leg, high);
 }

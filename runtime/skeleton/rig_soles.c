@@ -19,8 +19,16 @@ static void take(foot_points *f, sbf_vec3 p, int pass, sbf_vec3 home) {
   if (p.y > f->low + BAND * (f->high - f->low)) return;
   sbri_sole *s = &f->sole;
   float x = p.x - home.x, z = p.z - home.z;
-  if (!f->begun) *s = (sbri_sole){x, x, z, z};
+  if (!f->begun) {
+    *s = (sbri_sole){.left = x, .right = x, .toe = z, .heel = z};
+    for (int k = 0; k < 4; k++) s->corners[k] = sbri_vec3(x, 0, z);
+  }
   f->begun = true;
+  for (int k = 0; k < 4; k++) {
+    float across = k & 1 ? 1.0f : -1.0f, along = k & 2 ? 1.0f : -1.0f;
+    if (across * x + along * z > across * s->corners[k].x + along * s->corners[k].z)
+      s->corners[k] = sbri_vec3(x, 0, z);
+  }
   s->left = x > s->left ? x : s->left;
   s->right = x < s->right ? x : s->right;
   s->toe = z > s->toe ? z : s->toe;
@@ -65,10 +73,15 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
    * it: a small sole below the ankle will do. */
   float length = leg->upper_length + leg->lower_length, least = 0.02f * length;
   float x = 0.5f * (f.sole.left + f.sole.right), z = 0.5f * (f.sole.toe + f.sole.heel);
-  if (x * x + z * z > length * length) x = z = 0, f.sole = (sbri_sole){0, 0, 0, 0};
+  if (x * x + z * z > length * length) x = z = 0, f.sole = (sbri_sole){0};
   float wide = sbri_clamp(f.sole.left - x, least, 0.3f * length);
   float along = sbri_clamp(f.sole.toe - z, least, 0.3f * length);
-  leg->sole = (sbri_sole){wide, -wide, along, -along};
+  leg->sole = (sbri_sole){.left = wide, .right = -wide, .toe = along, .heel = -along};
+  for (int k = 0; k < 4; k++) {
+    sbf_vec3 corner = sbri_sub(f.sole.corners[k], sbri_vec3(x, 0, z));
+    leg->sole.corners[k] =
+        sbri_vec3(sbri_clamp(corner.x, -wide, wide), 0, sbri_clamp(corner.z, -along, along));
+  }
   leg->home.x += x, leg->home.z += z;
   leg->ankle = sbri_vec3(-x, leg->home.y, -z);
 }

@@ -1,0 +1,29 @@
+/* One number on its way to a target, at rest there at a given time, with the least jerk from whatever motion
+ * it is in (Flash and Hogan, The coordination of arm movements, 1985). Where the target stands, ticks run
+ * along one quintic; where it moves, speed and acceleration stay continuous. */
+#ifndef SBRI_GLIDE_H
+#define SBRI_GLIDE_H
+
+typedef struct sbri_glide {
+  float at, rate, bend; /* place, speed, acceleration */
+} sbri_glide;
+
+static inline sbri_glide sbri_glide_at(float at) {
+  return (sbri_glide){at, 0, 0};
+}
+
+/* `step_s` further, to arrive after `left_s`. */
+static inline void sbri_glide_tick(sbri_glide *g, float target, float left_s, float step_s) {
+  if (left_s <= step_s) {
+    *g = sbri_glide_at(target);
+    return;
+  }
+  float t = step_s / left_s, away = target - g->at, v = g->rate * left_s,
+        a = 0.5f * g->bend * left_s * left_s;
+  float c3 = 10 * away - 6 * v - 3 * a, c4 = -15 * away + 8 * v + 3 * a, c5 = 6 * away - 3 * v - a;
+  g->at += t * (v + t * (a + t * (c3 + t * (c4 + t * c5))));
+  g->rate = (v + t * (2 * a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))) / left_s;
+  g->bend = (2 * a + t * (6 * c3 + t * (12 * c4 + t * 20 * c5))) / (left_s * left_s);
+}
+
+#endif

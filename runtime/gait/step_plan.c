@@ -1,0 +1,166 @@
+/* How a foot goes through the air: how high, when it sets out over the ground and when it has arrived there,
+ * and how long all of it takes.
+ *
+ * It goes straight from place to place, lifted off that line to a top in the middle of its time and back, all
+ * along curves of least jerk. Where something stands in its way it makes the height between its places early
+ * upwards and late downwards, goes over the ground later or arrives there earlier, and is lifted higher. A
+ * step takes as long as its knee needs to follow. */
+#include "collide/ground.h"
+#include "gait/gait_state.h"
+#include "math/trig.h"
+
+static const float CLEAR = 0.35f;       /* of the usual lift: kept above what lies between */
+static const float MOST_OVER = 2.5f;    /* usual lifts over the highest thing on its way */
+static const float LATEST = 0.3f;       /* of a step's time, in which a foot beside an obstacle only rises */
+static const float SOONEST = 0.6f;      /* the same, in which it makes the height between its places */
+static const float KNEE_STEP = 4.0f;    /* degrees by which a knee's turn in a frame may change in the next */
+static const float FRAME_S = 1.0f / 60; /* such a frame */
+static const float LONGEST_STEP = 2.4f; /* of the time asked for */
+static const float SHORTEST = 0.5f;     /* the same: what is told of a step that needs less */
+static const float DEGREES = 57.2957795f;
+enum { LOOKS = 12, TRIES = 6, SAMPLES = 12 };
+
+/* Shares of the way over the ground and of the heights at phase t of a step. */
+static float travel(const sbri_foot *foot, float t) {
+  return sbri_smooth((t - foot->leaves) / (foot->arrives - foot->leaves));
+}
+
+static float height_at(const sbri_foot *foot, float t) {
+  float climb = sbri_smooth((t - foot->climbs) / (foot->climbed - foot->climbs));
+  float up = t < 0.5f ? 2 * t : 2 - 2 * t;
+  return foot->from.y + (foot->to.y - foot->from.y) * climb + foot->clearance * sbri_smooth(up);
+}
+
+/* Slope of the ground along a level way, from its normal. */
+static float slope_along(sbf_vec3 normal, sbf_vec3 way) {
+  return normal.y > 0.1f ? -(normal.x * way.x + normal.z * way.z) / normal.y : 0;
+}
+
+/* What lies below a foot on its way, looked at before it goes. */
+typedef struct profile {
+  float at[LOOKS + 1]; /* highest that the sole's middle has to be so that toe and heel are on the ground */
+  float highest;
+} profile;
+
+static profile look(
+    const sbri_rig *rig, const sbri_gait_input *input, const sbri_foot *foot, const sbri_sole *sole) {
+  profile p;
+  sbf_vec3 way = sbri_sub(foot->to, foot->from);
+  way.y = 0;
+  way = sbri_normalize(way, sbri_vec3(0, 0, 0));
+  float half = (sole->toe > sole->left ? sole->toe : sole->left) * input->scale;
+  float from_slope = slope_along(foot->from_normal, way), to_slope = slope_along(foot->to_normal, way);
+  (void)rig;
+  for (int k = 0; k <= LOOKS; k++) {
+    float share = (float)k / LOOKS, tilt = half * (from_slope + share * (to_slope - from_slope));
+    sbf_vec3 at = sbri_lerp(foot->from, foot->to, share);
+    float fore = sbri_ground_below(input, sbri_add_scaled(at, way, half), NULL).y - tilt;
+    float hind = sbri_ground_below(input, sbri_add_scaled(at, way, -half), NULL).y + tilt;
+    float middle = sbri_ground_below(input, at, NULL).y;
+    p.at[k] = fore > hind ? fore : hind;
+    if (middle > p.at[k]) p.at[k] = middle;
+    if (k == 0 || p.at[k] > p.highest) p.highest = p.at[k];
+  }
+  return p;
+}
+
+/* By how much the path lacks clearance at most, and at which phase. */
+static float lack(const sbri_foot *foot, const profile *p, float margin, float *when) {
+  float worst = 0;
+  for (int k = 1; k < 2 * LOOKS; k++) {
+    float t = (float)k / (2 * LOOKS), place = travel(foot, t) * LOOKS;
+    int i = (int)place < LOOKS ? (int)place : LOOKS - 1;
+    float near = p->at[i] > p->at[i + 1] ? p->at[i] : p->at[i + 1]; /* an edge may lie between the two */
+    float rises = 4 * t * (1 - t), low = near + margin * rises * rises - height_at(foot, t);
+    bool leaves = place < 1 && p->at[1] <= foot->from.y + margin;
+    bool comes = place > LOOKS - 1 && p->at[LOOKS - 1] <= foot->to.y + margin;
+    if (leaves || comes) low = 0;
+    if (low > worst) worst = low, *when = t;
+  }
+  return worst;
+}
+
+/* Makes the step's times such that more of it is clear; false where they are as they can be. */
+static bool make_room(sbri_foot *foot, float when) {
+  float rise = foot->to.y - foot->from.y;
+  if (rise > 0 && foot->climbed > SOONEST) {
+    foot->climbed -= 0.5f * (1 - SOONEST);
+  } else if (rise < 0 && foot->climbs < 1 - SOONEST) {
+    foot->climbs += 0.5f * (1 - SOONEST);
+  } else if (when < 0.5f && foot->leaves < LATEST) {
+    foot->leaves += 0.5f * LATEST;
+  } else if (when >= 0.5f && foot->arrives > 1 - LATEST) {
+    foot->arrives -= 0.5f * LATEST;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+  sbri_foot *foot = &state->feet[leg];
+  float usual = rig->gait->step_height * input->scale, when = 0;
+  bool fresh = foot->phase <= 0;
+  if (fresh) foot->leaves = foot->climbs = 0, foot->arrives = foot->climbed = 1;
+  foot->clearance = usual;
+  double level;
+  if (sbri_ground_is_flat(input->ground, &level)) return;
+  profile p = look(rig, input, foot, &rig->legs[leg].sole);
+  float higher = foot->from.y > foot->to.y ? foot->from.y : foot->to.y, most = usual;
+  if (p.highest > higher) most += p.highest - higher;
+  most *= MOST_OVER;
+  for (int tries = 0; tries < TRIES; tries++) {
+    float missing = lack(foot, &p, CLEAR * usual, &when);
+    if (missing <= 0) return;
+    if (fresh && make_room(foot, when)) continue;
+    float up = sbri_smooth(when < 0.5f ? 2 * when : 2 - 2 * when);
+    foot->clearance += missing / (up > 0.5f ? up : 0.5f);
+    if (foot->clearance > most) foot->clearance = most;
+  }
+}
+
+/* Greatest change of the knee's turn from one frame to the next on the planned step, in degrees, were it to
+ * take `duration_s` while the hip goes on as it does. */
+static float knee_step(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float duration_s) {
+  const sbri_leg *l = &rig->legs[leg];
+  const sbri_foot *foot = &state->feet[leg];
+  float upper = l->upper_length * input->scale, lower = l->lower_length * input->scale, most = 0;
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
+  sbf_vec3 drift = sbri_scale(
+      sbri_home_velocity(rig, state, leg, sbri_home_arm(rig, state, input, leg)), state->pace * duration_s);
+  sbf_vec3 over = sbri_sub(
+      sbri_ankle_over(l, foot->from, foot->from_normal, state->heading + foot->heading, input->scale),
+      foot->from);
+  float h = duration_s / SAMPLES, unit = DEGREES * FRAME_S * FRAME_S / (h * h), knee[3] = {0, 0, 0};
+  float rise = foot->to.y - foot->from.y, limit = (1 - 0.5f * l->soft_reach) * l->reach * input->scale;
+  for (int k = -2; k <= SAMPLES; k++) {
+    float t = (float)k / SAMPLES, in_air = t > 0 ? t : 0;
+    sbf_vec3 sole = sbri_lerp(foot->from, foot->to, travel(foot, in_air));
+    sole.y = height_at(foot, in_air) + state->position.y;
+    sbf_vec3 at = sbri_add_scaled(hip, drift, t);
+    at.y += 0.5f * rise * sbri_smooth(in_air); /* the body follows its feet */
+    float s = sbri_length(sbri_sub(sbri_add(sole, over), at));
+    s = s > limit ? limit : s;
+    knee[0] = knee[1], knee[1] = knee[2];
+    knee[2] = sbri_acos((upper * upper + lower * lower - s * s) / (2 * upper * lower));
+    if (k < 0) continue;
+    float bend = fabsf(knee[2] - 2 * knee[1] + knee[0]) * unit;
+    most = bend > most ? bend : most;
+  }
+  return most;
+}
+
+float sbri_step_time(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float wanted_s) {
+  float usual = rig->gait->step_duration;
+  if (rig->legs[leg].lower < 0) return wanted_s < usual ? wanted_s : usual; /* it has no knee */
+  float duration = wanted_s;
+  for (int pass = 0; pass < 3; pass++) {
+    float step = knee_step(rig, state, input, leg, duration);
+    if (pass > 0 && step <= KNEE_STEP) break;
+    duration *= sqrtf(step / KNEE_STEP);
+    if (duration < wanted_s) break;
+  }
+  return sbri_clamp(duration, SHORTEST * wanted_s, LONGEST_STEP * wanted_s);
+}
