@@ -1,0 +1,25 @@
+"""Soft-bodied characters in one file, from Blender and back."""
+
+bl_info = {
+    "name": "Soft body format",
+    "author": "The sbfmt authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "File > Export, File > Import, Properties > Object, Bone, Scene",
+    "description": "Soft-bodied characters in one file: mesh, rig, springs, pins, limits, gait",
+    "category": "Import-Export",
+}
+
+from .operators import export  # noqa: E402
+
+PARTS = (export,)
+
+
+def register():
+    for part in PARTS:
+        part.register()
+
+
+def unregister():
+    for part in reversed(PARTS):
+        part.unregister()

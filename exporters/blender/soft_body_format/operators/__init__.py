@@ -1,0 +1,1 @@
+"""What a menu or a button starts."""

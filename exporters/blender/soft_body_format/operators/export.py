@@ -1,0 +1,78 @@
+"""File > Export > Soft body format."""
+
+import os
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ..findings import Findings
+from ..finishing import finish
+from ..to_document import Options, SceneWriter
+
+
+class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
+    """Write the character to one file: meshes, rig, soft bodies, pins, limits and gait"""
+
+    bl_idname = "export_scene.soft_body_format"
+    bl_label = "Export soft body format"
+    bl_options = {"PRESET"}
+
+    filename_ext = ".sbf"
+    check_extension = False
+    filter_glob: StringProperty(default="*.sbf;*.sbfz", options={"HIDDEN"})
+    selected_only: BoolProperty(name="Selected Objects Only", description="Leave out what is not selected", default=False)
+    collection: StringProperty(name="Collection", description="Only the objects of this collection; empty: all", default="")
+    apply_modifiers: BoolProperty(
+        name="Apply Modifiers", default=True,
+        description="Export meshes as modifiers make them; armatures and simulations are left out in any case")
+    textures: EnumProperty(
+        name="Textures", default="COPY",
+        items=(("COPY", "Copy", "Copy image files into a folder `textures` beside the file"),
+               ("EMBED", "Embed", "Put the images into the file")))
+    build: BoolProperty(
+        name="Build", default=True,
+        description="Make sections, springs, lattices and embeddings too, so that the file is ready to run")
+
+    def check(self, _context):
+        path = bpy.path.ensure_ext(os.path.splitext(self.filepath)[0], ".sbfz" if self.filepath.endswith(".sbfz") else ".sbf")
+        changed, self.filepath = path != self.filepath, path
+        return changed
+
+    def draw(self, _context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "selected_only")
+        layout.prop_search(self, "collection", bpy.data, "collections")
+        layout.prop(self, "apply_modifiers")
+        layout.prop(self, "textures")
+        layout.prop(self, "build")
+
+    def execute(self, context):
+        findings = Findings()
+        if self.collection and self.collection not in bpy.data.collections:
+            self.report({"ERROR"}, f"there is no collection {self.collection}; choose one of the scene's, or none")
+            return {"CANCELLED"}
+        options = Options(self.selected_only, self.collection, self.apply_modifiers, self.textures,
+                          os.path.dirname(os.path.abspath(self.filepath)))
+        asset = SceneWriter(context, options, findings).write()
+        written = not findings.errors and finish(asset, self.filepath, self.build, findings)
+        findings.show(self)
+        if not written:
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{os.path.basename(self.filepath)} is written")
+        return {"FINISHED"}
+
+
+def menu(self, _context):
+    self.layout.operator(EXPORT_SCENE_OT_soft_body_format.bl_idname, text="Soft body format (.sbf, .sbfz)")
+
+
+def register():
+    bpy.utils.register_class(EXPORT_SCENE_OT_soft_body_format)
+    bpy.types.TOPBAR_MT_file_export.append(menu)
+
+
+def unregister():
+    bpy.types.TOPBAR_MT_file_export.remove(menu)
+    bpy.utils.unregister_class(EXPORT_SCENE_OT_soft_body_format)

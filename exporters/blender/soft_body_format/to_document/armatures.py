@@ -1,0 +1,48 @@
+"""Bones of an armature: rest pose, roll, inherit flags."""
+
+
+class Skeleton:
+    """The bones of all chosen armatures: ids, numbers and rest frames, by armature object and bone name."""
+
+    def __init__(self):
+        self.numbers, self.ids = {}, {}
+
+    def number(self, armature, bone_name):
+        return self.numbers.get((armature.name, bone_name))
+
+    def id(self, armature, bone_name):
+        return self.ids.get((armature.name, bone_name))
+
+
+def parents_first(bones):
+    """Blender keeps them so, except after some edits."""
+    order = []
+
+    def visit(bone):
+        order.append(bone)
+        for child in bone.children:
+            visit(child)
+
+    for bone in bones:
+        if bone.parent is None:
+            visit(bone)
+    return order
+
+
+def inherits_scale(bone):
+    return bone.inherit_scale not in ("NONE", "NONE_LEGACY")
+
+
+def write_bones(asset, armature, space, identifiers, skeleton):
+    """The rest pose in world space, whatever the pose on the screen; bones keep their roll."""
+    world = armature.matrix_world
+    scale = space.unit_m * world.median_scale
+    for bone in parents_first(armature.data.bones):
+        key = (armature.name, bone.name)
+        skeleton.ids[key] = identifiers.of("bone", key, bone.name)
+        skeleton.numbers[key] = len(asset.bones)
+        frame = world @ bone.matrix_local
+        asset.add("bones", id=skeleton.ids[key], name=bone.name, head=space.point(frame.translation),
+                  rotation=space.rotation(frame.to_quaternion()), length=bone.length * scale,
+                  parent=skeleton.id(armature, bone.parent.name) if bone.parent else None,
+                  inherit_rotation=bone.use_inherit_rotation, inherit_scale=inherits_scale(bone))

@@ -1,0 +1,139 @@
+"""A Blender scene as the format's source parts."""
+
+import os
+from dataclasses import dataclass
+
+import bpy
+
+from ..sbfmt.document import Record
+from ..space import Space
+from .armatures import Skeleton, write_bones
+from .identifiers import Identifiers
+from .materials import Materials
+from .meshes import Geometry, fill_normals, fill_polygons, fill_shape_keys, fill_skin, fill_uv_sets
+from .rest import at_rest, mesh_of
+from .roles import RENDER, SECTION, SOFT, armature_of, holding_bone, role_of
+
+
+@dataclass
+class Options:
+    """What of a scene is exported, and how."""
+
+    selected_only: bool = False
+    collection: str = ""          # name; empty: all
+    apply_modifiers: bool = True
+    textures: str = "COPY"        # or EMBED
+    out_folder: str = ""          # where copied textures go: beside the file
+
+
+class SceneWriter:
+    """One export: the document as it grows, and what its parts share. Every writer module takes this."""
+
+    def __init__(self, context, options, findings):
+        self.context, self.options, self.findings = context, options, findings
+        self.scene = context.scene
+        self.space = Space.of_scene(context.scene)
+        self.asset, self.identifiers, self.skeleton = Record("asset"), Identifiers(), Skeleton()
+        self.materials = Materials(self.asset, self.identifiers, options.textures, options.out_folder, findings)
+        self.objects = self.chosen()
+        # Asked before modifiers are turned off for the rest pose.
+        self.roles = {one.name: role_of(one) for one in self.of_type("MESH")}
+        self.armatures = {one.name: armature_of(one) for one in self.of_type("MESH")}
+        self.depsgraph = None
+
+    def chosen(self):
+        """Objects of the view layer that are to go out, by name: the order of Blender's lists changes between sessions."""
+        if self.options.collection:
+            found = bpy.data.collections[self.options.collection].all_objects
+        else:
+            found = self.context.view_layer.objects
+        kept = [one for one in found if one.name in self.context.view_layer.objects and not one.hide_render and
+                (one.select_get() or not self.options.selected_only)]
+        return sorted(kept, key=lambda one: one.name)
+
+    def of_type(self, kind):
+        return [one for one in self.objects if one.type == kind]
+
+    def write(self):
+        info = self.asset.info
+        info.title = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or self.scene.name
+        info.tool = f"Soft body format for Blender {bpy.app.version_string}"
+        if bpy.data.filepath:
+            info.add("sources", path=os.path.basename(bpy.data.filepath))
+        for source in self.of_type("MESH"):
+            if source.mode == "EDIT":
+                source.update_from_editmode()
+        with at_rest(self.objects, self.context.view_layer):
+            self.depsgraph = self.context.evaluated_depsgraph_get()
+            for armature in self.of_type("ARMATURE"):
+                write_bones(self.asset, armature, self.space, self.identifiers, self.skeleton)
+            for source in self.of_type("MESH"):
+                if self.roles[source.name] in (RENDER, SECTION, SOFT):
+                    self.write_mesh(source, self.roles[source.name])
+        if not self.asset.render_meshes:
+            self.findings.error("nothing to export: no visible mesh is chosen; select one, or turn off Selected Objects Only")
+        return self.asset
+
+    def write_mesh(self, source, role):
+        with mesh_of(source, self.depsgraph, self.options.apply_modifiers) as mesh:
+            if not mesh.polygons:
+                self.findings.warning("has no faces, so nothing of it is seen or simulated; it is left out",
+                                      object_name=source.name)
+                return
+            geometry = Geometry(source, mesh, self.space)
+            record = self.write_render_mesh(source, mesh, geometry, role)
+            if role in (SECTION, SOFT):
+                self.write_body(source, geometry)
+
+    def write_render_mesh(self, source, mesh, geometry, role):
+        record = self.asset.add("render_meshes", id=self.identifiers.of("mesh", source.name, source.name), name=source.name)
+        fill_polygons(record.mesh, geometry, "rendering")
+        fill_normals(record, geometry, source, self.space)
+        fill_uv_sets(record, geometry)
+        self.fill_materials(record, source, geometry)
+        fill_shape_keys(record, source, geometry, self.space, self.findings)
+        armature = self.armatures[source.name]
+        if role == RENDER and armature is not None:
+            fill_skin(record, source, mesh, self.bones_of_groups(source, armature), self.findings)
+        held = self.holder(source)
+        if held is not None and role == RENDER and record.skin is None:
+            record.bone = held
+        return record
+
+    def fill_materials(self, record, source, geometry):
+        slots = [slot.material for slot in source.material_slots]
+        if not any(slots):
+            return
+        used = sorted(set(geometry.polygon_materials.tolist()))
+        places = {}
+        for index in used:
+            material = slots[index] if index < len(slots) else None
+            if material is None:
+                self.findings.warning(f"faces of material slot {index + 1} have no material; they take the first one's",
+                                      object_name=source.name)
+                continue
+            places[index] = len(record.material_slots)
+            record.add("material_slots", material=self.materials.id(material))
+        numbers = [places.get(index, 0) for index in geometry.polygon_materials.tolist()]
+        if any(numbers):
+            record.polygon_materials = numbers
+
+    def bones_of_groups(self, source, armature):
+        """{vertex group index: number of the bone of its name}."""
+        found = {}
+        for group in source.vertex_groups:
+            number = self.skeleton.number(armature, group.name)
+            if number is not None and armature.data.bones[group.name].use_deform:
+                found[group.index] = number
+        return found
+
+    def holder(self, source):
+        """The id of the bone that a mesh hangs on, or None."""
+        held = holding_bone(source)
+        return self.skeleton.id(*held) if held else None
+
+    def write_body(self, source, geometry):
+        body = self.asset.add("soft_bodies", id=self.identifiers.of("body", source.name, source.name), name=source.name)
+        fill_polygons(body.surface, geometry, "surface")
+        body.bone = self.holder(source)
+        return body

@@ -1,0 +1,24 @@
+"""Runs in Blender: enables the add-on as a user would have it, then runs the test modules named behind `--`."""
+
+import importlib
+import os
+import sys
+import unittest
+
+import addon_utils
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+
+
+def main(names):
+    if addon_utils.enable("soft_body_format", default_set=True) is None:
+        sys.exit("the add-on can't be enabled")
+    suite = unittest.TestSuite(unittest.defaultTestLoader.loadTestsFromModule(importlib.import_module(name)) for name in names)
+    result = unittest.TextTestRunner(stream=sys.stdout, verbosity=2).run(suite)
+    sys.stdout.flush()
+    if not result.wasSuccessful():
+        raise RuntimeError("tests failed")
+
+
+main(sys.argv[sys.argv.index("--") + 1:])

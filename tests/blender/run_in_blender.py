@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Runs tests/blender/test_NAME.py inside a Blender, with the add-on as its zip installs it. Exits 77 where there is none.
+
+    run_in_blender.py [--root FOLDER] [--library FILE]... NAME...
+
+--root names a folder that holds another system with its Blender; what the tests need is copied into it (root only).
+--library files go into the zip, first the library itself, then what it rests on; without any the add-on does without.
+"""
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.realpath(os.path.join(HERE, os.pardir, os.pardir))
+
+
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(77)
+
+
+def needed_libraries(path):
+    """What the library rests on and another system may have in other versions."""
+    lines = subprocess.run(["ldd", path], check=True, capture_output=True, text=True).stdout.splitlines()
+    found = [line.split()[2] for line in lines if "=> /" in line]
+    common = ("libc.so", "libm.so", "libstdc++.so", "libgcc_s.so", "libpthread", "libdl")
+    return [one for one in found if not os.path.basename(one).startswith(common)]
+
+
+def lay_out(folder, libraries):
+    """The add-on from its zip, the tests, and what they compare with."""
+    archive = os.path.join(folder, "soft_body_format.zip")
+    subprocess.run([sys.executable, "-B", os.path.join(ROOT, "exporters", "blender", "pack.py"), archive, *libraries], check=True)
+    with zipfile.ZipFile(archive) as opened:
+        opened.extractall(os.path.join(folder, "scripts", "addons"))
+    shutil.copytree(HERE, os.path.join(folder, "tests"), ignore=shutil.ignore_patterns("__pycache__", "*.txt"))
+
+
+def environment(folder):
+    """Nothing of the user's own Blender, nor of another Python on the path; the library's companions are found beside it."""
+    inside = os.path.join(folder, "scripts", "addons", "soft_body_format", "sbfmt", "lib")
+    return {**os.environ, "BLENDER_USER_SCRIPTS": os.path.join(folder, "scripts"), "PYTHONDONTWRITEBYTECODE": "1",
+            "BLENDER_USER_CONFIG": os.path.join(folder, "config"), "LD_LIBRARY_PATH": inside, "HOME": folder,
+            "PATH": "/usr/bin:/bin"}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--root", default="")
+    parser.add_argument("--library", action="append", default=[])
+    parser.add_argument("names", nargs="+")
+    asked = parser.parse_args()
+    root = asked.root.rstrip("/")
+    if not (os.path.exists(f"{root}/usr/bin/blender") if root else shutil.which("blender")):
+        skip(f"there is no Blender{' in ' + root if root else ': install the package blender'}")
+    libraries = list(asked.library)
+    if root and libraries:
+        libraries += needed_libraries(libraries[0])
+    with tempfile.TemporaryDirectory(dir=f"{root}/tmp" if root else None) as folder:
+        lay_out(folder, libraries)
+        inside = folder[len(root):]
+        command = ["/usr/sbin/chroot", root] if root else []
+        command += ["blender", "--background", "--factory-startup", "--python-exit-code", "3", "--python",
+                    f"{inside}/tests/inside.py", "--", *asked.names]
+        sys.exit(1 if subprocess.run(command, env=environment(inside), check=False).returncode else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,196 @@
+"""Meshes, materials and bones: what is in the file is what the scene has."""
+
+import math
+import os
+
+import bpy
+import fixtures
+
+
+def points(numbers):
+    return [tuple(numbers[i:i + 3]) for i in range(0, len(numbers), 3)]
+
+
+class Meshes(fixtures.SceneTest):
+    def test_places_are_metres_y_up_and_vertices_keep_their_order(self):
+        self.scene.unit_settings.scale_length = 0.01
+        made = fixtures.mesh_object("L", [(0, 0, 0), (100, 0, 0), (100, 200, 0), (0, 200, 300)], [(0, 1, 2, 3)])
+        made.location = (0, 0, 50)
+        mesh = self.export(build=False).render_meshes[0]
+        self.assertEqual(mesh.name, "L")
+        self.assert_near(mesh.mesh.positions, [0, .5, 0, 1, .5, 0, 1, .5, -2, 0, 3.5, -2])
+        self.assertEqual(list(mesh.mesh.polygon_points), [0, 1, 2, 3])
+
+    def test_quads_and_polygons_stay_whole(self):
+        fixtures.mesh_object("pentagon", [(math.cos(i * 1.2566), math.sin(i * 1.2566), 0) for i in range(5)] + [(3, 0, 0)],
+                             [(0, 1, 2, 3, 4), (0, 5, 1)])
+        mesh = self.export(build=False).render_meshes[0].mesh
+        self.assertEqual(list(mesh.polygon_sizes), [5, 3])
+
+    def test_modifiers_are_evaluated_or_not(self):
+        made = fixtures.box("b")
+        made.modifiers.new("s", "SUBSURF").levels = 1
+        self.assertEqual(len(self.export(build=False).render_meshes[0].mesh.polygon_sizes), 24)
+        self.assertEqual(len(self.export(build=False, apply_modifiers=False).render_meshes[0].mesh.polygon_sizes), 6)
+
+    def test_a_mirrored_object_is_turned_round(self):
+        made = fixtures.box("b")
+        made.scale = (-1, 1, 1)
+        mesh = self.export(build=False).render_meshes[0].mesh
+        self.assertGreater(volume(mesh), 0.99)
+
+    def test_several_uv_layers(self):
+        made = fixtures.box("b")
+        for name in ("one", "two"):
+            layer = made.data.uv_layers.new(name=name)
+            for i, item in enumerate(layer.data):
+                item.uv = (i / 24, 0.25 if name == "one" else 0.75)
+        sets = self.export(build=False).render_meshes[0].uv_sets
+        self.assertEqual([one.name for one in sets], ["one", "two"])
+        self.assertEqual(len(sets[0].corners), 24)
+        self.assert_near([sets[1].coordinates[2 * sets[1].corners[3] + k] for k in (0, 1)], (3 / 24, 0.75))
+
+    def test_normals_as_shown(self):
+        fixtures.box("flat")
+        smooth = fixtures.ball("smooth")
+        smooth.data.polygons.foreach_set("use_smooth", [True] * len(smooth.data.polygons))
+        flat, round_ = self.export(build=False).render_meshes
+        self.assertEqual((len(flat.normals), len(flat.normal_corners)), (18, 24))
+        self.assertEqual((len(round_.normals), len(round_.normal_corners)), (len(round_.mesh.positions), 0))
+        for place, normal in zip(points(round_.mesh.positions), points(round_.normals)):
+            self.assertGreater(sum(a * b for a, b in zip(place, normal)) / 0.5, 0.98)
+
+    def test_shape_keys(self):
+        made = fixtures.box("b")
+        made.shape_key_add(name="Basis")
+        key = made.shape_key_add(name="up")
+        key.data[3].co.z += 0.5
+        key.value = 1.0
+        mesh = self.export(build=False).render_meshes[0]
+        self.assertEqual([(one.name, list(one.points)) for one in mesh.shape_keys], [("up", [3])])
+        self.assert_near(mesh.shape_keys[0].offsets, (0, 0.5, 0))
+        self.assertAlmostEqual(max(mesh.mesh.positions), 0.5)
+
+    def test_names_beyond_ascii_and_linked_duplicates(self):
+        made = fixtures.box("Löwe 猫 <&>")
+        twin = fixtures.link(bpy.data.objects.new("twin", made.data))
+        twin.location = (3, 0, 0)
+        asset = self.export(build=False)
+        self.assertEqual([one.name for one in asset.render_meshes], ["Löwe 猫 <&>", "twin"])
+        self.assertEqual(len({one.id for one in asset.render_meshes}), 2)
+
+
+class Appearance(fixtures.SceneTest):
+    def shaded(self, name="skin"):
+        material = bpy.data.materials.new(name)
+        material.use_nodes = True
+        return material, material.node_tree.nodes["Principled BSDF"]
+
+    def test_principled_values(self):
+        material, shader = self.shaded()
+        shader.inputs["Base Color"].default_value = (0.2, 0.4, 0.6, 1)
+        shader.inputs["Metallic"].default_value = 0.3
+        shader.inputs["Roughness"].default_value = 0.7
+        made = fixtures.box("b")
+        made.data.materials.append(material)
+        made.data.materials.append(self.shaded("other")[0])
+        made.data.polygons[2].material_index = 1
+        asset = self.export(build=False)
+        self.assertEqual([one.name for one in asset.materials], ["skin", "other"])
+        self.assert_near(asset.materials[0].base_color, (0.2, 0.4, 0.6, 1))
+        self.assert_near((asset.materials[0].metallic, asset.materials[0].roughness), (0.3, 0.7))
+        self.assertEqual(list(asset.render_meshes[0].polygon_materials), [0, 0, 1, 0, 0, 0])
+
+    def textured(self):
+        material, shader = self.shaded()
+        image = bpy.data.images.new("hide", 4, 4)
+        image.filepath_raw, image.file_format = self.path("hide.png"), "PNG"
+        image.save()
+        node = material.node_tree.nodes.new("ShaderNodeTexImage")
+        node.image = image
+        material.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+        fixtures.box("b").data.materials.append(material)
+        return image
+
+    def test_images_are_copied_or_embedded(self):
+        self.textured()
+        texture = self.export(build=False).textures[0]
+        self.assertEqual((texture.path, texture.media_type), ("textures/hide.png", "image/png"))
+        self.assertTrue(os.path.exists(self.path("textures/hide.png")))
+        embedded = self.export(build=False, textures="EMBED").textures[0]
+        with open(self.path("hide.png"), "rb") as file:
+            self.assertEqual(embedded.bytes, file.read())
+
+    def test_a_missing_image_is_an_error(self):
+        image = self.textured()
+        os.unlink(self.path("hide.png"))
+        image.buffers_free()
+        self.assertIn("hide", self.refuse(build=False))
+
+
+class Bones(fixtures.SceneTest):
+    def test_rest_frames_whatever_the_pose(self):
+        rig = fixtures.armature("rig", [("hip", None, (0, 0, 1), (0, 0, 1.5), 0), ("leg", "hip", (0.2, 0, 1), (0.2, -0.5, 0.5), 30)])
+        rig.location = (0, 0, 1)
+        rig.data.bones["leg"].use_inherit_rotation = False
+        rig.pose.bones["leg"].rotation_mode = "XYZ"
+        rig.pose.bones["leg"].rotation_euler = (1, 0, 0)
+        fixtures.hang(fixtures.box("b"), rig, "hip")
+        hip, leg = self.export(build=False).bones
+        self.assertEqual((hip.name, leg.name, leg.parent), ("hip", "leg", hip.id))
+        self.assert_near(hip.head, (0, 2, 0))
+        self.assert_near(leg.head, (0.2, 2, 0))
+        self.assertAlmostEqual(leg.length, math.sqrt(0.5), places=6)
+        self.assert_near(turned((0, 1, 0), leg.rotation), (0, -math.sqrt(0.5), math.sqrt(0.5)))
+        self.assertEqual((hip.inherit_rotation, leg.inherit_rotation), (True, False))
+
+    def test_weights_of_any_count_sum_to_one(self):
+        rig = fixtures.armature("rig", [(f"b{i}", None, (i, 0, 0), (i, 0, 1), 0) for i in range(6)])
+        made = fixtures.box("b")
+        fixtures.bind(made, rig, {f"b{i}": {0: 0.5, 1: 0.1 * i} for i in range(6)})
+        skin = self.export(build=False).render_meshes[0].skin
+        self.assertEqual(list(skin.influence_counts)[:3], [6, 5, 0])
+        self.assertAlmostEqual(sum(list(skin.weights)[:6]), 1, places=6)
+        self.assertEqual(list(skin.bones)[6:11], [1, 2, 3, 4, 5])
+
+    def test_a_mesh_on_a_bone_is_a_section(self):
+        rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])
+        fixtures.hang(fixtures.box("belly", center=(0, 0, 2)), rig, "hip")
+        asset = self.export(build=False)
+        self.assertEqual((asset.soft_bodies[0].name, asset.soft_bodies[0].bone), ("belly", asset.bones[0].id))
+        self.assert_near((min(asset.soft_bodies[0].surface.positions[1::3]), ), (1.5, ))
+
+    def test_two_armatures(self):
+        one = fixtures.armature("one", [("root", None, (0, 0, 0), (0, 0, 1), 0)])
+        two = fixtures.armature("two", [("root", None, (3, 0, 0), (3, 0, 1), 0)])
+        fixtures.hang(fixtures.box("a"), one, "root")
+        fixtures.hang(fixtures.box("b"), two, "root")
+        asset = self.export(build=False)
+        self.assertEqual([body.bone for body in asset.soft_bodies], [asset.bones[0].id, asset.bones[1].id])
+        self.assertEqual(len({bone.id for bone in asset.bones}), 2)
+
+
+class Refusals(fixtures.SceneTest):
+    def test_an_empty_scene(self):
+        self.assertIn("nothing to export", self.refuse())
+
+    def test_a_folder_that_is_not_there(self):
+        fixtures.box("b")
+        self.assertIn("No such file or directory", self.refuse("missing/out.sbf", build=False))
+
+
+def turned(vector, xyzw):
+    from mathutils import Quaternion, Vector
+    x, y, z, w = xyzw
+    return Quaternion((w, x, y, z)) @ Vector(vector)
+
+
+def volume(mesh):
+    """Enclosed, by fans of each polygon."""
+    from mathutils import Vector
+    places, total, first = [Vector(one) for one in points(mesh.positions)], 0.0, 0
+    for size in mesh.polygon_sizes:
+        corners = [places[i] for i in mesh.polygon_points[first:first + size]]
+        total += sum(corners[0].dot(corners[i].cross(corners[i + 1])) / 6 for i in range(1, size - 1))
+        first += size
+    return total
