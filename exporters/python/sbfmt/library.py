@@ -53,7 +53,8 @@ class BuildOptions(Structure):
                 ("without_flexion", c_bool), ("without_embeddings", c_bool), ("without_hulls", c_bool),
                 ("progress", Progress), ("report", Report), ("user", c_void_p), ("cell_m", c_double),
                 ("elements", c_uint32), ("sections", c_int), ("overlap_m", c_double),
-                ("without_calibration", c_bool), ("levels", c_uint32), ("error_m", c_double)]
+                ("without_calibration", c_bool), ("levels", c_uint32), ("error_m", c_double),
+                ("render_levels", c_uint32), ("render_error_m", c_double)]
 
 
 class ConvertPin(Structure):

@@ -211,6 +211,9 @@ ELEMENTS = {element.name: element for element in (
         Field('error', 'float', default=0.0),
         Field('polygon_sizes', 'uint[]'),
         Field('polygon_points', 'uint[]'),
+        Field('derived', 'ref', 'derivations'),
+        Field('polygon_materials', 'uint[]'),
+        Field('corners', 'uint[]'),
     )),
     Element('soft_body', 'soft_body', (
         Field('id', 'id', default='', required=True),
