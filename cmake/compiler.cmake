@@ -7,6 +7,13 @@ target_compile_options(sbfmt_compiler INTERFACE
   -ffp-contract=off
   # Nobody reads errno after a square root, which is then one instruction.
   -fno-math-errno)
+# gcc's vectoriser fuses products with sums and differences (vfmaddsub) in spite of that, seen with 12.2, where the
+# processor that it is told of has such instructions, as with -march=native.
+include(CheckCSourceCompiles)
+check_c_source_compiles("#ifndef __FMA__\n#error\n#endif\nint main(void) { return 0; }" SBFMT_TARGET_HAS_FMA)
+if(SBFMT_TARGET_HAS_FMA AND CMAKE_C_COMPILER_ID STREQUAL GNU)
+  target_compile_options(sbfmt_compiler INTERFACE -fno-tree-vectorize)
+endif()
 if(SBFMT_WERROR)
   target_compile_options(sbfmt_compiler INTERFACE -Werror)
 endif()

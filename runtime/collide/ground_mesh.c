@@ -27,28 +27,36 @@ static uint32_t cell_at(double from_edge, double cell_m, uint32_t count) {
   return at >= count ? count - 1 : (uint32_t)at;
 }
 
+typedef struct extent {
+  float low_x, high_x, low_z, high_z;
+} extent;
+
+static const extent nothing = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+
+static void take_in(extent *e, sbf_vec3 p) {
+  if (p.x < e->low_x) e->low_x = p.x;
+  if (p.x > e->high_x) e->high_x = p.x;
+  if (p.z < e->low_z) e->low_z = p.z;
+  if (p.z > e->high_z) e->high_z = p.z;
+}
+
 static cell_range range_of(const sbr_ground_mesh *m, uint32_t triangle) {
   const uint32_t *t = m->triangles + 3 * (size_t)triangle;
-  double low_x = INFINITY, high_x = -INFINITY, low_z = INFINITY, high_z = -INFINITY;
-  for (int i = 0; i < 3; i++) {
-    sbf_vec3 p = m->points[t[i]];
-    low_x = fmin(low_x, (double)p.x), high_x = fmax(high_x, (double)p.x);
-    low_z = fmin(low_z, (double)p.z), high_z = fmax(high_z, (double)p.z);
-  }
-  return (cell_range){cell_at(low_x - m->x, m->cell_m, m->columns),
-      cell_at(high_x - m->x, m->cell_m, m->columns), cell_at(low_z - m->z, m->cell_m, m->rows),
-      cell_at(high_z - m->z, m->cell_m, m->rows)};
+  extent e = nothing;
+  for (int i = 0; i < 3; i++) take_in(&e, m->points[t[i]]);
+  return (cell_range){cell_at((double)e.low_x - m->x, m->cell_m, m->columns),
+      cell_at((double)e.high_x - m->x, m->cell_m, m->columns),
+      cell_at((double)e.low_z - m->z, m->cell_m, m->rows),
+      cell_at((double)e.high_z - m->z, m->cell_m, m->rows)};
 }
 
 static void find_grid(sbr_ground_mesh *m, uint32_t point_count, uint32_t triangle_count) {
-  double low_x = INFINITY, high_x = -INFINITY, low_z = INFINITY, high_z = -INFINITY;
-  for (uint32_t i = 0; i < point_count; i++) {
-    low_x = fmin(low_x, (double)m->points[i].x), high_x = fmax(high_x, (double)m->points[i].x);
-    low_z = fmin(low_z, (double)m->points[i].z), high_z = fmax(high_z, (double)m->points[i].z);
-  }
-  double wide = high_x - low_x, deep = high_z - low_z, least = 1e-3 * (wide + deep) + 1e-6;
-  m->x = low_x, m->z = low_z;
-  m->cell_m = fmax(sqrt(wide * deep / triangle_count), least);
+  extent e = nothing;
+  for (uint32_t i = 0; i < point_count; i++) take_in(&e, m->points[i]);
+  double wide = (double)e.high_x - e.low_x, deep = (double)e.high_z - e.low_z;
+  double least = 1e-3 * (wide + deep) + 1e-6, cell = sqrt(wide * deep / triangle_count);
+  m->x = e.low_x, m->z = e.low_z;
+  m->cell_m = cell > least ? cell : least;
   m->columns = (uint32_t)(wide / m->cell_m) + 1;
   m->rows = (uint32_t)(deep / m->cell_m) + 1;
 }

@@ -1,184 +1,13 @@
-/* Scenes by chance: networks of springs of any size, mass and stiffness, held or not, with all that may act
- * on them, stepped by any scheme in frames of any length, thrown about and put elsewhere. No number that is
- * none is ever read, and the same scene gives the same bits twice.
+/* No number that is none is ever read of scenes by chance (chance_scene.h), and the same scene gives the same
+ * bits twice.
  *
  * SBFMT_SCENES says how many scenes of 100 frames each (default 1500), SBFMT_SEED where to begin. A scene
  * that fails is told by its seed. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "chance_scene.h"
 #include "harness.h"
-#include "scenes.h"
-
-enum { MOST_POINTS = 60, FRAMES = 100 };
-
-typedef struct chance {
-  uint32_t state;
-} chance;
-
-static uint32_t roll(chance *c, uint32_t below) {
-  c->state = c->state * 1664525u + 1013904223u;
-  return (uint32_t)((uint64_t)(c->state >> 8) * below >> 24);
-}
-static float between(chance *c, float low, float high) {
-  return low + (high - low) * (float)roll(c, 1u << 20) / (float)(1u << 20);
-}
-/* As likely in each decade. */
-static float decades(chance *c, float low, float high) {
-  return powf(10, between(c, low, high));
-}
-static bool likely(chance *c, uint32_t one_in) {
-  return roll(c, one_in) == 0;
-}
-
-static void add_springs(chance *c, scene *s, sbf_level *level, uint32_t points, float stiffness) {
-  sbf_uint2 ends[4 * MOST_POINTS];
-  float k[4 * MOST_POINTS];
-  uint32_t count = 1 + roll(c, 4 * points < 4 * MOST_POINTS ? 4 * points : 4 * MOST_POINTS - 1);
-  for (uint32_t i = 0; i < count; i++) {
-    uint32_t a = roll(c, points), b = i < points - 1 ? i + 1 : roll(c, points);
-    ends[i] = (sbf_uint2){{i < points - 1 ? i : a, b}};
-    if (ends[i].at[0] == b) ends[i].at[0] = (b + 1) % points;
-    k[i] = stiffness * decades(c, -1, 1);
-  }
-  scene_springs(s, level, ends, k, count);
-}
-
-static void add_pins(chance *c, scene *s, sbf_level *level, uint32_t points) {
-  uint32_t held[MOST_POINTS], count = 1 + roll(c, points / 2 + 1);
-  for (uint32_t i = 0; i < count; i++) held[i] = (i * 7 + 1) % points;
-  for (uint32_t i = 0; i < count; i++)
-    for (uint32_t j = 0; j < i; j++)
-      if (held[i] == held[j]) count = i;
-  scene_pin(s, level, likely(c, 2) ? 0 : -1, held, count);
-  if (!likely(c, 3)) return;
-  sbf_pin_set *set = (sbf_pin_set *)(uintptr_t)level->pins.at; /* goals */
-  set->maximum = between(c, 0.05f, 1);
-  set->stiffness = decades(c, 0, 5);
-}
-
-static void choose_attributes(chance *c, sbf_attributes *is) {
-  is->damping_ratio = likely(c, 3) ? 0 : between(c, 0, 1);
-  is->mass_damping = likely(c, 3) ? decades(c, -2, 2) : 0;
-  is->stiffness_damping = likely(c, 3) ? decades(c, -5, -1) : 0;
-  is->friction = between(c, 0, 1);
-  is->restitution = between(c, 0, 1);
-  is->gravity_scale = likely(c, 4) ? between(c, -2, 3) : 1;
-  is->media_friction = likely(c, 4) ? decades(c, -2, 2) : 0;
-  is->sag_free = likely(c, 4);
-  if (likely(c, 3)) is->strain_max = decades(c, -2, 0.5f);
-  if (likely(c, 3)) is->strain_min = -between(c, 0, 1);
-  if (likely(c, 3)) is->yield_strain = decades(c, -2, 0.5f), is->yield_flow = decades(c, -1, 3);
-  if (likely(c, 3)) is->tear_strain = decades(c, -2, 1);
-  is->pressure_mode = (sbf_pressure_mode)roll(c, SBF_PRESSURE_MODE_COUNT);
-  is->pressure = between(c, -1, 1) * decades(c, 1, 6);
-  is->bending_stiffness = likely(c, 2) ? decades(c, -4, 2) : 0;
-}
-
-static void choose_environment(chance *c, scene *s) {
-  sbf_environment *environment = &s->asset->environment;
-  environment->wind = (sbf_vec3){between(c, -20, 20), between(c, -20, 20), between(c, -20, 20)};
-  if (likely(c, 3)) environment->media_density = decades(c, -1, 3);
-  uint32_t count = likely(c, 2) ? roll(c, 4) : 0;
-  sbf_force_field *fields = sbf_asset_allocate(s->asset, count ? count : 1, sizeof *fields);
-  for (uint32_t i = 0; i < count; i++) {
-    sbf_force_field_init(&fields[i]);
-    fields[i].kind = (sbf_field_kind)roll(c, SBF_FIELD_KIND_COUNT);
-    fields[i].strength = between(c, -1, 1) * decades(c, 0, 3);
-    fields[i].direction = (sbf_vec3){between(c, -1, 1), between(c, -1, 1), between(c, -1, 1)};
-    fields[i].falloff = likely(c, 2) ? between(c, 0, 4) : 0;
-    fields[i].radius = likely(c, 2) ? decades(c, -1, 2) : 0;
-  }
-  environment->fields = (sbf_force_field_list){fields, count};
-  s->world_definition.ground = likely(c, 2)   ? sbr_ground_flat(0)
-                               : likely(c, 2) ? sbr_ground_slope(between(c, 0, 40))
-                                              : sbr_ground_noise(1, roll(c, 100));
-  s->character_definition.position = (sbr_double3){between(c, -2000, 2000), between(c, -0.5f, 2), 0};
-  s->character_definition.scale = likely(c, 3) ? decades(c, -1, 1) : 1;
-}
-
-static scene make(chance *c) {
-  static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
-      SBF_SCHEME_HEUN, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_RELAXATION};
-  scene s = scene_begin();
-  scene_bone(&s, (sbf_vec3){0, 1, 0});
-  sbf_soft_body *body = scene_body(&s, 0);
-  if (likely(c, 2)) {
-    body->attributes.young_modulus = decades(c, 3, 7);
-    scene_section(&s, 0, (sbf_vec3){0, 1, 0},
-        (sbf_vec3){between(c, 0.05f, 1), between(c, 0.05f, 1), between(c, 0.05f, 1)}, 1 + roll(c, 3));
-  } else {
-    uint32_t points = 2 + roll(c, MOST_POINTS - 2);
-    sbf_vec3 at[MOST_POINTS];
-    float masses[MOST_POINTS], size = decades(c, -2, 1), mass = decades(c, -4, 2), span = between(c, 0, 2);
-    for (uint32_t i = 0; i < points; i++) {
-      at[i] = (sbf_vec3){between(c, -size, size), 1 + between(c, -size, size), between(c, -size, size)};
-      masses[i] = mass * decades(c, -span, span);
-    }
-    sbf_level *level = scene_points(&s, 0, at, masses, points);
-    add_springs(c, &s, level, points, mass * decades(c, 1, 5));
-    if (!likely(c, 3)) add_pins(c, &s, level, points);
-  }
-  choose_attributes(c, &body->attributes);
-  choose_environment(c, &s);
-  s.model_options.scheme = schemes[roll(c, 6)];
-  s.model_options.substeps = likely(c, 2) ? 0 : 1 + roll(c, 40);
-  s.model_options.free = likely(c, 5);
-  return s;
-}
-
-static void disturb(chance *c, scene *s) {
-  sbr_double3 place = {between(c, -2000, 2000), between(c, -1, 3), between(c, -50, 50)};
-  switch (roll(c, 12)) {
-  case 0:
-    sbr_character_teleport(s->world, s->character, place, between(c, -3, 3));
-    break;
-  case 1:
-    sbr_character_drive(
-        s->world, s->character, between(c, -30, 30), between(c, -30, 30), between(c, -30, 30));
-    break;
-  case 2:
-    sbr_character_drive(s->world, s->character, 0, 0, 0);
-    break;
-  case 3:
-    if (likely(c, 4)) sbr_character_reset(s->world, s->character);
-    break;
-  default:
-    break;
-  }
-}
-
-/* Hash of its end; 0 where it could not be made, which a stiff one may not. */
-static uint64_t run(uint32_t seed) {
-  chance c = {seed * 2654435761u + 12345u};
-  for (int i = 0; i < 4; i++) roll(&c, 2);
-  scene s = make(&c);
-  sbf_diagnostic error = {0};
-  if (sbr_model_create(s.asset, &s.model_options, &s.model, &error) != SBF_OK) {
-    ck_assert_msg(strstr(error.message, "substeps") != NULL, "seed %u: %s", seed, error.message);
-    sbf_asset_free(s.asset);
-    return 0;
-  }
-  ck_assert_int_eq(sbr_world_create(&s.world_definition, &s.world, &error), SBF_OK);
-  ck_assert_int_eq(
-      sbr_character_create(s.world, s.model, &s.character_definition, &s.character, &error), SBF_OK);
-  sbf_vec3 points[1024];
-  for (int f = 0; f < FRAMES; f++) {
-    disturb(&c, &s);
-    sbr_world_step(s.world, likely(&c, 10) ? between(&c, 0, 0.25f) : between(&c, 0.001f, 0.03f));
-    uint32_t count = scene_read(&s, 0, points, 1024);
-    for (uint32_t i = 0; i < count && i < 1024; i++) {
-      float sum = points[i].x + points[i].y + points[i].z;
-      ck_assert_msg(sum - sum == 0, "seed %u, frame %d: point %u is no number", seed, f, i);
-    }
-    ck_assert_msg(sbr_character_health(s.world, s.character, 0).finite, "seed %u, frame %d", seed, f);
-  }
-  uint64_t hash = sbr_world_state_hash(s.world);
-  scene_free(&s);
-  return hash;
-}
 
 static uint32_t number_of(const char *name, uint32_t otherwise) {
   const char *text = getenv(name);
@@ -189,12 +18,13 @@ START_TEST(no_scene_gives_what_is_no_number)
 {
   uint32_t first = number_of("SBFMT_SEED", 1000), count = number_of("SBFMT_SCENES", 1500), made = 0;
   for (uint32_t seed = first; seed < first + count; seed++) {
-    uint64_t hash = run(seed);
+    uint64_t hash = chance_scene_run(seed);
     made += hash != 0;
-    if (seed % 16 == 0) ck_assert_msg(run(seed) == hash, "seed %u: other bits the second time", seed);
+    if (seed % 16 == 0)
+      ck_assert_msg(chance_scene_run(seed) == hash, "seed %u: other bits the second time", seed);
   }
   ck_assert_uint_ge(10 * made, 8 * count); /* and most of them are stepped */
-  printf("%u scenes, %u frames\n", made, made * FRAMES);
+  printf("%u scenes, %u frames\n", made, made * CHANCE_FRAMES);
 }
 END_TEST
 
