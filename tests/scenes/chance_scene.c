@@ -141,9 +141,8 @@ static scene make(chance *c) {
   choose_attributes(c, &body->attributes);
   choose_environment(c, &s);
   s.model_options.scheme = schemes[roll(c, 6)];
-  if (solid && (s.model_options.scheme == SBF_SCHEME_POSITION_BASED ||
-                   s.model_options.scheme == SBF_SCHEME_RELAXATION))
-    s.model_options.scheme = SBF_SCHEME_AUTOMATIC; /* these step springs alone */
+  if (solid && s.model_options.scheme == SBF_SCHEME_RELAXATION)
+    s.model_options.scheme = SBF_SCHEME_AUTOMATIC; /* that one steps springs alone */
   s.model_options.substeps = likely(c, 2) ? 0 : 1 + roll(c, 40);
   s.model_options.free = likely(c, 5);
   return s;
