@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,7 +19,8 @@ typedef struct studio {
   draw_scene *scene;
   draw_camera camera;
   uint8_t *rgb;
-  unsigned width, height;
+  unsigned width, height, colors;
+  float yaw, pitch; /* from where the camera looks, rad */
   output kind;
   bool framed;
 } studio;
@@ -70,6 +72,28 @@ static bool parse_size(cli_call *call, studio *st) {
   return false;
 }
 
+static bool parse_view(cli_call *call, studio *st) {
+  const char *view = cli_value(call, "--view"), *colors = cli_value(call, "--colors");
+  char rest;
+  st->yaw = DRAW_CAMERA_THREE_QUARTER_YAW;
+  st->pitch = DRAW_CAMERA_THREE_QUARTER_PITCH;
+  if (view) {
+    float yaw, pitch;
+    if (sscanf(view, "%f,%f%c", &yaw, &pitch, &rest) != 2 || !(fabsf(yaw) <= 360) || !(fabsf(pitch) <= 85)) {
+      cli_wrong(call, "--view takes YAW,PITCH in degrees, PITCH from -85 to 85, not '%s'", view);
+      return false;
+    }
+    st->yaw = yaw * 0.017453293f;
+    st->pitch = pitch * 0.017453293f;
+  }
+  if (!colors) return true;
+  if (st->kind == OUTPUT_GIF && sscanf(colors, "%u%c", &st->colors, &rest) == 1 && st->colors >= 4 &&
+      st->colors <= 256)
+    return true;
+  cli_wrong(call, "--colors takes 4 to 256, for a GIF, not '%s'", colors);
+  return false;
+}
+
 static sbf_status open_studio(studio *st, unsigned show, sbf_diagnostic *error) {
   draw_canvas_quality quality = st->kind == OUTPUT_PNG ? DRAW_CANVAS_STILL : DRAW_CANVAS_MOVIE;
   sbf_status status = draw_canvas_open(&st->canvas, st->width, st->height, quality, error);
@@ -98,8 +122,7 @@ static sbf_status paint(studio *st, sbf_diagnostic *error) {
   stage_show(st->stage, &st->s, st->scene);
   float aspect = (float)st->width / (float)st->height;
   if (!st->framed)
-    draw_scene_frame(
-        st->scene, &st->camera, aspect, DRAW_CAMERA_THREE_QUARTER_YAW, DRAW_CAMERA_THREE_QUARTER_PITCH);
+    draw_scene_frame(st->scene, &st->camera, aspect, st->yaw, st->pitch);
   else
     draw_scene_follow(st->scene, &st->camera, aspect, (float)(1 / st->s.fps));
   st->framed = true;
@@ -118,7 +141,8 @@ static sbf_status draw_film(studio *st, const char *path, sbf_diagnostic *error)
       .width = st->width,
       .height = st->height,
       .fps = (uint32_t)(st->s.fps + 0.5),
-      .frame_count = st->s.frame_count};
+      .frame_count = st->s.frame_count,
+      .colors = st->colors};
   draw_movie *movie;
   sbf_status status = draw_movie_open(&movie, path, &options, error);
   if (status != SBF_OK) return status;
@@ -138,7 +162,9 @@ static int run(cli_call *call) {
   unsigned show;
   int status;
   sbf_diagnostic error;
-  if (!parse_output(call, &st.kind) || !parse_show(call, &show) || !parse_size(call, &st)) return SBF_FAILED;
+  if (!parse_output(call, &st.kind) || !parse_show(call, &show) || !parse_size(call, &st) ||
+      !parse_view(call, &st))
+    return SBF_FAILED;
   if (!session_open(&st.s, call, usual_seconds[st.kind], usual_fps[st.kind], &status)) return status;
   status = (int)open_studio(&st, show, &error);
   const char *path = cli_value(call, "-o");
@@ -154,6 +180,8 @@ static const cli_option options[] = {
     {"-o", "OUT.png|gif|mp4", "where to draw; films need the program ffmpeg"},
     {"--show", "LIST", "surface, springs, lattice, bones, hulls, strain, feet (surface)"},
     {"--size", "WxH", "pixels (1280x960, GIF 640x360, MP4 1280x720)"},
+    {"--view", "YAW,PITCH", "from where, degrees: 0 ahead, 90 its left; above (41,15)"},
+    {"--colors", "N", "of a GIF's palette; few make it small (256)"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},
 };

@@ -183,9 +183,9 @@ def subdivided(mesh):
     return fine
 
 
-def check_section(mesh):
-    """Everything that keeps one section from being a good soft body, as a list of sentences (empty when it is one):
-    closed, manifold, consistently wound outward, one piece, no unused or doubled point, sound quads, finite uvs."""
+def check_surface(mesh):
+    """Everything that keeps a mesh from being the surface of one soft body, as a list of sentences (empty when it is
+    one): closed, manifold, consistently wound outward, one piece, no unused or doubled point."""
     found = []
     edges = mesh.directed_edges()
     if any(n > 1 for n in edges.values()):
@@ -201,6 +201,12 @@ def check_section(mesh):
         found.append(f"not one sphere-like piece (Euler characteristic {euler})")
     if mesh.volume() <= 0.0:
         found.append("the faces wind inward")
+    return found
+
+
+def check_section(mesh):
+    """The same, and sound quads with finite uvs."""
+    found = check_surface(mesh)
     for index, face in enumerate(mesh.faces):
         p = [mesh.points[c] for c in face.corners]
         if len(p) != 4 or len(set(face.corners)) != 4:

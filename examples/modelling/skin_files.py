@@ -4,7 +4,7 @@ import json
 import struct
 
 from model_files import Buffer, bone_frame, float32, quaternion
-from quad_mesh import dot, sub
+from quad_mesh import cross, dot, sub
 
 
 def smooth_weights(points, bones, reach, most=4, least=0.02):
@@ -26,6 +26,35 @@ def smooth_weights(points, bones, reach, most=4, least=0.02):
         total = sum(share for _, share in kept)
         weights.append([(i, round(share / total, 5)) for i, share in kept])
     return weights
+
+
+def planted(points, bones, weights, height):
+    """The weights, but what is lower than `height` follows one bone alone, of those it follows the one that ends
+    lowest: soles that do not knead as the leg above them turns. From there to twice the height it passes into what it
+    was."""
+    result = []
+    for point, held in zip(points, weights):
+        own = min((i for i, _ in held), key=lambda i: (bones[i].tail[1], i))
+        rest = min(max(point[1] / height - 1.0, 0.0), 1.0)
+        share = {i: w * rest for i, w in held if i != own and w * rest >= 0.005}
+        share[own] = 1.0 - sum(share.values())
+        result.append([(i, round(w, 5)) for i, w in sorted(share.items(), key=lambda s: (-s[1], s[0]))])
+    return result
+
+
+def triangles_of(points):
+    """A polygon as a fan of triangles: from the corner that leaves the smallest of them largest, of a quad the first."""
+    count = len(points)
+
+    def fan(start):
+        return [(start + k) % count for i in range(1, count - 1) for k in (0, i, i + 1)]
+
+    def least(order):
+        normals = [cross(sub(points[b], points[a]), sub(points[c], points[a]))
+                   for a, b, c in zip(order[::3], order[1::3], order[2::3])]
+        return round(min(dot(n, n) for n in normals), 20)
+
+    return fan(0) if count <= 4 else max(map(fan, range(count)), key=least)
 
 
 def skinned_glb_bytes(armature, bones, mesh, weights, materials, title, licence):
@@ -60,7 +89,7 @@ def skinned_glb_bytes(armature, bones, mesh, weights, materials, title, licence)
                     vertex_of[key] = len(rows)
                     rows.append((c, uv))
                 corners.append(vertex_of[key])
-            indices += [(corners[i],) for i in (0, 1, 2, 0, 2, 3)]
+            indices += [(corners[i],) for i in triangles_of([mesh.points[c] for c in face.corners])]
         held = [weights[c] + [(0, 0.0)] * (4 - len(weights[c])) for c, _ in rows]
         primitives.append({
             "attributes": {"POSITION": buffer.put([mesh.points[c] for c, _ in rows], "VEC3", "f", bounds=True),

@@ -151,6 +151,7 @@ static const sbf_code_info table[] = {
   {"SECTION_MERGED", SBF_CODE_SECTION_MERGED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "What a bone holds is too little for a section: it goes to another bone's."},
   {"SECTION_OPEN", SBF_CODE_SECTION_OPEN, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A section cut from a skin could not be closed: remove in the source what joins more than two polygons at an edge."},
   {"SECTION_STRETCHED", SBF_CODE_SECTION_STRETCHED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Triangles of a skin stretch far where a joint bends: smooth the weights there in the source."},
+  {"RIG_CRAWLS", SBF_CODE_RIG_CRAWLS, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "No limb of the rig comes down to the ground: its body is proposed as a chain that follows its first bone."},
   {"SECTION_NO_BONE", SBF_CODE_SECTION_NO_BONE, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A body of a file with a skeleton hangs on nothing: name its bone or pin it."},
   {"SECTION_UNHELD", SBF_CODE_SECTION_UNHELD, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A section has a bone and no pins: pin it, or build again."},
   {"NAME_REPEATED", SBF_CODE_NAME_REPEATED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Two objects of one kind have one name: rename one of them."},

@@ -100,6 +100,18 @@ class Render(ProgramTest):
         self.assertGreaterEqual(data.count(b"\x21\xf9\x04"), 5)  # a control block for each frame
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
+    def test_few_colours_make_a_small_gif(self):
+        walk = (*SMALL, "--seconds", "0.5", "--fps", "10", "--drive", "0.3,0")
+        small, large = self.draw("a.gif", *walk, "--colors", "16"), self.draw("b.gif", *walk)
+        self.assertEqual(small[10] & 7, 3)  # a palette of 2^(3 + 1)
+        self.assertLess(len(small), 0.6 * len(large))
+
+    def test_it_is_seen_from_where_one_likes(self):
+        usual, same, above = (self.draw("a.png", *SMALL, "--view", view) for view in ("41.25,14.9", "41.25,14.9", "200,70"))
+        self.assertEqual(usual, same)
+        self.assertNotEqual(usual, above)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
     def test_a_film_of_a_walk(self):
         data = self.draw("a.mp4", *SMALL, "--seconds", "0.5", "--fps", "10")
         self.assertEqual(data[4:8], b"ftyp")
@@ -108,6 +120,8 @@ class Render(ProgramTest):
     def test_calls_that_are_wrong_leave_nothing(self):
         for arguments in (("-o", self.path("a.bmp")), (), ("-o", self.path("a.png"), "--show", "hair"),
                           ("-o", self.path("a.png"), "--size", "0x0"), ("-o", self.path("a.png"), "--size", "wide"),
+                          ("-o", self.path("a.png"), "--view", "30"), ("-o", self.path("a.png"), "--view", "0,90"),
+                          ("-o", self.path("a.png"), "--colors", "16"), ("-o", self.path("a.gif"), "--colors", "2"),
                           ("-o", self.path("no folder/a.png"), *SMALL)):
             with self.subTest(arguments):
                 self.fails(2, "render", self.file, *arguments)

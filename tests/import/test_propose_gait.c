@@ -181,8 +181,32 @@ START_TEST(a_snake_drags_a_chain)
     ck_assert_str_eq(name_of(c.asset, (int32_t)chain->bones.at[i]), bones[i]);
     ck_assert_float_gt(chain->spacing.at[i], 0.1f);
   }
-  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_NO_LEGS), 1);
-  ck_assert_ptr_nonnull(strstr(converted_note(&c, SBF_CODE_RIG_NO_LEGS)->message, "'Tail' to 'Tail3'"));
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_NO_LEGS), 0);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_CRAWLS), 1);
+  ck_assert_ptr_nonnull(strstr(converted_note(&c, SBF_CODE_RIG_CRAWLS)->message, "'Tail' to 'Tail3'"));
+  converted_free(&c);
+}
+END_TEST
+
+/* Fourteen legs on seven bones, each hanging on the one before: no hips and no chest, but a chain. */
+START_TEST(a_caterpillar_is_a_chain_on_feet)
+{
+  converted c;
+  converted_file(&c, harness_source("examples/caterpillar/caterpillar.glb"), NULL);
+  const sbf_gait *gait = gait_of(c.asset);
+  ck_assert_uint_eq(gait->legs.count, 14);
+  ck_assert_int_eq(gait->hips, SBF_NONE);
+  ck_assert_int_eq(gait->chest, SBF_NONE);
+  ck_assert_ptr_nonnull(gait->head);
+  ck_assert_uint_eq(gait->tails.count, 0);
+  ck_assert_uint_eq(c.asset->chains.count, 1);
+  const sbf_chain *chain = &c.asset->chains.at[0];
+  ck_assert_int_eq(chain->kind, SBF_CHAIN_KIND_DISTANCE);
+  ck_assert_uint_eq(chain->bones.count, 7);
+  ck_assert_str_eq(name_of(c.asset, (int32_t)chain->bones.at[0]), "segment1");
+  ck_assert_str_eq(name_of(c.asset, (int32_t)chain->bones.at[6]), "segment7");
+  for (uint32_t i = 0; i + 1 < 7; i++) ck_assert_float_eq_tol(chain->spacing.at[i], 0.104f, 0.03f);
+  ck_assert_uint_eq(sbf_asset_check(c.asset, NULL, NULL, 0), 0);
   converted_free(&c);
 }
 END_TEST
@@ -338,6 +362,7 @@ int main(void) {
   tcase_add_test(tests, the_example_lizard);
   tcase_add_test(tests, legs_of_one_bone);
   tcase_add_test(tests, a_snake_drags_a_chain);
+  tcase_add_test(tests, a_caterpillar_is_a_chain_on_feet);
   tcase_add_test(tests, rigs_without_legs_or_spine);
   tcase_add_test(tests, shapes_tell_what_names_do_not);
   tcase_add_test(tests, what_looks_like_it_and_is_not);

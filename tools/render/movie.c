@@ -21,13 +21,14 @@ struct draw_movie {
 #define PALETTE_BYTES_MOST ((uint64_t)1 << 30)
 
 /* Ordered dithering stands still where the picture does, which keeps a GIF both calm and small. */
-static const char *gif_filter(const draw_movie_options *options) {
+static void write_gif_filter(const draw_movie_options *options, char *filter, size_t size) {
   uint64_t bytes = (uint64_t)options->width * options->height * 3 * options->frame_count;
-  if (options->frame_count && bytes <= PALETTE_BYTES_MOST)
-    return "[0:v]split[a][b];[a]palettegen=stats_mode=full[p];"
-           "[b][p]paletteuse=dither=bayer:bayer_scale=5:diff_mode=rectangle";
-  return "[0:v]split[a][b];[a]palettegen=stats_mode=single[p];"
-         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=5:diff_mode=rectangle";
+  bool one = options->frame_count && bytes <= PALETTE_BYTES_MOST;
+  unsigned colors = options->colors ? options->colors : 256;
+  snprintf(filter, size,
+      "[0:v]split[a][b];[a]palettegen=max_colors=%u:stats_mode=%s[p];[b][p]paletteuse=%sdither=%s:"
+      "diff_mode=rectangle",
+      colors, one ? "full" : "single", one ? "" : "new=1:", colors < 256 ? "none" : "bayer:bayer_scale=5");
 }
 
 static sbf_status check(const char *path, const draw_movie_options *options, sbf_diagnostic *diagnostic) {
@@ -44,15 +45,16 @@ static sbf_status check(const char *path, const draw_movie_options *options, sbf
 }
 
 static int start(draw_movie *movie, const draw_movie_options *options, const char *file) {
-  char size[32], rate[16];
+  char size[32], rate[16], gif_filter[192];
   const char *arguments[48];
   size_t count = 0;
   snprintf(size, sizeof size, "%ux%u", (unsigned)options->width, (unsigned)options->height);
   snprintf(rate, sizeof rate, "%u", (unsigned)options->fps);
+  write_gif_filter(options, gif_filter, sizeof gif_filter);
   const char *const common[] = {options->ffmpeg ? options->ffmpeg : "ffmpeg", "-hide_banner", "-loglevel",
       "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size, "-framerate", rate,
       "-i", "pipe:0"};
-  const char *const gif[] = {"-filter_complex", gif_filter(options), "-loop", "0", "-f", "gif"};
+  const char *const gif[] = {"-filter_complex", gif_filter, "-loop", "0", "-f", "gif"};
   /* yuv420p halves the colour both ways, so sides must be even: an odd last row or column is cut. */
   const char *const mp4[] = {"-vf",
       "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-c:v",

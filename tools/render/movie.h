@@ -16,7 +16,8 @@ typedef struct draw_movie_options {
   uint32_t width, height; /* of every frame, pixels */
   uint32_t fps;           /* frames a second, 1 to 240; a GIF: to 50 */
   uint32_t frame_count;   /* as expected; 0: not known */
-  const char *ffmpeg;     /* the program; NULL: "ffmpeg", found in PATH */
+  uint32_t colors;    /* of a GIF's palette, 4 to 256; 0: 256. With fewer nothing is dithered: far smaller */
+  const char *ffmpeg; /* the program; NULL: "ffmpeg", found in PATH */
 } draw_movie_options;
 
 typedef struct draw_movie draw_movie;

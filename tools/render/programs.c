@@ -69,7 +69,7 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
       [PROGRAM_SOFTEN] = {shader_backdrop_vert, {"", ""}, shader_soften_frag},
       [PROGRAM_GROUND] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 0\n", shader_light_glsl},
           shader_ground_frag},
-      [PROGRAM_MESH] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 8\n", shader_light_glsl},
+      [PROGRAM_MESH] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 20\n", shader_light_glsl},
           shader_mesh_frag},
       [PROGRAM_VEIL] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 0\n", shader_light_glsl},
           shader_mesh_frag},

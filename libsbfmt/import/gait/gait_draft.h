@@ -36,12 +36,14 @@ typedef struct sbfi_gait_draft {
   int32_t head;
   uint32_t *tail, *spine; /* bones from the leading one on; in the asset's memory */
   uint32_t tail_count, spine_count;
+  bool row; /* the spine bears pairs of legs one behind the other, as a caterpillar's */
 } sbfi_gait_draft;
 
-/* In this order; each returns false where memory runs out. Extents and sides; legs and girdles; head and
- * tail, or for a rig without legs the bones from one end to the other. */
+/* In this order; each returns false where memory runs out. Extents and sides; legs and girdles; a spine that
+ * is a row of girdles; head and tail, or for a rig without legs the bones from one end to the other. */
 bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch);
 bool sbfi_draft_legs(sbfi_gait_draft *d, sbfi_arena *scratch);
+bool sbfi_draft_row(sbfi_gait_draft *d);
 bool sbfi_draft_ends(sbfi_gait_draft *d);
 bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch);
 

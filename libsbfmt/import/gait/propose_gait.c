@@ -1,7 +1,6 @@
 #include "import/gait/propose_gait.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "import/gait/gait_draft.h"
@@ -138,6 +137,18 @@ static bool write_tail(sbfi_conversion *c, sbfi_gait_draft *d, sbf_gait *gait) {
   return true;
 }
 
+/* What crawls: each bone is dragged behind the one before at the distance it has at rest. */
+static bool write_spine(sbfi_conversion *c, sbfi_gait_draft *d) {
+  float *spacing = sbf_asset_allocate(d->asset, d->spine_count, sizeof *spacing);
+  if (!spacing || !write_chain(c, "spine", SBF_CHAIN_KIND_DISTANCE, d->spine, d->spine_count)) return false;
+  for (uint32_t i = 0; i + 1 < d->spine_count; i++)
+    spacing[i] = (float)sbfi_draft_distance(d, (int32_t)d->spine[i], (int32_t)d->spine[i + 1]);
+  spacing[d->spine_count - 1] = sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1])->length;
+  sbf_chain *chain = (sbf_chain *)(uintptr_t)d->asset->chains.at; /* made above: still ours to fill */
+  chain->spacing = (sbf_f32_list){spacing, d->spine_count};
+  return true;
+}
+
 static bool write_gait(sbfi_conversion *c, sbfi_gait_draft *d) {
   sbf_gait *gait = sbf_asset_allocate(d->asset, 1, sizeof *gait);
   if (!gait || !write_ik_chains(c, d)) return false;
@@ -152,36 +163,24 @@ static bool write_gait(sbfi_conversion *c, sbfi_gait_draft *d) {
   while (sbfi_draft_bone(d, gait->body)->parent != SBF_NONE)
     gait->body = sbfi_draft_bone(d, gait->body)->parent;
   set_steps(d, gait);
-  if (!write_legs(d, gait) || !write_head(d, gait) || !write_tail(c, d, gait)) return false;
+  bool good = write_legs(d, gait) && write_head(d, gait);
+  if (!good || !(d->row ? write_spine(c, d) : write_tail(c, d, gait))) return false;
   d->asset->gaits = (sbf_gait_list){gait, 1};
-  return true;
-}
-
-/* What crawls: each bone is dragged behind the one before at the distance it has at rest. */
-static bool write_spine(sbfi_conversion *c, sbfi_gait_draft *d) {
-  float *spacing = sbf_asset_allocate(d->asset, d->spine_count, sizeof *spacing);
-  if (!spacing || !write_chain(c, "spine", SBF_CHAIN_KIND_DISTANCE, d->spine, d->spine_count)) return false;
-  for (uint32_t i = 0; i + 1 < d->spine_count; i++)
-    spacing[i] = (float)sbfi_draft_distance(d, (int32_t)d->spine[i], (int32_t)d->spine[i + 1]);
-  spacing[d->spine_count - 1] = sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1])->length;
-  sbf_chain *chain = (sbf_chain *)(uintptr_t)d->asset->chains.at; /* made above: still ours to fill */
-  chain->spacing = (sbf_f32_list){spacing, d->spine_count};
   return true;
 }
 
 static bool propose_spine(sbfi_conversion *c, sbfi_gait_draft *d) {
   if (!sbfi_draft_spine(d, &c->scratch) || (d->spine_count && !write_spine(c, d))) return false;
-  char chain[200] = "";
   if (d->spine_count)
-    snprintf(chain, sizeof chain,
-        "; the %u bones from '%.40s' to '%.40s' are proposed as a chain that follows its first",
+    sbfi_convert_warn(c, SBF_CODE_RIG_CRAWLS,
+        "no limb of the rig comes down to the ground; the %u bones from '%.40s' to '%.40s' are proposed as a "
+        "chain that follows its first, as a snake's",
         (unsigned)d->spine_count, sbfi_draft_bone(d, (int32_t)d->spine[0])->name,
         sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1])->name);
-  sbfi_convert_warn(c, SBF_CODE_RIG_NO_LEGS,
-      "no limb of the rig comes down to the ground: no gait is proposed, and the character moves as a "
-      "whole%s; "
-      "add a gait to the bundle to make it walk",
-      chain);
+  else
+    sbfi_convert_warn(c, SBF_CODE_RIG_NO_LEGS,
+        "no limb of the rig comes down to the ground: no gait is proposed, and the character moves as a "
+        "whole; add a gait to the bundle to make it walk");
   return true;
 }
 
@@ -191,7 +190,7 @@ sbf_status sbfi_propose_gait(sbfi_conversion *c) {
   sbfi_gait_draft d = {.asset = c->asset};
   bool good = sbfi_draft_shapes(&d, &c->scratch) && sbfi_draft_legs(&d, &c->scratch);
   if (good && d.leg_count)
-    good = sbfi_draft_ends(&d) && write_gait(c, &d);
+    good = sbfi_draft_row(&d) && sbfi_draft_ends(&d) && write_gait(c, &d);
   else if (good)
     good = propose_spine(c, &d);
   return good ? SBF_OK : sbfi_convert_no_memory(c);

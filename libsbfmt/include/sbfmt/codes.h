@@ -162,6 +162,7 @@ typedef enum sbf_code {
   SBF_CODE_SECTION_MERGED = 706, /* What a bone holds is too little for a section: it goes to another bone's. */
   SBF_CODE_SECTION_OPEN = 707, /* A section cut from a skin could not be closed: remove in the source what joins more than two polygons at an edge. */
   SBF_CODE_SECTION_STRETCHED = 708, /* Triangles of a skin stretch far where a joint bends: smooth the weights there in the source. */
+  SBF_CODE_RIG_CRAWLS = 709, /* No limb of the rig comes down to the ground: its body is proposed as a chain that follows its first bone. */
   SBF_CODE_SECTION_NO_BONE = 710, /* A body of a file with a skeleton hangs on nothing: name its bone or pin it. */
   SBF_CODE_SECTION_UNHELD = 711, /* A section has a bone and no pins: pin it, or build again. */
   SBF_CODE_NAME_REPEATED = 712, /* Two objects of one kind have one name: rename one of them. */

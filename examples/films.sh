@@ -1,0 +1,25 @@
+#!/bin/sh
+# Draws the films of docs/media from the models here: films.sh SBFMT [NAME...], SBFMT being the program.
+set -eu
+sbfmt=$1
+shift
+cd "$(dirname "$0")"
+folder=$(mktemp -d)
+trap 'rm -r "$folder"' EXIT
+# film NAME VIEW SECONDS: a small GIF of the example's script
+film() {
+  case " ${names:-$1} " in *" $1 "*) ;; *) return 0 ;; esac
+  if [ -f "$1/make_bundle.py" ]; then
+    python3 -B "$1/make_bundle.py" "$sbfmt" "$folder/$1.sbf"
+  else
+    "$sbfmt" convert "$1/$1.glb" -o "$folder/$1.sbf"
+  fi
+  "$sbfmt" render "$folder/$1.sbf" --script "$1/walk.txt" --view "$2" --seconds "$3" --size 352x216 --fps 10 \
+    --colors 80 -o "../docs/media/$1.gif"
+}
+names=$*
+film pup 62,14 4.5
+film caterpillar 58,20 4
+film yeti 40,12 4.5
+film spider 38,24 3.5
+film snake 32,30 4.2

@@ -1,0 +1,74 @@
+"""What the scripts of the skinned examples share: building, checking, writing one GLB.
+
+  make_NAME.py            write NAME.glb beside the script
+  make_NAME.py --check    build it again, test it, compare it with the file; exit status 1 if anything is off
+  make_NAME.py -o DIR     write to, or with --check compare with, another folder
+
+The same file comes out every time.
+"""
+
+import argparse
+import os
+import sys
+from collections import namedtuple
+
+from quad_mesh import check_mirror, check_surface
+from skin_files import skinned_glb_bytes
+
+LICENCE = "MIT, as the rest of the repository"
+
+# mesh: a QuadMesh; bones: of model_files; weights: of skin_files; materials: of model_files; symmetric: whether the
+# right side is to be the mirror image of the left
+Character = namedtuple("Character", "name title mesh bones weights materials symmetric", defaults=(True,))
+
+
+def build_bytes(character):
+    c = character
+    return skinned_glb_bytes(c.name.capitalize(), c.bones, c.mesh, c.weights, c.materials, c.title, LICENCE)
+
+
+def check(character, data, path):
+    """Sentences on everything that is not as it must be."""
+    c = character
+    found = check_surface(c.mesh)
+    if c.symmetric:
+        found += check_mirror(c.mesh, c.mesh)
+    if any(abs(sum(w for _, w in held) - 1.0) > 1e-4 or not held for held in c.weights):
+        found.append("weights do not sum to one")
+    idle = {i for i, bone in enumerate(c.bones) if bone.tail is not None} - {i for held in c.weights for i, _ in held}
+    found += [f"bone {c.bones[i].name} holds nothing" for i in sorted(idle) if c.bones[i].parent is not None]
+    if {f.material for f in c.mesh.faces} != {m.name for m in c.materials}:
+        found.append("a material is unused or unknown")
+    try:
+        with open(path, "rb") as stream:
+            if stream.read() != data:
+                found.append(f"{os.path.basename(path)} is stale: run make_{c.name}.py")
+    except OSError as error:
+        found.append(f"{os.path.basename(path)}: {error.strerror}")
+    return found
+
+
+def main(build, folder):
+    parser = argparse.ArgumentParser(description="Models an example character.")
+    parser.add_argument("--check", action="store_true", help="test the model, compare it with the file; writes nothing")
+    parser.add_argument("-o", "--out", default=folder, metavar="DIR", help="where the file is (default: beside this script)")
+    options = parser.parse_args()
+    character = build()
+    data = build_bytes(character)
+    path = os.path.join(options.out, character.name + ".glb")
+    if options.check:
+        mesh = character.mesh
+        print(f"{len(mesh.points)} points, {len(mesh.faces)} faces, {len(character.bones)} bones, "
+              f"{1000.0 * mesh.volume():.2f} litres")
+        found = check(character, data, path)
+        for fault in found:
+            print(f"make_{character.name}: {fault}", file=sys.stderr)
+        return 1 if found else 0
+    try:
+        os.makedirs(options.out, exist_ok=True)
+        with open(path, "wb") as stream:
+            stream.write(data)
+    except OSError as error:
+        print(f"make_{character.name}: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 2
+    return 0

@@ -1,0 +1,54 @@
+/* Many pairs of legs on bones that hang one on the other, from the head back: what bears them is a chain that
+ * the foremost leads, rather than hips and chest with a stiff back between them. */
+#include "import/gait/gait_draft.h"
+
+enum { LEAST_GIRDLES = 4 };
+
+static bool bears_a_leg(const sbfi_gait_draft *d, int32_t bone) {
+  for (uint32_t l = 0; l < d->leg_count; l++)
+    if (sbfi_draft_bone(d, d->legs[l].limb)->parent == bone) return true;
+  return false;
+}
+
+/* How many bones above it, itself included. */
+static uint32_t depth_of(const sbfi_gait_draft *d, int32_t bone) {
+  uint32_t depth = 0;
+  for (; bone != SBF_NONE; bone = sbfi_draft_bone(d, bone)->parent) depth++;
+  return depth;
+}
+
+/* The bones from the first girdle to the last, and on as far as they lead; 0 where a girdle is aside or they
+ * do not lead back. */
+static uint32_t take_row(sbfi_gait_draft *d, int32_t last) {
+  uint32_t girdles = 0, all = 0, depth = depth_of(d, last), first = depth;
+  for (uint32_t i = 0; i < d->asset->bones.count; i++) all += bears_a_leg(d, (int32_t)i);
+  for (int32_t bone = last; bone != SBF_NONE; bone = sbfi_draft_bone(d, bone)->parent, depth--) {
+    d->spine[depth - 1] = (uint32_t)bone;
+    if (!bears_a_leg(d, bone)) continue;
+    girdles++;
+    first = depth;
+  }
+  if (girdles < LEAST_GIRDLES || girdles < all) return 0;
+  uint32_t count = depth_of(d, last) - (first - 1);
+  for (uint32_t i = 0; i < count; i++) d->spine[i] = d->spine[first - 1 + i];
+  for (int32_t bone = sbfi_draft_only_child(d, last); bone != SBF_NONE; bone = sbfi_draft_only_child(d, bone))
+    d->spine[count++] = (uint32_t)bone;
+  for (uint32_t i = 1; i < count; i++)
+    if (sbfi_draft_bone(d, (int32_t)d->spine[i])->head.z >=
+        sbfi_draft_bone(d, (int32_t)d->spine[i - 1])->head.z)
+      return 0;
+  return count;
+}
+
+bool sbfi_draft_row(sbfi_gait_draft *d) {
+  int32_t last = SBF_NONE;
+  d->spine = sbf_asset_allocate(d->asset, d->asset->bones.count, sizeof *d->spine);
+  if (!d->spine) return false;
+  for (uint32_t i = 0; i < d->asset->bones.count; i++)
+    if (bears_a_leg(d, (int32_t)i) && (last == SBF_NONE || depth_of(d, (int32_t)i) > depth_of(d, last)))
+      last = (int32_t)i;
+  d->spine_count = last == SBF_NONE ? 0 : take_row(d, last);
+  d->row = d->spine_count > 0;
+  if (d->row) d->hips = d->chest = SBF_NONE; /* nothing is stiff that could turn with their feet */
+  return true;
+}

@@ -1,0 +1,51 @@
+"""The characters of examples/: converted without a warning, valid, and moving as their scripts say."""
+
+import os
+import unittest
+
+from sbfmt_program import ROOT, ProgramTest, main
+
+# legs; what is allowed at half a leg length a second: change of a knee's speed (degrees), slip (m; a yeti's feet are soft,
+# without its flesh they do not slip at all)
+WALKERS = {"pup": (4, 5, 0.0015), "yeti": (2, 9, 0.004), "spider": (8, 5, 0.002), "caterpillar": (14, 12, 0.0005)}
+
+
+class Characters(ProgramTest):
+    def bundle(self, name):
+        path = self.path(name + ".sbf")
+        said = self.good("convert", os.path.join(ROOT, "examples", name, name + ".glb"), "-o", path).err
+        self.assertNotIn("warning", said)
+        self.assertNotIn("error", said)
+        report = self.json_of("validate", path)
+        self.assertEqual((report["errors"], report["warnings"]), (0, 0))
+        return path
+
+    def script_of(self, name):
+        return os.path.join(ROOT, "examples", name, "walk.txt")
+
+    def test_scripts_play(self):
+        for name in (*WALKERS, "snake"):
+            report = self.json_of("run", self.bundle(name), "--seconds", "8", "--script", self.script_of(name))
+            self.assertTrue(report["valid"], name)
+            if name in WALKERS:
+                self.assertGreater(report["distance"], 0.3, name)
+                self.assertGreaterEqual(min(report["steps_taken"].values()), 3, name)
+                self.assertEqual(len(report["steps_taken"]), WALKERS[name][0])
+                self.assertLessEqual(report["limit_excess"], 0.02, name)
+
+    def test_they_walk_within_the_figures_on_flat_ground(self):
+        for name, (_, knee, slip) in WALKERS.items():
+            path = self.bundle(name)
+            leg = self.json_of("run", path, "--seconds", "0")["leg_length"]
+            report = self.json_of("run", path, "--seconds", "5", "--drive", f"{0.5 * leg},0")
+            self.assertLessEqual(report["stance_slip"], slip, name)
+            self.assertLessEqual(report["penetration"], 0.001, name)
+            self.assertEqual(report["skate_ratio"], 0, name)
+            self.assertEqual(report["opposite_feet_in_air"], 0, name)
+            self.assertLessEqual(report["knee_speed_step"], knee, name)
+            self.assertGreaterEqual(report["distance"], 0.85 * 5 * 0.5 * leg, name)
+
+
+if __name__ == "__main__":
+    unittest.TestCase.longMessage = True
+    main()
