@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes what is generated from spec/sbf.schema and spec/sbf.codes; with --check, says what is stale and fails."""
+"""Makes what is generated from spec/sbf.schema, sbf.codes and sbf.materials; with --check, says what is stale and fails."""
 import os
 import sys
 
@@ -10,6 +10,7 @@ sys.dont_write_bytecode = True
 import emit_c
 import emit_codes
 import emit_docs
+import emit_materials
 import emit_python
 import schema as schema_reader
 
@@ -19,12 +20,18 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 def products():
     schema = schema_reader.read(os.path.join(ROOT, "spec", "sbf.schema"))
     codes = emit_codes.read(os.path.join(ROOT, "spec", "sbf.codes"))
+    materials = emit_materials.read(os.path.join(ROOT, "spec", "sbf.materials"))
+    with open(os.path.join(ROOT, "docs", "materials.md"), encoding="utf-8") as file:
+        materials_page = file.read()
     return {
         "libsbfmt/include/sbfmt/model.h": emit_c.model_header(schema),
         "libsbfmt/generated/schema_tables.c": emit_c.tables(schema),
         "libsbfmt/include/sbfmt/codes.h": emit_codes.header(codes),
         "libsbfmt/generated/code_table.c": emit_codes.table(codes),
         "exporters/python/sbfmt/document/elements.py": emit_python.elements(schema),
+        "exporters/python/sbfmt/document/materials.py": emit_materials.python(materials),
+        "libsbfmt/build/materials/material_table.h": emit_materials.table(materials),
+        "docs/materials.md": emit_materials.page(materials, materials_page),
         "spec/reference.md": emit_docs.reference(schema),
         "spec/sbf.xsd": emit_docs.xsd(schema),
         "spec/codes.md": emit_codes.page(codes),

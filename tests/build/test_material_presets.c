@@ -1,5 +1,3 @@
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "harness.h"
@@ -52,33 +50,11 @@ START_TEST(a_preset_sets_what_it_knows)
 }
 END_TEST
 
-START_TEST(the_document_has_these_numbers)
-{
-  size_t size;
-  uint32_t count;
-  char *text = harness_read(harness_source("docs/materials.md"), &size), row[900];
-  ck_assert_ptr_nonnull(text);
-  const sbf_material_preset *p = sbf_material_presets(&count);
-  for (uint32_t i = 0; i < count; i++, p++) {
-    int length = snprintf(row, sizeof row, "| %s | %g | %g | %g | %g | %g | ", p->name, p->density,
-        p->young_modulus, p->poisson_ratio, p->damping_ratio, p->friction);
-    if (p->cloth)
-      snprintf(row + length, sizeof row - (size_t)length, "%g | %g | %g | %s |", p->area_density,
-          p->thickness, p->bending_stiffness, p->source);
-    else
-      snprintf(row + length, sizeof row - (size_t)length, "| | | %s |", p->source);
-    ck_assert_msg(strstr(text, row) != NULL, "docs/materials.md should have the row\n%s", row);
-  }
-  free(text);
-}
-END_TEST
-
 static Suite *suite(void) {
   Suite *s = suite_create("material_presets");
   TCase *c = tcase_create("material_presets");
   tcase_add_test(c, every_preset_is_found_and_sound);
   tcase_add_test(c, a_preset_sets_what_it_knows);
-  tcase_add_test(c, the_document_has_these_numbers);
   suite_add_tcase(s, c);
   return s;
 }
