@@ -103,7 +103,6 @@ class Render(ProgramTest):
     def test_few_colours_make_a_small_gif(self):
         walk = (*SMALL, "--seconds", "0.5", "--fps", "10", "--drive", "0.3,0")
         small, large = self.draw("a.gif", *walk, "--colors", "16"), self.draw("b.gif", *walk)
-        self.assertEqual(small[10] & 7, 3)  # a palette of 2^(3 + 1)
         self.assertLess(len(small), 0.6 * len(large))
 
     def test_it_is_seen_from_where_one_likes(self):
