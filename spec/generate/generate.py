@@ -29,7 +29,7 @@ def products():
         "libsbfmt/include/sbfmt/codes.h": emit_codes.header(codes),
         "libsbfmt/generated/code_table.c": emit_codes.table(codes),
         "exporters/python/sbfmt/document/elements.py": emit_python.elements(schema),
-        "exporters/python/sbfmt/document/materials.py": emit_materials.python(materials),
+        "exporters/python/sbfmt/document/material_presets.py": emit_materials.python(materials),
         "libsbfmt/build/materials/material_table.h": emit_materials.table(materials),
         "docs/materials.md": emit_materials.page(materials, materials_page),
         "spec/reference.md": emit_docs.reference(schema),
