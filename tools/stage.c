@@ -14,6 +14,7 @@ typedef struct patch {
 typedef struct mesh_look {
   patch *patches;
   uint32_t patch_count;
+  uint32_t level; /* of the mesh that is shown */
 } mesh_look;
 
 typedef struct body_look {
@@ -55,28 +56,64 @@ static draw_colour colour_of(const sbf_asset *asset, int32_t material) {
   return (draw_colour){srgb(c.x), srgb(c.y), srgb(c.z), 255};
 }
 
-/* Cuts a mesh's polygons into fans of triangles, by material. */
-static bool look_of_mesh(const sbf_asset *asset, const sbf_render_mesh *mesh, mesh_look *look) {
-  uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
-  look->patches = calloc(slots, sizeof *look->patches);
-  look->patch_count = slots;
-  for (uint32_t s = 0; look->patches && s < slots; s++) {
-    patch *p = &look->patches[s];
-    p->colour = colour_of(asset, mesh->material_slots.count ? mesh->material_slots.at[s].material : SBF_NONE);
-    p->triangles = malloc((3 * (size_t)mesh->mesh.polygon_points.count + 1) * sizeof *p->triangles);
-    if (!p->triangles) return false;
-    for (uint32_t i = 0, at = 0; i < mesh->mesh.polygon_sizes.count; at += mesh->mesh.polygon_sizes.at[i++]) {
-      uint32_t slot = mesh->polygon_materials.count ? mesh->polygon_materials.at[i] : 0;
-      const uint32_t *corner = mesh->mesh.polygon_points.at + at;
-      for (uint32_t k = 2; slot == s && k < mesh->mesh.polygon_sizes.at[i]; k++) {
-        uint32_t *t = &p->triangles[3 * p->triangle_count++];
-        t[0] = corner[0];
-        t[1] = corner[k - 1];
-        t[2] = corner[k];
-      }
+/* The polygons of a mesh or of one of its levels, over the vertices that the runtime writes for it. */
+typedef struct shown_polygons {
+  sbf_u32_list sizes, points, materials;
+  uint32_t *place_of; /* (vertices of the mesh); NULL: all are written */
+} shown_polygons;
+
+static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, shown_polygons *shown) {
+  const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
+  *shown =
+      (shown_polygons){mesh->mesh.polygon_sizes, mesh->mesh.polygon_points, mesh->polygon_materials, NULL};
+  if (level == 0) return true;
+  const sbf_render_level *from = &mesh->levels.at[level - 1];
+  uint32_t count = sbr_model_level_vertices(s->model, number, level, NULL, 0);
+  uint32_t *vertices = malloc((count + 1u) * sizeof *vertices);
+  shown->place_of = calloc(mesh->mesh.positions.count + 1u, sizeof *shown->place_of);
+  bool good = vertices && shown->place_of;
+  if (good) sbr_model_level_vertices(s->model, number, level, vertices, count);
+  for (uint32_t i = 0; good && i < count; i++) shown->place_of[vertices[i]] = i;
+  free(vertices);
+  shown->sizes = from->polygon_sizes;
+  shown->points = from->polygon_points;
+  shown->materials = from->polygon_materials;
+  return good;
+}
+
+/* Cuts the polygons of one material slot into fans of triangles. */
+static bool cut_patch(const shown_polygons *shown, uint32_t slot, patch *p) {
+  p->triangles = malloc((3 * (size_t)shown->points.count + 1) * sizeof *p->triangles);
+  if (!p->triangles) return false;
+  for (uint32_t i = 0, at = 0; i < shown->sizes.count; at += shown->sizes.at[i++]) {
+    const uint32_t *corner = shown->points.at + at;
+    if ((shown->materials.count ? shown->materials.at[i] : 0) != slot) continue;
+    for (uint32_t k = 2; k < shown->sizes.at[i]; k++) {
+      const uint32_t fan[3] = {corner[0], corner[k - 1], corner[k]};
+      for (int c = 0; c < 3; c++)
+        p->triangles[3 * p->triangle_count + (uint32_t)c] =
+            shown->place_of ? shown->place_of[fan[c]] : fan[c];
+      p->triangle_count++;
     }
   }
-  return look->patches != NULL;
+  return true;
+}
+
+static bool look_of_mesh(const session *s, uint32_t number, uint32_t level, mesh_look *look) {
+  const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
+  uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
+  shown_polygons shown;
+  look->level = level < mesh->levels.count ? level : mesh->levels.count;
+  look->patches = calloc(slots, sizeof *look->patches);
+  look->patch_count = slots;
+  bool good = shown_of_mesh(s, number, look->level, &shown) && look->patches;
+  for (uint32_t p = 0; good && p < slots; p++) {
+    look->patches[p].colour =
+        colour_of(s->asset, mesh->material_slots.count ? mesh->material_slots.at[p].material : SBF_NONE);
+    good = cut_patch(&shown, p, &look->patches[p]);
+  }
+  free(shown.place_of);
+  return good;
 }
 
 static int compare_edges(const void *a, const void *b) {
@@ -117,7 +154,7 @@ static uint32_t largest_room(const sbf_asset *asset) {
   return room;
 }
 
-stage *stage_create(const session *s, unsigned show) {
+stage *stage_create(const session *s, unsigned show, uint32_t render_level) {
   const sbf_asset *asset = s->asset;
   stage *st = calloc(1, sizeof *st);
   if (!st) return NULL;
@@ -133,7 +170,7 @@ stage *stage_create(const session *s, unsigned show) {
   st->colours = malloc(st->room * sizeof *st->colours);
   bool good = st->meshes && st->bodies && st->positions && st->normals && st->bones && st->colours;
   for (uint32_t i = 0; good && i < st->mesh_count; i++)
-    good = look_of_mesh(asset, &asset->render_meshes.at[i], &st->meshes[i]);
+    good = look_of_mesh(s, i, render_level, &st->meshes[i]);
   for (uint32_t i = 0; good && i < st->body_count; i++)
     good = look_of_lattice(&asset->soft_bodies.at[i], &st->bodies[i]);
   draw_colour_map_init_diverging(&st->strains);
@@ -175,8 +212,8 @@ static void to_world(sbf_vec3 origin, sbf_vec3 *points, uint32_t count) {
 static void show_skin(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
   bool inside = (st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET)) != 0;
   for (uint32_t m = 0; m < st->mesh_count; m++) {
-    uint32_t count =
-        sbr_character_skin(s->world, s->character, m, st->positions, st->normals, NULL, st->room);
+    uint32_t count = sbr_character_level_skin(
+        s->world, s->character, m, st->meshes[m].level, st->positions, st->normals, NULL, st->room);
     to_world(origin, st->positions, count);
     for (uint32_t p = 0; p < st->meshes[m].patch_count; p++) {
       const patch *one = &st->meshes[m].patches[p];

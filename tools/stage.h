@@ -17,7 +17,8 @@ enum {
 
 typedef struct stage stage;
 
-stage *stage_create(const session *s, unsigned show); /* NULL: no memory */
+/* `render_level` of each mesh: 0 the full one; where there are fewer, the last. NULL: no memory. */
+stage *stage_create(const session *s, unsigned show, uint32_t render_level);
 void stage_destroy(stage *st);
 
 /* Fills the scene with the present frame, ground included. Places are relative to where the world's origin

@@ -94,12 +94,12 @@ static bool parse_view(cli_call *call, studio *st) {
   return false;
 }
 
-static sbf_status open_studio(studio *st, unsigned show, sbf_diagnostic *error) {
+static sbf_status open_studio(studio *st, unsigned show, uint32_t render_level, sbf_diagnostic *error) {
   draw_canvas_quality quality = st->kind == OUTPUT_PNG ? DRAW_CANVAS_STILL : DRAW_CANVAS_MOVIE;
   sbf_status status = draw_canvas_open(&st->canvas, st->width, st->height, quality, error);
   if (status == SBF_OK) status = draw_painter_create(&st->painter, st->canvas, error);
   if (status != SBF_OK) return status;
-  st->stage = stage_create(&st->s, show);
+  st->stage = stage_create(&st->s, show, render_level);
   st->scene = draw_scene_create();
   st->rgb = malloc(3 * (size_t)st->width * st->height);
   if (st->stage && st->scene && st->rgb) return SBF_OK;
@@ -160,13 +160,14 @@ static int run(cli_call *call) {
   static const double usual_fps[] = {60, 25, 30}, usual_seconds[] = {0, 5, 5};
   studio st = {.width = 0};
   unsigned show;
+  long render_level = 0;
   int status;
   sbf_diagnostic error;
   if (!parse_output(call, &st.kind) || !parse_show(call, &show) || !parse_size(call, &st) ||
-      !parse_view(call, &st))
+      !parse_view(call, &st) || !cli_integer(call, "--render-level", 0, 1000, &render_level))
     return SBF_FAILED;
   if (!session_open(&st.s, call, usual_seconds[st.kind], usual_fps[st.kind], &status)) return status;
-  status = (int)open_studio(&st, show, &error);
+  status = (int)open_studio(&st, show, (uint32_t)render_level, &error);
   const char *path = cli_value(call, "-o");
   if (status == SBF_OK)
     status = (int)(st.kind == OUTPUT_PNG ? draw_picture(&st, path, &error) : draw_film(&st, path, &error));
@@ -181,6 +182,7 @@ static const cli_option options[] = {
     {"--show", "LIST", "surface, springs, lattice, bones, hulls, strain, feet (surface)"},
     {"--size", "WxH", "pixels (1280x960, GIF 640x360, MP4 1280x720)"},
     {"--view", "YAW,PITCH", "from where, degrees: 0 ahead, 90 its left; above (41,15)"},
+    {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
     {"--colors", "N", "of a GIF's palette; few make it small (256)"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},

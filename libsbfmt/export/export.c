@@ -83,6 +83,7 @@ sbf_status sbf_export(
         .path = path,
         .allocator = sbfi_allocator_or_default(options->allocator),
         .reporter = {options->report, options->user, 0, 0},
+        .render_level = options->render_level,
         .error = error};
     sbfi_text_init(&e.text, &e.allocator);
     sbf_status status = forms[i].write(&e);

@@ -11,7 +11,8 @@ typedef struct sbfi_export {
   const char *path;
   sbf_allocator allocator;
   sbfi_reporter reporter;
-  sbfi_text text; /* of the file */
+  uint32_t render_level; /* as in the options */
+  sbfi_text text;        /* of the file */
   sbf_diagnostic *error;
 } sbfi_export;
 

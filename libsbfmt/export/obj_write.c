@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "export/exporting.h"
+#include "model/level_mesh.h"
 
 /* Numbers of OBJ count over the whole file, from 1. */
 typedef struct obj_counts {
@@ -89,6 +90,22 @@ static void write_mesh(sbfi_export *e, const sbf_render_mesh *mesh, obj_counts *
   before->points += mesh->mesh.positions.count;
   before->coordinates += coordinates.count;
   before->normals += mesh->normals.count;
+}
+
+/* The level that is asked for, or the last there is; 0: the mesh itself. */
+static sbf_status write_render_mesh(sbfi_export *e, const sbf_render_mesh *mesh, obj_counts *before) {
+  uint32_t number = e->render_level < mesh->levels.count ? e->render_level : mesh->levels.count;
+  if (number == 0) {
+    write_mesh(e, mesh, before);
+    return SBF_OK;
+  }
+  sbfi_arena arena;
+  sbfi_level_mesh level;
+  sbfi_arena_init(&arena, &e->allocator, 0);
+  bool good = sbfi_level_mesh_make(&level, mesh, &mesh->levels.at[number - 1], &arena);
+  if (good) write_mesh(e, &level.mesh, before);
+  sbfi_arena_free(&arena);
+  return good ? SBF_OK : sbfi_export_no_memory(e);
 }
 
 /* A surface as the mesh that shows it. */
@@ -178,8 +195,10 @@ sbf_status sbfi_export_obj(sbfi_export *e) {
     write_name(e, slash ? slash + 1 : library, false);
     sbfi_text_char(&e->text, '\n');
   }
-  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    write_mesh(e, &asset->render_meshes.at[i], &before);
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
+    sbf_status status = write_render_mesh(e, &asset->render_meshes.at[i], &before);
+    if (status != SBF_OK) return status;
+  }
   for (uint32_t i = 0; surfaces && i < asset->soft_bodies.count; i++)
     write_surface(e, &asset->soft_bodies.at[i], &before);
   say_what_is_left_out(e, surfaces);

@@ -80,11 +80,25 @@ static void write_tangents(const sbri_character *c, const sbri_skin *skin, const
   }
 }
 
+uint32_t sbr_model_level_vertices(const sbr_model *model, uint32_t render_mesh, uint32_t render_level,
+    uint32_t *vertices, uint32_t capacity) {
+  const sbri_skin *skin = sbri_skin_of(model, render_mesh, render_level);
+  if (!skin) return 0;
+  for (uint32_t v = 0; vertices && v < skin->vertex_count && v < capacity; v++)
+    vertices[v] = skin->vertices ? skin->vertices[v] : v;
+  return skin->vertex_count;
+}
+
 uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
     sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity) {
+  return sbr_character_level_skin(world, character, render_mesh, 0, positions, normals, tangents, capacity);
+}
+
+uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
+    uint32_t render_level, sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
-  if (!c || render_mesh >= c->model->asset->render_meshes.count) return 0;
-  const sbri_skin *skin = &c->model->skins[render_mesh];
+  const sbri_skin *skin = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
+  if (!skin) return 0;
   uint32_t count = least(capacity, skin->vertex_count);
   sample(world, c);
   sbri_point *vertices = sbri_vertices(c);
@@ -107,9 +121,14 @@ uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id character, 
 
 uint32_t sbr_character_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, sbf_vec3 *normals, uint32_t capacity) {
+  return sbr_character_level_corner_normals(world, character, render_mesh, 0, normals, capacity);
+}
+
+uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_character_id character,
+    uint32_t render_mesh, uint32_t render_level, sbf_vec3 *normals, uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
-  if (!c || render_mesh >= c->model->asset->render_meshes.count) return 0;
-  const sbri_skin *skin = &c->model->skins[render_mesh];
+  const sbri_skin *skin = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
+  if (!skin) return 0;
   if (!normals || skin->vertex_count == 0) return skin->corner_count;
   sample(world, c);
   sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), sbri_vertices(c));

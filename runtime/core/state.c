@@ -14,7 +14,7 @@ void sbri_layout_make(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
          surface = 0, surface_faces = 0, end = 0;
-  for (uint32_t i = 0; i < model->asset->render_meshes.count; i++) {
+  for (uint32_t i = 0; i < model->skin_count; i++) {
     const sbri_skin *skin = &model->skins[i];
     vertices = skin->vertex_count > vertices ? skin->vertex_count : vertices;
     faces = skin->face_block_count > faces ? skin->face_block_count : faces;

@@ -120,12 +120,19 @@ static sbf_status check_substeps(const sbr_model *model, sbf_diagnostic *error) 
 
 static bool make_skins(sbr_model *model) {
   const sbf_asset *asset = model->asset;
-  if (asset->render_meshes.count) {
-    model->skins = sbfi_arena_allocate(&model->arena, asset->render_meshes.count, sizeof *model->skins);
-    if (!model->skins) return false;
+  uint32_t mesh_count = asset->render_meshes.count;
+  uint32_t *first_skins = sbfi_arena_allocate(&model->arena, (size_t)mesh_count + 1, sizeof *first_skins);
+  if (!first_skins) return false;
+  for (uint32_t i = 0; i < mesh_count; i++) {
+    first_skins[i] = model->skin_count;
+    model->skin_count += 1 + asset->render_meshes.at[i].levels.count;
   }
-  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    if (!sbri_skin_make(model, i)) return false;
+  model->first_skins = first_skins;
+  model->skins = sbfi_arena_allocate(&model->arena, (size_t)model->skin_count + 1, sizeof *model->skins);
+  if (!model->skins) return false;
+  for (uint32_t i = 0; i < mesh_count; i++)
+    for (uint32_t l = 0; l <= asset->render_meshes.at[i].levels.count; l++)
+      if (!sbri_skin_make(model, i, l)) return false;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
     if (!sbri_surface_make(model, i)) return false;
   return true;

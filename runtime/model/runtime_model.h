@@ -190,11 +190,21 @@ struct sbr_model {
   uint32_t tetrahedron_block_count; /* likewise */
   uint32_t flow_count;              /* links of islands whose springs yield or tear */
   float step_error_m;               /* of the schemes that control their error */
-  sbri_skin *skins;                 /* (asset->render_meshes.count) */
-  float rest_size_m;                /* diagonal of the box of all bodies */
+  sbri_skin *skins;                 /* (skin_count) of each render mesh the full one and its render levels */
+  const uint32_t *first_skins;      /* (asset->render_meshes.count) */
+  uint32_t skin_count;
+  float rest_size_m; /* diagonal of the box of all bodies */
   sbri_layout layout;
 };
 
+/* NULL where there is no such mesh or level. */
+static inline const sbri_skin *sbri_skin_of(
+    const sbr_model *model, uint32_t render_mesh, uint32_t render_level) {
+  if (render_mesh >= model->asset->render_meshes.count ||
+      render_level > model->asset->render_meshes.at[render_mesh].levels.count)
+    return NULL;
+  return &model->skins[model->first_skins[render_mesh] + render_level];
+}
 static inline uint32_t sbri_root_frame(const sbr_model *model) {
   return model->rig.bone_count;
 }

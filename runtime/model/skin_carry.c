@@ -1,6 +1,7 @@
 /* What carries each vertex: points of the bodies it is embedded in, else bones. */
 #include <string.h>
 
+#include "model/level_mesh.h"
 #include "model/runtime_model.h"
 
 typedef struct carrier {
@@ -11,9 +12,15 @@ typedef struct carrier {
 typedef struct carry {
   sbr_model *model;
   sbri_skin *skin;
+  uint32_t source_count;    /* vertices of the mesh */
+  const uint32_t *place_of; /* (source_count) in the skin, UINT32_MAX: not in it; NULL: the same */
   sbfi_arena scratch;
   sbfi_array carriers; /* carrier */
 } carry;
+
+static uint32_t place_of(const carry *c, uint32_t vertex) {
+  return c->place_of ? c->place_of[vertex] : vertex;
+}
 
 static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
   if (weight == 0) return true;
@@ -24,12 +31,13 @@ static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32
 static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *embedding) {
   for (uint32_t i = 0; i < embedding->points.count; i++) {
     uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
-    if (vertex >= c->skin->vertex_count) continue;
+    if (vertex >= c->source_count || place_of(c, vertex) == UINT32_MAX) continue;
     const sbf_vec4 *w = &embedding->weights.at[i];
     float weights[4] = {w->x, w->y, w->z, w->w};
     float blend = embedding->blends.count ? embedding->blends.at[i] : 1;
     for (int k = 0; k < 4; k++)
-      if (!add_carrier(c, body, vertex, embedding->points.at[i].at[k], blend * weights[k])) return false;
+      if (!add_carrier(c, body, place_of(c, vertex), embedding->points.at[i].at[k], blend * weights[k]))
+        return false;
   }
   return true;
 }
@@ -74,8 +82,8 @@ static bool fill_frames(
     carry *c, const uint32_t *counts, const sbf_vec3 *rest, const sbf_skin *weights, uint32_t frame) {
   sbri_skin *skin = c->skin;
   uint32_t vertex_count = 0, influence_count = 0, first = 0;
-  for (uint32_t v = 0; v < skin->vertex_count; v++) {
-    if (counts[v]) continue;
+  for (uint32_t v = 0; v < c->source_count; v++) {
+    if (place_of(c, v) == UINT32_MAX || counts[place_of(c, v)]) continue;
     vertex_count++;
     influence_count += weights && weights->influence_counts.at[v] ? weights->influence_counts.at[v] : 1;
   }
@@ -84,11 +92,11 @@ static bool fill_frames(
   sbri_influence *influences = sbfi_arena_allocate(&c->model->arena, influence_count, sizeof *influences);
   if (!vertices || !influences) return false;
   uint32_t next = 0;
-  for (uint32_t v = 0, place = 0; v < skin->vertex_count; v++) {
-    uint32_t count = weights ? weights->influence_counts.at[v] : 0;
-    if (!counts[v]) {
+  for (uint32_t v = 0, place = 0; v < c->source_count; v++) {
+    uint32_t count = weights ? weights->influence_counts.at[v] : 0, to_place = place_of(c, v);
+    if (to_place != UINT32_MAX && !counts[to_place]) {
       sbri_frame_vertex *to = &vertices[place++];
-      *to = (sbri_frame_vertex){v, next, count ? count : 1, rest[v]};
+      *to = (sbri_frame_vertex){to_place, next, count ? count : 1, rest[v]};
       float sum = 0;
       for (uint32_t i = 0; i < count; i++) sum += weights->weights.at[first + i];
       for (uint32_t i = 0; i < count; i++)
@@ -117,26 +125,45 @@ static bool finish(carry *c, const sbf_vec3 *rest, const sbf_skin *weights, int3
 }
 
 static carry begin(sbr_model *model, sbri_skin *skin, uint32_t vertex_count) {
-  carry c = {.model = model, .skin = skin};
+  carry c = {.model = model, .skin = skin, .source_count = vertex_count};
   sbfi_arena_init(&c.scratch, &model->arena.allocator, 0);
   sbfi_array_init(&c.carriers, &model->arena.allocator, sizeof(carrier));
   skin->vertex_count = vertex_count;
   return c;
 }
 
-bool sbri_skin_make(sbr_model *model, uint32_t render_mesh) {
-  const sbf_render_mesh *mesh = &model->asset->render_meshes.at[render_mesh];
-  sbri_skin *skin = &model->skins[render_mesh];
-  carry c = begin(model, skin, mesh->mesh.positions.count);
+static bool add_embeddings(carry *c, uint32_t render_mesh) {
+  const sbr_model *model = c->model;
   bool good = true;
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
     const sbf_level *level = model->bodies[b].level;
     for (uint32_t e = 0; good && level && e < level->embeddings.count; e++)
       if (level->embeddings.at[e].render_mesh == (int32_t)render_mesh)
-        good = add_embedding(&c, &model->bodies[b], &level->embeddings.at[e]);
+        good = add_embedding(c, &model->bodies[b], &level->embeddings.at[e]);
   }
-  return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good) &&
-         sbri_shading_make(skin, &mesh->mesh, mesh, &model->arena);
+  return good;
+}
+
+bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_level) {
+  const sbf_render_mesh *mesh = &model->asset->render_meshes.at[render_mesh];
+  sbri_skin *skin = &model->skins[model->first_skins[render_mesh] + render_level];
+  carry c = begin(model, skin, mesh->mesh.positions.count);
+  sbf_render_mesh shown = *mesh;
+  bool good = true;
+  if (render_level > 0) {
+    sbfi_level_mesh level;
+    good = sbfi_level_mesh_make(&level, mesh, &mesh->levels.at[render_level - 1], &c.scratch);
+    if (good)
+      skin->vertices =
+          sbfi_arena_copy(&model->arena, level.vertices, level.vertex_count + 1u, sizeof *level.vertices);
+    good = good && skin->vertices;
+    shown = level.mesh;
+    skin->vertex_count = level.vertex_count;
+    c.place_of = level.place_of;
+  }
+  good =
+      good && add_embeddings(&c, render_mesh) && sbri_shading_make(skin, &shown.mesh, &shown, &model->arena);
+  return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good);
 }
 
 /* Without an embedding of its own surface, a level's points begin with those of the surface. */

@@ -47,6 +47,7 @@ typedef struct sbri_tangent_block {
 
 typedef struct sbri_skin {
   uint32_t vertex_count;
+  const uint32_t *vertices;    /* (vertex_count) of a render level: which of the mesh's; NULL: all */
   const uint32_t *cell_begins; /* (blocks of vertices + 1) */
   const sbri_carry_cell *cells;
   const sbri_frame_vertex *frame_vertices; /* (frame_vertex_count) */
@@ -68,8 +69,8 @@ typedef struct sbri_skin {
 
 struct sbr_model;
 
-/* Both false where memory runs out. */
-bool sbri_skin_make(struct sbr_model *model, uint32_t render_mesh);
+/* Both false where memory runs out. A skin of render level 0 has all vertices of the mesh. */
+bool sbri_skin_make(struct sbr_model *model, uint32_t render_mesh, uint32_t render_level);
 /* Of a body's surface: no normals but the faces, for its volume. */
 bool sbri_surface_make(struct sbr_model *model, uint32_t soft_body);
 

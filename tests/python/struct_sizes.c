@@ -34,6 +34,7 @@ int main(void) {
   OFFSET(sbf_build_options, report);
   OFFSET(sbf_build_options, elements);
   OFFSET(sbf_build_options, error_m);
+  OFFSET(sbf_build_options, render_error_m);
   OFFSET(sbf_convert_options, goal_stiffness);
   OFFSET(sbf_convert_options, up);
   OFFSET(sbf_convert_options, import_helper);
@@ -41,6 +42,7 @@ int main(void) {
   OFFSET(sbf_validate_options, report);
   OFFSET(sbf_validate_options, folder);
   OFFSET(sbf_export_options, report);
+  OFFSET(sbf_export_options, render_level);
   OFFSET(sbf_diagnostic, path);
   OFFSET(sbf_diagnostic, line);
   OFFSET(sbf_diagnostic, index);

@@ -66,21 +66,21 @@ class Asset:
         finally:
             library().sbf_buffer_free(ctypes.byref(buffer))
 
-    def export(self, path, report=None):
-        """Writes another program's form, named by the ending (.obj, .tet, .xml); `report` hears what it has no place for."""
+    def export(self, path, report=None, render_level=0):
+        """Writes another program's form, named by the ending (.obj, .tet, .xml); `report` hears what it has no place for.
+        `render_level` of each mesh: 0 the full one."""
         callbacks, error = Callbacks(report), DiagnosticStruct()
-        options = ExportOptions(ctypes.sizeof(ExportOptions), None, callbacks.report, None)
+        options = ExportOptions(ctypes.sizeof(ExportOptions), None, callbacks.report, None, render_level)
         callbacks.check(library().sbf_export(self.pointer, path_bytes(path), ctypes.byref(options), ctypes.byref(error)),
                         error)
 
     def build(self, progress=None, report=None, interior="automatic", flexion=True, embeddings=True, hulls=True, cell=0.0,
-              elements=0, sections=True, overlap=0.0, calibration=True, levels=0, error=0.0, render_levels=0,
-              render_error=0.0):
+              elements=0, sections=True, overlap=0.0, calibration=True, levels=0, error=0.0,
+              render_levels=0, render_error=0.0):
         """A new asset with the derived parts made anew. `progress(pass, share)` may return False to cancel.
 
-        Lengths are in metres: `cell` of lattices, `overlap` of sections, `error` that a lattice may have, `render_error` that a
-        render level may. What 0 stands for and
-        what each means is said in build.h."""
+        Lengths are in metres: `cell` of lattices, `overlap` of sections, `error` that a lattice may have, and
+        `render_error` a render level. What 0 stands for and what each means is said in build.h."""
         if interior not in INTERIORS:
             raise ValueError(f"interior is one of {', '.join(INTERIORS)}, not {interior!r}")
         callbacks, found, built = Callbacks(report, progress), DiagnosticStruct(), ctypes.c_void_p()
@@ -88,8 +88,8 @@ class Asset:
             struct_size=ctypes.sizeof(BuildOptions), interior=INTERIORS.index(interior), without_flexion=not flexion,
             without_embeddings=not embeddings, without_hulls=not hulls, progress=callbacks.progress,
             report=callbacks.report, cell_m=cell, elements=elements, sections=0 if sections else 1, overlap_m=overlap,
-            without_calibration=not calibration, levels=levels, error_m=error,
-            render_levels=render_levels, render_error_m=render_error)
+            without_calibration=not calibration, levels=levels, error_m=error, render_levels=render_levels,
+            render_error_m=render_error)
         status = library().sbf_build(self.pointer, ctypes.byref(options), ctypes.byref(built), None, ctypes.byref(found))
         made = Asset(built.value) if status == OK else None
         callbacks.check(status, found)

@@ -79,7 +79,8 @@ class ValidateResult(Structure):
 
 
 class ExportOptions(Structure):
-    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("report", Report), ("user", c_void_p)]
+    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("report", Report), ("user", c_void_p),
+                ("render_level", c_uint32)]
 
 
 class Buffer(Structure):

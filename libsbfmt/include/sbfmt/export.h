@@ -18,6 +18,8 @@ typedef struct sbf_export_options {
   /* Warnings: what the form has no place for and was left out. May be NULL. */
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user; /* for the callback */
+  /* Of each render mesh: 0 the full one, n its n-th render level, or its last where there are fewer. */
+  uint32_t render_level;
 } sbf_export_options;
 
 /* Writes the asset in the form that the ending of `path` names: .obj (the render meshes at rest, or where

@@ -213,6 +213,17 @@ SBF_API uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id cha
  * mesh's own normals show as hard stay hard. Returns how many corners there are. */
 SBF_API uint32_t sbr_character_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, sbf_vec3 *normals, uint32_t capacity);
+/* The same of a render level of the mesh: 0 the full one, n its n-th `render_level`; 0 is returned where
+ * there is none. Only the vertices that the level's polygons use are computed and written, in ascending
+ * order; which those are says sbr_model_level_vertices, once for all frames. A host renumbers the level's
+ * polygon_points by that, and draws far characters for what their levels cost. */
+SBF_API uint32_t sbr_model_level_vertices(const sbr_model *model, uint32_t render_mesh, uint32_t render_level,
+    uint32_t *vertices, uint32_t capacity);
+SBF_API uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id character,
+    uint32_t render_mesh, uint32_t render_level, sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents,
+    uint32_t capacity);
+SBF_API uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_character_id character,
+    uint32_t render_mesh, uint32_t render_level, sbf_vec3 *normals, uint32_t capacity);
 /* Surface vertices of one soft body, in source order; and the points of its simulated level. */
 SBF_API uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbf_vec3 *positions, uint32_t capacity);
