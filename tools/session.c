@@ -4,6 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sbrun/animation.h"
+
+/* A clip begins in another pose than that of rest: bones take so long to go there. */
+static const float CLIP_FADE_S = 0.5f;
+
 /* Numbers separated by commas; false where there are not `count` of them. */
 static bool parse_numbers(const char *text, int count, double *numbers) {
   for (int i = 0; i < count; i++) {
@@ -63,10 +68,40 @@ static bool parse_instructions(cli_call *call, sbr_instructions *instructions) {
   return true;
 }
 
+/* By name or id, else by number from 0; SBF_NONE: there is no such clip. */
+static int32_t find_clip(const sbf_asset *asset, const char *text) {
+  for (uint32_t i = 0; i < asset->clips.count; i++)
+    if (strcmp(asset->clips.at[i].name, text) == 0 || strcmp(asset->clips.at[i].id, text) == 0)
+      return (int32_t)i;
+  char *end;
+  long number = strtol(text, &end, 10);
+  return end != text && !*end && number >= 0 && number < (long)asset->clips.count ? (int32_t)number
+                                                                                  : SBF_NONE;
+}
+
+/* The clip that is to be played, whose bones are left to it: by gait and chains. */
+static bool choose_clip(session *s, const cli_call *call, int32_t *clip) {
+  const char *text = cli_value(call, "--clip");
+  *clip = SBF_NONE;
+  if (!text) return true;
+  *clip = find_clip(s->asset, text);
+  if (*clip == SBF_NONE) {
+    cli_wrong(call,
+        s->asset->clips.count ? "no clip '%s' in the file, of its %u the first is '%s'"
+                              : "no clip '%s': the file has none",
+        text, (unsigned)s->asset->clips.count, s->asset->clips.count ? s->asset->clips.at[0].name : "");
+    return false;
+  }
+  s->asset->gaits = (sbf_gait_list){NULL, 0};
+  s->asset->chains = (sbf_chain_list){NULL, 0};
+  return true;
+}
+
 typedef struct settings {
   sbr_model_options model;
   double drive[2], raise, gravity;
   long threads;
+  int32_t clip;
 } settings;
 
 static bool parse_settings(session *s, cli_call *call, settings *set) {
@@ -94,8 +129,7 @@ static void tell(void *user, const sbf_diagnostic *finding) {
 }
 
 static sbf_status create(session *s, cli_call *call, const settings *set, sbf_diagnostic *error) {
-  sbf_status status = sbf_load_file(call->inputs[0], NULL, &s->asset, error);
-  if (status == SBF_OK) status = sbr_model_create(s->asset, &set->model, &s->model, error);
+  sbf_status status = sbr_model_create(s->asset, &set->model, &s->model, error);
   if (status != SBF_OK) return status;
   sbr_model_left_out(s->model, tell, call);
   sbr_world_definition world = sbr_default_world_definition();
@@ -110,9 +144,11 @@ static sbf_status create(session *s, cli_call *call, const settings *set, sbf_di
   character.position.y = set->raise;
   character.hold = cli_switch(call, "--hold");
   status = sbr_character_create(s->world, s->model, &character, &s->character, error);
-  if (status == SBF_OK)
-    sbr_character_drive(s->world, s->character, (float)set->drive[0], 0, (float)set->drive[1]);
-  return status;
+  if (status != SBF_OK) return status;
+  sbr_character_drive(s->world, s->character, (float)set->drive[0], 0, (float)set->drive[1]);
+  const sbr_clip_play how = {.weight = 1, .fade_s = CLIP_FADE_S, .speed = 1, .bone_mask = SBF_NONE};
+  if (set->clip != SBF_NONE) sbr_character_play(s->world, s->character, 0, set->clip, &how);
+  return SBF_OK;
 }
 
 bool session_open(session *s, cli_call *call, double seconds, double fps, int *status) {
@@ -129,7 +165,13 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
     session_close(s);
     return false;
   }
-  *status = (int)create(s, call, &set, &error);
+  *status = (int)sbf_load_file(call->inputs[0], NULL, &s->asset, &error);
+  if (*status == SBF_OK && !choose_clip(s, call, &set.clip)) {
+    *status = SBF_FAILED;
+    session_close(s);
+    return false;
+  }
+  if (*status == SBF_OK) *status = (int)create(s, call, &set, &error);
   if (*status == SBF_OK) return true;
   cli_print_diagnostic(call, &error);
   session_close(s);

@@ -21,6 +21,8 @@
       {"--ground", "KIND", "flat, slope:DEGREES, stairs:RISE,RUN or noise:HEIGHT,SEED (flat)"},              \
       {"--hold", NULL, "keep the bones in their rest pose"}, {"--free", NULL, "drop every pin"},             \
       {"--raise", "M", "start that much higher (0)"}, {"--gravity", "M/S2", "downward (the file's)"},        \
+      {"--clip", "NAME",                                                                                     \
+          "play this clip as it is keyed, by its name or number; the gait leaves the bones to it"},          \
       {"--level", "N", "simulation level, 0 the finest (0)"}, {                                              \
     "--script", "FILE", "commands over time; see docs/scripts.md"                                            \
   }

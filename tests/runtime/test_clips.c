@@ -67,6 +67,24 @@ START_TEST(a_clip_turns_its_bone_and_no_other)
 }
 END_TEST
 
+START_TEST(a_clip_that_does_not_loop_stays_at_its_end)
+{
+  stage s;
+  begin(&s, SBF_INTERPOLATION_LINEAR, turning, 8);
+  ((sbf_clip *)(uintptr_t)s.q.asset->clips.at)->loop = false;
+  s.state->clips[0] = (sbri_clip_layer){.clip_plus_1 = 1, .speed = 1, .weight = 1, .wanted = 1};
+  ticks(&s, 61);
+  for (int i = 0; i < 20; i++) {
+    ticks(&s, 1);
+    ck_assert_float_eq_tol(head_angle(&s), 1, 1e-3f);
+  }
+  s.state->clips[0].speed = -1;
+  ticks(&s, 90);
+  ck_assert_float_eq_tol(head_angle(&s), 0, 1e-3f);
+  end(&s);
+}
+END_TEST
+
 START_TEST(weights_fade_and_masks_hold_back)
 {
   stage s;
@@ -147,6 +165,7 @@ int main(void) {
   Suite *suite = suite_create("clips");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, a_clip_turns_its_bone_and_no_other);
+  tcase_add_test(tests, a_clip_that_does_not_loop_stays_at_its_end);
   tcase_add_test(tests, weights_fade_and_masks_hold_back);
   tcase_add_test(tests, feet_that_a_clip_moves_still_do_not_slide);
   tcase_add_test(tests, poses_are_shown_by_the_distance_walked);

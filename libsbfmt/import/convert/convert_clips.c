@@ -14,6 +14,8 @@
 /* What differs from rest, or from the first key, by no more is rounding: of the skeleton's size, of a
  * quaternion's components, of a scale. */
 static const double SAME_PLACE = 1e-6, SAME_TURN = 5e-6, SAME_SCALE = 1e-4;
+/* From the last keys to the first: what is no jump, rad and a share of the size; and steps between keys. */
+static const double LOOP_TURN = 0.2, LOOP_WAY = 0.05, LOOP_STEPS = 1.5;
 
 typedef struct clip_work {
   sbfi_conversion *c;
@@ -250,6 +252,32 @@ static void warn_of_losses(clip_work *w) {
         w->clip->name, (unsigned)w->lost_bones);
 }
 
+/* How far one key is from another: an angle, or a length. */
+static double step_between(const sbf_track *track, uint32_t a, uint32_t b) {
+  uint32_t width = track->property == SBF_TRACK_PROPERTY_ROTATION ? 4 : 3;
+  const float *from = track->values.at + (size_t)width * a, *to = track->values.at + (size_t)width * b;
+  double squared = 0, dot = 0;
+  for (uint32_t k = 0; k < width; k++) {
+    squared += pow((double)to[k] - (double)from[k], 2);
+    dot += (double)to[k] * (double)from[k];
+  }
+  return track->property == SBF_TRACK_PROPERTY_ROTATION ? 2 * acos(fmin(fabs(dot), 1)) : sqrt(squared);
+}
+
+/* A clip starts again where the way from its last keys to its first is no longer than one key's to the next;
+ * from farther it would throw about what hangs on the bones. */
+static bool ends_as_it_begins(const clip_work *w, const sbf_track_list *tracks) {
+  for (uint32_t i = 0; i < tracks->count; i++) {
+    const sbf_track *track = &tracks->at[i];
+    uint32_t last = track->times.count ? track->times.count - 1 : 0;
+    if (last == 0 || track->property == SBF_TRACK_PROPERTY_SCALE) continue;
+    double most = track->property == SBF_TRACK_PROPERTY_ROTATION ? LOOP_TURN : LOOP_WAY * w->size;
+    for (uint32_t k = 0; k < last; k++) most = fmax(most, LOOP_STEPS * step_between(track, k, k + 1));
+    if (step_between(track, last, 0) > most) return false;
+  }
+  return true;
+}
+
 static sbf_status convert_clip(clip_work *w, sbf_clip *to) {
   uint32_t bone_count = w->c->asset->bones.count, count = 0;
   sbfi_arena scratch;
@@ -269,6 +297,7 @@ static sbf_status convert_clip(clip_work *w, sbf_clip *to) {
   sbf_track *kept = good && count ? sbfi_convert_allocate(w->c, count, sizeof *kept) : NULL;
   if (kept) memcpy(kept, tracks, count * sizeof *kept);
   to->tracks = (sbf_track_list){kept, kept ? count : 0};
+  to->loop = ends_as_it_begins(w, &to->tracks);
   sbfi_arena_free(&scratch);
   if (!good || (count && !kept) || !to->id || !to->name) return sbfi_convert_no_memory(w->c);
   warn_of_losses(w);
