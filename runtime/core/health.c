@@ -1,5 +1,6 @@
 #include "core/world.h"
 #include "mechanics/neo_hookean.h"
+#include "mechanics/shape_region.h"
 #include "skin/skin.h"
 #include "solvers/outer_forces.h"
 #include "solvers/scheme.h"
@@ -65,6 +66,46 @@ static solid_health look_at_tetrahedra(const sbri_body *body, const sbri_point *
   return found;
 }
 
+/* One region: adds its energy; the greatest way of a point from its place against the region's size. */
+static double look_at_region(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,
+    const sbri_point *positions, double *energy_j) {
+  sbfi_region_sums sums = {0};
+  sbfi_region_fit fit = {.center = {0, 0, 0}};
+  double squares = 0, farthest = 0;
+  for (uint32_t i = 0; i < 2 * block->member_count; i++) {
+    if (i == block->member_count) fit = sbfi_region_fit_of(&sums);
+    const sbri_region_member *m = &members[i % block->member_count];
+    const sbri_point *p = &positions[m->slots[lane]];
+    sbfi_d3 x = {p->x, p->y, p->z}, r = {m->offsets[0][lane], m->offsets[1][lane], m->offsets[2][lane]};
+    double k = m->stiffness[lane];
+    if (!(k > 0)) continue;
+    if (i < block->member_count) {
+      sbfi_region_add(&sums, k, r, x);
+      squares += k * sbfi_d3_dot(r, r);
+      continue;
+    }
+    sbfi_d3 off = sbfi_d3_sub(x, sbfi_region_goal(&fit, r));
+    double square = sbfi_d3_dot(off, off);
+    *energy_j += 0.5 * k * square;
+    farthest = square > farthest ? square : farthest;
+  }
+  return squares > 0 ? sqrt(farthest * sums.weight / squares) : 0;
+}
+
+static solid_health look_at_regions(
+    const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
+  solid_health found = {0, 0, false};
+  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
+    const sbri_region_block *block = &island->region_blocks[b];
+    for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
+      float strain = (float)look_at_region(
+          block, island->region_members + block->first_member, lane, positions, &found.energy_j);
+      found.max_strain = strain > found.max_strain ? strain : found.max_strain;
+    }
+  }
+  return found;
+}
+
 static bool is_finite(const sbri_body *body, const sbri_point *positions, const float *velocities) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
     const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
@@ -112,6 +153,9 @@ sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id ch
   solid_health solid = look_at_tetrahedra(body, positions);
   if (solid.max_strain > health.max_strain) health.max_strain = solid.max_strain;
   health.inverted = solid.inverted;
+  solid_health regions = look_at_regions(island, body, positions);
+  if (regions.max_strain > health.max_strain) health.max_strain = regions.max_strain;
+  solid.energy_j += regions.energy_j;
   if (body->rest_volume_m3 > 0) {
     double volume = sbri_surface_volume(c, body, sbri_positions(c));
     health.volume_ratio = (float)(volume / body->rest_volume_m3);

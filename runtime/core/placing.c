@@ -20,12 +20,32 @@ static void stop(sbri_character *c, uint32_t island_index) {
   }
 }
 
+/* The frame that a body turns with: what holds it, else the root. */
+static uint32_t turning_frame(const sbri_character *c, const sbri_body *body) {
+  return body->held && !body->guides ? body->guide_frame : sbri_root_frame(c->model);
+}
+
+/* Rotations of the body's regions: all `first`, or where that is NULL turned on by `turn`. */
+static void turn_regions(sbri_character *c, const sbri_body *body, const sbf_quat *first, sbf_quat turn) {
+  const sbri_island *island = &c->model->islands[body->island];
+  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
+    float *q = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)(island->first_rotation + b);
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+      sbf_quat was = {q[lane], q[SBRI_BLOCK + lane], q[2 * SBRI_BLOCK + lane], q[3 * SBRI_BLOCK + lane]};
+      sbf_quat now = first ? *first : sbri_quat_normalize(sbri_quat_multiply(turn, was));
+      q[lane] = now.x, q[SBRI_BLOCK + lane] = now.y;
+      q[2 * SBRI_BLOCK + lane] = now.z, q[3 * SBRI_BLOCK + lane] = now.w;
+    }
+  }
+}
+
 void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
   const sbri_island *island = &c->model->islands[island_index];
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbri_guide_places(c->model, body, sbri_deltas(c), positions + body->slot_begin);
+    turn_regions(c, body, &sbri_deltas(c)[turning_frame(c, body)].rotation, sbri_quat_identity());
   }
   sbri_held_places(island, sbri_deltas(c), positions);
   stop(c, island_index);
@@ -62,9 +82,10 @@ void sbri_place_at_rest(sbri_character *c) {
 /* Points of a body go where their guides go, and what they are off their guides turns with it. */
 static void carry_body(sbri_character *c, const sbri_body *body, sbri_point *positions) {
   const sbr_transform *from = sbri_previous_deltas(c), *to = sbri_deltas(c);
-  uint32_t frame = body->held && !body->guides ? body->guide_frame : sbri_root_frame(c->model);
+  uint32_t frame = turning_frame(c, body);
   sbf_quat turn =
       sbri_quat_normalize(sbri_quat_multiply(to[frame].rotation, sbri_quat_conjugate(from[frame].rotation)));
+  turn_regions(c, body, NULL, turn);
   size_t first = c->model->islands[body->island].first_slot;
   sbri_point *old_guides = sbri_begins(c) + first, *new_guides = sbri_velocity_points(c) + first;
   uint32_t count = body->slot_end - body->slot_begin;

@@ -38,6 +38,7 @@ void sbri_layout_make(sbr_model *model) {
   l->velocities = place(&end, 3 * slots, sizeof(float));
   l->rests = place(&end, model->flow_count, sizeof(float));
   l->strengths = place(&end, model->flow_count, sizeof(float));
+  l->rotations = place(&end, 4 * SBRI_BLOCK * (size_t)model->region_block_count, sizeof(float));
   l->state_size = (end + 63) & ~(size_t)63;
   end = 0;
   l->deltas = place(&end, frames, sizeof(sbr_transform));

@@ -54,6 +54,7 @@ SBRI_STATE_PART(previous_positions, sbri_point, c->model->layout.previous_positi
 SBRI_STATE_PART(velocities, float, c->model->layout.velocities)                      /* (slot_count x 3) */
 SBRI_STATE_PART(rests, float, c->model->layout.rests)         /* (flow_count) m, rest lengths */
 SBRI_STATE_PART(strengths, float, c->model->layout.strengths) /* (flow_count) 1, or 0 where torn */
+SBRI_STATE_PART(rotations, float, c->model->layout.rotations) /* (region_block_count x 4 x 8) */
 #undef SBRI_STATE_PART
 
 #define SBRI_SCRATCH_PART(name, type, offset)                                                                \

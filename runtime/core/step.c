@@ -239,6 +239,7 @@ static void tick_island(void *context, uint32_t index) {
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
       .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
       .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
+      .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
       .outer = island->has_outer ? sbri_outer(c) + first : NULL,
       .anchor = sbri_deltas(c)[sbri_anchor_frame(model)],
       .surface_forces = sbri_surface_forces(c),

@@ -48,6 +48,11 @@ bool sbri_tetrahedra_list(sbri_island_maker *m); /* finds which act, and their m
 bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network);
 /* Lays them out; `network` has them. */
 bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *network);
+/* The regions of bodies that match shapes; then w of the fastest into `region_rad_s`. */
+bool sbri_regions_make(sbri_island_maker *m);
+/* Lowest angular frequency of the body's regions at rest, linearised, its held points held and rigid motion
+ * left out; `scratch` is of 9 doubles a slot of the island. */
+double sbri_regions_lowest(const sbri_island *island, const sbri_body *body, double *scratch);
 bool sbri_island_springs(sbri_island_maker *m); /* lists them, finds frequencies and damping, lays them out */
 /* Sets rest lengths so that they bear the weight, where the bodies ask for it and something holds them. */
 bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network);

@@ -250,6 +250,8 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     own.poisson_ratios += body->first_tetrahedron;
     own.tetrahedron_count = body->tetrahedron_count;
     double lowest = sbf_network_lowest(&own, body->tetrahedron_count < MOST_REFINED, scratch);
+    double region_lowest = sbri_regions_lowest(m->island, body, scratch);
+    lowest = sqrt(lowest * lowest + region_lowest * region_lowest);
     float most = MOST_SWAY * body->rest_size_m * (float)(lowest * lowest);
     float *bound = &m->island->most_acceleration_m_s2;
     if (*bound == 0 || most < *bound) *bound = most;
@@ -299,6 +301,9 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
   island->fastest_rad_s = POWER_MARGIN * sbf_network_highest(&network, POWER_ITERATIONS, scratch);
   if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;
+  double regions = island->region_rad_s * island->region_rad_s; /* no mode is faster by more than their sum */
+  island->bound_rad_s = sqrt(island->bound_rad_s * island->bound_rad_s + regions);
+  island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
   if (!sbri_island_preload(m, &network)) return false;
   find_damping(m, network, masses, scratch);
   *found = network;
@@ -307,7 +312,8 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
 
 bool sbri_island_springs(sbri_island_maker *m) {
   sbf_spring_network network;
-  if (!list_springs(m) || !sbri_tetrahedra_list(m) || !find_frequencies(m, &network)) return false;
+  if (!list_springs(m) || !sbri_tetrahedra_list(m) || !sbri_regions_make(m) || !find_frequencies(m, &network))
+    return false;
   measure_springs(m->island);
   bool bounded = false;
   const sbfi_spring_bounds *bounds = m->bounds.at;

@@ -3,7 +3,8 @@
 #include "model/runtime_model.h"
 
 static bool is_stepped(const sbf_level *level) {
-  return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+  return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA ||
+         level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
 }
 
 /* The level with the wanted number, or the coarsest there is; where it is of a model that is not stepped, the
@@ -21,7 +22,8 @@ static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {
 static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level, sbf_diagnostic *error) {
   if (is_stepped(level)) return SBF_OK;
   return sbfi_diagnose(error, SBF_CODE_LEVEL_NOT_SIMULATED,
-      "body \"%s\": its level is of model %s and none is of springs or tetrahedra, which the runtime steps: "
+      "body \"%s\": its level is of model %s and none is of springs, tetrahedra or regions, which the "
+      "runtime steps: "
       "build the file with --springs",
       body->id, sbf_elastic_model_name(level->model));
 }

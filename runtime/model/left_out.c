@@ -58,9 +58,13 @@ static body_counts count_bodies(const sbr_model *model) {
     n.self += body->collision.self;
     for (uint32_t i = 0; i < body->levels.count; i++)
       n.levels += body->levels.at[i].model != SBF_ELASTIC_MODEL_SPRINGS &&
-                  body->levels.at[i].model != SBF_ELASTIC_MODEL_TETRAHEDRA;
-    n.beside += level->regions != NULL || level->jiggle != NULL ||
-                (level->lattice.tetrahedra.count > 0 && level->model != SBF_ELASTIC_MODEL_TETRAHEDRA);
+                  body->levels.at[i].model != SBF_ELASTIC_MODEL_TETRAHEDRA &&
+                  body->levels.at[i].model != SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+    /* Tetrahedra beside regions carry what is embedded in them. */
+    bool regions = level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+    n.beside +=
+        (level->regions != NULL && !regions) || level->jiggle != NULL ||
+        (level->lattice.tetrahedra.count > 0 && level->model != SBF_ELASTIC_MODEL_TETRAHEDRA && !regions);
   }
   return n;
 }
@@ -78,7 +82,7 @@ uint32_t sbr_model_left_out(
   list(&l, n.weights, "weight maps of mass_damping, friction or pressure",
       "the body's own value acts all over");
   list(&l, n.self, "collisions of bodies with themselves", "they pass through");
-  list(&l, n.levels, "levels that are neither of springs nor of tetrahedra",
+  list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
       "other levels of their bodies act");
   list(&l, n.beside, "tetrahedra, regions and jiggles beside a level's own model", "only that acts");
   uint32_t dynamic = 0;

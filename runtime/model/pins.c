@@ -73,8 +73,35 @@ static void add_shares(const spread *s, float *to, uint32_t other, float weight)
   }
 }
 
-/* What tetrahedra join with each point. */
+/* What regions join with each point: those 1, 2, 4, 8 ... places further round the region. */
+static bool list_region_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
+  const sbf_shape_regions *regions = body->level->regions;
+  uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)s->count + 2, sizeof *begins), *links = NULL;
+  if (!begins) return false;
+  for (int pass = 0; pass < 2; pass++) {
+    const uint32_t *points = regions->points.at;
+    for (uint32_t r = 0; r < regions->sizes.count; points += regions->sizes.at[r++]) {
+      uint32_t size = regions->sizes.at[r];
+      for (uint32_t i = 0; i < size; i++)
+        for (uint32_t far = 1, place = body->slot_from_point[points[i]] - s->first;
+             far < size && place < s->count; far *= 2) {
+          if (pass)
+            links[begins[place + 1]++] = body->slot_from_point[points[(i + far) % size]];
+          else
+            begins[place + 2]++;
+        }
+    }
+    for (uint32_t i = 0; pass == 0 && i < s->count; i++) begins[i + 2] += begins[i + 1];
+    if (pass == 0) links = sbfi_arena_allocate(scratch, (size_t)begins[s->count + 1] + 1, sizeof *links);
+    if (!links) return false;
+  }
+  s->link_begins = begins, s->links = links;
+  return true;
+}
+
+/* What tetrahedra, or regions, join with each point. */
 static bool list_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
+  if (body->first_region_block < body->region_block_end) return list_region_links(s, body, scratch);
   if (body->tetrahedron_count == 0) return true;
   const sbf_uint4 *tetrahedra = body->level->lattice.tetrahedra.at;
   uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)s->count + 2, sizeof *begins);

@@ -97,6 +97,8 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     model->tetrahedron_block_count += island->tetrahedron_block_count;
     island->first_flow = model->flow_count;
     if (island->link_flows) model->flow_count += island->link_block_count * SBRI_BLOCK;
+    island->first_rotation = model->region_block_count;
+    model->region_block_count += island->region_block_count;
     if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);
   }
   return status;

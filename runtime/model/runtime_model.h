@@ -62,6 +62,20 @@ typedef struct sbri_tetrahedron_block {
   float shear[SBRI_BLOCK];          /* Pa: mu / 6 */
 } sbri_tetrahedron_block;
 
+/* A point of each of eight regions that keep their shape, for solvers/region_forces.h. Inert lanes name the
+ * region's first point and have zeros. */
+typedef struct sbri_region_member {
+  uint32_t slots[SBRI_BLOCK];
+  float stiffness[SBRI_BLOCK];  /* N/m: a w^2, see mechanics/shape_region.h */
+  float offsets[3][SBRI_BLOCK]; /* m, from the region's centre at rest */
+} sbri_region_member;
+/* Eight regions of one body, each with up to so many points. */
+typedef struct sbri_region_block {
+  uint32_t first_member, member_count;
+  float inverse_sums[SBRI_BLOCK]; /* m/N, one over the sum of the stiffnesses; 0: no region */
+  float damping_s;                /* beta */
+} sbri_region_block;
+
 /* Up to four frames that carry a free point where no force moves it, as in a skin. */
 enum { SBRI_GUIDES = 4 };
 typedef struct sbri_guide {
@@ -87,12 +101,13 @@ typedef struct sbri_body {
   const sbf_soft_body *source;
   const sbf_level *level; /* NULL: it has none, and moves with its bone */
   uint32_t island;
-  uint32_t slot_begin, slot_real_end, slot_end; /* free slots; padding from slot_real_end on */
-  uint32_t *slot_from_point;                    /* (level->positions.count) slots of its island */
-  uint32_t first_spring, spring_end;            /* its own springs among the island's */
-  uint32_t first_tetrahedron;                   /* of its own among the island's as they are listed */
-  uint32_t tetrahedron_count;                   /* those of its level, where they are its model; else 0 */
-  const float *moduli;                          /* (tetrahedron_count) Pa */
+  uint32_t slot_begin, slot_real_end, slot_end;  /* free slots; padding from slot_real_end on */
+  uint32_t *slot_from_point;                     /* (level->positions.count) slots of its island */
+  uint32_t first_spring, spring_end;             /* its own springs among the island's */
+  uint32_t first_tetrahedron;                    /* of its own among the island's as they are listed */
+  uint32_t tetrahedron_count;                    /* those of its level, where they are its model; else 0 */
+  const float *moduli;                           /* (tetrahedron_count) Pa */
+  uint32_t first_region_block, region_block_end; /* of its regions among the island's */
   bool held;                /* by some pin: it is damped relative to its guide; else relative to itself */
   uint32_t guide_frame;     /* of all its points, where `guides` is NULL */
   const sbri_guide *guides; /* (slot_end - slot_begin), where several frames hold it */
@@ -141,6 +156,12 @@ typedef struct sbri_island {
   const sbri_tetrahedron_block *tetrahedron_blocks;
   const uint32_t *lanes_of_tetrahedra; /* (tetrahedron_count x 2) block x 8 + lane for forces, for sweeps */
   const float *tetrahedron_damping;    /* (tetrahedron_block_count x 8) s: beta; NULL: none is damped so */
+  const sbri_region_block *region_blocks; /* (region_block_count) of all bodies that match shapes */
+  const sbri_region_member *region_members;
+  uint32_t region_block_count;
+  uint32_t first_rotation; /* of its blocks of regions in the character's state */
+  bool region_damping;     /* some have damping of their own */
+  double region_rad_s;     /* greatest w of its regions */
   bool routed;  /* the runtime may step it by another scheme where that is wiser; see solvers/router.h */
   float cell_m; /* mean length of its springs at rest, or of its tetrahedra's sides where that is less */
   const sbri_link_block *links; /* (link_block_count) colour after colour; NULL: nothing sweeps */
@@ -166,7 +187,7 @@ typedef struct sbri_island {
 /* Where things lie in a character's state and in its scratch memory, in bytes from their beginnings. */
 typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, rests, strengths,
-      state_size;
+      rotations, state_size;
   size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
   size_t element_forces;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
@@ -189,6 +210,7 @@ struct sbr_model {
   uint32_t link_block_count;        /* of all islands */
   uint32_t tetrahedron_block_count; /* likewise */
   uint32_t flow_count;              /* links of islands whose springs yield or tear */
+  uint32_t region_block_count;      /* likewise */
   float step_error_m;               /* of the schemes that control their error */
   sbri_skin *skins;                 /* (skin_count) of each render mesh the full one and its render levels */
   const uint32_t *first_skins;      /* (asset->render_meshes.count) */

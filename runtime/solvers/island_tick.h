@@ -35,13 +35,14 @@ typedef struct sbri_island_tick {
   const float *guide_velocities; /* (free_count x 3) of the guides, where a body is held */
   sbri_point *begins;            /* (slot_count) scratch: where held points were at the tick's beginning */
   sbri_point *velocity_points;   /* (slot_count) scratch */
-  sbri_point *element_forces;    /* (slot_count) scratch: of the tetrahedra */
+  sbri_point *element_forces;    /* (slot_count) scratch: of tetrahedra and regions */
   sbr_transform anchor; /* motion of the anchor frame since the rest pose, asset metres: fields stand in it */
   sbri_point *surface_forces, *surface_velocities; /* scratch likewise */
   sbri_point *surface_vertices, *surface_faces;    /* scratch of the character; see sbri_body.first_vertex */
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
   float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
+  float *rotations;         /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
   sbri_point *outer;        /* (free_count) N; scratch of what is neither springs nor weight; NULL: nothing */
   float *accelerations, *older_velocities; /* (free_count x 3) scratch, blocks as `velocities` */
   sbri_point *moves;                       /* (slot_count) scratch */

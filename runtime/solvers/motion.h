@@ -14,6 +14,7 @@
 #include "collide/contact.h"
 #include "math/trig.h"
 #include "solvers/outer_forces.h"
+#include "solvers/region_forces.h"
 #include "solvers/rigid_motion.h"
 #include "solvers/spring_forces.h"
 #include "solvers/tetrahedron_forces.h"
@@ -79,6 +80,7 @@ static inline void sbri_kick_body(
 static inline void sbri_kick(const sbri_island_tick *t, float h, bool last, float *stretches) {
   int kind = sbri_force_kind(t, last);
   if (t->outer) sbri_outer_forces(t, h);
+  if (t->island->region_block_count > 0) sbri_region_forces(t);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbri_decay keep = sbri_decay_of(body, h);
@@ -119,6 +121,7 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *st
   int kind = sbri_force_kind(t, stretches != NULL);
   if (t->outer) sbri_outer_forces(t, h);
   if (t->island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, stretches != NULL);
+  if (t->island->region_block_count > 0) sbri_region_forces(t);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
 #define SBRI_CALL(known) sbri_accelerate_body(t, body, known, stretches)
@@ -127,9 +130,9 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *st
   }
 }
 
-/* Whether springs or tetrahedra have damping of their own, which goes by velocity_points. */
+/* Whether springs, tetrahedra or regions have damping of their own, which goes by velocity_points. */
 static inline bool sbri_has_damping(const sbri_island *island) {
-  return island->cell_damping || island->tetrahedron_damping;
+  return island->cell_damping || island->tetrahedron_damping || island->region_damping;
 }
 
 /* The velocities as points, for that damping; `rate` is one over the tick's length. */

@@ -27,5 +27,8 @@ static void tick_position_based(const sbri_island_tick *tick) {
   tick->model->kernels->position_based_tick(tick);
 }
 
-const sbri_scheme sbri_position_based = {
-    .word = SBF_SCHEME_POSITION_BASED, .sweeps = true, .substeps = substeps, .tick = tick_position_based};
+const sbri_scheme sbri_position_based = {.word = SBF_SCHEME_POSITION_BASED,
+    .sweeps = true,
+    .refuse = sbri_refuse_regions,
+    .substeps = substeps,
+    .tick = tick_position_based};

@@ -32,6 +32,9 @@ static inline const char *sbri_scheme_refuses(
 
 /* For those that step springs alone. */
 const char *sbri_refuse_all_but_springs(const sbr_model *model, const sbri_island *island);
+/* For those that step all but regions, which are stable by themselves: none of them is faster than it says.
+ */
+const char *sbri_refuse_regions(const sbr_model *model, const sbri_island *island);
 
 /* Of position-based substeps, whatever the state. */
 uint32_t sbri_position_substeps(const sbri_island *island, double tick_s);

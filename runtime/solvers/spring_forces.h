@@ -75,6 +75,10 @@ static inline sbri_wide3 sbri_spring_forces(
   return f;
 }
 
+static inline bool sbri_has_element_forces(const sbri_island *island) {
+  return island->tetrahedron_block_count > 0 || island->region_block_count > 0;
+}
+
 /* Acceleration of each point of a group of lanes by all forces but frame damping and media friction. */
 static inline sbri_wide3 sbri_acceleration(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, int kind, float *stretches) {
@@ -83,7 +87,7 @@ static inline sbri_wide3 sbri_acceleration(
     sbri_wide3 more = sbri_wide_load_points(t->outer + slot);
     f.x = f.x + more.x, f.y = f.y + more.y, f.z = f.z + more.z;
   }
-  if (t->island->tetrahedron_block_count > 0) {
+  if (sbri_has_element_forces(t->island)) {
     sbri_wide3 more = sbri_wide_load_points(t->element_forces + slot);
     f.x = f.x + more.x, f.y = f.y + more.y, f.z = f.z + more.z;
   }

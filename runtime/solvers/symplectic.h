@@ -53,7 +53,7 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   sbri_remember_held(t);
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
-    if (island->cell_damping) sbri_spread_velocities(t, 1 / t->tick_s);
+    if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
     sbri_kick(t, h, last, stretches);
     sbri_drift(t, h);
     sbri_carry_held(t, last ? 1 : (float)(s + 1) / (float)substeps);

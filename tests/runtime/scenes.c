@@ -97,6 +97,44 @@ sbf_level *scene_lattice(scene *s, uint32_t body, const lattice_box *box) {
   return level;
 }
 
+sbf_level *scene_regions(scene *s, uint32_t body, sbf_vec3 low, float step, const uint32_t counts[3],
+    uint32_t reach, float w, float point_kg) {
+  uint32_t count = counts[0] * counts[1] * counts[2], width = 2 * reach + 1, next = 0, point = 0;
+  sbf_vec3 *at = calloc(count, sizeof *at);
+  float *masses = calloc(count, sizeof *masses);
+  uint32_t *sizes = sbf_asset_allocate(s->asset, count, sizeof *sizes);
+  uint32_t *points = sbf_asset_allocate(s->asset, (size_t)count * width * width * width, sizeof *points);
+  sbf_shape_regions *regions = sbf_asset_allocate(s->asset, 1, sizeof *regions);
+  ck_assert(at && masses && sizes && points && regions);
+  for (uint32_t z = 0; z < counts[2]; z++)
+    for (uint32_t y = 0; y < counts[1]; y++)
+      for (uint32_t x = 0; x < counts[0]; x++, point++) {
+        const uint32_t middle[3] = {x, y, z};
+        uint32_t first[3], end[3];
+        at[point] = (sbf_vec3){low.x + step * (float)x, low.y + step * (float)y, low.z + step * (float)z};
+        masses[point] = point_kg;
+        for (int k = 0; k < 3; k++) {
+          first[k] = middle[k] > reach ? middle[k] - reach : 0;
+          end[k] = middle[k] + reach + 1 < counts[k] ? middle[k] + reach + 1 : counts[k];
+        }
+        uint32_t before = next;
+        for (uint32_t c = first[2]; c < end[2]; c++)
+          for (uint32_t b = first[1]; b < end[1]; b++)
+            for (uint32_t a = first[0]; a < end[0]; a++) points[next++] = a + counts[0] * (b + counts[1] * c);
+        sizes[point] = next - before;
+      }
+  sbf_level *level = scene_points(s, body, at, masses, count);
+  sbf_shape_regions_init(regions);
+  regions->sizes = (sbf_u32_list){sizes, count};
+  regions->points = (sbf_u32_list){points, next};
+  regions->stiffness = w;
+  level->model = SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+  level->regions = regions;
+  free(at);
+  free(masses);
+  return level;
+}
+
 /* ---- The box ---- */
 
 typedef struct box {

@@ -44,6 +44,11 @@ void scene_skin(scene *s, uint32_t body);
  * mass are held by the world. */
 sbf_level *scene_lattice(scene *s, uint32_t body, const lattice_box *box);
 
+/* A level of points on a grid of so many along each axis, `step` m apart from `low` on, that matches shapes:
+ * a region around each point, of all within `reach` steps along each axis, of the angular frequency w. */
+sbf_level *scene_regions(scene *s, uint32_t body, sbf_vec3 low, float step, const uint32_t counts[3],
+    uint32_t reach, float w, float point_kg);
+
 /* Runs `ticks` control ticks. */
 void scene_ticks(scene *s, uint32_t ticks);
 /* Places of the points of a body relative to the origin. */

@@ -95,7 +95,7 @@ START_TEST(a_level_that_is_stepped_is_taken_where_there_is_one)
     levels[i] = s.asset->soft_bodies.at[0].levels.at[0];
     levels[i].positions.count = levels[i].masses.count = 3 - i;
   }
-  levels[1].model = SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+  levels[1].model = SBF_ELASTIC_MODEL_JIGGLE;
   scene_body(&s, 0)->levels = (sbf_level_list){levels, 3};
   s.model_options.level = 1;
   scene_start(&s);
@@ -115,11 +115,11 @@ START_TEST(what_is_not_simulated_is_refused)
   scene s = scene_begin();
   const sbf_vec3 position = {0, 0, 0};
   sbf_level *level = scene_points(&s, 0, &position, NULL, 1);
-  level->model = SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+  level->model = SBF_ELASTIC_MODEL_JIGGLE;
   sbf_diagnostic error;
   ck_assert_int_eq(sbr_model_create(s.asset, NULL, &s.model, &error), SBF_BAD_INPUT);
   ck_assert_int_eq(error.code, SBF_CODE_LEVEL_NOT_SIMULATED);
-  ck_assert_ptr_nonnull(strstr(error.message, "shape_matching"));
+  ck_assert_ptr_nonnull(strstr(error.message, "jiggle"));
   scene_free(&s);
 }
 END_TEST
