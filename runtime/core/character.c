@@ -93,7 +93,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
       .state = state,
       .scratch = scratch};
   put(world, c, definition->position, definition->heading);
-  sbri_mend_springs(c);
+  sbri_mend(c);
   sbri_place_at_rest(c);
   sbri_work_list(world);
   world->stamp++;
@@ -145,7 +145,7 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbr_double3 origin = sbri_head(c)->origin;
   sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = 0;
   put(world, c, (sbr_double3){origin.x + (double)place.x, place.y, origin.z + (double)place.z}, heading);
-  sbri_mend_springs(c);
+  sbri_mend(c);
   sbri_place_at_rest(c);
   world->stamp++;
 }

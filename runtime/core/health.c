@@ -1,6 +1,7 @@
 #include "core/world.h"
 #include "mechanics/neo_hookean.h"
 #include "mechanics/shape_region.h"
+#include "mechanics/solid_strain.h"
 #include "skin/skin.h"
 #include "solvers/outer_forces.h"
 #include "solvers/scheme.h"
@@ -38,31 +39,75 @@ typedef struct solid_health {
   double energy_j;
   float max_strain;
   bool inverted;
+  uint32_t torn;
 } solid_health;
 
-static solid_health look_at_tetrahedra(const sbri_body *body, const sbri_point *positions) {
-  solid_health found = {0, 0, false};
+static sbfi_d3 place_of(const sbri_point *p) {
+  return (sbfi_d3){p->x, p->y, p->z};
+}
+
+/* As it was made. */
+static void look_at_tetrahedron(
+    const sbri_body *body, const sbri_point *positions, uint32_t t, solid_health *found) {
   sbfi_tetrahedron element;
   sbfi_d3 x[4];
-  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
-    if (!sbri_body_tetrahedron(body, t, &element)) continue;
-    for (int k = 0; k < 4; k++) {
-      const sbri_point *p = &positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]];
-      x[k] = (sbfi_d3){p->x, p->y, p->z};
+  if (!sbri_body_tetrahedron(body, t, &element)) return;
+  for (int k = 0; k < 4; k++)
+    x[k] = place_of(&positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]]);
+  sbfi_columns f = sbfi_tetrahedron_gradient(&element, x);
+  found->energy_j += sbfi_tetrahedron_energy(&element, x);
+  found->inverted = found->inverted || !(sbfi_determinant(&f) > 0);
+  double square = 0;
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 3; k++) {
+      double off = sbfi_d3_dot(f.at[i], f.at[k]) - (i == k);
+      square += off * off;
     }
-    sbfi_columns f = sbfi_tetrahedron_gradient(&element, x);
-    found.energy_j += sbfi_tetrahedron_energy(&element, x);
-    found.inverted = found.inverted || !(sbfi_determinant(&f) > 0);
-    double square = 0;
-    for (int i = 0; i < 3; i++)
-      for (int k = 0; k < 3; k++) {
-        double off = sbfi_d3_dot(f.at[i], f.at[k]) - (i == k);
-        square += off * off;
-      }
-    if (!(square > (double)found.max_strain * (double)found.max_strain)) continue;
-    float strain = (float)sbfi_tetrahedron_strains(&element, x).most;
-    found.max_strain = strain > found.max_strain ? strain : found.max_strain;
+  if (!(square > (double)found->max_strain * (double)found->max_strain)) return;
+  float strain = (float)sbfi_tetrahedron_strains(&element, x).most;
+  found->max_strain = strain > found->max_strain ? strain : found->max_strain;
+}
+
+/* As it is now: yielded, its points split, or torn. */
+static void look_at_flowing(const sbri_character *c, const sbri_body *body, const sbri_point *positions,
+    uint32_t t, solid_health *found) {
+  const sbri_island *island = &c->model->islands[body->island];
+  uint32_t at = island->lanes_of_tetrahedra[2 * (body->first_tetrahedron + t)], lane = at % SBRI_BLOCK;
+  const sbri_tetrahedron_block *block = &sbri_solids(c)[island->first_solid_block + at / SBRI_BLOCK];
+  if (!(block->shear[lane] > 0)) {
+    found->torn++;
+    return;
   }
+  sbfi_d3 edges[3];
+  sbfi_stretches stretches;
+  sbfi_solid_metric metric;
+  double mu = 6 * (double)block->shear[lane], lambda = 6 * (double)block->bulk[lane];
+  double volume = 1 / (6 * (double)block->inverse_volume[lane]), ratio = 1, squares = 0;
+  for (int i = 0; i < 6; i++) metric.at[i] = block->stiffness[i][lane] / (volume * mu);
+  for (int k = 0; k < 3; k++)
+    edges[k] = sbfi_d3_sub(
+        place_of(&positions[block->corners[k + 1][lane]]), place_of(&positions[block->corners[0][lane]]));
+  if (!sbfi_stretches_find(&metric, edges, &stretches)) return;
+  for (int k = 0; k < 3; k++) {
+    double value = stretches.values[k];
+    float strain = (float)fabs(value - 1);
+    ratio *= value, squares += value * value;
+    found->max_strain = strain > found->max_strain ? strain : found->max_strain;
+  }
+  double off = ratio - 1 - mu / lambda;
+  found->energy_j += volume * (0.5 * mu * (squares - 3) + 0.5 * lambda * off * off - 0.5 * mu * mu / lambda);
+  found->inverted = found->inverted || !(ratio > 0);
+}
+
+static solid_health look_at_tetrahedra(
+    const sbri_character *c, const sbri_body *body, const sbri_point *positions) {
+  solid_health found = {0, 0, false, 0};
+  bool flows = c->model->islands[body->island].solid_flows;
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+    if (flows)
+      look_at_flowing(c, body, positions, t, &found);
+    else
+      look_at_tetrahedron(body, positions, t, &found);
   return found;
 }
 
@@ -94,7 +139,7 @@ static double look_at_region(const sbri_region_block *block, const sbri_region_m
 
 static solid_health look_at_regions(
     const sbri_island *island, const sbri_body *body, const sbri_point *positions) {
-  solid_health found = {0, 0, false};
+  solid_health found = {0, 0, false, 0};
   for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
     const sbri_region_block *block = &island->region_blocks[b];
     for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
@@ -118,7 +163,7 @@ static bool is_finite(const sbri_body *body, const sbri_point *positions, const 
 
 static void find_energies(const sbr_world *world, const sbri_character *c, const sbri_body *body,
     const sbri_point *positions, const float *velocities, double solid_j, sbr_body_health *health) {
-  const sbri_island *island = &c->model->islands[body->island];
+  const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]), *island = &now;
   sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
   double height = sbri_head(c)->origin.y / (double)c->scale, kinetic = 0, potential = 0;
   double s = c->scale,
@@ -150,7 +195,9 @@ sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id ch
   health.recoveries = sbri_island_states(c)[body->island].recoveries;
   health.finite = is_finite(body, positions, velocities);
   look_at_springs(c, island, body, positions, &health);
-  solid_health solid = look_at_tetrahedra(body, positions);
+  solid_health solid = look_at_tetrahedra(c, body, positions);
+  health.torn += solid.torn;
+  health.unsplit = sbri_island_states(c)[body->island].unsplit;
   if (solid.max_strain > health.max_strain) health.max_strain = solid.max_strain;
   health.inverted = solid.inverted;
   solid_health regions = look_at_regions(island, body, positions);

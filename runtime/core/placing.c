@@ -46,6 +46,7 @@ void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     sbri_guide_places(c->model, body, sbri_deltas(c), positions + body->slot_begin);
     turn_regions(c, body, &sbri_deltas(c)[turning_frame(c, body)].rotation, sbri_quat_identity());
+    sbri_follow_origins(c, body, positions + body->slot_begin);
   }
   sbri_held_places(island, sbri_deltas(c), positions);
   stop(c, island_index);
@@ -55,16 +56,38 @@ void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
   sbri_island_states(c)[island_index].folded_ticks = 0;
 }
 
+static void unflow_solids(sbri_character *c, const sbri_island *island) {
+  const uint32_t *torn = sbri_torn(c) + island->first_solid;
+  sbri_tetrahedron_block *blocks = sbri_solids(c) + island->first_solid_block;
+  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+    for (int n = 0; n < 2 && !torn[t]; n++) {
+      uint32_t at = island->lanes_of_tetrahedra[2 * t + (uint32_t)n], lane = at % SBRI_BLOCK;
+      for (int i = 0; i < 6; i++)
+        blocks[at / SBRI_BLOCK].stiffness[i][lane] =
+            island->tetrahedron_blocks[at / SBRI_BLOCK].stiffness[i][lane];
+    }
+}
+
 void sbri_island_unflow(sbri_character *c, uint32_t island_index) {
   const sbri_island *island = &c->model->islands[island_index];
+  sbri_island_states(c)[island_index].thinning = 1;
+  if (island->solid_flows) unflow_solids(c, island);
   if (!island->link_flows) return;
   float *rests = sbri_rests(c) + island->first_flow;
   for (uint32_t block = 0; block < island->link_block_count; block++)
     memcpy(rests + (size_t)block * SBRI_BLOCK, island->links[block].rest, sizeof island->links[block].rest);
 }
 
-void sbri_mend_springs(sbri_character *c) {
-  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_unflow(c, i);
+void sbri_mend(sbri_character *c) {
+  memset(sbri_torn(c), 0, c->model->solid_count * sizeof *sbri_torn(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    const sbri_island *island = &c->model->islands[i];
+    if (island->solid_flows)
+      memcpy(sbri_solids(c) + island->first_solid_block, island->tetrahedron_blocks,
+          island->tetrahedron_block_count * sizeof *island->tetrahedron_blocks);
+    sbri_island_unflow(c, i);
+  }
+  sbri_unsplit(c);
   for (uint32_t i = 0; i < c->model->flow_count; i++) sbri_strengths(c)[i] = 1;
 }
 
@@ -92,6 +115,8 @@ static void carry_body(sbri_character *c, const sbri_body *body, sbri_point *pos
   if (body->held) {
     sbri_guide_places(c->model, body, from, old_guides);
     sbri_guide_places(c->model, body, to, new_guides);
+    sbri_follow_origins(c, body, old_guides);
+    sbri_follow_origins(c, body, new_guides);
   }
   for (uint32_t i = 0; i < count; i++) {
     sbri_point *p = &positions[body->slot_begin + i];

@@ -97,8 +97,9 @@ uint32_t sbr_character_skin(const sbr_world *world, sbr_character_id character, 
 uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id character, uint32_t render_mesh,
     uint32_t render_level, sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
-  const sbri_skin *skin = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
-  if (!skin) return 0;
+  const sbri_skin *made = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
+  if (!made) return 0;
+  const sbri_skin now = sbri_skin_now(c, made), *skin = &now;
   uint32_t count = least(capacity, skin->vertex_count);
   sample(world, c);
   sbri_point *vertices = sbri_vertices(c);
@@ -127,8 +128,9 @@ uint32_t sbr_character_corner_normals(const sbr_world *world, sbr_character_id c
 uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, uint32_t render_level, sbf_vec3 *normals, uint32_t capacity) {
   sbri_character *c = sbri_character_of(world, character);
-  const sbri_skin *skin = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
-  if (!skin) return 0;
+  const sbri_skin *made = c ? sbri_skin_of(c->model, render_mesh, render_level) : NULL;
+  if (!made) return 0;
+  const sbri_skin now = sbri_skin_now(c, made), *skin = &now;
   if (!normals || skin->vertex_count == 0) return skin->corner_count;
   sample(world, c);
   sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), sbri_vertices(c));
@@ -148,7 +150,8 @@ uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id characte
   const sbri_body *body = &c->model->bodies[soft_body];
   sample(world, c);
   sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
-  sbri_skin_vertices(c->model, &body->surface, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
+  const sbri_skin surface = sbri_skin_now(c, &body->surface);
+  sbri_skin_vertices(c->model, &surface, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
   if (positions) write_points(c, vertices, least(capacity, body->surface.vertex_count), positions);
   return body->surface.vertex_count;
 }

@@ -111,7 +111,9 @@ uint64_t sbr_world_state_hash(const sbr_world *world) {
         (size_t)c->model->island_count * sizeof(sbri_island_state) / sizeof(uint32_t));
     /* Positions, the tick before and velocities follow each other. */
     sbfi_hash64_f32(&hash, (const float *)(const void *)(c->state + l->positions),
-        (l->state_size - l->positions) / sizeof(float));
+        (l->solids - l->positions) / sizeof(float));
+    sbfi_hash64_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids),
+        (l->state_size - l->solids) / sizeof(uint32_t));
   }
   return sbfi_hash64_value(&hash);
 }

@@ -13,7 +13,7 @@ static size_t padded(size_t count) {
 void sbri_layout_make(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
-         surface = 0, surface_faces = 0, samples = 0, end = 0;
+         surface = 0, surface_faces = 0, end = 0;
   for (uint32_t i = 0; i < model->skin_count; i++) {
     const sbri_skin *skin = &model->skins[i];
     vertices = skin->vertex_count > vertices ? skin->vertex_count : vertices;
@@ -25,8 +25,6 @@ void sbri_layout_make(sbr_model *model) {
     sbri_body *body = &model->bodies[i];
     body->first_vertex = (uint32_t)surface;
     body->first_face = (uint32_t)surface_faces;
-    body->first_touch = (uint32_t)samples;
-    samples += body->sample_count;
     surface += padded(body->surface.vertex_count);
     surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
   }
@@ -41,6 +39,16 @@ void sbri_layout_make(sbr_model *model) {
   l->rests = place(&end, model->flow_count, sizeof(float));
   l->strengths = place(&end, model->flow_count, sizeof(float));
   l->rotations = place(&end, 4 * SBRI_BLOCK * (size_t)model->region_block_count, sizeof(float));
+  l->solids = place(&end, model->solid_block_count, sizeof(sbri_tetrahedron_block));
+  l->torn = place(&end, model->solid_count, sizeof(uint32_t));
+  size_t torn_slots = model->tears ? slots : 0;
+  l->origins = place(&end, torn_slots, sizeof(uint32_t));
+  l->masses = place(&end, torn_slots, sizeof(float));
+  l->inverse_masses = place(&end, torn_slots, sizeof(float));
+  l->gravity_scales = place(&end, torn_slots, sizeof(float));
+  l->skin_cells = place(&end, model->torn_cell_count, sizeof(sbri_carry_cell));
+  l->bound_to = place(&end, model->binding_count, sizeof(uint32_t));
+  l->torn_polygons = place(&end, model->torn_polygon_count, sizeof(uint32_t));
   l->state_size = (end + 63) & ~(size_t)63;
   end = 0;
   l->deltas = place(&end, frames, sizeof(sbr_transform));
@@ -59,13 +67,14 @@ void sbri_layout_make(sbr_model *model) {
   l->element_forces = place(&end, slots, sizeof(sbri_point));
   l->planes = place(&end, 4 * slots, sizeof(float));
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
-  l->touches = place(&end, samples, sizeof(sbri_touch));
-  l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
   l->sampled = place(&end, slots, sizeof(sbri_point));
   l->sampled_deltas = place(&end, frames, sizeof(sbr_transform));
   l->vertices = place(&end, padded(vertices), sizeof(sbri_point));
   l->faces = place(&end, faces * SBRI_BLOCK, sizeof(sbri_point));
   l->sums = place(&end, padded(groups > vertices ? groups : vertices), sizeof(sbri_point));
+  l->visits = place(&end, 2 * (size_t)model->solid_count, sizeof(uint32_t));
+  l->queue = place(&end, model->solid_count, sizeof(uint32_t));
+  l->touched = place(&end, model->binding_count, 1);
   l->surface_vertices = place(&end, surface, sizeof(sbri_point));
   l->surface_forces = place(&end, surface, sizeof(sbri_point));
   l->surface_velocities = place(&end, surface, sizeof(sbri_point));

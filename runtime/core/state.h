@@ -20,8 +20,10 @@ typedef struct sbri_island_state {
   float stretch;         /* greatest share of a spring beyond its rest length, in the last substep */
   float stiffening;      /* greatest share of a tetrahedron's stiffness to that at rest then, 1 at rest */
   float least_ratio;     /* least J of its tetrahedra then: below 0 one is inside out; 1: it has none */
+  float thinning;        /* greatest g.g of a yielded rest shape to that it was made with, 1 as made */
   uint32_t folded_ticks; /* for how long its volume has been next to nothing, or such elements inverted */
   uint32_t recoveries;
+  uint32_t unsplit;        /* points that a tear should have split, and there was no room */
   uint32_t recovering;     /* ticks for which the router still keeps to the scheme that recovers */
   sbf_vec3 guide_velocity; /* mean of what holds it, in the last tick */
 } sbri_island_state;
@@ -52,9 +54,21 @@ SBRI_STATE_PART(island_states, sbri_island_state, c->model->layout.islands)     
 SBRI_STATE_PART(positions, sbri_point, c->model->layout.positions)                   /* (slot_count) */
 SBRI_STATE_PART(previous_positions, sbri_point, c->model->layout.previous_positions) /* (slot_count) */
 SBRI_STATE_PART(velocities, float, c->model->layout.velocities)                      /* (slot_count x 3) */
-SBRI_STATE_PART(rests, float, c->model->layout.rests)         /* (flow_count) m, rest lengths */
-SBRI_STATE_PART(strengths, float, c->model->layout.strengths) /* (flow_count) 1, or 0 where torn */
-SBRI_STATE_PART(rotations, float, c->model->layout.rotations) /* (region_block_count x 4 x 8) */
+SBRI_STATE_PART(rests, float, c->model->layout.rests)                    /* (flow_count) m, rest lengths */
+SBRI_STATE_PART(strengths, float, c->model->layout.strengths)            /* (flow_count) 1, or 0 where torn */
+SBRI_STATE_PART(rotations, float, c->model->layout.rotations)            /* (region_block_count x 4 x 8) */
+SBRI_STATE_PART(solids, sbri_tetrahedron_block, c->model->layout.solids) /* (solid_block_count) */
+SBRI_STATE_PART(torn, uint32_t, c->model->layout.torn)                   /* (solid_count) sbri_torn_state */
+/* Of models whose tetrahedra may tear, else empty: where each slot comes from, SBRI_UNUSED while it is room
+ * for a point that splits; what it weighs; the cells of skins, the tetrahedron that each binding rides on,
+ * and what has become of each polygon. */
+SBRI_STATE_PART(origins, uint32_t, c->model->layout.origins)              /* (slot_count) */
+SBRI_STATE_PART(masses, float, c->model->layout.masses)                   /* (slot_count) kg */
+SBRI_STATE_PART(inverse_masses, float, c->model->layout.inverse_masses)   /* (slot_count) 1/kg */
+SBRI_STATE_PART(gravity_scales, float, c->model->layout.gravity_scales)   /* (slot_count) */
+SBRI_STATE_PART(skin_cells, sbri_carry_cell, c->model->layout.skin_cells) /* (torn_cell_count) */
+SBRI_STATE_PART(bound_to, uint32_t, c->model->layout.bound_to)            /* (binding_count) */
+SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)  /* (torn_polygon_count) */
 #undef SBRI_STATE_PART
 
 #define SBRI_SCRATCH_PART(name, type, offset)                                                                \
@@ -74,12 +88,13 @@ SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                    
 SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)             /* (link_block_count x 24) */
 SBRI_SCRATCH_PART(solid_edges, float, c->model->layout.solid_edges) /* (tetrahedron_block_count x 72) */
 SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)     /* (island_count) */
-SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces) /* (slot_count) */
-SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                      /* (slot_count x 4) */
-SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)          /* (slot_count / 8) */
-SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)               /* (samples of all bodies) */
-SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts)       /* (bodies) */
-SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)               /* (slot_count) */
+SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces)    /* (slot_count) */
+SBRI_SCRATCH_PART(visits, uint32_t, c->model->layout.visits)                      /* (solid_count x 2) */
+SBRI_SCRATCH_PART(queue, uint32_t, c->model->layout.queue)                        /* (solid_count) */
+SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                     /* (binding_count) */
+SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                         /* (slot_count x 4) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)             /* (slot_count / 8) */
+SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)                  /* (slot_count) */
 SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */
 SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */
@@ -103,13 +118,36 @@ void sbri_held_places(const sbri_island *island, const sbr_transform *deltas, sb
 /* The root frame of the present state. */
 sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground);
 
+/* ---- core/split.c ---- */
+
+enum { SBRI_UNUSED = UINT32_MAX };
+
+/* The island with what its state has in place of the model's: masses, and tetrahedra. */
+sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island);
+/* Nothing torn, no point split. */
+void sbri_unsplit(sbri_character *c);
+/* Splits the points of what has torn in this tick; returns how many it had no room for. */
+uint32_t sbri_island_split(sbri_character *c, uint32_t island);
+/* Gives points that have split what their origins have, and unused ones what the body's first has: for tables
+ * of the body's slots that are made by the model's. */
+void sbri_follow_origins(const sbri_character *c, const sbri_body *body, sbri_point *places);
+
+/* ---- core/torn_skin.c ---- */
+
+/* A skin as the character has it: with cells of its own where it may tear. */
+sbri_skin sbri_skin_now(const sbri_character *c, const sbri_skin *skin);
+void sbri_skins_mend(sbri_character *c);
+/* After elements of the island have torn and its points have split. Skins belong to no one island: not for
+ * tasks. */
+void sbri_skins_follow(sbri_character *c, uint32_t island);
+
 /* ---- core/placing.c ---- */
 
 /* Everything in its rest shape at the present pose, all speeds zero. */
 void sbri_place_at_rest(sbri_character *c);
-/* All springs whole again, with the rest lengths they were made with. */
-void sbri_mend_springs(sbri_character *c);
-/* Rest lengths of one island's springs as they were made; torn ones stay torn. */
+/* All elements whole again, with the rest shapes they were made with. */
+void sbri_mend(sbri_character *c);
+/* Rest shapes of one island's elements as they were made; torn ones stay torn. */
 void sbri_island_unflow(sbri_character *c, uint32_t island);
 /* The same for one island, with the present `deltas`. */
 void sbri_island_place_at_rest(sbri_character *c, uint32_t island);

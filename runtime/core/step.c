@@ -72,7 +72,8 @@ static void tick_character(void *context, uint32_t index) {
   sbri_character *c = &world->characters[index];
   c->event_count = 0;
   if (!c->model) return;
-  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_tears_of(c)[i].count = 0;
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    sbri_tears_of(c)[i].count = sbri_tears_of(c)[i].unsplit = 0;
   rebase(c);
   sbri_settle(c);
   if (sbri_head(c)->paused) return;
@@ -98,6 +99,8 @@ static sbf_vec3 find_guide_velocities(
     sbri_point *to = sbri_velocity_points(c) + island->first_slot + body->slot_begin;
     sbri_guide_places(c->model, body, sbri_previous_deltas(c), from);
     sbri_guide_places(c->model, body, sbri_deltas(c), to);
+    sbri_follow_origins(c, body, from);
+    sbri_follow_origins(c, body, to);
     float farthest = 0;
     float *velocities = sbri_guide_velocities(c) + 3 * (size_t)(island->first_slot + body->slot_begin);
     for (uint32_t i = 0; i < body->slot_end - body->slot_begin; i++) {
@@ -116,8 +119,8 @@ static sbf_vec3 find_guide_velocities(
 }
 
 /* Gives the body's points what its guides' velocity has changed by beyond what it is made to feel. */
-static void soften_start(sbri_character *c, uint32_t index, sbf_vec3 guide_velocity, float tick_s) {
-  const sbri_island *island = &c->model->islands[index];
+static void soften_start(
+    sbri_character *c, const sbri_island *island, uint32_t index, sbf_vec3 guide_velocity, float tick_s) {
   sbri_island_state *state = &sbri_island_states(c)[index];
   sbf_vec3 change = sbri_sub(guide_velocity, state->guide_velocity);
   float most = island->most_acceleration_m_s2 * tick_s, size = sbri_length(change);
@@ -145,24 +148,37 @@ static void ride_along(sbri_character *c, uint32_t index, float tick_s) {
   }
 }
 
-/* Inert lanes lie where their block's first point does. */
+/* Inert lanes lie where their block's first point does, room for points that split where the body's does. */
 static void tuck_padding(sbri_character *c, const sbri_island *island) {
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
     for (uint32_t slot = body->slot_real_end; slot < body->slot_end; slot++)
       positions[slot] = positions[slot / SBRI_BLOCK * SBRI_BLOCK];
+    for (uint32_t slot = body->first_spare; slot < body->slot_end && body->slot_real_end > body->first_spare;
+         slot++) {
+      if (slot < body->slot_real_end && sbri_origins(c)[island->first_slot + slot] != SBRI_UNUSED) continue;
+      positions[slot] = positions[body->slot_begin];
+      float *v = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+      uint32_t to = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK, from = 3 * body->slot_begin;
+      for (uint32_t k = 0; k < 3; k++) v[to + k * SBRI_BLOCK] = v[from + k * SBRI_BLOCK];
+    }
   }
 }
 
-static void prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
-  size_t first = tick->island->first_slot;
-  sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
-      sbri_touches(c), sbri_touch_counts(c)};
-  for (uint32_t b = 0; b < tick->island->body_count; b++) {
-    const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
-    sbri_contact_prepare(tick, body, &tables);
-    sbri_rolling_resist(tick, body);
+static void prepare_contacts(
+    const sbr_world *world, sbri_character *c, const sbri_island *island, float tick_s) {
+  size_t first = island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_contact_input input = {.island = island,
+        .body = &c->model->bodies[island->bodies[b]],
+        .positions = sbri_positions(c) + first,
+        .velocities = sbri_velocities(c) + 3 * first,
+        .ground = &world->ground,
+        .origin = sbri_head(c)->origin,
+        .scale = c->scale,
+        .tick_s = tick_s};
+    sbri_contact_prepare(&input, sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first);
   }
 }
 
@@ -201,7 +217,8 @@ static void tick_island(void *context, uint32_t index) {
   sbri_character *c = &world->characters[work.character];
   if (sbri_head(c)->paused) return;
   const sbr_model *model = c->model;
-  const sbri_island *island = &model->islands[work.island];
+  sbri_island now = sbri_island_now(c, &model->islands[work.island]);
+  const sbri_island *island = &now;
   size_t first = island->first_slot;
   float tick_s = (float)world->tick_s * c->time_scale;
   bool jumped = false;
@@ -211,7 +228,7 @@ static void tick_island(void *context, uint32_t index) {
     sbri_island_states(c)[work.island].guide_velocity = guide_velocity;
     return;
   }
-  soften_start(c, work.island, guide_velocity, tick_s);
+  soften_start(c, island, work.island, guide_velocity, tick_s);
   sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
   tuck_padding(c, island);
   sbri_island_tick tick = {.model = model,
@@ -232,8 +249,6 @@ static void tick_island(void *context, uint32_t index) {
       .surface_faces = sbri_surface_faces(c),
       .planes = sbri_planes(c) + 4 * first,
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
-      .touches = sbri_touches(c),
-      .touch_counts = sbri_touch_counts(c),
       .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
       .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
       .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
@@ -246,14 +261,24 @@ static void tick_island(void *context, uint32_t index) {
       .moves = sbri_moves(c) + first,
       .edges = sbri_edges(c) + 3 * SBRI_BLOCK * (size_t)island->first_link_block,
       .solid_edges = sbri_solid_edges(c) + 9 * SBRI_BLOCK * (size_t)island->first_tetrahedron_block,
+      .tetrahedra =
+          island->solid_flows ? sbri_solids(c) + island->first_solid_block : island->tetrahedron_blocks,
+      .flowing = island->solid_flows ? sbri_solids(c) + island->first_solid_block : NULL,
+      .torn = island->solid_flows ? sbri_torn(c) + island->first_solid : NULL,
+      .thinning = &sbri_island_states(c)[work.island].thinning,
       .tears = &sbri_tears_of(c)[work.island],
       .step_error_m = model->step_error_m,
       .element_forces = sbri_element_forces(c) + first,
       .stretch = &sbri_island_states(c)[work.island].stretch,
       .stiffening = &sbri_island_states(c)[work.island].stiffening,
       .least_ratio = &sbri_island_states(c)[work.island].least_ratio};
-  if (!island->scheme->forceless) prepare_contacts(&tick, c);
+  if (!island->scheme->forceless) {
+    prepare_contacts(world, c, island, tick_s);
+    for (uint32_t b = 0; b < island->body_count; b++)
+      sbri_rolling_resist(&tick, &model->bodies[island->bodies[b]]);
+  }
   sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
+  if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, work.island);
   recover(world, c, work.island);
 }
 
@@ -275,15 +300,27 @@ static void add_event(sbr_world *world, const sbri_character *c, sbr_event event
   world->events[world->event_head++ % SBRI_EVENTS] = event;
 }
 
-/* The body that lists the spring: of one between bodies, the first. */
-static uint32_t body_of_link(const sbr_model *model, const sbri_island *island, uint32_t link) {
-  uint32_t spring = 0;
+/* The body that lists the element: of a spring between bodies, the first. */
+static uint32_t body_of_tear(const sbr_model *model, const sbri_island *island, const sbri_tear *tear) {
+  uint32_t spring = 0, link = tear->link;
+  for (uint32_t b = 0; tear->solid && b < island->body_count; b++) {
+    const sbri_body *body = &model->bodies[island->bodies[b]];
+    if (link - body->first_tetrahedron < body->tetrahedron_count) return island->bodies[b];
+  }
   while (spring < island->spring_count && island->link_of_spring[spring] != link) spring++;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &model->bodies[island->bodies[b]];
     if (spring >= body->first_spring && spring < body->spring_end) return island->bodies[b];
   }
   return island->bodies[0];
+}
+
+static void follow_tears(sbr_world *world) {
+  for (uint32_t i = 0; i < world->work_count; i++) {
+    sbri_character *c = &world->characters[world->work[i].character];
+    uint32_t island = world->work[i].island;
+    if (c->model->islands[island].tears && sbri_tears_of(c)[island].count > 0) sbri_skins_follow(c, island);
+  }
 }
 
 static void gather_events(sbr_world *world) {
@@ -296,10 +333,14 @@ static void gather_events(sbr_world *world) {
     for (uint32_t k = 0; c->model && k < c->model->island_count; k++) {
       const sbri_tears *tears = &sbri_tears_of(c)[k];
       for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++) {
-        uint32_t body = body_of_link(c->model, &c->model->islands[k], tears->at[e].link);
+        uint32_t body = body_of_tear(c->model, &c->model->islands[k], &tears->at[e]);
         add_event(world, c, (sbr_event){.kind = SBR_EVENT_TEAR, .soft_body = body},
             sbri_scale(tears->at[e].place, c->scale));
       }
+      if (tears->unsplit)
+        add_event(world, c,
+            (sbr_event){.kind = SBR_EVENT_UNSPLIT, .soft_body = c->model->islands[k].bodies[0]},
+            sbri_scale(tears->at[0].place, c->scale));
     }
   }
 }
@@ -308,5 +349,6 @@ void sbri_step_tick(sbr_world *world) {
   world->ticks++;
   run(world, tick_character, world->character_capacity);
   run(world, tick_island, world->work_count);
+  follow_tears(world);
   gather_events(world);
 }

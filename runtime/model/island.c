@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/diagnostic.h"
+#include "mechanics/level_points.h"
 #include "model/island_maker.h"
 #include "model/pins.h"
 
@@ -10,6 +11,23 @@ static const float LEAST_MASS_SHARE = 1e-3f;
 
 static uint32_t padded(uint32_t count) {
   return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
+}
+
+/* ---- Weight maps ---- */
+
+bool sbri_factors_find(
+    sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors) {
+  bool weighed = false;
+  *factors = NULL;
+  for (uint32_t i = 0; i < body->source->weight_maps.count; i++)
+    weighed = weighed || body->source->weight_maps.at[i].property == property;
+  if (!weighed) return true;
+  float *values = sbri_scratch(m, body->level->positions.count, sizeof *values);
+  if (!values) return false;
+  for (uint32_t i = 0; i < body->level->positions.count; i++) values[i] = 1;
+  sbfi_level_weigh(body->source, body->level, property, values);
+  *factors = values;
+  return true;
 }
 
 /* ---- What holds each point, and what it weighs ---- */
@@ -80,6 +98,17 @@ static void count_valences(const sbri_island_maker *m, uint32_t place, uint32_t 
     }
 }
 
+bool sbri_body_tears(const sbri_body *body) {
+  return body->level && body->level->model == SBF_ELASTIC_MODEL_TETRAHEDRA &&
+         body->source->attributes.tear_strain > 0;
+}
+
+/* Room for points that split. */
+static uint32_t reserve_of(const sbri_island_maker *m, const sbri_body *body) {
+  if (!sbri_body_tears(body)) return 0;
+  return m->options->tear_points ? m->options->tear_points : body->level->positions.count / 2;
+}
+
 /* Free points by falling valence, equal ones in the level's order, from slot `next` on. */
 static bool place_free(sbri_island_maker *m, uint32_t place, uint32_t next, uint32_t *slot_from_point) {
   sbri_body *body = sbri_maker_body(m, place);
@@ -96,7 +125,8 @@ static bool place_free(sbri_island_maker *m, uint32_t place, uint32_t next, uint
   for (uint32_t i = 0; i < count; i++)
     if (m->frames[place][i] == SBRI_FREE) slot_from_point[i] = next + begins[most - valences[i]]++;
   body->slot_begin = next;
-  body->slot_real_end = next + begins[most];
+  body->first_spare = next + begins[most];
+  body->slot_real_end = body->first_spare + reserve_of(m, body);
   body->slot_end = padded(body->slot_real_end);
   return true;
 }
@@ -146,8 +176,8 @@ static bool fill_slots(sbri_island_maker *m) {
       inverse_masses[slot] = masses[slot] > 0 ? 1 / masses[slot] : 0;
       gravity_scales[slot] = body->source->attributes.gravity_scale;
     }
-    for (uint32_t slot = body->slot_real_end; slot < body->slot_end; slot++)
-      rest[slot] = rest[slot / SBRI_BLOCK * SBRI_BLOCK];
+    for (uint32_t slot = body->first_spare; slot < body->slot_end; slot++)
+      rest[slot] = rest[body->slot_begin];
   }
   const sbri_goal *goals = m->goals.at;
   for (uint32_t g = 0; g < m->goals.count; g++) {

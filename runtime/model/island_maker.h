@@ -43,6 +43,17 @@ static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t pl
 float sbri_natural_stiffness(const sbf_soft_body *body, float mass);
 
 /* Each false where memory runs out. */
+/* What weight maps of the body make of a property, as factors at its level's points; NULL: 1 everywhere. */
+bool sbri_factors_find(
+    sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors);
+/* Their mean at the corners of a tetrahedron. */
+static inline float sbri_factor_of(const float *factors, const uint32_t corners[4]) {
+  return factors
+             ? 0.25f * (factors[corners[0]] + factors[corners[1]] + factors[corners[2]] + factors[corners[3]])
+             : 1;
+}
+/* Strain limits, yield and tear of the tetrahedra, in the order of the blocks; after these. */
+bool sbri_solid_limits_make(sbri_island_maker *m);
 bool sbri_tetrahedra_list(sbri_island_maker *m); /* finds which act, and their moduli */
 /* The island's tetrahedra for a network over its slots; the arrays are scratch. */
 bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network);

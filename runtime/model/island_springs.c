@@ -29,21 +29,6 @@ typedef struct spring_factors {
   const float *damping, *yield, *tear;
 } spring_factors;
 
-static bool find_factors(
-    sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors) {
-  bool weighed = false;
-  *factors = NULL;
-  for (uint32_t i = 0; i < body->source->weight_maps.count; i++)
-    weighed = weighed || body->source->weight_maps.at[i].property == property;
-  if (!weighed) return true;
-  float *values = sbri_scratch(m, body->level->positions.count, sizeof *values);
-  if (!values) return false;
-  for (uint32_t i = 0; i < body->level->positions.count; i++) values[i] = 1;
-  sbfi_level_weigh(body->source, body->level, property, values);
-  *factors = values;
-  return true;
-}
-
 static float factor_of(const float *factors, const uint32_t ends[2]) {
   return factors ? 0.5f * (factors[ends[0]] + factors[ends[1]]) : 1;
 }
@@ -74,9 +59,9 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
   sbf_level_stiffness(body->source, level, volumes, sums, stiffness);
   const sbf_attributes *is = &body->source->attributes;
   spring_factors by;
-  if (!find_factors(m, body, SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, &by.damping) ||
-      !find_factors(m, body, SBF_WEIGHT_PROPERTY_YIELD_STRAIN, &by.yield) ||
-      !find_factors(m, body, SBF_WEIGHT_PROPERTY_TEAR_STRAIN, &by.tear))
+  if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, &by.damping) ||
+      !sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_YIELD_STRAIN, &by.yield) ||
+      !sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_TEAR_STRAIN, &by.tear))
     return false;
   for (uint32_t s = 0; s < level->springs.count; s++) {
     const sbf_spring_set *set = &level->springs.at[s];
@@ -322,5 +307,5 @@ bool sbri_island_springs(sbri_island_maker *m) {
               bounds[i].yield_strain > 0;
   bool linked = m->island->scheme->sweeps || m->island->routed || (bounded && !m->island->scheme->forceless);
   if (linked && !sbri_links_make(m->model, m->island, bounds)) return false;
-  return make_cells(m) && sbri_tetrahedra_make(m, &network);
+  return make_cells(m) && sbri_tetrahedra_make(m, &network) && sbri_solid_limits_make(m);
 }

@@ -207,7 +207,7 @@ static void fill_lane(sbri_tetrahedron_block *block, uint32_t lane, const sbfi_t
 }
 
 static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block *blocks, float *damping,
-    uint32_t *lanes_of) {
+    const float *const *factors, uint32_t *lanes_of) {
   for (uint32_t n = 0; n < m->island->tetrahedron_block_count; n++) {
     const uint32_t *lanes = p->elements + (size_t)n * SBRI_BLOCK;
     uint32_t spare = lanes[SBRI_BLOCK - 1] == NO_ELEMENT ? find_spare(p, lanes) : 0;
@@ -221,7 +221,10 @@ static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block 
       sbfi_tetrahedron element;
       if (sbri_body_tetrahedron(body, t - body->first_tetrahedron, &element))
         fill_lane(&blocks[n], lane, &element);
-      if (damping) damping[(size_t)n * SBRI_BLOCK + lane] = body->source->attributes.stiffness_damping;
+      if (damping)
+        damping[(size_t)n * SBRI_BLOCK + lane] =
+            body->source->attributes.stiffness_damping *
+            sbri_factor_of(factors[b], body->level->lattice.tetrahedra.at[t - body->first_tetrahedron].at);
       lanes_of[2 * t + again] = n * SBRI_BLOCK + lane;
       if (!again) lanes_of[2 * t + 1] = n * SBRI_BLOCK + lane;
     }
@@ -264,8 +267,12 @@ bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *networ
   sbri_tetrahedron_block *blocks = sbri_keep(m, count, sizeof *blocks);
   uint32_t *lanes = sbri_keep(m, 2 * (size_t)island->tetrahedron_count, sizeof *lanes);
   float *damping = damped ? sbri_keep(m, count * SBRI_BLOCK, sizeof *damping) : NULL;
-  if (!blocks || !lanes || (damped && !damping)) return false;
-  fill(m, &p, blocks, damping, lanes);
+  const float **factors = sbri_scratch(m, island->body_count, sizeof *factors);
+  if (!blocks || !lanes || (damped && !damping) || !factors) return false;
+  for (uint32_t b = 0; b < island->body_count; b++)
+    if (!sbri_factors_find(m, sbri_maker_body(m, b), SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, &factors[b]))
+      return false;
+  fill(m, &p, blocks, damping, factors, lanes);
   float side = mean_side(island, network->tetrahedra);
   if (!(island->cell_m > 0) || side < island->cell_m) island->cell_m = side;
   island->tetrahedron_blocks = blocks;

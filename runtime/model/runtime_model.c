@@ -89,12 +89,20 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     status = choose_scheme(model, island, options, error);
     if (status == SBF_OK) status = sbri_island_make(model, island, options, error);
     if (status != SBF_OK) break;
+    if (!sbri_tear_table_make(model, island)) return no_memory(error);
+    model->tears = model->tears || island->tears;
     island->first_slot = model->slot_count;
     model->slot_count += island->slot_count;
     island->first_link_block = model->link_block_count;
     model->link_block_count += island->link_block_count;
     island->first_tetrahedron_block = model->tetrahedron_block_count;
     model->tetrahedron_block_count += island->tetrahedron_block_count;
+    island->first_solid_block = model->solid_block_count;
+    island->first_solid = model->solid_count;
+    if (island->solid_flows) {
+      model->solid_block_count += island->tetrahedron_block_count;
+      model->solid_count += island->tetrahedron_count;
+    }
     island->first_flow = model->flow_count;
     if (island->link_flows) model->flow_count += island->link_block_count * SBRI_BLOCK;
     island->first_rotation = model->region_block_count;
@@ -136,7 +144,7 @@ static bool make_skins(sbr_model *model) {
     for (uint32_t l = 0; l <= asset->render_meshes.at[i].levels.count; l++)
       if (!sbri_skin_make(model, i, l)) return false;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
-    if (!sbri_surface_make(model, i) || !sbri_samples_make(model, &model->bodies[i])) return false;
+    if (!sbri_surface_make(model, i)) return false;
   return true;
 }
 

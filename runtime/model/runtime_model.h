@@ -75,6 +75,13 @@ typedef struct sbri_region_block {
   float inverse_sums[SBRI_BLOCK]; /* m/N, one over the sum of the stiffnesses; 0: no region */
   float damping_s;                /* beta */
 } sbri_region_block;
+/* Of such a block, where some tetrahedron of the island has any. */
+typedef struct sbri_solid_limits {
+  float least[SBRI_BLOCK], most[SBRI_BLOCK]; /* strain; -1 and 0: no bound */
+  float yield[SBRI_BLOCK], rate[SBRI_BLOCK]; /* strain and 1/s; rate 0: never */
+  float tear[SBRI_BLOCK];                    /* strain; 0: never */
+  float square[SBRI_BLOCK]; /* nothing is beyond while the sum of (s^2 - 1)^2 over its stretches is below */
+} sbri_solid_limits;
 
 /* Up to four frames that carry a free point where no force moves it, as in a skin. */
 enum { SBRI_GUIDES = 4 };
@@ -97,20 +104,29 @@ typedef struct sbri_hinge {
   float stiffness, rest_angle; /* J/rad^2, rad */
 } sbri_hinge;
 
-/* A place of a surface that meets the ground, as a mean of the points that carry it; model/contact_samples.c.
- */
-typedef struct sbri_sample {
-  uint32_t slots[4];
-  float weights[4]; /* summing to 1; below 0 where the place is outside of what carries it */
-  float mass_kg;    /* that answers a push there: 1 / sum of weight^2 / mass */
-} sbri_sample;
+/* What tearing needs to know of an island's tetrahedra. */
+typedef struct sbri_tear_table {
+  const uint32_t (
+      *neighbours)[4]; /* (tetrahedron_count) across the side opposite each corner; UINT32_MAX: none */
+  const uint32_t *around_begins; /* (free_count + 1) into `around` */
+  const uint32_t *around;        /* tetrahedra that have each free slot for a corner */
+  const float *volumes_m3;       /* (tetrahedron_count) at rest */
+} sbri_tear_table;
+
+/* A vertex of a skin that rides on a tetrahedron which may tear: its four carriers are the corners, in their
+ * order, in the cells from `cell` on. */
+typedef struct sbri_binding {
+  uint32_t vertex, cell;
+  uint32_t island, tetrahedron;
+} sbri_binding;
 
 typedef struct sbri_body {
   const sbf_soft_body *source;
   const sbf_level *level; /* NULL: it has none, and moves with its bone */
   uint32_t island;
-  uint32_t slot_begin, slot_real_end, slot_end;  /* free slots; padding from slot_real_end on */
-  uint32_t *slot_from_point;                     /* (level->positions.count) slots of its island */
+  uint32_t slot_begin, slot_real_end, slot_end; /* free slots; padding from slot_real_end on */
+  uint32_t first_spare;      /* of its slots: from here to slot_real_end is room for points that split */
+  uint32_t *slot_from_point; /* (level->positions.count) slots of its island */
   uint32_t first_spring, spring_end;             /* its own springs among the island's */
   uint32_t first_tetrahedron;                    /* of its own among the island's as they are listed */
   uint32_t tetrahedron_count;                    /* those of its level, where they are its model; else 0 */
@@ -122,11 +138,7 @@ typedef struct sbri_body {
   float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
   float media_friction_1_s;
   float friction, restitution;
-  float rolling_share;        /* see collide/rolling.h */
-  const sbri_sample *samples; /* (sample_count) NULL: its points themselves meet the ground */
-  uint32_t sample_count;
-  uint32_t first_touch;              /* in a character's scratch */
-  float sample_beyond;               /* greatest sum of a sample's weights below 0, as a positive number */
+  float rolling_share;               /* see collide/rolling.h */
   float rest_size_m;                 /* diagonal of its box */
   double rest_volume_m3;             /* 0: open, or without polygons */
   sbri_skin surface;                 /* vertices of its surface */
@@ -166,8 +178,14 @@ typedef struct sbri_island {
   uint32_t tetrahedron_full_count, tetrahedron_dense_count; /* ends of the first two sorts of blocks */
   uint32_t tetrahedron_block_count, first_tetrahedron_block;
   const sbri_tetrahedron_block *tetrahedron_blocks;
-  const uint32_t *lanes_of_tetrahedra; /* (tetrahedron_count x 2) block x 8 + lane for forces, for sweeps */
-  const float *tetrahedron_damping;    /* (tetrahedron_block_count x 8) s: beta; NULL: none is damped so */
+  const uint32_t *lanes_of_tetrahedra;   /* (tetrahedron_count x 2) block x 8 + lane for forces, for sweeps */
+  const sbri_solid_limits *solid_limits; /* (tetrahedron_dense_count) NULL: none is bounded */
+  bool solids_limited;                   /* some has strain limits */
+  bool solid_flows;                      /* some yields or tears: the blocks are state */
+  const sbri_tear_table *tears;          /* NULL: no tetrahedron tears */
+  const uint32_t *tetrahedron_of_lane;   /* (tetrahedron_dense_count x 8) where there are limits */
+  uint32_t first_solid_block, first_solid; /* of its blocks and tetrahedra in the character's state */
+  const float *tetrahedron_damping;       /* (tetrahedron_block_count x 8) s: beta; NULL: none is damped so */
   const sbri_region_block *region_blocks; /* (region_block_count) of all bodies that match shapes */
   const sbri_region_member *region_members;
   uint32_t region_block_count;
@@ -199,11 +217,12 @@ typedef struct sbri_island {
 /* Where things lie in a character's state and in its scratch memory, in bytes from their beginnings. */
 typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, rests, strengths,
-      rotations, state_size;
+      rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, skin_cells, bound_to,
+      torn_polygons, state_size;
   size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
   size_t element_forces;
-  size_t touches, touch_counts;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
+  size_t visits, queue, touched;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
       vertices, faces, sums, scratch_size;
 } sbri_layout;
@@ -220,13 +239,17 @@ struct sbr_model {
   sbri_island *islands;
   uint32_t island_count;
   uint32_t slot_count;              /* of all islands */
+  bool tears;                       /* tetrahedra of some island may tear */
   uint32_t link_block_count;        /* of all islands */
   uint32_t tetrahedron_block_count; /* likewise */
-  uint32_t flow_count;              /* links of islands whose springs yield or tear */
-  uint32_t region_block_count;      /* likewise */
-  float step_error_m;               /* of the schemes that control their error */
-  sbri_skin *skins;                 /* (skin_count) of each render mesh the full one and its render levels */
-  const uint32_t *first_skins;      /* (asset->render_meshes.count) */
+  uint32_t solid_block_count,
+      solid_count; /* blocks and tetrahedra of islands whose tetrahedra yield or tear */
+  uint32_t torn_cell_count, binding_count, torn_polygon_count; /* of all skins that may tear */
+  uint32_t flow_count;         /* links of islands whose springs yield or tear */
+  uint32_t region_block_count; /* likewise */
+  float step_error_m;          /* of the schemes that control their error */
+  sbri_skin *skins;            /* (skin_count) of each render mesh the full one and its render levels */
+  const uint32_t *first_skins; /* (asset->render_meshes.count) */
   uint32_t skin_count;
   float rest_size_m; /* diagonal of the box of all bodies */
   sbri_layout layout;
@@ -267,11 +290,13 @@ bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bo
 bool sbri_visits_make(sbr_model *model, sbri_island *island);
 /* Gas, medium, hinges and fields, and how fast they make the islands; after surfaces and rest volumes. */
 bool sbri_outer_make(sbr_model *model);
-/* The places of the surface that meet the ground; after the surfaces. */
-bool sbri_samples_make(sbr_model *model, sbri_body *body);
+/* Neighbours and what lies around each point; false where memory runs out. */
+bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
 
+/* Whether its tetrahedra may tear. */
+bool sbri_body_tears(const sbri_body *body);
 /* The body's tetrahedron at rest; false where it encloses nothing. */
 bool sbri_body_tetrahedron(const sbri_body *body, uint32_t tetrahedron, struct sbfi_tetrahedron *made);
 

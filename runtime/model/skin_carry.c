@@ -16,6 +16,7 @@ typedef struct carry {
   const uint32_t *place_of; /* (source_count) in the skin, UINT32_MAX: not in it; NULL: the same */
   sbfi_arena scratch;
   sbfi_array carriers; /* carrier */
+  sbfi_array bindings; /* sbri_binding; `cell` is the first of four carriers until those are laid out */
 } carry;
 
 static uint32_t place_of(const carry *c, uint32_t vertex) {
@@ -28,6 +29,47 @@ static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32
   return sbfi_array_append(&c->carriers, &(carrier){vertex, slot, weight}, 1);
 }
 
+/* The tetrahedron of those corners, counted in its island; UINT32_MAX: there is none, or it is held all
+ * around. */
+static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, const uint32_t points[4]) {
+  const sbri_island *island = &model->islands[body->island];
+  for (uint32_t i = 0; i < 4; i++) {
+    uint32_t slot = body->slot_from_point[points[i]];
+    if (slot >= island->free_count) continue;
+    for (uint32_t at = island->tears->around_begins[slot]; at < island->tears->around_begins[slot + 1];
+         at++) {
+      const uint32_t *corners =
+          body->level->lattice.tetrahedra.at[island->tears->around[at] - body->first_tetrahedron].at;
+      uint32_t same = 0;
+      for (uint32_t k = 0; k < 16; k++) same += corners[k / 4] == points[k % 4];
+      if (same == 4) return island->tears->around[at];
+    }
+  }
+  return UINT32_MAX;
+}
+
+/* The corners of a tetrahedron that may tear, all four and in its own order; false in `bound` where it is
+ * none. */
+static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
+    const float weights[4], bool *bound) {
+  *bound = false;
+  if (!sbri_body_tears(body)) return true;
+  uint32_t found = find_tetrahedron(c->model, body, points);
+  if (found == UINT32_MAX) return true;
+  const sbri_island *island = &c->model->islands[body->island];
+  const uint32_t *corners = body->level->lattice.tetrahedra.at[found - body->first_tetrahedron].at;
+  sbri_binding binding = {vertex, (uint32_t)c->carriers.count, body->island, found};
+  if (!sbfi_array_append(&c->bindings, &binding, 1)) return false;
+  for (int k = 0; k < 4; k++) {
+    int from = 0;
+    while (points[from] != corners[k]) from++;
+    carrier one = {vertex, island->first_slot + body->slot_from_point[corners[k]], weights[from]};
+    if (!sbfi_array_append(&c->carriers, &one, 1)) return false;
+  }
+  *bound = true;
+  return true;
+}
+
 static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *embedding) {
   for (uint32_t i = 0; i < embedding->points.count; i++) {
     uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
@@ -35,10 +77,32 @@ static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *
     const sbf_vec4 *w = &embedding->weights.at[i];
     float weights[4] = {w->x, w->y, w->z, w->w};
     float blend = embedding->blends.count ? embedding->blends.at[i] : 1;
-    for (int k = 0; k < 4; k++)
-      if (!add_carrier(c, body, place_of(c, vertex), embedding->points.at[i].at[k], blend * weights[k]))
-        return false;
+    bool bound;
+    for (int k = 0; k < 4; k++) weights[k] *= blend;
+    if (!bind_vertex(c, body, place_of(c, vertex), embedding->points.at[i].at, weights, &bound)) return false;
+    for (int k = 0; k < 4 && !bound; k++)
+      if (!add_carrier(c, body, place_of(c, vertex), embedding->points.at[i].at[k], weights[k])) return false;
   }
+  return true;
+}
+
+/* `places` has the cell of each carrier. */
+static bool keep_bindings(carry *c, const uint32_t *places) {
+  sbri_skin *skin = c->skin;
+  uint32_t count = (uint32_t)c->bindings.count;
+  if (count == 0) return true;
+  sbri_binding *bindings = sbfi_arena_allocate(&c->model->arena, count, sizeof *bindings);
+  uint32_t *binding_of = sbfi_arena_allocate(&c->model->arena, skin->vertex_count, sizeof *binding_of);
+  if (!bindings || !binding_of) return false;
+  memcpy(bindings, c->bindings.at, count * sizeof *bindings);
+  memset(binding_of, 0xff, skin->vertex_count * sizeof *binding_of);
+  for (uint32_t i = count; i-- > 0;) {
+    bindings[i].cell = places[bindings[i].cell];
+    binding_of[bindings[i].vertex] = i;
+  }
+  skin->bindings = bindings, skin->binding_of = binding_of, skin->binding_count = count;
+  skin->first_binding = c->model->binding_count, c->model->binding_count += count;
+  skin->first_cell = c->model->torn_cell_count, c->model->torn_cell_count += skin->cell_count;
   return true;
 }
 
@@ -63,10 +127,12 @@ static bool fill_cells(carry *c, uint32_t *counts) {
   size_t cell_count = begins[block_count];
   sbri_carry_cell *cells = sbfi_arena_allocate(&c->model->arena, cell_count ? cell_count : 1, sizeof *cells);
   uint32_t *used = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *used);
-  if (!cells || !used) return false;
+  uint32_t *places = sbfi_arena_allocate(&c->scratch, c->carriers.count + 1, sizeof *places);
+  if (!cells || !used || !places) return false;
   for (size_t i = 0; i < c->carriers.count; i++) {
     uint32_t vertex = carriers[i].vertex;
-    sbri_carry_cell *cell = &cells[begins[vertex / SBRI_BLOCK] + used[vertex]++];
+    places[i] = begins[vertex / SBRI_BLOCK] + used[vertex]++;
+    sbri_carry_cell *cell = &cells[places[i]];
     float sum = sums[vertex];
     cell->slots[vertex % SBRI_BLOCK] = carriers[i].slot;
     cell->weights[vertex % SBRI_BLOCK] =
@@ -74,7 +140,8 @@ static bool fill_cells(carry *c, uint32_t *counts) {
   }
   skin->cell_begins = begins;
   skin->cells = cells;
-  return true;
+  skin->cell_count = (uint32_t)cell_count;
+  return keep_bindings(c, places);
 }
 
 /* The vertices that no body carries: they follow the skin's weights, else `frame`. */
@@ -119,6 +186,7 @@ static bool finish(carry *c, const sbf_vec3 *rest, const sbf_skin *weights, int3
     uint32_t frame = bone >= 0 ? (uint32_t)bone : sbri_root_frame(c->model);
     good = counts && fill_cells(c, counts) && fill_frames(c, counts, rest, weights, frame);
   }
+  sbfi_array_free(&c->bindings);
   sbfi_array_free(&c->carriers);
   sbfi_arena_free(&c->scratch);
   return good;
@@ -128,6 +196,7 @@ static carry begin(sbr_model *model, sbri_skin *skin, uint32_t vertex_count) {
   carry c = {.model = model, .skin = skin, .source_count = vertex_count};
   sbfi_arena_init(&c.scratch, &model->arena.allocator, 0);
   sbfi_array_init(&c.carriers, &model->arena.allocator, sizeof(carrier));
+  sbfi_array_init(&c.bindings, &model->arena.allocator, sizeof(sbri_binding));
   skin->vertex_count = vertex_count;
   return c;
 }
@@ -161,8 +230,10 @@ bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_leve
     skin->vertex_count = level.vertex_count;
     c.place_of = level.place_of;
   }
+  skin->first_polygon = model->torn_polygon_count;
   good =
       good && add_embeddings(&c, render_mesh) && sbri_shading_make(skin, &shown.mesh, &shown, &model->arena);
+  if (c.bindings.count) model->torn_polygon_count += shown.mesh.polygon_sizes.count;
   return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good);
 }
 

@@ -39,7 +39,8 @@ double sbri_skin_volume(const sbri_skin *skin, const sbri_point *vertices) {
 
 double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const sbri_point *points) {
   sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
-  sbri_skin_vertices(c->model, &body->surface, points, sbri_deltas(c), vertices);
+  const sbri_skin surface = sbri_skin_now(c, &body->surface);
+  sbri_skin_vertices(c->model, &surface, points, sbri_deltas(c), vertices);
   return sbri_skin_volume(&body->surface, vertices);
 }
 

@@ -50,6 +50,12 @@ typedef struct sbri_skin {
   const uint32_t *vertices;    /* (vertex_count) of a render level: which of the mesh's; NULL: all */
   const uint32_t *cell_begins; /* (blocks of vertices + 1) */
   const sbri_carry_cell *cells;
+  uint32_t cell_count;
+  /* Of a skin that may tear, else none: who rides on which tetrahedron, by vertices, and where the skin's
+   * cells, bindings and polygons begin in a character's state. */
+  const struct sbri_binding *bindings;
+  const uint32_t *binding_of; /* (vertex_count) UINT32_MAX: none */
+  uint32_t binding_count, first_cell, first_binding, first_polygon;
   const sbri_frame_vertex *frame_vertices; /* (frame_vertex_count) */
   uint32_t frame_vertex_count;
   const sbri_influence *influences;

@@ -6,6 +6,7 @@
 #define SBRI_FINISH_H
 
 #include "solvers/flow.h"
+#include "solvers/solid_limits.h"
 #include "solvers/strain_limit.h"
 #include "solvers/volume_keep.h"
 
@@ -15,6 +16,7 @@ static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
       sbri_volume_keep(t, &t->model->bodies[t->island->bodies[b]], h);
   if (t->island->link_limits) sbri_limit_strains(t);
   if (t->rests) sbri_flow(t, h);
+  if (t->island->solid_limits) sbri_limit_solids(t, h);
 }
 
 #endif

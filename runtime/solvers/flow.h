@@ -21,7 +21,7 @@ static inline void sbri_flow_link(
     sbri_tears *tears = t->tears;
     if (tears->count < SBRI_TEARS)
       tears->at[tears->count] =
-          (sbri_tear){at, sbri_vec3(0.5f * (p->x + q->x), 0.5f * (p->y + q->y), 0.5f * (p->z + q->z))};
+          (sbri_tear){at, false, sbri_vec3(0.5f * (p->x + q->x), 0.5f * (p->y + q->y), 0.5f * (p->z + q->z))};
     tears->count++;
     t->strengths[at] = 0;
   } else if (is->rate[lane] > 0) {

@@ -7,28 +7,21 @@
 
 #include "model/runtime_model.h"
 
-/* Springs that tore in a tick: how many, and the first of them. */
+/* Elements that tore in a tick: how many, and the first of them. */
 enum { SBRI_TEARS = 16 };
 typedef struct sbri_tear {
-  uint32_t link;  /* block x 8 + lane */
+  uint32_t link;  /* block x 8 + lane; of a tetrahedron its number */
+  bool solid;     /* a tetrahedron */
   sbf_vec3 place; /* its middle, asset metres */
 } sbri_tear;
 typedef struct sbri_tears {
-  uint32_t count; /* more than SBRI_TEARS: the others are counted only */
+  uint32_t unsplit; /* points for which there was no room */
+  uint32_t count;   /* more than SBRI_TEARS: the others are counted only */
   sbri_tear at[SBRI_TEARS];
 } sbri_tears;
 
-/* A sample of a body that may touch something within the tick: the plane it must not go below. A sample may
- * be in several. */
-typedef struct sbri_touch {
-  uint32_t sample; /* of the body */
-  sbf_vec3 normal; /* unit */
-  float offset;    /* normal . x of the plane */
-  /* Of solvers/touches.c, from substep to substep: */
-  float gap, wanted; /* m and m/s, at the beginning of one */
-  float gain;        /* m/s that the push gives the sample along the normal */
-  sbf_vec3 rub;      /* and friction across it */
-} sbri_touch;
+/* What a tetrahedron that may tear is. */
+enum sbri_torn_state { SBRI_WHOLE, SBRI_TORN_NOW, SBRI_TORN_BEFORE };
 
 typedef struct sbri_island_tick {
   const sbr_model *model;
@@ -53,46 +46,23 @@ typedef struct sbri_island_tick {
   sbri_point *surface_vertices, *surface_faces;    /* scratch of the character; see sbri_body.first_vertex */
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
-  sbri_touch *touches;                             /* of the character; see sbri_body.first_touch */
-  const uint32_t *touch_counts;                    /* (bodies of the model) */
   float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
   float *rotations;         /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
   sbri_point *outer;        /* (free_count) N; scratch of what is neither springs nor weight; NULL: nothing */
-  float *accelerations, *older_velocities; /* (free_count x 3) scratch, blocks as `velocities` */
-  sbri_point *moves;                       /* (slot_count) scratch */
-  float *edges;                            /* (links x 8 x 3) scratch */
-  float *solid_edges;                      /* (tetrahedra's lanes x 9) scratch */
-  sbri_tears *tears;                       /* scratch: what tore in this tick */
-  float step_error_m;                      /* of schemes that control their error, asset metres */
+  float *accelerations, *older_velocities;  /* (free_count x 3) scratch, blocks as `velocities` */
+  sbri_point *moves;                        /* (slot_count) scratch */
+  float *edges;                             /* (links x 8 x 3) scratch */
+  float *solid_edges;                       /* (tetrahedra's lanes x 9) scratch */
+  sbri_tears *tears;                        /* scratch: what tore in this tick */
+  float step_error_m;                       /* of schemes that control their error, asset metres */
+  const sbri_tetrahedron_block *tetrahedra; /* the island's blocks as they are now */
+  sbri_tetrahedron_block *flowing;          /* the same where they yield or tear, else NULL */
+  uint32_t *torn;                           /* (tetrahedron_count) sbri_torn_state, likewise */
+  float *thinning;                          /* see sbri_island_state */
   float *stiffening;  /* of the tetrahedra, see sbri_island_state: in of the last tick, out of this one */
   float *least_ratio; /* out: least J of the tetrahedra when last looked at, 1 without them */
   float *stretch;     /* greatest share of a spring beyond its rest length: in of the last tick, out
                          of this one's last substep */
 } sbri_island_tick;
-
-/* Velocity of a slot; of held ones that of their way through the tick. */
-static inline sbf_vec3 sbri_slot_velocity(const sbri_island_tick *t, const float *velocities, uint32_t slot) {
-  if (slot < t->island->free_count) {
-    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    return (sbf_vec3){v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
-  }
-  const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
-  float rate = 1 / t->tick_s;
-  return (sbf_vec3){(to->x - from->x) * rate, (to->y - from->y) * rate, (to->z - from->z) * rate};
-}
-
-static inline sbf_vec3 sbri_sample_place(const sbri_island_tick *t, const sbri_sample *s) {
-  sbf_vec3 x = {0, 0, 0};
-  for (int k = 0; k < 4; k++) {
-    const sbri_point *p = &t->positions[s->slots[k]];
-    x.x += s->weights[k] * p->x, x.y += s->weights[k] * p->y, x.z += s->weights[k] * p->z;
-  }
-  return x;
-}
-
-/* How many of the body's touches there are in this tick. */
-static inline uint32_t sbri_touch_count(const sbri_island_tick *t, const sbri_body *body) {
-  return body->samples ? t->touch_counts[body - t->model->bodies] : 0;
-}
 
 #endif

@@ -163,7 +163,7 @@ SBRI_INLINE void sbri_tetrahedron_block_forces(const sbri_island_tick *t, const 
 static inline void sbri_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
   const sbri_island *island = t->island;
   uint32_t count = island->tetrahedron_dense_count;
-  const sbri_tetrahedron_block *blocks = island->tetrahedron_blocks;
+  const sbri_tetrahedron_block *blocks = t->tetrahedra;
   memset(t->element_forces, 0, island->slot_count * sizeof *t->element_forces);
   /* Copies of the loop, so that the common one carries no more than it needs. */
   if (island->tetrahedron_damping)
@@ -206,7 +206,8 @@ static inline void sbri_tetrahedron_pass(const sbri_island_tick *t, bool looks) 
  * it. */
 static inline double sbri_stiffened_time(const sbri_island_tick *t, float time_s) {
   const float most = 1e4f; /* beyond it nothing would help */
-  float share = *t->stiffening < most ? *t->stiffening : most;
+  float share = *t->stiffening * *t->thinning;
+  if (!(share < most)) share = most;
   return (double)time_s * (double)(t->island->stiffness_damping_s > 0 ? share : sqrtf(share));
 }
 

@@ -32,7 +32,7 @@
 /* Each tetrahedron's edges from its first corner where the tick begins. */
 static inline void sbri_solid_edges_begin(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < t->island->tetrahedron_block_count; b++) {
-    const sbri_tetrahedron_block *block = &t->island->tetrahedron_blocks[b];
+    const sbri_tetrahedron_block *block = &t->tetrahedra[b];
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
       float *edges = t->solid_edges + 9 * SBRI_BLOCK * (size_t)b + lane;
       sbri_wide3 x0 = sbri_wide_gather(t->begins, block->corners[0] + lane);
@@ -152,7 +152,7 @@ SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahed
 
 SBRI_INLINE void sbri_sweep_blocks(
     const sbri_island_tick *t, const sbri_sweep_step *step, bool backwards, const float *betas) {
-  const sbri_tetrahedron_block *blocks = t->island->tetrahedron_blocks;
+  const sbri_tetrahedron_block *blocks = t->tetrahedra;
   uint32_t full = t->island->tetrahedron_full_count, left_out = t->island->tetrahedron_dense_count - full;
   uint32_t count = t->island->tetrahedron_block_count - left_out;
   for (uint32_t n = 0; n < count; n++) {

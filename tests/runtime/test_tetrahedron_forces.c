@@ -29,6 +29,7 @@ static void begin(float damping_s) {
   memcpy(positions, island->rest, island->slot_count * sizeof *positions);
   tick = (sbri_island_tick){.model = s.model,
       .island = island,
+      .tetrahedra = island->tetrahedron_blocks,
       .positions = positions,
       .velocity_points = velocities,
       .element_forces = forces};

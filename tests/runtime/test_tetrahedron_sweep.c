@@ -70,8 +70,12 @@ START_TEST(a_short_step_follows_the_energy)
   sbfi_tetrahedron element;
   ck_assert(sbri_body_tetrahedron(&s.model->bodies[0], 0, &element));
   sbfi_tetrahedron_forces(&element, x, f);
-  sbri_island_tick t = {
-      .model = s.model, .island = island, .begins = begins, .moves = moves, .solid_edges = edges};
+  sbri_island_tick t = {.model = s.model,
+      .island = island,
+      .tetrahedra = island->tetrahedron_blocks,
+      .begins = begins,
+      .moves = moves,
+      .solid_edges = edges};
   sbri_solid_edges_begin(&t);
   sbri_sweep_tetrahedra(&t, h, false);
   for (uint32_t i = 0; i < 4; i++) {

@@ -10,10 +10,9 @@ bl_info = {
     "category": "Import-Export",
 }
 
-from . import panels, settings  # noqa: E402
 from .operators import export  # noqa: E402
 
-PARTS = (settings, panels, export)
+PARTS = (export,)
 
 
 def register():

@@ -102,9 +102,10 @@ typedef struct sbr_model_options {
                         where that would be too many substeps or in trouble: docs/solvers.md */
   uint32_t substeps; /* of a control tick; 0: the level's own, or as many as the scheme needs */
   bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass */
-  bool has_gravity;   /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
-  sbf_vec3 gravity;   /* m/s^2 */
-  float step_error_m; /* error that a step of a scheme with error control (heun) may have; 0: 0.0001 */
+  bool has_gravity; /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
+  sbf_vec3 gravity; /* m/s^2 */
+  uint32_t tear_points; /* that tearing may add to each body of tetrahedra; 0: half as many as it has */
+  float step_error_m;   /* error that a step of a scheme with error control (heun) may have; 0: 0.0001 */
   sbr_instructions instructions; /* for the solvers' loops */
 } sbr_model_options;
 
@@ -224,6 +225,11 @@ SBF_API uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_
     uint32_t capacity);
 SBF_API uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, uint32_t render_level, sbf_vec3 *normals, uint32_t capacity);
+/* What tears have opened of a skin that rides on tetrahedra: `torn` gets 1 for each polygon of the render
+ * level (0: the mesh) that spans a tear and is to be left out when it is drawn, else 0. Returns how many
+ * polygons that has. */
+SBF_API uint32_t sbr_character_torn_polygons(const sbr_world *world, sbr_character_id character,
+    uint32_t render_mesh, uint32_t render_level, uint8_t *torn, uint32_t capacity);
 /* Surface vertices of one soft body, in source order; and the points of its simulated level. */
 SBF_API uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbf_vec3 *positions, uint32_t capacity);
@@ -235,7 +241,8 @@ typedef enum sbr_event_kind {
   SBR_EVENT_FOOT_DOWN,
   SBR_EVENT_FOOT_UP,
   SBR_EVENT_LANDED,
-  SBR_EVENT_TEAR /* a spring tore; of more than 16 in one tick of bodies that hang together, the first */
+  SBR_EVENT_TEAR,   /* an element tore; of more than 16 in one tick of bodies that hang together, the first */
+  SBR_EVENT_UNSPLIT /* a tear found no room to split points: more tear_points */
 } sbr_event_kind;
 /* Something that happened in a step. */
 typedef struct sbr_event {
@@ -244,7 +251,7 @@ typedef struct sbr_event {
   uint32_t leg;               /* of the gait, from 0; 0 for a tear */
   uint64_t tick;              /* since the world began */
   sbr_double3 position;       /* world */
-  uint32_t soft_body;         /* of a tear: whose spring; else 0 */
+  uint32_t soft_body;         /* of a tear: whose element; else 0 */
 } sbr_event;
 /* Events since the last call, oldest first; returns how many were written. Older ones than the world keeps
  * (256) are lost. They are output, not state: snapshots do not hold them. */
@@ -258,7 +265,9 @@ typedef struct sbr_body_health {
   bool inverted;       /* an element, or the surface as a whole, is inside out */
   uint32_t recoveries; /* how often it had to be put back into its rest shape, having lost it for good */
   double kinetic_j, elastic_j, potential_j; /* potential is that of weight, 0 at the height of world y = 0 */
-  uint32_t torn;                            /* springs that have torn since it was made or reset */
+  uint32_t torn;                            /* elements that have torn since it was made or reset */
+  uint32_t
+      unsplit; /* points that tears of bodies that hang together could not split, for want of tear_points */
 } sbr_body_health;
 SBF_API sbr_body_health sbr_character_health(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body);

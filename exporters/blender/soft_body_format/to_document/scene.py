@@ -8,15 +8,10 @@ import bpy
 from ..sbfmt.document import Record
 from ..space import Space
 from .armatures import Skeleton, write_bones
-from ..settings.attributes import fill_attributes
-from . import cloth, soft_bodies
-from .gaits import GaitWriter
 from .identifiers import Identifiers
 from .materials import Materials
 from .meshes import Geometry, fill_normals, fill_polygons, fill_shape_keys, fill_skin, fill_uv_sets
-from .pins import fill_pins, fill_weight_maps
 from .rest import at_rest, mesh_of
-from .rigid_parts import RigidParts
 from .roles import RENDER, SECTION, SOFT, armature_of, holding_bone, role_of
 
 
@@ -44,8 +39,6 @@ class SceneWriter:
         # Asked before modifiers are turned off for the rest pose.
         self.roles = {one.name: role_of(one) for one in self.of_type("MESH")}
         self.armatures = {one.name: armature_of(one) for one in self.of_type("MESH")}
-        self.soft = {one.name: soft_bodies.settings_of(one) for one in self.of_type("MESH")}
-        self.cloth = {one.name: cloth.settings_of(one) for one in self.of_type("MESH")}
         self.depsgraph = None
 
     def chosen(self):
@@ -77,11 +70,6 @@ class SceneWriter:
             for source in self.of_type("MESH"):
                 if self.roles[source.name] in (RENDER, SECTION, SOFT):
                     self.write_mesh(source, self.roles[source.name])
-            for armature in self.of_type("ARMATURE"):
-                RigidParts(self).write(armature)
-            gait = self.scene.soft_body_format.gait
-            if gait.use and gait.armature is not None:
-                GaitWriter(self, gait).write()
         if not self.asset.render_meshes:
             self.findings.error("nothing to export: no visible mesh is chosen; select one, or turn off Selected Objects Only")
         return self.asset
@@ -148,15 +136,4 @@ class SceneWriter:
         body = self.asset.add("soft_bodies", id=self.identifiers.of("body", source.name, source.name), name=source.name)
         fill_polygons(body.surface, geometry, "surface")
         body.bone = self.holder(source)
-        settings, soft, layer = source.soft_body_format, self.soft[source.name], self.cloth[source.name]
-        if soft is not None and not settings.own_values:
-            soft_bodies.fill_from_soft_body(self, body, source, geometry, soft)
-        elif layer is not None and not settings.own_values:
-            cloth.fill_from_cloth(self, body, source, geometry, layer)
-        else:
-            fill_attributes(body.attributes, settings.attributes)
-            for name in ("particle_radius", "outer_thickness", "inner_thickness"):
-                setattr(body.collision, name, getattr(settings, name))
-            body.collision.self = settings.self_collision
-        fill_pins(self, body, source, geometry.mesh)
-        fill_weight_maps(self, body, source, geometry.mesh)
+        return body

@@ -1,0 +1,178 @@
+/* Points of lattices that split where tetrahedra have torn.
+ *
+ * What is left around a point of a torn tetrahedron hangs together across sides. Where that makes several
+ * parts, the largest keeps the point and each other one gets a point of its own out of the body's room, at
+ * the same place and velocity, with its share of the mass by the volume of its tetrahedra: momentum and
+ * energy are kept. Torn tetrahedra weigh what they did. Held points do not split: they would not move apart.
+ */
+#include <string.h>
+
+#include "core/state.h"
+
+/* Of a point with more tetrahedra around it only so many are looked at. */
+enum { MOST_AROUND = 192 };
+
+sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island) {
+  sbri_island now = *island;
+  if (!island->tears) return now;
+  now.masses = sbri_masses(c) + island->first_slot;
+  now.inverse_masses = sbri_inverse_masses(c) + island->first_slot;
+  now.gravity_scales = sbri_gravity_scales(c) + island->first_slot;
+  return now;
+}
+
+void sbri_unsplit(sbri_character *c) {
+  const sbr_model *model = c->model;
+  for (uint32_t i = 0; model->tears && i < model->island_count; i++) {
+    const sbri_island *island = &model->islands[i];
+    sbri_island_states(c)[i].unsplit = 0;
+    for (uint32_t slot = 0; slot < island->slot_count; slot++) {
+      uint32_t at = island->first_slot + slot;
+      bool free = slot < island->free_count;
+      sbri_origins(c)[at] = slot;
+      sbri_masses(c)[at] = free ? island->masses[slot] : 0;
+      sbri_inverse_masses(c)[at] = free ? island->inverse_masses[slot] : 0;
+      sbri_gravity_scales(c)[at] = free ? island->gravity_scales[slot] : 0;
+    }
+    for (uint32_t b = 0; b < island->body_count; b++) {
+      const sbri_body *body = &model->bodies[island->bodies[b]];
+      for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++)
+        sbri_origins(c)[island->first_slot + slot] = SBRI_UNUSED;
+    }
+  }
+  sbri_skins_mend(c);
+}
+
+void sbri_follow_origins(const sbri_character *c, const sbri_body *body, sbri_point *places) {
+  if (body->first_spare == body->slot_real_end) return;
+  const uint32_t *origins = sbri_origins(c) + c->model->islands[body->island].first_slot;
+  for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++) {
+    uint32_t from = origins[slot] == SBRI_UNUSED ? body->slot_begin : origins[slot];
+    places[slot - body->slot_begin] = places[from - body->slot_begin];
+  }
+}
+
+/* ---- Around a point ---- */
+
+typedef struct splitting {
+  sbri_character *c;
+  const sbri_island *island;
+  const uint32_t *torn;
+  sbri_tetrahedron_block *blocks;
+  uint32_t elements[MOST_AROUND], corners[MOST_AROUND], parts[MOST_AROUND], count, part_count;
+} splitting;
+
+static uint32_t *corner(const splitting *s, uint32_t element, uint32_t k, int copy) {
+  uint32_t at = s->island->lanes_of_tetrahedra[2 * element + (uint32_t)copy];
+  return &s->blocks[at / SBRI_BLOCK].corners[k][at % SBRI_BLOCK];
+}
+
+/* What is whole and has the slot for a corner. */
+static void look_around(splitting *s, uint32_t slot) {
+  const sbri_tear_table *table = s->island->tears;
+  uint32_t origin = sbri_origins(s->c)[s->island->first_slot + slot];
+  s->count = 0;
+  for (uint32_t i = table->around_begins[origin]; i < table->around_begins[origin + 1]; i++)
+    for (uint32_t k = 0; k < 4 && s->count < MOST_AROUND; k++) {
+      uint32_t element = table->around[i];
+      if (s->torn[element] || *corner(s, element, k, 0) != slot) continue;
+      s->elements[s->count] = element, s->corners[s->count] = k, s->parts[s->count++] = SBRI_UNUSED;
+    }
+}
+
+static void flood(splitting *s, uint32_t from) {
+  uint32_t queue[MOST_AROUND], end = 1;
+  queue[0] = from, s->parts[from] = s->part_count;
+  for (uint32_t next = 0; next < end; next++)
+    for (uint32_t k = 0; k < 4; k++) { /* sides that have the point */
+      if (k == s->corners[queue[next]]) continue;
+      uint32_t other = s->island->tears->neighbours[s->elements[queue[next]]][k], i = 0;
+      while (i < s->count && s->elements[i] != other) i++;
+      if (i == s->count || s->parts[i] != SBRI_UNUSED) continue;
+      s->parts[i] = s->part_count;
+      queue[end++] = i;
+    }
+  s->part_count++;
+}
+
+/* ---- Splitting ---- */
+
+static float volume_of(const splitting *s, uint32_t part) {
+  float sum = 0;
+  for (uint32_t i = 0; i < s->count; i++)
+    if (s->parts[i] == part) sum += s->island->tears->volumes_m3[s->elements[i]];
+  return sum;
+}
+
+/* A slot that is not used yet, of the body that has `slot`; SBRI_UNUSED: there is none. */
+static uint32_t find_room(const splitting *s, uint32_t slot) {
+  const sbr_model *model = s->c->model;
+  uint32_t b = 0;
+  while (slot >= model->bodies[s->island->bodies[b]].slot_end) b++;
+  const sbri_body *body = &model->bodies[s->island->bodies[b]];
+  for (uint32_t spare = body->first_spare; spare < body->slot_real_end; spare++)
+    if (sbri_origins(s->c)[s->island->first_slot + spare] == SBRI_UNUSED) return spare;
+  return SBRI_UNUSED;
+}
+
+static void copy_point(const splitting *s, uint32_t from, uint32_t to) {
+  size_t first = s->island->first_slot;
+  sbri_point *now = sbri_positions(s->c) + first, *before = sbri_previous_positions(s->c) + first;
+  float *v = sbri_velocities(s->c) + 3 * first;
+  now[to] = now[from], before[to] = before[from];
+  for (uint32_t k = 0; k < 3 * SBRI_BLOCK; k += SBRI_BLOCK)
+    v[3 * (to / SBRI_BLOCK * SBRI_BLOCK) + to % SBRI_BLOCK + k] =
+        v[3 * (from / SBRI_BLOCK * SBRI_BLOCK) + from % SBRI_BLOCK + k];
+  sbri_origins(s->c)[first + to] = sbri_origins(s->c)[first + from];
+  sbri_gravity_scales(s->c)[first + to] = sbri_gravity_scales(s->c)[first + from];
+}
+
+static void weigh(const splitting *s, uint32_t slot, float mass) {
+  sbri_masses(s->c)[s->island->first_slot + slot] = mass;
+  sbri_inverse_masses(s->c)[s->island->first_slot + slot] = mass > 0 ? 1 / mass : 0;
+}
+
+/* How many parts could not be split off. */
+static uint32_t split(splitting *s, uint32_t slot) {
+  look_around(s, slot);
+  s->part_count = 0;
+  for (uint32_t i = 0; i < s->count; i++)
+    if (s->parts[i] == SBRI_UNUSED) flood(s, i);
+  if (s->part_count < 2) return 0;
+  uint32_t largest = 0;
+  float all = 0, mass = sbri_masses(s->c)[s->island->first_slot + slot], left = mass;
+  for (uint32_t part = 0; part < s->part_count; part++) {
+    float volume = volume_of(s, part);
+    all += volume;
+    if (volume > volume_of(s, largest)) largest = part;
+  }
+  for (uint32_t part = 0; part < s->part_count; part++) {
+    if (part == largest) continue;
+    uint32_t room = find_room(s, slot);
+    if (room == SBRI_UNUSED) return s->part_count - 1 - part;
+    float share = mass * (volume_of(s, part) / all);
+    copy_point(s, slot, room);
+    weigh(s, room, share);
+    left -= share;
+    for (uint32_t i = 0; i < s->count; i++)
+      for (int copy = 0; s->parts[i] == part && copy < 2; copy++)
+        *corner(s, s->elements[i], s->corners[i], copy) = room;
+  }
+  weigh(s, slot, left);
+  return 0;
+}
+
+uint32_t sbri_island_split(sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  const uint32_t *torn = sbri_torn(c) + island->first_solid;
+  splitting s = {
+      .c = c, .island = island, .torn = torn, .blocks = sbri_solids(c) + island->first_solid_block};
+  uint32_t unsplit = 0;
+  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+    for (uint32_t k = 0; k < 4 && torn[t] == SBRI_TORN_NOW; k++) {
+      uint32_t slot = *corner(&s, t, k, 0);
+      if (slot < island->free_count) unsplit += split(&s, slot);
+    }
+  sbri_island_states(c)[index].unsplit += unsplit;
+  return unsplit;
+}

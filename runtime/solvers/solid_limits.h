@@ -1,0 +1,224 @@
+/* Tetrahedra within their strain limits, their yield and their tear, at the end of a substep. Strains are the
+ * principal ones of F_e (mechanics/solid_strain.h).
+ *
+ * A limit is a wall, as that of a spring (strain_limit.h): a principal stretch beyond it is brought to it
+ * along its own gradient, by the corners' inverse masses, and the speed with which it was leaving is taken.
+ * Momentum is kept, and angular momentum but for what is shifted. Up to four sweeps a substep: of elements
+ * that pull at the same points some may stay a little beyond.
+ *
+ * What yields gets a new metric of its rest shape, what tears stops: both are the blocks themselves, which
+ * are state then. Written for the lanes of the file that includes it; see kernels/kernels.h. */
+#ifndef SBRI_SOLID_LIMITS_H
+#define SBRI_SOLID_LIMITS_H
+
+#include "mechanics/solid_strain.h"
+#include "solvers/strain_limit.h"
+
+/* No side of a rest shape becomes so many times as thin (the square of it): what is as crushed yields no
+ * more. */
+#define SBRI_MOST_THINNING 64.0
+/* Limits are swept until none is off by more than this strain. */
+#define SBRI_LIMIT_TOLERANCE 1e-3
+enum { SBRI_LIMIT_SWEEPS = 4 };
+
+/* One element, and where it lies in the blocks for forces. */
+typedef struct sbri_solid_lane {
+  uint32_t block, lane;
+  const uint32_t *corners[4];
+} sbri_solid_lane;
+
+static inline uint32_t sbri_corner(const sbri_solid_lane *e, int k) {
+  return *e->corners[k];
+}
+
+static inline void sbri_solid_edges_of(const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_d3 d[3]) {
+  const sbri_point *o = &t->positions[sbri_corner(e, 0)];
+  for (int k = 0; k < 3; k++) {
+    const sbri_point *p = &t->positions[sbri_corner(e, k + 1)];
+    d[k] = (sbfi_d3){(double)p->x - o->x, (double)p->y - o->y, (double)p->z - o->z};
+  }
+}
+
+/* Brings the k-th stretch to `bound`. */
+static inline void sbri_limit_stretch(const sbri_island_tick *t, const sbri_solid_lane *e, const sbfi_d3 d[3],
+    sbfi_stretches *s, int k, double bound) {
+  const double *q = s->directions[k];
+  double value = s->values[k], sum = 0, speed = 0, shares[4] = {0, q[0], q[1], q[2]};
+  if (!(fabs(value) > 1e-6)) return;
+  sbfi_d3 u = sbfi_d3_add(
+      sbfi_d3_add(sbfi_d3_scale(d[0], q[0]), sbfi_d3_scale(d[1], q[1])), sbfi_d3_scale(d[2], q[2]));
+  sbf_vec3 n = sbfi_d3_rounded(sbfi_d3_scale(u, 1 / value));
+  shares[0] = -(q[0] + q[1] + q[2]);
+  for (int i = 0; i < 4; i++) {
+    uint32_t slot = sbri_corner(e, i);
+    double w = slot < t->island->free_count ? t->island->inverse_masses[slot] : 0;
+    sum += w * shares[i] * shares[i];
+    speed += shares[i] * (double)sbri_dot(sbri_slot_velocity(t, slot), n);
+  }
+  if (!(sum > 0)) return;
+  bool leaving = value > bound ? speed > 0 : speed < 0;
+  for (int i = 0; i < 4; i++) {
+    uint32_t slot = sbri_corner(e, i);
+    if (slot >= t->island->free_count) continue;
+    double w = -t->island->inverse_masses[slot] * shares[i] / sum;
+    sbri_shift_slot(t, slot, sbri_scale(n, (float)(w * (value - bound))),
+        sbri_scale(n, leaving ? (float)(w * speed) : 0));
+  }
+  s->values[k] = bound;
+}
+
+/* Both copies of an element's numbers, for forces and for sweeps. */
+static inline sbri_tetrahedron_block *sbri_solid_copy(
+    const sbri_island_tick *t, uint32_t element, int n, uint32_t *lane) {
+  uint32_t at = t->island->lanes_of_tetrahedra[2 * element + (uint32_t)n];
+  *lane = at % SBRI_BLOCK;
+  return &t->flowing[at / SBRI_BLOCK];
+}
+
+static inline void sbri_tear_solid(const sbri_island_tick *t, const sbri_solid_lane *e, uint32_t element) {
+  sbri_tears *tears = t->tears;
+  sbf_vec3 middle = {0, 0, 0};
+  for (int k = 0; k < 4; k++) {
+    const sbri_point *p = &t->positions[sbri_corner(e, k)];
+    middle = sbri_add_scaled(middle, sbri_vec3(p->x, p->y, p->z), 0.25f);
+  }
+  if (tears->count < SBRI_TEARS) tears->at[tears->count] = (sbri_tear){element, true, middle};
+  tears->count++;
+  t->torn[element] = SBRI_TORN_NOW;
+  for (int n = 0; n < 2; n++) {
+    uint32_t lane;
+    sbri_tetrahedron_block *block = sbri_solid_copy(t, element, n, &lane);
+    for (int i = 0; i < 6; i++) block->stiffness[i][lane] = 0;
+    block->inverse_volume[lane] = block->bulk[lane] = block->shear[lane] = 0;
+  }
+}
+
+static inline void sbri_yield_solid(
+    const sbri_island_tick *t, uint32_t element, double per_metric, const sbfi_solid_metric *metric) {
+  for (int n = 0; n < 2; n++) {
+    uint32_t lane;
+    sbri_tetrahedron_block *block = sbri_solid_copy(t, element, n, &lane);
+    const sbri_tetrahedron_block *made = &t->island->tetrahedron_blocks[block - t->flowing];
+    for (int i = 0; i < 3; i++) {
+      float thinning = (float)(metric->at[i] * per_metric) / made->stiffness[i][lane];
+      if (thinning > (float)SBRI_MOST_THINNING) return;
+      if (thinning > *t->thinning) *t->thinning = thinning;
+    }
+    for (int i = 0; i < 6; i++) block->stiffness[i][lane] = (float)(metric->at[i] * per_metric);
+  }
+}
+
+/* Its stretches; false where it has none, being torn. */
+static inline bool sbri_solid_stretches(const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_d3 d[3],
+    sbfi_solid_metric *metric, sbfi_stretches *stretches) {
+  const sbri_tetrahedron_block *block = &t->tetrahedra[e->block];
+  uint32_t lane = e->lane;
+  if (!(block->shear[lane] > 0)) return false;
+  double per_metric = (double)block->shear[lane] / block->inverse_volume[lane]; /* V mu */
+  for (int i = 0; i < 6; i++) metric->at[i] = block->stiffness[i][lane] / per_metric;
+  sbri_solid_edges_of(t, e, d);
+  return sbfi_stretches_find(metric, d, stretches);
+}
+
+/* Whether it was beyond by more than a little. */
+static inline bool sbri_limit_solid(const sbri_island_tick *t, const sbri_solid_lane *e) {
+  const sbri_solid_limits *is = &t->island->solid_limits[e->block];
+  double most = 1 + (double)is->most[e->lane], least = 1 + (double)is->least[e->lane];
+  sbfi_solid_metric metric;
+  sbfi_stretches stretches;
+  sbfi_d3 d[3];
+  bool moved = false;
+  if (!(is->most[e->lane] > 0 || is->least[e->lane] > -1)) return false;
+  if (!sbri_solid_stretches(t, e, d, &metric, &stretches)) return false;
+  for (int k = 0; k < 3; k++) {
+    double value = stretches.values[k];
+    bool is_long = is->most[e->lane] > 0 && value > most;
+    if (!is_long && !(is->least[e->lane] > -1 && value < least)) continue;
+    double bound = is_long ? most : least;
+    moved = moved || fabs(value - bound) > SBRI_LIMIT_TOLERANCE;
+    sbri_limit_stretch(t, e, d, &stretches, k, bound);
+  }
+  return moved;
+}
+
+static inline void sbri_flow_solid(const sbri_island_tick *t, const sbri_solid_lane *e, float h) {
+  const sbri_solid_limits *is = &t->island->solid_limits[e->block];
+  const sbri_tetrahedron_block *block = &t->tetrahedra[e->block];
+  uint32_t lane = e->lane, element = t->island->tetrahedron_of_lane[e->block * SBRI_BLOCK + lane];
+  sbfi_solid_metric metric;
+  sbfi_stretches stretches;
+  sbfi_d3 d[3];
+  double longest = -1;
+  if (!sbri_solid_stretches(t, e, d, &metric, &stretches)) return;
+  for (int k = 0; k < 3; k++)
+    if (stretches.values[k] > longest) longest = stretches.values[k];
+  if (is->tear[lane] > 0 && longest - 1 > is->tear[lane])
+    sbri_tear_solid(t, e, element);
+  else if (is->rate[lane] > 0 &&
+           sbfi_solid_flow(&stretches, is->yield[lane], 1 - sbri_exp(-is->rate[lane] * h), &metric))
+    sbri_yield_solid(t, element, (double)block->shear[lane] / block->inverse_volume[lane], &metric);
+}
+
+/* Lanes in which something may be beyond its bound, by the sum of (s^2 - 1)^2 = |C|^2 - 2 tr C + 3; and those
+ * that are inside out. */
+SBRI_INLINE sbri_mask sbri_solids_beyond(
+    const sbri_island_tick *t, const sbri_tetrahedron_block *block, const float *squares, uint32_t lane) {
+  sbri_wide3 x0 = sbri_wide_gather(t->positions, block->corners[0] + lane), d[3];
+  for (int k = 0; k < 3; k++)
+    d[k] = sbri_wide3_sub(sbri_wide_gather(t->positions, block->corners[k + 1] + lane), x0);
+  static const int places[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  sbri_wide inverse_volume = sbri_wide_load(block->inverse_volume + lane), zero = sbri_wide_all(0);
+  sbri_wide scale =
+      inverse_volume / sbri_wide_max(sbri_wide_load(block->shear + lane), sbri_wide_all(1e-30f));
+  sbri_wide k[6], b[6], product[3][3];
+  for (int i = 0; i < 6; i++) k[i] = sbri_wide_load(block->stiffness[i] + lane) * scale;
+  for (int i = 0; i < 3; i++)
+    for (int j = i; j < 3; j++) b[places[i][j]] = sbri_wide3_dot(d[i], d[j]);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      product[i][j] = b[places[i][0]] * k[places[0][j]] + b[places[i][1]] * k[places[1][j]] +
+                      b[places[i][2]] * k[places[2][j]];
+  sbri_wide sum = sbri_wide_all(3);
+  for (int i = 0; i < 3; i++) {
+    sum = sum - sbri_wide_all(2) * product[i][i];
+    for (int j = 0; j < 3; j++) sum = sum + product[i][j] * product[j][i];
+  }
+  sbri_wide ratio = sbri_wide3_dot(d[0], sbri_wide3_cross(d[1], d[2])) * inverse_volume;
+  return (sum > sbri_wide_load(squares + lane)) | (ratio < zero);
+}
+
+/* One pass over what may be beyond: limits where `h` is 0, else yield and tear over h seconds. Returns
+ * whether a limit moved anything. All lanes of a block are looked at before any is moved: some blocks' lanes
+ * share points, and what one does to another must not depend on how many are looked at together. */
+static inline bool sbri_pass_solids(const sbri_island_tick *t, float h) {
+  bool moved = false;
+  for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {
+    const sbri_tetrahedron_block *block = &t->tetrahedra[b];
+    float marks[SBRI_BLOCK];
+    bool any = false;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
+      sbri_mask beyond = sbri_solids_beyond(t, block, t->island->solid_limits[b].square, lane);
+      sbri_wide_store(marks + lane, sbri_wide_select(beyond, sbri_wide_all(1), sbri_wide_all(0)));
+      any = any || sbri_mask_any(beyond);
+    }
+    for (uint32_t lane = 0; any && lane < SBRI_BLOCK; lane++) {
+      if (marks[lane] == 0) continue;
+      sbri_solid_lane element = {b, lane, {0}};
+      for (int k = 0; k < 4; k++) element.corners[k] = &block->corners[k][lane];
+      if (h > 0)
+        sbri_flow_solid(t, &element, h);
+      else if (sbri_limit_solid(t, &element))
+        moved = true;
+    }
+  }
+  return moved;
+}
+
+static inline void sbri_limit_solids(const sbri_island_tick *t, float h) {
+  for (int sweep = 0; t->island->solids_limited && sweep < SBRI_LIMIT_SWEEPS && sbri_pass_solids(t, 0);
+       sweep++)
+    ;
+  if (t->flowing) sbri_pass_solids(t, h);
+}
+
+#endif
