@@ -120,7 +120,7 @@ sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground)
 
 /* ---- core/split.c ---- */
 
-enum { SBRI_UNUSED = UINT32_MAX };
+#define SBRI_UNUSED UINT32_MAX
 
 /* The island with what its state has in place of the model's: masses, and tetrahedra. */
 sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island);

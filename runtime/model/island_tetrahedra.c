@@ -58,7 +58,7 @@ bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network) 
 /* So many blocks are open at a time, and a tetrahedron goes into the first that has none of its free points:
  * more than a point has tetrahedra as a rule, few enough that a block's stay close in memory. */
 enum { OPEN_BLOCKS = 64 };
-enum { NO_ELEMENT = UINT32_MAX };
+#define NO_ELEMENT UINT32_MAX
 
 typedef struct packing {
   const sbri_island *island;
