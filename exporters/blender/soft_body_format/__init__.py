@@ -10,9 +10,10 @@ bl_info = {
     "category": "Import-Export",
 }
 
+from . import panels, settings  # noqa: E402
 from .operators import export  # noqa: E402
 
-PARTS = (export,)
+PARTS = (settings, panels, export)
 
 
 def register():

@@ -8,9 +8,12 @@ import bpy
 from ..sbfmt.document import Record
 from ..space import Space
 from .armatures import Skeleton, write_bones
+from ..settings.attributes import fill_attributes
+from . import cloth, soft_bodies
 from .identifiers import Identifiers
 from .materials import Materials
 from .meshes import Geometry, fill_normals, fill_polygons, fill_shape_keys, fill_skin, fill_uv_sets
+from .pins import fill_pins, fill_weight_maps
 from .rest import at_rest, mesh_of
 from .roles import RENDER, SECTION, SOFT, armature_of, holding_bone, role_of
 
@@ -39,6 +42,8 @@ class SceneWriter:
         # Asked before modifiers are turned off for the rest pose.
         self.roles = {one.name: role_of(one) for one in self.of_type("MESH")}
         self.armatures = {one.name: armature_of(one) for one in self.of_type("MESH")}
+        self.soft = {one.name: soft_bodies.settings_of(one) for one in self.of_type("MESH")}
+        self.cloth = {one.name: cloth.settings_of(one) for one in self.of_type("MESH")}
         self.depsgraph = None
 
     def chosen(self):
@@ -136,4 +141,15 @@ class SceneWriter:
         body = self.asset.add("soft_bodies", id=self.identifiers.of("body", source.name, source.name), name=source.name)
         fill_polygons(body.surface, geometry, "surface")
         body.bone = self.holder(source)
-        return body
+        settings, soft, layer = source.soft_body_format, self.soft[source.name], self.cloth[source.name]
+        if soft is not None and not settings.own_values:
+            soft_bodies.fill_from_soft_body(self, body, source, geometry, soft)
+        elif layer is not None and not settings.own_values:
+            cloth.fill_from_cloth(self, body, source, geometry, layer)
+        else:
+            fill_attributes(body.attributes, settings.attributes)
+            for name in ("particle_radius", "outer_thickness", "inner_thickness"):
+                setattr(body.collision, name, getattr(settings, name))
+            body.collision.self = settings.self_collision
+        fill_pins(self, body, source, geometry.mesh)
+        fill_weight_maps(self, body, source, geometry.mesh)

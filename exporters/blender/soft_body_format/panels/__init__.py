@@ -1,0 +1,17 @@
+"""Panels of the properties editor: Object, Bone and Scene > Soft body format."""
+
+import bpy
+
+from . import bone_panel, list_buttons, object_panels, scene_panels
+
+CLASSES = list_buttons.CLASSES + object_panels.CLASSES + bone_panel.CLASSES + scene_panels.CLASSES
+
+
+def register():
+    for one in CLASSES:
+        bpy.utils.register_class(one)
+
+
+def unregister():
+    for one in reversed(CLASSES):
+        bpy.utils.unregister_class(one)

@@ -1,0 +1,47 @@
+"""Bone > Soft body format: the joint to the bone above."""
+
+import bpy
+
+
+class SBFMT_PT_bone(bpy.types.Panel):
+    bl_label = "Soft body format"
+    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "bone"
+
+    @classmethod
+    def poll(cls, context):
+        return context.bone is not None
+
+    def draw(self, context):
+        layout, joint = self.layout, context.bone.soft_body_format.joint
+        layout.use_property_split = True
+        layout.prop(joint, "kind")
+        if joint.kind not in ("NONE", "fixed"):
+            self.draw_limits(layout, joint)
+        layout.prop(joint, "simulated")
+        layout.prop(joint, "use_mass")
+        if joint.use_mass:
+            layout.prop(joint, "mass")
+        layout.prop(joint, "use_drive")
+        if joint.use_drive:
+            for name in ("drive_stiffness", "drive_damping", "drive_maximum"):
+                layout.prop(joint, name)
+
+    @staticmethod
+    def draw_limits(layout, joint):
+        if joint.kind == "spherical":
+            layout.prop(joint, "use_cone")
+            if joint.use_cone:
+                layout.prop(joint, "cone")
+        ranges = {"spherical": ("twist", "swing_y", "swing_z"), "revolute": ("twist", ), "prismatic": ("slide", ),
+                  "cylindrical": ("twist", "slide")}[joint.kind]
+        for name in ranges:
+            layout.prop(joint, f"use_{name}")
+            if getattr(joint, f"use_{name}"):
+                column = layout.column(align=True)
+                column.prop(joint, f"{name}_min")
+                column.prop(joint, f"{name}_max")
+        layout.prop(joint, "limit_stiffness")
+        layout.prop(joint, "limit_damping")
+
+
+CLASSES = (SBFMT_PT_bone, )

@@ -1,0 +1,24 @@
+"""What an artist sets beyond Blender's own: properties of objects, bones and scenes. They save with the .blend, undo and copy."""
+
+import bpy
+from bpy.props import PointerProperty
+
+from . import attributes, bone_settings, object_settings, scene_settings
+
+CLASSES = attributes.CLASSES + object_settings.CLASSES + bone_settings.CLASSES + scene_settings.CLASSES
+OWNERS = ((bpy.types.Object, object_settings.SBFMT_PG_object), (bpy.types.Bone, bone_settings.SBFMT_PG_bone),
+          (bpy.types.Scene, scene_settings.SBFMT_PG_scene))
+
+
+def register():
+    for one in CLASSES:
+        bpy.utils.register_class(one)
+    for owner, group in OWNERS:
+        owner.soft_body_format = PointerProperty(type=group, name="Soft body format")
+
+
+def unregister():
+    for owner, _ in OWNERS:
+        del owner.soft_body_format
+    for one in reversed(CLASSES):
+        bpy.utils.unregister_class(one)

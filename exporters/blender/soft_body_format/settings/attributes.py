@@ -1,0 +1,105 @@
+"""Physical attributes with their units, and presets that fill them."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty
+
+from ..sbfmt.document.material_presets import MATERIALS
+
+CUSTOM = "CUSTOM"
+# What a body without a modulus of its own gets: the schema's defaults.
+LAYER_FIELDS = ("area_density", "thickness", "bending_stiffness")
+
+
+def preset_items():
+    yield (CUSTOM, "Custom", "Numbers of your own")
+    for name, numbers in MATERIALS.items():
+        kind = "cloth" if "area_density" in numbers else "solid"
+        yield (name, name.capitalize(), f"{kind}, {numbers['young_modulus']:g} Pa, {numbers['density']:g} kg/m³")
+
+
+def apply_preset(self, _context):
+    if self.preset == CUSTOM:
+        return
+    numbers = MATERIALS[self.preset]
+    for name, value in numbers.items():
+        setattr(self, name, value)
+    self.layer = "area_density" in numbers
+
+
+class SBFMT_PG_attributes(bpy.types.PropertyGroup):
+    """Of one body; names and meanings are those of `attributes` in spec/sbf.md."""
+
+    preset: EnumProperty(name="Material", items=list(preset_items()), default=CUSTOM, update=apply_preset,
+                         description="Fills the numbers below; change them as you like afterwards")
+    layer: BoolProperty(name="Layer", default=False,
+                        description="A sheet or bag of cloth, with mass per area and thickness, even where it is closed")
+    density: FloatProperty(name="Density (kg/m³)", default=1000, min=1e-3, soft_max=10000,
+                           description="Of the matter inside")
+    mass: FloatProperty(name="Mass (kg)", default=0, min=0, soft_max=1000, description="Of the whole body; 0: from the density")
+    area_density: FloatProperty(name="Mass per area (kg/m²)", default=0.15, min=1e-6, soft_max=10, precision=4,
+                                description="Of a layer")
+    thickness: FloatProperty(name="Thickness (m)", default=0.001, min=1e-6, soft_max=0.1, precision=5,
+                             description="Of a layer")
+    bending_stiffness: FloatProperty(name="Bending (N·m)", default=0, min=0, soft_max=1, precision=7,
+                                     description="Flexural rigidity of a layer; 0: from modulus and thickness")
+    young_modulus: FloatProperty(name="Young's modulus (Pa)", default=80000, min=1, soft_max=1e8, step=100000, precision=0,
+                                 description="Stiffness: jelly 3,000, flesh 20,000, rubber 1,200,000")
+    poisson_ratio: FloatProperty(name="Poisson's ratio", default=0.4, min=-0.99, max=0.499, soft_min=0, precision=3,
+                                 description="How much it gets thinner when pulled; bodies of springs show a quarter")
+    damping_ratio: FloatProperty(name="Damping ratio", default=0.2, min=0, soft_max=1,
+                                 description="At the body's lowest mode: 0 swings for ever, 1 not at all")
+    friction: FloatProperty(name="Friction", default=0.6, min=0, soft_max=2, description="Coulomb coefficient")
+    restitution: FloatProperty(name="Restitution", default=0, min=0, max=1, description="Share of the speed that bounces back")
+    media_friction: FloatProperty(name="Media friction (1/s)", default=0, min=0, soft_max=10,
+                                  description="Rate at which speed against the air is lost")
+    gravity_scale: FloatProperty(name="Gravity", default=1, soft_min=-1, soft_max=2, description="Factor on gravity")
+    pressure_mode: EnumProperty(name="Pressure", default="none", items=(
+        ("none", "None", "Nothing inside"), ("gas", "Gas", "Pressure times volume stays the same"),
+        ("volume", "Keep volume", "The volume stays the same")))
+    pressure: FloatProperty(name="Pressure (Pa)", default=0, soft_min=0, soft_max=10000,
+                            description="Of the gas inside above the outside, at rest")
+    yields: BoolProperty(name="Yields", default=False, description="Keeps a dent")
+    yield_strain: FloatProperty(name="Yield strain", default=0.2, min=1e-4, soft_max=1, description="Beyond it the shape flows")
+    yield_flow: FloatProperty(name="Flow (1/s)", default=5, min=0, soft_max=100, description="Rate of that flow")
+    tears: BoolProperty(name="Tears", default=False, description="Comes apart where it is stretched too far")
+    tear_strain: FloatProperty(name="Tear strain", default=1, min=1e-4, soft_max=5, description="Stretch beyond which it tears")
+    sag_free: BoolProperty(name="Bears its own weight", default=False,
+                           description="Rests in the shape you modelled instead of sinking below it")
+
+
+FIELDS = ("density", "mass", "young_modulus", "poisson_ratio", "damping_ratio", "friction", "restitution", "media_friction",
+          "gravity_scale", "pressure_mode", "sag_free")
+
+
+def fill_attributes(record, settings):
+    """The panel's numbers into a document's `attributes`."""
+    for name in FIELDS:
+        setattr(record, name, getattr(settings, name))
+    if settings.layer:
+        for name in LAYER_FIELDS:
+            setattr(record, name, getattr(settings, name))
+    if settings.pressure_mode != "none":
+        record.pressure = settings.pressure
+    if settings.yields:
+        record.yield_strain, record.yield_flow = settings.yield_strain, settings.yield_flow
+    if settings.tears:
+        record.tear_strain = settings.tear_strain
+
+
+def read_attributes(settings, record):
+    """The other way round, as import does."""
+    for name in FIELDS:
+        setattr(settings, name, getattr(record, name))
+    settings.layer = record.area_density > 0
+    if settings.layer:
+        for name in LAYER_FIELDS:
+            setattr(settings, name, getattr(record, name))
+    settings.pressure = record.pressure
+    settings.yields, settings.tears = record.yield_strain > 0, record.tear_strain > 0
+    if settings.yields:
+        settings.yield_strain, settings.yield_flow = record.yield_strain, record.yield_flow
+    if settings.tears:
+        settings.tear_strain = record.tear_strain
+
+
+CLASSES = (SBFMT_PG_attributes, )

@@ -1,0 +1,55 @@
+"""What the panel of a bone holds: the joint to the bone above it, and what it weighs."""
+
+import math
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty
+
+KINDS = (
+    ("NONE", "None", "As the rig's constraints and IK limits say, if they do"),
+    ("spherical", "Ball", "Turns about all axes, inside a cone or within ranges"),
+    ("revolute", "Hinge", "Turns about one axis"),
+    ("prismatic", "Slider", "Slides along one axis"),
+    ("cylindrical", "Cylinder", "Turns about an axis and slides along it"),
+    ("fixed", "Fixed", "Does not move"),
+)
+
+
+def angle(name, default, low=-math.pi, high=math.pi):
+    return FloatProperty(name=name, default=default, min=low, max=high, subtype="ANGLE")
+
+
+class SBFMT_PG_joint(bpy.types.PropertyGroup):
+    """Bone > Soft body format. Twist is about the bone, swing Y about its Z, swing Z about its X, all against the rest pose."""
+
+    kind: EnumProperty(name="Joint", items=KINDS, default="NONE")
+    use_cone: BoolProperty(name="Cone", default=False, description="Bound the swing by a cone about the rest pose")
+    cone: angle("Half angle", math.radians(45), 0)
+    use_twist: BoolProperty(name="Twist", default=False, description="Bound the turn about the bone itself")
+    twist_min: angle("Least", math.radians(-30))
+    twist_max: angle("Most", math.radians(30))
+    use_swing_y: BoolProperty(name="Swing Y", default=False, description="Bound the turn about the bone's Z axis")
+    swing_y_min: angle("Least", math.radians(-30))
+    swing_y_max: angle("Most", math.radians(30))
+    use_swing_z: BoolProperty(name="Swing Z", default=False, description="Bound the turn about the bone's X axis")
+    swing_z_min: angle("Least", math.radians(-30))
+    swing_z_max: angle("Most", math.radians(30))
+    use_slide: BoolProperty(name="Slide", default=False, description="Bound the way along the axis")
+    slide_min: FloatProperty(name="Least (m)", default=0)
+    slide_max: FloatProperty(name="Most (m)", default=0.1)
+    limit_stiffness: FloatProperty(name="Limit spring (N·m/rad)", default=0, min=0, description="0: hard limits")
+    limit_damping: FloatProperty(name="Limit damping (N·m·s/rad)", default=0, min=0)
+    use_mass: BoolProperty(name="Own mass", default=False, description="State the mass of the bone's rigid body")
+    mass: FloatProperty(name="Mass (kg)", default=1, min=1e-6, soft_max=100)
+    simulated: BoolProperty(name="Simulated", default=False, description="Falls and swings; otherwise it follows the animation")
+    use_drive: BoolProperty(name="Drive", default=False, description="A motor that pulls towards the animated pose")
+    drive_stiffness: FloatProperty(name="Stiffness (N·m/rad)", default=10, min=0)
+    drive_damping: FloatProperty(name="Damping (N·m·s/rad)", default=1, min=0)
+    drive_maximum: FloatProperty(name="Most torque (N·m)", default=0, min=0, description="0: no bound")
+
+
+class SBFMT_PG_bone(bpy.types.PropertyGroup):
+    joint: PointerProperty(type=SBFMT_PG_joint)
+
+
+CLASSES = (SBFMT_PG_joint, SBFMT_PG_bone)

@@ -1,0 +1,39 @@
+"""What the numbers of Blender's soft body and cloth mean in SI units.
+
+Both simulations measure time in frames and take a thousandth of the scene's gravity: 0.00981 a frame and a frame. The time unit
+at which that is 9.81 m/s² is the square root of 0.001 s², 31.6 ms, whatever the frame rate. In this unit forces are kg m/unit²,
+of which one is 1000 N, and rates are 1/unit. tests/blender/test_blender_units.py measures each of these in Blender itself.
+"""
+
+import math
+
+TIME_UNIT_S = math.sqrt(0.001)
+FORCE_UNIT_N = 1.0 / TIME_UNIT_S**2
+FRICTION_SCALE = 0.01  # Blender multiplies its frictions by it
+
+
+def stiff(slider):
+    """A slider of 0..1 as a strength of 0..infinity: Blender's rule for edges and goals."""
+    slider = min(max(slider, 0.0), 0.999)
+    return 1.0 / (1.0 - slider) - 1.0
+
+
+def edge_stiffness(pull, length_m):
+    """N/m of a soft body's edge: the force is stiff(pull) times the strain."""
+    return FORCE_UNIT_N * stiff(pull) / length_m
+
+
+def goal_stiffness(weight, soft):
+    """N/m of a soft body's goal at a vertex of that weight: stiff(f⁴ · goal spring), f = default · weight within the bounds."""
+    final = abs(weight * soft.goal_default * (soft.goal_max - soft.goal_min)) + soft.goal_min
+    return FORCE_UNIT_N * stiff(min(final, 1.0)**4 * soft.goal_spring)
+
+
+def friction(slider):
+    """N·s/m of a friction of Blender's."""
+    return FRICTION_SCALE * slider / TIME_UNIT_S
+
+
+def cloth_stiffness(tension, length_m):
+    """N/m of a cloth's spring: the force is the tension times the strain."""
+    return FORCE_UNIT_N * tension / length_m

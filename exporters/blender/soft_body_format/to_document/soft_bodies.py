@@ -1,0 +1,141 @@
+"""Blender's Soft Body modifier: its edges as a level of springs, its goal as pins, both in SI units."""
+
+import numpy
+
+from ..sbfmt.document import Record
+from .blender_units import edge_stiffness, friction, goal_stiffness
+from .pins import by_holder
+from .roles import modifier
+
+STIFF_QUAD_LIMIT = 1e-4  # below it Blender's shear slider makes no diagonals worth having
+
+
+def settings_of(source):
+    found = modifier(source, "SOFT_BODY")
+    return found.settings if found is not None else None
+
+
+def fill_from_soft_body(writer, body, source, geometry, soft):
+    """The whole translation; what has no counterpart is said."""
+    count = len(geometry.positions)
+    masses = vertex_masses(source, geometry.mesh, soft)
+    attributes = body.attributes
+    attributes.mass = float(masses.sum())
+    attributes.media_friction = friction(soft.friction) / (attributes.mass / count)
+    attributes.damping_ratio = 0
+    attributes.gravity_scale = soft.effector_weights.gravity
+    if soft.plastic:
+        attributes.yield_strain, attributes.yield_flow = 0.05, soft.plastic / 100
+    if soft.use_self_collision:
+        body.collision.self = True
+        body.collision.particle_radius = 0.5 * soft.ball_size * mean_edge(geometry) if soft.ball_size else 0.01
+    if soft.use_edges:
+        write_level(writer, body, source, geometry, soft, masses)
+    if soft.use_goal:
+        write_goal(writer, body, source, geometry, soft)
+    if soft.use_edges and abs(soft.pull - soft.push) > 0.01:
+        writer.findings.warning(f"pull ({soft.pull:.2f}) and push ({soft.push:.2f}) differ; springs of the format pull and push "
+                                "alike, so both get the pull", object_name=source.name)
+    if soft.aero:
+        writer.findings.info("aerodynamics of the soft body modifier are left to the wind of the format's environment",
+                             object_name=source.name)
+
+
+def vertex_masses(source, mesh, soft):
+    """kg of each vertex: the modifier's mass, scaled by its mass group."""
+    masses = numpy.full(len(mesh.vertices), soft.mass, dtype=numpy.float64)
+    weights = weights_of(source, mesh, soft.vertex_group_mass)
+    return masses if weights is None else masses * numpy.maximum(weights, 1e-3)
+
+
+def weights_of(source, mesh, group_name):
+    """The weight of every vertex in a group, 0 outside it; None where there is no such group."""
+    group = source.vertex_groups.get(group_name) if group_name else None
+    if group is None:
+        return None
+    weights = numpy.zeros(len(mesh.vertices))
+    for vertex in mesh.vertices:
+        for one in vertex.groups:
+            if one.group == group.index:
+                weights[vertex.index] = one.weight
+    return weights
+
+
+def mean_edge(geometry):
+    ends = edges_of(geometry)
+    return float(lengths(geometry, ends).mean()) if len(ends) else 0.0
+
+
+def edges_of(geometry):
+    ends = numpy.empty(2 * len(geometry.mesh.edges), dtype=numpy.uint32)
+    geometry.mesh.edges.foreach_get("vertices", ends)
+    return ends.reshape(-1, 2)
+
+
+def lengths(geometry, ends):
+    places = geometry.positions.astype(numpy.float64)
+    return numpy.maximum(numpy.linalg.norm(places[ends[:, 0]] - places[ends[:, 1]], axis=1), 1e-9)
+
+
+def diagonals_of(geometry):
+    """Both diagonals of every quad."""
+    first = numpy.cumsum(geometry.polygon_sizes.astype(numpy.int64)) - geometry.polygon_sizes
+    corners = first[geometry.polygon_sizes == 4]
+    points = geometry.polygon_points
+    pairs = [numpy.stack((points[corners + a], points[corners + a + 2]), axis=1) for a in (0, 1)]
+    return numpy.concatenate(pairs).astype(numpy.uint32) if len(corners) else numpy.zeros((0, 2), numpy.uint32)
+
+
+def second_neighbours(ends, count):
+    """Pairs two edges apart, once each, that no edge joins: Blender bends by them."""
+    neighbours = [[] for _ in range(count)]
+    for a, b in ends.tolist():
+        neighbours[a].append(b)
+        neighbours[b].append(a)
+    direct = {(min(a, b), max(a, b)) for a, b in ends.tolist()}
+    pairs = {(a, b) for middle in neighbours for a in middle for b in middle if a < b} - direct
+    return numpy.array(sorted(pairs), dtype=numpy.uint32).reshape(-1, 2)
+
+
+def write_level(writer, body, source, geometry, soft, masses):
+    """One level of springs over the surface's own points, which a build leaves as it is."""
+    level = body.add("levels", name="Soft Body", positions=geometry.positions, masses=masses.astype(numpy.float32))
+    ends = edges_of(geometry)
+    scale = (soft.spring_length or 100) / 100
+    factors = weights_of(source, geometry.mesh, soft.vertex_group_spring)
+    add_springs(level, "structural", geometry, ends, soft.pull, soft.damping, scale, factors)
+    if soft.use_stiff_quads and soft.shear > STIFF_QUAD_LIMIT:
+        add_springs(level, "shear", geometry, diagonals_of(geometry), soft.pull, soft.damping, scale, factors, soft.shear)
+    if soft.bend > 0:
+        add_springs(level, "flexion", geometry, second_neighbours(ends, len(geometry.positions)),
+                    min(soft.bend / 10, 0.999), soft.damping, scale, factors)
+    level.simulation.scheme = "heun"  # Blender's own
+    level.add("embeddings", render_mesh=writer.identifiers.known("mesh", source.name),
+              points=numpy.repeat(numpy.arange(len(geometry.positions), dtype=numpy.uint32)[:, None], 4, axis=1),
+              weights=[(1, 0, 0, 0)] * len(geometry.positions))
+
+
+def add_springs(level, kind, geometry, ends, pull, damping, scale, factors, share=1.0):
+    if not len(ends):
+        return
+    rest = lengths(geometry, ends) * scale
+    stiffness = numpy.array([edge_stiffness(pull, length) for length in rest]) * share
+    if factors is not None:
+        stiffness *= ((factors[ends[:, 0]] + factors[ends[:, 1]]) / 2)**2
+    level.add("springs", kind=kind, ends=ends, rest_lengths=rest.astype(numpy.float32) if scale != 1 else [],
+              stiffness=stiffness.astype(numpy.float32), damping=[friction(damping)])
+
+
+def write_goal(writer, body, source, geometry, soft):
+    """Pins that pull as the goal does. The set's stiffness is that of the strongest; weights are shares of it."""
+    weights = weights_of(source, geometry.mesh, soft.vertex_group_goal)
+    if weights is None:
+        weights = numpy.ones(len(geometry.positions))
+    pulls = numpy.array([goal_stiffness(weight, soft) for weight in weights]) / writer.space.unit_m
+    held = numpy.flatnonzero(pulls > 0)
+    if not len(held):
+        return
+    most = float(pulls.max()) * 1.0001  # so that the strongest is a spring still: weight 1 would be kinematic
+    for bone, points in by_holder(writer, source, geometry.mesh, held):
+        body.pins.append(Record("pin_set", name="Goal", bone=bone, points=points, weights=(pulls[points] / most).astype("f4"),
+                                stiffness=most, damping=friction(soft.goal_friction)))
