@@ -28,7 +28,9 @@ class SBFMT_PT_bone(bpy.types.Panel):
 
     @staticmethod
     def draw_limits(layout, joint):
-        if joint.kind == "spherical":
+        if joint.kind != "spherical":
+            layout.prop(joint, "axis")
+        else:
             layout.prop(joint, "use_cone")
             if joint.use_cone:
                 layout.prop(joint, "cone")

@@ -23,9 +23,11 @@ class SBFMT_PG_joint(bpy.types.PropertyGroup):
     """Bone > Soft body format. Twist is about the bone, swing Y about its Z, swing Z about its X, all against the rest pose."""
 
     kind: EnumProperty(name="Joint", items=KINDS, default="NONE")
+    axis: EnumProperty(name="Axis", default="X", items=[(one, one, f"The bone's {one} axis") for one in "XYZ"],
+                       description="Of a hinge, slider or cylinder")
     use_cone: BoolProperty(name="Cone", default=False, description="Bound the swing by a cone about the rest pose")
     cone: angle("Half angle", math.radians(45), 0)
-    use_twist: BoolProperty(name="Twist", default=False, description="Bound the turn about the bone itself")
+    use_twist: BoolProperty(name="Twist", default=False, description="Bound the turn about the bone itself, or a hinge's axis")
     twist_min: angle("Least", math.radians(-30))
     twist_max: angle("Most", math.radians(30))
     use_swing_y: BoolProperty(name="Swing Y", default=False, description="Bound the turn about the bone's Z axis")

@@ -10,11 +10,13 @@ from ..space import Space
 from .armatures import Skeleton, write_bones
 from ..settings.attributes import fill_attributes
 from . import cloth, soft_bodies
+from .gaits import GaitWriter
 from .identifiers import Identifiers
 from .materials import Materials
 from .meshes import Geometry, fill_normals, fill_polygons, fill_shape_keys, fill_skin, fill_uv_sets
 from .pins import fill_pins, fill_weight_maps
 from .rest import at_rest, mesh_of
+from .rigid_parts import RigidParts
 from .roles import RENDER, SECTION, SOFT, armature_of, holding_bone, role_of
 
 
@@ -75,6 +77,11 @@ class SceneWriter:
             for source in self.of_type("MESH"):
                 if self.roles[source.name] in (RENDER, SECTION, SOFT):
                     self.write_mesh(source, self.roles[source.name])
+            for armature in self.of_type("ARMATURE"):
+                RigidParts(self).write(armature)
+            gait = self.scene.soft_body_format.gait
+            if gait.use and gait.armature is not None:
+                GaitWriter(self, gait).write()
         if not self.asset.render_meshes:
             self.findings.error("nothing to export: no visible mesh is chosen; select one, or turn off Selected Objects Only")
         return self.asset

@@ -86,14 +86,14 @@ def diagonals_of(geometry):
     return numpy.concatenate(pairs).astype(numpy.uint32) if len(corners) else numpy.zeros((0, 2), numpy.uint32)
 
 
-def second_neighbours(ends, count):
-    """Pairs two edges apart, once each, that no edge joins: Blender bends by them."""
+def second_neighbours(ends, joined, count):
+    """Pairs two edges apart, once each, that nothing joins yet: Blender bends by them."""
     neighbours = [[] for _ in range(count)]
     for a, b in ends.tolist():
         neighbours[a].append(b)
         neighbours[b].append(a)
-    direct = {(min(a, b), max(a, b)) for a, b in ends.tolist()}
-    pairs = {(a, b) for middle in neighbours for a in middle for b in middle if a < b} - direct
+    already = {(min(a, b), max(a, b)) for a, b in ends.tolist() + joined.tolist()}
+    pairs = {(a, b) for middle in neighbours for a in middle for b in middle if a < b} - already
     return numpy.array(sorted(pairs), dtype=numpy.uint32).reshape(-1, 2)
 
 
@@ -104,10 +104,10 @@ def write_level(writer, body, source, geometry, soft, masses):
     scale = (soft.spring_length or 100) / 100
     factors = weights_of(source, geometry.mesh, soft.vertex_group_spring)
     add_springs(level, "structural", geometry, ends, soft.pull, soft.damping, scale, factors)
-    if soft.use_stiff_quads and soft.shear > STIFF_QUAD_LIMIT:
-        add_springs(level, "shear", geometry, diagonals_of(geometry), soft.pull, soft.damping, scale, factors, soft.shear)
+    diagonals = diagonals_of(geometry) if soft.use_stiff_quads and soft.shear > STIFF_QUAD_LIMIT else ends[:0]
+    add_springs(level, "shear", geometry, diagonals, soft.pull, soft.damping, scale, factors, soft.shear)
     if soft.bend > 0:
-        add_springs(level, "flexion", geometry, second_neighbours(ends, len(geometry.positions)),
+        add_springs(level, "flexion", geometry, second_neighbours(ends, diagonals, len(geometry.positions)),
                     min(soft.bend / 10, 0.999), soft.damping, scale, factors)
     level.simulation.scheme = "heun"  # Blender's own
     level.add("embeddings", render_mesh=writer.identifiers.known("mesh", source.name),
