@@ -1,34 +1,37 @@
-/* Points against the ground.
+/* Surfaces against the ground.
  *
- * Once a tick the ground is asked under each point that may reach it, and stands for that tick as the plane
- * that touches it there. In each substep a point that would end below its plane has its normal speed cut so
- * that it just arrives (or thrown back by the restitution where it is fast), and Coulomb friction takes no
- * more from its sideways speed than the friction coefficient times what the normal lost. What lies below
- * already is moved up, at a limited rate and without gaining speed; nothing is ever pulled down or held. */
+ * What meets the ground are the points of a body, or, where they only carry its surface, the samples of that
+ * (model/contact_samples.c, solvers/touches.h). Once a tick the ground is asked under each that may reach it,
+ * and stands for that tick as the plane that touches it there. In each substep one that would end below its
+ * plane has its normal speed cut so that it just arrives (or thrown back by the restitution where it is
+ * fast), and Coulomb friction takes no more from its sideways speed than the friction coefficient times what
+ * the normal lost. What lies below already is moved up, at a limited rate and without gaining speed; nothing
+ * is ever pulled down or held. */
 #ifndef SBRI_CONTACT_H
 #define SBRI_CONTACT_H
 
-#include "model/runtime_model.h"
+#include "solvers/island_tick.h"
 
-typedef struct sbri_contact_input {
-  const sbri_island *island;
-  const sbri_body *body;
-  const sbri_point *positions; /* of the island, asset metres */
-  const float *velocities;     /* of the island, blocks of three by eight */
-  const sbr_ground *ground;
-  sbr_double3 origin;
-  float scale;
-  float tick_s; /* of the body's own time */
-} sbri_contact_input;
+/* Where a tick's contacts go; of the island and of the character, as in sbri_island_tick. */
+typedef struct sbri_contact_tables {
+  uint8_t *near_ground;
+  float *planes;
+  sbri_touch *touches;
+  uint32_t *touch_counts;
+  const sbri_skin *surface; /* of the body, as it is carried now */
+} sbri_contact_tables;
 
 /* Marks the body's blocks of points that may touch the ground within the tick, and gives each of their points
- * its plane: blocks of four by eight, the unit normal and n.x of the plane. */
-void sbri_contact_prepare(const sbri_contact_input *input, uint8_t *near_ground, float *planes);
+ * its plane: blocks of four by eight, the unit normal and n.x of the plane. Of a body with samples instead,
+ * lists those that may. */
+void sbri_contact_prepare(
+    const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_tables *tables);
 
 typedef struct sbri_contact_rule {
   float friction, restitution;
   float step_s;
   float push_m;          /* most that a point is moved up in a substep */
+  float slack_m;         /* as deep as a point may lie without being moved up */
   float bounce_from_m_s; /* slower contacts do not bounce */
 } sbri_contact_rule;
 
@@ -80,7 +83,8 @@ static inline sbri_contact_answer sbri_contact_ask(
   wanted = sbri_wide_select(
       bounces, sbri_wide_max(wanted, zero - sbri_wide_all(rule->restitution) * speed), wanted);
   sbri_wide gain = sbri_wide_select(touches, sbri_wide_max(wanted - speed, zero), zero);
-  sbri_wide up = sbri_wide_min(sbri_wide_max(zero - gap, zero), sbri_wide_all(rule->push_m));
+  sbri_wide deep = sbri_wide_max(zero - gap - sbri_wide_all(rule->slack_m), zero);
+  sbri_wide up = sbri_wide_min(deep, sbri_wide_all(rule->push_m));
   return (sbri_contact_answer){
       sbri_contact_gain(p, v, gain, rule->friction), sbri_wide_select(touches, up, zero)};
 }

@@ -21,8 +21,8 @@ typedef struct patch {
   uint32_t count;
 } patch;
 
-static void add_to_patch(patch *p, const sbri_point *at, sbf_vec3 normal) {
-  float place = p->along.x * at->x + p->along.y * at->y + p->along.z * at->z;
+static void add_to_patch(patch *p, sbf_vec3 at, sbf_vec3 normal) {
+  float place = sbri_dot(p->along, at);
   p->low = p->count == 0 || place < p->low ? place : p->low;
   p->high = p->count == 0 || place > p->high ? place : p->high;
   p->normal = sbri_add(p->normal, normal);
@@ -32,14 +32,18 @@ static void add_to_patch(patch *p, const sbri_point *at, sbf_vec3 normal) {
 static patch find_patch(const sbri_island_tick *t, const sbri_body *body, sbf_vec3 along) {
   patch p = {.along = along};
   float near = TOUCHING_SHARE * body->rest_size_m;
+  for (uint32_t i = 0; i < sbri_touch_count(t, body); i++) {
+    const sbri_touch *touch = &t->touches[body->first_touch + i];
+    sbf_vec3 x = sbri_sample_place(t, &touch->sample);
+    if (sbri_dot(touch->normal, x) - touch->offset <= near) add_to_patch(&p, x, touch->normal);
+  }
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
-    const sbri_point *at = &t->positions[slot];
     if (!t->near_ground[block]) continue;
     sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
-    float gap = n.x * at->x + n.y * at->y + n.z * at->z - plane[3 * SBRI_BLOCK];
-    if (gap <= near) add_to_patch(&p, at, n);
+    sbf_vec3 at = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
+    if (sbri_dot(n, at) - plane[3 * SBRI_BLOCK] <= near) add_to_patch(&p, at, n);
   }
   return p;
 }

@@ -49,6 +49,8 @@ static bool may_be_told(const sbri_character *c, const sbri_island *island) {
     return false;
   for (uint32_t b = 0; b < island->body_count; b++)
     if (!c->model->bodies[island->bodies[b]].held) return false;
+  for (uint32_t b = 0; b < island->body_count; b++)
+    if (c->model->bodies[island->bodies[b]].samples && sbri_touch_counts(c)[island->bodies[b]]) return false;
   const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
   for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
     if (near_ground[block]) return false;

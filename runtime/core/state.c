@@ -13,7 +13,7 @@ static size_t padded(size_t count) {
 void sbri_layout_make(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
-         surface = 0, surface_faces = 0, end = 0;
+         surface = 0, surface_faces = 0, samples = 0, end = 0;
   for (uint32_t i = 0; i < model->skin_count; i++) {
     const sbri_skin *skin = &model->skins[i];
     vertices = skin->vertex_count > vertices ? skin->vertex_count : vertices;
@@ -25,6 +25,8 @@ void sbri_layout_make(sbr_model *model) {
     sbri_body *body = &model->bodies[i];
     body->first_vertex = (uint32_t)surface;
     body->first_face = (uint32_t)surface_faces;
+    body->first_touch = (uint32_t)samples;
+    samples += body->sample_count;
     surface += padded(body->surface.vertex_count);
     surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
   }
@@ -67,6 +69,8 @@ void sbri_layout_make(sbr_model *model) {
   l->element_forces = place(&end, slots, sizeof(sbri_point));
   l->planes = place(&end, 4 * slots, sizeof(float));
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
+  l->touches = place(&end, samples, sizeof(sbri_touch));
+  l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
   l->sampled = place(&end, slots, sizeof(sbri_point));
   l->sampled_deltas = place(&end, frames, sizeof(sbr_transform));
   l->vertices = place(&end, padded(vertices), sizeof(sbri_point));

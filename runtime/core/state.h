@@ -88,13 +88,15 @@ SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                    
 SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)             /* (link_block_count x 24) */
 SBRI_SCRATCH_PART(solid_edges, float, c->model->layout.solid_edges) /* (tetrahedron_block_count x 72) */
 SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)     /* (island_count) */
-SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces)    /* (slot_count) */
-SBRI_SCRATCH_PART(visits, uint32_t, c->model->layout.visits)                      /* (solid_count x 2) */
-SBRI_SCRATCH_PART(queue, uint32_t, c->model->layout.queue)                        /* (solid_count) */
-SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                     /* (binding_count) */
-SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                         /* (slot_count x 4) */
-SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)             /* (slot_count / 8) */
-SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)                  /* (slot_count) */
+SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces) /* (slot_count) */
+SBRI_SCRATCH_PART(visits, uint32_t, c->model->layout.visits)                   /* (solid_count x 2) */
+SBRI_SCRATCH_PART(queue, uint32_t, c->model->layout.queue)                     /* (solid_count) */
+SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                  /* (binding_count) */
+SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                      /* (slot_count x 4) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)          /* (slot_count / 8) */
+SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)               /* (samples of all bodies) */
+SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts)       /* (bodies) */
+SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)               /* (slot_count) */
 SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */
 SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */

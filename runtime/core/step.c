@@ -166,19 +166,16 @@ static void tuck_padding(sbri_character *c, const sbri_island *island) {
   }
 }
 
-static void prepare_contacts(
-    const sbr_world *world, sbri_character *c, const sbri_island *island, float tick_s) {
-  size_t first = island->first_slot;
-  for (uint32_t b = 0; b < island->body_count; b++) {
-    sbri_contact_input input = {.island = island,
-        .body = &c->model->bodies[island->bodies[b]],
-        .positions = sbri_positions(c) + first,
-        .velocities = sbri_velocities(c) + 3 * first,
-        .ground = &world->ground,
-        .origin = sbri_head(c)->origin,
-        .scale = c->scale,
-        .tick_s = tick_s};
-    sbri_contact_prepare(&input, sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first);
+static void prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
+  size_t first = tick->island->first_slot;
+  sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
+      sbri_touches(c), sbri_touch_counts(c), NULL};
+  for (uint32_t b = 0; b < tick->island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
+    sbri_skin surface = sbri_skin_now(c, &body->surface);
+    tables.surface = &surface;
+    sbri_contact_prepare(tick, body, &tables);
+    sbri_rolling_resist(tick, body);
   }
 }
 
@@ -249,6 +246,8 @@ static void tick_island(void *context, uint32_t index) {
       .surface_faces = sbri_surface_faces(c),
       .planes = sbri_planes(c) + 4 * first,
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
+      .touches = sbri_touches(c),
+      .touch_counts = sbri_touch_counts(c),
       .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
       .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
       .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
@@ -272,11 +271,7 @@ static void tick_island(void *context, uint32_t index) {
       .stretch = &sbri_island_states(c)[work.island].stretch,
       .stiffening = &sbri_island_states(c)[work.island].stiffening,
       .least_ratio = &sbri_island_states(c)[work.island].least_ratio};
-  if (!island->scheme->forceless) {
-    prepare_contacts(world, c, island, tick_s);
-    for (uint32_t b = 0; b < island->body_count; b++)
-      sbri_rolling_resist(&tick, &model->bodies[island->bodies[b]]);
-  }
+  if (!island->scheme->forceless) prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
   if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, work.island);
   recover(world, c, work.island);

@@ -120,6 +120,15 @@ typedef struct sbri_binding {
   uint32_t island, tetrahedron;
 } sbri_binding;
 
+/* A place of a surface that meets the ground, as a mean of the points that carry it; model/contact_samples.c.
+ */
+typedef struct sbri_sample {
+  uint32_t slots[4];
+  float weights[4]; /* summing to 1; below 0 where the place is outside of what carries it */
+  float mass_kg;    /* that answers a push there: 1 / sum of weight^2 / mass; 0: nothing of it is free */
+  uint32_t vertex;  /* of the surface; UINT32_MAX: a point of the level */
+} sbri_sample;
+
 typedef struct sbri_body {
   const sbf_soft_body *source;
   const sbf_level *level; /* NULL: it has none, and moves with its bone */
@@ -138,7 +147,11 @@ typedef struct sbri_body {
   float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
   float media_friction_1_s;
   float friction, restitution;
-  float rolling_share;               /* see collide/rolling.h */
+  float rolling_share;        /* see collide/rolling.h */
+  const sbri_sample *samples; /* (sample_count) NULL: its points themselves meet the ground */
+  uint32_t sample_count;
+  uint32_t first_touch;              /* in a character's scratch */
+  float sample_beyond;               /* greatest sum of a sample's weights below 0, as a positive number */
   float rest_size_m;                 /* diagonal of its box */
   double rest_volume_m3;             /* 0: open, or without polygons */
   sbri_skin surface;                 /* vertices of its surface */
@@ -221,6 +234,7 @@ typedef struct sbri_layout {
       torn_polygons, state_size;
   size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
   size_t element_forces;
+  size_t touches, touch_counts;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
@@ -292,6 +306,10 @@ bool sbri_visits_make(sbr_model *model, sbri_island *island);
 bool sbri_outer_make(sbr_model *model);
 /* Neighbours and what lies around each point; false where memory runs out. */
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
+/* The places of the surface that meet the ground; after the surfaces. */
+bool sbri_samples_make(sbr_model *model, sbri_body *body);
+/* A vertex by what carries it in `skin`, of the island as it is now; the four points that weigh most. */
+sbri_sample sbri_sample_of(const sbri_island *island, const sbri_skin *skin, uint32_t vertex);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
 

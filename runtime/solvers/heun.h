@@ -44,6 +44,37 @@ static inline void sbri_heun_predict(const sbri_island_tick *t, float h) {
   }
 }
 
+/* The same for a body whose surface is carried: contacts want all velocities at once. */
+static inline void sbri_heun_correct_carried(
+    const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
+  sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  /* `older_velocities` become the mean ones, `velocities` what is beside them. */
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide3 a0 = sbri_wide_load_points(first + slot);
+    sbri_wide3 a1 = sbri_load3(sbri_const_triple(t->accelerations, slot));
+    sbri_wide3 v0 = sbri_load3(sbri_const_triple(t->older_velocities, slot));
+    sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+    sbri_wide3 mean = {half * (v0.x + v.x), half * (v0.y + v.y), half * (v0.z + v.z)};
+    v.x = v.x + half_step * (a1.x - a0.x) - mean.x;
+    v.y = v.y + half_step * (a1.y - a0.y) - mean.y;
+    v.z = v.z + half_step * (a1.z - a0.z) - mean.z;
+    sbri_store3(sbri_triple(t->velocities, slot), v);
+    sbri_store3(sbri_triple(t->older_velocities, slot), mean);
+    sbri_wide_store_points(t->positions + slot, sbri_wide_load_points(t->moves + slot));
+  }
+  sbri_touches_answer(t, body, t->older_velocities, &rule);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
+    sbri_wide3 mean = sbri_load3(sbri_const_triple(t->older_velocities, slot));
+    sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+    x.x = x.x + step * mean.x, x.y = x.y + step * mean.y, x.z = x.z + step * mean.z;
+    v.x = v.x + mean.x, v.y = v.y + mean.y, v.z = v.z + mean.z;
+    sbri_wide_store_points(t->positions + slot, x);
+    sbri_store3(sbri_triple(t->velocities, slot), v);
+  }
+}
+
 /* From the place before by the mean of both velocities, bounded by the ground, and then the velocity by the
  * mean of both accelerations: v + h a0 is there, h/2 (a1 - a0) is added. `first` holds a0. */
 static inline void sbri_heun_correct_body(
@@ -108,8 +139,13 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
     done += step;
     sbri_carry_held(t, (float)done / (float)SBRI_HEUN_UNITS);
     sbri_heun_evaluate(t, h, NULL);
-    for (uint32_t b = 0; b < island->body_count; b++)
-      sbri_heun_correct_body(t, &t->model->bodies[island->bodies[b]], h, first);
+    for (uint32_t b = 0; b < island->body_count; b++) {
+      const sbri_body *body = &t->model->bodies[island->bodies[b]];
+      if (sbri_touch_count(t, body) > 0)
+        sbri_heun_correct_carried(t, body, h, first);
+      else
+        sbri_heun_correct_body(t, body, h, first);
+    }
     sbri_decay_all(t, 0.5f * h);
     sbri_finish_substep(t, h);
     sbri_heun_evaluate(t, h, done == SBRI_HEUN_UNITS ? stretches : NULL);

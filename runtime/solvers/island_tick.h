@@ -23,6 +23,18 @@ typedef struct sbri_tears {
 /* What a tetrahedron that may tear is. */
 enum sbri_torn_state { SBRI_WHOLE, SBRI_TORN_NOW, SBRI_TORN_BEFORE };
 
+/* A sample of a body that may touch something within the tick: the plane it must not go below. A sample may
+ * be in several. */
+typedef struct sbri_touch {
+  sbri_sample sample; /* as it is carried in this tick */
+  sbf_vec3 normal;    /* unit */
+  float offset;       /* normal . x of the plane */
+  /* Of solvers/touches.c, from substep to substep: */
+  float gap, wanted; /* m and m/s, at the beginning of one */
+  float gain;        /* m/s that the push gives the sample along the normal */
+  sbf_vec3 rub;      /* and friction across it */
+} sbri_touch;
+
 typedef struct sbri_island_tick {
   const sbr_model *model;
   const sbri_island *island;
@@ -46,6 +58,8 @@ typedef struct sbri_island_tick {
   sbri_point *surface_vertices, *surface_faces;    /* scratch of the character; see sbri_body.first_vertex */
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
+  sbri_touch *touches;                             /* of the character; see sbri_body.first_touch */
+  const uint32_t *touch_counts;                    /* (bodies of the model) */
   float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
   float *rotations;         /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
   sbri_point *outer;        /* (free_count) N; scratch of what is neither springs nor weight; NULL: nothing */
@@ -64,5 +78,30 @@ typedef struct sbri_island_tick {
   float *stretch;     /* greatest share of a spring beyond its rest length: in of the last tick, out
                          of this one's last substep */
 } sbri_island_tick;
+
+/* Velocity of a slot; of held ones that of their way through the tick. */
+static inline sbf_vec3 sbri_slot_velocity(const sbri_island_tick *t, const float *velocities, uint32_t slot) {
+  if (slot < t->island->free_count) {
+    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    return (sbf_vec3){v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
+  }
+  const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
+  float rate = 1 / t->tick_s;
+  return (sbf_vec3){(to->x - from->x) * rate, (to->y - from->y) * rate, (to->z - from->z) * rate};
+}
+
+static inline sbf_vec3 sbri_sample_place(const sbri_island_tick *t, const sbri_sample *s) {
+  sbf_vec3 x = {0, 0, 0};
+  for (int k = 0; k < 4; k++) {
+    const sbri_point *p = &t->positions[s->slots[k]];
+    x.x += s->weights[k] * p->x, x.y += s->weights[k] * p->y, x.z += s->weights[k] * p->z;
+  }
+  return x;
+}
+
+/* How many of the body's touches there are in this tick. */
+static inline uint32_t sbri_touch_count(const sbri_island_tick *t, const sbri_body *body) {
+  return body->samples ? t->touch_counts[body - t->model->bodies] : 0;
+}
 
 #endif

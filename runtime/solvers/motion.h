@@ -18,10 +18,14 @@
 #include "solvers/rigid_motion.h"
 #include "solvers/spring_forces.h"
 #include "solvers/tetrahedron_forces.h"
+#include "solvers/touches.h"
 
 /* Penetration is undone at up to this speed. Contacts slower than that do not bounce. */
 #define SBRI_PUSH_M_S 2.0f
 #define SBRI_BOUNCE_FROM_M_S 0.05f
+/* Samples of a surface that share their points press each other in by a little: to lift them all the time
+ * would shake the body. A share of the body's size. */
+#define SBRI_SLACK_SHARE 1e-4f
 
 /* Of a group of lanes in arrays that stand in blocks of three by eight, as velocities do. */
 static inline float *sbri_triple(float *blocks, uint32_t slot) {
@@ -148,7 +152,9 @@ static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate)
 }
 
 static inline sbri_contact_rule sbri_contact_rule_of(const sbri_body *body, float h) {
-  return (sbri_contact_rule){body->friction, body->restitution, h, SBRI_PUSH_M_S * h, SBRI_BOUNCE_FROM_M_S};
+  float slack = body->samples ? SBRI_SLACK_SHARE * body->rest_size_m : 0;
+  return (sbri_contact_rule){
+      body->friction, body->restitution, h, SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S};
 }
 
 /* Of a group of lanes near the ground. */
@@ -159,6 +165,7 @@ static inline sbri_contact_planes sbri_planes_of(const sbri_island_tick *t, uint
 static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   sbri_wide step = sbri_wide_all(h);
   const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  sbri_touches_answer(t, body, t->velocities, &rule);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     float *velocity = sbri_triple(t->velocities, slot);

@@ -17,11 +17,7 @@ static void add_to(sbri_point *p, sbf_vec3 f) {
 }
 
 static sbf_vec3 velocity_of(const sbri_island_tick *t, uint32_t slot) {
-  if (slot < t->island->free_count) {
-    const float *v = t->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    return sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]);
-  }
-  return sbri_scale(sbri_sub(vec_of(&t->targets[slot]), vec_of(&t->begins[slot])), 1 / t->tick_s);
+  return sbri_slot_velocity(t, t->velocities, slot);
 }
 
 /* ---- Surfaces ---- */

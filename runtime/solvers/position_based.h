@@ -120,6 +120,32 @@ static inline sbri_mask sbri_differ(sbri_wide3 a, sbri_wide3 b) {
   return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
 
+/* The same as sbri_moves_end_body for a body whose surface is carried and may touch the ground: contacts want
+ * all velocities at once, from the places before the substep. */
+static inline void sbri_moves_end_carried(const sbri_island_tick *t, const sbri_body *body, float h) {
+  static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
+  sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);
+  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide3 free = sbri_load3(sbri_const_triple(t->accelerations, slot));
+    sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+    sbri_wide4 u = sbri_wide_gather4(t->moves + slot, in_order);
+    v.x = v.x + (u.x - free.x) * rate, v.y = v.y + (u.y - free.y) * rate, v.z = v.z + (u.z - free.z) * rate;
+    sbri_store3(sbri_triple(t->velocities, slot), v);
+  }
+  sbri_touches_answer(t, body, t->velocities, &rule);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+    sbri_wide3 x = sbri_wide_load_points(t->positions + slot),
+               begin = sbri_wide_load_points(t->begins + slot);
+    sbri_wide4 u = sbri_wide_gather4(t->moves + slot, in_order);
+    x.x = x.x + step * v.x, x.y = x.y + step * v.y, x.z = x.z + step * v.z;
+    u.x = x.x - begin.x, u.y = x.y - begin.y, u.z = x.z - begin.z;
+    sbri_wide_scatter4(t->moves + slot, in_order, u);
+    sbri_wide_store_points(t->positions + slot, x);
+  }
+}
+
 /* What the sweep has moved goes into the velocities, the ground bounds both, and places follow. */
 static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -175,8 +201,13 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
     SBRI_FOR_FORCE_KIND(sbri_force_kind(t, last), SBRI_CALL)
 #undef SBRI_CALL
     if (solid) sbri_sweep_tetrahedra(t, h, s % 2 != 0);
-    for (uint32_t b = 0; b < island->body_count; b++)
-      sbri_moves_end_body(t, &t->model->bodies[island->bodies[b]], h);
+    for (uint32_t b = 0; b < island->body_count; b++) {
+      const sbri_body *body = &t->model->bodies[island->bodies[b]];
+      if (sbri_touch_count(t, body) > 0)
+        sbri_moves_end_carried(t, body, h);
+      else
+        sbri_moves_end_body(t, body, h);
+    }
     sbri_carry_held(t, share);
     sbri_finish_substep(t, h);
     if (followed && !last) sbri_moves_follow(t);

@@ -53,7 +53,7 @@ static inline void sbri_limit_stretch(const sbri_island_tick *t, const sbri_soli
     uint32_t slot = sbri_corner(e, i);
     double w = slot < t->island->free_count ? t->island->inverse_masses[slot] : 0;
     sum += w * shares[i] * shares[i];
-    speed += shares[i] * (double)sbri_dot(sbri_slot_velocity(t, slot), n);
+    speed += shares[i] * (double)sbri_dot(sbri_slot_velocity(t, t->velocities, slot), n);
   }
   if (!(sum > 0)) return;
   bool leaving = value > bound ? speed > 0 : speed < 0;

@@ -17,16 +17,6 @@
 /* Beyond a limit by less than this share is at it. */
 #define SBRI_LIMIT_SLACK 2e-6f
 
-static inline sbf_vec3 sbri_slot_velocity(const sbri_island_tick *t, uint32_t slot) {
-  if (slot >= t->island->free_count) {
-    const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
-    float rate = 1 / t->tick_s;
-    return sbri_vec3((to->x - from->x) * rate, (to->y - from->y) * rate, (to->z - from->z) * rate);
-  }
-  const float *v = sbri_const_triple(t->velocities, slot);
-  return sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]);
-}
-
 static inline void sbri_shift_slot(
     const sbri_island_tick *t, uint32_t slot, sbf_vec3 way, sbf_vec3 velocity_change) {
   if (slot >= t->island->free_count) return;
@@ -45,7 +35,8 @@ static inline void sbri_limit_link(
   if (!(wa + wb > 0) || !(length > 0)) return;
   const sbri_point *p = &t->positions[a], *q = &t->positions[b];
   sbf_vec3 n = sbri_scale(sbri_vec3(q->x - p->x, q->y - p->y, q->z - p->z), 1 / length);
-  float speed = sbri_dot(sbri_sub(sbri_slot_velocity(t, b), sbri_slot_velocity(t, a)), n);
+  float speed =
+      sbri_dot(sbri_sub(sbri_slot_velocity(t, t->velocities, b), sbri_slot_velocity(t, t->velocities, a)), n);
   bool leaving = length > bound ? speed > 0 : speed < 0;
   float way = (length - bound) / (wa + wb), taken = leaving ? speed / (wa + wb) : 0;
   sbri_shift_slot(t, a, sbri_scale(n, wa * way), sbri_scale(n, wa * taken));

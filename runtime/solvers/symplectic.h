@@ -17,11 +17,23 @@ static inline uint32_t sbri_solid_substeps(const sbri_island_tick *t, float time
   return needed < SBRI_MOST_SUBSTEPS ? needed : SBRI_MOST_SUBSTEPS;
 }
 
+/* In fewer, what lies on the ground is pressed so hard against it by its weight that it would hop. */
+enum { SBRI_LEAST_TOUCHING_SUBSTEPS = 5 };
+
+static inline bool sbri_touches_any(const sbri_island_tick *t) {
+  bool any = false;
+  for (uint32_t b = 0; b < t->island->body_count; b++)
+    any = any || sbri_touch_count(t, &t->model->bodies[t->island->bodies[b]]) > 0;
+  return any;
+}
+
 /* With tetrahedra: where they have stiffened beyond what the substep allows for, the rest of the tick is
  * divided anew. */
 static inline void sbri_symplectic_tick_of_solids(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   uint32_t left = sbri_solid_substeps(t, t->tick_s);
+  if (left < SBRI_LEAST_TOUCHING_SUBSTEPS && !island->substeps && sbri_touches_any(t))
+    left = SBRI_LEAST_TOUCHING_SUBSTEPS;
   float h = t->tick_s / (float)left, rest = t->tick_s, stretches[SBRI_BLOCK] = {0};
   sbri_remember_held(t);
   for (uint32_t s = 1; left > 0; s++) {

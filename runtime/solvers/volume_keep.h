@@ -65,10 +65,10 @@ static inline float sbri_volume_gradients(
   return sbri_tree_sum(lanes);
 }
 
-/* One step at the end of a substep of `h` seconds; the share of the volume that was missing before it. */
-static inline float sbri_volume_step(const sbri_island_tick *t, const sbri_body *body, float h) {
+/* One step at the end of a substep; the share of the volume that was missing before it. */
+static inline float sbri_volume_step(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
   const sbri_skin *skin = &body->surface;
-  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
   sbri_point *vertices = t->positions, *faces = t->surface_faces + body->first_face;
   const sbri_face_block *named = body->volume_faces;
   if (!named) {
@@ -81,7 +81,7 @@ static inline float sbri_volume_step(const sbri_island_tick *t, const sbri_body 
   float sum = sbri_volume_gradients(t, body, faces, missing);
   if (!(sum > 0) || !(missing - missing == 0)) return 0;
   float s = (missing > most ? most : missing < -most ? -most : missing) / sum;
-  sbri_wide rate = sbri_wide_all(1 / h);
+  sbri_wide rate = sbri_wide_all(1 / rule->step_s);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 g = sbri_wide_load_points(t->velocity_points + slot), v = sbri_load3(velocity);
@@ -92,7 +92,7 @@ static inline float sbri_volume_step(const sbri_island_tick *t, const sbri_body 
     v.x = v.x + rate * g.x, v.y = v.y + rate * g.y, v.z = v.z + rate * g.z;
     if (t->near_ground[slot / SBRI_BLOCK]) {
       sbri_contact_planes p = sbri_planes_of(t, slot);
-      sbri_contact_bound(&p, from, &to, &v, &rule);
+      sbri_contact_bound(&p, from, &to, &v, rule);
     }
     sbri_wide_store_points(t->positions + slot, to);
     sbri_store3(velocity, v);
@@ -104,10 +104,13 @@ static inline float sbri_volume_step(const sbri_island_tick *t, const sbri_body 
  * their inverse masses, until the rest volume is enclosed again, and changes their velocities by as much per
  * second. Momentum is kept, but for what the ground takes. */
 static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *body, float h) {
+  const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+  sbri_touches_remember(t, body);
   for (int i = 0; i < SBRI_MOST_VOLUME_STEPS; i++) {
-    float missing = sbri_volume_step(t, body, h);
-    if (missing < SBRI_VOLUME_SHARE_LEFT && -missing < SBRI_VOLUME_SHARE_LEFT) return;
+    float missing = sbri_volume_step(t, body, &rule);
+    if (missing < SBRI_VOLUME_SHARE_LEFT && -missing < SBRI_VOLUME_SHARE_LEFT) break;
   }
+  sbri_touches_bound(t, body, &rule);
 }
 
 #endif

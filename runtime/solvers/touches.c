@@ -1,0 +1,119 @@
+#include "solvers/touches.h"
+
+#include "math/vec3.h"
+
+/* While some speed changes by more than this in a sweep, another follows, in m/s. */
+static const float SETTLED_M_S = 1e-3f;
+
+enum { MOST_SWEEPS = 16 };
+
+typedef struct touching {
+  const sbri_island_tick *tick;
+  float *velocities;
+  sbri_touch *touches;
+  uint32_t count;
+} touching;
+
+static touching touching_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
+  return (touching){t, velocities, t->touches + body->first_touch, sbri_touch_count(t, body)};
+}
+
+static sbf_vec3 velocity_of(const touching *c, const sbri_sample *s) {
+  sbf_vec3 v = {0, 0, 0};
+  for (int k = 0; k < 4; k++)
+    v = sbri_add_scaled(v, sbri_slot_velocity(c->tick, c->velocities, s->slots[k]), s->weights[k]);
+  return v;
+}
+
+static float gap_of(const touching *c, const sbri_touch *touch) {
+  return sbri_dot(touch->normal, sbri_sample_place(c->tick, &touch->sample)) - touch->offset;
+}
+
+/* What changes the velocity of the sample by `faster`, and its place by `moved`. */
+static void push(const touching *c, const sbri_sample *s, sbf_vec3 faster, sbf_vec3 moved) {
+  const sbri_island *island = c->tick->island;
+  for (int k = 0; k < 4; k++) {
+    uint32_t slot = s->slots[k];
+    if (slot >= island->free_count) continue;
+    float share = s->weights[k] * island->inverse_masses[slot] * s->mass_kg;
+    float *v = c->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    v[0] += share * faster.x, v[SBRI_BLOCK] += share * faster.y, v[2 * SBRI_BLOCK] += share * faster.z;
+    sbri_point *x = &c->tick->positions[slot];
+    x->x += share * moved.x, x->y += share * moved.y, x->z += share * moved.z;
+  }
+}
+
+static const sbf_vec3 nowhere = {0, 0, 0};
+
+/* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
+static void begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+  sbf_vec3 v = velocity_of(c, &touch->sample);
+  float gap = gap_of(c, touch), speed = sbri_dot(touch->normal, v);
+  touch->gap = gap;
+  touch->wanted = gap > 0 ? -gap / rule->step_s : 0;
+  float back = -rule->restitution * speed;
+  if (gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s && back > touch->wanted)
+    touch->wanted = back;
+}
+
+/* One push made right; by how much it changed. */
+static float correct(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+  const sbri_sample *s = &touch->sample;
+  sbf_vec3 v = velocity_of(c, s), n = touch->normal;
+  float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed);
+  if (!(gain > 0)) gain = 0;
+  if (gain == 0 && touch->gain == 0) return 0;
+  sbf_vec3 rub = sbri_sub(touch->rub, sbri_add_scaled(v, n, -speed));
+  float size = sbri_length(rub), most = rule->friction * gain;
+  if (size > most) rub = sbri_scale(rub, most / size);
+  sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
+  touch->gain = gain, touch->rub = rub;
+  push(c, s, change, nowhere);
+  return sbri_length(change);
+}
+
+void sbri_touches_answer(
+    const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
+  touching c = touching_of(t, body, velocities);
+  for (uint32_t i = 0; i < c.count; i++) begin(&c, &c.touches[i], rule);
+  for (uint32_t i = 0; i < c.count; i++) {
+    const sbri_touch *touch = &c.touches[i];
+    if (touch->gain > 0)
+      push(&c, &touch->sample, sbri_add_scaled(touch->rub, touch->normal, touch->gain), nowhere);
+  }
+  float most = SETTLED_M_S;
+  for (int sweep = 0; sweep < MOST_SWEEPS && most >= SETTLED_M_S; sweep++) {
+    most = 0;
+    for (uint32_t i = 0; i < c.count; i++) {
+      float change = correct(&c, &c.touches[sweep % 2 ? c.count - 1 - i : i], rule);
+      most = change > most ? change : most;
+    }
+  }
+  for (uint32_t i = 0; i < c.count; i++) {
+    const sbri_touch *touch = &c.touches[i];
+    float up = -touch->gap - rule->slack_m;
+    if (touch->gain > 0 && up > 0)
+      push(&c, &touch->sample, nowhere, sbri_scale(touch->normal, up < rule->push_m ? up : rule->push_m));
+  }
+}
+
+void sbri_touches_remember(const sbri_island_tick *t, const sbri_body *body) {
+  touching c = touching_of(t, body, t->velocities);
+  for (uint32_t i = 0; i < c.count; i++) c.touches[i].gap = gap_of(&c, &c.touches[i]);
+}
+
+void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
+  touching c = touching_of(t, body, t->velocities);
+  for (uint32_t i = 0; i < c.count; i++) {
+    const sbri_touch *touch = &c.touches[i];
+    const sbri_sample *s = &touch->sample;
+    float least = touch->gap < -rule->slack_m ? touch->gap : -rule->slack_m, lift = least - gap_of(&c, touch);
+    if (!(lift > 0)) continue;
+    sbf_vec3 v = velocity_of(&c, s), n = touch->normal;
+    float gain = lift / rule->step_s;
+    sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
+    float size = sbri_length(sideways), most = rule->friction * gain;
+    sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
+    push(&c, s, change, sbri_scale(change, rule->step_s));
+  }
+}

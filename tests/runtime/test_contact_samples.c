@@ -1,0 +1,331 @@
+/* Surfaces that a level carries: which places of them meet the ground, and how pushes there reach its points.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/world.h"
+#include "harness.h"
+#include "scenes.h"
+#include "solvers/motion.h"
+
+/* The box of 2 x 2 x 2 cells that carries the surface: smaller than it by a fifth. */
+static const sbf_vec3 inner_low = {-0.16f, 0.04f, -0.16f}, inner_size = {0.32f, 0.32f, 0.32f};
+
+static void weights_of(const lattice_box *box, uint32_t element, sbf_vec3 p, double w[4]) {
+  const uint32_t *at = box->tetrahedra[element].at;
+  double x[4][3], off[3];
+  for (int k = 0; k < 4; k++) {
+    sbf_vec3 q = box->positions[at[k]];
+    x[k][0] = (double)q.x, x[k][1] = (double)q.y, x[k][2] = (double)q.z;
+  }
+  off[0] = (double)p.x - x[0][0], off[1] = (double)p.y - x[0][1], off[2] = (double)p.z - x[0][2];
+  double e[3][3], n[3][3];
+  for (int k = 0; k < 3; k++)
+    for (int i = 0; i < 3; i++) e[k][i] = x[k + 1][i] - x[0][i];
+  for (int k = 0; k < 3; k++) {
+    const double *a = e[(k + 1) % 3], *b = e[(k + 2) % 3];
+    n[k][0] = a[1] * b[2] - a[2] * b[1], n[k][1] = a[2] * b[0] - a[0] * b[2];
+    n[k][2] = a[0] * b[1] - a[1] * b[0];
+    w[k + 1] = (off[0] * n[k][0] + off[1] * n[k][1] + off[2] * n[k][2]) /
+               (e[k][0] * n[k][0] + e[k][1] * n[k][1] + e[k][2] * n[k][2]);
+  }
+  w[0] = 1 - w[1] - w[2] - w[3];
+}
+
+/* Each vertex by the element of which it lies the least outside. */
+static void embed(scene *s, sbf_level *level, const lattice_box *box) {
+  const sbf_vec3_list *vertices = &scene_body(s, 0)->surface.positions;
+  sbf_uint4 *points = sbf_asset_allocate(s->asset, vertices->count, sizeof *points);
+  sbf_vec4 *weights = sbf_asset_allocate(s->asset, vertices->count, sizeof *weights);
+  for (uint32_t v = 0; v < vertices->count; v++) {
+    double best = -1e9, w[4];
+    for (uint32_t t = 0; t < box->tetrahedron_count; t++) {
+      weights_of(box, t, vertices->at[v], w);
+      double least = fmin(fmin(w[0], w[1]), fmin(w[2], w[3]));
+      if (least <= best) continue;
+      best = least;
+      points[v] = box->tetrahedra[t];
+      weights[v] = (sbf_vec4){(float)w[0], (float)w[1], (float)w[2], (float)w[3]};
+    }
+  }
+  sbf_embedding *embedding = sbf_asset_allocate(s->asset, 1, sizeof *embedding);
+  sbf_embedding_init(embedding);
+  embedding->points = (sbf_uint4_list){points, vertices->count};
+  embedding->weights = (sbf_vec4_list){weights, vertices->count};
+  level->embeddings = (sbf_embedding_list){embedding, 1};
+}
+
+/* A box of 0.4 m on the ground, `cells` quads along each edge, carried by the smaller lattice within it. */
+static scene carried_box(uint32_t cells, sbf_pressure_mode pressure) {
+  scene s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 0, 0});
+  sbf_soft_body *body = scene_body(&s, 0);
+  sbf_attributes_init(&body->attributes);
+  body->attributes.pressure_mode = pressure;
+  scene_section(&s, 0, (sbf_vec3){0, 0.2f, 0}, (sbf_vec3){0.4f, 0.4f, 0.4f}, cells);
+  lattice_box box = lattice_box_make(inner_low, inner_size, 2, 2, 2, 2000, 8e4f, 0.4f);
+  embed(&s, scene_lattice(&s, 0, &box), &box);
+  lattice_box_free(&box);
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.character_definition.position = (sbr_double3){0, 0, 0};
+  return s;
+}
+
+static const sbri_body *body_of(const scene *s) {
+  return &s->model->bodies[0];
+}
+
+START_TEST(all_that_polygons_use_is_sampled)
+{
+  scene s = carried_box(4, SBF_PRESSURE_MODE_NONE);
+  sbf_soft_body *body = scene_body(&s, 0);
+  uint32_t count = body->surface.positions.count;
+  body->surface.polygon_sizes.count--; /* a face less: all its corners have others */
+  body->surface.polygon_points.count -= 4;
+  scene_start(&s);
+  ck_assert_uint_eq(body_of(&s)->sample_count, count);
+  ck_assert_float_gt(body_of(&s)->sample_beyond, 0.2f);
+  const sbri_island *island = &s.model->islands[0];
+  for (uint32_t i = 0; i < count; i++) {
+    const sbri_sample *sample = &body_of(&s)->samples[i];
+    float sum = 0, inverse = 0;
+    sbf_vec3 place = {0, 0, 0}, rest = body->surface.positions.at[i];
+    for (int k = 0; k < 4; k++) {
+      const sbri_point *p = &island->rest[sample->slots[k]];
+      float w = sample->weights[k];
+      sum += w, inverse += w * w * island->inverse_masses[sample->slots[k]];
+      place = sbri_add_scaled(place, sbri_vec3(p->x, p->y, p->z), w);
+    }
+    ck_assert_float_eq_tol(sum, 1, 1e-5f);
+    ck_assert_float_eq_tol(inverse * sample->mass_kg, 1, 1e-4f);
+    ck_assert_float_lt(sbri_length(sbri_sub(place, rest)), 1e-5f);
+  }
+  scene_free(&s);
+}
+END_TEST
+
+/* With one quad a side, no point of the surface lies between the corners: points of the level must. */
+START_TEST(faces_larger_than_the_elements_are_borne_by_points_of_the_level)
+{
+  scene s = carried_box(1, SBF_PRESSURE_MODE_NONE);
+  scene_start(&s);
+  ck_assert_uint_eq(body_of(&s)->sample_count, 8 + 3 * 3 * 3 - 1); /* all but the middle: 40 mm within */
+  scene_free(&s);
+  s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 0, 0});
+  scene_section(&s, 0, (sbf_vec3){0, 0.2f, 0}, (sbf_vec3){0.4f, 0.4f, 0.4f}, 1);
+  lattice_box box = lattice_box_make(
+      (sbf_vec3){-0.199f, 0.001f, -0.199f}, (sbf_vec3){0.398f, 0.398f, 0.398f}, 4, 4, 4, 2000, 8e4f, 0.4f);
+  embed(&s, scene_lattice(&s, 0, &box), &box);
+  lattice_box_free(&box);
+  scene_start(&s);
+  ck_assert_uint_eq(body_of(&s)->sample_count, 8 + 5 * 5 * 5 - 3 * 3 * 3);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(points_of_a_spring_level_need_no_samples)
+{
+  scene s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 0, 0});
+  scene_section(&s, 0, (sbf_vec3){0, 0.2f, 0}, (sbf_vec3){0.4f, 0.4f, 0.4f}, 2);
+  scene_start(&s);
+  ck_assert_ptr_null(body_of(&s)->samples);
+  scene_free(&s);
+}
+END_TEST
+
+/* ---- Pushes ---- */
+
+typedef struct momenta {
+  double linear[3], angular[3]; /* about a place */
+} momenta;
+
+static momenta momenta_of(const sbri_island_tick *t, sbf_vec3 about) {
+  momenta m = {{0}, {0}};
+  for (uint32_t slot = 0; slot < t->island->free_count; slot++) {
+    sbf_vec3 v = sbri_slot_velocity(t, t->velocities, slot);
+    double k = t->island->masses[slot], p[3] = {k * (double)v.x, k * (double)v.y, k * (double)v.z};
+    double x = (double)t->positions[slot].x - (double)about.x,
+           y = (double)t->positions[slot].y - (double)about.y,
+           z = (double)t->positions[slot].z - (double)about.z;
+    for (int i = 0; i < 3; i++) m.linear[i] += p[i];
+    m.angular[0] += y * p[2] - z * p[1], m.angular[1] += z * p[0] - x * p[2];
+    m.angular[2] += x * p[1] - y * p[0];
+  }
+  return m;
+}
+
+static sbf_vec3 velocity_of(const sbri_island_tick *t, const sbri_sample *s) {
+  sbf_vec3 v = {0, 0, 0};
+  for (int k = 0; k < 4; k++)
+    v = sbri_add_scaled(v, sbri_slot_velocity(t, t->velocities, s->slots[k]), s->weights[k]);
+  return v;
+}
+
+START_TEST(a_push_is_a_force_at_that_place)
+{
+  scene s = carried_box(2, SBF_PRESSURE_MODE_NONE);
+  scene_start(&s);
+  sbri_character *c = sbri_character_of(s.world, s.character);
+  uint32_t counts[1] = {1};
+  sbri_touch touch = {.sample = body_of(&s)->samples[3], .normal = {0.6f, 0.8f, 0}};
+  sbri_island_tick tick = {.model = s.model,
+      .island = &s.model->islands[0],
+      .tick_s = 1.0f / 60,
+      .positions = sbri_positions(c),
+      .velocities = sbri_velocities(c),
+      .targets = sbri_positions(c),
+      .begins = sbri_positions(c),
+      .touches = &touch,
+      .touch_counts = counts};
+  for (uint32_t slot = 0; slot < tick.island->free_count; slot++) {
+    float *v = sbri_triple(tick.velocities, slot);
+    v[0] = -2 + 0.1f * (float)(slot % 5), v[SBRI_BLOCK] = -3 + 0.2f * (float)(slot % 3);
+    v[2 * SBRI_BLOCK] = 1 - 0.1f * (float)(slot % 7);
+  }
+  const sbri_sample *sample = &touch.sample;
+  sbf_vec3 place = sbri_sample_place(&tick, sample);
+  touch.offset = sbri_dot(touch.normal, place);
+  sbf_vec3 before_v = velocity_of(&tick, sample);
+  momenta before = momenta_of(&tick, place);
+  const float friction = 0.2f;
+  sbri_contact_rule rule = {friction, 0, 1e-3f, 1, 0, 0.05f};
+  sbri_touches_answer(&tick, body_of(&s), tick.velocities, &rule);
+  sbf_vec3 after_v = velocity_of(&tick, sample);
+  momenta after = momenta_of(&tick, place);
+  /* What falls in stops, and friction takes no more sideways than its share of that. */
+  float gain = sbri_dot(touch.normal, sbri_sub(after_v, before_v));
+  ck_assert_float_eq_tol(sbri_dot(touch.normal, after_v), 0, 1e-4f);
+  ck_assert_float_eq_tol(gain, -sbri_dot(touch.normal, before_v), 1e-4f);
+  sbf_vec3 change = sbri_sub(after_v, before_v);
+  float sideways = sbri_length(sbri_add_scaled(change, touch.normal, -gain));
+  ck_assert_float_eq_tol(sideways, friction * gain, 1e-3f);
+  /* The momentum is that of a push there: it does not turn the body about that place. */
+  const float *change_at = &change.x;
+  for (int i = 0; i < 3; i++) {
+    ck_assert_double_eq_tol(
+        after.linear[i] - before.linear[i], (double)(sample->mass_kg * change_at[i]), 1e-2);
+    ck_assert_double_eq_tol(after.angular[i], before.angular[i], 2e-3);
+  }
+  /* A second look finds nothing to do. */
+  sbri_touches_answer(&tick, body_of(&s), tick.velocities, &rule);
+  sbf_vec3 again = velocity_of(&tick, sample);
+  ck_assert_float_lt(sbri_length(sbri_sub(again, after_v)), 1e-4f);
+  scene_free(&s);
+}
+END_TEST
+
+/* ---- Falls ---- */
+
+static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_HEUN, SBF_SCHEME_EXPLICIT_EULER};
+static const sbf_pressure_mode pressures[] = {SBF_PRESSURE_MODE_NONE, SBF_PRESSURE_MODE_VOLUME};
+
+typedef struct fall {
+  double lowest_m, speed_m_s, end_m;
+} fall;
+
+static fall fall_of(scene *s) {
+  static sbf_vec3 before[512], after[512];
+  fall f = {0, 0, 1};
+  for (int tick = 0; tick < 300; tick++) {
+    uint32_t count = sbr_character_surface(s->world, s->character, 0, before, 512);
+    scene_ticks(s, 1);
+    sbr_character_surface(s->world, s->character, 0, after, 512);
+    double origin = sbr_character_origin(s->world, s->character).y;
+    f.speed_m_s = 0, f.end_m = 1;
+    for (uint32_t i = 0; i < count; i++) {
+      double x = after[i].x - before[i].x, y = after[i].y - before[i].y, z = after[i].z - before[i].z;
+      f.lowest_m = fmin(f.lowest_m, origin + (double)after[i].y);
+      f.end_m = fmin(f.end_m, origin + (double)after[i].y);
+      f.speed_m_s = fmax(f.speed_m_s, 60 * sqrt(x * x + y * y + z * z));
+    }
+  }
+  return f;
+}
+
+START_TEST(a_surface_beyond_its_lattice_stays_above_the_ground)
+{
+  scene s = carried_box(3, pressures[_i % 2]);
+  s.character_definition.position.y = 1;
+  s.model_options.scheme = schemes[_i / 2];
+  if (s.model_options.scheme == SBF_SCHEME_EXPLICIT_EULER)
+    scene_body(&s, 0)->attributes.stiffness_damping = 2e-3f; /* else it gains energy in the air */
+  scene_start(&s);
+  fall f = fall_of(&s);
+  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 0);
+  ck_assert_double_gt(f.lowest_m, -2e-3);
+  ck_assert_double_gt(f.end_m, -2e-4);
+  ck_assert_double_lt(f.end_m, 1e-3);
+  ck_assert_double_lt(f.speed_m_s, 0.02);
+  scene_free(&s);
+}
+END_TEST
+
+/* Springs between the corners of a box within carry the surface: position-based steps too. */
+START_TEST(position_based_steps_know_samples)
+{
+  scene s = carried_box(2, SBF_PRESSURE_MODE_NONE);
+  sbf_vec3 positions[8];
+  float masses[8], stiffness[28];
+  sbf_uint2 ends[28];
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < 8; i++) {
+    positions[i] = (sbf_vec3){i & 1 ? 0.16f : -0.16f, i & 2 ? 0.36f : 0.04f, i & 4 ? 0.16f : -0.16f};
+    masses[i] = 4;
+    for (uint32_t k = 0; k < i; k++) {
+      ends[count] = (sbf_uint2){{k, i}};
+      stiffness[count++] = 2e4f;
+    }
+  }
+  sbf_level *level = scene_points(&s, 0, positions, masses, 8);
+  scene_springs(&s, level, ends, stiffness, count);
+  const sbf_vec3_list *vertices = &scene_body(&s, 0)->surface.positions;
+  sbf_uint4 *points = sbf_asset_allocate(s.asset, vertices->count, sizeof *points);
+  sbf_vec4 *weights = sbf_asset_allocate(s.asset, vertices->count, sizeof *weights);
+  for (uint32_t v = 0; v < vertices->count; v++) {
+    /* By a corner and its three neighbours, those nearest to the vertex. */
+    sbf_vec3 p = vertices->at[v];
+    uint32_t corner = (p.x > 0 ? 1u : 0) + (p.y > 0.2f ? 2u : 0) + (p.z > 0 ? 4u : 0);
+    float x = fabsf(p.x - positions[corner].x) / 0.32f, y = fabsf(p.y - positions[corner].y) / 0.32f,
+          z = fabsf(p.z - positions[corner].z) / 0.32f;
+    if (fabsf(p.x) > 0.16f) x = -x;
+    if (fabsf(p.y - 0.2f) > 0.16f) y = -y;
+    if (fabsf(p.z) > 0.16f) z = -z;
+    points[v] = (sbf_uint4){{corner, corner ^ 1, corner ^ 2, corner ^ 4}};
+    weights[v] = (sbf_vec4){1 - x - y - z, x, y, z};
+  }
+  sbf_embedding *embedding = sbf_asset_allocate(s.asset, 1, sizeof *embedding);
+  sbf_embedding_init(embedding);
+  embedding->points = (sbf_uint4_list){points, vertices->count};
+  embedding->weights = (sbf_vec4_list){weights, vertices->count};
+  level->embeddings = (sbf_embedding_list){embedding, 1};
+  s.character_definition.position.y = 0.5;
+  s.model_options.scheme = SBF_SCHEME_POSITION_BASED;
+  scene_start(&s);
+  ck_assert_uint_eq(body_of(&s)->sample_count, vertices->count);
+  fall f = fall_of(&s);
+  ck_assert_double_gt(f.lowest_m, -2e-3);
+  ck_assert_double_lt(f.end_m, 1e-3);
+  ck_assert_double_lt(f.speed_m_s, 0.02);
+  scene_free(&s);
+}
+END_TEST
+
+static Suite *suite(void) {
+  Suite *s = suite_create("contact samples");
+  TCase *c = tcase_create("contact samples");
+  tcase_add_test(c, all_that_polygons_use_is_sampled);
+  tcase_add_test(c, faces_larger_than_the_elements_are_borne_by_points_of_the_level);
+  tcase_add_test(c, points_of_a_spring_level_need_no_samples);
+  tcase_add_test(c, a_push_is_a_force_at_that_place);
+  tcase_add_loop_test(c, a_surface_beyond_its_lattice_stays_above_the_ground, 0, 6);
+  tcase_add_test(c, position_based_steps_know_samples);
+  suite_add_tcase(s, c);
+  return s;
+}
+
+int main(void) {
+  return harness_run(suite());
+}
