@@ -127,6 +127,11 @@ double sbri_ground_height(const sbr_ground *ground, double x, double z, sbf_vec3
   return ground->height(ground, x, z, normal ? normal : &unused);
 }
 
+bool sbri_ground_is_fixed(const sbr_ground *ground) {
+  return ground->height == flat || ground->height == slope || ground->height == stairs ||
+         ground->height == noise;
+}
+
 bool sbri_ground_is_flat(const sbr_ground *ground, double *height) {
   *height = ground->parameters[0];
   return ground->height == flat;

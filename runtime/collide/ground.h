@@ -7,6 +7,8 @@
 /* Height in m at (x, z), world space; `normal` (may be NULL) receives the unit normal. */
 double sbri_ground_height(const sbr_ground *ground, double x, double z, sbf_vec3 *normal);
 
+/* Whether it is one of the built-in ones of sbrun.h, which nothing changes. */
+bool sbri_ground_is_fixed(const sbr_ground *ground);
 /* Whether it is one of the built-in flat ones; `height` receives where. */
 bool sbri_ground_is_flat(const sbr_ground *ground, double *height);
 

@@ -7,6 +7,7 @@ void sbr_character_ik_target(
     sbr_world *world, sbr_character_id character, uint32_t ik_chain, const sbr_ik_target *target) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || ik_chain >= c->model->asset->ik_chains.count) return;
+  sbri_character_wake(c);
   sbri_limb_target *to = &sbri_limb_targets(&c->model->rig, sbri_gait(c))[ik_chain];
   *to = (sbri_limb_target){.weight = 0};
   if (!target || !(target->weight > 0)) return;
@@ -20,6 +21,7 @@ void sbr_character_ik_target(
 void sbr_character_pivot(sbr_world *world, sbr_character_id character, int32_t leg) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || leg >= (int32_t)c->model->rig.leg_count) return;
+  sbri_character_wake(c);
   ((sbri_gait_state *)sbri_gait(c))->pivot = leg < 0 ? 0 : (uint32_t)leg + 1;
 }
 
@@ -27,6 +29,7 @@ void sbr_character_play(
     sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || !how || layer >= SBRI_CLIP_LAYERS || clip >= (int32_t)c->model->asset->clips.count) return;
+  sbri_character_wake(c);
   sbri_clip_layer *l = &((sbri_gait_state *)sbri_gait(c))->clips[layer];
   l->fade_s = how->fade_s > 0 ? how->fade_s : 0;
   l->wanted = clip < 0 ? 0 : sbri_clamp(how->weight, 0, 1);

@@ -25,13 +25,17 @@ void sbri_work_list(sbr_world *world) {
   world->work_count = 0;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbr_model *model = world->characters[i].model;
-    for (uint32_t k = 0; model && k < model->island_count; k++)
+    bool steps =
+        model && !sbri_head(&world->characters[i])->paused && !sbri_head(&world->characters[i])->asleep;
+    for (uint32_t k = 0; steps && k < model->island_count; k++)
       world->work[world->work_count++] = (sbri_work){i, k};
   }
 }
 
 static bool reserve_work(sbr_world *world, size_t more) {
-  size_t needed = world->work_count + more;
+  size_t needed = more;
+  for (uint32_t i = 0; i < world->character_capacity; i++)
+    needed += world->characters[i].model ? world->characters[i].model->island_count : 0;
   if (needed <= world->work_capacity) return true;
   sbri_work *grown = world->allocator.reallocate(
       world->allocator.user, world->work, world->work_capacity * sizeof *grown, needed * sizeof *grown);
@@ -114,6 +118,7 @@ void sbr_character_drive(
     sbr_world *world, sbr_character_id character, float forward, float sideways, float turn) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
+  sbri_character_wake(c);
   sbri_head(c)->forward = forward;
   sbri_head(c)->sideways = sideways;
   sbri_head(c)->turn = turn;
@@ -128,6 +133,7 @@ void sbr_character_teleport(
     sbr_world *world, sbr_character_id character, sbr_double3 position, float heading) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
+  sbri_character_wake(c);
   sbri_deltas_make(c, sbri_pose(c), sbri_previous_deltas(c));
   put(world, c, position, heading);
   sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
@@ -141,6 +147,7 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   if (!c) return;
   sbf_vec3 place;
   float heading;
+  sbri_character_wake(c);
   sbri_gait_placement(sbri_gait(c), &place, &heading);
   sbr_double3 origin = sbri_head(c)->origin;
   sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = 0;

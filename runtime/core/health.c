@@ -192,6 +192,7 @@ sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id ch
   const sbri_island *island = &c->model->islands[body->island];
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  health.asleep = sbri_island_states(c)[body->island].asleep;
   health.recoveries = sbri_island_states(c)[body->island].recoveries;
   health.finite = is_finite(body, positions, velocities);
   look_at_springs(c, island, body, positions, &health);

@@ -100,8 +100,8 @@ uint64_t sbr_world_state_hash(const sbr_world *world) {
     const sbri_layout *l = &c->model->layout;
     const sbri_character_state *head = sbri_head(c);
     const float wanted[3] = {head->forward, head->sideways, head->turn};
-    uint32_t id[2] = {i, head->paused};
-    sbfi_hash64_u32(&hash, id, 2);
+    uint32_t id[3] = {i, head->paused, head->asleep};
+    sbfi_hash64_u32(&hash, id, 3);
     sbfi_hash64_f64(&hash, &head->origin.x, 3);
     sbfi_hash64_f32(&hash, wanted, 3);
     sbfi_hash64_bytes(&hash, sbri_gait(c), sbri_gait_state_size(&c->model->rig));

@@ -55,6 +55,7 @@ void sbri_layout_make(sbr_model *model) {
   end = 0;
   l->deltas = place(&end, frames, sizeof(sbr_transform));
   l->previous_deltas = place(&end, frames, sizeof(sbr_transform));
+  l->gait_before = place(&end, 1, sbri_gait_state_size(&model->rig));
   l->targets = place(&end, slots, sizeof(sbri_point));
   l->guide_velocities = place(&end, 3 * slots, sizeof(float));
   l->begins = place(&end, slots, sizeof(sbri_point));

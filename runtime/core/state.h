@@ -14,6 +14,8 @@ typedef struct sbri_character_state {
   sbr_double3 origin;            /* m, world */
   float forward, sideways, turn; /* wanted motion */
   uint32_t paused;
+  uint32_t asleep; /* nothing of it changes until a call or the ground does */
+  uint32_t unused; /* to the next double */
 } sbri_character_state;
 
 typedef struct sbri_island_state {
@@ -25,6 +27,10 @@ typedef struct sbri_island_state {
   uint32_t recoveries;
   uint32_t unsplit;        /* points that a tear should have split, and there was no room */
   uint32_t recovering;     /* ticks for which the router still keeps to the scheme that recovers */
+  uint32_t asleep;         /* it is not stepped */
+  uint32_t told_asleep;    /* what the host was last told of that */
+  uint32_t quiet_ticks;    /* for how long it has been as slow as a sleeper */
+  uint32_t ground_mark;    /* of the ground that a sleeper lies on */
   sbf_vec3 guide_velocity; /* mean of what holds it, in the last tick */
 } sbri_island_state;
 
@@ -77,15 +83,16 @@ SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)  /* (to
   }
 SBRI_SCRATCH_PART(deltas, sbr_transform, c->model->layout.deltas)                   /* (frame_count) */
 SBRI_SCRATCH_PART(previous_deltas, sbr_transform, c->model->layout.previous_deltas) /* (frame_count) */
-SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                    /* (slot_count) */
-SBRI_SCRATCH_PART(guide_velocities, float, c->model->layout.guide_velocities)       /* (slot_count x 3) */
-SBRI_SCRATCH_PART(begins, sbri_point, c->model->layout.begins)                      /* (slot_count) */
-SBRI_SCRATCH_PART(velocity_points, sbri_point, c->model->layout.velocity_points)    /* (slot_count) */
-SBRI_SCRATCH_PART(outer, sbri_point, c->model->layout.outer)                        /* (slot_count) */
-SBRI_SCRATCH_PART(accelerations, float, c->model->layout.accelerations)             /* (slot_count x 3) */
-SBRI_SCRATCH_PART(older_velocities, float, c->model->layout.older_velocities)       /* (slot_count x 3) */
-SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                        /* (slot_count) */
-SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)             /* (link_block_count x 24) */
+SBRI_SCRATCH_PART(gait_before, void, c->model->layout.gait_before)
+SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                 /* (slot_count) */
+SBRI_SCRATCH_PART(guide_velocities, float, c->model->layout.guide_velocities)    /* (slot_count x 3) */
+SBRI_SCRATCH_PART(begins, sbri_point, c->model->layout.begins)                   /* (slot_count) */
+SBRI_SCRATCH_PART(velocity_points, sbri_point, c->model->layout.velocity_points) /* (slot_count) */
+SBRI_SCRATCH_PART(outer, sbri_point, c->model->layout.outer)                     /* (slot_count) */
+SBRI_SCRATCH_PART(accelerations, float, c->model->layout.accelerations)          /* (slot_count x 3) */
+SBRI_SCRATCH_PART(older_velocities, float, c->model->layout.older_velocities)    /* (slot_count x 3) */
+SBRI_SCRATCH_PART(moves, sbri_point, c->model->layout.moves)                     /* (slot_count) */
+SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)                          /* (link_block_count x 24) */
 SBRI_SCRATCH_PART(solid_edges, float, c->model->layout.solid_edges) /* (tetrahedron_block_count x 72) */
 SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)     /* (island_count) */
 SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces) /* (slot_count) */
@@ -106,6 +113,11 @@ SBRI_SCRATCH_PART(surface_forces, sbri_point, c->model->layout.surface_forces)
 SBRI_SCRATCH_PART(surface_velocities, sbri_point, c->model->layout.surface_velocities)
 SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces) /* of all bodies */
 #undef SBRI_SCRATCH_PART
+
+/* ---- core/sleep.c ---- */
+
+void sbri_island_wake(sbri_character *c, uint32_t island);
+void sbri_character_wake(sbri_character *c);
 
 /* ---- core/frames.c ---- */
 

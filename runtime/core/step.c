@@ -71,7 +71,7 @@ static void tick_character(void *context, uint32_t index) {
   sbr_world *world = context;
   sbri_character *c = &world->characters[index];
   c->event_count = 0;
-  if (!c->model) return;
+  if (!c->model || sbri_character_sleeps(world, c)) return;
   for (uint32_t i = 0; i < c->model->island_count; i++)
     sbri_tears_of(c)[i].count = sbri_tears_of(c)[i].unsplit = 0;
   rebase(c);
@@ -80,9 +80,12 @@ static void tick_character(void *context, uint32_t index) {
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbr_transform *pose = sbri_pose(c);
   sbri_deltas_make(c, pose, sbri_previous_deltas(c));
+  bool may_sleep = sbri_character_may_sleep(world, c);
+  if (may_sleep) sbri_character_keep_gait(c);
   c->event_count = sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events, SBRI_TICK_EVENTS);
   pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
   sbri_deltas_make(c, pose, sbri_deltas(c));
+  sbri_head(c)->asleep = may_sleep && sbri_character_is_still(c);
 }
 
 /* ---- The islands ---- */
@@ -179,6 +182,10 @@ static void prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
   }
 }
 
+void sbri_island_contacts(const sbr_world *world, sbri_character *c, const sbri_island *island) {
+  prepare_contacts(world, c, island, (float)world->tick_s * c->time_scale);
+}
+
 /* Places beyond this many metres from the origin and speeds beyond as many metres a second are no motion any
  * more, though the numbers may be finite yet. */
 static const float LOST_BEYOND = 1e6f;
@@ -212,7 +219,7 @@ static void tick_island(void *context, uint32_t index) {
   sbr_world *world = context;
   sbri_work work = world->work[index];
   sbri_character *c = &world->characters[work.character];
-  if (sbri_head(c)->paused) return;
+  if (sbri_island_sleeps(world, c, work.island)) return;
   const sbr_model *model = c->model;
   sbri_island now = sbri_island_now(c, &model->islands[work.island]);
   const sbri_island *island = &now;
@@ -275,6 +282,7 @@ static void tick_island(void *context, uint32_t index) {
   sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
   if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, work.island);
   recover(world, c, work.island);
+  sbri_island_may_sleep(world, c, work.island);
 }
 
 /* ---- The world ---- */
@@ -325,7 +333,7 @@ static void gather_events(sbr_world *world) {
       const sbri_gait_event *from = &c->events[e];
       add_event(world, c, (sbr_event){.kind = from->kind, .leg = from->leg}, from->position);
     }
-    for (uint32_t k = 0; c->model && k < c->model->island_count; k++) {
+    for (uint32_t k = 0; c->model && !sbri_head(c)->asleep && k < c->model->island_count; k++) {
       const sbri_tears *tears = &sbri_tears_of(c)[k];
       for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++) {
         uint32_t body = body_of_tear(c->model, &c->model->islands[k], &tears->at[e]);
@@ -340,10 +348,30 @@ static void gather_events(sbr_world *world) {
   }
 }
 
+/* Counts who was stepped, and tells who has fallen asleep or woken. */
+static void note_sleep(sbr_world *world) {
+  world->awake_count = 0;
+  for (size_t i = 0; i < world->work_count; i++) {
+    const sbri_character *c = &world->characters[world->work[i].character];
+    const sbri_island *island = &c->model->islands[world->work[i].island];
+    sbri_island_state *state = &sbri_island_states(c)[world->work[i].island];
+    if (!state->asleep) world->awake_count += island->body_count;
+    if (state->asleep == state->told_asleep) continue;
+    state->told_asleep = state->asleep;
+    const sbri_point *p = sbri_positions(c) + island->first_slot;
+    add_event(world, c,
+        (sbr_event){
+            .kind = state->asleep ? SBR_EVENT_ASLEEP : SBR_EVENT_AWAKE, .soft_body = island->bodies[0]},
+        sbri_scale(sbri_vec3(p->x, p->y, p->z), c->scale));
+  }
+}
+
 void sbri_step_tick(sbr_world *world) {
   world->ticks++;
   run(world, tick_character, world->character_capacity);
+  sbri_work_list(world);
   run(world, tick_island, world->work_count);
   follow_tears(world);
   gather_events(world);
+  note_sleep(world);
 }

@@ -1,5 +1,6 @@
 #include "core/world.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -12,7 +13,8 @@ sbr_world_definition sbr_default_world_definition(void) {
       .gravity = {0, -9.81f, 0},
       .control_tick_s = 1.0 / 60,
       .longest_frame_s = 0.25,
-      .character_capacity = DEFAULT_CAPACITY};
+      .character_capacity = DEFAULT_CAPACITY,
+      .sleep_after_s = 0.5};
 }
 
 static int64_t units_of(double seconds) {
@@ -51,6 +53,8 @@ sbf_status sbr_world_create(
       .tick_s = tick,
       .tick_units = units_of(tick),
       .longest_units = units_of(longest),
+      .sleep_ticks =
+          definition->sleep_after_s > 0 ? 1 + (uint32_t)(fmin(definition->sleep_after_s, 1e6) / tick) : 0,
       .stamp = 1,
       .characters = characters,
       .character_capacity = capacity};

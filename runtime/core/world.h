@@ -30,8 +30,10 @@ struct sbr_world {
   uint64_t stamp;  /* counts sampled moments; from 1 */
   sbri_character *characters; /* (character_capacity) */
   uint32_t character_capacity;
-  sbri_work *work; /* (work_count) of all characters, in their order */
+  sbri_work *work; /* (work_count) of this tick, character after character */
   size_t work_count, work_capacity;
+  uint32_t sleep_ticks; /* of rest before sleep; 0: nothing sleeps */
+  uint32_t awake_count; /* soft bodies stepped in the last tick */
   sbr_event events[SBRI_EVENTS];
   uint64_t event_head, event_tail; /* numbers of the next one written and read */
 };
@@ -40,12 +42,28 @@ struct sbr_world {
 sbri_character *sbri_character_of(const sbr_world *world, sbr_character_id id);
 sbr_character_id sbri_id_of(const sbr_world *world, const sbri_character *c);
 
-/* Anew the list of work, after characters came or went; its memory is there already. */
+/* Anew the list of work, of the characters that are awake; its memory is there already. */
 void sbri_work_list(sbr_world *world);
 
 /* ---- core/step.c ---- */
 
 void sbri_step_tick(sbr_world *world);
+/* Planes of the ground near the island's points, into the character's scratch, as of now. */
+void sbri_island_contacts(const sbr_world *world, sbri_character *c, const sbri_island *island);
+
+/* ---- core/sleep.c ---- */
+
+/* Whether the island sleeps through this tick, whose frames are known; it wakes where it does not. */
+bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t island);
+/* After a tick of it. */
+void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t island);
+/* Whether the character sleeps through this tick; and whether it would if its gait stood still. */
+bool sbri_character_sleeps(const sbr_world *world, sbri_character *c);
+bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c);
+/* Before a tick of the gait, and after it: whether it has left everything as it was. */
+void sbri_character_keep_gait(sbri_character *c);
+bool sbri_character_is_still(const sbri_character *c);
+
 /* core/folded.c: whether an island has lost its shape, as it now is. */
 bool sbri_is_folded(const sbr_world *world, const sbri_character *c, uint32_t island);
 sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c);

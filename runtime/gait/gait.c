@@ -9,6 +9,7 @@
 static const float EASE_S = 0.18f;  /* time over which wanted motion takes effect */
 static const float ACCELERATES = 5; /* 1/s^2, in reaches: no faster than so */
 static const float STILL = 0.004f;  /* m/s and rad/s, per metre of leg: below it the character stands */
+static const float LONG_S = 1;      /* of standing; longer is no longer counted */
 static const float HURRY_S = 0.12f; /* over which it takes up its pace again after waiting for a foot */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
@@ -71,7 +72,7 @@ static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
   if (!wanted && speed < STILL * input->scale && fabsf(state->turn) < STILL) {
     state->forward = state->sideways = state->turn = 0;
-    state->standing_s += input->tick_s;
+    if (state->standing_s < LONG_S) state->standing_s += input->tick_s; /* and then all of it stands still */
   } else {
     state->standing_s = 0;
   }

@@ -232,7 +232,8 @@ typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, rests, strengths,
       rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, skin_cells, bound_to,
       torn_polygons, state_size;
-  size_t deltas, previous_deltas, targets, guide_velocities, begins, velocity_points, planes, near_ground;
+  size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
+      near_ground;
   size_t element_forces;
   size_t touches, touch_counts;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;

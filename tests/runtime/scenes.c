@@ -14,6 +14,7 @@ scene scene_begin(void) {
   ck_assert_ptr_nonnull(s.asset);
   s.world_definition.ground = sbr_ground_flat(-1000);
   s.character_definition.position.y = 1000;
+  s.world_definition.sleep_after_s = 0; /* tests look at small motions */
   scene_bodies(&s, 1);
   return s;
 }

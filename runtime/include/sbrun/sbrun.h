@@ -12,6 +12,9 @@
  * The same inputs give the same bits: on any number of threads, at any lane width, after restoring a
  * snapshot.
  *
+ * Sleep. Bodies at rest are not stepped, and characters that stand with all bodies at rest cost next to
+ * nothing, until something moves them: sbr_world_definition.sleep_after_s.
+ *
  * Robustness. A body that its bones would throw about by more than a quarter of its size feels no more than
  * that, and one whose bones jump by more than its size in a tick goes along with them. One whose numbers or
  * whose shape are lost for good is put back into its rest shape; sbr_body_health.recoveries counts that.
@@ -140,6 +143,10 @@ typedef struct sbr_world_definition {
   double control_tick_s;          /* 0: 1/60; an asset's own is its environment.control_tick */
   double longest_frame_s;         /* a longer frame time is cut to it; 0: 0.25 */
   uint32_t character_capacity;    /* 0: 16; more than that cannot be created */
+  /* Bodies that have rested for so long are no longer stepped; 0: all always are; default 0.5. At rest is
+   * what is slower than a hundredth of its size a second, in all its points, and held by nothing that moves.
+   */
+  double sleep_after_s;
 } sbr_world_definition;
 
 /* A world is made from a definition that begins as the default, and destroyed with all its characters. */
@@ -153,6 +160,8 @@ SBF_API void sbr_world_step(sbr_world *world, double seconds);
 /* Advances by exactly one control tick. */
 SBF_API void sbr_world_tick(sbr_world *world);
 SBF_API uint64_t sbr_world_ticks(const sbr_world *world);
+/* Soft bodies that were stepped in the last tick: neither asleep nor paused. */
+SBF_API uint32_t sbr_world_awake(const sbr_world *world);
 /* Hash of all mutable state, but for the fraction of a tick by which reads lie before the last one: equal
  * states, equal hashes, on every machine and at every frame rate. */
 SBF_API uint64_t sbr_world_state_hash(const sbr_world *world);
@@ -191,6 +200,10 @@ SBF_API void sbr_character_teleport(
     sbr_world *world, sbr_character_id character, sbr_double3 position, float heading);
 /* Back to the rest pose where it stands, all speeds zero. */
 SBF_API void sbr_character_reset(sbr_world *world, sbr_character_id character);
+/* Wakes all that sleeps of it: for a host that has changed something which the runtime cannot see. What holds
+ * a body, a wish to move, another place and (in a ground of the host's, within four ticks) another ground
+ * under it wake it by themselves. */
+SBF_API void sbr_character_wake(sbr_world *world, sbr_character_id character);
 SBF_API void sbr_character_pause(sbr_world *world, sbr_character_id character, bool paused);
 
 /* Origin that bones and vertices are relative to, as of the sampled moment. */
@@ -241,17 +254,19 @@ typedef enum sbr_event_kind {
   SBR_EVENT_FOOT_DOWN,
   SBR_EVENT_FOOT_UP,
   SBR_EVENT_LANDED,
-  SBR_EVENT_TEAR,   /* an element tore; of more than 16 in one tick of bodies that hang together, the first */
-  SBR_EVENT_UNSPLIT /* a tear found no room to split points: more tear_points */
+  SBR_EVENT_TEAR, /* an element tore; of more than 16 in one tick of bodies that hang together, the first */
+  SBR_EVENT_UNSPLIT, /* a tear found no room to split points: more tear_points */
+  SBR_EVENT_ASLEEP,  /* bodies that hang together are no longer stepped */
+  SBR_EVENT_AWAKE    /* and are again */
 } sbr_event_kind;
 /* Something that happened in a step. */
 typedef struct sbr_event {
   sbr_event_kind kind;        /* what happened */
   sbr_character_id character; /* to whom */
-  uint32_t leg;               /* of the gait, from 0; 0 for a tear */
+  uint32_t leg;               /* of the gait, from 0; 0 for what is no foot's */
   uint64_t tick;              /* since the world began */
   sbr_double3 position;       /* world */
-  uint32_t soft_body;         /* of a tear: whose element; else 0 */
+  uint32_t soft_body;         /* of a tear: whose element; of sleep: the first of those bodies; else 0 */
 } sbr_event;
 /* Events since the last call, oldest first; returns how many were written. Older ones than the world keeps
  * (256) are lost. They are output, not state: snapshots do not hold them. */
@@ -268,6 +283,7 @@ typedef struct sbr_body_health {
   uint32_t torn;                            /* elements that have torn since it was made or reset */
   uint32_t
       unsplit; /* points that tears of bodies that hang together could not split, for want of tear_points */
+  bool asleep; /* it rests, and is not stepped */
 } sbr_body_health;
 SBF_API sbr_body_health sbr_character_health(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body);

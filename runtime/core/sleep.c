@@ -1,0 +1,147 @@
+/* Sleep: what has come to rest is not stepped.
+ *
+ * A group of bodies sleeps once all its points have been slower than a share of its size a second for the
+ * world's time, nothing that holds it moving. Its velocities become 0, which takes less than that speed's
+ * kinetic energy, and its places stay: so waking begins where sleep did. It wakes as soon as anything that
+ * holds it has moved, or the ground under it is another.
+ *
+ * A character sleeps once all its bodies do, it is to stand, and a tick of its gait has left the gait's state
+ * and its pose as they were, bit for bit: every further tick would, until a call or the ground changes what
+ * it goes by. Until then it costs a look at a flag. */
+#include <string.h>
+
+#include "base/hash64.h"
+#include "collide/ground.h"
+#include "core/world.h"
+#include "math/vec3.h"
+#include "solvers/scheme.h"
+
+/* Slower than this share of its size a second, a body comes to rest. */
+static const float QUIET_1_S = 0.01f;
+
+/* What holds a sleeper may tremble by this share of the character's size. */
+static const float TREMBLE = 1e-5f;
+
+/* Ground that the host may change is looked at in every so many ticks. */
+enum { LOOK_EVERY = 4 };
+
+/* ---- Bodies ---- */
+
+static bool is_quiet(const sbri_character *c, const sbri_island *island) {
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    float most = QUIET_1_S * body->rest_size_m;
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+      const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+      float square = v[0] * v[0] + v[SBRI_BLOCK] * v[SBRI_BLOCK] + v[2 * SBRI_BLOCK] * v[2 * SBRI_BLOCK];
+      if (!(square <= most * most)) return false;
+    }
+  }
+  return true;
+}
+
+/* Whether what holds the island is farther from where it holds it than it may tremble. */
+static bool is_moved(sbri_character *c, const sbri_island *island) {
+  const sbri_point *held = sbri_positions(c) + island->first_slot;
+  sbri_point *targets = sbri_targets(c) + island->first_slot;
+  float most = TREMBLE * c->model->rest_size_m;
+  sbri_held_places(island, sbri_deltas(c), targets);
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
+    sbf_vec3 off = {
+        targets[slot].x - held[slot].x, targets[slot].y - held[slot].y, targets[slot].z - held[slot].z};
+    if (!(sbri_dot(off, off) <= most * most)) return true;
+  }
+  return false;
+}
+
+/* Of the planes that the ground has for the island's points near it, as the last tick found them. */
+static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) {
+  const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
+  const float *planes = sbri_planes(c) + 4 * (size_t)island->first_slot;
+  sbfi_hash64 hash;
+  sbfi_hash64_init(&hash);
+  sbfi_hash64_bytes(&hash, near_ground, island->free_count / SBRI_BLOCK);
+  for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
+    if (near_ground[block]) sbfi_hash64_f32(&hash, planes + (size_t)block * 4 * SBRI_BLOCK, 4 * SBRI_BLOCK);
+  return (uint32_t)sbfi_hash64_value(&hash);
+}
+
+/* As the island lies, without velocity. */
+static uint32_t find_ground(const sbr_world *world, sbri_character *c, const sbri_island *island) {
+  sbri_island_contacts(world, c, island);
+  return ground_mark(c, island);
+}
+
+void sbri_island_wake(sbri_character *c, uint32_t index) {
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  state->asleep = 0;
+  state->quiet_ticks = 0;
+}
+
+bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  if (!state->asleep) return false;
+  bool looks = !sbri_ground_is_fixed(&world->ground) && (world->ticks + index) % LOOK_EVERY == 0;
+  if (!is_moved(c, island) && !(looks && find_ground(world, c, island) != state->ground_mark)) return true;
+  sbri_island_wake(c, index);
+  return false;
+}
+
+void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  if (!world->sleep_ticks || island->scheme->forceless) return;
+  sbf_vec3 g = state->guide_velocity;
+  bool quiet = !state->recovering && !state->folded_ticks && sbri_dot(g, g) == 0 &&
+               sbri_tears_of(c)[index].count == 0 && is_quiet(c, island);
+  state->quiet_ticks = quiet ? state->quiet_ticks + 1 : 0;
+  if (state->quiet_ticks < world->sleep_ticks) return;
+  state->asleep = 1;
+  memset(
+      sbri_velocities(c) + 3 * (size_t)island->first_slot, 0, 3 * (size_t)island->free_count * sizeof(float));
+  state->ground_mark = find_ground(world, c, island);
+}
+
+/* ---- Characters ---- */
+
+void sbri_character_wake(sbri_character *c) {
+  sbri_head(c)->asleep = 0;
+}
+
+bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c) {
+  const sbri_character_state *head = sbri_head(c);
+  if (!world->sleep_ticks || head->forward != 0 || head->sideways != 0 || head->turn != 0) return false;
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (!sbri_island_states(c)[i].asleep) return false;
+  return true;
+}
+
+void sbri_character_keep_gait(sbri_character *c) {
+  memcpy(sbri_gait_before(c), sbri_gait(c), sbri_gait_state_size(&c->model->rig));
+}
+
+bool sbri_character_is_still(const sbri_character *c) {
+  return memcmp(sbri_gait_before(c), sbri_gait(c), sbri_gait_state_size(&c->model->rig)) == 0 &&
+         memcmp(sbri_previous_pose(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform)) == 0;
+}
+
+bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
+  if (!sbri_head(c)->asleep) return false;
+  if (sbri_ground_is_fixed(&world->ground) || world->ticks % LOOK_EVERY) return true;
+  /* The feet and the bodies look for themselves. */
+  sbri_head(c)->asleep = 0;
+  return false;
+}
+
+void sbr_character_wake(sbr_world *world, sbr_character_id character) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  sbri_character_wake(c);
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_wake(c, i);
+}
+
+uint32_t sbr_world_awake(const sbr_world *world) {
+  return world ? world->awake_count : 0;
+}
