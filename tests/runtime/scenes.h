@@ -16,7 +16,8 @@ typedef struct scene {
   sbr_character_definition character_definition;
 } scene;
 
-/* Definitions at their defaults, but nothing sleeps and the ground is a kilometre down; a new asset with room for one soft body. */
+/* Definitions at their defaults, but nothing sleeps and the ground is a kilometre down; a new asset with room
+ * for one soft body. */
 scene scene_begin(void);
 sbf_soft_body *scene_body(scene *s, uint32_t index);
 void scene_bodies(scene *s, uint32_t count);
