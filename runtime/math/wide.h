@@ -172,7 +172,7 @@ SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t
 }
 
 /* Each lane to its own place; where two lanes name one place the last one stays. */
-static inline void sbri_wide_scatter4(sbri_point *points, const uint32_t *places, sbri_wide4 v) {
+SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *places, sbri_wide4 v) {
 #if SBRI_LANES == 8
   __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y),
          xy_high = _mm256_unpackhi_ps((__m256)v.x, (__m256)v.y);
@@ -180,8 +180,14 @@ static inline void sbri_wide_scatter4(sbri_point *points, const uint32_t *places
          zw_high = _mm256_unpackhi_ps((__m256)v.z, (__m256)v.w);
   __m256 rows[4] = {_mm256_shuffle_ps(xy, zw, 0x44), _mm256_shuffle_ps(xy, zw, 0xee),
       _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
-  for (int i = 0; i < 4; i++) _mm_storeu_ps(&points[places[i]].x, _mm256_castps256_ps128(rows[i]));
-  for (int i = 0; i < 4; i++) _mm_storeu_ps(&points[places[i + 4]].x, _mm256_extractf128_ps(rows[i], 1));
+#define SBRI_PUT(i) /* written out: a loop would keep the rows in memory */                                  \
+  _mm_storeu_ps(&points[places[i]].x, _mm256_castps256_ps128(rows[i]));                                      \
+  _mm_storeu_ps(&points[places[(i) + 4]].x, _mm256_extractf128_ps(rows[i], 1))
+  SBRI_PUT(0);
+  SBRI_PUT(1);
+  SBRI_PUT(2);
+  SBRI_PUT(3);
+#undef SBRI_PUT
 #elif SBRI_LANES == 4
   sbri_quad xy = __builtin_shufflevector(v.x, v.y, 0, 4, 1, 5),
             zw = __builtin_shufflevector(v.z, v.w, 0, 4, 1, 5);
@@ -210,7 +216,7 @@ static inline sbri_wide3 sbri_wide_load_points(const sbri_point *points) {
 }
 
 /* Back again; w becomes 0. */
-static inline void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
+SBRI_INLINE void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
 #if SBRI_LANES == 8
   __m256 zero = _mm256_setzero_ps();
   __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y),
@@ -218,10 +224,14 @@ static inline void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
   __m256 zw = _mm256_unpacklo_ps((__m256)v.z, zero), zw_high = _mm256_unpackhi_ps((__m256)v.z, zero);
   __m256 rows[4] = {_mm256_shuffle_ps(xy, zw, 0x44), _mm256_shuffle_ps(xy, zw, 0xee),
       _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
-  for (int i = 0; i < 4; i++) {
-    _mm_storeu_ps(&points[i].x, _mm256_castps256_ps128(rows[i]));
-    _mm_storeu_ps(&points[i + 4].x, _mm256_extractf128_ps(rows[i], 1));
-  }
+#define SBRI_PUT(i)                                                                                          \
+  _mm_storeu_ps(&points[i].x, _mm256_castps256_ps128(rows[i]));                                              \
+  _mm_storeu_ps(&points[(i) + 4].x, _mm256_extractf128_ps(rows[i], 1))
+  SBRI_PUT(0);
+  SBRI_PUT(1);
+  SBRI_PUT(2);
+  SBRI_PUT(3);
+#undef SBRI_PUT
 #elif SBRI_LANES == 4
   sbri_quad zero = {0};
   sbri_quad xy = __builtin_shufflevector(v.x, v.y, 0, 4, 1, 5),

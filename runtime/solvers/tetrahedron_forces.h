@@ -15,19 +15,19 @@
 #include "math/vec3.h"
 #include "solvers/island_tick.h"
 
-static inline sbri_wide3 sbri_wide3_sub(sbri_wide3 a, sbri_wide3 b) {
+SBRI_INLINE sbri_wide3 sbri_wide3_sub(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.x - b.x, a.y - b.y, a.z - b.z};
 }
-static inline sbri_wide3 sbri_wide3_add(sbri_wide3 a, sbri_wide3 b) {
+SBRI_INLINE sbri_wide3 sbri_wide3_add(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.x + b.x, a.y + b.y, a.z + b.z};
 }
-static inline sbri_wide3 sbri_wide3_scale(sbri_wide3 a, sbri_wide s) {
+SBRI_INLINE sbri_wide3 sbri_wide3_scale(sbri_wide3 a, sbri_wide s) {
   return (sbri_wide3){a.x * s, a.y * s, a.z * s};
 }
-static inline sbri_wide sbri_wide3_dot(sbri_wide3 a, sbri_wide3 b) {
+SBRI_INLINE sbri_wide sbri_wide3_dot(sbri_wide3 a, sbri_wide3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-static inline sbri_wide3 sbri_wide3_cross(sbri_wide3 a, sbri_wide3 b) {
+SBRI_INLINE sbri_wide3 sbri_wide3_cross(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 

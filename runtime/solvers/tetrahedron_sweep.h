@@ -8,19 +8,20 @@
  *
  *   P = mu (F - (3 J / c) cof F)  +  (s + 3 mu J / c) cof F,     c = |cof F|^2,
  *
- * and each is divided by sqrt(1 + W^4): 1 where the substep resolves it, and where it does not W^2, h^2 times
- * a number for A and H of that part, exact at rest for matter alike in all directions:
+ * and each gets the share (1 + W^2) / (1 + W^2 + W^4) of its impulse: next to all where the substep resolves
+ * it, 1 / W^2 where it does not, with W^2 being h^2 times a number for A and H of that part, exact at rest
+ * for matter alike in all directions:
  *
- *   across:  0.6 V (sum w_i |g_i|^2) (mu + |s| e),    e^2 = max(F:F - 2, F:F / 3), the greatest stretch
- * nearly along:   V (sum w_i |cof F g_i|^2 / c) (mu + lambda c + 2 s J F:F / c)
+ *   the rest:      0.6 V (sum w_i |g_i|^2) (mu + |s| (1 + e^2) / 2),    e^2 = max(F:F - 2, F:F / 3)
+ *   along cof F:   V (sum w_i |cof F g_i|^2 / c) (mu + lambda c + 2 s J F:F / c)
  *
- * No element overshoots: 0.6 sum w_i |g_i|^2 is more than half of A's greatest eigenvalue, and e of the
- * greatest stretch. (1 + W^2 would be the implicit step itself where points belong to one element each; where
- * they share theirs it rests four times as far from where it should.) Nothing moves where P is 0, so that the
- * rest state is exact, which two constraints that are projected one after the other (Macklin and Mueller, A
- * Constraint-based Formulation of Stable Neo-Hookean Materials, 2021) do not have. Flat and inverted elements
- * are nothing special. Momentum is kept, angular momentum to the second order, since both parts of P F^T are
- * symmetric. No multiplier is accumulated.
+ * No element overshoots: 0.6 sum w_i |g_i|^2 is more than half of A's greatest eigenvalue, and e is nearly
+ * the greatest stretch. (The share 1 / (1 + W^2) would be the implicit step itself where points belong to one
+ * element each; where they share theirs, bodies rest four times as far from where they should.) Nothing moves
+ * where P is 0, so that the rest state is exact, which two constraints that are projected one after the other
+ * (Macklin and Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials, 2021) do not have.
+ * Flat and inverted elements are nothing special. Momentum is kept, angular momentum to the second order,
+ * since both parts of P F^T are symmetric. No multiplier is accumulated.
  *
  * Every other sweep goes through the blocks backwards, so that neither end of the list is preferred. Written
  * for the lanes of the file that includes it; see kernels/kernels.h. */
@@ -50,7 +51,7 @@ typedef struct sbri_sweep_step {
 SBRI_INLINE sbri_wide3 sbri_wide3_of(sbri_wide4 a) {
   return (sbri_wide3){a.x, a.y, a.z};
 }
-static inline void sbri_wide4_move(sbri_wide4 *u, sbri_wide3 way, sbri_wide s) {
+SBRI_INLINE void sbri_wide4_move(sbri_wide4 *u, sbri_wide3 way, sbri_wide s) {
   u->x = u->x + s * way.x, u->y = u->y + s * way.y, u->z = u->z + s * way.z;
 }
 
@@ -76,18 +77,20 @@ SBRI_INLINE void sbri_sweep_damping(const sbri_island_tick *t, const sbri_tetrah
   for (int i = 0; i < 3; i++) f[i] = sbri_wide3_add(f[i], sbri_wide3_scale(viscous[i], share));
 }
 
-/* The settling of a group of lanes. */
+/* The settling of a group of lanes. Loops over corners are written out: compilers keep arrays in memory that
+ * loops go over. */
 SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
     const float *edges, uint32_t lane, const float *betas, const sbri_sweep_step *step) {
-  sbri_wide4 u[4];
-  for (int k = 0; k < 4; k++) u[k] = sbri_wide_gather4(t->moves, block->corners[k] + lane);
-  sbri_wide3 d[3], n[3], kd[3], f[3];
-  for (int k = 0; k < 3; k++) {
-    sbri_wide3 edge = sbri_load3(edges + 3 * SBRI_BLOCK * k + lane);
-    d[k] = (sbri_wide3){
-        edge.x + (u[k + 1].x - u[0].x), edge.y + (u[k + 1].y - u[0].y), edge.z + (u[k + 1].z - u[0].z)};
-  }
-  for (int k = 0; k < 3; k++) n[k] = sbri_wide3_cross(d[(k + 1) % 3], d[(k + 2) % 3]);
+  sbri_wide4 u0 = sbri_wide_gather4(t->moves, block->corners[0] + lane);
+  sbri_wide4 u1 = sbri_wide_gather4(t->moves, block->corners[1] + lane);
+  sbri_wide4 u2 = sbri_wide_gather4(t->moves, block->corners[2] + lane);
+  sbri_wide4 u3 = sbri_wide_gather4(t->moves, block->corners[3] + lane);
+#define SBRI_EDGE(k, u)                                                                                      \
+  sbri_wide3_add(                                                                                            \
+      sbri_load3(edges + 3 * SBRI_BLOCK * k + lane), (sbri_wide3){u.x - u0.x, u.y - u0.y, u.z - u0.z})
+  sbri_wide3 d1 = SBRI_EDGE(0, u1), d2 = SBRI_EDGE(1, u2), d3 = SBRI_EDGE(2, u3);
+#undef SBRI_EDGE
+  sbri_wide3 n1 = sbri_wide3_cross(d2, d3), n2 = sbri_wide3_cross(d3, d1), n3 = sbri_wide3_cross(d1, d2);
   sbri_wide k11 = sbri_wide_load(block->stiffness[0] + lane);
   sbri_wide k22 = sbri_wide_load(block->stiffness[1] + lane);
   sbri_wide k33 = sbri_wide_load(block->stiffness[2] + lane);
@@ -97,57 +100,60 @@ SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahed
   sbri_wide inverse_volume = sbri_wide_load(block->inverse_volume + lane);
   sbri_wide bulk = sbri_wide_load(block->bulk + lane), shear = sbri_wide_load(block->shear + lane);
   sbri_wide one = sbri_wide_all(1), two = sbri_wide_all(2), tiny = sbri_wide_all(1e-30f);
-  sbri_wide some_shear = sbri_wide_max(shear, tiny);
-#define SBRI_ROW(a, b, c, axis) a *d[0].axis + b *d[1].axis + c *d[2].axis
+  sbri_wide half = sbri_wide_all(0.5f);
+  sbri_wide ratio = sbri_wide3_dot(d1, n1) * inverse_volume;
+  sbri_wide over_shear = one / sbri_wide_max(shear, tiny);
+#define SBRI_ROW(a, b, c, axis) a *d1.axis + b *d2.axis + c *d3.axis
 #define SBRI_ROWS(a, b, c) (sbri_wide3){SBRI_ROW(a, b, c, x), SBRI_ROW(a, b, c, y), SBRI_ROW(a, b, c, z)}
-  kd[0] = SBRI_ROWS(k11, k12, k31);
-  kd[1] = SBRI_ROWS(k12, k22, k23);
-  kd[2] = SBRI_ROWS(k31, k23, k33);
+  sbri_wide3 kd1 = SBRI_ROWS(k11, k12, k31), kd2 = SBRI_ROWS(k12, k22, k23), kd3 = SBRI_ROWS(k31, k23, k33);
 #undef SBRI_ROWS
 #undef SBRI_ROW
-  sbri_wide ratio = sbri_wide3_dot(d[0], n[0]) * inverse_volume;
   /* F:F, and |cof F|^2 by the minors of K: those of its Gram matrix are that of the edges at rest. */
-  sbri_wide per_stiffness = inverse_volume / some_shear; /* 1 / (V mu) */
-  sbri_wide squares = per_stiffness * (sbri_wide3_dot(d[0], kd[0]) + sbri_wide3_dot(d[1], kd[1]) +
-                                          sbri_wide3_dot(d[2], kd[2]));
-  sbri_wide n11 = sbri_wide3_dot(n[0], n[0]), n22 = sbri_wide3_dot(n[1], n[1]);
-  sbri_wide n33 = sbri_wide3_dot(n[2], n[2]), n12 = sbri_wide3_dot(n[0], n[1]);
-  sbri_wide n23 = sbri_wide3_dot(n[1], n[2]), n31 = sbri_wide3_dot(n[2], n[0]);
+  sbri_wide per_stiffness = inverse_volume * over_shear; /* 1 / (V mu) */
+  sbri_wide squares =
+      per_stiffness * (sbri_wide3_dot(d1, kd1) + sbri_wide3_dot(d2, kd2) + sbri_wide3_dot(d3, kd3));
+  sbri_wide n11 = sbri_wide3_dot(n1, n1), n22 = sbri_wide3_dot(n2, n2), n33 = sbri_wide3_dot(n3, n3);
+  sbri_wide n12 = sbri_wide3_dot(n1, n2), n23 = sbri_wide3_dot(n2, n3), n31 = sbri_wide3_dot(n3, n1);
   sbri_wide even =
       (k22 * k33 - k23 * k23) * n11 + (k33 * k11 - k31 * k31) * n22 + (k11 * k22 - k12 * k12) * n33;
   sbri_wide mixed =
       (k23 * k31 - k12 * k33) * n12 + (k12 * k31 - k23 * k11) * n23 + (k12 * k23 - k31 * k22) * n31;
   sbri_wide areas = sbri_wide_max((even + two * mixed) * per_stiffness * per_stiffness, tiny);
+  sbri_wide over_areas = one / areas;
   /* A sixth of s, of 3 mu J / c, and of the pressure-like part of P. */
-  sbri_wide s = bulk * (ratio - one) - shear, per_area = ratio / areas;
+  sbri_wide s = bulk * (ratio - one) - shear, per_area = ratio * over_areas;
   sbri_wide q = sbri_wide_all(3) * shear * per_area, p = s + q;
-  sbri_wide reach = sbri_wide_all(0.6f) * (u[0].w * (k11 + k22 + k33 + two * (k12 + k23 + k31)) +
-                                              u[1].w * k11 + u[2].w * k22 + u[3].w * k33);
-  sbri_wide sides =
-      u[0].w * (n11 + n22 + n33 + two * (n12 + n23 + n31)) + u[1].w * n11 + u[2].w * n22 + u[3].w * n33;
-  sbri_wide third = sbri_wide_all(1.0f / 3);
-  sbri_wide stretch = sbri_wide_sqrt(sbri_wide_max(squares - two, squares * third));
-  sbri_wide size = sbri_wide_max(s, sbri_wide_all(0) - s);
-  sbri_wide across = reach * (one + size * stretch / some_shear);
-  sbri_wide curved = shear + bulk * areas + two * s * per_area * squares;
-  sbri_wide along = sides * inverse_volume / areas * sbri_wide_max(curved, shear);
-  sbri_wide square = sbri_wide_all(step->square);
-  across = square * across, along = square * along;
-  sbri_wide a = one / sbri_wide_sqrt(one + across * across), b = one / sbri_wide_sqrt(one + along * along);
-  sbri_wide push = b * p - a * q; /* along -n */
-  for (int k = 0; k < 3; k++)
-    f[k] =
-        (sbri_wide3){push * n[k].x + a * kd[k].x, push * n[k].y + a * kd[k].y, push * n[k].z + a * kd[k].z};
-  sbri_wide sign = sbri_wide_all(0) - square;
+  sbri_wide k00 = k11 + k22 + k33 + two * (k12 + k23 + k31), n00 = n11 + n22 + n33 + two * (n12 + n23 + n31);
+  sbri_wide reach = sbri_wide_all(0.6f) * (u0.w * k00 + u1.w * k11 + u2.w * k22 + u3.w * k33);
+  sbri_wide sides = u0.w * n00 + u1.w * n11 + u2.w * n22 + u3.w * n33;
+  sbri_wide e = sbri_wide_max(squares - two, squares * sbri_wide_all(1.0f / 3)), most = sbri_wide_all(1e18f);
+  sbri_wide size = sbri_wide_max(s, sbri_wide_all(0) - s), square = sbri_wide_all(step->square);
+  sbri_wide across = square * reach * (one + size * over_shear * (half + half * e));
+  sbri_wide curved = sbri_wide_max(shear + bulk * areas + two * s * per_area * squares, shear);
+  sbri_wide along = square * sides * inverse_volume * over_areas * curved;
+  across = sbri_wide_min(across, most), along = sbri_wide_min(along, most);
+  sbri_wide a = (one + across) / (one + across + across * across);
+  sbri_wide b = (one + along) / (one + along + along * along);
+  sbri_wide pull = a * q - b * p;
+#define SBRI_PART(n, kd, axis) pull *n.axis - a *kd.axis
+#define SBRI_FORCE(n, kd) (sbri_wide3){SBRI_PART(n, kd, x), SBRI_PART(n, kd, y), SBRI_PART(n, kd, z)}
+  sbri_wide3 f1 = SBRI_FORCE(n1, kd1), f2 = SBRI_FORCE(n2, kd2), f3 = SBRI_FORCE(n3, kd3);
+#undef SBRI_FORCE
+#undef SBRI_PART
   if (betas) {
-    for (int k = 0; k < 3; k++) f[k] = sbri_wide3_scale(f[k], sbri_wide_all(-1));
+    const sbri_wide3 d[3] = {d1, d2, d3};
+    sbri_wide3 f[3] = {f1, f2, f3};
     sbri_sweep_damping(t, block, lane, betas, d, reach, squares, step, f);
-    sign = square;
+    f1 = f[0], f2 = f[1], f3 = f[2];
   }
-  sbri_wide4_move(
-      &u[0], sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]), (sbri_wide_all(0) - sign) * u[0].w);
-  for (int k = 0; k < 3; k++) sbri_wide4_move(&u[k + 1], f[k], sign * u[k + 1].w);
-  for (int k = 0; k < 4; k++) sbri_wide_scatter4(t->moves, block->corners[k] + lane, u[k]);
+  sbri_wide4_move(&u0, sbri_wide3_add(sbri_wide3_add(f1, f2), f3), (sbri_wide_all(0) - square) * u0.w);
+  sbri_wide4_move(&u1, f1, square * u1.w);
+  sbri_wide4_move(&u2, f2, square * u2.w);
+  sbri_wide4_move(&u3, f3, square * u3.w);
+  sbri_wide_scatter4(t->moves, block->corners[0] + lane, u0);
+  sbri_wide_scatter4(t->moves, block->corners[1] + lane, u1);
+  sbri_wide_scatter4(t->moves, block->corners[2] + lane, u2);
+  sbri_wide_scatter4(t->moves, block->corners[3] + lane, u3);
 }
 
 SBRI_INLINE void sbri_sweep_blocks(
