@@ -25,6 +25,13 @@ bool materials_check(const cli_call *call) {
   return true;
 }
 
+bool materials_of_all(const cli_call *call) {
+  const char *value;
+  for (int at = 0; (value = cli_next_value(call, "--material", &at));)
+    if (!strchr(value, '=')) return true;
+  return false;
+}
+
 static bool is(const char *text, const char *wanted, size_t length) {
   return strlen(text) == length && memcmp(text, wanted, length) == 0;
 }

@@ -16,6 +16,9 @@
 /* False, with a message, where a material is named that there is none of. */
 bool materials_check(const cli_call *call);
 
+/* Whether the call says what every body is made of. */
+bool materials_of_all(const cli_call *call);
+
 /* Sets the attributes of the asset's soft bodies, or its section recipes where sections are to be cut, in the
  * order of the options. False, with a message, where the asset has no such body or bone, or memory runs out.
  */

@@ -103,6 +103,7 @@ static int run(cli_call *call) {
       !cli_word(call, "--limits", animals, 4, &limits) || !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
+  options.keep_modulus = materials_of_all(call);
   if (cli_value(call, "--up")) options.up = axes[up][0];
   const char *page = cli_value(call, "--report");
   if (page && call->input_count > 1) return cli_wrong(call, "--report takes one input");

@@ -1,6 +1,5 @@
 #include "build/sections/sections.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "build/sections/section_blend.h"
@@ -9,12 +8,9 @@
 #include "build/sections/section_frame.h"
 #include "build/sections/section_labels.h"
 #include "build/sections/section_merge.h"
+#include "mechanics/bearing_modulus.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
-
-/* The earth's, m/s^2, whatever the file's environment: sections hang on source parts that it is none of. */
-static const double GRAVITY = 9.81;
-static const double MOST_STRAIN = 0.05; /* of a column as high as the section, by its weight */
 
 typedef struct share {
   uint32_t bone, mix;
@@ -51,13 +47,6 @@ static void report(const work *w, uint32_t bone, sbf_code code, uint32_t sides) 
   sbfi_report(w->reporter, &finding);
 }
 
-/* Of two digits, so that it reads as the round figure it is. */
-static double rounded_up(double value) {
-  double unit = 1;
-  while (value / unit >= 100) unit *= 10;
-  return ceil(value / unit) * unit;
-}
-
 /* What the author says of the sections on a bone: by name, or of all; NULL: nothing. */
 static const sbf_section_recipe *recipe_of(const sbf_asset *asset, int32_t bone) {
   const sbf_section_recipe *general = NULL;
@@ -67,22 +56,6 @@ static const sbf_section_recipe *recipe_of(const sbf_asset *asset, int32_t bone)
     if (recipe->bone == SBF_NONE && !general) general = recipe;
   }
   return general;
-}
-
-/* Nobody said what it is made of: as stiff as it has to be. */
-static void guess_attributes(sbf_soft_body *body) {
-  const sbf_vec3_list *at = &body->surface.positions;
-  sbf_vec3 low = at->at[0], high = at->at[0];
-  for (uint32_t i = 1; i < at->count; i++) {
-    sbf_vec3 p = at->at[i];
-    low = (sbf_vec3){fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z)};
-    high = (sbf_vec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
-  }
-  double height = fmax(fmax((double)high.x - low.x, (double)high.y - low.y), (double)high.z - low.z);
-  sbf_attributes *is = &body->attributes;
-  double needed = is->density * GRAVITY * height / MOST_STRAIN;
-  if (needed > (double)is->young_modulus && needed <= 1e30) is->young_modulus = (float)rounded_up(needed);
-  is->sag_free = true;
 }
 
 static bool own(sbf_asset *asset, const void **at, size_t count, size_t size) {
@@ -128,7 +101,9 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
     body->attributes = recipe->attributes;
     body->collision = recipe->collision;
   } else {
-    guess_attributes(body);
+    /* Nobody said what it is made of: as stiff as it has to be. */
+    body->attributes.young_modulus = (float)sbfi_bearing_modulus(&body->attributes, &body->surface.positions);
+    body->attributes.sag_free = true;
   }
   return body->id != NULL;
 }

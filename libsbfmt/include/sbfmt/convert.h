@@ -75,6 +75,9 @@ typedef struct sbf_convert_options {
   /* Limits proposed for joints that have none, by the names of the bones and their places; bones of skins get
    * joints too then. */
   sbf_convert_limits limits;
+  /* Leave the modulus of bodies that nothing holds at its default where it would not bear their weight, as
+   * where the caller knows what they are made of (sbfmt/materials.h). */
+  bool keep_modulus;
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names
