@@ -55,7 +55,7 @@ static bool is_moved(sbri_character *c, const sbri_island *island) {
   return false;
 }
 
-/* Of the planes that the ground has for the island's points near it, as the last tick found them. */
+/* Of the planes that the ground has for the island's points and samples near it, as they were last found. */
 static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) {
   const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
   const float *planes = sbri_planes(c) + 4 * (size_t)island->first_slot;
@@ -64,13 +64,22 @@ static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) 
   sbfi_hash64_bytes(&hash, near_ground, island->free_count / SBRI_BLOCK);
   for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
     if (near_ground[block]) sbfi_hash64_f32(&hash, planes + (size_t)block * 4 * SBRI_BLOCK, 4 * SBRI_BLOCK);
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    uint32_t count = body->samples ? sbri_touch_counts(c)[island->bodies[b]] : 0;
+    for (uint32_t i = 0; i < count; i++) {
+      const sbri_touch *touch = &sbri_touches(c)[body->first_touch + i];
+      sbfi_hash64_f32(&hash, &touch->normal.x, 3);
+      sbfi_hash64_f32(&hash, &touch->offset, 1);
+    }
+  }
   return (uint32_t)sbfi_hash64_value(&hash);
 }
 
 /* As the island lies, without velocity. */
-static uint32_t find_ground(const sbr_world *world, sbri_character *c, const sbri_island *island) {
-  sbri_island_contacts(world, c, island);
-  return ground_mark(c, island);
+static uint32_t find_ground(const sbr_world *world, sbri_character *c, uint32_t index) {
+  sbri_island_contacts(world, c, index);
+  return ground_mark(c, &c->model->islands[index]);
 }
 
 void sbri_island_wake(sbri_character *c, uint32_t index) {
@@ -84,7 +93,7 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!state->asleep) return false;
   bool looks = !sbri_ground_is_fixed(&world->ground) && (world->ticks + index) % LOOK_EVERY == 0;
-  if (!is_moved(c, island) && !(looks && find_ground(world, c, island) != state->ground_mark)) return true;
+  if (!is_moved(c, island) && !(looks && find_ground(world, c, index) != state->ground_mark)) return true;
   sbri_island_wake(c, index);
   return false;
 }
@@ -101,7 +110,7 @@ void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t i
   state->asleep = 1;
   memset(
       sbri_velocities(c) + 3 * (size_t)island->first_slot, 0, 3 * (size_t)island->free_count * sizeof(float));
-  state->ground_mark = find_ground(world, c, island);
+  state->ground_mark = find_ground(world, c, index);
 }
 
 /* ---- Characters ---- */

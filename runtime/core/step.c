@@ -182,8 +182,59 @@ static void prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
   }
 }
 
-void sbri_island_contacts(const sbr_world *world, sbri_character *c, const sbri_island *island) {
-  prepare_contacts(world, c, island, (float)world->tick_s * c->time_scale);
+static sbri_island_tick make_tick(const sbr_world *world, sbri_character *c, uint32_t index) {
+  const sbr_model *model = c->model;
+  const sbri_island *island = &model->islands[index];
+  size_t first = island->first_slot;
+  float tick_s = (float)world->tick_s * c->time_scale;
+  return (sbri_island_tick){.model = model,
+      .island = island,
+      .tick_s = tick_s,
+      .gravity = world->has_gravity ? world->gravity : model->asset->environment.gravity,
+      .wind = sbri_scale(model->asset->environment.wind, c->time_scale),
+      .origin = sbri_head(c)->origin,
+      .scale = c->scale,
+      .ground = &world->ground,
+      .positions = sbri_positions(c) + first,
+      .velocities = sbri_velocities(c) + 3 * first,
+      .targets = sbri_targets(c) + first,
+      .guide_velocities = sbri_guide_velocities(c) + 3 * first,
+      .begins = sbri_begins(c) + first,
+      .velocity_points = sbri_velocity_points(c) + first,
+      .surface_vertices = sbri_surface_vertices(c),
+      .surface_faces = sbri_surface_faces(c),
+      .planes = sbri_planes(c) + 4 * first,
+      .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
+      .touches = sbri_touches(c),
+      .touch_counts = sbri_touch_counts(c),
+      .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
+      .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
+      .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
+      .outer = island->has_outer ? sbri_outer(c) + first : NULL,
+      .anchor = sbri_deltas(c)[sbri_anchor_frame(model)],
+      .surface_forces = sbri_surface_forces(c),
+      .surface_velocities = sbri_surface_velocities(c),
+      .accelerations = sbri_accelerations(c) + 3 * first,
+      .older_velocities = sbri_older_velocities(c) + 3 * first,
+      .moves = sbri_moves(c) + first,
+      .edges = sbri_edges(c) + 3 * SBRI_BLOCK * (size_t)island->first_link_block,
+      .solid_edges = sbri_solid_edges(c) + 9 * SBRI_BLOCK * (size_t)island->first_tetrahedron_block,
+      .tetrahedra =
+          island->solid_flows ? sbri_solids(c) + island->first_solid_block : island->tetrahedron_blocks,
+      .flowing = island->solid_flows ? sbri_solids(c) + island->first_solid_block : NULL,
+      .torn = island->solid_flows ? sbri_torn(c) + island->first_solid : NULL,
+      .thinning = &sbri_island_states(c)[index].thinning,
+      .tears = &sbri_tears_of(c)[index],
+      .step_error_m = model->step_error_m,
+      .element_forces = sbri_element_forces(c) + first,
+      .stretch = &sbri_island_states(c)[index].stretch,
+      .stiffening = &sbri_island_states(c)[index].stiffening,
+      .least_ratio = &sbri_island_states(c)[index].least_ratio};
+}
+
+void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t index) {
+  sbri_island_tick tick = make_tick(world, c, index);
+  prepare_contacts(&tick, c);
 }
 
 /* Places beyond this many metres from the origin and speeds beyond as many metres a second are no motion any
@@ -235,49 +286,7 @@ static void tick_island(void *context, uint32_t index) {
   soften_start(c, island, work.island, guide_velocity, tick_s);
   sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
   tuck_padding(c, island);
-  sbri_island_tick tick = {.model = model,
-      .island = island,
-      .tick_s = tick_s,
-      .gravity = world->has_gravity ? world->gravity : model->asset->environment.gravity,
-      .wind = sbri_scale(model->asset->environment.wind, c->time_scale),
-      .origin = sbri_head(c)->origin,
-      .scale = c->scale,
-      .ground = &world->ground,
-      .positions = sbri_positions(c) + first,
-      .velocities = sbri_velocities(c) + 3 * first,
-      .targets = sbri_targets(c) + first,
-      .guide_velocities = sbri_guide_velocities(c) + 3 * first,
-      .begins = sbri_begins(c) + first,
-      .velocity_points = sbri_velocity_points(c) + first,
-      .surface_vertices = sbri_surface_vertices(c),
-      .surface_faces = sbri_surface_faces(c),
-      .planes = sbri_planes(c) + 4 * first,
-      .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
-      .touches = sbri_touches(c),
-      .touch_counts = sbri_touch_counts(c),
-      .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
-      .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
-      .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
-      .outer = island->has_outer ? sbri_outer(c) + first : NULL,
-      .anchor = sbri_deltas(c)[sbri_anchor_frame(model)],
-      .surface_forces = sbri_surface_forces(c),
-      .surface_velocities = sbri_surface_velocities(c),
-      .accelerations = sbri_accelerations(c) + 3 * first,
-      .older_velocities = sbri_older_velocities(c) + 3 * first,
-      .moves = sbri_moves(c) + first,
-      .edges = sbri_edges(c) + 3 * SBRI_BLOCK * (size_t)island->first_link_block,
-      .solid_edges = sbri_solid_edges(c) + 9 * SBRI_BLOCK * (size_t)island->first_tetrahedron_block,
-      .tetrahedra =
-          island->solid_flows ? sbri_solids(c) + island->first_solid_block : island->tetrahedron_blocks,
-      .flowing = island->solid_flows ? sbri_solids(c) + island->first_solid_block : NULL,
-      .torn = island->solid_flows ? sbri_torn(c) + island->first_solid : NULL,
-      .thinning = &sbri_island_states(c)[work.island].thinning,
-      .tears = &sbri_tears_of(c)[work.island],
-      .step_error_m = model->step_error_m,
-      .element_forces = sbri_element_forces(c) + first,
-      .stretch = &sbri_island_states(c)[work.island].stretch,
-      .stiffening = &sbri_island_states(c)[work.island].stiffening,
-      .least_ratio = &sbri_island_states(c)[work.island].least_ratio};
+  sbri_island_tick tick = make_tick(world, c, work.island);
   if (!island->scheme->forceless) prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
   if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, work.island);

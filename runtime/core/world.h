@@ -49,7 +49,7 @@ void sbri_work_list(sbr_world *world);
 
 void sbri_step_tick(sbr_world *world);
 /* Planes of the ground near the island's points, into the character's scratch, as of now. */
-void sbri_island_contacts(const sbr_world *world, sbri_character *c, const sbri_island *island);
+void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t island);
 
 /* ---- core/sleep.c ---- */
 
