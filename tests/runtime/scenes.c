@@ -136,6 +136,50 @@ sbf_level *scene_regions(scene *s, uint32_t body, sbf_vec3 low, float step, cons
   return level;
 }
 
+/* Barycentric coordinates of a place in an element. */
+static void weights_of(const lattice_box *box, uint32_t element, sbf_vec3 p, double w[4]) {
+  const uint32_t *at = box->tetrahedra[element].at;
+  double x[4][3], off[3];
+  for (int k = 0; k < 4; k++) {
+    sbf_vec3 q = box->positions[at[k]];
+    x[k][0] = (double)q.x, x[k][1] = (double)q.y, x[k][2] = (double)q.z;
+  }
+  off[0] = (double)p.x - x[0][0], off[1] = (double)p.y - x[0][1], off[2] = (double)p.z - x[0][2];
+  double e[3][3], n[3][3];
+  for (int k = 0; k < 3; k++)
+    for (int i = 0; i < 3; i++) e[k][i] = x[k + 1][i] - x[0][i];
+  for (int k = 0; k < 3; k++) {
+    const double *a = e[(k + 1) % 3], *b = e[(k + 2) % 3];
+    n[k][0] = a[1] * b[2] - a[2] * b[1], n[k][1] = a[2] * b[0] - a[0] * b[2];
+    n[k][2] = a[0] * b[1] - a[1] * b[0];
+    w[k + 1] = (off[0] * n[k][0] + off[1] * n[k][1] + off[2] * n[k][2]) /
+               (e[k][0] * n[k][0] + e[k][1] * n[k][1] + e[k][2] * n[k][2]);
+  }
+  w[0] = 1 - w[1] - w[2] - w[3];
+}
+
+void scene_embed(scene *s, sbf_level *level, const lattice_box *box) {
+  const sbf_vec3_list *vertices = &scene_body(s, 0)->surface.positions;
+  sbf_uint4 *points = sbf_asset_allocate(s->asset, vertices->count, sizeof *points);
+  sbf_vec4 *weights = sbf_asset_allocate(s->asset, vertices->count, sizeof *weights);
+  for (uint32_t v = 0; v < vertices->count; v++) {
+    double best = -1e9, w[4];
+    for (uint32_t t = 0; t < box->tetrahedron_count; t++) {
+      weights_of(box, t, vertices->at[v], w);
+      double least = fmin(fmin(w[0], w[1]), fmin(w[2], w[3]));
+      if (least <= best) continue;
+      best = least;
+      points[v] = box->tetrahedra[t];
+      weights[v] = (sbf_vec4){(float)w[0], (float)w[1], (float)w[2], (float)w[3]};
+    }
+  }
+  sbf_embedding *embedding = sbf_asset_allocate(s->asset, 1, sizeof *embedding);
+  sbf_embedding_init(embedding);
+  embedding->points = (sbf_uint4_list){points, vertices->count};
+  embedding->weights = (sbf_vec4_list){weights, vertices->count};
+  level->embeddings = (sbf_embedding_list){embedding, 1};
+}
+
 /* ---- The box ---- */
 
 typedef struct box {

@@ -50,6 +50,9 @@ sbf_level *scene_lattice(scene *s, uint32_t body, const lattice_box *box);
 sbf_level *scene_regions(scene *s, uint32_t body, sbf_vec3 low, float step, const uint32_t counts[3],
     uint32_t reach, float w, float point_kg);
 
+/* Carries the body's surface by that level: each vertex by the element of which it lies the least outside. */
+void scene_embed(scene *s, sbf_level *level, const lattice_box *box);
+
 /* Runs `ticks` control ticks. */
 void scene_ticks(scene *s, uint32_t ticks);
 /* Places of the points of a body relative to the origin. */

@@ -11,50 +11,6 @@
 /* The box of 2 x 2 x 2 cells that carries the surface: smaller than it by a fifth. */
 static const sbf_vec3 inner_low = {-0.16f, 0.04f, -0.16f}, inner_size = {0.32f, 0.32f, 0.32f};
 
-static void weights_of(const lattice_box *box, uint32_t element, sbf_vec3 p, double w[4]) {
-  const uint32_t *at = box->tetrahedra[element].at;
-  double x[4][3], off[3];
-  for (int k = 0; k < 4; k++) {
-    sbf_vec3 q = box->positions[at[k]];
-    x[k][0] = (double)q.x, x[k][1] = (double)q.y, x[k][2] = (double)q.z;
-  }
-  off[0] = (double)p.x - x[0][0], off[1] = (double)p.y - x[0][1], off[2] = (double)p.z - x[0][2];
-  double e[3][3], n[3][3];
-  for (int k = 0; k < 3; k++)
-    for (int i = 0; i < 3; i++) e[k][i] = x[k + 1][i] - x[0][i];
-  for (int k = 0; k < 3; k++) {
-    const double *a = e[(k + 1) % 3], *b = e[(k + 2) % 3];
-    n[k][0] = a[1] * b[2] - a[2] * b[1], n[k][1] = a[2] * b[0] - a[0] * b[2];
-    n[k][2] = a[0] * b[1] - a[1] * b[0];
-    w[k + 1] = (off[0] * n[k][0] + off[1] * n[k][1] + off[2] * n[k][2]) /
-               (e[k][0] * n[k][0] + e[k][1] * n[k][1] + e[k][2] * n[k][2]);
-  }
-  w[0] = 1 - w[1] - w[2] - w[3];
-}
-
-/* Each vertex by the element of which it lies the least outside. */
-static void embed(scene *s, sbf_level *level, const lattice_box *box) {
-  const sbf_vec3_list *vertices = &scene_body(s, 0)->surface.positions;
-  sbf_uint4 *points = sbf_asset_allocate(s->asset, vertices->count, sizeof *points);
-  sbf_vec4 *weights = sbf_asset_allocate(s->asset, vertices->count, sizeof *weights);
-  for (uint32_t v = 0; v < vertices->count; v++) {
-    double best = -1e9, w[4];
-    for (uint32_t t = 0; t < box->tetrahedron_count; t++) {
-      weights_of(box, t, vertices->at[v], w);
-      double least = fmin(fmin(w[0], w[1]), fmin(w[2], w[3]));
-      if (least <= best) continue;
-      best = least;
-      points[v] = box->tetrahedra[t];
-      weights[v] = (sbf_vec4){(float)w[0], (float)w[1], (float)w[2], (float)w[3]};
-    }
-  }
-  sbf_embedding *embedding = sbf_asset_allocate(s->asset, 1, sizeof *embedding);
-  sbf_embedding_init(embedding);
-  embedding->points = (sbf_uint4_list){points, vertices->count};
-  embedding->weights = (sbf_vec4_list){weights, vertices->count};
-  level->embeddings = (sbf_embedding_list){embedding, 1};
-}
-
 /* A box of 0.4 m on the ground, `cells` quads along each edge, carried by the smaller lattice within it. */
 static scene carried_box(uint32_t cells, sbf_pressure_mode pressure) {
   scene s = scene_begin();
@@ -64,7 +20,7 @@ static scene carried_box(uint32_t cells, sbf_pressure_mode pressure) {
   body->attributes.pressure_mode = pressure;
   scene_section(&s, 0, (sbf_vec3){0, 0.2f, 0}, (sbf_vec3){0.4f, 0.4f, 0.4f}, cells);
   lattice_box box = lattice_box_make(inner_low, inner_size, 2, 2, 2, 2000, 8e4f, 0.4f);
-  embed(&s, scene_lattice(&s, 0, &box), &box);
+  scene_embed(&s, scene_lattice(&s, 0, &box), &box);
   lattice_box_free(&box);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position = (sbr_double3){0, 0, 0};
@@ -116,7 +72,7 @@ START_TEST(faces_larger_than_the_elements_are_borne_by_points_of_the_level)
   scene_section(&s, 0, (sbf_vec3){0, 0.2f, 0}, (sbf_vec3){0.4f, 0.4f, 0.4f}, 1);
   lattice_box box = lattice_box_make(
       (sbf_vec3){-0.199f, 0.001f, -0.199f}, (sbf_vec3){0.398f, 0.398f, 0.398f}, 4, 4, 4, 2000, 8e4f, 0.4f);
-  embed(&s, scene_lattice(&s, 0, &box), &box);
+  scene_embed(&s, scene_lattice(&s, 0, &box), &box);
   lattice_box_free(&box);
   scene_start(&s);
   ck_assert_uint_eq(body_of(&s)->sample_count, 8 + 5 * 5 * 5 - 3 * 3 * 3);

@@ -107,8 +107,15 @@ static void add_solid(chance *c, scene *s) {
   sbf_vec3 size = between3(c, 0.1f, 1);
   lattice_box box =
       lattice_box_make((sbf_vec3){0, 1, 0}, size, along, across, across, density, young, poisson);
+  bool carries = likely(c, 2);
+  if (carries) { /* a surface that lies anywhere within and outside of it */
+    sbf_vec3 more = between3(c, 0.3f, 1.5f);
+    scene_section(s, 0, (sbf_vec3){0.5f * size.x, 1 + 0.5f * size.y, 0.5f * size.z},
+        (sbf_vec3){more.x * size.x, more.y * size.y, more.z * size.z}, 1 + roll(c, 3));
+  }
   if (likely(c, 2)) lattice_box_hold(&box);
-  scene_lattice(s, 0, &box);
+  sbf_level *level = scene_lattice(s, 0, &box);
+  if (carries) scene_embed(s, level, &box);
   lattice_box_free(&box);
 }
 
