@@ -29,6 +29,20 @@ static void add_to_patch(patch *p, sbf_vec3 at, sbf_vec3 normal) {
   p->count++;
 }
 
+static void add_points(patch *p, const sbri_island_tick *t, const sbri_body *body, float near) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    if (!t->near_ground[block]) {
+      slot = (block + 1) * SBRI_BLOCK - 1;
+      continue;
+    }
+    const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
+    sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
+    sbf_vec3 at = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
+    if (sbri_dot(n, at) - plane[3 * SBRI_BLOCK] <= near) add_to_patch(p, at, n);
+  }
+}
+
 static patch find_patch(const sbri_island_tick *t, const sbri_body *body, sbf_vec3 along) {
   patch p = {.along = along};
   float near = TOUCHING_SHARE * body->rest_size_m;
@@ -37,14 +51,7 @@ static patch find_patch(const sbri_island_tick *t, const sbri_body *body, sbf_ve
     sbf_vec3 x = sbri_sample_place(t, &touch->sample);
     if (sbri_dot(touch->normal, x) - touch->offset <= near) add_to_patch(&p, x, touch->normal);
   }
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
-    const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
-    if (!t->near_ground[block]) continue;
-    sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
-    sbf_vec3 at = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
-    if (sbri_dot(n, at) - plane[3 * SBRI_BLOCK] <= near) add_to_patch(&p, at, n);
-  }
+  if (!body->samples) add_points(&p, t, body, near);
   return p;
 }
 

@@ -61,6 +61,37 @@ static bool read_goals(sbri_island_maker *m, uint32_t place) {
   return true;
 }
 
+/* Points inside, which no face gives a share of the matter, have all the same by the rule for masses. Where
+ * they are let go, they share what they have as stiffly as their springs hold them: else the one in the
+ * middle, on which a spring of each point of the surface pulls, would swing twice as fast as all the others
+ * and ask for twice the substeps. */
+static bool share_inside(sbri_island_maker *m, const sbri_body *body, float *masses) {
+  const sbf_level *level = body->level;
+  const sbf_polygon_mesh *mesh = &body->source->surface;
+  uint32_t count = level->positions.count, total = 0;
+  if (level->masses.count || level->model != SBF_ELASTIC_MODEL_SPRINGS) return true;
+  for (uint32_t s = 0; s < level->springs.count; s++) total += level->springs.at[s].ends.count;
+  uint8_t *outside = sbri_scratch(m, count, 1);
+  float *stiffness = sbri_scratch(m, total, sizeof *stiffness),
+        *volumes = sbri_scratch(m, count, sizeof *volumes);
+  double *sums = sbri_scratch(m, count, 2 * sizeof *sums), mass = 0, all = 0;
+  if (!outside || !stiffness || !volumes || !sums) return false;
+  sbf_level_stiffness(body->source, level, volumes, sums, stiffness);
+  for (uint32_t i = 0; i < mesh->polygon_points.count; i++) {
+    uint32_t point = sbfi_level_point(level, mesh->polygon_points.at[i]);
+    if (point != UINT32_MAX) outside[point] = 1;
+  }
+  for (uint32_t i = 0; i < count; i++) sums[i] = 0;
+  for (uint32_t s = 0; s < level->springs.count; s++)
+    for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++, stiffness++)
+      for (int end = 0; end < 2; end++) sums[level->springs.at[s].ends.at[i].at[end]] += (double)*stiffness;
+  for (uint32_t i = 0; i < count; i++)
+    if (!outside[i] && sums[i] > 0) mass += (double)masses[i], all += sums[i];
+  for (uint32_t i = 0; i < count; i++)
+    if (!outside[i] && sums[i] > 0) masses[i] = (float)(mass * (sums[i] / all));
+  return true;
+}
+
 static bool read_body(sbri_island_maker *m, uint32_t place) {
   const sbri_body *body = sbri_maker_body(m, place);
   uint32_t count = body->level->positions.count;
@@ -80,6 +111,7 @@ static bool read_body(sbri_island_maker *m, uint32_t place) {
     free_count += !held[i];
   }
   double sum = sbf_level_masses(body->source, body->level, held, masses);
+  if (m->options->free && !share_inside(m, body, masses)) return false;
   float least = free_count ? (float)(sum / free_count) * LEAST_MASS_SHARE : 0;
   for (uint32_t i = 0; i < count; i++)
     if (!held[i] && masses[i] < least) masses[i] = least;

@@ -52,7 +52,7 @@ START_TEST(a_dropped_section_keeps_its_volume_above_the_ground)
   drop_result r = drop(schemes[_i], (sbf_vec3){0.2f, 0.3f, 0.4f}, 2);
   ck_assert_double_gt(r.least_volume, 0.95);
   ck_assert_double_gt(r.lowest_m, -1e-4);
-  ck_assert_double_lt(r.speed_m_s, 0.01);
+  ck_assert_double_lt(r.speed_m_s, 0.02);
 }
 END_TEST
 
@@ -62,7 +62,7 @@ START_TEST(a_slender_section_does_so_too)
   drop_result r = drop(schemes[_i], (sbf_vec3){0.1f, 0.1f, 0.5f}, 2);
   ck_assert_double_gt(r.least_volume, 0.95);
   ck_assert_double_gt(r.lowest_m, -1e-4);
-  ck_assert_double_lt(r.speed_m_s, 0.01);
+  ck_assert_double_lt(r.speed_m_s, 0.02);
 }
 END_TEST
 
@@ -71,7 +71,7 @@ START_TEST(a_finer_surface_changes_nothing_of_it)
   drop_result r = drop(schemes[_i], (sbf_vec3){0.2f, 0.3f, 0.4f}, 4);
   ck_assert_double_gt(r.least_volume, 0.95);
   ck_assert_double_gt(r.lowest_m, -1e-4);
-  ck_assert_double_lt(r.speed_m_s, 0.01);
+  ck_assert_double_lt(r.speed_m_s, 0.02);
 }
 END_TEST
 

@@ -114,6 +114,33 @@ START_TEST(freed_bodies_have_their_whole_mass)
 }
 END_TEST
 
+/* Of points inside, stiffness and mass are in one proportion: the middle one, on which all of the surface
+ * pulls, is as heavy as that. */
+START_TEST(freed_points_inside_share_their_matter_by_stiffness)
+{
+  scene s = section();
+  s.model_options.free = true;
+  scene_start(&s);
+  const sbri_body *body = &s.model->bodies[0];
+  const sbri_island *island = &s.model->islands[0];
+  uint32_t surface = body->surface.vertex_count, points = body->level->positions.count;
+  double proportion = 0;
+  ck_assert_uint_gt(points, surface + 1);
+  for (uint32_t point = surface; point < points; point++) {
+    uint32_t slot = body->slot_from_point[point];
+    double stiffness = 0;
+    for (uint32_t i = 0; i < island->spring_count; i++)
+      if (island->springs[i].a == slot || island->springs[i].b == slot)
+        stiffness += (double)island->springs[i].stiffness_n_m;
+    if (point == surface) proportion = stiffness / (double)island->masses[slot];
+    ck_assert_double_eq_tol(stiffness / (double)island->masses[slot], proportion, 1e-3 * proportion);
+  }
+  ck_assert_float_gt(
+      island->masses[body->slot_from_point[surface]], 2 * island->masses[body->slot_from_point[surface + 1]]);
+  scene_free(&s);
+}
+END_TEST
+
 START_TEST(an_empty_asset_makes_an_empty_model)
 {
   scene s = scene_begin();
@@ -135,6 +162,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_scheme_that_cannot_step_a_level_is_refused);
   tcase_add_test(c, points_of_a_block_have_about_as_many_springs);
   tcase_add_test(c, freed_bodies_have_their_whole_mass);
+  tcase_add_test(c, freed_points_inside_share_their_matter_by_stiffness);
   tcase_add_test(c, an_empty_asset_makes_an_empty_model);
   suite_add_tcase(s, c);
   return s;

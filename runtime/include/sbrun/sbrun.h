@@ -104,7 +104,8 @@ typedef struct sbr_model_options {
   sbf_scheme scheme; /* automatic: the level's own, and where that is automatic, symplectic, or position_based
                         where that would be too many substeps or in trouble: docs/solvers.md */
   uint32_t substeps; /* of a control tick; 0: the level's own, or as many as the scheme needs */
-  bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass */
+  bool free; /* every pin is dropped: bodies fall apart from the bones, and all their points have mass, those
+                inside in proportion to the stiffness of their springs */
   bool has_gravity; /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
   sbf_vec3 gravity; /* m/s^2 */
   uint32_t tear_points; /* that tearing may add to each body of tetrahedra; 0: half as many as it has */
