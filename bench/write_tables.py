@@ -59,6 +59,11 @@ def solids_row(r):
             r["ns_per_element"], r["slope"]]
 
 
+def skin_row(r):
+    return [r["mesh"], r["level"], number(r["triangles"]), number(r["vertices"]), number(r["least_us"]), number(r["median_us"]),
+            r["of_full"]]
+
+
 def schemes_row(r):
     return [r["body"], r["scheme"], number(r["springs"]), r["substeps"], number(r["us_per_tick"]),
             r["ns_per_spring"], r["error_mm"]]
@@ -91,6 +96,7 @@ TABLES = {
     "load": (load_row, "asset | reader | form | bytes | ms | MB/s | × assimp on GLB | peak KiB | private KiB", 3),
     "save": (save_row, "asset | action | form | bytes | ms | MB/s", 3),
     "run": (run_row, "character | threads | part | springs | substeps | least µs | median µs | worst µs", 3),
+    "skin": (skin_row, "mesh | render level | triangles | vertices | least µs | median µs | of the full mesh", 1),
     "schemes": (schemes_row, "body | scheme | springs | substeps | µs a tick | ns a spring and substep | error, mm", 2),
     "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | greatest, m | missed", 3),
     "size": (size_row, "file | vertices | springs | XML | gzip of it | packed | stored | packed / XML | "
