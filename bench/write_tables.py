@@ -59,6 +59,10 @@ def solids_row(r):
             r["ns_per_element"], r["slope"]]
 
 
+def progress_row(r):
+    return [r["asset"], r["build"], number(r["seconds"]), r["calls"], number(r["longest_silence_s"]), r["after"]]
+
+
 def skin_row(r):
     return [r["mesh"], r["level"], number(r["triangles"]), number(r["vertices"]), number(r["least_us"]), number(r["median_us"]),
             r["of_full"]]
@@ -96,6 +100,7 @@ TABLES = {
     "load": (load_row, "asset | reader | form | bytes | ms | MB/s | × assimp on GLB | peak KiB | private KiB", 3),
     "save": (save_row, "asset | action | form | bytes | ms | MB/s", 3),
     "run": (run_row, "character | threads | part | springs | substeps | least µs | median µs | worst µs", 3),
+    "progress": (progress_row, "asset | build | s | calls | longest silence, s | in", 2),
     "skin": (skin_row, "mesh | render level | triangles | vertices | least µs | median µs | of the full mesh", 1),
     "schemes": (schemes_row, "body | scheme | springs | substeps | µs a tick | ns a spring and substep | error, mm", 2),
     "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | greatest, m | missed", 3),

@@ -12,9 +12,6 @@ typedef struct sbfi_progress {
   double from, to;
 } sbfi_progress;
 
-/* How work ends that can be told to. */
-typedef enum sbfi_outcome { SBFI_DONE, SBFI_NO_MEMORY, SBFI_CANCELLED } sbfi_outcome;
-
 static inline sbfi_progress sbfi_progress_whole(bool (*call)(void *user, double done), void *user) {
   return (sbfi_progress){call, user, 0, 1};
 }

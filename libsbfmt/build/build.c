@@ -10,6 +10,7 @@
 #include "build/geometry/topology.h"
 #include "build/lattice/lattice_level.h"
 #include "build/levels/ladder.h"
+#include "build/new_places.h"
 #include "build/render/render_levels.h"
 #include "build/sections/level_pins.h"
 #include "build/sections/section_frame.h"
@@ -46,15 +47,37 @@ typedef struct build {
   sbfi_reporter reporter;
   sbf_build_report report;
   sbf_diagnostic *error;
+  const char *pass; /* that `tell` tells of */
+  bool cancelled;
 } build;
 
+/* Where memory ran out, or what `progress` was told ended the work: `error` then says so already. */
 static sbf_status no_memory(build *b) {
+  if (b->cancelled) return SBF_FAILED;
   return sbfi_diagnose(b->error, SBF_CODE_OUT_OF_MEMORY, "no memory left to build in");
 }
 
 static sbf_status progress(build *b, const char *pass, double done) {
   if (!b->options.progress || b->options.progress(b->options.user, pass, done)) return SBF_OK;
+  b->cancelled = true;
   return sbfi_diagnose(b->error, SBF_CODE_CANCELLED, "cancelled while making %s", pass);
+}
+
+static bool tell(void *user, double done) {
+  build *b = user;
+  return progress(b, b->pass, done) == SBF_OK;
+}
+
+/* For a pass that takes the stretch from `from` to `to` of the whole. */
+static sbfi_progress stretch(build *b, const char *pass, double from, double to) {
+  b->pass = pass;
+  return (sbfi_progress){tell, b, from, to};
+}
+
+/* For a part of the work on one body's levels. */
+static sbfi_progress stretch_of_body(build *b, uint32_t number) {
+  uint32_t count = b->asset->soft_bodies.count;
+  return stretch(b, "levels", 0.2 + 0.4 * number / count, 0.2 + 0.4 * (number + 1) / count);
 }
 
 static sbf_build_options options_of(const sbf_build_options *given) {
@@ -97,7 +120,8 @@ static sbf_status record_derivation(build *b) {
 static sbf_status make_sections(build *b) {
   double overlap = b->options.overlap_m > 0 ? b->options.overlap_m : -USUAL_OVERLAP;
   if (b->options.sections == SBF_BUILD_SECTIONS_AUTOMATIC &&
-      !sbfi_sections_make(&b->sections, b->asset, overlap, DERIVATION, &b->ids, &b->reporter, &b->scratch))
+      !sbfi_sections_make(&b->sections, b->asset, overlap, DERIVATION, &b->ids, &b->reporter,
+          stretch(b, "sections", 0.06, 0.1), &b->scratch))
     return no_memory(b);
   b->report.sections = b->sections.count;
   return SBF_OK;
@@ -138,52 +162,23 @@ static sbf_status make_frames(build *b) {
 
 static sbf_status make_hulls(build *b) {
   if (b->options.without_hulls) return SBF_OK;
-  if (!sbfi_section_hulls_make(b->asset, DERIVATION, &b->ids, &b->reporter, &b->report.hulls, &b->scratch))
+  if (!sbfi_section_hulls_make(b->asset, DERIVATION, &b->ids, &b->reporter, &b->report.hulls,
+          stretch(b, "hulls", 0.11, 0.15), &b->scratch))
     return no_memory(b);
   return SBF_OK;
 }
 
-/* Old derived rigid bodies and sections are found again among the new ones by their ids. */
-static void match_rigid_bodies(const build *b, int32_t *new_from_old) {
-  const sbf_rigid_body_list *old = &b->from->rigid_bodies, *now = &b->asset->rigid_bodies;
-  for (uint32_t i = 0; i < old->count; i++) {
-    const sbfi_id_entry *same = old->at[i].derived != SBF_NONE ? sbfi_ids_find(&b->ids, old->at[i].id) : NULL;
-    if (same && same->index < now->count && now->at[same->index].id == same->id)
-      new_from_old[i] = (int32_t)same->index;
-  }
-}
-
-static void match_sections(const build *b, int32_t *new_from_old) {
-  const sbf_soft_body_list *old = &b->from->soft_bodies, *now = &b->asset->soft_bodies;
-  for (uint32_t i = 0; i < old->count; i++) {
-    const sbfi_id_entry *same = old->at[i].derived != SBF_NONE ? sbfi_ids_find(&b->ids, old->at[i].id) : NULL;
-    if (same && same->index < now->count && now->at[same->index].id == same->id)
-      new_from_old[i] = (int32_t)same->index;
-  }
-}
-
 /* Authored parts name others by their places, which have moved where derived ones stood between. */
 static sbf_status renumber(build *b) {
-  const sbf_asset *from = b->from;
-  const uint32_t counts[] = {from->rigid_bodies.count, from->soft_bodies.count, from->render_meshes.count};
-  int32_t *places[3];
-  for (int i = 0; i < 3; i++) {
-    places[i] = sbfi_arena_allocate(&b->scratch, (size_t)counts[i] + 1, sizeof *places[i]);
-    if (!places[i]) return no_memory(b);
-  }
-  sbfi_source_places(
-      from->rigid_bodies.at, counts[0], sizeof(sbf_rigid_body), offsetof(sbf_rigid_body, derived), places[0]);
-  sbfi_source_places(
-      from->soft_bodies.at, counts[1], sizeof(sbf_soft_body), offsetof(sbf_soft_body, derived), places[1]);
-  sbfi_source_places(from->render_meshes.at, counts[2], sizeof(sbf_render_mesh),
-      offsetof(sbf_render_mesh, derived), places[2]);
-  match_rigid_bodies(b, places[0]);
-  match_sections(b, places[1]);
-  const sbfi_renumbering renumberings[] = {{offsetof(sbf_asset, rigid_bodies), places[0], counts[0]},
-      {offsetof(sbf_asset, soft_bodies), places[1], counts[1]},
-      {offsetof(sbf_asset, render_meshes), places[2], counts[2]}};
   sbfi_lost_reference lost;
-  if (sbfi_references_renumber(b->asset, renumberings, 3, &lost)) return SBF_OK;
+  switch (sbfi_new_places_take(b->asset, b->from, &b->ids, &lost, &b->scratch)) {
+  case SBFI_PLACES_NO_MEMORY:
+    return no_memory(b);
+  case SBFI_PLACES_TAKEN:
+    return SBF_OK;
+  case SBFI_PLACES_LOST:
+    break;
+  }
   sbf_status status = sbfi_diagnose(b->error, SBF_CODE_DERIVED_LOST,
       "refers to one of the %s that an earlier build made and this one does not: let it name an authored one",
       lost.collection);
@@ -257,8 +252,8 @@ static bool make_springs(build *b, uint32_t number, sbf_build_interior interior,
       [SBF_BUILD_INTERIOR_NONE] = SBFI_INTERIOR_NONE,
       [SBF_BUILD_INTERIOR_LATTICE] = SBFI_INTERIOR_LATTICE,
       [SBF_BUILD_INTERIOR_BRUTE] = SBFI_INTERIOR_BRUTE};
-  sbfi_spring_recipe recipe = {
-      interiors[interior], b->options.cell_m, !b->options.without_flexion, DERIVATION};
+  sbfi_spring_recipe recipe = {interiors[interior], b->options.cell_m, !b->options.without_flexion,
+      DERIVATION, stretch_of_body(b, number)};
   sbfi_spring_counts counts;
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   sbfi_interior_map *map = &b->maps[number];
@@ -284,24 +279,12 @@ static void add_quality(sbf_build_report *report, const sbf_lattice_measures *of
   report->lattice_volume += of->volume;
 }
 
-/* Where the lattice of one body stands among all. */
-typedef struct lattice_share {
-  build *b;
-  uint32_t number;
-} lattice_share;
-
-static bool lattice_progress(void *user, double done) {
-  const lattice_share *share = user;
-  build *b = share->b;
-  return progress(b, "lattices", 0.2 + 0.4 * (share->number + done) / b->asset->soft_bodies.count) == SBF_OK;
-}
-
 static sbf_status outcome_status(build *b, uint32_t number, sbfi_lattice_outcome outcome) {
   switch (outcome) {
   case SBFI_LATTICE_NO_MEMORY:
     return no_memory(b);
   case SBFI_LATTICE_CANCELLED:
-    return SBF_FAILED; /* `error` says so */
+    return no_memory(b);
   case SBFI_LATTICE_TOO_FINE:
     return report_of_body(b, number, SBF_CODE_LATTICE_TOO_FINE,
         "a lattice of this cell in soft body \"%s\" would have more than 2^28 nodes: give a larger cell",
@@ -386,10 +369,8 @@ static sbf_status make_section(build *b, uint32_t number, sbfi_arena *scratch) {
   sbfi_section_counts counts;
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   if (!level) return no_memory(b);
-  lattice_share share = {b, number};
   sbf_status status = outcome_status(b, number,
-      sbfi_section_level_make(level, body, &recipe, b->asset, &counts,
-          (sbfi_lattice_progress){lattice_progress, &share}, scratch));
+      sbfi_section_level_make(level, body, &recipe, b->asset, &counts, stretch_of_body(b, number), scratch));
   if (status != SBF_OK) return status;
   if (counts.points == 0)
     return make_springs(b, number, SBF_BUILD_INTERIOR_CENTROID, scratch) ? SBF_OK : no_memory(b);
@@ -417,15 +398,14 @@ static sbf_status make_level(build *b, uint32_t number) {
   sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
   sbf_status status = SBF_OK;
   const sbf_build_options *o = &b->options;
-  lattice_share share = {b, number};
   /* The reference takes a second or two a body: that is for those who choose a size. */
   bool sized = o->cell_m > 0 || o->elements > 0 || o->error_m > 0 || o->levels > 1;
   const sbfi_ladder_recipe recipe = {o->levels > 1 ? o->levels : 1, o->error_m,
       sized && !o->without_calibration, !o->without_flexion, (double)b->asset->environment.control_tick,
       DERIVATION};
   sbfi_ladder ladder;
-  sbfi_ladder_init(&ladder, &b->bodies[number], &recipe, b->asset,
-      (sbfi_lattice_progress){lattice_progress, &share}, &b->scratch.allocator);
+  sbfi_ladder_init(
+      &ladder, &b->bodies[number], &recipe, b->asset, stretch_of_body(b, number), &b->scratch.allocator);
   if (interior == SBF_BUILD_INTERIOR_BRUTE && b->bodies[number].surface.positions.count > MOST_BRUTE_POINTS)
     status = report_of_body(b, number, SBF_CODE_INTERIOR_TOO_MANY,
         "soft body \"%s\" has more than %d points: springs between all of them are for comparing small "
@@ -462,7 +442,7 @@ static bool pin_authored_levels(build *b, uint32_t number) {
 static sbf_status make_levels(build *b) {
   uint32_t count = b->asset->soft_bodies.count;
   for (uint32_t i = 0; i < count; i++) {
-    sbf_status status = progress(b, "springs", 0.2 + 0.4 * i / count);
+    sbf_status status = progress(b, "levels", 0.2 + 0.4 * i / count);
     if (status != SBF_OK) return status;
     warn_of_attachments(b, i);
     if (b->bodies[i].levels.count > 0) {
@@ -503,26 +483,21 @@ static sbf_status embed(build *b) {
       targets[next++] = (sbfi_embed_target){
           i, (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l], map_of(b, i, l), frame_of(b, i, l)};
   sbfi_embed_report report;
-  if (!sbfi_embed(
-          b->asset, targets, (uint32_t)count, &b->sections, DERIVATION, &b->reporter, &report, &b->scratch))
+  if (!sbfi_embed(b->asset, targets, (uint32_t)count, &b->sections, DERIVATION, &b->reporter, &report,
+          stretch(b, "embeddings", 0.6, 0.8), &b->scratch))
     return no_memory(b);
   b->report.embedded_vertices = report.vertices;
   b->report.farthest_m = report.farthest;
   return SBF_OK;
 }
 
-static bool render_progress(void *user, double done) {
-  return progress(user, "render levels", 0.8 + 0.09 * done) == SBF_OK;
-}
-
 static sbf_status make_render_levels(build *b) {
   const sbf_build_options *o = &b->options;
   uint32_t levels = o->render_levels || !(o->render_error_m > 0) ? o->render_levels : SBFI_MOST_RENDER_LEVELS;
   const sbfi_render_recipe recipe = {levels, o->render_error_m, DERIVATION};
-  sbfi_outcome outcome = sbfi_render_levels_make(
-      b->asset, &recipe, &b->report.render_levels, sbfi_progress_whole(render_progress, b), &b->scratch);
-  if (outcome == SBFI_NO_MEMORY) return no_memory(b);
-  return outcome == SBFI_DONE ? SBF_OK : SBF_FAILED; /* cancelled: `error` says so */
+  bool good = sbfi_render_levels_make(
+      b->asset, &recipe, &b->report.render_levels, stretch(b, "render levels", 0.8, 0.89), &b->scratch);
+  return good ? SBF_OK : no_memory(b);
 }
 
 /* What a report says of the whole without reading the geometry. Beyond all measure: nothing is said. */
@@ -571,7 +546,7 @@ static sbf_status run(build *b) {
   } passes[] = {{"a copy of the source", 0, copy_source}, {"the derivation", 0.05, record_derivation},
       {"sections", 0.06, make_sections}, {"the list of bodies", 0.1, line_up_bodies},
       {"hulls", 0.11, make_hulls}, {"references", 0.15, renumber}, {"joints", 0.18, make_joints},
-      {"springs", 0.2, make_levels}, {"frames of sections", 0.59, make_frames}, {"embeddings", 0.6, embed},
+      {"levels", 0.2, make_levels}, {"frames of sections", 0.59, make_frames}, {"embeddings", 0.6, embed},
       {"render levels", 0.8, make_render_levels}, {"lattices no longer needed", 0.89, clear_lattices},
       {"figures of the whole", 0.9, record_figures}, {"the check of what was made", 0.92, check_made},
       {"the hash of the source", 0.95, hash_source}};

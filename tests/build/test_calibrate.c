@@ -142,8 +142,7 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
   grid_level(&coarse, 2);
   ck_assert_uint_eq(fine.lattice.tetrahedra.count, 15360);
   ck_assert_uint_eq(coarse.lattice.tetrahedra.count, 240);
-  ck_assert_int_eq(
-      sbfi_reference_take(&r, body, &fine, NULL, asset, true, (sbfi_lattice_progress){0}, NULL), 0);
+  ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset, true, (sbfi_progress){0}, NULL), 0);
   ck_assert(r.sound);
   ck_assert(sbfi_level_calibrate(&coarse, body, NULL, &r, 1.0 / 60, asset, &c, NULL));
   ck_assert_double_lt(fabs(c.period_error), 0.02);
@@ -218,7 +217,7 @@ START_TEST(an_arm_of_the_armadillo)
   body->pins = (sbf_pin_set_list){pins, 1};
   body->attributes.young_modulus = 1000 * 9.81f * size * 20;
   sbfi_reference r;
-  ck_assert_int_eq(sbfi_reference_make(&r, body, asset, false, (sbfi_lattice_progress){0}, NULL), 0);
+  ck_assert_int_eq(sbfi_reference_make(&r, body, asset, false, (sbfi_progress){0}, NULL), 0);
   sbf_level level;
   sbfi_arena scratch;
   sbfi_lattice_counts counts;
@@ -226,8 +225,7 @@ START_TEST(an_arm_of_the_armadillo)
   const sbfi_lattice_recipe recipe = {.elements = 2000};
   sbfi_arena_init(&scratch, NULL, 0);
   ck_assert_int_eq(
-      sbfi_lattice_level_make(&level, body, &recipe, asset, &counts, (sbfi_lattice_progress){0}, &scratch),
-      0);
+      sbfi_lattice_level_make(&level, body, &recipe, asset, &counts, (sbfi_progress){0}, &scratch), 0);
   double weight = 1000 * 9.81 * size * size * size * 1e-4;
   double off[2][3];
   for (int calibrated = 0; calibrated < 2; calibrated++) {

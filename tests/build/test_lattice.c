@@ -8,7 +8,7 @@
 
 static sbf_asset *asset;
 static sbfi_arena arena;
-static const sbfi_lattice_progress silent = {NULL, NULL};
+static const sbfi_progress silent = {NULL, NULL, 0, 1};
 
 static void setup(void) {
   asset = sbf_asset_create(NULL);
@@ -177,7 +177,7 @@ START_TEST(it_can_be_cancelled)
   wind(&m, &cube);
   for (int allowed = 0;; allowed++) {
     int left = allowed;
-    sbfi_lattice_progress progress = {stop_at, &left};
+    sbfi_progress progress = sbfi_progress_whole(stop_at, &left);
     if (sbfi_lattice_make_count(&m.lattice, &m.winding, 200, progress, &arena) == SBFI_LATTICE_MADE) {
       ck_assert_int_ge(allowed, 5);
       break;

@@ -42,7 +42,7 @@ START_TEST(no_spring_leaves_a_concave_body)
   sbfi_lattice_interior in;
   sbfi_soup soup;
   sbfi_winding winding;
-  ck_assert(sbfi_springs_lattice(&in, &mesh, 0, 0.12, &arena));
+  ck_assert(sbfi_springs_lattice(&in, &mesh, 0, 0.12, (sbfi_progress){0}, &arena));
   ck_assert(sbfi_soup_make(&soup, &mesh, &arena) && sbfi_winding_make(&winding, &soup, &arena));
   ck_assert_uint_gt(in.point_count, 100);
   ck_assert_uint_gt(in.internal.count, 4 * in.point_count);
@@ -64,10 +64,10 @@ START_TEST(a_cell_is_found_where_none_is_named)
 {
   sbf_polygon_mesh cube = shape_cube(asset, 1, 1, (sbf_vec3){0, 0, 0}), sheet = shape_sheet(asset, 3, 3);
   sbfi_lattice_interior in;
-  ck_assert(sbfi_springs_lattice(&in, &cube, 0, 0, &arena));
+  ck_assert(sbfi_springs_lattice(&in, &cube, 0, 0, (sbfi_progress){0}, &arena));
   ck_assert_uint_ge(in.point_count, 1);
   ck_assert_uint_ge(in.deep_count, 1);
-  ck_assert(sbfi_springs_lattice(&in, &sheet, 0, 0, &arena));
+  ck_assert(sbfi_springs_lattice(&in, &sheet, 0, 0, (sbfi_progress){0}, &arena));
   ck_assert_uint_eq(in.point_count, 0);
 }
 END_TEST
@@ -149,7 +149,7 @@ START_TEST(every_allocation_may_fail)
     sbfi_arena small;
     sbfi_arena_init(&small, &memory.allocator, 0);
     sbfi_lattice_interior in;
-    bool good = sbfi_springs_lattice(&in, &cube, 0, 0.3, &small);
+    bool good = sbfi_springs_lattice(&in, &cube, 0, 0.3, (sbfi_progress){0}, &small);
     sbfi_arena_free(&small);
     ck_assert_uint_eq(memory.held_bytes, 0);
     if (good) break;

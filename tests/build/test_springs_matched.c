@@ -38,7 +38,8 @@ START_TEST(a_body_centred_grid_is_isotropic)
   sbf_uint2 ends[14];
   float volumes[15] = {0.5f}, stiffness[14];
   uint32_t count = make_star(positions, ends);
-  ck_assert(sbfi_springs_matched(1e4, positions, 15, volumes, ends, count, stiffness, &arena));
+  ck_assert(
+      sbfi_springs_matched(1e4, positions, 15, volumes, ends, count, stiffness, (sbfi_progress){0}, &arena));
   /* The point's own half; its neighbours would give as much again. */
   for (uint32_t i = 0; i < count; i++)
     ck_assert_double_eq_tol(
@@ -52,11 +53,11 @@ START_TEST(energy_is_kept_whatever_the_directions)
   const sbf_uint2 ends[] = {{{0, 1}}, {{0, 2}}, {{3, 0}}, {{0, 4}}, {{0, 5}}};
   const float volumes[6] = {2, 0, 0, 0, 0, 0};
   float stiffness[5];
-  ck_assert(sbfi_springs_matched(50, positions, 6, volumes, ends, 3, stiffness, &arena));
+  ck_assert(sbfi_springs_matched(50, positions, 6, volumes, ends, 3, stiffness, (sbfi_progress){0}, &arena));
   ck_assert_double_eq_tol(stiffness[0] * 1.0 + stiffness[1] * 4.0 + stiffness[2] * 1.1, 6 * 50 * 2, 1e-2);
   for (int i = 0; i < 3; i++) ck_assert_float_gt(stiffness[i], 0);
   /* One of no length has nothing, a short one no more than one of half the mean of its neighbours. */
-  ck_assert(sbfi_springs_matched(50, positions, 6, volumes, ends, 5, stiffness, &arena));
+  ck_assert(sbfi_springs_matched(50, positions, 6, volumes, ends, 5, stiffness, (sbfi_progress){0}, &arena));
   ck_assert_float_eq(stiffness[3], 0);
   ck_assert_float_lt(stiffness[4], 600 / (0.01f * 0.2f));
   for (int i = 0; i < 5; i++) ck_assert(isfinite(stiffness[i]));
@@ -75,7 +76,8 @@ START_TEST(every_allocation_may_fail)
     harness_memory_init(&memory, allowed);
     sbfi_arena small;
     sbfi_arena_init(&small, &memory.allocator, 0);
-    bool good = sbfi_springs_matched(1, positions, 15, volumes, ends, count, stiffness, &small);
+    bool good =
+        sbfi_springs_matched(1, positions, 15, volumes, ends, count, stiffness, (sbfi_progress){0}, &small);
     sbfi_arena_free(&small);
     ck_assert_uint_eq(memory.held_bytes, 0);
     if (good) break;

@@ -19,8 +19,8 @@ static void setup(void) {
   sbfi_winding winding;
   ck_assert(sbfi_soup_make(&soup, &cube, &arena));
   ck_assert(sbfi_winding_make(&winding, &soup, &arena));
-  ck_assert_int_eq(sbfi_lattice_make(&lattice, &winding, 0.37, (sbfi_lattice_progress){NULL, NULL}, &arena),
-      SBFI_LATTICE_MADE);
+  ck_assert_int_eq(
+      sbfi_lattice_make(&lattice, &winding, 0.37, (sbfi_progress){0}, &arena), SBFI_LATTICE_MADE);
   ck_assert(sbfi_tetrahedron_finder_make(
       &finder, lattice.made.positions, lattice.made.at, lattice.made.count, &arena));
 }

@@ -101,11 +101,13 @@ static bool add_share(
 }
 
 /* `mixes`: of each weight its place among those of the sections; NULL: none has one. */
-static bool share_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *skin, const uint32_t *mixes) {
+static bool share_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *skin, const uint32_t *mixes,
+    sbfi_progress progress) {
   uint32_t influence = 0;
   for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
     size_t begin = w->shares.count;
     double sum = 0;
+    if (!sbfi_progress_step(progress, v, mesh->mesh.positions.count)) return false;
     for (uint32_t end = influence + skin->influence_counts.at[v]; influence < end; influence++) {
       uint32_t first = w->bone_bodies[skin->bones.at[influence]];
       float weight = skin->weights.at[influence];
@@ -141,10 +143,11 @@ static uint32_t find_body_of(const work *w, const sbf_render_mesh *mesh) {
   return SBFI_NO_INDEX;
 }
 
-static bool share_whole(work *w, const sbf_render_mesh *mesh) {
+static bool share_whole(work *w, const sbf_render_mesh *mesh, sbfi_progress progress) {
   uint32_t own = find_body_of(w, mesh), likely = own;
   for (uint32_t v = 0; v < mesh->mesh.positions.count; v++) {
     sbf_vec3 position = mesh->mesh.positions.at[v];
+    if (!sbfi_progress_step(progress, v, mesh->mesh.positions.count)) return false;
     if (own != SBFI_NO_INDEX)
       likely = own;
     else if (mesh->bone != SBF_NONE)
@@ -161,6 +164,11 @@ static bool has_embedding(const sbf_level *level, int32_t mesh) {
   for (uint32_t i = 0; i < level->embeddings.count; i++)
     if (level->embeddings.at[i].render_mesh == mesh) return true;
   return false;
+}
+
+/* The stretch of one of several levels. */
+static sbfi_progress part_of(sbfi_progress progress, uint32_t number, uint32_t count) {
+  return sbfi_progress_part(progress, (double)number / count, (number + 1.0) / count);
 }
 
 /* Gives the level one more embedding. The list has room: see make_room. */
@@ -192,7 +200,7 @@ static sbfi_carried carried_mixed(const sbfi_mix *mix) {
 
 /* Embeds the vertices of `list` (all of them in order where `whole`) in one target's level. */
 static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list *positions,
-    const share *list, uint32_t count, bool count_it) {
+    const share *list, uint32_t count, bool count_it, sbfi_progress progress) {
   sbf_level *level = w->targets[target].level;
   if (count == 0 || level->positions.count == 0 || has_embedding(level, mesh)) return true;
   bool whole = count == positions->count, blended = false;
@@ -204,6 +212,7 @@ static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list
   if ((!whole && !vertices) || !points || !weights || (blended && !blends)) return false;
   for (uint32_t i = 0; i < count; i++) {
     uint32_t v = list[i].vertex;
+    if (!sbfi_progress_step(progress, i, count)) return false;
     /* What the sections mixed are points of the finest level. */
     bool mixed = list[i].mix && w->finest[w->targets[target].body] == target &&
                  w->targets[target].frame != SBFI_NO_INDEX;
@@ -228,7 +237,7 @@ static bool embed_in(work *w, uint32_t target, int32_t mesh, const sbf_vec3_list
 }
 
 /* Hands the shares of a mesh to their bodies' levels, body by body. */
-static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions) {
+static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions, sbfi_progress progress) {
   uint32_t bodies = w->asset->soft_bodies.count, count = (uint32_t)w->shares.count;
   const share *shares = w->shares.at;
   uint32_t *begins = sbfi_arena_allocate(w->scratch, (size_t)bodies + 2, sizeof *begins);
@@ -240,7 +249,7 @@ static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions) {
   for (uint32_t t = 0; t < w->target_count; t++) {
     uint32_t body = w->targets[t].body;
     if (!embed_in(w, t, mesh, positions, sorted + begins[body], begins[body + 1] - begins[body],
-            w->finest[body] == t))
+            w->finest[body] == t, part_of(progress, t, w->target_count)))
       return false;
   }
   for (uint32_t i = 0; i < count; i++)
@@ -248,18 +257,19 @@ static bool hand_out(work *w, int32_t mesh, const sbf_vec3_list *positions) {
   return true;
 }
 
-static bool embed_surfaces(work *w) {
+static bool embed_surfaces(work *w, sbfi_progress progress) {
   for (uint32_t t = 0; t < w->target_count; t++) {
+    sbfi_progress part = part_of(progress, t, w->target_count);
     const sbf_vec3_list *positions = &w->asset->soft_bodies.at[w->targets[t].body].surface.positions;
     share *all = sbfi_arena_allocate(w->scratch, (size_t)positions->count + 1, sizeof *all);
     if (!all) return false;
     for (uint32_t v = 0; v < positions->count; v++) all[v] = (share){v, 0, 1, NULL};
-    if (!embed_in(w, t, SBF_NONE, positions, all, positions->count, false)) return false;
+    if (!embed_in(w, t, SBF_NONE, positions, all, positions->count, false, part)) return false;
   }
   return true;
 }
 
-static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
+static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter, sbfi_progress progress) {
   const sbf_render_mesh *mesh = &w->asset->render_meshes.at[number];
   const sbf_skin *skin = mesh->skin, *blends = w->sections ? w->sections->blends : NULL;
   const uint32_t *mixes = NULL;
@@ -273,8 +283,10 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
   w->far = (sbfi_far_vertices){.mesh = mesh};
   /* A skin whose mesh is a body as a whole, pinned by its weights, moves with that. */
   bool by_skin = mixes || (skin && find_body_of(w, mesh) == SBFI_NO_INDEX);
-  if (!(by_skin ? share_by_skin(w, mesh, skin, mixes) : share_whole(w, mesh))) return false;
-  if (!hand_out(w, (int32_t)number, &mesh->mesh.positions)) return false;
+  sbfi_progress sharing = sbfi_progress_part(progress, 0, 0.3);
+  if (!(by_skin ? share_by_skin(w, mesh, skin, mixes, sharing) : share_whole(w, mesh, sharing))) return false;
+  if (!hand_out(w, (int32_t)number, &mesh->mesh.positions, sbfi_progress_part(progress, 0.3, 1)))
+    return false;
   sbf_diagnostic finding;
   if (w->shares.count == 0) {
     sbfi_diagnose(&finding, SBF_CODE_EMBEDDING_NO_BODY,
@@ -292,7 +304,7 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter) {
 
 bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t target_count,
     const sbfi_sections *sections, int32_t derivation, sbfi_reporter *reporter, sbfi_embed_report *report,
-    sbfi_arena *scratch) {
+    sbfi_progress progress, sbfi_arena *scratch) {
   work w = {.asset = asset,
       .targets = targets,
       .target_count = target_count,
@@ -306,11 +318,14 @@ bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t tar
   w.carriers = sbfi_arena_allocate(scratch, target_count, sizeof *w.carriers);
   bool good = w.carriers && index_bodies(&w);
   for (uint32_t t = 0; good && t < target_count; t++)
-    good = make_room(&w, targets[t].level) &&
+    good = sbfi_progress_say(progress, 0.2 * t / target_count) && make_room(&w, targets[t].level) &&
            sbfi_carrier_make(&w.carriers[t], &asset->soft_bodies.at[targets[t].body], targets[t].level,
                targets[t].interior, targets[t].frame, scratch);
-  good = good && embed_surfaces(&w);
-  for (uint32_t m = 0; good && m < asset->render_meshes.count; m++) good = embed_mesh(&w, m, reporter);
+  good = good && embed_surfaces(&w, sbfi_progress_part(progress, 0.2, 0.4));
+  uint32_t meshes = asset->render_meshes.count;
+  for (uint32_t m = 0; good && m < meshes; m++)
+    good = embed_mesh(
+        &w, m, reporter, sbfi_progress_part(progress, 0.4 + 0.6 * m / meshes, 0.4 + 0.6 * (m + 1) / meshes));
   sbfi_array_free(&w.shares);
   return good;
 }

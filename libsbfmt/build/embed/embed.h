@@ -3,6 +3,7 @@
 #define SBFI_EMBED_H
 
 #include "base/diagnostic.h"
+#include "base/progress.h"
 #include "build/embed/carrier.h"
 #include "build/sections/sections.h"
 
@@ -33,9 +34,10 @@ typedef struct sbfi_embed_report {
  * What `sections` says of a mesh stands in for the weights of its skin (sections.h); they are the last of the
  * asset's bodies. It may be NULL or have no blends.
  *
- * `asset` is the one under construction that the targets belong to. False where memory runs out. */
+ * `asset` is the one under construction that the targets belong to. False where memory runs out or `progress`
+ * ends it. */
 bool sbfi_embed(sbf_asset *asset, const sbfi_embed_target *targets, uint32_t target_count,
     const sbfi_sections *sections, int32_t derivation, sbfi_reporter *reporter, sbfi_embed_report *report,
-    sbfi_arena *scratch);
+    sbfi_progress progress, sbfi_arena *scratch);
 
 #endif

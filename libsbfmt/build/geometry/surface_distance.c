@@ -117,17 +117,17 @@ static bool compare(comparison *c, const sbfi_triangle_tree *from, sbfi_progress
   return true;
 }
 
-sbfi_outcome sbfi_surface_distance(
+bool sbfi_surface_distance(
     double *distance, const sbfi_triangle_tree *a, const sbfi_triangle_tree *b, sbfi_progress progress) {
   *distance = 0;
-  if (a->triangle_count == 0 || b->triangle_count == 0) return SBFI_DONE;
+  if (a->triangle_count == 0 || b->triangle_count == 0) return true;
   const sbfi_box *box = &a->tree.nodes[0].box;
   double low[3], high[3];
   for (int k = 0; k < 3; k++) low[k] = (double)box->low[k], high[k] = (double)box->high[k];
   comparison c = {.to = b, .no_less = LEAST_SHARE * distance_of(low, high)};
-  if (!compare(&c, a, sbfi_progress_part(progress, 0, 0.5))) return SBFI_CANCELLED;
+  if (!compare(&c, a, sbfi_progress_part(progress, 0, 0.5))) return false;
   c.to = a;
-  if (!compare(&c, b, sbfi_progress_part(progress, 0.5, 1))) return SBFI_CANCELLED;
+  if (!compare(&c, b, sbfi_progress_part(progress, 0.5, 1))) return false;
   *distance = c.bound > c.reached ? c.bound : c.reached;
-  return SBFI_DONE;
+  return true;
 }

@@ -13,8 +13,8 @@
  *
  * Triangles are halved along their sides until none can hold a greater distance: the distance from a triangle
  * is convex, so that it is greatest in a corner, what the other surface covers is near it, and no distance
- * grows faster than the place moves. */
-sbfi_outcome sbfi_surface_distance(
+ * grows faster than the place moves. * False where `progress` ends it. */
+bool sbfi_surface_distance(
     double *distance, const sbfi_triangle_tree *a, const sbfi_triangle_tree *b, sbfi_progress progress);
 
 #endif

@@ -6,10 +6,6 @@
 #include "build/lattice/lattice_limbs.h"
 #include "build/lattice/lattice_signs.h"
 
-static bool go_on(sbfi_lattice_progress progress, double done) {
-  return !progress.call || progress.call(progress.user, done);
-}
-
 /* Where the surface cuts an edge with unlike ends: of several places that nearest to the outer end, so that
  * all of the surface is in. */
 static void place_cuts(const sbfi_array *crossings, const uint8_t *inside, sbfi_lattice_cuts *cuts) {
@@ -67,8 +63,8 @@ static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_la
   }
 }
 
-static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *winding,
-    sbfi_lattice_progress progress, sbfi_arena *arena, sbfi_array *crossings, sbfi_arena *scratch) {
+static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *winding, sbfi_progress progress,
+    sbfi_arena *arena, sbfi_array *crossings, sbfi_arena *scratch) {
   sbfi_lattice_grid grid;
   sbfi_lattice_cuts cuts;
   const sbfi_soup *soup = winding->soup;
@@ -76,11 +72,11 @@ static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *wind
   uint8_t *cut = sbfi_arena_allocate(scratch, grid.node_count, 1);
   uint8_t *inside = sbfi_arena_allocate(scratch, grid.node_count, 1);
   if (!cut || !inside) return SBFI_LATTICE_NO_MEMORY;
-  if (!go_on(progress, 0)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_say(progress, 0)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_cross(&grid, soup, cut, crossings)) return SBFI_LATTICE_NO_MEMORY;
-  if (!go_on(progress, 0.1)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_say(progress, 0.1)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_signs(&grid, winding, cut, inside, scratch)) return SBFI_LATTICE_NO_MEMORY;
-  if (!go_on(progress, 0.4)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_say(progress, 0.4)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_keep_limbs(&grid, winding, crossings, inside, &lattice->forced_count, scratch))
     return SBFI_LATTICE_NO_MEMORY;
   if (!sbfi_lattice_cuts_find(&cuts, &grid, inside, scratch)) return SBFI_LATTICE_NO_MEMORY;
@@ -89,14 +85,14 @@ static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *wind
   lattice->dim_count = bisect_cuts(&grid, winding, inside, &cuts);
   for (uint32_t n = 0; n < grid.node_count && lattice->forced_count > 0; n++)
     inside[n] &= SBFI_LATTICE_INSIDE;
-  if (!go_on(progress, 0.6)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_say(progress, 0.6)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_stuff(&grid, inside, &cuts, &lattice->made, arena, scratch))
     return SBFI_LATTICE_NO_MEMORY;
-  return go_on(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
+  return sbfi_progress_say(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
 }
 
 sbfi_lattice_outcome sbfi_lattice_make(sbfi_lattice *lattice, const sbfi_winding *winding, double cell,
-    sbfi_lattice_progress progress, sbfi_arena *arena) {
+    sbfi_progress progress, sbfi_arena *arena) {
   *lattice = (sbfi_lattice){.cell = cell};
   if (winding->soup->triangle_count == 0) return SBFI_LATTICE_MADE;
   sbfi_arena scratch;
@@ -135,7 +131,7 @@ static bool is_hollow(const sbfi_soup *soup, double cell, uint32_t elements) {
 }
 
 sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_winding *winding,
-    uint32_t elements, sbfi_lattice_progress progress, sbfi_arena *arena) {
+    uint32_t elements, sbfi_progress progress, sbfi_arena *arena) {
   enum { ROUNDS = 8 };
   const double near_enough = 1.03;
   const sbfi_soup *soup = winding->soup;
@@ -149,13 +145,12 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
   double best_cell = cell, best = INFINITY;
   sbfi_arena trial;
   for (int round = 0; round < ROUNDS && best > near_enough; round++) {
+    sbfi_progress part = sbfi_progress_part(progress, round / (ROUNDS + 1.0), (round + 1) / (ROUNDS + 1.0));
     sbfi_arena_init(&trial, &arena->allocator, 0);
-    sbfi_lattice_outcome outcome =
-        sbfi_lattice_make(lattice, winding, cell, (sbfi_lattice_progress){NULL, NULL}, &trial);
+    sbfi_lattice_outcome outcome = sbfi_lattice_make(lattice, winding, cell, part, &trial);
     uint32_t count = lattice->made.count;
     sbfi_arena_free(&trial);
     if (outcome != SBFI_LATTICE_MADE) return outcome;
-    if (!go_on(progress, round / (ROUNDS + 1.0))) return SBFI_LATTICE_CANCELLED;
     if (misses(count, elements) < best) {
       best = misses(count, elements);
       best_cell = cell;
@@ -165,5 +160,6 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
     double ratio = count ? (double)count / elements : 1.0 / 8;
     cell *= cube_root(ratio < 1.0 / 64 ? 1.0 / 64 : ratio > 64 ? 64 : ratio);
   }
-  return sbfi_lattice_make(lattice, winding, best_cell, progress, arena);
+  return sbfi_lattice_make(
+      lattice, winding, best_cell, sbfi_progress_part(progress, ROUNDS / (ROUNDS + 1.0), 1), arena);
 }

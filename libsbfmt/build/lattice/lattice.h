@@ -2,6 +2,7 @@
 #ifndef SBFI_LATTICE_H
 #define SBFI_LATTICE_H
 
+#include "base/progress.h"
 #include "build/geometry/winding_number.h"
 #include "build/lattice/lattice_stuffing.h"
 
@@ -19,19 +20,13 @@ typedef enum sbfi_lattice_outcome {
   SBFI_LATTICE_CANCELLED
 } sbfi_lattice_outcome;
 
-/* Says how far the work is, 0..1; false ends it. `call` may be NULL. */
-typedef struct sbfi_lattice_progress {
-  bool (*call)(void *user, double done);
-  void *user;
-} sbfi_lattice_progress;
-
 /* Fills `*lattice` for a cell of `cell` metres. Memory of `arena`, which also takes the scratch memory. */
 sbfi_lattice_outcome sbfi_lattice_make(sbfi_lattice *lattice, const sbfi_winding *winding, double cell,
-    sbfi_lattice_progress progress, sbfi_arena *arena);
+    sbfi_progress progress, sbfi_arena *arena);
 
 /* The same with about as many tetrahedra as asked for: the cell is changed until there are within 3 per cent
  * of `elements`, or for eight rounds, of which the best counts. */
 sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_winding *winding,
-    uint32_t elements, sbfi_lattice_progress progress, sbfi_arena *arena);
+    uint32_t elements, sbfi_progress progress, sbfi_arena *arena);
 
 #endif

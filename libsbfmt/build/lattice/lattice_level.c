@@ -12,8 +12,7 @@ static bool is_thin(const sbfi_thinness *of) {
 }
 
 static sbfi_lattice_outcome make_lattice(sbfi_lattice *lattice, const sbf_soft_body *body,
-    const sbfi_lattice_recipe *recipe, sbfi_thinness *thinness, sbfi_lattice_progress progress,
-    sbfi_arena *scratch) {
+    const sbfi_lattice_recipe *recipe, sbfi_thinness *thinness, sbfi_progress progress, sbfi_arena *scratch) {
   sbfi_soup soup;
   sbfi_winding winding;
   if (!sbfi_soup_make(&soup, &body->surface, scratch) || !sbfi_winding_make(&winding, &soup, scratch))
@@ -62,8 +61,8 @@ static bool weigh(sbf_level *level, const sbf_soft_body *body, double volume, sb
 }
 
 sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_body *body,
-    const sbfi_lattice_recipe *recipe, sbf_asset *asset, sbfi_lattice_counts *counts,
-    sbfi_lattice_progress progress, sbfi_arena *scratch) {
+    const sbfi_lattice_recipe *recipe, sbf_asset *asset, sbfi_lattice_counts *counts, sbfi_progress progress,
+    sbfi_arena *scratch) {
   sbfi_lattice lattice;
   sbf_level_init(level);
   *counts = (sbfi_lattice_counts){.tetrahedra = 0};

@@ -27,7 +27,7 @@ typedef struct sbfi_lattice_counts {
  * lattice_pins.h says. Masses are left to the rule of sbf_level_masses. A lattice without tetrahedra leaves
  * the level without points. Lists are memory of `asset`. */
 sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_body *body,
-    const sbfi_lattice_recipe *recipe, sbf_asset *asset, sbfi_lattice_counts *counts,
-    sbfi_lattice_progress progress, sbfi_arena *scratch);
+    const sbfi_lattice_recipe *recipe, sbf_asset *asset, sbfi_lattice_counts *counts, sbfi_progress progress,
+    sbfi_arena *scratch);
 
 #endif

@@ -9,10 +9,6 @@ static const double small_share = 1e-3;
 /* Of the load, that may stay unbalanced. */
 static const double small_tolerance = 1e-4, fall_tolerance = 1e-4;
 
-static bool ask(sbfi_lattice_progress progress, double done) {
-  return !progress.call || progress.call(progress.user, done);
-}
-
 static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
   sbf_vec3 g = asset->environment.gravity;
   double size = sqrt((double)g.x * g.x + (double)g.y * g.y + (double)g.z * g.z);
@@ -21,7 +17,7 @@ static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
 }
 
 static sbfi_lattice_outcome measure(
-    sbfi_reference *r, bool falls, sbfi_lattice_progress progress, sbfi_arena *scratch) {
+    sbfi_reference *r, bool falls, sbfi_progress progress, sbfi_arena *scratch) {
   size_t numbers = 3 * (size_t)r->statics.body->surface.positions.count;
   double lowest = sbfi_level_lowest(&r->statics, scratch);
   if (!(lowest > 0)) return SBFI_LATTICE_MADE;
@@ -31,7 +27,8 @@ static sbfi_lattice_outcome measure(
     double **to[] = {&r->gives[l], &r->falls[l]};
     for (int k = 0; k < (falls ? 2 : 1); k++) {
       sbfi_rest rest;
-      if (!ask(progress, 0.5 + (l + 0.5 * k) / r->statics.load_count / 2)) return SBFI_LATTICE_CANCELLED;
+      if (!sbfi_progress_say(progress, 0.5 + (l + 0.5 * k) / r->statics.load_count / 2))
+        return SBFI_LATTICE_CANCELLED;
       *to[k] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
       if (!*to[k] || !sbfi_level_give(&r->statics, l, k ? r->fall : r->small,
                          k ? fall_tolerance : small_tolerance, *to[k], &rest, scratch))
@@ -47,7 +44,7 @@ static sbfi_lattice_outcome measure(
 }
 
 static sbfi_lattice_outcome take(sbfi_reference *r, const sbf_soft_body *body, const sbf_level *level,
-    const sbfi_interior_map *interior, bool falls, sbfi_lattice_progress progress, sbfi_arena *scratch) {
+    const sbfi_interior_map *interior, bool falls, sbfi_progress progress, sbfi_arena *scratch) {
   return sbfi_level_statics_make(&r->statics, body, level, interior, &r->arena)
              ? measure(r, falls, progress, scratch)
              : SBFI_LATTICE_NO_MEMORY;
@@ -55,7 +52,7 @@ static sbfi_lattice_outcome take(sbfi_reference *r, const sbf_soft_body *body, c
 
 sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
     const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset, bool falls,
-    sbfi_lattice_progress progress, const sbf_allocator *allocator) {
+    sbfi_progress progress, const sbf_allocator *allocator) {
   sbfi_arena scratch;
   *reference = (sbfi_reference){.fall = fall_of(asset, body)};
   sbfi_arena_init(&reference->arena, allocator, 0);
@@ -66,7 +63,7 @@ sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_so
 }
 
 sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_soft_body *body,
-    const sbf_asset *asset, bool falls, sbfi_lattice_progress progress, const sbf_allocator *allocator) {
+    const sbf_asset *asset, bool falls, sbfi_progress progress, const sbf_allocator *allocator) {
   sbfi_arena scratch;
   *reference = (sbfi_reference){.fall = fall_of(asset, body)};
   sbfi_arena_init(&reference->arena, allocator, 0);

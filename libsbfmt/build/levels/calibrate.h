@@ -31,12 +31,12 @@ typedef struct sbfi_reference {
  * `falls` is asked for. Where nothing is enclosed it is not sound. `asset` has bones and rigid bodies. To be
  * freed whatever the outcome. */
 sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_soft_body *body,
-    const sbf_asset *asset, bool falls, sbfi_lattice_progress progress, const sbf_allocator *allocator);
+    const sbf_asset *asset, bool falls, sbfi_progress progress, const sbf_allocator *allocator);
 
 /* The same of a level that is there, and stays so as long as the reference; `interior` as for a carrier. */
 sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
     const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset, bool falls,
-    sbfi_lattice_progress progress, const sbf_allocator *allocator);
+    sbfi_progress progress, const sbf_allocator *allocator);
 
 void sbfi_reference_free(sbfi_reference *reference);
 

@@ -12,7 +12,7 @@ uint32_t sbfi_ladder_lattices(uint32_t levels) {
 }
 
 void sbfi_ladder_init(sbfi_ladder *ladder, const sbf_soft_body *body, const sbfi_ladder_recipe *recipe,
-    sbf_asset *asset, sbfi_lattice_progress progress, const sbf_allocator *allocator) {
+    sbf_asset *asset, sbfi_progress progress, const sbf_allocator *allocator) {
   *ladder = (sbfi_ladder){
       .body = body, .recipe = recipe, .asset = asset, .progress = progress, .allocator = allocator};
 }
@@ -34,7 +34,7 @@ static sbfi_lattice_outcome make_reference(sbfi_ladder *l) {
 /* Compares the level, where there is something to compare it with. */
 static sbfi_lattice_outcome measure(
     sbfi_ladder *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
-  if (l->progress.call && !l->progress.call(l->progress.user, 1)) return SBFI_LATTICE_CANCELLED;
+  if (!sbfi_progress_say(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
   return sbfi_level_calibrate(
              level, l->body, interior, &l->reference, l->recipe->tick, l->asset, calibration, l->allocator)
              ? SBFI_LATTICE_MADE
@@ -125,7 +125,8 @@ static sbfi_lattice_outcome add_lattices(sbfi_ladder *l) {
 
 static sbfi_lattice_outcome add_springs(sbfi_ladder *l, sbfi_interior_map *map, sbfi_arena *arena) {
   sbf_level *level = &l->levels[l->level_count];
-  const sbfi_spring_recipe recipe = {SBFI_INTERIOR_CENTROID, 0, l->recipe->flexion, l->recipe->derivation};
+  const sbfi_spring_recipe recipe = {SBFI_INTERIOR_CENTROID, 0, l->recipe->flexion, l->recipe->derivation,
+      sbfi_progress_part(l->progress, 0.9, 1)};
   sbfi_spring_counts counts;
   if (!sbfi_spring_level_make(level, l->body, &recipe, l->asset, map, &counts, arena))
     return SBFI_LATTICE_NO_MEMORY;

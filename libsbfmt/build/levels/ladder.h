@@ -20,7 +20,7 @@ typedef struct sbfi_ladder {
   const sbf_soft_body *body;
   const sbfi_ladder_recipe *recipe;
   sbf_asset *asset; /* under construction */
-  sbfi_lattice_progress progress;
+  sbfi_progress progress;
   const sbf_allocator *allocator;
   bool has_reference;
   sbfi_reference reference;
@@ -36,7 +36,7 @@ uint32_t sbfi_ladder_lattices(uint32_t levels);
 
 /* Everything stays the caller's. To be freed whatever comes of it. */
 void sbfi_ladder_init(sbfi_ladder *ladder, const sbf_soft_body *body, const sbfi_ladder_recipe *recipe,
-    sbf_asset *asset, sbfi_lattice_progress progress, const sbf_allocator *allocator);
+    sbf_asset *asset, sbfi_progress progress, const sbf_allocator *allocator);
 void sbfi_ladder_free(sbfi_ladder *ladder);
 
 /* About how many tetrahedra the coarsest lattice has that meets the recipe's error when calibrated, in steps

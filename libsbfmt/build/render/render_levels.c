@@ -96,19 +96,19 @@ static float no_less(double value) {
   return (double)near < value ? nextafterf(near, INFINITY) : near;
 }
 
-static sbfi_outcome measure(leveller *l, sbf_render_level *level, sbfi_progress progress) {
+static bool measure(leveller *l, sbf_render_level *level, sbfi_progress progress) {
   sbf_polygon_mesh coarse = l->mesh->mesh;
   coarse.polygon_sizes = level->polygon_sizes;
   coarse.polygon_points = level->polygon_points;
   sbfi_triangle_tree tree;
   double distance;
-  if (!sbfi_triangle_tree_build(&tree, &coarse, l->scratch)) return SBFI_NO_MEMORY;
-  sbfi_outcome outcome = sbfi_surface_distance(&distance, &l->full, &tree, progress);
+  if (!sbfi_triangle_tree_build(&tree, &coarse, l->scratch)) return false;
+  if (!sbfi_surface_distance(&distance, &l->full, &tree, progress)) return false;
   level->error = no_less(distance);
-  return outcome;
+  return true;
 }
 
-static sbfi_outcome make_levels(leveller *l, sbf_render_mesh *mesh, const sbfi_render_recipe *recipe,
+static bool make_levels(leveller *l, sbf_render_mesh *mesh, const sbfi_render_recipe *recipe,
     sbf_render_level *levels, sbfi_progress progress) {
   uint32_t level_count = 0;
   uint32_t full = mesh->mesh.polygon_points.count - 2 * mesh->mesh.polygon_sizes.count, before = full;
@@ -118,45 +118,43 @@ static sbfi_outcome make_levels(leveller *l, sbf_render_mesh *mesh, const sbfi_r
     uint32_t target = full >> (n + 1);
     simplified made;
     if (target < FEWEST_TRIANGLES) break;
-    if (!sbfi_progress_say(part, 0)) return SBFI_CANCELLED;
-    if (!simplify_by_rules(l, target, &made)) return SBFI_NO_MEMORY;
+    if (!sbfi_progress_say(part, 0)) return false;
+    if (!simplify_by_rules(l, target, &made)) return false;
     if (made.triangle_count < FEWEST_TRIANGLES || made.triangle_count > LEAST_STEP * before) break;
     sbf_render_level_init(level);
     level->derived = recipe->derivation;
-    if (!fill_level(l, &made, level)) return SBFI_NO_MEMORY;
-    sbfi_outcome outcome = measure(l, level, sbfi_progress_part(part, 0.3, 1));
-    if (outcome != SBFI_DONE) return outcome;
+    if (!fill_level(l, &made, level)) return false;
+    if (!measure(l, level, sbfi_progress_part(part, 0.3, 1))) return false;
     if (recipe->error > 0 && (double)level->error > recipe->error) break;
     before = made.triangle_count;
     mesh->levels = (sbf_render_level_list){levels, ++level_count};
   }
-  return SBFI_DONE;
+  return true;
 }
 
-static sbfi_outcome level_mesh(sbf_render_mesh *mesh, const sbfi_render_recipe *recipe, sbf_asset *asset,
+static bool level_mesh(sbf_render_mesh *mesh, const sbfi_render_recipe *recipe, sbf_asset *asset,
     sbfi_progress progress, const sbf_allocator *allocator) {
   sbfi_arena arena;
   sbfi_arena_init(&arena, allocator, 0);
   leveller l = {.mesh = mesh, .asset = asset, .scratch = &arena};
   sbf_render_level *levels = sbf_asset_allocate(asset, recipe->levels, sizeof *levels);
-  sbfi_outcome outcome = SBFI_NO_MEMORY;
-  if (levels && sbfi_triangle_tree_build(&l.full, &mesh->mesh, &arena))
-    outcome = make_levels(&l, mesh, recipe, levels, progress);
+  bool good = levels && sbfi_triangle_tree_build(&l.full, &mesh->mesh, &arena) &&
+              make_levels(&l, mesh, recipe, levels, progress);
   sbfi_arena_free(&arena);
-  return outcome;
+  return good;
 }
 
-sbfi_outcome sbfi_render_levels_make(sbf_asset *asset, const sbfi_render_recipe *recipe, uint32_t *made,
+bool sbfi_render_levels_make(sbf_asset *asset, const sbfi_render_recipe *recipe, uint32_t *made,
     sbfi_progress progress, sbfi_arena *scratch) {
-  sbfi_outcome outcome = SBFI_DONE;
+  bool good = true;
   uint32_t count = asset->render_meshes.count;
-  for (uint32_t i = 0; i < count && recipe->levels && outcome == SBFI_DONE; i++) {
+  for (uint32_t i = 0; i < count && recipe->levels && good; i++) {
     /* The caller says that the asset's structs may be written to. */
     sbf_render_mesh *mesh = (sbf_render_mesh *)(uintptr_t)&asset->render_meshes.at[i];
     if (mesh->levels.count || mesh->mesh.polygon_sizes.count == 0) continue;
-    outcome = level_mesh(mesh, recipe, asset,
-        sbfi_progress_part(progress, (double)i / count, (i + 1.0) / count), &scratch->allocator);
+    good = level_mesh(mesh, recipe, asset, sbfi_progress_part(progress, (double)i / count, (i + 1.0) / count),
+        &scratch->allocator);
     *made += mesh->levels.count;
   }
-  return outcome;
+  return good;
 }

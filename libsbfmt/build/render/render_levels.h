@@ -23,8 +23,9 @@ typedef struct sbfi_render_recipe {
  * of fewer than 32 triangles.
  *
  * `error` of each is Hausdorff's distance from the full mesh at rest. `*made` grows by how many there are.
- * Which triangles they have is up to meshoptimizer's version. */
-sbfi_outcome sbfi_render_levels_make(sbf_asset *asset, const sbfi_render_recipe *recipe, uint32_t *made,
+ * Which triangles they have is up to meshoptimizer's version. False where memory runs out or `progress` ends
+ * it. */
+bool sbfi_render_levels_make(sbf_asset *asset, const sbfi_render_recipe *recipe, uint32_t *made,
     sbfi_progress progress, sbfi_arena *scratch);
 
 #endif

@@ -74,8 +74,9 @@ static bool points_of_bone(const sbf_asset *asset, int32_t bone, sbf_vec3_list *
 }
 
 static bool fill_authored(hull_list *list, sbf_asset *asset, int32_t derivation, sbfi_reporter *reporter,
-    uint32_t *made, sbfi_arena *scratch) {
+    uint32_t *made, sbfi_progress progress, sbfi_arena *scratch) {
   for (uint32_t i = 0; i < list->authored_count; i++) {
+    if (!sbfi_progress_say(progress, (double)i / list->authored_count)) return false;
     sbf_rigid_body *body = &list->at[i];
     sbf_vec3_list points;
     sbf_polygon_mesh hull;
@@ -92,8 +93,9 @@ static bool fill_authored(hull_list *list, sbf_asset *asset, int32_t derivation,
 }
 
 static bool make_own(hull_list *list, sbf_asset *asset, int32_t derivation, sbfi_ids *ids,
-    sbfi_reporter *reporter, uint32_t *made, sbfi_arena *scratch) {
+    sbfi_reporter *reporter, uint32_t *made, sbfi_progress progress, sbfi_arena *scratch) {
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
+    if (!sbfi_progress_say(progress, (double)b / asset->soft_bodies.count)) return false;
     const sbf_soft_body *body = &asset->soft_bodies.at[b];
     sbf_polygon_mesh hull;
     if (body->bone == SBF_NONE || has_authored_body(list, body->bone) || body->surface.positions.count == 0)
@@ -113,7 +115,7 @@ static bool make_own(hull_list *list, sbf_asset *asset, int32_t derivation, sbfi
 }
 
 bool sbfi_section_hulls_make(sbf_asset *asset, int32_t derivation, sbfi_ids *ids, sbfi_reporter *reporter,
-    uint32_t *made, sbfi_arena *scratch) {
+    uint32_t *made, sbfi_progress progress, sbfi_arena *scratch) {
   uint32_t authored = asset->rigid_bodies.count;
   size_t most = (size_t)authored + asset->soft_bodies.count;
   *made = 0;
@@ -121,8 +123,9 @@ bool sbfi_section_hulls_make(sbf_asset *asset, int32_t derivation, sbfi_ids *ids
   hull_list list = {sbf_asset_allocate(asset, most, sizeof *list.at), authored, authored};
   if (!list.at) return false;
   if (authored) memcpy(list.at, asset->rigid_bodies.at, authored * sizeof *list.at);
-  if (!fill_authored(&list, asset, derivation, reporter, made, scratch) ||
-      !make_own(&list, asset, derivation, ids, reporter, made, scratch))
+  if (!fill_authored(
+          &list, asset, derivation, reporter, made, sbfi_progress_part(progress, 0, 0.5), scratch) ||
+      !make_own(&list, asset, derivation, ids, reporter, made, sbfi_progress_part(progress, 0.5, 1), scratch))
     return false;
   asset->rigid_bodies = (sbf_rigid_body_list){list.count ? list.at : NULL, list.count};
   return true;

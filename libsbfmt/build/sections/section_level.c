@@ -195,8 +195,8 @@ static bool add_springs(work *w) {
 }
 
 sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_body *body,
-    const sbfi_section_recipe *recipe, sbf_asset *asset, sbfi_section_counts *counts,
-    sbfi_lattice_progress progress, sbfi_arena *scratch) {
+    const sbfi_section_recipe *recipe, sbf_asset *asset, sbfi_section_counts *counts, sbfi_progress progress,
+    sbfi_arena *scratch) {
   work w = {
       .level = level, .body = body, .recipe = recipe, .asset = asset, .scratch = scratch, .counts = counts};
   sbfi_soup soup;

@@ -26,7 +26,7 @@ typedef struct sbfi_section_counts {
  * out, for they are no second model. A surface that encloses next to nothing, as a sheet does, leaves
  * the level without points. */
 sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_body *body,
-    const sbfi_section_recipe *recipe, sbf_asset *asset, sbfi_section_counts *counts,
-    sbfi_lattice_progress progress, sbfi_arena *scratch);
+    const sbfi_section_recipe *recipe, sbf_asset *asset, sbfi_section_counts *counts, sbfi_progress progress,
+    sbfi_arena *scratch);
 
 #endif

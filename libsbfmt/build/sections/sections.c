@@ -108,7 +108,7 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
   return body->id != NULL;
 }
 
-static bool make_bodies(work *w, double overlap_m) {
+static bool make_bodies(work *w, double overlap_m, sbfi_progress progress) {
   uint32_t bones = w->asset->bones.count;
   sbfi_section_cutter cutter = {.skin = &w->skin, .t = &w->t, .labels = w->labels, .overlap_m = overlap_m};
   uint8_t *used = sbfi_arena_allocate(w->scratch, (size_t)bones + 1, 1);
@@ -116,8 +116,11 @@ static bool make_bodies(work *w, double overlap_m) {
   if (!used || !w->made->bodies || !sbfi_section_cutter_init(&cutter, bones, w->scratch)) return false;
   for (uint32_t p = 0; p < w->t.polygon_count; p++)
     if (w->labels[p] != SBFI_NO_INDEX) used[w->labels[p]] = 1;
-  for (uint32_t b = 0; b < bones; b++)
-    if (used[b] && !make_body(w, &cutter, b, &w->made->bodies[w->made->count++])) return false;
+  for (uint32_t b = 0; b < bones; b++) {
+    if (!used[b]) continue;
+    if (!sbfi_progress_say(progress, (double)b / bones)) return false;
+    if (!make_body(w, &cutter, b, &w->made->bodies[w->made->count++])) return false;
+  }
   return true;
 }
 
@@ -285,7 +288,7 @@ bool sbfi_section_owners_find(const uint32_t **owners, const sbf_asset *asset, s
 }
 
 bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,
-    sbfi_ids *ids, sbfi_reporter *reporter, sbfi_arena *scratch) {
+    sbfi_ids *ids, sbfi_reporter *reporter, sbfi_progress progress, sbfi_arena *scratch) {
   work w = {.asset = asset,
       .made = made,
       .ids = ids,
@@ -300,6 +303,6 @@ bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m,
   made->blends = sbfi_arena_allocate(scratch, meshes, sizeof *made->blends);
   made->mixes_of_blends = sbfi_arena_allocate(scratch, meshes, sizeof *made->mixes_of_blends);
   if (!made->blends || !made->mixes_of_blends) return false;
-  if (!make_bodies(&w, overlap_m) || !smooth_blends(&w)) return false;
-  return make_all_blends(&w) && measure_reaches(&w);
+  if (!make_bodies(&w, overlap_m, sbfi_progress_part(progress, 0.2, 0.6)) || !smooth_blends(&w)) return false;
+  return sbfi_progress_say(progress, 0.8) && make_all_blends(&w) && measure_reaches(&w);
 }

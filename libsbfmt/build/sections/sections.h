@@ -3,6 +3,7 @@
 #define SBFI_SECTIONS_H
 
 #include "base/diagnostic.h"
+#include "base/progress.h"
 #include "build/unique_id.h"
 #include "sbfmt/asset.h"
 
@@ -35,9 +36,10 @@ typedef struct sbfi_sections {
  *
  * A section is what the asset's section_recipes say, of several for a bone the last. Without one its modulus
  * is 80 kPa, or as much as it takes for a column as high as the section to strain by a
- * twentieth under its own weight: a character of any size keeps its shape. */
+ * twentieth under its own weight: a character of any size keeps its shape. False where memory runs out or
+ * `progress` ends it. */
 bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,
-    sbfi_ids *ids, sbfi_reporter *reporter, sbfi_arena *scratch);
+    sbfi_ids *ids, sbfi_reporter *reporter, sbfi_progress progress, sbfi_arena *scratch);
 
 /* For each bone, the one whose section carries what it holds (section_merge.h), in memory of `scratch`; NULL
  * where nothing is to be cut. False where memory runs out. */

@@ -188,8 +188,8 @@ static bool make_stiffness_of_all(const work *w, float *stiffness) {
   double modulus = w->body->attributes.young_modulus;
   if (w->measures.sheet)
     return make_network(w, SBF_STIFFNESS_SHEET * modulus, volumes, ends, next, stiffness);
-  return sbfi_springs_matched(
-      modulus, w->level->positions.at, w->point_count, volumes, ends, next, stiffness, w->scratch);
+  return sbfi_springs_matched(modulus, w->level->positions.at, w->point_count, volumes, ends, next, stiffness,
+      sbfi_progress_part(w->recipe->progress, 0.5, 1), w->scratch);
 }
 
 /* `stiffness` receives structural, shear, flexion and internal, one after the other. */
@@ -330,7 +330,8 @@ static bool make_interior(work *w) {
     w->deep_count = w->interior.point_count;
     break;
   case SBFI_INTERIOR_LATTICE:
-    if (!sbfi_springs_lattice(&lattice, &body->surface, body->interior.count, w->recipe->cell, w->scratch))
+    if (!sbfi_springs_lattice(&lattice, &body->surface, body->interior.count, w->recipe->cell,
+            sbfi_progress_part(w->recipe->progress, 0, 0.5), w->scratch))
       return false;
     if (lattice.point_count == 0) break;
     w->interior = (sbfi_centroid_interior){lattice.points, lattice.point_count, NULL, lattice.internal};

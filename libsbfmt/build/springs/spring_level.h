@@ -3,6 +3,7 @@
 #define SBFI_SPRING_LEVEL_H
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "sbfmt/asset.h"
 
 typedef enum sbfi_spring_interior {
@@ -16,7 +17,8 @@ typedef struct sbfi_spring_recipe {
   sbfi_spring_interior interior;
   double cell; /* m, of the lattice; 0: by the polygons */
   bool flexion;
-  int32_t derivation; /* what the parts made are marked with */
+  int32_t derivation;     /* what the parts made are marked with */
+  sbfi_progress progress; /* zeros: nobody asks */
 } sbfi_spring_recipe;
 
 /* What was made of one body. */
@@ -46,7 +48,8 @@ typedef struct sbfi_interior_map {
  * mass; all springs of a level with a lattice, and of a brute one, are one network in stiffness.
  *
  * Stiffness in N/m by sbfmt/mechanics.h, stated for each spring; damping too where a weight map scales the
- * body's stiffness_damping. False where memory runs out. */
+ * body's stiffness_damping. False where memory runs out or the recipe's
+ * progress ends it. */
 bool sbfi_spring_level_make(sbf_level *level, const sbf_soft_body *body, const sbfi_spring_recipe *recipe,
     sbf_asset *asset, sbfi_interior_map *map, sbfi_spring_counts *counts, sbfi_arena *scratch);
 

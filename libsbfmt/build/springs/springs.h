@@ -3,6 +3,7 @@
 #ifndef SBFI_SPRINGS_H
 #define SBFI_SPRINGS_H
 
+#include "base/progress.h"
 #include "build/geometry/topology.h"
 
 typedef struct sbfi_spring_list {
@@ -57,9 +58,9 @@ typedef struct sbfi_lattice_interior {
 } sbfi_lattice_interior;
 
 /* `cell` 0: by the length of the polygons' sides, and finer where that leaves no node inside. No points where
- * none are inside, or the grid would be too fine. */
+ * none are inside, or the grid would be too fine. False where memory runs out or `progress` ends it. */
 bool sbfi_springs_lattice(sbfi_lattice_interior *interior, const sbf_polygon_mesh *mesh, uint32_t given,
-    double cell, sbfi_arena *arena);
+    double cell, sbfi_progress progress, sbfi_arena *arena);
 
 /* All pairs of the first `count` points that are no spring of `known` yet, in the order of their numbers. */
 bool sbfi_springs_brute(

@@ -22,6 +22,7 @@ typedef struct work {
   uint32_t *points; /* (node_count) of nodes kept; SBFI_NO_INDEX else */
   uint32_t *nodes;  /* of the points */
   uint32_t count;
+  sbfi_progress progress;
   sbfi_arena *arena;
 } work;
 
@@ -62,6 +63,7 @@ static bool number_nodes(work *w, sbfi_lattice_interior *interior) {
   for (uint32_t n = 0; n < w->grid.node_count; n++) {
     w->points[n] = SBFI_NO_INDEX;
     if (!w->inside[n]) continue;
+    if (!sbfi_progress_step(sbfi_progress_part(w->progress, 0.2, 0.5), next, w->count)) return false;
     depths[next] = INFINITY;
     sbfi_triangle_tree_nearest(&w->tree, place_of(w, n), &depths[next]);
     if (depths[next] > deepest) deepest = depths[next];
@@ -150,6 +152,8 @@ static bool join_surface(const work *w, const sbf_vec3 *interior, uint32_t first
   enum { MOST_NEAR = 256 };
   neighbour near[MOST_NEAR];
   for (uint32_t i = 0; i < w->mesh->positions.count; i++) {
+    if (!sbfi_progress_step(sbfi_progress_part(w->progress, 0.5, 0.8), i, w->mesh->positions.count))
+      return false;
     sbf_vec3 point = w->mesh->positions.at[i];
     uint32_t joined = 0;
     for (int round = 0; round < 2 && joined == 0; round++) {
@@ -184,6 +188,7 @@ static bool join_border(const work *w, const sbf_vec3 *interior, uint32_t first,
   if (!sbfi_pair_set_init(&known, springs->count + 3 * (size_t)w->count, w->arena)) return false;
   for (size_t i = 0; i < springs->count; i++) sbfi_pair_set_add(&known, at[i].at[0], at[i].at[1], 0);
   for (uint32_t i = 0; i < w->count; i++) {
+    if (!sbfi_progress_step(sbfi_progress_part(w->progress, 0.8, 1), i, w->count)) return false;
     if (!lacks_neighbour(w, w->nodes[i])) continue;
     double least = INFINITY;
     uint32_t triangle = sbfi_triangle_tree_nearest(&w->tree, interior[i], &least);
@@ -228,22 +233,23 @@ static bool make(work *w, sbfi_lattice_interior *interior, uint32_t given) {
 }
 
 bool sbfi_springs_lattice(sbfi_lattice_interior *interior, const sbf_polygon_mesh *mesh, uint32_t given,
-    double cell, sbfi_arena *arena) {
+    double cell, sbfi_progress progress, sbfi_arena *arena) {
   sbfi_soup soup;
   sbfi_winding winding;
   sbfi_array crossings;
   *interior = (sbfi_lattice_interior){.cell = cell > 0 ? cell : usual_cell(mesh)};
   if (!sbfi_soup_make(&soup, mesh, arena) || !sbfi_winding_make(&winding, &soup, arena)) return false;
   if (soup.triangle_count == 0 || !(interior->cell > 0)) return true;
-  work w = {.mesh = mesh, .arena = arena};
+  work w = {.mesh = mesh, .progress = progress, .arena = arena};
   if (!sbfi_triangle_tree_build(&w.tree, mesh, arena)) return false;
   bool good = true;
   sbfi_array_init(&crossings, &arena->allocator, sizeof(sbfi_lattice_crossing));
   for (int halving = 0; good && w.count == 0 && halving <= MOST_HALVINGS; halving++) {
     if (halving > 0) interior->cell /= 2;
     crossings.count = 0;
+    good = sbfi_progress_say(progress, 0.04 * halving);
     if (!sbfi_lattice_grid_fit(&w.grid, soup.low, soup.high, interior->cell)) break;
-    good = find_nodes(&w, &winding, &crossings);
+    good = good && find_nodes(&w, &winding, &crossings);
     if (cell > 0) break;
   }
   sbfi_array_free(&crossings);

@@ -86,11 +86,15 @@ static void match(const work *w, uint32_t point, double energy, double *parts) {
 }
 
 bool sbfi_springs_matched(double modulus, const sbf_vec3 *positions, uint32_t point_count,
-    const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, float *stiffness, sbfi_arena *arena) {
+    const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, float *stiffness,
+    sbfi_progress progress, sbfi_arena *arena) {
   work w = {.positions = positions, .ends = ends, .point_count = point_count, .spring_count = spring_count};
   double *parts = sbfi_arena_allocate(arena, (size_t)spring_count + 1, sizeof *parts);
   if (!parts || !index_springs(&w, arena)) return false;
-  for (uint32_t i = 0; i < point_count; i++) match(&w, i, 6 * modulus * (double)volumes[i], parts);
+  for (uint32_t i = 0; i < point_count; i++) {
+    if (!sbfi_progress_step(progress, i, point_count)) return false;
+    match(&w, i, 6 * modulus * (double)volumes[i], parts);
+  }
   for (uint32_t s = 0; s < spring_count; s++) {
     uint32_t a = ends[s].at[0], b = ends[s].at[1];
     double length = w.lengths[s];

@@ -3,6 +3,7 @@
 #define SBFI_SPRINGS_MATCHED_H
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "sbfmt/base.h"
 
 /* A spring of stiffness k, length L and direction n answers the small strain e with k L^2 (n.e.n)^2 / 2;
@@ -17,8 +18,9 @@
  * one of that length.
  *
  * `modulus` is E in Pa; `volumes` (point_count) in m^3. Writes `stiffness` (spring_count) in N/m; springs
- * without length get 0. Memory of `arena`; false where it runs out. */
+ * without length get 0. Memory of `arena`; false where it runs out or `progress` ends it. */
 bool sbfi_springs_matched(double modulus, const sbf_vec3 *positions, uint32_t point_count,
-    const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, float *stiffness, sbfi_arena *arena);
+    const float *volumes, const sbf_uint2 *ends, uint32_t spring_count, float *stiffness,
+    sbfi_progress progress, sbfi_arena *arena);
 
 #endif
