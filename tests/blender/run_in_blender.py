@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Runs tests/blender/test_NAME.py inside a Blender, with the add-on as its zip installs it. Exits 77 where there is none.
 
-    run_in_blender.py [--root FOLDER] [--library FILE]... NAME...
+    run_in_blender.py [--root FOLDER] [--library FILE]... [--program SBFMT] NAME...
 
 --root names a folder that holds another system with its Blender; what the tests need is copied into it (root only).
 --library files go into the zip, first the library itself, then what it rests on; without any the add-on does without.
+--program makes bundles of the examples, and of real characters where ../shared/data has them, for the tests of import.
 """
 
 import argparse
@@ -41,6 +42,21 @@ def lay_out(folder, libraries):
     shutil.copytree(HERE, os.path.join(folder, "tests"), ignore=shutil.ignore_patterns("__pycache__", "*.txt"))
 
 
+EXAMPLES = {"lizard": ("examples/lizard/lizard.obj", "--rig", "examples/lizard/lizard.glb"), "calf": ("examples/calf/calf.glb", ),
+            "pup": ("examples/pup/pup.glb", ), "spider": ("examples/spider/spider.glb", ),
+            "fox": ("../shared/data/fox/Fox.glb", "--unit", "0.01"), "armadillo": ("../shared/data/armadillo/armadillo.obj", )}
+
+
+def make_bundles(folder, program):
+    os.makedirs(folder)
+    for name, words in EXAMPLES.items():
+        if os.path.exists(os.path.join(ROOT, words[0])):
+            subprocess.run([program, "convert", *words, "-o", os.path.join(folder, f"{name}.sbf")], check=True, cwd=ROOT,
+                           stderr=subprocess.DEVNULL)
+    for name in ("everything.sbf", "jelly.sbf"):
+        shutil.copy(os.path.join(ROOT, "spec", "samples", "valid", name), folder)
+
+
 def environment(folder):
     """Nothing of the user's own Blender, nor of another Python on the path; the library's companions are found beside it."""
     inside = os.path.join(folder, "scripts", "addons", "soft_body_format", "sbfmt", "lib")
@@ -53,6 +69,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--root", default="")
     parser.add_argument("--library", action="append", default=[])
+    parser.add_argument("--program", default="")
     parser.add_argument("names", nargs="+")
     asked = parser.parse_args()
     root = asked.root.rstrip("/")
@@ -63,6 +80,8 @@ def main():
         libraries += needed_libraries(libraries[0])
     with tempfile.TemporaryDirectory(dir=f"{root}/tmp" if root else None) as folder:
         lay_out(folder, libraries)
+        if asked.program:
+            make_bundles(os.path.join(folder, "tests", "bundles"), asked.program)
         inside = folder[len(root):]
         command = ["/usr/sbin/chroot", root] if root else []
         command += ["blender", "--background", "--factory-startup", "--python-exit-code", "3", "--python",

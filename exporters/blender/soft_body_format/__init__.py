@@ -11,9 +11,9 @@ bl_info = {
 }
 
 from . import panels, settings  # noqa: E402
-from .operators import export  # noqa: E402
+from .operators import export, import_bundle  # noqa: E402
 
-PARTS = (settings, panels, export)
+PARTS = (settings, panels, export, import_bundle)
 
 
 def register():

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
+from .. import memory
 from ..findings import Findings
 from ..finishing import finish
 from ..to_document import Options, SceneWriter
@@ -55,8 +56,11 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
             return {"CANCELLED"}
         options = Options(self.selected_only, self.collection, self.apply_modifiers, self.textures,
                           os.path.dirname(os.path.abspath(self.filepath)))
-        asset = SceneWriter(context, options, findings).write()
-        written = not findings.errors and finish(asset, self.filepath, self.build, findings)
+        writer = SceneWriter(context, options, findings)
+        now, known = writer.write(), memory.recall(writer.objects)
+        asset = memory.merge_documents(*known, now) if known else now
+        changed = not known or asset != known[0]
+        written = not findings.errors and finish(asset, self.filepath, self.build and changed, findings)
         findings.show(self)
         if not written:
             return {"CANCELLED"}

@@ -33,6 +33,8 @@ class SBFMT_PT_object(ObjectPanel, bpy.types.Panel):
         layout.prop(source.soft_body_format, "role")
         if source.soft_body_format.role == "AUTO":
             layout.label(text=f"Exported as: {shown_role(source).capitalize()}", icon="INFO")
+        if role_of(source) not in (RENDER, COLLISION, IGNORE):
+            layout.prop(source.soft_body_format, "simulation_only")
 
 
 class SBFMT_PT_material(BodyPanel, bpy.types.Panel):

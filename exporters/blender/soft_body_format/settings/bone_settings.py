@@ -3,7 +3,7 @@
 import math
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 KINDS = (
     ("NONE", "None", "As the rig's constraints and IK limits say, if they do"),
@@ -51,6 +51,8 @@ class SBFMT_PG_joint(bpy.types.PropertyGroup):
 
 
 class SBFMT_PG_bone(bpy.types.PropertyGroup):
+    identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
+    order: IntProperty(options={"HIDDEN"}, description="Place in that file, from 1; 0: it is new")
     joint: PointerProperty(type=SBFMT_PG_joint)
 
 

@@ -48,6 +48,10 @@ class SBFMT_PG_object(bpy.types.PropertyGroup):
     own_values: BoolProperty(
         name="Values of this panel", default=False,
         description="Use the numbers below instead of those of the object's soft body or cloth modifier")
+    simulation_only: BoolProperty(name="Simulation only", default=False,
+                                  description="Soft, but not seen: another mesh is carried by it")
+    mesh_identity: StringProperty(options={"HIDDEN"}, description="Id of the render mesh in the file it was imported from")
+    body_identity: StringProperty(options={"HIDDEN"}, description="Id of the body in the file it was imported from")
     attributes: PointerProperty(type=SBFMT_PG_attributes)
     particle_radius: FloatProperty(name="Point radius (m)", default=0.01, min=0, soft_max=0.1, precision=4)
     outer_thickness: FloatProperty(name="Outer thickness (m)", default=0.005, min=0, soft_max=0.1, precision=4)

@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatPrope
 class SBFMT_PG_leg(bpy.types.PropertyGroup):
     """One leg: a chain of bones from the hip to the foot."""
 
+    identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
     root: StringProperty(name="First bone", description="Thigh or upper arm")
     end: StringProperty(name="Foot", description="Last bone; its head is what steps")
     group: IntProperty(name="Group", default=0, min=0, soft_max=7, description="Feet of one group may be in the air together")
@@ -25,6 +26,7 @@ class SBFMT_PG_leg(bpy.types.PropertyGroup):
 class SBFMT_PG_tail(bpy.types.PropertyGroup):
     """A chain that lags behind the body and overshoots."""
 
+    identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
     root: StringProperty(name="First bone")
     end: StringProperty(name="Last bone", description="Empty: to the end of the chain")
     frequency: FloatProperty(name="Frequency (Hz)", default=1.2, min=0.01, soft_max=10)
@@ -35,6 +37,7 @@ class SBFMT_PG_tail(bpy.types.PropertyGroup):
 class SBFMT_PG_follower(bpy.types.PropertyGroup):
     """A bone that follows its own animation as a spring does."""
 
+    identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
     bone: StringProperty(name="Bone")
     channel: EnumProperty(name="What follows", default="rotation", items=(
         ("rotation", "Rotation", ""), ("position", "Position", ""), ("both", "Both", "")))
@@ -47,6 +50,7 @@ class SBFMT_PG_follower(bpy.types.PropertyGroup):
 class SBFMT_PG_gait(bpy.types.PropertyGroup):
     """Scene > Soft body format > Gait."""
 
+    identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
     use: BoolProperty(name="Walks", default=False, description="Write a gait")
     armature: PointerProperty(name="Armature", type=bpy.types.Object, poll=lambda _self, one: one.type == "ARMATURE")
     body: StringProperty(name="Body", description="The bone on which the rest hangs in a walk: it travels with the character")

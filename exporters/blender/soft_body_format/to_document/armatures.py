@@ -15,17 +15,18 @@ class Skeleton:
 
 
 def parents_first(bones):
-    """Blender keeps them so, except after some edits."""
-    order = []
+    """Imported bones in their file's order, so that numbers stay what they were; then the others."""
+    known = sorted((bone for bone in bones if bone.soft_body_format.order), key=lambda bone: bone.soft_body_format.order)
+    order, done = [], set()
 
-    def visit(bone):
-        order.append(bone)
-        for child in bone.children:
-            visit(child)
+    def put(bone):
+        if bone is not None and bone.name not in done:
+            put(bone.parent)
+            done.add(bone.name)
+            order.append(bone)
 
-    for bone in bones:
-        if bone.parent is None:
-            visit(bone)
+    for bone in known + list(bones):
+        put(bone)
     return order
 
 
@@ -39,7 +40,7 @@ def write_bones(asset, armature, space, identifiers, skeleton):
     scale = space.unit_m * world.median_scale
     for bone in parents_first(armature.data.bones):
         key = (armature.name, bone.name)
-        skeleton.ids[key] = identifiers.of("bone", key, bone.name)
+        skeleton.ids[key] = identifiers.of("bone", key, bone.name, bone.soft_body_format.identity)
         skeleton.numbers[key] = len(asset.bones)
         frame = world @ bone.matrix_local
         asset.add("bones", id=skeleton.ids[key], name=bone.name, head=space.point(frame.translation),

@@ -10,6 +10,9 @@ class GaitWriter:
         self.writer, self.gait, self.armature = writer, gait, gait.armature
         self.bones = gait.armature.data.bones
 
+    def id(self, kind, settings, name):
+        return self.writer.identifiers.of(kind, name, name, settings.identity)
+
     def fault(self, message, bone=""):
         self.writer.findings.error(f"{message}, in Scene > Soft body format > Gait", object_name=self.armature.name, bone_name=bone)
 
@@ -40,7 +43,7 @@ class GaitWriter:
             self.fault("the armature of the gait is not exported: export it too")
             return
         body = self.bone(gait.body or self.bones[0].name, "the body")
-        record = writer.asset.add("gaits", id=writer.identifiers.new("gait", self.armature.name), name=self.armature.name, body=body,
+        record = writer.asset.add("gaits", id=self.id("gait", self.gait, self.armature.name), name=self.armature.name, body=body,
                                   hips=self.optional(gait.hips, "the hips"), chest=self.optional(gait.chest, "the chest"))
         for name in ("step_height", "step_width", "step_trigger"):
             setattr(record, name, getattr(gait, name) * writer.space.unit_m)
@@ -53,7 +56,7 @@ class GaitWriter:
         for tail in gait.tails:
             self.tail(record, tail)
         for follower in gait.followers:
-            writer.asset.add("followers", id=writer.identifiers.new("follower", follower.bone),
+            writer.asset.add("followers", id=self.id("follower", follower, follower.bone),
                              bone=self.bone(follower.bone, "a follower"), channel=follower.channel,
                              frequency=follower.frequency, damping_ratio=follower.damping_ratio, response=follower.response)
 
@@ -63,7 +66,7 @@ class GaitWriter:
         if bones is None:
             return
         foot = self.armature.matrix_world @ bones[-1].head_local
-        chain = writer.asset.add("ik_chains", id=writer.identifiers.new("ik", leg.end), name=leg.end, solver=leg.solver,
+        chain = writer.asset.add("ik_chains", id=self.id("ik", leg, leg.end), name=leg.end, solver=leg.solver,
                                  root=writer.skeleton.id(self.armature, leg.root), end=writer.skeleton.id(self.armature, leg.end))
         if leg.use_pole:
             chain.has_pole, chain.pole = True, writer.space.point(Vector(leg.pole))
@@ -84,7 +87,7 @@ class GaitWriter:
         if bones is None:
             return
         writer = self.writer
-        chain = writer.asset.add("chains", id=writer.identifiers.new("chain", tail.root), name=tail.root, kind="lag",
+        chain = writer.asset.add("chains", id=self.id("chain", tail, tail.root), name=tail.root, kind="lag",
                                  bones=[writer.skeleton.number(self.armature, one.name) for one in bones])
         record.tails.append(Record("tail", chain=chain.id, frequency=tail.frequency, damping_ratio=tail.damping_ratio,
                                    limit=tail.limit))

@@ -17,10 +17,15 @@ class Identifiers:
         self.taken.add(wanted)
         return wanted
 
-    def of(self, kind, key, name):
-        """The id of a thing, given when it is first asked for. `key` tells things of one name apart."""
+    def of(self, kind, key, name, imported=""):
+        """The id of a thing, given when it is first asked for: the one it was imported with, unless a copy has that already.
+        `key` tells things of one name apart."""
         if (kind, key) not in self.given:
-            self.given[kind, key] = self.new(kind, name)
+            if imported and imported not in self.taken:
+                self.taken.add(imported)
+                self.given[kind, key] = imported
+            else:
+                self.given[kind, key] = self.new(kind, name)
         return self.given[kind, key]
 
     def known(self, kind, key):

@@ -93,12 +93,19 @@ class SceneWriter:
                                       object_name=source.name)
                 return
             geometry = Geometry(source, mesh, self.space)
-            record = self.write_render_mesh(source, mesh, geometry, role)
+            if not source.soft_body_format.simulation_only or role == RENDER:
+                self.write_render_mesh(source, mesh, geometry, role)
             if role in (SECTION, SOFT):
                 self.write_body(source, geometry)
 
+    def mesh_id(self, source):
+        return self.identifiers.of("mesh", source.name, source.name, source.soft_body_format.mesh_identity)
+
+    def body_id(self, source):
+        return self.identifiers.of("body", source.name, source.name, source.soft_body_format.body_identity)
+
     def write_render_mesh(self, source, mesh, geometry, role):
-        record = self.asset.add("render_meshes", id=self.identifiers.of("mesh", source.name, source.name), name=source.name)
+        record = self.asset.add("render_meshes", id=self.mesh_id(source), name=source.name)
         fill_polygons(record.mesh, geometry, "rendering")
         fill_normals(record, geometry, source, self.space)
         fill_uv_sets(record, geometry)
@@ -110,7 +117,6 @@ class SceneWriter:
         held = self.holder(source)
         if held is not None and role == RENDER and record.skin is None:
             record.bone = held
-        return record
 
     def fill_materials(self, record, source, geometry):
         slots = [slot.material for slot in source.material_slots]
@@ -145,7 +151,7 @@ class SceneWriter:
         return self.skeleton.id(*held) if held else None
 
     def write_body(self, source, geometry):
-        body = self.asset.add("soft_bodies", id=self.identifiers.of("body", source.name, source.name), name=source.name)
+        body = self.asset.add("soft_bodies", id=self.body_id(source), name=source.name)
         fill_polygons(body.surface, geometry, "surface")
         body.bone = self.holder(source)
         settings, soft, layer = source.soft_body_format, self.soft[source.name], self.cloth[source.name]

@@ -1,10 +1,19 @@
 """How the format's elements are described: `elements.py`, generated from spec/sbf.schema, consists of these."""
 
+import struct
 from collections import namedtuple
 
 # Scalars in one item of a list or a vector.
 WIDTHS = {"vec2": 2, "vec3": 3, "vec4": 4, "quat": 4, "uint2": 2, "uint4": 4}
 CHILDREN = ("one", "optional", "many")
+
+
+def binary32(value):
+    """The number, or the tuple of numbers, that a float of the format holds."""
+    numbers = value if isinstance(value, tuple) else (value, )
+    rounded = struct.unpack(f"{len(numbers)}f", struct.pack(f"{len(numbers)}f", *numbers))
+    return rounded if isinstance(value, tuple) else rounded[0]
+
 
 FieldBase = namedtuple("FieldBase", "name type argument default required xml wrapper suffix by fixed volatile")
 
@@ -17,6 +26,8 @@ class Field(FieldBase):
 
     def __new__(cls, name, type_, argument=None, *, default=None, required=False, xml=None, wrapper=None, suffix=None, by=None,
                 fixed=None, volatile=False):
+        if isinstance(default, (float, tuple)):
+            default = binary32(default)
         return super().__new__(cls, name, type_, argument, default, required, xml, wrapper, suffix, by, fixed, volatile)
 
     @property

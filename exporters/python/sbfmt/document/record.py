@@ -3,6 +3,7 @@
 from array import array
 
 from .elements import ELEMENTS, ENUMS
+from .fields import binary32
 
 
 class Record:
@@ -48,6 +49,9 @@ class Record:
             value = tuple(float(number) for number in value)
             if len(value) != field.width:
                 raise ValueError(f"{self._element.name}.{name} takes {field.width} numbers, not {len(value)}")
+            value = binary32(value)
+        elif field.type == "float":
+            value = binary32(float(value))
         self._values[name] = value
 
     def __delattr__(self, name):
@@ -82,6 +86,10 @@ class Record:
         else:
             self._values[name] = child
         return child
+
+    def put(self, name, value):
+        """Sets a field of any kind to what another record of the same element has there."""
+        self._values[self.field(name).name] = value
 
     def find(self, name, identity):
         """The record of a `many` that has this id, or None."""

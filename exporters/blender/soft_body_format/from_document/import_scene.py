@@ -1,0 +1,78 @@
+"""A document as Blender objects: an armature, the meshes, their settings; and what an export needs to give the rest back."""
+
+import bpy
+
+from .. import memory
+from ..findings import Findings
+from ..space import Space
+from ..to_document import Options, SceneWriter
+from . import import_bones, import_meshes, import_settings
+
+
+class SceneMaker:
+    def __init__(self, context, document, name, folder, findings):
+        self.context, self.document, self.folder, self.findings = context, document, folder, findings
+        self.space = Space.of_scene(context.scene)
+        self.collection = bpy.data.collections.new(name)
+        self.armature, self.names = None, {}
+
+    def make(self):
+        self.context.scene.collection.children.link(self.collection)
+        found = import_bones.make_armature(self.document, self.space, self.collection, self.context)
+        if found:
+            self.armature, self.names = found
+            import_bones.fill_joints(self.document, self.armature, self.names)
+        materials = import_meshes.make_materials(self.document, self.folder, self.findings)
+        self.make_meshes(materials)
+        import_settings.fill_gait(self.context.scene, self.document, self.armature, self.names, self.space)
+        self.context.view_layer.update()
+        untouched = SceneWriter(self.context, Options(collection=self.collection.name), Findings()).write()
+        memory.keep(self.collection, self.document, untouched)
+
+    def make_meshes(self, materials):
+        """One object for a body and the render mesh of the same shape; a body that a build derived is no object."""
+        bodies = {body.id: body for body in self.document.soft_bodies if not body.derived}
+        for record in self.document.render_meshes:
+            if record.derived:
+                continue
+            body = self.twin(record, bodies)
+            self.make_object(record, bodies.pop(body.id) if body else None, materials)
+        for body in bodies.values():
+            self.make_object(None, body, materials)
+
+    @staticmethod
+    def twin(record, bodies):
+        return next((body for body in bodies.values() if body.surface.positions == record.mesh.positions and
+                     body.surface.polygon_points == record.mesh.polygon_points and
+                     body.surface.polygon_sizes == record.mesh.polygon_sizes), None)
+
+    def make_object(self, record, body, materials):
+        source = record or body
+        polygons = record.mesh if record else body.surface
+        mesh = import_meshes.make_mesh(source.name or source.id, polygons, self.space)
+        if record:
+            import_meshes.fill_uv_sets(mesh, record)
+            import_meshes.fill_materials(mesh, record, materials)
+            import_meshes.fill_normals(mesh, record, self.space)
+        made = bpy.data.objects.new(source.name or source.id, mesh)
+        self.collection.objects.link(made)
+        settings = made.soft_body_format
+        settings.role, settings.mesh_identity, settings.simulation_only = "RENDER", record.id if record else "", record is None
+        if record:
+            import_meshes.fill_shape_keys(made, record, self.space)
+            if record.skin is not None and self.armature is not None:
+                import_meshes.fill_skin(made, record, [self.names[bone.id] for bone in self.document.bones])
+                made.parent = self.armature
+                made.modifiers.new("Armature", "ARMATURE").object = self.armature
+        if body:
+            import_settings.fill_body(made, body, self.armature, self.names)
+        self.hang(made, body.bone if body else record.bone)
+
+    def hang(self, made, bone):
+        """Parents to a bone and keeps the place."""
+        if not bone or made.parent is not None:
+            return
+        world = made.matrix_world.copy()
+        made.parent, made.parent_type, made.parent_bone = self.armature, "BONE", self.names[bone]
+        self.context.view_layer.update()
+        made.matrix_world = world

@@ -1,0 +1,85 @@
+"""Import and export again: an equal model, and what was changed in between is changed."""
+
+import glob
+import os
+
+import bpy
+import fixtures
+from soft_body_format import sbfmt
+from soft_body_format.operators.import_bundle import read_document
+
+BUNDLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bundles")
+
+
+class RoundTrip(fixtures.SceneTest):
+    def import_(self, path):
+        self.assertEqual(bpy.ops.import_scene.soft_body_format(filepath=path), {"FINISHED"})
+
+    def bundle(self, name):
+        path = os.path.join(BUNDLES, name)
+        if not os.path.exists(path):
+            self.skipTest(f"{name} is not there")
+        return path
+
+    def test_every_bundle_comes_back_equal(self):
+        for path in sorted(glob.glob(os.path.join(BUNDLES, "*.sbf*"))):
+            with self.subTest(os.path.basename(path)):
+                fixtures.fresh_scene()
+                self.import_(path)
+                self.export("again.sbf", textures="EMBED")
+                with sbfmt.load(path) as one, sbfmt.load(self.path("again.sbf")) as other:
+                    self.assertIsNone(one.equals(other))
+
+    def test_a_saved_scene_still_knows(self):
+        path = self.bundle("lizard.sbf")
+        self.import_(path)
+        bpy.ops.wm.save_as_mainfile(filepath=self.path("scene.blend"))
+        bpy.ops.wm.open_mainfile(filepath=self.path("scene.blend"))
+        self.export("again.sbf")
+        with sbfmt.load(path) as one, sbfmt.load(self.path("again.sbf")) as other:
+            self.assertIsNone(one.equals(other))
+
+    def test_what_was_changed_is_changed_and_nothing_else(self):
+        path = self.bundle("lizard.sbf")
+        before = read_document(path)
+        self.import_(path)
+        head = bpy.data.objects["Head"]
+        head.data.vertices[5].co.z += 0.25
+        head.soft_body_format.attributes.young_modulus = 12345
+        bpy.data.objects["Chest"].name = "thorax"
+        gait = self.scene.soft_body_format.gait
+        gait.step_height = 0.0625
+        after = self.export("again.sbf", build=False)
+        moved = [i for i, (a, b) in enumerate(zip(before.find("soft_bodies", "body.Head").surface.positions,
+                                                  after.find("soft_bodies", "body.Head").surface.positions)) if abs(a - b) > 1e-6]
+        self.assertEqual(moved, [16])
+        self.assertAlmostEqual(after.find("soft_bodies", "body.Head").attributes.young_modulus, 12345)
+        self.assertEqual(after.find("soft_bodies", "body.Chest").name, "thorax")
+        self.assertAlmostEqual(after.gaits[0].step_height, 0.0625)
+        self.assertEqual(after.bones, before.bones)
+        self.assertEqual(after.find("soft_bodies", "body.Pelvis"), before.find("soft_bodies", "body.Pelvis"))
+
+    def test_what_was_taken_away_is_gone(self):
+        self.import_(self.bundle("lizard.sbf"))
+        bpy.data.objects.remove(bpy.data.objects["Tail5"])
+        after = self.export("again.sbf", build=False)
+        self.assertIsNone(after.find("soft_bodies", "body.Tail5"))
+        self.assertIsNotNone(after.find("soft_bodies", "body.Tail4"))
+
+    def test_objects_are_there(self):
+        self.import_(self.bundle("lizard.sbf"))
+        rig = next(one for one in bpy.data.objects if one.type == "ARMATURE")
+        self.assertEqual(bpy.data.objects["Head"].parent_bone, "head")
+        self.assertAlmostEqual(rig.data.bones["head"].length, 0.229264, places=5)
+        self.assertEqual(len(self.scene.soft_body_format.gait.legs), 4)
+        self.assertEqual(rig.data.bones["spine"].soft_body_format.joint.kind, "spherical")
+
+    def test_a_broken_file_is_refused_in_blenders_way(self):
+        with open(self.path("bad.sbf"), "w", encoding="utf-8") as file:
+            file.write("<sbf version='1.0'><bone/></sbf>")
+        objects = len(bpy.data.objects)
+        with self.assertRaisesRegex(RuntimeError, "bad.sbf"):
+            bpy.ops.import_scene.soft_body_format(filepath=self.path("bad.sbf"))
+        with self.assertRaisesRegex(RuntimeError, "can't be read|cannot"):
+            bpy.ops.import_scene.soft_body_format(filepath=self.path("missing.sbf"))
+        self.assertEqual(len(bpy.data.objects), objects)
