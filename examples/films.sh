@@ -20,6 +20,6 @@ film() {
 names=$*
 film pup 62,14 4.5
 film caterpillar 58,20 4
-film yeti 40,12 4.5
+film yeti 60,12 5
 film spider 38,24 3.5
 film snake 32,30 4.2

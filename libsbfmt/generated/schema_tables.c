@@ -593,8 +593,10 @@ static const sbfi_field pose_fields[] = {
   {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pose, name), .width = 1, .unit = "", .default_text = ""},
   {.name = "distance", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pose, distance), .width = 1, .unit = "m"},
   {.name = "keys", .type = SBFI_MANY, .number = 4, .since_minor = 0, .offset = offsetof(sbf_pose, keys), .width = 1, .unit = "", .element = &pose_key_element, .xml = "pose_key"},
+  {.name = "speed", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_pose, speed), .width = 1, .unit = "m/s", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "mirrored", .type = SBFI_BOOL, .number = 6, .since_minor = 0, .offset = offsetof(sbf_pose, mirrored), .width = 1, .unit = "", .default_integer = 0},
 };
-static const sbfi_element pose_element = {"pose", "pose", sizeof(sbf_pose), 0, 4, pose_fields, NULL};
+static const sbfi_element pose_element = {"pose", "pose", sizeof(sbf_pose), 0, 6, pose_fields, NULL};
 
 static const sbfi_length bone_mask_bones_index = {1, {{SBFI_TERM_COUNT, -1, offsetof(sbf_asset, bones)}}, "asset.bones"};
 static const sbfi_length bone_mask_weights_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_bone_mask, bones)}}, "bones"}};

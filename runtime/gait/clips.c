@@ -1,8 +1,6 @@
-/* The pose under the gait: bones against their parents, at rest, from clips that are played, from poses keyed
- * by the distance walked. */
+/* The pose under the gait: bones against their parents, at rest, from poses keyed by the distance walked, from
+ * clips that are played. */
 #include "gait/gait_state.h"
-
-static const float FULL_AT = 0.5f; /* of the walking speed: from here on a walk of poses counts fully */
 
 static sbf_quat quat_at(const float *v) {
   return sbri_quat_normalize((sbf_quat){v[0], v[1], v[2], v[3]});
@@ -73,46 +71,6 @@ static void play_clip(const sbri_rig *rig, const sbri_clip_layer *layer, sbr_tra
   }
 }
 
-/* ---- Poses by distance ---- */
-
-static void add_pose(const sbri_rig *rig, const sbf_pose *pose, float weight, sbr_transform *locals) {
-  for (uint32_t k = 0; k < pose->keys.count; k++) {
-    const sbf_pose_key *key = &pose->keys.at[k];
-    const sbr_transform *rest = &rig->rest_local[key->bone];
-    sbr_transform *local = &locals[key->bone];
-    local->position = sbri_lerp(local->position, sbri_add(rest->position, key->translation), weight);
-    sbf_quat to = sbri_quat_multiply(rest->rotation, sbri_quat_normalize(key->rotation));
-    local->rotation = sbri_quat_blend(local->rotation, to, weight);
-  }
-}
-
-/* The nearest pose at or before, and at or after, a distance in the cycle. */
-static void walk_poses(
-    const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
-  const sbf_pose_list *poses = &rig->asset->poses;
-  const sbf_pose *before = NULL, *after = NULL, *last = NULL;
-  for (uint32_t i = 0; i < poses->count; i++)
-    if (poses->at[i].distance > 0 && (!last || poses->at[i].distance > last->distance)) last = &poses->at[i];
-  if (!last) return;
-  double cycle = (double)last->distance, walked = state->distance_m / (double)scale;
-  float s = (float)(walked - cycle * (double)(int64_t)(walked / cycle)), from = 0;
-  for (uint32_t i = 0; i < poses->count; i++) {
-    const sbf_pose *p = &poses->at[i];
-    if (!(p->distance > 0)) continue;
-    if (p->distance <= s && (!before || p->distance > before->distance)) before = p;
-    if (p->distance > s && (!after || p->distance < after->distance)) after = p;
-  }
-  if (before) from = before->distance;
-  if (!after) after = last;
-  if (!before) before = last; /* the last one is that at 0, too */
-  float usual = (rig->gait ? rig->gait->walk_speed : 0.5f) * FULL_AT * scale;
-  float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways) * state->pace;
-  float weight = sbri_clamp(speed / usual, 0, 1), t = (s - from) / (after->distance - from);
-  if (weight <= 0) return;
-  add_pose(rig, before, weight, locals);
-  add_pose(rig, after, weight * sbri_clamp(t, 0, 1), locals);
-}
-
 void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s) {
   for (uint32_t l = 0; l < SBRI_CLIP_LAYERS; l++) {
     sbri_clip_layer *layer = &state->clips[l];
@@ -135,7 +93,7 @@ void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s) 
 
 void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
   for (uint32_t i = 0; i < rig->bone_count; i++) locals[i] = rig->rest_local[i];
-  walk_poses(rig, state, scale, locals);
+  sbri_walk_pose(rig, state, scale, locals);
   for (uint32_t l = 0; l < SBRI_CLIP_LAYERS; l++)
     if (state->clips[l].clip_plus_1 && state->clips[l].weight > 0) play_clip(rig, &state->clips[l], locals);
 }

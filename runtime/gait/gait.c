@@ -86,6 +86,7 @@ static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   state->heading = sbri_wrap_angle(state->heading + turned);
   sbri_sincos(state->heading, &state->heading_sine, &state->heading_cosine);
   state->distance_m += (double)sbri_length(step);
+  sbri_walk_tick(rig, state, sbri_length(step), input->scale);
   return turned;
 }
 

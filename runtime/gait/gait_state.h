@@ -52,6 +52,11 @@ typedef struct sbri_gait_state {
   sbr_transform root;            /* of the last stance, and its turns */
   float hips_yaw, chest_yaw;
   double distance_m;
+  float walk_phase; /* of the walks of poses: share of the cycle, from 0 to below 1 */
+  float walk_ahead; /* by how much of a cycle that is ahead of the feet, as far as it is to be made up */
+  float walk_half_m,
+      walk_since_m;     /* asset metres: between the last two landings; 0: not known; since the last */
+  uint32_t walk_landed; /* 1, 2: which of the two legs came down last; 0: none */
   sbri_lag head_yaw;
   uint32_t foot_count, tail_bone_count;
   sbri_clip_layer clips[SBRI_CLIP_LAYERS];
@@ -233,6 +238,12 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
 void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s);
 /* Every bone against its parent before the gait: place in asset metres, rotation. */
 void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals);
+
+/* ---- gait/walk_poses.c ---- */
+
+/* `walked_m`: in this tick. */
+void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m, float scale);
+void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals);
 
 /* ---- gait/limbs.c ---- */
 

@@ -52,6 +52,8 @@ static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *
 static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
     float scale, sbr_transform *pose) {
   sbf_vec3 up = sbri_rotate(stance->root.rotation, UP);
+  bool animated = rig->walks.walk_count > 0; /* by more than the gait, which keeps limits itself */
+  for (int l = 0; l < SBRI_CLIP_LAYERS; l++) animated = animated || state->clips[l].clip_plus_1;
   for (uint32_t i = 0; i < rig->bone_count; i++) {
     const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &stance->root;
     sbf_vec3 offset = sbri_scale(pose[i].position, scale); /* against its parent so far */
@@ -70,7 +72,7 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
       break;
     default:
       pose[i].rotation = sbri_quat_normalize(is);
-      if (state->clips[0].clip_plus_1 || rig->asset->poses.count) limit_bone(rig, i, parent, pose);
+      if (animated) limit_bone(rig, i, parent, pose);
       continue;
     }
     pose[i].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, is));

@@ -17,7 +17,7 @@ size_t sbri_rig_size(const sbf_asset *asset) {
   return rounded(n * sizeof(int32_t)) + 2 * rounded(n * sizeof(sbr_transform)) + rounded(n * sizeof(float)) +
          rounded(tail_count(asset) * sizeof(sbri_tail)) + rounded(n) + rounded(n * sizeof(sbri_joint_limit)) +
          3 * rounded(n * sizeof(uint32_t)) + rounded(n * sizeof(sbri_bone_mass)) +
-         rounded(asset->chains.count * sizeof(sbri_bone_chain)) + 16;
+         rounded(asset->chains.count * sizeof(sbri_bone_chain)) + rounded(sbri_walks_size(asset)) + 16;
 }
 
 static void *carve(char **memory, size_t size) {
@@ -221,6 +221,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   init_chains(rig, chains);
   find_carriers(rig);
   find_roles(rig, roles);
+  sbri_walks_init(&rig->walks, rig, carve(&free_memory, sbri_walks_size(asset)));
 }
 
 void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose) {

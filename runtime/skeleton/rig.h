@@ -7,6 +7,7 @@
 
 #include "ik/joint_limit.h"
 #include "sbrun/sbrun.h"
+#include "skeleton/rig_walks.h"
 
 /* What a foot stands on, from its middle: left (+x), right, toe (+z), heel; m. */
 typedef struct sbri_sole {
@@ -83,6 +84,7 @@ typedef struct sbri_rig {
   uint32_t tail_count, tail_bone_count;
   const sbri_bone_chain *chains;
   uint32_t chain_count, chain_bone_count;
+  sbri_walks walks;
   float hind_z, fore_z; /* mean z of the homes of hind and fore legs, asset space */
   float half_width;     /* mean |x| of the homes */
   float reach;          /* mean of the legs' lengths, m */

@@ -431,6 +431,8 @@ pose
   name: string
   distance: float
   keys: many(pose_key) as=<pose_key>
+  speed: float range=[0,inf)
+  mirrored: bool default=false
 pose_key
   bone: ref(bones) required
   translation: vec3

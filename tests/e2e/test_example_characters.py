@@ -1,9 +1,13 @@
 """The characters of examples/: converted without a warning, valid, and moving as their scripts say."""
 
 import os
+import statistics
+import subprocess
+import sys
 import unittest
 
-from sbfmt_program import ROOT, ProgramTest, main
+from motion_files import read_poses
+from sbfmt_program import PROGRAM, ROOT, ProgramTest, main
 
 # legs; what is allowed at half a leg length a second: change of a knee's speed (degrees), slip (m; a yeti's feet are soft,
 # without its flesh they do not slip at all)
@@ -32,6 +36,23 @@ class Characters(ProgramTest):
                 self.assertGreaterEqual(min(report["steps_taken"].values()), 3, name)
                 self.assertEqual(len(report["steps_taken"]), WALKERS[name][0])
                 self.assertLessEqual(report["limit_excess"], 0.02, name)
+
+    def test_the_yeti_swings_its_arms_against_its_legs(self):
+        path, out = self.path("yeti.sbf"), self.path("p.csv")
+        maker = os.path.join(ROOT, "examples", "yeti", "make_bundle.py")
+        subprocess.run([sys.executable, "-B", maker, PROGRAM, path], capture_output=True, check=True)
+        report = self.json_of("validate", path)
+        self.assertEqual((report["errors"], report["warnings"]), (0, 0))
+        for speed, least in ((0.6, 0.5), (0.9, 0.5)):
+            report = self.json_of("run", path, "--seconds", "6", "--drive", f"{speed},0", "--pose", out)
+            self.assertTrue(report["valid"])
+            self.assertEqual(report["skate_ratio"], 0)
+            poses = read_poses(out)[0]
+            # how far the left one is ahead of the right one, of hands and of feet, along +Z
+            hands, feet = ([poses[i][f"{bone}.L"][2] - poses[i][f"{bone}.R"][2] for i in range(150, 360)]
+                           for bone in ("hand", "foot"))
+            self.assertGreater(max(hands) - min(hands), least)
+            self.assertLess(statistics.correlation(hands, feet), -0.7)
 
     def test_they_walk_within_the_figures_on_flat_ground(self):
         for name, (_, knee, slip) in WALKERS.items():

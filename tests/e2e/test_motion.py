@@ -1,11 +1,14 @@
 """`sbfmt convert --motion`: clips of another skeleton, carried over to the one at hand."""
 
+import math
 import os
+import subprocess
+import sys
 import unittest
 
 from bundle_file import Bundle
 from bvh_file import Bvh
-from sbfmt_program import ProgramTest, ROOT, SHARED, main, read_bytes, shared
+from sbfmt_program import PROGRAM, ProgramTest, ROOT, SHARED, call, main, read_bytes, shared, write_bytes
 
 CMU = shared("mocap", "cmu_01_01.bvh")
 FRAMES = (0, 600, 1200, 2400)
@@ -94,6 +97,98 @@ class MotionCapture(ProgramTest):
             lengths = [sum((a - b) ** 2 for a, b in zip(place(pose[bone]), place(pose[parent])))
                        for pose in (frames, bundle.rest)]
             self.assertAlmostEqual(lengths[0], lengths[1], places=5)
+
+
+CHAINS = {"spine": ("Hips", "LowerBack", "Spine", "Spine1"), "head": ("Neck1", "Head"),
+          **{f"arm_{side.lower()}": (side + "Arm", side + "ForeArm", side + "Hand") for side in ("Left", "Right")},
+          **{f"leg_{side.lower()}": (side + "UpLeg", side + "Leg", side + "Foot") for side in ("Left", "Right")}}
+
+
+@unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
+class NamedChains(ProgramTest):
+    """A recorded walk on the example yeti, twice as broad and with legs a third as long for its height, whose bones have
+    names that mean nothing: chains of one name are all that the two skeletons share."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        if not PROGRAM:
+            return
+        cls.recorded, cls.yeti = (os.path.join(cls.class_folder.name, name) for name in ("recorded.sbf", "yeti.sbf"))
+        call("convert", "--no-build", CMU, "-o", cls.recorded)
+        source = Bundle(cls.recorded)
+        names = source.bone_names()
+        chains = "".join(f'<retarget_chain id="c{i}" name="{name}"><bones>{" ".join(str(names.index(b)) for b in bones)}'
+                         "</bones></retarget_chain>" for i, (name, bones) in enumerate(CHAINS.items()))
+        cls.rewrite(cls.recorded, "</sbf>", f"<retarget_chains>{chains}</retarget_chains></sbf>")
+        plain = os.path.join(cls.class_folder.name, "plain.sbf")
+        maker = os.path.join(ROOT, "examples", "yeti", "make_bundle.py")
+        subprocess.run([sys.executable, "-B", maker, PROGRAM, plain], capture_output=True, check=True)
+        cls.names = Bundle(plain).bone_names()
+        for i, name in enumerate(cls.names):
+            cls.rewrite(plain, f'<bone id="bone.{name}" name="{name}"', f'<bone id="bone.{name}" name="b{i}"')
+        cls.said = call("convert", plain, "--motion", cls.recorded, "-o", cls.yeti).err
+
+    @staticmethod
+    def rewrite(path, old, new):
+        with open(path, encoding="utf-8") as stream:
+            text = stream.read()
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(text.replace(old, new))
+
+    def at(self, moved, recorded, name, other):
+        return moved[self.names.index(name)], recorded[1][recorded[0].index(other)]
+
+    def frames(self):
+        ours, theirs = Bundle(self.yeti), Bundle(self.recorded)
+        tracks, own = ours.tracks(ours.clips[-1]), theirs.tracks(theirs.clips[0])
+        for frame in range(0, 2700, 60):
+            time_s = frame * Bvh(CMU).frame_time
+            yield ours.pose(tracks, time_s), (theirs.bone_names(), theirs.pose(own, time_s))
+
+    def test_joints_point_where_the_recorded_ones_point(self):
+        pairs = [(f"{bone}.{side[0]}", side + other) for side in ("Left", "Right") for bone, other in
+                 (("upper_arm", "Arm"), ("forearm", "ForeArm"), ("thigh", "UpLeg"), ("shin", "Leg"))]
+        for moved, recorded in self.frames():
+            for name, other in pairs:
+                a, b = self.at(moved, recorded, name, other)
+                self.assertGreater(dot(direction(a), direction(b)), 1 - 1e-4, name)
+
+    def test_feet_that_stand_still_stand(self):
+        ours, theirs = Bundle(self.yeti), Bundle(self.recorded)
+        tracks, own, names = ours.tracks(ours.clips[-1]), theirs.tracks(theirs.clips[0]), theirs.bone_names()
+        tick, stood = Bvh(CMU).frame_time, 0
+        for frame in range(0, 2700, 30):
+            moved = [ours.pose(tracks, (frame + k) * tick) for k in (0, 8)]
+            recorded = [theirs.pose(own, (frame + k) * tick) for k in (0, 8)]
+            for side in ("Left", "Right"):
+                def gone(poses, bones, foot, thigh, knee):
+                    places = [[place(pose[bones.index(b)]) for b in (foot, thigh, knee)] for pose in poses]
+                    leg = math.dist(places[0][0], places[0][2]) + math.dist(places[0][1], places[0][2])
+                    return math.dist(places[0][0], places[1][0]) / leg
+                if gone(recorded, names, side + "Foot", side + "UpLeg", side + "Leg") < 0.008:
+                    stood += 1
+                    self.assertLess(gone(moved, self.names, *(f"{b}.{side[0]}" for b in ("foot", "thigh", "shin"))), 0.05)
+        self.assertGreaterEqual(stood, 30)
+
+    def test_under_the_gait_its_feet_stand(self):
+        clip = len(Bundle(self.yeti).clips) - 1
+        script = write_bytes(self.path("s.txt"), f"0 play {clip} 1 0.3\n0.5 drive 0.3 0.2\n".encode())
+        report = self.json_of("run", self.yeti, "--seconds", "5", "--script", script)
+        self.assertTrue(report["valid"])
+        self.assertGreaterEqual(min(report["steps_taken"].values()), 2)
+        self.assertLessEqual(report["stance_slip"], 0.012)  # of soft feet, under a wild clip
+        self.assertEqual(report["skate_ratio"], 0)
+
+    def test_names_would_not_have_done(self):
+        self.assertIn("bones follow", self.said)
+        plain = self.path("plain.sbf")
+        with open(self.yeti, encoding="utf-8") as stream:
+            text = stream.read()
+        start, end = text.index("<retarget_chains>"), text.index("</retarget_chains>") + len("</retarget_chains>")
+        write_bytes(plain, (text[:start] + text[end:]).encode())
+        self.assertIn("IMPORT_MOTION_NONE", self.fails(1, "convert", "--no-build", plain, "--motion", self.recorded, "-o",
+                                                      self.path("out.sbf")))
 
 
 class Calls(ProgramTest):

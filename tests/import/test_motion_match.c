@@ -92,6 +92,28 @@ START_TEST(chains_come_first)
 }
 END_TEST
 
+START_TEST(chains_tell_parts_that_names_do_not)
+{
+  static const char *const names[] = {"b0", "b1", "b2", "b3", "b4", "b5", "b6", "b7", NULL};
+  static const uint32_t leg[] = {1, 2, 3}, arm[] = {4, 5, 6, 7};
+  static const sbfi_part parts[] = {SBFI_PART_HIPS, SBFI_PART_THIGH, SBFI_PART_LIMB, SBFI_PART_OTHER,
+      SBFI_PART_OTHER, SBFI_PART_LIMB, SBFI_PART_LIMB, SBFI_PART_HAND};
+  const sbf_retarget_chain chains[] = {{.id = "l", .name = "left_leg", .bones = {leg, 3}},
+      {.id = "a", .name = "ArmRight", .bones = {arm, 4}}};
+  sbf_asset *a = skeleton(names), *b = skeleton(names);
+  for (uint32_t i = 1; i < 8; i++) ((sbf_bone *)(uintptr_t)b->bones.at)[i].parent = 0;
+  b->retarget_chains = (sbf_retarget_chain_list){chains, 2};
+  sbfi_bone_match matches[MOST];
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, NULL, 0);
+  ck_assert_int_eq(sbfi_match_bones(a, b, &scratch, matches), 8);
+  for (uint32_t i = 0; i < 8; i++) ck_assert_int_eq(matches[i].part, parts[i]);
+  sbfi_arena_free(&scratch);
+  sbf_asset_free(a);
+  sbf_asset_free(b);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("motion_match");
   TCase *tests = tcase_create("all");
@@ -99,6 +121,7 @@ int main(void) {
   tcase_add_test(tests, what_a_word_means_depends_on_the_others);
   tcase_add_test(tests, several_bones_of_a_part_go_by_share);
   tcase_add_test(tests, chains_come_first);
+  tcase_add_test(tests, chains_tell_parts_that_names_do_not);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

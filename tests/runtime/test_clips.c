@@ -127,40 +127,6 @@ START_TEST(feet_that_a_clip_moves_still_do_not_slide)
 }
 END_TEST
 
-START_TEST(poses_are_shown_by_the_distance_walked)
-{
-  stage s;
-  begin(&s, SBF_INTERPOLATION_LINEAR, turning, 8);
-  static const float at[2] = {0.1f, 0.2f}, angles[2] = {0.4f, -0.4f};
-  sbf_pose *poses = sbf_asset_allocate(s.q.asset, 2, sizeof *poses);
-  sbf_pose_key *keys = sbf_asset_allocate(s.q.asset, 2, sizeof *keys);
-  for (int i = 0; i < 2; i++) {
-    sbf_pose_init(&poses[i]);
-    sbf_pose_key_init(&keys[i]);
-    keys[i].bone = HEAD;
-    keys[i].rotation = sbri_quat_about(sbri_vec3(1, 0, 0), angles[i]);
-    poses[i].distance = at[i];
-    poses[i].keys = (sbf_pose_key_list){&keys[i], 1};
-  }
-  s.q.asset->poses = (sbf_pose_list){poses, 2};
-  ticks(&s, 10);
-  ck_assert_float_eq_tol(head_angle(&s), 0, 1e-4f); /* standing */
-  s.input.forward = 0.3f;
-  float most = 0, least = 0;
-  for (int i = 0; i < 240; i++) {
-    ticks(&s, 1);
-    most = fmaxf(most, head_angle(&s)), least = fminf(least, head_angle(&s));
-    if (i < 120) continue;
-    double s_in_cycle = fmod(s.state->distance_m, (double)at[1]);
-    double share = s_in_cycle < 0.1 ? s_in_cycle / 0.1 : 2 - s_in_cycle / 0.1;
-    ck_assert_float_eq_tol(head_angle(&s), (float)(-0.4 + 0.8 * share), 0.02f);
-  }
-  ck_assert_float_gt(most, 0.3f);
-  ck_assert_float_lt(least, -0.3f);
-  end(&s);
-}
-END_TEST
-
 int main(void) {
   Suite *suite = suite_create("clips");
   TCase *tests = tcase_create("all");
@@ -168,7 +134,6 @@ int main(void) {
   tcase_add_test(tests, a_clip_that_does_not_loop_stays_at_its_end);
   tcase_add_test(tests, weights_fade_and_masks_hold_back);
   tcase_add_test(tests, feet_that_a_clip_moves_still_do_not_slide);
-  tcase_add_test(tests, poses_are_shown_by_the_distance_walked);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

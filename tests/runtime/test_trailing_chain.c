@@ -124,6 +124,37 @@ START_TEST(damping_straightens_it_at_rest)
 }
 END_TEST
 
+START_TEST(links_keep_the_spacing_asked_for)
+{
+  static const float spacing[BONES] = {0.2f, 0.3f, 0.1f, 0.25f, 0.2f, 0.2f, 0.4f, 0.2f};
+  snake s;
+  begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
+  ((sbf_chain *)(uintptr_t)s.asset->chains.at)->spacing = (sbf_f32_list){spacing, BONES};
+  sbri_gait_pose(&s.rig, s.state, &s.input, true, s.pose);
+  s.input.forward = 0.4f, s.input.turn = 0.7f;
+  for (int i = 0; i < 240; i++) {
+    sbri_gait_tick(&s.rig, s.state, &s.input, s.pose, NULL, 0);
+    for (int k = 1; k < BONES; k++) {
+      float apart = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
+      ck_assert_float_eq_tol(apart, spacing[k - 1], 1e-4f);
+    }
+  }
+  end(&s);
+}
+END_TEST
+
+START_TEST(a_swimmer_keeps_its_height)
+{
+  snake s;
+  begin(&s, SBF_CHAIN_KIND_DISTANCE, 1);
+  sbri_gait_place(&s.rig, s.state, &s.input, sbri_vec3(0, 0.7f, 0), 0);
+  sbri_gait_pose(&s.rig, s.state, &s.input, true, s.pose);
+  run(&s, 2, 0.5f, 1), run(&s, 2, 0.5f, -1);
+  for (int k = 0; k < BONES; k++) ck_assert_float_eq_tol(s.pose[k].position.y, 0.8f, 1e-3f);
+  end(&s);
+}
+END_TEST
+
 START_TEST(a_lagging_chain_keeps_its_direction_for_a_while)
 {
   snake s;
@@ -158,6 +189,8 @@ int main(void) {
   tcase_add_test(tests, the_body_goes_where_the_head_went);
   tcase_add_test(tests, the_bend_is_bounded);
   tcase_add_test(tests, damping_straightens_it_at_rest);
+  tcase_add_test(tests, links_keep_the_spacing_asked_for);
+  tcase_add_test(tests, a_swimmer_keeps_its_height);
   tcase_add_test(tests, a_lagging_chain_keeps_its_direction_for_a_while);
   tcase_add_test(tests, it_lies_on_the_ground);
   suite_add_tcase(suite, tests);

@@ -54,6 +54,8 @@ START_TEST(test_poses)
   rules_expect(POSES(POSE("a", "distance=\"-1\"", KEY)), "POSE_DISTANCE /sbf/poses/pose[1]");
   rules_expect(POSES(POSE("a", "distance=\"1\"", KEY) POSE("b", "distance=\"1\"", KEY)),
       "POSE_DISTANCE /sbf/poses/pose[2]");
+  rules_expect(
+      POSES(POSE("a", "distance=\"1\"", KEY) POSE("b", "distance=\"1\" speed=\"2\"", KEY)), ""); /* a run */
 }
 END_TEST
 

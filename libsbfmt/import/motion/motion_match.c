@@ -202,6 +202,33 @@ static sbfi_part part_of(const meaning *m) {
   return is_among(m->part, limbs) ? SBFI_PART_LIMB : SBFI_PART_OTHER;
 }
 
+static bool has_hips(const sbf_asset *asset, const sbfi_bone_match *matches) {
+  for (uint32_t i = 0; i < asset->bones.count; i++)
+    if (matches[i].part == SBFI_PART_HIPS) return true;
+  return false;
+}
+
+/* What the bones of a chain called leg or arm are, where their own names do not tell: the two that swing, what
+ * comes before (a collar bone), what comes after (hand or foot). Legs hang on hips. */
+static void name_parts_by_chains(const sbf_asset *to, sbfi_bone_match *matches) {
+  for (uint32_t i = 0; i < to->retarget_chains.count; i++) {
+    const sbf_u32_list bones = to->retarget_chains.at[i].bones;
+    meaning m;
+    take_meaning(to->retarget_chains.at[i].name, &m);
+    bool leg = strcmp(m.part, "leg") == 0, arm = strcmp(m.part, "arm") == 0;
+    if (bones.count < 2 || (!leg && !arm)) continue;
+    uint32_t upper = arm && bones.count > 3 ? bones.count - 3 : 0;
+    const sbfi_part parts[3] = {leg ? SBFI_PART_THIGH : SBFI_PART_LIMB, SBFI_PART_LIMB,
+        arm ? SBFI_PART_HAND : SBFI_PART_OTHER};
+    for (uint32_t k = 0; k < 3 && upper + k < bones.count; k++) {
+      sbfi_bone_match *match = &matches[bones.at[upper + k]];
+      if (match->part == SBFI_PART_OTHER) match->part = parts[k];
+    }
+    int32_t girdle = to->bones.at[bones.at[0]].parent;
+    if (leg && girdle != SBF_NONE && !has_hips(to, matches)) matches[girdle].part = SBFI_PART_HIPS;
+  }
+}
+
 int64_t sbfi_match_bones(
     const sbf_asset *from, const sbf_asset *to, sbfi_arena *scratch, sbfi_bone_match *matches) {
   meaning *there = meanings_of(from, scratch), *here = meanings_of(to, scratch);
@@ -210,6 +237,7 @@ int64_t sbfi_match_bones(
   for (uint32_t i = 0; i < to->bones.count; i++)
     matches[i] = (sbfi_bone_match){.source = SBF_NONE, .part = part_of(&here[i])};
   match_chains(from, to, matches);
+  name_parts_by_chains(to, matches);
   match_names(from, to, matches);
   match_meanings(there, from->bones.count, here, to->bones.count, of_part, matches);
   int64_t count = 0;

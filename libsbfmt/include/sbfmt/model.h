@@ -1237,6 +1237,10 @@ typedef struct sbf_pose {
   float distance;
   /* Bones. */
   sbf_pose_key_list keys;
+  /* Of the walk that it belongs to: poses of one speed are one walk. [m/s; [0, inf)] */
+  float speed;
+  /* The walk's second half is the mirror image of its poses. [default false] */
+  bool mirrored;
 } sbf_pose;
 typedef struct sbf_pose_list {
   const sbf_pose *at;

@@ -92,7 +92,7 @@ static void check_poses(sbfi_validation *v) {
       sbfi_found(v, SBF_CODE_POSE_DISTANCE, path.text, -1, "pose '%s' stands at %.4g m", name,
           (double)pose->distance);
     for (uint32_t k = 0; k < i && pose->distance > 0; k++)
-      if (poses.at[k].distance == pose->distance)
+      if (poses.at[k].distance == pose->distance && poses.at[k].speed == pose->speed)
         sbfi_found(v, SBF_CODE_POSE_DISTANCE, path.text, -1, "poses '%s' and '%s' both stand at %.4g m",
             sbfi_label(poses.at[k].name, poses.at[k].id), name, (double)pose->distance);
     for (uint32_t k = 0; k < pose->keys.count; k++) {

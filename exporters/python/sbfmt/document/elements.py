@@ -473,6 +473,8 @@ ELEMENTS = {element.name: element for element in (
         Field('name', 'string', default=''),
         Field('distance', 'float', default=0.0),
         Field('keys', 'many', 'pose_key', xml='pose_key'),
+        Field('speed', 'float', default=0.0),
+        Field('mirrored', 'bool', default=False),
     )),
     Element('pose_key', 'pose_key', (
         Field('bone', 'ref', 'bones', required=True),

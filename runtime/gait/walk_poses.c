@@ -1,0 +1,104 @@
+/* Poses keyed by the distance walked, under the gait: the walk for the speed, or the two between which it is.
+ */
+#include "gait/gait_state.h"
+
+static const float FULL_AT = 0.5f;    /* of the walking speed: from here on a walk of poses counts fully */
+static const float CATCH_UP = 4;      /* of what a walk is out of step it makes up most in half a cycle */
+static const float MOST_CATCH = 0.5f; /* of the way it goes anyway: it never goes back, nor twice as fast */
+static const float LEAST_STEP = 0.4f,
+                   MOST_STEP = 2.5f; /* of half the poses' own cycle: what counts as a step */
+
+/* The walks below and above a speed, and how far towards the second. */
+static float between(const sbri_walks *walks, float speed, const sbri_walk **low, const sbri_walk **high) {
+  uint32_t k = 0;
+  while (k + 1 < walks->walk_count && walks->walks[k + 1].speed <= speed) k++;
+  *low = &walks->walks[k];
+  *high = &walks->walks[k + 1 < walks->walk_count ? k + 1 : k];
+  float span = (*high)->speed - (*low)->speed;
+  return span > 0 ? sbri_clamp((speed - (*low)->speed) / span, 0, 1) : 0;
+}
+
+/* In asset metres a second. */
+static float speed_of(const sbri_gait_state *state, float scale) {
+  return sqrtf(state->forward * state->forward + state->sideways * state->sideways) * state->pace / scale;
+}
+
+/* Into 0 to below 1. */
+static float wrapped(float share) {
+  share -= (float)(int32_t)share;
+  return share < 0 ? share + 1 : share;
+}
+
+/* A foot that has just come down says where in its cycle the walk ought to be, and how long half a cycle is.
+ */
+static void keep_step(const sbri_walks *walks, sbri_gait_state *state, float half_cycle_m) {
+  const int32_t legs[2] = {walks->first_leg, walks->other_leg};
+  for (int half = 0; half < 2 && legs[half] >= 0; half++) {
+    const sbri_foot *foot = &state->feet[legs[half]];
+    if (!foot->planted || foot->was_planted) continue;
+    state->walk_ahead = wrapped(state->walk_phase - 0.5f * (float)half + 0.5f) - 0.5f;
+    float gone = state->walk_since_m;
+    bool other = state->walk_landed == (uint32_t)(2 - half); /* a step of each in turn */
+    state->walk_half_m =
+        other && gone > LEAST_STEP * half_cycle_m && gone < MOST_STEP * half_cycle_m ? gone : 0;
+    state->walk_landed = (uint32_t)half + 1;
+    state->walk_since_m = 0;
+  }
+}
+
+void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m, float scale) {
+  const sbri_walks *walks = &rig->walks;
+  if (!walks->walk_count) return;
+  const sbri_walk *low, *high;
+  float t = between(walks, speed_of(state, scale), &low, &high);
+  float cycle = low->cycle_m + t * (high->cycle_m - low->cycle_m);
+  bool backwards = state->forward < 0 && -state->forward > fabsf(state->sideways);
+  walked_m /= scale;
+  state->walk_since_m += walked_m;
+  if (low->mirrored) keep_step(walks, state, 0.5f * cycle);
+  if (state->standing_s > 0) state->walk_half_m = 0, state->walk_landed = 0;
+  float share = walked_m / (low->mirrored && state->walk_half_m > 0 ? 2 * state->walk_half_m : cycle);
+  if (low->mirrored && !backwards) {
+    float most = MOST_CATCH * share, back = sbri_clamp(CATCH_UP * state->walk_ahead * share, -most, most);
+    share -= back;
+    state->walk_ahead -= back;
+  }
+  state->walk_phase = wrapped(state->walk_phase + (backwards ? -share : share));
+}
+
+/* The frames before and after a phase, and how far towards the second. */
+static float frames_at(
+    const sbri_walk *walk, float phase, const sbri_walk_frame **before, const sbri_walk_frame **after) {
+  uint32_t k = 0;
+  while (k + 1 < walk->frame_count && walk->frames[k].at <= phase) k++;
+  *after = &walk->frames[k];
+  *before = &walk->frames[k ? k - 1 : walk->frame_count - 1]; /* the last one is that at 0, too */
+  float from = k ? (*before)->at : 0;
+  return sbri_clamp((phase - from) / ((*after)->at - from), 0, 1);
+}
+
+void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
+  const sbri_walks *walks = &rig->walks;
+  float usual = (rig->gait ? rig->gait->walk_speed : 0.5f) * FULL_AT, speed = speed_of(state, scale);
+  float weight = sbri_clamp(speed / usual, 0, 1);
+  if (!walks->walk_count || weight <= 0) return;
+  const sbri_walk *pair[2];
+  const sbri_walk_frame *before[2], *after[2];
+  float share[2], faster = between(walks, speed, &pair[0], &pair[1]);
+  for (int i = 0; i < 2; i++) share[i] = frames_at(pair[i], state->walk_phase, &before[i], &after[i]);
+  for (uint32_t j = 0; j < walks->bone_count; j++) {
+    sbri_posed_bone at[2];
+    for (int i = 0; i < 2; i++) {
+      const sbri_posed_bone *a = &before[i]->bones[j], *b = &after[i]->bones[j];
+      at[i].translation = sbri_lerp(a->translation, b->translation, share[i]);
+      at[i].rotation = sbri_quat_blend(a->rotation, b->rotation, share[i]);
+    }
+    uint32_t bone = walks->bones[j];
+    sbf_quat turn = sbri_quat_blend(at[0].rotation, at[1].rotation, faster);
+    sbf_vec3 way = sbri_lerp(at[0].translation, at[1].translation, faster);
+    const sbr_transform *rest = &rig->rest_local[bone];
+    sbr_transform *local = &locals[bone];
+    local->position = sbri_lerp(local->position, sbri_add(rest->position, way), weight);
+    local->rotation = sbri_quat_blend(local->rotation, sbri_quat_multiply(rest->rotation, turn), weight);
+  }
+}

@@ -1,0 +1,156 @@
+#include "skeleton/rig_walks.h"
+
+#include "math/quat.h"
+#include "skeleton/rig.h"
+
+static const float SAME_PLACE = 0.02f; /* of the distance from the plane: so near are mirror images */
+
+static bool is_of_walk(const sbf_pose *pose) {
+  return pose->distance > 0;
+}
+
+static bool is_mirrored(const sbf_asset *asset, float speed) {
+  for (uint32_t i = 0; i < asset->poses.count; i++)
+    if (is_of_walk(&asset->poses.at[i]) && asset->poses.at[i].speed == speed && asset->poses.at[i].mirrored)
+      return true;
+  return false;
+}
+
+/* How many poses walks have, mirrored ones counted for themselves; at most. */
+static size_t frame_count(const sbf_asset *asset) {
+  size_t count = 0;
+  for (uint32_t i = 0; i < asset->poses.count; i++)
+    if (is_of_walk(&asset->poses.at[i])) count += is_mirrored(asset, asset->poses.at[i].speed) ? 2 : 1;
+  return count;
+}
+
+size_t sbri_walks_size(const sbf_asset *asset) {
+  size_t frames = frame_count(asset), n = frames ? asset->bones.count : 0;
+  size_t size = frames * (sizeof(sbri_walk) + sizeof(sbri_walk_frame)) + 2 * n * sizeof(uint32_t);
+  return size + frames * n * sizeof(sbri_posed_bone);
+}
+
+static sbf_vec3 mirrored_place(sbf_vec3 p) {
+  return sbri_vec3(-p.x, p.y, p.z);
+}
+
+/* Where the bone ends, asset space. */
+static sbf_vec3 tail_of(const sbri_rig *rig, uint32_t bone) {
+  sbf_vec3 along = {0, rig->asset->bones.at[bone].length, 0};
+  return sbri_add(rig->rest[bone].position, sbri_rotate(rig->rest[bone].rotation, along));
+}
+
+uint32_t sbri_mirror_bone(const sbri_rig *rig, uint32_t bone) {
+  sbf_vec3 head = mirrored_place(rig->rest[bone].position), tail = mirrored_place(tail_of(rig, bone));
+  float near = SAME_PLACE * (fabsf(head.x) + fabsf(tail.x) + rig->asset->bones.at[bone].length);
+  uint32_t best = bone;
+  for (uint32_t k = 0; k <= rig->bone_count; k++) {
+    uint32_t i = k ? k - 1 : bone; /* itself first: in the middle another may lie just so */
+    float off = sbri_length(sbri_sub(rig->rest[i].position, head));
+    if (off >= near) continue; /* what begins elsewhere need not be looked at closer */
+    off += sbri_length(sbri_sub(tail_of(rig, i), tail));
+    if (off < near) near = off, best = i;
+  }
+  return best;
+}
+
+/* The key of a bone as its mirror image has it: the turn in asset axes, seen in a mirror, in the other bone's
+ * axes; so with the way. */
+static sbri_posed_bone mirrored_key(const sbri_rig *rig, uint32_t from, uint32_t to, sbri_posed_bone key) {
+  sbf_quat own = rig->rest[from].rotation, other = rig->rest[to].rotation;
+  sbf_quat turn = sbri_quat_multiply(sbri_quat_multiply(own, key.rotation), sbri_quat_conjugate(own));
+  turn = (sbf_quat){turn.x, -turn.y, -turn.z, turn.w};
+  turn = sbri_quat_multiply(sbri_quat_multiply(sbri_quat_conjugate(other), turn), other);
+  sbf_vec3 way = key.translation;
+  if (rig->parents[from] >= 0) way = sbri_rotate(rig->rest[rig->parents[from]].rotation, way);
+  way = mirrored_place(way);
+  if (rig->parents[to] >= 0)
+    way = sbri_rotate(sbri_quat_conjugate(rig->rest[rig->parents[to]].rotation), way);
+  return (sbri_posed_bone){way, sbri_quat_normalize(turn)};
+}
+
+static void fill_frame(const sbri_rig *rig, const sbf_pose *pose, bool mirrored, const uint32_t *place_of,
+    sbri_posed_bone *bones, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) bones[i] = (sbri_posed_bone){.rotation = {0, 0, 0, 1}};
+  for (uint32_t k = 0; k < pose->keys.count; k++) {
+    const sbf_pose_key *key = &pose->keys.at[k];
+    uint32_t from = (uint32_t)key->bone, to = mirrored ? sbri_mirror_bone(rig, from) : from;
+    sbri_posed_bone posed = {key->translation, sbri_quat_normalize(key->rotation)};
+    bones[place_of[to] - 1] = mirrored ? mirrored_key(rig, from, to, posed) : posed;
+  }
+}
+
+/* Lists the bones that walks move; `place_of` gets each one's place from 1, 0 for others. */
+static uint32_t list_bones(const sbri_rig *rig, uint32_t *place_of, uint32_t *bones) {
+  const sbf_pose_list *poses = &rig->asset->poses;
+  uint32_t count = 0;
+  for (uint32_t b = 0; b < rig->bone_count; b++) place_of[b] = 0;
+  for (uint32_t i = 0; i < poses->count; i++)
+    for (uint32_t k = 0; is_of_walk(&poses->at[i]) && k < poses->at[i].keys.count; k++) {
+      uint32_t bone = (uint32_t)poses->at[i].keys.at[k].bone;
+      place_of[bone] = 1;
+      if (is_mirrored(rig->asset, poses->at[i].speed)) place_of[sbri_mirror_bone(rig, bone)] = 1;
+    }
+  for (uint32_t b = 0; b < rig->bone_count; b++)
+    if (place_of[b]) bones[count] = b, place_of[b] = ++count;
+  return count;
+}
+
+/* The pose of a walk that comes next after a distance; NULL behind the last. */
+static const sbf_pose *next_pose(const sbf_asset *asset, float speed, float distance) {
+  const sbf_pose *next = NULL;
+  for (uint32_t i = 0; i < asset->poses.count; i++) {
+    const sbf_pose *pose = &asset->poses.at[i];
+    if (is_of_walk(pose) && pose->speed == speed && pose->distance > distance &&
+        (!next || pose->distance < next->distance))
+      next = pose;
+  }
+  return next;
+}
+
+/* The leg that a mirrored walk's first half begins with, and the one across from it. */
+static void find_legs(sbri_walks *walks, const sbri_rig *rig) {
+  walks->first_leg = walks->other_leg = -1;
+  for (uint32_t i = 1; i < rig->leg_count; i++)
+    if ((int32_t)sbri_mirror_bone(rig, (uint32_t)rig->legs[0].foot) == rig->legs[i].foot)
+      walks->first_leg = 0, walks->other_leg = (int32_t)i;
+}
+
+void sbri_walks_init(sbri_walks *walks, const sbri_rig *rig, void *memory) {
+  const sbf_asset *asset = rig->asset;
+  size_t most = frame_count(asset);
+  *walks = (sbri_walks){.first_leg = -1, .other_leg = -1};
+  if (!most) return;
+  sbri_walk *walk = memory; /* what needs the widest steps first */
+  sbri_walk_frame *frame = (sbri_walk_frame *)(void *)(walk + most);
+  sbri_posed_bone *posed = (sbri_posed_bone *)(void *)(frame + most);
+  uint32_t *place_of = (uint32_t *)(void *)(posed + most * rig->bone_count),
+           *bones = place_of + rig->bone_count;
+  walks->walks = walk;
+  walks->bones = bones;
+  walks->bone_count = list_bones(rig, place_of, bones);
+  for (float speed = -1;;) {
+    float next = -1;
+    for (uint32_t i = 0; i < asset->poses.count; i++) {
+      const sbf_pose *pose = &asset->poses.at[i];
+      if (is_of_walk(pose) && pose->speed > speed && (next < 0 || pose->speed < next)) next = pose->speed;
+    }
+    if (next < 0) break;
+    speed = next;
+    bool mirrored = is_mirrored(asset, speed);
+    float length = 0;
+    for (const sbf_pose *p = next_pose(asset, speed, 0); p; p = next_pose(asset, speed, p->distance))
+      length = p->distance;
+    *walk = (sbri_walk){
+        .speed = speed, .cycle_m = mirrored ? 2 * length : length, .mirrored = mirrored, .frames = frame};
+    for (uint32_t half = 0; half < (mirrored ? 2u : 1u); half++)
+      for (const sbf_pose *p = next_pose(asset, speed, 0); p; p = next_pose(asset, speed, p->distance)) {
+        fill_frame(rig, p, half == 1, place_of, posed, walks->bone_count);
+        *frame++ = (sbri_walk_frame){(p->distance + (float)half * length) / walk->cycle_m, posed};
+        posed += walks->bone_count;
+        walk->frame_count++;
+      }
+    walk++, walks->walk_count++;
+  }
+  find_legs(walks, rig);
+}

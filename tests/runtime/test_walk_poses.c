@@ -1,0 +1,235 @@
+#include <stdlib.h>
+
+#include "gait/gait_state.h"
+#include "harness.h"
+#include "quadruped.h"
+#include "sbfmt/asset.h"
+
+enum { BONES = 20, HEAD = 4, ARM_L = 14, ARM_R = 17 };
+
+typedef struct key {
+  float distance, speed, angle;
+  bool mirrored;
+  uint32_t bone;
+  sbf_vec3 axis, translation;
+} key;
+
+typedef struct stage {
+  quadruped q;
+  sbri_gait_input input;
+  sbr_ground ground;
+  sbri_gait_state *state;
+  sbr_transform pose[BONES];
+} stage;
+
+/* One pose a key; bones turned at rest by `turned` about axes that differ. */
+static void begin(stage *s, const key *keys, uint32_t count, float turned) {
+  quadruped_create(&s->q);
+  sbf_asset *asset = s->q.asset;
+  for (uint32_t b = 0; b < BONES && turned > 0; b++) {
+    sbf_vec3 axis = sbri_normalize(sbri_vec3(1, (float)b - 7, 3), sbri_vec3(0, 1, 0));
+    ((sbf_bone *)(uintptr_t)asset->bones.at)[b].rotation = sbri_quat_about(axis, turned * (float)b);
+  }
+  sbf_pose *poses = sbf_asset_allocate(asset, count, sizeof *poses);
+  sbf_pose_key *pose_keys = sbf_asset_allocate(asset, count, sizeof *pose_keys);
+  for (uint32_t i = 0; i < count; i++) {
+    sbf_pose_init(&poses[i]);
+    sbf_pose_key_init(&pose_keys[i]);
+    pose_keys[i].bone = (int32_t)keys[i].bone;
+    pose_keys[i].rotation = sbri_quat_about(sbri_normalize(keys[i].axis, sbri_vec3(1, 0, 0)), keys[i].angle);
+    pose_keys[i].translation = keys[i].translation;
+    poses[i].distance = keys[i].distance;
+    poses[i].speed = keys[i].speed;
+    poses[i].mirrored = keys[i].mirrored;
+    poses[i].keys = (sbf_pose_key_list){&pose_keys[i], 1};
+  }
+  asset->poses = (sbf_pose_list){poses, count};
+  free(s->q.memory);
+  s->q.memory = malloc(sbri_rig_size(asset));
+  sbri_rig_init(&s->q.rig, asset, s->q.memory);
+  s->ground = sbr_ground_flat(0);
+  s->input = (sbri_gait_input){.tick_s = 1.0f / 60, .scale = 1, .ground = &s->ground};
+  s->state = malloc(sbri_gait_state_size(&s->q.rig));
+  sbri_gait_place(&s->q.rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
+}
+
+static void end(stage *s) {
+  free(s->state);
+  quadruped_destroy(&s->q);
+}
+
+static void ticks(stage *s, int count) {
+  for (int i = 0; i < count; i++) sbri_gait_tick(&s->q.rig, s->state, &s->input, s->pose, NULL, 0);
+}
+
+static float head_angle(const stage *s) {
+  return sbri_quat_log(s->pose[HEAD].rotation).x;
+}
+
+START_TEST(poses_are_shown_by_the_distance_walked)
+{
+  static const key keys[] = {{0.1f, 0, 0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
+      {0.2f, 0, -0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
+  stage s;
+  begin(&s, keys, 2, 0);
+  ticks(&s, 10);
+  ck_assert_float_eq_tol(head_angle(&s), 0, 1e-4f); /* standing */
+  s.input.forward = 0.3f;
+  float most = 0, least = 0;
+  for (int i = 0; i < 240; i++) {
+    ticks(&s, 1);
+    most = fmaxf(most, head_angle(&s)), least = fminf(least, head_angle(&s));
+    if (i < 120) continue;
+    double s_in_cycle = fmod(s.state->distance_m, 0.2);
+    double share = s_in_cycle < 0.1 ? s_in_cycle / 0.1 : 2 - s_in_cycle / 0.1;
+    ck_assert_float_eq_tol(head_angle(&s), (float)(-0.4 + 0.8 * share), 0.02f);
+  }
+  ck_assert_float_gt(most, 0.3f);
+  ck_assert_float_lt(least, -0.3f);
+  end(&s);
+}
+END_TEST
+
+START_TEST(what_goes_back_goes_back_in_its_walk)
+{
+  static const key keys[] = {{0.1f, 0, 0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
+      {0.3f, 0, -0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
+  stage s;
+  begin(&s, keys, 2, 0);
+  s.input.forward = -0.2f;
+  ticks(&s, 60);
+  for (int i = 0; i < 100; i++) {
+    float before = s.state->walk_phase;
+    ticks(&s, 1);
+    float gone = s.state->walk_phase - before;
+    ck_assert(gone < 0 || gone > 0.9f);
+  }
+  end(&s);
+}
+END_TEST
+
+/* Heads of all bones in asset space, of a body that is at rest but for its walk. */
+static void show(stage *s, float phase, sbf_vec3 *heads) {
+  sbr_transform frames[BONES];
+  const sbri_rig *rig = &s->q.rig;
+  for (uint32_t b = 0; b < BONES; b++) s->pose[b] = rig->rest_local[b];
+  s->state->forward = 1, s->state->pace = 1, s->state->walk_phase = phase;
+  sbri_walk_pose(rig, s->state, 1, s->pose);
+  for (uint32_t b = 0; b < BONES; b++) {
+    frames[b] = s->pose[b];
+    if (rig->parents[b] >= 0) {
+      const sbr_transform *above = &frames[rig->parents[b]];
+      frames[b].position = sbri_add(above->position, sbri_rotate(above->rotation, frames[b].position));
+      frames[b].rotation = sbri_quat_multiply(above->rotation, frames[b].rotation);
+    }
+    heads[b] = frames[b].position;
+  }
+}
+
+START_TEST(the_second_half_is_the_mirror_image_of_the_first)
+{
+  static const uint32_t across[BONES] = {
+      0, 1, 2, 3, 4, 5, 6, 7, 11, 12, 13, 8, 9, 10, 17, 18, 19, 14, 15, 16};
+  static const key keys[] = {{0.1f, 0, 0.7f, true, ARM_L, {1, 0.4f, 0.2f}, {0.01f, 0.02f, 0.03f}},
+      {0.2f, 0, 0.3f, false, 2, {0.2f, 1, 0.3f}, {0, 0.01f, 0}}, /* one of them says so for all */
+      {0.25f, 0, -0.5f, false, ARM_R, {1, 0, 0.1f}, {0, 0, 0}}};
+  stage s;
+  begin(&s, keys, 3, 0.3f);
+  ck_assert_float_eq_tol(s.q.rig.walks.walks[0].cycle_m, 0.5f, 1e-6f);
+  ck_assert_uint_eq(s.q.rig.walks.walks[0].frame_count, 6);
+  ck_assert_uint_eq(s.q.rig.walks.bone_count, 3);
+  float moved = 0;
+  for (float phase = 0.02f; phase < 0.5f; phase += 0.06f) {
+    sbf_vec3 first[BONES], second[BONES];
+    show(&s, phase, first), show(&s, phase + 0.5f, second);
+    for (uint32_t b = 0; b < BONES; b++) {
+      sbf_vec3 there = second[across[b]];
+      there.x = -there.x;
+      ck_assert_float_le(sbri_length(sbri_sub(first[b], there)), 1e-5f);
+      moved = fmaxf(moved, sbri_length(sbri_sub(first[b], s.q.rig.rest[b].position)));
+    }
+  }
+  ck_assert_float_gt(moved, 0.05f);
+  end(&s);
+}
+END_TEST
+
+START_TEST(a_walk_becomes_a_run)
+{
+  static const key keys[] = {{0.1f, 0.2f, 0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
+      {0.2f, 0.2f, 0, false, HEAD, {1, 0, 0}, {0, 0, 0}},
+      {0.3f, 0.6f, 0.8f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
+      {0.6f, 0.6f, 0, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
+  static const float speeds[] = {0.2f, 0.4f, 0.6f}, cycles[] = {0.2f, 0.4f, 0.6f},
+                     tops[] = {0.4f, 0.6f, 0.8f};
+  stage s;
+  begin(&s, keys, 4, 0);
+  ck_assert_uint_eq(s.q.rig.walks.walk_count, 2);
+  for (int i = 0; i < 3; i++) {
+    sbri_gait_state state = {.forward = speeds[i], .pace = 1, .walk_phase = 0.5f};
+    for (uint32_t b = 0; b < BONES; b++) s.pose[b] = s.q.rig.rest_local[b];
+    float weight = fminf(1, speeds[i] / 0.25f); /* half of the gait's walking speed */
+    sbri_walk_pose(&s.q.rig, &state, 1, s.pose);
+    ck_assert_float_eq_tol(sbri_quat_log(s.pose[HEAD].rotation).x, weight * tops[i], 0.01f);
+    sbri_walk_tick(&s.q.rig, &state, 0.05f, 1);
+    ck_assert_float_eq_tol(state.walk_phase, 0.5f + 0.05f / cycles[i], 1e-5f);
+    sbri_gait_state tall = {.forward = 2 * speeds[i], .pace = 1, .walk_phase = 0.5f};
+    sbri_walk_tick(&s.q.rig, &tall, 0.1f, 2); /* twice as large, all lengths are */
+    ck_assert_float_eq_tol(tall.walk_phase, state.walk_phase, 1e-5f);
+  }
+  end(&s);
+}
+END_TEST
+
+/* The poses' strides are a third longer than the feet's, and they keep step all the same; no foot slides. */
+START_TEST(a_mirrored_walk_keeps_step_with_the_feet)
+{
+  key keys[] = {
+      {0.1f, 0, 0.3f, true, HEAD, {0, 1, 0}, {0, 0, 0}}, {0.2f, 0, 0.1f, true, 8, {1, 0, 0}, {0, 0, 0}}};
+  stage s;
+  begin(&s, keys, 2, 0);
+  ck_assert_int_eq(s.q.rig.walks.first_leg, QUADRUPED_HIND_L);
+  ck_assert_int_eq(s.q.rig.walks.other_leg, QUADRUPED_HIND_R);
+  s.input.forward = 0.6f;
+  ticks(&s, 300);
+  double from = s.state->distance_m;
+  uint32_t steps = s.state->feet[0].steps_taken;
+  while (s.state->feet[0].steps_taken < steps + 4) ticks(&s, 1);
+  float stride = (float)(s.state->distance_m - from) / 4;
+  end(&s);
+  keys[0].distance = 0.33f * stride, keys[1].distance = 0.66f * stride;
+  begin(&s, keys, 2, 0);
+  s.input.forward = 0.6f;
+  ticks(&s, 240);
+  sbf_vec3 stance[2] = {{0, 0, 0}, {0, 0, 0}};
+  int landings = 0;
+  for (int i = 0; i < 360; i++) {
+    ticks(&s, 1);
+    for (int l = 0; l < 2; l++) {
+      const sbri_foot *foot = &s.state->feet[l];
+      sbf_vec3 ankle = s.pose[l ? 13 : 10].position;
+      if (i > 0 && foot->planted && foot->was_planted)
+        ck_assert_float_le(sbri_length(sbri_sub(ankle, stance[l])), 2e-3f);
+      stance[l] = ankle;
+      if (!foot->planted || foot->was_planted) continue;
+      float off = fabsf(s.state->walk_phase - 0.5f * (float)l);
+      ck_assert_float_le(fminf(off, 1 - off), 0.25f);
+      landings++;
+    }
+  }
+  ck_assert_int_ge(landings, 6);
+  end(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("walk_poses");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, poses_are_shown_by_the_distance_walked);
+  tcase_add_test(tests, what_goes_back_goes_back_in_its_walk);
+  tcase_add_test(tests, the_second_half_is_the_mirror_image_of_the_first);
+  tcase_add_test(tests, a_walk_becomes_a_run);
+  tcase_add_test(tests, a_mirrored_walk_keeps_step_with_the_feet);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
