@@ -1,5 +1,5 @@
-/* The pose under the gait: bones against their parents, at rest, from poses keyed by the distance walked, from
- * clips that are played. */
+/* The pose under the gait: bones against their parents, at rest, from poses keyed by the distance walked,
+ * from clips that are played. */
 #include "gait/gait_state.h"
 
 static sbf_quat quat_at(const float *v) {

@@ -98,8 +98,8 @@ START_TEST(chains_tell_parts_that_names_do_not)
   static const uint32_t leg[] = {1, 2, 3}, arm[] = {4, 5, 6, 7};
   static const sbfi_part parts[] = {SBFI_PART_HIPS, SBFI_PART_THIGH, SBFI_PART_LIMB, SBFI_PART_OTHER,
       SBFI_PART_OTHER, SBFI_PART_LIMB, SBFI_PART_LIMB, SBFI_PART_HAND};
-  const sbf_retarget_chain chains[] = {{.id = "l", .name = "left_leg", .bones = {leg, 3}},
-      {.id = "a", .name = "ArmRight", .bones = {arm, 4}}};
+  const sbf_retarget_chain chains[] = {
+      {.id = "l", .name = "left_leg", .bones = {leg, 3}}, {.id = "a", .name = "ArmRight", .bones = {arm, 4}}};
   sbf_asset *a = skeleton(names), *b = skeleton(names);
   for (uint32_t i = 1; i < 8; i++) ((sbf_bone *)(uintptr_t)b->bones.at)[i].parent = 0;
   b->retarget_chains = (sbf_retarget_chain_list){chains, 2};

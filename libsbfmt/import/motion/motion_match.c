@@ -208,8 +208,8 @@ static bool has_hips(const sbf_asset *asset, const sbfi_bone_match *matches) {
   return false;
 }
 
-/* What the bones of a chain called leg or arm are, where their own names do not tell: the two that swing, what
- * comes before (a collar bone), what comes after (hand or foot). Legs hang on hips. */
+/* What the bones of a chain called leg or arm are, where their own names do not tell: the two that swing,
+ * what comes before (a collar bone), what comes after (hand or foot). Legs hang on hips. */
 static void name_parts_by_chains(const sbf_asset *to, sbfi_bone_match *matches) {
   for (uint32_t i = 0; i < to->retarget_chains.count; i++) {
     const sbf_u32_list bones = to->retarget_chains.at[i].bones;
@@ -218,8 +218,8 @@ static void name_parts_by_chains(const sbf_asset *to, sbfi_bone_match *matches) 
     bool leg = strcmp(m.part, "leg") == 0, arm = strcmp(m.part, "arm") == 0;
     if (bones.count < 2 || (!leg && !arm)) continue;
     uint32_t upper = arm && bones.count > 3 ? bones.count - 3 : 0;
-    const sbfi_part parts[3] = {leg ? SBFI_PART_THIGH : SBFI_PART_LIMB, SBFI_PART_LIMB,
-        arm ? SBFI_PART_HAND : SBFI_PART_OTHER};
+    const sbfi_part parts[3] = {
+        leg ? SBFI_PART_THIGH : SBFI_PART_LIMB, SBFI_PART_LIMB, arm ? SBFI_PART_HAND : SBFI_PART_OTHER};
     for (uint32_t k = 0; k < 3 && upper + k < bones.count; k++) {
       sbfi_bone_match *match = &matches[bones.at[upper + k]];
       if (match->part == SBFI_PART_OTHER) match->part = parts[k];
