@@ -11,9 +11,10 @@ bl_info = {
 }
 
 from . import panels, settings  # noqa: E402
-from .operators import export, import_bundle  # noqa: E402
+from .operators import build_scene, check_scene, export, import_bundle  # noqa: E402
+from .overlay import structure  # noqa: E402
 
-PARTS = (settings, panels, export, import_bundle)
+PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, structure)
 
 
 def register():

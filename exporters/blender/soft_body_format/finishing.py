@@ -15,11 +15,11 @@ def has_library():
         return False
 
 
-def finish(document, path, build, findings):
+def finish(document, path, build, findings, locator=None):
     """Writes the file whole or not at all; says whether it is there. What the library finds joins the findings."""
     try:
         if has_library():
-            return with_library(document, path, build, findings)
+            return with_library(document, path, build, findings, locator)
         return without_library(document, path, findings)
     except sbfmt.Error as error:
         findings.error(f"{error}")
@@ -39,17 +39,20 @@ def to_asset(document):
         os.unlink(path)
 
 
-def with_library(document, path, build, findings):
+def with_library(document, path, build, findings, locator):
     with to_asset(document) as source:
-        asset = source.build(report=lambda found: add(found, findings)) if build else source
+        asset = source.build(report=lambda found: add(found, findings, locator)) if build else source
         try:
-            result = asset.validate(folder=os.path.dirname(path))
-            for found in result.findings:
-                add(found, findings)
+            check(asset, os.path.dirname(path), findings, locator)
             asset.save(path)
         finally:
             asset.close()
     return True
+
+
+def check(asset, folder, findings, locator):
+    for found in asset.validate(folder=folder).findings:
+        add(found, findings, locator)
 
 
 def without_library(document, path, findings):
@@ -63,7 +66,7 @@ def without_library(document, path, findings):
     return True
 
 
-def add(found, findings):
-    """A diagnostic of the library as a finding."""
+def add(found, findings, locator=None):
+    """A diagnostic of the library as a finding, with what it is about."""
     tell = {"error": findings.error, "warning": findings.warning}.get(found.severity, findings.info)
-    tell(f"{found.message}" + (f" ({found.path})" if found.path else ""), code=found.code)
+    tell(found.message, code=found.code, **(locator.locate(found) if locator else {}))

@@ -9,6 +9,7 @@ from bpy_extras.io_utils import ExportHelper
 from .. import memory
 from ..findings import Findings
 from ..finishing import finish
+from ..locating import Locator
 from ..to_document import Options, SceneWriter
 
 
@@ -60,7 +61,8 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
         now, known = writer.write(), memory.recall(writer.objects)
         asset = memory.merge_documents(*known, now) if known else now
         changed = not known or asset != known[0]
-        written = not findings.errors and finish(asset, self.filepath, self.build and changed, findings)
+        written = not findings.errors and finish(asset, self.filepath, self.build and changed, findings,
+                                                   Locator(asset, writer.identifiers))
         findings.show(self)
         if not written:
             return {"CANCELLED"}

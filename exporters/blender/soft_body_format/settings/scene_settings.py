@@ -91,6 +91,7 @@ class SBFMT_PG_scene(bpy.types.PropertyGroup):
     gait: PointerProperty(type=SBFMT_PG_gait)
     findings: CollectionProperty(type=SBFMT_PG_finding)
     active_finding: IntProperty()
+    show_overlay: BoolProperty(name="Draw the build", default=True, description="Springs, lattice and pins over the model")
 
 
 CLASSES = (SBFMT_PG_leg, SBFMT_PG_tail, SBFMT_PG_follower, SBFMT_PG_gait, SBFMT_PG_finding, SBFMT_PG_scene)

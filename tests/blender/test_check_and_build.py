@@ -1,0 +1,52 @@
+"""The check's list and what a click on it selects; the build and what is drawn of it."""
+
+import bpy
+import fixtures
+from soft_body_format.overlay import structure
+
+
+class Check(fixtures.SceneTest):
+    def messages(self):
+        bpy.ops.sbfmt.check()
+        return list(self.scene.soft_body_format.findings)
+
+    def test_a_sound_scene(self):
+        rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])
+        fixtures.hang(fixtures.ball("belly"), rig, "hip")
+        self.assertEqual([one.message for one in self.messages() if one.severity == "ERROR"], [])
+
+    def test_a_message_selects_its_object(self):
+        loose = fixtures.mesh_object("flipped", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1),
+                                                 (0, 1, 1)],
+                                     [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)])
+        index = next(i for i, one in enumerate(self.messages()) if one.object_name == loose.name)
+        self.assertEqual(bpy.ops.sbfmt.select_finding(index=index), {"FINISHED"})
+        self.assertEqual(bpy.context.view_layer.objects.active, loose)
+
+    def test_a_bone_is_made_active(self):
+        one = fixtures.armature("one", [("root", None, (0, 0, 0), (0, 0, 1), 0)])
+        two = fixtures.armature("two", [("root", None, (3, 0, 0), (3, 0, 1), 0)])
+        fixtures.hang(fixtures.box("a"), one, "root")
+        fixtures.hang(fixtures.box("b", center=(3, 0, 0.5)), two, "root")
+        index = next(i for i, found in enumerate(self.messages()) if found.bone_name == "root")
+        bpy.ops.sbfmt.select_finding(index=index)
+        self.assertEqual(bpy.context.view_layer.objects.active.data.bones.active.name, "root")
+
+    def test_an_empty_scene_says_so(self):
+        self.assertIn("nothing to export", self.messages()[0].message)
+
+
+class Build(fixtures.SceneTest):
+    def test_springs_of_a_section(self):
+        rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])
+        fixtures.hang(fixtures.ball("belly"), rig, "hip")
+        self.assertEqual(bpy.ops.sbfmt.build(), {"FINISHED"})
+        self.assertRegex(structure.summary(self.scene), r"built: \d+ structural")
+
+    def test_tetrahedra_of_a_blob_lie_where_the_model_lies(self):
+        self.scene.unit_settings.scale_length = 0.1
+        fixtures.ball("blob", 2.0, (5, 0, 0))
+        bpy.ops.sbfmt.build()
+        places = structure._shown[self.scene.name]["lattice"]
+        self.assertAlmostEqual(float(places[:, 0].mean()), 5, delta=0.1)
+        self.assertAlmostEqual(float(places[:, 2].max()), 2, delta=0.3)
