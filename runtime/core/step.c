@@ -182,9 +182,10 @@ static void prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
   }
 }
 
-static sbri_island_tick make_tick(const sbr_world *world, sbri_character *c, uint32_t index) {
+/* `island` as sbri_island_now has it. */
+static sbri_island_tick make_tick(
+    const sbr_world *world, sbri_character *c, uint32_t index, const sbri_island *island) {
   const sbr_model *model = c->model;
-  const sbri_island *island = &model->islands[index];
   size_t first = island->first_slot;
   float tick_s = (float)world->tick_s * c->time_scale;
   return (sbri_island_tick){.model = model,
@@ -233,7 +234,8 @@ static sbri_island_tick make_tick(const sbr_world *world, sbri_character *c, uin
 }
 
 void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t index) {
-  sbri_island_tick tick = make_tick(world, c, index);
+  sbri_island now = sbri_island_now(c, &c->model->islands[index]);
+  sbri_island_tick tick = make_tick(world, c, index, &now);
   prepare_contacts(&tick, c);
 }
 
@@ -286,7 +288,7 @@ static void tick_island(void *context, uint32_t index) {
   soften_start(c, island, work.island, guide_velocity, tick_s);
   sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
   tuck_padding(c, island);
-  sbri_island_tick tick = make_tick(world, c, work.island);
+  sbri_island_tick tick = make_tick(world, c, work.island, island);
   if (!island->scheme->forceless) prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
   if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, work.island);

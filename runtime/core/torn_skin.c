@@ -4,7 +4,8 @@
  * it rides on from its corner of the greatest weight, on a whole tetrahedron there, as an extrapolation of
  * its rest shape; where there is none, it stays in between what has torn. A polygon is left out once the
  * tetrahedra of two neighbouring corners, which few sides lie between at rest, have lost that way to each
- * other. */
+ * other. Of cloth, whose vertices are points, it is left out once a spring along one of its sides has torn.
+ */
 #include <string.h>
 
 #include "core/world.h"
@@ -234,7 +235,11 @@ uint32_t sbr_character_torn_polygons(const sbr_world *world, sbr_character_id ch
   const sbf_render_mesh *mesh = &c->model->asset->render_meshes.at[render_mesh];
   uint32_t count =
       render_level ? mesh->levels.at[render_level - 1].polygon_sizes.count : mesh->mesh.polygon_sizes.count;
-  for (uint32_t p = 0; torn && p < count && p < capacity; p++)
+  for (uint32_t p = 0; torn && p < count && p < capacity; p++) {
     torn[p] = skin->binding_count && sbri_torn_polygons(c)[skin->first_polygon + p] == POLYGON_TORN;
+    for (uint32_t i = skin->side_begins ? skin->side_begins[p] : 0;
+         skin->side_begins && i < skin->side_begins[p + 1]; i++)
+      torn[p] = torn[p] || !(sbri_strengths(c)[skin->side_strengths[i]] > 0);
+  }
   return count;
 }

@@ -305,6 +305,9 @@ bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bo
 bool sbri_visits_make(sbr_model *model, sbri_island *island);
 /* Gas, medium, hinges and fields, and how fast they make the islands; after surfaces and rest volumes. */
 bool sbri_outer_make(sbr_model *model);
+/* Sides along springs that may tear, of polygons over the vertices of the mesh that `full` is of. */
+bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
+    const sbf_u32_list *points);
 /* Neighbours and what lies around each point; false where memory runs out. */
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
 /* The places of the surface that meet the ground; after the surfaces. */

@@ -234,7 +234,11 @@ bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_leve
   good =
       good && add_embeddings(&c, render_mesh) && sbri_shading_make(skin, &shown.mesh, &shown, &model->arena);
   if (c.bindings.count) model->torn_polygon_count += shown.mesh.polygon_sizes.count;
-  return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good);
+  const sbf_render_level *level = render_level ? &mesh->levels.at[render_level - 1] : NULL;
+  return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good) &&
+         sbri_torn_sides_make(model, skin, sbri_skin_of(model, render_mesh, 0),
+             level ? &level->polygon_sizes : &mesh->mesh.polygon_sizes,
+             level ? &level->polygon_points : &mesh->mesh.polygon_points);
 }
 
 /* Without an embedding of its own surface, a level's points begin with those of the surface. */

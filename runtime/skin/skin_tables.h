@@ -56,6 +56,8 @@ typedef struct sbri_skin {
   const struct sbri_binding *bindings;
   const uint32_t *binding_of; /* (vertex_count) UINT32_MAX: none */
   uint32_t binding_count, first_cell, first_binding, first_polygon;
+  const uint32_t *side_begins;    /* (polygons + 1) NULL: no side lies along a spring that may tear */
+  const uint32_t *side_strengths; /* of such springs, places in the character's strengths */
   const sbri_frame_vertex *frame_vertices; /* (frame_vertex_count) */
   uint32_t frame_vertex_count;
   const sbri_influence *influences;

@@ -1,0 +1,124 @@
+/* A cloth that is pulled in two: its polygons open along the tear, by springs along their sides. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/state.h"
+#include "core/world.h"
+#include "harness.h"
+#include "scenes.h"
+
+enum {
+  CELLS = 8,
+  POINTS = (CELLS + 1) * (CELLS + 1),
+  QUADS = CELLS * CELLS,
+  SPRINGS = 2 * CELLS * (CELLS + 1)
+};
+static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN};
+static scene s;
+static sbf_vec3 positions[POINTS];
+static uint32_t sizes[QUADS], corners[4 * QUADS];
+
+static uint32_t point(uint32_t x, uint32_t z) {
+  return x * (CELLS + 1) + z;
+}
+
+/* A square metre of 1 kg, weakest in the middle, whose halves fly apart; in free fall without weight. */
+static void begin(sbf_scheme scheme) {
+  static float masses[POINTS], stiffness[SPRINGS], weights[POINTS];
+  static sbf_uint2 ends[SPRINGS];
+  uint32_t springs = 0, quads = 0;
+  for (uint32_t x = 0; x <= CELLS; x++)
+    for (uint32_t z = 0; z <= CELLS; z++) {
+      uint32_t at = point(x, z);
+      positions[at] = (sbf_vec3){(float)x / CELLS, 0, (float)z / CELLS};
+      masses[at] = 1.0f / POINTS;
+      weights[at] = x == CELLS / 2 ? 0.2f : 1;
+      if (x < CELLS) ends[springs++] = (sbf_uint2){{at, point(x + 1, z)}};
+      if (z < CELLS) ends[springs++] = (sbf_uint2){{at, point(x, z + 1)}};
+      if (x == CELLS || z == CELLS) continue;
+      const uint32_t quad[4] = {at, point(x, z + 1), point(x + 1, z + 1), point(x + 1, z)};
+      memcpy(corners + 4 * quads, quad, sizeof quad);
+      sizes[quads++] = 4;
+    }
+  for (uint32_t i = 0; i < SPRINGS; i++) stiffness[i] = 5;
+  s = scene_begin();
+  sbf_level *level = scene_points(&s, 0, positions, masses, POINTS);
+  scene_springs(&s, level, ends, stiffness, SPRINGS);
+  sbf_soft_body *body = scene_body(&s, 0);
+  body->surface.positions = level->positions;
+  body->surface.polygon_sizes = (sbf_u32_list){sizes, QUADS};
+  body->surface.polygon_points = (sbf_u32_list){corners, 4 * QUADS};
+  body->attributes.tear_strain = 0.6f;
+  sbf_weight_map *map = sbf_asset_allocate(s.asset, 1, sizeof *map);
+  sbf_weight_map_init(map);
+  map->property = SBF_WEIGHT_PROPERTY_TEAR_STRAIN;
+  map->values = (sbf_f32_list){weights, POINTS};
+  body->weight_maps = (sbf_weight_map_list){map, 1};
+  scene_skin(&s, 0);
+  s.model_options.scheme = scheme;
+  s.world_definition.has_gravity = true, s.world_definition.gravity = (sbf_vec3){0, 0, 0};
+  scene_start(&s);
+  sbri_character *c = &s.world->characters[0];
+  for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) {
+    float *v = sbri_velocities(c) + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK;
+    if (s.model->islands[0].masses[i] > 0) v[0] = 4 * (sbri_positions(c)[i].x - 0.5f) + 0.1f;
+  }
+}
+
+static double momentum(void) {
+  const sbri_character *c = &s.world->characters[0];
+  double sum = 0;
+  for (uint32_t i = 0; i < s.model->islands[0].free_count; i++)
+    sum += s.model->islands[0].masses[i] *
+           sbri_velocities(c)[3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK];
+  return sum;
+}
+
+START_TEST(a_cloth_is_pulled_in_two)
+{
+  uint8_t torn[QUADS];
+  sbf_vec3 places[POINTS];
+  begin(schemes[_i]);
+  double before = momentum();
+  ck_assert_uint_eq(sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS), QUADS);
+  for (uint32_t q = 0; q < QUADS; q++) ck_assert_uint_eq(torn[q], 0);
+  scene_ticks(&s, 60);
+  sbr_body_health health = sbr_character_health(s.world, s.character, 0);
+  ck_assert(health.finite);
+  ck_assert_uint_ge(health.torn, CELLS + 1);
+  ck_assert_uint_eq(health.recoveries, 0);
+  ck_assert_double_eq_tol(momentum(), before, 1e-4);
+  sbr_character_skin(s.world, s.character, 0, places, NULL, NULL, POINTS);
+  sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
+  uint32_t open = 0;
+  for (uint32_t q = 0; q < QUADS; q++) {
+    float low = 1, high = 0, longest = 0;
+    for (uint32_t k = 0; k < 4; k++) {
+      sbf_vec3 a = places[corners[4 * q + k]], b = places[corners[4 * q + (k + 1) % 4]];
+      float x = positions[corners[4 * q + k]].x;
+      low = x < low ? x : low, high = x > high ? x : high;
+      longest = fmaxf(
+          longest, sqrtf((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z)));
+    }
+    open += torn[q];
+    if (torn[q]) ck_assert(low <= 0.5f && high >= 0.5f); /* where it is weak */
+    if (!torn[q]) ck_assert_float_lt(longest, 1.7f / CELLS);
+  }
+  ck_assert_uint_ge(open, CELLS);
+  ck_assert_uint_le(open, 2 * CELLS);
+  ck_assert_float_gt(places[point(CELLS, 0)].x - places[point(0, 0)].x, 1.5f);
+  sbr_character_reset(s.world, s.character);
+  sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
+  for (uint32_t q = 0; q < QUADS; q++) ck_assert_uint_eq(torn[q], 0);
+  scene_free(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("torn_sides");
+  TCase *c = tcase_create("torn_sides");
+  tcase_add_loop_test(c, a_cloth_is_pulled_in_two, 0, 3);
+  suite_add_tcase(suite, c);
+  return harness_run(suite);
+}
