@@ -14,6 +14,7 @@ static const float DUE = 0.9f;             /* of the half stride behind home: th
 static const float EARLY = 0.25f;          /* the same, once its turn has come */
 static const float COMPANION = -0.3f;      /* the same of a foot that goes with one of its group */
 static const float TWISTED = 0.6f;         /* rad that a planted foot may be turned against the body */
+static const float MISSED = 0.002f;        /* of the reach: a sole so far from its place has to step */
 static const float NOTED = 0.4f;           /* sideways and twisted: less than this does not count */
 static const float STRAINED = 0.7f;        /* share of its roam that a foot may be from home */
 static const float JOINS = 0.4f;           /* phase of a step up to which others of its group join it */
@@ -96,6 +97,8 @@ static float displacement(const sbri_rig *rig, const sbri_gait_state *state, con
     float strain = sbri_strain(rig, state, input, leg) / STRAINED;
     if (strain > DUE) off = strain;
   }
+  float missed = foot->missed / (MISSED * rig->reach * input->scale);
+  if (missed > 1 && missed > off) off = missed; /* its leg cannot hold it there */
   if (wide > NOTED && wide > off) off = wide;
   return twist > NOTED && twist > off ? twist : off;
 }

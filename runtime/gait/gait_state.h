@@ -20,7 +20,8 @@ typedef struct sbri_foot {
   float leaves, arrives;                              /* phases between which it moves over the ground */
   float climbs, climbed;                              /* the same of the height between its places */
   sbri_glide x, z, base, rise, tilt_x, tilt_z, twist; /* of `ground`, `lift`, `normal`, `heading` */
-  sbf_vec3 hip;                  /* where its leg begins, as last posed: from the root's place, in its axes */
+  sbf_vec3 hip;                  /* where its leg begins, as last posed: from the root, in its axes; m */
+  float missed;                  /* how far its sole is from its place then, for its leg's limits; m */
   uint32_t planted, was_planted; /* 1 or 0: now, and a tick ago */
   uint32_t steps_taken;
 } sbri_foot;
@@ -143,6 +144,8 @@ sbf_vec3 sbri_home_arm(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 /* Velocity of a foot's home over the ground. */
 sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm);
+/* Speed of the fastest home in the motion that is wanted. */
+float sbri_wanted_speed(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 /* Where a leg's upper bone begins when the body stands at `root`, its spine as it was last posed. */
 sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, const sbr_transform *root);

@@ -7,6 +7,10 @@
 #include "math/trig.h"
 
 static const sbf_vec3 UP = {0, 1, 0};
+static const float SOLE_HELD = 5e-4f; /* of a leg's length: so near its place a sole is held */
+static const float SOLE_MOVED =
+    0.04f; /* the same: what lies farther off is mended less, and not at twice that */
+enum { SOLE_PASSES = 4 };
 
 static sbf_quat yaw_rotation(float yaw) {
   return sbri_quat_about(UP, yaw);
@@ -114,22 +118,10 @@ static void pose_peg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *
   pose_foot(rig, leg, foot, heading, pose[leg->foot].rotation, pose);
 }
 
-static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
-    const sbri_gait_input *input, uint32_t index, sbr_transform *pose) {
-  const sbri_leg *leg = &rig->legs[index];
-  const sbri_foot *foot = &state->feet[index];
-  float scale = input->scale;
-  sbf_vec3 hip = pose[leg->upper].position;
-  sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
-  float heading = state->heading + foot->heading;
-  sbf_vec3 ankle = sbri_ankle_over(leg, sole, foot->normal, heading, scale);
-  if (leg->lower < 0) {
-    pose_peg(rig, leg, foot, heading, ankle, pose);
-    return;
-  }
-  sbf_vec3 pole = pole_of(rig, leg, &stance->root, scale, pose);
-  sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
-  sbf_vec3 away = sbri_sub(ankle, hip);
+/* Two bones in closed form, then the limits of their joints. */
+static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float heading,
+    sbf_vec3 ankle, sbf_vec3 pole, sbf_vec3 fallback, float scale, sbr_transform *pose) {
+  sbf_vec3 hip = pose[leg->upper].position, away = sbri_sub(ankle, hip);
   float distance = sbri_length(away), eased = sbri_ease_reach(distance, leg->reach * scale, leg->soft_reach);
   if (eased < distance) ankle = sbri_add_scaled(hip, away, eased / distance);
   sbri_two_bone_result solved =
@@ -146,6 +138,42 @@ static void pose_leg(const sbri_rig *rig, const sbri_gait_state *state, const sb
   pose_foot(rig, leg, foot, heading, sbri_quat_multiply(lower, rig->rest[leg->foot].rotation), pose);
   sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(solved.ankle, pose[leg->foot].position), pose);
   sbri_leg_limit(rig, leg, ankle, pole, scale, pose);
+}
+
+/* Where the middle of the sole is in a pose. */
+static sbf_vec3 sole_of(const sbri_rig *rig, const sbri_leg *leg, float scale, const sbr_transform *pose) {
+  sbf_quat turned =
+      sbri_quat_multiply(pose[leg->foot].rotation, sbri_quat_conjugate(rig->rest[leg->foot].rotation));
+  return sbri_add_scaled(pose[leg->foot].position, sbri_rotate(turned, leg->ankle), -scale);
+}
+
+static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance,
+    const sbri_gait_input *input, uint32_t index, sbr_transform *pose) {
+  const sbri_leg *leg = &rig->legs[index];
+  sbri_foot *foot = &state->feet[index];
+  float scale = input->scale, heading = state->heading + foot->heading;
+  sbf_vec3 hip = pose[leg->upper].position;
+  sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
+  sbf_vec3 ankle = sbri_ankle_over(leg, sole, foot->normal, heading, scale);
+  if (leg->lower < 0) {
+    pose_peg(rig, leg, foot, heading, ankle, pose);
+    return;
+  }
+  sbf_vec3 pole = pole_of(rig, leg, &stance->root, scale, pose);
+  sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
+  float length = (leg->upper_length + leg->lower_length) * scale, share = 1;
+  foot->missed = 0;
+  for (int pass = 0; pass < SOLE_PASSES; pass++) {
+    solve_leg(rig, leg, foot, heading, ankle, pole, fallback, scale, pose);
+    if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;
+    /* A foot that its ankle lets turn no farther stands where it stands all the same. */
+    sbf_vec3 missed = sbri_sub(sole, sole_of(rig, leg, scale, pose));
+    foot->missed = sbri_length(missed);
+    float miss = foot->missed / length;
+    if (miss <= SOLE_HELD) break;
+    if (pass == 0) share = sbri_smooth(2 - miss / SOLE_MOVED);
+    ankle = sbri_add_scaled(ankle, missed, share);
+  }
 }
 
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,

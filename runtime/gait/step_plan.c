@@ -13,12 +13,12 @@ static const float CLEAR = 0.35f;       /* of the usual lift: kept above what li
 static const float MOST_OVER = 2.5f;    /* usual lifts over the highest thing on its way */
 static const float LATEST = 0.3f;       /* of a step's time, in which a foot beside an obstacle only rises */
 static const float SOONEST = 0.6f;      /* the same, in which it makes the height between its places */
-static const float KNEE_STEP = 4.0f;    /* degrees by which a knee's turn in a frame may change in the next */
+static const float KNEE_STEP = 3.9f;    /* degrees by which a knee's turn in a frame may change in the next */
 static const float FRAME_S = 1.0f / 60; /* such a frame */
 static const float LONGEST_STEP = 2.4f; /* of the time asked for */
 static const float SHORTEST = 0.5f;     /* the same: what is told of a step that needs less */
 static const float DEGREES = 57.2957795f;
-enum { LOOKS = 12, TRIES = 6, SAMPLES = 12 };
+enum { LOOKS = 12, TRIES = 6, SAMPLES = 16 };
 
 /* Shares of the way over the ground and of the heights at phase t of a step. */
 static float travel(const sbri_foot *foot, float t) {
@@ -36,30 +36,31 @@ static float slope_along(sbf_vec3 normal, sbf_vec3 way) {
   return normal.y > 0.1f ? -(normal.x * way.x + normal.z * way.z) / normal.y : 0;
 }
 
-/* What lies below a foot on its way, looked at before it goes. */
+/* What lies below a foot on its way, looked at before it goes: how high over the line between its two places
+ * the sole's middle has to be so that toe and heel are not in the ground. */
 typedef struct profile {
-  float at[LOOKS + 1]; /* highest that the sole's middle has to be so that toe and heel are on the ground */
-  float highest;
+  float over[LOOKS + 1];
+  float highest; /* over the higher one of both places */
 } profile;
 
-static profile look(
-    const sbri_rig *rig, const sbri_gait_input *input, const sbri_foot *foot, const sbri_sole *sole) {
-  profile p;
+static profile look(const sbri_gait_input *input, const sbri_foot *foot, const sbri_sole *sole) {
+  profile p = {.highest = 0};
   sbf_vec3 way = sbri_sub(foot->to, foot->from);
   way.y = 0;
   way = sbri_normalize(way, sbri_vec3(0, 0, 0));
   float half = (sole->toe > sole->left ? sole->toe : sole->left) * input->scale;
   float from_slope = slope_along(foot->from_normal, way), to_slope = slope_along(foot->to_normal, way);
-  (void)rig;
+  float higher = foot->from.y > foot->to.y ? foot->from.y : foot->to.y;
   for (int k = 0; k <= LOOKS; k++) {
     float share = (float)k / LOOKS, tilt = half * (from_slope + share * (to_slope - from_slope));
     sbf_vec3 at = sbri_lerp(foot->from, foot->to, share);
     float fore = sbri_ground_below(input, sbri_add_scaled(at, way, half), NULL).y - tilt;
     float hind = sbri_ground_below(input, sbri_add_scaled(at, way, -half), NULL).y + tilt;
-    float middle = sbri_ground_below(input, at, NULL).y;
-    p.at[k] = fore > hind ? fore : hind;
-    if (middle > p.at[k]) p.at[k] = middle;
-    if (k == 0 || p.at[k] > p.highest) p.highest = p.at[k];
+    float most = sbri_ground_below(input, at, NULL).y;
+    most = fore > most ? fore : most;
+    most = hind > most ? hind : most;
+    p.over[k] = most - at.y;
+    if (most - higher > p.highest) p.highest = most - higher;
   }
   return p;
 }
@@ -68,14 +69,14 @@ static profile look(
 static float lack(const sbri_foot *foot, const profile *p, float margin, float *when) {
   float worst = 0;
   for (int k = 1; k < 2 * LOOKS; k++) {
-    float t = (float)k / (2 * LOOKS), place = travel(foot, t) * LOOKS;
+    float t = (float)k / (2 * LOOKS), share = travel(foot, t), place = share * LOOKS;
     int i = (int)place < LOOKS ? (int)place : LOOKS - 1;
-    float near = p->at[i] > p->at[i + 1] ? p->at[i] : p->at[i + 1]; /* an edge may lie between the two */
-    float rises = 4 * t * (1 - t), low = near + margin * rises * rises - height_at(foot, t);
-    bool leaves = place < 1 && p->at[1] <= foot->from.y + margin;
-    bool comes = place > LOOKS - 1 && p->at[LOOKS - 1] <= foot->to.y + margin;
-    if (leaves || comes) low = 0;
-    if (low > worst) worst = low, *when = t;
+    float near = p->over[i] > p->over[i + 1] ? p->over[i] : p->over[i + 1]; /* an edge may lie between */
+    float rises = 4 * t * (1 - t), line = foot->from.y + share * (foot->to.y - foot->from.y);
+    float low = line + near + margin * rises * rises - height_at(foot, t);
+    bool leaves = place < 1 && p->over[1] <= margin,
+         comes = place > LOOKS - 1 && p->over[LOOKS - 1] <= margin;
+    if (!leaves && !comes && low > worst) worst = low, *when = t;
   }
   return worst;
 }
@@ -105,10 +106,8 @@ void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   foot->clearance = usual;
   double level;
   if (sbri_ground_is_flat(input->ground, &level)) return;
-  profile p = look(rig, input, foot, &rig->legs[leg].sole);
-  float higher = foot->from.y > foot->to.y ? foot->from.y : foot->to.y, most = usual;
-  if (p.highest > higher) most += p.highest - higher;
-  most *= MOST_OVER;
+  profile p = look(input, foot, &rig->legs[leg].sole);
+  float most = MOST_OVER * (usual + p.highest);
   for (int tries = 0; tries < TRIES; tries++) {
     float missing = lack(foot, &p, CLEAR * usual, &when);
     if (missing <= 0) return;

@@ -15,6 +15,8 @@ static const float LEAN_S = 0.12f;    /* for the body to lean before a foot lift
 static const float LEAN_TWO_S = 0.3f; /* the same on two legs */
 static const float LONGEST = 1.35f;   /* share of the usual time of a step, at speed */
 static const float SHORTEST = 0.25f;  /* share of the usual time below which no step goes */
+static const float MISSED = 0.002f;   /* of the reach: a sole so far from its place slows the body down */
+static const float MISSES = 0.01f;    /* and one so much farther stops it */
 static const float BRAKES = 25;       /* 1/s^2, in reaches: how hard the body brakes for a foot left behind */
 static const uint32_t MANY_LEGS = 6;  /* that balance while half of them are in the air */
 
@@ -51,6 +53,22 @@ sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, u
   }
   sbf_vec3 v = sbri_body_velocity(state);
   return sbri_vec3(v.x + state->turn * arm.z, 0, v.z - state->turn * arm.x);
+}
+
+float sbri_wanted_speed(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  sbri_gait_state wanted = {.heading_sine = state->heading_sine,
+      .heading_cosine = state->heading_cosine,
+      .forward = input->forward,
+      .sideways = input->sideways,
+      .turn = input->turn};
+  sbf_vec3 v = sbri_body_velocity(&wanted);
+  float most = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
+    float speed = sbri_length(sbri_vec3(v.x + input->turn * arm.z, 0, v.z - input->turn * arm.x));
+    most = speed > most ? speed : most;
+  }
+  return most;
 }
 
 sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
@@ -182,8 +200,10 @@ float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri
     float speed = sbri_length(v);
     if (speed <= 0) continue;
     float left = sbri_way_left(rig, state, input, i, sbri_scale(v, 1 / speed));
+    float missed = state->feet[i].missed / (rig->reach * input->scale);
+    if (missed > MISSED && 1 - (missed - MISSED) / MISSES < least) least = 1 - (missed - MISSED) / MISSES;
     float most = left > 0 ? sqrtf(2 * BRAKES * rig->reach * input->scale * left) : 0;
     if (most < least * speed) least = most / speed;
   }
-  return least;
+  return least > 0 ? least : 0;
 }

@@ -5,7 +5,6 @@ static const float SETTLED_PHASE = 0.75f; /* from here on the target stands */
 static const float SET_PHASE = 0.3f;      /* from here on its height does */
 static const float FOLLOW = 0.3f;         /* share by which the target is taken over in a tick, at first */
 static const float SPARE_TIME = 1.15f;    /* of what a step needs: what it should have */
-static const float SLOWEST = 0.1f;        /* share of the wanted motion that is always tried */
 static const float REPLANNED = 0.02f;     /* of the reach: a target so far off makes a new plan */
 
 float sbri_smooth(float t) {
@@ -52,12 +51,13 @@ static void plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_in
 
 /* Steps that take longer than wanted make the next ones slower, and the body where its legs have no more time
  * to give: up stairs it walks slower than on level ground. */
-static void learn(sbri_gait_state *state, const sbri_stride *stride, float needed_s, uint32_t leg_count) {
-  float share = 2 / (float)(leg_count > 2 ? leg_count : 2);
-  state->needed_s += (needed_s > state->needed_s ? 1 : share) * (needed_s - state->needed_s);
-  float faster = sbri_clamp(stride->available_s / (SPARE_TIME * needed_s), 0.5f, 1.5f);
-  float learns = faster < 1 ? 1 : 0.5f * share;
-  state->limit = sbri_clamp(state->limit * (1 + learns * (faster - 1)), SLOWEST, 1);
+static void learn(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stride *stride, float needed_s) {
+  float share = needed_s > state->needed_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
+  state->needed_s += share * (needed_s - state->needed_s);
+  float wanted = sbri_wanted_speed(rig, state, input), most = stride->available_s * stride->speed;
+  float at_most = most / (SPARE_TIME * state->needed_s); /* m/s */
+  state->limit = wanted > at_most ? at_most / wanted : 1;
 }
 
 void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
@@ -71,7 +71,7 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   aim(rig, state, input, stride, leg, 1);
   plan(rig, state, input, leg);
   float needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
-  learn(state, stride, needed, rig->leg_count);
+  learn(rig, state, input, stride, needed);
   if (needed > foot->duration_s) { /* it comes down later, so farther on */
     foot->duration_s = needed;
     aim(rig, state, input, stride, leg, 1);
