@@ -4,11 +4,12 @@
 #include "math/quat.h"
 #include "math/trig.h"
 
-static const float LEAN_HZ = 1.6f, CROUCH_HZ = 3; /* of critically damped followers */
+static const float LEAN_HZ = 1.6f, CROUCH_HZ = 4; /* of critically damped followers */
 static const float MOST_YAW = 0.8f;               /* rad: hips and chest turn less than so */
+static const float DEEPEST = 0.3f; /* of a leg's reach: the body comes down by no more for a foot */
 static const float LOWEST = 0.3f;  /* of a leg's reach: no hip comes nearer to the ground than so */
-static const float EASY = 0.95f;   /* share of it that it comes down for in a stride */
-static const float SPARE = 0.985f; /* share of the uneased reach that the body comes down for ahead of need */
+static const float EASY = 0.93f;   /* share of it that it comes down for in a stride */
+static const float SPARE = 0.965f; /* share of the uneased reach that the body comes down for ahead of need */
 
 static sbf_quat yaw_rotation(float yaw) {
   float s, c;
@@ -49,11 +50,13 @@ static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
 static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, const sbr_transform *root, sbf_vec3 ankle, float share) {
   const sbri_leg *l = &rig->legs[leg];
+  if (state->standing_s > 0 && share < l->rest_stretch) share = l->rest_stretch;
   float reach = share * l->reach * (1 - l->soft_reach) * input->scale;
   sbf_vec3 away = sbri_sub(sbri_hip_of(rig, state, input, leg, root), ankle);
   float left = reach * reach - away.x * away.x - away.z * away.z;
   float least = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
-  return away.y - sqrtf(left > least ? left : least);
+  float drop = away.y - sqrtf(left > least ? left : least), most = DEEPEST * reach;
+  return drop < most ? drop : most;
 }
 
 /* The same for every leg and where its foot is. */

@@ -57,8 +57,8 @@ void sbri_foot_place(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   *foot = (sbri_foot){.planted = 1, .was_planted = 1, .steps_taken = foot->steps_taken, .hip = foot->hip};
-  foot->ground = sbri_ground_below(
-      input, sbri_add(state->position, sbri_home_arm(rig, state, input, leg)), &foot->normal);
+  foot->ground = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
+  sbri_lay_sole(rig, state, input, leg, &foot->ground, &foot->normal);
 }
 
 /* Feet in the air, and their groups, as bits; the groups get one more where a step is too far on for others

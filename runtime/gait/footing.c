@@ -1,5 +1,6 @@
 /* Where a foot may stand: not across an edge, not on a slope too steep, not a step too high. Looked for only
  * near where the foot would go anyhow. */
+#include "collide/ground.h"
 #include "gait/gait_state.h"
 
 static const float STEEPEST = 0.6f; /* cosine of the slope */
@@ -26,29 +27,79 @@ static float level_of(const sbri_rig *rig, const sbri_gait_state *state) {
   return count > 0 ? sum / count : state->position.y;
 }
 
+/* A sole on the ground as a board is: tilted as the ground under its corners is, on the highest of what it
+ * touches. Returns by how much the ground departs from it; where that is too much, as across an edge, it
+ * keeps to the ground under its middle and hangs over. */
+static float lay(const sbri_gait_input *input, const sbf_vec3 corners[4], float uneven, ground_spot *spot) {
+  float heights[4], mean = 0, along = 0, across = 0, rise = 0, worst = 0;
+  for (int k = 0; k < 4; k++) {
+    heights[k] = sbri_ground_below(input, sbri_add(spot->place, corners[k]), NULL).y - spot->place.y;
+    mean += 0.25f * heights[k];
+  }
+  /* Corners lie round the middle in pairs, so differences over the two ways give the slopes. */
+  sbf_vec3 fore = sbri_sub(sbri_add(corners[2], corners[3]), sbri_add(corners[0], corners[1]));
+  sbf_vec3 left = sbri_sub(sbri_add(corners[1], corners[3]), sbri_add(corners[0], corners[2]));
+  along = heights[2] + heights[3] - heights[0] - heights[1];
+  across = heights[1] + heights[3] - heights[0] - heights[2];
+  sbf_vec3 slope = sbri_add(
+      sbri_scale(fore, along / sbri_dot(fore, fore)), sbri_scale(left, across / sbri_dot(left, left)));
+  for (int k = 0; k < 4; k++) {
+    float over = heights[k] - sbri_dot(slope, corners[k]);
+    worst = fabsf(over) > worst ? fabsf(over) : worst;
+    rise = over > rise ? over : rise;
+  }
+  if (worst <= uneven) {
+    spot->normal = sbri_normalize(sbri_vec3(-slope.x, 1, -slope.z), spot->normal);
+  } else {
+    for (int k = 0; k < 4; k++) {
+      float plane = -(spot->normal.x * corners[k].x + spot->normal.z * corners[k].z) / spot->normal.y;
+      if (k == 0) rise = worst = 0;
+      worst = fabsf(heights[k] - plane) > worst ? fabsf(heights[k] - plane) : worst;
+      if (heights[k] - plane > rise) rise = heights[k] - plane;
+    }
+  }
+  spot->place.y += rise;
+  return worst;
+}
+
+/* The corners of a leg's sole, a little larger than it is, as it will stand. */
+static void find_corners(
+    const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t leg, sbf_vec3 corners[4]) {
+  const sbri_sole *sole = &rig->legs[leg].sole;
+  for (int k = 0; k < 4; k++) {
+    sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
+    corners[k] = sbri_headed(state, sbri_scale(corner, AROUND * scale));
+  }
+}
+
+void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 *place, sbf_vec3 *normal) {
+  ground_spot spot;
+  sbf_vec3 corners[4];
+  double level;
+  spot.place = sbri_ground_below(input, *place, &spot.normal);
+  find_corners(rig, state, input->scale, leg, corners);
+  if (!sbri_ground_is_flat(input->ground, &level))
+    (void)lay(input, corners, UNEVEN * rig->reach * input->scale, &spot);
+  *place = spot.place;
+  *normal = spot.normal;
+}
+
 /* 2: good, 1: uneven, 0: not to stand on. */
 static int quality(
     const sbri_rig *rig, const sbri_gait_input *input, const footing *f, sbf_vec3 wanted, ground_spot *spot) {
   float reach = rig->reach * input->scale;
+  double level;
   spot->place = sbri_ground_below(input, wanted, &spot->normal);
   if (spot->normal.y < STEEPEST || fabsf(spot->place.y - f->level) > HIGHEST * reach) return 0;
-  for (int k = 0; k < 4; k++) {
-    sbf_vec3 beside = sbri_add(spot->place, f->corners[k]);
-    float plane = spot->place.y -
-                  (spot->normal.x * f->corners[k].x + spot->normal.z * f->corners[k].z) / spot->normal.y;
-    if (fabsf(sbri_ground_below(input, beside, NULL).y - plane) > UNEVEN * reach) return 1;
-  }
-  return 2;
+  if (sbri_ground_is_flat(input->ground, &level)) return 2;
+  return lay(input, f->corners, UNEVEN * reach, spot) <= UNEVEN * reach ? 2 : 1;
 }
 
 bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *place, sbf_vec3 *normal) {
-  const sbri_sole *sole = &rig->legs[leg].sole;
   footing f = {.level = level_of(rig, state)};
-  for (int k = 0; k < 4; k++) {
-    sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
-    f.corners[k] = sbri_headed(state, sbri_scale(corner, AROUND * input->scale));
-  }
+  find_corners(rig, state, input->scale, leg, f.corners);
   float step = SPACING * rig->reach * input->scale;
   ground_spot spot, uneven;
   int best = quality(rig, input, &f, wanted, &spot);

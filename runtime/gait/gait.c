@@ -6,11 +6,11 @@
 #include "math/quat.h"
 #include "math/trig.h"
 
-static const float EASE_S = 0.18f;  /* time over which wanted motion takes effect */
-static const float ACCELERATES = 5; /* 1/s^2, in reaches: no faster than so */
-static const float STILL = 0.004f;  /* m/s and rad/s, per metre of leg: below it the character stands */
-static const float LONG_S = 1;      /* of standing; longer is no longer counted */
-static const float HURRY_S = 0.12f; /* over which it takes up its pace again after waiting for a foot */
+static const float EASE_S = 0.18f;     /* time over which wanted motion takes effect */
+static const float ACCELERATES = 0.2f; /* reaches, in the square of the time of a step: no faster than so */
+static const float STILL = 0.004f;     /* m/s and rad/s, per metre of leg: below it the character stands */
+static const float LONG_S = 1;          /* of standing; longer is no longer counted */
+static const float HURRY_S = 0.12f;    /* over which it takes up its pace again after waiting for a foot */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
   size_t size = sizeof(sbri_gait_state) + 2 * sizeof(sbri_lag) * rig->tail_bone_count +
@@ -60,14 +60,19 @@ void sbri_gait_place(
 /* Eases the motion towards what is wanted and moves the body on, as fast as the feet allow. Returns the turn
  * made. */
 static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
-  float ease = 1 - sbri_exp(-input->tick_s / EASE_S), most = ACCELERATES * rig->reach * input->scale;
+  float ease = 1 - sbri_exp(-input->tick_s / EASE_S), share = 1;
   float ahead = (state->limit * input->forward - state->forward) * ease;
   float aside = (state->limit * input->sideways - state->sideways) * ease;
-  float change = sqrtf(ahead * ahead + aside * aside), share = 1;
-  if (rig->leg_count && change > most * input->tick_s) share = most * input->tick_s / change;
+  float turn = (state->limit * input->turn - state->turn) * ease;
+  if (rig->leg_count) { /* of what changes fastest: a foot's home */
+    float step_s = rig->gait->step_duration, round = turn * rig->spread * input->scale;
+    float most = ACCELERATES * rig->reach * input->scale * input->tick_s / (step_s * step_s);
+    float change = sqrtf(ahead * ahead + aside * aside + round * round);
+    share = change > most ? most / change : 1;
+  }
   state->forward += share * ahead;
   state->sideways += share * aside;
-  state->turn += (state->limit * input->turn - state->turn) * ease;
+  state->turn += share * turn;
   bool wanted = input->forward != 0 || input->sideways != 0 || input->turn != 0;
   float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
   if (!wanted && speed < STILL * input->scale && fabsf(state->turn) < STILL) {

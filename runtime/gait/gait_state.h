@@ -176,6 +176,10 @@ float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri
 bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *place, sbf_vec3 *normal);
 
+/* Puts a sole on the ground at `place`, tilted as the ground is and nowhere inside it. */
+void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 *place, sbf_vec3 *normal);
+
 /* ---- gait/support.c: balance ---- */
 
 /* Signed distance of the centre of mass, now and `way` further, from the edge of what feet stand on, those of

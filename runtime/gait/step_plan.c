@@ -81,14 +81,16 @@ static float lack(const sbri_foot *foot, const profile *p, float margin, float *
   return worst;
 }
 
-/* Makes the step's times such that more of it is clear; false where they are as they can be. */
+/* Makes the step's times such that more of it is clear, but for what it has begun; false where they are as
+ * they can be. */
 static bool make_room(sbri_foot *foot, float when) {
   float rise = foot->to.y - foot->from.y;
+  bool fresh = foot->phase <= 0;
   if (rise > 0 && foot->climbed > SOONEST) {
     foot->climbed -= 0.5f * (1 - SOONEST);
-  } else if (rise < 0 && foot->climbs < 1 - SOONEST) {
+  } else if (fresh && rise < 0 && foot->climbs < 1 - SOONEST) {
     foot->climbs += 0.5f * (1 - SOONEST);
-  } else if (when < 0.5f && foot->leaves < LATEST) {
+  } else if (fresh && when < 0.5f && foot->leaves < LATEST) {
     foot->leaves += 0.5f * LATEST;
   } else if (when >= 0.5f && foot->arrives > 1 - LATEST) {
     foot->arrives -= 0.5f * LATEST;
@@ -101,8 +103,7 @@ static bool make_room(sbri_foot *foot, float when) {
 void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   float usual = rig->gait->step_height * input->scale, when = 0;
-  bool fresh = foot->phase <= 0;
-  if (fresh) foot->leaves = foot->climbs = 0, foot->arrives = foot->climbed = 1;
+  if (foot->phase <= 0) foot->leaves = foot->climbs = 0, foot->arrives = foot->climbed = 1;
   foot->clearance = usual;
   double level;
   if (sbri_ground_is_flat(input->ground, &level)) return;
@@ -111,7 +112,7 @@ void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   for (int tries = 0; tries < TRIES; tries++) {
     float missing = lack(foot, &p, CLEAR * usual, &when);
     if (missing <= 0) return;
-    if (fresh && make_room(foot, when)) continue;
+    if (make_room(foot, when)) continue;
     float up = sbri_smooth(when < 0.5f ? 2 * when : 2 - 2 * when);
     foot->clearance += missing / (up > 0.5f ? up : 0.5f);
     if (foot->clearance > most) foot->clearance = most;

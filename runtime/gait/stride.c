@@ -17,8 +17,9 @@ static const float LONGEST = 1.35f;   /* share of the usual time of a step, at s
 static const float SHORTEST = 0.25f;  /* share of the usual time below which no step goes */
 static const float MISSED = 0.002f;   /* of the reach: a sole so far from its place slows the body down */
 static const float MISSES = 0.01f;    /* and one so much farther stops it */
-static const float BRAKES = 25;       /* 1/s^2, in reaches: how hard the body brakes for a foot left behind */
-static const uint32_t MANY_LEGS = 6;  /* that balance while half of them are in the air */
+static const float BRAKES =
+    1; /* reaches, in the square of the time of a step: as the body brakes for a foot */
+static const uint32_t MANY_LEGS = 6; /* that balance while half of them are in the air */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
   sbf_vec3 v = sbri_headed(state, sbri_vec3(state->sideways, 0, state->forward));
@@ -149,7 +150,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float lean = rig->leg_count == 2 ? LEAN_TWO_S : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
   float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * needed_s + lean);
   s.together =
-      (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.7f : 0.82f) * most;
+      (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.62f : 0.74f) * most;
   if (rig->has_pegs) s.together = true;               /* they could not follow a body that leans */
   float each = 0.5f * s.speed * (groups - 1) * SLACK; /* half a stride for each second of a step */
   s.available_s = each > 0 ? most / each : 1e6f;
@@ -193,16 +194,20 @@ float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbr
 }
 
 float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  float least = 1;
+  float least = 1, step_s = rig->leg_count ? rig->gait->step_duration : 1;
+  float brakes = BRAKES * rig->reach * input->scale / (step_s * step_s);
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
     sbf_vec3 v = sbri_home_velocity(rig, state, i, sbri_home_arm(rig, state, input, i));
     float speed = sbri_length(v);
     if (speed <= 0) continue;
-    float left = sbri_way_left(rig, state, input, i, sbri_scale(v, 1 / speed));
+    sbf_vec3 way = sbri_scale(v, 1 / speed);
+    float left = sbri_way_left(rig, state, input, i, way);
+    float turned = left > 0 ? sbri_clamp(state->turn * left / speed, -2, 2) : 0; /* on its way there */
+    if (turned != 0) left = sbri_way_left(rig, state, input, i, sbri_turned(way, 0.5f * turned));
     float missed = state->feet[i].missed / (rig->reach * input->scale);
     if (missed > MISSED && 1 - (missed - MISSED) / MISSES < least) least = 1 - (missed - MISSED) / MISSES;
-    float most = left > 0 ? sqrtf(2 * BRAKES * rig->reach * input->scale * left) : 0;
+    float most = left > 0 ? sqrtf(2 * brakes * left) : 0;
     if (most < least * speed) least = most / speed;
   }
   return least > 0 ? least : 0;

@@ -2,9 +2,10 @@
 #include "gait/gait_state.h"
 
 static const float SETTLED_PHASE = 0.75f; /* from here on the target stands */
-static const float SET_PHASE = 0.3f;      /* from here on its height does */
+static const float SET_PHASE = 0.25f;     /* from here on its height does */
 static const float FOLLOW = 0.3f;         /* share by which the target is taken over in a tick, at first */
 static const float SPARE_TIME = 1.15f;    /* of what a step needs: what it should have */
+static const float LEVEL = 0.08f;         /* of the reach: what is higher or lower is another level */
 static const float REPLANNED = 0.02f;     /* of the reach: a target so far off makes a new plan */
 
 float sbri_smooth(float t) {
@@ -40,6 +41,9 @@ static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_inp
   sbf_vec3 place, normal, wanted = wanted_place(rig, state, input, stride, leg, left);
   if (!sbri_footing(rig, state, input, leg, wanted, &place, &normal))
     place = foot->from, normal = foot->from_normal;
+  bool other = fabsf(place.y - foot->to.y) > LEVEL * rig->reach * input->scale;
+  if (foot->phase > SET_PHASE && other) return; /* too late for another step of a stair */
+  if (other) share = 1;                         /* between the two there is none */
   foot->to = sbri_lerp(foot->to, place, share);
   foot->to_normal = sbri_normalize(sbri_lerp(foot->to_normal, normal, share), normal);
 }
@@ -129,7 +133,7 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     float off = sbri_length(sbri_sub(foot->to, foot->planned));
     if (foot->phase < SET_PHASE && off > REPLANNED * rig->reach * input->scale) plan(rig, state, input, leg);
   } else if (foot->to_normal.y != 0) {
-    foot->to = sbri_ground_below(input, foot->to, &foot->to_normal);
+    sbri_lay_sole(rig, state, input, leg, &foot->to, &foot->to_normal);
   }
   if (foot->phase >= 1) {
     put_down(foot);

@@ -76,6 +76,9 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   leg->upper_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
   leg->lower_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(ankle, knee), side));
   leg->reach = sbri_rig_leg_reach(rig, leg);
+  float rest_reach = sbri_length(sbri_sub(ankle, hip)) / leg->reach; /* a leg straight at rest stays so */
+  if (leg->soft_reach > 1 - rest_reach) leg->soft_reach = rest_reach < 1 ? 1 - rest_reach : 0;
+  leg->rest_stretch = rest_reach / (1 - leg->soft_reach);
   leg->hind = rig->gait->chest < 0 || !sbri_rig_is_below(rig, upper, rig->gait->chest);
   return leg->upper_length > 0 && (peg || leg->lower_length > 0);
 }
@@ -94,6 +97,8 @@ static void init_legs(sbri_rig *rig) {
     hind_count += leg->hind;
     *(leg->hind ? &hind : &fore) += leg->home.z;
     width += fabsf(leg->home.x);
+    float away = sqrtf(leg->home.x * leg->home.x + leg->home.z * leg->home.z);
+    rig->spread = away > rig->spread ? away : rig->spread;
   }
   uint32_t fore_count = rig->leg_count - hind_count;
   rig->hind_z = hind_count ? hind / (float)hind_count : 0;

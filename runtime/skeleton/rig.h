@@ -25,6 +25,8 @@ typedef struct sbri_leg {
   float upper_length, lower_length;
   float
       reach; /* farthest that the ankle may be from the hip, as far as the knee's limits let it stretch, m */
+  float rest_stretch; /* distance of hip and ankle at rest, in shares of what `soft_reach` leaves of the reach
+                       */
   uint32_t group;
   bool hind; /* hangs on the hips; else on the chest */
   float copy_rotation, soft_reach;
@@ -87,6 +89,7 @@ typedef struct sbri_rig {
   sbri_walks walks;
   float hind_z, fore_z; /* mean z of the homes of hind and fore legs, asset space */
   float half_width;     /* mean |x| of the homes */
+  float spread;         /* greatest distance of a home from the middle, level, m */
   float reach;          /* mean of the legs' lengths, m */
   uint32_t group_count; /* of the legs */
   bool has_pegs;        /* some leg has no knee */

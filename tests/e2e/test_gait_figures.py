@@ -6,7 +6,7 @@ from sbfmt_program import ProgramTest, example, main
 from walks import all_walks, failures, leg_of, measure
 
 CHOSEN = ("flat, 0.1", "flat, 1", "flat, 2", "flat, backward 0.5", "flat, turning on the spot",
-          "flat, starting, stopping, aside", "slope of 20°, 0.3", "stairs of a quarter leg, 0.3", "noise, 0.5")
+          "flat, starting, stopping, aside", "slope of 20°, 0.3", "stairs of a quarter leg, 1", "noise, 0.5")
 
 
 class Gait(ProgramTest):
