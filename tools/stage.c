@@ -6,7 +6,8 @@
 
 /* The triangles of one mesh that bear one material. */
 typedef struct patch {
-  uint32_t *triangles;
+  uint32_t *triangles, *whole; /* all, and room for those that no tear has opened */
+  uint32_t *polygons;          /* (triangle_count) which each is of */
   uint32_t triangle_count;
   draw_colour colour;
 } patch;
@@ -14,6 +15,7 @@ typedef struct patch {
 typedef struct mesh_look {
   patch *patches;
   uint32_t patch_count;
+  uint8_t *torn;  /* (polygons) */
   uint32_t level; /* of the mesh that is shown */
 } mesh_look;
 
@@ -83,8 +85,11 @@ static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, sho
 
 /* Cuts the polygons of one material slot into fans of triangles. */
 static bool cut_patch(const shown_polygons *shown, uint32_t slot, patch *p) {
-  p->triangles = malloc((3 * (size_t)shown->points.count + 1) * sizeof *p->triangles);
-  if (!p->triangles) return false;
+  size_t most = 3 * (size_t)shown->points.count + 1;
+  p->triangles = malloc(most * sizeof *p->triangles);
+  p->whole = malloc(most * sizeof *p->whole);
+  p->polygons = malloc(((size_t)shown->points.count + 1) * sizeof *p->polygons);
+  if (!p->triangles || !p->whole || !p->polygons) return false;
   for (uint32_t i = 0, at = 0; i < shown->sizes.count; at += shown->sizes.at[i++]) {
     const uint32_t *corner = shown->points.at + at;
     if ((shown->materials.count ? shown->materials.at[i] : 0) != slot) continue;
@@ -93,7 +98,7 @@ static bool cut_patch(const shown_polygons *shown, uint32_t slot, patch *p) {
       for (int c = 0; c < 3; c++)
         p->triangles[3 * p->triangle_count + (uint32_t)c] =
             shown->place_of ? shown->place_of[fan[c]] : fan[c];
-      p->triangle_count++;
+      p->polygons[p->triangle_count++] = i;
     }
   }
   return true;
@@ -107,6 +112,8 @@ static bool look_of_mesh(const session *s, uint32_t number, uint32_t level, mesh
   look->patches = calloc(slots, sizeof *look->patches);
   look->patch_count = slots;
   bool good = shown_of_mesh(s, number, look->level, &shown) && look->patches;
+  look->torn = calloc(shown.sizes.count + 1u, 1);
+  good = good && look->torn;
   for (uint32_t p = 0; good && p < slots; p++) {
     look->patches[p].colour =
         colour_of(s->asset, mesh->material_slots.count ? mesh->material_slots.at[p].material : SBF_NONE);
@@ -179,12 +186,19 @@ stage *stage_create(const session *s, unsigned show, uint32_t render_level) {
   return NULL;
 }
 
+static void free_patch(patch *p) {
+  free(p->triangles);
+  free(p->whole);
+  free(p->polygons);
+}
+
 void stage_destroy(stage *st) {
   if (!st) return;
   for (uint32_t i = 0; st->meshes && i < st->mesh_count; i++) {
     for (uint32_t p = 0; st->meshes[i].patches && p < st->meshes[i].patch_count; p++)
-      free(st->meshes[i].patches[p].triangles);
+      free_patch(&st->meshes[i].patches[p]);
     free(st->meshes[i].patches);
+    free(st->meshes[i].torn);
   }
   for (uint32_t i = 0; st->bodies && i < st->body_count; i++) free(st->bodies[i].edges);
   free(st->meshes);
@@ -209,20 +223,33 @@ static void to_world(sbf_vec3 origin, sbf_vec3 *points, uint32_t count) {
   }
 }
 
+/* Those of the patch's triangles that no tear has opened, in p->whole; returns how many. */
+static uint32_t keep_whole(const patch *p, const uint8_t *torn) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < p->triangle_count; i++) {
+    if (torn[p->polygons[i]]) continue;
+    memcpy(p->whole + 3 * (size_t)count++, p->triangles + 3 * (size_t)i, 3 * sizeof *p->whole);
+  }
+  return count;
+}
+
 static void show_skin(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
   bool inside = (st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET)) != 0;
   for (uint32_t m = 0; m < st->mesh_count; m++) {
     uint32_t count = sbr_character_level_skin(
         s->world, s->character, m, st->meshes[m].level, st->positions, st->normals, NULL, st->room);
     to_world(origin, st->positions, count);
+    uint32_t polygons = sbr_character_torn_polygons(s->world, s->character, m, st->meshes[m].level, NULL, 0);
+    sbr_character_torn_polygons(s->world, s->character, m, st->meshes[m].level, st->meshes[m].torn, polygons);
     for (uint32_t p = 0; p < st->meshes[m].patch_count; p++) {
       const patch *one = &st->meshes[m].patches[p];
-      if (one->triangle_count == 0) continue;
+      uint32_t triangles = keep_whole(one, st->meshes[m].torn);
+      if (triangles == 0) continue;
       draw_scene_add_mesh(scene, &(draw_mesh){.positions = st->positions,
                                      .normals = st->normals,
-                                     .triangles = one->triangles,
+                                     .triangles = one->whole,
                                      .vertex_count = count,
-                                     .triangle_count = one->triangle_count,
+                                     .triangle_count = triangles,
                                      .colour = one->colour,
                                      .transparency = inside ? DRAW_XRAY : 0});
     }
