@@ -17,33 +17,45 @@ static bool read_goal(const cli_call *call, sbf_convert_options *options) {
   return false;
 }
 
-bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
+/* The values of one option, in memory of its own. */
+static bool read_names(
+    const cli_call *call, const char *option, sbf_convert_pin **pins, char **text, uint32_t *count) {
   const char *value;
   size_t size = 1;
-  uint32_t count = 0;
-  for (int at = 0; (value = cli_next_value(call, "--pin", &at)); count++) size += strlen(value) + 1;
-  pins->pins = calloc(count + 1, sizeof *pins->pins);
-  pins->text = malloc(size);
-  if (!pins->pins || !pins->text) {
+  *count = 0;
+  for (int at = 0; (value = cli_next_value(call, option, &at)); ++*count) size += strlen(value) + 1;
+  *pins = calloc(*count + 1, sizeof **pins);
+  *text = malloc(size);
+  if (!*pins || !*text) {
     cli_wrong(call, "out of memory");
     return false;
   }
-  char *next = pins->text;
-  count = 0;
-  for (int at = 0; (value = cli_next_value(call, "--pin", &at)); count++) {
+  char *next = *text;
+  *count = 0;
+  for (int at = 0; (value = cli_next_value(call, option, &at)); ++*count) {
     size_t length = strlen(value) + 1;
     memcpy(next, value, length);
     char *equals = strrchr(next, '=');
     if (equals) *equals++ = 0;
-    pins->pins[count] = (sbf_convert_pin){next, equals && strcmp(equals, "world") == 0 ? "" : equals};
+    (*pins)[*count] = (sbf_convert_pin){next, equals && strcmp(equals, "world") == 0 ? "" : equals};
     next += length;
   }
+  return true;
+}
+
+bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
+  *pins = (pin_options){.pins = NULL};
+  if (!read_names(call, "--pin", &pins->pins, &pins->text, &options->pin_count) ||
+      !read_names(call, "--hold", &pins->holds, &pins->held_text, &options->hold_count))
+    return false;
   options->pins = pins->pins;
-  options->pin_count = count;
+  options->holds = pins->holds;
   return read_goal(call, options) && cli_number(call, "--goal-stiffness", 0, 1e9, &options->goal_stiffness);
 }
 
 void pin_options_free(pin_options *pins) {
   free(pins->pins);
   free(pins->text);
+  free(pins->holds);
+  free(pins->held_text);
 }

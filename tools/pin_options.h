@@ -10,13 +10,17 @@
       "pin what a vertex group or a bone's weights name to a bone (that of its name, else the world); may "  \
       "be "                                                                                                  \
       "given again"},                                                                                        \
+      {"--hold", "GROUP[=BONE]",                                                                             \
+          "hold what a vertex group or a bone's weights name in the sections that a skin is cut into, by "   \
+          "the "                                                                                             \
+          "section's bone or that one; may be given again"},                                                 \
       {"--goal", "MIN,MAX", "bounds of pin weights; below 1 a pin is a goal spring (0,1)"}, {                \
     "--goal-stiffness", "N/M", "of a goal spring at weight 1 (by the body's modulus)"                        \
   }
 
 typedef struct pin_options {
-  sbf_convert_pin *pins;
-  char *text; /* of all names */
+  sbf_convert_pin *pins, *holds;
+  char *text, *held_text; /* of all names */
 } pin_options;
 
 /* Sets what the call asks for in `*options`; "world", and nothing behind the =, are the world. False, with a

@@ -225,6 +225,24 @@ static const sbfi_field render_level_fields[] = {
 };
 static const sbfi_element render_level_element = {"render_level", "render_level", sizeof(sbf_render_level), 0, 6, render_level_fields, NULL};
 
+static const sbfi_length pin_set_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"};
+static const sbfi_length pin_set_offsets_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_pin_set, points)}}, "points"}};
+static const sbfi_length pin_set_weights_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_pin_set, points)}}, "points"}};
+static const sbfi_field pin_set_fields[] = {
+  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pin_set, name), .width = 1, .unit = "", .default_text = ""},
+  {.name = "bone", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pin_set, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
+  {.name = "rigid_body", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pin_set, rigid_body), .width = 1, .unit = "", .target = offsetof(sbf_asset, rigid_bodies), .target_name = "rigid_bodies"},
+  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_pin_set, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
+  {.name = "points", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_pin_set, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &pin_set_points_index},
+  {.name = "offsets", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_pin_set, offsets), .width = 3, .unit = "m", .item = SBFI_ITEM_F32, .length_count = 2, .lengths = pin_set_offsets_lengths},
+  {.name = "weights", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_pin_set, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 3, .lengths = pin_set_weights_lengths},
+  {.name = "stiffness", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_pin_set, stiffness), .width = 1, .unit = "N/m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "damping", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_pin_set, damping), .width = 1, .unit = "N*s/m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "minimum", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_pin_set, minimum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false},
+  {.name = "maximum", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_pin_set, maximum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
+};
+static const sbfi_element pin_set_element = {"pin_set", "pin_set", sizeof(sbf_pin_set), 0, 11, pin_set_fields, NULL};
+
 static const sbfi_length render_mesh_normal_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "mesh.polygon_points"}};
 static const sbfi_length render_mesh_normal_corners_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, normals)}}, "normals"};
 static const sbfi_length render_mesh_polygon_materials_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.polygon_sizes)}}, "mesh.polygon_sizes"}};
@@ -246,8 +264,9 @@ static const sbfi_field render_mesh_fields[] = {
   {.name = "shape_keys", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_render_mesh, shape_keys), .width = 1, .unit = "", .element = &shape_key_element, .xml = "shape_key"},
   {.name = "source_points", .type = SBFI_LIST, .number = 13, .since_minor = 0, .offset = offsetof(sbf_render_mesh, source_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_mesh_source_points_lengths},
   {.name = "levels", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_render_mesh, levels), .width = 1, .unit = "", .element = &render_level_element, .xml = "render_level"},
+  {.name = "pins", .type = SBFI_MANY, .number = 15, .since_minor = 0, .offset = offsetof(sbf_render_mesh, pins), .width = 1, .unit = "", .element = &pin_set_element, .xml = "pin_set", .wrapper = "pins"},
 };
-static const sbfi_element render_mesh_element = {"render_mesh", "render_mesh", sizeof(sbf_render_mesh), SBFI_KIND('M', 'E', 'S', 'H'), 14, render_mesh_fields, &render_mesh_size};
+static const sbfi_element render_mesh_element = {"render_mesh", "render_mesh", sizeof(sbf_render_mesh), SBFI_KIND('M', 'E', 'S', 'H'), 15, render_mesh_fields, &render_mesh_size};
 
 static const sbfi_field attributes_fields[] = {
   {.name = "density", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_attributes, density), .width = 1, .unit = "kg/m^3", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1000.0f}},
@@ -291,24 +310,6 @@ static const sbfi_field weight_map_fields[] = {
   {.name = "values", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_weight_map, values), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 1, .lengths = weight_map_values_lengths},
 };
 static const sbfi_element weight_map_element = {"weight_map", "weight_map", sizeof(sbf_weight_map), 0, 2, weight_map_fields, NULL};
-
-static const sbfi_length pin_set_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"};
-static const sbfi_length pin_set_offsets_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_pin_set, points)}}, "points"}};
-static const sbfi_length pin_set_weights_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_pin_set, points)}}, "points"}};
-static const sbfi_field pin_set_fields[] = {
-  {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_pin_set, name), .width = 1, .unit = "", .default_text = ""},
-  {.name = "bone", .type = SBFI_REF, .number = 2, .since_minor = 0, .offset = offsetof(sbf_pin_set, bone), .width = 1, .unit = "", .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "rigid_body", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_pin_set, rigid_body), .width = 1, .unit = "", .target = offsetof(sbf_asset, rigid_bodies), .target_name = "rigid_bodies"},
-  {.name = "derived", .type = SBFI_REF, .number = 4, .since_minor = 0, .offset = offsetof(sbf_pin_set, derived), .width = 1, .unit = "", .target = offsetof(sbf_asset, derivations), .target_name = "derivations"},
-  {.name = "points", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_pin_set, points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .index = &pin_set_points_index},
-  {.name = "offsets", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_pin_set, offsets), .width = 3, .unit = "m", .item = SBFI_ITEM_F32, .length_count = 2, .lengths = pin_set_offsets_lengths},
-  {.name = "weights", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_pin_set, weights), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .length_count = 3, .lengths = pin_set_weights_lengths},
-  {.name = "stiffness", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_pin_set, stiffness), .width = 1, .unit = "N/m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "damping", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_pin_set, damping), .width = 1, .unit = "N*s/m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
-  {.name = "minimum", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_pin_set, minimum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false},
-  {.name = "maximum", .type = SBFI_FLOAT, .number = 11, .since_minor = 0, .offset = offsetof(sbf_pin_set, maximum), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
-};
-static const sbfi_element pin_set_element = {"pin_set", "pin_set", sizeof(sbf_pin_set), 0, 11, pin_set_fields, NULL};
 
 static const sbfi_length attachment_points_index = {1, {{SBFI_TERM_SIZE, 1, 0}}, "parent.size"};
 static const sbfi_field attachment_fields[] = {
@@ -704,11 +705,11 @@ void sbf_material_slot_init(sbf_material_slot *material_slot) { sbfi_element_ini
 void sbf_skin_init(sbf_skin *skin) { sbfi_element_init(&skin_element, skin); }
 void sbf_shape_key_init(sbf_shape_key *shape_key) { sbfi_element_init(&shape_key_element, shape_key); }
 void sbf_render_level_init(sbf_render_level *render_level) { sbfi_element_init(&render_level_element, render_level); }
+void sbf_pin_set_init(sbf_pin_set *pin_set) { sbfi_element_init(&pin_set_element, pin_set); }
 void sbf_render_mesh_init(sbf_render_mesh *render_mesh) { sbfi_element_init(&render_mesh_element, render_mesh); }
 void sbf_attributes_init(sbf_attributes *attributes) { sbfi_element_init(&attributes_element, attributes); }
 void sbf_collision_init(sbf_collision *collision) { sbfi_element_init(&collision_element, collision); }
 void sbf_weight_map_init(sbf_weight_map *weight_map) { sbfi_element_init(&weight_map_element, weight_map); }
-void sbf_pin_set_init(sbf_pin_set *pin_set) { sbfi_element_init(&pin_set_element, pin_set); }
 void sbf_attachment_init(sbf_attachment *attachment) { sbfi_element_init(&attachment_element, attachment); }
 void sbf_tetrahedron_mesh_init(sbf_tetrahedron_mesh *tetrahedron_mesh) { sbfi_element_init(&tetrahedron_mesh_element, tetrahedron_mesh); }
 void sbf_spring_set_init(sbf_spring_set *spring_set) { sbfi_element_init(&spring_set_element, spring_set); }

@@ -178,6 +178,7 @@ render_mesh MESH
   shape_keys: many(shape_key) as=<shape_key>
   source_points: uint[] length=0|mesh.positions
   levels: many(render_level) as=<render_level>
+  pins: many(pin_set) as=<pins><pin_set>
 uv_set
   name: string
   coordinates: vec2[]

@@ -66,7 +66,8 @@ class ConvertOptions(Structure):
                 ("up", c_char), ("no_gait", c_bool), ("import_helper", c_char_p), ("report", Report), ("user", c_void_p),
                 ("pins", POINTER(ConvertPin)), ("pin_count", c_uint32), ("goal_minimum", c_double),
                 ("goal_maximum", c_double), ("goal_stiffness", c_double),
-                ("summary", c_void_p), ("limits", ctypes.c_int), ("keep_modulus", c_bool)]
+                ("summary", c_void_p), ("limits", ctypes.c_int), ("keep_modulus", c_bool), ("holds", POINTER(ConvertPin)),
+                ("hold_count", c_uint32)]
 
 
 class ValidateOptions(Structure):

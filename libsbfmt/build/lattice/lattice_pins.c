@@ -184,6 +184,25 @@ static bool make(work *w, int32_t derivation) {
   return sbfi_level_pins_make(w->level, &rest, derivation, w->asset, core, core_count, w->scratch);
 }
 
+bool sbfi_lattice_pins_carry(sbf_level *level, const sbf_soft_body *body, uint8_t *taken, int32_t derivation,
+    sbf_asset *asset, sbfi_arena *scratch) {
+  work w = {.level = level, .body = body, .asset = asset, .scratch = scratch};
+  sbf_pin_set *sets = sbf_asset_allocate(asset, (size_t)body->pins.count + 1, sizeof *sets);
+  uint32_t count = 0;
+  if (body->pins.count == 0) return true;
+  if (!sets || !sbfi_triangle_tree_build(&w.surface, &body->surface, scratch) || !box_points(&w) ||
+      !find_depths(&w))
+    return false;
+  for (uint32_t i = 0; i < body->pins.count; i++) {
+    if (!carry_set(&w, &sets[count], &body->pins.at[i])) return false;
+    sets[count].derived = derivation;
+    count += sets[count].points.count > 0;
+  }
+  memcpy(taken, w.taken, level->positions.count);
+  level->pins = (sbf_pin_set_list){count ? sets : NULL, count};
+  return true;
+}
+
 bool sbfi_lattice_pins_make(
     sbf_level *level, const sbf_soft_body *body, int32_t derivation, sbf_asset *asset, sbfi_arena *scratch) {
   work w = {.level = level, .body = body, .asset = asset, .scratch = scratch};

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "build/geometry/triangle_tree.h"
+#include "build/lattice/lattice_pins.h"
 #include "build/sections/level_pins.h"
 #include "build/springs/pair_set.h"
 #include "mechanics/vector.h"
@@ -27,7 +28,8 @@ typedef struct work {
   sbf_uint2 *ends; /* (spring_count) */
   float *volumes;  /* (point_count) a quarter of each tetrahedron's */
   double volume;   /* of all */
-  uint8_t *held;   /* (point_count) */
+  uint8_t *held;   /* (point_count) fast, by the bone's core or by the author */
+  uint8_t *taken;  /* (point_count) the author's pins have it */
 } work;
 
 static double volume_of(const work *w, sbf_uint4 at) {
@@ -94,8 +96,7 @@ static bool hold_core(work *w) {
   double *depths2 = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *depths2);
   double *near = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *near);
   double *around = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *around);
-  w->held = sbfi_arena_allocate(w->scratch, w->point_count, 1);
-  if (!depths2 || !near || !around || !w->held) return false;
+  if (!depths2 || !near || !around) return false;
   if (!sbfi_triangle_tree_build(&surface, &w->body->surface, w->scratch)) return false;
   for (uint32_t i = 0; i < w->point_count; i++) {
     depths2[i] = INFINITY;
@@ -103,7 +104,20 @@ static bool hold_core(work *w) {
   }
   spread_greatest(w, depths2, near);
   spread_greatest(w, near, around);
-  for (uint32_t i = 0; i < w->point_count; i++) w->held[i] = depths2[i] >= around[i] / 4;
+  for (uint32_t i = 0; i < w->point_count; i++)
+    w->held[i] = w->held[i] || (!w->taken[i] && depths2[i] >= around[i] / 4);
+  return true;
+}
+
+/* What the author painted goes before all else. */
+static bool hold_painted(work *w) {
+  w->held = sbfi_arena_allocate(w->scratch, w->point_count, 1);
+  w->taken = sbfi_arena_allocate(w->scratch, w->point_count, 1);
+  if (!w->held || !w->taken) return false;
+  if (!sbfi_lattice_pins_carry(w->level, w->body, w->taken, w->recipe->derivation, w->asset, w->scratch))
+    return false;
+  if (w->level->pins.count) sbf_level_held_points(w->level, w->held);
+  for (uint32_t i = 0; i < w->level->pins.count; i++) w->counts->pins += w->level->pins.at[i].points.count;
   return true;
 }
 
@@ -111,7 +125,7 @@ static bool pin_core(work *w, sbf_pin_set *set) {
   uint32_t *core = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *core), count = 0;
   if (!core) return false;
   for (uint32_t i = 0; i < w->point_count; i++)
-    if (w->held[i]) core[count++] = i;
+    if (w->held[i] && !w->taken[i]) core[count++] = i;
   if (!sbfi_bone_pins_make(set, "interior", w->level, w->body->bone, core, count, w->asset)) return false;
   w->counts->pins += count;
   return true;
@@ -125,7 +139,7 @@ static bool pin_shape(work *w, sbf_pin_set *set, const float *stiffness) {
   for (uint32_t s = 0; s < w->spring_count; s++)
     for (int end = 0; end < 2; end++) sums[w->ends[s].at[end]] += (double)stiffness[s];
   for (uint32_t i = 0; i < w->point_count; i++) {
-    if (w->held[i]) continue;
+    if (w->held[i] || w->taken[i]) continue;
     points[count++] = i;
     greatest = fmax(greatest, sums[i]);
   }
@@ -141,13 +155,18 @@ static bool pin_shape(work *w, sbf_pin_set *set, const float *stiffness) {
 }
 
 static bool add_pins(work *w, const float *stiffness) {
-  sbf_pin_set *sets = sbf_asset_allocate(w->asset, 2, sizeof *sets);
-  uint32_t free_count = 0;
-  for (uint32_t i = 0; i < w->point_count; i++) free_count += !w->held[i];
-  if (!sets || !pin_core(w, &sets[0])) return false;
-  if (free_count && !pin_shape(w, &sets[1], stiffness)) return false;
-  w->level->pins = (sbf_pin_set_list){sets, free_count ? 2 : 1};
-  for (uint32_t i = 0; i < w->level->pins.count; i++) sets[i].derived = w->recipe->derivation;
+  uint32_t count = w->level->pins.count, free_count = 0, core_count = 0;
+  sbf_pin_set *sets = sbf_asset_allocate(w->asset, (size_t)count + 2, sizeof *sets);
+  if (!sets) return false;
+  if (count) memcpy(sets, w->level->pins.at, count * sizeof *sets);
+  for (uint32_t i = 0; i < w->point_count; i++) {
+    core_count += w->held[i] && !w->taken[i];
+    free_count += !w->held[i] && !w->taken[i];
+  }
+  if (core_count && !pin_core(w, &sets[count++])) return false;
+  if (free_count && !pin_shape(w, &sets[count++], stiffness)) return false;
+  w->level->pins = (sbf_pin_set_list){count ? sets : NULL, count};
+  for (uint32_t i = 0; i < count; i++) sets[i].derived = w->recipe->derivation;
   return true;
 }
 
@@ -216,6 +235,7 @@ sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_bo
   level->derived = recipe->derivation;
   level->cell = (float)w.lattice.cell;
   level->name = sbf_asset_copy_text(asset, "springs");
-  bool good = level->name && fill(&w) && collect_sides(&w) && hold_core(&w) && weigh(&w) && add_springs(&w);
+  bool good = level->name && fill(&w) && collect_sides(&w) && hold_painted(&w) && hold_core(&w) &&
+              weigh(&w) && add_springs(&w);
   return good ? SBFI_LATTICE_MADE : SBFI_LATTICE_NO_MEMORY;
 }

@@ -76,6 +76,46 @@ static void turn_over(sbf_polygon_mesh *mesh) {
     }
 }
 
+/* What of a set lies in the section just cut; false where memory runs out. */
+static bool take_pins(work *w, const sbfi_section_cutter *cutter, const sbf_pin_set *from,
+    const uint32_t *points_of, int32_t bone, sbf_pin_set *to) {
+  uint32_t count = 0;
+  uint32_t *points = sbf_asset_allocate(w->asset, (size_t)from->points.count + 1, sizeof *points);
+  float *weights = sbf_asset_allocate(w->asset, (size_t)from->points.count + 1, sizeof *weights);
+  if (!points || !weights) return false;
+  for (uint32_t i = 0; i < from->points.count; i++) {
+    points[count] = cutter->new_points[points_of[from->points.at[i]]];
+    if (points[count] == SBFI_NO_INDEX) continue;
+    weights[count++] = from->weights.count == 0 ? 1 : from->weights.at[from->weights.count == 1 ? 0 : i];
+  }
+  *to = *from;
+  if (from->bone == SBF_NONE && from->rigid_body == SBF_NONE) to->bone = bone;
+  to->offsets = (sbf_vec3_list){NULL, 0};
+  to->points = (sbf_u32_list){count ? points : NULL, count};
+  to->weights = (sbf_f32_list){count ? weights : NULL, count};
+  return true;
+}
+
+/* The pins painted on the skins, where they lie in the section just cut. */
+static bool make_pins(work *w, const sbfi_section_cutter *cutter, sbf_soft_body *body) {
+  const sbf_render_mesh_list *meshes = &w->asset->render_meshes;
+  uint32_t most = 0, count = 0;
+  for (uint32_t m = 0; m < meshes->count; m++)
+    if (w->skin.points_of_mesh[m]) most += meshes->at[m].pins.count;
+  if (most == 0) return true;
+  sbf_pin_set *sets = sbf_asset_allocate(w->asset, most, sizeof *sets);
+  if (!sets) return false;
+  for (uint32_t m = 0; m < meshes->count; m++)
+    for (uint32_t i = 0; w->skin.points_of_mesh[m] && i < meshes->at[m].pins.count; i++) {
+      if (!take_pins(
+              w, cutter, &meshes->at[m].pins.at[i], w->skin.points_of_mesh[m], body->bone, &sets[count]))
+        return false;
+      count += sets[count].points.count > 0;
+    }
+  body->pins = (sbf_pin_set_list){count ? sets : NULL, count};
+  return true;
+}
+
 static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_soft_body *body) {
   sbf_soft_body_init(body);
   sbf_polygon_mesh *mesh = &body->surface;
@@ -96,6 +136,7 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
       sbfi_unique_id(w->ids, "section_", on->id, w->asset->soft_bodies.count + w->made->count, w->asset);
   body->bone = (int32_t)bone;
   body->derived = w->derivation;
+  if (!make_pins(w, cutter, body)) return false;
   const sbf_section_recipe *recipe = recipe_of(w->asset, body->bone);
   if (recipe) {
     body->attributes = recipe->attributes;

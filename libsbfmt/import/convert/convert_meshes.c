@@ -312,6 +312,8 @@ static sbf_status fill_render_mesh(
   if (status == SBF_OK) status = convert_slots(c, mesh, render);
   if (status == SBF_OK && mesh->joint_count) status = convert_skin(c, mesh, render);
   if (status == SBF_OK) status = convert_shapes(c, mesh, g, render);
+  if (status == SBF_OK && mesh->joint_count && !sbfi_hold_skin(c, mesh, render))
+    return sbfi_convert_no_memory(c);
   return status;
 }
 

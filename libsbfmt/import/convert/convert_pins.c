@@ -34,20 +34,24 @@ bool sbfi_mesh_is_pinned(const sbfi_conversion *c, const sbfi_scene_mesh *mesh) 
   return false;
 }
 
-sbf_status sbfi_convert_check_pins(sbfi_conversion *c) {
-  for (uint32_t i = 0; i < c->options->pin_count; i++) {
-    const sbf_convert_pin *pin = &c->options->pins[i];
-    bool found = false;
-    for (uint32_t m = 0; m < c->scene->mesh_count; m++)
-      found |= has_group(c, &c->scene->meshes[m], pin->group);
-    if (!found)
-      return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
-          "no mesh of %s has a vertex group or weights on a bone named '%s'", c->scene->file, pin->group);
-    if (pin->bone && pin->bone[0] && bone_named(c, pin->bone) == SBF_NONE)
-      return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "no bone '%s' is there to hold group '%s'",
-          pin->bone, pin->group);
-  }
+static sbf_status check(sbfi_conversion *c, const sbf_convert_pin *pin) {
+  bool found = false;
+  for (uint32_t m = 0; m < c->scene->mesh_count; m++) found |= has_group(c, &c->scene->meshes[m], pin->group);
+  if (!found)
+    return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN,
+        "no mesh of %s has a vertex group or weights on a bone named '%s'", c->scene->file, pin->group);
+  if (pin->bone && pin->bone[0] && bone_named(c, pin->bone) == SBF_NONE)
+    return sbfi_diagnose(c->error, SBF_CODE_IMPORT_PIN_UNKNOWN, "no bone '%s' is there to hold group '%s'",
+        pin->bone, pin->group);
   return SBF_OK;
+}
+
+sbf_status sbfi_convert_check_pins(sbfi_conversion *c) {
+  const sbf_convert_options *o = c->options;
+  sbf_status status = SBF_OK;
+  for (uint32_t i = 0; i < o->pin_count && status == SBF_OK; i++) status = check(c, &o->pins[i]);
+  for (uint32_t i = 0; i < o->hold_count && status == SBF_OK; i++) status = check(c, &o->holds[i]);
+  return status;
 }
 
 /* Weights of the points under a name, as bone and as group together; 0 where it has none. */
@@ -85,21 +89,39 @@ static bool fill_set(
   set->minimum = sbfi_goal_weight(o->goal_minimum);
   set->maximum = o->goal_maximum > 0 ? sbfi_goal_weight(o->goal_maximum) : 1;
   set->stiffness = (float)o->goal_stiffness;
-  if (!pin->bone)
-    set->bone = bone_named(c, pin->group);
-  else if (pin->bone[0])
-    set->bone = bone_named(c, pin->bone);
+  if (pin->bone && pin->bone[0]) set->bone = bone_named(c, pin->bone);
+  return true;
+}
+
+/* One for each of the wishes that names a group of the mesh. */
+static bool fill_sets(sbfi_conversion *c, const sbfi_scene_mesh *mesh, const sbf_convert_pin *pins,
+    uint32_t pin_count, sbf_pin_set *sets, uint32_t *count) {
+  *count = 0;
+  for (uint32_t i = 0; i < pin_count; i++)
+    if (has_group(c, mesh, pins[i].group) && !fill_set(c, mesh, &pins[i], &sets[(*count)++])) return false;
   return true;
 }
 
 bool sbfi_pin_body(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_soft_body *body) {
-  sbf_pin_set *sets = sbfi_convert_allocate(c, (size_t)c->options->pin_count + 1, sizeof *sets);
-  uint32_t count = 0;
-  if (!sets) return false;
-  for (uint32_t i = 0; i < c->options->pin_count; i++)
-    if (has_group(c, mesh, c->options->pins[i].group) &&
-        !fill_set(c, mesh, &c->options->pins[i], &sets[count++]))
-      return false;
+  const sbf_convert_options *o = c->options;
+  sbf_pin_set *sets = sbfi_convert_allocate(c, (size_t)o->pin_count + 1, sizeof *sets);
+  uint32_t count;
+  if (!sets || !fill_sets(c, mesh, o->pins, o->pin_count, sets, &count)) return false;
+  for (uint32_t i = 0, set = 0; i < o->pin_count; i++) {
+    if (!has_group(c, mesh, o->pins[i].group)) continue;
+    if (!o->pins[i].bone) sets[set].bone = bone_named(c, o->pins[i].group);
+    set++;
+  }
   body->pins = (sbf_pin_set_list){count ? sets : NULL, count};
+  return true;
+}
+
+bool sbfi_hold_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *skin) {
+  const sbf_convert_options *o = c->options;
+  if (o->hold_count == 0) return true;
+  sbf_pin_set *sets = sbfi_convert_allocate(c, o->hold_count, sizeof *sets);
+  uint32_t count;
+  if (!sets || !fill_sets(c, mesh, o->holds, o->hold_count, sets, &count)) return false;
+  skin->pins = (sbf_pin_set_list){count ? sets : NULL, count};
   return true;
 }

@@ -15,6 +15,9 @@ bool sbfi_mesh_is_pinned(const sbfi_conversion *c, const sbfi_scene_mesh *mesh);
  * rule of sbf_convert_options. False where memory runs out. */
 bool sbfi_pin_body(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_soft_body *body);
 
+/* Gives a skin the pin sets of the holds that name a group of the mesh. False where memory runs out. */
+bool sbfi_hold_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *skin);
+
 /* The weight in a file of a goal of `weight` in 0..1; see sbf_convert_options. */
 static inline float sbfi_goal_weight(double weight) {
   return (float)(weight / (2 - weight));

@@ -78,6 +78,10 @@ typedef struct sbf_convert_options {
   /* Leave the modulus of bodies that nothing holds at its default where it would not bear their weight, as
    * where the caller knows what they are made of (sbfmt/materials.h). */
   bool keep_modulus;
+  /* What sections cut from a skin hold: like pins, but the skin stays one. Without a bone what is painted
+   * goes with the bone of the section that it lies in. */
+  const sbf_convert_pin *holds; /* (hold_count) */
+  uint32_t hold_count;          /* of holds */
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names

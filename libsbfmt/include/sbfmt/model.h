@@ -562,6 +562,36 @@ typedef struct sbf_render_level_list {
   uint32_t count;
 } sbf_render_level_list;
 
+/* Points held by a frame: a bone, a rigid body, or the world where neither is named. */
+typedef struct sbf_pin_set {
+  /* Name for people. */
+  const char *name;
+  /* The bone that holds. [index into asset.bones, or SBF_NONE] */
+  int32_t bone;
+  /* The rigid body that holds. [index into asset.rigid_bodies, or SBF_NONE] */
+  int32_t rigid_body;
+  /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
+  int32_t derived;
+  /* Points of the body, or of the level. [index into parent.size] */
+  sbf_u32_list points;
+  /* Place of each in the frame; empty: where it is at rest. [m; length 0 or points] */
+  sbf_vec3_list offsets;
+  /* 1 kinematic, below a goal spring; empty: 1. [[0, 1]; length 0 or 1 or points] */
+  sbf_f32_list weights;
+  /* Of the goal spring at weight 1. [N/m; [0, inf)] */
+  float stiffness;
+  /* Of the goal spring. [N*s/m; [0, inf)] */
+  float damping;
+  /* Weights are raised to it. [[0, 1]] */
+  float minimum;
+  /* Weights are lowered to it. [[0, 1]; default 1] */
+  float maximum;
+} sbf_pin_set;
+typedef struct sbf_pin_set_list {
+  const sbf_pin_set *at;
+  uint32_t count;
+} sbf_pin_set_list;
+
 /* A mesh to be seen, as authored: quads and n-gons are kept. */
 typedef struct sbf_render_mesh {
   /* Identity. */
@@ -592,6 +622,8 @@ typedef struct sbf_render_mesh {
   sbf_u32_list source_points;
   /* Coarser polygons over the same points. */
   sbf_render_level_list levels;
+  /* What sections cut from it hold, on its points; a set without a frame goes with the section's bone. */
+  sbf_pin_set_list pins;
 } sbf_render_mesh;
 typedef struct sbf_render_mesh_list {
   const sbf_render_mesh *at;
@@ -682,36 +714,6 @@ typedef struct sbf_weight_map_list {
   const sbf_weight_map *at;
   uint32_t count;
 } sbf_weight_map_list;
-
-/* Points held by a frame: a bone, a rigid body, or the world where neither is named. */
-typedef struct sbf_pin_set {
-  /* Name for people. */
-  const char *name;
-  /* The bone that holds. [index into asset.bones, or SBF_NONE] */
-  int32_t bone;
-  /* The rigid body that holds. [index into asset.rigid_bodies, or SBF_NONE] */
-  int32_t rigid_body;
-  /* Set where `build` made it. [index into asset.derivations, or SBF_NONE] */
-  int32_t derived;
-  /* Points of the body, or of the level. [index into parent.size] */
-  sbf_u32_list points;
-  /* Place of each in the frame; empty: where it is at rest. [m; length 0 or points] */
-  sbf_vec3_list offsets;
-  /* 1 kinematic, below a goal spring; empty: 1. [[0, 1]; length 0 or 1 or points] */
-  sbf_f32_list weights;
-  /* Of the goal spring at weight 1. [N/m; [0, inf)] */
-  float stiffness;
-  /* Of the goal spring. [N*s/m; [0, inf)] */
-  float damping;
-  /* Weights are raised to it. [[0, 1]] */
-  float minimum;
-  /* Weights are lowered to it. [[0, 1]; default 1] */
-  float maximum;
-} sbf_pin_set;
-typedef struct sbf_pin_set_list {
-  const sbf_pin_set *at;
-  uint32_t count;
-} sbf_pin_set_list;
 
 /* A rule by which a body is held. */
 typedef struct sbf_attachment {
@@ -1432,11 +1434,11 @@ SBF_API void sbf_material_slot_init(sbf_material_slot *material_slot);
 SBF_API void sbf_skin_init(sbf_skin *skin);
 SBF_API void sbf_shape_key_init(sbf_shape_key *shape_key);
 SBF_API void sbf_render_level_init(sbf_render_level *render_level);
+SBF_API void sbf_pin_set_init(sbf_pin_set *pin_set);
 SBF_API void sbf_render_mesh_init(sbf_render_mesh *render_mesh);
 SBF_API void sbf_attributes_init(sbf_attributes *attributes);
 SBF_API void sbf_collision_init(sbf_collision *collision);
 SBF_API void sbf_weight_map_init(sbf_weight_map *weight_map);
-SBF_API void sbf_pin_set_init(sbf_pin_set *pin_set);
 SBF_API void sbf_attachment_init(sbf_attachment *attachment);
 SBF_API void sbf_tetrahedron_mesh_init(sbf_tetrahedron_mesh *tetrahedron_mesh);
 SBF_API void sbf_spring_set_init(sbf_spring_set *spring_set);

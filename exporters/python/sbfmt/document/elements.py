@@ -188,6 +188,7 @@ ELEMENTS = {element.name: element for element in (
         Field('shape_keys', 'many', 'shape_key', xml='shape_key'),
         Field('source_points', 'uint[]'),
         Field('levels', 'many', 'render_level', xml='render_level'),
+        Field('pins', 'many', 'pin_set', xml='pin_set', wrapper='pins'),
     )),
     Element('uv_set', 'uv_set', (
         Field('name', 'string', default=''),
