@@ -109,6 +109,30 @@ class SkinSections(ProgramTest):
         self.assertEqual({n: m for n, m in moduli(again).items() if m != moduli(self.calf)[n]}, {"tail2": "1200000"})
         self.assertIn("no soft body or bone 'tail9'", self.fails(2, "build", out, "-o", again, "--material", "tail9=fat"))
 
+    def test_what_is_painted_on_the_skin_is_held(self):
+        out, again = self.path("held.sbf"), self.path("again.sbf")
+        self.good("convert", CALF, "-o", out, "--hold", "head", "--hold", "tail3=tail2", "--goal", "0,0.8")
+        root = ElementTree.parse(out).getroot()
+        painted = {s.get("name"): s for s in root.findall("render_mesh/pins/pin_set")}
+        self.assertEqual({name: s.get("bone") for name, s in painted.items()}, {"head": None, "tail3": "bone.tail2"})
+        self.assertTrue(all(abs(float(s.get("maximum")) - 0.8 / 1.2) < 1e-6 for s in painted.values()))
+        held = {b.get("name"): {s.get("name"): s for s in b.findall("level/pins/pin_set")} for b in root.findall("soft_body")}
+        for body, sets in held.items():
+            for name, pins in sets.items():
+                bone = "bone.tail2" if name == "tail3" else "bone." + body
+                self.assertEqual((pins.get("bone"), pins.get("derived")), (bone, "build"), (body, name))
+            points = [p for pins in sets.values() for p in pins.find("points").text.split()]
+            self.assertEqual(len(points), len(set(points)), body)
+        self.assertGreater(len(held["head"]["head"].find("points").text.split()), 20)
+        self.assertIn("tail3", held["tail3"])
+        self.assertNotIn("head", held["tail3"])
+        self.assertEqual(self.json_of("validate", out)["messages"], [])
+        self.assertTrue(self.json_of("run", out, "--seconds", "2", "--drive", "0.3,0")["valid"])
+        self.good("build", out, "-o", again)
+        self.assertEqual(read_bytes(again), read_bytes(out))
+        self.assertIn("named 'antlers'", self.fails(1, "convert", CALF, "-o", again, "--hold", "antlers"))
+        self.assertIn("no bone 'antlers'", self.fails(1, "convert", CALF, "-o", again, "--hold", "head=antlers"))
+
     def test_real_characters(self):
         for number, (file, sections, walks) in enumerate(CHARACTERS):
             path = shared(*file)
