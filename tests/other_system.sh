@@ -4,7 +4,7 @@
 # It is complete or not there. Needs root, debootstrap and Debian's packages; takes some minutes and 3 GB.
 set -eu
 folder=$1
-packages='blender python3-numpy python3-cattrs'
+packages='blender python3-numpy python3-cattr python3-requests'
 
 [ ! -x "$folder/usr/bin/blender" ] || exit 0
 if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap >/dev/null 2>&1; then

@@ -65,11 +65,25 @@ def environment(folder):
             "PATH": "/usr/bin:/bin"}
 
 
+def in_window(name, folder):
+    """Runs a script in a Blender with a screen of its own; its picture must show something."""
+    if not shutil.which("xvfb-run"):
+        skip("there is no screen: install the package xvfb")
+    picture = os.path.join(folder, "picture.png")
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1400x1000x24", "blender", "--factory-startup", "--window-geometry", "0", "0", "1400",
+               "1000", "--python", f"{folder}/tests/{name}.py", "--", f"{folder}/tests/bundles/calf.sbf", "calf", "", picture]
+    run = subprocess.run(command, env=environment(folder), check=False, capture_output=True, text=True)
+    print(run.stdout, run.stderr)
+    drawn = os.path.exists(picture) and os.path.getsize(picture) > 50000
+    return 0 if run.returncode == 0 and drawn and "Traceback" not in run.stdout + run.stderr else 1
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--root", default="")
     parser.add_argument("--library", action="append", default=[])
     parser.add_argument("--program", default="")
+    parser.add_argument("--window", action="store_true", help="run the script NAME in a window, on a bundle")
     parser.add_argument("names", nargs="+")
     asked = parser.parse_args()
     root = asked.root.rstrip("/")
@@ -83,6 +97,8 @@ def main():
         if asked.program:
             make_bundles(os.path.join(folder, "tests", "bundles"), asked.program)
         inside = folder[len(root):]
+        if asked.window:
+            sys.exit(in_window(asked.names[0], inside))
         command = ["/usr/sbin/chroot", root] if root else []
         command += ["blender", "--background", "--factory-startup", "--python-exit-code", "3", "--python",
                     f"{inside}/tests/inside.py", "--", *asked.names]

@@ -1,6 +1,7 @@
 """A document as Blender objects: an armature, the meshes, their settings; and what an export needs to give the rest back."""
 
 import bpy
+from mathutils import Matrix
 
 from .. import memory
 from ..findings import Findings
@@ -72,7 +73,8 @@ class SceneMaker:
         """Parents to a bone and keeps the place."""
         if not bone or made.parent is not None:
             return
-        world = made.matrix_world.copy()
-        made.parent, made.parent_type, made.parent_bone = self.armature, "BONE", self.names[bone]
-        self.context.view_layer.update()
-        made.matrix_world = world
+        name = self.names[bone]
+        made.parent, made.parent_type, made.parent_bone = self.armature, "BONE", name
+        rest = self.armature.data.bones[name]
+        # Children hang on a bone's tail.
+        made.matrix_parent_inverse = (rest.matrix_local @ Matrix.Translation((0, rest.length, 0))).inverted()

@@ -7,9 +7,10 @@ from gpu_extras.batch import batch_for_shader
 
 from ..space import Space
 
-COLORS = {"structural": (0.95, 0.85, 0.2, 0.7), "shear": (0.25, 0.8, 0.95, 0.6), "flexion": (0.75, 0.45, 0.95, 0.5),
-          "internal": (0.95, 0.45, 0.2, 0.35), "cross_body": (0.3, 0.95, 0.4, 0.8), "lattice": (0.4, 0.75, 1.0, 0.35),
-          "pins": (1.0, 0.15, 0.15, 1.0)}
+COLORS = {"structural": (0.95, 0.85, 0.2, 0.5), "shear": (0.25, 0.8, 0.95, 0.3), "flexion": (0.75, 0.45, 0.95, 0.15),
+          "internal": (0.95, 0.45, 0.2, 0.1), "cross_body": (0.3, 0.95, 0.4, 0.8), "lattice": (0.4, 0.75, 1.0, 0.2),
+          "pins": (1.0, 0.15, 0.15, 0.5)}
+INSIDE = ("internal", "lattice", "pins")  # drawn through the surface
 EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 
 # By scene: {kind: (n, 3) array of line ends, or of points for pins}. Gone when Blender closes: a build makes it anew.
@@ -65,12 +66,14 @@ def draw():
         return
     shader = gpu.shader.from_builtin("3D_UNIFORM_COLOR" if bpy.app.version < (4, 0, 0) else "UNIFORM_COLOR")
     gpu.state.blend_set("ALPHA")
-    gpu.state.point_size_set(5)
+    gpu.state.point_size_set(3)
     for kind, places in lines.items():
         batch = batch_for_shader(shader, "POINTS" if kind == "pins" else "LINES", {"pos": places})
         shader.bind()
         shader.uniform_float("color", COLORS.get(kind, COLORS["internal"]))
+        gpu.state.depth_test_set("NONE" if kind in INSIDE else "LESS_EQUAL")
         batch.draw(shader)
+    gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")
     gpu.state.point_size_set(1)
 
