@@ -22,4 +22,6 @@ film pup 62,14 4.5
 film caterpillar 58,20 4
 film yeti 60,12 5
 film spider 38,24 3.5
-film snake 32,30 4.2
+film snake 32,30 3.8
+film koi 48,26 4
+film dragon 48,26 3.8

@@ -146,6 +146,9 @@ class _Grid:
             value = self.values[key] = self.body(abs(i) * h, j * h, k * h)
         return value
 
+    def corners(self, i, j, k):
+        return [self.at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) for c in range(8)]
+
     def crossed_cells(self):
         """Cells whose corners are not all on one side; blocks far from the surface are passed over whole."""
         h, size = self.cell, BLOCK
@@ -168,10 +171,21 @@ class _Grid:
                     if near > 3.0 * h:  # so far from the surface that the next cells cannot be crossed
                         k += max(1, int(near / h * 0.6 - 1.0))
                         continue
-                    corners = [self.at(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) for c in range(8)]
+                    corners = self.corners(i, j, k)
                     if min(corners) < 0.0 <= max(corners):
                         yield (i, j, k), corners
                     k += 1
+
+
+def _around(place, corner, axis):
+    """The cells around the edge that leaves a corner of a cell along an axis."""
+    u, v = (axis + 1) % 3, (axis + 2) % 3
+    for du in (0, 1):
+        for dv in (0, 1):
+            beside = list(place)
+            beside[u] += (corner >> u & 1) - du
+            beside[v] += (corner >> v & 1) - dv
+            yield tuple(beside)
 
 
 def _sheets(corners):
@@ -196,8 +210,18 @@ def _sheets(corners):
 
 
 def _net(body, cell, name):
-    mesh, point_of = QuadMesh(name), {}
-    cells = {place: (corners, _sheets(corners)) for place, corners in _Grid(body, cell).crossed_cells()}
+    mesh, point_of, grid = QuadMesh(name), {}, _Grid(body, cell)
+    cells = {place: (corners, _sheets(corners)) for place, corners in grid.crossed_cells()}
+    waiting = sorted(cells)  # distances of flat parts are rough: what lies beside a crossed edge may have been passed over
+    while waiting:
+        place = waiting.pop()
+        for a, b in cells[place][1]:
+            k = (a ^ b).bit_length() - 1
+            for beside in _around(place, a, k):
+                if beside not in cells:
+                    corners = grid.corners(*beside)
+                    cells[beside] = (corners, _sheets(corners))
+                    waiting.append(beside)
     for place in sorted(cells):
         corners, sheets = cells[place]
         for sheet in sorted(set(sheets.values())):

@@ -1,17 +1,20 @@
 """The characters of examples/: converted without a warning, valid, and moving as their scripts say."""
 
+import math
 import os
 import statistics
 import subprocess
 import sys
 import unittest
 
-from motion_files import read_poses
+from bundle_file import Bundle
+from motion_files import read_poses, rotated
 from sbfmt_program import PROGRAM, ROOT, ProgramTest, main
 
 # legs; what is allowed at half a leg length a second: change of a knee's speed (degrees), slip (m; a yeti's feet are soft,
 # without its flesh they do not slip at all)
 WALKERS = {"pup": (4, 5, 0.0015), "yeti": (2, 9, 0.004), "spider": (8, 5, 0.002), "caterpillar": (14, 12, 0.0005)}
+CHAINS = {"snake": 18, "koi": 8, "dragon": 17}  # links
 
 
 class Characters(ProgramTest):
@@ -28,7 +31,7 @@ class Characters(ProgramTest):
         return os.path.join(ROOT, "examples", name, "walk.txt")
 
     def test_scripts_play(self):
-        for name in (*WALKERS, "snake"):
+        for name in (*WALKERS, *CHAINS):
             report = self.json_of("run", self.bundle(name), "--seconds", "8", "--script", self.script_of(name))
             self.assertTrue(report["valid"], name)
             if name in WALKERS:
@@ -36,6 +39,24 @@ class Characters(ProgramTest):
                 self.assertGreaterEqual(min(report["steps_taken"].values()), 3, name)
                 self.assertEqual(len(report["steps_taken"]), WALKERS[name][0])
                 self.assertLessEqual(report["limit_excess"], 0.02, name)
+
+    def test_links_follow_each_other_at_their_spacing_and_bend_no_further_than_they_may(self):
+        for name, count in CHAINS.items():
+            path, out = self.bundle(name), self.path("p.csv")
+            chain = next(Bundle(path).root.iter("chain"))
+            spacing = [float(n) for n in chain.find("spacing").text.split()]
+            limit = float(chain.get("angle_limit", "1"))
+            self.assertEqual(len(spacing), count)
+            self.json_of("run", path, "--seconds", "4", "--script", self.script_of(name), "--pose", out)
+            poses, most = read_poses(out)[0], 0
+            for frame in range(0, 240, 20):
+                links = [poses[frame][f"body{i + 1}"] for i in range(count)]
+                ways = [rotated(link[3:], (0, 1, 0)) for link in links]
+                for i in range(1, count):
+                    self.assertAlmostEqual(math.dist(links[i - 1][:3], links[i][:3]), spacing[i - 1], places=3)
+                    most = max(most, math.acos(min(1, sum(a * b for a, b in zip(ways[i - 1], ways[i])))))
+            self.assertGreater(most, 0.08, name)
+            self.assertLess(most, limit + 1e-3, name)
 
     def test_the_yeti_swings_its_arms_against_its_legs(self):
         path, out = self.path("yeti.sbf"), self.path("p.csv")

@@ -1,9 +1,11 @@
 """A walk is a walk: what the program reports about it, and the same measured from the files it leaves."""
 
+import math
 import statistics
 import unittest
 
-from motion_files import PointCache, read_poses, read_sections, slip_of, steps_of
+from bundle_file import Bundle
+from motion_files import PointCache, read_poses, read_sections, rotated, slip_of, steps_of
 from sbfmt_program import ProgramTest, call, example, liz, lizart, main, needs_lizard, write_bytes
 
 STEPS, SLIP_M, DEPARTURE = 4, 0.01, 0.02
@@ -114,6 +116,40 @@ class Walk:
             self.assertGreaterEqual(max(moving), DEPARTURE)
             self.assertGreaterEqual(max(stopping), DEPARTURE)
             self.assertGreaterEqual(statistics.median(moving), DEPARTURE / 2)
+
+    def yaws(self, bone, *arguments):
+        """How far a bone has turned about +Y since rest, radians, frame by frame."""
+        out = self.path("p.csv")
+        report = self.json_of("run", self.file, *arguments, "--pose", out)
+        self.assertTrue(report["valid"])
+        poses = read_poses(out)[0]
+        rest = Bundle(self.file).bones
+        q = next(tuple(map(float, b.get("rotation", "0 0 0 1").split())) for b in rest if b.get("name") == bone)
+        back = rotated((-q[0], -q[1], -q[2], q[3]), (0, 0, 1))
+        return [math.atan2(x, z) for x, _, z in (rotated(poses[i][bone][3:], back) for i in sorted(poses))]
+
+    def named(self, *path):
+        """Name of the bone that an attribute of the gait names."""
+        bundle = Bundle(self.file)
+        element = next(bundle.root.iter("gait"))
+        for name in path[:-1]:
+            element = element.find(name)
+        return bundle.bone_names()[bundle.bone_of_id[element.get(path[-1])]]
+
+    def test_the_hips_turn_with_the_feet(self):
+        yaws = self.yaws(self.named("hips"), "--seconds", "6", "--drive", f"{0.5 * self.speed},0")[120:]
+        self.assertGreater(max(yaws), math.radians(2))
+        self.assertLess(min(yaws), math.radians(-2))
+        self.assertAlmostEqual(statistics.mean(yaws), 0, delta=math.radians(2))
+
+    def test_the_head_leads_a_turn_and_comes_back(self):
+        script = write_bytes(self.path("s.txt"), f"0.5 drive {0.3 * self.speed} 0.5\n4 drive 0 0\n".encode())
+        arguments = ("--seconds", "8", "--script", script)
+        head, body = (self.yaws(self.named(*path), *arguments) for path in (("head_turn", "bone"), ("body",)))
+        ahead = [math.remainder(a - b, 2 * math.pi) for a, b in zip(head, body)]
+        self.assertGreater(statistics.mean(ahead[60:240]), 0.1)
+        self.assertLess(max(map(abs, ahead[:28])), 0.02)
+        self.assertLess(abs(ahead[-1]), 0.05)
 
 
 @needs_lizard

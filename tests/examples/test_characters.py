@@ -15,7 +15,7 @@ from quad_mesh import check_mirror, check_surface  # noqa: E402
 from skin_files import planted, triangles_of  # noqa: E402
 from model_files import Bone  # noqa: E402
 
-NAMES = ("caterpillar", "pup", "snake", "spider", "yeti")
+NAMES = ("caterpillar", "dragon", "koi", "pup", "snake", "spider", "yeti")
 
 
 def make(name, *arguments):
@@ -60,6 +60,12 @@ class Shapes(unittest.TestCase):
         edges = mesh.directed_edges()
         self.assertEqual(max(edges.values()), 1)
         self.assertTrue(all((b, a) in edges for a, b in edges))
+
+    def test_flat_parts_leave_no_hole(self):
+        body = Body()
+        body.ball((0.0, 0.1, 0.0), (0.06, 0.08, 0.2))
+        body.ball((0.0, 0.1, -0.3), (0.012, 0.15, 0.12), melt=0.02, tilt=(35, 0, 0))
+        self.assertEqual(check_surface(mesh_of(body, 0.014, "fin")), [])
 
     def test_colours_meet_in_their_borders(self):
         body, field = self.two_balls(), beyond((0.0, 0.11, 0.0), (0.0, 1.0, 0.0))
