@@ -179,7 +179,15 @@ static const char *said_by(const char *who, const char *assumed) {
                                      : "as the file states";
 }
 
+/* Neither a word nor a number above 0 in any source. */
+static bool is_empty(const json_t *sources, const char *key) {
+  for (size_t i = 0; i < json_array_size(sources); i++)
+    if (text(json_array_get(sources, i), key)[0] || whole(json_array_get(sources, i), key)) return false;
+  return true;
+}
+
 static void put_row(FILE *to, const json_t *sources, const char *label, const char *key) {
+  if (is_empty(sources, key)) return;
   fprintf(to, "<tr><th>%s</th>", label);
   for (size_t i = 0; i < json_array_size(sources); i++) {
     const json_t *value = get(json_array_get(sources, i), key);
@@ -211,8 +219,17 @@ static void put_sources(FILE *to, const json_t *r) {
     fprintf(to, "<td>%s</td>",
         said_by(text(json_array_get(sources, i), "axes_from"), "+Y up, +Z forward, assumed"));
   fputs("</tr>\n", to);
-  for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) put_row(to, sources, rows[k][0], rows[k][1]);
-  fputs("</table></div></section>\n", to);
+  size_t missing = 0;
+  for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+    put_row(to, sources, rows[k][0], rows[k][1]);
+    missing += is_empty(sources, rows[k][1]);
+  }
+  fputs("</table></div>\n", to);
+  if (missing) fputs("<p class=\"soft\">Without ", to);
+  for (size_t k = 0, listed = 0; k < sizeof rows / sizeof *rows; k++)
+    if (is_empty(sources, rows[k][1]))
+      fprintf(to, "%s%s", listed++ == 0 ? "" : listed == missing ? " and " : ", ", rows[k][0]);
+  fputs(missing ? ".</p></section>\n" : "</section>\n", to);
 }
 
 static void put_messages(FILE *to, const json_t *list) {
@@ -262,8 +279,11 @@ static void put_findings(FILE *to, const json_t *r) {
   for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
     const json_t *list = get(r, kinds[k][0]), *proposed = k == 1 ? get(r, "proposed") : NULL;
     size_t assumed = k == 1 ? count_assumed(get(r, "sources")) : 0;
-    if (json_array_size(list) == 0 && json_array_size(proposed) == 0 && assumed == 0) continue;
+    bool nothing = json_array_size(list) == 0 && json_array_size(proposed) == 0 && assumed == 0;
+    if (nothing && strcmp(kinds[k][0], "notes") == 0) continue;
     fprintf(to, "<section><h2>%s</h2>\n", kinds[k][1]);
+    if (nothing) fputs("<p class=\"soft\">Nothing.</p></section>\n", to);
+    if (nothing) continue;
     if (assumed) put_assumed(to, get(r, "sources"));
     put_messages(to, list);
     if (json_array_size(proposed)) {
@@ -327,6 +347,30 @@ static void put_quality(FILE *to, const json_t *r) {
   fputs("</div></section>\n", to);
 }
 
+static void put_render_levels(FILE *to, const json_t *r) {
+  const json_t *meshes = get(get(r, "bundle"), "render_meshes");
+  size_t count = 0;
+  for (size_t m = 0; m < json_array_size(meshes); m++)
+    count += json_array_size(get(json_array_get(meshes, m), "levels"));
+  if (count == 0) return;
+  fputs("<section><h2>Render levels</h2><div class=\"scroll\"><table><tr><th>mesh</th><th "
+        "class=\"n\">level</th>"
+        "<th class=\"n\">triangles</th><th class=\"n\">farthest off, m</th></tr>\n",
+      to);
+  for (size_t m = 0; m < json_array_size(meshes); m++) {
+    const json_t *mesh = json_array_get(meshes, m), *levels = get(mesh, "levels");
+    for (size_t l = 0; l < json_array_size(levels); l++) {
+      const json_t *level = json_array_get(levels, l);
+      fputs("<tr>", to);
+      put_cell(to, text(mesh, "name"));
+      put_number_cell(to, (long long)l + 1);
+      put_number_cell(to, whole(level, "triangles"));
+      fprintf(to, "<td class=\"n\">%.3g</td></tr>\n", real(level, "error"));
+    }
+  }
+  fputs("</table></div></section>\n", to);
+}
+
 static void put_sections(FILE *to, const json_t *r) {
   const json_t *sections = get(get(r, "bundle"), "sections"), *bodies = get(get(r, "quality"), "bodies");
   if (json_array_size(sections) == 0) return;
@@ -379,6 +423,7 @@ bool conversion_page_print(const json_t *r, FILE *to) {
   put_findings(to, r);
   put_quality(to, r);
   put_sections(to, r);
+  put_render_levels(to, r);
   put_clips(to, r);
   fputs("</main></body></html>\n", to);
   return !ferror(to);

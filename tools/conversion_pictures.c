@@ -89,6 +89,8 @@ static const sbf_level *finest(const sbf_soft_body *body) {
   return body->levels.count ? &body->levels.at[0] : NULL;
 }
 
+static const float PITCH_OF_FLAT = 0.9f; /* rad */
+
 /* The side from which the camera looks: what lies before the middle, along +X and +Z, is left out. */
 static bool is_kept(const sbf_level *level, const uint32_t *p, float middle) {
   float at = 0;
@@ -225,12 +227,15 @@ static void close_easel(easel *e) {
   free(e->rgb);
 }
 
+/* What lies flat is seen from well above, over a floor that it does not lie in. */
 static sbf_status paint(easel *e, sbf_diagnostic *error) {
   draw_camera camera;
   box3 box = draw_scene_bounds(e->scene);
-  if (!box3_is_empty(&box)) draw_scene_set_floor(e->scene, box.min.y);
+  float width = fmaxf(box.max.x - box.min.x, box.max.z - box.min.z);
+  bool flat = box.max.y - box.min.y < 0.1f * width;
+  if (!box3_is_empty(&box)) draw_scene_set_floor(e->scene, flat ? box.min.y - 0.03f * width : box.min.y);
   draw_scene_frame(e->scene, &camera, (float)WIDTH / HEIGHT, DRAW_CAMERA_THREE_QUARTER_YAW,
-      DRAW_CAMERA_THREE_QUARTER_PITCH);
+      flat ? PITCH_OF_FLAT : DRAW_CAMERA_THREE_QUARTER_PITCH);
   sbf_status status = draw_painter_paint(e->painter, e->scene, &camera, error);
   return status == SBF_OK ? draw_canvas_read(e->canvas, e->rgb, error) : status;
 }

@@ -117,6 +117,17 @@ class Reports(ProgramTest):
             self.assertIn(title, words)
         self.assertEqual(bool(page.fetched), "No pictures could be drawn" not in words)
 
+    def test_a_page_of_cloth_with_render_levels(self):
+        sheet = write_bytes(self.path("sheet.obj"), b"".join(
+            [b"v %d 0 %d\n" % (i % 9, i // 9) for i in range(81)]
+            + [b"f %d %d %d %d\n" % (c + 1, c + 10, c + 11, c + 2) for c in range(71) if c % 9 < 8]))
+        self.good("convert", sheet, "--render-levels", "1", "-o", self.path("out.sbf"), "--report", self.path("out.html"),
+                  environment=NO_EGL)
+        words = " ".join(Page(read_text(self.path("out.html"))).words)
+        self.assertIn("Render levels", words)
+        self.assertIn("What was mended \n Nothing.", words)
+        self.assertRegex(words, r"Without tetrahedra, bones, materials, images and clips")
+
     def test_names_are_no_markup(self):
         content = scene_files.dae().replace(b'id="n" name="box"', b'id="&lt;script&gt;" name="&lt;b&gt;"')
         self.good("convert", write_bytes(self.path("a.dae"), content), "-o", self.path("out.sbf"), "--report",
