@@ -1,4 +1,5 @@
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,7 @@
 #include "material_options.h"
 #include "pin_options.h"
 #include "sbfmt/convert.h"
+#include "sbfmt/mechanics.h"
 
 /* OUT-DIR/NAME.sbf for an input's NAME.ending. */
 static bool path_in(const char *folder, const char *input, char *path, size_t size) {
@@ -56,6 +58,16 @@ static sbf_status write_report(cli_call *call, const char *input, const char *ou
   return status;
 }
 
+/* As a build does: a large file can then be described without reading its geometry. */
+static void state_figures(sbf_asset *asset) {
+  sbf_asset_measures measures;
+  sbf_asset_measure(asset, &measures);
+  if (!(measures.mass <= FLT_MAX)) return;
+  asset->info.mass = (float)measures.mass;
+  asset->info.low = measures.low;
+  asset->info.high = measures.high;
+}
+
 static int convert(cli_call *call, const char *input, const char *out, sbf_convert_options *options) {
   sbf_asset *asset;
   sbf_diagnostic error;
@@ -66,6 +78,7 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
     sbf_asset_free(asset);
     return SBF_FAILED;
   }
+  if (status == SBF_OK && cli_switch(call, "--no-build")) state_figures(asset);
   if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
   if (status == SBF_OK) {
     status = sbf_save_file(asset, out, NULL, &error);

@@ -268,15 +268,19 @@ static void print_quality(const json_t *q) {
   printf("\n");
 }
 
-/* The figures that the last build stated; false where none did. */
+static bool take_stated(float mass, sbf_vec3 low, sbf_vec3 high, sbf_asset_measures *m) {
+  bool bounded = low.x != high.x || low.y != high.y || low.z != high.z;
+  *m = (sbf_asset_measures){(double)mass, bounded, low, high};
+  return bounded;
+}
+
+/* The figures that the last build stated, or the conversion; false where none did. */
 static bool stated_measures(const sbf_asset *asset, sbf_asset_measures *m) {
   for (uint32_t i = asset->derivations.count; i-- > 0;) {
     const sbf_derivation *d = &asset->derivations.at[i];
-    bool bounded = d->low.x != d->high.x || d->low.y != d->high.y || d->low.z != d->high.z;
-    *m = (sbf_asset_measures){(double)d->mass, bounded, d->low, d->high};
-    if (bounded) return true;
+    if (take_stated(d->mass, d->low, d->high, m)) return true;
   }
-  return false;
+  return take_stated(asset->info.mass, asset->info.low, asset->info.high, m);
 }
 
 typedef struct loaded {
@@ -333,5 +337,6 @@ const cli_verb verb_info = {"info", "FILE [--quality] [--format json]", "say wha
     "made\n"
     "by the rules, counted, and left out of the file. Of a packed file of a megabyte and more only the "
     "table\n"
-    "of contents and the records are read; its bounds and mass are then those that the build stated.",
+    "of contents and the records are read; its bounds and mass are then those that build or conversion\n"
+    "stated.",
     options, 1, 1, run};

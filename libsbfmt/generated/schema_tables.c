@@ -44,8 +44,11 @@ static const sbfi_field info_fields[] = {
   {.name = "comment", .type = SBFI_STRING, .number = 5, .since_minor = 0, .offset = offsetof(sbf_info, comment), .width = 1, .unit = "", .default_text = ""},
   {.name = "authors", .type = SBFI_MANY, .number = 6, .since_minor = 0, .offset = offsetof(sbf_info, authors), .width = 1, .unit = "", .element = &author_element, .xml = "author"},
   {.name = "sources", .type = SBFI_MANY, .number = 7, .since_minor = 0, .offset = offsetof(sbf_info, sources), .width = 1, .unit = "", .element = &source_element, .xml = "source"},
+  {.name = "mass", .type = SBFI_FLOAT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_info, mass), .width = 1, .unit = "kg", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "low", .type = SBFI_VEC3, .number = 9, .since_minor = 0, .offset = offsetof(sbf_info, low), .width = 3, .unit = "m"},
+  {.name = "high", .type = SBFI_VEC3, .number = 10, .since_minor = 0, .offset = offsetof(sbf_info, high), .width = 3, .unit = "m"},
 };
-static const sbfi_element info_element = {"info", "info", sizeof(sbf_info), 0, 7, info_fields, NULL};
+static const sbfi_element info_element = {"info", "info", sizeof(sbf_info), 0, 10, info_fields, NULL};
 
 static const sbfi_field derivation_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_derivation, id), .width = 1, .unit = "", .required = true, .default_text = ""},

@@ -62,6 +62,9 @@ info
   comment: string
   authors: many(author) as=<author>
   sources: many(source) as=<source>
+  mass: float range=[0,inf)
+  low: vec3
+  high: vec3
 author
   name: string required
   contact: string

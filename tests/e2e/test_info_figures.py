@@ -5,7 +5,7 @@ import os
 import random
 import re
 
-from sbfmt_program import ProgramTest, main
+from sbfmt_program import ProgramTest, main, read_bytes, write_bytes
 
 MOST_READ = 64 * 1024
 
@@ -46,12 +46,28 @@ class InfoFigures(ProgramTest):
             if key != "bytes":
                 self.assertEqual(here[key], there[key], key)
 
-    def test_without_a_build_all_is_read(self):
-        source, packed = self.path("tube.obj"), self.path("source.sbfz")
+    def test_nor_of_one_that_was_never_built(self):
+        source, packed, text = self.path("tube.obj"), self.path("source.sbfz"), self.path("source.sbf")
         with open(source, "w", encoding="ascii") as stream:
             stream.write(tube(400, 240))
         self.good("convert", source, "--no-build", "-o", packed)
         self.assertGreater(os.path.getsize(packed), 1 << 20)
+        self.good("unpack", packed, "-o", text)
+        here, there = self.json_of("info", packed), self.json_of("info", text)
+        self.assertLess(self.read_of(packed), MOST_READ)
+        for key in there:
+            if key != "bytes":
+                self.assertEqual(here[key], there[key], key)
+
+    def test_where_nobody_states_them_all_is_read(self):
+        source, text, packed = self.path("tube.obj"), self.path("source.sbf"), self.path("unstated.sbfz")
+        with open(source, "w", encoding="ascii") as stream:
+            stream.write(tube(400, 240))
+        self.good("convert", source, "--no-build", "-o", text)
+        content, count = re.subn(rb'(<asset [^>]*?) mass="[^"]*" low="[^"]*" high="[^"]*"', rb"\1", read_bytes(text), count=1)
+        self.assertEqual(count, 1)
+        write_bytes(text, content)
+        self.good("pack", text, "-o", packed)
         self.assertEqual(self.read_of(packed), os.path.getsize(packed))
         self.assertGreater(self.json_of("info", packed)["mass"], 0)
 

@@ -228,6 +228,12 @@ typedef struct sbf_info {
   sbf_author_list authors;
   /* Files the source parts were read from. */
   sbf_source_list sources;
+  /* Of all soft bodies together, where no derivation states it. [kg; [0, inf)] */
+  float mass;
+  /* Least coordinates of all render meshes and surfaces, where no derivation states them. [m] */
+  sbf_vec3 low;
+  /* Greatest coordinates; equal to `low`: not stated. [m] */
+  sbf_vec3 high;
 } sbf_info;
 typedef struct sbf_info_list {
   const sbf_info *at;

@@ -59,6 +59,9 @@ ELEMENTS = {element.name: element for element in (
         Field('comment', 'string', default=''),
         Field('authors', 'many', 'author', xml='author'),
         Field('sources', 'many', 'source', xml='source'),
+        Field('mass', 'float', default=0.0),
+        Field('low', 'vec3', default=(0.0, 0.0, 0.0)),
+        Field('high', 'vec3', default=(0.0, 0.0, 0.0)),
     )),
     Element('author', 'author', (
         Field('name', 'string', default='', required=True),
