@@ -131,7 +131,7 @@ class Reports(ProgramTest):
     def test_names_are_no_markup(self):
         content = scene_files.dae().replace(b'id="n" name="box"', b'id="&lt;script&gt;" name="&lt;b&gt;"')
         self.good("convert", write_bytes(self.path("a.dae"), content), "-o", self.path("out.sbf"), "--report",
-                  self.path("out.html"))
+                  self.path("out.html"), environment=NO_EGL)
         page = Page(read_text(self.path("out.html")))
         self.assertEqual((page.open, page.scripts), ([], 0))
 
@@ -157,7 +157,7 @@ class Reports(ProgramTest):
     def test_wrong_calls_leave_nothing(self):
         for arguments in (("--report", self.path("out.txt")), ("--report", self.path("no folder/out.html"))):
             with self.subTest(arguments):
-                self.fails(2, "convert", LIZARD + ".glb", "-o", self.path("out.sbf"), *arguments)
+                self.fails(2, "convert", LIZARD + ".glb", "-o", self.path("out.sbf"), *arguments, environment=NO_EGL)
                 self.assertFalse(os.path.exists(arguments[1]))
         self.fails(2, "convert", LIZARD + ".glb", LIZARD + ".obj", "--out-dir", self.folder, "--report",
                    self.path("out.html"))
