@@ -12,12 +12,15 @@ from ..settings.attributes import fill_attributes
 from . import cloth, soft_bodies
 from .gaits import GaitWriter
 from .identifiers import Identifiers
+from .ik_constraints import IkConstraints
 from .materials import Materials
 from .meshes import Geometry, fill_normals, fill_polygons, fill_shape_keys, fill_skin, fill_uv_sets
 from .pins import fill_pins, fill_weight_maps
 from .rest import at_rest, mesh_of
+from .rigid_objects import RigidObjects
 from .rigid_parts import RigidParts
-from .roles import RENDER, SECTION, SOFT, armature_of, holding_bone, role_of
+from .roles import COLLISION, IGNORE, RENDER, SECTION, SOFT, armature_of, holding_bone, role_of
+from .surroundings import write_surroundings
 
 
 @dataclass
@@ -75,13 +78,17 @@ class SceneWriter:
             for armature in self.of_type("ARMATURE"):
                 write_bones(self.asset, armature, self.space, self.identifiers, self.skeleton)
             for source in self.of_type("MESH"):
-                if self.roles[source.name] in (RENDER, SECTION, SOFT):
+                if self.roles[source.name] != IGNORE:
                     self.write_mesh(source, self.roles[source.name])
             for armature in self.of_type("ARMATURE"):
                 RigidParts(self).write(armature)
             gait = self.scene.soft_body_format.gait
             if gait.use and gait.armature is not None:
                 GaitWriter(self, gait).write()
+            for armature in self.of_type("ARMATURE"):
+                IkConstraints(self, armature).write()
+            RigidObjects(self).write()
+            write_surroundings(self)
         if not self.asset.render_meshes:
             self.findings.error("nothing to export: no visible mesh is chosen; select one, or turn off Selected Objects Only")
         return self.asset
@@ -112,10 +119,10 @@ class SceneWriter:
         self.fill_materials(record, source, geometry)
         fill_shape_keys(record, source, geometry, self.space, self.findings)
         armature = self.armatures[source.name]
-        if role == RENDER and armature is not None:
+        if role in (RENDER, COLLISION) and armature is not None:
             fill_skin(record, source, mesh, self.bones_of_groups(source, armature), self.findings)
         held = self.holder(source)
-        if held is not None and role == RENDER and record.skin is None:
+        if held is not None and role in (RENDER, COLLISION) and record.skin is None:
             record.bone = held
 
     def fill_materials(self, record, source, geometry):

@@ -1,0 +1,92 @@
+"""Rigid body objects, their constraints, IK constraints and force fields."""
+
+import math
+
+import bpy
+import fixtures
+from mathutils import Quaternion, Vector
+
+
+class RigidObjects(fixtures.SceneTest):
+    def active(self, made, **settings):
+        bpy.context.view_layer.objects.active = made
+        bpy.ops.rigidbody.object_add()
+        for name, value in settings.items():
+            setattr(made.rigid_body, name, value)
+        return made
+
+    def constraint(self, kind, one, other, **settings):
+        made = fixtures.link(bpy.data.objects.new(f"joint {kind}", None))
+        bpy.context.view_layer.objects.active = made
+        bpy.ops.rigidbody.constraint_add(type=kind)
+        made.rigid_body_constraint.object1, made.rigid_body_constraint.object2 = one, other
+        for name, value in settings.items():
+            setattr(made.rigid_body_constraint, name, value)
+        return made
+
+    def test_bodies(self):
+        self.active(fixtures.box("crate", (1, 2, 3), (0, 0, 2)), mass=7, friction=0.4, restitution=0.25)
+        ball = self.active(fixtures.ball("ball"), collision_shape="SPHERE", kinematic=True)
+        ball.location = (0, 0, 5)
+        bodies = {body.name: body for body in self.export(build=False).rigid_bodies}
+        crate = bodies["crate"]
+        self.assertEqual((crate.motion, bodies["ball"].motion), ("dynamic", "kinematic"))
+        self.assert_near((crate.mass, crate.friction, crate.restitution), (7, 0.4, 0.25))
+        self.assert_near(crate.center, (0, 2, 0))
+        self.assert_near((max(crate.hull.positions[1::3]), max(crate.hull.positions[2::3])), (3.5, 1))
+        self.assert_near((max(bodies["ball"].hull.positions[1::3]), ), (5.5, ))
+
+    def test_every_kind_of_constraint(self):
+        one, other = self.active(fixtures.box("a")), self.active(fixtures.box("b", center=(2, 0, 0)))
+        wanted = {"FIXED": "fixed", "POINT": "spherical", "HINGE": "revolute", "SLIDER": "prismatic", "PISTON": "cylindrical",
+                  "GENERIC": "six_dof", "GENERIC_SPRING": "six_dof", "MOTOR": "six_dof"}
+        for kind in wanted:
+            self.constraint(kind, one, other)
+        joints = {joint.name: joint for joint in self.export(build=False).joints}
+        self.assertEqual({name.split()[1]: joint.kind for name, joint in joints.items()}, wanted)
+
+    def test_a_hinge_turns_about_the_objects_z(self):
+        hinge = self.constraint("HINGE", self.active(fixtures.box("a")), self.active(fixtures.box("b", center=(2, 0, 0))),
+                                use_limit_ang_z=True, limit_ang_z_lower=-0.5, limit_ang_z_upper=1.0, disable_collisions=False)
+        hinge.location, hinge.rotation_euler = (1, 0, 0), (math.pi / 2, 0, 0)  # Z now points along -Y
+        joint = self.export(build=False).joints[0]
+        x, y, z, w = joint.frame_b.rotation
+        self.assert_near(Quaternion((w, x, y, z)) @ Vector((1, 0, 0)), (0, 0, 1), 1e-6)
+        self.assertEqual([(limit.target, limit.min, limit.max) for limit in joint.limits], [("twist", -0.5, 1.0)])
+        self.assertTrue(joint.collide)
+        self.assert_near(joint.frame_a.position, (1, 0, 0))
+
+    def test_a_constraint_without_objects_is_an_error(self):
+        self.active(fixtures.box("a"))
+        self.constraint("POINT", None, None)
+        self.assertIn("names no object", self.refuse(build=False))
+
+
+class Chains(fixtures.SceneTest):
+    def test_an_ik_constraint_with_pole_and_stiffness(self):
+        rig = fixtures.armature("rig", [("upper", None, (0, 0, 1), (0, -.1, .5), 0), ("lower", "upper", (0, -.1, .5), (0, 0, 0), 0),
+                                        ("hand", "lower", (0, 0, 0), (0, -.2, 0), 0)])
+        fixtures.hang(fixtures.box("b"), rig, "upper")
+        pole = fixtures.link(bpy.data.objects.new("pole", None))
+        pole.location = (0, -2, 0.5)
+        one = rig.pose.bones["lower"].constraints.new("IK")
+        one.target, one.pole_target, one.chain_count = pole, pole, 2
+        rig.pose.bones["upper"].ik_stiffness_x = 0.5
+        asset = self.export(build=False)
+        chain, names = asset.ik_chains[0], {bone.id: bone.name for bone in asset.bones}
+        self.assertEqual((names[chain.root], names[chain.end], chain.solver), ("upper", "hand", "two_bone"))
+        self.assert_near(chain.pole, (0, 0.5, 2))
+        self.assertEqual([(names[one.bone], one.weight) for one in chain.comforts], [("upper", 0.5)])
+
+
+class Surroundings(fixtures.SceneTest):
+    def test_gravity_and_wind(self):
+        fixtures.box("b")
+        self.scene.gravity = (0, 0, -1.62)
+        bpy.ops.object.effector_add(type="WIND", location=(1, 2, 3))
+        bpy.context.object.field.strength = 4
+        environment = self.export(build=False).environment
+        self.assert_near(environment.gravity, (0, -1.62, 0))
+        self.assertEqual([(field.kind, field.strength) for field in environment.fields], [("uniform", 4.0)])
+        self.assert_near(environment.fields[0].position, (1, 3, -2))
+        self.assert_near(environment.fields[0].direction, (0, 1, 0))
