@@ -47,23 +47,36 @@ class SBFMT_PT_gait(ScenePanel, bpy.types.Panel):
             column.prop(gait, name)
 
 
-class SBFMT_PT_legs(GaitPanel, bpy.types.Panel):
-    bl_label = "Legs"
+class ListPanel(GaitPanel):
+    """A list of the gait, the bones that the chosen entry names, and its numbers."""
+
+    items, active, bones, numbers = "", "", (), ()
 
     def draw(self, context):
         layout, gait = self.layout, context.scene.soft_body_format.gait
         layout.use_property_split = True
-        leg = draw_list(layout, gait, "scene.gait.legs", "active_leg")
-        if leg is None:
+        entry = draw_list(layout, gait, f"scene.gait.{self.items}", self.active)
+        if entry is None:
             return
-        for name in ("root", "end"):
-            layout.prop_search(leg, name, gait.armature.data, "bones")
-        for name in ("solver", "group"):
-            layout.prop(leg, name)
+        for name in self.bones:
+            layout.prop_search(entry, name, gait.armature.data, "bones")
+        for name in self.numbers:
+            layout.prop(entry, name)
+        self.draw_more(layout, entry)
+
+    def draw_more(self, layout, entry):
+        pass
+
+
+class SBFMT_PT_legs(ListPanel, bpy.types.Panel):
+    bl_label = "Legs"
+    items, active, bones, numbers = "legs", "active_leg", ("root", "end"), ("solver", "group")
+
+    def draw_more(self, layout, entry):
         for name in ("home", "pole"):
-            layout.prop(leg, f"use_{name}")
-            if getattr(leg, f"use_{name}"):
-                layout.prop(leg, name)
+            layout.prop(entry, f"use_{name}")
+            if getattr(entry, f"use_{name}"):
+                layout.prop(entry, name)
 
 
 class SBFMT_PT_head(GaitPanel, bpy.types.Panel):
@@ -77,33 +90,15 @@ class SBFMT_PT_head(GaitPanel, bpy.types.Panel):
         layout.prop(gait, "head_limit")
 
 
-class SBFMT_PT_tails(GaitPanel, bpy.types.Panel):
+class SBFMT_PT_tails(ListPanel, bpy.types.Panel):
     bl_label = "Tails"
-
-    def draw(self, context):
-        layout, gait = self.layout, context.scene.soft_body_format.gait
-        layout.use_property_split = True
-        tail = draw_list(layout, gait, "scene.gait.tails", "active_tail")
-        if tail is None:
-            return
-        for name in ("root", "end"):
-            layout.prop_search(tail, name, gait.armature.data, "bones")
-        for name in ("frequency", "damping_ratio", "limit"):
-            layout.prop(tail, name)
+    items, active, bones, numbers = "tails", "active_tail", ("root", "end"), ("frequency", "damping_ratio", "limit")
 
 
-class SBFMT_PT_followers(GaitPanel, bpy.types.Panel):
+class SBFMT_PT_followers(ListPanel, bpy.types.Panel):
     bl_label = "Followers"
-
-    def draw(self, context):
-        layout, gait = self.layout, context.scene.soft_body_format.gait
-        layout.use_property_split = True
-        follower = draw_list(layout, gait, "scene.gait.followers", "active_follower")
-        if follower is None:
-            return
-        layout.prop_search(follower, "bone", gait.armature.data, "bones")
-        for name in ("channel", "frequency", "damping_ratio", "response"):
-            layout.prop(follower, name)
+    items, active, bones = "followers", "active_follower", ("bone", )
+    numbers = ("channel", "frequency", "damping_ratio", "response")
 
 
 CLASSES = (SBFMT_PT_scene, SBFMT_PT_gait, SBFMT_PT_legs, SBFMT_PT_head, SBFMT_PT_tails, SBFMT_PT_followers)
