@@ -1,6 +1,6 @@
 /* Whether a body has lost its shape for good: it encloses next to nothing, or it rests in a knot.
  *
- * A knot: nothing moves, and yet the springs and the weight hold more energy than they would in the rest
+ * A knot: little moves, and yet the springs and the weight hold more energy than they would in the rest
  * shape where the body is held. Whatever comes to rest from its rest shape holds less. Looked for where that
  * can be told: in bodies of springs that something holds, that touch no ground, and on which nothing else
  * acts. */
@@ -11,8 +11,9 @@
 /* A surface that holds less than this share of its volume will not come back by itself. */
 static const double FOLDED_SHARE = 0.1;
 
-/* Slower than this share of its size a second, against what holds it, a body rests. */
-static const float RESTING_1_S = 0.05f;
+/* With less of its energy than this in its motion, for as long as the caller waits, a body rests in what it
+ * is. */
+static const double MOVING_SHARE = 0.1;
 
 /* A knot holds so much of what all springs strained by a tenth would. */
 static const double KNOT_SHARE = 0.02;
@@ -26,21 +27,21 @@ static bool encloses_nothing(const sbri_character *c, const sbri_island *island)
   return false;
 }
 
-static bool rests(const sbri_character *c, const sbri_island *island) {
+/* Against what holds it, J. */
+static double kinetic_of(const sbri_character *c, const sbri_island *island) {
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
-  for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    float most = RESTING_1_S * body->rest_size_m;
-    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-      uint32_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-      float square = 0;
-      for (uint32_t k = 0; k < 3; k++, at += SBRI_BLOCK)
-        square += (velocities[at] - guides[at]) * (velocities[at] - guides[at]);
-      if (square > most * most) return false;
+  double energy = 0;
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    uint32_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    double square = 0;
+    for (uint32_t k = 0; k < 3; k++, at += SBRI_BLOCK) {
+      double off = (double)velocities[at] - (double)guides[at];
+      square += off * off;
     }
+    energy += 0.5 * (double)island->masses[slot] * square;
   }
-  return true;
+  return energy;
 }
 
 static bool may_be_told(const sbri_character *c, const sbri_island *island) {
@@ -82,11 +83,11 @@ static bool is_knotted(const sbr_world *world, const sbri_character *c, const sb
     scale += 0.5 * island->springs[i].stiffness_n_m * tenth * tenth;
   }
   double more = energy_of(island, sbri_positions(c) + island->first_slot, g) - energy_of(island, rest, g);
-  return more > KNOT_SHARE * scale;
+  return more > KNOT_SHARE * scale && kinetic_of(c, island) < MOVING_SHARE * more;
 }
 
 bool sbri_is_folded(const sbr_world *world, const sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   if (!(sbri_island_states(c)[index].least_ratio > 0) || encloses_nothing(c, island)) return true;
-  return may_be_told(c, island) && rests(c, island) && is_knotted(world, c, island);
+  return may_be_told(c, island) && is_knotted(world, c, island);
 }

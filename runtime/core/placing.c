@@ -1,6 +1,7 @@
 /* Putting soft bodies somewhere at once: into their rest shape, or along with their frames. */
 #include <string.h>
 
+#include "collide/ground.h"
 #include "core/state.h"
 #include "math/quat.h"
 #include "solvers/scheme.h"
@@ -67,6 +68,61 @@ static void unflow_solids(sbri_character *c, const sbri_island *island) {
         blocks[at / SBRI_BLOCK].stiffness[i][lane] =
             island->tetrahedron_blocks[at / SBRI_BLOCK].stiffness[i][lane];
     }
+}
+
+/* Mean place of the body's points; false where that is no place. */
+static bool middle_of(const sbri_body *body, const sbri_point *positions, sbf_vec3 *middle) {
+  sbf_vec3 sum = {0, 0, 0};
+  uint32_t count = body->slot_real_end - body->slot_begin;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    sum = sbri_add(sum, sbri_vec3(positions[slot].x, positions[slot].y, positions[slot].z));
+  *middle = sbri_scale(sum, count ? 1 / (float)count : 0);
+  return count > 0 && sbri_dot(*middle, *middle) < 1e12f;
+}
+
+static void shift(const sbri_body *body, sbri_point *positions, sbf_vec3 by) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    sbri_point *p = &positions[slot];
+    *p = (sbri_point){p->x + by.x, p->y + by.y, p->z + by.z, 0};
+  }
+}
+
+/* How far the body reaches into the ground, asset metres. */
+static float depth_of(
+    const sbri_character *c, const sbri_body *body, const sbri_point *positions, const sbr_ground *ground) {
+  sbr_double3 origin = sbri_head(c)->origin;
+  double deepest = 0, scale = c->scale;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    const sbri_point *p = &positions[slot];
+    double height = sbri_ground_height(ground, origin.x + scale * p->x, origin.z + scale * p->z, NULL);
+    double depth = (height - origin.y) / scale - (double)p->y;
+    deepest = depth > deepest ? depth : deepest;
+  }
+  return (float)deepest;
+}
+
+void sbri_island_place_where_it_is(sbri_character *c, uint32_t island_index, const sbr_ground *ground) {
+  const sbri_island *island = &c->model->islands[island_index];
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  const sbri_point *before = sbri_previous_positions(c) + island->first_slot; /* one may be lost by now */
+  sbri_point *middles = sbri_begins(c) + island->first_slot;                  /* a body has a slot at least */
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    sbf_vec3 middle = {0, 0, 0};
+    bool good = !body->held && middle_of(body, before, &middle);
+    if (body->slot_end > body->slot_begin)
+      middles[body->slot_begin] = (sbri_point){middle.x, middle.y, middle.z, good ? 1 : 0};
+  }
+  sbri_island_place_at_rest(c, island_index);
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    sbf_vec3 now;
+    if (body->slot_end == body->slot_begin || !(middles[body->slot_begin].w > 0)) continue;
+    const sbri_point *was = &middles[body->slot_begin];
+    if (!middle_of(body, positions, &now)) continue;
+    shift(body, positions, sbri_sub(sbri_vec3(was->x, was->y, was->z), now));
+    shift(body, positions, sbri_vec3(0, depth_of(c, body, positions, ground), 0));
+  }
 }
 
 void sbri_island_unflow(sbri_character *c, uint32_t island_index) {

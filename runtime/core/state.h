@@ -165,6 +165,9 @@ void sbri_mend(sbri_character *c);
 void sbri_island_unflow(sbri_character *c, uint32_t island);
 /* The same for one island, with the present `deltas`. */
 void sbri_island_place_at_rest(sbri_character *c, uint32_t island);
+/* The same, but bodies that nothing holds stay where they are: the middle of each where it was, or above the
+ * ground if that reaches higher. */
+void sbri_island_place_where_it_is(sbri_character *c, uint32_t island, const sbr_ground *ground);
 /* An island goes where its frames have gone from `previous_deltas` to `deltas`, keeping its shape, and stops.
  */
 void sbri_island_carry(sbri_character *c, uint32_t island);

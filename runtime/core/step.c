@@ -13,7 +13,7 @@
 static const float REBASE_AT_M = 4;
 
 /* What has been folded for so many ticks will not come back by itself. */
-enum { FOLDED_TICKS = 60, FOLDED_LOOK_EVERY = 8 };
+enum { FOLDED_TICKS = 24, FOLDED_LOOK_EVERY = 4 };
 
 sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c) {
   const sbri_character_state *head = sbri_head(c);
@@ -261,7 +261,7 @@ static void recover(const sbr_world *world, sbri_character *c, uint32_t index) {
     if (state->folded_ticks < FOLDED_TICKS) return;
   }
   sbri_island_unflow(c, index);
-  sbri_island_place_at_rest(c, index);
+  sbri_island_place_where_it_is(c, index, &world->ground);
   memcpy(sbri_previous_positions(c) + island->first_slot, sbri_positions(c) + island->first_slot,
       island->slot_count * sizeof(sbri_point));
   state->recoveries++;
