@@ -508,6 +508,9 @@ static sbf_status record_figures(build *b) {
   b->derivation->mass = (float)measures.mass;
   b->derivation->low = measures.low;
   b->derivation->high = measures.high;
+  /* Those that a conversion stated for want of a derivation are of the asset before. */
+  b->asset->info.mass = 0;
+  b->asset->info.low = b->asset->info.high = (sbf_vec3){0, 0, 0};
   return SBF_OK;
 }
 
