@@ -9,7 +9,7 @@
 static const float EASE_S = 0.18f;     /* time over which wanted motion takes effect */
 static const float ACCELERATES = 0.2f; /* reaches, in the square of the time of a step: no faster than so */
 static const float STILL = 0.004f;     /* m/s and rad/s, per metre of leg: below it the character stands */
-static const float LONG_S = 1;          /* of standing; longer is no longer counted */
+static const float LONG_S = 1;         /* of standing; longer is no longer counted */
 static const float HURRY_S = 0.12f;    /* over which it takes up its pace again after waiting for a foot */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
