@@ -71,6 +71,11 @@ static void print_report(const sbf_build_report *r) {
            "every "
            "load, swings within %.3g %%\n",
         r->calibrated, r->least_factor, r->most_factor, 100 * r->most_residual, 100 * r->most_period_error);
+  if (r->calibrated_springs)
+    printf(
+        "calibrated the springs of %u levels: stiffness times %.3g to %.3g, surfaces within %.3g %% of where "
+        "tetrahedra have them\n",
+        r->calibrated_springs, r->least_spring_factor, r->most_spring_factor, 100 * r->most_spring_residual);
   if (r->levels) printf("levels: %u beside the finest\n", r->levels);
   if (r->render_levels) printf("render levels: %u beside the full meshes\n", r->render_levels);
   printf("springs: %u structural, %u shear, %u flexion, %u internal", r->springs[SBF_SPRING_KIND_STRUCTURAL],

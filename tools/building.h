@@ -17,7 +17,7 @@
       {"--levels", "N", "levels a body, finest first: coarser lattices, springs, jiggle (1)"},               \
       {"--render-levels", "N", "coarser levels of render meshes, each of half the triangles (none)"},        \
       {"--render-error", "METRES", "no render level farther off than this; alone: as many as that allows"},  \
-      {"--no-calibration", NULL, "leave the modulus of coarse lattices as it is"},                           \
+      {"--no-calibration", NULL, "leave moduli of coarse lattices and springs as they are"},                 \
       {"--sections", "auto|none", "cut skinned meshes into sections, where no body is on a bone (auto)"}, {  \
     "--overlap", "METRES", "how far sections reach over a cut (half the limb's radius there)"                \
   }

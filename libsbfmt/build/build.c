@@ -27,7 +27,7 @@
 static const char default_tool[] =
     "sbfmt " TEXT_OF(SBF_VERSION_MAJOR) "." TEXT_OF(SBF_VERSION_MINOR) "." TEXT_OF(SBF_VERSION_PATCH);
 
-enum { MOST_BRUTE_POINTS = 4096 };
+enum { MOST_BRUTE_POINTS = 4096, MOST_CALIBRATED_POINTS = 20000 };
 /* How far sections reach over a cut, by the limb's radius. */
 static const double USUAL_OVERLAP = 0.5;
 enum { DERIVATION = 0 }; /* a build has one entry in `derivations` */
@@ -297,11 +297,19 @@ static sbf_status outcome_status(build *b, uint32_t number, sbfi_lattice_outcome
 
 static void note_calibration(build *b, const sbfi_calibration *c) {
   sbf_build_report *r = &b->report;
-  if (r->calibrated == 0 || c->factor < r->least_factor) r->least_factor = c->factor;
-  if (c->factor > r->most_factor) r->most_factor = c->factor;
+  if (r->calibrated == 0 || c->least < r->least_factor) r->least_factor = c->least;
+  if (c->most > r->most_factor) r->most_factor = c->most;
   if (c->residual > r->most_residual) r->most_residual = c->residual;
   if (fabs(c->period_error) > r->most_period_error) r->most_period_error = fabs(c->period_error);
   r->calibrated++;
+}
+
+static void note_spring_calibration(build *b, const sbfi_calibration *c) {
+  sbf_build_report *r = &b->report;
+  if (r->calibrated_springs == 0 || c->least < r->least_spring_factor) r->least_spring_factor = c->least;
+  if (c->most > r->most_spring_factor) r->most_spring_factor = c->most;
+  if (c->residual > r->most_spring_residual) r->most_spring_residual = c->residual;
+  r->calibrated_springs++;
 }
 
 /* The rest of the levels of a body whose finest has been made, and what they are worth. */
@@ -315,9 +323,13 @@ static sbf_status make_ladder(build *b, uint32_t number, sbfi_ladder *ladder) {
   if (!of_springs) *map = springs;
   body->levels = (sbf_level_list){ladder->levels, ladder->level_count};
   b->report.levels += ladder->level_count - 1;
-  for (uint32_t l = 0; l < ladder->level_count; l++)
-    if (ladder->measured[l] && ladder->levels[l].model == SBF_ELASTIC_MODEL_TETRAHEDRA)
+  for (uint32_t l = 0; l < ladder->level_count; l++) {
+    if (!ladder->levels[l].calibration) continue;
+    if (ladder->levels[l].model == SBF_ELASTIC_MODEL_TETRAHEDRA)
       note_calibration(b, &ladder->calibrations[l]);
+    else
+      note_spring_calibration(b, &ladder->calibrations[l]);
+  }
   return SBF_OK;
 }
 
@@ -392,17 +404,27 @@ static sbf_status clear_lattices(build *b) {
   return SBF_OK;
 }
 
+/* Whether there is a way to: springs by centroid, of which a factor each for those over the surface and those
+ * inside is all that can be wrong, and lattices. */
+static bool is_calibrated(const build *b, uint32_t number, sbf_build_interior interior) {
+  const sbf_soft_body *body = &b->bodies[number];
+  sbf_body_measures measures;
+  if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA) return true;
+  if (interior != SBF_BUILD_INTERIOR_CENTROID || body->surface.positions.count > MOST_CALIBRATED_POINTS)
+    return false;
+  sbf_body_measure(body, &measures);
+  return !measures.sheet && body->surface.polygon_sizes.count > 0;
+}
+
 static sbf_status make_level(build *b, uint32_t number) {
   sbfi_arena scratch;
   sbf_build_interior interior = interior_of(b, &b->bodies[number]);
   sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
   sbf_status status = SBF_OK;
   const sbf_build_options *o = &b->options;
-  /* The reference takes a second or two a body: that is for those who choose a size. */
-  bool sized = o->cell_m > 0 || o->elements > 0 || o->error_m > 0 || o->levels > 1;
   const sbfi_ladder_recipe recipe = {o->levels > 1 ? o->levels : 1, o->error_m,
-      sized && !o->without_calibration, !o->without_flexion, (double)b->asset->environment.control_tick,
-      DERIVATION};
+      !o->without_calibration && is_calibrated(b, number, interior), !o->without_flexion,
+      (double)b->asset->environment.control_tick, DERIVATION};
   sbfi_ladder ladder;
   sbfi_ladder_init(
       &ladder, &b->bodies[number], &recipe, b->asset, stretch_of_body(b, number), &b->scratch.allocator);

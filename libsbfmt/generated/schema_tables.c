@@ -403,6 +403,15 @@ static const sbfi_field simulation_fields[] = {
 };
 static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 5, simulation_fields, NULL};
 
+static const sbfi_field calibration_fields[] = {
+  {.name = "reference_elements", .type = SBFI_UINT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_calibration, reference_elements), .width = 1, .unit = ""},
+  {.name = "factor", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_calibration, factor), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.0f}},
+  {.name = "surface_factor", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_calibration, surface_factor), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.0f}},
+  {.name = "residual", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_calibration, residual), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "period_error", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_calibration, period_error), .width = 1, .unit = ""},
+};
+static const sbfi_element calibration_element = {"calibration", "calibration", sizeof(sbf_calibration), 0, 5, calibration_fields, NULL};
+
 static const sbfi_length level_masses_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_level, positions)}}, "positions"}};
 static const sbfi_length level_size = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_level, positions)}}, "positions"};
 static const sbfi_field level_fields[] = {
@@ -420,8 +429,9 @@ static const sbfi_field level_fields[] = {
   {.name = "pins", .type = SBFI_MANY, .number = 12, .since_minor = 0, .offset = offsetof(sbf_level, pins), .width = 1, .unit = "", .element = &pin_set_element, .xml = "pin_set", .wrapper = "pins"},
   {.name = "embeddings", .type = SBFI_MANY, .number = 13, .since_minor = 0, .offset = offsetof(sbf_level, embeddings), .width = 1, .unit = "", .element = &embedding_element, .xml = "embedding"},
   {.name = "simulation", .type = SBFI_ONE, .number = 14, .since_minor = 0, .offset = offsetof(sbf_level, simulation), .width = 1, .unit = "", .element = &simulation_element, .xml = "simulation"},
+  {.name = "calibration", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 0, .offset = offsetof(sbf_level, calibration), .width = 1, .unit = "", .element = &calibration_element, .xml = "calibration"},
 };
-static const sbfi_element level_element = {"level", "level", sizeof(sbf_level), SBFI_KIND('L', 'E', 'V', 'L'), 14, level_fields, &level_size};
+static const sbfi_element level_element = {"level", "level", sizeof(sbf_level), SBFI_KIND('L', 'E', 'V', 'L'), 15, level_fields, &level_size};
 
 static const sbfi_field legacy_fields[] = {
   {.name = "mass", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_legacy, mass), .width = 1, .unit = ""},
@@ -721,6 +731,7 @@ void sbf_jiggle_init(sbf_jiggle *jiggle) { sbfi_element_init(&jiggle_element, ji
 void sbf_embedding_init(sbf_embedding *embedding) { sbfi_element_init(&embedding_element, embedding); }
 void sbf_measured_init(sbf_measured *measured) { sbfi_element_init(&measured_element, measured); }
 void sbf_simulation_init(sbf_simulation *simulation) { sbfi_element_init(&simulation_element, simulation); }
+void sbf_calibration_init(sbf_calibration *calibration) { sbfi_element_init(&calibration_element, calibration); }
 void sbf_level_init(sbf_level *level) { sbfi_element_init(&level_element, level); }
 void sbf_legacy_init(sbf_legacy *legacy) { sbfi_element_init(&legacy_element, legacy); }
 void sbf_soft_body_init(sbf_soft_body *soft_body) { sbfi_element_init(&soft_body_element, soft_body); }

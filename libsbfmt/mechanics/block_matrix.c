@@ -2,24 +2,38 @@
  * preconditioner, with factor 1). */
 #include "mechanics/block_matrix.h"
 
-#include <stdlib.h>
+#include <stdint.h>
 #include <string.h>
 
-static int order(const void *a, const void *b) {
-  uint64_t x, y;
-  memcpy(&x, a, sizeof x);
-  memcpy(&y, b, sizeof y);
-  return x < y ? -1 : x > y;
+/* Sorted by row by counting, then within each row, which is short, by insertion; each pair stays once and
+ * those on the diagonal go. Returns how many are left, or SIZE_MAX where memory runs out. */
+static size_t sort_pairs(uint32_t row_count, uint64_t *pairs, size_t count, sbfi_arena *arena) {
+  size_t *ends = sbfi_arena_allocate(arena, (size_t)row_count + 1, sizeof *ends), unique = 0, begin = 0;
+  uint64_t *by_row = sbfi_arena_allocate(arena, count + 1, sizeof *by_row);
+  if (!ends || !by_row) return SIZE_MAX;
+  for (size_t i = 0; i < count; i++) ends[(pairs[i] >> 32) + 1]++;
+  for (uint32_t row = 0; row < row_count; row++) ends[row + 1] += ends[row];
+  for (size_t i = 0; i < count; i++) by_row[ends[pairs[i] >> 32]++] = pairs[i];
+  for (uint32_t row = 0; row < row_count; begin = ends[row++]) {
+    size_t first = unique;
+    for (size_t i = begin; i < ends[row]; i++) {
+      size_t at = unique;
+      if ((by_row[i] & UINT32_MAX) == row) continue;
+      while (at > first && pairs[at - 1] > by_row[i]) at--;
+      if (at > first && pairs[at - 1] == by_row[i]) continue;
+      memmove(pairs + at + 1, pairs + at, (unique - at) * sizeof *pairs);
+      pairs[at] = by_row[i];
+      unique++;
+    }
+  }
+  return unique;
 }
 
 bool sbfi_block_matrix_make(
     sbfi_block_matrix *matrix, uint32_t row_count, uint64_t *pairs, size_t pair_count, sbfi_arena *arena) {
   *matrix = (sbfi_block_matrix){.row_count = row_count};
-  if (pair_count) qsort(pairs, pair_count, sizeof *pairs, order);
-  size_t unique = 0;
-  for (size_t i = 0; i < pair_count; i++)
-    if (pairs[i] >> 32 != (pairs[i] & UINT32_MAX) && (unique == 0 || pairs[i] != pairs[unique - 1]))
-      pairs[unique++] = pairs[i];
+  size_t unique = sort_pairs(row_count, pairs, pair_count, arena);
+  if (unique == SIZE_MAX) return false;
   size_t total = unique + row_count;
   uint32_t *begins = sbfi_arena_allocate(arena, (size_t)row_count + 1, sizeof *begins);
   uint32_t *diagonals = sbfi_arena_allocate(arena, (size_t)row_count + 1, sizeof *diagonals);

@@ -283,6 +283,7 @@ level LEVL
   pins: many(pin_set) as=<pins><pin_set>
   embeddings: many(embedding) as=<embedding>
   simulation: one(simulation)
+  calibration: optional(calibration)
 tetrahedron_mesh
   target: enum(volume_target) required
   tetrahedra: uint4[] below=parent.positions
@@ -326,6 +327,12 @@ simulation
   error: float range=[0,inf)
   cost: float range=[0,inf)
   measured: many(measured)
+calibration
+  reference_elements: uint
+  factor: float default=1 range=(0,inf)
+  surface_factor: float default=1 range=(0,inf)
+  residual: float range=[0,inf)
+  period_error: float
 measured
   machine: string
   microseconds: float range=[0,inf)

@@ -7,6 +7,7 @@
 
 #include "build/levels/ladder.h"
 #include "harness.h"
+#include "mechanics/static_solve.h"
 #include "sbfmt/build.h"
 #include "shapes.h"
 
@@ -142,12 +143,18 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
   grid_level(&coarse, 2);
   ck_assert_uint_eq(fine.lattice.tetrahedra.count, 15360);
   ck_assert_uint_eq(coarse.lattice.tetrahedra.count, 240);
-  ck_assert_int_eq(sbfi_reference_take(&r, body, &fine, NULL, asset, true, (sbfi_progress){0}, NULL), 0);
+  ck_assert_int_eq(
+      sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){true, true, {0}}, NULL), 0);
   ck_assert(r.sound);
-  ck_assert(sbfi_level_calibrate(&coarse, body, NULL, &r, 1.0 / 60, asset, &c, NULL));
+  ck_assert(sbfi_level_calibrate(&coarse, body, NULL, &r, false, 1.0 / 60, asset, &c, NULL));
   ck_assert_double_lt(fabs(c.period_error), 0.02);
   ck_assert_float_eq(coarse.lattice.reference_modulus.at[0], 1e6f);
-  ck_assert_float_eq_tol(coarse.lattice.young_modulus.at[0], (float)(1e6 * c.factor), 1);
+  ck_assert_uint_eq(coarse.lattice.young_modulus.count, 240);
+  double mean = 0;
+  for (uint32_t t = 0; t < 240; t++) mean += coarse.lattice.young_modulus.at[t] / 240; /* all as large */
+  ck_assert_double_eq_tol(mean, 1e6 * c.factor, 100);
+  ck_assert_float_eq(coarse.calibration->factor, (float)c.factor);
+  ck_assert_uint_eq(coarse.calibration->reference_elements, 15360);
   /* Large strains, which it was not fitted to; then across, aslant, and twisted. */
   const sbf_vec3 loads[] = {{0, -9.81f, 0}, {0, 0, 9.81f}, {0, -7, 7}, {0, 0, 0}};
   for (int i = 0; i < 4; i++) {
@@ -157,7 +164,7 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
     double size = hypot(wanted.y, wanted.z);
     if (i < 3)
       ck_assert_double_lt(hypot(is.y - wanted.y, is.z - wanted.z), 0.02 * size);
-    else /* one factor cannot do everything: two cells across twist by less */
+    else /* no modulus mends that: cubes cut alike, two across, twist by less; our own lattices do not */
       ck_assert_double_eq_tol(is.turn / wanted.turn, 0.71, 0.03);
   }
   sbfi_reference_free(&r);
@@ -217,7 +224,8 @@ START_TEST(an_arm_of_the_armadillo)
   body->pins = (sbf_pin_set_list){pins, 1};
   body->attributes.young_modulus = 1000 * 9.81f * size * 20;
   sbfi_reference r;
-  ck_assert_int_eq(sbfi_reference_make(&r, body, asset, false, (sbfi_progress){0}, NULL), 0);
+  ck_assert_int_eq(
+      sbfi_reference_make(&r, body, 16000, asset, &(sbfi_reference_use){false, true, {0}}, NULL), 0);
   sbf_level level;
   sbfi_arena scratch;
   sbfi_lattice_counts counts;
@@ -229,20 +237,20 @@ START_TEST(an_arm_of_the_armadillo)
   double weight = 1000 * 9.81 * size * size * size * 1e-4;
   double off[2][3];
   for (int calibrated = 0; calibrated < 2; calibrated++) {
-    if (calibrated) ck_assert(sbfi_level_calibrate(&level, body, NULL, &r, 1.0 / 60, asset, &c, NULL));
+    if (calibrated) ck_assert(sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, NULL));
     for (int axis = 0; axis < 3; axis++) {
       sbfi_d3 force = {axis == 0 ? weight : 0, axis == 1 ? weight : 0, axis == 2 ? weight : 0};
       sbfi_d3 wanted = push(body, &r.made, hand, force), is = push(body, &level, hand, force);
       off[calibrated][axis] = sbfi_d3_length(sbfi_d3_sub(is, wanted)) / sbfi_d3_length(wanted);
     }
   }
-  /* A hundred elements or two in the arm: gravity's answer within 7 %, a push at the hand nearer, not near.
-   */
-  ck_assert_double_lt(c.residual, 0.08);
-  ck_assert_double_lt(fabs(c.period_error), 0.12);
+  /* A hundred elements or two in the arm, and hardly any in a finger: along the arm a quarter is missing. */
+  ck_assert_double_lt(c.residual, 0.17);
+  ck_assert_double_lt(fabs(c.period_error), 0.15);
+  const double most[3] = {0.27, 0.1, 0.16};
   for (int axis = 0; axis < 3; axis++) {
-    ck_assert_double_lt(off[1][axis], 0.8 * off[0][axis]);
-    ck_assert_double_lt(off[1][axis], 0.36);
+    ck_assert_double_lt(off[1][axis], 0.6 * off[0][axis]);
+    ck_assert_double_lt(off[1][axis], most[axis]);
   }
   sbfi_arena_free(&scratch);
   sbfi_reference_free(&r);

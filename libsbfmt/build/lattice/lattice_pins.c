@@ -5,6 +5,7 @@
 
 #include "build/geometry/topology.h"
 #include "build/geometry/triangle_tree.h"
+#include "build/lattice/lattice_core.h"
 #include "build/sections/level_pins.h"
 
 /* As a share of the cell: so near to the surface a point is on it. */
@@ -136,16 +137,20 @@ static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   return true;
 }
 
-/* The points of the inner half, by depth. */
+/* The points of the inner half, by depth, where the body is thick and where it is thin. */
 static bool find_core(work *w, uint32_t **core, uint32_t *count) {
-  double deepest = 0;
   uint32_t points = w->level->positions.count;
+  float *thickness = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *thickness);
   *count = 0;
   *core = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof **core);
-  if (!*core) return false;
-  for (uint32_t i = 0; i < points; i++) deepest = fmax(deepest, w->depths2[i]);
-  for (uint32_t i = 0; i < points && deepest > 0; i++)
-    if (w->depths2[i] >= deepest / 4 && !w->taken[i]) (*core)[(*count)++] = i;
+  if (!*core || !thickness ||
+      !sbfi_lattice_thickness(w->level->positions.at, w->depths2, points, on_surface * (double)w->level->cell,
+          thickness, w->scratch))
+    return false;
+  for (uint32_t i = 0; i < points; i++) {
+    double half = 0.5 * (double)thickness[i];
+    if (half > 0 && w->depths2[i] >= half * half && !w->taken[i]) (*core)[(*count)++] = i;
+  }
   return true;
 }
 

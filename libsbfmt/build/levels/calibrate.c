@@ -3,11 +3,11 @@
 #include <float.h>
 #include <math.h>
 
-/* Of the body's size: so little it may give under the loads for the fit, that all stays linear. */
-static const double small_share = 1e-3;
+#include "build/levels/spring_fit.h"
 
-/* Of the load, that may stay unbalanced. */
-static const double small_tolerance = 1e-4, fall_tolerance = 1e-4;
+/* Of the displacements, that small loads are solved to; of the load under gravity, that may stay unbalanced.
+ */
+static const double lean_share = 2e-3, fall_tolerance = 1e-4;
 
 static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
   sbf_vec3 g = asset->environment.gravity;
@@ -16,56 +16,62 @@ static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
   return size > 0 ? size : 9.81;
 }
 
-static sbfi_lattice_outcome measure(
-    sbfi_reference *r, bool falls, sbfi_progress progress, sbfi_arena *scratch) {
-  size_t numbers = 3 * (size_t)r->statics.body->surface.positions.count;
-  double lowest = sbfi_level_lowest(&r->statics, scratch);
-  if (!(lowest > 0)) return SBFI_LATTICE_MADE;
-  r->small = small_share * r->statics.size * lowest * lowest;
-  r->sound = true;
-  for (uint32_t l = 0; l < r->statics.load_count; l++) {
-    double **to[] = {&r->gives[l], &r->falls[l]};
-    for (int k = 0; k < (falls ? 2 : 1); k++) {
-      sbfi_rest rest;
-      if (!sbfi_progress_say(progress, 0.5 + (l + 0.5 * k) / r->statics.load_count / 2))
-        return SBFI_LATTICE_CANCELLED;
-      *to[k] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
-      if (!*to[k] || !sbfi_level_give(&r->statics, l, k ? r->fall : r->small,
-                         k ? fall_tolerance : small_tolerance, *to[k], &rest, scratch))
-        return SBFI_LATTICE_NO_MEMORY;
-      if (!rest.converged) *to[k] = NULL;
-      if (k == 0 && rest.converged) {
-        r->rests[l] = rest;
-        r->yieldings[l] = sbfi_level_yielding(&r->statics, l, r->gives[l]);
-      }
-    }
+/* ---- The reference ---- */
+
+static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use *use, sbfi_arena *scratch) {
+  sbfi_linear_statics linear;
+  uint32_t loads = r->statics.load_count;
+  size_t numbers = 3 * (size_t)r->statics.body->surface.positions.count + 1;
+  if (!sbfi_linear_statics_make(&linear, &r->statics.network, scratch)) return SBFI_LATTICE_NO_MEMORY;
+  for (uint32_t l = 0; l < loads; l++) {
+    if (!sbfi_progress_say(use->progress, 0.5 + 0.2 * l / loads)) return SBFI_LATTICE_CANCELLED;
+    r->gives[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
+    if (!r->gives[l] ||
+        !sbfi_level_lean(&r->statics, &linear, l, lean_share, r->gives[l], &r->frequencies[l], scratch))
+      return SBFI_LATTICE_NO_MEMORY;
+    r->yieldings[l] = sbfi_level_yielding(&r->statics, l, r->gives[l]);
+    r->sound |= r->yieldings[l] > 0 && r->frequencies[l] > 0;
+  }
+  if (r->sound && use->pushes) {
+    if (!sbfi_progress_say(use->progress, 0.7)) return SBFI_LATTICE_CANCELLED;
+    r->has_works = true;
+    if (!sbfi_push_works_make(&r->works, &r->statics, &linear, &r->arena)) return SBFI_LATTICE_NO_MEMORY;
+  }
+  for (uint32_t l = 0; l < loads && r->sound && use->falls; l++) {
+    bool converged;
+    if (!sbfi_progress_say(use->progress, 0.8 + 0.2 * l / loads)) return SBFI_LATTICE_CANCELLED;
+    r->falls[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
+    if (!r->falls[l] ||
+        !sbfi_level_give(&r->statics, l, r->fall, fall_tolerance, r->falls[l], &converged, scratch))
+      return SBFI_LATTICE_NO_MEMORY;
+    if (!converged) r->falls[l] = NULL;
   }
   return SBFI_LATTICE_MADE;
 }
 
 static sbfi_lattice_outcome take(sbfi_reference *r, const sbf_soft_body *body, const sbf_level *level,
-    const sbfi_interior_map *interior, bool falls, sbfi_progress progress, sbfi_arena *scratch) {
-  return sbfi_level_statics_make(&r->statics, body, level, interior, &r->arena)
-             ? measure(r, falls, progress, scratch)
-             : SBFI_LATTICE_NO_MEMORY;
+    const sbfi_interior_map *interior, const sbfi_reference_use *use, sbfi_arena *scratch) {
+  return sbfi_level_statics_make(&r->statics, body, level, interior, &r->arena) ? measure(r, use, scratch)
+                                                                                : SBFI_LATTICE_NO_MEMORY;
 }
 
 sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
-    const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset, bool falls,
-    sbfi_progress progress, const sbf_allocator *allocator) {
+    const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset,
+    const sbfi_reference_use *use, const sbf_allocator *allocator) {
   sbfi_arena scratch;
-  *reference = (sbfi_reference){.fall = fall_of(asset, body)};
+  *reference = (sbfi_reference){.fall = fall_of(asset, body), .has_falls = use->falls};
   sbfi_arena_init(&reference->arena, allocator, 0);
   sbfi_arena_init(&scratch, allocator, 0);
-  sbfi_lattice_outcome outcome = take(reference, body, level, interior, falls, progress, &scratch);
+  sbfi_lattice_outcome outcome = take(reference, body, level, interior, use, &scratch);
   sbfi_arena_free(&scratch);
   return outcome;
 }
 
 sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_soft_body *body,
-    const sbf_asset *asset, bool falls, sbfi_progress progress, const sbf_allocator *allocator) {
+    uint32_t elements, const sbf_asset *asset, const sbfi_reference_use *use,
+    const sbf_allocator *allocator) {
   sbfi_arena scratch;
-  *reference = (sbfi_reference){.fall = fall_of(asset, body)};
+  *reference = (sbfi_reference){.fall = fall_of(asset, body), .has_falls = use->falls};
   sbfi_arena_init(&reference->arena, allocator, 0);
   reference->memory = sbf_asset_create(allocator);
   if (!reference->memory) return SBFI_LATTICE_NO_MEMORY;
@@ -73,11 +79,11 @@ sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_so
   reference->memory->rigid_bodies = asset->rigid_bodies;
   sbfi_arena_init(&scratch, allocator, 0);
   sbfi_lattice_counts counts;
-  const sbfi_lattice_recipe recipe = {.elements = SBFI_REFERENCE_ELEMENTS, .derivation = SBF_NONE};
+  const sbfi_lattice_recipe recipe = {.elements = elements, .derivation = SBF_NONE};
   sbfi_lattice_outcome outcome = sbfi_lattice_level_make(
-      &reference->made, body, &recipe, reference->memory, &counts, progress, &scratch);
+      &reference->made, body, &recipe, reference->memory, &counts, use->progress, &scratch);
   if (outcome == SBFI_LATTICE_MADE && counts.tetrahedra > 0)
-    outcome = take(reference, body, &reference->made, NULL, falls, progress, &scratch);
+    outcome = take(reference, body, &reference->made, NULL, use, &scratch);
   sbfi_arena_free(&scratch);
   return outcome;
 }
@@ -97,114 +103,202 @@ static uint32_t softest(const sbfi_reference *r) {
 
 double sbfi_reference_frequency(const sbfi_reference *reference) {
   uint32_t load = softest(reference);
-  return load < SBFI_MOST_LOADS ? reference->rests[load].frequency : 0;
+  return load < SBFI_MOST_LOADS ? reference->frequencies[load] : 0;
 }
 
 /* ---- The fit ---- */
 
-/* What the level yields under the small loads. */
-static bool find_yieldings(const sbfi_level_statics *s, const sbfi_reference *r,
-    double yieldings[SBFI_MOST_LOADS], sbfi_rest rests[SBFI_MOST_LOADS], sbfi_arena *scratch) {
-  size_t numbers = 3 * (size_t)s->body->surface.positions.count;
-  double *give = sbfi_arena_allocate(scratch, numbers, sizeof *give);
-  if (!give) return false;
-  for (uint32_t l = 0; l < s->load_count; l++) {
-    if (!sbfi_level_give(s, l, r->small, small_tolerance, give, &rests[l], scratch)) return false;
-    yieldings[l] = rests[l].converged ? sbfi_level_yielding(s, l, give) : 0;
+/* One level on its way. */
+typedef struct work {
+  sbf_level *level;
+  const sbf_soft_body *body;
+  const sbfi_reference *r;
+  sbf_asset *asset;
+  sbfi_arena *scratch;
+  sbfi_level_statics statics;
+  sbfi_linear_statics linear;
+  /* Under the small loads. */
+  double *gives[SBFI_MOST_LOADS]; /* (3 x surface points) m */
+  double yieldings[SBFI_MOST_LOADS], frequencies[SBFI_MOST_LOADS];
+  sbfi_calibration *c;
+} work;
+
+static bool find_yieldings(work *w) {
+  size_t numbers = 3 * (size_t)w->body->surface.positions.count + 1;
+  for (uint32_t l = 0; l < w->statics.load_count; l++) {
+    w->gives[l] = sbfi_arena_allocate(w->scratch, numbers, sizeof(double));
+    if (!w->gives[l] ||
+        !sbfi_level_lean(&w->statics, &w->linear, l, lean_share, w->gives[l], &w->frequencies[l], w->scratch))
+      return false;
+    w->yieldings[l] = sbfi_level_yielding(&w->statics, l, w->gives[l]);
   }
   return true;
 }
 
-static double fit(const sbfi_level_statics *s, const sbfi_reference *r, const double *yieldings) {
+static double fit(const work *w) {
   double own = 0, wanted = 0;
-  for (uint32_t l = 0; l < s->load_count; l++) {
-    if (!(yieldings[l] > 0) || !(r->yieldings[l] > 0)) continue;
-    own += yieldings[l];
-    wanted += r->yieldings[l];
+  for (uint32_t l = 0; l < w->statics.load_count; l++) {
+    if (!(w->yieldings[l] > 0) || !(w->r->yieldings[l] > 0)) continue;
+    own += w->yieldings[l];
+    wanted += w->r->yieldings[l];
   }
   return own > 0 && wanted > 0 ? own / wanted : 1;
 }
 
-static double residual_of(
-    const sbfi_level_statics *s, const sbfi_reference *r, const double *yieldings, double factor) {
+static double residual_of(const work *w, double factor) {
   double most = 0;
-  for (uint32_t l = 0; l < s->load_count; l++)
-    if (yieldings[l] > 0 && r->yieldings[l] > 0)
-      most = fmax(most, fabs(yieldings[l] / factor / r->yieldings[l] - 1));
+  for (uint32_t l = 0; l < w->statics.load_count; l++)
+    if (w->yieldings[l] > 0 && w->r->yieldings[l] > 0)
+      most = fmax(most, fabs(w->yieldings[l] / factor / w->r->yieldings[l] - 1));
   return most;
 }
 
-static bool scale(sbf_level *level, const sbf_soft_body *body, double factor, sbf_asset *asset) {
-  sbf_tetrahedron_mesh *lattice = &level->lattice;
-  uint32_t count = lattice->young_modulus.count ? lattice->young_modulus.count : 1;
-  float *effective = sbf_asset_allocate(asset, count, sizeof *effective);
-  float *stated = sbf_asset_allocate(asset, count, sizeof *stated);
-  if (!effective || !stated) return false;
-  for (uint32_t i = 0; i < count; i++) {
-    stated[i] = lattice->young_modulus.count ? lattice->young_modulus.at[i] : body->attributes.young_modulus;
-    effective[i] = (float)fmax(stated[i] * factor, FLT_MIN);
+/* Writes the moduli, all times `factor`, and those that they stand for: `stated`. */
+static bool write_moduli(work *w, const float *stated, double factor) {
+  sbf_tetrahedron_mesh *lattice = &w->level->lattice;
+  uint32_t count = lattice->tetrahedra.count, states = lattice->young_modulus.count > 1 ? count : 1;
+  float *effective = sbf_asset_allocate(w->asset, count, sizeof *effective);
+  float *before = sbf_asset_allocate(w->asset, states, sizeof *before);
+  if (!effective || !before) return false;
+  double volume = 0;
+  w->c->factor = w->c->most = 0;
+  w->c->least = INFINITY;
+  for (uint32_t t = 0; t < count; t++) {
+    double of = (double)w->statics.moduli[t] * factor / (double)stated[t];
+    double size = w->linear.stiffness.elements[t].volume;
+    effective[t] = w->statics.moduli[t] = (float)fmax(w->statics.moduli[t] * factor, FLT_MIN);
+    if (t < states) before[t] = stated[t];
+    w->c->factor += size * of;
+    volume += size;
+    w->c->least = fmin(w->c->least, of);
+    w->c->most = fmax(w->c->most, of);
   }
+  w->c->factor /= volume;
   lattice->young_modulus = (sbf_f32_list){effective, count};
-  lattice->reference_modulus = (sbf_f32_list){stated, count};
+  lattice->reference_modulus = (sbf_f32_list){before, states};
   return true;
+}
+
+static bool fit_lattice(work *w, double *factor) {
+  uint32_t count = w->statics.network.tetrahedron_count;
+  float *stated = sbfi_arena_copy(w->scratch, w->statics.moduli, count, sizeof *stated);
+  if (!stated) return false;
+  if (w->r->has_works && !sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works, w->scratch))
+    return false;
+  if (!find_yieldings(w)) return false;
+  *factor = fit(w);
+  return write_moduli(w, stated, *factor);
+}
+
+static bool fit_springs(work *w) {
+  sbfi_spring_factors factors;
+  sbf_spring_set *sets = sbf_asset_allocate(w->asset, w->level->springs.count, sizeof *sets);
+  const float *from = w->statics.stiffness;
+  if (!sets ||
+      !sbfi_spring_fit(&w->statics, &w->linear, (const double *const *)w->r->gives, &factors, w->scratch))
+    return false;
+  for (uint32_t s = 0; s < w->level->springs.count; s++) {
+    sbf_spring_set *set = &sets[s];
+    *set = w->level->springs.at[s];
+    double factor = set->kind == SBF_SPRING_KIND_INTERNAL ? factors.inner : factors.surface;
+    float *stiffness = sbf_asset_allocate(w->asset, (size_t)set->ends.count + 1, sizeof *stiffness);
+    float *damping = sbf_asset_allocate(w->asset, (size_t)set->damping.count + 1, sizeof *damping);
+    if (!stiffness || !damping) return false;
+    for (uint32_t i = 0; i < set->ends.count; i++) stiffness[i] = *from++;
+    for (uint32_t i = 0; i < set->damping.count; i++)
+      damping[i] = (float)((double)set->damping.at[i] * factor);
+    set->stiffness = (sbf_f32_list){set->ends.count ? stiffness : NULL, set->ends.count};
+    if (set->damping.count) set->damping.at = damping;
+  }
+  w->level->springs.at = sets;
+  w->c->factor = factors.inner;
+  w->c->surface = factors.surface;
+  w->c->least = fmin(factors.inner, factors.surface);
+  w->c->most = fmax(factors.inner, factors.surface);
+  w->c->residual = factors.after;
+  return find_yieldings(w);
 }
 
 /* ---- The comparison ---- */
 
-static bool compare(
-    const sbfi_level_statics *s, const sbfi_reference *r, bool gives, double *error, sbfi_arena *scratch) {
-  uint32_t points = s->body->surface.positions.count;
-  double *give = sbfi_arena_allocate(scratch, points, 3 * sizeof *give);
-  if (!give) return false;
-  *error = 0;
-  for (uint32_t l = 0; l < r->statics.load_count; l++) {
-    sbfi_rest rest = {.converged = !gives};
-    const double *wanted = r->falls[l];
-    if (!wanted) continue;
-    if (gives && !sbfi_level_give(s, l, r->fall, fall_tolerance, give, &rest, scratch)) return false;
-    for (uint32_t i = 0; i < points && rest.converged; i++) {
-      double off = 0;
-      for (uint32_t k = 3 * i; k < 3 * i + 3; k++) off += (give[k] - wanted[k]) * (give[k] - wanted[k]);
-      *error = fmax(*error, sqrt(off));
+static double farthest(const double *a, double a_scale, const double *b, double b_scale, uint32_t points) {
+  double most = 0;
+  for (uint32_t i = 0; i < points; i++) {
+    double off = 0;
+    for (size_t k = 3 * (size_t)i; k < 3 * (size_t)i + 3; k++) {
+      double difference = a_scale * a[k] - b_scale * b[k];
+      off += difference * difference;
     }
+    most = fmax(most, off);
+  }
+  return sqrt(most);
+}
+
+/* Under gravity: with large strains where the reference was asked for them, else from the small loads. */
+static bool compare(work *w, bool gives, double factor) {
+  uint32_t points = w->body->surface.positions.count;
+  double *give = sbfi_arena_allocate(w->scratch, (size_t)points + 1, 3 * sizeof *give);
+  if (!give) return false;
+  for (uint32_t l = 0; l < w->r->statics.load_count; l++) {
+    bool converged = !gives;
+    if (!w->r->falls[l]) {
+      if (gives && !w->r->has_falls)
+        w->c->error =
+            fmax(w->c->error, farthest(w->gives[l], w->r->fall / factor, w->r->gives[l], w->r->fall, points));
+      continue;
+    }
+    if (gives && !sbfi_level_give(&w->statics, l, w->r->fall, fall_tolerance, give, &converged, w->scratch))
+      return false;
+    if (converged) w->c->error = fmax(w->c->error, farthest(give, 1, w->r->falls[l], 1, points));
   }
   return true;
 }
 
-static bool calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
-    const sbfi_reference *r, double tick, sbf_asset *asset, sbfi_calibration *c, sbfi_arena *scratch) {
-  sbfi_level_statics s;
-  sbfi_rest rests[SBFI_MOST_LOADS];
-  double yieldings[SBFI_MOST_LOADS];
-  *c = (sbfi_calibration){.factor = 1, .period_error = NAN};
-  if (!sbfi_level_statics_make(&s, body, level, interior, scratch)) return false;
-  bool gives = level->model != SBF_ELASTIC_MODEL_JIGGLE && s.held == r->statics.held;
+static bool record(work *w) {
+  sbf_calibration *made = sbf_asset_allocate(w->asset, 1, sizeof *made);
+  if (!made) return false;
+  sbf_calibration_init(made);
+  made->reference_elements = w->r->statics.network.tetrahedron_count;
+  made->factor = (float)w->c->factor;
+  made->surface_factor = (float)w->c->surface;
+  made->residual = (float)fmin(w->c->residual, FLT_MAX);
+  if (isfinite(w->c->period_error)) made->period_error = (float)w->c->period_error;
+  w->level->calibration = made;
+  return true;
+}
+
+static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, double tick) {
+  sbf_level *level = w->level;
+  bool lattice = level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+  double factor = 1;
+  springs &= level->model == SBF_ELASTIC_MODEL_SPRINGS;
+  if (!sbfi_level_statics_make(&w->statics, w->body, level, interior, w->scratch)) return false;
+  bool gives = level->model != SBF_ELASTIC_MODEL_JIGGLE && w->statics.held == w->r->statics.held;
   if (gives) {
-    if (!find_yieldings(&s, r, yieldings, rests, scratch)) return false;
-    uint32_t load = softest(r);
-    if (level->model == SBF_ELASTIC_MODEL_TETRAHEDRA) {
-      c->factor = fit(&s, r, yieldings);
-      if (!scale(level, body, c->factor, asset) ||
-          !sbfi_level_statics_make(&s, body, level, interior, scratch))
-        return false;
-    }
-    c->residual = residual_of(&s, r, yieldings, c->factor);
-    if (load < SBFI_MOST_LOADS && rests[load].frequency > 0)
-      c->period_error = r->rests[load].frequency / (rests[load].frequency * sqrt(c->factor)) - 1;
+    uint32_t load = softest(w->r);
+    if (!sbfi_linear_statics_make(&w->linear, &w->statics.network, w->scratch)) return false;
+    if (!(lattice ? fit_lattice(w, &factor) : springs ? fit_springs(w) : find_yieldings(w))) return false;
+    if (!springs) w->c->residual = residual_of(w, factor);
+    if (load < SBFI_MOST_LOADS && w->frequencies[load] > 0)
+      w->c->period_error = w->r->frequencies[load] / (w->frequencies[load] * sqrt(factor)) - 1;
   }
-  if (!compare(&s, r, gives, &c->error, scratch)) return false;
-  level->simulation.error = (float)fmin(c->error, FLT_MAX);
-  level->simulation.cost =
-      level->model == SBF_ELASTIC_MODEL_JIGGLE ? 1 : (float)fmin(sbfi_level_cost(&s, tick, scratch), FLT_MAX);
+  if (!compare(w, gives, factor) || (gives && (lattice || springs) && !record(w))) return false;
+  level->simulation.error = (float)fmin(w->c->error, FLT_MAX);
+  level->simulation.cost = level->model == SBF_ELASTIC_MODEL_JIGGLE
+                               ? 1
+                               : (float)fmin(sbfi_level_cost(&w->statics, tick, w->scratch), FLT_MAX);
   return true;
 }
 
 bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
-    const sbfi_reference *reference, double tick, sbf_asset *asset, sbfi_calibration *calibration,
-    const sbf_allocator *allocator) {
+    const sbfi_reference *reference, bool springs, double tick, sbf_asset *asset,
+    sbfi_calibration *calibration, const sbf_allocator *allocator) {
   sbfi_arena scratch;
+  work w = {
+      .level = level, .body = body, .r = reference, .asset = asset, .scratch = &scratch, .c = calibration};
+  *calibration = (sbfi_calibration){.factor = 1, .surface = 1, .least = 1, .most = 1, .period_error = NAN};
   sbfi_arena_init(&scratch, allocator, 0);
-  bool good = calibrate(level, body, interior, reference, tick, asset, calibration, &scratch);
+  bool good = calibrate(&w, interior, springs, tick);
   sbfi_arena_free(&scratch);
   return good;
 }

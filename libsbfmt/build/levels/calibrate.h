@@ -1,16 +1,26 @@
-/* The modulus with which a coarse lattice stands for what it was made of.
+/* With which modulus or stiffness a level stands for what it was made of.
  *
  * Linear tetrahedra bend too stiffly, the more so the coarser they are: numerical coarsening (Kharevych et
- * al. 2009) gives them another modulus. Here it is one factor a level: that with which the level gives as
- * much under small loads (level_statics.h), averaged over the surface and summed over the loads, as a
- * reference of some 16,000 tetrahedra does. What is softest, mostly bending, so counts most. */
+ * al. 2009) gives them other moduli. Each element's is found by the work that its surroundings take
+ * (local_fit.h); then one factor for all makes the level give as much under small loads (level_loads.h),
+ * averaged over the surface and summed over the loads, as a reference of some 16,000 tetrahedra does. What is
+ * softest, mostly bending, so counts most. Springs get two factors (spring_fit.h). */
 #ifndef SBFI_CALIBRATE_H
 #define SBFI_CALIBRATE_H
 
 #include "build/lattice/lattice_level.h"
-#include "build/levels/level_statics.h"
+#include "build/levels/level_loads.h"
+#include "build/levels/local_fit.h"
 
-enum { SBFI_REFERENCE_ELEMENTS = 16000 };
+/* Of lattices; and of what springs are compared with. */
+enum { SBFI_REFERENCE_ELEMENTS = 16000, SBFI_SPRING_REFERENCE_ELEMENTS = 4000 };
+
+/* What a reference is for. */
+typedef struct sbfi_reference_use {
+  bool falls;  /* errors in metres, under gravity */
+  bool pushes; /* moduli element by element */
+  sbfi_progress progress;
+} sbfi_reference_use;
 
 /* A level that others are compared with, and how it gives. */
 typedef struct sbfi_reference {
@@ -18,25 +28,27 @@ typedef struct sbfi_reference {
   sbfi_arena arena;  /* of the rest */
   sbf_level made;
   sbfi_level_statics statics;
-  bool sound;   /* it resists; else nothing below is known */
-  double small; /* m/s^2, of the loads for the fit */
-  double fall;  /* m/s^2, of gravity */
-  sbfi_rest rests[SBFI_MOST_LOADS];
-  double *gives[SBFI_MOST_LOADS];    /* (3 x surface points) m, under small loads */
+  bool sound;  /* it resists; else nothing below is known */
+  double fall; /* m/s^2, of gravity */
+  bool has_falls;
+  double *gives[SBFI_MOST_LOADS];    /* (3 x surface points) m, under small loads of 1 m/s^2 */
   double *falls[SBFI_MOST_LOADS];    /* the same under gravity; NULL: not asked for, or it comes to no rest */
   double yieldings[SBFI_MOST_LOADS]; /* m, under small loads */
+  double frequencies[SBFI_MOST_LOADS]; /* rad/s, by Rayleigh's quotient */
+  bool has_works;
+  sbfi_push_works works;
 } sbfi_reference;
 
-/* Makes a lattice of the body, which has polygons, and measures how it gives; under gravity only where that
- * `falls` is asked for. Where nothing is enclosed it is not sound. `asset` has bones and rigid bodies. To be
- * freed whatever the outcome. */
+/* Makes a lattice of some so many elements of the body, which has polygons, and measures how it gives. Where
+ * nothing is enclosed it is not sound. `asset` has bones and rigid bodies. To be freed whatever the outcome.
+ */
 sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_soft_body *body,
-    const sbf_asset *asset, bool falls, sbfi_progress progress, const sbf_allocator *allocator);
+    uint32_t elements, const sbf_asset *asset, const sbfi_reference_use *use, const sbf_allocator *allocator);
 
 /* The same of a level that is there, and stays so as long as the reference; `interior` as for a carrier. */
 sbfi_lattice_outcome sbfi_reference_take(sbfi_reference *reference, const sbf_soft_body *body,
-    const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset, bool falls,
-    sbfi_progress progress, const sbf_allocator *allocator);
+    const sbf_level *level, const sbfi_interior_map *interior, const sbf_asset *asset,
+    const sbfi_reference_use *use, const sbf_allocator *allocator);
 
 void sbfi_reference_free(sbfi_reference *reference);
 
@@ -45,18 +57,23 @@ double sbfi_reference_frequency(const sbfi_reference *reference);
 
 /* How a level compares. */
 typedef struct sbfi_calibration {
-  double factor;       /* on the modulus; 1 where nothing was changed */
-  double residual;     /* greatest share by which it yields otherwise under one of the small loads */
+  double
+      factor; /* on the modulus, or on the stiffness of springs inside, on the mean; 1: nothing was changed */
+  double surface;      /* on that of springs over the surface */
+  double least, most;  /* over the elements */
+  double residual;     /* of lattices, the greatest share by which one yields otherwise under one of the small
+                          loads; of springs, that by which the surface is displaced otherwise (spring_fit.h) */
   double period_error; /* share by which it swings slower under the load it yields to most; NAN: not known */
   double error;        /* m, greatest distance of a surface point from where the reference has it under
-                          gravity along one of the axes; 0: the reference has no falls */
+                          gravity along one of the axes; from small strains, where the reference has no falls */
 } sbfi_calibration;
 
-/* Calibrates a level of tetrahedra, whose lists become memory of `asset`, and compares it; another level is
- * compared alone, and one of jiggle as one that does not give. Sets the level's simulation error, and its
- * cost for a control tick of `tick` s. `interior` as for a carrier. False where memory runs out. */
+/* Calibrates a level of tetrahedra or, where `springs` says so, of springs, whose lists become memory of
+ * `asset`, and compares it; another level is compared alone, and one of jiggle as one that does not give.
+ * Sets the level's calibration, its simulation error, and its cost for a control tick of `tick` s. `interior`
+ * as for a carrier. False where memory runs out. */
 bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
-    const sbfi_reference *reference, double tick, sbf_asset *asset, sbfi_calibration *calibration,
-    const sbf_allocator *allocator);
+    const sbfi_reference *reference, bool springs, double tick, sbf_asset *asset,
+    sbfi_calibration *calibration, const sbf_allocator *allocator);
 
 #endif

@@ -25,18 +25,25 @@ static bool has_falls(const sbfi_ladder *l) {
   return l->recipe->error > 0 || l->recipe->levels > 1;
 }
 
-static sbfi_lattice_outcome make_reference(sbfi_ladder *l) {
+static sbfi_reference_use use_of(const sbfi_ladder *l) {
+  bool lattice = l->level_count > 0 && l->levels[0].model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+  return (sbfi_reference_use){
+      has_falls(l), l->recipe->calibrate && (lattice || l->recipe->error > 0), l->progress};
+}
+
+static sbfi_lattice_outcome make_reference(sbfi_ladder *l, uint32_t elements) {
   if (l->has_reference) return SBFI_LATTICE_MADE;
   l->has_reference = true;
-  return sbfi_reference_make(&l->reference, l->body, l->asset, has_falls(l), l->progress, l->allocator);
+  const sbfi_reference_use use = use_of(l);
+  return sbfi_reference_make(&l->reference, l->body, elements, l->asset, &use, l->allocator);
 }
 
 /* Compares the level, where there is something to compare it with. */
 static sbfi_lattice_outcome measure(
     sbfi_ladder *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
   if (!sbfi_progress_say(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
-  return sbfi_level_calibrate(
-             level, l->body, interior, &l->reference, l->recipe->tick, l->asset, calibration, l->allocator)
+  return sbfi_level_calibrate(level, l->body, interior, &l->reference, l->recipe->calibrate, l->recipe->tick,
+             l->asset, calibration, l->allocator)
              ? SBFI_LATTICE_MADE
              : SBFI_LATTICE_NO_MEMORY;
 }
@@ -55,7 +62,7 @@ static sbfi_lattice_outcome make_lattice(
 }
 
 sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, bool *met) {
-  sbfi_lattice_outcome outcome = make_reference(ladder);
+  sbfi_lattice_outcome outcome = make_reference(ladder, SBFI_REFERENCE_ELEMENTS);
   *met = false;
   *elements = SBFI_REFERENCE_ELEMENTS;
   if (outcome != SBFI_LATTICE_MADE || !ladder->reference.sound) return outcome;
@@ -70,8 +77,8 @@ sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, b
     memory->rigid_bodies = ladder->asset->rigid_bodies;
     outcome = make_lattice(ladder, 0, tried, memory, &level);
     bool some = outcome == SBFI_LATTICE_MADE && level.lattice.tetrahedra.count >= FEWEST_ELEMENTS;
-    if (some && !sbfi_level_calibrate(&level, ladder->body, NULL, &ladder->reference, ladder->recipe->tick,
-                    memory, &calibration, ladder->allocator))
+    if (some && !sbfi_level_calibrate(&level, ladder->body, NULL, &ladder->reference, false,
+                    ladder->recipe->tick, memory, &calibration, ladder->allocator))
       outcome = SBFI_LATTICE_NO_MEMORY;
     sbf_asset_free(memory);
     if (!some || outcome != SBFI_LATTICE_MADE || calibration.error > ladder->recipe->error) continue;
@@ -87,16 +94,16 @@ static sbfi_lattice_outcome take_finest(sbfi_ladder *l, const sbfi_interior_map 
   sbf_level *level = &l->levels[l->level_count++];
   bool lattice = level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
   bool coarse = lattice && level->lattice.tetrahedra.count < FINE_ELEMENTS;
-  if (coarse && (l->recipe->calibrate || has_falls(l))) {
-    sbfi_lattice_outcome outcome = make_reference(l);
+  if (lattice ? coarse && (l->recipe->calibrate || has_falls(l)) : l->recipe->calibrate) {
+    sbfi_lattice_outcome outcome =
+        make_reference(l, lattice ? SBFI_REFERENCE_ELEMENTS : SBFI_SPRING_REFERENCE_ELEMENTS);
     if (outcome != SBFI_LATTICE_MADE || !l->reference.sound || !l->recipe->calibrate) return outcome;
-    l->measured[0] = true;
     return measure(l, level, interior, &l->calibrations[0]);
   }
   if (l->recipe->levels < 2 || l->has_reference) return SBFI_LATTICE_MADE;
   l->has_reference = true;
-  return sbfi_reference_take(
-      &l->reference, l->body, level, interior, l->asset, has_falls(l), l->progress, l->allocator);
+  const sbfi_reference_use use = use_of(l);
+  return sbfi_reference_take(&l->reference, l->body, level, interior, l->asset, &use, l->allocator);
 }
 
 static sbfi_lattice_outcome add_lattices(sbfi_ladder *l) {
@@ -116,7 +123,6 @@ static sbfi_lattice_outcome add_lattices(sbfi_ladder *l) {
     if (!level->name) return SBFI_LATTICE_NO_MEMORY;
     l->level_count++;
     if (!l->reference.sound || !l->recipe->calibrate) continue;
-    l->measured[l->level_count - 1] = true;
     outcome = measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
     if (outcome != SBFI_LATTICE_MADE) return outcome;
   }
@@ -132,7 +138,6 @@ static sbfi_lattice_outcome add_springs(sbfi_ladder *l, sbfi_interior_map *map, 
     return SBFI_LATTICE_NO_MEMORY;
   l->level_count++;
   if (!l->reference.sound) return SBFI_LATTICE_MADE;
-  l->measured[l->level_count - 1] = true;
   return measure(l, level, map, &l->calibrations[l->level_count - 1]);
 }
 
@@ -144,7 +149,6 @@ static sbfi_lattice_outcome add_jiggle(sbfi_ladder *l) {
     return SBFI_LATTICE_NO_MEMORY;
   l->level_count++;
   if (!l->reference.sound) return SBFI_LATTICE_MADE;
-  l->measured[l->level_count - 1] = true;
   return measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
 }
 

@@ -10,7 +10,7 @@ enum { SBFI_MOST_LEVELS = 8 };
 typedef struct sbfi_ladder_recipe {
   uint32_t levels; /* in all, 1 to SBFI_MOST_LEVELS */
   double error;    /* m, that the finest may be off; 0: whatever it is */
-  bool calibrate;  /* lattices */
+  bool calibrate;  /* lattices, and springs that are the finest level or stand behind lattices */
   bool flexion;    /* for a level of springs */
   double tick;     /* s, that costs are for */
   int32_t derivation;
@@ -26,8 +26,7 @@ typedef struct sbfi_ladder {
   sbfi_reference reference;
   sbf_level *levels; /* (level_count) memory of the asset */
   uint32_t level_count;
-  sbfi_calibration calibrations[SBFI_MOST_LEVELS]; /* of each, where `measured` */
-  bool measured[SBFI_MOST_LEVELS];
+  sbfi_calibration calibrations[SBFI_MOST_LEVELS]; /* of those that say so */
 } sbfi_ladder;
 
 /* How many of `levels` are lattices, where the finest is one: with three and more the last is jiggle, with

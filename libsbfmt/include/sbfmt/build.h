@@ -66,9 +66,11 @@ typedef struct sbf_build_options {
   sbf_build_sections sections; /* of skinned meshes */
   /* How far along the surface a section reaches over a cut; 0: half the limb's radius there. */
   double overlap_m;
-  /* Lattices of fewer than 8000 tetrahedra bend too stiffly; where their size is stated (cell, number, error
-   * or several levels) and unless this is set, they get a modulus with which they give as much as a lattice
-   * of 16,000, and `reference_modulus` says what it stands for. That takes a second or two a body. */
+  /* Lattices of fewer than 8000 tetrahedra bend too stiffly: unless this is set, each element gets a modulus
+   * with which its surroundings give as much as in a lattice of 16,000, and `reference_modulus` says what it
+   * stands for. The springs of a body made by centroid are multiplied so that they give as a lattice of 4000
+   * does. Half a second a body, and some 30 ms a section. `calibration` in the level says what came of it.
+   */
   bool without_calibration;
   /* How many levels a body gets, up to 8; 0 and 1: one. Of tetrahedra: lattices, each of twice the cell of
    * the one before; the last of three and more is jiggle, the one before it, of four and more, springs. Of
@@ -112,8 +114,12 @@ typedef struct sbf_build_report {
   uint32_t calibrated;              /* lattices; the rest is of these */
   double least_factor, most_factor; /* of the moduli */
   double most_residual; /* greatest share by which one gives otherwise than the reference under some load */
-  double most_period_error; /* and swings slower or faster */
-  uint32_t render_levels;   /* of render meshes */
+  double most_period_error;                       /* and swings slower or faster */
+  uint32_t render_levels;                         /* of render meshes */
+  uint32_t calibrated_springs;                    /* levels of springs; what follows is of these */
+  double least_spring_factor, most_spring_factor; /* on stiffnesses */
+  /* Greatest, over the levels, of the share of the surface's displacement that no factor mends. */
+  double most_spring_residual;
 } sbf_build_report;
 
 /* Makes `*built` from `asset`, which stays as it is and need not outlive the call. On failure `*built` is

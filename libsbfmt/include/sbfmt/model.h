@@ -872,6 +872,26 @@ typedef struct sbf_simulation_list {
   uint32_t count;
 } sbf_simulation_list;
 
+/* What a level's moduli or stiffnesses were multiplied by, and how near that brought it. */
+typedef struct sbf_calibration {
+  /* Tetrahedra of the lattice it was compared with. */
+  uint32_t reference_elements;
+  /* On the moduli, on the mean of the volume; or on the stiffness of springs inside. [(0, inf); default 1] */
+  float factor;
+  /* On the stiffness of springs over the surface. [(0, inf); default 1] */
+  float surface_factor;
+  /* Share by which it still gives otherwise under small loads: of lattices the most that the mean over the
+   * surface is off under one of them, of springs the root of the mean square of what is left at the surface's
+   * points. [[0, inf)] */
+  float residual;
+  /* Share by which it swings slower. */
+  float period_error;
+} sbf_calibration;
+typedef struct sbf_calibration_list {
+  const sbf_calibration *at;
+  uint32_t count;
+} sbf_calibration_list;
+
 /* One way to simulate a body: points, one elastic model, pins, embeddings. */
 typedef struct sbf_level {
   /* Name for people. */
@@ -903,6 +923,8 @@ typedef struct sbf_level {
   sbf_embedding_list embeddings;
   /* How to step it, with the error and the cost of doing so. */
   sbf_simulation simulation;
+  /* How it was made to give as its matter does. */
+  const sbf_calibration *calibration;
 } sbf_level;
 typedef struct sbf_level_list {
   const sbf_level *at;
@@ -1453,6 +1475,7 @@ SBF_API void sbf_jiggle_init(sbf_jiggle *jiggle);
 SBF_API void sbf_embedding_init(sbf_embedding *embedding);
 SBF_API void sbf_measured_init(sbf_measured *measured);
 SBF_API void sbf_simulation_init(sbf_simulation *simulation);
+SBF_API void sbf_calibration_init(sbf_calibration *calibration);
 SBF_API void sbf_level_init(sbf_level *level);
 SBF_API void sbf_legacy_init(sbf_legacy *legacy);
 SBF_API void sbf_soft_body_init(sbf_soft_body *soft_body);

@@ -305,6 +305,7 @@ ELEMENTS = {element.name: element for element in (
         Field('pins', 'many', 'pin_set', xml='pin_set', wrapper='pins'),
         Field('embeddings', 'many', 'embedding', xml='embedding'),
         Field('simulation', 'one', 'simulation', xml='simulation'),
+        Field('calibration', 'optional', 'calibration', xml='calibration'),
     )),
     Element('tetrahedron_mesh', 'tetrahedron_mesh', (
         Field('target', 'enum', 'volume_target', default='volume', required=True),
@@ -354,6 +355,13 @@ ELEMENTS = {element.name: element for element in (
         Field('error', 'float', default=0.0),
         Field('cost', 'float', default=0.0),
         Field('measured', 'many', 'measured', xml='measured', volatile=True),
+    )),
+    Element('calibration', 'calibration', (
+        Field('reference_elements', 'uint', default=0),
+        Field('factor', 'float', default=1.0),
+        Field('surface_factor', 'float', default=1.0),
+        Field('residual', 'float', default=0.0),
+        Field('period_error', 'float', default=0.0),
     )),
     Element('measured', 'measured', (
         Field('machine', 'string', default=''),

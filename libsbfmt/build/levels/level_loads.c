@@ -1,0 +1,243 @@
+#include "build/levels/level_loads.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "mechanics/static_solve.h"
+#include "mechanics/vector.h"
+
+/* Of Newton's method: what has not come to rest by then folds up. */
+enum { MOST_STEPS = 15 };
+
+static double component(sbf_vec3 v, int axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+static void load_weights(sbf_vec4 from, double to[4]) {
+  to[0] = from.x, to[1] = from.y, to[2] = from.z, to[3] = from.w;
+}
+
+/* ---- Rigid motions ---- */
+
+/* A rigid motion: v + w x (r - middle). */
+typedef struct rigid {
+  sbfi_d3 middle, v, w;
+} rigid;
+
+/* Solves the symmetric m x = r; x is 0 where m is singular, as for points on a line. */
+static sbfi_d3 solve3(const double m[6], sbfi_d3 r) {
+  sbfi_d3 a = {m[0], m[3], m[5]}, b = {m[3], m[1], m[4]}, c = {m[5], m[4], m[2]};
+  sbfi_d3 bc = sbfi_d3_cross(b, c), ca = sbfi_d3_cross(c, a), ab = sbfi_d3_cross(a, b);
+  double det = sbfi_d3_dot(a, bc), scale = fabs(m[0]) + fabs(m[1]) + fabs(m[2]);
+  if (!(fabs(det) > 1e-12 * scale * scale * scale)) return (sbfi_d3){0, 0, 0};
+  return sbfi_d3_scale((sbfi_d3){sbfi_d3_dot(bc, r), sbfi_d3_dot(ca, r), sbfi_d3_dot(ab, r)}, 1 / det);
+}
+
+/* The rigid motion nearest to a field over weighted places. */
+static rigid nearest_rigid(
+    const sbf_vec3 *places, const float *weights, const double *field, uint32_t count) {
+  rigid motion = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  double sum = 0, tensor[6] = {0};
+  for (uint32_t i = 0; i < count; i++) {
+    sum += weights[i];
+    motion.middle = sbfi_d3_add(motion.middle, sbfi_d3_scale(sbfi_d3_of(places[i]), weights[i]));
+    motion.v = sbfi_d3_add(
+        motion.v, sbfi_d3_scale((sbfi_d3){field[3 * i], field[3 * i + 1], field[3 * i + 2]}, weights[i]));
+  }
+  if (!(sum > 0)) return motion;
+  motion.middle = sbfi_d3_scale(motion.middle, 1 / sum);
+  motion.v = sbfi_d3_scale(motion.v, 1 / sum);
+  sbfi_d3 moment = {0, 0, 0};
+  for (uint32_t i = 0; i < count; i++) {
+    sbfi_d3 r = sbfi_d3_sub(sbfi_d3_of(places[i]), motion.middle);
+    sbfi_d3 u = {field[3 * i] - motion.v.x, field[3 * i + 1] - motion.v.y, field[3 * i + 2] - motion.v.z};
+    double m = weights[i];
+    moment = sbfi_d3_add(moment, sbfi_d3_scale(sbfi_d3_cross(r, u), m));
+    tensor[0] += m * (r.y * r.y + r.z * r.z), tensor[1] += m * (r.z * r.z + r.x * r.x);
+    tensor[2] += m * (r.x * r.x + r.y * r.y), tensor[3] -= m * r.x * r.y;
+    tensor[4] -= m * r.y * r.z, tensor[5] -= m * r.z * r.x;
+  }
+  motion.w = solve3(tensor, moment);
+  return motion;
+}
+
+static void take_off(const rigid *motion, const sbf_vec3 *places, double *field, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    sbfi_d3 r = sbfi_d3_sub(sbfi_d3_of(places[i]), motion->middle);
+    sbfi_d3 u = sbfi_d3_add(motion->v, sbfi_d3_cross(motion->w, r));
+    field[3 * i] -= u.x, field[3 * i + 1] -= u.y, field[3 * i + 2] -= u.z;
+  }
+}
+
+/* Acceleration of load number `load`, of size 1, at a place, along which axis. */
+static int axis_of(const sbfi_level_statics *s, uint32_t load) {
+  return (int)(s->held ? load : load / 2);
+}
+static double strength(const sbfi_level_statics *s, uint32_t load, sbf_vec3 place) {
+  if (s->held) return 1;
+  int along = (axis_of(s, load) + 1 + (int)(load % 2)) % 3;
+  double half = (s->high[along] - s->low[along]) / 2;
+  double q = half > 0 ? (component(place, along) - s->low[along]) / half - 1 : 0;
+  return q * q;
+}
+
+/* ---- Loads ---- */
+
+/* Forces become accelerations, less the rigid motion in them, and forces again. */
+static void balance(const sbf_spring_network *n, double *forces) {
+  for (size_t i = 0; i < 3 * (size_t)n->point_count; i++)
+    forces[i] = n->masses[i / 3] > 0 ? forces[i] / n->masses[i / 3] : 0;
+  rigid motion = nearest_rigid(n->positions, n->masses, forces, n->point_count);
+  take_off(&motion, n->positions, forces, n->point_count);
+  for (size_t i = 0; i < 3 * (size_t)n->point_count; i++) forces[i] *= n->masses[i / 3];
+}
+
+void sbfi_level_forces(const sbfi_level_statics *s, uint32_t load, double size, double *forces) {
+  const sbf_spring_network *n = &s->network;
+  memset(forces, 0, 3 * (size_t)n->point_count * sizeof *forces);
+  for (uint32_t i = 0; i < n->point_count; i++)
+    forces[3 * (size_t)i + (size_t)axis_of(s, load)] =
+        n->masses[i] * size * strength(s, load, n->positions[i]);
+  if (!s->held) balance(n, forces);
+}
+
+static bool is_loose(const sbfi_level_statics *s, uint32_t vertex) {
+  double weights[4];
+  load_weights(s->carried[vertex].weights, weights);
+  for (int k = 0; k < 4; k++)
+    if (weights[k] > 1e-3 && s->network.masses[s->carried[vertex].points.at[k]] > 0) return true;
+  return false;
+}
+
+bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *s, sbfi_arena *arena) {
+  const sbf_vec3_list *points = &s->body->surface.positions;
+  double *nearest2 = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *nearest2);
+  *made = (sbfi_level_pushes){0};
+  made->patches = sbfi_arena_allocate(arena, (size_t)points->count + 1, sizeof *made->patches);
+  if (!made->patches || !nearest2) return false;
+  uint32_t middle = UINT32_MAX;
+  for (uint32_t i = 0; i < points->count; i++) {
+    bool takes_part = s->areas[i] > 0 && is_loose(s, i);
+    made->patches[i] = UINT32_MAX;
+    nearest2[i] = takes_part ? INFINITY : -1;
+    if (takes_part && middle == UINT32_MAX) middle = i;
+  }
+  while (middle != UINT32_MAX && made->patch_count < SBFI_PUSHED_PATCHES) {
+    double most = 0;
+    uint32_t next = UINT32_MAX;
+    for (uint32_t i = 0; i < points->count; i++) {
+      sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(points->at[i]), sbfi_d3_of(points->at[middle]));
+      double squared = sbfi_d3_dot(way, way);
+      if (squared < nearest2[i]) {
+        nearest2[i] = squared;
+        made->patches[i] = made->patch_count;
+      }
+      if (nearest2[i] <= most) continue;
+      most = nearest2[i];
+      next = i;
+    }
+    made->patch_count++;
+    middle = next;
+  }
+  for (uint32_t i = 0; i < points->count; i++)
+    if (made->patches[i] != UINT32_MAX) made->areas[made->patches[i]] += s->areas[i];
+  return true;
+}
+
+/* A direction for a patch in a push, by chance but always the same. */
+static sbfi_d3 way_of(uint32_t push, uint32_t patch) {
+  uint32_t h = (patch + 1) * 2654435761u + (push + 1) * 2246822519u;
+  h = (h ^ h >> 15) * 3266489917u;
+  h ^= h >> 13;
+  return sbfi_d3_normal((sbfi_d3){
+      (double)(h & 1023) - 511.5, (double)(h >> 10 & 1023) - 511.5, (double)(h >> 20 & 1023) - 511.5});
+}
+
+void sbfi_level_push(
+    const sbfi_level_statics *s, const sbfi_level_pushes *pushes, uint32_t push, double *forces) {
+  const sbf_spring_network *n = &s->network;
+  memset(forces, 0, 3 * (size_t)n->point_count * sizeof *forces);
+  for (uint32_t i = 0; i < s->body->surface.positions.count; i++) {
+    uint32_t patch = pushes->patches[i];
+    double weights[4];
+    if (patch == UINT32_MAX) continue;
+    sbfi_d3 part = sbfi_d3_scale(way_of(push, patch), s->areas[i] / pushes->areas[patch]);
+    load_weights(s->carried[i].weights, weights);
+    for (int k = 0; k < 4; k++) {
+      double *to = forces + 3 * (size_t)s->carried[i].points.at[k];
+      to[0] += weights[k] * part.x, to[1] += weights[k] * part.y, to[2] += weights[k] * part.z;
+    }
+  }
+  if (!s->held) balance(n, forces);
+}
+
+/* ---- Answers ---- */
+
+/* Rayleigh's quotient of displacements u under a load: u.f / u.M u. */
+static double quotient(const sbf_spring_network *n, const double *forces, const double *moved) {
+  double work = 0, inertia = 0;
+  for (size_t i = 0; i < 3 * (size_t)n->point_count; i++) {
+    work += forces[i] * moved[i];
+    inertia += n->masses[i / 3] * moved[i] * moved[i];
+  }
+  return work > 0 && inertia > 0 ? sqrt(work / inertia) : 0;
+}
+
+static void carry(const sbfi_level_statics *s, const double *moved, double *displacements) {
+  const sbf_vec3_list *surface = &s->body->surface.positions;
+  for (uint32_t i = 0; i < surface->count; i++) {
+    double weights[4];
+    load_weights(s->carried[i].weights, weights);
+    for (size_t k = 0; k < 3; k++) {
+      double sum = 0;
+      for (int c = 0; c < 4; c++) sum += weights[c] * moved[3 * (size_t)s->carried[i].points.at[c] + k];
+      displacements[3 * (size_t)i + k] = sum;
+    }
+  }
+  if (s->held) return;
+  rigid motion = nearest_rigid(surface->at, s->areas, displacements, surface->count);
+  take_off(&motion, surface->at, displacements, surface->count);
+}
+
+bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, double tolerance,
+    double *displacements, bool *converged, sbfi_arena *scratch) {
+  const sbf_spring_network *n = &s->network;
+  size_t numbers = 3 * (size_t)n->point_count;
+  double *forces = sbfi_arena_allocate(scratch, numbers + 1, sizeof *forces);
+  double *places = sbfi_arena_allocate(scratch, numbers + 1, sizeof *places);
+  if (!forces || !places) return false;
+  sbfi_level_forces(s, load, size, forces);
+  sbfi_static_problem problem = {
+      .network = n, .forces = forces, .tolerance = tolerance, .most_steps = MOST_STEPS};
+  sbfi_static_outcome outcome;
+  sbfi_static_start(n, places);
+  if (!sbfi_static_solve(&problem, places, &outcome, &scratch->allocator)) return false;
+  *converged = outcome.residual <= 10 * tolerance;
+  for (size_t i = 0; i < numbers; i++) places[i] -= component(n->positions[i / 3], (int)(i % 3));
+  carry(s, places, displacements);
+  return true;
+}
+
+bool sbfi_level_lean(const sbfi_level_statics *s, sbfi_linear_statics *linear, uint32_t load, double share,
+    double *displacements, double *frequency, sbfi_arena *scratch) {
+  size_t numbers = 3 * (size_t)s->network.point_count;
+  double *forces = sbfi_arena_allocate(scratch, numbers + 1, sizeof *forces);
+  double *moved = sbfi_arena_allocate(scratch, numbers + 1, sizeof *moved);
+  if (!forces || !moved) return false;
+  sbfi_level_forces(s, load, 1, forces);
+  sbfi_linear_statics_solve(linear, forces, share, moved);
+  *frequency = quotient(&s->network, forces, moved);
+  carry(s, moved, displacements);
+  return true;
+}
+
+double sbfi_level_yielding(const sbfi_level_statics *s, uint32_t load, const double *displacements) {
+  const sbf_vec3_list *surface = &s->body->surface.positions;
+  double sum = 0, area = 0;
+  for (uint32_t i = 0; i < surface->count; i++) {
+    double moved = displacements[3 * (size_t)i + (size_t)axis_of(s, load)];
+    sum += s->areas[i] * moved * strength(s, load, surface->at[i]);
+    area += s->areas[i];
+  }
+  return area > 0 ? sum / area : 0;
+}

@@ -1,0 +1,50 @@
+/* How a level gives under loads, seen at its body's surface: what levels of one body are compared by.
+ *
+ * A body that something holds is loaded with a gravity along each of the three axes. One that nothing holds
+ * is bent: with the acceleration e_i q_j^2, i and j different axes, q_j the place along j from the middle in
+ * half extents, less the rigid motion in it, so that forces and moments sum to nothing; what of the answer is
+ * rigid is left out as well. Held are the points of kinematic pins; goal springs pull.
+ *
+ * Pushes stress every part of a body, however small, which gravity does not: its loose surface is divided
+ * into patches, and each is pushed with 1 N along a direction of its own. */
+#ifndef SBFI_LEVEL_LOADS_H
+#define SBFI_LEVEL_LOADS_H
+
+#include "build/levels/level_statics.h"
+#include "mechanics/linear_statics.h"
+
+/* The forces (3 x level points) N of load number `load` of `size` m/s^2. */
+void sbfi_level_forces(const sbfi_level_statics *statics, uint32_t load, double size, double *forces);
+
+enum { SBFI_PUSHED_PATCHES = 24, SBFI_PUSHES = 6 };
+
+typedef struct sbfi_level_pushes {
+  uint32_t patch_count;
+  uint32_t *patches;                 /* (surface points) UINT32_MAX: in none */
+  double areas[SBFI_PUSHED_PATCHES]; /* m^2 */
+} sbfi_level_pushes;
+
+/* Patches around points as far from each other as can be, of the surface that the level does not hold: for
+ * all levels of the body. Memory of `arena`; false where it runs out. */
+bool sbfi_level_pushes_make(sbfi_level_pushes *made, const sbfi_level_statics *statics, sbfi_arena *arena);
+
+/* The forces (3 x level points) N of push number `push`. */
+void sbfi_level_push(
+    const sbfi_level_statics *statics, const sbfi_level_pushes *pushes, uint32_t push, double *forces);
+
+/* Displacements of the surface's points (3 * surface points, m) under load number `load` of `size` m/s^2,
+ * with large strains as they are, until all but `tolerance` of the load is balanced. False where memory runs
+ * out. */
+bool sbfi_level_give(const sbfi_level_statics *statics, uint32_t load, double size, double tolerance,
+    double *displacements, bool *converged, sbfi_arena *scratch);
+
+/* The same for small strains, under 1 m/s^2 and in m for that, right to `share`. `*frequency` rad/s is
+ * Rayleigh's quotient of the displacements: little above the lowest mode's, where the load is one that the
+ * mode gives to. */
+bool sbfi_level_lean(const sbfi_level_statics *statics, sbfi_linear_statics *linear, uint32_t load,
+    double share, double *displacements, double *frequency, sbfi_arena *scratch);
+
+/* Mean over the surface of what it gives along the load, m. */
+double sbfi_level_yielding(const sbfi_level_statics *statics, uint32_t load, const double *displacements);
+
+#endif
