@@ -327,6 +327,7 @@ static const sbfi_length tetrahedron_mesh_tetrahedra_index = {1, {{SBFI_TERM_COU
 static const sbfi_length tetrahedron_mesh_young_modulus_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_tetrahedron_mesh, tetrahedra)}}, "tetrahedra"}};
 static const sbfi_length tetrahedron_mesh_reference_modulus_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_tetrahedron_mesh, tetrahedra)}}, "tetrahedra"}};
 static const sbfi_length tetrahedron_mesh_densities_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_tetrahedron_mesh, tetrahedra)}}, "tetrahedra"}};
+static const sbfi_length tetrahedron_mesh_stiffness_damping_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_tetrahedron_mesh, tetrahedra)}}, "tetrahedra"}};
 static const sbfi_field tetrahedron_mesh_fields[] = {
   {.name = "target", .type = SBFI_ENUM, .number = 1, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, target), .width = 1, .unit = "", .required = true, .values = volume_target_values, .value_count = 1},
   {.name = "tetrahedra", .type = SBFI_LIST, .number = 2, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, tetrahedra), .width = 4, .unit = "", .item = SBFI_ITEM_U32, .positive = true, .index = &tetrahedron_mesh_tetrahedra_index},
@@ -334,8 +335,9 @@ static const sbfi_field tetrahedron_mesh_fields[] = {
   {.name = "reference_modulus", .type = SBFI_LIST, .number = 4, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, reference_modulus), .width = 1, .unit = "Pa", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_reference_modulus_lengths},
   {.name = "densities", .type = SBFI_LIST, .number = 5, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, densities), .width = 1, .unit = "kg/m^3", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_densities_lengths},
   {.name = "color_counts", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, color_counts), .width = 1, .unit = "", .item = SBFI_ITEM_U32},
+  {.name = "stiffness_damping", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_tetrahedron_mesh, stiffness_damping), .width = 1, .unit = "s", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = tetrahedron_mesh_stiffness_damping_lengths},
 };
-static const sbfi_element tetrahedron_mesh_element = {"tetrahedron_mesh", "tetrahedron_mesh", sizeof(sbf_tetrahedron_mesh), 0, 6, tetrahedron_mesh_fields, NULL};
+static const sbfi_element tetrahedron_mesh_element = {"tetrahedron_mesh", "tetrahedron_mesh", sizeof(sbf_tetrahedron_mesh), 0, 7, tetrahedron_mesh_fields, NULL};
 
 static const sbfi_length spring_set_ends_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_level, positions)}}, "parent.positions"};
 static const sbfi_length spring_set_rest_lengths_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_spring_set, ends)}}, "ends"}};

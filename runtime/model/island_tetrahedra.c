@@ -206,6 +206,14 @@ static void fill_lane(sbri_tetrahedron_block *block, uint32_t lane, const sbfi_t
   block->shear[lane] = (float)(t->lame.mu / 6);
 }
 
+/* What the lattice states, else the body's by its weight maps. */
+static float beta_of(const sbri_body *body, const float *factors, uint32_t t) {
+  const sbf_f32_list *stated = &body->level->lattice.stiffness_damping;
+  if (stated->count) return stated->at[stated->count == 1 ? 0 : t];
+  return body->source->attributes.stiffness_damping *
+         sbri_factor_of(factors, body->level->lattice.tetrahedra.at[t].at);
+}
+
 static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block *blocks, float *damping,
     const float *const *factors, uint32_t *lanes_of) {
   for (uint32_t n = 0; n < m->island->tetrahedron_block_count; n++) {
@@ -222,9 +230,7 @@ static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block 
       if (sbri_body_tetrahedron(body, t - body->first_tetrahedron, &element))
         fill_lane(&blocks[n], lane, &element);
       if (damping)
-        damping[(size_t)n * SBRI_BLOCK + lane] =
-            body->source->attributes.stiffness_damping *
-            sbri_factor_of(factors[b], body->level->lattice.tetrahedra.at[t - body->first_tetrahedron].at);
+        damping[(size_t)n * SBRI_BLOCK + lane] = beta_of(body, factors[b], t - body->first_tetrahedron);
       lanes_of[2 * t + again] = n * SBRI_BLOCK + lane;
       if (!again) lanes_of[2 * t + 1] = n * SBRI_BLOCK + lane;
     }
@@ -232,16 +238,17 @@ static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block 
 }
 
 /* Greatest beta, and whether there is any. */
-static bool find_damping(sbri_island_maker *m) {
-  bool damped = false;
+static bool find_damping(sbri_island_maker *m, const float *const *factors) {
+  float most = 0;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    double beta = body->source->attributes.stiffness_damping;
-    if (body->tetrahedron_count == 0 || !(beta > 0)) continue;
-    damped = true;
-    if (beta > m->island->stiffness_damping_s) m->island->stiffness_damping_s = beta;
+    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+      float beta = beta_of(body, factors[b], t);
+      most = beta > most ? beta : most;
+    }
   }
-  return damped;
+  if ((double)most > m->island->stiffness_damping_s) m->island->stiffness_damping_s = (double)most;
+  return most > 0;
 }
 
 /* Mean length of their sides at rest, m. */
@@ -262,16 +269,17 @@ bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *networ
   if (island->tetrahedron_count == 0) return true;
   packing p = {.island = island, .corners = network->tetrahedra};
   if (!pack(m, &p)) return false;
-  bool damped = find_damping(m);
   size_t count = island->tetrahedron_block_count;
   sbri_tetrahedron_block *blocks = sbri_keep(m, count, sizeof *blocks);
   uint32_t *lanes = sbri_keep(m, 2 * (size_t)island->tetrahedron_count, sizeof *lanes);
-  float *damping = damped ? sbri_keep(m, count * SBRI_BLOCK, sizeof *damping) : NULL;
   const float **factors = sbri_scratch(m, island->body_count, sizeof *factors);
-  if (!blocks || !lanes || (damped && !damping) || !factors) return false;
+  if (!blocks || !lanes || !factors) return false;
   for (uint32_t b = 0; b < island->body_count; b++)
     if (!sbri_factors_find(m, sbri_maker_body(m, b), SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, &factors[b]))
       return false;
+  bool damped = find_damping(m, factors);
+  float *damping = damped ? sbri_keep(m, count * SBRI_BLOCK, sizeof *damping) : NULL;
+  if (damped && !damping) return false;
   fill(m, &p, blocks, damping, factors, lanes);
   float side = mean_side(island, network->tetrahedra);
   if (!(island->cell_m > 0) || side < island->cell_m) island->cell_m = side;

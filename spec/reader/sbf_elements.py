@@ -291,6 +291,7 @@ tetrahedron_mesh
   reference_modulus: float[] range=(0,inf) length=0|1|tetrahedra
   densities: float[] range=(0,inf) length=0|1|tetrahedra
   color_counts: uint[]
+  stiffness_damping: float[] range=[0,inf) length=0|1|tetrahedra
 spring_set
   name: string
   kind: enum(spring_kind) required

@@ -42,6 +42,29 @@ static sbf_asset *build(sbf_build_interior interior, double cell) {
   return built;
 }
 
+/* Beta three times as large on the right as on the left. */
+START_TEST(tetrahedra_are_damped_as_painted)
+{
+  static float dampings[1000];
+  for (uint32_t i = 0; i < body->surface.positions.count; i++)
+    dampings[i] = body->surface.positions.at[i].x > 0 ? 3 : 1;
+  maps[0].property = SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING;
+  maps[0].values.at = dampings;
+  body->attributes.stiffness_damping = 0.002f;
+  sbf_asset *built = build(SBF_BUILD_INTERIOR_TETRAHEDRA, 0.2);
+  const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+  const sbf_tetrahedron_mesh *lattice = &level->lattice;
+  ck_assert_uint_eq(lattice->stiffness_damping.count, lattice->tetrahedra.count);
+  for (uint32_t t = 0; t < lattice->tetrahedra.count; t++) {
+    double side = 0;
+    for (int k = 0; k < 4; k++) side += level->positions.at[lattice->tetrahedra.at[t].at[k]].x / 4;
+    if (side < -0.35) ck_assert_float_eq_tol(lattice->stiffness_damping.at[t], 0.002f, 2e-4f);
+    if (side > 0.35) ck_assert_float_eq_tol(lattice->stiffness_damping.at[t], 0.006f, 2e-4f);
+  }
+  sbf_asset_free(built);
+}
+END_TEST
+
 START_TEST(tetrahedra_take_what_is_painted_beside_them)
 {
   sbf_asset *built = build(SBF_BUILD_INTERIOR_TETRAHEDRA, 0.2);
@@ -114,6 +137,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("point_factors");
   TCase *c = tcase_create("point_factors");
   tcase_add_checked_fixture(c, setup, teardown);
+  tcase_add_test(c, tetrahedra_are_damped_as_painted);
   tcase_add_test(c, tetrahedra_take_what_is_painted_beside_them);
   tcase_add_test(c, an_interior_point_counts_where_it_is_nearest);
   tcase_add_test(c, springs_state_painted_damping);

@@ -118,6 +118,26 @@ START_TEST(numbers_of_a_lane)
 }
 END_TEST
 
+/* Each element's own beta, if the lattice states them; time steps go by the greatest. */
+START_TEST(elements_are_damped_as_stated)
+{
+  scene s = scene_begin();
+  sbf_level *level = scene_lattice(&s, 0, &box);
+  float *stated = calloc(box.tetrahedron_count, sizeof *stated);
+  ck_assert_ptr_nonnull(stated);
+  for (uint32_t t = 0; t < box.tetrahedron_count; t++) stated[t] = 1e-3f * (float)(t % 7);
+  level->lattice.stiffness_damping = (sbf_f32_list){stated, box.tetrahedron_count};
+  scene_body(&s, 0)->attributes.stiffness_damping = 1;
+  scene_start(&s);
+  const sbri_island *island = &s.model->islands[0];
+  ck_assert_double_eq_tol(island->stiffness_damping_s, 6e-3, 1e-8);
+  for (uint32_t t = 0; t < box.tetrahedron_count; t++)
+    ck_assert_float_eq(island->tetrahedron_damping[island->lanes_of_tetrahedra[2 * t]], stated[t]);
+  scene_free(&s);
+  free(stated);
+}
+END_TEST
+
 START_TEST(beside_tetrahedra_only_extra_springs_act)
 {
   scene s = scene_begin();
@@ -184,6 +204,7 @@ int main(void) {
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_loop_test(c, blocks_hold_each_once, 0, 2);
   tcase_add_test(c, numbers_of_a_lane);
+  tcase_add_test(c, elements_are_damped_as_stated);
   tcase_add_test(c, beside_tetrahedra_only_extra_springs_act);
   tcase_add_test(c, tetrahedra_of_a_level_of_springs_do_not_act);
   tcase_add_test(c, the_relaxation_scheme_gives_way);

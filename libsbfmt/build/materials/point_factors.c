@@ -83,32 +83,40 @@ bool sbfi_point_factors(const sbf_soft_body *body, const sbf_level *level, sbf_w
   return true;
 }
 
-/* `whole` times each tetrahedron's mean factor, none below a millionth of it: a file holds no 0 there. */
-static bool spread(
-    const sbf_level *level, const float *factors, double whole, sbf_asset *asset, sbf_f32_list *list) {
+/* `whole` times each tetrahedron's mean factor, none below `least` of it. */
+static bool spread(const sbf_level *level, const float *factors, double whole, double least, sbf_asset *asset,
+    sbf_f32_list *list) {
   const sbf_uint4_list *at = &level->lattice.tetrahedra;
   float *values = sbf_asset_allocate(asset, at->count, sizeof *values);
   if (!values) return false;
   for (uint32_t t = 0; t < at->count; t++) {
     double sum = 0;
     for (int k = 0; k < 4; k++) sum += factors[at->at[t].at[k]];
-    values[t] = (float)(whole * fmax(sum / 4, 1e-6));
+    values[t] = (float)(whole * fmax(sum / 4, least));
   }
   *list = (sbf_f32_list){values, at->count};
   return true;
 }
 
+/* Of moduli and densities a file holds no 0. */
+static const double least = 1e-6;
+
 bool sbfi_lattice_weigh(sbf_level *level, const sbf_soft_body *body, sbf_asset *asset, sbfi_arena *scratch) {
   sbf_tetrahedron_mesh *lattice = &level->lattice;
-  float *moduli, *densities;
+  float *moduli, *densities, *dampings;
+  double damping = body->attributes.stiffness_damping;
   if (lattice->tetrahedra.count == 0) return true;
   if (!sbfi_point_factors(body, level, SBF_WEIGHT_PROPERTY_YOUNG_MODULUS, scratch, &moduli) ||
-      !sbfi_point_factors(body, level, SBF_WEIGHT_PROPERTY_DENSITY, scratch, &densities))
+      !sbfi_point_factors(body, level, SBF_WEIGHT_PROPERTY_DENSITY, scratch, &densities) ||
+      !sbfi_point_factors(body, level, SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, scratch, &dampings))
     return false;
   double density = lattice->densities.count ? lattice->densities.at[0] : body->attributes.density;
   if (moduli) {
-    if (!spread(level, moduli, body->attributes.young_modulus, asset, &lattice->young_modulus)) return false;
+    if (!spread(level, moduli, body->attributes.young_modulus, least, asset, &lattice->young_modulus))
+      return false;
     lattice->reference_modulus = lattice->young_modulus;
   }
-  return !densities || spread(level, densities, density, asset, &lattice->densities);
+  if (dampings && damping > 0 && !spread(level, dampings, damping, 0, asset, &lattice->stiffness_damping))
+    return false;
+  return !densities || spread(level, densities, density, least, asset, &lattice->densities);
 }

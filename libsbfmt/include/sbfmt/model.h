@@ -751,6 +751,8 @@ typedef struct sbf_tetrahedron_mesh {
   sbf_f32_list densities;
   /* Elements lie in colour order; how many of each colour. Empty: not coloured. */
   sbf_u32_list color_counts;
+  /* Rayleigh beta; empty: the body's, by its weight maps. [s; [0, inf); length 0 or 1 or tetrahedra] */
+  sbf_f32_list stiffness_damping;
 } sbf_tetrahedron_mesh;
 typedef struct sbf_tetrahedron_mesh_list {
   const sbf_tetrahedron_mesh *at;

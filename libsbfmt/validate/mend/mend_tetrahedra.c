@@ -43,7 +43,8 @@ static void judge(const sbf_level *level, sbfi_key_set *known, uint8_t *dropped,
       *first = i;
     } else if (is_same_value(mesh->young_modulus, *first, i) &&
                is_same_value(mesh->reference_modulus, *first, i) &&
-               is_same_value(mesh->densities, *first, i)) {
+               is_same_value(mesh->densities, *first, i) &&
+               is_same_value(mesh->stiffness_damping, *first, i)) {
       dropped[i] = 1;
       count(&c->repeated, &c->first_repeated, i);
     }
@@ -72,6 +73,7 @@ static void mend_level(sbfi_mending *m, sbf_level *level, const char *path) {
     drop_values(&mesh->young_modulus, dropped);
     drop_values(&mesh->reference_modulus, dropped);
     drop_values(&mesh->densities, dropped);
+    drop_values(&mesh->stiffness_damping, dropped);
     sbfi_list_drop(&mesh->tetrahedra, sizeof *mesh->tetrahedra.at, dropped);
   }
   sbfi_mended(m, SBF_CODE_TETRAHEDRON_INVERTED, c.turned, path, c.first_turned,

@@ -314,6 +314,7 @@ ELEMENTS = {element.name: element for element in (
         Field('reference_modulus', 'float[]'),
         Field('densities', 'float[]'),
         Field('color_counts', 'uint[]'),
+        Field('stiffness_damping', 'float[]'),
     )),
     Element('spring_set', 'spring_set', (
         Field('name', 'string', default=''),
