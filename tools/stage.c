@@ -327,19 +327,30 @@ static void show_bones(stage *st, const session *s, draw_scene *scene) {
   }
 }
 
-/* Footprints as rings; of a foot in the air where it goes, and the ray below it. */
+/* The bone before a leg's foot. */
+static int32_t leg_knee(const sbf_asset *asset, uint32_t leg) {
+  int32_t foot = asset->ik_chains.at[asset->gaits.at[0].legs.at[leg].ik].end;
+  return asset->bones.at[foot].parent >= 0 ? asset->bones.at[foot].parent : foot;
+}
+
+/* Footprints as rings; from every knee a line to its pole; of a foot in the air where it goes, and the ray
+ * below it. */
 static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
   sbr_leg_state legs[MOST_LEGS];
   uint32_t count = sbr_character_legs(s->world, s->character, legs, MOST_LEGS);
   float size = 0;
   for (uint32_t i = 0; i < count && i < MOST_LEGS; i++) {
-    int32_t foot = s->asset->ik_chains.at[s->asset->gaits.at[0].legs.at[i].ik].end;
-    float length = s->asset->bones.at[s->asset->bones.at[foot].parent].length;
+    float length = s->asset->bones.at[leg_knee(s->asset, i)].length;
     size = length > size ? 0.25f * length : size;
   }
   for (uint32_t i = 0; i < count && i < MOST_LEGS; i++) {
     sbf_vec3 ends[2] = {legs[i].foot, legs[i].target}, below;
+    sbf_vec3 knee[2] = {st->bones[leg_knee(s->asset, i)].position, legs[i].pole};
     to_world(origin, ends, 2);
+    to_world(origin, knee + 1, 1); /* bones are there already */
+    static const sbf_uint2 one[1] = {{{0, 1}}};
+    draw_scene_add_lines(scene, knee, 2, one, NULL, 1, draw_colour_of_hull(), 1);
+    draw_scene_add_sphere(scene, knee[1], 0.15f * size, draw_colour_of_hull());
     footprint print = {.place = ends[0]};
     float y = (float)s->ground.height(&s->ground, (double)ends[0].x, (double)ends[0].z, &print.normal);
     if (legs[i].planted && !st->was_planted[i]) st->prints[st->print_count++ % PRINTS] = print;

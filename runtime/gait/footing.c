@@ -96,14 +96,21 @@ static int quality(
   return lay(input, f->corners, UNEVEN * reach, spot) <= UNEVEN * reach ? 2 : 1;
 }
 
+bool sbri_stands(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 place, bool well) {
+  footing f = {.level = level_of(rig, state)};
+  ground_spot spot;
+  find_corners(rig, state, input->scale, leg, f.corners);
+  return quality(rig, input, &f, place, &spot) >= (well ? 2 : 1);
+}
+
 bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *place, sbf_vec3 *normal) {
   footing f = {.level = level_of(rig, state)};
   find_corners(rig, state, input->scale, leg, f.corners);
   float step = SPACING * rig->reach * input->scale;
-  ground_spot spot, uneven;
-  int best = quality(rig, input, &f, wanted, &spot);
-  uneven = spot;
+  ground_spot spot, other;
+  int best = quality(rig, input, &f, wanted, &spot), found;
   sbf_vec3 way = sbri_sub(wanted, state->feet[leg].planted ? state->feet[leg].ground : state->feet[leg].from);
   way.y = 0;
   float length = sbri_length(way);
@@ -111,17 +118,15 @@ bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_
   /* Nearer and farther along its way, then back to where it came from. */
   for (int k = 1; best < 2 && k <= 6; k++) {
     float offset = step * (float)((k + 1) / 2) * (k % 2 ? -1.0f : 1.0f);
-    ground_spot other;
     if (-offset > length) continue;
-    int found = quality(rig, input, &f, sbri_add_scaled(wanted, way, offset), &other);
-    if (found > best) best = found, *(found == 2 ? &spot : &uneven) = other;
+    found = quality(rig, input, &f, sbri_add_scaled(wanted, way, offset), &other);
+    if (found > best) best = found, spot = other;
   }
   for (int k = 1; best == 0 && k <= 4; k++) {
-    int found = quality(rig, input, &f, sbri_add_scaled(wanted, way, -length * 0.25f * (float)k), &uneven);
-    if (found) best = found;
+    found = quality(rig, input, &f, sbri_add_scaled(wanted, way, -length * 0.25f * (float)k), &other);
+    if (found > best) best = found, spot = other;
   }
-  if (best == 0) return false;
-  *place = best == 2 ? spot.place : uneven.place;
-  *normal = best == 2 ? spot.normal : uneven.normal;
-  return true;
+  *place = spot.place;
+  *normal = spot.normal;
+  return best > 0;
 }

@@ -154,6 +154,7 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
     foot->to = sbri_sub(foot->to, shift), foot->planned = sbri_sub(foot->planned, shift);
     foot->x.at -= shift.x, foot->z.at -= shift.z;
     foot->base.at -= shift.y;
+    foot->pole = sbri_sub(foot->pole, shift);
   }
   sbri_chain_bone *bones = sbri_chain_bones(rig, state);
   for (uint32_t i = 0; i < rig->chain_bone_count; i++) {
@@ -174,6 +175,7 @@ uint32_t sbri_gait_legs(
         .steps_taken = foot->steps_taken,
         .foot = sbri_add(foot->ground, sbri_vec3(0, foot->lift, 0)),
         .target = foot->planted ? foot->ground : foot->to,
+        .pole = foot->pole,
         .phase = foot->phase};
   }
   return rig->leg_count;

@@ -21,6 +21,7 @@ typedef struct sbri_foot {
   float climbs, climbed;                              /* the same of the height between its places */
   sbri_glide x, z, base, rise, tilt_x, tilt_z, twist; /* of `ground`, `lift`, `normal`, `heading` */
   sbf_vec3 hip;                  /* where its leg begins, as last posed: from the root, in its axes; m */
+  sbf_vec3 pole;                 /* that its knee points to, as last posed */
   float missed;                  /* how far its sole is from its place then, for its leg's limits; m */
   uint32_t planted, was_planted; /* 1 or 0: now, and a tick ago */
   uint32_t steps_taken;
@@ -176,6 +177,9 @@ float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri
 bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *place, sbf_vec3 *normal);
 
+/* Whether a foot can stand at a place, or stands there well. */
+bool sbri_stands(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 place, bool well);
 /* Puts a sole on the ground at `place`, tilted as the ground is and nowhere inside it. */
 void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 *place, sbf_vec3 *normal);

@@ -41,6 +41,10 @@ static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_inp
   sbf_vec3 place, normal, wanted = wanted_place(rig, state, input, stride, leg, left);
   if (!sbri_footing(rig, state, input, leg, wanted, &place, &normal))
     place = foot->from, normal = foot->from_normal;
+  if (sbri_flat_distance(place, wanted) > 0) { /* not where it was going: nothing in between will do */
+    if (foot->phase > 0 && sbri_stands(rig, state, input, leg, foot->to, foot->phase < SET_PHASE)) return;
+    share = 1;
+  }
   bool other = fabsf(place.y - foot->to.y) > LEVEL * rig->reach * input->scale;
   if (foot->phase > SET_PHASE && other) return; /* too late for another step of a stair */
   if (other) share = 1;                         /* between the two there is none */

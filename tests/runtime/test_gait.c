@@ -260,6 +260,63 @@ START_TEST(a_knee_turns_with_the_bone_of_its_pole)
 }
 END_TEST
 
+START_TEST(knees_bend_both_ways_and_point_at_their_poles)
+{
+  walk w;
+  begin(&w, flat, 0);
+  w.input.forward = 0.3f;
+  for (int i = 0; i < 300; i++) {
+    tick(&w);
+    sbr_leg_state legs[4];
+    sbri_gait_legs(&w.q.rig, w.state, 1, legs, 4);
+    for (int l = 0; l < 4; l++) {
+      const sbri_leg *leg = &w.q.rig.legs[l];
+      sbf_vec3 hip = w.pose[leg->upper].position, ankle = w.pose[leg->foot].position;
+      sbf_vec3 knee = sbri_sub(w.pose[leg->lower].position, hip), pole = sbri_sub(legs[l].pole, hip);
+      sbf_vec3 along = sbri_normalize(sbri_sub(ankle, hip), sbri_vec3(0, -1, 0));
+      knee = sbri_add_scaled(knee, along, -sbri_dot(knee, along));
+      pole = sbri_add_scaled(pole, along, -sbri_dot(pole, along));
+      ck_assert_float_ge(sbri_dot(knee, pole), 0.999f * sbri_length(knee) * sbri_length(pole));
+      if (leg->hind)
+        ck_assert_float_gt(knee.z, 0); /* hind knees bend forward */
+      else
+        ck_assert_float_lt(knee.z, 0); /* elbows backward */
+    }
+  }
+  end(&w);
+}
+END_TEST
+
+START_TEST(the_same_speed_at_any_size)
+{
+  double distance[3], stride[3];
+  const float scales[3] = {1, 2, 4};
+  for (int k = 0; k < 3; k++) {
+    walk w;
+    begin(&w, flat, 0);
+    w.input.scale = scales[k];
+    sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
+    w.input.forward = 0.3f;
+    uint32_t before = 0, after = 0;
+    for (int i = 0; i < 900; i++) {
+      sbri_gait_event events[16];
+      sbri_gait_tick(&w.q.rig, w.state, &w.input, w.pose, events, 16);
+      sbr_leg_state leg;
+      sbri_gait_legs(&w.q.rig, w.state, 1, &leg, 1);
+      *(i < 300 ? &before : &after) = leg.steps_taken;
+    }
+    distance[k] = sbri_gait_distance(w.state);
+    stride[k] = 3.0 / (after - before); /* of the last ten seconds */
+    end(&w);
+  }
+  for (int k = 1; k < 3; k++) {
+    ck_assert_double_eq_tol(distance[k], distance[0], 0.2);
+    /* It takes smaller steps for its legs than its scale would have. */
+    ck_assert_double_lt(stride[k], 0.9 * (double)scales[k] * stride[0]);
+  }
+}
+END_TEST
+
 START_TEST(a_body_left_behind_puts_its_feet_down_anew)
 {
   walk w;
@@ -322,6 +379,8 @@ int main(void) {
   tcase_add_test(tests, tail_lags_and_overshoots);
   tcase_add_test(tests, head_leads_a_turn_and_comes_back);
   tcase_add_test(tests, a_knee_turns_with_the_bone_of_its_pole);
+  tcase_add_test(tests, knees_bend_both_ways_and_point_at_their_poles);
+  tcase_add_test(tests, the_same_speed_at_any_size);
   tcase_add_test(tests, a_body_left_behind_puts_its_feet_down_anew);
   tcase_add_test(tests, moving_the_origin_changes_nothing);
   tcase_add_test(tests, a_taller_copy_walks_at_the_same_speed);

@@ -48,6 +48,25 @@ START_TEST(every_frame_rate_shows_the_same_motion)
 }
 END_TEST
 
+START_TEST(uneven_frames_and_a_hitch_change_nothing)
+{
+  enum { TICKS = 150 };
+  uint64_t hashes[TICKS + 32] = {0};
+  scene even = walker(), uneven = walker();
+  for (int i = 1; i <= TICKS + 31; i++) {
+    sbr_world_tick(even.world);
+    hashes[i] = sbr_world_state_hash(even.world);
+  }
+  for (uint32_t k = 0; sbr_world_ticks(uneven.world) < TICKS; k++) {
+    double jitter = (double)(k * 2654435761u % 1000) / 1000, frame_s = 0.004 + 0.03 * jitter;
+    sbr_world_step(uneven.world, k % 40 == 39 ? 0.25 : frame_s);
+    ck_assert_uint_eq(sbr_world_state_hash(uneven.world), hashes[sbr_world_ticks(uneven.world)]);
+  }
+  scene_free(&even);
+  scene_free(&uneven);
+}
+END_TEST
+
 START_TEST(between_ticks_lies_the_straight_way)
 {
   scene s = walker();
@@ -93,6 +112,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("sample");
   tcase_set_timeout(c, 60);
   tcase_add_test(c, every_frame_rate_shows_the_same_motion);
+  tcase_add_test(c, uneven_frames_and_a_hitch_change_nothing);
   tcase_add_test(c, between_ticks_lies_the_straight_way);
   tcase_add_test(c, small_buffers_are_not_overrun);
   suite_add_tcase(s, c);

@@ -295,8 +295,8 @@ SBF_API uint32_t sbr_model_substeps(const sbr_model *model);
 typedef struct sbr_leg_state {
   bool planted;         /* stands on the ground */
   uint32_t steps_taken; /* since it was placed */
-  sbf_vec3 foot;        /* end bone's head, relative to the origin */
-  sbf_vec3 target;      /* where it wants to be */
+  sbf_vec3 foot;        /* middle of its sole, relative to the origin */
+  sbf_vec3 target;      /* where that will come down, or stands */
   sbf_vec3 pole;        /* that its knee points to */
   float phase;          /* 0..1 of a step while lifted */
 } sbr_leg_state;

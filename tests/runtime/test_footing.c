@@ -1,0 +1,180 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gait/gait_state.h"
+#include "harness.h"
+#include "quadruped.h"
+
+enum { BONES = 32 };
+
+typedef struct walk {
+  quadruped q;
+  sbri_gait_state *state;
+  sbri_gait_input input;
+  sbr_ground ground;
+  sbr_transform pose[BONES];
+} walk;
+
+/* What a ground was asked for. */
+typedef struct asked {
+  const walk *walk;
+  double farthest;
+} asked;
+
+static double plain(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  asked *a = (asked *)(uintptr_t)ground->user;
+  *normal = (sbf_vec3){0, 1, 0};
+  if (a) {
+    const sbf_vec3 *at = &a->walk->state->position;
+    a->farthest = fmax(a->farthest, hypot(x - (double)at->x, z - (double)at->z));
+  }
+  return 0;
+}
+
+/* Level until z = 1, a metre lower from there on. */
+static double cliff(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  (void)ground, (void)x;
+  *normal = (sbf_vec3){0, 1, 0};
+  return z > 1 ? -1 : 0;
+}
+
+/* Level until z = 1, then of a slope. */
+static double bank(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  double rise = ground->parameters[0], length = sqrt(1 + rise * rise);
+  (void)x;
+  *normal = z > 1 ? (sbf_vec3){0, (float)(1 / length), (float)(-rise / length)} : (sbf_vec3){0, 1, 0};
+  return z > 1 ? rise * (z - 1) : 0;
+}
+
+/* A slope to the side. */
+static double hillside(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  double rise = ground->parameters[0], length = sqrt(1 + rise * rise);
+  (void)z;
+  *normal = (sbf_vec3){(float)(-rise / length), (float)(1 / length), 0};
+  return rise * x;
+}
+
+static void begin(
+    walk *w, double (*height)(const sbr_ground *, double, double, sbf_vec3 *), double parameter) {
+  memset(w, 0, sizeof *w);
+  quadruped_create(&w->q);
+  w->ground = (sbr_ground){height, NULL, {parameter, 0, 0, 0}};
+  w->input = (sbri_gait_input){.tick_s = 1.0f / 60, .scale = 1, .ground = &w->ground};
+  w->state = malloc(sbri_gait_state_size(&w->q.rig));
+  sbri_gait_place(&w->q.rig, w->state, &w->input, (sbf_vec3){0, 0, 0}, 0);
+}
+
+static void run(walk *w, int ticks) {
+  for (int i = 0; i < ticks; i++) sbri_gait_tick(&w->q.rig, w->state, &w->input, w->pose, NULL, 0);
+}
+
+static void end(walk *w) {
+  free(w->state);
+  quadruped_destroy(&w->q);
+}
+
+START_TEST(no_foot_goes_over_an_edge)
+{
+  walk w;
+  begin(&w, cliff, 0);
+  w.input.forward = 0.3f;
+  for (int i = 0; i < 900; i++) {
+    run(&w, 1);
+    for (int l = 0; l < 4; l++)
+      if (w.state->feet[l].planted) ck_assert_float_le(w.state->feet[l].ground.z, 1);
+  }
+  ck_assert_float_gt(w.state->position.z, 0.4f); /* it comes near */
+  ck_assert_float_lt(w.state->position.z, 1.2f); /* and stops */
+  float stopped = w.state->position.z;
+  w.input.forward = -0.3f;
+  run(&w, 300);
+  ck_assert_float_lt(w.state->position.z, stopped - 0.8f); /* back it can go */
+  end(&w);
+}
+END_TEST
+
+START_TEST(slopes_are_walked_unless_they_are_too_steep)
+{
+  walk steep, mild;
+  begin(&steep, bank, 1.6);
+  begin(&mild, bank, 0.5);
+  steep.input.forward = mild.input.forward = 0.3f;
+  run(&steep, 900);
+  run(&mild, 900);
+  for (int l = 0; l < 4; l++) ck_assert_float_le(steep.state->feet[l].ground.z, 1.01f);
+  ck_assert_float_gt(mild.state->position.z, 3);
+  end(&steep);
+  end(&mild);
+}
+END_TEST
+
+START_TEST(feet_and_body_tilt_with_the_ground)
+{
+  walk w;
+  begin(&w, hillside, 0.3);
+  w.input.forward = 0.2f;
+  run(&w, 300);
+  sbf_vec3 up = {0, 1, 0}, wanted = sbri_normalize(sbri_vec3(-0.3f, 1, 0), up);
+  for (int l = 0; l < 4; l++) {
+    ck_assert_float_ge(sbri_dot(w.state->feet[l].normal, wanted), 0.9999f);
+    sbf_quat back = sbri_quat_conjugate(w.q.rig.rest[w.q.rig.legs[l].foot].rotation);
+    sbf_quat turned = sbri_quat_multiply(w.pose[w.q.rig.legs[l].foot].rotation, back);
+    ck_assert_float_ge(sbri_dot(sbri_rotate(turned, up), wanted), 0.999f);
+  }
+  sbf_vec3 body = sbri_rotate(w.state->root.rotation, up);
+  ck_assert_float_lt(body.x, -0.05f); /* it rolls to the same side, by its share */
+  end(&w);
+}
+END_TEST
+
+START_TEST(a_sole_lies_as_a_board_does)
+{
+  walk w;
+  begin(&w, bank, 0.25);
+  for (int l = 0; l < 4; l++)
+    w.q.rig.legs[l].sole = (sbri_sole){.left = 0.03f, .right = -0.03f, .toe = 0.05f, .heel = -0.05f};
+  sbf_vec3 place = {0, 0, 1}, normal; /* half of it on the level, half on the bank */
+  sbri_lay_sole(&w.q.rig, w.state, &w.input, 0, &place, &normal);
+  float slope = -normal.z / normal.y;
+  ck_assert_float_eq_tol(slope, 0.125f, 0.01f);
+  for (float z = -0.05f; z <= 0.051f; z += 0.01f) {
+    sbf_vec3 unused;
+    double ground = bank(&w.ground, 0, 1 + (double)z, &unused);
+    ck_assert_double_ge((double)(place.y + slope * z), ground - 1e-6);
+  }
+  end(&w);
+}
+END_TEST
+
+START_TEST(it_looks_no_farther_than_it_may_go)
+{
+  double farthest[2];
+  const float speeds[2] = {0.1f, 0.6f};
+  for (int k = 0; k < 2; k++) {
+    walk w;
+    asked a = {&w, 0};
+    begin(&w, plain, 0);
+    w.ground.user = &a;
+    w.input.forward = speeds[k];
+    run(&w, 600);
+    farthest[k] = a.farthest;
+    end(&w);
+  }
+  ck_assert_double_lt(farthest[0], farthest[1]);       /* the faster, the farther */
+  ck_assert_double_lt(farthest[1], 0.33 + 0.32 + 0.3); /* a home, a leg's length, and the way of a step */
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("footing");
+  TCase *tests = tcase_create("all");
+  tcase_set_timeout(tests, 60);
+  tcase_add_test(tests, no_foot_goes_over_an_edge);
+  tcase_add_test(tests, slopes_are_walked_unless_they_are_too_steep);
+  tcase_add_test(tests, feet_and_body_tilt_with_the_ground);
+  tcase_add_test(tests, a_sole_lies_as_a_board_does);
+  tcase_add_test(tests, it_looks_no_farther_than_it_may_go);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
