@@ -29,6 +29,7 @@ void sbri_contact_prepare(
 
 typedef struct sbri_contact_rule {
   float friction, restitution;
+  const float *frictions; /* (free slots of the island) of each point instead; NULL: all are alike */
   float step_s;
   float push_m;          /* most that a point is moved up in a substep */
   float slack_m;         /* as deep as a point may lie without being moved up */
@@ -53,13 +54,18 @@ static inline sbri_wide sbri_planes_gap(const sbri_contact_planes *p, sbri_wide3
   return sbri_planes_along(p, x) - p->offset;
 }
 
+/* Of the group of lanes from `slot` on. */
+static inline sbri_wide sbri_contact_friction(const sbri_contact_rule *rule, uint32_t slot) {
+  return rule->frictions ? sbri_wide_load(rule->frictions + slot) : sbri_wide_all(rule->friction);
+}
+
 /* A velocity that has gained `gain` along the normal, less what friction takes for it. */
 static inline sbri_wide3 sbri_contact_gain(
-    const sbri_contact_planes *p, sbri_wide3 v, sbri_wide gain, float friction) {
+    const sbri_contact_planes *p, sbri_wide3 v, sbri_wide gain, sbri_wide friction) {
   sbri_wide speed = sbri_planes_along(p, v), one = sbri_wide_all(1);
   sbri_wide3 n = p->normal, s = {v.x - n.x * speed, v.y - n.y * speed, v.z - n.z * speed};
   sbri_wide sideways = sbri_wide_sqrt(s.x * s.x + s.y * s.y + s.z * s.z);
-  sbri_wide most = sbri_wide_all(friction) * gain;
+  sbri_wide most = friction * gain;
   sbri_wide share = sbri_wide_min(most / sbri_wide_max(sideways, sbri_wide_all(1e-20f)), one);
   return (sbri_wide3){
       v.x + n.x * gain - s.x * share, v.y + n.y * gain - s.y * share, v.z + n.z * gain - s.z * share};
@@ -73,7 +79,7 @@ typedef struct sbri_contact_answer {
 } sbri_contact_answer;
 
 static inline sbri_contact_answer sbri_contact_ask(
-    const sbri_contact_planes *p, sbri_wide3 x, sbri_wide3 v, const sbri_contact_rule *rule) {
+    const sbri_contact_planes *p, sbri_wide3 x, sbri_wide3 v, const sbri_contact_rule *rule, uint32_t slot) {
   sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(rule->step_s);
   sbri_wide gap = sbri_planes_gap(p, x), speed = sbri_planes_along(p, v);
   sbri_mask touches = gap + h * speed < zero;
@@ -86,15 +92,15 @@ static inline sbri_contact_answer sbri_contact_ask(
   sbri_wide deep = sbri_wide_max(zero - gap - sbri_wide_all(rule->slack_m), zero);
   sbri_wide up = sbri_wide_min(deep, sbri_wide_all(rule->push_m));
   return (sbri_contact_answer){
-      sbri_contact_gain(p, v, gain, rule->friction), sbri_wide_select(touches, up, zero)};
+      sbri_contact_gain(p, v, gain, sbri_contact_friction(rule, slot)), sbri_wide_select(touches, up, zero)};
 }
 
 /* One group of lanes in a substep: corrects velocity and place; `x` comes in as at the beginning of the
  * substep and goes out as at its end. */
 static inline void sbri_contact_move(
-    sbri_wide3 *x, sbri_wide3 *v, const float *plane, const sbri_contact_rule *rule) {
+    sbri_wide3 *x, sbri_wide3 *v, const float *plane, const sbri_contact_rule *rule, uint32_t slot) {
   sbri_contact_planes p = sbri_planes_load(plane);
-  sbri_contact_answer a = sbri_contact_ask(&p, *x, *v, rule);
+  sbri_contact_answer a = sbri_contact_ask(&p, *x, *v, rule, slot);
   sbri_wide h = sbri_wide_all(rule->step_s);
   *v = a.velocity;
   x->x = x->x + h * v->x + p.normal.x * a.up;
@@ -105,11 +111,11 @@ static inline void sbri_contact_move(
 /* A correction of places from `from` to `to` after the substep's own motion, which changed velocities by as
  * much per second: it does not go into the ground, or deeper into it, and what that takes of it rubs. */
 static inline void sbri_contact_bound(const sbri_contact_planes *p, sbri_wide3 from, sbri_wide3 *to,
-    sbri_wide3 *v, const sbri_contact_rule *rule) {
+    sbri_wide3 *v, const sbri_contact_rule *rule, uint32_t slot) {
   sbri_wide zero = sbri_wide_all(0), h = sbri_wide_all(rule->step_s);
   sbri_wide least = sbri_wide_min(sbri_planes_gap(p, from), zero);
   sbri_wide lift = sbri_wide_max(least - sbri_planes_gap(p, *to), zero);
-  sbri_wide3 bounded = sbri_contact_gain(p, *v, lift / h, rule->friction);
+  sbri_wide3 bounded = sbri_contact_gain(p, *v, lift / h, sbri_contact_friction(rule, slot));
   to->x = to->x + h * (bounded.x - v->x);
   to->y = to->y + h * (bounded.y - v->y);
   to->z = to->z + h * (bounded.z - v->z);

@@ -249,6 +249,25 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
   }
 }
 
+/* Friction of each point, where a map scales it. */
+static bool find_frictions(sbri_island_maker *m) {
+  uint32_t free_count = m->island->free_count;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    const float *factors = NULL;
+    if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_FRICTION, &factors)) return false;
+    if (!factors) continue;
+    float *frictions = sbri_keep(m, free_count, sizeof *frictions);
+    if (!frictions) return false;
+    for (uint32_t slot = 0; slot < free_count; slot++) frictions[slot] = body->friction;
+    for (uint32_t i = 0; i < body->level->positions.count; i++)
+      if (body->slot_from_point[i] < free_count)
+        frictions[body->slot_from_point[i]] = body->friction * factors[i];
+    body->frictions = frictions;
+  }
+  return true;
+}
+
 static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   sbri_island *island = m->island;
   uint32_t points = island->slot_count, count = island->spring_count;
@@ -291,6 +310,7 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
   if (!sbri_island_preload(m, &network)) return false;
   find_damping(m, network, masses, scratch);
+  if (!find_frictions(m)) return false;
   *found = network;
   return true;
 }

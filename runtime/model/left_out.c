@@ -33,8 +33,7 @@ static uint32_t count_weights(const sbf_soft_body *body) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < body->weight_maps.count; i++) {
     sbf_weight_property property = body->weight_maps.at[i].property;
-    count += property == SBF_WEIGHT_PROPERTY_MASS_DAMPING || property == SBF_WEIGHT_PROPERTY_FRICTION ||
-             property == SBF_WEIGHT_PROPERTY_PRESSURE;
+    count += property == SBF_WEIGHT_PROPERTY_MASS_DAMPING || property == SBF_WEIGHT_PROPERTY_PRESSURE;
   }
   return count;
 }
@@ -79,8 +78,7 @@ uint32_t sbr_model_left_out(
   list(&l, n.bending, "bending stiffnesses of sheets whose points the level does not have",
       "they bend freely");
   list(&l, n.media, "pushes of a dense medium on bodies that follow bones", "only media_friction acts");
-  list(&l, n.weights, "weight maps of mass_damping, friction or pressure",
-      "the body's own value acts all over");
+  list(&l, n.weights, "weight maps of mass_damping or pressure", "the body's own value acts all over");
   list(&l, n.self, "collisions of bodies with themselves", "they pass through");
   list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
       "other levels of their bodies act");

@@ -147,6 +147,7 @@ typedef struct sbri_body {
   float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
   float media_friction_1_s;
   float friction, restitution;
+  const float *frictions;     /* (free slots of the island) of each point, where a map scales it; else NULL */
   float rolling_share;        /* see collide/rolling.h */
   const sbri_sample *samples; /* (sample_count) NULL: its points themselves meet the ground */
   uint32_t sample_count;

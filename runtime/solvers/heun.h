@@ -93,7 +93,7 @@ static inline void sbri_heun_correct_body(
     v.z = v.z + half_step * (a1.z - a0.z);
     if (t->near_ground[block]) {
       sbri_wide3 bounded = mean;
-      sbri_contact_move(&x, &bounded, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule);
+      sbri_contact_move(&x, &bounded, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule, slot);
       v.x = v.x + (bounded.x - mean.x), v.y = v.y + (bounded.y - mean.y), v.z = v.z + (bounded.z - mean.z);
     } else {
       x.x = x.x + step * mean.x, x.y = x.y + step * mean.y, x.z = x.z + step * mean.z;

@@ -154,7 +154,7 @@ static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate)
 static inline sbri_contact_rule sbri_contact_rule_of(const sbri_body *body, float h) {
   float slack = body->samples ? SBRI_SLACK_SHARE * body->rest_size_m : 0;
   return (sbri_contact_rule){
-      body->friction, body->restitution, h, SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S};
+      body->friction, body->restitution, body->frictions, h, SBRI_PUSH_M_S * h, slack, SBRI_BOUNCE_FROM_M_S};
 }
 
 /* Of a group of lanes near the ground. */
@@ -171,7 +171,7 @@ static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *b
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
     if (t->near_ground[block]) {
-      sbri_contact_move(&x, &v, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule);
+      sbri_contact_move(&x, &v, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule, slot);
       sbri_store3(velocity, v);
     } else {
       x.x = x.x + step * v.x;

@@ -160,7 +160,7 @@ static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_bod
     v.x = v.x + (u.x - free.x) * rate, v.y = v.y + (u.y - free.y) * rate, v.z = v.z + (u.z - free.z) * rate;
     if (t->near_ground[block]) {
       sbri_wide3 x = sbri_wide_load_points(t->positions + slot), w = v, on = x;
-      sbri_contact_move(&x, &w, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule);
+      sbri_contact_move(&x, &w, t->planes + 4 * (block * SBRI_BLOCK) + lane, &rule, slot);
       on.x = on.x + step * w.x, on.y = on.y + step * w.y, on.z = on.z + step * w.z;
       sbri_mask touched = sbri_differ(v, w) | sbri_differ(x, on);
       u.x = sbri_wide_select(touched, x.x - begin.x, u.x);

@@ -43,6 +43,16 @@ static void push(const touching *c, const sbri_sample *s, sbf_vec3 faster, sbf_v
   }
 }
 
+static float friction_of(const touching *c, const sbri_sample *s, const sbri_contact_rule *rule) {
+  if (!rule->frictions) return rule->friction;
+  float sum = 0;
+  for (int k = 0; k < 4; k++) {
+    bool free = s->slots[k] < c->tick->island->free_count;
+    sum += s->weights[k] * (free ? rule->frictions[s->slots[k]] : rule->friction);
+  }
+  return sum > 0 ? sum : 0;
+}
+
 static const sbf_vec3 nowhere = {0, 0, 0};
 
 /* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
@@ -64,7 +74,7 @@ static float correct(const touching *c, sbri_touch *touch, const sbri_contact_ru
   if (!(gain > 0)) gain = 0;
   if (gain == 0 && touch->gain == 0) return 0;
   sbf_vec3 rub = sbri_sub(touch->rub, sbri_add_scaled(v, n, -speed));
-  float size = sbri_length(rub), most = rule->friction * gain;
+  float size = sbri_length(rub), most = friction_of(c, s, rule) * gain;
   if (size > most) rub = sbri_scale(rub, most / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
   touch->gain = gain, touch->rub = rub;
@@ -112,7 +122,7 @@ void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const 
     sbf_vec3 v = velocity_of(&c, s), n = touch->normal;
     float gain = lift / rule->step_s;
     sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
-    float size = sbri_length(sideways), most = rule->friction * gain;
+    float size = sbri_length(sideways), most = friction_of(&c, s, rule) * gain;
     sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
     push(&c, s, change, sbri_scale(change, rule->step_s));
   }

@@ -92,7 +92,7 @@ static inline float sbri_volume_step(
     v.x = v.x + rate * g.x, v.y = v.y + rate * g.y, v.z = v.z + rate * g.z;
     if (t->near_ground[slot / SBRI_BLOCK]) {
       sbri_contact_planes p = sbri_planes_of(t, slot);
-      sbri_contact_bound(&p, from, &to, &v, rule);
+      sbri_contact_bound(&p, from, &to, &v, rule, slot);
     }
     sbri_wide_store_points(t->positions + slot, to);
     sbri_store3(velocity, v);

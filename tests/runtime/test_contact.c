@@ -108,6 +108,32 @@ START_TEST(friction_holds_below_its_angle_and_lets_go_above)
 }
 END_TEST
 
+/* Of a slope of 20 degrees, friction of tan 20 = 0.36 all over holds; here the lower half has all of it, 1.2
+ * or 0.12. */
+START_TEST(a_weight_map_scales_friction)
+{
+  for (int held = 0; held < 2; held++) {
+    scene s = cube(0.6f, 0, sbr_ground_slope(20), (sbr_double3){0, 0, 3}, 20);
+    sbf_weight_map *map = sbf_asset_allocate(s.asset, 1, sizeof *map);
+    float *values = sbf_asset_allocate(s.asset, 8, sizeof *values);
+    sbf_weight_map_init(map);
+    map->property = SBF_WEIGHT_PROPERTY_FRICTION;
+    for (int i = 0; i < 8; i++) values[i] = i & 4 ? 0 : held ? 2 : 0.2f;
+    map->values = (sbf_f32_list){values, 8};
+    scene_body(&s, 0)->weight_maps = (sbf_weight_map_list){map, 1};
+    scene_start(&s);
+    scene_ticks(&s, 90);
+    double before = center(&s).z;
+    scene_ticks(&s, 60);
+    if (held)
+      ck_assert_double_lt(before - center(&s).z, 0.02);
+    else
+      ck_assert_double_gt(before - center(&s).z, 0.5);
+    scene_free(&s);
+  }
+}
+END_TEST
+
 START_TEST(sliding_slows_as_coulomb_says)
 {
   /* Down 40 degrees without friction it gains g sin; with it g (sin - mu cos). */
@@ -180,6 +206,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_dropped_body_comes_to_rest_on_the_ground);
   tcase_add_test(c, a_body_thrown_down_is_never_left_in_the_ground);
   tcase_add_test(c, friction_holds_below_its_angle_and_lets_go_above);
+  tcase_add_test(c, a_weight_map_scales_friction);
   tcase_add_test(c, sliding_slows_as_coulomb_says);
   tcase_add_test(c, restitution_gives_back_its_share);
   tcase_add_test(c, what_lies_in_the_ground_is_pushed_up_gently);

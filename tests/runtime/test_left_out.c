@@ -47,7 +47,7 @@ START_TEST(what_it_does_not_do_is_told)
   is->pressure = 100;
   sbf_weight_map *map = sbf_asset_allocate(s.asset, 1, sizeof *map);
   sbf_weight_map_init(map);
-  map->property = SBF_WEIGHT_PROPERTY_FRICTION;
+  map->property = SBF_WEIGHT_PROPERTY_PRESSURE;
   scene_body(&s, 0)->weight_maps = (sbf_weight_map_list){map, 1};
   scene_body(&s, 0)->collision.self = true;
   scene_start(&s);
