@@ -12,7 +12,8 @@
 #define SESSION_OPTIONS                                                                                      \
   {"--seconds", "S", "how long"}, {"--fps", "N", "frames a second"},                                         \
       {"--scheme", "NAME",                                                                                   \
-          "automatic, symplectic, position_based, relaxation, explicit_euler, heun (automatic)"},            \
+          "automatic, symplectic, position_based, relaxation, explicit_euler, heun, block_descent "          \
+          "(automatic)"},                                                                                    \
       {"--substeps", "N", "of a control tick (as many as the scheme needs)"},                                \
       {"--instructions", "NAME",                                                                             \
           "automatic, scalar, sse2, avx2, avx512, neon; the motion is the same for all (automatic)"},        \

@@ -2,6 +2,7 @@
  * for. */
 #include "kernels/kernels.h"
 #include "skin/skin_lanes.h"
+#include "solvers/block_descent.h"
 #include "solvers/explicit_euler.h"
 #include "solvers/heun.h"
 #include "solvers/position_based.h"
@@ -35,6 +36,10 @@ static void position_based_tick(const sbri_island_tick *tick) {
   sbri_lanes_position_based_tick(tick);
 }
 
+static void block_descent_tick(const sbri_island_tick *tick) {
+  sbri_lanes_block_descent_tick(tick);
+}
+
 #if SBRI_LANES == 1
 #define SBRI_INSTRUCTIONS SBR_INSTRUCTIONS_SCALAR
 #elif defined(__AVX512VL__)
@@ -50,4 +55,4 @@ static void position_based_tick(const sbri_island_tick *tick) {
 #endif
 
 const sbri_kernels SBRI_KERNELS = {SBRI_INSTRUCTIONS, SBRI_LANES, vertices, faces, tangents, sums, normals,
-    symplectic_tick, explicit_euler_tick, heun_tick, position_based_tick};
+    symplectic_tick, explicit_euler_tick, heun_tick, position_based_tick, block_descent_tick};

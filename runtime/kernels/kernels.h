@@ -20,6 +20,7 @@ typedef struct sbri_kernels {
   void (*explicit_euler_tick)(const sbri_island_tick *tick);
   void (*heun_tick)(const sbri_island_tick *tick);
   void (*position_based_tick)(const sbri_island_tick *tick);
+  void (*block_descent_tick)(const sbri_island_tick *tick);
 } sbri_kernels;
 
 extern const sbri_kernels sbri_kernels_scalar; /* one lane */

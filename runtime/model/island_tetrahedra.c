@@ -195,7 +195,7 @@ static bool pack(sbri_island_maker *m, packing *p) {
   return true;
 }
 
-static void fill_lane(sbri_tetrahedron_block *block, uint32_t lane, const sbfi_tetrahedron *t) {
+void sbri_tetrahedron_fill(sbri_tetrahedron_block *block, uint32_t lane, const sbfi_tetrahedron *t) {
   const sbfi_d3 *g = t->gradients;
   double s = t->volume * t->lame.mu;
   static const int pairs[6][2] = {{1, 1}, {2, 2}, {3, 3}, {1, 2}, {2, 3}, {3, 1}};
@@ -228,7 +228,7 @@ static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block 
       const sbri_body *body = sbri_maker_body(m, b);
       sbfi_tetrahedron element;
       if (sbri_body_tetrahedron(body, t - body->first_tetrahedron, &element))
-        fill_lane(&blocks[n], lane, &element);
+        sbri_tetrahedron_fill(&blocks[n], lane, &element);
       if (damping)
         damping[(size_t)n * SBRI_BLOCK + lane] = beta_of(body, factors[b], t - body->first_tetrahedron);
       lanes_of[2 * t + again] = n * SBRI_BLOCK + lane;

@@ -203,9 +203,10 @@ typedef struct sbri_island {
   const sbri_region_block *region_blocks; /* (region_block_count) of all bodies that match shapes */
   const sbri_region_member *region_members;
   uint32_t region_block_count;
-  uint32_t first_rotation; /* of its blocks of regions in the character's state */
-  bool region_damping;     /* some have damping of their own */
-  double region_rad_s;     /* greatest w of its regions */
+  uint32_t first_rotation;            /* of its blocks of regions in the character's state */
+  const struct sbri_descent *descent; /* model/descent_table.h; NULL: not stepped so */
+  bool region_damping;                /* some have damping of their own */
+  double region_rad_s;                /* greatest w of its regions */
   bool routed;  /* the runtime may step it by another scheme where that is wiser; see solvers/router.h */
   float cell_m; /* mean length of its springs at rest, or of its tetrahedra's sides where that is less */
   const sbri_link_block *links; /* (link_block_count) colour after colour; NULL: nothing sweeps */
@@ -245,6 +246,7 @@ typedef struct sbri_layout {
 
 struct sbfi_tetrahedron;
 struct sbri_kernels;
+struct sbri_descent;
 struct sbr_model {
   sbfi_arena arena;
   const struct sbri_kernels *kernels;
@@ -320,6 +322,9 @@ bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
 
 /* Whether its tetrahedra may tear. */
 bool sbri_body_tears(const sbri_body *body);
+/* One lane of a block, but for its corners. */
+void sbri_tetrahedron_fill(
+    sbri_tetrahedron_block *block, uint32_t lane, const struct sbfi_tetrahedron *tetrahedron);
 /* The body's tetrahedron at rest; false where it encloses nothing. */
 bool sbri_body_tetrahedron(const sbri_body *body, uint32_t tetrahedron, struct sbfi_tetrahedron *made);
 

@@ -1,7 +1,7 @@
 #include "solvers/scheme.h"
 
-static const sbri_scheme *const schemes[] = {
-    &sbri_symplectic, &sbri_position_based, &sbri_relaxation, &sbri_explicit_euler, &sbri_heun};
+static const sbri_scheme *const schemes[] = {&sbri_symplectic, &sbri_position_based, &sbri_relaxation,
+    &sbri_explicit_euler, &sbri_heun, &sbri_block_descent};
 
 const char *sbri_refuse_all_but_springs(const sbr_model *model, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)
@@ -24,5 +24,5 @@ const sbri_scheme *sbri_scheme_of(sbf_scheme word) {
 }
 
 const char *sbri_scheme_names(void) {
-  return "symplectic, position_based, relaxation, explicit_euler, heun";
+  return "symplectic, position_based, relaxation, explicit_euler, heun, block_descent";
 }

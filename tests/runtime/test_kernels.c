@@ -61,8 +61,8 @@ enum { WIDTHS = SBR_INSTRUCTIONS_WASM_SIMD128 };
 
 START_TEST(every_width_gives_the_same_bits)
 {
-  static const sbf_scheme schemes[] = {
-      SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN};
+  static const sbf_scheme schemes[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
+      SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT};
   bool held = _i % 2 != 0;
   sbf_scheme scheme = schemes[_i / 2];
   uint64_t hash = hash_after(SBR_INSTRUCTIONS_SCALAR, held, scheme);
@@ -116,7 +116,7 @@ int main(void) {
   Suite *s = suite_create("kernels");
   TCase *c = tcase_create("kernels");
   tcase_set_timeout(c, 60);
-  tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 8);
+  tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 10);
   tcase_add_test(c, a_model_takes_the_widest);
   tcase_add_test(c, instructions_of_other_processors_are_refused);
   suite_add_tcase(s, c);

@@ -1,0 +1,234 @@
+/* Crowds: many characters of one asset in one world, on one thread and on two.
+ *
+ * Armadillos of one metre, tetrahedra of 0.1 MPa, fly, which costs what wobbling does, or are dropped
+ * onto the floor and wobble there, awake; lizards walk. A frame is one control tick of 1/60 s. `busy_ms` is
+ * the processor time of the busier thread: what free cores take but for waking each other; `wall_ms` is what
+ * this machine took, whatever else it did. Both are medians of the second half of the frames. `times_one` is
+ * that of one thread over the row's, by busy time. All runs must end in the same state.
+ *
+ * Rows of one armadillo with fixed substeps say what a substep costs with each set of instructions
+ * (`ns_per_element`, in flight, from the difference that twice as many substeps make), and how fast it passes
+ * over its tables and state (`gb_s`: each byte of them once a substep), beside what the memory gives a copy
+ * of a quarter of a gigabyte (`copy`). */
+#define _POSIX_C_SOURCE 200809L
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "measured_assets.h"
+#include "measuring.h"
+#include "model/runtime_model.h"
+#include "sbfmt/build.h"
+#include "sbfmt/convert.h"
+#include "sbrun/sbrun.h"
+#include "thread_pool.h"
+
+static double wall_s(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Its origin is in its middle; its feet are so far below, and a hand's breadth more. */
+static const double STANDS_M = 0.36 + 0.1, FLIES_M = 100;
+
+/* ---- Assets ---- */
+
+/* NULL where the file is not there. */
+static sbf_asset *armadillo(void) {
+  const char *path = SHARED_FOLDER "/armadillo/armadillo_25k.obj";
+  FILE *file = fopen(path, "rb");
+  if (!file) return NULL;
+  fclose(file);
+  const sbf_convert_options convert = {.unit_m = 1 / 15.13};
+  const sbf_build_options options = {
+      .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 2750, .without_calibration = true};
+  sbf_asset *read, *built;
+  sbf_diagnostic error;
+  bench_require(sbf_convert(path, &convert, &read, &error), &error);
+  bench_require(sbf_build(read, &options, &built, NULL, &error), &error);
+  sbf_asset_free(read);
+  sbf_soft_body *body = (sbf_soft_body *)(uintptr_t)built->soft_bodies.at;
+  sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at;
+  body->attributes.young_modulus = 1e5f;
+  level->lattice.young_modulus = (sbf_f32_list){NULL, 0};
+  return built;
+}
+
+/* ---- Crowds ---- */
+
+typedef struct crowd {
+  sbr_model *model;
+  double raise_m;
+  uint32_t count, threads, frames;
+  thread_pool *pool;
+  sbr_tasks workers;
+  sbr_world *world;
+  double helper_s; /* of the other thread in this frame */
+  pthread_t caller;
+  sbr_task *task;
+  void *context;
+} crowd;
+
+static void run_task(void *context, uint32_t index) {
+  crowd *c = context;
+  bool helps = !pthread_equal(pthread_self(), c->caller);
+  double begin = helps ? bench_now_s() : 0;
+  c->task(c->context, index);
+  if (helps) c->helper_s += bench_now_s() - begin;
+}
+
+static void run_tasks(void *user, sbr_task *task, void *context, uint32_t count) {
+  crowd *c = user;
+  c->task = task, c->context = context;
+  if (c->workers.run)
+    c->workers.run(c->workers.user, run_task, c, count);
+  else
+    for (uint32_t i = 0; i < count; i++) task(context, i);
+}
+
+static void open_crowd(crowd *c) {
+  sbf_diagnostic error;
+  sbr_world_definition definition = sbr_default_world_definition();
+  definition.tasks = (sbr_tasks){run_tasks, c};
+  definition.character_capacity = c->count;
+  definition.sleep_after_s = 0;
+  c->pool = thread_pool_create(c->threads);
+  if (!c->pool) bench_fail("no threads");
+  c->workers = thread_pool_tasks(c->pool);
+  c->caller = pthread_self();
+  bench_require(sbr_world_create(&definition, &c->world, &error), &error);
+  for (uint32_t i = 0; i < c->count; i++) {
+    sbr_character_definition standing = sbr_default_character_definition();
+    sbr_character_id id;
+    standing.position = (sbr_double3){2.0 * (i % 10), c->raise_m, 2.0 * (i / 10)};
+    standing.heading = 0.1f * (float)i;
+    bench_require(sbr_character_create(c->world, c->model, &standing, &id, &error), &error);
+    sbr_character_drive(c->world, id, 0.4f, 0, 0.1f);
+  }
+}
+
+typedef struct crowd_times {
+  double busy_s, wall_s;
+  uint64_t hash;
+} crowd_times;
+
+static crowd_times run_crowd(
+    sbr_model *model, double raise_m, uint32_t count, uint32_t threads, uint32_t frames) {
+  crowd c = {.model = model, .raise_m = raise_m, .count = count, .threads = threads, .frames = frames};
+  uint32_t first = frames / 2, measured = 0;
+  double *busy = bench_allocate(frames, sizeof *busy), *wall = bench_allocate(frames, sizeof *wall);
+  open_crowd(&c);
+  for (uint32_t f = 0; f < frames; f++) {
+    c.helper_s = 0;
+    double begin = bench_now_s(), wall_begin = wall_s();
+    sbr_world_tick(c.world);
+    double own = bench_now_s() - begin;
+    if (f < first) continue;
+    wall[measured] = wall_s() - wall_begin;
+    busy[measured++] = own > c.helper_s ? own : c.helper_s;
+  }
+  crowd_times t = {bench_spread_of(busy, measured).median, bench_spread_of(wall, measured).median,
+      sbr_world_state_hash(c.world)};
+  sbr_world_destroy(c.world);
+  thread_pool_destroy(c.pool);
+  free(busy);
+  free(wall);
+  return t;
+}
+
+static void measure_crowds(
+    const char *name, const sbf_asset *asset, double raise_m, uint32_t most, uint32_t frames, bool quick) {
+  static const uint32_t counts[] = {1, 10, 100};
+  sbf_diagnostic error;
+  sbr_model *model;
+  bench_require(sbr_model_create(asset, NULL, &model, &error), &error);
+  for (uint32_t n = 0; n < (quick ? 1 : 3) && counts[n] <= most; n++) {
+    double one = 0;
+    uint64_t hash = 0;
+    for (uint32_t threads = 1; threads <= 2; threads++) {
+      crowd_times t = run_crowd(model, raise_m, counts[n], threads, quick ? 4 : frames);
+      if (threads == 1)
+        one = t.busy_s, hash = t.hash;
+      else if (hash != t.hash)
+        bench_fail("two threads give other bits than one");
+      bench_print_row("%s,%u,%u,%s,%u,%u,%.3f,%.3f,%.3f,,", name, counts[n], threads,
+          sbr_instructions_name(sbr_model_instructions(model)), model->islands[0].tetrahedron_count,
+          sbr_model_substeps(model), t.busy_s * 1e3, t.wall_s * 1e3, one / t.busy_s);
+      fflush(stdout);
+    }
+  }
+  sbr_model_destroy(model);
+}
+
+/* ---- A substep ---- */
+
+static double bytes_of_substep(const sbri_island *island) {
+  double state = sizeof(sbri_point) * 4 + 3 * sizeof(float) * 2 + 2 * sizeof(float); /* read and written */
+  return (double)island->tetrahedron_block_count * sizeof(sbri_tetrahedron_block) +
+         state * island->slot_count;
+}
+
+static void measure_substep(const sbf_asset *asset, sbr_instructions instructions, bool quick) {
+  sbf_diagnostic error;
+  sbr_model *models[2];
+  double least[2] = {0, 0};
+  enum { SUBSTEPS = 40 };
+  for (uint32_t k = 0; k < 2; k++)
+    bench_require(sbr_model_create(asset,
+                      &(sbr_model_options){.substeps = (k + 1) * SUBSTEPS, .instructions = instructions},
+                      &models[k], &error),
+        &error);
+  for (uint32_t round = 0; round < (quick ? 1u : 7u); round++)
+    for (uint32_t k = 0; k < 2; k++) {
+      double taken = run_crowd(models[k], FLIES_M, 1, 1, quick ? 4 : 40).busy_s;
+      if (round == 0 || taken < least[k]) least[k] = taken;
+    }
+  const sbri_island *island = &models[0]->islands[0];
+  double substep = (least[1] - least[0]) / SUBSTEPS;
+  bench_print_row("armadillo,1,1,%s,%u,%d,%.3f,,,%.2f,%.2f", sbr_instructions_name(instructions),
+      island->tetrahedron_count, (int)SUBSTEPS, least[0] * 1e3, substep * 1e9 / island->tetrahedron_count,
+      bytes_of_substep(island) / substep * 1e-9);
+  for (uint32_t k = 0; k < 2; k++) sbr_model_destroy(models[k]);
+}
+
+/* Gigabytes a second read and written by copying what no cache holds. */
+static void measure_copy(bool quick) {
+  size_t size = quick ? 1 << 22 : 1 << 28;
+  char *from = bench_allocate(size, 1), *to = bench_allocate(size, 1);
+  double least = 0;
+  memset(from, 1, size);
+  for (int i = 0; i < 6; i++) {
+    double begin = bench_now_s();
+    memcpy(to, from, size);
+    double taken = bench_now_s() - begin;
+    if (i == 1 || (i > 1 && taken < least)) least = taken;
+    from[(size_t)i] = to[(size_t)i + 1];
+  }
+  bench_print_row("copy,1,1,,,,%.3f,,,,%.2f", least * 1e3, 2 * (double)size / least * 1e-9);
+  free(from);
+  free(to);
+}
+
+int main(int argument_count, char **arguments) {
+  bool quick = bench_is_quick(argument_count, arguments);
+  bench_print_columns(
+      "character,count,threads,instructions,elements,substeps,busy_ms,wall_ms,times_one,ns_per_element,gb_s");
+  sbf_asset *asset = armadillo();
+  if (asset) {
+    for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++)
+      if (sbr_instructions_available((sbr_instructions)i)) measure_substep(asset, (sbr_instructions)i, quick);
+    measure_crowds("armadillo in flight", asset, FLIES_M, 100, 40, quick);
+    measure_crowds("armadillo on the floor", asset, STANDS_M, 1, 120, quick);
+    sbf_asset_free(asset);
+  } else {
+    fprintf(stderr, "bench_crowd: ../shared/data is not there: the armadillos are left out\n");
+  }
+  measure_copy(quick);
+  asset = our_lizard(true);
+  measure_crowds("lizard", asset, 0, 100, 60, quick);
+  sbf_asset_free(asset);
+  return 0;
+}
