@@ -19,7 +19,6 @@
 
 #include "measured_assets.h"
 #include "measuring.h"
-#include "model/runtime_model.h"
 #include "sbfmt/build.h"
 #include "sbfmt/convert.h"
 #include "sbrun/sbrun.h"
@@ -55,6 +54,10 @@ static sbf_asset *armadillo(void) {
   body->attributes.young_modulus = 1e5f;
   level->lattice.young_modulus = (sbf_f32_list){NULL, 0};
   return built;
+}
+
+static uint32_t elements_of(const sbf_asset *asset) {
+  return asset->soft_bodies.at[0].levels.at[0].lattice.tetrahedra.count;
 }
 
 /* ---- Crowds ---- */
@@ -155,8 +158,8 @@ static void measure_crowds(
       else if (hash != t.hash)
         bench_fail("two threads give other bits than one");
       bench_print_row("%s,%u,%u,%s,%u,%u,%.3f,%.3f,%.3f,,", name, counts[n], threads,
-          sbr_instructions_name(sbr_model_instructions(model)), model->islands[0].tetrahedron_count,
-          sbr_model_substeps(model), t.busy_s * 1e3, t.wall_s * 1e3, one / t.busy_s);
+          sbr_instructions_name(sbr_model_instructions(model)), elements_of(asset), sbr_model_substeps(model),
+          t.busy_s * 1e3, t.wall_s * 1e3, one / t.busy_s);
       fflush(stdout);
     }
   }
@@ -165,10 +168,13 @@ static void measure_crowds(
 
 /* ---- A substep ---- */
 
-static double bytes_of_substep(const sbri_island *island) {
-  double state = sizeof(sbri_point) * 4 + 3 * sizeof(float) * 2 + 2 * sizeof(float); /* read and written */
-  return (double)island->tetrahedron_block_count * sizeof(sbri_tetrahedron_block) +
-         state * island->slot_count;
+/* Of each tetrahedron its places, stiffnesses and volume; of each point its place and force, read and written
+ * twice, its velocity, mass and weight. */
+enum { BYTES_OF_ELEMENT = 52, BYTES_OF_POINT = 96 };
+
+static double bytes_of_substep(const sbf_asset *asset) {
+  return BYTES_OF_ELEMENT * (double)elements_of(asset) +
+         BYTES_OF_POINT * (double)asset->soft_bodies.at[0].levels.at[0].positions.count;
 }
 
 static void measure_substep(const sbf_asset *asset, sbr_instructions instructions, bool quick) {
@@ -186,11 +192,10 @@ static void measure_substep(const sbf_asset *asset, sbr_instructions instruction
       double taken = run_crowd(models[k], FLIES_M, 1, 1, quick ? 4 : 40).busy_s;
       if (round == 0 || taken < least[k]) least[k] = taken;
     }
-  const sbri_island *island = &models[0]->islands[0];
   double substep = (least[1] - least[0]) / SUBSTEPS;
   bench_print_row("armadillo,1,1,%s,%u,%d,%.3f,,,%.2f,%.2f", sbr_instructions_name(instructions),
-      island->tetrahedron_count, (int)SUBSTEPS, least[0] * 1e3, substep * 1e9 / island->tetrahedron_count,
-      bytes_of_substep(island) / substep * 1e-9);
+      elements_of(asset), (int)SUBSTEPS, least[0] * 1e3, substep * 1e9 / elements_of(asset),
+      bytes_of_substep(asset) / substep * 1e-9);
   for (uint32_t k = 0; k < 2; k++) sbr_model_destroy(models[k]);
 }
 
