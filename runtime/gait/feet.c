@@ -45,6 +45,7 @@ sbf_vec3 sbri_ankle_over(const sbri_leg *leg, sbf_vec3 sole, sbf_vec3 normal, fl
   sbf_vec3 ankle = sbri_add_scaled(sole, normal, leg->ankle.y * scale);
   if (leg->ankle.x == 0 && leg->ankle.z == 0) return ankle;
   sbf_vec3 off = sbri_turned(sbri_vec3(leg->ankle.x * scale, 0, leg->ankle.z * scale), heading);
+  if (normal.x == 0 && normal.z == 0) return sbri_add(ankle, off);
   return sbri_add(ankle, sbri_rotate(sbri_quat_between(sbri_vec3(0, 1, 0), normal), off));
 }
 

@@ -105,22 +105,30 @@ static float to_edge(sbf_vec3 off, float radius, sbf_vec3 way) {
   return (square > 0 ? sqrtf(square) : 0) - along;
 }
 
-float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg,
-    sbf_vec3 way) {
+/* The circle that a foot may roam in, its home being `off` from the middle. */
+static float roam_circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 *off) {
   const sbri_leg *l = &rig->legs[leg];
-  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg)), off;
-  float radius = circle(rig, state, input, leg, home, state->heading, &off), away = sbri_length(off);
+  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
+  float radius = circle(rig, state, input, leg, home, state->heading, off), away = sbri_length(*off);
   float length = (l->upper_length + l->lower_length) * input->scale;
   if (l->lower < 0) radius = away + PEG * length;
-  if (radius < away + LEAST * length) radius = away + LEAST * length;
+  return radius < away + LEAST * length ? away + LEAST * length : radius;
+}
+
+float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg,
+    sbf_vec3 way) {
+  sbf_vec3 off;
+  float radius = roam_circle(rig, state, input, leg, &off);
   return to_edge(off, radius, way);
 }
 
 /* How far ahead of its home, and behind, a foot goes at most. */
 static sbri_span span_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 way) {
-  return (sbri_span){USED * sbri_roam(rig, state, input, leg, way),
-      USED * sbri_roam(rig, state, input, leg, sbri_scale(way, -1))};
+  sbf_vec3 off;
+  float radius = roam_circle(rig, state, input, leg, &off);
+  return (sbri_span){USED * to_edge(off, radius, way), USED * to_edge(off, radius, sbri_scale(way, -1))};
 }
 
 float sbri_ahead(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
