@@ -69,7 +69,8 @@ typedef struct sbf_build_options {
   /* Lattices of fewer than 8000 tetrahedra bend too stiffly: unless this is set, each element gets a modulus
    * with which its surroundings give as much as in a lattice of 16,000, and `reference_modulus` says what it
    * stands for. The springs of a body made by centroid are multiplied so that they give as a lattice of 4000
-   * does. Half a second a body, and some 30 ms a section. `calibration` in the level says what came of it.
+   * does, where it gets several levels. Half a second a body, and some 30 ms a section. `calibration` in the
+   * level says what came of it.
    */
   bool without_calibration;
   /* How many levels a body gets, up to 8; 0 and 1: one. Of tetrahedra: lattices, each of twice the cell of
