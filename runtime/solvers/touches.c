@@ -5,6 +5,10 @@
 /* While some speed changes by more than this in a sweep, another follows, in m/s. */
 static const float SETTLED_M_S = 1e-3f;
 
+/* What could not reach its plane in the substep if it were this much faster waits for the next one, in m/s:
+ * most places near the ground do not touch it, and none of them is to cost sixteen sweeps. */
+static const float NEAR_M_S = 1;
+
 enum { MOST_SWEEPS = 16 };
 
 typedef struct touching {
@@ -55,8 +59,9 @@ static float friction_of(const touching *c, const sbri_sample *s, const sbri_con
 
 static const sbf_vec3 nowhere = {0, 0, 0};
 
-/* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
-static void begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+/* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. Says whether
+ * it may touch. */
+static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   sbf_vec3 v = velocity_of(c, &touch->sample);
   float gap = gap_of(c, touch), speed = sbri_dot(touch->normal, v);
   touch->gap = gap;
@@ -64,6 +69,19 @@ static void begin(const touching *c, sbri_touch *touch, const sbri_contact_rule 
   float back = -rule->restitution * speed;
   if (gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s && back > touch->wanted)
     touch->wanted = back;
+  return touch->gain > 0 || gap < rule->step_s * (NEAR_M_S - speed);
+}
+
+/* Brings those that may touch to the front; how many. */
+static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
+  uint32_t near = 0;
+  for (uint32_t i = 0; i < c->count; i++) {
+    if (!begin(c, &c->touches[i], rule)) continue;
+    sbri_touch first = c->touches[near];
+    c->touches[near++] = c->touches[i];
+    c->touches[i] = first;
+  }
+  return near;
 }
 
 /* One push made right; by how much it changed. */
@@ -85,7 +103,7 @@ static float correct(const touching *c, sbri_touch *touch, const sbri_contact_ru
 void sbri_touches_answer(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
   touching c = touching_of(t, body, velocities);
-  for (uint32_t i = 0; i < c.count; i++) begin(&c, &c.touches[i], rule);
+  c.count = begin_all(&c, rule);
   for (uint32_t i = 0; i < c.count; i++) {
     const sbri_touch *touch = &c.touches[i];
     if (touch->gain > 0)
