@@ -42,7 +42,7 @@ static sbfi_lattice_outcome make_reference(sbfi_ladder *l, uint32_t elements) {
 static sbfi_lattice_outcome measure(
     sbfi_ladder *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
   if (!sbfi_progress_say(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
-  return sbfi_level_calibrate(level, l->body, interior, &l->reference, l->recipe->calibrate, l->recipe->tick,
+  return sbfi_level_calibrate(level, l->body, interior, &l->reference, level == l->levels, l->recipe->tick,
              l->asset, calibration, l->allocator)
              ? SBFI_LATTICE_MADE
              : SBFI_LATTICE_NO_MEMORY;

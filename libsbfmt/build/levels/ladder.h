@@ -10,7 +10,7 @@ enum { SBFI_MOST_LEVELS = 8 };
 typedef struct sbfi_ladder_recipe {
   uint32_t levels; /* in all, 1 to SBFI_MOST_LEVELS */
   double error;    /* m, that the finest may be off; 0: whatever it is */
-  bool calibrate;  /* lattices, and springs that are the finest level or stand behind lattices */
+  bool calibrate;  /* lattices, and springs that are the finest level */
   bool flexion;    /* for a level of springs */
   double tick;     /* s, that costs are for */
   int32_t derivation;
