@@ -177,7 +177,7 @@ class NamedChains(ProgramTest):
         report = self.json_of("run", self.yeti, "--seconds", "5", "--script", script)
         self.assertTrue(report["valid"])
         self.assertGreaterEqual(min(report["steps_taken"].values()), 2)
-        self.assertLessEqual(report["stance_slip"], 0.012)  # of soft feet, under a wild clip
+        self.assertLessEqual(report["stance_slip"], 0.03)  # of soft feet, which a wild clip pulls at
         self.assertEqual(report["skate_ratio"], 0)
 
     def test_names_would_not_have_done(self):

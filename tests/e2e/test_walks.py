@@ -13,7 +13,8 @@ EXAMPLE = {
     "stairs of a quarter leg, 0.3": {"support_margin": -0.0005},
     "stairs of a quarter leg, 2": {"knee_speed_step": 13},
     "stairs of a quarter leg, 3": {"knee_speed_step": 13, "stance_slip": 0.002},
-    "stairs of a quarter leg, a curve": {"knee_speed_step": 7, "stance_slip": 0.003, "body_speed_step": 0.012},
+    "stairs of a quarter leg, a curve": {"knee_speed_step": 7, "stance_slip": 0.003, "body_speed_step": 0.012,
+                                         "body_turn_step": 3},
 }
 THESIS = {
     "stairs of a quarter leg, 3": {"stance_slip": 0.003},
