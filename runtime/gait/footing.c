@@ -31,16 +31,14 @@ static float level_of(const sbri_rig *rig, const sbri_gait_state *state) {
  * touches. Returns by how much the ground departs from it; where that is too much, as across an edge, it
  * keeps to the ground under its middle and hangs over. */
 static float lay(const sbri_gait_input *input, const sbf_vec3 corners[4], float uneven, ground_spot *spot) {
-  float heights[4], mean = 0, along = 0, across = 0, rise = 0, worst = 0;
-  for (int k = 0; k < 4; k++) {
+  float heights[4], rise = 0, worst = 0;
+  for (int k = 0; k < 4; k++)
     heights[k] = sbri_ground_below(input, sbri_add(spot->place, corners[k]), NULL).y - spot->place.y;
-    mean += 0.25f * heights[k];
-  }
   /* Corners lie round the middle in pairs, so differences over the two ways give the slopes. */
   sbf_vec3 fore = sbri_sub(sbri_add(corners[2], corners[3]), sbri_add(corners[0], corners[1]));
   sbf_vec3 left = sbri_sub(sbri_add(corners[1], corners[3]), sbri_add(corners[0], corners[2]));
-  along = heights[2] + heights[3] - heights[0] - heights[1];
-  across = heights[1] + heights[3] - heights[0] - heights[2];
+  float along = heights[2] + heights[3] - heights[0] - heights[1];
+  float across = heights[1] + heights[3] - heights[0] - heights[2];
   sbf_vec3 slope = sbri_add(
       sbri_scale(fore, along / sbri_dot(fore, fore)), sbri_scale(left, across / sbri_dot(left, left)));
   for (int k = 0; k < 4; k++) {

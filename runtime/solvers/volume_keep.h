@@ -36,8 +36,8 @@ static inline sbri_wide3 sbri_volume_off_ground(
   sbri_contact_planes p = sbri_planes_of(t, slot);
   sbri_wide gap = sbri_planes_gap(&p, sbri_wide_load_points(t->positions + slot));
   sbri_wide along = sbri_planes_along(&p, g), zero = sbri_wide_all(0);
-  sbri_mask into = (gap <= sbri_wide_all(SBRI_RESTING_M)) & (along * sbri_wide_all(sign) < zero);
-  along = sbri_wide_select(into, along, zero);
+  sbri_mask rests = gap <= sbri_wide_all(SBRI_RESTING_M), leads_in = along * sbri_wide_all(sign) < zero;
+  along = sbri_wide_select(rests & leads_in, along, zero);
   return (sbri_wide3){g.x - along * p.normal.x, g.y - along * p.normal.y, g.z - along * p.normal.z};
 }
 
