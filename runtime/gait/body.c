@@ -55,7 +55,10 @@ static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const s
   sbf_vec3 away = sbri_sub(sbri_hip_of(rig, state, input, leg, root), ankle);
   float left = reach * reach - away.x * away.x - away.z * away.z;
   float least = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
-  float drop = away.y - sqrtf(left > least ? left : least), most = DEEPEST * reach;
+  /* What a clip lifts the hip by is all taken back: the foot stands, not hangs. */
+  float lifted = state->feet[leg].hip.y - rig->rest[l->upper].position.y * input->scale;
+  float drop = away.y - sqrtf(left > least ? left : least);
+  float most = DEEPEST * reach + (lifted > 0 ? lifted : 0);
   return drop < most ? drop : most;
 }
 
@@ -129,6 +132,11 @@ static sbri_stance stance_over(
   stance.hips_yaw = line_yaw(rig, state, 1);
   stance.chest_yaw = rig->gait->chest >= 0 ? line_yaw(rig, state, 0) : stance.hips_yaw;
   return stance;
+}
+
+float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root) {
+  return crouch(rig, state, input, root, 1);
 }
 
 sbri_stance sbri_body_stance(

@@ -91,6 +91,12 @@ void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s) 
   }
 }
 
+bool sbri_clips_play(const sbri_gait_state *state) {
+  for (uint32_t l = 0; l < SBRI_CLIP_LAYERS; l++)
+    if (state->clips[l].clip_plus_1 && state->clips[l].weight > 0) return true;
+  return false;
+}
+
 void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
   for (uint32_t i = 0; i < rig->bone_count; i++) locals[i] = rig->rest_local[i];
   sbri_walk_pose(rig, state, scale, locals);

@@ -229,6 +229,9 @@ typedef struct sbri_stance {
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
 } sbri_stance;
 sbri_stance sbri_body_stance(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
+/* By how much more it has to come down for every leg to reach its foot from where its hip is now. */
+float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root);
 /* Moves the followers that bear the body: it leans over the feet but `lifting` (bits; 0: upright), while it
  * goes `way` further. Without a stride it is put where they lead to. */
 void sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
@@ -248,6 +251,8 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
 
 void sbri_clips_tick(const sbri_rig *rig, sbri_gait_state *state, float tick_s);
 /* Every bone against its parent before the gait: place in asset metres, rotation. */
+/* Whether some clip weighs in the pose. */
+bool sbri_clips_play(const sbri_gait_state *state);
 void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals);
 
 /* ---- gait/walk_poses.c ---- */

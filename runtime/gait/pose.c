@@ -176,6 +176,16 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   }
 }
 
+/* The body came down for where its hips were a tick ago. What moves them by itself is slow enough for that; a
+ * clip may have thrown them up since. */
+static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    sbr_transform *root, sbr_transform *pose) {
+  float drop = rig->leg_count && sbri_clips_play(state) ? sbri_body_drop(rig, state, input, root) : 0;
+  if (!(drop > 0)) return;
+  root->position.y -= drop;
+  for (uint32_t i = 0; i < rig->bone_count; i++) pose[i].position.y -= drop;
+}
+
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *pose) {
   sbri_stance stance = {state->root, state->hips_yaw, state->chest_yaw};
@@ -195,6 +205,7 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   sbf_quat back = sbri_quat_conjugate(stance.root.rotation);
   for (uint32_t i = 0; i < rig->leg_count; i++)
     state->feet[i].hip = sbri_rotate(back, sbri_sub(pose[rig->legs[i].upper].position, stance.root.position));
+  lower_to_feet(rig, state, input, &stance.root, pose);
   for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, pose);
   sbri_limbs_reach(rig, state, input, &stance.root, pose);
   sbri_followers_pose(rig, state, input, &stance.root, advance, pose);

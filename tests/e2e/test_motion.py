@@ -177,9 +177,8 @@ class NamedChains(ProgramTest):
         report = self.json_of("run", self.yeti, "--seconds", "5", "--script", script)
         self.assertTrue(report["valid"])
         self.assertGreaterEqual(min(report["steps_taken"].values()), 2)
-        # Soft feet, and hips that the clip throws about: where a leg is too short to reach, the foot is pulled along.
-        self.assertLessEqual(report["stance_slip"], 0.03)
-        self.assertLessEqual(report["skate_ratio"], 0.03)
+        self.assertLessEqual(report["stance_slip"], 0.008)  # of soft feet, under a wild clip
+        self.assertEqual(report["skate_ratio"], 0)
 
     def test_names_would_not_have_done(self):
         self.assertIn("bones follow", self.said)
