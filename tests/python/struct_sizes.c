@@ -7,6 +7,7 @@
 #include "sbfmt/io.h"
 #include "sbfmt/mechanics.h"
 #include "sbfmt/validate.h"
+#include "sbrun/animation.h"
 
 #define SIZE(type) printf(#type " %zu\n", sizeof(type))
 #define OFFSET(type, member) printf(#type "." #member " %zu\n", offsetof(type, member))
@@ -23,10 +24,19 @@ int main(void) {
   SIZE(sbf_validate_result);
   SIZE(sbf_asset_measures);
   SIZE(sbf_code_info);
+  SIZE(sbf_fix_options);
+  SIZE(sbf_fix_result);
+  SIZE(sbr_ground);
+  SIZE(sbr_model_options);
+  SIZE(sbr_world_definition);
+  SIZE(sbr_character_definition);
+  SIZE(sbr_transform);
+  SIZE(sbr_clip_play);
+  SIZE(sbr_body_health);
   OFFSET(sbf_load_options, check_crc);
   OFFSET(sbf_load_options, extension_count);
   OFFSET(sbf_load_options, copy_file);
-  OFFSET(sbf_load_options, outline);
+  OFFSET(sbf_load_options, mendable);
   OFFSET(sbf_save_options, level);
   OFFSET(sbf_build_options, interior);
   OFFSET(sbf_build_options, without_hulls);
@@ -41,6 +51,16 @@ int main(void) {
   OFFSET(sbf_convert_options, report);
   OFFSET(sbf_validate_options, report);
   OFFSET(sbf_validate_options, folder);
+  OFFSET(sbf_fix_options, report);
+  OFFSET(sbr_model_options, gravity);
+  OFFSET(sbr_model_options, instructions);
+  OFFSET(sbr_world_definition, ground);
+  OFFSET(sbr_world_definition, gravity);
+  OFFSET(sbr_world_definition, sleep_after_s);
+  OFFSET(sbr_character_definition, hold);
+  OFFSET(sbr_clip_play, bone_mask);
+  OFFSET(sbr_body_health, elastic_j);
+  OFFSET(sbr_body_health, asleep);
   OFFSET(sbf_export_options, report);
   OFFSET(sbf_export_options, render_level);
   OFFSET(sbf_diagnostic, path);

@@ -17,7 +17,7 @@ if not os.path.exists(os.environ.get("SBFMT_LIBRARY", "")):
     print("skipped: SBFMT_LIBRARY names no shared library")
     sys.exit(77)
 import sbfmt  # noqa: E402
-from sbfmt import library  # noqa: E402
+from sbfmt import library, runtime  # noqa: E402
 
 LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard.obj")
 RIG = os.path.join(ROOT, "examples", "lizard", "lizard.glb")
@@ -72,6 +72,14 @@ class Calls(ModuleTest):
         sbfmt.load(os.path.join(SAMPLES, "valid", "everything.sbf")).export(self.path("a.obj"), report=said.append)
         self.assertTrue(os.path.exists(self.path("a.obj")))
         self.assertEqual(said[0].code, "EXPORT_LEFT_OUT")
+
+    def test_mending(self):
+        said = []
+        turned = sbfmt.load(os.path.join(SAMPLES, "invalid", "surface_winding.sbf"))
+        self.assertIn("SURFACE_WINDING", [one.code for one in turned.validate().findings])
+        fixed = turned.fix(report=said.append)
+        self.assertEqual([one.code for one in said], ["SURFACE_WINDING"])
+        self.assertNotIn("SURFACE_WINDING", [one.code for one in fixed.validate().findings])
 
     def test_versions_and_places(self):
         self.assertEqual(sbfmt.library_version(), "1.0")
@@ -174,7 +182,7 @@ class Binary(ModuleTest):
         for line in told:
             name, number = line.rsplit(" ", 1)
             struct, _, member = name.partition(".")
-            mirrored = library.OPTIONS[struct]
+            mirrored = {**library.OPTIONS, **runtime.STRUCTS}[struct]
             found = getattr(mirrored, member).offset if member else ctypes.sizeof(mirrored)
             self.assertEqual(found, int(number), name)
 

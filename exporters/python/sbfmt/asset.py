@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 
 from .description import describe
 from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertOptions, ConvertPin, DiagnosticStruct, ExportOptions, \
-    LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, check, library
+    FixOptions, FixResult, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, check, library
 
 INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra")
 LIMITS = ("none", "human", "quadruped", "reptile")
@@ -104,6 +104,17 @@ class Asset:
                                                ctypes.byref(error)), error)
         return Validation(result, findings)
 
+    def fix(self, report=None, build=True):
+        """A new asset in which everything is mended that has one right answer; `report` hears what was. It may be loaded with
+        `mendable`. Without `build` derived parts that are stale stay."""
+        callbacks, found, made = Callbacks(report), DiagnosticStruct(), ctypes.c_void_p()
+        options = FixOptions(ctypes.sizeof(FixOptions), None, not build, callbacks.report, None)
+        status = library().sbf_fix(self.pointer, ctypes.byref(options), ctypes.byref(made), ctypes.byref(FixResult()),
+                                   ctypes.byref(found))
+        fixed = Asset(made.value) if status == OK else None
+        callbacks.check(status, found)
+        return fixed
+
     def measure(self):
         """{"mass": kg, "bounds": {"min", "max"} in metres, or None where nothing has a place}."""
         found = AssetMeasures()
@@ -122,11 +133,13 @@ class Asset:
         return None if same else path.value.decode()
 
 
-def load(path, check_crc=True, extensions=()):
-    """Reads an .sbf or .sbfz file; `extensions` names those that the caller understands."""
+def load(path, check_crc=True, extensions=(), mendable=False):
+    """Reads an .sbf or .sbfz file; `extensions` names those that the caller understands. With `mendable` what `fix` may mend is let
+    pass; nothing but `fix` may then be asked of the asset."""
     names = (ctypes.c_char_p * len(extensions))(*(name.encode() for name in extensions))
     options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), check_crc=check_crc, extension_count=len(extensions),
-                          extensions=ctypes.cast(names, ctypes.POINTER(ctypes.c_char_p)), copy_file=True)
+                          extensions=ctypes.cast(names, ctypes.POINTER(ctypes.c_char_p)), copy_file=True,
+                          mendable=mendable)
     loaded, error = ctypes.c_void_p(), DiagnosticStruct()
     check(library().sbf_load_file(path_bytes(path), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
     return Asset(loaded.value)

@@ -41,7 +41,8 @@ class Limits(Structure):
 class LoadOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("limits", Limits), ("check_crc", c_bool),
                 ("name", c_char_p), ("extensions", POINTER(c_char_p)), ("extension_count", c_uint32),
-                ("selection", c_void_p), ("copy_file", c_bool), ("read_bytes", POINTER(c_uint64)), ("outline", c_bool)]
+                ("selection", c_void_p), ("copy_file", c_bool), ("read_bytes", POINTER(c_uint64)), ("outline", c_bool),
+                ("mendable", c_bool)]
 
 
 class SaveOptions(Structure):
@@ -79,6 +80,14 @@ class ValidateResult(Structure):
     _fields_ = [("errors", c_uint32), ("warnings", c_uint32), ("infos", c_uint32)]
 
 
+class FixOptions(Structure):
+    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("without_build", c_bool), ("report", Report), ("user", c_void_p)]
+
+
+class FixResult(Structure):
+    _fields_ = [("mended", c_uint32), ("rebuilt", c_bool)]
+
+
 class ExportOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("report", Report), ("user", c_void_p),
                 ("render_level", c_uint32)]
@@ -97,7 +106,8 @@ class AssetMeasures(Structure):
 OPTIONS = {"sbf_load_options": LoadOptions, "sbf_save_options": SaveOptions, "sbf_build_options": BuildOptions,
            "sbf_convert_options": ConvertOptions, "sbf_validate_options": ValidateOptions,
            "sbf_export_options": ExportOptions, "sbf_diagnostic": DiagnosticStruct, "sbf_buffer": Buffer,
-           "sbf_validate_result": ValidateResult, "sbf_asset_measures": AssetMeasures, "sbf_code_info": CodeInfo}
+           "sbf_validate_result": ValidateResult, "sbf_asset_measures": AssetMeasures, "sbf_code_info": CodeInfo,
+           "sbf_fix_options": FixOptions, "sbf_fix_result": FixResult}
 
 CALLS = {
     "sbf_load_file": [c_char_p, POINTER(LoadOptions), POINTER(c_void_p), POINTER(DiagnosticStruct)],
@@ -107,6 +117,7 @@ CALLS = {
     "sbf_build": [c_void_p, POINTER(BuildOptions), POINTER(c_void_p), c_void_p, POINTER(DiagnosticStruct)],
     "sbf_convert": [c_char_p, POINTER(ConvertOptions), POINTER(c_void_p), POINTER(DiagnosticStruct)],
     "sbf_validate": [c_void_p, POINTER(ValidateOptions), POINTER(ValidateResult), POINTER(DiagnosticStruct)],
+    "sbf_fix": [c_void_p, POINTER(FixOptions), POINTER(c_void_p), POINTER(FixResult), POINTER(DiagnosticStruct)],
     "sbf_export": [c_void_p, c_char_p, POINTER(ExportOptions), POINTER(DiagnosticStruct)],
 }
 

@@ -1,0 +1,308 @@
+"""The runtime: a built asset brought to life, as sbrun/sbrun.h has it.
+
+    from sbfmt import runtime
+    with runtime.World(runtime.flat(0.0)) as world:
+        lizard = world.add(runtime.Model(asset))
+        lizard.drive(forward=0.3)
+        for _ in range(60):
+            world.step(1 / 60)
+        points = numpy.frombuffer(lizard.skin(0), dtype="f4").reshape(-1, 3)
+
+Lengths are in metres, +Y is up. What is read comes as ctypes arrays of floats, which numpy and memoryview take as they are; they
+lie relative to `Character.origin`. A model keeps its asset, a world its models; a world belongs to one thread at a time.
+"""
+
+import ctypes
+import ctypes.util
+import functools
+import glob
+import os
+import weakref
+from ctypes import POINTER, Structure, byref, c_bool, c_double, c_float, c_int, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+
+from .library import DiagnosticStruct, Report, check, diagnostic_of, library, library_path
+
+NAME = "sbrun"
+SCHEMES = ("automatic", "symplectic", "position_based", "relaxation", "explicit_euler", "heun", "block_descent")
+NONE = -1  # of clips and bone masks
+
+
+class Vec3(Structure):
+    _fields_ = [("x", c_float), ("y", c_float), ("z", c_float)]
+
+
+class Double3(Structure):
+    _fields_ = [("x", c_double), ("y", c_double), ("z", c_double)]
+
+
+class Ground(Structure):
+    _fields_ = [("height", c_void_p), ("user", c_void_p), ("parameters", c_double * 4)]
+
+
+class Tasks(Structure):
+    _fields_ = [("run", c_void_p), ("user", c_void_p)]
+
+
+class ModelOptions(Structure):
+    _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("level", c_uint32), ("scheme", c_int), ("substeps", c_uint32),
+                ("free", c_bool), ("has_gravity", c_bool), ("gravity", Vec3), ("tear_points", c_uint32), ("step_error_m", c_float),
+                ("instructions", c_int)]
+
+
+class WorldDefinition(Structure):
+    _fields_ = [("cookie", c_uint32), ("allocator", c_void_p), ("tasks", Tasks), ("ground", Ground), ("has_gravity", c_bool),
+                ("gravity", Vec3), ("control_tick_s", c_double), ("longest_frame_s", c_double), ("character_capacity", c_uint32),
+                ("sleep_after_s", c_double)]
+
+
+class CharacterDefinition(Structure):
+    _fields_ = [("cookie", c_uint32), ("position", Double3), ("heading", c_float), ("scale", c_float), ("hold", c_bool)]
+
+
+class CharacterId(Structure):
+    _fields_ = [("value", c_uint32)]
+
+
+class Transform(Structure):
+    """Seven floats: position, and rotation as x, y, z, w."""
+
+    _fields_ = [("position", c_float * 3), ("rotation", c_float * 4)]
+
+
+class ClipPlay(Structure):
+    _fields_ = [("weight", c_float), ("fade_s", c_float), ("speed", c_float), ("start_s", c_float), ("bone_mask", c_int32)]
+
+
+class BodyHealth(Structure):
+    _fields_ = [("volume_ratio", c_float), ("max_strain", c_float), ("finite", c_bool), ("inverted", c_bool), ("recoveries", c_uint32),
+                ("kinetic_j", c_double), ("elastic_j", c_double), ("potential_j", c_double), ("torn", c_uint32),
+                ("unsplit", c_uint32), ("asleep", c_bool)]
+
+
+# Tests look that they are of the headers' size.
+STRUCTS = {"sbr_ground": Ground, "sbr_model_options": ModelOptions, "sbr_world_definition": WorldDefinition,
+           "sbr_character_definition": CharacterDefinition, "sbr_transform": Transform, "sbr_clip_play": ClipPlay,
+           "sbr_body_health": BodyHealth}
+
+# Result and arguments. W, C: a world and a character in it.
+W, C, ERROR, FLOATS = c_void_p, CharacterId, POINTER(DiagnosticStruct), POINTER(c_float)
+CALLS = {
+    "sbr_ground_flat": (Ground, [c_double]),
+    "sbr_ground_mesh_create": (c_int, [c_void_p, FLOATS, c_uint32, POINTER(c_uint32), c_uint32, c_double, POINTER(c_void_p), ERROR]),
+    "sbr_ground_mesh_destroy": (None, [c_void_p]),
+    "sbr_ground_of_mesh": (Ground, [c_void_p]),
+    "sbr_model_create": (c_int, [c_void_p, POINTER(ModelOptions), POINTER(c_void_p), ERROR]),
+    "sbr_model_destroy": (None, [c_void_p]),
+    "sbr_model_left_out": (c_uint32, [c_void_p, Report, c_void_p]),
+    "sbr_default_world_definition": (WorldDefinition, []),
+    "sbr_world_create": (c_int, [POINTER(WorldDefinition), POINTER(c_void_p), ERROR]),
+    "sbr_world_destroy": (None, [W]),
+    "sbr_world_step": (None, [W, c_double]),
+    "sbr_world_state_hash": (c_uint64, [W]),
+    "sbr_world_snapshot_size": (c_size_t, [W]),
+    "sbr_world_snapshot_save": (c_int, [W, c_void_p, c_size_t]),
+    "sbr_world_snapshot_restore": (c_int, [W, c_void_p, c_size_t]),
+    "sbr_default_character_definition": (CharacterDefinition, []),
+    "sbr_character_create": (c_int, [W, c_void_p, POINTER(CharacterDefinition), POINTER(CharacterId), ERROR]),
+    "sbr_character_drive": (None, [W, C, c_float, c_float, c_float]),
+    "sbr_character_teleport": (None, [W, C, Double3, c_float]),
+    "sbr_character_play": (None, [W, C, c_uint32, c_int32, POINTER(ClipPlay)]),
+    "sbr_character_origin": (Double3, [W, C]),
+    "sbr_character_bones": (None, [W, C, POINTER(Transform), c_uint32]),
+    "sbr_character_skin": (c_uint32, [W, C, c_uint32, FLOATS, FLOATS, FLOATS, c_uint32]),
+    "sbr_character_surface": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
+    "sbr_character_torn_polygons": (c_uint32, [W, C, c_uint32, c_uint32, POINTER(c_uint8), c_uint32]),
+    "sbr_character_health": (BodyHealth, [W, C, c_uint32]),
+    "sbr_character_distance": (c_double, [W, C]),
+}
+
+
+@functools.lru_cache(maxsize=None)
+def runtime_library():
+    """The library that holds the runtime: the SDK's own where that has it, else libsbrun, which SBFMT_RUNTIME_LIBRARY may name,
+    or which lies beside the SDK's, or where the system keeps libraries."""
+    loaded = library()
+    if not hasattr(loaded, "sbr_model_create"):
+        beside = os.path.join(os.path.dirname(library_path()), f"lib{NAME}.so*")
+        for path in [os.environ.get("SBFMT_RUNTIME_LIBRARY"), *sorted(glob.glob(beside)), ctypes.util.find_library(NAME)]:
+            if path:
+                loaded = ctypes.CDLL(path)
+                break
+        else:
+            raise ImportError(f"lib{NAME} is not found beside {library_path()}: let SBFMT_RUNTIME_LIBRARY name it")
+    for name, (result, arguments) in CALLS.items():
+        function = getattr(loaded, name)
+        function.restype, function.argtypes = result, arguments
+    return loaded
+
+
+def floats(numbers):
+    """A ctypes array of them, whatever sequence or array of numpy's they come in."""
+    if hasattr(numbers, "astype"):
+        data = numbers.astype("f4").tobytes()
+        return (c_float * (len(data) // 4)).from_buffer_copy(data)
+    return (c_float * len(numbers))(*numbers)
+
+
+# ---- Grounds ----
+
+def flat(height=0.0):
+    """Level ground."""
+    return runtime_library().sbr_ground_flat(height)
+
+
+class GroundMesh:
+    """Ground of triangles; beyond them it lies at `otherwise`. `points` is flat: x, y, z of each."""
+
+    def __init__(self, points, triangles, otherwise=0.0):
+        self.points = floats(points)
+        self.triangles = (c_uint32 * len(triangles))(*triangles)
+        made, error = c_void_p(), DiagnosticStruct()
+        check(runtime_library().sbr_ground_mesh_create(None, self.points, len(self.points) // 3, self.triangles,
+                                                       len(self.triangles) // 3, otherwise, byref(made), byref(error)), error)
+        self.pointer = made.value
+        self.close = weakref.finalize(self, runtime_library().sbr_ground_mesh_destroy, self.pointer)
+
+    @property
+    def ground(self):
+        return runtime_library().sbr_ground_of_mesh(self.pointer)
+
+
+# ---- Models and worlds ----
+
+class Model:
+    """What characters of one built asset share. `scheme` is one of SCHEMES; `substeps` 0: as many as it needs."""
+
+    def __init__(self, asset, level=0, scheme="automatic", substeps=0, free=False, gravity=None):
+        if scheme not in SCHEMES:
+            raise ValueError(f"scheme is one of {', '.join(SCHEMES)}, not {scheme!r}")
+        options = ModelOptions(struct_size=ctypes.sizeof(ModelOptions), level=level, scheme=SCHEMES.index(scheme), substeps=substeps,
+                               free=free, has_gravity=gravity is not None, gravity=Vec3(*(gravity or (0, 0, 0))))
+        made, error = c_void_p(), DiagnosticStruct()
+        check(runtime_library().sbr_model_create(asset.pointer, byref(options), byref(made), byref(error)), error)
+        self.asset, self.pointer = asset, made.value
+        self.close = weakref.finalize(self, runtime_library().sbr_model_destroy, self.pointer)
+
+    def left_out(self):
+        """What of the asset the runtime neither moves nor lets act: a list of Diagnostic."""
+        found = []
+        report = Report(lambda _user, one: found.append(diagnostic_of(one.contents)))
+        runtime_library().sbr_model_left_out(self.pointer, report, None)
+        return found
+
+
+class World:
+    """Steps characters over a ground: `flat`, or a GroundMesh."""
+
+    def __init__(self, ground=None, gravity=None, sleep_after=0.5):
+        definition = runtime_library().sbr_default_world_definition()
+        self.ground, self.models, self.characters = ground, [], []
+        if ground is not None:
+            definition.ground = ground.ground if isinstance(ground, GroundMesh) else ground
+        if gravity is not None:
+            definition.has_gravity, definition.gravity = True, Vec3(*gravity)
+        definition.sleep_after_s = sleep_after
+        made, error = c_void_p(), DiagnosticStruct()
+        check(runtime_library().sbr_world_create(byref(definition), byref(made), byref(error)), error)
+        self.pointer = made.value
+        self._finalizer = weakref.finalize(self, runtime_library().sbr_world_destroy, self.pointer)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        """Frees it with its characters now rather than when Python finds time for it."""
+        self._finalizer()
+        self.pointer, self.characters, self.models = None, [], []
+
+    def add(self, model, position=(0, 0, 0), heading=0.0, scale=1.0, hold=False):
+        """A character; the height of its position counts from the ground."""
+        definition = runtime_library().sbr_default_character_definition()
+        definition.position, definition.heading = Double3(*position), heading
+        definition.scale, definition.hold = scale, hold
+        made, error = CharacterId(), DiagnosticStruct()
+        check(runtime_library().sbr_character_create(self.pointer, model.pointer, byref(definition), byref(made), byref(error)), error)
+        self.models.append(model)
+        self.characters.append(Character(self, made))
+        return self.characters[-1]
+
+    def step(self, seconds):
+        runtime_library().sbr_world_step(self.pointer, seconds)
+
+    def state_hash(self):
+        return runtime_library().sbr_world_state_hash(self.pointer)
+
+    def snapshot(self):
+        """All that can change, as bytes for `restore`."""
+        size = runtime_library().sbr_world_snapshot_size(self.pointer)
+        kept = ctypes.create_string_buffer(size)
+        runtime_library().sbr_world_snapshot_save(self.pointer, kept, size)
+        return kept
+
+    def restore(self, kept):
+        """Back to a snapshot of this world with the same characters; False where it is of another."""
+        return runtime_library().sbr_world_snapshot_restore(self.pointer, kept, len(kept)) == 0
+
+
+class Character:
+    """One character of a world, which must be open."""
+
+    def __init__(self, world, identity):
+        self._world, self._id = world, identity
+
+    def call(self, name, *arguments):
+        return getattr(runtime_library(), name)(self._world.pointer, self._id, *arguments)
+
+    def drive(self, forward=0.0, sideways=0.0, turn=0.0):
+        """Wanted speeds, m/s and rad/s; left is positive."""
+        self.call("sbr_character_drive", forward, sideways, turn)
+
+    def teleport(self, position, heading):
+        self.call("sbr_character_teleport", Double3(*position), heading)
+
+    def play(self, clip, layer=0, weight=1.0, fade=0.0, speed=1.0, start=0.0):
+        """Plays a clip of the asset by its number; NONE fades the layer out."""
+        self.call("sbr_character_play", layer, clip, byref(ClipPlay(weight, fade, speed, start, NONE)))
+
+    @property
+    def origin(self):
+        found = self.call("sbr_character_origin")
+        return (found.x, found.y, found.z)
+
+    @property
+    def distance(self):
+        """m travelled."""
+        return self.call("sbr_character_distance")
+
+    def points(self, name, number, *more):
+        count = self.call(name, number, None, *more, 0)
+        found = (c_float * (3 * count))()
+        self.call(name, number, found, *more, count)
+        return found
+
+    def skin(self, render_mesh):
+        """Vertices of a render mesh, three floats each."""
+        return self.points("sbr_character_skin", render_mesh, None, None)
+
+    def surface(self, soft_body):
+        """Vertices of a soft body's surface, three floats each."""
+        return self.points("sbr_character_surface", soft_body)
+
+    def torn(self, render_mesh):
+        """For each polygon of a render mesh whether it spans a tear, and is not to be drawn."""
+        count = self.call("sbr_character_torn_polygons", render_mesh, 0, None, 0)
+        found = (c_uint8 * count)()
+        self.call("sbr_character_torn_polygons", render_mesh, 0, found, count)
+        return found
+
+    def bones(self, count):
+        """The first `count` bones of the asset: an array of Transform."""
+        found = (Transform * count)()
+        self.call("sbr_character_bones", found, count)
+        return found
+
+    def health(self, soft_body):
+        return self.call("sbr_character_health", soft_body)
