@@ -79,12 +79,13 @@ static void tick_character(void *context, uint32_t index) {
   if (sbri_head(c)->paused) return;
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbr_transform *pose = sbri_pose(c);
-  sbri_deltas_make(c, pose, sbri_previous_deltas(c));
+  bool has_bodies = c->model->island_count > 0; /* which alone ask where frames carry them */
+  if (has_bodies) sbri_deltas_make(c, pose, sbri_previous_deltas(c));
   bool may_sleep = sbri_character_may_sleep(world, c);
   if (may_sleep) sbri_character_keep_gait(c);
   c->event_count = sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events, SBRI_TICK_EVENTS);
   pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
-  sbri_deltas_make(c, pose, sbri_deltas(c));
+  if (has_bodies) sbri_deltas_make(c, pose, sbri_deltas(c));
   sbri_head(c)->asleep = may_sleep && sbri_character_is_still(c);
 }
 

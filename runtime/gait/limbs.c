@@ -46,7 +46,7 @@ static void give_joints(const sbri_rig *rig, const sbri_ik_chain *chain, const u
 static bool breaks_limit(const sbri_rig *rig, int32_t bone, const sbr_transform *pose) {
   if (!rig->limits[bone].active || rig->parents[bone] < 0) return false;
   sbf_quat above = sbri_quat_conjugate(pose[rig->parents[bone]].rotation);
-  return sbri_joint_limit_excess(&rig->limits[bone], sbri_quat_multiply(above, pose[bone].rotation)) > 1e-4f;
+  return !sbri_joint_limit_holds(&rig->limits[bone], sbri_quat_multiply(above, pose[bone].rotation), 1e-4f);
 }
 
 void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sbf_vec3 pole, float scale,

@@ -1,7 +1,8 @@
 #include "ik/joint_limit.h"
 
 static const float PI = 3.14159265f;
-static const float SLACK = 1e-5f; /* rad: what rounding may put beyond a bound it was cut to */
+static const float MOST_TWIST = 3.1f; /* rad: a bound beyond it is told by arctangents */
+static const float SLACK = 1e-5f;     /* rad: what rounding may put beyond a bound it was cut to */
 
 sbri_swing_twist sbri_swing_twist_of(sbf_quat q) {
   float sign = q.w < 0 ? -1.0f : 1.0f;
@@ -40,8 +41,43 @@ static float outside(float angle, const float range[2], float *bound) {
   return below < above ? below : above;
 }
 
+static sbf_quat seen_as(const sbri_joint_limit *limit, sbf_quat local) {
+  return sbri_quat_multiply(sbri_quat_multiply(limit->before, local), limit->after);
+}
+
 static sbri_swing_twist seen(const sbri_joint_limit *limit, sbf_quat local) {
-  return sbri_swing_twist_of(sbri_quat_multiply(sbri_quat_multiply(limit->before, local), limit->after));
+  return sbri_swing_twist_of(seen_as(limit, local));
+}
+
+/* Tangent of half an angle, of less than half a turn. */
+static float half_tangent(float angle) {
+  float s, c;
+  sbri_sincos(0.5f * sbri_clamp(angle, -MOST_TWIST, MOST_TWIST), &s, &c);
+  return s / c;
+}
+
+void sbri_joint_limit_ready(sbri_joint_limit *limit) {
+  float s, c, spare = 0.5f * SLACK;
+  const float *y = limit->swing_y, *z = limit->swing_z;
+  limit->twist_tangents[0] = half_tangent(limit->twist[0] - spare);
+  limit->twist_tangents[1] = half_tangent(limit->twist[1] + spare);
+  sbri_sincos(0.5f * sbri_clamp(limit->cone + spare, 0, PI), &s, &c);
+  limit->cone_square = y[0] <= 0 && y[1] >= 0 && z[0] <= 0 && z[1] >= 0 ? s * s : 0;
+}
+
+/* Whether q is within, or off by no more than half of what a clamp lets pass. Of the swing's half angle the
+ * sine s is known, and 1 <= asin(s) / s <= 1 + (pi/2 - 1) s^2, its series having no negative term. False says
+ * nothing. */
+static bool is_surely_within(const sbri_joint_limit *limit, sbf_quat q) {
+  float size2 = q.x * q.x + q.w * q.w, sine2 = q.y * q.y + q.z * q.z;
+  if (sine2 > limit->cone_square || size2 < 0.1f) return false;
+  float sign = q.w < 0 ? -1.0f : 1.0f, x = sign * q.x, w = sign * q.w;
+  if (x < limit->twist_tangents[0] * w || x > limit->twist_tangents[1] * w) return false;
+  /* The swing's y and z, at most; all by the square root of size2. */
+  float rate = 2 + 1.1416f * sine2, size = sqrtf(size2), spare = 0.5f * SLACK;
+  float y = rate * (q.w * q.y - q.x * q.z), z = rate * (q.w * q.z + q.x * q.y);
+  return y >= size * (limit->swing_y[0] - spare) && y <= size * (limit->swing_y[1] + spare) &&
+         z >= size * (limit->swing_z[0] - spare) && z <= size * (limit->swing_z[1] + spare);
 }
 
 static float larger(float a, float b) {
@@ -58,8 +94,13 @@ float sbri_joint_limit_excess(const sbri_joint_limit *limit, sbf_quat local) {
   return larger(most, outside(p.swing_z, limit->swing_z, &unused));
 }
 
+bool sbri_joint_limit_holds(const sbri_joint_limit *limit, sbf_quat local, float slack) {
+  if (!limit || !limit->active || is_surely_within(limit, seen_as(limit, local))) return true;
+  return sbri_joint_limit_excess(limit, local) <= slack;
+}
+
 sbf_quat sbri_joint_limit_clamp(const sbri_joint_limit *limit, sbf_quat local) {
-  if (!limit || !limit->active || sbri_joint_limit_excess(limit, local) <= SLACK) return local;
+  if (sbri_joint_limit_holds(limit, local, SLACK)) return local;
   sbri_swing_twist p = seen(limit, local);
   (void)outside(p.twist, limit->twist, &p.twist);
   p.swing_y = sbri_clamp(p.swing_y, limit->swing_y[0], limit->swing_y[1]);

@@ -60,7 +60,7 @@ typedef enum sbri_bone_role {
   SBRI_ROLE_TAIL
 } sbri_bone_role;
 
-/* Share of the body's mass that a bone carries, and its middle at rest, in asset space. */
+/* Share of the body's mass that a bone carries, and its middle in the bone's frame. */
 typedef struct sbri_bone_mass {
   float share;
   sbf_vec3 place;

@@ -51,6 +51,7 @@ void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits) {
     open_kind(joint->kind, limit);
     for (uint32_t k = 0; k < joint->limits.count; k++) take_limit(&joint->limits.at[k], limit);
     limit->active = true;
+    sbri_joint_limit_ready(limit);
     /* A pose that breaks it at rest would never be left alone. */
     if (sbri_joint_limit_excess(limit, rig->rest_local[bone].rotation) > 1e-3f) limit->active = false;
   }

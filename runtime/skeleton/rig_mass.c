@@ -8,6 +8,7 @@ static sbf_vec3 third_of(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
   return sbri_scale(sbri_add(sbri_add(a, b), c), 0.25f);
 }
 
+/* Places of what is added are in asset space until all is. */
 static void add_triangle(
     const sbri_rig *rig, int32_t bone, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, sbri_bone_mass *masses) {
   sbf_vec3 from = rig->rest[bone].position;
@@ -55,7 +56,10 @@ void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses) {
     total += masses[i].share;
   }
   for (uint32_t i = 0; total > 0 && i < rig->bone_count; i++) {
+    const sbr_transform *rest = &rig->rest[i];
     if (masses[i].share > 0) masses[i].place = sbri_scale(masses[i].place, 1 / masses[i].share);
+    masses[i].place =
+        sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(masses[i].place, rest->position));
     masses[i].share /= total;
   }
 }
@@ -66,9 +70,7 @@ bool sbri_rig_center(const sbri_rig *rig, const sbr_transform *pose, float scale
   for (uint32_t i = 0; i < rig->bone_count; i++) {
     const sbri_bone_mass *mass = &rig->masses[i];
     if (mass->share <= 0) continue;
-    sbf_vec3 own =
-        sbri_rotate(sbri_quat_conjugate(rig->rest[i].rotation), sbri_sub(mass->place, rig->rest[i].position));
-    sbf_vec3 at = sbri_add(pose[i].position, sbri_rotate(pose[i].rotation, sbri_scale(own, scale)));
+    sbf_vec3 at = sbri_add(pose[i].position, sbri_rotate(pose[i].rotation, sbri_scale(mass->place, scale)));
     sum = sbri_add_scaled(sum, at, mass->share);
     total += mass->share;
   }

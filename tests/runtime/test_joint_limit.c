@@ -84,6 +84,32 @@ START_TEST(the_nearer_bound_is_taken_across_half_a_turn)
 }
 END_TEST
 
+/* Near bounds too, where it must not say more than the angles do. */
+START_TEST(what_a_limit_is_ready_for_changes_no_answer)
+{
+  uint32_t seed = 4;
+  int held = 0, broken = 0;
+  for (int i = 0; i < 100000; i++) {
+    sbri_joint_limit slow = random_limit(&seed);
+    if (i % 3 == 1) slow.cone = 0; /* a hinge */
+    if (i % 3 == 2) slow.twist[0] = -3.2f, slow.twist[1] = 3.2f;
+    sbri_joint_limit ready = slow;
+    sbri_joint_limit_ready(&ready);
+    sbf_quat q = sbri_joint_limit_clamp(&slow, ik_random_rotation(&seed)); /* often on a bound */
+    float size = i % 2 ? 1e-6f : 0.02f;
+    sbf_quat moved = sbri_quat_multiply(q, sbri_quat_exp(sbri_scale(ik_random_place(&seed, 1), size)));
+    float excess = sbri_joint_limit_excess(&slow, moved);
+    if (fabsf(excess - 1e-5f) < 1e-6f) continue; /* as near as rounding */
+    bool holds = sbri_joint_limit_holds(&ready, moved, 1e-5f);
+    ck_assert_int_eq(holds, excess <= 1e-5f);
+    ck_assert(same(sbri_joint_limit_clamp(&ready, moved), sbri_joint_limit_clamp(&slow, moved)));
+    *(holds ? &held : &broken) += 1;
+  }
+  ck_assert_int_gt(held, 10000);
+  ck_assert_int_gt(broken, 10000);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("joint_limit");
   TCase *tests = tcase_create("all");
@@ -92,6 +118,7 @@ int main(void) {
   tcase_add_test(tests, twice_is_once);
   tcase_add_test(tests, a_hinge_keeps_the_turn_about_its_axis);
   tcase_add_test(tests, the_nearer_bound_is_taken_across_half_a_turn);
+  tcase_add_test(tests, what_a_limit_is_ready_for_changes_no_answer);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
