@@ -70,8 +70,7 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
     if (leg->lower < 0 || leg->carrier >= 0) continue;
-    sbf_vec3 ankle =
-        sbri_ankle_over(leg, foot->ground, foot->normal, state->heading + foot->heading, input->scale);
+    sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
     ankle.y += foot->lift + state->position.y;
     float drop = drop_for(rig, state, input, i, root, ankle, share);
     most = drop > most ? drop : most;
@@ -92,7 +91,7 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
     float speed = sbri_length(v), half = stride->half_m * speed / stride->speed;
     sbf_vec3 way = sbri_normalize(v, sbri_vec3(0, 0, 0)), home = sbri_add(state->position, arm);
     home.y = foot->ground.y + state->position.y;
-    sbf_vec3 ankle = sbri_ankle_over(leg, home, foot->normal, state->heading, input->scale);
+    sbf_vec3 ankle = sbri_ankle_at_home(leg, foot, home, input->scale);
     float ahead = sbri_ahead(rig, state, input, i, way, half);
     float touch = drop_for(rig, state, input, i, root, sbri_add_scaled(ankle, way, ahead), EASY);
     float leave = drop_for(rig, state, input, i, root, sbri_add_scaled(ankle, way, ahead - 2 * half), EASY);

@@ -41,12 +41,17 @@ sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 place, sbf_vec
   return sbri_vec3(place.x, (float)(y - input->origin.y), place.z);
 }
 
-sbf_vec3 sbri_ankle_over(const sbri_leg *leg, sbf_vec3 sole, sbf_vec3 normal, float heading, float scale) {
-  sbf_vec3 ankle = sbri_add_scaled(sole, normal, leg->ankle.y * scale);
-  if (leg->ankle.x == 0 && leg->ankle.z == 0) return ankle;
-  sbf_vec3 off = sbri_turned(sbri_vec3(leg->ankle.x * scale, 0, leg->ankle.z * scale), heading);
-  if (normal.x == 0 && normal.z == 0) return sbri_add(ankle, off);
-  return sbri_add(ankle, sbri_rotate(sbri_quat_between(sbri_vec3(0, 1, 0), normal), off));
+void sbri_foot_faces(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+  sbri_foot *foot = &state->feet[leg];
+  float x = rig->legs[leg].ankle.x * input->scale, z = rig->legs[leg].ankle.z * input->scale;
+  sbri_sincos(state->heading + foot->heading, &foot->sine, &foot->cosine);
+  foot->beside = sbri_vec3(foot->cosine * x + foot->sine * z, 0, foot->cosine * z - foot->sine * x);
+  foot->beside_at_home = sbri_headed(state, sbri_vec3(x, 0, z));
+  if ((x == 0 && z == 0) || (foot->normal.x == 0 && foot->normal.z == 0)) return;
+  sbf_quat tilt = sbri_quat_between(sbri_vec3(0, 1, 0), foot->normal);
+  foot->beside = sbri_rotate(tilt, foot->beside);
+  foot->beside_at_home = sbri_rotate(tilt, foot->beside_at_home);
 }
 
 float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b) {
@@ -60,6 +65,7 @@ void sbri_foot_place(
   *foot = (sbri_foot){.planted = 1, .was_planted = 1, .steps_taken = foot->steps_taken, .hip = foot->hip};
   foot->ground = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
   sbri_lay_sole(rig, state, input, leg, &foot->ground, &foot->normal);
+  sbri_foot_faces(rig, state, input, leg);
 }
 
 /* Feet in the air, and their groups, as bits; the groups get one more where a step is too far on for others

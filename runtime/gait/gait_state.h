@@ -11,6 +11,10 @@ typedef struct sbri_foot {
   sbf_vec3 ground; /* where the sole stands, or the place below it on the line of its step */
   sbf_vec3 normal; /* of the ground there, eased while it swings */
   float heading;   /* the foot's own, rad, less the body's: kept as the body turns */
+  /* Of `normal` and `heading`, by sbri_foot_faces: its own heading in the world; and how far the ankle is
+   * from above the sole's middle, as it is turned, and were it turned as the body is. */
+  float sine, cosine;
+  sbf_vec3 beside, beside_at_home;
   float lift;      /* of the sole above `ground`, m */
   sbf_vec3 from, from_normal, to, to_normal; /* of the step under way */
   sbf_vec3 planned;                          /* `to` when it was last planned */
@@ -152,8 +156,14 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
     uint32_t leg, const sbr_transform *root);
 /* Velocity of the body, world axes. */
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state);
-/* Where the ankle stands over the middle of a sole, m. */
-sbf_vec3 sbri_ankle_over(const sbri_leg *leg, sbf_vec3 sole, sbf_vec3 normal, float heading, float scale);
+/* Where a foot's ankle is when the middle of its sole is at a place, m; and the same, turned as the body is. */
+static inline sbf_vec3 sbri_ankle_over(const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
+  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->ankle.y * scale), foot->beside);
+}
+static inline sbf_vec3 sbri_ankle_at_home(
+    const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
+  return sbri_add(sbri_add_scaled(sole, foot->normal, leg->ankle.y * scale), foot->beside_at_home);
+}
 /* How far ahead of its home a foot comes down, which moves along `way` (of unit length); `half` is half its
  * stride. */
 float sbri_ahead(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
@@ -213,6 +223,9 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     const sbri_stride *stride, uint32_t leg);
 
 /* ---- gait/feet.c: who steps ---- */
+
+/* Keeps up what follows from a foot's heading, the body's, and its normal. */
+void sbri_foot_faces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 
 /* Puts a leg's foot down at its home. */
 void sbri_foot_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);

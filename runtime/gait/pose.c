@@ -154,7 +154,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   float scale = input->scale, heading = state->heading + foot->heading;
   sbf_vec3 hip = pose[leg->upper].position;
   sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
-  sbf_vec3 ankle = sbri_ankle_over(leg, sole, foot->normal, heading, scale);
+  sbf_vec3 ankle = sbri_ankle_over(leg, foot, sole, scale);
   sbf_vec3 pole = foot->pole = pole_of(rig, leg, &stance->root, scale, pose);
   if (leg->lower < 0) {
     pose_peg(rig, leg, foot, heading, ankle, pose);

@@ -129,9 +129,7 @@ static float knee_step(const sbri_rig *rig, const sbri_gait_state *state, const 
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
   sbf_vec3 drift = sbri_scale(
       sbri_home_velocity(rig, state, leg, sbri_home_arm(rig, state, input, leg)), state->pace * duration_s);
-  sbf_vec3 over = sbri_sub(
-      sbri_ankle_over(l, foot->from, foot->from_normal, state->heading + foot->heading, input->scale),
-      foot->from);
+  sbf_vec3 over = sbri_sub(sbri_ankle_over(l, foot, foot->from, input->scale), foot->from);
   float h = duration_s / SAMPLES, unit = DEGREES * FRAME_S * FRAME_S / (h * h), knee[3] = {0, 0, 0};
   float rise = foot->to.y - foot->from.y, limit = (1 - 0.5f * l->soft_reach) * l->reach * input->scale;
   for (int k = -2; k <= SAMPLES; k++) {

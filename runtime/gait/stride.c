@@ -86,12 +86,14 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
 /* The circle over the ground, about its hip, that a leg's foot may be in while it stands as high as it does:
  * its radius; `off` receives where the ankle over `sole` is from its middle, level. */
 static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 sole, float heading, sbf_vec3 *off) {
+    uint32_t leg, sbf_vec3 sole, bool at_home, sbf_vec3 *off) {
   const sbri_leg *l = &rig->legs[leg];
   const sbri_foot *foot = &state->feet[leg];
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
   sole.y = foot->ground.y + state->position.y;
-  sbf_vec3 from = sbri_sub(sbri_ankle_over(l, sole, foot->normal, heading, input->scale), hip);
+  sbf_vec3 ankle = at_home ? sbri_ankle_at_home(l, foot, sole, input->scale)
+                           : sbri_ankle_over(l, foot, sole, input->scale);
+  sbf_vec3 from = sbri_sub(ankle, hip);
   float height = from.y < 0 ? SBRI_LOWERED * from.y : from.y; /* the body comes down for its feet */
   float reach = STRETCH * (1 - l->soft_reach) * l->reach * input->scale;
   *off = sbri_vec3(from.x, 0, from.z);
@@ -110,7 +112,7 @@ static float roam_circle(const sbri_rig *rig, const sbri_gait_state *state, cons
     uint32_t leg, sbf_vec3 *off) {
   const sbri_leg *l = &rig->legs[leg];
   sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
-  float radius = circle(rig, state, input, leg, home, state->heading, off), away = sbri_length(*off);
+  float radius = circle(rig, state, input, leg, home, true, off), away = sbri_length(*off);
   float length = (l->upper_length + l->lower_length) * input->scale;
   if (l->lower < 0) radius = away + PEG * length;
   return radius < away + LEAST * length ? away + LEAST * length : radius;
@@ -192,9 +194,9 @@ float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   const sbri_leg *l = &rig->legs[leg];
   const sbri_foot *foot = &state->feet[leg];
   sbf_vec3 off, back = sbri_scale(way, -1), unused;
-  float radius = circle(rig, state, input, leg, foot->ground, state->heading + foot->heading, &off);
+  float radius = circle(rig, state, input, leg, foot->ground, false, &off);
   sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
-  (void)circle(rig, state, input, leg, home, state->heading, &unused);
+  (void)circle(rig, state, input, leg, home, true, &unused);
   float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(unused);
   if (l->lower < 0) radius = rest + PEG * length;
   if (radius < rest + LEAST * length) radius = rest + LEAST * length;

@@ -22,7 +22,8 @@ static polygon hull_of(const sbri_rig *rig, const sbri_gait_state *state, float 
     const sbri_foot *foot = &state->feet[i / 4];
     if (!foot->planted || lifted & 1u << (i / 4)) continue;
     sbf_vec3 corner = sbri_scale(rig->legs[i / 4].sole.corners[i % 4], scale);
-    corner = sbri_turned(corner, state->heading + foot->heading);
+    float s = foot->sine, c = foot->cosine;
+    corner = sbri_vec3(c * corner.x + s * corner.z, corner.y, c * corner.z - s * corner.x);
     sbf_vec3 p = sbri_add(foot->ground, corner);
     uint32_t k = n++;
     for (; k > 0 && (points[k - 1].x > p.x || (points[k - 1].x == p.x && points[k - 1].z > p.z)); k--)

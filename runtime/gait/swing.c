@@ -139,10 +139,11 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   } else if (foot->to_normal.y != 0) {
     sbri_lay_sole(rig, state, input, leg, &foot->to, &foot->to_normal);
   }
-  if (foot->phase >= 1) {
+  bool down = foot->phase >= 1;
+  if (down)
     put_down(foot);
-    return true;
-  }
-  move(foot, input->tick_s);
-  return false;
+  else
+    move(foot, input->tick_s);
+  sbri_foot_faces(rig, state, input, leg);
+  return down;
 }
