@@ -87,12 +87,14 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
     if (leg->lower < 0 || leg->carrier >= 0) continue;
-    sbf_vec3 arm = sbri_home_arm(rig, state, input, i), v = sbri_home_velocity(rig, state, i, arm);
-    float speed = sbri_length(v), half = stride->half_m * speed / stride->speed;
-    sbf_vec3 way = sbri_normalize(v, sbri_vec3(0, 0, 0)), home = sbri_add(state->position, arm);
+    const sbri_home *now = &stride->homes[i];
+    sbri_roam roam = foot->planted ? now->roam : sbri_roam_of(rig, state, input, i, now->arm);
+    float half = stride->half_m * now->speed / stride->speed;
+    sbf_vec3 way = sbri_normalize(now->velocity, sbri_vec3(0, 0, 0));
+    sbf_vec3 home = sbri_add(state->position, now->arm);
     home.y = foot->ground.y + state->position.y;
     sbf_vec3 ankle = sbri_ankle_at_home(leg, foot, home, input->scale);
-    float ahead = sbri_ahead(rig, state, input, i, way, half);
+    float ahead = sbri_ahead(&roam, way, half);
     float touch = drop_for(rig, state, input, i, root, sbri_add_scaled(ankle, way, ahead), EASY);
     float leave = drop_for(rig, state, input, i, root, sbri_add_scaled(ankle, way, ahead - 2 * half), EASY);
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);

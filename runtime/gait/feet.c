@@ -87,21 +87,20 @@ static uint32_t feet_in_air(const sbri_rig *rig, const sbri_gait_state *state, u
 static float displacement(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg) {
   const sbri_foot *foot = &state->feet[leg];
-  sbf_vec3 arm = sbri_home_arm(rig, state, input, leg), home = sbri_add(state->position, arm);
-  sbf_vec3 away = sbri_sub(home, foot->ground), velocity = sbri_home_velocity(rig, state, leg, arm);
+  const sbri_home *home = &stride->homes[leg];
+  sbf_vec3 away = sbri_sub(sbri_add(state->position, home->arm), foot->ground);
   away.y = 0;
   float trigger = rig->gait->step_trigger * input->scale, twist = fabsf(foot->heading) / TWISTED;
   if (state->standing_s > 0) return sbri_length(away) / trigger + 0.15f * twist;
-  float speed = sbri_length(velocity);
-  sbf_vec3 way = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
+  sbf_vec3 way = sbri_normalize(home->velocity, sbri_vec3(0, 0, 0));
   float behind = sbri_dot(away, way), beside = sbri_length(sbri_add_scaled(away, way, -behind));
-  float half = stride->speed > 0 ? stride->half_m * speed / stride->speed : 0;
+  float half = stride->speed > 0 ? stride->half_m * home->speed / stride->speed : 0;
   float least = 0.4f * stride->half_m;
   if (half < least) half = least;
-  float late = half - sbri_ahead(rig, state, input, leg, way, half); /* it comes down so much short */
+  float late = half - sbri_ahead(&home->roam, way, half); /* it comes down so much short */
   float off = (behind - late) / half, wide = 0.7f * beside / stride->half_m;
   if (behind > 0 && off < DUE) {
-    float strain = sbri_strain(rig, state, input, leg) / STRAINED;
+    float strain = sbri_strain(state, home, leg) / STRAINED;
     if (strain > DUE) off = strain;
   }
   float missed = foot->missed / (MISSED * rig->reach * input->scale);
@@ -176,12 +175,14 @@ static uint32_t report(sbri_gait_event *events, uint32_t count, uint32_t capacit
 }
 
 /* A foot left far behind, as by a teleport, is put down anew. */
-static void catch_up(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
-  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
+static bool catch_up(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stride *stride, uint32_t leg) {
+  sbf_vec3 home = sbri_add(state->position, stride->homes[leg].arm);
   const sbri_leg *l = &rig->legs[leg];
   float lost = (rig->gait->legs.at[leg].jump_margin + l->upper_length + l->lower_length) * input->scale;
-  if (sbri_flat_distance(home, state->feet[leg].ground) > lost) sbri_foot_place(rig, state, input, leg);
+  if (sbri_flat_distance(home, state->feet[leg].ground) <= lost) return false;
+  sbri_foot_place(rig, state, input, leg);
+  return true;
 }
 
 uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
@@ -192,9 +193,12 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->was_planted = foot->planted;
-    catch_up(rig, state, input, i);
-    if (!foot->planted && sbri_swing_tick(rig, state, input, &c.stride, i))
+    bool set_down = catch_up(rig, state, input, &c.stride, i);
+    if (!foot->planted && sbri_swing_tick(rig, state, input, &c.stride, i)) {
       count = report(events, count, capacity, SBR_EVENT_FOOT_DOWN, i, foot->ground);
+      set_down = true;
+    }
+    if (set_down) c.stride.homes[i].roam = sbri_roam_of(rig, state, input, i, c.stride.homes[i].arm);
     if (foot->planted) c.off[i] = displacement(rig, state, input, &c.stride, i);
   }
   state->since_lift_m += c.stride.speed * input->tick_s;

@@ -15,7 +15,7 @@ typedef struct sbri_foot {
    * from above the sole's middle, as it is turned, and were it turned as the body is. */
   float sine, cosine;
   sbf_vec3 beside, beside_at_home;
-  float lift;      /* of the sole above `ground`, m */
+  float lift;                                /* of the sole above `ground`, m */
   sbf_vec3 from, from_normal, to, to_normal; /* of the step under way */
   sbf_vec3 planned;                          /* `to` when it was last planned */
   float phase;                               /* 0..1 of it */
@@ -128,6 +128,20 @@ float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b);
 /* Share of the hips' height that a body keeps in its widest strides. */
 #define SBRI_LOWERED 0.9f
 
+/* A circle over the ground that a foot may be in: where its home is from the middle, level, and its radius.
+ */
+typedef struct sbri_roam {
+  sbf_vec3 off;
+  float radius;
+} sbri_roam;
+
+/* A foot's home: from the body's place, level; how fast that goes over the ground; and what is about it. */
+typedef struct sbri_home {
+  sbf_vec3 arm, velocity;
+  float speed;
+  sbri_roam roam;
+} sbri_home;
+
 /* What follows from the speed, for all feet of a tick. */
 typedef struct sbri_stride {
   float speed;       /* of the fastest home over the ground, m/s */
@@ -136,12 +150,8 @@ typedef struct sbri_stride {
   float spacing_m;   /* between two lift-offs */
   float available_s; /* for a step, when feet of a group go together as wide as they can */
   bool together;     /* feet of a group go together */
+  sbri_home homes[SBRI_MOST_LEGS];
 } sbri_stride;
-
-/* How far a foot goes from its home, m. */
-typedef struct sbri_span {
-  float ahead, behind;
-} sbri_span;
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 
 /* A foot's home relative to the body's place, level. */
@@ -156,24 +166,24 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
     uint32_t leg, const sbr_transform *root);
 /* Velocity of the body, world axes. */
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state);
-/* Where a foot's ankle is when the middle of its sole is at a place, m; and the same, turned as the body is. */
-static inline sbf_vec3 sbri_ankle_over(const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
+/* Where a foot's ankle is when the middle of its sole is at a place, m; and the same, turned as the body is.
+ */
+static inline sbf_vec3 sbri_ankle_over(
+    const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
   return sbri_add(sbri_add_scaled(sole, foot->normal, leg->ankle.y * scale), foot->beside);
 }
 static inline sbf_vec3 sbri_ankle_at_home(
     const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 sole, float scale) {
   return sbri_add(sbri_add_scaled(sole, foot->normal, leg->ankle.y * scale), foot->beside_at_home);
 }
+/* The circle that a foot may roam in as high as it is. */
+sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 arm);
 /* How far ahead of its home a foot comes down, which moves along `way` (of unit length); `half` is half its
  * stride. */
-float sbri_ahead(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 way, float half);
-/* How far a foot may be from its home in a direction (of unit length, world axes), m. */
-float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg,
-    sbf_vec3 way);
+float sbri_ahead(const sbri_roam *roam, sbf_vec3 way, float half);
 /* How far a planted foot is from its home, in shares of how far it may be. */
-float sbri_strain(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
+float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t leg);
 /* How far a leg's hip may go along a level way (of unit length) before its foot, where it stands, is at the
  * end of its reach. */
 float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,

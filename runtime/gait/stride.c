@@ -107,35 +107,28 @@ static float to_edge(sbf_vec3 off, float radius, sbf_vec3 way) {
   return (square > 0 ? sqrtf(square) : 0) - along;
 }
 
-/* The circle that a foot may roam in, its home being `off` from the middle. */
-static float roam_circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 *off) {
+sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 arm) {
   const sbri_leg *l = &rig->legs[leg];
-  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
-  float radius = circle(rig, state, input, leg, home, true, off), away = sbri_length(*off);
-  float length = (l->upper_length + l->lower_length) * input->scale;
+  sbri_roam roam;
+  float radius = circle(rig, state, input, leg, sbri_add(state->position, arm), true, &roam.off);
+  float length = (l->upper_length + l->lower_length) * input->scale, away = sbri_length(roam.off);
   if (l->lower < 0) radius = away + PEG * length;
-  return radius < away + LEAST * length ? away + LEAST * length : radius;
+  roam.radius = radius < away + LEAST * length ? away + LEAST * length : radius;
+  return roam;
 }
 
-float sbri_roam(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg,
-    sbf_vec3 way) {
-  sbf_vec3 off;
-  float radius = roam_circle(rig, state, input, leg, &off);
-  return to_edge(off, radius, way);
+/* How far ahead of its home, and behind, a foot goes at most, m. */
+typedef struct span {
+  float ahead, behind;
+} span;
+static span span_of(const sbri_roam *roam, sbf_vec3 way) {
+  return (span){USED * to_edge(roam->off, roam->radius, way),
+      USED * to_edge(roam->off, roam->radius, sbri_scale(way, -1))};
 }
 
-/* How far ahead of its home, and behind, a foot goes at most. */
-static sbri_span span_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 way) {
-  sbf_vec3 off;
-  float radius = roam_circle(rig, state, input, leg, &off);
-  return (sbri_span){USED * to_edge(off, radius, way), USED * to_edge(off, radius, sbri_scale(way, -1))};
-}
-
-float sbri_ahead(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 way, float half) {
-  sbri_span most = span_of(rig, state, input, leg, way);
+float sbri_ahead(const sbri_roam *roam, sbf_vec3 way, float half) {
+  span most = span_of(roam, way);
   float middle = 0.5f * (most.ahead - most.behind), widest = 0.5f * (most.ahead + most.behind);
   if (half >= widest) return most.ahead;
   float ahead = half + middle * sbri_smooth(2 * half / widest - 1); /* wide ones are about its hip */
@@ -147,10 +140,14 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   sbri_stride s = {0};
   float most = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    sbf_vec3 v = sbri_home_velocity(rig, state, i, sbri_home_arm(rig, state, input, i));
-    float speed = sbri_length(v);
-    s.speed = speed > s.speed ? speed : s.speed;
-    sbri_span own = span_of(rig, state, input, i, sbri_normalize(v, sbri_headed(state, sbri_vec3(0, 0, 1))));
+    sbri_home *home = &s.homes[i];
+    home->arm = sbri_home_arm(rig, state, input, i);
+    home->velocity = sbri_home_velocity(rig, state, i, home->arm);
+    home->speed = sbri_length(home->velocity);
+    home->roam = sbri_roam_of(rig, state, input, i, home->arm);
+    s.speed = home->speed > s.speed ? home->speed : s.speed;
+    sbf_vec3 way = sbri_normalize(home->velocity, sbri_headed(state, sbri_vec3(0, 0, 1)));
+    span own = span_of(&home->roam, way);
     float half = 0.5f * (own.ahead + own.behind);
     most = i == 0 || half < most ? half : most;
   }
@@ -178,29 +175,33 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   return s;
 }
 
-float sbri_strain(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
-  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
-  sbf_vec3 away = sbri_sub(state->feet[leg].ground, home);
+float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t leg) {
+  sbf_vec3 away = sbri_sub(state->feet[leg].ground, sbri_add(state->position, home->arm));
   away.y = 0;
   float distance = sbri_length(away);
   if (distance <= 0) return 0;
-  float roam = sbri_roam(rig, state, input, leg, sbri_scale(away, 1 / distance));
+  float roam = to_edge(home->roam.off, home->roam.radius, sbri_scale(away, 1 / distance));
   return distance / (roam > 1e-6f ? roam : 1e-6f);
+}
+
+/* The circle that a leg's foot may be in where it stands. */
+static sbri_roam stance_circle(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+  const sbri_leg *l = &rig->legs[leg];
+  sbri_roam stance;
+  sbf_vec3 off, home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
+  float radius = circle(rig, state, input, leg, state->feet[leg].ground, false, &stance.off);
+  (void)circle(rig, state, input, leg, home, true, &off);
+  float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(off);
+  if (l->lower < 0) radius = rest + PEG * length;
+  stance.radius = radius < rest + LEAST * length ? rest + LEAST * length : radius;
+  return stance;
 }
 
 float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 way) {
-  const sbri_leg *l = &rig->legs[leg];
-  const sbri_foot *foot = &state->feet[leg];
-  sbf_vec3 off, back = sbri_scale(way, -1), unused;
-  float radius = circle(rig, state, input, leg, foot->ground, false, &off);
-  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
-  (void)circle(rig, state, input, leg, home, true, &unused);
-  float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(unused);
-  if (l->lower < 0) radius = rest + PEG * length;
-  if (radius < rest + LEAST * length) radius = rest + LEAST * length;
-  return to_edge(off, radius, back);
+  sbri_roam stance = stance_circle(rig, state, input, leg);
+  return to_edge(stance.off, stance.radius, sbri_scale(way, -1));
 }
 
 float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
@@ -212,9 +213,11 @@ float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri
     float speed = sbri_length(v);
     if (speed <= 0) continue;
     sbf_vec3 way = sbri_scale(v, 1 / speed);
-    float left = sbri_way_left(rig, state, input, i, way);
+    sbri_roam stance = stance_circle(rig, state, input, i);
+    float left = to_edge(stance.off, stance.radius, sbri_scale(way, -1));
     float turned = left > 0 ? sbri_clamp(state->turn * left / speed, -2, 2) : 0; /* on its way there */
-    if (turned != 0) left = sbri_way_left(rig, state, input, i, sbri_turned(way, 0.5f * turned));
+    if (turned != 0)
+      left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(way, 0.5f * turned), -1));
     float missed = state->feet[i].missed / (rig->reach * input->scale);
     if (missed > MISSED && 1 - (missed - MISSED) / MISSES < least) least = 1 - (missed - MISSED) / MISSES;
     float most = left > 0 ? sqrtf(2 * brakes * left) : 0;

@@ -14,12 +14,12 @@ float sbri_smooth(float t) {
 }
 
 /* Ahead of where its home will be when it comes down. */
-static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    const sbri_stride *stride, uint32_t leg, float left_s) {
+static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stride *stride,
+    uint32_t leg, float left_s) {
   left_s *= state->pace;
-  sbf_vec3 now = sbri_home_arm(rig, state, input, leg), drift = sbri_body_velocity(state);
+  const sbri_home *at = &stride->homes[leg];
   float turned = state->turn * left_s;
-  sbf_vec3 home, velocity = sbri_home_velocity(rig, state, leg, now);
+  sbf_vec3 home, now = at->arm, velocity = at->velocity, drift = sbri_body_velocity(state);
   if (rig->legs[leg].carrier >= 0) {
     home = sbri_add_scaled(sbri_add(state->position, now), velocity, left_s);
   } else {
@@ -28,17 +28,16 @@ static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, 
     velocity = sbri_turned(velocity, turned);
   }
   if (state->standing_s > 0 || stride->speed <= 0) return home;
-  float speed = sbri_length(velocity);
   sbf_vec3 way = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
-  return sbri_add_scaled(
-      home, way, sbri_ahead(rig, state, input, leg, way, stride->half_m * speed / stride->speed));
+  float half = stride->half_m * sbri_length(velocity) / stride->speed;
+  return sbri_add_scaled(home, way, sbri_ahead(&at->roam, way, half));
 }
 
 static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg, float share) {
   sbri_foot *foot = &state->feet[leg];
   float left = (1 - sbri_clamp(foot->phase, 0, 1)) * foot->duration_s;
-  sbf_vec3 place, normal, wanted = wanted_place(rig, state, input, stride, leg, left);
+  sbf_vec3 place, normal, wanted = wanted_place(rig, state, stride, leg, left);
   if (!sbri_footing(rig, state, input, leg, wanted, &place, &normal))
     place = foot->from, normal = foot->from_normal;
   if (sbri_flat_distance(place, wanted) > 0) { /* not where it was going: nothing in between will do */
