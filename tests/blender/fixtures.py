@@ -80,6 +80,7 @@ def bind(mesh, rig, weights):
 
 def hang(mesh, rig, bone):
     """Parents to a bone and keeps the place."""
+    bpy.context.view_layer.update()
     world = mesh.matrix_world.copy()
     mesh.parent, mesh.parent_type, mesh.parent_bone = rig, "BONE", bone
     bpy.context.view_layer.update()

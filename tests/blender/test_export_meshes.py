@@ -176,7 +176,7 @@ class Refusals(fixtures.SceneTest):
 
     def test_a_folder_that_is_not_there(self):
         fixtures.box("b")
-        self.assertIn("No such file or directory", self.refuse("missing/out.sbf", build=False))
+        self.assertIn("does not exist", self.refuse("missing/out.sbf", build=False))
 
 
 def turned(vector, xyzw):

@@ -1,10 +1,12 @@
 """From source parts to a file: by the library, which builds, checks and packs; without it as XML in plain Python."""
 
 import os
+import stat
 import tempfile
 
 from . import sbfmt
 from .sbfmt.document import save_whole, to_xml
+from .side_files import files_beside
 
 
 def has_library():
@@ -15,16 +17,40 @@ def has_library():
         return False
 
 
-def finish(document, path, build, findings, locator=None):
-    """Writes the file whole or not at all; says whether it is there. What the library finds joins the findings."""
+def refusal(path):
+    """Why nothing can be written there, or None: said before any work is done."""
+    folder = os.path.dirname(os.path.abspath(path))
+    if not os.path.isdir(folder):
+        return f"the folder {folder} does not exist: make it, or choose another"
+    if os.path.isdir(path):
+        return f"{path} is a folder: choose a file's name in it"
+    if os.path.exists(path) and not os.stat(path).st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH):
+        return f"{path} is write-protected: choose another name, or take its protection away"
+    if not os.access(folder, os.W_OK | os.X_OK):
+        return f"the folder {folder} may not be written to: choose another, or ask for its permission"
+    return None
+
+
+def finish(document, path, build, findings, locator=None, files=None):
+    """Writes the file whole or not at all, and with it `files`, which it names; says whether it is there. What the library finds
+    joins the findings."""
+    refused = refusal(path)
+    if refused:
+        findings.error(refused)
+        return False
     try:
-        if has_library():
-            return with_library(document, path, build, findings, locator)
-        return without_library(document, path, findings)
+        with files_beside(os.path.dirname(os.path.abspath(path)), files or {}) as beside:
+            if has_library():
+                written = with_library(document, path, build, findings, locator)
+            else:
+                written = without_library(document, path, findings)
+            if written:
+                beside.keep()
+        return written
     except sbfmt.Error as error:
         findings.error(f"{error}")
     except OSError as error:
-        findings.error(f"{path} can't be written: {error.strerror}; choose another folder, or free some space")
+        findings.error(f"{error.filename or path} can't be written: {error.strerror}; choose another folder, or free some space")
     return False
 
 
@@ -40,14 +66,16 @@ def to_asset(document):
 
 
 def with_library(document, path, build, findings, locator):
+    """A file with errors is not written."""
     with to_asset(document) as source:
         asset = source.build(report=lambda found: add(found, findings, locator)) if build else source
         try:
             check(asset, os.path.dirname(path), findings, locator)
-            asset.save(path)
+            if not findings.errors:
+                asset.save(path)
         finally:
             asset.close()
-    return True
+    return not findings.errors
 
 
 def check(asset, folder, findings, locator):
@@ -61,8 +89,9 @@ def without_library(document, path, findings):
                        "then run: sbfmt build FILE.sbf -o FILE.sbfz")
         return False
     save_whole(path, to_xml(document))
+    name = os.path.basename(path)
     findings.warning("the compiled library is not found, so this file holds source parts alone; finish it with: "
-                     f"sbfmt build {os.path.basename(path)} -o {os.path.basename(path)}")
+                     f"sbfmt build {name} -o {name}")
     return True
 
 

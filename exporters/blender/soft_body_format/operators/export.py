@@ -8,7 +8,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from .. import memory
 from ..findings import Findings
-from ..finishing import finish
+from ..finishing import finish, refusal
 from ..locating import Locator
 from ..to_document import Options, SceneWriter
 
@@ -55,14 +55,16 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
         if self.collection and self.collection not in bpy.data.collections:
             self.report({"ERROR"}, f"there is no collection {self.collection}; choose one of the scene's, or none")
             return {"CANCELLED"}
-        options = Options(self.selected_only, self.collection, self.apply_modifiers, self.textures,
-                          os.path.dirname(os.path.abspath(self.filepath)))
-        writer = SceneWriter(context, options, findings)
+        refused = refusal(self.filepath)
+        if refused:
+            self.report({"ERROR"}, refused)
+            return {"CANCELLED"}
+        writer = SceneWriter(context, Options(self.selected_only, self.collection, self.apply_modifiers, self.textures), findings)
         now, known = writer.write(), memory.recall(writer.objects)
         asset = memory.merge_documents(*known, now) if known else now
         changed = not known or asset != known[0]
         written = not findings.errors and finish(asset, self.filepath, self.build and changed, findings,
-                                                   Locator(asset, writer.identifiers))
+                                                 Locator(asset, writer.identifiers), writer.materials.files)
         findings.show(self)
         if not written:
             return {"CANCELLED"}

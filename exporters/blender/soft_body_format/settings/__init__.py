@@ -1,13 +1,15 @@
-"""What an artist sets beyond Blender's own: properties of objects, bones and scenes. They save with the .blend, undo and copy."""
+"""What an artist sets beyond Blender's own: properties of objects, bones and scenes, and what an import remembers with materials
+and images. They save with the .blend, undo and copy."""
 
 import bpy
 from bpy.props import PointerProperty
 
-from . import attributes, bone_settings, object_settings, scene_settings
+from . import appearance_settings, attributes, bone_settings, object_settings, scene_settings
 
-CLASSES = attributes.CLASSES + object_settings.CLASSES + bone_settings.CLASSES + scene_settings.CLASSES
+CLASSES = attributes.CLASSES + object_settings.CLASSES + bone_settings.CLASSES + scene_settings.CLASSES + appearance_settings.CLASSES
 OWNERS = ((bpy.types.Object, object_settings.SBFMT_PG_object), (bpy.types.Bone, bone_settings.SBFMT_PG_bone),
-          (bpy.types.Scene, scene_settings.SBFMT_PG_scene))
+          (bpy.types.Scene, scene_settings.SBFMT_PG_scene), (bpy.types.Material, appearance_settings.SBFMT_PG_material),
+          (bpy.types.Image, appearance_settings.SBFMT_PG_image))
 
 
 def register():

@@ -7,7 +7,7 @@ from ..sbfmt.document import Record
 
 class GaitWriter:
     def __init__(self, writer, gait):
-        self.writer, self.gait, self.armature = writer, gait, gait.armature
+        self.writer, self.gait, self.armature = writer, gait, writer.exported(gait.armature)
         self.bones = gait.armature.data.bones
 
     def id(self, kind, settings, name):
@@ -39,7 +39,7 @@ class GaitWriter:
 
     def write(self):
         writer, gait = self.writer, self.gait
-        if writer.skeleton.number(self.armature, self.bones[0].name) is None:
+        if not self.bones or writer.skeleton.number(self.armature, self.bones[0].name) is None:
             self.fault("the armature of the gait is not exported: export it too")
             return
         body = self.bone(gait.body or self.bones[0].name, "the body")

@@ -1,12 +1,17 @@
 """Materials: the principled shader's base colour, metallic, roughness, emission, opacity and images."""
 
 import os
+import re
 import tempfile
 
 import bpy
+import numpy
+
+from .shader_nodes import source_of
 
 MEDIA_TYPES = {"PNG": "image/png", "JPEG": "image/jpeg", "WEBP": "image/webp"}
 EXTENSIONS = {"image/png": ".png", "image/jpeg": ".jpg", "image/webp": ".webp"}
+IMAGE_ENDINGS = (".png", ".jpg", ".jpeg", ".webp", ".tga", ".tif", ".tiff", ".bmp", ".exr", ".hdr")
 
 
 def principled(material):
@@ -19,30 +24,20 @@ def principled(material):
     return node if node is not None and node.type == "BSDF_PRINCIPLED" else None
 
 
-def image_of(socket):
-    """The image that a socket gets, through a normal map or a separated channel, or None."""
-    while socket is not None and socket.links:
-        node = socket.links[0].from_node
-        if node.type == "TEX_IMAGE":
-            return node.image
-        names = [name for name in ("Color", "Image", "Vector") if name in node.inputs]
-        socket = node.inputs[names[0]] if names else None
-    return None
-
-
 class Materials:
-    """Writes each material and image once, when the first mesh asks for it."""
+    """Writes each material and image once, when the first mesh asks for it. `files` are the images to be copied, by their paths
+    from the folder of the bundle: they are written with it, so that an export that fails leaves none."""
 
-    def __init__(self, asset, identifiers, textures, out_folder, findings):
-        self.asset, self.identifiers, self.findings = asset, identifiers, findings
-        self.textures, self.out_folder = textures, out_folder
+    def __init__(self, asset, identifiers, textures, findings):
+        self.asset, self.identifiers, self.textures, self.findings = asset, identifiers, textures, findings
+        self.files, self.missing = {}, set()
 
     def id(self, material):
-        known = self.identifiers.known("material", material.name)
+        known = self.identifiers.known("material", key_of(material))
         if known:
             return known
-        found = self.asset.add("materials", id=self.identifiers.of("material", material.name, material.name),
-                               name=material.name)
+        found = self.asset.add("materials", name=material.name, id=self.identifiers.of(
+            "material", key_of(material), material.name, material.soft_body_format.identity))
         self.fill(found, material)
         return found.id
 
@@ -54,53 +49,62 @@ class Materials:
             found.metallic, found.roughness = material.metallic, material.roughness
             return
         inputs = shader.inputs
-        red, green, blue = inputs["Base Color"].default_value[:3]
-        opacity = inputs["Alpha"].default_value
-        base = image_of(inputs["Base Color"])
-        found.base_color = (1, 1, 1, opacity) if base else tuple(clamp(one) for one in (red, green, blue, opacity))
-        found.metallic, found.roughness = clamp(inputs["Metallic"].default_value), clamp(inputs["Roughness"].default_value)
+        base, rough, metal = (source_of(inputs[name]) for name in ("Base Color", "Roughness", "Metallic"))
+        self.fill_color(found, material, inputs, base)
+        found.metallic, found.roughness = (clamp(factor_of(inputs[name], source)) for name, source in (
+            ("Metallic", metal), ("Roughness", rough)))
         emission = inputs.get("Emission Color") or inputs.get("Emission")
         strength = inputs["Emission Strength"].default_value if "Emission Strength" in inputs else 1.0
         found.emissive = tuple(max(0.0, one) * strength for one in emission.default_value[:3])
-        self.fill_opacity(found, material, opacity, inputs["Alpha"])
-        for name, image in (("base_color_texture", base), ("metallic_roughness_texture", image_of(inputs["Roughness"])),
-                            ("normal_texture", image_of(inputs["Normal"]))):
+        for name, image in (("base_color_texture", base.image), ("metallic_roughness_texture", rough.image or metal.image),
+                            ("normal_texture", source_of(inputs["Normal"]).image)):
             if image is not None:
                 setattr(found, name, self.texture(image, material))
 
     @staticmethod
-    def fill_opacity(found, material, opacity, socket):
-        method = getattr(material, "blend_method", "OPAQUE")
-        if method == "CLIP":
-            found.alpha_mode, found.alpha_cutoff = "mask", material.alpha_threshold
-        elif opacity < 1.0 or socket.links:
+    def fill_color(found, material, inputs, base):
+        """Colour and opacity. An image takes the constant's place, so that alone a factor on it counts."""
+        alpha = source_of(inputs["Alpha"])
+        opacity = factor_of(inputs["Alpha"], alpha)
+        if base.image is None:
+            color = inputs["Base Color"].default_value[:3]
+        else:
+            color = base.factor if isinstance(base.factor, tuple) else (base.factor, ) * 3
+        found.base_color = tuple(clamp(one) for one in (*color, opacity))
+        clips = getattr(material, "blend_method", "") == "CLIP"
+        if alpha.cutoff is not None or clips:
+            found.alpha_mode, found.alpha_cutoff = "mask", material.alpha_threshold if alpha.cutoff is None else alpha.cutoff
+        elif opacity < 1.0 or inputs["Alpha"].links:
             found.alpha_mode = "blend"
 
     def texture(self, image, material):
         """The id of an image, embedded or copied beside the file; None where it can't be read."""
-        known = self.identifiers.known("texture", image.name)
-        if known:
+        known = self.identifiers.known("texture", key_of(image))
+        if known or key_of(image) in self.missing:
             return known
         media, data = self.bytes_of(image)
         if data is None:
+            self.missing.add(key_of(image))
             self.findings.error(f"the image {image.name} of material {material.name} is missing ({image.filepath}): find it with "
                                 "File > External Data > Find Missing Files, or take it out of the material")
             return None
-        identity = self.identifiers.of("texture", image.name, image.name)
+        settings = image.soft_body_format
+        identity = self.identifiers.of("texture", key_of(image), image.name, settings.identity)
         texture = self.asset.add("textures", id=identity, name=image.name, media_type=media)
         if self.textures == "EMBED":
             texture.bytes = data
         else:
-            texture.path = self.copy(identity, media, data)
+            texture.path = self.free_path(settings.path or f"textures/{plain_name(image.name)}{EXTENSIONS[media]}", data)
+            self.files[texture.path] = data
         return identity
 
-    def copy(self, identity, media, data):
-        name = "textures/" + identity.split(".", 1)[1].rsplit(".", 1)[0] + EXTENSIONS[media]
-        path = os.path.join(self.out_folder, *name.split("/"))
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(path, "wb") as file:
-            file.write(data)
-        return name
+    def free_path(self, path, data):
+        """The path, with a number where another image has it."""
+        stem, extension = os.path.splitext(path)
+        number = 2
+        while self.files.get(path, data) != data:
+            path, number = f"{stem}.{number}{extension}", number + 1
+        return path
 
     @staticmethod
     def bytes_of(image):
@@ -119,14 +123,41 @@ class Materials:
 
 
 def png_of(image):
-
-    if not image.has_data:
+    """A PNG of the pixels; None where Blender has none. A copy is saved: saving the image itself would change its format."""
+    width, height = image.size
+    if not width or not height:
         return None
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "image.png")
-        image.save(filepath=path) if image.file_format == "PNG" else image.save_render(path)
-        with open(path, "rb") as file:
-            return file.read()
+    pixels = numpy.empty(width * height * 4, dtype=numpy.float32)
+    image.pixels.foreach_get(pixels)
+    copy = bpy.data.images.new(image.name, width, height, alpha=True)
+    try:
+        copy.colorspace_settings.name = image.colorspace_settings.name
+        copy.pixels.foreach_set(pixels)
+        with tempfile.TemporaryDirectory() as folder:
+            copy.filepath_raw, copy.file_format = os.path.join(folder, "image.png"), "PNG"
+            copy.save()
+            with open(copy.filepath_raw, "rb") as file:
+                return file.read()
+    finally:
+        bpy.data.images.remove(copy)
+
+
+def key_of(data):
+    """Names stand twice where one is of a linked library."""
+    return (data.name, data.library.filepath if data.library else "")
+
+
+def plain_name(name):
+    """A file's name from an image's, without an image's extension."""
+    stem, extension = os.path.splitext(name)
+    stem = stem if extension.lower() in IMAGE_ENDINGS else name
+    return re.sub(r"[\\/:*?\"<>|\s]+", "_", stem).strip(".") or "image"
+
+
+def factor_of(socket, source):
+    """The number that stands in a socket, or the factor on what feeds it."""
+    return source.factor if socket.links and not isinstance(source.factor, tuple) else \
+        1.0 if socket.links else socket.default_value
 
 
 def clamp(value):

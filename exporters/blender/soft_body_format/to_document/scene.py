@@ -9,7 +9,8 @@ from ..sbfmt.document import Record
 from ..space import Space
 from .armatures import Skeleton, write_bones
 from ..settings.attributes import fill_attributes
-from . import cloth, soft_bodies
+from . import cloth, soft_bodies, soundness
+from .chosen import chosen_objects, with_stand_ins
 from .gaits import GaitWriter
 from .identifiers import Identifiers
 from .ik_constraints import IkConstraints
@@ -30,8 +31,7 @@ class Options:
     selected_only: bool = False
     collection: str = ""          # name; empty: all
     apply_modifiers: bool = True
-    textures: str = "COPY"        # or EMBED
-    out_folder: str = ""          # where copied textures go: beside the file
+    textures: str = "COPY"        # into a folder beside the file, or EMBED
 
 
 class SceneWriter:
@@ -42,34 +42,37 @@ class SceneWriter:
         self.scene = context.scene
         self.space = Space.of_scene(context.scene)
         self.asset, self.identifiers, self.skeleton = Record("asset"), Identifiers(), Skeleton()
-        self.materials = Materials(self.asset, self.identifiers, options.textures, options.out_folder, findings)
-        self.objects = self.chosen()
-        # Asked before modifiers are turned off for the rest pose.
-        self.roles = {one.name: role_of(one) for one in self.of_type("MESH")}
-        self.armatures = {one.name: armature_of(one) for one in self.of_type("MESH")}
-        self.soft = {one.name: soft_bodies.settings_of(one) for one in self.of_type("MESH")}
-        self.cloth = {one.name: cloth.settings_of(one) for one in self.of_type("MESH")}
-        self.depsgraph = None
+        self.materials = Materials(self.asset, self.identifiers, options.textures, findings)
+        self.chosen = self.objects = chosen_objects(context, options)
+        self.stand_ins = self.depsgraph = None
+        self.sort()
 
-    def chosen(self):
-        """Objects of the view layer that are to go out, by name: the order of Blender's lists changes between sessions."""
-        if self.options.collection:
-            found = bpy.data.collections[self.options.collection].all_objects
-        else:
-            found = self.context.view_layer.objects
-        kept = [one for one in found if one.name in self.context.view_layer.objects and not one.hide_render and
-                (one.select_get() or not self.options.selected_only)]
-        return sorted(kept, key=lambda one: one.name)
+    def sort(self):
+        """What each mesh is for: asked before modifiers are turned off for the rest pose."""
+        meshes = self.of_type("MESH")
+        self.roles = {one.name: role_of(one) for one in meshes}
+        self.armatures = {one.name: armature_of(one) for one in meshes}
+        self.soft = {one.name: soft_bodies.settings_of(one) for one in meshes}
+        self.cloth = {one.name: cloth.settings_of(one) for one in meshes}
 
     def of_type(self, kind):
         return [one for one in self.objects if one.type == kind]
 
     def write(self):
-        info = self.asset.info
-        info.title = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or self.scene.name
-        info.tool = f"Soft body format for Blender {bpy.app.version_string}"
-        if bpy.data.filepath:
-            info.add("sources", path=os.path.basename(bpy.data.filepath))
+        """The whole document. What is wrong joins the findings; where they hold an error it is not to be used."""
+        with with_stand_ins(self.context, self.chosen) as (objects, stand_ins):
+            self.objects, self.stand_ins = objects, stand_ins
+            self.sort()
+            self.write_objects()
+            self.objects = self.chosen
+        if stand_ins is not None:
+            for found in self.findings:  # by the name of what stays in the scene
+                found.object_name = stand_ins.owners.get(found.object_name, found.object_name)
+        return self.asset
+
+    def write_objects(self):
+        self.write_info()
+        self.objects = soundness.look(self)
         for source in self.of_type("MESH"):
             if source.mode == "EDIT":
                 source.update_from_editmode()
@@ -89,9 +92,23 @@ class SceneWriter:
                 IkConstraints(self, armature).write()
             RigidObjects(self).write()
             write_surroundings(self)
-        if not self.asset.render_meshes:
+            for armature in self.of_type("ARMATURE"):
+                soundness.bones_without_section(self, armature)
+        if not self.asset.render_meshes and not self.findings.errors:
             self.findings.error("nothing to export: no visible mesh is chosen; select one, or turn off Selected Objects Only")
-        return self.asset
+
+    def write_info(self):
+        info = self.asset.info
+        info.title = os.path.splitext(os.path.basename(bpy.data.filepath))[0] or self.scene.name
+        info.tool = f"Soft body format for Blender {bpy.app.version_string}"
+        if bpy.data.filepath:
+            info.add("sources", path=os.path.basename(bpy.data.filepath))
+
+    def exported(self, source):
+        """The object that goes out for one that a panel names: itself, or the first copy of it."""
+        if source is None or source in self.objects or self.stand_ins is None:
+            return source
+        return self.stand_ins.of.get(source.name_full, source)
 
     def write_mesh(self, source, role):
         with mesh_of(source, self.depsgraph, self.options.apply_modifiers) as mesh:
@@ -100,6 +117,8 @@ class SceneWriter:
                                       object_name=source.name)
                 return
             geometry = Geometry(source, mesh, self.space)
+            if not soundness.finite(self.findings, source, geometry.positions):
+                return
             if not source.soft_body_format.simulation_only or role == RENDER:
                 self.write_render_mesh(source, mesh, geometry, role)
             if role in (SECTION, SOFT):

@@ -1,0 +1,16 @@
+"""What materials and images remember of the file they were imported from. No panel shows it."""
+
+import bpy
+from bpy.props import StringProperty
+
+
+class SBFMT_PG_material(bpy.types.PropertyGroup):
+    identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
+
+
+class SBFMT_PG_image(bpy.types.PropertyGroup):
+    identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
+    path: StringProperty(options={"HIDDEN"}, description="Path from that file's folder")
+
+
+CLASSES = (SBFMT_PG_material, SBFMT_PG_image)

@@ -1,0 +1,83 @@
+"""What is wrong with the objects themselves, before anything of them is written."""
+
+import os
+
+import bpy
+import numpy
+
+from .roles import IGNORE
+
+LEAST_VOLUME = 1e-18  # of a cube of side one, in metres
+
+
+def look(writer):
+    """Says what is wrong; gives the objects that can be written."""
+    writer.context.view_layer.update()
+    writer_sees_libraries(writer)
+    return [one for one in writer.objects if sound(writer, one)]
+
+
+def sound(writer, source):
+    findings, world = writer.findings, source.matrix_world
+    if source.type not in ("MESH", "ARMATURE") or writer.roles.get(source.name) == IGNORE:
+        return True
+    volume = world.to_3x3().determinant()
+    if abs(volume) < LEAST_VOLUME or volume != volume:
+        findings.error("its scale is zero along an axis, which leaves nothing of it: set it to 1 in Object > Transform",
+                       object_name=source.name)
+        return False
+    if source.type == "ARMATURE":
+        return sound_armature(findings, source, volume)
+    if volume < 0:
+        findings.warning("its scale is negative, so it is mirrored: its polygons are turned round to face outwards. Apply the scale "
+                         "(Ctrl+A > Scale) and recalculate the normals (Shift+N) to see what is written", object_name=source.name)
+    return True
+
+
+def sound_armature(findings, source, volume):
+    if volume < 0:
+        findings.error("its scale is negative, and bones can't be mirrored: apply the scale (Ctrl+A > Scale)",
+                       object_name=source.name)
+        return False
+    scale = source.matrix_world.to_scale()
+    if max(scale) > 1.001 * min(scale):
+        findings.warning("its scale differs by axis, which bones can't show: their lengths take the middle one. Apply the scale "
+                         "(Ctrl+A > Scale)", object_name=source.name)
+    return True
+
+
+def writer_sees_libraries(writer):
+    """Libraries that are gone: what was linked from them is empty."""
+    gone = {one for one in bpy.data.libraries if not one.packed_file and
+            not os.path.isfile(bpy.path.abspath(one.filepath, library=one.parent))}
+    for source in writer.objects:
+        found = {one.library for one in (source, source.data, source.instance_collection) if one is not None} & gone
+        for library in found:
+            writer.findings.error(f"is linked from {library.filepath}, which is not there: find it with File > External Data > Find "
+                                  "Missing Files, or remove the object", object_name=source.name)
+
+
+def finite(findings, source, positions):
+    """Whether all vertices have a place."""
+    lost = numpy.flatnonzero(~numpy.isfinite(positions).all(axis=1))
+    if len(lost):
+        findings.error(f"{len(lost)} vertices have no finite place: move or remove them", object_name=source.name,
+                       vertices=lost.tolist())
+    return not len(lost)
+
+
+def bones_without_section(writer, armature):
+    """Bones that should deform and hold neither a part nor a weight, where others of their armature do."""
+    ids = {bone.name: writer.skeleton.id(armature, bone.name) for bone in armature.data.bones}
+    held = {body.bone for body in writer.asset.soft_bodies} | {body.bone for body in writer.asset.rigid_bodies if body.hull}
+    held |= {mesh.bone for mesh in writer.asset.render_meshes}
+    for mesh in writer.asset.render_meshes:
+        if mesh.skin is not None:
+            held |= {writer.asset.bones[number].id for number in set(mesh.skin.bones)}
+    if not held & set(ids.values()):
+        return
+    empty = [bone.name for bone in armature.data.bones if bone.use_deform and bone.children and ids[bone.name] not in held]
+    if empty:
+        writer.findings.warning(f"no section hangs on {', '.join(empty)}, and no vertex has a weight of theirs: parent parts to them "
+                                "(Ctrl+P > Bone), paint weights, or turn off Deform in the bones' properties",
+                                object_name=armature.name, bone_name=empty[0])
