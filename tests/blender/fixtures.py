@@ -53,6 +53,25 @@ def finish(name, made):
     return link(bpy.data.objects.new(name, mesh))
 
 
+def shaded(name):
+    """A material and its principled shader."""
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    return material, next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+
+
+def textured(material, shader, path, socket="Base Color", color=(1, 1, 1, 1)):
+    """An image in a file, on a socket of the shader."""
+    image = bpy.data.images.new(os.path.splitext(os.path.basename(path))[0], 4, 4)
+    image.pixels[:] = color * 16
+    image.filepath_raw, image.file_format = path, "PNG"
+    image.save()
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    material.node_tree.links.new(node.outputs["Color"], shader.inputs[socket])
+    return image
+
+
 def armature(name, bones):
     """`bones`: (name, parent or None, head, tail, roll in degrees)."""
     data = bpy.data.armatures.new(name)

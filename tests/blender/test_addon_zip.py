@@ -21,6 +21,9 @@ class Zip(fixtures.SceneTest):
         self.export(build=False)
 
     def test_installs_through_the_preferences(self):
+        """Over the running one, whose library has been used: its files are written anew under it."""
+        fixtures.box("before")
+        self.export(build=False)
         addon_utils.disable("soft_body_format", default_set=True)
         if bpy.app.version >= (4, 2, 0):
             module = "bl_ext.user_default.soft_body_format"

@@ -5,6 +5,7 @@ import os
 
 import bpy
 import fixtures
+from soft_body_format.to_document.shader_nodes import Nodes
 
 
 def points(numbers):
@@ -81,19 +82,14 @@ class Meshes(fixtures.SceneTest):
 
 
 class Appearance(fixtures.SceneTest):
-    def shaded(self, name="skin"):
-        material = bpy.data.materials.new(name)
-        material.use_nodes = True
-        return material, material.node_tree.nodes["Principled BSDF"]
-
     def test_principled_values(self):
-        material, shader = self.shaded()
+        material, shader = fixtures.shaded("skin")
         shader.inputs["Base Color"].default_value = (0.2, 0.4, 0.6, 1)
         shader.inputs["Metallic"].default_value = 0.3
         shader.inputs["Roughness"].default_value = 0.7
         made = fixtures.box("b")
         made.data.materials.append(material)
-        made.data.materials.append(self.shaded("other")[0])
+        made.data.materials.append(fixtures.shaded("other")[0])
         made.data.polygons[2].material_index = 1
         asset = self.export(build=False)
         self.assertEqual([one.name for one in asset.materials], ["skin", "other"])
@@ -101,31 +97,71 @@ class Appearance(fixtures.SceneTest):
         self.assert_near((asset.materials[0].metallic, asset.materials[0].roughness), (0.3, 0.7))
         self.assertEqual(list(asset.render_meshes[0].polygon_materials), [0, 0, 1, 0, 0, 0])
 
-    def textured(self):
-        material, shader = self.shaded()
-        image = bpy.data.images.new("hide", 4, 4)
-        image.filepath_raw, image.file_format = self.path("hide.png"), "PNG"
-        image.save()
-        node = material.node_tree.nodes.new("ShaderNodeTexImage")
-        node.image = image
-        material.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
-        fixtures.box("b").data.materials.append(material)
-        return image
-
     def test_images_are_copied_or_embedded(self):
-        self.textured()
+        material, shader = fixtures.shaded("skin")
+        fixtures.textured(material, shader, self.path("hide.png"))
+        fixtures.box("b").data.materials.append(material)
         texture = self.export(build=False).textures[0]
         self.assertEqual((texture.path, texture.media_type), ("textures/hide.png", "image/png"))
-        self.assertTrue(os.path.exists(self.path("textures/hide.png")))
-        embedded = self.export(build=False, textures="EMBED").textures[0]
         with open(self.path("hide.png"), "rb") as file:
-            self.assertEqual(embedded.bytes, file.read())
+            own = file.read()
+        with open(self.path("textures/hide.png"), "rb") as file:
+            self.assertEqual(file.read(), own)
+        self.assertEqual(self.export(build=False, textures="EMBED").textures[0].bytes, own)
 
-    def test_a_missing_image_is_an_error(self):
-        image = self.textured()
-        os.unlink(self.path("hide.png"))
-        image.buffers_free()
-        self.assertIn("hide", self.refuse(build=False))
+    def test_images_of_one_name_keep_apart(self):
+        material, shader = fixtures.shaded("skin")
+        one = fixtures.textured(material, shader, self.path("hide.png"), color=(1, 0, 0, 1))
+        other = fixtures.textured(material, shader, self.path("other.png"), "Roughness", (0, 1, 0, 1))
+        one.name, other.name = "skin/hide.png", "skin hide"
+        fixtures.box("b").data.materials.append(material)
+        textures = self.export(build=False).textures
+        self.assertEqual([one.path for one in textures], ["textures/skin_hide.png", "textures/skin_hide.2.png"])
+        stored = [open(self.path(one.path), "rb").read() for one in textures]
+        self.assertNotEqual(*stored)
+
+    def test_a_painted_image_is_written_as_it_is_seen(self):
+        material, shader = fixtures.shaded("skin")
+        image = fixtures.textured(material, shader, self.path("hide.png"))
+        image.pixels[:] = (0, 0, 1, 1) * 16
+        fixtures.box("b").data.materials.append(material)
+        self.export(build=False)
+        again = bpy.data.images.load(self.path("textures/hide.png"))
+        self.assert_near(again.pixels[:4], (0, 0, 1, 1), 0.01)
+        self.assertEqual(image.filepath_raw, self.path("hide.png"))
+
+    def test_every_image_of_a_principled_shader_and_its_factors(self):
+        material, _ = fixtures.shaded("skin")
+        nodes = Nodes(material)
+        images = [bpy.data.images.new(name, 4, 4) for name in ("color", "rough", "bumps")]
+        nodes.link(nodes.color_times(nodes.image(images[0]).outputs["Color"], (0.5, 0.25, 1.0)), nodes.input("Base Color"))
+        nodes.link(nodes.by(nodes.image(images[0]).outputs["Alpha"], 0.3, "GREATER_THAN"), nodes.input("Alpha"))
+        channels = nodes.new("ShaderNodeSeparateColor")
+        nodes.link(nodes.image(images[1], False).outputs["Color"], channels.inputs[0])
+        nodes.link(nodes.times(channels.outputs[1], 0.75), nodes.input("Roughness"))
+        nodes.link(channels.outputs[2], nodes.input("Metallic"))
+        bumps = nodes.new("ShaderNodeNormalMap")
+        nodes.link(nodes.image(images[2], False).outputs["Color"], bumps.inputs["Color"])
+        nodes.link(bumps.outputs["Normal"], nodes.input("Normal"))
+        fixtures.box("b").data.materials.append(material)
+        asset = self.export(build=False)
+        found, names = asset.materials[0], {texture.id: texture.name for texture in asset.textures}
+        self.assertEqual([names[one] for one in (found.base_color_texture, found.metallic_roughness_texture, found.normal_texture)],
+                         ["color", "rough", "bumps"])
+        self.assert_near(found.base_color, (0.5, 0.25, 1, 1))
+        self.assert_near((found.roughness, found.metallic, found.alpha_cutoff), (0.75, 1, 0.3))
+        self.assertEqual(found.alpha_mode, "mask")
+
+    def test_opacity_and_emission(self):
+        material, shader = fixtures.shaded("glass")
+        shader.inputs["Alpha"].default_value = 0.25
+        shader.inputs["Emission Color" if "Emission Color" in shader.inputs else "Emission"].default_value = (1, 0.5, 0, 1)
+        shader.inputs["Emission Strength"].default_value = 2
+        material.use_backface_culling = True
+        fixtures.box("b").data.materials.append(material)
+        found = self.export(build=False).materials[0]
+        self.assertEqual((found.alpha_mode, found.double_sided), ("blend", False))
+        self.assert_near((found.base_color[3], *found.emissive), (0.25, 2, 1, 0))
 
 
 class Bones(fixtures.SceneTest):
@@ -170,13 +206,66 @@ class Bones(fixtures.SceneTest):
         self.assertEqual(len({bone.id for bone in asset.bones}), 2)
 
 
-class Refusals(fixtures.SceneTest):
-    def test_an_empty_scene(self):
-        self.assertIn("nothing to export", self.refuse())
+class Chosen(fixtures.SceneTest):
+    def names(self, **options):
+        return sorted(one.name for one in self.export(build=False, **options).render_meshes)
 
-    def test_a_folder_that_is_not_there(self):
-        fixtures.box("b")
-        self.assertIn("does not exist", self.refuse("missing/out.sbf", build=False))
+    def collection(self, name, parent, *objects):
+        made = bpy.data.collections.new(name)
+        parent.children.link(made)
+        for one in objects:
+            self.scene.collection.objects.unlink(one)
+            made.objects.link(one)
+        return made
+
+    def test_collections(self):
+        body = self.collection("body", self.scene.collection, fixtures.box("chest"))
+        self.collection("arms", body, fixtures.box("arm"))
+        clothes = self.collection("clothes", self.scene.collection, fixtures.box("coat"))
+        fixtures.box("ground").select_set(True)
+        self.assertEqual(self.names(), ["arm", "chest", "coat", "ground"])
+        self.assertEqual(self.names(collection="body"), ["arm", "chest"])
+        self.assertEqual(self.names(selected_only=True), ["ground"])
+        clothes.hide_render = True
+        self.assertEqual(self.names(), ["arm", "chest", "ground"])
+        bpy.context.view_layer.layer_collection.children["body"].exclude = True
+        self.assertEqual(self.names(), ["ground"])
+
+    def herd(self):
+        """A rigged part in a collection that two empties show, one of them turned and larger."""
+        rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])
+        part = fixtures.box("part", center=(0, 0, 0.5))
+        fixtures.hang(part, rig, "hip")
+        herd = self.collection("herd", self.scene.collection, rig, part)
+        herd.instance_offset = (0, 0, 0.25)
+        for name, place, scale in (("one", (5, 0, 0), 1), ("two", (-5, 0, 0), 2)):
+            empty = fixtures.link(bpy.data.objects.new(name, None))
+            empty.instance_type, empty.instance_collection, empty.location, empty.scale = "COLLECTION", herd, place, (scale, ) * 3
+        bpy.context.view_layer.layer_collection.children["herd"].exclude = True
+        return herd
+
+    def test_collection_instances_are_whole_characters(self):
+        self.herd()
+        asset = self.export(build=False)
+        self.assertEqual([mesh.name for mesh in asset.render_meshes], ["one/part", "two/part"])
+        self.assertEqual([body.bone for body in asset.soft_bodies], [bone.id for bone in asset.bones])
+        self.assert_near(asset.bones[1].head, (-5, -0.5, 0))
+        self.assertAlmostEqual(asset.bones[1].length, 2, places=6)
+        self.assert_near((min(asset.render_meshes[1].mesh.positions[1::3]), max(asset.render_meshes[1].mesh.positions[1::3])),
+                         (-0.5, 1.5))
+        self.assertEqual(sorted(one.name for one in bpy.data.objects), ["one", "part", "rig", "two"])
+        self.assertEqual([one.name for one in bpy.data.collections], ["herd"])
+
+    def test_instances_of_instances(self):
+        self.herd()
+        pair = self.collection("pair", self.scene.collection, bpy.data.objects["one"], bpy.data.objects["two"])
+        bpy.context.view_layer.layer_collection.children["pair"].exclude = True
+        empty = fixtures.link(bpy.data.objects.new("all", None))
+        empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", pair, (0, 10, 0)
+        meshes = self.export(build=False).render_meshes
+        self.assertEqual([mesh.name for mesh in meshes], ["all/one/part", "all/two/part"])
+        self.assert_near([max(mesh.mesh.positions[2::3]) for mesh in meshes], (-9.5, -9))
+        self.assertEqual(len(bpy.data.objects), 5)
 
 
 def turned(vector, xyzw):

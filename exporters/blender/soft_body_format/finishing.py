@@ -26,7 +26,7 @@ def refusal(path):
         return f"{path} is a folder: choose a file's name in it"
     if os.path.exists(path) and not os.stat(path).st_mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH):
         return f"{path} is write-protected: choose another name, or take its protection away"
-    if not os.access(folder, os.W_OK | os.X_OK):
+    if not os.access(folder, os.W_OK | os.X_OK, effective_ids=os.access in os.supports_effective_ids):
         return f"the folder {folder} may not be written to: choose another, or ask for its permission"
     return None
 

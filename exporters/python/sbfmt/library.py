@@ -4,11 +4,14 @@ The structures are those of base.h, io.h, build.h, convert.h, validate.h and exp
 library takes them as well, since options grow at their end alone and begin with their size.
 """
 
+import contextlib
 import ctypes
 import ctypes.util
 import functools
 import glob
 import os
+import shutil
+import tempfile
 from ctypes import POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_int32, c_int64, c_size_t, \
     c_uint32, c_uint64, c_void_p
 
@@ -136,13 +139,30 @@ def candidates():
     return found + ([system] if system else [])
 
 
+def opened(path):
+    """The library at a path. One that an add-on brings along is loaded from a copy: Blender writes a newer add-on over the old one's
+    files while it runs, and code that changes under a process that runs it ends that process."""
+    if os.path.dirname(path) != FOLDERS[1]:
+        return ctypes.CDLL(path)
+    handle, copy = tempfile.mkstemp(suffix=os.path.basename(path))
+    os.close(handle)
+    try:
+        shutil.copyfile(path, copy)
+        loaded = ctypes.CDLL(copy)
+        loaded._name = path  # pylint: disable=protected-access
+        return loaded
+    finally:
+        with contextlib.suppress(OSError):  # Windows keeps what is loaded
+            os.unlink(copy)
+
+
 @functools.lru_cache(maxsize=None)
 def library():
     """The library, loaded once."""
     tried = []
     for path in candidates():
         try:
-            return declare(ctypes.CDLL(path))
+            return declare(opened(path))
         except OSError as error:
             tried.append(f"{path}: {error}")
     raise ImportError(f"lib{NAME} is not found: install sbfmt built with -DBUILD_SHARED_LIBS=ON, or let SBFMT_LIBRARY name the"

@@ -11,6 +11,7 @@ from ..findings import Findings
 from ..finishing import finish, refusal
 from ..locating import Locator
 from ..to_document import Options, SceneWriter
+from .own_faults import told
 
 
 class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
@@ -50,6 +51,7 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
         layout.prop(self, "textures")
         layout.prop(self, "build")
 
+    @told
     def execute(self, context):
         findings = Findings()
         if self.collection and self.collection not in bpy.data.collections:

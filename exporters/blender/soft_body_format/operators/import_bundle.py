@@ -11,6 +11,7 @@ from ..findings import Findings
 from ..finishing import has_library
 from ..from_document import SceneMaker
 from ..sbfmt.document import from_xml
+from .own_faults import told
 
 
 def read_document(path):
@@ -35,6 +36,7 @@ class IMPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ImportHelper):
     filename_ext = ".sbf"
     filter_glob: StringProperty(default="*.sbf;*.sbfz", options={"HIDDEN"})
 
+    @told
     def execute(self, context):
         findings = Findings()
         if context.mode != "OBJECT":

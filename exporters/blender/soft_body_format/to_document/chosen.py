@@ -52,7 +52,7 @@ class StandIns:
         """Everything in the collection that an empty shows, and in those that it shows."""
         inside = [one for one in empty.instance_collection.all_objects if not one.hide_render]
         place = empty.matrix_world @ Matrix.Translation(-empty.instance_collection.instance_offset)
-        made = {one: self.copy(one, f"{owner}/{one.name}", owner) for one in inside}
+        made = {one: self.copy(one, f"{empty.name}/{one.name}", owner) for one in inside}
         for source, copy in made.items():
             redirect(copy, made)
             if source.parent in made:

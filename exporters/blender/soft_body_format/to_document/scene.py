@@ -72,11 +72,11 @@ class SceneWriter:
 
     def write_objects(self):
         self.write_info()
-        self.objects = soundness.look(self)
         for source in self.of_type("MESH"):
             if source.mode == "EDIT":
                 source.update_from_editmode()
         with at_rest(self.objects, self.context.view_layer):
+            self.objects = soundness.look(self)
             self.depsgraph = self.context.evaluated_depsgraph_get()
             for armature in self.of_type("ARMATURE"):
                 write_bones(self.asset, armature, self.space, self.identifiers, self.skeleton)
@@ -95,7 +95,7 @@ class SceneWriter:
             for armature in self.of_type("ARMATURE"):
                 soundness.bones_without_section(self, armature)
         if not self.asset.render_meshes and not self.findings.errors:
-            self.findings.error("nothing to export: no visible mesh is chosen; select one, or turn off Selected Objects Only")
+            self.findings.error("nothing to export: no visible mesh with faces is chosen; select one, or turn off Selected Objects Only")
 
     def write_info(self):
         info = self.asset.info

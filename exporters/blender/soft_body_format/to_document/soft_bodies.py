@@ -36,9 +36,22 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
     if soft.use_edges and abs(soft.pull - soft.push) > 0.01:
         writer.findings.warning(f"pull ({soft.pull:.2f}) and push ({soft.push:.2f}) differ; springs of the format pull and push "
                                 "alike, so both get the pull", object_name=source.name)
+    if soft.use_edges and soft.use_stiff_quads:
+        tell_of_polygons(writer, source, geometry)
     if soft.aero:
         writer.findings.info("aerodynamics of the soft body modifier are left to the wind of the format's environment",
                              object_name=source.name)
+
+
+def tell_of_polygons(writer, source, geometry):
+    """Stiff quads need quads: triangles are stiff by themselves, larger polygons shear."""
+    large = numpy.flatnonzero(geometry.polygon_sizes > 4)
+    if len(large):
+        first = numpy.cumsum(geometry.polygon_sizes.astype(numpy.int64)) - geometry.polygon_sizes
+        corners = {int(geometry.polygon_points[first[one] + at]) for one in large for at in range(geometry.polygon_sizes[one])}
+        writer.findings.warning(f"{len(large)} polygons have more than four corners, so stiff quads do nothing for them: cut them "
+                                "into quads (select them, then K, or Face > Triangulate)", object_name=source.name,
+                                vertices=sorted(corners))
 
 
 def vertex_masses(source, mesh, soft):

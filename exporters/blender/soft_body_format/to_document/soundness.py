@@ -12,7 +12,6 @@ LEAST_VOLUME = 1e-18  # of a cube of side one, in metres
 
 def look(writer):
     """Says what is wrong; gives the objects that can be written."""
-    writer.context.view_layer.update()
     writer_sees_libraries(writer)
     return [one for one in writer.objects if sound(writer, one)]
 
