@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "sbrun/animation.h"
+#include "standing.h"
 
 /* A clip begins in another pose than that of rest: bones take so long to go there. */
 static const float CLIP_FADE_S = 0.5f;
@@ -141,7 +142,7 @@ static sbf_status create(session *s, cli_call *call, const settings *set, sbf_di
   status = sbr_world_create(&world, &s->world, error);
   if (status != SBF_OK) return status;
   sbr_character_definition character = sbr_default_character_definition();
-  character.position.y = set->raise;
+  character.position.y = standing_lift(s->asset, &s->ground) + set->raise;
   character.hold = cli_switch(call, "--hold");
   status = sbr_character_create(s->world, s->model, &character, &s->character, error);
   if (status != SBF_OK) return status;

@@ -21,7 +21,9 @@
       {"--drive", "M/S,RAD/S", "wanted speed and turn (0,0)"},                                               \
       {"--ground", "KIND", "flat, slope:DEGREES, stairs:RISE,RUN or noise:HEIGHT,SEED (flat)"},              \
       {"--hold", NULL, "keep the bones in their rest pose"}, {"--free", NULL, "drop every pin"},             \
-      {"--raise", "M", "start that much higher (0)"}, {"--gravity", "M/S2", "downward (the file's)"},        \
+      {"--raise", "M",                                                                                       \
+          "start that much higher (0); what nothing holds starts above the ground in any case"},             \
+      {"--gravity", "M/S2", "downward (the file's)"},                                                        \
       {"--clip", "NAME",                                                                                     \
           "play this clip as it is keyed, by its name or number; the gait leaves the bones to it"},          \
       {"--level", "N", "simulation level, 0 the finest (0)"}, {                                              \
