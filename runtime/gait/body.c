@@ -36,7 +36,7 @@ static bool feet_center(
 static float line_yaw(const sbri_rig *rig, const sbri_gait_state *state, int hind) {
   sbf_vec3 left, right;
   if (!feet_center(rig, state, hind, 1, &left) || !feet_center(rig, state, hind, 0, &right)) return 0;
-  sbf_vec3 line = sbri_turned(sbri_sub(left, right), -state->heading);
+  sbf_vec3 line = sbri_unheaded(state, sbri_sub(left, right));
   float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, line.x > 1e-6f ? line.x : 1e-6f);
   return MOST_YAW * yaw / (MOST_YAW + fabsf(yaw)); /* feet may cross, hips do not turn round */
 }
@@ -48,11 +48,11 @@ static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
 
 /* How far the body must come down for a leg to have its ankle at a place with a share of its reach. */
 static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, const sbr_transform *root, sbf_vec3 ankle, float share) {
+    uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float share) {
   const sbri_leg *l = &rig->legs[leg];
   if (state->standing_s > 0 && share < l->rest_stretch) share = l->rest_stretch;
   float reach = share * l->reach * (1 - l->soft_reach) * input->scale;
-  sbf_vec3 away = sbri_sub(sbri_hip_of(rig, state, input, leg, root), ankle);
+  sbf_vec3 away = sbri_sub(hip, ankle);
   float left = reach * reach - away.x * away.x - away.z * away.z;
   float least = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
   /* What a clip lifts the hip by is all taken back: the foot stands, not hangs. */
@@ -62,18 +62,23 @@ static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const s
   return drop < most ? drop : most;
 }
 
-/* The same for every leg and where its foot is. */
+/* The same for every leg and where its foot is, for the whole reach; and `spare`, for what is kept in hand.
+ */
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    const sbr_transform *root, float share) {
+    const sbr_transform *root, float *spare) {
   float most = 0;
+  *spare = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
     if (leg->lower < 0 || leg->carrier >= 0) continue;
     sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
     ankle.y += foot->lift + state->position.y;
-    float drop = drop_for(rig, state, input, i, root, ankle, share);
+    sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
+    float drop = drop_for(rig, state, input, i, hip, ankle, 1);
+    float early = drop_for(rig, state, input, i, hip, ankle, SPARE);
     most = drop > most ? drop : most;
+    *spare = early > *spare ? early : *spare;
   }
   return most;
 }
@@ -95,9 +100,9 @@ static float crouch_for_stride(const sbri_rig *rig, const sbri_gait_state *state
     home.y = foot->ground.y + state->position.y;
     sbf_vec3 ankle = sbri_ankle_at_home(leg, foot, home, input->scale);
     float ahead = sbri_ahead(&roam, way, half);
-    float touch = drop_for(rig, state, input, i, root, sbri_add_scaled(ankle, way, ahead), EASY);
-    float leave = drop_for(rig, state, input, i, root, sbri_add_scaled(ankle, way, ahead - 2 * half), EASY);
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
+    float touch = drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, way, ahead), EASY);
+    float leave = drop_for(rig, state, input, i, hip, sbri_add_scaled(ankle, way, ahead - 2 * half), EASY);
     float bound = (1 - SBRI_LOWERED) * (hip.y - ankle.y), drop = touch > leave ? touch : leave;
     drop = drop < bound ? drop : bound;
     most = drop > most ? drop : most;
@@ -137,15 +142,20 @@ static sbri_stance stance_over(
 
 float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root) {
-  return crouch(rig, state, input, root, 1);
+  float unused;
+  return crouch(rig, state, input, root, &unused);
+}
+
+/* Lets it down as far as it has come by itself, or as far as it must. */
+static void come_down(const sbri_gait_state *state, float needed, sbri_stance *stance) {
+  float down = state->crouch.value;
+  stance->root.position.y -= down > needed ? down : needed;
 }
 
 sbri_stance sbri_body_stance(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stance stance = stance_over(rig, state, input);
-  if (!rig->leg_count) return stance;
-  float down = state->crouch.value, needed = crouch(rig, state, input, &stance.root, 1);
-  stance.root.position.y -= down > needed ? down : needed;
+  if (rig->leg_count) come_down(state, sbri_body_drop(rig, state, input, &stance.root), &stance);
   return stance;
 }
 
@@ -168,17 +178,20 @@ static void sway_to(
   state->sway_z = (sbri_lag){state->sway_z.value + share * by.z, share * z.rate};
 }
 
-void sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t lifting, sbf_vec3 way) {
-  if (!rig->leg_count) return;
+  if (!rig->leg_count) return stance_over(rig, state, input);
   sbf_vec3 lean = {0, 0, 0};
   if (lifting) lean = sbri_support_sway(rig, state, input, lifting, way);
   sway_to(rig, state, input, lean);
+  if (!stride) state->sway_x = state->sway_z = (sbri_lag){0, 0};
   sbri_stance stance = stance_over(rig, state, input);
-  float wanted = crouch(rig, state, input, &stance.root, SPARE);
+  float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
   wanted = steady > wanted ? steady : wanted;
   sbri_follower_step step = sbri_follower_step_of(CROUCH_HZ, 1, 0, input->tick_s);
   sbri_lag_tick(&state->crouch, wanted, &step);
-  if (!stride) state->crouch = (sbri_lag){wanted, 0}, state->sway_x = state->sway_z = (sbri_lag){0, 0};
+  if (!stride) state->crouch = (sbri_lag){wanted, 0};
+  come_down(state, needed, &stance);
+  return stance;
 }

@@ -43,13 +43,17 @@ sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 place, sbf_vec
 
 void sbri_foot_faces(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+  const sbf_vec3 up = {0, 1, 0};
   sbri_foot *foot = &state->feet[leg];
   float x = rig->legs[leg].ankle.x * input->scale, z = rig->legs[leg].ankle.z * input->scale;
-  sbri_sincos(state->heading + foot->heading, &foot->sine, &foot->cosine);
+  float heading = state->heading + foot->heading;
+  sbri_sincos(heading, &foot->sine, &foot->cosine);
   foot->beside = sbri_vec3(foot->cosine * x + foot->sine * z, 0, foot->cosine * z - foot->sine * x);
   foot->beside_at_home = sbri_headed(state, sbri_vec3(x, 0, z));
-  if ((x == 0 && z == 0) || (foot->normal.x == 0 && foot->normal.z == 0)) return;
-  sbf_quat tilt = sbri_quat_between(sbri_vec3(0, 1, 0), foot->normal);
+  foot->turned = sbri_quat_about(up, heading);
+  if (foot->normal.x == 0 && foot->normal.z == 0) return;
+  sbf_quat tilt = sbri_quat_between(up, foot->normal);
+  foot->turned = sbri_quat_multiply(tilt, foot->turned);
   foot->beside = sbri_rotate(tilt, foot->beside);
   foot->beside_at_home = sbri_rotate(tilt, foot->beside_at_home);
 }
@@ -186,7 +190,7 @@ static bool catch_up(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 }
 
 uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
-    sbri_gait_event *events, uint32_t capacity) {
+    sbri_stance *stance, sbri_gait_event *events, uint32_t capacity) {
   uint32_t count = 0, groups;
   choice c = {.stride = sbri_stride_of(rig, state, input)};
   state->together = c.stride.together;
@@ -225,6 +229,6 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   uint32_t lifting = leans ? (in_air ? in_air : c.next) : 0;
   if (leans && !in_air && state->standing_s == 0 && !c.next) lifting = 0;
   sbf_vec3 way = way_in(state, time_in_air(rig, state, c.stride.duration_s));
-  sbri_body_tick(rig, state, input, &c.stride, lifting, way);
+  *stance = sbri_body_tick(rig, state, input, &c.stride, lifting, way);
   return count;
 }

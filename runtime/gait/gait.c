@@ -52,8 +52,7 @@ void sbri_gait_place(
     state->feet[i].hip = sbri_scale(rig->rest[rig->legs[i].upper].position, input->scale);
   state->root = sbri_body_stance(rig, state, input).root;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
-  sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
-  sbri_stance stance = sbri_body_stance(rig, state, input);
+  sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   keep_stance(state, &stance);
 }
 
@@ -130,8 +129,11 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     if (state->feet[i].planted) state->feet[i].heading = sbri_wrap_angle(state->feet[i].heading - turned);
     sbri_foot_faces(rig, state, input, i);
   }
-  if (!input->hold && rig->leg_count) count = sbri_feet_tick(rig, state, input, events, capacity);
-  sbri_stance stance = sbri_body_stance(rig, state, input);
+  sbri_stance stance;
+  if (!input->hold && rig->leg_count)
+    count = sbri_feet_tick(rig, state, input, &stance, events, capacity);
+  else
+    stance = sbri_body_stance(rig, state, input);
   lead_head(rig, state, input);
   sbri_tails_tick(rig, state, stance.hips_yaw, turned, input->tick_s);
   keep_stance(state, &stance);

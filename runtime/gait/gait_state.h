@@ -15,6 +15,7 @@ typedef struct sbri_foot {
    * from above the sole's middle, as it is turned, and were it turned as the body is. */
   float sine, cosine;
   sbf_vec3 beside, beside_at_home;
+  sbf_quat turned;                           /* from how it stands at rest */
   float lift;                                /* of the sole above `ground`, m */
   sbf_vec3 from, from_normal, to, to_normal; /* of the step under way */
   sbf_vec3 planned;                          /* `to` when it was last planned */
@@ -109,10 +110,14 @@ float sbri_wrap_angle(float angle);
 /* `v` turned about +Y. */
 sbf_vec3 sbri_turned(sbf_vec3 v, float yaw);
 
-/* `v` turned as the body is. */
+/* `v` turned as the body is; and back. */
 static inline sbf_vec3 sbri_headed(const sbri_gait_state *state, sbf_vec3 v) {
   float s = state->heading_sine, c = state->heading_cosine;
   return sbri_vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+}
+static inline sbf_vec3 sbri_unheaded(const sbri_gait_state *state, sbf_vec3 v) {
+  float s = state->heading_sine, c = state->heading_cosine;
+  return sbri_vec3(c * v.x - s * v.z, v.y, c * v.z + s * v.x);
 }
 
 /* Rises from 0 to 1 with t from 0 to 1; speed and acceleration are 0 at both ends. */
@@ -240,24 +245,26 @@ void sbri_foot_faces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 /* Puts a leg's foot down at its home. */
 void sbri_foot_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 
-/* Decides who steps and moves the feet in the air; returns how many events were written. */
-uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
-    sbri_gait_event *events, uint32_t capacity);
-
-/* ---- gait/body.c: the body over its feet ---- */
-
 /* How the body stands over its feet. */
 typedef struct sbri_stance {
   sbr_transform root;        /* where the asset's origin and axes have gone */
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
 } sbri_stance;
+
+/* Decides who steps, moves the feet in the air, and the body over all of them; returns how many events were
+ * written. */
+uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_stance *stance, sbri_gait_event *events, uint32_t capacity);
+
+/* ---- gait/body.c: the body over its feet ---- */
+
 sbri_stance sbri_body_stance(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 /* By how much more it has to come down for every leg to reach its foot from where its hip is now. */
 float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root);
-/* Moves the followers that bear the body: it leans over the feet but `lifting` (bits; 0: upright), while it
- * goes `way` further. Without a stride it is put where they lead to. */
-void sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+/* Moves the followers that bear the body, and says how it then stands: it leans over the feet but `lifting`
+ * (bits; 0: upright), while it goes `way` further. Without a stride it is put where they lead to. */
+sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t lifting, sbf_vec3 way);
 
 /* ---- gait/pose.c ---- */

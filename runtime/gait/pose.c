@@ -34,9 +34,10 @@ static sbf_quat tail_turn(const sbri_rig *rig, const sbri_gait_state *state, con
       /* A first bone may hang on the root rather than on the hips: what it already turned is taken off. */
       float yaw_done = k ? lag[-2].value : rig->parents[bone] == rig->gait->hips ? stance->hips_yaw : 0;
       float pitch_done = k ? lag[-1].value : 0;
+      sbf_quat aside = sbri_quat_about(up, lag[0].value - yaw_done);
+      if (lag[1].value == pitch_done) return aside;
       sbf_vec3 side = sbri_rotate(stance->root.rotation, sbri_turned(sbri_vec3(1, 0, 0), lag[0].value));
-      return sbri_quat_multiply(
-          sbri_quat_about(side, lag[1].value - pitch_done), sbri_quat_about(up, lag[0].value - yaw_done));
+      return sbri_quat_multiply(sbri_quat_about(side, lag[1].value - pitch_done), aside);
     }
   }
   return sbri_quat_identity();
@@ -97,30 +98,29 @@ static sbf_vec3 pole_of(const sbri_rig *rig, const sbri_leg *leg, const sbr_tran
 /* Turns the foot, and what hangs on it (toes), to a rotation, by as much as the chain says to that of the
  * ground.
  */
-static void pose_foot(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float heading,
-    sbf_quat own, sbr_transform *pose) {
-  sbf_quat level = sbri_quat_multiply(sbri_quat_between(UP, foot->normal), yaw_rotation(heading));
-  sbf_quat flat = sbri_quat_multiply(level, rig->rest[leg->foot].rotation);
+static void pose_foot(
+    const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_quat own, sbr_transform *pose) {
+  sbf_quat flat = sbri_quat_multiply(foot->turned, rig->rest[leg->foot].rotation);
   sbf_quat after = sbri_quat_blend(own, flat, leg->copy_rotation);
   sbf_quat before = pose[leg->foot].rotation;
   sbri_rig_turn(rig, (uint32_t)leg->foot, sbri_quat_multiply(after, sbri_quat_conjugate(before)), pose);
 }
 
 /* One bone: it points at where the foot should be. */
-static void pose_peg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float heading,
-    sbf_vec3 ankle, sbr_transform *pose) {
+static void pose_peg(
+    const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle, sbr_transform *pose) {
   sbf_vec3 hip = pose[leg->upper].position, spare = sbri_vec3(0, -1, 0);
   sbf_vec3 is = sbri_normalize(sbri_sub(pose[leg->foot].position, hip), spare);
   sbf_quat turn = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
   sbri_rig_turn(rig, (uint32_t)leg->upper, turn, pose);
   /* What its one length leaves over or lacks is the foot's: it stands where it stands. */
   sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(ankle, pose[leg->foot].position), pose);
-  pose_foot(rig, leg, foot, heading, pose[leg->foot].rotation, pose);
+  pose_foot(rig, leg, foot, pose[leg->foot].rotation, pose);
 }
 
 /* Two bones in closed form, then the limits of their joints. */
-static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float heading,
-    sbf_vec3 ankle, sbf_vec3 pole, sbf_vec3 fallback, float scale, sbr_transform *pose) {
+static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle,
+    sbf_vec3 pole, sbf_vec3 fallback, float scale, sbr_transform *pose) {
   sbf_vec3 hip = pose[leg->upper].position, away = sbri_sub(ankle, hip);
   float distance = sbri_length(away), eased = sbri_ease_reach(distance, leg->reach * scale, leg->soft_reach);
   if (eased < distance) ankle = sbri_add_scaled(hip, away, eased / distance);
@@ -135,7 +135,7 @@ static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
   pose[leg->upper].rotation = sbri_quat_normalize(sbri_quat_multiply(upper, rig->rest[leg->upper].rotation));
   pose[leg->lower] = (sbr_transform){
       solved.knee, sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation))};
-  pose_foot(rig, leg, foot, heading, sbri_quat_multiply(lower, rig->rest[leg->foot].rotation), pose);
+  pose_foot(rig, leg, foot, sbri_quat_multiply(lower, rig->rest[leg->foot].rotation), pose);
   sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(solved.ankle, pose[leg->foot].position), pose);
   sbri_leg_limit(rig, leg, ankle, pole, scale, pose);
 }
@@ -151,20 +151,20 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
     const sbri_gait_input *input, uint32_t index, sbr_transform *pose) {
   const sbri_leg *leg = &rig->legs[index];
   sbri_foot *foot = &state->feet[index];
-  float scale = input->scale, heading = state->heading + foot->heading;
+  float scale = input->scale;
   sbf_vec3 hip = pose[leg->upper].position;
   sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
   sbf_vec3 ankle = sbri_ankle_over(leg, foot, sole, scale);
   sbf_vec3 pole = foot->pole = pole_of(rig, leg, &stance->root, scale, pose);
   if (leg->lower < 0) {
-    pose_peg(rig, leg, foot, heading, ankle, pose);
+    pose_peg(rig, leg, foot, ankle, pose);
     return;
   }
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
   float length = (leg->upper_length + leg->lower_length) * scale, share = 1;
   foot->missed = 0;
   for (int pass = 0; pass < SOLE_PASSES; pass++) {
-    solve_leg(rig, leg, foot, heading, ankle, pole, fallback, scale, pose);
+    solve_leg(rig, leg, foot, ankle, pole, fallback, scale, pose);
     if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;
     /* A foot that its ankle lets turn no farther stands where it stands all the same. */
     sbf_vec3 missed = sbri_sub(sole, sole_of(rig, leg, scale, pose));

@@ -29,6 +29,10 @@ static double cosine_series(double x) {
 
 void sbri_sincos(float angle, float *sine, float *cosine) {
   double x = angle;
+  if (x == 0) { /* as of all that stands straight */
+    *sine = angle, *cosine = 1;
+    return;
+  }
   if (fabs(x) > 1e9) x = 0;
   if (x != x) {
     *sine = *cosine = angle;
