@@ -47,6 +47,6 @@ class Build(fixtures.SceneTest):
         self.scene.unit_settings.scale_length = 0.1
         fixtures.ball("blob", 2.0, (5, 0, 0))
         bpy.ops.sbfmt.build()
-        places = structure._shown[self.scene.name]["lattice"]
+        places = structure._shown[self.scene.name].places("lattice")
         self.assertAlmostEqual(float(places[:, 0].mean()), 5, delta=0.1)
         self.assertAlmostEqual(float(places[:, 2].max()), 2, delta=0.3)

@@ -10,11 +10,11 @@ bl_info = {
     "category": "Import-Export",
 }
 
-from . import panels, settings  # noqa: E402
-from .operators import build_scene, check_scene, export, import_bundle  # noqa: E402
+from . import panels, preview, settings  # noqa: E402
+from .operators import bake_preview, build_scene, check_scene, export, import_bundle, preview_scene  # noqa: E402
 from .overlay import structure  # noqa: E402
 
-PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, structure)
+PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, preview_scene, bake_preview, structure, preview)
 
 
 def register():

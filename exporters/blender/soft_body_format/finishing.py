@@ -32,8 +32,8 @@ def refusal(path):
 
 
 def finish(document, path, build, findings, locator=None, files=None):
-    """Writes the file whole or not at all, and with it `files`, which it names; says whether it is there. What the library finds
-    joins the findings."""
+    """Writes the file whole or not at all, and with it `files`, which it names; says whether it is there. `build` is what to
+    build it with, or None. What the library finds joins the findings."""
     refused = refusal(path)
     if refused:
         findings.error(refused)
@@ -68,7 +68,7 @@ def to_asset(document):
 def with_library(document, path, build, findings, locator):
     """A file with errors is not written."""
     with to_asset(document) as source:
-        asset = source.build(report=lambda found: add(found, findings, locator)) if build else source
+        asset = source.build(report=lambda found: add(found, findings, locator), **build) if build is not None else source
         try:
             check(asset, os.path.dirname(path), findings, locator)
             if not findings.errors:

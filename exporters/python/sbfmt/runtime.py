@@ -38,6 +38,14 @@ class Double3(Structure):
 class Ground(Structure):
     _fields_ = [("height", c_void_p), ("user", c_void_p), ("parameters", c_double * 4)]
 
+    def height_at(self, x, z):
+        """m."""
+        normal = Vec3()
+        return HEIGHT(self.height)(byref(self), x, z, byref(normal))
+
+
+HEIGHT = ctypes.CFUNCTYPE(c_double, POINTER(Ground), c_double, c_double, POINTER(Vec3))
+
 
 class Tasks(Structure):
     _fields_ = [("run", c_void_p), ("user", c_void_p)]
@@ -111,6 +119,7 @@ CALLS = {
     "sbr_character_bones": (None, [W, C, POINTER(Transform), c_uint32]),
     "sbr_character_skin": (c_uint32, [W, C, c_uint32, FLOATS, FLOATS, FLOATS, c_uint32]),
     "sbr_character_surface": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
+    "sbr_character_points": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
     "sbr_character_torn_polygons": (c_uint32, [W, C, c_uint32, c_uint32, POINTER(c_uint8), c_uint32]),
     "sbr_character_health": (BodyHealth, [W, C, c_uint32]),
     "sbr_character_distance": (c_double, [W, C]),
@@ -166,6 +175,10 @@ class GroundMesh:
     @property
     def ground(self):
         return runtime_library().sbr_ground_of_mesh(self.pointer)
+
+    def height_at(self, x, z):
+        """m."""
+        return self.ground.height_at(x, z)
 
 
 # ---- Models and worlds ----
@@ -277,7 +290,7 @@ class Character:
         """m travelled."""
         return self.call("sbr_character_distance")
 
-    def points(self, name, number, *more):
+    def read(self, name, number, *more):
         count = self.call(name, number, None, *more, 0)
         found = (c_float * (3 * count))()
         self.call(name, number, found, *more, count)
@@ -285,11 +298,15 @@ class Character:
 
     def skin(self, render_mesh):
         """Vertices of a render mesh, three floats each."""
-        return self.points("sbr_character_skin", render_mesh, None, None)
+        return self.read("sbr_character_skin", render_mesh, None, None)
 
     def surface(self, soft_body):
         """Vertices of a soft body's surface, three floats each."""
-        return self.points("sbr_character_surface", soft_body)
+        return self.read("sbr_character_surface", soft_body)
+
+    def points(self, soft_body):
+        """Points of a soft body's simulated level, three floats each."""
+        return self.read("sbr_character_points", soft_body)
 
     def torn(self, render_mesh):
         """For each polygon of a render mesh whether it spans a tear, and is not to be drawn."""

@@ -7,7 +7,7 @@ from .. import memory
 from ..findings import Findings
 from ..space import Space
 from ..to_document import Options, SceneWriter
-from . import import_bones, import_meshes, import_settings
+from . import import_bones, import_meshes, import_recipes, import_settings
 
 
 class SceneMaker:
@@ -26,6 +26,7 @@ class SceneMaker:
         materials = import_meshes.make_materials(self.document, self.folder, self.findings)
         self.make_meshes(materials)
         import_settings.fill_gait(self.context.scene, self.document, self.armature, self.names, self.space)
+        import_recipes.fill_recipes(self.context.scene, self.document, self.armature, self.names)
         self.context.view_layer.update()
         untouched = SceneWriter(self.context, Options(collection=self.collection.name), Findings()).write()
         memory.keep(self.collection, self.document, untouched)

@@ -6,21 +6,20 @@ from bpy.props import IntProperty
 from .. import sbfmt
 from ..findings import Findings
 from ..finishing import check, has_library, to_asset
-from ..locating import Locator
-from ..to_document import Options, SceneWriter
+from ..to_document import Options
+from ..whole import write_whole
 
 
 def find(context):
     """What is wrong with the scene, without writing anything."""
     findings = Findings()
-    writer = SceneWriter(context, Options(textures="EMBED"), findings)
-    document = writer.write()
+    whole = write_whole(context, Options(textures="EMBED"), findings)
     if not has_library():
         findings.info("the compiled library is not found: only what the add-on itself knows was checked")
     elif not findings.errors:
         try:
-            with to_asset(document) as asset:
-                check(asset, "", findings, Locator(document, writer.identifiers))
+            with to_asset(whole.document) as asset:
+                check(asset, "", findings, whole.locator)
         except sbfmt.Error as error:
             findings.error(str(error))
     return findings

@@ -6,11 +6,11 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from .. import memory
 from ..findings import Findings
 from ..finishing import finish, refusal
-from ..locating import Locator
-from ..to_document import Options, SceneWriter
+from ..settings.build_settings import build_arguments
+from ..to_document import Options
+from ..whole import write_whole
 from .own_faults import told
 
 
@@ -61,12 +61,10 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
         if refused:
             self.report({"ERROR"}, refused)
             return {"CANCELLED"}
-        writer = SceneWriter(context, Options(self.selected_only, self.collection, self.apply_modifiers, self.textures), findings)
-        now, known = writer.write(), memory.recall(writer.objects)
-        asset = memory.merge_documents(*known, now) if known else now
-        changed = not known or asset != known[0]
-        written = not findings.errors and finish(asset, self.filepath, self.build and changed, findings,
-                                                 Locator(asset, writer.identifiers), writer.materials.files)
+        whole = write_whole(context, Options(self.selected_only, self.collection, self.apply_modifiers, self.textures), findings)
+        arguments = build_arguments(context.scene, whole.writer.space.unit_m) if self.build and whole.changed else None
+        written = not findings.errors and finish(whole.document, self.filepath, arguments, findings, whole.locator,
+                                                 whole.writer.materials.files)
         findings.show(self)
         if not written:
             return {"CANCELLED"}

@@ -5,6 +5,7 @@ import gpu
 import numpy
 from gpu_extras.batch import batch_for_shader
 
+from ..preview.handlers import running
 from ..space import Space
 
 COLORS = {"structural": (0.95, 0.85, 0.2, 0.5), "shear": (0.25, 0.8, 0.95, 0.3), "flexion": (0.75, 0.45, 0.95, 0.15),
@@ -13,61 +14,70 @@ COLORS = {"structural": (0.95, 0.85, 0.2, 0.5), "shear": (0.25, 0.8, 0.95, 0.3),
 INSIDE = ("internal", "lattice", "pins")  # drawn through the surface
 EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 
-# By scene: {kind: (n, 3) array of line ends, or of points for pins}. Gone when Blender closes: a build makes it anew.
+# By scene: what was built last. Gone when Blender closes: a build makes it anew.
 _shown = {}
 _handler = None
 
 
-def points_of(level, space):
-    return space.points_back(level.positions)
+class Structure:
+    """Each body's points, and which of them the lines of a kind join: {kind: [(body, indices)]}; for pins the points alone."""
 
+    def __init__(self, document, space):
+        self.document, self.points, self.kinds = document, {}, {}
+        for index, body in enumerate(document.soft_bodies):
+            if body.levels:
+                self.collect(index, body.levels[0], space)
 
-def collect(document, space):
-    """The lines of every body's finest level."""
-    lines = {}
+    def collect(self, index, level, space):
+        self.points[index] = space.points_back(level.positions)
 
-    def put(kind, places):
-        if len(places):
-            lines.setdefault(kind, []).append(places)
+        def put(kind, indices):
+            if len(indices):
+                self.kinds.setdefault(kind, []).append((index, numpy.array(indices, dtype=numpy.int64)))
 
-    for body in document.soft_bodies:
-        if not body.levels:
-            continue
-        level = body.levels[0]
-        places = points_of(level, space)
         for springs in level.springs:
-            put(springs.kind, places[numpy.array(springs.ends, dtype=numpy.int64)])
+            put(springs.kind, springs.ends)
         elements = numpy.array(level.lattice.tetrahedra, dtype=numpy.int64).reshape(-1, 4)
         if len(elements):
-            pairs = numpy.unique(numpy.sort(numpy.concatenate([elements[:, pair] for pair in EDGES]), axis=1), axis=0)
-            put("lattice", places[pairs.ravel()])
+            put("lattice", numpy.unique(numpy.sort(numpy.concatenate([elements[:, pair] for pair in EDGES]), axis=1), axis=0).ravel())
         for pins in level.pins:
-            put("pins", places[numpy.array(pins.points, dtype=numpy.int64)])
-    return {kind: numpy.concatenate(parts) for kind, parts in lines.items()}
+            put("pins", pins.points)
+
+    def places(self, kind, session=None):
+        """(n, 3) places of a kind, where the session has them now if it plays this very build."""
+        plays = session is not None and session.built.document is self.document
+        return numpy.concatenate([(session.level_points(body) if plays else self.points[body])[indices]
+                                  for body, indices in self.kinds[kind]])
 
 
 def show(scene, document):
-    _shown[scene.name] = collect(document, Space.of_scene(scene))
+    _shown[scene.name] = Structure(document, Space.of_scene(scene))
+    redraw()
+
+
+def redraw():
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             area.tag_redraw()
 
 
 def summary(scene):
-    found = _shown.get(scene.name, {})
-    words = [f"{len(places) // (1 if kind == 'pins' else 2)} {kind.replace('_', ' ')}" for kind, places in found.items()]
+    shown = _shown.get(scene.name)
+    words = [f"{sum(len(one) for _, one in parts) // (1 if kind == 'pins' else 2)} {kind.replace('_', ' ')}"
+             for kind, parts in shown.kinds.items()] if shown else []
     return "built: " + (", ".join(words) or "nothing is soft")
 
 
 def draw():
     scene = bpy.context.scene
-    lines = _shown.get(scene.name)
-    if not lines or not scene.soft_body_format.show_overlay:
+    shown = _shown.get(scene.name)
+    if not shown or not scene.soft_body_format.show_overlay:
         return
     shader = gpu.shader.from_builtin("3D_UNIFORM_COLOR" if bpy.app.version < (4, 0, 0) else "UNIFORM_COLOR")
     gpu.state.blend_set("ALPHA")
     gpu.state.point_size_set(3)
-    for kind, places in lines.items():
+    for kind in shown.kinds:
+        places = shown.places(kind, running())
         batch = batch_for_shader(shader, "POINTS" if kind == "pins" else "LINES", {"pos": places})
         shader.bind()
         shader.uniform_float("color", COLORS.get(kind, COLORS["internal"]))

@@ -2,6 +2,8 @@
 
 import bpy
 
+from .numbers import draw_matter
+
 
 class SBFMT_PT_bone(bpy.types.Panel):
     bl_label = "Soft body format"
@@ -46,4 +48,23 @@ class SBFMT_PT_bone(bpy.types.Panel):
         layout.prop(joint, "limit_damping")
 
 
-CLASSES = (SBFMT_PT_bone, )
+class SBFMT_PT_bone_material(bpy.types.Panel):
+    bl_label = "Material of its section"
+    bl_parent_id = "SBFMT_PT_bone"
+    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "bone"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.bone is not None
+
+    def draw_header(self, context):
+        self.layout.prop(context.bone.soft_body_format, "use_material", text="")
+
+    def draw(self, context):
+        settings = context.bone.soft_body_format
+        self.layout.active = settings.use_material
+        draw_matter(self.layout, settings.attributes)
+
+
+CLASSES = (SBFMT_PT_bone, SBFMT_PT_bone_material)

@@ -4,6 +4,7 @@ import bpy
 
 from ..to_document.roles import COLLISION, IGNORE, RENDER, role_of, shown_role
 from .list_buttons import draw_list
+from .numbers import draw_matter
 
 
 class ObjectPanel:
@@ -47,18 +48,7 @@ class SBFMT_PT_material(BodyPanel, bpy.types.Panel):
             layout.prop(settings, "own_values")
             layout = layout.column()
             layout.enabled = settings.own_values
-        numbers = settings.attributes
-        layout.prop(numbers, "preset")
-        layout.prop(numbers, "layer")
-        column = layout.column(align=True)
-        for name in ("area_density", "thickness", "bending_stiffness") if numbers.layer else ("density", "mass"):
-            column.prop(numbers, name)
-        for name in ("young_modulus", "poisson_ratio", "damping_ratio", "friction", "restitution"):
-            column.prop(numbers, name)
-        column = layout.column(align=True)
-        column.prop(numbers, "media_friction")
-        column.prop(numbers, "gravity_scale")
-        column.prop(numbers, "sag_free")
+        draw_matter(layout, settings.attributes)
 
 
 class SBFMT_PT_limits(BodyPanel, bpy.types.Panel):

@@ -4,9 +4,10 @@ and images. They save with the .blend, undo and copy."""
 import bpy
 from bpy.props import PointerProperty
 
-from . import appearance_settings, attributes, bone_settings, object_settings, scene_settings
+from . import appearance_settings, attributes, bone_settings, build_settings, object_settings, preview_settings, scene_settings
 
-CLASSES = attributes.CLASSES + object_settings.CLASSES + bone_settings.CLASSES + scene_settings.CLASSES + appearance_settings.CLASSES
+CLASSES = attributes.CLASSES + object_settings.CLASSES + bone_settings.CLASSES + build_settings.CLASSES + \
+    preview_settings.CLASSES + scene_settings.CLASSES + appearance_settings.CLASSES
 OWNERS = ((bpy.types.Object, object_settings.SBFMT_PG_object), (bpy.types.Bone, bone_settings.SBFMT_PG_bone),
           (bpy.types.Scene, scene_settings.SBFMT_PG_scene), (bpy.types.Material, appearance_settings.SBFMT_PG_material),
           (bpy.types.Image, appearance_settings.SBFMT_PG_image))

@@ -5,6 +5,8 @@ import math
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
+from .attributes import SBFMT_PG_attributes
+
 KINDS = (
     ("NONE", "None", "As the rig's constraints and IK limits say, if they do"),
     ("spherical", "Ball", "Turns about all axes, inside a cone or within ranges"),
@@ -54,6 +56,9 @@ class SBFMT_PG_bone(bpy.types.PropertyGroup):
     identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
     order: IntProperty(options={"HIDDEN"}, description="Place in that file, from 1; 0: it is new")
     joint: PointerProperty(type=SBFMT_PG_joint)
+    use_material: BoolProperty(name="Material of its section", default=False,
+                               description="What the section cut from a skin for this bone is made of; else as the scene's Build panel says")
+    attributes: PointerProperty(type=SBFMT_PG_attributes)
 
 
 CLASSES = (SBFMT_PG_joint, SBFMT_PG_bone)

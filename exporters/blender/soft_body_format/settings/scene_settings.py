@@ -4,6 +4,9 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, \
     PointerProperty, StringProperty
 
+from .build_settings import SBFMT_PG_build
+from .preview_settings import SBFMT_PG_preview
+
 
 class SBFMT_PG_leg(bpy.types.PropertyGroup):
     """One leg: a chain of bones from the hip to the foot."""
@@ -89,6 +92,8 @@ class SBFMT_PG_finding(bpy.types.PropertyGroup):
 
 class SBFMT_PG_scene(bpy.types.PropertyGroup):
     gait: PointerProperty(type=SBFMT_PG_gait)
+    build: PointerProperty(type=SBFMT_PG_build)
+    preview: PointerProperty(type=SBFMT_PG_preview)
     findings: CollectionProperty(type=SBFMT_PG_finding)
     active_finding: IntProperty()
     show_overlay: BoolProperty(name="Draw the build", default=True, description="Springs, lattice and pins over the model")

@@ -17,6 +17,7 @@ from .ik_constraints import IkConstraints
 from .materials import Materials
 from .meshes import Geometry, fill_normals, fill_polygons, fill_shape_keys, fill_skin, fill_uv_sets
 from .pins import fill_pins, fill_weight_maps
+from .recipes import write_recipes
 from .rest import at_rest, mesh_of
 from .rigid_objects import RigidObjects
 from .rigid_parts import RigidParts
@@ -92,6 +93,7 @@ class SceneWriter:
                 IkConstraints(self, armature).write()
             RigidObjects(self).write()
             write_surroundings(self)
+            write_recipes(self)
             for armature in self.of_type("ARMATURE"):
                 soundness.bones_without_section(self, armature)
         if not self.asset.render_meshes and not self.findings.errors:

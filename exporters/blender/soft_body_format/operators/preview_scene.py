@@ -1,0 +1,79 @@
+"""Scene > Soft body format > Preview: start and stop."""
+
+import bpy
+
+from ..finishing import has_library
+from ..preview import animation, handlers
+from ..preview.session import Session
+from ..preview.stage import Stage, actors_of
+from .build_scene import built_scene
+from .working import Working
+
+
+def previewed_scene(operator, context):
+    """A generator as `build_in_steps`, that returns (Session, Stage) at the scene's current frame."""
+    clip = []
+
+    def change(whole):
+        if context.scene.soft_body_format.preview.follow_animation:
+            clip.append(animation.add_clip(context, whole))
+
+    handlers.stop()
+    if context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    built, whole = yield from built_scene(operator, context, change)
+    session = Session(context, built, whole, context.scene.frame_current, clip[0] if clip else None)
+    if context.scene.soft_body_format.preview.drive != "STAND" and session.body is None:
+        operator.report({"WARNING"}, "it has no gait, so it stays where it is: tick Scene > Soft body format > Gait")
+    elif context.scene.soft_body_format.preview.drive == "CURVE" and session.walker is None:
+        operator.report({"WARNING"}, "there is no curve to walk along, so it stays where it is: choose one below Drive")
+    return session, Stage(context.scene, actors_of(whole, built.document), [one.name for one in whole.writer.of_type("ARMATURE")])
+
+
+class SBFMT_OT_preview_start(Working, bpy.types.Operator):
+    """Build the character and play it with the frames of the scene. Escape cancels"""
+
+    bl_idname = "sbfmt.preview_start"
+    bl_label = "Start"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, _context):
+        if not has_library():
+            cls.poll_message_set("The compiled library is not found: run sbfmt run on the exported file")
+            return False
+        return True
+
+    def work(self, context):
+        session, stage = yield from previewed_scene(self, context)
+        handlers.start(context, session, stage)
+        self.report({"INFO"}, f"frame {session.frame}; play the animation, or step through it")
+
+
+class SBFMT_OT_preview_stop(bpy.types.Operator):
+    """End the preview and show your own objects again"""
+
+    bl_idname = "sbfmt.preview_stop"
+    bl_label = "Stop"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, _context):
+        return handlers.running() is not None
+
+    def execute(self, _context):
+        handlers.stop()
+        return {"FINISHED"}
+
+
+CLASSES = (SBFMT_OT_preview_start, SBFMT_OT_preview_stop)
+
+
+def register():
+    for one in CLASSES:
+        bpy.utils.register_class(one)
+
+
+def unregister():
+    for one in reversed(CLASSES):
+        bpy.utils.unregister_class(one)

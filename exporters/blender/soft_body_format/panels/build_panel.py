@@ -1,0 +1,35 @@
+"""Scene > Soft body format > Build: what a build makes, here, in the preview and in an export."""
+
+import bpy
+
+from .numbers import draw_matter
+from .scene_panels import ScenePanel
+
+
+class SBFMT_PT_build(ScenePanel, bpy.types.Panel):
+    bl_label = "Build"
+    bl_parent_id = "SBFMT_PT_scene"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout, build = self.layout, context.scene.soft_body_format.build
+        layout.use_property_split = True
+        layout.prop(build, "interior")
+        layout.prop(build, "size_by")
+        if build.size_by != "AUTOMATIC":
+            layout.prop(build, build.size_by.lower())
+        column = layout.column(align=True)
+        column.prop(build, "levels")
+        column.prop(build, "render_levels")
+        layout.prop(build, "flexion")
+        layout.prop(build, "calibration")
+        layout.prop(build, "sections")
+        column = layout.column()
+        column.active = build.sections
+        column.prop(build, "overlap")
+        column.prop(build, "use_material", text="Material of sections")
+        if build.sections and build.use_material:
+            draw_matter(layout.box(), build.attributes)
+
+
+CLASSES = (SBFMT_PT_build, )

@@ -1,0 +1,128 @@
+"""What bakes leave in the scene: Mesh Cache modifiers over point caches, or copies with keyed shapes. Cut and taken away again."""
+
+import json
+import os
+
+import bpy
+import numpy
+
+from .point_cache import cut_cache, read_cache
+from .stage import COPY_OF, HIDDEN, rest_meshes
+
+NAME = "Soft body bake"
+KEY = "frame "
+
+
+def key_name(frame):
+    return f"{KEY}{frame:04d}"
+
+
+# ---- Point caches ----
+
+def add_modifier(source, path, start):
+    """Last of all: whatever other modifiers do, the points end where the bake has them."""
+    found = source.modifiers.get(NAME) or source.modifiers.new(NAME, "MESH_CACHE")
+    found.cache_format = "MDD" if path.endswith(".mdd") else "PC2"
+    found.filepath = bpy.path.relpath(path) if bpy.data.filepath else path
+    found.time_mode, found.play_mode, found.interpolation = "FRAME", "SCENE", "LINEAR"
+    found.frame_start, found.frame_scale = start, 1.0
+
+
+def modifiers():
+    """[(object, its modifier)] of all bakes."""
+    return [(source, one) for source in bpy.data.objects for one in source.modifiers if one.name == NAME and one.type == "MESH_CACHE"]
+
+
+def cut_modifier(modifier, start, end, rate):
+    path = bpy.path.abspath(modifier.filepath)
+    first, samples = round(modifier.frame_start), len(read_cache(path))
+    start, end = max(start, first), min(end, first + samples - 1)
+    stem, ending = os.path.splitext(path)
+    new_path = f"{stem.split(' frames ')[0]} frames {start}-{end}{ending}"
+    cut_cache(path, new_path, start - first, end - start + 1, start, rate)
+    modifier.filepath = bpy.path.relpath(new_path) if bpy.data.filepath else new_path
+    modifier.frame_start = start
+
+
+# ---- Shape keys ----
+
+def add_copies(context, recorded, frames):
+    """`recorded`: {object name: (frames, points, 3) places in the world}."""
+    scene = context.scene
+    sources = [scene.objects[name] for name in recorded]
+    meshes = rest_meshes(context, sources)
+    free_copies()
+    collection = bpy.data.collections.new(NAME)
+    scene.collection.children.link(collection)
+    for source in sources:
+        made = bpy.data.objects.new(f"{source.name} (baked)", meshes[source.name])
+        made.soft_body_format.role = "IGNORE"
+        made[COPY_OF] = source.name
+        collection.objects.link(made)
+        if made.data.shape_keys is not None:
+            made.shape_key_clear()
+        add_keys(made, recorded[source.name], frames)
+    hidden = [source.name for source in sources if not source.hide_get(view_layer=context.view_layer)]
+    for name in hidden:
+        scene.objects[name].hide_set(True, view_layer=context.view_layer)
+    collection[HIDDEN] = json.dumps(hidden)
+
+
+def add_keys(made, places, frames):
+    """A shape for each of the frames, in full at it and none at its neighbours."""
+    made.shape_key_add(name="Basis", from_mix=False)
+    for index, frame in enumerate(frames):
+        block = made.shape_key_add(name=key_name(frame), from_mix=False)
+        block.data.foreach_set("co", numpy.ascontiguousarray(places[index], dtype=numpy.float32).ravel())
+        for place, value in ((index - 1, 0.0), (index + 1, 0.0), (index, 1.0)):
+            if 0 <= place < len(frames):
+                block.value = value
+                block.keyframe_insert("value", frame=frames[place])
+    for curves in curve_lists(made.data.shape_keys):
+        for curve in curves:
+            for point in curve.keyframe_points:
+                point.interpolation = "LINEAR"
+
+
+def curve_lists(owner):
+    """The lists of F-curves that animate it: one before Blender 4.4, one a channel bag since."""
+    action = owner.animation_data.action if owner.animation_data is not None else None
+    if action is None:
+        return []
+    if hasattr(action, "layers") and len(action.layers):
+        return [bag.fcurves for layer in action.layers for strip in layer.strips for bag in strip.channelbags]
+    return [action.fcurves]
+
+
+def copies():
+    collection = bpy.data.collections.get(NAME)
+    return list(collection.objects) if collection is not None else []
+
+
+def cut_keys(made, start, end):
+    """Takes away the shapes of other frames, with their curves."""
+    keys = made.data.shape_keys
+    gone = [block.name for block in keys.key_blocks if block.name.startswith(KEY) and not start <= int(block.name[len(KEY):]) <= end]
+    paths = {keys.key_blocks[name].path_from_id("value") for name in gone}
+    for curves in curve_lists(keys):
+        for curve in [one for one in curves if one.data_path in paths]:
+            curves.remove(curve)
+    for name in gone:
+        made.shape_key_remove(keys.key_blocks[name])
+
+
+def free_copies():
+    collection = bpy.data.collections.get(NAME)
+    if collection is None:
+        return
+    names = json.loads(collection.get(HIDDEN, "[]"))
+    for made in list(collection.objects):
+        mesh = made.data
+        bpy.data.objects.remove(made)
+        bpy.data.meshes.remove(mesh)
+    bpy.data.collections.remove(collection)
+    for scene in bpy.data.scenes:
+        for layer in scene.view_layers:
+            for name in names:
+                if name in layer.objects:
+                    layer.objects[name].hide_set(False, view_layer=layer)

@@ -1,0 +1,165 @@
+"""What a preview shows: copies of the character's meshes and armature in a collection of their own.
+
+The artist's objects stay as they are, but for the eye in the outliner, which is closed while their copies are seen. Copies are never
+rendered, exported or selected, and everything can be put back from the .blend alone: after an undo, or in a file that was saved by
+a Blender that broke down."""
+
+import json
+from dataclasses import dataclass
+
+import bpy
+import numpy
+from mathutils import Matrix
+
+from ..to_document.rest import at_rest
+
+NAME, HIDDEN = "Soft body preview", "soft_body_format_hidden"
+COPY_OF = "soft_body_format_copy_of"
+
+
+@dataclass
+class Actor:
+    """A mesh that is moved: which of the asset's parts moves it, and the names of its object and of the copy."""
+
+    source: str
+    kind: str      # "skin" of a render mesh, or "surface" of a soft body
+    index: int
+    copy: str = ""
+
+
+def collection_of():
+    return bpy.data.collections.get(NAME)
+
+
+def actors_of(whole, document):
+    """Which part of the built document moves each object: its render mesh, or the surface of a body that is not rendered."""
+    meshes = {one.id: index for index, one in enumerate(document.render_meshes)}
+    bodies = {one.id: index for index, one in enumerate(document.soft_bodies)}
+    found = []
+    for source in whole.writer.of_type("MESH"):
+        known = whole.writer.identifiers.known
+        mesh, body = meshes.get(known("mesh", source.name)), bodies.get(known("body", source.name))
+        if mesh is not None:
+            found.append(Actor(source.name, "skin", mesh))
+        elif body is not None:
+            found.append(Actor(source.name, "surface", body))
+    return found
+
+
+def rest_meshes(context, sources):
+    """A mesh for each of those objects: at rest, modifiers evaluated as an export does, in the world."""
+    made = {}
+    with at_rest(list(context.view_layer.objects), context.view_layer):
+        depsgraph = context.evaluated_depsgraph_get()
+        for source in sources:
+            mesh = bpy.data.meshes.new_from_object(source.evaluated_get(depsgraph), preserve_all_data_layers=True,
+                                                   depsgraph=depsgraph)
+            mesh.transform(source.matrix_world)
+            if source.matrix_world.is_negative:
+                mesh.flip_normals()
+            made[source.name] = mesh
+    return made
+
+
+class Stage:
+    """The copies of one preview, known by name: Blender's pointers do not outlive an undo."""
+
+    def __init__(self, scene, actors, armatures):
+        self.scene_name, self.actors = scene.name, actors
+        self.armatures = {name: "" for name in armatures}
+
+    def set(self, context):
+        """Makes the copies, and closes the eyes of what they stand for."""
+        strike()
+        scene = bpy.data.scenes[self.scene_name]
+        sources = [scene.objects[actor.source] for actor in self.actors if actor.source in scene.objects]
+        meshes = rest_meshes(context, sources)
+        collection = bpy.data.collections.new(NAME)
+        scene.collection.children.link(collection)
+        for actor in self.actors:
+            if actor.source in meshes:
+                made = bpy.data.objects.new(f"{actor.source} (preview)", meshes[actor.source])
+                self.put(made, collection, actor.source)
+                actor.copy = made.name
+        for name in self.armatures:
+            if name in scene.objects:
+                self.armatures[name] = self.put_armature(scene.objects[name], collection)
+        hidden = []
+        for source in sources + [scene.objects[name] for name in self.armatures if name in scene.objects]:
+            if not source.hide_get(view_layer=context.view_layer):
+                hidden.append(source.name)
+                source.hide_set(True, view_layer=context.view_layer)
+        collection[HIDDEN] = json.dumps(hidden)
+
+    @staticmethod
+    def put(made, collection, source):
+        made.hide_render = made.hide_select = True
+        made.soft_body_format.role = "IGNORE"
+        made[COPY_OF] = source
+        collection.objects.link(made)
+
+    def put_armature(self, source, collection):
+        """A pose of its own over the same bones, free of what else poses them."""
+        made = source.copy()
+        world = source.matrix_world.copy()
+        made.animation_data_clear()
+        for bone in made.pose.bones:
+            for one in list(bone.constraints):
+                bone.constraints.remove(one)
+            bone.rotation_mode = "QUATERNION"
+        for one in list(made.constraints):
+            made.constraints.remove(one)
+        made.parent, made.name = None, f"{source.name} (preview)"
+        made.matrix_world = world
+        self.put(made, collection, source.name)
+        return made.name
+
+    def is_whole(self):
+        """Whether undo, a file or the artist has taken nothing of it away."""
+        return collection_of() is not None and bpy.data.scenes.get(self.scene_name) is not None and \
+            all(actor.copy in bpy.data.objects for actor in self.actors if actor.copy) and \
+            all(name in bpy.data.objects for name in self.armatures.values() if name)
+
+    def show_points(self, actor, points):
+        """`points` is an (n, 3) array in the world of Blender."""
+        made = bpy.data.objects.get(actor.copy)
+        if made is None or len(made.data.vertices) != len(points):
+            return
+        made.data.vertices.foreach_set("co", numpy.ascontiguousarray(points, dtype=numpy.float32).ravel())
+        made.data.update()
+
+    def show_bones(self, armature_name, frames):
+        """`frames`: {bone name: 4x4 in the world of Blender}."""
+        made = bpy.data.objects.get(self.armatures.get(armature_name, ""))
+        if made is None:
+            return
+        inverse = made.matrix_world.inverted_safe()
+        scale = Matrix.Scale(made.matrix_world.median_scale, 4)
+        poses = {}
+        for bone in made.data.bones:  # parents first
+            if bone.name not in frames:
+                continue
+            poses[bone.name] = pose = inverse @ frames[bone.name] @ scale
+            above = bone.parent if bone.parent is not None and bone.parent.name in poses else None
+            more = {"parent_matrix": poses[above.name], "parent_matrix_local": above.matrix_local} if above is not None else {}
+            made.pose.bones[bone.name].matrix_basis = bone.convert_local_to_pose(pose, bone.matrix_local, invert=True, **more)
+
+
+def strike():
+    """Takes the copies away and opens the eyes again, whoever made them; says whether there were any."""
+    collection = collection_of()
+    if collection is None:
+        return False
+    names = json.loads(collection.get(HIDDEN, "[]"))
+    for made in list(collection.objects):
+        data = made.data
+        bpy.data.objects.remove(made)
+        if isinstance(data, bpy.types.Mesh) and data.users == 0:
+            bpy.data.meshes.remove(data)
+    bpy.data.collections.remove(collection)
+    for scene in bpy.data.scenes:
+        for layer in scene.view_layers:
+            for name in names:
+                if name in layer.objects:
+                    layer.objects[name].hide_set(False, view_layer=layer)
+    return True

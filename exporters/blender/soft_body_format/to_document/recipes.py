@@ -1,0 +1,15 @@
+"""What sections that a build cuts from a skin are made of: as the scene's panel says, and a bone's for its own."""
+
+from ..settings.attributes import fill_attributes
+
+
+def write_recipes(writer):
+    build = writer.scene.soft_body_format.build
+    if build.use_material:
+        fill_attributes(writer.asset.add("section_recipes").attributes, build.attributes)
+    for armature in writer.of_type("ARMATURE"):
+        for bone in armature.data.bones:
+            settings = bone.soft_body_format
+            identity = writer.skeleton.id(armature, bone.name)
+            if settings.use_material and identity is not None:
+                fill_attributes(writer.asset.add("section_recipes", bone=identity).attributes, settings.attributes)
