@@ -52,6 +52,14 @@ class SoftBody(fixtures.SceneTest):
         self.assertAlmostEqual(speed, GRAVITY / blender_units.friction(5), delta=0.02 * speed)
 
 
+    def test_aerodynamics_bound_the_fall(self):
+        made = square(1, use_goal=False, use_edges=True, friction=0, damping=0, aero=2000, aerodynamics_type="SIMPLE")
+        way_of_a_frame = settle(made)[0] - settle(made, 241, 241)[0]
+        speed = way_of_a_frame / blender_units.TIME_UNIT_S
+        density = blender_units.air_density(2000, 4, 0.25)
+        self.assertAlmostEqual(speed, (2 * 4 * GRAVITY / (density * 0.25))**0.5, delta=0.02 * speed)
+
+
 class Cloth(fixtures.SceneTest):
     def test_tension_and_air(self):
         made = fixtures.mesh_object("m", [(0, 0, 0), (0, 0, -.5), (.5, 0, -.5), (.5, 0, 0)], [(0, 1, 2, 3)])
@@ -63,3 +71,20 @@ class Cloth(fixtures.SceneTest):
         cloth.bending_stiffness = cloth.shear_stiffness = 0
         wanted = 0.6 * GRAVITY / blender_units.cloth_stiffness(15, 0.5)
         self.assertAlmostEqual(-settle(made)[1] - 0.5, wanted, delta=0.02 * wanted)
+
+    def test_shear_makes_a_weave_stiffer_and_thinner(self):
+        """A hanging strip, against a sheet of the modulus and ratio with one thread more, since its rims have cells at one side alone."""
+        wide, high, cell, mass = 8, 24, 0.1, 0.05
+        places = [(cell * i, 0, -cell * j) for j in range(high + 1) for i in range(wide + 1)]
+        faces = [(at, at + 1, at + wide + 2, at + wide + 1) for j in range(high) for at in range(j * (wide + 1), j * (wide + 1) + wide)]
+        made = fixtures.mesh_object("m", places, faces)
+        made.vertex_groups.new(name="held").add(list(range(wide + 1)), 1.0, "REPLACE")
+        found = made.modifiers.new("c", "CLOTH")
+        cloth = found.settings
+        found.collision_settings.use_collision = False
+        cloth.mass, cloth.tension_stiffness, cloth.shear_stiffness, cloth.quality = mass, 4, 2, 10
+        cloth.compression_stiffness, cloth.bending_stiffness, cloth.vertex_group_mass = 4, 0, "held"
+        stiffness, _ = blender_units.cloth_layer(4, 2, cell)
+        fallen = -cell * high - settle(made)[-1 - wide // 2]
+        borne = (wide + 1) * mass * GRAVITY * high * (high + 1) / 2  # summed over the rows of cells, each bears what is below it
+        self.assertAlmostEqual(fallen, borne / (stiffness * wide + blender_units.cloth_stiffness(4, cell)), delta=0.02 * fallen)

@@ -70,16 +70,125 @@ class Bodies(fixtures.SceneTest):
         self.assertEqual(list(goal.points), [0, 1])
         self.assertAlmostEqual(goal.stiffness * goal.weights[0], 9000, delta=1)
 
+    def test_sliders_of_the_soft_body_modifier_one_by_one(self):
+        made = fixtures.sheet("b", 2)
+        made.modifiers.new("s", "SOFT_BODY")
+        soft = made.soft_body
+        made.vertex_groups.new(name="heavy").add([4], 0.25, "REPLACE")
+        made.vertex_groups.new(name="stiff").add(list(range(9)), 0.5, "REPLACE")
+        soft.use_goal, soft.mass, soft.vertex_group_mass, soft.vertex_group_spring = False, 2, "heavy", "stiff"
+        soft.pull = soft.push = 0.75
+        soft.spring_length, soft.plastic, soft.step_min, soft.aero, soft.aerodynamics_type = 50, 30, 7, 60, "SIMPLE"
+        soft.use_self_collision, soft.ball_size = True, 0.5
+        asset = self.export(build=False)
+        body = asset.soft_bodies[0]
+        level = body.levels[0]
+        self.assertAlmostEqual(list(level.masses)[4], 0.5)
+        edges = level.springs[0]
+        self.assert_near(set(edges.rest_lengths), {0.25})
+        self.assert_near(set(edges.stiffness), {1000 * 3 / 0.25 * 0.5**2}, 1e-2)
+        self.assertEqual(level.simulation.substeps, 7)
+        self.assert_near((body.attributes.yield_strain, body.attributes.yield_flow), (0.05, 0.3))
+        self.assertTrue(body.collision.self)
+        self.assertAlmostEqual(body.collision.particle_radius, 0.5 * 0.5 * 0.5)
+        self.assertAlmostEqual(asset.environment.media_density, 8e-4 * 60 * 12, places=5)
+
+    def test_bounds_of_a_goal(self):
+        made = fixtures.sheet("b", 2)
+        made.vertex_groups.new(name="goal").add([0], 1.0, "REPLACE")
+        made.vertex_groups["goal"].add([1], 0.5, "REPLACE")
+        made.modifiers.new("s", "SOFT_BODY")
+        soft = made.soft_body
+        soft.vertex_group_goal, soft.goal_default, soft.goal_min, soft.goal_max = "goal", 0.8, 0.2, 0.9
+        soft.goal_spring, soft.goal_friction = 0.5, 10
+        goal = self.export(build=False).soft_bodies[0].pins[0]
+        finals = [weight * 0.8 * 0.7 + 0.2 for weight in (1, 0.5, 0)]
+        wanted = [1000 * (1 / (1 - final**4 * 0.5) - 1) for final in finals]
+        self.assert_near([goal.stiffness * goal.weights[index] for index in (0, 1, 2)], wanted, 1e-3)
+        self.assertAlmostEqual(goal.damping, 0.01 * 10 / math.sqrt(0.001), places=4)
+
+    def cloth(self, made, **settings):
+        found = made.modifiers.new("c", "CLOTH")
+        for name, value in settings.items():
+            setattr(found.settings, name, value)
+        return found
+
     def test_cloth_modifier(self):
         made = fixtures.sheet("cape", 4)
         made.vertex_groups.new(name="collar").add([0, 1, 2], 1.0, "REPLACE")
-        cloth = made.modifiers.new("c", "CLOTH").settings
-        cloth.mass, cloth.tension_stiffness, cloth.vertex_group_mass = 0.01, 20, "collar"
+        found = self.cloth(made, mass=0.01, tension_stiffness=20, shear_stiffness=5, tension_damping=4, bending_stiffness=0.5,
+                           air_damping=2, vertex_group_mass="collar", pin_stiffness=3)
+        found.collision_settings.use_self_collision = True
+        found.collision_settings.self_distance_min, found.collision_settings.distance_min = 0.02, 0.03
+        found.collision_settings.friction = 8
         body = self.export(build=False).soft_bodies[0]
-        self.assertAlmostEqual(body.attributes.area_density, 0.01 * len(made.data.vertices), places=4)
-        edge = 1 / math.sqrt(len(made.data.polygons))
-        self.assertAlmostEqual(body.attributes.young_modulus * body.attributes.thickness, 20000 / edge, delta=1)
+        numbers, edge = body.attributes, 0.25
+        self.assertAlmostEqual(numbers.area_density, 0.01 * len(made.data.vertices), places=4)
+        self.assertAlmostEqual(numbers.poisson_ratio, 0.2, places=6)
+        self.assertAlmostEqual(numbers.young_modulus * numbers.thickness, 25000 / edge * (1 - 0.04), delta=1)
+        self.assertAlmostEqual(numbers.bending_stiffness, 0.5 * edge, places=5)
+        self.assertAlmostEqual(numbers.media_friction, 0.02 / math.sqrt(0.001) / 0.01, delta=1e-3)
+        self.assertAlmostEqual(numbers.stiffness_damping, 0.04 / 20 * math.sqrt(0.001), places=8)
+        self.assertAlmostEqual(numbers.friction, 0.8, places=6)
+        self.assertTrue(body.collision.self)
+        self.assert_near((body.collision.particle_radius, body.collision.outer_thickness), (0.02, 0.03))
         self.assertEqual(list(body.pins[0].points), [0, 1, 2])
+        self.assertEqual(body.pins[0].stiffness, 3000)
+
+    def test_pressure_of_cloth(self):
+        made = fixtures.ball("balloon")
+        made.vertex_groups.new(name="thin").add([5], 0.5, "REPLACE")
+        self.cloth(made, use_pressure=True, uniform_pressure_force=2, vertex_group_pressure="thin")
+        body = self.export(build=False).soft_bodies[0]
+        self.assertEqual((body.attributes.pressure_mode, body.attributes.pressure), ("gas", 2000))
+        self.assertEqual([(one.property, list(one.values)[4:7]) for one in body.weight_maps], [("pressure", [0, 0.5, 0])])
+        made.modifiers["c"].settings.use_pressure_volume = True
+        self.assertEqual(self.export(build=False).soft_bodies[0].attributes.pressure_mode, "volume")
+
+    def test_painted_stiffness_of_cloth(self):
+        made = fixtures.sheet("cape", 4)
+        made.vertex_groups.new(name="hem").add([3], 0.5, "REPLACE")
+        self.cloth(made, tension_stiffness=10, tension_stiffness_max=30, vertex_group_structural_stiffness="hem",
+                   bending_stiffness=1, bending_stiffness_max=2, vertex_group_bending="hem")
+        maps = {one.property: list(one.values)[2:5] for one in self.export(build=False).soft_bodies[0].weight_maps}
+        self.assertEqual(maps, {"young_modulus": [1, 2, 1], "bending_stiffness": [1, 1.5, 1]})
+
+    def test_internal_springs_of_cloth(self):
+        made = fixtures.box("pillow", (1, 1, 0.5))
+        self.cloth(made, use_internal_springs=True, internal_tension_stiffness=12, tension_stiffness=20, shear_stiffness=5)
+        level = self.export(build=False).soft_bodies[0].levels[0]
+        sets = {one.kind: one for one in level.springs}
+        self.assertEqual({kind: len(one.ends) // 2 for kind, one in sets.items()}, {"structural": 12, "shear": 12, "internal": 4})
+        edge = (8 * 1 + 4 * 0.5) / 12
+        self.assert_near(set(sets["internal"].stiffness), {12000 / edge}, 0.1)
+        made.modifiers["c"].settings.internal_spring_max_length = 0.4
+        kinds = [one.kind for one in self.export(build=False).soft_bodies[0].levels[0].springs]
+        self.assertEqual(kinds, ["structural", "shear"])
+
+    def test_what_cloth_has_and_the_format_has_not_is_told(self):
+        made = fixtures.sheet("cape", 4)
+        self.cloth(made, compression_stiffness=40, use_sewing_springs=True)
+        bpy.ops.sbfmt.check()
+        told = " ".join(one.message for one in self.scene.soft_body_format.findings)
+        self.assertRegex(told, "compression .40. differs.*sewing")
+
+    def test_thickness_of_collision_settings(self):
+        rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])
+        part = fixtures.ball("belly")
+        fixtures.hang(part, rig, "hip")
+        part.modifiers.new("c", "COLLISION")
+        part.collision.thickness_outer, part.collision.thickness_inner, part.collision.cloth_friction = 0.03, 0.1, 7
+        body = self.export(build=False).soft_bodies[0]
+        self.assert_near((body.collision.outer_thickness, body.collision.inner_thickness, body.attributes.friction), (0.03, 0.1, 0.7))
+
+    def test_an_obstacle_is_a_rigid_part_and_a_floor_is_left_to_the_host(self):
+        fixtures.ball("blob", center=(0, 0, 3))
+        for made in (fixtures.box("post"), fixtures.sheet("floor")):
+            made.modifiers.new("c", "COLLISION")
+            made.collision.cloth_friction = 4
+        asset = self.export(build=False)
+        self.assertEqual([(one.name, one.motion, round(one.friction, 6)) for one in asset.rigid_bodies], [("post", "kinematic", 0.4)])
+        self.assertEqual([one.name for one in asset.soft_bodies], ["blob"])
 
 
 BIPED = [("hip", None, (0, 0, 1), (0, 0, 1.3), 0), ("head", "hip", (0, 0, 1.3), (0, 0, 1.6), 0)] + [
@@ -129,6 +238,43 @@ class Rig(fixtures.SceneTest):
         x, y, z, w = found.frame_b.rotation
         turned = Quaternion((w, x, y, z)) @ Vector((1, 0, 0))
         self.assert_near(turned, (axis.x, axis.z, -axis.y), 1e-5)
+
+    def limit_location(self, bone, rotation=(), **settings):
+        one = self.rig.pose.bones[bone].constraints.new("LIMIT_LOCATION")
+        one.owner_space = "LOCAL"
+        for name, value in settings.items():
+            setattr(one, f"use_{name}", True)
+            setattr(one, name, value)
+        if rotation:
+            two = self.rig.pose.bones[bone].constraints.new("LIMIT_ROTATION")
+            two.owner_space = "LOCAL"
+            for axis in rotation:
+                setattr(two, f"use_limit_{axis}", True)
+        return self.joints()[1][bone]
+
+    def bounds(self, joint):
+        return [(limit.target, round(limit.min, 4), round(limit.max, 4)) for limit in joint.limits]
+
+    def test_a_limit_location_constraint_makes_a_slider(self):
+        self.scene.unit_settings.scale_length = 0.5
+        held = dict(min_x=0, max_x=0, min_z=0, max_z=0)
+        found = self.limit_location("head", "xyz", min_y=-0.1, max_y=0.2, **held)
+        self.assertEqual((found.kind, self.bounds(found)), ("prismatic", [("linear_x", -0.05, 0.1)]))
+        x, y, z, w = found.frame_b.rotation
+        self.assert_near(Quaternion((w, x, y, z)) @ Vector((1, 0, 0)), (0, 1, 0), 1e-6)
+
+    def test_limit_location_with_one_turn_makes_a_cylinder(self):
+        found = self.limit_location("head", "xz", min_x=0, max_x=0, min_z=0, max_z=0, min_y=-0.1, max_y=0.2)
+        self.assertEqual((found.kind, self.bounds(found)), ("cylindrical", [("linear_x", -0.1, 0.2)]))
+
+    def test_other_limits_of_location_bound_all_six(self):
+        found = self.limit_location("head", "y", min_x=-0.1, max_x=0.1, max_z=0.3)
+        self.assertEqual((found.kind, self.bounds(found)),
+                         ("six_dof", [("linear_y", -1e4, 0.3), ("linear_z", -0.1, 0.1), ("twist", 0, 0)]))
+
+    def test_no_way_to_slide_is_a_ball(self):
+        found = self.limit_location("head", min_x=0, max_x=0, min_y=0, max_y=0, min_z=0, max_z=0)
+        self.assertEqual((found.kind, self.bounds(found)), ("spherical", []))
 
     def test_ik_limits_become_ranges(self):
         pose = self.rig.pose.bones["thigh.R"]

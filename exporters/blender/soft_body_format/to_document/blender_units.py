@@ -34,6 +34,20 @@ def friction(slider):
     return FRICTION_SCALE * slider / TIME_UNIT_S
 
 
+def air_density(aero, edges, area_m2):
+    """kg/m³ of the medium that brakes a sheet as a soft body's aerodynamics do: each edge is held back by 0.0001 · aero · (twice its
+    speed)², which in SI is 0.0004 · aero · v² newtons, and a medium brakes by density/2 · v² · area."""
+    return 8e-4 * aero * edges / area_m2
+
+
+def cloth_layer(tension, shear, edge_m):
+    """(modulus times thickness in N/m, Poisson's ratio) of a square weave: threads of stiffness t along both edges of a cell and s
+    along its diagonals give C11 = t + s and C12 = s, of which the ratio is C12/C11 and the modulus C11 (1 - ratio²)."""
+    t, s = cloth_stiffness(tension, edge_m), cloth_stiffness(shear, edge_m)
+    ratio = min(s / max(t + s, 1e-12), 0.499)
+    return (t + s) * (1 - ratio**2), ratio
+
+
 def cloth_stiffness(tension, length_m):
     """N/m of a cloth's spring: the force is the tension times the strain."""
     return FORCE_UNIT_N * tension / length_m

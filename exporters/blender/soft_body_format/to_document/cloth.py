@@ -3,34 +3,37 @@
 import numpy
 
 from ..sbfmt.document import Record
-from .blender_units import FORCE_UNIT_N, TIME_UNIT_S, cloth_stiffness, friction
+from . import cloth_springs
+from .blender_units import FORCE_UNIT_N, TIME_UNIT_S, cloth_layer, friction
 from .pins import by_holder
 from .roles import modifier
-from .soft_bodies import mean_edge, weights_of
+from .soft_bodies import area_of, mean_edge, weights_of
 
 THICKNESS_M = 0.001  # Blender's cloth has none; modulus times thickness is what counts
+# Weight maps: the format's property, the vertex group's slider, the slider at weight 0 and at weight 1.
+MAPS = (("young_modulus", "vertex_group_structural_stiffness", "tension_stiffness", "tension_stiffness_max"),
+        ("bending_stiffness", "vertex_group_bending", "bending_stiffness", "bending_stiffness_max"))
+# What the format has no place for: slider, what it is called, value at which it does nothing.
+LEFT_OUT = (("use_sewing_springs", "sewing", False), ("shrink_min", "shrinking", 0.0), ("time_scale", "speed", 1.0),
+            ("fluid_density", "fluid density", 0.0), ("vertex_group_shear_stiffness", "the group of shear stiffness", ""),
+            ("vertex_group_shrink", "the group of shrinking", ""), ("use_dynamic_mesh", "the dynamic mesh", False))
 
 
 def settings_of(source):
     return modifier(source, "CLOTH")
 
 
-def area_of(mesh, world_scale):
-    return sum(polygon.area for polygon in mesh.polygons) * world_scale**2
-
-
 def fill_from_cloth(writer, body, source, geometry, found):
-    """Tension, bending and mass a vertex become modulus, rigidity and mass an area; its collision thickness stays."""
+    """Tension, shear, bending and mass a vertex become modulus, ratio, rigidity and mass an area; its collision thickness stays."""
     cloth, count = found.settings, len(geometry.positions)
     edge = mean_edge(geometry)
-    area = area_of(geometry.mesh, writer.space.unit_m * source.matrix_world.median_scale)
+    scale = writer.space.unit_m * source.matrix_world.median_scale
     attributes = body.attributes
-    attributes.area_density = cloth.mass * count / area
+    attributes.area_density = cloth.mass * count / max(area_of(geometry.mesh, scale), 1e-12)
     attributes.thickness = THICKNESS_M
     attributes.density = attributes.area_density / THICKNESS_M
-    # Springs an edge apart: a sheet's tension per width is the spring's stiffness.
-    attributes.young_modulus = cloth_stiffness(cloth.tension_stiffness, edge) / THICKNESS_M
-    attributes.poisson_ratio = 0.25
+    stiffness, attributes.poisson_ratio = cloth_layer(cloth.tension_stiffness, cloth.shear_stiffness, edge)
+    attributes.young_modulus = stiffness / THICKNESS_M
     attributes.bending_stiffness = FORCE_UNIT_N * cloth.bending_stiffness * edge * 1e-3
     attributes.media_friction = friction(cloth.air_damping) / cloth.mass
     attributes.stiffness_damping = damping_time(cloth)
@@ -39,20 +42,46 @@ def fill_from_cloth(writer, body, source, geometry, found):
     if cloth.use_pressure:
         attributes.pressure_mode = "volume" if cloth.use_pressure_volume else "gas"
         attributes.pressure = FORCE_UNIT_N * cloth.uniform_pressure_force
-    body.collision.self = found.collision_settings.use_self_collision
-    body.collision.particle_radius = found.collision_settings.self_distance_min
-    body.collision.outer_thickness = found.collision_settings.distance_min
-    attributes.friction = min(found.collision_settings.friction / 10, 2.0)
+    meeting = found.collision_settings
+    body.collision.self = meeting.use_self_collision
+    body.collision.particle_radius = meeting.self_distance_min * writer.space.unit_m
+    body.collision.outer_thickness = meeting.distance_min * writer.space.unit_m
+    attributes.friction = min(meeting.friction / 10, 2.0)
     weights = weights_of(source, geometry.mesh, cloth.vertex_group_mass)
     if weights is not None:
         write_pins(writer, body, source, geometry, weights, cloth)
-    for name, label in (("compression_stiffness", "compression"), ("shear_stiffness", "shear")):
-        if abs(getattr(cloth, name) - cloth.tension_stiffness) > 0.01 * cloth.tension_stiffness:
-            writer.findings.info(f"cloth {label} ({getattr(cloth, name):g}) differs from its tension "
-                                 f"({cloth.tension_stiffness:g}); the format's layer has one modulus, that of the tension",
-                                 object_name=source.name)
+    add_maps(body, source, geometry, cloth)
     if cloth.use_internal_springs:
-        writer.findings.info("internal springs of the cloth are left to the build, which makes its own", object_name=source.name)
+        cloth_springs.write_level(writer, body, source, geometry, cloth)
+    tell(writer, source, cloth)
+
+
+def add_maps(body, source, geometry, cloth):
+    """Painted stiffness: from the slider at weight 0 to its maximum at weight 1. Painted pressure is a share of it."""
+    for name, group, low, high in MAPS:
+        weights = weights_of(source, geometry.mesh, getattr(cloth, group))
+        if weights is not None and getattr(cloth, low) > 0:
+            ratio = max(getattr(cloth, high), getattr(cloth, low)) / getattr(cloth, low)
+            body.add("weight_maps", property=name, values=(1 + (ratio - 1) * weights).astype(numpy.float32))
+    weights = weights_of(source, geometry.mesh, cloth.vertex_group_pressure) if cloth.use_pressure else None
+    if weights is not None:
+        body.add("weight_maps", property="pressure", values=weights.astype(numpy.float32))
+
+
+def tell(writer, source, cloth):
+    """What one modulus and one damping can't show, and what has no place at all."""
+    if abs(cloth.compression_stiffness - cloth.tension_stiffness) > 0.01 * cloth.tension_stiffness:
+        writer.findings.info(f"cloth compression ({cloth.compression_stiffness:g}) differs from its tension "
+                             f"({cloth.tension_stiffness:g}); the format's layer has one modulus, that of the tension",
+                             object_name=source.name)
+    others = [name for name in ("compression", "shear") if
+              abs(getattr(cloth, f"{name}_damping") - cloth.tension_damping) > 0.01 * max(cloth.tension_damping, 1)]
+    if others:
+        writer.findings.info(f"cloth damping of {' and '.join(others)} differs from that of tension ({cloth.tension_damping:g}); "
+                             "the format's layer has one, that of tension", object_name=source.name)
+    left_out = [label for name, label, idle in LEFT_OUT if getattr(cloth, name, idle) != idle]
+    if left_out:
+        writer.findings.info(f"cloth settings without a counterpart are left out: {', '.join(left_out)}", object_name=source.name)
 
 
 def damping_time(cloth):

@@ -1,10 +1,11 @@
 """Objects with rigid body settings, and the rigid body constraints between them."""
 
 import bmesh
+import numpy
 from mathutils import Matrix, Vector
 
 from ..sbfmt.document import Record
-from .roles import COLLISION, holding_bone
+from .roles import COLLISION, holding_bone, modifier
 
 # Blender's hinge turns about Z, its slider and piston run along X; a joint's own axis is X.
 X_FROM_Z = Matrix(((0, 0, -1), (0, 1, 0), (1, 0, 0)))
@@ -13,6 +14,16 @@ KINDS = {"FIXED": "fixed", "POINT": "spherical", "HINGE": "revolute", "SLIDER": 
 LINEAR = ("linear_x", "linear_y", "linear_z")
 ANGULAR = ("twist", "swing_y", "swing_z")
 SEGMENTS = 12  # of round shapes' hulls
+COLLIDER_FRICTION = 0.1  # Blender's cloth takes this share of the slider as its coefficient
+
+
+def is_flat(made):
+    """Whether all points lie in a plane, but for a hundred-thousandth of their extent."""
+    places = numpy.array([vertex.co for vertex in made.verts]).reshape(-1, 3)
+    if len(places) < 4:
+        return True
+    extents = numpy.linalg.svd(places - places.mean(axis=0), compute_uv=False)
+    return extents[2] <= 1e-5 * extents[0]
 
 
 class RigidObjects:
@@ -35,8 +46,12 @@ class RigidObjects:
         known = writer.identifiers.known("rigid", key)
         if known:
             return writer.asset.find("rigid_bodies", known)
-        settings = source.rigid_body
+        settings, collider = source.rigid_body, modifier(source, "COLLISION")
         points, polygons = self.hull(source, settings.collision_shape if settings else "CONVEX_HULL")
+        if not polygons and settings is None and collider is not None:
+            writer.findings.info("has collision settings and no depth: it is left out, since the ground is the host's",
+                                 object_name=source.name)
+            return None
         if not polygons:
             writer.findings.error("its convex hull is flat or empty, so it can be no rigid part: give it a volume",
                                   object_name=source.name)
@@ -52,6 +67,8 @@ class RigidObjects:
             record.motion = "dynamic" if settings.type == "ACTIVE" and not settings.kinematic else "kinematic"
             record.mass, record.friction, record.restitution = settings.mass, settings.friction, settings.restitution
             record.layer = sum(1 << index for index, on in enumerate(settings.collision_collections) if on)
+        elif collider is not None:
+            record.friction = source.collision.cloth_friction * COLLIDER_FRICTION
         return record
 
     def hull(self, source, shape):
@@ -65,6 +82,8 @@ class RigidObjects:
                                               object_name=source.name)
             else:
                 self.simple(made, source, shape)
+            if is_flat(made):
+                return [], []
             found = bmesh.ops.convex_hull(made, input=made.verts, use_existing_faces=False)
             bmesh.ops.delete(made, geom=[one for one in {*found["geom_interior"], *found["geom_unused"]}
                                          if isinstance(one, bmesh.types.BMVert)], context="VERTS")
@@ -122,11 +141,16 @@ class RigidObjects:
         elif settings.type == "MOTOR":
             self.motor(made, settings)
         if settings.use_breaking:
-            made.break_force = settings.breaking_threshold
+            made.break_force = settings.breaking_threshold * self.steps_a_second()
+
+    def steps_a_second(self):
+        """Blender's rigid bodies state impulses of a step, which are forces by the step's time."""
+        scene = self.writer.scene
+        return scene.render.fps / scene.render.fps_base * scene.rigidbody_world.substeps_per_frame
 
     def place(self, made, source, settings, above, below):
         space = self.writer.space
-        turn = source.matrix_world.to_3x3().normalized()
+        turn = source.matrix_world.decompose()[1].to_matrix()
         if settings.type == "HINGE":
             turn = turn @ X_FROM_Z
         place, rotation = space.point(source.matrix_world.translation), space.rotation(turn.to_quaternion())
@@ -163,11 +187,10 @@ class RigidObjects:
                     made.drives.append(Record("drive", target=target, stiffness=getattr(settings, f"spring_stiffness_{kind}"),
                                               damping=getattr(settings, f"spring_damping_{kind}")))
 
-    @staticmethod
-    def motor(made, settings):
-        """A motor drives a velocity; its greatest impulse of a step is a force by the step's time."""
+    def motor(self, made, settings):
+        """A motor drives a velocity with a force that its greatest impulse bounds, and that its damping reaches at 1 m/s or rad/s."""
         for target, kind in (("linear_x", "lin"), ("twist", "ang")):
             if getattr(settings, f"use_motor_{kind}"):
-                most = getattr(settings, f"motor_{kind}_max_impulse") * 60
+                most = getattr(settings, f"motor_{kind}_max_impulse") * self.steps_a_second()
                 made.drives.append(Record("drive", target=target, velocity=getattr(settings, f"motor_{kind}_target_velocity"),
                                           damping=most, maximum=most))

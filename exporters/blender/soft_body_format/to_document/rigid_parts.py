@@ -9,8 +9,10 @@ from ..sbfmt.document import Record
 # Columns: where a joint's X, Y and Z lie in its bone's frame. X is the twist axis.
 BALL = Matrix(((0, 0, 1), (1, 0, 0), (0, 1, 0)))
 ABOUT = {"X": Matrix.Identity(3), "Y": BALL, "Z": Matrix(((0, 1, 0), (0, 0, 1), (1, 0, 0)))}
-# The coordinate of a ball joint for each of the bone's axes.
+# The coordinates of a ball joint for a turn about, and a way along, each of the bone's axes.
 OF_AXIS = {"X": "swing_z", "Y": "twist", "Z": "swing_y"}
+ALONG_AXIS = {"X": "linear_z", "Y": "linear_x", "Z": "linear_y"}
+UNBOUNDED_M = 1e4  # a way that is bounded at one end alone ends here at the other
 
 
 @dataclass
@@ -22,14 +24,17 @@ class Wish:
     bounds: list = field(default_factory=list)
 
 
-def wish_of(armature, bone, findings):
-    """The joint of a bone to the one above it, or None."""
+def wish_of(armature, bone, findings, scale_m=1.0):
+    """The joint of a bone to the one above it, or None. `scale_m` is the length of the armature's unit in metres."""
     joint = bone.soft_body_format.joint
     if joint.kind != "NONE":
         return of_panel(joint)
     pose = armature.pose.bones[bone.name]
-    bounds = of_constraints(armature, pose, findings) or of_ik_limits(pose)
-    return as_wish(bounds) if bounds else None
+    turns = of_constraints(armature, pose, findings) or of_ik_limits(pose)
+    ways = of_locations(armature, pose, findings, scale_m)
+    if any(high - low > 1e-9 for low, high in ways.values()):
+        return as_slide(turns, ways)
+    return as_wish(turns) if turns or ways else None
 
 
 def of_panel(joint):
@@ -47,22 +52,43 @@ def of_panel(joint):
 def of_constraints(armature, pose, findings):
     """{axis: (least, most)} of the limit rotation constraints that are on; several cut each other down."""
     bounds = {}
-    for one in pose.constraints:
-        if one.type == "LIMIT_LOCATION" and not one.mute:
-            findings.info("a Limit Location constraint is left out: joints of bones turn; choose a slider in Bone > Soft body format",
-                          object_name=armature.name, bone_name=pose.name)
-        if one.type != "LIMIT_ROTATION" or one.mute or one.influence == 0:
-            continue
-        if one.owner_space not in ("LOCAL", "LOCAL_WITH_PARENT"):
-            findings.warning(f"the constraint {one.name} limits in {one.owner_space.lower()} space, which is no joint's: set its "
-                             "owner to Local Space", object_name=armature.name, bone_name=pose.name)
-            continue
+    for one in local_limits(armature, pose, "LIMIT_ROTATION", findings):
         for axis in "XYZ":
             if getattr(one, f"use_limit_{axis.lower()}"):
-                low, high = getattr(one, f"min_{axis.lower()}"), getattr(one, f"max_{axis.lower()}")
-                old = bounds.get(axis, (-7.0, 7.0))
-                bounds[axis] = (max(low, old[0]), min(high, old[1]))
+                cut(bounds, axis, getattr(one, f"min_{axis.lower()}"), getattr(one, f"max_{axis.lower()}"), 7.0)
     return bounds
+
+
+def of_locations(armature, pose, findings, scale_m):
+    """{axis: (least, most)} in metres, of all three axes, of the limit location constraints that are on; {} where there is none."""
+    bounds = {}
+    for one in local_limits(armature, pose, "LIMIT_LOCATION", findings):
+        if pose.bone.use_connect:
+            findings.info(f"the constraint {one.name} bounds nothing: the bone is connected and does not slide",
+                          object_name=armature.name, bone_name=pose.name)
+            continue
+        for axis in "XYZ":
+            name = axis.lower()
+            cut(bounds, axis, getattr(one, f"min_{name}") * scale_m if getattr(one, f"use_min_{name}") else -UNBOUNDED_M,
+                getattr(one, f"max_{name}") * scale_m if getattr(one, f"use_max_{name}") else UNBOUNDED_M, UNBOUNDED_M)
+    return bounds
+
+
+def local_limits(armature, pose, kind, findings):
+    """Constraints of a kind that are on and measure in the bone's own frame."""
+    for one in pose.constraints:
+        if one.type != kind or one.mute or one.influence == 0:
+            continue
+        if one.owner_space in ("LOCAL", "LOCAL_WITH_PARENT"):
+            yield one
+        else:
+            findings.warning(f"the constraint {one.name} limits in {one.owner_space.lower()} space, which is no joint's: set its "
+                             "owner to Local Space", object_name=armature.name, bone_name=pose.name)
+
+
+def cut(bounds, axis, low, high, most):
+    old = bounds.get(axis, (-most, most))
+    bounds[axis] = (max(low, old[0]), min(high, old[1]))
 
 
 def of_ik_limits(pose):
@@ -76,9 +102,26 @@ def of_ik_limits(pose):
     return bounds
 
 
+def locked_of(bounds):
+    return [axis for axis, (low, high) in bounds.items() if high - low < 1e-6 and abs(low) < 1e-6]
+
+
+def as_slide(turns, ways):
+    """A slider or a cylinder where one axis slides and no other turns, else all six coordinates with their bounds."""
+    turning = [axis for axis in "XYZ" if axis not in locked_of(turns)]
+    sliding = [axis for axis in "XYZ" if axis not in locked_of(ways)]
+    if len(sliding) == 1 and turning in ([], sliding):
+        axis = sliding[0]
+        bounds = [("linear_x", *ways[axis])] + [("twist", *turns[axis]) for _ in turning if axis in turns]
+        return Wish("cylindrical" if turning else "prismatic", axis, bounds)
+    return Wish("six_dof", "Y", [(ALONG_AXIS[axis], *ways[axis]) for axis in "YZX"
+                                 if ways[axis] != (-UNBOUNDED_M, UNBOUNDED_M)] +
+                [(OF_AXIS[axis], *turns[axis]) for axis in "YZX" if axis in turns])
+
+
 def as_wish(bounds):
     """A hinge where two axes are locked, else a ball."""
-    locked = [axis for axis, (low, high) in bounds.items() if high - low < 1e-6 and abs(low) < 1e-6]
+    locked = locked_of(bounds)
     free = [axis for axis in "XYZ" if axis not in locked]
     if len(free) == 0:
         return Wish("fixed")
@@ -107,7 +150,8 @@ class RigidParts:
                                 motion="dynamic" if joint.simulated else "kinematic", mass=joint.mass if joint.use_mass else 0)
 
     def write(self, armature):
-        wishes = {bone.name: wish_of(armature, bone, self.writer.findings) for bone in armature.data.bones}
+        scale_m = self.writer.space.unit_m * armature.matrix_world.median_scale
+        wishes = {bone.name: wish_of(armature, bone, self.writer.findings, scale_m) for bone in armature.data.bones}
         wanted = {name for name, wish in wishes.items() if wish is not None}
         wanted |= {bone.name for bone in armature.data.bones
                    if bone.soft_body_format.joint.simulated or bone.soft_body_format.joint.use_mass}

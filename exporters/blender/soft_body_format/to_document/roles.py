@@ -29,19 +29,17 @@ def holding_bone(source):
 
 
 def shown_role(source):
-    """What the scene shows: soft and cloth modifiers make soft bodies, a bone makes a section, weights a skin, rigid body
-    settings a rigid part, and what nothing holds is soft."""
+    """What the scene shows: soft and cloth modifiers make soft bodies, a bone makes a section, weights a skin, rigid body settings or
+    collision settings alone a rigid part, and what nothing holds is soft."""
     if modifier(source, "SOFT_BODY") or modifier(source, "CLOTH"):
         return SOFT
     if source.rigid_body is not None:
         return COLLISION
-    if modifier(source, "COLLISION"):
-        return IGNORE
     if holding_bone(source):
         return SECTION
     if armature_of(source):
         return RENDER
-    return SOFT
+    return COLLISION if modifier(source, "COLLISION") else SOFT
 
 
 def role_of(source):

@@ -19,9 +19,9 @@ from .meshes import Geometry, fill_normals, fill_polygons, fill_shape_keys, fill
 from .pins import fill_pins, fill_weight_maps
 from .recipes import write_recipes
 from .rest import at_rest, mesh_of
-from .rigid_objects import RigidObjects
+from .rigid_objects import COLLIDER_FRICTION, RigidObjects
 from .rigid_parts import RigidParts
-from .roles import COLLISION, IGNORE, RENDER, SECTION, SOFT, armature_of, holding_bone, role_of
+from .roles import COLLISION, IGNORE, RENDER, SECTION, SOFT, armature_of, holding_bone, modifier, role_of
 from .surroundings import write_surroundings
 
 
@@ -55,6 +55,7 @@ class SceneWriter:
         self.armatures = {one.name: armature_of(one) for one in meshes}
         self.soft = {one.name: soft_bodies.settings_of(one) for one in meshes}
         self.cloth = {one.name: cloth.settings_of(one) for one in meshes}
+        self.colliders = {one.name for one in meshes if modifier(one, "COLLISION") and one.collision.use}
 
     def of_type(self, kind):
         return [one for one in self.objects if one.type == kind]
@@ -126,6 +127,14 @@ class SceneWriter:
             if role in (SECTION, SOFT):
                 self.write_body(source, geometry)
 
+    def fill_collider(self, body, source):
+        """Thickness and friction of Collision physics: how a surface meets others is the same said of what it is."""
+        if source.name in self.colliders:
+            scale = self.space.unit_m * source.matrix_world.median_scale
+            body.collision.outer_thickness = source.collision.thickness_outer * scale
+            body.collision.inner_thickness = source.collision.thickness_inner * scale
+            body.attributes.friction = source.collision.cloth_friction * COLLIDER_FRICTION
+
     def mesh_id(self, source):
         return self.identifiers.of("mesh", source.name, source.name, source.soft_body_format.mesh_identity)
 
@@ -192,5 +201,7 @@ class SceneWriter:
             for name in ("particle_radius", "outer_thickness", "inner_thickness"):
                 setattr(body.collision, name, getattr(settings, name))
             body.collision.self = settings.self_collision
+        if not settings.own_values:
+            self.fill_collider(body, source)
         fill_pins(self, body, source, geometry.mesh)
         fill_weight_maps(self, body, source, geometry.mesh)

@@ -3,7 +3,7 @@
 import numpy
 
 from ..sbfmt.document import Record
-from .blender_units import edge_stiffness, friction, goal_stiffness
+from .blender_units import air_density, edge_stiffness, friction, goal_stiffness
 from .pins import by_holder
 from .roles import modifier
 
@@ -38,9 +38,27 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
                                 "alike, so both get the pull", object_name=source.name)
     if soft.use_edges and soft.use_stiff_quads:
         tell_of_polygons(writer, source, geometry)
-    if soft.aero:
-        writer.findings.info("aerodynamics of the soft body modifier are left to the wind of the format's environment",
+    if soft.aero and soft.use_edges:
+        add_air(writer, source, geometry, soft)
+    if abs(soft.error_threshold - 0.1) > 1e-6 or soft.step_max != 300:
+        writer.findings.info(f"its error limit of {soft.error_threshold * writer.space.unit_m:g} m and its most steps of "
+                             f"{soft.step_max} a frame are the host's to set: step_error_m and substeps_max of the runtime",
                              object_name=source.name)
+
+
+def add_air(writer, source, geometry, soft):
+    """Aerodynamics as a medium of the environment, of which there is one: the densest that a body asks for."""
+    area = area_of(geometry.mesh, writer.space.unit_m * source.matrix_world.median_scale)
+    asked = air_density(soft.aero, len(geometry.mesh.edges), max(area, 1e-12))
+    environment = writer.asset.environment
+    if environment.media_density and abs(environment.media_density - asked) > 0.01 * asked:
+        writer.findings.info(f"its aerodynamics ask for a medium of {asked:.3g} kg/m³ and another body's for "
+                             f"{environment.media_density:.3g}; the scene gets the denser one", object_name=source.name)
+    environment.media_density = max(environment.media_density, asked)
+
+
+def area_of(mesh, world_scale):
+    return sum(polygon.area for polygon in mesh.polygons) * world_scale**2
 
 
 def tell_of_polygons(writer, source, geometry):
@@ -110,9 +128,18 @@ def second_neighbours(ends, joined, count):
     return numpy.array(sorted(pairs), dtype=numpy.uint32).reshape(-1, 2)
 
 
+def add_level(writer, body, source, geometry, name, masses):
+    """A level over the surface's own points, which a build leaves as it is."""
+    level = body.add("levels", name=name, positions=geometry.positions, masses=masses.astype(numpy.float32))
+    mesh = writer.identifiers.known("mesh", source.name)
+    if mesh is not None:
+        level.add("embeddings", render_mesh=mesh, weights=[(1, 0, 0, 0)] * len(geometry.positions),
+                  points=numpy.repeat(numpy.arange(len(geometry.positions), dtype=numpy.uint32)[:, None], 4, axis=1))
+    return level
+
+
 def write_level(writer, body, source, geometry, soft, masses):
-    """One level of springs over the surface's own points, which a build leaves as it is."""
-    level = body.add("levels", name="Soft Body", positions=geometry.positions, masses=masses.astype(numpy.float32))
+    level = add_level(writer, body, source, geometry, "Soft Body", masses)
     ends = edges_of(geometry)
     scale = (soft.spring_length or 100) / 100
     factors = weights_of(source, geometry.mesh, soft.vertex_group_spring)
@@ -122,10 +149,7 @@ def write_level(writer, body, source, geometry, soft, masses):
     if soft.bend > 0:
         add_springs(level, "flexion", geometry, second_neighbours(ends, diagonals, len(geometry.positions)),
                     min(soft.bend / 10, 0.999), soft.damping, scale, factors)
-    level.simulation.scheme = "heun"  # Blender's own
-    level.add("embeddings", render_mesh=writer.identifiers.known("mesh", source.name),
-              points=numpy.repeat(numpy.arange(len(geometry.positions), dtype=numpy.uint32)[:, None], 4, axis=1),
-              weights=[(1, 0, 0, 0)] * len(geometry.positions))
+    level.simulation.scheme, level.simulation.substeps = "heun", soft.step_min  # Blender's own
 
 
 def add_springs(level, kind, geometry, ends, pull, damping, scale, factors, share=1.0):
