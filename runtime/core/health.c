@@ -111,8 +111,7 @@ static solid_health look_at_tetrahedra(
   return found;
 }
 
-/* One region: adds its energy; the greatest way of a point from its place against the region's size. */
-static double look_at_region(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,
+double sbri_region_look(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,
     const sbri_point *positions, double *energy_j) {
   sbfi_region_sums sums = {0};
   sbfi_region_fit fit = {.center = {0, 0, 0}};
@@ -143,7 +142,7 @@ static solid_health look_at_regions(
   for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
     const sbri_region_block *block = &island->region_blocks[b];
     for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
-      float strain = (float)look_at_region(
+      float strain = (float)sbri_region_look(
           block, island->region_members + block->first_member, lane, positions, &found.energy_j);
       found.max_strain = strain > found.max_strain ? strain : found.max_strain;
     }

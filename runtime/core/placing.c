@@ -56,6 +56,9 @@ void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
   sbri_island_states(c)[island_index].stiffening = 1;
   sbri_island_states(c)[island_index].least_ratio = 1;
   sbri_island_states(c)[island_index].folded_ticks = 0;
+  sbri_island_states(c)[island_index].wild = 0;
+  sbri_island_states(c)[island_index].excess_j = 0;
+  sbri_island_states(c)[island_index].calm_ticks = 0;
 }
 
 static void unflow_solids(sbri_character *c, const sbri_island *island) {

@@ -103,7 +103,7 @@ void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t i
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!world->sleep_ticks || island->scheme->forceless) return;
   sbf_vec3 g = state->guide_velocity;
-  bool quiet = !state->recovering && !state->folded_ticks && sbri_dot(g, g) == 0 &&
+  bool quiet = !state->recovering && !state->folded_ticks && !state->wild && sbri_dot(g, g) == 0 &&
                sbri_tears_of(c)[index].count == 0 && is_quiet(c, island);
   state->quiet_ticks = quiet ? state->quiet_ticks + 1 : 0;
   if (state->quiet_ticks < world->sleep_ticks) return;

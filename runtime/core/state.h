@@ -24,6 +24,9 @@ typedef struct sbri_island_state {
   float least_ratio;     /* least J of its tetrahedra then: below 0 one is inside out; 1: it has none */
   float thinning;        /* greatest g.g of a yielded rest shape to that it was made with, 1 as made */
   uint32_t folded_ticks; /* for how long its volume has been next to nothing, or such elements inverted */
+  uint32_t wild;         /* for how many ticks its shape has been (core/folded.c) */
+  float excess_j;        /* of energy, likewise; 0: not looked at */
+  uint32_t calm_ticks;   /* for which its motion is still taken out of it */
   uint32_t recoveries;
   uint32_t unsplit;        /* points that a tear should have split, and there was no room */
   uint32_t recovering;     /* ticks for which the router still keeps to the scheme that recovers */

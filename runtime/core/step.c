@@ -12,9 +12,6 @@
 /* The origin follows when the character is this far from it, in m. */
 static const float REBASE_AT_M = 4;
 
-/* What has been folded for so many ticks will not come back by itself. */
-enum { FOLDED_TICKS = 24, FOLDED_LOOK_EVERY = 4 };
-
 sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c) {
   const sbri_character_state *head = sbri_head(c);
   return (sbri_gait_input){.forward = head->forward,
@@ -240,35 +237,6 @@ void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t in
   prepare_contacts(&tick, c);
 }
 
-/* Places beyond this many metres from the origin and speeds beyond as many metres a second are no motion any
- * more, though the numbers may be finite yet. */
-static const float LOST_BEYOND = 1e6f;
-
-static bool are_sound(const float *numbers, size_t count) {
-  uint32_t lost = 0;
-  for (size_t i = 0; i < count; i++) lost += !(fabsf(numbers[i]) < LOST_BEYOND);
-  return lost == 0;
-}
-
-/* Puts the island back into its rest shape where its numbers or its shape are lost for good. */
-static void recover(const sbr_world *world, sbri_character *c, uint32_t index) {
-  const sbri_island *island = &c->model->islands[index];
-  sbri_island_state *state = &sbri_island_states(c)[index];
-  if (are_sound(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) &&
-      are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count)) {
-    if ((world->ticks + index) % FOLDED_LOOK_EVERY) return;
-    state->folded_ticks = sbri_is_folded(world, c, index) ? state->folded_ticks + FOLDED_LOOK_EVERY : 0;
-    if (state->folded_ticks) state->recovering = SBRI_RECOVERING_TICKS;
-    if (state->folded_ticks < FOLDED_TICKS) return;
-  }
-  sbri_island_unflow(c, index);
-  sbri_island_place_where_it_is(c, index, &world->ground);
-  memcpy(sbri_previous_positions(c) + island->first_slot, sbri_positions(c) + island->first_slot,
-      island->slot_count * sizeof(sbri_point));
-  state->recoveries++;
-  state->recovering = SBRI_RECOVERING_TICKS;
-}
-
 static void tick_island(void *context, uint32_t index) {
   sbr_world *world = context;
   sbri_work work = world->work[index];
@@ -293,7 +261,7 @@ static void tick_island(void *context, uint32_t index) {
   if (!island->scheme->forceless) prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
   if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, work.island);
-  recover(world, c, work.island);
+  sbri_island_recover(world, c, work.island);
   sbri_island_may_sleep(world, c, work.island);
 }
 

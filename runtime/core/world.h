@@ -64,8 +64,31 @@ bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c);
 void sbri_character_keep_gait(sbri_character *c);
 bool sbri_character_is_still(const sbri_character *c);
 
-/* core/folded.c: whether an island has lost its shape, as it now is. */
-bool sbri_is_folded(const sbr_world *world, const sbri_character *c, uint32_t island);
+/* ---- core/folded.c ---- */
+
+/* How an island looks as it now is. */
+typedef struct sbri_shape {
+  bool folded;    /* it has lost its shape, and will not find it again by itself should that last */
+  bool heaped;    /* so strained that it was thrown about or put so */
+  bool wild;      /* the same, or not yet back from there */
+  float excess_j; /* what it holds beyond its rest shape; 0: not looked at */
+  bool told;      /* all that loads it is known, so that no load is what strains it */
+} sbri_shape;
+sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32_t island);
+
+/* ---- core/recovery.c ---- */
+
+/* After a tick: calms what is wild, and puts into its rest shape what has lost its numbers or its shape for
+ * good. */
+void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t island);
+
+/* ---- core/health.c ---- */
+
+/* One region of shape matching: adds its energy; the greatest way of a point from its place, as a share of
+ * the region's size. */
+double sbri_region_look(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,
+    const sbri_point *positions, double *energy_j);
+
 sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c);
 
 #endif

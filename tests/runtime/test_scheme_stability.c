@@ -83,10 +83,6 @@ START_TEST(springs_listed_from_the_pins_on_do_not_burst)
 }
 END_TEST
 
-/* ---- Bad starts ---- */
-
-typedef enum start { SCRAMBLED, FLATTENED, MIRRORED, ONE_PLACE, START_COUNT } start;
-
 static scene section(sbf_scheme scheme) {
   scene s = scene_begin();
   scene_bone(&s, (sbf_vec3){0, 1, 0});
@@ -96,41 +92,6 @@ static scene section(sbf_scheme scheme) {
   s.model_options.scheme = scheme;
   return s;
 }
-
-static void spoil(scene *s, start how) {
-  sbri_point *at = sbri_positions(&s->world->characters[0]);
-  uint32_t state = 3;
-  for (uint32_t i = 0; i < s->model->islands[0].free_count; i++) {
-    float numbers[3];
-    for (int k = 0; k < 3; k++) {
-      state = state * 1664525u + 1013904223u;
-      numbers[k] = (float)(state >> 8) / 16777216.0f - 0.5f;
-    }
-    if (how == SCRAMBLED) at[i] = (sbri_point){numbers[0], 1 + numbers[1], numbers[2], 0};
-    if (how == FLATTENED) at[i].y = 1;
-    if (how == MIRRORED) at[i].z = -at[i].z;
-    if (how == ONE_PLACE) at[i] = (sbri_point){0, 1, 0, 0};
-  }
-}
-
-START_TEST(bad_starts_are_survived)
-{
-  for (int how = 0; how < START_COUNT; how++) {
-    scene s = section(schemes[_i]);
-    scene_start(&s);
-    spoil(&s, (start)how);
-    for (int i = 0; i < 110; i++) {
-      scene_ticks(&s, 1);
-      ck_assert(sbr_character_health(s.world, s.character, 0).finite);
-    }
-    sbr_body_health h = sbr_character_health(s.world, s.character, 0);
-    ck_assert_msg(_i == EXPLICIT_EULER || fabsf(h.volume_ratio - 1) < 0.1f,
-        "start %d: volume %g, folded for %u", how, (double)h.volume_ratio,
-        sbri_island_states(&s.world->characters[0])[0].folded_ticks);
-    scene_free(&s);
-  }
-}
-END_TEST
 
 /* ---- Bad frames ---- */
 
@@ -269,7 +230,6 @@ static Suite *suite(void) {
   TCase *c = tcase_create("scheme stability");
   tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, springs_listed_from_the_pins_on_do_not_burst, 0, 2);
-  tcase_add_loop_test(c, bad_starts_are_survived, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, hitches_and_jitter_show_the_same_motion, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, pins_may_jump, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, heavy_hangs_on_light, 0, SCHEME_COUNT);

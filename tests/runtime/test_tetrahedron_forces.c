@@ -338,7 +338,7 @@ START_TEST(far_from_the_world_s_origin_as_near)
 }
 END_TEST
 
-/* Flattened to a plane, mirrored, thrown into a heap: no number is lost, and after two seconds the shape is
+/* Flattened to a plane, mirrored, thrown into a heap: no number is lost, and after a second the shape is
  * back, by itself or by being put there. */
 START_TEST(bad_starts_come_back)
 {
@@ -358,7 +358,7 @@ START_TEST(bad_starts_come_back)
     if (_i == 1) x[i].x = -x[i].x;
     if (_i == 2) x[i] = (sbri_point){scattered(5 * i), scattered(5 * i + 1), scattered(5 * i + 2), 0};
   }
-  for (int i = 0; i < 180; i++) {
+  for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
     ck_assert(sbr_character_health(s.world, s.character, 0).finite);
   }

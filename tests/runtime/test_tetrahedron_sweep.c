@@ -249,9 +249,8 @@ END_TEST
 
 /* ---- What is hard ---- */
 
-/* Flattened to a plane, mirrored, all in one place, thrown into a heap: no number is lost, and after three
- * seconds no element is inside out. Of a heap the body may be left folded through itself, each element sound
- * in its own right; of the others the shape is back, by itself or by being put there. */
+/* Flattened to a plane, mirrored, all in one place, thrown into a heap: no number is lost, and after a second
+ * the shape is back, by itself or by being put there. */
 enum { HEAP = 3 };
 START_TEST(bad_starts_come_back)
 {
@@ -266,13 +265,13 @@ START_TEST(bad_starts_come_back)
     if (_i == 2) x[i] = (sbri_point){0, 0, 0, 0};
     if (_i == HEAP) x[i] = (sbri_point){scattered(5 * i), scattered(5 * i + 1), scattered(5 * i + 2), 0};
   }
-  for (int i = 0; i < 180; i++) {
+  for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
     ck_assert(sbr_character_health(s.world, s.character, 0).finite);
   }
   sbr_body_health health = sbr_character_health(s.world, s.character, 0);
   ck_assert(!health.inverted);
-  if (_i != HEAP) ck_assert_float_lt(health.max_strain, 0.1f);
+  ck_assert_float_lt(health.max_strain, 0.1f);
   end();
 }
 END_TEST
@@ -305,7 +304,8 @@ START_TEST(hard_cases_hold)
 END_TEST
 
 /* Left to the runtime: explicit, until one is inside out; then position-based until it has been well for a
- * while. */
+ * while. A corner that was pushed through one cell comes back by itself; through several, the body stays
+ * folded, every element sound in its own right, and is put back. */
 START_TEST(the_router_recovers_by_it)
 {
   begin(5, 1e5f, 0.4f, false, (sbf_vec3){0, 0, 0});
@@ -318,14 +318,15 @@ START_TEST(the_router_recovers_by_it)
   scene_ticks(&s, 2);
   ck_assert_uint_eq(sbri_island_states(c)->recovering, 0);
   uint32_t corner = s.model->bodies[0].slot_from_point[lattice_box_point(&box, 0, 0, 0)];
-  sbri_positions(c)[corner].x = 0.5f;
+  sbri_positions(c)[corner].x = _i ? 0.5f : 0.3f;
   scene_ticks(&s, 2);
   ck_assert_uint_gt(sbri_island_states(c)->recovering, 0);
   scene_ticks(&s, 60);
   ck_assert_uint_eq(sbri_island_states(c)->recovering, 0);
   sbr_body_health health = sbr_character_health(s.world, s.character, 0);
   ck_assert(!health.inverted);
-  ck_assert_uint_eq(health.recoveries, 0);
+  ck_assert_float_lt(health.max_strain, 0.1f);
+  ck_assert_uint_eq(health.recoveries, (uint32_t)_i);
   end();
 }
 END_TEST
@@ -355,7 +356,7 @@ int main(void) {
   tcase_add_test(c, damping_of_its_own_takes_energy);
   tcase_add_loop_test(c, bad_starts_come_back, 0, 4);
   tcase_add_loop_test(c, hard_cases_hold, 0, HARD_CASES);
-  tcase_add_test(c, the_router_recovers_by_it);
+  tcase_add_loop_test(c, the_router_recovers_by_it, 0, 2);
   tcase_add_test(c, too_stiff_to_step_explicitly_is_stepped_by_it);
   suite_add_tcase(suite, c);
   return harness_run(suite);
