@@ -3,7 +3,7 @@
 #define SBFI_NEW_PLACES_H
 
 #include "build/source_view.h"
-#include "build/unique_id.h"
+#include "model/unique_id.h"
 
 typedef enum sbfi_places_outcome {
   SBFI_PLACES_TAKEN,

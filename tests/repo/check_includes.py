@@ -12,9 +12,10 @@ BASE = ["libsbfmt/base"]
 MODEL = BASE + ["libsbfmt/model"]
 CORE = MODEL + ["libsbfmt/packed", "libsbfmt/generated"]
 MECHANICS = MODEL + ["libsbfmt/mechanics"]
-FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
+MOTION = MECHANICS + ["libsbfmt/motion"]
+FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/motion", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
 RUNTIME_MATH = MECHANICS + ["runtime/math"]
-RUNTIME = MECHANICS + ["runtime/" + part for part in (
+RUNTIME = MOTION + ["runtime/" + part for part in (
     "math", "model", "core", "kernels", "skin", "solvers", "skeleton", "collide", "ik", "gait", "chain", "detail")]
 
 # Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.
@@ -24,6 +25,7 @@ MAY_USE = {
     "libsbfmt/generated": MODEL,
     "libsbfmt/packed": MODEL + ["libsbfmt/packed"],
     "libsbfmt/mechanics": MECHANICS,
+    "libsbfmt/motion": MOTION,
     "libsbfmt/xml": MODEL + ["libsbfmt/xml"],
     "libsbfmt/build": MECHANICS + ["libsbfmt/xml", "libsbfmt/build"],
     "libsbfmt/validate": CORE + ["libsbfmt/mechanics", "libsbfmt/build", "libsbfmt/validate"],
@@ -58,7 +60,7 @@ BOX_USES = {
 }
 FOLDER_BOX = {
     "libsbfmt/base": "core", "libsbfmt/model": "core", "libsbfmt/generated": "core", "libsbfmt/packed": "core",
-    "libsbfmt/mechanics": "mechanics", "libsbfmt/xml": "format", "libsbfmt/validate": "format",
+    "libsbfmt/mechanics": "mechanics", "libsbfmt/motion": "mechanics", "libsbfmt/xml": "format", "libsbfmt/validate": "format",
     "libsbfmt/build": "format", "libsbfmt/interchange": "interchange", "libsbfmt/import": "interchange", "libsbfmt/export": "interchange",
     "runtime": "runtime",
 }

@@ -35,6 +35,7 @@ static const bone_row rows[] = {
 enum { BONE_COUNT = sizeof rows / sizeof *rows };
 
 static const int32_t feet[4] = {10, 13, 16, 19};
+static const char *const chain_ids[4] = {"ik.hind.L", "ik.hind.R", "ik.fore.L", "ik.fore.R"};
 static const uint32_t tail_bones[3] = {5, 6, 7};
 
 void quadruped_create(quadruped *q) {
@@ -51,7 +52,7 @@ void quadruped_create(quadruped *q) {
   sbf_leg *legs = sbf_asset_allocate(a, 4, sizeof *legs);
   for (int l = 0; l < 4; l++) {
     sbf_ik_chain_init(&chains[l]);
-    chains[l].id = rows[feet[l]].name;
+    chains[l].id = chain_ids[l];
     chains[l].end = feet[l];
     chains[l].root = feet[l] - 2;
     sbf_leg_init(&legs[l]);

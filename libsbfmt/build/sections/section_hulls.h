@@ -4,7 +4,7 @@
 
 #include "base/diagnostic.h"
 #include "base/progress.h"
-#include "build/unique_id.h"
+#include "model/unique_id.h"
 #include "sbfmt/asset.h"
 
 /* Gives each section a convex hull that moves with its bone: the bone's authored rigid bodies without a hull

@@ -2,7 +2,7 @@
 #ifndef SBFI_SECTION_JOINTS_H
 #define SBFI_SECTION_JOINTS_H
 
-#include "build/unique_id.h"
+#include "model/unique_id.h"
 #include "sbfmt/asset.h"
 
 /* The frame of a joint at the bone's head, local to the rigid body: +X, the twist axis, is the bone's +Y, +Y

@@ -4,7 +4,7 @@
 
 #include "base/diagnostic.h"
 #include "base/progress.h"
-#include "build/unique_id.h"
+#include "model/unique_id.h"
 #include "sbfmt/asset.h"
 
 /* What a section carries of a point that bones without sections hold too: places of the point in the frames

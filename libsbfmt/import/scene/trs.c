@@ -64,21 +64,3 @@ sbfi_trs sbfi_trs_decompose(const sbfi_matrix *matrix) {
   quaternion_of(m, trs.rotation);
   return trs;
 }
-
-void sbfi_quat_slerp(const double a[4], const double b[4], double t, double to[4]) {
-  double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-  double sign = dot < 0 ? -1 : 1, from_a = 1 - t, from_b = t;
-  dot *= sign;
-  if (dot < 1 - 1e-9) {
-    double angle = acos(dot), s = sin(angle);
-    from_a = sin((1 - t) * angle) / s;
-    from_b = sin(t * angle) / s;
-  }
-  double length = 0;
-  for (int i = 0; i < 4; i++) {
-    to[i] = from_a * a[i] + sign * from_b * b[i];
-    length += to[i] * to[i];
-  }
-  length = sqrt(length);
-  for (int i = 0; i < 4; i++) to[i] = length > 0 ? to[i] / length : i == 3;
-}

@@ -15,7 +15,4 @@ sbfi_matrix sbfi_trs_compose(const sbfi_trs *trs); /* scale first, then rotation
 /* Shear is lost: no key can hold it. */
 sbfi_trs sbfi_trs_decompose(const sbfi_matrix *matrix);
 
-/* Along the shorter arc at constant speed; t from 0 to 1. */
-void sbfi_quat_slerp(const double a[4], const double b[4], double t, double to[4]);
-
 #endif

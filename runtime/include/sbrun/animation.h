@@ -49,6 +49,23 @@ typedef struct sbr_clip_play {
 SBF_API void sbr_character_play(
     sbr_world *world, sbr_character_id character, uint32_t layer, int32_t clip, const sbr_clip_play *how);
 
+/* Carries the clips of another asset's skeleton over to this one's bones and adds them to its clips, for
+ * sbr_character_play: a library of motion, loaded once, moves every character. It changes `asset`, which no
+ * model may have been made of yet, and which no other thread may use meanwhile; it may be a loaded one.
+ *
+ * Bones stand for each other by retarget_chains of one name, bone by bone by their share of the chain; else
+ * by their names, or by names that mean the same part of the same side (LeftUpLeg, thigh.L). Each turns away
+ * from its rest pose as its counterpart does; thighs, shins, upper and lower arms point as their counterparts
+ * do, whatever the two rest poses. The hips travel in proportion to their height. Bones without a counterpart
+ * go along with their parents.
+ *
+ * `name` (may be NULL) says where the clips come from, in messages and for clips without a name. `report`
+ * (may be NULL) is told of each clip (IMPORT_MOTION) and of bones without a counterpart
+ * (IMPORT_MOTION_UNMATCHED). SBF_BAD_INPUT: `from` has no clip, or no bone that stands for one; SBF_FAILED:
+ * memory ran out. The asset then has the clips that it had. */
+SBF_API sbf_status sbr_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *name,
+    void (*report)(void *user, const sbf_diagnostic *finding), void *user, sbf_diagnostic *error);
+
 /* ---- Judging a pose ----------------------------------------------------------------------------------- */
 
 /* By how much the worst bone breaks its joint's limits, rad, as of the last tick; 0: none does. */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "harness.h"
-#include "import/motion/carried_motion.h"
+#include "motion/carried_motion.h"
 #include "sbfmt/convert.h"
 
 /* Hips a metre up, a thigh of half a metre to its side and a shin; the thigh swings forward by 90 degrees and
@@ -147,7 +147,7 @@ START_TEST(what_cannot_be_carried_over_is_refused)
 END_TEST
 
 int main(void) {
-  Suite *suite = suite_create("carry_motion");
+  Suite *suite = suite_create("convert_motion");
   TCase *tests = tcase_create("all");
   tcase_set_timeout(tests, 60);
   tcase_add_test(tests, a_leg_swings_and_the_hips_go_half_as_far);

@@ -1,46 +1,6 @@
 #include <math.h>
-#include <string.h>
 
-#include "import/motion/carried_motion.h"
-
-void sbfi_turn_product(const double a[4], const double b[4], double to[4]) {
-  const double p[4] = {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
-      a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
-      a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
-      a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
-  memcpy(to, p, sizeof p);
-}
-
-void sbfi_turn_undo(const double a[4], double to[4]) {
-  for (int k = 0; k < 4; k++) to[k] = k < 3 ? -a[k] : a[k];
-}
-
-void sbfi_turn_vector(const double a[4], const double v[3], double to[3]) {
-  const double pure[4] = {v[0], v[1], v[2], 0};
-  double back[4], p[4];
-  sbfi_turn_undo(a, back);
-  sbfi_turn_product(a, pure, p);
-  sbfi_turn_product(p, back, p);
-  memcpy(to, p, 3 * sizeof *p);
-}
-
-void sbfi_turn_between(const double from[3], const double to[3], double turn[4]) {
-  double dot = from[0] * to[0] + from[1] * to[1] + from[2] * to[2], length = 0;
-  if (dot < -0.999999) { /* opposite: about any axis across */
-    const double spare[3] = {fabs(from[0]) < 0.9, fabs(from[0]) >= 0.9, 0};
-    turn[0] = from[1] * spare[2] - from[2] * spare[1];
-    turn[1] = from[2] * spare[0] - from[0] * spare[2];
-    turn[2] = from[0] * spare[1] - from[1] * spare[0];
-    turn[3] = 0;
-  } else {
-    turn[0] = from[1] * to[2] - from[2] * to[1];
-    turn[1] = from[2] * to[0] - from[0] * to[2];
-    turn[2] = from[0] * to[1] - from[1] * to[0];
-    turn[3] = 1 + dot;
-  }
-  for (int k = 0; k < 4; k++) length += turn[k] * turn[k];
-  for (int k = 0; k < 4; k++) turn[k] /= sqrt(length);
-}
+#include "motion/carried_motion.h"
 
 void sbfi_rest_frames(const sbf_asset *asset, sbfi_bone_frame *frames) {
   for (uint32_t i = 0; i < asset->bones.count; i++) {
@@ -117,7 +77,7 @@ static void value_at(const sbf_track *track, float time_s, uint32_t width, doubl
     if (is_cubic)
       cubic(track, key, width, t, span, to);
     else if (width == 4)
-      sbfi_quat_slerp(before, after, t, to);
+      sbfi_turn_mix(before, after, t, to);
     else
       for (uint32_t k = 0; k < width; k++) to[k] = before[k] + (after[k] - before[k]) * t;
   }

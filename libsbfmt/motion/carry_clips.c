@@ -11,20 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/diagnostic.h"
-#include "build/unique_id.h"
-#include "import/motion/carried_motion.h"
-#include "model/ids.h"
-#include "model/options.h"
-#include "sbfmt/convert.h"
-#include "sbfmt/io.h"
+#include "model/unique_id.h"
+#include "motion/carried_motion.h"
 
 enum { PIVOTS = 4 };
 
 typedef struct motion {
   sbf_asset *to;
   const sbf_asset *from;
-  const char *file;
+  const char *file; /* where they come from */
   sbfi_arena scratch;
   sbfi_bone_match *matches;
   sbfi_bone_frame *rest; /* of the asset */
@@ -38,7 +33,7 @@ typedef struct motion {
   double pivot[3], arm[3]; /* that middle at rest, in asset space and in the traveller's frame */
   float *times;            /* of the clip at hand */
   uint32_t time_count;
-  sbfi_reporter reporter;
+  sbfi_reporter *reporter;
   sbf_diagnostic *error;
 } motion;
 
@@ -54,7 +49,7 @@ static void say(motion *m, sbf_code code, const char *format, ...) {
   sbfi_diagnose_v(&note, code, format, arguments);
   va_end(arguments);
   sbfi_copy_text(note.file, sizeof note.file, m->file);
-  sbfi_report(&m->reporter, &note);
+  sbfi_report(m->reporter, &note);
 }
 
 /* --- What is the same for all clips ------------------------------------------------------------------- */
@@ -394,55 +389,22 @@ static sbf_status add_clips(motion *m) {
 
 /* --- The call ----------------------------------------------------------------------------------------- */
 
-static bool is_bundle(const char *path) {
-  size_t length = strlen(path);
-  return (length > 4 && strcmp(path + length - 4, ".sbf") == 0) ||
-         (length > 5 && strcmp(path + length - 5, ".sbfz") == 0);
-}
-
-/* What is said of a motion file's own meshes and gait matters to nobody here. */
-static void pass_on(void *user, const sbf_diagnostic *diagnostic) {
-  if (diagnostic->code == SBF_CODE_IMPORT_KEYS || diagnostic->severity == SBF_SEVERITY_ERROR)
-    sbfi_report(user, diagnostic);
-}
-
-static sbf_status read_motion(motion *m, const sbf_convert_options *options, sbf_asset **from) {
-  if (is_bundle(m->file))
-    return sbf_load_file(m->file, &(sbf_load_options){.allocator = options->allocator}, from, m->error);
-  const sbf_convert_options reading = {.allocator = options->allocator,
-      .no_gait = true,
-      .import_helper = options->import_helper,
-      .report = pass_on,
-      .user = &m->reporter};
-  return sbf_convert(m->file, &reading, from, m->error);
-}
-
-sbf_status sbf_convert_motion(
-    sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error) {
-  sbf_convert_options taken = {.struct_size = 0};
+sbf_status sbfi_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *file,
+    const sbf_allocator *allocator, sbfi_reporter *reporter, sbf_diagnostic *error) {
   sbf_diagnostic unseen;
-  if (!sbfi_options_take(&taken, sizeof taken, options))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
-  options = &taken;
-  motion m = {.to = asset,
-      .file = file,
-      .reporter = {options->report, options->user, 0, 0},
-      .error = error ? error : &unseen};
-  sbf_asset *from = NULL;
+  motion m = {
+      .to = asset, .from = from, .file = file, .reporter = reporter, .error = error ? error : &unseen};
+  sbf_status status = SBF_OK;
+  sbfi_arena_init(&m.scratch, allocator, 0);
   if (asset->bones.count == 0)
-    return sbfi_diagnose(
-        error, SBF_CODE_IMPORT_MOTION_NONE, "%s: there is no skeleton to move: give one with --rig", file);
-  sbf_status status = read_motion(&m, options, &from);
-  if (status != SBF_OK) return status;
-  m.from = from;
-  sbfi_arena_init(&m.scratch, options->allocator, 0);
-  if (from->clips.count == 0 || from->bones.count == 0)
+    status = sbfi_diagnose(
+        m.error, SBF_CODE_IMPORT_MOTION_NONE, "there is no skeleton to move: give one with --rig");
+  else if (from->clips.count == 0 || from->bones.count == 0)
     status = sbfi_diagnose(m.error, SBF_CODE_IMPORT_MOTION_NONE, "the file holds no motion of bones");
   if (status == SBF_OK) status = prepare(&m);
   if (status == SBF_OK) status = say_unmatched(&m);
   if (status == SBF_OK) status = add_clips(&m);
   if (status != SBF_OK) sbfi_copy_text(m.error->file, sizeof m.error->file, file);
   sbfi_arena_free(&m.scratch);
-  sbf_asset_free(from);
   return status;
 }

@@ -1,7 +1,7 @@
 #include <string.h>
 
 #include "harness.h"
-#include "import/motion/carried_motion.h"
+#include "motion/carried_motion.h"
 
 enum { MOST = 16 };
 
@@ -115,7 +115,7 @@ START_TEST(chains_tell_parts_that_names_do_not)
 END_TEST
 
 int main(void) {
-  Suite *suite = suite_create("motion_match");
+  Suite *suite = suite_create("bone_match");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, names_mean_parts);
   tcase_add_test(tests, what_a_word_means_depends_on_the_others);

@@ -2,7 +2,7 @@
  * way a side is written differ; the words for the parts are few. */
 #include <string.h>
 
-#include "import/motion/carried_motion.h"
+#include "motion/carried_motion.h"
 
 enum { WORD_SIZE = 64 };
 typedef enum side { NO_SIDE, LEFT, RIGHT } side;

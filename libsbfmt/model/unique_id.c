@@ -1,4 +1,4 @@
-#include "build/unique_id.h"
+#include "model/unique_id.h"
 
 #include <stdio.h>
 

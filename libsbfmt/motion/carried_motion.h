@@ -2,8 +2,9 @@
 #ifndef SBFI_CARRIED_MOTION_H
 #define SBFI_CARRIED_MOTION_H
 
+#include "base/diagnostic.h"
 #include "base/memory.h"
-#include "import/scene/trs.h"
+#include "motion/turn.h"
 #include "sbfmt/asset.h"
 
 /* What a bone is in a body, as far as poses are told apart by it. */
@@ -47,12 +48,10 @@ bool sbfi_clip_poses_init(
 /* Frames in asset space at a time, (bones.count). */
 void sbfi_clip_pose(const sbfi_clip_poses *poses, float time_s, sbfi_bone_frame *frames);
 
-/* --- Turns, x y z w, unit length --------------------------------------------------------------------- */
-
-void sbfi_turn_product(const double a[4], const double b[4], double to[4]); /* b first; `to` may be either */
-void sbfi_turn_undo(const double a[4], double to[4]);
-void sbfi_turn_vector(const double a[4], const double v[3], double to[3]);
-/* The least turn from one unit vector to another. */
-void sbfi_turn_between(const double from[3], const double to[3], double turn[4]);
+/* Carries the clips of `from` over to the bones of an asset under construction and adds them to it: how, says
+ * sbr_carry_clips. `file` names where they come from, in messages and where a clip has no name. On failure
+ * the asset has the clips it had. */
+sbf_status sbfi_carry_clips(sbf_asset *asset, const sbf_asset *from, const char *file,
+    const sbf_allocator *allocator, sbfi_reporter *reporter, sbf_diagnostic *error);
 
 #endif

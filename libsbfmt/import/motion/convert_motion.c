@@ -1,0 +1,49 @@
+/* Reads a file with motion and carries its clips over: what is carried, and how, motion/ knows. */
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "model/options.h"
+#include "motion/carried_motion.h"
+#include "sbfmt/convert.h"
+#include "sbfmt/io.h"
+
+static bool is_bundle(const char *path) {
+  size_t length = strlen(path);
+  return (length > 4 && strcmp(path + length - 4, ".sbf") == 0) ||
+         (length > 5 && strcmp(path + length - 5, ".sbfz") == 0);
+}
+
+/* What is said of a motion file's own meshes and gait matters to nobody here. */
+static void pass_on(void *user, const sbf_diagnostic *diagnostic) {
+  if (diagnostic->code == SBF_CODE_IMPORT_KEYS || diagnostic->severity == SBF_SEVERITY_ERROR)
+    sbfi_report(user, diagnostic);
+}
+
+static sbf_status read_motion(const char *file, const sbf_convert_options *options, sbfi_reporter *reporter,
+    sbf_asset **from, sbf_diagnostic *error) {
+  if (is_bundle(file))
+    return sbf_load_file(file, &(sbf_load_options){.allocator = options->allocator}, from, error);
+  const sbf_convert_options reading = {.allocator = options->allocator,
+      .no_gait = true,
+      .import_helper = options->import_helper,
+      .report = pass_on,
+      .user = reporter};
+  return sbf_convert(file, &reading, from, error);
+}
+
+sbf_status sbf_convert_motion(
+    sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error) {
+  sbf_convert_options taken = {.struct_size = 0};
+  if (!sbfi_options_take(&taken, sizeof taken, options))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbf_convert_options has a size that no version had");
+  sbfi_reporter reporter = {taken.report, taken.user, 0, 0};
+  sbf_asset *from = NULL;
+  if (asset->bones.count == 0)
+    return sbfi_diagnose(
+        error, SBF_CODE_IMPORT_MOTION_NONE, "%s: there is no skeleton to move: give one with --rig", file);
+  sbf_status status = read_motion(file, &taken, &reporter, &from, error);
+  if (status != SBF_OK) return status;
+  status = sbfi_carry_clips(asset, from, file, taken.allocator, &reporter, error);
+  sbf_asset_free(from);
+  return status;
+}
