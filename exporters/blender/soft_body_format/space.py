@@ -60,6 +60,10 @@ class Space:
     def point_back(self, point):
         return ASSET_FROM_BLENDER.transposed() @ Vector(point) / self.unit_m
 
+    @staticmethod
+    def direction_back(vector):
+        return ASSET_FROM_BLENDER.transposed() @ Vector(vector)
+
     def points_back(self, points):
         back = numpy.array(ASSET_FROM_BLENDER, dtype=numpy.float64)
         return (numpy.asarray(points, dtype=numpy.float64).reshape(-1, 3) @ back / self.unit_m).astype(numpy.float32)

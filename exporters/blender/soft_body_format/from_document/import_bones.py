@@ -46,12 +46,12 @@ def fill_bone(made, bone, order):
     settings.identity, settings.order = bone.id, order + 1
 
 
-def fill_joints(document, armature, names):
-    """Joints between bodies of bones; other joints are kept in memory alone."""
+def fill_joints(document, armature, names, joined):
+    """Joints between bodies of bones that no constraint shows yet; other joints are kept in memory alone."""
     bodies = {body.id: body for body in document.rigid_bodies}
     for joint in document.joints:
         below, above = bodies.get(joint.body_b), bodies.get(joint.body_a)
-        if below is None or above is None or not below.bone or not above.bone or joint.derived:
+        if joint.id in joined or below is None or above is None or not below.bone or not above.bone or joint.derived:
             continue
         bone = armature.data.bones[names[below.bone]]
         settings = bone.soft_body_format.joint

@@ -1,7 +1,4 @@
-"""Meshes with their texture coordinates, materials, weights and shape keys."""
-
-import os
-import tempfile
+"""Meshes with their texture coordinates, normals, weights and shape keys."""
 
 import bpy
 import numpy
@@ -75,51 +72,3 @@ def fill_shape_keys(made, record, space):
         for point, offset in zip(key.points, offsets.tolist()):
             for axis in range(3):
                 block.data[point].co[axis] += offset[axis]
-
-
-def make_materials(document, folder, findings):
-    """{id: material}, with a principled shader each."""
-    images = {texture.id: make_image(texture, folder, findings) for texture in document.textures}
-    made = {}
-    for record in document.materials:
-        material = made[record.id] = bpy.data.materials.new(record.name or record.id)
-        material.use_nodes = True
-        material.diffuse_color = record.base_color
-        material.use_backface_culling = not record.double_sided
-        shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-        inputs = shader.inputs
-        inputs["Base Color"].default_value = (*record.base_color[:3], 1.0)
-        inputs["Alpha"].default_value = record.base_color[3]
-        inputs["Metallic"].default_value, inputs["Roughness"].default_value = record.metallic, record.roughness
-        emission = inputs.get("Emission Color") or inputs.get("Emission")
-        emission.default_value = (*record.emissive, 1.0)
-        if "Emission Strength" in inputs and any(record.emissive):
-            inputs["Emission Strength"].default_value = 1.0
-        image = images.get(record.base_color_texture)
-        if image is not None:
-            node = material.node_tree.nodes.new("ShaderNodeTexImage")
-            node.image = image
-            material.node_tree.links.new(node.outputs["Color"], inputs["Base Color"])
-    return made
-
-
-def make_image(texture, folder, findings):
-    """From the file beside the bundle, or from the bytes in it, packed into the .blend."""
-    if texture.bytes:
-        handle, path = tempfile.mkstemp(suffix=".png" if texture.media_type == "image/png" else ".jpg")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(texture.bytes)
-            image = bpy.data.images.load(path)
-            image.pack()
-            image.name = texture.name or texture.id
-            return image
-        finally:
-            os.unlink(path)
-    path = os.path.join(folder, *texture.path.split("/"))
-    if not os.path.isfile(path):
-        findings.warning(f"the image {texture.path} is not beside the file: put it there and import again")
-        return None
-    image = bpy.data.images.load(path, check_existing=True)
-    image.name = texture.name or image.name
-    return image

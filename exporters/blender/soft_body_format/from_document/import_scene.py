@@ -8,6 +8,10 @@ from ..findings import Findings
 from ..space import Space
 from ..to_document import Options, SceneWriter
 from . import import_bones, import_meshes, import_recipes, import_settings
+from .import_chains import fill_chains
+from .import_materials import make_materials
+from .import_rigid import RigidMaker
+from .import_surroundings import fill_surroundings
 
 
 class SceneMaker:
@@ -15,21 +19,31 @@ class SceneMaker:
         self.context, self.document, self.folder, self.findings = context, document, folder, findings
         self.space = Space.of_scene(context.scene)
         self.collection = bpy.data.collections.new(name)
-        self.armature, self.names = None, {}
+        self.armature, self.names, self.object_of_mesh = None, {}, {}
 
     def make(self):
         self.context.scene.collection.children.link(self.collection)
         found = import_bones.make_armature(self.document, self.space, self.collection, self.context)
         if found:
             self.armature, self.names = found
-            import_bones.fill_joints(self.document, self.armature, self.names)
-        materials = import_meshes.make_materials(self.document, self.folder, self.findings)
-        self.make_meshes(materials)
+        self.make_meshes(make_materials(self.document, self.folder, self.findings))
+        rigid = RigidMaker(self)
+        rigid.make()
+        if self.armature is not None:
+            import_bones.fill_joints(self.document, self.armature, self.names, rigid.joined)
+        fill_chains(self)
+        fill_surroundings(self)
         import_settings.fill_gait(self.context.scene, self.document, self.armature, self.names, self.space)
         import_recipes.fill_recipes(self.context.scene, self.document, self.armature, self.names)
         self.context.view_layer.update()
         untouched = SceneWriter(self.context, Options(collection=self.collection.name), Findings()).write()
         memory.keep(self.collection, self.document, untouched)
+
+    def act_on(self, made, call):
+        """Calls one of Blender's operators that work on the active object."""
+        self.context.view_layer.objects.active = made
+        with self.context.temp_override(object=made, active_object=made, selected_objects=[made], selected_editable_objects=[made]):
+            call()
 
     def make_meshes(self, materials):
         """One object for a body and the render mesh of the same shape; a body that a build derived is no object."""
@@ -58,6 +72,8 @@ class SceneMaker:
             import_meshes.fill_normals(mesh, record, self.space)
         made = bpy.data.objects.new(source.name or source.id, mesh)
         self.collection.objects.link(made)
+        if record:
+            self.object_of_mesh[record.id] = made
         settings = made.soft_body_format
         settings.role, settings.mesh_identity, settings.simulation_only = "RENDER", record.id if record else "", record is None
         if record:

@@ -26,13 +26,16 @@ class IkConstraints:
             bones.append(bones[-1].parent)
         if any(chain.end == writer.skeleton.id(self.armature, end.name) for chain in writer.asset.ik_chains):
             return  # the gait has it already
-        made = writer.asset.add("ik_chains", id=writer.identifiers.new("ik", end.name), name=one.name, end=self.id(end),
+        made = writer.asset.add("ik_chains", id=self.chain_id(end), name=one.name, end=self.id(end),
                                 root=self.id(bones[-1]), solver="two_bone" if len(bones) == 2 else "ccd",
                                 iterations=min(one.iterations, 100), copy_rotation=1.0 if one.use_rotation else 0.0)
         if one.pole_target is not None:
             self.pole(made, one)
         for link in bones:
             self.comfort(made, link)
+
+    def chain_id(self, end):
+        return self.writer.identifiers.of("ik", (self.armature.name, end.name), end.name, end.soft_body_format.chain_identity)
 
     def id(self, bone):
         return self.writer.skeleton.id(self.armature, bone.name)

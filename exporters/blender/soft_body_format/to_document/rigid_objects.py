@@ -59,7 +59,10 @@ class RigidObjects:
         places = [writer.space.point(source.matrix_world @ point) for point in points]
         center = tuple(sum(place[axis] for place in places) / len(places) for axis in range(3))
         held = holding_bone(source)
-        record = writer.asset.add("rigid_bodies", id=writer.identifiers.of("rigid", key, source.name), name=source.name,
+        identity = writer.identifiers.of("rigid", key, source.name, source.soft_body_format.rigid_identity)
+        if held:  # so that joints of that bone join this body, not another one
+            writer.identifiers.given.setdefault(("rigid", (held[0].name, held[1])), identity)
+        record = writer.asset.add("rigid_bodies", id=identity, name=source.name,
                                   bone=writer.skeleton.id(*held) if held else None, center=center)
         record.add("hull", target="collision_detection", positions=places, polygon_sizes=[len(one) for one in polygons],
                    polygon_points=[point for one in polygons for point in one])
@@ -131,9 +134,9 @@ class RigidObjects:
         above = self.body(first) if first is not None else None
         if below is None or first is not None and above is None:
             return
-        made = writer.asset.add("joints", id=writer.identifiers.of("joint", ("object", source.name), source.name), name=source.name,
-                                kind=KINDS[settings.type], body_a=above.id if above else None, body_b=below.id,
-                                collide=not settings.disable_collisions)
+        identity = writer.identifiers.of("joint", ("object", source.name), source.name, source.soft_body_format.joint_identity)
+        made = writer.asset.add("joints", id=identity, name=source.name, kind=KINDS[settings.type],
+                                body_a=above.id if above else None, body_b=below.id, collide=not settings.disable_collisions)
         self.place(made, source, settings, above, below)
         self.limit(made, settings)
         if settings.type == "GENERIC_SPRING":

@@ -85,6 +85,7 @@ class SceneWriter:
             for source in self.of_type("MESH"):
                 if self.roles[source.name] != IGNORE:
                     self.write_mesh(source, self.roles[source.name])
+            RigidObjects(self).write()
             for armature in self.of_type("ARMATURE"):
                 RigidParts(self).write(armature)
             gait = self.scene.soft_body_format.gait
@@ -92,7 +93,6 @@ class SceneWriter:
                 GaitWriter(self, gait).write()
             for armature in self.of_type("ARMATURE"):
                 IkConstraints(self, armature).write()
-            RigidObjects(self).write()
             write_surroundings(self)
             write_recipes(self)
             for armature in self.of_type("ARMATURE"):

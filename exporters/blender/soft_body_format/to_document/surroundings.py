@@ -18,7 +18,8 @@ def write_surroundings(writer):
                                  object_name=source.name)
             continue
         axis = source.matrix_world.to_3x3() @ Vector((0, 0, 1))
-        environment.add("fields", id=writer.identifiers.of("field", source.name, source.name), name=source.name,
+        environment.add("fields", name=source.name, id=writer.identifiers.of(
+            "field", source.name, source.name, source.soft_body_format.field_identity),
                         kind=KINDS[field.type], position=writer.space.point(source.matrix_world.translation),
                         direction=writer.space.direction(axis.normalized()), strength=field.strength,
                         radius=field.distance_max * writer.space.unit_m if field.use_max_distance else 0,
