@@ -11,10 +11,10 @@ bl_info = {
 }
 
 from . import panels, preview, settings  # noqa: E402
-from .operators import bake_preview, build_scene, check_scene, export, import_bundle, preview_scene  # noqa: E402
-from .overlay import structure  # noqa: E402
+from .operators import bake_preview, build_scene, check_scene, copy_settings, export, import_bundle, preview_scene  # noqa: E402
+from .overlay import joints, structure  # noqa: E402
 
-PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, preview_scene, bake_preview, structure, preview)
+PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, preview_scene, bake_preview, copy_settings, structure, joints, preview)
 
 
 def register():

@@ -19,8 +19,8 @@ class Built:
 class BuildJob:
     """One build in a thread. Blender is not touched there; `progress` and `cancelled` are all that both sides know."""
 
-    def __init__(self, document, arguments):
-        self.document, self.arguments, self.built, self.error = document, arguments, None, None
+    def __init__(self, document, arguments, mends):
+        self.document, self.arguments, self.mends, self.built, self.error = document, arguments, mends, None, None
         self.progress, self.passed, self.cancelled = 0.0, "", False
         self.thread = threading.Thread(target=self.run, daemon=True)
         self.thread.start()
@@ -31,7 +31,7 @@ class BuildJob:
 
     def run(self):
         try:
-            with to_asset(self.document) as source:
+            with to_asset(self.document, (lambda _found: None) if self.mends else None) as source:
                 made = source.build(progress=self.hear, **self.arguments)
             self.built = Built(made, from_xml(made.to_xml()))
         except (sbfmt.Error, OSError) as error:
@@ -52,13 +52,13 @@ class LastBuild:
         cls.key = cls.built = None
 
 
-def build_in_steps(document, arguments):
+def build_in_steps(document, arguments, mends):
     """A generator of (what, share) that returns a Built, at once where it is the last one's again. Raises what the build did;
     closed, it cancels."""
-    key = hashlib.sha256(to_xml(document, canonical=False) + repr(sorted(arguments.items())).encode()).digest()
+    key = hashlib.sha256(to_xml(document, canonical=False) + repr((sorted(arguments.items()), mends)).encode()).digest()
     if key == LastBuild.key:
         return LastBuild.built
-    job = BuildJob(document, arguments)
+    job = BuildJob(document, arguments, mends)
     try:
         while job.is_running:
             yield f"Building: {job.passed}", job.progress

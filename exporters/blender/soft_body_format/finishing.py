@@ -31,9 +31,10 @@ def refusal(path):
     return None
 
 
-def finish(document, path, build, findings, locator=None, files=None):
+def finish(document, path, build, findings, locator=None, files=None, mends=False):
     """Writes the file whole or not at all, and with it `files`, which it names; says whether it is there. `build` is what to
-    build it with, or None. What the library finds joins the findings."""
+    build it with, or None. What the library finds joins the findings. `mends`: what has one right answer
+    is mended."""
     refused = refusal(path)
     if refused:
         findings.error(refused)
@@ -41,7 +42,7 @@ def finish(document, path, build, findings, locator=None, files=None):
     try:
         with files_beside(os.path.dirname(os.path.abspath(path)), files or {}) as beside:
             if has_library():
-                written = with_library(document, path, build, findings, locator)
+                written = with_library(document, path, build, findings, locator, mends)
             else:
                 written = without_library(document, path, findings)
             if written:
@@ -54,20 +55,23 @@ def finish(document, path, build, findings, locator=None, files=None):
     return False
 
 
-def to_asset(document):
-    """The library's own asset of a document."""
+def to_asset(document, mended=None):
+    """The library's own asset of a document. `mended` hears what is mended in it; None: nothing is."""
     handle, path = tempfile.mkstemp(suffix=".sbf")
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(to_xml(document, canonical=False))
-        return sbfmt.load(path)
+        if mended is None:
+            return sbfmt.load(path)
+        with sbfmt.load(path, mendable=True) as faulty:
+            return faulty.fix(report=mended)
     finally:
         os.unlink(path)
 
 
-def with_library(document, path, build, findings, locator):
+def with_library(document, path, build, findings, locator, mends):
     """A file with errors is not written."""
-    with to_asset(document) as source:
+    with to_asset(document, mender(findings, locator) if mends else None) as source:
         asset = source.build(report=lambda found: add(found, findings, locator), **build) if build is not None else source
         try:
             check(asset, os.path.dirname(path), findings, locator)
@@ -76,6 +80,13 @@ def with_library(document, path, build, findings, locator):
         finally:
             asset.close()
     return not findings.errors
+
+
+def mender(findings, locator):
+    """Hears what is mended in a file."""
+    def mended(found):
+        findings.info(f"mended in the file: {found.message}", code=found.code, **(locator.locate(found) if locator else {}))
+    return mended
 
 
 def check(asset, folder, findings, locator):

@@ -5,9 +5,11 @@ from bpy.props import IntProperty
 
 from .. import sbfmt
 from ..findings import Findings
-from ..finishing import check, has_library, to_asset
+from ..finishing import check, has_library, mender, to_asset
+from ..mending import mend_of
 from ..to_document import Options
 from ..whole import write_whole
+from .own_faults import told
 
 
 def find(context):
@@ -18,7 +20,8 @@ def find(context):
         findings.info("the compiled library is not found: only what the add-on itself knows was checked")
     elif not findings.errors:
         try:
-            with to_asset(whole.document) as asset:
+            mended = mender(findings, whole.locator) if context.scene.soft_body_format.mends_files else None
+            with to_asset(whole.document, mended) as asset:
                 check(asset, "", findings, whole.locator)
         except sbfmt.Error as error:
             findings.error(str(error))
@@ -32,6 +35,7 @@ class SBFMT_OT_check(bpy.types.Operator):
     bl_label = "Check"
     bl_options = {"REGISTER"}
 
+    @told
     def execute(self, context):
         settings, found = context.scene.soft_body_format, find(context)
         settings.findings.clear()
@@ -82,48 +86,52 @@ class SBFMT_OT_select_finding(bpy.types.Operator):
         bpy.ops.mesh.select_mode(type="VERT")
 
 
-class SBFMT_UL_findings(bpy.types.UIList):
-    """One message a line."""
+class SBFMT_OT_mend(bpy.types.Operator):
+    """Mend this, where there is one right answer, and check again"""
 
-    ICONS = {"ERROR": "CANCEL", "WARNING": "ERROR", "INFO": "INFO"}
+    bl_idname = "sbfmt.mend"
+    bl_label = "Mend"
+    bl_options = {"REGISTER", "UNDO"}
 
-    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_name, index):
-        place = item.object_name + (f", {item.bone_name}" if item.bone_name else "")
-        layout.label(text=f"{place}: {item.message}" if place else item.message, icon=self.ICONS.get(item.severity, "DOT"))
-        if place:
-            layout.operator(SBFMT_OT_select_finding.bl_idname, text="", icon="RESTRICT_SELECT_OFF").index = index
+    index: IntProperty(options={"HIDDEN"}, description="Of the message; -1: all that can be mended")
+
+    @classmethod
+    def description(cls, context, properties):
+        settings = context.scene.soft_body_format
+        if 0 <= properties.index < len(settings.findings):
+            mend = mend_of(settings.findings[properties.index], settings.mends_files)
+            if mend is not None:
+                return f"{mend.label}, and check again"
+        return "Mend all that has one right answer, and check again"
+
+    @told
+    def execute(self, context):
+        settings, done = context.scene.soft_body_format, set()
+        chosen = [one for index, one in enumerate(settings.findings) if self.index in (-1, index)]
+        for finding in chosen:
+            mend = mend_of(finding, settings.mends_files)
+            if mend is None:
+                continue
+            source = context.scene.objects.get(finding.object_name)
+            what = (mend.label, finding.object_name, finding.bone_name)
+            if mend.act is None:
+                settings.mends_files = True
+            elif source is None or source.library is not None:
+                self.report({"WARNING"}, f"{finding.object_name} is not this file's to change: mend it where it is linked from")
+                continue
+            elif what not in done:
+                mend.act(source, finding.bone_name)
+            done.add(what)
+        if not done:
+            self.report({"INFO"}, "nothing of it has one right answer: see what the messages say")
+            return {"CANCELLED"}
+        found = "; ".join(f"{name}: {label.lower()}" if name else label for label, name, _ in sorted(done))
+        bpy.ops.sbfmt.check()
+        self.report({"INFO"}, found)
+        return {"FINISHED"}
 
 
-class SBFMT_PT_check(bpy.types.Panel):
-    bl_label = "Check and build"
-    bl_parent_id = "SBFMT_PT_scene"
-    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "scene"
-    bl_order = -1
-
-    def draw(self, context):
-        layout, settings = self.layout, context.scene.soft_body_format
-        row = layout.row()
-        row.operator(SBFMT_OT_check.bl_idname, icon="CHECKMARK")
-        row.operator("sbfmt.build", icon="MESH_ICOSPHERE")
-        layout.template_list("SBFMT_UL_findings", "", settings, "findings", settings, "active_finding", rows=4)
-        if settings.active_finding < len(settings.findings):
-            column = layout.column(align=True)
-            for line in wrapped(settings.findings[settings.active_finding].message):
-                column.label(text=line)
-        layout.prop(settings, "show_overlay")
-
-
-def wrapped(text, width=60):
-    """Blender's labels don't wrap."""
-    lines = [""]
-    for word in text.split():
-        if len(lines[-1]) + len(word) > width:
-            lines.append("")
-        lines[-1] += (" " if lines[-1] else "") + word
-    return lines
-
-
-CLASSES = (SBFMT_OT_check, SBFMT_OT_select_finding, SBFMT_UL_findings, SBFMT_PT_check)
+CLASSES = (SBFMT_OT_check, SBFMT_OT_select_finding, SBFMT_OT_mend)
 
 
 def register():

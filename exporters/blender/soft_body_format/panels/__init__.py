@@ -2,10 +2,10 @@
 
 import bpy
 
-from . import bone_panel, build_panel, list_buttons, object_panels, preview_panels, scene_panels
+from . import bone_panel, build_panel, check_panel, list_buttons, object_panels, preview_panels, scene_panels
 
 CLASSES = list_buttons.CLASSES + object_panels.CLASSES + bone_panel.CLASSES + scene_panels.CLASSES + \
-    build_panel.CLASSES + preview_panels.CLASSES
+    check_panel.CLASSES + build_panel.CLASSES + preview_panels.CLASSES
 
 
 def register():

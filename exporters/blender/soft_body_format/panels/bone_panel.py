@@ -17,8 +17,12 @@ class SBFMT_PT_bone(bpy.types.Panel):
         layout, joint = self.layout, context.bone.soft_body_format.joint
         layout.use_property_split = True
         layout.prop(joint, "kind")
+        layout.row().prop(context.scene.soft_body_format, "show_joints", text="Drawn", expand=True)
         if joint.kind not in ("NONE", "fixed"):
             self.draw_limits(layout, joint)
+        row = layout.row(align=True)
+        row.operator("sbfmt.copy_bone", icon="COPYDOWN").other_side = False
+        row.operator("sbfmt.copy_bone", text="To the other side", icon="MOD_MIRROR").other_side = True
         layout.prop(joint, "simulated")
         layout.prop(joint, "use_mass")
         if joint.use_mass:

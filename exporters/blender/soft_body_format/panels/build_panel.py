@@ -1,4 +1,4 @@
-"""Scene > Soft body format > Build: what a build makes, here, in the preview and in an export."""
+"""Scene > Soft body format > What a build makes: here, in the preview and in an export; and what is drawn."""
 
 import bpy
 
@@ -7,7 +7,7 @@ from .scene_panels import ScenePanel
 
 
 class SBFMT_PT_build(ScenePanel, bpy.types.Panel):
-    bl_label = "Build"
+    bl_label = "What a build makes"
     bl_parent_id = "SBFMT_PT_scene"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -32,4 +32,16 @@ class SBFMT_PT_build(ScenePanel, bpy.types.Panel):
             draw_matter(layout.box(), build.attributes)
 
 
-CLASSES = (SBFMT_PT_build, )
+class SBFMT_PT_drawn(ScenePanel, bpy.types.Panel):
+    bl_label = "Drawn in the viewport"
+    bl_parent_id = "SBFMT_PT_scene"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout, settings = self.layout, context.scene.soft_body_format
+        layout.use_property_split = True
+        layout.prop(settings, "show_overlay")
+        layout.row().prop(settings, "show_joints", expand=True)
+
+
+CLASSES = (SBFMT_PT_build, SBFMT_PT_drawn)

@@ -36,6 +36,7 @@ class SBFMT_PT_object(ObjectPanel, bpy.types.Panel):
             layout.label(text=f"Exported as: {shown_role(source).capitalize()}", icon="INFO")
         if role_of(source) not in (RENDER, COLLISION, IGNORE):
             layout.prop(source.soft_body_format, "simulation_only")
+        layout.operator("sbfmt.copy_object", icon="COPYDOWN")
 
 
 class SBFMT_PT_material(BodyPanel, bpy.types.Panel):

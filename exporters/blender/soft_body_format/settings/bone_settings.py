@@ -58,7 +58,7 @@ class SBFMT_PG_bone(bpy.types.PropertyGroup):
     chain_identity: StringProperty(options={"HIDDEN"}, description="Id of the chain of inverse kinematics that ends at it")
     joint: PointerProperty(type=SBFMT_PG_joint)
     use_material: BoolProperty(name="Material of its section", default=False,
-                               description="What the section cut from a skin for this bone is made of; else as the scene's Build panel says")
+                               description="What the section cut from a skin for this bone is made of; else as the scene's panel says")
     attributes: PointerProperty(type=SBFMT_PG_attributes)
 
 

@@ -24,7 +24,7 @@ SIZES = (
 
 
 class SBFMT_PG_build(bpy.types.PropertyGroup):
-    """Scene > Soft body format > Build."""
+    """Scene > Soft body format > What a build makes."""
 
     interior: EnumProperty(name="Inside", items=INTERIORS, default="automatic", description="What bodies are filled with")
     size_by: EnumProperty(name="Size", items=SIZES, default="AUTOMATIC", description="What says how fine lattices are")

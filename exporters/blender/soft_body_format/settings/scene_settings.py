@@ -96,6 +96,11 @@ class SBFMT_PG_scene(bpy.types.PropertyGroup):
     preview: PointerProperty(type=SBFMT_PG_preview)
     findings: CollectionProperty(type=SBFMT_PG_finding)
     active_finding: IntProperty()
+    mends_files: BoolProperty(name="Mend files as they are written", default=False,
+                              description="What has one right answer is mended in builds and exports, and told")
+    show_joints: EnumProperty(name="Joints", default="SELECTED", description="Whose limits are drawn in the viewport", items=(
+        ("NONE", "None", "No joint is drawn"), ("SELECTED", "Selected", "Those of the active armature's selected bones"),
+        ("ALL", "All", "Those of every armature that is seen")))
     show_overlay: BoolProperty(name="Draw the build", default=True, description="Springs, lattice and pins over the model")
 
 

@@ -185,7 +185,7 @@ class RigidParts:
         for target, low, high in wish.bounds:
             if low > high:
                 writer.findings.error(f"the least {target} ({low:.3g}) is above the most ({high:.3g}): exchange them",
-                                      object_name=armature.name, bone_name=bone.name)
+                                      object_name=armature.name, bone_name=bone.name, code="LIMIT_ORDER")
                 continue
             made.limits.append(Record("limit", target=target, min=low, max=high, stiffness=settings.limit_stiffness,
                                       damping=settings.limit_damping))

@@ -29,7 +29,8 @@ def sound(writer, source):
         return sound_armature(findings, source, volume)
     if volume < 0:
         findings.warning("its scale is negative, so it is mirrored: its polygons are turned round to face outwards. Apply the scale "
-                         "(Ctrl+A > Scale) and recalculate the normals (Shift+N) to see what is written", object_name=source.name)
+                         "(Ctrl+A > Scale) and recalculate the normals (Shift+N) to see what is written", object_name=source.name,
+                         code="MESH_MIRRORED")
     return True
 
 

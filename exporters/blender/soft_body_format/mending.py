@@ -1,0 +1,92 @@
+"""What has one right answer is mended at a click: in the scene where the fault lies there, else in every file that is written."""
+
+from dataclasses import dataclass
+
+import bmesh
+import bpy
+from mathutils import Matrix
+
+
+@dataclass
+class Mend:
+    """What the button says, and what it does to the object and bone that a finding names; None: the files are mended."""
+
+    label: str
+    act: object = None
+
+
+def edit(source, change):
+    """Changes a mesh, whatever mode it is in; one that several objects share is changed for all of them."""
+    if source.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    made = bmesh.new()
+    made.from_mesh(source.data)
+    change(made)
+    made.to_mesh(source.data)
+    made.free()
+    source.data.update()
+
+
+def face_outwards(source, _bone_name):
+    edit(source, lambda made: bmesh.ops.recalc_face_normals(made, faces=made.faces))
+
+
+def remove_loose(source, _bone_name):
+    edit(source, lambda made: bmesh.ops.delete(made, geom=[one for one in made.verts if not one.link_faces], context="VERTS"))
+
+
+def apply_scale(source, _bone_name):
+    """In the world, so that of a mirrored parent too, into the mesh, which becomes its own where others share it. What hangs on it
+    keeps its place."""
+    if source.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    below = [(one, one.matrix_world.copy()) for one in source.children]
+    if source.data.users > 1:
+        source.data = source.data.copy()
+    place, turn, _ = source.matrix_world.decompose()
+    unscaled = Matrix.Translation(place) @ turn.to_matrix().to_4x4()
+    scale = unscaled.inverted() @ source.matrix_world
+    source.data.transform(scale, shape_keys=True)
+    if scale.determinant() < 0:
+        source.data.flip_normals()
+    source.matrix_world = unscaled
+    bpy.context.view_layer.update()
+    for one, world in below:
+        one.matrix_world = world
+
+
+def exchange_limits(source, bone_name):
+    """Of the bone's panel, and of its constraints."""
+    joint = source.data.bones[bone_name].soft_body_format.joint
+    owners = [(joint, f"{name}_min", f"{name}_max") for name in ("twist", "swing_y", "swing_z", "slide")]
+    for one in source.pose.bones[bone_name].constraints:
+        if one.type == "LIMIT_ROTATION":
+            owners += [(one, f"min_{axis}", f"max_{axis}") for axis in "xyz"]
+    for owner, low, high in owners:
+        if getattr(owner, low) > getattr(owner, high):
+            least, most = getattr(owner, high), getattr(owner, low)
+            setattr(owner, low, least)
+            setattr(owner, high, most)
+
+
+IN_SCENE = {
+    "SURFACE_WINDING": Mend("Turn faces outwards", face_outwards),
+    "SURFACE_INSIDE_OUT": Mend("Turn faces outwards", face_outwards),
+    "POINT_UNUSED": Mend("Delete loose vertices", remove_loose),
+    "MESH_POINT_UNUSED": Mend("Delete loose vertices", remove_loose),
+    "LIMIT_ORDER": Mend("Exchange the limits", exchange_limits),
+    "MESH_MIRRORED": Mend("Apply the scale", apply_scale),
+}
+# What `sbfmt validate --fix` mends and no click in the scene does: it came with an imported file, or lies in how panels are combined.
+IN_FILES = ("TETRAHEDRON_INVERTED", "TETRAHEDRON_DUPLICATE", "SPRING_DUPLICATE", "SPRING_SAME_POINT", "SPRING_INERT", "PIN_REPEATED",
+            "SKIN_SUM", "EMBEDDING_SUM", "EMBEDDING_BLEND", "VALUE_OUT_OF_RANGE", "ROTATION_NOT_UNIT", "JOINT_FRAME", "NORMAL_NOT_UNIT",
+            "DERIVED_STALE")
+
+
+def mend_of(finding, mends_files):
+    """The Mend of a finding, or None. `mends_files`: files are mended already."""
+    if finding.code in IN_SCENE and finding.object_name:
+        return IN_SCENE[finding.code]
+    if finding.code in IN_FILES and not mends_files:
+        return Mend("Mend it in the file")
+    return None
