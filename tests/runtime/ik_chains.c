@@ -173,3 +173,25 @@ void ik_expect_survives(ik_method *solve) {
       if (i == 1 || i == 2) ck_assert_float_le(r.error, 1e-2f); /* from a straight chain, along itself */
     }
 }
+
+void ik_expect_eases(ik_method *solve, float off) {
+  const float reach = 10, soft = 0.1f;
+  float last = 0;
+  for (int i = 0; i <= 80; i++) {
+    float out = 8 + 0.05f * (float)i, eased = sbri_ease_reach(out, reach, soft);
+    ik_chain_fixture f;
+    ik_chain_bent(&f);
+    f.chain.soft_reach = soft;
+    f.chain.tolerance = 1e-4f;
+    f.chain.iterations = 1000;
+    f.chain.target = sbri_scale(sbri_vec3(0.6f, 0.64f, 0.48f), out);
+    solve(&f.chain);
+    float is = sbri_length(end_of(&f));
+    ck_assert_float_eq_tol(is, eased, off);
+    if (i == 36) ck_assert_float_le(eased, 9.72f); /* of 9.8 m */
+    ck_assert_float_ge(is, last - off);
+    if (i > 0) ck_assert_float_le(is - last, 0.05f + off);
+    last = is;
+  }
+  ck_assert_float_eq_tol(last, reach, off);
+}

@@ -34,5 +34,8 @@ void ik_expect_stretches_to(ik_method *solve);
 void ik_expect_bows_to_pole(ik_method *solve);
 void ik_expect_copies_rotation(ik_method *solve);
 void ik_expect_survives(ik_method *solve);
+/* The last tenth of the reach is eased: the end never goes back as its target goes out, nor jumps. `off` is
+ * what the method leaves of a chain of 10 m that is nearly straight. */
+void ik_expect_eases(ik_method *solve, float off);
 
 #endif

@@ -25,6 +25,10 @@ START_TEST(odd_targets_leave_it_whole)
 { ik_expect_survives(sbri_ccd); }
 END_TEST
 
+START_TEST(extension_is_eased)
+{ ik_expect_eases(sbri_ccd, 0.08f); }
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("ccd");
   TCase *tests = tcase_create("all");
@@ -34,6 +38,7 @@ int main(void) {
   tcase_add_test(tests, bows_towards_the_pole);
   tcase_add_test(tests, copies_the_target_s_rotation);
   tcase_add_test(tests, odd_targets_leave_it_whole);
+  tcase_add_test(tests, extension_is_eased);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

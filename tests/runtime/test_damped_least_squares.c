@@ -43,6 +43,10 @@ START_TEST(comforts_act_without_moving_the_end)
 }
 END_TEST
 
+START_TEST(extension_is_eased)
+{ ik_expect_eases(sbri_damped_least_squares, 0.002f); }
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("damped_least_squares");
   TCase *tests = tcase_create("all");
@@ -53,6 +57,7 @@ int main(void) {
   tcase_add_test(tests, copies_the_target_s_rotation);
   tcase_add_test(tests, odd_targets_leave_it_whole);
   tcase_add_test(tests, comforts_act_without_moving_the_end);
+  tcase_add_test(tests, extension_is_eased);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -89,6 +89,10 @@ START_TEST(arms_that_cannot_both_reach_share_the_miss)
 }
 END_TEST
 
+START_TEST(extension_is_eased)
+{ ik_expect_eases(sbri_fabrik, 0.01f); }
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("fabrik");
   TCase *tests = tcase_create("all");
@@ -101,6 +105,7 @@ int main(void) {
   tcase_add_test(tests, too_far_takes_one_pass_and_is_exact);
   tcase_add_test(tests, two_arms_reach_two_targets);
   tcase_add_test(tests, arms_that_cannot_both_reach_share_the_miss);
+  tcase_add_test(tests, extension_is_eased);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -57,6 +57,14 @@ START_TEST(odd_targets_leave_it_whole)
 }
 END_TEST
 
+START_TEST(extension_is_eased)
+{ ik_expect_eases(sbri_ik_spline, 0.002f); }
+END_TEST
+
+START_TEST(copies_the_target_s_rotation)
+{ ik_expect_copies_rotation(sbri_ik_spline); }
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("ik_spline");
   TCase *tests = tcase_create("all");
@@ -64,6 +72,8 @@ int main(void) {
   tcase_add_test(tests, keeps_limits);
   tcase_add_test(tests, what_is_too_far_makes_it_straight);
   tcase_add_test(tests, odd_targets_leave_it_whole);
+  tcase_add_test(tests, extension_is_eased);
+  tcase_add_test(tests, copies_the_target_s_rotation);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

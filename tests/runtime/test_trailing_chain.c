@@ -182,6 +182,74 @@ START_TEST(it_lies_on_the_ground)
 }
 END_TEST
 
+/* A segment may be a mere placeholder, without length. */
+START_TEST(empty_links_take_no_room)
+{
+  static const float spacing[BONES] = {0.2f, 0, 0.2f, 0, 0, 0.3f, 0.2f, 0.2f};
+  snake s;
+  begin(&s, SBF_CHAIN_KIND_DISTANCE, 1);
+  ((sbf_chain *)(uintptr_t)s.asset->chains.at)->spacing = (sbf_f32_list){spacing, BONES};
+  sbri_gait_pose(&s.rig, s.state, &s.input, true, s.pose);
+  s.input.forward = 0.4f, s.input.turn = 0.9f;
+  for (int i = 0; i < 300; i++) {
+    if (i == 200) s.input.forward = s.input.turn = 0;
+    sbri_gait_tick(&s.rig, s.state, &s.input, s.pose, NULL, 0);
+    for (int k = 1; k < BONES; k++) {
+      float apart = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
+      ck_assert_float_eq_tol(apart, spacing[k - 1], 1e-4f);
+      ck_assert(isfinite(s.pose[k].rotation.w));
+    }
+  }
+  ck_assert_float_le(most_bend(&s), 0.41f);
+  end(&s);
+}
+END_TEST
+
+/* From the same bends, whatever the tick: exp(-damping t) of each is left. */
+START_TEST(straightening_takes_the_same_time_at_any_tick)
+{
+  float left[3];
+  const int rates[3] = {30, 60, 240};
+  for (int r = 0; r < 3; r++) {
+    snake s;
+    begin(&s, SBF_CHAIN_KIND_LAG, 2);
+    for (int k = 1; k < BONES; k++) { /* each continues the one before it, turned by 0.2 rad */
+      sbri_chain_bone *bone = &sbri_chain_bones(&s.rig, s.state)[k];
+      sbf_quat bend = sbri_quat_about(sbri_vec3(0, 1, 0), 0.2f * (float)k);
+      bone->frame.rotation = sbri_quat_multiply(bend, bone->frame.rotation);
+    }
+    s.input.tick_s = 1 / (float)rates[r];
+    for (int i = 0; i < rates[r]; i++) sbri_gait_tick(&s.rig, s.state, &s.input, s.pose, NULL, 0);
+    left[r] = most_bend(&s);
+    end(&s);
+  }
+  ck_assert_float_lt(left[1], 0.2f);
+  ck_assert_float_eq_tol(left[0], left[1], 0.02f);
+  ck_assert_float_eq_tol(left[2], left[1], 0.02f);
+}
+END_TEST
+
+/* Twice round, over where headings begin again, no bone turns faster than the head and its own bend do. */
+START_TEST(nothing_jumps_where_headings_begin_again)
+{
+  for (int kind = 0; kind < 2; kind++) {
+    snake s;
+    begin(&s, kind ? SBF_CHAIN_KIND_LAG : SBF_CHAIN_KIND_DISTANCE, 2);
+    run(&s, 2, 0.3f, 1.5f);
+    sbr_transform before[BONES];
+    for (int i = 0; i < 60 * 9; i++) {
+      for (int k = 0; k < BONES; k++) before[k] = s.pose[k];
+      sbri_gait_tick(&s.rig, s.state, &s.input, s.pose, NULL, 0);
+      for (int k = 0; k < BONES; k++) {
+        sbf_quat moved = sbri_quat_multiply(s.pose[k].rotation, sbri_quat_conjugate(before[k].rotation));
+        ck_assert_float_le(sbri_length(sbri_quat_log(moved)), 2 * 1.5f / 60);
+      }
+    }
+    end(&s);
+  }
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("trailing_chain");
   TCase *tests = tcase_create("all");
@@ -193,6 +261,9 @@ int main(void) {
   tcase_add_test(tests, a_swimmer_keeps_its_height);
   tcase_add_test(tests, a_lagging_chain_keeps_its_direction_for_a_while);
   tcase_add_test(tests, it_lies_on_the_ground);
+  tcase_add_test(tests, empty_links_take_no_room);
+  tcase_add_test(tests, straightening_takes_the_same_time_at_any_tick);
+  tcase_add_test(tests, nothing_jumps_where_headings_begin_again);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

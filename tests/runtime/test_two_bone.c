@@ -1,5 +1,7 @@
 #include "ik/two_bone.h"
 
+#include "ik/ik.h"
+
 #include <math.h>
 
 #include "harness.h"
@@ -91,6 +93,53 @@ START_TEST(degenerate_input_stays_finite)
 }
 END_TEST
 
+/* A thigh and a shin of 1 m, the knee a hinge about X that bends from 0.1 to `most` rad. */
+static sbri_ik_result solve_hinged(
+    sbri_ik_joint *joints, sbri_joint_limit *hinge, float most, sbf_vec3 target, sbf_quat rotation) {
+  *hinge = (sbri_joint_limit){
+      .before = {0, 0, 0, 1}, .after = {0, 0, 0, 1}, .twist = {0.1f, most}, .cone = 0, .active = true};
+  for (int i = 0; i < 3; i++)
+    joints[i] = (sbri_ik_joint){.offset = {0, i ? 1.0f : 0, 0}, .rotation = {0, 0, 0, 1}};
+  joints[1].rotation = sbri_quat_about(sbri_vec3(1, 0, 0), 0.5f * most);
+  joints[1].limit = hinge;
+  sbri_ik_chain chain = {.base = {{0, 0, 0}, {0, 0, 0, 1}},
+      .joints = joints,
+      .count = 3,
+      .target = target,
+      .target_rotation = rotation,
+      .copy_rotation = 1,
+      .tolerance = 1e-4f,
+      .iterations = 200};
+  return sbri_ik_two_bone(&chain);
+}
+
+START_TEST(a_knee_keeps_its_limit_and_the_foot_its_rotation)
+{
+  uint32_t seed = 13;
+  int reached = 0, folded = 0;
+  for (int i = 0; i < 200; i++) {
+    sbri_ik_joint joints[3];
+    sbri_joint_limit hinge;
+    sbf_vec3 target = next_point(&seed, 1.1f);
+    sbf_quat wanted = sbri_quat_normalize((sbf_quat){target.y, target.z, target.x, 0.5f});
+    float away = sbri_length(target);
+    sbri_ik_result r = solve_hinged(joints, &hinge, 1.5f, target, wanted);
+    ck_assert_float_le(sbri_joint_limit_excess(&hinge, joints[1].rotation), 2e-5f);
+    sbri_ik_chain chain = {.base = {{0, 0, 0}, {0, 0, 0, 1}}, .joints = joints, .count = 3};
+    sbr_transform frames[3];
+    sbri_ik_frames(&chain, frames);
+    ck_assert_float_eq_tol(sbri_length(sbri_sub(frames[2].position, target)), r.error, 1e-4f);
+    sbf_quat off = sbri_quat_multiply(frames[2].rotation, sbri_quat_conjugate(wanted));
+    ck_assert_float_le(sbri_length(sbri_quat_log(off)), 1e-3f);
+    /* Bent by 1.5 rad at most the ankle is 1.46 m from the hip at least, by 0.1 at least 1.998 at most. */
+    if (away > 1.5f && away < 1.99f) reached += r.reached, folded++;
+    if (away < 1.4f) ck_assert_float_ge(r.error, 1.45f - away);
+  }
+  ck_assert_int_gt(folded, 10);
+  ck_assert_int_eq(reached, folded);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("two_bone");
   TCase *tests = tcase_create("all");
@@ -98,6 +147,7 @@ int main(void) {
   tcase_add_test(tests, knee_lies_towards_the_pole);
   tcase_add_test(tests, extension_is_eased_without_a_jump);
   tcase_add_test(tests, degenerate_input_stays_finite);
+  tcase_add_test(tests, a_knee_keeps_its_limit_and_the_foot_its_rotation);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
