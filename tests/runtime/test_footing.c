@@ -5,6 +5,7 @@
 #include "gait/gait_state.h"
 #include "harness.h"
 #include "quadruped.h"
+#include "sbrun/terrain.h"
 
 enum { BONES = 32 };
 
@@ -166,6 +167,103 @@ START_TEST(it_looks_no_farther_than_it_may_go)
 }
 END_TEST
 
+/* How deep any point of a sole is in the ground on its way, and at rest; m. */
+static float deepest(const walk *w) {
+  float most = 0;
+  for (int l = 0; l < 4; l++) {
+    const sbri_foot *foot = &w->state->feet[l];
+    sbf_vec3 unused;
+    double ground = w->ground.height(&w->ground, (double)foot->ground.x, (double)foot->ground.z, &unused);
+    most = fmaxf(most, (float)ground - foot->ground.y - foot->lift);
+  }
+  return most;
+}
+
+/* Boards and a pole lie across the way, narrower than a step and higher than one is lifted by itself. */
+START_TEST(feet_go_over_what_lies_between)
+{
+  static const sbr_obstacle things[] = {
+      {SBR_OBSTACLE_BOX, {0, 0.03, 0.6}, {2, 0.03f, 0.02f}, 0}, /* 6 cm high, where feet are lifted by 4 */
+      {SBR_OBSTACLE_BOX, {0, 0.03, 1.1}, {2, 0.03f, 0.02f}, 0.2f},
+      {SBR_OBSTACLE_SPHERE, {0.12, 0, 1.6}, {0.05f, 0, 0}, 0},
+      {SBR_OBSTACLE_CYLINDER, {-0.12, 0, 1.8}, {0.03f, 0.05f, 0}, 0}};
+  sbr_ground floor = sbr_ground_flat(0);
+  const sbr_obstacle_set set = {&floor, things, 4};
+  walk w;
+  begin(&w, plain, 0);
+  w.ground = sbr_ground_obstacles(&set);
+  w.input.forward = 0.25f;
+  float most = 0, lift = 0;
+  for (int i = 0; i < 1200; i++) {
+    run(&w, 1);
+    most = fmaxf(most, deepest(&w));
+    for (int l = 0; l < 4; l++) lift = fmaxf(lift, w.state->feet[l].lift);
+  }
+  ck_assert_float_le(most, 1e-3f);
+  ck_assert_float_gt(lift, 0.055f);
+  ck_assert_float_gt(w.state->position.z, 2.5f); /* it has come by all of them */
+  end(&w);
+}
+END_TEST
+
+START_TEST(a_wall_is_not_climbed)
+{
+  static const sbr_obstacle wall = {SBR_OBSTACLE_BOX, {0, 0.5, 1.25}, {3, 0.5f, 0.25f}, 0};
+  sbr_ground floor = sbr_ground_flat(0);
+  const sbr_obstacle_set set = {&floor, &wall, 1};
+  walk w;
+  begin(&w, plain, 0);
+  w.ground = sbr_ground_obstacles(&set);
+  w.input.forward = 0.3f;
+  for (int i = 0; i < 900; i++) {
+    run(&w, 1);
+    for (int l = 0; l < 4; l++) ck_assert_float_le(w.state->feet[l].ground.y, 0.01f);
+  }
+  ck_assert_float_gt(w.state->position.z, 0.4f);
+  ck_assert_float_lt(w.state->position.z, 1.1f);
+  end(&w);
+}
+END_TEST
+
+/* Walked on as on any other ground: a host that casts rays, triangles, heights. */
+static double ray_down(void *user, sbr_double3 from, double length, sbf_vec3 *normal) {
+  (void)user;
+  double height = 0.15 * from.z, way = from.y - height, unit = sqrt(1 + 0.15 * 0.15);
+  *normal = (sbf_vec3){0, (float)(1 / unit), (float)(-0.15 / unit)};
+  return way <= length ? way : -1;
+}
+
+START_TEST(every_kind_of_ground_carries_the_same_walk)
+{
+  static const sbf_vec3 corners[4] = {{-9, -1.35f, -9}, {9, -1.35f, -9}, {-9, 1.35f, 9}, {9, 1.35f, 9}};
+  static const uint32_t triangles[6] = {0, 2, 1, 1, 2, 3};
+  static const float heights[4] = {-1.35f, -1.35f, 1.35f, 1.35f};
+  static const sbr_height_field field = {heights, 2, 2, 18, -9, -9};
+  static const sbr_ray_caster caster = {ray_down, NULL, 10, 100, 0};
+  sbr_ground_mesh *mesh;
+  ck_assert_int_eq(sbr_ground_mesh_create(NULL, corners, 4, triangles, 2, -99, &mesh, NULL), SBF_OK);
+  const sbr_ground grounds[4] = {sbr_ground_plane(0, (sbf_vec3){0, 1, -0.15f}), sbr_ground_of_mesh(mesh),
+      sbr_ground_height_field(&field), sbr_ground_rays(&caster)};
+  sbf_vec3 ends[4];
+  for (int g = 0; g < 4; g++) {
+    walk w;
+    begin(&w, plain, 0);
+    w.ground = grounds[g];
+    sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
+    w.input.forward = 0.25f;
+    for (int i = 0; i < 480; i++) {
+      run(&w, 1);
+      ck_assert_float_le(deepest(&w), 1e-3f);
+    }
+    ends[g] = w.pose[3].position;
+    ck_assert_float_gt(ends[g].z, 1.5f);
+    ck_assert_float_le(sbri_length(sbri_sub(ends[g], ends[0])), 0.02f);
+    end(&w);
+  }
+  sbr_ground_mesh_destroy(mesh);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("footing");
   TCase *tests = tcase_create("all");
@@ -175,6 +273,9 @@ int main(void) {
   tcase_add_test(tests, feet_and_body_tilt_with_the_ground);
   tcase_add_test(tests, a_sole_lies_as_a_board_does);
   tcase_add_test(tests, it_looks_no_farther_than_it_may_go);
+  tcase_add_test(tests, feet_go_over_what_lies_between);
+  tcase_add_test(tests, a_wall_is_not_climbed);
+  tcase_add_test(tests, every_kind_of_ground_carries_the_same_walk);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gait/gait_state.h"
 #include "harness.h"
 #include "math/quat.h"
 #include "quadruped.h"
@@ -367,6 +368,75 @@ START_TEST(a_taller_copy_walks_at_the_same_speed)
 }
 END_TEST
 
+/* Turning on the spot, more than twice round: what follows the heading goes on where it begins again. */
+START_TEST(nothing_jumps_where_headings_begin_again)
+{
+  walk w;
+  begin(&w, flat, 0);
+  run(&w, 2, 0, 0, 1.4f);
+  sbr_transform before[MOST_BONES];
+  for (int i = 0; i < 10 * TICKS_A_SECOND; i++) {
+    memcpy(before, w.pose, sizeof before);
+    tick(&w);
+    for (uint32_t b = 0; b < 8; b++) { /* body, head and tail */
+      sbf_quat moved = sbri_quat_multiply(w.pose[b].rotation, sbri_quat_conjugate(before[b].rotation));
+      ck_assert_float_le(2 * acosf(fminf(1, fabsf(moved.w))), 2.5f * 1.4f / TICKS_A_SECOND);
+    }
+  }
+  expect_good_walk(&w, 10);
+  end(&w);
+}
+END_TEST
+
+/* A foot within its margin steps home by itself; one farther off is there at once. */
+START_TEST(a_foot_beyond_its_margin_is_put_down_anew)
+{
+  for (int far = 0; far < 2; far++) {
+    walk w;
+    begin(&w, flat, 0);
+    run(&w, 0.5, 0, 0, 0);
+    const sbri_leg *leg = &w.q.rig.legs[QUADRUPED_FORE_L];
+    float margin = w.q.asset->gaits.at[0].legs.at[QUADRUPED_FORE_L].jump_margin;
+    ck_assert_float_gt(margin, 0);
+    float lost = leg->upper_length + leg->lower_length + margin;
+    sbri_foot *foot = &((sbri_gait_state *)w.state)->feet[QUADRUPED_FORE_L];
+    foot->ground.z += far ? lost + 0.02f : lost - 0.02f;
+    uint32_t steps = foot->steps_taken;
+    sbf_vec3 home = {leg->home.x, 0, leg->home.z};
+    sbri_gait_tick(&w.q.rig, w.state, &w.input, w.pose, NULL, 0);
+    ck_assert_int_eq(sbri_length(sbri_sub(foot->ground, home)) < 1e-4f, far);
+    for (int i = 0; i < 180; i++) sbri_gait_tick(&w.q.rig, w.state, &w.input, w.pose, NULL, 0);
+    ck_assert_float_le(sbri_length(sbri_sub(foot->ground, home)), 0.012f);
+    ck_assert_int_eq(foot->steps_taken > steps, !far);
+    end(&w);
+  }
+}
+END_TEST
+
+START_TEST(steps_are_quicker_when_it_goes_faster)
+{
+  float longest[2] = {0, 0}, strides[2];
+  const float speeds[2] = {0.45f, 1.2f}; /* trotting, as feet of a group go together */
+  for (int k = 0; k < 2; k++) {
+    walk w;
+    begin(&w, flat, 0);
+    run(&w, 3, speeds[k], 0, 0);
+    const sbri_gait_state *state = w.state;
+    uint32_t steps = state->feet[0].steps_taken;
+    double way = state->distance_m;
+    for (int i = 0; i < 8 * TICKS_A_SECOND; i++) {
+      tick(&w);
+      if (!state->feet[0].planted) longest[k] = fmaxf(longest[k], state->feet[0].duration_s);
+    }
+    strides[k] = (float)(state->distance_m - way) / (float)(state->feet[0].steps_taken - steps);
+    ck_assert_uint_eq(w.opposite_in_air, 0);
+    end(&w);
+  }
+  ck_assert_float_gt(strides[1], 1.2f * strides[0]);
+  ck_assert_float_lt(longest[1], longest[0]);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("gait");
   TCase *tests = tcase_create("all");
@@ -384,6 +454,9 @@ int main(void) {
   tcase_add_test(tests, a_body_left_behind_puts_its_feet_down_anew);
   tcase_add_test(tests, moving_the_origin_changes_nothing);
   tcase_add_test(tests, a_taller_copy_walks_at_the_same_speed);
+  tcase_add_test(tests, nothing_jumps_where_headings_begin_again);
+  tcase_add_test(tests, a_foot_beyond_its_margin_is_put_down_anew);
+  tcase_add_test(tests, steps_are_quicker_when_it_goes_faster);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
