@@ -182,7 +182,7 @@ START_TEST(it_lies_on_the_ground)
 }
 END_TEST
 
-/* A segment may be a mere placeholder, without length. */
+/* A segment may be there for its number alone, without length. */
 START_TEST(empty_links_take_no_room)
 {
   static const float spacing[BONES] = {0.2f, 0, 0.2f, 0, 0, 0.3f, 0.2f, 0.2f};
