@@ -27,7 +27,7 @@
 static const char default_tool[] =
     "sbfmt " TEXT_OF(SBF_VERSION_MAJOR) "." TEXT_OF(SBF_VERSION_MINOR) "." TEXT_OF(SBF_VERSION_PATCH);
 
-enum { MOST_BRUTE_POINTS = 4096, MOST_CALIBRATED_POINTS = 20000 };
+enum { MOST_BRUTE_POINTS = 4096, MOST_CALIBRATED_POINTS = 20000, LEAST_SHARE = 100 };
 /* How far sections reach over a cut, by the limb's radius. */
 static const double USUAL_OVERLAP = 0.5;
 enum { DERIVATION = 0 }; /* a build has one entry in `derivations` */
@@ -42,6 +42,7 @@ typedef struct build {
   bool *made;              /* (bodies) the level is made here, the body's only one */
   uint32_t *frames;        /* (bodies) first frame point of the level made; SBFI_NO_INDEX: none */
   sbfi_sections sections;  /* cut here: the last of the bodies */
+  uint32_t usual_elements; /* the most tetrahedra of a body that nobody sizes */
   sbfi_arena scratch;
   sbfi_ids ids;
   sbfi_reporter reporter;
@@ -335,7 +336,7 @@ static sbf_status make_ladder(build *b, uint32_t number, sbfi_ladder *ladder) {
 
 static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
-  sbfi_lattice_recipe recipe = {b->options.cell_m, b->options.elements, DERIVATION};
+  sbfi_lattice_recipe recipe = {b->options.cell_m, b->options.elements, b->usual_elements, DERIVATION};
   sbfi_lattice_counts counts;
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   if (!level) return no_memory(b);
@@ -423,9 +424,14 @@ static sbf_status make_level(build *b, uint32_t number) {
   sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
   sbf_status status = SBF_OK;
   const sbf_build_options *o = &b->options;
-  const sbfi_ladder_recipe recipe = {o->levels > 1 ? o->levels : 1, o->error_m,
-      !o->without_calibration && is_calibrated(b, number, interior), !o->without_flexion,
-      (double)b->asset->environment.control_tick, DERIVATION};
+  bool is_sized = o->cell_m > 0 || o->elements > 0 || o->error_m > 0;
+  const sbfi_ladder_recipe recipe = {.levels = o->levels > 1 ? o->levels : 1,
+      .error = o->error_m,
+      .calibrate = !o->without_calibration && is_calibrated(b, number, interior),
+      .flexion = !o->without_flexion,
+      .tick = (double)b->asset->environment.control_tick,
+      .share = is_sized ? 0 : b->usual_elements,
+      .derivation = DERIVATION};
   sbfi_ladder ladder;
   sbfi_ladder_init(
       &ladder, &b->bodies[number], &recipe, b->asset, stretch_of_body(b, number), &b->scratch.allocator);
@@ -462,8 +468,19 @@ static bool pin_authored_levels(build *b, uint32_t number) {
   return true;
 }
 
+/* Bodies that nobody sizes share what one would get, so that a scene of many is not many times as dear. */
+static void share_elements(build *b) {
+  uint32_t sharing = 0;
+  for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
+    sharing +=
+        b->bodies[i].levels.count == 0 && interior_of(b, &b->bodies[i]) == SBF_BUILD_INTERIOR_TETRAHEDRA;
+  uint32_t share = SBFI_LATTICE_MOST_ELEMENTS / (sharing ? sharing : 1);
+  b->usual_elements = share > LEAST_SHARE ? share : LEAST_SHARE;
+}
+
 static sbf_status make_levels(build *b) {
   uint32_t count = b->asset->soft_bodies.count;
+  share_elements(b);
   for (uint32_t i = 0; i < count; i++) {
     sbf_status status = progress(b, "levels", 0.2 + 0.4 * i / count);
     if (status != SBF_OK) return status;

@@ -390,12 +390,40 @@ START_TEST(every_allocation_may_fail)
 }
 END_TEST
 
+/* A scene of many bodies is not as many times as dear as one. */
+START_TEST(bodies_that_nobody_sizes_share)
+{
+  enum { BODIES = 40 };
+  const uint32_t alone[] = {1, BODIES};
+  uint32_t tetrahedra[2];
+  for (uint32_t k = 0; k < 2; k++) {
+    teardown();
+    setup();
+    for (uint32_t i = 0; i < alone[k]; i++) {
+      sbf_polygon_mesh cube = shape_cube(asset, 2, 0.2f, (sbf_vec3){(float)i, 1, 0});
+      char *name = sbf_asset_allocate(asset, 16, 1);
+      snprintf(name, 16, "c%u", (unsigned)i);
+      shape_add_body(asset, name, &cube, false);
+    }
+    sbf_build_report report;
+    sbf_build_options options = {.without_calibration = true};
+    sbf_asset *built = build(asset, &options, &report);
+    tetrahedra[k] = report.tetrahedra;
+    sbf_asset_free(built);
+  }
+  ck_assert_uint_gt(tetrahedra[0], 1000);
+  ck_assert_uint_lt(tetrahedra[1], BODIES * tetrahedra[0] / 3);
+  ck_assert_uint_gt(tetrahedra[1], 100 * BODIES / 2);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("build");
   TCase *c = tcase_create("build");
   tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, reference_lizard);
+  tcase_add_test(c, bodies_that_nobody_sizes_share);
   tcase_add_test(c, a_cube_in_full);
   tcase_add_test(c, building_twice_changes_nothing);
   tcase_add_test(c, the_hash_is_of_what_was_read);

@@ -5,7 +5,7 @@
 #include "build/lattice/lattice_pins.h"
 #include "build/materials/point_factors.h"
 
-enum { USUAL_ELEMENTS = 2000, MOST_ELEMENTS = 16000 };
+enum { USUAL_ELEMENTS = 2000 };
 
 static bool is_thin(const sbfi_thinness *of) {
   return of->thin_count > of->sample_count / 20;
@@ -18,14 +18,16 @@ static sbfi_lattice_outcome make_lattice(sbfi_lattice *lattice, const sbf_soft_b
   if (!sbfi_soup_make(&soup, &body->surface, scratch) || !sbfi_winding_make(&winding, &soup, scratch))
     return SBFI_LATTICE_NO_MEMORY;
   sbfi_lattice_outcome outcome;
-  for (uint32_t elements = recipe->elements ? recipe->elements : USUAL_ELEMENTS;; elements *= 2) {
+  uint32_t most = recipe->most ? recipe->most : SBFI_LATTICE_MOST_ELEMENTS;
+  uint32_t usual = most < USUAL_ELEMENTS ? most : USUAL_ELEMENTS;
+  for (uint32_t elements = recipe->elements ? recipe->elements : usual;; elements *= 2) {
     outcome = recipe->cell > 0 ? sbfi_lattice_make(lattice, &winding, recipe->cell, progress, scratch)
                                : sbfi_lattice_make_count(lattice, &winding, elements, progress, scratch);
     if (outcome != SBFI_LATTICE_MADE) return outcome;
     if (!sbfi_lattice_thinness(thinness, &body->surface, lattice->cell, scratch))
       return SBFI_LATTICE_NO_MEMORY;
     bool wished = recipe->cell > 0 || recipe->elements > 0;
-    if (wished || !is_thin(thinness) || elements >= MOST_ELEMENTS) return outcome;
+    if (wished || !is_thin(thinness) || 2 * elements > most) return outcome;
   }
 }
 

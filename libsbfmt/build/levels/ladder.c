@@ -4,8 +4,18 @@
 
 #include "build/levels/jiggle_level.h"
 
-/* A lattice of so many elements or more is not compared: it is as fine as the reference, near enough. */
-enum { FINE_ELEMENTS = SBFI_REFERENCE_ELEMENTS / 2, COARSEST_ELEMENTS = 60, FEWEST_ELEMENTS = 12 };
+enum { COARSEST_ELEMENTS = 60, FEWEST_ELEMENTS = 12 };
+
+/* Tetrahedra of the lattice that the others are compared with. */
+static uint32_t reference_elements(const sbfi_ladder *l) {
+  uint32_t share = l->recipe->share;
+  return share > 0 && share < SBFI_REFERENCE_ELEMENTS / 8 ? 8 * share : SBFI_REFERENCE_ELEMENTS;
+}
+
+/* A lattice of so many or more is not compared: it is as fine as the reference, near enough. */
+static uint32_t fine_elements(const sbfi_ladder *l) {
+  return reference_elements(l) / 2;
+}
 
 uint32_t sbfi_ladder_lattices(uint32_t levels) {
   return levels >= 4 ? levels - 2 : levels >= 3 ? levels - 1 : levels;
@@ -51,7 +61,8 @@ static sbfi_lattice_outcome measure(
 /* A lattice, without points where there is nothing to fill. */
 static sbfi_lattice_outcome make_lattice(
     sbfi_ladder *l, double cell, uint32_t elements, sbf_asset *asset, sbf_level *level) {
-  const sbfi_lattice_recipe recipe = {cell, elements, l->recipe->derivation};
+  const sbfi_lattice_recipe recipe = {
+      .cell = cell, .elements = elements, .derivation = l->recipe->derivation};
   sbfi_lattice_counts counts;
   sbfi_arena scratch;
   sbfi_arena_init(&scratch, l->allocator, 0);
@@ -62,11 +73,11 @@ static sbfi_lattice_outcome make_lattice(
 }
 
 sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, bool *met) {
-  sbfi_lattice_outcome outcome = make_reference(ladder, SBFI_REFERENCE_ELEMENTS);
+  sbfi_lattice_outcome outcome = make_reference(ladder, reference_elements(ladder));
   *met = false;
-  *elements = SBFI_REFERENCE_ELEMENTS;
+  *elements = reference_elements(ladder);
   if (outcome != SBFI_LATTICE_MADE || !ladder->reference.sound) return outcome;
-  for (uint32_t tried = COARSEST_ELEMENTS; tried < FINE_ELEMENTS && outcome == SBFI_LATTICE_MADE;
+  for (uint32_t tried = COARSEST_ELEMENTS; tried < fine_elements(ladder) && outcome == SBFI_LATTICE_MADE;
        tried *= 4) {
     sbf_level level;
     sbfi_calibration calibration = {.factor = 1};
@@ -93,10 +104,10 @@ sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, b
 static sbfi_lattice_outcome take_finest(sbfi_ladder *l, const sbfi_interior_map *interior) {
   sbf_level *level = &l->levels[l->level_count++];
   bool lattice = level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
-  bool coarse = lattice && level->lattice.tetrahedra.count < FINE_ELEMENTS;
+  bool coarse = lattice && level->lattice.tetrahedra.count < fine_elements(l);
   if (lattice ? coarse && (l->recipe->calibrate || has_falls(l)) : l->recipe->calibrate) {
     sbfi_lattice_outcome outcome =
-        make_reference(l, lattice ? SBFI_REFERENCE_ELEMENTS : SBFI_SPRING_REFERENCE_ELEMENTS);
+        make_reference(l, lattice ? reference_elements(l) : SBFI_SPRING_REFERENCE_ELEMENTS);
     if (outcome != SBFI_LATTICE_MADE || !l->reference.sound || !l->recipe->calibrate) return outcome;
     return measure(l, level, interior, &l->calibrations[0]);
   }

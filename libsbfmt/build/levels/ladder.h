@@ -13,6 +13,7 @@ typedef struct sbfi_ladder_recipe {
   bool calibrate;  /* lattices, and springs that are the finest level */
   bool flexion;    /* for a level of springs */
   double tick;     /* s, that costs are for */
+  uint32_t share;  /* the finest lattice has no more than this unasked; its reference eight times as many */
   int32_t derivation;
 } sbfi_ladder_recipe;
 
