@@ -349,21 +349,25 @@ static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *
     to_world(origin, ends, 2);
     to_world(origin, knee + 1, 1); /* bones are there already */
     static const sbf_uint2 one[1] = {{{0, 1}}};
-    draw_scene_add_lines(scene, knee, 2, one, NULL, 1, draw_colour_of_hull(), 1);
-    draw_scene_add_sphere(scene, knee[1], 0.15f * size, draw_colour_of_hull());
+    draw_scene_add_lines(scene, knee, 2, one, NULL, 1, draw_colour_of_pole(), 2.5f);
+    draw_scene_add_sphere(scene, knee[1], 0.2f * size, draw_colour_of_pole());
     footprint print = {.place = ends[0]};
     float y = (float)s->ground.height(&s->ground, (double)ends[0].x, (double)ends[0].z, &print.normal);
     if (legs[i].planted && !st->was_planted[i]) st->prints[st->print_count++ % PRINTS] = print;
     st->was_planted[i] = legs[i].planted;
     if (legs[i].planted) continue;
     below = (sbf_vec3){ends[0].x, y, ends[0].z};
-    sbf_vec3 points[3] = {ends[0], ends[1], below};
-    static const sbf_uint2 lines[2] = {{{0, 1}}, {{0, 2}}};
-    draw_scene_add_lines(scene, points, 3, lines, NULL, 2, draw_colour_of_bone(), 1.5f);
-    draw_scene_add_sphere(scene, ends[1], 0.3f * size, draw_colour_of_bone());
+    sbf_vec3 ray[2] = {ends[0], below};
+    draw_scene_add_lines(scene, ends, 2, one, NULL, 1, draw_colour_of_target(), 3);
+    draw_scene_add_sphere(scene, ends[1], 0.35f * size, draw_colour_of_target());
+    draw_scene_add_lines(scene, ray, 2, one, NULL, 1, draw_colour_of_ray(), 3);
   }
   for (uint32_t i = 0; i < st->print_count && i < PRINTS; i++)
-    draw_scene_add_ring(scene, st->prints[i].place, st->prints[i].normal, size, 1.5f, draw_colour_of_hull());
+    draw_scene_add_ring(scene, st->prints[i].place, st->prints[i].normal, size, 3, draw_colour_of_contact());
+  draw_scene_add_legend(scene, "knee to its pole", draw_colour_of_pole());
+  draw_scene_add_legend(scene, "ray down", draw_colour_of_ray());
+  draw_scene_add_legend(scene, "where the step goes", draw_colour_of_target());
+  draw_scene_add_legend(scene, "where a foot came down", draw_colour_of_contact());
 }
 
 /* A hull's polygons as triangles, fans of each. */

@@ -496,19 +496,19 @@ sbf_status draw_painter_paint(
 
   upload_scene(painter, gl, scene, camera->subject, ground_radius);
   uint32_t scale = draw_canvas_bind(painter->canvas);
+  if (scene->sorted_lines.count) { /* before the maps, whose textures it would take out of their units */
+    GLsizei width = (GLsizei)(draw_canvas_width(painter->canvas) * scale);
+    GLsizei height = (GLsizei)(draw_canvas_height(painter->canvas) * scale);
+    sbf_status status = layers_make(&painter->layers, gl, width, height, diagnostic);
+    if (status != SBF_OK) return status;
+  }
   /* What stands inside a veil is to be seen in full light. */
   fill_frame(painter, camera, &place, ground_radius, scene->sorted_parts.count == 0, scale);
   gl->BindBuffer(GL_UNIFORM_BUFFER, painter->frame_buffer);
   gl->BufferData(GL_UNIFORM_BUFFER, sizeof painter->frame, &painter->frame, GL_STREAM_DRAW);
   gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, painter->frame_buffer);
   paint_maps(painter, gl, scene, &place);
-  if (scene->sorted_lines.count) {
-    GLsizei width = (GLsizei)(draw_canvas_width(painter->canvas) * scale);
-    GLsizei height = (GLsizei)(draw_canvas_height(painter->canvas) * scale);
-    sbf_status status = layers_make(&painter->layers, gl, width, height, diagnostic);
-    if (status != SBF_OK) return status;
-    paint_line_layer(painter, gl, scene);
-  }
+  if (scene->sorted_lines.count) paint_line_layer(painter, gl, scene);
 
   draw_canvas_bind(painter->canvas);
   gl->Disable(GL_DEPTH_TEST);

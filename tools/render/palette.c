@@ -49,6 +49,12 @@ draw_colour draw_colour_of_target(void) {
 draw_colour draw_colour_of_contact(void) {
   return draw_colour_rgb(0x2f7fd0);
 }
+draw_colour draw_colour_of_ray(void) {
+  return draw_colour_rgb(0xc8283c);
+}
+draw_colour draw_colour_of_pole(void) {
+  return draw_colour_rgb(0xa34fb0);
+}
 
 typedef struct oklab {
   float lightness, a, b;

@@ -38,6 +38,8 @@ draw_colour draw_colour_of_hull(void);
 draw_colour draw_colour_of_tetrahedron(void);
 draw_colour draw_colour_of_target(void);  /* where a foot wants to go */
 draw_colour draw_colour_of_contact(void); /* where it stands */
+draw_colour draw_colour_of_ray(void);     /* down to the ground */
+draw_colour draw_colour_of_pole(void);    /* that a knee points to */
 
 /* Two maps from numbers to colours, both running through OKLab in even steps of seen difference:
  * diverging for signed strain (blue compressed, pale at rest, red stretched), sequential for magnitudes
