@@ -47,6 +47,8 @@ static bool progress(void *user, const char *pass, double done) {
   return true;
 }
 
+static const float LEFT_OVER = 0.25f;
+
 static void report(void *user, const sbf_diagnostic *diagnostic) {
   cli_print_diagnostic(user, diagnostic);
 }
@@ -61,7 +63,19 @@ static void print_lattices(const sbf_build_report *r) {
   printf("\n");
 }
 
-static void print_report(const sbf_build_report *r) {
+/* Sections whose springs do not give as their matter does, by more than a quarter of what it gives. */
+static void print_left_over(const sbf_asset *built) {
+  for (uint32_t i = 0; i < built->soft_bodies.count; i++) {
+    const sbf_soft_body *body = &built->soft_bodies.at[i];
+    const sbf_level *level = body->levels.count ? &body->levels.at[0] : NULL;
+    if (!level || level->model != SBF_ELASTIC_MODEL_SPRINGS || !level->calibration) continue;
+    if (!(level->calibration->residual > LEFT_OVER)) continue;
+    printf("  %s: off by %.0f %% of what its matter gives, up to %.2g m\n", body->name,
+        100 * (double)level->calibration->residual, (double)level->simulation.error);
+  }
+}
+
+static void print_report(const sbf_asset *built, const sbf_build_report *r) {
   if (r->sections) printf("cut %u sections along the bones\n", r->sections);
   printf("built %u bodies: %u interior points, %u pins, %u hulls, %u embedded vertices\n", r->bodies,
       r->interior_points, r->pins, r->hulls, r->embedded_vertices);
@@ -76,6 +90,7 @@ static void print_report(const sbf_build_report *r) {
         "calibrated the springs of %u levels: stiffness times %.3g to %.3g, surfaces within %.3g %% of where "
         "tetrahedra have them\n",
         r->calibrated_springs, r->least_spring_factor, r->most_spring_factor, 100 * r->most_spring_residual);
+  print_left_over(built);
   if (r->levels) printf("levels: %u beside the finest\n", r->levels);
   if (r->render_levels) printf("render levels: %u beside the full meshes\n", r->render_levels);
   printf("springs: %u structural, %u shear, %u flexion, %u internal", r->springs[SBF_SPRING_KIND_STRUCTURAL],
@@ -100,7 +115,7 @@ sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error
   if (status == SBF_OK) {
     mesh_quality quality;
     mesh_quality_measure(built, NULL, &quality);
-    print_report(&made);
+    print_report(built, &made);
     mesh_quality_print(&quality);
   }
   return status;

@@ -399,6 +399,44 @@ static void put_sections(FILE *to, const json_t *r) {
   fputs("</table></div></section>\n", to);
 }
 
+static void put_levels(FILE *to, const json_t *r) {
+  const json_t *sections = get(get(r, "bundle"), "sections");
+  bool any = false;
+  for (size_t i = 0; i < json_array_size(sections); i++) {
+    const json_t *section = json_array_get(sections, i), *levels = get(section, "levels");
+    for (size_t l = 0; l < json_array_size(levels); l++) {
+      const json_t *level = json_array_get(levels, l), *c = get(level, "calibration");
+      if (!json_is_number(get(level, "cost")) && !json_is_object(c)) continue;
+      if (!any)
+        fputs("<section><h2>Levels, measured</h2><p>How far a surface lies from where a fine lattice of the "
+              "same matter has it: under gravity in metres, and under small loads as a share of the "
+              "displacement. Cost: visits of elements a control tick.</p><div class=\"scroll\"><table>"
+              "<tr><th>section</th><th>level</th><th>model</th><th class=\"n\">stiffness &times;</th>"
+              "<th class=\"n\">left over</th><th class=\"n\">period</th><th class=\"n\">error, m</th>"
+              "<th class=\"n\">cost</th></tr>\n",
+            to);
+      any = true;
+      fputs("<tr>", to);
+      put_cell(to, text(section, "name"));
+      put_cell(to, text(level, "name"));
+      put_cell(to, text(level, "model"));
+      if (json_is_object(c))
+        fprintf(to,
+            "<td class=\"n\">%.2f</td><td class=\"n\">%.1f&thinsp;%%</td><td "
+            "class=\"n\">%+.1f&thinsp;%%</td>",
+            real(c, "factor"), 100 * real(c, "residual"), 100 * real(c, "period_error"));
+      else
+        fputs("<td></td><td></td><td></td>", to);
+      if (json_is_number(get(level, "error")))
+        fprintf(to, "<td class=\"n\">%.2g</td>", real(level, "error"));
+      else
+        fputs("<td class=\"n\">not measured</td>", to);
+      fprintf(to, "<td class=\"n\">%.0f</td></tr>\n", real(level, "cost"));
+    }
+  }
+  if (any) fputs("</table></div></section>\n", to);
+}
+
 static void put_clips(FILE *to, const json_t *r) {
   const json_t *clips = get(r, "clips");
   if (json_array_size(clips) == 0) return;
@@ -423,6 +461,7 @@ bool conversion_page_print(const json_t *r, FILE *to) {
   put_findings(to, r);
   put_quality(to, r);
   put_sections(to, r);
+  put_levels(to, r);
   put_render_levels(to, r);
   put_clips(to, r);
   fputs("</main></body></html>\n", to);

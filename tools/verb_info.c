@@ -3,6 +3,7 @@
 
 #include "bundle_description.h"
 #include "cli.h"
+#include "level_description.h"
 #include "sbfmt/io.h"
 #include "sbfmt/mechanics.h"
 
@@ -98,10 +99,11 @@ static json_t *sections(const sbf_asset *asset) {
     const sbf_level *level = finest(body);
     json_t *bone = body->bone >= 0 ? json_string(asset->bones.at[body->bone].name) : json_null();
     json_array_append_new(list,
-        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "name", body->name, "bone", bone, "vertices",
+        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "name", body->name, "bone", bone, "vertices",
             integer(body->surface.positions.count), "polygons", integer(body->surface.polygon_sizes.count),
             "interior_points", integer(interior_points(body)), "tetrahedra",
-            integer(level ? level->lattice.tetrahedra.count : 0), "pins", integer(body_pins(body))));
+            integer(level ? level->lattice.tetrahedra.count : 0), "pins", integer(body_pins(body)), "levels",
+            level_description(body)));
   }
   return list;
 }
@@ -206,14 +208,26 @@ static const char *text_of(const json_t *object, const char *key) {
   return text && *text ? text : "-";
 }
 
+static void print_levels(const json_t *levels) {
+  size_t i;
+  json_t *level;
+  char text[256];
+  json_array_foreach(levels, i, level) {
+    level_description_print(level, text, sizeof text);
+    printf("    %s\n", text);
+  }
+}
+
 static void print_sections(const json_t *object) {
   size_t i;
   json_t *row;
   printf("sections       %zu\n", json_array_size(json_object_get(object, "sections")));
-  json_array_foreach(json_object_get(object, "sections"), i, row)
-      printf("  %-16s on %-16s %6lld vertices %6lld polygons %6lld interior %7lld tetrahedra %6lld pins\n",
-          text_of(row, "name"), text_of(row, "bone"), number(row, "vertices"), number(row, "polygons"),
-          number(row, "interior_points"), number(row, "tetrahedra"), number(row, "pins"));
+  json_array_foreach(json_object_get(object, "sections"), i, row) {
+    printf("  %-16s on %-16s %6lld vertices %6lld polygons %6lld interior %7lld tetrahedra %6lld pins\n",
+        text_of(row, "name"), text_of(row, "bone"), number(row, "vertices"), number(row, "polygons"),
+        number(row, "interior_points"), number(row, "tetrahedra"), number(row, "pins"));
+    print_levels(json_object_get(row, "levels"));
+  }
 }
 
 static void print_render_levels(const json_t *levels) {

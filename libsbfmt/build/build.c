@@ -405,14 +405,12 @@ static sbf_status clear_lattices(build *b) {
   return SBF_OK;
 }
 
-/* Lattices; and springs by centroid where several levels are to give alike. Alone they stay as soft as they
- * are: characters are tuned to how far those swing. */
+/* Lattices and springs by centroid, which hold as much of a section as their few springs happen to. */
 static bool is_calibrated(const build *b, uint32_t number, sbf_build_interior interior) {
   const sbf_soft_body *body = &b->bodies[number];
   sbf_body_measures measures;
   if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA) return true;
-  if (interior != SBF_BUILD_INTERIOR_CENTROID || b->options.levels < 2 ||
-      body->surface.positions.count > MOST_CALIBRATED_POINTS)
+  if (interior != SBF_BUILD_INTERIOR_CENTROID || body->surface.positions.count > MOST_CALIBRATED_POINTS)
     return false;
   sbf_body_measure(body, &measures);
   return !measures.sheet && body->surface.polygon_sizes.count > 0;

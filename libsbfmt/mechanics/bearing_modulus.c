@@ -12,6 +12,11 @@ static double rounded_up(double value) {
   return ceil(value / unit) * unit;
 }
 
+double sbfi_modulus_to_bear(double modulus, double density, double height, double strain) {
+  double needed = density * GRAVITY * height / strain;
+  return needed > modulus && needed <= 1e30 ? rounded_up(needed) : modulus;
+}
+
 double sbfi_bearing_modulus(const sbf_attributes *attributes, const sbf_vec3_list *surface) {
   double modulus = (double)attributes->young_modulus;
   if (surface->count == 0) return modulus;
@@ -22,6 +27,5 @@ double sbfi_bearing_modulus(const sbf_attributes *attributes, const sbf_vec3_lis
     high = (sbf_vec3){fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z)};
   }
   double height = fmax(fmax((double)high.x - low.x, (double)high.y - low.y), (double)high.z - low.z);
-  double needed = (double)attributes->density * GRAVITY * height / MOST_STRAIN;
-  return needed > modulus && needed <= 1e30 ? rounded_up(needed) : modulus;
+  return sbfi_modulus_to_bear(modulus, (double)attributes->density, height, MOST_STRAIN);
 }

@@ -4,9 +4,13 @@
 
 #include "sbfmt/model.h"
 
-/* The attributes' Young's modulus, or as much as it takes for a column as high as the surface is long to
- * strain by a twentieth at its foot under the earth's gravity, whatever the file's: source parts hang on it.
- * Rounded up to two digits; Pa. */
+/* The modulus given, Pa, or as much as it takes for a column of that height, m, and density, kg/m^3, to
+ * strain by no more than that at its foot under the earth's gravity, whatever the file's. Rounded up to two
+ * digits. */
+double sbfi_modulus_to_bear(double modulus, double density, double height, double strain);
+
+/* The same for a body that stands: the height is its surface's length, and a twentieth the strain. Source
+ * parts hang on it. */
 double sbfi_bearing_modulus(const sbf_attributes *attributes, const sbf_vec3_list *surface);
 
 #endif

@@ -28,7 +28,8 @@ static void fill(sbfi_linear_statics *s) {
 bool sbfi_linear_statics_make(
     sbfi_linear_statics *made, const sbf_spring_network *network, sbfi_arena *arena) {
   size_t size = 3 * (size_t)network->point_count + 1;
-  *made = (sbfi_linear_statics){.coarse = network->point_count >= MANY_POINTS};
+  *made =
+      (sbfi_linear_statics){.coarse = network->point_count >= MANY_POINTS && network->tetrahedron_count > 0};
   double **vectors[] = {&made->r, &made->z, &made->p, &made->q};
   for (int i = 0; i < 4; i++) {
     *vectors[i] = sbfi_arena_allocate(arena, size, sizeof(double));

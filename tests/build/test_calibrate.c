@@ -146,7 +146,8 @@ START_TEST(a_beam_of_240_bends_as_one_of_15360)
   ck_assert_int_eq(
       sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){true, true, {0}}, NULL), 0);
   ck_assert(r.sound);
-  ck_assert(sbfi_level_calibrate(&coarse, body, NULL, &r, false, 1.0 / 60, asset, &c, NULL));
+  ck_assert(
+      sbfi_level_calibrate(&coarse, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
   ck_assert_double_lt(fabs(c.period_error), 0.02);
   ck_assert_float_eq(coarse.lattice.reference_modulus.at[0], 1e6f);
   ck_assert_uint_eq(coarse.lattice.young_modulus.count, 240);
@@ -237,7 +238,9 @@ START_TEST(an_arm_of_the_armadillo)
   double weight = 1000 * 9.81 * size * size * size * 1e-4;
   double off[2][3];
   for (int calibrated = 0; calibrated < 2; calibrated++) {
-    if (calibrated) ck_assert(sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, NULL));
+    if (calibrated)
+      ck_assert(
+          sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
     for (int axis = 0; axis < 3; axis++) {
       sbfi_d3 force = {axis == 0 ? weight : 0, axis == 1 ? weight : 0, axis == 2 ? weight : 0};
       sbfi_d3 wanted = push(body, &r.made, hand, force), is = push(body, &level, hand, force);

@@ -114,8 +114,8 @@ static shares_off compare(const held_body *of, uint32_t elements) {
     const sbfi_reference_use use = {.pushes = local};
     sbf_level level = lattice(of->body, elements);
     ck_assert_int_eq(sbfi_reference_take(&reference, of->body, &fine, NULL, asset, &use, NULL), 0);
-    ck_assert(
-        sbfi_level_calibrate(&level, of->body, NULL, &reference, false, 1.0 / 60, asset, &calibration, NULL));
+    ck_assert(sbfi_level_calibrate(
+        &level, of->body, NULL, &reference, false, 1.0 / 60, asset, &calibration, (sbfi_progress){0}, NULL));
     sbfi_reference_free(&reference);
     ck_assert_double_ge(calibration.least, 0.05);
     ck_assert_double_le(calibration.most, 4);

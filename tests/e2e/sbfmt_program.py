@@ -8,6 +8,7 @@ takes as skipped.
 import collections
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -117,6 +118,18 @@ def convert_once(folder, name, *arguments):
         result = call("convert", *arguments, "-o", out)
         if result.status != 0:
             raise AssertionError(f"convert {' '.join(arguments)}: {result.err}")
+    return out
+
+
+def built_of_modulus(folder, name, source, modulus, *options):
+    """The bundle `source` (.sbf) built again, of so many Pa where a section's is stated."""
+    stated, out = os.path.join(folder, "stated." + name), os.path.join(folder, name)
+    with open(source, encoding="utf-8") as stream:
+        text = re.sub(r'(<attributes young_modulus=)"[^"]*"', rf'\1"{modulus:g}"', stream.read())
+    write_bytes(stated, text.encode())
+    result = call("build", stated, *options, "-o", out)
+    if result.status != 0:
+        raise AssertionError(f"build of {name}: {result.err}")
     return out
 
 

@@ -121,6 +121,7 @@ typedef struct work {
   double *gives[SBFI_MOST_LOADS]; /* (3 x surface points) m */
   double yieldings[SBFI_MOST_LOADS], frequencies[SBFI_MOST_LOADS];
   sbfi_calibration *c;
+  sbfi_progress progress;
 } work;
 
 static bool find_yieldings(work *w) {
@@ -194,27 +195,31 @@ static bool fit_springs(work *w) {
   sbfi_spring_factors factors;
   sbf_spring_set *sets = sbf_asset_allocate(w->asset, w->level->springs.count, sizeof *sets);
   const float *from = w->statics.stiffness;
-  if (!sets ||
-      !sbfi_spring_fit(&w->statics, &w->linear, (const double *const *)w->r->gives, &factors, w->scratch))
+  const float *before = sbfi_arena_copy(w->scratch, from, w->statics.network.spring_count, sizeof *before);
+  if (!sets || !before ||
+      !sbfi_spring_fit(
+          &w->statics, &w->linear, (const double *const *)w->r->gives, &factors, w->progress, w->scratch))
     return false;
   for (uint32_t s = 0; s < w->level->springs.count; s++) {
     sbf_spring_set *set = &sets[s];
     *set = w->level->springs.at[s];
-    double factor = set->kind == SBF_SPRING_KIND_INTERNAL ? factors.inner : factors.surface;
     float *stiffness = sbf_asset_allocate(w->asset, (size_t)set->ends.count + 1, sizeof *stiffness);
     float *damping = sbf_asset_allocate(w->asset, (size_t)set->damping.count + 1, sizeof *damping);
     if (!stiffness || !damping) return false;
-    for (uint32_t i = 0; i < set->ends.count; i++) stiffness[i] = *from++;
-    for (uint32_t i = 0; i < set->damping.count; i++)
-      damping[i] = (float)((double)set->damping.at[i] * factor);
+    for (uint32_t i = 0; i < set->ends.count; i++) {
+      float stated = *before++;
+      stiffness[i] = *from++;
+      if (i < set->damping.count) damping[i] = stated > 0 ? set->damping.at[i] * (stiffness[i] / stated) : 0;
+    }
     set->stiffness = (sbf_f32_list){set->ends.count ? stiffness : NULL, set->ends.count};
     if (set->damping.count) set->damping.at = damping;
   }
   w->level->springs.at = sets;
   w->c->factor = factors.inner;
   w->c->surface = factors.surface;
-  w->c->least = fmin(factors.inner, factors.surface);
-  w->c->most = fmax(factors.inner, factors.surface);
+  w->c->least = factors.least;
+  w->c->most = factors.most;
+  w->c->residual_before = factors.before;
   w->c->residual = factors.after;
   return find_yieldings(w);
 }
@@ -292,10 +297,15 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
 
 bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
     const sbfi_reference *reference, bool springs, double tick, sbf_asset *asset,
-    sbfi_calibration *calibration, const sbf_allocator *allocator) {
+    sbfi_calibration *calibration, sbfi_progress progress, const sbf_allocator *allocator) {
   sbfi_arena scratch;
-  work w = {
-      .level = level, .body = body, .r = reference, .asset = asset, .scratch = &scratch, .c = calibration};
+  work w = {.level = level,
+      .body = body,
+      .r = reference,
+      .asset = asset,
+      .scratch = &scratch,
+      .c = calibration,
+      .progress = progress};
   *calibration = (sbfi_calibration){.factor = 1, .surface = 1, .least = 1, .most = 1, .period_error = NAN};
   sbfi_arena_init(&scratch, allocator, 0);
   bool good = calibrate(&w, interior, springs, tick);

@@ -4,7 +4,7 @@
  * al. 2009) gives them other moduli. Each element's is found by the work that its surroundings take
  * (local_fit.h); then one factor for all makes the level give as much under small loads (level_loads.h),
  * averaged over the surface and summed over the loads, as a reference of some 16,000 tetrahedra does. What is
- * softest, mostly bending, so counts most. Springs get two factors (spring_fit.h). */
+ * softest, mostly bending, so counts most. Springs get a factor each (spring_fit.h). */
 #ifndef SBFI_CALIBRATE_H
 #define SBFI_CALIBRATE_H
 
@@ -59,10 +59,11 @@ double sbfi_reference_frequency(const sbfi_reference *reference);
 typedef struct sbfi_calibration {
   double
       factor; /* on the modulus, or on the stiffness of springs inside, on the mean; 1: nothing was changed */
-  double surface;      /* on that of springs over the surface */
-  double least, most;  /* over the elements */
-  double residual;     /* of lattices, the greatest share by which one yields otherwise under one of the small
-                          loads; of springs, that by which the surface is displaced otherwise (spring_fit.h) */
+  double surface;     /* on that of springs over the surface */
+  double least, most; /* over the elements */
+  double residual;    /* of lattices, the greatest share by which one yields otherwise under one of the small
+                         loads; of springs, that by which the surface is displaced otherwise (spring_fit.h) */
+  double residual_before; /* of springs, the same before */
   double period_error; /* share by which it swings slower under the load it yields to most; NAN: not known */
   double error;        /* m, greatest distance of a surface point from where the reference has it under
                           gravity along one of the axes; from small strains, where the reference has no falls */
@@ -71,9 +72,9 @@ typedef struct sbfi_calibration {
 /* Calibrates a level of tetrahedra or, where `springs` says so, of springs, whose lists become memory of
  * `asset`, and compares it; another level is compared alone, and one of jiggle as one that does not give.
  * Sets the level's calibration, its simulation error, and its cost for a control tick of `tick` s. `interior`
- * as for a carrier. False where memory runs out. */
+ * as for a carrier. False where memory runs out or the work is ended. */
 bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
     const sbfi_reference *reference, bool springs, double tick, sbf_asset *asset,
-    sbfi_calibration *calibration, const sbf_allocator *allocator);
+    sbfi_calibration *calibration, sbfi_progress progress, const sbf_allocator *allocator);
 
 #endif

@@ -53,7 +53,7 @@ static sbfi_lattice_outcome measure(
     sbfi_ladder *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
   if (!sbfi_progress_say(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
   return sbfi_level_calibrate(level, l->body, interior, &l->reference, level == l->levels, l->recipe->tick,
-             l->asset, calibration, l->allocator)
+             l->asset, calibration, sbfi_progress_part(l->progress, 0.9, 1), l->allocator)
              ? SBFI_LATTICE_MADE
              : SBFI_LATTICE_NO_MEMORY;
 }
@@ -89,7 +89,7 @@ sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, b
     outcome = make_lattice(ladder, 0, tried, memory, &level);
     bool some = outcome == SBFI_LATTICE_MADE && level.lattice.tetrahedra.count >= FEWEST_ELEMENTS;
     if (some && !sbfi_level_calibrate(&level, ladder->body, NULL, &ladder->reference, false,
-                    ladder->recipe->tick, memory, &calibration, ladder->allocator))
+                    ladder->recipe->tick, memory, &calibration, ladder->progress, ladder->allocator))
       outcome = SBFI_LATTICE_NO_MEMORY;
     sbf_asset_free(memory);
     if (!some || outcome != SBFI_LATTICE_MADE || calibration.error > ladder->recipe->error) continue;

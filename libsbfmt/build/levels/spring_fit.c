@@ -3,13 +3,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "build/levels/spring_descent.h"
+
 static const double solve_share = 2e-3;
-/* Both factors stay between these: what springs lack of a matter's stiffness beyond is a shape that they
- * cannot hold at all, and more of it would shorten the time step for nothing. */
+/* Both factors stay between these, as do those of spring_descent.h: what springs lack of a matter's stiffness
+ * beyond is a shape that they cannot hold at all, and more of it would shorten the time step for nothing. */
 static const double least_factor = 0.125, most_factor = 16;
-/* The ratio of the surface's factor to the inner one is looked for up to a fourth and four, by these steps.
- */
-static const double steps[] = {2, 1.25}, most_ratio = 4;
+/* The ratio of the surface's factor to the inner one is looked for up to a fourth and four, by this
+ * step: finer ones are left to each spring by itself. */
+static const double step = 2, most_ratio = 4;
 
 typedef struct work {
   sbfi_level_statics *statics;
@@ -73,28 +75,48 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
   return true;
 }
 
+static void take_means(const work *w, sbfi_spring_factors *factors) {
+  uint32_t set = UINT32_MAX, left = 0, counts[2] = {0};
+  double sums[2] = {0};
+  factors->least = INFINITY;
+  factors->most = 0;
+  for (uint32_t i = 0; i < w->statics->network.spring_count; i++) {
+    bool inner = is_inner(w->statics->level, &set, &left);
+    if (!(w->stated[i] > 0)) continue;
+    double factor = (double)w->statics->stiffness[i] / w->stated[i];
+    sums[inner] += factor;
+    counts[inner]++;
+    factors->least = fmin(factors->least, factor);
+    factors->most = fmax(factors->most, factor);
+  }
+  factors->surface = counts[0] ? sums[0] / counts[0] : 1;
+  factors->inner = counts[1] ? sums[1] / counts[1] : 1;
+  if (counts[0] + counts[1] == 0) factors->least = factors->most = 1;
+}
+
 bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const double *const *gives,
-    sbfi_spring_factors *factors, sbfi_arena *scratch) {
+    sbfi_spring_factors *factors, sbfi_progress progress, sbfi_arena *scratch) {
   work w = {.statics = statics, .linear = linear, .gives = gives, .scratch = scratch};
   trial best, tried;
   w.stated = sbfi_arena_copy(scratch, statics->stiffness, statics->network.spring_count, sizeof *w.stated);
   w.moved =
       sbfi_arena_allocate(scratch, (size_t)statics->body->surface.positions.count + 1, 3 * sizeof *w.moved);
-  *factors = (sbfi_spring_factors){1, 1, 0, 0};
   if (!w.stated || !w.moved || !try_ratio(&w, 1, &best)) return false;
-  factors->before = best.as_is;
-  for (size_t step = 0; step < sizeof steps / sizeof *steps; step++)
-    for (int way = 0; way < 2; way++)
-      for (;;) {
-        double ratio = way ? best.ratio / steps[step] : best.ratio * steps[step];
-        if (ratio > most_ratio || ratio < 1 / most_ratio) break;
-        if (!try_ratio(&w, ratio, &tried)) return false;
-        if (tried.left >= best.left) break;
-        best = tried;
-      }
-  factors->inner = best.inner;
-  factors->surface = best.inner * best.ratio;
-  factors->after = best.left;
-  set_stiffness(&w, factors->surface, factors->inner);
+  *factors = (sbfi_spring_factors){.before = best.as_is};
+  for (int way = 0; way < 2; way++)
+    for (;;) {
+      double ratio = way ? best.ratio / step : best.ratio * step;
+      if (ratio > most_ratio || ratio < 1 / most_ratio) break;
+      if (!sbfi_progress_say(progress, 0)) return false;
+      if (!try_ratio(&w, ratio, &tried)) return false;
+      if (tried.left >= best.left) break;
+      best = tried;
+    }
+  factors->by_kind = best.left;
+  set_stiffness(&w, best.inner * best.ratio, best.inner);
+  if (!sbfi_spring_descent(
+          statics, linear, w.stated, gives, &factors->after, sbfi_progress_part(progress, 0.2, 1), scratch))
+    return false;
+  take_means(&w, factors);
   return true;
 }

@@ -10,11 +10,11 @@
 #include "import/convert/convert_pins.h"
 #include "import/convert/convert_summary.h"
 #include "import/convert/convert_tets.h"
+#include "import/convert/guess_moduli.h"
 #include "import/convert/propose_limits.h"
 #include "import/gait/propose_gait.h"
 #include "import/paper/dialect2012.h"
 #include "import/scene/bind_pose.h"
-#include "mechanics/bearing_modulus.h"
 #include "mechanics/plausible_size.h"
 #include "model/options.h"
 
@@ -143,32 +143,6 @@ static void check_size(sbfi_conversion *c) {
       size * scale, unit_m);
 }
 
-/* Bodies that nothing holds stand on the ground: as stiff as that takes, where nobody says what they are. */
-static void guess_moduli(sbfi_conversion *c) {
-  const sbf_soft_body_list *bodies = &c->asset->soft_bodies;
-  double least = INFINITY, most = 0;
-  unsigned count = 0;
-  for (uint32_t i = 0; i < bodies->count; i++) {
-    sbf_soft_body *body =
-        (sbf_soft_body *)(uintptr_t)&bodies->at[i]; /* the asset is ours until it is handed out */
-    sbf_body_measures measures;
-    if (body->bone != SBF_NONE || body->pins.count) continue;
-    sbf_body_measure(body, &measures);
-    double modulus = sbfi_bearing_modulus(&body->attributes, &body->surface.positions);
-    if (measures.sheet || modulus <= (double)body->attributes.young_modulus) continue;
-    body->attributes.young_modulus = (float)modulus;
-    least = fmin(least, modulus);
-    most = fmax(most, modulus);
-    count++;
-  }
-  if (count)
-    sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
-        "nobody says what %u bod%s made of that the usual modulus would not bear: %.2g Pa are taken%s; say "
-        "it, as by "
-        "--material rubber",
-        count, count == 1 ? "y is" : "ies are", most, most > least ? " for the largest" : "");
-}
-
 /* A scene in the pose its skin was bound in, which is an asset's rest pose. */
 static sbf_status read_scene(
     sbfi_scene *scene, const char *path, const sbfi_scene_options *options, sbf_diagnostic *error) {
@@ -208,7 +182,7 @@ static sbf_status convert_readings(
                            : run_passes(&c, options);
     if (status == SBF_OK && !from->paper) {
       check_size(&c);
-      if (!options->keep_modulus) guess_moduli(&c);
+      if (!options->keep_modulus) sbfi_guess_moduli(&c);
     }
   }
   sbfi_array_free(&c.ids.slots);

@@ -878,9 +878,10 @@ typedef struct sbf_simulation_list {
 typedef struct sbf_calibration {
   /* Tetrahedra of the lattice it was compared with. */
   uint32_t reference_elements;
-  /* On the moduli, on the mean of the volume; or on the stiffness of springs inside. [(0, inf); default 1] */
+  /* On the moduli, on the mean of the volume; or on the stiffness of springs inside, on their mean. [(0,
+   * inf); default 1] */
   float factor;
-  /* On the stiffness of springs over the surface. [(0, inf); default 1] */
+  /* On the stiffness of springs over the surface, on their mean. [(0, inf); default 1] */
   float surface_factor;
   /* Share by which it still gives otherwise under small loads: of lattices the most that the mean over the
    * surface is off under one of them, of springs the root of the mean square of what is left at the surface's

@@ -1,0 +1,57 @@
+#include "import/convert/guess_moduli.h"
+
+#include <math.h>
+
+#include "mechanics/bearing_modulus.h"
+#include "sbfmt/materials.h"
+#include "sbfmt/mechanics.h"
+
+/* Flesh around a bone hangs on it all along: it has to bear what lies between bone and skin alone, and a
+ * quarter of strain there still looks as it was drawn. */
+static const double MOST_FLESH_STRAIN = 0.25;
+
+/* What a guess is about, and how it went. */
+typedef struct guesses {
+  double least, most; /* Pa */
+  unsigned count;
+} guesses;
+
+static void guess(guesses *made, sbf_attributes *attributes, double modulus) {
+  attributes->young_modulus = (float)modulus;
+  made->least = made->count ? fmin(made->least, modulus) : modulus;
+  made->most = fmax(made->most, modulus);
+  made->count++;
+}
+
+void sbfi_guess_moduli(sbfi_conversion *c) {
+  const sbf_soft_body_list *bodies = &c->asset->soft_bodies;
+  double flesh = (double)sbf_material_find("flesh")->young_modulus;
+  guesses sections = {0}, standing = {0};
+  for (uint32_t i = 0; i < bodies->count; i++) {
+    sbf_soft_body *body =
+        (sbf_soft_body *)(uintptr_t)&bodies->at[i]; /* the asset is ours until it is handed out */
+    sbf_body_measures measures;
+    sbf_body_measure(body, &measures);
+    if (measures.sheet || (body->bone == SBF_NONE && body->pins.count)) continue;
+    double density = (double)body->attributes.density;
+    if (body->bone != SBF_NONE) {
+      guess(&sections, &body->attributes,
+          sbfi_modulus_to_bear(flesh, density, measures.depth, MOST_FLESH_STRAIN));
+      continue;
+    }
+    double modulus = sbfi_bearing_modulus(&body->attributes, &body->surface.positions);
+    if (modulus > (double)body->attributes.young_modulus) guess(&standing, &body->attributes, modulus);
+  }
+  if (sections.count)
+    sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
+        "nobody says what %u section%s made of: flesh of %.6g Pa is taken%s; say it, as by --material muscle",
+        sections.count, sections.count == 1 ? " is" : "s are", sections.most,
+        sections.most > sections.least ? " for the thickest" : "");
+  if (standing.count)
+    sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
+        "nobody says what %u bod%s made of that the usual modulus would not bear: %.6g Pa are taken%s; say "
+        "it, as by "
+        "--material rubber",
+        standing.count, standing.count == 1 ? "y is" : "ies are", standing.most,
+        standing.most > standing.least ? " for the largest" : "");
+}

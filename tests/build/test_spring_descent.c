@@ -1,0 +1,144 @@
+#include "build/levels/spring_descent.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness.h"
+#include "sbfmt/build.h"
+#include "sbfmt/mechanics.h"
+#include "shapes.h"
+
+static sbf_asset *asset, *built;
+static sbfi_arena arena;
+static sbfi_level_statics statics;
+static sbfi_linear_statics linear;
+static double *gives[SBFI_MOST_LOADS];
+
+/* A cube on a bone as centroid springs, and where they are to have its surface. */
+static void setup(void) {
+  asset = sbf_asset_create(NULL);
+  sbfi_arena_init(&arena, NULL, 0);
+  sbf_polygon_mesh cube = shape_cube(asset, 3, 0.3f, (sbf_vec3){0, 0, 0});
+  shape_add_body(asset, "cube", &cube, true);
+  sbf_diagnostic error;
+  const sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_CENTROID, .without_calibration = true};
+  ck_assert_msg(sbf_build(asset, &options, &built, NULL, &error) == SBF_OK, "%s", error.message);
+  const sbf_soft_body *body = &built->soft_bodies.at[0];
+  ck_assert(sbfi_level_statics_make(&statics, body, &body->levels.at[0], NULL, &arena));
+  ck_assert(sbfi_linear_statics_make(&linear, &statics.network, &arena));
+  for (uint32_t l = 0; l < statics.load_count; l++) {
+    double frequency;
+    gives[l] = sbfi_arena_allocate(&arena, body->surface.positions.count, 3 * sizeof(double));
+    ck_assert(sbfi_level_lean(&statics, &linear, l, 1e-4, gives[l], &frequency, &arena));
+  }
+}
+static void teardown(void) {
+  sbfi_arena_free(&arena);
+  sbf_asset_free(built);
+  sbf_asset_free(asset);
+}
+
+static float *stated(void) {
+  return sbfi_arena_copy(&arena, statics.stiffness, statics.network.spring_count, sizeof(float));
+}
+
+/* Every spring was made otherwise, by up to three: the displacements say by how much, but for what many
+ * stiffnesses have alike. */
+START_TEST(springs_are_found_again_by_what_they_do)
+{
+  double left, before;
+  for (uint32_t i = 0; i < statics.network.spring_count; i++)
+    statics.stiffness[i] *= (float)(1 + (double)(i * 7 % 5) / 2);
+  sbfi_linear_statics_refresh(&linear);
+  const float *from = stated();
+  ck_assert(sbfi_spring_mismatch(&statics, &linear, (const double *const *)gives, &before, &arena));
+  ck_assert(sbfi_spring_descent(
+      &statics, &linear, from, (const double *const *)gives, &left, (sbfi_progress){0}, &arena));
+  ck_assert_double_gt(before, 0.4);
+  ck_assert_double_lt(left, 0.02);
+  double again;
+  ck_assert(sbfi_spring_mismatch(&statics, &linear, (const double *const *)gives, &again, &arena));
+  ck_assert_double_eq_tol(again, left, 1e-3);
+}
+END_TEST
+
+/* What is wanted is a tenth of a tenth: no spring becomes stiffer than sixteen times, no point is held by
+ * more than four times what the most tightly held one was. */
+START_TEST(bounds_hold)
+{
+  double left, most = 0;
+  const float *from = stated();
+  const sbf_spring_network *n = &statics.network;
+  double *sums = sbfi_arena_allocate(&arena, n->point_count, 2 * sizeof *sums),
+         *before = sums + n->point_count;
+  for (uint32_t l = 0; l < statics.load_count; l++)
+    for (uint32_t i = 0; i < 3 * statics.body->surface.positions.count; i++) gives[l][i] *= 0.01;
+  ck_assert(sbfi_spring_descent(
+      &statics, &linear, from, (const double *const *)gives, &left, (sbfi_progress){0}, &arena));
+  ck_assert_double_gt(left, 1);
+  memset(sums, 0, 2 * n->point_count * sizeof *sums);
+  for (uint32_t i = 0; i < n->spring_count; i++) {
+    ck_assert_float_le(statics.stiffness[i], 16.001f * from[i]);
+    ck_assert_float_ge(statics.stiffness[i], 0.1249f * from[i]);
+    for (int end = 0; end < 2; end++) {
+      sums[n->ends[i].at[end]] += statics.stiffness[i];
+      before[n->ends[i].at[end]] += from[i];
+    }
+  }
+  for (uint32_t i = 0; i < n->point_count; i++)
+    if (n->masses[i] > 0) most = fmax(most, before[i] / n->masses[i]);
+  for (uint32_t i = 0; i < n->point_count; i++)
+    if (n->masses[i] > 0) ck_assert_double_le(sums[i] / n->masses[i], 4.001 * most);
+}
+END_TEST
+
+static bool stop(void *user, double done) {
+  *(double *)user = done;
+  return done < 0.5;
+}
+
+START_TEST(it_can_be_ended)
+{
+  double left, reached = 0;
+  ck_assert(!sbfi_spring_descent(&statics, &linear, stated(), (const double *const *)gives, &left,
+      sbfi_progress_whole(stop, &reached), &arena));
+  ck_assert_double_ge(reached, 0.5);
+}
+END_TEST
+
+/* The whole: sections of our lizard against their own tetrahedra, as every build does it. */
+START_TEST(a_lizards_sections_give_as_their_matter)
+{
+  sbf_build_report report;
+  sbf_diagnostic error;
+  sbf_asset *lizard = sbf_asset_create(NULL), *made;
+  shape_sections_of_obj(lizard, harness_source("examples/lizard/lizard.obj"));
+  const sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_CENTROID};
+  ck_assert(sbf_build(lizard, &options, &made, &report, &error) == SBF_OK);
+  ck_assert_uint_eq(report.calibrated_springs, lizard->soft_bodies.count);
+  uint32_t near = 0;
+  for (uint32_t i = 0; i < made->soft_bodies.count; i++) {
+    const sbf_level *level = &made->soft_bodies.at[i].levels.at[0];
+    ck_assert_ptr_nonnull(level->calibration);
+    ck_assert_float_gt(level->simulation.error, 0);
+    near += level->calibration->residual < 0.3f;
+    ck_assert_float_lt(level->calibration->residual, 1.1f); /* hands, thin as they are */
+  }
+  ck_assert_uint_ge(4 * near, 3 * made->soft_bodies.count);
+  sbf_asset_free(made);
+  sbf_asset_free(lizard);
+}
+END_TEST
+
+int main(void) {
+  Suite *s = suite_create("spring_descent");
+  TCase *c = tcase_create("spring_descent");
+  tcase_add_checked_fixture(c, setup, teardown);
+  tcase_add_test(c, springs_are_found_again_by_what_they_do);
+  tcase_add_test(c, bounds_hold);
+  tcase_add_test(c, it_can_be_ended);
+  tcase_add_test(c, a_lizards_sections_give_as_their_matter);
+  suite_add_tcase(s, c);
+  return harness_run(s);
+}
