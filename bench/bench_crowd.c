@@ -18,9 +18,8 @@
 #include <time.h>
 
 #include "measured_assets.h"
+#include "measured_bodies.h"
 #include "measuring.h"
-#include "sbfmt/build.h"
-#include "sbfmt/convert.h"
 #include "sbrun/sbrun.h"
 #include "thread_pool.h"
 
@@ -32,29 +31,6 @@ static double wall_s(void) {
 
 /* Its origin is in its middle; its feet are so far below, and a hand's breadth more. */
 static const double STANDS_M = 0.36 + 0.1, FLIES_M = 100;
-
-/* ---- Assets ---- */
-
-/* NULL where the file is not there. */
-static sbf_asset *armadillo(void) {
-  const char *path = SHARED_FOLDER "/armadillo/armadillo_25k.obj";
-  FILE *file = fopen(path, "rb");
-  if (!file) return NULL;
-  fclose(file);
-  const sbf_convert_options convert = {.unit_m = 1 / 15.13};
-  const sbf_build_options options = {
-      .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 2750, .without_calibration = true};
-  sbf_asset *read, *built;
-  sbf_diagnostic error;
-  bench_require(sbf_convert(path, &convert, &read, &error), &error);
-  bench_require(sbf_build(read, &options, &built, NULL, &error), &error);
-  sbf_asset_free(read);
-  sbf_soft_body *body = (sbf_soft_body *)(uintptr_t)built->soft_bodies.at;
-  sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at;
-  body->attributes.young_modulus = 1e5f;
-  level->lattice.young_modulus = (sbf_f32_list){NULL, 0};
-  return built;
-}
 
 static uint32_t elements_of(const sbf_asset *asset) {
   return asset->soft_bodies.at[0].levels.at[0].lattice.tetrahedra.count;
@@ -221,7 +197,7 @@ int main(int argument_count, char **arguments) {
   bool quick = bench_is_quick(argument_count, arguments);
   bench_print_columns(
       "character,count,threads,instructions,elements,substeps,busy_ms,wall_ms,times_one,ns_per_element,gb_s");
-  sbf_asset *asset = armadillo();
+  sbf_asset *asset = armadillo_of_tetrahedra(2750);
   if (asset) {
     for (int i = SBR_INSTRUCTIONS_SCALAR; i <= SBR_INSTRUCTIONS_WASM_SIMD128; i++)
       if (sbr_instructions_available((sbr_instructions)i)) measure_substep(asset, (sbr_instructions)i, quick);

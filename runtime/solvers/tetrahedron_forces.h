@@ -109,49 +109,52 @@ SBRI_INLINE void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_
   sbri_tetrahedron_viscous(block, lane, betas, d, w, f);
 }
 
-/* The forces of a group of lanes on its corners. */
+/* The forces of a group of lanes on its corners, but for the first's: its is minus `forces[0]`. */
 SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
-    uint32_t lane, const float *betas, sbri_tetrahedron_watch *watch, sbri_wide3 forces[4]) {
+    const sbri_places at[4], uint32_t lane, const float *betas, sbri_tetrahedron_watch *watch,
+    sbri_wide3 forces[4]) {
   const sbri_point *x = t->positions;
-  sbri_wide3 x0 = sbri_wide_gather(x, block->corners[0] + lane), *f = forces + 1;
-  sbri_wide3 d[3] = {sbri_wide3_sub(sbri_wide_gather(x, block->corners[1] + lane), x0),
-      sbri_wide3_sub(sbri_wide_gather(x, block->corners[2] + lane), x0),
-      sbri_wide3_sub(sbri_wide_gather(x, block->corners[3] + lane), x0)};
-  sbri_wide3 n1 = sbri_wide3_cross(d[1], d[2]), n2 = sbri_wide3_cross(d[2], d[0]),
-             n3 = sbri_wide3_cross(d[0], d[1]);
+  sbri_wide3 x0 = sbri_wide_gather_at(x, &at[0]), *f = forces + 1;
+  sbri_wide3 d[3] = {sbri_wide3_sub(sbri_wide_gather_at(x, &at[1]), x0),
+      sbri_wide3_sub(sbri_wide_gather_at(x, &at[2]), x0), sbri_wide3_sub(sbri_wide_gather_at(x, &at[3]), x0)};
+  sbri_wide3 n1 = sbri_wide3_cross(d[1], d[2]);
   sbri_wide ratio = sbri_wide3_dot(d[0], n1) * sbri_wide_load(block->inverse_volume + lane);
-  sbri_wide p =
-      sbri_wide_load(block->shear + lane) - sbri_wide_load(block->bulk + lane) * (ratio - sbri_wide_all(1));
   sbri_wide k11 = sbri_wide_load(block->stiffness[0] + lane),
             k22 = sbri_wide_load(block->stiffness[1] + lane);
   sbri_wide k33 = sbri_wide_load(block->stiffness[2] + lane),
             k12 = sbri_wide_load(block->stiffness[3] + lane);
   sbri_wide k23 = sbri_wide_load(block->stiffness[4] + lane),
             k31 = sbri_wide_load(block->stiffness[5] + lane);
-#define SBRI_FORCE(n, a, b, c, axis) p *n.axis - (a * d[0].axis + b * d[1].axis + c * d[2].axis)
-#define SBRI_FORCES(n, a, b, c)                                                                              \
-  (sbri_wide3){SBRI_FORCE(n, a, b, c, x), SBRI_FORCE(n, a, b, c, y), SBRI_FORCE(n, a, b, c, z)}
-  f[0] = SBRI_FORCES(n1, k11, k12, k31);
-  f[1] = SBRI_FORCES(n2, k12, k22, k23);
-  f[2] = SBRI_FORCES(n3, k31, k23, k33);
-#undef SBRI_FORCES
-#undef SBRI_FORCE
+#define SBRI_ROW(a, b, c, axis) a *d[0].axis + b *d[1].axis + c *d[2].axis
+#define SBRI_ROWS(a, b, c) (sbri_wide3){SBRI_ROW(a, b, c, x), SBRI_ROW(a, b, c, y), SBRI_ROW(a, b, c, z)}
+  sbri_wide3 kd1 = SBRI_ROWS(k11, k12, k31), kd2 = SBRI_ROWS(k12, k22, k23), kd3 = SBRI_ROWS(k31, k23, k33);
+#undef SBRI_ROWS
+#undef SBRI_ROW
+  sbri_wide3 n2 = sbri_wide3_cross(d[2], d[0]), n3 = sbri_wide3_cross(d[0], d[1]);
+  sbri_wide p =
+      sbri_wide_load(block->shear + lane) - sbri_wide_load(block->bulk + lane) * (ratio - sbri_wide_all(1));
+  f[0] = sbri_wide3_sub(sbri_wide3_scale(n1, p), kd1);
+  f[1] = sbri_wide3_sub(sbri_wide3_scale(n2, p), kd2);
+  f[2] = sbri_wide3_sub(sbri_wide3_scale(n3, p), kd3);
   if (betas) sbri_tetrahedron_damping(t, block, lane, betas, d, f);
   if (watch) sbri_watch(block, lane, n1, n2, n3, ratio, watch);
-  sbri_wide zero = sbri_wide_all(0);
-  sbri_wide3 others = sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]);
-  forces[0] = (sbri_wide3){zero - others.x, zero - others.y, zero - others.z};
+  forces[0] = sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]);
 }
 
 SBRI_INLINE void sbri_tetrahedron_block_forces(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
-    const float *betas, sbri_tetrahedron_watch *watch) {
-  sbri_wide3 forces[SBRI_BLOCK / SBRI_LANES][4];
-  for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++)
-    sbri_tetrahedron_lanes(t, block, group * SBRI_LANES, betas, watch, forces[group]);
+    const float *betas, sbri_tetrahedron_watch *watch, sbri_point *sums) {
+  enum { GROUPS = SBRI_BLOCK / SBRI_LANES };
+  sbri_wide3 forces[GROUPS][4];
+  sbri_places at[GROUPS][4];
+  for (uint32_t group = 0; group < GROUPS; group++) {
+    for (uint32_t k = 0; k < 4; k++) sbri_places_find(&at[group][k], block->corners[k] + group * SBRI_LANES);
+    sbri_tetrahedron_lanes(t, block, at[group], group * SBRI_LANES, betas, watch, forces[group]);
+  }
+  for (uint32_t group = 0; group < GROUPS; group++)
+    sbri_wide_scatter_subtract_at(sums, &at[group][0], forces[group][0]);
 #define SBRI_SCATTER(k)                                                                                      \
-  for (uint32_t group = 0; group < SBRI_BLOCK / SBRI_LANES; group++)                                         \
-  sbri_wide_scatter_add(t->element_forces, block->corners[k] + group * SBRI_LANES, forces[group][k])
-  SBRI_SCATTER(0);
+  for (uint32_t group = 0; group < GROUPS; group++)                                                          \
+  sbri_wide_scatter_add_at(sums, &at[group][k], forces[group][k])
   SBRI_SCATTER(1);
   SBRI_SCATTER(2);
   SBRI_SCATTER(3);
@@ -164,15 +167,16 @@ static inline void sbri_tetrahedron_forces(const sbri_island_tick *t, sbri_tetra
   const sbri_island *island = t->island;
   uint32_t count = island->tetrahedron_dense_count;
   const sbri_tetrahedron_block *blocks = t->tetrahedra;
-  memset(t->element_forces, 0, island->slot_count * sizeof *t->element_forces);
+  sbri_point *sums = t->element_forces;
+  memset(sums, 0, island->slot_count * sizeof *sums);
   /* Copies of the loop, so that the common one carries no more than it needs. */
   if (island->tetrahedron_damping)
     for (uint32_t b = 0; b < count; b++)
-      sbri_tetrahedron_block_forces(t, &blocks[b], island->tetrahedron_damping + b * SBRI_BLOCK, watch);
+      sbri_tetrahedron_block_forces(t, &blocks[b], island->tetrahedron_damping + b * SBRI_BLOCK, watch, sums);
   else if (watch)
-    for (uint32_t b = 0; b < count; b++) sbri_tetrahedron_block_forces(t, &blocks[b], NULL, watch);
+    for (uint32_t b = 0; b < count; b++) sbri_tetrahedron_block_forces(t, &blocks[b], NULL, watch, sums);
   else
-    for (uint32_t b = 0; b < count; b++) sbri_tetrahedron_block_forces(t, &blocks[b], NULL, NULL);
+    for (uint32_t b = 0; b < count; b++) sbri_tetrahedron_block_forces(t, &blocks[b], NULL, NULL, sums);
 }
 
 static inline void sbri_watch_begin(sbri_tetrahedron_watch *watch) {

@@ -72,6 +72,7 @@ OUTSIDE = [
     (r"assimp/", ["libsbfmt/import/assimp/", "bench/"], "assimp"),
     (r"(lib)?qhull", ["libsbfmt/build/"], "qhull"),
     (r"meshoptimizer", ["libsbfmt/build/"], "meshoptimizer"),
+    (r"Bullet|btBullet", ["bench/"], "Bullet, to compare with"),
     (r"jansson", ["tools/", "bench/"], "jansson"),
     (r"(EGL|GL|GLES\d|KHR)/|png\.h", ["tools/render/", "tools/view/"], "drawing"),
     (r"(sys|linux)/.*|unistd\.h|fcntl\.h|signal\.h|spawn\.h|dlfcn\.h|poll\.h|windows\.h",
