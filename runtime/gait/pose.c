@@ -118,6 +118,17 @@ static void pose_peg(
   pose_foot(rig, leg, foot, pose[leg->foot].rotation, pose);
 }
 
+/* Puts a bone of a leg somewhere; what else hangs on it goes along. */
+static void put_bone(
+    const sbri_rig *rig, const sbri_leg *leg, int32_t bone, sbr_transform to, sbr_transform *pose) {
+  if (leg->has_others) {
+    sbf_quat turn = sbri_quat_multiply(to.rotation, sbri_quat_conjugate(pose[bone].rotation));
+    sbri_rig_turn(rig, (uint32_t)bone, turn, pose);
+    sbri_rig_shift(rig, (uint32_t)bone, sbri_sub(to.position, pose[bone].position), pose);
+  }
+  pose[bone] = to;
+}
+
 /* Two bones in closed form, then the limits of their joints. */
 static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle,
     sbf_vec3 pole, sbf_vec3 fallback, float scale, sbr_transform *pose) {
@@ -132,9 +143,10 @@ static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
   sbf_quat upper = sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.knee, hip), side1), leg->upper_back);
   sbf_quat lower =
       sbri_quat_multiply(sbri_bone_facing(sbri_sub(solved.ankle, solved.knee), side1), leg->lower_back);
-  pose[leg->upper].rotation = sbri_quat_normalize(sbri_quat_multiply(upper, rig->rest[leg->upper].rotation));
-  pose[leg->lower] = (sbr_transform){
-      solved.knee, sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation))};
+  sbf_quat thigh = sbri_quat_normalize(sbri_quat_multiply(upper, rig->rest[leg->upper].rotation));
+  sbf_quat shin = sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation));
+  put_bone(rig, leg, leg->upper, (sbr_transform){hip, thigh}, pose);
+  put_bone(rig, leg, leg->lower, (sbr_transform){solved.knee, shin}, pose);
   pose_foot(rig, leg, foot, sbri_quat_multiply(lower, rig->rest[leg->foot].rotation), pose);
   sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(solved.ankle, pose[leg->foot].position), pose);
   sbri_leg_limit(rig, leg, ankle, pole, scale, pose);

@@ -79,6 +79,8 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   float rest_reach = sbri_length(sbri_sub(ankle, hip)) / leg->reach; /* a leg straight at rest stays so */
   if (leg->soft_reach > 1 - rest_reach) leg->soft_reach = rest_reach < 1 ? 1 - rest_reach : 0;
   leg->rest_stretch = rest_reach / (1 - leg->soft_reach);
+  uint32_t own = peg ? 1 : 2, all = rig->subtree_end[upper] - rig->subtree_begin[upper];
+  leg->has_others = all - (rig->subtree_end[foot] - rig->subtree_begin[foot]) > own;
   leg->hind = rig->gait->chest < 0 || !sbri_rig_is_below(rig, upper, rig->gait->chest);
   return leg->upper_length > 0 && (peg || leg->lower_length > 0);
 }

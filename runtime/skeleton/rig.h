@@ -35,6 +35,7 @@ typedef struct sbri_leg {
   sbf_vec3 carried_home;           /* in that bone's frame, m */
   sbf_vec3 ankle;                  /* from the middle of the sole, m; `home` is above that middle */
   sbri_sole sole;
+  bool has_others; /* bones hang on thigh or shin beside the leg's own, as those that share a twist */
 } sbri_leg;
 
 typedef struct sbri_tail {

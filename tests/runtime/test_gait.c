@@ -8,6 +8,7 @@
 #include "harness.h"
 #include "math/quat.h"
 #include "quadruped.h"
+#include "sbfmt/asset.h"
 
 enum { MOST_BONES = 32, TICKS_A_SECOND = 60 };
 
@@ -436,6 +437,49 @@ START_TEST(steps_are_quicker_when_it_goes_faster)
 }
 END_TEST
 
+/* Bones that share a leg's twist, a guard on its shin: no part of what is solved, but of what moves. */
+START_TEST(what_hangs_on_a_leg_goes_along)
+{
+  enum { PLAIN = 20, ALL = 22 };
+  static const int32_t parents[2] = {8, 9};
+  walk plain, w;
+  begin(&plain, flat, 0);
+  begin(&w, flat, 0);
+  sbf_asset *asset = w.q.asset;
+  sbf_bone *bones = sbf_asset_allocate(asset, ALL, sizeof *bones);
+  memcpy(bones, asset->bones.at, PLAIN * sizeof *bones);
+  for (int i = 0; i < 2; i++) {
+    bones[PLAIN + i] = bones[parents[i]];
+    bones[PLAIN + i].parent = parents[i];
+    bones[PLAIN + i].head.y -= 0.05f;
+  }
+  asset->bones = (sbf_bone_list){bones, ALL};
+  free(w.q.memory);
+  free(w.state);
+  w.q.memory = malloc(sbri_rig_size(asset));
+  sbri_rig_init(&w.q.rig, asset, w.q.memory);
+  w.state = malloc(sbri_gait_state_size(&w.q.rig));
+  sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
+  plain.input.forward = w.input.forward = 0.3f;
+  for (int i = 0; i < 300; i++) {
+    tick(&plain), tick(&w);
+    for (int k = 0; k < 2; k++) {
+      const sbr_transform *on = &w.pose[parents[k]], *is = &w.pose[PLAIN + k];
+      const sbr_transform *rest = &w.q.rig.rest_local[PLAIN + k];
+      sbf_vec3 there = sbri_add(on->position, sbri_rotate(on->rotation, rest->position));
+      ck_assert_float_le(sbri_length(sbri_sub(is->position, there)), 1e-5f);
+      sbf_quat turned = sbri_quat_multiply(on->rotation, rest->rotation);
+      sbf_quat off = sbri_quat_multiply(is->rotation, sbri_quat_conjugate(turned));
+      ck_assert_float_ge(fabsf(off.w), 1 - 1e-6f);
+    }
+    for (int b = 0; b < PLAIN; b++)
+      ck_assert_float_le(sbri_length(sbri_sub(w.pose[b].position, plain.pose[b].position)), 1e-5f);
+  }
+  end(&w);
+  end(&plain);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("gait");
   TCase *tests = tcase_create("all");
@@ -456,6 +500,7 @@ int main(void) {
   tcase_add_test(tests, nothing_jumps_where_headings_begin_again);
   tcase_add_test(tests, a_foot_beyond_its_margin_is_put_down_anew);
   tcase_add_test(tests, steps_are_quicker_when_it_goes_faster);
+  tcase_add_test(tests, what_hangs_on_a_leg_goes_along);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
