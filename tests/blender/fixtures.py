@@ -10,6 +10,9 @@ import bpy
 from mathutils import Matrix
 
 
+BUNDLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bundles")
+
+
 def fresh_scene():
     """Nothing but an empty scene of the file."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
@@ -137,3 +140,17 @@ class SceneTest(unittest.TestCase):
         self.assertEqual(len(found), len(wanted))
         for a, b in zip(found, wanted):
             self.assertAlmostEqual(a, b, delta=within)
+
+
+class RoundTripTest(SceneTest):
+    def import_(self, path):
+        self.assertEqual(bpy.ops.import_scene.soft_body_format(filepath=path), {"FINISHED"})
+
+    def comes_back_equal(self, path, ending=".sbf"):
+        """Imports, and exports again: an equal asset."""
+        from soft_body_format import sbfmt
+        self.import_(path)
+        again = self.path(f"again{ending}")
+        self.assertEqual(bpy.ops.export_scene.soft_body_format(filepath=again, textures="EMBED"), {"FINISHED"})
+        with sbfmt.load(path) as one, sbfmt.load(again) as other:
+            self.assertIsNone(one.equals(other))

@@ -87,7 +87,9 @@ class Bodies(fixtures.SceneTest):
         edges = level.springs[0]
         self.assert_near(set(edges.rest_lengths), {0.25})
         self.assert_near(set(edges.stiffness), {1000 * 3 / 0.25 * 0.5**2}, 1e-2)
-        self.assertEqual(level.simulation.substeps, 7)
+        self.assertEqual((level.simulation.scheme, level.simulation.substeps), ("heun", 0))  # by error control
+        bpy.ops.sbfmt.check()
+        self.assertIn("7 to 300 steps a frame", " ".join(one.message for one in self.scene.soft_body_format.findings))
         self.assert_near((body.attributes.yield_strain, body.attributes.yield_flow), (0.05, 0.3))
         self.assertTrue(body.collision.self)
         self.assertAlmostEqual(body.collision.particle_radius, 0.5 * 0.5 * 0.5)

@@ -40,10 +40,10 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
         tell_of_polygons(writer, source, geometry)
     if soft.aero and soft.use_edges:
         add_air(writer, source, geometry, soft)
-    if abs(soft.error_threshold - 0.1) > 1e-6 or soft.step_max != 300:
-        writer.findings.info(f"its error limit of {soft.error_threshold * writer.space.unit_m:g} m and its most steps of "
-                             f"{soft.step_max} a frame are the host's to set: step_error_m and substeps_max of the runtime",
-                             object_name=source.name)
+    if abs(soft.error_threshold - 0.1) > 1e-6 or (soft.step_min, soft.step_max) != (10, 300):
+        writer.findings.info(f"its error limit of {soft.error_threshold * writer.space.unit_m:g} m and {soft.step_min} to "
+                             f"{soft.step_max} steps a frame are the host's to set, as step_error_m of the runtime: the file says "
+                             "that the error controls the steps", object_name=source.name)
 
 
 def add_air(writer, source, geometry, soft):
@@ -149,7 +149,7 @@ def write_level(writer, body, source, geometry, soft, masses):
     if soft.bend > 0:
         add_springs(level, "flexion", geometry, second_neighbours(ends, diagonals, len(geometry.positions)),
                     min(soft.bend / 10, 0.999), soft.damping, scale, factors)
-    level.simulation.scheme, level.simulation.substeps = "heun", soft.step_min  # Blender's own
+    level.simulation.scheme = "heun"  # Blender's own; as many steps as its error control asks for
 
 
 def add_springs(level, kind, geometry, ends, pull, damping, scale, factors, share=1.0):

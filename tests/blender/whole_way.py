@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""From Blender to the runtime: what the add-on leaves the program finishes and runs. Exits 77 where something is missing.
+
+    whole_way.py --program SBFMT [--root FOLDER] [--library FILE] CASE
+
+source_parts  characters exported without the library; `sbfmt build` finishes them, `sbfmt validate` finds no error, `run` runs them
+lizart        lizart.fbx of ../shared/data, given limits and a gait in the panels, walks
+"""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import bundles
+from blender_process import Blender, skip
+
+
+class Fault(Exception):
+    pass
+
+
+def expect(condition, what):
+    if not condition:
+        raise Fault(what)
+
+
+def call(program, *words):
+    """The JSON object that a verb prints."""
+    run = subprocess.run([program, *words, "--format", "json"], capture_output=True, text=True, check=False)
+    expect(run.stdout.strip().startswith("{"), f"sbfmt {' '.join(words)}: {run.stdout}{run.stderr}")
+    return json.loads(run.stdout)
+
+
+def source_parts(blender, program):
+    expect(blender.run(["leave_source_parts"]), "Blender's part failed")
+    names = sorted(name[:-4] for name in os.listdir(blender.kept) if name.endswith(".sbf"))
+    expect(len(names) >= 9, f"only {names} are there")
+    for name in names:
+        path, built = (os.path.join(blender.kept, f"{name}{ending}") for ending in (".sbf", ".built.sbfz"))
+        parts = call(program, "info", path)
+        expect(parts["tetrahedra"] == 0, f"{name} holds more than source parts: {parts}")
+        finished = subprocess.run([program, "build", path, "-o", built], capture_output=True, text=True, check=False)
+        expect(finished.returncode == 0, f"{name}: {finished.stderr}")
+        found = call(program, "validate", built)
+        expect(found["errors"] == 0, f"{name}: {found['messages']}")
+        whole = call(program, "info", built)
+        print(f"{name}: {whole['springs']}, {whole['tetrahedra']} tetrahedra, {whole['embedded_vertices']} embedded vertices")
+        if whole["sections"]:
+            expect(sum(whole["springs"].values()) + whole["tetrahedra"] > 0, f"{name} has nothing elastic: {whole}")
+            moved = call(program, "run", built, "--seconds", "0.25")
+            expect(moved["valid"], f"{name} does not run: {moved}")
+
+
+def lizart(blender, program):
+    source = os.path.join(bundles.SHARED, "lizard", "lizart.fbx")
+    if not os.path.exists(source):
+        skip("there is no ../shared/data/lizard/lizart.fbx")
+    shutil.copyfile(source, os.path.join(blender.kept, "lizart.fbx"))
+    expect(blender.run(["leave_lizart"]), "Blender's part failed")
+    path = os.path.join(blender.kept, "lizart.sbfz")
+    found = call(program, "validate", path)
+    expect(found["errors"] == 0, found["messages"])
+    parts = call(program, "info", path)
+    expect(parts["gait"]["legs"] == 4 and parts["joints"] >= 12 and len(parts["sections"]) >= 16, parts)
+    walk = call(program, "run", path, "--seconds", "6", "--drive", "0.4,0")
+    print({name: walk[name] for name in ("valid", "distance", "steps_taken", "stance_slip", "penetration", "volume_ratio", "max_strain")})
+    expect(walk["valid"], walk)
+    expect(0.75 * 2.4 < walk["distance"] < 1.1 * 2.4, f"it went {walk['distance']} m of 2.4")
+    steps = walk["steps_taken"]
+    expect(len(steps) == 4 and min(steps.values()) >= 5 and max(steps.values()) <= min(steps.values()) + 1, f"steps {steps}")
+    expect(walk["stance_slip"] < 0.01 and walk["penetration"] < 0.01, f"slip {walk['stance_slip']}, penetration {walk['penetration']}")
+    expect(walk["volume_ratio"] > 0.7, f"a section keeps {walk['volume_ratio']} of its volume")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--root", default="")
+    parser.add_argument("--library", action="append", default=[])
+    parser.add_argument("--program", required=True)
+    parser.add_argument("case", choices=("source_parts", "lizart"))
+    asked = parser.parse_args()
+    with Blender(asked.root, asked.library) as blender:
+        try:
+            globals()[asked.case](blender, asked.program)
+        except Fault as fault:
+            print(fault)
+            sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()
