@@ -29,3 +29,68 @@ double sbfi_bearing_modulus(const sbf_attributes *attributes, const sbf_vec3_lis
   double height = fmax(fmax((double)high.x - low.x, (double)high.y - low.y), (double)high.z - low.z);
   return sbfi_modulus_to_bear(modulus, (double)attributes->density, height, MOST_STRAIN);
 }
+
+/* ---- What stands on less than it carries ---- */
+
+/* Heights at which a surface is cut; those nearer to its ends than a twelfth are left out, where roundings
+ * would make anything stand on next to nothing. */
+enum { CUTS = 96, FIRST_CUT = 8, END_CUT = 88 };
+
+static sbf_vec3 at_height(sbf_vec3 a, sbf_vec3 b, float y) {
+  float t = (y - a.y) / (b.y - a.y);
+  return (sbf_vec3){a.x + (b.x - a.x) * t, y, a.z + (b.z - a.z) * t};
+}
+
+/* Twice the area that the triangle adds to the cut at a height: its edge in there, about the axis. */
+static double cut_of(const sbf_vec3 corners[3], float y) {
+  sbf_vec3 up = {0, 0, 0}, down = {0, 0, 0};
+  int count = 0;
+  for (int k = 0; k < 3; k++) {
+    sbf_vec3 a = corners[k], b = corners[(k + 1) % 3];
+    if ((a.y > y) == (b.y > y)) continue;
+    *(a.y > y ? &down : &up) = at_height(a, b, y);
+    count++;
+  }
+  return count == 2 ? (double)down.z * (double)up.x - (double)down.x * (double)up.z : 0;
+}
+
+static void add_cuts(const sbf_vec3 corners[3], float low, float step, double areas[CUTS]) {
+  float least = fminf(corners[0].y, fminf(corners[1].y, corners[2].y));
+  float most = fmaxf(corners[0].y, fmaxf(corners[1].y, corners[2].y));
+  int first = (int)fmaxf(0, (least - low) / step - 1), end = (int)fminf(CUTS, (most - low) / step + 1);
+  for (int k = first; k < end; k++) areas[k] += 0.5 * cut_of(corners, low + ((float)k + 0.5f) * step);
+}
+
+/* The greatest height of a column of even thickness that would load its foot as the surface loads some level
+ * of itself by what is above; 0 where it encloses nothing there. */
+static double column_of(const sbf_polygon_mesh *mesh) {
+  double areas[CUTS] = {0}, above = 0, column = 0;
+  const sbf_vec3 *x = mesh->positions.at;
+  float low = x[0].y, high = x[0].y;
+  for (uint32_t i = 1; i < mesh->positions.count; i++) low = fminf(low, x[i].y), high = fmaxf(high, x[i].y);
+  float step = (high - low) / CUTS;
+  if (!(step > 0) || !(step < 1e30f)) return 0;
+  const uint32_t *points = mesh->polygon_points.at;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; points += mesh->polygon_sizes.at[p++])
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[p]; k++) {
+      const sbf_vec3 corners[3] = {x[points[0]], x[points[k - 1]], x[points[k]]};
+      add_cuts(corners, low, step, areas);
+    }
+  for (int k = CUTS; k-- > FIRST_CUT;) {
+    above += areas[k] * (double)step;
+    if (k < END_CUT && areas[k] > 0) column = fmax(column, above / areas[k]);
+  }
+  return column;
+}
+
+/* More than so many times the column is taken for a thing that does not stand on what is thin: strands, or
+ * pieces that overlap. */
+static const double MOST_TIMES = 5;
+
+double sbfi_standing_modulus(const sbf_attributes *attributes, const sbf_polygon_mesh *surface) {
+  double as_column = sbfi_bearing_modulus(attributes, &surface->positions);
+  if (surface->positions.count == 0) return as_column;
+  double needed =
+      sbfi_modulus_to_bear(as_column, (double)attributes->density, column_of(surface), MOST_STRAIN);
+  return fmin(needed, rounded_up(MOST_TIMES * as_column));
+}

@@ -13,4 +13,8 @@ double sbfi_modulus_to_bear(double modulus, double density, double height, doubl
  * parts hang on it. */
 double sbfi_bearing_modulus(const sbf_attributes *attributes, const sbf_vec3_list *surface);
 
+/* The same for what stands on +Y: at least as much as that level of it needs that carries the most on the
+ * least, legs under a body. Levels near its ends do not count. */
+double sbfi_standing_modulus(const sbf_attributes *attributes, const sbf_polygon_mesh *surface);
+
 #endif

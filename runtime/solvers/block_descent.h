@@ -172,6 +172,7 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
         sbri_descent_move(t, &table->blocks[b], per_square, drawn, moved);
     sbri_descent_end(t, h, moved);
     sbri_drift(t, h);
+    if (island->tetrahedron_block_count > 0) sbri_crush_look(t);
     sbri_finish_substep(t, h);
   }
   if (island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, true); /* for what watches over J */

@@ -1,10 +1,12 @@
 /* What every scheme that follows the energy does at the end of a substep, once all points are where it puts
- * them: volumes kept, springs held within their strain limits, then yield and tear.
+ * them: volumes kept, springs held within their strain limits, then yield and tear, and
+ * tetrahedra that are being crushed.
  *
  * Written for the lanes of the file that includes it; see kernels/kernels.h. */
 #ifndef SBRI_FINISH_H
 #define SBRI_FINISH_H
 
+#include "solvers/crush.h"
 #include "solvers/flow.h"
 #include "solvers/solid_limits.h"
 #include "solvers/strain_limit.h"
@@ -17,6 +19,7 @@ static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   if (t->island->link_limits) sbri_limit_strains(t);
   if (t->rests) sbri_flow(t, h);
   if (t->island->solid_limits) sbri_limit_solids(t, h);
+  if (sbri_is_crushed(t)) sbri_uncrush_all(t);
 }
 
 #endif

@@ -147,6 +147,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
         sbri_heun_correct_body(t, body, h, first);
     }
     sbri_decay_all(t, 0.5f * h);
+    if (island->tetrahedron_block_count > 0) sbri_crush_look(t);
     sbri_finish_substep(t, h);
     sbri_heun_evaluate(t, h, done == SBRI_HEUN_UNITS ? stretches : NULL);
     while (step < longest && done % (2 * step) == 0 &&

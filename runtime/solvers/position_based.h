@@ -209,8 +209,9 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
         sbri_moves_end_body(t, body, h);
     }
     sbri_carry_held(t, share);
+    if (solid && s % SBRI_LOOK_EVERY == 0) sbri_crush_look(t);
     sbri_finish_substep(t, h);
-    if (followed && !last) sbri_moves_follow(t);
+    if ((followed || sbri_is_crushed(t)) && !last) sbri_moves_follow(t);
   }
   sbri_keep_stretch(t, stretches);
   if (solid) sbri_tetrahedron_pass(t, true);

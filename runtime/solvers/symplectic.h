@@ -9,9 +9,6 @@
 #include "solvers/finish.h"
 #include "solvers/motion.h"
 
-/* Tetrahedra are looked at in every so many substeps, and in the last one. */
-enum { SBRI_LOOK_EVERY = 4 };
-
 static inline uint32_t sbri_solid_substeps(const sbri_island_tick *t, float time_s) {
   uint32_t needed = sbri_stable_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
   return needed < SBRI_MOST_SUBSTEPS ? needed : SBRI_MOST_SUBSTEPS;

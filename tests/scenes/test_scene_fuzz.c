@@ -2,7 +2,8 @@
  * bits twice.
  *
  * SBFMT_SCENES says how many scenes of 100 frames each (default 1500), SBFMT_SEED where to begin. A scene
- * that fails is told by its seed. */
+ * that fails is told by its seed. CK_FORK=no for what takes more than half an hour, which Check cannot count.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 

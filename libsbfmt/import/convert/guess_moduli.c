@@ -39,7 +39,7 @@ void sbfi_guess_moduli(sbfi_conversion *c) {
           sbfi_modulus_to_bear(flesh, density, measures.depth, MOST_FLESH_STRAIN));
       continue;
     }
-    double modulus = sbfi_bearing_modulus(&body->attributes, &body->surface.positions);
+    double modulus = sbfi_standing_modulus(&body->attributes, &body->surface);
     if (modulus > (double)body->attributes.young_modulus) guess(&standing, &body->attributes, modulus);
   }
   if (sections.count)

@@ -1,0 +1,120 @@
+/* A wall in front of J = 0: what a blow crushes to less than a tenth of its volume at the end of a
+ * substep is brought back there along the gradient of J, by the corners' inverse masses, and the speed with
+ * which it was being crushed is taken. Momentum is kept; what is inside out already comes back a step at a
+ * time.
+ *
+ * The energy itself is finite and smooth through J = 0, so that nothing bursts there; but thin tips that
+ * strike the ground first, with all of a body behind them, would go through. Bias against the energy: none
+ * above that; below, such a wall is what flesh is, which does not get thinner either.
+ *
+ * Looked for only where the tetrahedra, when last looked at, were at a half of their volume somewhere.
+ * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+#ifndef SBRI_CRUSH_H
+#define SBRI_CRUSH_H
+
+#include "solvers/strain_limit.h"
+#include "solvers/tetrahedron_forces.h"
+
+#define SBRI_CRUSHED 0.1f
+#define SBRI_CRUSH_NEAR 0.5f
+/* By so much J comes back in a substep at most, and a corner moves by that share of its element's size: what
+ * lies in a heap is not to be blown apart. */
+#define SBRI_CRUSH_STEP 0.1f
+enum { SBRI_CRUSH_SWEEPS = 4 };
+/* Tetrahedra are looked at in every so many substeps, and in the last one. */
+enum { SBRI_LOOK_EVERY = 4 };
+
+static inline sbf_vec3 sbri_edge_to(const sbri_island_tick *t, uint32_t from, uint32_t to) {
+  const sbri_point *p = &t->positions[from], *q = &t->positions[to];
+  return sbri_vec3(q->x - p->x, q->y - p->y, q->z - p->z);
+}
+
+static inline void sbri_uncrush(
+    const sbri_island_tick *t, const sbri_tetrahedron_block *block, uint32_t lane) {
+  uint32_t slots[4];
+  for (int k = 0; k < 4; k++) slots[k] = block->corners[k][lane];
+  sbf_vec3 d1 = sbri_edge_to(t, slots[0], slots[1]), d2 = sbri_edge_to(t, slots[0], slots[2]),
+           d3 = sbri_edge_to(t, slots[0], slots[3]), gradients[4];
+  float s = block->inverse_volume[lane];
+  gradients[1] = sbri_scale(sbri_cross(d2, d3), s);
+  gradients[2] = sbri_scale(sbri_cross(d3, d1), s);
+  gradients[3] = sbri_scale(sbri_cross(d1, d2), s);
+  gradients[0] = sbri_scale(sbri_add(sbri_add(gradients[1], gradients[2]), gradients[3]), -1);
+  float missing = SBRI_CRUSHED - sbri_dot(d1, gradients[1]), sum = 0, rate = 0, steepest = 0;
+  if (!(missing > 0)) return;
+  missing = missing < SBRI_CRUSH_STEP ? missing : SBRI_CRUSH_STEP;
+  for (int k = 0; k < 4; k++) {
+    float w = slots[k] < t->island->free_count ? t->island->inverse_masses[slots[k]] : 0;
+    float square = sbri_dot(gradients[k], gradients[k]);
+    sum += w * square;
+    steepest = w * w * square > steepest ? w * w * square : steepest;
+    rate += sbri_dot(gradients[k], sbri_slot_velocity(t, t->velocities, slots[k]));
+  }
+  if (!(sum > 0)) return;
+  float share = missing / sum, most = SBRI_CRUSH_STEP * t->island->cell_m, way = share * sqrtf(steepest);
+  if (most > 0 && way > most) share *= most / way;
+  float push = rate < 0 ? -rate / sum : 0;
+  if (way > most) push = 0; /* so flat that it has no direction to speak of */
+  for (int k = 0; k < 4; k++) {
+    if (slots[k] >= t->island->free_count) continue;
+    sbf_vec3 g = sbri_scale(gradients[k], t->island->inverse_masses[slots[k]]);
+    sbri_shift_slot(t, slots[k], sbri_scale(g, share), sbri_scale(g, push));
+  }
+}
+
+/* J of a group of lanes, 1 where nothing is. */
+SBRI_INLINE sbri_wide sbri_ratio_of(
+    const sbri_island_tick *t, const sbri_tetrahedron_block *block, uint32_t lane) {
+  sbri_wide3 x0 = sbri_wide_gather(t->positions, block->corners[0] + lane), d[3];
+  for (int k = 0; k < 3; k++)
+    d[k] = sbri_wide3_sub(sbri_wide_gather(t->positions, block->corners[k + 1] + lane), x0);
+  sbri_wide ratio =
+      sbri_wide3_dot(d[0], sbri_wide3_cross(d[1], d[2])) * sbri_wide_load(block->inverse_volume + lane);
+  sbri_mask real = sbri_wide_load(block->shear + lane) > sbri_wide_all(0);
+  return sbri_wide_select(real, ratio, sbri_wide_all(1));
+}
+
+/* Whether the wall is looked for. */
+static inline bool sbri_is_crushed(const sbri_island_tick *t) {
+  return t->island->tetrahedron_dense_count > 0 && *t->least_ratio < SBRI_CRUSH_NEAR;
+}
+
+/* For schemes that do not look at J while they go through a tick. */
+static inline void sbri_crush_look(const sbri_island_tick *t) {
+  sbri_tetrahedron_watch watch;
+  sbri_watch_begin(&watch);
+  for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++)
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
+      float *least = watch.least_ratio + lane;
+      sbri_wide_store(least, sbri_wide_min(sbri_ratio_of(t, &t->tetrahedra[b], lane), sbri_wide_load(least)));
+    }
+  *t->least_ratio = sbri_watch_least_ratio(&watch);
+}
+
+/* One sweep; whether any was crushed. All lanes of a block are looked at before any is moved: some blocks'
+ * lanes share points. */
+static inline bool sbri_uncrush_sweep(const sbri_island_tick *t) {
+  bool found = false;
+  for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {
+    const sbri_tetrahedron_block *block = &t->tetrahedra[b];
+    float marks[SBRI_BLOCK];
+    bool any = false;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
+      sbri_mask crushed = sbri_ratio_of(t, block, lane) < sbri_wide_all(SBRI_CRUSHED);
+      sbri_wide_store(marks + lane, sbri_wide_select(crushed, sbri_wide_all(1), sbri_wide_all(0)));
+      any = any || sbri_mask_any(crushed);
+    }
+    for (uint32_t lane = 0; any && lane < SBRI_BLOCK; lane++)
+      if (marks[lane] != 0) sbri_uncrush(t, block, lane);
+    found = found || any;
+  }
+  return found;
+}
+
+/* Elements of one tip push at each other: several sweeps. */
+static inline void sbri_uncrush_all(const sbri_island_tick *t) {
+  for (int sweep = 0; sweep < SBRI_CRUSH_SWEEPS && sbri_uncrush_sweep(t); sweep++)
+    ;
+}
+
+#endif
