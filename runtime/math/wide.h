@@ -131,46 +131,12 @@ typedef struct sbri_wide4 {
   sbri_wide x, y, z, w;
 } sbri_wide4;
 
-/* Points of a group of lanes, found once where loops go to them twice. With eight lanes places are offsets in
- * bytes, made all at once: one by one they would take as long as what is done with them. */
-typedef struct sbri_places {
-#if SBRI_LANES == 8
-  _Alignas(32) uint32_t offsets[SBRI_LANES];
-#else
-  const uint32_t *slots;
-#endif
-} sbri_places;
-
-SBRI_INLINE void sbri_places_find(sbri_places *to, const uint32_t *slots) {
-#if SBRI_LANES == 8
-  __m256i all;
-  memcpy(&all, slots, sizeof all);
-  _mm256_store_si256((__m256i *)to->offsets, _mm256_slli_epi32(all, 4));
-  __asm__("" : "+m"(to->offsets)); /* through memory: compilers would take the register to pieces */
-#else
-  to->slots = slots;
-#endif
-}
-
-/* Of lane i. */
-SBRI_INLINE const sbri_point *sbri_point_in(const sbri_point *points, const sbri_places *places, int i) {
-#if SBRI_LANES == 8
-  return (const sbri_point *)((const char *)points + places->offsets[i]);
-#else
-  return points + places->slots[i];
-#endif
-}
-
-SBRI_INLINE sbri_point *sbri_point_of(sbri_point *points, const sbri_places *places, int i) {
-  return (sbri_point *)(uintptr_t)sbri_point_in(points, places, i);
-}
-
-SBRI_INLINE sbri_wide4 sbri_wide_gather4_at(const sbri_point *points, const sbri_places *places) {
+SBRI_INLINE sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_t *places) {
   sbri_wide4 r;
 #if SBRI_LANES == 8
 #define SBRI_PAIR(i)                                                                                         \
-  _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&sbri_point_in(points, places, i)->x)),           \
-      _mm_loadu_ps(&sbri_point_in(points, places, (i) + 4)->x), 1)
+  _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&points[places[i]].x)),                           \
+      _mm_loadu_ps(&points[places[(i) + 4]].x), 1)
   __m256 a = SBRI_PAIR(0), b = SBRI_PAIR(1), c = SBRI_PAIR(2), d = SBRI_PAIR(3);
 #undef SBRI_PAIR
   __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
@@ -181,10 +147,10 @@ SBRI_INLINE sbri_wide4 sbri_wide_gather4_at(const sbri_point *points, const sbri
   r.w = (sbri_wide)_mm256_shuffle_ps(ab_high, cd_high, 0xee);
 #elif SBRI_LANES == 4
   sbri_quad a, b, c, d;
-  memcpy(&a, sbri_point_in(points, places, 0), sizeof a);
-  memcpy(&b, sbri_point_in(points, places, 1), sizeof b);
-  memcpy(&c, sbri_point_in(points, places, 2), sizeof c);
-  memcpy(&d, sbri_point_in(points, places, 3), sizeof d);
+  memcpy(&a, &points[places[0]], sizeof a);
+  memcpy(&b, &points[places[1]], sizeof b);
+  memcpy(&c, &points[places[2]], sizeof c);
+  memcpy(&d, &points[places[3]], sizeof d);
   sbri_quad ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
   sbri_quad ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
   sbri_quad cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
@@ -193,29 +159,20 @@ SBRI_INLINE sbri_wide4 sbri_wide_gather4_at(const sbri_point *points, const sbri
   r.z = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
   r.w = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 #else
-  const sbri_point *p = sbri_point_in(points, places, 0);
+  const sbri_point *p = points + places[0];
   r.x = p->x, r.y = p->y, r.z = p->z, r.w = p->w;
 #endif
   return r;
 }
-SBRI_INLINE sbri_wide4 sbri_wide_gather4(const sbri_point *points, const uint32_t *slots) {
-  sbri_places places;
-  sbri_places_find(&places, slots);
-  return sbri_wide_gather4_at(points, &places);
-}
 
-/* The points at `slots[0]` to `slots[SBRI_LANES - 1]`, turned so that each coordinate fills a wide. */
-SBRI_INLINE sbri_wide3 sbri_wide_gather_at(const sbri_point *points, const sbri_places *places) {
-  sbri_wide4 r = sbri_wide_gather4_at(points, places);
-  return (sbri_wide3){r.x, r.y, r.z};
-}
-SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *slots) {
-  sbri_wide4 r = sbri_wide_gather4(points, slots);
+/* The points at `places[0]` to `places[SBRI_LANES - 1]`, turned so that each coordinate fills a wide. */
+SBRI_INLINE sbri_wide3 sbri_wide_gather(const sbri_point *points, const uint32_t *places) {
+  sbri_wide4 r = sbri_wide_gather4(points, places);
   return (sbri_wide3){r.x, r.y, r.z};
 }
 
 /* Each lane to its own place; where two lanes name one place the last one stays. */
-SBRI_INLINE void sbri_wide_scatter4_at(sbri_point *points, const sbri_places *places, sbri_wide4 v) {
+SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *places, sbri_wide4 v) {
 #if SBRI_LANES == 8
   __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y),
          xy_high = _mm256_unpackhi_ps((__m256)v.x, (__m256)v.y);
@@ -224,8 +181,8 @@ SBRI_INLINE void sbri_wide_scatter4_at(sbri_point *points, const sbri_places *pl
   __m256 rows[4] = {_mm256_shuffle_ps(xy, zw, 0x44), _mm256_shuffle_ps(xy, zw, 0xee),
       _mm256_shuffle_ps(xy_high, zw_high, 0x44), _mm256_shuffle_ps(xy_high, zw_high, 0xee)};
 #define SBRI_PUT(i) /* written out: a loop would keep the rows in memory */                                  \
-  _mm_storeu_ps(&sbri_point_of(points, places, i)->x, _mm256_castps256_ps128(rows[i]));                      \
-  _mm_storeu_ps(&sbri_point_of(points, places, (i) + 4)->x, _mm256_extractf128_ps(rows[i], 1))
+  _mm_storeu_ps(&points[places[i]].x, _mm256_castps256_ps128(rows[i]));                                      \
+  _mm_storeu_ps(&points[places[(i) + 4]].x, _mm256_extractf128_ps(rows[i], 1))
   SBRI_PUT(0);
   SBRI_PUT(1);
   SBRI_PUT(2);
@@ -239,15 +196,10 @@ SBRI_INLINE void sbri_wide_scatter4_at(sbri_point *points, const sbri_places *pl
   sbri_quad rows[4] = {__builtin_shufflevector(xy, zw, 0, 1, 4, 5),
       __builtin_shufflevector(xy, zw, 2, 3, 6, 7), __builtin_shufflevector(xy_high, zw_high, 0, 1, 4, 5),
       __builtin_shufflevector(xy_high, zw_high, 2, 3, 6, 7)};
-  for (int i = 0; i < 4; i++) memcpy(sbri_point_of(points, places, i), &rows[i], sizeof rows[i]);
+  for (int i = 0; i < 4; i++) memcpy(&points[places[i]], &rows[i], sizeof rows[i]);
 #else
-  *sbri_point_of(points, places, 0) = (sbri_point){v.x, v.y, v.z, v.w};
+  points[places[0]] = (sbri_point){v.x, v.y, v.z, v.w};
 #endif
-}
-SBRI_INLINE void sbri_wide_scatter4(sbri_point *points, const uint32_t *slots, sbri_wide4 v) {
-  sbri_places places;
-  sbri_places_find(&places, slots);
-  sbri_wide_scatter4_at(points, &places, v);
 }
 
 /* The numbers at those places. */
@@ -295,33 +247,34 @@ SBRI_INLINE void sbri_wide_store_points(sbri_point *points, sbri_wide3 v) {
 #endif
 }
 
-/* Each point += its lane of v, or -= it, one after the other; their fourth number becomes anything. */
-SBRI_INLINE void sbri_wide_scatter_sum_at(
-    sbri_point *points, const sbri_places *places, sbri_wide3 v, bool subtract) {
+/* points[places[i]] += lane i of v, or -= it, one after the other; their fourth number becomes anything. */
+SBRI_INLINE void sbri_wide_scatter_sum(
+    sbri_point *points, const uint32_t *places, sbri_wide3 v, bool subtract) {
 #if SBRI_LANES == 8
   __m256 xy = _mm256_unpacklo_ps((__m256)v.x, (__m256)v.y), z = (__m256)v.z;
   __m256 xy_high = _mm256_unpackhi_ps((__m256)v.x, (__m256)v.y);
   __m256 a = _mm256_shuffle_ps(xy, z, 0x04), b = _mm256_shuffle_ps(xy, z, 0x5e);
   __m256 c = _mm256_shuffle_ps(xy_high, z, 0xa4), d = _mm256_shuffle_ps(xy_high, z, 0xfe);
-#define SBRI_ADD(i, row)                                                                                     \
+#define SBRI_SUM(i, row)                                                                                     \
   do {                                                                                                       \
-    float *to = &sbri_point_of(points, places, i)->x;                                                        \
-    _mm_storeu_ps(to, subtract ? _mm_sub_ps(_mm_loadu_ps(to), row) : _mm_add_ps(_mm_loadu_ps(to), row));     \
+    float *to = &points[places[i]].x;                                                                        \
+    __m128 before = _mm_loadu_ps(to);                                                                        \
+    _mm_storeu_ps(to, subtract ? _mm_sub_ps(before, row) : _mm_add_ps(before, row));                         \
   } while (0)
-  SBRI_ADD(0, _mm256_castps256_ps128(a));
-  SBRI_ADD(1, _mm256_castps256_ps128(b));
-  SBRI_ADD(2, _mm256_castps256_ps128(c));
-  SBRI_ADD(3, _mm256_castps256_ps128(d));
-  SBRI_ADD(4, _mm256_extractf128_ps(a, 1));
-  SBRI_ADD(5, _mm256_extractf128_ps(b, 1));
-  SBRI_ADD(6, _mm256_extractf128_ps(c, 1));
-  SBRI_ADD(7, _mm256_extractf128_ps(d, 1));
-#undef SBRI_ADD
+  SBRI_SUM(0, _mm256_castps256_ps128(a));
+  SBRI_SUM(1, _mm256_castps256_ps128(b));
+  SBRI_SUM(2, _mm256_castps256_ps128(c));
+  SBRI_SUM(3, _mm256_castps256_ps128(d));
+  SBRI_SUM(4, _mm256_extractf128_ps(a, 1));
+  SBRI_SUM(5, _mm256_extractf128_ps(b, 1));
+  SBRI_SUM(6, _mm256_extractf128_ps(c, 1));
+  SBRI_SUM(7, _mm256_extractf128_ps(d, 1));
+#undef SBRI_SUM
 #else
   sbri_point rows[SBRI_LANES];
   sbri_wide_store_points(rows, v);
   for (int i = 0; i < SBRI_LANES; i++) {
-    sbri_point *to = sbri_point_of(points, places, i);
+    sbri_point *to = &points[places[i]];
     if (subtract)
       to->x -= rows[i].x, to->y -= rows[i].y, to->z -= rows[i].z;
     else
@@ -329,16 +282,8 @@ SBRI_INLINE void sbri_wide_scatter_sum_at(
   }
 #endif
 }
-SBRI_INLINE void sbri_wide_scatter_add_at(sbri_point *points, const sbri_places *places, sbri_wide3 v) {
-  sbri_wide_scatter_sum_at(points, places, v, false);
-}
-SBRI_INLINE void sbri_wide_scatter_subtract_at(sbri_point *points, const sbri_places *places, sbri_wide3 v) {
-  sbri_wide_scatter_sum_at(points, places, v, true);
-}
-SBRI_INLINE void sbri_wide_scatter_add(sbri_point *points, const uint32_t *slots, sbri_wide3 v) {
-  sbri_places places;
-  sbri_places_find(&places, slots);
-  sbri_wide_scatter_add_at(points, &places, v);
+SBRI_INLINE void sbri_wide_scatter_add(sbri_point *points, const uint32_t *places, sbri_wide3 v) {
+  sbri_wide_scatter_sum(points, places, v, false);
 }
 
 #endif

@@ -40,6 +40,15 @@ static inline void sbri_moves_begin(const sbri_island_tick *t) {
     }
 }
 
+/* Held points on their way through the tick. */
+static inline void sbri_moves_carry_held(const sbri_island_tick *t, float share) {
+  for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
+    const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
+    t->moves[slot] =
+        (sbri_point){(to->x - from->x) * share, (to->y - from->y) * share, (to->z - from->z) * share, 0};
+  }
+}
+
 /* Weight, outer forces and damping of the velocities; then the moves go on by them, and what they are before
  * any spring is kept in t->accelerations. */
 static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float share) {
@@ -66,11 +75,7 @@ static inline void sbri_moves_predict(const sbri_island_tick *t, float h, float 
     sbri_store3(sbri_triple(t->accelerations, slot), (sbri_wide3){u.x, u.y, u.z});
     sbri_wide_scatter4(t->moves + slot, in_order, u);
   }
-  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
-    const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
-    t->moves[slot] =
-        (sbri_point){(to->x - from->x) * share, (to->y - from->y) * share, (to->z - from->z) * share, 0};
-  }
+  sbri_moves_carry_held(t, share);
 }
 
 /* One sweep over all springs; kinds as in solvers/spring_forces.h. */
@@ -174,6 +179,45 @@ static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_bod
   }
 }
 
+/* Whether nothing looks at places between substeps, so that the end of one and the beginning of the next may
+ * be one pass over the points. */
+static inline bool sbri_moves_alone(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  bool alone = !t->outer && !t->rests && !island->link_limits && !island->solid_limits &&
+               !island->link_damping && !island->tetrahedron_damping;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[island->bodies[b]];
+    alone = alone && !body->keeps_volume && (body->held || !(body->alpha_1_s > 0)) &&
+            sbri_touch_count(t, body) == 0;
+  }
+  for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
+    alone = alone && !t->near_ground[block];
+  return alone;
+}
+
+/* What sbri_moves_end_body and sbri_moves_predict do, bit for bit, but for places. */
+static inline void sbri_moves_go_on(const sbri_island_tick *t, const sbri_body *body, float h) {
+  static const uint32_t in_order[SBRI_BLOCK] = {0, 1, 2, 3, 4, 5, 6, 7};
+  sbri_wide rate = sbri_wide_all(1 / h), step = sbri_wide_all(h);
+  sbri_wide gx = sbri_wide_all(t->gravity.x), gy = sbri_wide_all(t->gravity.y),
+            gz = sbri_wide_all(t->gravity.z);
+  sbri_decay keep = sbri_decay_of(body, h);
+  bool guided = body->held && keep.frame < 1;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    float *velocity = sbri_triple(t->velocities, slot), *kept = sbri_triple(t->accelerations, slot);
+    sbri_wide3 free = sbri_load3(kept), v = sbri_load3(velocity);
+    sbri_wide4 u = sbri_wide_gather4(t->moves + slot, in_order);
+    v.x = v.x + (u.x - free.x) * rate, v.y = v.y + (u.y - free.y) * rate, v.z = v.z + (u.z - free.z) * rate;
+    if (guided || keep.media < 1) v = sbri_decayed(t, slot, v, keep, guided);
+    sbri_wide g = sbri_wide_load(t->island->gravity_scales + slot);
+    v.x = v.x + step * (g * gx), v.y = v.y + step * (g * gy), v.z = v.z + step * (g * gz);
+    sbri_store3(velocity, v);
+    u.x = u.x + step * v.x, u.y = u.y + step * v.y, u.z = u.z + step * v.z;
+    sbri_store3(kept, (sbri_wide3){u.x, u.y, u.z});
+    sbri_wide_scatter4(t->moves + slot, in_order, u);
+  }
+}
+
 /* Moves what volumes and limits have moved. */
 static inline void sbri_moves_follow(const sbri_island_tick *t) {
   for (uint32_t slot = 0; slot < t->island->free_count; slot++) {
@@ -191,19 +235,24 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
   for (uint32_t b = 0; b < island->body_count; b++)
     followed = followed || t->model->bodies[island->bodies[b]].keeps_volume;
   sbri_moves_begin(t);
-  bool solid = island->tetrahedron_block_count > 0;
+  bool solid = island->tetrahedron_block_count > 0, alone = sbri_moves_alone(t);
   if (solid) sbri_solid_edges_begin(t);
   for (uint32_t s = 0; s < substeps; s++) {
     bool last = s + 1 == substeps;
     float share = last ? 1 : (float)(s + 1) / (float)substeps;
-    sbri_moves_predict(t, h, share);
+    if (alone && s > 0)
+      sbri_moves_carry_held(t, share);
+    else
+      sbri_moves_predict(t, h, share);
 #define SBRI_CALL(known) sbri_sweep_springs(t, h, known, stretches)
     SBRI_FOR_FORCE_KIND(sbri_force_kind(t, last), SBRI_CALL)
 #undef SBRI_CALL
     if (solid) sbri_sweep_tetrahedra(t, h, s % 2 != 0);
     for (uint32_t b = 0; b < island->body_count; b++) {
       const sbri_body *body = &t->model->bodies[island->bodies[b]];
-      if (sbri_touch_count(t, body) > 0)
+      if (alone && !last)
+        sbri_moves_go_on(t, body, h);
+      else if (sbri_touch_count(t, body) > 0)
         sbri_moves_end_carried(t, body, h);
       else
         sbri_moves_end_body(t, body, h);

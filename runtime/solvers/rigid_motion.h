@@ -20,11 +20,6 @@ static inline sbri_wide3 sbri_velocity_at(const float *velocities, uint32_t slot
   return (sbri_wide3){sbri_wide_load(v), sbri_wide_load(v + SBRI_BLOCK), sbri_wide_load(v + 2 * SBRI_BLOCK)};
 }
 
-static inline void sbri_add_to_lanes(float lanes[SBRI_BLOCK], uint32_t slot, sbri_wide value) {
-  float *at = lanes + slot % SBRI_BLOCK;
-  sbri_wide_store(at, sbri_wide_load(at) + value);
-}
-
 /* The inertia matrix (xx, yy, zz, xy, xz, yz) solved for the spin. A body on a line has no inertia about it:
  * a millionth of the trace is added so that it has no spin about it either. */
 static inline sbf_vec3 sbri_spin_of(const float inertia[6], sbf_vec3 momentum) {
@@ -53,13 +48,18 @@ static inline sbri_rigid_motion sbri_rigid_motion_find(
   if (body->slot_begin == body->slot_end) return motion;
   const sbri_point *near = &positions[body->slot_begin]; /* sums relative to it lose fewer bits */
   sbri_wide nx = sbri_wide_all(near->x), ny = sbri_wide_all(near->y), nz = sbri_wide_all(near->z);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
-    sbri_wide m = sbri_wide_load(island->masses + slot);
-    sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
-    sbri_add_to_lanes(lanes[0], slot, m);
-    sbri_add_to_lanes(lanes[1], slot, m * (x.x - nx)), sbri_add_to_lanes(lanes[2], slot, m * (x.y - ny));
-    sbri_add_to_lanes(lanes[3], slot, m * (x.z - nz)), sbri_add_to_lanes(lanes[4], slot, m * v.x);
-    sbri_add_to_lanes(lanes[5], slot, m * v.y), sbri_add_to_lanes(lanes[6], slot, m * v.z);
+  for (uint32_t lane = 0; lane < SBRI_BLOCK;
+       lane += SBRI_LANES) { /* lane by lane, so that sums stay in registers */
+    sbri_wide a = sbri_wide_all(0), b = a, c = a, d = a, e = a, f = a, g = a;
+    for (uint32_t slot = body->slot_begin + lane; slot < body->slot_end; slot += SBRI_BLOCK) {
+      sbri_wide m = sbri_wide_load(island->masses + slot);
+      sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
+      a = a + m;
+      b = b + m * (x.x - nx), c = c + m * (x.y - ny), d = d + m * (x.z - nz);
+      e = e + m * v.x, f = f + m * v.y, g = g + m * v.z;
+    }
+    const sbri_wide of[7] = {a, b, c, d, e, f, g};
+    for (int i = 0; i < 7; i++) sbri_wide_store(lanes[i] + lane, of[i]);
   }
   for (int i = 0; i < 7; i++) sums[i] = sbri_tree_sum(lanes[i]);
   if (!(sums[0] > 0)) return motion;
@@ -68,25 +68,22 @@ static inline sbri_rigid_motion sbri_rigid_motion_find(
   motion.center = (sbf_vec3){near->x + sums[1] * s, near->y + sums[2] * s, near->z + sums[3] * s};
   motion.velocity = (sbf_vec3){sums[4] * s, sums[5] * s, sums[6] * s};
 
-  for (int i = 0; i < SBRI_RIGID_SUMS; i++)
-    for (int lane = 0; lane < SBRI_BLOCK; lane++) lanes[i][lane] = 0;
   sbri_wide cx = sbri_wide_all(motion.center.x), cy = sbri_wide_all(motion.center.y);
   sbri_wide cz = sbri_wide_all(motion.center.z);
   sbri_wide ux = sbri_wide_all(motion.velocity.x), uy = sbri_wide_all(motion.velocity.y);
   sbri_wide uz = sbri_wide_all(motion.velocity.z);
-  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
-    sbri_wide m = sbri_wide_load(island->masses + slot);
-    sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
-    sbri_wide rx = x.x - cx, ry = x.y - cy, rz = x.z - cz, wx = v.x - ux, wy = v.y - uy, wz = v.z - uz;
-    sbri_add_to_lanes(lanes[0], slot, m * (ry * wz - rz * wy));
-    sbri_add_to_lanes(lanes[1], slot, m * (rz * wx - rx * wz));
-    sbri_add_to_lanes(lanes[2], slot, m * (rx * wy - ry * wx));
-    sbri_add_to_lanes(lanes[3], slot, m * (ry * ry + rz * rz));
-    sbri_add_to_lanes(lanes[4], slot, m * (rx * rx + rz * rz));
-    sbri_add_to_lanes(lanes[5], slot, m * (rx * rx + ry * ry));
-    sbri_add_to_lanes(lanes[6], slot, sbri_wide_all(0) - m * (rx * ry));
-    sbri_add_to_lanes(lanes[7], slot, sbri_wide_all(0) - m * (rx * rz));
-    sbri_add_to_lanes(lanes[8], slot, sbri_wide_all(0) - m * (ry * rz));
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
+    sbri_wide a = sbri_wide_all(0), b = a, c = a, d = a, e = a, f = a, g = a, h = a, i = a;
+    for (uint32_t slot = body->slot_begin + lane; slot < body->slot_end; slot += SBRI_BLOCK) {
+      sbri_wide m = sbri_wide_load(island->masses + slot);
+      sbri_wide3 x = sbri_wide_load_points(positions + slot), v = sbri_velocity_at(velocities, slot);
+      sbri_wide rx = x.x - cx, ry = x.y - cy, rz = x.z - cz, wx = v.x - ux, wy = v.y - uy, wz = v.z - uz;
+      a = a + m * (ry * wz - rz * wy), b = b + m * (rz * wx - rx * wz), c = c + m * (rx * wy - ry * wx);
+      d = d + m * (ry * ry + rz * rz), e = e + m * (rx * rx + rz * rz), f = f + m * (rx * rx + ry * ry);
+      g = g - m * (rx * ry), h = h - m * (rx * rz), i = i - m * (ry * rz);
+    }
+    const sbri_wide of[SBRI_RIGID_SUMS] = {a, b, c, d, e, f, g, h, i};
+    for (int k = 0; k < SBRI_RIGID_SUMS; k++) sbri_wide_store(lanes[k] + lane, of[k]);
   }
   for (int i = 0; i < SBRI_RIGID_SUMS; i++) sums[i] = sbri_tree_sum(lanes[i]);
   for (int i = 0; i < 6; i++) motion.inertia[i] = sums[3 + i];

@@ -24,6 +24,15 @@ static inline bool sbri_touches_any(const sbri_island_tick *t) {
   return any;
 }
 
+/* How many substeps share a damping of what nothing holds: on the ground each has its own, or bodies would
+ * creep by what falls between them. */
+static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {
+  bool lies = sbri_touches_any(t);
+  for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
+    lies = lies || t->near_ground[block];
+  return lies ? 1 : SBRI_SELF_DAMP_EVERY;
+}
+
 /* With tetrahedra: where they have stiffened beyond what the substep allows for, the rest of the tick is
  * divided anew. */
 static inline void sbri_symplectic_tick_of_solids(const sbri_island_tick *t) {
@@ -31,7 +40,8 @@ static inline void sbri_symplectic_tick_of_solids(const sbri_island_tick *t) {
   uint32_t left = sbri_solid_substeps(t, t->tick_s);
   if (left < SBRI_LEAST_TOUCHING_SUBSTEPS && !island->substeps && sbri_touches_any(t))
     left = SBRI_LEAST_TOUCHING_SUBSTEPS;
-  float h = t->tick_s / (float)left, rest = t->tick_s, stretches[SBRI_BLOCK] = {0};
+  float h = t->tick_s / (float)left, rest = t->tick_s, self_s = 0, stretches[SBRI_BLOCK] = {0};
+  uint32_t damp_every = sbri_self_damp_every(t);
   sbri_remember_held(t);
   for (uint32_t s = 1; left > 0; s++) {
     bool last = left == 1, looks = last || s % SBRI_LOOK_EVERY == 0;
@@ -41,7 +51,10 @@ static inline void sbri_symplectic_tick_of_solids(const sbri_island_tick *t) {
       uint32_t needed = sbri_solid_substeps(t, rest);
       if (needed > left) left = needed, h = rest / (float)left;
     }
-    sbri_kick(t, h, last, stretches);
+    bool damps = last || s % damp_every == 0;
+    self_s += h;
+    sbri_kick(t, h, damps ? self_s : 0, last, stretches);
+    if (damps) self_s = 0;
     sbri_drift(t, h);
     rest = (float)--left * h;
     sbri_carry_held(t, last ? 1 : 1 - rest / t->tick_s);
@@ -58,12 +71,15 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   }
   uint32_t substeps = sbri_stable_substeps(island, t->tick_s, *t->stretch);
   float h = t->tick_s / (float)substeps;
-  float stretches[SBRI_BLOCK] = {0};
+  float self_s = 0, stretches[SBRI_BLOCK] = {0};
+  uint32_t damp_every = sbri_self_damp_every(t);
   sbri_remember_held(t);
   for (uint32_t s = 0; s < substeps; s++) {
-    bool last = s + 1 == substeps;
+    bool last = s + 1 == substeps, damps = last || (s + 1) % damp_every == 0;
     if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
-    sbri_kick(t, h, last, stretches);
+    self_s += h;
+    sbri_kick(t, h, damps ? self_s : 0, last, stretches);
+    if (damps) self_s = 0;
     sbri_drift(t, h);
     sbri_carry_held(t, last ? 1 : (float)(s + 1) / (float)substeps);
     sbri_finish_substep(t, h);

@@ -109,14 +109,24 @@ SBRI_INLINE void sbri_tetrahedron_damping(const sbri_island_tick *t, const sbri_
   sbri_tetrahedron_viscous(block, lane, betas, d, w, f);
 }
 
+/* Edges of a group of lanes from their first corner. */
+typedef struct sbri_tetrahedron_edges {
+  sbri_wide3 d[3];
+} sbri_tetrahedron_edges;
+
+SBRI_INLINE sbri_tetrahedron_edges sbri_tetrahedron_edges_of(
+    const sbri_point *x, const sbri_tetrahedron_block *block, uint32_t lane) {
+  sbri_wide3 x0 = sbri_wide_gather(x, block->corners[0] + lane);
+  return (sbri_tetrahedron_edges){{sbri_wide3_sub(sbri_wide_gather(x, block->corners[1] + lane), x0),
+      sbri_wide3_sub(sbri_wide_gather(x, block->corners[2] + lane), x0),
+      sbri_wide3_sub(sbri_wide_gather(x, block->corners[3] + lane), x0)}};
+}
+
 /* The forces of a group of lanes on its corners, but for the first's: its is minus `forces[0]`. */
 SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
-    const sbri_places at[4], uint32_t lane, const float *betas, sbri_tetrahedron_watch *watch,
+    const sbri_wide3 d[3], uint32_t lane, const float *betas, sbri_tetrahedron_watch *watch,
     sbri_wide3 forces[4]) {
-  const sbri_point *x = t->positions;
-  sbri_wide3 x0 = sbri_wide_gather_at(x, &at[0]), *f = forces + 1;
-  sbri_wide3 d[3] = {sbri_wide3_sub(sbri_wide_gather_at(x, &at[1]), x0),
-      sbri_wide3_sub(sbri_wide_gather_at(x, &at[2]), x0), sbri_wide3_sub(sbri_wide_gather_at(x, &at[3]), x0)};
+  sbri_wide3 *f = forces + 1;
   sbri_wide3 n1 = sbri_wide3_cross(d[1], d[2]);
   sbri_wide ratio = sbri_wide3_dot(d[0], n1) * sbri_wide_load(block->inverse_volume + lane);
   sbri_wide k11 = sbri_wide_load(block->stiffness[0] + lane),
@@ -141,42 +151,49 @@ SBRI_INLINE void sbri_tetrahedron_lanes(const sbri_island_tick *t, const sbri_te
   forces[0] = sbri_wide3_add(sbri_wide3_add(f[0], f[1]), f[2]);
 }
 
-SBRI_INLINE void sbri_tetrahedron_block_forces(const sbri_island_tick *t, const sbri_tetrahedron_block *block,
-    const float *betas, sbri_tetrahedron_watch *watch, sbri_point *sums) {
+/* With eight lanes the edges of the next block are gathered before the forces of this one are added: a
+ * processor looks ahead no farther than about a block, and would wait for them. */
+SBRI_INLINE void sbri_tetrahedron_blocks(
+    const sbri_island_tick *t, const float *betas, sbri_tetrahedron_watch *watch, sbri_point *sums) {
   enum { GROUPS = SBRI_BLOCK / SBRI_LANES };
-  sbri_wide3 forces[GROUPS][4];
-  sbri_places at[GROUPS][4];
-  for (uint32_t group = 0; group < GROUPS; group++) {
-    for (uint32_t k = 0; k < 4; k++) sbri_places_find(&at[group][k], block->corners[k] + group * SBRI_LANES);
-    sbri_tetrahedron_lanes(t, block, at[group], group * SBRI_LANES, betas, watch, forces[group]);
-  }
-  for (uint32_t group = 0; group < GROUPS; group++)
-    sbri_wide_scatter_subtract_at(sums, &at[group][0], forces[group][0]);
+  uint32_t count = t->island->tetrahedron_dense_count;
+  const sbri_tetrahedron_block *blocks = t->tetrahedra;
+  const sbri_point *x = t->positions;
+  sbri_tetrahedron_edges next = {0};
+  if (GROUPS == 1 && count > 0) next = sbri_tetrahedron_edges_of(x, blocks, 0);
+  for (uint32_t b = 0; b < count; b++) {
+    const sbri_tetrahedron_block *block = &blocks[b];
+    const float *of = betas ? betas + (size_t)b * SBRI_BLOCK : NULL;
+    sbri_wide3 forces[GROUPS][4];
+    for (uint32_t group = 0; group < GROUPS; group++) {
+      sbri_tetrahedron_edges now =
+          GROUPS == 1 ? next : sbri_tetrahedron_edges_of(x, block, group * SBRI_LANES);
+      sbri_tetrahedron_lanes(t, block, now.d, group * SBRI_LANES, of, watch, forces[group]);
+    }
+    if (GROUPS == 1) next = sbri_tetrahedron_edges_of(x, block + (b + 1 < count), 0);
 #define SBRI_SCATTER(k)                                                                                      \
   for (uint32_t group = 0; group < GROUPS; group++)                                                          \
-  sbri_wide_scatter_add_at(sums, &at[group][k], forces[group][k])
-  SBRI_SCATTER(1);
-  SBRI_SCATTER(2);
-  SBRI_SCATTER(3);
+  sbri_wide_scatter_sum(sums, block->corners[k] + group * SBRI_LANES, forces[group][k], (k) == 0)
+    SBRI_SCATTER(0);
+    SBRI_SCATTER(1);
+    SBRI_SCATTER(2);
+    SBRI_SCATTER(3);
 #undef SBRI_SCATTER
+  }
 }
 
 /* Forces in N of the island's tetrahedra on its slots, into t->element_forces. `watch`: NULL, or what begins
  * as sbri_watch_begin makes it and is filled. */
 static inline void sbri_tetrahedron_forces(const sbri_island_tick *t, sbri_tetrahedron_watch *watch) {
-  const sbri_island *island = t->island;
-  uint32_t count = island->tetrahedron_dense_count;
-  const sbri_tetrahedron_block *blocks = t->tetrahedra;
   sbri_point *sums = t->element_forces;
-  memset(sums, 0, island->slot_count * sizeof *sums);
+  memset(sums, 0, t->island->slot_count * sizeof *sums);
   /* Copies of the loop, so that the common one carries no more than it needs. */
-  if (island->tetrahedron_damping)
-    for (uint32_t b = 0; b < count; b++)
-      sbri_tetrahedron_block_forces(t, &blocks[b], island->tetrahedron_damping + b * SBRI_BLOCK, watch, sums);
+  if (t->island->tetrahedron_damping)
+    sbri_tetrahedron_blocks(t, t->island->tetrahedron_damping, watch, sums);
   else if (watch)
-    for (uint32_t b = 0; b < count; b++) sbri_tetrahedron_block_forces(t, &blocks[b], NULL, watch, sums);
+    sbri_tetrahedron_blocks(t, NULL, watch, sums);
   else
-    for (uint32_t b = 0; b < count; b++) sbri_tetrahedron_block_forces(t, &blocks[b], NULL, NULL, sums);
+    sbri_tetrahedron_blocks(t, NULL, NULL, sums);
 }
 
 static inline void sbri_watch_begin(sbri_tetrahedron_watch *watch) {
