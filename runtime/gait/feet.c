@@ -41,21 +41,28 @@ sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 place, sbf_vec
   return sbri_vec3(place.x, (float)(y - input->origin.y), place.z);
 }
 
+void sbri_foot_home_faces(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+  const sbf_vec3 *ankle = &rig->legs[leg].ankle;
+  sbri_foot *foot = &state->feet[leg];
+  sbf_vec3 beside = sbri_headed(state, sbri_vec3(ankle->x * input->scale, 0, ankle->z * input->scale));
+  bool level = foot->normal.x == 0 && foot->normal.z == 0;
+  foot->beside_at_home = level ? beside : sbri_rotate(foot->tilt, beside);
+}
+
 void sbri_foot_faces(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   const sbf_vec3 up = {0, 1, 0};
   sbri_foot *foot = &state->feet[leg];
   float x = rig->legs[leg].ankle.x * input->scale, z = rig->legs[leg].ankle.z * input->scale;
   float heading = state->heading + foot->heading;
+  bool level = foot->normal.x == 0 && foot->normal.z == 0;
   sbri_sincos(heading, &foot->sine, &foot->cosine);
+  foot->tilt = level ? sbri_quat_identity() : sbri_quat_between(up, foot->normal);
+  foot->turned = sbri_quat_multiply(foot->tilt, sbri_quat_about(up, heading));
   foot->beside = sbri_vec3(foot->cosine * x + foot->sine * z, 0, foot->cosine * z - foot->sine * x);
-  foot->beside_at_home = sbri_headed(state, sbri_vec3(x, 0, z));
-  foot->turned = sbri_quat_about(up, heading);
-  if (foot->normal.x == 0 && foot->normal.z == 0) return;
-  sbf_quat tilt = sbri_quat_between(up, foot->normal);
-  foot->turned = sbri_quat_multiply(tilt, foot->turned);
-  foot->beside = sbri_rotate(tilt, foot->beside);
-  foot->beside_at_home = sbri_rotate(tilt, foot->beside_at_home);
+  if (!level) foot->beside = sbri_rotate(foot->tilt, foot->beside);
+  sbri_foot_home_faces(rig, state, input, leg);
 }
 
 float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b) {

@@ -124,10 +124,10 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   uint32_t count = 0;
   float turned = move_body(rig, state, input);
   sbri_clips_tick(rig, state, input->tick_s);
-  for (uint32_t i = 0; turned != 0 && i < rig->leg_count;
-       i++) { /* a planted foot does not turn with the body */
-    if (state->feet[i].planted) state->feet[i].heading = sbri_wrap_angle(state->feet[i].heading - turned);
-    sbri_foot_faces(rig, state, input, i);
+  for (uint32_t i = 0; turned != 0 && i < rig->leg_count; i++) {
+    sbri_foot *foot = &state->feet[i]; /* one that is planted does not turn with the body */
+    if (foot->planted) foot->heading = sbri_wrap_angle(foot->heading - turned);
+    sbri_foot_home_faces(rig, state, input, i);
   }
   sbri_stance stance;
   if (!input->hold && rig->leg_count)

@@ -15,7 +15,7 @@ typedef struct sbri_foot {
    * from above the sole's middle, as it is turned, and were it turned as the body is. */
   float sine, cosine;
   sbf_vec3 beside, beside_at_home;
-  sbf_quat turned;                           /* from how it stands at rest */
+  sbf_quat tilt, turned;                     /* as the ground is; from how it stands at rest */
   float lift;                                /* of the sole above `ground`, m */
   sbf_vec3 from, from_normal, to, to_normal; /* of the step under way */
   sbf_vec3 planned;                          /* `to` when it was last planned */
@@ -239,8 +239,11 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 
 /* ---- gait/feet.c: who steps ---- */
 
-/* Keeps up what follows from a foot's heading, the body's, and its normal. */
+/* Keeps up what follows from a foot's heading and its normal; and what of it follows from the body's heading
+ * alone, where a foot stays as it is. */
 void sbri_foot_faces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
+void sbri_foot_home_faces(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 
 /* Puts a leg's foot down at its home. */
 void sbri_foot_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);

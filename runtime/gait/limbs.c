@@ -69,7 +69,13 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
   chain.count = take_joints(rig, leg->upper, leg->foot, &none, pose, joints, bones, &chain.base);
   if (chain.count == 0) return;
   sbri_ccd(&chain);
-  give_joints(rig, &chain, bones, 1, pose);
+  if (!leg->last) {
+    give_joints(rig, &chain, bones, 1, pose);
+    return;
+  }
+  sbr_transform frames[SBRI_IK_MOST_JOINTS]; /* of three bones; the others are posed after them */
+  sbri_ik_frames(&chain, frames);
+  for (uint32_t i = 0; i < chain.count; i++) pose[bones[i]] = frames[i];
 }
 
 static void take_comforts(const sbri_rig *rig, const sbf_ik_chain *source, sbri_ik_joint *joints,

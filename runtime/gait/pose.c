@@ -52,14 +52,21 @@ static void limit_bone(const sbri_rig *rig, uint32_t bone, const sbr_transform *
   pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, held));
 }
 
+/* By more than the gait, which keeps limits itself. */
+static bool is_animated(const sbri_rig *rig, const sbri_gait_state *state) {
+  bool animated = rig->walks.walk_count > 0;
+  for (int l = 0; l < SBRI_CLIP_LAYERS; l++) animated = animated || state->clips[l].clip_plus_1;
+  return animated;
+}
+
 /* All bones before the legs are solved, parents first: `pose` holds them against their parents, and then in
  * world axes. */
 static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stance *stance,
     float scale, sbr_transform *pose) {
   sbf_vec3 up = sbri_rotate(stance->root.rotation, UP);
-  bool animated = rig->walks.walk_count > 0; /* by more than the gait, which keeps limits itself */
-  for (int l = 0; l < SBRI_CLIP_LAYERS; l++) animated = animated || state->clips[l].clip_plus_1;
+  bool animated = is_animated(rig, state);
   for (uint32_t i = 0; i < rig->bone_count; i++) {
+    if (rig->roles[i] == SBRI_ROLE_LEG) continue; /* against its parent until its leg is solved */
     const sbr_transform *parent = rig->parents[i] >= 0 ? &pose[rig->parents[i]] : &stance->root;
     sbf_vec3 offset = sbri_scale(pose[i].position, scale); /* against its parent so far */
     sbf_quat is = sbri_quat_multiply(parent->rotation, pose[i].rotation), turn;
@@ -86,24 +93,29 @@ static void pose_bones(const sbri_rig *rig, const sbri_gait_state *state, const 
 }
 
 /* The leg's pole, carried by its bone as posed so far. */
-static sbf_vec3 pole_of(const sbri_rig *rig, const sbri_leg *leg, const sbr_transform *root, float scale,
-    const sbr_transform *pose) {
-  const sbr_transform asset = {{0, 0, 0}, {0, 0, 0, 1}};
-  const sbr_transform *rest = leg->pole_bone >= 0 ? &rig->rest[leg->pole_bone] : &asset;
+static sbf_vec3 pole_of(
+    const sbri_leg *leg, const sbr_transform *root, float scale, const sbr_transform *pose) {
   const sbr_transform *now = leg->pole_bone >= 0 ? &pose[leg->pole_bone] : root;
-  sbf_vec3 own = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(leg->pole, rest->position));
-  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(own, scale)));
+  return sbri_add(now->position, sbri_rotate(now->rotation, sbri_scale(leg->pole_place, scale)));
 }
 
-/* Turns the foot, and what hangs on it (toes), to a rotation, by as much as the chain says to that of the
- * ground.
- */
-static void pose_foot(
-    const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_quat own, sbr_transform *pose) {
+/* Puts a bone of a leg somewhere; what else hangs on it goes along, or is posed later. */
+static void put_bone(
+    const sbri_rig *rig, const sbri_leg *leg, int32_t bone, sbr_transform to, sbr_transform *pose) {
+  if (!leg->last && (leg->has_others || bone == leg->foot)) {
+    sbf_quat turn = sbri_quat_multiply(to.rotation, sbri_quat_conjugate(pose[bone].rotation));
+    sbri_rig_turn(rig, (uint32_t)bone, turn, pose);
+    sbri_rig_shift(rig, (uint32_t)bone, sbri_sub(to.position, pose[bone].position), pose);
+  }
+  pose[bone] = to;
+}
+
+/* Puts the foot somewhere and turns it, by as much as the chain says to how the ground lies. */
+static void pose_foot(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle,
+    sbf_quat own, sbr_transform *pose) {
   sbf_quat flat = sbri_quat_multiply(foot->turned, rig->rest[leg->foot].rotation);
-  sbf_quat after = sbri_quat_blend(own, flat, leg->copy_rotation);
-  sbf_quat before = pose[leg->foot].rotation;
-  sbri_rig_turn(rig, (uint32_t)leg->foot, sbri_quat_multiply(after, sbri_quat_conjugate(before)), pose);
+  sbf_quat turned = sbri_quat_blend(own, flat, leg->copy_rotation);
+  put_bone(rig, leg, leg->foot, (sbr_transform){ankle, turned}, pose);
 }
 
 /* One bone: it points at where the foot should be. */
@@ -114,19 +126,7 @@ static void pose_peg(
   sbf_quat turn = sbri_quat_between(is, sbri_normalize(sbri_sub(ankle, hip), is));
   sbri_rig_turn(rig, (uint32_t)leg->upper, turn, pose);
   /* What its one length leaves over or lacks is the foot's: it stands where it stands. */
-  sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(ankle, pose[leg->foot].position), pose);
-  pose_foot(rig, leg, foot, pose[leg->foot].rotation, pose);
-}
-
-/* Puts a bone of a leg somewhere; what else hangs on it goes along. */
-static void put_bone(
-    const sbri_rig *rig, const sbri_leg *leg, int32_t bone, sbr_transform to, sbr_transform *pose) {
-  if (leg->has_others) {
-    sbf_quat turn = sbri_quat_multiply(to.rotation, sbri_quat_conjugate(pose[bone].rotation));
-    sbri_rig_turn(rig, (uint32_t)bone, turn, pose);
-    sbri_rig_shift(rig, (uint32_t)bone, sbri_sub(to.position, pose[bone].position), pose);
-  }
-  pose[bone] = to;
+  pose_foot(rig, leg, foot, ankle, pose[leg->foot].rotation, pose);
 }
 
 /* Two bones in closed form, then the limits of their joints. */
@@ -147,8 +147,8 @@ static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
   sbf_quat shin = sbri_quat_normalize(sbri_quat_multiply(lower, rig->rest[leg->lower].rotation));
   put_bone(rig, leg, leg->upper, (sbr_transform){hip, thigh}, pose);
   put_bone(rig, leg, leg->lower, (sbr_transform){solved.knee, shin}, pose);
-  pose_foot(rig, leg, foot, sbri_quat_multiply(lower, rig->rest[leg->foot].rotation), pose);
-  sbri_rig_shift(rig, (uint32_t)leg->foot, sbri_sub(solved.ankle, pose[leg->foot].position), pose);
+  sbf_quat own = sbri_quat_multiply(lower, rig->rest[leg->foot].rotation);
+  pose_foot(rig, leg, foot, solved.ankle, own, pose);
   sbri_leg_limit(rig, leg, ankle, pole, scale, pose);
 }
 
@@ -159,6 +159,21 @@ static sbf_vec3 sole_of(const sbri_rig *rig, const sbri_leg *leg, float scale, c
   return sbri_add_scaled(pose[leg->foot].position, sbri_rotate(turned, leg->ankle), -scale);
 }
 
+/* What hangs on a leg that is solved. */
+static void pose_rest_of_leg(const sbri_rig *rig, const sbri_gait_state *state, const sbri_leg *leg,
+    float scale, sbr_transform *pose) {
+  bool animated = is_animated(rig, state);
+  for (uint32_t k = rig->subtree_begin[leg->upper] + 1; k < rig->subtree_end[leg->upper]; k++) {
+    uint32_t b = rig->subtree[k];
+    const sbr_transform *parent = &pose[rig->parents[b]];
+    if ((int32_t)b == leg->lower || (int32_t)b == leg->foot) continue;
+    sbf_vec3 offset = sbri_scale(pose[b].position, scale);
+    pose[b].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
+    pose[b].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, pose[b].rotation));
+    if (animated) limit_bone(rig, b, parent, pose);
+  }
+}
+
 static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance,
     const sbri_gait_input *input, uint32_t index, sbr_transform *pose) {
   const sbri_leg *leg = &rig->legs[index];
@@ -167,7 +182,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   sbf_vec3 hip = pose[leg->upper].position;
   sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
   sbf_vec3 ankle = sbri_ankle_over(leg, foot, sole, scale);
-  sbf_vec3 pole = foot->pole = pole_of(rig, leg, &stance->root, scale, pose);
+  sbf_vec3 pole = foot->pole = pole_of(leg, &stance->root, scale, pose);
   if (leg->lower < 0) {
     pose_peg(rig, leg, foot, ankle, pose);
     return;
@@ -186,6 +201,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
     if (pass == 0) share = sbri_smooth(2 - miss / SOLE_MOVED);
     ankle = sbri_add_scaled(ankle, missed, share);
   }
+  if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
 }
 
 /* The body came down for where its hips were a tick ago. What moves them by itself is slow enough for that; a
@@ -195,7 +211,8 @@ static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, con
   float drop = rig->leg_count && sbri_clips_play(state) ? sbri_body_drop(rig, state, input, root) : 0;
   if (!(drop > 0)) return;
   root->position.y -= drop;
-  for (uint32_t i = 0; i < rig->bone_count; i++) pose[i].position.y -= drop;
+  for (uint32_t i = 0; i < rig->bone_count; i++)
+    if (rig->roles[i] != SBRI_ROLE_LEG) pose[i].position.y -= drop;
 }
 
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,

@@ -72,6 +72,11 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   /* Without a pole the leg goes on bending the way it is bent at rest. */
   sbf_vec3 middle = sbri_lerp(hip, ankle, 0.5f), out = sbri_sub(knee, middle);
   leg->pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
+  leg->pole_place = leg->pole;
+  if (leg->pole_bone >= 0) {
+    const sbr_transform *rest = &rig->rest[leg->pole_bone];
+    leg->pole_place = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(leg->pole, rest->position));
+  }
   sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
   leg->upper_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
   leg->lower_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(ankle, knee), side));
@@ -177,6 +182,34 @@ static void find_roles(const sbri_rig *rig, uint8_t *roles) {
     for (uint32_t k = 0; k < rig->tails[t].bone_count; k++) roles[rig->tails[t].bones[k]] = SBRI_ROLE_TAIL;
 }
 
+static bool on_chain(const sbri_rig *rig, uint32_t bone) {
+  for (uint32_t c = 0; c < rig->chain_count; c++)
+    for (uint32_t k = 0; k < rig->chains[c].source->bones.count; k++)
+      if (rig->chains[c].source->bones.at[k] == bone) return true;
+  return false;
+}
+
+/* Legs below which there is nothing that moves by itself, and which hang on no chain that moves them. */
+static void find_last_legs(sbri_rig *rig, uint8_t *roles) {
+  for (uint32_t l = 0; l < rig->leg_count; l++) {
+    sbri_leg *leg = &rig->legs[l];
+    uint32_t begin = rig->subtree_begin[leg->upper], end = rig->subtree_end[leg->upper];
+    leg->last = leg->lower >= 0;
+    for (int32_t b = rig->parents[leg->upper]; b >= 0; b = rig->parents[b])
+      if (on_chain(rig, (uint32_t)b)) leg->last = false;
+    for (uint32_t k = begin; k < end; k++) {
+      uint32_t b = rig->subtree[k];
+      if (roles[b] != SBRI_ROLE_NONE || on_chain(rig, b)) leg->last = false;
+    }
+    for (uint32_t other = 0; other < rig->leg_count; other++) {
+      const sbri_leg *o = &rig->legs[other];
+      bool hangs = other != l && sbri_rig_is_below(rig, o->upper, leg->upper);
+      if (hangs || (o->pole_bone >= 0 && sbri_rig_is_below(rig, o->pole_bone, leg->upper))) leg->last = false;
+    }
+    for (uint32_t k = begin + 1; leg->last && k < end; k++) roles[rig->subtree[k]] = SBRI_ROLE_LEG;
+  }
+}
+
 void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   uint32_t n = asset->bones.count;
   char *free_memory = memory;
@@ -228,6 +261,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   init_chains(rig, chains);
   find_carriers(rig);
   find_roles(rig, roles);
+  find_last_legs(rig, roles);
   sbri_walks_init(&rig->walks, rig, carve(&free_memory, sbri_walks_size(asset)));
 }
 

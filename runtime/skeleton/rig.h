@@ -21,6 +21,7 @@ typedef struct sbri_leg {
   int32_t upper, lower, foot; /* bones: thigh, shin (-1: a peg), and the one whose head is the ankle */
   sbf_vec3 pole;              /* asset space, rest pose */
   int32_t pole_bone;          /* the pole moves with it; -1: with the root */
+  sbf_vec3 pole_place;        /* in that bone's frame, m */
   sbf_vec3 home; /* middle of the sole at rest, asset space, y that of the ankle above the ground */
   float upper_length, lower_length;
   float
@@ -36,6 +37,7 @@ typedef struct sbri_leg {
   sbf_vec3 ankle;                  /* from the middle of the sole, m; `home` is above that middle */
   sbri_sole sole;
   bool has_others; /* bones hang on thigh or shin beside the leg's own, as those that share a twist */
+  bool last; /* all that hangs on the thigh is posed after the leg is solved: nothing but legs moves it */
 } sbri_leg;
 
 typedef struct sbri_tail {
@@ -58,7 +60,8 @@ typedef enum sbri_bone_role {
   SBRI_ROLE_NONE,
   SBRI_ROLE_SPINE,
   SBRI_ROLE_HEAD,
-  SBRI_ROLE_TAIL
+  SBRI_ROLE_TAIL,
+  SBRI_ROLE_LEG /* below the thigh of a leg that is posed last */
 } sbri_bone_role;
 
 /* Share of the body's mass that a bone carries, and its middle in the bone's frame. */
