@@ -42,6 +42,11 @@ def run_row(r):
             number(r["median_us"]), number(r["worst_us"])]
 
 
+def gait_row(r):
+    return [r["character"], r["legs"], r["bones"], r["ground"], r["drive"], number(r["least_us"]), number(r["median_us"]),
+            number(r["worst_us"])]
+
+
 def size_row(r):
     return [r["file"], number(r["vertices"]), number(r["springs"]), number(r["xml"]), number(r["gzip"]),
             number(r["packed"]), number(r["stored"]), r["packed/xml"], r["packed/gzip"], number(r["meshes"]),
@@ -101,6 +106,7 @@ TABLES = {
     "save": (save_row, "asset | action | form | bytes | ms | MB/s", 3),
     "run": (run_row, "character | threads | part | springs | substeps | least µs | median µs | worst µs", 3),
     "progress": (progress_row, "asset | build | s | calls | longest silence, s | in", 2),
+    "gait": (gait_row, "character | legs | bones | ground | drive | least µs | median µs | worst µs", 1),
     "skin": (skin_row, "mesh | render level | triangles | vertices | least µs | median µs | of the full mesh", 1),
     "schemes": (schemes_row, "body | scheme | springs | substeps | µs a tick | ns a spring and substep | error, mm", 2),
     "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | greatest, m | missed", 3),
