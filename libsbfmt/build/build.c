@@ -472,7 +472,7 @@ static void share_elements(build *b) {
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
     sharing +=
         b->bodies[i].levels.count == 0 && interior_of(b, &b->bodies[i]) == SBF_BUILD_INTERIOR_TETRAHEDRA;
-  uint32_t share = SBFI_LATTICE_MOST_ELEMENTS / (sharing ? sharing : 1);
+  uint32_t share = SBFI_LATTICE_SHARED_ELEMENTS / (sharing ? sharing : 1);
   b->usual_elements = share > LEAST_SHARE ? share : LEAST_SHARE;
 }
 

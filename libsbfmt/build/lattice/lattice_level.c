@@ -18,7 +18,8 @@ static sbfi_lattice_outcome make_lattice(sbfi_lattice *lattice, const sbf_soft_b
   if (!sbfi_soup_make(&soup, &body->surface, scratch) || !sbfi_winding_make(&winding, &soup, scratch))
     return SBFI_LATTICE_NO_MEMORY;
   sbfi_lattice_outcome outcome;
-  uint32_t most = recipe->most ? recipe->most : SBFI_LATTICE_MOST_ELEMENTS;
+  uint32_t most =
+      recipe->most && recipe->most < SBFI_LATTICE_THIN_ELEMENTS ? recipe->most : SBFI_LATTICE_THIN_ELEMENTS;
   uint32_t usual = most < USUAL_ELEMENTS ? most : USUAL_ELEMENTS;
   for (uint32_t elements = recipe->elements ? recipe->elements : usual;; elements *= 2) {
     outcome = recipe->cell > 0 ? sbfi_lattice_make(lattice, &winding, recipe->cell, progress, scratch)

@@ -57,7 +57,8 @@ typedef struct sbf_build_options {
   void (*report)(void *user, const sbf_diagnostic *diagnostic);
   void *user; /* for both callbacks */
   /* The size of lattices: the edge of the grid's cubes in metres; where that is 0, about so many tetrahedra a
-   * body; where that is 0 too, 2000, or up to 16000 where much of a body is thinner than two elements.
+   * body; where that is 0 too, 2000, or 4000 where much of a body is thinner than two elements, and no more
+   * than 16000 in all bodies together, 100 each at least.
    * Interior springs on a grid of no stated cell go by the polygons' size. Cells are rounded to whole
    * micrometres, which the derivation records.
    */
