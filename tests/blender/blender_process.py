@@ -47,6 +47,7 @@ class Blender:
         with zipfile.ZipFile(archive) as opened:
             opened.extractall(os.path.join(self.folder, "scripts", "addons"))
         shutil.copytree(HERE, self.tests, ignore=shutil.ignore_patterns("__pycache__", "*.txt"))
+        shutil.copy(os.path.join(ROOT, "docs", "blender.md"), os.path.join(self.tests, "page.md"))
         os.mkdir(self.kept)
         return self
 

@@ -8,6 +8,7 @@ import subprocess
 from blender_process import ROOT
 
 SHARED = os.path.join(ROOT, os.pardir, "shared", "data")
+LIZARD = (os.path.join(ROOT, "examples", "lizard", "lizard.obj"), "--rig", os.path.join(ROOT, "examples", "lizard", "lizard.glb"))
 READ_BY_CONVERT = (".obj", ".glb", ".fbx", ".dae", ".msh", ".vtk", ".node")
 
 
@@ -17,12 +18,18 @@ def convert(program, out, *words):
     return run.returncode == 0
 
 
+def make_lizard(folder, program):
+    """The one that tests of the preview and of panels look at."""
+    os.makedirs(folder)
+    if not convert(program, os.path.join(folder, "lizard.sbf"), *LIZARD):
+        raise SystemExit("the lizard can't be converted")
+
+
 def make_examples(folder, program):
     """Every example built, under its name; and samples of the specification that hold what no example has."""
     os.makedirs(folder)
     sources = {os.path.basename(os.path.dirname(path)): (path, ) for path in glob.glob(os.path.join(ROOT, "examples", "*", "*.glb"))}
-    lizard = os.path.join(ROOT, "examples", "lizard", "lizard")
-    sources["lizard"] = (f"{lizard}.obj", "--rig", f"{lizard}.glb")
+    sources["lizard"] = LIZARD
     for name, words in sorted(sources.items()):
         if not convert(program, os.path.join(folder, f"{name}.sbf"), *words):
             raise SystemExit(f"the example {name} can't be converted")

@@ -1,6 +1,7 @@
-"""Runs in a Blender with a window: imports a bundle, checks and builds it, shows the panels and saves a picture of the window.
+"""Runs in a Blender with a window: opens a bundle, uses the add-on as docs/blender.md tells, and takes a picture of every panel and
+of everything that is drawn in the viewport.
 
-    blender --python draw_panels.py -- BUNDLE OBJECT BONE OUT.png
+    blender --python draw_panels.py -- LIZARD.sbf FOLDER
 """
 
 import os
@@ -9,70 +10,262 @@ import traceback
 
 import addon_utils
 import bpy
+from mathutils import Vector
 
-BUNDLE, OBJECT, BONE, OUT = sys.argv[sys.argv.index("--") + 1:]
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+import pictures  # noqa: E402
 
-
-def lay_out(window):
-    """Properties beside the view, twice: of the object or bone, and of the scene."""
-    for area in window.screen.areas:
-        if area.type == "OUTLINER":
-            area.type = "PROPERTIES"
-
-
-def view(window):
-    area = next(one for one in window.screen.areas if one.type == "VIEW_3D")
-    region = next(one for one in area.regions if one.type == "WINDOW")
-    area.spaces[0].shading.color_type = "MATERIAL"
-    area.spaces[0].overlay.show_relationship_lines = False
-    with bpy.context.temp_override(window=window, area=area, region=region):
-        bpy.ops.view3d.view_all(center=False)
+BUNDLE, FOLDER = sys.argv[sys.argv.index("--") + 1:]
+WINDOW = bpy.context.window_manager.windows[0]
+OWN_PANELS = []
 
 
-def choose_tabs(window):
-    """Blender knows which there are when it has drawn them."""
-    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=2)
-    beside = [one for one in window.screen.areas if one.type == "PROPERTIES"]
-    for one, context in zip(beside, ("BONE" if BONE else "OBJECT", "SCENE")):
-        one.spaces[0].context = context
+# ---- The window ----
+
+def area_of(kind):
+    return next(one for one in WINDOW.screen.areas if one.type == kind)
 
 
-def prepare():
-    bpy.ops.import_scene.soft_body_format(filepath=BUNDLE)
-    for name in ("Cube", "Light", "Camera"):
-        if name in bpy.data.objects:
-            bpy.data.objects.remove(bpy.data.objects[name])
+def region_of(area, kind="WINDOW"):
+    return next(one for one in area.regions if one.type == kind)
+
+
+def within(area):
+    return bpy.context.temp_override(window=WINDOW, area=area, region=region_of(area))
+
+
+def lay_out():
+    """The view, a properties editor beside it, the timeline below, and nothing else."""
+    for kind in ("OUTLINER", "PROPERTIES"):
+        with within(area_of(kind)):
+            bpy.ops.screen.area_close()
+
+
+def split():
+    with within(area_of("VIEW_3D")):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.62)
+
+
+def place_properties():
+    views = sorted((one for one in WINDOW.screen.areas if one.type == "VIEW_3D"), key=lambda one: one.x)
+    views[-1].type = "PROPERTIES"
+    space = area_of("VIEW_3D").spaces[0]
+    space.shading.color_type = "MATERIAL"
+    space.overlay.show_relationship_lines = space.overlay.show_extras = False
+    space.overlay.show_cursor = space.show_gizmo = False
+    space.show_region_toolbar = False
+
+
+def panels_below(one):
+    for below in one.__subclasses__():
+        yield below
+        yield from panels_below(below)
+
+
+def prepare_panels():
+    """Blender's own panels make room; ours are open."""
+    for one in list(panels_below(bpy.types.Panel)):
+        if getattr(one, "bl_space_type", "") != "PROPERTIES":
+            continue
+        if one.__name__.startswith("SBFMT_"):
+            OWN_PANELS.append(one)
+        else:
+            try:
+                bpy.utils.unregister_class(one)
+            except RuntimeError:  # a base of others, never registered itself
+                pass
+    from soft_body_format import panels
+    OWN_PANELS.sort(key=panels.CLASSES.index)
+
+
+def only(*names):
+    """Registers those panels, opened, and their parents."""
+    for one in reversed(OWN_PANELS):
+        if hasattr(bpy.types, one.__name__):
+            bpy.utils.unregister_class(one)
+    for one in OWN_PANELS:
+        if one.__name__[len("SBFMT_PT_"):] in (*names, "object", "bone", "scene"):
+            one.bl_options = set(getattr(one, "bl_options", ())) - {"DEFAULT_CLOSED"}
+            bpy.utils.register_class(one)
+
+
+def tab(name):
+    area_of("PROPERTIES").spaces[0].context = name
+
+
+def look(names, angles, near=1.0):
+    """At those objects, which fill the view where `near` is 1."""
+    corners = [source.matrix_world @ Vector(corner) for source in map(bpy.data.objects.get, names) for corner in source.bound_box]
+    low, high = (Vector([pick(one[axis] for one in corners) for axis in range(3)]) for pick in (min, max))
+    view = area_of("VIEW_3D").spaces[0].region_3d
+    view.view_rotation, view.view_location = angles, (low + high) / 2
+    # From afar by a long lens: this Blender's drawing in software loses what is nearer than two metres.
+    area_of("VIEW_3D").spaces[0].lens = 200
+    view.view_distance = (high - low).length * 6 / near
+
+
+def sections():
+    return [one.name for one in bpy.data.objects if one.type == "MESH" and "preview" not in one.name]
+
+
+def choose(name, bone=""):
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.object.select_all(action="DESELECT")
-    chosen = bpy.data.objects[OBJECT]
+    chosen = bpy.data.objects[name]
+    chosen.hide_set(False)
     chosen.select_set(True)
     bpy.context.view_layer.objects.active = chosen
-    if BONE:
-        chosen.data.bones.active = chosen.data.bones[BONE]
-    bpy.ops.sbfmt.check()
+    if bone:
+        chosen.data.bones.active = chosen.data.bones[bone]
+
+
+def rig():
+    return next(one for one in bpy.data.objects if one.type == "ARMATURE")
+
+
+# ---- The steps of docs/blender.md ----
+
+def open_bundle():
+    for source in list(bpy.data.objects):
+        bpy.data.objects.remove(source)
+    bpy.ops.import_scene.soft_body_format(filepath=BUNDLE)
+    pin = bpy.data.objects["Chest"].soft_body_format.pins.add()
+    bpy.data.objects["Chest"].vertex_groups.new(name="collar").add([0, 1, 2], 1.0, "REPLACE")
+    pin.group, pin.armature, pin.bone = "collar", rig(), bpy.data.objects["Chest"].parent_bone
+
+
+def press_build():
     bpy.ops.sbfmt.build("EXEC_DEFAULT")
 
 
-def shoot():
-    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=2)
-    bpy.ops.screen.screenshot(filepath=OUT)
-    bpy.ops.wm.quit_blender()
+def break_something():
+    head = bpy.data.objects["Head"].data
+    head.polygons[3].flip()
+    head.update()
+    pins = bpy.data.objects["Chest"].soft_body_format.pins
+    pin = pins.add()
+    pin.group, pin.armature, pin.bone = pins[0].group, pins[0].armature, pins[0].bone
+    bpy.ops.sbfmt.check()
+    findings = bpy.context.scene.soft_body_format.findings
+    bpy.context.scene.soft_body_format.active_finding = next(
+        (i for i, one in enumerate(findings) if one.code.startswith("SURFACE_WINDING")), 0)
 
 
-def step(work, *arguments):
-    """A timer's call; what goes wrong ends Blender with a status."""
+def mend_it():
+    bpy.ops.sbfmt.mend(index=-1)
+    if any(one.code == "SURFACE_WINDING" for one in bpy.context.scene.soft_body_format.findings):
+        raise RuntimeError("the button did not mend the face")
+
+
+def add_follower():
+    bpy.context.scene.soft_body_format.gait.followers.add().bone = "head"
+
+
+def bend():
+    """A pose that keeps its limits, but for one leg."""
+    choose(rig().name)
+    bpy.ops.object.mode_set(mode="POSE")
+    for pose in rig().pose.bones:
+        pose.rotation_mode = "XYZ"
+    broken = rig().pose.bones["head"]
+    broken.rotation_euler = (0.2, 1.3, 0.2)
+    rig().data.bones.active = rig().data.bones["head"]
+
+
+def draw_way():
+    for pose in rig().pose.bones:
+        pose.rotation_euler = (0, 0, 0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    data = bpy.data.curves.new("Way", "CURVE")
+    data.dimensions = "3D"
+    spline = data.splines.new("BEZIER")
+    spline.bezier_points.add(2)
+    for point, place in zip(spline.bezier_points, ((0, 0, 0), (0.6, -1.2, 0), (-0.4, -2.4, 0))):
+        point.co, point.handle_left_type, point.handle_right_type = place, "AUTO", "AUTO"
+    way = bpy.data.objects.new("Way", data)
+    bpy.context.scene.collection.objects.link(way)
+    settings = bpy.context.scene.soft_body_format.preview
+    settings.drive, settings.curve, settings.speed = "CURVE", way, 0.4
+
+
+def start_preview():
+    bpy.context.scene.frame_set(1)
+    bpy.ops.sbfmt.preview_start("EXEC_DEFAULT")
+
+
+def play():
+    for frame in range(2, 61):
+        bpy.context.scene.frame_set(frame)
+
+
+def stop_preview():
+    bpy.ops.sbfmt.preview_stop()
+
+
+# ---- Pictures ----
+
+def shoot(name, *kinds):
+    """What those areas show, as one picture; of panels alone as much as they fill."""
+    def take():
+        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=2)
+        whole = os.path.join(FOLDER, "whole.png")
+        bpy.ops.screen.screenshot(filepath=whole)
+        areas = [area_of(kind) for kind in kinds]
+        low = [min(getattr(one, axis) for one in areas) for axis in "xy"]
+        high = [max(getattr(one, axis) + size for one, size in ((one, getattr(one, extent)) for one in areas))
+                for axis, extent in (("x", "width"), ("y", "height"))]
+        panels_alone = kinds == ("PROPERTIES", )
+        if panels_alone:  # without its navigation and header
+            region = region_of(areas[0])
+            low, high = [region.x, region.y], [region.x + region.width, region.y + region.height]
+        pictures.save_part(whole, os.path.join(FOLDER, f"{name}.png"), (*low, *high), trim_bottom=panels_alone)
+        os.unlink(whole)
+    return take
+
+
+def several(*works):
+    return lambda: [work() for work in works]
+
+
+FRONT = (0.82, 0.43, 0.18, 0.34)
+STEPS = (
+    lay_out, prepare_panels, several(only, split), place_properties, open_bundle,
+    several(lambda: look(sections(), FRONT, 1.0), lambda: choose("Chest"),
+            lambda: bpy.data.objects["Pelvis"].select_set(True),
+            lambda: only("material", "pins", "limits", "collision", "weight_maps")),
+    lambda: tab("OBJECT"), shoot("blender-object", "PROPERTIES"),
+    several(press_build, lambda: only("check", "build", "drawn")), lambda: tab("SCENE"),
+    shoot("blender", "VIEW_3D", "PROPERTIES"),
+    several(break_something, lambda: only("check")), shoot("blender-check", "PROPERTIES"), mend_it,
+    lambda: only("gait", "legs"), shoot("blender-gait", "PROPERTIES"),
+    several(add_follower, lambda: only("head", "tails", "followers", "gait")), shoot("blender-tails", "PROPERTIES"),
+    several(bend, lambda: only("bone", "bone_material"),
+            lambda: setattr(bpy.context.scene.soft_body_format, "show_joints", "ALL"),
+            lambda: setattr(bpy.context.scene.soft_body_format, "show_overlay", False)),
+    lambda: tab("BONE"), shoot("blender-joints", "VIEW_3D", "PROPERTIES"),
+    several(draw_way, lambda: only("preview", "bake"), lambda: setattr(bpy.context.scene.soft_body_format, "show_joints", "NONE")),
+    lambda: tab("SCENE"), start_preview, play,
+    lambda: look(["Way", *(one.name for one in bpy.data.objects if one.name.endswith("(preview)"))], FRONT, 1.1), shoot("blender-preview", "VIEW_3D", "PROPERTIES"),
+    stop_preview, lambda: only(*(one.__name__[len("SBFMT_PT_"):] for one in OWN_PANELS)), bpy.ops.wm.quit_blender,
+)
+
+
+def run(steps):
+    """One a timer's call, so that Blender draws between them; what goes wrong ends it with a status."""
     def call():
         try:
-            with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
-                work(*arguments)
+            with bpy.context.temp_override(window=WINDOW):
+                next(steps, lambda: None)()
         except Exception:  # pylint: disable=broad-except
             traceback.print_exc()
             sys.stdout.flush()
             os._exit(3)
+        return 0.6
     return call
 
 
 bpy.context.preferences.view.show_splash = False
 addon_utils.enable("soft_body_format")
-main = bpy.context.window_manager.windows[0]
-for delay, work in enumerate((lambda: lay_out(main), prepare, lambda: view(main), lambda: choose_tabs(main), shoot)):
-    bpy.app.timers.register(step(work), first_interval=1.5 * (delay + 1))
+bpy.app.timers.register(run(iter(STEPS)), first_interval=1.5)

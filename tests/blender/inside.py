@@ -1,4 +1,5 @@
-"""Runs in Blender: enables the add-on as a user would have it, then runs the test modules named behind `--`."""
+"""Runs in Blender: enables the add-on as a user would have it, then runs the test modules named behind `--`; of these, where the
+environment names a word as ONLY, the tests that have it in their name."""
 
 import importlib
 import os
@@ -14,6 +15,7 @@ sys.path.insert(0, HERE)
 def main(names):
     if addon_utils.enable("soft_body_format", default_set=True) is None:
         sys.exit("the add-on can't be enabled")
+    unittest.defaultTestLoader.testNamePatterns = ["*" + os.environ["ONLY"] + "*"] if "ONLY" in os.environ else None
     suite = unittest.TestSuite(unittest.defaultTestLoader.loadTestsFromModule(importlib.import_module(name)) for name in names)
     result = unittest.TextTestRunner(stream=sys.stdout, verbosity=2).run(suite)
     sys.stdout.flush()

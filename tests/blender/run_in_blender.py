@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs tests/blender/test_NAME.py inside a Blender, with the add-on as its zip installs it. Exits 77 where there is none.
 
-    run_in_blender.py [--root FOLDER] [--library FILE]... [--program SBFMT] NAME...
+    run_in_blender.py [--root FOLDER] [--library FILE]... [--program SBFMT [--lizard]] [--window [--keep FOLDER]] NAME...
 
 --root names a folder that holds another system with its Blender; what the tests need is copied into it (root only).
 --library files go into the zip, first the library itself, then what it rests on; without any the add-on does without.
@@ -18,16 +18,23 @@ import bundles
 from blender_process import Blender, skip
 
 
-def in_window(blender, name):
-    """Runs a script in a Blender with a screen of its own; its picture must show something."""
+PICTURES = ("blender", "blender-object", "blender-check", "blender-gait", "blender-tails", "blender-joints", "blender-preview")
+
+
+def in_window(blender, name, kept):
+    """Runs a script in a Blender with a screen of its own, on the lizard; its pictures must show something."""
     if not shutil.which("xvfb-run"):
         skip("there is no screen: install the package xvfb")
-    picture = os.path.join(blender.folder, "picture.png")
-    command = ["xvfb-run", "-a", "-s", "-screen 0 1400x1000x24", "blender", "--factory-startup", "--window-geometry", "0", "0", "1400",
-               "1000", "--python", f"{blender.tests}/{name}.py", "--", f"{blender.tests}/bundles/calf.sbf", "calf", "", picture]
+    out = os.path.join(blender.folder, "pictures")
+    os.makedirs(out)
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1300x1250x24", "blender", "--factory-startup", "--window-geometry", "0", "0", "1300",
+               "1250", "--python", f"{blender.tests}/{name}.py", "--", f"{blender.tests}/bundles/lizard.sbf", out]
     run = subprocess.run(command, env=blender.environment(), check=False, capture_output=True, text=True)
     print(run.stdout, run.stderr)
-    drawn = os.path.exists(picture) and os.path.getsize(picture) > 50000
+    drawn = all(os.path.exists(f"{out}/{one}.png") and os.path.getsize(f"{out}/{one}.png") > 8000 for one in PICTURES)
+    if kept:
+        for one in os.listdir(out):
+            shutil.copy(os.path.join(out, one), kept)
     return run.returncode == 0 and drawn and "Traceback" not in run.stdout + run.stderr
 
 
@@ -38,15 +45,17 @@ def main():
     parser.add_argument("--program", default="")
     parser.add_argument("--shared", action="store_true")
     parser.add_argument("--window", action="store_true", help="run the script NAME in a window, on a bundle")
+    parser.add_argument("--lizard", action="store_true", help="of the bundles the lizard's alone")
+    parser.add_argument("--keep", default="", help="where to keep the pictures that it takes: docs/media")
     parser.add_argument("names", nargs="+")
     asked = parser.parse_args()
     if asked.shared and not os.path.isdir(bundles.SHARED):
         skip("there is no ../shared/data")
     with Blender(asked.root, asked.library) as blender:
         if asked.program:
-            make = bundles.make_shared if asked.shared else bundles.make_examples
+            make = bundles.make_shared if asked.shared else bundles.make_lizard if asked.lizard else bundles.make_examples
             make(os.path.join(blender.tests, "bundles"), asked.program)
-        passed = in_window(blender, asked.names[0]) if asked.window else blender.run(asked.names)
+        passed = in_window(blender, asked.names[0], asked.keep) if asked.window else blender.run(asked.names)
     sys.exit(0 if passed else 1)
 
 

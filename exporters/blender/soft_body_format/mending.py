@@ -79,8 +79,7 @@ IN_SCENE = {
 }
 # What `sbfmt validate --fix` mends and no click in the scene does: it came with an imported file, or lies in how panels are combined.
 IN_FILES = ("TETRAHEDRON_INVERTED", "TETRAHEDRON_DUPLICATE", "SPRING_DUPLICATE", "SPRING_SAME_POINT", "SPRING_INERT", "PIN_REPEATED",
-            "SKIN_SUM", "EMBEDDING_SUM", "EMBEDDING_BLEND", "VALUE_OUT_OF_RANGE", "ROTATION_NOT_UNIT", "JOINT_FRAME", "NORMAL_NOT_UNIT",
-            "DERIVED_STALE")
+            "SKIN_SUM", "EMBEDDING_SUM", "EMBEDDING_BLEND", "VALUE_OUT_OF_RANGE", "ROTATION_NOT_UNIT", "JOINT_FRAME", "NORMAL_NOT_UNIT")
 
 
 def mend_of(finding, mends_files):

@@ -23,6 +23,7 @@ def find(context):
             mended = mender(findings, whole.locator) if context.scene.soft_body_format.mends_files else None
             with to_asset(whole.document, mended) as asset:
                 check(asset, "", findings, whole.locator)
+            findings[:] = [one for one in findings if one.code != "DERIVED_STALE"]  # what is written is built anew
         except sbfmt.Error as error:
             findings.error(str(error))
     return findings

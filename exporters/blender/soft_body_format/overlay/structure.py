@@ -10,7 +10,9 @@ from ..space import Space
 
 COLORS = {"structural": (0.95, 0.85, 0.2, 0.5), "shear": (0.25, 0.8, 0.95, 0.3), "flexion": (0.75, 0.45, 0.95, 0.15),
           "internal": (0.95, 0.45, 0.2, 0.1), "cross_body": (0.3, 0.95, 0.4, 0.8), "lattice": (0.4, 0.75, 1.0, 0.2),
-          "pins": (1.0, 0.15, 0.15, 0.5)}
+          "pins": (1.0, 0.15, 0.15, 0.35)}
+# What of it the panel shows together.
+PARTS = {"internal": "INSIDE", "lattice": "LATTICE", "pins": "PINS"}
 INSIDE = ("internal", "lattice", "pins")  # drawn through the surface
 EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 
@@ -75,8 +77,10 @@ def draw():
         return
     shader = gpu.shader.from_builtin("3D_UNIFORM_COLOR" if bpy.app.version < (4, 0, 0) else "UNIFORM_COLOR")
     gpu.state.blend_set("ALPHA")
-    gpu.state.point_size_set(3)
+    gpu.state.point_size_set(2)
     for kind in shown.kinds:
+        if PARTS.get(kind, "SURFACE") not in scene.soft_body_format.show_parts:
+            continue
         places = shown.places(kind, running())
         batch = batch_for_shader(shader, "POINTS" if kind == "pins" else "LINES", {"pos": places})
         shader.bind()

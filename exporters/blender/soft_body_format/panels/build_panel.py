@@ -41,6 +41,9 @@ class SBFMT_PT_drawn(ScenePanel, bpy.types.Panel):
         layout, settings = self.layout, context.scene.soft_body_format
         layout.use_property_split = True
         layout.prop(settings, "show_overlay")
+        row = layout.row()
+        row.active = settings.show_overlay
+        row.prop(settings, "show_parts")
         layout.row().prop(settings, "show_joints", expand=True)
 
 

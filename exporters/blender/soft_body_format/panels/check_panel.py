@@ -23,7 +23,6 @@ class SBFMT_UL_findings(bpy.types.UIList):
 class SBFMT_PT_check(ScenePanel, bpy.types.Panel):
     bl_label = "Check and build"
     bl_parent_id = "SBFMT_PT_scene"
-    bl_order = -1
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.soft_body_format

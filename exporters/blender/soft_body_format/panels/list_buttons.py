@@ -46,8 +46,8 @@ class SBFMT_UL_entries(bpy.types.UIList):
     """One line an entry: the first of its names that says something."""
 
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_name, _index):
-        words = [getattr(item, name) for name in ("group", "root", "bone", "end", "attribute") if getattr(item, name, "")]
-        layout.label(text=" → ".join(map(str, words)) or "(nothing chosen)")
+        words = [getattr(item, name, "") for name in ("group", "root", "bone", "end", "attribute")]
+        layout.label(text=" → ".join(one for one in words if one and isinstance(one, str)) or "(nothing chosen)")
 
 
 def draw_list(layout, owner, path, active):

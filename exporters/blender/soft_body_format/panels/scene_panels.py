@@ -101,4 +101,4 @@ class SBFMT_PT_followers(ListPanel, bpy.types.Panel):
     numbers = ("channel", "frequency", "damping_ratio", "response")
 
 
-CLASSES = (SBFMT_PT_scene, SBFMT_PT_gait, SBFMT_PT_legs, SBFMT_PT_head, SBFMT_PT_tails, SBFMT_PT_followers)
+GAIT_CLASSES = (SBFMT_PT_gait, SBFMT_PT_legs, SBFMT_PT_head, SBFMT_PT_tails, SBFMT_PT_followers)

@@ -101,7 +101,11 @@ class SBFMT_PG_scene(bpy.types.PropertyGroup):
     show_joints: EnumProperty(name="Joints", default="SELECTED", description="Whose limits are drawn in the viewport", items=(
         ("NONE", "None", "No joint is drawn"), ("SELECTED", "Selected", "Those of the active armature's selected bones"),
         ("ALL", "All", "Those of every armature that is seen")))
-    show_overlay: BoolProperty(name="Draw the build", default=True, description="Springs, lattice and pins over the model")
+    show_overlay: BoolProperty(name="Draw the build", default=True, description="What was built last, over the model")
+    show_parts: EnumProperty(name="Of it", options={"ENUM_FLAG"}, default={"SURFACE", "INSIDE", "LATTICE", "PINS"}, items=(
+        ("SURFACE", "Surface", "Springs over the surface, yellow and blue, and between bodies, green"),
+        ("INSIDE", "Inside", "Springs inside, orange"), ("LATTICE", "Lattice", "Tetrahedra, light blue"),
+        ("PINS", "Pins", "Points that are held, red")))
 
 
 CLASSES = (SBFMT_PG_leg, SBFMT_PG_tail, SBFMT_PG_follower, SBFMT_PG_gait, SBFMT_PG_finding, SBFMT_PG_scene)
