@@ -232,7 +232,7 @@ def several(*works):
 FRONT = (0.82, 0.43, 0.18, 0.34)
 STEPS = (
     lay_out, prepare_panels, several(only, split), place_properties, open_bundle,
-    several(lambda: look(sections(), FRONT, 1.0), lambda: choose("Chest"),
+    several(lambda: look(sections(), FRONT, 1.8), lambda: choose("Chest"),
             lambda: bpy.data.objects["Pelvis"].select_set(True),
             lambda: only("material", "pins", "limits", "collision", "weight_maps")),
     lambda: tab("OBJECT"), shoot("blender-object", "PROPERTIES"),
@@ -247,7 +247,7 @@ STEPS = (
     lambda: tab("BONE"), shoot("blender-joints", "VIEW_3D", "PROPERTIES"),
     several(draw_way, lambda: only("preview", "bake"), lambda: setattr(bpy.context.scene.soft_body_format, "show_joints", "NONE")),
     lambda: tab("SCENE"), start_preview, play,
-    lambda: look(["Way", *(one.name for one in bpy.data.objects if one.name.endswith("(preview)"))], FRONT, 1.1), shoot("blender-preview", "VIEW_3D", "PROPERTIES"),
+    lambda: look([one.name for one in bpy.data.objects if one.name.endswith("(preview)")], FRONT, 1.5), shoot("blender-preview", "VIEW_3D", "PROPERTIES"),
     stop_preview, lambda: only(*(one.__name__[len("SBFMT_PT_"):] for one in OWN_PANELS)), bpy.ops.wm.quit_blender,
 )
 

@@ -1,5 +1,6 @@
 """The preview: steps with the frames, resets, walks along a curve, and leaves nothing behind."""
 
+import gc
 import math
 import os
 
@@ -8,6 +9,7 @@ import fixtures
 import numpy
 from soft_body_format.preview import handlers, stage, walk_path
 from soft_body_format.preview.session import JUMP
+from soft_body_format.sbfmt import Asset, runtime
 
 BUNDLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bundles")
 
@@ -130,6 +132,16 @@ class Comings(PreviewTest):
         self.assertIsNone(handlers.running())
         self.assertFalse(made.hide_get())
         self.assertEqual({name: len(getattr(bpy.data, name)) for name in before}, before)
+
+    def test_nothing_of_the_runtime_is_left(self):
+        self.blob()
+        for _ in range(3):
+            self.start()
+            bpy.ops.sbfmt.preview_stop()
+        handlers.on_load_pre()
+        gc.collect()
+        left = [one for one in gc.get_objects() if isinstance(one, (runtime.World, runtime.Model, Asset))]
+        self.assertEqual(left, [])
 
     def test_an_export_while_it_runs_is_the_scenes(self):
         self.blob()
