@@ -6,6 +6,7 @@
 
 static const float LEAN_HZ = 1.6f, CROUCH_HZ = 4; /* of critically damped followers */
 static const float MOST_YAW = 0.8f;               /* rad: hips and chest turn less than so */
+static const float NARROWEST = 0.5f;              /* of the reach: feet turn the hips as if no nearer */
 static const float DEEPEST = 0.3f; /* of a leg's reach: the body comes down by no more for a foot */
 static const float LOWEST = 0.3f;  /* of a leg's reach: no hip comes nearer to the ground than so */
 static const float EASY = 0.93f;   /* share of it that it comes down for in a stride */
@@ -33,11 +34,13 @@ static bool feet_center(
 }
 
 /* Turn of the line from the right foot to the left against the heading: how far one side is ahead. */
-static float line_yaw(const sbri_rig *rig, const sbri_gait_state *state, int hind) {
+static float line_yaw(const sbri_rig *rig, const sbri_gait_state *state, float scale, int hind) {
   sbf_vec3 left, right;
   if (!feet_center(rig, state, hind, 1, &left) || !feet_center(rig, state, hind, 0, &right)) return 0;
   sbf_vec3 line = sbri_unheaded(state, sbri_sub(left, right));
-  float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, line.x > 1e-6f ? line.x : 1e-6f);
+  float least = NARROWEST * rig->reach * scale, more = line.x - least; /* no less, smoothly */
+  float across = least + 0.5f * (more + sqrtf(more * more + 0.25f * least * least));
+  float yaw = rig->gait->hip_tilt * -sbri_atan2(line.z, across);
   return MOST_YAW * yaw / (MOST_YAW + fabsf(yaw)); /* feet may cross, hips do not turn round */
 }
 
@@ -135,8 +138,8 @@ static sbri_stance stance_over(
   stance.root.rotation = sbri_quat_normalize(sbri_quat_multiply(heading, tilt));
   sbf_vec3 moved = sbri_sub(sbri_rotate(heading, middle), sbri_rotate(stance.root.rotation, middle));
   stance.root.position = sbri_add(stance.root.position, moved);
-  stance.hips_yaw = line_yaw(rig, state, 1);
-  stance.chest_yaw = rig->gait->chest >= 0 ? line_yaw(rig, state, 0) : stance.hips_yaw;
+  stance.hips_yaw = line_yaw(rig, state, input->scale, 1);
+  stance.chest_yaw = rig->gait->chest >= 0 ? line_yaw(rig, state, input->scale, 0) : stance.hips_yaw;
   return stance;
 }
 
@@ -149,7 +152,8 @@ float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sb
 /* Lets it down as far as it has come by itself, or as far as it must. */
 static void come_down(const sbri_gait_state *state, float needed, sbri_stance *stance) {
   float down = state->crouch.value;
-  stance->root.position.y -= down > needed ? down : needed;
+  stance->lowered = down > needed ? down : needed;
+  stance->root.position.y -= stance->lowered;
 }
 
 sbri_stance sbri_body_stance(

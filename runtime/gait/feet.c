@@ -201,6 +201,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   uint32_t count = 0, groups;
   choice c = {.stride = sbri_stride_of(rig, state, input)};
   state->together = c.stride.together;
+  state->widest_m = c.stride.speed > 0 ? c.stride.widest_m : 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i];
     foot->was_planted = foot->planted;

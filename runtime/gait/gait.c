@@ -24,6 +24,7 @@ static void keep_stance(sbri_gait_state *state, const sbri_stance *stance) {
   state->root = stance->root;
   state->hips_yaw = stance->hips_yaw;
   state->chest_yaw = stance->chest_yaw;
+  state->lowered = stance->lowered;
 }
 
 void sbri_gait_place(

@@ -49,6 +49,7 @@ typedef struct sbri_gait_state {
   float limit;                   /* share of the wanted motion that its steps have time for, 0 to 1 */
   float needed_s;                /* time that steps needed lately */
   float half_m;                  /* half a stride */
+  float widest_m;                /* the widest it may be, on average over a stride; 0: not known */
   float since_lift_m;            /* travelled since a foot lifted off */
   float waiting_s;               /* for how long a foot has wanted to step and could not */
   uint32_t together;             /* 1: feet of a group go together; 0: as many as balance allows */
@@ -58,6 +59,7 @@ typedef struct sbri_gait_state {
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
   sbr_transform root;            /* of the last stance, and its turns */
   float hips_yaw, chest_yaw;
+  float lowered; /* by how much the root is lower than over upright legs, m */
   double distance_m;
   float walk_phase; /* of the walks of poses: share of the cycle, from 0 to below 1 */
   float walk_ahead; /* by how much of a cycle that is ahead of the feet, as far as it is to be made up */
@@ -155,6 +157,7 @@ typedef struct sbri_stride {
   float spacing_m;   /* between two lift-offs */
   float available_s; /* for a step, when feet of a group go together as wide as they can */
   bool together;     /* feet of a group go together */
+  float widest_m;    /* greatest half_m, on average over a stride */
   sbri_home homes[SBRI_MOST_LEGS];
 } sbri_stride;
 sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
@@ -252,6 +255,7 @@ void sbri_foot_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 typedef struct sbri_stance {
   sbr_transform root;        /* where the asset's origin and axes have gone */
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
+  float lowered;             /* how far it has come down for its feet, m */
 } sbri_stance;
 
 /* Decides who steps, moves the feet in the air, and the body over all of them; returns how many events were

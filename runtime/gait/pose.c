@@ -217,7 +217,7 @@ static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, con
 
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *pose) {
-  sbri_stance stance = {state->root, state->hips_yaw, state->chest_yaw};
+  sbri_stance stance = {state->root, state->hips_yaw, state->chest_yaw, state->lowered};
   if (input->hold) {
     stance.hips_yaw = stance.chest_yaw = 0;
     stance.root.rotation = yaw_rotation(state->heading);

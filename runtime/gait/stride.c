@@ -6,17 +6,20 @@
  * still, steps get shorter in time. */
 #include "gait/gait_state.h"
 
-static const float USED = 0.75f;      /* share of what a foot may roam that a stride uses */
-static const float STRETCH = 0.97f;   /* of the uneased reach */
-static const float LEAST = 0.05f;     /* of a leg's length: a foot may always be so far off */
-static const float PEG = 0.25f;       /* the same of a leg of one bone */
-static const float SLACK = 1.15f;     /* time of a turn, in steps */
-static const float LEAN_S = 0.12f;    /* for the body to lean before a foot lifts off */
-static const float LEAN_TWO_S = 0.3f; /* the same on two legs */
-static const float LONGEST = 1.35f;   /* share of the usual time of a step, at speed */
-static const float SHORTEST = 0.25f;  /* share of the usual time below which no step goes */
-static const float MISSED = 0.002f;   /* of the reach: a sole so far from its place slows the body down */
-static const float MISSES = 0.01f;    /* and one so much farther stops it */
+static const float USED = 0.75f;       /* share of what a foot may roam that a stride uses */
+static const float DEEPEST = 0.8f;     /* of the circle of an upright body, which comes down by no more */
+static const float SURE = 0.92f;       /* share of what a foot may roam on average that it may roam always */
+static const float STRIDE_S = 0.5f;    /* over which it is averaged how wide strides may be */
+static const float STRETCH = 0.97f;    /* of the uneased reach */
+static const float LEAST = 0.05f;      /* of a leg's length: a foot may always be so far off */
+static const float PEG = 0.25f;        /* the same of a leg of one bone */
+static const float SLACK = 1.15f;      /* time of a turn, in steps */
+static const float LEAN_S = 0.12f;     /* for the body to lean before a foot lifts off */
+static const float LEAN_TWO_S = 0.45f; /* the same on two legs */
+static const float LONGEST = 1.35f;    /* share of the usual time of a step, at speed */
+static const float SHORTEST = 0.25f;   /* share of the usual time below which no step goes */
+static const float MISSED = 0.002f;    /* of the reach: a sole so far from its place slows the body down */
+static const float MISSES = 0.01f;     /* and one so much farther stops it */
 static const float BRAKES =
     1; /* reaches, in the square of the time of a step: as the body brakes for a foot */
 static const uint32_t MANY_LEGS = 6; /* that balance while half of them are in the air */
@@ -94,8 +97,13 @@ static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   sbf_vec3 ankle = at_home ? sbri_ankle_at_home(l, foot, sole, input->scale)
                            : sbri_ankle_over(l, foot, sole, input->scale);
   sbf_vec3 from = sbri_sub(ankle, hip);
-  float height = from.y < 0 ? SBRI_LOWERED * from.y : from.y; /* the body comes down for its feet */
   float reach = STRETCH * (1 - l->soft_reach) * l->reach * input->scale;
+  float upright = state->lowered - from.y, level = reach * reach - upright * upright;
+  float height = -SBRI_LOWERED * from.y; /* the body comes down for its feet */
+  float least = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
+  if (least > SBRI_LOWERED * upright) least = SBRI_LOWERED * upright;
+  if (height < least) height = least;
+  if (from.y > 0) height = from.y;
   *off = sbri_vec3(from.x, 0, from.z);
   float over = reach * reach - height * height;
   return over > 0 ? sqrtf(over) : 0;
@@ -151,6 +159,9 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
     float half = 0.5f * (own.ahead + own.behind);
     most = i == 0 || half < most ? half : most;
   }
+  if (state->widest_m > 0) most = state->widest_m + (most - state->widest_m) * input->tick_s / STRIDE_S;
+  s.widest_m = most;
+  most *= SURE;
   float usual = rig->gait->step_duration, needed_s = state->needed_s > usual ? state->needed_s : usual;
   float groups = (float)(rig->group_count > 1 ? rig->group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;

@@ -66,15 +66,47 @@ void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m,
   state->walk_phase = wrapped(state->walk_phase + (backwards ? -share : share));
 }
 
-/* The frames before and after a phase, and how far towards the second. */
-static float frames_at(
-    const sbri_walk *walk, float phase, const sbri_walk_frame **before, const sbri_walk_frame **after) {
-  uint32_t k = 0;
-  while (k + 1 < walk->frame_count && walk->frames[k].at <= phase) k++;
-  *after = &walk->frames[k];
-  *before = &walk->frames[k ? k - 1 : walk->frame_count - 1]; /* the last one is that at 0, too */
-  float from = k ? (*before)->at : 0;
-  return sbri_clamp((phase - from) / ((*after)->at - from), 0, 1);
+/* Four frames about a phase, and what each counts there. */
+typedef struct sbri_between {
+  const sbri_walk_frame *frames[4];
+  float weights[4];
+} sbri_between;
+
+/* A cubic through the frames, its slope at each that of the line between its neighbours (Catmull and Rom
+ * 1974): hips and shoulders go through the poses without a break. */
+static sbri_between frames_at(const sbri_walk *walk, float phase) {
+  sbri_between b;
+  float times[4];
+  int32_t count = (int32_t)walk->frame_count, k = 0;
+  while (k + 1 < count && walk->frames[k].at <= phase) k++;
+  for (int32_t i = 0; i < 4; i++) {
+    int32_t place = k - 2 + i, turns = 0;
+    while (place < 0) place += count, turns--;
+    while (place >= count) place -= count, turns++;
+    b.frames[i] = &walk->frames[place];
+    times[i] = b.frames[i]->at + (float)turns;
+  }
+  float span = times[2] - times[1], t = sbri_clamp((phase - times[1]) / span, 0, 1), u = 1 - t;
+  float in = t * u * u * span / (times[2] - times[0]), out = -t * t * u * span / (times[3] - times[1]);
+  float later = t * t * (3 - 2 * t);
+  b.weights[0] = -in, b.weights[1] = 1 - later - out, b.weights[2] = later + in, b.weights[3] = out;
+  return b;
+}
+
+static sbri_posed_bone posed_at(const sbri_between *b, uint32_t bone) {
+  sbf_quat first = b->frames[1]->bones[bone].rotation;
+  sbri_posed_bone sum = {{0, 0, 0}, {0, 0, 0, 0}};
+  for (int i = 0; i < 4; i++) {
+    const sbri_posed_bone *at = &b->frames[i]->bones[bone];
+    sbf_quat q = at->rotation;
+    float along = q.x * first.x + q.y * first.y + q.z * first.z + q.w * first.w;
+    float weight = along < 0 ? -b->weights[i] : b->weights[i];
+    sum.translation = sbri_add_scaled(sum.translation, at->translation, b->weights[i]);
+    sum.rotation = (sbf_quat){sum.rotation.x + weight * q.x, sum.rotation.y + weight * q.y,
+        sum.rotation.z + weight * q.z, sum.rotation.w + weight * q.w};
+  }
+  sum.rotation = sbri_quat_normalize(sum.rotation);
+  return sum;
 }
 
 void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals) {
@@ -83,16 +115,12 @@ void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float sca
   float weight = sbri_clamp(speed / usual, 0, 1);
   if (!walks->walk_count || weight <= 0) return;
   const sbri_walk *pair[2];
-  const sbri_walk_frame *before[2], *after[2];
-  float share[2], faster = between(walks, speed, &pair[0], &pair[1]);
-  for (int i = 0; i < 2; i++) share[i] = frames_at(pair[i], state->walk_phase, &before[i], &after[i]);
+  sbri_between frames[2];
+  float faster = between(walks, speed, &pair[0], &pair[1]);
+  for (int i = 0; i < 2; i++) frames[i] = frames_at(pair[i], state->walk_phase);
   for (uint32_t j = 0; j < walks->bone_count; j++) {
     sbri_posed_bone at[2];
-    for (int i = 0; i < 2; i++) {
-      const sbri_posed_bone *a = &before[i]->bones[j], *b = &after[i]->bones[j];
-      at[i].translation = sbri_lerp(a->translation, b->translation, share[i]);
-      at[i].rotation = sbri_quat_blend(a->rotation, b->rotation, share[i]);
-    }
+    for (int i = 0; i < 2; i++) at[i] = posed_at(&frames[i], j);
     uint32_t bone = walks->bones[j];
     sbf_quat turn = sbri_quat_blend(at[0].rotation, at[1].rotation, faster);
     sbf_vec3 way = sbri_lerp(at[0].translation, at[1].translation, faster);

@@ -20,7 +20,7 @@ static double smoothed(float slope) {
   ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
   ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
   const sbfi_skin_union before = skin;
-  ck_assert(sbfi_section_blend_smooth(&skin, &t, asset, &left, &arena));
+  ck_assert(sbfi_section_blend_smooth(&skin, &t, asset, NULL, &left, &arena));
   ck_assert_uint_eq(left, 0);
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
     double weights[2] = {0, 0}, old[2] = {0, 0};

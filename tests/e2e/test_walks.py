@@ -9,17 +9,19 @@ from walks import all_walks, failures, leg_of, measure
 
 # What is not met, and how far off it is.
 EXAMPLE = {
-    "slope of 20°, 3": {"knee_speed_step": 14},
+    "slope of 20°, 3": {"knee_speed_step": 10},
     "stairs of a quarter leg, 0.3": {"support_margin": -0.0005},
-    "stairs of a quarter leg, 2": {"knee_speed_step": 13},
-    "stairs of a quarter leg, 3": {"knee_speed_step": 13, "stance_slip": 0.002},
+    "stairs of a quarter leg, 2": {"knee_speed_step": 12, "stance_slip": 0.0015, "body_speed_step": 0.0075},
+    "stairs of a quarter leg, 3": {"knee_speed_step": 18, "stance_slip": 0.0025, "skate_ratio": 0.004,
+                                   "body_speed_step": 0.009},
     "stairs of a quarter leg, a curve": {"knee_speed_step": 7, "stance_slip": 0.003, "body_speed_step": 0.012,
                                          "body_turn_step": 3},
 }
 THESIS = {
-    "stairs of a quarter leg, 3": {"stance_slip": 0.003},
-    "noise, 3": {"stance_slip": 0.005},
-    "noise, turning on the spot": {"knee_speed_step": 22, "body_speed_step": 0.16},
+    "slope of 20°, 0.3": {"support_margin": -0.03},
+    "slope of 20°, 3": {"stance_slip": 0.003},
+    "stairs of a quarter leg, a curve": {"penetration": 0.06},
+    "noise, 3": {"stance_slip": 0.003},
 }
 
 

@@ -82,7 +82,8 @@ START_TEST(poses_are_shown_by_the_distance_walked)
     if (i < 120) continue;
     double s_in_cycle = fmod(s.state->distance_m, 0.2);
     double share = s_in_cycle < 0.1 ? s_in_cycle / 0.1 : 2 - s_in_cycle / 0.1;
-    ck_assert_float_eq_tol(head_angle(&s), (float)(-0.4 + 0.8 * share), 0.02f);
+    double eased = share * share * (3 - 2 * share); /* both are turning points */
+    ck_assert_float_eq_tol(head_angle(&s), (float)(-0.4 + 0.8 * eased), 0.02f);
   }
   ck_assert_float_gt(most, 0.3f);
   ck_assert_float_lt(least, -0.3f);

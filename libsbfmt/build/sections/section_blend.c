@@ -5,7 +5,7 @@
 
 #include "mechanics/vector.h"
 
-enum { MOST_SWEEPS = 400, POSES = 6 };
+enum { MOST_SWEEPS = 400, FIXED_SWEEPS = 200, POSES = 6 };
 static const double MOST_STRETCH = 1.9; /* leaves room for rounding and for what is dropped */
 static const double FLIPPED = 2.2;
 static const double LEAST_WEIGHT = 2e-4;
@@ -34,6 +34,7 @@ typedef struct work {
   uint32_t triangle_count;
   uint32_t *begins, *at_point; /* triangles at each point */
   uint8_t *pending;            /* (triangles) to be looked at */
+  const uint8_t *fixed;        /* (points) that keep their weights; NULL: none, or no longer */
 } work;
 
 static sbfi_d3 axis_of(sbf_quat r, int axis) {
@@ -172,17 +173,22 @@ static double worst_stretch(const work *w, uint32_t triangle) {
   return flipped && stretch < FLIPPED ? FLIPPED : stretch;
 }
 
-/* Draws the corners towards their mean, keeping the share of the differences that would just do. */
+/* Draws the corners towards their mean, or that of those that are fixed, keeping the share of the differences
+ * that would just do. Where all are fixed they differ within what is fixed: there nothing is. */
 static void contract(work *w, uint32_t triangle, double stretch) {
   const uint32_t *points = w->triangles[triangle];
   double kept = 0.9 * (MOST_STRETCH - 1) / (stretch - 1);
+  uint32_t fixed = 0;
+  for (int k = 0; w->fixed && k < 3; k++) fixed += w->fixed[points[k]];
+  if (fixed == 3) fixed = 0;
   for (uint32_t c = 0; c < w->column_count; c++) {
     double *of[3], mean = 0;
     for (int k = 0; k < 3; k++) {
       of[k] = &w->sums[(size_t)points[k] * w->column_count + c];
-      mean += *of[k] / 3;
+      if (!fixed || w->fixed[points[k]]) mean += *of[k] / (fixed ? fixed : 3);
     }
-    for (int k = 0; k < 3; k++) *of[k] = mean + kept * (*of[k] - mean);
+    for (int k = 0; k < 3; k++)
+      if (!fixed || !w->fixed[points[k]]) *of[k] = mean + kept * (*of[k] - mean);
   }
   for (int k = 0; k < 3; k++)
     for (uint32_t i = w->begins[points[k]]; i < w->begins[points[k] + 1]; i++) w->pending[w->at_point[i]] = 1;
@@ -191,6 +197,7 @@ static void contract(work *w, uint32_t triangle, double stretch) {
 static void sweep_all(work *w, uint8_t *changed, uint32_t *left) {
   for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
     *left = 0;
+    if (sweep == FIXED_SWEEPS) w->fixed = NULL;
     for (uint32_t i = 0; i < w->triangle_count; i++) {
       if (!w->pending[i]) continue;
       w->pending[i] = 0;
@@ -236,8 +243,8 @@ static bool write_back(work *w, const uint8_t *changed) {
 }
 
 bool sbfi_section_blend_smooth(sbfi_skin_union *skin, const sbfi_topology *t, const sbf_asset *asset,
-    uint32_t *left, sbfi_arena *arena) {
-  work w = {.skin = skin, .t = t, .asset = asset, .arena = arena};
+    const uint8_t *fixed, uint32_t *left, sbfi_arena *arena) {
+  work w = {.skin = skin, .t = t, .asset = asset, .arena = arena, .fixed = fixed};
   uint8_t *changed = sbfi_arena_allocate(arena, (size_t)skin->mesh.positions.count + 1, 1);
   *left = 0;
   if (!changed || !make_columns(&w) || !make_triangles(&w)) return false;

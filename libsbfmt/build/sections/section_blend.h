@@ -12,8 +12,9 @@
  * point's sum as it is, and so on over its neighbours until all hold: a step in the weights becomes a slope
  * about as long as the limb is thick. Elsewhere the weights stay as they were.
  * `*left` receives how many triangles are above that at the end (none but on degenerate skins).
- * `t` is the union's topology. False where memory runs out. */
-bool sbfi_section_blend_smooth(
-    sbfi_skin_union *skin, const sbfi_topology *t, const sbf_asset *asset, uint32_t *left, sbfi_arena *arena);
+ * Points marked in `fixed` (points; NULL: none) keep theirs, but for what they share among themselves, as
+ * long as the rest can give way. `t` is the union's topology. False where memory runs out. */
+bool sbfi_section_blend_smooth(sbfi_skin_union *skin, const sbfi_topology *t, const sbf_asset *asset,
+    const uint8_t *fixed, uint32_t *left, sbfi_arena *arena);
 
 #endif

@@ -1,0 +1,87 @@
+#include "build/sections/section_sole.h"
+
+#include <math.h>
+
+static const float BAND = 0.12f; /* of a foot's height: its sole */
+
+/* The bone that a leg ends in, which a bone is or hangs on; SBF_NONE. */
+static int32_t foot_of(const sbf_asset *asset, int32_t bone) {
+  for (; bone >= 0; bone = asset->bones.at[bone].parent)
+    for (uint32_t g = 0; g < asset->gaits.count; g++)
+      for (uint32_t l = 0; l < asset->gaits.at[g].legs.count; l++) {
+        int32_t chain = asset->gaits.at[g].legs.at[l].ik;
+        if (chain >= 0 && asset->ik_chains.at[chain].end == bone) return bone;
+      }
+  return SBF_NONE;
+}
+
+/* Share of a point that a foot and what hangs on it hold. */
+static float held_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot) {
+  float sum = 0;
+  for (uint32_t h = skin->hold_begins[point]; h < skin->hold_begins[point + 1]; h++)
+    if (feet[skin->holds[h].bone] == foot) sum += skin->holds[h].weight;
+  return sum;
+}
+
+/* Leaves of a point's holds those of a foot. Returns the next free place. */
+static uint32_t keep_own(
+    sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot, uint32_t next, uint32_t end) {
+  float sum = held_by(skin, feet, point, foot);
+  for (uint32_t h = skin->hold_begins[point]; h < end; h++)
+    if (feet[skin->holds[h].bone] == foot)
+      skin->holds[next++] = (sbfi_hold){skin->holds[h].bone, skin->holds[h].weight / sum};
+  return next;
+}
+
+bool sbfi_soles_gather(sbfi_skin_union *skin, const sbf_asset *asset, uint8_t *soles, sbfi_arena *arena) {
+  uint32_t points = skin->mesh.positions.count, bones = asset->bones.count, next = 0;
+  int32_t *feet = sbfi_arena_allocate(arena, (size_t)bones + 1, sizeof *feet);
+  int32_t *foot_of_point = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *foot_of_point);
+  float(*range)[2] = sbfi_arena_allocate(arena, (size_t)bones + 1, sizeof *range);
+  if (!feet || !foot_of_point || !range) return false;
+  for (uint32_t b = 0; b < bones; b++) {
+    feet[b] = foot_of(asset, (int32_t)b);
+    range[b][0] = INFINITY, range[b][1] = -INFINITY;
+  }
+  for (uint32_t p = 0; p < points; p++) {
+    foot_of_point[p] = SBF_NONE;
+    for (uint32_t h = skin->hold_begins[p]; h < skin->hold_begins[p + 1]; h++) {
+      int32_t foot = feet[skin->holds[h].bone];
+      if (foot != SBF_NONE && held_by(skin, feet, p, foot) > 0.5f) foot_of_point[p] = foot;
+    }
+    if (foot_of_point[p] == SBF_NONE) continue;
+    float *low = &range[foot_of_point[p]][0], *high = &range[foot_of_point[p]][1];
+    *low = fminf(*low, skin->mesh.positions.at[p].y);
+    *high = fmaxf(*high, skin->mesh.positions.at[p].y);
+  }
+  for (uint32_t p = 0; p < points; p++) {
+    uint32_t begin = next, end = skin->hold_begins[p + 1];
+    int32_t foot = foot_of_point[p];
+    if (foot != SBF_NONE)
+      soles[p] = skin->mesh.positions.at[p].y <= range[foot][0] + BAND * (range[foot][1] - range[foot][0]);
+    if (soles[p])
+      next = keep_own(skin, feet, p, foot, next, end);
+    else
+      for (uint32_t h = skin->hold_begins[p]; h < end; h++) skin->holds[next++] = skin->holds[h];
+    skin->hold_begins[p] = begin;
+  }
+  skin->hold_begins[points] = next;
+  return true;
+}
+
+void sbfi_section_sole_hold(
+    const sbf_asset *asset, const sbf_soft_body *body, const sbf_level *level, uint8_t *held) {
+  const sbf_vec3_list *surface = &body->surface.positions;
+  float low = INFINITY, high = -INFINITY;
+  if (foot_of(asset, body->bone) == SBF_NONE) return;
+  for (uint32_t i = 0; i < surface->count; i++) {
+    low = fminf(low, surface->at[i].y);
+    high = fmaxf(high, surface->at[i].y);
+  }
+  for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++) {
+    const uint32_t *at = level->lattice.tetrahedra.at[t].at;
+    float lowest = INFINITY;
+    for (int k = 0; k < 4; k++) lowest = fminf(lowest, level->positions.at[at[k]].y);
+    for (int k = 0; lowest <= low + BAND * (high - low) && k < 4; k++) held[at[k]] = 1;
+  }
+}
