@@ -18,10 +18,9 @@ EXAMPLE = {
                                          "body_turn_step": 3},
 }
 THESIS = {
+    "flat, 3": {"stance_slip": 0.0025},
     "slope of 20°, 0.3": {"support_margin": -0.03},
-    "slope of 20°, 3": {"stance_slip": 0.003},
     "stairs of a quarter leg, a curve": {"penetration": 0.06},
-    "noise, 3": {"stance_slip": 0.003},
 }
 
 
