@@ -17,6 +17,7 @@ typedef struct sbri_descent {
   const sbri_descent_block *blocks; /* (block_count) colour after colour */
   uint32_t block_count, colour_count;
   const sbri_spring_cell *springs;
+  const float *damping; /* (cells of springs x 8) N s/m; NULL: no spring is damped */
   const sbri_tetrahedron_block *corners;
 } sbri_descent;
 

@@ -16,7 +16,7 @@
  * Bias against the energy: at rest none, whatever the substep, once it has come to rest; in motion that of
  * implicit Euler, a damping ratio of w h / 2 and a period longer by (w h)^2 / 3, and where sweeps are too few
  * more: what has not travelled from point to point within them has not happened. Stiffness damping of
- * elements is left out, being less than that.
+ * tetrahedra is left out, being less than that.
  *
  * Differs from the paper: no acceleration by Chebyshev, which made it unstable; sweeps are a fixed number;
  * contacts act on the velocities that the sweeps end with, as in the other schemes.
@@ -46,14 +46,29 @@ SBRI_INLINE void sbri_descent_add(sbri_descent_sum *s, sbri_wide a, sbri_wide b,
   s->h[4] = s->h[4] + w.y * v.z, s->h[5] = s->h[5] + w.z * v.x;
 }
 
-SBRI_INLINE void sbri_descent_spring(const sbri_island_tick *t, const sbri_spring_cell *cell, uint32_t lane,
-    sbri_wide3 x, sbri_descent_sum *s) {
+/* To a spring's other end, and its square. */
+typedef struct sbri_descent_edge {
+  sbri_wide3 d;
+  sbri_wide square;
+} sbri_descent_edge;
+
+SBRI_INLINE sbri_descent_edge sbri_descent_spring(const sbri_island_tick *t, const sbri_spring_cell *cell,
+    uint32_t lane, sbri_wide3 x, sbri_descent_sum *s) {
   sbri_wide3 d = sbri_wide3_sub(sbri_wide_gather(t->positions, cell->others + lane), x);
   sbri_wide square = sbri_wide3_dot(d, d) + sbri_wide_all(SBRI_LENGTH_FLOOR);
   sbri_wide k = sbri_wide_load(cell->stiffness + lane), pull = sbri_wide_load(cell->pull + lane);
   sbri_wide pulls = k - pull / sbri_wide_sqrt(square), across = sbri_wide_max(pulls, sbri_wide_all(0));
   s->force = sbri_wide3_add(s->force, sbri_wide3_scale(d, pulls));
   sbri_descent_add(s, across, (k - across) / square, d);
+  return (sbri_descent_edge){d, square};
+}
+
+/* Its own damping, at the rate of the substep: by how much the other end has moved against the point. */
+SBRI_INLINE void sbri_descent_damp(
+    sbri_descent_edge edge, sbri_wide damping_per_step, sbri_wide3 moved, sbri_descent_sum *s) {
+  sbri_wide share = damping_per_step / edge.square;
+  s->force = sbri_wide3_add(s->force, sbri_wide3_scale(edge.d, share * sbri_wide3_dot(moved, edge.d)));
+  sbri_descent_add(s, sbri_wide_all(0), share, edge.d);
 }
 
 /* The block's corner 0 is the point. */
@@ -82,14 +97,21 @@ SBRI_INLINE void sbri_descent_corner(const sbri_island_tick *t, const sbri_tetra
 static inline void sbri_descent_move(const sbri_island_tick *t, const sbri_descent_block *block,
     float per_square, const sbri_point *drawn, sbri_point *moved) {
   const sbri_descent *table = t->island->descent;
+  sbri_wide rate = sbri_wide_sqrt(sbri_wide_all(per_square));
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane += SBRI_LANES) {
     const uint32_t *slots = block->slots + lane;
     sbri_wide m = sbri_wide_load(block->masses + lane) * sbri_wide_all(per_square), zero = sbri_wide_all(0);
     sbri_wide3 x = sbri_wide_gather(t->positions, slots);
-    sbri_wide3 off = sbri_wide3_sub(sbri_wide_gather(drawn, slots), sbri_wide_gather(moved, slots));
+    sbri_wide3 so_far = sbri_wide_gather(moved, slots),
+               off = sbri_wide3_sub(sbri_wide_gather(drawn, slots), so_far);
     sbri_descent_sum s = {sbri_wide3_scale(off, m), {m, m, m, zero, zero, zero}};
-    for (uint32_t i = block->first_spring; i < block->spring_end; i++)
-      sbri_descent_spring(t, &table->springs[i], lane, x, &s);
+    for (uint32_t i = block->first_spring; i < block->spring_end; i++) {
+      sbri_descent_edge edge = sbri_descent_spring(t, &table->springs[i], lane, x, &s);
+      if (!table->damping) continue;
+      sbri_wide damping = sbri_wide_load(table->damping + (size_t)i * SBRI_BLOCK + lane) * rate;
+      sbri_wide3 other = sbri_wide_gather(moved, table->springs[i].others + lane);
+      sbri_descent_damp(edge, damping, sbri_wide3_sub(other, so_far), &s);
+    }
     for (uint32_t i = block->first_corner; i < block->corner_end; i++)
       sbri_descent_corner(t, &table->corners[i], lane, x, &s);
     /* Cramer's rule: positive definite by m at least, but for inert lanes. */
@@ -121,6 +143,7 @@ static inline void sbri_descent_draw(
     const sbri_island_tick *t, float h, sbri_point *drawn, sbri_point *moved) {
   const sbri_island *island = t->island;
   sbri_wide step = sbri_wide_all(h);
+  sbri_decay_all(t, h); /* first: what rests must feel all of its weight */
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 v = sbri_load3(velocity), f = {sbri_wide_all(0), sbri_wide_all(0), sbri_wide_all(0)};
@@ -132,7 +155,6 @@ static inline void sbri_descent_draw(
     v.z = v.z + step * (f.z * w + g * sbri_wide_all(t->gravity.z));
     sbri_store3(velocity, v);
   }
-  sbri_decay_all(t, h);
   for (uint32_t b = 0; b < island->body_count; b++)
     sbri_descent_begin(t, &t->model->bodies[island->bodies[b]]);
   for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES) {
@@ -143,6 +165,10 @@ static inline void sbri_descent_draw(
     sbri_wide_store_points(moved + slot, v);
     sbri_wide_store_points(t->begins + slot, x);
     sbri_wide_store_points(t->positions + slot, sbri_wide3_add(x, v));
+  }
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
+    sbf_vec3 v = sbri_slot_velocity(t, t->velocities, slot);
+    moved[slot] = (sbri_point){v.x * h, v.y * h, v.z * h, 0};
   }
 }
 

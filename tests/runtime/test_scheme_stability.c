@@ -9,8 +9,9 @@
 #include "scenes.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
-    SBF_SCHEME_HEUN, SBF_SCHEME_EXPLICIT_EULER};
-enum { SCHEME_COUNT = 5, AUTOMATIC = 0, POSITION_BASED = 2, HEUN = 3, EXPLICIT_EULER = 4 };
+    SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_RELAXATION};
+/* Those from explicit Euler on promise nothing but numbers. */
+enum { SCHEME_COUNT = 7, AUTOMATIC = 0, POSITION_BASED = 2, HEUN = 3, EXPLICIT_EULER = 5, RELAXATION = 6 };
 
 /* ---- A cloth held at two corners, its springs listed from there on ---- */
 
@@ -65,7 +66,8 @@ static scene cloth(sbf_scheme scheme, float stiffness, bool sorted) {
 
 START_TEST(springs_listed_from_the_pins_on_do_not_burst)
 {
-  static const sbf_scheme able[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_POSITION_BASED};
+  static const sbf_scheme able[] = {
+      SBF_SCHEME_AUTOMATIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_BLOCK_DESCENT};
   for (int sorted = 0; sorted < 2; sorted++) {
     scene s = cloth(able[_i], 1e9f, sorted); /* as good as no compliance */
     s.model_options.substeps = _i ? 20 : 0;
@@ -131,8 +133,83 @@ START_TEST(pins_may_jump)
   }
   scene_ticks(&s, 60);
   sbr_body_health h = sbr_character_health(s.world, s.character, 0);
-  ck_assert(_i == EXPLICIT_EULER || fabsf(h.volume_ratio - 1) < 0.1f);
+  ck_assert(_i >= EXPLICIT_EULER || fabsf(h.volume_ratio - 1) < 0.1f);
   scene_free(&s);
+}
+END_TEST
+
+/* ---- Elements listed the other way round ---- */
+
+static void turn_lists(sbf_level *level) {
+  for (uint32_t k = 0; k < level->springs.count; k++) {
+    const sbf_spring_set *set = &level->springs.at[k];
+    sbf_uint2 *ends = (sbf_uint2 *)(uintptr_t)set->ends.at;
+    float *stiffness = (float *)(uintptr_t)set->stiffness.at;
+    for (uint32_t i = 0, j = set->ends.count; i < j--; i++) {
+      sbf_uint2 first = ends[i];
+      float strong = stiffness[i];
+      ends[i] = ends[j], ends[j] = first;
+      stiffness[i] = stiffness[j], stiffness[j] = strong;
+    }
+    for (uint32_t i = 0; i < set->ends.count; i++) ends[i] = (sbf_uint2){{ends[i].at[1], ends[i].at[0]}};
+  }
+  sbf_uint4 *solids = (sbf_uint4 *)(uintptr_t)level->lattice.tetrahedra.at;
+  for (uint32_t i = 0, j = level->lattice.tetrahedra.count; i < j--; i++) {
+    sbf_uint4 first = solids[i];
+    solids[i] = solids[j], solids[j] = first;
+  }
+  for (uint32_t i = 0; i < level->lattice.tetrahedra.count; i++) { /* the same orientation */
+    const uint32_t *at = solids[i].at;
+    solids[i] = (sbf_uint4){{at[3], at[2], at[1], at[0]}};
+  }
+}
+
+static scene bar(sbf_scheme scheme) {
+  scene s = scene_begin();
+  lattice_box box =
+      lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0.2f, 0.2f}, 5, 1, 1, 1000, 1e5f, 0.4f);
+  lattice_box_hold(&box);
+  scene_lattice(&s, 0, &box);
+  lattice_box_free(&box);
+  scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
+  if (scheme == SBF_SCHEME_EXPLICIT_EULER) { /* which needs it damped */
+    scene_body(&s, 0)->attributes.stiffness_damping = 5e-3f;
+    s.model_options.substeps = 100;
+  }
+  s.model_options.scheme = scheme;
+  return s;
+}
+
+/* The order in which a file lists springs and tetrahedra, their ends and their corners, has no say beyond the
+ * last digits of what sums them, and little in what settles one after the other. The reference's own goes by
+ * the order, as it did: the same shape within a centimetre. */
+START_TEST(elements_may_be_listed_the_other_way_round)
+{
+  for (int solid = 0; solid < (schemes[_i] == SBF_SCHEME_RELAXATION ? 1 : 2); solid++) {
+    sbf_vec3 places[2][128];
+    uint32_t count = 0;
+    for (int turned = 0; turned < 2; turned++) {
+      scene s = solid ? bar(schemes[_i]) : section(schemes[_i]);
+      if (turned) turn_lists((sbf_level *)(uintptr_t)&scene_body(&s, 0)->levels.at[0]);
+      scene_start(&s);
+      if (!solid) sbr_character_drive(s.world, s.character, 1, 0, 1);
+      for (int i = 0; i < 60; i++) {
+        scene_ticks(&s, 1);
+        sbr_body_health h = sbr_character_health(s.world, s.character, 0);
+        ck_assert(h.finite && h.recoveries == 0);
+      }
+      count = scene_read(&s, 0, places[turned], 128);
+      ck_assert_uint_le(count, 128);
+      scene_free(&s);
+    }
+    float most = 0;
+    for (uint32_t i = 0; i < count; i++)
+      most = fmaxf(
+          most, fmaxf(fabsf(places[1][i].x - places[0][i].x),
+                    fmaxf(fabsf(places[1][i].y - places[0][i].y), fabsf(places[1][i].z - places[0][i].z))));
+    static const float within[SCHEME_COUNT] = {2e-6f, 2e-6f, 2e-4f, 2e-6f, 2e-6f, 2e-5f, 1e-2f};
+    ck_assert_msg(most < within[_i], "solid %d: %g m", solid, (double)most);
+  }
 }
 END_TEST
 
@@ -163,7 +240,7 @@ START_TEST(heavy_hangs_on_light)
   }
   /* 98 N stretch each link by 4.9 mm. Position-based, and so what is left to the runtime, cannot hold a
    * weight like that on links this light in 32 substeps: it stretches. */
-  if (_i != EXPLICIT_EULER)
+  if (_i < EXPLICIT_EULER)
     ck_assert_float_lt(sbr_character_health(s.world, s.character, 0).max_strain,
         _i == POSITION_BASED || _i == AUTOMATIC ? 20 : 0.5f);
   scene_free(&s);
@@ -187,7 +264,7 @@ START_TEST(a_surface_inside_out_does_not_blow_up)
     scene_ticks(&s, 120);
     sbr_body_health h = sbr_character_health(s.world, s.character, 0);
     ck_assert(h.finite);
-    ck_assert(_i == EXPLICIT_EULER || h.max_strain < 0.5f);
+    ck_assert(_i >= EXPLICIT_EULER || h.max_strain < 0.5f);
     scene_free(&s);
   }
 }
@@ -229,9 +306,10 @@ static Suite *suite(void) {
   Suite *s = suite_create("scheme stability");
   TCase *c = tcase_create("scheme stability");
   tcase_set_timeout(c, 60);
-  tcase_add_loop_test(c, springs_listed_from_the_pins_on_do_not_burst, 0, 2);
+  tcase_add_loop_test(c, springs_listed_from_the_pins_on_do_not_burst, 0, 3);
   tcase_add_loop_test(c, hitches_and_jitter_show_the_same_motion, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, pins_may_jump, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, elements_may_be_listed_the_other_way_round, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, heavy_hangs_on_light, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, loose_bodies_are_mended_where_they_lie, 0, EXPLICIT_EULER);
   tcase_add_loop_test(c, a_surface_inside_out_does_not_blow_up, 0, SCHEME_COUNT);
