@@ -42,7 +42,7 @@ void level_description_print(const json_t *level, char *text, size_t size) {
   const char *name = json_string_value(json_object_get(level, "name"));
   const char *model = json_string_value(json_object_get(level, "model"));
   long long tetrahedra = (long long)real(level, "tetrahedra"), springs = (long long)real(level, "springs");
-  char parts[64] = "", error[64] = ", error not measured", cost[64] = "", left[64] = "";
+  char parts[64] = "", error[64] = "", cost[64] = "", left[64] = "";
   if (tetrahedra > 0)
     snprintf(parts, sizeof parts, ", %lld tetrahedra", tetrahedra);
   else if (springs > 0)

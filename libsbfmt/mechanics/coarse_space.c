@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PATCHES = 48, MODES = 6, LEAST_PATCH = 12 };
+enum { MANY_POINTS = 200, PATCHES = 48, MODES = 6, LEAST_PATCH = 12 };
 /* Of its diagonal, so little is left of a mode that others make up. */
 static const double least_pivot = 1e-9;
 
@@ -116,6 +116,10 @@ static void factorise(double *a, size_t size, double *row) {
     }
     of[i] = pivot > least_pivot * before && before > 0 ? pivot : 0;
   }
+}
+
+bool sbfi_coarse_space_helps(const sbf_spring_network *network) {
+  return network->point_count >= MANY_POINTS && network->tetrahedron_count > 0;
 }
 
 bool sbfi_coarse_space_make(

@@ -8,7 +8,7 @@
 #define SBFI_COARSE_SPACE_H
 
 #include "mechanics/block_matrix.h"
-#include "sbfmt/base.h"
+#include "sbfmt/mechanics.h"
 
 typedef struct sbfi_coarse_space {
   uint32_t point_count, patch_count;
@@ -17,6 +17,10 @@ typedef struct sbfi_coarse_space {
   double *factor;    /* (6 x patch_count)^2 lower triangle, L D L^T; 0 on the diagonal: left out */
   double *values;    /* (6 x patch_count) scratch */
 } sbfi_coarse_space;
+
+/* Whether one is of use: for a lattice of some size. Springs mostly tie points to held ones, so that errors
+ * are not smooth, or hang together in so many pieces that the patches are as many as the points. */
+bool sbfi_coarse_space_helps(const sbf_spring_network *network);
 
 /* Of the rows that have something on their diagonal. False where memory runs out. */
 bool sbfi_coarse_space_make(

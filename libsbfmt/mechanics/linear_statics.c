@@ -5,7 +5,7 @@
 #include "mechanics/network.h"
 #include "mechanics/static_solve.h"
 
-enum { MANY_POINTS = 200, MOST_STEPS = 200 };
+enum { MOST_STEPS = 200 };
 static const double singular = 1e-9, held = 0.1;
 
 static void hold_loose(double *block) {
@@ -28,8 +28,7 @@ static void fill(sbfi_linear_statics *s) {
 bool sbfi_linear_statics_make(
     sbfi_linear_statics *made, const sbf_spring_network *network, sbfi_arena *arena) {
   size_t size = 3 * (size_t)network->point_count + 1;
-  *made =
-      (sbfi_linear_statics){.coarse = network->point_count >= MANY_POINTS && network->tetrahedron_count > 0};
+  *made = (sbfi_linear_statics){.coarse = sbfi_coarse_space_helps(network)};
   double **vectors[] = {&made->r, &made->z, &made->p, &made->q};
   for (int i = 0; i < 4; i++) {
     *vectors[i] = sbfi_arena_allocate(arena, size, sizeof(double));

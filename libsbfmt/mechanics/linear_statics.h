@@ -10,7 +10,7 @@
 
 typedef struct sbfi_linear_statics {
   sbfi_network_matrix stiffness;
-  bool coarse; /* `space` is there: not for springs, which mostly tie points to held ones */
+  bool coarse; /* `space` is there */
   sbfi_coarse_space space;
   double *r, *z, *p, *q; /* (3 x points) */
 } sbfi_linear_statics;

@@ -2,10 +2,11 @@
 
 #include <string.h>
 
+#include "mechanics/coarse_space.h"
 #include "mechanics/network.h"
 #include "mechanics/network_matrix.h"
 
-enum { MOST_STEPS = 100, LEAST_PRODUCTS = 200, MOST_BACKTRACKS = 40 };
+enum { MOST_STEPS = 100, LEAST_PRODUCTS = 200, MOST_BACKTRACKS = 40, SAID_EVERY = 32 };
 static const double TOLERANCE = 1e-8, SUFFICIENT_FALL = 1e-4;
 
 typedef struct statics {
@@ -13,10 +14,13 @@ typedef struct statics {
   const sbf_spring_network *network;
   sbfi_arena arena;
   sbfi_network_matrix derivatives;
+  bool coarse; /* `space` is there */
+  sbfi_coarse_space space;
   double *load;                                        /* (3 x points) N, 0 at held points */
   double *forces, *way, *residual, *z, *p, *q, *trial; /* (3 x points) */
   double rounding_j;                                   /* what the energy's sum may be wrong by */
-  uint32_t products;
+  uint32_t products, steps, most_steps;
+  bool ended;
 } statics;
 
 static sbfi_d3 at(const double *places, uint32_t point) {
@@ -123,16 +127,27 @@ static double find_forces(const statics *s, const double *places, double *forces
 
 /* ---- Newton ---- */
 
+static bool goes_on(statics *s) {
+  if (!s->ended) s->ended = !sbfi_progress_say(s->problem->progress, (double)s->steps / s->most_steps);
+  return !s->ended && (s->problem->most_products == 0 || s->products < s->problem->most_products);
+}
+
+static void precondition(const statics *s) {
+  sbfi_block_matrix_sweep(&s->derivatives.matrix, s->residual, s->z);
+  if (s->coarse) sbfi_coarse_space_add(&s->space, s->residual, s->z);
+}
+
 /* Solves matrix way = forces until what remains is `share` of it, or curvature turns negative. */
 static void find_way(statics *s, double share) {
   size_t size = 3 * (size_t)s->network->point_count;
   memset(s->way, 0, size * sizeof *s->way);
   memcpy(s->residual, s->forces, size * sizeof *s->residual);
-  sbfi_block_matrix_sweep(&s->derivatives.matrix, s->residual, s->z);
+  precondition(s);
   memcpy(s->p, s->z, size * sizeof *s->p);
   double left = sbfi_dot(s->residual, s->z, size);
   double enough = share * share * sbfi_dot(s->residual, s->residual, size);
   for (size_t n = 0; n < LEAST_PRODUCTS + size && left > 0; n++) {
+    if (s->products % SAID_EVERY == 0 && !goes_on(s)) return;
     sbfi_block_matrix_times(&s->derivatives.matrix, s->p, s->q);
     s->products++;
     double curvature = sbfi_dot(s->p, s->q, size);
@@ -146,7 +161,7 @@ static void find_way(statics *s, double share) {
       s->residual[i] -= step * s->q[i];
     }
     if (sbfi_dot(s->residual, s->residual, size) <= enough) return;
-    sbfi_block_matrix_sweep(&s->derivatives.matrix, s->residual, s->z);
+    precondition(s);
     left = sbfi_dot(s->residual, s->z, size);
     for (size_t i = 0; i < size; i++) s->p[i] = s->z[i] + left / before * s->p[i];
   }
@@ -184,27 +199,39 @@ static double least_ratio(const statics *s, const double *places) {
   return least;
 }
 
+/* Its patches go by the matrix at rest. */
+static bool make_space(statics *s) {
+  s->coarse = sbfi_coarse_space_helps(s->network);
+  if (!s->coarse) return true;
+  sbfi_static_start(s->network, s->trial);
+  sbfi_network_matrix_fill(&s->derivatives, s->trial);
+  return sbfi_coarse_space_make(&s->space, &s->derivatives.matrix, s->network->positions, &s->arena);
+}
+
 static void iterate(statics *s, double *places, sbfi_static_outcome *outcome) {
   double tolerance = s->problem->tolerance > 0 ? s->problem->tolerance : TOLERANCE;
-  uint32_t most = s->problem->most_steps ? s->problem->most_steps : MOST_STEPS;
+  s->most_steps = s->problem->most_steps ? s->problem->most_steps : MOST_STEPS;
   size_t size = 3 * (size_t)s->network->point_count;
   double load = sqrt(sbfi_dot(s->load, s->load, size)), energy = energy_of(s, places);
   double length = find_forces(s, places, s->forces), reference = load > 0 ? load : length;
   for (;;) {
     outcome->residual = reference > 0 ? length / reference : 0;
     outcome->converged = outcome->residual <= tolerance;
-    if (outcome->converged || outcome->steps == most) break;
+    if (outcome->converged || s->steps == s->most_steps || !goes_on(s)) break;
     /* As exact as the residual is small: superlinear, and no work is lost far away. */
     double share = 0.1 * sqrt(outcome->residual < 1 ? outcome->residual : 1);
     sbfi_network_matrix_fill(&s->derivatives, places);
+    if (s->coarse) sbfi_coarse_space_fill(&s->space, &s->derivatives.matrix);
     find_way(s, share > 1e-3 ? share : 1e-3);
     if (!go(s, places, &energy)) break;
-    outcome->steps++;
+    s->steps++;
     length = find_forces(s, places, s->forces);
   }
   outcome->energy_j = energy;
   outcome->least_ratio = least_ratio(s, places);
+  outcome->steps = s->steps;
   outcome->products = s->products;
+  outcome->ended = s->ended;
 }
 
 bool sbfi_static_solve(const sbfi_static_problem *problem, double *places, sbfi_static_outcome *outcome,
@@ -214,7 +241,7 @@ bool sbfi_static_solve(const sbfi_static_problem *problem, double *places, sbfi_
   sbf_allocator chosen = sbfi_allocator_or_default(allocator);
   sbfi_arena_init(&s.arena, &chosen, 0);
   bool good = sbfi_network_matrix_make(&s.derivatives, s.network, problem->rest_lengths, &s.arena) &&
-              make_load(&s) && make_vectors(&s);
+              make_load(&s) && make_vectors(&s) && make_space(&s);
   if (good) iterate(&s, places, outcome);
   sbfi_arena_free(&s.arena);
   return good;

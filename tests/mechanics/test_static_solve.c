@@ -186,7 +186,7 @@ START_TEST(springs_hang_as_the_chain_does)
       .masses = masses,
       .ends = ends,
       .stiffness = stiffness};
-  sbfi_static_problem problem = {&network, rest, {0, -9.81f, 0}, NULL, 0, 0};
+  sbfi_static_problem problem = {.network = &network, .rest_lengths = rest, .gravity = {0, -9.81f, 0}};
   sbfi_static_outcome outcome;
   sbfi_static_start(&network, places);
   ck_assert(sbfi_static_solve(&problem, places, &outcome, NULL));

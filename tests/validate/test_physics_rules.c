@@ -40,6 +40,12 @@ START_TEST(test_poisson)
   rules_expect(RATIO("0.44"), "");
   rules_expect(RATIO("0.46"), "POISSON_UNSHOWN /sbf/soft_body[1]/level[1]");
   rules_expect(RATIO("0.04"), "POISSON_UNSHOWN /sbf/soft_body[1]/level[1]");
+  /* Once for all of them. */
+#define OTHER(id, ratio)                                                                                     \
+  "<soft_body id=\"" id "\" name=\"" id "\">" TETRA "<attributes poisson_ratio=\"" ratio                     \
+  "\"/>" TETRA_SPRINGS "</soft_body>"
+  rules_expect(
+      RATIO("0.3") OTHER("c", "0.46") OTHER("d", "0.48"), "POISSON_UNSHOWN /sbf/soft_body[2]/level[1]");
 }
 END_TEST
 

@@ -33,16 +33,17 @@ static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use 
     r->sound |= r->yieldings[l] > 0 && r->frequencies[l] > 0;
   }
   if (r->sound && use->pushes) {
-    if (!sbfi_progress_say(use->progress, 0.7)) return SBFI_LATTICE_CANCELLED;
     r->has_works = true;
-    if (!sbfi_push_works_make(&r->works, &r->statics, &linear, &r->arena)) return SBFI_LATTICE_NO_MEMORY;
+    if (!sbfi_push_works_make(
+            &r->works, &r->statics, &linear, sbfi_progress_part(use->progress, 0.7, 0.8), &r->arena))
+      return SBFI_LATTICE_NO_MEMORY;
   }
   for (uint32_t l = 0; l < loads && r->sound && use->falls; l++) {
     bool converged;
-    if (!sbfi_progress_say(use->progress, 0.8 + 0.2 * l / loads)) return SBFI_LATTICE_CANCELLED;
     r->falls[l] = sbfi_arena_allocate(&r->arena, numbers, sizeof(double));
     if (!r->falls[l] ||
-        !sbfi_level_give(&r->statics, l, r->fall, fall_tolerance, r->falls[l], &converged, scratch))
+        !sbfi_level_give(&r->statics, l, r->fall, fall_tolerance, r->falls[l], &converged,
+            sbfi_progress_part(use->progress, 0.8 + 0.2 * l / loads, 0.8 + 0.2 * (l + 1) / loads), scratch))
       return SBFI_LATTICE_NO_MEMORY;
     if (!converged) r->falls[l] = NULL;
   }
@@ -184,7 +185,8 @@ static bool fit_lattice(work *w, double *factor) {
   uint32_t count = w->statics.network.tetrahedron_count;
   float *stated = sbfi_arena_copy(w->scratch, w->statics.moduli, count, sizeof *stated);
   if (!stated) return false;
-  if (w->r->has_works && !sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works, w->scratch))
+  if (w->r->has_works && !sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works,
+                             sbfi_progress_part(w->progress, 0, 0.6), w->scratch))
     return false;
   if (!find_yieldings(w)) return false;
   *factor = fit(w);
@@ -239,22 +241,35 @@ static double farthest(const double *a, double a_scale, const double *b, double 
   return sqrt(most);
 }
 
-/* Under gravity: with large strains where the reference was asked for them, else from the small loads. */
-static bool compare(work *w, bool gives, double factor) {
+/* Under gravity along one of the axes, or bent: with large strains, or where they were not asked for or one
+ * of the two does not come to rest, from the small loads. */
+static bool compare_under(work *w, uint32_t l, bool gives, double factor, double *give, double *off) {
   uint32_t points = w->body->surface.positions.count;
-  double *give = sbfi_arena_allocate(w->scratch, (size_t)points + 1, 3 * sizeof *give);
+  const double *fall = w->r->falls[l];
+  bool converged = fall && !gives;
+  if (fall && gives &&
+      !sbfi_level_give(&w->statics, l, w->r->fall, fall_tolerance, give, &converged,
+          sbfi_progress_part(w->progress, 0.7 + 0.3 * l / w->r->statics.load_count,
+              0.7 + 0.3 * (l + 1) / w->r->statics.load_count),
+          w->scratch))
+    return false;
+  if (converged)
+    *off = farthest(give, 1, fall, 1, points);
+  else if (gives)
+    *off = farthest(w->gives[l], w->r->fall / factor, w->r->gives[l], w->r->fall, points);
+  else /* what does not give at all */
+    *off = farthest(give, 1, w->r->gives[l], w->r->fall, points);
+  return true;
+}
+
+static bool compare(work *w, bool gives, double factor) {
+  double *give =
+      sbfi_arena_allocate(w->scratch, (size_t)w->body->surface.positions.count + 1, 3 * sizeof *give);
   if (!give) return false;
   for (uint32_t l = 0; l < w->r->statics.load_count; l++) {
-    bool converged = !gives;
-    if (!w->r->falls[l]) {
-      if (gives && !w->r->has_falls)
-        w->c->error =
-            fmax(w->c->error, farthest(w->gives[l], w->r->fall / factor, w->r->gives[l], w->r->fall, points));
-      continue;
-    }
-    if (gives && !sbfi_level_give(&w->statics, l, w->r->fall, fall_tolerance, give, &converged, w->scratch))
-      return false;
-    if (converged) w->c->error = fmax(w->c->error, farthest(give, 1, w->r->falls[l], 1, points));
+    double off = 0;
+    if (!compare_under(w, l, gives, factor, give, &off)) return false;
+    w->c->error = fmax(w->c->error, off);
   }
   return true;
 }

@@ -66,7 +66,8 @@ typedef struct sbfi_calibration {
   double residual_before; /* of springs, the same before */
   double period_error; /* share by which it swings slower under the load it yields to most; NAN: not known */
   double error;        /* m, greatest distance of a surface point from where the reference has it under
-                          gravity along one of the axes; from small strains, where the reference has no falls */
+                          gravity along one of the axes; from small strains, where one of the two has not come to
+                          rest */
 } sbfi_calibration;
 
 /* Calibrates a level of tetrahedra or, where `springs` says so, of springs, whose lists become memory of

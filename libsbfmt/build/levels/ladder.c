@@ -1,5 +1,7 @@
 #include "build/levels/ladder.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 
 #include "build/levels/jiggle_level.h"
@@ -114,7 +116,12 @@ static sbfi_lattice_outcome take_finest(sbfi_ladder *l, const sbfi_interior_map 
   if (l->recipe->levels < 2 || l->has_reference) return SBFI_LATTICE_MADE;
   l->has_reference = true;
   const sbfi_reference_use use = use_of(l);
-  return sbfi_reference_take(&l->reference, l->body, level, interior, l->asset, &use, l->allocator);
+  sbfi_lattice_outcome outcome =
+      sbfi_reference_take(&l->reference, l->body, level, interior, l->asset, &use, l->allocator);
+  if (outcome == SBFI_LATTICE_MADE)
+    level->simulation.cost =
+        (float)fmin(sbfi_level_cost(&l->reference.statics, l->recipe->tick, &l->reference.arena), FLT_MAX);
+  return outcome;
 }
 
 static sbfi_lattice_outcome add_lattices(sbfi_ladder *l) {

@@ -6,8 +6,10 @@
 #include "mechanics/static_solve.h"
 #include "mechanics/vector.h"
 
-/* Of Newton's method: what has not come to rest by then folds up. */
-enum { MOST_STEPS = 15 };
+/* Of Newton's method, and of its products with a matrix: what has not come to rest by then folds up. */
+enum { MOST_STEPS = 15, MOST_PRODUCTS = 1500 };
+/* Springs and tetrahedra in all of these products, so that no level takes many seconds. */
+static const double MOST_VISITS = 3e7;
 
 static double component(sbf_vec3 v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -200,18 +202,23 @@ static void carry(const sbfi_level_statics *s, const double *moved, double *disp
 }
 
 bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, double tolerance,
-    double *displacements, bool *converged, sbfi_arena *scratch) {
+    double *displacements, bool *converged, sbfi_progress progress, sbfi_arena *scratch) {
   const sbf_spring_network *n = &s->network;
   size_t numbers = 3 * (size_t)n->point_count;
   double *forces = sbfi_arena_allocate(scratch, numbers + 1, sizeof *forces);
   double *places = sbfi_arena_allocate(scratch, numbers + 1, sizeof *places);
   if (!forces || !places) return false;
   sbfi_level_forces(s, load, size, forces);
-  sbfi_static_problem problem = {
-      .network = n, .forces = forces, .tolerance = tolerance, .most_steps = MOST_STEPS};
+  sbfi_static_problem problem = {.network = n,
+      .forces = forces,
+      .tolerance = tolerance,
+      .most_steps = MOST_STEPS,
+      .most_products =
+          (uint32_t)fmin(MOST_PRODUCTS, 1 + MOST_VISITS / (1.0 + n->spring_count + n->tetrahedron_count)),
+      .progress = progress};
   sbfi_static_outcome outcome;
   sbfi_static_start(n, places);
-  if (!sbfi_static_solve(&problem, places, &outcome, &scratch->allocator)) return false;
+  if (!sbfi_static_solve(&problem, places, &outcome, &scratch->allocator) || outcome.ended) return false;
   *converged = outcome.residual <= 10 * tolerance;
   for (size_t i = 0; i < numbers; i++) places[i] -= component(n->positions[i / 3], (int)(i % 3));
   carry(s, places, displacements);

@@ -33,10 +33,10 @@ void sbfi_level_push(
     const sbfi_level_statics *statics, const sbfi_level_pushes *pushes, uint32_t push, double *forces);
 
 /* Displacements of the surface's points (3 * surface points, m) under load number `load` of `size` m/s^2,
- * with large strains as they are, until all but `tolerance` of the load is balanced. False where memory runs
- * out. */
+ * with large strains as they are, until all but `tolerance` of the load is balanced; what takes more than
+ * some steps of Newton's method does not converge. False where memory runs out or the work is ended. */
 bool sbfi_level_give(const sbfi_level_statics *statics, uint32_t load, double size, double tolerance,
-    double *displacements, bool *converged, sbfi_arena *scratch);
+    double *displacements, bool *converged, sbfi_progress progress, sbfi_arena *scratch);
 
 /* The same for small strains, under 1 m/s^2 and in m for that, right to `share`. `*frequency` rad/s is
  * Rayleigh's quotient of the displacements: little above the lowest mode's, where the load is one that the

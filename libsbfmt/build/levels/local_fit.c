@@ -31,8 +31,8 @@ static void add_works(
   }
 }
 
-bool sbfi_push_works_make(
-    sbfi_push_works *works, const sbfi_level_statics *s, sbfi_linear_statics *linear, sbfi_arena *arena) {
+bool sbfi_push_works_make(sbfi_push_works *works, const sbfi_level_statics *s, sbfi_linear_statics *linear,
+    sbfi_progress progress, sbfi_arena *arena) {
   size_t numbers = 3 * (size_t)s->network.point_count;
   double *forces = sbfi_arena_allocate(arena, numbers + 1, sizeof *forces);
   double *moved = sbfi_arena_allocate(arena, numbers + 1, sizeof *moved);
@@ -40,6 +40,7 @@ bool sbfi_push_works_make(
   works->shares = sbfi_arena_allocate(arena, (size_t)s->network.point_count + 1, sizeof *works->shares);
   if (!forces || !moved || !works->shares || !sbfi_level_pushes_make(&works->pushes, s, arena)) return false;
   for (uint32_t push = 0; push < SBFI_PUSHES; push++) {
+    if (!sbfi_progress_say(progress, (double)push / SBFI_PUSHES)) return false;
     memset(moved, 0, numbers * sizeof *moved);
     sbfi_level_push(s, &works->pushes, push, forces);
     sbfi_linear_statics_solve(linear, forces, push_share, moved);
@@ -120,7 +121,7 @@ static bool reserve(work *w, sbfi_arena *arena) {
 }
 
 bool sbfi_local_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_level_statics *of,
-    const sbfi_push_works *works, sbfi_arena *scratch) {
+    const sbfi_push_works *works, sbfi_progress progress, sbfi_arena *scratch) {
   work w = {.statics = statics, .linear = linear, .works = works};
   const sbf_spring_network *n = &statics->network;
   if (!reserve(&w, scratch)) return false;
@@ -132,6 +133,7 @@ bool sbfi_local_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, co
   for (int round = 0; round < ROUNDS; round++) {
     memset(w.own, 0, n->point_count * sizeof *w.own);
     for (uint32_t push = 0; push < SBFI_PUSHES; push++) {
+      if (!sbfi_progress_say(progress, (round + (double)push / SBFI_PUSHES) / ROUNDS)) return false;
       if (!(works->totals[push] > 0)) continue;
       sbfi_level_push(statics, &works->pushes, push, w.forces);
       sbfi_linear_statics_solve(linear, w.forces, push_share, w.moved[push]);

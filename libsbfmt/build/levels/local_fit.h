@@ -17,13 +17,15 @@ typedef struct sbfi_push_works {
   double *shares;             /* (level points) their parts of the totals, all pushes together */
 } sbfi_push_works;
 
-/* Of the level that is the model; `linear` is of its network. Memory of `arena`; false where it runs out. */
+/* Of the level that is the model; `linear` is of its network. Memory of `arena`; false where it runs out
+ * or the work is ended. */
 bool sbfi_push_works_make(sbfi_push_works *works, const sbfi_level_statics *statics,
-    sbfi_linear_statics *linear, sbfi_arena *arena);
+    sbfi_linear_statics *linear, sbfi_progress progress, sbfi_arena *arena);
 
 /* Multiplies the moduli of `statics`, a level of tetrahedra, by factors between an eighth and two, and
- * refreshes `linear`; `of` is the level that `works` were found of. False where memory runs out. */
+ * refreshes `linear`; `of` is the level that `works` were found of. False where memory runs out or the work
+ * is ended. */
 bool sbfi_local_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_level_statics *of,
-    const sbfi_push_works *works, sbfi_arena *scratch);
+    const sbfi_push_works *works, sbfi_progress progress, sbfi_arena *scratch);
 
 #endif

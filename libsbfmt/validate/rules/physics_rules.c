@@ -1,5 +1,7 @@
 /* What would move wrongly: no mass, matter that is none, a ratio that springs cannot show, a body that its
  * own weight crushes, too few substeps, a unit that looks wrong. */
+#include <stdio.h>
+
 #include "build/geometry/topology.h"
 #include "mechanics/plausible_size.h"
 #include "sbfmt/mechanics.h"
@@ -111,17 +113,45 @@ static void check_body(sbfi_validation *v, uint32_t number) {
   for (uint32_t l = 0; l < body->levels.count && !v->out_of_memory; l++) {
     const sbf_level *level = &body->levels.at[l];
     sbfi_path there = sbfi_path_of("%s/level[%u]", path.text, l + 1);
-    if (level->model == SBF_ELASTIC_MODEL_SPRINGS && !measures.sheet &&
-        fabsf(body->attributes.poisson_ratio - 0.25f) > 0.2f)
-      sbfi_found(v, SBF_CODE_POISSON_UNSHOWN, there.text, -1,
-          "'%s' asks for the Poisson ratio %.3g, and central springs show a quarter",
-          sbfi_label(body->name, body->id), (double)body->attributes.poisson_ratio);
     check_substeps(v, body, level, there.text);
   }
 }
 
+/* The first level of springs in a body that asks for another Poisson ratio than they can show, from 1; 0:
+ * none. */
+static uint32_t unshown_level(const sbf_soft_body *body) {
+  sbf_body_measures measures;
+  if (!(fabsf(body->attributes.poisson_ratio - 0.25f) > 0.2f)) return 0;
+  sbf_body_measure(body, &measures);
+  for (uint32_t l = 0; l < body->levels.count && !measures.sheet; l++)
+    if (body->levels.at[l].model == SBF_ELASTIC_MODEL_SPRINGS) return l + 1;
+  return 0;
+}
+
+/* Said once, at the first of the bodies: a character's sections are mostly of one matter. */
+static void check_poisson(sbfi_validation *v) {
+  const sbf_soft_body *first = NULL;
+  sbfi_path path = {""};
+  char others[40] = "";
+  uint32_t count = 0;
+  for (uint32_t b = 0; b < v->asset->soft_bodies.count; b++) {
+    const sbf_soft_body *body = &v->asset->soft_bodies.at[b];
+    uint32_t level = unshown_level(body);
+    if (level == 0) continue;
+    if (count++ > 0) continue;
+    first = body;
+    path = sbfi_path_of("/sbf/soft_body[%u]/level[%u]", b + 1, level);
+  }
+  if (count == 0) return;
+  if (count > 1) snprintf(others, sizeof others, " (so do %u more)", count - 1);
+  sbfi_found(v, SBF_CODE_POISSON_UNSHOWN, path.text, -1,
+      "'%s' asks for the Poisson ratio %.3g%s, and central springs show a quarter",
+      sbfi_label(first->name, first->id), (double)first->attributes.poisson_ratio, others);
+}
+
 void sbfi_check_physics(sbfi_validation *v) {
   check_size(v);
+  check_poisson(v);
   for (uint32_t b = 0; b < v->asset->soft_bodies.count && !v->out_of_memory; b++) check_body(v, b);
   for (uint32_t r = 0; r < v->asset->rigid_bodies.count; r++) {
     const sbf_rigid_body *body = &v->asset->rigid_bodies.at[r];
