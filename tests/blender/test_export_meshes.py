@@ -5,6 +5,7 @@ import os
 
 import bpy
 import fixtures
+from characters import closed_volume
 from soft_body_format.to_document.shader_nodes import Nodes
 
 
@@ -38,7 +39,7 @@ class Meshes(fixtures.SceneTest):
         made = fixtures.box("b")
         made.scale = (-1, 1, 1)
         mesh = self.export(build=False).render_meshes[0].mesh
-        self.assertGreater(volume(mesh), 0.99)
+        self.assertGreater(closed_volume(mesh.positions, mesh.polygon_sizes, mesh.polygon_points), 0.99)
 
     def test_several_uv_layers(self):
         made = fixtures.box("b")
@@ -60,6 +61,30 @@ class Meshes(fixtures.SceneTest):
         self.assertEqual((len(round_.normals), len(round_.normal_corners)), (len(round_.mesh.positions), 0))
         for place, normal in zip(points(round_.mesh.positions), points(round_.normals)):
             self.assertGreater(sum(a * b for a, b in zip(place, normal)) / 0.5, 0.98)
+
+    def test_normals_of_an_artist(self):
+        """Custom ones, also of a mirrored object, where they point the other way across the mirror."""
+        made = fixtures.box("b")
+        wanted = [(0.6, 0.0, 0.8)] * len(made.data.loops)
+        if hasattr(made.data, "use_auto_smooth"):
+            made.data.use_auto_smooth = True
+        made.data.polygons.foreach_set("use_smooth", [True] * 6)
+        made.data.normals_split_custom_set(wanted)
+        for scale, x in ((1, 0.6), (-1, -0.6)):
+            made.scale = (scale, 1, 1)
+            mesh = self.export(build=False).render_meshes[0]
+            for normal in points(mesh.normals):
+                self.assert_near(normal, (x, 0.8, 0), 2e-3)
+
+    def test_sharp_edges_part_normals(self):
+        made = fixtures.box("b")
+        made.data.polygons.foreach_set("use_smooth", [True] * 6)
+        for edge in made.data.edges:
+            edge.use_edge_sharp = True
+        if hasattr(made.data, "use_auto_smooth"):
+            made.data.use_auto_smooth, made.data.auto_smooth_angle = True, math.pi
+        mesh = self.export(build=False).render_meshes[0]
+        self.assertEqual((len(mesh.normals), len(mesh.normal_corners)), (18, 24))
 
     def test_shape_keys(self):
         made = fixtures.box("b")
@@ -180,6 +205,14 @@ class Bones(fixtures.SceneTest):
         self.assert_near(turned((0, 1, 0), leg.rotation), (0, -math.sqrt(0.5), math.sqrt(0.5)))
         self.assertEqual((hip.inherit_rotation, leg.inherit_rotation), (True, False))
 
+    def test_every_way_to_inherit_scale(self):
+        ways = {"FULL": True, "FIX_SHEAR": True, "ALIGNED": True, "AVERAGE": True, "NONE": False, "NONE_LEGACY": False}
+        rig = fixtures.armature("rig", [(way, None, (0, 0, 0), (0, 0, 1), 0) for way in ways])
+        for way in ways:
+            rig.data.bones[way].inherit_scale = way
+        fixtures.hang(fixtures.box("b"), rig, "FULL")
+        self.assertEqual({bone.name: bone.inherit_scale for bone in self.export(build=False).bones}, ways)
+
     def test_weights_of_any_count_sum_to_one(self):
         rig = fixtures.armature("rig", [(f"b{i}", None, (i, 0, 0), (i, 0, 1), 0) for i in range(6)])
         made = fixtures.box("b")
@@ -272,14 +305,3 @@ def turned(vector, xyzw):
     from mathutils import Quaternion, Vector
     x, y, z, w = xyzw
     return Quaternion((w, x, y, z)) @ Vector(vector)
-
-
-def volume(mesh):
-    """Enclosed, by fans of each polygon."""
-    from mathutils import Vector
-    places, total, first = [Vector(one) for one in points(mesh.positions)], 0.0, 0
-    for size in mesh.polygon_sizes:
-        corners = [places[i] for i in mesh.polygon_points[first:first + size]]
-        total += sum(corners[0].dot(corners[i].cross(corners[i + 1])) / 6 for i in range(1, size - 1))
-        first += size
-    return total

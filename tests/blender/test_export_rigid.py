@@ -4,6 +4,7 @@ import math
 
 import bpy
 import fixtures
+from characters import closed_volume
 from mathutils import Quaternion, Vector
 
 
@@ -35,6 +36,27 @@ class RigidObjects(fixtures.SceneTest):
         self.assert_near(crate.center, (0, 2, 0))
         self.assert_near((max(crate.hull.positions[1::3]), max(crate.hull.positions[2::3])), (3.5, 1))
         self.assert_near((max(bodies["ball"].hull.positions[1::3]), ), (5.5, ))
+
+    def test_every_shape_of_a_hull(self):
+        """A part of 2 x 2 x 4 m; each hull has the volume of its shape, but for what its straight facets cut off."""
+        volumes = {"BOX": 16, "SPHERE": 4 / 3 * math.pi * 8, "CAPSULE": 4 / 3 * math.pi + 2 * math.pi, "CYLINDER": 4 * math.pi,
+                   "CONE": 4 / 3 * math.pi, "CONVEX_HULL": 16, "MESH": 16, "COMPOUND": 16}
+        for number, shape in enumerate(volumes):
+            made = self.active(fixtures.box(shape, (2, 2, 4)), collision_shape=shape)
+            made.location = (10 * number, 0, 0)
+        for body in self.export(build=False).rigid_bodies:
+            hull = body.hull
+            found = closed_volume(hull.positions, hull.polygon_sizes, hull.polygon_points)
+            self.assertTrue(0.84 * volumes[body.name] < found < 1.001 * volumes[body.name], (body.name, found, volumes[body.name]))
+
+    def test_layers_and_breaking(self):
+        one, other = self.active(fixtures.box("a")), self.active(fixtures.box("b", center=(2, 0, 0)))
+        one.rigid_body.collision_collections = [index in (0, 3) for index in range(20)]
+        self.constraint("FIXED", one, other, use_breaking=True, breaking_threshold=5)
+        self.scene.rigidbody_world.substeps_per_frame = 20
+        asset = self.export(build=False)
+        self.assertEqual(asset.rigid_bodies[0].layer, 9)
+        self.assertAlmostEqual(asset.joints[0].break_force, 5 * 24 * 20, places=2)  # an impulse of a step by the step's time
 
     def test_every_kind_of_constraint(self):
         one, other = self.active(fixtures.box("a")), self.active(fixtures.box("b", center=(2, 0, 0)))
@@ -77,6 +99,29 @@ class Chains(fixtures.SceneTest):
         self.assertEqual((names[chain.root], names[chain.end], chain.solver), ("upper", "hand", "two_bone"))
         self.assert_near(chain.pole, (0, 0.5, 2))
         self.assertEqual([(names[one.bone], one.weight) for one in chain.comforts], [("upper", 0.5)])
+
+
+    def test_a_chain_whose_last_bone_has_nothing_at_its_tail_gets_a_tip(self):
+        rig = fixtures.armature("rig", [("one", None, (0, 0, 0), (0, 0, 1), 0), ("two", "one", (0, 0, 1), (0, 0.5, 2), 20),
+                                        ("three", "two", (0, 0.5, 2), (0, 0, 3), 0)])
+        fixtures.hang(fixtures.box("b"), rig, "one")
+        rig.pose.bones["three"].constraints.new("IK").target = bpy.data.objects["b"]
+        asset = self.export(build=False)
+        tip, chain = asset.bones[3], asset.ik_chains[0]
+        self.assertEqual((tip.name, tip.parent, chain.end, chain.root, chain.solver),
+                         ("three tip", asset.bones[2].id, tip.id, asset.bones[0].id, "ccd"))
+        self.assert_near(tip.head, (0, 3, 0))
+
+    def test_a_chain_by_the_head_of_its_bone(self):
+        rig = fixtures.armature("rig", [("one", None, (0, 0, 0), (0, 0, 1), 0), ("two", "one", (0, 0, 1), (0, 0.5, 2), 20),
+                                        ("three", "two", (0, 0.5, 2), (0, 0, 3), 0)])
+        fixtures.hang(fixtures.box("b"), rig, "one")
+        made = rig.pose.bones["three"].constraints.new("IK")
+        made.target, made.use_tail, made.chain_count = bpy.data.objects["b"], False, 2
+        asset = self.export(build=False)
+        names = {bone.id: bone.name for bone in asset.bones}
+        chain = asset.ik_chains[0]
+        self.assertEqual((names[chain.root], names[chain.end], chain.solver, len(asset.bones)), ("one", "three", "two_bone", 3))
 
 
 class Surroundings(fixtures.SceneTest):

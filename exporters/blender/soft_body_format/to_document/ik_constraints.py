@@ -14,19 +14,21 @@ class IkConstraints:
                     self.chain(pose, one)
 
     def chain(self, pose, one):
-        """The tail of the constrained bone reaches; here that is the head of a bone that begins there."""
+        """What reaches is the tail of the constrained bone, or its head: here the head of a bone that begins there."""
         writer, bone = self.writer, self.armature.data.bones[pose.name]
-        end = next((child for child in bone.children if (child.head_local - bone.tail_local).length < 1e-4), None)
-        if end is None:
-            writer.findings.warning("its IK constraint is left out: no bone begins at its tail, which is what reaches; add one there",
+        last = bone if one.use_tail else bone.parent
+        if last is None:
+            writer.findings.warning("its IK constraint is left out: it does not use the tail, and there is no bone above it to turn",
                                     object_name=self.armature.name, bone_name=pose.name)
             return
-        bones = [bone]
+        end = self.end_of(bone) if one.use_tail else bone.name
+        bones = [last]
         while bones[-1].parent is not None and (one.chain_count == 0 or len(bones) < one.chain_count):
             bones.append(bones[-1].parent)
-        if any(chain.end == writer.skeleton.id(self.armature, end.name) for chain in writer.asset.ik_chains):
+        if any(chain.end == writer.skeleton.id(self.armature, end) for chain in writer.asset.ik_chains):
             return  # the gait has it already
-        made = writer.asset.add("ik_chains", id=self.chain_id(end), name=one.name, end=self.id(end),
+        made = writer.asset.add("ik_chains", id=self.chain_id(end), name=one.name,
+                                end=writer.skeleton.id(self.armature, end),
                                 root=self.id(bones[-1]), solver="two_bone" if len(bones) == 2 else "ccd",
                                 iterations=min(one.iterations, 100), copy_rotation=1.0 if one.use_rotation else 0.0)
         if one.pole_target is not None:
@@ -34,8 +36,25 @@ class IkConstraints:
         for link in bones:
             self.comfort(made, link)
 
+    def end_of(self, bone):
+        """The name of a bone that begins at the tail; a new one of the file where there is none."""
+        found = next((child for child in bone.children if (child.head_local - bone.tail_local).length < 1e-4), None)
+        if found is not None:
+            return found.name
+        writer, name = self.writer, f"{bone.name} tip"
+        key = (self.armature.name, name)
+        if writer.skeleton.id(self.armature, name) is None:
+            frame, above = self.armature.matrix_world @ bone.matrix_local, writer.asset.find("bones", self.id(bone))
+            writer.skeleton.ids[key] = writer.identifiers.of("bone", key, name)
+            writer.skeleton.numbers[key] = len(writer.asset.bones)
+            writer.asset.add("bones", id=writer.skeleton.ids[key], name=name, parent=above.id, length=0.1 * above.length,
+                             head=writer.space.point(self.armature.matrix_world @ bone.tail_local),
+                             rotation=writer.space.rotation(frame.to_quaternion()))
+        return name
+
     def chain_id(self, end):
-        return self.writer.identifiers.of("ik", (self.armature.name, end.name), end.name, end.soft_body_format.chain_identity)
+        bone = self.armature.data.bones.get(end)
+        return self.writer.identifiers.of("ik", (self.armature.name, end), end, bone.soft_body_format.chain_identity if bone else "")
 
     def id(self, bone):
         return self.writer.skeleton.id(self.armature, bone.name)

@@ -7,6 +7,7 @@ import numpy
 
 from .roles import IGNORE
 
+SURFACES = {"CURVE": "curve", "SURFACE": "NURBS surface", "FONT": "text", "META": "metaball"}  # what could be meshes
 LEAST_VOLUME = 1e-18  # of a cube of side one, in metres
 
 
@@ -18,6 +19,9 @@ def look(writer):
 
 def sound(writer, source):
     findings, world = writer.findings, source.matrix_world
+    if source.type in SURFACES:
+        findings.warning(f"is a {SURFACES[source.type]} and is left out: make a mesh of it (Object > Convert > Mesh)",
+                         object_name=source.name)
     if source.type not in ("MESH", "ARMATURE") or writer.roles.get(source.name) == IGNORE:
         return True
     volume = world.to_3x3().determinant()
