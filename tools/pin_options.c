@@ -43,10 +43,28 @@ static bool read_names(
   return true;
 }
 
+static bool read_attachments(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
+  sbf_convert_pin *pairs;
+  bool good = read_names(call, "--attach", &pairs, &pins->attached_text, &options->attachment_count);
+  if (good) pins->attachments = calloc(options->attachment_count + 1, sizeof *pins->attachments);
+  for (uint32_t i = 0; good && pins->attachments && i < options->attachment_count; i++) {
+    pins->attachments[i] = (sbf_convert_attachment){pairs[i].group, pairs[i].bone};
+    if (pairs[i].bone && pairs[i].bone[0]) continue;
+    cli_wrong(call, "--attach takes a soft body and what holds it, as --attach belly=ribs, not '%s'",
+        pairs[i].group);
+    good = false;
+  }
+  if (good && !pins->attachments) cli_wrong(call, "out of memory");
+  options->attachments = pins->attachments;
+  free(pairs);
+  return good && pins->attachments;
+}
+
 bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
   *pins = (pin_options){.pins = NULL};
   if (!read_names(call, "--pin", &pins->pins, &pins->text, &options->pin_count) ||
-      !read_names(call, "--hold", &pins->holds, &pins->held_text, &options->hold_count))
+      !read_names(call, "--hold", &pins->holds, &pins->held_text, &options->hold_count) ||
+      !read_attachments(call, pins, options))
     return false;
   options->pins = pins->pins;
   options->holds = pins->holds;
@@ -58,4 +76,6 @@ void pin_options_free(pin_options *pins) {
   free(pins->text);
   free(pins->holds);
   free(pins->held_text);
+  free(pins->attachments);
+  free(pins->attached_text);
 }

@@ -1,4 +1,5 @@
-/* `--pin GROUP[=BONE]` and the bounds and stiffness of goals, for sbf_convert. */
+/* `--pin GROUP[=BONE]`, `--hold`, `--attach BODY=HULL` and the bounds and stiffness of goals, for
+ * sbf_convert. */
 #ifndef PIN_OPTIONS_H
 #define PIN_OPTIONS_H
 
@@ -14,13 +15,18 @@
           "hold what a vertex group or a bone's weights name in the sections that a skin is cut into, by "   \
           "the "                                                                                             \
           "section's bone or that one; may be given again"},                                                 \
+      {"--attach", "BODY=HULL",                                                                              \
+          "let everything of a soft body inside the hull of another object, or of a bone's rigid body, be "  \
+          "held by "                                                                                         \
+          "it; that object is then a rigid body and no longer drawn; may be given again"},                   \
       {"--goal", "MIN,MAX", "bounds of pin weights; below 1 a pin is a goal spring (0,1)"}, {                \
     "--goal-stiffness", "N/M", "of a goal spring at weight 1 (by the body's modulus)"                        \
   }
 
 typedef struct pin_options {
   sbf_convert_pin *pins, *holds;
-  char *text, *held_text; /* of all names */
+  sbf_convert_attachment *attachments;
+  char *text, *held_text, *attached_text; /* of all names */
 } pin_options;
 
 /* Sets what the call asks for in `*options`; "world", and nothing behind the =, are the world. False, with a

@@ -245,7 +245,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_PARTIAL_UVS", SBF_CODE_IMPORT_PARTIAL_UVS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A set of texture coordinates does not cover the whole mesh and was dropped."},
   {"IMPORT_INSIDE_OUT", SBF_CODE_IMPORT_INSIDE_OUT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "All polygons of a closed surface faced inwards: they were turned round."},
   {"IMPORT_GROUND", SBF_CODE_IMPORT_GROUND, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character did not stand on y = 0 and was moved there."},
-  {"IMPORT_PIN_UNKNOWN", SBF_CODE_IMPORT_PIN_UNKNOWN, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A pin names a group or a bone that the input does not have: see what sbfmt info lists."},
+  {"IMPORT_PIN_UNKNOWN", SBF_CODE_IMPORT_PIN_UNKNOWN, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A pin or an attachment names a group, an object or a bone that the input does not have: see what sbfmt info lists."},
   {"MATERIAL_GUESSED", SBF_CODE_MATERIAL_GUESSED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Nobody says what bodies are made of: sections on bones are taken for flesh, and what the usual modulus would not bear is as stiff as it takes to stand."},
   {"IMPORT_TETRAHEDRA_TURNED", SBF_CODE_IMPORT_TETRAHEDRA_TURNED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra were listed the other way round: they have been turned."},
   {"IMPORT_TETRAHEDRA_FLAT", SBF_CODE_IMPORT_TETRAHEDRA_FLAT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra without volume were left out."},

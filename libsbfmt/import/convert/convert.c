@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/sha256.h"
 #include "import/convert/conversion.h"
+#include "import/convert/convert_attachments.h"
 #include "import/convert/convert_pins.h"
 #include "import/convert/convert_summary.h"
 #include "import/convert/convert_tets.h"
@@ -122,7 +123,7 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
       sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes,
       sbfi_measure_leaf_bones, sbfi_propose_gait, sbfi_stand_on_ground, sbfi_convert_joints,
-      sbfi_propose_limits, sbfi_convert_clips};
+      sbfi_convert_attachments, sbfi_propose_limits, sbfi_convert_clips};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     if (passes[i] == sbfi_propose_gait && options->no_gait) continue;
     sbf_status status = passes[i](c);

@@ -256,7 +256,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_PARTIAL_UVS = 953, /* A set of texture coordinates does not cover the whole mesh and was dropped. */
   SBF_CODE_IMPORT_INSIDE_OUT = 954, /* All polygons of a closed surface faced inwards: they were turned round. */
   SBF_CODE_IMPORT_GROUND = 955, /* The character did not stand on y = 0 and was moved there. */
-  SBF_CODE_IMPORT_PIN_UNKNOWN = 956, /* A pin names a group or a bone that the input does not have: see what sbfmt info lists. */
+  SBF_CODE_IMPORT_PIN_UNKNOWN = 956, /* A pin or an attachment names a group, an object or a bone that the input does not have: see what sbfmt info lists. */
   SBF_CODE_MATERIAL_GUESSED = 957, /* Nobody says what bodies are made of: sections on bones are taken for flesh, and what the usual modulus would not bear is as stiff as it takes to stand. */
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra were listed the other way round: they have been turned. */
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out. */

@@ -48,6 +48,14 @@ typedef enum sbf_convert_limits {
   SBF_CONVERT_LIMITS_REPTILE = 3
 } sbf_convert_limits;
 
+/* A soft body, and what holds everything of it that lies inside: another object of the input, which becomes a
+ * rigid body of its convex hull on the bone that it hangs on, neither soft nor drawn any more; or the rigid
+ * body of the bone of that name. */
+typedef struct sbf_convert_attachment {
+  const char *body;   /* the soft body's name */
+  const char *holder; /* the object's name, or the bone's */
+} sbf_convert_attachment;
+
 /* Settings of a conversion. */
 typedef struct sbf_convert_options {
   size_t struct_size;             /* sizeof(sbf_convert_options), or 0 for this version's */
@@ -82,6 +90,9 @@ typedef struct sbf_convert_options {
    * goes with the bone of the section that it lies in. */
   const sbf_convert_pin *holds; /* (hold_count) */
   uint32_t hold_count;          /* of holds */
+  /* What rigid hulls hold: everything of a soft body inside one, on each level that a build makes. */
+  const sbf_convert_attachment *attachments; /* (attachment_count) */
+  uint32_t attachment_count;                 /* of attachments */
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names
