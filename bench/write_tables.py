@@ -95,6 +95,21 @@ def springs_row(r):
             r["substeps"]]
 
 
+def bullet_row(r):
+    return [r["body"], number(r["elements"]), r["engine"], r["method"], r["steps"], r["iterations"], r["threads"], number(r["us"]), r["ns"],
+            r["error_mm"], r["times"]]
+
+
+def crowd_row(r):
+    return [r["character"], r["count"], r["threads"], r["instructions"], r["substeps"], number(r["busy_ms"]),
+            number(r["wall_ms"]) if r["wall_ms"] else "", r["times_one"], r["ns_per_element"], r["gb_s"]]
+
+
+def character_row(r):
+    return [f"{float(r['young_modulus']) / 1000:.0f}", r["elements"], r["substeps"], r["strain"], r["residual"], r["tick_us"],
+            r["skin_us"], r["frame_us"], r["worst_us"]]
+
+
 TABLES = {
     "lattice": (lattice_row, "surface | by | tetrahedra | ms | tetrahedra/s | least angle | greatest | volume | farthest, cells | "
                              "peak KiB", 2),
@@ -108,6 +123,11 @@ TABLES = {
     "progress": (progress_row, "asset | build | s | calls | longest silence, s | in", 2),
     "gait": (gait_row, "character | legs | bones | ground | drive | least µs | median µs | worst µs", 1),
     "skin": (skin_row, "mesh | render level | triangles | vertices | least µs | median µs | of the full mesh", 1),
+    "bullet": (bullet_row, "body | elements | engine | method | steps | iterations | threads | µs a tick | ns | error, mm | "
+                           "× ours at that error", 1),
+    "crowd": (crowd_row, "what | of it | threads | instructions | substeps | ms a tick | wall, ms | × one thread | ns a tetrahedron "
+                         "and substep | GB/s", 1),
+    "character": (character_row, "E, kPa | tetrahedra | substeps | strain | off 20,000 by | tick, µs | skin, µs | frame, µs | worst", 0),
     "schemes": (schemes_row, "body | scheme | springs | substeps | µs a tick | ns a spring and substep | error, mm", 2),
     "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | greatest, m | missed", 3),
     "size": (size_row, "file | vertices | springs | XML | gzip of it | packed | stored | packed / XML | "
