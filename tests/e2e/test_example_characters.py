@@ -11,9 +11,8 @@ from bundle_file import Bundle
 from motion_files import read_poses, rotated
 from sbfmt_program import PROGRAM, ROOT, ProgramTest, main
 
-# legs; what is allowed at half a leg length a second: change of a knee's speed (degrees), slip (m; a yeti's feet are soft,
-# without its flesh they do not slip at all)
-WALKERS = {"pup": (4, 5, 0.0015), "yeti": (2, 9, 0.004), "spider": (8, 5, 0.002), "caterpillar": (14, 12, 0.0005)}
+# legs; what is allowed at half a leg length a second: change of a knee's speed (degrees), slip (m)
+WALKERS = {"pup": (4, 5, 0.0015), "yeti": (2, 5, 0.001), "spider": (8, 5, 0.002), "caterpillar": (14, 12, 0.0005)}
 CHAINS = {"snake": 18, "koi": 8, "dragon": 17}  # links
 
 
