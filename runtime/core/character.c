@@ -97,6 +97,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
       .state = state,
       .scratch = scratch};
   put(world, c, definition->position, definition->heading);
+  sbri_rigid_place(c, true);
   sbri_mend(c);
   sbri_place_at_rest(c);
   sbri_work_list(world);
@@ -136,6 +137,7 @@ void sbr_character_teleport(
   sbri_character_wake(c);
   sbri_deltas_make(c, sbri_pose(c), sbri_previous_deltas(c));
   put(world, c, position, heading);
+  sbri_rigid_carry(c);
   sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_carry(c, i);
   sbri_settle(c);
@@ -152,6 +154,7 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbr_double3 origin = sbri_head(c)->origin;
   sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = 0;
   put(world, c, (sbr_double3){origin.x + (double)place.x, place.y, origin.z + (double)place.z}, heading);
+  sbri_rigid_place(c, false);
   sbri_mend(c);
   sbri_place_at_rest(c);
   world->stamp++;

@@ -124,7 +124,7 @@ bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c) {
   if (!world->sleep_ticks || head->forward != 0 || head->sideways != 0 || head->turn != 0) return false;
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (!sbri_island_states(c)[i].asleep) return false;
-  return true;
+  return sbri_rigid_is_still(c);
 }
 
 void sbri_character_keep_gait(sbri_character *c) {

@@ -51,10 +51,16 @@ void sbri_layout_make(sbr_model *model) {
   l->skin_cells = place(&end, model->torn_cell_count, sizeof(sbri_carry_cell));
   l->bound_to = place(&end, model->binding_count, sizeof(uint32_t));
   l->torn_polygons = place(&end, model->torn_polygon_count, sizeof(uint32_t));
+  l->rigid_bodies = place(&end, model->rigid.body_count, sizeof(sbri_rigid_body_state));
+  l->rigid_joints = place(&end, model->rigid.joint_count, sizeof(sbri_rigid_joint_state));
+  l->rigid_drive = place(&end, model->rigid.body_count ? 1 : 0, sizeof(sbri_rigid_drive_state));
   l->state_size = (end + 63) & ~(size_t)63;
   end = 0;
   l->deltas = place(&end, frames, sizeof(sbr_transform));
   l->previous_deltas = place(&end, frames, sizeof(sbr_transform));
+  l->animated = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
+  l->rigid_targets = place(&end, model->rigid.body_count, sizeof(sbr_transform));
+  l->rigid_work = place(&end, sbri_rigid_work_size(&model->rigid), 1);
   l->gait_before = place(&end, 1, sbri_gait_state_size(&model->rig));
   l->targets = place(&end, slots, sizeof(sbri_point));
   l->guide_velocities = place(&end, 3 * slots, sizeof(float));

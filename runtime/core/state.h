@@ -5,6 +5,7 @@
 
 #include "gait/gait.h"
 #include "model/runtime_model.h"
+#include "rigid/rigid_state.h"
 #include "solvers/island_tick.h"
 
 enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS };
@@ -71,13 +72,16 @@ SBRI_STATE_PART(torn, uint32_t, c->model->layout.torn)                   /* (sol
 /* Of models whose tetrahedra may tear, else empty: where each slot comes from, SBRI_UNUSED while it is room
  * for a point that splits; what it weighs; the cells of skins, the tetrahedron that each binding rides on,
  * and what has become of each polygon. */
-SBRI_STATE_PART(origins, uint32_t, c->model->layout.origins)              /* (slot_count) */
-SBRI_STATE_PART(masses, float, c->model->layout.masses)                   /* (slot_count) kg */
-SBRI_STATE_PART(inverse_masses, float, c->model->layout.inverse_masses)   /* (slot_count) 1/kg */
-SBRI_STATE_PART(gravity_scales, float, c->model->layout.gravity_scales)   /* (slot_count) */
-SBRI_STATE_PART(skin_cells, sbri_carry_cell, c->model->layout.skin_cells) /* (torn_cell_count) */
-SBRI_STATE_PART(bound_to, uint32_t, c->model->layout.bound_to)            /* (binding_count) */
-SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)  /* (torn_polygon_count) */
+SBRI_STATE_PART(origins, uint32_t, c->model->layout.origins)                        /* (slot_count) */
+SBRI_STATE_PART(masses, float, c->model->layout.masses)                             /* (slot_count) kg */
+SBRI_STATE_PART(inverse_masses, float, c->model->layout.inverse_masses)             /* (slot_count) 1/kg */
+SBRI_STATE_PART(gravity_scales, float, c->model->layout.gravity_scales)             /* (slot_count) */
+SBRI_STATE_PART(skin_cells, sbri_carry_cell, c->model->layout.skin_cells)           /* (torn_cell_count) */
+SBRI_STATE_PART(bound_to, uint32_t, c->model->layout.bound_to)                      /* (binding_count) */
+SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)            /* (torn_polygon_count) */
+SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, c->model->layout.rigid_bodies) /* (rigid bodies) */
+SBRI_STATE_PART(rigid_joints, sbri_rigid_joint_state, c->model->layout.rigid_joints) /* (joints) */
+SBRI_STATE_PART(rigid_drive, sbri_rigid_drive_state, c->model->layout.rigid_drive)
 #undef SBRI_STATE_PART
 
 #define SBRI_SCRATCH_PART(name, type, offset)                                                                \
@@ -86,6 +90,10 @@ SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)  /* (to
   }
 SBRI_SCRATCH_PART(deltas, sbr_transform, c->model->layout.deltas)                   /* (frame_count) */
 SBRI_SCRATCH_PART(previous_deltas, sbr_transform, c->model->layout.previous_deltas) /* (frame_count) */
+SBRI_SCRATCH_PART(
+    animated, sbr_transform, c->model->layout.animated) /* (frame_count) pose before rigid parts */
+SBRI_SCRATCH_PART(rigid_targets, sbr_transform, c->model->layout.rigid_targets) /* (rigid bodies) */
+SBRI_SCRATCH_PART(rigid_work, void, c->model->layout.rigid_work)
 SBRI_SCRATCH_PART(gait_before, void, c->model->layout.gait_before)
 SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                 /* (slot_count) */
 SBRI_SCRATCH_PART(guide_velocities, float, c->model->layout.guide_velocities)    /* (slot_count x 3) */
@@ -121,6 +129,25 @@ SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces) /* 
 
 void sbri_island_wake(sbri_character *c, uint32_t island);
 void sbri_character_wake(sbri_character *c);
+
+/* ---- core/rigid_parts.c ---- */
+
+/* Every rigid body at its bone, joints whole; modes and drives as they are, or as the file has them. */
+void sbri_rigid_place(sbri_character *c, bool as_in_file);
+/* Rigid bodies go where the pose has gone from what their bones were at, and stop. */
+void sbri_rigid_carry(sbri_character *c);
+/* The origin moved by `shift`, in asset metres. */
+void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift);
+/* After the gait: steps what is simulated and puts the pose's bones where it has gone. */
+void sbri_rigid_tick_parts(const struct sbr_world *world, sbri_character *c);
+/* Where a pose has a body's own frame, asset metres. */
+sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *pose, uint32_t body);
+bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body);
+void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive);
+/* After any change to modes, drives or motion. */
+void sbri_rigid_wake(sbri_character *c);
+/* Whether nothing of it moves by itself. */
+bool sbri_rigid_is_still(const sbri_character *c);
 
 /* ---- core/frames.c ---- */
 

@@ -51,6 +51,7 @@ static void rebase(sbri_character *c) {
   sbri_gait_rebase(&model->rig, sbri_gait(c), shift);
   shift_frames(sbri_pose(c), model->frame_count, shift);
   shift_frames(sbri_previous_pose(c), model->frame_count, shift);
+  sbri_rigid_rebase(c, own);
   shift_points(sbri_positions(c), model->slot_count, own);
   shift_points(sbri_previous_positions(c), model->slot_count, own);
   for (uint32_t i = 0; i < model->island_count; i++) {
@@ -82,6 +83,7 @@ static void tick_character(void *context, uint32_t index) {
   if (may_sleep) sbri_character_keep_gait(c);
   c->event_count = sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events, SBRI_TICK_EVENTS);
   pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
+  sbri_rigid_tick_parts(world, c);
   if (has_bodies) sbri_deltas_make(c, pose, sbri_deltas(c));
   sbri_head(c)->asleep = may_sleep && sbri_character_is_still(c);
 }

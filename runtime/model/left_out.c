@@ -83,10 +83,10 @@ uint32_t sbr_model_left_out(
   list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
       "other levels of their bodies act");
   list(&l, n.beside, "tetrahedra, regions and jiggles beside a level's own model", "only that acts");
-  uint32_t dynamic = 0;
+  uint32_t weightless = 0;
   for (uint32_t i = 0; i < asset->rigid_bodies.count; i++)
-    dynamic += asset->rigid_bodies.at[i].motion == SBF_BODY_MOTION_DYNAMIC;
-  list(&l, dynamic, "dynamic rigid bodies", "they follow their bones");
-  list(&l, dynamic ? asset->joints.count : 0, "joints", "they hold nothing");
+    weightless +=
+        asset->rigid_bodies.at[i].motion == SBF_BODY_MOTION_DYNAMIC && !(model->rigid.bodies[i].mass > 0);
+  list(&l, weightless, "motions of dynamic rigid bodies without mass", "they follow their bones");
   return l.count;
 }

@@ -10,6 +10,9 @@
 /* Error of a step, of schemes that control it, where nothing else is said: a tenth of a millimetre. */
 static const float STEP_ERROR_M = 1e-4f;
 
+/* Of a control tick for rigid parts, where nothing else is said. */
+enum { RIGID_SUBSTEPS = 4, MOST_RIGID_SUBSTEPS = 1000 };
+
 static sbf_status no_memory(sbf_diagnostic *error) {
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
 }
@@ -19,6 +22,9 @@ static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_model_options: struct_size is %zu, this library's is %zu", options->struct_size,
         sizeof *options);
+  if (options->rigid_substeps > MOST_RIGID_SUBSTEPS)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_model_options: rigid_substeps is %u, at most %d",
+        (unsigned)options->rigid_substeps, (int)MOST_RIGID_SUBSTEPS);
   if (!sbri_kernels_of(options->instructions)) {
     const char *name = sbr_instructions_name(options->instructions);
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
@@ -153,6 +159,8 @@ static sbf_status make(sbr_model *model, const sbr_model_options *options, sbf_d
   if (!rig) return no_memory(error);
   sbri_rig_init(&model->rig, model->asset, rig);
   model->frame_count = model->rig.bone_count + 2;
+  model->rigid_substeps = options->rigid_substeps ? options->rigid_substeps : RIGID_SUBSTEPS;
+  if (!sbri_rigid_model_make(&model->rigid, model->asset, &model->arena)) return no_memory(error);
   sbf_status status = make_islands(model, options, error);
   if (status != SBF_OK) return status;
   if (!make_skins(model)) return no_memory(error);

@@ -19,6 +19,7 @@
 #include "base/memory.h"
 #include "math/wide.h"
 #include "mechanics/spring.h"
+#include "rigid/rigid_model.h"
 #include "sbfmt/mechanics.h"
 #include "skeleton/rig.h"
 #include "skin/skin_tables.h"
@@ -233,7 +234,8 @@ typedef struct sbri_island {
 typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, rests, strengths,
       rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, skin_cells, bound_to,
-      torn_polygons, state_size;
+      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, state_size;
+  size_t animated, rigid_targets, rigid_work;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
@@ -252,8 +254,10 @@ struct sbr_model {
   const struct sbri_kernels *kernels;
   const sbf_asset *asset;
   sbri_rig rig;
-  uint32_t frame_count; /* bones, root, anchor */
-  sbri_body *bodies;    /* (asset->soft_bodies.count) */
+  sbri_rigid_model rigid;
+  uint32_t rigid_substeps; /* of a control tick */
+  uint32_t frame_count;    /* bones, root, anchor */
+  sbri_body *bodies;       /* (asset->soft_bodies.count) */
   sbri_island *islands;
   uint32_t island_count;
   uint32_t slot_count;              /* of all islands */

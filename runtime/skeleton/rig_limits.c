@@ -1,5 +1,6 @@
 /* Limits of bones against their parents, from the joints between the bodies that move with them. */
 #include "math/trig.h"
+#include "mechanics/joint_freedom.h"
 #include "skeleton/rig.h"
 
 static const float ALL_ROUND = 3.2f; /* beyond half a turn: no bound */
@@ -10,9 +11,8 @@ static int32_t bone_of(const sbf_asset *asset, int32_t body) {
 
 /* What the kind alone says of the rotations: free, or held at 0. */
 static void open_kind(sbf_joint_kind kind, sbri_joint_limit *limit) {
-  bool twists = kind == SBF_JOINT_KIND_REVOLUTE || kind == SBF_JOINT_KIND_CYLINDRICAL;
-  bool turns = kind != SBF_JOINT_KIND_PRISMATIC && kind != SBF_JOINT_KIND_FIXED && !twists;
-  float twist = twists || turns ? ALL_ROUND : 0, swing = turns ? ALL_ROUND : 0;
+  float twist = sbfi_joint_is_free(kind, SBF_JOINT_AXIS_TWIST) ? ALL_ROUND : 0;
+  float swing = sbfi_joint_is_free(kind, SBF_JOINT_AXIS_SWING) ? ALL_ROUND : 0;
   limit->twist[0] = -twist, limit->twist[1] = twist;
   limit->swing_y[0] = limit->swing_z[0] = -swing;
   limit->swing_y[1] = limit->swing_z[1] = limit->cone = swing;

@@ -16,7 +16,7 @@ MOTION = MECHANICS + ["libsbfmt/motion"]
 FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/motion", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
 RUNTIME_MATH = MECHANICS + ["runtime/math"]
 RUNTIME = MOTION + ["runtime/" + part for part in (
-    "math", "model", "core", "kernels", "skin", "solvers", "skeleton", "collide", "ik", "gait", "chain", "detail")]
+    "math", "model", "core", "kernels", "skin", "solvers", "rigid", "skeleton", "collide", "ik", "gait", "chain", "detail")]
 
 # Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.
 MAY_USE = {
@@ -48,7 +48,7 @@ HEADER_BOX = {
     "sbfmt/base.h": "core", "sbfmt/codes.h": "core", "sbfmt/model.h": "core", "sbfmt/asset.h": "core",
     "sbfmt/io.h": "core", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
     "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange", "sbrun/sbrun.h": "runtime",
-    "sbrun/animation.h": "runtime", "sbrun/terrain.h": "runtime",
+    "sbrun/animation.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
 }
 BOX_USES = {
     "core": {"core"},

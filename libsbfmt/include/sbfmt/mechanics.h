@@ -47,6 +47,18 @@ typedef struct sbf_solid {
 } sbf_solid;
 SBF_API void sbf_solid_measure(const sbf_polygon_mesh *mesh, sbf_solid *solid);
 
+/* A rigid part as it is simulated: the mass it states, else density times the hull's volume; the moments it
+ * states, else those of its hull filled evenly with the mass, else those of a ball of the mass and density.
+ */
+typedef struct sbf_rigid_measures {
+  double mass;               /* kg; 0: it has neither a hull nor a mass */
+  double volume;             /* m^3 of the hull; 0: it has none */
+  sbf_vec3 center;           /* m, centre of mass, asset space at rest */
+  sbf_vec3 inertia;          /* kg m^2, principal moments about it */
+  sbf_quat inertia_rotation; /* from the principal axes to asset space */
+} sbf_rigid_measures;
+SBF_API void sbf_rigid_body_measure(const sbf_rigid_body *body, sbf_rigid_measures *measures);
+
 /* ---- Bodies: matter and mass -------------------------------------------------------------------------- */
 
 /* What sbf_body_measure finds. */

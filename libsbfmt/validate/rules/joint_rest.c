@@ -2,43 +2,6 @@
 
 #include "validate/rules/pose.h"
 
-#define AXIS(name) (1u << SBF_JOINT_AXIS_##name)
-static const unsigned linear = AXIS(LINEAR_X) | AXIS(LINEAR_Y) | AXIS(LINEAR_Z) | AXIS(DISTANCE);
-static const unsigned angular = AXIS(TWIST) | AXIS(SWING_Y) | AXIS(SWING_Z) | AXIS(SWING);
-
-bool sbfi_joint_is_free(sbf_joint_kind kind, sbf_joint_axis axis) {
-  unsigned free = 0;
-  switch (kind) {
-  case SBF_JOINT_KIND_PRISMATIC:
-    free = AXIS(LINEAR_X) | AXIS(DISTANCE);
-    break;
-  case SBF_JOINT_KIND_REVOLUTE:
-    free = AXIS(TWIST);
-    break;
-  case SBF_JOINT_KIND_CYLINDRICAL:
-    free = AXIS(LINEAR_X) | AXIS(DISTANCE) | AXIS(TWIST);
-    break;
-  case SBF_JOINT_KIND_SPHERICAL:
-    free = angular;
-    break;
-  case SBF_JOINT_KIND_POINT_ON_LINE:
-    free = AXIS(LINEAR_X) | AXIS(DISTANCE) | angular;
-    break;
-  case SBF_JOINT_KIND_POINT_IN_PLANE:
-    free = AXIS(LINEAR_Y) | AXIS(LINEAR_Z) | AXIS(DISTANCE) | angular;
-    break;
-  case SBF_JOINT_KIND_DISTANCE:
-  case SBF_JOINT_KIND_PULLEY:
-  case SBF_JOINT_KIND_SIX_DOF:
-    free = linear | angular;
-    break;
-  case SBF_JOINT_KIND_FIXED:
-  default:
-    break;
-  }
-  return free >> axis & 1;
-}
-
 typedef struct frame {
   sbfi_d3 origin;
   sbfi_rotation turn;

@@ -2,7 +2,7 @@
 #ifndef SBFI_JOINT_REST_H
 #define SBFI_JOINT_REST_H
 
-#include "sbfmt/model.h"
+#include "mechanics/joint_freedom.h"
 
 typedef struct sbfi_joint_rest {
   double at[SBF_JOINT_AXIS_COUNT]; /* by sbf_joint_axis: m or rad; `distance` of a pulley is its rope */
@@ -11,9 +11,5 @@ typedef struct sbfi_joint_rest {
 } sbfi_joint_rest;
 
 sbfi_joint_rest sbfi_joint_rest_of(const sbf_asset *asset, const sbf_joint *joint);
-
-/* Whether the kind leaves the coordinate free, be it by way of another: `swing` by swing_y, `distance` by any
- * linear one. */
-bool sbfi_joint_is_free(sbf_joint_kind kind, sbf_joint_axis axis);
 
 #endif

@@ -111,6 +111,7 @@ typedef struct sbr_model_options {
   uint32_t tear_points; /* that tearing may add to each body of tetrahedra; 0: half as many as it has */
   float step_error_m;   /* error that a step of a scheme with error control (heun) may have; 0: 0.0001 */
   sbr_instructions instructions; /* for the solvers' loops */
+  uint32_t rigid_substeps;       /* of a control tick for rigid parts (sbrun/rigid.h), at most 1000; 0: 4 */
 } sbr_model_options;
 
 /* `asset` must outlive the model. SBF_FAILED where memory runs out, the instructions are not available, or

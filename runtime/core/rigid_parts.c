@@ -1,0 +1,184 @@
+/* A character's rigid parts among the rest of it: where the animation has them, what moves them, and the
+ * bones that move with them. */
+#include <string.h>
+
+#include "core/world.h"
+#include "math/quat.h"
+
+/* Slower than this share of its size a second, with nothing that draws it, a body comes to rest. */
+static const float QUIET_1_S = 0.01f;
+
+bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body) {
+  return sbri_rigid_bodies(c)[body].mode != SBR_RIGID_KINEMATIC && c->model->rigid.bodies[body].mass > 0;
+}
+
+/* ---- From bones to bodies ---- */
+
+/* Where the pose has a body's own frame, asset metres. */
+sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *pose, uint32_t body) {
+  const sbri_rigid_body *is = &c->model->rigid.bodies[body];
+  uint32_t frame = is->source->bone >= 0 ? (uint32_t)is->source->bone : sbri_root_frame(c->model);
+  sbr_transform rest = sbri_frame_rest(c->model, frame);
+  sbf_quat turn = sbri_quat_multiply(pose[frame].rotation, sbri_quat_conjugate(rest.rotation));
+  sbf_vec3 arm = sbri_rotate(turn, sbri_sub(is->center, rest.position));
+  return (sbr_transform){sbri_add(sbri_scale(pose[frame].position, 1 / c->scale), arm),
+      sbri_quat_normalize(sbri_quat_multiply(turn, is->axes))};
+}
+
+static void put_at(sbri_rigid_body_state *body, sbr_transform place) {
+  body->pose = place;
+  body->velocity = body->spin = body->fine = sbri_vec3(0, 0, 0);
+}
+
+void sbri_rigid_wake(sbri_character *c) {
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  drive->asleep = drive->quiet_ticks = drive->any = 0;
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) drive->any |= sbri_rigid_is_simulated(c, b);
+  sbri_character_wake(c);
+}
+
+void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive) {
+  sbri_rigid_drive_state *to = sbri_rigid_drive(c);
+  to->frequency_hz = sbri_clamp(drive->frequency_hz, 0, 100);
+  to->damping_ratio = sbri_clamp(drive->damping_ratio, 0, 10);
+  to->strength = sbri_clamp(drive->strength, 0, 1e6f);
+  to->joint_damping_1_s = sbri_clamp(drive->joint_damping_1_s, 0, 100);
+}
+
+void sbri_rigid_place(sbri_character *c, bool as_in_file) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  if (!model->body_count) return;
+  const sbr_rigid_drive drive = sbr_default_rigid_drive();
+  if (as_in_file) sbri_rigid_set_drive(c, &drive);
+  for (uint32_t b = 0; b < model->body_count; b++) {
+    sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
+    put_at(body, sbri_rigid_target(c, sbri_pose(c), b));
+    if (!as_in_file) continue;
+    bool dynamic = model->bodies[b].source->motion == SBF_BODY_MOTION_DYNAMIC && model->bodies[b].mass > 0;
+    body->mode = dynamic ? SBR_RIGID_PASSIVE : SBR_RIGID_KINEMATIC;
+    body->share = 1;
+  }
+  sbri_rigid_drive(c)->last_step_s = 0;
+  memset(sbri_rigid_joints(c), 0, model->joint_count * sizeof *sbri_rigid_joints(c));
+  sbri_rigid_wake(c);
+}
+
+void sbri_rigid_carry(sbri_character *c) {
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
+    put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_target(c, sbri_pose(c), b));
+  if (c->model->rigid.body_count) sbri_rigid_wake(c);
+}
+
+void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift) {
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
+    sbf_vec3 *at = &sbri_rigid_bodies(c)[b].pose.position;
+    *at = sbri_sub(*at, shift);
+  }
+}
+
+/* ---- From bodies to bones ---- */
+
+static sbr_transform bone_of_body(const sbri_character *c, uint32_t bone, uint32_t body) {
+  const sbri_rigid_body *is = &c->model->rigid.bodies[body];
+  const sbr_transform *rest = &c->model->rig.rest[bone], *now = &sbri_rigid_bodies(c)[body].pose;
+  sbf_quat turn = sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes));
+  sbf_vec3 at = sbri_add(now->position, sbri_rotate(turn, sbri_sub(rest->position, is->center)));
+  return (sbr_transform){
+      sbri_scale(at, c->scale), sbri_quat_normalize(sbri_quat_multiply(turn, rest->rotation))};
+}
+
+/* Bones that a simulated body moves with go with it; those below them keep what the animation has them turned
+ * and away from their parents. */
+static void move_bones(sbri_character *c) {
+  const sbri_rig *rig = &c->model->rig;
+  sbr_transform *pose = sbri_pose(c), *animated = sbri_animated(c);
+  memcpy(animated, pose, c->model->frame_count * sizeof *pose);
+  for (uint32_t i = 0; i < rig->bone_count; i++) {
+    uint32_t bone = rig->subtree[i];
+    int32_t body = c->model->rigid.body_of_bone[bone], parent = rig->parents[bone];
+    if (body >= 0 && sbri_rigid_is_simulated(c, (uint32_t)body)) {
+      pose[bone] = bone_of_body(c, bone, (uint32_t)body);
+    } else if (parent >= 0 && memcmp(&pose[parent], &animated[parent], sizeof *pose) != 0) {
+      sbf_quat turn =
+          sbri_quat_multiply(pose[parent].rotation, sbri_quat_conjugate(animated[parent].rotation));
+      sbf_vec3 away = sbri_sub(animated[bone].position, animated[parent].position);
+      pose[bone].position = sbri_add(pose[parent].position, sbri_rotate(turn, away));
+      pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, animated[bone].rotation));
+    }
+  }
+}
+
+/* ---- Stepping ---- */
+
+static bool is_lost(const sbri_rigid_body_state *body) {
+  const float *numbers = &body->pose.position.x;
+  bool lost = false;
+  for (int i = 0; i < 16; i++) lost = lost || !(fabsf(numbers[i]) < 1e6f);
+  return lost;
+}
+
+static void may_sleep(const sbr_world *world, sbri_character *c) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  bool quiet = world->sleep_ticks > 0;
+  for (uint32_t b = 0; b < model->body_count && quiet; b++) {
+    sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
+    float size = model->bodies[b].radius > 0 ? 2 * model->bodies[b].radius : c->model->rest_size_m;
+    sbf_vec3 turn = sbri_spin_velocity(&model->bodies[b], body->pose.rotation, body->spin);
+    float speed = sbri_length(body->velocity) + 0.5f * size * sbri_length(turn);
+    quiet = body->mode != SBR_RIGID_DRIVEN && speed <= QUIET_1_S * size;
+  }
+  drive->quiet_ticks = quiet ? drive->quiet_ticks + 1 : 0;
+  if (!quiet || drive->quiet_ticks < world->sleep_ticks) return;
+  drive->asleep = 1;
+  drive->last_step_s = 0;
+  for (uint32_t b = 0; b < model->body_count; b++)
+    sbri_rigid_bodies(c)[b].velocity = sbri_rigid_bodies(c)[b].spin = sbri_vec3(0, 0, 0);
+}
+
+/* Whether what holds the sleepers has moved. */
+static bool is_moved(const sbri_character *c) {
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
+    if (!sbri_rigid_is_simulated(c, b) &&
+        memcmp(&sbri_rigid_targets(c)[b], &sbri_rigid_bodies(c)[b].pose, sizeof(sbr_transform)) != 0)
+      return true;
+  return false;
+}
+
+void sbri_rigid_tick_parts(const sbr_world *world, sbri_character *c) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  if (!model->body_count || !sbri_rigid_drive(c)->any) return;
+  for (uint32_t b = 0; b < model->body_count; b++)
+    sbri_rigid_targets(c)[b] = sbri_rigid_target(c, sbri_pose(c), b);
+  if (sbri_rigid_drive(c)->asleep && is_moved(c))
+    sbri_rigid_drive(c)->asleep = sbri_rigid_drive(c)->quiet_ticks = 0;
+  if (!sbri_rigid_drive(c)->asleep) {
+    const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
+    sbri_rigid_tick tick = {.model = model,
+        .bodies = sbri_rigid_bodies(c),
+        .joints = sbri_rigid_joints(c),
+        .drive = sbri_rigid_drive(c),
+        .targets = sbri_rigid_targets(c),
+        .anchor = {sbri_scale(anchor->position, 1 / c->scale), anchor->rotation},
+        .ground = &world->ground,
+        .origin = sbri_head(c)->origin,
+        .scale = c->scale,
+        .gravity = world->has_gravity ? world->gravity : c->model->asset->environment.gravity,
+        .tick_s = (float)world->tick_s * c->time_scale,
+        .substeps = c->model->rigid_substeps,
+        .work = sbri_rigid_work(c)};
+    sbri_rigid_step(&tick);
+    bool lost = false;
+    for (uint32_t b = 0; b < model->body_count; b++) lost = lost || is_lost(&sbri_rigid_bodies(c)[b]);
+    if (lost) /* no motion any more: back to where the animation has them */
+      for (uint32_t b = 0; b < model->body_count; b++)
+        put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_targets(c)[b]);
+    may_sleep(world, c);
+  }
+  move_bones(c);
+}
+
+bool sbri_rigid_is_still(const sbri_character *c) {
+  const sbri_rigid_drive_state *drive = c->model->rigid.body_count ? sbri_rigid_drive(c) : NULL;
+  return !drive || !drive->any || drive->asleep;
+}

@@ -1,0 +1,85 @@
+/* A character's rigid parts in motion: state, and one tick of it.
+ *
+ * State is plain words in the character's block. Poses are those of the bodies' own frames (rigid_model.h) in
+ * asset metres, relative to the character's origin. A body's rotation is kept as its angular momentum, which
+ * nothing but torques changes. */
+#ifndef SBRI_RIGID_STATE_H
+#define SBRI_RIGID_STATE_H
+
+#include "rigid/rigid_system.h"
+#include "sbrun/rigid.h"
+
+typedef struct sbri_rigid_body_state {
+  sbr_transform pose;
+  sbf_vec3 fine;     /* what the place has beyond its rounded numbers, m */
+  sbf_vec3 velocity; /* of the centre of mass, m/s */
+  sbf_vec3 spin;     /* angular momentum about it, kg m^2/s */
+  uint32_t mode;     /* of sbr_rigid_mode */
+  float share;       /* of the character's drive that its joint to what it hangs on has */
+} sbri_rigid_body_state;
+
+typedef struct sbri_rigid_joint_state {
+  uint32_t broken;
+  sbf_vec3 force, torque; /* on body b about frame b, mean of the last tick, N and N m */
+} sbri_rigid_joint_state;
+
+typedef struct sbri_rigid_drive_state {
+  float frequency_hz, damping_ratio, strength, joint_damping_1_s; /* as sbr_rigid_drive has them */
+  uint32_t asleep, quiet_ticks;
+  uint32_t substeps; /* of the last tick */
+  float last_step_s; /* of the last tick; 0: the bodies have just begun to move */
+  uint32_t any;      /* some body is not kinematic */
+} sbri_rigid_drive_state;
+
+/* A vertex of a hull that may touch the ground within the tick. */
+typedef struct sbri_ground_touch {
+  int32_t node;
+  uint32_t body;
+  sbf_vec3 at; /* own frame */
+  sbf_vec3 normal;
+  float offset; /* of the plane through the ground's place, as normal.x */
+  /* In a substep: */
+  sbf_vec3 arm;
+  sbf_vec3 target;   /* wanted change of the place's velocity */
+  float gap;         /* m */
+  float bounce_m_s;  /* to be thrown back with; 0: not */
+  float stiff, grip; /* inverse give along the normal, and across where it sticks, kg */
+  sbf_vec3 drag;     /* impulse of friction where it slides, and across that and the normal: */
+  sbf_vec3 side;     /* unit vector, along which friction turns with the direction of sliding */
+  float side_grip;   /* kg: impulse of friction over the speed of sliding */
+  float normal_impulse;
+  bool active, slides;
+} sbri_ground_touch;
+
+/* A tick of all rigid parts of a character. */
+typedef struct sbri_rigid_tick {
+  const sbri_rigid_model *model;
+  sbri_rigid_body_state *bodies;  /* (body_count) */
+  sbri_rigid_joint_state *joints; /* (joint_count) */
+  sbri_rigid_drive_state *drive;
+  const sbr_transform *targets; /* (body_count) where the animation has each at the end of the tick */
+  sbr_transform anchor;
+  const sbr_ground *ground;
+  sbr_double3 origin; /* m, world */
+  float scale;
+  sbf_vec3 gravity;
+  float tick_s;
+  uint32_t substeps;
+  void *work; /* sbri_rigid_work_size(model) bytes, of which nothing need be known */
+} sbri_rigid_tick;
+
+size_t sbri_rigid_work_size(const sbri_rigid_model *model);
+
+/* Advances all that is not broken by a tick. */
+void sbri_rigid_step(const sbri_rigid_tick *tick);
+
+/* Mean angular velocity over a step of what keeps its angular momentum, and where it turns to. */
+sbf_vec3 sbri_free_turn(
+    const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin, float step_s, sbf_quat *to);
+
+/* Angular velocity now. */
+sbf_vec3 sbri_spin_velocity(const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin);
+/* And the angular momentum of that angular velocity. */
+sbf_vec3 sbri_spin_from(const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 velocity);
+
+#endif

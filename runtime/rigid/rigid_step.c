@@ -1,0 +1,393 @@
+/* One tick of a character's rigid parts, in small steps.
+ *
+ * A step is a leapfrog with constraints, SHAKE for bodies that turn (Ryckaert, Ciccotti, Berendsen, Numerical
+ * integration of the Cartesian equations of motion of a system with constraints, 1977; Kol, Laird,
+ * Leimkuhler, A symplectic method for rigid-body molecular simulation, 1997): velocities take up weight, then
+ * the impulses of the joints along their directions at the step's begin, such that the joints hold at the
+ * step's END; so a pendulum neither gains nor loses by the step's size. The impulses follow from a linear
+ * system (rigid_system.h) that is solved exactly, and once more with what the way along an arc has left. No
+ * impulse is summed over sweeps, nothing is carried on from one step to the next. Which limits and touches
+ * push is found in a few passes over the same system. */
+#include <string.h>
+
+#include "math/quat_log.h"
+#include "rigid/rigid_work.h"
+#include "rigid/sym6.h"
+
+enum { FREE_PASSES = 6, MOST_PASSES = 9, MOST_CORRECTIONS = 4, MOST_SUBSTEPS = 64 };
+
+/* Greatest angular frequency times step: 2 is where a leapfrog ends. */
+static const float MOST_SWING = 0.8f;
+/* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
+static const float MOST_TURN = 0.2f;
+/* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again. */
+static const float FINE = 2e-5f;
+/* And before the step is taken again in halves. */
+static const float COARSE = 3e-4f;
+/* Or where the way along its arcs is so far from its tangents, m and rad. */
+static const float CURVED = 3e-3f;
+
+/* ---- Memory ---- */
+
+static void *carve(unsigned char **memory, size_t count, size_t size) {
+  unsigned char *at = *memory;
+  *memory += (count * size + 15) & ~(size_t)15;
+  return at;
+}
+
+/* Lays the arrays out from `memory` on; returns how much they take. The edges' arrays follow their joints. */
+static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rigid_work *work) {
+  unsigned char *at = memory;
+  size_t bodies = m->body_count, joints = m->joint_count, rows = m->row_count,
+         loop_rows = m->loop_row_capacity;
+  sbri_rigid_system *s = &work->system;
+  s->nodes = carve(&at, bodies + 1, sizeof *s->nodes);
+  s->edges = carve(&at, joints + 1, sizeof *s->edges);
+  s->loops = carve(&at, joints + 1, sizeof *s->loops);
+  s->loop_row_capacity = m->loop_row_capacity;
+  s->responses = carve(&at, (loop_rows + 2) * (bodies + 1) * 6, sizeof(double));
+  s->loop_matrix = carve(&at, loop_rows * loop_rows, sizeof(double));
+  s->loop_rhs = carve(&at, loop_rows, sizeof(double));
+  work->motions = carve(&at, bodies + 1, sizeof *work->motions);
+  work->begins = carve(&at, bodies + 1, sizeof *work->begins);
+  work->kept = carve(&at, SBRI_RIGID_HALVINGS * (bodies + 1), sizeof *work->kept);
+  work->pulls = carve(&at, joints + 1, sizeof *work->pulls);
+  work->places = carve(&at, joints + 1, sizeof *work->places);
+  work->touches = carve(&at, m->vertex_count + (size_t)1, sizeof *work->touches);
+  work->order = carve(&at, 2 * joints + 2, sizeof(uint32_t));
+  work->roots = carve(&at, bodies + 1, sizeof(uint32_t));
+  work->rows = carve(&at, rows, sizeof *work->rows);
+  work->actives = carve(&at, rows, sizeof *work->actives);
+  work->y = carve(&at, 6 * rows, sizeof(double));
+  work->w = carve(&at, 6 * rows, sizeof(double));
+  work->t = carve(&at, rows, sizeof(double));
+  work->rhs = carve(&at, rows, sizeof(double));
+  work->g = carve(&at, m->square_count, sizeof(double));
+  return (size_t)(at - memory);
+}
+
+size_t sbri_rigid_work_size(const sbri_rigid_model *model) {
+  sbri_rigid_work work;
+  unsigned char none[16];
+  return model->body_count ? lay_out(model, none, &work) : 0;
+}
+
+static void give_edges_memory(const sbri_rigid_model *m, sbri_rigid_work *work) {
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    sbri_edge *e = &work->system.edges[i];
+    const sbri_rigid_joint *joint = &m->joints[e->joint];
+    size_t row = joint->first_row;
+    e->rows = work->rows + row;
+    e->actives = work->actives + row;
+    e->y = work->y + 6 * row, e->w = work->w + 6 * row;
+    e->t = work->t + row, e->rhs = work->rhs + row;
+    e->g = work->g + joint->first_square;
+  }
+}
+
+/* ---- Motions ---- */
+
+static sbr_transform between(const sbr_transform *a, const sbr_transform *b, float t) {
+  return (sbr_transform){
+      sbri_lerp(a->position, b->position, t), sbri_quat_blend(a->rotation, b->rotation, t)};
+}
+
+static void follow(sbri_rigid_motion *m, const sbr_transform *begin, const sbr_transform *end, float from,
+    float to, float step_s) {
+  m->from = between(begin, end, from), m->to = between(begin, end, to);
+  m->fine_from = m->fine_to = sbri_vec3(0, 0, 0);
+  m->velocity = sbri_scale(sbri_sub(m->to.position, m->from.position), 1 / step_s);
+  sbf_quat turn = sbri_quat_multiply(m->to.rotation, sbri_quat_conjugate(m->from.rotation));
+  m->turn = sbri_scale(sbri_quat_log(turn), 1 / step_s);
+}
+
+/* Where a body goes with the velocities that it has. */
+static void go(const sbri_rigid_tick *t, uint32_t b, sbri_rigid_motion *m, float step_s) {
+  sbri_rigid_body_state *s = &t->bodies[b];
+  m->velocity = s->velocity;
+  sbf_vec3 way = sbri_add_scaled(m->fine_from, s->velocity, step_s); /* a sum that keeps what it rounds off */
+  m->to.position = sbri_add(m->from.position, way);
+  m->fine_to = sbri_sub(way, sbri_sub(m->to.position, m->from.position));
+  m->turn = sbri_free_turn(&t->model->bodies[b], m->from.rotation, s->spin, step_s, &m->to.rotation);
+}
+
+/* Torque on a body per turn about each of its own axes, by pulls at its joints: the force at an arm r answers
+ * a turn with (r.F - r_i F_i) about the axis i. */
+static void add_pull(
+    const sbri_rigid_joint *joint, int side, sbf_quat turn, sbf_vec3 force, float stiffness[3]) {
+  sbf_vec3 r = joint->frames[side].at, f = sbri_rotate(sbri_quat_conjugate(turn), force);
+  if (side == SBRI_A) f = sbri_scale(f, -1);
+  float along = sbri_dot(r, f);
+  stiffness[0] += along - r.x * f.x;
+  stiffness[1] += along - r.y * f.y;
+  stiffness[2] += along - r.z * f.z;
+}
+
+static void find_pulls(
+    const sbri_rigid_tick *t, const sbri_rigid_work *work, uint32_t b, float stiffness[3]) {
+  const sbri_rigid_model *model = t->model;
+  const sbri_rigid_body *body = &model->bodies[b];
+  stiffness[0] = stiffness[1] = stiffness[2] = 0;
+  for (uint32_t k = body->joint_begin; k < body->joint_end; k++) {
+    const sbri_rigid_joint *joint = &model->joints[model->joints_of[k]];
+    int side = joint->bodies[SBRI_B] == (int32_t)b ? SBRI_B : SBRI_A;
+    add_pull(joint, side, t->bodies[b].pose.rotation, work->pulls[model->joints_of[k]], stiffness);
+  }
+}
+
+static void spread(sbf_vec3 own, sbf_quat turn, float to[3][3]) {
+  const sbf_vec3 axes[3] = {sbri_rotate(turn, sbri_vec3(1, 0, 0)), sbri_rotate(turn, sbri_vec3(0, 1, 0)),
+      sbri_rotate(turn, sbri_vec3(0, 0, 1))};
+  const float moments[3] = {own.x, own.y, own.z};
+  memset(to, 0, 9 * sizeof(float));
+  for (int k = 0; k < 3; k++) {
+    const float a[3] = {axes[k].x, axes[k].y, axes[k].z};
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++) to[i][j] += moments[k] * a[i] * a[j];
+  }
+}
+
+/* `from` and `to`: shares of the tick. */
+static void begin_step(const sbri_rigid_tick *t, sbri_rigid_work *work, float from, float to) {
+  const sbri_rigid_model *model = t->model;
+  /* Velocities are those of the middle of the step before. */
+  float step_s = t->tick_s * (to - from), kick_s = 0.5f * (work->last_step_s + step_s);
+  for (uint32_t b = 0; b < model->body_count; b++) {
+    sbri_rigid_motion *m = &work->motions[b];
+    if (m->node < 0) {
+      follow(m, &work->begins[b], &t->targets[b], from, to, step_s);
+      continue;
+    }
+    sbri_rigid_body_state *s = &t->bodies[b];
+    m->from = s->pose, m->fine_from = s->fine;
+    s->velocity = sbri_add_scaled(s->velocity, t->gravity, kick_s * model->bodies[b].source->gravity_scale);
+    go(t, b, m, step_s);
+    sbri_node *node = &work->system.nodes[m->node];
+    spread(model->bodies[b].inertia, m->from.rotation, node->inertia);
+    const sbf_vec3 *ease = &model->bodies[b].inverse_inertia;
+    node->ease[0] = model->bodies[b].inverse_mass;
+    node->ease[1] = (ease->x + ease->y + ease->z) / 3;
+    memset(node->push, 0, sizeof node->push);
+  }
+}
+
+/* ---- The system ---- */
+
+static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    sbri_node *node = &work->system.nodes[i];
+    float mass = t->model->bodies[node->body].mass;
+    memset(node->d, 0, sizeof node->d);
+    for (int k = 0; k < 3; k++) {
+      node->d[k][k] = mass;
+      for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->inertia[k][j];
+    }
+    memcpy(node->b, node->push, sizeof node->b);
+  }
+  sbri_ground_touches_add(work);
+  for (uint32_t e = 0; e < work->system.edge_count; e++)
+    sbri_joint_rows_aim(work, &work->system.edges[e], t->model);
+}
+
+static bool judge(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s, int pass) {
+  bool changed = sbri_ground_touches_judge(t, work, step_s, pass + 1 >= FREE_PASSES);
+  for (uint32_t e = 0; e < work->system.edge_count; e++)
+    if (sbri_joint_rows_judge(work, &work->system.edges[e], t->model, step_s)) changed = true;
+  return changed;
+}
+
+/* Gives the bodies the changes of velocity that were solved for. */
+static void take(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    const sbri_node *node = &work->system.nodes[i];
+    sbri_rigid_body_state *s = &t->bodies[node->body];
+    const double *x = node->x;
+    s->velocity = sbri_add(s->velocity, sbri_vec3((float)x[0], (float)x[1], (float)x[2]));
+    float spin[3];
+    for (int k = 0; k < 3; k++)
+      spin[k] = (float)(node->inertia[k][0] * x[3] + node->inertia[k][1] * x[4] + node->inertia[k][2] * x[5]);
+    s->spin = sbri_add(s->spin, sbri_vec3(spin[0], spin[1], spin[2]));
+  }
+}
+
+static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s) {
+  take(t, work);
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    uint32_t b = work->system.nodes[i].body;
+    go(t, b, &work->motions[b], step_s);
+  }
+}
+
+static void clear_b(sbri_rigid_work *work) {
+  for (uint32_t i = 0; i < work->system.node_count; i++)
+    memset(work->system.nodes[i].b, 0, sizeof work->system.nodes[i].b);
+}
+
+static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_work *work) {
+  float rate = 1 / t->tick_s;
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    sbri_rigid_joint_state *joint = &t->joints[e->joint];
+    sbf_vec3 force = {0, 0, 0}, moment = {0, 0, 0};
+    for (uint32_t r = 0; r < e->row_count; r++) {
+      const sbri_row *row = &e->rows[r];
+      const float *b = row->rates[SBRI_B];
+      if (!row->active && !row->full) continue;
+      force = sbri_add_scaled(force, sbri_vec3(b[0], b[1], b[2]), row->impulse * rate);
+      moment = sbri_add_scaled(moment, sbri_vec3(b[3], b[4], b[5]), row->impulse * rate);
+    }
+    moment = sbri_sub(moment, sbri_cross(work->places[i].arms[SBRI_B], force));
+    joint->force = sbri_add(joint->force, force);
+    joint->torque = sbri_add(joint->torque, moment);
+  }
+}
+
+static void throw_back(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+  clear_b(work);
+  bool any = sbri_ground_touches_bounce(work);
+  for (uint32_t e = 0; e < work->system.edge_count; e++)
+    if (sbri_joint_rows_bounce(work, &work->system.edges[e], t->model)) any = true;
+  if (!any) return;
+  sbri_system_solve(&work->system);
+  take(t, work);
+}
+
+/* One step over that share of the tick; whether it is good. */
+static bool step(const sbri_rigid_tick *t, sbri_rigid_work *work, float from, float to) {
+  float step_s = t->tick_s * (to - from), worst = 0, curved = 0;
+  sbri_rigid_system *s = &work->system;
+  begin_step(t, work, from, to);
+  sbri_ground_touches_make(t, work, step_s);
+  for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_make(t, work, e, step_s);
+  for (int pass = 0; pass < MOST_PASSES; pass++) {
+    begin_pass(t, work);
+    sbri_system_factor(s);
+    sbri_system_solve(s);
+    if (!judge(t, work, step_s, pass)) break;
+  }
+  take_and_go(t, work, step_s);
+  for (int pass = 0; pass < MOST_CORRECTIONS && s->edge_count; pass++) {
+    worst = 0;
+    for (uint32_t e = 0; e < s->edge_count; e++) {
+      float off = sbri_joint_rows_correct(t, work, e, step_s);
+      worst = off > worst ? off : worst;
+    }
+    if (pass == 0) curved = worst;
+    if (pass > 0 && worst < FINE) break;
+    clear_b(work);
+    sbri_system_solve(s);
+    take_and_go(t, work, step_s);
+  }
+  return worst < COARSE && curved < CURVED;
+}
+
+static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_work *work, int depth, bool restore) {
+  sbri_rigid_body_state *kept = work->kept + (size_t)depth * t->model->body_count;
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    uint32_t b = work->system.nodes[i].body;
+    *(restore ? &t->bodies[b] : &kept[b]) = *(restore ? &kept[b] : &t->bodies[b]);
+  }
+}
+
+/* A step, or where the joints do not meet at its end, as when a whip cracks, two of half the length. */
+static void substep(const sbri_rigid_tick *t, sbri_rigid_work *work, float from, float to, int depth) {
+  keep_bodies(t, work, depth, false);
+  if (!step(t, work, from, to) && depth + 1 < SBRI_RIGID_HALVINGS) {
+    keep_bodies(t, work, depth, true);
+    float middle = 0.5f * (from + to);
+    substep(t, work, from, middle, depth + 1);
+    substep(t, work, middle, to, depth + 1);
+    return;
+  }
+  work->last_step_s = t->tick_s * (to - from);
+  throw_back(t, work);
+  note_forces(t, work);
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    uint32_t b = work->system.nodes[i].body;
+    t->bodies[b].pose = work->motions[b].to, t->bodies[b].fine = work->motions[b].fine_to;
+  }
+}
+
+/* The joints' pulls on bodies that have just begun to move, by a short step that is then taken back. */
+static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+  const float share = 1 / (float)MOST_SUBSTEPS;
+  work->last_step_s = share * t->tick_s;
+  keep_bodies(t, work, 0, false);
+  (void)step(t, work, 0, share);
+  keep_bodies(t, work, 0, true);
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    sbf_vec3 *pull = &work->pulls[e->joint];
+    for (uint32_t r = 0; r < e->row_count; r++) {
+      const sbri_row *row = &e->rows[r];
+      const sbf_vec3 along = {row->rates[SBRI_B][0], row->rates[SBRI_B][1], row->rates[SBRI_B][2]};
+      if (row->active) *pull = sbri_add_scaled(*pull, along, row->impulse / work->last_step_s);
+    }
+  }
+  work->last_step_s = 0;
+}
+
+static void break_joints(const sbri_rigid_tick *t) {
+  for (uint32_t j = 0; j < t->model->joint_count; j++) {
+    const sbf_joint *source = t->model->joints[j].source;
+    sbri_rigid_joint_state *joint = &t->joints[j];
+    if ((source->break_force > 0 && sbri_length(joint->force) > source->break_force) ||
+        (source->break_torque > 0 && sbri_length(joint->torque) > source->break_torque))
+      joint->broken = 1;
+  }
+}
+
+static uint32_t count_substeps(const sbri_rigid_tick *t, const sbri_rigid_work *work) {
+  float fastest = 0; /* rad^2/s^2 */
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    const sbri_rigid_body *body = &t->model->bodies[work->system.nodes[i].body];
+    const sbri_rigid_body_state *state = &t->bodies[work->system.nodes[i].body];
+    float stiffness[3];
+    sbf_vec3 turn = sbri_spin_velocity(body, state->pose.rotation, state->spin);
+    if (work->system.nodes[i].edge >= 0) {
+      float own = sbri_length(turn) * (MOST_SWING / MOST_TURN);
+      fastest = own * own > fastest ? own * own : fastest;
+    }
+    find_pulls(t, work, work->system.nodes[i].body, stiffness);
+    const float ease[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
+    for (int a = 0; a < 3; a++) fastest = stiffness[a] * ease[a] > fastest ? stiffness[a] * ease[a] : fastest;
+  }
+  /* In powers of two, and fewer than before only where a quarter would do: a leapfrog whose steps change at
+   * every turn gains by it. */
+  float steps = t->tick_s * sqrtf(fastest) / MOST_SWING;
+  uint32_t count = t->substeps, most = t->substeps > MOST_SUBSTEPS ? t->substeps : MOST_SUBSTEPS;
+  while ((float)count < steps && 2 * count <= most) count *= 2;
+  uint32_t before = t->drive->substeps;
+  if (before > count && before <= most && before < 4 * count) count = before;
+  t->drive->substeps = count;
+  return count;
+}
+
+void sbri_rigid_step(const sbri_rigid_tick *asked) {
+  sbri_rigid_tick counted = *asked, *t = &counted;
+  sbri_rigid_work work;
+  lay_out(t->model, t->work, &work);
+  sbri_rigid_motion *still = &work.motions[t->model->body_count];
+  *still = (sbri_rigid_motion){.from = t->anchor, .to = t->anchor};
+  sbri_rigid_tree_make(t, &work);
+  give_edges_memory(t->model, &work);
+  for (uint32_t b = 0; b < t->model->body_count; b++) work.begins[b] = t->bodies[b].pose;
+  for (uint32_t j = 0; j < t->model->joint_count; j++)
+    work.pulls[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
+  sbri_ground_touches_find(t, &work);
+  work.last_step_s = t->drive->last_step_s;
+  if (work.last_step_s == 0 && work.system.node_count) probe_pulls(t, &work);
+  t->substeps = count_substeps(t, &work);
+  for (uint32_t i = 0; i < t->substeps && work.system.node_count; i++)
+    substep(t, &work, (float)i / (float)t->substeps, (float)(i + 1) / (float)t->substeps, 0);
+  for (uint32_t b = 0; b < t->model->body_count; b++) {
+    if (work.motions[b].node >= 0) continue;
+    sbri_rigid_motion all;
+    follow(&all, &work.begins[b], &t->targets[b], 0, 1, t->tick_s);
+    t->bodies[b].pose = t->targets[b], t->bodies[b].fine = sbri_vec3(0, 0, 0);
+    t->bodies[b].velocity = all.velocity;
+    t->bodies[b].spin = sbri_spin_from(&t->model->bodies[b], t->targets[b].rotation, all.turn);
+  }
+  t->drive->last_step_s = work.last_step_s;
+  break_joints(t);
+}

@@ -1,0 +1,94 @@
+/* The linear system of one substep: bodies that give way, rows that couple them, what the rows do to them.
+ *
+ * Unknown are the changes of the bodies' velocities x (linear and angular, six a body) and the rows' impulses
+ * l in
+ *   D x - J^T l = b      D the bodies' masses and moments, and what acts on single bodies (contacts)
+ *   J x + G l   = c      a row a line: G = 0 is hard, above it gives way (springs, dampers)
+ * The bodies are the nodes of a graph, the joints its edges. Along a tree of joints that spans it, bodies and
+ * joints are eliminated from the leaves to the roots without any fill (Baraff, Linear-Time Dynamics using
+ * Lagrange Multipliers, 1996); rows of joints that close loops follow by their Schur complement, which is
+ * dense and small. Time is linear in bodies, for a tree. The result is exact up to rounding whatever the
+ * masses' ratios: no iteration spreads an impulse from body to body.
+ *
+ * Rows that depend on others of their joint (a cone and a box at one bound) are found by their vanishing
+ * pivots and left out. */
+#ifndef SBRI_RIGID_SYSTEM_H
+#define SBRI_RIGID_SYSTEM_H
+
+#include "rigid/rigid_model.h"
+
+typedef enum sbri_row_kind {
+  SBRI_ROW_HELD,   /* a coordinate at one value */
+  SBRI_ROW_LIMIT,  /* pushes one way only */
+  SBRI_ROW_SPRING, /* a limit with stiffness, likewise */
+  SBRI_ROW_DRIVE,  /* a coordinate's motor, cut to a maximum */
+  SBRI_ROW_TRACK   /* towards an angle of the animated pose, likewise */
+} sbri_row_kind;
+
+typedef struct sbri_row {
+  float rates[SBRI_SIDES][6]; /* of the two bodies */
+  float target;               /* c, of the velocities at the substep's end */
+  float give;                 /* G */
+  float most;                 /* N s or N m s: of drives; 0: no bound */
+  float bound;                /* of the coordinate, where it is held or limited */
+  float end;            /* of the coordinate, wanted at the substep's end, where it is held or limited */
+  float now, low, high; /* of a limit: the coordinate when the substep begins, and its range */
+  float bounce;         /* of a limit that was run into: the speed that it throws back with, else 0 */
+  float impulse;        /* l */
+  int8_t sign;          /* of a limit: the impulse may only be of this sign */
+  uint8_t kind, axis;   /* of sbri_row_kind and sbf_joint_axis */
+  bool active;          /* takes part */
+  bool full;            /* of a drive: it gives its maximum, which is in the velocities already */
+} sbri_row;
+
+/* A joint in the system. */
+typedef struct sbri_edge {
+  uint32_t joint;
+  int32_t nodes[SBRI_SIDES]; /* -1: that side does not give way */
+  uint32_t row_count;
+  sbri_row *rows;        /* (row_count) */
+  uint32_t active_count; /* rows that take part; their places in `actives` */
+  uint16_t *actives;
+  double *y;   /* (active_count x 6) L^-1 J^T of the child */
+  double *g;   /* (active_count^2) Cholesky factor of J D^-1 J^T + G; a pivot's inverse on its diagonal */
+  double *w;   /* (active_count x 6) of the parent */
+  double *t;   /* (active_count) */
+  double *rhs; /* (active_count) */
+} sbri_edge;
+
+/* A body that gives way. */
+typedef struct sbri_node {
+  uint32_t body;
+  int32_t parent, edge; /* -1: root; -1: no joint holds it to its parent or the world */
+  double d[6][6];       /* lower half, then its factor, with the pivots' inverses on the diagonal */
+  double b[6], x[6];
+  double push[6];      /* impulses that are known already: of drives that give their maximum */
+  float inertia[3][3]; /* in space */
+  float ease[2];       /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
+} sbri_node;
+
+typedef struct sbri_rigid_system {
+  sbri_node *nodes; /* (node_count) each behind its parent */
+  uint32_t node_count;
+  sbri_edge *edges; /* (edge_count) of the joints that act */
+  uint32_t edge_count;
+  uint32_t *loops; /* (loop_count) edges that are no part of the tree */
+  uint32_t loop_count;
+  /* Rows of loops, in this substep: */
+  uint32_t loop_row_count, loop_row_capacity;
+  double *responses;   /* (loop_row_capacity + 2, x node_count x 6) what a unit impulse does to every body */
+  double *loop_matrix; /* (loop_row_capacity^2) its Cholesky factor */
+  double *loop_rhs;    /* (loop_row_count) */
+} sbri_rigid_system;
+
+/* Factors the system of the rows that are active and the nodes' d, which it overwrites. */
+void sbri_system_factor(sbri_rigid_system *system);
+
+/* Solves for the nodes' x and adds to the active rows' impulses, from the nodes' b and the edges' rhs (of
+ * active rows). Overwrites b. May be called again with other b and rhs. */
+void sbri_system_solve(sbri_rigid_system *system);
+
+/* Lists which rows are active. */
+void sbri_edge_list_active(sbri_edge *edge);
+
+#endif

@@ -1,0 +1,98 @@
+/* Which bodies give way changes as a game goes: the tree is made anew each tick, without a search. Joints are
+ * taken in the order of how much they hold; each that joins two parts which hang together yet by nothing is
+ * one of the tree's, the world being a part. What is left closes loops. */
+#include "rigid/rigid_work.h"
+
+static uint32_t root_of(uint32_t *parents, uint32_t i) {
+  while (parents[i] != i) i = parents[i] = parents[parents[i]];
+  return i;
+}
+
+static bool gives_way(const sbri_rigid_tick *t, int32_t body) {
+  return body >= 0 && t->bodies[body].mode != SBR_RIGID_KINEMATIC && t->model->bodies[body].mass > 0;
+}
+
+/* The joints that act, those of the tree marked in `in_tree`. */
+static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_work *work, uint8_t *in_tree) {
+  sbri_rigid_system *s = &work->system;
+  const sbri_rigid_model *m = t->model;
+  uint32_t world = m->body_count, *parts = work->roots;
+  for (uint32_t i = 0; i <= m->body_count; i++) parts[i] = i;
+  s->edge_count = s->loop_count = 0;
+  for (uint32_t k = 0; k < m->joint_count; k++) {
+    uint32_t j = m->by_strength[k], ends[SBRI_SIDES];
+    const sbri_rigid_joint *joint = &m->joints[j];
+    bool moves[SBRI_SIDES];
+    for (int side = 0; side < SBRI_SIDES; side++) {
+      moves[side] = gives_way(t, joint->bodies[side]);
+      ends[side] = root_of(parts, moves[side] ? (uint32_t)joint->bodies[side] : world);
+    }
+    if (!(moves[SBRI_A] || moves[SBRI_B]) || t->joints[j].broken ||
+        joint->bodies[SBRI_A] == joint->bodies[SBRI_B])
+      continue;
+    uint32_t edge = s->edge_count++;
+    s->edges[edge].joint = j;
+    in_tree[edge] = ends[SBRI_A] != ends[SBRI_B];
+    if (in_tree[edge])
+      parts[ends[SBRI_A]] = ends[SBRI_B];
+    else
+      s->loops[s->loop_count++] = edge;
+  }
+}
+
+static void add_node(
+    const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t body, int32_t parent, int32_t edge) {
+  sbri_rigid_system *s = &work->system;
+  (void)t;
+  work->motions[body].node = (int32_t)s->node_count;
+  s->nodes[s->node_count++] = (sbri_node){.body = body, .parent = parent, .edge = edge};
+}
+
+/* Follows the tree's joints from what is in the list of nodes already. */
+static void grow(const sbri_rigid_tick *t, sbri_rigid_work *work, const int32_t *edge_of_joint,
+    const uint8_t *in_tree, uint32_t from) {
+  sbri_rigid_system *s = &work->system;
+  const sbri_rigid_model *m = t->model;
+  for (uint32_t i = from; i < s->node_count; i++) {
+    const sbri_rigid_body *body = &m->bodies[s->nodes[i].body];
+    for (uint32_t k = body->joint_begin; k < body->joint_end; k++) {
+      uint32_t j = m->joints_of[k];
+      int32_t edge = edge_of_joint[j];
+      const sbri_rigid_joint *joint = &m->joints[j];
+      int32_t other = joint->bodies[joint->bodies[SBRI_A] == (int32_t)s->nodes[i].body ? SBRI_B : SBRI_A];
+      if (edge < 0 || !in_tree[edge] || !gives_way(t, other) || work->motions[other].node >= 0) continue;
+      add_node(t, work, (uint32_t)other, (int32_t)i, edge);
+    }
+  }
+}
+
+void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+  sbri_rigid_system *s = &work->system;
+  const sbri_rigid_model *m = t->model;
+  uint8_t *in_tree = (uint8_t *)work->order;
+  int32_t *edge_of_joint = (int32_t *)(work->order + m->joint_count + 1);
+  choose_edges(t, work, in_tree);
+  for (uint32_t j = 0; j < m->joint_count; j++) edge_of_joint[j] = -1;
+  for (uint32_t e = 0; e < s->edge_count; e++) edge_of_joint[s->edges[e].joint] = (int32_t)e;
+  s->node_count = 0;
+  for (uint32_t b = 0; b <= m->body_count; b++) work->motions[b].node = -1;
+  for (uint32_t e = 0; e < s->edge_count; e++) { /* what hangs on the world first */
+    const sbri_rigid_joint *joint = &m->joints[s->edges[e].joint];
+    bool a = gives_way(t, joint->bodies[SBRI_A]), b = gives_way(t, joint->bodies[SBRI_B]);
+    if (!in_tree[e] || (a && b)) continue;
+    uint32_t from = s->node_count;
+    add_node(t, work, (uint32_t)joint->bodies[a ? SBRI_A : SBRI_B], -1, (int32_t)e);
+    grow(t, work, edge_of_joint, in_tree, from);
+  }
+  for (uint32_t b = 0; b < m->body_count; b++) { /* and what nothing holds */
+    if (!gives_way(t, (int32_t)b) || work->motions[b].node >= 0) continue;
+    uint32_t from = s->node_count;
+    add_node(t, work, b, -1, -1);
+    grow(t, work, edge_of_joint, in_tree, from);
+  }
+  for (uint32_t e = 0; e < s->edge_count; e++)
+    for (int side = 0; side < SBRI_SIDES; side++) {
+      int32_t body = m->joints[s->edges[e].joint].bodies[side];
+      s->edges[e].nodes[side] = body >= 0 ? work->motions[body].node : -1;
+    }
+}
