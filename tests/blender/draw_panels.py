@@ -137,7 +137,25 @@ def open_bundle():
 
 
 def press_build():
-    bpy.ops.sbfmt.build("EXEC_DEFAULT")
+    """As a button does, which leaves Blender its window: `until` waits for the end."""
+    bpy.ops.sbfmt.build("INVOKE_DEFAULT")
+
+
+def until(is_done):
+    """A step that is repeated until then."""
+    def wait():
+        return is_done()
+    return wait
+
+
+def is_built():
+    from soft_body_format.overlay import structure
+    return structure.summary(bpy.context.scene) != "built: nothing is soft"
+
+
+def is_playing():
+    from soft_body_format.preview import handlers
+    return handlers.running() is not None
 
 
 def break_something():
@@ -192,7 +210,7 @@ def draw_way():
 
 def start_preview():
     bpy.context.scene.frame_set(1)
-    bpy.ops.sbfmt.preview_start("EXEC_DEFAULT")
+    bpy.ops.sbfmt.preview_start("INVOKE_DEFAULT")
 
 
 def play():
@@ -202,6 +220,13 @@ def play():
 
 def stop_preview():
     bpy.ops.sbfmt.preview_stop()
+
+
+def leave():
+    """The add-on takes everything off again. Blender itself, without its panels, can't be asked to quit in peace."""
+    addon_utils.disable("soft_body_format")
+    sys.stdout.flush()
+    os._exit(0)
 
 
 # ---- Pictures ----
@@ -236,7 +261,7 @@ STEPS = (
             lambda: bpy.data.objects["Pelvis"].select_set(True),
             lambda: only("material", "pins", "limits", "collision", "weight_maps")),
     lambda: tab("OBJECT"), shoot("blender-object", "PROPERTIES"),
-    several(press_build, lambda: only("check", "build", "drawn")), lambda: tab("SCENE"),
+    several(press_build, lambda: only("check", "build", "drawn")), until(is_built), lambda: tab("SCENE"),
     shoot("blender", "VIEW_3D", "PROPERTIES"),
     several(break_something, lambda: only("check")), shoot("blender-check", "PROPERTIES"), mend_it,
     lambda: only("gait", "legs"), shoot("blender-gait", "PROPERTIES"),
@@ -246,18 +271,21 @@ STEPS = (
             lambda: setattr(bpy.context.scene.soft_body_format, "show_overlay", False)),
     lambda: tab("BONE"), shoot("blender-joints", "VIEW_3D", "PROPERTIES"),
     several(draw_way, lambda: only("preview", "bake"), lambda: setattr(bpy.context.scene.soft_body_format, "show_joints", "NONE")),
-    lambda: tab("SCENE"), start_preview, play,
+    lambda: tab("SCENE"), start_preview, until(is_playing), play,
     lambda: look([one.name for one in bpy.data.objects if one.name.endswith("(preview)")], FRONT, 1.5), shoot("blender-preview", "VIEW_3D", "PROPERTIES"),
-    stop_preview, lambda: only(*(one.__name__[len("SBFMT_PT_"):] for one in OWN_PANELS)), bpy.ops.wm.quit_blender,
+    stop_preview, lambda: only(*(one.__name__[len("SBFMT_PT_"):] for one in OWN_PANELS)), leave,
 )
 
 
 def run(steps):
-    """One a timer's call, so that Blender draws between them; what goes wrong ends it with a status."""
+    """One a timer's call, so that Blender draws between them; again where it says False. What goes wrong ends it with a status."""
+    left = list(steps)
+
     def call():
         try:
             with bpy.context.temp_override(window=WINDOW):
-                next(steps, lambda: None)()
+                if left and left[0]() is not False:
+                    left.pop(0)
         except Exception:  # pylint: disable=broad-except
             traceback.print_exc()
             sys.stdout.flush()
@@ -268,4 +296,4 @@ def run(steps):
 
 bpy.context.preferences.view.show_splash = False
 addon_utils.enable("soft_body_format")
-bpy.app.timers.register(run(iter(STEPS)), first_interval=1.5)
+bpy.app.timers.register(run(STEPS), first_interval=1.5)

@@ -120,6 +120,29 @@ class Frames(PreviewTest):
         self.assert_near(numpy.ravel(found), [one for place in wanted for one in place], 1e-4)
 
 
+    def test_what_a_collection_instance_shows(self):
+        made = self.blob()
+        inside = bpy.data.collections.new("inside")
+        self.scene.collection.objects.unlink(made)
+        inside.objects.link(made)
+        instance = fixtures.link(bpy.data.objects.new("instance", None))
+        instance.instance_type, instance.instance_collection, instance.location = "COLLECTION", inside, (3, 0, 0)
+        bpy.context.view_layer.update()
+        self.scene.frame_set(1)
+        self.start()
+        copy = next(one.name for one in bpy.data.objects if one.name.endswith("(preview)"))
+        self.assertAlmostEqual(float(places(copy)[:, 0].mean()), 3, delta=0.05)
+        self.assertTrue(instance.hide_get())
+        before = float(places(copy)[:, 2].mean())
+        self.scene.frame_set(6)
+        self.assertLess(float(places(copy)[:, 2].mean()), before - 0.1)
+        bpy.ops.sbfmt.preview_stop()
+        self.assertFalse(instance.hide_get())
+        self.settings.bake_folder, self.settings.bake_end = self.path("cache"), 3
+        self.assertEqual(bpy.ops.sbfmt.bake(), {"FINISHED"})
+        self.assertEqual(os.listdir(self.path("cache")), [])
+
+
 class Comings(PreviewTest):
     def test_the_scene_is_as_before(self):
         made = self.blob()

@@ -92,11 +92,15 @@ class SBFMT_OT_bake(Working, bpy.types.Operator):
             session, stage = yield from previewed_scene(self, context)
             take = KeyTake(start, end, settings.key_every) if settings.bake_to == "SHAPE_KEYS" else \
                 CacheTake(scene, folder, f".{settings.bake_to.lower()}", end - start + 1)
+            actors = [actor for actor in stage.actors if actor.is_own]
+            if len(actors) < len(stage.actors):
+                self.report({"WARNING"}, "what collection instances show is not baked: make them real first (Object > Apply > Make "
+                            "Instances Real)")
             for frame in range(start, end + 1):
                 if frame > start:
                     scene.frame_set(frame)
                     session.step(scene)
-                for actor in stage.actors:
+                for actor in actors:
                     take.take(actor.source, session.points(actor), frame)
                 yield "Baking:", (frame - start + 1) / (end - start + 1)
             told = take.finish(context)

@@ -27,7 +27,8 @@ def previewed_scene(operator, context):
         operator.report({"WARNING"}, "it has no gait, so it stays where it is: tick Scene > Soft body format > Gait")
     elif context.scene.soft_body_format.preview.drive == "CURVE" and session.walker is None:
         operator.report({"WARNING"}, "there is no curve to walk along, so it stays where it is: choose one below Drive")
-    return session, Stage(context.scene, actors_of(whole, built.document), [one.name for one in whole.writer.of_type("ARMATURE")])
+    return session, Stage(context.scene, actors_of(whole, built.document), [one.name for one in whole.writer.of_type("ARMATURE")],
+                          built.document)
 
 
 class SBFMT_OT_preview_start(Working, bpy.types.Operator):

@@ -11,6 +11,8 @@ import bpy
 import numpy
 from mathutils import Matrix
 
+from ..from_document.import_meshes import fill_materials, make_mesh
+from ..space import Space
 from ..to_document.rest import at_rest
 
 NAME, HIDDEN = "Soft body preview", "soft_body_format_hidden"
@@ -19,12 +21,18 @@ COPY_OF = "soft_body_format_copy_of"
 
 @dataclass
 class Actor:
-    """A mesh that is moved: which of the asset's parts moves it, and the names of its object and of the copy."""
+    """A mesh that is moved: which of the asset's parts moves it, and the names of its object and of the copy. What a collection
+    instance shows is no object of the scene; its owner is the instance."""
 
     source: str
+    owner: str
     kind: str      # "skin" of a render mesh, or "surface" of a soft body
     index: int
     copy: str = ""
+
+    @property
+    def is_own(self):
+        return self.source == self.owner
 
 
 def collection_of():
@@ -32,18 +40,17 @@ def collection_of():
 
 
 def actors_of(whole, document):
-    """Which part of the built document moves each object: its render mesh, or the surface of a body that is not rendered."""
+    """Which part of the built document moves each mesh: its render mesh, or the surface of a body that is not rendered."""
     meshes = {one.id: index for index, one in enumerate(document.render_meshes)}
     bodies = {one.id: index for index, one in enumerate(document.soft_bodies)}
-    found = []
-    for source in whole.writer.of_type("MESH"):
-        known = whole.writer.identifiers.known
-        mesh, body = meshes.get(known("mesh", source.name)), bodies.get(known("body", source.name))
-        if mesh is not None:
-            found.append(Actor(source.name, "skin", mesh))
-        elif body is not None:
-            found.append(Actor(source.name, "surface", body))
-    return found
+    owners = whole.writer.stand_ins.owners if whole.writer.stand_ins is not None else {}
+    found = {}
+    for (kind, name), identity in whole.writer.identifiers.given.items():
+        if kind == "mesh" and identity in meshes:
+            found[name] = Actor(name, owners.get(name, name), "skin", meshes[identity])
+        elif kind == "body" and identity in bodies and name not in found:
+            found[name] = Actor(name, owners.get(name, name), "surface", bodies[identity])
+    return list(found.values())
 
 
 def rest_meshes(context, sources):
@@ -64,16 +71,17 @@ def rest_meshes(context, sources):
 class Stage:
     """The copies of one preview, known by name: Blender's pointers do not outlive an undo."""
 
-    def __init__(self, scene, actors, armatures):
-        self.scene_name, self.actors = scene.name, actors
+    def __init__(self, scene, actors, armatures, document):
+        self.scene_name, self.actors, self.document = scene.name, actors, document
         self.armatures = {name: "" for name in armatures}
 
     def set(self, context):
         """Makes the copies, and closes the eyes of what they stand for."""
         strike()
         scene = bpy.data.scenes[self.scene_name]
-        sources = [scene.objects[actor.source] for actor in self.actors if actor.source in scene.objects]
+        sources = [scene.objects[actor.source] for actor in self.actors if actor.is_own and actor.source in scene.objects]
         meshes = rest_meshes(context, sources)
+        meshes |= {actor.source: self.mesh_of(actor, Space.of_scene(scene)) for actor in self.actors if not actor.is_own}
         collection = bpy.data.collections.new(NAME)
         scene.collection.children.link(collection)
         for actor in self.actors:
@@ -85,11 +93,21 @@ class Stage:
             if name in scene.objects:
                 self.armatures[name] = self.put_armature(scene.objects[name], collection)
         hidden = []
-        for source in sources + [scene.objects[name] for name in self.armatures if name in scene.objects]:
+        instances = sorted({actor.owner for actor in self.actors if not actor.is_own and actor.owner in scene.objects})
+        for source in sources + [scene.objects[name] for name in (*self.armatures, *instances) if name in scene.objects]:
             if not source.hide_get(view_layer=context.view_layer):
                 hidden.append(source.name)
                 source.hide_set(True, view_layer=context.view_layer)
         collection[HIDDEN] = json.dumps(hidden)
+
+    def mesh_of(self, actor, space):
+        """Of what is no object of the scene: as the document has it."""
+        record = (self.document.render_meshes if actor.kind == "skin" else self.document.soft_bodies)[actor.index]
+        mesh = make_mesh(actor.source, record.mesh if actor.kind == "skin" else record.surface, space)
+        names = {one.id: one.name for one in self.document.materials}
+        if actor.kind == "skin":
+            fill_materials(mesh, record, {identity: bpy.data.materials.get(name) for identity, name in names.items()})
+        return mesh
 
     @staticmethod
     def put(made, collection, source):
