@@ -86,6 +86,10 @@ class Drop(ProgramTest):
         self.assertTrue(report["valid"])
         self.assertGreater(report["volume_ratio_least"], KEPT)
         self.assertGreater(lowest, -2e-3)
+        fine = built_of_modulus(self.class_folder.name, "fine.sbfz", source, 8e4, "--springs", "tetrahedra", "--elements",
+                                1000)
+        fall = self.json_of("run", fine, "--free", "--raise", 1, "--seconds", 1.5)
+        self.assertTrue(fall["valid"])  # corners that strike stay sound
 
 
 class Subdivision(ProgramTest):
