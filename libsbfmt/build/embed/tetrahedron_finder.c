@@ -131,15 +131,29 @@ static void visit_within(search *s, double within, visitor *visit) {
   }
 }
 
+/* Whether no weight of sbfi_tetrahedron_weigh is negative. Most of those asked are not the one: the first
+ * negative weight ends it. */
+static bool is_inside(const sbf_vec3 *positions, const uint32_t corners[4], sbfi_d3 point) {
+  sbfi_d3 origin = sbfi_d3_of(positions[corners[3]]), edges[3], from = sbfi_d3_sub(point, origin);
+  double volume = 0, last = 1, longest2 = 0;
+  for (int k = 0; k < 3; k++) edges[k] = sbfi_d3_sub(sbfi_d3_of(positions[corners[k]]), origin);
+  for (int k = 0; k < 3; k++) {
+    sbfi_d3 cofactor = sbfi_d3_cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
+    if (k == 0) volume = sbfi_d3_dot(edges[0], cofactor);
+    double weight = sbfi_d3_dot(from, cofactor) / volume;
+    if (weight < -slack) return false;
+    last -= weight;
+  }
+  if (last < -slack) return false;
+  for (int k = 0; k < 3; k++) longest2 = fmax(longest2, sbfi_d3_dot(edges[k], edges[k]));
+  return fabs(volume) > 1e-6 * longest2 * sqrt(longest2);
+}
+
 static void look_inside(search *s, uint32_t tetrahedron, double middle2) {
-  (void)middle2;
-  double weights[4];
   const sbfi_tetrahedron_finder *f = s->finder;
+  (void)middle2;
   if (tetrahedron >= s->best) return;
-  if (!sbfi_tetrahedron_weigh(f->positions, f->tetrahedra[tetrahedron].at, s->at, weights)) return;
-  for (int k = 0; k < 4; k++)
-    if (weights[k] < -slack) return;
-  s->best = tetrahedron;
+  if (is_inside(f->positions, f->tetrahedra[tetrahedron].at, s->at)) s->best = tetrahedron;
 }
 
 /* Whether one of the sides' planes has the tetrahedron on its one side and, farther off than that, the point
