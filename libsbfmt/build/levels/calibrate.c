@@ -8,6 +8,9 @@
 /* Of the displacements, that small loads are solved to; of the load under gravity, that may stay unbalanced.
  */
 static const double lean_share = 2e-3, fall_tolerance = 1e-4;
+/* Of the one factor for all: what would take more is not of one piece as its reference is. A crumb that hangs
+ * on nothing, as in a lattice of a surface with holes, gives without end, and no modulus mends that. */
+static const double least_whole = 0.0625, most_whole = 4;
 
 static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
   sbf_vec3 g = asset->environment.gravity;
@@ -144,7 +147,8 @@ static double fit(const work *w) {
     own += w->yieldings[l];
     wanted += w->r->yieldings[l];
   }
-  return own > 0 && wanted > 0 ? own / wanted : 1;
+  double factor = own > 0 && wanted > 0 ? own / wanted : 1;
+  return factor >= least_whole && factor <= most_whole ? factor : 1;
 }
 
 static double residual_of(const work *w, double factor) {
