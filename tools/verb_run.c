@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "pose_file.h"
+#include "rigid_report.h"
 #include "sbfmt/export.h"
 #include "session.h"
 #include "walk_report.h"
@@ -13,6 +14,7 @@ typedef struct run_state {
   session s;
   soles *soles;
   walk_report *walk;
+  rigid_report rigid;
   sbf_vec3 *skin, *normals, *surface, *sample;
   uint32_t skin_count, surface_count;
   sbf_point_cache *cache;
@@ -86,6 +88,7 @@ static bool add_to_cache(run_state *r, sbf_diagnostic *error) {
 
 static bool record(run_state *r, sbf_diagnostic *error) {
   read_health(r);
+  rigid_report_measure(&r->rigid, &r->s);
   if (r->soles) soles_measure(r->soles, &r->s, r->skin);
   if (r->walk) walk_report_measure(r->walk, &r->s, r->skin);
   if (r->cache && !add_to_cache(r, error)) return false;
@@ -129,6 +132,7 @@ static json_t *report(const run_state *r) {
   json_object_set_new(o, "volume_ratio", json_real(r->end_volume));
   json_object_set_new(o, "volume_ratio_least", json_real(r->least_volume));
   json_object_set_new(o, "max_strain", json_real(r->most_strain));
+  rigid_report_add(&r->rigid, &r->s, o);
   if (leg_count == 0 || !r->soles) return o;
   const sbf_gait *gait = &r->s.asset->gaits.at[0];
   json_t *steps = json_object();
@@ -178,7 +182,7 @@ static int run(cli_call *call) {
   status = SBF_FAILED;
   if (!make_room(&r))
     cli_wrong(call, "memory ran out");
-  else if (open_outputs(&r, call)) {
+  else if (rigid_report_begin(&r.rigid, &r.s, call) && open_outputs(&r, call)) {
     r.soles = soles_create(&r.s);
     r.walk = walk_report_create(&r.s, r.soles);
     if (play(&r, call)) status = SBF_OK;
@@ -215,6 +219,9 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     SESSION_OPTIONS,
+    {"--ragdoll", NULL, "every rigid body with a mass falls and swings by its joints alone"},
+    {"--strength", "TIMES",
+        "every such body is drawn to its pose, by so many times what holds its limb out level; 0: no bound"},
     {"--cache", "OUT.pc2", "write a point cache, a sample a frame"},
     {"--of", "skin|surface", "what the cache holds: the skin, or every section's surface (skin)"},
     {"--pose", "OUT.csv", "write every bone's place and rotation, frame by frame"},
@@ -227,5 +234,9 @@ const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S] [--gro
     "element\n"
     "inverted at any frame; `volume_ratio` is the least of all sections at the end, `volume_ratio_least` at "
     "any\n"
-    "frame; slip and penetration are measured on the skin's soles. The same call gives the same state_hash.",
+    "frame; slip and penetration are measured on the skin's soles. With\n"
+    "--ragdoll or --strength, `limit_excess` is by how much a joint's limit was broken at worst (rad), "
+    "`joint_gap`\n"
+    "how far a joint was off (m), `rest_time` when everything lay still (s; null: it does not). The same "
+    "call gives the same state_hash.",
     options, 1, 1, run};

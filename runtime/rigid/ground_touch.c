@@ -18,6 +18,8 @@ static const float STICK_SLACK = 5e-4f;
 static const float SLOW_M_S = 1e-4f;
 /* A drag that is right but for this share needs no other pass. */
 static const float DRAG_CHANGE = 0.01f;
+/* What is no higher lies on the ground: to pull it down there for one step does next to nothing. */
+static const float LYING_M = 1e-4f;
 /* What lies below is moved up by this share of it a substep, and no faster than that. */
 static const float LIFT_SHARE = 0.2f, LIFT_MOST_M_S = 0.5f;
 
@@ -209,7 +211,8 @@ static bool damp_slides(const sbri_rigid_tick *t, sbri_rigid_work *work) {
   return any;
 }
 
-bool sbri_ground_touches_judge(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s, bool settle) {
+bool sbri_ground_touches_judge(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s, int stage) {
+  bool settle = stage > 0;
   bool changed = settle && damp_slides(t, work);
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
@@ -217,7 +220,8 @@ bool sbri_ground_touches_judge(const sbri_rigid_tick *t, sbri_rigid_work *work, 
     float friction = t->model->bodies[touch->body].source->friction;
     if (!settle && touch->active && friction > 0 && judge_grip(touch, friction, is.impulse, is.left, is.slip))
       changed = true;
-    else if (!touch->active && touch->gap + step_s * is.speed < -1e-6f && is.speed < 0)
+    else if ((stage == 0 || (stage == 1 && touch->gap < LYING_M)) && !touch->active &&
+             touch->gap + step_s * is.speed < -1e-6f && is.speed < 0)
       touch->active = changed = true;
   }
   if (changed) return true; /* who pulls is judged by friction as it should be */

@@ -14,7 +14,7 @@
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
-enum { FREE_PASSES = 6, MOST_PASSES = 9, MOST_CORRECTIONS = 4, MOST_SUBSTEPS = 64 };
+enum { FREE_PASSES = 6, SETTLING_PASSES = 9, MOST_PASSES = 12, MOST_CORRECTIONS = 4, MOST_SUBSTEPS = 64 };
 
 /* Greatest angular frequency times step: 2 is where a leapfrog ends. */
 static const float MOST_SWING = 0.8f;
@@ -190,7 +190,8 @@ static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_work *work) {
 }
 
 static bool judge(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s, int pass) {
-  bool changed = sbri_ground_touches_judge(t, work, step_s, pass + 1 >= FREE_PASSES);
+  bool changed =
+      sbri_ground_touches_judge(t, work, step_s, (pass + 1 >= FREE_PASSES) + (pass + 1 >= SETTLING_PASSES));
   for (uint32_t e = 0; e < work->system.edge_count; e++)
     if (sbri_joint_rows_judge(work, &work->system.edges[e], t->model, step_s)) changed = true;
   return changed;

@@ -62,9 +62,10 @@ void sbri_ground_touches_add(sbri_rigid_work *work);
 /* To the nodes' b what throws back those that have struck the ground, at the substep's end; whether any is.
  */
 bool sbri_ground_touches_bounce(sbri_rigid_work *work);
-/* From the nodes' x: who is in contact, and who slides; whether that has changed. Once it is to `settle`,
- * only the first of these goes on. */
-bool sbri_ground_touches_judge(const sbri_rigid_tick *tick, sbri_rigid_work *work, float step_s, bool settle);
+/* From the nodes' x: who is in contact, and who slides; whether that has changed. From stage 1 on
+ * friction settles and only what lies on the ground comes in; in stage 2 touches that pull go out, nothing
+ * else. */
+bool sbri_ground_touches_judge(const sbri_rigid_tick *tick, sbri_rigid_work *work, float step_s, int stage);
 
 /* The motion of one side of an edge. */
 static inline const sbri_rigid_motion *sbri_side_motion(

@@ -1,0 +1,23 @@
+/* How rigid parts fared over a run: joints, limits, and since when they lie still. */
+#ifndef RIGID_REPORT_H
+#define RIGID_REPORT_H
+
+#include <jansson.h>
+
+#include "session.h"
+
+typedef struct rigid_report {
+  bool asked;          /* the call has rigid parts simulated */
+  double beyond_angle; /* rad, by which the worst hard limit of an angle was broken */
+  double apart;        /* m, by which the worst joint was off in place */
+  double moving_s;     /* time at which something last moved faster than REST_M_S */
+} rigid_report;
+
+/* Sets the modes that --ragdoll or --strength ask for; false, with a message printed, where they are wrong.
+ */
+bool rigid_report_begin(rigid_report *report, session *s, cli_call *call);
+/* After each frame. */
+void rigid_report_measure(rigid_report *report, const session *s);
+void rigid_report_add(const rigid_report *report, const session *s, json_t *object);
+
+#endif
