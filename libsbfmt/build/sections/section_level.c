@@ -6,7 +6,6 @@
 #include "build/geometry/triangle_tree.h"
 #include "build/lattice/lattice_pins.h"
 #include "build/sections/level_pins.h"
-#include "build/sections/section_sole.h"
 #include "build/springs/pair_set.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
@@ -107,7 +106,6 @@ static bool hold_core(work *w) {
   spread_greatest(w, near, around);
   for (uint32_t i = 0; i < w->point_count; i++)
     w->held[i] = w->held[i] || (!w->taken[i] && depths2[i] >= around[i] / 4);
-  sbfi_section_sole_hold(w->asset, w->body, w->level, w->held);
   return true;
 }
 

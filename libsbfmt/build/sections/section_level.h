@@ -20,7 +20,7 @@ typedef struct sbfi_section_counts {
  * points are the body's own. Stiffness by sbf_stiffness_of_network with SBF_STIFFNESS_VOLUME; masses by the
  * tetrahedra, together what the closed surface holds. The body's bone holds the points
  * at least half as deep under the surface as the deepest that two springs lead to: a core along all of the
- * limb. Under a foot it holds the sole as well (section_sole.h).
+ * limb.
  *
  * The level keeps the tetrahedra until the embeddings are made, which go by them; then the caller takes them
  * out, for they are no second model. A surface that encloses next to nothing, as a sheet does, leaves

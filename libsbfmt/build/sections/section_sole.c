@@ -68,20 +68,3 @@ bool sbfi_soles_gather(sbfi_skin_union *skin, const sbf_asset *asset, uint8_t *s
   skin->hold_begins[points] = next;
   return true;
 }
-
-void sbfi_section_sole_hold(
-    const sbf_asset *asset, const sbf_soft_body *body, const sbf_level *level, uint8_t *held) {
-  const sbf_vec3_list *surface = &body->surface.positions;
-  float low = INFINITY, high = -INFINITY;
-  if (foot_of(asset, body->bone) == SBF_NONE) return;
-  for (uint32_t i = 0; i < surface->count; i++) {
-    low = fminf(low, surface->at[i].y);
-    high = fmaxf(high, surface->at[i].y);
-  }
-  for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++) {
-    const uint32_t *at = level->lattice.tetrahedra.at[t].at;
-    float lowest = INFINITY;
-    for (int k = 0; k < 4; k++) lowest = fminf(lowest, level->positions.at[at[k]].y);
-    for (int k = 0; lowest <= low + BAND * (high - low) && k < 4; k++) held[at[k]] = 1;
-  }
-}
