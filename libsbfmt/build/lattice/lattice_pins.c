@@ -10,6 +10,8 @@
 
 /* As a share of the cell: so near to the surface a point is on it. */
 static const double on_surface = 0.01;
+/* Likewise: so far from a line through it a core must reach. */
+static const double core_width = 0.25;
 
 /* Where a point on the surface stands: on which source points, with which weights. */
 typedef struct footing {
@@ -137,19 +139,54 @@ static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   return true;
 }
 
-/* The points of the inner half, by depth, where the body is thick and where it is thin. */
+/* The point of the list that is farthest from one, and with `along` from the line through both. */
+static uint32_t farthest(const work *w, const uint32_t *list, uint32_t count, sbf_vec3 from,
+    const double *along, double *distance2) {
+  uint32_t best = list[0];
+  *distance2 = -1;
+  for (uint32_t i = 0; i < count; i++) {
+    sbf_vec3 p = w->level->positions.at[list[i]];
+    double d[3] = {(double)p.x - from.x, (double)p.y - from.y, (double)p.z - from.z};
+    double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    double dot = along ? d[0] * along[0] + d[1] * along[1] + d[2] * along[2] : 0;
+    if (square - dot * dot <= *distance2) continue;
+    *distance2 = square - dot * dot;
+    best = list[i];
+  }
+  return best;
+}
+
+/* Whether what is held there cannot turn about a line through it. */
+static bool is_wide(const work *w, const uint32_t *core, uint32_t count) {
+  double length2, width2, at[3], along[3];
+  if (count < 3) return false;
+  sbf_vec3 a =
+      w->level->positions.at[farthest(w, core, count, w->level->positions.at[core[0]], NULL, &length2)];
+  sbf_vec3 b = w->level->positions.at[farthest(w, core, count, a, NULL, &length2)];
+  load(a, at);
+  along[0] = (double)b.x - at[0], along[1] = (double)b.y - at[1], along[2] = (double)b.z - at[2];
+  for (int k = 0; k < 3; k++) along[k] /= sqrt(length2 > 0 ? length2 : 1);
+  farthest(w, core, count, a, along, &width2);
+  return width2 >= core_width * core_width * (double)w->level->cell * (double)w->level->cell;
+}
+
+/* The points of the inner half, by depth, where the body is thick and where it is thin; of a shallower part
+ * where those are but a line, which would leave the body free to turn about it. */
 static bool find_core(work *w, uint32_t **core, uint32_t *count) {
   uint32_t points = w->level->positions.count;
   float *thickness = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *thickness);
-  *count = 0;
   *core = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof **core);
   if (!*core || !thickness ||
       !sbfi_lattice_thickness(w->level->positions.at, w->depths2, points, on_surface * (double)w->level->cell,
           thickness, w->scratch))
     return false;
-  for (uint32_t i = 0; i < points; i++) {
-    double half = 0.5 * (double)thickness[i];
-    if (half > 0 && w->depths2[i] >= half * half && !w->taken[i]) (*core)[(*count)++] = i;
+  for (int tenths = 5; tenths >= 1; tenths--) {
+    *count = 0;
+    for (uint32_t i = 0; i < points; i++) {
+      double part = tenths / 10.0 * (double)thickness[i];
+      if (part > 0 && w->depths2[i] >= part * part && !w->taken[i]) (*core)[(*count)++] = i;
+    }
+    if (is_wide(w, *core, *count)) break;
   }
   return true;
 }

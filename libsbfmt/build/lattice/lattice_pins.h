@@ -12,8 +12,8 @@
  * place. Of several sets the first has a point.
  * They are held where they are at rest: offsets, which are those of the body's points, are left out;
  *   "interior" in a body with a bone: the points at least half as deep under the surface as the body is thick
- * around them (lattice_core.h), to the tip of a tail, less those; attachments by a hull: the points inside it
- * that no set before holds. False where memory runs out.
+ * around them (lattice_core.h), to the tip of a tail, less those; more of them where these lie on a line;
+ * attachments by a hull: the points inside it that no set before holds. False where memory runs out.
  */
 bool sbfi_lattice_pins_make(
     sbf_level *level, const sbf_soft_body *body, int32_t derivation, sbf_asset *asset, sbfi_arena *scratch);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "build/levels/loose_pieces.h"
 #include "mechanics/vector.h"
 
 /* Of the square of the lowest frequency: so weakly a body that nothing holds is drawn to its place, which
@@ -148,6 +149,9 @@ bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *b
   if (!take_springs(statics, arena) || !take_tetrahedra(statics, arena) ||
       !take_anchors(statics, masses, arena) || !carry_surface(statics, interior, arena))
     return false;
+  double loose_kg;
+  if (!sbfi_loose_pieces_hold(&statics->network, statics->held, masses, &loose_kg, arena)) return false;
+  statics->mass -= loose_kg;
   if (!statics->held && !add_tethers(statics, arena)) return false;
   statics->load_count = statics->held ? SBFI_HELD_LOADS : SBFI_FREE_LOADS;
   return true;

@@ -1,0 +1,98 @@
+#include "build/levels/loose_pieces.h"
+
+#include "harness.h"
+
+/* Two springs in a row, 0-1-2, a heavier pair 3-4 and a point of its own, 5. */
+static const sbf_uint2 ends[] = {{{0, 1}}, {{1, 2}}, {{4, 3}}};
+static float masses[6];
+static sbfi_arena arena;
+
+static sbf_spring_network network(void) {
+  const float all[6] = {1, 1, 1, 4, 4, 0.5f};
+  for (int i = 0; i < 6; i++) masses[i] = all[i];
+  return (sbf_spring_network){.point_count = 6, .spring_count = 3, .ends = ends, .masses = masses};
+}
+
+static void setup(void) {
+  sbfi_arena_init(&arena, NULL, 0);
+}
+static void teardown(void) {
+  sbfi_arena_free(&arena);
+}
+
+static void check(const char *kept, double expected_kg, double loose_kg) {
+  for (int i = 0; i < 6; i++) ck_assert_msg((masses[i] > 0) == (kept[i] == '1'), "point %d", i);
+  ck_assert_double_eq_tol(loose_kg, expected_kg, 1e-9);
+}
+
+START_TEST(of_what_nothing_holds_the_heaviest_stays)
+{
+  double loose_kg;
+  sbf_spring_network n = network();
+  ck_assert(sbfi_loose_pieces_hold(&n, false, masses, &loose_kg, &arena));
+  check("000110", 3.5, loose_kg);
+}
+END_TEST
+
+START_TEST(what_hangs_on_a_held_point_stays)
+{
+  double loose_kg;
+  sbf_spring_network n = network();
+  masses[2] = 0;
+  ck_assert(sbfi_loose_pieces_hold(&n, true, masses, &loose_kg, &arena));
+  check("110000", 8.5, loose_kg);
+}
+END_TEST
+
+START_TEST(a_goal_holds_as_well)
+{
+  double loose_kg;
+  float anchors[6] = {0, 0, 0, 0, 10, 0};
+  sbf_spring_network n = network();
+  n.anchors = anchors;
+  ck_assert(sbfi_loose_pieces_hold(&n, true, masses, &loose_kg, &arena));
+  check("000110", 3.5, loose_kg);
+}
+END_TEST
+
+START_TEST(tetrahedra_join_too)
+{
+  double loose_kg;
+  const sbf_uint4 corners[] = {{{5, 4, 2, 0}}};
+  sbf_spring_network n = network();
+  n.tetrahedra = corners, n.tetrahedron_count = 1;
+  ck_assert(sbfi_loose_pieces_hold(&n, false, masses, &loose_kg, &arena));
+  check("111111", 0, loose_kg);
+}
+END_TEST
+
+START_TEST(memory_may_run_out)
+{
+  harness_memory memory;
+  bool good = false;
+  for (size_t allowed = 0; !good; allowed++) {
+    double loose_kg;
+    sbfi_arena small;
+    sbf_spring_network n = network();
+    harness_memory_init(&memory, allowed);
+    sbfi_arena_init(&small, &memory.allocator, 0);
+    good = sbfi_loose_pieces_hold(&n, false, masses, &loose_kg, &small);
+    sbfi_arena_free(&small);
+    ck_assert_uint_eq(memory.held_bytes, 0);
+    ck_assert_uint_lt(allowed, 10);
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *s = suite_create("loose_pieces");
+  TCase *c = tcase_create("loose_pieces");
+  tcase_add_checked_fixture(c, setup, teardown);
+  tcase_add_test(c, of_what_nothing_holds_the_heaviest_stays);
+  tcase_add_test(c, what_hangs_on_a_held_point_stays);
+  tcase_add_test(c, a_goal_holds_as_well);
+  tcase_add_test(c, tetrahedra_join_too);
+  tcase_add_test(c, memory_may_run_out);
+  suite_add_tcase(s, c);
+  return harness_run(s);
+}
