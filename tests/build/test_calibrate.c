@@ -357,6 +357,25 @@ static bool stop(void *user, const char *pass, double done) {
   return done < 0.3;
 }
 
+/* Eight corners say nothing of how a cube bends. */
+START_TEST(a_surface_of_few_points_is_enough)
+{
+  sbf_polygon_mesh cube = shape_cube(asset, 1, 1, (sbf_vec3){0, 0, 0});
+  shape_add_body(asset, "cube", &cube, false);
+  sbf_build_options options = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = 200};
+  sbf_build_report report;
+  sbf_asset *built;
+  sbf_diagnostic error;
+  ck_assert_int_eq(sbf_build(asset, &options, &built, &report, &error), SBF_OK);
+  ck_assert_uint_eq(report.calibrated, 1);
+  ck_assert_double_gt(report.least_factor, 0.8);
+  ck_assert_double_lt(report.most_factor, 1.3);
+  ck_assert_double_lt(report.most_residual, 0.1);
+  ck_assert_double_lt(report.most_period_error, 0.05);
+  sbf_asset_free(built);
+}
+END_TEST
+
 START_TEST(it_can_be_cancelled)
 {
   sbf_asset *built;
@@ -380,6 +399,7 @@ static Suite *suite(void) {
   tcase_add_test(c, the_coarsest_that_is_good_enough_is_chosen);
   tcase_add_test(c, levels_go_from_lattices_to_jiggle);
   tcase_add_test(c, a_free_body_is_calibrated_too);
+  tcase_add_test(c, a_surface_of_few_points_is_enough);
   tcase_add_test(c, it_can_be_cancelled);
   suite_add_tcase(s, c);
   return s;

@@ -140,12 +140,29 @@ static bool find_yieldings(work *w) {
   return true;
 }
 
+/* A surface of few points has too few places to be pushed at or looked at: a cube's corners do not move where
+ * it bends. What counts is then how slowly all of its matter would swing that way. */
+static bool is_sparse(const work *w) {
+  return w->body->surface.positions.count < 3 * SBFI_PUSHED_PATCHES;
+}
+
+static double yielding(const work *w, const double *yieldings, const double *frequencies, uint32_t load) {
+  if (!is_sparse(w)) return yieldings[load];
+  return frequencies[load] > 0 ? 1 / (frequencies[load] * frequencies[load]) : 0;
+}
+static double own_yielding(const work *w, uint32_t load) {
+  return yielding(w, w->yieldings, w->frequencies, load);
+}
+static double wanted_yielding(const work *w, uint32_t load) {
+  return yielding(w, w->r->yieldings, w->r->frequencies, load);
+}
+
 static double fit(const work *w) {
   double own = 0, wanted = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++) {
-    if (!(w->yieldings[l] > 0) || !(w->r->yieldings[l] > 0)) continue;
-    own += w->yieldings[l];
-    wanted += w->r->yieldings[l];
+    if (!(own_yielding(w, l) > 0) || !(wanted_yielding(w, l) > 0)) continue;
+    own += own_yielding(w, l);
+    wanted += wanted_yielding(w, l);
   }
   double factor = own > 0 && wanted > 0 ? own / wanted : 1;
   return factor >= least_whole && factor <= most_whole ? factor : 1;
@@ -154,8 +171,8 @@ static double fit(const work *w) {
 static double residual_of(const work *w, double factor) {
   double most = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++)
-    if (w->yieldings[l] > 0 && w->r->yieldings[l] > 0)
-      most = fmax(most, fabs(w->yieldings[l] / factor / w->r->yieldings[l] - 1));
+    if (own_yielding(w, l) > 0 && wanted_yielding(w, l) > 0)
+      most = fmax(most, fabs(own_yielding(w, l) / factor / wanted_yielding(w, l) - 1));
   return most;
 }
 
@@ -189,8 +206,9 @@ static bool fit_lattice(work *w, double *factor) {
   uint32_t count = w->statics.network.tetrahedron_count;
   float *stated = sbfi_arena_copy(w->scratch, w->statics.moduli, count, sizeof *stated);
   if (!stated) return false;
-  if (w->r->has_works && !sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works,
-                             sbfi_progress_part(w->progress, 0, 0.6), w->scratch))
+  if (w->r->has_works && !is_sparse(w) &&
+      !sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works,
+          sbfi_progress_part(w->progress, 0, 0.6), w->scratch))
     return false;
   if (!find_yieldings(w)) return false;
   *factor = fit(w);
