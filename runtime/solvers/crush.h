@@ -20,7 +20,8 @@
 /* By so much J comes back in a substep at most, and a corner moves by that share of its element's size: what
  * lies in a heap is not to be blown apart. */
 #define SBRI_CRUSH_STEP 0.1f
-enum { SBRI_CRUSH_SWEEPS = 4 };
+/* Elements of one tip push at each other: several sweeps. */
+enum { SBRI_CRUSH_SWEEPS = 8 };
 /* Tetrahedra are looked at in every so many substeps, and in the last one. */
 enum { SBRI_LOOK_EVERY = 4 };
 
@@ -109,12 +110,6 @@ static inline bool sbri_uncrush_sweep(const sbri_island_tick *t) {
     found = found || any;
   }
   return found;
-}
-
-/* Elements of one tip push at each other: several sweeps. */
-static inline void sbri_uncrush_all(const sbri_island_tick *t) {
-  for (int sweep = 0; sweep < SBRI_CRUSH_SWEEPS && sbri_uncrush_sweep(t); sweep++)
-    ;
 }
 
 #endif

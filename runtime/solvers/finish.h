@@ -10,7 +10,21 @@
 #include "solvers/flow.h"
 #include "solvers/solid_limits.h"
 #include "solvers/strain_limit.h"
+#include "solvers/touches.h"
 #include "solvers/volume_keep.h"
+
+/* What is crushed strikes the ground: it is not to be moved into it. Each of the two undoes a little of the
+ * other, so they take turns. */
+static inline void sbri_uncrush_above_ground(const sbri_island_tick *t, float h) {
+  for (uint32_t b = 0; b < t->island->body_count; b++)
+    sbri_touches_remember(t, &t->model->bodies[t->island->bodies[b]]);
+  for (int sweep = 0; sweep < SBRI_CRUSH_SWEEPS && sbri_uncrush_sweep(t); sweep++)
+    for (uint32_t b = 0; b < t->island->body_count; b++) {
+      const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+      const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+      sbri_touches_bound(t, body, &rule);
+    }
+}
 
 static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   for (uint32_t b = 0; b < t->island->body_count; b++)
@@ -19,7 +33,7 @@ static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   if (t->island->link_limits) sbri_limit_strains(t);
   if (t->rests) sbri_flow(t, h);
   if (t->island->solid_limits) sbri_limit_solids(t, h);
-  if (sbri_is_crushed(t)) sbri_uncrush_all(t);
+  if (sbri_is_crushed(t)) sbri_uncrush_above_ground(t, h);
 }
 
 #endif
