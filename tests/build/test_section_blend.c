@@ -5,22 +5,29 @@
 #include "harness.h"
 #include "skinned_limb.h"
 
-/* Smooths a tube of two bones; the greatest change of a weight. */
-static double smoothed(float slope) {
+/* A tube of two bones, and its union in `arena`. */
+static sbf_asset *tube(float slope, sbfi_skin_union *skin, sbfi_arena *arena) {
   const skinned_limb of = {.bones = 2, .sides = 8, .rings_a_bone = 10, .radius = 0.2f, .slope = slope};
   sbf_asset *asset = skinned_limb_make(&of);
-  sbfi_arena arena;
-  sbfi_skin_union skin;
-  sbfi_topology t;
   uint8_t chosen[1];
-  uint32_t count, left;
+  uint32_t count;
+  ck_assert(sbfi_skins_choose(asset, chosen, &count, arena));
+  ck_assert(sbfi_skin_union_make(skin, asset, chosen, arena));
+  return asset;
+}
+
+/* Smooths a tube that was authored with another slope; the greatest change of a weight. */
+static double smoothed(float slope, float authored_slope) {
+  sbfi_arena arena;
+  sbfi_skin_union skin, authored;
+  sbfi_topology t;
+  uint32_t left;
   double most = 0;
   sbfi_arena_init(&arena, NULL, 0);
-  ck_assert(sbfi_skins_choose(asset, chosen, &count, &arena));
-  ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
+  sbf_asset *asset = tube(slope, &skin, &arena), *other = tube(authored_slope, &authored, &arena);
   ck_assert(sbfi_topology_build(&t, &skin.mesh, &arena));
   const sbfi_skin_union before = skin;
-  ck_assert(sbfi_section_blend_smooth(&skin, &t, asset, NULL, &left, &arena));
+  ck_assert(sbfi_section_blend_smooth(&skin, &authored, &t, asset, NULL, &left, &arena));
   ck_assert_uint_eq(left, 0);
   for (uint32_t p = 0; p < skin.mesh.positions.count; p++) {
     double weights[2] = {0, 0}, old[2] = {0, 0};
@@ -36,15 +43,24 @@ static double smoothed(float slope) {
   }
   sbfi_arena_free(&arena);
   sbf_asset_free(asset);
+  sbf_asset_free(other);
   return most;
 }
 
 START_TEST(a_step_becomes_a_slope)
-{ ck_assert_double_gt(smoothed(0), 0.1); }
+{ ck_assert_double_gt(smoothed(0, 0), 0.1); }
 END_TEST
 
 START_TEST(a_gentle_slope_stays)
-{ ck_assert_double_eq(smoothed(0.6f), 0); }
+{ ck_assert_double_eq(smoothed(0.6f, 0.6f), 0); }
+END_TEST
+
+/* Steeper weights than the skin's own may stretch nothing and yet turn over what its own do not. */
+START_TEST(flips_are_judged_by_the_weights_as_authored)
+{
+  ck_assert_double_eq(smoothed(0.22f, 0.22f), 0);
+  ck_assert_double_gt(smoothed(0.22f, 0.6f), 0.05);
+}
 END_TEST
 
 static Suite *suite(void) {
@@ -52,6 +68,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("section_blend");
   tcase_add_test(c, a_step_becomes_a_slope);
   tcase_add_test(c, a_gentle_slope_stays);
+  tcase_add_test(c, flips_are_judged_by_the_weights_as_authored);
   suite_add_tcase(s, c);
   return s;
 }

@@ -22,14 +22,15 @@ typedef struct column {
 
 typedef struct work {
   sbfi_skin_union *skin;
+  const sbfi_skin_union *authored;
   const sbfi_topology *t;
   const sbf_asset *asset;
   sbfi_arena *arena;
   column *columns;
   uint32_t column_count;
   uint32_t *column_of_bone;
-  double *sums;     /* (points x columns) */
-  double *authored; /* the same as they were */
+  double *sums;   /* (points x columns) */
+  double *before; /* the same as they were authored */
   uint32_t (*triangles)[3];
   uint32_t triangle_count;
   uint32_t *begins, *at_point; /* triangles at each point */
@@ -57,6 +58,19 @@ static void fill_turns(column *c, const sbf_bone *bone) {
   }
 }
 
+/* (points x columns) what each column holds of each point; NULL where memory runs out. */
+static double *sums_of(const work *w, const sbfi_skin_union *skin) {
+  uint32_t points = skin->mesh.positions.count;
+  double *sums = sbfi_arena_allocate(w->arena, (size_t)points * w->column_count + 1, sizeof *sums);
+  for (uint32_t p = 0; sums && p < points; p++) {
+    double *row = sums + (size_t)p * w->column_count;
+    for (uint32_t h = skin->hold_begins[p]; h < skin->hold_begins[p + 1]; h++)
+      for (uint32_t c = w->column_of_bone[skin->holds[h].bone]; c != SBFI_NO_INDEX; c = w->columns[c].parent)
+        row[c] += skin->holds[h].weight;
+  }
+  return sums;
+}
+
 static bool make_columns(work *w) {
   const sbf_bone_list bones = w->asset->bones;
   uint32_t points = w->skin->mesh.positions.count;
@@ -64,7 +78,7 @@ static bool make_columns(work *w) {
   w->columns = sbfi_arena_allocate(w->arena, (size_t)bones.count + 1, sizeof *w->columns);
   uint8_t *used = sbfi_arena_allocate(w->arena, (size_t)bones.count + 1, 1);
   if (!w->column_of_bone || !w->columns || !used) return false;
-  for (uint32_t h = 0; h < w->skin->hold_begins[points]; h++) used[w->skin->holds[h].bone] = 1;
+  for (uint32_t h = 0; h < w->authored->hold_begins[points]; h++) used[w->authored->holds[h].bone] = 1;
   for (uint32_t b = bones.count; b-- > 0;)
     if (used[b] && bones.at[b].parent != SBF_NONE) used[bones.at[b].parent] = 1;
   for (uint32_t b = 0; b < bones.count; b++) {
@@ -78,17 +92,9 @@ static bool make_columns(work *w) {
     c->head = sbfi_d3_of(bones.at[b].head);
     fill_turns(c, &bones.at[b]);
   }
-  w->sums = sbfi_arena_allocate(w->arena, (size_t)points * w->column_count + 1, sizeof *w->sums);
-  if (!w->sums) return false;
-  for (uint32_t p = 0; p < points; p++) {
-    double *row = w->sums + (size_t)p * w->column_count;
-    for (uint32_t h = w->skin->hold_begins[p]; h < w->skin->hold_begins[p + 1]; h++)
-      for (uint32_t c = w->column_of_bone[w->skin->holds[h].bone]; c != SBFI_NO_INDEX;
-           c = w->columns[c].parent)
-        row[c] += w->skin->holds[h].weight;
-  }
-  w->authored = sbfi_arena_copy(w->arena, w->sums, (size_t)points * w->column_count + 1, sizeof *w->sums);
-  return w->authored != NULL;
+  w->sums = sums_of(w, w->skin);
+  w->before = sums_of(w, w->authored);
+  return w->sums && w->before;
 }
 
 static bool has_weights(const work *w, uint32_t point) {
@@ -143,7 +149,7 @@ static bool is_flipped(const column *c, int pose, sbfi_d3 normal, sbfi_d3 rest, 
 }
 
 /* The greatest area over that at rest; 1 where nothing differs between the corners. What is turned over, and
- * by the weights as they were is not, counts as stretched to FLIPPED. */
+ * by the weights as authored is not, counts as stretched to FLIPPED. */
 static double worst_stretch(const work *w, uint32_t triangle) {
   const uint32_t *points = w->triangles[triangle];
   sbfi_d3 corners[3];
@@ -157,7 +163,7 @@ static double worst_stretch(const work *w, uint32_t triangle) {
     double shares[3], before[3];
     for (int k = 0; k < 3; k++) {
       shares[k] = w->sums[(size_t)points[k] * w->column_count + c];
-      before[k] = w->authored[(size_t)points[k] * w->column_count + c];
+      before[k] = w->before[(size_t)points[k] * w->column_count + c];
     }
     if (!w->columns[c].joint || (shares[0] == shares[1] && shares[0] == shares[2])) continue;
     for (int pose = 0; pose < POSES; pose++) {
@@ -242,9 +248,9 @@ static bool write_back(work *w, const uint8_t *changed) {
   return true;
 }
 
-bool sbfi_section_blend_smooth(sbfi_skin_union *skin, const sbfi_topology *t, const sbf_asset *asset,
-    const uint8_t *fixed, uint32_t *left, sbfi_arena *arena) {
-  work w = {.skin = skin, .t = t, .asset = asset, .arena = arena, .fixed = fixed};
+bool sbfi_section_blend_smooth(sbfi_skin_union *skin, const sbfi_skin_union *authored, const sbfi_topology *t,
+    const sbf_asset *asset, const uint8_t *fixed, uint32_t *left, sbfi_arena *arena) {
+  work w = {.skin = skin, .authored = authored, .t = t, .asset = asset, .arena = arena, .fixed = fixed};
   uint8_t *changed = sbfi_arena_allocate(arena, (size_t)skin->mesh.positions.count + 1, 1);
   *left = 0;
   if (!changed || !make_columns(&w) || !make_triangles(&w)) return false;

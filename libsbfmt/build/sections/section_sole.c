@@ -23,13 +23,13 @@ static float held_by(const sbfi_skin_union *skin, const int32_t *feet, uint32_t 
   return sum;
 }
 
-/* Leaves of a point's holds those of a foot. Returns the next free place. */
-static uint32_t keep_own(
-    sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot, uint32_t next, uint32_t end) {
+/* Copies of a point's holds those of a foot to `holds`. Returns the next free place. */
+static uint32_t keep_own(const sbfi_skin_union *skin, const int32_t *feet, uint32_t point, int32_t foot,
+    sbfi_hold *holds, uint32_t next) {
   float sum = held_by(skin, feet, point, foot);
-  for (uint32_t h = skin->hold_begins[point]; h < end; h++)
+  for (uint32_t h = skin->hold_begins[point]; h < skin->hold_begins[point + 1]; h++)
     if (feet[skin->holds[h].bone] == foot)
-      skin->holds[next++] = (sbfi_hold){skin->holds[h].bone, skin->holds[h].weight / sum};
+      holds[next++] = (sbfi_hold){skin->holds[h].bone, skin->holds[h].weight / sum};
   return next;
 }
 
@@ -38,7 +38,9 @@ bool sbfi_soles_gather(sbfi_skin_union *skin, const sbf_asset *asset, uint8_t *s
   int32_t *feet = sbfi_arena_allocate(arena, (size_t)bones + 1, sizeof *feet);
   int32_t *foot_of_point = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *foot_of_point);
   float(*range)[2] = sbfi_arena_allocate(arena, (size_t)bones + 1, sizeof *range);
-  if (!feet || !foot_of_point || !range) return false;
+  uint32_t *begins = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *begins);
+  sbfi_hold *holds = sbfi_arena_allocate(arena, (size_t)skin->hold_begins[points] + 1, sizeof *holds);
+  if (!feet || !foot_of_point || !range || !begins || !holds) return false;
   for (uint32_t b = 0; b < bones; b++) {
     feet[b] = foot_of(asset, (int32_t)b);
     range[b][0] = INFINITY, range[b][1] = -INFINITY;
@@ -55,16 +57,18 @@ bool sbfi_soles_gather(sbfi_skin_union *skin, const sbf_asset *asset, uint8_t *s
     *high = fmaxf(*high, skin->mesh.positions.at[p].y);
   }
   for (uint32_t p = 0; p < points; p++) {
-    uint32_t begin = next, end = skin->hold_begins[p + 1];
     int32_t foot = foot_of_point[p];
+    begins[p] = next;
     if (foot != SBF_NONE)
       soles[p] = skin->mesh.positions.at[p].y <= range[foot][0] + BAND * (range[foot][1] - range[foot][0]);
     if (soles[p])
-      next = keep_own(skin, feet, p, foot, next, end);
+      next = keep_own(skin, feet, p, foot, holds, next);
     else
-      for (uint32_t h = skin->hold_begins[p]; h < end; h++) skin->holds[next++] = skin->holds[h];
-    skin->hold_begins[p] = begin;
+      for (uint32_t h = skin->hold_begins[p]; h < skin->hold_begins[p + 1]; h++)
+        holds[next++] = skin->holds[h];
   }
-  skin->hold_begins[points] = next;
+  begins[points] = next;
+  skin->hold_begins = begins;
+  skin->holds = holds;
   return true;
 }

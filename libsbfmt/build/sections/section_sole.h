@@ -6,7 +6,8 @@
 #include "build/sections/skin_union.h"
 
 /* Takes from the points of soles what bones above the foot hold of them, and marks them in `soles` (points,
- * zero before). False where memory runs out. */
+ * zero before). The arrays of holds are new ones, of `arena`; those before stay as they are. False where
+ * memory runs out. */
 bool sbfi_soles_gather(sbfi_skin_union *skin, const sbf_asset *asset, uint8_t *soles, sbfi_arena *arena);
 
 #endif

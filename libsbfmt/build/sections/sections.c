@@ -170,9 +170,11 @@ static bool make_bodies(work *w, double overlap_m, sbfi_progress progress) {
 static bool smooth_blends(work *w) {
   uint32_t left;
   sbf_diagnostic finding;
+  const sbfi_skin_union authored = w->skin;
   uint8_t *soles = sbfi_arena_allocate(w->scratch, (size_t)w->skin.mesh.positions.count + 1, 1);
   if (!soles || !sbfi_soles_gather(&w->skin, w->asset, soles, w->scratch)) return false;
-  if (!sbfi_section_blend_smooth(&w->skin, &w->t, w->asset, soles, &left, w->scratch)) return false;
+  if (!sbfi_section_blend_smooth(&w->skin, &authored, &w->t, w->asset, soles, &left, w->scratch))
+    return false;
   if (left == 0) return true;
   sbfi_diagnose(&finding, SBF_CODE_SECTION_STRETCHED,
       "%u triangles of the skin still stretch to more than twice their area where a joint bends by 60 "
