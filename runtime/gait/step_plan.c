@@ -37,19 +37,22 @@ static float slope_along(sbf_vec3 normal, sbf_vec3 way) {
 }
 
 /* What lies below a foot on its way, looked at before it goes: how high over the line between its two places
- * the sole's middle has to be so that toe and heel are not in the ground. */
+ * the sole's middle has to be so that nothing of it is in the ground, however the foot is turned on its way.
+ */
 typedef struct profile {
   float over[LOOKS + 1];
   float highest; /* over the higher one of both places */
 } profile;
 
-static profile look(const sbri_gait_input *input, const sbri_foot *foot, const sbri_sole *sole) {
+static profile look(const sbri_gait_state *state, const sbri_gait_input *input, const sbri_foot *foot,
+    const sbri_sole *sole) {
   profile p = {.highest = 0};
   sbf_vec3 way = sbri_sub(foot->to, foot->from);
   way.y = 0;
   way = sbri_normalize(way, sbri_vec3(0, 0, 0));
   float half = (sole->toe > sole->left ? sole->toe : sole->left) * input->scale;
   float from_slope = slope_along(foot->from_normal, way), to_slope = slope_along(foot->to_normal, way);
+  float turned = state->turn * state->pace * (1 - foot->phase) * foot->duration_s;
   float higher = foot->from.y > foot->to.y ? foot->from.y : foot->to.y;
   for (int k = 0; k <= LOOKS; k++) {
     float share = (float)k / LOOKS, tilt = half * (from_slope + share * (to_slope - from_slope));
@@ -59,6 +62,15 @@ static profile look(const sbri_gait_input *input, const sbri_foot *foot, const s
     float most = sbri_ground_below(input, at, NULL).y;
     most = fore > most ? fore : most;
     most = hind > most ? hind : most;
+    for (int c = 0; c < 4; c++) {
+      sbf_vec3 corner = {c & 1 ? sole->left : sole->right, 0, c & 2 ? sole->toe : sole->heel};
+      corner =
+          sbri_turned(sbri_scale(corner, input->scale), foot->heading + share * (turned - foot->heading));
+      corner = sbri_headed(state, corner);
+      float from = slope_along(foot->from_normal, corner), to = slope_along(foot->to_normal, corner);
+      float under = sbri_ground_below(input, sbri_add(at, corner), NULL).y - from - share * (to - from);
+      most = under > most ? under : most;
+    }
     p.over[k] = most - at.y;
     if (most - higher > p.highest) p.highest = most - higher;
   }
@@ -107,7 +119,7 @@ void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   foot->clearance = usual;
   double level;
   if (sbri_ground_is_flat(input->ground, &level)) return;
-  profile p = look(input, foot, &rig->legs[leg].sole);
+  profile p = look(state, input, foot, &rig->legs[leg].sole);
   float most = MOST_OVER * (usual + p.highest);
   for (int tries = 0; tries < TRIES; tries++) {
     float missing = lack(foot, &p, CLEAR * usual, &when);
