@@ -6,8 +6,9 @@ import weakref
 import xml.etree.ElementTree as ElementTree
 
 from .description import describe
-from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertOptions, ConvertPin, DiagnosticStruct, ExportOptions, \
-    FixOptions, FixResult, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, check, library
+from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertAttachment, ConvertOptions, ConvertPin, \
+    DiagnosticStruct, ExportOptions, FixOptions, FixResult, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, \
+    check, library
 
 INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra")
 LIMITS = ("none", "human", "quadruped", "reptile")
@@ -146,14 +147,15 @@ def load(path, check_crc=True, extensions=(), mendable=False):
 
 
 def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=None, pins=None, goals=(0.0, 1.0),
-            goal_stiffness=0.0, limits="none", keep_modulus=False, holds=None):
+            goal_stiffness=0.0, limits="none", keep_modulus=False, holds=None, attachments=None):
     """Reads another program's file into an asset of source parts; `build` makes the rest.
 
     `pins` is a dict from vertex groups or bones with weights to the bone that holds them, "" for the world, None for
     the bone of that name. `goals` are the least and the largest weight, `goal_stiffness` is in N/m at weight 1; 0: by the body.
     `limits` are proposed for joints that have none: none, human, quadruped or reptile.
     `keep_modulus` leaves bodies that nothing holds at the usual modulus, where it would not bear their weight.
-    `holds` is like `pins`, for what sections cut from a skin hold; None is each section's own bone."""
+    `holds` is like `pins`, for what sections cut from a skin hold; None is each section's own bone.
+    `attachments` is a dict from soft bodies to the object or bone whose hull holds what of them lies inside."""
     if limits not in LIMITS:
         raise ValueError(f"limits are {', '.join(LIMITS)}, not {limits!r}")
     if up not in (None, "y", "z"):
@@ -161,10 +163,12 @@ def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=No
     callbacks, made, error = Callbacks(report), ctypes.c_void_p(), DiagnosticStruct()
     pinned, held = ([(group.encode(), None if bone is None else bone.encode()) for group, bone in (names or {}).items()]
                     for names in (pins, holds))
+    attached = [(body.encode(), holder.encode()) for body, holder in (attachments or {}).items()]
     options = ConvertOptions(ctypes.sizeof(ConvertOptions), None, path_bytes(rig), unit, up.encode() if up else b"\0",
                              not gait, path_bytes(helper), callbacks.report, None,
                              (ConvertPin * len(pinned))(*pinned), len(pinned), *goals, goal_stiffness, None, LIMITS.index(limits),
-                             keep_modulus, (ConvertPin * len(held))(*held), len(held))
+                             keep_modulus, (ConvertPin * len(held))(*held), len(held),
+                             (ConvertAttachment * len(attached))(*attached), len(attached))
     status = library().sbf_convert(path_bytes(path), ctypes.byref(options), ctypes.byref(made), ctypes.byref(error))
     asset = Asset(made.value) if status == OK else None
     callbacks.check(status, error)

@@ -65,13 +65,17 @@ class ConvertPin(Structure):
     _fields_ = [("group", c_char_p), ("bone", c_char_p)]
 
 
+class ConvertAttachment(Structure):
+    _fields_ = [("body", c_char_p), ("holder", c_char_p)]
+
+
 class ConvertOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("rig", c_char_p), ("unit_m", c_double),
                 ("up", c_char), ("no_gait", c_bool), ("import_helper", c_char_p), ("report", Report), ("user", c_void_p),
                 ("pins", POINTER(ConvertPin)), ("pin_count", c_uint32), ("goal_minimum", c_double),
                 ("goal_maximum", c_double), ("goal_stiffness", c_double),
                 ("summary", c_void_p), ("limits", ctypes.c_int), ("keep_modulus", c_bool), ("holds", POINTER(ConvertPin)),
-                ("hold_count", c_uint32)]
+                ("hold_count", c_uint32), ("attachments", POINTER(ConvertAttachment)), ("attachment_count", c_uint32)]
 
 
 class ValidateOptions(Structure):
