@@ -1,12 +1,8 @@
 /* Which bodies give way changes as a game goes: the tree is made anew each tick, without a search. Joints are
  * taken in the order of how much they hold; each that joins two parts which hang together yet by nothing is
  * one of the tree's, the world being a part. What is left closes loops. */
+#include "base/union_find.h"
 #include "rigid/rigid_work.h"
-
-static uint32_t root_of(uint32_t *parents, uint32_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
 
 static bool gives_way(const sbri_rigid_tick *t, int32_t body) {
   return body >= 0 && t->bodies[body].mode != SBR_RIGID_KINEMATIC && t->model->bodies[body].mass > 0;
@@ -17,7 +13,7 @@ static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_work *work, uint8_
   sbri_rigid_system *s = &work->system;
   const sbri_rigid_model *m = t->model;
   uint32_t world = m->body_count, *parts = work->roots;
-  for (uint32_t i = 0; i <= m->body_count; i++) parts[i] = i;
+  sbfi_sets_begin(parts, m->body_count + 1);
   s->edge_count = s->loop_count = 0;
   for (uint32_t k = 0; k < m->joint_count; k++) {
     uint32_t j = m->by_strength[k], ends[SBRI_SIDES];
@@ -25,7 +21,7 @@ static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_work *work, uint8_
     bool moves[SBRI_SIDES];
     for (int side = 0; side < SBRI_SIDES; side++) {
       moves[side] = gives_way(t, joint->bodies[side]);
-      ends[side] = root_of(parts, moves[side] ? (uint32_t)joint->bodies[side] : world);
+      ends[side] = sbfi_set_root(parts, moves[side] ? (uint32_t)joint->bodies[side] : world);
     }
     if (!(moves[SBRI_A] || moves[SBRI_B]) || t->joints[j].broken ||
         joint->bodies[SBRI_A] == joint->bodies[SBRI_B])
@@ -34,16 +30,14 @@ static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_work *work, uint8_
     s->edges[edge].joint = j;
     in_tree[edge] = ends[SBRI_A] != ends[SBRI_B];
     if (in_tree[edge])
-      parts[ends[SBRI_A]] = ends[SBRI_B];
+      sbfi_sets_join(parts, ends[SBRI_A], ends[SBRI_B]);
     else
       s->loops[s->loop_count++] = edge;
   }
 }
 
-static void add_node(
-    const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t body, int32_t parent, int32_t edge) {
+static void add_node(sbri_rigid_work *work, uint32_t body, int32_t parent, int32_t edge) {
   sbri_rigid_system *s = &work->system;
-  (void)t;
   work->motions[body].node = (int32_t)s->node_count;
   s->nodes[s->node_count++] = (sbri_node){.body = body, .parent = parent, .edge = edge};
 }
@@ -61,7 +55,7 @@ static void grow(const sbri_rigid_tick *t, sbri_rigid_work *work, const int32_t 
       const sbri_rigid_joint *joint = &m->joints[j];
       int32_t other = joint->bodies[joint->bodies[SBRI_A] == (int32_t)s->nodes[i].body ? SBRI_B : SBRI_A];
       if (edge < 0 || !in_tree[edge] || !gives_way(t, other) || work->motions[other].node >= 0) continue;
-      add_node(t, work, (uint32_t)other, (int32_t)i, edge);
+      add_node(work, (uint32_t)other, (int32_t)i, edge);
     }
   }
 }
@@ -81,13 +75,13 @@ void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_work *work) {
     bool a = gives_way(t, joint->bodies[SBRI_A]), b = gives_way(t, joint->bodies[SBRI_B]);
     if (!in_tree[e] || (a && b)) continue;
     uint32_t from = s->node_count;
-    add_node(t, work, (uint32_t)joint->bodies[a ? SBRI_A : SBRI_B], -1, (int32_t)e);
+    add_node(work, (uint32_t)joint->bodies[a ? SBRI_A : SBRI_B], -1, (int32_t)e);
     grow(t, work, edge_of_joint, in_tree, from);
   }
   for (uint32_t b = 0; b < m->body_count; b++) { /* and what nothing holds */
     if (!gives_way(t, (int32_t)b) || work->motions[b].node >= 0) continue;
     uint32_t from = s->node_count;
-    add_node(t, work, b, -1, -1);
+    add_node(work, b, -1, -1);
     grow(t, work, edge_of_joint, in_tree, from);
   }
   for (uint32_t e = 0; e < s->edge_count; e++)

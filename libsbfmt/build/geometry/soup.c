@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/union_find.h"
 #include "build/geometry/topology.h"
 
 /* A side of triangles, and the first two that pass it. */
@@ -184,11 +185,6 @@ static uint32_t balance_sides(const work *w) {
   return missing;
 }
 
-static uint32_t root_of(uint32_t *parents, uint32_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
 /* An apex for each piece of rim, and a triangle from it to each use that a side lacks. */
 static bool cap_holes(work *w, uint32_t missing) {
   sbfi_soup *soup = w->soup;
@@ -204,15 +200,14 @@ static bool cap_holes(work *w, uint32_t missing) {
   memcpy(triangles, soup->triangles, soup->triangle_count * sizeof *triangles);
   soup->points = points;
   soup->triangles = triangles;
-  for (uint32_t i = 0; i < count; i++) parents[i] = i;
+  sbfi_sets_begin(parents, count);
   for (uint32_t s = 0; s < w->side_count; s++) {
     if (w->sides[s].balance == 0) continue;
-    uint32_t a = root_of(parents, w->sides[s].ends[0]), b = root_of(parents, w->sides[s].ends[1]);
-    parents[a > b ? a : b] = a > b ? b : a;
+    sbfi_sets_join(parents, w->sides[s].ends[0], w->sides[s].ends[1]);
   }
   for (uint32_t s = 0; s < w->side_count; s++) {
     if (w->sides[s].balance == 0) continue;
-    uint32_t root = root_of(parents, w->sides[s].ends[0]);
+    uint32_t root = sbfi_set_root(parents, w->sides[s].ends[0]);
     if (sums[root] == 0) {
       apexes[root] = soup->point_count++;
       points[apexes[root]] = (sbfi_d3){0, 0, 0};
@@ -227,7 +222,7 @@ static bool cap_holes(work *w, uint32_t missing) {
       points[apexes[i]] = sbfi_d3_of(sbfi_d3_rounded(sbfi_d3_scale(points[apexes[i]], 1.0 / sums[i])));
   for (uint32_t s = 0; s < w->side_count; s++) {
     const side *at = &w->sides[s];
-    uint32_t apex = at->balance ? apexes[root_of(parents, at->ends[0])] : 0;
+    uint32_t apex = at->balance ? apexes[sbfi_set_root(parents, at->ends[0])] : 0;
     for (int32_t n = abs(at->balance); n > 0; n--) {
       uint32_t *triangle = triangles[soup->triangle_count + soup->cap_count++];
       triangle[0] = at->ends[at->balance > 0];

@@ -1,5 +1,6 @@
 #include "build/geometry/topology.h"
 
+#include "base/union_find.h"
 #include "build/springs/pair_set.h"
 
 /* Begins of groups from their sizes, which stand one place to the right: a running sum. */
@@ -74,11 +75,6 @@ static bool group_by_point(sbfi_topology *t, sbfi_arena *arena) {
   return true;
 }
 
-static uint32_t root_of(uint32_t *parents, uint32_t point) {
-  while (parents[point] != point) point = parents[point] = parents[parents[point]];
-  return point;
-}
-
 /* Components by merging the ends of each edge; the root is the lowest point, so that numbers follow points.
  */
 static bool number_components(sbfi_topology *t, const sbf_polygon_mesh *mesh, sbfi_arena *arena) {
@@ -86,15 +82,11 @@ static bool number_components(sbfi_topology *t, const sbf_polygon_mesh *mesh, sb
   uint32_t *parents = sbfi_arena_allocate(arena, (size_t)t->point_count + 1, sizeof(uint32_t));
   uint8_t *used = sbfi_arena_allocate(arena, (size_t)t->point_count + 1, 1);
   if (!t->point_components || !parents || !used) return false;
-  for (uint32_t i = 0; i < t->point_count; i++) parents[i] = i;
-  for (uint32_t e = 0; e < t->edge_count; e++) {
-    uint32_t a = root_of(parents, t->edges[e].at[0]), b = root_of(parents, t->edges[e].at[1]);
-    if (a < b) parents[b] = a;
-    if (b < a) parents[a] = b;
-  }
+  sbfi_sets_begin(parents, t->point_count);
+  for (uint32_t e = 0; e < t->edge_count; e++) sbfi_sets_join(parents, t->edges[e].at[0], t->edges[e].at[1]);
   for (uint32_t c = 0; c < t->corner_count; c++) used[mesh->polygon_points.at[c]] = 1;
   for (uint32_t i = 0; i < t->point_count; i++) {
-    uint32_t root = root_of(parents, i);
+    uint32_t root = sbfi_set_root(parents, i);
     t->unused_point_count += !used[i];
     if (!used[i])
       t->point_components[i] = SBFI_NO_INDEX;

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/union_find.h"
+
 /* A run: nodes next to each other in a row, joined by uncut edges. */
 typedef struct runs {
   const sbfi_lattice_grid *grid;
@@ -31,23 +33,8 @@ static bool find_runs(runs *r, sbfi_arena *arena) {
   }
   r->row_begins[r->row_count] = count;
   r->begins[count] = r->grid->node_count;
-  for (uint32_t i = 0; i < count; i++) r->parents[i] = i;
+  sbfi_sets_begin(r->parents, count);
   return true;
-}
-
-static uint32_t root_of(uint32_t *parents, uint32_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
-/* The lower of two roots stays one. */
-static void join(uint32_t *parents, uint32_t a, uint32_t b) {
-  a = root_of(parents, a);
-  b = root_of(parents, b);
-  if (a < b)
-    parents[b] = a;
-  else
-    parents[a] = b;
 }
 
 /* Joins the runs of a row with those of the row that its edges of one way lead to, `shift` nodes aside. */
@@ -59,10 +46,10 @@ static void join_rows(runs *r, uint32_t row, uint32_t other, int64_t shift, int 
     int64_t begin = r->begins[a], end = r->begins[a + 1];
     int64_t other_begin = r->begins[b] - shift, other_end = r->begins[b + 1] - shift;
     int64_t low = begin > other_begin ? begin : other_begin, high = end < other_end ? end : other_end;
-    if (low < high && root_of(r->parents, a) != root_of(r->parents, b)) {
+    if (low < high && sbfi_set_root(r->parents, a) != sbfi_set_root(r->parents, b)) {
       for (int64_t n = low; n < high; n++) {
         if (r->cut[n] >> way & 1) continue;
-        join(r->parents, a, b);
+        sbfi_sets_join(r->parents, a, b);
         break;
       }
     }
@@ -104,13 +91,13 @@ static bool wind_runs(runs *r, const sbfi_winding *winding, sbfi_arena *arena) {
   r->windings = sbfi_arena_allocate(arena, (size_t)r->run_count + 1, sizeof *r->windings);
   if (!longest || !r->windings) return false;
   for (uint32_t i = 0; i < r->run_count; i++) {
-    uint32_t root = root_of(r->parents, i), best = longest[root];
+    uint32_t root = sbfi_set_root(r->parents, i), best = longest[root];
     /* Roots are the lowest of their sets, so that `longest` starts with the root itself. */
     if (root == i || r->begins[i + 1] - r->begins[i] > r->begins[best + 1] - r->begins[best])
       longest[root] = i;
   }
   for (uint32_t i = 0; i < r->run_count; i++) {
-    uint32_t root = root_of(r->parents, i), run = longest[root];
+    uint32_t root = sbfi_set_root(r->parents, i), run = longest[root];
     uint32_t middle = r->begins[run] + (r->begins[run + 1] - r->begins[run]) / 2;
     r->windings[i] =
         root == i ? sbfi_winding_of_closed(winding, place_of(r->grid, middle)) : r->windings[root];

@@ -1,5 +1,6 @@
 /* Tetrahedra: well shaped, each once, filling space once, all of one piece. That they are the right way out
  * is part of the structure. */
+#include "base/union_find.h"
 #include "build/geometry/key_set.h"
 #include "mechanics/vector.h"
 #include "validate/validation.h"
@@ -95,22 +96,17 @@ static void find_overlaps(sbfi_validation *v, const sbf_uint4_list *tetrahedra, 
   }
 }
 
-static uint32_t find_root(uint32_t *parents, uint32_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
 static void find_pieces(sbfi_validation *v, const sbf_level *level, const char *path) {
   uint32_t n = level->positions.count, pieces = 0, unused = 0;
   uint32_t *parents = sbfi_scratch(v, n, sizeof *parents);
   uint8_t *used = sbfi_scratch(v, n, 1);
   if (!parents || !used) return;
-  for (uint32_t i = 0; i < n; i++) parents[i] = i;
+  sbfi_sets_begin(parents, n);
   for (uint32_t t = 0; t < level->lattice.tetrahedra.count; t++)
     for (int k = 0; k < 4; k++) {
       const uint32_t *p = level->lattice.tetrahedra.at[t].at;
       used[p[k]] = 1;
-      parents[find_root(parents, p[k])] = find_root(parents, p[0]);
+      sbfi_sets_join(parents, p[k], p[0]);
     }
   for (uint32_t i = 0; i < n; i++) {
     unused += !used[i];

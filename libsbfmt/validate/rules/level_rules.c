@@ -1,4 +1,5 @@
 /* Levels: at rest where their sources are, hanging together, finest first, with mass where they move. */
+#include "base/union_find.h"
 #include "mechanics/level_points.h"
 #include "mechanics/vector.h"
 #include "validate/rules/holding.h"
@@ -45,15 +46,10 @@ typedef struct pieces {
   uint8_t *used;
 } pieces;
 
-static uint32_t root_of(uint32_t *parents, uint32_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
 static void join(pieces *p, const uint32_t *points, uint32_t count) {
   for (uint32_t k = 0; k < count; k++) {
     p->used[points[k]] = 1;
-    p->parents[root_of(p->parents, points[k])] = root_of(p->parents, points[0]);
+    sbfi_sets_join(p->parents, points[k], points[0]);
   }
 }
 
@@ -92,10 +88,10 @@ static void check_pieces(sbfi_validation *v, const sbf_soft_body *body, const sb
   pieces p = {sbfi_scratch(v, n, sizeof *p.parents), sbfi_scratch(v, n, 1)};
   uint8_t *is_held = sbfi_scratch(v, n, 1); /* of the roots of pieces */
   if (!p.parents || !p.used || !is_held) return;
-  for (uint32_t i = 0; i < n; i++) p.parents[i] = i;
+  sbfi_sets_begin(p.parents, n);
   join_elements(&p, level);
   for (uint32_t i = 0; i < n; i++)
-    if (holds[i] != SBFI_FREE) is_held[root_of(p.parents, i)] = 1;
+    if (holds[i] != SBFI_FREE) is_held[sbfi_set_root(p.parents, i)] = 1;
   for (uint32_t i = 0; i < n; i++) {
     if (!p.used[i] && holds[i] == SBFI_FREE && loose++ == 0) first = i;
     if (!p.used[i] || p.parents[i] != i) continue;

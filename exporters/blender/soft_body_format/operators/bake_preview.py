@@ -172,12 +172,4 @@ class SBFMT_OT_bake_free(bpy.types.Operator):
 
 CLASSES = (SBFMT_OT_bake, SBFMT_OT_bake_cut, SBFMT_OT_bake_free)
 
-
-def register():
-    for one in CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    for one in reversed(CLASSES):
-        bpy.utils.unregister_class(one)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -134,12 +134,4 @@ class SBFMT_OT_mend(bpy.types.Operator):
 
 CLASSES = (SBFMT_OT_check, SBFMT_OT_select_finding, SBFMT_OT_mend)
 
-
-def register():
-    for one in CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    for one in reversed(CLASSES):
-        bpy.utils.unregister_class(one)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -106,12 +106,4 @@ class SBFMT_OT_copy_bone(bpy.types.Operator):
 
 CLASSES = (SBFMT_OT_copy_object, SBFMT_OT_copy_bone)
 
-
-def register():
-    for one in CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    for one in reversed(CLASSES):
-        bpy.utils.unregister_class(one)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

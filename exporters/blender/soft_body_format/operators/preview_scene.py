@@ -69,12 +69,4 @@ class SBFMT_OT_preview_stop(bpy.types.Operator):
 
 CLASSES = (SBFMT_OT_preview_start, SBFMT_OT_preview_stop)
 
-
-def register():
-    for one in CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    for one in reversed(CLASSES):
-        bpy.utils.unregister_class(one)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -11,6 +11,7 @@ from ..space import Space
 from ..to_document.rigid_parts import ABOUT, wish_of
 from . import joint_shapes
 from .joint_shapes import CONE, SLIDE, SWING_Y, SWING_Z, TWIST
+from .view_drawing import ViewDrawing, flat_shader
 
 BROKEN, POINTER = "broken", "pointer"
 # The theme's colour of each part: (group of the theme, name, what stands in where a Blender has no such).
@@ -19,7 +20,6 @@ COLORS = {CONE: ("view_3d", "bone_pose_active", (0.55, 0.8, 1.0)), TWIST: ("user
           SLIDE: ("view_3d", "bone_pose", (0.31, 0.78, 1.0)), BROKEN: ("info", "info_error", (1.0, 0.15, 0.15)),
           POINTER: ("view_3d", "object_active", (1.0, 0.67, 0.25))}
 LINE_ALPHA, FILL_ALPHA = 0.9, 0.12
-_handler = None
 
 
 def color_of(part, alpha):
@@ -100,9 +100,7 @@ def draw():
     context = bpy.context
     if context.scene.soft_body_format.show_joints == "NONE" or not context.space_data.overlay.show_overlays:
         return
-    old = bpy.app.version < (4, 0, 0)
-    flat = gpu.shader.from_builtin("3D_UNIFORM_COLOR" if old else "UNIFORM_COLOR")
-    thick = gpu.shader.from_builtin("3D_POLYLINE_UNIFORM_COLOR" if old else "POLYLINE_UNIFORM_COLOR")
+    flat, thick = flat_shader(), flat_shader(polyline=True)
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("NONE")
     for part, (lines, triangles) in collect(context).items():
@@ -118,14 +116,5 @@ def draw():
     gpu.state.blend_set("NONE")
 
 
-def register():
-    global _handler
-    if not bpy.app.background:
-        _handler = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
-
-
-def unregister():
-    global _handler
-    if _handler is not None:
-        bpy.types.SpaceView3D.draw_handler_remove(_handler, "WINDOW")
-        _handler = None
+_drawing = ViewDrawing(draw)
+register, unregister = _drawing.register, _drawing.unregister

@@ -7,6 +7,7 @@ from gpu_extras.batch import batch_for_shader
 
 from ..preview.handlers import running
 from ..space import Space
+from .view_drawing import ViewDrawing, flat_shader
 
 COLORS = {"structural": (0.95, 0.85, 0.2, 0.5), "shear": (0.25, 0.8, 0.95, 0.3), "flexion": (0.75, 0.45, 0.95, 0.15),
           "internal": (0.95, 0.45, 0.2, 0.1), "cross_body": (0.3, 0.95, 0.4, 0.8), "lattice": (0.4, 0.75, 1.0, 0.2),
@@ -18,7 +19,6 @@ EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 
 # By scene: what was built last. Gone when Blender closes: a build makes it anew.
 _shown = {}
-_handler = None
 
 
 class Structure:
@@ -75,7 +75,7 @@ def draw():
     shown = _shown.get(scene.name)
     if not shown or not scene.soft_body_format.show_overlay:
         return
-    shader = gpu.shader.from_builtin("3D_UNIFORM_COLOR" if bpy.app.version < (4, 0, 0) else "UNIFORM_COLOR")
+    shader = flat_shader()
     gpu.state.blend_set("ALPHA")
     gpu.state.point_size_set(2)
     for kind in shown.kinds:
@@ -92,15 +92,10 @@ def draw():
     gpu.state.point_size_set(1)
 
 
-def register():
-    global _handler
-    if not bpy.app.background:
-        _handler = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
+_drawing = ViewDrawing(draw)
+register = _drawing.register
 
 
 def unregister():
-    global _handler
-    if _handler is not None:
-        bpy.types.SpaceView3D.draw_handler_remove(_handler, "WINDOW")
-        _handler = None
+    _drawing.unregister()
     _shown.clear()

@@ -8,12 +8,4 @@ from . import bone_panel, build_panel, check_panel, list_buttons, object_panels,
 CLASSES = list_buttons.CLASSES + object_panels.CLASSES + bone_panel.CLASSES + (scene_panels.SBFMT_PT_scene, ) + \
     check_panel.CLASSES + build_panel.CLASSES + preview_panels.CLASSES + scene_panels.GAIT_CLASSES
 
-
-def register():
-    for one in CLASSES:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    for one in reversed(CLASSES):
-        bpy.utils.unregister_class(one)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)
