@@ -316,12 +316,11 @@ static void note_spring_calibration(build *b, const sbfi_calibration *c) {
 /* The rest of the levels of a body whose finest has been made, and what they are worth. */
 static sbf_status make_ladder(build *b, uint32_t number, sbfi_ladder *ladder) {
   sbf_soft_body *body = &b->bodies[number];
-  sbfi_interior_map *map = &b->maps[number], springs = {SBFI_NO_INDEX, NULL};
+  const sbfi_interior_map *map = &b->maps[number];
   bool of_springs = body->levels.at[0].model == SBF_ELASTIC_MODEL_SPRINGS;
   sbf_status status = outcome_status(
-      b, number, sbfi_ladder_make(ladder, body->levels.at, of_springs ? map : NULL, &springs, &b->scratch));
+      b, number, sbfi_ladder_make(ladder, body->levels.at, of_springs ? map : NULL, &b->scratch));
   if (status != SBF_OK) return status;
-  if (!of_springs) *map = springs;
   body->levels = (sbf_level_list){ladder->levels, ladder->level_count};
   b->report.levels += ladder->level_count - 1;
   for (uint32_t l = 0; l < ladder->level_count; l++) {
@@ -396,12 +395,13 @@ static sbf_status make_section(build *b, uint32_t number, sbfi_arena *scratch) {
 
 /* Tetrahedra that embeddings went by and that move nothing. */
 static sbf_status clear_lattices(build *b) {
-  for (uint32_t i = b->asset->soft_bodies.count - b->sections.count; i < b->asset->soft_bodies.count; i++) {
-    if (!b->made[i] || b->bodies[i].levels.at[0].model != SBF_ELASTIC_MODEL_SPRINGS) continue;
-    /* The level is the asset's, made here. */
-    sbf_level *level = (sbf_level *)(uintptr_t)b->bodies[i].levels.at;
-    level->lattice.tetrahedra = (sbf_uint4_list){NULL, 0};
-  }
+  for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
+    for (uint32_t l = 0; b->made[i] && l < b->bodies[i].levels.count; l++) {
+      /* The level is the asset's, made here. */
+      sbf_level *level = (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l];
+      if (level->model != SBF_ELASTIC_MODEL_SPRINGS) continue;
+      level->lattice.tetrahedra = (sbf_uint4_list){NULL, 0};
+    }
   return SBF_OK;
 }
 
@@ -426,7 +426,6 @@ static sbf_status make_level(build *b, uint32_t number) {
   const sbfi_ladder_recipe recipe = {.levels = o->levels > 1 ? o->levels : 1,
       .error = o->error_m,
       .calibrate = !o->without_calibration && is_calibrated(b, number, interior),
-      .flexion = !o->without_flexion,
       .tick = (double)b->asset->environment.control_tick,
       .share = is_sized ? 0 : b->usual_elements,
       .derivation = DERIVATION};
@@ -499,7 +498,7 @@ static sbf_status make_levels(build *b) {
 /* Of the level of springs, where one was made. */
 static const sbfi_interior_map *map_of(const build *b, uint32_t body, uint32_t level) {
   bool springs = b->bodies[body].levels.at[level].model == SBF_ELASTIC_MODEL_SPRINGS;
-  return b->made[body] && springs ? &b->maps[body] : NULL;
+  return b->made[body] && springs && level == 0 ? &b->maps[body] : NULL;
 }
 
 /* The first of four points around the body, from which all places follow where it moves as one piece. */

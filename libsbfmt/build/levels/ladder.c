@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "build/levels/jiggle_level.h"
+#include "build/springs/lattice_springs_level.h"
 
 enum { COARSEST_ELEMENTS = 60, FEWEST_ELEMENTS = 12 };
 
@@ -54,7 +55,7 @@ static sbfi_lattice_outcome make_reference(sbfi_ladder *l, uint32_t elements) {
 static sbfi_lattice_outcome measure(
     sbfi_ladder *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
   if (!sbfi_progress_say(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
-  return sbfi_level_calibrate(level, l->body, interior, &l->reference, level == l->levels, l->recipe->tick,
+  return sbfi_level_calibrate(level, l->body, interior, &l->reference, l->recipe->calibrate, l->recipe->tick,
              l->asset, calibration, sbfi_progress_part(l->progress, 0.9, 1), l->allocator)
              ? SBFI_LATTICE_MADE
              : SBFI_LATTICE_NO_MEMORY;
@@ -147,16 +148,22 @@ static sbfi_lattice_outcome add_lattices(sbfi_ladder *l) {
   return SBFI_LATTICE_MADE;
 }
 
-static sbfi_lattice_outcome add_springs(sbfi_ladder *l, sbfi_interior_map *map, sbfi_arena *arena) {
+/* The sides of a lattice of twice the coarsest one's cell, or where nothing much is left of that, of one of
+ * the same: cheaper than the level before it, as a level should be. */
+static sbfi_lattice_outcome add_springs(sbfi_ladder *l, sbfi_arena *arena) {
+  const sbf_level *coarsest = &l->levels[l->level_count - 1];
   sbf_level *level = &l->levels[l->level_count];
-  const sbfi_spring_recipe recipe = {SBFI_INTERIOR_CENTROID, 0, l->recipe->flexion, l->recipe->derivation,
-      sbfi_progress_part(l->progress, 0.9, 1)};
-  sbfi_spring_counts counts;
-  if (!sbfi_spring_level_make(level, l->body, &recipe, l->asset, map, &counts, arena))
+  uint32_t inert;
+  sbfi_lattice_outcome outcome = make_lattice(l, 2 * (double)coarsest->cell, 0, l->asset, level);
+  if (outcome == SBFI_LATTICE_MADE && level->lattice.tetrahedra.count < COARSEST_ELEMENTS)
+    outcome = make_lattice(l, coarsest->cell, 0, l->asset, level);
+  if (outcome != SBFI_LATTICE_MADE) return outcome;
+  if (!sbfi_lattice_springs_level_make(level, l->body, l->recipe->derivation, l->asset, &inert,
+          sbfi_progress_part(l->progress, 0.9, 1), arena))
     return SBFI_LATTICE_NO_MEMORY;
   l->level_count++;
   if (!l->reference.sound) return SBFI_LATTICE_MADE;
-  return measure(l, level, map, &l->calibrations[l->level_count - 1]);
+  return measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
 }
 
 static sbfi_lattice_outcome add_jiggle(sbfi_ladder *l) {
@@ -170,8 +177,8 @@ static sbfi_lattice_outcome add_jiggle(sbfi_ladder *l) {
   return measure(l, level, NULL, &l->calibrations[l->level_count - 1]);
 }
 
-sbfi_lattice_outcome sbfi_ladder_make(sbfi_ladder *ladder, const sbf_level *finest,
-    const sbfi_interior_map *interior, sbfi_interior_map *springs, sbfi_arena *arena) {
+sbfi_lattice_outcome sbfi_ladder_make(
+    sbfi_ladder *ladder, const sbf_level *finest, const sbfi_interior_map *interior, sbfi_arena *arena) {
   uint32_t levels = ladder->recipe->levels;
   ladder->levels = sbf_asset_allocate(ladder->asset, levels, sizeof *ladder->levels);
   if (!ladder->levels) return SBFI_LATTICE_NO_MEMORY;
@@ -179,7 +186,7 @@ sbfi_lattice_outcome sbfi_ladder_make(sbfi_ladder *ladder, const sbf_level *fine
   sbfi_lattice_outcome outcome = take_finest(ladder, interior);
   bool lattice = finest->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
   if (outcome == SBFI_LATTICE_MADE && lattice) outcome = add_lattices(ladder);
-  if (outcome == SBFI_LATTICE_MADE && lattice && levels >= 4) outcome = add_springs(ladder, springs, arena);
+  if (outcome == SBFI_LATTICE_MADE && lattice && levels >= 4) outcome = add_springs(ladder, arena);
   if (outcome == SBFI_LATTICE_MADE && levels >= (lattice ? 3 : 2)) outcome = add_jiggle(ladder);
   return outcome;
 }

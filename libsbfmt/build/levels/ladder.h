@@ -1,5 +1,5 @@
-/* The levels of one body, finest first: lattices of twice the cell each, springs, jiggle; each compared with
- * what the body does as a fine lattice, lattices calibrated to it. */
+/* The levels of one body, finest first: lattices of twice the cell each, springs along the sides of one more,
+ * jiggle; each compared with what the body does as a fine lattice, lattices calibrated to it. */
 #ifndef SBFI_LADDER_H
 #define SBFI_LADDER_H
 
@@ -44,9 +44,10 @@ void sbfi_ladder_free(sbfi_ladder *ladder);
 sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, bool *met);
 
 /* From the finest level, of springs or tetrahedra, `interior` its map, makes the list of all and measures
- * them. A lattice that finds nothing to fill, or is no coarser than the one before, is left out. `*springs`
- * receives the map of a level of springs that is made, in memory of `arena`. */
-sbfi_lattice_outcome sbfi_ladder_make(sbfi_ladder *ladder, const sbf_level *finest,
-    const sbfi_interior_map *interior, sbfi_interior_map *springs, sbfi_arena *arena);
+ * them. A lattice that finds nothing to fill, or is no coarser than the one before, is left out. Springs go
+ * along the sides of a lattice, whose tetrahedra they keep until embeddings are made
+ * (lattice_springs_level.h). `arena` is scratch. */
+sbfi_lattice_outcome sbfi_ladder_make(
+    sbfi_ladder *ladder, const sbf_level *finest, const sbfi_interior_map *interior, sbfi_arena *arena);
 
 #endif

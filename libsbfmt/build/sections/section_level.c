@@ -6,7 +6,7 @@
 #include "build/geometry/triangle_tree.h"
 #include "build/lattice/lattice_pins.h"
 #include "build/sections/level_pins.h"
-#include "build/springs/pair_set.h"
+#include "build/springs/springs_sides.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
@@ -24,12 +24,12 @@ typedef struct work {
   sbfi_arena *scratch;
   sbfi_section_counts *counts;
   sbfi_lattice lattice;
-  uint32_t point_count, spring_count;
-  sbf_uint2 *ends; /* (spring_count) */
-  float *volumes;  /* (point_count) a quarter of each tetrahedron's */
-  double volume;   /* of all */
-  uint8_t *held;   /* (point_count) fast, by the bone's core or by the author */
-  uint8_t *taken;  /* (point_count) the author's pins have it */
+  uint32_t point_count;
+  sbfi_spring_list springs;
+  float *volumes; /* (point_count) a quarter of each tetrahedron's */
+  double volume;  /* of all */
+  uint8_t *held;  /* (point_count) fast, by the bone's core or by the author */
+  uint8_t *taken; /* (point_count) the author's pins have it */
 } work;
 
 static double volume_of(const work *w, sbf_uint4 at) {
@@ -64,27 +64,11 @@ static bool fill(work *w) {
   return true;
 }
 
-/* The sides of the tetrahedra, each once, as the walk over them meets them. */
-static bool collect_sides(work *w) {
-  static const uint8_t sides[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-  const sbfi_tetrahedra *made = &w->lattice.made;
-  sbfi_pair_set known;
-  w->ends = sbfi_arena_allocate(w->scratch, 6 * (size_t)made->count, sizeof *w->ends);
-  if (!w->ends || !sbfi_pair_set_init(&known, 6 * (size_t)made->count, w->scratch)) return false;
-  for (uint32_t t = 0; t < made->count; t++)
-    for (int s = 0; s < 6; s++) {
-      uint32_t a = made->at[t].at[sides[s][0]], b = made->at[t].at[sides[s][1]];
-      if (sbfi_pair_set_add(&known, a, b, w->spring_count) == w->spring_count)
-        w->ends[w->spring_count++] = (sbf_uint2){{a < b ? a : b, a < b ? b : a}};
-    }
-  return true;
-}
-
 /* Takes in the greatest of each point's neighbours. */
 static void spread_greatest(const work *w, const double *from, double *to) {
   memcpy(to, from, w->point_count * sizeof *to);
-  for (uint32_t s = 0; s < w->spring_count; s++) {
-    uint32_t a = w->ends[s].at[0], b = w->ends[s].at[1];
+  for (uint32_t s = 0; s < w->springs.count; s++) {
+    uint32_t a = w->springs.at[s].at[0], b = w->springs.at[s].at[1];
     to[a] = fmax(to[a], from[b]);
     to[b] = fmax(to[b], from[a]);
   }
@@ -136,8 +120,8 @@ static bool pin_shape(work *w, sbf_pin_set *set, const float *stiffness) {
   uint32_t *points = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *points), count = 0;
   double *sums = sbfi_arena_allocate(w->scratch, w->point_count, sizeof *sums), greatest = 0;
   if (!points || !sums) return false;
-  for (uint32_t s = 0; s < w->spring_count; s++)
-    for (int end = 0; end < 2; end++) sums[w->ends[s].at[end]] += (double)stiffness[s];
+  for (uint32_t s = 0; s < w->springs.count; s++)
+    for (int end = 0; end < 2; end++) sums[w->springs.at[s].at[end]] += (double)stiffness[s];
   for (uint32_t i = 0; i < w->point_count; i++) {
     if (w->held[i] || w->taken[i]) continue;
     points[count++] = i;
@@ -188,28 +172,28 @@ static bool weigh(work *w) {
 static bool add_springs(work *w) {
   uint32_t kept = 0;
   double *sums = sbfi_arena_allocate(w->scratch, w->point_count, 2 * sizeof *sums);
-  float *all = sbfi_arena_allocate(w->scratch, w->spring_count, sizeof *all);
-  sbf_uint2 *ends = sbf_asset_allocate(w->asset, w->spring_count, sizeof *ends);
-  float *stiffness = sbf_asset_allocate(w->asset, w->spring_count, sizeof *stiffness);
+  float *all = sbfi_arena_allocate(w->scratch, w->springs.count, sizeof *all);
+  sbf_uint2 *ends = sbf_asset_allocate(w->asset, w->springs.count, sizeof *ends);
+  float *stiffness = sbf_asset_allocate(w->asset, w->springs.count, sizeof *stiffness);
   sbf_spring_set *set = sbf_asset_allocate(w->asset, 1, sizeof *set);
   if (!sums || !all || !ends || !stiffness || !set) return false;
   sbf_stiffness_of_network(SBF_STIFFNESS_VOLUME * (double)w->body->attributes.young_modulus,
-      w->level->positions.at, w->point_count, w->volumes, w->ends, w->spring_count, sums, all);
-  for (uint32_t s = 0; s < w->spring_count; s++) {
-    if (w->held[w->ends[s].at[0]] && w->held[w->ends[s].at[1]]) continue;
-    ends[kept] = w->ends[s];
+      w->level->positions.at, w->point_count, w->volumes, w->springs.at, w->springs.count, sums, all);
+  for (uint32_t s = 0; s < w->springs.count; s++) {
+    if (w->held[w->springs.at[s].at[0]] && w->held[w->springs.at[s].at[1]]) continue;
+    ends[kept] = w->springs.at[s];
     stiffness[kept++] = all[s];
   }
   sbf_spring_set_init(set);
   set->kind = SBF_SPRING_KIND_INTERNAL;
   set->derived = w->recipe->derivation;
-  set->inert_count = w->spring_count - kept;
+  set->inert_count = w->springs.count - kept;
   set->ends = (sbf_uint2_list){kept ? ends : NULL, kept};
   set->stiffness = (sbf_f32_list){kept ? stiffness : NULL, kept};
   w->level->springs = (sbf_spring_set_list){set, 1};
   w->counts->points = w->point_count;
   w->counts->springs = kept;
-  w->counts->inert = w->spring_count - kept;
+  w->counts->inert = w->springs.count - kept;
   return add_pins(w, all);
 }
 
@@ -235,7 +219,8 @@ sbfi_lattice_outcome sbfi_section_level_make(sbf_level *level, const sbf_soft_bo
   level->derived = recipe->derivation;
   level->cell = (float)w.lattice.cell;
   level->name = sbf_asset_copy_text(asset, "springs");
-  bool good = level->name && fill(&w) && collect_sides(&w) && hold_painted(&w) && hold_core(&w) &&
-              weigh(&w) && add_springs(&w);
+  bool good = level->name && fill(&w) &&
+              sbfi_springs_sides(&w.springs, w.lattice.made.at, w.lattice.made.count, scratch) &&
+              hold_painted(&w) && hold_core(&w) && weigh(&w) && add_springs(&w);
   return good ? SBFI_LATTICE_MADE : SBFI_LATTICE_NO_MEMORY;
 }
