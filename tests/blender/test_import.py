@@ -1,12 +1,14 @@
 """Import and export again: an equal model, and what was changed in between is changed."""
 
 import glob
+import math
 import os
 
 import bpy
 import fixtures
 from soft_body_format import sbfmt
 from soft_body_format.operators.import_bundle import read_document
+from soft_body_format.sbfmt.document import Record, to_xml
 
 
 class RoundTrip(fixtures.RoundTripTest):
@@ -67,6 +69,31 @@ class RoundTrip(fixtures.RoundTripTest):
         self.assertAlmostEqual(rig.data.bones["head"].length, 0.229264, places=5)
         self.assertEqual(len(self.scene.soft_body_format.gait.legs), 4)
         self.assertEqual(rig.data.bones["spine"].soft_body_format.joint.kind, "spherical")
+
+    def test_a_polygon_around_a_hole_comes_in_as_triangles(self):
+        """It comes to two points twice, which no face of Blender's may do."""
+        document, count = Record("asset"), 40
+        mesh = document.add("render_meshes", id="mesh.washer", name="washer")
+        shape = mesh.mesh
+        turns = [2 * math.pi * one / count for one in range(count)]
+        rims = [(radius * math.cos(turn), 0.0, radius * math.sin(turn)) for radius in (2, 1) for turn in turns]
+        rim, hole = list(range(count)), list(range(count, 2 * count))
+        shape.positions = [value for point in rims + [(5, 0, 0), (5, 0, 1), (6, 0, 0)] for value in point]
+        shape.polygon_points = [*rim, 0, count, *reversed(hole), 2 * count, 2 * count + 1, 2 * count + 2]
+        shape.polygon_sizes = [2 * count + 2, 3]
+        mesh.normals, mesh.normal_corners = [0, -1, 0], [0] * (2 * count + 5)
+        sheet = mesh.add("uv_sets", name="plan")
+        sheet.coordinates = [value for x, _, z in rims + [(5, 0, 0), (5, 0, 1), (6, 0, 0)] for value in (x, z)]
+        with open(self.path("washer.sbf"), "wb") as file:
+            file.write(to_xml(document))
+        self.comes_back_equal(self.path("washer.sbf"))
+        made = bpy.data.objects["washer"].data
+        self.assertEqual({len(face.vertices) for face in made.polygons}, {3})
+        area = count / 2 * math.sin(2 * math.pi / count) * (4 - 1)
+        self.assertAlmostEqual(sum(face.area for face in made.polygons), area + 0.5, places=4)
+        for corner, place in zip(made.loops, made.uv_layers["plan"].data):
+            at = made.vertices[corner.vertex_index].co
+            self.assert_near(place.uv, (at.x, -at.y), 1e-5)
 
     def test_a_broken_file_is_refused_in_blenders_way(self):
         with open(self.path("bad.sbf"), "w", encoding="utf-8") as file:

@@ -1,54 +1,35 @@
-"""Meshes with their texture coordinates, normals, weights and shape keys."""
+"""What a mesh has beside polygons: texture coordinates, normals, materials, weights and shape keys."""
 
-import bpy
 import numpy
 
 
-def make_mesh(name, record, space):
-    """A mesh of polygons and points; broken polygons, which Blender has no place for, are left out by its own check."""
-    mesh = bpy.data.meshes.new(name)
-    points = space.points_back(record.positions)
-    sizes = numpy.array(record.polygon_sizes, dtype=numpy.int32)
-    starts = numpy.cumsum(sizes, dtype=numpy.int32) - sizes
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", points.ravel())
-    mesh.loops.add(len(record.polygon_points))
-    mesh.loops.foreach_set("vertex_index", numpy.array(record.polygon_points, dtype=numpy.int32))
-    mesh.polygons.add(len(sizes))
-    mesh.polygons.foreach_set("loop_start", starts)
-    if bpy.app.version < (4, 1, 0):
-        mesh.polygons.foreach_set("loop_total", sizes)
-    mesh.update(calc_edges=True)
-    return mesh
-
-
-def fill_uv_sets(mesh, record):
+def fill_uv_sets(mesh, record, corners):
     for number, uv_set in enumerate(record.uv_sets):
         layer = mesh.uv_layers.new(name=uv_set.name or f"UV{number}", do_init=False)
         coordinates = numpy.array(uv_set.coordinates, dtype=numpy.float32).reshape(-1, 2)
-        corners = uv_set.corners if len(uv_set.corners) else record.mesh.polygon_points
-        layer.data.foreach_set("uv", coordinates[numpy.array(corners, dtype=numpy.int64)].ravel())
+        which = uv_set.corners if len(uv_set.corners) else record.mesh.polygon_points
+        layer.data.foreach_set("uv", coordinates[numpy.array(which, dtype=numpy.int64)[corners.corner]].ravel())
 
 
-def fill_normals(mesh, record, space):
+def fill_normals(mesh, record, space, corners):
     """As stated; where they agree along every edge the mesh is drawn smooth."""
     normals = numpy.array(record.normals, dtype=numpy.float32).reshape(-1, 3)
     if not len(normals):
         return
-    corners = numpy.array(record.normal_corners if len(record.normal_corners) else record.mesh.polygon_points, dtype=numpy.int64)
-    if not len(record.normal_corners) or len(normals) != len(mesh.polygons):
+    which = numpy.array(record.normal_corners if len(record.normal_corners) else record.mesh.polygon_points, dtype=numpy.int64)
+    if not len(record.normal_corners) or len(normals) != len(record.mesh.polygon_sizes):
         mesh.polygons.foreach_set("use_smooth", numpy.ones(len(mesh.polygons), dtype=bool))
-    turned = space.points_back(normals[corners]) * space.unit_m
+    turned = space.points_back(normals[which[corners.corner]]) * space.unit_m
     if hasattr(mesh, "use_auto_smooth"):
         mesh.use_auto_smooth = True
     mesh.normals_split_custom_set(turned.tolist())
 
 
-def fill_materials(mesh, record, materials):
+def fill_materials(mesh, record, materials, corners):
     for slot in record.material_slots:
         mesh.materials.append(materials.get(slot.material))
     if len(record.polygon_materials):
-        mesh.polygons.foreach_set("material_index", numpy.array(record.polygon_materials, dtype=numpy.int32))
+        mesh.polygons.foreach_set("material_index", numpy.array(record.polygon_materials, dtype=numpy.int32)[corners.polygon])
 
 
 def fill_skin(made, record, bone_names):

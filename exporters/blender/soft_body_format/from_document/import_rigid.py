@@ -4,7 +4,7 @@ import bpy
 from mathutils import Vector
 
 from ..to_document.rigid_objects import ANGULAR, LINEAR, X_FROM_Z
-from . import import_meshes
+from .import_polygons import make_mesh
 
 TYPES = {"fixed": "FIXED", "spherical": "POINT", "revolute": "HINGE", "prismatic": "SLIDER", "cylindrical": "PISTON",
          "six_dof": "GENERIC"}
@@ -32,7 +32,7 @@ class RigidMaker:
         """The object whose mesh has this hull, else one of its own that nobody sees."""
         made = self.twin(record)
         if made is None:
-            mesh = import_meshes.make_mesh(record.name or record.id, record.hull, self.maker.space)
+            mesh, _ = make_mesh(record.name or record.id, record.hull, self.maker.space)
             made = bpy.data.objects.new(record.name or record.id, mesh)
             self.maker.collection.objects.link(made)
             made.display_type, made.soft_body_format.simulation_only = "WIRE", True

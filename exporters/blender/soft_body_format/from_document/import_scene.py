@@ -10,6 +10,7 @@ from ..to_document import Options, SceneWriter
 from . import import_bones, import_meshes, import_recipes, import_settings
 from .import_chains import fill_chains
 from .import_materials import make_materials
+from .import_polygons import make_mesh
 from .import_rigid import RigidMaker
 from .import_surroundings import fill_surroundings
 
@@ -65,11 +66,11 @@ class SceneMaker:
     def make_object(self, record, body, materials):
         source = record or body
         polygons = record.mesh if record else body.surface
-        mesh = import_meshes.make_mesh(source.name or source.id, polygons, self.space)
+        mesh, corners = make_mesh(source.name or source.id, polygons, self.space)
         if record:
-            import_meshes.fill_uv_sets(mesh, record)
-            import_meshes.fill_materials(mesh, record, materials)
-            import_meshes.fill_normals(mesh, record, self.space)
+            import_meshes.fill_uv_sets(mesh, record, corners)
+            import_meshes.fill_materials(mesh, record, materials, corners)
+            import_meshes.fill_normals(mesh, record, self.space, corners)
         made = bpy.data.objects.new(source.name or source.id, mesh)
         self.collection.objects.link(made)
         if record:

@@ -11,7 +11,8 @@ import bpy
 import numpy
 from mathutils import Matrix
 
-from ..from_document.import_meshes import fill_materials, make_mesh
+from ..from_document.import_meshes import fill_materials
+from ..from_document.import_polygons import make_mesh
 from ..space import Space
 from ..to_document.rest import at_rest
 
@@ -103,10 +104,11 @@ class Stage:
     def mesh_of(self, actor, space):
         """Of what is no object of the scene: as the document has it."""
         record = (self.document.render_meshes if actor.kind == "skin" else self.document.soft_bodies)[actor.index]
-        mesh = make_mesh(actor.source, record.mesh if actor.kind == "skin" else record.surface, space)
+        mesh, corners = make_mesh(actor.source, record.mesh if actor.kind == "skin" else record.surface, space)
         names = {one.id: one.name for one in self.document.materials}
         if actor.kind == "skin":
-            fill_materials(mesh, record, {identity: bpy.data.materials.get(name) for identity, name in names.items()})
+            fill_materials(mesh, record, {identity: bpy.data.materials.get(name) for identity, name in names.items()},
+                           corners)
         return mesh
 
     @staticmethod
