@@ -1,26 +1,18 @@
 #!/usr/bin/env python3
-"""Models the example calf: one skinned mesh over a rig, as most characters come. Writes calf.glb beside this file.
+"""Models the example calf: one skinned mesh over a rig, as most characters come. Writes calf.glb beside this file. See
+modelling/character.py."""
 
-  make_calf.py            write it
-  make_calf.py --check    build it again, test it, compare it with the file; exit status 1 if anything is off
-  make_calf.py -o DIR     write to, or with --check compare with, another folder
-
-The same file comes out every time.
-"""
-
-import argparse
 import os
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, os.pardir, "modelling"))
 
+from character import Character, main  # noqa: E402
 from model_files import Bone, Material  # noqa: E402
-from quad_mesh import QuadMesh, check_section, subdivided  # noqa: E402
-from skin_files import skinned_glb_bytes, smooth_weights  # noqa: E402
+from quad_mesh import QuadMesh, subdivided  # noqa: E402
+from skin_files import smooth_weights  # noqa: E402
 
-TITLE = "Calf: the example of sbfmt for a skinned mesh"
-LICENCE = "MIT, as the rest of the repository"
 CELL_M = 0.1
 MATERIALS = [Material("hide", (0.62, 0.42, 0.27), 0.8), Material("pale", (0.85, 0.76, 0.66), 0.7),
              Material("hoof", (0.12, 0.1, 0.09), 0.5)]
@@ -71,13 +63,6 @@ def cage():
     return mesh
 
 
-def build_mesh():
-    mesh = subdivided(subdivided(cage()))
-    lowest = min(p[1] for p in mesh.points)
-    mesh.points = [(x, y - lowest, z) for x, y, z in mesh.points]
-    return mesh.round_points()
-
-
 def build_bones():
     side, up = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
     bones = [Bone("hips", None, (0.0, 0.55, -0.15), (0.0, 0.55, -0.35), side),
@@ -98,48 +83,11 @@ def build_bones():
     return bones
 
 
-def check(mesh, weights, data, path):
-    """Sentences on everything that is not as it must be."""
-    found = check_section(mesh)
-    if min(p[1] for p in mesh.points) != 0.0:
-        found.append("the hooves do not stand on y = 0")
-    if any(abs(sum(w for _, w in held) - 1.0) > 1e-4 or not held for held in weights):
-        found.append("weights do not sum to one")
-    if {i for held in weights for i, _ in held} != set(range(len(build_bones()))):
-        found.append("a bone holds nothing")
-    try:
-        with open(path, "rb") as stream:
-            if stream.read() != data:
-                found.append("calf.glb is stale: run make_calf.py")
-    except OSError as error:
-        found.append(f"calf.glb: {error.strerror}")
-    return found
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true", help="test the model, compare it with the file; writes nothing")
-    parser.add_argument("-o", "--out", default=HERE, metavar="DIR", help="where the file is (default: beside this script)")
-    options = parser.parse_args()
-    mesh, bones = build_mesh(), build_bones()
-    weights = smooth_weights(mesh.points, bones, 0.06)
-    data = skinned_glb_bytes("Calf", bones, mesh, weights, MATERIALS, TITLE, LICENCE)
-    path = os.path.join(options.out, "calf.glb")
-    if options.check:
-        print(f"{len(mesh.points)} points, {len(mesh.faces)} quads, {len(bones)} bones, {1000.0 * mesh.volume():.1f} litres")
-        found = check(mesh, weights, data, path)
-        for fault in found:
-            print(f"make_calf: {fault}", file=sys.stderr)
-        return 1 if found else 0
-    try:
-        os.makedirs(options.out, exist_ok=True)
-        with open(path, "wb") as stream:
-            stream.write(data)
-    except OSError as error:
-        print(f"make_calf: {error.filename}: {error.strerror}", file=sys.stderr)
-        return 2
-    return 0
+def build():
+    mesh, bones = subdivided(subdivided(cage())).stand().round_points(), build_bones()
+    return Character("calf", "Calf: the example of sbfmt for a skinned mesh", mesh, bones, smooth_weights(mesh.points, bones, 0.06),
+                     MATERIALS, symmetric=False, quads=True)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(build, HERE))

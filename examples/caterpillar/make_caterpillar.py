@@ -97,9 +97,7 @@ def build():
     fine = either_of(within(EYE, 0.042), smile_about((0.0, 0.176, 0.512), 0.056, 0.036, 0.155),
                      within((0.0, 0.172, 0.512), 0.018))
     mesh = paint(refine(mesh_of(body, CELL_M, "caterpillar"), body, fine), body, paint_rules(), "green")
-    lowest = min(p[1] for p in mesh.points)
-    mesh.points = [(x, y - lowest, z) for x, y, z in mesh.points]
-    mesh.round_points()
+    mesh.stand().round_points()
     weights = planted(mesh.points, bones, smooth_weights(mesh.points, bones, 0.028), 0.022)
     return Character("caterpillar", "Caterpillar: an example character of sbfmt, a chain with feet", mesh, bones, weights,
                      MATERIALS)

@@ -12,14 +12,14 @@ import os
 import sys
 from collections import namedtuple
 
-from quad_mesh import check_mirror, check_surface
+from quad_mesh import check_mirror, check_section, check_surface
 from skin_files import skinned_glb_bytes
 
 LICENCE = "MIT, as the rest of the repository"
 
 # mesh: a QuadMesh; bones: of model_files; weights: of skin_files; materials: of model_files; symmetric: whether the
-# right side is to be the mirror image of the left
-Character = namedtuple("Character", "name title mesh bones weights materials symmetric", defaults=(True,))
+# right side is to be the mirror image of the left; quads: whether all its faces are
+Character = namedtuple("Character", "name title mesh bones weights materials symmetric quads", defaults=(True, False))
 
 
 def build_bytes(character):
@@ -30,7 +30,7 @@ def build_bytes(character):
 def check(character, data, path):
     """Sentences on everything that is not as it must be."""
     c = character
-    found = check_surface(c.mesh)
+    found = check_section(c.mesh) if c.quads else check_surface(c.mesh)
     if c.symmetric:
         found += check_mirror(c.mesh, c.mesh)
     if any(abs(sum(w for _, w in held) - 1.0) > 1e-4 or not held for held in c.weights):
@@ -58,7 +58,7 @@ def main(build, folder):
     path = os.path.join(options.out, character.name + ".glb")
     if options.check:
         mesh = character.mesh
-        print(f"{len(mesh.points)} points, {len(mesh.faces)} faces, {len(character.bones)} bones, "
+        print(f"{len(mesh.points)} points, {len(mesh.faces)} {'quads' if character.quads else 'faces'}, {len(character.bones)} bones, "
               f"{1000.0 * mesh.volume():.2f} litres")
         found = check(character, data, path)
         for fault in found:

@@ -73,6 +73,12 @@ class QuadMesh:
         image.faces = list(self.faces)
         return image.flipped()
 
+    def stand(self):
+        """Moves the lowest point to the ground."""
+        lowest = min(p[1] for p in self.points)
+        self.points = [(x, y - lowest, z) for x, y, z in self.points]
+        return self
+
     def round_points(self, digits=6):
         self.points = [tuple(round(c, digits) + 0.0 for c in p) for p in self.points]
         return self

@@ -90,9 +90,7 @@ def build():
     body, bones = build_body(), build_bones()
     fine = either_of(within(EYE, 0.041), within(NOSE, 0.034, both=False))
     mesh = paint(refine(mesh_of(body, CELL_M, "pup"), body, fine), body, paint_rules(), "coat")
-    lowest = min(p[1] for p in mesh.points)
-    mesh.points = [(x, y - lowest, z) for x, y, z in mesh.points]
-    mesh.round_points()
+    mesh.stand().round_points()
     weights = planted(mesh.points, bones, smooth_weights(mesh.points, bones, 0.045), 0.062)
     return Character("pup", "Pup: an example character of sbfmt on four legs", mesh, bones, weights, MATERIALS)
 

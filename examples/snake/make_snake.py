@@ -65,9 +65,7 @@ def build():
     body, bones = build_body(), build_bones()
     fine = either_of(within(EYE, 0.024), within((0.0, 0.034, 0.968), 0.020, both=False))
     mesh = paint(refine(mesh_of(body, CELL_M, "snake"), body, fine), body, paint_rules(), "back")
-    lowest = min(p[1] for p in mesh.points)
-    mesh.points = [(x, y - lowest, z) for x, y, z in mesh.points]
-    mesh.round_points()
+    mesh.stand().round_points()
     return Character("snake", "Snake: an example character of sbfmt without legs", mesh, bones,
                      smooth_weights(mesh.points, bones, 0.075), MATERIALS)
 

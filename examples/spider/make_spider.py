@@ -95,9 +95,7 @@ def build():
     body, bones = build_body(), build_bones()
     fine = either_of(*(within(centre, size + 0.010) for centre, size in EYES))
     mesh = paint(refine(mesh_of(body, CELL_M, "spider"), body, fine), body, paint_rules(), "dark")
-    lowest = min(p[1] for p in mesh.points)
-    mesh.points = [(x, y - lowest, z) for x, y, z in mesh.points]
-    mesh.round_points()
+    mesh.stand().round_points()
     weights = planted(mesh.points, bones, smooth_weights(mesh.points, bones, 0.028), 0.030)
     return Character("spider", "Jumping spider: an example character of sbfmt on eight legs", mesh, bones, weights, MATERIALS)
 

@@ -82,9 +82,7 @@ def build():
     fine = either_of(within(EYE, 0.070), smile_about((0.0, 1.172, 0.262), 0.090, 0.056, 1.145),
                      within((0.0, 1.195, 0.250), 0.046))
     mesh = paint(refine(mesh_of(body, CELL_M, "yeti"), body, fine), body, paint_rules(), "fur")
-    lowest = min(p[1] for p in mesh.points)
-    mesh.points = [(x, y - lowest, z) for x, y, z in mesh.points]
-    mesh.round_points()
+    mesh.stand().round_points()
     weights = planted(mesh.points, bones, smooth_weights(mesh.points, bones, 0.075), 0.085)
     return Character("yeti", "Yeti: an example character of sbfmt on two legs", mesh, bones, weights, MATERIALS)
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/crc32_fold.h"
+#include "random.h"
 
 enum { SIZE = 1200, OFFSETS = 16 };
 
@@ -18,10 +19,7 @@ static uint32_t crc_of(uint32_t crc, const uint8_t *bytes, size_t size) {
 
 static void fill(uint8_t *bytes, size_t size) {
   uint32_t random = 7;
-  for (size_t i = 0; i < size; i++) {
-    random = random * 1664525u + 1013904223u;
-    bytes[i] = (uint8_t)(random >> 24);
-  }
+  for (size_t i = 0; i < size; i++) { bytes[i] = (uint8_t)(random_next(&random) >> 24); }
 }
 
 START_TEST(the_reference_is_crc_32)

@@ -1,5 +1,3 @@
-#include "harness.h"
-
 #include <fenv.h>
 #include <locale.h>
 #include <math.h>
@@ -8,26 +6,10 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "float_bits.h"
+#include "harness.h"
 
 static uint64_t random_state = UINT64_C(0x9E3779B97F4A7C15);
-
-static uint64_t random_bits(void) {
-  random_state ^= random_state << 13;
-  random_state ^= random_state >> 7;
-  return random_state ^= random_state << 17;
-}
-
-static uint32_t bits_of(float value) {
-  uint32_t bits;
-  memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
-static float from_bits(uint32_t bits) {
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 /* The C library, in the C locale, is the judge; its infinities are our refusals. The span is copied to the
  * end of an allocation of its size, so that the address sanitizer sees a read behind it. */
@@ -196,7 +178,8 @@ START_TEST(ties_of_every_exponent_go_to_even)
     const uint32_t fractions[] = {0, 1, 2, 0x2AAAAA, 0x555555, 0x7FFFFE, 0x7FFFFF};
     for (size_t i = 0; i < sizeof fractions / sizeof fractions[0]; i++)
       if ((exponent << 23 | fractions[i]) < 0x7F7FFFFF) check_tie_above(exponent << 23 | fractions[i]);
-    for (int i = 0; i < 20; i++) check_tie_above(exponent << 23 | (uint32_t)(random_bits() % 0x7FFFFF));
+    for (int i = 0; i < 20; i++)
+      check_tie_above(exponent << 23 | (uint32_t)(random_bits(&random_state) % 0x7FFFFF));
   }
 }
 END_TEST
@@ -205,23 +188,25 @@ START_TEST(random_texts_are_read_as_the_c_library_reads_them)
 {
   char text[256];
   for (int i = 0; i < 300000; i++) {
-    uint64_t whole = random_bits() >> random_bits() % 64, part = random_bits() >> random_bits() % 64;
-    float value = from_bits((uint32_t)random_bits());
+    uint64_t whole = random_bits(&random_state) >> random_bits(&random_state) % 64,
+             part = random_bits(&random_state) >> random_bits(&random_state) % 64;
+    float value = from_bits((uint32_t)random_bits(&random_state));
     switch (i % 4) {
     case 0:
       snprintf(text, sizeof text, "%s%llu.%llue%d", i & 4 ? "-" : "", (unsigned long long)whole,
-          (unsigned long long)part, (int)(random_bits() % 110) - 70);
+          (unsigned long long)part, (int)(random_bits(&random_state) % 110) - 70);
       break;
     case 1:
       snprintf(text, sizeof text, "%llu", (unsigned long long)whole);
       break;
     case 2:
-      snprintf(text, sizeof text, "0.%0*llu", (int)(random_bits() % 60), (unsigned long long)part);
+      snprintf(
+          text, sizeof text, "0.%0*llu", (int)(random_bits(&random_state) % 60), (unsigned long long)part);
       break;
     default:
       if (!isfinite(value)) continue;
-      snprintf(text, sizeof text, "%.*e", (int)(random_bits() % 30),
-          (double)value * (1 + 1e-8 * (double)(random_bits() % 9)));
+      snprintf(text, sizeof text, "%.*e", (int)(random_bits(&random_state) % 30),
+          (double)value * (1 + 1e-8 * (double)(random_bits(&random_state) % 9)));
     }
     check_like_strtof(text);
   }

@@ -1,5 +1,3 @@
-#include "harness.h"
-
 #include <fenv.h>
 #include <locale.h>
 #include <math.h>
@@ -8,26 +6,10 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "float_bits.h"
+#include "harness.h"
 
 static uint64_t random_state = UINT64_C(0xD1B54A32D192ED03);
-
-static uint64_t random_bits(void) {
-  random_state ^= random_state << 13;
-  random_state ^= random_state >> 7;
-  return random_state ^= random_state << 17;
-}
-
-static uint32_t bits_of(float value) {
-  uint32_t bits;
-  memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
-static float from_bits(uint32_t bits) {
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 static const char *printed(float value) {
   static char text[64];
@@ -133,7 +115,8 @@ START_TEST(every_exponent_gives_the_shortest_and_nearest)
     const uint32_t fractions[] = {0, 1, 2, 3, 0x2AAAAA, 0x400000, 0x555555, 0x7FFFFE, 0x7FFFFF};
     for (size_t i = 0; i < sizeof fractions / sizeof fractions[0]; i++)
       if (exponent | fractions[i]) check_shortest(exponent << 23 | fractions[i]);
-    for (int i = 0; i < 300; i++) check_shortest(exponent << 23 | (uint32_t)(random_bits() % 0x7FFFFF + 1));
+    for (int i = 0; i < 300; i++)
+      check_shortest(exponent << 23 | (uint32_t)(random_bits(&random_state) % 0x7FFFFF + 1));
   }
 }
 END_TEST
@@ -147,7 +130,7 @@ END_TEST
 START_TEST(random_bit_patterns_survive_the_round_trip)
 {
   for (long i = 0; i < 10000000; i++) {
-    uint32_t bits = (uint32_t)(random_bits() >> 16);
+    uint32_t bits = (uint32_t)(random_bits(&random_state) >> 16);
     if ((bits & 0x7F800000) == 0x7F800000) continue;
     char text[SBFI_F32_TEXT_SIZE];
     size_t length = sbfi_print_f32(text, from_bits(bits));

@@ -4,6 +4,7 @@
 
 #include "build/geometry/topology.h"
 #include "harness.h"
+#include "random.h"
 #include "shapes.h"
 
 static sbf_asset *asset;
@@ -20,10 +21,6 @@ static void teardown(void) {
 }
 
 static uint32_t state = 7;
-static float random_number(float low, float high) {
-  state = state * 1664525u + 1013904223u;
-  return low + (high - low) * (float)(state >> 8) / 16777216.0f;
-}
 
 static sbfi_carrier carrier_of(const sbf_soft_body *body, sbf_level *level) {
   sbfi_spring_recipe recipe = {.interior = SBFI_INTERIOR_CENTROID};
@@ -86,8 +83,8 @@ START_TEST(anywhere_around_a_cube)
   sbf_level level;
   sbfi_carrier carrier = carrier_of(shape_add_body(asset, "cube", &mesh, true), &level);
   for (int i = 0; i < 2000; i++) {
-    sbf_vec3 p = {
-        10 + random_number(-1.2f, 1.2f), 20 + random_number(-1.2f, 1.2f), 30 + random_number(-1.2f, 1.2f)};
+    sbf_vec3 p = {10 + random_between(&state, -1.2f, 1.2f), 20 + random_between(&state, -1.2f, 1.2f),
+        30 + random_between(&state, -1.2f, 1.2f)};
     sbfi_carried carried = sbfi_carrier_carry(&carrier, p, 0);
     check_place(&level, carried, p, 1e-5f);
     float size = carried.weights.x * carried.weights.x + carried.weights.y * carried.weights.y +
@@ -112,7 +109,8 @@ START_TEST(a_deformed_body_takes_its_vertices_along)
   sbf_level deformed = level;
   deformed.positions.at = moved;
   for (int i = 0; i < 200; i++) {
-    sbf_vec3 p = {random_number(-1.1f, 1.1f), random_number(-1.1f, 1.1f), random_number(-1.1f, 1.1f)};
+    sbf_vec3 p = {random_between(&state, -1.1f, 1.1f), random_between(&state, -1.1f, 1.1f),
+        random_between(&state, -1.1f, 1.1f)};
     sbf_vec3 image = {2 * p.x + p.y + 1, p.y - 0.5f * p.z, 3 * p.z - p.x};
     check_place(&deformed, sbfi_carrier_carry(&carrier, p, 0), image, 2e-5f);
   }
@@ -132,7 +130,8 @@ START_TEST(long_bodies_keep_small_weights)
   sbf_level level;
   sbfi_carrier carrier = carrier_of(shape_add_body(asset, "bar", &mesh, true), &level);
   for (int i = 0; i < 500; i++) {
-    sbf_vec3 p = {random_number(-0.5f, 0.5f), random_number(-0.5f, 0.5f), random_number(-10, 10)};
+    sbf_vec3 p = {random_between(&state, -0.5f, 0.5f), random_between(&state, -0.5f, 0.5f),
+        random_between(&state, -10, 10)};
     sbfi_carried c = sbfi_carrier_carry(&carrier, p, 0);
     check_place(&level, c, p, 1e-4f);
     ck_assert_float_lt(fabsf(c.weights.x) + fabsf(c.weights.y) + fabsf(c.weights.z) + fabsf(c.weights.w), 4);
@@ -167,7 +166,7 @@ START_TEST(lattices)
   sbfi_carrier carrier;
   ck_assert(sbfi_carrier_make(&carrier, body, &level, NULL, SBFI_NO_INDEX, &arena));
   for (int i = 0; i < 500; i++) {
-    sbf_vec3 p = {random_number(0, 1), random_number(0, 1), random_number(0, 1)};
+    sbf_vec3 p = {random_between(&state, 0, 1), random_between(&state, 0, 1), random_between(&state, 0, 1)};
     sbfi_carried c = sbfi_carrier_carry(&carrier, p, 0);
     check_place(&level, c, p, 1e-5f);
     float least = fminf(fminf(c.weights.x, c.weights.y), fminf(c.weights.z, c.weights.w));

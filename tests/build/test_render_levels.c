@@ -6,6 +6,7 @@
 #include "build/geometry/triangle_tree.h"
 #include "harness.h"
 #include "promises.h"
+#include "random.h"
 #include "sbfmt/build.h"
 #include "sbfmt/validate.h"
 #include "shapes.h"
@@ -72,10 +73,6 @@ static sbf_polygon_mesh mesh_of(const sbf_render_mesh *mesh, const sbf_render_le
 }
 
 static uint32_t state = 1;
-static float random_share(void) {
-  state = state * 1664525u + 1013904223u;
-  return (float)(state >> 8) / 16777216.0f;
-}
 
 /* Farthest of `samples` places a triangle on one mesh from the other: what another measures by. */
 static double farthest_sample(const sbf_polygon_mesh *from, const sbf_polygon_mesh *to, int samples) {
@@ -86,8 +83,8 @@ static double farthest_sample(const sbf_polygon_mesh *from, const sbf_polygon_me
   ck_assert(sbfi_triangle_tree_build(&a, from, &arena) && sbfi_triangle_tree_build(&b, to, &arena));
   for (uint32_t t = 0; t < a.triangle_count; t++)
     for (int i = 0; i < samples + 3; i++) {
-      float s = i < 3 ? (float)(i == 1) : random_share(),
-            r = i < 3 ? (float)(i == 2) : (1 - s) * random_share();
+      float s = i < 3 ? (float)(i == 1) : random_between(&state, 0, 1),
+            r = i < 3 ? (float)(i == 2) : (1 - s) * random_between(&state, 0, 1);
       const sbf_vec3 *p = &a.positions[a.triangles[t].points[0]], *q = &a.positions[a.triangles[t].points[1]],
                      *o = &a.positions[a.triangles[t].points[2]];
       sbf_vec3 at = {p->x + s * (q->x - p->x) + r * (o->x - p->x),

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "harness.h"
+#include "random.h"
 #include "shapes.h"
 
 static sbf_asset *asset;
@@ -19,10 +20,6 @@ static void teardown(void) {
 }
 
 static uint32_t state = 1;
-static float random_number(float low, float high) {
-  state = state * 1664525u + 1013904223u;
-  return low + (high - low) * (float)(state >> 8) / 16777216.0f;
-}
 
 static double triangle_distance(const sbfi_triangle_tree *tree, uint32_t triangle, sbf_vec3 point) {
   double corners[3][3], weights[3];
@@ -41,7 +38,8 @@ START_TEST(nearest_as_by_trying_all)
   ck_assert(sbfi_triangle_tree_build(&tree, &mesh, &arena));
   ck_assert_uint_eq(tree.triangle_count, 2 * 6 * 49);
   for (int i = 0; i < 500; i++) {
-    sbf_vec3 p = {random_number(-2, 2), random_number(-2, 2), random_number(-2, 2)};
+    sbf_vec3 p = {
+        random_between(&state, -2, 2), random_between(&state, -2, 2), random_between(&state, -2, 2)};
     double least = INFINITY, best = INFINITY;
     uint32_t found = sbfi_triangle_tree_nearest(&tree, p, &least), expected = UINT32_MAX;
     for (uint32_t t = 0; t < tree.triangle_count; t++) {
@@ -77,7 +75,8 @@ START_TEST(rays_meet_the_first)
   sbfi_triangle_tree tree;
   ck_assert(sbfi_triangle_tree_build(&tree, &mesh, &arena));
   for (int i = 0; i < 300; i++) {
-    sbf_vec3 p = {random_number(-1, 1), random_number(-1, 1), random_number(-1, 1)};
+    sbf_vec3 p = {
+        random_between(&state, -1, 1), random_between(&state, -1, 1), random_between(&state, -1, 1)};
     uint32_t found = sbfi_triangle_tree_pierced(&tree, (sbf_vec3){0, 0, 0}, p);
     ck_assert_uint_ne(found, UINT32_MAX);
     /* Of a cube around the origin the ray meets the face of the largest coordinate. */

@@ -2,28 +2,15 @@
 #include <stdlib.h>
 
 #include "harness.h"
-#include "import/scene/assimp_bridge.h"
 #include "import/scene/stream_format.h"
-#include "scene_check.h"
-#include "stream_builder.h"
-
-static void put_together(sbfi_scene *scene, stream_builder *s, const char *format) {
-  sbf_diagnostic error = {0};
-  ck_assert(sbfi_scene_init(scene, NULL, 0, "test"));
-  scene->format = format;
-  sbf_status status = sbfi_assimp_take(scene, s->at, s->size, NULL, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
-  free(s->at);
-  const char *broken = scene_check(scene);
-  ck_assert_msg(!broken, "%s", broken);
-}
+#include "scene_of_stream.h"
 
 START_TEST(what_moves_helpers_becomes_keys_of_the_node)
 {
   stream_builder s = {0};
   stream_everything(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "fbx");
+  scene_of_stream(&scene, &s, "fbx");
   ck_assert_uint_eq(scene.node_count, 3);
   ck_assert_uint_eq(scene.clip_count, 1);
   const sbfi_scene_clip *clip = &scene.clips[0];
@@ -79,7 +66,7 @@ START_TEST(keys_ascend_and_begin_at_zero)
   stream_none(&s);
   stream_end(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "dae");
+  scene_of_stream(&scene, &s, "dae");
   const sbfi_scene_channel *c = &scene.clips[0].channels[0];
   ck_assert_uint_eq(scene.clips[0].channel_count, 1);
   static const float expected[] = {0, 1, 2, 3};

@@ -5,23 +5,11 @@
 
 #include "harness.h"
 #include "import/scene/assimp_bridge.h"
-#include "scene_check.h"
-#include "stream_builder.h"
+#include "scene_of_stream.h"
 
 /* Two triangles of a unit square in the plane z, with a corner of their own each. */
 #define SQUARE(x, y, z)                                                                                      \
   { x, y, z, x + 1, y, z, x + 1, y + 1, z, x, y, z, x + 1, y + 1, z, x, y + 1, z }
-
-static void put_together(sbfi_scene *scene, stream_builder *s, const char *format) {
-  sbf_diagnostic error = {0};
-  ck_assert(sbfi_scene_init(scene, NULL, 0, "test"));
-  scene->format = format;
-  sbf_status status = sbfi_assimp_take(scene, s->at, s->size, NULL, &error);
-  ck_assert_msg(status == SBF_OK, "%s", error.message);
-  free(s->at);
-  const char *broken = scene_check(scene);
-  ck_assert_msg(!broken, "%s", broken);
-}
 
 /* A node "n" with the meshes 0 to count - 1. */
 static void one_node(stream_builder *s, uint32_t count) {
@@ -47,7 +35,7 @@ START_TEST(corners_at_one_place_are_one_point)
   stream_triangles(&s, "square", 0, square, 2);
   finish(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "glb");
+  scene_of_stream(&scene, &s, "glb");
   const sbfi_scene_mesh *m = &scene.meshes[0];
   ck_assert_uint_eq(m->point_count, 4);
   ck_assert_uint_eq(m->vertex_count, 6);
@@ -68,7 +56,7 @@ START_TEST(zero_has_no_sign_but_the_last_bit_counts)
   stream_triangles(&s, "torn", 0, torn, 2);
   finish(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "glb");
+  scene_of_stream(&scene, &s, "glb");
   ck_assert_uint_eq(scene.meshes[0].point_count, 4);
   sbfi_scene_free(&scene);
 }
@@ -90,7 +78,7 @@ START_TEST(parts_of_a_node_become_one_mesh)
   stream_none(&s);
   stream_end(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "glb");
+  scene_of_stream(&scene, &s, "glb");
   ck_assert_uint_eq(scene.mesh_count, 1);
   const sbfi_scene_mesh *m = &scene.meshes[0];
   ck_assert_str_eq(m->name, "body");
@@ -121,7 +109,7 @@ START_TEST(nodes_are_never_welded)
   stream_triangles(&s, "square", 0, square, 2);
   finish(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "glb");
+  scene_of_stream(&scene, &s, "glb");
   ck_assert_uint_eq(scene.mesh_count, 2);
   ck_assert_uint_eq(scene.meshes[0].point_count, 4);
   ck_assert_uint_eq(scene.meshes[1].point_count, 4);
@@ -152,7 +140,7 @@ START_TEST(polygons_keep_their_sides_and_lines_are_left_out)
   stream_none(&s);
   finish(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "dae");
+  scene_of_stream(&scene, &s, "dae");
   const sbfi_scene_mesh *m = &scene.meshes[0];
   ck_assert_uint_eq(m->polygon_count, 2);
   ck_assert_uint_eq(m->polygon_starts[1], 4);
@@ -206,7 +194,7 @@ START_TEST(points_that_move_differently_stay_apart)
   stream_none(&s);
   finish(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "glb");
+  scene_of_stream(&scene, &s, "glb");
   const sbfi_scene_mesh *m = &scene.meshes[0];
   ck_assert_uint_eq(m->point_count, 5);
   ck_assert_uint_eq(m->vertex_points[2], m->vertex_points[4]);
@@ -244,7 +232,7 @@ START_TEST(shapes_keep_points_apart_too)
   stream_f32s(&s, moved, 18);
   finish(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "glb");
+  scene_of_stream(&scene, &s, "glb");
   const sbfi_scene_mesh *m = &scene.meshes[0];
   ck_assert_uint_eq(m->point_count, 5);
   ck_assert_uint_eq(m->shape_count, 1);
@@ -292,7 +280,7 @@ START_TEST(a_name_means_the_bone)
   stream_none(&s);
   stream_end(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "glb");
+  scene_of_stream(&scene, &s, "glb");
   ck_assert_int_eq(scene.meshes[0].joints[0].node, 1);
   ck_assert_int_eq(scene.clips[0].channels[0].node, 1);
   ck_assert_uint_eq(scene.warning_count, 1); /* of the two without a mesh it could be either */
@@ -327,7 +315,7 @@ static void bones_of(const char *format, sbfi_scene *scene) {
   put_bone(&s, "right", 2, vertices, weights);
   stream_none(&s);
   finish(&s);
-  put_together(scene, &s, format);
+  scene_of_stream(scene, &s, format);
 }
 
 START_TEST(joints_are_the_bones_of_a_gltf)
@@ -373,7 +361,7 @@ START_TEST(pivot_helpers_are_folded_into_what_they_move)
   stream_triangles(&s, "square", 0, square, 2);
   finish(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "fbx");
+  scene_of_stream(&scene, &s, "fbx");
   ck_assert_uint_eq(scene.node_count, 3);
   ck_assert_str_eq(scene.nodes[1].name, "b");
   ck_assert_int_eq(scene.nodes[1].parent, 0);
@@ -404,7 +392,7 @@ START_TEST(unit_and_axes_of_an_fbx)
     stream_triangles(&s, "square", 0, square, 2);
     finish(&s);
     sbfi_scene scene;
-    put_together(&scene, &s, "fbx");
+    scene_of_stream(&scene, &s, "fbx");
     ck_assert(scene.unit_known);
     ck_assert_double_eq(scene.unit_m, 0.0254);
     ck_assert(scene.axes_known == (i == 0));
@@ -438,7 +426,7 @@ START_TEST(embedded_images_are_taken_over)
     stream_none(&s);
     stream_end(&s);
     sbfi_scene scene;
-    put_together(&scene, &s, "fbx");
+    scene_of_stream(&scene, &s, "fbx");
     if (i < 2) {
       ck_assert_uint_eq(scene.image_count, 1);
       ck_assert_uint_eq(scene.images[0].byte_count, 3);
@@ -480,7 +468,7 @@ START_TEST(invented_meshes_are_left_out)
   stream_triangles(&bvh, "invented", 0, square, 2);
   finish(&bvh);
   sbfi_scene scene;
-  put_together(&scene, &bvh, "bvh");
+  scene_of_stream(&scene, &bvh, "bvh");
   ck_assert_uint_eq(scene.mesh_count, 0);
   ck_assert_int_eq(scene.warnings[0].code, SBF_CODE_IMPORT_MESH_INVENTED);
   sbfi_scene_free(&scene);
@@ -526,7 +514,7 @@ START_TEST(limits_are_kept_where_they_bound_something)
   stream_triangles(&s, "square", 0, square, 2);
   finish(&s);
   sbfi_scene scene;
-  put_together(&scene, &s, "glb");
+  scene_of_stream(&scene, &s, "glb");
   const sbfi_scene_limit *limits = scene.nodes[1].limits;
   ck_assert(!scene.nodes[0].limits[0].stated);
   ck_assert(limits[SBFI_LIMIT_TWIST].stated && !limits[SBFI_LIMIT_SWING_Y].stated);

@@ -3,9 +3,10 @@
 #include <stdlib.h>
 
 #include "harness.h"
+#include "random.h"
 
 static uint32_t random_scalar(uint32_t *state) {
-  *state = *state * 1664525u + 1013904223u;
+  random_next(state);
   return *state >> (*state >> 5 & 31);
 }
 

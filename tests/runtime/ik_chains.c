@@ -1,10 +1,10 @@
 #include "ik_chains.h"
 
 #include "harness.h"
+#include "random.h"
 
 float ik_random(uint32_t *seed) {
-  *seed = *seed * 1664525u + 1013904223u;
-  return (float)(*seed >> 8) / 8388608.0f - 1;
+  return random_between(seed, -1, 1);
 }
 
 sbf_vec3 ik_random_place(uint32_t *seed, float radius) {

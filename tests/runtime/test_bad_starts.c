@@ -5,6 +5,7 @@
 
 #include "core/world.h"
 #include "harness.h"
+#include "random.h"
 #include "scenes.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
@@ -68,10 +69,7 @@ static void spoil(scene *s, start how) {
   uint32_t state = 3;
   for (uint32_t i = body->slot_begin; i < body->slot_real_end; i++) {
     float numbers[3];
-    for (int k = 0; k < 3; k++) {
-      state = state * 1664525u + 1013904223u;
-      numbers[k] = (float)(state >> 8) / 16777216.0f - 0.5f;
-    }
+    for (int k = 0; k < 3; k++) numbers[k] = random_between(&state, -0.5f, 0.5f);
     if (how == SCRAMBLED)
       at[i] = (sbri_point){middle.x + numbers[0], middle.y + numbers[1], middle.z + numbers[2], 0};
     if (how == FLATTENED) at[i].y = middle.y;

@@ -5,6 +5,7 @@
 #include "core/world.h"
 #include "harness.h"
 #include "model/descent_table.h"
+#include "random.h"
 #include "scenes.h"
 
 static const double PI = 3.14159265358979323846;
@@ -95,7 +96,7 @@ START_TEST(nothing_is_too_stiff)
   sbri_point *x = sbri_positions(sbri_character_of(s.world, s.character));
   uint32_t state = 5;
   for (uint32_t i = 0; _i == 1 && i < s.model->islands[0].free_count; i++) {
-    state = state * 1664525u + 1013904223u;
+    random_next(&state);
     x[i].x += 0.4f * ((float)(state >> 8) / 16777216 - 0.5f);
     x[i].y += 0.4f * ((float)(state * 7 >> 8) / 16777216 - 0.5f);
   }

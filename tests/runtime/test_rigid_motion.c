@@ -1,4 +1,5 @@
 #include "harness.h"
+#include "random.h"
 #include "solvers/rigid_motion.h"
 
 enum { POINTS = 16, REAL = 13 };
@@ -17,10 +18,7 @@ static void make(sbf_vec3 v, sbf_vec3 w, float noise) {
   uint32_t random = 3;
   for (uint32_t i = 0; i < POINTS; i++) {
     float n[6];
-    for (int k = 0; k < 6; k++) {
-      random = random * 1664525u + 1013904223u;
-      n[k] = (float)(int32_t)random / 2147483648.0f;
-    }
+    for (int k = 0; k < 6; k++) { n[k] = (float)(int32_t)random_next(&random) / 2147483648.0f; }
     masses[i] = i < REAL ? 0.5f + 0.1f * (float)i : 0;
     positions[i] = (sbri_point){10 + n[0], 2 * n[1], -5 + 3 * n[2], 0};
     sbf_vec3 r = {positions[i].x, positions[i].y, positions[i].z}, turn = sbri_cross(w, r);

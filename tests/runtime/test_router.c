@@ -6,6 +6,7 @@
 
 #include "core/world.h"
 #include "harness.h"
+#include "random.h"
 #include "scenes.h"
 
 static scene section(float modulus) {
@@ -76,8 +77,7 @@ START_TEST(what_is_thrown_about_recovers_and_is_let_go)
   float *velocities = sbri_velocities(&s.world->characters[0]);
   uint32_t state = 7;
   for (uint32_t i = 0; i < 3 * s.model->islands[0].free_count; i++) {
-    state = state * 1664525u + 1013904223u;
-    velocities[i] = 300 * ((float)(state >> 8) / 8388608.0f - 1);
+    velocities[i] = 300 * random_between(&state, -1, 1);
   }
   scene_ticks(&s, 1);
   ck_assert_uint_eq(recovering(&s), SBRI_RECOVERING_TICKS);

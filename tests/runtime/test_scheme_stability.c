@@ -6,6 +6,7 @@
 
 #include "core/world.h"
 #include "harness.h"
+#include "random.h"
 #include "scenes.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
@@ -107,8 +108,8 @@ START_TEST(hitches_and_jitter_show_the_same_motion)
     uint32_t state = 5;
     while (sbr_world_ticks(s.world) < 120) {
       double left = (120 - (double)sbr_world_ticks(s.world)) / 60;
-      state = state * 1664525u + 1013904223u;
-      double frame = how == 0 ? 1.0 / 60 : how == 1 ? 0.25 : 0.002 + (state >> 8) / 16777216.0 * 0.1;
+      const double share = random_between(&state, 0, 1);
+      double frame = how == 0 ? 1.0 / 60 : how == 1 ? 0.25 : 0.002 + share * 0.1;
       sbr_world_step(s.world, frame < left ? frame : left);
     }
     ck_assert(sbr_character_health(s.world, s.character, 0).finite);

@@ -2,6 +2,7 @@
 
 #include "core/world.h"
 #include "harness.h"
+#include "random.h"
 #include "sbfmt/codes.h"
 #include "scenes.h"
 
@@ -21,8 +22,7 @@ static double growth(scene *s) {
   sbri_character *c = sbri_character_of(s->world, s->character);
   uint32_t random = 1;
   for (uint32_t i = 0; i < c->model->islands[0].free_count; i++) {
-    random = random * 1664525u + 1013904223u;
-    sbri_positions(c)[i].x += 1e-4f * (float)(int32_t)random / 2147483648.0f;
+    sbri_positions(c)[i].x += 1e-4f * (float)(int32_t)random_next(&random) / 2147483648.0f;
   }
   double before = sbr_character_health(s->world, s->character, 0).elastic_j;
   scene_ticks(s, 120);
@@ -89,10 +89,7 @@ START_TEST(a_body_thrown_into_a_knot_does_not_burst)
   uint32_t random = 5;
   for (uint32_t i = 0; i < c->model->islands[0].free_count; i++) {
     float *p = &sbri_positions(c)[i].x;
-    for (int k = 0; k < 3; k++) {
-      random = random * 1664525u + 1013904223u;
-      p[k] = 0.5f * (float)(int32_t)random / 2147483648.0f;
-    }
+    for (int k = 0; k < 3; k++) { p[k] = 0.5f * (float)(int32_t)random_next(&random) / 2147483648.0f; }
   }
   sbri_island_states(c)[0].stretch = 0.95f; /* as it would be, had it come there by itself */
   double before = sbr_character_health(s.world, s.character, 0).elastic_j, most = 0;

@@ -6,20 +6,15 @@
 
 #include "harness.h"
 #include "math/vec3.h"
+#include "random.h"
 
 static float distance(sbf_vec3 a, sbf_vec3 b) {
   return sbri_length(sbri_sub(a, b));
 }
 
-/* A small generator of our own, so that every machine tests the same targets. */
-static float next(uint32_t *seed) {
-  *seed = *seed * 1664525u + 1013904223u;
-  return (float)(*seed >> 8) / 8388608.0f - 1;
-}
-
 /* One after the other: the order of a call's arguments is the compiler's. */
 static sbf_vec3 next_point(uint32_t *seed, float scale) {
-  float x = next(seed), y = next(seed), z = next(seed);
+  float x = random_between(seed, -1, 1), y = random_between(seed, -1, 1), z = random_between(seed, -1, 1);
   return sbri_vec3(scale * x, scale * y, scale * z);
 }
 

@@ -1,9 +1,9 @@
 #include "harness.h"
+#include "random.h"
 #include "wide_twin.h"
 
 static float next(uint32_t *state) {
-  *state = *state * 1664525u + 1013904223u;
-  return (float)(int32_t)*state * (1.0f / 2147483648.0f);
+  return (float)(int32_t)random_next(state) * (1.0f / 2147483648.0f);
 }
 
 START_TEST(one_lane_and_all_lanes_give_the_same_bits)

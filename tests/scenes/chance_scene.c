@@ -4,6 +4,7 @@
 
 #include "harness.h"
 #include "math/trig.h"
+#include "random.h"
 #include "scenes.h"
 
 enum { MOST_POINTS = 60 };
@@ -13,8 +14,7 @@ typedef struct chance {
 } chance;
 
 static uint32_t roll(chance *c, uint32_t below) {
-  c->state = c->state * 1664525u + 1013904223u;
-  return (uint32_t)((uint64_t)(c->state >> 8) * below >> 24);
+  return (uint32_t)((uint64_t)(random_next(&c->state) >> 8) * below >> 24);
 }
 static float between(chance *c, float low, float high) {
   return low + (high - low) * (float)roll(c, 1u << 20) / (float)(1u << 20);
