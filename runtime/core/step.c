@@ -7,6 +7,7 @@
 #include "core/world.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
+#include "solvers/outer_forces.h"
 #include "solvers/router.h"
 
 /* The origin follows when the character is this far from it, in m. */
@@ -260,7 +261,8 @@ static void tick_island(void *context, uint32_t index) {
   sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
   tuck_padding(c, island);
   sbri_island_tick tick = make_tick(world, c, work.island, island);
-  if (!island->scheme->forceless) prepare_contacts(&tick, c);
+  tick.outer_rad_s = &now.outer_rad_s;
+  if (!island->scheme->forceless) sbri_outer_look(&tick), prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[work.island].recovering)->tick(&tick);
   if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, work.island);
   sbri_island_recover(world, c, work.island);

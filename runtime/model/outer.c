@@ -8,7 +8,7 @@
 #include "solvers/surface_forces.h"
 
 /* A gas is reckoned with down to this share of its rest volume; what it pushes back with grows as the square.
- */
+ * Beyond, it is looked at while it runs (sbri_outer_look). */
 static const double LEAST_GAS_SHARE = 0.5;
 
 /* ---- Hinges ---- */
@@ -182,7 +182,7 @@ static float vertex_mass_inverse(const sbri_island *island, const sbri_skin *ski
 
 /* Of the gas: p V0 / V^2 times the sum of w |grad V|^2, and the turning of the faces, p times a third of the
  * sides around a point. */
-static double gas_bound(const sbri_island *island, const sbri_body *body) {
+static double gas_bound(const sbri_island *island, sbri_body *body) {
   const sbri_skin *skin = &body->surface;
   const sbf_polygon_mesh *mesh = &body->source->surface;
   const uint32_t *corners = mesh->polygon_points.at;
@@ -203,6 +203,7 @@ static double gas_bound(const sbri_island *island, const sbri_body *body) {
     }
   }
   double volume = LEAST_GAS_SHARE * body->gas_volume_m3;
+  body->gas_turning = turning;
   return pressure * body->gas_volume_m3 / (volume * volume) * sum + pressure * turning / LEAST_GAS_SHARE;
 }
 

@@ -160,6 +160,7 @@ typedef struct sbri_body {
   uint32_t first_vertex, first_face; /* of them in a character's scratch */
   float gas_pa;                      /* pressure of the gas inside at rest; 0: none */
   double gas_volume_m3;              /* of that gas at rest */
+  double gas_turning;                /* rad^2/s^2 for each Pa, by which its faces' turning adds to a mode */
   float medium_kg_m3;                /* density of what pushes on its faces; 0: nothing does */
   const sbri_hinge *hinges;
   uint32_t hinge_count;

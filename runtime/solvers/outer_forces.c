@@ -8,8 +8,15 @@
 /* A gas pushes no harder than at this share of its rest volume, inside out or not. */
 static const double LEAST_GAS_SHARE = 0.02;
 
+/* What a gas may stiffen by from one look to the next. */
+static const double GAS_MARGIN = 1.25;
+
 static sbf_vec3 vec_of(const sbri_point *p) {
   return sbri_vec3(p->x, p->y, p->z);
+}
+
+static void clear(sbri_point *points, uint32_t count) {
+  memset(points, 0, count * sizeof *points);
 }
 
 static void add_to(sbri_point *p, sbf_vec3 f) {
@@ -108,16 +115,25 @@ static void add_medium(const sbri_island_tick *t, const sbri_body *body, const s
   }
 }
 
-static void add_gas(const sbri_body *body, const sbri_point *vertices, sbri_point *forces) {
+static double gas_volume_now(const sbri_body *body, const sbri_point *vertices) {
   double volume = volume_of(&body->surface, vertices), least = LEAST_GAS_SHARE * body->gas_volume_m3;
-  if (!(volume > least)) volume = least;
-  float pressure = (float)((double)body->gas_pa * body->gas_volume_m3 / volume);
+  return volume > least ? volume : least;
+}
+
+/* `pressure` times the gradient of the volume. */
+static void add_pressure(
+    const sbri_body *body, const sbri_point *vertices, float pressure, sbri_point *forces) {
   uint32_t corners[4];
   for (uint32_t face = 0; face < body->surface.face_block_count * SBRI_BLOCK; face++) {
     if (!lane_corners(&body->surface, face, corners)) continue;
     sbri_face_shape shape = shape_of(vertices, corners);
     for (int k = 0; k < 4; k++) add_to(&forces[corners[k]], sbri_scale(shape.gradients[k], pressure));
   }
+}
+
+static void add_gas(const sbri_body *body, const sbri_point *vertices, sbri_point *forces) {
+  double pressure = (double)body->gas_pa * body->gas_volume_m3 / gas_volume_now(body, vertices);
+  add_pressure(body, vertices, (float)pressure, forces);
 }
 
 /* In one substep a medium takes no more of a point's speed against it than all. */
@@ -129,10 +145,6 @@ static void bound_medium(const sbri_island_tick *t, const sbri_body *body, float
       t->outer[slot] = (sbri_point){t->outer[slot].x * (speed / change), t->outer[slot].y * (speed / change),
           t->outer[slot].z * (speed / change), 0};
   }
-}
-
-static void clear(sbri_point *points, uint32_t count) {
-  memset(points, 0, count * sizeof *points);
 }
 
 static void add_surface(const sbri_island_tick *t, const sbri_body *body, float h) {
@@ -217,6 +229,38 @@ void sbri_outer_forces(const sbri_island_tick *t, float h) {
   if (t->model->asset->environment.fields.count) add_fields(t, h);
 }
 
+/* ---- How stiff gases are now ---- */
+
+/* Of one gas, rad^2/s^2: p / V times the sum of w |grad V|^2, and the turning of its faces. */
+static double gas_square(const sbri_island_tick *t, const sbri_body *body) {
+  sbri_point *vertices = t->surface_vertices + body->first_vertex;
+  sbri_point *gradients = t->surface_forces + body->first_vertex;
+  double sum = 0;
+  carry_vertices(t, &body->surface, false, vertices);
+  clear(gradients, body->surface.vertex_count);
+  clear(t->outer + body->slot_begin, body->slot_end - body->slot_begin);
+  add_pressure(body, vertices, 1, gradients);
+  pass_on(t, &body->surface, gradients);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    sbf_vec3 g = vec_of(&t->outer[slot]);
+    sum += (double)t->island->inverse_masses[slot] * (double)sbri_dot(g, g);
+  }
+  double volume = gas_volume_now(body, vertices),
+         pressure = fabs((double)body->gas_pa) * body->gas_volume_m3 / volume;
+  return pressure / volume * sum + pressure * body->gas_turning;
+}
+
+void sbri_outer_look(const sbri_island_tick *t) {
+  double rest = t->model->islands[t->model->bodies[t->island->bodies[0]].island].outer_rad_s, square = 0;
+  for (uint32_t b = 0; b < t->island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+    if (body->gas_pa != 0) square += gas_square(t, body);
+  }
+  if (square == 0) return;
+  *t->outer_rad_s = rest;
+  if (GAS_MARGIN * GAS_MARGIN * square > rest * rest) *t->outer_rad_s = GAS_MARGIN * sqrt(square);
+}
+
 /* ---- Energies ---- */
 
 double sbri_outer_energy(
@@ -232,6 +276,7 @@ double sbri_outer_energy(
   sbri_island_tick t = {.island = island, .positions = (sbri_point *)(uintptr_t)positions};
   carry_vertices(&t, &body->surface, false, vertices);
   double share = volume_of(&body->surface, vertices) / body->gas_volume_m3;
-  if (!(share > LEAST_GAS_SHARE)) share = LEAST_GAS_SHARE;
-  return energy - (double)body->gas_pa * body->gas_volume_m3 * (double)sbri_log((float)share);
+  double reckoned = share > LEAST_GAS_SHARE ? share : LEAST_GAS_SHARE;
+  double grown = (double)sbri_log((float)reckoned) + (share - reckoned) / reckoned;
+  return energy - (double)body->gas_pa * body->gas_volume_m3 * grown;
 }

@@ -9,6 +9,10 @@
  * seconds. */
 void sbri_outer_forces(const sbri_island_tick *t, float h);
 
+/* Reckons *t->outer_rad_s anew by how stiff the gases are at the present positions; not below what it is at
+ * rest. */
+void sbri_outer_look(const sbri_island_tick *t);
+
 /* Acceleration of a point at x with velocity v, all in the field's space; m/s^2. */
 sbf_vec3 sbri_field_at(const sbf_force_field *field, sbf_vec3 x, sbf_vec3 v);
 

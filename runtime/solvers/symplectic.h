@@ -9,9 +9,17 @@
 #include "solvers/finish.h"
 #include "solvers/motion.h"
 
-static inline uint32_t sbri_solid_substeps(const sbri_island_tick *t, float time_s) {
+static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
   uint32_t needed = sbri_stable_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
-  return needed < SBRI_MOST_SUBSTEPS ? needed : SBRI_MOST_SUBSTEPS;
+  return needed < SBRI_MOST_SUBSTEPS || t->island->substeps ? needed : SBRI_MOST_SUBSTEPS;
+}
+
+/* Whether what is stable changes within a tick by more than springs can. */
+static inline bool sbri_may_stiffen(const sbri_island_tick *t) {
+  bool gas = false;
+  for (uint32_t b = 0; b < t->island->body_count; b++)
+    gas = gas || t->model->bodies[t->island->bodies[b]].gas_pa != 0;
+  return !t->island->substeps && (gas || t->island->tetrahedron_block_count > 0);
 }
 
 /* In fewer, what lies on the ground is pressed so hard against it by its weight that it would hop. */
@@ -33,12 +41,13 @@ static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {
   return lies ? 1 : SBRI_SELF_DAMP_EVERY;
 }
 
-/* With tetrahedra: where they have stiffened beyond what the substep allows for, the rest of the tick is
+/* Where tetrahedra or gases have stiffened beyond what the substep allows for, the rest of the tick is
  * divided anew. */
-static inline void sbri_symplectic_tick_of_solids(const sbri_island_tick *t) {
+static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  uint32_t left = sbri_solid_substeps(t, t->tick_s);
-  if (left < SBRI_LEAST_TOUCHING_SUBSTEPS && !island->substeps && sbri_touches_any(t))
+  bool solid = island->tetrahedron_block_count > 0, may_stiffen = sbri_may_stiffen(t);
+  uint32_t left = sbri_substeps_now(t, t->tick_s);
+  if (solid && left < SBRI_LEAST_TOUCHING_SUBSTEPS && !island->substeps && sbri_touches_any(t))
     left = SBRI_LEAST_TOUCHING_SUBSTEPS;
   float h = t->tick_s / (float)left, rest = t->tick_s, self_s = 0, stretches[SBRI_BLOCK] = {0};
   uint32_t damp_every = sbri_self_damp_every(t);
@@ -46,9 +55,10 @@ static inline void sbri_symplectic_tick_of_solids(const sbri_island_tick *t) {
   for (uint32_t s = 1; left > 0; s++) {
     bool last = left == 1, looks = last || s % SBRI_LOOK_EVERY == 0;
     if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
-    sbri_tetrahedron_pass(t, looks);
-    if (looks && !last && !island->substeps) {
-      uint32_t needed = sbri_solid_substeps(t, rest);
+    if (solid) sbri_tetrahedron_pass(t, looks);
+    if (looks && !last && may_stiffen) {
+      sbri_outer_look(t);
+      uint32_t needed = sbri_substeps_now(t, rest);
       if (needed > left) left = needed, h = rest / (float)left;
     }
     bool damps = last || s % damp_every == 0;
@@ -57,31 +67,7 @@ static inline void sbri_symplectic_tick_of_solids(const sbri_island_tick *t) {
     if (damps) self_s = 0;
     sbri_drift(t, h);
     rest = (float)--left * h;
-    sbri_carry_held(t, last ? 1 : 1 - rest / t->tick_s);
-    sbri_finish_substep(t, h);
-  }
-  sbri_keep_stretch(t, stretches);
-}
-
-static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
-  const sbri_island *island = t->island;
-  if (island->tetrahedron_block_count > 0) {
-    sbri_symplectic_tick_of_solids(t);
-    return;
-  }
-  uint32_t substeps = sbri_stable_substeps(island, t->tick_s, *t->stretch);
-  float h = t->tick_s / (float)substeps;
-  float self_s = 0, stretches[SBRI_BLOCK] = {0};
-  uint32_t damp_every = sbri_self_damp_every(t);
-  sbri_remember_held(t);
-  for (uint32_t s = 0; s < substeps; s++) {
-    bool last = s + 1 == substeps, damps = last || (s + 1) % damp_every == 0;
-    if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
-    self_s += h;
-    sbri_kick(t, h, damps ? self_s : 0, last, stretches);
-    if (damps) self_s = 0;
-    sbri_drift(t, h);
-    sbri_carry_held(t, last ? 1 : (float)(s + 1) / (float)substeps);
+    sbri_carry_held(t, left == 0 ? 1 : 1 - rest / t->tick_s);
     sbri_finish_substep(t, h);
   }
   sbri_keep_stretch(t, stretches);
