@@ -249,6 +249,29 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
   }
 }
 
+/* Damping of each point, where a map scales what mass_damping says; the ratio's part stays as it is. */
+static bool find_alphas(sbri_island_maker *m) {
+  uint32_t free_count = m->island->free_count;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    float stated = body->source->attributes.mass_damping, rest = body->alpha_1_s - stated;
+    const float *factors = NULL;
+    if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_MASS_DAMPING, &factors)) return false;
+    if (!factors || !(stated > 0)) continue;
+    float *alphas = sbri_keep(m, free_count, sizeof *alphas), most = 0;
+    if (!alphas) return false;
+    for (uint32_t slot = 0; slot < free_count; slot++) alphas[slot] = body->alpha_1_s;
+    for (uint32_t i = 0; i < body->level->positions.count; i++) {
+      float alpha = rest + stated * factors[i];
+      if (body->slot_from_point[i] >= free_count) continue;
+      alphas[body->slot_from_point[i]] = alpha;
+      most = alpha > most ? alpha : most;
+    }
+    body->alphas = alphas, body->alpha_1_s = most;
+  }
+  return true;
+}
+
 /* Friction of each point, where a map scales it. */
 static bool find_frictions(sbri_island_maker *m) {
   uint32_t free_count = m->island->free_count;
@@ -310,7 +333,7 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
   if (!sbri_island_preload(m, &network)) return false;
   find_damping(m, network, masses, scratch);
-  if (!find_frictions(m)) return false;
+  if (!find_alphas(m) || !find_frictions(m)) return false;
   *found = network;
   return true;
 }

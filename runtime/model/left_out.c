@@ -19,23 +19,13 @@ static void list(listing *l, uint32_t how_many, const char *what, const char *in
 }
 
 typedef struct body_counts {
-  uint32_t gas, bending, media, weights, self, beside, levels;
+  uint32_t gas, bending, media, self, beside, levels;
 } body_counts;
 
 static bool has_flexion(const sbf_level *level) {
   for (uint32_t i = 0; i < level->springs.count; i++)
     if (level->springs.at[i].kind == SBF_SPRING_KIND_FLEXION && level->springs.at[i].ends.count) return true;
   return false;
-}
-
-/* Weight maps of what is one number for a whole body here. */
-static uint32_t count_weights(const sbf_soft_body *body) {
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < body->weight_maps.count; i++) {
-    sbf_weight_property property = body->weight_maps.at[i].property;
-    count += property == SBF_WEIGHT_PROPERTY_MASS_DAMPING || property == SBF_WEIGHT_PROPERTY_PRESSURE;
-  }
-  return count;
 }
 
 static body_counts count_bodies(const sbr_model *model) {
@@ -53,7 +43,6 @@ static body_counts count_bodies(const sbr_model *model) {
     n.bending += bends && made->hinge_count == 0;
     n.media += model->asset->environment.media_density > 0 && body->surface.polygon_sizes.count &&
                !(made->medium_kg_m3 > 0);
-    n.weights += count_weights(body);
     n.self += body->collision.self;
     for (uint32_t i = 0; i < body->levels.count; i++)
       n.levels += body->levels.at[i].model != SBF_ELASTIC_MODEL_SPRINGS &&
@@ -78,7 +67,6 @@ uint32_t sbr_model_left_out(
   list(&l, n.bending, "bending stiffnesses of sheets whose points the level does not have",
       "they bend freely");
   list(&l, n.media, "pushes of a dense medium on bodies that follow bones", "only media_friction acts");
-  list(&l, n.weights, "weight maps of mass_damping or pressure", "the body's own value acts all over");
   list(&l, n.self, "collisions of bodies with themselves", "they pass through");
   list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
       "other levels of their bodies act");

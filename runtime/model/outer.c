@@ -204,7 +204,28 @@ static double gas_bound(const sbri_island *island, sbri_body *body) {
   }
   double volume = LEAST_GAS_SHARE * body->gas_volume_m3;
   body->gas_turning = turning;
+  pressure *= (double)body->most_gas_factor;
   return pressure * body->gas_volume_m3 / (volume * volume) * sum + pressure * turning / LEAST_GAS_SHARE;
+}
+
+/* The pressure's factors at the surface's vertices, where maps scale it. */
+static bool find_gas_factors(sbr_model *model, sbri_body *body) {
+  const sbf_soft_body *is = body->source;
+  float *factors = NULL;
+  body->most_gas_factor = 1;
+  for (uint32_t m = 0; m < is->weight_maps.count; m++) {
+    const sbf_weight_map *map = &is->weight_maps.at[m];
+    if (map->property != SBF_WEIGHT_PROPERTY_PRESSURE) continue;
+    if (!factors && !(factors = sbfi_arena_allocate(
+                          &model->arena, (size_t)body->surface.vertex_count + 1, sizeof *factors)))
+      return false;
+    for (uint32_t v = 0; v < body->surface.vertex_count; v++)
+      factors[v] = (body->gas_factors ? factors[v] : 1) * (v < map->values.count ? map->values.at[v] : 1);
+    body->gas_factors = factors;
+  }
+  for (uint32_t v = 0; factors && v < body->surface.vertex_count; v++)
+    if (v == 0 || factors[v] > body->most_gas_factor) body->most_gas_factor = factors[v];
+  return true;
 }
 
 static bool make_island(sbr_model *model, sbri_island *island, sbfi_arena *scratch) {
@@ -220,6 +241,7 @@ static bool make_island(sbr_model *model, sbri_island *island, sbfi_arena *scrat
     if (is->pressure_mode == SBF_PRESSURE_MODE_GAS && carried && body->rest_volume_m3 > 0) {
       body->gas_pa = is->pressure;
       body->gas_volume_m3 = sbri_surface_rest_volume(body);
+      if (!find_gas_factors(model, body)) return false;
       square += gas_bound(island, body);
     }
     if (carried) body->medium_kg_m3 = environment->media_density;

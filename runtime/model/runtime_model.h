@@ -146,6 +146,8 @@ typedef struct sbri_body {
   uint32_t guide_frame;     /* of all its points, where `guides` is NULL */
   const sbri_guide *guides; /* (slot_end - slot_begin), where several frames hold it */
   float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
+  const float *alphas;      /* (free slots of the island) of each point, where a map scales it, alpha_1_s the
+                               greatest; else NULL */
   float media_friction_1_s;
   float friction, restitution;
   const float *frictions;     /* (free slots of the island) of each point, where a map scales it; else NULL */
@@ -160,6 +162,8 @@ typedef struct sbri_body {
   uint32_t first_vertex, first_face; /* of them in a character's scratch */
   float gas_pa;                      /* pressure of the gas inside at rest; 0: none */
   double gas_volume_m3;              /* of that gas at rest */
+  const float *gas_factors;          /* (vertices of its surface) on the pressure, of maps; NULL: none */
+  float most_gas_factor;             /* of these; 1 */
   double gas_turning;                /* rad^2/s^2 for each Pa, by which its faces' turning adds to a mode */
   float medium_kg_m3;                /* density of what pushes on its faces; 0: nothing does */
   const sbri_hinge *hinges;

@@ -53,7 +53,7 @@ typedef struct sbri_island_tick {
   sbri_point *begins;            /* (slot_count) scratch: where held points were at the tick's beginning */
   sbri_point *velocity_points;   /* (slot_count) scratch */
   sbri_point *element_forces;    /* (slot_count) scratch: of tetrahedra and regions */
-  double *outer_rad_s; /* the island's, as the gases are now: sbri_outer_look */
+  double *outer_rad_s;           /* the island's, as the gases are now: sbri_outer_look */
   sbr_transform anchor; /* motion of the anchor frame since the rest pose, asset metres: fields stand in it */
   sbri_point *surface_forces, *surface_velocities; /* scratch likewise */
   sbri_point *surface_vertices, *surface_faces;    /* scratch of the character; see sbri_body.first_vertex */

@@ -36,20 +36,40 @@ static inline const float *sbri_const_triple(const float *blocks, uint32_t slot)
 }
 
 typedef struct sbri_decay {
-  float frame; /* share of the velocity against the frame that a substep keeps */
-  float media; /* and against the medium */
+  float frame;         /* share of the velocity against the frame that a substep keeps */
+  float media;         /* and against the medium */
+  const float *alphas; /* where each point has its own; `frame` is the least then */
+  float h;
 } sbri_decay;
 
 static inline sbri_decay sbri_decay_of(const sbri_body *body, float h) {
   return (sbri_decay){body->alpha_1_s > 0 ? sbri_exp(-body->alpha_1_s * h) : 1,
-      body->media_friction_1_s > 0 ? sbri_exp(-body->media_friction_1_s * h) : 1};
+      body->media_friction_1_s > 0 ? sbri_exp(-body->media_friction_1_s * h) : 1, body->alphas, h};
+}
+
+/* What a group of lanes keeps of the velocity against the frame. */
+static inline sbri_wide sbri_kept(sbri_decay keep, uint32_t slot) {
+  float shares[SBRI_LANES];
+  if (!keep.alphas) return sbri_wide_all(keep.frame);
+  for (uint32_t lane = 0; lane < SBRI_LANES; lane++)
+    shares[lane] = sbri_exp(-keep.alphas[slot + lane] * keep.h);
+  return sbri_wide_load(shares);
+}
+
+/* Damps a body that nothing holds against itself, over `time_s` seconds. */
+static inline void sbri_self_damp(const sbri_island_tick *t, const sbri_body *body, float time_s) {
+  if (body->alphas)
+    sbri_rigid_motion_damp_each(t->island, body, t->positions, t->velocities, body->alphas, time_s);
+  else
+    sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, sbri_exp(-body->alpha_1_s * time_s));
 }
 
 /* Of a group of lanes; not of a body that nothing holds against itself, which takes all its lanes. */
 static inline sbri_wide3 sbri_decayed(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 v, sbri_decay keep, bool guided) {
-  sbri_wide kept = sbri_wide_all(keep.frame), drifting = sbri_wide_all(keep.media);
+  sbri_wide drifting = sbri_wide_all(keep.media);
   if (guided) {
+    sbri_wide kept = sbri_kept(keep, slot);
     sbri_wide3 u = sbri_load3(sbri_const_triple(t->guide_velocities, slot));
     v.x = u.x + (v.x - u.x) * kept;
     v.y = u.y + (v.y - u.y) * kept;
@@ -98,9 +118,7 @@ static inline void sbri_kick(const sbri_island_tick *t, float h, float self_s, b
 #define SBRI_CALL(known) sbri_kick_body(t, body, h, keep, known, stretches)
     SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
-    if (!body->held && self_s > 0 && body->alpha_1_s > 0)
-      sbri_rigid_motion_damp(
-          t->island, body, t->positions, t->velocities, sbri_exp(-body->alpha_1_s * self_s));
+    if (!body->held && self_s > 0 && body->alpha_1_s > 0) sbri_self_damp(t, body, self_s);
   }
 }
 
@@ -115,8 +133,7 @@ static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
       float *velocity = sbri_triple(t->velocities, slot);
       sbri_store3(velocity, sbri_decayed(t, slot, sbri_load3(velocity), keep, guided));
     }
-    if (!body->held && keep.frame < 1)
-      sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, keep.frame);
+    if (!body->held && keep.frame < 1) sbri_self_damp(t, body, h);
   }
 }
 

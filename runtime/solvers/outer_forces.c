@@ -120,20 +120,24 @@ static double gas_volume_now(const sbri_body *body, const sbri_point *vertices) 
   return volume > least ? volume : least;
 }
 
-/* `pressure` times the gradient of the volume. */
-static void add_pressure(
-    const sbri_body *body, const sbri_point *vertices, float pressure, sbri_point *forces) {
+/* `pressure` times the gradient of the volume, and times each face's mean of the factors (NULL: 1). */
+static void add_pressure(const sbri_body *body, const sbri_point *vertices, float pressure,
+    const float *factors, sbri_point *forces) {
   uint32_t corners[4];
   for (uint32_t face = 0; face < body->surface.face_block_count * SBRI_BLOCK; face++) {
-    if (!lane_corners(&body->surface, face, corners)) continue;
+    uint32_t count = lane_corners(&body->surface, face, corners);
+    if (!count) continue;
+    float factor = factors ? 0 : 1;
+    for (uint32_t k = 0; factors && k < count; k++) factor += factors[corners[k]] / (float)count;
     sbri_face_shape shape = shape_of(vertices, corners);
-    for (int k = 0; k < 4; k++) add_to(&forces[corners[k]], sbri_scale(shape.gradients[k], pressure));
+    for (int k = 0; k < 4; k++)
+      add_to(&forces[corners[k]], sbri_scale(shape.gradients[k], pressure * factor));
   }
 }
 
 static void add_gas(const sbri_body *body, const sbri_point *vertices, sbri_point *forces) {
   double pressure = (double)body->gas_pa * body->gas_volume_m3 / gas_volume_now(body, vertices);
-  add_pressure(body, vertices, (float)pressure, forces);
+  add_pressure(body, vertices, (float)pressure, body->gas_factors, forces);
 }
 
 /* In one substep a medium takes no more of a point's speed against it than all. */
@@ -239,14 +243,14 @@ static double gas_square(const sbri_island_tick *t, const sbri_body *body) {
   carry_vertices(t, &body->surface, false, vertices);
   clear(gradients, body->surface.vertex_count);
   clear(t->outer + body->slot_begin, body->slot_end - body->slot_begin);
-  add_pressure(body, vertices, 1, gradients);
+  add_pressure(body, vertices, 1, NULL, gradients);
   pass_on(t, &body->surface, gradients);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     sbf_vec3 g = vec_of(&t->outer[slot]);
     sum += (double)t->island->inverse_masses[slot] * (double)sbri_dot(g, g);
   }
   double volume = gas_volume_now(body, vertices),
-         pressure = fabs((double)body->gas_pa) * body->gas_volume_m3 / volume;
+         pressure = fabs((double)(body->gas_pa * body->most_gas_factor)) * body->gas_volume_m3 / volume;
   return pressure / volume * sum + pressure * body->gas_turning;
 }
 

@@ -4,6 +4,7 @@
 #define SBRI_RIGID_MOTION_H
 
 #include "math/reduce.h"
+#include "math/trig.h"
 #include "math/vec3.h"
 #include "model/runtime_model.h"
 
@@ -109,6 +110,30 @@ static inline void sbri_rigid_motion_damp(const sbri_island *island, const sbri_
     sbri_wide_store(to, sbri_wide_select(real, ux + (v.x - ux) * k, v.x));
     sbri_wide_store(to + SBRI_BLOCK, sbri_wide_select(real, uy + (v.y - uy) * k, v.y));
     sbri_wide_store(to + 2 * SBRI_BLOCK, sbri_wide_select(real, uz + (v.z - uz) * k, v.z));
+  }
+}
+
+/* The same with a rate for each slot, 1/s, over `time_s` seconds. What that would take of the motion as a
+ * whole is given back. */
+static inline void sbri_rigid_motion_damp_each(const sbri_island *island, const sbri_body *body,
+    const sbri_point *positions, float *velocities, const float *rates, float time_s) {
+  sbri_rigid_motion was = sbri_rigid_motion_find(island, body, positions, velocities), now;
+  sbf_vec3 move = was.velocity, spin = was.spin;
+  for (int pass = 0; pass < 2; pass++) {
+    for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+      const sbri_point *x = &positions[slot];
+      float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+      if (!(island->masses[slot] > 0)) continue;
+      sbf_vec3 r = sbri_sub((sbf_vec3){x->x, x->y, x->z}, was.center);
+      sbf_vec3 u = sbri_add(move, sbri_cross(spin, r)), w = {v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
+      if (pass == 0)
+        w = sbri_add_scaled(u, sbri_sub(w, u), sbri_exp(-rates[slot] * time_s));
+      else
+        w = sbri_add(w, u);
+      v[0] = w.x, v[SBRI_BLOCK] = w.y, v[2 * SBRI_BLOCK] = w.z;
+    }
+    now = sbri_rigid_motion_find(island, body, positions, velocities);
+    move = sbri_sub(was.velocity, now.velocity), spin = sbri_sub(was.spin, now.spin);
   }
 }
 

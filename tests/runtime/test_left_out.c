@@ -30,6 +30,12 @@ START_TEST(nothing_is_left_out_of_what_it_does)
   scene s = section();
   scene_body(&s, 0)->attributes.pressure_mode = SBF_PRESSURE_MODE_VOLUME;
   scene_body(&s, 0)->attributes.sag_free = true;
+  sbf_weight_map *maps = sbf_asset_allocate(s.asset, SBF_WEIGHT_PROPERTY_COUNT, sizeof *maps);
+  for (int i = 0; i < SBF_WEIGHT_PROPERTY_COUNT; i++) {
+    sbf_weight_map_init(&maps[i]);
+    maps[i].property = (sbf_weight_property)i;
+  }
+  scene_body(&s, 0)->weight_maps = (sbf_weight_map_list){maps, SBF_WEIGHT_PROPERTY_COUNT};
   scene_start(&s);
   ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 0);
   ck_assert_uint_eq(sbr_model_left_out(NULL, NULL, NULL), 0);
@@ -45,17 +51,12 @@ START_TEST(what_it_does_not_do_is_told)
   is->tear_strain = 2;
   is->pressure_mode = SBF_PRESSURE_MODE_GAS;
   is->pressure = 100;
-  sbf_weight_map *map = sbf_asset_allocate(s.asset, 1, sizeof *map);
-  sbf_weight_map_init(map);
-  map->property = SBF_WEIGHT_PROPERTY_PRESSURE;
-  scene_body(&s, 0)->weight_maps = (sbf_weight_map_list){map, 1};
   scene_body(&s, 0)->collision.self = true;
   scene_start(&s);
   heard h = {0, ""};
-  ck_assert_uint_eq(sbr_model_left_out(s.model, hear, &h), 2);
-  ck_assert_uint_eq(h.count, 2);
-  const char *expected[] = {"collisions of bodies with themselves are left out", "weight maps"};
-  for (int i = 0; i < 2; i++) ck_assert_ptr_nonnull(strstr(h.all, expected[i]));
+  ck_assert_uint_eq(sbr_model_left_out(s.model, hear, &h), 1);
+  ck_assert_uint_eq(h.count, 1);
+  ck_assert_ptr_nonnull(strstr(h.all, "collisions of bodies with themselves are left out"));
   scene_free(&s);
 }
 END_TEST

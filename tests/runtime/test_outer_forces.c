@@ -150,6 +150,45 @@ START_TEST(a_squashed_gas_is_stepped_as_finely_as_it_needs)
 }
 END_TEST
 
+static void add_map(scene *s, sbf_weight_property property, const float *values, uint32_t count) {
+  sbf_weight_map *map = sbf_asset_allocate(s->asset, 1, sizeof *map);
+  float *kept = sbf_asset_allocate(s->asset, count, sizeof *kept);
+  sbf_weight_map_init(map);
+  map->property = property;
+  map->values = (sbf_f32_list){memcpy(kept, values, count * sizeof *kept), count};
+  scene_body(s, 0)->weight_maps = (sbf_weight_map_list){map, 1};
+}
+
+/* Half the pressure everywhere is a body of half the pressure; twice on one face, none on the one across,
+ * pushes with twice the pressure on that face. */
+START_TEST(maps_scale_the_pressure_face_by_face)
+{
+  float halves[8], sides[8], volumes[2];
+  for (int i = 0; i < 8; i++) halves[i] = 0.5f;
+  for (int n = 0; n < 2; n++) {
+    scene s = balloon(0, n ? 600 : 300);
+    if (n) add_map(&s, SBF_WEIGHT_PROPERTY_PRESSURE, halves, 8);
+    scene_start(&s);
+    scene_ticks(&s, 300);
+    volumes[n] = sbr_character_health(s.world, s.character, 0).volume_ratio;
+    scene_free(&s);
+  }
+  ck_assert_float_gt(volumes[0], 1.1f);
+  ck_assert_float_eq_tol(volumes[1], volumes[0], 1e-5f);
+  scene s = balloon(0, 50);
+  for (int i = 0; i < 8; i++) sides[i] = s.asset->soft_bodies.at[0].surface.positions.at[i].x > 0 ? 2 : 0;
+  add_map(&s, SBF_WEIGHT_PROPERTY_PRESSURE, sides, 8);
+  scene_body(&s, 0)->attributes.mass_damping = 0;
+  scene_start(&s);
+  scene_ticks(&s, 1);
+  float momentum = 0;
+  const sbri_character *c = &s.world->characters[0];
+  for (uint32_t i = 0; i < 8; i++) momentum += s.model->islands[0].masses[i] * sbri_velocities(c)[i];
+  ck_assert_float_eq_tol(momentum, 2 * 50 / 60.0f, 0.02f);
+  scene_free(&s);
+}
+END_TEST
+
 /* It neither pushes itself away nor spins itself up, though all its faces are bent. */
 START_TEST(a_gas_keeps_momentum)
 {
@@ -331,6 +370,7 @@ static Suite *suite(void) {
   tcase_add_test(c, faces_have_the_gradient_of_the_volume);
   tcase_add_loop_test(c, a_gas_swells_a_body_until_its_springs_hold_it, 0, SCHEME_COUNT);
   tcase_add_test(c, a_squashed_gas_is_stepped_as_finely_as_it_needs);
+  tcase_add_test(c, maps_scale_the_pressure_face_by_face);
   tcase_add_test(c, a_gas_keeps_momentum);
   tcase_add_loop_test(c, a_sheet_bends_under_its_weight, 0, SCHEME_COUNT);
   tcase_add_test(c, a_free_sheet_that_bends_keeps_momentum);

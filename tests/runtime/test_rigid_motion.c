@@ -85,11 +85,40 @@ START_TEST(points_on_a_line_have_no_spin_about_it)
 }
 END_TEST
 
+/* Each point by its own rate: momentum and angular momentum stay, and what is damped the most loses the most.
+ */
+START_TEST(rates_of_their_own_leave_it_alone)
+{
+  double before[2][3], after[2][3];
+  float rates[POINTS];
+  make((sbf_vec3){1, -2, 0.5f}, (sbf_vec3){0.3f, 2, -1}, 0.5f);
+  for (int i = 0; i < POINTS; i++) rates[i] = i % 2 ? 8 : 0.5f;
+  momenta(before[0], before[1]);
+  for (int i = 0; i < 100; i++)
+    sbri_rigid_motion_damp_each(&island, &body, positions, velocities, rates, 0.01f);
+  momenta(after[0], after[1]);
+  for (int k = 0; k < 3; k++) {
+    ck_assert_double_eq_tol(after[0][k], before[0][k], 2e-3);
+    ck_assert_double_eq_tol(after[1][k], before[1][k], 2e-2);
+  }
+  sbri_rigid_motion m = sbri_rigid_motion_find(&island, &body, positions, velocities);
+  float left[2] = {0, 0};
+  for (uint32_t i = 0; i < REAL; i++) {
+    sbf_vec3 r = sbri_sub((sbf_vec3){positions[i].x, positions[i].y, positions[i].z}, m.center);
+    sbf_vec3 u = sbri_add(m.velocity, sbri_cross(m.spin, r));
+    sbf_vec3 v = {*velocity_of(i, 0), *velocity_of(i, 1), *velocity_of(i, 2)};
+    left[i % 2] += sbri_length(sbri_sub(v, u));
+  }
+  ck_assert_float_gt(left[0], 2 * left[1]);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("rigid motion");
   TCase *c = tcase_create("rigid motion");
   tcase_add_test(c, a_rigid_motion_is_found);
   tcase_add_test(c, damping_leaves_it_alone);
+  tcase_add_test(c, rates_of_their_own_leave_it_alone);
   tcase_add_test(c, points_on_a_line_have_no_spin_about_it);
   suite_add_tcase(s, c);
   return s;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/state.h"
+#include "core/world.h"
 #include "harness.h"
 #include "scenes.h"
 
@@ -411,6 +413,49 @@ START_TEST(a_pendulum_keeps_its_period)
 }
 END_TEST
 
+/* Two masses of one body, each on a spring of its own, factors 0.5 and 3 on a damping of 0.8 /s: what the
+ * scheme takes of its own is the same of both. */
+START_TEST(weight_maps_damp_point_by_point)
+{
+  scene s = scene_begin();
+  const sbf_vec3 positions[] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}};
+  const float masses[] = {0, MASS, MASS}, stiffness[] = {STIFFNESS, STIFFNESS};
+  static const float factors[] = {1, 0.5f, 3};
+  const uint32_t held = 0;
+  sbf_level *level = scene_points(&s, 0, positions, masses, 3);
+  scene_springs(&s, level, (const sbf_uint2[]){{{0, 1}}, {{0, 2}}}, stiffness, 2);
+  scene_pin(&s, level, -1, &held, 1);
+  sbf_weight_map *map = sbf_asset_allocate(s.asset, 1, sizeof *map);
+  sbf_weight_map_init(map);
+  map->property = SBF_WEIGHT_PROPERTY_MASS_DAMPING;
+  map->values = (sbf_f32_list){factors, 3};
+  scene_body(&s, 0)->weight_maps = (sbf_weight_map_list){map, 1};
+  scene_body(&s, 0)->attributes.mass_damping = 0.8f;
+  s.world_definition.has_gravity = true;
+  s.world_definition.gravity = (sbf_vec3){0, 0, 0};
+  s.model_options.scheme = schemes[_i];
+  s.model_options.substeps = 16;
+  scene_start(&s);
+  sbri_character *c = &s.world->characters[0];
+  sbri_point *x = sbri_positions(c);
+  const uint32_t *slots = s.model->bodies[0].slot_from_point;
+  x[slots[1]].x *= 1.02f, x[slots[2]].x *= 1.02f, x[slots[2]].z *= 1.02f;
+  double high[2] = {0, 0}, periods[2], rates[2] = {0.8 * 0.5, 0.8 * 3};
+  for (int i = 0; i < 95; i++) {
+    scene_ticks(&s, 1);
+    for (uint32_t k = 0; i >= 56 && k < 2; k++) { /* the elongation after one period */
+      const sbri_point *p = &x[slots[k + 1]];
+      double length = sqrt((double)p->x * p->x + (double)p->z * p->z), rest = k ? sqrt(2) : 1;
+      high[k] = fmax(high[k], (length - rest) / rest);
+    }
+  }
+  for (int k = 0; k < 2; k++) periods[k] = 2 * pi / sqrt(25 - 0.25 * rates[k] * rates[k]);
+  double expected = 0.5 * (rates[1] * periods[1] - rates[0] * periods[0]);
+  ck_assert_double_eq_tol(log(high[0] / high[1]), expected, 0.02 * expected);
+  scene_free(&s);
+}
+END_TEST
+
 /* A pin of weight 0.5 is a spring of half its set's stiffness and no length: m g / k below its place. */
 START_TEST(a_goal_pulls_a_point_to_its_place)
 {
@@ -449,6 +494,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, a_hanging_chain_stretches_by_its_weight, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_chain_has_its_lowest_frequency, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_rope_hangs_as_a_catenary, 0, SCHEME_COUNT);
+  tcase_add_loop_test(c, weight_maps_damp_point_by_point, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_goal_pulls_a_point_to_its_place, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_pendulum_keeps_its_period, 0, SCHEME_COUNT);
   suite_add_tcase(s, c);
