@@ -129,6 +129,25 @@ static void tell(void *user, const sbf_diagnostic *finding) {
   cli_print_diagnostic(user, finding);
 }
 
+static sbf_status create_character(
+    session *s, const cli_call *call, const settings *set, sbf_diagnostic *error) {
+  sbr_character_definition character = sbr_default_character_definition();
+  character.position.y = standing_lift(s->asset, &s->ground) + set->raise;
+  character.hold = cli_switch(call, "--hold");
+  return sbr_character_create(s->world, s->model, &character, &s->character, error);
+}
+
+/* What the options ask of it from the start, unless a recording does. */
+static void begin(session *s, const settings *set) {
+  if (s->recording.bytes) {
+    s->frame_count = (uint32_t)s->recording.replay.frame_count;
+    return;
+  }
+  sbr_character_drive(s->world, s->character, (float)set->drive[0], 0, (float)set->drive[1]);
+  const sbr_clip_play how = {.weight = 1, .fade_s = CLIP_FADE_S, .speed = 1, .bone_mask = SBF_NONE};
+  if (set->clip != SBF_NONE) sbr_character_play(s->world, s->character, 0, set->clip, &how);
+}
+
 static sbf_status create(session *s, cli_call *call, const settings *set, sbf_diagnostic *error) {
   sbf_status status = sbr_model_create(s->asset, &set->model, &s->model, error);
   if (status != SBF_OK) return status;
@@ -140,16 +159,7 @@ static sbf_status create(session *s, cli_call *call, const settings *set, sbf_di
   world.has_gravity = set->model.has_gravity;
   world.gravity = set->model.gravity;
   status = sbr_world_create(&world, &s->world, error);
-  if (status != SBF_OK) return status;
-  sbr_character_definition character = sbr_default_character_definition();
-  character.position.y = standing_lift(s->asset, &s->ground) + set->raise;
-  character.hold = cli_switch(call, "--hold");
-  status = sbr_character_create(s->world, s->model, &character, &s->character, error);
-  if (status != SBF_OK) return status;
-  sbr_character_drive(s->world, s->character, (float)set->drive[0], 0, (float)set->drive[1]);
-  const sbr_clip_play how = {.weight = 1, .fade_s = CLIP_FADE_S, .speed = 1, .bone_mask = SBF_NONE};
-  if (set->clip != SBF_NONE) sbr_character_play(s->world, s->character, 0, set->clip, &how);
-  return SBF_OK;
+  return status == SBF_OK ? create_character(s, call, set, error) : status;
 }
 
 bool session_open(session *s, cli_call *call, double seconds, double fps, int *status) {
@@ -173,8 +183,12 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
     return false;
   }
   if (*status == SBF_OK) *status = (int)create(s, call, &set, &error);
-  if (*status == SBF_OK) return true;
-  cli_print_diagnostic(call, &error);
+  if (*status != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+  } else if ((*status = recording_open(&s->recording, call, s->world)) == SBF_OK) {
+    begin(s, &set);
+    return true;
+  }
   session_close(s);
   return false;
 }
@@ -185,15 +199,29 @@ void session_close(session *s) {
   sbf_asset_free(s->asset);
   thread_pool_destroy(s->threads);
   script_free(&s->script);
+  recording_close(&s->recording);
   *s = (session){.asset = NULL};
+}
+
+static bool replay_frame(session *s) {
+  if (!sbr_replay_frame(&s->recording.replay)) return false;
+  s->frame_s = s->recording.replay.frame_s;
+  s->frame++;
+  s->time_s += s->frame_s;
+  return true;
 }
 
 bool session_step(session *s) {
   if (s->frame >= s->frame_count) return false;
+  if (s->recording.bytes) return replay_frame(s);
   script_play(&s->script, s->time_s, s->world, s->character);
   s->frame_s = 1 / s->fps;
   sbr_world_step(s->world, s->frame_s);
   s->frame++;
   s->time_s = s->frame / s->fps;
   return true;
+}
+
+bool session_finish(session *s, const cli_call *call) {
+  return recording_finish(&s->recording, call, s->world);
 }

@@ -3,6 +3,7 @@
 #define SESSION_H
 
 #include "cli.h"
+#include "recording.h"
 #include "sbfmt/io.h"
 #include "sbrun/sbrun.h"
 #include "script.h"
@@ -26,7 +27,9 @@
       {"--gravity", "M/S2", "downward (the file's)"},                                                        \
       {"--clip", "NAME",                                                                                     \
           "play this clip as it is keyed, by its name or number; the gait leaves the bones to it"},          \
-      {"--level", "N", "simulation level, 0 the finest (0)"}, {                                              \
+      {"--level", "N", "simulation level, 0 the finest (0)"},                                                \
+      {"--record", "OUT.sbrec", "record all that moves the character, to be played again"},                  \
+      {"--replay", "FILE.sbrec", "play what was recorded, with the same file and options, to the bit"}, {    \
     "--script", "FILE", "commands over time; see docs/scripts.md"                                            \
   }
 
@@ -37,6 +40,7 @@ typedef struct session {
   sbr_character_id character;
   thread_pool *threads;
   script script;
+  recording recording;
   sbr_ground ground;
   double seconds, fps, time_s;
   double frame_s; /* length of the last frame */
@@ -48,7 +52,11 @@ typedef struct session {
 bool session_open(session *s, cli_call *call, double seconds, double fps, int *status);
 void session_close(session *s);
 
-/* Plays the script's commands that are due and advances by one frame; false after the last. */
+/* Plays the script's commands that are due, or what was recorded, and advances by one frame; false after the
+ * last. */
 bool session_step(session *s);
+
+/* After the last: ends a recording; false, with a message printed, where it could not be written. */
+bool session_finish(session *s, const cli_call *call);
 
 #endif

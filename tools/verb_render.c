@@ -171,8 +171,11 @@ static int run(cli_call *call) {
   const char *path = cli_value(call, "-o");
   if (status == SBF_OK)
     status = (int)(st.kind == OUTPUT_PNG ? draw_picture(&st, path, &error) : draw_film(&st, path, &error));
-  if (status != SBF_OK) cli_print_diagnostic(call, &error);
   cli_progress_end();
+  if (status != SBF_OK)
+    cli_print_diagnostic(call, &error);
+  else if (!session_finish(&st.s, call))
+    status = SBF_FAILED;
   close_studio(&st);
   return status;
 }

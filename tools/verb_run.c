@@ -132,6 +132,7 @@ static json_t *report(const run_state *r) {
   json_object_set_new(o, "volume_ratio", json_real(r->end_volume));
   json_object_set_new(o, "volume_ratio_least", json_real(r->least_volume));
   json_object_set_new(o, "max_strain", json_real(r->most_strain));
+  recording_report(&r->s.recording, o);
   rigid_report_add(&r->rigid, &r->s, o);
   if (leg_count == 0 || !r->soles) return o;
   const sbf_gait *gait = &r->s.asset->gaits.at[0];
@@ -174,6 +175,14 @@ static bool play(run_state *r, cli_call *call) {
   return good;
 }
 
+/* The exit status of what was played. */
+static int judge_replay(const recording *r, const cli_call *call) {
+  if (!r->replay.differs) return SBF_OK;
+  cli_wrong(call, "the motion is not the one that was recorded, at tick %llu at the latest",
+      (unsigned long long)r->replay.differs_at_tick);
+  return SBF_BAD_INPUT;
+}
+
 static int run(cli_call *call) {
   run_state r = {.valid = true, .least_volume = 1, .end_volume = 1};
   sbf_diagnostic error;
@@ -185,7 +194,7 @@ static int run(cli_call *call) {
   else if (rigid_report_begin(&r.rigid, &r.s, call) && open_outputs(&r, call)) {
     r.soles = soles_create(&r.s);
     r.walk = walk_report_create(&r.s, r.soles);
-    if (play(&r, call)) status = SBF_OK;
+    if (play(&r, call) && session_finish(&r.s, call)) status = SBF_OK;
   }
   bool keep = status == SBF_OK;
   if (r.cache && keep && sbf_point_cache_commit(r.cache, &error) != SBF_OK) {
@@ -200,8 +209,9 @@ static int run(cli_call *call) {
   }
   if (status == SBF_OK) {
     json_t *object = report(&r);
+    status = judge_replay(&r.s.recording, call);
     if (call->json)
-      status = cli_print_json(object, SBF_OK);
+      status = cli_print_json(object, status);
     else {
       print_text(object);
       json_decref(object);
@@ -238,5 +248,8 @@ const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S] [--gro
     "--ragdoll or --strength, `limit_excess` is by how much a joint's limit was broken at worst (rad), "
     "`joint_gap`\n"
     "how far a joint was off (m), `rest_time` when everything lay still (s; null: it does not). The same "
-    "call gives the same state_hash.",
+    "call gives the same state_hash;\n"
+    "with --replay, `replay_same` is true where every state hash was the one recorded, else the exit status "
+    "is "
+    "1.",
     options, 1, 1, run};

@@ -103,12 +103,14 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
   sbri_work_list(world);
   world->stamp++;
   *character = sbri_id_of(world, c);
+  sbri_record(world, SBRI_RECORDED_MADE, (const double[]){character->value});
   return SBF_OK;
 }
 
 void sbr_character_destroy(sbr_world *world, sbr_character_id character) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
+  sbri_record(world, SBRI_RECORDED_DESTROY, (const double[]){character.value});
   sbfi_free(&world->allocator, c->state, c->model->layout.state_size);
   sbfi_free(&world->allocator, c->scratch, c->model->layout.scratch_size);
   *c = (sbri_character){.generation = c->generation};
@@ -119,6 +121,8 @@ void sbr_character_drive(
     sbr_world *world, sbr_character_id character, float forward, float sideways, float turn) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
+  sbri_record(world, SBRI_RECORDED_DRIVE,
+      (const double[]){character.value, (double)forward, (double)sideways, (double)turn});
   sbri_character_wake(c);
   sbri_head(c)->forward = forward;
   sbri_head(c)->sideways = sideways;
@@ -127,13 +131,17 @@ void sbr_character_drive(
 
 void sbr_character_pause(sbr_world *world, sbr_character_id character, bool paused) {
   sbri_character *c = sbri_character_of(world, character);
-  if (c) sbri_head(c)->paused = paused;
+  if (!c) return;
+  sbri_record(world, SBRI_RECORDED_PAUSE, (const double[]){character.value, paused});
+  sbri_head(c)->paused = paused;
 }
 
 void sbr_character_teleport(
     sbr_world *world, sbr_character_id character, sbr_double3 position, float heading) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
+  sbri_record(world, SBRI_RECORDED_TELEPORT,
+      (const double[]){character.value, position.x, position.y, position.z, (double)heading});
   sbri_character_wake(c);
   sbri_deltas_make(c, sbri_pose(c), sbri_previous_deltas(c));
   put(world, c, position, heading);
@@ -147,6 +155,7 @@ void sbr_character_teleport(
 void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
+  sbri_record(world, SBRI_RECORDED_RESET, (const double[]){character.value});
   sbf_vec3 place;
   float heading;
   sbri_character_wake(c);

@@ -147,6 +147,7 @@ bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
 void sbr_character_wake(sbr_world *world, sbr_character_id character) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
+  sbri_record(world, SBRI_RECORDED_WAKE, (const double[]){character.value});
   sbri_character_wake(c);
   for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_wake(c, i);
 }

@@ -64,6 +64,7 @@ sbf_status sbr_world_create(
 
 void sbr_world_destroy(sbr_world *world) {
   if (!world) return;
+  sbr_world_record(world, NULL);
   for (uint32_t i = 0; i < world->character_capacity; i++)
     if (world->characters[i].model) sbr_character_destroy(world, sbri_id_of(world, &world->characters[i]));
   sbf_allocator allocator = world->allocator;
@@ -74,6 +75,7 @@ void sbr_world_destroy(sbr_world *world) {
 
 void sbr_world_step(sbr_world *world, double seconds) {
   if (!world || !(seconds > 0)) return;
+  sbri_record(world, SBRI_RECORDED_STEP, &seconds);
   double longest = (double)world->longest_units / SBRI_TIME_UNITS;
   world->ahead_units -= units_of(seconds < longest ? seconds : longest);
   while (world->ahead_units < -SBRI_TIME_SLACK) {
@@ -81,12 +83,15 @@ void sbr_world_step(sbr_world *world, double seconds) {
     world->ahead_units += world->tick_units;
   }
   world->stamp++;
+  sbri_record_hash(world);
 }
 
 void sbr_world_tick(sbr_world *world) {
   if (!world) return;
+  sbri_record(world, SBRI_RECORDED_TICK, NULL);
   sbri_step_tick(world);
   world->stamp++;
+  sbri_record_hash(world);
 }
 
 uint64_t sbr_world_ticks(const sbr_world *world) {

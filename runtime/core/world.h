@@ -1,6 +1,7 @@
 #ifndef SBRI_WORLD_H
 #define SBRI_WORLD_H
 
+#include "core/recorder.h"
 #include "core/state.h"
 
 enum { SBRI_EVENTS = 256 };
@@ -35,6 +36,8 @@ struct sbr_world {
   uint32_t sleep_ticks; /* of rest before sleep; 0: nothing sleeps */
   uint32_t awake_count; /* soft bodies stepped in the last tick */
   sbr_event events[SBRI_EVENTS];
+  sbr_record_output record;        /* write NULL: it is not recorded */
+  uint64_t recorded_at;            /* tick of the last hash in it */
   uint64_t event_head, event_tail; /* numbers of the next one written and read */
 };
 

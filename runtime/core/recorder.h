@@ -1,0 +1,37 @@
+/* What public calls leave in a recording (sbrun/record.h). */
+#ifndef SBRI_RECORDER_H
+#define SBRI_RECORDER_H
+
+#include "sbrun/record.h"
+
+/* Numbers of the recording's form: never changed, never used again. */
+typedef enum sbri_recorded {
+  SBRI_RECORDED_HASH,     /* ticks, high and low word of the hash */
+  SBRI_RECORDED_STEP,     /* seconds */
+  SBRI_RECORDED_TICK,     /* none */
+  SBRI_RECORDED_MADE,     /* character: its making is not recorded */
+  SBRI_RECORDED_DESTROY,  /* character, as in all that follow */
+  SBRI_RECORDED_DRIVE,    /* forward, sideways, turn */
+  SBRI_RECORDED_TELEPORT, /* x, y, z, heading */
+  SBRI_RECORDED_RESET,
+  SBRI_RECORDED_WAKE,
+  SBRI_RECORDED_PAUSE,       /* 1 or 0 */
+  SBRI_RECORDED_REACH,       /* chain, position, rotation, weight */
+  SBRI_RECORDED_RELEASE,     /* chain */
+  SBRI_RECORDED_PIVOT,       /* leg */
+  SBRI_RECORDED_PLAY,        /* layer, clip, weight, fade, speed, start, mask */
+  SBRI_RECORDED_RIGID_MODE,  /* body, mode */
+  SBRI_RECORDED_RIGID_DRIVE, /* frequency, damping ratio, strength, joint damping */
+  SBRI_RECORDED_RIGID_SHARE, /* body, share */
+  SBRI_RECORDED_RIGID_PUSH,  /* body, place, impulse */
+  SBRI_RECORDED_COUNT
+} sbri_recorded;
+
+enum { SBRI_RECORDED_MOST = 10 }; /* numbers of one */
+
+/* Nothing where the world is not recorded. */
+void sbri_record(sbr_world *world, sbri_recorded what, const double *numbers);
+/* After a step: the hash, where a second is over since the last one. */
+void sbri_record_hash(sbr_world *world);
+
+#endif

@@ -1,0 +1,73 @@
+"""`sbfmt run --record` and `--replay`: what was recorded plays again to the bit, or says that it does not."""
+
+import os
+
+from sbfmt_program import ProgramTest, example, main, read_bytes, write_bytes
+
+SCRIPT = b"""0 drive 0.3 0.1
+0.2 drive 0.1 -0.4
+0.5 teleport 1 0.2 2 0.5
+0.8 reset
+"""
+
+
+class Replay(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.file = example(self.class_folder.name)
+        self.tape = self.path("a.sbrec")
+
+    def record(self, *options):
+        script = write_bytes(self.path("script.txt"), SCRIPT)
+        return self.json_of("run", self.file, "--seconds", "1.5", "--script", script, "--record", self.tape, *options)
+
+    def test_a_replay_ends_in_the_same_state(self):
+        recorded = self.record("--fps", "50")
+        self.assertNotIn("replay_same", recorded)
+        for options in ((), ("--threads", "3"), ("--instructions", "scalar")):
+            played = self.json_of("run", self.file, "--replay", self.tape, *options)
+            self.assertEqual(played["state_hash"], recorded["state_hash"])
+            self.assertEqual((played["frames"], played["steps"]), (recorded["frames"], recorded["steps"]))
+            self.assertTrue(played["replay_same"])
+            self.assertGreaterEqual(played["replay_checks"], 3)
+            self.assertIsNone(played["replay_differs_at_tick"])
+
+    def test_another_scheme_is_told_at_the_end(self):
+        self.record()
+        report = self.json_of("run", self.file, "--replay", self.tape, "--scheme", "position_based", status=1)
+        self.assertFalse(report["replay_same"])
+        self.assertLessEqual(report["replay_differs_at_tick"], 60)
+
+    def test_another_start_is_told_at_once(self):
+        self.record()
+        said = self.fails(1, "run", self.file, "--replay", self.tape, "--raise", "3")
+        self.assertIn("begins in another state", said)
+
+    def test_options_that_make_the_world_are_given_again(self):
+        self.record("--hold")
+        self.assertTrue(self.json_of("run", self.file, "--replay", self.tape, "--hold")["replay_same"])
+        self.assertIn("another state", self.fails(1, "run", self.file, "--replay", self.tape))
+
+    def test_what_is_cut_off_plays_as_far_as_it_goes(self):
+        self.record()
+        whole = read_bytes(self.tape)
+        write_bytes(self.tape, whole[: len(whole) // 2 + 5])
+        played = self.json_of("run", self.file, "--replay", self.tape)
+        self.assertTrue(played["replay_same"])
+        self.assertGreater(played["frames"], 20)
+
+    def test_what_cannot_be_played_is_told(self):
+        self.record()
+        whole = read_bytes(self.tape)
+        write_bytes(self.tape, b"nothing of the kind")
+        self.assertIn("no recording", self.fails(1, "run", self.file, "--replay", self.tape))
+        write_bytes(self.tape, whole[:40] + b"\xff" * 40 + whole[80:])
+        self.assertIn("damaged", self.fails(1, "run", self.file, "--replay", self.tape))
+        self.assertIn("cannot be read", self.fails(2, "run", self.file, "--replay", self.path("none")))
+        self.assertIn("leave --drive", self.fails(2, "run", self.file, "--replay", self.tape, "--drive", "1,0"))
+        nowhere = os.path.join(self.path("no"), "x")
+        self.assertIn("cannot be written", self.fails(2, "run", self.file, "--record", nowhere))
+
+
+if __name__ == "__main__":
+    main()

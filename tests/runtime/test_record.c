@@ -1,0 +1,171 @@
+#include "sbrun/record.h"
+
+#include <string.h>
+
+#include "harness.h"
+#include "sbfmt/codes.h"
+#include "sbrun/animation.h"
+#include "scenes.h"
+
+enum { ROOM = 1 << 16 };
+
+typedef struct tape {
+  unsigned char bytes[ROOM];
+  size_t size;
+} tape;
+
+static void keep(void *user, const void *bytes, size_t size) {
+  tape *to = user;
+  ck_assert_uint_le(to->size + size, ROOM);
+  memcpy(to->bytes + to->size, bytes, size);
+  to->size += size;
+}
+
+static scene make(sbr_instructions instructions) {
+  scene s = scene_begin();
+  scene_bone(&s, (sbf_vec3){0, 1, 0});
+  scene_section(&s, 0, (sbf_vec3){0, 1, 0}, (sbf_vec3){0.4f, 0.3f, 0.6f}, 2);
+  s.model_options.instructions = instructions;
+  scene_start(&s);
+  return s;
+}
+
+/* Two seconds of all kinds of calls, in frames of uneven length. */
+static uint64_t act(scene *s) {
+  for (int i = 0; i < 80; i++) {
+    if (i == 3) sbr_character_drive(s->world, s->character, 0.7f, -0.2f, 1.5f);
+    if (i == 20) sbr_character_teleport(s->world, s->character, (sbr_double3){12.25, 900, -3.1}, 0.4f);
+    if (i == 30) sbr_character_pause(s->world, s->character, true);
+    if (i == 34) sbr_character_pause(s->world, s->character, false);
+    if (i == 40) sbr_character_wake(s->world, s->character);
+    if (i == 60) sbr_character_reset(s->world, s->character);
+    if (i == 61) sbr_world_tick(s->world);
+    sbr_world_step(s->world, 0.01 + 0.0007 * (i % 40));
+  }
+  return sbr_world_state_hash(s->world);
+}
+
+static uint64_t record(tape *t) {
+  scene s = make(SBR_INSTRUCTIONS_AUTOMATIC);
+  const sbr_record_output output = {keep, t};
+  t->size = 0;
+  sbr_world_record(s.world, &output);
+  uint64_t hash = act(&s);
+  sbr_world_record(s.world, NULL);
+  size_t end = t->size;
+  scene_ticks(&s, 5); /* no longer recorded */
+  ck_assert_uint_eq(t->size, end);
+  scene_free(&s);
+  return hash;
+}
+
+START_TEST(what_is_played_ends_in_the_same_state)
+{
+  static tape t, again;
+  uint64_t hash = record(&t);
+  scene s = make(_i ? SBR_INSTRUCTIONS_SCALAR : SBR_INSTRUCTIONS_AUTOMATIC);
+  const sbr_record_output output = {keep, &again};
+  again.size = 0;
+  sbr_world_record(s.world, &output);
+  sbr_replay replay;
+  ck_assert_int_eq(sbr_replay_begin(&replay, s.world, t.bytes, t.size, NULL), SBF_OK);
+  ck_assert_uint_eq(replay.frame_count, 81);
+  ck_assert_uint_eq(replay.checks, 1);
+  while (sbr_replay_frame(&replay)) ck_assert_double_gt(replay.frame_s, 0.009);
+  ck_assert_uint_eq(replay.frames, 81);
+  ck_assert_uint_ge(replay.checks, 3);
+  ck_assert(!replay.differs);
+  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  /* What is played can be recorded, and is the same. */
+  sbr_world_record(s.world, NULL);
+  ck_assert_uint_eq(again.size, t.size);
+  ck_assert_mem_eq(again.bytes, t.bytes, t.size);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(another_world_is_told)
+{
+  static tape t;
+  record(&t);
+  scene s = make(SBR_INSTRUCTIONS_AUTOMATIC);
+  sbr_replay replay;
+  scene_ticks(&s, 1);
+  ck_assert_int_eq(sbr_replay_begin(&replay, s.world, t.bytes, t.size, NULL), SBF_OK);
+  ck_assert(replay.differs);
+  ck_assert_uint_eq(replay.differs_at_tick, 1);
+  scene_free(&s);
+  /* A wish that was another: a second later. */
+  s = make(SBR_INSTRUCTIONS_AUTOMATIC);
+  for (size_t at = 8; at < t.size; at += 8 + 8 * (size_t)t.bytes[at + 4])
+    if (t.bytes[at] == 5) t.bytes[at + 8 + 8 + 6] ^= 8; /* forward of a drive */
+  ck_assert_int_eq(sbr_replay_begin(&replay, s.world, t.bytes, t.size, NULL), SBF_OK);
+  ck_assert(!replay.differs);
+  while (sbr_replay_frame(&replay))
+    ;
+  ck_assert(replay.differs);
+  ck_assert_uint_ge(replay.differs_at_tick, 60);
+  ck_assert_uint_le(replay.differs_at_tick, 100);
+  scene_free(&s);
+}
+END_TEST
+
+/* Cut off anywhere it plays what is whole; with a byte turned anywhere it is refused or plays something else,
+ * and nothing breaks. */
+START_TEST(damaged_recordings_do_no_harm)
+{
+  static tape t, cut;
+  record(&t);
+  for (size_t at = 0; at < t.size; at += 97) {
+    scene s = make(SBR_INSTRUCTIONS_AUTOMATIC);
+    sbr_replay replay;
+    sbf_diagnostic error;
+    if (_i == 0) {
+      sbf_status status = sbr_replay_begin(&replay, s.world, t.bytes, at, &error);
+      ck_assert_int_eq(status, at < 8 ? SBF_BAD_INPUT : SBF_OK);
+    } else {
+      cut = t;
+      cut.bytes[at] ^= 0x41;
+      sbr_replay_begin(&replay, s.world, cut.bytes, cut.size, &error);
+    }
+    for (int frame = 0; frame < 200 && sbr_replay_frame(&replay); frame++)
+      ;
+    ck_assert(_i || !replay.differs);
+    scene_free(&s);
+  }
+}
+END_TEST
+
+START_TEST(characters_made_meanwhile_are_told)
+{
+  static tape t;
+  scene s = make(SBR_INSTRUCTIONS_AUTOMATIC);
+  const sbr_record_output output = {keep, &t};
+  sbr_character_id other;
+  sbr_replay replay;
+  sbf_diagnostic error;
+  t.size = 0;
+  sbr_world_record(s.world, &output);
+  scene_ticks(&s, 3);
+  ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &other, NULL), SBF_OK);
+  ck_assert_int_eq(sbr_replay_begin(&replay, s.world, t.bytes, t.size, &error), SBF_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(error.message, "characters were made"));
+  ck_assert(!sbr_replay_frame(&replay));
+  ck_assert_int_eq(sbr_replay_begin(NULL, s.world, t.bytes, t.size, &error), SBF_FAILED);
+  sbr_world_record(NULL, &output);
+  ck_assert(!sbr_replay_frame(NULL));
+  scene_free(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *s = suite_create("record");
+  TCase *c = tcase_create("record");
+  tcase_set_timeout(c, 60);
+  tcase_add_loop_test(c, what_is_played_ends_in_the_same_state, 0, 2);
+  tcase_add_test(c, another_world_is_told);
+  tcase_add_loop_test(c, damaged_recordings_do_no_harm, 0, 2);
+  tcase_add_test(c, characters_made_meanwhile_are_told);
+  suite_add_tcase(s, c);
+  return harness_run(s);
+}
