@@ -61,6 +61,7 @@ static void put(const sbr_world *world, sbri_character *c, sbr_double3 position,
   sbr_transform root = sbri_root_place(c, &world->ground);
   sbri_pose(c)[sbri_root_frame(c->model)] = root;
   sbri_pose(c)[sbri_anchor_frame(c->model)] = root;
+  sbri_rigid_frames_follow(c, sbri_pose(c));
 }
 
 sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,

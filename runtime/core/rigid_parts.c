@@ -78,33 +78,71 @@ void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift) {
 
 /* ---- From bodies to bones ---- */
 
-static sbr_transform bone_of_body(const sbri_character *c, uint32_t bone, uint32_t body) {
+/* What has carried the body from rest to `now`, applied to a place and axes of rest. */
+static sbr_transform carried(
+    const sbri_character *c, uint32_t body, const sbr_transform *now, const sbr_transform *rest) {
   const sbri_rigid_body *is = &c->model->rigid.bodies[body];
-  const sbr_transform *rest = &c->model->rig.rest[bone], *now = &sbri_rigid_bodies(c)[body].pose;
   sbf_quat turn = sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes));
   sbf_vec3 at = sbri_add(now->position, sbri_rotate(turn, sbri_sub(rest->position, is->center)));
   return (sbr_transform){
       sbri_scale(at, c->scale), sbri_quat_normalize(sbri_quat_multiply(turn, rest->rotation))};
 }
 
-/* Bones that a simulated body moves with go with it; those below them keep what the animation has them turned
- * and away from their parents. */
-static void move_bones(sbri_character *c) {
-  const sbri_rig *rig = &c->model->rig;
-  sbr_transform *pose = sbri_pose(c), *animated = sbri_animated(c);
-  memcpy(animated, pose, c->model->frame_count * sizeof *pose);
-  for (uint32_t i = 0; i < rig->bone_count; i++) {
-    uint32_t bone = rig->subtree[i];
-    int32_t body = c->model->rigid.body_of_bone[bone], parent = rig->parents[bone];
-    if (body >= 0 && sbri_rigid_is_simulated(c, (uint32_t)body)) {
-      pose[bone] = bone_of_body(c, bone, (uint32_t)body);
-    } else if (parent >= 0 && memcmp(&pose[parent], &animated[parent], sizeof *pose) != 0) {
-      sbf_quat turn =
-          sbri_quat_multiply(pose[parent].rotation, sbri_quat_conjugate(animated[parent].rotation));
-      sbf_vec3 away = sbri_sub(animated[bone].position, animated[parent].position);
-      pose[bone].position = sbri_add(pose[parent].position, sbri_rotate(turn, away));
-      pose[bone].rotation = sbri_quat_normalize(sbri_quat_multiply(turn, animated[bone].rotation));
+/* A body goes on as it moves. */
+static sbr_transform ahead(const sbri_character *c, uint32_t body, float seconds) {
+  const sbri_rigid_body_state *now = &sbri_rigid_bodies(c)[body];
+  sbr_transform to = now->pose;
+  if (!(seconds > 0)) return to;
+  to.position = sbri_add_scaled(to.position, now->velocity, seconds);
+  (void)sbri_free_turn(&c->model->rigid.bodies[body], now->pose.rotation, now->spin, seconds, &to.rotation);
+  return to;
+}
+
+/* A bone as the pose `by` has it against its parent, where that is at `parent_now`. */
+static sbr_transform against(
+    const sbr_transform *by, uint32_t bone, uint32_t parent, const sbr_transform *parent_now) {
+  sbf_quat turn = sbri_quat_multiply(parent_now->rotation, sbri_quat_conjugate(by[parent].rotation));
+  sbf_vec3 away = sbri_sub(by[bone].position, by[parent].position);
+  return (sbr_transform){sbri_add(parent_now->position, sbri_rotate(turn, away)),
+      sbri_quat_normalize(sbri_quat_multiply(turn, by[bone].rotation))};
+}
+
+static sbr_transform between(const sbr_transform *a, const sbr_transform *b, float share) {
+  return (sbr_transform){
+      sbri_lerp(a->position, b->position, share), sbri_quat_blend(a->rotation, b->rotation, share)};
+}
+
+void sbri_rigid_pose(
+    const sbri_character *c, const sbr_transform *animated, float share, float ahead_s, sbr_transform *pose) {
+  const sbr_model *model = c->model;
+  const sbr_transform *before = sbri_previous_pose(c);
+  for (uint32_t i = 0; i < model->frame_count; i++) {
+    uint32_t frame = i < model->rig.bone_count ? model->rig.subtree[i] : i;
+    int32_t body = model->carrier_of_frame[frame];
+    if (body < 0 || !sbri_rigid_is_simulated(c, (uint32_t)body)) {
+      pose[frame] = share < 1 ? between(&before[frame], &animated[frame], share) : animated[frame];
+      continue;
     }
+    if (sbri_body_frame(model, (uint32_t)body) == frame) {
+      sbr_transform now = ahead(c, (uint32_t)body, ahead_s), rest = sbri_frame_rest(model, frame);
+      pose[frame] = carried(c, (uint32_t)body, &now, &rest);
+      continue;
+    }
+    uint32_t parent = (uint32_t)model->rig.parents[frame];
+    pose[frame] = against(animated, frame, parent, &pose[parent]);
+    if (share >= 1) continue;
+    sbr_transform was = against(before, frame, parent, &pose[parent]);
+    pose[frame] = between(&was, &pose[frame], share);
+  }
+}
+
+void sbri_rigid_frames_follow(const sbri_character *c, sbr_transform *pose) {
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
+    if (c->model->rigid.own_frames[b] == UINT32_MAX) continue;
+    int32_t bone = c->model->rigid.bodies[b].source->bone;
+    uint32_t frame = sbri_body_frame(c->model, b);
+    sbr_transform at = sbri_rigid_target(c, pose, b), rest = sbri_frame_rest(c->model, frame);
+    pose[frame] = bone < 0 ? pose[sbri_root_frame(c->model)] : carried(c, b, &at, &rest);
   }
 }
 
@@ -120,7 +158,7 @@ static bool is_lost(const sbri_rigid_body_state *body) {
 static void may_sleep(const sbr_world *world, sbri_character *c) {
   const sbri_rigid_model *model = &c->model->rigid;
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  bool quiet = world->sleep_ticks > 0;
+  bool quiet = world->sleep_ticks > 0 && sbri_coupled_are_quiet(c);
   for (uint32_t b = 0; b < model->body_count && quiet; b++) {
     sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
     float size = model->bodies[b].radius > 0 ? 2 * model->bodies[b].radius : c->model->rest_size_m;
@@ -134,6 +172,7 @@ static void may_sleep(const sbr_world *world, sbri_character *c) {
   drive->last_step_s = 0;
   for (uint32_t b = 0; b < model->body_count; b++)
     sbri_rigid_bodies(c)[b].velocity = sbri_rigid_bodies(c)[b].spin = sbri_vec3(0, 0, 0);
+  sbri_coupled_put_to_sleep(world, c);
 }
 
 /* Whether what holds the sleepers has moved. */
@@ -145,37 +184,48 @@ static bool is_moved(const sbri_character *c) {
   return false;
 }
 
+static void step(const sbr_world *world, sbri_character *c, sbri_coupled *group) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
+  sbri_rigid_tick tick = {.model = model,
+      .bodies = sbri_rigid_bodies(c),
+      .joints = sbri_rigid_joints(c),
+      .drive = sbri_rigid_drive(c),
+      .targets = sbri_rigid_targets(c),
+      .anchor = {sbri_scale(anchor->position, 1 / c->scale), anchor->rotation},
+      .ground = &world->ground,
+      .origin = sbri_head(c)->origin,
+      .scale = c->scale,
+      .gravity = world->has_gravity ? world->gravity : c->model->asset->environment.gravity,
+      .tick_s = (float)world->tick_s * c->time_scale,
+      .substeps = c->model->rigid_substeps,
+      .work = sbri_rigid_work(c)};
+  if (sbri_coupled_begin(group))
+    tick.pull = (sbri_rigid_pull){sbri_coupled_act, group, model->pinned_squares, group->steps};
+  sbri_rigid_step(&tick);
+  bool lost = false;
+  for (uint32_t b = 0; b < model->body_count; b++) lost = lost || is_lost(&sbri_rigid_bodies(c)[b]);
+  if (lost) /* no motion any more: back to where the animation has them */
+    for (uint32_t b = 0; b < model->body_count; b++)
+      put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_targets(c)[b]);
+}
+
 void sbri_rigid_tick_parts(const sbr_world *world, sbri_character *c) {
   const sbri_rigid_model *model = &c->model->rigid;
-  if (!model->body_count || !sbri_rigid_drive(c)->any) return;
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  if (!model->body_count) return;
+  sbri_rigid_frames_follow(c, sbri_pose(c));
+  if (!drive->any) return;
   for (uint32_t b = 0; b < model->body_count; b++)
     sbri_rigid_targets(c)[b] = sbri_rigid_target(c, sbri_pose(c), b);
-  if (sbri_rigid_drive(c)->asleep && is_moved(c))
-    sbri_rigid_drive(c)->asleep = sbri_rigid_drive(c)->quiet_ticks = 0;
-  if (!sbri_rigid_drive(c)->asleep) {
-    const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
-    sbri_rigid_tick tick = {.model = model,
-        .bodies = sbri_rigid_bodies(c),
-        .joints = sbri_rigid_joints(c),
-        .drive = sbri_rigid_drive(c),
-        .targets = sbri_rigid_targets(c),
-        .anchor = {sbri_scale(anchor->position, 1 / c->scale), anchor->rotation},
-        .ground = &world->ground,
-        .origin = sbri_head(c)->origin,
-        .scale = c->scale,
-        .gravity = world->has_gravity ? world->gravity : c->model->asset->environment.gravity,
-        .tick_s = (float)world->tick_s * c->time_scale,
-        .substeps = c->model->rigid_substeps,
-        .work = sbri_rigid_work(c)};
-    sbri_rigid_step(&tick);
-    bool lost = false;
-    for (uint32_t b = 0; b < model->body_count; b++) lost = lost || is_lost(&sbri_rigid_bodies(c)[b]);
-    if (lost) /* no motion any more: back to where the animation has them */
-      for (uint32_t b = 0; b < model->body_count; b++)
-        put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_targets(c)[b]);
-    may_sleep(world, c);
-  }
-  move_bones(c);
+  memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
+  sbri_coupled group = {.world = world, .character = c, .animated = sbri_animated(c)};
+  if (drive->asleep && (is_moved(c) || !sbri_coupled_sleep(&group))) drive->asleep = drive->quiet_ticks = 0;
+  if (!drive->asleep) step(world, c, &group);
+  sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
+  if (drive->asleep) return;
+  sbri_coupled_end(&group);
+  may_sleep(world, c);
 }
 
 bool sbri_rigid_is_still(const sbri_character *c) {

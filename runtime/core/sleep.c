@@ -98,19 +98,27 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
   return false;
 }
 
-void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
+bool sbri_island_is_quiet(const sbri_character *c, uint32_t index) {
+  const sbri_island_state *state = &sbri_island_states(c)[index];
+  sbf_vec3 g = state->guide_velocity;
+  return !state->recovering && !state->folded_ticks && !state->wild && sbri_dot(g, g) == 0 &&
+         sbri_tears_of(c)[index].count == 0 && is_quiet(c, &c->model->islands[index]);
+}
+
+void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
-  if (!world->sleep_ticks || island->scheme->forceless) return;
-  sbf_vec3 g = state->guide_velocity;
-  bool quiet = !state->recovering && !state->folded_ticks && !state->wild && sbri_dot(g, g) == 0 &&
-               sbri_tears_of(c)[index].count == 0 && is_quiet(c, island);
-  state->quiet_ticks = quiet ? state->quiet_ticks + 1 : 0;
-  if (state->quiet_ticks < world->sleep_ticks) return;
   state->asleep = 1;
   memset(
       sbri_velocities(c) + 3 * (size_t)island->first_slot, 0, 3 * (size_t)island->free_count * sizeof(float));
   state->ground_mark = find_ground(world, c, index);
+}
+
+void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  if (!world->sleep_ticks || c->model->islands[index].scheme->forceless) return;
+  state->quiet_ticks = sbri_island_is_quiet(c, index) ? state->quiet_ticks + 1 : 0;
+  if (state->quiet_ticks >= world->sleep_ticks) sbri_island_put_to_sleep(world, c, index);
 }
 
 /* ---- Characters ---- */

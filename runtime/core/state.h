@@ -93,6 +93,8 @@ SBRI_SCRATCH_PART(previous_deltas, sbr_transform, c->model->layout.previous_delt
 SBRI_SCRATCH_PART(
     animated, sbr_transform, c->model->layout.animated) /* (frame_count) pose before rigid parts */
 SBRI_SCRATCH_PART(rigid_targets, sbr_transform, c->model->layout.rigid_targets) /* (rigid bodies) */
+SBRI_SCRATCH_PART(reactions, sbri_reaction, c->model->layout.reactions)         /* (rigid bodies) */
+SBRI_SCRATCH_PART(stepped_pose, sbr_transform, c->model->layout.stepped_pose)   /* (frame_count) in a tick */
 SBRI_SCRATCH_PART(rigid_work, void, c->model->layout.rigid_work)
 SBRI_SCRATCH_PART(gait_before, void, c->model->layout.gait_before)
 SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                 /* (slot_count) */
@@ -142,6 +144,13 @@ void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift);
 void sbri_rigid_tick_parts(const struct sbr_world *world, sbri_character *c);
 /* Where a pose has a body's own frame, asset metres. */
 sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *pose, uint32_t body);
+/* The pose with the bones where simulated bodies have them after they have gone on for `ahead_s`, and all
+ * else at that share of the way from the tick's beginning to `animated`. Bones below them that have no body
+ * keep what the animation has them turned and away from their parents. */
+void sbri_rigid_pose(
+    const sbri_character *c, const sbr_transform *animated, float share, float ahead_s, sbr_transform *pose);
+/* Puts the frames that bodies have for their own where the pose has these. */
+void sbri_rigid_frames_follow(const sbri_character *c, sbr_transform *pose);
 bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body);
 void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive);
 /* After any change to modes, drives or motion. */

@@ -51,15 +51,56 @@ void sbri_work_list(sbr_world *world);
 /* ---- core/step.c ---- */
 
 void sbri_step_tick(sbr_world *world);
+
+/* ---- core/island_run.c ---- */
+
+/* One control tick of an island by itself. */
+void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t island);
 /* Planes of the ground near the island's points, into the character's scratch, as of now. */
 void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t island);
+
+/* What such a tick is put together from; `island` as sbri_island_now has it. */
+sbri_island_tick sbri_island_tick_of(
+    const sbr_world *world, sbri_character *c, uint32_t index, const sbri_island *island);
+/* Velocities of the guides between the character's previous deltas and its deltas, `tick_s` of its own
+ * seconds apart, in blocks. Returns their mean. */
+sbf_vec3 sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, float tick_s, bool *jumped);
+/* Inert lanes lie where their block's first point does, room for points that split where the body's does. */
+void sbri_island_tuck(sbri_character *c, const sbri_island *island);
+void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c);
+
+/* ---- core/coupled.c ---- */
+
+/* Soft bodies that pull on simulated rigid bodies: they are stepped along with these, in the character's own
+ * task, not in one of their own. */
+bool sbri_island_is_coupled(const sbri_character *c, uint32_t island);
+
+typedef struct sbri_coupled {
+  const sbr_world *world;
+  sbri_character *character;
+  const sbr_transform *animated; /* (frame_count) the pose at the tick's end but for what bodies move */
+  uint32_t steps;                /* of the tick, that the soft bodies ask for */
+} sbri_coupled;
+
+/* A tick of them: what comes before it, while the rigid parts step (rigid_state.h), and after it. `begin`
+ * returns whether there are any. */
+bool sbri_coupled_begin(sbri_coupled *group);
+void sbri_coupled_act(void *group, const sbri_rigid_tick *tick, float from, float to);
+void sbri_coupled_end(sbri_coupled *group);
+
+/* Whether all of them may go on sleeping, whether all are slow enough to begin to, and their beginning to. */
+bool sbri_coupled_sleep(sbri_coupled *group);
+bool sbri_coupled_are_quiet(const sbri_character *c);
+void sbri_coupled_put_to_sleep(const sbr_world *world, sbri_character *c);
 
 /* ---- core/sleep.c ---- */
 
 /* Whether the island sleeps through this tick, whose frames are known; it wakes where it does not. */
 bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t island);
-/* After a tick of it. */
+/* After a tick of it; and the parts of that: whether it is slow enough, and that it sleeps from now on. */
 void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t island);
+bool sbri_island_is_quiet(const sbri_character *c, uint32_t island);
+void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_t island);
 /* Whether the character sleeps through this tick; and whether it would if its gait stood still. */
 bool sbri_character_sleeps(const sbr_world *world, sbri_character *c);
 bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c);

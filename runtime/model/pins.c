@@ -12,8 +12,7 @@ float sbri_pin_weight(const sbf_pin_set *set, uint32_t i) {
 uint32_t sbri_pin_frame(const sbr_model *model, const sbf_pin_set *set) {
   if (set->bone >= 0) return (uint32_t)set->bone;
   if (set->rigid_body < 0) return sbri_anchor_frame(model);
-  int32_t bone = model->asset->rigid_bodies.at[set->rigid_body].bone;
-  return bone >= 0 ? (uint32_t)bone : sbri_root_frame(model);
+  return sbri_body_frame(model, (uint32_t)set->rigid_body);
 }
 
 sbf_vec3 sbri_pin_place(const sbr_model *model, const sbf_level *level, const sbf_pin_set *set, uint32_t i) {

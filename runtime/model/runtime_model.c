@@ -158,12 +158,12 @@ static sbf_status make(sbr_model *model, const sbr_model_options *options, sbf_d
   void *rig = sbfi_arena_allocate(&model->arena, 1, sbri_rig_size(model->asset));
   if (!rig) return no_memory(error);
   sbri_rig_init(&model->rig, model->asset, rig);
-  model->frame_count = model->rig.bone_count + 2;
   model->rigid_substeps = options->rigid_substeps ? options->rigid_substeps : RIGID_SUBSTEPS;
   if (!sbri_rigid_model_make(&model->rigid, model->asset, &model->arena)) return no_memory(error);
+  model->frame_count = model->rig.bone_count + 2 + model->rigid.own_frame_count;
   sbf_status status = make_islands(model, options, error);
   if (status != SBF_OK) return status;
-  if (!make_skins(model)) return no_memory(error);
+  if (!sbri_coupling_make(model) || !make_skins(model)) return no_memory(error);
   sbri_layout_make(model);
   if (!sbri_rest_volumes_find(model) || !sbri_outer_make(model)) return no_memory(error);
   for (uint32_t i = 0; i < model->island_count; i++) {

@@ -8,7 +8,7 @@
  *
  * Frames are what holds and guides points: the rig's bones, then the character's root (the asset's origin,
  * turned to the heading), then the anchor (where the root stood when the character was put there: what the
- * world holds).
+ * world holds), then the rigid bodies that are no bone's.
  *
  * Lengths are those of the asset. A character of scale s is simulated in its asset's metres, with time
  * running sqrt(s) times slower: that is the similarity the public header promises, and it needs no second
@@ -190,9 +190,14 @@ typedef struct sbri_island {
   const float *gravity_scales; /* (free_count) 0: padding */
   const uint32_t *cell_begins; /* (free_count / 8 + 1) */
   const sbri_spring_cell *cells;
-  const float *cell_damping;     /* (cells x 8) N s/m; NULL: no spring is damped */
-  const uint32_t *frame_of_held; /* (slot_count - free_count) */
-  const sbfi_spring *springs;    /* (spring_count) each once, ends as slots */
+  const float *cell_damping;      /* (cells x 8) N s/m; NULL: no spring is damped */
+  const uint32_t *frame_of_held;  /* (slot_count - free_count) */
+  const int32_t *carrier_of_held; /* (slot_count - free_count) of model.carrier_of_frame */
+  const uint32_t *carriers;       /* (carrier_count) the rigid bodies that may carry what holds it */
+  uint32_t carrier_count;
+  const uint32_t *held_springs; /* (held_spring_count) springs with one end held */
+  uint32_t held_spring_count;
+  const sbfi_spring *springs; /* (spring_count) each once, ends as slots */
   uint32_t spring_count;
   uint32_t tetrahedron_count;                               /* of all bodies, body after body */
   uint32_t tetrahedron_full_count, tetrahedron_dense_count; /* ends of the first two sorts of blocks */
@@ -240,7 +245,7 @@ typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, rests, strengths,
       rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, skin_cells, bound_to,
       torn_polygons, rigid_bodies, rigid_joints, rigid_drive, state_size;
-  size_t animated, rigid_targets, rigid_work;
+  size_t animated, rigid_targets, reactions, stepped_pose, rigid_work;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
@@ -260,9 +265,11 @@ struct sbr_model {
   const sbf_asset *asset;
   sbri_rig rig;
   sbri_rigid_model rigid;
-  uint32_t rigid_substeps; /* of a control tick */
-  uint32_t frame_count;    /* bones, root, anchor */
-  sbri_body *bodies;       /* (asset->soft_bodies.count) */
+  uint32_t rigid_substeps;         /* of a control tick */
+  uint32_t frame_count;            /* bones, root, anchor, bodies (sbri_body_frame) */
+  const int32_t *carrier_of_frame; /* (frame_count) the rigid body that a frame goes with where that is
+                                      simulated; -1: none */
+  sbri_body *bodies;               /* (asset->soft_bodies.count) */
   sbri_island *islands;
   uint32_t island_count;
   uint32_t slot_count;              /* of all islands */
@@ -281,6 +288,14 @@ struct sbr_model {
   float rest_size_m; /* diagonal of the box of all bodies */
   sbri_layout layout;
 };
+
+/* Of a rigid body: its bone, or one of its own where another body moves that or there is none. */
+static inline uint32_t sbri_body_frame(const sbr_model *model, uint32_t rigid_body) {
+  uint32_t own = model->rigid.own_frames[rigid_body];
+  int32_t bone = model->asset->rigid_bodies.at[rigid_body].bone;
+  if (own != UINT32_MAX) return model->rig.bone_count + 2 + own;
+  return bone >= 0 ? (uint32_t)bone : model->rig.bone_count;
+}
 
 /* NULL where there is no such mesh or level. */
 static inline const sbri_skin *sbri_skin_of(
@@ -320,6 +335,8 @@ bool sbri_outer_make(sbr_model *model);
 /* Sides along springs that may tear, of polygons over the vertices of the mesh that `full` is of. */
 bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
     const sbf_u32_list *points);
+/* Which rigid bodies the islands may pull on, and how stiffly; false where memory runs out. */
+bool sbri_coupling_make(sbr_model *model);
 /* Neighbours and what lies around each point; false where memory runs out. */
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
 /* The places of the surface that meet the ground; after the surfaces. */

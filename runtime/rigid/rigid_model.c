@@ -178,8 +178,13 @@ bool sbri_rigid_model_make(sbri_rigid_model *model, const sbf_asset *asset, sbfi
   sbri_rigid_body *bodies = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof *bodies);
   sbri_rigid_joint *joints = sbfi_arena_allocate(arena, (size_t)joint_count + 1, sizeof *joints);
   int32_t *body_of_bone = sbfi_arena_allocate(arena, (size_t)bone_count + 1, sizeof *body_of_bone);
-  if (!bodies || !joints || !body_of_bone) return false;
+  uint32_t *own_frames = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof *own_frames);
+  model->pinned_weights = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof(float));
+  model->pinned_squares = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof(float));
+  if (!bodies || !joints || !body_of_bone || !own_frames || !model->pinned_squares || !model->pinned_weights)
+    return false;
   model->bodies = bodies, model->joints = joints, model->body_of_bone = body_of_bone;
+  model->own_frames = own_frames;
   for (uint32_t i = 0; i < bone_count; i++) body_of_bone[i] = -1;
   for (uint32_t b = 0; b < body_count; b++) {
     if (!make_body(&asset->rigid_bodies.at[b], &bodies[b], arena)) return false;
@@ -194,6 +199,11 @@ bool sbri_rigid_model_make(sbri_rigid_model *model, const sbf_asset *asset, sbfi
     joints[j].first_square = model->square_count;
     model->row_count += joints[j].row_capacity;
     model->square_count += (size_t)joints[j].row_capacity * joints[j].row_capacity;
+  }
+  for (uint32_t b = 0; b < body_count; b++) {
+    int32_t bone = bodies[b].source->bone;
+    bool own = bodies[b].mass > 0 && (bone < 0 || body_of_bone[bone] != (int32_t)b);
+    own_frames[b] = own ? model->own_frame_count++ : UINT32_MAX;
   }
   model->loop_row_capacity = model->row_count < MOST_LOOP_ROWS ? model->row_count : MOST_LOOP_ROWS;
   return list_joints(model, bodies, arena) && sort_joints(model, arena) && find_loads(model, joints, arena);

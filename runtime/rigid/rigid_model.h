@@ -51,6 +51,14 @@ typedef struct sbri_rigid_model {
   const uint32_t *joints_of;   /* of each body, body after body */
   const uint32_t *by_strength; /* (joint_count) those that hold most first: which a tree is made of first */
   const int32_t *body_of_bone; /* (bones) the first body that moves with it; -1: none */
+  const uint32_t *own_frames;  /* (body_count) of bodies with mass that are no bone's such: their number among
+                                  these; else UINT32_MAX */
+  uint32_t own_frame_count;
+  /* (body_count) rad^2/s^2, with all that soft bodies hold them by and nothing else giving way: as fast as a
+   * body may swing by it; model/coupling.c */
+  float *pinned_squares;
+  /* (body_count) how much more than the body the flesh weighs that is damped against it, or has moment. */
+  float *pinned_weights;
   uint32_t bone_count, vertex_count, row_count;
   size_t square_count;
   uint32_t loop_row_capacity; /* rows of joints that close loops; see loop_solve.h */

@@ -51,6 +51,17 @@ typedef struct sbri_ground_touch {
   bool active, slides;
 } sbri_ground_touch;
 
+struct sbri_rigid_tick;
+
+/* What else acts on the bodies: called before each step over that share of the tick, `act` adds impulses to
+ * their velocities and spins (sbri_rigid_swell). */
+typedef struct sbri_rigid_pull {
+  void (*act)(void *user, const struct sbri_rigid_tick *tick, float from, float to);
+  void *user;
+  const float *squares; /* (body_count) rad^2/s^2, that it makes a body swing by at most */
+  uint32_t steps;       /* of a tick, at least */
+} sbri_rigid_pull;
+
 /* A tick of all rigid parts of a character. */
 typedef struct sbri_rigid_tick {
   const sbri_rigid_model *model;
@@ -65,13 +76,18 @@ typedef struct sbri_rigid_tick {
   sbf_vec3 gravity;
   float tick_s;
   uint32_t substeps;
-  void *work; /* sbri_rigid_work_size(model) bytes, of which nothing need be known */
+  sbri_rigid_pull pull; /* all 0: nothing does */
+  void *work;           /* sbri_rigid_work_size(model) bytes, of which nothing need be known */
 } sbri_rigid_tick;
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model);
 
 /* Advances all that is not broken by a tick. */
 void sbri_rigid_step(const sbri_rigid_tick *tick);
+
+/* A body that what pulls on it would swing too fast for the most steps that there are is as if that much
+ * heavier, to all but weight. */
+float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s);
 
 /* Mean angular velocity over a step of what keeps its angular momentum, and where it turns to. */
 sbf_vec3 sbri_free_turn(

@@ -167,8 +167,14 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_work *work, float fr
     const sbf_vec3 *ease = &model->bodies[b].inverse_inertia;
     node->ease[0] = model->bodies[b].inverse_mass;
     node->ease[1] = (ease->x + ease->y + ease->z) / 3;
+    node->swell = sbri_rigid_swell(&t->pull, b, step_s);
     memset(node->push, 0, sizeof node->push);
   }
+}
+
+float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
+  float swell = pull->squares ? pull->squares[body] * step_s * step_s / (MOST_SWING * MOST_SWING) : 0;
+  return swell > 1 ? swell : 1;
 }
 
 /* ---- The system ---- */
@@ -176,11 +182,11 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_work *work, float fr
 static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_work *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     sbri_node *node = &work->system.nodes[i];
-    float mass = t->model->bodies[node->body].mass;
+    float mass = node->swell * t->model->bodies[node->body].mass;
     memset(node->d, 0, sizeof node->d);
     for (int k = 0; k < 3; k++) {
       node->d[k][k] = mass;
-      for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->inertia[k][j];
+      for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->swell * node->inertia[k][j];
     }
     memcpy(node->b, node->push, sizeof node->b);
   }
@@ -349,6 +355,10 @@ static uint32_t count_substeps(const sbri_rigid_tick *t, const sbri_rigid_work *
       float own = sbri_length(turn) * (MOST_SWING / MOST_TURN);
       fastest = own * own > fastest ? own * own : fastest;
     }
+    if (t->pull.squares) {
+      float pinned = t->pull.squares[work->system.nodes[i].body];
+      fastest = pinned > fastest ? pinned : fastest;
+    }
     find_pulls(t, work, work->system.nodes[i].body, stiffness);
     const float ease[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
     for (int a = 0; a < 3; a++) fastest = stiffness[a] * ease[a] > fastest ? stiffness[a] * ease[a] : fastest;
@@ -379,8 +389,12 @@ void sbri_rigid_step(const sbri_rigid_tick *asked) {
   work.last_step_s = t->drive->last_step_s;
   if (work.last_step_s == 0 && work.system.node_count) probe_pulls(t, &work);
   t->substeps = count_substeps(t, &work);
-  for (uint32_t i = 0; i < t->substeps && work.system.node_count; i++)
-    substep(t, &work, (float)i / (float)t->substeps, (float)(i + 1) / (float)t->substeps, 0);
+  if (t->substeps < t->pull.steps) t->substeps = t->pull.steps;
+  for (uint32_t i = 0; i < t->substeps && work.system.node_count; i++) {
+    float from = (float)i / (float)t->substeps, to = (float)(i + 1) / (float)t->substeps;
+    if (t->pull.act) t->pull.act(t->pull.user, t, from, to);
+    substep(t, &work, from, to, 0);
+  }
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     if (work.motions[b].node >= 0) continue;
     sbri_rigid_motion all;

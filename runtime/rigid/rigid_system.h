@@ -64,6 +64,7 @@ typedef struct sbri_node {
   double b[6], x[6];
   double push[6];      /* impulses that are known already: of drives that give their maximum */
   float inertia[3][3]; /* in space */
+  float swell;         /* sbri_rigid_swell */
   float ease[2];       /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
 } sbri_node;
 

@@ -200,6 +200,7 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
     sbri_drift(t, h);
     if (island->tetrahedron_block_count > 0) sbri_crush_look(t);
     sbri_finish_substep(t, h);
+    if (t->reactions) sbri_react_at_end(t, h);
   }
   if (island->tetrahedron_block_count > 0) sbri_tetrahedron_pass(t, true); /* for what watches over J */
 }

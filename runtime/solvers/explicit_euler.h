@@ -28,6 +28,7 @@ static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {
     bool last = s + 1 == substeps;
     if (sbri_has_damping(island)) sbri_spread_velocities(t, 1 / t->tick_s);
     sbri_accelerate(t, h, last ? stretches : NULL);
+    if (t->reactions) sbri_react(t, h);
     sbri_drift(t, h);
     sbri_add_accelerations(t, h);
     sbri_decay_all(t, h);

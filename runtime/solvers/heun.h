@@ -149,6 +149,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
     sbri_decay_all(t, 0.5f * h);
     if (island->tetrahedron_block_count > 0) sbri_crush_look(t);
     sbri_finish_substep(t, h);
+    if (t->reactions) sbri_react_at_end(t, h);
     sbri_heun_evaluate(t, h, done == SBRI_HEUN_UNITS ? stretches : NULL);
     while (step < longest && done % (2 * step) == 0 &&
            sbri_heun_error(t, 2 * unit * (float)step) <= t->step_error_m)

@@ -35,10 +35,16 @@ typedef struct sbri_touch {
   sbf_vec3 rub;      /* and friction across it */
 } sbri_touch;
 
+/* What has been pulled with on a rigid body, N s and N m s about a place. */
+typedef struct sbri_reaction {
+  sbf_vec3 about, impulse, moment;
+} sbri_reaction;
+
 typedef struct sbri_island_tick {
   const sbr_model *model;
   const sbri_island *island;
-  float tick_s;
+  float tick_s;     /* a share of the control tick where the island steps along with rigid bodies: */
+  float share;      /* of it; 1: all */
   sbf_vec3 gravity; /* m/s^2 */
   sbf_vec3 wind;    /* m/s */
   sbr_double3 origin;
@@ -50,6 +56,8 @@ typedef struct sbri_island_tick {
                                     positions of the tick before */
   const sbri_point *targets;     /* (slot_count) where held points shall be at the end of the tick */
   const float *guide_velocities; /* (free_count x 3) of the guides, where a body is held */
+  bool undamped;                 /* what damping against the guides does is done by the caller */
+  sbri_reaction *reactions;      /* (rigid bodies) is added to; NULL: nobody asks */
   sbri_point *begins;            /* (slot_count) scratch: where held points were at the tick's beginning */
   sbri_point *velocity_points;   /* (slot_count) scratch */
   sbri_point *element_forces;    /* (slot_count) scratch: of tetrahedra and regions */
@@ -63,7 +71,7 @@ typedef struct sbri_island_tick {
   const uint32_t *touch_counts;                    /* (bodies of the model) */
   float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
   float *rotations;         /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
-  sbri_point *outer;        /* (free_count) N; scratch of what is neither springs nor weight; NULL: nothing */
+  sbri_point *outer;        /* (slot_count) N; scratch of what is neither springs nor weight; NULL: nothing */
   float *accelerations, *older_velocities;  /* (free_count x 3) scratch, blocks as `velocities` */
   sbri_point *moves;                        /* (slot_count) scratch */
   float *edges;                             /* (links x 8 x 3) scratch */

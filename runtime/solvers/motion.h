@@ -14,6 +14,7 @@
 #include "collide/contact.h"
 #include "math/trig.h"
 #include "solvers/outer_forces.h"
+#include "solvers/reaction.h"
 #include "solvers/region_forces.h"
 #include "solvers/rigid_motion.h"
 #include "solvers/spring_forces.h"
@@ -26,14 +27,6 @@
 /* Samples of a surface that share their points press each other in by a little: to lift them all the time
  * would shake the body. A share of the body's size. */
 #define SBRI_SLACK_SHARE 1e-4f
-
-/* Of a group of lanes in arrays that stand in blocks of three by eight, as velocities do. */
-static inline float *sbri_triple(float *blocks, uint32_t slot) {
-  return blocks + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-}
-static inline const float *sbri_const_triple(const float *blocks, uint32_t slot) {
-  return blocks + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-}
 
 typedef struct sbri_decay {
   float frame;         /* share of the velocity against the frame that a substep keeps */
@@ -64,6 +57,11 @@ static inline void sbri_self_damp(const sbri_island_tick *t, const sbri_body *bo
     sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, sbri_exp(-body->alpha_1_s * time_s));
 }
 
+/* Whether damping draws the body towards what its frames do. */
+static inline bool sbri_is_guided(const sbri_island_tick *t, const sbri_body *body, sbri_decay keep) {
+  return body->held && keep.frame < 1 && !t->undamped;
+}
+
 /* Of a group of lanes; not of a body that nothing holds against itself, which takes all its lanes. */
 static inline sbri_wide3 sbri_decayed(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 v, sbri_decay keep, bool guided) {
@@ -89,7 +87,7 @@ static inline sbri_wide3 sbri_decayed(
 static inline void sbri_kick_body(
     const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep, int kind, float *stretches) {
   sbri_wide step = sbri_wide_all(h);
-  bool guided = body->held && keep.frame < 1;
+  bool guided = sbri_is_guided(t, body, keep);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
@@ -112,6 +110,7 @@ static inline void sbri_kick(const sbri_island_tick *t, float h, float self_s, b
   int kind = sbri_force_kind(t, last);
   if (t->outer) sbri_outer_forces(t, h);
   if (t->island->region_block_count > 0) sbri_region_forces(t);
+  if (t->reactions) sbri_react(t, h);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbri_decay keep = sbri_decay_of(body, h);
@@ -127,7 +126,7 @@ static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbri_decay keep = sbri_decay_of(body, h);
-    bool guided = body->held && keep.frame < 1;
+    bool guided = sbri_is_guided(t, body, keep);
     for (uint32_t slot = body->slot_begin; (guided || keep.media < 1) && slot < body->slot_end;
          slot += SBRI_LANES) {
       float *velocity = sbri_triple(t->velocities, slot);
@@ -156,23 +155,6 @@ static inline void sbri_accelerate(const sbri_island_tick *t, float h, float *st
 #define SBRI_CALL(known) sbri_accelerate_body(t, body, known, stretches)
     SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
-  }
-}
-
-/* Whether springs, tetrahedra or regions have damping of their own, which goes by velocity_points. */
-static inline bool sbri_has_damping(const sbri_island *island) {
-  return island->cell_damping || island->tetrahedron_damping || island->region_damping;
-}
-
-/* The velocities as points, for that damping; `rate` is one over the tick's length. */
-static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate) {
-  const sbri_island *island = t->island;
-  for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES)
-    sbri_wide_store_points(t->velocity_points + slot, sbri_load3(sbri_const_triple(t->velocities, slot)));
-  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
-    const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
-    t->velocity_points[slot] =
-        (sbri_point){(to->x - from->x) * rate, (to->y - from->y) * rate, (to->z - from->z) * rate, 0};
   }
 }
 

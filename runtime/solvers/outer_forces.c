@@ -60,8 +60,7 @@ static void pass_on(const sbri_island_tick *t, const sbri_skin *skin, const sbri
     for (uint32_t c = skin->cell_begins[block]; c < skin->cell_begins[block + 1]; c++) {
       const sbri_carry_cell *cell = &skin->cells[c];
       uint32_t slot = cell->slots[lane] - t->island->first_slot;
-      if (slot < t->island->free_count)
-        add_to(&t->outer[slot], sbri_scale(vec_of(&forces[v]), cell->weights[lane]));
+      add_to(&t->outer[slot], sbri_scale(vec_of(&forces[v]), cell->weights[lane]));
     }
   }
 }
@@ -177,9 +176,7 @@ static void add_bending(const sbri_island_tick *t, const sbri_body *body) {
     sbri_hinge_shape shape = sbri_hinge_shape_of(x);
     sbri_hinge_gradients(&shape, x, gradients);
     float torque = hinge->stiffness * sbri_angle_between(shape.angle, hinge->rest_angle);
-    for (int k = 0; k < 4; k++)
-      if (hinge->slots[k] < t->island->free_count)
-        add_to(&t->outer[hinge->slots[k]], sbri_scale(gradients[k], -torque));
+    for (int k = 0; k < 4; k++) add_to(&t->outer[hinge->slots[k]], sbri_scale(gradients[k], -torque));
   }
 }
 
@@ -224,7 +221,7 @@ static void add_fields(const sbri_island_tick *t, float h) {
 }
 
 void sbri_outer_forces(const sbri_island_tick *t, float h) {
-  clear(t->outer, t->island->free_count);
+  clear(t->outer, t->island->slot_count);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     if (body->medium_kg_m3 > 0 || body->gas_pa != 0) add_surface(t, body, h);

@@ -183,7 +183,7 @@ static inline void sbri_moves_end_body(const sbri_island_tick *t, const sbri_bod
  * be one pass over the points. */
 static inline bool sbri_moves_alone(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  bool alone = !t->outer && !t->rests && !island->link_limits && !island->solid_limits &&
+  bool alone = !t->outer && !t->rests && !t->reactions && !island->link_limits && !island->solid_limits &&
                !island->link_damping && !island->tetrahedron_damping;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
@@ -202,7 +202,7 @@ static inline void sbri_moves_go_on(const sbri_island_tick *t, const sbri_body *
   sbri_wide gx = sbri_wide_all(t->gravity.x), gy = sbri_wide_all(t->gravity.y),
             gz = sbri_wide_all(t->gravity.z);
   sbri_decay keep = sbri_decay_of(body, h);
-  bool guided = body->held && keep.frame < 1;
+  bool guided = sbri_is_guided(t, body, keep);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot), *kept = sbri_triple(t->accelerations, slot);
     sbri_wide3 free = sbri_load3(kept), v = sbri_load3(velocity);
@@ -260,6 +260,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
     sbri_carry_held(t, share);
     if (solid && s % SBRI_LOOK_EVERY == 0) sbri_crush_look(t);
     sbri_finish_substep(t, h);
+    if (t->reactions) sbri_react_at_end(t, h);
     if ((followed || sbri_is_crushed(t)) && !last) sbri_moves_follow(t);
   }
   sbri_keep_stretch(t, stretches);

@@ -19,6 +19,31 @@ static inline void sbri_store3(float *block, sbri_wide3 v) {
   sbri_wide_store(block + 2 * SBRI_BLOCK, v.z);
 }
 
+/* Of a group of lanes in arrays that stand in blocks of three by eight, as velocities do. */
+static inline float *sbri_triple(float *blocks, uint32_t slot) {
+  return blocks + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+static inline const float *sbri_const_triple(const float *blocks, uint32_t slot) {
+  return blocks + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+
+/* Whether springs, tetrahedra or regions have damping of their own, which goes by velocity_points. */
+static inline bool sbri_has_damping(const sbri_island *island) {
+  return island->cell_damping || island->tetrahedron_damping || island->region_damping;
+}
+
+/* The velocities as points, for that damping; `rate` is one over the tick's length. */
+static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate) {
+  const sbri_island *island = t->island;
+  for (uint32_t slot = 0; slot < island->free_count; slot += SBRI_LANES)
+    sbri_wide_store_points(t->velocity_points + slot, sbri_load3(sbri_const_triple(t->velocities, slot)));
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
+    const sbri_point *from = &t->begins[slot], *to = &t->targets[slot];
+    t->velocity_points[slot] =
+        (sbri_point){(to->x - from->x) * rate, (to->y - from->y) * rate, (to->z - from->z) * rate, 0};
+  }
+}
+
 /* What the forces on a group of lanes ask for; known where the function is made, so that the common ones
  * carry no more than they need. */
 enum {

@@ -47,8 +47,8 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   bool solid = island->tetrahedron_block_count > 0, may_stiffen = sbri_may_stiffen(t);
   uint32_t left = sbri_substeps_now(t, t->tick_s);
-  if (solid && left < SBRI_LEAST_TOUCHING_SUBSTEPS && !island->substeps && sbri_touches_any(t))
-    left = SBRI_LEAST_TOUCHING_SUBSTEPS;
+  float least = t->share * SBRI_LEAST_TOUCHING_SUBSTEPS;
+  if (solid && (float)left < least && !island->substeps && sbri_touches_any(t)) left = (uint32_t)ceilf(least);
   float h = t->tick_s / (float)left, rest = t->tick_s, self_s = 0, stretches[SBRI_BLOCK] = {0};
   uint32_t damp_every = sbri_self_damp_every(t);
   sbri_remember_held(t);

@@ -1,39 +1,10 @@
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <string.h>
 
 #include "core/world.h"
 #include "harness.h"
+#include "host_threads.h"
 #include "scenes.h"
-
-/* ---- Threads: the host's tasks, started anew for each batch, last index first ---- */
-
-typedef struct batch {
-  sbr_task *task;
-  void *context;
-  atomic_uint left;
-} batch;
-
-static void *work(void *argument) {
-  batch *b = argument;
-  for (;;) {
-    unsigned left = atomic_load(&b->left);
-    do {
-      if (left == 0) return NULL;
-    } while (!atomic_compare_exchange_weak(&b->left, &left, left - 1));
-    b->task(b->context, left - 1);
-  }
-}
-
-static void run_on_threads(void *user, sbr_task *task, void *context, uint32_t count) {
-  int thread_count = *(const int *)user;
-  batch b = {task, context, count};
-  pthread_t threads[8];
-  for (int i = 1; i < thread_count; i++) ck_assert_int_eq(pthread_create(&threads[i], NULL, work, &b), 0);
-  work(&b);
-  for (int i = 1; i < thread_count; i++) pthread_join(threads[i], NULL);
-}
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN,
     SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_RELAXATION};

@@ -1,0 +1,73 @@
+/* What an island pulls with on the rigid bodies that carry what holds it: the forces on held points, summed
+ * over substeps as impulses and moments. The forces are those that the free points have felt with the other
+ * sign, at the same places, so that what one gains in momentum the other loses.
+ *
+ * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+#ifndef SBRI_REACTION_H
+#define SBRI_REACTION_H
+
+#include "math/vec3.h"
+#include "solvers/outer_forces.h"
+#include "solvers/region_forces.h"
+#include "solvers/spring_forces.h"
+#include "solvers/tetrahedron_forces.h"
+
+static inline void sbri_react_at(const sbri_island_tick *t, uint32_t slot, sbf_vec3 force, float h) {
+  int32_t carrier = t->island->carrier_of_held[slot - t->island->free_count];
+  if (carrier < 0) return;
+  sbri_reaction *r = &t->reactions[carrier];
+  const sbri_point *at = &t->positions[slot];
+  sbf_vec3 impulse = sbri_scale(force, h), arm = sbri_sub(sbri_vec3(at->x, at->y, at->z), r->about);
+  r->impulse = sbri_add(r->impulse, impulse);
+  r->moment = sbri_add(r->moment, sbri_cross(arm, impulse));
+}
+
+/* Of the springs that reach what is held: as sbri_spring_forces has them. */
+static inline void sbri_react_springs(const sbri_island_tick *t, float h) {
+  const sbri_island *island = t->island;
+  for (uint32_t i = 0; i < island->held_spring_count; i++) {
+    uint32_t number = island->held_springs[i];
+    const sbfi_spring *s = &island->springs[number];
+    uint32_t held = s->a >= island->free_count ? s->a : s->b, free = s->a + s->b - held;
+    if (island->carrier_of_held[held - island->free_count] < 0) continue;
+    const sbri_point *x = &t->positions[held], *y = &t->positions[free];
+    sbf_vec3 d = {y->x - x->x, y->y - x->y, y->z - x->z};
+    float square = sbri_dot(d, d) + SBRI_LENGTH_FLOOR, k = s->stiffness_n_m, damping = s->damping_ns_m;
+    float rest = s->rest_length_m;
+    if (t->rests) {
+      uint32_t link = island->link_of_spring[number];
+      rest = t->rests[link], k *= t->strengths[link], damping *= t->strengths[link];
+    }
+    float share = k - k * rest / sqrtf(square);
+    if (damping > 0) {
+      const sbri_point *v = &t->velocity_points[held], *w = &t->velocity_points[free];
+      share += damping * sbri_dot(sbri_vec3(w->x - v->x, w->y - v->y, w->z - v->z), d) / square;
+    }
+    sbri_react_at(t, held, sbri_scale(d, share), h);
+  }
+}
+
+/* By the forces that a scheme has just found for a substep of h, before anything moves. */
+static inline void sbri_react(const sbri_island_tick *t, float h) {
+  const sbri_island *island = t->island;
+  bool elements = sbri_has_element_forces(island);
+  sbri_react_springs(t, h);
+  for (uint32_t slot = island->free_count; (elements || t->outer) && slot < island->slot_count; slot++) {
+    sbf_vec3 sum = {0, 0, 0};
+    if (elements)
+      sum = sbri_vec3(t->element_forces[slot].x, t->element_forces[slot].y, t->element_forces[slot].z);
+    if (t->outer) sum = sbri_add(sum, sbri_vec3(t->outer[slot].x, t->outer[slot].y, t->outer[slot].z));
+    sbri_react_at(t, slot, sum, h);
+  }
+}
+
+/* The same of schemes that do not go by forces: those at the substep's end. */
+static inline void sbri_react_at_end(const sbri_island_tick *t, float h) {
+  if (sbri_has_damping(t->island)) sbri_spread_velocities(t, 1 / t->tick_s);
+  if (t->outer) sbri_outer_forces(t, h);
+  if (t->island->tetrahedron_block_count > 0) sbri_tetrahedron_forces(t, NULL);
+  if (t->island->region_block_count > 0) sbri_region_forces(t);
+  sbri_react(t, h);
+}
+
+#endif
