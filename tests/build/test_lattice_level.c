@@ -235,9 +235,9 @@ static const struct {
 } real[] = {
     {"spot/spot.obj", 19841, 4446, 8, 12.3, 152.9, 0.7122, 0.525, true, false},
     {"bunny/bunny_902.obj", 19433, 4473, 67, 12.9, 151.9, 0.8286, 0.690, true, true},
-    {"armadillo/armadillo_25k.obj", 19637, 4863, 71, 13.0, 151.4, 235.4, 0.699, true, true},
+    {"armadillo/armadillo_25k.obj", 19671, 4885, 74, 12.9, 150.7, 235.5, 0.702, true, true},
     {"soup/suzanne.obj", 19996, 4466, 94, 14.1, 149.4, 2.167, 0.563, false, true},
-    {"soup/spider.obj", 20385, 6333, 389, 11.8, 154.6, 143600, 0.802, false, true},
+    {"soup/spider.obj", 20380, 6325, 392, 11.9, 154.6, 143900, 0.797, false, true},
     {"bunny/bunny_holes.obj", 19854, 4428, 43, 14.1, 151.8, 0.0007441, 0.664, false, true},
     {"ngon/concave_polygon.obj", 0, 64, 0, 0, 0, 0, 0, false, false},
     {"cloth/cloth_25.obj", 0, 25, 0, 0, 0, 0, 0, false, false},

@@ -1,8 +1,10 @@
 #include "build/lattice/lattice.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "build/lattice/lattice_crossings.h"
+#include "build/lattice/lattice_hinges.h"
 #include "build/lattice/lattice_limbs.h"
 #include "build/lattice/lattice_signs.h"
 
@@ -63,10 +65,42 @@ static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_la
   }
 }
 
+/* From which nodes are inside to tetrahedra; `inside` then says what became of the nodes. */
+static bool stuff(sbfi_lattice *lattice, const sbfi_lattice_grid *grid, const sbfi_winding *winding,
+    const sbfi_array *crossings, uint8_t *inside, sbfi_arena *arena, sbfi_arena *scratch) {
+  sbfi_lattice_cuts cuts;
+  if (!sbfi_lattice_cuts_find(&cuts, grid, inside, scratch)) return false;
+  place_cuts(crossings, inside, &cuts);
+  if (lattice->forced_count > 0) widen_forced(grid, inside, &cuts);
+  lattice->dim_count = bisect_cuts(grid, winding, inside, &cuts);
+  for (uint32_t n = 0; n < grid->node_count && lattice->forced_count > 0; n++)
+    inside[n] &= SBFI_LATTICE_INSIDE;
+  return sbfi_lattice_stuff(grid, inside, &cuts, &lattice->made, arena, scratch);
+}
+
+/* Again with more nodes inside, where parts hang on others by hinges. */
+static sbfi_lattice_outcome stuff_without_hinges(sbfi_lattice *lattice, const sbfi_lattice_grid *grid,
+    const sbfi_winding *winding, const sbfi_array *crossings, uint8_t *inside, sbfi_progress progress,
+    sbfi_arena *arena, sbfi_arena *scratch) {
+  enum { ROUNDS = 4 };
+  uint8_t *states = sbfi_arena_allocate(scratch, grid->node_count, 1);
+  if (!states) return SBFI_LATTICE_NO_MEMORY;
+  for (int round = 0; round < ROUNDS; round++) {
+    uint32_t count;
+    memcpy(states, inside, grid->node_count);
+    if (!stuff(lattice, grid, winding, crossings, states, arena, scratch) ||
+        !sbfi_lattice_join_hinges(grid, states, inside, &count, scratch))
+      return SBFI_LATTICE_NO_MEMORY;
+    if (count == 0) break;
+    lattice->forced_count += count;
+    if (!sbfi_progress_say(progress, 0.6 + 0.1 * round)) return SBFI_LATTICE_CANCELLED;
+  }
+  return SBFI_LATTICE_MADE;
+}
+
 static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *winding, sbfi_progress progress,
     sbfi_arena *arena, sbfi_array *crossings, sbfi_arena *scratch) {
   sbfi_lattice_grid grid;
-  sbfi_lattice_cuts cuts;
   const sbfi_soup *soup = winding->soup;
   if (!sbfi_lattice_grid_fit(&grid, soup->low, soup->high, lattice->cell)) return SBFI_LATTICE_TOO_FINE;
   uint8_t *cut = sbfi_arena_allocate(scratch, grid.node_count, 1);
@@ -79,15 +113,10 @@ static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *wind
   if (!sbfi_progress_say(progress, 0.4)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_lattice_keep_limbs(&grid, winding, crossings, inside, &lattice->forced_count, scratch))
     return SBFI_LATTICE_NO_MEMORY;
-  if (!sbfi_lattice_cuts_find(&cuts, &grid, inside, scratch)) return SBFI_LATTICE_NO_MEMORY;
-  place_cuts(crossings, inside, &cuts);
-  if (lattice->forced_count > 0) widen_forced(&grid, inside, &cuts);
-  lattice->dim_count = bisect_cuts(&grid, winding, inside, &cuts);
-  for (uint32_t n = 0; n < grid.node_count && lattice->forced_count > 0; n++)
-    inside[n] &= SBFI_LATTICE_INSIDE;
   if (!sbfi_progress_say(progress, 0.6)) return SBFI_LATTICE_CANCELLED;
-  if (!sbfi_lattice_stuff(&grid, inside, &cuts, &lattice->made, arena, scratch))
-    return SBFI_LATTICE_NO_MEMORY;
+  sbfi_lattice_outcome outcome =
+      stuff_without_hinges(lattice, &grid, winding, crossings, inside, progress, arena, scratch);
+  if (outcome != SBFI_LATTICE_MADE) return outcome;
   return sbfi_progress_say(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
 }
 

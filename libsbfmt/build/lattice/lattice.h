@@ -9,7 +9,7 @@
 typedef struct sbfi_lattice {
   sbfi_tetrahedra made;
   double cell;           /* m, edge of the grid's cubes, which is the long edge of its tetrahedra */
-  uint32_t forced_count; /* nodes taken in to keep thin limbs, see lattice_limbs.h */
+  uint32_t forced_count; /* nodes taken in to keep thin limbs on, see lattice_limbs.h and lattice_hinges.h */
   uint32_t dim_count;    /* edges with unlike ends that no triangle cuts: holes of an open surface */
 } sbfi_lattice;
 

@@ -42,6 +42,14 @@ static inline uint32_t sbfi_lattice_kind(const sbfi_lattice_grid *g, uint32_t no
   return node / g->counts[0] & 1;
 }
 
+/* The other end of a node's edge: 0 to 6 are its own, 7 to 13 those that lead to it, the opposite ways. */
+static inline uint32_t sbfi_lattice_neighbour(const sbfi_lattice_grid *g, uint32_t node, int edge) {
+  uint32_t kind = sbfi_lattice_kind(g, node);
+  if (edge < SBFI_LATTICE_EDGES) return (uint32_t)((int64_t)node + g->steps[kind][edge]);
+  edge -= SBFI_LATTICE_EDGES;
+  return (uint32_t)((int64_t)node - g->steps[edge < SBFI_LATTICE_LONG_EDGES ? kind : !kind][edge]);
+}
+
 static inline sbfi_d3 sbfi_lattice_place(const sbfi_lattice_grid *g, sbfi_d3 coordinates) {
   return sbfi_d3_add(g->origin, sbfi_d3_scale(coordinates, g->cell / 2));
 }

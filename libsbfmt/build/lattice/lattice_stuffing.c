@@ -64,8 +64,14 @@ bool sbfi_lattice_cuts_find(
   return true;
 }
 
-/* States of nodes, in place of `inside`. */
-enum { OUTSIDE = 0, INSIDE = 1, ON = 2, STATE = 3, AT_CUT = 4 };
+/* States of nodes, in place of `inside`, and a mark while they are found. */
+enum {
+  OUTSIDE = SBFI_LATTICE_NODE_OUTSIDE,
+  INSIDE = SBFI_LATTICE_NODE_INSIDE,
+  ON = SBFI_LATTICE_NODE_ON,
+  STATE = 3,
+  AT_CUT = 4
+};
 
 typedef struct work {
   const sbfi_lattice_grid *grid;
@@ -88,21 +94,13 @@ static sbfi_d3 coordinates(const work *w, uint32_t node) {
   return (sbfi_d3){at[0], at[1], at[2]};
 }
 
-/* The other end of a node's edge: 0 to 6 its own, 7 to 13 those that lead here. */
-static uint32_t neighbour(const work *w, uint32_t node, int edge) {
-  uint32_t kind = sbfi_lattice_kind(w->grid, node);
-  if (edge < SBFI_LATTICE_EDGES) return (uint32_t)((int64_t)node + w->grid->steps[kind][edge]);
-  edge -= SBFI_LATTICE_EDGES;
-  return (uint32_t)((int64_t)node - w->grid->steps[edge < SBFI_LATTICE_LONG_EDGES ? kind : !kind][edge]);
-}
-
 /* Moves the node onto the nearest cut that lies too near to it. Its edges then have no cuts any more. */
 static void warp(work *w, uint32_t node) {
   double nearest = 2;
   int best = -1;
   double best_share = 0;
   for (int edge = 0; edge < 2 * SBFI_LATTICE_EDGES; edge++) {
-    uint32_t other = neighbour(w, node, edge);
+    uint32_t other = sbfi_lattice_neighbour(w->grid, node, edge);
     int way = edge % SBFI_LATTICE_EDGES;
     if ((w->states[other] & STATE) == ON || ((w->states[node] ^ w->states[other]) & STATE) == 0) continue;
     size_t slot = sbfi_lattice_cuts_slot(w->cuts, 8 * (edge == way ? node : other) + (uint32_t)way);
@@ -115,7 +113,7 @@ static void warp(work *w, uint32_t node) {
     best_share = share;
   }
   if (best < 0) return;
-  sbfi_d3 from = coordinates(w, node), to = coordinates(w, neighbour(w, node, best));
+  sbfi_d3 from = coordinates(w, node), to = coordinates(w, sbfi_lattice_neighbour(w->grid, node, best));
   w->states[node] = ON;
   w->node_points[node] = add_point(w, sbfi_d3_add(from, sbfi_d3_scale(sbfi_d3_sub(to, from), best_share)));
 }
@@ -125,10 +123,13 @@ static void warp_all(work *w) {
     uint32_t edge = w->cuts->edges[s], node = edge >> 3;
     if (edge == NONE) continue;
     w->states[node] |= AT_CUT;
-    w->states[neighbour(w, node, (int)(edge & 7))] |= AT_CUT;
+    w->states[sbfi_lattice_neighbour(w->grid, node, (int)(edge & 7))] |= AT_CUT;
   }
   for (uint32_t n = 0; n < w->grid->node_count && w->good; n++)
-    if (w->states[n] & AT_CUT) warp(w, n);
+    if (w->states[n] & AT_CUT) {
+      warp(w, n);
+      w->states[n] &= STATE;
+    }
 }
 
 static uint32_t node_point(work *w, uint32_t node) {
@@ -140,7 +141,8 @@ static uint32_t node_point(work *w, uint32_t node) {
 static uint32_t cut_point(work *w, uint32_t owner, uint32_t way) {
   size_t slot = sbfi_lattice_cuts_slot(w->cuts, 8 * owner + way);
   if (w->cuts->points[slot] == NONE) {
-    sbfi_d3 from = coordinates(w, owner), to = coordinates(w, neighbour(w, owner, (int)way));
+    sbfi_d3 from = coordinates(w, owner),
+            to = coordinates(w, sbfi_lattice_neighbour(w->grid, owner, (int)way));
     w->cuts->points[slot] =
         add_point(w, sbfi_d3_add(from, sbfi_d3_scale(sbfi_d3_sub(to, from), w->cuts->shares[slot])));
   }
@@ -150,8 +152,8 @@ static uint32_t cut_point(work *w, uint32_t owner, uint32_t way) {
 /* Which edge joins two nodes of one tetrahedron. */
 static uint32_t cut_between(work *w, uint32_t a, uint32_t b) {
   for (int edge = 0; edge < SBFI_LATTICE_EDGES; edge++) {
-    if (neighbour(w, a, edge) == b) return cut_point(w, a, (uint32_t)edge);
-    if (neighbour(w, b, edge) == a) return cut_point(w, b, (uint32_t)edge);
+    if (sbfi_lattice_neighbour(w->grid, a, edge) == b) return cut_point(w, a, (uint32_t)edge);
+    if (sbfi_lattice_neighbour(w->grid, b, edge) == a) return cut_point(w, b, (uint32_t)edge);
   }
   return 0; /* not reached: the six edges of a tetrahedron are the grid's */
 }

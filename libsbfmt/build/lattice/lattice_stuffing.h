@@ -34,9 +34,12 @@ typedef struct sbfi_tetrahedra {
   uint32_t flat_count; /* left out: single precision has no room for them so far from the origin */
 } sbfi_tetrahedra;
 
-/* Fills `*made`; `inside` is 1 or 0, and used up. Nodes next to the grid's border must be outside. Points and
- * tetrahedra lie in the order of the grid. Memory of `arena`, scratch memory of `scratch`; false where either
- * runs out, or there are 2^32 / 8 tetrahedra. */
+/* What became of a node: one that is inside has all the tetrahedra around it that reach so far. */
+enum { SBFI_LATTICE_NODE_OUTSIDE, SBFI_LATTICE_NODE_INSIDE, SBFI_LATTICE_NODE_ON };
+
+/* Fills `*made`; `inside` is 1 or 0, and receives what became of the nodes. Nodes next to the grid's border
+ * must be outside. Points and tetrahedra lie in the order of the grid. Memory of `arena`, scratch memory of
+ * `scratch`; false where either runs out, or there are 2^32 / 8 tetrahedra. */
 bool sbfi_lattice_stuff(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_lattice_cuts *cuts,
     sbfi_tetrahedra *made, sbfi_arena *arena, sbfi_arena *scratch);
 
