@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "collide/ground.h"
+#include "collide/shape_touch.h"
 #include "math/vec3.h"
 
 /* As far as something may fall in the tick: twice its present way, and a share of the body for what springs
@@ -100,8 +101,7 @@ static void prepare_points(const sbri_island_tick *t, const sbri_body *body, con
   }
 }
 
-/* What tears is carried by other points than at first, and they weigh less. */
-static sbri_sample sample_now(const sbri_island_tick *t, const sbri_sample *first, const sbri_skin *surface) {
+sbri_sample sbri_sample_now(const sbri_island_tick *t, const sbri_sample *first, const sbri_skin *surface) {
   sbri_sample s = *first;
   if (!t->island->tears) return s;
   if (s.vertex != UINT32_MAX) return sbri_sample_of(t->island, surface, s.vertex);
@@ -119,23 +119,29 @@ static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, co
   float reach = reach_of(t, &e, e.speed * (1 + 2 * body->sample_beyond) * way + least);
   if (e.low[1] > reach) return;
   for (uint32_t i = 0; i < body->sample_count; i++) {
-    sbri_sample s = sample_now(t, &body->samples[i], to->surface);
+    sbri_sample s = sbri_sample_now(t, &body->samples[i], to->surface);
     sbf_vec3 x = sbri_sample_place(t, &s), v = {0, 0, 0}, n;
     if (x.y > reach || !(s.mass_kg > 0)) continue;
     for (int k = 0; k < 4; k++) v = sbri_add_scaled(v, velocity_at(t, s.slots[k]), s.weights[k]);
     float y = height_at(t, x.x, x.z, &n), offset = n.x * x.x + n.y * y + n.z * x.z;
     float speed = sbri_length(v) > e.speed ? sbri_length(v) : e.speed;
     if (sbri_dot(n, x) - offset > speed * way + least) continue;
-    to->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = s, .normal = n, .offset = offset};
+    to->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = s,
+        .normal = n,
+        .offset = offset,
+        .friction_share = 1,
+        .restitution = body->restitution,
+        .collider = SBRI_NO_COLLIDER};
   }
 }
 
 void sbri_contact_prepare(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
-  if (body->slot_begin == body->slot_end)
-    tables->touch_counts[body - t->model->bodies] = 0;
-  else if (body->samples)
+  tables->touch_counts[body - t->model->bodies] = 0;
+  if (body->slot_begin == body->slot_end) return;
+  if (body->samples)
     prepare_samples(t, body, tables);
   else
     prepare_points(t, body, tables);
+  sbri_shape_touches_add(t, body, tables);
 }

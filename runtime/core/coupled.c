@@ -187,6 +187,9 @@ void sbri_coupled_end(sbri_coupled *group) {
     if (!sbri_island_is_coupled(c, i)) continue;
     const sbri_island *island = &c->model->islands[i];
     sbri_tears *tears = &sbri_tears_of(c)[i];
+    sbri_island now = sbri_island_now(c, island);
+    sbri_island_tick tick = sbri_island_tick_of(group->world, c, i, &now);
+    sbri_island_tell(&tick, c);
     sbri_held_places(island, sbri_deltas(c), sbri_positions(c) + island->first_slot);
     if (island->tears && tears->count > 0) tears->unsplit = sbri_island_split(c, i);
     sbri_island_recover(group->world, c, i);

@@ -6,6 +6,7 @@
 #include "skin/skin.h"
 #include "solvers/outer_forces.h"
 #include "solvers/router.h"
+#include "solvers/touches.h"
 
 sbf_vec3 sbri_guide_velocities_find(
     sbri_character *c, const sbri_island *island, float tick_s, bool *jumped) {
@@ -111,6 +112,7 @@ sbri_island_tick sbri_island_tick_of(
       .origin = sbri_head(c)->origin,
       .scale = c->scale,
       .ground = &world->ground,
+      .colliders = &world->colliders,
       .positions = sbri_positions(c) + first,
       .velocities = sbri_velocities(c) + 3 * first,
       .targets = sbri_targets(c) + first,
@@ -148,6 +150,13 @@ sbri_island_tick sbri_island_tick_of(
       .least_ratio = &sbri_island_states(c)[index].least_ratio};
 }
 
+void sbri_island_tell(const sbri_island_tick *tick, sbri_character *c) {
+  for (uint32_t b = 0; b < tick->island->body_count && !tick->island->scheme->forceless; b++) {
+    uint32_t body = tick->island->bodies[b];
+    sbri_touches_tell(tick, &c->model->bodies[body], &sbri_soft_touching(c)[body]);
+  }
+}
+
 void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t index) {
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
@@ -175,6 +184,7 @@ void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) 
   tick.outer_rad_s = &now.outer_rad_s;
   if (!island->scheme->forceless) sbri_outer_look(&tick), sbri_island_prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[index].recovering)->tick(&tick);
+  sbri_island_tell(&tick, c);
   if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
   sbri_island_recover(world, c, index);
   sbri_island_may_sleep(world, c, index);

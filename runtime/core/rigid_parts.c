@@ -194,11 +194,13 @@ static void step(const sbr_world *world, sbri_character *c, sbri_coupled *group)
       .targets = sbri_rigid_targets(c),
       .anchor = {sbri_scale(anchor->position, 1 / c->scale), anchor->rotation},
       .ground = &world->ground,
+      .colliders = &world->colliders,
       .origin = sbri_head(c)->origin,
       .scale = c->scale,
       .gravity = world->has_gravity ? world->gravity : c->model->asset->environment.gravity,
       .tick_s = (float)world->tick_s * c->time_scale,
       .substeps = c->model->rigid_substeps,
+      .touching = sbri_rigid_touching(c),
       .work = sbri_rigid_work(c)};
   if (sbri_coupled_begin(group))
     tick.pull = (sbri_rigid_pull){sbri_coupled_act, group, model->pinned_squares, group->steps};
@@ -220,7 +222,8 @@ void sbri_rigid_tick_parts(const sbr_world *world, sbri_character *c) {
     sbri_rigid_targets(c)[b] = sbri_rigid_target(c, sbri_pose(c), b);
   memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
   sbri_coupled group = {.world = world, .character = c, .animated = sbri_animated(c)};
-  if (drive->asleep && (is_moved(c) || !sbri_coupled_sleep(&group))) drive->asleep = drive->quiet_ticks = 0;
+  if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&group)))
+    drive->asleep = drive->quiet_ticks = 0;
   if (!drive->asleep) step(world, c, &group);
   sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
   if (drive->asleep) return;

@@ -66,11 +66,12 @@ static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) 
     if (near_ground[block]) sbfi_hash64_f32(&hash, planes + (size_t)block * 4 * SBRI_BLOCK, 4 * SBRI_BLOCK);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    uint32_t count = body->samples ? sbri_touch_counts(c)[island->bodies[b]] : 0;
+    uint32_t count = sbri_touch_counts(c)[island->bodies[b]];
     for (uint32_t i = 0; i < count; i++) {
       const sbri_touch *touch = &sbri_touches(c)[body->first_touch + i];
       sbfi_hash64_f32(&hash, &touch->normal.x, 3);
       sbfi_hash64_f32(&hash, &touch->offset, 1);
+      sbfi_hash64_f32(&hash, &touch->velocity.x, 3);
     }
   }
   return (uint32_t)sbfi_hash64_value(&hash);
@@ -92,7 +93,8 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!state->asleep) return false;
-  bool looks = !sbri_ground_is_fixed(&world->ground) && (world->ticks + index) % LOOK_EVERY == 0;
+  bool looks = world->colliders.moving ||
+               (!sbri_ground_is_fixed(&world->ground) && (world->ticks + index) % LOOK_EVERY == 0);
   if (!is_moved(c, island) && !(looks && find_ground(world, c, index) != state->ground_mark)) return true;
   sbri_island_wake(c, index);
   return false;
@@ -146,7 +148,8 @@ bool sbri_character_is_still(const sbri_character *c) {
 
 bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
   if (!sbri_head(c)->asleep) return false;
-  if (sbri_ground_is_fixed(&world->ground) || world->ticks % LOOK_EVERY) return true;
+  bool looks = !sbri_ground_is_fixed(&world->ground) && world->ticks % LOOK_EVERY == 0;
+  if (!looks && !world->colliders.moving) return true;
   /* The feet and the bodies look for themselves. */
   sbri_head(c)->asleep = 0;
   return false;

@@ -25,8 +25,11 @@ void sbri_layout_make(sbr_model *model) {
     sbri_body *body = &model->bodies[i];
     body->first_vertex = (uint32_t)surface;
     body->first_face = (uint32_t)surface_faces;
+    /* One on the ground and one on something else each, and a few between several things. */
+    uint32_t places = body->samples ? 2 * body->sample_count : 2 * (body->slot_end - body->slot_begin);
     body->first_touch = (uint32_t)samples;
-    samples += body->sample_count;
+    body->touch_capacity = body->level ? places + 64 : 0;
+    samples += body->touch_capacity;
     surface += padded(body->surface.vertex_count);
     surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
   }
@@ -80,6 +83,8 @@ void sbri_layout_make(sbr_model *model) {
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
   l->touches = place(&end, samples, sizeof(sbri_touch));
   l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
+  l->touching = place(&end, model->asset->soft_bodies.count, sizeof(sbri_touching));
+  l->rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
   l->sampled = place(&end, slots, sizeof(sbri_point));
   l->sampled_deltas = place(&end, frames, sizeof(sbr_transform));
   l->vertices = place(&end, padded(vertices), sizeof(sbri_point));

@@ -3,6 +3,7 @@
 #ifndef SBRI_STATE_H
 #define SBRI_STATE_H
 
+#include "collide/touching.h"
 #include "gait/gait.h"
 #include "model/runtime_model.h"
 #include "rigid/rigid_state.h"
@@ -116,7 +117,9 @@ SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                      /
 SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)          /* (slot_count / 8) */
 SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)               /* (samples of all bodies) */
 SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts)       /* (bodies) */
-SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)               /* (slot_count) */
+SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)     /* (bodies) */
+SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching) /* (rigid bodies) */
+SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)                  /* (slot_count) */
 SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */
 SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */

@@ -82,7 +82,7 @@ static void tick_character(void *context, uint32_t index) {
   pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
   sbri_rigid_tick_parts(world, c);
   if (has_bodies) sbri_deltas_make(c, pose, sbri_deltas(c));
-  sbri_head(c)->asleep = may_sleep && sbri_character_is_still(c);
+  sbri_head(c)->asleep = may_sleep && !world->colliders.moving && sbri_character_is_still(c);
 }
 
 static void tick_island(void *context, uint32_t index) {
@@ -133,23 +133,45 @@ static void follow_tears(sbr_world *world) {
   }
 }
 
+/* What has begun to be touched; `soft` and `rigid` name the body. */
+static void add_contacts(
+    sbr_world *world, const sbri_character *c, sbri_touching *touching, uint32_t soft, int32_t rigid) {
+  for (uint32_t i = 0; i < touching->count; i++) {
+    sbri_touching_one *one = &touching->now[i];
+    if (!one->fresh) continue;
+    one->fresh = false;
+    sbr_event event = {.kind = SBR_EVENT_CONTACT, .soft_body = soft, .rigid_body = rigid};
+    if (one->thing < world->colliders.capacity)
+      event.collider = sbri_collider_name(&world->colliders, one->thing);
+    event.normal = one->normal;
+    event.impulse = one->impulse * c->scale * c->scale * c->scale / c->time_scale;
+    add_event(world, c, event, sbri_scale(one->place, c->scale));
+  }
+}
+
 static void gather_events(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbri_character *c = &world->characters[i];
     for (uint32_t e = 0; c->model && e < c->event_count; e++) {
       const sbri_gait_event *from = &c->events[e];
-      add_event(world, c, (sbr_event){.kind = from->kind, .leg = from->leg}, from->position);
+      add_event(
+          world, c, (sbr_event){.kind = from->kind, .leg = from->leg, .rigid_body = -1}, from->position);
     }
+    for (uint32_t b = 0; c->model && b < c->model->asset->soft_bodies.count; b++)
+      add_contacts(world, c, &sbri_soft_touching(c)[b], b, -1);
+    for (uint32_t b = 0; c->model && b < c->model->rigid.body_count; b++)
+      add_contacts(world, c, &sbri_rigid_touching(c)[b], 0, (int32_t)b);
     for (uint32_t k = 0; c->model && !sbri_head(c)->asleep && k < c->model->island_count; k++) {
       const sbri_tears *tears = &sbri_tears_of(c)[k];
       for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++) {
         uint32_t body = body_of_tear(c->model, &c->model->islands[k], &tears->at[e]);
-        add_event(world, c, (sbr_event){.kind = SBR_EVENT_TEAR, .soft_body = body},
+        add_event(world, c, (sbr_event){.kind = SBR_EVENT_TEAR, .soft_body = body, .rigid_body = -1},
             sbri_scale(tears->at[e].place, c->scale));
       }
       if (tears->unsplit)
         add_event(world, c,
-            (sbr_event){.kind = SBR_EVENT_UNSPLIT, .soft_body = c->model->islands[k].bodies[0]},
+            (sbr_event){
+                .kind = SBR_EVENT_UNSPLIT, .soft_body = c->model->islands[k].bodies[0], .rigid_body = -1},
             sbri_scale(tears->at[0].place, c->scale));
     }
   }
@@ -167,14 +189,16 @@ static void note_sleep(sbr_world *world) {
     state->told_asleep = state->asleep;
     const sbri_point *p = sbri_positions(c) + island->first_slot;
     add_event(world, c,
-        (sbr_event){
-            .kind = state->asleep ? SBR_EVENT_ASLEEP : SBR_EVENT_AWAKE, .soft_body = island->bodies[0]},
+        (sbr_event){.kind = state->asleep ? SBR_EVENT_ASLEEP : SBR_EVENT_AWAKE,
+            .soft_body = island->bodies[0],
+            .rigid_body = -1},
         sbri_scale(sbri_vec3(p->x, p->y, p->z), c->scale));
   }
 }
 
 void sbri_step_tick(sbr_world *world) {
   world->ticks++;
+  sbri_colliders_begin_tick(&world->colliders);
   run(world, tick_character, world->character_capacity);
   sbri_work_list(world);
   run(world, tick_island, world->work_count);

@@ -5,7 +5,13 @@
 
 #include "base/diagnostic.h"
 
-enum { WORLD_COOKIE = 0x5b72776f, DEFAULT_CAPACITY = 16, MOST_CHARACTERS = 65534 };
+enum {
+  WORLD_COOKIE = 0x5b72776f,
+  DEFAULT_CAPACITY = 16,
+  DEFAULT_COLLIDERS = 64,
+  MOST_CHARACTERS = 65534,
+  MOST_COLLIDERS = 65534
+};
 
 sbr_world_definition sbr_default_world_definition(void) {
   return (sbr_world_definition){.cookie = WORLD_COOKIE,
@@ -32,14 +38,20 @@ sbf_status sbr_world_create(
   double tick = definition->control_tick_s != 0 ? definition->control_tick_s : 1.0 / 60;
   double longest = definition->longest_frame_s != 0 ? definition->longest_frame_s : 0.25;
   uint32_t capacity = definition->character_capacity ? definition->character_capacity : DEFAULT_CAPACITY;
-  if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= 3600) || capacity > MOST_CHARACTERS)
+  uint32_t colliders = definition->collider_capacity ? definition->collider_capacity : DEFAULT_COLLIDERS;
+  if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= 3600) || capacity > MOST_CHARACTERS ||
+      colliders > MOST_COLLIDERS)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_world_create: tick %g s (0.0001 to 1), longest frame %g s (to 3600) or capacity %u (to %d)",
-        tick, longest, capacity, (int)MOST_CHARACTERS);
+        "sbr_world_create: tick %g s (0.0001 to 1), longest frame %g s (to 3600) or capacity %u or %u "
+        "(to %d)",
+        tick, longest, capacity, colliders, (int)MOST_CHARACTERS);
   sbf_allocator allocator = sbfi_allocator_or_default(definition->allocator);
   sbr_world *made = sbfi_allocate(&allocator, sizeof *made);
   sbri_character *characters = sbfi_allocate(&allocator, capacity * sizeof *characters);
-  if (!made || !characters) {
+  sbri_collider_set set;
+  bool has_set = sbri_collider_set_make(&set, colliders, &allocator);
+  if (!made || !characters || !has_set) {
+    if (has_set) sbri_collider_set_free(&set, &allocator);
     sbfi_free(&allocator, made, sizeof *made);
     sbfi_free(&allocator, characters, capacity * sizeof *characters);
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the world");
@@ -56,6 +68,7 @@ sbf_status sbr_world_create(
       .sleep_ticks =
           definition->sleep_after_s > 0 ? 1 + (uint32_t)(fmin(definition->sleep_after_s, 1e6) / tick) : 0,
       .stamp = 1,
+      .colliders = set,
       .characters = characters,
       .character_capacity = capacity};
   *world = made;
@@ -68,6 +81,7 @@ void sbr_world_destroy(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++)
     if (world->characters[i].model) sbr_character_destroy(world, sbri_id_of(world, &world->characters[i]));
   sbf_allocator allocator = world->allocator;
+  sbri_collider_set_free(&world->colliders, &allocator);
   sbfi_free(&allocator, world->work, world->work_capacity * sizeof *world->work);
   sbfi_free(&allocator, world->characters, world->character_capacity * sizeof *world->characters);
   sbfi_free(&allocator, world, sizeof *world);

@@ -1,6 +1,7 @@
 #ifndef SBRI_WORLD_H
 #define SBRI_WORLD_H
 
+#include "collide/colliders.h"
 #include "core/recorder.h"
 #include "core/state.h"
 
@@ -29,6 +30,7 @@ struct sbr_world {
   int64_t
       ahead_units; /* by how much the last tick lies beyond the sampled moment; may lag by SBRI_TIME_SLACK */
   uint64_t stamp;  /* counts sampled moments; from 1 */
+  sbri_collider_set colliders;
   sbri_character *characters; /* (character_capacity) */
   uint32_t character_capacity;
   sbri_work *work; /* (work_count) of this tick, character after character */
@@ -47,6 +49,12 @@ sbr_character_id sbri_id_of(const sbr_world *world, const sbri_character *c);
 
 /* Anew the list of work, of the characters that are awake; its memory is there already. */
 void sbri_work_list(sbr_world *world);
+
+/* ---- core/collider_host.c ---- */
+
+bool sbri_collider_set_make(sbri_collider_set *set, uint32_t capacity, const sbf_allocator *allocator);
+void sbri_collider_set_free(sbri_collider_set *set, const sbf_allocator *allocator);
+sbr_collider_id sbri_collider_name(const sbri_collider_set *set, uint32_t number);
 
 /* ---- core/step.c ---- */
 
@@ -68,6 +76,8 @@ sbf_vec3 sbri_guide_velocities_find(sbri_character *c, const sbri_island *island
 /* Inert lanes lie where their block's first point does, room for points that split where the body's does. */
 void sbri_island_tuck(sbri_character *c, const sbri_island *island);
 void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c);
+/* Notes for events what its bodies touch, after a tick of it. */
+void sbri_island_tell(const sbri_island_tick *tick, sbri_character *c);
 
 /* ---- core/coupled.c ---- */
 

@@ -246,6 +246,11 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     body->media_friction_1_s = is->media_friction + environment->media_friction;
     body->friction = is->friction;
     body->restitution = is->restitution;
+    sbf_body_measures measures;
+    sbf_body_measure(body->source, &measures);
+    bool bare = body->source->surface.polygon_sizes.count == 0;
+    const sbf_collision *collision = &body->source->collision;
+    body->margin_m = bare ? collision->particle_radius : measures.sheet ? collision->outer_thickness : 0;
   }
 }
 

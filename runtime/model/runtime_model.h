@@ -154,9 +154,10 @@ typedef struct sbri_body {
   float rolling_share;        /* see collide/rolling.h */
   const sbri_sample *samples; /* (sample_count) NULL: its points themselves meet the ground */
   uint32_t sample_count;
-  uint32_t first_touch;              /* in a character's scratch */
-  float sample_beyond;               /* greatest sum of a sample's weights below 0, as a positive number */
-  float rest_size_m;                 /* diagonal of its box */
+  uint32_t first_touch, touch_capacity; /* in a character's scratch */
+  float margin_m;      /* that shapes of the host and other bodies keep from it: of sheets and bare points */
+  float sample_beyond; /* greatest sum of a sample's weights below 0, as a positive number */
+  float rest_size_m;   /* diagonal of its box */
   double rest_volume_m3;             /* 0: open, or without polygons */
   sbri_skin surface;                 /* vertices of its surface */
   uint32_t first_vertex, first_face; /* of them in a character's scratch */
@@ -249,7 +250,7 @@ typedef struct sbri_layout {
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
-  size_t touches, touch_counts;
+  size_t touches, touch_counts, touching, rigid_touching;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,

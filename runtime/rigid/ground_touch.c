@@ -45,18 +45,20 @@ static void list_body(const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t 
     float y = height_at(t, at.x, at.z, &normal);
     if (at.y - y > way * slope) continue;
     sbri_ground_touch *touch = &work->touches[work->touch_count++];
-    touch->node = node, touch->body = b;
-    touch->at = body->vertices[i];
-    touch->normal = normal;
-    touch->offset = sbri_dot(normal, sbri_vec3(at.x, y, at.z));
-    touch->slides = false;
-    touch->drag = touch->side = sbri_vec3(0, 0, 0);
-    touch->side_grip = 0;
+    *touch = (sbri_ground_touch){.node = node,
+        .body = b,
+        .at = body->vertices[i],
+        .normal = normal,
+        .offset = sbri_dot(normal, sbri_vec3(at.x, y, at.z)),
+        .friction = body->source->friction,
+        .restitution = body->source->restitution,
+        .collider = UINT32_MAX};
   }
 }
 
 void sbri_ground_touches_find(const sbri_rigid_tick *t, sbri_rigid_work *work) {
   work->touch_count = 0;
+  for (uint32_t b = 0; b < t->model->body_count; b++) sbri_touching_begin(&t->touching[b]);
   for (uint32_t i = 0; i < work->system.node_count; i++)
     list_body(t, work, work->system.nodes[i].body, (int32_t)i);
 }
@@ -71,17 +73,23 @@ static sbf_vec3 velocity_at(sbf_vec3 velocity, sbf_vec3 turn, sbf_vec3 arm) {
   return sbri_add(velocity, sbri_cross(turn, arm));
 }
 
-void sbri_ground_touches_make(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s) {
+/* Of the place against what it touches. */
+static sbf_vec3 slip_of(const sbri_rigid_work *work, const sbri_ground_touch *touch) {
+  const sbri_rigid_motion *m = &work->motions[touch->body];
+  return sbri_sub(velocity_at(m->velocity, m->turn, touch->arm), touch->velocity);
+}
+
+void sbri_ground_touches_make(const sbri_rigid_tick *t, sbri_rigid_work *work, float since_s, float step_s) {
   float bounce_from = 4 * sbri_length(t->gravity) * step_s;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
     const sbri_rigid_body *body = &t->model->bodies[touch->body];
     const sbri_rigid_body_state *s = &t->bodies[touch->body];
-    const sbri_rigid_motion *m = &work->motions[touch->body];
     sbf_vec3 n = touch->normal;
     touch->arm = sbri_rotate(s->pose.rotation, touch->at);
-    touch->gap = sbri_dot(n, sbri_add(s->pose.position, touch->arm)) - touch->offset;
-    sbf_vec3 u = velocity_at(m->velocity, m->turn, touch->arm);
+    float plane = touch->offset + since_s * sbri_dot(n, touch->velocity);
+    touch->gap = sbri_dot(n, sbri_add(s->pose.position, touch->arm)) - plane;
+    sbf_vec3 u = slip_of(work, touch);
     float speed = sbri_dot(n, u), lift = -LIFT_SHARE * touch->gap / step_s;
     float wanted = touch->gap > 0 ? -touch->gap / step_s : lift < LIFT_MOST_M_S ? lift : LIFT_MOST_M_S;
     touch->target = sbri_sub(sbri_scale(n, wanted), u);
@@ -91,14 +99,14 @@ void sbri_ground_touches_make(const sbri_rigid_tick *t, sbri_rigid_work *work, f
       /* Velocities are those half a substep ago; before, the substep's own fall is in it. */
       float g = -sbri_dot(n, t->gravity), half = 0.5f * g * step_s, begin = speed + half;
       float square = begin * begin + 2 * g * (touch->gap > 0 ? touch->gap : 0);
-      touch->bounce_m_s = body->source->restitution * (square > 0 ? sqrtf(square) : 0) + half;
-      if (!(body->source->restitution > 0)) touch->bounce_m_s = 0;
+      touch->bounce_m_s = touch->restitution * (square > 0 ? sqrtf(square) : 0) + half;
+      if (!(touch->restitution > 0)) touch->bounce_m_s = 0;
     }
     touch->stiff = FIRM / ease(body, s->pose.rotation, touch->arm, n);
     touch->grip = touch->stiff;
     /* What is faster than friction could stop in the substep slides, against where it comes from. */
     float slip = sbri_length(sbri_add_scaled(u, n, -speed));
-    bool slides = !(body->source->friction > 0) || slip > 4 * bounce_from * body->source->friction;
+    bool slides = !(touch->friction > 0) || slip > 4 * bounce_from * touch->friction;
     if (slides && !touch->slides) touch->drag = sbri_vec3(0, 0, 0), touch->side_grip = 0;
     touch->slides = touch->slides || slides;
   }
@@ -181,10 +189,9 @@ typedef struct outcome {
 
 static outcome outcome_of(const sbri_rigid_work *work, sbri_ground_touch *touch) {
   const double *x = work->system.nodes[touch->node].x;
-  const sbri_rigid_motion *m = &work->motions[touch->body];
   sbf_vec3 n = touch->normal, du = velocity_at(sbri_vec3((float)x[0], (float)x[1], (float)x[2]),
                                   sbri_vec3((float)x[3], (float)x[4], (float)x[5]), touch->arm);
-  sbf_vec3 u = velocity_at(m->velocity, m->turn, touch->arm), now = sbri_add(u, du);
+  sbf_vec3 u = slip_of(work, touch), now = sbri_add(u, du);
   if (touch->active) touch->normal_impulse = touch->stiff * (sbri_dot(n, touch->target) - sbri_dot(n, du));
   sbf_vec3 impulse = sbri_scale(sbri_sub(touch->target, du), touch->grip);
   float speed = sbri_dot(n, now);
@@ -196,13 +203,13 @@ static outcome outcome_of(const sbri_rigid_work *work, sbri_ground_touch *touch)
 
 /* Where passes do not settle who slides, as where a limb is jammed, friction becomes a damper of what it
  * would be at the speed that is left: that takes energy whatever its strength. */
-static bool damp_slides(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+static bool damp_slides(sbri_rigid_work *work) {
   bool any = false;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
     if (!touch->active || !touch->slides) continue;
     float normal = touch->normal_impulse > 0 ? touch->normal_impulse : 0;
-    float most = t->model->bodies[touch->body].source->friction * normal;
+    float most = touch->friction * normal;
     float speed = sbri_length(outcome_of(work, touch).left);
     if (speed * touch->grip > most) touch->grip = most / speed;
     touch->slides = false;
@@ -211,13 +218,13 @@ static bool damp_slides(const sbri_rigid_tick *t, sbri_rigid_work *work) {
   return any;
 }
 
-bool sbri_ground_touches_judge(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s, int stage) {
+bool sbri_ground_touches_judge(sbri_rigid_work *work, float step_s, int stage) {
   bool settle = stage > 0;
-  bool changed = settle && damp_slides(t, work);
+  bool changed = settle && damp_slides(work);
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
     outcome is = outcome_of(work, touch);
-    float friction = t->model->bodies[touch->body].source->friction;
+    float friction = touch->friction;
     if (!settle && touch->active && friction > 0 && judge_grip(touch, friction, is.impulse, is.left, is.slip))
       changed = true;
     else if ((stage == 0 || (stage == 1 && touch->gap < LYING_M)) && !touch->active &&
@@ -234,13 +241,21 @@ bool sbri_ground_touches_judge(const sbri_rigid_tick *t, sbri_rigid_work *work, 
   return changed;
 }
 
+void sbri_ground_touches_tell(const sbri_rigid_tick *t, const sbri_rigid_work *work) {
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    const sbri_ground_touch *touch = &work->touches[i];
+    if (touch->active && touch->normal_impulse > 0)
+      sbri_touching_add(&t->touching[touch->body], touch->collider,
+          sbri_add(t->bodies[touch->body].pose.position, touch->arm), touch->normal, touch->normal_impulse);
+  }
+}
+
 bool sbri_ground_touches_bounce(sbri_rigid_work *work) {
   bool any = false;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
     if (!touch->active || !(touch->bounce_m_s > 0)) continue;
-    const sbri_rigid_motion *m = &work->motions[touch->body];
-    sbf_vec3 u = velocity_at(m->velocity, m->turn, touch->arm), n = touch->normal;
+    sbf_vec3 u = slip_of(work, touch), n = touch->normal;
     sbf_vec3 f = sbri_scale(n, touch->stiff * (touch->bounce_m_s - sbri_dot(n, u)));
     sbf_vec3 moment = sbri_cross(touch->arm, f);
     const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};

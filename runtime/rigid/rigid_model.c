@@ -47,7 +47,9 @@ static bool make_body(const sbf_rigid_body *source, sbri_rigid_body *body, sbfi_
   }
   body->vertices = vertices;
   body->vertex_count = count;
-  return true;
+  const sbf_polygon_mesh *mesh = source->hull;
+  return sbri_hull_make(&body->hull, vertices, count, mesh->polygon_sizes.at, mesh->polygon_sizes.count,
+      mesh->polygon_points.at, arena);
 }
 
 /* From local to the file's frame of the body, whose axes at rest are those of asset space, to its own. */

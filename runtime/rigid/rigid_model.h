@@ -7,6 +7,7 @@
 #define SBRI_RIGID_MODEL_H
 
 #include "base/memory.h"
+#include "collide/hull.h"
 #include "math/quat.h"
 #include "sbfmt/model.h"
 
@@ -18,6 +19,7 @@ typedef struct sbri_rigid_body {
   sbf_quat axes;                       /* at rest, from the body's own frame to asset space */
   const sbf_vec3 *vertices;            /* (vertex_count) of the hull, own frame */
   uint32_t vertex_count, first_vertex; /* among those of all bodies */
+  sbri_hull hull;                      /* the same with its faces; without a hull none */
   float radius;                        /* of the ball about the centre of mass that holds the hull */
   uint32_t joint_begin, joint_end;     /* into joints_of */
 } sbri_rigid_body;

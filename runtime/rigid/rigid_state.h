@@ -6,6 +6,7 @@
 #ifndef SBRI_RIGID_STATE_H
 #define SBRI_RIGID_STATE_H
 
+#include "collide/touching.h"
 #include "rigid/rigid_system.h"
 #include "sbrun/rigid.h"
 
@@ -31,13 +32,16 @@ typedef struct sbri_rigid_drive_state {
   uint32_t any;      /* some body is not kinematic */
 } sbri_rigid_drive_state;
 
-/* A vertex of a hull that may touch the ground within the tick. */
+/* A place of a hull that may touch the ground or a shape within the tick. */
 typedef struct sbri_ground_touch {
   int32_t node;
   uint32_t body;
   sbf_vec3 at; /* own frame */
   sbf_vec3 normal;
-  float offset; /* of the plane through the ground's place, as normal.x */
+  float offset;      /* of the plane through the ground's place, as normal.x, at the tick's beginning */
+  sbf_vec3 velocity; /* m/s, of what the plane stands for */
+  float friction, restitution;
+  uint32_t collider; /* number of it, or UINT32_MAX: the ground */
   /* In a substep: */
   sbf_vec3 arm;
   sbf_vec3 target;   /* wanted change of the place's velocity */
@@ -71,13 +75,15 @@ typedef struct sbri_rigid_tick {
   const sbr_transform *targets; /* (body_count) where the animation has each at the end of the tick */
   sbr_transform anchor;
   const sbr_ground *ground;
-  sbr_double3 origin; /* m, world */
+  const struct sbri_collider_set *colliders; /* collide/colliders.h; NULL: there are none */
+  sbr_double3 origin;                        /* m, world */
   float scale;
   sbf_vec3 gravity;
   float tick_s;
   uint32_t substeps;
-  sbri_rigid_pull pull; /* all 0: nothing does */
-  void *work;           /* sbri_rigid_work_size(model) bytes, of which nothing need be known */
+  sbri_touching *touching; /* (body_count) */
+  sbri_rigid_pull pull;    /* all 0: nothing does */
+  void *work;              /* sbri_rigid_work_size(model) bytes, of which nothing need be known */
 } sbri_rigid_tick;
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model);

@@ -15,6 +15,8 @@
 #include "rigid/sym6.h"
 
 enum { FREE_PASSES = 6, SETTLING_PASSES = 9, MOST_PASSES = 12, MOST_CORRECTIONS = 4, MOST_SUBSTEPS = 64 };
+/* With shapes, beside its vertices with the ground. */
+enum { TOUCHES_OF_BODY = 24 };
 
 /* Greatest angular frequency times step: 2 is where a leapfrog ends. */
 static const float MOST_SWING = 0.8f;
@@ -53,7 +55,8 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   work->kept = carve(&at, SBRI_RIGID_HALVINGS * (bodies + 1), sizeof *work->kept);
   work->pulls = carve(&at, joints + 1, sizeof *work->pulls);
   work->places = carve(&at, joints + 1, sizeof *work->places);
-  work->touches = carve(&at, m->vertex_count + (size_t)1, sizeof *work->touches);
+  work->touch_capacity = m->vertex_count + TOUCHES_OF_BODY * m->body_count;
+  work->touches = carve(&at, work->touch_capacity, sizeof *work->touches);
   work->order = carve(&at, 2 * joints + 2, sizeof(uint32_t));
   work->roots = carve(&at, bodies + 1, sizeof(uint32_t));
   work->rows = carve(&at, rows, sizeof *work->rows);
@@ -197,7 +200,7 @@ static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_work *work) {
 
 static bool judge(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s, int pass) {
   bool changed =
-      sbri_ground_touches_judge(t, work, step_s, (pass + 1 >= FREE_PASSES) + (pass + 1 >= SETTLING_PASSES));
+      sbri_ground_touches_judge(work, step_s, (pass + 1 >= FREE_PASSES) + (pass + 1 >= SETTLING_PASSES));
   for (uint32_t e = 0; e < work->system.edge_count; e++)
     if (sbri_joint_rows_judge(work, &work->system.edges[e], t->model, step_s)) changed = true;
   return changed;
@@ -264,7 +267,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_work *work, float from, fl
   float step_s = t->tick_s * (to - from), worst = 0, curved = 0;
   sbri_rigid_system *s = &work->system;
   begin_step(t, work, from, to);
-  sbri_ground_touches_make(t, work, step_s);
+  sbri_ground_touches_make(t, work, t->tick_s * from, step_s);
   for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_make(t, work, e, step_s);
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     begin_pass(t, work);
@@ -307,6 +310,7 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_work *work, float from,
     return;
   }
   work->last_step_s = t->tick_s * (to - from);
+  sbri_ground_touches_tell(t, work);
   throw_back(t, work);
   note_forces(t, work);
   for (uint32_t i = 0; i < work->system.node_count; i++) {
@@ -386,6 +390,7 @@ void sbri_rigid_step(const sbri_rigid_tick *asked) {
   for (uint32_t j = 0; j < t->model->joint_count; j++)
     work.pulls[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
   sbri_ground_touches_find(t, &work);
+  sbri_shape_touches_find(t, &work);
   work.last_step_s = t->drive->last_step_s;
   if (work.last_step_s == 0 && work.system.node_count) probe_pulls(t, &work);
   t->substeps = count_substeps(t, &work);

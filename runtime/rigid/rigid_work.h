@@ -24,7 +24,7 @@ typedef struct sbri_rigid_work {
   sbri_rigid_body_state *kept; /* (SBRI_RIGID_HALVINGS x body_count) before steps that may be taken again */
   sbri_joint_place *places;    /* (joint_count) of the edges */
   sbri_ground_touch *touches;  /* (touch_count) */
-  uint32_t touch_count;
+  uint32_t touch_count, touch_capacity;
   float last_step_s;       /* length of the step before; 0: there is none */
   uint32_t *order, *roots; /* of the tree's making */
   sbri_row *rows;          /* (row_count), as all that follow: the edges' share them out by joint */
@@ -51,21 +51,29 @@ float sbri_joint_rows_correct(
 /* And for being thrown back by limits that were run into; whether any is. */
 bool sbri_joint_rows_bounce(const sbri_rigid_work *work, sbri_edge *edge, const sbri_rigid_model *model);
 
+/* ---- shape_touches.c ---- */
+
+/* Adds places that may touch shapes of the host within the tick. */
+void sbri_shape_touches_find(const sbri_rigid_tick *tick, sbri_rigid_work *work);
+
 /* ---- ground_touch.c ---- */
 
 /* Lists the vertices that may touch the ground within the tick, with the ground's planes. */
 void sbri_ground_touches_find(const sbri_rigid_tick *tick, sbri_rigid_work *work);
-/* Their places, and what they want, for a substep. */
-void sbri_ground_touches_make(const sbri_rigid_tick *tick, sbri_rigid_work *work, float step_s);
+/* Their places, and what they want, for a substep that begins so long after the tick. */
+void sbri_ground_touches_make(
+    const sbri_rigid_tick *tick, sbri_rigid_work *work, float since_s, float step_s);
 /* Adds what acts to the nodes' d and b. */
 void sbri_ground_touches_add(sbri_rigid_work *work);
+/* Notes what the bodies touch, when a substep is over. */
+void sbri_ground_touches_tell(const sbri_rigid_tick *tick, const sbri_rigid_work *work);
 /* To the nodes' b what throws back those that have struck the ground, at the substep's end; whether any is.
  */
 bool sbri_ground_touches_bounce(sbri_rigid_work *work);
 /* From the nodes' x: who is in contact, and who slides; whether that has changed. From stage 1 on
  * friction settles and only what lies on the ground comes in; in stage 2 touches that pull go out, nothing
  * else. */
-bool sbri_ground_touches_judge(const sbri_rigid_tick *tick, sbri_rigid_work *work, float step_s, int stage);
+bool sbri_ground_touches_judge(sbri_rigid_work *work, float step_s, int stage);
 
 /* The motion of one side of an edge. */
 static inline const sbri_rigid_motion *sbri_side_motion(

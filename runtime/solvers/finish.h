@@ -34,6 +34,8 @@ static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   if (t->rests) sbri_flow(t, h);
   if (t->island->solid_limits) sbri_limit_solids(t, h);
   if (sbri_is_crushed(t)) sbri_uncrush_above_ground(t, h);
+  for (uint32_t b = 0; b < t->island->body_count; b++)
+    sbri_touches_go_on(t, &t->model->bodies[t->island->bodies[b]], h);
 }
 
 #endif

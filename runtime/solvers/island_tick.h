@@ -23,16 +23,22 @@ typedef struct sbri_tears {
 /* What a tetrahedron that may tear is. */
 enum sbri_torn_state { SBRI_WHOLE, SBRI_TORN_NOW, SBRI_TORN_BEFORE };
 
+#define SBRI_NO_COLLIDER UINT32_MAX
+
 /* A sample of a body that may touch something within the tick: the plane it must not go below. A sample may
  * be in several. */
 typedef struct sbri_touch {
-  sbri_sample sample; /* as it is carried in this tick */
-  sbf_vec3 normal;    /* unit */
-  float offset;       /* normal . x of the plane */
+  sbri_sample sample;                /* as it is carried in this tick */
+  sbf_vec3 normal;                   /* unit */
+  float offset;                      /* normal . x of the plane, as of the present substep's beginning */
+  sbf_vec3 velocity;                 /* m/s, of what it stands for */
+  float friction_share, restitution; /* of the body's coefficient of friction; its own */
+  uint32_t collider;                 /* number of the collider, or SBRI_NO_COLLIDER: the ground */
   /* Of solvers/touches.c, from substep to substep: */
   float gap, wanted; /* m and m/s, at the beginning of one */
   float gain;        /* m/s that the push gives the sample along the normal */
   sbf_vec3 rub;      /* and friction across it */
+  float pushed;      /* most of the gains in the tick */
 } sbri_touch;
 
 /* What has been pulled with on a rigid body, N s and N m s about a place. */
@@ -50,6 +56,7 @@ typedef struct sbri_island_tick {
   sbr_double3 origin;
   float scale;
   const sbr_ground *ground;
+  const struct sbri_collider_set *colliders; /* collide/colliders.h; NULL: there are none */
 
   sbri_point *positions;         /* (slot_count) */
   float *velocities;             /* (free_count x 3) blocks of three by eight; of the relaxation scheme the
@@ -110,7 +117,7 @@ static inline sbf_vec3 sbri_sample_place(const sbri_island_tick *t, const sbri_s
 
 /* How many of the body's touches there are in this tick. */
 static inline uint32_t sbri_touch_count(const sbri_island_tick *t, const sbri_body *body) {
-  return body->samples ? t->touch_counts[body - t->model->bodies] : 0;
+  return t->touch_counts[body - t->model->bodies];
 }
 
 #endif

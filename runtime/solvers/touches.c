@@ -9,6 +9,9 @@ static const float SETTLED_M_S = 1e-3f;
  * most places near the ground do not touch it, and none of them is to cost sixteen sweeps. */
 static const float NEAR_M_S = 1;
 
+/* A point that is no higher over its plane touches it. */
+static const float TOUCHES_M = 1e-5f;
+
 enum { MOST_SWEEPS = 16 };
 
 typedef struct touching {
@@ -47,14 +50,15 @@ static void push(const touching *c, const sbri_sample *s, sbf_vec3 faster, sbf_v
   }
 }
 
-static float friction_of(const touching *c, const sbri_sample *s, const sbri_contact_rule *rule) {
-  if (!rule->frictions) return rule->friction;
+static float friction_of(const touching *c, const sbri_touch *touch, const sbri_contact_rule *rule) {
+  const sbri_sample *s = &touch->sample;
+  if (!rule->frictions) return rule->friction * touch->friction_share;
   float sum = 0;
   for (int k = 0; k < 4; k++) {
     bool free = s->slots[k] < c->tick->island->free_count;
     sum += s->weights[k] * (free ? rule->frictions[s->slots[k]] : rule->friction);
   }
-  return sum > 0 ? sum : 0;
+  return sum > 0 ? sum * touch->friction_share : 0;
 }
 
 static const sbf_vec3 nowhere = {0, 0, 0};
@@ -63,10 +67,10 @@ static const sbf_vec3 nowhere = {0, 0, 0};
  * it may touch. */
 static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   sbf_vec3 v = velocity_of(c, &touch->sample);
-  float gap = gap_of(c, touch), speed = sbri_dot(touch->normal, v);
+  float gap = gap_of(c, touch), speed = sbri_dot(touch->normal, sbri_sub(v, touch->velocity));
   touch->gap = gap;
   touch->wanted = gap > 0 ? -gap / rule->step_s : 0;
-  float back = -rule->restitution * speed;
+  float back = -touch->restitution * speed;
   if (gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s && back > touch->wanted)
     touch->wanted = back;
   return touch->gain > 0 || gap < rule->step_s * (NEAR_M_S - speed);
@@ -87,12 +91,12 @@ static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
 /* One push made right; by how much it changed. */
 static float correct(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   const sbri_sample *s = &touch->sample;
-  sbf_vec3 v = velocity_of(c, s), n = touch->normal;
+  sbf_vec3 v = sbri_sub(velocity_of(c, s), touch->velocity), n = touch->normal;
   float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed);
   if (!(gain > 0)) gain = 0;
   if (gain == 0 && touch->gain == 0) return 0;
   sbf_vec3 rub = sbri_sub(touch->rub, sbri_add_scaled(v, n, -speed));
-  float size = sbri_length(rub), most = friction_of(c, s, rule) * gain;
+  float size = sbri_length(rub), most = friction_of(c, touch, rule) * gain;
   if (size > most) rub = sbri_scale(rub, most / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
   touch->gain = gain, touch->rub = rub;
@@ -118,11 +122,40 @@ void sbri_touches_answer(
     }
   }
   for (uint32_t i = 0; i < c.count; i++) {
-    const sbri_touch *touch = &c.touches[i];
+    sbri_touch *touch = &c.touches[i];
+    touch->pushed = touch->gain > touch->pushed ? touch->gain : touch->pushed;
     float up = -touch->gap - rule->slack_m;
     if (touch->gain > 0 && up > 0)
       push(&c, &touch->sample, nowhere, sbri_scale(touch->normal, up < rule->push_m ? up : rule->push_m));
   }
+}
+
+void sbri_touches_go_on(const sbri_island_tick *t, const sbri_body *body, float step_s) {
+  touching c = touching_of(t, body, t->velocities);
+  for (uint32_t i = 0; i < c.count; i++)
+    c.touches[i].offset += step_s * sbri_dot(c.touches[i].normal, c.touches[i].velocity);
+}
+
+static void tell_planes(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    if (!t->near_ground[block]) continue;
+    const float *plane = t->planes + 4 * SBRI_BLOCK * (size_t)block + lane;
+    sbf_vec3 n = {plane[0], plane[SBRI_BLOCK], plane[2 * SBRI_BLOCK]};
+    sbf_vec3 x = {t->positions[slot].x, t->positions[slot].y, t->positions[slot].z};
+    if (sbri_dot(n, x) - plane[3 * SBRI_BLOCK] <= TOUCHES_M) sbri_touching_add(to, SBRI_NO_COLLIDER, x, n, 0);
+  }
+}
+
+void sbri_touches_tell(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
+  sbri_touching_begin(to);
+  for (uint32_t i = 0; i < sbri_touch_count(t, body); i++) {
+    const sbri_touch *touch = &t->touches[body->first_touch + i];
+    if (touch->pushed > 0)
+      sbri_touching_add(to, touch->collider, sbri_sample_place(t, &touch->sample), touch->normal,
+          touch->pushed * touch->sample.mass_kg);
+  }
+  tell_planes(t, body, to);
 }
 
 void sbri_touches_remember(const sbri_island_tick *t, const sbri_body *body) {
@@ -137,10 +170,10 @@ void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const 
     const sbri_sample *s = &touch->sample;
     float least = touch->gap < -rule->slack_m ? touch->gap : -rule->slack_m, lift = least - gap_of(&c, touch);
     if (!(lift > 0)) continue;
-    sbf_vec3 v = velocity_of(&c, s), n = touch->normal;
+    sbf_vec3 v = sbri_sub(velocity_of(&c, s), touch->velocity), n = touch->normal;
     float gain = lift / rule->step_s;
     sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
-    float size = sbri_length(sideways), most = friction_of(&c, s, rule) * gain;
+    float size = sbri_length(sideways), most = friction_of(&c, touch, rule) * gain;
     sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
     push(&c, s, change, sbri_scale(change, rule->step_s));
   }

@@ -12,11 +12,18 @@
 #define SBRI_TOUCHES_H
 
 #include "collide/contact.h"
+#include "collide/touching.h"
 
 /* Bounds velocities so that nothing of the body's surface goes below its planes in the substep that they are
  * for, from the present places, which are lifted where they are too deep. */
 void sbri_touches_answer(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule);
+
+/* Planes go with what they stand for, when a substep is over. */
+void sbri_touches_go_on(const sbri_island_tick *t, const sbri_body *body, float step_s);
+
+/* What the body's places push against, when a tick is over. */
+void sbri_touches_tell(const sbri_island_tick *t, const sbri_body *body, sbri_touching *touching);
 
 /* Around a correction of places that changes velocities by as much per second (solvers/volume_keep.h): lifts
  * what that has pressed in, as sbri_contact_bound does for points. */

@@ -48,7 +48,7 @@ HEADER_BOX = {
     "sbfmt/base.h": "core", "sbfmt/codes.h": "core", "sbfmt/model.h": "core", "sbfmt/asset.h": "core",
     "sbfmt/io.h": "core", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
     "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange", "sbrun/sbrun.h": "runtime",
-    "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
+    "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/collision.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
 }
 BOX_USES = {
     "core": {"core"},

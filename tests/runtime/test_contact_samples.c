@@ -125,7 +125,7 @@ START_TEST(a_push_is_a_force_at_that_place)
   scene_start(&s);
   sbri_character *c = sbri_character_of(s.world, s.character);
   uint32_t counts[1] = {1};
-  sbri_touch touch = {.sample = body_of(&s)->samples[3], .normal = {0.6f, 0.8f, 0}};
+  sbri_touch touch = {.sample = body_of(&s)->samples[3], .normal = {0.6f, 0.8f, 0}, .friction_share = 1};
   sbri_island_tick tick = {.model = s.model,
       .island = &s.model->islands[0],
       .tick_s = 1.0f / 60,

@@ -150,6 +150,7 @@ typedef struct sbr_world_definition {
    * what is slower than a hundredth of its size a second, in all its points, and held by nothing that moves.
    */
   double sleep_after_s;
+  uint32_t collider_capacity; /* 0: 64; of sbrun/collision.h; more than that cannot be created */
 } sbr_world_definition;
 
 /* A world is made from a definition that begins as the default, and destroyed with all its characters. */
@@ -252,6 +253,11 @@ SBF_API uint32_t sbr_character_surface(const sbr_world *world, sbr_character_id 
 SBF_API uint32_t sbr_character_points(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
     sbf_vec3 *positions, uint32_t capacity);
 
+/* Names a collider (sbrun/collision.h); 0 is none. */
+typedef struct sbr_collider_id {
+  uint32_t value; /* 0: none */
+} sbr_collider_id;
+
 /* What happened in a tick. */
 typedef enum sbr_event_kind {
   SBR_EVENT_FOOT_DOWN,
@@ -260,7 +266,9 @@ typedef enum sbr_event_kind {
   SBR_EVENT_TEAR, /* an element tore; of more than 16 in one tick of bodies that hang together, the first */
   SBR_EVENT_UNSPLIT, /* a tear found no room to split points: more tear_points */
   SBR_EVENT_ASLEEP,  /* bodies that hang together are no longer stepped */
-  SBR_EVENT_AWAKE    /* and are again */
+  SBR_EVENT_AWAKE,   /* and are again */
+  SBR_EVENT_CONTACT  /* a body that did not in the tick before touches the ground, a collider or another body;
+                        of one that touches more than four things at once, the first four */
 } sbr_event_kind;
 /* Something that happened in a step. */
 typedef struct sbr_event {
@@ -269,7 +277,11 @@ typedef struct sbr_event {
   uint32_t leg;               /* of the gait, from 0; 0 for what is no foot's */
   uint64_t tick;              /* since the world began */
   sbr_double3 position;       /* world */
-  uint32_t soft_body;         /* of a tear: whose element; of sleep: the first of those bodies; else 0 */
+  uint32_t soft_body; /* of a tear: whose element; of sleep: the first of those bodies; of contact: which */
+  int32_t rigid_body; /* of contact: which, if it is one; -1: none */
+  sbr_collider_id collider; /* of contact: with that; 0: with the ground */
+  sbf_vec3 normal;          /* of contact: away from what is touched */
+  float impulse;            /* of contact: N s, about, in that tick */
 } sbr_event;
 /* Events since the last call, oldest first; returns how many were written. Older ones than the world keeps
  * (256) are lost. They are output, not state: snapshots do not hold them. */

@@ -1,0 +1,67 @@
+/* Which of many boxes lie near a place: a binary tree of boxes over them, made anew in n log n whenever they
+ * have moved, in memory that is there already. For triangles of a mesh, faces of a soft surface, and all that
+ * is in a world. */
+#ifndef SBRI_BOUNDS_TREE_H
+#define SBRI_BOUNDS_TREE_H
+
+#include "math/vec3.h"
+
+typedef struct sbri_box {
+  sbf_vec3 low, high;
+} sbri_box;
+
+static inline sbri_box sbri_box_of_point(sbf_vec3 x) {
+  return (sbri_box){x, x};
+}
+static inline sbri_box sbri_box_join(sbri_box a, sbri_box b) {
+  return (sbri_box){{fminf(a.low.x, b.low.x), fminf(a.low.y, b.low.y), fminf(a.low.z, b.low.z)},
+      {fmaxf(a.high.x, b.high.x), fmaxf(a.high.y, b.high.y), fmaxf(a.high.z, b.high.z)}};
+}
+static inline sbri_box sbri_box_with(sbri_box a, sbf_vec3 x) {
+  return sbri_box_join(a, sbri_box_of_point(x));
+}
+static inline sbri_box sbri_box_grown(sbri_box a, float by) {
+  return (sbri_box){
+      {a.low.x - by, a.low.y - by, a.low.z - by}, {a.high.x + by, a.high.y + by, a.high.z + by}};
+}
+static inline bool sbri_box_meets(const sbri_box *a, const sbri_box *b) {
+  return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y &&
+         a->low.z <= b->high.z && b->low.z <= a->high.z;
+}
+
+typedef struct sbri_bounds_node {
+  sbri_box box;
+  uint32_t first, count; /* items of a leaf; of an inner node count is 0 and first its second child, the
+                            first one following it */
+} sbri_bounds_node;
+
+typedef struct sbri_bounds_tree {
+  sbri_bounds_node *nodes; /* (sbri_bounds_tree_nodes(item_count)) */
+  uint32_t *items;         /* (item_count) */
+  uint32_t node_count, item_count;
+} sbri_bounds_tree;
+
+/* Nodes that so many items need at most. */
+static inline size_t sbri_bounds_tree_nodes(uint32_t item_count) {
+  return 2 * (size_t)item_count + 1;
+}
+
+/* Over boxes[0] to boxes[count - 1]; `tree` has room for them. The same boxes give the same tree. */
+void sbri_bounds_tree_make(sbri_bounds_tree *tree, const sbri_box *boxes, uint32_t count);
+
+/* A walk over the items whose leaves a box meets: begin, then next until it says false. */
+enum { SBRI_BOUNDS_TREE_DEPTH = 64 };
+typedef struct sbri_bounds_walk {
+  const sbri_bounds_tree *tree;
+  sbri_box box;
+  uint32_t stack[SBRI_BOUNDS_TREE_DEPTH];
+  uint32_t depth, at, end;
+} sbri_bounds_walk;
+static inline void sbri_bounds_walk_begin(
+    sbri_bounds_walk *walk, const sbri_bounds_tree *tree, sbri_box box) {
+  walk->tree = tree, walk->box = box, walk->depth = walk->at = walk->end = 0;
+  if (tree->node_count) walk->stack[walk->depth++] = 0;
+}
+bool sbri_bounds_walk_next(sbri_bounds_walk *walk, uint32_t *item);
+
+#endif

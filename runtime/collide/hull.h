@@ -1,0 +1,41 @@
+/* Convex shapes of flat faces: what rigid bodies, boxes and single triangles are when they meet. */
+#ifndef SBRI_HULL_H
+#define SBRI_HULL_H
+
+#include "base/memory.h"
+#include "collide/bounds_tree.h"
+#include "sbfmt/model.h"
+
+typedef struct sbri_hull_face {
+  sbf_vec3 normal;       /* unit, outwards */
+  float offset;          /* normal . x on it */
+  uint32_t first, count; /* of its corners, in turn about the normal */
+} sbri_hull_face;
+
+typedef struct sbri_hull_edge {
+  uint32_t ends[2];
+  sbf_vec3 normals[2]; /* of the faces on either side */
+} sbri_hull_edge;
+
+typedef struct sbri_hull {
+  const sbf_vec3 *vertices;
+  const sbri_hull_face *faces;
+  const uint32_t *corners;
+  const sbri_hull_edge *edges;
+  uint32_t vertex_count, face_count, corner_count, edge_count;
+  sbf_vec3 middle; /* mean of the vertices, inside */
+} sbri_hull;
+
+/* Of polygons over vertices, in any winding. Faces in one plane stay faces of their own; what is flat
+ * encloses nothing and has faces on both sides. False where memory runs out. */
+bool sbri_hull_make(sbri_hull *hull, const sbf_vec3 *vertices, uint32_t vertex_count, const uint32_t *sizes,
+    uint32_t face_count, const uint32_t *corners, sbfi_arena *arena);
+
+/* The face that x is the least inside of, or the most outside; returns the distance from its plane. */
+float sbri_hull_depth(const sbri_hull *hull, sbf_vec3 x, uint32_t *face);
+/* Nearest place on the surface; returns the distance, negative inside. */
+float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *place, sbf_vec3 *normal);
+/* The vertex that lies furthest along a direction. */
+uint32_t sbri_hull_support(const sbri_hull *hull, sbf_vec3 along);
+
+#endif

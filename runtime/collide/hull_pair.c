@@ -1,0 +1,240 @@
+/* Separating axes: normals of both hulls' faces, and products of those edges whose arcs cross on the sphere
+ * of normals, which alone can be faces of the difference of the two (D. Gregorius, The Separating Axis Test
+ * between Convex Polyhedra, 2013). Then what of the one lies over what of the other, seen along the axis. */
+#include "collide/hull_pair.h"
+
+/* An edge's axis is taken where it is better than every face's by this share of the reach and by this in m:
+ * faces meet in more places. */
+static const float EDGE_SHARE = 0.05f, EDGE_M = 1e-5f;
+
+enum { MOST_CORNERS = 32 };
+
+/* ---- Axes ---- */
+
+typedef struct axis {
+  float gap;
+  sbf_vec3 normal; /* from b to a */
+  bool of_a, of_edges;
+  sbf_vec3 on_a, on_b; /* of edges */
+} axis;
+
+static sbf_vec3 into(const sbri_placed_hull *h, sbf_vec3 direction) {
+  return sbri_rotate(sbri_quat_conjugate(h->turn), direction);
+}
+static sbf_vec3 out_of(const sbri_placed_hull *h, sbf_vec3 x) {
+  return sbri_add(h->at, sbri_rotate(h->turn, sbri_scale(x, h->scale)));
+}
+static sbf_vec3 furthest(const sbri_placed_hull *h, sbf_vec3 along) {
+  return out_of(h, h->hull->vertices[sbri_hull_support(h->hull, into(h, along))]);
+}
+
+/* Whether no face's gap is beyond reach. */
+static bool try_faces(
+    const sbri_placed_hull *of, const sbri_placed_hull *other, bool of_a, float reach, axis *best) {
+  for (uint32_t f = 0; f < of->hull->face_count; f++) {
+    const sbri_hull_face *face = &of->hull->faces[f];
+    sbf_vec3 n = sbri_rotate(of->turn, face->normal);
+    sbf_vec3 nearest = furthest(other, sbri_scale(n, -1));
+    float gap = sbri_dot(n, sbri_sub(nearest, of->at)) - of->scale * face->offset;
+    if (gap > reach) return false;
+    if (gap > best->gap) *best = (axis){.gap = gap, .normal = of_a ? sbri_scale(n, -1) : n, .of_a = of_a};
+  }
+  return true;
+}
+
+/* Whether the arcs between two faces' normals each cross on the sphere. */
+static bool arcs_cross(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, sbf_vec3 d) {
+  sbf_vec3 ba = sbri_cross(b, a), dc = sbri_cross(d, c);
+  float cba = sbri_dot(c, ba), dba = sbri_dot(d, ba), adc = sbri_dot(a, dc), bdc = sbri_dot(b, dc);
+  return cba * dba < 0 && adc * bdc < 0 && cba * bdc > 0;
+}
+
+/* Nearest places of two lines that are not parallel. */
+static void nearest_of_lines(
+    sbf_vec3 p, sbf_vec3 along_p, sbf_vec3 q, sbf_vec3 along_q, sbf_vec3 *on_p, sbf_vec3 *on_q) {
+  sbf_vec3 off = sbri_sub(p, q);
+  float a = sbri_dot(along_p, along_p), b = sbri_dot(along_p, along_q), c = sbri_dot(along_q, along_q);
+  float d = sbri_dot(along_p, off), e = sbri_dot(along_q, off), det = a * c - b * b;
+  float s = det > 0 ? (b * e - c * d) / det : 0, t = det > 0 ? (a * e - b * d) / det : 0;
+  *on_p = sbri_add_scaled(p, along_p, sbri_clamp(s, 0, 1));
+  *on_q = sbri_add_scaled(q, along_q, sbri_clamp(t, 0, 1));
+}
+
+static bool try_edges(const sbri_placed_hull *a, const sbri_placed_hull *b, float reach, axis *best) {
+  float least = best->gap + EDGE_SHARE * (reach > 0 ? reach : 0) + EDGE_M;
+  sbf_vec3 middle = out_of(a, a->hull->middle);
+  for (uint32_t i = 0; i < a->hull->edge_count; i++) {
+    const sbri_hull_edge *e = &a->hull->edges[i];
+    sbf_vec3 n0 = sbri_rotate(a->turn, e->normals[0]), n1 = sbri_rotate(a->turn, e->normals[1]);
+    sbf_vec3 c0 = into(b, n0), c1 = into(b, n1); /* in b's frame, where its edges stand */
+    for (uint32_t k = 0; k < b->hull->edge_count; k++) {
+      const sbri_hull_edge *g = &b->hull->edges[k];
+      if (!arcs_cross(c0, c1, sbri_scale(g->normals[0], -1), sbri_scale(g->normals[1], -1))) continue;
+      sbf_vec3 p = out_of(a, a->hull->vertices[e->ends[0]]), q = out_of(b, b->hull->vertices[g->ends[0]]);
+      sbf_vec3 along_p = sbri_sub(out_of(a, a->hull->vertices[e->ends[1]]), p);
+      sbf_vec3 along_q = sbri_sub(out_of(b, b->hull->vertices[g->ends[1]]), q);
+      sbf_vec3 n = sbri_cross(along_p, along_q);
+      float size = sbri_length(n);
+      if (size * size < 1e-4f * sbri_dot(along_p, along_p) * sbri_dot(along_q, along_q)) continue;
+      n = sbri_scale(n, 1 / size);
+      if (sbri_dot(n, sbri_sub(p, middle)) > 0) n = sbri_scale(n, -1); /* into a */
+      float gap = sbri_dot(n, sbri_sub(p, q));
+      if (gap > reach) return false;
+      if (gap <= least) continue;
+      least = gap;
+      *best = (axis){.gap = gap, .normal = n, .of_edges = true};
+      nearest_of_lines(p, along_p, q, along_q, &best->on_a, &best->on_b);
+    }
+  }
+  return true;
+}
+
+/* ---- Places ---- */
+
+void sbri_hull_pair_add(sbri_hull_pair *pair, sbf_vec3 on_a, sbf_vec3 on_b, float gap) {
+  uint32_t at = pair->count;
+  if (at < SBRI_PAIR_POINTS) {
+    pair->count++;
+  } else { /* instead of one of them, if that spans more: not of the deepest */
+    float most = 0;
+    at = UINT32_MAX;
+    for (uint32_t out = 0; out < SBRI_PAIR_POINTS; out++) {
+      float now = INFINITY, then = INFINITY;
+      for (uint32_t k = 0; k < SBRI_PAIR_POINTS; k++) {
+        if (k == out) continue;
+        sbf_vec3 a = sbri_sub(pair->on_a[k], pair->on_a[out]), b = sbri_sub(pair->on_a[k], on_a);
+        now = fminf(now, sbri_dot(a, a)), then = fminf(then, sbri_dot(b, b));
+      }
+      float gain = then - now;
+      if ((out != 0 || gap < pair->gaps[0]) && gain > most) most = gain, at = out;
+    }
+    if (at == UINT32_MAX && gap < pair->gaps[0]) at = 0;
+    if (at == UINT32_MAX) return;
+  }
+  pair->on_a[at] = on_a, pair->on_b[at] = on_b, pair->gaps[at] = gap;
+  if (gap >= pair->gaps[0] || at == 0) return;
+  sbf_vec3 a = pair->on_a[0], b = pair->on_b[0];
+  float g = pair->gaps[0];
+  pair->on_a[0] = on_a, pair->on_b[0] = on_b, pair->gaps[0] = gap;
+  pair->on_a[at] = a, pair->on_b[at] = b, pair->gaps[at] = g;
+}
+
+/* Corners in turn, with their places along two directions. */
+typedef struct outline {
+  sbf_vec3 at[MOST_CORNERS];
+  float u[MOST_CORNERS], v[MOST_CORNERS];
+  uint32_t count;
+} outline;
+
+static void add_corner(outline *o, sbf_vec3 x, float u, float v) {
+  if (o->count == MOST_CORNERS) return;
+  o->at[o->count] = x, o->u[o->count] = u, o->v[o->count] = v;
+  o->count++;
+}
+
+static float turn_at(const outline *o, uint32_t a, uint32_t b, uint32_t c) {
+  return (o->u[b] - o->u[a]) * (o->v[c] - o->v[a]) - (o->v[b] - o->v[a]) * (o->u[c] - o->u[a]);
+}
+
+/* The outline of places, counter-clockwise (A. M. Andrew, Another efficient algorithm for convex hulls in two
+ * dimensions, 1979). */
+static void make_outline(const outline *all, outline *to) {
+  uint32_t order[MOST_CORNERS], chain[2 * MOST_CORNERS], n = all->count, count = 0;
+  for (uint32_t i = 0; i < n; i++) {
+    uint32_t k = i;
+    for (; k > 0; k--) {
+      uint32_t o = order[k - 1];
+      if (all->u[o] < all->u[i] || (all->u[o] == all->u[i] && all->v[o] <= all->v[i])) break;
+      order[k] = o;
+    }
+    order[k] = i;
+  }
+  for (int side = 0; side < 2; side++) {
+    uint32_t base = count;
+    for (uint32_t i = 0; i < n; i++) {
+      uint32_t o = order[side ? n - 1 - i : i];
+      while (count >= base + 2 && turn_at(all, chain[count - 2], chain[count - 1], o) <= 0) count--;
+      chain[count++] = o;
+    }
+    count--; /* the other chain begins with it */
+  }
+  to->count = 0;
+  if (n == 1) count = 1, chain[0] = order[0];
+  for (uint32_t i = 0; i < count; i++) add_corner(to, all->at[chain[i]], all->u[chain[i]], all->v[chain[i]]);
+}
+
+/* What of the outline lies to the left of the line from (u0, v0) to (u1, v1), or no further right of it than
+ * `slack`. */
+static void cut(const outline *from, float u0, float v0, float u1, float v1, float slack, outline *to) {
+  float du = u1 - u0, dv = v1 - v0, size = sqrtf(du * du + dv * dv);
+  to->count = 0;
+  if (!(size > 1e-12f)) {
+    *to = *from;
+    return;
+  }
+  for (uint32_t i = 0; i < from->count; i++) {
+    uint32_t k = (i + 1) % from->count;
+    float a = ((from->v[i] - v0) * du - (from->u[i] - u0) * dv) / size + slack;
+    float b = ((from->v[k] - v0) * du - (from->u[k] - u0) * dv) / size + slack;
+    if (a >= 0) add_corner(to, from->at[i], from->u[i], from->v[i]);
+    if (from->count < 2 || (a >= 0) == (b >= 0)) continue;
+    float s = a / (a - b);
+    add_corner(to, sbri_lerp(from->at[i], from->at[k], s), from->u[i] + s * (from->u[k] - from->u[i]),
+        from->v[i] + s * (from->v[k] - from->v[i]));
+  }
+}
+
+/* Vertices whose height over the plane n . x = offset is no more than `most`. */
+static void gather(const sbri_placed_hull *h, sbf_vec3 n, float offset, float most, sbf_vec3 side,
+    sbf_vec3 other_side, outline *to) {
+  sbf_vec3 own = into(h, n);
+  float least = offset - sbri_dot(n, h->at);
+  to->count = 0;
+  for (uint32_t i = 0; i < h->hull->vertex_count; i++) {
+    if (h->scale * sbri_dot(own, h->hull->vertices[i]) - least > most) continue;
+    sbf_vec3 x = out_of(h, h->hull->vertices[i]);
+    add_corner(to, x, sbri_dot(side, x), sbri_dot(other_side, x));
+  }
+}
+
+/* Of the hull whose face the axis is, that face; of the other all that is near, cut to lie over it. */
+static void add_patches(const sbri_placed_hull *face_of, const sbri_placed_hull *other, sbf_vec3 n, bool of_a,
+    float reach, sbri_hull_pair *pair) {
+  sbf_vec3 x_axis = fabsf(n.x) < 0.7f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 1, 0);
+  sbf_vec3 side = sbri_normalize(sbri_cross(x_axis, n), x_axis), other_side = sbri_cross(n, side);
+  float offset = sbri_dot(n, furthest(face_of, n));
+  outline found, face, parts[2];
+  gather(face_of, sbri_scale(n, -1), -offset, 1e-3f * reach + 1e-5f, side, other_side, &found);
+  make_outline(&found, &face);
+  gather(other, n, offset, reach, side, other_side, &found);
+  if (!found.count) return;
+  make_outline(&found, &parts[0]);
+  int now = 0;
+  for (uint32_t i = 0; face.count > 2 && i < face.count; i++, now = 1 - now) {
+    uint32_t k = (i + 1) % face.count;
+    cut(&parts[now], face.u[i], face.v[i], face.u[k], face.v[k], 1e-3f * reach, &parts[1 - now]);
+  }
+  for (uint32_t i = 0; i < parts[now].count; i++) {
+    sbf_vec3 x = parts[now].at[i];
+    float gap = sbri_dot(n, x) - offset;
+    sbf_vec3 on_face = sbri_add_scaled(x, n, -gap);
+    sbri_hull_pair_add(pair, of_a ? on_face : x, of_a ? x : on_face, gap);
+  }
+}
+
+bool sbri_hulls_meet(
+    const sbri_placed_hull *a, const sbri_placed_hull *b, float reach, sbri_hull_pair *pair) {
+  axis best = {.gap = -INFINITY};
+  pair->count = 0;
+  if (!a->hull->face_count || !b->hull->face_count) return false;
+  if (!try_faces(b, a, false, reach, &best) || !try_faces(a, b, true, reach, &best) ||
+      !try_edges(a, b, reach, &best))
+    return false;
+  pair->normal = best.normal, pair->gap = best.gap;
+  if (best.of_edges)
+    sbri_hull_pair_add(pair, best.on_a, best.on_b, best.gap);
+  else
+    add_patches(best.of_a ? a : b, best.of_a ? b : a, best.of_a ? sbri_scale(best.normal, -1) : best.normal,
+        best.of_a, reach, pair);
+  return pair->count > 0;
+}

@@ -1,0 +1,188 @@
+#include "collide/shape.h"
+
+#include "collide/triangle.h"
+
+static const sbf_vec3 up = {0, 1, 0};
+
+sbf_vec3 sbri_triangle_normal(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
+  return sbri_normalize(sbri_cross(sbri_sub(b, a), sbri_sub(c, a)), sbri_vec3(0, 0, 0));
+}
+
+/* ---- Nearest places ---- */
+
+static sbri_nearest near_ball(sbf_vec3 x, sbf_vec3 center, float radius) {
+  sbf_vec3 off = sbri_sub(x, center), n = sbri_normalize(off, up);
+  return (sbri_nearest){sbri_length(off) - radius, sbri_add_scaled(center, n, radius), n};
+}
+
+static sbf_vec3 on_axis(const sbr_shape *s, sbf_vec3 x) {
+  return sbri_vec3(0, sbri_clamp(x.y, -s->half_sizes.y, s->half_sizes.y), 0);
+}
+
+static sbri_nearest near_box(sbf_vec3 half, sbf_vec3 x) {
+  const float at[3] = {x.x, x.y, x.z}, to[3] = {half.x, half.y, half.z};
+  float place[3], best = -INFINITY;
+  int axis = 0;
+  for (int k = 0; k < 3; k++) {
+    place[k] = sbri_clamp(at[k], -to[k], to[k]);
+    float out = fabsf(at[k]) - to[k];
+    if (out > best) best = out, axis = k;
+  }
+  float n[3] = {0, 0, 0};
+  n[axis] = at[axis] < 0 ? -1.0f : 1.0f;
+  if (best <= 0) {
+    place[axis] = n[axis] * to[axis];
+    return (sbri_nearest){best, {place[0], place[1], place[2]}, {n[0], n[1], n[2]}};
+  }
+  sbf_vec3 on = {place[0], place[1], place[2]}, off = sbri_sub(x, on);
+  return (sbri_nearest){sbri_length(off), on, sbri_normalize(off, sbri_vec3(n[0], n[1], n[2]))};
+}
+
+/* Of triangles the nearest; of those that share the place, as at an edge, the one that faces x most, whose
+ * side is the side of the whole. */
+static bool near_triangles(
+    const sbri_triangles *t, sbf_vec3 x, float reach, float depth, sbri_nearest *found) {
+  sbri_bounds_walk walk;
+  float limit = reach > depth ? reach : depth, least = limit * limit, facing = -1;
+  bool any = false;
+  uint32_t i;
+  sbri_bounds_walk_begin(&walk, &t->tree, sbri_box_grown(sbri_box_of_point(x), limit));
+  while (sbri_bounds_walk_next(&walk, &i)) {
+    const uint32_t *c = t->corners + 3 * (size_t)i;
+    sbf_vec3 a = t->points[c[0]], b = t->points[c[1]], d = t->points[c[2]];
+    float weights[3];
+    sbri_triangle_nearest(x, a, b, d, weights);
+    sbf_vec3 on = sbri_triangle_place(weights, a, b, d), off = sbri_sub(x, on),
+             n = sbri_triangle_normal(a, b, d);
+    float square = sbri_dot(off, off), height = sbri_dot(off, n);
+    if (square > least * (1 + 1e-5f) || sbri_dot(n, n) == 0) continue;
+    if (square >= least * (1 - 1e-5f) && any && !(fabsf(height) > facing)) continue;
+    least = square < least ? square : least;
+    facing = fabsf(height), any = true;
+    float distance = sqrtf(square);
+    bool inside = height < 0;
+    *found = (sbri_nearest){inside ? -distance : distance, on,
+        distance > 1e-9f ? sbri_scale(off, inside ? -1 / distance : 1 / distance) : n};
+  }
+  return any && found->gap <= reach && found->gap >= -depth;
+}
+
+bool sbri_shape_nearest(const sbr_shape *s, sbf_vec3 x, float reach, float depth, sbri_nearest *found) {
+  switch (s->kind) {
+  case SBR_SHAPE_PLANE:
+    *found = (sbri_nearest){x.y, {x.x, 0, x.z}, up};
+    break;
+  case SBR_SHAPE_SPHERE:
+    *found = near_ball(x, sbri_vec3(0, 0, 0), s->radius);
+    break;
+  case SBR_SHAPE_CAPSULE:
+    *found = near_ball(x, on_axis(s, x), s->radius);
+    break;
+  case SBR_SHAPE_BOX:
+    *found = near_box(s->half_sizes, x);
+    break;
+  case SBR_SHAPE_HULL:
+    found->gap = sbri_hull_nearest(&s->hull, x, &found->place, &found->normal);
+    break;
+  case SBR_SHAPE_MESH:
+  case SBR_SHAPE_HEIGHT_FIELD:
+    return near_triangles(&s->triangles, x, reach, depth, found);
+  case SBR_SHAPE_HOST:
+    found->normal = up;
+    found->gap = s->host.distance(s->host.user, x, reach, &found->normal);
+    found->place = sbri_add_scaled(x, found->normal, -found->gap);
+    break;
+  }
+  return found->gap <= reach;
+}
+
+/* ---- Ways in ---- */
+
+/* The least share in 0..1 at which a place at x + t way is at `radius` from the origin, of the two axes or
+ * three that `flat` leaves. */
+static float enter_round(sbf_vec3 x, sbf_vec3 way, float radius) {
+  float a = sbri_dot(way, way), b = sbri_dot(x, way), c = sbri_dot(x, x) - radius * radius;
+  float root = b * b - a * c;
+  if (c < 0 || b >= 0 || root < 0 || !(a > 0)) return -1;
+  float t = (-b - sqrtf(root)) / a;
+  return t >= 0 && t <= 1 ? t : -1;
+}
+
+static bool enter_capsule(const sbr_shape *s, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal) {
+  float best = 2;
+  sbf_vec3 axis_place = {0, 0, 0};
+  for (int end = -1; end <= 1; end++) {
+    sbf_vec3 middle = {0, (float)end * s->half_sizes.y, 0};
+    sbf_vec3 from = sbri_sub(x, middle), along = way;
+    if (end == 0) from.y = along.y = 0; /* the cylinder */
+    float t = enter_round(from, along, s->radius);
+    if (t < 0 || t >= best) continue;
+    sbf_vec3 at = sbri_add_scaled(x, way, t);
+    if (end == 0 && fabsf(at.y) > s->half_sizes.y) continue;
+    best = t, axis_place = on_axis(s, at);
+  }
+  if (best > 1) return false;
+  *share = best;
+  *normal = sbri_normalize(sbri_sub(sbri_add_scaled(x, way, best), axis_place), up);
+  return true;
+}
+
+bool sbri_hull_enter(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal) {
+  float in = -1, out = 1;
+  for (uint32_t f = 0; f < hull->face_count; f++) {
+    const sbri_hull_face *face = &hull->faces[f];
+    float height = sbri_dot(face->normal, x) - face->offset, rate = sbri_dot(face->normal, way);
+    if (rate == 0 && height > 0) return false;
+    if (rate == 0) continue;
+    float t = -height / rate;
+    if (rate > 0) {
+      out = t < out ? t : out;
+    } else if (t > in) {
+      in = t, *normal = face->normal;
+    }
+  }
+  *share = in;
+  return in >= 0 && in <= out;
+}
+
+static bool enter_triangles(
+    const sbri_triangles *t, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal) {
+  sbri_bounds_walk walk;
+  float best = 2;
+  uint32_t i;
+  sbri_bounds_walk_begin(&walk, &t->tree, sbri_box_with(sbri_box_of_point(x), sbri_add(x, way)));
+  while (sbri_bounds_walk_next(&walk, &i)) {
+    const uint32_t *c = t->corners + 3 * (size_t)i;
+    sbf_vec3 a = t->points[c[0]], b = t->points[c[1]], d = t->points[c[2]];
+    sbf_vec3 n = sbri_triangle_normal(a, b, d);
+    float at = sbri_dot(n, way) < 0 ? sbri_triangle_cross(x, way, a, b, d) : -1;
+    if (at >= 0 && at < best) best = at, *normal = n;
+  }
+  *share = best;
+  return best <= 1;
+}
+
+bool sbri_shape_enter(const sbr_shape *s, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal) {
+  switch (s->kind) {
+  case SBR_SHAPE_PLANE:
+    if (!(x.y >= 0) || !(x.y + way.y < 0)) return false;
+    *share = x.y / -way.y, *normal = up;
+    return true;
+  case SBR_SHAPE_SPHERE:
+    *share = enter_round(x, way, s->radius);
+    *normal = sbri_normalize(sbri_add_scaled(x, way, *share), up);
+    return *share >= 0;
+  case SBR_SHAPE_CAPSULE:
+    return enter_capsule(s, x, way, share, normal);
+  case SBR_SHAPE_BOX:
+  case SBR_SHAPE_HULL:
+    return sbri_hull_enter(&s->hull, x, way, share, normal);
+  case SBR_SHAPE_MESH:
+  case SBR_SHAPE_HEIGHT_FIELD:
+    return enter_triangles(&s->triangles, x, way, share, normal);
+  case SBR_SHAPE_HOST:
+    *share = s->host.cast ? s->host.cast(s->host.user, x, way, normal) : -1;
+    return *share >= 0 && *share <= 1;
+  }
+  return false;
+}

@@ -1,0 +1,44 @@
+/* Shapes of the host: how far a place is from one, and where a way enters it. All in the shape's frame. */
+#ifndef SBRI_SHAPE_H
+#define SBRI_SHAPE_H
+
+#include "collide/hull.h"
+#include "sbrun/collision.h"
+
+/* Triangles with a tree over them, solid behind their faces. */
+typedef struct sbri_triangles {
+  const sbf_vec3 *points;
+  const uint32_t *corners; /* (count x 3) */
+  uint32_t count;
+  sbri_bounds_tree tree;
+} sbri_triangles;
+
+struct sbr_shape {
+  sbfi_arena arena;
+  sbf_allocator allocator;
+  sbr_shape_kind kind;
+  float radius;
+  sbf_vec3 half_sizes;
+  sbri_hull hull;           /* of box and hull */
+  sbri_triangles triangles; /* of mesh and height field */
+  sbr_host_shape host;
+  sbri_box bounds; /* a plane's is as large as numbers allow */
+};
+
+/* A place against a surface. */
+typedef struct sbri_nearest {
+  float gap; /* distance, negative inside */
+  sbf_vec3 place, normal;
+} sbri_nearest;
+
+/* False where nothing is within `reach`, or the place is deeper inside of triangles than `depth`: they have
+ * no other side to be pushed out of. */
+bool sbri_shape_nearest(const sbr_shape *shape, sbf_vec3 x, float reach, float depth, sbri_nearest *found);
+/* Where the way from x first enters; `share` of it, 0 to 1. From inside it enters nothing. */
+bool sbri_shape_enter(const sbr_shape *shape, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal);
+
+/* The same of triangles that are not a shape's: where a way crosses them from the front. */
+bool sbri_hull_enter(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 way, float *share, sbf_vec3 *normal);
+sbf_vec3 sbri_triangle_normal(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c);
+
+#endif

@@ -1,0 +1,42 @@
+/* What a body touches, for events: up to four other things at once, told when each begins. Output, not state:
+ * nothing that moves goes by it. */
+#ifndef SBRI_TOUCHING_H
+#define SBRI_TOUCHING_H
+
+#include "math/vec3.h"
+
+enum { SBRI_TOUCHING = 4 };
+
+typedef struct sbri_touching_one {
+  uint32_t thing; /* number of the collider, or UINT32_MAX: the ground */
+  bool fresh;     /* it was not touched in the tick before */
+  sbf_vec3 place, normal;
+  float impulse; /* N s, of its places, each in the substep in which it was most */
+} sbri_touching_one;
+
+typedef struct sbri_touching {
+  sbri_touching_one now[SBRI_TOUCHING];
+  uint32_t before[SBRI_TOUCHING];
+  uint32_t count, before_count;
+} sbri_touching;
+
+static inline void sbri_touching_begin(sbri_touching *t) {
+  for (uint32_t i = 0; i < t->count; i++) t->before[i] = t->now[i].thing;
+  t->before_count = t->count;
+  t->count = 0;
+}
+
+static inline void sbri_touching_add(
+    sbri_touching *t, uint32_t thing, sbf_vec3 place, sbf_vec3 normal, float impulse) {
+  for (uint32_t i = 0; i < t->count; i++) {
+    if (t->now[i].thing != thing) continue;
+    t->now[i].impulse += impulse;
+    return;
+  }
+  if (t->count == SBRI_TOUCHING) return;
+  bool fresh = true;
+  for (uint32_t i = 0; i < t->before_count; i++) fresh = fresh && t->before[i] != thing;
+  t->now[t->count++] = (sbri_touching_one){thing, fresh, place, normal, impulse};
+}
+
+#endif

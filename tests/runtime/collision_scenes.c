@@ -1,0 +1,71 @@
+#include "collision_scenes.h"
+
+#include <check.h>
+#include <stdlib.h>
+
+#include "sbfmt/mechanics.h"
+
+static void give_surface(scene *s, uint32_t body, const sbf_vec3 *at, uint32_t cells) {
+  uint32_t n = cells + 1, squares = cells * cells;
+  sbf_vec3 *points = sbf_asset_allocate(s->asset, (size_t)n * n, sizeof *points);
+  uint32_t *sizes = sbf_asset_allocate(s->asset, squares, sizeof *sizes);
+  uint32_t *corners = sbf_asset_allocate(s->asset, 4 * (size_t)squares, sizeof *corners);
+  ck_assert(points && sizes && corners);
+  for (uint32_t i = 0; i < n * n; i++) points[i] = at[i];
+  for (uint32_t i = 0; i < squares; i++) {
+    uint32_t a = i / cells * n + i % cells;
+    const uint32_t square[4] = {a, a + n, a + n + 1, a + 1};
+    sizes[i] = 4;
+    for (int k = 0; k < 4; k++) corners[4 * i + (uint32_t)k] = square[k];
+  }
+  sbf_polygon_mesh *mesh = &scene_body(s, body)->surface;
+  mesh->positions = (sbf_vec3_list){points, n * n};
+  mesh->polygon_sizes = (sbf_u32_list){sizes, squares};
+  mesh->polygon_points = (sbf_u32_list){corners, 4 * squares};
+}
+
+sbf_level *collision_sheet(
+    scene *s, uint32_t body, sbf_vec3 center, float side, uint32_t cells, bool pinned) {
+  uint32_t n = cells + 1, springs = 0, held = 0;
+  sbf_vec3 *at = calloc((size_t)n * n, sizeof *at);
+  float *masses = calloc((size_t)n * n, sizeof *masses),
+        *stiffness = calloc(6 * (size_t)n * n, sizeof *stiffness);
+  sbf_uint2 *ends = calloc(6 * (size_t)n * n, sizeof *ends);
+  uint32_t *rim = calloc((size_t)n * n, sizeof *rim);
+  ck_assert(at && masses && stiffness && ends && rim);
+  for (uint32_t i = 0; i < n * n; i++) {
+    uint32_t x = i % n, z = i / n;
+    at[i] = (sbf_vec3){center.x + side * ((float)x / (float)cells - 0.5f), center.y,
+        center.z + side * ((float)z / (float)cells - 0.5f)};
+    masses[i] = 0.2f * side * side / (float)(n * n);
+    if (pinned && (x == 0 || z == 0 || x == cells || z == cells)) rim[held++] = i;
+    const int steps[6][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}};
+    for (int k = 0; k < 6; k++) {
+      int64_t to_x = (int64_t)x + steps[k][0], to_z = (int64_t)z + steps[k][1];
+      if (to_x < 0 || to_x >= n || to_z >= n) continue;
+      ends[springs] = (sbf_uint2){{i, (uint32_t)(to_z * n + to_x)}};
+      stiffness[springs++] = k < 2 ? 500.0f : k < 4 ? 100.0f : 1.0f;
+    }
+  }
+  sbf_level *level = scene_points(s, body, at, masses, n * n);
+  scene_springs(s, level, ends, stiffness, springs);
+  if (pinned) scene_pin(s, level, -1, rim, held);
+  give_surface(s, body, at, cells);
+  free(at), free(masses), free(stiffness), free(ends), free(rim);
+  return level;
+}
+
+sbr_shape *collision_shape(sbr_shape_definition definition) {
+  sbr_shape *shape = NULL;
+  sbf_diagnostic error;
+  ck_assert_msg(sbr_shape_create(NULL, &definition, &shape, &error) == SBF_OK, "%s", error.message);
+  return shape;
+}
+
+sbr_collider_id collision_collider(scene *s, const sbr_shape *shape, sbr_double3 position) {
+  sbr_collider_definition d = sbr_default_collider_definition();
+  sbr_collider_id id;
+  d.shape = shape, d.position = position;
+  ck_assert(sbr_collider_create(s->world, &d, &id, NULL) == SBF_OK);
+  return id;
+}

@@ -1,0 +1,50 @@
+#include "collide/bounds_tree.h"
+
+#include "harness.h"
+
+enum { COUNT = 500 };
+
+static float random_of(uint32_t *seed) {
+  *seed = *seed * 1664525u + 1013904223u;
+  return (float)(*seed >> 8) / 16777216.0f;
+}
+
+/* Every box that meets the one asked for is found, once. */
+START_TEST(a_walk_finds_all)
+{
+  static sbri_box boxes[COUNT];
+  static sbri_bounds_node nodes[2 * COUNT + 1];
+  static uint32_t items[COUNT];
+  uint32_t seed = 1;
+  for (int i = 0; i < COUNT; i++) {
+    sbf_vec3 low = {random_of(&seed) * 10, random_of(&seed) * 10, random_of(&seed) * 10};
+    boxes[i] = (sbri_box){low, sbri_add(low, sbri_vec3(random_of(&seed), random_of(&seed), 0))};
+  }
+  sbri_bounds_tree tree = {.nodes = nodes, .items = items};
+  const uint32_t counts[4] = {0, 1, 5, COUNT};
+  for (int n = 0; n < 4; n++) {
+    sbri_bounds_tree_make(&tree, boxes, counts[n]);
+    ck_assert_uint_le(tree.node_count, sbri_bounds_tree_nodes(counts[n]));
+    for (int k = 0; k < 50; k++) {
+      sbf_vec3 low = {random_of(&seed) * 10, random_of(&seed) * 10, random_of(&seed) * 10};
+      sbri_box asked = {low, sbri_add(low, sbri_vec3(2, 2, 2))};
+      uint32_t seen[COUNT] = {0}, item;
+      sbri_bounds_walk walk;
+      sbri_bounds_walk_begin(&walk, &tree, asked);
+      while (sbri_bounds_walk_next(&walk, &item)) seen[item]++;
+      for (uint32_t i = 0; i < counts[n]; i++) {
+        ck_assert_uint_le(seen[i], 1);
+        if (sbri_box_meets(&asked, &boxes[i])) ck_assert_uint_eq(seen[i], 1);
+      }
+    }
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("bounds_tree");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, a_walk_finds_all);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
