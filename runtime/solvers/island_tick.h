@@ -75,7 +75,7 @@ typedef struct sbri_island_tick {
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
   sbri_touch *touches;                             /* of the character; see sbri_body.first_touch */
-  const uint32_t *touch_counts;                    /* (bodies of the model) */
+  const uint32_t *touch_counts;                    /* (bodies of the model) NULL: none */
   float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
   float *rotations;         /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */
   sbri_point *outer;        /* (slot_count) N; scratch of what is neither springs nor weight; NULL: nothing */
@@ -117,7 +117,7 @@ static inline sbf_vec3 sbri_sample_place(const sbri_island_tick *t, const sbri_s
 
 /* How many of the body's touches there are in this tick. */
 static inline uint32_t sbri_touch_count(const sbri_island_tick *t, const sbri_body *body) {
-  return t->touch_counts[body - t->model->bodies];
+  return t->touch_counts ? t->touch_counts[body - t->model->bodies] : 0;
 }
 
 #endif

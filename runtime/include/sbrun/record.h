@@ -26,8 +26,8 @@ typedef struct sbr_record_output {
 } sbr_record_output;
 
 /* Begins a recording; the one before ends. NULL: none begins. A world that is destroyed ends its own.
- * What it does not hold: characters that are made and snapshots that are restored meanwhile; and a ground of
- * the host's, which must be the same. */
+ * What it does not hold: characters that are made and snapshots that are restored meanwhile, colliders, and a
+ * ground of the host's, which must be the same. */
 SBF_API void sbr_world_record(sbr_world *world, const sbr_record_output *output);
 
 /* A recording that is being played. Fields are read by the host; sbr_replay_begin sets them. */
