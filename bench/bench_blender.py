@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """The add-on's export of a mesh of about 100,000 vertices beside Blender's own of the same as glTF: time and memory, as CSV.
 
-    bench_blender.py --library FILE [--rounds 5] [--quick]
+    bench_blender.py --library FILE [--root FOLDER] [--rounds 5] [--quick]
 
 Each export runs in a Blender of its own; the median of the rounds counts, memory is the peak above what Blender held before.
---quick measures once and fails where an export fails. Exits 77 where there is no Blender."""
+--quick measures once and fails where an export fails. --root names a folder that holds another system with its Blender (root only);
+memory is not measured there. Exits 77 where there is no Blender."""
 
 import argparse
 import csv
@@ -25,8 +26,8 @@ COLUMNS = ("blender", "mesh", "writer", "file", "vertices", "wall_s", "processor
 
 def measure(blender, writer, mesh, name):
     out = os.path.join(blender.kept, name)
-    command = ["blender", "--background", "--factory-startup", "--python-exit-code", "3", "--python",
-               f"{blender.tests}/measure_export.py", "--", writer, mesh, out]
+    command = [*blender.command, "--background", "--factory-startup", "--python-exit-code", "3", "--python",
+               f"{blender.inside}/tests/measure_export.py", "--", writer, mesh, f"{blender.inside}/kept/{name}"]
     run = subprocess.run(command, env=blender.environment(), capture_output=True, text=True, check=False, timeout=MOST_S)
     found = next((line[9:] for line in run.stdout.splitlines() if line.startswith("measured ")), None)
     if run.returncode or found is None or not os.path.exists(out):
@@ -37,12 +38,13 @@ def measure(blender, writer, mesh, name):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--library", required=True)
+    parser.add_argument("--root", default="")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--quick", action="store_true")
     asked = parser.parse_args()
     rows = csv.DictWriter(sys.stdout, COLUMNS, lineterminator="\n")
     rows.writeheader()
-    with Blender("", [asked.library]) as blender:
+    with Blender(asked.root, [asked.library]) as blender:
         for mesh in ("plain", ) if asked.quick else ("plain", "skinned"):
             reference = None
             for writer, name in WRITERS:

@@ -1,11 +1,12 @@
 #!/bin/sh
-# Makes a folder with Debian's unstable suite and its Blender, to test the add-on in a newer one than the system's:
+# Makes a folder with Debian's unstable suite, its Blender and what draws it without a graphics card, to test the add-on in a newer one
+# than the system's:
 #   other_system.sh FOLDER
 # It is complete or not there. Needs root, debootstrap and Debian's packages; takes some minutes and 1 GB.
 set -eu
 folder=$1
 # A snapshot of the suite will do, however old: its lists need not be valid today.
-packages='blender python3-numpy python3-cattr python3-requests'
+packages='blender python3-numpy python3-cattr python3-requests libegl1 libgl1 libgl1-mesa-dri'
 
 [ ! -x "$folder/usr/bin/blender" ] || exit 0
 if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap >/dev/null 2>&1; then

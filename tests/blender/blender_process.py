@@ -66,9 +66,12 @@ class Blender:
                 "BLENDER_USER_CONFIG": f"{self.inside}/config", "LD_LIBRARY_PATH": lib, "HOME": self.inside,
                 "SBFMT_KEPT": f"{self.inside}/kept", "PATH": "/usr/bin:/bin"}
 
+    @property
+    def command(self):
+        return (["/usr/sbin/chroot", self.root] if self.root else []) + ["blender"]
+
     def run(self, names):
         """Runs test modules; whether all of them passed."""
-        command = ["/usr/sbin/chroot", self.root] if self.root else []
-        command += ["blender", "--background", "--factory-startup", "--python-exit-code", "3", "--python",
-                    f"{self.inside}/tests/inside.py", "--", *names]
+        command = [*self.command, "--background", "--factory-startup", "--python-exit-code", "3", "--python",
+                   f"{self.inside}/tests/inside.py", "--", *names]
         return subprocess.run(command, env=self.environment(), check=False).returncode == 0

@@ -1,7 +1,9 @@
 """Runs in a Blender with a window: opens a bundle, uses the add-on as docs/blender.md tells, and takes a picture of every panel and
 of everything that is drawn in the viewport.
 
-    blender --python draw_panels.py -- LIZARD.sbf FOLDER
+    blender --python draw_panels.py -- LIZARD.sbf SCREEN FOLDER
+
+SCREEN is the file that Xvfb keeps its screen in: some Blenders can't read back what software drew in their window.
 """
 
 import os
@@ -16,7 +18,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import pictures  # noqa: E402
 
-BUNDLE, FOLDER = sys.argv[sys.argv.index("--") + 1:]
+BUNDLE, SCREEN, FOLDER = sys.argv[sys.argv.index("--") + 1:]
 WINDOW = bpy.context.window_manager.windows[0]
 OWN_PANELS = []
 
@@ -66,7 +68,7 @@ def panels_below(one):
 def prepare_panels():
     """Blender's own panels make room; ours are open."""
     for one in list(panels_below(bpy.types.Panel)):
-        if getattr(one, "bl_space_type", "") != "PROPERTIES":
+        if getattr(one, "bl_space_type", "") != "PROPERTIES" or one.bl_region_type != "WINDOW":
             continue
         if one.__name__.startswith("SBFMT_"):
             OWN_PANELS.append(one)
@@ -235,8 +237,6 @@ def shoot(name, *kinds):
     """What those areas show, as one picture; of panels alone as much as they fill."""
     def take():
         bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=2)
-        whole = os.path.join(FOLDER, "whole.png")
-        bpy.ops.screen.screenshot(filepath=whole)
         areas = [area_of(kind) for kind in kinds]
         low = [min(getattr(one, axis) for one in areas) for axis in "xy"]
         high = [max(getattr(one, axis) + size for one, size in ((one, getattr(one, extent)) for one in areas))
@@ -245,8 +245,7 @@ def shoot(name, *kinds):
         if panels_alone:  # without its navigation and header
             region = region_of(areas[0])
             low, high = [region.x, region.y], [region.x + region.width, region.y + region.height]
-        pictures.save_part(whole, os.path.join(FOLDER, f"{name}.png"), (*low, *high), trim_bottom=panels_alone)
-        os.unlink(whole)
+        pictures.save_part(SCREEN, os.path.join(FOLDER, f"{name}.png"), (*low, *high), trim_bottom=panels_alone)
     return take
 
 

@@ -3,18 +3,19 @@
 import struct
 import zlib
 
-import bpy
 import numpy
 
 
-def save_part(path, out, box, trim_bottom=False):
-    """The pixels within `box` (low x, low y, high x, high y, from the bottom left). `trim_bottom` cuts the empty end off."""
-    image = bpy.data.images.load(path)
-    width, height = image.size
-    pixels = numpy.empty(width * height * 4, dtype=numpy.float32)
-    image.pixels.foreach_get(pixels)
-    bpy.data.images.remove(image)
-    shown = (pixels.reshape(height, width, 4)[box[1]:box[3], box[0]:box[2], :3] * 255 + 0.5).astype(numpy.uint8)[::-1]
+def save_part(screen, out, box, trim_bottom=False):
+    """The pixels within `box` (low x, low y, high x, high y, from the bottom left) of a screen's file, an X window dump. `trim_bottom`
+    cuts the empty end off."""
+    with open(screen, "rb") as file:
+        dump = file.read()
+    header = struct.unpack(">25I", dump[:100])
+    width, height, row_bytes = header[4], header[5], header[12]
+    pixels = numpy.frombuffer(dump, numpy.uint8, height * row_bytes, header[0] + 12 * header[19]).reshape(height, row_bytes)
+    pixels = pixels[:, :4 * width].reshape(height, width, 4)[:, :, 2::-1]  # least significant first: blue, green, red
+    shown = pixels[height - box[3]:height - box[1], box[0]:box[2]]
     if trim_bottom:
         inner = shown[:-12, 6:-20]  # without borders and the scroll bar
         rows = numpy.flatnonzero((inner != inner[:, :1]).any(axis=(1, 2)))

@@ -11,25 +11,22 @@
 import argparse
 import os
 import shutil
-import subprocess
 import sys
 
 import bundles
 from blender_process import Blender, skip
+from blender_window import run_in_window
 
 
 PICTURES = ("blender", "blender-object", "blender-check", "blender-gait", "blender-tails", "blender-joints", "blender-preview")
 
 
-def in_window(blender, name, kept):
+def pictures_taken(blender, name, kept):
     """Runs a script in a Blender with a screen of its own, on the lizard; its pictures must show something."""
-    if not shutil.which("xvfb-run"):
-        skip("there is no screen: install the package xvfb")
     out = os.path.join(blender.folder, "pictures")
     os.makedirs(out)
-    command = ["xvfb-run", "-a", "-s", "-screen 0 1300x1250x24", "blender", "--factory-startup", "--window-geometry", "0", "0", "1300",
-               "1250", "--python", f"{blender.tests}/{name}.py", "--", f"{blender.tests}/bundles/lizard.sbf", out]
-    run = subprocess.run(command, env=blender.environment(), check=False, capture_output=True, text=True)
+    run = run_in_window(blender, name, [f"{blender.inside}/tests/bundles/lizard.sbf", f"{blender.inside}/Xvfb_screen0",
+                                        f"{blender.inside}/pictures"])
     print(run.stdout, run.stderr)
     drawn = all(os.path.exists(f"{out}/{one}.png") and os.path.getsize(f"{out}/{one}.png") > 8000 for one in PICTURES)
     if kept:
@@ -55,7 +52,7 @@ def main():
         if asked.program:
             make = bundles.make_shared if asked.shared else bundles.make_lizard if asked.lizard else bundles.make_examples
             make(os.path.join(blender.tests, "bundles"), asked.program)
-        passed = in_window(blender, asked.names[0], asked.keep) if asked.window else blender.run(asked.names)
+        passed = pictures_taken(blender, asked.names[0], asked.keep) if asked.window else blender.run(asked.names)
     sys.exit(0 if passed else 1)
 
 
