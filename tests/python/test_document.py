@@ -46,7 +46,7 @@ class Numbers(unittest.TestCase):
 
     def test_nine_digits_read_back(self):
         numbers = some_numbers()
-        back = array("f", [sbf_numbers.read_float(word.encode()) for word in nine_digits(numbers)])
+        back = array("f", [sbf_numbers.read_float(word.encode()) for word in nine_digits(numbers).split()])
         self.assertEqual(back.tobytes(), numbers.tobytes())
 
     def test_what_is_no_number_is_refused(self):

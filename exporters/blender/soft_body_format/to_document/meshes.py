@@ -42,13 +42,20 @@ def fill_polygons(record, geometry, target):
 
 
 def distinct(rows):
-    """(rows each once, which of them each was); rows are equal where their bits are."""
-    keys = numpy.ascontiguousarray(rows).view([("", rows.dtype)] * rows.shape[1]).ravel()
-    _, first, which = numpy.unique(keys, return_index=True, return_inverse=True)
+    """(rows of two or three floats each once, in the order they first come in; which of them each was). Rows are equal where their
+    bits are."""
+    bits = numpy.ascontiguousarray(rows).view(numpy.uint32).astype(numpy.uint64)
+    keys = bits[:, 0] << numpy.uint64(32) | bits[:, 1]
+    sorting = numpy.argsort(keys, kind="stable") if rows.shape[1] == 2 else numpy.lexsort((bits[:, 2], keys))
+    begins = numpy.ones(len(rows), dtype=bool)
+    begins[1:] = (bits[sorting[1:]] != bits[sorting[:-1]]).any(axis=1)
+    first = sorting[begins]
     order = numpy.argsort(first, kind="stable")
-    place = numpy.empty_like(order)
-    place[order] = numpy.arange(len(order))
-    return rows[first[order]], place[which.ravel()].astype(numpy.uint32)
+    place = numpy.empty(len(first), dtype=numpy.uint32)
+    place[order] = numpy.arange(len(first))
+    which = numpy.empty(len(rows), dtype=numpy.uint32)
+    which[sorting] = place[numpy.cumsum(begins) - 1]
+    return rows[first[order]], which
 
 
 def fill_normals(record, geometry, source, space):

@@ -4,6 +4,7 @@ import os
 from dataclasses import dataclass
 
 import bpy
+import numpy
 
 from ..sbfmt.document import Record
 from ..space import Space
@@ -159,9 +160,8 @@ class SceneWriter:
         slots = [slot.material for slot in source.material_slots]
         if not any(slots):
             return
-        used = sorted(set(geometry.polygon_materials.tolist()))
-        places = {}
-        for index in used:
+        places = numpy.zeros(int(geometry.polygon_materials.max(initial=0)) + 1, dtype=numpy.uint32)
+        for index in numpy.unique(geometry.polygon_materials).tolist():
             material = slots[index] if index < len(slots) else None
             if material is None:
                 self.findings.warning(f"faces of material slot {index + 1} have no material; they take the first one's",
@@ -169,8 +169,8 @@ class SceneWriter:
                 continue
             places[index] = len(record.material_slots)
             record.add("material_slots", material=self.materials.id(material))
-        numbers = [places.get(index, 0) for index in geometry.polygon_materials.tolist()]
-        if any(numbers):
+        numbers = places[geometry.polygon_materials]
+        if numbers.any():
             record.polygon_materials = numbers
 
     def bones_of_groups(self, source, armature):

@@ -79,7 +79,5 @@ def number_words(values):
 
 
 def nine_digits(values):
-    """Texts that read back as the same numbers, most of them longer than need be."""
-    if values.typecode == "f":
-        return ("%.9g " * len(values) % tuple(values)).split()
-    return list(map(str, values))
+    """One text of numbers that read back as the same, most of them longer than need be."""
+    return ("%.9g " * len(values) % tuple(values))[:-1] if values.typecode == "f" else " ".join(map(str, values))

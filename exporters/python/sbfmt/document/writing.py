@@ -41,8 +41,8 @@ def is_default(value, field):
 class Writing:
     """The lines so far. `object` says whether it wrote more than defaults; what did not is taken back by whoever asked."""
 
-    def __init__(self, words):
-        self.lines, self.words = [], words
+    def __init__(self, rows):
+        self.lines, self.rows = [], rows
 
     def object(self, record, name, depth, by=None, fixed=None):
         start, says = len(self.lines), False
@@ -79,8 +79,7 @@ class Writing:
         if field.type == "bytes":
             rows = [base64.b64encode(items[i:i + LINE_BYTES]).decode() for i in range(0, len(items), LINE_BYTES)]
         else:
-            words = self.words(items)
-            rows = [" ".join(words[i:i + LINE_SCALARS]) for i in range(0, len(words), LINE_SCALARS)]
+            rows = self.rows(items)
         space = "  " * depth
         if len(rows) == 1:
             self.lines.append(f"{space}<{field.name}>{rows[0]}</{field.name}>")
@@ -114,10 +113,15 @@ class Writing:
         return says
 
 
+def canonical_rows(items):
+    words = number_words(items)
+    return [" ".join(words[i:i + LINE_SCALARS]) for i in range(0, len(words), LINE_SCALARS)]
+
+
 def to_xml(record, canonical=True):
     """The XML of an asset's record, as bytes. Where the library reads it at once, it need not be canonical: nine digits of every
     number say the same and take a fifth of the time."""
-    writing = Writing(number_words if canonical else nine_digits)
+    writing = Writing(canonical_rows if canonical else lambda items: [nine_digits(items)])
     writing.object(record, record.element.xml, 0)
     return ("\n".join(['<?xml version="1.0" encoding="UTF-8"?>'] + writing.lines) + "\n").encode()
 
