@@ -51,13 +51,13 @@ static uint32_t steps_of(const sbri_island_tick *t) {
   return rounded_steps(sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), stretch));
 }
 
-bool sbri_coupled_begin(sbri_coupled *group) {
+void sbri_coupled_begin(sbri_coupled *group) {
   sbri_character *c = group->character;
-  bool any = false;
+  group->any = false;
   group->steps = 1;
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!sbri_island_is_coupled(c, i)) continue;
-    any = true;
+    group->any = true;
     if (sbri_island_states(c)[i].asleep) sbri_island_wake(c, i);
     sbri_island_states(c)[i].guide_velocity = sbri_vec3(0, 0, 0);
     sbri_island now = sbri_island_now(c, &c->model->islands[i]);
@@ -70,7 +70,6 @@ bool sbri_coupled_begin(sbri_coupled *group) {
     uint32_t steps = steps_of(&tick);
     group->steps = steps > group->steps ? steps : group->steps;
   }
-  return any;
 }
 
 /* ---- Meanwhile ---- */
@@ -155,8 +154,7 @@ static void act_on_island(const sbri_coupled *group, uint32_t index, float step_
   (recovers ? &sbri_position_based : now.scheme)->tick(&tick);
 }
 
-void sbri_coupled_act(void *user, const sbri_rigid_tick *t, float from, float to) {
-  const sbri_coupled *group = user;
+void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *t, float from, float to) {
   sbri_character *c = group->character;
   float step_s = t->tick_s * (to - from);
   for (uint32_t b = 0; b < t->model->body_count; b++)

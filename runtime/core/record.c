@@ -28,7 +28,8 @@ static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
     [SBRI_RECORDED_RIGID_MODE] = 3,
     [SBRI_RECORDED_RIGID_DRIVE] = 5,
     [SBRI_RECORDED_RIGID_SHARE] = 3,
-    [SBRI_RECORDED_RIGID_PUSH] = 8};
+    [SBRI_RECORDED_RIGID_PUSH] = 8,
+    [SBRI_RECORDED_RIGID_FALL] = 4};
 
 enum { HEAD_BYTES = 8, NUMBER_BYTES = 8 };
 
@@ -119,6 +120,8 @@ static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id
     sbr_character_rigid_drive(world, id, &drive);
   else if (what == SBRI_RECORDED_RIGID_SHARE)
     sbr_character_rigid_share(world, id, index_of(n[1]), (float)n[2]);
+  else if (what == SBRI_RECORDED_RIGID_FALL)
+    sbr_character_rigid_fall(world, id, &(sbr_rigid_fall){(float)n[1], (float)n[2], (float)n[3]});
   else
     sbr_character_rigid_push(world, id, whole(n[1]), (sbr_double3){n[2], n[3], n[4]},
         (sbf_vec3){(float)n[5], (float)n[6], (float)n[7]});

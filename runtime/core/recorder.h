@@ -24,6 +24,7 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_RIGID_DRIVE, /* frequency, damping ratio, strength, joint damping */
   SBRI_RECORDED_RIGID_SHARE, /* body, share */
   SBRI_RECORDED_RIGID_PUSH,  /* body, place, impulse */
+  SBRI_RECORDED_RIGID_FALL,  /* share, rest, rise */
   SBRI_RECORDED_COUNT
 } sbri_recorded;
 

@@ -59,6 +59,25 @@ void sbr_character_rigid_share(
   sbri_rigid_wake(c);
 }
 
+sbr_rigid_fall sbr_default_rigid_fall(void) {
+  return (sbr_rigid_fall){.share = 0.1f, .rest_s = 0.5f, .rise_s = 1.5f};
+}
+
+void sbr_character_rigid_fall(sbr_world *world, sbr_character_id character, const sbr_rigid_fall *fall) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!has_body(c, -1) || !fall) return;
+  sbri_record(world, SBRI_RECORDED_RIGID_FALL,
+      (const double[]){character.value, (double)fall->share, (double)fall->rest_s, (double)fall->rise_s});
+  if (!sbri_rigid_drive(c)->any) catch_up(world, c);
+  sbri_reflex_begin(c, fall);
+  sbri_rigid_wake(c);
+}
+
+sbr_rigid_posture sbr_character_rigid_posture(const sbr_world *world, sbr_character_id character) {
+  const sbri_character *c = sbri_character_of(world, character);
+  return has_body(c, -1) ? (sbr_rigid_posture)sbri_rigid_drive(c)->posture : SBR_RIGID_UP;
+}
+
 void sbr_character_rigid_push(
     sbr_world *world, sbr_character_id character, uint32_t rigid_body, sbr_double3 place, sbf_vec3 impulse) {
   sbri_character *c = sbri_character_of(world, character);

@@ -59,11 +59,13 @@ void sbri_rigid_place(sbri_character *c, bool as_in_file) {
     body->share = 1;
   }
   sbri_rigid_drive(c)->last_step_s = 0;
+  sbri_reflex_end(c);
   memset(sbri_rigid_joints(c), 0, model->joint_count * sizeof *sbri_rigid_joints(c));
   sbri_rigid_wake(c);
 }
 
 void sbri_rigid_carry(sbri_character *c) {
+  if (c->model->rigid.body_count) sbri_reflex_end(c);
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
     put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_target(c, sbri_pose(c), b));
   if (c->model->rigid.body_count) sbri_rigid_wake(c);
@@ -184,6 +186,12 @@ static bool is_moved(const sbri_character *c) {
   return false;
 }
 
+static void act(void *user, const sbri_rigid_tick *tick, float from, float to) {
+  sbri_coupled *group = user;
+  if (group->any) sbri_coupled_act(group, tick, from, to);
+  sbri_reflex_act(group->character, tick, tick->tick_s * (to - from));
+}
+
 static void step(const sbr_world *world, sbri_character *c, sbri_coupled *group) {
   const sbri_rigid_model *model = &c->model->rigid;
   const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
@@ -202,8 +210,8 @@ static void step(const sbr_world *world, sbri_character *c, sbri_coupled *group)
       .substeps = c->model->rigid_substeps,
       .touching = sbri_rigid_touching(c),
       .work = sbri_rigid_work(c)};
-  if (sbri_coupled_begin(group))
-    tick.pull = (sbri_rigid_pull){sbri_coupled_act, group, model->pinned_squares, group->steps};
+  sbri_coupled_begin(group);
+  tick.pull = (sbri_rigid_pull){act, group, group->any ? model->pinned_squares : NULL, group->steps};
   sbri_rigid_step(&tick);
   bool lost = false;
   for (uint32_t b = 0; b < model->body_count; b++) lost = lost || is_lost(&sbri_rigid_bodies(c)[b]);

@@ -161,6 +161,16 @@ void sbri_rigid_wake(sbri_character *c);
 /* Whether nothing of it moves by itself. */
 bool sbri_rigid_is_still(const sbri_character *c);
 
+/* ---- core/reflex.c ---- */
+
+void sbri_reflex_begin(sbri_character *c, const sbr_rigid_fall *fall);
+/* The animation has its bodies again. */
+void sbri_reflex_end(sbri_character *c);
+/* Before a tick of the gait. */
+void sbri_reflex_tick(const struct sbr_world *world, sbri_character *c);
+/* Before a step of the rigid parts. */
+void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *tick, float step_s);
+
 /* ---- core/frames.c ---- */
 
 /* The frames' motion since the rest pose, in asset metres: what carries a rest position to where it is now.

@@ -11,9 +11,10 @@ static const float REBASE_AT_M = 4;
 
 sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character *c) {
   const sbri_character_state *head = sbri_head(c);
-  return (sbri_gait_input){.forward = head->forward,
-      .sideways = head->sideways,
-      .turn = head->turn,
+  bool up = !c->model->rigid.body_count || sbri_rigid_drive(c)->posture == SBR_RIGID_UP;
+  return (sbri_gait_input){.forward = up ? head->forward : 0,
+      .sideways = up ? head->sideways : 0,
+      .turn = up ? head->turn : 0,
       .tick_s = (float)world->tick_s,
       .scale = c->scale,
       .hold = c->hold,
@@ -72,6 +73,7 @@ static void tick_character(void *context, uint32_t index) {
   rebase(c);
   sbri_settle(c);
   if (sbri_head(c)->paused) return;
+  sbri_reflex_tick(world, c);
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbr_transform *pose = sbri_pose(c);
   bool has_bodies = c->model->island_count > 0; /* which alone ask where frames carry them */

@@ -89,13 +89,13 @@ typedef struct sbri_coupled {
   const sbr_world *world;
   sbri_character *character;
   const sbr_transform *animated; /* (frame_count) the pose at the tick's end but for what bodies move */
+  bool any;                      /* soft body is coupled; set by sbri_coupled_begin, as: */
   uint32_t steps;                /* of the tick, that the soft bodies ask for */
 } sbri_coupled;
 
-/* A tick of them: what comes before it, while the rigid parts step (rigid_state.h), and after it. `begin`
- * returns whether there are any. */
-bool sbri_coupled_begin(sbri_coupled *group);
-void sbri_coupled_act(void *group, const sbri_rigid_tick *tick, float from, float to);
+/* A tick of them: what comes before it, before each step of the rigid parts (rigid_state.h), and after it. */
+void sbri_coupled_begin(sbri_coupled *group);
+void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *tick, float from, float to);
 void sbri_coupled_end(sbri_coupled *group);
 
 /* Whether all of them may go on sleeping, whether all are slow enough to begin to, and their beginning to. */

@@ -164,6 +164,7 @@ static void add_weight(const sbr_model *model, uint32_t frame, const sbri_point 
   sbf_vec3 r = own_arm(body, at), ease = body->inverse_inertia;
   float turning = ease.x > ease.y ? ease.x : ease.y;
   turning = turning > ease.z ? turning : ease.z;
+  model->rigid.carried_masses[carrier] += mass;
   model->rigid.pinned_weights[carrier] += mass * (body->inverse_mass + sbri_dot(r, r) * turning);
 }
 

@@ -183,7 +183,9 @@ bool sbri_rigid_model_make(sbri_rigid_model *model, const sbf_asset *asset, sbfi
   uint32_t *own_frames = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof *own_frames);
   model->pinned_weights = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof(float));
   model->pinned_squares = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof(float));
-  if (!bodies || !joints || !body_of_bone || !own_frames || !model->pinned_squares || !model->pinned_weights)
+  model->carried_masses = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof(float));
+  if (!bodies || !joints || !body_of_bone || !own_frames || !model->pinned_squares ||
+      !model->pinned_weights || !model->carried_masses)
     return false;
   model->bodies = bodies, model->joints = joints, model->body_of_bone = body_of_bone;
   model->own_frames = own_frames;

@@ -27,9 +27,12 @@ typedef struct sbri_rigid_joint_state {
 typedef struct sbri_rigid_drive_state {
   float frequency_hz, damping_ratio, strength, joint_damping_1_s; /* as sbr_rigid_drive has them */
   uint32_t asleep, quiet_ticks;
-  uint32_t substeps; /* of the last tick */
-  float last_step_s; /* of the last tick; 0: the bodies have just begun to move */
-  uint32_t any;      /* some body is not kinematic */
+  uint32_t substeps;                /* of the last tick */
+  float last_step_s;                /* of the last tick; 0: the bodies have just begun to move */
+  uint32_t any;                     /* some body is not kinematic */
+  uint32_t posture;                 /* of sbr_rigid_posture */
+  float posture_s, still_s;         /* for how long, and for how long it has lain still in that */
+  float limp_share, rest_s, rise_s; /* of sbr_rigid_fall */
 } sbri_rigid_drive_state;
 
 /* A place of a hull that may touch the ground or a shape within the tick. */

@@ -4,74 +4,10 @@
 #include <string.h>
 
 #include "harness.h"
-#include "rigid_scenes.h"
-
-enum { PARTS = 14 };
-typedef struct part {
-  int parent;
-  sbf_vec3 head, tail;
-  float mass;
-} part;
-static const part parts[PARTS] = {{-1, {0, 1.0f, 0}, {0, 1.2f, 0}, 11}, {0, {0, 1.2f, 0}, {0, 1.5f, 0}, 20},
-    {1, {0, 1.5f, 0}, {0, 1.75f, 0}, 5}, {1, {0.2f, 1.45f, 0}, {0.5f, 1.45f, 0}, 2},
-    {3, {0.5f, 1.45f, 0}, {0.78f, 1.45f, 0}, 1.5f}, {1, {-0.2f, 1.45f, 0}, {-0.5f, 1.45f, 0}, 2},
-    {5, {-0.5f, 1.45f, 0}, {-0.78f, 1.45f, 0}, 1.5f}, {0, {0.1f, 1.0f, 0}, {0.1f, 0.55f, 0}, 8},
-    {7, {0.1f, 0.55f, 0}, {0.1f, 0.1f, 0}, 4}, {8, {0.1f, 0.05f, 0}, {0.1f, 0.05f, 0.2f}, 1},
-    {0, {-0.1f, 1.0f, 0}, {-0.1f, 0.55f, 0}, 8}, {10, {-0.1f, 0.55f, 0}, {-0.1f, 0.1f, 0}, 4},
-    {11, {-0.1f, 0.05f, 0}, {-0.1f, 0.05f, 0.2f}, 1}, {1, {0, 1.35f, 0}, {0, 1.35f, -0.1f}, 3}};
+#include "rigid_person.h"
 
 static float larger(float a, float b) {
   return a > b ? a : b;
-}
-
-/* A bone and a box for each part, ball joints with cones of 0.7 rad and twists of 0.3 between them. */
-static scene person(void) {
-  scene s = rigid_begin();
-  s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
-  s.world_definition.ground = sbr_ground_flat(0);
-  s.character_definition.position.y = 0.02;
-  sbf_bone *bones = sbf_asset_allocate(s.asset, PARTS, sizeof *bones);
-  ck_assert_ptr_nonnull(bones);
-  for (int i = 0; i < PARTS; i++) {
-    const part *p = &parts[i];
-    sbf_vec3 middle = {
-        0.5f * (p->head.x + p->tail.x), 0.5f * (p->head.y + p->tail.y), 0.5f * (p->head.z + p->tail.z)};
-    sbf_vec3 size = {
-        fabsf(p->tail.x - p->head.x), fabsf(p->tail.y - p->head.y), fabsf(p->tail.z - p->head.z)};
-    uint32_t body = rigid_box(&s, middle,
-        (sbf_vec3){larger(0.9f * size.x, 0.1f), larger(0.9f * size.y, 0.1f), larger(0.9f * size.z, 0.1f)},
-        p->mass);
-    sbf_bone_init(&bones[i]);
-    bones[i].id = "bone";
-    bones[i].parent = p->parent;
-    bones[i].head = p->head;
-    rigid_body(&s, body)->bone = i;
-    if (p->parent < 0) continue;
-    sbf_joint *joint = rigid_joint(&s, SBF_JOINT_KIND_SPHERICAL, p->parent, body, p->head, rigid_along_x);
-    rigid_limit(&s, joint, (sbf_limit){.target = SBF_JOINT_AXIS_SWING, .max = 0.7f});
-    rigid_limit(&s, joint, (sbf_limit){.target = SBF_JOINT_AXIS_TWIST, .min = -0.3f, .max = 0.3f});
-  }
-  s.asset->bones = (sbf_bone_list){bones, PARTS};
-  return s;
-}
-
-static float fastest(const scene *s) {
-  float most = 0;
-  for (uint32_t b = 0; b < PARTS; b++) {
-    sbf_vec3 v = rigid_state(s, b).velocity;
-    most = larger(most, sqrtf(v.x * v.x + v.y * v.y + v.z * v.z));
-  }
-  return most;
-}
-
-/* A little above the body's middle. */
-static void shove(const scene *s, uint32_t body, sbf_vec3 impulse) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
-  sbf_vec3 c = rigid_state(s, body).center;
-  sbr_character_rigid_push(s->world, s->character, body,
-      (sbr_double3){o.x + (double)c.x, o.y + (double)c.y + 0.05 * (double)s->character_definition.scale,
-          o.z + (double)c.z},
-      impulse);
 }
 
 /* Within 5 s, whatever way it is thrown; no joint off, no limit broken by a degree on the way and a tenth of
@@ -81,7 +17,7 @@ START_TEST(a_person_falls_and_lies)
   static const sbf_vec3 shoves[4] = {{0, 0, 60}, {80, 0, -40}, {-30, 100, 0}, {0, -50, -120}};
   scene s = person();
   scene_start(&s);
-  shove(&s, 1, shoves[_i]);
+  person_shove(&s, 1, shoves[_i]);
   float apart = 0, beyond = 0;
   for (int i = 0; i < 300; i++) {
     sbr_world_tick(s.world);
@@ -96,7 +32,7 @@ START_TEST(a_person_falls_and_lies)
   beyond = 0;
   for (int i = 0; i < 60; i++) {
     sbr_world_tick(s.world);
-    trembling = larger(trembling, fastest(&s));
+    trembling = larger(trembling, person_fastest(&s));
     for (uint32_t j = 0; j < PARTS - 1; j++) beyond = larger(beyond, rigid_joint_state(&s, j).beyond_angle);
   }
   ck_assert_float_le(trembling, 3e-3f);
@@ -110,7 +46,7 @@ START_TEST(bones_go_with_their_bodies)
 {
   scene s = person();
   scene_start(&s);
-  shove(&s, 2, (sbf_vec3){10, 0, 10});
+  person_shove(&s, 2, (sbf_vec3){10, 0, 10});
   scene_ticks(&s, 40);
   sbr_transform bones[PARTS];
   sbr_character_bones(s.world, s.character, bones, PARTS);
@@ -120,9 +56,9 @@ START_TEST(bones_go_with_their_bodies)
     ck_assert_float_eq_tol(fabsf(bones[b].rotation.w), fabsf(now.frame.rotation.w), 1e-5f);
     sbf_vec3 d = {bones[b].position.x - now.center.x, bones[b].position.y - now.center.y,
         bones[b].position.z - now.center.z};
-    sbf_vec3 r = {parts[b].head.x - 0.5f * (parts[b].head.x + parts[b].tail.x),
-        parts[b].head.y - 0.5f * (parts[b].head.y + parts[b].tail.y),
-        parts[b].head.z - 0.5f * (parts[b].head.z + parts[b].tail.z)};
+    sbf_vec3 r = {person_parts[b].head.x - 0.5f * (person_parts[b].head.x + person_parts[b].tail.x),
+        person_parts[b].head.y - 0.5f * (person_parts[b].head.y + person_parts[b].tail.y),
+        person_parts[b].head.z - 0.5f * (person_parts[b].head.z + person_parts[b].tail.z)};
     ck_assert_float_eq_tol(d.x * d.x + d.y * d.y + d.z * d.z, r.x * r.x + r.y * r.y + r.z * r.z, 1e-4f);
   }
   scene_free(&s);
@@ -173,7 +109,7 @@ START_TEST(snapshots_and_sleep)
   scene s = person();
   s.world_definition.sleep_after_s = 0.5;
   scene_start(&s);
-  shove(&s, 1, (sbf_vec3){0, 0, 60});
+  person_shove(&s, 1, (sbf_vec3){0, 0, 60});
   scene_ticks(&s, 30);
   size_t size = sbr_world_snapshot_size(s.world);
   void *kept = malloc(size);
@@ -185,9 +121,9 @@ START_TEST(snapshots_and_sleep)
   ck_assert_uint_eq(sbr_world_state_hash(s.world), first);
   free(kept);
   scene_ticks(&s, 400);
-  ck_assert_float_eq(fastest(&s), 0);
+  ck_assert_float_eq(person_fastest(&s), 0);
   sbf_vec3 before = rigid_state(&s, 1).center;
-  shove(&s, 1, (sbf_vec3){100, 100, 0});
+  person_shove(&s, 1, (sbf_vec3){100, 100, 0});
   scene_ticks(&s, 10);
   sbf_vec3 after = rigid_state(&s, 1).center;
   ck_assert_float_ge(
@@ -205,7 +141,7 @@ START_TEST(a_larger_person_falls_the_same_way)
     s.character_definition.scale = i ? 4 : 1;
     s.character_definition.position.y *= i ? 4 : 1;
     scene_start(&s);
-    shove(&s, 1, (sbf_vec3){0, 0, 20.0f * (i ? 128 : 1)}); /* mass 64, speed 2 */
+    person_shove(&s, 1, (sbf_vec3){0, 0, 20.0f * (i ? 128 : 1)}); /* mass 64, speed 2 */
     scene_ticks(&s, i ? 60 : 30);
     *(i ? &large : &small) = rigid_joint_state(&s, 5);
     scene_free(&s);

@@ -52,6 +52,34 @@ SBF_API void sbr_character_rigid_drive(
 SBF_API void sbr_character_rigid_share(
     sbr_world *world, sbr_character_id character, int32_t rigid_body, float share);
 
+/* ---- Falling over ---- */
+
+/* How a character goes down and gets up. */
+typedef struct sbr_rigid_fall {
+  float share;  /* [0, 1] of its drive that it has while it falls; default 0.1 */
+  float rest_s; /* s that it lies still before it gets up; default 0.5; of its own, as all here are */
+  float rise_s; /* s in which it gets up; default 1.5, at least 0.1 */
+} sbr_rigid_fall;
+
+/* What a character is at. */
+typedef enum sbr_rigid_posture {
+  SBR_RIGID_UP,      /* what its bodies' modes say */
+  SBR_RIGID_FALLING, /* it goes down, or lies */
+  SBR_RIGID_RISING   /* it gets up */
+} sbr_rigid_posture;
+
+/* Knocks the character over: all bodies that the file does not make dynamic are driven with a share of the
+ * drive's strength until they lie still (or for 5 s and rest_s), then, where it lies, with more and more of
+ * it and helped up by a pull on each body, towards the pose of its gait or clip; what it is wanted to walk
+ * waits. Up, its bodies are kinematic, and it walks on. It stops falling where it is reset or teleported.
+ * Give the hit itself with sbr_character_rigid_push, after this. */
+SBF_API sbr_rigid_fall sbr_default_rigid_fall(void);
+SBF_API void sbr_character_rigid_fall(
+    sbr_world *world, sbr_character_id character, const sbr_rigid_fall *fall);
+SBF_API sbr_rigid_posture sbr_character_rigid_posture(const sbr_world *world, sbr_character_id character);
+
+/* ---- What it is like ---- */
+
 /* A rigid body as of the last tick. */
 typedef struct sbr_rigid_state {
   sbr_rigid_mode mode;          /* what moves it */

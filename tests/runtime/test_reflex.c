@@ -1,0 +1,70 @@
+/* A person is hit, falls, gets up and stands. */
+#include <math.h>
+
+#include "harness.h"
+#include "rigid_person.h"
+
+static float larger(float a, float b) {
+  return a > b ? a : b;
+}
+
+static scene standing(void) {
+  scene s = person();
+  for (uint32_t b = 0; b < PARTS; b++) rigid_body(&s, b)->motion = SBF_BODY_MOTION_KINEMATIC;
+  scene_start(&s);
+  return s;
+}
+
+static void hit(const scene *s, sbf_vec3 impulse) {
+  sbr_rigid_fall fall = sbr_default_rigid_fall();
+  sbr_character_rigid_fall(s->world, s->character, &fall);
+  person_shove(s, 1, impulse);
+}
+
+static float worst_limit(const scene *s) {
+  float beyond = 0;
+  for (uint32_t j = 0; j < PARTS - 1; j++) beyond = larger(beyond, rigid_joint_state(s, j).beyond_angle);
+  return beyond;
+}
+
+/* Down within two seconds, up again within eight, no joint broken by a degree on the way, and no joint apart;
+ * the pose is that of before, a step away at most. */
+START_TEST(hit_falls_and_gets_up)
+{
+  static const sbf_vec3 hits[4] = {{0, 0, 120}, {150, 0, -40}, {-80, 60, 0}, {0, 0, -150}};
+  scene s = standing();
+  scene_ticks(&s, 30);
+  ck_assert_int_eq(sbr_character_rigid_posture(s.world, s.character), SBR_RIGID_UP);
+  hit(&s, hits[_i]);
+  float beyond = 0, apart = 0, lowest = 10, resting = 0;
+  int down = 0, rising = 0, up = 0;
+  for (int i = 1; i <= 480 && !up; i++) {
+    sbr_world_tick(s.world);
+    sbr_rigid_posture posture = sbr_character_rigid_posture(s.world, s.character);
+    float head = rigid_state(&s, 2).center.y;
+    lowest = head < lowest ? head : lowest;
+    beyond = larger(beyond, worst_limit(&s));
+    for (uint32_t j = 0; j < PARTS - 1; j++) apart = larger(apart, rigid_joint_state(&s, j).apart);
+    if (head < 0.6f && !down) down = i;
+    if (posture == SBR_RIGID_RISING && !rising) rising = i, resting = worst_limit(&s);
+    if (posture == SBR_RIGID_UP) up = i;
+  }
+  ck_assert(down > 0 && down <= 120);
+  ck_assert_int_gt(rising, down);
+  ck_assert_int_gt(up, rising);
+  ck_assert_float_le(beyond, 0.01745f);
+  ck_assert_float_le(resting, 0.001745f);
+  ck_assert_float_le(apart, 1e-3f);
+  scene_ticks(&s, 30);
+  ck_assert_float_eq_tol(rigid_state(&s, 2).center.y, 1.625f, 0.03f);
+  scene_free(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("reflex");
+  TCase *tests = tcase_create("all");
+  tcase_add_loop_test(tests, hit_falls_and_gets_up, 0, 4);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
