@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/benchmarks.md and docs/sizes.md from the results that are committed.
+"""Writes the tables of docs/benchmarks.md, docs/sizes.md and others from the results that are committed.
 
     bench/write_tables.py [--check]      with --check, says which document is stale and changes nothing
 
@@ -12,7 +12,7 @@ import re
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md")
+DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -135,10 +135,31 @@ TABLES = {
 }
 
 
+def share(text):
+    """In per cent, two digits that count."""
+    return f"{100 * float(text):.2g}" if abs(float(text)) >= 5e-6 else "0"
+
+
+def bias_table(rows):
+    """One row a case and model, one column a scheme and its substeps; the same on every machine."""
+    schemes = list(dict.fromkeys((r["scheme"], r["substeps"]) for r in rows))
+    names = [scheme + (f", {substeps}" if substeps != "0" else "") for scheme, substeps in schemes]
+    lines = [["case", "model"] + [f"`{name}`" for name in names], ["---", "---"] + ["---:"] * len(names)]
+    for case, model in dict.fromkeys((r["case"], r["model"]) for r in rows):
+        cells = {(r["scheme"], r["substeps"]): r for r in rows if (r["case"], r["model"]) == (case, model)}
+        at = [cells.get(scheme) for scheme in schemes]
+        lines.append([case, model] + [share(r["bias"]) if r else "" for r in at])
+        if case == "swing":
+            lines.append(["damping added", model] + [share(r["damping"]) if r else "" for r in at])
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
 def table(name, machine):
-    make_row, head, text_columns = TABLES[name]
     with open(os.path.join(ROOT, "bench/results", machine, name + ".csv"), newline="") as file:
         rows = list(csv.DictReader(file))
+    if name == "bias":
+        return bias_table(rows)
+    make_row, head, text_columns = TABLES[name]
     columns = head.split(" | ")
     rule = ["---" if i < text_columns else "---:" for i in range(len(columns))]
     lines = [columns, rule] + [make_row(row) for row in rows]

@@ -37,7 +37,7 @@ static uint32_t weigh(const region_weights *r, uint32_t number) {
   }
   for (uint32_t i = 0; free_count && i < count; i++) {
     float mass = mass_of(r, points[i]);
-    const sbri_point *p = &r->island->rest[r->body->slot_from_point[points[i]]];
+    const sbf_vec3 *p = &r->body->level->positions.at[points[i]];
     r->weights[i] = (mass > 0 ? (double)mass : sum / free_count) / r->uses[points[i]];
     r->rest[i] = (sbfi_d3){p->x, p->y, p->z};
   }

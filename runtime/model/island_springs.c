@@ -13,6 +13,13 @@ static float rest_distance(const sbri_island *island, uint32_t a, uint32_t b) {
   return sqrtf(x * x + y * y + z * z);
 }
 
+/* Of two points of levels: pins hold some elsewhere. */
+static float authored_distance(const sbri_body *a, uint32_t from, const sbri_body *b, uint32_t to) {
+  const sbf_vec3 *p = &a->level->positions.at[from], *q = &b->level->positions.at[to];
+  float x = q->x - p->x, y = q->y - p->y, z = q->z - p->z;
+  return sqrtf(x * x + y * y + z * z);
+}
+
 static const sbfi_spring_bounds unbounded = {.strain_min = -1};
 
 static bool add(sbri_island_maker *m, sbfi_spring spring, const sbfi_spring_bounds *bounds) {
@@ -73,7 +80,8 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
       const uint32_t *ends = set->ends.at[i].at;
       uint32_t a = body->slot_from_point[ends[0]], b = body->slot_from_point[ends[1]];
       float k = *stiffness++;
-      float rest = set->rest_lengths.count ? set->rest_lengths.at[i] : rest_distance(m->island, a, b);
+      float rest =
+          set->rest_lengths.count ? set->rest_lengths.at[i] : authored_distance(body, ends[0], body, ends[1]);
       float damping = set->damping.count ? set->damping.at[set->damping.count == 1 ? 0 : i]
                                          : is->stiffness_damping * factor_of(by.damping, ends) * k;
       sbfi_spring_bounds bounds = bounds_of(is, set, &by, ends);
@@ -106,7 +114,9 @@ static bool add_cross_springs(sbri_island_maker *m, const sbf_cross_springs *cro
     float lighter = mass_a > 0 && (mass_a < mass_b || !(mass_b > 0)) ? mass_a : mass_b;
     float k = cross->stiffness.count ? cross->stiffness.at[cross->stiffness.count == 1 ? 0 : i]
                                      : sbri_natural_stiffness(softer->source, lighter);
-    float rest = cross->rest_lengths.count ? cross->rest_lengths.at[i] : rest_distance(m->island, at_a, at_b);
+    float rest = cross->rest_lengths.count
+                     ? cross->rest_lengths.at[i]
+                     : authored_distance(a, cross->ends.at[i].at[0], b, cross->ends.at[i].at[1]);
     float damping = cross->damping.count ? cross->damping.at[cross->damping.count == 1 ? 0 : i]
                                          : softer->source->attributes.stiffness_damping * k;
     if (!add(m, (sbfi_spring){at_a, at_b, k, rest, damping}, &unbounded)) return false;

@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 CORE_HEADERS = {"sbfmt/base.h", "sbfmt/codes.h", "sbfmt/model.h", "sbfmt/asset.h", "sbfmt/io.h", "sbfmt/mechanics.h",
-                "sbrun/sbrun.h", "sbrun/animation.h", "sbrun/rigid.h", "sbrun/terrain.h"}
+                "sbrun/sbrun.h", "sbrun/animation.h", "sbrun/record.h", "sbrun/rigid.h", "sbrun/terrain.h"}
 # What an engine's program may need at run time.
 ENGINE_NEEDS = re.compile(r"^(lib(z|m|c)\.so\.\d+|ld-linux.*|libsbrun\.so\..*|libsbfmt-(core|mechanics)\.so\..*)$")
 
