@@ -7,7 +7,7 @@
 
 /* As sbf_build_interior, and another word for one of them. */
 static const char *const methods[] = {
-    "automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "surface"};
+    "automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching", "surface"};
 enum { METHOD_COUNT = sizeof methods / sizeof *methods, SURFACE = METHOD_COUNT - 1 };
 
 static bool read_options(const cli_call *call, sbf_build_options *options) {

@@ -8,8 +8,8 @@
 
 #define BUILDING_OPTIONS                                                                                     \
   {"--springs", "METHOD",                                                                                    \
-      "automatic, centroid, lattice, surface (or none), brute: springs; tetrahedra: no springs "             \
-      "(automatic)"},                                                                                        \
+      "automatic, centroid, lattice, surface (or none), brute: springs; tetrahedra, shape_matching: no "     \
+      "springs (automatic)"},                                                                                \
       {"--cell", "METRES", "edge of a lattice's cubes (by --elements)"},                                     \
       {"--elements", "N", "about so many tetrahedra a body (2000, thin ones up to 16000)"},                  \
       {"--error", "METRES",                                                                                  \

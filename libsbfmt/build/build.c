@@ -9,6 +9,7 @@
 #include "build/embed/embed.h"
 #include "build/geometry/topology.h"
 #include "build/lattice/lattice_level.h"
+#include "build/lattice/region_level.h"
 #include "build/levels/ladder.h"
 #include "build/new_places.h"
 #include "build/render/render_levels.h"
@@ -374,6 +375,17 @@ static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_ladder *ladder
   return SBF_OK;
 }
 
+/* A lattice as for tetrahedra, then regions of its points in their stead. */
+static sbf_status make_regions(build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
+  sbf_status status = make_tetrahedra(b, number, ladder, scratch);
+  const sbf_soft_body *body = &b->bodies[number];
+  if (status != SBF_OK || !b->made[number] || body->levels.at[0].model != SBF_ELASTIC_MODEL_TETRAHEDRA)
+    return status;
+  /* The level is the asset's, made here. */
+  sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at;
+  return sbfi_region_level_make(level, body, b->asset, scratch) ? SBF_OK : no_memory(b);
+}
+
 /* A section that was cut here; where it encloses nothing, as a sheet does, springs to its centre hold it. */
 static sbf_status make_section(build *b, uint32_t number, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
@@ -439,11 +451,15 @@ static sbf_status make_level(build *b, uint32_t number) {
         b->bodies[number].name, MOST_BRUTE_POINTS);
   else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
     status = make_tetrahedra(b, number, &ladder, &scratch);
+  else if (interior == SBF_BUILD_INTERIOR_SHAPE_MATCHING)
+    status = make_regions(b, number, &ladder, &scratch);
   else if (interior == SBF_BUILD_INTERIOR_AUTOMATIC)
     status = make_section(b, number, &scratch);
   else if (!make_springs(b, number, interior, &scratch))
     status = no_memory(b);
-  if (status == SBF_OK && b->made[number]) status = make_ladder(b, number, &ladder);
+  bool alone = b->bodies[number].levels.count &&
+               b->bodies[number].levels.at[0].model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+  if (status == SBF_OK && b->made[number] && !alone) status = make_ladder(b, number, &ladder);
   sbfi_ladder_free(&ladder);
   sbfi_arena_free(&scratch);
   return status;
@@ -470,7 +486,7 @@ static void share_elements(build *b) {
   uint32_t sharing = 0;
   for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
     sharing +=
-        b->bodies[i].levels.count == 0 && interior_of(b, &b->bodies[i]) == SBF_BUILD_INTERIOR_TETRAHEDRA;
+        b->bodies[i].levels.count == 0 && interior_of(b, &b->bodies[i]) >= SBF_BUILD_INTERIOR_TETRAHEDRA;
   uint32_t share = SBFI_LATTICE_SHARED_ELEMENTS / (sharing ? sharing : 1);
   b->usual_elements = share > LEAST_SHARE ? share : LEAST_SHARE;
 }

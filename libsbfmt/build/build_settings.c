@@ -41,7 +41,7 @@ static const struct {
 enum { SETTING_COUNT = sizeof settings / sizeof *settings };
 
 static const char *const interior_words[SBFI_BUILD_INTERIOR_COUNT] = {
-    "automatic", "centroid", "none", "lattice", "brute", "tetrahedra"};
+    "automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching"};
 
 static const double most_um = 4e9; /* fits 32 bits */
 

@@ -4,7 +4,7 @@
 
 #include "sbfmt/build.h"
 
-enum { SBFI_BUILD_SETTINGS_SIZE = 320, SBFI_BUILD_INTERIOR_COUNT = SBF_BUILD_INTERIOR_TETRAHEDRA + 1 };
+enum { SBFI_BUILD_SETTINGS_SIZE = 320, SBFI_BUILD_INTERIOR_COUNT = SBF_BUILD_INTERIOR_SHAPE_MATCHING + 1 };
 
 /* The settings that shape what is made, in alphabetical order; sizes that are left to the build have no word.
  */

@@ -10,7 +10,7 @@ from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertAtta
     DiagnosticStruct, ExportOptions, FixOptions, FixResult, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, \
     check, library
 
-INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra")
+INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching")
 LIMITS = ("none", "human", "quadruped", "reptile")
 
 

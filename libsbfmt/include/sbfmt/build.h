@@ -24,15 +24,18 @@ extern "C" {
  * Centroid: a centre and a point for each polygon. Lattice: interior points on a body-centred grid, springs
  * along those of its edges that stay inside, so that no spring leaves a concave body. Brute: springs between
  * all points of the surface, to compare with. Tetrahedra: isosurface stuffing, any surface, open ones and
- * soups included, dihedral angles between 10 and 165 degrees. */
+ * soups included, dihedral angles between 10 and 165 degrees. Shape matching: the points of the same lattice
+ * in overlapping regions that keep their shape, with Poisson's ratio 0; stable with few steps whatever
+ * befalls it. */
 typedef enum sbf_build_interior {
-  SBF_BUILD_INTERIOR_AUTOMATIC = 0, /* lattice in a section cut here, centroid in another, tetrahedra in a
-                                       body without a bone, none in a sheet without one */
-  SBF_BUILD_INTERIOR_CENTROID = 1,  /* springs; held by the body's bone if it has one */
-  SBF_BUILD_INTERIOR_NONE = 2,      /* springs over the surface alone */
-  SBF_BUILD_INTERIOR_LATTICE = 3,   /* springs */
-  SBF_BUILD_INTERIOR_BRUTE = 4,     /* springs */
-  SBF_BUILD_INTERIOR_TETRAHEDRA = 5 /* held by the body's bone, if it has one, in its inner half */
+  SBF_BUILD_INTERIOR_AUTOMATIC = 0,     /* lattice in a section cut here, centroid in another, tetrahedra in a
+                                           body without a bone, none in a sheet without one */
+  SBF_BUILD_INTERIOR_CENTROID = 1,      /* springs; held by the body's bone if it has one */
+  SBF_BUILD_INTERIOR_NONE = 2,          /* springs over the surface alone */
+  SBF_BUILD_INTERIOR_LATTICE = 3,       /* springs */
+  SBF_BUILD_INTERIOR_BRUTE = 4,         /* springs */
+  SBF_BUILD_INTERIOR_TETRAHEDRA = 5,    /* held by the body's bone, if it has one, in its inner half */
+  SBF_BUILD_INTERIOR_SHAPE_MATCHING = 6 /* regions around the points of such a lattice; one level */
 } sbf_build_interior;
 
 /* Whether skinned meshes are cut into sections: soft bodies on bones, each the part of the skin that its bone

@@ -11,6 +11,7 @@ INTERIORS = (
     ("centroid", "Springs to the centre", "A centre and a point for each polygon; cheap, for round parts"),
     ("lattice", "Springs on a lattice", "Inner points on a regular grid; for parts of any shape"),
     ("tetrahedra", "Tetrahedra", "Follows the material most truly, stays in shape, and costs most"),
+    ("shape_matching", "Shape matching", "Regions of a lattice that keep their shape: never bursts, does not thin when stretched"),
     ("none", "Surface alone", "Springs over the surface and nothing inside"),
     ("brute", "All to all", "Springs between all points of the surface; to compare with"),
 )
