@@ -59,8 +59,8 @@ void sbri_coupled_begin(sbri_coupled *group) {
     if (!sbri_island_is_coupled(c, i)) continue;
     group->any = true;
     if (sbri_island_states(c)[i].asleep) sbri_island_wake(c, i);
-    sbri_island_states(c)[i].guide_velocity = sbri_vec3(0, 0, 0);
     sbri_island now = sbri_island_now(c, &c->model->islands[i]);
+    sbri_guides_stop(c, &now);
     sbri_island_tuck(c, &now);
     sbri_island_tick tick = sbri_island_tick_of(group->world, c, i, &now);
     tick.outer_rad_s = &now.outer_rad_s;
@@ -138,11 +138,10 @@ static void act_on_island(const sbri_coupled *group, uint32_t index, float step_
   sbri_character *c = group->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   size_t first = now.first_slot;
-  bool jumped = false;
   if (now.substeps) now.substeps = (uint32_t)ceilf(share * (float)now.substeps);
   sbri_held_places(&now, sbri_previous_deltas(c), sbri_positions(c) + first);
   sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + first);
-  (void)sbri_guide_velocities_find(c, &now, step_s, &jumped);
+  (void)sbri_guide_velocities_find(c, &now, step_s);
   for (uint32_t b = 0; b < now.body_count; b++) damp(c, &now, &c->model->bodies[now.bodies[b]], step_s);
   sbri_island_tick tick = sbri_island_tick_of(group->world, c, index, &now);
   tick.tick_s = step_s, tick.share = share;

@@ -8,66 +8,6 @@
 #include "solvers/router.h"
 #include "solvers/touches.h"
 
-sbf_vec3 sbri_guide_velocities_find(
-    sbri_character *c, const sbri_island *island, float tick_s, bool *jumped) {
-  float rate = 1 / tick_s, count = 0;
-  sbf_vec3 sum = {0, 0, 0};
-  for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (!body->held) continue;
-    sbri_point *from = sbri_begins(c) + island->first_slot + body->slot_begin;
-    sbri_point *to = sbri_velocity_points(c) + island->first_slot + body->slot_begin;
-    sbri_guide_places(c->model, body, sbri_previous_deltas(c), from);
-    sbri_guide_places(c->model, body, sbri_deltas(c), to);
-    sbri_follow_origins(c, body, from);
-    sbri_follow_origins(c, body, to);
-    float farthest = 0;
-    float *velocities = sbri_guide_velocities(c) + 3 * (size_t)(island->first_slot + body->slot_begin);
-    for (uint32_t i = 0; i < body->slot_end - body->slot_begin; i++) {
-      float x = to[i].x - from[i].x, y = to[i].y - from[i].y, z = to[i].z - from[i].z;
-      float *v = velocities + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK,
-            square = x * x + y * y + z * z;
-      v[0] = x * rate, v[SBRI_BLOCK] = y * rate, v[2 * SBRI_BLOCK] = z * rate;
-      sum = sbri_add(sum, sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]));
-      count += 1;
-      farthest = square > farthest ? square : farthest;
-    }
-    float most = body->rest_size_m + 0.05f * c->model->rest_size_m;
-    *jumped = *jumped || farthest > most * most;
-  }
-  return count > 0 ? sbri_scale(sum, 1 / count) : sum;
-}
-
-/* Gives the body's points what its guides' velocity has changed by beyond what it is made to feel. */
-static void soften_start(
-    sbri_character *c, const sbri_island *island, uint32_t index, sbf_vec3 guide_velocity, float tick_s) {
-  sbri_island_state *state = &sbri_island_states(c)[index];
-  sbf_vec3 change = sbri_sub(guide_velocity, state->guide_velocity);
-  float most = island->most_acceleration_m_s2 * tick_s, size = sbri_length(change);
-  state->guide_velocity = guide_velocity;
-  if (island->scheme->forceless || !(most > 0) || !(size > most)) return;
-  sbf_vec3 excess = sbri_scale(change, 1 - most / size);
-  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-  for (uint32_t slot = 0; slot < island->free_count; slot++) {
-    float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    if (!(island->masses[slot] > 0)) continue;
-    v[0] += excess.x, v[SBRI_BLOCK] += excess.y, v[2 * SBRI_BLOCK] += excess.z;
-  }
-}
-
-/* Carries the island with its frames, as fast as they go. */
-static void ride_along(sbri_character *c, uint32_t index, float tick_s) {
-  const sbri_island *island = &c->model->islands[index];
-  sbri_island_carry(c, index);
-  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
-  const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
-  for (uint32_t b = 0; b < island->body_count; b++) {
-    const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    for (uint32_t i = 3 * body->slot_begin; body->held && i < 3 * body->slot_end; i++)
-      velocities[i] = island->scheme->forceless ? velocities[i] - guides[i] * tick_s : guides[i];
-  }
-}
-
 void sbri_island_tuck(sbri_character *c, const sbri_island *island) {
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -170,14 +110,7 @@ void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) 
   const sbri_island *island = &now;
   size_t first = island->first_slot;
   float tick_s = (float)world->tick_s * c->time_scale;
-  bool jumped = false;
-  sbf_vec3 guide_velocity = sbri_guide_velocities_find(c, island, tick_s, &jumped);
-  if (jumped) {
-    ride_along(c, index, tick_s);
-    sbri_island_states(c)[index].guide_velocity = guide_velocity;
-    return;
-  }
-  soften_start(c, island, index, guide_velocity, tick_s);
+  if (!sbri_island_follow(c, island, index, tick_s)) return;
   sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
   sbri_island_tuck(c, island);
   sbri_island_tick tick = sbri_island_tick_of(world, c, index, island);

@@ -9,8 +9,8 @@
 /* At rest: no velocity, or for the relaxation scheme the same place a tick ago. */
 static void stop(sbri_character *c, uint32_t island_index) {
   sbri_island_wake(c, island_index);
-  sbri_island_states(c)[island_index].guide_velocity = sbri_vec3(0, 0, 0);
   const sbri_island *island = &c->model->islands[island_index];
+  sbri_guides_stop(c, island);
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   memset(velocities, 0, 3 * (size_t)island->free_count * sizeof *velocities);

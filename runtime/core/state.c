@@ -41,6 +41,7 @@ void sbri_layout_make(sbr_model *model) {
   l->positions = place(&end, slots, sizeof(sbri_point));
   l->previous_positions = place(&end, slots, sizeof(sbri_point));
   l->velocities = place(&end, 3 * slots, sizeof(float));
+  l->guide_motions = place(&end, model->asset->soft_bodies.count, sizeof(sbri_guide_motion));
   l->rests = place(&end, model->flow_count, sizeof(float));
   l->strengths = place(&end, model->flow_count, sizeof(float));
   l->rotations = place(&end, 4 * SBRI_BLOCK * (size_t)model->region_block_count, sizeof(float));

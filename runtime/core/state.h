@@ -30,14 +30,18 @@ typedef struct sbri_island_state {
   float excess_j;        /* of energy, likewise; 0: not looked at */
   uint32_t calm_ticks;   /* for which its motion is still taken out of it */
   uint32_t recoveries;
-  uint32_t unsplit;        /* points that a tear should have split, and there was no room */
-  uint32_t recovering;     /* ticks for which the router still keeps to the scheme that recovers */
-  uint32_t asleep;         /* it is not stepped */
-  uint32_t told_asleep;    /* what the host was last told of that */
-  uint32_t quiet_ticks;    /* for how long it has been as slow as a sleeper */
-  uint32_t ground_mark;    /* of the ground that a sleeper lies on */
-  sbf_vec3 guide_velocity; /* mean of what holds it, in the last tick */
+  uint32_t unsplit;     /* points that a tear should have split, and there was no room */
+  uint32_t recovering;  /* ticks for which the router still keeps to the scheme that recovers */
+  uint32_t asleep;      /* it is not stepped */
+  uint32_t told_asleep; /* what the host was last told of that */
+  uint32_t quiet_ticks; /* for how long it has been as slow as a sleeper */
+  uint32_t ground_mark; /* of the ground that a sleeper lies on */
 } sbri_island_state;
+
+/* How what holds a body moved in the last tick, as a rigid body. */
+typedef struct sbri_guide_motion {
+  sbf_vec3 velocity, spin; /* of its middle, m/s; rad/s */
+} sbri_guide_motion;
 
 typedef struct sbri_character {
   const sbr_model *model; /* NULL: the place is free */
@@ -65,6 +69,7 @@ SBRI_STATE_PART(island_states, sbri_island_state, c->model->layout.islands)     
 SBRI_STATE_PART(positions, sbri_point, c->model->layout.positions)                   /* (slot_count) */
 SBRI_STATE_PART(previous_positions, sbri_point, c->model->layout.previous_positions) /* (slot_count) */
 SBRI_STATE_PART(velocities, float, c->model->layout.velocities)                      /* (slot_count x 3) */
+SBRI_STATE_PART(guide_motions, sbri_guide_motion, c->model->layout.guide_motions)    /* (bodies) */
 SBRI_STATE_PART(rests, float, c->model->layout.rests)                    /* (flow_count) m, rest lengths */
 SBRI_STATE_PART(strengths, float, c->model->layout.strengths)            /* (flow_count) 1, or 0 where torn */
 SBRI_STATE_PART(rotations, float, c->model->layout.rotations)            /* (region_block_count x 4 x 8) */
@@ -183,6 +188,18 @@ void sbri_guide_places(
 void sbri_held_places(const sbri_island *island, const sbr_transform *deltas, sbri_point *places);
 /* The root frame of the present state. */
 sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground);
+
+/* ---- core/guiding.c ---- */
+
+/* Finds `guide_velocities` over the tick, whose length `tick_s` is in the character's own seconds, and gives
+ * the island's bodies what they need not feel of it. False where what holds them has jumped: then they have
+ * been carried along, as fast as it goes, and the tick is over for them. */
+bool sbri_island_follow(sbri_character *c, const sbri_island *island, uint32_t index, float tick_s);
+/* The velocities alone, over any part of a tick. False where what holds the bodies has jumped. */
+bool sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, float tick_s);
+/* As if what holds it had stood in the last tick; whether it did. */
+void sbri_guides_stop(sbri_character *c, const sbri_island *island);
+bool sbri_guides_rest(const sbri_character *c, const sbri_island *island);
 
 /* ---- core/split.c ---- */
 

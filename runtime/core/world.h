@@ -70,9 +70,6 @@ void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t is
 /* What such a tick is put together from; `island` as sbri_island_now has it. */
 sbri_island_tick sbri_island_tick_of(
     const sbr_world *world, sbri_character *c, uint32_t index, const sbri_island *island);
-/* Velocities of the guides between the character's previous deltas and its deltas, `tick_s` of its own
- * seconds apart, in blocks. Returns their mean. */
-sbf_vec3 sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, float tick_s, bool *jumped);
 /* Inert lanes lie where their block's first point does, room for points that split where the body's does. */
 void sbri_island_tuck(sbri_character *c, const sbri_island *island);
 void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c);

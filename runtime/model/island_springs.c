@@ -224,9 +224,39 @@ enum { MOST_REFINED = 3000 };
 /* Power iteration comes from below; what it may still lack. */
 static const double POWER_MARGIN = 1.03;
 
-/* Bones that would throw a body about by more than this share of its size take it along instead: its springs
- * know no inside and outside, and would not bring back all of it. */
+/* Bones that would throw a body's points by more than this share of how far they are from what holds them
+ * take it along instead: its springs know no inside and outside, and would not bring back all of it. What
+ * starts at once sways twice as far as what is drawn there slowly. */
 static const float MOST_SWAY = 0.25f;
+
+/* Of so many of a body's points its reach is found. */
+enum { REACH_SAMPLES = 256 };
+
+/* How far from what holds it the body reaches, in m; no farther than it is large. */
+static float reach_of(const sbri_body *body, uint32_t free_count) {
+  const sbf_vec3 *at = body->level->positions.at;
+  uint32_t count = body->level->positions.count, step = count / REACH_SAMPLES + 1;
+  float reach2 = 0;
+  for (uint32_t i = 0; i < count; i += step) {
+    float nearest2 = body->rest_size_m * body->rest_size_m;
+    for (uint32_t k = 0; body->slot_from_point[i] < free_count && k < count; k++) {
+      if (body->slot_from_point[k] < free_count) continue;
+      sbf_vec3 d = {at[i].x - at[k].x, at[i].y - at[k].y, at[i].z - at[k].z};
+      nearest2 = fminf(nearest2, d.x * d.x + d.y * d.y + d.z * d.z);
+    }
+    if (body->slot_from_point[i] < free_count) reach2 = fmaxf(reach2, nearest2);
+  }
+  return sqrtf(reach2);
+}
+
+/* What an oscillator of `w` rad/s must not feel so as to sway no farther than that, in m. */
+static void bound_start(sbri_island *island, float sway, float w) {
+  float acceleration = sway * w * w, push = sway * w;
+  if (!(acceleration > 0)) return;
+  bool first = island->most_acceleration_m_s2 == 0;
+  if (first || acceleration < island->most_acceleration_m_s2) island->most_acceleration_m_s2 = acceleration;
+  if (first || push < island->most_push_m_s) island->most_push_m_s = push;
+}
 
 static void find_damping(sbri_island_maker *m, sbf_spring_network network, float *masses, double *scratch) {
   const sbf_environment *environment = &m->model->asset->environment;
@@ -247,9 +277,7 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     double lowest = sbf_network_lowest(&own, body->tetrahedron_count < MOST_REFINED, scratch);
     double region_lowest = sbri_regions_lowest(m->island, body, scratch);
     lowest = sqrt(lowest * lowest + region_lowest * region_lowest);
-    float most = MOST_SWAY * body->rest_size_m * (float)(lowest * lowest);
-    float *bound = &m->island->most_acceleration_m_s2;
-    if (*bound == 0 || most < *bound) *bound = most;
+    bound_start(m->island, MOST_SWAY * reach_of(body, m->island->free_count), (float)lowest);
     body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
 
     body->rolling_share = lowest > 0 ? sbri_rolling_share(0.5f * body->alpha_1_s / (float)lowest) : 0;

@@ -230,6 +230,7 @@ typedef struct sbri_island {
   const uint32_t *cell_links;          /* (cells x 8) likewise, where link_flows is not NULL */
   uint32_t first_flow;                 /* of its links in the character's state */
   float most_acceleration_m_s2;        /* of what holds it, that it is made to feel; 0: no bound */
+  float most_push_m_s;                 /* likewise, of what its velocity changes by at once */
   double fastest_rad_s;                /* mode at rest */
   double bound_rad_s;         /* no mode is faster in any state of the springs, the tetrahedra at rest */
   double outer_rad_s;         /* what gas and bending add to any mode, as a root of squares, at most */
@@ -243,9 +244,9 @@ typedef struct sbri_island {
 
 /* Where things lie in a character's state and in its scratch memory, in bytes from their beginnings. */
 typedef struct sbri_layout {
-  size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, rests, strengths,
-      rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, skin_cells, bound_to,
-      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, state_size;
+  size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, guide_motions, rests,
+      strengths, rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, skin_cells,
+      bound_to, torn_polygons, rigid_bodies, rigid_joints, rigid_drive, state_size;
   size_t animated, rigid_targets, reactions, stepped_pose, rigid_work;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
