@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "collide/ground.h"
+#include "collide/self_touch.h"
 #include "collide/shape_touch.h"
 #include "math/vec3.h"
 
@@ -135,6 +136,32 @@ static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, co
   }
 }
 
+sbri_sample sbri_point_sample(const sbri_island_tick *t, uint32_t slot) {
+  return (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, t->island->masses[slot], UINT32_MAX};
+}
+
+/* Bodies of points alone stand against the ground by planes a point each: as touches these are solved along
+ * with those of shapes. */
+static void turn_planes_into_touches(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
+  uint32_t *count = &tables->touch_counts[body - t->model->bodies];
+  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
+    if (!tables->near_ground[block]) continue;
+    tables->near_ground[block] = 0;
+    const float *plane = tables->planes + (size_t)block * 4 * SBRI_BLOCK;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK && *count < body->touch_capacity; lane++) {
+      sbri_sample s = sbri_point_sample(t, block * SBRI_BLOCK + lane);
+      if (s.slots[0] >= body->slot_real_end || !(s.mass_kg > 0)) continue;
+      tables->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = s,
+          .normal = {plane[lane], plane[SBRI_BLOCK + lane], plane[2 * SBRI_BLOCK + lane]},
+          .offset = plane[3 * SBRI_BLOCK + lane],
+          .friction_share = 1,
+          .restitution = body->restitution,
+          .collider = SBRI_NO_COLLIDER};
+    }
+  }
+}
+
 void sbri_contact_prepare(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   tables->touch_counts[body - t->model->bodies] = 0;
@@ -143,5 +170,11 @@ void sbri_contact_prepare(
     prepare_samples(t, body, tables);
   else
     prepare_points(t, body, tables);
+  uint32_t *count = &tables->touch_counts[body - t->model->bodies], before = *count;
   sbri_shape_touches_add(t, body, tables);
+  if (body->self_face_count) {
+    sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};
+    sbri_self_touches_add(t, body, tables, &tree, tables->self_boxes);
+  }
+  if (*count > before && !body->samples) turn_planes_into_touches(t, body, tables);
 }

@@ -18,7 +18,10 @@ typedef struct sbri_contact_tables {
   float *planes;
   sbri_touch *touches;
   uint32_t *touch_counts;
-  const sbri_skin *surface; /* of the body, as it is carried now */
+  const sbri_skin *surface;    /* of the body, as it is carried now */
+  struct sbri_box *self_boxes; /* scratch of the body, where it meets itself */
+  struct sbri_bounds_node *self_nodes;
+  uint32_t *self_items;
 } sbri_contact_tables;
 
 /* Marks the body's blocks of points that may touch the ground within the tick, and gives each of their points
@@ -26,6 +29,8 @@ typedef struct sbri_contact_tables {
  * lists those that may. */
 void sbri_contact_prepare(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_tables *tables);
+/* A point of the level as a sample. */
+sbri_sample sbri_point_sample(const sbri_island_tick *tick, uint32_t slot);
 /* A sample as it is carried now: what tears is carried by other points than at first, and they weigh less. */
 sbri_sample sbri_sample_now(const sbri_island_tick *tick, const sbri_sample *first, const sbri_skin *surface);
 

@@ -48,6 +48,7 @@ static patch find_patch(const sbri_island_tick *t, const sbri_body *body, sbf_ve
   float near = TOUCHING_SHARE * body->rest_size_m;
   for (uint32_t i = 0; i < sbri_touch_count(t, body); i++) {
     const sbri_touch *touch = &t->touches[body->first_touch + i];
+    if (touch->collider == SBRI_ITSELF) continue;
     sbf_vec3 x = sbri_sample_place(t, &touch->sample);
     if (sbri_dot(touch->normal, x) - touch->offset <= near) add_to_patch(&p, x, touch->normal);
   }

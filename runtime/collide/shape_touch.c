@@ -71,11 +71,6 @@ static void add_sample(const meeting *m, const sbri_sample *s) {
       .collider = m->number};
 }
 
-/* A point of the level as a sample. */
-static sbri_sample point_sample(const sbri_island_tick *t, uint32_t slot) {
-  return (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, t->island->masses[slot], UINT32_MAX};
-}
-
 static void add_all(const meeting *m) {
   const sbri_island_tick *t = m->tick;
   for (uint32_t i = 0; i < m->body->sample_count; i++) {
@@ -83,7 +78,7 @@ static void add_all(const meeting *m) {
     add_sample(m, &s);
   }
   for (uint32_t slot = m->body->slot_begin; !m->body->samples && slot < m->body->slot_real_end; slot++) {
-    sbri_sample s = point_sample(t, slot);
+    sbri_sample s = sbri_point_sample(t, slot);
     add_sample(m, &s);
   }
 }
@@ -109,38 +104,15 @@ static sbri_box ways_of(const sbri_island_tick *t, const sbri_body *body, float 
   return sbri_box_grown(box, *longest + body->sample_beyond * (size.x + size.y + size.z));
 }
 
-/* Bodies of points alone stand against the ground by planes a point each: as touches these are solved along
- * with those of shapes. */
-static void turn_planes_into_touches(
-    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
-  uint32_t *count = &tables->touch_counts[body - t->model->bodies];
-  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
-    if (!tables->near_ground[block]) continue;
-    tables->near_ground[block] = 0;
-    const float *plane = tables->planes + (size_t)block * 4 * SBRI_BLOCK;
-    for (uint32_t lane = 0; lane < SBRI_BLOCK && *count < body->touch_capacity; lane++) {
-      sbri_sample s = point_sample(t, block * SBRI_BLOCK + lane);
-      if (s.slots[0] >= body->slot_real_end || !(s.mass_kg > 0)) continue;
-      tables->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = s,
-          .normal = {plane[lane], plane[SBRI_BLOCK + lane], plane[2 * SBRI_BLOCK + lane]},
-          .offset = plane[3 * SBRI_BLOCK + lane],
-          .friction_share = 1,
-          .restitution = body->restitution,
-          .collider = SBRI_NO_COLLIDER};
-    }
-  }
-}
-
 void sbri_shape_touches_add(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   const sbri_collider_set *set = t->colliders;
   const sbf_collision *rule = &body->source->collision;
-  uint32_t *count = &tables->touch_counts[body - t->model->bodies];
   if (!set || !set->tree.node_count || body->slot_begin == body->slot_real_end) return;
   float longest;
   sbri_box ways = ways_of(t, body, &longest), world = sbri_box_in_world(ways, t->origin, t->scale);
   sbri_bounds_walk walk;
-  uint32_t item, before = *count;
+  uint32_t item;
   sbri_bounds_walk_begin(&walk, &set->tree, world);
   while (sbri_bounds_walk_next(&walk, &item)) {
     const sbri_collider *c = &set->at[set->listed[item]];
@@ -151,5 +123,4 @@ void sbri_shape_touches_add(
         sbri_box_grown(c->shape->bounds, longest * t->scale)};
     add_all(&m);
   }
-  if (*count > before && !body->samples) turn_planes_into_touches(t, body, tables);
 }

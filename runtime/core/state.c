@@ -13,7 +13,7 @@ static size_t padded(size_t count) {
 void sbri_layout_make(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
-         surface = 0, surface_faces = 0, samples = 0, end = 0;
+         surface = 0, surface_faces = 0, samples = 0, self_faces = 0, end = 0;
   for (uint32_t i = 0; i < model->skin_count; i++) {
     const sbri_skin *skin = &model->skins[i];
     vertices = skin->vertex_count > vertices ? skin->vertex_count : vertices;
@@ -30,6 +30,8 @@ void sbri_layout_make(sbr_model *model) {
     body->first_touch = (uint32_t)samples;
     body->touch_capacity = body->level ? places + 64 : 0;
     samples += body->touch_capacity;
+    body->first_self_face = (uint32_t)self_faces;
+    self_faces += body->self_face_count;
     surface += padded(body->surface.vertex_count);
     surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
   }
@@ -84,6 +86,9 @@ void sbri_layout_make(sbr_model *model) {
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
   l->touches = place(&end, samples, sizeof(sbri_touch));
   l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
+  l->self_boxes = place(&end, self_faces, sizeof(sbri_box));
+  l->self_nodes = place(&end, 2 * self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
+  l->self_items = place(&end, self_faces, sizeof(uint32_t));
   l->touching = place(&end, model->asset->soft_bodies.count, sizeof(sbri_touching));
   l->rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
   l->sampled = place(&end, slots, sizeof(sbri_point));

@@ -3,6 +3,7 @@
 #ifndef SBRI_STATE_H
 #define SBRI_STATE_H
 
+#include "collide/bounds_tree.h"
 #include "collide/touching.h"
 #include "gait/gait.h"
 #include "model/runtime_model.h"
@@ -124,6 +125,10 @@ SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)               /
 SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts)       /* (bodies) */
 SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)     /* (bodies) */
 SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching) /* (rigid bodies) */
+SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies that do) */
+SBRI_SCRATCH_PART(
+    self_nodes, sbri_bounds_node, c->model->layout.self_nodes) /* (twice that, and one a body) */
+SBRI_SCRATCH_PART(self_items, uint32_t, c->model->layout.self_items)
 SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)                  /* (slot_count) */
 SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */

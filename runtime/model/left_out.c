@@ -43,7 +43,7 @@ static body_counts count_bodies(const sbr_model *model) {
     n.bending += bends && made->hinge_count == 0;
     n.media += model->asset->environment.media_density > 0 && body->surface.polygon_sizes.count &&
                !(made->medium_kg_m3 > 0);
-    n.self += body->collision.self;
+    n.self += body->collision.self && made->self_face_count == 0;
     for (uint32_t i = 0; i < body->levels.count; i++)
       n.levels += body->levels.at[i].model != SBF_ELASTIC_MODEL_SPRINGS &&
                   body->levels.at[i].model != SBF_ELASTIC_MODEL_TETRAHEDRA &&
@@ -67,7 +67,7 @@ uint32_t sbr_model_left_out(
   list(&l, n.bending, "bending stiffnesses of sheets whose points the level does not have",
       "they bend freely");
   list(&l, n.media, "pushes of a dense medium on bodies that follow bones", "only media_friction acts");
-  list(&l, n.self, "collisions of bodies with themselves", "they pass through");
+  list(&l, n.self, "collisions with themselves of bodies whose surface points are not the level's", "they pass through");
   list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
       "other levels of their bodies act");
   list(&l, n.beside, "tetrahedra, regions and jiggles beside a level's own model", "only that acts");

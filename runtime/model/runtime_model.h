@@ -154,7 +154,10 @@ typedef struct sbri_body {
   float rolling_share;        /* see collide/rolling.h */
   const sbri_sample *samples; /* (sample_count) NULL: its points themselves meet the ground */
   uint32_t sample_count;
-  uint32_t first_touch, touch_capacity; /* in a character's scratch */
+  uint32_t first_touch, touch_capacity;      /* in a character's scratch */
+  const uint32_t *self_faces;                /* (self_face_count x 3) slots; NULL: it does not meet itself */
+  uint32_t self_face_count, first_self_face; /* first in a character's scratch */
+  bool is_sheet;                             /* of one that meets itself: its surface encloses nothing */
   float margin_m;      /* that shapes of the host and other bodies keep from it: of sheets and bare points */
   float sample_beyond; /* greatest sum of a sample's weights below 0, as a positive number */
   float rest_size_m;   /* diagonal of its box */
@@ -251,7 +254,7 @@ typedef struct sbri_layout {
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
-  size_t touches, touch_counts, touching, rigid_touching;
+  size_t touches, touch_counts, touching, rigid_touching, self_boxes, self_nodes, self_items;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
@@ -343,6 +346,8 @@ bool sbri_coupling_make(sbr_model *model);
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
 /* The places of the surface that meet the ground; after the surfaces. */
 bool sbri_samples_make(sbr_model *model, sbri_body *body);
+/* The triangles by which it meets itself, where it does; likewise. */
+bool sbri_self_faces_make(sbr_model *model, sbri_body *body);
 /* A vertex by what carries it in `skin`, of the island as it is now; the four points that weigh most. */
 sbri_sample sbri_sample_of(const sbri_island *island, const sbri_skin *skin, uint32_t vertex);
 /* The gradient's table of a body that keeps its volume. */

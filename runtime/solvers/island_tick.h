@@ -24,6 +24,7 @@ typedef struct sbri_tears {
 enum sbri_torn_state { SBRI_WHOLE, SBRI_TORN_NOW, SBRI_TORN_BEFORE };
 
 #define SBRI_NO_COLLIDER UINT32_MAX
+#define SBRI_ITSELF (UINT32_MAX - 1)
 
 /* A sample of a body that may touch something within the tick: the plane it must not go below. A sample may
  * be in several. */
@@ -33,7 +34,8 @@ typedef struct sbri_touch {
   float offset;                      /* normal . x of the plane, as of the present substep's beginning */
   sbf_vec3 velocity;                 /* m/s, of what it stands for */
   float friction_share, restitution; /* of the body's coefficient of friction; its own */
-  uint32_t collider;                 /* number of the collider, or SBRI_NO_COLLIDER: the ground */
+  uint32_t collider; /* number of the collider, or SBRI_NO_COLLIDER: the ground, or SBRI_ITSELF: the
+        body, against the corners whose weights are below 0 */
   /* Of solvers/touches.c, from substep to substep: */
   float gap, wanted; /* m and m/s, at the beginning of one */
   float gain;        /* m/s that the push gives the sample along the normal */

@@ -54,6 +54,8 @@ static float friction_of(const touching *c, const sbri_touch *touch, const sbri_
   const sbri_sample *s = &touch->sample;
   if (!rule->frictions) return rule->friction * touch->friction_share;
   float sum = 0;
+  if (touch->collider == SBRI_ITSELF) /* of the point alone */
+    return s->slots[0] < c->tick->island->free_count ? rule->frictions[s->slots[0]] : rule->friction;
   for (int k = 0; k < 4; k++) {
     bool free = s->slots[k] < c->tick->island->free_count;
     sum += s->weights[k] * (free ? rule->frictions[s->slots[k]] : rule->friction);
@@ -151,7 +153,7 @@ void sbri_touches_tell(const sbri_island_tick *t, const sbri_body *body, sbri_to
   sbri_touching_begin(to);
   for (uint32_t i = 0; i < sbri_touch_count(t, body); i++) {
     const sbri_touch *touch = &t->touches[body->first_touch + i];
-    if (touch->pushed > 0)
+    if (touch->pushed > 0 && touch->collider != SBRI_ITSELF)
       sbri_touching_add(to, touch->collider, sbri_sample_place(t, &touch->sample), touch->normal,
           touch->pushed * touch->sample.mass_kg);
   }

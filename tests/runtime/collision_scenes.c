@@ -5,21 +5,21 @@
 
 #include "sbfmt/mechanics.h"
 
-static void give_surface(scene *s, uint32_t body, const sbf_vec3 *at, uint32_t cells) {
-  uint32_t n = cells + 1, squares = cells * cells;
-  sbf_vec3 *points = sbf_asset_allocate(s->asset, (size_t)n * n, sizeof *points);
+void collision_surface(scene *s, uint32_t body, const sbf_vec3 *at, uint32_t columns, uint32_t rows) {
+  uint32_t cells = columns - 1, count = columns * rows, squares = cells * (rows - 1);
+  sbf_vec3 *points = sbf_asset_allocate(s->asset, count, sizeof *points);
   uint32_t *sizes = sbf_asset_allocate(s->asset, squares, sizeof *sizes);
   uint32_t *corners = sbf_asset_allocate(s->asset, 4 * (size_t)squares, sizeof *corners);
   ck_assert(points && sizes && corners);
-  for (uint32_t i = 0; i < n * n; i++) points[i] = at[i];
+  for (uint32_t i = 0; i < count; i++) points[i] = at[i];
   for (uint32_t i = 0; i < squares; i++) {
-    uint32_t a = i / cells * n + i % cells;
-    const uint32_t square[4] = {a, a + n, a + n + 1, a + 1};
+    uint32_t a = i / cells * columns + i % cells;
+    const uint32_t square[4] = {a, a + columns, a + columns + 1, a + 1};
     sizes[i] = 4;
     for (int k = 0; k < 4; k++) corners[4 * i + (uint32_t)k] = square[k];
   }
   sbf_polygon_mesh *mesh = &scene_body(s, body)->surface;
-  mesh->positions = (sbf_vec3_list){points, n * n};
+  mesh->positions = (sbf_vec3_list){points, count};
   mesh->polygon_sizes = (sbf_u32_list){sizes, squares};
   mesh->polygon_points = (sbf_u32_list){corners, 4 * squares};
 }
@@ -50,7 +50,7 @@ sbf_level *collision_sheet(
   sbf_level *level = scene_points(s, body, at, masses, n * n);
   scene_springs(s, level, ends, stiffness, springs);
   if (pinned) scene_pin(s, level, -1, rim, held);
-  give_surface(s, body, at, cells);
+  collision_surface(s, body, at, n, n);
   free(at), free(masses), free(stiffness), free(ends), free(rim);
   return level;
 }

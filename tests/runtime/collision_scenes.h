@@ -9,6 +9,9 @@
  * its surface has the polygons. `pinned`: its rim is held by the world. */
 sbf_level *collision_sheet(scene *s, uint32_t body, sbf_vec3 center, float side, uint32_t cells, bool pinned);
 
+/* A surface of squares over points that stand in rows of so many columns. */
+void collision_surface(scene *s, uint32_t body, const sbf_vec3 *at, uint32_t columns, uint32_t rows);
+
 /* A collider at a world place (scenes stand at the origin); the caller destroys the shape after the world. */
 sbr_shape *collision_shape(sbr_shape_definition definition);
 sbr_collider_id collision_collider(scene *s, const sbr_shape *shape, sbr_double3 position);
