@@ -1,6 +1,7 @@
 """Bakes of the preview: point caches and shape keys play what the preview showed, are cut, and go away."""
 
 import glob
+import math
 import os
 
 import bpy
@@ -27,14 +28,14 @@ class Bakes(fixtures.SceneTest):
         self.blob.location, self.blob.rotation_euler, self.blob.scale = (0.5, 0, 1), (0.4, 0.3, 0.2), (1, -1.2, 1)
         bpy.context.view_layer.update()
 
-    def watched(self):
+    def watched(self, name="blob"):
         """{frame: places} of the preview over the bake's range."""
         self.scene.frame_set(self.settings.bake_start)
         bpy.ops.sbfmt.preview_start()
         found = {}
         for frame in range(self.settings.bake_start, self.settings.bake_end + 1):
             self.scene.frame_set(frame)
-            found[frame] = shown("blob (preview)")
+            found[frame] = shown(f"{name} (preview)")
         bpy.ops.sbfmt.preview_stop()
         return found
 
@@ -93,6 +94,36 @@ class Bakes(fixtures.SceneTest):
         self.assert_plays("blob (baked)", watched, (5, 9, 13, 17, 20))
         self.scene.frame_set(11)
         self.assertLess(float(abs(shown("blob (baked)") - (watched[9] + watched[13]) / 2).max()), 1e-4)
+
+    def test_what_is_no_mesh_of_the_scene_plays_as_a_copy(self):
+        """What a collection instance shows, and a curve."""
+        inside = bpy.data.collections.new("inside")
+        self.scene.collection.objects.unlink(self.blob)
+        inside.objects.link(self.blob)
+        instance = fixtures.link(bpy.data.objects.new("instance", None))
+        instance.instance_type, instance.instance_collection, instance.location = "COLLECTION", inside, (3, 0, 0)
+        data = bpy.data.curves.new("ring", "CURVE")
+        data.dimensions, data.bevel_depth, data.bevel_resolution = "3D", 0.1, 1
+        spline = data.splines.new("POLY")
+        spline.points.add(5)
+        for index, point in enumerate(spline.points):
+            point.co = (0.4 * math.cos(index * math.pi / 3), 0.4 * math.sin(index * math.pi / 3), 1, 1)
+        spline.use_cyclic_u = True
+        ring = fixtures.link(bpy.data.objects.new("ring", data))
+        ring.location = (-2, 0, 0)
+        for name, owner in (("instance/blob", instance), ("ring", ring)):
+            watched = self.watched(name)
+            self.assertGreater(float((watched[5] - watched[20])[:, 2].max()), 0.05)
+            for kind in ("PC2", "SHAPE_KEYS"):
+                with self.subTest(f"{name}, {kind}"):
+                    self.bake(kind)
+                    self.assert_plays(f"{name} (baked)", watched, (5, 11, 20))
+                    self.assertTrue(owner.hide_get())
+                    bpy.ops.sbfmt.bake_cut(start=8, end=12)
+                    self.assert_plays(f"{name} (baked)", watched, (8, 12))
+                    bpy.ops.sbfmt.bake_free()
+                    self.assertFalse(owner.hide_get())
+                    self.settings.bake_start, self.settings.bake_end = 5, 20
 
     def test_what_cannot_be(self):
         self.settings.bake_folder = "//cache"

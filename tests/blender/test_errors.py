@@ -80,12 +80,6 @@ class Scene(fixtures.SceneTest):
         fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])
         self.assertIn("nothing to export", self.refuse())
 
-    def test_a_curve_is_told_to_be_left_out(self):
-        fixtures.box("b")
-        bpy.ops.curve.primitive_bezier_circle_add()
-        found = [one for one in findings_of() if "Convert" in one.message]
-        self.assertEqual([one.object_name for one in found], [bpy.context.object.name])
-
     def test_a_mesh_without_faces(self):
         fixtures.mesh_object("points", [(0, 0, 0), (1, 0, 0)], [])
         self.assertIn("no visible mesh with faces", self.refuse())

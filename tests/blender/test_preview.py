@@ -138,9 +138,6 @@ class Frames(PreviewTest):
         self.assertLess(float(places(copy)[:, 2].mean()), before - 0.1)
         bpy.ops.sbfmt.preview_stop()
         self.assertFalse(instance.hide_get())
-        self.settings.bake_folder, self.settings.bake_end = self.path("cache"), 3
-        self.assertEqual(bpy.ops.sbfmt.bake(), {"FINISHED"})
-        self.assertEqual(os.listdir(self.path("cache")), [])
 
 
 class Comings(PreviewTest):

@@ -14,25 +14,30 @@ from .working import Refused, Working
 
 
 class CacheTake:
-    """Writes each object's points, in its own space, as the frames pass."""
+    """Writes each object's points as the frames pass, in its own space; in the world's of what has no points that a modifier could
+    move, for which copies play."""
 
-    def __init__(self, scene, folder, ending, samples):
-        self.scene, self.folder, self.ending, self.samples = scene, folder, ending, samples
+    def __init__(self, scene, stage, folder, ending, samples):
+        self.scene, self.stage, self.folder, self.ending, self.samples = scene, stage, folder, ending, samples
         self.start, self.writers = scene.frame_current, {}
         os.makedirs(folder, exist_ok=True)
 
-    def take(self, name, places, _frame):
-        source = self.scene.objects[name]
+    def take(self, actor, places, _frame):
+        name = actor.source
         if name not in self.writers:
             path = os.path.join(self.folder, bpy.path.clean_name(name) + self.ending)
             self.writers[name] = CacheWriter(path, len(places), self.samples, self.start, self.scene.render.fps / self.scene.render.fps_base)
-        inverse = numpy.array(source.matrix_world.inverted_safe())
-        self.writers[name].write(places @ inverse[:3, :3].T + inverse[:3, 3])
+        if self.stage.has_points(actor):
+            inverse = numpy.array(self.scene.objects[name].matrix_world.inverted_safe())
+            places = places @ inverse[:3, :3].T + inverse[:3, 3]
+        self.writers[name].write(places)
 
-    def finish(self, _context):
+    def finish(self, context):
+        others = [actor for actor in self.stage.actors if not self.stage.has_points(actor)]
+        players = baked.add_copies(context, self.stage, others) if others else {}
         for name, writer in self.writers.items():
             writer.close()
-            baked.add_modifier(self.scene.objects[name], writer.path, self.start)
+            baked.add_modifier(players.get(name) or self.scene.objects[name], writer.path, self.start)
         return f"{len(self.writers)} objects play from {self.folder}"
 
     def drop(self):
@@ -43,16 +48,18 @@ class CacheTake:
 class KeyTake:
     """Keeps every n-th frame, and the last, for shape keys of copies."""
 
-    def __init__(self, start, end, every):
+    def __init__(self, stage, start, end, every):
+        self.stage = stage
         self.frames = [frame for frame in range(start, end + 1) if (frame - start) % every == 0 or frame == end]
         self.recorded = {}
 
-    def take(self, name, places, frame):
+    def take(self, actor, places, frame):
         if frame in self.frames:
-            self.recorded.setdefault(name, []).append(places)
+            self.recorded.setdefault(actor.source, []).append(places)
 
     def finish(self, context):
-        baked.add_copies(context, self.recorded, self.frames)
+        for name, made in baked.add_copies(context, self.stage, self.stage.actors).items():
+            baked.add_keys(made, self.recorded[name], self.frames)
         return f"{len(self.recorded)} copies with {len(self.frames)} shapes each are in the collection {baked.NAME}"
 
     def drop(self):
@@ -90,18 +97,14 @@ class SBFMT_OT_bake(Working, bpy.types.Operator):
         try:
             scene.frame_set(start)
             session, stage = yield from previewed_scene(self, context)
-            take = KeyTake(start, end, settings.key_every) if settings.bake_to == "SHAPE_KEYS" else \
-                CacheTake(scene, folder, f".{settings.bake_to.lower()}", end - start + 1)
-            actors = [actor for actor in stage.actors if actor.is_own]
-            if len(actors) < len(stage.actors):
-                self.report({"WARNING"}, "what collection instances show is not baked: make them real first (Object > Apply > Make "
-                            "Instances Real)")
+            take = KeyTake(stage, start, end, settings.key_every) if settings.bake_to == "SHAPE_KEYS" else \
+                CacheTake(scene, stage, folder, f".{settings.bake_to.lower()}", end - start + 1)
             for frame in range(start, end + 1):
                 if frame > start:
                     scene.frame_set(frame)
                     session.step(scene)
-                for actor in actors:
-                    take.take(actor.source, session.points(actor), frame)
+                for actor in stage.actors:
+                    take.take(actor, session.points(actor), frame)
                 yield "Baking:", (frame - start + 1) / (end - start + 1)
             told = take.finish(context)
             done = True

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..to_document.roles import COLLISION, IGNORE, RENDER, role_of, shown_role
+from ..to_document.roles import COLLISION, IGNORE, RENDER, SURFACES, role_of, shown_role
 from .list_buttons import draw_list
 from .numbers import draw_matter
 
@@ -12,7 +12,7 @@ class ObjectPanel:
 
     @classmethod
     def poll(cls, context):
-        return context.object is not None and context.object.type == "MESH"
+        return context.object is not None and (context.object.type == "MESH" or context.object.type in SURFACES)
 
 
 class BodyPanel(ObjectPanel):

@@ -6,6 +6,7 @@ import os
 import bpy
 import numpy
 
+from ..space import Space
 from .point_cache import cut_cache, read_cache
 from .stage import COPY_OF, HIDDEN, rest_meshes
 
@@ -44,28 +45,30 @@ def cut_modifier(modifier, start, end, rate):
     modifier.frame_start = start
 
 
-# ---- Shape keys ----
+# ---- Copies ----
 
-def add_copies(context, recorded, frames):
-    """`recorded`: {object name: (frames, points, 3) places in the world}."""
-    scene = context.scene
-    sources = [scene.objects[name] for name in recorded]
-    meshes = rest_meshes(context, sources)
+def add_copies(context, stage, actors):
+    """Objects of their own for those actors, in the world, whose eyes are closed: {actor's source: object}. Those of an earlier bake
+    go."""
+    scene, layer = context.scene, context.view_layer
+    meshes = rest_meshes(context, [scene.objects[actor.source] for actor in actors if stage.has_points(actor)])
     free_copies()
     collection = bpy.data.collections.new(NAME)
     scene.collection.children.link(collection)
-    for source in sources:
-        made = bpy.data.objects.new(f"{source.name} (baked)", meshes[source.name])
+    copies_of = {}
+    for actor in actors:
+        mesh = meshes.get(actor.source) or stage.mesh_of(actor, Space.of_scene(scene))
+        made = copies_of[actor.source] = bpy.data.objects.new(f"{actor.source} (baked)", mesh)
         made.soft_body_format.role = "IGNORE"
-        made[COPY_OF] = source.name
+        made[COPY_OF] = actor.source
         collection.objects.link(made)
         if made.data.shape_keys is not None:
             made.shape_key_clear()
-        add_keys(made, recorded[source.name], frames)
-    hidden = [source.name for source in sources if not source.hide_get(view_layer=context.view_layer)]
+    hidden = [name for name in sorted({actor.owner for actor in actors}) if not scene.objects[name].hide_get(view_layer=layer)]
     for name in hidden:
-        scene.objects[name].hide_set(True, view_layer=context.view_layer)
+        scene.objects[name].hide_set(True, view_layer=layer)
     collection[HIDDEN] = json.dumps(hidden)
+    return copies_of
 
 
 def add_keys(made, places, frames):
@@ -102,6 +105,8 @@ def copies():
 def cut_keys(made, start, end):
     """Takes away the shapes of other frames, with their curves."""
     keys = made.data.shape_keys
+    if keys is None:  # it plays a point cache
+        return
     gone = [block.name for block in keys.key_blocks if block.name.startswith(KEY) and not start <= int(block.name[len(KEY):]) <= end]
     paths = {keys.key_blocks[name].path_from_id("value") for name in gone}
     for curves in curve_lists(keys):

@@ -11,10 +11,10 @@ import bpy
 import numpy
 from mathutils import Matrix
 
-from ..from_document.import_meshes import fill_materials
+from ..from_document.import_meshes import fill_materials, fill_normals, fill_uv_sets
 from ..from_document.import_polygons import make_mesh
 from ..space import Space
-from ..to_document.rest import at_rest
+from ..to_document.rest import at_rest, instances_realized
 
 NAME, HIDDEN = "Soft body preview", "soft_body_format_hidden"
 COPY_OF = "soft_body_format_copy_of"
@@ -57,7 +57,7 @@ def actors_of(whole, document):
 def rest_meshes(context, sources):
     """A mesh for each of those objects: at rest, modifiers evaluated as an export does, in the world."""
     made = {}
-    with at_rest(list(context.view_layer.objects), context.view_layer):
+    with at_rest(list(context.view_layer.objects), context.view_layer), instances_realized(sources, context.view_layer):
         depsgraph = context.evaluated_depsgraph_get()
         for source in sources:
             mesh = bpy.data.meshes.new_from_object(source.evaluated_get(depsgraph), preserve_all_data_layers=True,
@@ -102,14 +102,21 @@ class Stage:
         collection[HIDDEN] = json.dumps(hidden)
 
     def mesh_of(self, actor, space):
-        """Of what is no object of the scene: as the document has it."""
+        """A mesh in the world as the document has it."""
         record = (self.document.render_meshes if actor.kind == "skin" else self.document.soft_bodies)[actor.index]
         mesh, corners = make_mesh(actor.source, record.mesh if actor.kind == "skin" else record.surface, space)
         names = {one.id: one.name for one in self.document.materials}
         if actor.kind == "skin":
             fill_materials(mesh, record, {identity: bpy.data.materials.get(name) for identity, name in names.items()},
                            corners)
+            fill_uv_sets(mesh, record, corners)
+            fill_normals(mesh, record, space, corners)
         return mesh
+
+    def has_points(self, actor):
+        """Whether the actor's object is a mesh of the scene, whose vertices can be moved: no instance's, no curve."""
+        scene = bpy.data.scenes[self.scene_name]
+        return actor.is_own and actor.source in scene.objects and scene.objects[actor.source].type == "MESH"
 
     @staticmethod
     def put(made, collection, source):

@@ -3,6 +3,8 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
+BESIDE_THE_BLEND = {"ANIMATABLE"} | ({"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set())
+
 
 class SBFMT_PG_preview(bpy.types.PropertyGroup):
     """Scene > Soft body format > Preview."""
@@ -33,7 +35,8 @@ class SBFMT_PG_preview(bpy.types.PropertyGroup):
         ("PC2", "Point cache (.pc2)", "A file an object, played by a Mesh Cache modifier"),
         ("MDD", "Point cache (.mdd)", "A file an object, played by a Mesh Cache modifier"),
         ("SHAPE_KEYS", "Shape keys", "Copies of the objects with a keyed shape for each frame")))
-    bake_folder: StringProperty(name="Folder", default="//soft_body_cache", subtype="DIR_PATH", description="Where point caches lie")
+    bake_folder: StringProperty(name="Folder", default="//soft_body_cache", subtype="DIR_PATH", options=BESIDE_THE_BLEND,
+                                description="Where point caches lie")
     key_every: IntProperty(name="A key every", default=1, min=1, soft_max=10, description="Frames from one shape key to the next")
 
 

@@ -91,8 +91,11 @@ def fill_uv_sets(record, geometry):
 
 def fill_shape_keys(record, source, geometry, space, findings):
     """Every key against its own base, where the mesh still has the vertices that the keys were made for."""
-    keys = source.data.shape_keys
+    keys = getattr(source.data, "shape_keys", None)
     if keys is None:
+        return
+    if source.type != "MESH":
+        findings.warning("shape keys of curves and surfaces are left out; its shape as it is now is written", object_name=source.name)
         return
     if len(source.data.vertices) != len(geometry.positions):
         findings.warning("modifiers change the number of vertices, so its shape keys are left out; turn them off in the export "

@@ -5,6 +5,7 @@ import numpy
 from mathutils import Matrix, Vector
 
 from ..sbfmt.document import Record
+from .rest import mesh_of
 from .roles import COLLISION, holding_bone, modifier
 
 # Blender's hinge turns about Z, its slider and piston run along X; a joint's own axis is X.
@@ -31,7 +32,7 @@ class RigidObjects:
         self.writer = writer
 
     def write(self):
-        for source in self.writer.of_type("MESH"):
+        for source in self.writer.meshes():
             if self.writer.roles[source.name] == COLLISION:
                 self.body(source)
         for source in self.writer.objects:
@@ -79,7 +80,8 @@ class RigidObjects:
         made = bmesh.new()
         try:
             if shape in ("CONVEX_HULL", "MESH", "COMPOUND"):
-                made.from_mesh(source.data)
+                with mesh_of(source, self.writer.depsgraph, source.type != "MESH") as mesh:
+                    made.from_mesh(mesh)
                 if shape != "CONVEX_HULL":
                     self.writer.findings.info("its collision shape becomes a convex hull, the only one a rigid part has",
                                               object_name=source.name)

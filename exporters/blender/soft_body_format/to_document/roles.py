@@ -1,5 +1,6 @@
 """What an object is for: as its panel says, or as the scene shows."""
 
+SURFACES = {"CURVE": "curve", "SURFACE": "NURBS surface", "FONT": "text", "META": "metaball"}  # what evaluates to meshes
 RENDER, SECTION, SOFT, COLLISION, IGNORE = "RENDER", "SECTION", "SOFT", "COLLISION", "IGNORE"
 
 

@@ -19,10 +19,10 @@ from .materials import Materials
 from .meshes import Geometry, fill_normals, fill_polygons, fill_shape_keys, fill_skin, fill_uv_sets
 from .pins import fill_pins, fill_weight_maps
 from .recipes import write_recipes
-from .rest import at_rest, mesh_of
+from .rest import at_rest, instances_realized, materials_of, mesh_of
 from .rigid_objects import COLLIDER_FRICTION, RigidObjects
 from .rigid_parts import RigidParts
-from .roles import COLLISION, IGNORE, RENDER, SECTION, SOFT, armature_of, holding_bone, modifier, role_of
+from .roles import COLLISION, IGNORE, RENDER, SECTION, SOFT, SURFACES, armature_of, holding_bone, modifier, role_of
 from .surroundings import write_surroundings
 
 
@@ -51,7 +51,7 @@ class SceneWriter:
 
     def sort(self):
         """What each mesh is for: asked before modifiers are turned off for the rest pose."""
-        meshes = self.of_type("MESH")
+        meshes = self.meshes()
         self.roles = {one.name: role_of(one) for one in meshes}
         self.armatures = {one.name: armature_of(one) for one in meshes}
         self.soft = {one.name: soft_bodies.settings_of(one) for one in meshes}
@@ -60,6 +60,10 @@ class SceneWriter:
 
     def of_type(self, kind):
         return [one for one in self.objects if one.type == kind]
+
+    def meshes(self):
+        """What goes out as meshes."""
+        return [one for one in self.objects if one.type == "MESH" or one.type in SURFACES and self.options.apply_modifiers]
 
     def write(self):
         """The whole document. What is wrong joins the findings; where they hold an error it is not to be used."""
@@ -75,15 +79,16 @@ class SceneWriter:
 
     def write_objects(self):
         self.write_info()
-        for source in self.of_type("MESH"):
+        for source in self.meshes():
             if source.mode == "EDIT":
                 source.update_from_editmode()
-        with at_rest(self.objects, self.context.view_layer):
+        with at_rest(self.objects, self.context.view_layer), instances_realized(self.meshes(), self.context.view_layer):
             self.objects = soundness.look(self)
             self.depsgraph = self.context.evaluated_depsgraph_get()
             for armature in self.of_type("ARMATURE"):
                 write_bones(self.asset, armature, self.space, self.identifiers, self.skeleton)
-            for source in self.of_type("MESH"):
+            soundness.instances_left_out(self)
+            for source in self.meshes():
                 if self.roles[source.name] != IGNORE:
                     self.write_mesh(source, self.roles[source.name])
             RigidObjects(self).write()
@@ -116,9 +121,8 @@ class SceneWriter:
 
     def write_mesh(self, source, role):
         with mesh_of(source, self.depsgraph, self.options.apply_modifiers) as mesh:
-            if not mesh.polygons:
-                self.findings.warning("has no faces, so nothing of it is seen or simulated; it is left out",
-                                      object_name=source.name)
+            if mesh is None or not mesh.polygons:
+                soundness.without_faces(self, source)
                 return
             geometry = Geometry(source, mesh, self.space)
             if not soundness.finite(self.findings, source, geometry.positions):
@@ -157,7 +161,7 @@ class SceneWriter:
             record.bone = held
 
     def fill_materials(self, record, source, geometry):
-        slots = [slot.material for slot in source.material_slots]
+        slots = materials_of(source, geometry.mesh)
         if not any(slots):
             return
         places = numpy.zeros(int(geometry.polygon_materials.max(initial=0)) + 1, dtype=numpy.uint32)

@@ -5,9 +5,10 @@ import os
 import bpy
 import numpy
 
-from .roles import IGNORE
+from .chosen import is_instance
+from .roles import IGNORE, SURFACES
 
-SURFACES = {"CURVE": "curve", "SURFACE": "NURBS surface", "FONT": "text", "META": "metaball"}  # what could be meshes
+NO_SURFACES = {"CURVES": "hair", "POINTCLOUD": "point cloud", "VOLUME": "volume", "GPENCIL": "drawing", "GREASEPENCIL": "drawing"}
 LEAST_VOLUME = 1e-18  # of a cube of side one, in metres
 
 
@@ -19,10 +20,12 @@ def look(writer):
 
 def sound(writer, source):
     findings, world = writer.findings, source.matrix_world
-    if source.type in SURFACES:
-        findings.warning(f"is a {SURFACES[source.type]} and is left out: make a mesh of it (Object > Convert > Mesh)",
-                         object_name=source.name)
-    if source.type not in ("MESH", "ARMATURE") or writer.roles.get(source.name) == IGNORE:
+    if source.type in SURFACES and not writer.options.apply_modifiers:
+        findings.warning(f"is a {SURFACES[source.type]} and is left out: turn on Apply Modifiers, or make a mesh of it (Object > Convert > "
+                         "Mesh)", object_name=source.name)
+    elif source.type in NO_SURFACES:
+        findings.warning(f"is a {NO_SURFACES[source.type]}, of which no mesh can be made: it is left out", object_name=source.name)
+    if source.type not in ("MESH", "ARMATURE", *SURFACES) or writer.roles.get(source.name) == IGNORE:
         return True
     volume = world.to_3x3().determinant()
     if abs(volume) < LEAST_VOLUME or volume != volume:
@@ -36,6 +39,29 @@ def sound(writer, source):
                          "(Ctrl+A > Scale) and recalculate the normals (Shift+N) to see what is written", object_name=source.name,
                          code="MESH_MIRRORED")
     return True
+
+
+def without_faces(writer, source):
+    """Says why nothing of it goes out."""
+    if source.type == "META":
+        writer.findings.info("is a metaball that flows into another of its family, and goes out with that", object_name=source.name)
+    elif source.type in SURFACES and source != writer.scene.soft_body_format.preview.curve:
+        writer.findings.info(f"is a {SURFACES[source.type]} without a surface, so nothing of it is seen; it is left out. Geometry > Bevel "
+                             "gives it one", object_name=source.name)
+    elif source.type == "MESH":
+        writer.findings.warning("has no faces, so nothing of it is seen or simulated; it is left out", object_name=source.name)
+
+
+def instances_left_out(writer):
+    """Objects that show others as instances of particles, vertices or faces."""
+    counts, names = {}, {one.name for one in writer.objects if writer.roles.get(one.name) != IGNORE}
+    for one in writer.depsgraph.object_instances:
+        parent = one.parent.original if one.is_instance and one.parent is not None else None
+        if parent is not None and parent.name in names and not is_instance(parent) and one.object.original != parent:
+            counts[parent.name] = counts.get(parent.name, 0) + 1
+    for name, count in counts.items():
+        writer.findings.warning(f"shows {count} instances of other objects, which are left out: make them real (Object > Apply > Make "
+                                "Instances Real)", object_name=name)
 
 
 def sound_armature(findings, source, volume):
