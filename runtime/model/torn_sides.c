@@ -1,19 +1,31 @@
-/* Sides of a skin's polygons along springs that may tear: where such a spring has torn, the polygon spans the
- * tear. */
+/* Springs that may tear and that hold a skin's polygons together: where such a spring has torn, the polygon
+ * spans the tear. */
 #include <math.h>
 #include <string.h>
 
 #include "model/runtime_model.h"
 
-/* The one point that carries the vertex, as a slot of the character; UINT32_MAX: several do, or none. */
-static uint32_t carrier_of(const sbri_skin *skin, uint32_t vertex) {
-  uint32_t found = UINT32_MAX, lane = vertex % SBRI_BLOCK;
+/* The points that carry the vertex with a twentieth of it or more, as slots of the character, the one that
+ * carries most first; a vertex that something else carries has none. */
+typedef struct carriers {
+  uint32_t slots[4], count;
+} carriers;
+
+static carriers carriers_of(const sbri_skin *skin, uint32_t vertex) {
+  const float least = 0.05f;
+  carriers found = {{0}, 0};
+  uint32_t lane = vertex % SBRI_BLOCK;
+  float most = 0;
   if (!skin->cell_begins) return found;
   for (uint32_t c = skin->cell_begins[vertex / SBRI_BLOCK]; c < skin->cell_begins[vertex / SBRI_BLOCK + 1];
        c++) {
-    if (skin->cells[c].weights[lane] == 0) continue;
-    if (found != UINT32_MAX) return UINT32_MAX;
-    found = skin->cells[c].slots[lane];
+    float weight = skin->cells[c].weights[lane];
+    if (weight < least || found.count == 4) continue;
+    uint32_t at = found.count++;
+    found.slots[at] = skin->cells[c].slots[lane];
+    if (weight <= most) continue;
+    most = weight;
+    found.slots[at] = found.slots[0], found.slots[0] = skin->cells[c].slots[lane];
   }
   return found;
 }
@@ -47,19 +59,29 @@ static uint32_t strength_between(const sbr_model *model, uint32_t a, uint32_t b)
   return UINT32_MAX;
 }
 
+static uint32_t add(const sbr_model *model, uint32_t *strengths, uint32_t count, uint32_t a, uint32_t b) {
+  uint32_t at = a == b ? UINT32_MAX : strength_between(model, a, b);
+  if (at != UINT32_MAX) strengths[count++] = at;
+  return count;
+}
+
+/* Between what carries most of a side's two ends, and between all that carry the first of them: so of
+ * points that are vertices, the springs along the sides; of a network that carries a skin, those that a torn
+ * polygon spans. */
 bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
     const sbf_u32_list *points) {
   if (model->flow_count == 0 || sizes->count == 0) return true;
   uint32_t *begins = sbfi_arena_allocate(&model->arena, (size_t)sizes->count + 1, sizeof *begins);
-  uint32_t *strengths = sbfi_arena_allocate(&model->arena, (size_t)points->count + 1, sizeof *strengths);
+  uint32_t *strengths = sbfi_arena_allocate(&model->arena, 7 * (size_t)points->count + 1, sizeof *strengths);
   if (!begins || !strengths) return false;
   uint32_t count = 0;
   for (uint32_t p = 0, first = 0; p < sizes->count; first += sizes->at[p++]) {
     for (uint32_t i = 0; i < sizes->at[p]; i++) {
-      uint32_t a = carrier_of(full, points->at[first + i]);
-      uint32_t b = carrier_of(full, points->at[first + (i + 1) % sizes->at[p]]);
-      uint32_t at = a == UINT32_MAX || b == UINT32_MAX ? UINT32_MAX : strength_between(model, a, b);
-      if (at != UINT32_MAX) strengths[count++] = at;
+      carriers a = carriers_of(full, points->at[first + i]);
+      carriers b = carriers_of(full, points->at[first + (i + 1) % sizes->at[p]]);
+      if (a.count && b.count) count = add(model, strengths, count, a.slots[0], b.slots[0]);
+      for (uint32_t k = 1; k < a.count; k++)
+        for (uint32_t l = 0; l < k; l++) count = add(model, strengths, count, a.slots[l], a.slots[k]);
     }
     begins[p + 1] = count;
   }

@@ -115,10 +115,74 @@ START_TEST(a_cloth_is_pulled_in_two)
 }
 END_TEST
 
+/* The same cloth carries a skin of its own, four times as fine, each vertex by the three points around it:
+ * the polygons over the gap are named, and what is left is nowhere stretched across it. */
+START_TEST(a_skin_that_springs_carry_opens_too)
+{
+  enum { FINE = 4 * CELLS, VERTICES = (FINE + 1) * (FINE + 1), FINE_QUADS = FINE * FINE };
+  static sbf_vec3 rest[VERTICES], places[VERTICES];
+  static sbf_uint4 points[VERTICES];
+  static sbf_vec4 weights[VERTICES];
+  static uint32_t fine_sizes[FINE_QUADS], fine_corners[4 * FINE_QUADS];
+  static uint8_t torn[FINE_QUADS];
+  uint32_t quads = 0;
+  begin(SBF_SCHEME_SYMPLECTIC);
+  for (uint32_t x = 0; x <= FINE; x++)
+    for (uint32_t z = 0; z <= FINE; z++) {
+      uint32_t at = x * (FINE + 1) + z, cx = x < FINE ? x / 4 : CELLS - 1, cz = z < FINE ? z / 4 : CELLS - 1;
+      float u = (float)x / 4 - (float)cx, w = (float)z / 4 - (float)cz;
+      rest[at] = (sbf_vec3){(float)x / FINE, 0.01f, (float)z / FINE};
+      bool low = u + w <= 1;
+      uint32_t corner = low ? point(cx, cz) : point(cx + 1, cz + 1);
+      points[at] = (sbf_uint4){{corner, point(cx + 1, cz), point(cx, cz + 1), corner}};
+      weights[at] = low ? (sbf_vec4){1 - u - w, u, w, 0} : (sbf_vec4){u + w - 1, 1 - w, 1 - u, 0};
+      if (x == FINE || z == FINE) continue;
+      const uint32_t quad[4] = {at, at + 1, at + FINE + 2, at + FINE + 1};
+      memcpy(fine_corners + 4 * quads, quad, sizeof quad);
+      fine_sizes[quads++] = 4;
+    }
+  sbr_world_destroy(s.world);
+  sbr_model_destroy(s.model);
+  sbf_render_mesh *mesh = (sbf_render_mesh *)(uintptr_t)s.asset->render_meshes.at;
+  mesh->mesh.positions = (sbf_vec3_list){rest, VERTICES};
+  mesh->mesh.polygon_sizes = (sbf_u32_list){fine_sizes, FINE_QUADS};
+  mesh->mesh.polygon_points = (sbf_u32_list){fine_corners, 4 * FINE_QUADS};
+  sbf_level *level = (sbf_level *)(uintptr_t)s.asset->soft_bodies.at[0].levels.at;
+  sbf_embedding *embedding = (sbf_embedding *)(uintptr_t)level->embeddings.at;
+  embedding->points = (sbf_uint4_list){points, VERTICES};
+  embedding->weights = (sbf_vec4_list){weights, VERTICES};
+  scene_start(&s);
+  sbri_character *c = &s.world->characters[0];
+  for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) {
+    float *v = sbri_velocities(c) + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK;
+    if (s.model->islands[0].masses[i] > 0) v[0] = 4 * (sbri_positions(c)[i].x - 0.5f) + 0.1f;
+  }
+  ck_assert_uint_eq(sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, FINE_QUADS), FINE_QUADS);
+  for (uint32_t q = 0; q < FINE_QUADS; q++) ck_assert_uint_eq(torn[q], 0);
+  scene_ticks(&s, 60);
+  sbr_character_skin(s.world, s.character, 0, places, NULL, NULL, VERTICES);
+  sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, FINE_QUADS);
+  uint32_t open = 0;
+  for (uint32_t q = 0; q < FINE_QUADS; q++) {
+    float longest = 0;
+    for (uint32_t k = 0; k < 4; k++) {
+      sbf_vec3 a = places[fine_corners[4 * q + k]], b = places[fine_corners[4 * q + (k + 1) % 4]];
+      longest = fmaxf(longest, fabsf(a.x - b.x));
+    }
+    open += torn[q];
+    if (!torn[q]) ck_assert_msg(longest < 3.0f / FINE, "polygon %u: %g m", q, (double)longest);
+  }
+  ck_assert_uint_ge(open, FINE);      /* all along the tear */
+  ck_assert_uint_le(open, 10 * FINE); /* and nowhere else */
+  scene_free(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("torn_sides");
   TCase *c = tcase_create("torn_sides");
   tcase_add_loop_test(c, a_cloth_is_pulled_in_two, 0, 3);
+  tcase_add_test(c, a_skin_that_springs_carry_opens_too);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -242,7 +242,7 @@ SBF_API uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_
     uint32_t capacity);
 SBF_API uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_character_id character,
     uint32_t render_mesh, uint32_t render_level, sbf_vec3 *normals, uint32_t capacity);
-/* What tears have opened of a skin that rides on tetrahedra, or of cloth whose vertices are points: `torn`
+/* What tears have opened of a skin that rides on tetrahedra or on points of springs: `torn`
  * gets 1 for each polygon of the render level (0: the mesh) that spans a tear and is to be left out when it
  * is drawn, else 0. Returns how many polygons that has. */
 SBF_API uint32_t sbr_character_torn_polygons(const sbr_world *world, sbr_character_id character,
