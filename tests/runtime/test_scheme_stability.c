@@ -65,22 +65,26 @@ static scene cloth(sbf_scheme scheme, float stiffness, bool sorted) {
   return s;
 }
 
+/* The same in the others, but with what they can be stepped with: 24 substeps of explicit schemes. */
 START_TEST(springs_listed_from_the_pins_on_do_not_burst)
 {
-  static const sbf_scheme able[] = {
-      SBF_SCHEME_AUTOMATIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_BLOCK_DESCENT};
+  bool stiff = schemes[_i] == SBF_SCHEME_AUTOMATIC || schemes[_i] == SBF_SCHEME_POSITION_BASED ||
+               schemes[_i] == SBF_SCHEME_BLOCK_DESCENT;
   for (int sorted = 0; sorted < 2; sorted++) {
-    scene s = cloth(able[_i], 1e9f, sorted); /* as good as no compliance */
-    s.model_options.substeps = _i ? 20 : 0;
+    scene s = cloth(schemes[_i], stiff ? 1e9f : 200, sorted); /* as good as no compliance */
+    if (schemes[_i] != SBF_SCHEME_AUTOMATIC && stiff) s.model_options.substeps = 20;
+    if (schemes[_i] == SBF_SCHEME_EXPLICIT_EULER) scene_body(&s, 0)->attributes.stiffness_damping = 2e-3f;
     scene_start(&s);
     for (int i = 0; i < 180; i++) {
       scene_ticks(&s, 1);
       sbr_body_health h = sbr_character_health(s.world, s.character, 0);
-      ck_assert(h.finite && h.recoveries == 0);
+      ck_assert(h.finite);
+      if (_i >= EXPLICIT_EULER) continue;
+      ck_assert_uint_eq(h.recoveries, 0);
       ck_assert_msg(h.max_strain < 0.7f, "sorted %d, tick %d: %g", sorted, i, (double)h.max_strain);
     }
     sbf_vec3 low = scene_point(&s, 0, POINTS - SIDE / 2);
-    ck_assert_float_gt(low.y, -1.6f); /* 1 m of cloth, and what a sweep leaves */
+    ck_assert(_i >= EXPLICIT_EULER || low.y > -1.6f); /* 1 m of cloth, and what a sweep leaves */
     scene_free(&s);
   }
 }
@@ -307,7 +311,7 @@ static Suite *suite(void) {
   Suite *s = suite_create("scheme stability");
   TCase *c = tcase_create("scheme stability");
   tcase_set_timeout(c, 60);
-  tcase_add_loop_test(c, springs_listed_from_the_pins_on_do_not_burst, 0, 3);
+  tcase_add_loop_test(c, springs_listed_from_the_pins_on_do_not_burst, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, hitches_and_jitter_show_the_same_motion, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, pins_may_jump, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, elements_may_be_listed_the_other_way_round, 0, SCHEME_COUNT);
