@@ -16,13 +16,7 @@ static void setup(void) {
   sbfi_arena_init(&arena, NULL, 0);
   box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){2, 0.3f, 0.3f}, 20, 3, 3, 1000, 1e6f, 0.3f);
   lattice_box_hold(&box);
-  network = (sbf_spring_network){.point_count = box.point_count,
-      .positions = box.positions,
-      .masses = box.masses,
-      .tetrahedron_count = box.tetrahedron_count,
-      .tetrahedra = box.tetrahedra,
-      .young_modulus = box.young_modulus,
-      .poisson_ratios = box.poisson_ratios};
+  network = lattice_box_network(&box);
 }
 static void teardown(void) {
   lattice_box_free(&box);

@@ -173,16 +173,6 @@ END_TEST
 
 /* A beam of tetrahedra, held at one end: the first bending mode is b^2 sqrt(E I / (rho A L^4)), b = 1.875104,
  * which linear tetrahedra miss by being too stiff and the free end's turning by being soft in shear. */
-static sbf_spring_network beam_of(const lattice_box *box) {
-  return (sbf_spring_network){.point_count = box->point_count,
-      .positions = box->positions,
-      .masses = box->masses,
-      .tetrahedron_count = box->tetrahedron_count,
-      .tetrahedra = box->tetrahedra,
-      .young_modulus = box->young_modulus,
-      .poisson_ratios = box->poisson_ratios};
-}
-
 START_TEST(modes_of_a_beam_of_tetrahedra)
 {
   double pi = acos(-1), squares[2];
@@ -190,7 +180,7 @@ START_TEST(modes_of_a_beam_of_tetrahedra)
     uint32_t across = 2 << n;
     lattice_box box = lattice_box_make(
         (sbf_vec3){1, 2, 3}, (sbf_vec3){2, 0.2f, 0.2f}, 5 * across, across, across, 1000, 1e6f, 0.3f);
-    sbf_spring_network network = beam_of(&box);
+    sbf_spring_network network = lattice_box_network(&box);
     double *scratch = calloc(16 * (size_t)box.point_count, sizeof *scratch);
     ck_assert_ptr_nonnull(scratch);
     double bound = sbf_network_highest_bound(&network, scratch);
@@ -221,7 +211,7 @@ START_TEST(statics_of_tetrahedra)
   /* Hung up, nu = 0: strained by rho g L / (2 E) on average, to first order exactly. */
   lattice_box box = lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0.2f, 0.2f}, 8, 1, 1, 10, 1e6f, 0);
   lattice_box_hold(&box);
-  sbf_spring_network network = beam_of(&box);
+  sbf_spring_network network = lattice_box_network(&box);
   double *work = calloc(16 * (size_t)box.point_count, sizeof *work);
   ck_assert_ptr_nonnull(work);
   double *forces = work, *moved = work + 3 * box.point_count, *scratch = moved + 3 * box.point_count;

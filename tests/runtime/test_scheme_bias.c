@@ -92,13 +92,10 @@ static void make_bar(float poisson, bool held) {
 }
 
 static sbf_spring_network network_of(elastic model) {
-  sbf_spring_network n = {
-      .point_count = b.box.point_count, .positions = b.box.positions, .masses = b.box.masses};
-  if (model == SPRINGS)
-    n.spring_count = b.spring_count, n.ends = b.ends, n.stiffness = b.stiffness;
-  else
-    n.tetrahedron_count = b.box.tetrahedron_count, n.tetrahedra = b.box.tetrahedra,
-    n.young_modulus = b.box.young_modulus, n.poisson_ratios = b.box.poisson_ratios;
+  sbf_spring_network n = lattice_box_network(&b.box);
+  if (model != SPRINGS) return n;
+  n.tetrahedron_count = 0;
+  n.spring_count = b.spring_count, n.ends = b.ends, n.stiffness = b.stiffness;
   return n;
 }
 

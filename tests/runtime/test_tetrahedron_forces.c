@@ -213,13 +213,7 @@ static float tip_height(void) {
 START_TEST(a_beam_comes_to_rest_where_the_statics_say)
 {
   begin_beam(10, 1, (sbf_vec3){0, -9.81f, 0});
-  sbf_spring_network network = {.point_count = box.point_count,
-      .positions = box.positions,
-      .masses = box.masses,
-      .tetrahedron_count = box.tetrahedron_count,
-      .tetrahedra = box.tetrahedra,
-      .young_modulus = box.young_modulus,
-      .poisson_ratios = box.poisson_ratios};
+  sbf_spring_network network = lattice_box_network(&box);
   double *places = calloc(3 * (size_t)box.point_count, sizeof *places);
   sbfi_static_problem problem = {.network = &network, .gravity = {0, -9.81f, 0}};
   sbfi_static_outcome outcome;
@@ -248,13 +242,7 @@ START_TEST(a_beam_swings_at_its_lowest_frequency)
 {
   /* So weakly loaded that it stays linear; the mode itself is tested in tests/mechanics. */
   begin_beam(10, 0, (sbf_vec3){0, -0.02f, 0});
-  sbf_spring_network network = {.point_count = box.point_count,
-      .positions = box.positions,
-      .masses = box.masses,
-      .tetrahedron_count = box.tetrahedron_count,
-      .tetrahedra = box.tetrahedra,
-      .young_modulus = box.young_modulus,
-      .poisson_ratios = box.poisson_ratios};
+  sbf_spring_network network = lattice_box_network(&box);
   double *scratch = calloc(16 * (size_t)box.point_count, sizeof *scratch);
   double exact = 2 * 3.14159265358979 / sbf_network_lowest(&network, true, scratch), low = 0;
   free(scratch);

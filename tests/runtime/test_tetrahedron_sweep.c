@@ -108,13 +108,7 @@ START_TEST(what_rests_stays)
 END_TEST
 
 static double exact_tip(void) {
-  sbf_spring_network network = {.point_count = box.point_count,
-      .positions = box.positions,
-      .masses = box.masses,
-      .tetrahedron_count = box.tetrahedron_count,
-      .tetrahedra = box.tetrahedra,
-      .young_modulus = box.young_modulus,
-      .poisson_ratios = box.poisson_ratios};
+  sbf_spring_network network = lattice_box_network(&box);
   double *places = calloc(3 * (size_t)box.point_count, sizeof *places);
   sbfi_static_problem problem = {.network = &network, .gravity = {0, -9.81f, 0}};
   sbfi_static_outcome outcome;
@@ -150,13 +144,7 @@ START_TEST(a_beam_swings_near_its_lowest_frequency)
   begin(10, 1e6f, 0.4f, true, (sbf_vec3){0, -0.02f, 0});
   s.model_options.substeps = 80;
   scene_start(&s);
-  sbf_spring_network network = {.point_count = box.point_count,
-      .positions = box.positions,
-      .masses = box.masses,
-      .tetrahedron_count = box.tetrahedron_count,
-      .tetrahedra = box.tetrahedra,
-      .young_modulus = box.young_modulus,
-      .poisson_ratios = box.poisson_ratios};
+  sbf_spring_network network = lattice_box_network(&box);
   double *scratch = calloc(16 * (size_t)box.point_count, sizeof *scratch);
   double exact = 2 * 3.14159265358979 / sbf_network_lowest(&network, true, scratch), first = -1, last = -1;
   free(scratch);

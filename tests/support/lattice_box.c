@@ -4,6 +4,16 @@
 
 #include "harness.h"
 
+sbf_spring_network lattice_box_network(const lattice_box *box) {
+  return (sbf_spring_network){.point_count = box->point_count,
+      .positions = box->positions,
+      .masses = box->masses,
+      .tetrahedron_count = box->tetrahedron_count,
+      .tetrahedra = box->tetrahedra,
+      .young_modulus = box->young_modulus,
+      .poisson_ratios = box->poisson_ratios};
+}
+
 uint32_t lattice_box_point(const lattice_box *box, uint32_t x, uint32_t y, uint32_t z) {
   return x + (box->cells[0] + 1) * (y + (box->cells[1] + 1) * z);
 }

@@ -3,7 +3,7 @@
 #ifndef TEST_LATTICE_BOX_H
 #define TEST_LATTICE_BOX_H
 
-#include "sbfmt/base.h"
+#include "sbfmt/mechanics.h"
 
 typedef struct lattice_box {
   uint32_t point_count, tetrahedron_count;
@@ -19,6 +19,9 @@ typedef struct lattice_box {
 lattice_box lattice_box_make(sbf_vec3 low, sbf_vec3 size, uint32_t nx, uint32_t ny, uint32_t nz,
     float density, float young_pa, float poisson);
 void lattice_box_free(lattice_box *box);
+
+/* Its points and tetrahedra, for sbfmt/mechanics.h; shares the box's lists. */
+sbf_spring_network lattice_box_network(const lattice_box *box);
 
 uint32_t lattice_box_point(const lattice_box *box, uint32_t x, uint32_t y, uint32_t z);
 /* Holds the points of the side x = 0: their masses become 0. */
