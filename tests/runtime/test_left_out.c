@@ -53,6 +53,11 @@ START_TEST(what_it_does_not_do_is_told)
   is->pressure_mode = SBF_PRESSURE_MODE_GAS;
   is->pressure = 100;
   scene_body(&s, 0)->collision.self = true;
+  scene_start(&s);
+  ck_assert_uint_eq(sbr_model_left_out(s.model, NULL, NULL), 0);
+  scene_free(&s);
+  s = section();
+  scene_body(&s, 0)->collision.self = true; /* without a face there is nothing to meet */
   scene_body(&s, 0)->surface.polygon_sizes.count = scene_body(&s, 0)->surface.polygon_points.count = 0;
   scene_start(&s);
   heard h = {0, ""};
