@@ -67,7 +67,8 @@ uint32_t sbr_model_left_out(
   list(&l, n.bending, "bending stiffnesses of sheets whose points the level does not have",
       "they bend freely");
   list(&l, n.media, "pushes of a dense medium on bodies that follow bones", "only media_friction acts");
-  list(&l, n.self, "collisions with themselves of bodies whose surface points are not the level's", "they pass through");
+  list(&l, n.self, "collisions with themselves of bodies whose surface points are not the level's",
+      "they pass through");
   list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
       "other levels of their bodies act");
   list(&l, n.beside, "tetrahedra, regions and jiggles beside a level's own model", "only that acts");
