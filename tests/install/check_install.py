@@ -10,8 +10,7 @@ import shutil
 import subprocess
 import sys
 
-CORE_HEADERS = {"sbfmt/base.h", "sbfmt/codes.h", "sbfmt/model.h", "sbfmt/asset.h", "sbfmt/io.h", "sbfmt/mechanics.h",
-                "sbrun/sbrun.h", "sbrun/animation.h", "sbrun/record.h", "sbrun/rigid.h", "sbrun/terrain.h"}
+CORE_HEADERS = {"sbfmt/base.h", "sbfmt/codes.h", "sbfmt/model.h", "sbfmt/asset.h", "sbfmt/io.h", "sbfmt/mechanics.h"}
 # What an engine's program may need at run time.
 ENGINE_NEEDS = re.compile(r"^(lib(z|m|c)\.so\.\d+|ld-linux.*|libsbrun\.so\..*|libsbfmt-(core|mechanics)\.so\..*)$")
 
@@ -70,9 +69,8 @@ class Package:
     def check_tree(self):
         files = files_below(self.prefix)
         headers = {name[len("include/"):] for name in files if name.startswith("include/")}
-        public = {name for folder in ("libsbfmt", "runtime")
-                  for name in files_below(os.path.join(self.source, folder, "include"))}
-        expect(headers == (CORE_HEADERS if self.runtime_only else public), f"headers installed: {sorted(headers)}")
+        public, runtime = (files_below(os.path.join(self.source, folder, "include")) for folder in ("libsbfmt", "runtime"))
+        expect(headers == runtime | (CORE_HEADERS if self.runtime_only else public), f"headers installed: {sorted(headers)}")
         names = ["sbfmt-core", "sbfmt-mechanics", "sbrun"]
         if not self.runtime_only:
             names += ["sbfmt-format", "sbfmt-interchange"]
