@@ -86,9 +86,13 @@ static const char *code_name(int32_t code) {
   return info ? info->name : "NONE";
 }
 
+void cli_keep_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
+  if (call->messages) json_array_append_new(call->messages, cli_diagnostic_json(d));
+}
+
 void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
   cli_progress_end();
-  if (call->messages) json_array_append_new(call->messages, cli_diagnostic_json(d));
+  cli_keep_diagnostic(call, d);
   fprintf(stderr, "sbfmt %s: %s: ", call->verb->name, severity_word(d->severity));
   if (d->file[0]) fprintf(stderr, "%s:", d->file);
   if (d->line) fprintf(stderr, "%u:", d->line);

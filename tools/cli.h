@@ -61,6 +61,8 @@ int cli_wrong(const cli_call *call, const char *format, ...) __attribute__((form
 
 /* A diagnostic on standard error, or into the JSON list where there is one. */
 void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *diagnostic);
+/* For `messages` alone. */
+void cli_keep_diagnostic(const cli_call *call, const sbf_diagnostic *diagnostic);
 json_t *cli_diagnostic_json(const sbf_diagnostic *diagnostic);
 
 /* Prints the object on standard output, and nothing else; frees it. Returns `status`. */

@@ -364,8 +364,7 @@ static sbf_status make_tetrahedra(build *b, uint32_t number, sbfi_ladder *ladder
   if (counts.thinness.thin_count > counts.thinness.sample_count / 50)
     report_of_body(b, number, SBF_CODE_LATTICE_THIN,
         "%u of %u points looked at on soft body \"%s\" stand on matter thinner than two elements, the "
-        "thinnest "
-        "%.4g m at a cell of %.4g m",
+        "thinnest %.4g m at a cell of %.4g m: a smaller cell (--cell, --elements) gives it more",
         (unsigned)counts.thinness.thin_count, (unsigned)counts.thinness.sample_count, body->name,
         counts.thinness.least, (double)level->cell);
   take_level(b, number, level, counts.pins);

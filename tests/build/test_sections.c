@@ -45,6 +45,7 @@ static void forbid(void *user, const sbf_diagnostic *finding) {
 START_TEST(a_limb_becomes_sections)
 {
   sbf_asset *asset = skinned_limb_make(&smooth), *built = build(asset, (sbf_build_options){0});
+  ck_assert_uint_eq(notes(SBF_CODE_MATERIAL_GUESSED), 1);
   ck_assert_uint_eq(built->soft_bodies.count, 4);
   ck_assert_uint_eq(built->rigid_bodies.count, 4);
   ck_assert_uint_eq(built->joints.count, 3);

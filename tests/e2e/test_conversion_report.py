@@ -97,6 +97,32 @@ class Reports(ProgramTest):
         self.assertIn("lengths of springs: 1 to ", self.good("convert", path, "--springs", "surface", "-o",
                                                              self.path("b.sbf")).out)
 
+    def test_what_sections_of_a_skin_are_taken_for(self):
+        calf = os.path.join(ROOT, "examples", "calf", "calf.glb")
+        guessed = [m for m in self.report(calf)["guessed"] if m["code"] == "MATERIAL_GUESSED"]
+        self.assertEqual(len(guessed), 1)
+        self.assertRegex(guessed[0]["message"], "22 sections cut from skins are .* Pa, which bear their weight")
+        told = self.report(calf, "--material", "flesh")["guessed"]
+        self.assertNotIn("MATERIAL_GUESSED", {m["code"] for m in told})
+
+    def test_many_findings_alike_are_printed_in_a_line_and_all_reported(self):
+        """Ten plates, each thinner than two of its elements: six are named, and how many more there are."""
+        lines = []
+        for n in range(10):
+            lines.append(f"o plate{n}")
+            lines += [f"v {x + 3 * n} {y * 0.05} {z}" for x in (0, 2) for y in (0, 1) for z in (0, 2)]
+            lines += ["f " + " ".join(str(8 * n + k) for k in side)
+                      for side in ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))]
+        path = write_bytes(self.path("plates.obj"), "\n".join(lines).encode() + b"\n")
+        call = self.good("convert", path, "-o", self.path("out.sbfz"), "--cell", "0.2", "--no-calibration", "--report",
+                         self.path("out.json"), environment=NO_EGL)
+        self.assertEqual(call.err.count("[LATTICE_THIN] at"), 6)
+        self.assertIn("and 4 more such [LATTICE_THIN]", call.err)
+        said = json.loads(read_text(self.path("out.json")))
+        thin = [m for kind in ("mended", "guessed", "lost", "notes") for m in said[kind] if m["code"] == "LATTICE_THIN"]
+        self.assertEqual(len(thin), 10)
+        self.assertIn("a smaller cell", thin[0]["message"])
+
     @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
     def test_what_was_mended_and_lost(self):
         r = self.report("--no-build", shared("lizard", "lizart.glb"))

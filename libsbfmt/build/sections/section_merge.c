@@ -87,8 +87,10 @@ static uint32_t find_taker(const work *w, uint32_t bone) {
 static void hand_over(const work *w, uint32_t bone, uint32_t to, sbfi_reporter *reporter) {
   sbf_diagnostic finding;
   sbfi_diagnose(&finding, SBF_CODE_SECTION_MERGED,
-      "what bone \"%s\" holds, %u polygons, is too little for a section and goes to \"%s\"",
-      w->asset->bones.at[bone].name, (unsigned)w->parts[bone].polygons, w->asset->bones.at[to].name);
+      "what bone \"%s\" holds, %u polygons of %.3g m^2 behind a cut of %.3g m, is too little for a section "
+      "and goes to \"%s\"",
+      w->asset->bones.at[bone].name, (unsigned)w->parts[bone].polygons, w->parts[bone].area,
+      w->parts[bone].border, w->asset->bones.at[to].name);
   sbfi_report(reporter, &finding);
   for (uint32_t p = 0; p < w->t->polygon_count; p++)
     if (w->labels[p] == bone) w->labels[p] = to;

@@ -1,5 +1,6 @@
 #include "build/sections/sections.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "build/sections/section_blend.h"
@@ -32,6 +33,8 @@ typedef struct work {
   uint32_t *share_begins; /* (points + 1) */
   share *shares;          /* what sections have of each point */
   sbfi_array mixes;
+  uint32_t guessed_count; /* sections of which nobody says what they are made of */
+  float least_guess, most_guess;
 } work;
 
 static bool has_sections(const sbf_asset *asset) {
@@ -146,6 +149,10 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
     /* Nobody said what it is made of: as stiff as it has to be. */
     body->attributes.young_modulus = (float)sbfi_bearing_modulus(&body->attributes, &body->surface.positions);
     body->attributes.sag_free = true;
+    float modulus = body->attributes.young_modulus;
+    if (w->guessed_count == 0 || modulus < w->least_guess) w->least_guess = modulus;
+    if (w->guessed_count == 0 || modulus > w->most_guess) w->most_guess = modulus;
+    w->guessed_count++;
   }
   return body->id != NULL;
 }
@@ -164,6 +171,19 @@ static bool make_bodies(work *w, double overlap_m, sbfi_progress progress) {
     if (!make_body(w, &cutter, b, &w->made->bodies[w->made->count++])) return false;
   }
   return true;
+}
+
+static void report_guesses(const work *w) {
+  sbf_diagnostic finding;
+  char range[64] = "";
+  if (w->guessed_count == 0) return;
+  if (w->most_guess > w->least_guess) snprintf(range, sizeof range, "%.6g to ", (double)w->least_guess);
+  sbfi_diagnose(&finding, SBF_CODE_MATERIAL_GUESSED,
+      "nobody says what %u section%s cut from skins %s made of: %s%.6g Pa, which bear their weight, are "
+      "taken; say it, as by --material flesh",
+      (unsigned)w->guessed_count, w->guessed_count == 1 ? "" : "s", w->guessed_count == 1 ? "is" : "are",
+      range, (double)w->most_guess);
+  sbfi_report(w->reporter, &finding);
 }
 
 /* Where no smoothing helps, as on triangles that are as good as flat, a note says so. */
@@ -349,6 +369,8 @@ bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m,
   made->blends = sbfi_arena_allocate(scratch, meshes, sizeof *made->blends);
   made->mixes_of_blends = sbfi_arena_allocate(scratch, meshes, sizeof *made->mixes_of_blends);
   if (!made->blends || !made->mixes_of_blends) return false;
-  if (!make_bodies(&w, overlap_m, sbfi_progress_part(progress, 0.2, 0.6)) || !smooth_blends(&w)) return false;
+  if (!make_bodies(&w, overlap_m, sbfi_progress_part(progress, 0.2, 0.6))) return false;
+  report_guesses(&w);
+  if (!smooth_blends(&w)) return false;
   return sbfi_progress_say(progress, 0.8) && make_all_blends(&w) && measure_reaches(&w);
 }
