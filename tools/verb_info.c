@@ -297,13 +297,24 @@ static bool stated_measures(const sbf_asset *asset, sbf_asset_measures *m) {
   return take_stated(asset->info.mass, asset->info.low, asset->info.high, m);
 }
 
+/* What an outline leaves out: which points of the surface are points of the springs. */
+static bool tells_interior(const sbf_asset *asset) {
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
+    const sbf_level *level = finest(&asset->soft_bodies.at[i]);
+    if (level && level->model == SBF_ELASTIC_MODEL_SPRINGS && level->new_from_old.count &&
+        !level->new_from_old.at)
+      return false;
+  }
+  return true;
+}
+
 typedef struct loaded {
   sbf_asset *asset;
   sbf_asset_measures measures;
   uint64_t bytes, read_bytes;
 } loaded;
 
-/* Of a large packed file the outline, if it states the figures that its geometry would give; else all. */
+/* Of a large packed file the outline, if it tells all figures that its lists would give; else all. */
 static sbf_status load(const char *path, bool whole, loaded *l, sbf_diagnostic *error) {
   struct stat file;
   l->bytes = stat(path, &file) == 0 ? (uint64_t)file.st_size : 0;
@@ -312,7 +323,7 @@ static sbf_status load(const char *path, bool whole, loaded *l, sbf_diagnostic *
   sbf_status status = sbf_load_file(path, &options, &l->asset, error);
   if (status != SBF_OK) return status;
   bool is_outline = options.outline && l->read_bytes > 0; /* XML counts nothing */
-  if (is_outline && stated_measures(l->asset, &l->measures)) return SBF_OK;
+  if (is_outline && tells_interior(l->asset) && stated_measures(l->asset, &l->measures)) return SBF_OK;
   if (is_outline) {
     sbf_asset_free(l->asset);
     status = sbf_load_file(path, NULL, &l->asset, error);

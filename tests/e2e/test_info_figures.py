@@ -5,7 +5,7 @@ import os
 import random
 import re
 
-from sbfmt_program import ProgramTest, main, read_bytes, write_bytes
+from sbfmt_program import ROOT, ProgramTest, main, read_bytes, write_bytes
 
 MOST_READ = 64 * 1024
 
@@ -55,6 +55,19 @@ class InfoFigures(ProgramTest):
         self.good("unpack", packed, "-o", text)
         here, there = self.json_of("info", packed), self.json_of("info", text)
         self.assertLess(self.read_of(packed), MOST_READ)
+        for key in there:
+            if key != "bytes":
+                self.assertEqual(here[key], there[key], key)
+
+    def test_of_sections_cut_from_a_skin(self):
+        """Their springs stand on a lattice: which points of the surface are theirs is in no outline."""
+        source = os.path.join(ROOT, "examples", "calf", "calf.glb")
+        packed, text = self.path("calf.sbfz"), self.path("calf.sbf")
+        self.good("convert", source, "-o", packed)
+        self.assertGreater(os.path.getsize(packed), MOST_READ, "large enough for an outline")
+        self.good("unpack", packed, "-o", text)
+        here, there = self.json_of("info", packed), self.json_of("info", text)
+        self.assertGreater(min(section["interior_points"] for section in here["sections"]), 0)
         for key in there:
             if key != "bytes":
                 self.assertEqual(here[key], there[key], key)
