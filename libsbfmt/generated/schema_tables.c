@@ -402,8 +402,9 @@ static const sbfi_field simulation_fields[] = {
   {.name = "error", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_simulation, error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "cost", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_simulation, cost), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "measured", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_simulation, measured), .width = 1, .unit = "", .volatile_ = true, .element = &measured_element, .xml = "measured"},
+  {.name = "step_error", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_simulation, step_error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
 };
-static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 5, simulation_fields, NULL};
+static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 6, simulation_fields, NULL};
 
 static const sbfi_field calibration_fields[] = {
   {.name = "reference_elements", .type = SBFI_UINT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_calibration, reference_elements), .width = 1, .unit = ""},
@@ -486,8 +487,9 @@ static const sbfi_field comfort_fields[] = {
   {.name = "bone", .type = SBFI_REF, .number = 1, .since_minor = 0, .offset = offsetof(sbf_comfort, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
   {.name = "rotation", .type = SBFI_QUAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_comfort, rotation), .width = 4, .unit = "", .defaults = {0, 0, 0, 1}},
   {.name = "weight", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_comfort, weight), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f}},
+  {.name = "axes", .type = SBFI_VEC3, .number = 4, .since_minor = 0, .offset = offsetof(sbf_comfort, axes), .width = 3, .unit = "", .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false, .defaults = {1.0f, 1.0f, 1.0f}},
 };
-static const sbfi_element comfort_element = {"comfort", "comfort", sizeof(sbf_comfort), 0, 3, comfort_fields, NULL};
+static const sbfi_element comfort_element = {"comfort", "comfort", sizeof(sbf_comfort), 0, 4, comfort_fields, NULL};
 
 static const sbfi_field ik_chain_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_ik_chain, id), .width = 1, .unit = "", .required = true, .default_text = ""},

@@ -86,7 +86,7 @@ sbri_island_tick sbri_island_tick_of(
       .torn = island->solid_flows ? sbri_torn(c) + island->first_solid : NULL,
       .thinning = &sbri_island_states(c)[index].thinning,
       .tears = &sbri_tears_of(c)[index],
-      .step_error_m = model->step_error_m,
+      .step_error_m = island->step_error_m,
       .element_forces = sbri_element_forces(c) + first,
       .stretch = &sbri_island_states(c)[index].stretch,
       .stiffening = &sbri_island_states(c)[index].stiffening,

@@ -87,6 +87,7 @@ static void take_comforts(const sbri_rig *rig, const sbf_ik_chain *source, sbri_
       joints[i].comfort =
           sbri_quat_multiply(sbri_quat_normalize(comfort->rotation), rig->rest_local[bones[i]].rotation);
       joints[i].comfort_weight = comfort->weight;
+      joints[i].comfort_slack = sbri_sub(sbri_vec3(1, 1, 1), comfort->axes);
     }
 }
 

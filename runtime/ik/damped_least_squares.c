@@ -65,7 +65,12 @@ static sbf_vec3 comfort_of(const sbri_ik_chain *chain, uint32_t i, const sbr_tra
   sbf_quat before = i ? frames[i - 1].rotation : chain->base.rotation;
   sbf_quat wanted = sbri_quat_multiply(before, joint->comfort);
   sbf_quat turn = sbri_quat_multiply(wanted, sbri_quat_conjugate(frames[i].rotation));
-  return sbri_scale(sbri_quat_log(turn), 0.5f * joint->comfort_weight);
+  sbf_vec3 asked = sbri_quat_log(turn);
+  if (!sbri_ik_comfort_is_even(joint)) {
+    sbf_quat own = frames[i].rotation;
+    asked = sbri_rotate(own, sbri_ik_comfort_share(joint, sbri_rotate(sbri_quat_conjugate(own), asked)));
+  }
+  return sbri_scale(asked, 0.5f * joint->comfort_weight);
 }
 
 /* One pass; `reach` makes turns and metres comparable. */

@@ -17,6 +17,7 @@ typedef struct sbri_ik_joint {
   const sbri_joint_limit *limit; /* NULL: free */
   sbf_quat comfort;              /* the rotation it prefers */
   float comfort_weight;          /* 0: none, to 1 */
+  sbf_vec3 comfort_slack;        /* share of the weight that is missing about the joint's own axes, 0 to 1 */
 } sbri_ik_joint;
 
 typedef struct sbri_ik_chain {
@@ -89,6 +90,9 @@ float sbri_ik_reach(const sbri_ik_chain *chain);
 /* Takes the comforts, bends a chain that is straight towards its target, turns it to its pole. Fills `frames`
  * and returns the eased target. */
 sbf_vec3 sbri_ik_begin(sbri_ik_chain *chain, sbr_transform *frames);
+/* What a comfort asks for of a turn towards it, a rotation vector in the joint's own axes. */
+sbf_vec3 sbri_ik_comfort_share(const sbri_ik_joint *joint, sbf_vec3 turn);
+bool sbri_ik_comfort_is_even(const sbri_ik_joint *joint);
 /* Turns joint `index` by a rotation in world axes, as far as its limit allows. */
 void sbri_ik_turn(sbri_ik_chain *chain, uint32_t index, sbf_quat turn, const sbr_transform *frames);
 /* Brings the joints as near to `places` (count of them, from the second on) as lengths and limits allow. */

@@ -87,11 +87,30 @@ static void turn_to_pole(sbri_ik_chain *chain, sbr_transform *frames) {
   sbri_ik_frames(chain, frames);
 }
 
+bool sbri_ik_comfort_is_even(const sbri_ik_joint *joint) {
+  return sbri_dot(joint->comfort_slack, joint->comfort_slack) <= 0;
+}
+
+sbf_vec3 sbri_ik_comfort_share(const sbri_ik_joint *joint, sbf_vec3 turn) {
+  sbf_vec3 slack = joint->comfort_slack;
+  return sbri_vec3(turn.x * (1 - slack.x), turn.y * (1 - slack.y), turn.z * (1 - slack.z));
+}
+
+/* Before solving: the way to the comfort by its weight, about each of the joint's own axes as much as it may. */
+static void take_comfort(sbri_ik_joint *joint) {
+  if (sbri_ik_comfort_is_even(joint)) {
+    joint->rotation = sbri_quat_blend(joint->rotation, joint->comfort, joint->comfort_weight);
+    return;
+  }
+  sbf_quat way = sbri_quat_multiply(sbri_quat_conjugate(joint->rotation), joint->comfort);
+  sbf_vec3 turn = sbri_scale(sbri_ik_comfort_share(joint, sbri_quat_log(way)), joint->comfort_weight);
+  joint->rotation = sbri_quat_normalize(sbri_quat_multiply(joint->rotation, sbri_quat_exp(turn)));
+}
+
 sbf_vec3 sbri_ik_begin(sbri_ik_chain *chain, sbr_transform *frames) {
   for (uint32_t i = 0; i < chain->count; i++) {
     sbri_ik_joint *joint = &chain->joints[i];
-    if (joint->comfort_weight > 0)
-      joint->rotation = sbri_quat_blend(joint->rotation, joint->comfort, joint->comfort_weight);
+    if (joint->comfort_weight > 0) take_comfort(joint);
     joint->rotation = sbri_joint_limit_clamp(joint->limit, joint->rotation);
   }
   sbri_ik_frames(chain, frames);

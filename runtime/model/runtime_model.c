@@ -1,5 +1,6 @@
 #include "model/runtime_model.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "base/diagnostic.h"
@@ -36,6 +37,16 @@ static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic
       sbf_scheme_name(options->scheme), sbri_scheme_names());
 }
 
+/* The finest that a level of the island asks for. */
+static float least_step_error(const sbr_model *model, const sbri_island *island) {
+  float least = FLT_MAX;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    float asked = model->bodies[island->bodies[b]].level->simulation.step_error;
+    if (asked > 0 && asked < least) least = asked;
+  }
+  return least < FLT_MAX ? least : STEP_ERROR_M;
+}
+
 /* What the call asks for; else what the level does, and where the runtime does not have that or it cannot
  * step the island, the default, which follows the same energy. */
 static sbf_status choose_scheme(
@@ -54,6 +65,7 @@ static sbf_status choose_scheme(
   bool left_open = options->scheme == SBF_SCHEME_AUTOMATIC && scheme != sbri_scheme_of(stated->scheme);
   bool stated_for_this = stated->scheme == scheme->word || stated->scheme == SBF_SCHEME_AUTOMATIC;
   island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
+  island->step_error_m = options->step_error_m > 0 ? options->step_error_m : least_step_error(model, island);
   island->routed =
       left_open && !island->substeps && !sbri_scheme_refuses(&sbri_position_based, model, island);
   return SBF_OK;
@@ -189,8 +201,7 @@ sbf_status sbr_model_create(
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
   if (!made) return no_memory(error);
   *made = (sbr_model){.asset = asset,
-      .kernels = sbri_kernels_of(options->instructions),
-      .step_error_m = options->step_error_m > 0 ? options->step_error_m : STEP_ERROR_M};
+      .kernels = sbri_kernels_of(options->instructions)};
   sbfi_arena_init(&made->arena, &allocator, 0);
   status = make(made, options, error);
   if (status == SBF_OK)

@@ -241,6 +241,7 @@ typedef struct sbri_island {
   float rest_stretch;         /* greatest share of a spring beyond its rest length, at rest */
   double stiffness_damping_s; /* greatest damping over stiffness of its springs */
   uint32_t substeps;          /* asked for; 0: as many as needed */
+  float step_error_m;         /* of the schemes that control their error */
   const sbri_visit *visits;   /* (visit_count) of the relaxation scheme, in order */
   uint32_t visit_count;
 } sbri_island;
@@ -286,7 +287,6 @@ struct sbr_model {
   uint32_t torn_cell_count, binding_count, torn_polygon_count; /* of all skins that may tear */
   uint32_t flow_count;         /* links of islands whose springs yield or tear */
   uint32_t region_block_count; /* likewise */
-  float step_error_m;          /* of the schemes that control their error */
   sbri_skin *skins;            /* (skin_count) of each render mesh the full one and its render levels */
   const uint32_t *first_skins; /* (asset->render_meshes.count) */
   uint32_t skin_count;

@@ -328,6 +328,7 @@ simulation
   error: float range=[0,inf)
   cost: float range=[0,inf)
   measured: many(measured)
+  step_error: float range=[0,inf)
 calibration
   reference_elements: uint
   factor: float default=1 range=(0,inf)
@@ -374,6 +375,7 @@ comfort
   bone: ref(bones) required
   rotation: quat default=0,0,0,1
   weight: float default=1 range=[0,1]
+  axes: vec3 default=1,1,1 range=[0,1]
 gait GAIT
   id: id required
   name: string

@@ -89,6 +89,10 @@ class Bodies(fixtures.SceneTest):
         self.assert_near(set(edges.stiffness), {1000 * 3 / 0.25 * 0.5**2}, 1e-2)
         self.assertEqual((level.simulation.scheme, level.simulation.substeps), ("heun", 0))  # by error control
         bpy.ops.sbfmt.check()
+        self.assertEqual(level.simulation.step_error, 0)  # Blender's default is nobody's wish
+        soft.error_threshold, self.scene.unit_settings.scale_length = 0.02, 0.5
+        self.assertAlmostEqual(self.export("finer.sbf", build=False).soft_bodies[0].levels[0].simulation.step_error, 0.01)
+        soft.error_threshold, self.scene.unit_settings.scale_length = 0.1, 1
         self.assertIn("7 to 300 steps a frame", " ".join(one.message for one in self.scene.soft_body_format.findings))
         self.assert_near((body.attributes.yield_strain, body.attributes.yield_flow), (0.05, 0.3))
         self.assertTrue(body.collision.self)

@@ -98,7 +98,20 @@ class Chains(fixtures.SceneTest):
         chain, names = asset.ik_chains[0], {bone.id: bone.name for bone in asset.bones}
         self.assertEqual((names[chain.root], names[chain.end], chain.solver), ("upper", "hand", "two_bone"))
         self.assert_near(chain.pole, (0, 0.5, 2))
-        self.assertEqual([(names[one.bone], one.weight) for one in chain.comforts], [("upper", 0.5)])
+        self.assertEqual([(names[one.bone], one.weight, one.axes) for one in chain.comforts], [("upper", 0.5, (1, 0, 0))])
+
+    def test_stiffness_by_axis_in_a_long_chain(self):
+        rig = fixtures.armature("rig", [("one", None, (0, 0, 0), (0, 0, 1), 0), ("two", "one", (0, 0, 1), (0, 0.5, 2), 20),
+                                        ("three", "two", (0, 0.5, 2), (0, 0, 3), 0)])
+        fixtures.hang(fixtures.box("b"), rig, "one")
+        rig.pose.bones["three"].constraints.new("IK").target = bpy.data.objects["b"]
+        self.assertEqual(self.export(build=False).ik_chains[0].solver, "ccd")
+        stiff = rig.pose.bones["two"]
+        stiff.ik_stiffness_x, stiff.ik_stiffness_y, stiff.ik_stiffness_z = 0.25, 0.75, 0.5
+        asset = self.export(build=False)
+        chain, names = asset.ik_chains[0], {bone.id: bone.name for bone in asset.bones}
+        self.assertEqual((chain.solver, names[chain.comforts[0].bone], chain.comforts[0].weight), ("damped_least_squares", "two", 0.75))
+        self.assert_near(chain.comforts[0].axes, (1 / 3, 1, 2 / 3))
 
 
     def test_a_chain_whose_last_bone_has_nothing_at_its_tail_gets_a_tip(self):

@@ -43,6 +43,34 @@ START_TEST(comforts_act_without_moving_the_end)
 }
 END_TEST
 
+/* About an axis that a comfort does not mind nothing of it is felt, about the others all of it. */
+START_TEST(comforts_act_by_axis)
+{
+  ik_chain_fixture f[4];
+  for (int k = 0; k < 4; k++) {
+    ik_chain_bent(&f[k]);
+    f[k].chain.joints = f[k].joints;
+    f[k].chain.target = sbri_vec3(3, 4, 2);
+    for (uint32_t i = 0; k > 0 && i < f[k].chain.count; i++) {
+      f[k].joints[i].comfort = f[k].joints[i].rotation;
+      if (i == 1) f[k].joints[i].comfort = sbri_quat_about(sbri_vec3(0, 0, 1), 1.2f);
+      f[k].joints[i].comfort_weight = i == 1;
+    }
+    if (k == 2) f[k].joints[1].comfort_slack = sbri_vec3(1, 1, 1);
+    if (k == 3) f[k].joints[1].comfort_slack = sbri_vec3(1, 0.5f, 0);
+    ck_assert(sbri_damped_least_squares(&f[k].chain).reached);
+  }
+  float off[4];
+  for (int k = 0; k < 4; k++) {
+    sbf_quat back = sbri_quat_conjugate(f[k].joints[1].rotation);
+    off[k] = fabsf(sbri_quat_log(sbri_quat_multiply(back, f[1].joints[1].comfort)).z);
+  }
+  ck_assert_float_eq_tol(off[2], off[0], 1e-6f);
+  ck_assert_float_lt(off[3], 0.6f * off[0]);
+  ck_assert_float_lt(fabsf(off[3] - off[1]), 0.5f * off[0]);
+}
+END_TEST
+
 START_TEST(extension_is_eased)
 { ik_expect_eases(sbri_damped_least_squares, 0.002f); }
 END_TEST
@@ -57,6 +85,7 @@ int main(void) {
   tcase_add_test(tests, copies_the_target_s_rotation);
   tcase_add_test(tests, odd_targets_leave_it_whole);
   tcase_add_test(tests, comforts_act_without_moving_the_end);
+  tcase_add_test(tests, comforts_act_by_axis);
   tcase_add_test(tests, extension_is_eased);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -163,6 +163,27 @@ START_TEST(heun_keeps_the_error_it_is_told)
 }
 END_TEST
 
+/* Unless the host says another. */
+START_TEST(heun_keeps_the_error_of_the_file)
+{
+  double errors[4];
+  const float of_file[] = {1e-2f, 1e-6f, 0, 1e-6f}, of_host[] = {0, 0, 1e-2f, 1e-2f};
+  for (int k = 0; k < 4; k++) {
+    scene s = oscillator(HEUN, 0);
+    s.world_definition.gravity = (sbf_vec3){50, 0, 0};
+    s.model_options.step_error_m = of_host[k];
+    ((sbf_level *)scene_body(&s, 0)->levels.at)->simulation.step_error = of_file[k];
+    scene_start(&s);
+    scene_ticks(&s, 75);
+    errors[k] = fabs((double)scene_point(&s, 0, 1).x - (3 - 2 * cos(5 * 75 * tick)));
+    scene_free(&s);
+  }
+  ck_assert_double_gt(errors[0], 4 * errors[1]);
+  ck_assert_double_eq(errors[2], errors[0]);
+  ck_assert_double_eq(errors[3], errors[0]);
+}
+END_TEST
+
 /* Falls for a second; the same a kilometre away, and with 200 substeps. */
 START_TEST(a_body_falls_as_at_the_origin)
 {
@@ -489,6 +510,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, errors_fall_with_the_order, 0, SCHEME_COUNT);
   tcase_add_test(c, explicit_euler_fails_where_it_must);
   tcase_add_test(c, heun_keeps_the_error_it_is_told);
+  tcase_add_test(c, heun_keeps_the_error_of_the_file);
   tcase_add_loop_test(c, a_body_falls_as_at_the_origin, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, momentum_is_kept, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_hanging_chain_stretches_by_its_weight, 0, SCHEME_COUNT);

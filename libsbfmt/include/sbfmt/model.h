@@ -868,6 +868,8 @@ typedef struct sbf_simulation {
   float cost;
   /* Times on machines. */
   sbf_measured_list measured;
+  /* Of schemes that control their error: how large a step's may be; 0: the host's choice. [m; [0, inf)] */
+  float step_error;
 } sbf_simulation;
 typedef struct sbf_simulation_list {
   const sbf_simulation *at;
@@ -1026,6 +1028,8 @@ typedef struct sbf_comfort {
   sbf_quat rotation;
   /* How much. [[0, 1]; default 1] */
   float weight;
+  /* Shares of the weight about the bone's own X, Y and Z. [[0, 1]; default 1,1,1] */
+  sbf_vec3 axes;
 } sbf_comfort;
 typedef struct sbf_comfort_list {
   const sbf_comfort *at;

@@ -109,7 +109,8 @@ typedef struct sbr_model_options {
   bool has_gravity; /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
   sbf_vec3 gravity; /* m/s^2 */
   uint32_t tear_points; /* that tearing may add to each body of tetrahedra; 0: half as many as it has */
-  float step_error_m;   /* error that a step of a scheme with error control (heun) may have; 0: 0.0001 */
+  float step_error_m;   /* error that a step of a scheme with error control (heun) may have; 0: the file's,
+                           else 0.0001 */
   sbr_instructions instructions; /* for the solvers' loops */
   uint32_t rigid_substeps;       /* of a control tick for rigid parts (sbrun/rigid.h), at most 1000; 0: 4 */
 } sbr_model_options;

@@ -21,7 +21,7 @@ def fill_chains(maker):
         make_constraint(maker, chain, bones[1:], end)
         for comfort in chain.comforts:
             pose = armature.pose.bones[maker.names[comfort.bone]]
-            pose.ik_stiffness_x = pose.ik_stiffness_y = pose.ik_stiffness_z = min(comfort.weight, 0.99)
+            pose.ik_stiffness_x, pose.ik_stiffness_y, pose.ik_stiffness_z = (min(comfort.weight * share, 0.99) for share in comfort.axes)
 
 
 def make_constraint(maker, chain, bones, end):

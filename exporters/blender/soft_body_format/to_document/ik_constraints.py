@@ -68,8 +68,12 @@ class IkConstraints:
         made.has_pole, made.pole = True, self.writer.space.point(world)
 
     def comfort(self, made, bone):
-        """A stiff bone prefers its rest pose: the largest of its three stiffnesses is the weight."""
+        """A stiff bone prefers its rest pose: the largest of its three stiffnesses is the weight, the others are shares of it. Of more
+        than two bones the solver is Blender's, which minds them all the way to the target."""
         pose = self.armature.pose.bones[bone.name]
-        weight = max(pose.ik_stiffness_x, pose.ik_stiffness_y, pose.ik_stiffness_z)
+        stiffness = (pose.ik_stiffness_x, pose.ik_stiffness_y, pose.ik_stiffness_z)
+        weight = max(stiffness)
         if weight > 0:
-            made.comforts.append(Record("comfort", bone=self.id(bone), weight=weight))
+            made.comforts.append(Record("comfort", bone=self.id(bone), weight=weight, axes=[one / weight for one in stiffness]))
+            if made.solver == "ccd":
+                made.solver = "damped_least_squares"

@@ -7,6 +7,7 @@ from .blender_units import air_density, edge_stiffness, friction, goal_stiffness
 from .pins import by_holder
 from .roles import modifier
 
+DEFAULT_ERROR = 0.1  # of Blender's error limit, in its units
 STIFF_QUAD_LIMIT = 1e-4  # below it Blender's shear slider makes no diagonals worth having
 
 
@@ -40,10 +41,9 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
         tell_of_polygons(writer, source, geometry)
     if soft.aero and soft.use_edges:
         add_air(writer, source, geometry, soft)
-    if abs(soft.error_threshold - 0.1) > 1e-6 or (soft.step_min, soft.step_max) != (10, 300):
-        writer.findings.info(f"its error limit of {soft.error_threshold * writer.space.unit_m:g} m and {soft.step_min} to "
-                             f"{soft.step_max} steps a frame are the host's to set, as step_error_m of the runtime: the file says "
-                             "that the error controls the steps", object_name=source.name)
+    if (soft.step_min, soft.step_max) != (10, 300):
+        writer.findings.info(f"its {soft.step_min} to {soft.step_max} steps a frame are left out: the error limit controls the steps, and "
+                             "stiff edges ask for more of them by themselves", object_name=source.name)
 
 
 def add_air(writer, source, geometry, soft):
@@ -150,6 +150,8 @@ def write_level(writer, body, source, geometry, soft, masses):
         add_springs(level, "flexion", geometry, second_neighbours(ends, diagonals, len(geometry.positions)),
                     min(soft.bend / 10, 0.999), soft.damping, scale, factors)
     level.simulation.scheme = "heun"  # Blender's own; as many steps as its error control asks for
+    if abs(soft.error_threshold - DEFAULT_ERROR) > 1e-6:  # who leaves it there has not asked for so coarse a one
+        level.simulation.step_error = soft.error_threshold * writer.space.unit_m
 
 
 def add_springs(level, kind, geometry, ends, pull, damping, scale, factors, share=1.0):

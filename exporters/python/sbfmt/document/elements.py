@@ -356,6 +356,7 @@ ELEMENTS = {element.name: element for element in (
         Field('error', 'float', default=0.0),
         Field('cost', 'float', default=0.0),
         Field('measured', 'many', 'measured', xml='measured', volatile=True),
+        Field('step_error', 'float', default=0.0),
     )),
     Element('calibration', 'calibration', (
         Field('reference_elements', 'uint', default=0),
@@ -408,6 +409,7 @@ ELEMENTS = {element.name: element for element in (
         Field('bone', 'ref', 'bones', required=True),
         Field('rotation', 'quat', default=(0.0, 0.0, 0.0, 1.0)),
         Field('weight', 'float', default=1.0),
+        Field('axes', 'vec3', default=(1.0, 1.0, 1.0)),
     )),
     Element('gait', 'gait', (
         Field('id', 'id', default='', required=True),
