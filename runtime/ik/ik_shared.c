@@ -96,7 +96,8 @@ sbf_vec3 sbri_ik_comfort_share(const sbri_ik_joint *joint, sbf_vec3 turn) {
   return sbri_vec3(turn.x * (1 - slack.x), turn.y * (1 - slack.y), turn.z * (1 - slack.z));
 }
 
-/* Before solving: the way to the comfort by its weight, about each of the joint's own axes as much as it may. */
+/* Before solving: the way to the comfort by its weight, about each of the joint's own axes as much as it may.
+ */
 static void take_comfort(sbri_ik_joint *joint) {
   if (sbri_ik_comfort_is_even(joint)) {
     joint->rotation = sbri_quat_blend(joint->rotation, joint->comfort, joint->comfort_weight);

@@ -200,8 +200,7 @@ sbf_status sbr_model_create(
   sbf_allocator allocator = sbfi_allocator_or_default(options->allocator);
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
   if (!made) return no_memory(error);
-  *made = (sbr_model){.asset = asset,
-      .kernels = sbri_kernels_of(options->instructions)};
+  *made = (sbr_model){.asset = asset, .kernels = sbri_kernels_of(options->instructions)};
   sbfi_arena_init(&made->arena, &allocator, 0);
   status = make(made, options, error);
   if (status == SBF_OK)

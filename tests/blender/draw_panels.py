@@ -8,6 +8,7 @@ SCREEN is the file that Xvfb keeps its screen in: some Blenders can't read back 
 
 import os
 import sys
+import time
 import traceback
 
 import addon_utils
@@ -280,7 +281,9 @@ def run(steps):
     """One a timer's call, so that Blender draws between them; again where it says False. What goes wrong ends it with a status."""
     left = list(steps)
 
+    began = [time.time(), time.process_time()]
     def call():
+        print(f"{len(steps) - len(left):3} at {time.time() - began[0]:7.1f} s, {time.process_time() - began[1]:6.1f} s of CPU", flush=True)
         try:
             with bpy.context.temp_override(window=WINDOW):
                 if left and left[0]() is not False:
@@ -294,5 +297,7 @@ def run(steps):
 
 
 bpy.context.preferences.view.show_splash = False
+bpy.context.preferences.system.viewport_aa = 'OFF'
+bpy.context.preferences.system.use_overlay_smooth_wire = False
 addon_utils.enable("soft_body_format")
 bpy.app.timers.register(run(STEPS), first_interval=1.5)
