@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "build/levels/spring_fit.h"
+#include "build/levels/stiffness_descent.h"
 
 /* Of the displacements, that small loads are solved to; of the load under gravity, that may stay unbalanced.
  */
@@ -11,6 +12,9 @@ static const double lean_share = 2e-3, fall_tolerance = 1e-4;
 /* Of the one factor for all: what would take more is not of one piece as its reference is. A crumb that hangs
  * on nothing, as in a lattice of a surface with holes, gives without end, and no modulus mends that. */
 static const double least_whole = 0.0625, most_whole = 4;
+
+/* Of the modulus of each tetrahedron: more than twice would shorten the time step for little. */
+static const sbfi_factor_bounds lattice_bounds = {.least = 0.125, .most = 2, .share = 1e-3, .rounds = 25};
 
 static double fall_of(const sbf_asset *asset, const sbf_soft_body *body) {
   sbf_vec3 g = asset->environment.gravity;
@@ -202,14 +206,28 @@ static bool write_moduli(work *w, const float *stated, double factor) {
   return true;
 }
 
+/* What the reference does under the loads that it was given. */
+static sbfi_wanted wanted_of(const work *w) {
+  sbfi_wanted wanted = {.gives = (const double *const *)w->r->gives};
+  if (!w->r->has_works) return wanted;
+  wanted.pushes = &w->r->works.pushes;
+  wanted.pushed = (const double *const *)w->r->works.gives;
+  return wanted;
+}
+
 static bool fit_lattice(work *w, double *factor) {
   uint32_t count = w->statics.network.tetrahedron_count;
   float *stated = sbfi_arena_copy(w->scratch, w->statics.moduli, count, sizeof *stated);
   if (!stated) return false;
-  if (w->r->has_works && !is_sparse(w) &&
-      !sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works,
-          sbfi_progress_part(w->progress, 0, 0.6), w->scratch))
-    return false;
+  if (w->r->has_works && !is_sparse(w)) {
+    const sbfi_wanted wanted = wanted_of(w);
+    double left;
+    if (!sbfi_local_fit(&w->statics, &w->linear, &w->r->statics, &w->r->works,
+            sbfi_progress_part(w->progress, 0, 0.2), w->scratch) ||
+        !sbfi_stiffness_descent(&w->statics, &w->linear, stated, &wanted, &lattice_bounds, &left,
+            sbfi_progress_part(w->progress, 0.2, 0.7), w->scratch))
+      return false;
+  }
   if (!find_yieldings(w)) return false;
   *factor = fit(w);
   return write_moduli(w, stated, *factor);
@@ -220,9 +238,9 @@ static bool fit_springs(work *w) {
   sbf_spring_set *sets = sbf_asset_allocate(w->asset, w->level->springs.count, sizeof *sets);
   const float *from = w->statics.stiffness;
   const float *before = sbfi_arena_copy(w->scratch, from, w->statics.network.spring_count, sizeof *before);
+  const sbfi_wanted wanted = wanted_of(w);
   if (!sets || !before ||
-      !sbfi_spring_fit(
-          &w->statics, &w->linear, (const double *const *)w->r->gives, &factors, w->progress, w->scratch))
+      !sbfi_spring_fit(&w->statics, &w->linear, &wanted, &factors, w->progress, w->scratch))
     return false;
   for (uint32_t s = 0; s < w->level->springs.count; s++) {
     sbf_spring_set *set = &sets[s];

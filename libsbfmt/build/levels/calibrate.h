@@ -2,9 +2,10 @@
  *
  * Linear tetrahedra bend too stiffly, the more so the coarser they are: numerical coarsening (Kharevych et
  * al. 2009) gives them other moduli. Each element's is found by the work that its surroundings take
- * (local_fit.h); then one factor for all makes the level give as much under small loads (level_loads.h),
- * averaged over the surface and summed over the loads, as a reference of some 16,000 tetrahedra does. What is
- * softest, mostly bending, so counts most. Springs get a factor each (spring_fit.h). */
+ * (local_fit.h) and from there by descent (stiffness_descent.h); then one factor for all makes the level give
+ * as much under small loads (level_loads.h), averaged over the surface and summed over the loads, as a
+ * reference of some 16,000 tetrahedra does. What is softest, mostly bending, so counts most. Springs get a
+ * factor each (spring_fit.h). */
 #ifndef SBFI_CALIBRATE_H
 #define SBFI_CALIBRATE_H
 

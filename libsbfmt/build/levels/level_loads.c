@@ -155,6 +155,19 @@ static sbfi_d3 way_of(uint32_t push, uint32_t patch) {
       (double)(h & 1023) - 511.5, (double)(h >> 10 & 1023) - 511.5, (double)(h >> 20 & 1023) - 511.5});
 }
 
+/* A twist's force on a piece of the surface of 1 m^2. */
+static sbfi_d3 twist_of(const sbfi_level_statics *s, uint32_t axis, sbf_vec3 place) {
+  const double from[3] = {place.x, place.y, place.z};
+  double q[3], arm = 1;
+  for (int k = 0; k < 3; k++) q[k] = from[k] - (s->low[k] + s->high[k]) / 2;
+  if (!s->held) arm = q[axis] / s->size;
+  uint32_t b = (axis + 1) % 3, c = (axis + 2) % 3;
+  double force[3] = {0};
+  force[b] = -arm * q[c] / (s->size * s->size);
+  force[c] = arm * q[b] / (s->size * s->size);
+  return (sbfi_d3){force[0], force[1], force[2]};
+}
+
 void sbfi_level_push(
     const sbfi_level_statics *s, const sbfi_level_pushes *pushes, uint32_t push, double *forces) {
   const sbf_spring_network *n = &s->network;
@@ -163,7 +176,10 @@ void sbfi_level_push(
     uint32_t patch = pushes->patches[i];
     double weights[4];
     if (patch == UINT32_MAX) continue;
-    sbfi_d3 part = sbfi_d3_scale(way_of(push, patch), s->areas[i] / pushes->areas[patch]);
+    bool twists = push >= SBFI_PUSHES - SBFI_TWISTS;
+    sbfi_d3 way = twists ? twist_of(s, push - (SBFI_PUSHES - SBFI_TWISTS), s->body->surface.positions.at[i])
+                         : way_of(push, patch);
+    sbfi_d3 part = sbfi_d3_scale(way, twists ? s->areas[i] : s->areas[i] / pushes->areas[patch]);
     load_weights(s->carried[i].weights, weights);
     for (int k = 0; k < 4; k++) {
       double *to = forces + 3 * (size_t)s->carried[i].points.at[k];
@@ -185,7 +201,7 @@ static double quotient(const sbf_spring_network *n, const double *forces, const 
   return work > 0 && inertia > 0 ? sqrt(work / inertia) : 0;
 }
 
-static void carry(const sbfi_level_statics *s, const double *moved, double *displacements) {
+void sbfi_level_carry(const sbfi_level_statics *s, const double *moved, double *displacements) {
   const sbf_vec3_list *surface = &s->body->surface.positions;
   for (uint32_t i = 0; i < surface->count; i++) {
     double weights[4];
@@ -221,7 +237,7 @@ bool sbfi_level_give(const sbfi_level_statics *s, uint32_t load, double size, do
   if (!sbfi_static_solve(&problem, places, &outcome, &scratch->allocator) || outcome.ended) return false;
   *converged = outcome.residual <= 10 * tolerance;
   for (size_t i = 0; i < numbers; i++) places[i] -= component(n->positions[i / 3], (int)(i % 3));
-  carry(s, places, displacements);
+  sbfi_level_carry(s, places, displacements);
   return true;
 }
 
@@ -234,7 +250,7 @@ bool sbfi_level_lean(const sbfi_level_statics *s, sbfi_linear_statics *linear, u
   sbfi_level_forces(s, load, 1, forces);
   sbfi_linear_statics_solve(linear, forces, share, moved);
   *frequency = quotient(&s->network, forces, moved);
-  carry(s, moved, displacements);
+  sbfi_level_carry(s, moved, displacements);
   return true;
 }
 

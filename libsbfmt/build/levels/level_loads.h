@@ -6,7 +6,9 @@
  * rigid is left out as well. Held are the points of kinematic pins; goal springs pull.
  *
  * Pushes stress every part of a body, however small, which gravity does not: its loose surface is divided
- * into patches, and each is pushed with 1 N along a direction of its own. */
+ * into patches, and each is pushed with 1 N along a direction of its own. The last three pushes are twists:
+ * about the middle's three axes, over all of the loose surface by area; where nothing holds the body against
+ * them, the more the farther along the axis, and the other way round on the other side. */
 #ifndef SBFI_LEVEL_LOADS_H
 #define SBFI_LEVEL_LOADS_H
 
@@ -16,7 +18,7 @@
 /* The forces (3 x level points) N of load number `load` of `size` m/s^2. */
 void sbfi_level_forces(const sbfi_level_statics *statics, uint32_t load, double size, double *forces);
 
-enum { SBFI_PUSHED_PATCHES = 24, SBFI_PUSHES = 6 };
+enum { SBFI_PUSHED_PATCHES = 24, SBFI_TWISTS = 3, SBFI_PUSHES = 6 + SBFI_TWISTS };
 
 typedef struct sbfi_level_pushes {
   uint32_t patch_count;
@@ -43,6 +45,10 @@ bool sbfi_level_give(const sbfi_level_statics *statics, uint32_t load, double si
  * mode gives to. */
 bool sbfi_level_lean(const sbfi_level_statics *statics, sbfi_linear_statics *linear, uint32_t load,
     double share, double *displacements, double *frequency, sbfi_arena *scratch);
+
+/* Displacements of the surface's points (3 x surface points, m) where the level's are displaced so (3 x level
+ * points, m); what is rigid in them is left out where nothing holds the body. */
+void sbfi_level_carry(const sbfi_level_statics *statics, const double *moved, double *displacements);
 
 /* Mean over the surface of what it gives along the load, m. */
 double sbfi_level_yielding(const sbfi_level_statics *statics, uint32_t load, const double *displacements);

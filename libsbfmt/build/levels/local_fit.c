@@ -45,6 +45,10 @@ bool sbfi_push_works_make(sbfi_push_works *works, const sbfi_level_statics *s, s
     sbfi_level_push(s, &works->pushes, push, forces);
     sbfi_linear_statics_solve(linear, forces, push_share, moved);
     works->totals[push] = sbfi_dot(forces, moved, numbers);
+    works->gives[push] =
+        sbfi_arena_allocate(arena, (size_t)s->body->surface.positions.count + 1, 3 * sizeof(double));
+    if (!works->gives[push]) return false;
+    sbfi_level_carry(s, moved, works->gives[push]);
     if (works->totals[push] > 0) add_works(linear, moved, 1 / works->totals[push], works->shares);
   }
   return true;

@@ -3,12 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "build/levels/spring_descent.h"
+#include "build/levels/stiffness_descent.h"
 
 static const double solve_share = 2e-3;
-/* Both factors stay between these, as do those of spring_descent.h: what springs lack of a matter's stiffness
- * beyond is a shape that they cannot hold at all, and more of it would shorten the time step for nothing. */
-static const double least_factor = 0.125, most_factor = 16;
+/* Both factors stay between these, and so does each spring's own: what springs lack of a matter's stiffness
+ * beyond is a shape that they cannot hold at all, and more of it would shorten the time step for nothing. A
+ * point that is held four times as tightly doubles the substeps at most. */
+static const double least_factor = 0.125, most_factor = 16, most_raise = 4, move_share = 1e-3;
+enum { MOST_ROUNDS = 25 };
 /* The ratio of the surface's factor to the inner one is looked for up to a fourth and four, by this
  * step: finer ones are left to each spring by itself. */
 static const double step = 2, most_ratio = 4;
@@ -16,9 +18,9 @@ static const double step = 2, most_ratio = 4;
 typedef struct work {
   sbfi_level_statics *statics;
   sbfi_linear_statics *linear;
-  const double *const *gives;
-  float *stated; /* (springs) N/m, before */
-  double *moved; /* (3 x surface points) */
+  const double *const *gives; /* (loads) NULL: that one does not count */
+  float *stated;              /* (springs) N/m, before */
+  double *moved;              /* (3 x surface points) */
   sbfi_arena *scratch;
 } work;
 
@@ -94,9 +96,9 @@ static void take_means(const work *w, sbfi_spring_factors *factors) {
   if (counts[0] + counts[1] == 0) factors->least = factors->most = 1;
 }
 
-bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const double *const *gives,
+bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted,
     sbfi_spring_factors *factors, sbfi_progress progress, sbfi_arena *scratch) {
-  work w = {.statics = statics, .linear = linear, .gives = gives, .scratch = scratch};
+  work w = {.statics = statics, .linear = linear, .gives = wanted->gives, .scratch = scratch};
   trial best, tried;
   w.stated = sbfi_arena_copy(scratch, statics->stiffness, statics->network.spring_count, sizeof *w.stated);
   w.moved =
@@ -114,8 +116,9 @@ bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, c
     }
   factors->by_kind = best.left;
   set_stiffness(&w, best.inner * best.ratio, best.inner);
-  if (!sbfi_spring_descent(
-          statics, linear, w.stated, gives, &factors->after, sbfi_progress_part(progress, 0.2, 1), scratch))
+  const sbfi_factor_bounds bounds = {least_factor, most_factor, most_raise, move_share, MOST_ROUNDS};
+  if (!sbfi_stiffness_descent(statics, linear, w.stated, wanted, &bounds, &factors->after,
+          sbfi_progress_part(progress, 0.2, 1), scratch))
     return false;
   take_means(&w, factors);
   return true;

@@ -1,10 +1,10 @@
 /* Springs that give as their matter does: two factors, one for the springs over the surface and one for those
  * inside, with which the surface goes where that of a lattice of tetrahedra goes under the same loads; and
- * from there on each spring's own (spring_descent.h). */
+ * from there on each spring's own (stiffness_descent.h). */
 #ifndef SBFI_SPRING_FIT_H
 #define SBFI_SPRING_FIT_H
 
-#include "build/levels/level_loads.h"
+#include "build/levels/stiffness_descent.h"
 
 typedef struct sbfi_spring_factors {
   double surface, inner; /* means over the springs of either kind */
@@ -14,11 +14,11 @@ typedef struct sbfi_spring_factors {
   double before, by_kind, after;
 } sbfi_spring_factors;
 
-/* Least squares over the loads, each weighed by one over its displacement's square. `gives` are the
- * displacements wanted (3 x surface points), NULL: that load does not count. Multiplies the stiffnesses of
+/* Least squares over the loads, each weighed by one over its displacement's square; the two factors by the
+ * small loads alone, each spring's own by all that is wanted. Multiplies the stiffnesses of
  * `statics`, in the order of the level's sets, and refreshes `linear`. False where memory runs out or the
  * work is ended. */
-bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const double *const *gives,
+bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted,
     sbfi_spring_factors *factors, sbfi_progress progress, sbfi_arena *scratch);
 
 #endif

@@ -1,4 +1,4 @@
-#include "build/levels/spring_descent.h"
+#include "build/levels/stiffness_descent.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,6 +14,8 @@ static sbfi_arena arena;
 static sbfi_level_statics statics;
 static sbfi_linear_statics linear;
 static double *gives[SBFI_MOST_LOADS];
+static const sbfi_wanted wanted = {.gives = (const double *const *)gives};
+static const sbfi_factor_bounds bounds = {0.125, 16, 4, 1e-3, 25};
 
 /* A cube on a bone as centroid springs, and where they are to have its surface. */
 static void setup(void) {
@@ -52,13 +54,13 @@ START_TEST(springs_are_found_again_by_what_they_do)
     statics.stiffness[i] *= (float)(1 + (double)(i * 7 % 5) / 2);
   sbfi_linear_statics_refresh(&linear);
   const float *from = stated();
-  ck_assert(sbfi_spring_mismatch(&statics, &linear, (const double *const *)gives, &before, &arena));
-  ck_assert(sbfi_spring_descent(
-      &statics, &linear, from, (const double *const *)gives, &left, (sbfi_progress){0}, &arena));
+  ck_assert(sbfi_stiffness_mismatch(&statics, &linear, &wanted, &before, &arena));
+  ck_assert(
+      sbfi_stiffness_descent(&statics, &linear, from, &wanted, &bounds, &left, (sbfi_progress){0}, &arena));
   ck_assert_double_gt(before, 0.4);
   ck_assert_double_lt(left, 0.02);
   double again;
-  ck_assert(sbfi_spring_mismatch(&statics, &linear, (const double *const *)gives, &again, &arena));
+  ck_assert(sbfi_stiffness_mismatch(&statics, &linear, &wanted, &again, &arena));
   ck_assert_double_eq_tol(again, left, 1e-3);
 }
 END_TEST
@@ -74,8 +76,8 @@ START_TEST(bounds_hold)
          *before = sums + n->point_count;
   for (uint32_t l = 0; l < statics.load_count; l++)
     for (uint32_t i = 0; i < 3 * statics.body->surface.positions.count; i++) gives[l][i] *= 0.01;
-  ck_assert(sbfi_spring_descent(
-      &statics, &linear, from, (const double *const *)gives, &left, (sbfi_progress){0}, &arena));
+  ck_assert(
+      sbfi_stiffness_descent(&statics, &linear, from, &wanted, &bounds, &left, (sbfi_progress){0}, &arena));
   ck_assert_double_gt(left, 1);
   memset(sums, 0, 2 * n->point_count * sizeof *sums);
   for (uint32_t i = 0; i < n->spring_count; i++) {
@@ -101,8 +103,8 @@ static bool stop(void *user, double done) {
 START_TEST(it_can_be_ended)
 {
   double left, reached = 0;
-  ck_assert(!sbfi_spring_descent(&statics, &linear, stated(), (const double *const *)gives, &left,
-      sbfi_progress_whole(stop, &reached), &arena));
+  ck_assert(!sbfi_stiffness_descent(
+      &statics, &linear, stated(), &wanted, &bounds, &left, sbfi_progress_whole(stop, &reached), &arena));
   ck_assert_double_ge(reached, 0.5);
 }
 END_TEST
@@ -132,8 +134,8 @@ START_TEST(a_lizards_sections_give_as_their_matter)
 END_TEST
 
 int main(void) {
-  Suite *s = suite_create("spring_descent");
-  TCase *c = tcase_create("spring_descent");
+  Suite *s = suite_create("stiffness_descent");
+  TCase *c = tcase_create("stiffness_descent");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, springs_are_found_again_by_what_they_do);
   tcase_add_test(c, bounds_hold);

@@ -1,0 +1,287 @@
+#include "build/levels/stiffness_descent.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "mechanics/network.h"
+#include "mechanics/vector.h"
+
+static const double adjoint_share = 10; /* of how exactly displacements are solved */
+/* By so much more than itself a factor grows in a round, or shrinks. */
+static const double first_step = 0.2, least_step = 1e-3, most_step = 1.5, longer = 1.2, shorter = 0.5;
+static const double smoothing = 0.1; /* of the way, each round */
+enum { FEWEST_ROUNDS = 8, POINTS_FOR_ALL = 1000, MOST_WANTED = SBFI_MOST_LOADS + SBFI_PUSHES };
+
+typedef struct work {
+  sbfi_level_statics *statics;
+  sbfi_linear_statics *linear;
+  const sbfi_wanted *wanted;
+  const sbfi_factor_bounds *bounds;
+  const float *stated; /* (elements) */
+  float *values;       /* (elements) the network's own */
+  uint32_t element_count;
+  bool springs;
+  double *forces;                                    /* (3 x level points) */
+  double *off;                                       /* (3 x surface points) m */
+  double *moved[MOST_WANTED], *adjoint[MOST_WANTED]; /* (3 x level points) */
+  double *factors, *gradient, *before, *steps;       /* (elements) */
+  float *best;                                       /* (elements) */
+  double *held_by;                                   /* (level points) N/m, its springs added up */
+  double most_held;                                  /* N/m per kg */
+  double *sums, *counts;                             /* (level points) of smoothing */
+} work;
+
+static work begin(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted) {
+  bool springs = statics->network.tetrahedron_count == 0;
+  return (work){.statics = statics,
+      .linear = linear,
+      .wanted = wanted,
+      .springs = springs,
+      .values = springs ? statics->stiffness : statics->moduli,
+      .element_count = springs ? statics->network.spring_count : statics->network.tetrahedron_count};
+}
+
+static uint32_t load_count(const work *w) {
+  return w->statics->load_count + (w->wanted->pushes ? SBFI_PUSHES : 0);
+}
+
+static const double *wanted_of(const work *w, uint32_t load) {
+  uint32_t gravities = w->statics->load_count;
+  return load < gravities ? w->wanted->gives[load] : w->wanted->pushed[load - gravities];
+}
+
+static void set_forces(const work *w, uint32_t load) {
+  uint32_t gravities = w->statics->load_count;
+  if (load < gravities)
+    sbfi_level_forces(w->statics, load, 1, w->forces);
+  else
+    sbfi_level_push(w->statics, w->wanted->pushes, load - gravities, w->forces);
+}
+
+/* Zeros: each round starts from the answers of the one before. */
+static bool reserve_points(work *w, bool adjoint, sbfi_arena *arena) {
+  size_t points = (size_t)w->statics->network.point_count + 1;
+  size_t surface = (size_t)w->statics->body->surface.positions.count + 1;
+  w->forces = sbfi_arena_allocate(arena, points, 3 * sizeof(double));
+  w->off = sbfi_arena_allocate(arena, surface, 3 * sizeof(double));
+  if (!w->forces || !w->off) return false;
+  for (uint32_t l = 0; l < load_count(w); l++) {
+    if (!(w->moved[l] = sbfi_arena_allocate(arena, points, 3 * sizeof(double)))) return false;
+    if (adjoint && !(w->adjoint[l] = sbfi_arena_allocate(arena, points, 3 * sizeof(double)))) return false;
+  }
+  return true;
+}
+
+static bool reserve(work *w, sbfi_arena *arena) {
+  size_t points = (size_t)w->statics->network.point_count + 1, elements = (size_t)w->element_count + 1;
+  double **of_elements[] = {&w->factors, &w->gradient, &w->before, &w->steps};
+  if (!reserve_points(w, true, arena)) return false;
+  for (int i = 0; i < 4; i++)
+    if (!(*of_elements[i] = sbfi_arena_allocate(arena, elements, sizeof(double)))) return false;
+  w->best = sbfi_arena_allocate(arena, elements, sizeof *w->best);
+  w->held_by = sbfi_arena_allocate(arena, points, sizeof *w->held_by);
+  w->sums = sbfi_arena_allocate(arena, points, sizeof *w->sums);
+  w->counts = sbfi_arena_allocate(arena, points, sizeof *w->counts);
+  return w->best && w->held_by;
+}
+
+/* Solves for a load and returns the square of what is left, as a share; `forces` become its derivatives by
+ * the displacements. Negative: the load does not count. */
+static double mismatch(const work *w, uint32_t load) {
+  const sbfi_level_statics *s = w->statics;
+  const double *wanted = wanted_of(w, load);
+  size_t numbers = 3 * (size_t)s->network.point_count, surface = s->body->surface.positions.count;
+  double size = 0, left = 0;
+  for (size_t i = 0; wanted && i < 3 * surface; i++) size += s->areas[i / 3] * wanted[i] * wanted[i];
+  if (!(size > 0)) return -1;
+  set_forces(w, load);
+  sbfi_linear_statics_solve(w->linear, w->forces, w->bounds->share, w->moved[load]);
+  sbfi_level_carry(s, w->moved[load], w->off);
+  memset(w->forces, 0, numbers * sizeof *w->forces);
+  for (size_t i = 0; i < surface; i++) {
+    const sbf_vec4 by = s->carried[i].weights;
+    const double weights[4] = {by.x, by.y, by.z, by.w};
+    for (size_t k = 0; k < 3; k++) {
+      double off = w->off[3 * i + k] - wanted[3 * i + k];
+      left += s->areas[i] / size * off * off;
+      for (int c = 0; c < 4; c++)
+        w->forces[3 * (size_t)s->carried[i].points.at[c] + k] += 2 * weights[c] * s->areas[i] / size * off;
+    }
+  }
+  return left;
+}
+
+static sbfi_d3 at(const double *field, uint32_t point) {
+  const double *of = field + 3 * (size_t)point;
+  return (sbfi_d3){of[0], of[1], of[2]};
+}
+
+static void add_gradient_of_springs(const work *w, uint32_t load) {
+  const double *moved = w->moved[load], *adjoint = w->adjoint[load];
+  const sbf_spring_network *n = &w->statics->network;
+  for (uint32_t i = 0; i < n->spring_count; i++) {
+    uint32_t a = n->ends[i].at[0], b = n->ends[i].at[1];
+    sbfi_d3 along = sbfi_d3_sub(sbfi_d3_of(n->positions[b]), sbfi_d3_of(n->positions[a]));
+    double squared = sbfi_d3_dot(along, along);
+    if (!(squared > 0)) continue;
+    w->gradient[i] -= n->stiffness[i] * sbfi_d3_dot(along, sbfi_d3_sub(at(moved, b), at(moved, a))) *
+                      sbfi_d3_dot(along, sbfi_d3_sub(at(adjoint, b), at(adjoint, a))) / squared;
+  }
+}
+
+static void add_gradient_of_tetrahedra(const work *w, uint32_t load) {
+  const sbf_spring_network *n = &w->statics->network;
+  sbfi_d3 rest[4], u[4], products[4];
+  for (uint32_t t = 0; t < n->tetrahedron_count; t++) {
+    const sbfi_tetrahedron *element = &w->linear->stiffness.elements[t];
+    const uint32_t *corners = n->tetrahedra[t].at;
+    if (!(element->volume > 0)) continue;
+    for (int k = 0; k < 4; k++) {
+      rest[k] = sbfi_d3_of(n->positions[corners[k]]);
+      u[k] = at(w->moved[load], corners[k]);
+    }
+    sbfi_tetrahedron_product(element, rest, u, products);
+    double both = 0;
+    for (int k = 0; k < 4; k++) both += sbfi_d3_dot(products[k], at(w->adjoint[load], corners[k]));
+    w->gradient[t] -= both;
+  }
+}
+
+static double evaluate(const work *w, bool gradient) {
+  double sum = 0;
+  int loads = 0;
+  if (gradient) memset(w->gradient, 0, w->element_count * sizeof *w->gradient);
+  for (uint32_t load = 0; load < load_count(w); load++) {
+    double left = mismatch(w, load);
+    if (left < 0) continue;
+    sum += left;
+    loads++;
+    if (!gradient) continue;
+    sbfi_linear_statics_solve(w->linear, w->forces, adjoint_share * w->bounds->share, w->adjoint[load]);
+    if (w->springs)
+      add_gradient_of_springs(w, load);
+    else
+      add_gradient_of_tetrahedra(w, load);
+  }
+  return loads ? sqrt(sum / loads) : 0;
+}
+
+static void add_held(const work *w, const float *stiffness) {
+  const sbf_spring_network *n = &w->statics->network;
+  memset(w->held_by, 0, n->point_count * sizeof *w->held_by);
+  for (uint32_t i = 0; i < n->spring_count; i++)
+    for (int end = 0; end < 2; end++) w->held_by[n->ends[i].at[end]] += (double)stiffness[i];
+}
+
+/* Holds springs' factors down where they would hold a point too tightly. */
+static void slacken(const work *w) {
+  const sbf_spring_network *n = &w->statics->network;
+  add_held(w, w->values);
+  for (uint32_t i = 0; i < n->spring_count; i++) {
+    double over = 1;
+    for (int end = 0; end < 2; end++) {
+      uint32_t point = n->ends[i].at[end];
+      if (n->masses[point] > 0) over = fmax(over, w->held_by[point] / (n->masses[point] * w->most_held));
+    }
+    if (!(over > 1)) continue;
+    w->factors[i] = fmax(w->factors[i] / over, w->bounds->least);
+    w->values[i] = (float)((double)w->stated[i] * w->factors[i]);
+  }
+}
+
+/* Draws the factors of tetrahedra a little to those around them: what the loads say of single ones is more
+ * than other loads bear out. */
+static void smooth(const work *w) {
+  const sbf_spring_network *n = &w->statics->network;
+  memset(w->sums, 0, n->point_count * sizeof *w->sums);
+  memset(w->counts, 0, n->point_count * sizeof *w->counts);
+  for (uint32_t t = 0; t < n->tetrahedron_count; t++)
+    for (int k = 0; k < 4; k++) {
+      w->sums[n->tetrahedra[t].at[k]] += w->factors[t];
+      w->counts[n->tetrahedra[t].at[k]] += 1;
+    }
+  for (uint32_t t = 0; t < n->tetrahedron_count; t++) {
+    double mean = 0;
+    for (int k = 0; k < 4; k++)
+      mean += w->sums[n->tetrahedra[t].at[k]] / w->counts[n->tetrahedra[t].at[k]] / 4;
+    w->factors[t] += smoothing * (mean - w->factors[t]);
+  }
+}
+
+/* Holds factors within their bounds and writes the stiffnesses. */
+static void set_values(const work *w) {
+  if (!w->springs) smooth(w);
+  for (uint32_t i = 0; i < w->element_count; i++) {
+    w->factors[i] = fmin(fmax(w->factors[i], w->bounds->least), w->bounds->most);
+    w->values[i] = (float)((double)w->stated[i] * w->factors[i]);
+  }
+  if (w->springs) slacken(w);
+  sbfi_linear_statics_refresh(w->linear);
+}
+
+static void step(const work *w) {
+  for (uint32_t i = 0; i < w->element_count; i++) {
+    double turn = w->gradient[i] * w->before[i];
+    if (turn > 0) w->steps[i] = fmin(longer * w->steps[i], most_step);
+    if (turn < 0) {
+      w->steps[i] = fmax(shorter * w->steps[i], least_step);
+      w->gradient[i] = 0;
+    }
+    if (w->gradient[i] < 0) w->factors[i] *= 1 + w->steps[i];
+    if (w->gradient[i] > 0) w->factors[i] /= 1 + w->steps[i];
+    w->before[i] = w->gradient[i];
+  }
+}
+
+static void find_factors(const work *w) {
+  for (uint32_t i = 0; i < w->element_count; i++) {
+    w->factors[i] = w->stated[i] > 0 ? (double)(w->values[i] / w->stated[i]) : 1;
+    w->steps[i] = first_step;
+  }
+}
+
+bool sbfi_stiffness_mismatch(const sbfi_level_statics *statics, sbfi_linear_statics *linear,
+    const sbfi_wanted *wanted, double *left, sbfi_arena *scratch) {
+  /* Nothing of the level is written to here. */
+  static const sbfi_factor_bounds exact = {.share = 1e-3};
+  work w = begin((sbfi_level_statics *)(uintptr_t)statics, linear, wanted);
+  w.bounds = &exact;
+  if (!reserve_points(&w, false, scratch)) return false;
+  *left = evaluate(&w, false);
+  return true;
+}
+
+static uint32_t rounds_of(const work *w) {
+  uint64_t rounds = (uint64_t)w->bounds->rounds * POINTS_FOR_ALL / (w->statics->network.point_count + 1);
+  if (rounds > w->bounds->rounds) return w->bounds->rounds;
+  return rounds < FEWEST_ROUNDS ? FEWEST_ROUNDS : (uint32_t)rounds;
+}
+
+bool sbfi_stiffness_descent(sbfi_level_statics *statics, sbfi_linear_statics *linear, const float *stated,
+    const sbfi_wanted *wanted, const sbfi_factor_bounds *bounds, double *left, sbfi_progress progress,
+    sbfi_arena *scratch) {
+  work w = begin(statics, linear, wanted);
+  const sbf_spring_network *n = &statics->network;
+  w.stated = stated;
+  w.bounds = bounds;
+  if (!reserve(&w, scratch)) return false;
+  if (w.springs) add_held(&w, stated);
+  for (uint32_t i = 0; i < n->point_count; i++)
+    if (n->masses[i] > 0) w.most_held = fmax(w.most_held, bounds->most_raise * w.held_by[i] / n->masses[i]);
+  find_factors(&w);
+  uint32_t rounds = rounds_of(&w);
+  *left = INFINITY;
+  for (uint32_t round = 0; round < rounds; round++) {
+    if (!sbfi_progress_say(progress, (double)round / rounds)) return false;
+    set_values(&w);
+    double now = evaluate(&w, true);
+    if (now < *left) {
+      *left = now;
+      memcpy(w.best, w.values, w.element_count * sizeof *w.best);
+    }
+    step(&w);
+  }
+  memcpy(w.values, w.best, w.element_count * sizeof *w.best);
+  sbfi_linear_statics_refresh(linear);
+  return true;
+}
