@@ -65,6 +65,15 @@ class Standing(ProgramTest):
             report = self.json_of("run", self.file, "--seconds", "3")
             self.assertTrue(report["valid"], name)
 
+    def test_wedges_thinner_than_their_elements_bear_themselves(self):
+        wedges = shared("multi/boxes156.obj")
+        if not os.path.exists(wedges):
+            self.skipTest("../shared/data/multi/boxes156.obj is not there")
+        self.good("convert", wedges, "-o", self.file)
+        report = self.json_of("run", self.file, "--seconds", "2")
+        self.assertTrue(report["valid"])
+        self.assertGreater(report["volume_ratio_least"], 0.25)
+
 
 if __name__ == "__main__":
     main()

@@ -5,6 +5,7 @@
 
 #include "build/levels/spring_fit.h"
 #include "build/levels/stiffness_descent.h"
+#include "mechanics/bearing_modulus.h"
 
 /* Of the displacements, that small loads are solved to; of the load under gravity, that may stay unbalanced.
  */
@@ -161,6 +162,17 @@ static double wanted_yielding(const work *w, uint32_t load) {
   return yielding(w, w->r->yieldings, w->r->frequencies, load);
 }
 
+/* The least factor for all. One that the slowest swing of a thin fin asks for would let the thick rest sink
+ * under its own weight; where few points say nothing of what the parts ask for, what stands by itself is not
+ * made softer than it takes to bear that. */
+static double least_to_bear(const work *w) {
+  sbf_attributes matter = w->body->attributes;
+  double stated = (double)matter.young_modulus;
+  if (w->statics.held || !is_sparse(w) || !(stated > 0)) return 0;
+  matter.young_modulus = 0;
+  return fmin(sbfi_bearing_modulus(&matter, &w->body->surface.positions) / stated, 1);
+}
+
 static double fit(const work *w) {
   double own = 0, wanted = 0;
   for (uint32_t l = 0; l < w->statics.load_count; l++) {
@@ -169,7 +181,7 @@ static double fit(const work *w) {
     wanted += wanted_yielding(w, l);
   }
   double factor = own > 0 && wanted > 0 ? own / wanted : 1;
-  return factor >= least_whole && factor <= most_whole ? factor : 1;
+  return factor >= least_whole && factor <= most_whole ? fmax(factor, least_to_bear(w)) : 1;
 }
 
 static double residual_of(const work *w, double factor) {
