@@ -13,6 +13,9 @@ static const double MARGIN = 1.1;
  * look to the next. */
 static const double SOLID_MARGIN = 1.04;
 
+/* More than any model may have, and far from where counts of them overflow. */
+enum { MOST_COUNTED = 1 << 20 };
+
 uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float stretch) {
   if (island->substeps) return island->substeps;
   double margin = island->tetrahedron_count && !island->spring_count && !(island->stiffness_damping_s > 0)
@@ -25,5 +28,6 @@ uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float st
   w = sqrt(w * w + MARGIN * MARGIN * island->outer_rad_s * island->outer_rad_s);
   double z = 0.5 * island->stiffness_damping_s * w;
   double needed = tick_s * w / (2 * (sqrt(1 + z * z) - z));
+  if (!(needed < MOST_COUNTED)) return MOST_COUNTED;
   return needed < 1 ? 1 : (uint32_t)needed + ((double)(uint32_t)needed < needed);
 }

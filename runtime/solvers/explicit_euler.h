@@ -20,7 +20,7 @@ static inline void sbri_add_accelerations(const sbri_island_tick *t, float h) {
 
 static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  uint32_t substeps = sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->stretch);
+  uint32_t substeps = sbri_substeps_now(t, t->tick_s);
   float h = t->tick_s / (float)substeps;
   float stretches[SBRI_BLOCK] = {0};
   sbri_remember_held(t);

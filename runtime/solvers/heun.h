@@ -121,8 +121,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   float unit = t->tick_s / (float)SBRI_HEUN_UNITS, stretches[SBRI_BLOCK] = {0};
   sbri_point *first = t->begins; /* of free points; those of held ones are in use */
-  uint32_t wanted = sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->stretch),
-           longest = SBRI_HEUN_UNITS;
+  uint32_t wanted = sbri_substeps_now(t, t->tick_s), longest = SBRI_HEUN_UNITS;
   while (longest > 1 && SBRI_HEUN_UNITS / longest < wanted) longest /= 2;
   sbri_remember_held(t);
   sbri_heun_evaluate(t, unit * (float)longest, NULL);

@@ -17,6 +17,7 @@
 #include "solvers/reaction.h"
 #include "solvers/region_forces.h"
 #include "solvers/rigid_motion.h"
+#include "solvers/scheme.h"
 #include "solvers/spring_forces.h"
 #include "solvers/tetrahedron_forces.h"
 #include "solvers/touches.h"
@@ -212,6 +213,14 @@ static inline void sbri_carry_held(const sbri_island_tick *t, float share) {
   const float *from = &t->begins[t->island->free_count].x, *to = &t->targets[t->island->free_count].x;
   float *at = &t->positions[t->island->free_count].x;
   for (size_t i = 0; i < 4 * held; i++) at[i] = from[i] + (to[i] - from[i]) * share;
+}
+
+/* Substeps of the `time_s` seconds to come, by how stiff springs, tetrahedra and gases are now. No more than
+ * a model may ask for at rest: a gas that is pressed flat would ask for a million and stop the world; what
+ * goes wrong then is recovered from. */
+static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
+  uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
+  return needed < SBRI_MOST_SUBSTEPS ? needed : SBRI_MOST_SUBSTEPS;
 }
 
 /* Remembers the greatest of the lanes. */

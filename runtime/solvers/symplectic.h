@@ -9,11 +9,6 @@
 #include "solvers/finish.h"
 #include "solvers/motion.h"
 
-static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
-  uint32_t needed = sbri_stable_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
-  return needed < SBRI_MOST_SUBSTEPS || t->island->substeps ? needed : SBRI_MOST_SUBSTEPS;
-}
-
 /* Whether what is stable changes within a tick by more than springs can. */
 static inline bool sbri_may_stiffen(const sbri_island_tick *t) {
   bool gas = false;
@@ -42,7 +37,7 @@ static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {
 }
 
 /* Where tetrahedra or gases have stiffened beyond what the substep allows for, the rest of the tick is
- * divided anew. */
+ * divided anew; a tick never has more than the most substeps, however often it is. */
 static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   bool solid = island->tetrahedron_block_count > 0, may_stiffen = sbri_may_stiffen(t);
@@ -58,7 +53,9 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
     if (solid) sbri_tetrahedron_pass(t, looks);
     if (looks && !last && may_stiffen) {
       sbri_outer_look(t);
-      uint32_t needed = sbri_substeps_now(t, rest);
+      uint32_t needed = sbri_substeps_now(t, rest),
+               most = s < SBRI_MOST_SUBSTEPS ? SBRI_MOST_SUBSTEPS - s : 0;
+      needed = needed < most ? needed : most;
       if (needed > left) left = needed, h = rest / (float)left;
     }
     bool damps = last || s % damp_every == 0;

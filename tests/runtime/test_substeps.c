@@ -79,6 +79,22 @@ START_TEST(stretched_springs_need_more_up_to_a_bound)
 }
 END_TEST
 
+/* Numbers beyond what an integer holds are not turned into one: each machine would make another of it. */
+START_TEST(what_is_stiff_beyond_measure_has_a_bound)
+{
+  const double frequencies[] = {1e9, 1e30, INFINITY, (double)NAN};
+  uint32_t bound = 0;
+  for (int i = 0; i < 4; i++) {
+    sbri_island island = {.outer_rad_s = frequencies[i]};
+    uint32_t substeps = sbri_stable_substeps(&island, 1.0 / 60, 0);
+    ck_assert_uint_gt(substeps, SBRI_MOST_SUBSTEPS);
+    ck_assert_uint_le(4 * (uint64_t)substeps, UINT32_MAX); /* what schemes multiply it by */
+    if (i > 0) ck_assert_uint_eq(substeps, bound);
+    bound = substeps;
+  }
+}
+END_TEST
+
 /* Thrown into a knot, every point somewhere in a box: springs stretched tenfold and more. */
 START_TEST(a_body_thrown_into_a_knot_does_not_burst)
 {
@@ -123,6 +139,7 @@ static Suite *suite(void) {
   tcase_add_test(c, as_many_as_are_needed_and_hardly_more);
   tcase_add_test(c, damped_springs_need_more);
   tcase_add_test(c, stretched_springs_need_more_up_to_a_bound);
+  tcase_add_test(c, what_is_stiff_beyond_measure_has_a_bound);
   tcase_add_test(c, a_body_thrown_into_a_knot_does_not_burst);
   tcase_add_test(c, what_is_too_stiff_is_refused);
   suite_add_tcase(s, c);
