@@ -1,0 +1,28 @@
+#include "build/body_interior.h"
+
+#include "sbfmt/mechanics.h"
+
+enum { MOST_CALIBRATED_POINTS = 20000 };
+
+sbf_build_interior sbfi_body_interior(const sbf_build_options *options, const sbf_soft_body *body) {
+  sbf_body_measures measures;
+  sbf_body_measure(body, &measures);
+  sbf_build_interior wanted = options->interior;
+  if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC && body->derived != SBF_NONE) return wanted;
+  /* A section hangs on its bone by its centroid; what no bone runs through is filled, or a sheet. */
+  if (wanted == SBF_BUILD_INTERIOR_AUTOMATIC)
+    wanted = body->bone != SBF_NONE ? SBF_BUILD_INTERIOR_CENTROID
+             : measures.sheet       ? SBF_BUILD_INTERIOR_NONE
+                                    : SBF_BUILD_INTERIOR_TETRAHEDRA;
+  if (wanted == SBF_BUILD_INTERIOR_CENTROID || wanted == SBF_BUILD_INTERIOR_BRUTE) return wanted;
+  return measures.sheet ? SBF_BUILD_INTERIOR_NONE : wanted;
+}
+
+bool sbfi_body_is_calibrated(const sbf_soft_body *body, sbf_build_interior interior) {
+  sbf_body_measures measures;
+  if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA) return true;
+  if (interior != SBF_BUILD_INTERIOR_CENTROID || body->surface.positions.count > MOST_CALIBRATED_POINTS)
+    return false;
+  sbf_body_measure(body, &measures);
+  return !measures.sheet && body->surface.polygon_sizes.count > 0;
+}

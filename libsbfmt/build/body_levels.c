@@ -1,0 +1,294 @@
+#include "build/body_levels.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "build/body_interior.h"
+#include "build/lattice/lattice_level.h"
+#include "build/lattice/region_level.h"
+#include "build/levels/ladder.h"
+#include "build/sections/level_pins.h"
+#include "build/sections/section_level.h"
+
+enum { MOST_BRUTE_POINTS = 4096, LEAST_SHARE = 100 };
+
+/* For a part of the work on one body's levels. */
+static sbfi_progress stretch_of_body(sbfi_build *b, uint32_t number) {
+  uint32_t count = b->asset->soft_bodies.count;
+  return sbfi_build_stretch(b, "levels", 0.2 + 0.4 * number / count, 0.2 + 0.4 * (number + 1) / count);
+}
+
+static void warn_of_attachments(sbfi_build *b, uint32_t body) {
+  for (uint32_t i = 0; i < b->bodies[body].attachments.count; i++) {
+    const sbf_attachment *rule = &b->bodies[body].attachments.at[i];
+    if (rule->rule != SBF_ATTACHMENT_RULE_INSIDE_HULL || b->asset->rigid_bodies.at[rule->rigid_body].hull)
+      continue;
+    sbf_diagnostic finding;
+    sbfi_diagnose(&finding, SBF_CODE_ATTACHMENT_NO_HULL,
+        "rigid body \"%s\" has no hull that points could be inside of",
+        b->asset->rigid_bodies.at[rule->rigid_body].name);
+    snprintf(
+        finding.path, sizeof finding.path, "/sbf/soft_body[%u]/attachments/attachment[%u]", body + 1, i + 1);
+    sbfi_report(&b->reporter, &finding);
+  }
+}
+
+static void take_level(sbfi_build *b, uint32_t number, const sbf_level *level, uint32_t pins) {
+  b->bodies[number].levels = (sbf_level_list){level, 1};
+  b->made[number] = true;
+  b->report.bodies++;
+  b->report.pins += pins;
+}
+
+static bool make_springs(sbfi_build *b, uint32_t number, sbf_build_interior interior, sbfi_arena *scratch) {
+  sbf_soft_body *body = &b->bodies[number];
+  static const sbfi_spring_interior interiors[] = {[SBF_BUILD_INTERIOR_CENTROID] = SBFI_INTERIOR_CENTROID,
+      [SBF_BUILD_INTERIOR_NONE] = SBFI_INTERIOR_NONE,
+      [SBF_BUILD_INTERIOR_LATTICE] = SBFI_INTERIOR_LATTICE,
+      [SBF_BUILD_INTERIOR_BRUTE] = SBFI_INTERIOR_BRUTE};
+  sbfi_spring_recipe recipe = {interiors[interior], b->options.cell_m, !b->options.without_flexion,
+      SBFI_BUILD_DERIVATION, stretch_of_body(b, number)};
+  sbfi_spring_counts counts;
+  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
+  sbfi_interior_map *map = &b->maps[number];
+  if (!level || !sbfi_spring_level_make(level, body, &recipe, b->asset, map, &counts, scratch)) return false;
+  if (map->polygon_points) {
+    map->polygon_points = sbfi_arena_copy(
+        &b->scratch, map->polygon_points, body->surface.polygon_sizes.count, sizeof *map->polygon_points);
+    if (!map->polygon_points) return false;
+  }
+  take_level(b, number, level, counts.pins);
+  b->report.interior_points += counts.interior_points;
+  b->report.inert_springs += counts.inert;
+  for (int kind = 0; kind < SBF_SPRING_KIND_COUNT; kind++) b->report.springs[kind] += counts.springs[kind];
+  return true;
+}
+
+static void add_quality(sbf_build_report *report, const sbf_lattice_measures *of) {
+  bool first = report->most_dihedral_deg == 0;
+  if (first || of->least_dihedral_deg < report->least_dihedral_deg)
+    report->least_dihedral_deg = of->least_dihedral_deg;
+  if (of->most_dihedral_deg > report->most_dihedral_deg) report->most_dihedral_deg = of->most_dihedral_deg;
+  for (int i = 0; i < SBF_DIHEDRAL_BINS; i++) report->dihedrals[i] += of->dihedrals[i];
+  report->lattice_volume += of->volume;
+}
+
+static sbf_status outcome_status(sbfi_build *b, uint32_t number, sbfi_lattice_outcome outcome) {
+  switch (outcome) {
+  case SBFI_LATTICE_NO_MEMORY:
+    return sbfi_build_no_memory(b);
+  case SBFI_LATTICE_CANCELLED:
+    return sbfi_build_no_memory(b);
+  case SBFI_LATTICE_TOO_FINE:
+    return sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_TOO_FINE,
+        "a lattice of this cell in soft body \"%s\" would have more than 2^28 nodes: give a larger cell",
+        b->bodies[number].name);
+  case SBFI_LATTICE_MADE:
+    break;
+  }
+  return SBF_OK;
+}
+
+static void note_calibration(sbfi_build *b, const sbfi_calibration *c) {
+  sbf_build_report *r = &b->report;
+  if (r->calibrated == 0 || c->least < r->least_factor) r->least_factor = c->least;
+  if (c->most > r->most_factor) r->most_factor = c->most;
+  if (c->residual > r->most_residual) r->most_residual = c->residual;
+  if (fabs(c->period_error) > r->most_period_error) r->most_period_error = fabs(c->period_error);
+  r->calibrated++;
+}
+
+static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
+  sbf_build_report *r = &b->report;
+  if (r->calibrated_springs == 0 || c->least < r->least_spring_factor) r->least_spring_factor = c->least;
+  if (c->most > r->most_spring_factor) r->most_spring_factor = c->most;
+  if (c->residual > r->most_spring_residual) r->most_spring_residual = c->residual;
+  r->calibrated_springs++;
+}
+
+/* The rest of the levels of a body whose finest has been made, and what they are worth. */
+static sbf_status make_ladder(sbfi_build *b, uint32_t number, sbfi_ladder *ladder) {
+  sbf_soft_body *body = &b->bodies[number];
+  const sbfi_interior_map *map = &b->maps[number];
+  bool of_springs = body->levels.at[0].model == SBF_ELASTIC_MODEL_SPRINGS;
+  sbf_status status = outcome_status(
+      b, number, sbfi_ladder_make(ladder, body->levels.at, of_springs ? map : NULL, &b->scratch));
+  if (status != SBF_OK) return status;
+  body->levels = (sbf_level_list){ladder->levels, ladder->level_count};
+  b->report.levels += ladder->level_count - 1;
+  for (uint32_t l = 0; l < ladder->level_count; l++) {
+    if (!ladder->levels[l].calibration) continue;
+    if (ladder->levels[l].model == SBF_ELASTIC_MODEL_TETRAHEDRA)
+      note_calibration(b, &ladder->calibrations[l]);
+    else
+      note_spring_calibration(b, &ladder->calibrations[l]);
+  }
+  return SBF_OK;
+}
+
+static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
+  const sbf_soft_body *body = &b->bodies[number];
+  sbfi_lattice_recipe recipe = {
+      b->options.cell_m, b->options.elements, b->usual_elements, SBFI_BUILD_DERIVATION};
+  sbfi_lattice_counts counts;
+  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
+  if (!level) return sbfi_build_no_memory(b);
+  if (b->options.error_m > 0) {
+    bool met;
+    recipe.cell = 0;
+    sbf_status status = outcome_status(b, number, sbfi_ladder_pick(ladder, &recipe.elements, &met));
+    if (status != SBF_OK) return status;
+    if (!met)
+      sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_ERROR_MISSED,
+          "no lattice of soft body \"%s\" coarser than %u tetrahedra comes within %.4g m: it gets so many",
+          body->name, (unsigned)recipe.elements, b->options.error_m);
+  }
+  sbf_status status = outcome_status(
+      b, number, sbfi_lattice_level_make(level, body, &recipe, b->asset, &counts, ladder->progress, scratch));
+  if (status != SBF_OK) return status;
+  if (counts.tetrahedra == 0) {
+    sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_EMPTY,
+        "soft body \"%s\" encloses nothing that a lattice of %.4g m could fill: it gets springs over its "
+        "surface",
+        body->name, (double)level->cell);
+    return make_springs(b, number, SBF_BUILD_INTERIOR_NONE, scratch) ? SBF_OK : sbfi_build_no_memory(b);
+  }
+  /* Tips and rims are thin everywhere: a few such points are no thin limb. */
+  if (counts.thinness.thin_count > counts.thinness.sample_count / 50)
+    sbfi_build_report_of_body(b, number, SBF_CODE_LATTICE_THIN,
+        "%u of %u points looked at on soft body \"%s\" stand on matter thinner than two elements, the "
+        "thinnest %.4g m at a cell of %.4g m: a smaller cell (--cell, --elements) gives it more",
+        (unsigned)counts.thinness.thin_count, (unsigned)counts.thinness.sample_count, body->name,
+        counts.thinness.least, (double)level->cell);
+  take_level(b, number, level, counts.pins);
+  b->report.tetrahedra += counts.tetrahedra;
+  b->report.thickened_points += counts.thickened;
+  add_quality(&b->report, &counts.quality);
+  return SBF_OK;
+}
+
+/* A lattice as for tetrahedra, then regions of its points in their stead. */
+static sbf_status make_regions(sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
+  sbf_status status = make_tetrahedra(b, number, ladder, scratch);
+  const sbf_soft_body *body = &b->bodies[number];
+  if (status != SBF_OK || !b->made[number] || body->levels.at[0].model != SBF_ELASTIC_MODEL_TETRAHEDRA)
+    return status;
+  /* The level is the asset's, made here. */
+  sbf_level *level = (sbf_level *)(uintptr_t)body->levels.at;
+  return sbfi_region_level_make(level, body, b->asset, scratch) ? SBF_OK : sbfi_build_no_memory(b);
+}
+
+/* A section that was cut here; where it encloses nothing, as a sheet does, springs to its centre hold it. */
+static sbf_status make_section(sbfi_build *b, uint32_t number, sbfi_arena *scratch) {
+  const sbf_soft_body *body = &b->bodies[number];
+  const sbfi_section_recipe recipe = {b->options.cell_m, b->options.elements, SBFI_BUILD_DERIVATION};
+  sbfi_section_counts counts;
+  sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
+  if (!level) return sbfi_build_no_memory(b);
+  sbf_status status = outcome_status(b, number,
+      sbfi_section_level_make(level, body, &recipe, b->asset, &counts, stretch_of_body(b, number), scratch));
+  if (status != SBF_OK) return status;
+  if (counts.points == 0)
+    return make_springs(b, number, SBF_BUILD_INTERIOR_CENTROID, scratch) ? SBF_OK : sbfi_build_no_memory(b);
+  take_level(b, number, level, counts.pins);
+  b->report.interior_points += counts.points;
+  b->report.springs[SBF_SPRING_KIND_INTERNAL] += counts.springs;
+  b->report.inert_springs += counts.inert;
+  return SBF_OK;
+}
+
+static sbf_status make_level(sbfi_build *b, uint32_t number) {
+  sbfi_arena scratch;
+  sbf_build_interior interior = sbfi_body_interior(&b->options, &b->bodies[number]);
+  sbfi_arena_init(&scratch, &b->scratch.allocator, 0);
+  sbf_status status = SBF_OK;
+  const sbf_build_options *o = &b->options;
+  bool is_sized = o->cell_m > 0 || o->elements > 0 || o->error_m > 0;
+  const sbfi_ladder_recipe recipe = {.levels = o->levels > 1 ? o->levels : 1,
+      .error = o->error_m,
+      .calibrate = !o->without_calibration && sbfi_body_is_calibrated(&b->bodies[number], interior),
+      .tick = (double)b->asset->environment.control_tick,
+      .share = is_sized ? 0 : b->usual_elements,
+      .derivation = SBFI_BUILD_DERIVATION};
+  sbfi_ladder ladder;
+  sbfi_ladder_init(
+      &ladder, &b->bodies[number], &recipe, b->asset, stretch_of_body(b, number), &b->scratch.allocator);
+  if (interior == SBF_BUILD_INTERIOR_BRUTE && b->bodies[number].surface.positions.count > MOST_BRUTE_POINTS)
+    status = sbfi_build_report_of_body(b, number, SBF_CODE_INTERIOR_TOO_MANY,
+        "soft body \"%s\" has more than %d points: springs between all of them are for comparing small "
+        "bodies",
+        b->bodies[number].name, MOST_BRUTE_POINTS);
+  else if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA)
+    status = make_tetrahedra(b, number, &ladder, &scratch);
+  else if (interior == SBF_BUILD_INTERIOR_SHAPE_MATCHING)
+    status = make_regions(b, number, &ladder, &scratch);
+  else if (interior == SBF_BUILD_INTERIOR_AUTOMATIC)
+    status = make_section(b, number, &scratch);
+  else if (!make_springs(b, number, interior, &scratch))
+    status = sbfi_build_no_memory(b);
+  bool alone = b->bodies[number].levels.count &&
+               b->bodies[number].levels.at[0].model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+  if (status == SBF_OK && b->made[number] && !alone) status = make_ladder(b, number, &ladder);
+  sbfi_ladder_free(&ladder);
+  sbfi_arena_free(&scratch);
+  return status;
+}
+
+/* Authored levels stay; the pins that the body's own stand for are put on them. */
+static bool pin_authored_levels(sbfi_build *b, uint32_t number) {
+  sbf_soft_body *body = &b->bodies[number];
+  sbf_level *levels = sbf_asset_allocate(b->asset, body->levels.count, sizeof *levels);
+  if (!levels) return false;
+  memcpy(levels, body->levels.at, body->levels.count * sizeof *levels);
+  body->levels.at = levels;
+  for (uint32_t l = 0; l < body->levels.count; l++) {
+    uint32_t before = levels[l].pins.count;
+    if (!sbfi_level_pins_make(&levels[l], body, SBFI_BUILD_DERIVATION, b->asset, NULL, 0, &b->scratch))
+      return false;
+    for (uint32_t p = before; l == 0 && p < levels[l].pins.count; p++)
+      b->report.pins += levels[l].pins.at[p].points.count;
+  }
+  return true;
+}
+
+/* Bodies that nobody sizes share what one would get, so that a scene of many is not many times as dear. */
+static void share_elements(sbfi_build *b) {
+  uint32_t sharing = 0;
+  for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
+    sharing += b->bodies[i].levels.count == 0 &&
+               sbfi_body_interior(&b->options, &b->bodies[i]) >= SBF_BUILD_INTERIOR_TETRAHEDRA;
+  uint32_t share = SBFI_LATTICE_SHARED_ELEMENTS / (sharing ? sharing : 1);
+  b->usual_elements = share > LEAST_SHARE ? share : LEAST_SHARE;
+}
+
+sbf_status sbfi_body_levels_make(sbfi_build *b) {
+  uint32_t count = b->asset->soft_bodies.count;
+  share_elements(b);
+  for (uint32_t i = 0; i < count; i++) {
+    sbf_status status = sbfi_build_tell(b, "levels", 0.2 + 0.4 * i / count);
+    if (status != SBF_OK) return status;
+    warn_of_attachments(b, i);
+    if (b->bodies[i].levels.count > 0) {
+      if (!pin_authored_levels(b, i)) return sbfi_build_no_memory(b);
+    } else if (b->bodies[i].surface.positions.count > 0) {
+      status = make_level(b, i);
+      if (status != SBF_OK) return status;
+    } else {
+      sbfi_build_report_of_body(b, i, SBF_CODE_BODY_WITHOUT_POINTS,
+          "soft body \"%s\" has no surface points to build a level on", b->bodies[i].name);
+    }
+  }
+  return SBF_OK;
+}
+
+sbf_status sbfi_body_lattices_clear(sbfi_build *b) {
+  for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++)
+    for (uint32_t l = 0; b->made[i] && l < b->bodies[i].levels.count; l++) {
+      /* The level is the asset's, made here. */
+      sbf_level *level = (sbf_level *)(uintptr_t)&b->bodies[i].levels.at[l];
+      if (level->model != SBF_ELASTIC_MODEL_SPRINGS) continue;
+      level->lattice.tetrahedra = (sbf_uint4_list){NULL, 0};
+    }
+  return SBF_OK;
+}
