@@ -48,7 +48,8 @@ START_TEST(of_equals_the_lowest_number)
   double places[100];
   for (int i = 0; i < 100; i++) places[i] = 5;
   ck_assert_uint_eq(
-      sbfi_box_tree_pierced(&tree, (double[]){0, 1.5, 1.5}, (double[]){1, 0, 0}, enter_at, places), 0);
+      sbfi_box_tree_pierced(&tree, (double[]){0, 1.5, 1.5}, (double[]){1, 0, 0}, INFINITY, enter_at, places),
+      0);
 }
 END_TEST
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "build/geometry/triangle_tree.h"
 #include "build/lattice/lattice.h"
 #include "harness.h"
 #include "shapes.h"
@@ -22,7 +23,7 @@ static void setup(void) {
   ck_assert_int_eq(
       sbfi_lattice_make(&lattice, &winding, 0.37, (sbfi_progress){0}, &arena), SBFI_LATTICE_MADE);
   ck_assert(sbfi_tetrahedron_finder_make(
-      &finder, lattice.made.positions, lattice.made.at, lattice.made.count, &arena));
+      &finder, lattice.made.positions, lattice.made.at, lattice.made.count, 1000, &arena));
 }
 static void teardown(void) {
   sbf_asset_free(asset);
@@ -35,6 +36,27 @@ static double least_weight(uint32_t tetrahedron, sbf_vec3 at) {
       lattice.made.positions, lattice.made.at[tetrahedron].at, sbfi_d3_of(at), weights));
   ck_assert_double_eq_tol(weights[0] + weights[1] + weights[2] + weights[3], 1, 1e-12);
   return fmin(fmin(weights[0], weights[1]), fmin(weights[2], weights[3]));
+}
+
+static double size_of_weights(uint32_t tetrahedron, sbf_vec3 at) {
+  double weights[4], size = 0;
+  ck_assert(sbfi_tetrahedron_weigh(
+      lattice.made.positions, lattice.made.at[tetrahedron].at, sbfi_d3_of(at), weights));
+  for (int k = 0; k < 4; k++) size += weights[k] * weights[k];
+  return size;
+}
+
+/* Of a point outside, by all four sides. */
+static double distance_from(uint32_t tetrahedron, sbf_vec3 at) {
+  double corners[4][3], unused[3], least = INFINITY;
+  for (int k = 0; k < 4; k++) {
+    sbf_vec3 p = lattice.made.positions[lattice.made.at[tetrahedron].at[k]];
+    corners[k][0] = p.x, corners[k][1] = p.y, corners[k][2] = p.z;
+  }
+  for (int k = 0; k < 4; k++)
+    least = fmin(least, sbfi_triangle_closest(corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4],
+                            (double[]){at.x, at.y, at.z}, unused));
+  return sqrt(least);
 }
 
 START_TEST(points_inside_are_found_as_by_looking_at_all)
@@ -66,11 +88,48 @@ START_TEST(points_outside_know_how_far)
 }
 END_TEST
 
+/* Near and far, inside and outside: what is solved beforehand changes nothing. */
+START_TEST(few_searches_find_what_many_do)
+{
+  sbfi_tetrahedron_finder few;
+  ck_assert(sbfi_tetrahedron_finder_make(
+      &few, lattice.made.positions, lattice.made.at, lattice.made.count, 0, &arena));
+  ck_assert_ptr_null(few.solved);
+  ck_assert_ptr_nonnull(finder.solved);
+  for (int i = 0; i < 500; i++) {
+    float out = 0.8f + 0.002f * (float)i;
+    sbf_vec3 at = {out * (float)(i % 5 - 2) / 2, out * (float)(i % 7 - 3) / 3, out * (float)(i % 11 - 5) / 5};
+    sbfi_found_tetrahedron a = sbfi_tetrahedron_find(&finder, at), b = sbfi_tetrahedron_find(&few, at);
+    ck_assert_uint_eq(a.tetrahedron, b.tetrahedron);
+    ck_assert_double_eq(a.distance, b.distance);
+  }
+}
+END_TEST
+
+/* Of points outside too, by looking at all: none is nearer, and of those hardly farther none has smaller
+ * weights. */
+START_TEST(points_outside_have_the_smallest_weights)
+{
+  for (int i = 0; i < 300; i++) {
+    float out = 1.01f + 0.004f * (float)i;
+    sbf_vec3 at = {out * (float)(i % 5 - 2) / 2, out * (float)(i % 3 - 1), out};
+    sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&finder, at);
+    double least = INFINITY;
+    for (uint32_t t = 0; t < lattice.made.count; t++) least = fmin(least, distance_from(t, at));
+    ck_assert_double_eq_tol(found.distance, least, 1e-9);
+    ck_assert_double_le(distance_from(found.tetrahedron, at), least + finder.radius / 2 + 1e-9);
+    for (uint32_t t = 0; t < lattice.made.count; t++)
+      if (distance_from(t, at) < least + finder.radius / 2 - 1e-9)
+        ck_assert_double_ge(size_of_weights(t, at), size_of_weights(found.tetrahedron, at) - 1e-9);
+  }
+}
+END_TEST
+
 START_TEST(one_alone)
 {
   const sbf_vec3 points[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const sbf_uint4 one = {{0, 1, 2, 3}};
-  ck_assert(sbfi_tetrahedron_finder_make(&finder, points, &one, 1, &arena));
+  ck_assert(sbfi_tetrahedron_finder_make(&finder, points, &one, 1, 2, &arena));
   ck_assert_double_eq_tol(sbfi_tetrahedron_find(&finder, (sbf_vec3){-300, 0.1f, 0.1f}).distance, 300, 1e-6);
   ck_assert_double_eq(sbfi_tetrahedron_find(&finder, (sbf_vec3){0.1f, 0.1f, 0.1f}).distance, 0);
 }
@@ -82,6 +141,8 @@ int main(void) {
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, points_inside_are_found_as_by_looking_at_all);
   tcase_add_test(c, points_outside_know_how_far);
+  tcase_add_test(c, few_searches_find_what_many_do);
+  tcase_add_test(c, points_outside_have_the_smallest_weights);
   tcase_add_test(c, one_alone);
   suite_add_tcase(s, c);
   return harness_run(s);

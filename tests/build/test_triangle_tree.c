@@ -77,7 +77,7 @@ START_TEST(rays_meet_the_first)
   for (int i = 0; i < 300; i++) {
     sbf_vec3 p = {
         random_between(&state, -1, 1), random_between(&state, -1, 1), random_between(&state, -1, 1)};
-    uint32_t found = sbfi_triangle_tree_pierced(&tree, (sbf_vec3){0, 0, 0}, p);
+    uint32_t found = sbfi_triangle_tree_pierced(&tree, (sbf_vec3){0, 0, 0}, p, INFINITY);
     ck_assert_uint_ne(found, UINT32_MAX);
     /* Of a cube around the origin the ray meets the face of the largest coordinate. */
     float x = fabsf(p.x), y = fabsf(p.y), z = fabsf(p.z);
@@ -88,9 +88,15 @@ START_TEST(rays_meet_the_first)
     if (y > x * 1.001f && y > z * 1.001f) ck_assert(a.y == b.y && b.y == c.y && a.y * p.y > 0);
   }
   /* From outside the nearer of the two faces, and none when it looks away. */
-  uint32_t found = sbfi_triangle_tree_pierced(&tree, (sbf_vec3){5, 0.1f, 0.2f}, (sbf_vec3){4, 0.1f, 0.2f});
+  uint32_t found =
+      sbfi_triangle_tree_pierced(&tree, (sbf_vec3){5, 0.1f, 0.2f}, (sbf_vec3){4, 0.1f, 0.2f}, INFINITY);
   ck_assert_float_eq(tree.positions[tree.triangles[found].points[0]].x, 1);
-  ck_assert_uint_eq(sbfi_triangle_tree_pierced(&tree, (sbf_vec3){5, 0, 0}, (sbf_vec3){6, 0, 0}), UINT32_MAX);
+  /* The face is four times as far as the point. */
+  const sbf_vec3 from = {5, 0.1f, 0.2f}, through = {4, 0.1f, 0.2f};
+  ck_assert_uint_eq(sbfi_triangle_tree_pierced(&tree, from, through, 4.01), found);
+  ck_assert_uint_eq(sbfi_triangle_tree_pierced(&tree, from, through, 3.99), UINT32_MAX);
+  ck_assert_uint_eq(
+      sbfi_triangle_tree_pierced(&tree, (sbf_vec3){5, 0, 0}, (sbf_vec3){6, 0, 0}, INFINITY), UINT32_MAX);
 }
 END_TEST
 
@@ -121,7 +127,8 @@ START_TEST(empty_mesh)
   double least = INFINITY;
   ck_assert(sbfi_triangle_tree_build(&tree, &mesh, &arena));
   ck_assert_uint_eq(sbfi_triangle_tree_nearest(&tree, (sbf_vec3){0, 0, 0}, &least), UINT32_MAX);
-  ck_assert_uint_eq(sbfi_triangle_tree_pierced(&tree, (sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0, 0}), UINT32_MAX);
+  ck_assert_uint_eq(
+      sbfi_triangle_tree_pierced(&tree, (sbf_vec3){0, 0, 0}, (sbf_vec3){1, 0, 0}, INFINITY), UINT32_MAX);
 }
 END_TEST
 

@@ -161,7 +161,7 @@ static sbfi_carried carry_by_surface(const sbfi_carrier *c, sbf_vec3 position) {
   if (c->interior.polygon_points) try_fourth(c, corners, c->interior.polygon_points[polygon], at, &best);
   if (best.size > deep && c->interior.centre != SBFI_NO_INDEX) {
     uint32_t through[3], pierced = sbfi_triangle_tree_pierced(
-                             &c->surface, c->level->positions.at[c->interior.centre], position);
+                             &c->surface, c->level->positions.at[c->interior.centre], position, INFINITY);
     if (pierced != SBFI_NO_INDEX && level_corners(c, pierced, through))
       try_fourth(c, through, c->interior.centre, at, &best);
   }
@@ -209,8 +209,8 @@ static bool find_in_lattice(sbfi_carrier *c, sbfi_arena *arena) {
   const sbf_vec3_list *surface = &c->body->surface.positions;
   if (tetrahedra->count == 0) return true;
   c->in_lattice = sbfi_arena_allocate(arena, (size_t)surface->count + 1, sizeof *c->in_lattice);
-  if (!c->in_lattice || !sbfi_tetrahedron_finder_make(
-                            &c->lattice, c->level->positions.at, tetrahedra->at, tetrahedra->count, arena))
+  if (!c->in_lattice || !sbfi_tetrahedron_finder_make(&c->lattice, c->level->positions.at, tetrahedra->at,
+                            tetrahedra->count, surface->count, arena))
     return false;
   for (uint32_t i = 0; i < surface->count; i++) c->in_lattice[i] = carry_by_lattice(c, surface->at[i]);
   return true;

@@ -4,24 +4,35 @@
 
 static const double slack = 1e-9; /* of a weight: a point between two tetrahedra is in both */
 
-bool sbfi_tetrahedron_weigh(
-    const sbf_vec3 *positions, const uint32_t corners[4], sbfi_d3 point, double weights[4]) {
-  sbfi_d3 origin = sbfi_d3_of(positions[corners[3]]), edges[3], cofactors[3];
+static void solve(sbfi_solved_tetrahedron *of, const sbf_vec3 *positions, const uint32_t corners[4]) {
+  sbfi_d3 origin = sbfi_d3_of(positions[corners[3]]), edges[3];
   double longest2 = 0;
   for (int k = 0; k < 3; k++) {
     edges[k] = sbfi_d3_sub(sbfi_d3_of(positions[corners[k]]), origin);
     longest2 = fmax(longest2, sbfi_d3_dot(edges[k], edges[k]));
   }
-  for (int k = 0; k < 3; k++) cofactors[k] = sbfi_d3_cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
-  double volume = sbfi_d3_dot(edges[0], cofactors[0]);
-  if (!(fabs(volume) > 1e-6 * longest2 * sqrt(longest2))) return false;
-  sbfi_d3 from = sbfi_d3_sub(point, origin);
+  for (int k = 0; k < 3; k++) of->cofactors[k] = sbfi_d3_cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
+  of->volume = sbfi_d3_dot(edges[0], of->cofactors[0]);
+  if (!(fabs(of->volume) > 1e-6 * longest2 * sqrt(longest2))) of->volume = 0;
+}
+
+static bool weigh_solved(
+    const sbfi_solved_tetrahedron *in, sbf_vec3 last_corner, sbfi_d3 point, double weights[4]) {
+  if (in->volume == 0) return false;
+  sbfi_d3 from = sbfi_d3_sub(point, sbfi_d3_of(last_corner));
   weights[3] = 1;
   for (int k = 0; k < 3; k++) {
-    weights[k] = sbfi_d3_dot(from, cofactors[k]) / volume;
+    weights[k] = sbfi_d3_dot(from, in->cofactors[k]) / in->volume;
     weights[3] -= weights[k];
   }
   return true;
+}
+
+bool sbfi_tetrahedron_weigh(
+    const sbf_vec3 *positions, const uint32_t corners[4], sbfi_d3 point, double weights[4]) {
+  sbfi_solved_tetrahedron solved;
+  solve(&solved, positions, corners);
+  return weigh_solved(&solved, positions[corners[3]], point, weights);
 }
 
 static sbfi_d3 middle_of(const sbfi_tetrahedron_finder *f, uint32_t tetrahedron) {
@@ -43,25 +54,30 @@ static size_t bin_of(const sbfi_tetrahedron_finder *f, sbfi_d3 at) {
   return (z * f->counts[1] + y) * f->counts[0] + x;
 }
 
-/* The bins' width and number; false where there is none for so many. */
-static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, size_t *bins) {
+/* The bins' width, `least_width` radii at least, and number; false where there is none for so many. */
+static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, double least_width, size_t *bins) {
   sbfi_d3 low = middle_of(f, 0), high = low;
-  double radius2 = 0;
+  double radius2 = 0, most_spread = 0;
   for (uint32_t t = 0; t < count; t++) {
+    double spread = 0;
     sbfi_d3 m = middle_of(f, t);
     low = (sbfi_d3){fmin(low.x, m.x), fmin(low.y, m.y), fmin(low.z, m.z)};
     high = (sbfi_d3){fmax(high.x, m.x), fmax(high.y, m.y), fmax(high.z, m.z)};
     for (int k = 0; k < 4; k++) {
       sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(f->positions[f->tetrahedra[t].at[k]]), m);
-      radius2 = fmax(radius2, sbfi_d3_dot(way, way));
+      double way2 = sbfi_d3_dot(way, way);
+      if (way2 > radius2) radius2 = way2;
+      spread += way2;
     }
+    if (spread > most_spread) most_spread = spread;
   }
   const double sizes[3] = {high.x - low.x, high.y - low.y, high.z - low.z};
-  /* With room for what rounding does to the middles. */
-  f->radius = sqrt(radius2) * (1 + 1e-6) + 1e-6 * (sizes[0] + sizes[1] + sizes[2]);
+  f->rounding = 1e-6 * (sizes[0] + sizes[1] + sizes[2]);
+  f->radius = sqrt(radius2) * (1 + 1e-6) + f->rounding;
+  f->spread = sqrt(most_spread) * (1 + 1e-6);
   f->origin = low;
   /* No more bins than four times the tetrahedra, however long and thin the body lies. */
-  for (f->width = fmax(f->radius, 1e-30);; f->width *= 2) {
+  for (f->width = fmax(least_width * f->radius, 1e-30);; f->width *= 1.25) {
     double all = 1;
     for (int k = 0; k < 3; k++) all *= floor(sizes[k] / f->width) + 1;
     if (all > 4.0 * count + 64) continue;
@@ -71,11 +87,23 @@ static bool lay_out(sbfi_tetrahedron_finder *f, uint32_t count, size_t *bins) {
   }
 }
 
+/* A search weighs some tens of tetrahedra: where there are no more than this for each, they are better solved
+ * beforehand. */
+enum { PER_SEARCH = 16 };
+
+static bool solve_all(sbfi_tetrahedron_finder *f, uint32_t count, sbfi_arena *arena) {
+  f->solved = sbfi_arena_allocate(arena, count, sizeof *f->solved);
+  if (!f->solved) return false;
+  for (uint32_t t = 0; t < count; t++) solve(&f->solved[t], f->positions, f->tetrahedra[t].at);
+  return true;
+}
+
 bool sbfi_tetrahedron_finder_make(sbfi_tetrahedron_finder *finder, const sbf_vec3 *positions,
-    const sbf_uint4 *tetrahedra, uint32_t count, sbfi_arena *arena) {
+    const sbf_uint4 *tetrahedra, uint32_t count, uint32_t searches, sbfi_arena *arena) {
   size_t bins = 0;
   *finder = (sbfi_tetrahedron_finder){.positions = positions, .tetrahedra = tetrahedra};
-  lay_out(finder, count, &bins);
+  bool prepare = count / PER_SEARCH <= searches;
+  lay_out(finder, count, prepare ? 0.85 : 1, &bins);
   finder->begins = sbfi_arena_allocate(arena, bins + 2, sizeof *finder->begins);
   finder->items = sbfi_arena_allocate(arena, count, sizeof *finder->items);
   finder->middles = sbfi_arena_allocate(arena, count, sizeof *finder->middles);
@@ -88,7 +116,7 @@ bool sbfi_tetrahedron_finder_make(sbfi_tetrahedron_finder *finder, const sbf_vec
     finder->items[place] = t;
     finder->middles[place] = sbfi_d3_rounded(sbfi_d3_sub(middle, finder->origin));
   }
-  return true;
+  return !prepare || solve_all(finder, count, arena);
 }
 
 /* The bins that may hold middles within `reach` of the point. */
@@ -112,17 +140,32 @@ struct search {
   double distance, most, size; /* m; m; what is to be small in the best one */
 };
 
+/* From a place to the nearest of a bin's, along one axis, both from the origin. The outermost bins hold
+ * nothing that lies farther out. */
+static double gap_to_bin(double place, uint32_t bin, double width) {
+  double below = bin * width - place, above = place - (bin + 1.0) * width;
+  return below > 0 ? below : above > 0 ? above : 0;
+}
+
 /* Calls for each tetrahedron whose middle lies so near. */
 static void visit_within(search *s, double within, visitor *visit) {
   const sbfi_tetrahedron_finder *f = s->finder;
   uint32_t first[3], last[3];
   sbfi_d3 at = sbfi_d3_sub(s->at, f->origin);
+  double spare = 1e-6 * (f->width + within); /* for what rounding does to the middles */
   s->within2 = within * within;
   bins_around(f, s->at, within, first, last);
   for (uint32_t z = first[2]; z <= last[2]; z++) {
+    double off_z = gap_to_bin(at.z, z, f->width);
     for (uint32_t y = first[1]; y <= last[1]; y++) {
+      double off_y = gap_to_bin(at.y, y, f->width);
+      double left2 = s->within2 - off_z * off_z - off_y * off_y;
+      if (left2 < -spare * within) continue;
+      double along = (left2 > 0 ? sqrt(left2) : 0) + spare;
       size_t row = ((size_t)z * f->counts[1] + y) * f->counts[0];
-      for (uint32_t i = f->begins[row + first[0]]; i < f->begins[row + last[0] + 1]; i++) {
+      uint32_t begin = f->begins[row + bin_along(f, s->at.x - along, f->origin.x, 0)];
+      uint32_t end = f->begins[row + bin_along(f, s->at.x + along, f->origin.x, 0) + 1];
+      for (uint32_t i = begin; i < end; i++) {
         sbfi_d3 way = sbfi_d3_sub(sbfi_d3_of(f->middles[i]), at);
         double middle2 = sbfi_d3_dot(way, way);
         if (middle2 <= s->within2) visit(s, f->items[i], middle2);
@@ -131,59 +174,57 @@ static void visit_within(search *s, double within, visitor *visit) {
   }
 }
 
-/* Whether no weight of sbfi_tetrahedron_weigh is negative. Most of those asked are not the one: the first
- * negative weight ends it. */
-static bool is_inside(const sbf_vec3 *positions, const uint32_t corners[4], sbfi_d3 point) {
-  sbfi_d3 origin = sbfi_d3_of(positions[corners[3]]), edges[3], from = sbfi_d3_sub(point, origin);
-  double volume = 0, last = 1, longest2 = 0;
-  for (int k = 0; k < 3; k++) edges[k] = sbfi_d3_sub(sbfi_d3_of(positions[corners[k]]), origin);
-  for (int k = 0; k < 3; k++) {
-    sbfi_d3 cofactor = sbfi_d3_cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
-    if (k == 0) volume = sbfi_d3_dot(edges[0], cofactor);
-    double weight = sbfi_d3_dot(from, cofactor) / volume;
-    if (weight < -slack) return false;
-    last -= weight;
-  }
-  if (last < -slack) return false;
-  for (int k = 0; k < 3; k++) longest2 = fmax(longest2, sbfi_d3_dot(edges[k], edges[k]));
-  return fabs(volume) > 1e-6 * longest2 * sqrt(longest2);
+/* What weighs points in a tetrahedron: solved beforehand, or now and here. */
+static const sbfi_solved_tetrahedron *solved_of(
+    const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_solved_tetrahedron *now) {
+  if (f->solved) return &f->solved[tetrahedron];
+  solve(now, f->positions, f->tetrahedra[tetrahedron].at);
+  return now;
+}
+
+static bool any_below(const double weights[4], double limit) {
+  return weights[0] < limit || weights[1] < limit || weights[2] < limit || weights[3] < limit;
 }
 
 static void look_inside(search *s, uint32_t tetrahedron, double middle2) {
   const sbfi_tetrahedron_finder *f = s->finder;
+  sbfi_solved_tetrahedron now;
+  double weights[4];
   (void)middle2;
   if (tetrahedron >= s->best) return;
-  if (is_inside(f->positions, f->tetrahedra[tetrahedron].at, s->at)) s->best = tetrahedron;
+  const sbfi_solved_tetrahedron *in = solved_of(f, tetrahedron, &now);
+  if (!weigh_solved(in, f->positions[f->tetrahedra[tetrahedron].at[3]], s->at, weights)) return;
+  if (!any_below(weights, -slack)) s->best = tetrahedron;
 }
 
-/* Whether one of the sides' planes has the tetrahedron on its one side and, farther off than that, the point
- * on the other. */
-static bool is_farther(const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_d3 at, double distance) {
-  static const int faces[4][4] = {{1, 2, 3, 0}, {0, 3, 2, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
-  sbfi_d3 c[4];
-  for (int k = 0; k < 4; k++) c[k] = sbfi_d3_of(f->positions[f->tetrahedra[tetrahedron].at[k]]);
-  for (int i = 0; i < 4; i++) {
-    sbfi_d3 from = c[faces[i][0]];
-    sbfi_d3 normal = sbfi_d3_cross(sbfi_d3_sub(c[faces[i][1]], from), sbfi_d3_sub(c[faces[i][2]], from));
-    double own = sbfi_d3_dot(normal, sbfi_d3_sub(c[faces[i][3]], from));
-    double side = sbfi_d3_dot(normal, sbfi_d3_sub(at, from));
-    if (own * side < 0 && side * side > distance * distance * sbfi_d3_dot(normal, normal)) return true;
+/* Whether one side's plane has the tetrahedron on its one side and, farther off than that, a point of these
+ * weights on the other. */
+static bool is_farther(const sbfi_solved_tetrahedron *in, const double weights[4], double distance) {
+  sbfi_d3 last = sbfi_d3_add(sbfi_d3_add(in->cofactors[0], in->cofactors[1]), in->cofactors[2]);
+  for (int k = 0; k < 4; k++) {
+    sbfi_d3 normal = k < 3 ? in->cofactors[k] : last;
+    double off = weights[k] * in->volume; /* times the normal's length */
+    if (weights[k] < 0 && off * off > distance * distance * sbfi_d3_dot(normal, normal)) return true;
   }
   return false;
 }
 
-/* To the nearest of the sides. */
-static double distance_to(const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_d3 at) {
-  static const int faces[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+/* To the nearest of the sides that look towards the point, whose weights are negative; of all where none
+ * does. NULL: nobody knows the weights. */
+static double distance_to(
+    const sbfi_tetrahedron_finder *f, uint32_t tetrahedron, sbfi_d3 at, const double *weights) {
+  static const int faces[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}; /* opposite to each corner */
   const double point[3] = {at.x, at.y, at.z};
   double corners[4][3], unused[3], least = INFINITY;
+  bool any = !weights || !any_below(weights, 0);
   for (int k = 0; k < 4; k++) {
     sbf_vec3 p = f->positions[f->tetrahedra[tetrahedron].at[k]];
     corners[k][0] = p.x, corners[k][1] = p.y, corners[k][2] = p.z;
   }
   for (int i = 0; i < 4; i++)
-    least = fmin(least, sbfi_triangle_closest(
-                            corners[faces[i][0]], corners[faces[i][1]], corners[faces[i][2]], point, unused));
+    if (any || weights[i] < 0)
+      least = fmin(least, sbfi_triangle_closest(corners[faces[i][0]], corners[faces[i][1]],
+                              corners[faces[i][2]], point, unused));
   return sqrt(least);
 }
 
@@ -195,26 +236,42 @@ static void look_for_middle(search *s, uint32_t tetrahedron, double middle2) {
 }
 
 static void look_near(search *s, uint32_t tetrahedron, double middle2) {
+  const sbfi_tetrahedron_finder *f = s->finder;
+  sbfi_solved_tetrahedron now;
+  double weights[4];
   (void)middle2;
-  if (is_farther(s->finder, tetrahedron, s->at, s->distance)) return;
-  double distance = distance_to(s->finder, tetrahedron, s->at);
+  const sbfi_solved_tetrahedron *in = solved_of(f, tetrahedron, &now);
+  bool known = weigh_solved(in, f->positions[f->tetrahedra[tetrahedron].at[3]], s->at, weights);
+  if (known && is_farther(in, weights, s->distance)) return;
+  double distance = distance_to(f, tetrahedron, s->at, known ? weights : NULL);
   if (distance < s->distance || (distance == s->distance && tetrahedron < s->best)) s->best = tetrahedron;
   s->distance = fmin(s->distance, distance);
-  double within = s->distance + s->finder->radius;
+  double within = s->distance + f->radius;
   s->within2 = within * within;
 }
 
+/* How far from the point a tetrahedron's middle may lie if the squares of the point's weights sum up to no
+ * more than that: the way between them is that of the corners from the middle, each by what its weight has
+ * beyond a quarter (Cauchy and Schwarz). */
+static double within_of_size(const sbfi_tetrahedron_finder *f, double size) {
+  return f->spread * sqrt(size > 0.25 ? size - 0.25 : 0) * (1 + 1e-9) + f->rounding;
+}
+
 static void look_for_small(search *s, uint32_t tetrahedron, double middle2) {
+  const sbfi_tetrahedron_finder *f = s->finder;
+  sbfi_solved_tetrahedron now;
   double weights[4], size = 0;
-  const uint32_t *corners = s->finder->tetrahedra[tetrahedron].at;
   (void)middle2;
-  if (!sbfi_tetrahedron_weigh(s->finder->positions, corners, s->at, weights)) return;
+  const sbfi_solved_tetrahedron *in = solved_of(f, tetrahedron, &now);
+  if (!weigh_solved(in, f->positions[f->tetrahedra[tetrahedron].at[3]], s->at, weights)) return;
   for (int k = 0; k < 4; k++) size += weights[k] * weights[k];
   if (size > s->size || (size == s->size && tetrahedron >= s->best)) return;
-  if (is_farther(s->finder, tetrahedron, s->at, s->most)) return;
-  if (distance_to(s->finder, tetrahedron, s->at) > s->most) return;
+  if (is_farther(in, weights, s->most)) return;
+  if (distance_to(f, tetrahedron, s->at, weights) > s->most) return;
   s->size = size;
   s->best = tetrahedron;
+  double within = within_of_size(f, size);
+  if (within * within < s->within2) s->within2 = within * within;
 }
 
 sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *finder, sbf_vec3 point) {
@@ -223,7 +280,7 @@ sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *find
   if (s.best != UINT32_MAX) return (sbfi_found_tetrahedron){s.best, 0};
   for (double reach = finder->radius; s.best == UINT32_MAX; reach *= 2)
     visit_within(&s, reach, look_for_middle);
-  s.distance = distance_to(finder, s.best, s.at);
+  s.distance = distance_to(finder, s.best, s.at, NULL);
   /* What is nearer has its middle within that way and a radius. */
   visit_within(&s, s.distance + finder->radius, look_near);
   s.most = s.distance + finder->radius / 2;
@@ -231,6 +288,6 @@ sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *find
   uint32_t nearest = s.best;
   s.best = UINT32_MAX;
   look_for_small(&s, nearest, 0);
-  visit_within(&s, s.most + finder->radius, look_for_small);
+  visit_within(&s, fmin(s.most + finder->radius, within_of_size(finder, s.size)), look_for_small);
   return (sbfi_found_tetrahedron){s.best != UINT32_MAX ? s.best : nearest, s.distance};
 }

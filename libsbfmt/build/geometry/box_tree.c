@@ -140,15 +140,18 @@ static double enter(const sbfi_box *box, const double origin[3], const double wa
 }
 
 uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3], const double way[3],
-    double (*meet)(const void *user, uint32_t item, const double origin[3], const double way[3]),
+    double most, double (*meet)(const void *user, uint32_t item, const double origin[3], const double way[3]),
     const void *user) {
   uint32_t waiting[MOST_DEPTH], waiting_count = 0, first = UINT32_MAX;
-  double least = INFINITY;
-  if (tree->node_count > 0) waiting[waiting_count++] = 0;
+  double entries[MOST_DEPTH], least = most;
+  if (tree->node_count > 0) {
+    entries[0] = enter(&tree->nodes[0].box, origin, way);
+    waiting_count = entries[0] >= 0;
+    waiting[0] = 0;
+  }
   while (waiting_count > 0) {
     const sbfi_box_node *node = &tree->nodes[waiting[--waiting_count]];
-    double entry = enter(&node->box, origin, way);
-    if (entry < 0 || entry > least) continue;
+    if (entries[waiting_count] > least) continue;
     for (uint32_t i = 0; i < node->count; i++) {
       uint32_t item = tree->items[node->first + i];
       double t = meet(user, item, origin, way);
@@ -157,8 +160,17 @@ uint32_t sbfi_box_tree_pierced(const sbfi_box_tree *tree, const double origin[3]
       first = item;
     }
     if (node->count > 0) continue;
-    waiting[waiting_count++] = node->first + 1;
-    waiting[waiting_count++] = node->first;
+    /* The child that the ray enters first is looked at first, so it goes on the stack last. */
+    double left = enter(&tree->nodes[node->first].box, origin, way);
+    double right = enter(&tree->nodes[node->first + 1].box, origin, way);
+    bool right_first = right < left;
+    for (int k = 0; k < 2; k++) {
+      bool is_right = (k == 1) == right_first;
+      double entry = is_right ? right : left;
+      if (entry < 0 || entry > least) continue;
+      waiting[waiting_count] = node->first + is_right;
+      entries[waiting_count++] = entry;
+    }
   }
   return first;
 }

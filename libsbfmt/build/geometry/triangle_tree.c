@@ -122,10 +122,11 @@ uint32_t sbfi_triangle_tree_nearest(const sbfi_triangle_tree *tree, sbf_vec3 poi
   return sbfi_box_tree_nearest(&tree->tree, at, distance, tree, least);
 }
 
-uint32_t sbfi_triangle_tree_pierced(const sbfi_triangle_tree *tree, sbf_vec3 origin, sbf_vec3 point) {
+uint32_t sbfi_triangle_tree_pierced(
+    const sbfi_triangle_tree *tree, sbf_vec3 origin, sbf_vec3 point, double most) {
   double from[3], to[3], way[3];
   load(origin, from);
   load(point, to);
   minus(to, from, way);
-  return sbfi_box_tree_pierced(&tree->tree, from, way, meet, tree);
+  return sbfi_box_tree_pierced(&tree->tree, from, way, most, meet, tree);
 }

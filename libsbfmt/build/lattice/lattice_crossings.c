@@ -63,19 +63,24 @@ static double most_of(double p[3][2], int k) {
   return p[2][k] > most ? p[2][k] : most;
 }
 
-/* The first of the numbers with the remainder (0 or 1) by 2 that is not below `least`. */
+/* The first of the numbers with the remainder (0 or 1) by 2 that is not below `least`. (Most triangles are
+ * smaller than a cell and asked this ten times: ceil may be a call.) */
 static int32_t first_from(double least, int32_t remainder) {
-  return 2 * (int32_t)ceil((least - remainder) / 2) + remainder;
+  double half = (least - remainder) / 2;
+  int32_t whole = (int32_t)half;
+  return 2 * (whole + (whole < half)) + remainder;
 }
 
 /* All lines of one way whose (u, v) have the remainder. */
 static void cross_lines(work *w, int way, int32_t remainder) {
   bool is_long = way < SBFI_LATTICE_LONG_EDGES;
   const int *go = sbfi_lattice_ways[way];
-  int32_t u_first = first_from(least_of(w->across, 0), remainder);
-  int32_t v_first = first_from(least_of(w->across, 1), remainder);
-  double u_most = most_of(w->across, 0), v_most = most_of(w->across, 1), place;
-  w->least_area = 1e-9 * (u_most - least_of(w->across, 0)) * (v_most - least_of(w->across, 1));
+  double u_least = least_of(w->across, 0), u_most = most_of(w->across, 0), place;
+  int32_t u_first = first_from(u_least, remainder);
+  if (u_first > u_most) return;
+  double v_least = least_of(w->across, 1), v_most = most_of(w->across, 1);
+  int32_t v_first = first_from(v_least, remainder);
+  w->least_area = 1e-9 * (u_most - u_least) * (v_most - v_least);
   for (int32_t v = v_first; v <= v_most; v += 2) {
     for (int32_t u = u_first; u <= u_most; u += 2) {
       if (!meet(w, u, v, &place)) continue;

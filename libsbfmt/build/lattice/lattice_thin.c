@@ -31,7 +31,8 @@ bool sbfi_lattice_thinness(
     /* A little inside, so as not to meet the point's own triangles. */
     sbfi_d3 from = sbfi_d3_add(sbfi_d3_of(mesh->positions.at[i]), sbfi_d3_scale(inwards, 1e-3 * limit));
     sbf_vec3 start = sbfi_d3_rounded(from), end = sbfi_d3_rounded(sbfi_d3_add(from, inwards));
-    uint32_t met = sbfi_triangle_tree_pierced(&tree, start, end);
+    /* What is farther is neither thin nor the least. */
+    uint32_t met = sbfi_triangle_tree_pierced(&tree, start, end, fmax(limit, thinness->least));
     thinness->sample_count++;
     if (met == UINT32_MAX) continue;
     double way = distance_to(&tree, met, from, inwards) + 1e-3 * limit;

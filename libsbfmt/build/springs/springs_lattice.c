@@ -97,7 +97,7 @@ static bool join_nodes(const work *w, uint32_t first, sbfi_array *springs) {
 /* Whether the way from the node to the surface's point meets nothing before it. */
 static bool is_clear(const work *w, sbf_vec3 node, sbf_vec3 point) {
   double corners[3][3], at[3] = {point.x, point.y, point.z}, unused[3];
-  uint32_t met = sbfi_triangle_tree_pierced(&w->tree, node, point);
+  uint32_t met = sbfi_triangle_tree_pierced(&w->tree, node, point, INFINITY);
   if (met == UINT32_MAX) return true;
   for (int k = 0; k < 3; k++) {
     sbf_vec3 p = w->tree.positions[w->tree.triangles[met].points[k]];
