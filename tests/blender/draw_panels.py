@@ -1,9 +1,10 @@
 """Runs in a Blender with a window: opens a bundle, uses the add-on as docs/blender.md tells, and takes a picture of every panel and
 of everything that is drawn in the viewport.
 
-    blender --python draw_panels.py -- LIZARD.sbf SCREEN FOLDER
+    blender --python draw_panels.py -- LIZARD.sbf SCREEN FOLDER [smooth]
 
-SCREEN is the file that Xvfb keeps its screen in: some Blenders can't read back what software drew in their window.
+SCREEN is the file that Xvfb keeps its screen in: some Blenders can't read back what software drew in their window. Smoothed lines and
+edges are for who looks at the pictures: with a screen that software draws they take most of the time.
 """
 
 import os
@@ -19,9 +20,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import pictures  # noqa: E402
 
-BUNDLE, SCREEN, FOLDER = sys.argv[sys.argv.index("--") + 1:]
+BUNDLE, SCREEN, FOLDER, *SMOOTH = sys.argv[sys.argv.index("--") + 1:]
 WINDOW = bpy.context.window_manager.windows[0]
 OWN_PANELS = []
+WORK = []
 
 
 # ---- The window ----
@@ -139,16 +141,39 @@ def open_bundle():
     pin.group, pin.armature, pin.bone = "collar", rig(), bpy.data.objects["Chest"].parent_bone
 
 
+def press(operator):
+    """As a button is, which leaves Blender its window: `until` waits for the end. Nothing is calibrated, which no picture shows."""
+    bpy.context.scene.soft_body_format.build.calibration = False
+    operator("INVOKE_DEFAULT")
+
+
 def press_build():
-    """As a button does, which leaves Blender its window: `until` waits for the end."""
-    bpy.ops.sbfmt.build("INVOKE_DEFAULT")
+    press(bpy.ops.sbfmt.build)
 
 
 def until(is_done):
-    """A step that is repeated until then."""
+    """A step that is repeated until the operator's work is over, which must have come to that."""
     def wait():
-        return is_done()
+        if not WORK:
+            return False
+        bpy.context.scene.soft_body_format.build.calibration = True
+        if WORK.pop() != {"FINISHED"} or not is_done():
+            raise RuntimeError("the work ended without what it was for: its message stands above")
+        return True
     return wait
+
+
+def watch_work():
+    """WORK gets how the work of an operator ended."""
+    from soft_body_format.operators.working import Working
+    go_on = Working.go_on
+
+    def watched(self, context, seconds):
+        done = go_on(self, context, seconds)
+        if done != {"RUNNING_MODAL"}:
+            WORK.append(done)
+        return done
+    Working.go_on = watched
 
 
 def is_built():
@@ -213,7 +238,7 @@ def draw_way():
 
 def start_preview():
     bpy.context.scene.frame_set(1)
-    bpy.ops.sbfmt.preview_start("INVOKE_DEFAULT")
+    press(bpy.ops.sbfmt.preview_start)
 
 
 def play():
@@ -281,23 +306,23 @@ def run(steps):
     """One a timer's call, so that Blender draws between them; again where it says False. What goes wrong ends it with a status."""
     left = list(steps)
 
-    began = [time.time(), time.process_time()]
     def call():
-        print(f"{len(steps) - len(left):3} at {time.time() - began[0]:7.1f} s, {time.process_time() - began[1]:6.1f} s of CPU", flush=True)
         try:
             with bpy.context.temp_override(window=WINDOW):
                 if left and left[0]() is not False:
                     left.pop(0)
+                    print(f"step {len(steps) - len(left)} of {len(steps)}, {time.process_time():.0f} s of the processor", flush=True)
         except Exception:  # pylint: disable=broad-except
             traceback.print_exc()
             sys.stdout.flush()
             os._exit(3)
-        return 0.6
+        return 0.3
     return call
 
 
 bpy.context.preferences.view.show_splash = False
-bpy.context.preferences.system.viewport_aa = 'OFF'
-bpy.context.preferences.system.use_overlay_smooth_wire = False
+if not SMOOTH:
+    bpy.context.preferences.system.viewport_aa, bpy.context.preferences.system.use_overlay_smooth_wire = "OFF", False
 addon_utils.enable("soft_body_format")
+watch_work()
 bpy.app.timers.register(run(STEPS), first_interval=1.5)

@@ -24,9 +24,9 @@ def link(made):
     return made
 
 
-def mesh_object(name, vertices, faces):
+def mesh_object(name, vertices, faces, edges=()):
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(vertices, [], faces)
+    mesh.from_pydata(vertices, list(edges), faces)
     mesh.update()
     return link(bpy.data.objects.new(name, mesh))
 

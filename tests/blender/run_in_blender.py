@@ -26,7 +26,7 @@ def pictures_taken(blender, name, kept):
     out = os.path.join(blender.folder, "pictures")
     os.makedirs(out)
     run = run_in_window(blender, name, [f"{blender.inside}/tests/bundles/lizard.sbf", f"{blender.inside}/Xvfb_screen0",
-                                        f"{blender.inside}/pictures"])
+                                        f"{blender.inside}/pictures", *(["smooth"] if kept else [])])
     print(run.stdout, run.stderr)
     drawn = all(os.path.exists(f"{out}/{one}.png") and os.path.getsize(f"{out}/{one}.png") > 8000 for one in PICTURES)
     if kept:

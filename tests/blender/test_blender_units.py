@@ -60,6 +60,42 @@ class SoftBody(fixtures.SceneTest):
         self.assertAlmostEqual(speed, (2 * 4 * GRAVITY / (density * 0.25))**0.5, delta=0.02 * speed)
 
 
+    def test_balls_of_self_collision_are_as_large_as_they_say(self):
+        for apart in (0.19, 0.21):
+            made = fixtures.mesh_object("m", [(0, 0, 0), (apart, 0, 0), (0, 3, 0), (apart, 3, 0)], [], [(0, 2), (1, 3)])
+            made.modifiers.new("s", "SOFT_BODY")
+            soft = made.soft_body
+            soft.use_goal, soft.use_self_collision, soft.collision_type, soft.ball_size = False, True, "MANUAL", 0.1
+            bpy.context.scene.use_gravity = False
+            settle(made, last=20)
+            mesh = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+            self.assertEqual((mesh.vertices[1].co - mesh.vertices[0].co).length > apart + 1e-4, apart < 0.2)
+            fixtures.fresh_scene()
+
+
+class Fields(fixtures.SceneTest):
+    """How far a wind of strength 3 blows in 80 frames, against acceleration t²/2."""
+
+    def blow(self, made, wanted):
+        scene = bpy.context.scene
+        scene.use_gravity, scene.render.fps = False, 30
+        bpy.ops.object.effector_add(type="WIND")
+        bpy.context.object.field.strength, bpy.context.object.field.flow = 3, 0
+        before = made.data.vertices[0].co.z
+        seconds = 80 * blender_units.TIME_UNIT_S
+        self.assertAlmostEqual(settle(made, last=81)[0] - before, 3 * wanted * seconds**2 / 2, delta=0.02 * abs(3 * wanted * seconds**2 / 2))
+
+    def test_on_soft_bodies(self):
+        self.blow(square(2, use_goal=False, use_edges=False, friction=0), blender_units.field_on_soft_body(2, 30))
+
+    def test_on_cloth(self):
+        made = fixtures.mesh_object("m", [(0, 0, 0), (.5, 0, 0), (.5, .5, 0), (0, .5, 0)], [(0, 1, 2, 3)])
+        found = made.modifiers.new("c", "CLOTH")
+        found.settings.mass, found.settings.air_damping, found.settings.quality = 0.5, 0, 10
+        found.collision_settings.use_collision = False
+        self.blow(made, blender_units.field_on_cloth(0.5 * 4 / 0.25, 30))
+
+
 class Cloth(fixtures.SceneTest):
     def test_tension_and_air(self):
         made = fixtures.mesh_object("m", [(0, 0, 0), (0, 0, -.5), (.5, 0, -.5), (.5, 0, 0)], [(0, 1, 2, 3)])

@@ -79,7 +79,7 @@ class Bodies(fixtures.SceneTest):
         soft.use_goal, soft.mass, soft.vertex_group_mass, soft.vertex_group_spring = False, 2, "heavy", "stiff"
         soft.pull = soft.push = 0.75
         soft.spring_length, soft.plastic, soft.step_min, soft.aero, soft.aerodynamics_type = 50, 30, 7, 60, "SIMPLE"
-        soft.use_self_collision, soft.ball_size = True, 0.5
+        soft.use_self_collision, soft.ball_size, soft.ball_stiff = True, 0.4, 0.5
         asset = self.export(build=False)
         body = asset.soft_bodies[0]
         level = body.levels[0]
@@ -96,7 +96,10 @@ class Bodies(fixtures.SceneTest):
         self.assertIn("7 to 300 steps a frame", " ".join(one.message for one in self.scene.soft_body_format.findings))
         self.assert_near((body.attributes.yield_strain, body.attributes.yield_flow), (0.05, 0.3))
         self.assertTrue(body.collision.self)
-        self.assertAlmostEqual(body.collision.particle_radius, 0.5 * 0.5 * 0.5)
+        self.assertAlmostEqual(body.collision.particle_radius, 0.4 * 0.5)
+        self.assertIn("stiffness and dampening of its self collision", " ".join(one.message for one in self.scene.soft_body_format.findings))
+        soft.collision_type, self.scene.unit_settings.scale_length = "MANUAL", 0.5
+        self.assertAlmostEqual(self.export("manual.sbf", build=False).soft_bodies[0].collision.particle_radius, 0.4 * 0.5)
         self.assertAlmostEqual(asset.environment.media_density, 8e-4 * 60 * 12, places=5)
 
     def test_bounds_of_a_goal(self):

@@ -148,3 +148,19 @@ class Surroundings(fixtures.SceneTest):
         self.assertEqual([(field.kind, field.strength) for field in environment.fields], [("uniform", 4.0)])
         self.assert_near(environment.fields[0].position, (1, 3, -2))
         self.assert_near(environment.fields[0].direction, (0, 1, 0))
+
+    def test_fields_push_as_they_push_what_blender_simulates(self):
+        cape = fixtures.sheet("cape", 4)
+        cape.modifiers.new("c", "CLOTH").settings.mass = 0.02
+        bpy.ops.object.effector_add(type="WIND")
+        bpy.context.object.field.strength = 300
+        self.scene.render.fps = 30
+        wind = self.export(build=False).environment.fields[0]
+        self.assertAlmostEqual(wind.strength, 300 * 20 / (30 * 0.02 * 25), places=3)
+        jelly = fixtures.box("jelly")
+        jelly.modifiers.new("s", "SOFT_BODY")
+        bpy.ops.sbfmt.check()
+        self.assertIn("and jelly otherwise", " ".join(one.message for one in self.scene.soft_body_format.findings))
+        cape.modifiers.clear()
+        jelly.soft_body.mass = 0.5
+        self.assertAlmostEqual(self.export(build=False).environment.fields[0].strength, -300 * 10 / (30 * 0.5), places=3)

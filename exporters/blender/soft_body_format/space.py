@@ -8,6 +8,11 @@ ASSET_FROM_BLENDER = Matrix(((1, 0, 0), (0, 0, 1), (0, -1, 0)))
 TURN = ASSET_FROM_BLENDER.to_quaternion()
 
 
+def frame_rate(scene):
+    """Frames a second."""
+    return scene.render.fps / scene.render.fps_base
+
+
 class Space:
     """Maps a scene's world to asset space, and back. `unit_m` is the length of a scene unit in metres."""
 

@@ -3,6 +3,7 @@
 import bpy
 from mathutils import Vector
 
+from ..space import frame_rate
 from ..to_document.rigid_objects import ANGULAR, LINEAR, X_FROM_Z
 from .import_polygons import make_mesh
 
@@ -87,7 +88,7 @@ class RigidMaker:
 
     def steps_a_second(self):
         scene = self.maker.context.scene
-        return scene.render.fps / scene.render.fps_base * scene.rigidbody_world.substeps_per_frame
+        return frame_rate(scene) * scene.rigidbody_world.substeps_per_frame
 
     def fill_limits(self, settings, joint):
         for limit in joint.limits:

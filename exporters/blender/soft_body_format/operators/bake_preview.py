@@ -9,6 +9,7 @@ from bpy.props import IntProperty
 from ..finishing import has_library
 from ..preview import baked, handlers
 from ..preview.point_cache import CacheWriter
+from ..space import frame_rate
 from .preview_scene import previewed_scene
 from .working import Refused, Working
 
@@ -26,7 +27,7 @@ class CacheTake:
         name = actor.source
         if name not in self.writers:
             path = os.path.join(self.folder, bpy.path.clean_name(name) + self.ending)
-            self.writers[name] = CacheWriter(path, len(places), self.samples, self.start, self.scene.render.fps / self.scene.render.fps_base)
+            self.writers[name] = CacheWriter(path, len(places), self.samples, self.start, frame_rate(self.scene))
         if self.stage.has_points(actor):
             inverse = numpy.array(self.scene.objects[name].matrix_world.inverted_safe())
             places = places @ inverse[:3, :3].T + inverse[:3, 3]
@@ -145,7 +146,7 @@ class SBFMT_OT_bake_cut(bpy.types.Operator):
             return {"CANCELLED"}
         try:
             for _, modifier in baked.modifiers():
-                baked.cut_modifier(modifier, self.start, self.end, scene.render.fps / scene.render.fps_base)
+                baked.cut_modifier(modifier, self.start, self.end, frame_rate(scene))
         except (OSError, ValueError) as error:
             self.report({"ERROR"}, f"the cache can't be cut: {error}")
             return {"CANCELLED"}

@@ -1,6 +1,7 @@
 """The armature's own animation as a clip, for the preview: its pose frame by frame, whatever keys, drivers and constraints make it."""
 
 from ..sbfmt.document import Record
+from ..space import frame_rate
 
 NAME = "soft_body_format_preview"
 
@@ -18,7 +19,7 @@ def add_clip(context, whole):
     armatures = [one for one in writer.of_type("ARMATURE") if is_animated(one)]
     if not armatures:
         return None
-    rate, kept = scene.render.fps / scene.render.fps_base, scene.frame_current
+    rate, kept = frame_rate(scene), scene.frame_current
     frames = range(scene.frame_start, scene.frame_end + 1)
     sampled = {}
     try:

@@ -6,7 +6,7 @@ import numpy
 from mathutils import Matrix
 
 from ..sbfmt import runtime
-from ..space import Space
+from ..space import Space, frame_rate
 from .walk_path import Walker, path_of
 
 JUMP = 10  # frames: from so many on a step ahead begins anew, as Blender's soft body does
@@ -70,7 +70,7 @@ class Session:
         self.character = self.world.add(self.model, (start[0], high, start[1]), heading)
         self.frame = frame
         self.play_clip(scene, frame)
-        rate = self.rate(scene)
+        rate = frame_rate(scene)
         for _ in range(round(settings.settle * rate)):
             self.world.step(1 / rate)
         self.first = self.world.snapshot()
@@ -90,10 +90,6 @@ class Session:
         return ", ".join(words)
 
     # ---- Time ----
-
-    @staticmethod
-    def rate(scene):
-        return scene.render.fps / scene.render.fps_base
 
     def go_to(self, scene, frame):
         """A few frames ahead are stepped; anything else begins anew at that frame."""
@@ -116,7 +112,7 @@ class Session:
 
     def play_clip(self, scene, frame):
         if self.clip is not None:
-            self.character.play(self.clip, start=max(0.0, (frame - scene.frame_start) / self.rate(scene)))
+            self.character.play(self.clip, start=max(0.0, (frame - scene.frame_start) / frame_rate(scene)))
 
     def step(self, scene):
         """A frame ahead, with the speeds that hold now."""
@@ -128,7 +124,7 @@ class Session:
             self.character.drive(forward, 0.0, turn)
         else:
             self.character.drive()
-        self.world.step(1 / self.rate(scene))
+        self.world.step(1 / frame_rate(scene))
 
     def place(self):
         """Where on the ground the body bone is, and which way it faces."""

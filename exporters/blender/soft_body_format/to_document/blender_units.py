@@ -40,6 +40,16 @@ def air_density(aero, edges, area_m2):
     return 8e-4 * aero * edges / area_m2
 
 
+def field_on_soft_body(mass_kg, rate):
+    """m/s² that a field of strength 1 gives a vertex at `rate` frames a second: a hundredth of it, against the field's own way."""
+    return -FRICTION_SCALE * FORCE_UNIT_N / (rate * mass_kg)
+
+
+def field_on_cloth(area_density, rate):
+    """m/s² that a field of strength 1 gives a cloth of so many kg/m²: it pushes areas, by a fiftieth of it."""
+    return FORCE_UNIT_N / 50 / (rate * area_density)
+
+
 def cloth_layer(tension, shear, edge_m):
     """(modulus times thickness in N/m, Poisson's ratio) of a square weave: threads of stiffness t along both edges of a cell and s
     along its diagonals give C11 = t + s and C12 = s, of which the ratio is C12/C11 and the modulus C11 (1 - ratio²)."""

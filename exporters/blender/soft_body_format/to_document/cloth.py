@@ -4,7 +4,8 @@ import numpy
 
 from ..sbfmt.document import Record
 from . import cloth_springs
-from .blender_units import FORCE_UNIT_N, TIME_UNIT_S, cloth_layer, friction
+from ..space import frame_rate
+from .blender_units import FORCE_UNIT_N, TIME_UNIT_S, cloth_layer, field_on_cloth, friction
 from .pins import by_holder
 from .roles import modifier
 from .soft_bodies import area_of, mean_edge, weights_of
@@ -16,7 +17,11 @@ MAPS = (("young_modulus", "vertex_group_structural_stiffness", "tension_stiffnes
 # What the format has no place for: slider, what it is called, value at which it does nothing.
 LEFT_OUT = (("use_sewing_springs", "sewing", False), ("shrink_min", "shrinking", 0.0), ("time_scale", "speed", 1.0),
             ("fluid_density", "fluid density", 0.0), ("vertex_group_shear_stiffness", "the group of shear stiffness", ""),
-            ("vertex_group_shrink", "the group of shrinking", ""), ("use_dynamic_mesh", "the dynamic mesh", False))
+            ("vertex_group_shrink", "the group of shrinking", ""), ("use_dynamic_mesh", "the dynamic mesh", False),
+            ("bending_model", "springs that bend by length", "ANGULAR"), ("bending_damping", "damping of bending", 0.5))
+
+LEFT_OUT_OF_COLLISION = (("damping", "damping of collisions", 0.0), ("impulse_clamp", "the most that a collision may push", 0.0),
+                         ("self_impulse_clamp", "the most that it may push itself", 0.0), ("self_friction", "friction with itself", 5.0))
 
 
 def settings_of(source):
@@ -30,6 +35,7 @@ def fill_from_cloth(writer, body, source, geometry, found):
     scale = writer.space.unit_m * source.matrix_world.median_scale
     attributes = body.attributes
     attributes.area_density = cloth.mass * count / max(area_of(geometry.mesh, scale), 1e-12)
+    writer.field_accelerations[source.name] = field_on_cloth(attributes.area_density, frame_rate(writer.scene))
     attributes.thickness = THICKNESS_M
     attributes.density = attributes.area_density / THICKNESS_M
     stiffness, attributes.poisson_ratio = cloth_layer(cloth.tension_stiffness, cloth.shear_stiffness, edge)
@@ -53,7 +59,7 @@ def fill_from_cloth(writer, body, source, geometry, found):
     add_maps(body, source, geometry, cloth)
     if cloth.use_internal_springs:
         cloth_springs.write_level(writer, body, source, geometry, cloth)
-    tell(writer, source, cloth)
+    tell(writer, source, cloth, meeting)
 
 
 def add_maps(body, source, geometry, cloth):
@@ -68,7 +74,7 @@ def add_maps(body, source, geometry, cloth):
         body.add("weight_maps", property="pressure", values=weights.astype(numpy.float32))
 
 
-def tell(writer, source, cloth):
+def tell(writer, source, cloth, meeting):
     """What one modulus and one damping can't show, and what has no place at all."""
     if abs(cloth.compression_stiffness - cloth.tension_stiffness) > 0.01 * cloth.tension_stiffness:
         writer.findings.info(f"cloth compression ({cloth.compression_stiffness:g}) differs from its tension "
@@ -79,7 +85,12 @@ def tell(writer, source, cloth):
     if others:
         writer.findings.info(f"cloth damping of {' and '.join(others)} differs from that of tension ({cloth.tension_damping:g}); "
                              "the format's layer has one, that of tension", object_name=source.name)
-    left_out = [label for name, label, idle in LEFT_OUT if getattr(cloth, name, idle) != idle]
+    if cloth.use_internal_springs and \
+            abs(cloth.internal_compression_stiffness - cloth.internal_tension_stiffness) > 0.01 * cloth.internal_tension_stiffness:
+        writer.findings.info("compression of the internal springs differs from their tension; the format's springs pull and push alike, "
+                             "as its tension says", object_name=source.name)
+    left_out = [label for owner, idles in ((cloth, LEFT_OUT), (meeting, LEFT_OUT_OF_COLLISION)) for name, label, idle in idles
+                if getattr(owner, name, idle) != idle]
     if left_out:
         writer.findings.info(f"cloth settings without a counterpart are left out: {', '.join(left_out)}", object_name=source.name)
 

@@ -5,6 +5,7 @@ import numpy
 from mathutils import Matrix, Vector
 
 from ..sbfmt.document import Record
+from ..space import frame_rate
 from .rest import mesh_of
 from .roles import COLLISION, holding_bone, modifier
 
@@ -151,7 +152,7 @@ class RigidObjects:
     def steps_a_second(self):
         """Blender's rigid bodies state impulses of a step, which are forces by the step's time."""
         scene = self.writer.scene
-        return scene.render.fps / scene.render.fps_base * scene.rigidbody_world.substeps_per_frame
+        return frame_rate(scene) * scene.rigidbody_world.substeps_per_frame
 
     def place(self, made, source, settings, above, below):
         space = self.writer.space

@@ -25,6 +25,9 @@ from .rigid_parts import RigidParts
 from .roles import COLLISION, IGNORE, RENDER, SECTION, SOFT, SURFACES, armature_of, holding_bone, modifier, role_of
 from .surroundings import write_surroundings
 
+COLLIDER_LEFT_OUT = (("damping", "damping of soft bodies", 0.1), ("absorption", "field absorption", 0.0),
+                     ("use_culling", "single sided", True), ("use_normal", "override normals", False))
+
 
 @dataclass
 class Options:
@@ -47,6 +50,7 @@ class SceneWriter:
         self.materials = Materials(self.asset, self.identifiers, options.textures, findings)
         self.chosen = self.objects = chosen_objects(context, options)
         self.stand_ins = self.depsgraph = None
+        self.field_accelerations = {}  # by object: m/s² that a force field of strength 1 gives it in Blender
         self.sort()
 
     def sort(self):
@@ -139,6 +143,14 @@ class SceneWriter:
             body.collision.outer_thickness = source.collision.thickness_outer * scale
             body.collision.inner_thickness = source.collision.thickness_inner * scale
             body.attributes.friction = source.collision.cloth_friction * COLLIDER_FRICTION
+            self.tell_of_collider(source)
+
+    def tell_of_collider(self, source):
+        """What Collision physics says to particles and force fields, and what the format's contact has none of."""
+        left_out = [label for name, label, idle in COLLIDER_LEFT_OUT if abs(getattr(source.collision, name) - idle) > 1e-6]
+        if left_out:
+            self.findings.info(f"settings of its collision without a counterpart are left out: {', '.join(left_out)}",
+                               object_name=source.name)
 
     def mesh_id(self, source):
         return self.identifiers.of("mesh", source.name, source.name, source.soft_body_format.mesh_identity)

@@ -3,7 +3,8 @@
 import numpy
 
 from ..sbfmt.document import Record
-from .blender_units import air_density, edge_stiffness, friction, goal_stiffness
+from ..space import frame_rate
+from .blender_units import air_density, edge_stiffness, field_on_soft_body, friction, goal_stiffness
 from .pins import by_holder
 from .roles import modifier
 
@@ -23,13 +24,17 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
     attributes = body.attributes
     attributes.mass = float(masses.sum())
     attributes.media_friction = friction(soft.friction) / (attributes.mass / count)
+    writer.field_accelerations[source.name] = field_on_soft_body(attributes.mass / count, frame_rate(writer.scene))
     attributes.damping_ratio = 0
     attributes.gravity_scale = soft.effector_weights.gravity
     if soft.plastic:
         attributes.yield_strain, attributes.yield_flow = 0.05, soft.plastic / 100
     if soft.use_self_collision:
         body.collision.self = True
-        body.collision.particle_radius = 0.5 * soft.ball_size * mean_edge(geometry) if soft.ball_size else 0.01
+        body.collision.particle_radius = ball_radius(soft, geometry, writer.space.unit_m)
+        if (soft.ball_stiff, soft.ball_damp) != (1.0, 0.5):
+            writer.findings.info("stiffness and dampening of its self collision are left out: the file's bodies let nothing through",
+                                 object_name=source.name)
     if soft.use_edges:
         write_level(writer, body, source, geometry, soft, masses)
     if soft.use_goal:
@@ -95,6 +100,13 @@ def weights_of(source, mesh, group_name):
 def mean_edge(geometry):
     ends = edges_of(geometry)
     return float(lengths(geometry, ends).mean()) if len(ends) else 0.0
+
+
+def ball_radius(soft, geometry, unit_m):
+    """m around each vertex: Blender's balls, which are as large as the edges that meet there ask for, have one size in the format."""
+    found = lengths(geometry, edges_of(geometry)) if len(geometry.mesh.edges) else numpy.zeros(1)
+    edge = {"MANUAL": unit_m, "MINIMAL": found.min(), "MAXIMAL": found.max(), "MINMAX": (found.min() + found.max()) / 2}
+    return float(soft.ball_size * edge.get(soft.collision_type, found.mean()))
 
 
 def edges_of(geometry):
