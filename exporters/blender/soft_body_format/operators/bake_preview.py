@@ -6,12 +6,11 @@ import bpy
 import numpy
 from bpy.props import IntProperty
 
-from ..finishing import has_library
-from ..preview import baked, handlers
+from ..preview import baked, copies, handlers
 from ..preview.point_cache import CacheWriter
 from ..space import frame_rate
 from .preview_scene import previewed_scene
-from .working import Refused, Working
+from .working import Refused, WithLibrary
 
 
 class CacheTake:
@@ -67,19 +66,13 @@ class KeyTake:
         self.recorded = {}
 
 
-class SBFMT_OT_bake(Working, bpy.types.Operator):
+class SBFMT_OT_bake(WithLibrary, bpy.types.Operator):
     """Build the character, play it from start to end and keep its motion. Escape cancels"""
 
     bl_idname = "sbfmt.bake"
     bl_label = "Bake"
     bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, _context):
-        if not has_library():
-            cls.poll_message_set("The compiled library is not found: run sbfmt run --cache on the exported file")
-            return False
-        return True
+    instead = "sbfmt run --cache"
 
     @staticmethod
     def folder(settings):
@@ -132,7 +125,7 @@ class SBFMT_OT_bake_cut(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context):
-        return bool(baked.modifiers() or baked.copies())
+        return bool(baked.modifiers() or baked.baked_copies())
 
     def invoke(self, context, _event):
         settings = context.scene.soft_body_format.preview
@@ -150,7 +143,7 @@ class SBFMT_OT_bake_cut(bpy.types.Operator):
         except (OSError, ValueError) as error:
             self.report({"ERROR"}, f"the cache can't be cut: {error}")
             return {"CANCELLED"}
-        for made in baked.copies():
+        for made in baked.baked_copies():
             baked.cut_keys(made, self.start, self.end)
         scene.soft_body_format.preview.bake_start, scene.soft_body_format.preview.bake_end = self.start, self.end
         return {"FINISHED"}
@@ -165,12 +158,12 @@ class SBFMT_OT_bake_free(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context):
-        return bool(baked.modifiers() or baked.copies())
+        return bool(baked.modifiers() or baked.baked_copies())
 
     def execute(self, _context):
         for source, modifier in baked.modifiers():
             source.modifiers.remove(modifier)
-        baked.free_copies()
+        copies.strike(baked.NAME)
         return {"FINISHED"}
 
 

@@ -4,13 +4,12 @@ import bpy
 
 from ..building import build_in_steps
 from ..findings import Findings
-from ..finishing import has_library
 from ..overlay import structure
 from ..settings.build_settings import build_arguments
 from ..space import Space
 from ..to_document import Options
 from ..whole import write_whole
-from .working import Refused, Working
+from .working import Refused, WithLibrary
 
 
 def built_scene(operator, context, change=None):
@@ -28,18 +27,12 @@ def built_scene(operator, context, change=None):
     return built, whole
 
 
-class SBFMT_OT_build(Working, bpy.types.Operator):
+class SBFMT_OT_build(WithLibrary, bpy.types.Operator):
     """Cut the sections, make lattices and springs, and draw them over the model. Escape cancels"""
 
     bl_idname = "sbfmt.build"
     bl_label = "Build"
-
-    @classmethod
-    def poll(cls, _context):
-        if not has_library():
-            cls.poll_message_set("The compiled library is not found: run sbfmt build on the exported file")
-            return False
-        return True
+    instead = "sbfmt build"
 
     def work(self, context):
         built, _ = yield from built_scene(self, context)

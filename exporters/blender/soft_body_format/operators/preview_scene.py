@@ -2,12 +2,11 @@
 
 import bpy
 
-from ..finishing import has_library
 from ..preview import animation, handlers
 from ..preview.session import Session
 from ..preview.stage import Stage, actors_of
 from .build_scene import built_scene
-from .working import Working
+from .working import WithLibrary
 
 
 def previewed_scene(operator, context):
@@ -31,19 +30,13 @@ def previewed_scene(operator, context):
                           built.document)
 
 
-class SBFMT_OT_preview_start(Working, bpy.types.Operator):
+class SBFMT_OT_preview_start(WithLibrary, bpy.types.Operator):
     """Build the character and play it with the frames of the scene. Escape cancels"""
 
     bl_idname = "sbfmt.preview_start"
     bl_label = "Start"
     bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, _context):
-        if not has_library():
-            cls.poll_message_set("The compiled library is not found: run sbfmt run on the exported file")
-            return False
-        return True
+    instead = "sbfmt run"
 
     def work(self, context):
         session, stage = yield from previewed_scene(self, context)

@@ -3,6 +3,7 @@
 import time
 
 from .. import sbfmt
+from ..finishing import has_library
 from .own_faults import words_of
 
 BIT_S = 0.05  # of work between two looks at the keyboard
@@ -80,3 +81,16 @@ class Working:
             self.report({"ERROR"}, words_of(error))
             return {"CANCELLED"}
         return {"FINISHED"}
+
+
+class WithLibrary(Working):
+    """Work that only the compiled library can do; `instead` is the command that does it outside."""
+
+    instead = ""
+
+    @classmethod
+    def poll(cls, _context):
+        if not has_library():
+            cls.poll_message_set(f"The compiled library is not found: run {cls.instead} on the exported file")
+            return False
+        return True

@@ -1,14 +1,14 @@
 """What bakes leave in the scene: Mesh Cache modifiers over point caches, or copies with keyed shapes. Cut and taken away again."""
 
-import json
 import os
 
 import bpy
 import numpy
 
 from ..space import Space
+from . import copies
 from .point_cache import cut_cache, read_cache
-from .stage import COPY_OF, HIDDEN, rest_meshes
+from .stage import rest_meshes
 
 NAME = "Soft body bake"
 KEY = "frame "
@@ -52,22 +52,15 @@ def add_copies(context, stage, actors):
     go."""
     scene, layer = context.scene, context.view_layer
     meshes = rest_meshes(context, [scene.objects[actor.source] for actor in actors if stage.has_points(actor)])
-    free_copies()
-    collection = bpy.data.collections.new(NAME)
-    scene.collection.children.link(collection)
+    collection = copies.begin(scene, NAME)
     copies_of = {}
     for actor in actors:
         mesh = meshes.get(actor.source) or stage.mesh_of(actor, Space.of_scene(scene))
-        made = copies_of[actor.source] = bpy.data.objects.new(f"{actor.source} (baked)", mesh)
-        made.soft_body_format.role = "IGNORE"
-        made[COPY_OF] = actor.source
-        collection.objects.link(made)
+        made = bpy.data.objects.new(f"{actor.source} (baked)", mesh)
+        copies_of[actor.source] = copies.add(collection, made, actor.source)
         if made.data.shape_keys is not None:
             made.shape_key_clear()
-    hidden = [name for name in sorted({actor.owner for actor in actors}) if not scene.objects[name].hide_get(view_layer=layer)]
-    for name in hidden:
-        scene.objects[name].hide_set(True, view_layer=layer)
-    collection[HIDDEN] = json.dumps(hidden)
+    copies.hide_originals(collection, scene, layer, sorted({actor.owner for actor in actors}))
     return copies_of
 
 
@@ -97,7 +90,7 @@ def curve_lists(owner):
     return [action.fcurves]
 
 
-def copies():
+def baked_copies():
     collection = bpy.data.collections.get(NAME)
     return list(collection.objects) if collection is not None else []
 
@@ -114,20 +107,3 @@ def cut_keys(made, start, end):
             curves.remove(curve)
     for name in gone:
         made.shape_key_remove(keys.key_blocks[name])
-
-
-def free_copies():
-    collection = bpy.data.collections.get(NAME)
-    if collection is None:
-        return
-    names = json.loads(collection.get(HIDDEN, "[]"))
-    for made in list(collection.objects):
-        mesh = made.data
-        bpy.data.objects.remove(made)
-        bpy.data.meshes.remove(mesh)
-    bpy.data.collections.remove(collection)
-    for scene in bpy.data.scenes:
-        for layer in scene.view_layers:
-            for name in names:
-                if name in layer.objects:
-                    layer.objects[name].hide_set(False, view_layer=layer)

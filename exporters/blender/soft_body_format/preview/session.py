@@ -138,11 +138,13 @@ class Session:
     def points(self, actor):
         """Of an actor, in Blender's world: an (n, 3) array."""
         found = self.character.skin(actor.index) if actor.kind == "skin" else self.character.surface(actor.index)
-        return self.space.points_back(numpy.frombuffer(found, dtype=numpy.float32).reshape(-1, 3) + numpy.array(self.character.origin))
+        return self.in_scene(found)
 
     def level_points(self, body):
         """Of a soft body's simulated level, likewise."""
-        found = self.character.points(body)
+        return self.in_scene(self.character.points(body))
+
+    def in_scene(self, found):
         return self.space.points_back(numpy.frombuffer(found, dtype=numpy.float32).reshape(-1, 3) + numpy.array(self.character.origin))
 
     def bone_frames(self, armature):

@@ -1,10 +1,8 @@
 """What a preview shows: copies of the character's meshes and armature in a collection of their own.
 
 The artist's objects stay as they are, but for the eye in the outliner, which is closed while their copies are seen. Copies are never
-rendered, exported or selected, and everything can be put back from the .blend alone: after an undo, or in a file that was saved by
-a Blender that broke down."""
+rendered, exported or selected."""
 
-import json
 from dataclasses import dataclass
 
 import bpy
@@ -15,9 +13,9 @@ from ..from_document.import_meshes import fill_materials, fill_normals, fill_uv_
 from ..from_document.import_polygons import make_mesh
 from ..space import Space
 from ..to_document.rest import at_rest, instances_realized
+from . import copies
 
-NAME, HIDDEN = "Soft body preview", "soft_body_format_hidden"
-COPY_OF = "soft_body_format_copy_of"
+NAME = "Soft body preview"
 
 
 @dataclass
@@ -78,28 +76,20 @@ class Stage:
 
     def set(self, context):
         """Makes the copies, and closes the eyes of what they stand for."""
-        strike()
+        strike()  # so that what an earlier preview hid is evaluated
         scene = bpy.data.scenes[self.scene_name]
         sources = [scene.objects[actor.source] for actor in self.actors if actor.is_own and actor.source in scene.objects]
         meshes = rest_meshes(context, sources)
         meshes |= {actor.source: self.mesh_of(actor, Space.of_scene(scene)) for actor in self.actors if not actor.is_own}
-        collection = bpy.data.collections.new(NAME)
-        scene.collection.children.link(collection)
+        collection = copies.begin(scene, NAME)
         for actor in self.actors:
             if actor.source in meshes:
                 made = bpy.data.objects.new(f"{actor.source} (preview)", meshes[actor.source])
-                self.put(made, collection, actor.source)
-                actor.copy = made.name
+                actor.copy = self.put(made, collection, actor.source)
         for name in self.armatures:
             if name in scene.objects:
                 self.armatures[name] = self.put_armature(scene.objects[name], collection)
-        hidden = []
-        instances = sorted({actor.owner for actor in self.actors if not actor.is_own and actor.owner in scene.objects})
-        for source in sources + [scene.objects[name] for name in (*self.armatures, *instances) if name in scene.objects]:
-            if not source.hide_get(view_layer=context.view_layer):
-                hidden.append(source.name)
-                source.hide_set(True, view_layer=context.view_layer)
-        collection[HIDDEN] = json.dumps(hidden)
+        copies.hide_originals(collection, scene, context.view_layer, sorted({actor.owner for actor in self.actors} | set(self.armatures)))
 
     def mesh_of(self, actor, space):
         """A mesh in the world as the document has it."""
@@ -120,10 +110,9 @@ class Stage:
 
     @staticmethod
     def put(made, collection, source):
+        """The name it got."""
         made.hide_render = made.hide_select = True
-        made.soft_body_format.role = "IGNORE"
-        made[COPY_OF] = source
-        collection.objects.link(made)
+        return copies.add(collection, made, source).name
 
     def put_armature(self, source, collection):
         """A pose of its own over the same bones, free of what else poses them."""
@@ -138,8 +127,7 @@ class Stage:
             made.constraints.remove(one)
         made.parent, made.name = None, f"{source.name} (preview)"
         made.matrix_world = world
-        self.put(made, collection, source.name)
-        return made.name
+        return self.put(made, collection, source.name)
 
     def is_whole(self):
         """Whether undo, a file or the artist has taken nothing of it away."""
@@ -173,20 +161,5 @@ class Stage:
 
 
 def strike():
-    """Takes the copies away and opens the eyes again, whoever made them; says whether there were any."""
-    collection = collection_of()
-    if collection is None:
-        return False
-    names = json.loads(collection.get(HIDDEN, "[]"))
-    for made in list(collection.objects):
-        data = made.data
-        bpy.data.objects.remove(made)
-        if isinstance(data, bpy.types.Mesh) and data.users == 0:
-            bpy.data.meshes.remove(data)
-    bpy.data.collections.remove(collection)
-    for scene in bpy.data.scenes:
-        for layer in scene.view_layers:
-            for name in names:
-                if name in layer.objects:
-                    layer.objects[name].hide_set(False, view_layer=layer)
-    return True
+    """Takes what a preview shows away; says whether there was anything."""
+    return copies.strike(NAME)
