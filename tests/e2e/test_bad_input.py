@@ -2,6 +2,7 @@
 behind, no crash of ours even when a reader of others dies."""
 
 import os
+import re
 import unittest
 
 from sbfmt_program import (ProgramTest, ROOT, call, example, main, needs_bad_files, needs_lizard, read_bytes, shared,
@@ -223,6 +224,19 @@ class HalfACharacter(ProgramTest):
         info = self.json_of("info", out)
         self.assertEqual((info["render_meshes"], info["sections"]), ([], []))
         self.assertGreaterEqual(len(info["bones"]), 31)
+
+    def test_motion_capture_states_no_unit(self):
+        """Bones of a person in inches: the unit said is about theirs, and whoever states one is believed."""
+        text = ("HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation "
+                "Xrotation\n%s}\nMOTION\nFrames: 1\nFrame Time: 0.01\n0 36 0 0 0 0 %s\n")
+        joint = "JOINT %s\n{\nOFFSET 0 %d 0\nCHANNELS 3 Zrotation Yrotation Xrotation\nEnd Site\n{\nOFFSET 0 %d 0\n}\n}\n"
+        source = write_bytes(self.path("walk.bvh"), (text % (joint % ("Head", 28, 6) + joint % ("Foot", -36, -2),
+                                                             "0 0 0 0 0 0")).encode())
+        said = self.good("convert", source, "-o", self.path("x.sbf")).err
+        self.assertIn("UNIT_LOOKS_WRONG", said)
+        self.assertAlmostEqual(float(re.search(r"--unit (\S+) makes them", said).group(1)), 0.0254, delta=0.003)
+        self.assertNotIn("UNIT_LOOKS_WRONG",
+                         self.good("convert", source, "--unit", "0.0254", "-o", self.path("y.sbf")).err)
 
     def test_a_missing_material_library_is_a_warning(self):
         source = write_bytes(self.path("x.obj"), b"mtllib gone.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 1 0\n"

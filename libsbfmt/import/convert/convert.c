@@ -102,8 +102,7 @@ static void say_joined(sbfi_conversion *c) {
   if (points < vertices)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_POINTS_JOINED,
         "%llu vertices, as stored for drawing, stand for %llu points: those of an object that are in one "
-        "place "
-        "and move alike are joined",
+        "place and move alike are joined",
         (unsigned long long)vertices, (unsigned long long)points);
 }
 
@@ -114,8 +113,7 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
   if (c->scene->mesh_count == 0)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_MESH,
         "the file holds a skeleton and no mesh: the bundle will have bones only; give a mesh file as the "
-        "input "
-        "and this one with --rig");
+        "input and this one with --rig");
   say_joined(c);
   if (!c->rig)
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
@@ -132,14 +130,41 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
   return SBF_OK;
 }
 
+static double extent_of_bones(const sbf_bone_list *bones) {
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0;
+  for (uint32_t i = 0; i < bones->count; i++) {
+    const double head[3] = {bones->at[i].head.x, bones->at[i].head.y, bones->at[i].head.z};
+    for (int k = 0; k < 3; k++) {
+      low[k] = fmin(low[k], head[k]);
+      high[k] = fmax(high[k], head[k]);
+      extent = fmax(extent, high[k] - low[k]);
+    }
+  }
+  return extent;
+}
+
+/* Motion capture is in whatever its studio measured, and of people. */
+static void check_bones_size(sbfi_conversion *c) {
+  static const double tallest = 3, usual = 1.75; /* m */
+  double size = extent_of_bones(&c->asset->bones);
+  if (c->scene->mesh_count > 0 || c->scene->unit_known || !(size > tallest)) return;
+  sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
+      "the bones measure %.4g m with a unit of %.4g m, as is assumed: if they are a person's, --unit %.3g "
+      "makes them %.4g m; --unit %.3g says that it is right",
+      size, c->scene->unit_m, c->scene->unit_m * usual / size, usual, c->scene->unit_m);
+}
+
 /* Forms and files are often wrong about their unit; whoever states one has looked. */
 static void check_size(sbfi_conversion *c) {
   double unit_m = c->scene->unit_m, size = sbfi_asset_extent(c->asset), scale = sbfi_plausible_scale(size);
-  if (scale == 1 || c->options->unit_m > 0) return;
+  if (c->options->unit_m > 0) return;
+  if (scale == 1) {
+    check_bones_size(c);
+    return;
+  }
   sbfi_convert_warn(c, SBF_CODE_UNIT_LOOKS_WRONG,
       "everything together measures %.4g m with a unit of %.4g m, as %s: --unit %.3g makes it %.4g m, --unit "
-      "%.3g "
-      "says that it is right",
+      "%.3g says that it is right",
       size, unit_m, c->scene->unit_known ? "the form or the file says" : "is assumed", unit_m * scale,
       size * scale, unit_m);
 }
