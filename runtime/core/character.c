@@ -2,7 +2,7 @@
 
 #include "base/diagnostic.h"
 #include "collide/ground.h"
-#include "core/world.h"
+#include "meet/meetings.h"
 
 enum { CHARACTER_COOKIE = 0x5b726368, INDEX_BITS = 16 };
 
@@ -82,7 +82,8 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
         world->character_capacity);
   unsigned char *state = sbfi_allocate(&world->allocator, model->layout.state_size);
   unsigned char *scratch = sbfi_allocate(&world->allocator, model->layout.scratch_size);
-  if (!state || !scratch || !reserve_work(world, model->island_count)) {
+  if (!state || !scratch || !reserve_work(world, model->island_count) ||
+      !sbri_meetings_reserve(world, model)) {
     sbfi_free(&world->allocator, state, model->layout.state_size);
     sbfi_free(&world->allocator, scratch, model->layout.scratch_size);
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
@@ -97,6 +98,12 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
       .time_scale = 1 / sqrtf(definition->scale),
       .state = state,
       .scratch = scratch};
+  if (!sbri_meet_surfaces_make(world, index)) {
+    sbfi_free(&world->allocator, state, model->layout.state_size);
+    sbfi_free(&world->allocator, scratch, model->layout.scratch_size);
+    c->model = NULL;
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character's surfaces");
+  }
   put(world, c, definition->position, definition->heading);
   sbri_rigid_place(c, true);
   sbri_mend(c);
@@ -112,6 +119,7 @@ void sbr_character_destroy(sbr_world *world, sbr_character_id character) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
   sbri_record(world, SBRI_RECORDED_DESTROY, (const double[]){character.value});
+  sbri_meet_surfaces_free(world, (uint32_t)(c - world->characters));
   sbfi_free(&world->allocator, c->state, c->model->layout.state_size);
   sbfi_free(&world->allocator, c->scratch, c->model->layout.scratch_size);
   *c = (sbri_character){.generation = c->generation};

@@ -192,10 +192,9 @@ static void act(void *user, const sbri_rigid_tick *tick, float from, float to) {
   sbri_reflex_act(group->character, tick, tick->tick_s * (to - from));
 }
 
-static void step(const sbr_world *world, sbri_character *c, sbri_coupled *group) {
-  const sbri_rigid_model *model = &c->model->rigid;
+static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
   const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
-  sbri_rigid_tick tick = {.model = model,
+  return (sbri_rigid_tick){.model = &c->model->rigid,
       .bodies = sbri_rigid_bodies(c),
       .joints = sbri_rigid_joints(c),
       .drive = sbri_rigid_drive(c),
@@ -210,33 +209,55 @@ static void step(const sbr_world *world, sbri_character *c, sbri_coupled *group)
       .substeps = c->model->rigid_substeps,
       .touching = sbri_rigid_touching(c),
       .work = sbri_rigid_work(c)};
-  sbri_coupled_begin(group);
-  tick.pull = (sbri_rigid_pull){act, group, group->any ? model->pinned_squares : NULL, group->steps};
-  sbri_rigid_step(&tick);
+}
+
+bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigid_parts *parts) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  parts->steps = false;
+  if (!model->body_count) return false;
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  sbri_rigid_frames_follow(c, sbri_pose(c));
+  if (!drive->any) return false;
+  for (uint32_t b = 0; b < model->body_count; b++)
+    sbri_rigid_targets(c)[b] = sbri_rigid_target(c, sbri_pose(c), b);
+  memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
+  parts->coupled = (sbri_coupled){.world = world, .character = c, .animated = sbri_animated(c)};
+  if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&parts->coupled)))
+    drive->asleep = drive->quiet_ticks = 0;
+  if (drive->asleep) {
+    sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
+    return false;
+  }
+  parts->steps = true;
+  parts->tick = tick_of(world, c);
+  sbri_coupled_begin(&parts->coupled);
+  parts->tick.pull = (sbri_rigid_pull){
+      act, &parts->coupled, parts->coupled.any ? model->pinned_squares : NULL, parts->coupled.steps};
+  sbri_rigid_begin(&parts->tick, &parts->work);
+  return true;
+}
+
+void sbri_rigid_parts_end(sbri_rigid_parts *parts) {
+  sbri_character *c = parts->coupled.character;
+  const sbri_rigid_model *model = &c->model->rigid;
+  sbri_rigid_end(&parts->tick, &parts->work);
   bool lost = false;
   for (uint32_t b = 0; b < model->body_count; b++) lost = lost || is_lost(&sbri_rigid_bodies(c)[b]);
   if (lost) /* no motion any more: back to where the animation has them */
     for (uint32_t b = 0; b < model->body_count; b++)
       put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_targets(c)[b]);
+  sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
+  sbri_coupled_end(&parts->coupled);
+  may_sleep(parts->coupled.world, c);
 }
 
 void sbri_rigid_tick_parts(const sbr_world *world, sbri_character *c) {
-  const sbri_rigid_model *model = &c->model->rigid;
-  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  if (!model->body_count) return;
-  sbri_rigid_frames_follow(c, sbri_pose(c));
-  if (!drive->any) return;
-  for (uint32_t b = 0; b < model->body_count; b++)
-    sbri_rigid_targets(c)[b] = sbri_rigid_target(c, sbri_pose(c), b);
-  memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
-  sbri_coupled group = {.world = world, .character = c, .animated = sbri_animated(c)};
-  if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&group)))
-    drive->asleep = drive->quiet_ticks = 0;
-  if (!drive->asleep) step(world, c, &group);
-  sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
-  if (drive->asleep) return;
-  sbri_coupled_end(&group);
-  may_sleep(world, c);
+  sbri_rigid_parts parts;
+  if (!sbri_rigid_parts_begin(world, c, &parts)) return;
+  uint32_t steps = parts.tick.substeps;
+  for (uint32_t i = 0; i < steps; i++)
+    sbri_rigid_advance(&parts.tick, &parts.work, (float)i / (float)steps, (float)(i + 1) / (float)steps);
+  sbri_rigid_parts_end(&parts);
 }
 
 bool sbri_rigid_is_still(const sbri_character *c) {

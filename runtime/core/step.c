@@ -4,6 +4,7 @@
 
 #include "core/world.h"
 #include "math/vec3.h"
+#include "meet/meetings.h"
 #include "solvers/scheme.h"
 
 /* The origin follows when the character is this far from it, in m. */
@@ -63,6 +64,11 @@ static void rebase(sbri_character *c) {
   }
 }
 
+/* It steps along with others whom it meets: core/group_run.c. */
+static bool is_grouped(const sbr_world *world, const sbri_character *c) {
+  return world->meetings && world->meetings->group_of[c - world->characters] != UINT32_MAX;
+}
+
 static void tick_character(void *context, uint32_t index) {
   sbr_world *world = context;
   sbri_character *c = &world->characters[index];
@@ -82,6 +88,7 @@ static void tick_character(void *context, uint32_t index) {
   if (may_sleep) sbri_character_keep_gait(c);
   c->event_count = sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events, SBRI_TICK_EVENTS);
   pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
+  if (is_grouped(world, c)) return;
   sbri_rigid_tick_parts(world, c);
   if (has_bodies) sbri_deltas_make(c, pose, sbri_deltas(c));
   sbri_head(c)->asleep = may_sleep && !world->colliders.moving && sbri_character_is_still(c);
@@ -91,7 +98,13 @@ static void tick_island(void *context, uint32_t index) {
   sbr_world *world = context;
   sbri_work work = world->work[index];
   sbri_character *c = &world->characters[work.character];
-  if (!sbri_island_is_coupled(c, work.island)) sbri_island_run(world, c, work.island);
+  if (!is_grouped(world, c) && !sbri_island_is_coupled(c, work.island))
+    sbri_island_run(world, c, work.island);
+}
+
+static void tick_group(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_group_run(world, &world->meetings->groups[index]);
 }
 
 /* ---- The world ---- */
@@ -201,7 +214,9 @@ static void note_sleep(sbr_world *world) {
 void sbri_step_tick(sbr_world *world) {
   world->ticks++;
   sbri_colliders_begin_tick(&world->colliders);
+  if (world->meetings) sbri_meet_pairs_find(world);
   run(world, tick_character, world->character_capacity);
+  if (world->meetings) run(world, tick_group, world->meetings->group_count);
   sbri_work_list(world);
   run(world, tick_island, world->work_count);
   follow_tears(world);

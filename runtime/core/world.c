@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/diagnostic.h"
+#include "meet/meetings.h"
 
 enum {
   WORLD_COOKIE = 0x5b72776f,
@@ -82,6 +83,7 @@ void sbr_world_destroy(sbr_world *world) {
     if (world->characters[i].model) sbr_character_destroy(world, sbri_id_of(world, &world->characters[i]));
   sbf_allocator allocator = world->allocator;
   sbri_collider_set_free(&world->colliders, &allocator);
+  sbri_meetings_free(world);
   sbfi_free(&allocator, world->work, world->work_capacity * sizeof *world->work);
   sbfi_free(&allocator, world->characters, world->character_capacity * sizeof *world->characters);
   sbfi_free(&allocator, world, sizeof *world);

@@ -4,6 +4,7 @@
 #include "collide/colliders.h"
 #include "core/recorder.h"
 #include "core/state.h"
+#include "rigid/rigid_work.h"
 
 enum { SBRI_EVENTS = 256 };
 
@@ -31,7 +32,8 @@ struct sbr_world {
       ahead_units; /* by how much the last tick lies beyond the sampled moment; may lag by SBRI_TIME_SLACK */
   uint64_t stamp;  /* counts sampled moments; from 1 */
   sbri_collider_set colliders;
-  sbri_character *characters; /* (character_capacity) */
+  struct sbri_meetings *meetings; /* meet/meetings.h; NULL: bodies of characters do not meet each other */
+  sbri_character *characters;     /* (character_capacity) */
   uint32_t character_capacity;
   sbri_work *work; /* (work_count) of this tick, character after character */
   size_t work_count, work_capacity;
@@ -94,6 +96,24 @@ typedef struct sbri_coupled {
 void sbri_coupled_begin(sbri_coupled *group);
 void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *tick, float from, float to);
 void sbri_coupled_end(sbri_coupled *group);
+
+/* ---- core/rigid_parts.c ---- */
+
+/* A tick of a character's rigid parts on its way, with the soft bodies that are coupled to them. It stays
+ * where it is until its end. */
+typedef struct sbri_rigid_parts {
+  sbri_coupled coupled;
+  sbri_rigid_tick tick;
+  sbri_rigid_solving work;
+  bool steps; /* it has begun, and must be ended */
+} sbri_rigid_parts;
+
+/* What comes before the steps, whose number is tick.substeps, and after them; false where nothing is to be
+ * stepped. The pose has all bones where they go when this is over. */
+bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigid_parts *parts);
+void sbri_rigid_parts_end(sbri_rigid_parts *parts);
+
+/* ---- core/coupled.c ---- */
 
 /* Whether all of them may go on sleeping, whether all are slow enough to begin to, and their beginning to. */
 bool sbri_coupled_sleep(sbri_coupled *group);

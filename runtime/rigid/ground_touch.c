@@ -28,7 +28,7 @@ static float height_at(const sbri_rigid_tick *t, float x, float z, sbf_vec3 *nor
   return (float)((sbri_ground_height(t->ground, world_x, world_z, normal) - t->origin.y) / t->scale);
 }
 
-static void list_body(const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t b, int32_t node) {
+static void list_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32_t b, int32_t node) {
   const sbri_rigid_body *body = &t->model->bodies[b];
   const sbri_rigid_body_state *s = &t->bodies[b];
   sbf_vec3 turn = sbri_spin_velocity(body, s->pose.rotation, s->spin), normal;
@@ -56,7 +56,7 @@ static void list_body(const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t 
   }
 }
 
-void sbri_ground_touches_find(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+void sbri_ground_touches_find(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   work->touch_count = 0;
   for (uint32_t b = 0; b < t->model->body_count; b++) sbri_touching_begin(&t->touching[b]);
   for (uint32_t i = 0; i < work->system.node_count; i++)
@@ -74,12 +74,13 @@ static sbf_vec3 velocity_at(sbf_vec3 velocity, sbf_vec3 turn, sbf_vec3 arm) {
 }
 
 /* Of the place against what it touches. */
-static sbf_vec3 slip_of(const sbri_rigid_work *work, const sbri_ground_touch *touch) {
-  const sbri_rigid_motion *m = &work->motions[touch->body];
+static sbf_vec3 slip_of(const sbri_rigid_solving *work, const sbri_ground_touch *touch) {
+  const sbri_part_motion *m = &work->motions[touch->body];
   return sbri_sub(velocity_at(m->velocity, m->turn, touch->arm), touch->velocity);
 }
 
-void sbri_ground_touches_make(const sbri_rigid_tick *t, sbri_rigid_work *work, float since_s, float step_s) {
+void sbri_ground_touches_make(
+    const sbri_rigid_tick *t, sbri_rigid_solving *work, float since_s, float step_s) {
   float bounce_from = 4 * sbri_length(t->gravity) * step_s;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
@@ -143,7 +144,7 @@ static void add_touch(sbri_node *node, const sbri_ground_touch *touch) {
   for (int i = 0; i < 6; i++) node->b[i] += both[i];
 }
 
-void sbri_ground_touches_add(sbri_rigid_work *work) {
+void sbri_ground_touches_add(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++)
     if (work->touches[i].active) add_touch(&work->system.nodes[work->touches[i].node], &work->touches[i]);
 }
@@ -187,7 +188,7 @@ typedef struct outcome {
   float speed;      /* along the normal */
 } outcome;
 
-static outcome outcome_of(const sbri_rigid_work *work, sbri_ground_touch *touch) {
+static outcome outcome_of(const sbri_rigid_solving *work, sbri_ground_touch *touch) {
   const double *x = work->system.nodes[touch->node].x;
   sbf_vec3 n = touch->normal, du = velocity_at(sbri_vec3((float)x[0], (float)x[1], (float)x[2]),
                                   sbri_vec3((float)x[3], (float)x[4], (float)x[5]), touch->arm);
@@ -203,7 +204,7 @@ static outcome outcome_of(const sbri_rigid_work *work, sbri_ground_touch *touch)
 
 /* Where passes do not settle who slides, as where a limb is jammed, friction becomes a damper of what it
  * would be at the speed that is left: that takes energy whatever its strength. */
-static bool damp_slides(sbri_rigid_work *work) {
+static bool damp_slides(sbri_rigid_solving *work) {
   bool any = false;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
@@ -218,7 +219,7 @@ static bool damp_slides(sbri_rigid_work *work) {
   return any;
 }
 
-bool sbri_ground_touches_judge(sbri_rigid_work *work, float step_s, int stage) {
+bool sbri_ground_touches_judge(sbri_rigid_solving *work, float step_s, int stage) {
   bool settle = stage > 0;
   bool changed = settle && damp_slides(work);
   for (uint32_t i = 0; i < work->touch_count; i++) {
@@ -241,7 +242,7 @@ bool sbri_ground_touches_judge(sbri_rigid_work *work, float step_s, int stage) {
   return changed;
 }
 
-void sbri_ground_touches_tell(const sbri_rigid_tick *t, const sbri_rigid_work *work) {
+void sbri_ground_touches_tell(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
     const sbri_ground_touch *touch = &work->touches[i];
     if (touch->active && touch->normal_impulse > 0)
@@ -250,7 +251,7 @@ void sbri_ground_touches_tell(const sbri_rigid_tick *t, const sbri_rigid_work *w
   }
 }
 
-bool sbri_ground_touches_bounce(sbri_rigid_work *work) {
+bool sbri_ground_touches_bounce(sbri_rigid_solving *work) {
   bool any = false;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];

@@ -20,11 +20,11 @@ static const float MISSED = 2e-3f;
 /* Slower than this nothing bounces off a limit. */
 static const float BOUNCE_FROM = 0.05f;
 
-static float speed_of(const sbri_rigid_work *work, const sbri_rigid_model *model,
+static float speed_of(const sbri_rigid_solving *work, const sbri_rigid_model *model,
     const sbri_rigid_joint *joint, const sbri_row *row) {
   float speed = 0;
   for (int side = 0; side < SBRI_SIDES; side++) {
-    const sbri_rigid_motion *m = sbri_side_motion(work, model, joint, side);
+    const sbri_part_motion *m = sbri_side_motion(work, model, joint, side);
     const double v[6] = {m->velocity.x, m->velocity.y, m->velocity.z, m->turn.x, m->turn.y, m->turn.z};
     speed += (float)sbri_dot6_rates(row->rates[side], v);
   }
@@ -44,7 +44,7 @@ static float nearest_turn(float value, float low, float high) {
 
 typedef struct row_maker {
   const sbri_rigid_tick *tick;
-  sbri_rigid_work *work;
+  sbri_rigid_solving *work;
   const sbri_rigid_joint *joint;
   sbri_joint_place *place;
   sbri_edge *edge;
@@ -169,7 +169,7 @@ static void add_track(row_maker *m) {
   }
 }
 
-void sbri_joint_rows_make(const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t edge, float step_s) {
+void sbri_joint_rows_make(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32_t edge, float step_s) {
   sbri_edge *e = &work->system.edges[edge];
   const sbri_rigid_joint *joint = &t->model->joints[e->joint];
   const sbf_joint *source = joint->source;
@@ -199,7 +199,7 @@ void sbri_joint_rows_make(const sbri_rigid_tick *t, sbri_rigid_work *work, uint3
   add_track(&m);
 }
 
-void sbri_joint_rows_aim(const sbri_rigid_work *work, sbri_edge *e, const sbri_rigid_model *model) {
+void sbri_joint_rows_aim(const sbri_rigid_solving *work, sbri_edge *e, const sbri_rigid_model *model) {
   const sbri_rigid_joint *joint = &model->joints[e->joint];
   sbri_edge_list_active(e);
   for (uint32_t r = 0; r < e->row_count; r++)
@@ -212,7 +212,7 @@ void sbri_joint_rows_aim(const sbri_rigid_work *work, sbri_edge *e, const sbri_r
 
 /* The rate that the system's solution gives the row's coordinate. */
 static float solved_speed(
-    const sbri_rigid_work *work, const sbri_edge *e, const sbri_rigid_model *model, const sbri_row *row) {
+    const sbri_rigid_solving *work, const sbri_edge *e, const sbri_rigid_model *model, const sbri_row *row) {
   float speed = speed_of(work, model, &model->joints[e->joint], row);
   for (int side = 0; side < SBRI_SIDES; side++)
     if (e->nodes[side] >= 0)
@@ -221,7 +221,7 @@ static float solved_speed(
 }
 
 /* A drive's greatest impulse goes into the motions at once; it then takes no part. */
-static void give_most(sbri_rigid_work *work, const sbri_edge *e, sbri_row *row) {
+static void give_most(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row) {
   row->impulse = row->impulse > 0 ? row->most : -row->most;
   row->full = true;
   row->active = false;
@@ -230,7 +230,8 @@ static void give_most(sbri_rigid_work *work, const sbri_edge *e, sbri_row *row) 
       sbri_add6_rates(work->system.nodes[e->nodes[side]].push, row->rates[side], row->impulse);
 }
 
-bool sbri_joint_rows_judge(sbri_rigid_work *work, sbri_edge *e, const sbri_rigid_model *model, float step_s) {
+bool sbri_joint_rows_judge(
+    sbri_rigid_solving *work, sbri_edge *e, const sbri_rigid_model *model, float step_s) {
   bool changed = false;
   for (uint32_t r = 0; r < e->row_count; r++) {
     sbri_row *row = &e->rows[r];
@@ -254,7 +255,8 @@ bool sbri_joint_rows_judge(sbri_rigid_work *work, sbri_edge *e, const sbri_rigid
   return changed;
 }
 
-float sbri_joint_rows_correct(const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t edge, float step_s) {
+float sbri_joint_rows_correct(
+    const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32_t edge, float step_s) {
   sbri_edge *e = &work->system.edges[edge];
   const sbri_rigid_joint *joint = &t->model->joints[e->joint];
   bool any = false;
@@ -297,7 +299,7 @@ float sbri_joint_rows_correct(const sbri_rigid_tick *t, sbri_rigid_work *work, u
   return worst;
 }
 
-bool sbri_joint_rows_bounce(const sbri_rigid_work *work, sbri_edge *e, const sbri_rigid_model *model) {
+bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *e, const sbri_rigid_model *model) {
   bool any = false;
   for (uint32_t r = 0; r < e->active_count; r++) {
     const sbri_row *row = &e->rows[e->actives[r]];

@@ -91,9 +91,6 @@ typedef struct sbri_rigid_tick {
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model);
 
-/* Advances all that is not broken by a tick. */
-void sbri_rigid_step(const sbri_rigid_tick *tick);
-
 /* A body that what pulls on it would swing too fast for the most steps that there are is as if that much
  * heavier, to all but weight. */
 float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s);

@@ -38,7 +38,7 @@ static void *carve(unsigned char **memory, size_t count, size_t size) {
 }
 
 /* Lays the arrays out from `memory` on; returns how much they take. The edges' arrays follow their joints. */
-static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rigid_work *work) {
+static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rigid_solving *work) {
   unsigned char *at = memory;
   size_t bodies = m->body_count, joints = m->joint_count, rows = m->row_count,
          loop_rows = m->loop_row_capacity;
@@ -70,12 +70,12 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
 }
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model) {
-  sbri_rigid_work work;
+  sbri_rigid_solving work;
   unsigned char none[16];
   return model->body_count ? lay_out(model, none, &work) : 0;
 }
 
-static void give_edges_memory(const sbri_rigid_model *m, sbri_rigid_work *work) {
+static void give_edges_memory(const sbri_rigid_model *m, sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     sbri_edge *e = &work->system.edges[i];
     const sbri_rigid_joint *joint = &m->joints[e->joint];
@@ -95,7 +95,7 @@ static sbr_transform between(const sbr_transform *a, const sbr_transform *b, flo
       sbri_lerp(a->position, b->position, t), sbri_quat_blend(a->rotation, b->rotation, t)};
 }
 
-static void follow(sbri_rigid_motion *m, const sbr_transform *begin, const sbr_transform *end, float from,
+static void follow(sbri_part_motion *m, const sbr_transform *begin, const sbr_transform *end, float from,
     float to, float step_s) {
   m->from = between(begin, end, from), m->to = between(begin, end, to);
   m->fine_from = m->fine_to = sbri_vec3(0, 0, 0);
@@ -105,7 +105,7 @@ static void follow(sbri_rigid_motion *m, const sbr_transform *begin, const sbr_t
 }
 
 /* Where a body goes with the velocities that it has. */
-static void go(const sbri_rigid_tick *t, uint32_t b, sbri_rigid_motion *m, float step_s) {
+static void go(const sbri_rigid_tick *t, uint32_t b, sbri_part_motion *m, float step_s) {
   sbri_rigid_body_state *s = &t->bodies[b];
   m->velocity = s->velocity;
   sbf_vec3 way = sbri_add_scaled(m->fine_from, s->velocity, step_s); /* a sum that keeps what it rounds off */
@@ -127,7 +127,7 @@ static void add_pull(
 }
 
 static void find_pulls(
-    const sbri_rigid_tick *t, const sbri_rigid_work *work, uint32_t b, float stiffness[3]) {
+    const sbri_rigid_tick *t, const sbri_rigid_solving *work, uint32_t b, float stiffness[3]) {
   const sbri_rigid_model *model = t->model;
   const sbri_rigid_body *body = &model->bodies[b];
   stiffness[0] = stiffness[1] = stiffness[2] = 0;
@@ -151,12 +151,12 @@ static void spread(sbf_vec3 own, sbf_quat turn, float to[3][3]) {
 }
 
 /* `from` and `to`: shares of the tick. */
-static void begin_step(const sbri_rigid_tick *t, sbri_rigid_work *work, float from, float to) {
+static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   const sbri_rigid_model *model = t->model;
   /* Velocities are those of the middle of the step before. */
   float step_s = t->tick_s * (to - from), kick_s = 0.5f * (work->last_step_s + step_s);
   for (uint32_t b = 0; b < model->body_count; b++) {
-    sbri_rigid_motion *m = &work->motions[b];
+    sbri_part_motion *m = &work->motions[b];
     if (m->node < 0) {
       follow(m, &work->begins[b], &t->targets[b], from, to, step_s);
       continue;
@@ -182,7 +182,7 @@ float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s)
 
 /* ---- The system ---- */
 
-static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     sbri_node *node = &work->system.nodes[i];
     float mass = node->swell * t->model->bodies[node->body].mass;
@@ -198,7 +198,7 @@ static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_work *work) {
     sbri_joint_rows_aim(work, &work->system.edges[e], t->model);
 }
 
-static bool judge(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s, int pass) {
+static bool judge(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s, int pass) {
   bool changed =
       sbri_ground_touches_judge(work, step_s, (pass + 1 >= FREE_PASSES) + (pass + 1 >= SETTLING_PASSES));
   for (uint32_t e = 0; e < work->system.edge_count; e++)
@@ -207,7 +207,7 @@ static bool judge(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s,
 }
 
 /* Gives the bodies the changes of velocity that were solved for. */
-static void take(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+static void take(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_node *node = &work->system.nodes[i];
     sbri_rigid_body_state *s = &t->bodies[node->body];
@@ -220,7 +220,7 @@ static void take(const sbri_rigid_tick *t, sbri_rigid_work *work) {
   }
 }
 
-static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_work *work, float step_s) {
+static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   take(t, work);
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     uint32_t b = work->system.nodes[i].body;
@@ -228,12 +228,12 @@ static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_work *work, float s
   }
 }
 
-static void clear_b(sbri_rigid_work *work) {
+static void clear_b(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++)
     memset(work->system.nodes[i].b, 0, sizeof work->system.nodes[i].b);
 }
 
-static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_work *work) {
+static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   float rate = 1 / t->tick_s;
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
@@ -252,7 +252,7 @@ static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_work *work) {
   }
 }
 
-static void throw_back(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   clear_b(work);
   bool any = sbri_ground_touches_bounce(work);
   for (uint32_t e = 0; e < work->system.edge_count; e++)
@@ -263,7 +263,7 @@ static void throw_back(const sbri_rigid_tick *t, sbri_rigid_work *work) {
 }
 
 /* One step over that share of the tick; whether it is good. */
-static bool step(const sbri_rigid_tick *t, sbri_rigid_work *work, float from, float to) {
+static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   float step_s = t->tick_s * (to - from), worst = 0, curved = 0;
   sbri_rigid_system *s = &work->system;
   begin_step(t, work, from, to);
@@ -291,7 +291,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_work *work, float from, fl
   return worst < COARSE && curved < CURVED;
 }
 
-static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_work *work, int depth, bool restore) {
+static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int depth, bool restore) {
   sbri_rigid_body_state *kept = work->kept + (size_t)depth * t->model->body_count;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     uint32_t b = work->system.nodes[i].body;
@@ -300,7 +300,7 @@ static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_work *work, int dep
 }
 
 /* A step, or where the joints do not meet at its end, as when a whip cracks, two of half the length. */
-static void substep(const sbri_rigid_tick *t, sbri_rigid_work *work, float from, float to, int depth) {
+static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to, int depth) {
   keep_bodies(t, work, depth, false);
   if (!step(t, work, from, to) && depth + 1 < SBRI_RIGID_HALVINGS) {
     keep_bodies(t, work, depth, true);
@@ -320,7 +320,7 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_work *work, float from,
 }
 
 /* The joints' pulls on bodies that have just begun to move, by a short step that is then taken back. */
-static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   const float share = 1 / (float)MOST_SUBSTEPS;
   work->last_step_s = share * t->tick_s;
   keep_bodies(t, work, 0, false);
@@ -348,7 +348,7 @@ static void break_joints(const sbri_rigid_tick *t) {
   }
 }
 
-static uint32_t count_substeps(const sbri_rigid_tick *t, const sbri_rigid_work *work) {
+static uint32_t count_substeps(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   float fastest = 0; /* rad^2/s^2 */
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_rigid_body *body = &t->model->bodies[work->system.nodes[i].body];
@@ -378,36 +378,38 @@ static uint32_t count_substeps(const sbri_rigid_tick *t, const sbri_rigid_work *
   return count;
 }
 
-void sbri_rigid_step(const sbri_rigid_tick *asked) {
-  sbri_rigid_tick counted = *asked, *t = &counted;
-  sbri_rigid_work work;
-  lay_out(t->model, t->work, &work);
-  sbri_rigid_motion *still = &work.motions[t->model->body_count];
-  *still = (sbri_rigid_motion){.from = t->anchor, .to = t->anchor};
-  sbri_rigid_tree_make(t, &work);
-  give_edges_memory(t->model, &work);
-  for (uint32_t b = 0; b < t->model->body_count; b++) work.begins[b] = t->bodies[b].pose;
+void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  lay_out(t->model, t->work, work);
+  sbri_part_motion *still = &work->motions[t->model->body_count];
+  *still = (sbri_part_motion){.from = t->anchor, .to = t->anchor};
+  sbri_rigid_tree_make(t, work);
+  give_edges_memory(t->model, work);
+  for (uint32_t b = 0; b < t->model->body_count; b++) work->begins[b] = t->bodies[b].pose;
   for (uint32_t j = 0; j < t->model->joint_count; j++)
-    work.pulls[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
-  sbri_ground_touches_find(t, &work);
-  sbri_shape_touches_find(t, &work);
-  work.last_step_s = t->drive->last_step_s;
-  if (work.last_step_s == 0 && work.system.node_count) probe_pulls(t, &work);
-  t->substeps = count_substeps(t, &work);
+    work->pulls[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
+  sbri_ground_touches_find(t, work);
+  sbri_shape_touches_find(t, work);
+  work->last_step_s = t->drive->last_step_s;
+  if (work->last_step_s == 0 && work->system.node_count) probe_pulls(t, work);
+  t->substeps = count_substeps(t, work);
   if (t->substeps < t->pull.steps) t->substeps = t->pull.steps;
-  for (uint32_t i = 0; i < t->substeps && work.system.node_count; i++) {
-    float from = (float)i / (float)t->substeps, to = (float)(i + 1) / (float)t->substeps;
-    if (t->pull.act) t->pull.act(t->pull.user, t, from, to);
-    substep(t, &work, from, to, 0);
-  }
+}
+
+void sbri_rigid_advance(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
+  if (!work->system.node_count) return;
+  if (t->pull.act) t->pull.act(t->pull.user, t, from, to);
+  substep(t, work, from, to, 0);
+}
+
+void sbri_rigid_end(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t b = 0; b < t->model->body_count; b++) {
-    if (work.motions[b].node >= 0) continue;
-    sbri_rigid_motion all;
-    follow(&all, &work.begins[b], &t->targets[b], 0, 1, t->tick_s);
+    if (work->motions[b].node >= 0) continue;
+    sbri_part_motion all;
+    follow(&all, &work->begins[b], &t->targets[b], 0, 1, t->tick_s);
     t->bodies[b].pose = t->targets[b], t->bodies[b].fine = sbri_vec3(0, 0, 0);
     t->bodies[b].velocity = all.velocity;
     t->bodies[b].spin = sbri_spin_from(&t->model->bodies[b], t->targets[b].rotation, all.turn);
   }
-  t->drive->last_step_s = work.last_step_s;
+  t->drive->last_step_s = work->last_step_s;
   break_joints(t);
 }

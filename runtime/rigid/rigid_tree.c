@@ -9,7 +9,7 @@ static bool gives_way(const sbri_rigid_tick *t, int32_t body) {
 }
 
 /* The joints that act, those of the tree marked in `in_tree`. */
-static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_work *work, uint8_t *in_tree) {
+static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint8_t *in_tree) {
   sbri_rigid_system *s = &work->system;
   const sbri_rigid_model *m = t->model;
   uint32_t world = m->body_count, *parts = work->roots;
@@ -36,14 +36,14 @@ static void choose_edges(const sbri_rigid_tick *t, sbri_rigid_work *work, uint8_
   }
 }
 
-static void add_node(sbri_rigid_work *work, uint32_t body, int32_t parent, int32_t edge) {
+static void add_node(sbri_rigid_solving *work, uint32_t body, int32_t parent, int32_t edge) {
   sbri_rigid_system *s = &work->system;
   work->motions[body].node = (int32_t)s->node_count;
   s->nodes[s->node_count++] = (sbri_node){.body = body, .parent = parent, .edge = edge};
 }
 
 /* Follows the tree's joints from what is in the list of nodes already. */
-static void grow(const sbri_rigid_tick *t, sbri_rigid_work *work, const int32_t *edge_of_joint,
+static void grow(const sbri_rigid_tick *t, sbri_rigid_solving *work, const int32_t *edge_of_joint,
     const uint8_t *in_tree, uint32_t from) {
   sbri_rigid_system *s = &work->system;
   const sbri_rigid_model *m = t->model;
@@ -60,7 +60,7 @@ static void grow(const sbri_rigid_tick *t, sbri_rigid_work *work, const int32_t 
   }
 }
 
-void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   sbri_rigid_system *s = &work->system;
   const sbri_rigid_model *m = t->model;
   uint8_t *in_tree = (uint8_t *)work->order;

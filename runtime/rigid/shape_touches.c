@@ -15,7 +15,7 @@ static const float NEAR_SHARE = 0.02f;
 
 typedef struct meeting {
   const sbri_rigid_tick *tick;
-  sbri_rigid_work *work;
+  sbri_rigid_solving *work;
   const sbri_rigid_body *body;
   uint32_t number;
   int32_t node;
@@ -202,7 +202,7 @@ static void meet(const meeting *m, sbf_vec3 way) {
   if (m->work->touch_count == before && sbri_length(way) > 0.5f * m->radius) meet_on_the_way(m, way);
 }
 
-static void meet_body(const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t b, int32_t node) {
+static void meet_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32_t b, int32_t node) {
   const sbri_collider_set *set = t->colliders;
   const sbri_rigid_body *body = &t->model->bodies[b];
   const sbri_rigid_body_state *s = &t->bodies[b];
@@ -241,7 +241,7 @@ static void meet_body(const sbri_rigid_tick *t, sbri_rigid_work *work, uint32_t 
   }
 }
 
-void sbri_shape_touches_find(const sbri_rigid_tick *t, sbri_rigid_work *work) {
+void sbri_shape_touches_find(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   if (!t->colliders || !t->colliders->tree.node_count) return;
   for (uint32_t i = 0; i < work->system.node_count; i++)
     meet_body(t, work, work->system.nodes[i].body, (int32_t)i);

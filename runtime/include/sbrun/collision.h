@@ -96,6 +96,15 @@ SBF_API void sbr_collider_move(
 SBF_API void sbr_collider_place(
     sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation);
 
+/* ---- Each other --------------------------------------------------------------------------------------- */
+
+/* From now on bodies of characters meet each other as well: soft ones, and hulls of rigid ones, of one
+ * character and of several, by the layers and masks of the file. Up to `touch_capacity` places at once (0:
+ * 4096); of more, some pass through each other. Parts of one character that lie in each other at rest, that
+ * are jointed, or hold each other, do not. Who may touch is stepped in one task. Call it for a world before
+ * it is stepped; a second call changes nothing. SBF_FAILED where memory runs out. */
+SBF_API sbf_status sbr_world_bodies_meet(sbr_world *world, uint32_t touch_capacity, sbf_diagnostic *error);
+
 /* ---- Questions ---------------------------------------------------------------------------------------- */
 
 /* What a ray or a box finds: one of a collider, a rigid body and a soft body. */

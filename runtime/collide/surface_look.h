@@ -1,0 +1,75 @@
+/* What a point has to do with a triangle of a soft surface within a tick: whether it comes near to it or goes
+ * through, and on which side of it it belongs.
+ *
+ * That is, of a surface that encloses matter the outer one, up to `inner` deep (what is deeper has come in by
+ * another face, which lets it out; seed of the method: Blender's soft bodies); of a sheet the one that it is
+ * on. */
+#ifndef SBRI_SURFACE_LOOK_H
+#define SBRI_SURFACE_LOOK_H
+
+#include "collide/triangle.h"
+
+/* What is nearest to a face's rim and lies behind it by no more than this share of the distance lies beside
+ * it, and before another. */
+#define SBRI_BESIDE 0.3f
+
+typedef struct sbri_surface_rule {
+  float outer, inner; /* m: contact begins so far outside, and is found so deep inside */
+  bool two_sided;     /* a sheet, or open */
+} sbri_surface_rule;
+
+/* A triangle: its corners, and how far they go in the tick. */
+typedef struct sbri_surface_face {
+  sbf_vec3 at[3], ways[3];
+} sbri_surface_face;
+
+/* The most urgent that has been found; begin with urgency INFINITY. */
+typedef struct sbri_surface_finding {
+  uint32_t face;
+  float weights[3]; /* of the corners: the place on it */
+  sbf_vec3 normal;  /* towards where the point belongs */
+  float urgency; /* the least counts: share of the tick until it goes through, or 1 and more for nearness */
+} sbri_surface_finding;
+
+static inline void sbri_surface_look(const sbri_surface_rule *rule, sbf_vec3 x, sbf_vec3 own_way,
+    const sbri_surface_face *face, uint32_t number, sbri_surface_finding *best) {
+  const sbf_vec3 *p = face->at;
+  sbri_surface_finding f = {.face = number};
+  sbri_triangle_nearest(x, p[0], p[1], p[2], f.weights);
+  sbf_vec3 off = sbri_sub(x, sbri_triangle_place(f.weights, p[0], p[1], p[2]));
+  sbf_vec3 up = sbri_normalize(sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0])), off);
+  float distance = sbri_length(off), height = sbri_dot(off, up);
+  bool behind = !rule->two_sided && height < 0;
+  bool at_rim = f.weights[0] == 0 || f.weights[1] == 0 || f.weights[2] == 0;
+  if (behind && (distance > rule->inner || (at_rim && -height < SBRI_BESIDE * distance))) return;
+  sbf_vec3 way =
+      sbri_sub(own_way, sbri_triangle_place(f.weights, face->ways[0], face->ways[1], face->ways[2]));
+  sbf_vec3 side = rule->two_sided && height < 0 ? sbri_scale(up, -1) : up;
+  f.normal = behind || distance < 1e-6f ? up : sbri_scale(off, 1 / distance);
+  if (behind) f.normal = sbri_scale(sbri_normalize(off, up), distance < 1e-6f ? 1 : -1);
+  f.urgency = 1 + distance;
+  float closing = -sbri_dot(way, f.normal);
+  bool near = behind || distance - (closing > 0 ? 2 * closing : 0) < rule->outer;
+  float through = behind ? -1 : sbri_triangle_cross(x, way, p[0], p[1], p[2]);
+  if (through >= 0 && through < best->urgency) { /* by what it is then over */
+    sbf_vec3 hit = sbri_add_scaled(x, way, through);
+    sbri_triangle_nearest(hit, p[0], p[1], p[2], f.weights);
+    f.normal = side, f.urgency = through;
+  } else if (!near || f.urgency >= best->urgency) {
+    return;
+  }
+  *best = f;
+}
+
+/* Signed distance of a point from a triangle, negative behind one of a surface that encloses matter up to the
+ * rule's depth. */
+static inline float sbri_surface_gap(const sbri_surface_rule *rule, sbf_vec3 x, const sbf_vec3 p[3]) {
+  float weights[3];
+  sbri_triangle_nearest(x, p[0], p[1], p[2], weights);
+  sbf_vec3 off = sbri_sub(x, sbri_triangle_place(weights, p[0], p[1], p[2]));
+  sbf_vec3 up = sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0]));
+  float distance = sbri_length(off);
+  return !rule->two_sided && sbri_dot(off, up) < 0 && distance < rule->inner ? -distance : distance;
+}
+
+#endif

@@ -1,0 +1,320 @@
+/* Which places of two bodies may touch within a tick.
+ *
+ * Corners of soft surfaces against triangles of others and against hulls, corners of hulls against triangles,
+ * hulls against hulls. Where two parts of one character overlap at rest they do not fight: what is inside at
+ * rest is let be, and what is near is kept no further off. */
+#include "collide/hull_pair.h"
+#include "collide/shape.h"
+#include "collide/surface_look.h"
+#include "meet/meetings.h"
+
+/* Of the distance at rest, where that is less than the margin. */
+static const float REST_SHARE = 0.9f;
+/* Nearer than this share of a body's size at rest, two parts touch there always. */
+static const float TOGETHER_SHARE = 1e-3f;
+/* How near hulls begin to touch, beside their ways: a share of their size. */
+static const float NEAR_SHARE = 0.02f;
+
+typedef struct finding {
+  sbr_world *world;
+  sbri_meet_group *group;
+  const sbri_meet_member *members;
+} finding;
+
+/* One of the two that may meet. */
+typedef struct party {
+  const sbri_meeter *is;
+  uint32_t member; /* of the group */
+  const sbri_meet_member *of;
+  const sbri_body *soft;
+  const sbri_meet_surface *surface;
+  const sbri_rigid_body *rigid;
+  float friction, restitution;
+} party;
+
+static party party_of(const finding *f, uint32_t number) {
+  const sbri_meeter *is = &f->world->meetings->meeters[number];
+  party p = {.is = is};
+  while (f->members[p.member].character != &f->world->characters[is->character]) p.member++;
+  p.of = &f->members[p.member];
+  const sbr_model *model = p.of->character->model;
+  if (is->rigid) {
+    p.rigid = &model->rigid.bodies[is->number];
+    p.friction = p.rigid->source->friction, p.restitution = p.rigid->source->restitution;
+  } else {
+    p.soft = &model->bodies[is->number];
+    p.surface = &f->world->meetings->surfaces[is->character][is->number];
+    p.friction = p.soft->friction, p.restitution = p.soft->restitution;
+  }
+  return p;
+}
+
+static bool are_of_one(const party *a, const party *b) {
+  return a->member == b->member;
+}
+
+/* ---- Sides ---- */
+
+static sbri_meet_side soft_side(const party *p, const uint32_t *vertices, const float *weights, int count) {
+  sbri_meet_side side = {.member = p->member, .rigid_body = -1, .island = p->soft->island};
+  for (int i = 0; i < count; i++) {
+    const sbri_sample *s = &p->surface->samples[vertices[i]];
+    for (int k = 0; k < 4; k++) {
+      if (s->weights[k] == 0 || weights[i] == 0) continue;
+      uint32_t at = 0;
+      while (at < side.count && side.slots[at] != s->slots[k]) at++;
+      if (at == side.count) side.slots[side.count++] = s->slots[k];
+      side.weights[at] += weights[i] * s->weights[k];
+    }
+  }
+  return side;
+}
+
+static sbri_meet_side rigid_side(const party *p, sbf_vec3 own) {
+  return (sbri_meet_side){.member = p->member, .rigid_body = (int32_t)p->is->number, .at = own};
+}
+
+static void add(const finding *f, const party *a, const party *b, const sbri_meet_touch *touch) {
+  if (f->group->touch_count >= f->group->touch_capacity) return;
+  sbri_meet_touch *t = &f->world->meetings->touches[f->group->first_touch + f->group->touch_count++];
+  *t = *touch;
+  t->friction = sqrtf(a->friction * b->friction);
+  t->restitution = a->restitution > b->restitution ? a->restitution : b->restitution;
+}
+
+/* ---- Soft with soft ---- */
+
+static sbri_surface_rule rule_of(const party *p) {
+  const sbf_collision *rule = &p->soft->source->collision;
+  return (sbri_surface_rule){
+      rule->outer_thickness * p->of->scale, rule->inner_thickness * p->of->scale, p->surface->two_sided};
+}
+
+static sbri_surface_face face_of(const party *p, uint32_t triangle) {
+  sbri_surface_face face;
+  for (int k = 0; k < 3; k++) {
+    uint32_t v = p->surface->triangles[3 * (size_t)triangle + (uint32_t)k];
+    face.at[k] = p->surface->places[v], face.ways[k] = p->surface->ways[v];
+  }
+  return face;
+}
+
+static sbf_vec3 rest_of(const party *p, uint32_t vertex) {
+  const sbri_island *island = &p->of->character->model->islands[p->soft->island];
+  const sbri_sample *s = &p->surface->samples[vertex];
+  sbf_vec3 x = {0, 0, 0};
+  for (int k = 0; k < 4; k++) {
+    const sbri_point *at = &island->rest[s->slots[k]];
+    x = sbri_add_scaled(x, sbri_vec3(at->x, at->y, at->z), s->weights[k]);
+  }
+  return sbri_scale(x, p->of->scale);
+}
+
+/* The most urgent triangle of `b` for a place that goes so; whether there is one. */
+static bool find_face(const party *b, sbf_vec3 x, sbf_vec3 way, sbri_surface_finding *best) {
+  sbri_surface_rule rule = rule_of(b);
+  sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, way));
+  sbri_bounds_walk walk;
+  uint32_t triangle;
+  best->urgency = INFINITY;
+  sbri_bounds_walk_begin(&walk, &b->surface->tree, box);
+  while (sbri_bounds_walk_next(&walk, &triangle)) {
+    if (!sbri_box_meets(&box, &b->surface->boxes[triangle])) continue;
+    sbri_surface_face face = face_of(b, triangle);
+    sbri_surface_look(&rule, x, way, &face, triangle, best);
+  }
+  return best->urgency != INFINITY;
+}
+
+/* What is kept between them: nothing between surfaces that both enclose matter. */
+static float margin_between(const party *a, const party *b) {
+  float own = a->soft ? a->soft->margin_m * a->of->scale : 0;
+  float other = b->surface->two_sided ? b->soft->source->collision.outer_thickness * b->of->scale : 0;
+  return own > other ? own : other;
+}
+
+static void meet_faces(const finding *f, const party *a, const party *b) {
+  sbri_surface_rule rule = rule_of(b);
+  const float whole = 1;
+  for (uint32_t v = 0; v < a->surface->vertex_count; v++) {
+    sbri_surface_finding best;
+    if (!(a->surface->samples[v].mass_kg > 0) ||
+        !find_face(b, a->surface->places[v], a->surface->ways[v], &best))
+      continue;
+    const uint32_t *corners = b->surface->triangles + 3 * (size_t)best.face;
+    float margin = margin_between(a, b);
+    if (are_of_one(a, b)) {
+      const sbf_vec3 p[3] = {rest_of(b, corners[0]), rest_of(b, corners[1]), rest_of(b, corners[2])};
+      float rest = sbri_surface_gap(&rule, rest_of(a, v), p);
+      if (rest <= TOGETHER_SHARE * a->soft->rest_size_m * a->of->scale) continue;
+      margin = REST_SHARE * rest < margin ? REST_SHARE * rest : margin;
+    }
+    sbri_meet_touch t = {.a = soft_side(a, &v, &whole, 1),
+        .b = soft_side(b, corners, best.weights, 3),
+        .normal = best.normal,
+        .margin = margin};
+    add(f, a, b, &t);
+  }
+}
+
+/* ---- Rigid ---- */
+
+/* A rigid body's own frame at the tick's beginning or its end, if nothing acts, relative to the group. */
+static sbr_transform frame_at(const party *p, bool end) {
+  const sbri_character *c = p->of->character;
+  uint32_t b = p->is->number;
+  sbr_transform at;
+  if (p->is->gives_way && p->of->parts.steps) {
+    const sbri_rigid_body_state *s = &sbri_rigid_bodies(c)[b];
+    at = s->pose;
+    if (end) {
+      at.position = sbri_add_scaled(at.position, s->velocity, p->of->tick_s);
+      (void)sbri_free_turn(p->rigid, s->pose.rotation, s->spin, p->of->tick_s, &at.rotation);
+    }
+  } else {
+    at = sbri_rigid_target(c, end ? sbri_pose(c) : sbri_previous_pose(c), b);
+  }
+  at.position = sbri_add_scaled(p->of->offset, at.position, p->of->scale);
+  return at;
+}
+
+static sbf_vec3 into(const sbr_transform *frame, sbf_vec3 x, float scale) {
+  sbf_vec3 off = sbri_scale(sbri_sub(x, frame->position), 1 / scale);
+  return sbri_rotate(sbri_quat_conjugate(frame->rotation), off);
+}
+
+static sbf_vec3 out_of(const sbr_transform *frame, sbf_vec3 own, float scale) {
+  return sbri_add_scaled(frame->position, sbri_rotate(frame->rotation, own), scale);
+}
+
+static void meet_hull(const finding *f, const party *soft, const party *rigid) {
+  sbr_transform from = frame_at(rigid, false), to = frame_at(rigid, true);
+  const sbri_hull *hull = &rigid->rigid->hull;
+  float scale = rigid->of->scale, margin = soft->soft->margin_m * soft->of->scale;
+  float slack = NEAR_SHARE * soft->soft->rest_size_m * soft->of->scale;
+  const float whole = 1;
+  for (uint32_t v = 0; v < soft->surface->vertex_count; v++) {
+    if (!(soft->surface->samples[v].mass_kg > 0)) continue;
+    sbf_vec3 x = soft->surface->places[v];
+    sbf_vec3 begin = into(&from, x, scale), end = into(&to, sbri_add(x, soft->surface->ways[v]), scale);
+    sbf_vec3 way = sbri_sub(end, begin), place, normal, entered;
+    float reach = (margin + slack) / scale + sbri_length(way), share;
+    uint32_t face;
+    if (sbri_hull_depth(hull, begin, &face) > reach) continue;
+    float gap = sbri_hull_nearest(hull, begin, &place, &normal);
+    if (gap > 0 && sbri_hull_enter(hull, begin, way, &share, &entered))
+      place = sbri_add_scaled(begin, way, share), normal = entered;
+    else if (gap > reach)
+      continue;
+    if (are_of_one(soft, rigid)) {
+      sbr_transform rest = {sbri_scale(rigid->rigid->center, scale), rigid->rigid->axes};
+      float together = TOGETHER_SHARE * soft->soft->rest_size_m;
+      if (sbri_hull_depth(hull, into(&rest, rest_of(soft, v), scale), &face) <= together) continue;
+    }
+    sbri_meet_touch t = {.a = soft_side(soft, &v, &whole, 1),
+        .b = rigid_side(rigid, place),
+        .normal = sbri_rotate(from.rotation, normal),
+        .margin = margin};
+    add(f, soft, rigid, &t);
+  }
+}
+
+/* Corners of the hull against the soft surface's triangles. */
+static void meet_corners(const finding *f, const party *rigid, const party *soft) {
+  sbr_transform from = frame_at(rigid, false), to = frame_at(rigid, true);
+  for (uint32_t i = 0; i < rigid->rigid->vertex_count; i++) {
+    sbf_vec3 own = rigid->rigid->vertices[i], x = out_of(&from, own, rigid->of->scale);
+    sbri_surface_finding best;
+    if (!find_face(soft, x, sbri_sub(out_of(&to, own, rigid->of->scale), x), &best)) continue;
+    const uint32_t *corners = soft->surface->triangles + 3 * (size_t)best.face;
+    if (are_of_one(soft, rigid)) {
+      sbr_transform rest = {sbri_scale(rigid->rigid->center, rigid->of->scale), rigid->rigid->axes};
+      const sbf_vec3 p[3] = {rest_of(soft, corners[0]), rest_of(soft, corners[1]), rest_of(soft, corners[2])};
+      sbri_surface_rule rule = rule_of(soft);
+      float together = TOGETHER_SHARE * soft->soft->rest_size_m * soft->of->scale;
+      if (sbri_surface_gap(&rule, out_of(&rest, own, rigid->of->scale), p) <= together) continue;
+    }
+    sbri_meet_touch t = {.a = rigid_side(rigid, own),
+        .b = soft_side(soft, corners, best.weights, 3),
+        .normal = best.normal,
+        .margin = margin_between(rigid, soft)};
+    add(f, rigid, soft, &t);
+  }
+}
+
+static sbri_placed_hull placed(const party *p, const sbr_transform *at) {
+  return (sbri_placed_hull){&p->rigid->hull, at->position, at->rotation, p->of->scale};
+}
+
+static bool overlap_at_rest(const party *a, const party *b) {
+  sbr_transform at_a = {sbri_scale(a->rigid->center, a->of->scale), a->rigid->axes},
+                at_b = {sbri_scale(b->rigid->center, b->of->scale), b->rigid->axes};
+  sbri_placed_hull hull_a = placed(a, &at_a), hull_b = placed(b, &at_b);
+  sbri_hull_pair pair;
+  return sbri_hulls_meet(&hull_a, &hull_b, 0, &pair) && pair.gap < 0;
+}
+
+static void meet_hulls(const finding *f, const party *a, const party *b) {
+  sbr_transform from_a = frame_at(a, false), from_b = frame_at(b, false), to_a = frame_at(a, true),
+                to_b = frame_at(b, true);
+  sbri_placed_hull hull_a = placed(a, &from_a), hull_b = placed(b, &from_b);
+  sbf_vec3 way = sbri_sub(sbri_sub(to_a.position, from_a.position), sbri_sub(to_b.position, from_b.position));
+  float size = a->rigid->radius * a->of->scale + b->rigid->radius * b->of->scale;
+  sbri_hull_pair pair;
+  if (!sbri_hulls_meet(&hull_a, &hull_b, sbri_length(way) + NEAR_SHARE * size, &pair)) return;
+  if (are_of_one(a, b) && overlap_at_rest(a, b)) return;
+  for (uint32_t i = 0; i < pair.count; i++) {
+    sbri_meet_touch t = {.a = rigid_side(a, into(&from_a, pair.on_a[i], a->of->scale)),
+        .b = rigid_side(b, into(&from_b, pair.on_b[i], b->of->scale)),
+        .normal = pair.normal};
+    add(f, a, b, &t);
+  }
+}
+
+/* What bears others is borne by the ground itself: with its planes among the touches the push of each is
+ * found with that of all. Soft bodies have their ground in every step of their own. */
+static void add_planes(const finding *f, uint32_t member) {
+  const sbri_meet_member *m = &f->members[member];
+  const sbri_rigid_solving *work = &m->parts.work;
+  for (uint32_t i = 0; m->parts.steps && i < work->touch_count; i++) {
+    const sbri_ground_touch *from = &work->touches[i];
+    if (f->group->touch_count >= f->group->touch_capacity) return;
+    sbri_meet_touch *t = &f->world->meetings->touches[f->group->first_touch + f->group->touch_count++];
+    sbf_vec3 on = sbri_scale(from->normal, from->offset);
+    *t = (sbri_meet_touch){.a = {.member = member, .rigid_body = (int32_t)from->body, .at = from->at},
+        .b = {.member = member,
+            .rigid_body = SBRI_MEET_PLANE,
+            .at = sbri_add_scaled(m->offset, on, m->scale),
+            .arm = sbri_scale(from->velocity, m->speed)},
+        .normal = from->normal,
+        .friction = from->friction};
+  }
+}
+
+/* ---- All ---- */
+
+void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
+  sbri_meetings *all = world->meetings;
+  finding f = {world, group, all->members + group->first_member};
+  group->touch_count = 0;
+  for (uint32_t m = 0; m < group->member_count; m++) {
+    const sbr_model *model = f.members[m].character->model;
+    for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
+      if (model->bodies[b].level) sbri_meet_surface_place(world, &f.members[m], b);
+  }
+  for (uint32_t i = 0; i < group->pair_count; i++) {
+    sbri_meet_pair pair = all->pairs[group->first_pair + i];
+    party a = party_of(&f, pair.a), b = party_of(&f, pair.b);
+    if (a.rigid && b.rigid) {
+      meet_hulls(&f, &a, &b);
+    } else if (a.rigid || b.rigid) {
+      const party *rigid = a.rigid ? &a : &b, *soft = a.rigid ? &b : &a;
+      meet_hull(&f, soft, rigid);
+      meet_corners(&f, rigid, soft);
+    } else {
+      meet_faces(&f, &a, &b);
+      meet_faces(&f, &b, &a);
+    }
+  }
+  for (uint32_t m = 0; m < group->member_count; m++) add_planes(&f, m);
+}

@@ -1,0 +1,217 @@
+/* Who may meet whom in a tick, by bounds of their ways; and the groups that follow. */
+#include "math/vec3.h"
+#include "meet/meetings.h"
+#include "solvers/scheme.h"
+
+/* As far as something may go in a tick: its present way, twice, and this share of its size. */
+static const float MOTION_SHARE = 0.05f;
+
+/* ---- Who there is ---- */
+
+static sbri_box soft_box(const sbr_world *world, const sbri_character *c, const sbri_body *body) {
+  const sbri_island *island = &c->model->islands[body->island];
+  const sbri_point *points = sbri_positions(c) + island->first_slot;
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  uint32_t first = body->slot_begin < body->slot_real_end ? body->slot_begin : island->free_count;
+  sbri_box box = sbri_box_of_point(sbri_vec3(points[first].x, points[first].y, points[first].z));
+  float most = 0;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    float square = v[0] * v[0] + v[SBRI_BLOCK] * v[SBRI_BLOCK] + v[2 * SBRI_BLOCK] * v[2 * SBRI_BLOCK];
+    most = square > most ? square : most;
+    box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
+  }
+  for (uint32_t slot = island->free_count; body->held && slot < island->slot_count; slot++)
+    box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
+  sbf_vec3 size = sbri_sub(box.high, box.low);
+  float by = 2 * sqrtf(most) * (float)world->tick_s * c->time_scale + MOTION_SHARE * body->rest_size_m +
+             body->source->collision.outer_thickness + body->margin_m +
+             body->sample_beyond * (size.x + size.y + size.z);
+  return sbri_box_in_world(sbri_box_grown(box, by), sbri_head(c)->origin, c->scale);
+}
+
+static sbri_box rigid_box(const sbr_world *world, const sbri_character *c, uint32_t b) {
+  const sbri_rigid_body *body = &c->model->rigid.bodies[b];
+  const sbri_rigid_body_state *s = &sbri_rigid_bodies(c)[b];
+  bool simulated = sbri_rigid_is_simulated(c, b);
+  sbr_transform now = simulated ? s->pose : sbri_rigid_target(c, sbri_pose(c), b),
+                before = sbri_rigid_target(c, sbri_previous_pose(c), b);
+  float tick_s = (float)world->tick_s * c->time_scale;
+  float way =
+      simulated ? sbri_length(s->velocity) * tick_s : sbri_length(sbri_sub(now.position, before.position));
+  float by = body->radius * (1 + MOTION_SHARE) + 2 * way;
+  return sbri_box_in_world(
+      sbri_box_grown(sbri_box_of_point(now.position), by), sbri_head(c)->origin, c->scale);
+}
+
+static void add(sbri_meetings *all, sbri_meeter meeter, sbri_box box) {
+  all->boxes[all->meeter_count] = box;
+  all->meeters[all->meeter_count++] = meeter;
+}
+
+static void list_character(sbr_world *world, uint32_t index) {
+  const sbri_character *c = &world->characters[index];
+  const sbr_model *model = c->model;
+  for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
+    const sbri_body *body = &model->bodies[b];
+    const sbf_collision *rule = &body->source->collision;
+    if (!body->level || model->islands[body->island].scheme->forceless) continue;
+    add(world->meetings,
+        (sbri_meeter){
+            .character = index, .number = b, .gives_way = true, .layer = rule->layer, .mask = rule->mask},
+        soft_box(world, c, body));
+  }
+  for (uint32_t b = 0; b < model->rigid.body_count; b++) {
+    const sbf_rigid_body *source = model->rigid.bodies[b].source;
+    if (!model->rigid.bodies[b].hull.face_count) continue;
+    add(world->meetings,
+        (sbri_meeter){index, b, true, sbri_rigid_is_simulated(c, b), source->layer, source->mask},
+        rigid_box(world, c, b));
+  }
+}
+
+/* ---- Pairs ---- */
+
+static bool are_jointed(const sbri_rigid_model *model, uint32_t a, uint32_t b) {
+  for (uint32_t k = model->bodies[a].joint_begin; k < model->bodies[a].joint_end; k++) {
+    const int32_t *bodies = model->joints[model->joints_of[k]].bodies;
+    if (bodies[0] == (int32_t)b || bodies[1] == (int32_t)b) return true;
+  }
+  return false;
+}
+
+/* Parts of one character that belong together: on a joint, flesh and what holds it, bodies of one island. */
+static bool belong_together(const sbr_model *model, const sbri_meeter *a, const sbri_meeter *b) {
+  if (a->rigid && b->rigid) return are_jointed(&model->rigid, a->number, b->number);
+  if (!a->rigid && !b->rigid) return false;
+  const sbri_meeter *soft = a->rigid ? b : a, *rigid = a->rigid ? a : b;
+  const sbri_island *island = &model->islands[model->bodies[soft->number].island];
+  for (uint32_t i = 0; i < island->carrier_count; i++)
+    if (island->carriers[i] == rigid->number) return true;
+  return !rigid->gives_way && model->bodies[soft->number].held; /* its own bones are inside it */
+}
+
+static bool may_meet(const sbr_world *world, const sbri_meeter *a, const sbri_meeter *b) {
+  if ((!a->gives_way && !b->gives_way) || !sbri_layers_meet(a->layer, a->mask, b->layer, b->mask))
+    return false;
+  return a->character != b->character || !belong_together(world->characters[a->character].model, a, b);
+}
+
+static void find_pairs(sbr_world *world) {
+  sbri_meetings *all = world->meetings;
+  sbri_bounds_tree_make(&all->tree, all->boxes, all->meeter_count);
+  for (uint32_t a = 0; a < all->meeter_count; a++) {
+    sbri_bounds_walk walk;
+    uint32_t b;
+    sbri_bounds_walk_begin(&walk, &all->tree, all->boxes[a]);
+    while (sbri_bounds_walk_next(&walk, &b)) {
+      if (b <= a || !sbri_box_meets(&all->boxes[a], &all->boxes[b]) ||
+          !may_meet(world, &all->meeters[a], &all->meeters[b]))
+        continue;
+      if (all->pair_count < all->touch_capacity) all->pairs[all->pair_count++] = (sbri_meet_pair){a, b};
+    }
+  }
+}
+
+/* ---- Groups ---- */
+
+static uint32_t root_of(uint32_t *group_of, uint32_t i) {
+  while (group_of[i] != i) i = group_of[i] = group_of[group_of[i]];
+  return i;
+}
+
+static bool is_awake(const sbri_character *c) {
+  if (sbri_head(c)->asleep) return false;
+  bool simulated = c->model->rigid.body_count && sbri_rigid_drive(c)->any;
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (!sbri_island_states(c)[i].asleep) return true;
+  return simulated ? !sbri_rigid_drive(c)->asleep : c->model->island_count == 0;
+}
+
+/* For this tick: how long it has been quiet goes on counting, so that who lies on each other fall asleep
+ * together. */
+static void stir(sbri_character *c) {
+  sbri_character_wake(c);
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_states(c)[i].asleep = 0;
+  if (c->model->rigid.body_count) sbri_rigid_drive(c)->asleep = 0;
+}
+
+/* Pairs one group after the other, in their order within each. */
+static void sort_pairs(sbri_meetings *all) {
+  for (uint32_t i = 1; i < all->pair_count; i++) {
+    sbri_meet_pair pair = all->pairs[i];
+    uint32_t group = all->group_of[all->meeters[pair.a].character], k = i;
+    while (k > 0 && all->group_of[all->meeters[all->pairs[k - 1].a].character] > group)
+      all->pairs[k] = all->pairs[k - 1], k--;
+    all->pairs[k] = pair;
+  }
+}
+
+/* In `group_of` while groups are made: it steps with its group. */
+#define STEPS_ALONG 0x80000000u
+
+/* The characters whose group has that number; whether some of them is awake. */
+static bool add_members(sbr_world *world, sbri_meet_group *group, uint32_t number) {
+  sbri_meetings *all = world->meetings;
+  bool awake = false;
+  for (uint32_t i = number; i < world->character_capacity; i++) {
+    if (all->group_of[i] != number) continue;
+    awake = awake || is_awake(&world->characters[i]);
+    all->members[group->first_member + group->member_count++].character = &world->characters[i];
+  }
+  group->origin = sbri_head(all->members[group->first_member].character)->origin;
+  for (uint32_t i = 0; i < group->member_count && awake; i++) {
+    sbri_character *c = all->members[group->first_member + i].character;
+    all->group_of[c - world->characters] |= STEPS_ALONG;
+    stir(c);
+  }
+  return awake;
+}
+
+/* Room for touches by how many pairs each group has. */
+static void share_touches(sbri_meetings *all) {
+  uint32_t pairs = 0, first = 0;
+  for (uint32_t g = 0; g < all->group_count; g++) pairs += all->groups[g].pair_count;
+  for (uint32_t g = 0; g < all->group_count; g++) {
+    sbri_meet_group *group = &all->groups[g];
+    group->first_touch = first;
+    group->touch_capacity = (uint32_t)((uint64_t)all->touch_capacity * group->pair_count / pairs);
+    first += group->touch_capacity;
+  }
+}
+
+static void make_groups(sbr_world *world) {
+  sbri_meetings *all = world->meetings;
+  uint32_t *group_of = all->group_of, filled = 0;
+  for (uint32_t i = 0; i < all->pair_count;) {
+    uint32_t number = group_of[all->meeters[all->pairs[i].a].character] & ~STEPS_ALONG, first = i;
+    while (i < all->pair_count && group_of[all->meeters[all->pairs[i].a].character] == number) i++;
+    sbri_meet_group *group = &all->groups[all->group_count];
+    *group = (sbri_meet_group){.first_pair = first, .pair_count = i - first, .first_member = filled};
+    if (!add_members(world, group, number)) continue; /* they sleep on */
+    filled += group->member_count;
+    all->group_count++;
+  }
+  for (uint32_t i = 0; i < world->character_capacity; i++)
+    group_of[i] = group_of[i] & STEPS_ALONG ? group_of[i] & ~STEPS_ALONG : UINT32_MAX;
+}
+
+void sbri_meet_pairs_find(sbr_world *world) {
+  sbri_meetings *all = world->meetings;
+  uint32_t *group_of = all->group_of;
+  all->meeter_count = all->pair_count = all->group_count = 0;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    group_of[i] = i;
+    if (world->characters[i].model && !sbri_head(&world->characters[i])->paused) list_character(world, i);
+  }
+  find_pairs(world);
+  for (uint32_t i = 0; i < all->pair_count; i++) {
+    uint32_t a = root_of(group_of, all->meeters[all->pairs[i].a].character),
+             b = root_of(group_of, all->meeters[all->pairs[i].b].character);
+    group_of[a > b ? a : b] = a > b ? b : a;
+  }
+  for (uint32_t i = 0; i < world->character_capacity; i++) group_of[i] = root_of(group_of, i);
+  sort_pairs(all);
+  make_groups(world);
+  share_touches(all);
+}

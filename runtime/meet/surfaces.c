@@ -1,0 +1,198 @@
+/* What soft bodies meet others with, and the memory for it. */
+#include "math/vec3.h"
+#include "meet/meetings.h"
+#include "sbfmt/mechanics.h"
+
+/* ---- Making ---- */
+
+static bool has_surface(const sbri_body *body) {
+  return body->level && body->surface.vertex_count > 0 && body->source->surface.polygon_sizes.count > 0;
+}
+
+static void add_triangles(const sbf_polygon_mesh *mesh, sbri_meet_surface *surface) {
+  const uint32_t *corners = mesh->polygon_points.at;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[p]; k++) {
+      const uint32_t c[3] = {corners[0], corners[k - 1], corners[k]};
+      float least = INFINITY;
+      for (int i = 0; i < 3; i++) least = fminf(least, surface->samples[c[i]].weights[0] != 0 ? 1.0f : 0.0f);
+      if (!(least > 0)) continue; /* some corner follows frames, not points */
+      uint32_t *to = surface->triangles + 3 * (size_t)surface->triangle_count++;
+      to[0] = c[0], to[1] = c[1], to[2] = c[2];
+    }
+}
+
+static uint32_t count_triangles(const sbf_polygon_mesh *mesh) {
+  uint32_t count = 0;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++)
+    count += mesh->polygon_sizes.at[p] > 2 ? mesh->polygon_sizes.at[p] - 2 : 0;
+  return count;
+}
+
+static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surface *s, sbfi_arena *arena) {
+  const sbri_island *island = &model->islands[body->island];
+  bool meshed = has_surface(body);
+  uint32_t bare = body->slot_real_end - body->slot_begin;
+  uint32_t vertices = meshed ? body->surface.vertex_count : bare;
+  uint32_t triangles = meshed ? count_triangles(&body->source->surface) : 0;
+  s->samples = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->samples);
+  s->triangles = sbfi_arena_allocate(arena, 3 * (size_t)triangles + 1, sizeof *s->triangles);
+  s->places = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->places);
+  s->ways = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->ways);
+  s->boxes = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->boxes);
+  s->tree.items = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->tree.items);
+  s->tree.nodes = sbfi_arena_allocate(arena, sbri_bounds_tree_nodes(triangles), sizeof *s->tree.nodes);
+  if (!s->samples || !s->triangles || !s->places || !s->ways || !s->boxes || !s->tree.items || !s->tree.nodes)
+    return false;
+  s->vertex_count = vertices;
+  for (uint32_t v = 0; v < vertices; v++) {
+    uint32_t slot = body->slot_begin + v;
+    s->samples[v] = meshed ? sbri_sample_of(island, &body->surface, v)
+                           : (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, 1, UINT32_MAX};
+  }
+  if (!meshed) return true;
+  add_triangles(&body->source->surface, s);
+  sbf_body_measures measures;
+  sbf_body_measure(body->source, &measures);
+  s->two_sided = measures.sheet || body->rest_volume_m3 == 0;
+  return true;
+}
+
+bool sbri_meet_surfaces_make(sbr_world *world, uint32_t character) {
+  sbri_meetings *all = world->meetings;
+  const sbr_model *model = world->characters[character].model;
+  if (!all || all->surfaces[character]) return true;
+  uint32_t count = model->asset->soft_bodies.count;
+  sbfi_arena *arena = &all->arenas[character];
+  sbfi_arena_init(arena, &world->allocator, 0);
+  sbri_meet_surface *surfaces = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *surfaces);
+  bool good = surfaces != NULL;
+  for (uint32_t b = 0; b < count && good; b++) {
+    const sbri_body *body = &model->bodies[b];
+    if (body->level) good = make(model, body, &surfaces[b], arena);
+  }
+  unsigned char *kept = good ? sbfi_arena_allocate(arena, 1, model->layout.state_size) : NULL;
+  good = kept != NULL;
+  all->kept[character] = kept;
+  if (good)
+    all->surfaces[character] = surfaces;
+  else
+    sbfi_arena_free(arena);
+  return good;
+}
+
+void sbri_meet_surfaces_free(sbr_world *world, uint32_t character) {
+  sbri_meetings *all = world->meetings;
+  if (!all || !all->surfaces[character]) return;
+  sbfi_arena_free(&all->arenas[character]);
+  all->surfaces[character] = NULL;
+}
+
+/* ---- Memory of all ---- */
+
+static void free_meeters(sbr_world *world) {
+  sbri_meetings *all = world->meetings;
+  size_t capacity = all->meeter_capacity;
+  sbfi_free(&world->allocator, all->meeters, capacity * sizeof *all->meeters);
+  sbfi_free(&world->allocator, all->boxes, capacity * sizeof *all->boxes);
+  sbfi_free(&world->allocator, all->tree.items, capacity * sizeof *all->tree.items);
+  sbfi_free(&world->allocator, all->tree.nodes,
+      sbri_bounds_tree_nodes(all->meeter_capacity) * sizeof *all->tree.nodes);
+  all->meeters = NULL, all->boxes = NULL, all->tree.items = NULL, all->tree.nodes = NULL;
+  all->meeter_capacity = all->meeter_count = 0;
+}
+
+static uint32_t bodies_of(const sbr_model *model) {
+  return model ? model->asset->soft_bodies.count + model->rigid.body_count : 0;
+}
+
+bool sbri_meetings_reserve(sbr_world *world, const sbr_model *model) {
+  sbri_meetings *all = world->meetings;
+  if (!all) return true;
+  uint32_t needed = bodies_of(model);
+  for (uint32_t i = 0; i < world->character_capacity; i++) needed += bodies_of(world->characters[i].model);
+  if (needed <= all->meeter_capacity) return true;
+  free_meeters(world);
+  all->meeter_capacity = needed;
+  all->meeters = sbfi_allocate(&world->allocator, needed * sizeof *all->meeters);
+  all->boxes = sbfi_allocate(&world->allocator, needed * sizeof *all->boxes);
+  all->tree.items = sbfi_allocate(&world->allocator, needed * sizeof *all->tree.items);
+  all->tree.nodes =
+      sbfi_allocate(&world->allocator, sbri_bounds_tree_nodes(needed) * sizeof *all->tree.nodes);
+  if (all->meeters && all->boxes && all->tree.items && all->tree.nodes) return true;
+  free_meeters(world);
+  return false;
+}
+
+void sbri_meetings_free(sbr_world *world) {
+  sbri_meetings *all = world->meetings;
+  if (!all) return;
+  const sbf_allocator *a = &world->allocator;
+  size_t characters = all->character_capacity, touches = all->touch_capacity;
+  for (uint32_t i = 0; all->surfaces && i < characters; i++) sbri_meet_surfaces_free(world, i);
+  free_meeters(world);
+  sbfi_free(a, all->arenas, characters * sizeof *all->arenas);
+  sbfi_free(a, all->surfaces, characters * sizeof *all->surfaces);
+  sbfi_free(a, all->kept, characters * sizeof *all->kept);
+  sbfi_free(a, all->group_of, characters * sizeof *all->group_of);
+  sbfi_free(a, all->members, characters * sizeof *all->members);
+  sbfi_free(a, all->groups, characters * sizeof *all->groups);
+  sbfi_free(a, all->pairs, touches * sizeof *all->pairs);
+  sbfi_free(a, all->touches, touches * sizeof *all->touches);
+  sbfi_free(a, all, sizeof *all);
+  world->meetings = NULL;
+}
+
+/* ---- In a tick ---- */
+
+static sbf_vec3 way_of(const sbri_meet_member *m, const sbri_island *island, const sbri_sample *s) {
+  const sbri_character *c = m->character;
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  const sbri_point *from = sbri_positions(c) + island->first_slot, *to = sbri_targets(c) + island->first_slot;
+  sbf_vec3 sum = {0, 0, 0};
+  for (int k = 0; k < 4; k++) {
+    uint32_t slot = s->slots[k];
+    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    sbf_vec3 way =
+        slot < island->free_count
+            ? sbri_scale(sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]), m->tick_s)
+            : sbri_vec3(to[slot].x - from[slot].x, to[slot].y - from[slot].y, to[slot].z - from[slot].z);
+    sum = sbri_add_scaled(sum, way, s->weights[k]);
+  }
+  return sbri_scale(sum, m->scale);
+}
+
+void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *m, uint32_t soft_body) {
+  const sbri_character *c = m->character;
+  const sbri_body *body = &c->model->bodies[soft_body];
+  const sbri_island *island = &c->model->islands[body->island];
+  sbri_meet_surface *s = &world->meetings->surfaces[c - world->characters][soft_body];
+  const sbri_point *points = sbri_positions(c) + island->first_slot;
+  if (island->tears && s->triangle_count) {
+    sbri_island now = sbri_island_now(c, island);
+    sbri_skin skin = sbri_skin_now(c, &body->surface);
+    for (uint32_t v = 0; v < s->vertex_count; v++) s->samples[v] = sbri_sample_of(&now, &skin, v);
+  }
+  for (uint32_t v = 0; v < s->vertex_count; v++) {
+    const sbri_sample *sample = &s->samples[v];
+    sbf_vec3 x = {0, 0, 0};
+    for (int k = 0; k < 4; k++) {
+      const sbri_point *p = &points[sample->slots[k]];
+      x = sbri_add_scaled(x, sbri_vec3(p->x, p->y, p->z), sample->weights[k]);
+    }
+    s->places[v] = sbri_add_scaled(m->offset, x, m->scale);
+    s->ways[v] = way_of(m, island, sample);
+  }
+  const sbf_collision *rule = &body->source->collision;
+  float reach = m->scale * fmaxf(rule->outer_thickness, rule->inner_thickness);
+  for (uint32_t t = 0; t < s->triangle_count; t++) {
+    const uint32_t *corners = s->triangles + 3 * (size_t)t;
+    sbri_box box = sbri_box_of_point(s->places[corners[0]]);
+    for (int k = 0; k < 3; k++) {
+      box = sbri_box_with(box, s->places[corners[k]]);
+      box = sbri_box_with(box, sbri_add(s->places[corners[k]], s->ways[corners[k]]));
+    }
+    s->boxes[t] = sbri_box_grown(box, reach);
+  }
+  sbri_bounds_tree_make(&s->tree, s->boxes, s->triangle_count);
+}

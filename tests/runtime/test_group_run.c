@@ -1,0 +1,397 @@
+/* Bodies of characters that meet each other. */
+#include <math.h>
+
+#include "collision_scenes.h"
+#include "core/world.h"
+#include "harness.h"
+#include "host_threads.h"
+#include "rigid_scenes.h"
+
+static const sbf_vec3 weight = {0, -9.81f, 0};
+
+static scene begin(sbf_vec3 gravity) {
+  scene s = rigid_begin();
+  s.asset->environment.gravity = gravity;
+  return s;
+}
+
+static void start(scene *s) {
+  scene_start(s);
+  ck_assert(sbr_world_bodies_meet(s->world, 0, NULL) == SBF_OK);
+}
+
+static void throw(scene * s, uint32_t body, sbf_vec3 impulse) {
+  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  sbf_vec3 c = rigid_state(s, body).center;
+  sbr_character_rigid_push(s->world, s->character, body,
+      (sbr_double3){o.x + (double)c.x, o.y + (double)c.y, o.z + (double)c.z}, impulse);
+}
+
+static double size(sbf_vec3 v) {
+  return sqrt((double)(v.x * v.x + v.y * v.y + v.z * v.z));
+}
+
+static sbr_character_id another(scene *s, sbr_double3 position) {
+  sbr_character_definition d = s->character_definition;
+  sbr_character_id id;
+  d.position = position;
+  ck_assert(sbr_character_create(s->world, s->model, &d, &id, NULL) == SBF_OK);
+  return id;
+}
+
+/* ---- Momentum ---- */
+
+typedef struct momentum {
+  double linear[3], angular[3];
+} momentum;
+
+static void add(momentum *to, double mass, sbf_vec3 at, sbf_vec3 v) {
+  const double x[3] = {(double)at.x, (double)at.y, (double)at.z},
+               p[3] = {mass * (double)v.x, mass * (double)v.y, mass * (double)v.z};
+  for (int k = 0; k < 3; k++) {
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    to->linear[k] += p[k];
+    to->angular[k] += x[i] * p[j] - x[j] * p[i];
+  }
+}
+
+static sbf_vec3 slot_velocity(const sbri_character *c, const sbri_island *island, uint32_t slot) {
+  const float *v = sbri_velocities(c) + 3 * (size_t)island->first_slot +
+                   3 * (size_t)(slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+  return (sbf_vec3){v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
+}
+
+static momentum measure(const scene *s) {
+  momentum m = {{0}, {0}};
+  for (uint32_t i = 0; i < s->world->character_capacity; i++) {
+    const sbri_character *c = &s->world->characters[i];
+    if (!c->model) continue;
+    for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
+      const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
+      add(&m, (double)c->model->rigid.bodies[b].mass, body->pose.position, body->velocity);
+      m.angular[0] += (double)body->spin.x, m.angular[1] += (double)body->spin.y;
+      m.angular[2] += (double)body->spin.z;
+    }
+    for (uint32_t k = 0; k < c->model->island_count; k++) {
+      const sbri_island *island = &c->model->islands[k];
+      const sbri_point *points = sbri_positions(c) + island->first_slot;
+      for (uint32_t slot = 0; slot < island->free_count; slot++)
+        add(&m, (double)island->masses[slot], (sbf_vec3){points[slot].x, points[slot].y, points[slot].z},
+            slot_velocity(c, island, slot));
+    }
+  }
+  return m;
+}
+
+static double off(const momentum *a, const momentum *b) {
+  double worst = 0;
+  for (int k = 0; k < 3; k++) {
+    worst = fmax(worst, fabs(a->linear[k] - b->linear[k]));
+    worst = fmax(worst, fabs(a->angular[k] - b->angular[k]));
+  }
+  return worst;
+}
+
+/* ---- Rigid with rigid ---- */
+
+START_TEST(boxes_stand_on_each_other)
+{
+  enum { BOXES = 6 };
+  scene s = begin(weight);
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.character_definition.position.y = 0;
+  for (int i = 0; i < BOXES; i++)
+    rigid_box(&s, (sbf_vec3){0.01f * (float)(i % 2), 0.101f + 0.202f * (float)i, 0},
+        (sbf_vec3){0.2f, 0.2f, 0.2f}, i == 5 ? 5 : 1);
+  start(&s);
+  scene_ticks(&s, 300);
+  for (uint32_t i = 0; i < BOXES; i++) {
+    ck_assert_float_eq_tol(rigid_state(&s, i).center.y, 0.1f + 0.2f * (float)i, 2e-3f);
+    ck_assert_double_le(size(rigid_state(&s, i).velocity), 1e-3);
+  }
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(a_hit_keeps_momentum)
+{
+  scene s = begin((sbf_vec3){0, 0, 0});
+  rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.3f, 0.2f}, 1);
+  rigid_box(&s, (sbf_vec3){0, 0.1f, 1}, (sbf_vec3){0.2f, 0.2f, 0.4f}, 30);
+  rigid_body(&s, 0)->friction = 0.5f;
+  start(&s);
+  throw(&s, 0, (sbf_vec3){0.2f, 0, 4});
+  momentum before = measure(&s);
+  scene_ticks(&s, 60);
+  momentum after = measure(&s);
+  ck_assert_double_le(off(&before, &after), 1e-5);
+  ck_assert_double_ge(size(rigid_state(&s, 1).velocity), 0.02);
+  scene_free(&s);
+}
+END_TEST
+
+/* Two boxes of the same mass, face to face: they part with e times the speed. */
+START_TEST(boxes_bounce_by_their_restitution)
+{
+  const float es[3] = {0, 0.5f, 0.8f};
+  scene s = begin((sbf_vec3){0, 0, 0});
+  for (uint32_t i = 0; i < 2; i++) {
+    rigid_box(&s, (sbf_vec3){0, 0, (float)i}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
+    rigid_body(&s, i)->restitution = es[_i];
+  }
+  start(&s);
+  throw(&s, 0, (sbf_vec3){0, 0, 2});
+  scene_ticks(&s, 60);
+  double apart = (double)(rigid_state(&s, 1).velocity.z - rigid_state(&s, 0).velocity.z);
+  ck_assert_double_eq_tol(apart / 2, (double)es[_i], 0.02);
+  scene_free(&s);
+}
+END_TEST
+
+/* On a slab that slides on the ground: slows down by friction, and draws the slab along. */
+START_TEST(friction_is_mutual)
+{
+  scene s = begin(weight);
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.character_definition.position.y = 0;
+  rigid_box(&s, (sbf_vec3){0, 0.1f, 0}, (sbf_vec3){4, 0.2f, 4}, 4);
+  rigid_box(&s, (sbf_vec3){0, 0.3f, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
+  rigid_body(&s, 0)->friction = 0.05f, rigid_body(&s, 1)->friction = 1.8f; /* 0.3 between them */
+  start(&s);
+  throw(&s, 1, (sbf_vec3){2, 0, 0});
+  scene_ticks(&s, 12);
+  double v = (double)rigid_state(&s, 1).velocity.x, slab = (double)rigid_state(&s, 0).velocity.x;
+  double drag = 0.3 * 9.81 * 0.2, ground = 0.05 * 5 * 9.81 * 0.2;
+  ck_assert_double_eq_tol(v, 2 - drag, 0.02);
+  ck_assert_double_eq_tol(slab, (drag - ground) / 4, 0.01);
+  scene_free(&s);
+}
+END_TEST
+
+/* ---- Soft with rigid ---- */
+
+START_TEST(a_sheet_holds_what_falls_on_it)
+{
+  scene s = begin(weight);
+  scene_bodies(&s, 1);
+  collision_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, 16, true);
+  scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
+  rigid_box(&s, (sbf_vec3){0.05f, 0.3f, 0}, (sbf_vec3){0.2f, 0.1f, 0.2f}, 0.1f);
+  start(&s);
+  double least = 9;
+  for (int i = 0; i < 240; i++) {
+    scene_ticks(&s, 1);
+    least = fmin(least, (double)rigid_state(&s, 0).center.y);
+  }
+  ck_assert_double_ge(least, -0.4);
+  ck_assert_double_le(size(rigid_state(&s, 0).velocity), 0.05);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(a_fast_ball_does_not_pass_a_sheet)
+{
+  scene s = begin((sbf_vec3){0, 0, 0});
+  scene_bodies(&s, 1);
+  collision_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, 24, false);
+  rigid_box(&s, (sbf_vec3){0, 3, 0}, (sbf_vec3){0.05f, 0.05f, 0.05f}, 0.05f);
+  start(&s);
+  throw(&s, 0, (sbf_vec3){0, -5, 0});
+  momentum before = measure(&s);
+  for (int i = 0; i < 20; i++) {
+    scene_ticks(&s, 1);
+    ck_assert_float_le(scene_point(&s, 0, 312).y, rigid_state(&s, 0).center.y);
+  }
+  momentum after = measure(&s);
+  for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(before.linear[k], after.linear[k], 1e-4);
+  scene_free(&s);
+}
+END_TEST
+
+/* ---- Soft with soft ---- */
+
+enum { CELLS = 3 };
+
+/* The sides of the box over all its points. */
+static void cube_surface(scene *s, uint32_t body, const lattice_box *box) {
+  enum { MOST = 6 * CELLS * CELLS };
+  uint32_t *sizes = sbf_asset_allocate(s->asset, MOST, sizeof *sizes);
+  uint32_t *corners = sbf_asset_allocate(s->asset, 4 * MOST, sizeof *corners);
+  sbf_vec3 *at = sbf_asset_allocate(s->asset, box->point_count, sizeof *at);
+  uint32_t count = 0;
+  ck_assert(sizes && corners && at);
+  for (uint32_t i = 0; i < box->point_count; i++) at[i] = box->positions[i];
+  for (uint32_t axis = 0; axis < 3; axis++)
+    for (uint32_t far = 0; far < 2; far++)
+      for (uint32_t u = 0; u < CELLS; u++)
+        for (uint32_t v = 0; v < CELLS; v++, count++) {
+          static const uint32_t turns[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+          sizes[count] = 4;
+          for (int k = 0; k < 4; k++) {
+            uint32_t c[3], turn = (uint32_t)(far ? k : 3 - k);
+            c[axis] = far * CELLS;
+            c[(axis + 1) % 3] = u + turns[turn][0], c[(axis + 2) % 3] = v + turns[turn][1];
+            corners[4 * count + (uint32_t)k] = lattice_box_point(box, c[0], c[1], c[2]);
+          }
+        }
+  sbf_polygon_mesh *mesh = &scene_body(s, body)->surface;
+  mesh->positions = (sbf_vec3_list){at, box->point_count};
+  mesh->polygon_sizes = (sbf_u32_list){sizes, count};
+  mesh->polygon_points = (sbf_u32_list){corners, 4 * count};
+}
+
+static void cube(scene *s, uint32_t body, sbf_vec3 low, float side, float density) {
+  lattice_box box =
+      lattice_box_make(low, (sbf_vec3){side, side, side}, CELLS, CELLS, CELLS, density, 1e5f, 0.3f);
+  (void)scene_lattice(s, body, &box);
+  cube_surface(s, body, &box);
+  scene_body(s, body)->attributes.damping_ratio = 0.1f;
+  scene_body(s, body)->attributes.friction = 0.5f;
+  lattice_box_free(&box);
+}
+
+/* Least and most height of a body's points, relative to the character's origin. */
+static void heights(const scene *s, uint32_t body, float *least, float *most) {
+  static sbf_vec3 at[512];
+  uint32_t count = scene_read(s, body, at, 512);
+  *least = 1e9f, *most = -1e9f;
+  for (uint32_t i = 0; i < count; i++) {
+    *least = at[i].y < *least ? at[i].y : *least;
+    *most = at[i].y > *most ? at[i].y : *most;
+  }
+}
+
+static double fastest_of(const scene *s) {
+  double fastest = 0;
+  const sbri_character *c = sbri_character_of(s->world, s->character);
+  for (uint32_t k = 0; k < c->model->island_count; k++)
+    for (uint32_t slot = 0; slot < c->model->islands[k].free_count; slot++)
+      fastest = fmax(fastest, size(slot_velocity(c, &c->model->islands[k], slot)));
+  return fastest;
+}
+START_TEST(soft_cubes_stand_on_each_other)
+{
+  scene s = begin(weight);
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.character_definition.position.y = 0;
+  scene_bodies(&s, 3);
+  cube(&s, 0, (sbf_vec3){0, 0.001f, 0}, 0.3f, 1000);
+  cube(&s, 1, (sbf_vec3){0.04f, 0.305f, 0.05f}, 0.2f, 1000);
+  cube(&s, 2, (sbf_vec3){0.06f, 0.509f, 0.08f}, 0.15f, 500);
+  start(&s);
+  float least[3], most[3];
+  scene_ticks(&s, 300);
+  for (uint32_t i = 0; i < 3; i++) { heights(&s, i, &least[i], &most[i]); }
+  for (int i = 0; i < 2; i++) ck_assert_float_ge(least[i + 1], most[i] - 0.01f);
+  ck_assert_float_ge(most[2], 0.62f);
+  ck_assert_double_le(fastest_of(&s), 0.05);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(soft_cubes_of_two_characters_keep_momentum)
+{
+  scene s = begin((sbf_vec3){0, 0, 0});
+  scene_bodies(&s, 1);
+  cube(&s, 0, (sbf_vec3){-0.1f, -0.1f, -0.1f}, 0.2f, 1000);
+  start(&s);
+  sbr_character_id other = another(&s, (sbr_double3){0.05, s.character_definition.position.y, 0.4});
+  sbri_character *c = sbri_character_of(s.world, s.character);
+  const sbri_island *island = &c->model->islands[0];
+  for (uint32_t slot = 0; slot < island->free_count; slot++)
+    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + 2 * SBRI_BLOCK + slot % SBRI_BLOCK] = 2;
+  momentum before = measure(&s);
+  scene_ticks(&s, 60);
+  momentum after = measure(&s);
+  const sbri_character *second = sbri_character_of(s.world, other);
+  double speed = 0;
+  for (uint32_t slot = 0; slot < island->free_count; slot++)
+    speed += (double)slot_velocity(second, island, slot).z / island->free_count;
+  for (int k = 0; k < 3; k++)
+    ck_assert_double_eq_tol(before.linear[k], after.linear[k], 1e-4 * before.linear[2]);
+  ck_assert_double_ge(speed, 0.9);
+  scene_free(&s);
+}
+END_TEST
+
+/* What lies in each other at rest stays as it is; what the filters part passes through. */
+START_TEST(overlap_at_rest_does_not_fight)
+{
+  scene s = begin((sbf_vec3){0, 0, 0});
+  scene_bodies(&s, 2);
+  cube(&s, 0, (sbf_vec3){0, 0, 0}, 0.2f, 1000);
+  cube(&s, 1, (sbf_vec3){0.15f, 0.02f, 0.02f}, 0.2f, 1000);
+  rigid_box(&s, (sbf_vec3){0.1f, 0.1f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
+  rigid_box(&s, (sbf_vec3){0.15f, 0.1f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
+  start(&s);
+  sbf_vec3 a = scene_point(&s, 0, 0), b = scene_point(&s, 1, 0);
+  scene_ticks(&s, 60);
+  sbf_vec3 a1 = scene_point(&s, 0, 0), b1 = scene_point(&s, 1, 0);
+  ck_assert_float_le(fabsf(a1.x - a.x) + fabsf(b1.x - b.x), 1e-4f);
+  ck_assert_double_le(size(rigid_state(&s, 0).velocity), 1e-4);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(filters_let_through)
+{
+  scene s = begin((sbf_vec3){0, 0, 0});
+  rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
+  rigid_box(&s, (sbf_vec3){0, 0, 1}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
+  rigid_body(&s, 0)->layer = 4, rigid_body(&s, 1)->mask = 3;
+  start(&s);
+  throw(&s, 0, (sbf_vec3){0, 0, 2});
+  scene_ticks(&s, 60);
+  ck_assert_float_eq_tol(rigid_state(&s, 0).velocity.z, 2, 1e-5f);
+  ck_assert_float_eq(rigid_state(&s, 1).velocity.z, 0);
+  scene_free(&s);
+}
+END_TEST
+
+/* A heap of everything, several times: the same bits on any number of threads. */
+static uint64_t run_heap(int threads) {
+  scene s = begin(weight);
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.world_definition.tasks = (sbr_tasks){.run = run_on_threads, .user = &threads};
+  s.world_definition.sleep_after_s = 0.5;
+  s.character_definition.position.y = 0;
+  scene_bodies(&s, 2);
+  cube(&s, 0, (sbf_vec3){0, 0.01f, 0}, 0.2f, 1000);
+  collision_sheet(&s, 1, (sbf_vec3){0.1f, 0.5f, 0.1f}, 0.6f, 8, false);
+  rigid_box(&s, (sbf_vec3){0.1f, 0.3f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
+  rigid_box(&s, (sbf_vec3){0.12f, 0.42f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 2);
+  start(&s);
+  (void)another(&s, (sbr_double3){0.05, 0.7, 0.05});
+  (void)another(&s, (sbr_double3){3, 0, 0});
+  scene_ticks(&s, 90);
+  uint64_t hash = sbr_world_state_hash(s.world);
+  scene_free(&s);
+  return hash;
+}
+
+START_TEST(any_number_of_threads_gives_the_same_bits)
+{
+  uint64_t one = run_heap(1);
+  ck_assert_uint_eq(one, run_heap(3));
+  ck_assert_uint_eq(one, run_heap(8));
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("group_run");
+  TCase *tests = tcase_create("all");
+  tcase_set_timeout(tests, 120);
+  tcase_add_test(tests, boxes_stand_on_each_other);
+  tcase_add_test(tests, a_hit_keeps_momentum);
+  tcase_add_loop_test(tests, boxes_bounce_by_their_restitution, 0, 3);
+  tcase_add_test(tests, friction_is_mutual);
+  tcase_add_test(tests, a_sheet_holds_what_falls_on_it);
+  tcase_add_test(tests, a_fast_ball_does_not_pass_a_sheet);
+  tcase_add_test(tests, soft_cubes_stand_on_each_other);
+  tcase_add_test(tests, soft_cubes_of_two_characters_keep_momentum);
+  tcase_add_test(tests, overlap_at_rest_does_not_fight);
+  tcase_add_test(tests, filters_let_through);
+  tcase_add_test(tests, any_number_of_threads_gives_the_same_bits);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
