@@ -16,7 +16,7 @@ MOTION = MECHANICS + ["libsbfmt/motion"]
 FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/motion", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
 RUNTIME_MATH = MECHANICS + ["runtime/math"]
 RUNTIME = MOTION + ["runtime/" + part for part in (
-    "math", "model", "core", "kernels", "skin", "solvers", "rigid", "skeleton", "collide", "ik", "gait", "chain", "detail")]
+    "math", "model", "core", "kernels", "skin", "solvers", "rigid", "skeleton", "collide", "meet", "ik", "gait", "chain", "detail")]
 
 # Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.
 MAY_USE = {
