@@ -23,7 +23,7 @@ import pictures  # noqa: E402
 BUNDLE, SCREEN, FOLDER, *SMOOTH = sys.argv[sys.argv.index("--") + 1:]
 WINDOW = bpy.context.window_manager.windows[0]
 OWN_PANELS = []
-WORK = []
+WORK, CHECKS = [], []
 
 
 # ---- The window ----
@@ -205,6 +205,35 @@ def mend_it():
         raise RuntimeError("the button did not mend the face")
 
 
+def idle(times):
+    """That many calls, in which nothing is touched, as a step; then `CHECKS` holds how many checks were made unasked until now."""
+    left = [times]
+
+    def wait():
+        from soft_body_format.operators import live_check
+        left[0] -= 1
+        if left[0] > 0:
+            return False
+        CHECKS.append(live_check.Live.count)
+        print("checks made unasked:", CHECKS)
+        return True
+    return wait
+
+
+def touch():
+    """A change, which is checked unasked however slow this machine is."""
+    from soft_body_format.operators import live_check
+    live_check.MOST_S = 1e6
+    bpy.data.objects["Head"].data.update()
+
+
+def expect_quiet():
+    if CHECKS[-1] != CHECKS[-2] or CHECKS[-1] == 0:
+        raise RuntimeError(f"a change is to be checked, and not again and again: {CHECKS}")
+    from soft_body_format.operators import live_check
+    live_check.MOST_S = 0
+
+
 def add_follower():
     bpy.context.scene.soft_body_format.gait.followers.add().bone = "head"
 
@@ -289,6 +318,7 @@ STEPS = (
     several(press_build, lambda: only("check", "build", "drawn")), until(is_built), lambda: tab("SCENE"),
     shoot("blender", "VIEW_3D", "PROPERTIES"),
     several(break_something, lambda: only("check")), shoot("blender-check", "PROPERTIES"), mend_it,
+    touch, idle(8), idle(8), expect_quiet,
     lambda: only("gait", "legs"), shoot("blender-gait", "PROPERTIES"),
     several(add_follower, lambda: only("head", "tails", "followers", "gait")), shoot("blender-tails", "PROPERTIES"),
     several(bend, lambda: only("bone", "bone_material"),

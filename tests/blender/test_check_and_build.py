@@ -2,6 +2,7 @@
 
 import bpy
 import fixtures
+from soft_body_format.operators import live_check
 from soft_body_format.overlay import structure
 
 
@@ -34,6 +35,45 @@ class Check(fixtures.SceneTest):
 
     def test_an_empty_scene_says_so(self):
         self.assertIn("nothing to export", self.messages()[0].message)
+
+
+class Live(fixtures.SceneTest):
+    def setUp(self):
+        super().setUp()
+        self.box = fixtures.box("b")
+
+    def change(self, act):
+        """What Blender's main loop does after a change: tells of it, and calls the timer when its time has come."""
+        act()
+        bpy.context.view_layer.update()
+        waits = bpy.app.timers.is_registered(live_check.look)
+        if waits:
+            self.assertGreater(live_check.look(), 0)  # not while things change
+            live_check.Live.changed_at -= live_check.QUIET_S
+            self.assertIsNone(live_check.look())
+            bpy.app.timers.unregister(live_check.look)
+        live_check.Live.deaf_until = 0
+        return waits, [one.code for one in self.scene.soft_body_format.findings]
+
+    def flip(self):
+        self.box.data.polygons[2].flip()
+        self.box.data.update()
+
+    def test_the_list_follows_the_scene(self):
+        self.assertEqual(self.change(self.flip), (False, []))  # nobody has asked yet
+        self.flip()
+        bpy.ops.sbfmt.check()
+        self.assertTrue(self.change(self.flip)[1].count("SURFACE_WINDING"))
+        self.assertFalse(self.change(self.flip)[1].count("SURFACE_WINDING"))
+        self.assertFalse(self.change(lambda: None)[0])  # a check is no change
+
+    def test_it_can_be_turned_off_and_leaves_large_scenes_alone(self):
+        bpy.ops.sbfmt.check()
+        settings = self.scene.soft_body_format
+        settings.checks_live = False
+        self.assertFalse(self.change(self.flip)[0])
+        settings.checks_live, settings.check_time = True, 2 * live_check.MOST_S
+        self.assertFalse(self.change(self.flip)[0])
 
 
 class Build(fixtures.SceneTest):

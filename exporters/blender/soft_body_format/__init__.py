@@ -11,10 +11,12 @@ bl_info = {
 }
 
 from . import panels, preview, settings  # noqa: E402
-from .operators import bake_preview, build_scene, check_scene, copy_settings, export, import_bundle, preview_scene  # noqa: E402
+from .operators import (bake_preview, build_scene, check_scene, copy_settings, export, import_bundle, live_check,  # noqa: E402
+                        preview_scene)
 from .overlay import joints, structure  # noqa: E402
 
-PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, preview_scene, bake_preview, copy_settings, structure, joints, preview)
+PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, preview_scene, bake_preview, copy_settings, structure, joints, preview,
+         live_check)
 
 
 def register():

@@ -1,5 +1,7 @@
 """Scene > Soft body format > Check: what an export would say, as a list; a click selects what it is about."""
 
+import time
+
 import bpy
 from bpy.props import IntProperty
 
@@ -10,6 +12,8 @@ from ..mending import mend_of
 from ..to_document import Options
 from ..whole import write_whole
 from .own_faults import told
+
+COLUMNS = ("severity", "message", "object_name", "bone_name", "code", "vertices")  # of the list
 
 
 def find(context):
@@ -29,6 +33,21 @@ def find(context):
     return findings
 
 
+def show(scene, findings_of):
+    """Puts what is found into the scene's list, where it differs from what stands there; and how long the search took."""
+    settings, began = scene.soft_body_format, time.monotonic()
+    found = findings_of()
+    lines = [(one.severity, one.message, one.object_name, one.bone_name, one.code, " ".join(map(str, one.vertices))) for one in found]
+    if lines != [tuple(getattr(entry, name) for name in COLUMNS) for entry in settings.findings]:
+        settings.findings.clear()
+        for line in lines:
+            entry = settings.findings.add()
+            for name, value in zip(COLUMNS, line):
+                setattr(entry, name, value)
+    settings.is_checked, settings.check_time = True, time.monotonic() - began
+    return found
+
+
 class SBFMT_OT_check(bpy.types.Operator):
     """Look for what is wrong with the character, and list it"""
 
@@ -38,13 +57,7 @@ class SBFMT_OT_check(bpy.types.Operator):
 
     @told
     def execute(self, context):
-        settings, found = context.scene.soft_body_format, find(context)
-        settings.findings.clear()
-        for one in found:
-            entry = settings.findings.add()
-            for name in ("severity", "message", "object_name", "bone_name", "code"):
-                setattr(entry, name, getattr(one, name))
-            entry.vertices = " ".join(map(str, one.vertices))
+        found = show(context.scene, lambda: find(context))
         errors = len(found.errors)
         self.report({"WARNING" if errors else "INFO"}, f"{errors} errors, {len(found) - errors} other messages" if found
                     else "nothing is wrong")

@@ -43,6 +43,7 @@ class SBFMT_PT_check(ScenePanel, bpy.types.Panel):
                 row.operator("sbfmt.mend", text=mend.label, icon="TOOL_SETTINGS").index = settings.active_finding
         if sum(mend_of(one, settings.mends_files) is not None for one in settings.findings) > 1:
             layout.operator("sbfmt.mend", text="Mend all that can be", icon="TOOL_SETTINGS").index = -1
+        layout.prop(settings, "checks_live")
         layout.prop(settings, "mends_files")
 
 

@@ -96,6 +96,10 @@ class SBFMT_PG_scene(bpy.types.PropertyGroup):
     preview: PointerProperty(type=SBFMT_PG_preview)
     findings: CollectionProperty(type=SBFMT_PG_finding)
     active_finding: IntProperty()
+    checks_live: BoolProperty(name="Check as I work", default=True, description="After the first check the list follows the scene, "
+                              "where a check takes less than half a second")
+    is_checked: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
+    check_time: FloatProperty(options={"HIDDEN", "SKIP_SAVE"}, description="Seconds that the last check took")
     mends_files: BoolProperty(name="Mend files as they are written", default=False,
                               description="What has one right answer is mended in builds and exports, and told")
     show_joints: EnumProperty(name="Joints", default="SELECTED", description="Whose limits are drawn in the viewport", items=(
