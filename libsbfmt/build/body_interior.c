@@ -2,7 +2,8 @@
 
 #include "sbfmt/mechanics.h"
 
-enum { MOST_CALIBRATED_POINTS = 20000 };
+/* What nothing holds is so soft, in its springs, that its equations take hundreds of steps each. */
+enum { MOST_CALIBRATED_POINTS = 20000, MOST_CALIBRATED_FREE_POINTS = 1000 };
 
 sbf_build_interior sbfi_body_interior(const sbf_build_options *options, const sbf_soft_body *body) {
   sbf_body_measures measures;
@@ -21,8 +22,9 @@ sbf_build_interior sbfi_body_interior(const sbf_build_options *options, const sb
 bool sbfi_body_is_calibrated(const sbf_soft_body *body, sbf_build_interior interior) {
   sbf_body_measures measures;
   if (interior == SBF_BUILD_INTERIOR_TETRAHEDRA) return true;
-  if (interior != SBF_BUILD_INTERIOR_CENTROID || body->surface.positions.count > MOST_CALIBRATED_POINTS)
-    return false;
+  bool is_free = body->bone == SBF_NONE && body->pins.count == 0 && body->attachments.count == 0;
+  uint32_t most = is_free ? MOST_CALIBRATED_FREE_POINTS : MOST_CALIBRATED_POINTS;
+  if (interior != SBF_BUILD_INTERIOR_CENTROID || body->surface.positions.count > most) return false;
   sbf_body_measure(body, &measures);
   return !measures.sheet && body->surface.polygon_sizes.count > 0;
 }

@@ -14,6 +14,8 @@ enum { MOST_ROUNDS = 25 };
 /* The ratio of the surface's factor to the inner one is looked for up to a fourth and four, by this
  * step: finer ones are left to each spring by itself. */
 static const double step = 2, most_ratio = 4;
+/* Of more points the two get one factor to begin with: each trial takes seconds. */
+enum { MOST_TRIED_POINTS = 4000 };
 
 typedef struct work {
   sbfi_level_statics *statics;
@@ -22,6 +24,7 @@ typedef struct work {
   float *stated;              /* (springs) N/m, before */
   double *moved;              /* (3 x surface points) */
   sbfi_arena *scratch;
+  sbfi_progress progress;
 } work;
 
 /* What two factors come to, the second found by least squares for their ratio. */
@@ -53,6 +56,8 @@ static bool try_ratio(const work *w, double ratio, trial *made) {
   for (uint32_t load = 0; load < s->load_count; load++) {
     double sums[3] = {0}, frequency;
     if (!w->gives[load]) continue;
+    bool is_long = load == 0 || s->network.point_count > MOST_TRIED_POINTS;
+    if (is_long && !sbfi_progress_say(w->progress, 0)) return false;
     if (!sbfi_level_lean(s, w->linear, load, solve_share, w->moved, &frequency, w->scratch)) return false;
     for (size_t i = 0; i < 3 * (size_t)s->body->surface.positions.count; i++) {
       double area = s->areas[i / 3];
@@ -98,18 +103,19 @@ static void take_means(const work *w, sbfi_spring_factors *factors) {
 
 bool sbfi_spring_fit(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted,
     sbfi_spring_factors *factors, sbfi_progress progress, sbfi_arena *scratch) {
-  work w = {.statics = statics, .linear = linear, .gives = wanted->gives, .scratch = scratch};
+  work w = {
+      .statics = statics, .linear = linear, .gives = wanted->gives, .scratch = scratch, .progress = progress};
   trial best, tried;
   w.stated = sbfi_arena_copy(scratch, statics->stiffness, statics->network.spring_count, sizeof *w.stated);
   w.moved =
       sbfi_arena_allocate(scratch, (size_t)statics->body->surface.positions.count + 1, 3 * sizeof *w.moved);
   if (!w.stated || !w.moved || !try_ratio(&w, 1, &best)) return false;
   *factors = (sbfi_spring_factors){.before = best.as_is};
-  for (int way = 0; way < 2; way++)
+  int ways = statics->network.point_count > MOST_TRIED_POINTS ? 0 : 2;
+  for (int way = 0; way < ways; way++)
     for (;;) {
       double ratio = way ? best.ratio / step : best.ratio * step;
       if (ratio > most_ratio || ratio < 1 / most_ratio) break;
-      if (!sbfi_progress_say(progress, 0)) return false;
       if (!try_ratio(&w, ratio, &tried)) return false;
       if (tried.left >= best.left) break;
       best = tried;

@@ -10,6 +10,9 @@ static const double adjoint_share = 10; /* of how exactly displacements are solv
 /* By so much more than itself a factor grows in a round, or shrinks. */
 static const double first_step = 0.2, least_step = 1e-3, most_step = 1.5, longer = 1.2, shorter = 0.5;
 static const double smoothing = 0.1; /* of the way, each round */
+/* Blocks of the matrix that are met in all: no new round begins beyond, so that no body takes many seconds,
+ * however badly its equations are conditioned. */
+static const double most_visits = 3e8;
 enum { FEWEST_ROUNDS = 8, POINTS_FOR_ALL = 1000, MOST_WANTED = SBFI_MOST_LOADS + SBFI_PUSHES };
 
 typedef struct work {
@@ -29,6 +32,8 @@ typedef struct work {
   double *held_by;                                   /* (level points) N/m, its springs added up */
   double most_held;                                  /* N/m per kg */
   double *sums, *counts;                             /* (level points) of smoothing */
+  double visits;                                     /* of blocks of the matrix, so far */
+  sbfi_progress progress;                            /* of this round */
 } work;
 
 static work begin(sbfi_level_statics *statics, sbfi_linear_statics *linear, const sbfi_wanted *wanted) {
@@ -85,9 +90,15 @@ static bool reserve(work *w, sbfi_arena *arena) {
   return w->best && w->held_by;
 }
 
+static void solve(work *w, double share, double *displacements) {
+  const sbfi_block_matrix *matrix = &w->linear->stiffness.matrix;
+  uint32_t steps = sbfi_linear_statics_solve(w->linear, w->forces, share, displacements);
+  w->visits += (steps + 1.0) * matrix->begins[matrix->row_count];
+}
+
 /* Solves for a load and returns the square of what is left, as a share; `forces` become its derivatives by
  * the displacements. Negative: the load does not count. */
-static double mismatch(const work *w, uint32_t load) {
+static double mismatch(work *w, uint32_t load) {
   const sbfi_level_statics *s = w->statics;
   const double *wanted = wanted_of(w, load);
   size_t numbers = 3 * (size_t)s->network.point_count, surface = s->body->surface.positions.count;
@@ -95,7 +106,7 @@ static double mismatch(const work *w, uint32_t load) {
   for (size_t i = 0; wanted && i < 3 * surface; i++) size += s->areas[i / 3] * wanted[i] * wanted[i];
   if (!(size > 0)) return -1;
   set_forces(w, load);
-  sbfi_linear_statics_solve(w->linear, w->forces, w->bounds->share, w->moved[load]);
+  solve(w, w->bounds->share, w->moved[load]);
   sbfi_level_carry(s, w->moved[load], w->off);
   memset(w->forces, 0, numbers * sizeof *w->forces);
   for (size_t i = 0; i < surface; i++) {
@@ -147,17 +158,21 @@ static void add_gradient_of_tetrahedra(const work *w, uint32_t load) {
   }
 }
 
-static double evaluate(const work *w, bool gradient) {
+/* Negative where the work is ended. */
+static double evaluate(work *w, bool gradient) {
   double sum = 0;
   int loads = 0;
   if (gradient) memset(w->gradient, 0, w->element_count * sizeof *w->gradient);
   for (uint32_t load = 0; load < load_count(w); load++) {
+    /* Where there are few points a round is short. */
+    bool is_long = load == 0 || w->statics->network.point_count > POINTS_FOR_ALL;
+    if (is_long && !sbfi_progress_say(w->progress, (double)load / load_count(w))) return -1;
     double left = mismatch(w, load);
     if (left < 0) continue;
     sum += left;
     loads++;
     if (!gradient) continue;
-    sbfi_linear_statics_solve(w->linear, w->forces, adjoint_share * w->bounds->share, w->adjoint[load]);
+    solve(w, adjoint_share * w->bounds->share, w->adjoint[load]);
     if (w->springs)
       add_gradient_of_springs(w, load);
     else
@@ -271,10 +286,11 @@ bool sbfi_stiffness_descent(sbfi_level_statics *statics, sbfi_linear_statics *li
   find_factors(&w);
   uint32_t rounds = rounds_of(&w);
   *left = INFINITY;
-  for (uint32_t round = 0; round < rounds; round++) {
-    if (!sbfi_progress_say(progress, (double)round / rounds)) return false;
+  for (uint32_t round = 0; round < rounds && w.visits < most_visits; round++) {
+    w.progress = sbfi_progress_part(progress, (double)round / rounds, (round + 1.0) / rounds);
     set_values(&w);
     double now = evaluate(&w, true);
+    if (now < 0) return false;
     if (now < *left) {
       *left = now;
       memcpy(w.best, w.values, w.element_count * sizeof *w.best);
