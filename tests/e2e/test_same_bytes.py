@@ -70,6 +70,10 @@ class SameBytes(ProgramTest):
         self.check(bag, "--springs", "tetrahedra", "--elements", "200", "--no-calibration")
         self.check(bag, "--springs", "lattice", "--cell", "0.1", "--no-calibration")
 
+    def test_a_calibrated_lattice(self):
+        """Built again from its file it starts from the modulus that is stated, not from the calibrated ones."""
+        self.check(write_bytes(self.path("bag.obj"), grid(6, 0.2)), "--springs", "tetrahedra", "--elements", "120")
+
     def test_a_cloth(self):
         self.check(write_bytes(self.path("cloth.obj"), grid(8, 0)))
 
