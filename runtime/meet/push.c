@@ -14,7 +14,7 @@ static const float BOUNCE_FROM_M_S = 0.3f;
 /* What is deeper than this comes out by that share of it a step, and no faster; soft matter in soft matter,
  * whose surfaces are never quite of one form, by less. */
 static const float SLACK_M = 1e-4f, OUT_SHARE = 0.1f, SOFT_OUT_SHARE = 0.02f, OUT_M_S = 0.2f;
-static const float SETTLED_M_S = 1e-5f;
+static const float SETTLED_M_S = 3e-5f;
 
 /* ---- Sides ---- */
 
