@@ -4,10 +4,10 @@
 
 #include "solvers/scheme.h"
 
-/* Explicit while it needs no more substeps a tick than this. Up to here position-based steps of the same
- * error cost four times as much (docs/benchmarks.md). Tetrahedra go on for longer: their position-based steps
- * need as many substeps as explicit ones to be near the energy. */
-enum { SBRI_MOST_EXPLICIT_SUBSTEPS = 96, SBRI_MOST_EXPLICIT_SOLID_SUBSTEPS = 256 };
+/* Explicit while it needs no more substeps a tick than this: the most position-based ones of springs cost as
+ * much (docs/benchmarks.md) and leave such a body too soft by half and more. Tetrahedra go on for longer:
+ * their position-based steps need as many substeps as explicit ones to be near the energy. */
+enum { SBRI_MOST_EXPLICIT_SUBSTEPS = 192, SBRI_MOST_EXPLICIT_SOLID_SUBSTEPS = 256 };
 
 /* For so many ticks after the last sign of trouble the recovering scheme goes on. */
 enum { SBRI_RECOVERING_TICKS = 10 };
