@@ -7,6 +7,7 @@
 #include "harness.h"
 #include "mechanics/neo_hookean.h"
 #include "mechanics/static_solve.h"
+#include "random.h"
 #include "scenes.h"
 
 static lattice_box box;
@@ -42,10 +43,6 @@ static void end(void) {
   lattice_box_free(&box);
 }
 
-static float scattered(uint32_t i) {
-  return (float)(i * 2654435761u >> 8 & 0xffff) / 32768.0f - 1;
-}
-
 static sbfi_d3 place(const sbri_point *points, uint32_t slot) {
   return (sbfi_d3){points[slot].x, points[slot].y, points[slot].z};
 }
@@ -73,9 +70,9 @@ START_TEST(forces_are_those_of_the_energy)
   float shake = _i ? 0.4f : 0.03f;
   const sbri_island *island = tick.island;
   for (uint32_t i = 0; i < island->slot_count; i++) {
-    positions[i].x += shake * scattered(3 * i);
-    positions[i].y += shake * scattered(3 * i + 1);
-    positions[i].z += shake * scattered(3 * i + 2);
+    positions[i].x += shake * random_scattered(3 * i);
+    positions[i].y += shake * random_scattered(3 * i + 1);
+    positions[i].z += shake * random_scattered(3 * i + 2);
   }
   sbfi_d3 *sums = calloc(island->slot_count, sizeof *sums);
   expected_forces(sums);
@@ -101,7 +98,8 @@ START_TEST(damping_is_the_second_derivative_times_the_velocity)
   const sbri_body *body = &s.model->bodies[0];
   sbfi_d3 *sums = calloc(tick.island->slot_count, sizeof *sums);
   for (uint32_t i = 0; i < tick.island->slot_count; i++)
-    velocities[i] = (sbri_point){scattered(7 * i), scattered(7 * i + 1), scattered(7 * i + 2), 0};
+    velocities[i] =
+        (sbri_point){random_scattered(7 * i), random_scattered(7 * i + 1), random_scattered(7 * i + 2), 0};
   for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
     sbfi_tetrahedron element;
     sbfi_d3 x[4], v[4], f[4];
@@ -151,7 +149,8 @@ START_TEST(damping_leaves_turning_alone)
   for (uint32_t i = 0; i < count; i++)
     ck_assert_double_le(sbfi_d3_length(sbfi_d3_sub(place(forces, i), place(still, i))), 1e-4 * most);
   for (uint32_t i = 0; i < count; i++)
-    velocities[i] = (sbri_point){scattered(7 * i), scattered(7 * i + 1), scattered(7 * i + 2), 0};
+    velocities[i] =
+        (sbri_point){random_scattered(7 * i), random_scattered(7 * i + 1), random_scattered(7 * i + 2), 0};
   sbri_tetrahedron_forces(&tick, NULL);
   double power = 0;
   for (uint32_t i = 0; i < count; i++)
@@ -286,7 +285,7 @@ START_TEST(energy_and_momentum_are_kept)
     float *at = v + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK;
     if (!(island->masses[i] > 0)) continue;
     x[i].x *= 1.15f, x[i].y *= 0.9f;
-    at[0] = 0.5f - x[i].y, at[SBRI_BLOCK] = x[i].x, at[2 * SBRI_BLOCK] = 0.3f * scattered(i);
+    at[0] = 0.5f - x[i].y, at[SBRI_BLOCK] = x[i].x, at[2 * SBRI_BLOCK] = 0.3f * random_scattered(i);
   }
   double sums[2][7] = {{0}}, energies[2] = {0};
   for (int n = 0; n < 2; n++) {
@@ -344,7 +343,9 @@ START_TEST(bad_starts_come_back)
   for (uint32_t i = 0; i < island->free_count; i++) {
     if (_i == 0) x[i].y = 0.1f;
     if (_i == 1) x[i].x = -x[i].x;
-    if (_i == 2) x[i] = (sbri_point){scattered(5 * i), scattered(5 * i + 1), scattered(5 * i + 2), 0};
+    if (_i == 2)
+      x[i] =
+          (sbri_point){random_scattered(5 * i), random_scattered(5 * i + 1), random_scattered(5 * i + 2), 0};
   }
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);

@@ -7,15 +7,12 @@
 #include "harness.h"
 #include "mechanics/neo_hookean.h"
 #include "mechanics/static_solve.h"
+#include "random.h"
 #include "scenes.h"
 #include "solvers/router.h"
 
 static lattice_box box;
 static scene s;
-
-static float scattered(uint32_t i) {
-  return (float)(i * 2654435761u >> 8 & 0xffff) / 32768.0f - 1;
-}
 
 /* A body of 1 x 0.2 x 0.2 m along x. */
 static void begin(uint32_t along, float young_pa, float poisson, bool held, sbf_vec3 gravity) {
@@ -61,8 +58,8 @@ START_TEST(a_short_step_follows_the_energy)
     uint32_t slot = s.model->bodies[0].slot_from_point[i];
     begins[slot] = island->rest[slot];
     float shake = _i == 0 ? 0.02f : 0.3f;
-    begins[slot].x += shake * scattered(3 * i), begins[slot].y += shake * scattered(3 * i + 1);
-    begins[slot].z += shake * scattered(3 * i + 2);
+    begins[slot].x += shake * random_scattered(3 * i), begins[slot].y += shake * random_scattered(3 * i + 1);
+    begins[slot].z += shake * random_scattered(3 * i + 2);
     if (_i == 2) begins[slot].x = -begins[slot].x;
     moves[slot].w = island->inverse_masses[slot];
     x[i] = (sbfi_d3){begins[slot].x, begins[slot].y, begins[slot].z};
@@ -178,7 +175,7 @@ START_TEST(momentum_is_kept)
   for (uint32_t i = 0; i < island->free_count; i++) {
     float *v = velocity(c, i);
     if (!(island->masses[i] > 0)) continue;
-    v[0] = 0.5f - x[i].y, v[SBRI_BLOCK] = x[i].x + 0.2f, v[2 * SBRI_BLOCK] = 0.3f * scattered(i);
+    v[0] = 0.5f - x[i].y, v[SBRI_BLOCK] = x[i].x + 0.2f, v[2 * SBRI_BLOCK] = 0.3f * random_scattered(i);
   }
   for (int n = 0; n < 2; n++) {
     for (uint32_t i = 0; i < island->free_count; i++) {
@@ -251,7 +248,9 @@ START_TEST(bad_starts_come_back)
     if (_i == 0) x[i].y = 0.1f;
     if (_i == 1) x[i].x = -x[i].x;
     if (_i == 2) x[i] = (sbri_point){0, 0, 0, 0};
-    if (_i == HEAP) x[i] = (sbri_point){scattered(5 * i), scattered(5 * i + 1), scattered(5 * i + 2), 0};
+    if (_i == HEAP)
+      x[i] =
+          (sbri_point){random_scattered(5 * i), random_scattered(5 * i + 1), random_scattered(5 * i + 2), 0};
   }
   for (int i = 0; i < 60; i++) {
     scene_ticks(&s, 1);
