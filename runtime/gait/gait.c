@@ -10,6 +10,7 @@ static const float EASE_S = 0.18f;     /* time over which wanted motion takes ef
 static const float ACCELERATES = 0.2f; /* reaches, in the square of the time of a step: no faster than so */
 static const float STILL = 0.004f;     /* m/s and rad/s, per metre of leg: below it the character stands */
 static const float LONG_S = 1;         /* of standing; longer is no longer counted */
+static const float SLOWS_S = 0.05f;    /* over which it gives way to feet that have to last */
 static const float HURRY_S = 0.12f;    /* over which it takes up its pace again after waiting for a foot */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
@@ -81,10 +82,10 @@ static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   } else {
     state->standing_s = 0;
   }
-  float pace = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input) : 1;
-  state->pace = pace < state->pace
-                    ? pace
-                    : state->pace + (pace - state->pace) * (1 - sbri_exp(-input->tick_s / HURRY_S));
+  float lasting = 1, most = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
+  float pace = lasting < most ? lasting : most, in_s = pace < state->pace ? SLOWS_S : HURRY_S;
+  state->pace += (pace - state->pace) * (1 - sbri_exp(-input->tick_s / in_s));
+  if (state->pace > most) state->pace = most;
   float h = input->tick_s * state->pace, turned = state->turn * h;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
   state->position = sbri_add(state->position, step);

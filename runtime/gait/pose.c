@@ -8,8 +8,6 @@
 
 static const sbf_vec3 UP = {0, 1, 0};
 static const float SOLE_HELD = 5e-4f; /* of a leg's length: so near its place a sole is held */
-static const float SOLE_MOVED =
-    0.04f; /* the same: what lies farther off is mended less, and not at twice that */
 enum { SOLE_PASSES = 4 };
 
 static sbf_quat yaw_rotation(float yaw) {
@@ -152,11 +150,12 @@ static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot 
   sbri_leg_limit(rig, leg, ankle, pole, scale, pose);
 }
 
-/* Where the middle of the sole is in a pose. */
-static sbf_vec3 sole_of(const sbri_rig *rig, const sbri_leg *leg, float scale, const sbr_transform *pose) {
+/* Where the ankle is from the middle of the sole, as the foot is turned in a pose. */
+static sbf_vec3 ankle_over_sole(
+    const sbri_rig *rig, const sbri_leg *leg, float scale, const sbr_transform *pose) {
   sbf_quat turned =
       sbri_quat_multiply(pose[leg->foot].rotation, sbri_quat_conjugate(rig->rest[leg->foot].rotation));
-  return sbri_add_scaled(pose[leg->foot].position, sbri_rotate(turned, leg->ankle), -scale);
+  return sbri_scale(sbri_rotate(turned, leg->ankle), scale);
 }
 
 /* What hangs on a leg that is solved. */
@@ -188,18 +187,16 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
     return;
   }
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
-  float length = (leg->upper_length + leg->lower_length) * scale, share = 1;
+  float held = SOLE_HELD * (leg->upper_length + leg->lower_length) * scale;
   foot->missed = 0;
   for (int pass = 0; pass < SOLE_PASSES; pass++) {
     solve_leg(rig, leg, foot, ankle, pole, fallback, scale, pose);
     if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;
     /* A foot that its ankle lets turn no farther stands where it stands all the same. */
-    sbf_vec3 missed = sbri_sub(sole, sole_of(rig, leg, scale, pose));
-    foot->missed = sbri_length(missed);
-    float miss = foot->missed / length;
-    if (miss <= SOLE_HELD) break;
-    if (pass == 0) share = sbri_smooth(2 - miss / SOLE_MOVED);
-    ankle = sbri_add_scaled(ankle, missed, share);
+    sbf_vec3 over = ankle_over_sole(rig, leg, scale, pose);
+    foot->missed = sbri_length(sbri_sub(sbri_add(sole, over), pose[leg->foot].position));
+    if (foot->missed <= held) break;
+    ankle = sbri_add(sole, over);
   }
   if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
 }

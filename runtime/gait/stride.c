@@ -215,7 +215,14 @@ float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   return to_edge(stance.off, stance.radius, sbri_scale(way, -1));
 }
 
-float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+float sbri_pace_of(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting) {
+  float in_air_s = 0;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    float left_s = state->feet[i].planted ? 0 : (1 - state->feet[i].phase) * state->feet[i].duration_s;
+    in_air_s = left_s > in_air_s ? left_s : in_air_s;
+  }
+  *lasting = 1;
   float least = 1, step_s = rig->leg_count ? rig->gait->step_duration : 1;
   float brakes = BRAKES * rig->reach * input->scale / (step_s * step_s);
   for (uint32_t i = 0; i < rig->leg_count; i++) {
@@ -233,6 +240,8 @@ float sbri_pace_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri
     if (missed > MISSED && 1 - (missed - MISSED) / MISSES < least) least = 1 - (missed - MISSED) / MISSES;
     float most = left > 0 ? sqrtf(2 * brakes * left) : 0;
     if (most < least * speed) least = most / speed;
+    float lasts = left > 0 ? left : 0; /* until the feet in the air are down */
+    if (lasts < *lasting * speed * in_air_s) *lasting = lasts / (speed * in_air_s);
   }
   return least > 0 ? least : 0;
 }
