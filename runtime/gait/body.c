@@ -4,7 +4,8 @@
 #include "math/quat.h"
 #include "math/trig.h"
 
-static const float LEAN_HZ = 1.6f, CROUCH_HZ = 4; /* of critically damped followers */
+static const float LEAN_HZ = 1.6f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers */
+static const float CROUCH_S = 0.08f; /* by which the crouch lags, and looks ahead */
 static const float MOST_YAW = 0.8f;               /* rad: hips and chest turn less than so */
 static const float NARROWEST = 0.5f;              /* of the reach: feet turn the hips as if no nearer */
 static const float DEEPEST = 0.3f; /* of a leg's reach: the body comes down by no more for a foot */
@@ -53,7 +54,8 @@ static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
 static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float share) {
   const sbri_leg *l = &rig->legs[leg];
-  if (state->standing_s > 0 && share < l->rest_stretch) share = l->rest_stretch;
+  float bent = state->bent.value; /* by its square, legs as straight as at rest bend at an even pace */
+  if (share < l->rest_stretch) share = l->rest_stretch + bent * bent * (share - l->rest_stretch);
   float reach = share * l->reach * (1 - l->soft_reach) * input->scale;
   sbf_vec3 away = sbri_sub(hip, ankle);
   float left = reach * reach - away.x * away.x - away.z * away.z;
@@ -70,6 +72,7 @@ static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const s
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float *spare) {
   float most = 0;
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * CROUCH_S);
   *spare = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
@@ -79,6 +82,7 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
     ankle.y += foot->lift + state->position.y;
     sbf_vec3 hip = sbri_hip_of(rig, state, input, i, root);
     float drop = drop_for(rig, state, input, i, hip, ankle, 1);
+    if (foot->planted) hip = sbri_add(hip, ahead);
     float early = drop_for(rig, state, input, i, hip, ankle, SPARE);
     most = drop > most ? drop : most;
     *spare = early > *spare ? early : *spare;
@@ -189,6 +193,8 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   if (lifting) lean = sbri_support_sway(rig, state, input, lifting, way);
   sway_to(rig, state, input, lean);
   if (!stride) state->sway_x = state->sway_z = (sbri_lag){0, 0};
+  sbri_follower_step bend = sbri_follower_step_of(BEND_HZ, 1, 0, input->tick_s);
+  if (stride) sbri_lag_tick(&state->bent, state->standing_s > 0 ? 0 : 1, &bend);
   sbri_stance stance = stance_over(rig, state, input);
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;

@@ -56,6 +56,7 @@ typedef struct sbri_gait_state {
   uint32_t pivot;                /* leg that it turns about, plus 1; 0: none */
   sbri_lag sway_x, sway_z;       /* of the body over its feet, world axes, m */
   sbri_lag crouch;               /* how far it comes down for its feet, m */
+  sbri_lag bent;                 /* 0: legs may be as straight as at rest; 1: they have bent for walking */
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
   sbr_transform root;            /* of the last stance, and its turns */
   float hips_yaw, chest_yaw;
