@@ -194,7 +194,8 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   sway_to(rig, state, input, lean);
   if (!stride) state->sway_x = state->sway_z = (sbri_lag){0, 0};
   sbri_follower_step bend = sbri_follower_step_of(BEND_HZ, 1, 0, input->tick_s);
-  if (stride) sbri_lag_tick(&state->bent, state->standing_s > 0 ? 0 : 1, &bend);
+  bool at_home = state->standing_s > 0 && !lifting; /* no foot has still to go there */
+  if (stride) sbri_lag_tick(&state->bent, at_home ? 0 : 1, &bend);
   sbri_stance stance = stance_over(rig, state, input);
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
