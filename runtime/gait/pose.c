@@ -8,6 +8,7 @@
 
 static const sbf_vec3 UP = {0, 1, 0};
 static const float SOLE_HELD = 5e-4f; /* of a leg's length: so near its place a sole is held */
+static const float HANGS = 0.25f;     /* phase of a step from which a foot hangs, and the same at its end */
 enum { SOLE_PASSES = 4 };
 
 static sbf_quat yaw_rotation(float yaw) {
@@ -180,23 +181,25 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   float scale = input->scale;
   sbf_vec3 hip = pose[leg->upper].position;
   sbf_vec3 sole = sbri_vec3(foot->ground.x, foot->ground.y + foot->lift + state->position.y, foot->ground.z);
-  sbf_vec3 ankle = sbri_ankle_over(leg, foot, sole, scale);
+  sbf_vec3 flat = sbri_ankle_over(leg, foot, sole, scale), ankle = flat;
   sbf_vec3 pole = foot->pole = pole_of(leg, &stance->root, scale, pose);
   if (leg->lower < 0) {
     pose_peg(rig, leg, foot, ankle, pose);
     return;
   }
   sbf_vec3 fallback = sbri_add(hip, sbri_rotate(stance->root.rotation, sbri_vec3(0, 0, 1)));
+  float near = foot->phase < 0.5f ? foot->phase : 1 - foot->phase; /* to lifting off or coming down */
+  float stands = foot->planted ? 1 : 1 - sbri_smooth(near / HANGS);
   float held = SOLE_HELD * (leg->upper_length + leg->lower_length) * scale;
   foot->missed = 0;
   for (int pass = 0; pass < SOLE_PASSES; pass++) {
     solve_leg(rig, leg, foot, ankle, pole, fallback, scale, pose);
     if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;
-    /* A foot that its ankle lets turn no farther stands where it stands all the same. */
+    /* A foot that its ankle lets turn no farther stands where it stands all the same; in the air it hangs. */
     sbf_vec3 over = ankle_over_sole(rig, leg, scale, pose);
     foot->missed = sbri_length(sbri_sub(sbri_add(sole, over), pose[leg->foot].position));
-    if (foot->missed <= held) break;
-    ankle = sbri_add(sole, over);
+    if (foot->missed <= held || stands <= 0) break;
+    ankle = sbri_lerp(flat, sbri_add(sole, over), stands);
   }
   if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
 }

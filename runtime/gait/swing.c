@@ -6,7 +6,9 @@ static const float SET_PHASE = 0.25f;     /* from here on its height does */
 static const float FOLLOW = 0.3f;         /* share by which the target is taken over in a tick, at first */
 static const float SPARE_TIME = 1.15f;    /* of what a step needs: what it should have */
 static const float LEVEL = 0.08f;         /* of the reach: what is higher or lower is another level */
+static const float AS_PLANNED = 1.02f;    /* of a step's time: what it may need more than it has */
 static const float REPLANNED = 0.02f;     /* of the reach: a target so far off makes a new plan */
+enum { PASSES = 4 };
 
 float sbri_smooth(float t) {
   t = sbri_clamp(t, 0, 1);
@@ -75,15 +77,15 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->duration_s = stride->duration_s;
   foot->from = foot->ground;
   foot->from_normal = foot->normal;
-  aim(rig, state, input, stride, leg, 1);
-  plan(rig, state, input, leg);
-  float needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
-  learn(rig, state, input, stride, needed);
-  if (needed > foot->duration_s) { /* it comes down later, so farther on */
-    foot->duration_s = needed;
+  float needed = 0;
+  for (int pass = 0; pass < PASSES; pass++) { /* the longer it takes, the farther on it comes down */
     aim(rig, state, input, stride, leg, 1);
     plan(rig, state, input, leg);
+    needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
+    if (needed <= AS_PLANNED * foot->duration_s) break;
+    foot->duration_s = needed;
   }
+  learn(rig, state, input, stride, needed);
   foot->x = sbri_glide_at(foot->ground.x), foot->z = sbri_glide_at(foot->ground.z);
   foot->base = sbri_glide_at(foot->ground.y), foot->rise = sbri_glide_at(0);
   foot->tilt_x = sbri_glide_at(foot->normal.x), foot->tilt_z = sbri_glide_at(foot->normal.z);
