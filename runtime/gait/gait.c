@@ -38,7 +38,7 @@ void sbri_gait_place(
   state->standing_s = 1;
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tail_bone_count;
-  state->pace = state->limit = 1;
+  state->pace = state->limit = state->lasting = 1;
   state->since_lift_m = 1e6f; /* the first step waits for nothing */
   sbri_chain_bone *chain_bones = sbri_chain_bones(rig, state);
   for (uint32_t c = 0; c < rig->chain_count; c++)
@@ -86,6 +86,7 @@ static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
   float pace = lasting < most ? lasting : most, in_s = pace < state->pace ? SLOWS_S : HURRY_S;
   state->pace += (pace - state->pace) * (1 - sbri_exp(-input->tick_s / in_s));
   if (state->pace > most) state->pace = most;
+  state->lasting = lasting;
   float h = input->tick_s * state->pace, turned = state->turn * h;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
   state->position = sbri_add(state->position, step);

@@ -215,33 +215,50 @@ float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   return to_edge(stance.off, stance.radius, sbri_scale(way, -1));
 }
 
+/* What a planted leg has left before the end of its reach, as its home goes on at `speed`; m. */
+static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float *speed) {
+  sbf_vec3 v = sbri_home_velocity(rig, state, leg, sbri_home_arm(rig, state, input, leg));
+  *speed = sbri_length(v);
+  if (*speed <= 0) return 0;
+  sbf_vec3 way = sbri_scale(v, 1 / *speed);
+  sbri_roam stance = stance_circle(rig, state, input, leg);
+  float left = to_edge(stance.off, stance.radius, sbri_scale(way, -1));
+  float turned = left > 0 ? sbri_clamp(state->turn * left / *speed, -2, 2) : 0; /* on its way there */
+  if (turned != 0)
+    left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(way, 0.5f * turned), -1));
+  return left > 0 ? left : 0;
+}
+
+float sbri_lasting(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float in_s) {
+  float least = 1, speed;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    if (!state->feet[i].planted) continue;
+    float left = left_of(rig, state, input, i, &speed);
+    if (left < least * speed * in_s) least = left / (speed * in_s);
+  }
+  return least;
+}
+
 float sbri_pace_of(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting) {
-  float in_air_s = 0;
+  float least = 1, speed, in_air_s = 0, step_s = rig->leg_count ? rig->gait->step_duration : 1;
+  float brakes = BRAKES * rig->reach * input->scale / (step_s * step_s);
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     float left_s = state->feet[i].planted ? 0 : (1 - state->feet[i].phase) * state->feet[i].duration_s;
     in_air_s = left_s > in_air_s ? left_s : in_air_s;
   }
   *lasting = 1;
-  float least = 1, step_s = rig->leg_count ? rig->gait->step_duration : 1;
-  float brakes = BRAKES * rig->reach * input->scale / (step_s * step_s);
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
-    sbf_vec3 v = sbri_home_velocity(rig, state, i, sbri_home_arm(rig, state, input, i));
-    float speed = sbri_length(v);
+    float left = left_of(rig, state, input, i, &speed), missed = state->feet[i].missed;
     if (speed <= 0) continue;
-    sbf_vec3 way = sbri_scale(v, 1 / speed);
-    sbri_roam stance = stance_circle(rig, state, input, i);
-    float left = to_edge(stance.off, stance.radius, sbri_scale(way, -1));
-    float turned = left > 0 ? sbri_clamp(state->turn * left / speed, -2, 2) : 0; /* on its way there */
-    if (turned != 0)
-      left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(way, 0.5f * turned), -1));
-    float missed = state->feet[i].missed / (rig->reach * input->scale);
+    missed /= rig->reach * input->scale;
     if (missed > MISSED && 1 - (missed - MISSED) / MISSES < least) least = 1 - (missed - MISSED) / MISSES;
-    float most = left > 0 ? sqrtf(2 * brakes * left) : 0;
+    float most = sqrtf(2 * brakes * left);
     if (most < least * speed) least = most / speed;
-    float lasts = left > 0 ? left : 0; /* until the feet in the air are down */
-    if (lasts < *lasting * speed * in_air_s) *lasting = lasts / (speed * in_air_s);
+    if (left < *lasting * speed * in_air_s) *lasting = left / (speed * in_air_s);
   }
   return least > 0 ? least : 0;
 }
