@@ -22,6 +22,7 @@ static const float MISSED = 0.002f;    /* of the reach: a sole so far from its p
 static const float MISSES = 0.01f;     /* and one so much farther stops it */
 static const float BRAKES =
     1; /* reaches, in the square of the time of a step: as the body brakes for a foot */
+static const float BESIDE = 1.15f; /* half soles: from the middle, foot by foot */
 static const uint32_t MANY_LEGS = 6; /* that balance while half of them are in the air */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
@@ -31,6 +32,18 @@ sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
     v.x += state->turn * arm.z, v.z -= state->turn * arm.x;
   }
   return v;
+}
+
+/* On two legs that go one by one, each foot stands nearly in the middle, where the body need not lean far to
+ * be over it; as far as it goes ahead, for aside feet would meet. */
+static float narrowed(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, float x) {
+  if (rig->leg_count != 2 || rig->has_pegs || state->together) return x;
+  float ahead = state->forward * state->forward, aside = state->sideways * state->sideways;
+  float round = state->turn * rig->spread, all = ahead + aside + round * round;
+  float least = BESIDE * rig->legs[leg].sole.left;
+  if (all <= 0 || fabsf(x) <= least) return x;
+  float near = x < 0 ? -least : least;
+  return x + ahead / all * (near - x);
 }
 
 sbf_vec3 sbri_home_arm(
@@ -45,6 +58,7 @@ sbf_vec3 sbri_home_arm(
   }
   float width = rig->gait->step_width;
   if (state->standing_s == 0 && width > 0 && home.x != 0) home.x = home.x < 0 ? -width : width;
+  if (state->standing_s == 0 && width == 0) home.x = narrowed(rig, state, leg, home.x);
   home.y = 0;
   return sbri_headed(state, sbri_scale(home, input->scale));
 }
