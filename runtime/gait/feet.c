@@ -224,7 +224,7 @@ uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_
     unbalanced = false;
     state->waiting_s = 0;
   }
-  state->waiting_s = unbalanced ? state->waiting_s + (3 - 2 * state->pace) * input->tick_s : 0;
+  state->waiting_s = unbalanced ? state->waiting_s + input->tick_s : 0;
   if (state->standing_s > 0) { /* the next one to go home, if any is not */
     int32_t worst = -1;
     for (uint32_t i = 0; i < rig->leg_count; i++)

@@ -11,6 +11,7 @@ static const float ACCELERATES = 0.2f; /* reaches, in the square of the time of 
 static const float STILL = 0.004f;     /* m/s and rad/s, per metre of leg: below it the character stands */
 static const float LONG_S = 1;         /* of standing; longer is no longer counted */
 static const float SLOWS_S = 0.05f;    /* over which it gives way to feet that have to last */
+static const float BALANCE_S = 0.2f;   /* of waiting for balance: the body stands by then */
 static const float HURRY_S = 0.12f;    /* over which it takes up its pace again after waiting for a foot */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
@@ -83,6 +84,8 @@ static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
     state->standing_s = 0;
   }
   float lasting = 1, most = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
+  float balanced = 1 - state->waiting_s / BALANCE_S; /* room to lean is left to the foot that is to lift off */
+  if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
   float pace = lasting < most ? lasting : most, in_s = pace < state->pace ? SLOWS_S : HURRY_S;
   state->pace += (pace - state->pace) * (1 - sbri_exp(-input->tick_s / in_s));
   if (state->pace > most) state->pace = most;
