@@ -8,7 +8,7 @@
 
 static const float USED = 0.75f;       /* share of what a foot may roam that a stride uses */
 static const float DEEPEST = 0.8f;     /* of the circle of an upright body, which comes down by no more */
-static const float SURE = 0.92f;       /* share of what a foot may roam on average that it may roam always */
+static const float SURE = 1.0f;       /* share of what a foot may roam on average that it may roam always */
 static const float STRIDE_S = 0.5f;    /* over which it is averaged how wide strides may be */
 static const float STRETCH = 0.97f;    /* of the uneased reach */
 static const float LEAST = 0.05f;      /* of a leg's length: a foot may always be so far off */

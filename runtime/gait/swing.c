@@ -18,7 +18,7 @@ float sbri_smooth(float t) {
 /* Ahead of where its home will be when it comes down. */
 static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stride *stride,
     uint32_t leg, float left_s) {
-  left_s *= state->pace < state->lasting ? state->pace : state->lasting;
+  left_s *= state->feet[leg].phase > 0 || state->pace < state->lasting ? state->pace : state->lasting;
   const sbri_home *at = &stride->homes[leg];
   float turned = state->turn * left_s;
   sbf_vec3 home, now = at->arm, velocity = at->velocity, drift = sbri_body_velocity(state);
