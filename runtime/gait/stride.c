@@ -16,6 +16,7 @@ static const float PEG = 0.25f;        /* the same of a leg of one bone */
 static const float SLACK = 1.15f;      /* time of a turn, in steps */
 static const float LEAN_S = 0.12f;     /* for the body to lean before a foot lifts off */
 static const float LEAN_TWO_S = 0.45f; /* the same on two legs */
+static const float SLOW = 0.35f;       /* reaches a second: up to here it keeps its balance */
 static const float LONGEST = 1.35f;    /* share of the usual time of a step, at speed */
 static const float SHORTEST = 0.25f;   /* share of the usual time below which no step goes */
 static const float MISSED = 0.002f;    /* of the reach: a sole so far from its place slows the body down */
@@ -183,12 +184,19 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * needed_s + lean);
   s.together =
       (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.62f : 0.74f) * most;
+  float wanted = sbri_wanted_speed(rig, state, input), fastest = wanted > s.speed ? wanted : s.speed;
+  bool slow = fastest <= SLOW * rig->reach * input->scale && rig->leg_count < MANY_LEGS;
+  if (slow) s.together = false;
   if (rig->has_pegs) s.together = true;               /* they could not follow a body that leans */
   float each = 0.5f * s.speed * (groups - 1) * SLACK; /* half a stride for each second of a step */
   s.available_s = each > 0 ? most / each : 1e6f;
   s.duration_s = usual;
   float needed = one_by_one;
-  if (s.together || needed > most) { /* as much time as the reach allows: the quicker a step, the harder */
+  if (slow && !s.together) { /* rather slower than out of balance */
+    float others = 0.5f * s.speed * (turns - 1);
+    if (others > 0) s.available_s = most / others - lean;
+    if (needed > most) needed = most;
+  } else if (s.together || needed > most) { /* as much time as the reach allows: the quicker a step, the harder */
     float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
     s.duration_s = sbri_clamp(0.9f * s.available_s, SHORTEST * usual, longest);
     needed = each * s.duration_s;
