@@ -6,11 +6,11 @@
 
 static const float LEAN_HZ = 1.6f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers */
 static const float CROUCH_S = 0.08f; /* by which the crouch lags, and looks ahead */
-static const float MOST_YAW = 0.8f;               /* rad: hips and chest turn less than so */
-static const float NARROWEST = 0.5f;              /* of the reach: feet turn the hips as if no nearer */
-static const float DEEPEST = 0.3f; /* of a leg's reach: the body comes down by no more for a foot */
-static const float LOWEST = 0.3f;  /* of a leg's reach: no hip comes nearer to the ground than so */
-static const float EASY = 0.93f;   /* share of it that it comes down for in a stride */
+static const float MOST_YAW = 0.8f;  /* rad: hips and chest turn less than so */
+static const float NARROWEST = 0.5f; /* of the reach: feet turn the hips as if no nearer */
+static const float DEEPEST = 0.3f;   /* of a leg's reach: the body comes down by no more for a foot */
+static const float LOWEST = 0.3f;    /* of a leg's reach: no hip comes nearer to the ground than so */
+static const float EASY = 0.93f;     /* share of it that it comes down for in a stride */
 static const float SPARE = 0.965f; /* share of the uneased reach that the body comes down for ahead of need */
 
 static sbf_quat yaw_rotation(float yaw) {

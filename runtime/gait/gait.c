@@ -11,7 +11,8 @@ static const float ACCELERATES = 0.2f; /* reaches, in the square of the time of 
 static const float STILL = 0.004f;     /* m/s and rad/s, per metre of leg: below it the character stands */
 static const float LONG_S = 1;         /* of standing; longer is no longer counted */
 static const float SLOWS_S = 0.05f;    /* over which it gives way to feet that have to last */
-static const float BALANCE_S = 0.2f;   /* of waiting for balance: the body stands by then */
+static const float WAITS_S = 0.1f;     /* for balance: longer waits slow the body down */
+static const float BALANCE_S = 0.2f;   /* more: it stands by then */
 static const float HURRY_S = 0.12f;    /* over which it takes up its pace again after waiting for a foot */
 
 size_t sbri_gait_state_size(const sbri_rig *rig) {
@@ -39,7 +40,7 @@ void sbri_gait_place(
   state->standing_s = 1;
   state->foot_count = rig->leg_count;
   state->tail_bone_count = rig->tail_bone_count;
-  state->pace = state->limit = state->lasting = 1;
+  state->pace = state->limit = 1;
   state->since_lift_m = 1e6f; /* the first step waits for nothing */
   sbri_chain_bone *chain_bones = sbri_chain_bones(rig, state);
   for (uint32_t c = 0; c < rig->chain_count; c++)
@@ -84,12 +85,12 @@ static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_g
     state->standing_s = 0;
   }
   float lasting = 1, most = rig->leg_count && !input->hold ? sbri_pace_of(rig, state, input, &lasting) : 1;
-  float balanced = 1 - state->waiting_s / BALANCE_S; /* room to lean is left to the foot that is to lift off */
+  float balanced =
+      1 - (state->waiting_s - WAITS_S) / BALANCE_S; /* room to lean is left to the foot that is to lift off */
   if (balanced < lasting) lasting = balanced > 0 ? balanced : 0;
   float pace = lasting < most ? lasting : most, in_s = pace < state->pace ? SLOWS_S : HURRY_S;
   state->pace += (pace - state->pace) * (1 - sbri_exp(-input->tick_s / in_s));
   if (state->pace > most) state->pace = most;
-  state->lasting = lasting;
   float h = input->tick_s * state->pace, turned = state->turn * h;
   sbf_vec3 step = sbri_scale(sbri_turned(sbri_body_velocity(state), 0.5f * turned), h);
   state->position = sbri_add(state->position, step);

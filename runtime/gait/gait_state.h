@@ -21,6 +21,7 @@ typedef struct sbri_foot {
   sbf_vec3 planned;                          /* `to` when it was last planned */
   float phase;                               /* 0..1 of it */
   float duration_s;
+  float lasting;                                      /* pace that the feet that stand could last for then */
   float clearance;                                    /* greatest lift, m */
   float leaves, arrives;                              /* phases between which it moves over the ground */
   float climbs, climbed;                              /* the same of the height between its places */
@@ -45,7 +46,6 @@ typedef struct sbri_gait_state {
   float heading_sine, heading_cosine;
   float forward, sideways, turn; /* eased, m/s and rad/s */
   float pace;                    /* share of them that the feet allow, 0 to 1 */
-  float lasting;                 /* the same, until the feet in the air are down: where it is going to */
   float standing_s;              /* since it stopped moving; 0 while it moves */
   float limit;                   /* share of the wanted motion that its steps have time for, 0 to 1 */
   float needed_s;                /* time that steps needed lately */
@@ -201,8 +201,8 @@ float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbr
 /* Share of the wanted motion at which the feet that stand stay within their reach for a time. */
 float sbri_lasting(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float in_s);
-/* Share of the wanted motion that leaves every planted foot within its reach; `lasting` receives that at which
- * they stay so until the feet in the air are down. */
+/* Share of the wanted motion that leaves every planted foot within its reach; `lasting` receives that at
+ * which they stay so until the feet in the air are down. */
 float sbri_pace_of(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float *lasting);
 

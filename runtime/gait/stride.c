@@ -8,7 +8,7 @@
 
 static const float USED = 0.75f;       /* share of what a foot may roam that a stride uses */
 static const float DEEPEST = 0.8f;     /* of the circle of an upright body, which comes down by no more */
-static const float SURE = 1.0f;       /* share of what a foot may roam on average that it may roam always */
+static const float SURE = 1.0f;        /* share of what a foot may roam on average that it may roam always */
 static const float STRIDE_S = 0.5f;    /* over which it is averaged how wide strides may be */
 static const float STRETCH = 0.97f;    /* of the uneased reach */
 static const float LEAST = 0.05f;      /* of a leg's length: a foot may always be so far off */
@@ -23,7 +23,7 @@ static const float MISSED = 0.002f;    /* of the reach: a sole so far from its p
 static const float MISSES = 0.01f;     /* and one so much farther stops it */
 static const float BRAKES =
     1; /* reaches, in the square of the time of a step: as the body brakes for a foot */
-static const float BESIDE = 1.15f; /* half soles: from the middle, foot by foot */
+static const float BESIDE = 1.15f;   /* half soles: from the middle, foot by foot */
 static const uint32_t MANY_LEGS = 6; /* that balance while half of them are in the air */
 
 sbf_vec3 sbri_body_velocity(const sbri_gait_state *state) {
@@ -196,7 +196,8 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
     float others = 0.5f * s.speed * (turns - 1);
     if (others > 0) s.available_s = most / others - lean;
     if (needed > most) needed = most;
-  } else if (s.together || needed > most) { /* as much time as the reach allows: the quicker a step, the harder */
+  } else if (s.together ||
+             needed > most) { /* as much time as the reach allows: the quicker a step, the harder */
     float longest = LONGEST * usual > needed_s ? LONGEST * usual : needed_s;
     s.duration_s = sbri_clamp(0.9f * s.available_s, SHORTEST * usual, longest);
     needed = each * s.duration_s;
@@ -247,8 +248,7 @@ static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
   sbri_roam stance = stance_circle(rig, state, input, leg);
   float left = to_edge(stance.off, stance.radius, sbri_scale(way, -1));
   float turned = left > 0 ? sbri_clamp(state->turn * left / *speed, -2, 2) : 0; /* on its way there */
-  if (turned != 0)
-    left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(way, 0.5f * turned), -1));
+  if (turned != 0) left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(way, 0.5f * turned), -1));
   return left > 0 ? left : 0;
 }
 

@@ -18,7 +18,8 @@ float sbri_smooth(float t) {
 /* Ahead of where its home will be when it comes down. */
 static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stride *stride,
     uint32_t leg, float left_s) {
-  left_s *= state->feet[leg].phase > 0 || state->pace < state->lasting ? state->pace : state->lasting;
+  float lasting = state->feet[leg].lasting;
+  left_s *= state->pace < lasting ? state->pace : lasting;
   const sbri_home *at = &stride->homes[leg];
   float turned = state->turn * left_s;
   sbf_vec3 home, now = at->arm, velocity = at->velocity, drift = sbri_body_velocity(state);
@@ -79,7 +80,7 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->from_normal = foot->normal;
   float needed = 0;
   for (int pass = 0; pass < PASSES; pass++) { /* the longer it takes, the farther on it comes down */
-    state->lasting = sbri_lasting(rig, state, input, foot->duration_s);
+    foot->lasting = sbri_lasting(rig, state, input, foot->duration_s);
     aim(rig, state, input, stride, leg, 1);
     plan(rig, state, input, leg);
     needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
