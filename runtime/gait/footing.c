@@ -64,8 +64,11 @@ static float lay(const sbri_gait_input *input, const sbf_vec3 corners[4], float 
 static void find_corners(
     const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t leg, sbf_vec3 corners[4]) {
   const sbri_sole *sole = &rig->legs[leg].sole;
+  const sbri_foot *foot = &state->feet[leg];
+  float turned = foot->planted ? 0 : state->turn * state->pace * (1 - foot->phase) * foot->duration_s;
   for (int k = 0; k < 4; k++) {
     sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
+    if (turned != 0) corner = sbri_turned(corner, turned); /* as the body will be when it comes down */
     corners[k] = sbri_headed(state, sbri_scale(corner, AROUND * scale));
   }
 }

@@ -198,9 +198,10 @@ float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t 
  * end of its reach. */
 float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 way);
-/* Share of the wanted motion at which the feet that stand stay within their reach for a time. */
-float sbri_lasting(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float in_s);
+/* Share of the wanted motion at which the feet that stand while a leg is in the air stay within their reach
+ * for so long. */
+float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float in_s);
 /* Share of the wanted motion that leaves every planted foot within its reach; `lasting` receives that at
  * which they stay so until the feet in the air are down. */
 float sbri_pace_of(

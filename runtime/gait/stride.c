@@ -252,11 +252,16 @@ static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
   return left > 0 ? left : 0;
 }
 
-float sbri_lasting(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, float in_s) {
+float sbri_lasting(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, float in_s) {
   float least = 1, speed;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     if (!state->feet[i].planted) continue;
+    if (state->together && rig->legs[i].group == rig->legs[leg].group) { /* it goes along, if it is behind */
+      sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
+      sbf_vec3 behind = sbri_sub(sbri_add(state->position, arm), state->feet[i].ground);
+      if (sbri_dot(behind, sbri_home_velocity(rig, state, i, arm)) > 0) continue;
+    }
     float left = left_of(rig, state, input, i, &speed);
     if (left < least * speed * in_s) least = left / (speed * in_s);
   }

@@ -80,7 +80,7 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->from_normal = foot->normal;
   float needed = 0;
   for (int pass = 0; pass < PASSES; pass++) { /* the longer it takes, the farther on it comes down */
-    foot->lasting = sbri_lasting(rig, state, input, foot->duration_s);
+    foot->lasting = sbri_lasting(rig, state, input, leg, foot->duration_s);
     aim(rig, state, input, stride, leg, 1);
     plan(rig, state, input, leg);
     needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
@@ -140,7 +140,10 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     float off = sbri_length(sbri_sub(foot->to, foot->planned));
     if (foot->phase < SET_PHASE && off > REPLANNED * rig->reach * input->scale) plan(rig, state, input, leg);
   } else if (foot->to_normal.y != 0) {
-    sbri_lay_sole(rig, state, input, leg, &foot->to, &foot->to_normal);
+    sbf_vec3 place = foot->to, normal = foot->to_normal;
+    sbri_lay_sole(rig, state, input, leg, &place, &normal);
+    bool other = fabsf(place.y - foot->to.y) > LEVEL * rig->reach * input->scale; /* too late for that */
+    if (!other) foot->to = place, foot->to_normal = normal;
   }
   bool down = foot->phase >= 1;
   if (down)
