@@ -78,11 +78,15 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->duration_s = stride->duration_s;
   foot->from = foot->ground;
   foot->from_normal = foot->normal;
-  float needed = 0;
+  float needed = 0, clearance = 0, hasty = 0;
   for (int pass = 0; pass < PASSES; pass++) { /* the longer it takes, the farther on it comes down */
     foot->lasting = sbri_lasting(rig, state, input, leg, foot->duration_s);
     aim(rig, state, input, stride, leg, 1);
     plan(rig, state, input, leg);
+    float haste =
+        foot->leaves - foot->arrives + foot->climbs - foot->climbed; /* the more, the less time it has */
+    if (pass > 0 && foot->clearance <= clearance && haste <= hasty) break; /* nothing else lies there */
+    clearance = foot->clearance, hasty = haste;
     needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
     if (needed <= AS_PLANNED * foot->duration_s) break;
     foot->duration_s = needed;
