@@ -115,7 +115,8 @@ static bool make_room(sbri_foot *foot, float when) {
 void sbri_step_plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
   sbri_foot *foot = &state->feet[leg];
   float usual = rig->gait->step_height * input->scale, when = 0;
-  if (foot->phase <= 0) foot->leaves = foot->climbs = 0, foot->arrives = foot->climbed = 1;
+  if (foot->phase <= 0) foot->leaves = foot->climbs = 0;
+  foot->arrives = foot->climbed = 1;
   foot->clearance = usual;
   double level;
   if (sbri_ground_is_flat(input->ground, &level)) return;

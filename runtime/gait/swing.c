@@ -54,9 +54,18 @@ static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_inp
   foot->to_normal = sbri_normalize(sbri_lerp(foot->to_normal, normal, share), normal);
 }
 
-static void plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
-  state->feet[leg].planned = state->feet[leg].to;
+/* How little time a step leaves to the legs for what they do. */
+static float haste_of(const sbri_foot *foot) {
+  return foot->leaves - foot->arrives + foot->climbs - foot->climbed;
+}
+
+/* True where it is lifted higher than by the plan before, or faster. */
+static bool plan(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+  sbri_foot *foot = &state->feet[leg];
+  float clearance = foot->clearance, haste = haste_of(foot);
+  foot->planned = foot->to;
   sbri_step_plan(rig, state, input, leg);
+  return foot->clearance > clearance || haste_of(foot) > haste;
 }
 
 /* Steps that take longer than wanted make the next ones slower, and the body where its legs have no more time
@@ -78,15 +87,11 @@ void sbri_swing_begin(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   foot->duration_s = stride->duration_s;
   foot->from = foot->ground;
   foot->from_normal = foot->normal;
-  float needed = 0, clearance = 0, hasty = 0;
+  float needed = 0;
   for (int pass = 0; pass < PASSES; pass++) { /* the longer it takes, the farther on it comes down */
     foot->lasting = sbri_lasting(rig, state, input, leg, foot->duration_s);
     aim(rig, state, input, stride, leg, 1);
-    plan(rig, state, input, leg);
-    float haste =
-        foot->leaves - foot->arrives + foot->climbs - foot->climbed; /* the more, the less time it has */
-    if (pass > 0 && foot->clearance <= clearance && haste <= hasty) break; /* nothing else lies there */
-    clearance = foot->clearance, hasty = haste;
+    if (!plan(rig, state, input, leg) && pass > 0) break; /* nothing else lies there */
     needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
     if (needed <= AS_PLANNED * foot->duration_s) break;
     foot->duration_s = needed;
@@ -142,7 +147,12 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     float left = 1 - foot->phase / SETTLED_PHASE;
     aim(rig, state, input, stride, leg, FOLLOW * left);
     float off = sbri_length(sbri_sub(foot->to, foot->planned));
-    if (foot->phase < SET_PHASE && off > REPLANNED * rig->reach * input->scale) plan(rig, state, input, leg);
+    bool off_plan = foot->phase < SET_PHASE && off > REPLANNED * rig->reach * input->scale;
+    if (off_plan) (void)plan(rig, state, input, leg);
+    if (off_plan && foot->clearance > rig->gait->step_height * input->scale) { /* over something */
+      float needed = sbri_step_time(rig, state, input, leg, stride->duration_s);
+      if (needed > foot->duration_s) foot->duration_s = needed;
+    }
   } else if (foot->to_normal.y != 0) {
     sbf_vec3 place = foot->to, normal = foot->to_normal;
     sbri_lay_sole(rig, state, input, leg, &place, &normal);
