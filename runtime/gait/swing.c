@@ -8,6 +8,7 @@ static const float SPARE_TIME = 1.15f;    /* of what a step needs: what it shoul
 static const float LEVEL = 0.08f;         /* of the reach: what is higher or lower is another level */
 static const float AS_PLANNED = 1.02f;    /* of a step's time: what it may need more than it has */
 static const float REPLANNED = 0.02f;     /* of the reach: a target so far off makes a new plan */
+static const float WIDEST = 1.7f;         /* reaches: a step that begins far behind goes no farther ahead */
 enum { PASSES = 4 };
 
 float sbri_smooth(float t) {
@@ -16,8 +17,8 @@ float sbri_smooth(float t) {
 }
 
 /* Ahead of where its home will be when it comes down. */
-static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_stride *stride,
-    uint32_t leg, float left_s) {
+static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbri_stride *stride, uint32_t leg, float left_s) {
   float lasting = state->feet[leg].lasting;
   left_s *= state->pace < lasting ? state->pace : lasting;
   const sbri_home *at = &stride->homes[leg];
@@ -33,14 +34,17 @@ static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, 
   if (state->standing_s > 0 || stride->speed <= 0) return home;
   sbf_vec3 way = sbri_normalize(velocity, sbri_vec3(0, 0, 0));
   float half = stride->half_m * sbri_length(velocity) / stride->speed;
-  return sbri_add_scaled(home, way, sbri_ahead(&at->roam, way, half));
+  float ahead = sbri_ahead(&at->roam, way, half), most = WIDEST * rig->reach * input->scale;
+  float before = sbri_dot(sbri_sub(home, state->feet[leg].from), way); /* of the step */
+  if (before + ahead > most) ahead = most > before ? most - before : 0;
+  return sbri_add_scaled(home, way, ahead);
 }
 
 static void aim(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg, float share) {
   sbri_foot *foot = &state->feet[leg];
   float left = (1 - sbri_clamp(foot->phase, 0, 1)) * foot->duration_s;
-  sbf_vec3 place, normal, wanted = wanted_place(rig, state, stride, leg, left);
+  sbf_vec3 place, normal, wanted = wanted_place(rig, state, input, stride, leg, left);
   if (!sbri_footing(rig, state, input, leg, wanted, &place, &normal))
     place = foot->from, normal = foot->from_normal;
   if (sbri_flat_distance(place, wanted) > 0) { /* not where it was going: nothing in between will do */
