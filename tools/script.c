@@ -1,6 +1,7 @@
 #include "script.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,13 +80,20 @@ void script_free(script *s) {
   *s = (script){.lines = NULL};
 }
 
+void script_drive(script *s, double time_s, sbr_world *world, sbr_character_id character, double forward,
+    double sideways, double turn) {
+  s->speed = hypot(forward, sideways);
+  s->since_s = time_s;
+  sbr_character_drive(world, character, (float)forward, (float)sideways, (float)turn);
+}
+
 void script_play(script *s, double time_s, sbr_world *world, sbr_character_id character) {
   for (; s->next < s->count && s->lines[s->next].at_s <= time_s + 1e-9; s->next++) {
     const script_line *line = &s->lines[s->next];
     const double *n = line->numbers;
     switch (line->kind) {
     case SCRIPT_DRIVE:
-      sbr_character_drive(world, character, (float)n[0], (float)n[2], (float)n[1]);
+      script_drive(s, time_s, world, character, n[0], n[2], n[1]);
       break;
     case SCRIPT_TELEPORT:
       sbr_character_teleport(world, character, (sbr_double3){n[0], n[1], n[2]}, (float)n[3]);

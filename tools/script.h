@@ -27,12 +27,17 @@ typedef struct script_line {
 typedef struct script {
   script_line *lines;
   uint32_t count, next;
+  double speed, since_s; /* that the character is driven at by the last drive, m/s, and when that came */
 } script;
 
 /* False, with a message that names the line, where the file cannot be read or a line is not understood;
  * *status then says whose fault it is. */
 bool script_load(script *s, cli_call *call, const char *path, int *status);
 void script_free(script *s);
+
+/* Drives the character from `time_s` on: forward and sideways, m/s, and turning, rad/s. */
+void script_drive(script *s, double time_s, sbr_world *world, sbr_character_id character, double forward,
+    double sideways, double turn);
 
 /* Plays what is due at `time_s`. */
 void script_play(script *s, double time_s, sbr_world *world, sbr_character_id character);

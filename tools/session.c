@@ -143,7 +143,7 @@ static void begin(session *s, const settings *set) {
     s->frame_count = (uint32_t)s->recording.replay.frame_count;
     return;
   }
-  sbr_character_drive(s->world, s->character, (float)set->drive[0], 0, (float)set->drive[1]);
+  script_drive(&s->script, 0, s->world, s->character, set->drive[0], 0, set->drive[1]);
   const sbr_clip_play how = {.weight = 1, .fade_s = CLIP_FADE_S, .speed = 1, .bone_mask = SBF_NONE};
   if (set->clip != SBF_NONE) sbr_character_play(s->world, s->character, 0, set->clip, &how);
 }

@@ -9,6 +9,7 @@
 enum { MOST_LEGS = 16, MOST_HULL = 512 };
 static const double DEGREES = 57.29577951308232;
 static const double FRAME_S = 1.0 / 60;  /* changes are counted per frame of this length */
+static const double STARTS_S = 1;        /* after a drive begins: then it should go as fast as it is driven */
 static const double SKATING_SPEED = 0.2; /* leg lengths a second, of a planted sole */
 
 typedef struct point2 {
@@ -38,7 +39,8 @@ struct walk_report {
   double leg_length;
   double knee_step, limit_excess, support_margin, body_step, body_turn_step;
   bool has_margin;
-  point2 *points; /* (MOST_HULL) */
+  double driven_m, gone_m, distance_m; /* once it should be at its speed; how far it had come a frame ago */
+  point2 *points;                      /* (MOST_HULL) */
   sbr_transform *bones;
   int body_samples;
   double body_at[3], body_speed[3], body_turn[3];
@@ -251,6 +253,15 @@ static void measure_body(walk_report *r, const session *s, double dt) {
   r->body_samples++;
 }
 
+static void measure_drive(walk_report *r, const session *s, double dt) {
+  double distance = sbr_character_distance(s->world, s->character);
+  if (s->script.speed > 0 && s->time_s - s->script.since_s > STARTS_S) {
+    r->driven_m += s->script.speed * dt;
+    r->gone_m += distance - r->distance_m;
+  }
+  r->distance_m = distance;
+}
+
 void walk_report_measure(walk_report *r, const session *s, const sbf_vec3 *skin) {
   sbr_leg_state legs[MOST_LEGS];
   memset(legs, 0, sizeof legs);
@@ -266,6 +277,7 @@ void walk_report_measure(walk_report *r, const session *s, const sbf_vec3 *skin)
   r->limit_excess = fmax(r->limit_excess, (double)sbr_character_limit_excess(s->world, s->character));
   measure_balance(r, s, legs, skin);
   measure_body(r, s, dt);
+  measure_drive(r, s, dt);
   r->frames++;
 }
 
@@ -303,6 +315,7 @@ void walk_report_add(const walk_report *r, const session *s, json_t *o) {
   json_object_set_new(o, "knee_speed_step", json_real(r->knee_step));
   json_object_set_new(o, "opposite_feet_in_air", json_integer(r->opposite_frames));
   if (r->has_margin) json_object_set_new(o, "support_margin", json_real(r->support_margin));
+  if (r->driven_m > 0) json_object_set_new(o, "drive_kept", json_real(r->gone_m / r->driven_m));
   json_object_set_new(o, "limit_excess", json_real(r->limit_excess * DEGREES));
   json_object_set_new(o, "body_speed_step", json_real(r->body_step));
   json_object_set_new(o, "body_turn_step", json_real(r->body_turn_step));

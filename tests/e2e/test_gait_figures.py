@@ -29,6 +29,13 @@ class Gait(ProgramTest):
             for leg in report["rhythm"].values():
                 self.assertLessEqual(leg["period_jitter"], 0.12)
 
+    def test_a_run_says_when_the_drive_is_beyond_the_legs(self):
+        kept = [measure(self.file, self.walks[name], self.leg, "--seconds", "3").get("drive_kept")
+                for name in ("flat, 1", "flat, 3", "flat, turning on the spot")]
+        self.assertGreaterEqual(kept[0], 0.97)
+        self.assertLess(kept[1], 0.8)
+        self.assertIsNone(kept[2])
+
     def test_slow_feet_stand_most_of_the_time(self):
         report = measure(self.file, self.walks["flat, 0.1"], self.leg)
         for leg in report["rhythm"].values():
