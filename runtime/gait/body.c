@@ -4,7 +4,7 @@
 #include "math/quat.h"
 #include "math/trig.h"
 
-static const float LEAN_HZ = 1.8f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers */
+static const float LEAN_HZ = 2.1f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers */
 static const float CROUCH_S = 0.08f; /* by which the crouch lags, and looks ahead */
 static const float MOST_YAW = 0.8f;  /* rad: hips and chest turn less than so */
 static const float NARROWEST = 0.5f; /* of the reach: feet turn the hips as if no nearer */

@@ -21,7 +21,8 @@ OTHERS = {
     "pup": ((ROOT, "examples", "pup", "pup.glb"), (), {}),
     "calf": ((ROOT, "examples", "calf", "calf.glb"), (), {}),
     "yeti": ((ROOT, "examples", "yeti", "yeti.glb"), (), {
-        "flat, 0.1": {"support_margin": -0.01}, "flat, 0.3": {"support_margin": -0.0095}}),
+        "flat, 0.1": {"support_margin": -0.0105}, "flat, 0.3": {"support_margin": -0.0095},
+        "flat, starting, stopping, aside": {"body_speed_step": 0.013}}),
     "spider": ((ROOT, "examples", "spider", "spider.glb"), (), {}),
     "kenney": ((shared("kenney-fbx"), "kenney_character.fbx"), (), {}),
     "greenman": ((shared("greenman"), "greenman.glb"), (), {
