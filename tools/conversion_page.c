@@ -166,8 +166,9 @@ static void put_pictures(FILE *to, const json_t *r) {
     const json_t *one = json_array_get(pictures, i);
     fprintf(to, "<figure><img alt=\"%s\" width=\"%lld\" height=\"%lld\" src=\"data:image/png;base64,%s\">\n",
         text(one, "title"), whole(one, "width"), whole(one, "height"), text(one, "png"));
-    fprintf(
-        to, "<figcaption><b>%s.</b> %s</figcaption></figure>\n", text(one, "title"), text(one, "caption"));
+    fprintf(to, "<figcaption><b>%s.</b> ", text(one, "title"));
+    put(to, text(one, "caption"));
+    fputs("</figcaption></figure>\n", to);
   }
   fputs("</div></section>\n", to);
 }

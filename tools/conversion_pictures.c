@@ -1,5 +1,6 @@
 #include "conversion_pictures.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,56 +12,60 @@
 #include "render/draw_scene.h"
 #include "render/painter.h"
 #include "render/picture.h"
+#include "skin_look.h"
 
 enum { WIDTH = 960, HEIGHT = 720 };
 
-static uint8_t srgb(float linear) {
-  double v = linear < 0 ? 0 : linear > 1 ? 1 : (double)linear;
-  v = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
-  return (uint8_t)(v * 255 + 0.5);
-}
-
-static draw_colour colour_of(const sbf_asset *asset, int32_t material) {
-  if (material < 0) return draw_colour_of_skin();
-  sbf_vec4 c = asset->materials.at[material].base_color;
-  return (draw_colour){srgb(c.x), srgb(c.y), srgb(c.z), 255};
-}
-
-/* Polygons as fans of triangles: those of one material slot, or all where `slots` is NULL. */
+/* Polygons as fans of triangles: those of one material slot, or all where `slots` is NULL. An image needs the
+ * mesh that the polygons are of. */
 static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const sbf_u32_list *slots,
-    uint32_t slot, draw_colour colour, float transparency) {
-  uint32_t *triangles = malloc((3 * (size_t)mesh->polygon_points.count + 1) * sizeof *triangles), count = 0;
+    uint32_t slot, const skin_look *look, const sbf_render_mesh *unwrapped, float transparency) {
+  size_t room = 3 * (size_t)mesh->polygon_points.count + 1;
+  uint32_t *triangles = malloc(room * sizeof *triangles), count = 0;
+  sbf_vec2 *uvs = look->image ? malloc(room * sizeof *uvs) : NULL;
   for (uint32_t i = 0, at = 0; triangles && i < mesh->polygon_sizes.count; at += mesh->polygon_sizes.at[i++])
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i] && (!slots || !slots->count || slots->at[i] == slot);
          k++) {
-      triangles[3 * count] = mesh->polygon_points.at[at];
-      triangles[3 * count + 1] = mesh->polygon_points.at[at + k - 1];
-      triangles[3 * count++ + 2] = mesh->polygon_points.at[at + k];
+      const uint32_t corners[3] = {at, at + k - 1, at + k};
+      for (int c = 0; c < 3; c++) {
+        if (uvs) uvs[3 * count + (uint32_t)c] = skin_corner_uv(unwrapped, corners[c]);
+        triangles[3 * count + (uint32_t)c] = mesh->polygon_points.at[corners[c]];
+      }
+      count++;
     }
   if (count)
     draw_scene_add_mesh(scene, &(draw_mesh){.positions = mesh->positions.at,
                                    .triangles = triangles,
                                    .vertex_count = mesh->positions.count,
                                    .triangle_count = count,
-                                   .colour = colour,
+                                   .colour = look->colour,
+                                   .image = look->image,
+                                   .corner_uvs = uvs,
                                    .transparency = transparency});
   free(triangles);
+  free(uvs);
 }
 
-static bool add_skin(const sbf_asset *asset, draw_scene *scene, float transparency) {
-  for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
-    const sbf_render_mesh *mesh = &asset->render_meshes.at[i];
+/* What a view shows. */
+typedef struct subject {
+  const sbf_asset *asset;
+  const skin_images *images;
+} subject;
+
+static bool add_skin(const subject *of, draw_scene *scene, float transparency) {
+  for (uint32_t i = 0; i < of->asset->render_meshes.count; i++) {
+    const sbf_render_mesh *mesh = &of->asset->render_meshes.at[i];
     uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
-    for (uint32_t s = 0; s < slots; s++)
-      add_polygons(scene, &mesh->mesh, &mesh->polygon_materials, s,
-          colour_of(asset, mesh->material_slots.count ? mesh->material_slots.at[s].material : SBF_NONE),
-          transparency);
+    for (uint32_t s = 0; s < slots; s++) {
+      skin_look look = skin_look_of(of->asset, of->images, mesh, s);
+      add_polygons(scene, &mesh->mesh, &mesh->polygon_materials, s, &look, mesh, transparency);
+    }
   }
-  return asset->render_meshes.count > 0;
+  return of->asset->render_meshes.count > 0;
 }
 
-static bool add_whole_skin(const sbf_asset *asset, draw_scene *scene) {
-  return add_skin(asset, scene, 0);
+static bool add_whole_skin(const subject *of, draw_scene *scene) {
+  return add_skin(of, scene, 0);
 }
 
 /* Hues a golden angle apart, so that neighbours in the list never look alike. */
@@ -73,11 +78,13 @@ static draw_colour colour_of_section(uint32_t i) {
   return (draw_colour){(uint8_t)(255 * rgb[0]), (uint8_t)(255 * rgb[1]), (uint8_t)(255 * rgb[2]), 255};
 }
 
-static bool add_sections(const sbf_asset *asset, draw_scene *scene) {
+static bool add_sections(const subject *of, draw_scene *scene) {
+  const sbf_asset *asset = of->asset;
   uint32_t shown = 0;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_polygon_mesh *surface = &asset->soft_bodies.at[i].surface;
-    add_polygons(scene, surface, NULL, 0, colour_of_section(i), 0);
+    skin_look look = {colour_of_section(i), NULL};
+    add_polygons(scene, surface, NULL, 0, &look, NULL, 0);
     shown += surface->polygon_sizes.count > 0;
   }
   return shown > 0;
@@ -143,7 +150,8 @@ static bool add_cut(const sbf_level *level, const draw_colour_map *map, draw_sce
   return count > 0;
 }
 
-static bool add_lattices(const sbf_asset *asset, draw_scene *scene) {
+static bool add_lattices(const subject *of, draw_scene *scene) {
+  const sbf_asset *asset = of->asset;
   draw_colour_map map;
   bool shown = false;
   draw_colour_map_init_sequential(&map);
@@ -155,7 +163,8 @@ static bool add_lattices(const sbf_asset *asset, draw_scene *scene) {
   return shown;
 }
 
-static bool add_springs(const sbf_asset *asset, draw_scene *scene) {
+static bool add_springs(const subject *of, draw_scene *scene) {
+  const sbf_asset *asset = of->asset;
   unsigned seen = 0;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_level *level = finest(&asset->soft_bodies.at[i]);
@@ -168,7 +177,7 @@ static bool add_springs(const sbf_asset *asset, draw_scene *scene) {
     }
   }
   if (!seen) return false;
-  add_skin(asset, scene, 0.88f);
+  add_skin(of, scene, 0.88f);
   for (int k = DRAW_SPRING_LOOK_COUNT - 1; k >= 0; k--) {
     const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)k);
     if (seen & 1u << k) draw_scene_add_legend(scene, look->name, look->colour);
@@ -176,13 +185,14 @@ static bool add_springs(const sbf_asset *asset, draw_scene *scene) {
   return true;
 }
 
-static bool add_bones(const sbf_asset *asset, draw_scene *scene) {
+static bool add_bones(const subject *of, draw_scene *scene) {
+  const sbf_asset *asset = of->asset;
   for (uint32_t i = 0; i < asset->bones.count; i++) {
     const sbf_bone *b = &asset->bones.at[i];
     sbf_vec3 along = v3_scale(v3_rotate(b->rotation, v3(0, 1, 0)), b->length);
     if (b->length > 0) draw_scene_add_bone(scene, b->head, v3_add(b->head, along), draw_colour_of_bone());
   }
-  if (asset->bones.count) add_skin(asset, scene, DRAW_XRAY);
+  if (asset->bones.count) add_skin(of, scene, DRAW_XRAY);
   return asset->bones.count > 0;
 }
 
@@ -190,9 +200,9 @@ static bool add_bones(const sbf_asset *asset, draw_scene *scene) {
 
 static const struct {
   const char *name, *title, *caption;
-  bool (*add)(const sbf_asset *, draw_scene *);
+  bool (*add)(const subject *, draw_scene *);
 } views[] = {
-    {"skin", "Skin", "The render meshes at rest, in their base colours; images are not drawn.",
+    {"skin", "Skin", "The render meshes at rest, in their base colours and the images on them.",
         add_whole_skin},
     {"sections", "Sections", "The surface of every soft body in a colour of its own.", add_sections},
     {"lattice", "Lattice",
@@ -207,6 +217,8 @@ typedef struct easel {
   draw_painter *painter;
   draw_scene *scene;
   uint8_t *rgb;
+  skin_images images;
+  char *notes; /* of images that are not drawn, a sentence each after a blank; NULL: none */
 } easel;
 
 static sbf_status open_easel(easel *e, sbf_diagnostic *error) {
@@ -224,6 +236,8 @@ static void close_easel(easel *e) {
   if (e->scene) draw_scene_destroy(e->scene);
   draw_painter_destroy(e->painter);
   draw_canvas_close(e->canvas);
+  skin_images_free(&e->images);
+  free(e->notes);
   free(e->rgb);
 }
 
@@ -257,29 +271,44 @@ static char *base64_of(const uint8_t *bytes, size_t size) {
   return text;
 }
 
-static bool append(json_t *list, size_t view, const uint8_t *png, size_t size) {
+/* The first view is of the skin. */
+static bool append(json_t *list, const easel *e, size_t view, const uint8_t *png, size_t size) {
   char *text = base64_of(png, size);
   json_t *one =
-      text ? json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", views[view].name, "title", views[view].title,
-                 "caption", views[view].caption, "width", WIDTH, "height", HEIGHT, "png", text)
+      text ? json_pack("{s:s, s:s, s:s+, s:i, s:i, s:s}", "name", views[view].name, "title",
+                 views[view].title, "caption", views[view].caption, view == 0 && e->notes ? e->notes : "",
+                 "width", WIDTH, "height", HEIGHT, "png", text)
            : NULL;
   free(text);
   return one && json_array_append_new(list, one) == 0;
 }
 
-bool conversion_pictures_draw(const sbf_asset *asset, json_t *list, char **why) {
+/* Without memory a note is lost, not the picture. */
+static void keep_note(void *user, const sbf_diagnostic *note) {
+  easel *e = user;
+  size_t before = e->notes ? strlen(e->notes) : 0, more = strlen(note->message) + 3;
+  char *grown = realloc(e->notes, before + more);
+  if (!grown) return;
+  e->notes = grown;
+  snprintf(grown + before, more, " %s.", note->message);
+  grown[before + 1] = (char)toupper((unsigned char)grown[before + 1]);
+}
+
+bool conversion_pictures_draw(const sbf_asset *asset, const char *file, json_t *list, char **why) {
   easel e = {.canvas = NULL};
   sbf_diagnostic error = {.code = 0};
   sbf_status status = open_easel(&e, &error);
   bool good = true;
+  subject of = {asset, &e.images};
+  if (status == SBF_OK) skin_images_load(&e.images, asset, file, keep_note, &e);
   for (size_t i = 0; status == SBF_OK && good && i < sizeof views / sizeof *views; i++) {
     uint8_t *png = NULL;
     size_t size = 0;
     draw_scene_clear(e.scene);
-    if (!views[i].add(asset, e.scene)) continue;
+    if (!views[i].add(&of, e.scene)) continue;
     status = paint(&e, &error);
     if (status == SBF_OK) status = draw_picture_encode_png(e.rgb, WIDTH, HEIGHT, &png, &size, &error);
-    if (status == SBF_OK) good = append(list, i, png, size);
+    if (status == SBF_OK) good = append(list, &e, i, png, size);
     free(png);
   }
   close_easel(&e);

@@ -6,9 +6,9 @@
 
 #include "sbfmt/asset.h"
 
-/* Appends an object for each picture that there is something for: name, title, caption, width, height and
- * png, base64. Where nothing can be drawn here `*why` becomes the reason, new text to be freed; else NULL.
- * False where memory runs out. */
-bool conversion_pictures_draw(const sbf_asset *asset, json_t *list, char **why);
+/* `file`: where the asset was written, beside which its images are. Appends an object for each picture that
+ * there is something for: name, title, caption, width, height and png, base64. Where nothing can be drawn
+ * here `*why` becomes the reason, new text to be freed; else NULL. False where memory runs out. */
+bool conversion_pictures_draw(const sbf_asset *asset, const char *file, json_t *list, char **why);
 
 #endif

@@ -145,10 +145,10 @@ static json_t *quality(const sbf_asset *a) {
   return all;
 }
 
-static void set_pictures(json_t *report, const sbf_asset *asset) {
+static void set_pictures(json_t *report, const sbf_asset *asset, const char *file) {
   char *why = NULL;
   json_t *list = json_array();
-  bool good = conversion_pictures_draw(asset, list, &why);
+  bool good = conversion_pictures_draw(asset, file, list, &why);
   json_object_set_new(report, "pictures", list);
   json_object_set_new(report, "drawing_failed", json_string(why ? why : good ? "" : "memory ran out"));
   free(why);
@@ -170,7 +170,7 @@ json_t *conversion_report_make(const conversion_report *of) {
   json_object_set_new(report, "bundle", bundle_description(of->asset, &measures, bytes_of(of->output)));
   json_object_set_new(report, "clips", clips(of->asset));
   json_object_set_new(report, "quality", quality(of->asset));
-  set_pictures(report, of->asset);
+  set_pictures(report, of->asset, of->output);
   return report;
 }
 

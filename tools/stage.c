@@ -8,8 +8,9 @@
 typedef struct patch {
   uint32_t *triangles, *whole; /* all, and room for those that no tear has opened */
   uint32_t *polygons;          /* (triangle_count) which each is of */
+  sbf_vec2 *uvs, *whole_uvs;   /* (3 triangle_count) likewise, on the image; NULL: there is none */
   uint32_t triangle_count;
-  draw_colour colour;
+  skin_look look;
 } patch;
 
 typedef struct mesh_look {
@@ -46,28 +47,32 @@ struct stage {
   uint32_t room;
 };
 
-static uint8_t srgb(float linear) {
-  double v = linear < 0 ? 0 : linear > 1 ? 1 : (double)linear;
-  v = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
-  return (uint8_t)(v * 255 + 0.5);
-}
-
-static draw_colour colour_of(const sbf_asset *asset, int32_t material) {
-  if (material < 0) return draw_colour_of_skin();
-  sbf_vec4 c = asset->materials.at[material].base_color;
-  return (draw_colour){srgb(c.x), srgb(c.y), srgb(c.z), 255};
-}
-
 /* The polygons of a mesh or of one of its levels, over the vertices that the runtime writes for it. */
 typedef struct shown_polygons {
   sbf_u32_list sizes, points, materials;
-  uint32_t *place_of; /* (vertices of the mesh); NULL: all are written */
+  uint32_t *place_of;  /* (vertices of the mesh); NULL: all are written */
+  uint32_t *corner_of; /* (corners shown) of the full mesh, whose looks each has; NULL: the same */
 } shown_polygons;
+
+/* A level may leave unsaid which corner of the full mesh each of its own looks like: then the first there is.
+ */
+static bool find_corners(const sbf_render_mesh *mesh, const sbf_render_level *from, shown_polygons *shown) {
+  const sbf_u32_list *points = &mesh->mesh.polygon_points;
+  uint32_t *first = malloc((mesh->mesh.positions.count + 1u) * sizeof *first);
+  shown->corner_of = malloc((from->polygon_points.count + 1u) * sizeof *shown->corner_of);
+  bool good = first && shown->corner_of;
+  for (uint32_t i = 0; good && i < mesh->mesh.positions.count; i++) first[i] = 0;
+  for (uint32_t i = good ? points->count : 0; i-- > 0;) first[points->at[i]] = i;
+  for (uint32_t i = 0; good && i < from->polygon_points.count; i++)
+    shown->corner_of[i] = from->corners.count ? from->corners.at[i] : first[from->polygon_points.at[i]];
+  free(first);
+  return good;
+}
 
 static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, shown_polygons *shown) {
   const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
-  *shown =
-      (shown_polygons){mesh->mesh.polygon_sizes, mesh->mesh.polygon_points, mesh->polygon_materials, NULL};
+  *shown = (shown_polygons){
+      mesh->mesh.polygon_sizes, mesh->mesh.polygon_points, mesh->polygon_materials, NULL, NULL};
   if (level == 0) return true;
   const sbf_render_level *from = &mesh->levels.at[level - 1];
   uint32_t count = sbr_model_level_vertices(s->model, number, level, NULL, 0);
@@ -80,31 +85,41 @@ static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, sho
   shown->sizes = from->polygon_sizes;
   shown->points = from->polygon_points;
   shown->materials = from->polygon_materials;
-  return good;
+  return good && find_corners(mesh, from, shown);
 }
 
 /* Cuts the polygons of one material slot into fans of triangles. */
-static bool cut_patch(const shown_polygons *shown, uint32_t slot, patch *p) {
+static bool cut_patch(const sbf_render_mesh *mesh, const shown_polygons *shown, uint32_t slot, patch *p) {
   size_t most = 3 * (size_t)shown->points.count + 1;
   p->triangles = malloc(most * sizeof *p->triangles);
   p->whole = malloc(most * sizeof *p->whole);
   p->polygons = malloc(((size_t)shown->points.count + 1) * sizeof *p->polygons);
   if (!p->triangles || !p->whole || !p->polygons) return false;
+  if (p->look.image) {
+    p->uvs = malloc(most * sizeof *p->uvs);
+    p->whole_uvs = malloc(most * sizeof *p->whole_uvs);
+    if (!p->uvs || !p->whole_uvs) return false;
+  }
   for (uint32_t i = 0, at = 0; i < shown->sizes.count; at += shown->sizes.at[i++]) {
     const uint32_t *corner = shown->points.at + at;
     if ((shown->materials.count ? shown->materials.at[i] : 0) != slot) continue;
     for (uint32_t k = 2; k < shown->sizes.at[i]; k++) {
       const uint32_t fan[3] = {corner[0], corner[k - 1], corner[k]};
-      for (int c = 0; c < 3; c++)
-        p->triangles[3 * p->triangle_count + (uint32_t)c] =
-            shown->place_of ? shown->place_of[fan[c]] : fan[c];
+      const uint32_t corners[3] = {at, at + k - 1, at + k};
+      for (uint32_t c = 0; c < 3; c++) {
+        uint32_t to = 3 * p->triangle_count + c;
+        p->triangles[to] = shown->place_of ? shown->place_of[fan[c]] : fan[c];
+        if (p->uvs)
+          p->uvs[to] = skin_corner_uv(mesh, shown->corner_of ? shown->corner_of[corners[c]] : corners[c]);
+      }
       p->polygons[p->triangle_count++] = i;
     }
   }
   return true;
 }
 
-static bool look_of_mesh(const session *s, uint32_t number, uint32_t level, mesh_look *look) {
+static bool look_of_mesh(
+    const session *s, const skin_images *images, uint32_t number, uint32_t level, mesh_look *look) {
   const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
   uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
   shown_polygons shown;
@@ -115,11 +130,11 @@ static bool look_of_mesh(const session *s, uint32_t number, uint32_t level, mesh
   look->torn = calloc(shown.sizes.count + 1u, 1);
   good = good && look->torn;
   for (uint32_t p = 0; good && p < slots; p++) {
-    look->patches[p].colour =
-        colour_of(s->asset, mesh->material_slots.count ? mesh->material_slots.at[p].material : SBF_NONE);
-    good = cut_patch(&shown, p, &look->patches[p]);
+    look->patches[p].look = skin_look_of(s->asset, images, mesh, p);
+    good = cut_patch(mesh, &shown, p, &look->patches[p]);
   }
   free(shown.place_of);
+  free(shown.corner_of);
   return good;
 }
 
@@ -161,7 +176,7 @@ static uint32_t largest_room(const sbf_asset *asset) {
   return room;
 }
 
-stage *stage_create(const session *s, unsigned show, uint32_t render_level) {
+stage *stage_create(const session *s, const skin_images *images, unsigned show, uint32_t render_level) {
   const sbf_asset *asset = s->asset;
   stage *st = calloc(1, sizeof *st);
   if (!st) return NULL;
@@ -177,7 +192,7 @@ stage *stage_create(const session *s, unsigned show, uint32_t render_level) {
   st->colours = malloc(st->room * sizeof *st->colours);
   bool good = st->meshes && st->bodies && st->positions && st->normals && st->bones && st->colours;
   for (uint32_t i = 0; good && i < st->mesh_count; i++)
-    good = look_of_mesh(s, i, render_level, &st->meshes[i]);
+    good = look_of_mesh(s, images, i, render_level, &st->meshes[i]);
   for (uint32_t i = 0; good && i < st->body_count; i++)
     good = look_of_lattice(&asset->soft_bodies.at[i], &st->bodies[i]);
   draw_colour_map_init_diverging(&st->strains);
@@ -190,6 +205,8 @@ static void free_patch(patch *p) {
   free(p->triangles);
   free(p->whole);
   free(p->polygons);
+  free(p->uvs);
+  free(p->whole_uvs);
 }
 
 void stage_destroy(stage *st) {
@@ -223,11 +240,12 @@ static void to_world(sbf_vec3 origin, sbf_vec3 *points, uint32_t count) {
   }
 }
 
-/* Those of the patch's triangles that no tear has opened, in p->whole; returns how many. */
+/* Those of the patch's triangles that no tear has opened, in p->whole and p->whole_uvs; returns how many. */
 static uint32_t keep_whole(const patch *p, const uint8_t *torn) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < p->triangle_count; i++) {
     if (torn[p->polygons[i]]) continue;
+    if (p->uvs) memcpy(p->whole_uvs + 3 * (size_t)count, p->uvs + 3 * (size_t)i, 3 * sizeof *p->uvs);
     memcpy(p->whole + 3 * (size_t)count++, p->triangles + 3 * (size_t)i, 3 * sizeof *p->whole);
   }
   return count;
@@ -250,7 +268,9 @@ static void show_skin(stage *st, const session *s, sbf_vec3 origin, draw_scene *
                                      .triangles = one->whole,
                                      .vertex_count = count,
                                      .triangle_count = triangles,
-                                     .colour = one->colour,
+                                     .colour = one->look.colour,
+                                     .image = one->look.image,
+                                     .corner_uvs = one->whole_uvs,
                                      .transparency = inside ? DRAW_XRAY : 0});
     }
   }

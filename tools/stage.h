@@ -4,6 +4,7 @@
 
 #include "render/draw_scene.h"
 #include "session.h"
+#include "skin_look.h"
 
 enum {
   STAGE_SURFACE = 1,
@@ -17,8 +18,9 @@ enum {
 
 typedef struct stage stage;
 
-/* `render_level` of each mesh: 0 the full one; where there are fewer, the last. NULL: no memory. */
-stage *stage_create(const session *s, unsigned show, uint32_t render_level);
+/* `images` stay with the caller, until the stage is gone. `render_level` of each mesh: 0 the full one; where
+ * there are fewer, the last. NULL: no memory. */
+stage *stage_create(const session *s, const skin_images *images, unsigned show, uint32_t render_level);
 void stage_destroy(stage *st);
 
 /* Fills the scene with the present frame, ground included. Places are relative to where the world's origin

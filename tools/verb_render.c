@@ -14,6 +14,7 @@ typedef enum output { OUTPUT_PNG, OUTPUT_GIF, OUTPUT_MP4 } output;
 typedef struct studio {
   session s;
   stage *stage;
+  skin_images images;
   draw_canvas *canvas;
   draw_painter *painter;
   draw_scene *scene;
@@ -94,12 +95,20 @@ static bool parse_view(cli_call *call, studio *st) {
   return false;
 }
 
-static sbf_status open_studio(studio *st, unsigned show, uint32_t render_level, sbf_diagnostic *error) {
+static void print_note(void *call, const sbf_diagnostic *note) {
+  cli_print_diagnostic(call, note);
+}
+
+static sbf_status open_studio(
+    studio *st, cli_call *call, unsigned show, uint32_t render_level, sbf_diagnostic *error) {
   draw_canvas_quality quality = st->kind == OUTPUT_PNG ? DRAW_CANVAS_STILL : DRAW_CANVAS_MOVIE;
   sbf_status status = draw_canvas_open(&st->canvas, st->width, st->height, quality, error);
   if (status == SBF_OK) status = draw_painter_create(&st->painter, st->canvas, error);
   if (status != SBF_OK) return status;
-  st->stage = stage_create(&st->s, show, render_level);
+  /* A skin that is seen through shows its colours alone. */
+  if (!(show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET)))
+    skin_images_load(&st->images, st->s.asset, call->inputs[0], print_note, call);
+  st->stage = stage_create(&st->s, &st->images, show, render_level);
   st->scene = draw_scene_create();
   st->rgb = malloc(3 * (size_t)st->width * st->height);
   if (st->stage && st->scene && st->rgb) return SBF_OK;
@@ -113,6 +122,7 @@ static void close_studio(studio *st) {
   if (st->scene) draw_scene_destroy(st->scene);
   draw_painter_destroy(st->painter);
   draw_canvas_close(st->canvas);
+  skin_images_free(&st->images);
   free(st->rgb);
   session_close(&st->s);
 }
@@ -167,7 +177,7 @@ static int run(cli_call *call) {
       !parse_view(call, &st) || !cli_integer(call, "--render-level", 0, 1000, &render_level))
     return SBF_FAILED;
   if (!session_open(&st.s, call, usual_seconds[st.kind], usual_fps[st.kind], &status)) return status;
-  status = (int)open_studio(&st, show, (uint32_t)render_level, &error);
+  status = (int)open_studio(&st, call, show, (uint32_t)render_level, &error);
   const char *path = cli_value(call, "-o");
   if (status == SBF_OK)
     status = (int)(st.kind == OUTPUT_PNG ? draw_picture(&st, path, &error) : draw_film(&st, path, &error));
@@ -194,6 +204,7 @@ const cli_verb verb_render = {"render", "FILE -o OUT.png|gif|mp4 [--show LIST] [
     "draw a picture or a film",
     "Draws without a display. A picture shows the moment after --seconds (0), a film the time until then "
     "(5). The\n"
-    "skin turns translucent when what lies under it is shown too. Springs are coloured by kind, or by "
-    "strain.",
+    "skin turns translucent when what lies under it is shown too; else it wears its base colour images, "
+    "where they\n"
+    "are PNG. Springs are coloured by kind, or by strain.",
     options, 1, 1, run};

@@ -39,6 +39,33 @@ START_TEST(index_out_of_range_is_left_out)
 }
 END_TEST
 
+/* Each corner has its own place in an image, also behind a triangle that is left out; shaded as without one.
+ */
+START_TEST(corners_keep_their_places_in_the_image)
+{
+  static const uint32_t three[9] = {0, 1, 2, 0, 9, 1, 0, 2, 3};
+  const draw_place place = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {10, 0, 0}};
+  const draw_image image = {1, 1};
+  sbf_vec2 uvs[9];
+  for (int i = 0; i < 9; i++) uvs[i] = (sbf_vec2){(float)i, 0.5f};
+  draw_mesh mesh = square;
+  mesh.triangles = three;
+  mesh.triangle_count = 3;
+  mesh.place = &place;
+  mesh.image = &image;
+  mesh.corner_uvs = uvs;
+  draw_scene_add_mesh(scene, &square);
+  draw_scene_add_mesh(scene, &mesh);
+  ck_assert_uint_eq(scene->positions.count, 10);
+  ck_assert_uint_eq(scene->uvs.count, 10);
+  ck_assert_uint_eq(scene->parts.count, 2);
+  static const float wanted[10] = {0, 0, 0, 0, 0, 1, 2, 6, 7, 8};
+  for (int i = 0; i < 10; i++) ck_assert_float_eq(((const sbf_vec2 *)scene->uvs.at)[i].x, wanted[i]);
+  for (size_t i = 4; i < 10; i++) ck_assert_float_eq_tol(normal_at(i).x, 1, 1e-5f);
+  ck_assert_float_eq_tol(((const sbf_vec3 *)scene->positions.at)[5].z, -1, 1e-5f);
+}
+END_TEST
+
 START_TEST(placed_mesh_is_turned_and_moved)
 {
   /* A quarter turn about +Y takes +Z to +X. */
@@ -152,6 +179,7 @@ int main(void) {
   TCase *tests = tcase_create("draw_scene");
   tcase_add_checked_fixture(tests, set_up, tear_down);
   tcase_add_test(tests, index_out_of_range_is_left_out);
+  tcase_add_test(tests, corners_keep_their_places_in_the_image);
   tcase_add_loop_test(tests, placed_mesh_is_turned_and_moved, 0, 2);
   tcase_add_test(tests, far_lines_come_first);
   tcase_add_test(tests, far_veils_come_first);

@@ -1,6 +1,7 @@
 /* What stands where shows there, in its colour. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "harness.h"
 #include "opengl_probe.h"
@@ -106,6 +107,100 @@ START_TEST(xray_shows_what_is_inside)
 }
 END_TEST
 
+/* Red and green over blue and yellow, each a quarter; to be freed. */
+static draw_image *four_colours(void) {
+  static const uint8_t rows[2][2][4] = {
+      {{224, 0, 0, 255}, {0, 224, 0, 255}}, {{0, 0, 224, 255}, {224, 224, 0, 255}}};
+  enum { SIDE = 18 };
+  draw_image *image = malloc(sizeof *image + 4 * SIDE * SIDE);
+  ck_assert_ptr_nonnull(image);
+  image->width = image->height = SIDE;
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      memcpy(image->rgba + 4 * (y * SIDE + x), rows[y >= SIDE / 2][x >= SIDE / 2], 4);
+  return image;
+}
+
+static const sbf_vec2 whole_image[6] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+
+static void add_square_with(
+    float x, const draw_image *image, const sbf_vec2 *uvs, uint32_t hex, float transparency) {
+  const sbf_vec3 corners[4] = {
+      {x - 0.6f, -0.6f, 0}, {x + 0.6f, -0.6f, 0}, {x + 0.6f, 0.6f, 0}, {x - 0.6f, 0.6f, 0}};
+  static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
+  draw_scene_add_mesh(scene, &(draw_mesh){.positions = corners,
+                                 .vertex_count = 4,
+                                 .triangles = triangles,
+                                 .triangle_count = 2,
+                                 .colour = draw_colour_rgb(hex),
+                                 .image = image,
+                                 .corner_uvs = uvs,
+                                 .transparency = transparency});
+}
+
+START_TEST(image_is_upright)
+{
+  draw_image *image = four_colours();
+  add_square_with(0, image, whole_image, 0xffffff, 0);
+  paint();
+  ck_assert_int_gt(redness(pixel_at(-0.3f, 0.3f)), 80);
+  ck_assert_int_gt(greenness(pixel_at(0.3f, 0.3f)), 80);
+  ck_assert_int_gt(blueness(pixel_at(-0.3f, -0.3f)), 80);
+  const uint8_t *yellow = pixel_at(0.3f, -0.3f);
+  ck_assert_int_gt(yellow[0] - yellow[2], 80);
+  ck_assert_int_gt(yellow[1] - yellow[2], 80);
+  free(image);
+}
+END_TEST
+
+/* A mesh without one between two that have: each keeps its own. */
+START_TEST(images_stay_on_their_meshes)
+{
+  draw_image *image = four_colours(), *second = four_colours();
+  for (size_t i = 0; i < 4 * (size_t)second->width * second->height; i += 4)
+    memcpy(second->rgba + i, (const uint8_t[4]){0, 0, 224, 255}, 4);
+  add_square_with(-0.9f, image, whole_image, 0xffffff, 0);
+  add_square(0, 0, 1, 0.25f, 0xd02020, 0);
+  add_square_with(0.9f, second, whole_image, 0xffffff, 0);
+  for (int frame = 0; frame < 2; frame++) { /* made in the first, found in the second */
+    paint();
+    ck_assert_int_gt(greenness(pixel_at(-0.6f, 0.3f)), 80);
+    ck_assert_int_gt(redness(pixel_at(0, 0)), 80);
+    ck_assert_int_gt(blueness(pixel_at(0.9f, 0.3f)), 80);
+  }
+  free(image);
+  free(second);
+}
+END_TEST
+
+START_TEST(image_repeats_and_is_multiplied)
+{
+  static const sbf_vec2 next[6] = {{7, -3}, {8, -3}, {8, -2}, {7, -3}, {8, -2}, {7, -2}};
+  draw_image *image = four_colours();
+  add_square_with(0, image, next, 0xff0000, 0);
+  paint();
+  ck_assert_int_gt(redness(pixel_at(-0.3f, 0.3f)), 80);
+  ck_assert_int_gt(redness(pixel_at(0.3f, -0.3f)), 80); /* of yellow red is left */
+  ck_assert_int_lt(pixel_at(0.3f, 0.3f)[1], 100);       /* of green nothing */
+  free(image);
+}
+END_TEST
+
+START_TEST(veil_has_no_image)
+{
+  static uint8_t plain[sizeof rgb];
+  draw_image *image = four_colours();
+  add_square_with(0, NULL, NULL, 0x808080, DRAW_XRAY);
+  paint();
+  memcpy(plain, rgb, sizeof plain);
+  draw_scene_clear(scene);
+  add_square_with(0, image, whole_image, 0x808080, DRAW_XRAY);
+  paint();
+  ck_assert_mem_eq(plain, rgb, sizeof rgb);
+  free(image);
+}
+END_TEST
+
 START_TEST(deep_inside_a_veil_is_dimmer)
 {
   draw_colour red = draw_colour_rgb(0xe00000);
@@ -202,6 +297,10 @@ int main(void) {
   tcase_add_loop_test(tests, triangle_in_its_place, 0, 2);
   tcase_add_test(tests, nearer_hides_farther);
   tcase_add_loop_test(tests, xray_shows_what_is_inside, 0, 2);
+  tcase_add_test(tests, image_is_upright);
+  tcase_add_test(tests, images_stay_on_their_meshes);
+  tcase_add_test(tests, image_repeats_and_is_multiplied);
+  tcase_add_test(tests, veil_has_no_image);
   tcase_add_test(tests, deep_inside_a_veil_is_dimmer);
   tcase_add_test(tests, nearer_lines_are_over_farther);
   tcase_add_test(tests, line_behind_the_eye_is_cut);

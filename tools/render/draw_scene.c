@@ -13,10 +13,10 @@ draw_scene *draw_scene_create(void) {
 
 void draw_scene_destroy(draw_scene *scene) {
   if (!scene) return;
-  draw_scene_list *lists[] = {&scene->positions, &scene->normals, &scene->colours, &scene->indices,
-      &scene->parts, &scene->lines, &scene->sorted_lines, &scene->line_corners, &scene->sorted_parts,
-      &scene->overlay, &scene->placed_overlay, &scene->ground_positions, &scene->ground_normals,
-      &scene->ground_indices};
+  draw_scene_list *lists[] = {&scene->positions, &scene->normals, &scene->colours, &scene->uvs,
+      &scene->smooth_normals, &scene->indices, &scene->parts, &scene->lines, &scene->sorted_lines,
+      &scene->line_corners, &scene->sorted_parts, &scene->overlay, &scene->placed_overlay,
+      &scene->ground_positions, &scene->ground_normals, &scene->ground_indices};
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) free(lists[i]->at);
   free(scene);
 }
@@ -27,7 +27,7 @@ void draw_scene_clear_ground(draw_scene *scene) {
 }
 
 void draw_scene_clear(draw_scene *scene) {
-  scene->positions.count = scene->normals.count = scene->colours.count = 0;
+  scene->positions.count = scene->normals.count = scene->colours.count = scene->uvs.count = 0;
   scene->indices.count = scene->parts.count = 0;
   scene->lines.count = scene->sorted_lines.count = scene->sorted_parts.count = 0;
   scene->overlay.count = scene->placed_overlay.count = 0;
@@ -94,23 +94,28 @@ bool draw_scene_make_room(
   room->first_vertex = (uint32_t)vertices;
   room->positions = room->normals = NULL;
   room->colours = NULL;
+  room->uvs = NULL;
   room->indices = NULL;
   if (vertices + vertex_count <= UINT32_MAX && triangle_count <= UINT32_MAX / 3) {
     room->positions = draw_scene_list_push(scene, &scene->positions, vertex_count, sizeof(sbf_vec3));
     room->normals = draw_scene_list_push(scene, &scene->normals, vertex_count, sizeof(sbf_vec3));
     room->colours = draw_scene_list_push(scene, &scene->colours, vertex_count, sizeof(draw_colour));
+    room->uvs = draw_scene_list_push(scene, &scene->uvs, vertex_count, sizeof(sbf_vec2));
     room->indices =
         draw_scene_list_push(scene, &scene->indices, 3 * (size_t)triangle_count, sizeof(uint32_t));
   }
-  if (room->positions && room->normals && room->colours && room->indices) return true;
-  scene->positions.count = scene->normals.count = scene->colours.count = vertices;
+  if (room->positions && room->normals && room->colours && room->uvs && room->indices) {
+    memset(room->uvs, 0, vertex_count * sizeof *room->uvs);
+    return true;
+  }
+  scene->positions.count = scene->normals.count = scene->colours.count = scene->uvs.count = vertices;
   scene->indices.count = indices;
   scene->failed = true;
   return false;
 }
 
 static bool same_look(const draw_scene_part *a, const draw_scene_part *b) {
-  return a->transparency == b->transparency && a->casts_shadow == b->casts_shadow;
+  return a->transparency == b->transparency && a->casts_shadow == b->casts_shadow && a->image == b->image;
 }
 
 void draw_scene_close_part(draw_scene *scene, const draw_scene_room *room, uint32_t vertex_count,
@@ -163,6 +168,10 @@ static sbf_vec3 placed(const draw_place *place, sbf_vec3 p) {
   return place ? v3_add(v3_rotate(place->rotation, p), place->position) : p;
 }
 
+static sbf_vec3 turned(const draw_place *place, sbf_vec3 normal) {
+  return place ? v3_rotate(place->rotation, normal) : normal;
+}
+
 static void add_smooth(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *look) {
   draw_scene_room room;
   uint32_t index_count = 0;
@@ -177,15 +186,32 @@ static void add_smooth(draw_scene *scene, const draw_mesh *mesh, const draw_scen
     for (int k = 0; k < 3; k++) room.indices[index_count++] = triangle[k];
   }
   if (mesh->normals)
-    for (uint32_t i = 0; i < mesh->vertex_count; i++)
-      room.normals[i] = mesh->place ? v3_rotate(mesh->place->rotation, mesh->normals[i]) : mesh->normals[i];
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) room.normals[i] = turned(mesh->place, mesh->normals[i]);
   else
     draw_scene_smooth_normals(room.positions, mesh->vertex_count, room.indices, index_count, room.normals);
   for (uint32_t i = 0; i < index_count; i++) room.indices[i] += room.first_vertex;
   draw_scene_close_part(scene, &room, mesh->vertex_count, index_count, look);
 }
 
-static void add_flat(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *look) {
+/* Of the mesh's vertices, before it is placed; `indices`: room for all its triangles. */
+static const sbf_vec3 *find_smooth_normals(draw_scene *scene, const draw_mesh *mesh, uint32_t *indices) {
+  uint32_t count = 0;
+  scene->smooth_normals.count = 0;
+  sbf_vec3 *normals =
+      draw_scene_list_push(scene, &scene->smooth_normals, mesh->vertex_count, sizeof *normals);
+  for (uint32_t t = 0; normals && t < mesh->triangle_count; t++) {
+    const uint32_t *triangle = mesh->triangles + 3 * (size_t)t;
+    if (!in_range(triangle, mesh->vertex_count)) continue;
+    for (int k = 0; k < 3; k++) indices[count++] = triangle[k];
+  }
+  if (normals) draw_scene_smooth_normals(mesh->positions, mesh->vertex_count, indices, count, normals);
+  return normals;
+}
+
+/* Each corner a vertex of its own: for facets, and where an image parts along lines that the surface does
+ * not.
+ */
+static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *look) {
   draw_scene_room room;
   uint32_t count = 0;
   if (mesh->triangle_count > UINT32_MAX / 3 ||
@@ -193,29 +219,35 @@ static void add_flat(draw_scene *scene, const draw_mesh *mesh, const draw_scene_
     scene->failed = true;
     return;
   }
+  const sbf_vec3 *normals = mesh->normals;
+  if (!mesh->flat && !normals) normals = find_smooth_normals(scene, mesh, room.indices);
+  bool facets = mesh->flat || !normals;
   for (uint32_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *triangle = mesh->triangles + 3 * (size_t)t;
     if (!in_range(triangle, mesh->vertex_count)) continue;
     sbf_vec3 corner[3];
     for (int k = 0; k < 3; k++) corner[k] = placed(mesh->place, mesh->positions[triangle[k]]);
     sbf_vec3 across = v3_cross(v3_sub(corner[1], corner[0]), v3_sub(corner[2], corner[0]));
-    sbf_vec3 normal = v3_unit(across, v3(0, 1, 0));
+    sbf_vec3 of_facet = v3_unit(across, v3(0, 1, 0));
     for (int k = 0; k < 3; k++, count++) {
       room.positions[count] = corner[k];
-      room.normals[count] = normal;
+      room.normals[count] = facets ? of_facet : turned(mesh->place, normals[triangle[k]]);
       room.colours[count] = mesh->colours ? mesh->colours[triangle[k]] : mesh->colour;
+      if (look->image) room.uvs[count] = mesh->corner_uvs[3 * (size_t)t + (size_t)k];
       room.indices[count] = room.first_vertex + count;
     }
   }
-  scene->positions.count = scene->normals.count = scene->colours.count = room.first_vertex + (size_t)count;
+  scene->positions.count = scene->normals.count = scene->colours.count = scene->uvs.count =
+      room.first_vertex + (size_t)count;
   draw_scene_close_part(scene, &room, count, count, look);
 }
 
 void draw_scene_add_mesh(draw_scene *scene, const draw_mesh *mesh) {
   draw_scene_part look = {.transparency = mesh->transparency, .casts_shadow = !mesh->no_shadow};
   if (mesh->triangle_count == 0 || mesh->vertex_count == 0) return;
-  if (mesh->flat)
-    add_flat(scene, mesh, &look);
+  if (mesh->transparency <= 0 && mesh->corner_uvs) look.image = mesh->image;
+  if (mesh->flat || look.image)
+    add_corners(scene, mesh, &look);
   else
     add_smooth(scene, mesh, &look);
 }

@@ -4,6 +4,7 @@
 #ifndef RENDER_DRAW_SCENE_H
 #define RENDER_DRAW_SCENE_H
 
+#include "render/base_image.h"
 #include "render/camera.h"
 #include "render/palette.h"
 
@@ -29,8 +30,11 @@ typedef struct draw_mesh {
   const uint32_t *triangles;  /* (3 triangle_count) into positions; one out of range is left out */
   uint32_t vertex_count, triangle_count;
   draw_colour colour;
-  float transparency; /* 0 solid; 0.75 an x-ray view, which shows what is inside; below 1 */
-  bool flat;          /* facets keep their edges */
+  const draw_image *image;    /* multiplies the colour where it is solid; NULL: none. Not copied: it stays,
+                                 unchanged, as long as the painters that have painted it */
+  const sbf_vec2 *corner_uvs; /* (3 triangle_count) a place in it for each corner, its lower left 0, 0 */
+  float transparency;         /* 0 solid; 0.75 an x-ray view, which shows what is inside; below 1 */
+  bool flat;                  /* facets keep their edges */
   bool no_shadow;
   const draw_place *place; /* NULL: positions are in the world */
 } draw_mesh;

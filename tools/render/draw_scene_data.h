@@ -13,13 +13,16 @@ typedef struct draw_scene_list {
 /* Triangles with one look, consecutive in `indices`. */
 typedef struct draw_scene_part {
   uint32_t first_index, index_count;
-  sbf_vec3 middle; /* to draw the far ones first */
+  sbf_vec3 middle;         /* to draw the far ones first */
+  const draw_image *image; /* NULL: none */
   float transparency;
   bool casts_shadow;
 } draw_scene_part;
 
 struct draw_scene {
   draw_scene_list positions, normals, colours; /* (vertices) sbf_vec3, sbf_vec3, colour; all in the world */
+  draw_scene_list uvs;                         /* (vertices) sbf_vec2; 0 where there is no image */
+  draw_scene_list smooth_normals;              /* sbf_vec3, of one mesh while it is added */
   draw_scene_list indices;                     /* uint32_t, three a triangle */
   draw_scene_list parts;                       /* draw_scene_part */
   draw_scene_list lines;                       /* draw_line */
@@ -46,6 +49,7 @@ void *draw_scene_list_push(draw_scene *scene, draw_scene_list *list, size_t coun
 typedef struct draw_scene_room {
   sbf_vec3 *positions, *normals;
   draw_colour *colours;
+  sbf_vec2 *uvs; /* all 0 */
   uint32_t *indices;
   uint32_t first_vertex;
 } draw_scene_room;

@@ -49,6 +49,7 @@
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                               \
   X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                                                             \
   X(PFNGLGENSAMPLERSPROC, GenSamplers)                                                                       \
+  X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                                                                 \
   X(PFNGLGENTEXTURESPROC, GenTextures)                                                                       \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                               \
   X(PFNGLGETERRORPROC, GetError)                                                                             \

@@ -6,6 +6,7 @@
 
 #include "render/draw_scene_data.h"
 #include "render/fault.h"
+#include "render/image_textures.h"
 #include "render/layers.h"
 #include "render/light_maps.h"
 #include "render/programs.h"
@@ -22,7 +23,7 @@ typedef struct frame_block {
 
 /* A vertex array and the buffers it reads. */
 typedef struct mesh_buffers {
-  GLuint array, positions, normals, colours, indices;
+  GLuint array, positions, normals, colours, uvs, indices;
 } mesh_buffers;
 
 struct draw_painter {
@@ -33,6 +34,7 @@ struct draw_painter {
   GLuint line_array, line_buffer, line_indices, empty_array, frame_buffer;
   size_t line_room; /* lines that line_indices has corners for */
   layer_set layers;
+  image_textures images;
   frame_block frame;
   GLsizei ground_indices; /* in this frame */
 };
@@ -46,15 +48,18 @@ static void make_attribute(
 }
 
 static void make_mesh_buffers(const gl_api *gl, mesh_buffers *made, bool coloured) {
-  GLuint buffers[4];
+  GLuint buffers[5];
   gl->GenVertexArrays(1, &made->array);
-  gl->GenBuffers(4, buffers);
+  gl->GenBuffers(5, buffers);
   made->positions = buffers[0], made->normals = buffers[1], made->colours = buffers[2];
-  made->indices = buffers[3];
+  made->uvs = buffers[3], made->indices = buffers[4];
   gl->BindVertexArray(made->array);
   make_attribute(gl, made->positions, 0, 3, GL_FLOAT, 0, 0);
   make_attribute(gl, made->normals, 1, 3, GL_FLOAT, 0, 0);
-  if (coloured) make_attribute(gl, made->colours, 2, 4, GL_UNSIGNED_BYTE, 0, 0);
+  if (coloured) {
+    make_attribute(gl, made->colours, 2, 4, GL_UNSIGNED_BYTE, 0, 0);
+    make_attribute(gl, made->uvs, 3, 2, GL_FLOAT, 0, 0);
+  }
   gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, made->indices);
 }
 
@@ -106,12 +111,14 @@ void draw_painter_destroy(draw_painter *painter) {
   if (!painter) return;
   const gl_api *gl = draw_canvas_gl(painter->canvas);
   const GLuint buffers[] = {painter->meshes.positions, painter->meshes.normals, painter->meshes.colours,
-      painter->meshes.indices, painter->ground.positions, painter->ground.normals, painter->ground.colours,
-      painter->ground.indices, painter->line_buffer, painter->line_indices, painter->frame_buffer};
+      painter->meshes.uvs, painter->meshes.indices, painter->ground.positions, painter->ground.normals,
+      painter->ground.colours, painter->ground.uvs, painter->ground.indices, painter->line_buffer,
+      painter->line_indices, painter->frame_buffer};
   const GLuint arrays[] = {
       painter->meshes.array, painter->ground.array, painter->line_array, painter->empty_array};
   gl->DeleteBuffers((GLsizei)(sizeof buffers / sizeof *buffers), buffers); /* 0 is ignored */
   gl->DeleteVertexArrays((GLsizei)(sizeof arrays / sizeof *arrays), arrays);
+  image_textures_destroy(&painter->images, gl);
   layers_destroy(&painter->layers, gl);
   light_maps_destroy(&painter->maps, gl);
   programs_destroy(&painter->programs, gl);
@@ -151,6 +158,7 @@ static void upload_scene(
   upload_mesh(gl, &painter->meshes, &scene->positions, &scene->normals, &scene->indices);
   upload(gl, GL_ARRAY_BUFFER, painter->meshes.colours, scene->colours.at,
       scene->colours.count * sizeof(draw_colour));
+  upload(gl, GL_ARRAY_BUFFER, painter->meshes.uvs, scene->uvs.at, scene->uvs.count * sizeof(sbf_vec2));
   if (scene->has_floor) {
     upload_floor(painter, gl, scene, subject, ground_radius);
   } else {
@@ -270,14 +278,28 @@ static void end_depth_first(const gl_api *gl) {
   gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-static void paint_solid(const draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
+/* Those with an image on them or those without; an image that this OpenGL cannot hold is as none. */
+static void colour_solid(draw_painter *painter, const gl_api *gl, const draw_scene *scene, bool with_image) {
+  const draw_scene_part *parts = scene->parts.at;
+  gl->UseProgram(painter->programs.at[with_image ? PROGRAM_MESH_IMAGE : PROGRAM_MESH]);
+  gl->ActiveTexture(GL_TEXTURE0 + UNIT_BASE_IMAGE);
+  for (size_t i = 0; i < scene->parts.count; i++) {
+    if (parts[i].transparency > 0) continue;
+    GLuint image = parts[i].image ? image_textures_of(&painter->images, gl, parts[i].image) : 0;
+    if ((image != 0) != with_image) continue;
+    gl->BindTexture(GL_TEXTURE_2D, image);
+    draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
+  }
+}
+
+static void paint_solid(draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
   gl->Enable(GL_DEPTH_TEST);
   gl->BindVertexArray(painter->meshes.array);
   begin_depth_first(painter, gl);
   draw_solid(gl, scene);
   end_depth_first(gl);
-  gl->UseProgram(painter->programs.at[PROGRAM_MESH]);
-  draw_solid(gl, scene);
+  colour_solid(painter, gl, scene, false);
+  colour_solid(painter, gl, scene, true);
   /* After what stands before them, so that what is hidden is not painted in vain. */
   gl->UseProgram(painter->programs.at[PROGRAM_GROUND]);
   gl->BindVertexArray(painter->ground.array);

@@ -47,7 +47,7 @@ static GLuint link(const gl_api *gl, const char *vertex_text, const char *const 
 
 static void bind_inputs(const gl_api *gl, GLuint program) {
   static const char *const samplers[] = {"shadow_map", "shadow_depths", "ground_light", "ground_heights",
-      "lowest_heights", "open_sky", "veil_depths", "line_layer"};
+      "lowest_heights", "open_sky", "veil_depths", "line_layer", "base_image"};
   gl->UseProgram(program);
   for (GLint unit = 0; unit < (GLint)(sizeof samplers / sizeof *samplers); unit++) {
     GLint place = gl->GetUniformLocation(program, samplers[unit]);
@@ -71,6 +71,8 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
           shader_ground_frag},
       [PROGRAM_MESH] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 20\n", shader_light_glsl},
           shader_mesh_frag},
+      [PROGRAM_MESH_IMAGE] = {shader_mesh_vert,
+          {"#define SHADOW_SAMPLES 20\n#define BASE_IMAGE\n", shader_light_glsl}, shader_mesh_frag},
       [PROGRAM_VEIL] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 0\n", shader_light_glsl},
           shader_mesh_frag},
       [PROGRAM_LINE] = {shader_line_vert, {"", ""}, shader_line_frag},

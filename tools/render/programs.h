@@ -13,7 +13,8 @@ typedef enum program_name {
   PROGRAM_SOFTEN,
   PROGRAM_GROUND,
   PROGRAM_MESH,
-  PROGRAM_VEIL, /* a mesh that is seen through */
+  PROGRAM_MESH_IMAGE, /* with an image on it */
+  PROGRAM_VEIL,       /* a mesh that is seen through */
   PROGRAM_LINE,
   PROGRAM_LAYER,
   PROGRAM_COUNT
@@ -28,7 +29,8 @@ enum {
   UNIT_LOWEST_HEIGHTS,
   UNIT_OPEN_SKY,
   UNIT_VEIL_DEPTHS,
-  UNIT_LINE_LAYER
+  UNIT_LINE_LAYER,
+  UNIT_BASE_IMAGE
 };
 
 typedef struct program_set {

@@ -1,6 +1,11 @@
 in vec3 world;
 in vec3 facing;
 in vec4 colour;
+#ifdef BASE_IMAGE
+in vec2 on_image;
+
+uniform sampler2D base_image; // its first row is the highest
+#endif
 
 uniform float opacity; // 1: solid
 
@@ -11,6 +16,9 @@ void main() {
   vec3 normal = normalize(facing);
   if (dot(normal, to_eye) < 0.0 && !gl_FrontFacing) normal = -normal;
   vec3 albedo = linear_from_stored(colour.rgb);
+#ifdef BASE_IMAGE
+  albedo *= linear_from_stored(texture(base_image, vec2(on_image.x, 1.0 - on_image.y)).rgb);
+#endif
 
   // The key wraps a little around the body, as light does in something soft.
   float towards_key = dot(normal, key.xyz);

@@ -1,0 +1,19 @@
+/* An image that a surface wears, as pixels. */
+#ifndef RENDER_BASE_IMAGE_H
+#define RENDER_BASE_IMAGE_H
+
+#include "sbfmt/base.h"
+
+enum { DRAW_IMAGE_LARGEST = 8192, DRAW_IMAGE_WHY = 128 };
+
+typedef struct draw_image {
+  uint32_t width, height; /* 1 to DRAW_IMAGE_LARGEST */
+  uint8_t rgba[];         /* 4 width height; rows from the top, sRGB, not premultiplied */
+} draw_image;
+
+/* Of the bytes of a PNG file of any kind. NULL where they are none, are damaged, or there is no memory: `why`
+ * then says which, without a full stop. */
+draw_image *draw_image_decode(const uint8_t *bytes, size_t size, char why[DRAW_IMAGE_WHY]);
+void draw_image_destroy(draw_image *image); /* NULL is ignored */
+
+#endif

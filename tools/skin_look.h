@@ -1,0 +1,35 @@
+/* What the materials of an asset look like when drawn: base colours, and the images on them. */
+#ifndef SKIN_LOOK_H
+#define SKIN_LOOK_H
+
+#include "render/base_image.h"
+#include "render/palette.h"
+#include "sbfmt/asset.h"
+
+/* The images that base colours name. All zero: none are drawn. */
+typedef struct skin_images {
+  draw_image **at; /* (textures of the asset) NULL: not drawn */
+  uint32_t count;
+} skin_images;
+
+/* Reads them from the asset, or from beside `file`, which it came from. Each that cannot be drawn is told to
+ * `note`, and its material's colour stands for it. */
+typedef void (*skin_image_note)(void *user, const sbf_diagnostic *note);
+void skin_images_load(
+    skin_images *images, const sbf_asset *asset, const char *file, skin_image_note note, void *user);
+void skin_images_free(skin_images *images);
+
+/* The look of one material slot of a mesh. */
+typedef struct skin_look {
+  draw_colour colour;
+  const draw_image *image; /* NULL: none */
+} skin_look;
+skin_look skin_look_of(
+    const sbf_asset *asset, const skin_images *images, const sbf_render_mesh *mesh, uint32_t slot);
+
+/* Where on its image a corner of the full mesh lies; the mesh has texture coordinates if its look has an
+ * image.
+ */
+sbf_vec2 skin_corner_uv(const sbf_render_mesh *mesh, uint32_t corner);
+
+#endif
