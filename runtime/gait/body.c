@@ -142,6 +142,7 @@ static sbri_stance stance_over(
   stance.root.rotation = sbri_quat_normalize(sbri_quat_multiply(heading, tilt));
   sbf_vec3 moved = sbri_sub(sbri_rotate(heading, middle), sbri_rotate(stance.root.rotation, middle));
   stance.root.position = sbri_add(stance.root.position, moved);
+  stance.hips_pitch = -pitch;
   stance.hips_yaw = line_yaw(rig, state, input->scale, 1);
   stance.chest_yaw = rig->gait->chest >= 0 ? line_yaw(rig, state, input->scale, 0) : stance.hips_yaw;
   return stance;

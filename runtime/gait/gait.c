@@ -26,6 +26,7 @@ size_t sbri_gait_state_size(const sbri_rig *rig) {
 static void keep_stance(sbri_gait_state *state, const sbri_stance *stance) {
   state->root = stance->root;
   state->hips_yaw = stance->hips_yaw;
+  state->hips_pitch = stance->hips_pitch;
   state->chest_yaw = stance->chest_yaw;
   state->lowered = stance->lowered;
 }
@@ -58,6 +59,7 @@ void sbri_gait_place(
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
   sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   keep_stance(state, &stance);
+  sbri_tails_place(rig, state, &stance);
 }
 
 /* Eases the motion towards what is wanted and moves the body on, as fast as the feet allow. Returns the turn
@@ -142,7 +144,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
   else
     stance = sbri_body_stance(rig, state, input);
   lead_head(rig, state, input);
-  sbri_tails_tick(rig, state, stance.hips_yaw, turned, input->tick_s);
+  sbri_tails_tick(rig, state, &stance, turned, input->tick_s);
   keep_stance(state, &stance);
   sbri_body_pose(rig, state, input, SBRI_ADVANCE_TICK, pose);
   find_center(rig, state, input, pose);

@@ -60,7 +60,7 @@ typedef struct sbri_gait_state {
   sbri_lag bent;                 /* 0: legs may be as straight as at rest; 1: they have bent for walking */
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
   sbr_transform root;            /* of the last stance, and its turns */
-  float hips_yaw, chest_yaw;
+  float hips_yaw, hips_pitch, chest_yaw;
   float lowered; /* by how much the root is lower than over upright legs, m */
   double distance_m;
   float walk_phase; /* of the walks of poses: share of the cycle, from 0 to below 1 */
@@ -72,8 +72,9 @@ typedef struct sbri_gait_state {
   uint32_t foot_count, tail_bone_count;
   sbri_clip_layer clips[SBRI_CLIP_LAYERS];
   sbri_foot feet[SBRI_MOST_LEGS];
-  /* Behind it: tail_bone_count x {yaw, pitch} as sbri_lag, relative to the body's heading; chain_bone_count
-   * sbri_chain_bone; a sbri_limb_target for each IK chain; a sbri_bone_follower for each follower. */
+  /* Behind it: tail_bone_count x {yaw, pitch} as sbri_lag, from the body's heading and the level;
+   * chain_bone_count sbri_chain_bone; a sbri_limb_target for each IK chain; a sbri_bone_follower for each
+   * follower. */
 } sbri_gait_state;
 
 /* A bone of a chain. */
@@ -263,6 +264,7 @@ void sbri_foot_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 typedef struct sbri_stance {
   sbr_transform root;        /* where the asset's origin and axes have gone */
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
+  float hips_pitch;          /* rad, about the left axis, from the level: above 0 where it goes down */
   float lowered;             /* how far it has come down for its feet, m */
 } sbri_stance;
 
@@ -324,8 +326,10 @@ void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri
 
 /* ---- chain/tail.c ---- */
 
+/* Tails begin along the heading, as steep as the body. */
+void sbri_tails_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance);
 /* Followers of the tails' bones: each goes after the one before it, the first after the hips. */
 void sbri_tails_tick(
-    const sbri_rig *rig, sbri_gait_state *state, float hips_yaw, float turned_by, float tick_s);
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance, float turned_by, float tick_s);
 
 #endif

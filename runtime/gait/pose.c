@@ -32,7 +32,7 @@ static sbf_quat tail_turn(const sbri_rig *rig, const sbri_gait_state *state, con
       const sbri_lag *lag = &lags[2 * (tail->first_state + k)];
       /* A first bone may hang on the root rather than on the hips: what it already turned is taken off. */
       float yaw_done = k ? lag[-2].value : rig->parents[bone] == rig->gait->hips ? stance->hips_yaw : 0;
-      float pitch_done = k ? lag[-1].value : 0;
+      float pitch_done = k ? lag[-1].value : stance->hips_pitch; /* the root has it */
       sbf_quat aside = sbri_quat_about(up, lag[0].value - yaw_done);
       if (lag[1].value == pitch_done) return aside;
       sbf_vec3 side = sbri_rotate(stance->root.rotation, sbri_turned(sbri_vec3(1, 0, 0), lag[0].value));
@@ -217,7 +217,11 @@ static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, con
 
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *pose) {
-  sbri_stance stance = {state->root, state->hips_yaw, state->chest_yaw, state->lowered};
+  sbri_stance stance = {.root = state->root,
+      .hips_yaw = state->hips_yaw,
+      .chest_yaw = state->chest_yaw,
+      .hips_pitch = state->hips_pitch,
+      .lowered = state->lowered};
   if (input->hold) {
     stance.hips_yaw = stance.chest_yaw = 0;
     stance.root.rotation = yaw_rotation(state->heading);
