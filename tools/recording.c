@@ -72,7 +72,7 @@ bool recording_finish(recording *r, const cli_call *call, sbr_world *world) {
 void recording_close(recording *r) {
   if (r->file) fclose(r->file);
   free(r->bytes);
-  *r = (recording){NULL, NULL, NULL, {NULL}};
+  *r = (recording){.file = NULL};
 }
 
 void recording_report(const recording *r, json_t *object) {

@@ -67,7 +67,7 @@ static void widen_forced(const sbfi_lattice_grid *grid, uint8_t *inside, sbfi_la
 
 /* From which nodes are inside to tetrahedra; `inside` then says what became of the nodes. */
 static bool stuff(sbfi_lattice *lattice, const sbfi_lattice_grid *grid, const sbfi_winding *winding,
-    const sbfi_array *crossings, uint8_t *inside, sbfi_arena *arena, sbfi_arena *scratch) {
+    const sbfi_array *crossings, uint8_t *inside, sbfi_arena *scratch) {
   sbfi_lattice_cuts cuts;
   if (!sbfi_lattice_cuts_find(&cuts, grid, inside, scratch)) return false;
   place_cuts(crossings, inside, &cuts);
@@ -75,20 +75,20 @@ static bool stuff(sbfi_lattice *lattice, const sbfi_lattice_grid *grid, const sb
   lattice->dim_count = bisect_cuts(grid, winding, inside, &cuts);
   for (uint32_t n = 0; n < grid->node_count && lattice->forced_count > 0; n++)
     inside[n] &= SBFI_LATTICE_INSIDE;
-  return sbfi_lattice_stuff(grid, inside, &cuts, &lattice->made, arena, scratch);
+  return sbfi_lattice_stuff(grid, inside, &cuts, &lattice->made, scratch, scratch);
 }
 
 /* Again with more nodes inside, where parts hang on others by hinges. */
 static sbfi_lattice_outcome stuff_without_hinges(sbfi_lattice *lattice, const sbfi_lattice_grid *grid,
     const sbfi_winding *winding, const sbfi_array *crossings, uint8_t *inside, sbfi_progress progress,
-    sbfi_arena *arena, sbfi_arena *scratch) {
+    sbfi_arena *scratch) {
   enum { ROUNDS = 4 };
   uint8_t *states = sbfi_arena_allocate(scratch, grid->node_count, 1);
   if (!states) return SBFI_LATTICE_NO_MEMORY;
   for (int round = 0; round < ROUNDS; round++) {
     uint32_t count;
     memcpy(states, inside, grid->node_count);
-    if (!stuff(lattice, grid, winding, crossings, states, arena, scratch) ||
+    if (!stuff(lattice, grid, winding, crossings, states, scratch) ||
         !sbfi_lattice_join_hinges(grid, states, inside, &count, scratch))
       return SBFI_LATTICE_NO_MEMORY;
     if (count == 0) break;
@@ -96,6 +96,14 @@ static sbfi_lattice_outcome stuff_without_hinges(sbfi_lattice *lattice, const sb
     if (!sbfi_progress_say(progress, 0.6 + 0.1 * round)) return SBFI_LATTICE_CANCELLED;
   }
   return SBFI_LATTICE_MADE;
+}
+
+/* The lattice alone, out of the memory in which it was made. */
+static bool keep(sbfi_lattice *lattice, sbfi_arena *arena) {
+  sbfi_tetrahedra *made = &lattice->made;
+  made->positions = sbfi_arena_copy(arena, made->positions, made->point_count, sizeof *made->positions);
+  made->at = sbfi_arena_copy(arena, made->at, made->count, sizeof *made->at);
+  return (made->positions || made->point_count == 0) && (made->at || made->count == 0);
 }
 
 static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *winding, sbfi_progress progress,
@@ -115,8 +123,9 @@ static sbfi_lattice_outcome make(sbfi_lattice *lattice, const sbfi_winding *wind
     return SBFI_LATTICE_NO_MEMORY;
   if (!sbfi_progress_say(progress, 0.6)) return SBFI_LATTICE_CANCELLED;
   sbfi_lattice_outcome outcome =
-      stuff_without_hinges(lattice, &grid, winding, crossings, inside, progress, arena, scratch);
+      stuff_without_hinges(lattice, &grid, winding, crossings, inside, progress, scratch);
   if (outcome != SBFI_LATTICE_MADE) return outcome;
+  if (!keep(lattice, arena)) return SBFI_LATTICE_NO_MEMORY;
   return sbfi_progress_say(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
 }
 
@@ -171,24 +180,36 @@ sbfi_lattice_outcome sbfi_lattice_make_count(sbfi_lattice *lattice, const sbfi_w
   *lattice = (sbfi_lattice){.cell = cell};
   if (soup->triangle_count == 0) return SBFI_LATTICE_MADE;
   if (volume > 0) cell = fmin(cell, cube_root(12 * volume / elements));
-  double best_cell = cell, best = INFINITY;
-  sbfi_arena trial;
+  double best = INFINITY;
+  sbfi_lattice kept = *lattice;
+  sbfi_arena trial, kept_in;
+  sbfi_arena_init(&kept_in, &arena->allocator, 0);
   for (int round = 0; round < ROUNDS && best > near_enough; round++) {
-    sbfi_progress part = sbfi_progress_part(progress, round / (ROUNDS + 1.0), (round + 1) / (ROUNDS + 1.0));
+    sbfi_progress part = sbfi_progress_part(progress, (double)round / ROUNDS, (round + 1.0) / ROUNDS);
     sbfi_arena_init(&trial, &arena->allocator, 0);
     sbfi_lattice_outcome outcome = sbfi_lattice_make(lattice, winding, cell, part, &trial);
     uint32_t count = lattice->made.count;
-    sbfi_arena_free(&trial);
-    if (outcome != SBFI_LATTICE_MADE) return outcome;
-    if (misses(count, elements) < best) {
+    bool is_best = outcome == SBFI_LATTICE_MADE && misses(count, elements) < best;
+    if (is_best) {
       best = misses(count, elements);
-      best_cell = cell;
+      kept = *lattice;
+      sbfi_arena_free(&kept_in);
+      kept_in = trial;
+    } else {
+      sbfi_arena_free(&trial);
+    }
+    if (outcome != SBFI_LATTICE_MADE) {
+      sbfi_arena_free(&kept_in);
+      return outcome;
     }
     if (count == 0 && is_hollow(soup, cell, elements)) break;
     /* Nothing at all: the body is thinner than the cell. */
     double ratio = count ? (double)count / elements : 1.0 / 8;
     cell *= cube_root(ratio < 1.0 / 64 ? 1.0 / 64 : ratio > 64 ? 64 : ratio);
   }
-  return sbfi_lattice_make(
-      lattice, winding, best_cell, sbfi_progress_part(progress, ROUNDS / (ROUNDS + 1.0), 1), arena);
+  *lattice = kept;
+  bool good = keep(lattice, arena);
+  sbfi_arena_free(&kept_in);
+  if (!good) return SBFI_LATTICE_NO_MEMORY;
+  return sbfi_progress_say(progress, 1) ? SBFI_LATTICE_MADE : SBFI_LATTICE_CANCELLED;
 }
