@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,8 +56,7 @@ static float rises(const tail_case *t, uint32_t from, uint32_t to, sbf_quat axes
   way = sbri_rotate(sbri_quat_conjugate(axes), way);
   return atan2f(way.y, hypotf(way.x, way.z));
 }
-/* The same of the body against the world, and of the tail against the body, whose turns aside do not count.
- */
+/* The same of the body against the world, and of the tail against the body. */
 static float climbs(const tail_case *t) {
   return rises(t, HIPS, CHEST, sbri_quat_identity());
 }
