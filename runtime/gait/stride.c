@@ -6,21 +6,22 @@
  * still, steps get shorter in time. */
 #include "gait/gait_state.h"
 
-static const float USED = 0.75f;       /* share of what a foot may roam that a stride uses */
-static const float DEEPEST = 0.8f;     /* of the circle of an upright body, which comes down by no more */
-static const float SURE = 1.0f;        /* share of what a foot may roam on average that it may roam always */
-static const float STRIDE_S = 0.5f;    /* over which it is averaged how wide strides may be */
-static const float STRETCH = 0.97f;    /* of the uneased reach */
-static const float LEAST = 0.05f;      /* of a leg's length: a foot may always be so far off */
-static const float PEG = 0.25f;        /* the same of a leg of one bone */
-static const float SLACK = 1.15f;      /* time of a turn, in steps */
-static const float LEAN_S = 0.12f;     /* for the body to lean before a foot lifts off */
-static const float LEAN_TWO_S = 0.36f; /* the same on two legs */
-static const float SLOW = 0.35f;       /* reaches a second: up to here it keeps its balance */
-static const float LONGEST = 1.35f;    /* share of the usual time of a step, at speed */
-static const float SHORTEST = 0.25f;   /* share of the usual time below which no step goes */
-static const float MISSED = 0.002f;    /* of the reach: a sole so far from its place slows the body down */
-static const float MISSES = 0.01f;     /* and one so much farther stops it */
+static const float USED = 0.75f;        /* share of what a foot may roam that a stride uses */
+static const float DEEPEST = 0.8f;      /* of the circle of an upright body, which comes down by no more */
+static const float SURE = 1.0f;         /* share of what a foot may roam on average that it may roam always */
+static const float STRIDE_S = 0.5f;     /* over which it is averaged how wide strides may be */
+static const float STRETCH = 0.97f;     /* of the uneased reach */
+static const float LEAST = 0.05f;       /* of a leg's length: a foot may always be so far off */
+static const float PEG = 0.25f;         /* the same of a leg of one bone */
+static const float SLACK = 1.15f;       /* time of a turn, in steps */
+static const float LEAN_S = 0.12f;      /* for the body to lean before a foot lifts off */
+static const float LEAN_TWO_S = 0.45f;  /* the same on two legs */
+static const float LEAN_SLOW_S = 0.36f; /* and where it goes slower rather than out of balance */
+static const float SLOW = 0.35f;        /* reaches a second: up to here it keeps its balance */
+static const float LONGEST = 1.35f;     /* share of the usual time of a step, at speed */
+static const float SHORTEST = 0.25f;    /* share of the usual time below which no step goes */
+static const float MISSED = 0.002f;     /* of the reach: a sole so far from its place slows the body down */
+static const float MISSES = 0.01f;      /* and one so much farther stops it */
 static const float BRAKES =
     1; /* reaches, in the square of the time of a step: as the body brakes for a foot */
 static const float BESIDE = 1.15f;   /* half soles: from the middle, foot by foot */
@@ -180,12 +181,13 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float usual = rig->gait->step_duration, needed_s = state->needed_s > usual ? state->needed_s : usual;
   float groups = (float)(rig->group_count > 1 ? rig->group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
-  float lean = rig->leg_count == 2 ? LEAN_TWO_S : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
+  float wanted = sbri_wanted_speed(rig, state, input), fastest = wanted > s.speed ? wanted : s.speed;
+  bool slow = fastest <= SLOW * rig->reach * input->scale && rig->leg_count < MANY_LEGS;
+  float lean_two = slow ? LEAN_SLOW_S : LEAN_TWO_S;
+  float lean = rig->leg_count == 2 ? lean_two : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
   float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * needed_s + lean);
   s.together =
       (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.62f : 0.74f) * most;
-  float wanted = sbri_wanted_speed(rig, state, input), fastest = wanted > s.speed ? wanted : s.speed;
-  bool slow = fastest <= SLOW * rig->reach * input->scale && rig->leg_count < MANY_LEGS;
   if (slow) s.together = false;
   if (rig->has_pegs) s.together = true;               /* they could not follow a body that leans */
   float each = 0.5f * s.speed * (groups - 1) * SLACK; /* half a stride for each second of a step */
