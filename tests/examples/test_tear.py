@@ -1,33 +1,12 @@
-"""The bar that tears: its file is what the script makes, and its check can fail."""
+"""The bar that tears."""
 
-import os
-import subprocess
-import sys
-import tempfile
 import unittest
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir)
-SCRIPT = os.path.join(ROOT, "examples", "tear", "make_bar.py")
+from made_files import MadeFiles
 
 
-def make_bar(*arguments):
-    return subprocess.run([sys.executable, "-B", SCRIPT, *arguments], capture_output=True, text=True, check=False)
-
-
-class Bar(unittest.TestCase):
-    def test_the_file_is_up_to_date(self):
-        done = make_bar("--check")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-
-    def test_another_file_is_found_out(self):
-        with tempfile.TemporaryDirectory() as folder:
-            self.assertEqual(make_bar("-o", folder).returncode, 0)
-            self.assertEqual(make_bar("--check", "-o", folder).returncode, 0)
-            with open(os.path.join(folder, "bar.sbf"), "a", encoding="utf-8") as stream:
-                stream.write(" ")
-            done = make_bar("--check", "-o", folder)
-            self.assertEqual(done.returncode, 1)
-            self.assertIn("bar.sbf is stale", done.stderr)
+class Bar(MadeFiles, unittest.TestCase):
+    script, file = "tear/make_bar.py", "bar.sbf"
 
 
 if __name__ == "__main__":

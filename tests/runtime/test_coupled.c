@@ -6,6 +6,7 @@
 #include "core/world.h"
 #include "harness.h"
 #include "host_threads.h"
+#include "momentum.h"
 #include "rigid_scenes.h"
 
 static const double PI = 3.14159265358979;
@@ -29,41 +30,6 @@ static void pin_to(
   sets[set_number].rigid_body = body;
   sets[set_number].points = (sbf_u32_list){copy, count};
   level->pins = (sbf_pin_set_list){sets, set_number + 1};
-}
-
-/* ---- Momentum ---- */
-
-typedef struct momentum {
-  double linear[3], angular[3], energy;
-} momentum;
-
-static void add(momentum *to, double mass, sbf_vec3 at, sbf_vec3 v) {
-  const double x[3] = {(double)at.x, (double)at.y, (double)at.z},
-               p[3] = {mass * (double)v.x, mass * (double)v.y, mass * (double)v.z};
-  for (int k = 0; k < 3; k++) {
-    int i = (k + 1) % 3, j = (k + 2) % 3;
-    to->linear[k] += p[k];
-    to->angular[k] += x[i] * p[j] - x[j] * p[i];
-  }
-}
-
-static momentum measure(const scene *s) {
-  momentum m = {{0}, {0}, 0};
-  const sbri_character *c = sbri_character_of(s->world, s->character);
-  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
-    const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
-    add(&m, (double)c->model->rigid.bodies[b].mass, body->pose.position, body->velocity);
-    m.angular[0] += (double)body->spin.x, m.angular[1] += (double)body->spin.y;
-    m.angular[2] += (double)body->spin.z;
-  }
-  const sbri_island *island = &c->model->islands[0];
-  for (uint32_t slot = 0; slot < island->free_count; slot++) {
-    const float *v = sbri_velocities(c) + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    const sbri_point *x = &sbri_positions(c)[slot];
-    add(&m, (double)island->masses[slot], (sbf_vec3){x->x, x->y, x->z},
-        (sbf_vec3){v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]});
-  }
-  return m;
 }
 
 static void push(const scene *s, uint32_t body, sbf_vec3 offset, sbf_vec3 impulse) {
@@ -104,11 +70,11 @@ START_TEST(a_hit_keeps_momentum)
   float kg = dumbbells[_i].rigid_kg; /* at some 2 m/s */
   sbf_vec3 impulse = {0.9f * kg, 1.5f * kg, 0.3f * kg};
   push(&s, 0, (sbf_vec3){0, 0, 0.05f}, impulse);
-  momentum first = measure(&s);
+  scene_momentum first = scene_momentum_of(&s);
   ck_assert_double_eq_tol(first.linear[1], (double)impulse.y, 1e-5 * (double)whole);
   for (int second = 0; second < 5; second++) {
     scene_ticks(&s, 60);
-    momentum now = measure(&s);
+    scene_momentum now = scene_momentum_of(&s);
     for (int k = 0; k < 3; k++) {
       ck_assert_double_eq_tol(now.linear[k], first.linear[k], 2e-5 * (double)whole);
       ck_assert_double_eq_tol(now.angular[k], first.angular[k], 2e-4 * (double)whole);

@@ -5,6 +5,7 @@
 #include "core/world.h"
 #include "harness.h"
 #include "host_threads.h"
+#include "momentum.h"
 #include "rigid_scenes.h"
 
 static const sbf_vec3 weight = {0, -9.81f, 0};
@@ -41,49 +42,7 @@ static sbr_character_id another(scene *s, sbr_double3 position) {
 
 /* ---- Momentum ---- */
 
-typedef struct momentum {
-  double linear[3], angular[3];
-} momentum;
-
-static void add(momentum *to, double mass, sbf_vec3 at, sbf_vec3 v) {
-  const double x[3] = {(double)at.x, (double)at.y, (double)at.z},
-               p[3] = {mass * (double)v.x, mass * (double)v.y, mass * (double)v.z};
-  for (int k = 0; k < 3; k++) {
-    int i = (k + 1) % 3, j = (k + 2) % 3;
-    to->linear[k] += p[k];
-    to->angular[k] += x[i] * p[j] - x[j] * p[i];
-  }
-}
-
-static sbf_vec3 slot_velocity(const sbri_character *c, const sbri_island *island, uint32_t slot) {
-  const float *v = sbri_velocities(c) + 3 * (size_t)island->first_slot +
-                   3 * (size_t)(slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-  return (sbf_vec3){v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
-}
-
-static momentum measure(const scene *s) {
-  momentum m = {{0}, {0}};
-  for (uint32_t i = 0; i < s->world->character_capacity; i++) {
-    const sbri_character *c = &s->world->characters[i];
-    if (!c->model) continue;
-    for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
-      const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
-      add(&m, (double)c->model->rigid.bodies[b].mass, body->pose.position, body->velocity);
-      m.angular[0] += (double)body->spin.x, m.angular[1] += (double)body->spin.y;
-      m.angular[2] += (double)body->spin.z;
-    }
-    for (uint32_t k = 0; k < c->model->island_count; k++) {
-      const sbri_island *island = &c->model->islands[k];
-      const sbri_point *points = sbri_positions(c) + island->first_slot;
-      for (uint32_t slot = 0; slot < island->free_count; slot++)
-        add(&m, (double)island->masses[slot], (sbf_vec3){points[slot].x, points[slot].y, points[slot].z},
-            slot_velocity(c, island, slot));
-    }
-  }
-  return m;
-}
-
-static double off(const momentum *a, const momentum *b) {
+static double off(const scene_momentum *a, const scene_momentum *b) {
   double worst = 0;
   for (int k = 0; k < 3; k++) {
     worst = fmax(worst, fabs(a->linear[k] - b->linear[k]));
@@ -121,9 +80,9 @@ START_TEST(a_hit_keeps_momentum)
   rigid_body(&s, 0)->friction = 0.5f;
   start(&s);
   throw(&s, 0, (sbf_vec3){0.2f, 0, 4});
-  momentum before = measure(&s);
+  scene_momentum before = scene_momentum_of(&s);
   scene_ticks(&s, 60);
-  momentum after = measure(&s);
+  scene_momentum after = scene_momentum_of(&s);
   ck_assert_double_le(off(&before, &after), 1e-5);
   ck_assert_double_ge(size(rigid_state(&s, 1).velocity), 0.02);
   scene_free(&s);
@@ -197,12 +156,12 @@ START_TEST(a_fast_ball_does_not_pass_a_sheet)
   rigid_box(&s, (sbf_vec3){0, 3, 0}, (sbf_vec3){0.05f, 0.05f, 0.05f}, 0.05f);
   start(&s);
   throw(&s, 0, (sbf_vec3){0, -5, 0});
-  momentum before = measure(&s);
+  scene_momentum before = scene_momentum_of(&s);
   for (int i = 0; i < 20; i++) {
     scene_ticks(&s, 1);
     ck_assert_float_le(scene_point(&s, 0, 312).y, rigid_state(&s, 0).center.y);
   }
-  momentum after = measure(&s);
+  scene_momentum after = scene_momentum_of(&s);
   for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(before.linear[k], after.linear[k], 1e-4);
   scene_free(&s);
 }
@@ -266,7 +225,7 @@ static double fastest_of(const scene *s) {
   const sbri_character *c = sbri_character_of(s->world, s->character);
   for (uint32_t k = 0; k < c->model->island_count; k++)
     for (uint32_t slot = 0; slot < c->model->islands[k].free_count; slot++)
-      fastest = fmax(fastest, size(slot_velocity(c, &c->model->islands[k], slot)));
+      fastest = fmax(fastest, size(scene_slot_velocity(c, &c->model->islands[k], slot)));
   return fastest;
 }
 START_TEST(soft_cubes_stand_on_each_other)
@@ -300,13 +259,13 @@ START_TEST(soft_cubes_of_two_characters_keep_momentum)
   const sbri_island *island = &c->model->islands[0];
   for (uint32_t slot = 0; slot < island->free_count; slot++)
     sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + 2 * SBRI_BLOCK + slot % SBRI_BLOCK] = 2;
-  momentum before = measure(&s);
+  scene_momentum before = scene_momentum_of(&s);
   scene_ticks(&s, 60);
-  momentum after = measure(&s);
+  scene_momentum after = scene_momentum_of(&s);
   const sbri_character *second = sbri_character_of(s.world, other);
   double speed = 0;
   for (uint32_t slot = 0; slot < island->free_count; slot++)
-    speed += (double)slot_velocity(second, island, slot).z / island->free_count;
+    speed += (double)scene_slot_velocity(second, island, slot).z / island->free_count;
   for (int k = 0; k < 3; k++)
     ck_assert_double_eq_tol(before.linear[k], after.linear[k], 1e-4 * before.linear[2]);
   ck_assert_double_ge(speed, 0.9);

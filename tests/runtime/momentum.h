@@ -1,0 +1,17 @@
+/* What the bodies of a scene carry, soft and rigid. */
+#ifndef TEST_MOMENTUM_H
+#define TEST_MOMENTUM_H
+
+#include "core/world.h"
+#include "scenes.h"
+
+/* kg m/s, and kg m^2/s about the origin; places and speeds are those that each character keeps. */
+typedef struct scene_momentum {
+  double linear[3], angular[3];
+} scene_momentum;
+
+scene_momentum scene_momentum_of(const scene *s);
+/* m/s, of a free slot. */
+sbf_vec3 scene_slot_velocity(const sbri_character *c, const sbri_island *island, uint32_t slot);
+
+#endif
