@@ -6,8 +6,8 @@
  * is as long as that, this is a leapfrog of all together, in which all forces are those at the step's begin:
  * it keeps momentum to rounding and loses no energy. Where it is a fraction, the rigid bodies feel the mean
  * of the forces (the impulse method: Grubmueller, Heller, Windemuth, Schulten 1991). How long the rigid steps
- * may be follows from how fast the softness would swing each body alone (model/coupling.c): so a heavy belly
- * on light bones is as stable as the other way round.
+ * may be follows from how fast the softness would swing each body alone (prepare/coupling.c): so a heavy
+ * belly on light bones is as stable as the other way round.
  *
  * Damping against what holds a soft body is done here, once a step, so that those who hold it feel it too. */
 #include <string.h>

@@ -182,6 +182,13 @@ static void find_energies(const sbr_world *world, const sbri_character *c, const
   health->elastic_j *= joules;
 }
 
+double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const sbri_point *points) {
+  sbri_point *vertices = sbri_surface_vertices(c) + body->first_vertex;
+  const sbri_skin surface = sbri_skin_now(c, &body->surface);
+  sbri_skin_vertices(c->model, &surface, points, sbri_deltas(c), vertices);
+  return sbri_skin_volume(&body->surface, vertices);
+}
+
 sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id character, uint32_t soft_body) {
   sbr_body_health health = {.volume_ratio = 1, .finite = true};
   const sbri_character *c = sbri_character_of(world, character);

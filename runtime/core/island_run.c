@@ -1,10 +1,10 @@
 /* One control tick of an island: what is made ready, what its scheme does, and what follows from it. */
-#include "collide/contact.h"
-#include "collide/rolling.h"
+#include "contact/contact.h"
 #include "core/world.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
 #include "solvers/outer_forces.h"
+#include "solvers/rolling.h"
 #include "solvers/router.h"
 #include "solvers/touches.h"
 

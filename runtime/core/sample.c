@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "core/world.h"
-#include "kernels/kernels.h"
 #include "math/quat.h"
+#include "model/kernels.h"
 #include "skin/skin.h"
 
 static float share_of_tick(const sbr_world *world) {

@@ -6,9 +6,9 @@
 #include "collide/bounds_tree.h"
 #include "collide/touching.h"
 #include "gait/gait.h"
+#include "model/island_tick.h"
 #include "model/runtime_model.h"
 #include "rigid/rigid_state.h"
-#include "solvers/island_tick.h"
 
 enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS };
 

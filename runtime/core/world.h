@@ -155,6 +155,10 @@ void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t isl
 
 /* ---- core/health.c ---- */
 
+/* Volume within a body's surface as `points` of its character lie; uses scratch of the body's own island, so
+ * that tasks may call it side by side. */
+double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const sbri_point *points);
+
 /* One region of shape matching: adds its energy; the greatest way of a point from its place, as a share of
  * the region's size. */
 double sbri_region_look(const sbri_region_block *block, const sbri_region_member *members, uint32_t lane,

@@ -3,9 +3,9 @@
 #ifndef SBRI_GAIT_STATE_H
 #define SBRI_GAIT_STATE_H
 
-#include "chain/follower.h"
 #include "gait/gait.h"
 #include "gait/glide.h"
+#include "math/follower.h"
 
 typedef struct sbri_foot {
   sbf_vec3 ground; /* where the sole stands, or the place below it on the line of its step */
@@ -317,14 +317,14 @@ void sbri_leg_limit(const sbri_rig *rig, const sbri_leg *leg, sbf_vec3 ankle, sb
 void sbri_limbs_reach(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbr_transform *pose);
 
-/* ---- chain/trailing_chain.c, chain/bone_follower.c ---- */
+/* ---- gait/trailing_chain.c, gait/bone_follower.c ---- */
 
 void sbri_chains_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbri_advance advance, sbr_transform *pose);
 void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbri_advance advance, sbr_transform *pose);
 
-/* ---- chain/tail.c ---- */
+/* ---- gait/tail.c ---- */
 
 /* Tails begin along the heading, as steep as the body. */
 void sbri_tails_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance);

@@ -1,6 +1,6 @@
 /* Makes the table of kernels named SBRI_KERNELS, for the instruction set that the including file is compiled
  * for. */
-#include "kernels/kernels.h"
+#include "model/kernels.h"
 #include "skin/skin_lanes.h"
 #include "solvers/block_descent.h"
 #include "solvers/explicit_euler.h"

@@ -1,4 +1,4 @@
-#include "kernels/kernels.h"
+#include "model/kernels.h"
 
 /* The fastest first. */
 static const sbri_kernels *const tables[] = {

@@ -19,10 +19,10 @@
 #include "base/memory.h"
 #include "math/wide.h"
 #include "mechanics/spring.h"
-#include "rigid/rigid_model.h"
+#include "model/rigid_model.h"
+#include "model/skin_tables.h"
 #include "sbfmt/mechanics.h"
 #include "skeleton/rig.h"
-#include "skin/skin_tables.h"
 
 /* One spring of each of eight points, seen from them. Inert lanes name the point itself and have zeros. */
 typedef struct sbri_spring_cell {
@@ -121,7 +121,8 @@ typedef struct sbri_binding {
   uint32_t island, tetrahedron;
 } sbri_binding;
 
-/* A place of a surface that meets the ground, as a mean of the points that carry it; model/contact_samples.c.
+/* A place of a surface that meets the ground, as a mean of the points that carry it;
+ * prepare/contact_samples.c.
  */
 typedef struct sbri_sample {
   uint32_t slots[4];
@@ -151,7 +152,7 @@ typedef struct sbri_body {
   float media_friction_1_s;
   float friction, restitution;
   const float *frictions;     /* (free slots of the island) of each point, where a map scales it; else NULL */
-  float rolling_share;        /* see collide/rolling.h */
+  float rolling_share;        /* see solvers/rolling.h */
   const sbri_sample *samples; /* (sample_count) NULL: its points themselves meet the ground */
   uint32_t sample_count;
   uint32_t first_touch, touch_capacity;      /* in a character's scratch */
@@ -219,7 +220,7 @@ typedef struct sbri_island {
   const sbri_region_member *region_members;
   uint32_t region_block_count;
   uint32_t first_rotation;            /* of its blocks of regions in the character's state */
-  const struct sbri_descent *descent; /* model/descent_table.h; NULL: not stepped so */
+  const struct sbri_descent *descent; /* solvers/descent_table.h; NULL: not stepped so */
   bool region_damping;                /* some have damping of their own */
   double region_rad_s;                /* greatest w of its regions */
   bool routed;  /* the runtime may step it by another scheme where that is wiser; see solvers/router.h */
@@ -321,40 +322,10 @@ static inline sbr_transform sbri_frame_rest(const sbr_model *model, uint32_t fra
   return frame < model->rig.bone_count ? model->rig.rest[frame] : (sbr_transform){{0, 0, 0}, {0, 0, 0, 1}};
 }
 
-/* ---- Making: each fills its part; SBF_FAILED where memory runs out. ---- */
+/* ---- Looking at what is made ---- */
 
-/* Groups the bodies into islands; gives each body its level. */
-sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
-/* Whether the springs join the levels that are simulated. */
-bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross);
-/* Slots, springs, pins and frequencies of one island. */
-sbf_status sbri_island_make(
-    sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error);
-/* Spreads the frames of held points over the free ones along the springs. */
-bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *body);
-/* The springs as links; false where memory runs out. */
-bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds);
-bool sbri_visits_make(sbr_model *model, sbri_island *island);
-/* Gas, medium, hinges and fields, and how fast they make the islands; after surfaces and rest volumes. */
-bool sbri_outer_make(sbr_model *model);
-/* Sides along springs that may tear, of polygons over the vertices of the mesh that `full` is of. */
-bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
-    const sbf_u32_list *points);
-/* Which rigid bodies the islands may pull on, and how stiffly; false where memory runs out. */
-bool sbri_coupling_make(sbr_model *model);
-/* Neighbours and what lies around each point; false where memory runs out. */
-bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
-/* The places of the surface that meet the ground; after the surfaces. */
-bool sbri_samples_make(sbr_model *model, sbri_body *body);
-/* The triangles by which it meets itself, where it does; likewise. */
-bool sbri_self_faces_make(sbr_model *model, sbri_body *body);
 /* A vertex by what carries it in `skin`, of the island as it is now; the four points that weigh most. */
 sbri_sample sbri_sample_of(const sbri_island *island, const sbri_skin *skin, uint32_t vertex);
-/* The gradient's table of a body that keeps its volume. */
-bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
-
-/* Whether its tetrahedra may tear. */
-bool sbri_body_tears(const sbri_body *body);
 /* One lane of a block, but for its corners. */
 void sbri_tetrahedron_fill(
     sbri_tetrahedron_block *block, uint32_t lane, const struct sbfi_tetrahedron *tetrahedron);

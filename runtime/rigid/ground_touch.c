@@ -1,7 +1,7 @@
 /* Hulls against the ground, vertex by vertex.
  *
  * Once a tick the ground is asked under each vertex that may reach it, and stands for that tick as the plane
- * that touches it there, as it does for soft bodies (collide/contact.h). A touch acts on one body alone, and
+ * that touches it there, as it does for soft bodies (contact/contact.h). A touch acts on one body alone, and
  * so lies in the body's own block of the system: all touches, and all joints, are solved at once. Along the
  * normal it is a row that gives way by a small share of the body's own inertia there, pushes only, and aims
  * at the vertex's lying on the plane at the substep's end. Across it is the same where it sticks; where that

@@ -4,7 +4,7 @@
 #define SBRI_JOINT_PLACE_H
 
 #include "ik/joint_limit.h"
-#include "rigid/rigid_model.h"
+#include "model/rigid_model.h"
 #include "sbrun/sbrun.h"
 
 typedef struct sbri_joint_place {

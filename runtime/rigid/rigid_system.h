@@ -15,7 +15,7 @@
 #ifndef SBRI_RIGID_SYSTEM_H
 #define SBRI_RIGID_SYSTEM_H
 
-#include "rigid/rigid_model.h"
+#include "model/rigid_model.h"
 
 typedef enum sbri_row_kind {
   SBRI_ROW_HELD,   /* a coordinate at one value */

@@ -1,10 +1,10 @@
 /* Skins in eight lanes: vertices from points, faces from vertices, normals from faces. Written for the lanes
- * of the file that includes it; see kernels/kernels.h. Results are padded to whole blocks. */
+ * of the file that includes it; see model/kernels.h. Results are padded to whole blocks. */
 #ifndef SBRI_SKIN_LANES_H
 #define SBRI_SKIN_LANES_H
 
 #include "math/reduce.h"
-#include "skin/skin_tables.h"
+#include "model/skin_tables.h"
 
 /* Vertices that points carry; 0 for the others. */
 static inline void sbri_lanes_vertices(

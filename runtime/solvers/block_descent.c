@@ -1,6 +1,7 @@
 /* Its loops are in solvers/block_descent.h. */
-#include "kernels/kernels.h"
-#include "model/descent_table.h"
+#include "model/kernels.h"
+#include "solvers/descent_table.h"
+#include "solvers/scheme.h"
 
 /* Whatever the stiffness; more follow motion better. */
 enum { SUBSTEPS = 5 };

@@ -21,11 +21,11 @@
  * Differs from the paper: no acceleration by Chebyshev, which made it unstable; sweeps are a fixed number;
  * contacts act on the velocities that the sweeps end with, as in the other schemes.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_BLOCK_DESCENT_H
 #define SBRI_BLOCK_DESCENT_H
 
-#include "model/descent_table.h"
+#include "solvers/descent_table.h"
 #include "solvers/finish.h"
 #include "solvers/motion.h"
 

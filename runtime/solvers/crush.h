@@ -8,7 +8,7 @@
  * above that; below, such a wall is what flesh is, which does not get thinner either.
  *
  * Looked for only where the tetrahedra, when last looked at, were at a half of their volume somewhere.
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_CRUSH_H
 #define SBRI_CRUSH_H
 

@@ -1,5 +1,6 @@
 /* Its loops are in solvers/explicit_euler.h. */
-#include "kernels/kernels.h"
+#include "model/kernels.h"
+#include "solvers/scheme.h"
 
 /* As many as the springs' own damping holds it at, else as symplectic Euler takes: nothing holds it there. */
 static uint32_t substeps(const sbri_island *island, double tick_s, float stretch) {

@@ -3,7 +3,7 @@
  * damping ratio of -w h / 2. Springs that damp their own stretching at the ratio z hold it while w h < 2 z.
  * First order.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_EXPLICIT_EULER_H
 #define SBRI_EXPLICIT_EULER_H
 

@@ -2,7 +2,7 @@
  * them: volumes kept, springs held within their strain limits, then yield and tear, and
  * tetrahedra that are being crushed.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_FINISH_H
 #define SBRI_FINISH_H
 

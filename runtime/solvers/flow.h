@@ -1,7 +1,7 @@
 /* Yield and tear: a spring strained beyond its yield strain takes on a new rest length, at its rate; one
  * strained beyond its tear strain stops for good. Both are state.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_FLOW_H
 #define SBRI_FLOW_H
 

@@ -1,5 +1,6 @@
 /* Its loops are in solvers/heun.h. */
-#include "kernels/kernels.h"
+#include "model/kernels.h"
+#include "solvers/scheme.h"
 
 /* At least so many that no mode turns by more than half a radian in one: twice two times what is stable for
  * symplectic Euler. A count that is asked for takes the place of the error's say; it is raised to the next

@@ -7,7 +7,7 @@
  * An undamped mode of frequency w grows by sqrt(1 + (w h)^4 / 4) a step, a damping ratio of -(w h)^3 / 8: it
  * wants some damping, and steps that the error alone would leave larger are kept at w h <= 1/2.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_HEUN_H
 #define SBRI_HEUN_H
 

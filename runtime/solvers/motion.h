@@ -5,13 +5,13 @@
  * as a whole where nothing does. It neither slows a fall nor drags behind a walk. It is applied as the exact
  * decay exp(-alpha h), that of the springs' own as a force from the velocities before the substep.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_MOTION_H
 #define SBRI_MOTION_H
 
 #include <string.h>
 
-#include "collide/contact.h"
+#include "contact/contact.h"
 #include "math/trig.h"
 #include "solvers/outer_forces.h"
 #include "solvers/reaction.h"

@@ -1,5 +1,6 @@
 /* Its loops are in solvers/position_based.h. */
-#include "kernels/kernels.h"
+#include "model/kernels.h"
+#include "solvers/scheme.h"
 
 /* A sweep leaves a network too soft: by a third in bending with as many substeps as are stable for symplectic
  * Euler, and four times less with each twice as many. Four times as many are within 3 %, and tetrahedra,

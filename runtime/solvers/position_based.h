@@ -17,7 +17,7 @@
  * What a sweep works on are displacements since the tick's beginning, `moves`, with the inverse mass as their
  * fourth number: small numbers, of which small corrections are not lost, wherever the body is.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_POSITION_BASED_H
 #define SBRI_POSITION_BASED_H
 

@@ -2,7 +2,7 @@
  * over substeps as impulses and moments. The forces are those that the free points have felt with the other
  * sign, at the same places, so that what one gains in momentum the other loses.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_REACTION_H
 #define SBRI_REACTION_H
 

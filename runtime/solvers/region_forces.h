@@ -11,7 +11,7 @@
  * Damping of their own, beta times the second derivative at rest: each point against the rigid motion that
  * fits the region's velocities best.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_REGION_FORCES_H
 #define SBRI_REGION_FORCES_H
 

@@ -9,6 +9,7 @@
  */
 #include "collide/ground.h"
 #include "solvers/scheme.h"
+#include "solvers/visits.h"
 
 typedef struct relaxing {
   const sbri_island_tick *tick;

@@ -1,5 +1,5 @@
 /* A body's motion as a whole: the rigid one that has its momentum and its angular momentum. Written for the
- * lanes of the file that includes it; see kernels/kernels.h. */
+ * lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_RIGID_MOTION_H
 #define SBRI_RIGID_MOTION_H
 

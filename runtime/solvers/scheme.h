@@ -1,10 +1,10 @@
 /* What a scheme is: one way to step the islands of a model through a control tick. Each has a file of its own
  * in this folder, and its loops over points or elements in a header of the same name, which is compiled for
- * each instruction set (kernels/kernels.h). */
+ * each instruction set (model/kernels.h). */
 #ifndef SBRI_SCHEME_H
 #define SBRI_SCHEME_H
 
-#include "solvers/island_tick.h"
+#include "model/island_tick.h"
 
 struct sbri_scheme {
   sbf_scheme word;

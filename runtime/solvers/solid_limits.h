@@ -7,7 +7,7 @@
  * that pull at the same points some may stay a little beyond.
  *
  * What yields gets a new metric of its rest shape, what tears stops: both are the blocks themselves, which
- * are state then. Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * are state then. Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_SOLID_LIMITS_H
 #define SBRI_SOLID_LIMITS_H
 

@@ -7,7 +7,7 @@
  * Bias against the energy: such a wall would throw a spring back with the speed it came with; here it takes
  * it.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_STRAIN_LIMIT_H
 #define SBRI_STRAIN_LIMIT_H
 

@@ -1,5 +1,6 @@
 /* Its loops are in solvers/symplectic.h. */
-#include "kernels/kernels.h"
+#include "model/kernels.h"
+#include "solvers/scheme.h"
 
 static void tick_symplectic(const sbri_island_tick *tick) {
   tick->model->kernels->symplectic_tick(tick);

@@ -2,7 +2,7 @@
  * not drift), no damping of its own. Bias against the energy: a mode of frequency w runs fast by (w h)^2
  * / 24.
  *
- * Written for the lanes of the file that includes it; see kernels/kernels.h. */
+ * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_SYMPLECTIC_H
 #define SBRI_SYMPLECTIC_H
 

@@ -1,5 +1,5 @@
 /* Forces of neo-Hookean tetrahedra (mechanics/neo_hookean.h states the energy), eight at a time. Written for
- * the lanes of the file that includes it; see kernels/kernels.h.
+ * the lanes of the file that includes it; see model/kernels.h.
  *
  * With edges d_j = x_j - x_0 and the area vectors n_1 = d_2 x d_3 and so on, J = d_1.n_1 / (6 V) and the
  * force on corner i is
@@ -13,7 +13,7 @@
 #define SBRI_TETRAHEDRON_FORCES_H
 
 #include "math/vec3.h"
-#include "solvers/island_tick.h"
+#include "model/island_tick.h"
 
 SBRI_INLINE sbri_wide3 sbri_wide3_sub(sbri_wide3 a, sbri_wide3 b) {
   return (sbri_wide3){a.x - b.x, a.y - b.y, a.z - b.z};

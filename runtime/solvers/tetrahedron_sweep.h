@@ -24,7 +24,7 @@
  * since both parts of P F^T are symmetric. No multiplier is accumulated.
  *
  * Every other sweep goes through the blocks backwards, so that neither end of the list is preferred. Written
- * for the lanes of the file that includes it; see kernels/kernels.h. */
+ * for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_TETRAHEDRON_SWEEP_H
 #define SBRI_TETRAHEDRON_SWEEP_H
 

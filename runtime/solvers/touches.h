@@ -7,12 +7,12 @@
  * (projected Gauss-Seidel over gathered impulses; E. Catto, Iterative Dynamics with Temporal Coherence,
  * 2005); those of the substep before are where it begins. What rests is so borne by the same pushes all the
  * time: pushes that only add up would make it hop. Rules of friction, restitution and depth are those of
- * collide/contact.h. */
+ * contact/contact.h. */
 #ifndef SBRI_TOUCHES_H
 #define SBRI_TOUCHES_H
 
-#include "collide/contact.h"
 #include "collide/touching.h"
+#include "contact/contact.h"
 
 /* Bounds velocities so that nothing of the body's surface goes below its planes in the substep that they are
  * for, from the present places, which are lifted where they are too deep. */

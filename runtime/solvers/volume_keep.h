@@ -1,5 +1,5 @@
 /* Keeping the volume within a body's surface, for pressure mode `volume`. Written for the lanes of the file
- * that includes it; see kernels/kernels.h.
+ * that includes it; see model/kernels.h.
  *
  * The constraint V(x) = V0, by Newton steps at the end of a substep: dx_i = s w_i g_i with g the gradient of
  * the volume, w the inverse masses and s = (V0 - V) / sum w_i |g_i|^2 (Hong, Jung, Choi and Welch, Fast

@@ -14,9 +14,23 @@ CORE = MODEL + ["libsbfmt/packed", "libsbfmt/generated"]
 MECHANICS = MODEL + ["libsbfmt/mechanics"]
 MOTION = MECHANICS + ["libsbfmt/motion"]
 FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/motion", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
-RUNTIME_MATH = MECHANICS + ["runtime/math"]
-RUNTIME = MOTION + ["runtime/" + part for part in (
-    "math", "model", "core", "kernels", "skin", "solvers", "rigid", "skeleton", "collide", "meet", "ik", "gait", "chain", "detail")]
+# Folders of the runtime, each with those below it that it may use; core and meet are one room.
+RUNTIME = {
+    "math": [],
+    "ik": ["math"],
+    "skeleton": ["math", "ik"],
+    "collide": ["math"],
+    "model": ["math", "ik", "skeleton", "collide"],
+    "contact": ["math", "collide", "model"],
+    "skin": ["math", "model"],
+    "solvers": ["math", "collide", "model", "contact", "skin"],
+    "kernels": ["math", "model", "skin", "solvers"],
+    "prepare": ["math", "skeleton", "collide", "model", "skin", "solvers"],
+    "rigid": ["math", "ik", "collide", "model"],
+    "gait": ["math", "ik", "skeleton", "collide"],
+    "meet": ["math", "collide", "model", "solvers", "core", "rigid"],
+    "core": ["math", "skeleton", "collide", "model", "contact", "skin", "solvers", "prepare", "rigid", "gait", "meet"],
+}
 
 # Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.
 MAY_USE = {
@@ -33,8 +47,7 @@ MAY_USE = {
     "libsbfmt/import": FORMAT + ["libsbfmt/interchange", "libsbfmt/import"],
     "libsbfmt/export": FORMAT + ["libsbfmt/interchange", "libsbfmt/export"],
     "libsbfmt/include": [],
-    "runtime": RUNTIME,
-    "runtime/math": RUNTIME_MATH,
+    **{"runtime/" + folder: MOTION + ["runtime/" + one for one in [folder, *below]] for folder, below in RUNTIME.items()},
     "runtime/include": [],
     "runtime/hosts": ["runtime/hosts"],
     "tools": ["tools"],

@@ -4,9 +4,9 @@
 
 #include "core/world.h"
 #include "harness.h"
-#include "model/descent_table.h"
 #include "random.h"
 #include "scenes.h"
+#include "solvers/descent_table.h"
 
 static const double PI = 3.14159265358979323846;
 

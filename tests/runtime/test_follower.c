@@ -1,4 +1,4 @@
-#include "chain/follower.h"
+#include "math/follower.h"
 
 #include "harness.h"
 

@@ -3,7 +3,7 @@
 
 #include "harness.h"
 
-#include "kernels/kernels.h"
+#include "model/kernels.h"
 #include "model/runtime_model.h"
 #include "scenes.h"
 

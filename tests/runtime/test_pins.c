@@ -2,7 +2,7 @@
 
 #include "core/world.h"
 #include "harness.h"
-#include "model/pins.h"
+#include "prepare/pins.h"
 #include "scenes.h"
 
 static sbf_pin_set *add_pins(scene *s, sbf_level *level, uint32_t set_count) {

@@ -1,4 +1,4 @@
-#include "collide/rolling.h"
+#include "solvers/rolling.h"
 
 #include <math.h>
 

@@ -4,8 +4,8 @@
 #include "core/state.h"
 #include "core/world.h"
 #include "harness.h"
-#include "kernels/kernels.h"
 #include "mechanics/neo_hookean.h"
+#include "model/kernels.h"
 #include "scenes.h"
 
 /* A bar of 1 x 0.2 x 0.2 m, weakest in its middle, whose halves fly apart. */

@@ -1,0 +1,180 @@
+#include "contact/contact.h"
+
+#include <string.h>
+
+#include "collide/ground.h"
+#include "contact/self_touch.h"
+#include "contact/shape_touch.h"
+#include "math/vec3.h"
+
+/* As far as something may fall in the tick: twice its present way, and a share of the body for what springs
+ * and weight may add. */
+static const float MOTION_SHARE = 0.02f;
+
+/* Range of a body's points and their greatest speed. */
+typedef struct extent {
+  float low[3], high[3], speed;
+  bool any;
+} extent;
+
+static void extend(extent *e, const sbri_point *p) {
+  const float at[3] = {p->x, p->y, p->z};
+  for (int k = 0; k < 3; k++) {
+    e->low[k] = !e->any || at[k] < e->low[k] ? at[k] : e->low[k];
+    e->high[k] = !e->any || at[k] > e->high[k] ? at[k] : e->high[k];
+  }
+  e->any = true;
+}
+
+static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
+  if (slot < t->island->free_count) return sbri_slot_velocity(t, t->velocities, slot);
+  const sbri_point *from = &t->positions[slot], *to = &t->targets[slot];
+  return sbri_scale(sbri_vec3(to->x - from->x, to->y - from->y, to->z - from->z), 1 / t->tick_s);
+}
+
+static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
+  extent e = {{0}, {0}, 0, false};
+  float squares = 0;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    sbf_vec3 v = velocity_at(t, slot);
+    float square = sbri_dot(v, v);
+    squares = square > squares ? square : squares;
+    extend(&e, &t->positions[slot]);
+  }
+  e.speed = sqrtf(squares);
+  return e;
+}
+
+/* Of all that may carry a sample. No mean with weights below 0 of so much lies further out than as many times
+ * the range. */
+static extent extent_of_samples(const sbri_island_tick *t, const sbri_body *body) {
+  extent e = extent_of(t, body);
+  for (uint32_t slot = t->island->free_count; body->held && slot < t->island->slot_count; slot++)
+    extend(&e, &t->positions[slot]);
+  for (int k = 0; k < 3; k++) {
+    float beyond = body->sample_beyond * (e.high[k] - e.low[k]);
+    e.low[k] -= beyond, e.high[k] += beyond;
+  }
+  return e;
+}
+
+/* Height under a point in asset metres relative to the origin, and the ground's normal there. */
+static float height_at(const sbri_island_tick *t, float x, float z, sbf_vec3 *normal) {
+  double world_x = t->origin.x + (double)t->scale * x, world_z = t->origin.z + (double)t->scale * z;
+  return (float)((sbri_ground_height(t->ground, world_x, world_z, normal) - t->origin.y) / t->scale);
+}
+
+/* The height below which a point of the body may touch the ground: of nine places under the body and around
+ * it, the highest, and as much again as they differ. */
+static float reach_of(const sbri_island_tick *t, const extent *e, float motion) {
+  double flat;
+  if (sbri_ground_is_flat(t->ground, &flat)) return (float)((flat - t->origin.y) / t->scale) + motion;
+  float low = 0, high = 0;
+  for (int i = 0; i < 9; i++) {
+    float tx = 0.5f * (float)(i % 3), tz = 0.5f * (float)(i / 3);
+    float x = e->low[0] - motion + (e->high[0] - e->low[0] + 2 * motion) * tx;
+    float z = e->low[2] - motion + (e->high[2] - e->low[2] + 2 * motion) * tz;
+    sbf_vec3 normal;
+    float y = height_at(t, x, z, &normal);
+    low = i == 0 || y < low ? y : low;
+    high = i == 0 || y > high ? y : high;
+  }
+  return high + (high - low) + motion;
+}
+
+static void prepare_points(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
+  extent e = extent_of(t, body);
+  float motion = 2 * e.speed * t->tick_s + MOTION_SHARE * body->rest_size_m;
+  float reach = reach_of(t, &e, motion);
+  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
+    const sbri_point *points = t->positions + block * SBRI_BLOCK;
+    to->near_ground[block] = 0;
+    for (int lane = 0; lane < SBRI_BLOCK; lane++)
+      if (points[lane].y < reach) to->near_ground[block] = 1;
+    if (!to->near_ground[block]) continue;
+    float *plane = to->planes + (size_t)block * 4 * SBRI_BLOCK;
+    for (int lane = 0; lane < SBRI_BLOCK; lane++) {
+      sbf_vec3 n;
+      float y = height_at(t, points[lane].x, points[lane].z, &n);
+      plane[lane] = n.x, plane[SBRI_BLOCK + lane] = n.y, plane[2 * SBRI_BLOCK + lane] = n.z;
+      plane[3 * SBRI_BLOCK + lane] = n.x * points[lane].x + n.y * y + n.z * points[lane].z;
+    }
+  }
+}
+
+sbri_sample sbri_sample_now(const sbri_island_tick *t, const sbri_sample *first, const sbri_skin *surface) {
+  sbri_sample s = *first;
+  if (!t->island->tears) return s;
+  if (s.vertex != UINT32_MAX) return sbri_sample_of(t->island, surface, s.vertex);
+  s.mass_kg = t->island->masses[s.slots[0]];
+  return s;
+}
+
+/* Those whose way within the tick may end on the ground. */
+static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
+  uint32_t first = body->slot_begin / SBRI_BLOCK, *count = &to->touch_counts[body - t->model->bodies];
+  memset(to->near_ground + first, 0, body->slot_end / SBRI_BLOCK - first);
+  *count = 0;
+  extent e = extent_of_samples(t, body);
+  float least = MOTION_SHARE * body->rest_size_m, way = 2 * t->tick_s;
+  float reach = reach_of(t, &e, e.speed * (1 + 2 * body->sample_beyond) * way + least);
+  if (e.low[1] > reach) return;
+  for (uint32_t i = 0; i < body->sample_count; i++) {
+    sbri_sample s = sbri_sample_now(t, &body->samples[i], to->surface);
+    sbf_vec3 x = sbri_sample_place(t, &s), v = {0, 0, 0}, n;
+    if (x.y > reach || !(s.mass_kg > 0)) continue;
+    for (int k = 0; k < 4; k++) v = sbri_add_scaled(v, velocity_at(t, s.slots[k]), s.weights[k]);
+    float y = height_at(t, x.x, x.z, &n), offset = n.x * x.x + n.y * y + n.z * x.z;
+    float speed = sbri_length(v) > e.speed ? sbri_length(v) : e.speed;
+    if (sbri_dot(n, x) - offset > speed * way + least) continue;
+    to->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = s,
+        .normal = n,
+        .offset = offset,
+        .friction_share = 1,
+        .restitution = body->restitution,
+        .collider = SBRI_NO_COLLIDER};
+  }
+}
+
+sbri_sample sbri_point_sample(const sbri_island_tick *t, uint32_t slot) {
+  return (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, t->island->masses[slot], UINT32_MAX};
+}
+
+/* Bodies of points alone stand against the ground by planes a point each: as touches these are solved along
+ * with those of shapes. */
+static void turn_planes_into_touches(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
+  uint32_t *count = &tables->touch_counts[body - t->model->bodies];
+  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
+    if (!tables->near_ground[block]) continue;
+    tables->near_ground[block] = 0;
+    const float *plane = tables->planes + (size_t)block * 4 * SBRI_BLOCK;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK && *count < body->touch_capacity; lane++) {
+      sbri_sample s = sbri_point_sample(t, block * SBRI_BLOCK + lane);
+      if (s.slots[0] >= body->slot_real_end || !(s.mass_kg > 0)) continue;
+      tables->touches[body->first_touch + (*count)++] = (sbri_touch){.sample = s,
+          .normal = {plane[lane], plane[SBRI_BLOCK + lane], plane[2 * SBRI_BLOCK + lane]},
+          .offset = plane[3 * SBRI_BLOCK + lane],
+          .friction_share = 1,
+          .restitution = body->restitution,
+          .collider = SBRI_NO_COLLIDER};
+    }
+  }
+}
+
+void sbri_contact_prepare(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
+  tables->touch_counts[body - t->model->bodies] = 0;
+  if (body->slot_begin == body->slot_end) return;
+  if (body->samples)
+    prepare_samples(t, body, tables);
+  else
+    prepare_points(t, body, tables);
+  uint32_t *count = &tables->touch_counts[body - t->model->bodies], before = *count;
+  sbri_shape_touches_add(t, body, tables);
+  if (body->self_face_count) {
+    sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};
+    sbri_self_touches_add(t, body, tables, &tree, tables->self_boxes);
+  }
+  if (*count > before && !body->samples) turn_planes_into_touches(t, body, tables);
+}

@@ -1,0 +1,12 @@
+/* A soft body against itself. */
+#ifndef SBRI_SELF_TOUCH_H
+#define SBRI_SELF_TOUCH_H
+
+#include "collide/bounds_tree.h"
+#include "contact/contact.h"
+
+/* Adds to the body's touches; `tree` and `boxes` have room for its self_face_count triangles. */
+void sbri_self_touches_add(const sbri_island_tick *tick, const sbri_body *body,
+    const sbri_contact_tables *tables, sbri_bounds_tree *tree, sbri_box *boxes);
+
+#endif

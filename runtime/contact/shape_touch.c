@@ -1,0 +1,126 @@
+#include "contact/shape_touch.h"
+
+#include "collide/colliders.h"
+#include "math/vec3.h"
+
+/* Speeds may grow within a tick, by weight and springs: to as much again, and a share of the body more. */
+static const float SLACK_SHARE = 0.02f;
+
+typedef struct meeting {
+  const sbri_island_tick *tick;
+  const sbri_body *body;
+  const sbri_contact_tables *tables;
+  sbri_collider_frame frame;
+  uint32_t number; /* of the collider */
+  sbri_box bounds; /* of the shape, grown by the ways that touches may have */
+} meeting;
+
+static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
+  if (slot < t->island->free_count) return sbri_slot_velocity(t, t->velocities, slot);
+  const sbri_point *from = &t->positions[slot], *to = &t->targets[slot];
+  return sbri_scale(sbri_vec3(to->x - from->x, to->y - from->y, to->z - from->z), 1 / t->tick_s);
+}
+
+static sbf_vec3 sample_velocity(const sbri_island_tick *t, const sbri_sample *s) {
+  sbf_vec3 v = {0, 0, 0};
+  for (int k = 0; k < 4; k++) v = sbri_add_scaled(v, velocity_at(t, s->slots[k]), s->weights[k]);
+  return v;
+}
+
+/* The plane for a place that goes from `begin` to `end` in the shape's frame: where it enters, or what it is
+ * near. */
+static bool find_plane(
+    const meeting *m, sbf_vec3 begin, sbf_vec3 end, float reach, float depth, sbri_nearest *found) {
+  const sbr_shape *shape = m->frame.collider->shape;
+  sbf_vec3 way = sbri_sub(end, begin);
+  float share;
+  bool near = sbri_shape_nearest(shape, begin, reach, depth, found);
+  if (near && found->gap <= 0) return true;
+  /* A long way may go round what is nearest, or through what is far. */
+  if (sbri_shape_enter(shape, begin, way, &share, &found->normal)) {
+    found->place = sbri_add_scaled(begin, way, share);
+    return true;
+  }
+  return near && sbri_shape_nearest(shape, begin, reach, depth, found);
+}
+
+static void add_sample(const meeting *m, const sbri_sample *s) {
+  const sbri_island_tick *t = m->tick;
+  uint32_t *count = &m->tables->touch_counts[m->body - t->model->bodies];
+  if (*count >= m->body->touch_capacity || !(s->mass_kg > 0)) return;
+  sbf_vec3 x = sbri_sample_place(t, s), v = sample_velocity(t, s);
+  sbf_vec3 begin = sbri_into_shape(&m->frame, x, false);
+  sbf_vec3 end = sbri_into_shape(&m->frame, sbri_add_scaled(x, v, t->tick_s), true);
+  sbri_box way = sbri_box_with(sbri_box_of_point(begin), end);
+  if (!sbri_box_meets(&m->bounds, &way)) return;
+  const sbf_collision *rule = &m->body->source->collision;
+  float margin = m->body->margin_m * t->scale;
+  float reach = margin + sbri_length(sbri_sub(end, begin)) + SLACK_SHARE * m->body->rest_size_m * t->scale;
+  sbri_nearest found;
+  if (!find_plane(m, begin, end, reach, rule->inner_thickness * t->scale, &found)) return;
+  sbf_vec3 normal = sbri_rotate(m->frame.collider->turn_from, found.normal);
+  sbf_vec3 place = sbri_out_of_shape(&m->frame, found.place);
+  sbf_vec3 velocity = sbri_scale(sbri_shape_way(&m->frame, found.place), 1 / t->tick_s);
+  float own = m->body->friction;
+  m->tables->touches[m->body->first_touch + (*count)++] = (sbri_touch){.sample = *s,
+      .normal = normal,
+      .offset = sbri_dot(normal, place) + m->body->margin_m,
+      .velocity = velocity,
+      .friction_share = own > 0 ? sbri_friction_with(m->frame.collider, own) / own : 1,
+      .restitution = sbri_restitution_with(m->frame.collider, m->body->restitution),
+      .collider = m->number};
+}
+
+static void add_all(const meeting *m) {
+  const sbri_island_tick *t = m->tick;
+  for (uint32_t i = 0; i < m->body->sample_count; i++) {
+    sbri_sample s = sbri_sample_now(t, &m->body->samples[i], m->tables->surface);
+    add_sample(m, &s);
+  }
+  for (uint32_t slot = m->body->slot_begin; !m->body->samples && slot < m->body->slot_real_end; slot++) {
+    sbri_sample s = sbri_point_sample(t, slot);
+    add_sample(m, &s);
+  }
+}
+
+/* Where the ways of the body's places may take them, and the greatest of these. */
+static sbri_box ways_of(const sbri_island_tick *t, const sbri_body *body, float *longest) {
+  sbri_box box = sbri_box_of_point(sbri_vec3(
+      t->positions[body->slot_begin].x, t->positions[body->slot_begin].y, t->positions[body->slot_begin].z));
+  float most = 0;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    const sbri_point *p = &t->positions[slot];
+    sbf_vec3 v = velocity_at(t, slot);
+    float square = sbri_dot(v, v);
+    most = square > most ? square : most;
+    box = sbri_box_with(box, sbri_vec3(p->x, p->y, p->z));
+  }
+  for (uint32_t slot = t->island->free_count; body->samples && body->held && slot < t->island->slot_count;
+       slot++)
+    box = sbri_box_with(box, sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z));
+  sbf_vec3 size = sbri_sub(box.high, box.low);
+  *longest = sqrtf(most) * t->tick_s * (1 + 2 * body->sample_beyond) + SLACK_SHARE * body->rest_size_m +
+             body->margin_m;
+  return sbri_box_grown(box, *longest + body->sample_beyond * (size.x + size.y + size.z));
+}
+
+void sbri_shape_touches_add(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
+  const sbri_collider_set *set = t->colliders;
+  const sbf_collision *rule = &body->source->collision;
+  if (!set || !set->tree.node_count || body->slot_begin == body->slot_real_end) return;
+  float longest;
+  sbri_box ways = ways_of(t, body, &longest), world = sbri_box_in_world(ways, t->origin, t->scale);
+  sbri_bounds_walk walk;
+  uint32_t item;
+  sbri_bounds_walk_begin(&walk, &set->tree, world);
+  while (sbri_bounds_walk_next(&walk, &item)) {
+    const sbri_collider *c = &set->at[set->listed[item]];
+    if (!sbri_box_meets(&set->bounds[item], &world) ||
+        !sbri_layers_meet(rule->layer, rule->mask, c->layer, c->mask))
+      continue;
+    meeting m = {t, body, tables, sbri_collider_frame_of(c, t->origin, t->scale), set->listed[item],
+        sbri_box_grown(c->shape->bounds, longest * t->scale)};
+    add_all(&m);
+  }
+}

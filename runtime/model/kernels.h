@@ -1,0 +1,35 @@
+/* The inner loops, compiled for each instruction set that the library is built with. All give the same bits:
+ * lanes do not mix, sums go through a fixed tree, and nothing is contracted. */
+#ifndef SBRI_KERNELS_H
+#define SBRI_KERNELS_H
+
+#include "model/island_tick.h"
+#include "sbrun/sbrun.h"
+
+typedef struct sbri_kernels {
+  sbr_instructions instructions;
+  uint32_t lanes; /* at once */
+  void (*vertices)(const sbri_skin *skin, const sbri_point *points, sbri_point *vertices);
+  void (*faces)(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
+  void (*tangents)(const sbri_skin *skin, const sbri_point *vertices, sbri_point *faces);
+  void (*sums)(const sbri_sum_table *table, const sbri_point *faces, sbri_point *sums);
+  void (*normals)(const sbri_sum_table *table, const sbri_point *faces, sbri_point *normals);
+  /* One control tick of an island by each scheme that has lanes. */
+  void (*symplectic_tick)(const sbri_island_tick *tick);
+  void (*explicit_euler_tick)(const sbri_island_tick *tick);
+  void (*heun_tick)(const sbri_island_tick *tick);
+  void (*position_based_tick)(const sbri_island_tick *tick);
+  void (*block_descent_tick)(const sbri_island_tick *tick);
+} sbri_kernels;
+
+extern const sbri_kernels sbri_kernels_scalar; /* one lane */
+extern const sbri_kernels sbri_kernels_plain;  /* what the compiler was told to assume: may be one lane too */
+#if defined(__x86_64__) && defined(__GNUC__)
+#define SBRI_HAS_X86_64 1
+extern const sbri_kernels sbri_kernels_avx2, sbri_kernels_avx512; /* for processors that have them */
+#endif
+
+/* Those for the instructions, or the fastest that this machine can run; NULL: it cannot run them. */
+const sbri_kernels *sbri_kernels_of(sbr_instructions instructions);
+
+#endif

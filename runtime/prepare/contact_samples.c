@@ -1,0 +1,175 @@
+/* Which places of a body meet the ground.
+ *
+ * Where the surface's points are points of the level: its points. Where the level carries its surface: the
+ * surface's points, each by the points that carry it, all that polygons use, in the order of the source.
+ * Fewer would be cheaper, but only those near the ground cost anything, and each that is left out is one that
+ * dips in. Where they lie further apart than the level's own points, those of the level that lie on the
+ * surface too: else a face would be borne by its corners alone, and its matter sink between them. Those come
+ * first, so that what is seen has the last word in a sweep. */
+#include "math/vec3.h"
+#include "prepare/prepare.h"
+
+enum { CARRIERS = 4 };
+
+static bool is_carried(const sbri_skin *skin) {
+  if (skin->vertex_count == 0 || skin->frame_vertex_count > 0) return false;
+  for (uint32_t v = 0; v < skin->vertex_count; v++) {
+    uint32_t block = v / SBRI_BLOCK, begin = skin->cell_begins[block];
+    for (uint32_t c = begin; c < skin->cell_begins[block + 1]; c++)
+      if (skin->cells[c].weights[v % SBRI_BLOCK] != (c == begin ? 1.0f : 0.0f)) return true;
+  }
+  return false;
+}
+
+static void add_sample(sbri_body *body, sbri_sample *samples, sbri_sample s) {
+  float beyond = 0;
+  for (int k = 0; k < CARRIERS; k++) beyond += s.weights[k] < 0 ? -s.weights[k] : 0;
+  if (!(s.mass_kg > 0)) return; /* goes where its bones go */
+  body->sample_beyond = beyond > body->sample_beyond ? beyond : body->sample_beyond;
+  samples[body->sample_count++] = s;
+}
+
+/* ---- Points of the level on the surface ---- */
+
+/* A point this share of an edge of the tetrahedra outside of the surface would bear it too high; one that
+ * much inside, no better than not. */
+static const float OUTSIDE_SHARE = 0.02f, INSIDE_SHARE = 0.25f;
+
+/* Between a triangle and a point: the square, and whether the point is behind. */
+typedef struct distance {
+  float square;
+  bool behind;
+} distance;
+
+static sbf_vec3 nearest_on_side(sbf_vec3 x, sbf_vec3 a, sbf_vec3 b) {
+  sbf_vec3 side = sbri_sub(b, a);
+  float square = sbri_dot(side, side), t = square > 0 ? sbri_dot(sbri_sub(x, a), side) / square : 0;
+  return sbri_add_scaled(a, side, t < 0 ? 0 : t > 1 ? 1 : t);
+}
+
+static distance distance_to(sbf_vec3 x, const sbf_vec3 corners[3]) {
+  sbf_vec3 n = sbri_cross(sbri_sub(corners[1], corners[0]), sbri_sub(corners[2], corners[0]));
+  float height = sbri_dot(sbri_sub(x, corners[0]), n), area = sbri_dot(n, n), least = -1;
+  bool inside = area > 0;
+  for (int k = 0; k < 3; k++) {
+    sbf_vec3 a = corners[k], b = corners[(k + 1) % 3];
+    inside = inside && sbri_dot(sbri_cross(sbri_sub(b, a), sbri_sub(x, a)), n) >= 0;
+    sbf_vec3 off = sbri_sub(x, nearest_on_side(x, a, b));
+    float square = sbri_dot(off, off);
+    least = least < 0 || square < least ? square : least;
+  }
+  if (inside) least = height * height / area;
+  return (distance){least, height < 0};
+}
+
+typedef struct surface_points {
+  const sbri_body *body;
+  distance *nearest; /* (points of the level) */
+  float reach;       /* m: points further off are not looked at any closer */
+} surface_points;
+
+static void look_from(const surface_points *p, const sbf_vec3 corners[3]) {
+  const sbf_vec3_list *points = &p->body->level->positions;
+  sbf_vec3 low = corners[0], high = corners[0];
+  for (int k = 1; k < 3; k++) {
+    low = sbri_vec3(fminf(low.x, corners[k].x), fminf(low.y, corners[k].y), fminf(low.z, corners[k].z));
+    high = sbri_vec3(fmaxf(high.x, corners[k].x), fmaxf(high.y, corners[k].y), fmaxf(high.z, corners[k].z));
+  }
+  float r = p->reach;
+  for (uint32_t i = 0; i < points->count; i++) {
+    sbf_vec3 x = points->at[i];
+    if (x.x < low.x - r || x.x > high.x + r || x.y < low.y - r || x.y > high.y + r || x.z < low.z - r ||
+        x.z > high.z + r)
+      continue;
+    distance found = distance_to(x, corners);
+    if (p->nearest[i].square < 0 || found.square < p->nearest[i].square) p->nearest[i] = found;
+  }
+}
+
+/* Edge of a regular tetrahedron of the mean volume, m. */
+static float mean_edge(const sbri_body *body) {
+  double volume = 0;
+  const sbf_vec3 *at = body->level->positions.at;
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    const uint32_t *c = body->level->lattice.tetrahedra.at[t].at;
+    sbf_vec3 a = sbri_sub(at[c[1]], at[c[0]]), b = sbri_sub(at[c[2]], at[c[0]]);
+    volume += (double)fabsf(sbri_dot(sbri_cross(a, b), sbri_sub(at[c[3]], at[c[0]]))) / 6;
+  }
+  double cube = body->tetrahedron_count ? 8.485 * volume / body->tetrahedron_count : 0, edge = 1;
+  for (int i = 0; i < 60 && cube > 0; i++) edge -= (edge - cube / (edge * edge)) / 3;
+  return cube > 0 ? (float)edge : 0;
+}
+
+static float mean_side(const sbf_polygon_mesh *mesh) {
+  const uint32_t *corners = mesh->polygon_points.at;
+  double sum = 0, count = 0;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
+    for (uint32_t k = 0; k < mesh->polygon_sizes.at[p]; k++, count++) {
+      uint32_t next = corners[(k + 1) % mesh->polygon_sizes.at[p]];
+      sum += (double)sbri_length(sbri_sub(mesh->positions.at[next], mesh->positions.at[corners[k]]));
+    }
+  return count > 0 ? (float)(sum / count) : 0;
+}
+
+static void find_surface_points(const surface_points *p) {
+  const sbf_polygon_mesh *mesh = &p->body->source->surface;
+  const uint32_t *corners = mesh->polygon_points.at;
+  for (uint32_t i = 0; i < p->body->level->positions.count; i++) p->nearest[i].square = -1;
+  for (uint32_t n = 0; n < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[n++])
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[n]; k++)
+      look_from(p, (const sbf_vec3[]){mesh->positions.at[corners[0]], mesh->positions.at[corners[k - 1]],
+                       mesh->positions.at[corners[k]]});
+}
+
+static void add_surface_points(
+    const sbri_island *island, sbri_body *body, const surface_points *p, float edge, sbri_sample *samples) {
+  for (uint32_t i = 0; i < body->level->positions.count; i++) {
+    float share = p->nearest[i].behind ? INSIDE_SHARE : OUTSIDE_SHARE, most = share * edge;
+    uint32_t slot = body->slot_from_point[i];
+    if (p->nearest[i].square < 0 || p->nearest[i].square > most * most || slot >= island->free_count)
+      continue;
+    add_sample(body, samples,
+        (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, island->masses[slot], UINT32_MAX});
+  }
+}
+
+/* ---- All of them ---- */
+
+static bool mark_used(const sbf_polygon_mesh *mesh, sbfi_arena *scratch, uint8_t **used) {
+  *used = sbfi_arena_allocate(scratch, mesh->positions.count, sizeof **used);
+  if (!*used) return false;
+  for (uint32_t i = 0; i < mesh->polygon_points.count; i++) (*used)[mesh->polygon_points.at[i]] = 1;
+  return true;
+}
+
+static bool make(sbr_model *model, sbri_body *body, sbfi_arena *scratch) {
+  const sbri_island *island = &model->islands[body->island];
+  const sbf_polygon_mesh *mesh = &body->source->surface;
+  float edge = mean_edge(body);
+  bool sparse = edge > 0 && mean_side(mesh) > edge;
+  size_t count = (size_t)body->surface.vertex_count + (sparse ? body->level->positions.count : 0);
+  sbri_sample *samples = sbfi_arena_allocate(&model->arena, count, sizeof *samples);
+  uint8_t *used;
+  if (!samples || !mark_used(mesh, scratch, &used)) return false;
+  body->samples = samples;
+  if (sparse) {
+    surface_points p = {.body = body, .reach = INSIDE_SHARE * edge};
+    p.nearest = sbfi_arena_allocate(scratch, body->level->positions.count, sizeof *p.nearest);
+    if (!p.nearest) return false;
+    find_surface_points(&p);
+    add_surface_points(island, body, &p, edge, samples);
+  }
+  for (uint32_t v = 0; v < body->surface.vertex_count; v++) {
+    if (used[v]) add_sample(body, samples, sbri_sample_of(island, &body->surface, v));
+  }
+  return true;
+}
+
+bool sbri_samples_make(sbr_model *model, sbri_body *body) {
+  if (!body->level || !is_carried(&body->surface)) return true;
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &model->arena.allocator, 0);
+  bool good = make(model, body, &scratch);
+  sbfi_arena_free(&scratch);
+  return good;
+}

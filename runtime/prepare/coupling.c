@@ -1,0 +1,196 @@
+/* What ties soft bodies to rigid ones: the bodies that carry what holds each island, the springs that reach
+ * what is held, and how fast a rigid body may swing by all of it.
+ *
+ * A bound of that: what is soft stands, the body gives way. Springs and regions count with their stiffness
+ * along the worst direction, a tetrahedron with its matter's P-wave modulus M = mu + lambda (mechanics/
+ * neo_hookean.h) times V |G|^2, G the strain of it by a unit motion of the corners that the body holds. About
+ * the principal axes the same over the moments. The square of the fastest is at most the sum of both. */
+#include "mechanics/neo_hookean.h"
+#include "prepare/prepare.h"
+
+/* ---- Who carries what ---- */
+
+/* A bone goes with the body of the nearest bone above it, or its own, that has one. */
+static bool list_carriers(sbr_model *model) {
+  const sbri_rigid_model *rigid = &model->rigid;
+  int32_t *carriers = sbfi_arena_allocate(&model->arena, model->frame_count, sizeof *carriers);
+  if (!carriers) return false;
+  for (uint32_t f = 0; f < model->frame_count; f++) carriers[f] = -1;
+  for (uint32_t i = 0; i < model->rig.bone_count; i++) {
+    uint32_t bone = model->rig.subtree[i];
+    int32_t parent = model->rig.parents[bone];
+    carriers[bone] = rigid->body_of_bone[bone] >= 0 ? rigid->body_of_bone[bone]
+                     : parent >= 0                  ? carriers[parent]
+                                                    : -1;
+  }
+  for (uint32_t b = 0; b < rigid->body_count; b++)
+    if (rigid->own_frames[b] != UINT32_MAX) carriers[sbri_body_frame(model, b)] = (int32_t)b;
+  model->carrier_of_frame = carriers;
+  return true;
+}
+
+static bool list_held(sbr_model *model, sbri_island *island) {
+  uint32_t held_count = island->slot_count - island->free_count, body_count = model->rigid.body_count;
+  int32_t *of_held = sbfi_arena_allocate(&model->arena, (size_t)held_count + 1, sizeof *of_held);
+  uint32_t *springs = sbfi_arena_allocate(&model->arena, (size_t)island->spring_count + 1, sizeof *springs);
+  uint32_t *carriers = sbfi_arena_allocate(&model->arena, (size_t)body_count + 1, sizeof *carriers);
+  if (!of_held || !springs || !carriers) return false;
+  for (uint32_t i = 0; i < held_count; i++) of_held[i] = model->carrier_of_frame[island->frame_of_held[i]];
+  island->carrier_of_held = of_held, island->carriers = carriers, island->held_springs = springs;
+  for (uint32_t b = 0; b < body_count; b++) {
+    bool carries = false;
+    for (uint32_t i = 0; i < held_count && !carries; i++) carries = of_held[i] == (int32_t)b;
+    if (carries) carriers[island->carrier_count++] = b;
+  }
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    const sbfi_spring *s = &island->springs[i];
+    if ((s->a >= island->free_count) != (s->b >= island->free_count))
+      springs[island->held_spring_count++] = i;
+  }
+  return true;
+}
+
+/* ---- How fast ---- */
+
+/* N/m, and N m/rad about each of the body's own axes. */
+typedef struct stiffness {
+  double along, about[3];
+} stiffness;
+
+static int32_t carrier_of(const sbri_island *island, uint32_t slot) {
+  return slot >= island->free_count ? island->carrier_of_held[slot - island->free_count] : -1;
+}
+
+static sbf_vec3 own_arm(const sbri_rigid_body *body, const sbri_point *at) {
+  sbf_vec3 arm = sbri_sub(sbri_vec3(at->x, at->y, at->z), body->center);
+  return sbri_rotate(sbri_quat_conjugate(body->axes), arm);
+}
+
+static void add_point(
+    const sbri_island *island, const sbri_rigid_body *body, uint32_t slot, double k, stiffness *sum) {
+  sbf_vec3 r = own_arm(body, &island->rest[slot]);
+  double x = (double)r.x, y = (double)r.y, z = (double)r.z;
+  sum->along += k;
+  sum->about[0] += k * (y * y + z * z), sum->about[1] += k * (z * z + x * x);
+  sum->about[2] += k * (x * x + y * y);
+}
+
+static double square_of_strain(const sbfi_tetrahedron *t, const sbfi_d3 moves[4]) {
+  double sum = 0;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++)
+      sum += sbfi_d3_dot(moves[i], moves[j]) * sbfi_d3_dot(t->gradients[i], t->gradients[j]);
+  return sum;
+}
+
+static void add_tetrahedron(const sbri_island *island, const sbri_rigid_body *body, int32_t carrier,
+    const sbfi_tetrahedron *t, const uint32_t slots[4], stiffness *sum) {
+  double modulus = t->volume * (t->lame.mu + t->lame.lambda);
+  sbfi_d3 moves[4];
+  for (int i = 0; i < 4; i++) moves[i] = (sbfi_d3){carrier_of(island, slots[i]) == carrier ? 1 : 0, 0, 0};
+  sum->along += modulus * square_of_strain(t, moves);
+  for (int axis = 0; axis < 3; axis++) {
+    for (int i = 0; i < 4; i++) {
+      sbfi_d3 r = sbfi_d3_of(own_arm(body, &island->rest[slots[i]]));
+      sbfi_d3 turned = axis == 0   ? (sbfi_d3){0, -r.z, r.y}
+                       : axis == 1 ? (sbfi_d3){r.z, 0, -r.x}
+                                   : (sbfi_d3){-r.y, r.x, 0};
+      moves[i] = carrier_of(island, slots[i]) == carrier ? turned : (sbfi_d3){0, 0, 0};
+    }
+    /* In the body's own axes on one side only: a norm does not ask. */
+    sum->about[axis] += modulus * square_of_strain(t, moves);
+  }
+}
+
+static void add_tetrahedra(
+    const sbr_model *model, const sbri_island *island, uint32_t carrier, stiffness *sum) {
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &model->bodies[island->bodies[b]];
+    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+      const uint32_t *points = body->level->lattice.tetrahedra.at[t].at;
+      uint32_t slots[4], count = 0;
+      for (int k = 0; k < 4; k++) {
+        slots[k] = body->slot_from_point[points[k]];
+        count += carrier_of(island, slots[k]) == (int32_t)carrier;
+      }
+      sbfi_tetrahedron made;
+      if (count % 4 == 0 || !sbri_body_tetrahedron(body, t, &made)) continue;
+      add_tetrahedron(island, &model->rigid.bodies[carrier], (int32_t)carrier, &made, slots, sum);
+    }
+  }
+}
+
+static void add_regions(
+    const sbri_island *island, const sbri_rigid_body *body, uint32_t carrier, stiffness *sum) {
+  for (uint32_t b = 0; b < island->region_block_count; b++) {
+    const sbri_region_block *block = &island->region_blocks[b];
+    for (uint32_t i = 0; i < block->member_count * SBRI_BLOCK; i++) {
+      const sbri_region_member *m = &island->region_members[block->first_member + i / SBRI_BLOCK];
+      uint32_t slot = m->slots[i % SBRI_BLOCK];
+      if (carrier_of(island, slot) == (int32_t)carrier)
+        add_point(island, body, slot, (double)m->stiffness[i % SBRI_BLOCK], sum);
+    }
+  }
+}
+
+static void add_island(const sbr_model *model, const sbri_island *island, uint32_t carrier, stiffness *sum) {
+  const sbri_rigid_body *body = &model->rigid.bodies[carrier];
+  for (uint32_t i = 0; i < island->held_spring_count; i++) {
+    const sbfi_spring *s = &island->springs[island->held_springs[i]];
+    uint32_t held = s->a >= island->free_count ? s->a : s->b;
+    if (carrier_of(island, held) == (int32_t)carrier)
+      add_point(island, body, held, (double)s->stiffness_n_m, sum);
+  }
+  add_tetrahedra(model, island, carrier, sum);
+  add_regions(island, body, carrier, sum);
+}
+
+static float square_of(const sbri_rigid_body *body, const stiffness *s) {
+  const float ease[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
+  double turning = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    double square = s->about[axis] * (double)ease[axis];
+    turning = square > turning ? square : turning;
+  }
+  return (float)(s->along * (double)body->inverse_mass + turning);
+}
+
+/* ---- How heavy ---- */
+
+static void add_weight(const sbr_model *model, uint32_t frame, const sbri_point *at, float mass) {
+  int32_t carrier = model->carrier_of_frame[frame];
+  if (carrier < 0) return;
+  const sbri_rigid_body *body = &model->rigid.bodies[carrier];
+  sbf_vec3 r = own_arm(body, at), ease = body->inverse_inertia;
+  float turning = ease.x > ease.y ? ease.x : ease.y;
+  turning = turning > ease.z ? turning : ease.z;
+  model->rigid.carried_masses[carrier] += mass;
+  model->rigid.pinned_weights[carrier] += mass * (body->inverse_mass + sbri_dot(r, r) * turning);
+}
+
+static void add_weights(const sbr_model *model, const sbri_island *island, const sbri_body *body) {
+  for (uint32_t slot = body->slot_begin; body->held && slot < body->slot_real_end; slot++) {
+    if (!body->guides) add_weight(model, body->guide_frame, &island->rest[slot], island->masses[slot]);
+    for (int k = 0; body->guides && k < SBRI_GUIDES; k++) {
+      const sbri_guide *guide = &body->guides[slot - body->slot_begin];
+      add_weight(model, guide->frames[k], &island->rest[slot], guide->weights[k] * island->masses[slot]);
+    }
+  }
+}
+
+bool sbri_coupling_make(sbr_model *model) {
+  if (!list_carriers(model)) return false;
+  for (uint32_t i = 0; i < model->island_count; i++)
+    if (!list_held(model, &model->islands[i])) return false;
+  for (uint32_t i = 0; i < model->island_count; i++)
+    for (uint32_t b = 0; b < model->islands[i].body_count; b++)
+      add_weights(model, &model->islands[i], &model->bodies[model->islands[i].bodies[b]]);
+  for (uint32_t b = 0; b < model->rigid.body_count; b++) {
+    stiffness sum = {0, {0, 0, 0}};
+    for (uint32_t i = 0; i < model->island_count; i++)
+      for (uint32_t k = 0; k < model->islands[i].carrier_count; k++)
+        if (model->islands[i].carriers[k] == b) add_island(model, &model->islands[i], b, &sum);
+    model->rigid.pinned_squares[b] = square_of(&model->rigid.bodies[b], &sum);
+  }
+  return true;
+}

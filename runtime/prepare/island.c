@@ -1,0 +1,254 @@
+/* Slots, springs, masses and frequencies of one island. */
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "mechanics/level_points.h"
+#include "prepare/island_maker.h"
+#include "prepare/pins.h"
+
+/* A free point without mass would answer any force at once: it gets this share of the mean. */
+static const float LEAST_MASS_SHARE = 1e-3f;
+
+static uint32_t padded(uint32_t count) {
+  return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
+}
+
+/* ---- Weight maps ---- */
+
+bool sbri_factors_find(
+    sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors) {
+  bool weighed = false;
+  *factors = NULL;
+  for (uint32_t i = 0; i < body->source->weight_maps.count; i++)
+    weighed = weighed || body->source->weight_maps.at[i].property == property;
+  if (!weighed) return true;
+  float *values = sbri_scratch(m, body->level->positions.count, sizeof *values);
+  if (!values) return false;
+  for (uint32_t i = 0; i < body->level->positions.count; i++) values[i] = 1;
+  sbfi_level_weigh(body->source, body->level, property, values);
+  *factors = values;
+  return true;
+}
+
+/* ---- What holds each point, and what it weighs ---- */
+
+float sbri_natural_stiffness(const sbf_soft_body *body, float mass) {
+  float volume = mass / body->attributes.density, low = 0, high = 1;
+  while (high * high * high < volume) high *= 2;
+  for (int i = 0; i < 30; i++) { /* the cube root, without a library's */
+    float middle = 0.5f * (low + high);
+    *(middle * middle * middle < volume ? &low : &high) = middle;
+  }
+  return body->attributes.young_modulus * high;
+}
+
+static bool read_goals(sbri_island_maker *m, uint32_t place) {
+  const sbri_body *body = sbri_maker_body(m, place);
+  for (uint32_t s = 0; s < body->level->pins.count; s++) {
+    const sbf_pin_set *set = &body->level->pins.at[s];
+    for (uint32_t i = 0; i < set->points.count; i++) {
+      uint32_t point = set->points.at[i];
+      float weight = sbri_pin_weight(set, i);
+      if (m->frames[place][point] != SBRI_FREE || !(weight > 0) || weight >= 1) continue;
+      sbri_goal *g = sbfi_array_push(&m->goals, 1);
+      if (!g) return false;
+      float full =
+          set->stiffness > 0 ? set->stiffness : sbri_natural_stiffness(body->source, m->masses[place][point]);
+      *g = (sbri_goal){place, point, sbri_pin_frame(m->model, set), weight * full, weight * set->damping,
+          sbri_pin_place(m->model, body->level, set, i)};
+    }
+  }
+  return true;
+}
+
+/* Points inside, which no face gives a share of the matter, have all the same by the rule for masses. Where
+ * they are let go, they share what they have as stiffly as their springs hold them: else the one in the
+ * middle, on which a spring of each point of the surface pulls, would swing twice as fast as all the others
+ * and ask for twice the substeps. */
+static bool share_inside(sbri_island_maker *m, const sbri_body *body, float *masses) {
+  const sbf_level *level = body->level;
+  const sbf_polygon_mesh *mesh = &body->source->surface;
+  uint32_t count = level->positions.count, total = 0;
+  if (level->masses.count || level->model != SBF_ELASTIC_MODEL_SPRINGS) return true;
+  for (uint32_t s = 0; s < level->springs.count; s++) total += level->springs.at[s].ends.count;
+  uint8_t *outside = sbri_scratch(m, count, 1);
+  float *stiffness = sbri_scratch(m, total, sizeof *stiffness),
+        *volumes = sbri_scratch(m, count, sizeof *volumes);
+  double *sums = sbri_scratch(m, count, 2 * sizeof *sums), mass = 0, all = 0;
+  if (!outside || !stiffness || !volumes || !sums) return false;
+  sbf_level_stiffness(body->source, level, volumes, sums, stiffness);
+  for (uint32_t i = 0; i < mesh->polygon_points.count; i++) {
+    uint32_t point = sbfi_level_point(level, mesh->polygon_points.at[i]);
+    if (point != UINT32_MAX) outside[point] = 1;
+  }
+  for (uint32_t i = 0; i < count; i++) sums[i] = 0;
+  for (uint32_t s = 0; s < level->springs.count; s++)
+    for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++, stiffness++)
+      for (int end = 0; end < 2; end++) sums[level->springs.at[s].ends.at[i].at[end]] += (double)*stiffness;
+  for (uint32_t i = 0; i < count; i++)
+    if (!outside[i] && sums[i] > 0) mass += (double)masses[i], all += sums[i];
+  for (uint32_t i = 0; i < count; i++)
+    if (!outside[i] && sums[i] > 0) masses[i] = (float)(mass * (sums[i] / all));
+  return true;
+}
+
+static bool read_body(sbri_island_maker *m, uint32_t place) {
+  const sbri_body *body = sbri_maker_body(m, place);
+  uint32_t count = body->level->positions.count;
+  uint32_t *frames = m->frames[place] = sbri_scratch(m, count, sizeof *frames);
+  m->places[place] = sbri_scratch(m, count, sizeof **m->places);
+  float *masses = m->masses[place] = sbri_scratch(m, count, sizeof *masses);
+  uint8_t *held = sbri_scratch(m, count, 1);
+  if (!frames || !m->places[place] || !masses || !held) return false;
+  sbri_pins_read(m->model, body->level, frames, m->places[place]);
+  for (uint32_t i = 0; i < count && m->options->free; i++) {
+    frames[i] = SBRI_FREE;
+    m->places[place][i] = body->level->positions.at[i];
+  }
+  uint32_t free_count = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    held[i] = frames[i] != SBRI_FREE;
+    free_count += !held[i];
+  }
+  double sum = sbf_level_masses(body->source, body->level, held, masses);
+  if (m->options->free && !share_inside(m, body, masses)) return false;
+  float least = free_count ? (float)(sum / free_count) * LEAST_MASS_SHARE : 0;
+  for (uint32_t i = 0; i < count; i++)
+    if (!held[i] && masses[i] < least) masses[i] = least;
+  return m->options->free || read_goals(m, place);
+}
+
+/* ---- Slots ---- */
+
+static void count_valences(const sbri_island_maker *m, uint32_t place, uint32_t *valences) {
+  const sbf_level *level = sbri_maker_body(m, place)->level;
+  memset(valences, 0, level->positions.count * sizeof *valences);
+  for (uint32_t s = 0; s < level->springs.count; s++)
+    for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++) {
+      valences[level->springs.at[s].ends.at[i].at[0]]++;
+      valences[level->springs.at[s].ends.at[i].at[1]]++;
+    }
+}
+
+bool sbri_body_tears(const sbri_body *body) {
+  return body->level && body->level->model == SBF_ELASTIC_MODEL_TETRAHEDRA &&
+         body->source->attributes.tear_strain > 0;
+}
+
+/* Room for points that split. */
+static uint32_t reserve_of(const sbri_island_maker *m, const sbri_body *body) {
+  if (!sbri_body_tears(body)) return 0;
+  return m->options->tear_points ? m->options->tear_points : body->level->positions.count / 2;
+}
+
+/* Free points by falling valence, equal ones in the level's order, from slot `next` on. */
+static bool place_free(sbri_island_maker *m, uint32_t place, uint32_t next, uint32_t *slot_from_point) {
+  sbri_body *body = sbri_maker_body(m, place);
+  uint32_t count = body->level->positions.count, most = 0;
+  uint32_t *valences = sbri_scratch(m, count, sizeof *valences);
+  if (!valences) return false;
+  count_valences(m, place, valences);
+  for (uint32_t i = 0; i < count; i++) most = valences[i] > most ? valences[i] : most;
+  uint32_t *begins = sbri_scratch(m, (size_t)most + 2, sizeof *begins);
+  if (!begins) return false;
+  for (uint32_t i = 0; i < count; i++)
+    if (m->frames[place][i] == SBRI_FREE) begins[most - valences[i] + 1]++;
+  for (uint32_t v = 0; v <= most; v++) begins[v + 1] += begins[v];
+  for (uint32_t i = 0; i < count; i++)
+    if (m->frames[place][i] == SBRI_FREE) slot_from_point[i] = next + begins[most - valences[i]]++;
+  body->slot_begin = next;
+  body->first_spare = next + begins[most];
+  body->slot_real_end = body->first_spare + reserve_of(m, body);
+  body->slot_end = padded(body->slot_real_end);
+  return true;
+}
+
+static bool make_slots(sbri_island_maker *m) {
+  sbri_island *island = m->island;
+  uint32_t next = 0;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    uint32_t *slots = sbri_keep(m, body->level->positions.count, sizeof *slots);
+    if (!slots || !place_free(m, b, next, slots)) return false;
+    body->slot_from_point = slots;
+    next = body->slot_end;
+  }
+  island->free_count = next;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    for (uint32_t i = 0; i < body->level->positions.count; i++)
+      if (m->frames[b][i] != SBRI_FREE) body->slot_from_point[i] = next++;
+  }
+  m->first_goal = next;
+  island->slot_count = padded(next + (uint32_t)m->goals.count);
+  return true;
+}
+
+static bool fill_slots(sbri_island_maker *m) {
+  sbri_island *island = m->island;
+  sbri_point *rest = sbri_keep(m, island->slot_count, sizeof *rest);
+  float *masses = sbri_keep(m, island->free_count, sizeof *masses);
+  float *inverse_masses = sbri_keep(m, island->free_count, sizeof *inverse_masses);
+  float *gravity_scales = sbri_keep(m, island->free_count, sizeof *gravity_scales);
+  uint32_t held_count = island->slot_count - island->free_count;
+  uint32_t *frames = sbri_keep(m, held_count, sizeof *frames);
+  if (!rest || !masses || !inverse_masses || !gravity_scales || !frames) return false;
+  for (uint32_t i = 0; i < held_count; i++) frames[i] = sbri_root_frame(m->model);
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    for (uint32_t i = 0; i < body->level->positions.count; i++) {
+      uint32_t slot = body->slot_from_point[i];
+      sbf_vec3 p = m->places[b][i];
+      rest[slot] = (sbri_point){p.x, p.y, p.z, 0};
+      if (slot >= island->free_count) {
+        frames[slot - island->free_count] = m->frames[b][i];
+        continue;
+      }
+      masses[slot] = m->masses[b][i];
+      inverse_masses[slot] = masses[slot] > 0 ? 1 / masses[slot] : 0;
+      gravity_scales[slot] = body->source->attributes.gravity_scale;
+    }
+    for (uint32_t slot = body->first_spare; slot < body->slot_end; slot++)
+      rest[slot] = rest[body->slot_begin];
+  }
+  const sbri_goal *goals = m->goals.at;
+  for (uint32_t g = 0; g < m->goals.count; g++) {
+    uint32_t slot = m->first_goal + g;
+    rest[slot] = (sbri_point){goals[g].place.x, goals[g].place.y, goals[g].place.z, 0};
+    frames[slot - island->free_count] = goals[g].frame;
+  }
+  island->rest = m->rest = rest, island->masses = masses, island->inverse_masses = inverse_masses;
+  island->gravity_scales = gravity_scales, island->frame_of_held = frames;
+  return true;
+}
+
+/* ---- All of it ---- */
+
+static bool make(sbri_island_maker *m) {
+  uint32_t count = m->island->body_count;
+  m->frames = sbri_scratch(m, count, sizeof *m->frames);
+  m->places = sbri_scratch(m, count, sizeof *m->places);
+  m->masses = sbri_scratch(m, count, sizeof *m->masses);
+  if (!m->frames || !m->places || !m->masses) return false;
+  for (uint32_t b = 0; b < count; b++)
+    if (!read_body(m, b)) return false;
+  if (!make_slots(m) || !fill_slots(m) || !sbri_island_springs(m)) return false;
+  for (uint32_t b = 0; b < count; b++)
+    if (!sbri_guides_make(m->model, m->island, sbri_maker_body(m, b))) return false;
+  return true;
+}
+
+sbf_status sbri_island_make(
+    sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error) {
+  sbri_island_maker m = {.model = model, .island = island, .options = options};
+  sbfi_arena_init(&m.scratch, &model->arena.allocator, 0);
+  sbfi_array_init(&m.goals, &model->arena.allocator, sizeof(sbri_goal));
+  sbfi_array_init(&m.springs, &model->arena.allocator, sizeof(sbfi_spring));
+  sbfi_array_init(&m.bounds, &model->arena.allocator, sizeof(sbfi_spring_bounds));
+  bool good = make(&m);
+  sbfi_array_free(&m.bounds);
+  sbfi_array_free(&m.springs);
+  sbfi_array_free(&m.goals);
+  sbfi_arena_free(&m.scratch);
+  return good ? SBF_OK : sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
+}

@@ -1,0 +1,397 @@
+/* The springs of an island, and what it swings by: springs are listed once each, then laid out for the eight
+ * points of a block at a time. */
+#include <string.h>
+
+#include "mechanics/level_points.h"
+#include "prepare/island_maker.h"
+#include "solvers/rolling.h"
+#include "solvers/scheme.h"
+
+static float rest_distance(const sbri_island *island, uint32_t a, uint32_t b) {
+  const sbri_point *p = &island->rest[a], *q = &island->rest[b];
+  float x = q->x - p->x, y = q->y - p->y, z = q->z - p->z;
+  return sqrtf(x * x + y * y + z * z);
+}
+
+/* Of two points of levels: pins hold some elsewhere. */
+static float authored_distance(const sbri_body *a, uint32_t from, const sbri_body *b, uint32_t to) {
+  const sbf_vec3 *p = &a->level->positions.at[from], *q = &b->level->positions.at[to];
+  float x = q->x - p->x, y = q->y - p->y, z = q->z - p->z;
+  return sqrtf(x * x + y * y + z * z);
+}
+
+static const sbfi_spring_bounds unbounded = {.strain_min = -1};
+
+static bool add(sbri_island_maker *m, sbfi_spring spring, const sbfi_spring_bounds *bounds) {
+  uint32_t free_count = m->island->free_count;
+  bool inert = (spring.a >= free_count && spring.b >= free_count) || spring.a == spring.b ||
+               !(spring.stiffness_n_m > 0 || spring.damping_ns_m > 0);
+  return inert || (sbfi_array_append(&m->springs, &spring, 1) && sbfi_array_append(&m->bounds, bounds, 1));
+}
+
+/* ---- Listing ---- */
+
+/* What weight maps make of the attributes of springs: factors at the level's points; NULL: 1 everywhere. */
+typedef struct spring_factors {
+  const float *damping, *yield, *tear;
+} spring_factors;
+
+static float factor_of(const float *factors, const uint32_t ends[2]) {
+  return factors ? 0.5f * (factors[ends[0]] + factors[ends[1]]) : 1;
+}
+
+/* What a set does not state is the body's. */
+static sbfi_spring_bounds bounds_of(
+    const sbf_attributes *is, const sbf_spring_set *set, const spring_factors *by, const uint32_t ends[2]) {
+  sbfi_spring_bounds bounds = {set->strain_min > -1 ? set->strain_min : is->strain_min,
+      set->strain_max > 0 ? set->strain_max : is->strain_max,
+      set->yield_strain > 0 ? set->yield_strain : is->yield_strain, is->yield_flow,
+      set->tear_strain > 0 ? set->tear_strain : is->tear_strain};
+  bounds.yield_strain *= factor_of(by->yield, ends);
+  bounds.tear_strain *= factor_of(by->tear, ends);
+  return bounds;
+}
+
+static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
+  const sbf_level *level = body->level;
+  size_t total = 0;
+  for (uint32_t s = 0; s < level->springs.count; s++) {
+    total += level->springs.at[s].ends.count;
+    m->states_rest_lengths = m->states_rest_lengths || level->springs.at[s].rest_lengths.count;
+  }
+  float *stiffness = sbri_scratch(m, total, sizeof *stiffness);
+  float *volumes = sbri_scratch(m, level->positions.count, sizeof *volumes);
+  double *sums = sbri_scratch(m, level->positions.count, 2 * sizeof *sums);
+  if (!stiffness || !volumes || !sums) return false;
+  sbf_level_stiffness(body->source, level, volumes, sums, stiffness);
+  const sbf_attributes *is = &body->source->attributes;
+  spring_factors by;
+  if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, &by.damping) ||
+      !sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_YIELD_STRAIN, &by.yield) ||
+      !sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_TEAR_STRAIN, &by.tear))
+    return false;
+  for (uint32_t s = 0; s < level->springs.count; s++) {
+    const sbf_spring_set *set = &level->springs.at[s];
+    if (level->model != SBF_ELASTIC_MODEL_SPRINGS && !set->extra) { /* beside another model only these act */
+      stiffness += set->ends.count;
+      continue;
+    }
+    for (uint32_t i = 0; i < set->ends.count; i++) {
+      const uint32_t *ends = set->ends.at[i].at;
+      uint32_t a = body->slot_from_point[ends[0]], b = body->slot_from_point[ends[1]];
+      float k = *stiffness++;
+      float rest =
+          set->rest_lengths.count ? set->rest_lengths.at[i] : authored_distance(body, ends[0], body, ends[1]);
+      float damping = set->damping.count ? set->damping.at[set->damping.count == 1 ? 0 : i]
+                                         : is->stiffness_damping * factor_of(by.damping, ends) * k;
+      sbfi_spring_bounds bounds = bounds_of(is, set, &by, ends);
+      if (!add(m, (sbfi_spring){a, b, k, rest, damping}, &bounds)) return false;
+    }
+  }
+  return true;
+}
+
+static bool add_goals(sbri_island_maker *m, uint32_t place) {
+  const sbri_goal *goals = m->goals.at;
+  for (uint32_t g = 0; g < m->goals.count; g++) {
+    if (goals[g].body != place) continue;
+    uint32_t slot = sbri_maker_body(m, place)->slot_from_point[goals[g].point];
+    if (!add(m, (sbfi_spring){slot, m->first_goal + g, goals[g].stiffness, 0, goals[g].damping}, &unbounded))
+      return false;
+  }
+  return true;
+}
+
+static bool add_cross_springs(sbri_island_maker *m, const sbf_cross_springs *cross) {
+  const sbri_body *a = &m->model->bodies[cross->body_a], *b = &m->model->bodies[cross->body_b];
+  const sbri_body *softer = b->source->attributes.young_modulus < a->source->attributes.young_modulus ? b : a;
+  for (uint32_t i = 0; i < cross->ends.count; i++) {
+    uint32_t at_a = a->slot_from_point[cross->ends.at[i].at[0]],
+             at_b = b->slot_from_point[cross->ends.at[i].at[1]];
+    uint32_t free_count = m->island->free_count;
+    float mass_a = at_a < free_count ? m->island->masses[at_a] : 0;
+    float mass_b = at_b < free_count ? m->island->masses[at_b] : 0;
+    float lighter = mass_a > 0 && (mass_a < mass_b || !(mass_b > 0)) ? mass_a : mass_b;
+    float k = cross->stiffness.count ? cross->stiffness.at[cross->stiffness.count == 1 ? 0 : i]
+                                     : sbri_natural_stiffness(softer->source, lighter);
+    float rest = cross->rest_lengths.count
+                     ? cross->rest_lengths.at[i]
+                     : authored_distance(a, cross->ends.at[i].at[0], b, cross->ends.at[i].at[1]);
+    float damping = cross->damping.count ? cross->damping.at[cross->damping.count == 1 ? 0 : i]
+                                         : softer->source->attributes.stiffness_damping * k;
+    if (!add(m, (sbfi_spring){at_a, at_b, k, rest, damping}, &unbounded)) return false;
+  }
+  return true;
+}
+
+static bool list_springs(sbri_island_maker *m) {
+  sbri_island *island = m->island;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    body->first_spring = (uint32_t)m->springs.count;
+    if (!add_sets(m, body) || !add_goals(m, b)) return false;
+    body->spring_end = (uint32_t)m->springs.count;
+  }
+  const sbf_asset *asset = m->model->asset;
+  for (uint32_t i = 0; i < asset->cross_springs.count; i++) {
+    const sbf_cross_springs *cross = &asset->cross_springs.at[i];
+    m->states_rest_lengths = m->states_rest_lengths || cross->rest_lengths.count;
+    bool here = &m->model->islands[m->model->bodies[cross->body_a].island] == island;
+    if (here && sbri_cross_springs_act(m->model, cross) && !add_cross_springs(m, cross)) return false;
+  }
+  island->spring_count = (uint32_t)m->springs.count;
+  sbfi_spring *springs = sbri_keep(m, island->spring_count, sizeof *springs);
+  if (!springs) return false;
+  if (island->spring_count) memcpy(springs, m->springs.at, island->spring_count * sizeof *springs);
+  island->springs = m->listed = springs;
+  return true;
+}
+
+/* What the springs are like at rest. */
+static void measure_springs(sbri_island *island) {
+  double lengths = 0;
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    const sbfi_spring *s = &island->springs[i];
+    double beta = s->stiffness_n_m > 0 ? (double)s->damping_ns_m / s->stiffness_n_m : 0;
+    if (beta > island->stiffness_damping_s) island->stiffness_damping_s = beta;
+    float length = rest_distance(island, s->a, s->b);
+    float stretch = length > 0 ? 1 - s->rest_length_m / length : 0;
+    if (s->rest_length_m > 0 && stretch > island->rest_stretch) island->rest_stretch = stretch;
+    lengths += (double)length;
+  }
+  if (island->spring_count) island->cell_m = (float)(lengths / island->spring_count);
+}
+
+/* ---- Cells ---- */
+
+static void put(const sbri_island *island, sbri_spring_cell *cells, float *damping, uint32_t *links,
+    uint32_t *used, uint32_t spring, uint32_t slot, uint32_t other) {
+  const sbfi_spring *s = &island->springs[spring];
+  if (slot >= island->free_count) return;
+  uint32_t lane = slot % SBRI_BLOCK, place = island->cell_begins[slot / SBRI_BLOCK] + used[slot]++;
+  cells[place].others[lane] = other;
+  cells[place].stiffness[lane] = s->stiffness_n_m;
+  cells[place].pull[lane] = s->stiffness_n_m * s->rest_length_m;
+  if (damping) damping[place * SBRI_BLOCK + lane] = s->damping_ns_m;
+  if (links) links[place * SBRI_BLOCK + lane] = island->link_of_spring[spring];
+}
+
+static bool make_cells(sbri_island_maker *m) {
+  sbri_island *island = m->island;
+  uint32_t block_count = island->free_count / SBRI_BLOCK;
+  uint32_t *begins = sbri_keep(m, (size_t)block_count + 1, sizeof *begins);
+  uint32_t *used = sbri_scratch(m, island->slot_count, sizeof *used);
+  if (!begins || !used) return false;
+  bool damped = false;
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    used[island->springs[i].a]++, used[island->springs[i].b]++;
+    damped = damped || island->springs[i].damping_ns_m > 0;
+  }
+  for (uint32_t block = 0; block < block_count; block++) {
+    uint32_t most = 0;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
+      if (used[block * SBRI_BLOCK + lane] > most) most = used[block * SBRI_BLOCK + lane];
+    begins[block + 1] = begins[block] + most;
+  }
+  uint32_t cell_count = begins[block_count];
+  sbri_spring_cell *cells = sbri_keep(m, cell_count, sizeof *cells);
+  float *damping = damped ? sbri_keep(m, (size_t)cell_count * SBRI_BLOCK, sizeof *damping) : NULL;
+  bool flows = island->link_flows != NULL;
+  uint32_t *links = flows ? sbri_keep(m, (size_t)cell_count * SBRI_BLOCK, sizeof *links) : NULL;
+  if (!cells || (damped && !damping) || (flows && !links)) return false;
+  for (uint32_t block = 0; block < block_count; block++)
+    for (uint32_t c = begins[block]; c < begins[block + 1]; c++)
+      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) cells[c].others[lane] = block * SBRI_BLOCK + lane;
+  island->cell_begins = begins, island->cells = cells, island->cell_damping = damping;
+  island->cell_links = links;
+  memset(used, 0, island->slot_count * sizeof *used);
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    const sbfi_spring *s = &island->springs[i];
+    put(island, cells, damping, links, used, i, s->a, s->b);
+    put(island, cells, damping, links, used, i, s->b, s->a);
+  }
+  return true;
+}
+
+/* ---- Frequencies ---- */
+
+enum { POWER_ITERATIONS = 40 };
+
+/* Lattices above this size have their lowest mode from above alone: refining it would take longer than a
+ * tenth of a second, and what a fine lattice's mode lies above by is little. */
+enum { MOST_REFINED = 3000 };
+
+/* Power iteration comes from below; what it may still lack. */
+static const double POWER_MARGIN = 1.03;
+
+/* Bones that would throw a body's points by more than this share of how far they are from what holds them
+ * take it along instead: its springs know no inside and outside, and would not bring back all of it. What
+ * starts at once sways twice as far as what is drawn there slowly. */
+static const float MOST_SWAY = 0.25f;
+
+/* Of so many of a body's points its reach is found. */
+enum { REACH_SAMPLES = 256 };
+
+/* How far from what holds it the body reaches, in m; no farther than it is large. */
+static float reach_of(const sbri_body *body, uint32_t free_count) {
+  const sbf_vec3 *at = body->level->positions.at;
+  uint32_t count = body->level->positions.count, step = count / REACH_SAMPLES + 1;
+  float reach2 = 0;
+  for (uint32_t i = 0; i < count; i += step) {
+    float nearest2 = body->rest_size_m * body->rest_size_m;
+    for (uint32_t k = 0; body->slot_from_point[i] < free_count && k < count; k++) {
+      if (body->slot_from_point[k] < free_count) continue;
+      sbf_vec3 d = {at[i].x - at[k].x, at[i].y - at[k].y, at[i].z - at[k].z};
+      nearest2 = fminf(nearest2, d.x * d.x + d.y * d.y + d.z * d.z);
+    }
+    if (body->slot_from_point[i] < free_count) reach2 = fmaxf(reach2, nearest2);
+  }
+  return sqrtf(reach2);
+}
+
+/* What an oscillator of `w` rad/s must not feel so as to sway no farther than that, in m. */
+static void bound_start(sbri_island *island, float sway, float w) {
+  float acceleration = sway * w * w, push = sway * w;
+  if (!(acceleration > 0)) return;
+  bool first = island->most_acceleration_m_s2 == 0;
+  if (first || acceleration < island->most_acceleration_m_s2) island->most_acceleration_m_s2 = acceleration;
+  if (first || push < island->most_push_m_s) island->most_push_m_s = push;
+}
+
+static void find_damping(sbri_island_maker *m, sbf_spring_network network, float *masses, double *scratch) {
+  const sbf_environment *environment = &m->model->asset->environment;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    const sbf_attributes *is = &body->source->attributes;
+    memset(masses, 0, network.point_count * sizeof *masses);
+    memcpy(masses + body->slot_begin, m->island->masses + body->slot_begin,
+        (body->slot_end - body->slot_begin) * sizeof *masses);
+    sbf_spring_network own = network;
+    own.ends += body->first_spring;
+    own.stiffness += body->first_spring;
+    own.spring_count = body->spring_end - body->first_spring;
+    own.tetrahedra += body->first_tetrahedron;
+    own.young_modulus += body->first_tetrahedron;
+    own.poisson_ratios += body->first_tetrahedron;
+    own.tetrahedron_count = body->tetrahedron_count;
+    double lowest = sbf_network_lowest(&own, body->tetrahedron_count < MOST_REFINED, scratch);
+    double region_lowest = sbri_regions_lowest(m->island, body, scratch);
+    lowest = sqrt(lowest * lowest + region_lowest * region_lowest);
+    bound_start(m->island, MOST_SWAY * reach_of(body, m->island->free_count), (float)lowest);
+    body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
+
+    body->rolling_share = lowest > 0 ? sbri_rolling_share(0.5f * body->alpha_1_s / (float)lowest) : 0;
+    body->media_friction_1_s = is->media_friction + environment->media_friction;
+    body->friction = is->friction;
+    body->restitution = is->restitution;
+    sbf_body_measures measures;
+    sbf_body_measure(body->source, &measures);
+    bool bare = body->source->surface.polygon_sizes.count == 0;
+    const sbf_collision *collision = &body->source->collision;
+    body->margin_m = bare ? collision->particle_radius : measures.sheet ? collision->outer_thickness : 0;
+  }
+}
+
+/* Damping of each point, where a map scales what mass_damping says; the ratio's part stays as it is. */
+static bool find_alphas(sbri_island_maker *m) {
+  uint32_t free_count = m->island->free_count;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    float stated = body->source->attributes.mass_damping, rest = body->alpha_1_s - stated;
+    const float *factors = NULL;
+    if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_MASS_DAMPING, &factors)) return false;
+    if (!factors || !(stated > 0)) continue;
+    float *alphas = sbri_keep(m, free_count, sizeof *alphas), most = 0;
+    if (!alphas) return false;
+    for (uint32_t slot = 0; slot < free_count; slot++) alphas[slot] = body->alpha_1_s;
+    for (uint32_t i = 0; i < body->level->positions.count; i++) {
+      float alpha = rest + stated * factors[i];
+      if (body->slot_from_point[i] >= free_count) continue;
+      alphas[body->slot_from_point[i]] = alpha;
+      most = alpha > most ? alpha : most;
+    }
+    body->alphas = alphas, body->alpha_1_s = most;
+  }
+  return true;
+}
+
+/* Friction of each point, where a map scales it. */
+static bool find_frictions(sbri_island_maker *m) {
+  uint32_t free_count = m->island->free_count;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    const float *factors = NULL;
+    if (!sbri_factors_find(m, body, SBF_WEIGHT_PROPERTY_FRICTION, &factors)) return false;
+    if (!factors) continue;
+    float *frictions = sbri_keep(m, free_count, sizeof *frictions);
+    if (!frictions) return false;
+    for (uint32_t slot = 0; slot < free_count; slot++) frictions[slot] = body->friction;
+    for (uint32_t i = 0; i < body->level->positions.count; i++)
+      if (body->slot_from_point[i] < free_count)
+        frictions[body->slot_from_point[i]] = body->friction * factors[i];
+    body->frictions = frictions;
+  }
+  return true;
+}
+
+static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
+  sbri_island *island = m->island;
+  uint32_t points = island->slot_count, count = island->spring_count;
+  sbf_vec3 *positions = sbri_scratch(m, points, sizeof *positions);
+  float *masses = sbri_scratch(m, points, sizeof *masses),
+        *anchors = sbri_scratch(m, points, sizeof *anchors);
+  sbf_uint2 *ends = sbri_scratch(m, count, sizeof *ends);
+  float *stiffness = sbri_scratch(m, count, sizeof *stiffness);
+  double *scratch = sbri_scratch(m, 16 * (size_t)points, sizeof *scratch);
+  if (!positions || !masses || !anchors || !ends || !stiffness || !scratch) return false;
+  for (uint32_t i = 0; i < points; i++)
+    positions[i] = (sbf_vec3){island->rest[i].x, island->rest[i].y, island->rest[i].z};
+  if (island->free_count) memcpy(masses, island->masses, island->free_count * sizeof *masses);
+  for (uint32_t i = 0; i < count; i++) {
+    const sbfi_spring *s = &island->springs[i];
+    ends[i] = (sbf_uint2){{s->a, s->b}};
+    stiffness[i] = s->stiffness_n_m;
+    if (s->rest_length_m > 0) continue;
+    /* A spring of no length, as a goal's, pulls alike in all directions: as an anchor, and if both its ends
+     * are free no more than twice that. */
+    bool a_free = s->a < island->free_count, b_free = s->b < island->free_count;
+    float k = a_free && b_free ? 2 * s->stiffness_n_m : s->stiffness_n_m;
+    stiffness[i] = 0;
+    if (a_free) anchors[s->a] += k;
+    if (b_free) anchors[s->b] += k;
+  }
+  sbf_spring_network network = {.point_count = points,
+      .spring_count = count,
+      .positions = positions,
+      .masses = masses,
+      .anchors = anchors,
+      .ends = ends,
+      .stiffness = stiffness};
+  if (!sbri_tetrahedra_network(m, &network)) return false;
+  island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
+  island->fastest_rad_s = POWER_MARGIN * sbf_network_highest(&network, POWER_ITERATIONS, scratch);
+  if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;
+  double regions = island->region_rad_s * island->region_rad_s; /* no mode is faster by more than their sum */
+  island->bound_rad_s = sqrt(island->bound_rad_s * island->bound_rad_s + regions);
+  island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
+  if (!sbri_island_preload(m, &network)) return false;
+  find_damping(m, network, masses, scratch);
+  if (!find_alphas(m) || !find_frictions(m)) return false;
+  *found = network;
+  return true;
+}
+
+bool sbri_island_springs(sbri_island_maker *m) {
+  sbf_spring_network network;
+  if (!list_springs(m) || !sbri_tetrahedra_list(m) || !sbri_regions_make(m) || !find_frequencies(m, &network))
+    return false;
+  measure_springs(m->island);
+  bool bounded = false;
+  const sbfi_spring_bounds *bounds = m->bounds.at;
+  for (size_t i = 0; i < m->bounds.count; i++)
+    bounded = bounded || bounds[i].strain_min > -1 || bounds[i].strain_max > 0 || bounds[i].tear_strain > 0 ||
+              bounds[i].yield_strain > 0;
+  bool linked = m->island->scheme->sweeps || m->island->routed || (bounded && !m->island->scheme->forceless);
+  if (linked && !sbri_links_make(m->model, m->island, bounds)) return false;
+  return make_cells(m) && sbri_tetrahedra_make(m, &network) && sbri_solid_limits_make(m);
+}

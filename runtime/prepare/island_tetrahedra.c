@@ -1,0 +1,271 @@
+/* The tetrahedra of an island: moduli, then blocks of eight. */
+#include <string.h>
+
+#include "mechanics/neo_hookean.h"
+#include "prepare/island_maker.h"
+
+static bool acts(const sbri_body *body) {
+  return body->level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+}
+
+bool sbri_tetrahedra_list(sbri_island_maker *m) {
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    sbri_body *body = sbri_maker_body(m, b);
+    body->first_tetrahedron = m->island->tetrahedron_count;
+    if (!acts(body)) continue;
+    uint32_t count = body->level->lattice.tetrahedra.count;
+    float *moduli = sbri_keep(m, count, sizeof *moduli);
+    float *factors = sbri_scratch(m, body->level->positions.count, sizeof *factors);
+    if (!moduli || !factors) return false;
+    sbf_level_moduli(body->source, body->level, factors, moduli);
+    body->moduli = moduli;
+    body->tetrahedron_count = count;
+    m->island->tetrahedron_count += count;
+  }
+  return true;
+}
+
+bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network) {
+  uint32_t count = m->island->tetrahedron_count;
+  sbf_uint4 *corners = sbri_scratch(m, count, sizeof *corners);
+  float *moduli = sbri_scratch(m, count, sizeof *moduli), *ratios = sbri_scratch(m, count, sizeof *ratios);
+  if (!corners || !moduli || !ratios) return false;
+  network->tetrahedron_count = count;
+  network->tetrahedra = corners, network->young_modulus = moduli, network->poisson_ratios = ratios;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+      for (int k = 0; k < 4; k++)
+        corners->at[k] = body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]];
+      corners++;
+      *moduli++ = body->moduli[t];
+      *ratios++ = body->source->attributes.poisson_ratio;
+    }
+  }
+  return true;
+}
+
+/* ---- Blocks ---- */
+
+/* So many blocks are open at a time, and a tetrahedron goes into the first that has none of its free points:
+ * more than a point has tetrahedra as a rule, few enough that a block's stay close in memory. */
+enum { OPEN_BLOCKS = 64 };
+#define NO_ELEMENT UINT32_MAX
+
+typedef struct packing {
+  const sbri_island *island;
+  const sbf_uint4 *corners; /* slots */
+  uint32_t *elements;       /* (count x 8) of each lane, NO_ELEMENT where it is inert; block after block */
+  uint64_t *users;          /* (free_count) which of the open blocks have the slot */
+  uint64_t open;
+  uint32_t at[OPEN_BLOCKS], filled[OPEN_BLOCKS]; /* number and lanes of each open block */
+  uint32_t block_count;
+} packing;
+
+static void shut(packing *p, uint32_t place) {
+  const uint32_t *lanes = p->elements + (size_t)p->at[place] * SBRI_BLOCK;
+  p->open &= ~(UINT64_C(1) << place);
+  for (uint32_t lane = 0; lane < p->filled[place]; lane++)
+    for (int k = 0; k < 4; k++) {
+      uint32_t slot = p->corners[lanes[lane]].at[k];
+      if (slot < p->island->free_count) p->users[slot] &= ~(UINT64_C(1) << place);
+    }
+}
+
+static uint32_t least_bit(uint64_t mask) {
+  uint32_t bit = 0;
+  while (!(mask >> bit & 1)) bit++;
+  return bit;
+}
+
+/* Where the next block may be opened; the oldest gives way where there is no room. */
+static uint32_t open_block(packing *p) {
+  uint32_t place = 0;
+  if (p->open == UINT64_MAX) {
+    for (uint32_t i = 1; i < OPEN_BLOCKS; i++)
+      if (p->at[i] < p->at[place]) place = i;
+    shut(p, place);
+  } else {
+    place = least_bit(~p->open);
+  }
+  p->open |= UINT64_C(1) << place;
+  p->at[place] = p->block_count++, p->filled[place] = 0;
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
+    p->elements[(size_t)p->at[place] * SBRI_BLOCK + lane] = NO_ELEMENT;
+  return place;
+}
+
+static void put(packing *p, uint32_t t) {
+  uint64_t fitting = p->open;
+  uint32_t place = OPEN_BLOCKS;
+  for (int k = 0; k < 4; k++) {
+    uint32_t slot = p->corners[t].at[k];
+    if (slot < p->island->free_count) fitting &= ~p->users[slot];
+  }
+  for (; fitting; fitting &= fitting - 1) {
+    uint32_t other = least_bit(fitting);
+    if (place == OPEN_BLOCKS || p->at[other] < p->at[place]) place = other;
+  }
+  if (place == OPEN_BLOCKS) place = open_block(p);
+  p->elements[(size_t)p->at[place] * SBRI_BLOCK + p->filled[place]++] = t;
+  for (int k = 0; k < 4; k++) {
+    uint32_t slot = p->corners[t].at[k];
+    if (slot < p->island->free_count) p->users[slot] |= UINT64_C(1) << place;
+  }
+  if (p->filled[place] == SBRI_BLOCK) shut(p, place);
+}
+static bool is_corner(const packing *p, const uint32_t *lanes, uint32_t slot) {
+  for (uint32_t lane = 0; lane < SBRI_BLOCK && lanes[lane] != NO_ELEMENT; lane++)
+    for (int k = 0; k < 4; k++)
+      if (p->corners[lanes[lane]].at[k] == slot) return true;
+  return false;
+}
+
+/* A slot that no lane of the block moves: a held one, or a free one that is none of its corners; slot_count:
+ * there is none. */
+static uint32_t find_spare(const packing *p, const uint32_t *lanes) {
+  for (uint32_t slot = p->island->slot_count; slot-- > 0;)
+    if (slot >= p->island->free_count || !is_corner(p, lanes, slot)) return slot;
+  return p->island->slot_count;
+}
+
+static uint32_t lanes_filled(const packing *p, uint32_t block) {
+  uint32_t count = 0;
+  while (count < SBRI_BLOCK && p->elements[(size_t)block * SBRI_BLOCK + count] != NO_ELEMENT) count++;
+  return count;
+}
+
+/* The last lanes of a block move to blocks of their own while it leaves no spare slot. */
+static void leave_spare(packing *p, uint32_t block) {
+  uint32_t *lanes = p->elements + (size_t)block * SBRI_BLOCK, count = lanes_filled(p, block);
+  while (count < SBRI_BLOCK && find_spare(p, lanes) == p->island->slot_count) {
+    uint32_t *own = p->elements + (size_t)p->block_count++ * SBRI_BLOCK;
+    for (uint32_t lane = 1; lane < SBRI_BLOCK; lane++) own[lane] = NO_ELEMENT;
+    own[0] = lanes[--count];
+    lanes[count] = NO_ELEMENT;
+  }
+}
+
+/* Full blocks first, then those that are not once more without the inert lanes, then as they are. */
+static void arrange(const packing *p, uint32_t *ordered, sbri_island *island) {
+  uint32_t full = 0, loose = 0, next;
+  for (uint32_t block = 0; block < p->block_count; block++) {
+    uint32_t count = lanes_filled(p, block);
+    if (count == SBRI_BLOCK)
+      memcpy(ordered + (size_t)SBRI_BLOCK * full++, p->elements + (size_t)block * SBRI_BLOCK,
+          SBRI_BLOCK * sizeof *ordered);
+    else
+      loose += count;
+  }
+  island->tetrahedron_full_count = full;
+  island->tetrahedron_dense_count = full + (loose + SBRI_BLOCK - 1) / SBRI_BLOCK;
+  island->tetrahedron_block_count = island->tetrahedron_dense_count;
+  next = full * SBRI_BLOCK;
+  for (uint32_t block = 0; block < p->block_count; block++) {
+    const uint32_t *lanes = p->elements + (size_t)block * SBRI_BLOCK;
+    uint32_t count = lanes_filled(p, block);
+    if (count == SBRI_BLOCK) continue;
+    memcpy(ordered + next, lanes, count * sizeof *ordered);
+    memcpy(ordered + (size_t)SBRI_BLOCK * island->tetrahedron_block_count++, lanes,
+        SBRI_BLOCK * sizeof *ordered);
+    next += count;
+  }
+  for (; next < island->tetrahedron_dense_count * SBRI_BLOCK; next++) ordered[next] = NO_ELEMENT;
+}
+
+static bool pack(sbri_island_maker *m, packing *p) {
+  sbri_island *island = m->island;
+  size_t count = island->tetrahedron_count;
+  p->elements = sbri_scratch(m, count * SBRI_BLOCK, sizeof *p->elements);
+  p->users = sbri_scratch(m, island->free_count, sizeof *p->users);
+  uint32_t *ordered = sbri_scratch(m, 2 * count * SBRI_BLOCK, sizeof *ordered);
+  if (!p->elements || !p->users || !ordered) return false;
+  for (uint32_t t = 0; t < count; t++) put(p, t);
+  for (uint32_t block = 0; block < p->block_count; block++) leave_spare(p, block);
+  arrange(p, ordered, island);
+  p->elements = ordered;
+  return true;
+}
+
+/* What the lattice states, else the body's by its weight maps. */
+static float beta_of(const sbri_body *body, const float *factors, uint32_t t) {
+  const sbf_f32_list *stated = &body->level->lattice.stiffness_damping;
+  if (stated->count) return stated->at[stated->count == 1 ? 0 : t];
+  return body->source->attributes.stiffness_damping *
+         sbri_factor_of(factors, body->level->lattice.tetrahedra.at[t].at);
+}
+
+static void fill(sbri_island_maker *m, const packing *p, sbri_tetrahedron_block *blocks, float *damping,
+    const float *const *factors, uint32_t *lanes_of) {
+  for (uint32_t n = 0; n < m->island->tetrahedron_block_count; n++) {
+    const uint32_t *lanes = p->elements + (size_t)n * SBRI_BLOCK;
+    uint32_t spare = lanes[SBRI_BLOCK - 1] == NO_ELEMENT ? find_spare(p, lanes) : 0;
+    bool again = n >= m->island->tetrahedron_dense_count;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+      uint32_t t = lanes[lane], b = 0;
+      for (int k = 0; k < 4; k++) blocks[n].corners[k][lane] = t == NO_ELEMENT ? spare : p->corners[t].at[k];
+      if (t == NO_ELEMENT) continue;
+      while (t >= sbri_maker_body(m, b)->first_tetrahedron + sbri_maker_body(m, b)->tetrahedron_count) b++;
+      const sbri_body *body = sbri_maker_body(m, b);
+      sbfi_tetrahedron element;
+      if (sbri_body_tetrahedron(body, t - body->first_tetrahedron, &element))
+        sbri_tetrahedron_fill(&blocks[n], lane, &element);
+      if (damping)
+        damping[(size_t)n * SBRI_BLOCK + lane] = beta_of(body, factors[b], t - body->first_tetrahedron);
+      lanes_of[2 * t + again] = n * SBRI_BLOCK + lane;
+      if (!again) lanes_of[2 * t + 1] = n * SBRI_BLOCK + lane;
+    }
+  }
+}
+
+/* Greatest beta, and whether there is any. */
+static bool find_damping(sbri_island_maker *m, const float *const *factors) {
+  float most = 0;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+      float beta = beta_of(body, factors[b], t);
+      most = beta > most ? beta : most;
+    }
+  }
+  if ((double)most > m->island->stiffness_damping_s) m->island->stiffness_damping_s = (double)most;
+  return most > 0;
+}
+
+/* Mean length of their sides at rest, m. */
+static float mean_side(const sbri_island *island, const sbf_uint4 *corners) {
+  double sum = 0;
+  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+    for (int i = 0; i < 4; i++)
+      for (int k = 0; k < i; k++) {
+        const sbri_point *p = &island->rest[corners[t].at[i]], *q = &island->rest[corners[t].at[k]];
+        float x = p->x - q->x, y = p->y - q->y, z = p->z - q->z;
+        sum += (double)sqrtf(x * x + y * y + z * z);
+      }
+  return (float)(sum / (6.0 * island->tetrahedron_count));
+}
+
+bool sbri_tetrahedra_make(sbri_island_maker *m, const sbf_spring_network *network) {
+  sbri_island *island = m->island;
+  if (island->tetrahedron_count == 0) return true;
+  packing p = {.island = island, .corners = network->tetrahedra};
+  if (!pack(m, &p)) return false;
+  size_t count = island->tetrahedron_block_count;
+  sbri_tetrahedron_block *blocks = sbri_keep(m, count, sizeof *blocks);
+  uint32_t *lanes = sbri_keep(m, 2 * (size_t)island->tetrahedron_count, sizeof *lanes);
+  const float **factors = sbri_scratch(m, island->body_count, sizeof *factors);
+  if (!blocks || !lanes || !factors) return false;
+  for (uint32_t b = 0; b < island->body_count; b++)
+    if (!sbri_factors_find(m, sbri_maker_body(m, b), SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING, &factors[b]))
+      return false;
+  bool damped = find_damping(m, factors);
+  float *damping = damped ? sbri_keep(m, count * SBRI_BLOCK, sizeof *damping) : NULL;
+  if (damped && !damping) return false;
+  fill(m, &p, blocks, damping, factors, lanes);
+  float side = mean_side(island, network->tetrahedra);
+  if (!(island->cell_m > 0) || side < island->cell_m) island->cell_m = side;
+  island->tetrahedron_blocks = blocks;
+  island->tetrahedron_damping = damping;
+  island->lanes_of_tetrahedra = lanes;
+  return true;
+}

@@ -1,0 +1,99 @@
+/* Which bodies are simulated, at which level, and which of them must be stepped together. */
+#include "base/diagnostic.h"
+#include "prepare/prepare.h"
+
+static bool is_stepped(const sbf_level *level) {
+  return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA ||
+         level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+}
+
+/* The level with the wanted number, or the coarsest there is; where it is of a model that is not stepped, the
+ * next coarser one that is, else the next finer. */
+static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {
+  uint32_t count = body->levels.count, first = wanted < count ? wanted : count - 1;
+  if (count == 0) return NULL;
+  for (uint32_t i = first; i < count; i++)
+    if (is_stepped(&body->levels.at[i])) return &body->levels.at[i];
+  for (uint32_t i = first; i-- > 0;)
+    if (is_stepped(&body->levels.at[i])) return &body->levels.at[i];
+  return &body->levels.at[first];
+}
+
+static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level, sbf_diagnostic *error) {
+  if (is_stepped(level)) return SBF_OK;
+  return sbfi_diagnose(error, SBF_CODE_LEVEL_NOT_SIMULATED,
+      "body \"%s\": its level is of model %s and none is of springs, tetrahedra or regions, which the "
+      "runtime steps: "
+      "build the file with --springs",
+      body->id, sbf_elastic_model_name(level->model));
+}
+
+static bool is_level(const sbf_soft_body *body, const sbf_level *level, uint32_t place) {
+  return level && place < body->levels.count && level == &body->levels.at[place];
+}
+
+bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross) {
+  const sbri_body *a = &model->bodies[cross->body_a], *b = &model->bodies[cross->body_b];
+  return is_level(a->source, a->level, cross->level_a) && is_level(b->source, b->level, cross->level_b);
+}
+
+static uint32_t first_of(const uint32_t *joined, uint32_t body) {
+  while (joined[body] != body) body = joined[body];
+  return body;
+}
+
+/* `joined` leads from each body to the first of its group. */
+static void join(const sbr_model *model, uint32_t *joined) {
+  const sbf_asset *asset = model->asset;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++) joined[i] = i;
+  for (uint32_t i = 0; i < asset->cross_springs.count; i++) {
+    const sbf_cross_springs *cross = &asset->cross_springs.at[i];
+    if (!sbri_cross_springs_act(model, cross)) continue;
+    uint32_t a = first_of(joined, (uint32_t)cross->body_a), b = first_of(joined, (uint32_t)cross->body_b);
+    joined[a > b ? a : b] = a > b ? b : a;
+  }
+}
+
+static bool make_islands(sbr_model *model, const uint32_t *joined) {
+  uint32_t count = model->asset->soft_bodies.count;
+  model->islands = sbfi_arena_allocate(&model->arena, count, sizeof *model->islands);
+  if (!model->islands) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    if (joined[i] != i || !model->bodies[i].level) continue;
+    sbri_island *island = &model->islands[model->island_count];
+    uint32_t *bodies = sbfi_arena_allocate(&model->arena, count - i, sizeof *bodies);
+    if (!bodies) return false;
+    for (uint32_t j = i; j < count; j++) {
+      if (!model->bodies[j].level || first_of(joined, j) != i) continue;
+      model->bodies[j].island = model->island_count;
+      bodies[island->body_count++] = j;
+    }
+    island->bodies = bodies;
+    model->island_count++;
+  }
+  return true;
+}
+
+sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
+  const sbf_asset *asset = model->asset;
+  uint32_t count = asset->soft_bodies.count;
+  if (count == 0) return SBF_OK;
+  model->bodies = sbfi_arena_allocate(&model->arena, count, sizeof *model->bodies);
+  uint32_t *joined = sbfi_arena_allocate(&model->arena, count, sizeof *joined);
+  if (!model->bodies || !joined)
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
+  for (uint32_t i = 0; i < count; i++) {
+    const sbf_soft_body *source = &asset->soft_bodies.at[i];
+    const sbf_level *level = level_of(source, options->level);
+    if (level) {
+      sbf_status status = check_level(source, level, error);
+      if (status != SBF_OK) return status;
+    }
+    model->bodies[i].source = source;
+    model->bodies[i].level = level && level->positions.count ? level : NULL;
+  }
+  join(model, joined);
+  if (!make_islands(model, joined))
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
+  return SBF_OK;
+}

@@ -1,0 +1,156 @@
+/* Springs as links: each once, in colours of which no two springs share a free point. What is swept is then
+ * worked on eight at a time, and no point gets its corrections in an order that follows the file's: springs
+ * listed by their distance from a pin, swept in that order, blow up where the same ones in colours do not.
+ *
+ * Colours by the least free one, in the order of the springs; held points colour nothing, since nothing moves
+ * them. A point of more springs than there are colours has the rest one by one. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "prepare/prepare.h"
+
+enum { COLOUR_WORDS = 4, COLOURS = 64 * COLOUR_WORDS };
+
+typedef struct colouring {
+  const sbri_island *island;
+  uint64_t (*used)[COLOUR_WORDS]; /* (free_count) colours of the springs at each point */
+  uint32_t *colours;              /* (spring_count) COLOURS: none was left */
+  uint32_t *ordered;              /* (spring_count) springs by colour */
+  uint32_t counts[COLOURS + 1];
+} colouring;
+
+static uint32_t least_colour(const uint64_t *a, const uint64_t *b) {
+  for (uint32_t word = 0; word < COLOUR_WORDS; word++) {
+    uint64_t taken = (a ? a[word] : 0) | (b ? b[word] : 0);
+    for (uint32_t bit = 0; bit < 64 && taken != UINT64_MAX; bit++)
+      if (!(taken >> bit & 1)) return 64 * word + bit;
+  }
+  return COLOURS;
+}
+
+static void colour(colouring *c) {
+  for (uint32_t i = 0; i < c->island->spring_count; i++) {
+    const sbfi_spring *s = &c->island->springs[i];
+    uint64_t *a = s->a < c->island->free_count ? c->used[s->a] : NULL;
+    uint64_t *b = s->b < c->island->free_count ? c->used[s->b] : NULL;
+    uint32_t chosen = c->colours[i] = least_colour(a, b);
+    c->counts[chosen]++;
+    if (chosen == COLOURS) continue;
+    if (a) a[chosen / 64] |= UINT64_C(1) << chosen % 64;
+    if (b) b[chosen / 64] |= UINT64_C(1) << chosen % 64;
+  }
+  uint32_t begins[COLOURS + 1], next = 0;
+  for (uint32_t k = 0; k <= COLOURS; k++) {
+    begins[k] = next;
+    next += c->counts[k];
+  }
+  for (uint32_t i = 0; i < c->island->spring_count; i++) c->ordered[begins[c->colours[i]]++] = i;
+}
+
+/* A slot that none of the springs has an end at; slot_count: there is none. */
+static uint32_t spare_slot(const sbri_island *island, const uint32_t *springs, uint32_t count) {
+  for (uint32_t slot = island->slot_count; slot-- > 0;) {
+    bool free = true;
+    for (uint32_t i = 0; i < count; i++)
+      free = free && island->springs[springs[i]].a != slot && island->springs[springs[i]].b != slot;
+    if (free) return slot;
+  }
+  return island->slot_count;
+}
+
+/* How many of the springs make the next block: eight, or fewer with a spare slot for the inert lanes. */
+static uint32_t take(const sbri_island *island, const uint32_t *springs, uint32_t left, uint32_t *spare) {
+  uint32_t count = left < SBRI_BLOCK ? left : SBRI_BLOCK;
+  *spare = 0;
+  if (count == SBRI_BLOCK) return count;
+  while ((*spare = spare_slot(island, springs, count)) == island->slot_count) count--;
+  return count;
+}
+
+typedef struct link_tables {
+  sbri_link_block *links;
+  float *damping;
+  sbri_link_limits *limits;
+  sbri_link_flows *flows;
+  uint32_t *link_of_spring;
+} link_tables;
+
+static void fill(const link_tables *t, const sbri_island *island, const sbfi_spring_bounds *bounds,
+    uint32_t block, const uint32_t *springs, uint32_t count, uint32_t spare) {
+  sbri_link_block *link = &t->links[block];
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+    link->a[lane] = link->b[lane] = spare;
+    if (t->limits) t->limits[block].least[lane] = -1;
+    if (lane >= count) continue;
+    const sbfi_spring *s = &island->springs[springs[lane]];
+    const sbfi_spring_bounds *is = &bounds[springs[lane]];
+    link->a[lane] = s->a, link->b[lane] = s->b;
+    link->stiffness[lane] = s->stiffness_n_m, link->rest[lane] = s->rest_length_m;
+    t->link_of_spring[springs[lane]] = block * SBRI_BLOCK + lane;
+    if (t->damping) t->damping[block * SBRI_BLOCK + lane] = s->damping_ns_m;
+    if (t->limits)
+      t->limits[block].least[lane] = is->strain_min, t->limits[block].most[lane] = is->strain_max;
+    if (!t->flows) continue;
+    t->flows[block].yield[lane] = is->yield_strain;
+    t->flows[block].rate[lane] = is->yield_strain > 0 ? is->yield_1_s : 0;
+    t->flows[block].tear[lane] = is->tear_strain;
+  }
+}
+
+/* Walks the colours; with `t` NULL it only counts the blocks. */
+static uint32_t walk(const colouring *c, const link_tables *t, const sbfi_spring_bounds *bounds) {
+  uint32_t block = 0;
+  const uint32_t *next = c->ordered;
+  for (uint32_t k = 0; k <= COLOURS; k++)
+    for (uint32_t left = c->counts[k]; left > 0;) {
+      uint32_t spare, count = take(c->island, next, k == COLOURS ? 1 : left, &spare);
+      if (t) fill(t, c->island, bounds, block, next, count, spare);
+      block++, next += count, left -= count;
+    }
+  return block;
+}
+
+static bool allocate(
+    sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds, link_tables *t) {
+  bool damped = false, limited = false, flowing = false;
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    const sbfi_spring_bounds *is = &bounds[i];
+    damped = damped || island->springs[i].damping_ns_m > 0;
+    limited = limited || is->strain_min > -1 || is->strain_max > 0;
+    flowing = flowing || (is->yield_strain > 0 && is->yield_1_s > 0) || is->tear_strain > 0;
+  }
+  size_t blocks = island->link_block_count ? island->link_block_count : 1;
+  t->links = sbfi_arena_allocate(&model->arena, blocks, sizeof *t->links);
+  t->link_of_spring = sbfi_arena_allocate(&model->arena, (size_t)island->spring_count + 1, sizeof(uint32_t));
+  if (damped) t->damping = sbfi_arena_allocate(&model->arena, blocks * SBRI_BLOCK, sizeof *t->damping);
+  if (limited) t->limits = sbfi_arena_allocate(&model->arena, blocks, sizeof *t->limits);
+  if (flowing) t->flows = sbfi_arena_allocate(&model->arena, blocks, sizeof *t->flows);
+  return t->links && t->link_of_spring && (!damped || t->damping) && (!limited || t->limits) &&
+         (!flowing || t->flows);
+}
+
+bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds) {
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &model->arena.allocator, 0);
+  colouring *c = sbfi_arena_allocate(&scratch, 1, sizeof *c);
+  size_t springs = (size_t)island->spring_count + 1;
+  bool good = c != NULL;
+  if (good) {
+    c->island = island;
+    c->used = sbfi_arena_allocate(&scratch, (size_t)island->free_count + 1, sizeof *c->used);
+    c->colours = sbfi_arena_allocate(&scratch, springs, sizeof *c->colours);
+    c->ordered = sbfi_arena_allocate(&scratch, springs, sizeof *c->ordered);
+    good = c->used && c->colours && c->ordered;
+  }
+  link_tables t = {0};
+  if (good) {
+    colour(c);
+    island->link_block_count = walk(c, NULL, bounds);
+    good = allocate(model, island, bounds, &t);
+  }
+  if (good) walk(c, &t, bounds);
+  sbfi_arena_free(&scratch);
+  island->links = t.links, island->link_damping = t.damping, island->link_limits = t.limits;
+  island->link_flows = t.flows, island->link_of_spring = t.link_of_spring;
+  return good;
+}

@@ -1,0 +1,264 @@
+/* What acts on a body beside springs and weight: gas inside its surface, a dense medium outside, bending of
+ * sheets, fields; and how much faster it makes the fastest mode. */
+#include <string.h>
+
+#include "math/trig.h"
+#include "mechanics/level_points.h"
+#include "prepare/prepare.h"
+#include "solvers/surface_forces.h"
+
+/* A gas is reckoned with down to this share of its rest volume; what it pushes back with grows as the square.
+ * Beyond, it is looked at while it runs (sbri_outer_look). */
+static const double LEAST_GAS_SHARE = 0.5;
+
+/* ---- Hinges ---- */
+
+typedef struct side {
+  uint32_t low, high; /* source points */
+  uint32_t across;    /* the third of its triangle */
+  uint32_t order;     /* in the mesh; and whether it runs from low to high */
+  bool forward;
+} side;
+
+/* By ends, then as the mesh has them. */
+static bool comes_before(const side *a, const side *b) {
+  if (a->low != b->low) return a->low < b->low;
+  if (a->high != b->high) return a->high < b->high;
+  return a->order < b->order;
+}
+
+static void sift(side *sides, size_t root, size_t count) {
+  for (size_t child; (child = 2 * root + 1) < count; root = child) {
+    if (child + 1 < count && comes_before(&sides[child], &sides[child + 1])) child++;
+    if (!comes_before(&sides[root], &sides[child])) return;
+    side swapped = sides[root];
+    sides[root] = sides[child], sides[child] = swapped;
+  }
+}
+
+static void sort_sides(side *sides, size_t count) {
+  for (size_t i = count / 2; i-- > 0;) sift(sides, i, count);
+  for (size_t end = count; end-- > 1;) {
+    side swapped = sides[0];
+    sides[0] = sides[end], sides[end] = swapped;
+    sift(sides, 0, end);
+  }
+}
+
+static bool add_side(sbfi_array *sides, uint32_t from, uint32_t to, uint32_t across) {
+  side s = {from < to ? from : to, from < to ? to : from, across, (uint32_t)sides->count, from < to};
+  return sbfi_array_append(sides, &s, 1);
+}
+
+/* Sides of the triangles that the polygons are cut into from their first corner. */
+static bool list_sides(const sbf_polygon_mesh *mesh, sbfi_array *sides) {
+  const uint32_t *corners = mesh->polygon_points.at;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[p]; k++) {
+      uint32_t a = corners[0], b = corners[k - 1], c = corners[k];
+      if (!add_side(sides, a, b, c) || !add_side(sides, b, c, a) || !add_side(sides, c, a, b)) return false;
+    }
+  return true;
+}
+
+static bool has_flexion(const sbf_level *level) {
+  for (uint32_t s = 0; s < level->springs.count; s++)
+    if (level->springs.at[s].kind == SBF_SPRING_KIND_FLEXION && level->springs.at[s].ends.count) return true;
+  return false;
+}
+
+static float rigidity_of(const sbf_attributes *is) {
+  if (is->bending_stiffness > 0) return is->bending_stiffness;
+  float t = is->thickness;
+  return is->young_modulus * t * t * t / (12 * (1 - is->poisson_ratio * is->poisson_ratio));
+}
+
+/* The hinge of two triangles over one side; false where a point is missing or it has no size. */
+static bool make_hinge(const sbri_island *island, const sbri_body *body, const float *factors, const side *s,
+    const side *other, sbri_hinge *hinge) {
+  const uint32_t points[4] = {
+      s->forward ? s->low : s->high, s->forward ? s->high : s->low, s->across, other->across};
+  float factor = 0;
+  sbf_vec3 x[4];
+  for (int k = 0; k < 4; k++) {
+    uint32_t point = sbfi_level_point(body->level, points[k]);
+    if (point == UINT32_MAX) return false;
+    hinge->slots[k] = body->slot_from_point[point];
+    const sbri_point *at = &island->rest[hinge->slots[k]];
+    x[k] = sbri_vec3(at->x, at->y, at->z);
+    factor += factors ? 0.25f * factors[point] : 0.25f;
+  }
+  sbri_hinge_shape shape = sbri_hinge_shape_of(x);
+  float areas = 0.5f * (sbri_length(shape.normals[0]) + sbri_length(shape.normals[1]));
+  if (!(areas > 0) || !(shape.length > 0)) return false;
+  hinge->stiffness = factor * rigidity_of(&body->source->attributes) * shape.length * shape.length / areas;
+  hinge->rest_angle = shape.angle;
+  return true;
+}
+
+static bool find_hinges(sbr_model *model, sbri_body *body, sbfi_array *sides, const float *factors) {
+  const sbri_island *island = &model->islands[body->island];
+  if (!list_sides(&body->source->surface, sides)) return false;
+  side *at = sides->at;
+  sort_sides(at, sides->count);
+  sbri_hinge *hinges = sbfi_arena_allocate(&model->arena, sides->count / 2 + 1, sizeof *hinges);
+  if (!hinges) return false;
+  uint32_t count = 0;
+  for (size_t i = 0; i + 1 < sides->count; i++) {
+    bool pair = at[i].low == at[i + 1].low && at[i].high == at[i + 1].high;
+    bool third = i + 2 < sides->count && at[i + 2].low == at[i].low && at[i + 2].high == at[i].high;
+    if (!pair) continue;
+    if (!third && make_hinge(island, body, factors, &at[i], &at[i + 1], &hinges[count])) count++;
+    for (i++; i + 1 < sides->count && at[i + 1].low == at[i].low && at[i + 1].high == at[i].high;) i++;
+  }
+  body->hinges = hinges;
+  body->hinge_count = count;
+  return true;
+}
+
+static bool make_hinges(sbr_model *model, sbri_body *body) {
+  sbf_body_measures measures;
+  sbf_body_measure(body->source, &measures);
+  if (!measures.sheet || has_flexion(body->level)) return true;
+  sbfi_array sides;
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &model->arena.allocator, 0);
+  sbfi_array_init(&sides, &model->arena.allocator, sizeof(side));
+  uint32_t count = body->level->positions.count;
+  float *factors = sbfi_arena_allocate(&scratch, count, sizeof *factors);
+  bool good = factors != NULL;
+  for (uint32_t i = 0; good && i < count; i++) factors[i] = 1;
+  if (good) {
+    sbfi_level_weigh(body->source, body->level, SBF_WEIGHT_PROPERTY_BENDING_STIFFNESS, factors);
+    good = find_hinges(model, body, &sides, factors);
+  }
+  sbfi_array_free(&sides);
+  sbfi_arena_free(&scratch);
+  return good;
+}
+
+/* ---- How fast they make it ---- */
+
+static float mass_inverse(const sbri_island *island, uint32_t slot) {
+  return slot < island->free_count ? island->inverse_masses[slot] : 0;
+}
+
+/* Gershgorin's bound of the hinges alone, rad^2/s^2; `rows` is (slot_count), 0. */
+static double hinges_bound(const sbri_island *island, const sbri_body *body, double *rows) {
+  double most = 0;
+  for (uint32_t i = 0; i < body->hinge_count; i++) {
+    const sbri_hinge *hinge = &body->hinges[i];
+    sbf_vec3 x[4], gradients[4];
+    double sum = 0;
+    for (int k = 0; k < 4; k++) {
+      const sbri_point *at = &island->rest[hinge->slots[k]];
+      x[k] = sbri_vec3(at->x, at->y, at->z);
+    }
+    sbri_hinge_shape shape = sbri_hinge_shape_of(x);
+    sbri_hinge_gradients(&shape, x, gradients);
+    for (int k = 0; k < 4; k++) sum += (double)sbri_length(gradients[k]);
+    for (int k = 0; k < 4; k++)
+      rows[hinge->slots[k]] += (double)hinge->stiffness * (double)sbri_length(gradients[k]) * sum;
+  }
+  for (uint32_t i = 0; i < body->hinge_count; i++)
+    for (int k = 0; k < 4; k++) {
+      uint32_t slot = body->hinges[i].slots[k];
+      double square = rows[slot] * (double)mass_inverse(island, slot);
+      most = square > most ? square : most;
+    }
+  return most;
+}
+
+/* A point of a surface is carried by others; the lightest of them stands for it. */
+static float vertex_mass_inverse(const sbri_island *island, const sbri_skin *skin, uint32_t v) {
+  float sum = 0;
+  for (uint32_t c = skin->cell_begins[v / SBRI_BLOCK]; c < skin->cell_begins[v / SBRI_BLOCK + 1]; c++) {
+    float w = skin->cells[c].weights[v % SBRI_BLOCK];
+    uint32_t slot = skin->cells[c].slots[v % SBRI_BLOCK] - island->first_slot;
+    if (w != 0) sum += w * w * mass_inverse(island, slot);
+  }
+  return sum;
+}
+
+/* Of the gas: p V0 / V^2 times the sum of w |grad V|^2, and the turning of the faces, p times a third of the
+ * sides around a point. */
+static double gas_bound(const sbri_island *island, sbri_body *body) {
+  const sbri_skin *skin = &body->surface;
+  const sbf_polygon_mesh *mesh = &body->source->surface;
+  const uint32_t *corners = mesh->polygon_points.at;
+  double pressure = body->gas_pa > 0 ? (double)body->gas_pa : -(double)body->gas_pa, sum = 0, turning = 0;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++]) {
+    uint32_t size = mesh->polygon_sizes.at[p];
+    double around = 0;
+    for (uint32_t k = 0; k < size; k++) {
+      const sbf_vec3 *a = &mesh->positions.at[corners[k]], *b = &mesh->positions.at[corners[(k + 1) % size]];
+      around += (double)sbri_length(sbri_sub(*b, *a));
+    }
+    for (uint32_t k = 0; k < size; k++) {
+      double w = (double)vertex_mass_inverse(island, skin, corners[k]), share = around * around / (16 * size);
+      sum +=
+          4 * w * share * share; /* a point has about four faces; |grad V| is at most their areas' shares */
+      double turn = 4 * w * around / 6;
+      turning = turn > turning ? turn : turning;
+    }
+  }
+  double volume = LEAST_GAS_SHARE * body->gas_volume_m3;
+  body->gas_turning = turning;
+  pressure *= (double)body->most_gas_factor;
+  return pressure * body->gas_volume_m3 / (volume * volume) * sum + pressure * turning / LEAST_GAS_SHARE;
+}
+
+/* The pressure's factors at the surface's vertices, where maps scale it. */
+static bool find_gas_factors(sbr_model *model, sbri_body *body) {
+  const sbf_soft_body *is = body->source;
+  float *factors = NULL;
+  body->most_gas_factor = 1;
+  for (uint32_t m = 0; m < is->weight_maps.count; m++) {
+    const sbf_weight_map *map = &is->weight_maps.at[m];
+    if (map->property != SBF_WEIGHT_PROPERTY_PRESSURE) continue;
+    if (!factors && !(factors = sbfi_arena_allocate(
+                          &model->arena, (size_t)body->surface.vertex_count + 1, sizeof *factors)))
+      return false;
+    for (uint32_t v = 0; v < body->surface.vertex_count; v++)
+      factors[v] = (body->gas_factors ? factors[v] : 1) * (v < map->values.count ? map->values.at[v] : 1);
+    body->gas_factors = factors;
+  }
+  for (uint32_t v = 0; factors && v < body->surface.vertex_count; v++)
+    if (v == 0 || factors[v] > body->most_gas_factor) body->most_gas_factor = factors[v];
+  return true;
+}
+
+static bool make_island(sbr_model *model, sbri_island *island, sbfi_arena *scratch) {
+  const sbf_environment *environment = &model->asset->environment;
+  double *rows = sbfi_arena_allocate(scratch, (size_t)island->slot_count + 1, sizeof *rows), square = 0;
+  if (!rows) return false;
+  island->has_outer = environment->fields.count > 0;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_body *body = &model->bodies[island->bodies[b]];
+    const sbf_attributes *is = &body->source->attributes;
+    bool carried = body->surface.vertex_count && body->surface.frame_vertex_count == 0;
+    if (!make_hinges(model, body)) return false;
+    if (is->pressure_mode == SBF_PRESSURE_MODE_GAS && carried && body->rest_volume_m3 > 0) {
+      body->gas_pa = is->pressure;
+      body->gas_volume_m3 = sbri_surface_rest_volume(body);
+      if (!find_gas_factors(model, body)) return false;
+      square += gas_bound(island, body);
+    }
+    if (carried) body->medium_kg_m3 = environment->media_density;
+    square += hinges_bound(island, body, rows);
+    island->has_outer = island->has_outer || body->hinge_count || body->gas_pa != 0 || body->medium_kg_m3 > 0;
+  }
+  island->outer_rad_s = sqrt(square);
+  return true;
+}
+
+bool sbri_outer_make(sbr_model *model) {
+  bool good = true;
+  for (uint32_t i = 0; good && i < model->island_count; i++) {
+    sbfi_arena scratch;
+    sbfi_arena_init(&scratch, &model->arena.allocator, 0);
+    good = make_island(model, &model->islands[i], &scratch);
+    sbfi_arena_free(&scratch);
+  }
+  return good;
+}

@@ -1,0 +1,208 @@
+/* What the pins of a level hold, and which frames carry the points that no pin holds fast. */
+#include "prepare/pins.h"
+
+#include "math/quat.h"
+#include "prepare/prepare.h"
+
+float sbri_pin_weight(const sbf_pin_set *set, uint32_t i) {
+  float weight = set->weights.count == 0 ? 1 : set->weights.at[set->weights.count == 1 ? 0 : i];
+  if (weight < set->minimum) weight = set->minimum;
+  return weight > set->maximum ? set->maximum : weight;
+}
+
+uint32_t sbri_pin_frame(const sbr_model *model, const sbf_pin_set *set) {
+  if (set->bone >= 0) return (uint32_t)set->bone;
+  if (set->rigid_body < 0) return sbri_anchor_frame(model);
+  return sbri_body_frame(model, (uint32_t)set->rigid_body);
+}
+
+sbf_vec3 sbri_pin_place(const sbr_model *model, const sbf_level *level, const sbf_pin_set *set, uint32_t i) {
+  if (set->offsets.count == 0) return level->positions.at[set->points.at[i]];
+  sbf_vec3 offset = set->offsets.at[i];
+  if (set->bone >= 0) {
+    const sbr_transform *rest = &model->rig.rest[set->bone];
+    return sbri_add(rest->position, sbri_rotate(rest->rotation, offset));
+  }
+  if (set->rigid_body >= 0) return sbri_add(model->asset->rigid_bodies.at[set->rigid_body].center, offset);
+  return offset;
+}
+
+void sbri_pins_read(const sbr_model *model, const sbf_level *level, uint32_t *frames, sbf_vec3 *places) {
+  for (uint32_t i = 0; i < level->positions.count; i++) {
+    frames[i] = SBRI_FREE;
+    places[i] = level->positions.at[i];
+  }
+  for (uint32_t s = 0; s < level->pins.count; s++) {
+    const sbf_pin_set *set = &level->pins.at[s];
+    for (uint32_t i = 0; i < set->points.count; i++) {
+      uint32_t point = set->points.at[i];
+      if (sbri_pin_weight(set, i) < 1 || frames[point] != SBRI_FREE) continue; /* the first set holds it */
+      frames[point] = sbri_pin_frame(model, set);
+      places[point] = sbri_pin_place(model, level, set, i);
+    }
+  }
+}
+
+/* ---- Guides ---- */
+
+enum { SWEEPS = 200 };
+
+typedef struct spread {
+  const sbri_island *island;
+  uint32_t first, count; /* free slots of the body */
+  uint32_t *frames;      /* (frame_count) the frames that hold the body */
+  uint32_t frame_count;
+  float *shares; /* (count x frame_count) */
+  uint32_t *link_begins,
+      *links; /* corners that share a tetrahedron with each point, once for each; NULL: none */
+} spread;
+
+static uint32_t frame_place(const spread *s, uint32_t frame) {
+  uint32_t place = 0;
+  while (place < s->frame_count && s->frames[place] != frame) place++;
+  return place;
+}
+
+/* What the other end of a spring adds to a point's shares. */
+static void add_shares(const spread *s, float *to, uint32_t other, float weight) {
+  if (other >= s->island->free_count) {
+    to[frame_place(s, s->island->frame_of_held[other - s->island->free_count])] += weight;
+  } else if (other >= s->first && other < s->first + s->count) {
+    const float *from = s->shares + (size_t)(other - s->first) * s->frame_count;
+    for (uint32_t k = 0; k < s->frame_count; k++) to[k] += weight * from[k];
+  }
+}
+
+/* What regions join with each point: those 1, 2, 4, 8 ... places further round the region. */
+static bool list_region_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
+  const sbf_shape_regions *regions = body->level->regions;
+  uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)s->count + 2, sizeof *begins), *links = NULL;
+  if (!begins) return false;
+  for (int pass = 0; pass < 2; pass++) {
+    const uint32_t *points = regions->points.at;
+    for (uint32_t r = 0; r < regions->sizes.count; points += regions->sizes.at[r++]) {
+      uint32_t size = regions->sizes.at[r];
+      for (uint32_t i = 0; i < size; i++)
+        for (uint32_t far = 1, place = body->slot_from_point[points[i]] - s->first;
+             far < size && place < s->count; far *= 2) {
+          if (pass)
+            links[begins[place + 1]++] = body->slot_from_point[points[(i + far) % size]];
+          else
+            begins[place + 2]++;
+        }
+    }
+    for (uint32_t i = 0; pass == 0 && i < s->count; i++) begins[i + 2] += begins[i + 1];
+    if (pass == 0) links = sbfi_arena_allocate(scratch, (size_t)begins[s->count + 1] + 1, sizeof *links);
+    if (!links) return false;
+  }
+  s->link_begins = begins, s->links = links;
+  return true;
+}
+
+/* What tetrahedra, or regions, join with each point. */
+static bool list_links(spread *s, const sbri_body *body, sbfi_arena *scratch) {
+  if (body->first_region_block < body->region_block_end) return list_region_links(s, body, scratch);
+  if (body->tetrahedron_count == 0) return true;
+  const sbf_uint4 *tetrahedra = body->level->lattice.tetrahedra.at;
+  uint32_t *begins = sbfi_arena_allocate(scratch, (size_t)s->count + 2, sizeof *begins);
+  uint32_t *links = sbfi_arena_allocate(scratch, 12 * (size_t)body->tetrahedron_count, sizeof *links);
+  if (!begins || !links) return false;
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+    for (int k = 0; k < 4; k++) {
+      uint32_t place = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
+      if (place < s->count) begins[place + 2] += 3;
+    }
+  for (uint32_t i = 0; i < s->count; i++) begins[i + 2] += begins[i + 1];
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+    for (int k = 0; k < 4; k++) {
+      uint32_t place = body->slot_from_point[tetrahedra[t].at[k]] - s->first;
+      for (int j = 1; j < 4 && place < s->count; j++)
+        links[begins[place + 1]++] = body->slot_from_point[tetrahedra[t].at[(k + j) % 4]];
+    }
+  s->link_begins = begins, s->links = links;
+  return true;
+}
+
+/* One pass of relaxation towards the mean of the neighbours, weighted by stiffness. */
+static void sweep(const spread *s, float *scratch) {
+  for (uint32_t i = 0; i < s->count; i++) {
+    uint32_t slot = s->first + i, block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+    for (uint32_t k = 0; k < s->frame_count; k++) scratch[k] = 0;
+    float sum = 0;
+    for (uint32_t c = s->island->cell_begins[block]; c < s->island->cell_begins[block + 1]; c++) {
+      const sbri_spring_cell *cell = &s->island->cells[c];
+      float k = cell->stiffness[lane];
+      uint32_t other = cell->others[lane];
+      bool within = other >= s->island->free_count || (other >= s->first && other < s->first + s->count);
+      if (!(k > 0) || !within) continue;
+      add_shares(s, scratch, other, k);
+      sum += k;
+    }
+    for (uint32_t l = s->link_begins ? s->link_begins[i] : 0; s->link_begins && l < s->link_begins[i + 1];
+         l++) {
+      add_shares(s, scratch, s->links[l], 1);
+      sum += 1;
+    }
+    float *to = s->shares + (size_t)i * s->frame_count;
+    for (uint32_t k = 0; k < s->frame_count && sum > 0; k++) to[k] = scratch[k] / sum;
+  }
+}
+
+/* The greatest shares, summing to one; all of it to `otherwise` where nothing reaches the point. */
+static sbri_guide guide_of(const spread *s, const float *shares, uint32_t otherwise) {
+  sbri_guide guide = {{otherwise, otherwise, otherwise, otherwise}, {1, 0, 0, 0}};
+  float sum = 0, taken[SBRI_GUIDES] = {0};
+  uint32_t places[SBRI_GUIDES] = {0};
+  for (int n = 0; n < SBRI_GUIDES; n++)
+    for (uint32_t k = 0; k < s->frame_count; k++) {
+      bool used = false;
+      for (int m = 0; m < n; m++) used = used || (taken[m] > 0 && places[m] == k);
+      if (!used && shares[k] > taken[n]) taken[n] = shares[k], places[n] = k;
+    }
+  for (int n = 0; n < SBRI_GUIDES; n++) sum += taken[n];
+  for (int n = 0; n < SBRI_GUIDES && sum > 1e-6f; n++) {
+    guide.weights[n] = taken[n] / sum;
+    if (taken[n] > 0) guide.frames[n] = s->frames[places[n]];
+  }
+  return guide;
+}
+
+bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *body) {
+  uint32_t count = body->slot_end - body->slot_begin, otherwise = sbri_root_frame(model);
+  if (body->source->bone >= 0) otherwise = (uint32_t)body->source->bone;
+  body->guide_frame = otherwise;
+  body->held = false;
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &model->arena.allocator, 0);
+  spread s = {.island = island, .first = body->slot_begin, .count = body->slot_real_end - body->slot_begin};
+  s.frames = sbfi_arena_allocate(&scratch, model->frame_count, sizeof *s.frames);
+  bool good = s.frames != NULL;
+  for (uint32_t c = island->cell_begins[body->slot_begin / SBRI_BLOCK];
+       good && c < island->cell_begins[body->slot_end / SBRI_BLOCK]; c++)
+    for (int lane = 0; lane < SBRI_BLOCK; lane++) {
+      uint32_t other = island->cells[c].others[lane];
+      if (other < island->free_count || !(island->cells[c].stiffness[lane] > 0)) continue;
+      uint32_t frame = island->frame_of_held[other - island->free_count];
+      if (frame_place(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
+    }
+  good = good && list_links(&s, body, &scratch);
+  for (uint32_t l = 0; good && s.links && l < s.link_begins[s.count]; l++) {
+    if (s.links[l] < island->free_count) continue;
+    uint32_t frame = island->frame_of_held[s.links[l] - island->free_count];
+    if (frame_place(&s, frame) == s.frame_count) s.frames[s.frame_count++] = frame;
+  }
+  body->held = good && s.frame_count > 0;
+  if (good && s.frame_count == 1) body->guide_frame = s.frames[0];
+  if (good && s.frame_count > 1) {
+    s.shares = sbfi_arena_allocate(&scratch, (size_t)s.count * s.frame_count, sizeof *s.shares);
+    float *mean = sbfi_arena_allocate(&scratch, s.frame_count, sizeof *mean);
+    sbri_guide *guides = sbfi_arena_allocate(&model->arena, count, sizeof *guides);
+    good = s.shares && mean && guides;
+    for (int i = 0; good && i < SWEEPS; i++) sweep(&s, mean);
+    for (uint32_t i = 0; good && i < count; i++)
+      guides[i] = i < s.count ? guide_of(&s, s.shares + (size_t)i * s.frame_count, otherwise) : guides[0];
+    body->guides = guides;
+  }
+  sbfi_arena_free(&scratch);
+  return good;
+}

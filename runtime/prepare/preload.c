@@ -1,0 +1,50 @@
+/* Springs that bear a body's weight in the shape it was authored in.
+ *
+ * The small displacements u under the weight f, K u = f, pull a spring of direction n by k n.(u_b - u_a).
+ * With rest lengths shorter by n.(u_b - u_a) the springs pull just so where they are, and the authored shape
+ * is at rest. (The inverse of a static solve, to first order exact; what Twigg and Kacic-Alesic, Optimization
+ * for Sag-Free Simulations, 2011, ask of it.) */
+#include "prepare/island_maker.h"
+#include "solvers/scheme.h"
+
+static const double TOLERANCE = 1e-4, ENOUGH = 1e-2;
+
+/* Never shorter than this share of its distance at rest, however heavy the body. */
+static const float LEAST_SHARE = 0.05f;
+
+bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network) {
+  sbri_island *island = m->island;
+  uint32_t points = island->slot_count;
+  bool wanted = !m->states_rest_lengths && !island->scheme->forceless;
+  for (uint32_t b = 0; b < island->body_count; b++)
+    wanted = wanted && sbri_maker_body(m, b)->source->attributes.sag_free;
+  if (!wanted || points == 0) return true;
+  sbf_vec3 g = m->options->has_gravity ? m->options->gravity : m->model->asset->environment.gravity;
+  double *forces = sbri_scratch(m, 3 * (size_t)points, sizeof *forces);
+  double *u = sbri_scratch(m, 3 * (size_t)points, sizeof *u);
+  double *scratch = sbri_scratch(m, 10 * (size_t)points, sizeof *scratch);
+  if (!forces || !u || !scratch) return false;
+  for (uint32_t i = 0; i < island->free_count; i++) {
+    double weight = (double)island->masses[i] * (double)island->gravity_scales[i];
+    forces[3 * (size_t)i] = weight * (double)g.x;
+    forces[3 * (size_t)i + 1] = weight * (double)g.y;
+    forces[3 * (size_t)i + 2] = weight * (double)g.z;
+  }
+  if (sbf_network_static(network, forces, TOLERANCE, 10 * points + 100, u, scratch) > ENOUGH) return true;
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    sbfi_spring *s = &m->listed[i];
+    sbri_point *p = &m->rest[s->a], *q = &m->rest[s->b];
+    const double *ua = u + 3 * (size_t)s->a, *ub = u + 3 * (size_t)s->b;
+    double x = (double)q->x - p->x, y = (double)q->y - p->y, z = (double)q->z - p->z;
+    double length = sqrt(x * x + y * y + z * z);
+    if (s->rest_length_m > 0) {
+      if (!(length > 0)) continue;
+      double change = (x * (ub[0] - ua[0]) + y * (ub[1] - ua[1]) + z * (ub[2] - ua[2])) / length;
+      float loaded = (float)(s->rest_length_m - change), least = LEAST_SHARE * s->rest_length_m;
+      s->rest_length_m = loaded > least ? loaded : least;
+    } else if (s->b >= island->free_count) { /* a goal: its far end moves instead */
+      q->x -= (float)ua[0], q->y -= (float)ua[1], q->z -= (float)ua[2];
+    }
+  }
+  return true;
+}

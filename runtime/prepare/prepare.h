@@ -1,0 +1,60 @@
+/* Making a model of an asset: each of these fills its part of the tables, called by prepare_model.c or by one
+ * another. Those that answer true or false say false where memory runs out. */
+#ifndef SBRI_PREPARE_H
+#define SBRI_PREPARE_H
+
+#include "model/runtime_model.h"
+
+/* All tables but the layout of a character's state, into a model that has its asset and arena. */
+sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
+
+/* ---- Bodies and islands ---- */
+
+/* Groups the bodies into islands; gives each body its level. */
+sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
+/* Whether the springs join the levels that are simulated. */
+bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross);
+/* Slots, springs, pins and frequencies of one island. */
+sbf_status sbri_island_make(
+    sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error);
+/* Spreads the frames of held points over the free ones along the springs. */
+bool sbri_guides_make(sbr_model *model, const sbri_island *island, sbri_body *body);
+/* The springs as links; false where memory runs out. */
+bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds);
+/* Gas, medium, hinges and fields, and how fast they make the islands; after surfaces and rest volumes. */
+bool sbri_outer_make(sbr_model *model);
+/* Sides along springs that may tear, of polygons over the vertices of the mesh that `full` is of. */
+bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
+    const sbf_u32_list *points);
+/* Which rigid bodies the islands may pull on, and how stiffly; false where memory runs out. */
+bool sbri_coupling_make(sbr_model *model);
+/* Neighbours and what lies around each point; false where memory runs out. */
+bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
+/* The places of the surface that meet the ground; after the surfaces. */
+bool sbri_samples_make(sbr_model *model, sbri_body *body);
+/* The triangles by which it meets itself, where it does; likewise. */
+bool sbri_self_faces_make(sbr_model *model, sbri_body *body);
+/* The gradient's table of a body that keeps its volume. */
+bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
+/* Whether its tetrahedra may tear. */
+bool sbri_body_tears(const sbri_body *body);
+
+/* ---- Skins and surfaces ---- */
+
+/* Both false where memory runs out. A skin of render level 0 has all vertices of the mesh. */
+bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_level);
+/* Of a body's surface: no normals but the faces, for its volume. */
+bool sbri_surface_make(sbr_model *model, uint32_t soft_body);
+
+/* Normals and faces of `mesh`; `normals` and `corners` as in sbf_render_mesh, `uvs` may be NULL. */
+bool sbri_shading_make(
+    sbri_skin *skin, const sbf_polygon_mesh *mesh, const sbf_render_mesh *authored, sbfi_arena *arena);
+bool sbri_faces_make(sbri_skin *skin, const sbf_polygon_mesh *mesh, sbfi_arena *arena);
+/* Fills in rest_volume_m3 of all bodies; false where memory runs out. */
+bool sbri_rest_volumes_find(sbr_model *model);
+
+/* ---- Rigid parts ---- */
+
+bool sbri_rigid_model_make(sbri_rigid_model *model, const sbf_asset *asset, sbfi_arena *arena);
+
+#endif

@@ -1,0 +1,169 @@
+#include "prepare/prepare.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "skin/skin.h"
+#include "solvers/router.h"
+
+/* Error of a step, of schemes that control it, where nothing else is said: a tenth of a millimetre. */
+static const float STEP_ERROR_M = 1e-4f;
+
+/* Of a control tick for rigid parts, where nothing else is said. */
+enum { RIGID_SUBSTEPS = 4 };
+
+static sbf_status no_memory(sbf_diagnostic *error) {
+  return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
+}
+
+/* The finest that a level of the island asks for. */
+static float least_step_error(const sbr_model *model, const sbri_island *island) {
+  float least = FLT_MAX;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    float asked = model->bodies[island->bodies[b]].level->simulation.step_error;
+    if (asked > 0 && asked < least) least = asked;
+  }
+  return least < FLT_MAX ? least : STEP_ERROR_M;
+}
+
+/* What the call asks for; else what the level does, and where the runtime does not have that or it cannot
+ * step the island, the default, which follows the same energy. */
+static sbf_status choose_scheme(
+    sbr_model *model, sbri_island *island, const sbr_model_options *options, sbf_diagnostic *error) {
+  const sbri_body *first = &model->bodies[island->bodies[0]];
+  const sbf_simulation *stated = &first->level->simulation;
+  const sbri_scheme *asked = sbri_scheme_of(options->scheme), *scheme = asked;
+  const char *reason = asked ? sbri_scheme_refuses(asked, model, island) : NULL;
+  if (reason)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "scheme %s cannot step body \"%s\", %s: ask for another, or for automatic",
+        sbf_scheme_name(options->scheme), first->source->id, reason);
+  if (!scheme) scheme = sbri_scheme_of(stated->scheme);
+  if (!scheme || sbri_scheme_refuses(scheme, model, island)) scheme = &sbri_symplectic;
+  island->scheme = scheme;
+  bool left_open = options->scheme == SBF_SCHEME_AUTOMATIC && scheme != sbri_scheme_of(stated->scheme);
+  bool stated_for_this = stated->scheme == scheme->word || stated->scheme == SBF_SCHEME_AUTOMATIC;
+  island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
+  island->step_error_m = options->step_error_m > 0 ? options->step_error_m : least_step_error(model, island);
+  island->routed =
+      left_open && !island->substeps && !sbri_scheme_refuses(&sbri_position_based, model, island);
+  return SBF_OK;
+}
+
+/* Diagonals of the boxes of each body and of all of them. */
+static void measure(sbr_model *model) {
+  float low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  bool any = false;
+  for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
+    sbri_body *body = &model->bodies[b];
+    const sbf_vec3_list *points = &body->source->surface.positions;
+    if (!points->count && body->level) points = &body->level->positions;
+    float body_low[3] = {0, 0, 0}, body_high[3] = {0, 0, 0}, square = 0;
+    for (uint32_t i = 0; i < points->count; i++) {
+      const float p[3] = {points->at[i].x, points->at[i].y, points->at[i].z};
+      for (int k = 0; k < 3; k++) {
+        if (i == 0 || p[k] < body_low[k]) body_low[k] = p[k];
+        if (i == 0 || p[k] > body_high[k]) body_high[k] = p[k];
+        if (!any || p[k] < low[k]) low[k] = p[k];
+        if (!any || p[k] > high[k]) high[k] = p[k];
+      }
+      any = true;
+    }
+    for (int k = 0; points->count && k < 3; k++)
+      square += (body_high[k] - body_low[k]) * (body_high[k] - body_low[k]);
+    body->rest_size_m = sqrtf(square);
+  }
+  float square = 0;
+  for (int k = 0; k < 3; k++) square += (high[k] - low[k]) * (high[k] - low[k]);
+  model->rest_size_m = sqrtf(square);
+}
+
+static sbf_status make_islands(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
+  sbf_status status = sbri_islands_group(model, options, error);
+  if (status == SBF_OK) measure(model);
+  for (uint32_t i = 0; status == SBF_OK && i < model->island_count; i++) {
+    sbri_island *island = &model->islands[i];
+    status = choose_scheme(model, island, options, error);
+    if (status == SBF_OK) status = sbri_island_make(model, island, options, error);
+    if (status != SBF_OK) break;
+    if (!sbri_tear_table_make(model, island)) return no_memory(error);
+    model->tears = model->tears || island->tears;
+    island->first_slot = model->slot_count;
+    model->slot_count += island->slot_count;
+    island->first_link_block = model->link_block_count;
+    model->link_block_count += island->link_block_count;
+    island->first_tetrahedron_block = model->tetrahedron_block_count;
+    model->tetrahedron_block_count += island->tetrahedron_block_count;
+    island->first_solid_block = model->solid_block_count;
+    island->first_solid = model->solid_count;
+    if (island->solid_flows) {
+      model->solid_block_count += island->tetrahedron_block_count;
+      model->solid_count += island->tetrahedron_count;
+    }
+    island->first_flow = model->flow_count;
+    if (island->link_flows) model->flow_count += island->link_block_count * SBRI_BLOCK;
+    island->first_rotation = model->region_block_count;
+    model->region_block_count += island->region_block_count;
+    if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);
+  }
+  return status;
+}
+
+/* With all that makes them fast known. */
+static sbf_status check_substeps(const sbr_model *model, sbf_diagnostic *error) {
+  for (uint32_t i = 0; i < model->island_count; i++) {
+    const sbri_island *island = &model->islands[i];
+    if (sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MOST_SUBSTEPS) continue;
+    const sbf_soft_body *body = model->bodies[island->bodies[0]].source;
+    double w =
+        sqrt(island->fastest_rad_s * island->fastest_rad_s + island->outer_rad_s * island->outer_rad_s);
+    return sbfi_diagnose(error, SBF_CODE_TOO_STIFF,
+        "body \"%s\" would need more than %d substeps a tick (its fastest mode is %.3g rad/s): give it more "
+        "mass, less stiffness or fewer points, or step it by position_based",
+        body->id, (int)SBRI_MOST_SUBSTEPS, w);
+  }
+  return SBF_OK;
+}
+
+static bool make_skins(sbr_model *model) {
+  const sbf_asset *asset = model->asset;
+  uint32_t mesh_count = asset->render_meshes.count;
+  uint32_t *first_skins = sbfi_arena_allocate(&model->arena, (size_t)mesh_count + 1, sizeof *first_skins);
+  if (!first_skins) return false;
+  for (uint32_t i = 0; i < mesh_count; i++) {
+    first_skins[i] = model->skin_count;
+    model->skin_count += 1 + asset->render_meshes.at[i].levels.count;
+  }
+  model->first_skins = first_skins;
+  model->skins = sbfi_arena_allocate(&model->arena, (size_t)model->skin_count + 1, sizeof *model->skins);
+  if (!model->skins) return false;
+  for (uint32_t i = 0; i < mesh_count; i++)
+    for (uint32_t l = 0; l <= asset->render_meshes.at[i].levels.count; l++)
+      if (!sbri_skin_make(model, i, l)) return false;
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
+    if (!sbri_surface_make(model, i) || !sbri_samples_make(model, &model->bodies[i]) ||
+        !sbri_self_faces_make(model, &model->bodies[i]))
+      return false;
+  return true;
+}
+
+sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
+  void *rig = sbfi_arena_allocate(&model->arena, 1, sbri_rig_size(model->asset));
+  if (!rig) return no_memory(error);
+  sbri_rig_init(&model->rig, model->asset, rig);
+  model->rigid_substeps = options->rigid_substeps ? options->rigid_substeps : RIGID_SUBSTEPS;
+  if (!sbri_rigid_model_make(&model->rigid, model->asset, &model->arena)) return no_memory(error);
+  model->frame_count = model->rig.bone_count + 2 + model->rigid.own_frame_count;
+  sbf_status status = make_islands(model, options, error);
+  if (status != SBF_OK) return status;
+  if (!sbri_coupling_make(model) || !make_skins(model)) return no_memory(error);
+  if (!sbri_rest_volumes_find(model) || !sbri_outer_make(model)) return no_memory(error);
+  for (uint32_t i = 0; i < model->island_count; i++) {
+    sbri_island *island = &model->islands[i];
+    if (!island->routed || sbri_router_begins_explicit(island)) continue;
+    island->scheme = &sbri_position_based;
+    island->routed = false;
+  }
+  return check_substeps(model, error);
+}

@@ -1,0 +1,133 @@
+/* The lowest mode of a body of regions, by which it is damped.
+ *
+ * Linearised at rest, a point is pulled by k (u - d - t x r), d and t the region's displacement and turn that
+ * fit those of its points best. No mode is faster than the greatest w, so that power iteration on w^2 - H
+ * finds the slowest; rigid motion, of a body that nothing holds, is taken out in each step. The quotient of
+ * what comes of it is the frequency from above. */
+#include <string.h>
+
+#include "mechanics/shape_region.h"
+#include "prepare/island_maker.h"
+
+enum { STEPS = 150 };
+
+/* The symmetric 3 x 3 system g x = b by Cramer's rule; 0 where it has no solution. */
+static sbfi_d3 solve(const double g[6], sbfi_d3 b) {
+  sbfi_d3 u = {g[0], g[3], g[5]}, v = {g[3], g[1], g[4]}, w = {g[5], g[4], g[2]};
+  sbfi_d3 vw = sbfi_d3_cross(v, w), wu = sbfi_d3_cross(w, u), uv = sbfi_d3_cross(u, v);
+  double det = sbfi_d3_dot(u, vw), trace = g[0] + g[1] + g[2];
+  if (!(det > 1e-12 * trace * trace * trace)) return (sbfi_d3){0, 0, 0};
+  return sbfi_d3_scale((sbfi_d3){sbfi_d3_dot(vw, b), sbfi_d3_dot(wu, b), sbfi_d3_dot(uv, b)}, 1 / det);
+}
+
+/* What fits displacements as a rigid one: sums over weighted points. */
+typedef struct rigid_fit {
+  double weight, g[6];
+  sbfi_d3 center, drift, turn;
+} rigid_fit;
+
+static void add_turning(rigid_fit *fit, double k, sbfi_d3 r, sbfi_d3 u) {
+  fit->turn = sbfi_d3_add(fit->turn, sbfi_d3_scale(sbfi_d3_cross(r, u), k));
+  fit->g[0] += k * (r.y * r.y + r.z * r.z), fit->g[1] += k * (r.z * r.z + r.x * r.x);
+  fit->g[2] += k * (r.x * r.x + r.y * r.y), fit->g[3] -= k * r.x * r.y;
+  fit->g[4] -= k * r.y * r.z, fit->g[5] -= k * r.z * r.x;
+}
+
+static sbfi_d3 rigid_part(const rigid_fit *fit, sbfi_d3 r) {
+  return sbfi_d3_add(fit->drift, sbfi_d3_cross(fit->turn, r));
+}
+
+/* Forces of one region on the slots it is of, into `forces`. */
+static void add_region(const sbri_island *island, const sbri_region_block *block, uint32_t lane,
+    const sbfi_d3 *moves, sbfi_d3 *forces) {
+  const sbri_region_member *members = island->region_members + block->first_member;
+  rigid_fit fit = {0};
+  for (uint32_t i = 0; i < block->member_count; i++) {
+    double k = members[i].stiffness[lane];
+    const float(*at)[SBRI_BLOCK] = members[i].offsets;
+    sbfi_d3 r = {at[0][lane], at[1][lane], at[2][lane]}, u = moves[members[i].slots[lane]];
+    fit.weight += k;
+    fit.drift = sbfi_d3_add(fit.drift, sbfi_d3_scale(u, k));
+    add_turning(&fit, k, r, u);
+  }
+  if (!(fit.weight > 0)) return;
+  fit.drift = sbfi_d3_scale(fit.drift, 1 / fit.weight);
+  fit.turn = solve(fit.g, fit.turn);
+  for (uint32_t i = 0; i < block->member_count; i++) {
+    uint32_t slot = members[i].slots[lane];
+    const float(*at)[SBRI_BLOCK] = members[i].offsets;
+    sbfi_d3 off =
+        sbfi_d3_sub(moves[slot], rigid_part(&fit, (sbfi_d3){at[0][lane], at[1][lane], at[2][lane]}));
+    forces[slot] = sbfi_d3_sub(forces[slot], sbfi_d3_scale(off, members[i].stiffness[lane]));
+  }
+}
+
+static sbfi_d3 rest_of(const sbri_island *island, uint32_t slot) {
+  const sbri_point *p = &island->rest[slot];
+  return (sbfi_d3){p->x, p->y, p->z};
+}
+
+/* Takes the body's rigid motion out of its points' displacements. */
+static void take_rigid(const sbri_island *island, const sbri_body *body, sbfi_d3 *moves) {
+  rigid_fit fit = {0};
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    double m = island->masses[slot];
+    fit.weight += m;
+    fit.center = sbfi_d3_add(fit.center, sbfi_d3_scale(rest_of(island, slot), m));
+    fit.drift = sbfi_d3_add(fit.drift, sbfi_d3_scale(moves[slot], m));
+  }
+  if (!(fit.weight > 0)) return;
+  fit.center = sbfi_d3_scale(fit.center, 1 / fit.weight);
+  fit.drift = sbfi_d3_scale(fit.drift, 1 / fit.weight);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    add_turning(&fit, island->masses[slot], sbfi_d3_sub(rest_of(island, slot), fit.center), moves[slot]);
+  fit.turn = solve(fit.g, fit.turn);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    moves[slot] = sbfi_d3_sub(moves[slot], rigid_part(&fit, sbfi_d3_sub(rest_of(island, slot), fit.center)));
+}
+
+/* Bends of any kind, none of them rigid. */
+static sbfi_d3 first_guess(sbfi_d3 r, uint32_t slot) {
+  double jitter = 0.01 * (double)(slot * 2654435761u >> 16) / 65536;
+  return (sbfi_d3){r.z * r.z - r.y * r.y + jitter, r.x * r.x + r.z * r.y - jitter, r.x * r.y - r.z + jitter};
+}
+
+static bool is_held(const sbri_island *island, const sbri_body *body) {
+  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
+    const sbri_region_block *block = &island->region_blocks[b];
+    for (uint32_t i = 0; i < block->member_count; i++)
+      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
+        if (island->region_members[block->first_member + i].slots[lane] >= island->free_count) return true;
+  }
+  return false;
+}
+
+double sbri_regions_lowest(const sbri_island *island, const sbri_body *body, double *scratch) {
+  if (body->first_region_block == body->region_block_end) return 0;
+  sbfi_d3 *moves = (sbfi_d3 *)(void *)scratch, *forces = moves + island->slot_count;
+  double top = island->region_rad_s * island->region_rad_s, low = top;
+  bool held = is_held(island, body);
+  memset(moves, 0, island->slot_count * sizeof *moves);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    moves[slot] = first_guess(rest_of(island, slot), slot);
+  for (int step = 0; step < STEPS; step++) {
+    if (!held) take_rigid(island, body, moves);
+    memset(forces, 0, island->slot_count * sizeof *forces);
+    for (uint32_t b = body->first_region_block; b < body->region_block_end; b++)
+      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
+        add_region(island, &island->region_blocks[b], lane, moves, forces);
+    double stiff = 0, heavy = 0;
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+      stiff -= sbfi_d3_dot(moves[slot], forces[slot]);
+      heavy += (double)island->masses[slot] * sbfi_d3_dot(moves[slot], moves[slot]);
+    }
+    if (!(heavy > 0)) return 0;
+    low = stiff / heavy;
+    double scale = 1 / (top * sqrt(heavy));
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+      sbfi_d3 a = sbfi_d3_scale(forces[slot], island->inverse_masses[slot]);
+      moves[slot] = sbfi_d3_scale(sbfi_d3_add(sbfi_d3_scale(moves[slot], top), a), scale);
+    }
+  }
+  return low > 0 ? sqrt(low) : 0;
+}

@@ -1,0 +1,34 @@
+/* What soft bodies enclose at rest, and which of them keep it. */
+#include "prepare/prepare.h"
+
+#include "skin/skin.h"
+
+/* A surface that is open by no more than this share of its area, as by a stray triangle, still has a volume.
+ */
+static const double MOST_OPENING = 0.05;
+
+bool sbri_rest_volumes_find(sbr_model *model) {
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &model->arena.allocator, 0);
+  bool good = true;
+  for (uint32_t b = 0; good && b < model->asset->soft_bodies.count; b++) {
+    sbri_body *body = &model->bodies[b];
+    uint32_t count = body->surface.vertex_count;
+    sbf_surface_measures measures;
+    sbf_surface_measure(&body->source->surface, NULL, &measures);
+    if (count == 0 || measures.opening > MOST_OPENING || !(measures.volume > 0)) continue;
+    sbri_point *vertices = sbfi_arena_allocate(&scratch, count, sizeof *vertices);
+    good = vertices != NULL;
+    for (uint32_t i = 0; good && i < count; i++) {
+      sbf_vec3 p = body->source->surface.positions.at[i];
+      vertices[i] = (sbri_point){p.x, p.y, p.z, 0};
+    }
+    if (!good) break;
+    body->rest_volume_m3 = sbri_skin_volume(&body->surface, vertices);
+    body->keeps_volume = body->source->attributes.pressure_mode == SBF_PRESSURE_MODE_VOLUME &&
+                         body->rest_volume_m3 > 0 && body->level;
+    if (body->keeps_volume) good = sbri_volume_table_make(model, body);
+  }
+  sbfi_arena_free(&scratch);
+  return good;
+}

@@ -1,0 +1,34 @@
+/* The triangles by which a body meets itself: those of its surface, where its points are the level's own. */
+#include "prepare/prepare.h"
+
+/* Slot of each vertex; false where some vertex is no point of the level. */
+static bool find_slots(const sbri_island *island, const sbri_body *body, uint32_t *slots) {
+  if (body->samples || body->surface.frame_vertex_count || !body->surface.vertex_count) return false;
+  for (uint32_t v = 0; v < body->surface.vertex_count; v++) {
+    sbri_sample s = sbri_sample_of(island, &body->surface, v);
+    if (s.weights[0] != 1) return false;
+    slots[v] = s.slots[0];
+  }
+  return true;
+}
+
+bool sbri_self_faces_make(sbr_model *model, sbri_body *body) {
+  if (!body->level || !body->source->collision.self) return true;
+  const sbf_polygon_mesh *mesh = &body->source->surface;
+  size_t most = mesh->polygon_points.count;
+  uint32_t *slots = sbfi_arena_allocate(&model->arena, (size_t)body->surface.vertex_count + 1, sizeof *slots);
+  uint32_t *faces = sbfi_arena_allocate(&model->arena, 3 * most + 1, sizeof *faces);
+  if (!slots || !faces) return false;
+  if (!find_slots(&model->islands[body->island], body, slots)) return true;
+  const uint32_t *corners = mesh->polygon_points.at;
+  for (uint32_t p = 0; p < mesh->polygon_sizes.count; corners += mesh->polygon_sizes.at[p++])
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[p]; k++, body->self_face_count++) {
+      uint32_t *to = faces + 3 * (size_t)body->self_face_count;
+      to[0] = slots[corners[0]], to[1] = slots[corners[k - 1]], to[2] = slots[corners[k]];
+    }
+  body->self_faces = faces;
+  sbf_body_measures measures;
+  sbf_body_measure(body->source, &measures);
+  body->is_sheet = measures.sheet;
+  return true;
+}

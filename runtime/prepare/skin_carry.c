@@ -1,0 +1,267 @@
+/* What carries each vertex: points of the bodies it is embedded in, else bones. */
+#include <string.h>
+
+#include "model/level_mesh.h"
+#include "prepare/prepare.h"
+
+typedef struct carrier {
+  uint32_t vertex, slot;
+  float weight;
+} carrier;
+
+typedef struct carry {
+  sbr_model *model;
+  sbri_skin *skin;
+  uint32_t source_count;    /* vertices of the mesh */
+  const uint32_t *place_of; /* (source_count) in the skin, UINT32_MAX: not in it; NULL: the same */
+  sbfi_arena scratch;
+  sbfi_array carriers; /* carrier */
+  sbfi_array bindings; /* sbri_binding; `cell` is the first of four carriers until those are laid out */
+} carry;
+
+static uint32_t place_of(const carry *c, uint32_t vertex) {
+  return c->place_of ? c->place_of[vertex] : vertex;
+}
+
+static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
+  if (weight == 0) return true;
+  uint32_t slot = c->model->islands[body->island].first_slot + body->slot_from_point[point];
+  return sbfi_array_append(&c->carriers, &(carrier){vertex, slot, weight}, 1);
+}
+
+/* The tetrahedron of those corners, counted in its island; UINT32_MAX: there is none, or it is held all
+ * around. */
+static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, const uint32_t points[4]) {
+  const sbri_island *island = &model->islands[body->island];
+  for (uint32_t i = 0; i < 4; i++) {
+    uint32_t slot = body->slot_from_point[points[i]];
+    if (slot >= island->free_count) continue;
+    for (uint32_t at = island->tears->around_begins[slot]; at < island->tears->around_begins[slot + 1];
+         at++) {
+      const uint32_t *corners =
+          body->level->lattice.tetrahedra.at[island->tears->around[at] - body->first_tetrahedron].at;
+      uint32_t same = 0;
+      for (uint32_t k = 0; k < 16; k++) same += corners[k / 4] == points[k % 4];
+      if (same == 4) return island->tears->around[at];
+    }
+  }
+  return UINT32_MAX;
+}
+
+/* The corners of a tetrahedron that may tear, all four and in its own order; false in `bound` where it is
+ * none. */
+static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
+    const float weights[4], bool *bound) {
+  *bound = false;
+  if (!sbri_body_tears(body)) return true;
+  uint32_t found = find_tetrahedron(c->model, body, points);
+  if (found == UINT32_MAX) return true;
+  const sbri_island *island = &c->model->islands[body->island];
+  const uint32_t *corners = body->level->lattice.tetrahedra.at[found - body->first_tetrahedron].at;
+  sbri_binding binding = {vertex, (uint32_t)c->carriers.count, body->island, found};
+  if (!sbfi_array_append(&c->bindings, &binding, 1)) return false;
+  for (int k = 0; k < 4; k++) {
+    int from = 0;
+    while (points[from] != corners[k]) from++;
+    carrier one = {vertex, island->first_slot + body->slot_from_point[corners[k]], weights[from]};
+    if (!sbfi_array_append(&c->carriers, &one, 1)) return false;
+  }
+  *bound = true;
+  return true;
+}
+
+static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *embedding) {
+  for (uint32_t i = 0; i < embedding->points.count; i++) {
+    uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
+    if (vertex >= c->source_count || place_of(c, vertex) == UINT32_MAX) continue;
+    const sbf_vec4 *w = &embedding->weights.at[i];
+    float weights[4] = {w->x, w->y, w->z, w->w};
+    float blend = embedding->blends.count ? embedding->blends.at[i] : 1;
+    bool bound;
+    for (int k = 0; k < 4; k++) weights[k] *= blend;
+    if (!bind_vertex(c, body, place_of(c, vertex), embedding->points.at[i].at, weights, &bound)) return false;
+    for (int k = 0; k < 4 && !bound; k++)
+      if (!add_carrier(c, body, place_of(c, vertex), embedding->points.at[i].at[k], weights[k])) return false;
+  }
+  return true;
+}
+
+/* `places` has the cell of each carrier. */
+static bool keep_bindings(carry *c, const uint32_t *places) {
+  sbri_skin *skin = c->skin;
+  uint32_t count = (uint32_t)c->bindings.count;
+  if (count == 0) return true;
+  sbri_binding *bindings = sbfi_arena_allocate(&c->model->arena, count, sizeof *bindings);
+  uint32_t *binding_of = sbfi_arena_allocate(&c->model->arena, skin->vertex_count, sizeof *binding_of);
+  if (!bindings || !binding_of) return false;
+  memcpy(bindings, c->bindings.at, count * sizeof *bindings);
+  memset(binding_of, 0xff, skin->vertex_count * sizeof *binding_of);
+  for (uint32_t i = count; i-- > 0;) {
+    bindings[i].cell = places[bindings[i].cell];
+    binding_of[bindings[i].vertex] = i;
+  }
+  skin->bindings = bindings, skin->binding_of = binding_of, skin->binding_count = count;
+  skin->first_binding = c->model->binding_count, c->model->binding_count += count;
+  skin->first_cell = c->model->torn_cell_count, c->model->torn_cell_count += skin->cell_count;
+  return true;
+}
+
+/* Weights that do not sum to one, as of shares painted by hand, are brought there. */
+static bool fill_cells(carry *c, uint32_t *counts) {
+  sbri_skin *skin = c->skin;
+  const carrier *carriers = c->carriers.at;
+  uint32_t block_count = (skin->vertex_count + SBRI_BLOCK - 1) / SBRI_BLOCK;
+  uint32_t *begins = sbfi_arena_allocate(&c->model->arena, (size_t)block_count + 1, sizeof *begins);
+  float *sums = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *sums);
+  if (!begins || !sums) return false;
+  for (size_t i = 0; i < c->carriers.count; i++) {
+    counts[carriers[i].vertex]++;
+    sums[carriers[i].vertex] += carriers[i].weight;
+  }
+  for (uint32_t block = 0; block < block_count; block++) {
+    uint32_t most = 0;
+    for (uint32_t v = block * SBRI_BLOCK; v < (block + 1) * SBRI_BLOCK && v < skin->vertex_count; v++)
+      most = counts[v] > most ? counts[v] : most;
+    begins[block + 1] = begins[block] + most;
+  }
+  size_t cell_count = begins[block_count];
+  sbri_carry_cell *cells = sbfi_arena_allocate(&c->model->arena, cell_count ? cell_count : 1, sizeof *cells);
+  uint32_t *used = sbfi_arena_allocate(&c->scratch, skin->vertex_count, sizeof *used);
+  uint32_t *places = sbfi_arena_allocate(&c->scratch, c->carriers.count + 1, sizeof *places);
+  if (!cells || !used || !places) return false;
+  for (size_t i = 0; i < c->carriers.count; i++) {
+    uint32_t vertex = carriers[i].vertex;
+    places[i] = begins[vertex / SBRI_BLOCK] + used[vertex]++;
+    sbri_carry_cell *cell = &cells[places[i]];
+    float sum = sums[vertex];
+    cell->slots[vertex % SBRI_BLOCK] = carriers[i].slot;
+    cell->weights[vertex % SBRI_BLOCK] =
+        fabsf(sum - 1) < 1e-5f || fabsf(sum) < 1e-6f ? carriers[i].weight : carriers[i].weight / sum;
+  }
+  skin->cell_begins = begins;
+  skin->cells = cells;
+  skin->cell_count = (uint32_t)cell_count;
+  return keep_bindings(c, places);
+}
+
+/* The vertices that no body carries: they follow the skin's weights, else `frame`. */
+static bool fill_frames(
+    carry *c, const uint32_t *counts, const sbf_vec3 *rest, const sbf_skin *weights, uint32_t frame) {
+  sbri_skin *skin = c->skin;
+  uint32_t vertex_count = 0, influence_count = 0, first = 0;
+  for (uint32_t v = 0; v < c->source_count; v++) {
+    if (place_of(c, v) == UINT32_MAX || counts[place_of(c, v)]) continue;
+    vertex_count++;
+    influence_count += weights && weights->influence_counts.at[v] ? weights->influence_counts.at[v] : 1;
+  }
+  if (vertex_count == 0) return true;
+  sbri_frame_vertex *vertices = sbfi_arena_allocate(&c->model->arena, vertex_count, sizeof *vertices);
+  sbri_influence *influences = sbfi_arena_allocate(&c->model->arena, influence_count, sizeof *influences);
+  if (!vertices || !influences) return false;
+  uint32_t next = 0;
+  for (uint32_t v = 0, place = 0; v < c->source_count; v++) {
+    uint32_t count = weights ? weights->influence_counts.at[v] : 0, to_place = place_of(c, v);
+    if (to_place != UINT32_MAX && !counts[to_place]) {
+      sbri_frame_vertex *to = &vertices[place++];
+      *to = (sbri_frame_vertex){to_place, next, count ? count : 1, rest[v]};
+      float sum = 0;
+      for (uint32_t i = 0; i < count; i++) sum += weights->weights.at[first + i];
+      for (uint32_t i = 0; i < count; i++)
+        influences[next++] = (sbri_influence){weights->bones.at[first + i],
+            sum > 1e-6f ? weights->weights.at[first + i] / sum : 1 / (float)count};
+      if (!count) influences[next++] = (sbri_influence){frame, 1};
+    }
+    first += count;
+  }
+  skin->frame_vertices = vertices;
+  skin->frame_vertex_count = vertex_count;
+  skin->influences = influences;
+  return true;
+}
+
+static bool finish(carry *c, const sbf_vec3 *rest, const sbf_skin *weights, int32_t bone, bool good) {
+  uint32_t *counts = NULL;
+  if (good && c->skin->vertex_count) {
+    counts = sbfi_arena_allocate(&c->scratch, c->skin->vertex_count, sizeof *counts);
+    uint32_t frame = bone >= 0 ? (uint32_t)bone : sbri_root_frame(c->model);
+    good = counts && fill_cells(c, counts) && fill_frames(c, counts, rest, weights, frame);
+  }
+  sbfi_array_free(&c->bindings);
+  sbfi_array_free(&c->carriers);
+  sbfi_arena_free(&c->scratch);
+  return good;
+}
+
+static carry begin(sbr_model *model, sbri_skin *skin, uint32_t vertex_count) {
+  carry c = {.model = model, .skin = skin, .source_count = vertex_count};
+  sbfi_arena_init(&c.scratch, &model->arena.allocator, 0);
+  sbfi_array_init(&c.carriers, &model->arena.allocator, sizeof(carrier));
+  sbfi_array_init(&c.bindings, &model->arena.allocator, sizeof(sbri_binding));
+  skin->vertex_count = vertex_count;
+  return c;
+}
+
+static bool add_embeddings(carry *c, uint32_t render_mesh) {
+  const sbr_model *model = c->model;
+  bool good = true;
+  for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
+    const sbf_level *level = model->bodies[b].level;
+    for (uint32_t e = 0; good && level && e < level->embeddings.count; e++)
+      if (level->embeddings.at[e].render_mesh == (int32_t)render_mesh)
+        good = add_embedding(c, &model->bodies[b], &level->embeddings.at[e]);
+  }
+  return good;
+}
+
+bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_level) {
+  const sbf_render_mesh *mesh = &model->asset->render_meshes.at[render_mesh];
+  sbri_skin *skin = &model->skins[model->first_skins[render_mesh] + render_level];
+  carry c = begin(model, skin, mesh->mesh.positions.count);
+  sbf_render_mesh shown = *mesh;
+  bool good = true;
+  if (render_level > 0) {
+    sbfi_level_mesh level;
+    good = sbfi_level_mesh_make(&level, mesh, &mesh->levels.at[render_level - 1], &c.scratch);
+    if (good)
+      skin->vertices =
+          sbfi_arena_copy(&model->arena, level.vertices, level.vertex_count + 1u, sizeof *level.vertices);
+    good = good && skin->vertices;
+    shown = level.mesh;
+    skin->vertex_count = level.vertex_count;
+    c.place_of = level.place_of;
+  }
+  skin->first_polygon = model->torn_polygon_count;
+  good =
+      good && add_embeddings(&c, render_mesh) && sbri_shading_make(skin, &shown.mesh, &shown, &model->arena);
+  if (c.bindings.count) model->torn_polygon_count += shown.mesh.polygon_sizes.count;
+  const sbf_render_level *level = render_level ? &mesh->levels.at[render_level - 1] : NULL;
+  return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good) &&
+         sbri_torn_sides_make(model, skin, sbri_skin_of(model, render_mesh, 0),
+             level ? &level->polygon_sizes : &mesh->mesh.polygon_sizes,
+             level ? &level->polygon_points : &mesh->mesh.polygon_points);
+}
+
+/* Without an embedding of its own surface, a level's points begin with those of the surface. */
+static bool add_surface_points(carry *c, const sbri_body *body) {
+  const sbf_u32_list *new_from_old = &body->level->new_from_old;
+  for (uint32_t i = 0; i < c->skin->vertex_count; i++) {
+    uint32_t point = i < new_from_old->count ? new_from_old->at[i] : i;
+    if (point < body->level->positions.count && !add_carrier(c, body, i, point, 1)) return false;
+  }
+  return true;
+}
+
+bool sbri_surface_make(sbr_model *model, uint32_t soft_body) {
+  sbri_body *body = &model->bodies[soft_body];
+  const sbf_polygon_mesh *mesh = &body->source->surface;
+  carry c = begin(model, &body->surface, mesh->positions.count);
+  bool good = true, embedded = false;
+  for (uint32_t e = 0; good && body->level && e < body->level->embeddings.count; e++)
+    if (body->level->embeddings.at[e].render_mesh < 0) {
+      good = add_embedding(&c, body, &body->level->embeddings.at[e]);
+      embedded = true;
+    }
+  if (good && body->level && !embedded) good = add_surface_points(&c, body);
+  return finish(&c, mesh->positions.at, NULL, body->source->bone, good) &&
+         sbri_faces_make(&body->surface, mesh, &model->arena);
+}

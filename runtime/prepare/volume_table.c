@@ -1,0 +1,100 @@
+/* Which faces make up each slot's share in the gradient of a body's volume; see solvers/volume_keep.h. */
+#include <string.h>
+
+#include "prepare/prepare.h"
+
+typedef struct share {
+  uint32_t slot, face;
+  float weight;
+} share;
+
+static bool add_share(sbfi_array *shares, uint32_t slot, uint32_t face, float weight) {
+  return sbfi_array_append(shares, &(share){slot, face, weight}, 1);
+}
+
+/* What carries a vertex receives its part of each of the vertex's faces: an eighth of the product of the
+ * diagonals of a quad, that is a quarter of its area; a sixth of a triangle's, that is a third. */
+static bool list_shares(const sbri_skin *skin, uint32_t first_slot, sbfi_array *shares) {
+  for (uint32_t face = 0; face < skin->face_block_count * SBRI_BLOCK; face++) {
+    const sbri_face_block *block = &skin->faces[face / SBRI_BLOCK];
+    uint32_t lane = face % SBRI_BLOCK, corners[4];
+    for (int k = 0; k < 4; k++) corners[k] = block->corners[k][lane];
+    if (corners[0] == corners[1] && corners[1] == corners[2]) continue; /* inert */
+    int count = corners[3] == corners[0] ? 3 : 4;
+    for (int k = 0; k < count; k++) {
+      uint32_t in_block = corners[k] / SBRI_BLOCK, vertex_lane = corners[k] % SBRI_BLOCK;
+      for (uint32_t c = skin->cell_begins[in_block]; c < skin->cell_begins[in_block + 1]; c++) {
+        float weight = skin->cells[c].weights[vertex_lane] * (count == 3 ? 1.0f / 6 : 0.125f);
+        uint32_t slot = skin->cells[c].slots[vertex_lane] - first_slot;
+        if (weight != 0 && !add_share(shares, slot, face, weight)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+static bool fill_table(sbr_model *model, sbri_body *body, const share *shares, size_t count, uint32_t *used) {
+  uint32_t block_count = (body->slot_end - body->slot_begin) / SBRI_BLOCK, begin = body->slot_begin;
+  uint32_t *begins = sbfi_arena_allocate(&model->arena, (size_t)block_count + 1, sizeof *begins);
+  if (!begins) return false;
+  for (size_t i = 0; i < count; i++)
+    if (shares[i].slot >= begin && shares[i].slot < body->slot_end) used[shares[i].slot - begin]++;
+  for (uint32_t block = 0; block < block_count; block++) {
+    uint32_t most = 0;
+    for (uint32_t i = block * SBRI_BLOCK; i < (block + 1) * SBRI_BLOCK; i++)
+      most = used[i] > most ? used[i] : most;
+    begins[block + 1] = begins[block] + most;
+  }
+  uint32_t cell_count = begins[block_count];
+  sbri_carry_cell *cells = sbfi_arena_allocate(&model->arena, cell_count ? cell_count : 1, sizeof *cells);
+  if (!cells) return false;
+  memset(used, 0, (size_t)block_count * SBRI_BLOCK * sizeof *used);
+  for (size_t i = 0; i < count; i++) {
+    if (shares[i].slot < begin || shares[i].slot >= body->slot_end) continue;
+    uint32_t slot = shares[i].slot - begin, lane = slot % SBRI_BLOCK;
+    sbri_carry_cell *cell = &cells[begins[slot / SBRI_BLOCK] + used[slot]++];
+    cell->slots[lane] = shares[i].face;
+    cell->weights[lane] = shares[i].weight;
+  }
+  body->volume_begins = begins;
+  body->volume_cells = cells;
+  return true;
+}
+
+/* Where each vertex is one point, faces may name the points: `volume_faces`. */
+static bool name_points(sbri_body *body, uint32_t first_slot, sbfi_arena *arena) {
+  const sbri_skin *skin = &body->surface;
+  for (uint32_t v = 0; v < skin->vertex_count; v++) {
+    uint32_t block = v / SBRI_BLOCK, begin = skin->cell_begins[block], end = skin->cell_begins[block + 1];
+    for (uint32_t c = begin; c < end; c++)
+      if (skin->cells[c].weights[v % SBRI_BLOCK] != (c == begin ? 1.0f : 0.0f)) return true;
+    if (begin == end) return true;
+  }
+  sbri_face_block *faces = sbfi_arena_allocate(arena, skin->face_block_count, sizeof *faces);
+  if (!faces) return false;
+  for (uint32_t block = 0; block < skin->face_block_count; block++)
+    for (int k = 0; k < 4; k++)
+      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+        uint32_t v = skin->faces[block].corners[k][lane];
+        faces[block].corners[k][lane] =
+            skin->cells[skin->cell_begins[v / SBRI_BLOCK]].slots[v % SBRI_BLOCK] - first_slot;
+      }
+  body->volume_faces = faces;
+  return true;
+}
+
+bool sbri_volume_table_make(sbr_model *model, sbri_body *body) {
+  uint32_t count = body->slot_end - body->slot_begin;
+  if (count == 0) return true;
+  sbfi_array shares;
+  sbfi_array_init(&shares, &model->arena.allocator, sizeof(share));
+  uint32_t *used = sbfi_allocate(&model->arena.allocator, count * sizeof *used);
+  bool good = used && list_shares(&body->surface, model->islands[body->island].first_slot, &shares);
+  if (good) {
+    memset(used, 0, count * sizeof *used);
+    good = fill_table(model, body, shares.at, shares.count, used);
+  }
+  sbfi_free(&model->arena.allocator, used, count * sizeof *used);
+  sbfi_array_free(&shares);
+  return good && name_points(body, model->islands[body->island].first_slot, &model->arena);
+}

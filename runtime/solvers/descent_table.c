@@ -1,0 +1,210 @@
+#include "solvers/descent_table.h"
+
+#include <string.h>
+
+#include "mechanics/neo_hookean.h"
+
+enum { MOST_COLOURS = 64 };
+
+/* Who has which elements: of each free slot, those from begins[slot] on. */
+typedef struct ends {
+  uint32_t *begins, *elements; /* an element: its number x 4 + which end */
+} ends;
+
+typedef struct descent_maker {
+  sbr_model *model;
+  sbri_island *island;
+  sbfi_arena scratch;
+  const sbf_uint4 *corners; /* (tetrahedron_count) slots */
+  ends springs, solids;
+  uint8_t *colours;
+  sbfi_array blocks, cells, damping, solid_blocks; /* damping: eight a cell */
+} descent_maker;
+
+static uint32_t slot_of(const descent_maker *m, bool solid, uint32_t element, uint32_t end) {
+  const sbfi_spring *s = &m->island->springs[element];
+  return solid ? m->corners[element].at[end] : end ? s->b : s->a;
+}
+
+static bool list_ends(descent_maker *m, bool solid, ends *to) {
+  uint32_t width = solid ? 4 : 2, free_count = m->island->free_count;
+  uint32_t count = solid ? m->island->tetrahedron_count : m->island->spring_count;
+  to->begins = sbfi_arena_allocate(&m->scratch, (size_t)free_count + 2, sizeof *to->begins);
+  to->elements = sbfi_arena_allocate(&m->scratch, (size_t)count * width + 1, sizeof *to->elements);
+  if (!to->begins || !to->elements) return false;
+  for (int pass = 0; pass < 2; pass++) {
+    for (uint32_t e = 0; e < count; e++)
+      for (uint32_t k = 0; k < width; k++) {
+        uint32_t slot = slot_of(m, solid, e, k);
+        if (slot >= free_count) continue;
+        if (pass)
+          to->elements[to->begins[slot + 1]++] = 4 * e + k;
+        else
+          to->begins[slot + 2]++;
+      }
+    for (uint32_t i = 0; pass == 0 && i < free_count; i++) to->begins[i + 2] += to->begins[i + 1];
+  }
+  return true;
+}
+
+static void avoid(const descent_maker *m, bool solid, const ends *of, uint32_t slot, uint64_t *taken) {
+  for (uint32_t i = of->begins[slot]; i < of->begins[slot + 1]; i++)
+    for (uint32_t k = 0; k < (solid ? 4u : 2u); k++) {
+      uint32_t other = slot_of(m, solid, of->elements[i] / 4, k);
+      if (other != slot && other < m->island->free_count && m->colours[other])
+        *taken |= (uint64_t)1 << (m->colours[other] - 1);
+    }
+}
+
+/* The first colour that no neighbour has, point after point. The last colour takes what is left over: its
+ * points move one at a time. */
+static void colour_points(descent_maker *m, uint32_t *count) {
+  *count = 0;
+  for (uint32_t slot = 0; slot < m->island->free_count; slot++) {
+    uint64_t taken = 0;
+    uint32_t colour = 0;
+    if (!(m->island->masses[slot] > 0)) continue;
+    avoid(m, false, &m->springs, slot, &taken);
+    avoid(m, true, &m->solids, slot, &taken);
+    while (colour < MOST_COLOURS && taken >> colour & 1) colour++;
+    if (colour == MOST_COLOURS) colour--;
+    m->colours[slot] = (uint8_t)(colour + 1);
+    if (colour + 1 > *count) *count = colour + 1;
+  }
+}
+
+/* ---- Blocks ---- */
+
+static void put_spring(
+    const descent_maker *m, sbri_spring_cell *cell, float *damping, uint32_t lane, uint32_t element) {
+  const sbfi_spring *s = &m->island->springs[element / 4];
+  damping[lane] = s->damping_ns_m;
+  cell->others[lane] = element % 4 ? s->a : s->b;
+  cell->stiffness[lane] = s->stiffness_n_m;
+  cell->pull[lane] = s->stiffness_n_m * s->rest_length_m;
+}
+
+/* The tetrahedron with the point for its corner 0, turned by two swaps, which leave it the right way round.
+ */
+static void put_corner(
+    const descent_maker *m, sbri_tetrahedron_block *block, uint32_t lane, uint32_t element) {
+  static const int orders[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
+  const int *order = orders[element % 4];
+  uint32_t number = element / 4;
+  sbfi_tetrahedron made, turned;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = &m->model->bodies[m->island->bodies[b]];
+    if (number - body->first_tetrahedron >= body->tetrahedron_count) continue;
+    if (!sbri_body_tetrahedron(body, number - body->first_tetrahedron, &made)) return;
+    turned = made;
+    for (int k = 0; k < 4; k++) {
+      turned.gradients[k] = made.gradients[order[k]];
+      block->corners[k][lane] = m->corners[number].at[order[k]];
+    }
+    sbri_tetrahedron_fill(block, lane, &turned);
+  }
+}
+
+static bool add_block(descent_maker *m, const uint32_t *slots, uint32_t count) {
+  sbri_descent_block *block = sbfi_array_push(&m->blocks, 1);
+  uint32_t springs = 0, solids = 0;
+  if (!block) return false;
+  *block = (sbri_descent_block){
+      .first_spring = (uint32_t)m->cells.count, .first_corner = (uint32_t)m->solid_blocks.count};
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+    uint32_t slot = block->slots[lane] = slots[lane < count ? lane : 0];
+    if (lane >= count) continue;
+    block->masses[lane] = m->island->masses[slot];
+    uint32_t own = m->springs.begins[slot + 1] - m->springs.begins[slot];
+    uint32_t own_solids = m->solids.begins[slot + 1] - m->solids.begins[slot];
+    springs = own > springs ? own : springs;
+    solids = own_solids > solids ? own_solids : solids;
+  }
+  block->spring_end = block->first_spring + springs, block->corner_end = block->first_corner + solids;
+  sbri_spring_cell *cells = sbfi_array_push(&m->cells, springs);
+  sbri_tetrahedron_block *corners = sbfi_array_push(&m->solid_blocks, solids);
+  float *damping = sbfi_array_push(&m->damping, (size_t)springs * SBRI_BLOCK);
+  if ((springs && !(cells && damping)) || (solids && !corners)) return false;
+  if (springs) memset(cells, 0, springs * sizeof *cells);
+  if (springs) memset(damping, 0, springs * SBRI_BLOCK * sizeof *damping);
+  if (solids) memset(corners, 0, solids * sizeof *corners);
+  for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+    uint32_t slot = block->slots[lane];
+    for (uint32_t i = 0; i < springs; i++) cells[i].others[lane] = slot;
+    for (uint32_t i = 0; i < solids; i++)
+      for (int k = 0; k < 4; k++) corners[i].corners[k][lane] = slot;
+    if (lane >= count) continue;
+    const ends *s = &m->springs, *t = &m->solids;
+    for (uint32_t i = s->begins[slot]; i < s->begins[slot + 1]; i++) {
+      uint32_t cell = i - s->begins[slot];
+      put_spring(m, &cells[cell], damping + (size_t)cell * SBRI_BLOCK, lane, s->elements[i]);
+    }
+    for (uint32_t i = t->begins[slot]; i < t->begins[slot + 1]; i++)
+      put_corner(m, &corners[i - t->begins[slot]], lane, t->elements[i]);
+  }
+  return true;
+}
+
+static bool add_colour(descent_maker *m, uint32_t colour) {
+  uint32_t slots[SBRI_BLOCK], count = 0, width = colour == MOST_COLOURS ? 1 : SBRI_BLOCK;
+  for (uint32_t slot = 0; slot < m->island->free_count; slot++) {
+    if (m->colours[slot] != colour) continue;
+    slots[count++] = slot;
+    if (count == width && !add_block(m, slots, count)) return false;
+    if (count == width) count = 0;
+  }
+  return count == 0 || add_block(m, slots, count);
+}
+
+static const void *keep(descent_maker *m, const sbfi_array *from, size_t size) {
+  void *kept = sbfi_arena_allocate(&m->model->arena, from->count ? from->count : 1, size);
+  return kept && from->count ? memcpy(kept, from->at, from->count * size) : kept;
+}
+
+static bool make(descent_maker *m, sbri_descent *made) {
+  sbri_island *island = m->island;
+  sbf_uint4 *corners =
+      sbfi_arena_allocate(&m->scratch, (size_t)island->tetrahedron_count + 1, sizeof *corners);
+  m->colours = sbfi_arena_allocate(&m->scratch, (size_t)island->free_count + 1, 1);
+  if (!corners || !m->colours) return false;
+  m->corners = corners;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &m->model->bodies[island->bodies[b]];
+    for (uint32_t t = 0; t < body->tetrahedron_count; t++)
+      for (int k = 0; k < 4; k++)
+        corners[body->first_tetrahedron + t].at[k] =
+            body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]];
+  }
+  if (!list_ends(m, false, &m->springs) || !list_ends(m, true, &m->solids)) return false;
+  colour_points(m, &made->colour_count);
+  for (uint32_t colour = 1; colour <= made->colour_count; colour++)
+    if (!add_colour(m, colour)) return false;
+  made->block_count = (uint32_t)m->blocks.count;
+  made->blocks = keep(m, &m->blocks, sizeof(sbri_descent_block));
+  made->springs = keep(m, &m->cells, sizeof(sbri_spring_cell));
+  made->corners = keep(m, &m->solid_blocks, sizeof(sbri_tetrahedron_block));
+  if (island->cell_damping) {
+    made->damping = keep(m, &m->damping, sizeof(float));
+    if (!made->damping) return false;
+  }
+  return made->blocks && made->springs && made->corners;
+}
+
+bool sbri_descent_make(sbr_model *model, sbri_island *island) {
+  descent_maker m = {.model = model, .island = island};
+  sbri_descent *made = sbfi_arena_allocate(&model->arena, 1, sizeof *made);
+  if (!made) return false;
+  sbfi_arena_init(&m.scratch, &model->arena.allocator, 0);
+  sbfi_array_init(&m.blocks, &model->arena.allocator, sizeof(sbri_descent_block));
+  sbfi_array_init(&m.cells, &model->arena.allocator, sizeof(sbri_spring_cell));
+  sbfi_array_init(&m.damping, &model->arena.allocator, sizeof(float));
+  sbfi_array_init(&m.solid_blocks, &model->arena.allocator, sizeof(sbri_tetrahedron_block));
+  bool good = make(&m, made);
+  sbfi_array_free(&m.solid_blocks);
+  sbfi_array_free(&m.damping);
+  sbfi_array_free(&m.cells);
+  sbfi_array_free(&m.blocks);
+  sbfi_arena_free(&m.scratch);
+  island->descent = made;
+  return good;
+}
