@@ -104,7 +104,7 @@ static void prepare_points(const sbri_island_tick *t, const sbri_body *body, con
 
 sbri_sample sbri_sample_now(const sbri_island_tick *t, const sbri_sample *first, const sbri_skin *surface) {
   sbri_sample s = *first;
-  if (!t->island->tears) return s;
+  if (!t->island->splits) return s;
   if (s.vertex != UINT32_MAX) return sbri_sample_of(t->island, surface, s.vertex);
   s.mass_kg = t->island->masses[s.slots[0]];
   return s;

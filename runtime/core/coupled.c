@@ -188,7 +188,7 @@ void sbri_coupled_end(sbri_coupled *group) {
     sbri_island_tick tick = sbri_island_tick_of(group->world, c, i, &now);
     sbri_island_tell(&tick, c);
     sbri_held_places(island, sbri_deltas(c), sbri_positions(c) + island->first_slot);
-    if (island->tears && tears->count > 0) tears->unsplit = sbri_island_split(c, i);
+    if (island->splits && tears->count > 0) tears->unsplit = sbri_island_split(c, i);
     sbri_island_recover(group->world, c, i);
   }
 }

@@ -11,6 +11,9 @@ static sbfi_spring spring_now(const sbri_character *c, const sbri_island *island
   sbfi_spring s = island->springs[spring];
   if (!island->link_flows) return s;
   uint32_t at = island->first_flow + island->link_of_spring[spring];
+  const sbri_link_block *link = &island->links[island->link_of_spring[spring] / SBRI_BLOCK];
+  uint32_t lane = island->link_of_spring[spring] % SBRI_BLOCK;
+  s.a = link->a[lane], s.b = link->b[lane]; /* one that has split has others */
   s.rest_length_m = sbri_rests(c)[at];
   s.stiffness_n_m *= sbri_strengths(c)[at];
   return s;
@@ -195,7 +198,7 @@ sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id ch
   if (!c || soft_body >= c->model->asset->soft_bodies.count) return (sbr_body_health){0};
   const sbri_body *body = &c->model->bodies[soft_body];
   if (!body->level) return health;
-  const sbri_island *island = &c->model->islands[body->island];
+  const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]), *island = &now;
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   health.asleep = sbri_island_states(c)[body->island].asleep;

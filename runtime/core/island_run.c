@@ -121,7 +121,7 @@ void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) 
   if (!island->scheme->forceless) sbri_outer_look(&tick), sbri_island_prepare_contacts(&tick, c);
   sbri_router_choose(&tick, &sbri_island_states(c)[index].recovering)->tick(&tick);
   sbri_island_tell(&tick, c);
-  if (island->tears && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
+  if (island->splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
   sbri_island_recover(world, c, index);
   sbri_island_may_sleep(world, c, index);
 }

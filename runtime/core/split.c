@@ -7,25 +7,51 @@
  */
 #include <string.h>
 
-#include "core/state.h"
+#include "core/split.h"
 
 /* Of a point with more tetrahedra around it only so many are looked at. */
 enum { MOST_AROUND = 192 };
 
 sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island) {
   sbri_island now = *island;
-  if (!island->tears) return now;
+  if (!island->splits) return now;
   now.masses = sbri_masses(c) + island->first_slot;
   now.inverse_masses = sbri_inverse_masses(c) + island->first_slot;
   now.gravity_scales = sbri_gravity_scales(c) + island->first_slot;
+  if (!island->frays) return now;
+  size_t first = island->first_thread_cell;
+  now.cell_ends = sbri_thread_ends(c) + island->first_thread_block;
+  now.cells = sbri_thread_cells(c) + first;
+  now.cell_links = sbri_thread_links(c) + first * SBRI_BLOCK;
+  if (island->cell_damping) now.cell_damping = sbri_thread_damping(c) + first * SBRI_BLOCK;
+  now.links = sbri_thread_blocks(c) + island->first_thread_link;
+  for (uint32_t b = 0; b < island->body_count; b++) { /* parts may swing faster than they did as one */
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    bool reserved = body->first_spare < body->slot_real_end;
+    if (reserved && sbri_origins(c)[island->first_slot + body->first_spare] != SBRI_UNUSED)
+      now.fastest_rad_s = island->bound_rad_s;
+  }
   return now;
+}
+
+static void unsplit_springs(sbri_character *c, const sbri_island *island) {
+  uint32_t blocks = island->free_count / SBRI_BLOCK, cells = island->cell_begins[blocks];
+  size_t first = island->first_thread_cell, lanes = (size_t)cells * SBRI_BLOCK;
+  memcpy(sbri_thread_ends(c) + island->first_thread_block, island->cell_ends, blocks * sizeof(uint32_t));
+  memcpy(sbri_thread_cells(c) + first, island->cells, cells * sizeof *island->cells);
+  memcpy(sbri_thread_links(c) + first * SBRI_BLOCK, island->cell_links, lanes * sizeof(uint32_t));
+  if (island->cell_damping)
+    memcpy(sbri_thread_damping(c) + first * SBRI_BLOCK, island->cell_damping, lanes * sizeof(float));
+  memcpy(sbri_thread_blocks(c) + island->first_thread_link, island->links,
+      island->link_block_count * sizeof *island->links);
 }
 
 void sbri_unsplit(sbri_character *c) {
   const sbr_model *model = c->model;
-  for (uint32_t i = 0; model->tears && i < model->island_count; i++) {
+  for (uint32_t i = 0; model->splits && i < model->island_count; i++) {
     const sbri_island *island = &model->islands[i];
     sbri_island_states(c)[i].unsplit = 0;
+    if (island->frays) unsplit_springs(c, island);
     for (uint32_t slot = 0; slot < island->slot_count; slot++) {
       uint32_t at = island->first_slot + slot;
       bool free = slot < island->free_count;
@@ -104,32 +130,31 @@ static float volume_of(const splitting *s, uint32_t part) {
   return sum;
 }
 
-/* A slot that is not used yet, of the body that has `slot`; SBRI_UNUSED: there is none. */
-static uint32_t find_room(const splitting *s, uint32_t slot) {
-  const sbr_model *model = s->c->model;
+uint32_t sbri_split_room(const sbri_character *c, const sbri_island *island, uint32_t slot) {
+  const sbr_model *model = c->model;
   uint32_t b = 0;
-  while (slot >= model->bodies[s->island->bodies[b]].slot_end) b++;
-  const sbri_body *body = &model->bodies[s->island->bodies[b]];
+  while (slot >= model->bodies[island->bodies[b]].slot_end) b++;
+  const sbri_body *body = &model->bodies[island->bodies[b]];
   for (uint32_t spare = body->first_spare; spare < body->slot_real_end; spare++)
-    if (sbri_origins(s->c)[s->island->first_slot + spare] == SBRI_UNUSED) return spare;
+    if (sbri_origins(c)[island->first_slot + spare] == SBRI_UNUSED) return spare;
   return SBRI_UNUSED;
 }
 
-static void copy_point(const splitting *s, uint32_t from, uint32_t to) {
-  size_t first = s->island->first_slot;
-  sbri_point *now = sbri_positions(s->c) + first, *before = sbri_previous_positions(s->c) + first;
-  float *v = sbri_velocities(s->c) + 3 * first;
+void sbri_split_copy(sbri_character *c, const sbri_island *island, uint32_t from, uint32_t to) {
+  size_t first = island->first_slot;
+  sbri_point *now = sbri_positions(c) + first, *before = sbri_previous_positions(c) + first;
+  float *v = sbri_velocities(c) + 3 * first;
   now[to] = now[from], before[to] = before[from];
   for (uint32_t k = 0; k < 3 * SBRI_BLOCK; k += SBRI_BLOCK)
     v[3 * (to / SBRI_BLOCK * SBRI_BLOCK) + to % SBRI_BLOCK + k] =
         v[3 * (from / SBRI_BLOCK * SBRI_BLOCK) + from % SBRI_BLOCK + k];
-  sbri_origins(s->c)[first + to] = sbri_origins(s->c)[first + from];
-  sbri_gravity_scales(s->c)[first + to] = sbri_gravity_scales(s->c)[first + from];
+  sbri_origins(c)[first + to] = sbri_origins(c)[first + from];
+  sbri_gravity_scales(c)[first + to] = sbri_gravity_scales(c)[first + from];
 }
 
-static void weigh(const splitting *s, uint32_t slot, float mass) {
-  sbri_masses(s->c)[s->island->first_slot + slot] = mass;
-  sbri_inverse_masses(s->c)[s->island->first_slot + slot] = mass > 0 ? 1 / mass : 0;
+void sbri_split_weigh(sbri_character *c, const sbri_island *island, uint32_t slot, float mass_kg) {
+  sbri_masses(c)[island->first_slot + slot] = mass_kg;
+  sbri_inverse_masses(c)[island->first_slot + slot] = mass_kg > 0 ? 1 / mass_kg : 0;
 }
 
 /* How many parts could not be split off. */
@@ -148,17 +173,17 @@ static uint32_t split(splitting *s, uint32_t slot) {
   }
   for (uint32_t part = 0; part < s->part_count; part++) {
     if (part == largest) continue;
-    uint32_t room = find_room(s, slot);
+    uint32_t room = sbri_split_room(s->c, s->island, slot);
     if (room == SBRI_UNUSED) return s->part_count - 1 - part;
     float share = mass * (volume_of(s, part) / all);
-    copy_point(s, slot, room);
-    weigh(s, room, share);
+    sbri_split_copy(s->c, s->island, slot, room);
+    sbri_split_weigh(s->c, s->island, room, share);
     left -= share;
     for (uint32_t i = 0; i < s->count; i++)
       for (int copy = 0; s->parts[i] == part && copy < 2; copy++)
         *corner(s, s->elements[i], s->corners[i], copy) = room;
   }
-  weigh(s, slot, left);
+  sbri_split_weigh(s->c, s->island, slot, left);
   return 0;
 }
 
@@ -167,8 +192,8 @@ uint32_t sbri_island_split(sbri_character *c, uint32_t index) {
   const uint32_t *torn = sbri_torn(c) + island->first_solid;
   splitting s = {
       .c = c, .island = island, .torn = torn, .blocks = sbri_solids(c) + island->first_solid_block};
-  uint32_t unsplit = 0;
-  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+  uint32_t unsplit = island->frays ? sbri_island_split_springs(c, index) : 0;
+  for (uint32_t t = 0; island->tears && t < island->tetrahedron_count; t++)
     for (uint32_t k = 0; k < 4 && torn[t] == SBRI_TORN_NOW; k++) {
       uint32_t slot = *corner(&s, t, k, 0);
       if (slot < island->free_count) unsplit += split(&s, slot);

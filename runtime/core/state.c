@@ -49,11 +49,17 @@ void sbri_layout_make(sbr_model *model) {
   l->rotations = place(&end, 4 * SBRI_BLOCK * (size_t)model->region_block_count, sizeof(float));
   l->solids = place(&end, model->solid_block_count, sizeof(sbri_tetrahedron_block));
   l->torn = place(&end, model->solid_count, sizeof(uint32_t));
-  size_t torn_slots = model->tears ? slots : 0;
+  size_t torn_slots = model->splits ? slots : 0;
   l->origins = place(&end, torn_slots, sizeof(uint32_t));
   l->masses = place(&end, torn_slots, sizeof(float));
   l->inverse_masses = place(&end, torn_slots, sizeof(float));
   l->gravity_scales = place(&end, torn_slots, sizeof(float));
+  size_t thread_cells = model->thread_cell_count;
+  l->thread_ends = place(&end, model->thread_block_count, sizeof(uint32_t));
+  l->thread_cells = place(&end, thread_cells, sizeof(sbri_spring_cell));
+  l->thread_damping = place(&end, thread_cells * SBRI_BLOCK, sizeof(float));
+  l->thread_links = place(&end, thread_cells * SBRI_BLOCK, sizeof(uint32_t));
+  l->thread_blocks = place(&end, model->thread_link_count, sizeof(sbri_link_block));
   l->skin_cells = place(&end, model->torn_cell_count, sizeof(sbri_carry_cell));
   l->bound_to = place(&end, model->binding_count, sizeof(uint32_t));
   l->torn_polygons = place(&end, model->torn_polygon_count, sizeof(uint32_t));
@@ -99,6 +105,8 @@ void sbri_layout_make(sbr_model *model) {
   l->visits = place(&end, 2 * (size_t)model->solid_count, sizeof(uint32_t));
   l->queue = place(&end, model->solid_count, sizeof(uint32_t));
   l->touched = place(&end, model->binding_count, 1);
+  l->owners = place(&end, model->thread_cell_count ? 2 * slots : 0, sizeof(uint32_t));
+  l->frayed = place(&end, model->thread_cell_count ? slots : 0, 1);
   l->surface_vertices = place(&end, surface, sizeof(sbri_point));
   l->surface_forces = place(&end, surface, sizeof(sbri_point));
   l->surface_velocities = place(&end, surface, sizeof(sbri_point));

@@ -76,17 +76,24 @@ SBRI_STATE_PART(strengths, float, c->model->layout.strengths)            /* (flo
 SBRI_STATE_PART(rotations, float, c->model->layout.rotations)            /* (region_block_count x 4 x 8) */
 SBRI_STATE_PART(solids, sbri_tetrahedron_block, c->model->layout.solids) /* (solid_block_count) */
 SBRI_STATE_PART(torn, uint32_t, c->model->layout.torn)                   /* (solid_count) sbri_torn_state */
-/* Of models whose tetrahedra may tear, else empty: where each slot comes from, SBRI_UNUSED while it is room
+/* Of models whose elements may tear, else empty: where each slot comes from, SBRI_UNUSED while it is room
  * for a point that splits; what it weighs; the cells of skins, the tetrahedron that each binding rides on,
  * and what has become of each polygon. */
-SBRI_STATE_PART(origins, uint32_t, c->model->layout.origins)                        /* (slot_count) */
-SBRI_STATE_PART(masses, float, c->model->layout.masses)                             /* (slot_count) kg */
-SBRI_STATE_PART(inverse_masses, float, c->model->layout.inverse_masses)             /* (slot_count) 1/kg */
-SBRI_STATE_PART(gravity_scales, float, c->model->layout.gravity_scales)             /* (slot_count) */
-SBRI_STATE_PART(skin_cells, sbri_carry_cell, c->model->layout.skin_cells)           /* (torn_cell_count) */
-SBRI_STATE_PART(bound_to, uint32_t, c->model->layout.bound_to)                      /* (binding_count) */
-SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)            /* (torn_polygon_count) */
-SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, c->model->layout.rigid_bodies) /* (rigid bodies) */
+SBRI_STATE_PART(origins, uint32_t, c->model->layout.origins)            /* (slot_count) */
+SBRI_STATE_PART(masses, float, c->model->layout.masses)                 /* (slot_count) kg */
+SBRI_STATE_PART(inverse_masses, float, c->model->layout.inverse_masses) /* (slot_count) 1/kg */
+SBRI_STATE_PART(gravity_scales, float, c->model->layout.gravity_scales) /* (slot_count) */
+/* Of islands whose springs may tear, as the model has them with points that have split: what is in use of
+ * each block's cells, the cells, their damping and links, and the links. */
+SBRI_STATE_PART(thread_ends, uint32_t, c->model->layout.thread_ends)            /* (thread_block_count) */
+SBRI_STATE_PART(thread_cells, sbri_spring_cell, c->model->layout.thread_cells)  /* (thread_cell_count) */
+SBRI_STATE_PART(thread_damping, float, c->model->layout.thread_damping)         /* (thread_cell_count x 8) */
+SBRI_STATE_PART(thread_links, uint32_t, c->model->layout.thread_links)          /* (thread_cell_count x 8) */
+SBRI_STATE_PART(thread_blocks, sbri_link_block, c->model->layout.thread_blocks) /* (thread_link_count) */
+SBRI_STATE_PART(skin_cells, sbri_carry_cell, c->model->layout.skin_cells)       /* (torn_cell_count) */
+SBRI_STATE_PART(bound_to, uint32_t, c->model->layout.bound_to)                  /* (binding_count) */
+SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)        /* (torn_polygon_count) */
+SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, c->model->layout.rigid_bodies)  /* (rigid bodies) */
 SBRI_STATE_PART(rigid_joints, sbri_rigid_joint_state, c->model->layout.rigid_joints) /* (joints) */
 SBRI_STATE_PART(rigid_drive, sbri_rigid_drive_state, c->model->layout.rigid_drive)
 #undef SBRI_STATE_PART
@@ -119,11 +126,13 @@ SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces) /
 SBRI_SCRATCH_PART(visits, uint32_t, c->model->layout.visits)                   /* (solid_count x 2) */
 SBRI_SCRATCH_PART(queue, uint32_t, c->model->layout.queue)                     /* (solid_count) */
 SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                  /* (binding_count) */
-SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)                      /* (slot_count x 4) */
-SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)          /* (slot_count / 8) */
-SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)               /* (samples of all bodies) */
-SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts)       /* (bodies) */
-SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching)     /* (bodies) */
+SBRI_SCRATCH_PART(owners, uint32_t, c->model->layout.owners) /* (slot_count x 2) where springs may tear */
+SBRI_SCRATCH_PART(frayed, uint8_t, c->model->layout.frayed)  /* (slot_count) likewise: near a torn spring */
+SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)    /* (slot_count x 4) */
+SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)      /* (slot_count / 8) */
+SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)           /* (samples of all bodies) */
+SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts)   /* (bodies) */
+SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching) /* (bodies) */
 SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching) /* (rigid bodies) */
 SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies that do) */
 SBRI_SCRATCH_PART(

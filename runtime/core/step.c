@@ -144,7 +144,7 @@ static void follow_tears(sbr_world *world) {
   for (uint32_t i = 0; i < world->work_count; i++) {
     sbri_character *c = &world->characters[world->work[i].character];
     uint32_t island = world->work[i].island;
-    if (c->model->islands[island].tears && sbri_tears_of(c)[island].count > 0) sbri_skins_follow(c, island);
+    if (c->model->islands[island].splits && sbri_tears_of(c)[island].count > 0) sbri_skins_follow(c, island);
   }
 }
 

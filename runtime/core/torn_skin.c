@@ -1,13 +1,15 @@
-/* Skins of lattices that tear.
+/* Skins of lattices and networks that tear.
  *
  * A vertex rides on its tetrahedron, wherever the corners of that go. Where the tetrahedron itself has torn,
  * it rides on from its corner of the greatest weight, on a whole tetrahedron there, as an extrapolation of
  * its rest shape; where there is none, it stays in between what has torn. A polygon is left out once the
  * tetrahedra of two neighbouring corners, which few sides lie between at rest, have lost that way to each
- * other. Of cloth, whose vertices are points, it is left out once a spring along one of its sides has torn.
+ * other. Of networks of springs core/torn_network.c decides both; of cloth, whose vertices are points, a
+ * polygon is left out once a spring along one of its sides has torn.
  */
 #include <string.h>
 
+#include "core/split.h"
 #include "core/world.h"
 #include "mechanics/neo_hookean.h"
 
@@ -45,6 +47,7 @@ typedef struct tearing {
   const uint32_t *torn;
   const sbri_tetrahedron_block *blocks;
   uint32_t index;
+  const sbri_torn_network *network; /* NULL: no springs tear */
 } tearing;
 
 static uint32_t corner(const tearing *t, uint32_t element, uint32_t k) {
@@ -113,6 +116,7 @@ static bool follow(const tearing *t, const sbri_skin *skin, uint32_t i) {
   const sbri_binding *binding = &skin->bindings[i];
   uint32_t *bound = &sbri_bound_to(t->c)[skin->first_binding + i], lane = binding->vertex % SBRI_BLOCK,
            heavy = 0;
+  if (binding->tetrahedron == UINT32_MAX) return sbri_network_vertex_follow(t->network, skin, i);
   sbri_carry_cell *cells = sbri_skin_cells(t->c) + skin->first_cell + binding->cell;
   bool changed = false;
   if (t->torn[*bound]) {
@@ -160,9 +164,22 @@ static uint32_t ridden(const tearing *t, const sbri_skin *skin, uint32_t vertex,
   return at_rest ? skin->bindings[i].tetrahedron : sbri_bound_to(t->c)[skin->first_binding + i];
 }
 
+/* The binding of a vertex to this island's springs; UINT32_MAX: none. */
+static uint32_t spring_binding(const tearing *t, const sbri_skin *skin, uint32_t vertex) {
+  uint32_t i = skin->binding_of[vertex];
+  bool is =
+      i != UINT32_MAX && skin->bindings[i].island == t->index && skin->bindings[i].tetrahedron == UINT32_MAX;
+  return is ? i : UINT32_MAX;
+}
+static bool spans_springs(const tearing *t, const sbri_skin *skin, uint32_t a, uint32_t b) {
+  uint32_t from = spring_binding(t, skin, a), to = spring_binding(t, skin, b);
+  return from != UINT32_MAX && to != UINT32_MAX && sbri_network_vertices_part(t->network, skin, from, to);
+}
+
 static bool is_torn(const tearing *t, const sbri_skin *skin, const uint32_t *points, uint32_t size) {
   for (uint32_t i = 0; i < size; i++) {
     uint32_t a = points[i], b = points[(i + 1) % size];
+    if (spans_springs(t, skin, a, b)) return true;
     uint32_t from = ridden(t, skin, a, false), to = ridden(t, skin, b, false);
     if (from == SBRI_UNUSED || to == SBRI_UNUSED || is_joined(t, from, to, false)) continue;
     if (is_joined(t, ridden(t, skin, a, true), ridden(t, skin, b, true), true)) return true;
@@ -215,15 +232,17 @@ static void follow_mesh(const tearing *t, uint32_t render_mesh) {
 void sbri_skins_follow(sbri_character *c, uint32_t index) {
   const sbr_model *model = c->model;
   const sbri_island *island = &model->islands[index];
-  tearing t = {
-      c, island, sbri_torn(c) + island->first_solid, sbri_solids(c) + island->first_solid_block, index};
+  sbri_torn_network network;
+  if (island->frays) sbri_torn_network_begin(&network, c, index);
+  tearing t = {c, island, sbri_torn(c) + island->first_solid, sbri_solids(c) + island->first_solid_block,
+      index, island->frays ? &network : NULL};
   for (uint32_t i = 0; i < model->asset->render_meshes.count; i++) follow_mesh(&t, i);
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_skin *surface = &model->bodies[island->bodies[b]].surface;
     if (surface->binding_count) follow_vertices(&t, surface);
   }
   uint32_t *torn = sbri_torn(c) + island->first_solid;
-  for (uint32_t e = 0; e < island->tetrahedron_count; e++)
+  for (uint32_t e = 0; island->tears && e < island->tetrahedron_count; e++)
     if (torn[e]) torn[e] = SBRI_TORN_BEFORE;
 }
 

@@ -19,7 +19,7 @@ static const float SETTLED_M_S = 3e-5f;
 /* ---- Sides ---- */
 
 static const float *inverse_masses(const sbri_character *c, const sbri_island *island) {
-  return island->tears ? sbri_inverse_masses(c) + island->first_slot : island->inverse_masses;
+  return island->splits ? sbri_inverse_masses(c) + island->first_slot : island->inverse_masses;
 }
 
 /* A rigid body's own frame now, asset metres. */

@@ -168,7 +168,7 @@ void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *m, uint32
   const sbri_island *island = &c->model->islands[body->island];
   sbri_meet_surface *s = &world->meetings->surfaces[c - world->characters][soft_body];
   const sbri_point *points = sbri_positions(c) + island->first_slot;
-  if (island->tears && s->triangle_count) {
+  if (island->splits && s->triangle_count) {
     sbri_island now = sbri_island_now(c, island);
     sbri_skin skin = sbri_skin_now(c, &body->surface);
     for (uint32_t v = 0; v < s->vertex_count; v++) s->samples[v] = sbri_sample_of(&now, &skin, v);

@@ -115,7 +115,8 @@ typedef struct sbri_tear_table {
 } sbri_tear_table;
 
 /* A vertex of a skin that rides on a tetrahedron which may tear: its four carriers are the corners, in their
- * order, in the cells from `cell` on. */
+ * order, in the cells from `cell` on. Or on four points of a network that may: then `tetrahedron` is
+ * UINT32_MAX, and unused ones weigh nothing. */
 typedef struct sbri_binding {
   uint32_t vertex, cell;
   uint32_t island, tetrahedron;
@@ -194,6 +195,7 @@ typedef struct sbri_island {
   const float *inverse_masses; /* (free_count) 1/kg; 0: padding */
   const float *gravity_scales; /* (free_count) 0: padding */
   const uint32_t *cell_begins; /* (free_count / 8 + 1) */
+  const uint32_t *cell_ends;   /* (free_count / 8) what is in use of each block's; beyond it is room */
   const sbri_spring_cell *cells;
   const float *cell_damping;      /* (cells x 8) N s/m; NULL: no spring is damped */
   const uint32_t *frame_of_held;  /* (slot_count - free_count) */
@@ -213,6 +215,8 @@ typedef struct sbri_island {
   bool solids_limited;                   /* some has strain limits */
   bool solid_flows;                      /* some yields or tears: the blocks are state */
   const sbri_tear_table *tears;          /* NULL: no tetrahedron tears */
+  bool frays;                            /* springs of bodies of springs tear */
+  bool splits;                           /* either: its points may split, and what they weigh is state */
   const uint32_t *tetrahedron_of_lane;   /* (tetrahedron_dense_count x 8) where there are limits */
   uint32_t first_solid_block, first_solid; /* of its blocks and tetrahedra in the character's state */
   const float *tetrahedron_damping;       /* (tetrahedron_block_count x 8) s: beta; NULL: none is damped so */
@@ -233,32 +237,34 @@ typedef struct sbri_island {
   const uint32_t *link_of_spring;      /* (spring_count) block x 8 + lane */
   const uint32_t *cell_links;          /* (cells x 8) likewise, where link_flows is not NULL */
   uint32_t first_flow;                 /* of its links in the character's state */
-  float most_acceleration_m_s2;        /* of what holds it, that it is made to feel; 0: no bound */
-  float most_push_m_s;                 /* likewise, of what its velocity changes by at once */
-  double fastest_rad_s;                /* mode at rest */
-  double bound_rad_s;         /* no mode is faster in any state of the springs, the tetrahedra at rest */
-  double outer_rad_s;         /* what gas and bending add to any mode, as a root of squares, at most */
-  bool has_outer;             /* something acts beside springs, tetrahedra and weight */
-  float rest_stretch;         /* greatest share of a spring beyond its rest length, at rest */
-  double stiffness_damping_s; /* greatest damping over stiffness of its springs */
-  uint32_t substeps;          /* asked for; 0: as many as needed */
-  float step_error_m;         /* of the schemes that control their error */
-  const sbri_visit *visits;   /* (visit_count) of the relaxation scheme, in order */
+  uint32_t first_thread_cell, first_thread_block, first_thread_link; /* likewise, where it frays */
+  float most_acceleration_m_s2; /* of what holds it, that it is made to feel; 0: no bound */
+  float most_push_m_s;          /* likewise, of what its velocity changes by at once */
+  double fastest_rad_s;         /* mode at rest */
+  double bound_rad_s;           /* no mode is faster in any state of the springs, the tetrahedra at rest */
+  double outer_rad_s;           /* what gas and bending add to any mode, as a root of squares, at most */
+  bool has_outer;               /* something acts beside springs, tetrahedra and weight */
+  float rest_stretch;           /* greatest share of a spring beyond its rest length, at rest */
+  double stiffness_damping_s;   /* greatest damping over stiffness of its springs */
+  uint32_t substeps;            /* asked for; 0: as many as needed */
+  float step_error_m;           /* of the schemes that control their error */
+  const sbri_visit *visits;     /* (visit_count) of the relaxation scheme, in order */
   uint32_t visit_count;
 } sbri_island;
 
 /* Where things lie in a character's state and in its scratch memory, in bytes from their beginnings. */
 typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, guide_motions, rests,
-      strengths, rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, skin_cells,
-      bound_to, torn_polygons, rigid_bodies, rigid_joints, rigid_drive, state_size;
+      strengths, rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, thread_ends,
+      thread_cells, thread_damping, thread_links, thread_blocks, skin_cells, bound_to, torn_polygons,
+      rigid_bodies, rigid_joints, rigid_drive, state_size;
   size_t animated, rigid_targets, reactions, stepped_pose, rigid_work;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
   size_t touches, touch_counts, touching, rigid_touching, self_boxes, self_nodes, self_items;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
-  size_t visits, queue, touched;
+  size_t visits, queue, touched, owners, frayed;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
       vertices, faces, sums, scratch_size;
 } sbri_layout;
@@ -279,10 +285,11 @@ struct sbr_model {
   sbri_body *bodies;               /* (asset->soft_bodies.count) */
   sbri_island *islands;
   uint32_t island_count;
-  uint32_t slot_count;              /* of all islands */
-  bool tears;                       /* tetrahedra of some island may tear */
-  uint32_t link_block_count;        /* of all islands */
-  uint32_t tetrahedron_block_count; /* likewise */
+  uint32_t slot_count;                                               /* of all islands */
+  bool splits;                                                       /* points of some island may split */
+  uint32_t thread_cell_count, thread_block_count, thread_link_count; /* of all islands that fray */
+  uint32_t link_block_count;                                         /* of all islands */
+  uint32_t tetrahedron_block_count;                                  /* likewise */
   uint32_t solid_block_count,
       solid_count; /* blocks and tetrahedra of islands whose tetrahedra yield or tear */
   uint32_t torn_cell_count, binding_count, torn_polygon_count; /* of all skins that may tear */

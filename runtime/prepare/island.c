@@ -5,6 +5,7 @@
 #include "mechanics/level_points.h"
 #include "prepare/island_maker.h"
 #include "prepare/pins.h"
+#include "solvers/scheme.h"
 
 /* A free point without mass would answer any force at once: it gets this share of the mean. */
 static const float LEAST_MASS_SHARE = 1e-3f;
@@ -135,9 +136,18 @@ bool sbri_body_tears(const sbri_body *body) {
          body->source->attributes.tear_strain > 0;
 }
 
+bool sbri_body_frays(const sbri_body *body) {
+  if (!body->level || body->level->model != SBF_ELASTIC_MODEL_SPRINGS) return false;
+  bool tears = body->source->attributes.tear_strain > 0;
+  for (uint32_t s = 0; s < body->level->springs.count; s++)
+    tears = tears || body->level->springs.at[s].tear_strain > 0;
+  return tears;
+}
+
 /* Room for points that split. */
 static uint32_t reserve_of(const sbri_island_maker *m, const sbri_body *body) {
-  if (!sbri_body_tears(body)) return 0;
+  bool frays = sbri_body_frays(body) && !m->island->scheme->forceless;
+  if (!frays && !sbri_body_tears(body)) return 0;
   return m->options->tear_points ? m->options->tear_points : body->level->positions.count / 2;
 }
 

@@ -176,17 +176,36 @@ static void put(const sbri_island *island, sbri_spring_cell *cells, float *dampi
   if (links) links[place * SBRI_BLOCK + lane] = island->link_of_spring[spring];
 }
 
+/* Springs that go along with a point which splits: not more than half of what any has, since the greater
+ * part stays; nor than this. */
+enum { MOST_PARTING = 32 };
+
+/* Room in the rows of slots that are room for points. */
+static void reserve_rows(const sbri_island_maker *m, uint32_t *used) {
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    uint32_t most = 0;
+    if (!sbri_body_frays(body)) continue;
+    for (uint32_t slot = body->slot_begin; slot < body->first_spare; slot++)
+      most = used[slot] > most ? used[slot] : most;
+    most = most / 2 < MOST_PARTING ? most / 2 : MOST_PARTING;
+    for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++) used[slot] = most;
+  }
+}
+
 static bool make_cells(sbri_island_maker *m) {
   sbri_island *island = m->island;
   uint32_t block_count = island->free_count / SBRI_BLOCK;
   uint32_t *begins = sbri_keep(m, (size_t)block_count + 1, sizeof *begins);
+  uint32_t *ends = sbri_keep(m, block_count, sizeof *ends);
   uint32_t *used = sbri_scratch(m, island->slot_count, sizeof *used);
-  if (!begins || !used) return false;
+  if (!begins || !ends || !used) return false;
   bool damped = false;
   for (uint32_t i = 0; i < island->spring_count; i++) {
     used[island->springs[i].a]++, used[island->springs[i].b]++;
     damped = damped || island->springs[i].damping_ns_m > 0;
   }
+  if (island->frays) reserve_rows(m, used);
   for (uint32_t block = 0; block < block_count; block++) {
     uint32_t most = 0;
     for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++)
@@ -202,13 +221,18 @@ static bool make_cells(sbri_island_maker *m) {
   for (uint32_t block = 0; block < block_count; block++)
     for (uint32_t c = begins[block]; c < begins[block + 1]; c++)
       for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) cells[c].others[lane] = block * SBRI_BLOCK + lane;
-  island->cell_begins = begins, island->cells = cells, island->cell_damping = damping;
+  island->cell_begins = begins, island->cell_ends = ends;
+  island->cells = cells, island->cell_damping = damping;
   island->cell_links = links;
   memset(used, 0, island->slot_count * sizeof *used);
   for (uint32_t i = 0; i < island->spring_count; i++) {
     const sbfi_spring *s = &island->springs[i];
     put(island, cells, damping, links, used, i, s->a, s->b);
     put(island, cells, damping, links, used, i, s->b, s->a);
+  }
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    uint32_t block = slot / SBRI_BLOCK, end = begins[block] + used[slot];
+    if (slot % SBRI_BLOCK == 0 || end > ends[block]) ends[block] = end;
   }
   return true;
 }
@@ -393,5 +417,10 @@ bool sbri_island_springs(sbri_island_maker *m) {
               bounds[i].yield_strain > 0;
   bool linked = m->island->scheme->sweeps || m->island->routed || (bounded && !m->island->scheme->forceless);
   if (linked && !sbri_links_make(m->model, m->island, bounds)) return false;
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    m->island->frays = m->island->frays || (m->island->link_flows && sbri_body_frays(body) &&
+                                               body->slot_real_end > body->first_spare);
+  }
   return make_cells(m) && sbri_tetrahedra_make(m, &network) && sbri_solid_limits_make(m);
 }

@@ -13,6 +13,7 @@ enum { COLOUR_WORDS = 4, COLOURS = 64 * COLOUR_WORDS };
 
 typedef struct colouring {
   const sbri_island *island;
+  const sbri_body *bodies;        /* of the model */
   uint64_t (*used)[COLOUR_WORDS]; /* (free_count) colours of the springs at each point */
   uint32_t *colours;              /* (spring_count) COLOURS: none was left */
   uint32_t *ordered;              /* (spring_count) springs by colour */
@@ -47,10 +48,20 @@ static void colour(colouring *c) {
   for (uint32_t i = 0; i < c->island->spring_count; i++) c->ordered[begins[c->colours[i]]++] = i;
 }
 
+/* Whether it is room for points that split: such a one may come to be an end of any spring. */
+static bool is_reserved(const colouring *c, uint32_t slot) {
+  for (uint32_t b = 0; b < c->island->body_count; b++) {
+    const sbri_body *body = &c->bodies[c->island->bodies[b]];
+    if (slot >= body->first_spare && slot < body->slot_real_end) return true;
+  }
+  return false;
+}
+
 /* A slot that none of the springs has an end at; slot_count: there is none. */
-static uint32_t spare_slot(const sbri_island *island, const uint32_t *springs, uint32_t count) {
+static uint32_t spare_slot(const colouring *c, const uint32_t *springs, uint32_t count) {
+  const sbri_island *island = c->island;
   for (uint32_t slot = island->slot_count; slot-- > 0;) {
-    bool free = true;
+    bool free = !is_reserved(c, slot);
     for (uint32_t i = 0; i < count; i++)
       free = free && island->springs[springs[i]].a != slot && island->springs[springs[i]].b != slot;
     if (free) return slot;
@@ -59,11 +70,11 @@ static uint32_t spare_slot(const sbri_island *island, const uint32_t *springs, u
 }
 
 /* How many of the springs make the next block: eight, or fewer with a spare slot for the inert lanes. */
-static uint32_t take(const sbri_island *island, const uint32_t *springs, uint32_t left, uint32_t *spare) {
+static uint32_t take(const colouring *c, const uint32_t *springs, uint32_t left, uint32_t *spare) {
   uint32_t count = left < SBRI_BLOCK ? left : SBRI_BLOCK;
   *spare = 0;
   if (count == SBRI_BLOCK) return count;
-  while ((*spare = spare_slot(island, springs, count)) == island->slot_count) count--;
+  while ((*spare = spare_slot(c, springs, count)) == c->island->slot_count) count--;
   return count;
 }
 
@@ -103,7 +114,7 @@ static uint32_t walk(const colouring *c, const link_tables *t, const sbfi_spring
   const uint32_t *next = c->ordered;
   for (uint32_t k = 0; k <= COLOURS; k++)
     for (uint32_t left = c->counts[k]; left > 0;) {
-      uint32_t spare, count = take(c->island, next, k == COLOURS ? 1 : left, &spare);
+      uint32_t spare, count = take(c, next, k == COLOURS ? 1 : left, &spare);
       if (t) fill(t, c->island, bounds, block, next, count, spare);
       block++, next += count, left -= count;
     }
@@ -136,7 +147,7 @@ bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bo
   size_t springs = (size_t)island->spring_count + 1;
   bool good = c != NULL;
   if (good) {
-    c->island = island;
+    c->island = island, c->bodies = model->bodies;
     c->used = sbfi_arena_allocate(&scratch, (size_t)island->free_count + 1, sizeof *c->used);
     c->colours = sbfi_arena_allocate(&scratch, springs, sizeof *c->colours);
     c->ordered = sbfi_arena_allocate(&scratch, springs, sizeof *c->ordered);

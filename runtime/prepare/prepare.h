@@ -36,8 +36,9 @@ bool sbri_samples_make(sbr_model *model, sbri_body *body);
 bool sbri_self_faces_make(sbr_model *model, sbri_body *body);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
-/* Whether its tetrahedra may tear. */
+/* Whether its tetrahedra may tear, or its springs, where these are its model. */
 bool sbri_body_tears(const sbri_body *body);
+bool sbri_body_frays(const sbri_body *body);
 
 /* ---- Skins and surfaces ---- */
 

@@ -88,7 +88,8 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     if (status == SBF_OK) status = sbri_island_make(model, island, options, error);
     if (status != SBF_OK) break;
     if (!sbri_tear_table_make(model, island)) return no_memory(error);
-    model->tears = model->tears || island->tears;
+    island->splits = island->tears || island->frays;
+    model->splits = model->splits || island->splits;
     island->first_slot = model->slot_count;
     model->slot_count += island->slot_count;
     island->first_link_block = model->link_block_count;
@@ -103,6 +104,14 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     }
     island->first_flow = model->flow_count;
     if (island->link_flows) model->flow_count += island->link_block_count * SBRI_BLOCK;
+    island->first_thread_cell = model->thread_cell_count;
+    island->first_thread_block = model->thread_block_count;
+    island->first_thread_link = model->thread_link_count;
+    if (island->frays) {
+      model->thread_cell_count += island->cell_begins[island->free_count / SBRI_BLOCK];
+      model->thread_block_count += island->free_count / SBRI_BLOCK;
+      model->thread_link_count += island->link_block_count;
+    }
     island->first_rotation = model->region_block_count;
     model->region_block_count += island->region_block_count;
     if (island->scheme->prepare && !island->scheme->prepare(model, island)) return no_memory(error);

@@ -17,6 +17,7 @@ typedef struct carry {
   sbfi_arena scratch;
   sbfi_array carriers; /* carrier */
   sbfi_array bindings; /* sbri_binding; `cell` is the first of four carriers until those are laid out */
+  bool shared;         /* the embedding at hand has vertices that several points carry */
 } carry;
 
 static uint32_t place_of(const carry *c, uint32_t vertex) {
@@ -48,11 +49,28 @@ static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, 
   return UINT32_MAX;
 }
 
+/* On four points of a network that may tear, where some vertex of the embedding is carried by several. */
+static bool bind_to_network(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
+    const float weights[4], bool *bound) {
+  const sbri_island *island = &c->model->islands[body->island];
+  if (!c->shared) return true;
+  sbri_binding binding = {vertex, (uint32_t)c->carriers.count, body->island, UINT32_MAX};
+  if (!sbfi_array_append(&c->bindings, &binding, 1)) return false;
+  for (int k = 0; k < 4; k++) {
+    carrier one = {vertex, island->first_slot + body->slot_from_point[points[k]], weights[k]};
+    if (!sbfi_array_append(&c->carriers, &one, 1)) return false;
+  }
+  *bound = true;
+  return true;
+}
+
 /* The corners of a tetrahedron that may tear, all four and in its own order; false in `bound` where it is
  * none. */
 static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const uint32_t points[4],
     const float weights[4], bool *bound) {
   *bound = false;
+  if (c->model->islands[body->island].frays && sbri_body_frays(body))
+    return bind_to_network(c, body, vertex, points, weights, bound);
   if (!sbri_body_tears(body)) return true;
   uint32_t found = find_tetrahedron(c->model, body, points);
   if (found == UINT32_MAX) return true;
@@ -71,6 +89,11 @@ static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const 
 }
 
 static bool add_embedding(carry *c, const sbri_body *body, const sbf_embedding *embedding) {
+  c->shared = false;
+  for (uint32_t i = 0; i < embedding->points.count && !c->shared; i++) {
+    const sbf_vec4 *w = &embedding->weights.at[i];
+    c->shared = (w->x != 0) + (w->y != 0) + (w->z != 0) + (w->w != 0) > 1;
+  }
   for (uint32_t i = 0; i < embedding->points.count; i++) {
     uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
     if (vertex >= c->source_count || place_of(c, vertex) == UINT32_MAX) continue;

@@ -6,7 +6,8 @@
 #include "prepare/prepare.h"
 
 /* The points that carry the vertex with a twentieth of it or more, as slots of the character, the one that
- * carries most first; a vertex that something else carries has none. */
+ * carries most first; a vertex that something else carries has none, nor one that goes with one side of a
+ * tear (core/torn_network.c). */
 typedef struct carriers {
   uint32_t slots[4], count;
 } carriers;
@@ -16,7 +17,8 @@ static carriers carriers_of(const sbri_skin *skin, uint32_t vertex) {
   carriers found = {{0}, 0};
   uint32_t lane = vertex % SBRI_BLOCK;
   float most = 0;
-  if (!skin->cell_begins) return found;
+  bool bound = skin->binding_count && skin->binding_of[vertex] != UINT32_MAX;
+  if (!skin->cell_begins || bound) return found;
   for (uint32_t c = skin->cell_begins[vertex / SBRI_BLOCK]; c < skin->cell_begins[vertex / SBRI_BLOCK + 1];
        c++) {
     float weight = skin->cells[c].weights[lane];

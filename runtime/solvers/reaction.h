@@ -28,7 +28,13 @@ static inline void sbri_react_springs(const sbri_island_tick *t, float h) {
   for (uint32_t i = 0; i < island->held_spring_count; i++) {
     uint32_t number = island->held_springs[i];
     const sbfi_spring *s = &island->springs[number];
-    uint32_t held = s->a >= island->free_count ? s->a : s->b, free = s->a + s->b - held;
+    uint32_t a = s->a, b = s->b;
+    if (t->rests) { /* a point that has split is another's end */
+      uint32_t at = island->link_of_spring[number];
+      a = island->links[at / SBRI_BLOCK].a[at % SBRI_BLOCK],
+      b = island->links[at / SBRI_BLOCK].b[at % SBRI_BLOCK];
+    }
+    uint32_t held = a >= island->free_count ? a : b, free = a + b - held;
     if (island->carrier_of_held[held - island->free_count] < 0) continue;
     const sbri_point *x = &t->positions[held], *y = &t->positions[free];
     sbf_vec3 d = {y->x - x->x, y->y - x->y, y->z - x->z};

@@ -67,7 +67,7 @@ static inline sbri_wide3 sbri_spring_forces(
   sbri_wide3 f = {sbri_wide_all(0), sbri_wide_all(0), sbri_wide_all(0)}, v = f;
   sbri_wide greatest = track ? sbri_wide_load(stretches + lane) : f.x;
   if (damped) v = sbri_wide_load_points(t->velocity_points + slot);
-  for (uint32_t c = island->cell_begins[block]; c < island->cell_begins[block + 1]; c++) {
+  for (uint32_t c = island->cell_begins[block]; c < island->cell_ends[block]; c++) {
     const sbri_spring_cell *cell = &island->cells[c];
     sbri_wide3 other = sbri_wide_gather(t->positions, cell->others + lane);
     sbri_wide dx = other.x - x.x, dy = other.y - x.y, dz = other.z - x.z;

@@ -30,7 +30,7 @@ scene_momentum scene_momentum_of(const scene *s) {
       m.angular[2] += (double)body->spin.z;
     }
     for (uint32_t k = 0; k < c->model->island_count; k++) {
-      const sbri_island *island = &c->model->islands[k];
+      const sbri_island now = sbri_island_now(c, &c->model->islands[k]), *island = &now;
       const sbri_point *points = sbri_positions(c) + island->first_slot;
       for (uint32_t slot = 0; slot < island->free_count; slot++)
         add(&m, (double)island->masses[slot], (sbf_vec3){points[slot].x, points[slot].y, points[slot].z},

@@ -108,7 +108,7 @@ typedef struct sbr_model_options {
                 inside in proportion to the stiffness of their springs */
   bool has_gravity; /* sag-free bodies bear `gravity` instead of the asset's own: what the world will use */
   sbf_vec3 gravity; /* m/s^2 */
-  uint32_t tear_points; /* that tearing may add to each body of tetrahedra; 0: half as many as it has */
+  uint32_t tear_points; /* that tearing may add to each body; 0: half as many as it has */
   float step_error_m;   /* error that a step of a scheme with error control (heun) may have; 0: the file's,
                            else 0.0001 */
   sbr_instructions instructions; /* for the solvers' loops */
