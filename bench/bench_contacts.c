@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "measured_bodies.h"
 #include "measuring.h"
 #include "sbfmt/asset.h"
 #include "sbrun/collision.h"
@@ -19,27 +20,15 @@ static const char *const layout_names[LIKE_THIS] = {"alone", "apart", "towers"};
 static const float SIDE_M = 0.2f;
 
 static sbf_asset *make_box(void) {
-  static const uint32_t corners[24] = {
-      0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
-  static const uint32_t sizes[6] = {4, 4, 4, 4, 4, 4};
   sbf_asset *asset = sbf_asset_create(NULL);
   sbf_rigid_body *body = asset ? sbf_asset_allocate(asset, 1, sizeof *body) : NULL;
-  sbf_polygon_mesh *hull = body ? sbf_asset_allocate(asset, 1, sizeof *hull) : NULL;
-  sbf_vec3 *points = hull ? sbf_asset_allocate(asset, 8, sizeof *points) : NULL;
-  if (!points) bench_fail("memory ran out");
-  for (int i = 0; i < 8; i++)
-    points[i] = (sbf_vec3){
-        i & 1 ? 0.5f * SIDE_M : -0.5f * SIDE_M, i & 2 ? SIDE_M : 0, i & 4 ? 0.5f * SIDE_M : -0.5f * SIDE_M};
-  sbf_polygon_mesh_init(hull);
-  hull->positions = (sbf_vec3_list){points, 8};
-  hull->polygon_sizes = (sbf_u32_list){sizes, 6};
-  hull->polygon_points = (sbf_u32_list){corners, 24};
+  if (!body) bench_fail("memory ran out");
   sbf_rigid_body_init(body);
   body->id = "box";
   body->motion = SBF_BODY_MOTION_DYNAMIC;
   body->center = (sbf_vec3){0, 0.5f * SIDE_M, 0};
   body->mass = 1;
-  body->hull = hull;
+  body->hull = box_hull(asset, body->center, (sbf_vec3){SIDE_M, SIDE_M, SIDE_M});
   asset->rigid_bodies = (sbf_rigid_body_list){body, 1};
   return asset;
 }

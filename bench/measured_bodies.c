@@ -23,6 +23,22 @@ static void *allocate(sbf_asset *asset, size_t count, size_t size) {
   return memory;
 }
 
+sbf_polygon_mesh *box_hull(sbf_asset *asset, sbf_vec3 middle, sbf_vec3 size) {
+  static const uint32_t corners[24] = {
+      0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+  static const uint32_t sizes[6] = {4, 4, 4, 4, 4, 4};
+  sbf_polygon_mesh *hull = allocate(asset, 1, sizeof *hull);
+  sbf_vec3 *points = allocate(asset, 8, sizeof *points);
+  sbf_polygon_mesh_init(hull);
+  for (int i = 0; i < 8; i++)
+    points[i] = (sbf_vec3){middle.x + size.x * (i & 1 ? 0.5f : -0.5f),
+        middle.y + size.y * (i & 2 ? 0.5f : -0.5f), middle.z + size.z * (i & 4 ? 0.5f : -0.5f)};
+  hull->positions = (sbf_vec3_list){points, 8};
+  hull->polygon_sizes = (sbf_u32_list){sizes, 6};
+  hull->polygon_points = (sbf_u32_list){corners, 24};
+  return hull;
+}
+
 static builder begin(uint32_t points) {
   builder b = {.asset = sbf_asset_create(NULL)};
   if (!b.asset) bench_fail("memory ran out");

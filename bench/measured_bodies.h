@@ -4,6 +4,9 @@
 
 #include "sbfmt/asset.h"
 
+/* The hull of a box. */
+sbf_polygon_mesh *box_hull(sbf_asset *asset, sbf_vec3 middle, sbf_vec3 size);
+
 /* A sheet of side x side points, 1 cm apart, held at two corners: springs along its rows, its columns and one
  * diagonal. 200: 40,000 points, 119,201 springs. */
 sbf_asset *cloth_of_springs(uint32_t side);

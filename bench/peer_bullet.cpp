@@ -1,4 +1,4 @@
-#include "peer_bullet.h"
+#include "peer_bullet_falls.h"
 
 #include <cstdio>
 #include <memory>
@@ -26,9 +26,12 @@ struct bullet_body {
   btDeformableMultiBodyConstraintSolver deformable_solver;
   std::unique_ptr<btDeformableLagrangianForce> gravity, elastic;
   std::unique_ptr<btDiscreteDynamicsWorld> world;
+  std::unique_ptr<btCollisionShape> ball_shape;
+  std::unique_ptr<btRigidBody> ball;
   std::unique_ptr<btSoftBody> body;
   ~bullet_body() {
     if (body) world->removeCollisionObject(body.get());
+    if (ball) world->removeRigidBody(ball.get());
   }
 };
 
@@ -72,6 +75,25 @@ bullet_body *bullet_make_links(const bullet_shape *shape, uint32_t iterations, f
   btSoftBodyHelpers::ReoptimizeLinkOrder(made->body.get()); /* takes half of the time it took */
   made->body->updateConstants();
   world->addSoftBody(made->body.get());
+  return made.release();
+}
+
+bullet_body *bullet_make_links_over_ball(const bullet_shape *shape, uint32_t iterations, float share,
+    float step_s, sbf_vec3 center, float radius, float friction) {
+  std::unique_ptr<bullet_body> made(bullet_make_links(shape, iterations, share, step_s));
+  auto &distances = static_cast<btSoftRigidDynamicsWorld *>(made->world.get())->getWorldInfo().m_sparsesdf;
+  distances.setDefaultVoxelsz(btScalar(0.02)); /* unasked 0.25 m: far too coarse for this ball */
+  distances.Reset();
+  made->ball_shape = std::make_unique<btSphereShape>(radius);
+  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, made->ball_shape.get());
+  info.m_startWorldTransform.setIdentity();
+  info.m_startWorldTransform.setOrigin(btVector3(center.x, center.y, center.z));
+  info.m_friction = friction;
+  made->ball = std::make_unique<btRigidBody>(info);
+  made->world->addRigidBody(made->ball.get());
+  made->body->m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
+  made->body->m_cfg.kDF = friction;
+  made->body->getCollisionShape()->setMargin(btScalar(0.001));
   return made.release();
 }
 

@@ -1,4 +1,5 @@
-/* Bullet's soft bodies, to compare with: one body in a world of its own, without anything to collide with.
+/* Bullet's soft bodies, to compare with: one body in a world of its own, without anything to collide with
+ * (peer_bullet_falls.h has that).
  * Where the program was built without Bullet, nothing can be made. */
 #ifndef BENCH_PEER_BULLET_H
 #define BENCH_PEER_BULLET_H

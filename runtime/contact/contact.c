@@ -162,6 +162,25 @@ static void turn_planes_into_touches(
   }
 }
 
+/* Marks touches of points that nothing else pushes. A body with samples has points that several of them are
+ * carried by. */
+static void find_alone(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
+  sbri_touch *touches = tables->touches + body->first_touch;
+  uint32_t count = tables->touch_counts[body - t->model->bodies];
+  memset(tables->slot_touches + body->slot_begin, 0, body->slot_end - body->slot_begin);
+  for (uint32_t i = 0; i < count; i++)
+    for (int k = 0; k < 4; k++) {
+      uint32_t slot = touches[i].sample.slots[k];
+      bool moves = touches[i].sample.weights[k] != 0 && slot < t->island->free_count;
+      if (moves && tables->slot_touches[slot] < 2) tables->slot_touches[slot]++;
+    }
+  for (uint32_t i = 0; i < count; i++) {
+    const sbri_sample *s = &touches[i].sample;
+    touches[i].alone = s->weights[0] == 1 && s->weights[1] == 0 && s->weights[2] == 0 && s->weights[3] == 0 &&
+                       s->slots[0] < t->island->free_count && tables->slot_touches[s->slots[0]] == 1;
+  }
+}
+
 void sbri_contact_prepare(
     const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *tables) {
   tables->touch_counts[body - t->model->bodies] = 0;
@@ -176,5 +195,8 @@ void sbri_contact_prepare(
     sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};
     sbri_self_touches_add(t, body, tables, &tree, tables->self_boxes);
   }
-  if (*count > before && !body->samples) turn_planes_into_touches(t, body, tables);
+  if (*count > before && !body->samples) {
+    turn_planes_into_touches(t, body, tables);
+    find_alone(t, body, tables);
+  }
 }

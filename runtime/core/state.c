@@ -92,6 +92,7 @@ void sbri_layout_make(sbr_model *model) {
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
   l->touches = place(&end, samples, sizeof(sbri_touch));
   l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
+  l->slot_touches = place(&end, slots, 1);
   l->self_boxes = place(&end, self_faces, sizeof(sbri_box));
   l->self_nodes = place(&end, 2 * self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
   l->self_items = place(&end, self_faces, sizeof(uint32_t));

@@ -36,6 +36,7 @@ typedef struct sbri_touch {
   float friction_share, restitution; /* of the body's coefficient of friction; its own */
   uint32_t collider; /* number of the collider, or SBRI_NO_COLLIDER: the ground, or SBRI_ITSELF: the
         body, against the corners whose weights are below 0 */
+  bool alone;        /* the sample is one free point that no other touch moves */
   /* Of solvers/touches.c, from substep to substep: */
   float gap, wanted; /* m and m/s, at the beginning of one */
   float gain;        /* m/s that the push gives the sample along the normal */
@@ -111,6 +112,7 @@ static inline sbf_vec3 sbri_slot_velocity(const sbri_island_tick *t, const float
 static inline sbf_vec3 sbri_sample_place(const sbri_island_tick *t, const sbri_sample *s) {
   sbf_vec3 x = {0, 0, 0};
   for (int k = 0; k < 4; k++) {
+    if (s->weights[k] == 0) continue;
     const sbri_point *p = &t->positions[s->slots[k]];
     x.x += s->weights[k] * p->x, x.y += s->weights[k] * p->y, x.z += s->weights[k] * p->z;
   }

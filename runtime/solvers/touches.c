@@ -28,7 +28,8 @@ static touching touching_of(const sbri_island_tick *t, const sbri_body *body, fl
 static sbf_vec3 velocity_of(const touching *c, const sbri_sample *s) {
   sbf_vec3 v = {0, 0, 0};
   for (int k = 0; k < 4; k++)
-    v = sbri_add_scaled(v, sbri_slot_velocity(c->tick, c->velocities, s->slots[k]), s->weights[k]);
+    if (s->weights[k] != 0)
+      v = sbri_add_scaled(v, sbri_slot_velocity(c->tick, c->velocities, s->slots[k]), s->weights[k]);
   return v;
 }
 
@@ -41,7 +42,7 @@ static void push(const touching *c, const sbri_sample *s, sbf_vec3 faster, sbf_v
   const sbri_island *island = c->tick->island;
   for (int k = 0; k < 4; k++) {
     uint32_t slot = s->slots[k];
-    if (slot >= island->free_count) continue;
+    if (slot >= island->free_count || s->weights[k] == 0) continue;
     float share = s->weights[k] * island->inverse_masses[slot] * s->mass_kg;
     float *v = c->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     v[0] += share * faster.x, v[SBRI_BLOCK] += share * faster.y, v[2 * SBRI_BLOCK] += share * faster.z;
@@ -65,24 +66,58 @@ static float friction_of(const touching *c, const sbri_touch *touch, const sbri_
 
 static const sbf_vec3 nowhere = {0, 0, 0};
 
-/* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. Says whether
- * it may touch. */
-static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
-  sbf_vec3 v = velocity_of(c, &touch->sample);
-  float gap = gap_of(c, touch), speed = sbri_dot(touch->normal, sbri_sub(v, touch->velocity));
-  touch->gap = gap;
-  touch->wanted = gap > 0 ? -gap / rule->step_s : 0;
-  float back = -touch->restitution * speed;
-  if (gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s && back > touch->wanted)
-    touch->wanted = back;
-  return touch->gain > 0 || gap < rule->step_s * (NEAR_M_S - speed);
+/* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
+static float wanted_of(const sbri_touch *touch, float speed, const sbri_contact_rule *rule) {
+  float arriving = touch->gap > 0 ? -touch->gap / rule->step_s : 0, back = -touch->restitution * speed;
+  bool bounces = touch->gap + rule->step_s * speed < 0 && speed < -rule->bounce_from_m_s;
+  return bounces && back > arriving ? back : arriving;
 }
 
-/* Brings those that may touch to the front; how many. */
+/* Says whether it may touch. */
+static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+  sbf_vec3 v = velocity_of(c, &touch->sample);
+  float speed = sbri_dot(touch->normal, sbri_sub(v, touch->velocity));
+  touch->gap = gap_of(c, touch);
+  touch->wanted = wanted_of(touch, speed, rule);
+  return touch->gain > 0 || touch->gap < rule->step_s * (NEAR_M_S - speed);
+}
+
+/* What is below its plane and was pushed goes up, at a limited rate. */
+static float lift_of(const sbri_touch *touch, const sbri_contact_rule *rule) {
+  float up = -touch->gap - rule->slack_m;
+  return up < rule->push_m ? up : rule->push_m;
+}
+
+/* What all that follows comes to for one that is alone: no other push changes what it sees. */
+static void answer_alone(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+  uint32_t slot = touch->sample.slots[0];
+  float *velocity = c->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+  sbri_point *x = &c->tick->positions[slot];
+  sbf_vec3 n = touch->normal, v = {velocity[0], velocity[SBRI_BLOCK], velocity[2 * SBRI_BLOCK]};
+  v = sbri_sub(v, touch->velocity);
+  float speed = sbri_dot(n, v);
+  touch->gap = sbri_dot(n, sbri_vec3(x->x, x->y, x->z)) - touch->offset;
+  touch->gain = wanted_of(touch, speed, rule) - speed;
+  if (!(touch->gain > 0)) {
+    touch->gain = 0;
+    return;
+  }
+  sbf_vec3 sideways = sbri_add_scaled(v, n, -speed);
+  float size = sbri_length(sideways), most = friction_of(c, touch, rule) * touch->gain;
+  sbf_vec3 change = sbri_scale(n, touch->gain);
+  change = sbri_add_scaled(change, sideways, size > most ? -most / size : -1);
+  velocity[0] += change.x, velocity[SBRI_BLOCK] += change.y, velocity[2 * SBRI_BLOCK] += change.z;
+  float up = lift_of(touch, rule);
+  if (up > 0) x->x += up * n.x, x->y += up * n.y, x->z += up * n.z;
+  touch->pushed = touch->gain > touch->pushed ? touch->gain : touch->pushed;
+}
+
+/* Answers those that are alone, and brings those others that may touch to the front; how many. */
 static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
   uint32_t near = 0;
   for (uint32_t i = 0; i < c->count; i++) {
-    if (!begin(c, &c->touches[i], rule)) continue;
+    if (c->touches[i].alone) answer_alone(c, &c->touches[i], rule);
+    if (c->touches[i].alone || !begin(c, &c->touches[i], rule)) continue;
     sbri_touch first = c->touches[near];
     c->touches[near++] = c->touches[i];
     c->touches[i] = first;
@@ -126,9 +161,8 @@ void sbri_touches_answer(
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_touch *touch = &c.touches[i];
     touch->pushed = touch->gain > touch->pushed ? touch->gain : touch->pushed;
-    float up = -touch->gap - rule->slack_m;
-    if (touch->gain > 0 && up > 0)
-      push(&c, &touch->sample, nowhere, sbri_scale(touch->normal, up < rule->push_m ? up : rule->push_m));
+    float up = lift_of(touch, rule);
+    if (touch->gain > 0 && up > 0) push(&c, &touch->sample, nowhere, sbri_scale(touch->normal, up));
   }
 }
 
