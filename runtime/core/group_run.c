@@ -13,7 +13,7 @@
 #include "solvers/tetrahedron_forces.h"
 
 /* Of a tick: touches that change within one are answered well by no fewer. */
-enum { LEAST_STEPS = 8, MOST_STEPS = 128 };
+enum { LEAST_STEPS = 4, MOST_STEPS = 128 };
 /* And soft bodies that press on each other by no fewer, for each substep that they need alone. */
 enum { STEPS_OF_SOFT = 2 };
 
@@ -145,34 +145,11 @@ static void end(const sbr_world *world, sbri_meet_member *m) {
     if (c->model->islands[i].scheme->forceless) sbri_island_run(world, c, i);
 }
 
-/* Puts a member's state aside, and takes it back. */
-static void keep(const sbri_meetings *all, const sbr_world *world, sbri_meet_member *m, bool restore) {
-  unsigned char *state = m->character->state, *kept = all->kept[m->character - world->characters];
-  size_t bytes = m->character->model->layout.state_size;
-  memcpy(restore ? state : kept, restore ? kept : state, bytes);
-  if (!restore) m->last_step_s = m->parts.steps ? m->parts.work.last_step_s : 0;
-  if (!restore) return;
-  if (m->parts.steps) m->parts.work.last_step_s = m->last_step_s;
-  m->reached = 0;
-  for (uint32_t i = 0; i < m->character->model->island_count; i++) {
-    const sbri_island *island = &m->character->model->islands[i];
-    if (is_own(m, i) || sbri_island_is_coupled(m->character, i)) hold(m->character, island);
-  }
-  m->held_rate = 1 / m->tick_s;
-}
-
-/* What is pressed on needs to know what a step will do to it: a first one is taken and taken back. Says
- * whether that was needed; where not, nothing is changed and nothing is to be pushed in the first step. */
-static bool try_first_step(const sbr_world *world, sbri_meet_group *group, float share) {
-  sbri_meetings *all = world->meetings;
-  sbri_meet_member *members = all->members + group->first_member;
-  for (uint32_t i = 0; i < group->member_count; i++) keep(all, world, &members[i], false);
-  sbri_meet_expect_fall(all, group, world, (float)world->tick_s * share);
-  if (!sbri_meet_push(all, group, (float)world->tick_s * share)) return false;
-  for (uint32_t i = 0; i < group->member_count; i++) advance(world, &members[i], 0, share);
-  sbri_meet_look(all, group);
-  for (uint32_t i = 0; i < group->member_count; i++) keep(all, world, &members[i], true);
-  return true;
+/* Up to one of few numbers: steps that change from tick to tick drive what swings. */
+static uint32_t rounded_steps(uint32_t steps) {
+  uint32_t rounded = LEAST_STEPS;
+  while (rounded < steps) rounded = rounded % 3 ? rounded / 2 * 3 : rounded / 3 * 4;
+  return rounded < MOST_STEPS ? rounded : MOST_STEPS;
 }
 
 void sbri_group_run(sbr_world *world, sbri_meet_group *group) {
@@ -183,16 +160,18 @@ void sbri_group_run(sbr_world *world, sbri_meet_group *group) {
     uint32_t own = begin(world, &members[i]);
     steps = own > steps ? own : steps;
   }
-  if (steps > MOST_STEPS) steps = MOST_STEPS;
+  steps = rounded_steps(steps);
   for (uint32_t i = 0; i < group->member_count; i++)
     if (members[i].parts.steps) members[i].parts.tick.substeps = steps;
+  sbri_meet_movers_list(world->meetings, group);
   sbri_meet_touches_find(world, group);
-  bool pushed = try_first_step(world, group, 1 / (float)steps);
+  group->step_s = (float)world->tick_s / (float)steps;
+  sbri_meet_recall(world->meetings, group, group->step_s);
   for (uint32_t k = 0; k < steps; k++) {
     float from = (float)k / (float)steps, to = (float)(k + 1) / (float)steps;
-    if (k > 0 || pushed) (void)sbri_meet_push(world->meetings, group, (float)world->tick_s * (to - from));
+    sbri_meet_push(world, group, k == 0);
     for (uint32_t i = 0; i < group->member_count; i++) advance(world, &members[i], from, to);
-    sbri_meet_look(world->meetings, group);
   }
+  sbri_meet_look(world->meetings, group);
   for (uint32_t i = 0; i < group->member_count; i++) end(world, &members[i]);
 }

@@ -5,6 +5,7 @@
 #include "base/diagnostic.h"
 #include "base/hash64.h"
 #include "core/world.h"
+#include "meet/meetings.h"
 
 typedef struct snapshot_head {
   uint64_t magic, size, ticks, characters;
@@ -21,6 +22,7 @@ static const uint64_t MAGIC = 0x31706e7372627321; /* "!sbrsnp1" */
 
 size_t sbr_world_snapshot_size(const sbr_world *world) {
   size_t size = sizeof(snapshot_head);
+  if (world) size += sbri_meet_memory_size(world);
   for (uint32_t i = 0; world && i < world->character_capacity; i++)
     if (world->characters[i].model)
       size += sizeof(snapshot_part) + world->characters[i].model->layout.state_size;
@@ -47,6 +49,7 @@ sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t s
     memcpy(to + sizeof part, c->state, part.size);
     to += sizeof part + part.size;
   }
+  sbri_meet_memory_save(world, to);
   return SBF_OK;
 }
 
@@ -86,6 +89,7 @@ sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_
     from += c->model->layout.state_size;
     sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
   }
+  sbri_meet_memory_restore(world, from);
   return SBF_OK;
 }
 
@@ -114,6 +118,16 @@ uint64_t sbr_world_state_hash(const sbr_world *world) {
         (l->solids - l->positions) / sizeof(float));
     sbfi_hash64_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids),
         (l->state_size - l->solids) / sizeof(uint32_t));
+  }
+  for (uint32_t i = 0; world->meetings && i < world->meetings->memory_count; i++) {
+    const sbri_meet_memory *m = &world->meetings->memories[i];
+    sbfi_hash64_u64(&hash, m->names, 2);
+    sbfi_hash64_u32(&hash, &m->feature, 1);
+    sbfi_hash64_f32(&hash, &m->at.x, 3);
+    sbfi_hash64_f32(&hash, &m->force, 1);
+    sbfi_hash64_f32(&hash, &m->rub.x, 3);
+    sbfi_hash64_f32(&hash, &m->slid.x, 3);
+    sbfi_hash64_f32(&hash, &m->pull, 1);
   }
   return sbfi_hash64_value(&hash);
 }

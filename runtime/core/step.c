@@ -216,7 +216,10 @@ void sbri_step_tick(sbr_world *world) {
   sbri_colliders_begin_tick(&world->colliders);
   if (world->meetings) sbri_meet_pairs_find(world);
   run(world, tick_character, world->character_capacity);
-  if (world->meetings) run(world, tick_group, world->meetings->group_count);
+  if (world->meetings) {
+    run(world, tick_group, world->meetings->group_count);
+    sbri_meet_remember(world);
+  }
   sbri_work_list(world);
   run(world, tick_island, world->work_count);
   follow_tears(world);

@@ -80,6 +80,11 @@ static void add(const finding *f, const party *a, const party *b, const sbri_mee
   *t = *touch;
   t->friction = sqrtf(a->friction * b->friction);
   t->restitution = a->restitution > b->restitution ? a->restitution : b->restitution;
+  float sizes[2] = {a->soft ? a->soft->rest_size_m * a->of->scale : INFINITY,
+      b->soft ? b->soft->rest_size_m * b->of->scale : INFINITY};
+  t->soft_m = sizes[0] < sizes[1] ? sizes[0] : sizes[1];
+  if (t->soft_m == INFINITY) t->soft_m = 0;
+  t->names[0] = sbri_meet_name(a->is), t->names[1] = sbri_meet_name(b->is);
 }
 
 /* ---- Soft with soft ---- */
@@ -149,7 +154,8 @@ static void meet_faces(const finding *f, const party *a, const party *b) {
       if (rest <= TOGETHER_SHARE * a->soft->rest_size_m * a->of->scale) continue;
       margin = REST_SHARE * rest < margin ? REST_SHARE * rest : margin;
     }
-    sbri_meet_touch t = {.a = soft_side(a, &v, &whole, 1),
+    sbri_meet_touch t = {.feature = v,
+        .a = soft_side(a, &v, &whole, 1),
         .b = soft_side(b, corners, best.weights, 3),
         .normal = best.normal,
         .margin = margin};
@@ -211,7 +217,8 @@ static void meet_hull(const finding *f, const party *soft, const party *rigid) {
       float together = TOGETHER_SHARE * soft->soft->rest_size_m;
       if (sbri_hull_depth(hull, into(&rest, rest_of(soft, v), scale), &face) <= together) continue;
     }
-    sbri_meet_touch t = {.a = soft_side(soft, &v, &whole, 1),
+    sbri_meet_touch t = {.feature = v,
+        .a = soft_side(soft, &v, &whole, 1),
         .b = rigid_side(rigid, place),
         .normal = sbri_rotate(from.rotation, normal),
         .margin = margin};
@@ -234,7 +241,8 @@ static void meet_corners(const finding *f, const party *rigid, const party *soft
       float together = TOGETHER_SHARE * soft->soft->rest_size_m * soft->of->scale;
       if (sbri_surface_gap(&rule, out_of(&rest, own, rigid->of->scale), p) <= together) continue;
     }
-    sbri_meet_touch t = {.a = rigid_side(rigid, own),
+    sbri_meet_touch t = {.feature = i,
+        .a = rigid_side(rigid, own),
         .b = soft_side(soft, corners, best.weights, 3),
         .normal = best.normal,
         .margin = margin_between(rigid, soft)};
@@ -285,7 +293,11 @@ static void add_planes(const finding *f, uint32_t member) {
         .b = {.member = member,
             .rigid_body = SBRI_MEET_PLANE,
             .at = sbri_add_scaled(m->offset, on, m->scale),
-            .arm = sbri_scale(from->velocity, m->speed)},
+            .goes = sbri_scale(from->velocity, m->speed)},
+        .names = {sbri_meet_name(&(sbri_meeter){.character = (uint32_t)(m->character - f->world->characters),
+                      .number = from->body,
+                      .rigid = true}),
+            SBRI_MEET_NAME_OF_GROUND - (from->collider + 1)},
         .normal = from->normal,
         .friction = from->friction};
   }

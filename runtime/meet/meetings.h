@@ -49,6 +49,7 @@ typedef struct sbri_meet_member {
   float held_rate;    /* 1/s of its own: what held points go between `begins` and `targets`, times this */
   float last_step_s;  /* of its rigid parts, when the tick began */
   sbri_rigid_parts parts;
+  uint32_t first_mover; /* of the group's: of its first rigid body */
 } sbri_meet_member;
 
 /* ---- Touches ---- */
@@ -62,31 +63,87 @@ typedef struct sbri_meet_side {
   uint32_t island, count;
   uint32_t slots[SBRI_MEET_SLOTS];
   float weights[SBRI_MEET_SLOTS];
-  sbf_vec3 at; /* in the rigid body's own frame */
-  sbf_vec3
-      arm; /* of a step: from its centre of mass to where it is pushed, its own metres, the world's axes */
+  sbf_vec3 at;   /* in the rigid body's own frame, m; of a plane: a place on it when the tick begins */
+  sbf_vec3 goes; /* m/s of a plane */
 } sbri_meet_side;
 
 typedef struct sbri_meet_touch {
   sbri_meet_side a, b;
+  uint64_t names[2]; /* sbri_meet_name of both, and which place of them it is: */
+  uint32_t feature;
   sbf_vec3 normal; /* unit, from b to a */
   float margin;    /* m that they keep */
   float friction, restitution;
   /* From step to step: */
-  sbf_vec3 after; /* velocity of a against b when its pushes were over */
-  sbf_vec3 drift; /* what the step before has changed that by since */
+  sbf_vec3 slid;   /* m across, of a against b since they stick */
+  sbf_vec3 apart;  /* and where a was from b when that was so */
+  float soft_m;    /* size of the smaller of both that is soft; 0: neither is */
+  float pull;      /* m/s along the normal, that a step adds */
+  float after;     /* m/s along the normal, when its pushes were over, */
+  bool was_pushed; /* if they have been and no step's begin has looked at it since */
+  float gain;      /* N s along the normal */
+  sbf_vec3 rub;    /* N s across it */
   bool pushed;
-  /* In a step: */
-  float gap, wanted, mass;
-  float gain;        /* N s along the normal */
-  sbf_vec3 rub;      /* N s across it */
-  sbf_vec3 expected; /* what the step will change the velocity by */
+  bool is_new; /* nobody remembers it from the tick before */
 } sbri_meet_touch;
+
+/* What is kept of a touch that pushed, from tick to tick: what it will be pushed with again, to begin with.
+ */
+typedef struct sbri_meet_memory {
+  uint64_t names[2];
+  uint32_t feature;
+  sbf_vec3 at;   /* in a's own frame, if it is rigid */
+  float force;   /* N along the normal */
+  sbf_vec3 rub;  /* N across it */
+  sbf_vec3 slid; /* m across */
+  float pull;    /* m/s^2 along the normal */
+} sbri_meet_memory;
+
+/* A rigid body that gives way, as pushes see it in a step. */
+typedef struct sbri_meet_mover {
+  uint32_t member, body;
+  sbf_vec3 position, fine; /* and what that has beyond its rounded numbers */
+  float turn[3][3];        /* its own axes to the world's */
+  sbf_vec3 velocity, spin; /* m/s, rad/s */
+  float ease;              /* 1/kg */
+  float eases[3][3];       /* 1/(kg m^2), about the world's axes */
+  sbf_vec3 given, moment;  /* N s and N m s: the pushes so far */
+} sbri_meet_mover;
+
+/* A side as pushes see it in a step: a mover, or points and what nothing pushes. */
+typedef struct sbri_meet_end {
+  sbri_meet_mover *mover; /* NULL: points */
+  sbf_vec3 arm;           /* m, from the mover's centre of mass to where it is pushed */
+  sbf_vec3 made;          /* the arm that the row's eases are for */
+  sbf_vec3 still;         /* m/s, of what is not pushed */
+  uint32_t count;
+  float speed;                                            /* of the points' numbers */
+  float *points[SBRI_MEET_SLOTS];                         /* their velocities, each SBRI_BLOCK apart */
+  float weights[SBRI_MEET_SLOTS], eases[SBRI_MEET_SLOTS]; /* 1/kg, times the weight, in those numbers */
+} sbri_meet_end;
+
+/* A touch in a step. */
+typedef struct sbri_meet_row {
+  sbri_meet_touch *touch;
+  sbf_vec3 normal, wanted; /* m/s: of the velocity, but for what is expected */
+  float friction, mass;    /* kg along the normal */
+  float eases[6];          /* 1/kg of both against each other, xx yy zz xy xz yz; its inverse: */
+  float block[6];
+  float gain;
+  sbf_vec3 rub;
+  sbf_vec3 way, change; /* N s, of passes so far and of the present one */
+  float gap;
+  sbf_vec3 apart; /* a from b, m */
+  bool bears;     /* takes part */
+  sbri_meet_end a, b;
+} sbri_meet_row;
 
 typedef struct sbri_meet_group {
   uint32_t first_member, member_count; /* in `members` */
   uint32_t first_pair, pair_count;
   uint32_t first_touch, touch_count, touch_capacity;
+  uint32_t first_mover, mover_count;
+  float step_s; /* of this tick */
   sbr_double3 origin;
 } sbri_meet_group;
 
@@ -105,6 +162,14 @@ typedef struct sbri_meetings {
   sbri_meet_pair *pairs; /* (touch_capacity) */
   uint32_t pair_count;
   sbri_meet_touch *touches; /* (touch_capacity) */
+  sbri_meet_row *rows;      /* likewise */
+  /* (touch_capacity) of the tick before and of this one, those of a pair beside each other; state. */
+  sbri_meet_memory *memories, *next_memories;
+  uint32_t memory_count;
+  uint32_t
+      *found_memories; /* (found_capacity, a power of two) by names: where a pair's begin, or UINT32_MAX */
+  uint32_t found_capacity;
+  sbri_meet_mover *movers; /* (meeter_capacity) group after group */
   uint32_t touch_capacity, character_capacity;
 } sbri_meetings;
 
@@ -129,16 +194,42 @@ void sbri_meet_pairs_find(sbr_world *world);
 /* The touches of a group that begins to step, up to its capacity. */
 void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group);
 
+/* ---- meet/remember.c ---- */
+
+static inline uint64_t sbri_meet_name(const sbri_meeter *is) {
+  return (uint64_t)is->character << 32 | (uint64_t)is->rigid << 31 | is->number;
+}
+/* Those of the host's shapes come before it. */
+#define SBRI_MEET_NAME_OF_GROUND UINT64_MAX
+
+/* Whether the two touched in the tick before. */
+bool sbri_meet_is_remembered(const sbri_meetings *all, const uint64_t names[2]);
+/* What the group's touches have from the tick before. */
+void sbri_meet_recall(const sbri_meetings *all, const sbri_meet_group *group, float step_s);
+/* Keeps what pushes now, when all groups have stepped with steps of that share of the tick. */
+void sbri_meet_remember(sbr_world *world);
+/* Of a snapshot: the memories, as many bytes whatever there is. */
+size_t sbri_meet_memory_size(const sbr_world *world);
+void sbri_meet_memory_save(const sbr_world *world, unsigned char *to);
+void sbri_meet_memory_restore(sbr_world *world, const unsigned char *from);
+
+/* ---- meet/ends.c ---- */
+
+/* The movers of a group that begins to step, and which each touch has. */
+void sbri_meet_movers_list(const sbri_meetings *all, sbri_meet_group *group);
+/* Where they are and how they move now. */
+void sbri_meet_movers_read(const sbri_meetings *all, const sbri_meet_group *group);
+/* Gives the bodies what the movers were given. */
+void sbri_meet_movers_write(const sbri_meetings *all, const sbri_meet_group *group);
+/* The two ends of a touch now, its gap but for the margin, and where the tick is new its eases. */
+void sbri_meet_row_begin(
+    const sbri_meetings *all, const sbri_meet_group *group, sbri_meet_row *row, bool is_new);
+
 /* ---- meet/push.c ---- */
 
-sbf_vec3 sbri_meet_place(const sbri_meet_member *members, const sbri_meet_side *side);
-sbf_vec3 sbri_meet_velocity(const sbri_meet_member *members, const sbri_meet_side *side);
-/* Pushes before a step that takes so long; whether anything was pushed. */
-bool sbri_meet_push(const sbri_meetings *all, const sbri_meet_group *group, float step_s);
-/* Before the first step: all that is free will fall by its weight. */
-void sbri_meet_expect_fall(
-    const sbri_meetings *all, const sbri_meet_group *group, const sbr_world *world, float step_s);
-/* Looks what the step has made of that. */
+/* Pushes before a step, the tick's first or another. */
+void sbri_meet_push(const sbr_world *world, const sbri_meet_group *group, bool first);
+/* Where they have come to when the last step is over. */
 void sbri_meet_look(const sbri_meetings *all, const sbri_meet_group *group);
 
 /* ---- core/group_run.c ---- */

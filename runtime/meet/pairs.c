@@ -182,7 +182,7 @@ static void share_touches(sbri_meetings *all) {
 
 static void make_groups(sbr_world *world) {
   sbri_meetings *all = world->meetings;
-  uint32_t *group_of = all->group_of, filled = 0;
+  uint32_t *group_of = all->group_of, filled = 0, movers = 0;
   for (uint32_t i = 0; i < all->pair_count;) {
     uint32_t number = group_of[all->meeters[all->pairs[i].a].character] & ~STEPS_ALONG, first = i;
     while (i < all->pair_count && group_of[all->meeters[all->pairs[i].a].character] == number) i++;
@@ -190,6 +190,9 @@ static void make_groups(sbr_world *world) {
     *group = (sbri_meet_group){.first_pair = first, .pair_count = i - first, .first_member = filled};
     if (!add_members(world, group, number)) continue; /* they sleep on */
     filled += group->member_count;
+    group->first_mover = movers;
+    for (uint32_t m = 0; m < group->member_count; m++)
+      movers += all->members[group->first_member + m].character->model->rigid.body_count;
     all->group_count++;
   }
   for (uint32_t i = 0; i < world->character_capacity; i++)

@@ -95,10 +95,11 @@ static void free_meeters(sbr_world *world) {
   size_t capacity = all->meeter_capacity;
   sbfi_free(&world->allocator, all->meeters, capacity * sizeof *all->meeters);
   sbfi_free(&world->allocator, all->boxes, capacity * sizeof *all->boxes);
+  sbfi_free(&world->allocator, all->movers, capacity * sizeof *all->movers);
   sbfi_free(&world->allocator, all->tree.items, capacity * sizeof *all->tree.items);
   sbfi_free(&world->allocator, all->tree.nodes,
       sbri_bounds_tree_nodes(all->meeter_capacity) * sizeof *all->tree.nodes);
-  all->meeters = NULL, all->boxes = NULL, all->tree.items = NULL, all->tree.nodes = NULL;
+  all->meeters = NULL, all->boxes = NULL, all->movers = NULL, all->tree.items = NULL, all->tree.nodes = NULL;
   all->meeter_capacity = all->meeter_count = 0;
 }
 
@@ -116,10 +117,11 @@ bool sbri_meetings_reserve(sbr_world *world, const sbr_model *model) {
   all->meeter_capacity = needed;
   all->meeters = sbfi_allocate(&world->allocator, needed * sizeof *all->meeters);
   all->boxes = sbfi_allocate(&world->allocator, needed * sizeof *all->boxes);
+  all->movers = sbfi_allocate(&world->allocator, needed * sizeof *all->movers);
   all->tree.items = sbfi_allocate(&world->allocator, needed * sizeof *all->tree.items);
   all->tree.nodes =
       sbfi_allocate(&world->allocator, sbri_bounds_tree_nodes(needed) * sizeof *all->tree.nodes);
-  if (all->meeters && all->boxes && all->tree.items && all->tree.nodes) return true;
+  if (all->meeters && all->boxes && all->movers && all->tree.items && all->tree.nodes) return true;
   free_meeters(world);
   return false;
 }
@@ -139,6 +141,10 @@ void sbri_meetings_free(sbr_world *world) {
   sbfi_free(a, all->groups, characters * sizeof *all->groups);
   sbfi_free(a, all->pairs, touches * sizeof *all->pairs);
   sbfi_free(a, all->touches, touches * sizeof *all->touches);
+  sbfi_free(a, all->rows, touches * sizeof *all->rows);
+  sbfi_free(a, all->memories, touches * sizeof *all->memories);
+  sbfi_free(a, all->next_memories, touches * sizeof *all->next_memories);
+  sbfi_free(a, all->found_memories, all->found_capacity * sizeof *all->found_memories);
   sbfi_free(a, all, sizeof *all);
   world->meetings = NULL;
 }

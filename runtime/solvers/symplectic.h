@@ -24,16 +24,15 @@ static inline bool sbri_touches_any(const sbri_island_tick *t) {
   bool any = false;
   for (uint32_t b = 0; b < t->island->body_count; b++)
     any = any || sbri_touch_count(t, &t->model->bodies[t->island->bodies[b]]) > 0;
+  for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
+    any = any || t->near_ground[block];
   return any;
 }
 
 /* How many substeps share a damping of what nothing holds: on the ground each has its own, or bodies would
  * creep by what falls between them. */
 static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {
-  bool lies = sbri_touches_any(t);
-  for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
-    lies = lies || t->near_ground[block];
-  return lies ? 1 : SBRI_SELF_DAMP_EVERY;
+  return sbri_touches_any(t) ? 1 : SBRI_SELF_DAMP_EVERY;
 }
 
 /* Where tetrahedra or gases have stiffened beyond what the substep allows for, the rest of the tick is

@@ -1,5 +1,6 @@
 /* Bodies of characters that meet each other. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "collision_scenes.h"
 #include "core/world.h"
@@ -228,6 +229,7 @@ static double fastest_of(const scene *s) {
       fastest = fmax(fastest, size(scene_slot_velocity(c, &c->model->islands[k], slot)));
   return fastest;
 }
+
 START_TEST(soft_cubes_stand_on_each_other)
 {
   scene s = begin(weight);
@@ -243,7 +245,49 @@ START_TEST(soft_cubes_stand_on_each_other)
   for (uint32_t i = 0; i < 3; i++) { heights(&s, i, &least[i], &most[i]); }
   for (int i = 0; i < 2; i++) ck_assert_float_ge(least[i + 1], most[i] - 0.01f);
   ck_assert_float_ge(most[2], 0.62f);
-  ck_assert_double_le(fastest_of(&s), 0.05);
+  scene_ticks(&s, 60);
+  ck_assert_double_le(fastest_of(&s), 1e-3);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(a_soft_cube_lies_still)
+{
+  scene s = begin(weight);
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.character_definition.position.y = 0;
+  scene_bodies(&s, 1);
+  cube(&s, 0, (sbf_vec3){0, 0.001f, 0}, 0.3f, 1000);
+  start(&s);
+  scene_ticks(&s, 360);
+  for (int i = 0; i < 12; i++) {
+    scene_ticks(&s, 1);
+    ck_assert_double_le(fastest_of(&s), 1e-3);
+  }
+  scene_free(&s);
+}
+END_TEST
+
+/* What touches push with goes on from a snapshot as it would have without. */
+START_TEST(snapshots_hold_what_touches_push_with)
+{
+  scene s = begin(weight);
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.character_definition.position.y = 0;
+  for (int i = 0; i < 3; i++)
+    rigid_box(&s, (sbf_vec3){0.03f * (float)(i % 2), 0.101f + 0.202f * (float)i, 0},
+        (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
+  start(&s);
+  scene_ticks(&s, 20);
+  size_t size = sbr_world_snapshot_size(s.world);
+  unsigned char *kept = malloc(size);
+  ck_assert(sbr_world_snapshot_save(s.world, kept, size) == SBF_OK);
+  scene_ticks(&s, 40);
+  uint64_t hash = sbr_world_state_hash(s.world);
+  ck_assert(sbr_world_snapshot_restore(s.world, kept, size) == SBF_OK);
+  scene_ticks(&s, 40);
+  ck_assert_uint_eq(hash, sbr_world_state_hash(s.world));
+  free(kept);
   scene_free(&s);
 }
 END_TEST
@@ -347,6 +391,8 @@ int main(void) {
   tcase_add_test(tests, a_sheet_holds_what_falls_on_it);
   tcase_add_test(tests, a_fast_ball_does_not_pass_a_sheet);
   tcase_add_test(tests, soft_cubes_stand_on_each_other);
+  tcase_add_test(tests, a_soft_cube_lies_still);
+  tcase_add_test(tests, snapshots_hold_what_touches_push_with);
   tcase_add_test(tests, soft_cubes_of_two_characters_keep_momentum);
   tcase_add_test(tests, overlap_at_rest_does_not_fight);
   tcase_add_test(tests, filters_let_through);

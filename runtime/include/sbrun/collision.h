@@ -101,8 +101,9 @@ SBF_API void sbr_collider_place(
 /* From now on bodies of characters meet each other as well: soft ones, and hulls of rigid ones, of one
  * character and of several, by the layers and masks of the file. Up to `touch_capacity` places at once (0:
  * 4096); of more, some pass through each other. Parts of one character that lie in each other at rest, that
- * are jointed, or hold each other, do not. Who may touch is stepped in one task. Call it for a world before
- * it is stepped; a second call changes nothing. SBF_FAILED where memory runs out. */
+ * are jointed, or hold each other, do not. Who may touch is stepped in one task. What touches have pushed
+ * with is kept from tick to tick: snapshots take room for `touch_capacity` of them. Call it for a world
+ * before it is stepped; a second call changes nothing. SBF_FAILED where memory runs out. */
 SBF_API sbf_status sbr_world_bodies_meet(sbr_world *world, uint32_t touch_capacity, sbf_diagnostic *error);
 
 /* ---- Questions ---------------------------------------------------------------------------------------- */
