@@ -177,6 +177,70 @@ START_TEST(lattices)
 }
 END_TEST
 
+/* Two prongs of unit cubes, six high and one cube apart, on one foot; each cube is six tetrahedra. */
+enum { FORK_CUBES = 13, FORK_WIDTH = 4, FORK_HEIGHT = 7, FORK_POINTS = FORK_WIDTH * FORK_HEIGHT * 2 };
+
+static uint32_t fork_point(uint32_t x, uint32_t y, uint32_t z) {
+  return (z * FORK_HEIGHT + y) * FORK_WIDTH + x;
+}
+
+static void fill_cube(sbf_uint4 *six, uint32_t x, uint32_t y) {
+  static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+  for (int t = 0; t < 6; t++) {
+    uint32_t at[3] = {x, y, 0};
+    for (int k = 0; k < 4; k++) {
+      six[t].at[k] = fork_point(at[0], at[1], at[2]);
+      if (k < 3) at[orders[t][k]]++;
+    }
+  }
+}
+
+static sbf_level fork_level(void) {
+  static const sbf_vec3 frame[] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
+  sbf_vec3 *points = sbf_asset_allocate(asset, FORK_POINTS + 4, sizeof *points);
+  sbf_uint4 *made = sbf_asset_allocate(asset, 6 * FORK_CUBES, sizeof *made);
+  sbf_level level;
+  sbf_level_init(&level);
+  for (uint32_t i = 0; i < FORK_POINTS; i++)
+    points[i] = (sbf_vec3){(float)(i % FORK_WIDTH), (float)(i / FORK_WIDTH % FORK_HEIGHT),
+        (float)(i / FORK_WIDTH / FORK_HEIGHT)};
+  for (int k = 0; k < 4; k++) points[FORK_POINTS + k] = frame[k];
+  for (uint32_t cube = 0; cube < FORK_CUBES; cube++)
+    fill_cube(&made[6 * cube], cube < 12 ? cube % 2 * 2 : 1, cube < 12 ? cube / 2 : 0);
+  level.positions = (sbf_vec3_list){points, FORK_POINTS + 4};
+  level.lattice.tetrahedra = (sbf_uint4_list){made, 6 * FORK_CUBES};
+  return level;
+}
+
+/* Not on points of the whole body: then a tip would stay where it is when its prong bends. */
+START_TEST(what_lies_beside_a_tip_hangs_on_its_own_prong)
+{
+  sbf_polygon_mesh mesh = shape_cube(asset, 1, 1, (sbf_vec3){0.5f, 0.5f, 0.5f});
+  sbf_soft_body *body = shape_add_body(asset, "fork", &mesh, true);
+  sbf_level level = fork_level();
+  sbfi_carrier carrier;
+  ck_assert(sbfi_carrier_make(&carrier, body, &level, NULL, SBFI_NO_INDEX, &arena));
+  for (int i = 0; i < 1000; i++) {
+    float left = i % 2 ? 0 : 2;
+    sbf_vec3 p = {left + random_between(&state, 0, 1), 6 + random_between(&state, 0, 0.8f),
+        random_between(&state, 0, 1)};
+    sbfi_carried c = sbfi_carrier_carry(&carrier, p, UINT32_MAX);
+    check_place(&level, c, p, 1e-5f);
+    ck_assert_double_le(
+        hypot(hypot(c.weights.x, c.weights.y), hypot(c.weights.z, c.weights.w)), sqrt(3) + 1e-6);
+    for (int k = 0; k < 4; k++) {
+      ck_assert_float_ge(level.positions.at[c.points.at[k]].x, left);
+      ck_assert_float_le(level.positions.at[c.points.at[k]].x, left + 1);
+      ck_assert_float_ge(level.positions.at[c.points.at[k]].y, 3);
+    }
+  }
+  const sbf_vec3 far = {2.5f, 60, 0.5f};
+  check_place(&level, sbfi_carrier_carry(&carrier, far, UINT32_MAX), far, 1e-4f);
+  ck_assert(sbfi_carrier_make(&carrier, body, &level, NULL, FORK_POINTS, &arena));
+  ck_assert_uint_eq(sbfi_carrier_carry(&carrier, far, UINT32_MAX).points.at[0], FORK_POINTS);
+}
+END_TEST
+
 START_TEST(points_without_polygons)
 {
   const sbf_vec3 rope[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
@@ -204,6 +268,7 @@ static Suite *suite(void) {
   tcase_add_test(c, long_bodies_keep_small_weights);
   tcase_add_test(c, flat_bodies_say_how_far_off);
   tcase_add_test(c, lattices);
+  tcase_add_test(c, what_lies_beside_a_tip_hangs_on_its_own_prong);
   tcase_add_test(c, points_without_polygons);
   suite_add_tcase(s, c);
   return s;

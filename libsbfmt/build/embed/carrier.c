@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "build/embed/point_rings.h"
 #include "build/geometry/topology.h"
 #include "mechanics/level_points.h"
 #include "mechanics/vector.h"
@@ -88,13 +89,17 @@ static bool weigh(const sbfi_carrier *c, choice *in, sbfi_d3 position) {
   return true;
 }
 
-/* Tries the triangle with a fourth point; keeps it in `best` where its weights are smaller. */
+/* Keeps it in `best` where its weights are smaller. */
+static void try_choice(const sbfi_carrier *c, choice *tried, sbfi_d3 position, choice *best) {
+  /* A little smaller will not do: then the choice would hang on rounding. */
+  if (weigh(c, tried, position) && tried->size < best->size * (1 - 1e-6)) *best = *tried;
+}
+
+/* Tries the triangle with a fourth point. */
 static void try_fourth(
     const sbfi_carrier *c, const uint32_t corners[3], uint32_t fourth, sbfi_d3 position, choice *best) {
   choice tried = {.points = {corners[0], corners[1], corners[2], fourth}};
-  if (fourth == SBFI_NO_INDEX) return;
-  /* A little smaller will not do: then the choice would hang on rounding. */
-  if (weigh(c, &tried, position) && tried.size < best->size * (1 - 1e-6)) *best = tried;
+  if (fourth != SBFI_NO_INDEX) try_choice(c, &tried, position, best);
 }
 
 static bool level_corners(const sbfi_carrier *c, uint32_t triangle, uint32_t corners[3]) {
@@ -183,22 +188,38 @@ static void try_extremes(const sbfi_carrier *c, sbfi_d3 position, choice *best) 
       choice tried = {.size = 0};
       for (int k = 0, next = 0; k < 6; k++)
         if (k != left && k != out) tried.points[next++] = c->extremes[k];
-      if (weigh(c, &tried, position) && tried.size < best->size * (1 - 1e-6)) *best = tried;
+      try_choice(c, &tried, position, best);
     }
 }
 
-/* What lies far outside hangs on the frame points where there are some, else on points far apart, which take
+/* Sum of squares of the weights that is small enough; 1 and below inside. */
+static const double most_size = 3;
+
+/* Points farther and farther from each other around the tetrahedron, until the weights are small enough: a
+ * small tetrahedron would throw about what lies outside of it. */
+static void try_rings(const sbfi_carrier *c, uint32_t tetrahedron, sbfi_d3 position, choice *best) {
+  sbfi_point_rings rings;
+  sbfi_point_rings_begin(&rings, &c->lattice, tetrahedron);
+  while (best->size > most_size && sbfi_point_rings_widen(&rings)) {
+    choice tried = {.size = 0};
+    sbfi_point_rings_widest(&rings, tried.points);
+    try_choice(c, &tried, position, best);
+  }
+}
+
+/* What lies far outside hangs on the frame points where there are some. Else what lies outside by no more
+ * than a tetrahedron is wide hangs on points around it, and what lies beyond on points far apart, which take
  * it along with the body as a whole: a small tetrahedron would throw it about. */
 static sbfi_carried carry_by_lattice(const sbfi_carrier *c, sbf_vec3 position) {
-  const double most = 3; /* sum of squares of the weights; 1 and below inside */
+  sbfi_d3 at = sbfi_d3_of(position);
   sbfi_found_tetrahedron found = sbfi_tetrahedron_find(&c->lattice, position);
   choice in = {.size = 0};
   memcpy(in.points, c->level->lattice.tetrahedra.at[found.tetrahedron].at, sizeof in.points);
-  bool good = weigh(c, &in, sbfi_d3_of(position));
-  if (c->frame != SBFI_NO_INDEX && (!good || in.size > most)) return carry_by_frame(c, position);
-  if (good && in.size > most) try_extremes(c, sbfi_d3_of(position), &in);
-  sbfi_carried carried =
-      good ? written(c, &in, sbfi_d3_of(position)) : carried_alone(in.points[0], found.distance);
+  bool good = weigh(c, &in, at), near = found.distance < 2 * c->lattice.radius;
+  if (c->frame != SBFI_NO_INDEX && (!good || in.size > most_size)) return carry_by_frame(c, position);
+  if (good && in.size > most_size && near) try_rings(c, found.tetrahedron, at, &in);
+  if (good && in.size > most_size) try_extremes(c, at, &in);
+  sbfi_carried carried = good ? written(c, &in, at) : carried_alone(in.points[0], found.distance);
   carried.outside = (float)found.distance;
   return carried;
 }

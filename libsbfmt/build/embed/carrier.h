@@ -38,11 +38,12 @@ bool sbfi_carrier_make(sbfi_carrier *carrier, const sbf_soft_body *body, const s
  *   a surface point in the very same place (bit by bit; `likely` first) carries it alone;
  *   frame points what lies elsewhere, with a lattice what lies far outside of it (without frame points the
  * level's extremes);
- *   a lattice by the tetrahedron around the vertex, or one near it (tetrahedron_finder.h);
- *   else by the nearest triangle of the surface (of polygons cut as fans from their first corner) and a
- * fourth point: the polygon's own, the centre, or the level's extremes, whichever leaves the smallest
- * weights; and deep inside, the triangle that the ray from the centre through the vertex meets. Weights lie
- * outside 0..1 where the vertex lies outside the four points. */
+ *   a lattice by the tetrahedron around the vertex, or one near it (tetrahedron_finder.h), or where its
+ * weights are large by four points of the rings around that (point_rings.h); else by the nearest triangle of
+ * the surface (of polygons cut as fans from their first corner) and a fourth point: the polygon's own, the
+ * centre, or the level's extremes, whichever leaves the smallest weights; and deep inside, the triangle that
+ * the ray from the centre through the vertex meets. Weights lie outside 0..1 where the vertex lies outside
+ * the four points. */
 sbfi_carried sbfi_carrier_carry(const sbfi_carrier *carrier, sbf_vec3 position, uint32_t likely);
 
 /* Whether one of the body's surface points stands in that very place, bit by bit. */

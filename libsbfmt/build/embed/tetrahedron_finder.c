@@ -291,3 +291,24 @@ sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *find
   visit_within(&s, fmin(s.most + finder->radius, within_of_size(finder, s.size)), look_for_small);
   return (sbfi_found_tetrahedron){s.best != UINT32_MAX ? s.best : nearest, s.distance};
 }
+
+typedef struct corner_search {
+  search s; /* the first: its visitor is given that */
+  uint32_t corner;
+  sbfi_tetrahedron_visitor *visit;
+  void *user;
+} corner_search;
+
+static void look_for_corner(search *s, uint32_t tetrahedron, double middle2) {
+  const corner_search *c = (const corner_search *)s;
+  const uint32_t *at = s->finder->tetrahedra[tetrahedron].at;
+  (void)middle2;
+  if (at[0] == c->corner || at[1] == c->corner || at[2] == c->corner || at[3] == c->corner)
+    c->visit(c->user, tetrahedron);
+}
+
+void sbfi_tetrahedra_about(
+    const sbfi_tetrahedron_finder *finder, uint32_t corner, sbfi_tetrahedron_visitor *visit, void *user) {
+  corner_search c = {{.finder = finder, .at = sbfi_d3_of(finder->positions[corner])}, corner, visit, user};
+  visit_within(&c.s, finder->radius, look_for_corner);
+}

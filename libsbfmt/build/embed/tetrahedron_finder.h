@@ -47,4 +47,10 @@ sbfi_found_tetrahedron sbfi_tetrahedron_find(const sbfi_tetrahedron_finder *find
 bool sbfi_tetrahedron_weigh(
     const sbf_vec3 *positions, const uint32_t corners[4], sbfi_d3 point, double weights[4]);
 
+typedef void sbfi_tetrahedron_visitor(void *user, uint32_t tetrahedron);
+
+/* Calls for each tetrahedron that has the point of that number as a corner. */
+void sbfi_tetrahedra_about(
+    const sbfi_tetrahedron_finder *finder, uint32_t corner, sbfi_tetrahedron_visitor *visit, void *user);
+
 #endif

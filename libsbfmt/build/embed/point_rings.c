@@ -1,0 +1,62 @@
+#include "build/embed/point_rings.h"
+
+static void take(sbfi_point_rings *r, uint32_t point) {
+  for (uint32_t i = 0; i < r->count; i++)
+    if (r->points[i] == point) return;
+  if (r->count == SBFI_MOST_RING_POINTS)
+    r->full = true;
+  else
+    r->points[r->count++] = point;
+}
+
+static void take_corners(void *user, uint32_t tetrahedron) {
+  sbfi_point_rings *r = user;
+  for (int k = 0; k < 4; k++) take(r, r->finder->tetrahedra[tetrahedron].at[k]);
+}
+
+void sbfi_point_rings_begin(
+    sbfi_point_rings *rings, const sbfi_tetrahedron_finder *finder, uint32_t tetrahedron) {
+  rings->finder = finder;
+  rings->count = rings->widened = 0;
+  rings->full = false;
+  take_corners(rings, tetrahedron);
+}
+
+bool sbfi_point_rings_widen(sbfi_point_rings *rings) {
+  uint32_t before = rings->count;
+  while (rings->widened < before && !rings->full)
+    sbfi_tetrahedra_about(rings->finder, rings->points[rings->widened++], take_corners, rings);
+  return rings->count > before && !rings->full;
+}
+
+/* Squared, times what all have in common: from a point, from the line through two, from the plane of three.
+ */
+static double distance2(const sbfi_d3 *from, int count, sbfi_d3 point) {
+  sbfi_d3 way = sbfi_d3_sub(point, from[0]);
+  if (count == 1) return sbfi_d3_dot(way, way);
+  sbfi_d3 off = sbfi_d3_cross(sbfi_d3_sub(from[1], from[0]), way);
+  if (count == 2) return sbfi_d3_dot(off, off);
+  double height = sbfi_d3_dot(off, sbfi_d3_sub(from[2], from[0]));
+  return height * height;
+}
+
+static uint32_t farthest(const sbfi_point_rings *r, const sbfi_d3 *from, int count) {
+  double most = -1;
+  uint32_t best = r->points[0];
+  for (uint32_t i = 0; i < r->count; i++) {
+    double here = distance2(from, count, sbfi_d3_of(r->finder->positions[r->points[i]]));
+    /* A little farther will not do: then the choice would hang on rounding. */
+    if (!(here > most * (1 + 1e-6))) continue;
+    most = here;
+    best = r->points[i];
+  }
+  return best;
+}
+
+void sbfi_point_rings_widest(const sbfi_point_rings *rings, uint32_t four[4]) {
+  sbfi_d3 from[4] = {sbfi_d3_of(rings->finder->positions[rings->points[0]])};
+  for (int k = 0; k < 4; k++) {
+    four[k] = farthest(rings, from, k > 0 ? k : 1);
+    from[k] = sbfi_d3_of(rings->finder->positions[four[k]]);
+  }
+}
