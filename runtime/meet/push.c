@@ -13,7 +13,8 @@ static const float BOUNCE_FROM_M_S = 0.3f;
 static const float SLACK_M = 1e-4f, OUT_SHARE = 0.1f, SOFT_OUT_SHARE = 0.02f, OUT_M_S = 0.2f;
 /* As near to the most friction as this share it slides. */
 static const float SLIDES_SHARE = 0.999f;
-/* What is deeper than this share of the softer body's size looks ahead, by what it learns of each step. */
+/* Soft in soft what is deeper than this share of the smaller body's size looks ahead, by what is learnt of
+ * each step. */
 static const float DEEP_SHARE = 0.005f, LEARNS = 0.3f;
 static const sbf_vec3 nothing = {0, 0, 0};
 
@@ -21,9 +22,12 @@ static bool is_plane(const sbri_meet_touch *t) {
   return t->b.rigid_body == SBRI_MEET_PLANE;
 }
 
+static bool both_are_soft(const sbri_meet_touch *t) {
+  return t->a.rigid_body == SBRI_MEET_SOFT && t->b.rigid_body == SBRI_MEET_SOFT;
+}
+
 static float out_share(const sbri_meet_touch *t) {
-  bool soft = t->a.rigid_body == SBRI_MEET_SOFT && t->b.rigid_body == SBRI_MEET_SOFT;
-  return soft ? SOFT_OUT_SHARE : OUT_SHARE;
+  return both_are_soft(t) ? SOFT_OUT_SHARE : OUT_SHARE;
 }
 
 /* The speed along the normal that a touch may come to. Nearer than the slack it closes, or comes out, by a
@@ -62,12 +66,13 @@ static void learn(sbri_meet_row *r, float speed) {
   t->was_pushed = false;
 }
 
-/* The speed against what will press a deep one deeper, beside weight. */
+/* The speed against what will press in, beside weight, where something soft is pressed: rigid parts that it
+ * lies on do not swing with it, another soft body does, and is looked ahead at only where it is deep. */
 static float pull_ahead(const sbri_meet_row *r, float fall) {
   const sbri_meet_touch *t = r->touch;
   float pull = t->pull - fall;
   if (!(t->soft_m > 0) || pull >= 0) return 0;
-  return -pull * sbri_clamp(-r->gap / (DEEP_SHARE * t->soft_m) - 1, 0, 1);
+  return both_are_soft(t) ? -pull * sbri_clamp(-r->gap / (DEEP_SHARE * t->soft_m) - 1, 0, 1) : -pull;
 }
 
 /* What both may come to at the step's end, and what pushes of the step before they begin with. */
