@@ -39,6 +39,13 @@ size_t sbfi_xml_list_bytes(const sbfi_xml_list *list) {
   return list->scalars.count * list->scalars.item_size + list->begun.length;
 }
 
+sbfi_xml_fault sbfi_xml_list_give(sbfi_xml_list *list, const sbf_given_list *given) {
+  size_t count = given->size / list->scalars.item_size;
+  if (given->size % list->scalars.item_size) return SBFI_XML_NOT_WHOLE;
+  if (count / list->field->width > list->item_limit) return SBFI_XML_TOO_LONG;
+  return sbfi_array_append(&list->scalars, given->at, count) ? SBFI_XML_FINE : SBFI_XML_NO_MEMORY;
+}
+
 /* --- numbers --- */
 
 static size_t word_length(const char *text, size_t length) {

@@ -5,6 +5,7 @@
 
 #include "base/base64.h"
 #include "model/schema.h"
+#include "sbfmt/io.h"
 
 typedef enum sbfi_xml_fault {
   SBFI_XML_FINE = 0,
@@ -30,6 +31,8 @@ void sbfi_xml_list_init(sbfi_xml_list *list, const sbf_allocator *allocator, uin
 void sbfi_xml_list_free(sbfi_xml_list *list);
 
 void sbfi_xml_list_begin(sbfi_xml_list *list, const sbfi_field *field);
+/* Items that stand in memory. */
+sbfi_xml_fault sbfi_xml_list_give(sbfi_xml_list *list, const sbf_given_list *given);
 /* On a fault, `*place` becomes the offset in `text` where it is; the scalars before it are counted. */
 sbfi_xml_fault sbfi_xml_list_add(sbfi_xml_list *list, const char *text, size_t length, size_t *place);
 sbfi_xml_fault sbfi_xml_list_end(sbfi_xml_list *list);

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "base/diagnostic.h"
+#include "base/number.h"
 #include "model/asset_box.h"
 #include "model/version.h"
 #include "xml/xml_list.h"
@@ -142,6 +143,41 @@ static const char *name_of_scalar(const sbfi_field *field) {
   if (field->type == SBFI_INT) return "an integer of 32 bits";
   bool is_uint = field->type == SBFI_UINT || (field->type == SBFI_LIST && field->item == SBFI_ITEM_U32);
   return is_uint ? "an integer from 0 to 4294967295" : "within the range of 32-bit floats";
+}
+
+static bool fail_list(reader *r, sbfi_xml_fault fault) {
+  const sbfi_xml_list *list = &r->list;
+  uint32_t count = sbfi_xml_list_count(list);
+  const char *name = list->field->name;
+  bool bytes = list->field->item == SBFI_ITEM_U8;
+  switch (fault) {
+  case SBFI_XML_NOT_FINITE:
+    fail(r, SBF_CODE_VALUE_NOT_FINITE, NULL, "`%s` holds `%s`: every number must be finite", name,
+        list->wrong);
+    break;
+  case SBFI_XML_OUT_OF_RANGE:
+    fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, NULL, "`%s` holds `%s`, which is not %s", name, list->wrong,
+        name_of_scalar(list->field));
+    break;
+  case SBFI_XML_NOT_WHOLE:
+    if (bytes)
+      return fail(
+          r, SBF_CODE_XML_BAD_VALUE, NULL, "`%s` ends inside a group of base64: it was cut short", name);
+    return fail(r, SBF_CODE_WRONG_LENGTH, NULL, "`%s` holds %zu numbers, not a multiple of %u", name,
+        list->scalars.count, list->field->width);
+  case SBFI_XML_TOO_LONG:
+    return fail(r, SBF_CODE_LIST_TOO_LONG, NULL, "`%s` has more than the limit of %u items", name,
+        r->options->limits.list_items);
+  case SBFI_XML_NO_MEMORY:
+    return fail_memory(r);
+  default:
+    fail(r, SBF_CODE_XML_BAD_VALUE, NULL,
+        bytes ? "`%s` holds `%s`, which is no base64" : "`%s` holds `%s` where a number belongs", name,
+        list->wrong);
+    break;
+  }
+  if (!bytes) r->error->index = count;
+  return false;
 }
 
 /* --- attributes --- */
@@ -369,13 +405,25 @@ static bool begin_child(reader *r, const sbfi_field *field, const char *name,
   return read_attributes(r, attributes, count) && check_attributes(r);
 }
 
+/* The list that an attribute `given` numbers. */
+static bool take_given(reader *r, const sbfi_xml_attribute *given) {
+  uint32_t number;
+  if (sbfi_parse_u32(given->value, given->length, &number) != SBFI_NUMBER_READ ||
+      number >= r->options->given_list_count)
+    return fail(r, SBF_CODE_XML_BAD_VALUE, NULL, "`given` names none of the %u lists that were handed over",
+        r->options->given_list_count);
+  sbfi_xml_fault fault = sbfi_xml_list_give(&r->list, &r->options->given_lists[number]);
+  return (!fault || fail_list(r, fault)) && (fits_memory(r) || fail_memory(r));
+}
+
 static bool begin_plain(reader *r, open_kind kind, const sbfi_field *field,
     const sbfi_xml_attribute *attributes, uint32_t count) {
   if (!push(r, kind, field)) return false;
-  if (count && !unknown_attribute(r, attributes[0].name)) return false;
   if (kind == OPEN_LIST) sbfi_xml_list_begin(&r->list, field);
   r->text.count = 0;
-  return true;
+  if (kind == OPEN_LIST && count == 1 && r->options->given_list_count && !strcmp(attributes->name, "given"))
+    return take_given(r, attributes);
+  return !count || unknown_attribute(r, attributes[0].name);
 }
 
 static bool unknown_element(reader *r, const char *name) {
@@ -439,41 +487,6 @@ static uint32_t count_lines(const char *text, size_t length) {
   uint32_t lines = 0;
   for (size_t i = 0; i < length; i++) lines += text[i] == '\n';
   return lines;
-}
-
-static bool fail_list(reader *r, sbfi_xml_fault fault) {
-  const sbfi_xml_list *list = &r->list;
-  uint32_t count = sbfi_xml_list_count(list);
-  const char *name = list->field->name;
-  bool bytes = list->field->item == SBFI_ITEM_U8;
-  switch (fault) {
-  case SBFI_XML_NOT_FINITE:
-    fail(r, SBF_CODE_VALUE_NOT_FINITE, NULL, "`%s` holds `%s`: every number must be finite", name,
-        list->wrong);
-    break;
-  case SBFI_XML_OUT_OF_RANGE:
-    fail(r, SBF_CODE_VALUE_OUT_OF_RANGE, NULL, "`%s` holds `%s`, which is not %s", name, list->wrong,
-        name_of_scalar(list->field));
-    break;
-  case SBFI_XML_NOT_WHOLE:
-    if (bytes)
-      return fail(
-          r, SBF_CODE_XML_BAD_VALUE, NULL, "`%s` ends inside a group of base64: it was cut short", name);
-    return fail(r, SBF_CODE_WRONG_LENGTH, NULL, "`%s` holds %zu numbers, not a multiple of %u", name,
-        list->scalars.count, list->field->width);
-  case SBFI_XML_TOO_LONG:
-    return fail(r, SBF_CODE_LIST_TOO_LONG, NULL, "`%s` has more than the limit of %u items", name,
-        r->options->limits.list_items);
-  case SBFI_XML_NO_MEMORY:
-    return fail_memory(r);
-  default:
-    fail(r, SBF_CODE_XML_BAD_VALUE, NULL,
-        bytes ? "`%s` holds `%s`, which is no base64" : "`%s` holds `%s` where a number belongs", name,
-        list->wrong);
-    break;
-  }
-  if (!bytes) r->error->index = count;
-  return false;
 }
 
 static bool on_text(void *user, const char *text, size_t length) {

@@ -14,6 +14,7 @@
 
 int main(void) {
   SIZE(sbf_load_options);
+  SIZE(sbf_given_list);
   SIZE(sbf_save_options);
   SIZE(sbf_build_options);
   SIZE(sbf_convert_options);
@@ -37,6 +38,8 @@ int main(void) {
   OFFSET(sbf_load_options, extension_count);
   OFFSET(sbf_load_options, copy_file);
   OFFSET(sbf_load_options, mendable);
+  OFFSET(sbf_load_options, given_lists);
+  OFFSET(sbf_load_options, given_list_count);
   OFFSET(sbf_save_options, level);
   OFFSET(sbf_build_options, interior);
   OFFSET(sbf_build_options, without_hulls);

@@ -122,6 +122,19 @@ class Beside(unittest.TestCase):
             quick = os.path.join(folder, "quick.sbf")
             save_whole(quick, to_xml(record, canonical=False))
             self.assertEqual(sbfmt.load(quick).to_xml(), built)
+        with sbfmt.load_document(record) as given:
+            self.assertEqual(given.to_xml(), built)
+
+    def test_bytes_and_faults_of_a_document_given(self):
+        record = Record("asset")
+        record.add("textures", id="t", media_type="image/png", bytes=b"no image \0 but bytes")
+        record.add("soft_bodies", id="soft", interior=[0, 0, 0, 1, 2, 3])
+        with sbfmt.load_document(record) as made:
+            self.assertEqual(from_xml(made.to_xml()), record)
+        record.soft_bodies[0].interior = [0, 0, float("nan")]
+        with self.assertRaises(sbfmt.Error) as caught:
+            sbfmt.load_document(record)
+        self.assertEqual(caught.exception.code, "VALUE_NOT_FINITE")
 
 
 if __name__ == "__main__":

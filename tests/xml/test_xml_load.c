@@ -256,6 +256,55 @@ START_TEST(test_long_lists_and_texts)
 }
 END_TEST
 
+/* --- lists that the caller hands over --- */
+
+static sbf_status load_given(
+    const char *text, const sbf_given_list *lists, uint32_t count, sbf_asset **asset, sbf_diagnostic *error) {
+  sbf_load_options options = {.given_lists = lists, .given_list_count = count, .limits.list_items = 4};
+  *error = (sbf_diagnostic){0};
+  return sbf_xml_load_memory(text, strlen(text), &options, asset, error);
+}
+
+#define GIVEN_BODY(NUMBER)                                                                                   \
+  "<sbf version=\"1.0\"><soft_body id=\"a\"><interior given=\"" NUMBER "\">7 8 "                             \
+                                                                       "9</interior></soft_body></sbf>"
+
+START_TEST(test_lists_in_memory)
+{
+  static const float numbers[] = {1, 2, 3, 4, 5, 0.1f, 6, 7, 8, 9, 10, 11, 1, 1, 1};
+  static const float endless[] = {0, 0, INFINITY};
+  const sbf_given_list lists[] = {{numbers, 0}, {numbers, 6 * sizeof(float)}, {numbers, sizeof numbers},
+      {numbers, 5 * sizeof(float)}, {numbers, 7}, {endless, sizeof endless}};
+  sbf_asset *asset;
+  sbf_diagnostic error;
+  ck_assert_int_eq(load_given(GIVEN_BODY("1"), lists, 6, &asset, &error), SBF_OK);
+  ck_assert_uint_eq(asset->soft_bodies.at[0].interior.count, 3); /* those given, and the text's */
+  ck_assert_float_eq(asset->soft_bodies.at[0].interior.at[1].z, 0.1f);
+  ck_assert_float_eq(asset->soft_bodies.at[0].interior.at[2].x, 7);
+  sbf_asset_free(asset);
+  ck_assert_int_eq(load_given(GIVEN_BODY("0"), lists, 6, &asset, &error), SBF_OK);
+  ck_assert_uint_eq(asset->soft_bodies.at[0].interior.count, 1);
+  sbf_asset_free(asset);
+
+  static const struct {
+    const char *text;
+    sbf_code code;
+  } bad[] = {{GIVEN_BODY("2"), SBF_CODE_LIST_TOO_LONG}, {GIVEN_BODY("3"), SBF_CODE_WRONG_LENGTH},
+      {GIVEN_BODY("4"), SBF_CODE_WRONG_LENGTH}, {GIVEN_BODY("5"), SBF_CODE_VALUE_NOT_FINITE},
+      {GIVEN_BODY("6"), SBF_CODE_XML_BAD_VALUE}, {GIVEN_BODY("-1"), SBF_CODE_XML_BAD_VALUE},
+      {GIVEN_BODY("one"), SBF_CODE_XML_BAD_VALUE}};
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    ck_assert_int_eq(load_given(bad[i].text, lists, 6, &asset, &error), SBF_BAD_INPUT);
+    ck_assert_ptr_null(asset);
+    ck_assert_msg(error.code == (int32_t)bad[i].code, "%zu: %d %s", i, error.code, error.message);
+    ck_assert_str_eq(error.path, "/sbf/soft_body[1]/interior");
+  }
+  /* a file, with which nothing is handed over, has no such attribute */
+  ck_assert_int_eq(load_given(GIVEN_BODY("0"), NULL, 0, &asset, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(error.code, SBF_CODE_XML_UNKNOWN_ATTRIBUTE);
+}
+END_TEST
+
 /* --- damage --- */
 
 START_TEST(test_truncated_everywhere)
@@ -408,6 +457,7 @@ int main(void) {
   tcase_add_test(all, test_bodies_may_stand_apart);
   tcase_add_test(all, test_limits);
   tcase_add_test(all, test_long_lists_and_texts);
+  tcase_add_test(all, test_lists_in_memory);
   tcase_add_test(all, test_truncated_everywhere);
   tcase_add_test(all, test_damaged_everywhere);
   tcase_add_test(all, test_our_memory_runs_out);

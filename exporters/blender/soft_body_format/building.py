@@ -6,7 +6,7 @@ import time
 
 from . import sbfmt
 from .finishing import to_asset
-from .sbfmt.document import from_xml, to_xml
+from .sbfmt.document import from_xml, to_parts
 
 
 class Built:
@@ -52,10 +52,19 @@ class LastBuild:
         cls.key = cls.built = None
 
 
+def key_of(document, arguments, mends):
+    """What tells one build from another."""
+    text, lists = to_parts(document)
+    hashed = hashlib.sha256(text + repr((sorted(arguments.items()), mends)).encode())
+    for items in lists:
+        hashed.update(items)
+    return hashed.digest()
+
+
 def build_in_steps(document, arguments, mends):
     """A generator of (what, share) that returns a Built, at once where it is the last one's again. Raises what the build did;
     closed, it cancels."""
-    key = hashlib.sha256(to_xml(document, canonical=False) + repr((sorted(arguments.items()), mends)).encode()).digest()
+    key = key_of(document, arguments, mends)
     if key == LastBuild.key:
         return LastBuild.built
     job = BuildJob(document, arguments, mends)

@@ -2,7 +2,6 @@
 
 import os
 import stat
-import tempfile
 
 from . import sbfmt
 from .sbfmt.document import save_whole, to_xml
@@ -57,16 +56,10 @@ def finish(document, path, build, findings, locator=None, files=None, mends=Fals
 
 def to_asset(document, mended=None):
     """The library's own asset of a document. `mended` hears what is mended in it; None: nothing is."""
-    handle, path = tempfile.mkstemp(suffix=".sbf")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(to_xml(document, canonical=False))
-        if mended is None:
-            return sbfmt.load(path)
-        with sbfmt.load(path, mendable=True) as faulty:
-            return faulty.fix(report=mended)
-    finally:
-        os.unlink(path)
+    if mended is None:
+        return sbfmt.load_document(document)
+    with sbfmt.load_document(document, mendable=True) as faulty:
+        return faulty.fix(report=mended)
 
 
 def with_library(document, path, build, findings, locator, mends):

@@ -6,8 +6,9 @@ import weakref
 import xml.etree.ElementTree as ElementTree
 
 from .description import describe
+from .document.writing import to_parts
 from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertAttachment, ConvertOptions, ConvertPin, \
-    DiagnosticStruct, ExportOptions, FixOptions, FixResult, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, \
+    DiagnosticStruct, ExportOptions, FixOptions, FixResult, GivenList, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, \
     check, library
 
 INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching")
@@ -143,6 +144,24 @@ def load(path, check_crc=True, extensions=(), mendable=False):
                           mendable=mendable)
     loaded, error = ctypes.c_void_p(), DiagnosticStruct()
     check(library().sbf_load_file(path_bytes(path), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
+    return Asset(loaded.value)
+
+
+def given(items):
+    """A list of a document as C has it. The document must live as long."""
+    if isinstance(items, bytes):
+        return GivenList(ctypes.cast(ctypes.c_char_p(items), ctypes.c_void_p), len(items))
+    address, count = items.buffer_info()
+    return GivenList(address, count * items.itemsize)
+
+
+def load_document(record, mendable=False):
+    """The asset of a `document.Record`, checked as a file's would be; `mendable` as with `load`."""
+    text, lists = to_parts(record)
+    options = LoadOptions(struct_size=ctypes.sizeof(LoadOptions), mendable=mendable, given_list_count=len(lists),
+                          given_lists=(GivenList * len(lists))(*map(given, lists)))
+    loaded, error = ctypes.c_void_p(), DiagnosticStruct()
+    check(library().sbf_xml_load_memory(text, len(text), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
     return Asset(loaded.value)
 
 

@@ -41,11 +41,15 @@ class Limits(Structure):
                 ("inflate_ratio", c_uint32), ("list_items", c_uint32), ("depth", c_uint32)]
 
 
+class GivenList(Structure):
+    _fields_ = [("at", c_void_p), ("size", c_size_t)]
+
+
 class LoadOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("limits", Limits), ("check_crc", c_bool),
                 ("name", c_char_p), ("extensions", POINTER(c_char_p)), ("extension_count", c_uint32),
                 ("selection", c_void_p), ("copy_file", c_bool), ("read_bytes", POINTER(c_uint64)), ("outline", c_bool),
-                ("mendable", c_bool)]
+                ("mendable", c_bool), ("given_lists", POINTER(GivenList)), ("given_list_count", c_uint32)]
 
 
 class SaveOptions(Structure):
@@ -110,7 +114,7 @@ class AssetMeasures(Structure):
 
 
 # Options whose struct_size the library compares with its own: tests look that they are of its size.
-OPTIONS = {"sbf_load_options": LoadOptions, "sbf_save_options": SaveOptions, "sbf_build_options": BuildOptions,
+OPTIONS = {"sbf_load_options": LoadOptions, "sbf_given_list": GivenList, "sbf_save_options": SaveOptions, "sbf_build_options": BuildOptions,
            "sbf_convert_options": ConvertOptions, "sbf_validate_options": ValidateOptions,
            "sbf_export_options": ExportOptions, "sbf_diagnostic": DiagnosticStruct, "sbf_buffer": Buffer,
            "sbf_validate_result": ValidateResult, "sbf_asset_measures": AssetMeasures, "sbf_code_info": CodeInfo,

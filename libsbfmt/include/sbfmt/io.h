@@ -36,6 +36,12 @@ typedef struct sbf_selection {
   sbf_u32_list levels;   /* places of the levels wanted of each soft body selected */
 } sbf_selection;
 
+/* A list of numbers, or of bytes, that the caller hands over in memory. */
+typedef struct sbf_given_list {
+  const void *at; /* 32-bit numbers of the list's type as the machine has them; or bytes */
+  size_t size;    /* bytes of all */
+} sbf_given_list;
+
 /* Settings of a load. */
 typedef struct sbf_load_options {
   size_t struct_size;             /* sizeof(sbf_load_options), or 0 for this version's */
@@ -58,6 +64,12 @@ typedef struct sbf_load_options {
    * skins, pins and embeddings outside their ranges. No other function but sbf_asset_free may be given what
    * is loaded so. */
   bool mendable;
+  /* XML: lists that stand in memory rather than in the text. An element of a list with the attribute `given`,
+   * as <positions given="2"/>, begins with a copy of the items of given_lists[2], which are checked like any.
+   * For programs that make a document and load it at once: without such lists the attribute is refused, as
+   * files never have it. */
+  const sbf_given_list *given_lists;
+  uint32_t given_list_count;
 } sbf_load_options;
 
 /* Settings of a save. */

@@ -11,6 +11,6 @@ types: that is what `sbfmt validate` and `Asset.validate` are for.
 
 from .reading import from_xml
 from .record import Record
-from .writing import save_whole, to_xml
+from .writing import save_whole, to_parts, to_xml
 
-__all__ = ["Record", "from_xml", "save_whole", "to_xml"]
+__all__ = ["Record", "from_xml", "save_whole", "to_parts", "to_xml"]

@@ -39,10 +39,11 @@ def is_default(value, field):
 
 
 class Writing:
-    """The lines so far. `object` says whether it wrote more than defaults; what did not is taken back by whoever asked."""
+    """The lines so far. `object` says whether it wrote more than defaults; what did not is taken back by whoever asked.
+    `given`: takes the lists instead of the lines, which name them."""
 
-    def __init__(self, rows):
-        self.lines, self.rows = [], rows
+    def __init__(self, rows, given=None):
+        self.lines, self.rows, self.given = [], rows, given
 
     def object(self, record, name, depth, by=None, fixed=None):
         start, says = len(self.lines), False
@@ -76,6 +77,10 @@ class Writing:
     def list(self, items, field, depth):
         if not items:
             return False
+        if self.given is not None:
+            self.lines.append(f'<{field.name} given="{len(self.given)}"/>')
+            self.given.append(items)
+            return True
         if field.type == "bytes":
             rows = [base64.b64encode(items[i:i + LINE_BYTES]).decode() for i in range(0, len(items), LINE_BYTES)]
         else:
@@ -124,6 +129,15 @@ def to_xml(record, canonical=True):
     writing = Writing(canonical_rows if canonical else lambda items: [nine_digits(items)])
     writing.object(record, record.element.xml, 0)
     return ("\n".join(['<?xml version="1.0" encoding="UTF-8"?>'] + writing.lines) + "\n").encode()
+
+
+def to_parts(record):
+    """(XML, lists) of an asset's record, for the library to read at once: the lists stand by themselves, and the XML names them by
+    their number."""
+    given = []
+    writing = Writing(None, given)
+    writing.object(record, record.element.xml, 0)
+    return "\n".join(writing.lines).encode(), given
 
 
 def save_whole(path, data):
