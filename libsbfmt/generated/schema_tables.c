@@ -343,6 +343,7 @@ static const sbfi_length spring_set_ends_index = {1, {{SBFI_TERM_COUNT, 1, offse
 static const sbfi_length spring_set_rest_lengths_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_spring_set, ends)}}, "ends"}};
 static const sbfi_length spring_set_stiffness_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_spring_set, ends)}}, "ends"}};
 static const sbfi_length spring_set_damping_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_spring_set, ends)}}, "ends"}};
+static const sbfi_length spring_set_compression_ratio_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_NUMBER, 0, 1}}, "1"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_spring_set, ends)}}, "ends"}};
 static const sbfi_field spring_set_fields[] = {
   {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_spring_set, name), .width = 1, .unit = "", .default_text = ""},
   {.name = "kind", .type = SBFI_ENUM, .number = 2, .since_minor = 0, .offset = offsetof(sbf_spring_set, kind), .width = 1, .unit = "", .required = true, .values = spring_kind_values, .value_count = 5},
@@ -358,8 +359,9 @@ static const sbfi_field spring_set_fields[] = {
   {.name = "tear_strain", .type = SBFI_FLOAT, .number = 12, .since_minor = 0, .offset = offsetof(sbf_spring_set, tear_strain), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "inert_count", .type = SBFI_UINT, .number = 13, .since_minor = 0, .offset = offsetof(sbf_spring_set, inert_count), .width = 1, .unit = ""},
   {.name = "color_counts", .type = SBFI_LIST, .number = 14, .since_minor = 0, .offset = offsetof(sbf_spring_set, color_counts), .width = 1, .unit = "", .item = SBFI_ITEM_U32},
+  {.name = "compression_ratio", .type = SBFI_LIST, .number = 15, .since_minor = 0, .offset = offsetof(sbf_spring_set, compression_ratio), .width = 1, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .length_count = 3, .lengths = spring_set_compression_ratio_lengths},
 };
-static const sbfi_element spring_set_element = {"spring_set", "spring_set", sizeof(sbf_spring_set), 0, 14, spring_set_fields, NULL};
+static const sbfi_element spring_set_element = {"spring_set", "spring_set", sizeof(sbf_spring_set), 0, 15, spring_set_fields, NULL};
 
 static const sbfi_length shape_regions_points_lengths[] = {{1, {{SBFI_TERM_SUM, 0, offsetof(sbf_shape_regions, sizes)}}, "sum(sizes)"}};
 static const sbfi_length shape_regions_points_index = {1, {{SBFI_TERM_COUNT, 1, offsetof(sbf_level, positions)}}, "parent.positions"};
@@ -403,8 +405,10 @@ static const sbfi_field simulation_fields[] = {
   {.name = "cost", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_simulation, cost), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "measured", .type = SBFI_MANY, .number = 5, .since_minor = 0, .offset = offsetof(sbf_simulation, measured), .width = 1, .unit = "", .volatile_ = true, .element = &measured_element, .xml = "measured"},
   {.name = "step_error", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_simulation, step_error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "substeps_least", .type = SBFI_UINT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_simulation, substeps_least), .width = 1, .unit = ""},
+  {.name = "substeps_most", .type = SBFI_UINT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_simulation, substeps_most), .width = 1, .unit = ""},
 };
-static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 6, simulation_fields, NULL};
+static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 8, simulation_fields, NULL};
 
 static const sbfi_field calibration_fields[] = {
   {.name = "reference_elements", .type = SBFI_UINT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_calibration, reference_elements), .width = 1, .unit = ""},

@@ -1,5 +1,5 @@
-/* The spring between two points: E = k/2 (l - l0)^2, with k in N/m and l0 in m; and, where it is damped, a
- * force c times the speed at which it lengthens.
+/* The spring between two points: E = k/2 (l - l0)^2, with k in N/m and l0 in m; where l < l0, a share of
+ * that; and, where it is damped, a force c times the speed at which it lengthens.
  *
  * What every scheme, the tests and `build` take a spring to be. The schemes' own kernels are written out for
  * eight lanes at once and are tested against these. */
@@ -13,7 +13,13 @@
 typedef struct sbfi_spring {
   uint32_t a, b; /* its ends */
   float stiffness_n_m, rest_length_m, damping_ns_m;
+  float slack; /* share of its stiffness that it lacks below the rest length: 1 - compression_ratio */
 } sbfi_spring;
+
+/* N/m at that length. */
+static inline float sbfi_spring_stiffness(const sbfi_spring *s, float length_m) {
+  return length_m < s->rest_length_m ? s->stiffness_n_m - s->stiffness_n_m * s->slack : s->stiffness_n_m;
+}
 
 /* (l - l0) / l0; of a spring without rest length the length itself, as strain against one metre. */
 static inline float sbfi_spring_strain(const sbfi_spring *s, float length_m) {
@@ -22,13 +28,15 @@ static inline float sbfi_spring_strain(const sbfi_spring *s, float length_m) {
 
 static inline double sbfi_spring_energy(const sbfi_spring *s, double length_m) {
   double stretch = length_m - s->rest_length_m;
-  return 0.5 * s->stiffness_n_m * stretch * stretch;
+  double share = stretch < 0 ? 1 - (double)s->slack : 1;
+  return 0.5 * share * s->stiffness_n_m * stretch * stretch;
 }
 
 /* What the vector from end a to end b is multiplied by to give the force on a, which is minus that on b. A
  * spring of no length pulls nowhere. */
 static inline float sbfi_spring_pull(const sbfi_spring *s, float length_m) {
-  return length_m > 0 ? s->stiffness_n_m - s->stiffness_n_m * s->rest_length_m / length_m : 0;
+  float k = sbfi_spring_stiffness(s, length_m);
+  return length_m > 0 ? k - k * s->rest_length_m / length_m : 0;
 }
 
 /* How far a spring may go: as attributes and spring_set state it. */

@@ -197,7 +197,8 @@ typedef struct sbri_island {
   const uint32_t *cell_begins; /* (free_count / 8 + 1) */
   const uint32_t *cell_ends;   /* (free_count / 8) what is in use of each block's; beyond it is room */
   const sbri_spring_cell *cells;
-  const float *cell_damping;      /* (cells x 8) N s/m; NULL: no spring is damped */
+  const float *cell_damping;      /* (cells x 8) N s/m; NULL: no spring is damped or has slack */
+  const float *cell_slack;        /* (cells x 8) as sbfi_spring's; NULL: no spring has any */
   const uint32_t *frame_of_held;  /* (slot_count - free_count) */
   const int32_t *carrier_of_held; /* (slot_count - free_count) of model.carrier_of_frame */
   const uint32_t *carriers;       /* (carrier_count) the rigid bodies that may carry what holds it */
@@ -231,7 +232,8 @@ typedef struct sbri_island {
   float cell_m; /* mean length of its springs at rest, or of its tetrahedra's sides where that is less */
   const sbri_link_block *links; /* (link_block_count) colour after colour; NULL: nothing sweeps */
   uint32_t link_block_count, first_link_block;
-  const float *link_damping;           /* (links x 8) N s/m; NULL: no spring is damped */
+  const float *link_damping;           /* (links x 8) N s/m; NULL: no spring is damped or has slack */
+  const float *link_slack;             /* (links x 8) as sbfi_spring's; NULL: no spring has any */
   const sbri_link_limits *link_limits; /* NULL: no spring is bounded */
   const sbri_link_flows *link_flows;   /* NULL: none yields or tears; else rest lengths are state */
   const uint32_t *link_of_spring;      /* (spring_count) block x 8 + lane */
@@ -248,7 +250,8 @@ typedef struct sbri_island {
   double stiffness_damping_s;   /* greatest damping over stiffness of its springs */
   uint32_t substeps;            /* asked for; 0: as many as needed */
   float step_error_m;           /* of the schemes that control their error */
-  const sbri_visit *visits;     /* (visit_count) of the relaxation scheme, in order */
+  uint32_t substeps_least, substeps_most; /* of a tick, of those; 0: no bound */
+  const sbri_visit *visits;               /* (visit_count) of the relaxation scheme, in order */
   uint32_t visit_count;
 } sbri_island;
 

@@ -84,8 +84,10 @@ static bool add_sets(sbri_island_maker *m, const sbri_body *body) {
           set->rest_lengths.count ? set->rest_lengths.at[i] : authored_distance(body, ends[0], body, ends[1]);
       float damping = set->damping.count ? set->damping.at[set->damping.count == 1 ? 0 : i]
                                          : is->stiffness_damping * factor_of(by.damping, ends) * k;
+      sbf_f32_list ratios = set->compression_ratio;
+      float slack = ratios.count ? 1 - ratios.at[ratios.count == 1 ? 0 : i] : 0;
       sbfi_spring_bounds bounds = bounds_of(is, set, &by, ends);
-      if (!add(m, (sbfi_spring){a, b, k, rest, damping}, &bounds)) return false;
+      if (!add(m, (sbfi_spring){a, b, k, rest, damping, slack}, &bounds)) return false;
     }
   }
   return true;
@@ -96,7 +98,8 @@ static bool add_goals(sbri_island_maker *m, uint32_t place) {
   for (uint32_t g = 0; g < m->goals.count; g++) {
     if (goals[g].body != place) continue;
     uint32_t slot = sbri_maker_body(m, place)->slot_from_point[goals[g].point];
-    if (!add(m, (sbfi_spring){slot, m->first_goal + g, goals[g].stiffness, 0, goals[g].damping}, &unbounded))
+    if (!add(m, (sbfi_spring){slot, m->first_goal + g, goals[g].stiffness, 0, goals[g].damping, 0},
+            &unbounded))
       return false;
   }
   return true;
@@ -119,7 +122,7 @@ static bool add_cross_springs(sbri_island_maker *m, const sbf_cross_springs *cro
                      : authored_distance(a, cross->ends.at[i].at[0], b, cross->ends.at[i].at[1]);
     float damping = cross->damping.count ? cross->damping.at[cross->damping.count == 1 ? 0 : i]
                                          : softer->source->attributes.stiffness_damping * k;
-    if (!add(m, (sbfi_spring){at_a, at_b, k, rest, damping}, &unbounded)) return false;
+    if (!add(m, (sbfi_spring){at_a, at_b, k, rest, damping, 0}, &unbounded)) return false;
   }
   return true;
 }
@@ -164,16 +167,23 @@ static void measure_springs(sbri_island *island) {
 
 /* ---- Cells ---- */
 
-static void put(const sbri_island *island, sbri_spring_cell *cells, float *damping, uint32_t *links,
-    uint32_t *used, uint32_t spring, uint32_t slot, uint32_t other) {
+typedef struct cell_tables {
+  sbri_spring_cell *cells;
+  float *damping, *slack; /* NULL: none */
+  uint32_t *links;
+} cell_tables;
+
+static void put(const sbri_island *island, const cell_tables *t, uint32_t *used, uint32_t spring,
+    uint32_t slot, uint32_t other) {
   const sbfi_spring *s = &island->springs[spring];
   if (slot >= island->free_count) return;
   uint32_t lane = slot % SBRI_BLOCK, place = island->cell_begins[slot / SBRI_BLOCK] + used[slot]++;
-  cells[place].others[lane] = other;
-  cells[place].stiffness[lane] = s->stiffness_n_m;
-  cells[place].pull[lane] = s->stiffness_n_m * s->rest_length_m;
-  if (damping) damping[place * SBRI_BLOCK + lane] = s->damping_ns_m;
-  if (links) links[place * SBRI_BLOCK + lane] = island->link_of_spring[spring];
+  t->cells[place].others[lane] = other;
+  t->cells[place].stiffness[lane] = s->stiffness_n_m;
+  t->cells[place].pull[lane] = s->stiffness_n_m * s->rest_length_m;
+  if (t->damping) t->damping[place * SBRI_BLOCK + lane] = s->damping_ns_m;
+  if (t->slack) t->slack[place * SBRI_BLOCK + lane] = s->slack;
+  if (t->links) t->links[place * SBRI_BLOCK + lane] = island->link_of_spring[spring];
 }
 
 /* Springs that go along with a point which splits: not more than half of what any has, since the greater
@@ -200,10 +210,11 @@ static bool make_cells(sbri_island_maker *m) {
   uint32_t *ends = sbri_keep(m, block_count, sizeof *ends);
   uint32_t *used = sbri_scratch(m, island->slot_count, sizeof *used);
   if (!begins || !ends || !used) return false;
-  bool damped = false;
+  bool damped = false, slack = false; /* kernels look for slack where they look for damping */
   for (uint32_t i = 0; i < island->spring_count; i++) {
     used[island->springs[i].a]++, used[island->springs[i].b]++;
-    damped = damped || island->springs[i].damping_ns_m > 0;
+    slack = slack || island->springs[i].slack != 0;
+    damped = damped || slack || island->springs[i].damping_ns_m > 0;
   }
   if (island->frays) reserve_rows(m, used);
   for (uint32_t block = 0; block < block_count; block++) {
@@ -213,22 +224,24 @@ static bool make_cells(sbri_island_maker *m) {
     begins[block + 1] = begins[block] + most;
   }
   uint32_t cell_count = begins[block_count];
-  sbri_spring_cell *cells = sbri_keep(m, cell_count, sizeof *cells);
-  float *damping = damped ? sbri_keep(m, (size_t)cell_count * SBRI_BLOCK, sizeof *damping) : NULL;
+  size_t lanes = (size_t)cell_count * SBRI_BLOCK;
   bool flows = island->link_flows != NULL;
-  uint32_t *links = flows ? sbri_keep(m, (size_t)cell_count * SBRI_BLOCK, sizeof *links) : NULL;
-  if (!cells || (damped && !damping) || (flows && !links)) return false;
+  const cell_tables t = {.cells = sbri_keep(m, cell_count, sizeof *t.cells),
+      .damping = damped ? sbri_keep(m, lanes, sizeof *t.damping) : NULL,
+      .slack = slack ? sbri_keep(m, lanes, sizeof *t.slack) : NULL,
+      .links = flows ? sbri_keep(m, lanes, sizeof *t.links) : NULL};
+  if (!t.cells || (damped && !t.damping) || (slack && !t.slack) || (flows && !t.links)) return false;
   for (uint32_t block = 0; block < block_count; block++)
     for (uint32_t c = begins[block]; c < begins[block + 1]; c++)
-      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) cells[c].others[lane] = block * SBRI_BLOCK + lane;
+      for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) t.cells[c].others[lane] = block * SBRI_BLOCK + lane;
   island->cell_begins = begins, island->cell_ends = ends;
-  island->cells = cells, island->cell_damping = damping;
-  island->cell_links = links;
+  island->cells = t.cells, island->cell_damping = t.damping;
+  island->cell_slack = t.slack, island->cell_links = t.links;
   memset(used, 0, island->slot_count * sizeof *used);
   for (uint32_t i = 0; i < island->spring_count; i++) {
     const sbfi_spring *s = &island->springs[i];
-    put(island, cells, damping, links, used, i, s->a, s->b);
-    put(island, cells, damping, links, used, i, s->b, s->a);
+    put(island, &t, used, i, s->a, s->b);
+    put(island, &t, used, i, s->b, s->a);
   }
   for (uint32_t slot = 0; slot < island->free_count; slot++) {
     uint32_t block = slot / SBRI_BLOCK, end = begins[block] + used[slot];
@@ -374,7 +387,7 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   for (uint32_t i = 0; i < count; i++) {
     const sbfi_spring *s = &island->springs[i];
     ends[i] = (sbf_uint2){{s->a, s->b}};
-    stiffness[i] = s->stiffness_n_m;
+    stiffness[i] = s->slack < 0 ? s->stiffness_n_m * (1 - s->slack) : s->stiffness_n_m;
     if (s->rest_length_m > 0) continue;
     /* A spring of no length, as a goal's, pulls alike in all directions: as an anchor, and if both its ends
      * are free no more than twice that. */

@@ -80,7 +80,7 @@ static uint32_t take(const colouring *c, const uint32_t *springs, uint32_t left,
 
 typedef struct link_tables {
   sbri_link_block *links;
-  float *damping;
+  float *damping, *slack;
   sbri_link_limits *limits;
   sbri_link_flows *flows;
   uint32_t *link_of_spring;
@@ -99,6 +99,7 @@ static void fill(const link_tables *t, const sbri_island *island, const sbfi_spr
     link->stiffness[lane] = s->stiffness_n_m, link->rest[lane] = s->rest_length_m;
     t->link_of_spring[springs[lane]] = block * SBRI_BLOCK + lane;
     if (t->damping) t->damping[block * SBRI_BLOCK + lane] = s->damping_ns_m;
+    if (t->slack) t->slack[block * SBRI_BLOCK + lane] = s->slack;
     if (t->limits)
       t->limits[block].least[lane] = is->strain_min, t->limits[block].most[lane] = is->strain_max;
     if (!t->flows) continue;
@@ -123,10 +124,11 @@ static uint32_t walk(const colouring *c, const link_tables *t, const sbfi_spring
 
 static bool allocate(
     sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds, link_tables *t) {
-  bool damped = false, limited = false, flowing = false;
+  bool damped = false, slack = false, limited = false, flowing = false;
   for (uint32_t i = 0; i < island->spring_count; i++) {
     const sbfi_spring_bounds *is = &bounds[i];
-    damped = damped || island->springs[i].damping_ns_m > 0;
+    slack = slack || island->springs[i].slack != 0;
+    damped = damped || slack || island->springs[i].damping_ns_m > 0;
     limited = limited || is->strain_min > -1 || is->strain_max > 0;
     flowing = flowing || (is->yield_strain > 0 && is->yield_1_s > 0) || is->tear_strain > 0;
   }
@@ -134,10 +136,11 @@ static bool allocate(
   t->links = sbfi_arena_allocate(&model->arena, blocks, sizeof *t->links);
   t->link_of_spring = sbfi_arena_allocate(&model->arena, (size_t)island->spring_count + 1, sizeof(uint32_t));
   if (damped) t->damping = sbfi_arena_allocate(&model->arena, blocks * SBRI_BLOCK, sizeof *t->damping);
+  if (slack) t->slack = sbfi_arena_allocate(&model->arena, blocks * SBRI_BLOCK, sizeof *t->slack);
   if (limited) t->limits = sbfi_arena_allocate(&model->arena, blocks, sizeof *t->limits);
   if (flowing) t->flows = sbfi_arena_allocate(&model->arena, blocks, sizeof *t->flows);
-  return t->links && t->link_of_spring && (!damped || t->damping) && (!limited || t->limits) &&
-         (!flowing || t->flows);
+  return t->links && t->link_of_spring && (!damped || t->damping) && (!slack || t->slack) &&
+         (!limited || t->limits) && (!flowing || t->flows);
 }
 
 bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bounds *bounds) {
@@ -161,7 +164,8 @@ bool sbri_links_make(sbr_model *model, sbri_island *island, const sbfi_spring_bo
   }
   if (good) walk(c, &t, bounds);
   sbfi_arena_free(&scratch);
-  island->links = t.links, island->link_damping = t.damping, island->link_limits = t.limits;
+  island->links = t.links, island->link_damping = t.damping, island->link_slack = t.slack,
+  island->link_limits = t.limits;
   island->link_flows = t.flows, island->link_of_spring = t.link_of_spring;
   return good;
 }

@@ -40,6 +40,7 @@ bool sbri_island_preload(sbri_island_maker *m, const sbf_spring_network *network
     if (s->rest_length_m > 0) {
       if (!(length > 0)) continue;
       double change = (x * (ub[0] - ua[0]) + y * (ub[1] - ua[1]) + z * (ub[2] - ua[2])) / length;
+      if (change < 0 && s->slack < 1) change /= 1 - (double)s->slack; /* it pushes, as its slack lets it */
       float loaded = (float)(s->rest_length_m - change), least = LEAST_SHARE * s->rest_length_m;
       s->rest_length_m = loaded > least ? loaded : least;
     } else if (s->b >= island->free_count) { /* a goal: its far end moves instead */

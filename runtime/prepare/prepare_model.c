@@ -45,6 +45,7 @@ static sbf_status choose_scheme(
   bool left_open = options->scheme == SBF_SCHEME_AUTOMATIC && scheme != sbri_scheme_of(stated->scheme);
   bool stated_for_this = stated->scheme == scheme->word || stated->scheme == SBF_SCHEME_AUTOMATIC;
   island->substeps = options->substeps ? options->substeps : stated_for_this ? stated->substeps : 0;
+  island->substeps_least = stated->substeps_least, island->substeps_most = stated->substeps_most;
   island->step_error_m = options->step_error_m > 0 ? options->step_error_m : least_step_error(model, island);
   island->routed =
       left_open && !island->substeps && !sbri_scheme_refuses(&sbri_position_based, model, island);

@@ -52,12 +52,18 @@ typedef struct sbri_descent_edge {
   sbri_wide square;
 } sbri_descent_edge;
 
+/* `slack` (8) of the springs; NULL: none has any. */
 SBRI_INLINE sbri_descent_edge sbri_descent_spring(const sbri_island_tick *t, const sbri_spring_cell *cell,
-    uint32_t lane, sbri_wide3 x, sbri_descent_sum *s) {
+    const float *slack, uint32_t lane, sbri_wide3 x, sbri_descent_sum *s) {
   sbri_wide3 d = sbri_wide3_sub(sbri_wide_gather(t->positions, cell->others + lane), x);
   sbri_wide square = sbri_wide3_dot(d, d) + sbri_wide_all(SBRI_LENGTH_FLOOR);
   sbri_wide k = sbri_wide_load(cell->stiffness + lane), pull = sbri_wide_load(cell->pull + lane);
-  sbri_wide pulls = k - pull / sbri_wide_sqrt(square), across = sbri_wide_max(pulls, sbri_wide_all(0));
+  sbri_wide pulls = k - pull / sbri_wide_sqrt(square), zero = sbri_wide_all(0), one = sbri_wide_all(1);
+  if (slack) {
+    sbri_wide share = sbri_wide_select(pulls < zero, one - sbri_wide_load(slack + lane), one);
+    k = k * share, pulls = pulls * share;
+  }
+  sbri_wide across = sbri_wide_max(pulls, zero);
   s->force = sbri_wide3_add(s->force, sbri_wide3_scale(d, pulls));
   sbri_descent_add(s, across, (k - across) / square, d);
   return (sbri_descent_edge){d, square};
@@ -106,7 +112,8 @@ static inline void sbri_descent_move(const sbri_island_tick *t, const sbri_desce
                off = sbri_wide3_sub(sbri_wide_gather(drawn, slots), so_far);
     sbri_descent_sum s = {sbri_wide3_scale(off, m), {m, m, m, zero, zero, zero}};
     for (uint32_t i = block->first_spring; i < block->spring_end; i++) {
-      sbri_descent_edge edge = sbri_descent_spring(t, &table->springs[i], lane, x, &s);
+      const float *slack = table->slack ? table->slack + (size_t)i * SBRI_BLOCK : NULL;
+      sbri_descent_edge edge = sbri_descent_spring(t, &table->springs[i], slack, lane, x, &s);
       if (!table->damping) continue;
       sbri_wide damping = sbri_wide_load(table->damping + (size_t)i * SBRI_BLOCK + lane) * rate;
       sbri_wide3 other = sbri_wide_gather(moved, table->springs[i].others + lane);

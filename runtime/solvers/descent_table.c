@@ -18,7 +18,7 @@ typedef struct descent_maker {
   const sbf_uint4 *corners; /* (tetrahedron_count) slots */
   ends springs, solids;
   uint8_t *colours;
-  sbfi_array blocks, cells, damping, solid_blocks; /* damping: eight a cell */
+  sbfi_array blocks, cells, damping, slack, solid_blocks; /* damping, slack: eight a cell */
 } descent_maker;
 
 static uint32_t slot_of(const descent_maker *m, bool solid, uint32_t element, uint32_t end) {
@@ -75,10 +75,11 @@ static void colour_points(descent_maker *m, uint32_t *count) {
 
 /* ---- Blocks ---- */
 
-static void put_spring(
-    const descent_maker *m, sbri_spring_cell *cell, float *damping, uint32_t lane, uint32_t element) {
+static void put_spring(descent_maker *m, uint32_t number, uint32_t lane, uint32_t element) {
   const sbfi_spring *s = &m->island->springs[element / 4];
-  damping[lane] = s->damping_ns_m;
+  sbri_spring_cell *cell = (sbri_spring_cell *)m->cells.at + number;
+  ((float *)m->damping.at)[(size_t)number * SBRI_BLOCK + lane] = s->damping_ns_m;
+  ((float *)m->slack.at)[(size_t)number * SBRI_BLOCK + lane] = s->slack;
   cell->others[lane] = element % 4 ? s->a : s->b;
   cell->stiffness[lane] = s->stiffness_n_m;
   cell->pull[lane] = s->stiffness_n_m * s->rest_length_m;
@@ -123,10 +124,10 @@ static bool add_block(descent_maker *m, const uint32_t *slots, uint32_t count) {
   block->spring_end = block->first_spring + springs, block->corner_end = block->first_corner + solids;
   sbri_spring_cell *cells = sbfi_array_push(&m->cells, springs);
   sbri_tetrahedron_block *corners = sbfi_array_push(&m->solid_blocks, solids);
-  float *damping = sbfi_array_push(&m->damping, (size_t)springs * SBRI_BLOCK);
-  if ((springs && !(cells && damping)) || (solids && !corners)) return false;
+  bool known = sbfi_array_push(&m->damping, (size_t)springs * SBRI_BLOCK) &&
+               sbfi_array_push(&m->slack, (size_t)springs * SBRI_BLOCK);
+  if ((springs && !(cells && known)) || (solids && !corners)) return false;
   if (springs) memset(cells, 0, springs * sizeof *cells);
-  if (springs) memset(damping, 0, springs * SBRI_BLOCK * sizeof *damping);
   if (solids) memset(corners, 0, solids * sizeof *corners);
   for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
     uint32_t slot = block->slots[lane];
@@ -136,8 +137,7 @@ static bool add_block(descent_maker *m, const uint32_t *slots, uint32_t count) {
     if (lane >= count) continue;
     const ends *s = &m->springs, *t = &m->solids;
     for (uint32_t i = s->begins[slot]; i < s->begins[slot + 1]; i++) {
-      uint32_t cell = i - s->begins[slot];
-      put_spring(m, &cells[cell], damping + (size_t)cell * SBRI_BLOCK, lane, s->elements[i]);
+      put_spring(m, block->first_spring + (i - s->begins[slot]), lane, s->elements[i]);
     }
     for (uint32_t i = t->begins[slot]; i < t->begins[slot + 1]; i++)
       put_corner(m, &corners[i - t->begins[slot]], lane, t->elements[i]);
@@ -187,6 +187,10 @@ static bool make(descent_maker *m, sbri_descent *made) {
     made->damping = keep(m, &m->damping, sizeof(float));
     if (!made->damping) return false;
   }
+  if (island->cell_slack) {
+    made->slack = keep(m, &m->slack, sizeof(float));
+    if (!made->slack) return false;
+  }
   return made->blocks && made->springs && made->corners;
 }
 
@@ -198,9 +202,11 @@ bool sbri_descent_make(sbr_model *model, sbri_island *island) {
   sbfi_array_init(&m.blocks, &model->arena.allocator, sizeof(sbri_descent_block));
   sbfi_array_init(&m.cells, &model->arena.allocator, sizeof(sbri_spring_cell));
   sbfi_array_init(&m.damping, &model->arena.allocator, sizeof(float));
+  sbfi_array_init(&m.slack, &model->arena.allocator, sizeof(float));
   sbfi_array_init(&m.solid_blocks, &model->arena.allocator, sizeof(sbri_tetrahedron_block));
   bool good = make(&m, made);
   sbfi_array_free(&m.solid_blocks);
+  sbfi_array_free(&m.slack);
   sbfi_array_free(&m.damping);
   sbfi_array_free(&m.cells);
   sbfi_array_free(&m.blocks);

@@ -18,6 +18,7 @@ typedef struct sbri_descent {
   uint32_t block_count, colour_count;
   const sbri_spring_cell *springs;
   const float *damping; /* (cells of springs x 8) N s/m; NULL: no spring is damped */
+  const float *slack;   /* (cells of springs x 8) as sbfi_spring's; NULL: no spring has any */
   const sbri_tetrahedron_block *corners;
 } sbri_descent;
 

@@ -121,12 +121,15 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
   float unit = t->tick_s / (float)SBRI_HEUN_UNITS, stretches[SBRI_BLOCK] = {0};
   sbri_point *first = t->begins; /* of free points; those of held ones are in use */
-  uint32_t wanted = sbri_substeps_now(t, t->tick_s), longest = SBRI_HEUN_UNITS;
+  uint32_t wanted = sbri_substeps_now(t, t->tick_s), longest = SBRI_HEUN_UNITS, shortest = 1;
+  if (wanted < island->substeps_least && !island->substeps) wanted = island->substeps_least;
   while (longest > 1 && SBRI_HEUN_UNITS / longest < wanted) longest /= 2;
+  while (island->substeps_most && shortest < longest && SBRI_HEUN_UNITS / shortest > island->substeps_most)
+    shortest *= 2; /* what is stable comes first */
   sbri_remember_held(t);
   sbri_heun_evaluate(t, unit * (float)longest, NULL);
   for (uint32_t done = 0, step = longest; done < SBRI_HEUN_UNITS;) {
-    if (step > 1 && !island->substeps && sbri_heun_error(t, unit * (float)step) > t->step_error_m) {
+    if (step > shortest && !island->substeps && sbri_heun_error(t, unit * (float)step) > t->step_error_m) {
       step /= 2;
       continue;
     }

@@ -95,7 +95,12 @@ static inline void sbri_sweep_springs(const sbri_island_tick *t, float h, int ki
       sbri_wide rest = sbri_wide_load((flowing ? t->rests + block * SBRI_BLOCK : link->rest) + lane);
       if (flowing) strength = sbri_wide_load(t->strengths + block * SBRI_BLOCK + lane);
       if (flowing) k = k * strength;
-      sbri_wide beyond = length - rest, stiffness = k * square_step, pull = stiffness * beyond;
+      sbri_wide beyond = length - rest;
+      if (damped && island->link_slack) {
+        sbri_wide slack = sbri_wide_load(island->link_slack + block * SBRI_BLOCK + lane);
+        k = k - sbri_wide_select(beyond < sbri_wide_all(0), k * slack, sbri_wide_all(0));
+      }
+      sbri_wide stiffness = k * square_step, pull = stiffness * beyond;
       if (damped) {
         sbri_wide3 a = sbri_wide_gather(t->positions, link->a + lane);
         sbri_wide3 b = sbri_wide_gather(t->positions, link->b + lane);

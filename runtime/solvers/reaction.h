@@ -45,6 +45,7 @@ static inline void sbri_react_springs(const sbri_island_tick *t, float h) {
       rest = t->rests[link], k *= t->strengths[link], damping *= t->strengths[link];
     }
     float share = k - k * rest / sqrtf(square);
+    if (share < 0) share -= share * s->slack;
     if (damping > 0) {
       const sbri_point *v = &t->velocity_points[held], *w = &t->velocity_points[free];
       share += damping * sbri_dot(sbri_vec3(w->x - v->x, w->y - v->y, w->z - v->z), d) / square;

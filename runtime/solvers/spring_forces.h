@@ -47,7 +47,7 @@ static inline void sbri_spread_velocities(const sbri_island_tick *t, float rate)
 /* What the forces on a group of lanes ask for; known where the function is made, so that the common ones
  * carry no more than they need. */
 enum {
-  SBRI_DAMPED = 1,  /* springs have damping of their own */
+  SBRI_DAMPED = 1,  /* springs have damping of their own, or slack */
   SBRI_TRACKED = 2, /* the greatest share of a spring beyond its rest length is wanted */
   SBRI_FLOWING = 4, /* rest lengths are state, and springs may be torn */
   SBRI_FORCE_KINDS = 8
@@ -84,6 +84,12 @@ static inline sbri_wide3 sbri_spring_forces(
     if (track) { /* goals, which have no rest length, do not count */
       sbri_wide share = s / sbri_wide_max(k, sbri_wide_all(1e-20f));
       greatest = sbri_wide_select(pull > sbri_wide_all(0), sbri_wide_max(share, greatest), greatest);
+    }
+    if (damped && island->cell_slack) {
+      size_t place = (size_t)c * SBRI_BLOCK + lane; /* links go along where points split */
+      sbri_wide slack = flowing ? sbri_wide_gather_floats(island->link_slack, island->cell_links + place)
+                                : sbri_wide_load(island->cell_slack + place);
+      s = s - sbri_wide_min(s, sbri_wide_all(0)) * slack;
     }
     if (damped) {
       sbri_wide3 w = sbri_wide_gather(t->velocity_points, cell->others + lane);

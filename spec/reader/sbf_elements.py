@@ -307,6 +307,7 @@ spring_set
   tear_strain: float range=[0,inf)
   inert_count: uint
   color_counts: uint[]
+  compression_ratio: float[] range=[0,inf) length=0|1|ends
 shape_regions
   sizes: uint[] range=[1,inf)
   points: uint[] length=sum(sizes) below=parent.positions
@@ -329,6 +330,8 @@ simulation
   cost: float range=[0,inf)
   measured: many(measured)
   step_error: float range=[0,inf)
+  substeps_least: uint
+  substeps_most: uint
 calibration
   reference_elements: uint
   factor: float default=1 range=(0,inf)

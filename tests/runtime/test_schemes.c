@@ -186,6 +186,28 @@ START_TEST(heun_keeps_the_error_of_the_file)
 }
 END_TEST
 
+/* However coarse the error that is asked for, or fine: as with just so many substeps, powers of two. */
+START_TEST(heun_keeps_the_bounds_of_the_file)
+{
+  const uint32_t least[] = {48, 0, 0, 0}, most[] = {0, 9, 0, 0}, of_host[] = {0, 0, 64, 8};
+  const float error[] = {1, 1e-9f, 1e-3f, 1e-3f};
+  float places[4];
+  for (int k = 0; k < 4; k++) {
+    scene s = oscillator(HEUN, of_host[k]);
+    sbf_simulation *simulation = &((sbf_level *)scene_body(&s, 0)->levels.at)->simulation;
+    simulation->step_error = error[k];
+    simulation->substeps_least = least[k], simulation->substeps_most = most[k];
+    scene_start(&s);
+    scene_ticks(&s, 45);
+    places[k] = scene_point(&s, 0, 1).x;
+    scene_free(&s);
+  }
+  ck_assert_float_eq(places[0], places[2]);
+  ck_assert_float_eq(places[1], places[3]);
+  ck_assert_float_ne(places[0], places[1]);
+}
+END_TEST
+
 /* Falls for a second; the same a kilometre away, and with 200 substeps. */
 START_TEST(a_body_falls_as_at_the_origin)
 {
@@ -513,6 +535,7 @@ static Suite *suite(void) {
   tcase_add_test(c, explicit_euler_fails_where_it_must);
   tcase_add_test(c, heun_keeps_the_error_it_is_told);
   tcase_add_test(c, heun_keeps_the_error_of_the_file);
+  tcase_add_test(c, heun_keeps_the_bounds_of_the_file);
   tcase_add_loop_test(c, a_body_falls_as_at_the_origin, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, momentum_is_kept, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, a_hanging_chain_stretches_by_its_weight, 0, SCHEME_COUNT);

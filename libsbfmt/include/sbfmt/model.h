@@ -789,6 +789,9 @@ typedef struct sbf_spring_set {
   uint32_t inert_count;
   /* Springs lie in colour order; how many of each colour. Empty: not coloured. */
   sbf_u32_list color_counts;
+  /* Stiffness below the rest length, as a share of `stiffness`; empty: 1. [[0, inf); length 0 or 1 or ends]
+   * */
+  sbf_f32_list compression_ratio;
 } sbf_spring_set;
 typedef struct sbf_spring_set_list {
   const sbf_spring_set *at;
@@ -870,6 +873,10 @@ typedef struct sbf_simulation {
   sbf_measured_list measured;
   /* Of schemes that control their error: how large a step's may be; 0: the host's choice. [m; [0, inf)] */
   float step_error;
+  /* Of a control tick, of schemes that control their error; 0: no bound. */
+  uint32_t substeps_least;
+  /* The same; 0: no bound. */
+  uint32_t substeps_most;
 } sbf_simulation;
 typedef struct sbf_simulation_list {
   const sbf_simulation *at;

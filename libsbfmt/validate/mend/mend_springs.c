@@ -17,9 +17,11 @@ static float stated(sbf_f32_list values, uint32_t place) {
 static bool say_the_same(spring a, spring b) {
   return stated(a.set->rest_lengths, a.place) == stated(b.set->rest_lengths, b.place) &&
          stated(a.set->stiffness, a.place) == stated(b.set->stiffness, b.place) &&
-         stated(a.set->damping, a.place) == stated(b.set->damping, b.place) && a.set->extra == b.set->extra &&
-         a.set->strain_min == b.set->strain_min && a.set->strain_max == b.set->strain_max &&
-         a.set->yield_strain == b.set->yield_strain && a.set->tear_strain == b.set->tear_strain;
+         stated(a.set->damping, a.place) == stated(b.set->damping, b.place) &&
+         stated(a.set->compression_ratio, a.place) == stated(b.set->compression_ratio, b.place) &&
+         a.set->extra == b.set->extra && a.set->strain_min == b.set->strain_min &&
+         a.set->strain_max == b.set->strain_max && a.set->yield_strain == b.set->yield_strain &&
+         a.set->tear_strain == b.set->tear_strain;
 }
 
 static spring spring_of(const sbf_level *level, uint32_t number) {
@@ -77,6 +79,7 @@ static void drop_springs(sbf_spring_set *set, const uint8_t *dropped) {
   if (set->rest_lengths.count) sbfi_list_drop(&set->rest_lengths, sizeof *set->rest_lengths.at, dropped);
   drop_values(&set->stiffness, dropped);
   drop_values(&set->damping, dropped);
+  drop_values(&set->compression_ratio, dropped);
   sbfi_list_drop(&set->ends, sizeof *set->ends.at, dropped);
 }
 

@@ -10,6 +10,7 @@ import math
 TIME_UNIT_S = math.sqrt(0.001)
 FORCE_UNIT_N = 1.0 / TIME_UNIT_S**2
 FRICTION_SCALE = 0.01  # Blender multiplies its frictions by it
+HELD_GOAL = 0.999
 
 
 def stiff(slider):
@@ -23,10 +24,19 @@ def edge_stiffness(pull, length_m):
     return FORCE_UNIT_N * stiff(pull) / length_m
 
 
+def push_ratio(soft):
+    """What an edge resists being pressed by, as a share of what it resists being drawn by; infinite where it resists that not at all."""
+    return stiff(soft.push) / stiff(soft.pull) if stiff(soft.pull) > 0 else math.inf if soft.push > 0 else 1.0
+
+
+def goal_of(weight, soft):
+    """0..1, f = default · weight within the bounds; from HELD_GOAL on Blender holds the vertex fast."""
+    return min(abs(weight * soft.goal_default * (soft.goal_max - soft.goal_min)) + soft.goal_min, 1.0)
+
+
 def goal_stiffness(weight, soft):
-    """N/m of a soft body's goal at a vertex of that weight: stiff(f⁴ · goal spring), f = default · weight within the bounds."""
-    final = abs(weight * soft.goal_default * (soft.goal_max - soft.goal_min)) + soft.goal_min
-    return FORCE_UNIT_N * stiff(min(final, 1.0)**4 * soft.goal_spring)
+    """N/m of a soft body's goal at a vertex of that weight: stiff(f⁴ · goal spring)."""
+    return FORCE_UNIT_N * stiff(goal_of(weight, soft)**4 * soft.goal_spring)
 
 
 def friction(slider):
@@ -48,6 +58,28 @@ def field_on_soft_body(mass_kg, rate):
 def field_on_cloth(area_density, rate):
     """m/s² that a field of strength 1 gives a cloth of so many kg/m²: it pushes areas, by a fiftieth of it."""
     return FORCE_UNIT_N / 50 / (rate * area_density)
+
+
+def drag_on_soft_body(mass_kg):
+    """1/s that a drag field of linear strength 1 takes from the speed of a vertex. (In Blender it adds to it, as soft bodies take
+    every field against its own way.)"""
+    return FRICTION_SCALE / (TIME_UNIT_S * mass_kg)
+
+
+def drag_on_cloth(area_density):
+    """1/s that a drag field of linear strength 1 takes from the speed of a cloth of so many kg/m²."""
+    return 1 / (50 * TIME_UNIT_S * area_density)
+
+
+def cloth_damping(slider):
+    """N·s/m of a cloth's spring."""
+    return slider / TIME_UNIT_S
+
+
+def hinge_torque(bending, area_m2, corners):
+    """N·m/rad with which a polygon at a hinge of the cloth resists: a force of 100 · bending · side on it, in equal parts to its
+    corners, of which all but two are beside the hinge. At the distance of a quad's other side, or of a triangle's corner, that is this."""
+    return 0.1 * FORCE_UNIT_N * bending * area_m2 * (1 - 2 / corners) * (2 if corners == 3 else 1)
 
 
 def cloth_layer(tension, shear, edge_m):

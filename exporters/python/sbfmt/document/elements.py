@@ -331,6 +331,7 @@ ELEMENTS = {element.name: element for element in (
         Field('tear_strain', 'float', default=0.0),
         Field('inert_count', 'uint', default=0),
         Field('color_counts', 'uint[]'),
+        Field('compression_ratio', 'float[]'),
     )),
     Element('shape_regions', 'shape_regions', (
         Field('sizes', 'uint[]'),
@@ -357,6 +358,8 @@ ELEMENTS = {element.name: element for element in (
         Field('cost', 'float', default=0.0),
         Field('measured', 'many', 'measured', xml='measured', volatile=True),
         Field('step_error', 'float', default=0.0),
+        Field('substeps_least', 'uint', default=0),
+        Field('substeps_most', 'uint', default=0),
     )),
     Element('calibration', 'calibration', (
         Field('reference_elements', 'uint', default=0),
