@@ -60,7 +60,7 @@ def run_in_window(blender, script, words):
     if blender.root and not glob.glob(f"{blender.root}/usr/lib/*/libEGL.so.1"):
         skip(f"{blender.root} has nothing to draw with: install libegl1, libgl1 and libgl1-mesa-dri there")
     with Screen(blender.folder, blender.root) as screen:
-        command = [*blender.command, "--factory-startup", "--window-geometry", "0", "0", str(WIDTH), str(HEIGHT),
+        command = [*blender.command, "--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", str(WIDTH), str(HEIGHT),
                    "--python", f"{blender.inside}/tests/{script}.py", "--", *words]
         return subprocess.run(command, env={**blender.environment(), "DISPLAY": f":{screen.number}"}, check=False, capture_output=True,
                               text=True, timeout=MOST_S, preexec_fn=bound_the_processor)

@@ -166,7 +166,14 @@ def until(is_done):
 def watch_work():
     """WORK gets how the work of an operator ended."""
     from soft_body_format.operators.working import Working
-    go_on = Working.go_on
+    go_on, modal = Working.go_on, Working.modal
+
+    def escaped(self, context, event):
+        done = modal(self, context, event)
+        if event.type == "ESC":
+            WORK.append(done)
+        return done
+    Working.modal = escaped
 
     def watched(self, context, seconds):
         done = go_on(self, context, seconds)
@@ -174,6 +181,23 @@ def watch_work():
             WORK.append(done)
         return done
     Working.go_on = watched
+
+
+def press_escape():
+    """As the key is, while a build works."""
+    bpy.ops.sbfmt.build("INVOKE_DEFAULT")
+    for value in ("PRESS", "RELEASE"):
+        WINDOW.event_simulate(type="ESC", value=value, x=WINDOW.width // 3, y=WINDOW.height // 2)
+
+
+def expect_nothing():
+    """The build has ended at once, and left nothing behind."""
+    if not WORK:
+        return False
+    from soft_body_format.building import LastBuild
+    if WORK.pop() != {"CANCELLED"} or LastBuild.built is not None or is_built():
+        raise RuntimeError("Escape is to end a build, which then leaves nothing")
+    return True
 
 
 def is_built():
@@ -315,7 +339,7 @@ STEPS = (
             lambda: bpy.data.objects["Pelvis"].select_set(True),
             lambda: only("material", "pins", "limits", "collision", "weight_maps")),
     lambda: tab("OBJECT"), shoot("blender-object", "PROPERTIES"),
-    several(press_build, lambda: only("check", "build", "drawn")), until(is_built), lambda: tab("SCENE"),
+    press_escape, expect_nothing, several(press_build, lambda: only("check", "build", "drawn")), until(is_built), lambda: tab("SCENE"),
     shoot("blender", "VIEW_3D", "PROPERTIES"),
     several(break_something, lambda: only("check")), shoot("blender-check", "PROPERTIES"), mend_it,
     touch, idle(8), idle(8), expect_quiet,

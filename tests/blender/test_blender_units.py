@@ -1,5 +1,7 @@
 """What Blender's sliders mean: measured in Blender itself, against the formulas of to_document/blender_units.py."""
 
+import math
+
 import bpy
 import fixtures
 from soft_body_format.to_document import blender_units
@@ -10,13 +12,27 @@ GRAVITY = 9.81
 def square(mass, **settings):
     """A square of a metre-half that hangs by two corners; (object, soft body settings)."""
     made = fixtures.mesh_object("m", [(0, 0, 0), (0, 0, -.5), (.5, 0, -.5), (.5, 0, 0)], [(0, 1, 2, 3)])
-    made.vertex_groups.new(name="held").add([0, 3], 1.0, "REPLACE")
+    return soften(made, [0, 3], mass=mass, **settings)
+
+
+def soften(made, held, **settings):
+    made.vertex_groups.new(name="held").add(held, 1.0, "REPLACE")
     made.modifiers.new("s", "SOFT_BODY")
     soft = made.soft_body
-    soft.mass, soft.friction, soft.bend, soft.damping, soft.goal_friction = mass, 5, 0, 5, 5
+    soft.friction, soft.bend, soft.damping, soft.goal_friction = 5, 0, 5, 5
     soft.vertex_group_goal, soft.goal_min, soft.goal_max, soft.use_goal = "held", 0, 1, True
     for name, value in settings.items():
         setattr(soft, name, value)
+    return made
+
+
+def woven(made, held, **settings):
+    """Cloth that collides with nothing."""
+    made.vertex_groups.new(name="held").add(held, 1.0, "REPLACE")
+    found = made.modifiers.new("c", "CLOTH")
+    found.collision_settings.use_collision, found.settings.quality, found.settings.vertex_group_mass = False, 10, "held"
+    for name, value in settings.items():
+        setattr(found.settings, name, value)
     return made
 
 
@@ -37,6 +53,66 @@ class SoftBody(fixtures.SceneTest):
             wanted = mass * GRAVITY / blender_units.edge_stiffness(pull, 0.5)
             self.assertAlmostEqual(heights[0] - heights[1] - 0.5, wanted, delta=0.02 * wanted)
             fixtures.fresh_scene()
+
+    def line(self, up, count=2, **settings):
+        """Vertices one above the other, half a metre in all; the first is held."""
+        step = 0.5 * up / (count - 1)
+        made = fixtures.mesh_object("m", [(0, 0, step * i) for i in range(count)], [], [(i, i + 1) for i in range(count - 1)])
+        return soften(made, [0], mass=1, **settings)
+
+    def test_an_edge_is_pressed_by_weight_over_the_stiffness_of_push(self):
+        for pull, push in ((0.5, 0.8), (0.8, 0.5)):
+            made = self.line(1, pull=pull, push=push)
+            heights = settle(made)
+            wanted = GRAVITY / blender_units.edge_stiffness(pull, 0.5) / blender_units.push_ratio(made.soft_body)
+            self.assertAlmostEqual(0.5 + heights[0] - heights[1], wanted, delta=0.02 * wanted)
+            fixtures.fresh_scene()
+
+    def test_bending_is_a_share_of_the_pull(self):
+        """Three vertices in a line: the lower edge and the spring past it bear the lowest."""
+        for bend, pull in ((5, 0.5), (2, 0.8)):
+            heights = settle(self.line(-1, 3, pull=pull, push=pull, bend=bend))
+            low, middle = 0.25 - heights[2] + heights[1] - 0.5, heights[0] - heights[2] - 0.5
+            edge = blender_units.edge_stiffness(pull, 0.25)
+            wanted = bend * blender_units.edge_stiffness(pull, 0.5)
+            self.assertAlmostEqual(edge * low + wanted * middle, GRAVITY, delta=0.02 * GRAVITY)
+            fixtures.fresh_scene()
+
+    def test_stiff_quads_pull_by_the_square_of_shear(self):
+        for shear, pull in ((1, 0.5), (0.5, 0.8)):
+            made = square(1, use_edges=True, pull=pull, push=pull, shear=shear, use_stiff_quads=True)
+            settle(made)
+            at = [vertex.co for vertex in made.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.vertices]
+            side, across = at[0] - at[1], at[0] - at[2]
+            rest = 0.5 * 2**0.5
+            borne = blender_units.edge_stiffness(pull, 0.5) * (side.length - 0.5) * side.z / side.length
+            borne += shear**2 * blender_units.edge_stiffness(pull, rest) * (across.length - rest) * across.z / across.length
+            self.assertAlmostEqual(borne, GRAVITY, delta=0.02 * GRAVITY)
+            fixtures.fresh_scene()
+
+    def test_a_group_weakens_springs_by_its_fourth_power(self):
+        made = self.line(-1, pull=0.5, push=0.5)
+        made.vertex_groups.new(name="weak").add([0], 0.4, "REPLACE")
+        made.vertex_groups["weak"].add([1], 0.6, "REPLACE")
+        made.soft_body.vertex_group_spring = "weak"
+        heights = settle(made)
+        wanted = GRAVITY / (blender_units.edge_stiffness(0.5, 0.5) * 0.5**4)
+        self.assertAlmostEqual(heights[0] - heights[1] - 0.5, wanted, delta=0.02 * wanted)
+
+    def test_damping_of_edges_bounds_how_fast_they_lengthen(self):
+        made = self.line(-1, pull=0, push=0, damping=50, friction=0, goal_friction=0, goal_default=1)
+        way_of_a_frame = settle(made, last=40)[1] - settle(made, 41, 41)[1]
+        wanted = GRAVITY / blender_units.friction(50)
+        self.assertAlmostEqual(way_of_a_frame / blender_units.TIME_UNIT_S, wanted, delta=0.02 * wanted)
+
+    def test_friction_of_the_goal_holds_back_what_it_does_not_draw(self):
+        made = self.line(-1, use_edges=False, friction=0, goal_friction=50)
+        way_of_a_frame = settle(made, last=40)[1] - settle(made, 41, 41)[1]
+        wanted = GRAVITY / blender_units.friction(50)
+        self.assertAlmostEqual(way_of_a_frame / blender_units.TIME_UNIT_S, wanted, delta=0.02 * wanted)
+
+    def test_a_whole_goal_holds_fast(self):
+        self.assertEqual(settle(self.line(-1, use_edges=False, goal_default=1, goal_spring=0.1), last=60)[0], 0)
 
     def test_a_goal_gives_by_weight_over_stiffness(self):
         for spring, default in ((0.9, 0.7), (0.5, 0.9)):
@@ -96,7 +172,84 @@ class Fields(fixtures.SceneTest):
         self.blow(made, blender_units.field_on_cloth(0.5 * 4 / 0.25, 30))
 
 
+    def slow(self, kind, density, wanted, **settings):
+        """A cloth of so many kg/m² that falls through a field, until it is as fast as it may be."""
+        made = fixtures.mesh_object("m", [(0, 0, 0), (.5, 0, 0), (.5, .5, 0), (0, .5, 0)], [(0, 1, 2, 3)])
+        woven(made, [], mass=density * 0.25 / 4, air_damping=0)
+        bpy.ops.object.effector_add(type=kind)
+        for name, value in {"strength": 0, **settings}.items():
+            setattr(bpy.context.object.field, name, value)
+        way_of_a_frame = settle(made)[0] - settle(made, 241, 241)[0]
+        self.assertAlmostEqual(way_of_a_frame / blender_units.TIME_UNIT_S, wanted, delta=0.02 * wanted)
+        fixtures.fresh_scene()
+
+    def test_flow_brakes_cloth(self):
+        for density, flow in ((8, 50), (0.8, 2)):
+            self.slow("WIND", density, GRAVITY / (flow * blender_units.drag_on_cloth(density)), flow=flow)
+
+    def test_drag_goes_by_the_speed_where_it_is_called_quadratic(self):
+        self.slow("DRAG", 0.8, GRAVITY / (2 * blender_units.drag_on_cloth(0.8)), linear_drag=0, quadratic_drag=2)
+
+    def test_drag_goes_by_the_square_of_the_speed_where_it_is_called_linear(self):
+        """Of which the square is in frames: the force of a field of that strength, times the way of a frame in seconds, squared."""
+        for rate in (24, 30):
+            bpy.context.scene.render.fps = rate
+            square_of_speed = 2 * blender_units.field_on_cloth(0.8, rate) * (rate * blender_units.TIME_UNIT_S)**2
+            self.slow("DRAG", 0.8, (GRAVITY / square_of_speed)**0.5, linear_drag=2, quadratic_drag=0)
+
+    def test_flow_pushes_soft_bodies_on(self):
+        """Against its own way, as every field: exp(r t) with a rate that brakes cloth."""
+        made = square(1, use_goal=False, use_edges=False, friction=0)
+        bpy.context.scene.frame_set(1)
+        bpy.ops.object.effector_add(type="WIND")
+        bpy.context.object.field.strength, bpy.context.object.field.flow = 0, 5
+        rate, seconds = 5 * blender_units.drag_on_soft_body(1), 80 * blender_units.TIME_UNIT_S
+        wanted = GRAVITY / rate * ((math.exp(rate * seconds) - 1) / rate - seconds)
+        self.assertAlmostEqual(-settle(made, last=81)[0], wanted, delta=0.02 * wanted)
+
+
 class Cloth(fixtures.SceneTest):
+    def test_cloth_is_pressed_by_its_compression(self):
+        for tension, compression in ((15, 5), (5, 15)):
+            made = fixtures.mesh_object("m", [(0, 0, 0), (0, 0, .5), (.5, 0, .5), (.5, 0, 0)], [(0, 1, 2, 3)])
+            woven(made, [0, 3], mass=0.1, tension_stiffness=tension, compression_stiffness=compression, shear_stiffness=0,
+                  bending_stiffness=0)
+            wanted = 0.1 * GRAVITY / blender_units.cloth_stiffness(compression, 0.5)
+            self.assertAlmostEqual(0.5 - settle(made)[1], wanted, delta=0.02 * wanted)
+            fixtures.fresh_scene()
+
+    def test_diagonals_of_cloth_do_not_push(self):
+        """Stood on them alone it falls as if there were none."""
+        made = fixtures.mesh_object("m", [(0, 0, 0), (0, 0, .5), (.5, 0, .5), (.5, 0, 0)], [(0, 1, 2, 3)])
+        woven(made, [0, 3], mass=0.1, tension_stiffness=0, compression_stiffness=0, shear_stiffness=5, bending_stiffness=0,
+              tension_damping=0, compression_damping=0, shear_damping=0, air_damping=0)
+        seconds = 4 * blender_units.TIME_UNIT_S
+        self.assertAlmostEqual(0.5 - settle(made, last=5)[1], GRAVITY * seconds**2 / 2, delta=0.2 * GRAVITY * seconds**2 / 2)
+
+    def test_damping_of_tension_bounds_how_fast_it_lengthens(self):
+        for side in (0.25, 1):
+            made = fixtures.mesh_object("m", [(0, 0, 0), (0, 0, -side), (side, 0, -side), (side, 0, 0)], [(0, 1, 2, 3)])
+            woven(made, [0, 3], mass=1, tension_stiffness=0, compression_stiffness=0, shear_stiffness=0, bending_stiffness=0,
+                  tension_damping=5, shear_damping=0, compression_damping=0, air_damping=0, quality=40)
+            way_of_a_frame = settle(made, last=20)[1] - settle(made, 21, 21)[1]
+            wanted = GRAVITY / blender_units.cloth_damping(5)
+            self.assertAlmostEqual(way_of_a_frame / blender_units.TIME_UNIT_S, wanted, delta=0.03 * wanted)
+            fixtures.fresh_scene()
+
+    def test_a_flap_bends_by_its_weight(self):
+        """Rectangles and triangles on a held one: the torque of the weight against that of the hinge."""
+        for long, wide, mass, corners in ((0.5, 0.5, 1, 4), (0.25, 0.5, 1, 4), (0.5, 0.25, 0.5, 4), (0.5, 0.5, 1, 3)):
+            rim = [(2 * long, 0, 0), (2 * long, wide, 0)] if corners == 4 else [(2 * long, wide / 2, 0)]
+            made = fixtures.mesh_object("m", [(0, 0, 0), (0, wide, 0), (long, 0, 0), (long, wide, 0), *rim],
+                                        [(0, 2, 3, 1), (2, 4, 5, 3) if corners == 4 else (2, 4, 3)])
+            woven(made, [0, 1, 2, 3], mass=mass, tension_stiffness=2000, compression_stiffness=2000, shear_stiffness=2000,
+                  bending_stiffness=5, bending_damping=5, air_damping=3)
+            angle = math.asin(-settle(made, last=250)[4] / long)
+            borne = len(rim) * mass * GRAVITY * long * math.cos(angle)
+            hinge = blender_units.hinge_torque(5, wide, long / 2 if corners == 4 else long / 3)
+            self.assertAlmostEqual(hinge * angle, borne, delta=0.02 * borne)
+            fixtures.fresh_scene()
+
     def test_tension_and_air(self):
         made = fixtures.mesh_object("m", [(0, 0, 0), (0, 0, -.5), (.5, 0, -.5), (.5, 0, 0)], [(0, 1, 2, 3)])
         made.vertex_groups.new(name="held").add([0, 3], 1.0, "REPLACE")

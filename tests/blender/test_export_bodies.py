@@ -57,18 +57,48 @@ class Bodies(fixtures.SceneTest):
         made.modifiers.new("s", "SOFT_BODY")
         soft = made.soft_body
         soft.mass, soft.friction, soft.pull, soft.push, soft.damping = 0.5, 2, 0.5, 0.5, 1
-        soft.use_stiff_quads, soft.shear, soft.bend = True, 1.0, 5.0
-        soft.vertex_group_goal, soft.goal_default, soft.goal_spring = "goal", 1.0, 0.9
+        soft.use_stiff_quads, soft.shear, soft.bend = True, 0.5, 5.0
+        soft.vertex_group_goal, soft.goal_default, soft.goal_spring = "goal", 0.9, 0.9
         body = self.export(build=False).soft_bodies[0]
         self.assertAlmostEqual(body.attributes.mass, 0.5 * 9, places=5)
         level = body.levels[0]
         sets = {one.kind: one for one in level.springs}
         self.assertEqual({kind: len(one.ends) // 2 for kind, one in sets.items()}, {"structural": 12, "shear": 8, "flexion": 6})
         self.assert_near(set(sets["structural"].stiffness), {2000.0}, 1e-2)
+        self.assert_near(set(sets["shear"].stiffness), {2000 / 2**0.5 / 4}, 1e-2)
+        self.assert_near(set(sets["flexion"].stiffness), {5 * 1000.0}, 1e-2)
+        self.assertEqual([list(one.compression_ratio) for one in level.springs], [[], [], []])
         self.assertEqual(level.simulation.scheme, "heun")
         goal = body.pins[0]
         self.assertEqual(list(goal.points), [0, 1])
-        self.assertAlmostEqual(goal.stiffness * goal.weights[0], 9000, delta=1)
+        strength = 0.9**4 * 0.9
+        self.assertAlmostEqual(goal.stiffness * goal.weights[0], 1000 * strength / (1 - strength), delta=1)
+
+    def test_edges_that_push_otherwise_than_they_pull(self):
+        made = fixtures.sheet("b", 2)
+        made.modifiers.new("s", "SOFT_BODY")
+        soft = made.soft_body
+        soft.use_goal, soft.pull, soft.push, soft.use_stiff_quads, soft.bend = False, 0.5, 0.75, True, 1
+        for one in self.export(build=False).soft_bodies[0].levels[0].springs:
+            self.assert_near(one.compression_ratio, [3], 1e-5)
+        soft.push = 0
+        self.assertEqual(list(self.export(build=False).soft_bodies[0].levels[0].springs[0].compression_ratio), [0])
+        soft.pull, soft.push = 0, 0.5
+        bpy.ops.sbfmt.check()
+        self.assertIn("give them a little pull", " ".join(one.message for one in self.scene.soft_body_format.findings))
+
+    def test_what_a_goal_holds_fast_and_what_its_friction_holds_back(self):
+        made = fixtures.sheet("b", 2)
+        made.vertex_groups.new(name="goal").add([0, 1, 2], 1.0, "REPLACE")
+        made.vertex_groups["goal"].add([3], 0.5, "REPLACE")
+        made.modifiers.new("s", "SOFT_BODY")
+        soft = made.soft_body
+        soft.vertex_group_goal, soft.goal_default, soft.goal_min, soft.goal_friction = "goal", 1.0, 0, 10
+        pins = self.export(build=False).soft_bodies[0].pins
+        self.assertEqual([(one.name, list(one.points), one.damping > 0) for one in pins],
+                         [("Goal", [0, 1, 2], False), ("Goal", [3], False), ("Goal friction", [3, 4, 5, 6, 7, 8], True)])
+        self.assertEqual(list(pins[0].weights), [])  # kinematic
+        self.assertAlmostEqual(pins[2].damping * pins[2].weights[0], 0.01 * 10 / math.sqrt(0.001), delta=1e-3)
 
     def test_sliders_of_the_soft_body_modifier_one_by_one(self):
         made = fixtures.sheet("b", 2)
@@ -86,14 +116,17 @@ class Bodies(fixtures.SceneTest):
         self.assertAlmostEqual(list(level.masses)[4], 0.5)
         edges = level.springs[0]
         self.assert_near(set(edges.rest_lengths), {0.25})
-        self.assert_near(set(edges.stiffness), {1000 * 3 / 0.25 * 0.5**2}, 1e-2)
+        self.assert_near(set(edges.stiffness), {1000 * 3 / 0.25 * 0.5**4}, 1e-2)
         self.assertEqual((level.simulation.scheme, level.simulation.substeps), ("heun", 0))  # by error control
         bpy.ops.sbfmt.check()
         self.assertEqual(level.simulation.step_error, 0)  # Blender's default is nobody's wish
         soft.error_threshold, self.scene.unit_settings.scale_length = 0.02, 0.5
         self.assertAlmostEqual(self.export("finer.sbf", build=False).soft_bodies[0].levels[0].simulation.step_error, 0.01)
         soft.error_threshold, self.scene.unit_settings.scale_length = 0.1, 1
-        self.assertIn("7 to 300 steps a frame", " ".join(one.message for one in self.scene.soft_body_format.findings))
+        self.assertEqual((level.simulation.substeps_least, level.simulation.substeps_most), (4, 0))  # of 1/60 s, 0.53 of Blender's frames
+        soft.step_min, soft.step_max = 10, 40
+        simulation = self.export("bounded.sbf", build=False).soft_bodies[0].levels[0].simulation
+        self.assertEqual((simulation.substeps_least, simulation.substeps_most), (0, 22))
         self.assert_near((body.attributes.yield_strain, body.attributes.yield_flow), (0.05, 0.3))
         self.assertTrue(body.collision.self)
         self.assertAlmostEqual(body.collision.particle_radius, 0.4 * 0.5)
@@ -110,11 +143,12 @@ class Bodies(fixtures.SceneTest):
         soft = made.soft_body
         soft.vertex_group_goal, soft.goal_default, soft.goal_min, soft.goal_max = "goal", 0.8, 0.2, 0.9
         soft.goal_spring, soft.goal_friction = 0.5, 10
-        goal = self.export(build=False).soft_bodies[0].pins[0]
+        goal, held_back = self.export(build=False).soft_bodies[0].pins
         finals = [weight * 0.8 * 0.7 + 0.2 for weight in (1, 0.5, 0)]
         wanted = [1000 * (1 / (1 - final**4 * 0.5) - 1) for final in finals]
         self.assert_near([goal.stiffness * goal.weights[index] for index in (0, 1, 2)], wanted, 1e-3)
-        self.assertAlmostEqual(goal.damping, 0.01 * 10 / math.sqrt(0.001), places=4)
+        self.assertEqual((goal.damping, len(held_back.points)), (0, 9))
+        self.assertAlmostEqual(held_back.damping, 0.01 * 10 / math.sqrt(0.001), places=4)
 
     def cloth(self, made, **settings):
         found = made.modifiers.new("c", "CLOTH")
@@ -125,8 +159,8 @@ class Bodies(fixtures.SceneTest):
     def test_cloth_modifier(self):
         made = fixtures.sheet("cape", 4)
         made.vertex_groups.new(name="collar").add([0, 1, 2], 1.0, "REPLACE")
-        found = self.cloth(made, mass=0.01, tension_stiffness=20, shear_stiffness=5, tension_damping=4, bending_stiffness=0.5,
-                           air_damping=2, vertex_group_mass="collar", pin_stiffness=3)
+        found = self.cloth(made, mass=0.01, tension_stiffness=20, compression_stiffness=20, shear_stiffness=5, tension_damping=4,
+                           bending_stiffness=0.5, air_damping=2, vertex_group_mass="collar", pin_stiffness=3)
         found.collision_settings.use_self_collision = True
         found.collision_settings.self_distance_min, found.collision_settings.distance_min = 0.02, 0.03
         found.collision_settings.friction = 8
@@ -135,9 +169,10 @@ class Bodies(fixtures.SceneTest):
         self.assertAlmostEqual(numbers.area_density, 0.01 * len(made.data.vertices), places=4)
         self.assertAlmostEqual(numbers.poisson_ratio, 0.2, places=6)
         self.assertAlmostEqual(numbers.young_modulus * numbers.thickness, 25000 / edge * (1 - 0.04), delta=1)
-        self.assertAlmostEqual(numbers.bending_stiffness, 0.5 * edge, places=5)
+        self.assertAlmostEqual(numbers.bending_stiffness, 50 * 0.5 * edge**2, places=5)  # each quad's own
+        self.assertEqual(len(body.levels), 0)
         self.assertAlmostEqual(numbers.media_friction, 0.02 / math.sqrt(0.001) / 0.01, delta=1e-3)
-        self.assertAlmostEqual(numbers.stiffness_damping, 0.04 / 20 * math.sqrt(0.001), places=8)
+        self.assertAlmostEqual(numbers.stiffness_damping, 4 / math.sqrt(0.001) / (20000 / edge), places=8)
         self.assertAlmostEqual(numbers.friction, 0.8, places=6)
         self.assertTrue(body.collision.self)
         self.assert_near((body.collision.particle_radius, body.collision.outer_thickness), (0.02, 0.03))
@@ -176,10 +211,29 @@ class Bodies(fixtures.SceneTest):
 
     def test_what_cloth_has_and_the_format_has_not_is_told(self):
         made = fixtures.sheet("cape", 4)
-        self.cloth(made, compression_stiffness=40, use_sewing_springs=True)
+        self.cloth(made, compression_damping=40, use_sewing_springs=True)
         bpy.ops.sbfmt.check()
         told = " ".join(one.message for one in self.scene.soft_body_format.findings)
-        self.assertRegex(told, "compression .40. differs.*sewing")
+        self.assertRegex(told, "damping of compression differs.*sewing")
+
+    def test_cloth_that_resists_pressing_otherwise_is_springs(self):
+        made = fixtures.sheet("cape", 4)
+        made.vertex_groups.new(name="hem").add(list(range(len(made.data.vertices))), 0.5, "REPLACE")
+        self.cloth(made, tension_stiffness=20, compression_stiffness=5, shear_stiffness=10, tension_damping=3, shear_damping=2,
+                   shear_stiffness_max=30, vertex_group_shear_stiffness="hem")
+        edges, diagonals = self.export(build=False).soft_bodies[0].levels[0].springs
+        self.assertEqual((edges.kind, diagonals.kind), ("structural", "shear"))
+        self.assert_near((*edges.compression_ratio, *diagonals.compression_ratio), (0.25, 0))
+        self.assert_near(set(edges.stiffness), {20000 / 0.25}, 0.1)
+        self.assert_near(set(diagonals.stiffness), {20000 / 0.25}, 0.1)
+        self.assert_near((edges.damping[0], diagonals.damping[0]), (3 / math.sqrt(0.001), 2 / math.sqrt(0.001)), 1e-4)
+
+    def test_bending_of_triangles(self):
+        made = fixtures.mesh_object("flap", [(0, 0, 0), (0.5, 0, 0), (0, 0.5, 0), (0.5, 0.5, 0)], [(0, 1, 2), (1, 3, 2)])
+        self.cloth(made, bending_stiffness=0.5)
+        side = 0.5 * 2**0.5
+        torque, turned = 100 * 0.5 * side * (side / 2 / 3), side**2 / 0.25  # of each about the one side; of a rigidity of 1
+        self.assertAlmostEqual(self.export(build=False).soft_bodies[0].attributes.bending_stiffness, torque / turned, places=5)
 
     def test_thickness_of_collision_settings(self):
         rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0)])

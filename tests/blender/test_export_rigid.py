@@ -155,8 +155,10 @@ class Surroundings(fixtures.SceneTest):
         bpy.ops.object.effector_add(type="WIND")
         bpy.context.object.field.strength = 300
         self.scene.render.fps = 30
-        wind = self.export(build=False).environment.fields[0]
+        wind, flow = self.export(build=False).environment.fields
         self.assertAlmostEqual(wind.strength, 300 * 20 / (30 * 0.02 * 25), places=3)
+        self.assertEqual((flow.kind, flow.name), ("drag", "Wind flow" if wind.name == "Wind" else f"{wind.name} flow"))
+        self.assertAlmostEqual(flow.strength, 20 * 0.001**0.5 / (0.02 * 25), places=4)  # new winds of Blender's have a flow of 1
         jelly = fixtures.box("jelly")
         jelly.modifiers.new("s", "SOFT_BODY")
         bpy.ops.sbfmt.check()
@@ -164,3 +166,28 @@ class Surroundings(fixtures.SceneTest):
         cape.modifiers.clear()
         jelly.soft_body.mass = 0.5
         self.assertAlmostEqual(self.export(build=False).environment.fields[0].strength, -300 * 10 / (30 * 0.5), places=3)
+
+    def test_drag_goes_by_what_blender_calls_quadratic(self):
+        fixtures.sheet("cape", 4).modifiers.new("c", "CLOTH").settings.mass = 0.02
+        bpy.ops.object.effector_add(type="DRAG")
+        field = bpy.context.object.field
+        field.linear_drag, field.quadratic_drag, field.falloff_power = 0, 3, 1.5
+        found = self.export(build=False).environment.fields[0]
+        self.assertEqual((found.kind, found.falloff), ("drag", 1.5))
+        self.assertAlmostEqual(found.strength, 3 * 20 * 0.001**0.5 / (0.02 * 25), places=4)
+
+    def test_what_of_a_field_is_left_out_is_told(self):
+        fixtures.box("b")
+        for kind, settings, said in (("FORCE", {"noise": 2, "shape": "LINE"}, "noise; the shape Line"),
+                                     ("WIND", {"use_max_distance": True, "z_direction": "POSITIVE"}, "one side alone; the shape Plane"),
+                                     ("FORCE", {"use_min_distance": True, "falloff_type": "TUBE"}, "least distance; falloff as a tube"),
+                                     ("DRAG", {"linear_drag": 1}, "square of the speed"), ("VORTEX", {}, "stronger farther out"),
+                                     ("WIND", {}, None)):
+            bpy.ops.object.effector_add(type=kind)
+            made = bpy.context.object
+            for name, value in settings.items():
+                setattr(made.field, name, value)
+            bpy.ops.sbfmt.check()
+            told = [one.message for one in self.scene.soft_body_format.findings if one.object_name == made.name]
+            self.assertIn(said, " ".join(told)) if said else self.assertEqual(told, [])
+            bpy.data.objects.remove(made)

@@ -4,18 +4,21 @@
     whole_way.py --program SBFMT [--root FOLDER] [--library FILE] CASE
 
 source_parts  characters exported without the library; `sbfmt build` finishes them, `sbfmt validate` finds no error, `run` runs them
+walkthrough   docs/blender.md as it is written: its steps in Blender, its commands in a shell
 lizart        lizart.fbx of ../shared/data, given limits and a gait in the panels, walks
 """
 
 import argparse
 import json
 import os
+import re
+import shlex
 import shutil
 import subprocess
 import sys
 
 import bundles
-from blender_process import Blender, skip
+from blender_process import ROOT, Blender, skip
 
 
 class Fault(Exception):
@@ -54,6 +57,34 @@ def source_parts(blender, program):
             expect(moved["valid"], f"{name} does not run: {moved}")
 
 
+def commands():
+    """What the page has people type, in order: lines of its blocks, and commands within its steps."""
+    with open(os.path.join(ROOT, "docs", "blender.md"), encoding="utf-8") as file:
+        return re.findall(r"(?m)^(sbfmt .*)$|`(sbfmt convert [^`]* -o [^`]*)`", file.read())
+
+
+def give(program, folder, line):
+    """A command, in a folder that has the examples as the checkout does."""
+    words = shlex.split(line, comments=True)
+    run = subprocess.run([os.path.abspath(program), *words[1:]], cwd=folder, capture_output=True, text=True, check=False)
+    print(f"$ {line}\n{run.stdout.strip()}")
+    expect(run.returncode == 0, f"{line}: {run.returncode} {run.stderr}")
+
+
+def walkthrough(blender, program):
+    lines = [one or other for one, other in commands()]
+    makes = [line for line in lines if line.startswith("sbfmt convert")]
+    expect(len(makes) == 1 and len(lines) >= 5, f"the page's commands are {lines}")
+    os.symlink(os.path.join(ROOT, "examples"), os.path.join(blender.kept, "examples"))
+    give(program, blender.kept, makes[0])
+    os.chmod(os.path.join(blender.kept, "lizard.sbf"), 0o644)
+    expect(blender.run(["test_walkthrough"]), "Blender's part failed")
+    for line in lines:
+        if line not in makes:
+            give(program, blender.kept, line)
+    expect(os.path.getsize(os.path.join(blender.kept, "jelly.pc2")) > 1000, "the cache of the jelly holds nothing")
+
+
 def lizart(blender, program):
     source = os.path.join(bundles.SHARED, "lizard", "lizart.fbx")
     if not os.path.exists(source):
@@ -80,7 +111,7 @@ def main():
     parser.add_argument("--root", default="")
     parser.add_argument("--library", action="append", default=[])
     parser.add_argument("--program", required=True)
-    parser.add_argument("case", choices=("source_parts", "lizart"))
+    parser.add_argument("case", choices=("source_parts", "walkthrough", "lizart"))
     asked = parser.parse_args()
     with Blender(asked.root, asked.library) as blender:
         try:

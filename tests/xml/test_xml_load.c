@@ -267,7 +267,7 @@ static sbf_status load_given(
 
 #define GIVEN_BODY(NUMBER)                                                                                   \
   "<sbf version=\"1.0\"><soft_body id=\"a\"><interior given=\"" NUMBER "\">7 8 "                             \
-                                                                       "9</interior></soft_body></sbf>"
+  "9</interior></soft_body></sbf>"
 
 START_TEST(test_lists_in_memory)
 {

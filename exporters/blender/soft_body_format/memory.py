@@ -11,7 +11,7 @@ from .sbfmt.document import Record, from_xml, to_xml
 TOGETHER = {"render_mesh": ("normals", "normal_corners"), "uv_set": ("coordinates", "corners"),
             "polygon_mesh": ("polygon_sizes", "polygon_points"), "skin": ("influence_counts", "bones", "weights"),
             "shape_key": ("points", "offsets"), "pin_set": ("points", "offsets", "weights"),
-            "spring_set": ("ends", "rest_lengths", "stiffness", "damping")}
+            "spring_set": ("ends", "rest_lengths", "stiffness", "damping", "compression_ratio")}
 
 READ, UNTOUCHED = "soft_body_format_read", "soft_body_format_untouched"
 

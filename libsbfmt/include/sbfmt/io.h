@@ -69,7 +69,7 @@ typedef struct sbf_load_options {
    * For programs that make a document and load it at once: without such lists the attribute is refused, as
    * files never have it. */
   const sbf_given_list *given_lists;
-  uint32_t given_list_count;
+  uint32_t given_list_count; /* how many of them */
 } sbf_load_options;
 
 /* Settings of a save. */

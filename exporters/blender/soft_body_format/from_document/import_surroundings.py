@@ -24,7 +24,9 @@ def fill_surroundings(maker):
         made.soft_body_format.field_identity = record.id
         maker.act_on(made, bpy.ops.object.forcefield_toggle)
         field = made.field
-        field.type, field.strength = TYPES[record.kind], record.strength
+        field.type, field.flow = TYPES[record.kind], 0
+        setattr(field, "quadratic_drag" if record.kind == "drag" else "strength", record.strength)
+        if record.kind == "drag":
+            field.linear_drag = 0  # which brakes by the square of the speed, whatever their names say
         field.use_max_distance, field.distance_max = record.radius > 0, record.radius / maker.space.unit_m
-        if record.kind == "radial":
-            field.falloff_power = record.falloff
+        field.falloff_power, field.shape = record.falloff, "POINT"

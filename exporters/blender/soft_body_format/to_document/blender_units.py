@@ -76,10 +76,10 @@ def cloth_damping(slider):
     return slider / TIME_UNIT_S
 
 
-def hinge_torque(bending, area_m2, corners):
-    """N·m/rad with which a polygon at a hinge of the cloth resists: a force of 100 · bending · side on it, in equal parts to its
-    corners, of which all but two are beside the hinge. At the distance of a quad's other side, or of a triangle's corner, that is this."""
-    return 0.1 * FORCE_UNIT_N * bending * area_m2 * (1 - 2 / corners) * (2 if corners == 3 else 1)
+def hinge_torque(bending, side_m, distance_m):
+    """N·m/rad with which a polygon whose corners' middle is so far from a side resists being turned about it: by a force of a tenth of
+    the bending stiffness times the side, in equal parts at its corners."""
+    return 0.1 * FORCE_UNIT_N * bending * side_m * distance_m
 
 
 def cloth_layer(tension, shear, edge_m):

@@ -5,7 +5,8 @@ import numpy
 from ..sbfmt.document import Record
 from . import cloth_springs
 from ..space import frame_rate
-from .blender_units import FORCE_UNIT_N, TIME_UNIT_S, cloth_layer, field_on_cloth, friction
+from .blender_units import FORCE_UNIT_N, cloth_damping, cloth_layer, cloth_stiffness, drag_on_cloth, field_on_cloth, friction
+from .cloth_bending import flexural_rigidity
 from .pins import by_holder
 from .roles import modifier
 from .soft_bodies import area_of, mean_edge, weights_of
@@ -16,8 +17,7 @@ MAPS = (("young_modulus", "vertex_group_structural_stiffness", "tension_stiffnes
         ("bending_stiffness", "vertex_group_bending", "bending_stiffness", "bending_stiffness_max"))
 # What the format has no place for: slider, what it is called, value at which it does nothing.
 LEFT_OUT = (("use_sewing_springs", "sewing", False), ("shrink_min", "shrinking", 0.0), ("time_scale", "speed", 1.0),
-            ("fluid_density", "fluid density", 0.0), ("vertex_group_shear_stiffness", "the group of shear stiffness", ""),
-            ("vertex_group_shrink", "the group of shrinking", ""), ("use_dynamic_mesh", "the dynamic mesh", False),
+            ("fluid_density", "fluid density", 0.0), ("vertex_group_shrink", "the group of shrinking", ""), ("use_dynamic_mesh", "the dynamic mesh", False),
             ("bending_model", "springs that bend by length", "ANGULAR"), ("bending_damping", "damping of bending", 0.5))
 
 LEFT_OUT_OF_COLLISION = (("damping", "damping of collisions", 0.0), ("impulse_clamp", "the most that a collision may push", 0.0),
@@ -35,14 +35,15 @@ def fill_from_cloth(writer, body, source, geometry, found):
     scale = writer.space.unit_m * source.matrix_world.median_scale
     attributes = body.attributes
     attributes.area_density = cloth.mass * count / max(area_of(geometry.mesh, scale), 1e-12)
-    writer.field_accelerations[source.name] = field_on_cloth(attributes.area_density, frame_rate(writer.scene))
+    writer.felt_fields[source.name] = (field_on_cloth(attributes.area_density, frame_rate(writer.scene)),
+                                       drag_on_cloth(attributes.area_density))
     attributes.thickness = THICKNESS_M
     attributes.density = attributes.area_density / THICKNESS_M
     stiffness, attributes.poisson_ratio = cloth_layer(cloth.tension_stiffness, cloth.shear_stiffness, edge)
     attributes.young_modulus = stiffness / THICKNESS_M
-    attributes.bending_stiffness = FORCE_UNIT_N * cloth.bending_stiffness * edge * 1e-3
+    attributes.bending_stiffness = flexural_rigidity(geometry, cloth.bending_stiffness)
     attributes.media_friction = friction(cloth.air_damping) / cloth.mass
-    attributes.stiffness_damping = damping_time(cloth)
+    attributes.stiffness_damping = damping_time(cloth, edge)
     attributes.damping_ratio = 0
     attributes.gravity_scale = cloth.effector_weights.gravity
     if cloth.use_pressure:
@@ -57,7 +58,7 @@ def fill_from_cloth(writer, body, source, geometry, found):
     if weights is not None:
         write_pins(writer, body, source, geometry, weights, cloth)
     add_maps(body, source, geometry, cloth)
-    if cloth.use_internal_springs:
+    if cloth_springs.wanted(cloth):
         cloth_springs.write_level(writer, body, source, geometry, cloth)
     tell(writer, source, cloth, meeting)
 
@@ -75,29 +76,25 @@ def add_maps(body, source, geometry, cloth):
 
 
 def tell(writer, source, cloth, meeting):
-    """What one modulus and one damping can't show, and what has no place at all."""
-    if abs(cloth.compression_stiffness - cloth.tension_stiffness) > 0.01 * cloth.tension_stiffness:
-        writer.findings.info(f"cloth compression ({cloth.compression_stiffness:g}) differs from its tension "
-                             f"({cloth.tension_stiffness:g}); the format's layer has one modulus, that of the tension",
-                             object_name=source.name)
-    others = [name for name in ("compression", "shear") if
+    """What one damping can't show, and what has no place at all."""
+    springs = cloth_springs.wanted(cloth)
+    others = [name for name in ("compression", "shear") if not (springs and name == "shear") and
               abs(getattr(cloth, f"{name}_damping") - cloth.tension_damping) > 0.01 * max(cloth.tension_damping, 1)]
     if others:
-        writer.findings.info(f"cloth damping of {' and '.join(others)} differs from that of tension ({cloth.tension_damping:g}); "
-                             "the format's layer has one, that of tension", object_name=source.name)
-    if cloth.use_internal_springs and \
-            abs(cloth.internal_compression_stiffness - cloth.internal_tension_stiffness) > 0.01 * cloth.internal_tension_stiffness:
-        writer.findings.info("compression of the internal springs differs from their tension; the format's springs pull and push alike, "
-                             "as its tension says", object_name=source.name)
+        writer.findings.info(f"cloth damping of {' and '.join(others)} differs from that of tension ({cloth.tension_damping:g}), which is "
+                             "taken for it too", object_name=source.name)
+    if cloth.vertex_group_shear_stiffness and not springs:
+        writer.findings.info("its group of shear stiffness is left out: a layer has one ratio of shear to tension (a compression other than "
+                             "its tension makes springs of it, which have the group)", object_name=source.name)
     left_out = [label for owner, idles in ((cloth, LEFT_OUT), (meeting, LEFT_OUT_OF_COLLISION)) for name, label, idle in idles
                 if getattr(owner, name, idle) != idle]
     if left_out:
         writer.findings.info(f"cloth settings without a counterpart are left out: {', '.join(left_out)}", object_name=source.name)
 
 
-def damping_time(cloth):
-    """s: Blender damps a spring by damping / stiffness of it, in its own unit of time."""
-    return TIME_UNIT_S * 0.01 * cloth.tension_damping / max(cloth.tension_stiffness, 1e-6)
+def damping_time(cloth, edge):
+    """s: of a spring, its damping over its stiffness."""
+    return cloth_damping(cloth.tension_damping) / max(cloth_stiffness(cloth.tension_stiffness, edge), 1e-6)
 
 
 def write_pins(writer, body, source, geometry, weights, cloth):

@@ -1,12 +1,23 @@
-"""Cloth with internal springs: a level of springs as Blender makes them, since a layer's modulus says nothing of what is inside it.
+"""Cloth as a level of springs, as Blender makes them: where a layer's modulus can't say what it is like, since springs go through its
+inside, or it resists being pressed otherwise than being drawn.
 
 Blender's springs of a cloth pull by their slider times the strain over the mesh's mean edge, whatever their own length."""
 
 import numpy
 from mathutils.bvhtree import BVHTree
 
-from .blender_units import TIME_UNIT_S, cloth_stiffness
+from .blender_units import cloth_damping, cloth_stiffness
 from .soft_bodies import add_level, diagonals_of, edges_of, mean_edge, weights_of
+
+
+# Kind, slider, the slider of pressing (None: in Blender these only pull), damping, the group that paints the slider up to its maximum.
+KINDS = (("structural", "tension_stiffness", "compression_stiffness", "tension_damping", "vertex_group_structural_stiffness"),
+         ("shear", "shear_stiffness", None, "shear_damping", "vertex_group_shear_stiffness"),
+         ("internal", "internal_tension_stiffness", "internal_compression_stiffness", "tension_damping", "vertex_group_intern"))
+
+
+def wanted(cloth):
+    return cloth.use_internal_springs or differ(cloth.compression_stiffness, cloth.tension_stiffness)
 
 
 def write_level(writer, body, source, geometry, cloth):
@@ -14,24 +25,27 @@ def write_level(writer, body, source, geometry, cloth):
     edge = mean_edge(geometry)
     masses = numpy.full(len(geometry.positions), cloth.mass)
     level = add_level(writer, body, source, geometry, "Cloth", masses)
-    for kind, ends, slider, damping in (
-            ("structural", edges_of(geometry), cloth.tension_stiffness, cloth.tension_damping),
-            ("shear", diagonals_of(geometry), cloth.shear_stiffness, cloth.shear_damping),
-            ("internal", inner_pairs(writer, source, geometry, cloth), cloth.internal_tension_stiffness, cloth.tension_damping)):
-        if len(ends):
-            stiffness = cloth_stiffness(slider, edge)
-            factors = group_factors(source, geometry, cloth, ends) if kind == "internal" else numpy.ones(len(ends))
-            level.add("springs", kind=kind, ends=ends, stiffness=(stiffness * factors).astype(numpy.float32),
-                      damping=[stiffness * TIME_UNIT_S * 0.01 * damping / max(slider, 1e-6)])
+    pairs = {"structural": edges_of(geometry), "shear": diagonals_of(geometry),
+             "internal": inner_pairs(writer, source, geometry, cloth) if cloth.use_internal_springs else ()}
+    for kind, drawing, pressing, damping, group in KINDS:
+        ends, drawn, pressed = pairs[kind], getattr(cloth, drawing), getattr(cloth, pressing) if pressing else 0.0
+        if not len(ends) or not drawn:
+            continue
+        factors = group_factors(weights_of(source, geometry.mesh, getattr(cloth, group)), ends, drawn, getattr(cloth, f"{drawing}_max"))
+        level.add("springs", kind=kind, ends=ends, stiffness=(cloth_stiffness(drawn, edge) * factors).astype(numpy.float32),
+                  damping=[cloth_damping(getattr(cloth, damping))], compression_ratio=[pressed / drawn] if differ(pressed, drawn) else [])
 
 
-def group_factors(source, geometry, cloth, ends):
+def differ(one, other):
+    """By more than a hundredth."""
+    return abs(one - other) > 0.01 * max(one, other)
+
+
+def group_factors(weights, ends, slider, most):
     """From the slider at weight 0 to its maximum at weight 1, the mean of both ends."""
-    weights = weights_of(source, geometry.mesh, cloth.vertex_group_intern)
-    if weights is None or cloth.internal_tension_stiffness <= 0:
+    if weights is None:
         return numpy.ones(len(ends))
-    ratio = max(cloth.internal_tension_stiffness_max / cloth.internal_tension_stiffness, 1.0)
-    return 1 + (ratio - 1) * (weights[ends[:, 0]] + weights[ends[:, 1]]) / 2
+    return 1 + (max(most / slider, 1.0) - 1) * (weights[ends[:, 0]] + weights[ends[:, 1]]) / 2
 
 
 def inner_pairs(writer, source, geometry, cloth):

@@ -50,7 +50,7 @@ class SceneWriter:
         self.materials = Materials(self.asset, self.identifiers, options.textures, findings)
         self.chosen = self.objects = chosen_objects(context, options)
         self.stand_ins = self.depsgraph = None
-        self.field_accelerations = {}  # by object: m/s² that a force field of strength 1 gives it in Blender
+        self.felt_fields = {}  # by object: (m/s² of a force field of strength 1, 1/s of a drag of 1) that it takes in Blender
         self.sort()
 
     def sort(self):

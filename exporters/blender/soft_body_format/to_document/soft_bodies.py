@@ -1,14 +1,19 @@
 """Blender's Soft Body modifier: its edges as a level of springs, its goal as pins, both in SI units."""
 
+import math
+
 import numpy
 
 from ..sbfmt.document import Record
 from ..space import frame_rate
-from .blender_units import air_density, edge_stiffness, field_on_soft_body, friction, goal_stiffness
+from .blender_units import HELD_GOAL, TIME_UNIT_S, air_density, drag_on_soft_body, edge_stiffness, field_on_soft_body, friction, goal_of, \
+    goal_stiffness, push_ratio
 from .pins import by_holder
 from .roles import modifier
 
+FRICTION_ALONE = 1e-3  # N/m of a goal that holds back and does not pull: next to nothing, since none would be the body's own
 DEFAULT_ERROR = 0.1  # of Blender's error limit, in its units
+DEFAULT_STEPS = (10, 300)  # a frame, least and most
 STIFF_QUAD_LIMIT = 1e-4  # below it Blender's shear slider makes no diagonals worth having
 
 
@@ -24,7 +29,8 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
     attributes = body.attributes
     attributes.mass = float(masses.sum())
     attributes.media_friction = friction(soft.friction) / (attributes.mass / count)
-    writer.field_accelerations[source.name] = field_on_soft_body(attributes.mass / count, frame_rate(writer.scene))
+    point_kg = attributes.mass / count
+    writer.felt_fields[source.name] = (field_on_soft_body(point_kg, frame_rate(writer.scene)), drag_on_soft_body(point_kg))
     attributes.damping_ratio = 0
     attributes.gravity_scale = soft.effector_weights.gravity
     if soft.plastic:
@@ -39,16 +45,13 @@ def fill_from_soft_body(writer, body, source, geometry, soft):
         write_level(writer, body, source, geometry, soft, masses)
     if soft.use_goal:
         write_goal(writer, body, source, geometry, soft)
-    if soft.use_edges and abs(soft.pull - soft.push) > 0.01:
-        writer.findings.warning(f"pull ({soft.pull:.2f}) and push ({soft.push:.2f}) differ; springs of the format pull and push "
-                                "alike, so both get the pull", object_name=source.name)
+    if soft.use_edges and not soft.pull and soft.push:
+        writer.findings.warning(f"its edges push ({soft.push:.2f}) and do not pull, which springs of the format can't: give them a little "
+                                "pull", object_name=source.name)
     if soft.use_edges and soft.use_stiff_quads:
         tell_of_polygons(writer, source, geometry)
     if soft.aero and soft.use_edges:
         add_air(writer, source, geometry, soft)
-    if (soft.step_min, soft.step_max) != (10, 300):
-        writer.findings.info(f"its {soft.step_min} to {soft.step_max} steps a frame are left out: the error limit controls the steps, and "
-                             "stiff edges ask for more of them by themselves", object_name=source.name)
 
 
 def add_air(writer, source, geometry, soft):
@@ -155,38 +158,63 @@ def write_level(writer, body, source, geometry, soft, masses):
     ends = edges_of(geometry)
     scale = (soft.spring_length or 100) / 100
     factors = weights_of(source, geometry.mesh, soft.vertex_group_spring)
-    add_springs(level, "structural", geometry, ends, soft.pull, soft.damping, scale, factors)
+    add_springs(level, "structural", geometry, ends, soft, scale, factors)
     diagonals = diagonals_of(geometry) if soft.use_stiff_quads and soft.shear > STIFF_QUAD_LIMIT else ends[:0]
-    add_springs(level, "shear", geometry, diagonals, soft.pull, soft.damping, scale, factors, soft.shear)
+    add_springs(level, "shear", geometry, diagonals, soft, scale, factors, soft.shear**2)
     if soft.bend > 0:
-        add_springs(level, "flexion", geometry, second_neighbours(ends, diagonals, len(geometry.positions)),
-                    min(soft.bend / 10, 0.999), soft.damping, scale, factors)
-    level.simulation.scheme = "heun"  # Blender's own; as many steps as its error control asks for
-    if abs(soft.error_threshold - DEFAULT_ERROR) > 1e-6:  # who leaves it there has not asked for so coarse a one
-        level.simulation.step_error = soft.error_threshold * writer.space.unit_m
+        add_springs(level, "flexion", geometry, second_neighbours(ends, diagonals, len(geometry.positions)), soft, scale, factors,
+                    soft.bend)
+    write_steps(writer, level.simulation, soft)
 
 
-def add_springs(level, kind, geometry, ends, pull, damping, scale, factors, share=1.0):
+def write_steps(writer, simulation, soft):
+    """Blender's own scheme, with as many steps as its error control asks for. Who leaves a setting where Blender has it has not asked
+    for so coarse a one."""
+    simulation.scheme = "heun"
+    if abs(soft.error_threshold - DEFAULT_ERROR) > 1e-6:
+        simulation.step_error = soft.error_threshold * writer.space.unit_m
+    frames = writer.asset.environment.control_tick / TIME_UNIT_S  # of Blender's simulation in a control tick
+    if soft.step_min != DEFAULT_STEPS[0]:
+        simulation.substeps_least = math.ceil(soft.step_min * frames)
+    if soft.step_max != DEFAULT_STEPS[1]:
+        simulation.substeps_most = max(math.ceil(soft.step_max * frames), 1)
+
+
+def add_springs(level, kind, geometry, ends, soft, scale, factors, share=1.0):
     if not len(ends):
         return
-    rest = lengths(geometry, ends) * scale
-    stiffness = numpy.array([edge_stiffness(pull, length) for length in rest]) * share
+    rest, ratio = lengths(geometry, ends) * scale, push_ratio(soft)
+    stiffness = numpy.array([edge_stiffness(soft.pull, length) for length in rest]) * share
     if factors is not None:
-        stiffness *= ((factors[ends[:, 0]] + factors[ends[:, 1]]) / 2)**2
+        stiffness *= ((factors[ends[:, 0]] + factors[ends[:, 1]]) / 2)**4
     level.add("springs", kind=kind, ends=ends, rest_lengths=rest.astype(numpy.float32) if scale != 1 else [],
-              stiffness=stiffness.astype(numpy.float32), damping=[friction(damping)])
+              stiffness=stiffness.astype(numpy.float32), damping=[friction(soft.damping)],
+              compression_ratio=[ratio] if abs(ratio - 1) > 1e-4 and math.isfinite(ratio) else [])
 
 
 def write_goal(writer, body, source, geometry, soft):
-    """Pins that pull as the goal does. The set's stiffness is that of the strongest; weights are shares of it."""
+    """Pins that pull as the goal does. The set's stiffness is that of the strongest; weights are shares of it. What Blender holds fast
+    is held. Its friction holds back every point alike, however weak its goal: where they differ it is a set of its own."""
     weights = weights_of(source, geometry.mesh, soft.vertex_group_goal)
     if weights is None:
         weights = numpy.ones(len(geometry.positions))
     pulls = numpy.array([goal_stiffness(weight, soft) for weight in weights]) / writer.space.unit_m
-    held = numpy.flatnonzero(pulls > 0)
-    if not len(held):
-        return
-    most = float(pulls.max()) * 1.0001  # so that the strongest is a spring still: weight 1 would be kinematic
-    for bone, points in by_holder(writer, source, geometry.mesh, held):
-        body.pins.append(Record("pin_set", name="Goal", bone=bone, points=points, weights=(pulls[points] / most).astype("f4"),
-                                stiffness=most, damping=friction(soft.goal_friction)))
+    fast = numpy.array([goal_of(weight, soft) >= HELD_GOAL for weight in weights])
+    for bone, points in by_holder(writer, source, geometry.mesh, numpy.flatnonzero(fast)):
+        if len(points):
+            body.pins.append(Record("pin_set", name="Goal", bone=bone, points=points))
+    drawn = numpy.flatnonzero((pulls > 0) & ~fast)
+    loose = numpy.flatnonzero(~fast)
+    alike = len(drawn) == len(loose) and len(set(pulls[drawn])) == 1
+    held_back = friction(soft.goal_friction)
+    if len(drawn):
+        add_goal(writer, body, source, geometry, drawn, pulls, held_back if alike else 0.0)
+    if held_back and not alike:
+        add_goal(writer, body, source, geometry, loose, numpy.full(len(pulls), FRICTION_ALONE), held_back)
+
+
+def add_goal(writer, body, source, geometry, points, pulls, damping):
+    most = float(pulls[points].max()) * 1.0001  # so that the strongest is a spring still: weight 1 would be kinematic
+    for bone, found in by_holder(writer, source, geometry.mesh, points):
+        body.pins.append(Record("pin_set", name="Goal" if pulls[found].max() > FRICTION_ALONE else "Goal friction", bone=bone, points=found,
+                                weights=(pulls[found] / most).astype("f4"), stiffness=most, damping=damping))
