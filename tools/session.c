@@ -152,6 +152,7 @@ static sbf_status create(session *s, cli_call *call, const settings *set, sbf_di
   sbf_status status = sbr_model_create(s->asset, &set->model, &s->model, error);
   if (status != SBF_OK) return status;
   sbr_model_left_out(s->model, tell, call);
+  sbr_model_scheme_doubts(s->model, tell, call);
   sbr_world_definition world = sbr_default_world_definition();
   world.tasks = thread_pool_tasks(s->threads);
   world.ground = s->ground;

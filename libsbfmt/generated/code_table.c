@@ -144,6 +144,7 @@ static const sbf_code_info table[] = {
   {"LEVEL_NOT_SIMULATED", SBF_CODE_LEVEL_NOT_SIMULATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The runtime does not step this elastic model: build the file with springs or tetrahedra."},
   {"TOO_STIFF", SBF_CODE_TOO_STIFF, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A body is too stiff and light to be stepped explicitly: give it more mass, less stiffness or fewer points."},
   {"PART_LEFT_OUT", SBF_CODE_PART_LEFT_OUT, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The file holds something that this runtime does not move: another runtime, or a later one, does."},
+  {"SCHEME_BIASED", SBF_CODE_SCHEME_BIASED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A body is stepped by a scheme that is known to be off its energy by more than a tenth: leave the choice open, or give more substeps."},
   {"RIG_SECTION_GUESSED", SBF_CODE_RIG_SECTION_GUESSED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A section was given to the nearest bone, because no name said where it belongs."},
   {"RIG_UNWEIGHTED_POINTS", SBF_CODE_RIG_UNWEIGHTED_POINTS, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Points of a skinned mesh have no weights: paint them in the source."},
   {"RIG_NO_SECTIONS", SBF_CODE_RIG_NO_SECTIONS, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Every mesh is skinned: no bone has a section of its own until a build cuts some."},

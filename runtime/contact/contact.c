@@ -7,10 +7,6 @@
 #include "contact/shape_touch.h"
 #include "math/vec3.h"
 
-/* As far as something may fall in the tick: twice its present way, and a share of the body for what springs
- * and weight may add. */
-static const float MOTION_SHARE = 0.02f;
-
 /* Range of a body's points and their greatest speed. */
 typedef struct extent {
   float low[3], high[3], speed;
@@ -84,7 +80,7 @@ static float reach_of(const sbri_island_tick *t, const extent *e, float motion) 
 
 static void prepare_points(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
   extent e = extent_of(t, body);
-  float motion = 2 * e.speed * t->tick_s + MOTION_SHARE * body->rest_size_m;
+  float motion = 2 * e.speed * t->tick_s + SBRI_MOTION_SHARE * body->rest_size_m;
   float reach = reach_of(t, &e, motion);
   for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++) {
     const sbri_point *points = t->positions + block * SBRI_BLOCK;
@@ -116,7 +112,7 @@ static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, co
   memset(to->near_ground + first, 0, body->slot_end / SBRI_BLOCK - first);
   *count = 0;
   extent e = extent_of_samples(t, body);
-  float least = MOTION_SHARE * body->rest_size_m, way = 2 * t->tick_s;
+  float least = SBRI_MOTION_SHARE * body->rest_size_m, way = 2 * t->tick_s;
   float reach = reach_of(t, &e, e.speed * (1 + 2 * body->sample_beyond) * way + least);
   if (e.low[1] > reach) return;
   for (uint32_t i = 0; i < body->sample_count; i++) {
@@ -132,7 +128,8 @@ static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, co
         .offset = offset,
         .friction_share = 1,
         .restitution = body->restitution,
-        .collider = SBRI_NO_COLLIDER};
+        .collider = SBRI_NO_COLLIDER,
+        .fast_m_s = 2 * speed};
   }
 }
 

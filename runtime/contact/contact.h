@@ -12,6 +12,10 @@
 
 #include "model/island_tick.h"
 
+/* As far as something may fall in a tick: twice its present way, and this share of the body for what springs
+ * and weight may add. */
+#define SBRI_MOTION_SHARE 0.02f
+
 /* Where a tick's contacts go; of the island and of the character, as in sbri_island_tick. */
 typedef struct sbri_contact_tables {
   uint8_t *near_ground;

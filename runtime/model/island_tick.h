@@ -42,6 +42,9 @@ typedef struct sbri_touch {
   float gain;        /* m/s that the push gives the sample along the normal */
   sbf_vec3 rub;      /* and friction across it */
   float pushed;      /* most of the gains in the tick */
+  float
+      fast_m_s; /* it nears its plane no faster in the tick, but for what springs and weight add; 0: it may */
+  float idle_s; /* for how long it cannot touch */
 } sbri_touch;
 
 /* What has been pulled with on a rigid body, N s and N m s about a place. */

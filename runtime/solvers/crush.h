@@ -14,6 +14,7 @@
 
 #include "solvers/strain_limit.h"
 #include "solvers/tetrahedron_forces.h"
+#include "solvers/touches.h"
 
 #define SBRI_CRUSHED 0.1f
 #define SBRI_CRUSH_NEAR 0.5f
@@ -93,8 +94,9 @@ static inline void sbri_crush_look(const sbri_island_tick *t) {
 }
 
 /* One sweep; whether any was crushed. All lanes of a block are looked at before any is moved: some blocks'
- * lanes share points. */
-static inline bool sbri_uncrush_sweep(const sbri_island_tick *t) {
+ * lanes share points. What touches the ground is remembered before the first is, unless `*remembered`: most
+ * substeps find none. */
+static inline bool sbri_uncrush_sweep(const sbri_island_tick *t, bool *remembered) {
   bool found = false;
   for (uint32_t b = 0; b < t->island->tetrahedron_dense_count; b++) {
     const sbri_tetrahedron_block *block = &t->tetrahedra[b];
@@ -105,6 +107,9 @@ static inline bool sbri_uncrush_sweep(const sbri_island_tick *t) {
       sbri_wide_store(marks + lane, sbri_wide_select(crushed, sbri_wide_all(1), sbri_wide_all(0)));
       any = any || sbri_mask_any(crushed);
     }
+    for (uint32_t k = 0; any && !*remembered && k < t->island->body_count; k++)
+      sbri_touches_remember(t, &t->model->bodies[t->island->bodies[k]]);
+    *remembered = *remembered || any;
     for (uint32_t lane = 0; any && lane < SBRI_BLOCK; lane++)
       if (marks[lane] != 0) sbri_uncrush(t, block, lane);
     found = found || any;

@@ -16,9 +16,8 @@
 /* What is crushed strikes the ground: it is not to be moved into it. Each of the two undoes a little of the
  * other, so they take turns. */
 static inline void sbri_uncrush_above_ground(const sbri_island_tick *t, float h) {
-  for (uint32_t b = 0; b < t->island->body_count; b++)
-    sbri_touches_remember(t, &t->model->bodies[t->island->bodies[b]]);
-  for (int sweep = 0; sweep < SBRI_CRUSH_SWEEPS && sbri_uncrush_sweep(t); sweep++)
+  bool remembered = false;
+  for (int sweep = 0; sweep < SBRI_CRUSH_SWEEPS && sbri_uncrush_sweep(t, &remembered); sweep++)
     for (uint32_t b = 0; b < t->island->body_count; b++) {
       const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
       const sbri_contact_rule rule = sbri_contact_rule_of(body, h);

@@ -3,12 +3,16 @@
 #include "math/vec3.h"
 #include "solvers/tetrahedron_forces.h"
 
-static uint32_t most_explicit(const sbri_island *island) {
-  return island->tetrahedron_count ? SBRI_MOST_EXPLICIT_SOLID_SUBSTEPS : SBRI_MOST_EXPLICIT_SUBSTEPS;
+static uint32_t most_strained(const sbri_island *island, double tick_s) {
+  uint32_t least =
+      island->tetrahedron_count ? SBRI_MOST_STRAINED_SOLID_SUBSTEPS : SBRI_MOST_STRAINED_SUBSTEPS;
+  uint32_t at_rest = sbri_stable_substeps(island, tick_s, island->rest_stretch), most = at_rest + at_rest / 2;
+  if (most < least) return least;
+  return most < SBRI_MOST_SUBSTEPS ? most : SBRI_MOST_SUBSTEPS;
 }
 
 bool sbri_router_begins_explicit(const sbri_island *island) {
-  return sbri_stable_substeps(island, 1.0 / 60, island->rest_stretch) <= most_explicit(island);
+  return sbri_stable_substeps(island, 1.0 / 60, island->rest_stretch) <= SBRI_MOST_SUBSTEPS;
 }
 
 static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
@@ -40,7 +44,7 @@ const sbri_scheme *sbri_router_choose(const sbri_island_tick *t, uint32_t *recov
   if (!island->routed) return island->scheme;
   uint32_t substeps = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), *t->stretch);
   float reach = island->cell_m * (float)substeps / t->tick_s;
-  bool trouble = substeps > most_explicit(island) || !(*t->least_ratio > 0) ||
+  bool trouble = substeps > most_strained(island, t->tick_s) || !(*t->least_ratio > 0) ||
                  (reach > 0 && greatest_square(t) > reach * reach);
   if (trouble)
     *recovering = SBRI_RECOVERING_TICKS;

@@ -4,10 +4,10 @@
 
 #include "solvers/scheme.h"
 
-/* Explicit while it needs no more substeps a tick than this: the most position-based ones of springs cost as
- * much (docs/benchmarks.md) and leave such a body too soft by half and more. Tetrahedra go on for longer:
- * their position-based steps need as many substeps as explicit ones to be near the energy. */
-enum { SBRI_MOST_EXPLICIT_SUBSTEPS = 192, SBRI_MOST_EXPLICIT_SOLID_SUBSTEPS = 256 };
+/* A body is stepped explicitly as long as that can be done at all (SBRI_MOST_SUBSTEPS at rest): nothing else
+ * follows its energy for less. While it is so strained that it needs more than this, and half as many again
+ * as at rest, it is in trouble. */
+enum { SBRI_MOST_STRAINED_SUBSTEPS = 192, SBRI_MOST_STRAINED_SOLID_SUBSTEPS = 256 };
 
 /* For so many ticks after the last sign of trouble the recovering scheme goes on. */
 enum { SBRI_RECOVERING_TICKS = 10 };

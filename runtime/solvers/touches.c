@@ -1,5 +1,7 @@
 #include "solvers/touches.h"
 
+#include <math.h>
+
 #include "math/vec3.h"
 
 /* While some speed changes by more than this in a sweep, another follows, in m/s. */
@@ -16,13 +18,14 @@ enum { MOST_SWEEPS = 16 };
 
 typedef struct touching {
   const sbri_island_tick *tick;
+  const sbri_body *body;
   float *velocities;
   sbri_touch *touches;
   uint32_t count;
 } touching;
 
 static touching touching_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
-  return (touching){t, velocities, t->touches + body->first_touch, sbri_touch_count(t, body)};
+  return (touching){t, body, velocities, t->touches + body->first_touch, sbri_touch_count(t, body)};
 }
 
 static sbf_vec3 velocity_of(const touching *c, const sbri_sample *s) {
@@ -73,13 +76,23 @@ static float wanted_of(const sbri_touch *touch, float speed, const sbri_contact_
   return bounces && back > arriving ? back : arriving;
 }
 
+/* How long a place so far from its plane cannot get there, by what it was taken for a place that may touch
+ * within the tick: its speed, twice, and what springs and weight add, which grows with the square of time. */
+static float idle_time(const touching *c, const sbri_touch *touch, float gap) {
+  float most = SBRI_MOTION_SHARE * c->body->rest_size_m, way = touch->fast_m_s * c->tick->tick_s;
+  if (!(gap > 0) || !(touch->fast_m_s > 0) || !(most > 0)) return 0;
+  return c->tick->tick_s * (2 * gap / (way + sqrtf(way * way + 4 * most * gap)));
+}
+
 /* Says whether it may touch. */
 static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   sbf_vec3 v = velocity_of(c, &touch->sample);
   float speed = sbri_dot(touch->normal, sbri_sub(v, touch->velocity));
   touch->gap = gap_of(c, touch);
   touch->wanted = wanted_of(touch, speed, rule);
-  return touch->gain > 0 || touch->gap < rule->step_s * (NEAR_M_S - speed);
+  if (touch->gain > 0 || touch->gap < rule->step_s * (NEAR_M_S - speed)) return true;
+  touch->idle_s = idle_time(c, touch, touch->gap - rule->step_s * NEAR_M_S);
+  return false;
 }
 
 /* What is below its plane and was pushed goes up, at a limited rate. */
@@ -116,8 +129,10 @@ static void answer_alone(const touching *c, sbri_touch *touch, const sbri_contac
 static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
   uint32_t near = 0;
   for (uint32_t i = 0; i < c->count; i++) {
-    if (c->touches[i].alone) answer_alone(c, &c->touches[i], rule);
-    if (c->touches[i].alone || !begin(c, &c->touches[i], rule)) continue;
+    sbri_touch *touch = &c->touches[i];
+    touch->idle_s -= rule->step_s;
+    if (touch->alone) answer_alone(c, touch, rule);
+    if (touch->alone || touch->idle_s > rule->step_s || !begin(c, touch, rule)) continue;
     sbri_touch first = c->touches[near];
     c->touches[near++] = c->touches[i];
     c->touches[i] = first;

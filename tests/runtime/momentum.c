@@ -5,6 +5,7 @@
 static void add(scene_momentum *to, double mass, sbf_vec3 at, sbf_vec3 v) {
   const double x[3] = {(double)at.x, (double)at.y, (double)at.z},
                p[3] = {mass * (double)v.x, mass * (double)v.y, mass * (double)v.z};
+  to->mass += mass;
   for (int k = 0; k < 3; k++) {
     int i = (k + 1) % 3, j = (k + 2) % 3;
     to->linear[k] += p[k];
@@ -19,7 +20,7 @@ sbf_vec3 scene_slot_velocity(const sbri_character *c, const sbri_island *island,
 }
 
 scene_momentum scene_momentum_of(const scene *s) {
-  scene_momentum m = {{0}, {0}};
+  scene_momentum m = {{0}, {0}, 0};
   for (uint32_t i = 0; i < s->world->character_capacity; i++) {
     const sbri_character *c = &s->world->characters[i];
     if (!c->model) continue;

@@ -5,9 +5,9 @@
 #include "core/world.h"
 #include "scenes.h"
 
-/* kg m/s, and kg m^2/s about the origin; places and speeds are those that each character keeps. */
+/* kg m/s, kg m^2/s about the origin, and kg; places and speeds are those that each character keeps. */
 typedef struct scene_momentum {
-  double linear[3], angular[3];
+  double linear[3], angular[3], mass;
 } scene_momentum;
 
 scene_momentum scene_momentum_of(const scene *s);

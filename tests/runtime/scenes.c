@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness.h"
 #include "sbfmt/mechanics.h"
 
 scene scene_begin(void) {
@@ -349,6 +350,20 @@ void scene_skin(scene *s, uint32_t body_index) {
 }
 
 /* ---- Running ---- */
+
+void scene_models_survive_want(const scene *s) {
+  bool done = false;
+  for (size_t allowed = 0; !done && allowed < 300; allowed++) {
+    harness_memory memory;
+    harness_memory_init(&memory, allowed);
+    sbr_model_options options = {.allocator = &memory.allocator};
+    sbr_model *model = NULL;
+    done = sbr_model_create(s->asset, &options, &model, NULL) == SBF_OK;
+    if (done) sbr_model_destroy(model);
+    ck_assert_uint_eq(memory.held_bytes, 0);
+  }
+  ck_assert(done);
+}
 
 static void expect_ok(sbf_status status, const sbf_diagnostic *error) {
   ck_assert_msg(status == SBF_OK, "%s", error->message);

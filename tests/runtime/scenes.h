@@ -53,6 +53,9 @@ sbf_level *scene_regions(scene *s, uint32_t body, sbf_vec3 low, float step, cons
 /* Carries the body's surface by that level: each vertex by the element of which it lies the least outside. */
 void scene_embed(scene *s, sbf_level *level, const lattice_box *box);
 
+/* Models of the asset with memory that runs out at each call in turn: none leaves anything behind. */
+void scene_models_survive_want(const scene *s);
+
 /* Runs `ticks` control ticks. */
 void scene_ticks(scene *s, uint32_t ticks);
 /* Places of the points of a body relative to the origin. */

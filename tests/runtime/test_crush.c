@@ -4,14 +4,11 @@
 
 #include "core/world.h"
 #include "harness.h"
+#include "scene_state.h"
 #include "scenes.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
     SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT};
-
-static float *velocity(scene *s, uint32_t slot) {
-  return sbri_velocities(&s->world->characters[0]) + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-}
 
 static scene drop(sbf_scheme scheme, float speed) {
   scene s = scene_begin();
@@ -30,7 +27,7 @@ static scene drop(sbf_scheme scheme, float speed) {
   scene_body(&s, 0)->attributes.damping_ratio = 0.1f;
   s.model_options.scheme = scheme;
   scene_start(&s);
-  for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) velocity(&s, i)[SBRI_BLOCK] = -speed;
+  for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) scene_velocity(&s, i)[SBRI_BLOCK] = -speed;
   return s;
 }
 
@@ -62,7 +59,7 @@ START_TEST(the_wall_keeps_momentum)
   const sbri_tetrahedron_block *block = &island->tetrahedron_blocks[0];
   for (uint32_t i = 0; i < island->free_count; i++) {
     x[i].y *= _i ? -0.3f : 0.02f;
-    velocity(&s, i)[SBRI_BLOCK] = _i ? 0 : -x[i].y;
+    scene_velocity(&s, i)[SBRI_BLOCK] = _i ? 0 : -x[i].y;
   }
   double before[4] = {0}, after[4] = {0};
   sbri_island_tick t = {.model = s.model,
@@ -74,7 +71,8 @@ START_TEST(the_wall_keeps_momentum)
     double *sums = n ? after : before;
     for (uint32_t i = 0; i < island->free_count; i++) {
       double m = island->masses[i];
-      sums[0] += m * (double)velocity(&s, i)[0], sums[1] += m * (double)velocity(&s, i)[SBRI_BLOCK];
+      sums[0] += m * (double)scene_velocity(&s, i)[0],
+          sums[1] += m * (double)scene_velocity(&s, i)[SBRI_BLOCK];
       sums[2] += m * (double)x[i].x, sums[3] += m * (double)x[i].y;
     }
     if (!n) sbri_uncrush(&t, block, 0);

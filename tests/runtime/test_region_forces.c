@@ -4,16 +4,13 @@
 
 #include "core/world.h"
 #include "harness.h"
+#include "scene_state.h"
 #include "scenes.h"
 
 static const double PI = 3.14159265358979323846;
 
 static sbri_character *character_of(const scene *s) {
   return sbri_character_of(s->world, s->character);
-}
-
-static float *velocity(const scene *s, uint32_t slot) {
-  return sbri_velocities(character_of(s)) + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
 }
 
 /* 5 x 4 x 3 points of 0.1 kg, a decimetre apart, regions of 27, weightless unless told otherwise. */
@@ -35,7 +32,7 @@ static kept measure(const scene *s) {
   const sbri_point *x = sbri_positions(character_of(s));
   double p[3] = {0}, l[3] = {0};
   for (uint32_t i = 0; i < island->free_count; i++) {
-    const float *v = velocity(s, i);
+    const float *v = scene_velocity(s, i);
     double m = island->masses[i], u[3] = {v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
     double r[3] = {x[i].x, x[i].y, x[i].z};
     for (int k = 0; k < 3; k++) {
@@ -56,7 +53,7 @@ START_TEST(momentum_spin_and_energy_are_kept)
   const sbri_island *island = &s.model->islands[0];
   for (uint32_t i = 0; i < island->free_count; i++) {
     if (!(island->masses[i] > 0)) continue;
-    float *v = velocity(&s, i);
+    float *v = scene_velocity(&s, i);
     sbri_point r = island->rest[i];
     v[0] = 1 - 8 * r.y + 2 * r.z * (float)sin(9 * i), v[SBRI_BLOCK] = 8 * r.x - 3 * r.z;
     v[2 * SBRI_BLOCK] = 0.5f + 3 * r.y;
@@ -170,7 +167,7 @@ START_TEST(the_lowest_mode_is_damped_by_the_ratio)
   /* Kinetic and elastic energy fall with exp(-2 z w t) once the lowest mode is left. */
   for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) {
     sbri_point r = s.model->islands[0].rest[i];
-    *(velocity(&s, i) + SBRI_BLOCK) = 4 * (r.x - 0.2f) * (r.x - 0.2f);
+    *(scene_velocity(&s, i) + SBRI_BLOCK) = 4 * (r.x - 0.2f) * (r.x - 0.2f);
   }
   uint32_t wait = (uint32_t)(60 * 12 / lowest), span = (uint32_t)(60 * 4 * PI / lowest);
   scene_ticks(&s, wait);
@@ -199,7 +196,7 @@ START_TEST(damping_of_their_own_leaves_rigid_motion_alone)
   const sbri_island *island = &s.model->islands[0];
   for (uint32_t i = 0; i < island->free_count; i++) {
     if (!(island->masses[i] > 0)) continue;
-    float *v = velocity(&s, i);
+    float *v = scene_velocity(&s, i);
     sbri_point r = island->rest[i];
     v[0] = 1 - 2 * r.y + 4 * (float)sin(5 * i), v[SBRI_BLOCK] = 2 * r.x;
   }

@@ -15,6 +15,7 @@
 #include "harness.h"
 #include "mechanics/static_solve.h"
 #include "mechanics/vector.h"
+#include "scene_state.h"
 #include "scenes.h"
 
 typedef enum { SOLID, SPRINGS, REGIONS, MODEL_COUNT } elastic;
@@ -202,10 +203,6 @@ static double rest_bias(elastic model, const row *r, question q) {
 
 /* ---- Motion ---- */
 
-static float *velocity(sbri_character *c, uint32_t slot) {
-  return sbri_velocities(c) + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-}
-
 /* The bar let go from a slight bend: period and damping ratio of that motion. */
 static double swing_period(elastic model, const row *r, double *damping) {
   enum { TICKS = 240 };
@@ -276,7 +273,7 @@ static double spin_bias(elastic model, const row *r) {
     for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) {
       double m = s.model->islands[0].masses[i];
       const sbri_point *x = &sbri_positions(c)[i];
-      float *v = velocity(c, i);
+      float *v = scene_velocity(&s, i);
       if (!(m > 0)) continue;
       if (n == 0) {
         random = random * 1664525u + 1013904223u;

@@ -6,6 +6,7 @@
 #include "core/world.h"
 #include "harness.h"
 #include "mechanics/solid_strain.h"
+#include "scene_state.h"
 #include "scenes.h"
 
 static lattice_box box;
@@ -29,15 +30,12 @@ static void end(void) {
 static sbf_attributes *attributes(void) {
   return &scene_body(&s, 0)->attributes;
 }
-static float *velocity(uint32_t slot) {
-  return sbri_velocities(&s.world->characters[0]) + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-}
 static void sum_momenta(double sums[6]) {
   sbri_character *c = &s.world->characters[0];
   const sbri_island island = sbri_island_now(c, &s.model->islands[0]);
   for (int k = 0; k < 6; k++) sums[k] = 0;
   for (uint32_t i = 0; i < island.free_count; i++) {
-    const float *v = velocity(i);
+    const float *v = scene_velocity(&s, i);
     const sbri_point *x = &sbri_positions(c)[i];
     double m = island.masses[i];
     sbfi_d3 p = {m * v[0], m * v[SBRI_BLOCK], m * v[2 * SBRI_BLOCK]},
@@ -77,7 +75,7 @@ START_TEST(limits_keep_momentum)
   sbri_character *c = &s.world->characters[0];
   for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) {
     sbri_point *x = &sbri_positions(c)[i];
-    float *v = velocity(i);
+    float *v = scene_velocity(&s, i);
     x->x *= 1.1f;
     if (!(s.model->islands[0].masses[i] > 0)) continue;
     v[0] = x->x - x->y, v[SBRI_BLOCK] = 0.3f + x->x, v[2 * SBRI_BLOCK] = -0.2f;

@@ -6,6 +6,8 @@
 #include "core/state.h"
 #include "core/world.h"
 #include "harness.h"
+#include "momentum.h"
+#include "scene_state.h"
 #include "scenes.h"
 
 enum {
@@ -61,18 +63,9 @@ static void begin(sbf_scheme scheme) {
   scene_start(&s);
   sbri_character *c = &s.world->characters[0];
   for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) {
-    float *v = sbri_velocities(c) + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK;
+    float *v = scene_velocity(&s, i);
     if (s.model->islands[0].masses[i] > 0) v[0] = 4 * (sbri_positions(c)[i].x - 0.5f) + 0.1f;
   }
-}
-
-static double momentum(void) {
-  const sbri_character *c = &s.world->characters[0];
-  double sum = 0;
-  for (uint32_t i = 0; i < s.model->islands[0].free_count; i++)
-    sum += s.model->islands[0].masses[i] *
-           sbri_velocities(c)[3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK];
-  return sum;
 }
 
 START_TEST(a_cloth_is_pulled_in_two)
@@ -80,7 +73,7 @@ START_TEST(a_cloth_is_pulled_in_two)
   uint8_t torn[QUADS];
   sbf_vec3 places[POINTS];
   begin(schemes[_i]);
-  double before = momentum();
+  double before = scene_momentum_of(&s).linear[0];
   ck_assert_uint_eq(sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS), QUADS);
   for (uint32_t q = 0; q < QUADS; q++) ck_assert_uint_eq(torn[q], 0);
   scene_ticks(&s, 60);
@@ -88,7 +81,7 @@ START_TEST(a_cloth_is_pulled_in_two)
   ck_assert(health.finite);
   ck_assert_uint_ge(health.torn, CELLS + 1);
   ck_assert_uint_eq(health.recoveries, 0);
-  ck_assert_double_eq_tol(momentum(), before, 1e-4);
+  ck_assert_double_eq_tol(scene_momentum_of(&s).linear[0], before, 1e-4);
   sbr_character_skin(s.world, s.character, 0, places, NULL, NULL, POINTS);
   sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, QUADS);
   uint32_t open = 0;
@@ -154,7 +147,7 @@ START_TEST(a_skin_that_springs_carry_opens_too)
   scene_start(&s);
   sbri_character *c = &s.world->characters[0];
   for (uint32_t i = 0; i < s.model->islands[0].free_count; i++) {
-    float *v = sbri_velocities(c) + 3 * (i / SBRI_BLOCK * SBRI_BLOCK) + i % SBRI_BLOCK;
+    float *v = scene_velocity(&s, i);
     if (s.model->islands[0].masses[i] > 0) v[0] = 4 * (sbri_positions(c)[i].x - 0.5f) + 0.1f;
   }
   ck_assert_uint_eq(sbr_character_torn_polygons(s.world, s.character, 0, 0, torn, FINE_QUADS), FINE_QUADS);

@@ -102,6 +102,7 @@ CALLS = {
     "sbr_model_create": (c_int, [c_void_p, POINTER(ModelOptions), POINTER(c_void_p), ERROR]),
     "sbr_model_destroy": (None, [c_void_p]),
     "sbr_model_left_out": (c_uint32, [c_void_p, Report, c_void_p]),
+    "sbr_model_scheme_doubts": (c_uint32, [c_void_p, Report, c_void_p]),
     "sbr_default_world_definition": (WorldDefinition, []),
     "sbr_world_create": (c_int, [POINTER(WorldDefinition), POINTER(c_void_p), ERROR]),
     "sbr_world_destroy": (None, [W]),
@@ -196,12 +197,19 @@ class Model:
         self.asset, self.pointer = asset, made.value
         self.close = weakref.finalize(self, runtime_library().sbr_model_destroy, self.pointer)
 
-    def left_out(self):
-        """What of the asset the runtime neither moves nor lets act: a list of Diagnostic."""
+    def _findings(self, call):
         found = []
         report = Report(lambda _user, one: found.append(diagnostic_of(one.contents)))
-        runtime_library().sbr_model_left_out(self.pointer, report, None)
+        call(self.pointer, report, None)
         return found
+
+    def left_out(self):
+        """What of the asset the runtime neither moves nor lets act: a list of Diagnostic."""
+        return self._findings(runtime_library().sbr_model_left_out)
+
+    def scheme_doubts(self):
+        """Bodies whose scheme is known to be off the energy by more than a tenth: a list of Diagnostic."""
+        return self._findings(runtime_library().sbr_model_scheme_doubts)
 
 
 class World:

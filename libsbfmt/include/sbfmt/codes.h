@@ -155,6 +155,7 @@ typedef enum sbf_code {
   SBF_CODE_LEVEL_NOT_SIMULATED = 641, /* The runtime does not step this elastic model: build the file with springs or tetrahedra. */
   SBF_CODE_TOO_STIFF = 642, /* A body is too stiff and light to be stepped explicitly: give it more mass, less stiffness or fewer points. */
   SBF_CODE_PART_LEFT_OUT = 643, /* The file holds something that this runtime does not move: another runtime, or a later one, does. */
+  SBF_CODE_SCHEME_BIASED = 644, /* A body is stepped by a scheme that is known to be off its energy by more than a tenth: leave the choice open, or give more substeps. */
   SBF_CODE_RIG_SECTION_GUESSED = 701, /* A section was given to the nearest bone, because no name said where it belongs. */
   SBF_CODE_RIG_UNWEIGHTED_POINTS = 702, /* Points of a skinned mesh have no weights: paint them in the source. */
   SBF_CODE_RIG_NO_SECTIONS = 703, /* Every mesh is skinned: no bone has a section of its own until a build cuts some. */

@@ -127,6 +127,11 @@ SBF_API void sbr_model_destroy(sbr_model *model);
  * finding each, through `report` (may be NULL). Returns how many there are. */
 SBF_API uint32_t sbr_model_left_out(
     const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *finding), void *user);
+/* Tells of every group of bodies that hang together and whose scheme and substeps, asked for or all that is
+ * left, are known to be off the energy by more than a tenth (SCHEME_BIASED); likewise. Relaxation, which
+ * knows no energy, is not among them. */
+SBF_API uint32_t sbr_model_scheme_doubts(
+    const sbr_model *model, void (*report)(void *user, const sbf_diagnostic *finding), void *user);
 
 /* What the model's loops run with: never automatic. */
 SBF_API sbr_instructions sbr_model_instructions(const sbr_model *model);
