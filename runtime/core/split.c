@@ -24,6 +24,7 @@ sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island) 
   now.cells = sbri_thread_cells(c) + first;
   now.cell_links = sbri_thread_links(c) + first * SBRI_BLOCK;
   if (island->cell_damping) now.cell_damping = sbri_thread_damping(c) + first * SBRI_BLOCK;
+  if (island->cell_slack) now.cell_slack = sbri_thread_slack(c) + first * SBRI_BLOCK;
   now.links = sbri_thread_blocks(c) + island->first_thread_link;
   for (uint32_t b = 0; b < island->body_count; b++) { /* parts may swing faster than they did as one */
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
@@ -42,6 +43,8 @@ static void unsplit_springs(sbri_character *c, const sbri_island *island) {
   memcpy(sbri_thread_links(c) + first * SBRI_BLOCK, island->cell_links, lanes * sizeof(uint32_t));
   if (island->cell_damping)
     memcpy(sbri_thread_damping(c) + first * SBRI_BLOCK, island->cell_damping, lanes * sizeof(float));
+  if (island->cell_slack)
+    memcpy(sbri_thread_slack(c) + first * SBRI_BLOCK, island->cell_slack, lanes * sizeof(float));
   memcpy(sbri_thread_blocks(c) + island->first_thread_link, island->links,
       island->link_block_count * sizeof *island->links);
 }

@@ -115,6 +115,7 @@ static void move_row(const fraying *f, uint32_t link, uint32_t from, uint32_t to
   const sbri_island *island = &f->island;
   sbri_spring_cell *cells = sbri_thread_cells(f->c) + island->first_thread_cell;
   float *damping = sbri_thread_damping(f->c) + (size_t)island->first_thread_cell * SBRI_BLOCK;
+  float *slack = sbri_thread_slack(f->c) + (size_t)island->first_thread_cell * SBRI_BLOCK;
   uint32_t *links = sbri_thread_links(f->c) + (size_t)island->first_thread_cell * SBRI_BLOCK;
   uint32_t *ends = sbri_thread_ends(f->c) + island->first_thread_block;
   uint32_t old_cell = cell_of(f, from, link), old_lane = from % SBRI_BLOCK;
@@ -123,6 +124,7 @@ static void move_row(const fraying *f, uint32_t link, uint32_t from, uint32_t to
   cells[cell].others[lane] = old->others[old_lane];
   cells[cell].stiffness[lane] = old->stiffness[old_lane], cells[cell].pull[lane] = old->pull[old_lane];
   damping[cell * SBRI_BLOCK + lane] = damping[old_cell * SBRI_BLOCK + old_lane];
+  slack[cell * SBRI_BLOCK + lane] = slack[old_cell * SBRI_BLOCK + old_lane];
   links[cell * SBRI_BLOCK + lane] = link;
   old->others[old_lane] = from, old->stiffness[old_lane] = old->pull[old_lane] = 0;
   damping[old_cell * SBRI_BLOCK + old_lane] = 0, links[old_cell * SBRI_BLOCK + old_lane] = 0;

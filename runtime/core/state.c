@@ -58,6 +58,7 @@ void sbri_layout_make(sbr_model *model) {
   l->thread_ends = place(&end, model->thread_block_count, sizeof(uint32_t));
   l->thread_cells = place(&end, thread_cells, sizeof(sbri_spring_cell));
   l->thread_damping = place(&end, thread_cells * SBRI_BLOCK, sizeof(float));
+  l->thread_slack = place(&end, thread_cells * SBRI_BLOCK, sizeof(float));
   l->thread_links = place(&end, thread_cells * SBRI_BLOCK, sizeof(uint32_t));
   l->thread_blocks = place(&end, model->thread_link_count, sizeof(sbri_link_block));
   l->skin_cells = place(&end, model->torn_cell_count, sizeof(sbri_carry_cell));

@@ -88,6 +88,7 @@ SBRI_STATE_PART(gravity_scales, float, c->model->layout.gravity_scales) /* (slot
 SBRI_STATE_PART(thread_ends, uint32_t, c->model->layout.thread_ends)            /* (thread_block_count) */
 SBRI_STATE_PART(thread_cells, sbri_spring_cell, c->model->layout.thread_cells)  /* (thread_cell_count) */
 SBRI_STATE_PART(thread_damping, float, c->model->layout.thread_damping)         /* (thread_cell_count x 8) */
+SBRI_STATE_PART(thread_slack, float, c->model->layout.thread_slack)             /* (thread_cell_count x 8) */
 SBRI_STATE_PART(thread_links, uint32_t, c->model->layout.thread_links)          /* (thread_cell_count x 8) */
 SBRI_STATE_PART(thread_blocks, sbri_link_block, c->model->layout.thread_blocks) /* (thread_link_count) */
 SBRI_STATE_PART(skin_cells, sbri_carry_cell, c->model->layout.skin_cells)       /* (torn_cell_count) */

@@ -45,6 +45,9 @@ static void fill_set(sbf_spring_set *set, const spring_list *list, float stiffne
   set->ends = (sbf_uint2_list){list->ends, list->count};
   set->stiffness = (sbf_f32_list){stiffness, 1};
   set->tear_strain = tear_strain;
+  float *pressed = sbf_asset_allocate(s.asset, 1, sizeof *pressed);
+  *pressed = 0.5f; /* rows that move take along how springs are pressed */
+  set->compression_ratio = (sbf_f32_list){pressed, 1};
 }
 
 static void pull_apart(void) {
@@ -105,6 +108,7 @@ static uint32_t count_parts(void) {
       if (other == slot || !(strengths[at] > 0)) continue;
       uint32_t a = link->a[at % SBRI_BLOCK], b = link->b[at % SBRI_BLOCK];
       ck_assert((a == slot && b == other) || (a == other && b == slot));
+      if (island.cell_slack) ck_assert_float_eq(island.cell_slack[cell * SBRI_BLOCK + lane], 0.5f);
       rows++;
     }
     parts += group[slot] == slot && island.masses[slot] > 0;
