@@ -129,10 +129,8 @@ static sbf_status make_ladder(sbfi_build *b, uint32_t number, sbfi_ladder *ladde
 
 static sbf_status make_tetrahedra(sbfi_build *b, uint32_t number, sbfi_ladder *ladder, sbfi_arena *scratch) {
   const sbf_soft_body *body = &b->bodies[number];
-  sbfi_lattice_recipe recipe = {.cell = b->options.cell_m,
-      .elements = b->options.elements,
-      .most = b->usual_elements,
-      .derivation = SBFI_BUILD_DERIVATION};
+  sbfi_lattice_recipe recipe = {
+      b->options.cell_m, b->options.elements, b->usual_elements, SBFI_BUILD_DERIVATION};
   sbfi_lattice_counts counts;
   sbf_level *level = sbf_asset_allocate(b->asset, 1, sizeof *level);
   if (!level) return sbfi_build_no_memory(b);

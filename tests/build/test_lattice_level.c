@@ -233,12 +233,12 @@ static const struct {
   double least_deg, most_deg, volume, farthest_cells;
   bool closed, thin; /* thin: said to be so in parts */
 } real[] = {
-    {"spot/spot.obj", 19841, 4446, 8, 17.2, 152.6, 0.7135, 0.525, true, false},
-    {"bunny/bunny_902.obj", 19433, 4473, 67, 15.0, 145.2, 0.8302, 0.690, true, true},
-    {"armadillo/armadillo_25k.obj", 19671, 4885, 74, 14.7, 147.1, 236.1, 0.702, true, true},
-    {"soup/suzanne.obj", 19996, 4466, 94, 12.9, 152.6, 2.172, 0.563, false, true},
-    {"soup/spider.obj", 20380, 6325, 392, 14.3, 151.2, 145390, 0.787, false, true},
-    {"bunny/bunny_holes.obj", 19854, 4428, 43, 18.5, 149.2, 0.0007451, 0.664, false, true},
+    {"spot/spot.obj", 19841, 4446, 8, 12.3, 152.9, 0.7122, 0.525, true, false},
+    {"bunny/bunny_902.obj", 19433, 4473, 67, 12.9, 151.9, 0.8286, 0.690, true, true},
+    {"armadillo/armadillo_25k.obj", 19671, 4885, 74, 12.9, 150.7, 235.5, 0.702, true, true},
+    {"soup/suzanne.obj", 19996, 4466, 94, 14.1, 149.4, 2.167, 0.563, false, true},
+    {"soup/spider.obj", 20380, 6325, 392, 11.9, 154.6, 143900, 0.797, false, true},
+    {"bunny/bunny_holes.obj", 19854, 4428, 43, 14.1, 151.8, 0.0007441, 0.664, false, true},
     {"ngon/concave_polygon.obj", 0, 64, 0, 0, 0, 0, 0, false, false},
     {"cloth/cloth_25.obj", 0, 25, 0, 0, 0, 0, 0, false, false},
     {"cloth/plane_30x30.obj", 0, 961, 0, 0, 0, 0, 0, false, false},

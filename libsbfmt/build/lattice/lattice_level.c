@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "build/lattice/lattice_pins.h"
-#include "build/lattice/lattice_smooth.h"
 #include "build/materials/point_factors.h"
 
 enum { USUAL_ELEMENTS = 2000 };
@@ -50,19 +49,6 @@ static bool fill(sbf_level *level, const sbf_soft_body *body, const sbfi_lattice
   return true;
 }
 
-/* What pins hold stays, so that they hold the same wherever the rest goes. */
-static bool smooth(sbf_level *level, sbfi_lattice *lattice, sbfi_arena *scratch) {
-  sbfi_tetrahedra *made = &lattice->made;
-  uint8_t *held = sbfi_arena_allocate(scratch, made->point_count, 1);
-  if (!held) return false;
-  for (uint32_t s = 0; s < level->pins.count; s++)
-    for (uint32_t i = 0; i < level->pins.at[s].points.count; i++) held[level->pins.at[s].points.at[i]] = 1;
-  if (!sbfi_lattice_smooth(made, lattice->cell, held, scratch)) return false;
-  memcpy((sbf_vec3 *)(uintptr_t)level->positions.at, made->positions,
-      made->point_count * sizeof *made->positions);
-  return true;
-}
-
 /* A lattice holds a little less than the surface, or more where limbs are thin: where the surface is closed,
  * so that one knows, a density of its own gives it the mass that the body has. */
 static bool weigh(sbf_level *level, const sbf_soft_body *body, double volume, sbf_asset *asset) {
@@ -92,8 +78,7 @@ sbfi_lattice_outcome sbfi_lattice_level_make(sbf_level *level, const sbf_soft_bo
   if (!level->name) return SBFI_LATTICE_NO_MEMORY;
   if (lattice.made.count == 0) return SBFI_LATTICE_MADE;
   if (!fill(level, body, &lattice, asset) ||
-      !sbfi_lattice_pins_make(level, body, recipe->derivation, asset, scratch) ||
-      (!recipe->as_stuffed && !smooth(level, &lattice, scratch)))
+      !sbfi_lattice_pins_make(level, body, recipe->derivation, asset, scratch))
     return SBFI_LATTICE_NO_MEMORY;
   counts->tetrahedra = lattice.made.count;
   counts->points = lattice.made.point_count;

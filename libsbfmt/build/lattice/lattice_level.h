@@ -15,7 +15,6 @@ typedef struct sbfi_lattice_recipe {
   uint32_t elements; /* about so many tetrahedra; 0: 2000, or more where much of the body is thin */
   uint32_t most;     /* of those that nobody asked for; 0: SBFI_LATTICE_THIN_ELEMENTS */
   int32_t derivation;
-  bool as_stuffed; /* not smoothed (lattice_smooth.h): what only stands still gains nothing by it */
 } sbfi_lattice_recipe;
 
 /* What was made of one body. */

@@ -88,7 +88,7 @@ sbfi_lattice_outcome sbfi_reference_make(sbfi_reference *reference, const sbf_so
   reference->memory->rigid_bodies = asset->rigid_bodies;
   sbfi_arena_init(&scratch, allocator, 0);
   sbfi_lattice_counts counts;
-  const sbfi_lattice_recipe recipe = {.elements = elements, .derivation = SBF_NONE, .as_stuffed = true};
+  const sbfi_lattice_recipe recipe = {.elements = elements, .derivation = SBF_NONE};
   sbfi_lattice_outcome outcome = sbfi_lattice_level_make(
       &reference->made, body, &recipe, reference->memory, &counts, use->progress, &scratch);
   if (outcome == SBFI_LATTICE_MADE && counts.tetrahedra > 0)
