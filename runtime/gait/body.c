@@ -11,6 +11,11 @@ static const float NARROWEST = 0.5f; /* of the reach: feet turn the hips as if n
 static const float DEEPEST = 0.3f;   /* of a leg's reach: the body comes down by no more for a foot */
 static const float LOWEST = 0.3f;    /* of a leg's reach: no hip comes nearer to the ground than so */
 static const float EASY = 0.93f;     /* share of it that it comes down for in a stride */
+static const float UPRIGHT_HZ = 1;   /* of a critically damped follower */
+static const float ROOM_HZ = 4;      /* of a critically damped follower */
+static const float ROOM_S = 0.25f;   /* by which the belly looks ahead */
+static const float CLEAR = 0.03f;    /* of the reach: what is kept between the belly and the ground */
+static const float RAISED = 0.1f;    /* of the reach: the body rises by no more for its belly */
 static const float SPARE = 0.965f; /* share of the uneased reach that the body comes down for ahead of need */
 
 static sbf_quat yaw_rotation(float yaw) {
@@ -19,14 +24,34 @@ static sbf_quat yaw_rotation(float yaw) {
   return (sbf_quat){0, s, 0, c};
 }
 
-/* Mean of the places below the feet on one side of the body (hind or fore, left or right); false for none. */
-static bool feet_center(
-    const sbri_rig *rig, const sbri_gait_state *state, int hind, int left, sbf_vec3 *center) {
+typedef enum feet_of { ALL, LEFT, RIGHT, FORE, AFT, HIPS_LEFT, HIPS_RIGHT, CHEST_LEFT, CHEST_RIGHT } feet_of;
+
+static bool is_of(const sbri_leg *leg, feet_of which) {
+  bool left = leg->home.x > 0;
+  switch (which) {
+  case LEFT:
+  case RIGHT:
+    return left == (which == LEFT);
+  case FORE:
+  case AFT:
+    return leg->fore == (which == FORE);
+  case HIPS_LEFT:
+  case HIPS_RIGHT:
+    return leg->hind && left == (which == HIPS_LEFT);
+  case CHEST_LEFT:
+  case CHEST_RIGHT:
+    return !leg->hind && left == (which == CHEST_LEFT);
+  default:
+    return true;
+  }
+}
+
+/* Mean of the places below some of the feet; false for none. */
+static bool feet_center(const sbri_rig *rig, const sbri_gait_state *state, feet_of which, sbf_vec3 *center) {
   sbf_vec3 sum = {0, 0, 0};
   float count = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    if (hind >= 0 && rig->legs[i].hind != hind) continue;
-    if (left >= 0 && (rig->legs[i].home.x > 0) != left) continue;
+    if (!is_of(&rig->legs[i], which)) continue;
     sum = sbri_add(sum, state->feet[i].ground);
     count += 1;
   }
@@ -35,9 +60,10 @@ static bool feet_center(
 }
 
 /* Turn of the line from the right foot to the left against the heading: how far one side is ahead. */
-static float line_yaw(const sbri_rig *rig, const sbri_gait_state *state, float scale, int hind) {
+static float line_yaw(
+    const sbri_rig *rig, const sbri_gait_state *state, float scale, feet_of on_left, feet_of on_right) {
   sbf_vec3 left, right;
-  if (!feet_center(rig, state, hind, 1, &left) || !feet_center(rig, state, hind, 0, &right)) return 0;
+  if (!feet_center(rig, state, on_left, &left) || !feet_center(rig, state, on_right, &right)) return 0;
   sbf_vec3 line = sbri_unheaded(state, sbri_sub(left, right));
   float least = NARROWEST * rig->reach * scale, more = line.x - least; /* no less, smoothly */
   float across = least + 0.5f * (more + sqrtf(more * more + 0.25f * least * least));
@@ -67,13 +93,32 @@ static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const s
   return drop < most ? drop : most;
 }
 
+/* How far the body may come down, as it will stand in a moment, before its belly is on the ground. */
+static float room_below(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root) {
+  float most = rig->reach * input->scale, clear = CLEAR * most;
+  sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * ROOM_S), fore, hind;
+  float rise = 0, run = rig->fore_z - rig->hind_z; /* along the line of its feet */
+  if (run > 0 && feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
+    rise = (fore.y - hind.y) / (run * input->scale);
+  ahead.y = rise * sbri_unheaded(state, ahead).z;
+  for (uint32_t k = 0; k < rig->belly_count; k++) {
+    sbf_vec3 at = sbri_rotate(root->rotation, sbri_scale(rig->belly[k], input->scale));
+    at = sbri_add(sbri_add(root->position, at), ahead);
+    float room = at.y - sbri_ground_below(input, at, NULL).y - state->position.y - clear;
+    most = room < most ? room : most;
+  }
+  float least = -RAISED * rig->reach * input->scale;
+  return most > least ? most : least;
+}
+
 /* The same for every leg and where its foot is, for the whole reach; and `spare`, for what is kept in hand.
  */
 static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, float *spare) {
-  float most = 0;
+  float least = state->room.value < 0 ? state->room.value : 0, most = least; /* it rises for its belly */
   sbf_vec3 ahead = sbri_scale(sbri_body_velocity(state), state->pace * CROUCH_S);
-  *spare = 0;
+  *spare = least;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
     const sbri_leg *leg = &rig->legs[i];
     const sbri_foot *foot = &state->feet[i];
@@ -122,29 +167,32 @@ static sbri_stance stance_over(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stance stance = {.root = {state->position, yaw_rotation(state->heading)}};
   sbf_vec3 all, hind, fore, left, right;
-  bool on_feet = rig->leg_count && feet_center(rig, state, -1, -1, &all);
+  bool on_feet = rig->leg_count && feet_center(rig, state, ALL, &all);
   float raised = state->position.y;
   stance.root.position.y = raised + (on_feet ? all.y : sbri_ground_below(input, state->position, NULL).y);
   if (!on_feet) return stance;
   stance.root.position.x += state->sway_x.value, stance.root.position.z += state->sway_z.value;
   float pitch = 0, roll = 0, share = rig->gait->body_tilt;
-  if (feet_center(rig, state, 1, -1, &hind) && feet_center(rig, state, 0, -1, &fore))
+  if (feet_center(rig, state, AFT, &hind) && feet_center(rig, state, FORE, &fore))
     pitch = share * slope(hind, fore, (rig->fore_z - rig->hind_z) * input->scale);
-  if (feet_center(rig, state, -1, 1, &left) && feet_center(rig, state, -1, 0, &right))
+  if (feet_center(rig, state, LEFT, &left) && feet_center(rig, state, RIGHT, &right))
     roll = share * slope(right, left, 2 * rig->half_width * input->scale);
   float sp, cp, sr, cr;
   sbri_sincos(-0.5f * pitch, &sp, &cp);
   sbri_sincos(0.5f * roll, &sr, &cr);
   sbf_quat tilt = sbri_quat_multiply((sbf_quat){sp, 0, 0, cp}, (sbf_quat){0, 0, sr, cr});
-  /* The tilt is about the middle between the feet, at the height of the ground. */
-  sbf_vec3 middle = sbri_vec3(0, 0, 0.5f * (rig->hind_z + rig->fore_z) * input->scale);
+  /* While it has to keep its balance the tilt is about the middle of the hips, so that what the legs bear
+   * stays over the feet; else about the ground between the feet. */
+  sbf_vec3 middle = sbri_vec3(0, state->upright.value * rig->hips_y, 0.5f * (rig->hind_z + rig->fore_z));
+  middle = sbri_scale(middle, input->scale);
   sbf_quat heading = stance.root.rotation;
   stance.root.rotation = sbri_quat_normalize(sbri_quat_multiply(heading, tilt));
   sbf_vec3 moved = sbri_sub(sbri_rotate(heading, middle), sbri_rotate(stance.root.rotation, middle));
   stance.root.position = sbri_add(stance.root.position, moved);
   stance.hips_pitch = -pitch;
-  stance.hips_yaw = line_yaw(rig, state, input->scale, 1);
-  stance.chest_yaw = rig->gait->chest >= 0 ? line_yaw(rig, state, input->scale, 0) : stance.hips_yaw;
+  stance.hips_yaw = line_yaw(rig, state, input->scale, HIPS_LEFT, HIPS_RIGHT);
+  stance.chest_yaw = stance.hips_yaw;
+  if (rig->gait->chest >= 0) stance.chest_yaw = line_yaw(rig, state, input->scale, CHEST_LEFT, CHEST_RIGHT);
   return stance;
 }
 
@@ -197,10 +245,18 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   sbri_follower_step bend = sbri_follower_step_of(BEND_HZ, 1, 0, input->tick_s);
   bool at_home = state->standing_s > 0 && !lifting; /* no foot has still to go there */
   if (stride) sbri_lag_tick(&state->bent, at_home ? 0 : 1, &bend);
+  sbri_follower_step even = sbri_follower_step_of(UPRIGHT_HZ, 1, 0, input->tick_s);
+  sbri_lag_tick(&state->upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &even);
+  if (!stride) state->upright = (sbri_lag){0, 0};
   sbri_stance stance = stance_over(rig, state, input);
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
   wanted = steady > wanted ? steady : wanted;
+  sbri_follower_step rise = sbri_follower_step_of(ROOM_HZ, 1, 0, input->tick_s);
+  float room = room_below(rig, state, input, &stance.root);
+  sbri_lag_tick(&state->room, room, &rise);
+  if (!stride) state->room = (sbri_lag){room, 0};
+  if (wanted > state->room.value) wanted = state->room.value;
   sbri_follower_step step = sbri_follower_step_of(CROUCH_HZ, 1, 0, input->tick_s);
   sbri_lag_tick(&state->crouch, wanted, &step);
   if (!stride) state->crouch = (sbri_lag){wanted, 0};

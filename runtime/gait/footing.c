@@ -16,7 +16,7 @@ typedef struct ground_spot {
 /* What is looked for: about how high, and under which corners. */
 typedef struct footing {
   float level;
-  sbf_vec3 corners[4];
+  sbf_vec3 corners[4], outline[4];
 } footing;
 
 /* Height that the other feet stand at. */
@@ -60,9 +60,23 @@ static float lay(const sbri_gait_input *input, const sbf_vec3 corners[4], float 
   return worst;
 }
 
-/* The corners of a leg's sole, a little larger than it is, as it will stand. */
-static void find_corners(
-    const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t leg, sbf_vec3 corners[4]) {
+/* Where the ground is round, its highest places may be between the corners. */
+static void raise_over_bumps(const sbri_gait_input *input, const sbf_vec3 corners[4], ground_spot *spot) {
+  static const int edges[4][2] = {{0, 1}, {1, 3}, {3, 2}, {2, 0}};
+  float rise = 0;
+  for (int k = 0; k < 4; k++) {
+    sbf_vec3 at = sbri_lerp(corners[edges[k][0]], corners[edges[k][1]], 0.5f);
+    float plane = -(spot->normal.x * at.x + spot->normal.z * at.z) / spot->normal.y;
+    float over = sbri_ground_below(input, sbri_add(spot->place, at), NULL).y - spot->place.y - plane;
+    rise = over > rise ? over : rise;
+  }
+  spot->place.y += rise;
+}
+
+/* The corners of a leg's sole, a little larger than it is, as it will stand; and of all of the foot, where
+ * asked for. */
+static void find_corners(const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t leg,
+    sbf_vec3 corners[4], sbf_vec3 *outline) {
   const sbri_sole *sole = &rig->legs[leg].sole;
   const sbri_foot *foot = &state->feet[leg];
   float turned = foot->planted ? 0 : state->turn * state->pace * (1 - foot->phase) * foot->duration_s;
@@ -70,6 +84,10 @@ static void find_corners(
     sbf_vec3 corner = {k & 1 ? sole->left : sole->right, 0, k & 2 ? sole->toe : sole->heel};
     if (turned != 0) corner = sbri_turned(corner, turned); /* as the body will be when it comes down */
     corners[k] = sbri_headed(state, sbri_scale(corner, AROUND * scale));
+    if (!outline) continue;
+    corner = sbri_vec3(sole->outline[k & 1 ? 0 : 1], 0, sole->outline[k & 2 ? 2 : 3]);
+    if (turned != 0) corner = sbri_turned(corner, turned);
+    outline[k] = sbri_headed(state, sbri_scale(corner, scale));
   }
 }
 
@@ -79,9 +97,12 @@ void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri
   sbf_vec3 corners[4];
   double level;
   spot.place = sbri_ground_below(input, *place, &spot.normal);
-  find_corners(rig, state, input->scale, leg, corners);
-  if (!sbri_ground_is_flat(input->ground, &level))
-    (void)lay(input, corners, UNEVEN * rig->reach * input->scale, &spot);
+  find_corners(rig, state, input->scale, leg, corners, NULL);
+  if (!sbri_ground_is_flat(input->ground, &level)) {
+    float uneven = UNEVEN * rig->reach * input->scale;
+    bool even = lay(input, corners, uneven, &spot) <= uneven;
+    if (even) raise_over_bumps(input, corners, &spot);
+  }
   *place = spot.place;
   *normal = spot.normal;
 }
@@ -94,21 +115,27 @@ static int quality(
   spot->place = sbri_ground_below(input, wanted, &spot->normal);
   if (spot->normal.y < STEEPEST || fabsf(spot->place.y - f->level) > HIGHEST * reach) return 0;
   if (sbri_ground_is_flat(input->ground, &level)) return 2;
-  return lay(input, f->corners, UNEVEN * reach, spot) <= UNEVEN * reach ? 2 : 1;
+  if (lay(input, f->corners, UNEVEN * reach, spot) > UNEVEN * reach) return 1;
+  for (int k = 0; k < 4; k++) { /* nothing beside it that the rest of the foot would be in */
+    float plane = -(spot->normal.x * f->outline[k].x + spot->normal.z * f->outline[k].z) / spot->normal.y;
+    float high = sbri_ground_below(input, sbri_add(spot->place, f->outline[k]), NULL).y - spot->place.y;
+    if (high - plane > 2 * UNEVEN * reach) return 1;
+  }
+  return 2;
 }
 
 bool sbri_stands(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 place, bool well) {
   footing f = {.level = level_of(rig, state)};
   ground_spot spot;
-  find_corners(rig, state, input->scale, leg, f.corners);
+  find_corners(rig, state, input->scale, leg, f.corners, f.outline);
   return quality(rig, input, &f, place, &spot) >= (well ? 2 : 1);
 }
 
 bool sbri_footing(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 wanted, sbf_vec3 *place, sbf_vec3 *normal) {
   footing f = {.level = level_of(rig, state)};
-  find_corners(rig, state, input->scale, leg, f.corners);
+  find_corners(rig, state, input->scale, leg, f.corners, f.outline);
   float step = SPACING * rig->reach * input->scale;
   ground_spot spot, other;
   int best = quality(rig, input, &f, wanted, &spot), found;

@@ -57,6 +57,8 @@ typedef struct sbri_gait_state {
   uint32_t pivot;                /* leg that it turns about, plus 1; 0: none */
   sbri_lag sway_x, sway_z;       /* of the body over its feet, world axes, m */
   sbri_lag crouch;               /* how far it comes down for its feet, m */
+  sbri_lag upright;              /* 1: the body tilts about its hips, balanced; 0: about the ground */
+  sbri_lag room;                 /* how far it may, its belly off the ground, m; below 0: it has to rise */
   sbri_lag bent;                 /* 0: legs may be as straight as at rest; 1: they have bent for walking */
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
   sbr_transform root;            /* of the last stance, and its turns */
@@ -160,6 +162,7 @@ typedef struct sbri_stride {
   float spacing_m;   /* between two lift-offs */
   float available_s; /* for a step, when feet of a group go together as wide as they can */
   bool together;     /* feet of a group go together */
+  bool balanced;     /* so slow that it goes slower rather than out of balance */
   float widest_m;    /* greatest half_m, on average over a stride */
   sbri_home homes[SBRI_MOST_LEGS];
 } sbri_stride;

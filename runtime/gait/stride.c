@@ -8,6 +8,7 @@
 
 static const float USED = 0.75f;        /* share of what a foot may roam that a stride uses */
 static const float DEEPEST = 0.8f;      /* of the circle of an upright body, which comes down by no more */
+static const float LEANING = 0.8f;      /* share of the hips' height that a body keeps as it leans */
 static const float SURE = 1.0f;         /* share of what a foot may roam on average that it may roam always */
 static const float STRIDE_S = 0.5f;     /* over which it is averaged how wide strides may be */
 static const float STRETCH = 0.97f;     /* of the uneased reach */
@@ -15,7 +16,7 @@ static const float LEAST = 0.05f;       /* of a leg's length: a foot may always 
 static const float PEG = 0.25f;         /* the same of a leg of one bone */
 static const float SLACK = 1.15f;       /* time of a turn, in steps */
 static const float LEAN_S = 0.12f;      /* for the body to lean before a foot lifts off */
-static const float LEAN_TWO_S = 0.45f;  /* the same on two legs */
+static const float LEAN_TWO_S = 0.5f;   /* the same on two legs */
 static const float LEAN_SLOW_S = 0.36f; /* and where it goes slower rather than out of balance */
 static const float SLOW = 0.35f;        /* reaches a second: up to here it keeps its balance */
 static const float LONGEST = 1.35f;     /* share of the usual time of a step, at speed */
@@ -105,7 +106,7 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
 /* The circle over the ground, about its hip, that a leg's foot may be in while it stands as high as it does:
  * its radius; `off` receives where the ankle over `sole` is from its middle, level. */
 static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 sole, bool at_home, sbf_vec3 *off) {
+    uint32_t leg, sbf_vec3 sole, bool at_home, float lowered, sbf_vec3 *off) {
   const sbri_leg *l = &rig->legs[leg];
   const sbri_foot *foot = &state->feet[leg];
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
@@ -115,10 +116,12 @@ static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbr
   sbf_vec3 from = sbri_sub(ankle, hip);
   float reach = STRETCH * (1 - l->soft_reach) * l->reach * input->scale;
   float upright = state->lowered - from.y, level = reach * reach - upright * upright;
-  float height = -SBRI_LOWERED * from.y; /* the body comes down for its feet */
+  float height = -lowered * from.y; /* the body comes down for its feet */
   float least = upright - DEEPEST * (level > 0 ? sqrtf(level) : 0);
-  if (least > SBRI_LOWERED * upright) least = SBRI_LOWERED * upright;
+  if (least > lowered * upright) least = lowered * upright;
   if (height < least) height = least;
+  if (height < upright - state->room.value)
+    height = upright - state->room.value; /* and no farther than its belly */
   if (from.y > 0) height = from.y;
   *off = sbri_vec3(from.x, 0, from.z);
   float over = reach * reach - height * height;
@@ -135,7 +138,8 @@ sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const 
     uint32_t leg, sbf_vec3 arm) {
   const sbri_leg *l = &rig->legs[leg];
   sbri_roam roam;
-  float radius = circle(rig, state, input, leg, sbri_add(state->position, arm), true, &roam.off);
+  float radius =
+      circle(rig, state, input, leg, sbri_add(state->position, arm), true, SBRI_LOWERED, &roam.off);
   float length = (l->upper_length + l->lower_length) * input->scale, away = sbri_length(roam.off);
   if (l->lower < 0) radius = away + PEG * length;
   roam.radius = radius < away + LEAST * length ? away + LEAST * length : radius;
@@ -188,6 +192,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float one_by_one = 0.5f * s.speed * (turns - 1) * (SLACK * needed_s + lean);
   s.together =
       (turns > groups || rig->leg_count == 2) && one_by_one > (state->together ? 0.62f : 0.74f) * most;
+  s.balanced = slow;
   if (slow) s.together = false;
   if (rig->has_pegs) s.together = true;               /* they could not follow a body that leans */
   float each = 0.5f * s.speed * (groups - 1) * SLACK; /* half a stride for each second of a step */
@@ -221,13 +226,13 @@ float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t 
 }
 
 /* The circle that a leg's foot may be in where it stands. */
-static sbri_roam stance_circle(
-    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
+static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state,
+    const sbri_gait_input *input, uint32_t leg, float lowered) {
   const sbri_leg *l = &rig->legs[leg];
   sbri_roam stance;
   sbf_vec3 off, home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
-  float radius = circle(rig, state, input, leg, state->feet[leg].ground, false, &stance.off);
-  (void)circle(rig, state, input, leg, home, true, &off);
+  float radius = circle(rig, state, input, leg, state->feet[leg].ground, false, lowered, &stance.off);
+  (void)circle(rig, state, input, leg, home, true, lowered, &off);
   float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(off);
   if (l->lower < 0) radius = rest + PEG * length;
   stance.radius = radius < rest + LEAST * length ? rest + LEAST * length : radius;
@@ -236,7 +241,7 @@ static sbri_roam stance_circle(
 
 float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 way) {
-  sbri_roam stance = stance_circle(rig, state, input, leg);
+  sbri_roam stance = stance_circle(rig, state, input, leg, LEANING);
   return to_edge(stance.off, stance.radius, sbri_scale(way, -1));
 }
 
@@ -247,7 +252,7 @@ static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
   *speed = sbri_length(v);
   if (*speed <= 0) return 0;
   sbf_vec3 way = sbri_scale(v, 1 / *speed);
-  sbri_roam stance = stance_circle(rig, state, input, leg);
+  sbri_roam stance = stance_circle(rig, state, input, leg, SBRI_LOWERED);
   float left = to_edge(stance.off, stance.radius, sbri_scale(way, -1));
   float turned = left > 0 ? sbri_clamp(state->turn * left / *speed, -2, 2) : 0; /* on its way there */
   if (turned != 0) left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(way, 0.5f * turned), -1));

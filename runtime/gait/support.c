@@ -1,7 +1,7 @@
 /* Balance: the centre of mass over the polygon of the feet that stand, now and as far as it will go. */
 #include "gait/gait_state.h"
 
-static const float NEEDED = 0.03f; /* of the legs' reach: how far inside before a foot lifts off */
+static const float NEEDED = 0.02f; /* of the legs' reach: how far inside before a foot lifts off */
 static const float SOUGHT = 0.05f; /* and where the body leans to */
 static const float MOST = 0.3f;    /* of the reach: farthest that it leans */
 

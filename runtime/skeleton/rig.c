@@ -90,9 +90,23 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   return leg->upper_length > 0 && (peg || leg->lower_length > 0);
 }
 
+/* Those on the chest are in front; without one, on four legs and more, those before the middle of all. */
+static void find_fore_legs(sbri_rig *rig) {
+  float fore = 0, hind = 0, middle = 0;
+  uint32_t fore_count = 0, count = rig->leg_count;
+  for (uint32_t i = 0; i < count; i++) middle += rig->legs[i].home.z / (float)count;
+  for (uint32_t i = 0; i < count; i++) {
+    sbri_leg *leg = &rig->legs[i];
+    leg->fore = rig->gait->chest >= 0 ? !leg->hind : count >= 4 && leg->home.z > middle;
+    fore_count += leg->fore;
+    *(leg->fore ? &fore : &hind) += leg->home.z;
+  }
+  rig->hind_z = fore_count < count ? hind / (float)(count - fore_count) : 0;
+  rig->fore_z = fore_count ? fore / (float)fore_count : rig->hind_z;
+}
+
 static void init_legs(sbri_rig *rig) {
-  float hind = 0, fore = 0, width = 0;
-  uint32_t hind_count = 0;
+  float width = 0;
   for (uint32_t i = 0; i < rig->gait->legs.count && rig->leg_count < SBRI_MOST_LEGS; i++) {
     sbri_leg *leg = &rig->legs[rig->leg_count];
     if (!init_leg(rig, &rig->gait->legs.at[i], leg)) continue;
@@ -101,16 +115,14 @@ static void init_legs(sbri_rig *rig) {
     sbri_rig_find_sole(rig, leg);
     rig->reach += leg->upper_length + leg->lower_length;
     if (leg->group + 1 > rig->group_count) rig->group_count = leg->group + 1;
-    hind_count += leg->hind;
-    *(leg->hind ? &hind : &fore) += leg->home.z;
+    rig->hips_y += rig->rest[leg->upper].position.y;
     width += fabsf(leg->home.x);
     float away = sqrtf(leg->home.x * leg->home.x + leg->home.z * leg->home.z);
     rig->spread = away > rig->spread ? away : rig->spread;
   }
-  uint32_t fore_count = rig->leg_count - hind_count;
-  rig->hind_z = hind_count ? hind / (float)hind_count : 0;
-  rig->fore_z = fore_count ? fore / (float)fore_count : rig->hind_z;
+  find_fore_legs(rig);
   rig->reach = rig->leg_count ? rig->reach / (float)rig->leg_count : 0;
+  rig->hips_y = rig->leg_count ? rig->hips_y / (float)rig->leg_count : 0;
   rig->half_width = rig->leg_count ? width / (float)rig->leg_count : 0;
 }
 
@@ -262,6 +274,7 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
   find_carriers(rig);
   find_roles(rig, roles);
   find_last_legs(rig, roles);
+  sbri_rig_find_belly(rig);
   sbri_walks_init(&rig->walks, rig, carve(&free_memory, sbri_walks_size(asset)));
 }
 

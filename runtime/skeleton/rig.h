@@ -9,10 +9,12 @@
 #include "sbrun/sbrun.h"
 #include "skeleton/rig_walks.h"
 
-/* What a foot stands on, from its middle: left (+x), right, toe (+z), heel; m. */
+/* What has to have ground under a foot, from its middle: left (+x), right, toe (+z), heel; m. */
 typedef struct sbri_sole {
   float left, right, toe, heel;
-  sbf_vec3 corners[4]; /* its outermost points towards right heel, left heel, right toe, left toe; y 0 */
+  float outline[4];    /* the same of all of the foot, seen from above */
+  sbf_vec3 corners[4]; /* of what it stands on: outermost towards right heel, left heel, right toe, left toe;
+                          y 0 */
 } sbri_sole;
 
 /* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. Or two, a peg: the
@@ -30,6 +32,7 @@ typedef struct sbri_leg {
                        */
   uint32_t group;
   bool hind; /* hangs on the hips; else on the chest */
+  bool fore; /* one of those in front, by which the body pitches */
   float copy_rotation, soft_reach;
   sbf_quat upper_back, lower_back; /* undo how thigh and shin face at rest */
   int32_t carrier;                 /* place among the chains' bones of the one it hangs on; -1: none */
@@ -53,7 +56,7 @@ typedef struct sbri_bone_chain {
   uint32_t first_state; /* place of its first bone among all such chains' bones */
 } sbri_bone_chain;
 
-enum { SBRI_MOST_LEGS = 16 };
+enum { SBRI_MOST_LEGS = 16, SBRI_BELLY = 4 };
 
 /* What turns a bone beside its parent. */
 typedef enum sbri_bone_role {
@@ -91,12 +94,15 @@ typedef struct sbri_rig {
   const sbri_bone_chain *chains;
   uint32_t chain_count, chain_bone_count;
   sbri_walks walks;
-  float hind_z, fore_z; /* mean z of the homes of hind and fore legs, asset space */
-  float half_width;     /* mean |x| of the homes */
-  float spread;         /* greatest distance of a home from the middle, level, m */
-  float reach;          /* mean of the legs' lengths, m */
-  uint32_t group_count; /* of the legs */
-  bool has_pegs;        /* some leg has no knee */
+  float hind_z, fore_z;       /* mean z of the homes of fore legs and of the others, asset space */
+  float hips_y;               /* mean height at which legs begin */
+  float half_width;           /* mean |x| of the homes */
+  float spread;               /* greatest distance of a home from the middle, level, m */
+  float reach;                /* mean of the legs' lengths, m */
+  uint32_t group_count;       /* of the legs */
+  bool has_pegs;              /* some leg has no knee */
+  sbf_vec3 belly[SBRI_BELLY]; /* the lowest of the body fore and hind, left and right; asset space */
+  uint32_t belly_count;
 } sbri_rig;
 
 /* Bytes the tables take, and their making in a block of that size. The asset must outlive the rig. A leg
@@ -116,6 +122,9 @@ void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits);
 float sbri_rig_leg_reach(const sbri_rig *rig, const sbri_leg *leg);
 /* ---- skeleton/rig_mass.c: what each bone carries, by the volume of what is seen of it. ---- */
 void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses);
+
+/* ---- skeleton/rig_belly.c: once the bones' roles are known. ---- */
+void sbri_rig_find_belly(sbri_rig *rig);
 
 /* ---- skeleton/rig_soles.c ---- */
 void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg);

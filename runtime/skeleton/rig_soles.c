@@ -1,12 +1,15 @@
 /* Soles: the lowest part of what hangs on a foot. */
 #include "skeleton/rig.h"
 
-static const float BAND = 0.12f; /* of a foot's height */
+/* Of a foot's height: what has to have ground under it; and what stands on it, for a round foot is wider
+ * above. */
+static const float LARGEST = 0.6f; /* of a leg's length: half a sole */
+static const float BAND = 0.12f, TOUCHES = 0.06f;
 
 typedef struct foot_points {
   float low, high;
   sbri_sole sole;
-  bool any, begun;
+  bool any, begun, touches;
 } foot_points;
 
 static void take(foot_points *f, sbf_vec3 p, int pass, sbf_vec3 home) {
@@ -16,23 +19,26 @@ static void take(foot_points *f, sbf_vec3 p, int pass, sbf_vec3 home) {
     f->any = true;
     return;
   }
-  if (p.y > f->low + BAND * (f->high - f->low)) return;
   sbri_sole *s = &f->sole;
   float x = p.x - home.x, z = p.z - home.z;
-  if (!f->begun) {
-    *s = (sbri_sole){.left = x, .right = x, .toe = z, .heel = z};
-    for (int k = 0; k < 4; k++) s->corners[k] = sbri_vec3(x, 0, z);
-  }
+  s->outline[0] = x > s->outline[0] ? x : s->outline[0];
+  s->outline[1] = x < s->outline[1] ? x : s->outline[1];
+  s->outline[2] = z > s->outline[2] ? z : s->outline[2];
+  s->outline[3] = z < s->outline[3] ? z : s->outline[3];
+  if (p.y > f->low + BAND * (f->high - f->low)) return;
+  if (!f->begun) s->left = s->right = x, s->toe = s->heel = z;
   f->begun = true;
-  for (int k = 0; k < 4; k++) {
-    float across = k & 1 ? 1.0f : -1.0f, along = k & 2 ? 1.0f : -1.0f;
-    if (across * x + along * z > across * s->corners[k].x + along * s->corners[k].z)
-      s->corners[k] = sbri_vec3(x, 0, z);
-  }
   s->left = x > s->left ? x : s->left;
   s->right = x < s->right ? x : s->right;
   s->toe = z > s->toe ? z : s->toe;
   s->heel = z < s->heel ? z : s->heel;
+  if (p.y > f->low + TOUCHES * (f->high - f->low)) return;
+  for (int k = 0; k < 4; k++) {
+    float across = k & 1 ? 1.0f : -1.0f, along = k & 2 ? 1.0f : -1.0f;
+    if (!f->touches || across * x + along * z > across * s->corners[k].x + along * s->corners[k].z)
+      s->corners[k] = sbri_vec3(x, 0, z);
+  }
+  f->touches = true;
 }
 
 static void look_at_bodies(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 home, foot_points *f) {
@@ -74,9 +80,11 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
   float length = leg->upper_length + leg->lower_length, least = 0.02f * length;
   float x = 0.5f * (f.sole.left + f.sole.right), z = 0.5f * (f.sole.toe + f.sole.heel);
   if (x * x + z * z > length * length) x = z = 0, f.sole = (sbri_sole){0};
-  float wide = sbri_clamp(f.sole.left - x, least, 0.3f * length);
-  float along = sbri_clamp(f.sole.toe - z, least, 0.3f * length);
+  float most = LARGEST * length;
+  float wide = sbri_clamp(f.sole.left - x, least, most), along = sbri_clamp(f.sole.toe - z, least, most);
   leg->sole = (sbri_sole){.left = wide, .right = -wide, .toe = along, .heel = -along};
+  for (int k = 0; k < 4; k++)
+    leg->sole.outline[k] = sbri_clamp(f.sole.outline[k] - (k < 2 ? x : z), -most, most);
   for (int k = 0; k < 4; k++) {
     sbf_vec3 corner = sbri_sub(f.sole.corners[k], sbri_vec3(x, 0, z));
     leg->sole.corners[k] =

@@ -264,6 +264,55 @@ START_TEST(every_kind_of_ground_carries_the_same_walk)
 }
 END_TEST
 
+START_TEST(without_a_chest_it_pitches_as_its_feet_lie)
+{
+  walk w;
+  begin(&w, bank, 0.3);
+  free(w.state);
+  sbf_gait gait = w.q.asset->gaits.at[0];
+  gait.chest = -1; /* as of a spider */
+  w.q.asset->gaits.at = &gait;
+  sbri_rig_init(&w.q.rig, w.q.asset, w.q.memory);
+  w.state = malloc(sbri_gait_state_size(&w.q.rig));
+  sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 3}, 0);
+  run(&w, 2);
+  float share = w.q.rig.gait->body_tilt;
+  ck_assert_float_eq_tol(-w.state->hips_pitch, share * atanf(0.3f), 0.02f);
+  end(&w);
+}
+END_TEST
+
+/* A ridge along the way, between the feet. */
+static double ridge(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  (void)z;
+  *normal = (sbf_vec3){0, 1, 0};
+  return fabs(x) < 0.03 ? ground->parameters[0] : 0;
+}
+
+START_TEST(the_belly_keeps_off_the_ground)
+{
+  const float low = 0.2f, high = 0.195f;
+  float lowest[2];
+  for (uint32_t bellies = 0; bellies < 2; bellies++) {
+    walk w;
+    begin(&w, ridge, (double)high);
+    w.q.rig.belly[0] = (sbf_vec3){0, low, 0};
+    w.q.rig.belly_count = bellies;
+    w.input.forward = 0.15f;
+    lowest[bellies] = 1;
+    for (int i = 0; i < 240; i++) {
+      run(&w, 1);
+      sbf_vec3 at = sbri_rotate(w.state->root.rotation, (sbf_vec3){0, low, 0});
+      float over = w.state->root.position.y + at.y - high;
+      if (i > 60 && over < lowest[bellies]) lowest[bellies] = over;
+    }
+    end(&w);
+  }
+  ck_assert_float_le(lowest[0], 0.006f); /* no higher than it stands on level ground */
+  ck_assert_float_ge(lowest[1], 0.006f);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("footing");
   TCase *tests = tcase_create("all");
@@ -275,6 +324,8 @@ int main(void) {
   tcase_add_test(tests, it_looks_no_farther_than_it_may_go);
   tcase_add_test(tests, feet_go_over_what_lies_between);
   tcase_add_test(tests, a_wall_is_not_climbed);
+  tcase_add_test(tests, without_a_chest_it_pitches_as_its_feet_lie);
+  tcase_add_test(tests, the_belly_keeps_off_the_ground);
   tcase_add_test(tests, every_kind_of_ground_carries_the_same_walk);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

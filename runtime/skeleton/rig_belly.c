@@ -1,0 +1,62 @@
+/* The belly: the lowest of what legs carry, which the body keeps off the ground. */
+#include "skeleton/rig.h"
+
+static const float RISES =
+    0.35f; /* a point so much higher for each metre that it is farther out matters as much */
+static const float DRAGS = 0.08f; /* of the reach: what hangs lower at rest is let drag */
+
+typedef struct belly_points {
+  sbf_vec3 at[SBRI_BELLY];
+  bool any[SBRI_BELLY];
+  float middle; /* z */
+} belly_points;
+
+/* What the body's place and tilt carry: no leg, and nothing that lags behind as a chain. */
+static bool is_trunk(const sbri_rig *rig, int32_t bone) {
+  for (int32_t b = bone; b >= 0; b = rig->parents[b]) {
+    if (rig->roles[b] == SBRI_ROLE_TAIL) return false;
+    for (uint32_t i = 0; i < rig->leg_count; i++)
+      if (rig->legs[i].upper == b) return false;
+  }
+  return bone >= 0;
+}
+
+static void take(belly_points *f, sbf_vec3 p) {
+  uint32_t k = (p.z > f->middle ? 2u : 0u) + (p.x > 0 ? 1u : 0u);
+  float low = p.y - RISES * fabsf(p.z - f->middle);
+  if (f->any[k] && low >= f->at[k].y - RISES * fabsf(f->at[k].z - f->middle)) return;
+  f->any[k] = true;
+  f->at[k] = p;
+}
+
+static bool look_at_bodies(const sbri_rig *rig, belly_points *f) {
+  bool bodies = false;
+  for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++) {
+    const sbf_soft_body *body = &rig->asset->soft_bodies.at[b];
+    bodies = bodies || body->bone >= 0;
+    if (!is_trunk(rig, body->bone)) continue;
+    for (uint32_t i = 0; i < body->surface.positions.count; i++) take(f, body->surface.positions.at[i]);
+  }
+  return bodies;
+}
+
+static void look_at_skins(const sbri_rig *rig, belly_points *f) {
+  for (uint32_t m = 0; m < rig->asset->render_meshes.count; m++) {
+    const sbf_render_mesh *mesh = &rig->asset->render_meshes.at[m];
+    uint32_t at = 0;
+    for (uint32_t i = 0; mesh->skin && i < mesh->skin->influence_counts.count; i++) {
+      float held = 0;
+      for (uint32_t k = 0; k < mesh->skin->influence_counts.at[i]; k++, at++)
+        if (is_trunk(rig, (int32_t)mesh->skin->bones.at[at])) held += mesh->skin->weights.at[at];
+      if (held > 0.5f) take(f, mesh->mesh.positions.at[i]);
+    }
+  }
+}
+
+void sbri_rig_find_belly(sbri_rig *rig) {
+  belly_points f = {.middle = 0.5f * (rig->hind_z + rig->fore_z)};
+  if (rig->leg_count == 0 || rig->chain_count) return; /* what a chain bends lies where it lies */
+  if (!look_at_bodies(rig, &f)) look_at_skins(rig, &f);
+  for (uint32_t k = 0; k < SBRI_BELLY; k++)
+    if (f.any[k] && f.at[k].y > DRAGS * rig->reach) rig->belly[rig->belly_count++] = f.at[k];
+}
