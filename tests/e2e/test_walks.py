@@ -12,7 +12,7 @@ from walks import all_walks, failures, leg_of, measure, straight
 EXAMPLE = {
     "slope of 20°, 3": {"knee_speed_step": 5.5},
     "stairs of a quarter leg, 2": {"knee_speed_step": 6.6},
-    "stairs of a quarter leg, 3": {"knee_speed_step": 6.4, "stance_slip": 0.0018},
+    "stairs of a quarter leg, 3": {"knee_speed_step": 5.5},
 }
 THESIS = {}
 
@@ -35,9 +35,9 @@ OFF_FLAT_SPEEDS = (0.1, 0.3, 1, 3)
 OFF_FLAT = {
     "pup": {},
     "calf": {"slope of 20°, 0.3": {"knee_speed_step": 5.2}, "stairs of a quarter leg, 1": {"knee_speed_step": 7.1},
-             "stairs of a quarter leg, 3": {"knee_speed_step": 6.1}},
+             "stairs of a quarter leg, 3": {"knee_speed_step": 6.6}},
     "yeti": {"slope of 20°, 0.1": {"support_margin": -0.05}},
-    "spider": {"slope of 20°, 3": {"knee_speed_step": 6.6}, "stairs of a quarter leg, 3": {"knee_speed_step": 15.3}},
+    "spider": {"slope of 20°, 3": {"knee_speed_step": 5.4}, "stairs of a quarter leg, 3": {"knee_speed_step": 15}},
     "fox": {},
 }
 
