@@ -62,6 +62,45 @@ void scene_springs(
   level->springs = (sbf_spring_set_list){set, 1};
 }
 
+sbf_level *scene_chain(
+    scene *s, uint32_t body, sbf_vec3 step, uint32_t links, float stiffness, float link_kg, float end_kg) {
+  sbf_vec3 *positions = calloc(links + 1, sizeof *positions);
+  float *masses = calloc(links + 1, sizeof *masses), *each = calloc(links, sizeof *each);
+  sbf_uint2 *ends = calloc(links, sizeof *ends);
+  ck_assert(positions && masses && each && ends);
+  for (uint32_t i = 0; i <= links; i++) {
+    positions[i] = (sbf_vec3){step.x * (float)i, step.y * (float)i, step.z * (float)i};
+    masses[i] = i < links ? link_kg : end_kg;
+    if (i < links) ends[i] = (sbf_uint2){{i, i + 1}}, each[i] = stiffness;
+  }
+  sbf_level *level = scene_points(s, body, positions, masses, links + 1);
+  scene_springs(s, level, ends, each, links);
+  free(positions), free(masses), free(each), free(ends);
+  return level;
+}
+
+void scene_net_of_eight(scene *s, float first_rest_m, float rest_step_m) {
+  sbf_vec3 positions[8];
+  float masses[8], stiffness[28], rest[28];
+  sbf_uint2 ends[28];
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < 8; i++) {
+    positions[i] = (sbf_vec3){(float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2)};
+    masses[i] = 1 + 0.25f * (float)i;
+    for (uint32_t k = 0; k < i; k++) {
+      ends[count] = (sbf_uint2){{k, i}};
+      rest[count] = first_rest_m + rest_step_m * (float)count;
+      stiffness[count++] = 200;
+    }
+  }
+  sbf_level *level = scene_points(s, 0, positions, masses, 8);
+  scene_springs(s, level, ends, stiffness, count);
+  sbf_spring_set *set = (sbf_spring_set *)(uintptr_t)level->springs.at;
+  set->rest_lengths = (sbf_f32_list){copy(s, rest, count, sizeof *rest), count};
+  s->world_definition.has_gravity = true;
+  s->world_definition.gravity = (sbf_vec3){0, 0, 0};
+}
+
 void scene_pin(scene *s, sbf_level *level, int32_t bone, const uint32_t *points, uint32_t count) {
   sbf_pin_set *set = sbf_asset_allocate(s->asset, 1, sizeof *set);
   ck_assert_ptr_nonnull(set);

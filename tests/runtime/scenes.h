@@ -29,6 +29,13 @@ void scene_free(scene *s);
 sbf_level *scene_points(
     scene *s, uint32_t body, const sbf_vec3 *positions, const float *masses, uint32_t count);
 void scene_springs(scene *s, sbf_level *level, const sbf_uint2 *ends, const float *stiffness, uint32_t count);
+/* Points 0 to `links` in a row, each `step` from the one before, with springs at their rest between them; the
+ * last weighs `end_kg`. */
+sbf_level *scene_chain(
+    scene *s, uint32_t body, sbf_vec3 step, uint32_t links, float stiffness, float link_kg, float end_kg);
+/* The corners of a cube of 1 m, of 1 to 2.75 kg, each on a spring of 200 N/m to each other one, whose rest
+ * lengths are first_rest_m and each rest_step_m more than the last; it does not weigh. */
+void scene_net_of_eight(scene *s, float first_rest_m, float rest_step_m);
 /* Holds points by a bone, or by the world where `bone` is negative. Call once a level. */
 void scene_pin(scene *s, sbf_level *level, int32_t bone, const uint32_t *points, uint32_t count);
 /* One bone along +Z from `head`. */

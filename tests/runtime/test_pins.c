@@ -145,16 +145,7 @@ START_TEST(guides_blend_between_the_bones_that_hold)
   }
   s.asset->bones = (sbf_bone_list){bones, 2};
   enum { POINTS = 11 };
-  sbf_vec3 positions[POINTS];
-  float masses[POINTS], stiffness[POINTS - 1];
-  sbf_uint2 ends[POINTS - 1];
-  for (uint32_t i = 0; i < POINTS; i++) {
-    positions[i] = (sbf_vec3){(float)i, 0, 0};
-    masses[i] = 1;
-    if (i + 1 < POINTS) ends[i] = (sbf_uint2){{i, i + 1}}, stiffness[i] = 10;
-  }
-  sbf_level *level = scene_points(&s, 0, positions, masses, POINTS);
-  scene_springs(&s, level, ends, stiffness, POINTS - 1);
+  sbf_level *level = scene_chain(&s, 0, (sbf_vec3){1, 0, 0}, POINTS - 1, 10, 1, 1);
   const uint32_t first = 0, last = POINTS - 1;
   sbf_pin_set *sets = add_pins(&s, level, 2);
   sets[0].bone = 0, sets[0].points = (sbf_u32_list){&first, 1};

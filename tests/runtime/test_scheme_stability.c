@@ -223,18 +223,8 @@ START_TEST(heavy_hangs_on_light)
 {
   enum { LINKS = 8 };
   scene s = scene_begin();
-  sbf_vec3 positions[LINKS + 1];
-  float masses[LINKS + 1], k[LINKS];
-  sbf_uint2 ends[LINKS];
-  for (uint32_t i = 0; i <= LINKS; i++) {
-    positions[i] = (sbf_vec3){0.1f * (float)i, 0, 0};
-    masses[i] = i < LINKS ? 0.001f : 10;
-    if (i < LINKS) ends[i] = (sbf_uint2){{i, i + 1}}, k[i] = 2e4f;
-  }
   const uint32_t held = 0;
-  sbf_level *level = scene_points(&s, 0, positions, masses, LINKS + 1);
-  scene_springs(&s, level, ends, k, LINKS);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0.1f, 0, 0}, LINKS, 2e4f, 0.001f, 10), -1, &held, 1);
   scene_body(&s, 0)->attributes.mass_damping = 1;
   scene_body(&s, 0)->attributes.stiffness_damping = 2e-5f;
   s.model_options.scheme = schemes[_i];

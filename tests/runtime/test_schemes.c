@@ -240,30 +240,6 @@ START_TEST(a_body_falls_as_at_the_origin)
 }
 END_TEST
 
-static void net_of_eight(scene *s) {
-  sbf_vec3 positions[8];
-  float masses[8], stiffness[28], rest[28];
-  sbf_uint2 ends[28];
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < 8; i++) {
-    positions[i] = (sbf_vec3){(float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2)};
-    masses[i] = 1 + 0.25f * (float)i;
-    for (uint32_t k = 0; k < i; k++) {
-      ends[count] = (sbf_uint2){{k, i}};
-      rest[count] = 0.8f + 0.015f * (float)count; /* off its rest */
-      stiffness[count++] = 200;
-    }
-  }
-  sbf_level *level = scene_points(s, 0, positions, masses, 8);
-  scene_springs(s, level, ends, stiffness, count);
-  sbf_spring_set *set = (sbf_spring_set *)(uintptr_t)level->springs.at;
-  float *kept = sbf_asset_allocate(s->asset, count, sizeof *kept);
-  memcpy(kept, rest, sizeof rest);
-  set->rest_lengths = (sbf_f32_list){kept, count};
-  s->world_definition.has_gravity = true;
-  s->world_definition.gravity = (sbf_vec3){0, 0, 0};
-}
-
 /* Sum over m of x and of x cross v, v from two ticks. */
 static void moments(const sbf_vec3 *a, const sbf_vec3 *b, double linear[3], double angular[3]) {
   for (int k = 0; k < 3; k++) linear[k] = angular[k] = 0;
@@ -280,7 +256,7 @@ static void moments(const sbf_vec3 *a, const sbf_vec3 *b, double linear[3], doub
 START_TEST(momentum_is_kept)
 {
   scene s = scene_begin();
-  net_of_eight(&s);
+  scene_net_of_eight(&s, 0.8f, 0.015f); /* off its rest */
   scene_body(&s, 0)->attributes.damping_ratio = 0.1f;
   scene_body(&s, 0)->attributes.stiffness_damping = 2e-3f;
   s.model_options.scheme = schemes[_i];
@@ -307,19 +283,9 @@ END_TEST
 /* Links hang from a point: each stretches by the weight below it. */
 static scene chain(int scheme, uint32_t links, float stiffness, float mass, bool level_start) {
   scene s = scene_begin();
-  sbf_vec3 positions[64];
-  float masses[64], k[64];
-  sbf_uint2 ends[64];
-  for (uint32_t i = 0; i <= links; i++) {
-    float at = 0.1f * (float)i;
-    positions[i] = level_start ? (sbf_vec3){at, 0, 0} : (sbf_vec3){0, -at, 0};
-    masses[i] = mass;
-    if (i < links) ends[i] = (sbf_uint2){{i, i + 1}}, k[i] = stiffness;
-  }
   const uint32_t held = 0;
-  sbf_level *level = scene_points(&s, 0, positions, masses, links + 1);
-  scene_springs(&s, level, ends, k, links);
-  scene_pin(&s, level, -1, &held, 1);
+  sbf_vec3 step = level_start ? (sbf_vec3){0.1f, 0, 0} : (sbf_vec3){0, -0.1f, 0};
+  scene_pin(&s, scene_chain(&s, 0, step, links, stiffness, mass, mass), -1, &held, 1);
   s.model_options.scheme = schemes[scheme];
   return s;
 }

@@ -156,14 +156,8 @@ END_TEST
 START_TEST(what_never_hung_together_stays)
 {
   enum { LINKS = 8 };
-  static float masses[LINKS + 1], stiffness[LINKS];
-  static sbf_uint2 ends[LINKS];
-  static sbf_vec3 places[LINKS + 1];
-  for (uint32_t i = 0; i <= LINKS; i++) places[i] = (sbf_vec3){0.1f * (float)i, 0, 0}, masses[i] = 0.1f;
-  for (uint32_t i = 0; i < LINKS; i++) ends[i] = (sbf_uint2){{i, i + 1}}, stiffness[i] = 5;
   s = scene_begin();
-  sbf_level *level = scene_points(&s, 0, places, masses, LINKS + 1);
-  scene_springs(&s, level, ends, stiffness, LINKS);
+  scene_chain(&s, 0, (sbf_vec3){0.1f, 0, 0}, LINKS, 5, 0.1f, 0.1f);
   scene_body(&s, 0)->attributes.tear_strain = 0.4f;
   s.model_options.scheme = schemes[_i];
   s.world_definition.has_gravity = true, s.world_definition.gravity = (sbf_vec3){0, 0, 0};

@@ -108,43 +108,31 @@ START_TEST(a_free_body_falls_as_it_should)
 }
 END_TEST
 
+static sbf_vec3 center_of_mass(scene *s) {
+  sbf_vec3 at[8];
+  double sum[3] = {0, 0, 0}, mass = 0;
+  const float *masses = scene_body(s, 0)->levels.at[0].masses.at;
+  ck_assert_uint_eq(scene_read(s, 0, at, 8), 8);
+  for (int i = 0; i < 8; i++) {
+    sum[0] += masses[i] * at[i].x, sum[1] += masses[i] * at[i].y, sum[2] += masses[i] * at[i].z;
+    mass += masses[i];
+  }
+  return (sbf_vec3){(float)(sum[0] / mass), (float)(sum[1] / mass), (float)(sum[2] / mass)};
+}
+
 START_TEST(momentum_is_kept)
 {
   scene s = scene_begin();
   scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
   scene_body(&s, 0)->attributes.stiffness_damping = 1e-3f;
-  sbf_vec3 positions[8];
-  float masses[8], stiffness[28], rest[28];
-  sbf_uint2 ends[28];
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < 8; i++) {
-    positions[i] = (sbf_vec3){(float)(i & 1), (float)(i >> 1 & 1), (float)(i >> 2)};
-    masses[i] = 1 + 0.25f * (float)i;
-    for (uint32_t k = 0; k < i; k++) {
-      ends[count] = (sbf_uint2){{k, i}};
-      rest[count] = 0.4f + 0.05f * (float)count; /* far from rest */
-      stiffness[count++] = 200;
-    }
-  }
-  sbf_level *level = scene_points(&s, 0, positions, masses, 8);
-  scene_springs(&s, level, ends, stiffness, count);
-  sbf_spring_set *set = (sbf_spring_set *)(uintptr_t)level->springs.at;
-  set->rest_lengths = (sbf_f32_list){rest, count};
-  s.world_definition.has_gravity = true;
-  s.world_definition.gravity = (sbf_vec3){0, 0, 0};
+  scene_net_of_eight(&s, 0.4f, 0.05f); /* far from rest */
   scene_start(&s);
-  double before[3] = {0, 0, 0}, mass = 0;
-  for (int i = 0; i < 8; i++) {
-    before[0] += masses[i] * positions[i].x, before[1] += masses[i] * positions[i].y;
-    before[2] += masses[i] * positions[i].z, mass += masses[i];
-  }
+  sbf_vec3 before = center_of_mass(&s);
   scene_ticks(&s, 1000);
-  sbf_vec3 after[8];
-  double sum[3] = {0, 0, 0};
-  ck_assert_uint_eq(scene_read(&s, 0, after, 8), 8);
-  for (int i = 0; i < 8; i++)
-    sum[0] += masses[i] * after[i].x, sum[1] += masses[i] * after[i].y, sum[2] += masses[i] * after[i].z;
-  for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(sum[k] / mass, before[k] / mass, 1e-4);
+  sbf_vec3 after = center_of_mass(&s);
+  ck_assert_float_eq_tol(after.x, before.x, 1e-4f);
+  ck_assert_float_eq_tol(after.y, before.y, 1e-4f);
+  ck_assert_float_eq_tol(after.z, before.z, 1e-4f);
   scene_free(&s);
 }
 END_TEST
@@ -174,18 +162,8 @@ START_TEST(a_hanging_chain_stretches_by_its_weight)
   enum { LINKS = 10 };
   scene s = scene_begin();
   scene_body(&s, 0)->attributes.damping_ratio = 1;
-  sbf_vec3 positions[LINKS + 1];
-  float masses[LINKS + 1], stiffness[LINKS];
-  sbf_uint2 ends[LINKS];
-  for (uint32_t i = 0; i <= LINKS; i++) {
-    positions[i] = (sbf_vec3){0, -0.1f * (float)i, 0};
-    masses[i] = 0.2f;
-    if (i < LINKS) ends[i] = (sbf_uint2){{i, i + 1}}, stiffness[i] = 400;
-  }
   const uint32_t held = 0;
-  sbf_level *level = scene_points(&s, 0, positions, masses, LINKS + 1);
-  scene_springs(&s, level, ends, stiffness, LINKS);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0, -0.1f, 0}, LINKS, 400, 0.2f, 0.2f), -1, &held, 1);
   scene_start(&s);
   scene_ticks(&s, 600);
   double stretch = 0.2 * 9.81 / 400 * LINKS * (LINKS + 1) / 2;
@@ -199,18 +177,8 @@ START_TEST(a_pendulum_chain_swings_without_gain)
 {
   enum { LINKS = 10 };
   scene s = scene_begin();
-  sbf_vec3 positions[LINKS + 1];
-  float masses[LINKS + 1], stiffness[LINKS];
-  sbf_uint2 ends[LINKS];
-  for (uint32_t i = 0; i <= LINKS; i++) {
-    positions[i] = (sbf_vec3){0.1f * (float)i, 0, 0};
-    masses[i] = 0.2f;
-    if (i < LINKS) ends[i] = (sbf_uint2){{i, i + 1}}, stiffness[i] = 20000;
-  }
   const uint32_t held = 0;
-  sbf_level *level = scene_points(&s, 0, positions, masses, LINKS + 1);
-  scene_springs(&s, level, ends, stiffness, LINKS);
-  scene_pin(&s, level, -1, &held, 1);
+  scene_pin(&s, scene_chain(&s, 0, (sbf_vec3){0.1f, 0, 0}, LINKS, 20000, 0.2f, 0.2f), -1, &held, 1);
   s.model_options.substeps = 20;
   scene_start(&s);
   double depth = 0.2 * 9.81 * 0.1 * LINKS * (LINKS + 1) / 2; /* J from level to hanging */
