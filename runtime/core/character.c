@@ -120,6 +120,7 @@ void sbr_character_destroy(sbr_world *world, sbr_character_id character) {
   if (!c) return;
   sbri_record(world, SBRI_RECORDED_DESTROY, (const double[]){character.value});
   sbri_meet_surfaces_free(world, (uint32_t)(c - world->characters));
+  sbri_meet_forget(world, (uint32_t)(c - world->characters));
   sbfi_free(&world->allocator, c->state, c->model->layout.state_size);
   sbfi_free(&world->allocator, c->scratch, c->model->layout.scratch_size);
   *c = (sbri_character){.generation = c->generation};

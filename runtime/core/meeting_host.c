@@ -22,6 +22,8 @@ static bool make(sbr_world *world, uint32_t touches) {
   all->rows = sbfi_allocate(a, touches * sizeof *all->rows);
   all->memories = sbfi_allocate(a, touches * sizeof *all->memories);
   all->next_memories = sbfi_allocate(a, touches * sizeof *all->next_memories);
+  all->contacts = sbfi_allocate(a, touches * sizeof *all->contacts);
+  all->next_contacts = sbfi_allocate(a, touches * sizeof *all->next_contacts);
   for (all->found_capacity = 1; all->found_capacity < 2 * touches;) all->found_capacity *= 2;
   all->found_memories = sbfi_allocate(a, all->found_capacity * sizeof *all->found_memories);
   for (uint32_t i = 0; all->found_memories && i < all->found_capacity; i++)
@@ -29,7 +31,8 @@ static bool make(sbr_world *world, uint32_t touches) {
   for (size_t i = 0; all->surfaces && i < characters; i++) all->surfaces[i] = NULL;
   bool good = all->arenas && all->surfaces && all->kept && all->group_of && all->members && all->groups &&
               all->pairs && all->touches && all->rows && all->memories && all->next_memories &&
-              all->found_memories && sbri_meetings_reserve(world, NULL);
+              all->contacts && all->next_contacts && all->found_memories &&
+              sbri_meetings_reserve(world, NULL);
   for (uint32_t i = 0; good && i < characters; i++) {
     all->group_of[i] = UINT32_MAX;
     if (world->characters[i].model) good = sbri_meet_surfaces_make(world, i);

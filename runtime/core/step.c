@@ -116,13 +116,18 @@ static void run(sbr_world *world, sbr_task *task, size_t count) {
     for (uint32_t i = 0; i < count; i++) task(world, i);
 }
 
+void sbri_event_add(sbr_world *world, sbr_event event) {
+  event.tick = world->ticks;
+  if (!event.other.value) event.other_rigid_body = -1;
+  world->events[world->event_head++ % SBRI_EVENTS] = event;
+}
+
 static void add_event(sbr_world *world, const sbri_character *c, sbr_event event, sbf_vec3 place) {
   sbr_double3 origin = sbri_head(c)->origin;
   event.character = sbri_id_of(world, c);
-  event.tick = world->ticks;
   event.position =
       (sbr_double3){origin.x + (double)place.x, origin.y + (double)place.y, origin.z + (double)place.z};
-  world->events[world->event_head++ % SBRI_EVENTS] = event;
+  sbri_event_add(world, event);
 }
 
 /* The body that lists the element: of a spring between bodies, the first. */
@@ -224,5 +229,6 @@ void sbri_step_tick(sbr_world *world) {
   run(world, tick_island, world->work_count);
   follow_tears(world);
   gather_events(world);
+  if (world->meetings) sbri_meet_tell(world);
   note_sleep(world);
 }

@@ -61,6 +61,8 @@ sbr_collider_id sbri_collider_name(const sbri_collider_set *set, uint32_t number
 /* ---- core/step.c ---- */
 
 void sbri_step_tick(sbr_world *world);
+/* Of this tick; the event's place is the world's. */
+void sbri_event_add(sbr_world *world, sbr_event event);
 
 /* ---- core/island_run.c ---- */
 

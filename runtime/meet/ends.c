@@ -203,6 +203,7 @@ void sbri_meet_row_begin(
   if (row->a.mover) row->a.arm = sbri_sub(middle, row->a.mover->position);
   if (row->b.mover) row->b.arm = sbri_sub(middle, row->b.mover->position);
   row->apart = off;
+  row->place = middle;
   row->gap = sbri_dot(n, off) - t->margin;
   if (!is_new && !has_turned(&row->a) && !has_turned(&row->b)) return;
   row->a.made = row->a.arm, row->b.made = row->b.arm;

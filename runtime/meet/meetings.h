@@ -85,6 +85,10 @@ typedef struct sbri_meet_touch {
   sbf_vec3 rub;    /* N s across it */
   bool pushed;
   bool is_new; /* nobody remembers it from the tick before */
+  /* For events, of the whole tick: */
+  float impulse;  /* N s along the normal */
+  float closing;  /* m/s, the most with which it was pushed against */
+  sbf_vec3 place; /* where that was last */
 } sbri_meet_touch;
 
 /* What is kept of a touch that pushed, from tick to tick: what it will be pushed with again, to begin with.
@@ -98,6 +102,14 @@ typedef struct sbri_meet_memory {
   sbf_vec3 slid; /* m across */
   float pull;    /* m/s^2 along the normal */
 } sbri_meet_memory;
+
+/* Two bodies that touch, for events. */
+typedef struct sbri_meet_contact {
+  uint64_t names[2];    /* the lesser first */
+  sbr_double3 position; /* world, of the touch that pushes most */
+  sbf_vec3 normal;      /* there, away from the second */
+  float impulse, speed; /* N s of all, and the fastest in m/s, in this tick */
+} sbri_meet_contact;
 
 /* A rigid body that gives way, as pushes see it in a step. */
 typedef struct sbri_meet_mover {
@@ -134,6 +146,8 @@ typedef struct sbri_meet_row {
   sbf_vec3 way, change; /* N s, of passes so far and of the present one */
   float gap;
   sbf_vec3 apart; /* a from b, m */
+  sbf_vec3 place; /* where both are pushed */
+  float speed;    /* m/s along the normal before its pushes */
   bool bears;     /* takes part */
   sbri_meet_end a, b;
 } sbri_meet_row;
@@ -169,6 +183,8 @@ typedef struct sbri_meetings {
   uint32_t
       *found_memories; /* (found_capacity, a power of two) by names: where a pair's begin, or UINT32_MAX */
   uint32_t found_capacity;
+  sbri_meet_contact *contacts, *next_contacts; /* (touch_capacity) by names; output, not state */
+  uint32_t contact_count;
   sbri_meet_mover *movers; /* (meeter_capacity) group after group */
   uint32_t touch_capacity, character_capacity;
 } sbri_meetings;
@@ -188,6 +204,7 @@ void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *member, u
 
 /* Finds who may meet whom in this tick, and the groups. */
 void sbri_meet_pairs_find(sbr_world *world);
+bool sbri_meet_is_awake(const sbri_character *c);
 
 /* ---- meet/find.c ---- */
 
@@ -231,6 +248,13 @@ void sbri_meet_row_begin(
 void sbri_meet_push(const sbr_world *world, const sbri_meet_group *group, bool first);
 /* Where they have come to when the last step is over. */
 void sbri_meet_look(const sbri_meetings *all, const sbri_meet_group *group);
+
+/* ---- meet/tell.c ---- */
+
+/* Events of those who begin to touch and of those who part, when all groups have stepped. */
+void sbri_meet_tell(sbr_world *world);
+/* A character is gone: whom it touched. */
+void sbri_meet_forget(sbr_world *world, uint32_t character);
 
 /* ---- core/group_run.c ---- */
 

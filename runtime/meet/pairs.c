@@ -120,7 +120,7 @@ static uint32_t root_of(uint32_t *group_of, uint32_t i) {
   return i;
 }
 
-static bool is_awake(const sbri_character *c) {
+bool sbri_meet_is_awake(const sbri_character *c) {
   if (sbri_head(c)->asleep) return false;
   bool simulated = c->model->rigid.body_count && sbri_rigid_drive(c)->any;
   for (uint32_t i = 0; i < c->model->island_count; i++)
@@ -156,7 +156,7 @@ static bool add_members(sbr_world *world, sbri_meet_group *group, uint32_t numbe
   bool awake = false;
   for (uint32_t i = number; i < world->character_capacity; i++) {
     if (all->group_of[i] != number) continue;
-    awake = awake || is_awake(&world->characters[i]);
+    awake = awake || sbri_meet_is_awake(&world->characters[i]);
     all->members[group->first_member + group->member_count++].character = &world->characters[i];
   }
   group->origin = sbri_head(all->members[group->first_member].character)->origin;

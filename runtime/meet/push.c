@@ -80,6 +80,7 @@ static void begin(const sbr_world *world, const sbri_meet_group *group, sbri_mee
   sbri_meet_touch *t = r->touch;
   float step_s = group->step_s, speed = sbri_dot(t->normal, sbri_meet_between(r));
   float wanted = wanted_of(r, step_s);
+  r->speed = speed;
   learn(r, speed);
   if (r->gap + step_s * speed < 0 && -t->restitution * speed > wanted && speed < -BOUNCE_FROM_M_S) {
     r->wanted = sbri_scale(t->normal, -t->restitution * speed);
@@ -103,6 +104,10 @@ static void end(const sbri_meet_row *r) {
   t->pushed = t->gain > 0;
   t->after = sbri_dot(t->normal, sbri_meet_between(r));
   t->was_pushed = true;
+  if (t->pushed) {
+    t->impulse += t->gain, t->place = r->place;
+    t->closing = t->closing > -r->speed ? t->closing : -r->speed;
+  }
   if (sbri_dot(t->rub, t->rub) >= most * most) t->slid = nothing, t->apart = r->apart;
 }
 

@@ -144,6 +144,8 @@ void sbri_meetings_free(sbr_world *world) {
   sbfi_free(a, all->rows, touches * sizeof *all->rows);
   sbfi_free(a, all->memories, touches * sizeof *all->memories);
   sbfi_free(a, all->next_memories, touches * sizeof *all->next_memories);
+  sbfi_free(a, all->contacts, touches * sizeof *all->contacts);
+  sbfi_free(a, all->next_contacts, touches * sizeof *all->next_contacts);
   sbfi_free(a, all->found_memories, all->found_capacity * sizeof *all->found_memories);
   sbfi_free(a, all, sizeof *all);
   world->meetings = NULL;

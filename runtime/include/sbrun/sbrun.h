@@ -273,8 +273,9 @@ typedef enum sbr_event_kind {
   SBR_EVENT_UNSPLIT, /* a tear found no room to split points: more tear_points */
   SBR_EVENT_ASLEEP,  /* bodies that hang together are no longer stepped */
   SBR_EVENT_AWAKE,   /* and are again */
-  SBR_EVENT_CONTACT  /* a body that did not in the tick before touches the ground, a collider or another body;
-                        of one that touches more than four things at once, the first four */
+  SBR_EVENT_CONTACT, /* a body that did not in the tick before touches the ground or a collider (of more than
+                        four at once, the first four), or another body (sbr_world_bodies_meet) */
+  SBR_EVENT_PARTED   /* two bodies of characters that touched each other do so no longer */
 } sbr_event_kind;
 /* Something that happened in a step. */
 typedef struct sbr_event {
@@ -285,10 +286,17 @@ typedef struct sbr_event {
   sbr_double3 position;       /* world */
   uint32_t soft_body; /* of a tear: whose element; of sleep: the first of those bodies; of contact: which */
   int32_t rigid_body; /* of contact: which, if it is one; -1: none */
-  sbr_collider_id collider; /* of contact: with that; 0: with the ground */
-  sbf_vec3 normal;          /* of contact: away from what is touched */
-  float impulse;            /* of contact: N s, about, in that tick */
+  sbr_collider_id collider; /* of contact: with that; 0: with the ground, or with `other` */
+  sbf_vec3 normal;        /* of contact: away from what is touched; of bodies that part: when they touched */
+  float impulse;          /* of contact: N s, about, in that tick */
+  sbr_character_id other; /* of contact and parting: whose body it is with, or the same; 0: with none */
+  uint32_t other_soft_body; /* which */
+  int32_t other_rigid_body; /* which, if it is one; -1: none */
+  float speed;              /* of contact with `other`: m/s with which they came together */
 } sbr_event;
+/* Two bodies that touch are told of once, in whichever order; of characters that are destroyed nobody parts.
+ * Contacts of bodies come in a fixed order after all else of their tick but sleep, on any number of threads.
+ */
 /* Events since the last call, oldest first; returns how many were written. Older ones than the world keeps
  * (256) are lost. They are output, not state: snapshots do not hold them. */
 SBF_API uint32_t sbr_world_events(sbr_world *world, sbr_event *events, uint32_t capacity);
