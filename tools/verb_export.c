@@ -1,36 +1,72 @@
-#include "cli.h"
-#include "sbfmt/export.h"
+#include <stdio.h>
+#include <string.h>
+
+#include "motion_bake.h"
 #include "sbfmt/io.h"
 
 static void report(void *user, const sbf_diagnostic *diagnostic) {
   cli_print_diagnostic(user, diagnostic);
 }
 
+/* The input's folder, which its images are relative to. */
+static const char *folder_of(const char *path, char *to, size_t size) {
+  const char *slash = strrchr(path, '/');
+  int length = slash ? snprintf(to, size, "%.*s", slash == path ? 1 : (int)(slash - path), path)
+                     : snprintf(to, size, ".");
+  return length > 0 && (size_t)length < size ? to : NULL;
+}
+
+static bool ends_with(const char *path, const char *ending) {
+  const char *point = strrchr(path, '.');
+  return point && strcmp(point, ending) == 0;
+}
+
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o");
+  char folder[4096];
   long render_level = 0;
-  if (!out) return cli_wrong(call, "say where to write: -o OUT.obj, OUT.tet or OUT.xml");
+  sbf_export_motion motion = {0};
+  if (!out) return cli_wrong(call, "say where to write: -o OUT.glb, OUT.obj, OUT.tet or OUT.xml");
   if (!cli_integer(call, "--render-level", 0, 1000, &render_level)) return SBF_FAILED;
+  if (motion_asked(call) && !ends_with(out, ".glb"))
+    return cli_wrong(
+        call, "only .glb holds a motion: leave --seconds, --script and --replay out for %s", out);
+  int status = motion_asked(call) ? motion_bake(call, &motion) : SBF_OK;
+  if (status != SBF_OK) return status;
   sbf_asset *asset;
   sbf_diagnostic error;
-  sbf_status status = sbf_load_file(call->inputs[0], NULL, &asset, &error);
+  status = (int)sbf_load_file(call->inputs[0], NULL, &asset, &error);
   if (status == SBF_OK) {
-    const sbf_export_options options = {
-        .report = report, .user = call, .render_level = (uint32_t)render_level};
-    status = sbf_export(asset, out, &options, &error);
+    const sbf_export_options options = {.report = report,
+        .user = call,
+        .render_level = (uint32_t)render_level,
+        .folder = folder_of(call->inputs[0], folder, sizeof folder),
+        .motion = &motion};
+    status = (int)sbf_export(asset, out, &options, &error);
     sbf_asset_free(asset);
   }
+  motion_free(&motion);
   if (status != SBF_OK) cli_print_diagnostic(call, &error);
-  return (int)status;
+  return status;
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.obj|.tet|.xml", "where to write; the ending says in which form"},
+    {"-o", "OUT.glb|.obj|.tet|.xml", "where to write; the ending says in which form"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
+    SESSION_OPTIONS,
     {NULL, NULL, NULL},
 };
-const cli_verb verb_export = {"export", "FILE -o OUT.obj|.tet|.xml", "write what other programs read",
-    "Writes meshes at rest as OBJ with its MTL, tetrahedra as PhysX's .tet, or soft and rigid bodies with "
-    "their\n"
-    "joints in the 2012 dialect, .xml. Says what the form has no place for.",
+const cli_verb verb_export = {"export", "FILE -o OUT.glb|.obj|.tet|.xml [--seconds S ...]",
+    "write what other programs read",
+    "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb; meshes at rest "
+    "as "
+    "OBJ\n"
+    "with its MTL; tetrahedra as PhysX's .tet; or soft and rigid bodies with their joints in the 2012 "
+    "dialect, "
+    ".xml.\n"
+    "Says what the form has no place for. With --seconds, --script or --replay a .glb also holds the motion "
+    "that\n"
+    "`run` would show, 30 frames a second unless --fps says otherwise: joints that move, and what the flesh "
+    "does\n"
+    "beside them as a morph target a frame.",
     options, 1, 1, run};

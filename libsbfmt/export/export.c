@@ -68,7 +68,8 @@ const sbf_level *sbfi_export_lattice(const sbf_soft_body *body) {
 static const struct {
   const char *ending;
   sbf_status (*write)(sbfi_export *e);
-} forms[] = {{".xml", sbfi_export_paper}, {".obj", sbfi_export_obj}, {".tet", sbfi_export_tet}};
+} forms[] = {{".xml", sbfi_export_paper}, {".glb", sbfi_export_glb}, {".obj", sbfi_export_obj},
+    {".tet", sbfi_export_tet}};
 
 sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error) {
@@ -84,6 +85,8 @@ sbf_status sbf_export(
         .allocator = sbfi_allocator_or_default(options->allocator),
         .reporter = {options->report, options->user, 0, 0},
         .render_level = options->render_level,
+        .folder = options->folder,
+        .motion = options->motion && options->motion->frame_count ? options->motion : NULL,
         .error = error};
     sbfi_text_init(&e.text, &e.allocator);
     sbf_status status = forms[i].write(&e);
@@ -91,5 +94,6 @@ sbf_status sbf_export(
     return status;
   }
   return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-      "%s: the ending says which form to write, and there are .obj, .tet and .xml (the 2012 dialect)", path);
+      "%s: the ending says which form to write, and there are .glb, .obj, .tet and .xml (the 2012 dialect)",
+      path);
 }

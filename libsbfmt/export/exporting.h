@@ -11,13 +11,17 @@ typedef struct sbfi_export {
   const char *path;
   sbf_allocator allocator;
   sbfi_reporter reporter;
-  uint32_t render_level; /* as in the options */
-  sbfi_text text;        /* of the file */
+  /* As in the options. */
+  uint32_t render_level;
+  const char *folder;
+  const sbf_export_motion *motion; /* NULL where it has no frames */
+  sbfi_text text;                  /* of the file */
   sbf_diagnostic *error;
 } sbfi_export;
 
 /* Each fills e->text and writes it, and what belongs to it. */
 sbf_status sbfi_export_paper(sbfi_export *e);
+sbf_status sbfi_export_glb(sbfi_export *e);
 sbf_status sbfi_export_obj(sbfi_export *e);
 sbf_status sbfi_export_tet(sbfi_export *e);
 

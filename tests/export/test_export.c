@@ -5,6 +5,7 @@
 #include "sbfmt/codes.h"
 #include "sbfmt/convert.h"
 #include "sbfmt/export.h"
+#include "sbfmt/io.h"
 
 static sbf_asset *bar(void) {
   sbf_asset *asset;
@@ -51,8 +52,8 @@ START_TEST(nothing_to_write_and_unknown_endings_are_errors)
 {
   sbf_asset *empty = sbf_asset_create(NULL);
   sbf_diagnostic error;
-  static const char *const names[] = {"empty.obj", "empty.tet", "empty.xml"};
-  for (int i = 0; i < 3; i++) {
+  static const char *const names[] = {"empty.obj", "empty.tet", "empty.xml", "empty.glb"};
+  for (int i = 0; i < 4; i++) {
     const char *path = harness_scratch(names[i]);
     size_t size;
     ck_assert_int_eq(sbf_export(empty, path, NULL, &error), SBF_BAD_INPUT);
@@ -68,24 +69,90 @@ START_TEST(nothing_to_write_and_unknown_endings_are_errors)
 }
 END_TEST
 
+/* One render mesh with its own bones, keys, images and clips, and two frames of a motion. */
+static sbf_asset *everything(void) {
+  sbf_asset *asset;
+  ck_assert_int_eq(
+      sbf_load_file(harness_source("spec/samples/valid/everything.sbf"), NULL, &asset, NULL), SBF_OK);
+  return asset;
+}
+
+typedef struct moved {
+  sbf_export_motion motion;
+  sbf_vec3 skin[2000], heads[100];
+  sbf_quat turns[100];
+} moved;
+
+/* Frame 0 at rest, frame 1 all of it `by_m` higher. */
+static void move(const sbf_asset *asset, float by_m, moved *to) {
+  uint32_t points = 0, bones = asset->bones.count;
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    points += asset->render_meshes.at[i].mesh.positions.count;
+  ck_assert_uint_le(2 * points, 2000);
+  ck_assert_uint_le(2 * bones, 100);
+  for (uint32_t f = 0; f < 2; f++) {
+    uint32_t at = f * points;
+    for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
+      sbf_vec3_list rest = asset->render_meshes.at[i].mesh.positions;
+      for (uint32_t p = 0; p < rest.count; p++, at++) {
+        to->skin[at] = rest.at[p];
+        to->skin[at].y += (float)f * by_m;
+      }
+    }
+    for (uint32_t b = 0; b < bones; b++) {
+      to->heads[f * bones + b] = asset->bones.at[b].head;
+      to->heads[f * bones + b].y += (float)f * by_m;
+      to->turns[f * bones + b] = asset->bones.at[b].rotation;
+    }
+  }
+  to->motion = (sbf_export_motion){2, 0.5, to->skin, to->heads, to->turns};
+}
+
+START_TEST(what_moves_with_its_bones_needs_no_offsets)
+{
+  /* The file with the motion has two more targets, all zero where bones carry everything. */
+  sbf_asset *asset = everything();
+  moved m;
+  size_t size;
+  move(asset, 0.25f, &m);
+  const sbf_export_options options = {.motion = &m.motion};
+  ck_assert_int_eq(sbf_export(asset, harness_scratch("moved.glb"), &options, NULL), SBF_OK);
+  char *bytes = harness_read(harness_scratch("moved.glb"), &size);
+  ck_assert_ptr_nonnull(bytes);
+  ck_assert(memcmp(bytes, "glTF", 4) == 0);
+  uint32_t json = (uint8_t)bytes[12] | (uint32_t)(uint8_t)bytes[13] << 8 | (uint32_t)(uint8_t)bytes[14] << 16;
+  bytes[20 + json] = 0;
+  ck_assert_ptr_nonnull(strstr(bytes + 20, "\"frame 1\""));
+  ck_assert_ptr_null(strstr(bytes + 20, "\"frame 2\""));
+  ck_assert_ptr_nonnull(strstr(bytes + 20, "\"path\":\"weights\""));
+  free(bytes);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 START_TEST(memory_that_runs_out_is_reported)
 {
-  sbf_asset *asset = bar();
-  static const char *const names[] = {"memory.obj", "memory.tet", "memory.xml"};
-  for (int i = 0; i < 3; i++)
+  sbf_asset *bars = bar(), *all = everything();
+  static const char *const names[] = {"memory.obj", "memory.tet", "memory.xml", "memory.glb"};
+  moved m;
+  move(all, 0.25f, &m);
+  for (int i = 0; i < 4; i++)
     for (size_t allowed = 0;; allowed++) {
       harness_memory memory;
       sbf_diagnostic error;
       harness_memory_init(&memory, allowed);
-      sbf_status status = sbf_export(
-          asset, harness_scratch(names[i]), &(sbf_export_options){.allocator = &memory.allocator}, &error);
+      const sbf_export_options options = {.allocator = &memory.allocator,
+          .motion = &m.motion,
+          .folder = harness_source("spec/samples/valid")};
+      sbf_status status = sbf_export(i == 3 ? all : bars, harness_scratch(names[i]), &options, &error);
       ck_assert_uint_eq(memory.held_bytes, 0);
       if (status == SBF_OK) break;
       ck_assert_int_eq(status, SBF_FAILED);
       ck_assert_int_eq(error.code, SBF_CODE_OUT_OF_MEMORY);
       ck_assert_uint_lt(allowed, 1000);
     }
-  sbf_asset_free(asset);
+  sbf_asset_free(bars);
+  sbf_asset_free(all);
 }
 END_TEST
 
@@ -95,6 +162,7 @@ static Suite *suite(void) {
   tcase_add_test(c, the_2012_dialect_goes_round);
   tcase_add_test(c, what_is_left_out_is_said);
   tcase_add_test(c, nothing_to_write_and_unknown_endings_are_errors);
+  tcase_add_test(c, what_moves_with_its_bones_needs_no_offsets);
   tcase_add_test(c, memory_that_runs_out_is_reported);
   suite_add_tcase(s, c);
   return s;

@@ -68,11 +68,12 @@ class Asset:
         finally:
             library().sbf_buffer_free(ctypes.byref(buffer))
 
-    def export(self, path, report=None, render_level=0):
-        """Writes another program's form, named by the ending (.obj, .tet, .xml); `report` hears what it has no place for.
-        `render_level` of each mesh: 0 the full one."""
+    def export(self, path, report=None, render_level=0, folder=None):
+        """Writes another program's form, named by the ending (.glb, .obj, .tet, .xml); `report` hears what it has no place for.
+        `render_level` of each mesh: 0 the full one. `folder`: where images lie that the asset names by path, for .glb."""
         callbacks, error = Callbacks(report), DiagnosticStruct()
-        options = ExportOptions(ctypes.sizeof(ExportOptions), None, callbacks.report, None, render_level)
+        options = ExportOptions(ctypes.sizeof(ExportOptions), None, callbacks.report, None, render_level,
+                                path_bytes(folder))
         callbacks.check(library().sbf_export(self.pointer, path_bytes(path), ctypes.byref(options), ctypes.byref(error)),
                         error)
 

@@ -101,7 +101,7 @@ class FixResult(Structure):
 
 class ExportOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("report", Report), ("user", c_void_p),
-                ("render_level", c_uint32)]
+                ("render_level", c_uint32), ("folder", ctypes.c_char_p), ("motion", c_void_p)]
 
 
 class Buffer(Structure):

@@ -11,6 +11,15 @@
 extern "C" {
 #endif
 
+/* How an asset moved, frame by frame from time 0 on, as its host simulated it. World space, m. */
+typedef struct sbf_export_motion {
+  uint32_t frame_count;           /* 0: none */
+  double frame_s;                 /* from one to the next */
+  const sbf_vec3 *skin;           /* (frames * points) the points of all render meshes, in their order */
+  const sbf_vec3 *bone_positions; /* (frames * bones) heads */
+  const sbf_quat *bone_rotations; /* (frames * bones) from the bone's frame */
+} sbf_export_motion;
+
 /* Settings of sbf_export. */
 typedef struct sbf_export_options {
   size_t struct_size;             /* sizeof(sbf_export_options), or 0 for this version's */
@@ -20,9 +29,16 @@ typedef struct sbf_export_options {
   void *user; /* for the callback */
   /* Of each render mesh: 0 the full one, n its n-th render level, or its last where there are fewer. */
   uint32_t render_level;
+  /* Folder that the paths of images are relative to, the asset's own: .glb takes their bytes in. NULL: those
+   * not embedded are left out. */
+  const char *folder;
+  /* For .glb, as an animation "motion": joints move, and what the skin does beside them is a morph target a
+   * frame. NULL: none. */
+  const sbf_export_motion *motion;
 } sbf_export_options;
 
-/* Writes the asset in the form that the ending of `path` names: .obj (the render meshes at rest, or where
+/* Writes the asset in the form that the ending of `path` names: .glb (binary glTF 2.0: render meshes with
+ * skin, joints, materials, shape keys and clips), .obj (the render meshes at rest, or where
  * there are none the bodies' surfaces; materials to a .mtl of the same name), .tet (the bodies' first levels
  * of tetrahedra, as PhysX reads them), .xml (the 2012 dialect, section 16 of the specification).
  * SBF_BAD_INPUT where the asset has nothing that the form could hold. `options` may be NULL. */

@@ -1,0 +1,58 @@
+/* A mesh that names neither weights nor a bone may be carried by sections: each of them has a bone, and says
+ * how much of a vertex is its own. */
+#include "export/glb.h"
+
+/* Calls for every vertex that a section's finest level carries. */
+typedef struct carried {
+  uint32_t *counts; /* by vertex */
+  uint32_t *bones;  /* NULL: only count */
+  float *weights;
+  const uint32_t *begins;
+} carried;
+
+static void add(carried *c, uint32_t vertex, int32_t bone, float weight) {
+  if (c->bones) {
+    uint32_t at = c->begins[vertex] + c->counts[vertex];
+    c->bones[at] = (uint32_t)bone;
+    c->weights[at] = weight;
+  }
+  c->counts[vertex]++;
+}
+
+static void visit(const sbf_asset *asset, uint32_t render_mesh, carried *c) {
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[b];
+    if (body->bone < 0 || !body->levels.count) continue;
+    const sbf_embedding_list embeddings = body->levels.at[0].embeddings;
+    for (uint32_t i = 0; i < embeddings.count; i++) {
+      const sbf_embedding *e = &embeddings.at[i];
+      if (e->render_mesh != (int32_t)render_mesh) continue;
+      for (uint32_t k = 0; k < e->points.count; k++)
+        add(c, e->vertices.count ? e->vertices.at[k] : k, body->bone, e->blends.count ? e->blends.at[k] : 1);
+    }
+  }
+}
+
+const sbf_skin *sbfi_glb_carried_skin(sbfi_glb *g, uint32_t render_mesh) {
+  const sbf_asset *asset = g->e->asset;
+  uint32_t points = asset->render_meshes.at[render_mesh].mesh.positions.count, all = 0;
+  if (!asset->bones.count || !points) return NULL;
+  carried c = {.counts = sbfi_glb_room(g, points, sizeof *c.counts)};
+  uint32_t *begins = sbfi_glb_room(g, points, sizeof *begins);
+  if (g->failed) return NULL;
+  visit(asset, render_mesh, &c);
+  for (uint32_t p = 0; p < points; p++) {
+    begins[p] = all;
+    all += c.counts[p];
+    c.counts[p] = 0;
+  }
+  if (!all) return NULL;
+  sbf_skin *skin = sbfi_glb_room(g, 1, sizeof *skin);
+  c.begins = begins;
+  c.bones = sbfi_glb_room(g, all, sizeof *c.bones);
+  c.weights = sbfi_glb_room(g, all, sizeof *c.weights);
+  if (g->failed) return NULL;
+  visit(asset, render_mesh, &c);
+  *skin = (sbf_skin){{c.counts, points}, {c.bones, all}, {c.weights, all}};
+  return skin;
+}

@@ -1,0 +1,110 @@
+/* Materials, which both forms define alike, and their images, in the file's own bytes. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "export/glb.h"
+
+enum { LARGEST_IMAGE_BYTES = 1 << 28 };
+
+/* By how the bytes begin; NULL: neither form that glTF takes. */
+static const char *media_type(const uint8_t *bytes, size_t size) {
+  if (size >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0) return "image/png";
+  if (size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0) return "image/jpeg";
+  return NULL;
+}
+
+static bool write_image(sbfi_glb *g, const sbf_texture *texture, const uint8_t *bytes, size_t size) {
+  const char *type = media_type(bytes, size);
+  if (!type) return false;
+  uint32_t view = sbfi_glb_view(g, bytes, size), image;
+  sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_IMAGES, &image);
+  sbfi_text_string(text, "{\"name\":");
+  sbfi_glb_string(text, *texture->name ? texture->name : texture->id);
+  sbfi_glb_format(text, ",\"bufferView\":%u,\"mimeType\":\"%s\"}", view, type);
+  sbfi_glb_format(sbfi_glb_item(g, SBFI_GLB_TEXTURES, NULL), "{\"source\":%u}", image);
+  return true;
+}
+
+static bool read_image(sbfi_glb *g, const sbf_texture *texture) {
+  char path[4096];
+  if (!g->e->folder || !*texture->path) return false;
+  int length = snprintf(path, sizeof path, "%s/%s", g->e->folder, texture->path);
+  if (length < 0 || (size_t)length >= sizeof path) return false;
+  sbfi_file_content file;
+  sbf_diagnostic why;
+  if (sbfi_file_read(path, LARGEST_IMAGE_BYTES, &g->e->allocator, &file, &why) != SBF_OK) {
+    g->failed = g->failed || why.code == SBF_CODE_OUT_OF_MEMORY;
+    return false;
+  }
+  bool good = write_image(g, texture, file.at, file.size);
+  sbfi_file_content_free(&file);
+  return good;
+}
+
+static void write_images(sbfi_glb *g) {
+  const sbf_texture_list textures = g->e->asset->textures;
+  int32_t *places = sbfi_glb_room(g, textures.count, sizeof *places);
+  g->texture_places = places;
+  for (uint32_t i = 0; i < textures.count && places; i++) {
+    const sbf_texture *texture = &textures.at[i];
+    places[i] = (int32_t)g->parts[SBFI_GLB_TEXTURES].count;
+    bool written = texture->bytes.count ? write_image(g, texture, texture->bytes.at, texture->bytes.count)
+                                        : read_image(g, texture);
+    if (written) continue;
+    places[i] = SBF_NONE;
+    g->lost_images++;
+  }
+}
+
+static void write_texture(const sbfi_glb *g, sbfi_text *text, const char *key, int32_t texture) {
+  if (texture < 0 || !g->texture_places || g->texture_places[texture] < 0) return;
+  sbfi_glb_format(text, ",\"%s\":{\"index\":%d}", key, (int)g->texture_places[texture]);
+}
+
+/* Glow beyond 1 is a factor on the colour, by an extension. */
+static void write_glow(sbfi_glb *g, sbfi_text *text, sbf_vec3 glow) {
+  float most = glow.x > glow.y ? glow.x : glow.y;
+  most = glow.z > most ? glow.z : most;
+  if (!(most > 0)) return;
+  float colour[3] = {glow.x, glow.y, glow.z};
+  for (int k = 0; k < 3 && most > 1; k++) colour[k] /= most;
+  sbfi_text_string(text, ",\"emissiveFactor\":");
+  sbfi_glb_numbers(text, colour, 3);
+  if (most <= 1) return;
+  g->emissive_strength = true;
+  sbfi_text_string(text, ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":");
+  sbfi_text_f32(text, most);
+  sbfi_text_string(text, "}}");
+}
+
+static void write_material(sbfi_glb *g, const sbf_material *m) {
+  static const char *const modes[] = {"OPAQUE", "MASK", "BLEND"};
+  sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_MATERIALS, NULL);
+  const float colour[4] = {m->base_color.x, m->base_color.y, m->base_color.z, m->base_color.w};
+  sbfi_text_string(text, "{\"name\":");
+  sbfi_glb_string(text, *m->name ? m->name : m->id);
+  sbfi_text_string(text, ",\"pbrMetallicRoughness\":{\"baseColorFactor\":");
+  sbfi_glb_numbers(text, colour, 4);
+  sbfi_text_string(text, ",\"metallicFactor\":");
+  sbfi_text_f32(text, m->metallic);
+  sbfi_text_string(text, ",\"roughnessFactor\":");
+  sbfi_text_f32(text, m->roughness);
+  write_texture(g, text, "baseColorTexture", m->base_color_texture);
+  write_texture(g, text, "metallicRoughnessTexture", m->metallic_roughness_texture);
+  sbfi_text_char(text, '}');
+  write_texture(g, text, "normalTexture", m->normal_texture);
+  write_glow(g, text, m->emissive);
+  sbfi_glb_format(text, ",\"alphaMode\":\"%s\"", modes[m->alpha_mode]);
+  if (m->alpha_mode == SBF_ALPHA_MODE_MASK) {
+    sbfi_text_string(text, ",\"alphaCutoff\":");
+    sbfi_text_f32(text, m->alpha_cutoff);
+  }
+  sbfi_text_string(text, m->double_sided ? ",\"doubleSided\":true}" : "}");
+}
+
+void sbfi_glb_materials(sbfi_glb *g) {
+  write_images(g);
+  for (uint32_t i = 0; i < g->e->asset->materials.count; i++)
+    write_material(g, &g->e->asset->materials.at[i]);
+}

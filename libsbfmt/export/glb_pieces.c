@@ -1,0 +1,122 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "export/glb.h"
+
+void *sbfi_glb_room(sbfi_glb *g, size_t count, size_t size) {
+  void *room = count ? sbfi_arena_allocate(&g->arena, count, size) : NULL;
+  if (count && !room) g->failed = true;
+  return room;
+}
+
+sbfi_text *sbfi_glb_item(sbfi_glb *g, sbfi_glb_part part, uint32_t *number) {
+  sbfi_glb_array *array = &g->parts[part];
+  if (array->count) sbfi_text_char(&array->text, ',');
+  if (number) *number = array->count;
+  array->count++;
+  return &array->text;
+}
+
+void sbfi_glb_format(sbfi_text *text, const char *format, ...) {
+  char piece[256];
+  va_list arguments;
+  va_start(arguments, format);
+  int length = vsnprintf(piece, sizeof piece, format, arguments);
+  va_end(arguments);
+  if (length > 0)
+    sbfi_text_append(text, piece, (size_t)length < sizeof piece ? (size_t)length : sizeof piece - 1);
+}
+
+void sbfi_glb_string(sbfi_text *text, const char *string) {
+  sbfi_text_char(text, '"');
+  for (; *string; string++) {
+    unsigned char c = (unsigned char)*string;
+    if (c < 0x20 || c == 127)
+      sbfi_glb_format(text, "\\u%04x", c);
+    else {
+      if (c == '"' || c == '\\') sbfi_text_char(text, '\\');
+      sbfi_text_char(text, *string);
+    }
+  }
+  sbfi_text_char(text, '"');
+}
+
+void sbfi_glb_numbers(sbfi_text *text, const float *numbers, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    sbfi_text_char(text, i ? ',' : '[');
+    sbfi_text_f32(text, numbers[i]);
+  }
+  sbfi_text_char(text, ']');
+}
+
+/* A view of the `size` bytes that are appended next. */
+static uint32_t open_view(sbfi_glb *g, size_t size, uint32_t target) {
+  sbfi_text_repeat(&g->bytes, 0, (4 - g->bytes.length % 4) % 4);
+  uint32_t number;
+  sbfi_text *view = sbfi_glb_item(g, SBFI_GLB_VIEWS, &number);
+  sbfi_glb_format(view, "{\"buffer\":0,\"byteOffset\":%llu,\"byteLength\":%llu",
+      (unsigned long long)g->bytes.length, (unsigned long long)size);
+  if (target) sbfi_glb_format(view, ",\"target\":%u", target);
+  sbfi_text_char(view, '}');
+  return number;
+}
+
+uint32_t sbfi_glb_view(sbfi_glb *g, const void *bytes, size_t size) {
+  uint32_t number = open_view(g, size, SBFI_GLB_NO_TARGET);
+  sbfi_text_append(&g->bytes, bytes, size);
+  return number;
+}
+
+/* Little-endian, as the form wants it, on any machine. */
+static void store(uint8_t *to, const void *items, size_t words, bool shorts) {
+  for (size_t i = 0; i < words; i++) {
+    uint32_t bits;
+    if (shorts) {
+      uint16_t word;
+      memcpy(&word, (const uint8_t *)items + 2 * i, 2);
+      to[2 * i] = (uint8_t)word;
+      to[2 * i + 1] = (uint8_t)(word >> 8);
+      continue;
+    }
+    memcpy(&bits, (const uint8_t *)items + 4 * i, 4);
+    for (int k = 0; k < 4; k++) to[4 * i + (size_t)k] = (uint8_t)(bits >> (8 * k));
+  }
+}
+
+static void write_bounds(sbfi_text *text, const float *items, uint32_t count, uint32_t width) {
+  float low[3], high[3];
+  for (uint32_t k = 0; k < width; k++) low[k] = high[k] = items[k];
+  for (size_t i = width; i < (size_t)count * width; i++) {
+    size_t k = i % width;
+    if (items[i] < low[k]) low[k] = items[i];
+    if (items[i] > high[k]) high[k] = items[i];
+  }
+  sbfi_text_string(text, ",\"min\":");
+  sbfi_glb_numbers(text, low, width);
+  sbfi_text_string(text, ",\"max\":");
+  sbfi_glb_numbers(text, high, width);
+}
+
+uint32_t sbfi_glb_accessor(
+    sbfi_glb *g, const void *items, uint32_t count, sbfi_glb_type type, uint32_t target) {
+  static const struct {
+    const char *name;
+    uint32_t width, component;
+  } kinds[] = {{"SCALAR", 1, 5126}, {"VEC2", 2, 5126}, {"VEC3", 3, 5126}, {"VEC4", 4, 5126},
+      {"MAT4", 16, 5126}, {"SCALAR", 1, 5125}, {"VEC4", 4, 5123}};
+  bool shorts = type == SBFI_GLB_USHORT4;
+  size_t words = (size_t)count * kinds[type].width, size = words * (shorts ? 2 : 4);
+  uint32_t view = open_view(g, size, target), number;
+  char *to = sbfi_text_reserve(&g->bytes, size);
+  if (to) {
+    store((uint8_t *)to, items, words, shorts);
+    g->bytes.length += size;
+  }
+  sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_ACCESSORS, &number);
+  sbfi_glb_format(text, "{\"bufferView\":%u,\"componentType\":%u,\"count\":%u,\"type\":\"%s\"", view,
+      kinds[type].component, count, kinds[type].name);
+  if (count && (type == SBFI_GLB_VEC3 || type == SBFI_GLB_FLOAT))
+    write_bounds(text, items, count, kinds[type].width);
+  sbfi_text_char(text, '}');
+  return number;
+}

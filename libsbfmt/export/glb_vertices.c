@@ -1,0 +1,269 @@
+/* Meshes as a graphics processor has them: a primitive for each material with vertices of its own, one for
+ * each point with its normal and texture coordinates; polygons cut into fans from their first corner. */
+#include <math.h>
+#include <string.h>
+
+#include "export/glb.h"
+
+enum { MOST_UV_SETS = 4 };
+
+/* The polygons of one material being written. */
+typedef struct vertices {
+  sbfi_glb *g;
+  const sbfi_glb_mesh *mesh;
+  uint32_t slot;
+  uint32_t count;
+  uint32_t uv_count; /* sets that have coordinates */
+  uint32_t uv_sets[MOST_UV_SETS];
+  uint32_t *corners;      /* (count) the first corner that is this vertex */
+  uint32_t *first, *next; /* vertices at one point, as chains; UINT32_MAX ends */
+  uint32_t *indices;      /* three a triangle */
+  uint32_t index_count;
+} vertices;
+
+static uint32_t normal_of(const sbf_render_mesh *m, uint32_t corner) {
+  return m->normal_corners.count ? m->normal_corners.at[corner] : m->mesh.polygon_points.at[corner];
+}
+
+static uint32_t coordinate_of(const sbf_render_mesh *m, const sbf_uv_set *set, uint32_t corner) {
+  return set->corners.count ? set->corners.at[corner] : m->mesh.polygon_points.at[corner];
+}
+
+static bool same_vertex(const vertices *v, uint32_t a, uint32_t b) {
+  const sbf_render_mesh *m = v->mesh->shown;
+  if (m->normals.count && normal_of(m, a) != normal_of(m, b)) return false;
+  for (uint32_t s = 0; s < v->uv_count; s++) {
+    const sbf_uv_set *set = &m->uv_sets.at[v->uv_sets[s]];
+    if (coordinate_of(m, set, a) != coordinate_of(m, set, b)) return false;
+  }
+  return true;
+}
+
+static uint32_t vertex_of(vertices *v, uint32_t corner) {
+  uint32_t point = v->mesh->shown->mesh.polygon_points.at[corner], at = v->first[point];
+  while (at != UINT32_MAX && !same_vertex(v, corner, v->corners[at])) at = v->next[at];
+  if (at != UINT32_MAX) return at;
+  at = v->count++;
+  v->corners[at] = corner;
+  v->next[at] = v->first[point];
+  v->first[point] = at;
+  return at;
+}
+
+static void find_vertices(vertices *v) {
+  const sbf_render_mesh *m = v->mesh->shown;
+  v->count = v->index_count = 0;
+  memset(v->first, 0xff, m->mesh.positions.count * sizeof *v->first);
+  for (uint32_t p = 0, corner = 0; p < m->mesh.polygon_sizes.count; p++) {
+    uint32_t size = m->mesh.polygon_sizes.at[p];
+    if ((m->polygon_materials.count ? m->polygon_materials.at[p] : 0) == v->slot)
+      for (uint32_t k = 2; k < size; k++) {
+        v->indices[v->index_count++] = vertex_of(v, corner);
+        v->indices[v->index_count++] = vertex_of(v, corner + k - 1);
+        v->indices[v->index_count++] = vertex_of(v, corner + k);
+      }
+    corner += size;
+  }
+}
+
+static uint32_t point_of(const vertices *v, uint32_t vertex) {
+  return v->mesh->shown->mesh.polygon_points.at[v->corners[vertex]];
+}
+
+static uint32_t full_point_of(const vertices *v, uint32_t vertex) {
+  uint32_t point = point_of(v, vertex);
+  return v->mesh->full_of_shown ? v->mesh->full_of_shown[point] : point;
+}
+
+static uint32_t write_positions(const vertices *v) {
+  sbf_vec3 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  if (!at) return 0;
+  for (uint32_t i = 0; i < v->count; i++) at[i] = v->mesh->shown->mesh.positions.at[point_of(v, i)];
+  return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
+}
+
+static uint32_t write_normals(const vertices *v) {
+  const sbf_render_mesh *m = v->mesh->shown;
+  sbf_vec3 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  if (!at) return 0;
+  for (uint32_t i = 0; i < v->count; i++) {
+    sbf_vec3 n = m->normals.at[normal_of(m, v->corners[i])];
+    double length = sqrt((double)n.x * (double)n.x + (double)n.y * (double)n.y + (double)n.z * (double)n.z);
+    at[i] = length > 0 ? (sbf_vec3){(float)((double)n.x / length), (float)((double)n.y / length),
+                             (float)((double)n.z / length)}
+                       : (sbf_vec3){0, 1, 0};
+  }
+  return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
+}
+
+/* Their origin is the upper left corner there. */
+static uint32_t write_coordinates(const vertices *v, const sbf_uv_set *set) {
+  sbf_vec2 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  if (!at) return 0;
+  for (uint32_t i = 0; i < v->count; i++) {
+    sbf_vec2 uv = set->coordinates.at[coordinate_of(v->mesh->shown, set, v->corners[i])];
+    at[i] = (sbf_vec2){uv.x, 1 - uv.y};
+  }
+  return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC2, SBFI_GLB_VERTICES);
+}
+
+/* The bones of one point, each once, the strongest first, with weights that sum to one. */
+typedef struct influences {
+  uint32_t *bones;
+  double *weights;
+  uint32_t count;
+} influences;
+
+static void gather(const sbf_skin *skin, uint32_t from, uint32_t count, uint32_t root_joint, influences *to) {
+  double sum = 0;
+  to->count = 0;
+  for (uint32_t i = from; i < from + count; i++) {
+    uint32_t k = 0;
+    if (!(skin->weights.at[i] > 0)) continue;
+    while (k < to->count && to->bones[k] != skin->bones.at[i]) k++;
+    if (k == to->count) {
+      to->bones[to->count] = skin->bones.at[i];
+      to->weights[to->count++] = 0;
+    }
+    to->weights[k] += (double)skin->weights.at[i];
+    sum += (double)skin->weights.at[i];
+  }
+  if (!to->count) {
+    *to = (influences){to->bones, to->weights, 1};
+    to->bones[0] = root_joint;
+    to->weights[0] = sum = 1;
+  }
+  for (uint32_t k = 0; k < to->count; k++) {
+    double weight = to->weights[k] / sum;
+    uint32_t bone = to->bones[k], at = k;
+    for (; at > 0 && to->weights[at - 1] < weight; at--) {
+      to->weights[at] = to->weights[at - 1];
+      to->bones[at] = to->bones[at - 1];
+    }
+    to->weights[at] = weight;
+    to->bones[at] = bone;
+  }
+}
+
+/* Sets of four; returns their number, and appends them to the attributes. */
+static void write_skin(const vertices *v, sbfi_text *attributes) {
+  const sbf_skin *skin = v->mesh->skin;
+  uint32_t points = v->mesh->full->mesh.positions.count, most = 1, sets = 0;
+  uint32_t *begins = sbfi_glb_room(v->g, points, sizeof *begins);
+  if (!begins) return;
+  for (uint32_t p = 0, at = 0; p < points; p++) {
+    begins[p] = at;
+    at += skin->influence_counts.at[p];
+    if (skin->influence_counts.at[p] > most) most = skin->influence_counts.at[p];
+  }
+  influences found = {
+      sbfi_glb_room(v->g, most, sizeof *found.bones), sbfi_glb_room(v->g, most, sizeof *found.weights), 0};
+  uint32_t room = (most + 3) / 4;
+  uint16_t *joints = sbfi_glb_room(v->g, (size_t)room * v->count, 4 * sizeof *joints);
+  float *weights = sbfi_glb_room(v->g, (size_t)room * v->count, 4 * sizeof *weights);
+  if (v->g->failed) return;
+  for (uint32_t i = 0; i < v->count; i++) {
+    uint32_t p = full_point_of(v, i);
+    gather(skin, begins[p], skin->influence_counts.at[p], v->g->e->asset->bones.count, &found);
+    for (uint32_t k = 0; k < found.count; k++) {
+      float weight = (float)found.weights[k];
+      size_t at = ((size_t)(k / 4) * v->count + i) * 4 + k % 4;
+      joints[at] = weight > 0 ? (uint16_t)found.bones[k] : 0;
+      weights[at] = weight;
+    }
+    if ((found.count + 3) / 4 > sets) sets = (found.count + 3) / 4;
+  }
+  for (uint32_t s = 0; s < sets; s++) {
+    uint32_t j = sbfi_glb_accessor(
+        v->g, joints + 4 * (size_t)s * v->count, v->count, SBFI_GLB_USHORT4, SBFI_GLB_VERTICES);
+    uint32_t w = sbfi_glb_accessor(
+        v->g, weights + 4 * (size_t)s * v->count, v->count, SBFI_GLB_VEC4, SBFI_GLB_VERTICES);
+    sbfi_glb_format(attributes, ",\"JOINTS_%u\":%u,\"WEIGHTS_%u\":%u", s, j, s, w);
+  }
+}
+
+static void write_targets(const vertices *v, sbfi_text *text) {
+  const sbfi_glb_mesh *mesh = v->mesh;
+  uint32_t keys = mesh->full->shape_keys.count;
+  uint32_t points = mesh->shown->mesh.positions.count, full_points = mesh->full->mesh.positions.count;
+  sbf_vec3 *of_full = sbfi_glb_room(v->g, keys ? full_points : 0, sizeof *of_full);
+  sbf_vec3 *of_shown = sbfi_glb_room(v->g, mesh->target_count > keys ? points : 0, sizeof *of_shown);
+  sbf_vec3 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  for (uint32_t t = 0; t < mesh->target_count && !v->g->failed; t++) {
+    if (t < keys) {
+      const sbf_shape_key *key = &mesh->full->shape_keys.at[t];
+      memset(of_full, 0, full_points * sizeof *of_full);
+      for (uint32_t i = 0; i < key->points.count; i++) of_full[key->points.at[i]] = key->offsets.at[i];
+    } else
+      sbfi_glb_offsets(v->g, mesh, t - keys, of_shown);
+    for (uint32_t i = 0; i < v->count; i++)
+      at[i] = t < keys ? of_full[full_point_of(v, i)] : of_shown[point_of(v, i)];
+    uint32_t number = sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
+    sbfi_glb_format(text, "%s{\"POSITION\":%u}", t ? "," : ",\"targets\":[", number);
+  }
+  sbfi_text_char(text, ']');
+}
+
+static void write_primitive(vertices *v, sbfi_text *text) {
+  const sbf_render_mesh *m = v->mesh->shown;
+  sbfi_glb_format(text, "{\"attributes\":{\"POSITION\":%u", write_positions(v));
+  if (m->normals.count) sbfi_glb_format(text, ",\"NORMAL\":%u", write_normals(v));
+  for (uint32_t s = 0; s < v->uv_count; s++)
+    sbfi_glb_format(text, ",\"TEXCOORD_%u\":%u", s, write_coordinates(v, &m->uv_sets.at[v->uv_sets[s]]));
+  if (v->mesh->skin) write_skin(v, text);
+  uint32_t indices = sbfi_glb_accessor(v->g, v->indices, v->index_count, SBFI_GLB_UINT, SBFI_GLB_INDICES);
+  sbfi_glb_format(text, "},\"indices\":%u", indices);
+  if (v->slot < m->material_slots.count && m->material_slots.at[v->slot].material >= 0)
+    sbfi_glb_format(text, ",\"material\":%d", (int)m->material_slots.at[v->slot].material);
+  if (v->mesh->target_count) write_targets(v, text);
+  sbfi_text_char(text, '}');
+}
+
+static void write_target_names(const sbfi_glb_mesh *mesh, sbfi_text *text) {
+  uint32_t keys = mesh->full->shape_keys.count;
+  if (!mesh->target_count) return;
+  sbfi_text_string(text, ",\"weights\":");
+  for (uint32_t t = 0; t < mesh->target_count; t++) sbfi_text_string(text, t ? ",0" : "[0");
+  sbfi_text_string(text, "],\"extras\":{\"targetNames\":[");
+  for (uint32_t t = 0; t < mesh->target_count; t++) {
+    if (t) sbfi_text_char(text, ',');
+    if (t < keys)
+      sbfi_glb_string(text, mesh->full->shape_keys.at[t].name);
+    else
+      sbfi_glb_format(text, "\"frame %u\"", t - keys);
+  }
+  sbfi_text_string(text, "]}");
+}
+
+static void write_mesh(sbfi_glb *g, const sbfi_glb_mesh *mesh) {
+  const sbf_render_mesh *m = mesh->shown;
+  uint32_t corners = m->mesh.polygon_points.count, slots = m->material_slots.count;
+  vertices v = {.g = g,
+      .mesh = mesh,
+      .corners = sbfi_glb_room(g, corners, sizeof *v.corners),
+      .next = sbfi_glb_room(g, corners, sizeof *v.next),
+      .first = sbfi_glb_room(g, m->mesh.positions.count, sizeof *v.first),
+      .indices = sbfi_glb_room(g, 3 * (size_t)corners, sizeof *v.indices)};
+  for (uint32_t s = 0; s < m->uv_sets.count && v.uv_count < MOST_UV_SETS; s++)
+    if (m->uv_sets.at[s].coordinates.count) v.uv_sets[v.uv_count++] = s;
+  if (g->failed) return;
+  sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_MESHES, NULL);
+  sbfi_text_string(text, "{\"name\":");
+  sbfi_glb_string(text, *mesh->full->name ? mesh->full->name : mesh->full->id);
+  const char *before = ",\"primitives\":[";
+  for (v.slot = 0; v.slot < (slots ? slots : 1) && !g->failed; v.slot++) {
+    find_vertices(&v);
+    if (!v.count) continue;
+    sbfi_text_string(text, before);
+    write_primitive(&v, text);
+    before = ",";
+  }
+  sbfi_text_char(text, ']');
+  write_target_names(mesh, text);
+  sbfi_text_char(text, '}');
+}
+
+void sbfi_glb_meshes(sbfi_glb *g) {
+  for (uint32_t i = 0; i < g->e->asset->render_meshes.count && !g->failed; i++)
+    if (g->meshes[i].node != UINT32_MAX) write_mesh(g, &g->meshes[i]);
+}

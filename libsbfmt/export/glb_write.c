@@ -1,0 +1,140 @@
+/* Binary glTF 2.0: render meshes with skin, joints, materials, shape keys and clips; and a motion. */
+#include <string.h>
+
+#include "base/file.h"
+#include "export/glb.h"
+
+static const char *const part_names[SBFI_GLB_PARTS] = {
+    "bufferViews", "accessors", "images", "textures", "materials", "meshes", "skins", "nodes", "animations"};
+
+static void write_scene(sbfi_glb *g, sbfi_text *json) {
+  const sbf_asset *asset = g->e->asset;
+  bool first = true;
+  sbfi_text_string(json, ",\"scene\":0,\"scenes\":[{\"nodes\":[");
+  if (asset->bones.count) {
+    sbfi_glb_format(json, "%u", g->root_node);
+    first = false;
+  }
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
+    if (g->meshes[i].node == UINT32_MAX || g->meshes[i].bone >= 0) continue;
+    sbfi_glb_format(json, "%s%u", first ? "" : ",", g->meshes[i].node);
+    first = false;
+  }
+  sbfi_text_string(json, "]}]");
+}
+
+static void write_json(sbfi_glb *g, sbfi_text *json) {
+  const sbf_info *info = &g->e->asset->info;
+  sbfi_text_string(json, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sbfmt\"");
+  if (*info->copyright) {
+    sbfi_text_string(json, ",\"copyright\":");
+    sbfi_glb_string(json, info->copyright);
+  }
+  sbfi_text_char(json, '}');
+  if (g->emissive_strength)
+    sbfi_text_string(json, ",\"extensionsUsed\":[\"KHR_materials_emissive_strength\"]");
+  write_scene(g, json);
+  if (g->bytes.length)
+    sbfi_glb_format(json, ",\"buffers\":[{\"byteLength\":%llu}]", (unsigned long long)g->bytes.length);
+  for (int i = 0; i < SBFI_GLB_PARTS; i++) {
+    const sbfi_glb_array *part = &g->parts[i];
+    g->failed = g->failed || part->text.failed;
+    if (!part->count) continue;
+    sbfi_glb_format(json, ",\"%s\":[", part_names[i]);
+    sbfi_text_append(json, part->text.at, part->text.length);
+    sbfi_text_char(json, ']');
+  }
+  sbfi_text_char(json, '}');
+  sbfi_text_repeat(json, ' ', (4 - json->length % 4) % 4);
+}
+
+static void put_words(uint8_t *to, const uint32_t *words, int count) {
+  for (int i = 0; i < count; i++)
+    for (int k = 0; k < 4; k++) to[4 * i + k] = (uint8_t)(words[i] >> (8 * k));
+}
+
+static sbf_status write_chunks(sbfi_glb *g, const sbfi_text *json) {
+  sbfi_export *e = g->e;
+  size_t size = 12 + 8 + json->length + 8 + g->bytes.length;
+  if (size > UINT32_MAX)
+    return sbfi_diagnose(e->error, SBF_CODE_BAD_CALL,
+        "%s: a .glb cannot be larger than 4 GiB; ask for fewer frames, or for a render level", e->path);
+  uint8_t head[20], second[8];
+  put_words(head, (uint32_t[]){0x46546c67, 2, (uint32_t)size, (uint32_t)json->length, 0x4e4f534a}, 5);
+  put_words(second, (uint32_t[]){(uint32_t)g->bytes.length, 0x004e4942}, 2);
+  sbfi_file_writer writer;
+  sbf_status status = sbfi_file_writer_open(&writer, e->path, &e->allocator, e->error);
+  if (status != SBF_OK) return status;
+  status = sbfi_file_writer_write(&writer, head, sizeof head, e->error);
+  if (status == SBF_OK) status = sbfi_file_writer_write(&writer, json->at, json->length, e->error);
+  if (status == SBF_OK) status = sbfi_file_writer_write(&writer, second, sizeof second, e->error);
+  if (status == SBF_OK) status = sbfi_file_writer_write(&writer, g->bytes.at, g->bytes.length, e->error);
+  if (status == SBF_OK) return sbfi_file_writer_commit(&writer, e->error);
+  sbfi_file_writer_abandon(&writer);
+  return status;
+}
+
+static void say_what_is_left_out(const sbfi_glb *g) {
+  const sbf_asset *a = g->e->asset;
+  uint32_t uv_sets = 0, inherit = 0;
+  for (uint32_t i = 0; i < a->render_meshes.count; i++)
+    if (a->render_meshes.at[i].uv_sets.count > 4) uv_sets += a->render_meshes.at[i].uv_sets.count - 4;
+  for (uint32_t i = 0; i < a->bones.count; i++)
+    inherit += !a->bones.at[i].inherit_rotation || !a->bones.at[i].inherit_scale;
+  const sbfi_left_out things[] = {{a->soft_bodies.count, "soft bodies"},
+      {a->rigid_bodies.count, "rigid bodies"}, {a->joints.count, "joints between them"},
+      {a->ik_chains.count, "inverse kinematics"}, {a->gaits.count, "gaits"}, {a->chains.count, "chains"},
+      {a->followers.count, "followers"}, {a->poses.count, "poses"}, {a->bone_masks.count, "bone masks"},
+      {a->retarget_chains.count, "retargeting chains"}, {uv_sets, "uv sets beyond four"},
+      {g->lost_images, "images that are neither PNG nor JPEG, or not found"},
+      {g->lost_tracks, "clip tracks without increasing times"},
+      {inherit, "bones that take no turn or scale of their parent"}};
+  sbfi_export_left_out(g->e, "glTF", things, sizeof things / sizeof *things);
+  if (g->worst_m > 0.0005)
+    sbfi_export_warn(g->e,
+        "where joints turned against each other fold the skin flat the motion written is up to %.1f mm off",
+        1000 * g->worst_m);
+}
+
+static sbf_status write_all(sbfi_glb *g) {
+  sbfi_export *e = g->e;
+  sbfi_text json;
+  sbfi_text_init(&json, &e->allocator);
+  sbfi_glb_choose_meshes(g);
+  if (!g->failed) sbfi_glb_materials(g);
+  if (!g->failed) sbfi_glb_meshes(g);
+  if (!g->failed) sbfi_glb_nodes(g);
+  if (!g->failed) sbfi_glb_clips(g);
+  if (!g->failed) sbfi_glb_motion(g);
+  sbfi_text_repeat(&g->bytes, 0, (4 - g->bytes.length % 4) % 4);
+  if (!g->failed) write_json(g, &json);
+  sbf_status status;
+  if (g->failed || json.failed || g->bytes.failed)
+    status = sbfi_export_no_memory(e);
+  else if ((status = write_chunks(g, &json)) == SBF_OK)
+    say_what_is_left_out(g);
+  sbfi_text_free(&json);
+  return status;
+}
+
+sbf_status sbfi_export_glb(sbfi_export *e) {
+  const sbf_asset *asset = e->asset;
+  if (!asset->render_meshes.count && !asset->bones.count)
+    return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
+        "the file holds neither a render mesh nor a skeleton: there is nothing to write to %s", e->path);
+  if (asset->bones.count >= UINT16_MAX)
+    return sbfi_diagnose(e->error, SBF_CODE_BAD_CALL,
+        "%s: glTF counts joints to 65535, and there are %u bones", e->path, asset->bones.count);
+  sbfi_glb g = {.e = e};
+  sbfi_arena_init(&g.arena, &e->allocator, 0);
+  sbfi_text_init(&g.bytes, &e->allocator);
+  for (int i = 0; i < SBFI_GLB_PARTS; i++) sbfi_text_init(&g.parts[i].text, &e->allocator);
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    g.frame_points += asset->render_meshes.at[i].mesh.positions.count;
+  if (e->motion) g.bone_motions = sbfi_glb_room(&g, asset->bones.count, sizeof *g.bone_motions);
+  sbf_status status = g.failed ? sbfi_export_no_memory(e) : write_all(&g);
+  for (int i = 0; i < SBFI_GLB_PARTS; i++) sbfi_text_free(&g.parts[i].text);
+  sbfi_text_free(&g.bytes);
+  sbfi_arena_free(&g.arena);
+  return status;
+}

@@ -1,0 +1,172 @@
+"""Binary glTF: no fault in Khronos's validator, the same counts and the same motion in three.js, in Blender and in our own reader."""
+
+import math
+import os
+import struct
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import play_files
+from bundle_file import numbers, rows
+from glb_file import Glb
+from sbfmt_program import ProgramTest, ROOT, convert_once, example, main, read_text, write_bytes
+
+FRAME = 20
+SECONDS = 1
+DRIVE = ("--drive", "0.3,0.2", "--ground", "noise:0.1,3")
+NEAR_M = 1e-5
+
+needs_node = unittest.skipUnless(play_files.node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
+needs_blender = unittest.skipUnless(play_files.has_blender(), "there is no Blender: install the package blender")
+
+
+def points_at(cache, frame):
+    """Of a PC2 file."""
+    with open(cache, "rb") as stream:
+        data = stream.read()
+    count, = struct.unpack_from("<I", data, 16)
+    return rows(struct.unpack_from(f"<{3 * count}f", data, 32 + 12 * count * frame), 3)
+
+
+def rest_points(bundle):
+    found = []
+    for mesh in ElementTree.parse(bundle).getroot().iter("render_mesh"):
+        found += rows(numbers(mesh.find("polygon_mesh"), "positions"), 3)
+    return found
+
+
+class Motion(ProgramTest):
+    """Two characters: one whose skin has weights, one of parts that hang on bones."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.bundles = {
+            "pup": convert_once(cls.class_folder.name, "pup.sbf", os.path.join(ROOT, "examples", "pup", "pup.glb")),
+            "lizard": example(cls.class_folder.name)}
+
+    def moved(self, name):
+        """The exported walk; the points of the skin at rest and at the frame, as a run has them."""
+        bundle, out, cache = self.bundles[name], self.made(name + "_walk.glb"), self.made(name + ".pc2")
+        if not os.path.exists(out):
+            self.good("export", bundle, "-o", out, "--seconds", SECONDS, *DRIVE)
+            self.good("run", bundle, "--seconds", SECONDS, "--fps", "30", *DRIVE, "--cache", cache)
+        return out, rest_points(bundle), points_at(cache, FRAME)
+
+    def assert_plays(self, meshes, rest, now):
+        """Every vertex is where one of the points is that it lay on at rest."""
+        places = {}
+        for i, point in enumerate(rest):
+            places.setdefault(tuple(round(c, 4) for c in point), []).append(i)
+        most = least = 0
+        for mesh in meshes:
+            for before, after in zip(mesh["rest"], mesh["now"]):
+                key = tuple(round(c, 4) for c in before)
+                near = places.get(key) or [i for i, p in enumerate(rest) if math.dist(p, before) < 2e-4]
+                self.assertTrue(near, f"{mesh['name']}: no point at {before}")
+                most = max(most, min(math.dist(now[i], after) for i in near))
+                least = max(least, min(math.dist(rest[i], after) for i in near))
+        self.assertLess(most, NEAR_M)
+        self.assertGreater(least, 0.01, "nothing moved")
+
+    @needs_node
+    def test_the_validator_finds_nothing_to_warn_of(self):
+        for name, bundle in self.bundles.items():
+            out = self.moved(name)[0]
+            for path, options in ((out, None), (self.path("rest.glb"), ()),
+                                  (self.path("coarse.glb"), ("--render-level", "1", "--seconds", "0.2"))):
+                if options is not None:
+                    self.good("export", bundle, "-o", path, *options)
+                issues = play_files.node("validate_gltf.mjs", path)["issues"]
+                self.assertEqual((issues["numErrors"], issues["numWarnings"]), (0, 0), issues["messages"])
+
+    @needs_node
+    def test_three_js_plays_it(self):
+        for name, bundle in self.bundles.items():
+            out, rest, now = self.moved(name)
+            info = self.json_of("info", bundle)
+            shown = play_files.node("three_gltf.mjs", out, FRAME / 30)
+            self.assertEqual(shown["animations"], ["motion"])
+            self.assertEqual(sum(mesh["triangles"] for mesh in shown["meshes"]),
+                             sum(mesh["triangles"] for mesh in info["render_meshes"]))
+            self.assert_plays(shown["meshes"], rest, now)
+
+    @needs_blender
+    def test_blender_plays_it(self):
+        for name, bundle in self.bundles.items():
+            out, rest, now = self.moved(name)
+            info = self.json_of("info", bundle)
+            shown = play_files.blender("blender_gltf.py", out, FRAME)
+            self.assertEqual(shown["joints"], len(info["bones"]))
+            self.assertEqual(len(shown["meshes"]), len(info["render_meshes"]))
+            self.assertEqual(sum(mesh["triangles"] for mesh in shown["meshes"]),
+                             sum(mesh["triangles"] for mesh in info["render_meshes"]))
+            for mesh in shown["meshes"]:
+                self.assertEqual(mesh["keys"], 30 * SECONDS + 1)
+            self.assert_plays(shown["meshes"], rest, now)
+
+    def test_it_reads_back(self):
+        for bundle in self.bundles.values():
+            self.good("export", bundle, "-o", self.path("a.glb"))
+            self.good("convert", self.path("a.glb"), "-o", self.path("b.sbf"), "--no-build")
+            before, after = (self.json_of("info", path) for path in (bundle, self.path("b.sbf")))
+            self.assertEqual([bone["name"] for bone in after["bones"] if bone["name"] != "Skeleton"],
+                             [bone["name"] for bone in before["bones"]])
+            self.assertEqual(sum(mesh["triangles"] for mesh in after["render_meshes"]),
+                             sum(mesh["triangles"] for mesh in before["render_meshes"]))
+            for end in ("min", "max"):
+                for a, b in zip(after["bounds"][end], before["bounds"][end]):
+                    self.assertAlmostEqual(a, b, delta=1e-5)
+
+    def test_the_same_call_gives_the_same_bytes(self):
+        for name in "ab":
+            self.good("export", self.bundles["pup"], "-o", self.path(name + ".glb"), "--seconds", "0.2")
+        with open(self.path("a.glb"), "rb") as a, open(self.path("b.glb"), "rb") as b:
+            self.assertEqual(a.read(), b.read())
+
+
+class Everything(ProgramTest):
+    """The sample that has something of all there is."""
+
+    def setUp(self):
+        super().setUp()
+        self.source = os.path.join(ROOT, "spec", "samples", "valid", "everything.sbf")
+        self.left_out = self.good("export", self.source, "-o", self.path("all.glb")).err
+        self.glb = Glb(self.path("all.glb"))
+
+    def test_what_is_kept(self):
+        info = self.json_of("info", self.source)
+        root = ElementTree.parse(self.source).getroot()
+        self.assertEqual(self.glb.joint_count(), len(info["bones"]))
+        self.assertEqual(len(self.glb.json["meshes"]), len(info["render_meshes"]))
+        self.assertEqual([m["name"] for m in self.glb.json["materials"]],
+                         [m.get("name") or m.get("id") for m in root.find("materials")])
+        keys = [key.get("name") for key in root.iter("shape_key")]
+        self.assertTrue(keys)
+        self.assertEqual([name for mesh in self.glb.json["meshes"] for name in mesh.get("extras", {}).get("targetNames", ())],
+                         keys)
+        self.assertEqual([one["name"] for one in self.glb.json["animations"]],
+                         [one.get("name") for one in root.iter("clip")])
+
+    def test_what_is_left_out_is_said(self):
+        for what in ("soft bodies: ", "rigid bodies: ", "gaits: ", "EXPORT_LEFT_OUT"):
+            self.assertIn(what, self.left_out)
+
+    @needs_node
+    def test_the_validator_finds_no_error(self):
+        issues = play_files.node("validate_gltf.mjs", self.path("all.glb"))["issues"]
+        self.assertEqual(issues["numErrors"], 0, issues["messages"])
+
+    def test_names_are_escaped(self):
+        text = read_text(self.source)
+        self.assertIn('name="Hips"', text)
+        write_bytes(self.path("odd.sbf"), text.replace('name="Hips"', 'name="a&quot;\\b&#10;"').encode())
+        self.good("export", self.path("odd.sbf"), "-o", self.path("odd.glb"))
+        self.assertIn('a"\\b\n', [node["name"] for node in Glb(self.path("odd.glb")).nodes])
+
+    def test_a_motion_is_for_glb_alone(self):
+        self.assertIn(".glb", self.fails(2, "export", self.source, "-o", self.path("a.obj"), "--seconds", "1"))
+
+
+if __name__ == "__main__":
+    main()
