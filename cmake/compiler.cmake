@@ -38,6 +38,7 @@ function(sbfmt_library name alias)
     list(APPEND sources ${found})
   endforeach()
   list(FILTER sources EXCLUDE REGEX "/import/assimp/") # a program of its own
+  list(FILTER sources EXCLUDE REGEX "_wasm\\.c$") # for runtime/hosts/web
   if(NOT sources)
     # A library needs a source; a declaration makes an honest empty one.
     file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/${name}-empty.c" "typedef int ${alias}_has_no_sources;\n")

@@ -27,8 +27,10 @@ enum { SBRI_BLOCK = 8 }; /* lanes of a block */
 #elif !defined(SBRI_WIDE_SCALAR) && defined(__GNUC__) && defined(__SSE2__)
 #define SBRI_LANES 4
 #include <emmintrin.h>
-#elif !defined(SBRI_WIDE_SCALAR) && defined(__GNUC__) &&                                                     \
-    ((defined(__ARM_NEON) && defined(__aarch64__)) || defined(__wasm_simd128__))
+#elif !defined(SBRI_WIDE_SCALAR) && defined(__wasm_simd128__)
+#define SBRI_LANES 4
+#include <wasm_simd128.h>
+#elif !defined(SBRI_WIDE_SCALAR) && defined(__GNUC__) && defined(__ARM_NEON) && defined(__aarch64__)
 #define SBRI_LANES 4
 #else
 #define SBRI_LANES 1
@@ -76,6 +78,8 @@ static inline sbri_wide sbri_wide_sqrt(sbri_wide a) {
   return (sbri_wide)_mm256_sqrt_ps((__m256)a);
 #elif SBRI_LANES == 4 && defined(__SSE2__)
   return (sbri_wide)_mm_sqrt_ps((__m128)a);
+#elif SBRI_LANES == 4 && defined(__wasm_simd128__)
+  return (sbri_wide)wasm_f32x4_sqrt((v128_t)a);
 #elif SBRI_LANES == 4
   return (sbri_wide){sqrtf(a[0]), sqrtf(a[1]), sqrtf(a[2]), sqrtf(a[3])};
 #else
@@ -97,6 +101,8 @@ static inline sbri_wide sbri_wide_max(sbri_wide a, sbri_wide b) {
   return (sbri_wide)_mm256_max_ps((__m256)a, (__m256)b);
 #elif SBRI_LANES == 4 && defined(__SSE2__)
   return (sbri_wide)_mm_max_ps((__m128)a, (__m128)b);
+#elif SBRI_LANES == 4 && defined(__wasm_simd128__)
+  return (sbri_wide)wasm_f32x4_pmax((v128_t)b, (v128_t)a);
 #else
   return sbri_wide_select(a > b, a, b);
 #endif
@@ -106,6 +112,8 @@ static inline sbri_wide sbri_wide_min(sbri_wide a, sbri_wide b) {
   return (sbri_wide)_mm256_min_ps((__m256)a, (__m256)b);
 #elif SBRI_LANES == 4 && defined(__SSE2__)
   return (sbri_wide)_mm_min_ps((__m128)a, (__m128)b);
+#elif SBRI_LANES == 4 && defined(__wasm_simd128__)
+  return (sbri_wide)wasm_f32x4_pmin((v128_t)b, (v128_t)a);
 #else
   return sbri_wide_select(a < b, a, b);
 #endif
@@ -115,6 +123,8 @@ static inline bool sbri_mask_any(sbri_mask mask) {
   return _mm256_movemask_ps((__m256)mask) != 0;
 #elif SBRI_LANES == 4 && defined(__SSE2__)
   return _mm_movemask_ps((__m128)mask) != 0;
+#elif SBRI_LANES == 4 && defined(__wasm_simd128__)
+  return wasm_v128_any_true((v128_t)mask);
 #elif SBRI_LANES == 4
   return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 #else

@@ -1,0 +1,124 @@
+/* Characters: made, driven, pushed, and read. */
+#include <string.h>
+
+#include "web.h"
+
+static sbr_character_id id_of(uint32_t character) {
+  return (sbr_character_id){character};
+}
+
+uint32_t WEB_CALL(web_character_create)(sbr_world *world, const sbr_model *model, double x, double y,
+    double z, float heading, float scale, uint32_t hold) {
+  sbr_character_id character = {0};
+  sbr_character_definition definition = sbr_default_character_definition();
+  memset(web_failure(), 0, sizeof(sbf_diagnostic));
+  definition.position = (sbr_double3){x, y, z};
+  definition.heading = heading;
+  definition.scale = scale;
+  definition.hold = hold != 0;
+  sbf_status status = sbr_character_create(world, model, &definition, &character, web_failure());
+  return status == SBF_OK ? character.value : 0;
+}
+void WEB_CALL(web_character_free)(sbr_world *world, uint32_t character) {
+  sbr_character_destroy(world, id_of(character));
+}
+void WEB_CALL(web_character_drive)(
+    sbr_world *world, uint32_t character, float forward, float sideways, float turn) {
+  sbr_character_drive(world, id_of(character), forward, sideways, turn);
+}
+void WEB_CALL(web_character_teleport)(
+    sbr_world *world, uint32_t character, double x, double y, double z, float heading) {
+  sbr_character_teleport(world, id_of(character), (sbr_double3){x, y, z}, heading);
+}
+void WEB_CALL(web_character_reset)(sbr_world *world, uint32_t character) {
+  sbr_character_reset(world, id_of(character));
+}
+void WEB_CALL(web_character_wake)(sbr_world *world, uint32_t character) {
+  sbr_character_wake(world, id_of(character));
+}
+void WEB_CALL(web_character_pause)(sbr_world *world, uint32_t character, uint32_t paused) {
+  sbr_character_pause(world, id_of(character), paused != 0);
+}
+void WEB_CALL(web_character_play)(sbr_world *world, uint32_t character, uint32_t layer, int32_t clip,
+    float weight, float fade_s, float speed, float start_s) {
+  const sbr_clip_play how = {
+      .weight = weight, .fade_s = fade_s, .speed = speed, .start_s = start_s, .bone_mask = SBF_NONE};
+  sbr_character_play(world, id_of(character), layer, clip, &how);
+}
+/* A weight below 0 takes the target away. */
+void WEB_CALL(web_character_reach)(
+    sbr_world *world, uint32_t character, uint32_t ik_chain, double x, double y, double z, float weight) {
+  const sbr_ik_target target = {.position = {x, y, z}, .rotation = {0, 0, 0, 1}, .weight = weight};
+  sbr_character_ik_target(world, id_of(character), ik_chain, weight < 0 ? NULL : &target);
+}
+void WEB_CALL(web_character_rigid_mode)(
+    sbr_world *world, uint32_t character, int32_t rigid_body, uint32_t mode) {
+  sbr_character_rigid_mode(world, id_of(character), rigid_body, (sbr_rigid_mode)mode);
+}
+void WEB_CALL(web_character_fall)(sbr_world *world, uint32_t character) {
+  const sbr_rigid_fall fall = sbr_default_rigid_fall();
+  sbr_character_rigid_fall(world, id_of(character), &fall);
+}
+uint32_t WEB_CALL(web_character_posture)(const sbr_world *world, uint32_t character) {
+  return (uint32_t)sbr_character_rigid_posture(world, id_of(character));
+}
+void WEB_CALL(web_character_push)(sbr_world *world, uint32_t character, uint32_t rigid_body, double x,
+    double y, double z, float impulse_x, float impulse_y, float impulse_z) {
+  sbr_character_rigid_push(world, id_of(character), rigid_body, (sbr_double3){x, y, z},
+      (sbf_vec3){impulse_x, impulse_y, impulse_z});
+}
+
+void WEB_CALL(web_character_origin)(const sbr_world *world, uint32_t character, sbr_double3 *origin) {
+  *origin = sbr_character_origin(world, id_of(character));
+}
+/* Seven numbers a bone: place relative to the origin, rotation. */
+void WEB_CALL(web_character_bones)(
+    const sbr_world *world, uint32_t character, sbr_transform *bones, uint32_t capacity) {
+  _Static_assert(sizeof(sbr_transform) == 28, "seven numbers");
+  sbr_character_bones(world, id_of(character), bones, capacity);
+}
+uint32_t WEB_CALL(web_character_skin)(const sbr_world *world, uint32_t character, uint32_t mesh,
+    sbf_vec3 *positions, sbf_vec3 *normals, sbf_vec4 *tangents, uint32_t capacity) {
+  return sbr_character_skin(world, id_of(character), mesh, positions, normals, tangents, capacity);
+}
+uint32_t WEB_CALL(web_character_points)(
+    const sbr_world *world, uint32_t character, uint32_t soft_body, sbf_vec3 *positions, uint32_t capacity) {
+  return sbr_character_points(world, id_of(character), soft_body, positions, capacity);
+}
+double WEB_CALL(web_character_distance)(const sbr_world *world, uint32_t character) {
+  return sbr_character_distance(world, id_of(character));
+}
+
+/* How all bodies of the asset fare together: least volume ratio, greatest strain, energy (J), recoveries,
+ * torn elements, whether all is finite and nothing inside out, whether all sleep. */
+void WEB_CALL(web_character_health)(
+    const sbr_world *world, uint32_t character, uint32_t body_count, double *to) {
+  double all[7] = {1, 0, 0, 0, 0, 1, body_count > 0};
+  for (uint32_t i = 0; i < body_count; i++) {
+    sbr_body_health health = sbr_character_health(world, id_of(character), i);
+    if ((double)health.volume_ratio < all[0]) all[0] = (double)health.volume_ratio;
+    if ((double)health.max_strain > all[1]) all[1] = (double)health.max_strain;
+    all[2] += health.kinetic_j + health.elastic_j + health.potential_j;
+    all[3] += health.recoveries;
+    all[4] += health.torn;
+    if (!health.finite || health.inverted) all[5] = 0;
+    if (!health.asleep) all[6] = 0;
+  }
+  memcpy(to, all, sizeof all);
+}
+
+/* Ten numbers a leg: planted, steps taken, phase, foot (3), target (3), 0. Returns how many legs there are.
+ */
+uint32_t WEB_CALL(web_character_legs)(
+    const sbr_world *world, uint32_t character, float *to, uint32_t capacity) {
+  enum { MOST = 64 };
+  sbr_leg_state legs[MOST];
+  uint32_t count = sbr_character_legs(world, id_of(character), legs, MOST);
+  for (uint32_t i = 0; i < count && i < capacity && i < MOST; i++, to += 10) {
+    const sbr_leg_state *leg = &legs[i];
+    const float numbers[10] = {leg->planted, (float)leg->steps_taken, leg->phase, leg->foot.x, leg->foot.y,
+        leg->foot.z, leg->target.x, leg->target.y, leg->target.z, 0};
+    memcpy(to, numbers, sizeof numbers);
+  }
+  return count;
+}
