@@ -103,7 +103,8 @@ static bool open_outputs(run_state *r, cli_call *call) {
   const char *cache = cli_value(call, "--cache"), *poses = cli_value(call, "--pose");
   r->cache_of_surface = of == 1;
   uint32_t points = of ? r->surface_count : r->skin_count;
-  if (cache && sbf_point_cache_open(cache, points, r->s.frame_count + 1, &r->cache, &error) != SBF_OK) {
+  if (cache &&
+      sbf_point_cache_open(cache, points, r->s.frame_count + 1, 1 / r->s.fps, &r->cache, &error) != SBF_OK) {
     cli_print_diagnostic(call, &error);
     return false;
   }
@@ -232,7 +233,7 @@ static const cli_option options[] = {
     {"--ragdoll", NULL, "every rigid body with a mass falls and swings by its joints alone"},
     {"--strength", "TIMES",
         "every such body is drawn to its pose, by so many times what holds its limb out level; 0: no bound"},
-    {"--cache", "OUT.pc2", "write a point cache, a sample a frame"},
+    {"--cache", "OUT.pc2|.mdd", "write a point cache, a sample a frame"},
     {"--of", "skin|surface", "what the cache holds: the skin, or every section's surface (skin)"},
     {"--pose", "OUT.csv", "write every bone's place and rotation, frame by frame"},
     {"--format", "text|json", "how to print (text)"},

@@ -39,14 +39,25 @@ void sbfi_export_left_out(sbfi_export *e, const char *form, const sbfi_left_out 
   if (length) sbfi_export_warn(e, "%s has no place for all of this, which is left out. %s", form, list);
 }
 
-void sbfi_export_format(sbfi_export *e, const char *format, ...) {
+static void print_v(sbfi_text *text, const char *format, va_list arguments) {
   char piece[256];
+  int length = vsnprintf(piece, sizeof piece, format, arguments);
+  if (length > 0)
+    sbfi_text_append(text, piece, (size_t)length < sizeof piece ? (size_t)length : sizeof piece - 1);
+}
+
+void sbfi_export_print(sbfi_text *text, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  int length = vsnprintf(piece, sizeof piece, format, arguments);
+  print_v(text, format, arguments);
   va_end(arguments);
-  if (length > 0)
-    sbfi_text_append(&e->text, piece, (size_t)length < sizeof piece ? (size_t)length : sizeof piece - 1);
+}
+
+void sbfi_export_format(sbfi_export *e, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  print_v(&e->text, format, arguments);
+  va_end(arguments);
 }
 
 void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v) {

@@ -38,7 +38,8 @@ typedef struct sbfi_left_out {
 void sbfi_export_left_out(sbfi_export *e, const char *form, const sbfi_left_out *things, size_t count);
 void sbfi_export_warn(sbfi_export *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Text: "name=" style pieces without a NUL byte in them. */
+/* Pieces of text, up to 255 bytes each. */
+void sbfi_export_print(sbfi_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void sbfi_export_format(sbfi_export *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v); /* three numbers, each behind a space */
 

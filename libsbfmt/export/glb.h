@@ -89,7 +89,6 @@ uint32_t sbfi_glb_view(sbfi_glb *g, const void *bytes, size_t size);
 
 /* Begins a new item of a part: its text to append to, behind a comma where needed. */
 sbfi_text *sbfi_glb_item(sbfi_glb *g, sbfi_glb_part part, uint32_t *number);
-void sbfi_glb_format(sbfi_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void sbfi_glb_string(sbfi_text *text, const char *string);                    /* quoted and escaped */
 void sbfi_glb_numbers(sbfi_text *text, const float *numbers, uint32_t count); /* [a,b,...] */
 

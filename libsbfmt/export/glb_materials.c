@@ -21,8 +21,8 @@ static bool write_image(sbfi_glb *g, const sbf_texture *texture, const uint8_t *
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_IMAGES, &image);
   sbfi_text_string(text, "{\"name\":");
   sbfi_glb_string(text, *texture->name ? texture->name : texture->id);
-  sbfi_glb_format(text, ",\"bufferView\":%u,\"mimeType\":\"%s\"}", view, type);
-  sbfi_glb_format(sbfi_glb_item(g, SBFI_GLB_TEXTURES, NULL), "{\"source\":%u}", image);
+  sbfi_export_print(text, ",\"bufferView\":%u,\"mimeType\":\"%s\"}", view, type);
+  sbfi_export_print(sbfi_glb_item(g, SBFI_GLB_TEXTURES, NULL), "{\"source\":%u}", image);
   return true;
 }
 
@@ -59,7 +59,7 @@ static void write_images(sbfi_glb *g) {
 
 static void write_texture(const sbfi_glb *g, sbfi_text *text, const char *key, int32_t texture) {
   if (texture < 0 || !g->texture_places || g->texture_places[texture] < 0) return;
-  sbfi_glb_format(text, ",\"%s\":{\"index\":%d}", key, (int)g->texture_places[texture]);
+  sbfi_export_print(text, ",\"%s\":{\"index\":%d}", key, (int)g->texture_places[texture]);
 }
 
 /* Glow beyond 1 is a factor on the colour, by an extension. */
@@ -95,7 +95,7 @@ static void write_material(sbfi_glb *g, const sbf_material *m) {
   sbfi_text_char(text, '}');
   write_texture(g, text, "normalTexture", m->normal_texture);
   write_glow(g, text, m->emissive);
-  sbfi_glb_format(text, ",\"alphaMode\":\"%s\"", modes[m->alpha_mode]);
+  sbfi_export_print(text, ",\"alphaMode\":\"%s\"", modes[m->alpha_mode]);
   if (m->alpha_mode == SBF_ALPHA_MODE_MASK) {
     sbfi_text_string(text, ",\"alphaCutoff\":");
     sbfi_text_f32(text, m->alpha_cutoff);

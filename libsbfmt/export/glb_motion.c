@@ -20,9 +20,9 @@ static void begin(sbfi_glb *g, channels *c) {
 static void add_channel(channels *c, uint32_t node, const char *path, const char *interpolation,
     uint32_t times, uint32_t values) {
   const char *comma = c->count ? "," : "";
-  sbfi_glb_format(&c->channels, "%s{\"sampler\":%u,\"target\":{\"node\":%u,\"path\":\"%s\"}}", comma,
+  sbfi_export_print(&c->channels, "%s{\"sampler\":%u,\"target\":{\"node\":%u,\"path\":\"%s\"}}", comma,
       c->count, node, path);
-  sbfi_glb_format(&c->samplers, "%s{\"input\":%u,\"interpolation\":\"%s\",\"output\":%u}", comma, times,
+  sbfi_export_print(&c->samplers, "%s{\"input\":%u,\"interpolation\":\"%s\",\"output\":%u}", comma, times,
       interpolation, values);
   c->count++;
 }

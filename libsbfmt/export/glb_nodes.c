@@ -80,7 +80,7 @@ void sbfi_glb_choose_meshes(sbfi_glb *g) {
 }
 
 static void add_child(sbfi_text *text, uint32_t child, bool *first) {
-  sbfi_glb_format(text, "%s%u", *first ? ",\"children\":[" : ",", child);
+  sbfi_export_print(text, "%s%u", *first ? ",\"children\":[" : ",", child);
   *first = false;
 }
 
@@ -115,7 +115,7 @@ static void write_mesh_node(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t num
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_NODES, NULL);
   sbfi_text_string(text, "{\"name\":");
   sbfi_glb_string(text, *mesh->full->name ? mesh->full->name : mesh->full->id);
-  sbfi_glb_format(text, ",\"mesh\":%u", number);
+  sbfi_export_print(text, ",\"mesh\":%u", number);
   if (mesh->skin) sbfi_text_string(text, ",\"skin\":0");
   if (mesh->bone >= 0) {
     /* Its points are in asset space. */
@@ -163,9 +163,9 @@ static void write_skin(sbfi_glb *g) {
   }
   uint32_t matrices = sbfi_glb_accessor(g, binds, count, SBFI_GLB_MAT4, SBFI_GLB_NO_TARGET);
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_SKINS, NULL);
-  sbfi_glb_format(text, "{\"inverseBindMatrices\":%u,\"skeleton\":%u,\"joints\":[", matrices, g->root_node);
+  sbfi_export_print(text, "{\"inverseBindMatrices\":%u,\"skeleton\":%u,\"joints\":[", matrices, g->root_node);
   for (uint32_t i = 0; i < count; i++)
-    sbfi_glb_format(text, "%s%u", i ? "," : "", i < asset->bones.count ? i : g->root_node);
+    sbfi_export_print(text, "%s%u", i ? "," : "", i < asset->bones.count ? i : g->root_node);
   sbfi_text_string(text, "]}");
 }
 

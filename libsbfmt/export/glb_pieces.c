@@ -1,4 +1,3 @@
-#include <stdio.h>
 #include <string.h>
 
 #include "export/glb.h"
@@ -17,22 +16,12 @@ sbfi_text *sbfi_glb_item(sbfi_glb *g, sbfi_glb_part part, uint32_t *number) {
   return &array->text;
 }
 
-void sbfi_glb_format(sbfi_text *text, const char *format, ...) {
-  char piece[256];
-  va_list arguments;
-  va_start(arguments, format);
-  int length = vsnprintf(piece, sizeof piece, format, arguments);
-  va_end(arguments);
-  if (length > 0)
-    sbfi_text_append(text, piece, (size_t)length < sizeof piece ? (size_t)length : sizeof piece - 1);
-}
-
 void sbfi_glb_string(sbfi_text *text, const char *string) {
   sbfi_text_char(text, '"');
   for (; *string; string++) {
     unsigned char c = (unsigned char)*string;
     if (c < 0x20 || c == 127)
-      sbfi_glb_format(text, "\\u%04x", c);
+      sbfi_export_print(text, "\\u%04x", c);
     else {
       if (c == '"' || c == '\\') sbfi_text_char(text, '\\');
       sbfi_text_char(text, *string);
@@ -54,9 +43,9 @@ static uint32_t open_view(sbfi_glb *g, size_t size, uint32_t target) {
   sbfi_text_repeat(&g->bytes, 0, (4 - g->bytes.length % 4) % 4);
   uint32_t number;
   sbfi_text *view = sbfi_glb_item(g, SBFI_GLB_VIEWS, &number);
-  sbfi_glb_format(view, "{\"buffer\":0,\"byteOffset\":%llu,\"byteLength\":%llu",
+  sbfi_export_print(view, "{\"buffer\":0,\"byteOffset\":%llu,\"byteLength\":%llu",
       (unsigned long long)g->bytes.length, (unsigned long long)size);
-  if (target) sbfi_glb_format(view, ",\"target\":%u", target);
+  if (target) sbfi_export_print(view, ",\"target\":%u", target);
   sbfi_text_char(view, '}');
   return number;
 }
@@ -113,7 +102,7 @@ uint32_t sbfi_glb_accessor(
     g->bytes.length += size;
   }
   sbfi_text *text = sbfi_glb_item(g, SBFI_GLB_ACCESSORS, &number);
-  sbfi_glb_format(text, "{\"bufferView\":%u,\"componentType\":%u,\"count\":%u,\"type\":\"%s\"", view,
+  sbfi_export_print(text, "{\"bufferView\":%u,\"componentType\":%u,\"count\":%u,\"type\":\"%s\"", view,
       kinds[type].component, count, kinds[type].name);
   if (count && (type == SBFI_GLB_VEC3 || type == SBFI_GLB_FLOAT))
     write_bounds(text, items, count, kinds[type].width);

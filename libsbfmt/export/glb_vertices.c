@@ -178,7 +178,7 @@ static void write_skin(const vertices *v, sbfi_text *attributes) {
         v->g, joints + 4 * (size_t)s * v->count, v->count, SBFI_GLB_USHORT4, SBFI_GLB_VERTICES);
     uint32_t w = sbfi_glb_accessor(
         v->g, weights + 4 * (size_t)s * v->count, v->count, SBFI_GLB_VEC4, SBFI_GLB_VERTICES);
-    sbfi_glb_format(attributes, ",\"JOINTS_%u\":%u,\"WEIGHTS_%u\":%u", s, j, s, w);
+    sbfi_export_print(attributes, ",\"JOINTS_%u\":%u,\"WEIGHTS_%u\":%u", s, j, s, w);
   }
 }
 
@@ -199,22 +199,22 @@ static void write_targets(const vertices *v, sbfi_text *text) {
     for (uint32_t i = 0; i < v->count; i++)
       at[i] = t < keys ? of_full[full_point_of(v, i)] : of_shown[point_of(v, i)];
     uint32_t number = sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
-    sbfi_glb_format(text, "%s{\"POSITION\":%u}", t ? "," : ",\"targets\":[", number);
+    sbfi_export_print(text, "%s{\"POSITION\":%u}", t ? "," : ",\"targets\":[", number);
   }
   sbfi_text_char(text, ']');
 }
 
 static void write_primitive(vertices *v, sbfi_text *text) {
   const sbf_render_mesh *m = v->mesh->shown;
-  sbfi_glb_format(text, "{\"attributes\":{\"POSITION\":%u", write_positions(v));
-  if (m->normals.count) sbfi_glb_format(text, ",\"NORMAL\":%u", write_normals(v));
+  sbfi_export_print(text, "{\"attributes\":{\"POSITION\":%u", write_positions(v));
+  if (m->normals.count) sbfi_export_print(text, ",\"NORMAL\":%u", write_normals(v));
   for (uint32_t s = 0; s < v->uv_count; s++)
-    sbfi_glb_format(text, ",\"TEXCOORD_%u\":%u", s, write_coordinates(v, &m->uv_sets.at[v->uv_sets[s]]));
+    sbfi_export_print(text, ",\"TEXCOORD_%u\":%u", s, write_coordinates(v, &m->uv_sets.at[v->uv_sets[s]]));
   if (v->mesh->skin) write_skin(v, text);
   uint32_t indices = sbfi_glb_accessor(v->g, v->indices, v->index_count, SBFI_GLB_UINT, SBFI_GLB_INDICES);
-  sbfi_glb_format(text, "},\"indices\":%u", indices);
+  sbfi_export_print(text, "},\"indices\":%u", indices);
   if (v->slot < m->material_slots.count && m->material_slots.at[v->slot].material >= 0)
-    sbfi_glb_format(text, ",\"material\":%d", (int)m->material_slots.at[v->slot].material);
+    sbfi_export_print(text, ",\"material\":%d", (int)m->material_slots.at[v->slot].material);
   if (v->mesh->target_count) write_targets(v, text);
   sbfi_text_char(text, '}');
 }
@@ -230,7 +230,7 @@ static void write_target_names(const sbfi_glb_mesh *mesh, sbfi_text *text) {
     if (t < keys)
       sbfi_glb_string(text, mesh->full->shape_keys.at[t].name);
     else
-      sbfi_glb_format(text, "\"frame %u\"", t - keys);
+      sbfi_export_print(text, "\"frame %u\"", t - keys);
   }
   sbfi_text_string(text, "]}");
 }

@@ -12,12 +12,12 @@ static void write_scene(sbfi_glb *g, sbfi_text *json) {
   bool first = true;
   sbfi_text_string(json, ",\"scene\":0,\"scenes\":[{\"nodes\":[");
   if (asset->bones.count) {
-    sbfi_glb_format(json, "%u", g->root_node);
+    sbfi_export_print(json, "%u", g->root_node);
     first = false;
   }
   for (uint32_t i = 0; i < asset->render_meshes.count; i++) {
     if (g->meshes[i].node == UINT32_MAX || g->meshes[i].bone >= 0) continue;
-    sbfi_glb_format(json, "%s%u", first ? "" : ",", g->meshes[i].node);
+    sbfi_export_print(json, "%s%u", first ? "" : ",", g->meshes[i].node);
     first = false;
   }
   sbfi_text_string(json, "]}]");
@@ -35,12 +35,12 @@ static void write_json(sbfi_glb *g, sbfi_text *json) {
     sbfi_text_string(json, ",\"extensionsUsed\":[\"KHR_materials_emissive_strength\"]");
   write_scene(g, json);
   if (g->bytes.length)
-    sbfi_glb_format(json, ",\"buffers\":[{\"byteLength\":%llu}]", (unsigned long long)g->bytes.length);
+    sbfi_export_print(json, ",\"buffers\":[{\"byteLength\":%llu}]", (unsigned long long)g->bytes.length);
   for (int i = 0; i < SBFI_GLB_PARTS; i++) {
     const sbfi_glb_array *part = &g->parts[i];
     g->failed = g->failed || part->text.failed;
     if (!part->count) continue;
-    sbfi_glb_format(json, ",\"%s\":[", part_names[i]);
+    sbfi_export_print(json, ",\"%s\":[", part_names[i]);
     sbfi_text_append(json, part->text.at, part->text.length);
     sbfi_text_char(json, ']');
   }

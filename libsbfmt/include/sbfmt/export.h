@@ -45,13 +45,14 @@ typedef struct sbf_export_options {
 SBF_API sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error);
 
-/* A point cache, version 1 (.pc2), as Blender's Mesh Cache plays it: places of all points, sample after
- * sample, single precision, little-endian. */
+/* A point cache, as Blender's Mesh Cache plays it: places of all points, sample after sample, single
+ * precision. MDD where the path ends in .mdd, else PC2. */
 typedef struct sbf_point_cache sbf_point_cache;
 
-/* `sample_count` samples of `point_count` points will follow, one for each frame of whoever plays them. */
+/* `sample_count` samples of `point_count` points will follow, one for each frame of whoever plays them, or,
+ * which MDD alone states, every `sample_s` seconds. */
 SBF_API sbf_status sbf_point_cache_open(const char *path, uint32_t point_count, uint32_t sample_count,
-    sbf_point_cache **cache, sbf_diagnostic *error);
+    double sample_s, sbf_point_cache **cache, sbf_diagnostic *error);
 /* The next sample: point_count places. */
 SBF_API sbf_status sbf_point_cache_add(sbf_point_cache *cache, const sbf_vec3 *points, sbf_diagnostic *error);
 /* Completes the file; SBF_FAILED, and no file, where samples are missing or it cannot be written. */
