@@ -12,6 +12,8 @@
 /* What is nearest to a face's rim and lies behind it by no more than this share of the distance lies beside
  * it, and before another. */
 #define SBRI_BESIDE 0.3f
+/* Of the distance to the one that it lies behind: nearer before another, it is outside. */
+#define SBRI_OUTSIDE 0.99f
 
 typedef struct sbri_surface_rule {
   float outer, inner; /* m: contact begins so far outside, and is found so deep inside */
@@ -23,18 +25,29 @@ typedef struct sbri_surface_face {
   sbf_vec3 at[3], ways[3];
 } sbri_surface_face;
 
-/* The most urgent that has been found; begin with urgency INFINITY. */
+/* The most urgent that has been found; begins as sbri_surface_nothing. */
 typedef struct sbri_surface_finding {
   uint32_t face;
   float weights[3]; /* of the corners: the place on it */
   sbf_vec3 normal;  /* towards where the point belongs */
   float urgency; /* the least counts: share of the tick until it goes through, or 1 and more for nearness */
+  bool behind;   /* it lies behind the face */
+  float before;  /* m to the nearest face that it lies before */
 } sbri_surface_finding;
+
+static inline sbri_surface_finding sbri_surface_nothing(void) {
+  return (sbri_surface_finding){.urgency = INFINITY, .before = INFINITY};
+}
+
+/* Whether there is a face: none where it lies behind the one, but nearer before another, and so outside. */
+static inline bool sbri_surface_found(const sbri_surface_finding *f) {
+  return f->urgency != INFINITY && !(f->behind && f->before < SBRI_OUTSIDE * (f->urgency - 1));
+}
 
 static inline void sbri_surface_look(const sbri_surface_rule *rule, sbf_vec3 x, sbf_vec3 own_way,
     const sbri_surface_face *face, uint32_t number, sbri_surface_finding *best) {
   const sbf_vec3 *p = face->at;
-  sbri_surface_finding f = {.face = number};
+  sbri_surface_finding f = {.face = number, .before = best->before};
   sbri_triangle_nearest(x, p[0], p[1], p[2], f.weights);
   sbf_vec3 off = sbri_sub(x, sbri_triangle_place(f.weights, p[0], p[1], p[2]));
   sbf_vec3 up = sbri_normalize(sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0])), off);
@@ -45,6 +58,8 @@ static inline void sbri_surface_look(const sbri_surface_rule *rule, sbf_vec3 x, 
   sbf_vec3 way =
       sbri_sub(own_way, sbri_triangle_place(f.weights, face->ways[0], face->ways[1], face->ways[2]));
   sbf_vec3 side = rule->two_sided && height < 0 ? sbri_scale(up, -1) : up;
+  if (height >= 0 && distance < f.before) f.before = best->before = distance;
+  f.behind = behind;
   f.normal = behind || distance < 1e-6f ? up : sbri_scale(off, 1 / distance);
   if (behind) f.normal = sbri_scale(sbri_normalize(off, up), distance < 1e-6f ? 1 : -1);
   f.urgency = 1 + distance;

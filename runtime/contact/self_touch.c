@@ -76,7 +76,7 @@ void sbri_self_touches_add(const sbri_island_tick *t, const sbri_body *body,
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     sbri_bounds_walk walk;
     uint32_t item;
-    sbri_surface_finding best = {.urgency = INFINITY};
+    sbri_surface_finding best = sbri_surface_nothing();
     sbri_box box = swept(t, slot, l.rule.outer);
     sbri_bounds_walk_begin(&walk, tree, box);
     while (sbri_bounds_walk_next(&walk, &item)) {
@@ -84,7 +84,7 @@ void sbri_self_touches_add(const sbri_island_tick *t, const sbri_body *body,
       if (c[0] == slot || c[1] == slot || c[2] == slot || !sbri_box_meets(&box, &boxes[item])) continue;
       look(&l, slot, item, &best);
     }
-    if (best.urgency == INFINITY || *count >= body->touch_capacity) continue;
+    if (!sbri_surface_found(&best) || *count >= body->touch_capacity) continue;
     const uint32_t *c = body->self_faces + 3 * (size_t)best.face;
     float rest = rest_gap(&l, slot, c), thickness = l.rule.outer;
     if (rest < TOGETHER_M) continue;

@@ -105,14 +105,8 @@ static sbri_surface_face face_of(const party *p, uint32_t triangle) {
 }
 
 static sbf_vec3 rest_of(const party *p, uint32_t vertex) {
-  const sbri_island *island = &p->of->character->model->islands[p->soft->island];
   const sbri_sample *s = &p->surface->samples[vertex];
-  sbf_vec3 x = {0, 0, 0};
-  for (int k = 0; k < 4; k++) {
-    const sbri_point *at = &island->rest[s->slots[k]];
-    x = sbri_add_scaled(x, sbri_vec3(at->x, at->y, at->z), s->weights[k]);
-  }
-  return sbri_scale(x, p->of->scale);
+  return sbri_scale(sbri_meet_rest(p->of->character->model, p->is->number, s), p->of->scale);
 }
 
 /* The most urgent triangle of `b` for a place that goes so; whether there is one. */
@@ -121,14 +115,14 @@ static bool find_face(const party *b, sbf_vec3 x, sbf_vec3 way, sbri_surface_fin
   sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, way));
   sbri_bounds_walk walk;
   uint32_t triangle;
-  best->urgency = INFINITY;
+  *best = sbri_surface_nothing();
   sbri_bounds_walk_begin(&walk, &b->surface->tree, box);
   while (sbri_bounds_walk_next(&walk, &triangle)) {
     if (!sbri_box_meets(&box, &b->surface->boxes[triangle])) continue;
     sbri_surface_face face = face_of(b, triangle);
     sbri_surface_look(&rule, x, way, &face, triangle, best);
   }
-  return best->urgency != INFINITY;
+  return sbri_surface_found(best);
 }
 
 /* What is kept between them: nothing between surfaces that both enclose matter. */
@@ -160,6 +154,60 @@ static void meet_faces(const finding *f, const party *a, const party *b) {
         .normal = best.normal,
         .margin = margin};
     add(f, a, b, &t);
+  }
+}
+
+/* ---- Itself ---- */
+
+static bool share_points(const sbri_sample *a, const sbri_sample *b) {
+  for (int i = 0; i < 4; i++)
+    for (int k = 0; k < 4; k++)
+      if (a->weights[i] != 0 && b->weights[k] != 0 && a->slots[i] == b->slots[k]) return true;
+  return false;
+}
+
+/* Parts that hang together do not meet: what the same points carry, and what lies in each other, or nearer
+ * than this share of the body, at rest. */
+static bool may_meet_face(const party *p, const sbri_surface_rule *rule, uint32_t v, uint32_t triangle) {
+  const uint32_t *corners = p->surface->triangles + 3 * (size_t)triangle;
+  sbf_vec3 rest[3];
+  for (int k = 0; k < 3; k++) {
+    if (corners[k] == v || share_points(&p->surface->samples[v], &p->surface->samples[corners[k]]))
+      return false;
+    rest[k] = rest_of(p, corners[k]);
+  }
+  return sbri_surface_gap(rule, rest_of(p, v), rest) > TOGETHER_SHARE * p->soft->rest_size_m * p->of->scale;
+}
+
+static bool find_own_face(const party *p, uint32_t v, sbri_surface_finding *best) {
+  sbri_surface_rule rule = rule_of(p);
+  sbf_vec3 x = p->surface->places[v], way = p->surface->ways[v];
+  sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, way));
+  sbri_bounds_walk walk;
+  uint32_t triangle;
+  *best = sbri_surface_nothing();
+  sbri_bounds_walk_begin(&walk, &p->surface->tree, box);
+  while (sbri_bounds_walk_next(&walk, &triangle)) {
+    if (!sbri_box_meets(&box, &p->surface->boxes[triangle]) || !may_meet_face(p, &rule, v, triangle))
+      continue;
+    sbri_surface_face face = face_of(p, triangle);
+    sbri_surface_look(&rule, x, way, &face, triangle, best);
+  }
+  return sbri_surface_found(best);
+}
+
+/* A surface that other points carry; one of a level's own points meets itself by itself. */
+static void meet_itself(const finding *f, const party *p) {
+  const float whole = 1;
+  for (uint32_t v = 0; v < p->surface->vertex_count; v++) {
+    sbri_surface_finding best;
+    if (!(p->surface->samples[v].mass_kg > 0) || !find_own_face(p, v, &best)) continue;
+    sbri_meet_touch t = {.feature = v,
+        .a = soft_side(p, &v, &whole, 1),
+        .b = soft_side(p, p->surface->triangles + 3 * (size_t)best.face, best.weights, 3),
+        .normal = best.normal,
+        .margin = margin_between(p, p)};
+    add(f, p, p, &t);
   }
 }
 
@@ -317,7 +365,9 @@ void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
   for (uint32_t i = 0; i < group->pair_count; i++) {
     sbri_meet_pair pair = all->pairs[group->first_pair + i];
     party a = party_of(&f, pair.a), b = party_of(&f, pair.b);
-    if (a.rigid && b.rigid) {
+    if (pair.a == pair.b) {
+      meet_itself(&f, &a);
+    } else if (a.rigid && b.rigid) {
       meet_hulls(&f, &a, &b);
     } else if (a.rigid || b.rigid) {
       const party *rigid = a.rigid ? &a : &b, *soft = a.rigid ? &b : &a;

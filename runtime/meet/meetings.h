@@ -30,10 +30,11 @@ typedef struct sbri_meet_surface {
 typedef struct sbri_meeter {
   uint32_t character, number; /* of the soft or the rigid body */
   bool rigid, gives_way;
+  bool itself; /* it meets itself as well */
   uint32_t layer, mask;
 } sbri_meeter;
 
-/* Two of them, by their numbers, a before b. */
+/* Two of them, by their numbers, a before b; or one that meets itself. */
 typedef struct sbri_meet_pair {
   uint32_t a, b;
 } sbri_meet_pair;
@@ -164,6 +165,7 @@ typedef struct sbri_meet_group {
 typedef struct sbri_meetings {
   sbfi_arena *arenas;           /* (character_capacity) */
   sbri_meet_surface **surfaces; /* (character_capacity) each of its soft bodies; NULL: none is made */
+  uint8_t **together;           /* (character_capacity) of each two of its soft bodies: they hang together */
   unsigned char **kept;         /* (character_capacity) room for its state */
   uint32_t *group_of;           /* (character_capacity) UINT32_MAX: it meets nobody */
   sbri_meet_member *members;    /* (character_capacity) group after group */
@@ -199,6 +201,14 @@ void sbri_meet_surfaces_free(sbr_world *world, uint32_t character);
 void sbri_meetings_free(sbr_world *world);
 /* Places and ways of its vertices within the tick, and the tree over its triangles. */
 void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *member, uint32_t soft_body);
+
+/* ---- meet/at_rest.c ---- */
+
+/* Where that carries at rest, in the model's own metres. */
+sbf_vec3 sbri_meet_rest(const sbr_model *model, uint32_t soft_body, const sbri_sample *sample);
+
+/* Notes, of each two soft bodies, the sections that touch at rest, into zeros; places surfaces for it. */
+void sbri_meet_sections_look(const sbr_model *model, sbri_meet_surface *surfaces, uint8_t *together);
 
 /* ---- meet/pairs.c ---- */
 

@@ -57,15 +57,24 @@ static void list_character(sbr_world *world, uint32_t index) {
     const sbf_collision *rule = &body->source->collision;
     if (!body->level || model->islands[body->island].scheme->forceless) continue;
     add(world->meetings,
-        (sbri_meeter){
-            .character = index, .number = b, .gives_way = true, .layer = rule->layer, .mask = rule->mask},
+        (sbri_meeter){.character = index,
+            .number = b,
+            .gives_way = true,
+            .itself = rule->self && !body->self_faces,
+            .layer = rule->layer,
+            .mask = rule->mask},
         soft_box(world, c, body));
   }
   for (uint32_t b = 0; b < model->rigid.body_count; b++) {
     const sbf_rigid_body *source = model->rigid.bodies[b].source;
     if (!model->rigid.bodies[b].hull.face_count) continue;
     add(world->meetings,
-        (sbri_meeter){index, b, true, sbri_rigid_is_simulated(c, b), source->layer, source->mask},
+        (sbri_meeter){.character = index,
+            .number = b,
+            .rigid = true,
+            .gives_way = sbri_rigid_is_simulated(c, b),
+            .layer = source->layer,
+            .mask = source->mask},
         rigid_box(world, c, b));
   }
 }
@@ -80,10 +89,14 @@ static bool are_jointed(const sbri_rigid_model *model, uint32_t a, uint32_t b) {
   return false;
 }
 
-/* Parts of one character that belong together: on a joint, flesh and what holds it, bodies of one island. */
-static bool belong_together(const sbr_model *model, const sbri_meeter *a, const sbri_meeter *b) {
+/* Parts of one character that belong together: on a joint, flesh and what holds it, sections that touch at
+ * rest. */
+static bool belong_together(const sbr_world *world, const sbri_meeter *a, const sbri_meeter *b) {
+  const sbr_model *model = world->characters[a->character].model;
   if (a->rigid && b->rigid) return are_jointed(&model->rigid, a->number, b->number);
-  if (!a->rigid && !b->rigid) return false;
+  if (!a->rigid && !b->rigid)
+    return world->meetings
+        ->together[a->character][(size_t)a->number * model->asset->soft_bodies.count + b->number];
   const sbri_meeter *soft = a->rigid ? b : a, *rigid = a->rigid ? a : b;
   const sbri_island *island = &model->islands[model->bodies[soft->number].island];
   for (uint32_t i = 0; i < island->carrier_count; i++)
@@ -94,7 +107,7 @@ static bool belong_together(const sbr_model *model, const sbri_meeter *a, const 
 static bool may_meet(const sbr_world *world, const sbri_meeter *a, const sbri_meeter *b) {
   if ((!a->gives_way && !b->gives_way) || !sbri_layers_meet(a->layer, a->mask, b->layer, b->mask))
     return false;
-  return a->character != b->character || !belong_together(world->characters[a->character].model, a, b);
+  return a->character != b->character || !belong_together(world, a, b);
 }
 
 static void find_pairs(sbr_world *world) {
@@ -105,8 +118,8 @@ static void find_pairs(sbr_world *world) {
     uint32_t b;
     sbri_bounds_walk_begin(&walk, &all->tree, all->boxes[a]);
     while (sbri_bounds_walk_next(&walk, &b)) {
-      if (b <= a || !sbri_box_meets(&all->boxes[a], &all->boxes[b]) ||
-          !may_meet(world, &all->meeters[a], &all->meeters[b]))
+      if (b < a || !sbri_box_meets(&all->boxes[a], &all->boxes[b]) ||
+          !(a == b ? all->meeters[a].itself : may_meet(world, &all->meeters[a], &all->meeters[b])))
         continue;
       if (all->pair_count < all->touch_capacity) all->pairs[all->pair_count++] = (sbri_meet_pair){a, b};
     }

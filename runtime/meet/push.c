@@ -10,12 +10,12 @@
 static const float BOUNCE_FROM_M_S = 0.3f;
 /* What is deeper than this comes out by that share of it a step, and no faster; soft matter in soft matter,
  * whose surfaces are never quite of one form, by less. */
-static const float SLACK_M = 1e-4f, OUT_SHARE = 0.1f, SOFT_OUT_SHARE = 0.02f, OUT_M_S = 0.2f;
+static const float SLACK_M = 1e-4f, OUT_SHARE = 0.1f, SOFT_OUT_SHARE = 0.05f, OUT_M_S = 0.2f;
 /* As near to the most friction as this share it slides. */
 static const float SLIDES_SHARE = 0.999f;
 /* Soft in soft what is deeper than this share of the smaller body's size looks ahead, by what is learnt of
  * each step. */
-static const float DEEP_SHARE = 0.005f, LEARNS = 0.3f;
+static const float DEEP_SHARE = 0.003f, LEARNS = 0.3f;
 static const sbf_vec3 nothing = {0, 0, 0};
 
 static bool is_plane(const sbri_meet_touch *t) {

@@ -1,4 +1,6 @@
 /* What soft bodies meet others with, and the memory for it. */
+#include <string.h>
+
 #include "math/vec3.h"
 #include "meet/meetings.h"
 #include "sbfmt/mechanics.h"
@@ -58,6 +60,21 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
   return true;
 }
 
+/* As of another of the same model, if there is one. */
+static void note_together(
+    sbr_world *world, uint32_t character, sbri_meet_surface *surfaces, uint8_t *together) {
+  const sbri_meetings *all = world->meetings;
+  const sbr_model *model = world->characters[character].model;
+  size_t count = model->asset->soft_bodies.count;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    if (world->characters[i].model != model || !all->surfaces[i]) continue;
+    memcpy(together, all->together[i], count * count);
+    return;
+  }
+  memset(together, 0, count * count);
+  sbri_meet_sections_look(model, surfaces, together);
+}
+
 bool sbri_meet_surfaces_make(sbr_world *world, uint32_t character) {
   sbri_meetings *all = world->meetings;
   const sbr_model *model = world->characters[character].model;
@@ -71,9 +88,12 @@ bool sbri_meet_surfaces_make(sbr_world *world, uint32_t character) {
     const sbri_body *body = &model->bodies[b];
     if (body->level) good = make(model, body, &surfaces[b], arena);
   }
+  uint8_t *together = good ? sbfi_arena_allocate(arena, (size_t)count * count + 1, 1) : NULL;
+  good = together != NULL;
+  if (good) note_together(world, character, surfaces, together);
   unsigned char *kept = good ? sbfi_arena_allocate(arena, 1, model->layout.state_size) : NULL;
   good = kept != NULL;
-  all->kept[character] = kept;
+  all->kept[character] = kept, all->together[character] = together;
   if (good)
     all->surfaces[character] = surfaces;
   else
@@ -135,6 +155,7 @@ void sbri_meetings_free(sbr_world *world) {
   free_meeters(world);
   sbfi_free(a, all->arenas, characters * sizeof *all->arenas);
   sbfi_free(a, all->surfaces, characters * sizeof *all->surfaces);
+  sbfi_free(a, all->together, characters * sizeof *all->together);
   sbfi_free(a, all->kept, characters * sizeof *all->kept);
   sbfi_free(a, all->group_of, characters * sizeof *all->group_of);
   sbfi_free(a, all->members, characters * sizeof *all->members);

@@ -68,7 +68,7 @@ uint32_t sbr_model_left_out(
       "they bend freely");
   list(&l, n.media, "pushes of a dense medium on bodies that follow bones", "only media_friction acts");
   list(&l, n.self, "collisions with themselves of bodies whose surface points are not the level's",
-      "they pass through");
+      "they pass through, unless the world's bodies meet (sbr_world_bodies_meet)");
   list(&l, n.levels, "levels that are neither of springs, of tetrahedra nor of regions",
       "other levels of their bodies act");
   list(&l, n.beside, "tetrahedra, regions and jiggles beside a level's own model", "only that acts");

@@ -1,0 +1,70 @@
+/* Which sections of a character hang together: those that touch, or lie in each other, at rest. At a joint
+ * flesh goes into flesh as far as the bones turn; what would push that apart would tear the joint's skin. */
+#include "collide/surface_look.h"
+#include "math/vec3.h"
+#include "meet/meetings.h"
+
+/* Of the smaller one's size: nearer than the one it touches, and what is inside is looked for so deep. */
+static const float TOUCHES_SHARE = 0.01f, INSIDE_SHARE = 0.1f;
+
+sbf_vec3 sbri_meet_rest(const sbr_model *model, uint32_t body, const sbri_sample *s) {
+  const sbri_point *rest = model->islands[model->bodies[body].island].rest;
+  sbf_vec3 x = {0, 0, 0};
+  for (int k = 0; k < 4; k++)
+    x = sbri_add_scaled(
+        x, sbri_vec3(rest[s->slots[k]].x, rest[s->slots[k]].y, rest[s->slots[k]].z), s->weights[k]);
+  return x;
+}
+
+/* Its vertices and the tree over its triangles, at rest. */
+static void place(const sbr_model *model, uint32_t body, sbri_meet_surface *s, float reach) {
+  for (uint32_t v = 0; v < s->vertex_count; v++) s->places[v] = sbri_meet_rest(model, body, &s->samples[v]);
+  for (uint32_t t = 0; t < s->triangle_count; t++) {
+    const uint32_t *c = s->triangles + 3 * (size_t)t;
+    sbri_box box = sbri_box_with(sbri_box_of_point(s->places[c[0]]), s->places[c[1]]);
+    s->boxes[t] = sbri_box_grown(sbri_box_with(box, s->places[c[2]]), reach);
+  }
+  sbri_bounds_tree_make(&s->tree, s->boxes, s->triangle_count);
+}
+
+/* Whether a vertex of the one touches the other, which is placed. */
+static bool touches(const sbr_model *model, uint32_t one, const sbri_meet_surface *surfaces, uint32_t other,
+    const sbri_surface_rule *rule) {
+  const sbri_meet_surface *a = &surfaces[one], *b = &surfaces[other];
+  for (uint32_t v = 0; v < a->vertex_count; v++) {
+    sbf_vec3 x = sbri_meet_rest(model, one, &a->samples[v]), still = {0, 0, 0};
+    sbri_surface_finding best = sbri_surface_nothing();
+    sbri_bounds_walk walk;
+    uint32_t triangle;
+    sbri_box box = sbri_box_of_point(x);
+    sbri_bounds_walk_begin(&walk, &b->tree, box);
+    while (sbri_bounds_walk_next(&walk, &triangle)) {
+      const uint32_t *c = b->triangles + 3 * (size_t)triangle;
+      sbri_surface_face face = {{b->places[c[0]], b->places[c[1]], b->places[c[2]]}, {still, still, still}};
+      if (sbri_box_meets(&box, &b->boxes[triangle]))
+        sbri_surface_look(rule, x, still, &face, triangle, &best);
+    }
+    if (sbri_surface_found(&best)) return true;
+  }
+  return false;
+}
+
+static bool is_section(const sbr_model *model, uint32_t body) {
+  return model->bodies[body].level && model->bodies[body].source->bone >= 0;
+}
+
+void sbri_meet_sections_look(const sbr_model *model, sbri_meet_surface *surfaces, uint8_t *together) {
+  uint32_t count = model->asset->soft_bodies.count;
+  for (uint32_t b = 0; b < count; b++) {
+    float size = model->bodies[b].rest_size_m;
+    if (!is_section(model, b)) continue;
+    place(model, b, &surfaces[b], INSIDE_SHARE * size);
+    for (uint32_t a = 0; a < count; a++) {
+      if (a == b || !is_section(model, a) || together[(size_t)a * count + b]) continue;
+      float least = size < model->bodies[a].rest_size_m ? size : model->bodies[a].rest_size_m;
+      sbri_surface_rule rule = {TOUCHES_SHARE * least, INSIDE_SHARE * least, surfaces[b].two_sided};
+      bool touch = touches(model, a, surfaces, b, &rule);
+      together[(size_t)a * count + b] = together[(size_t)b * count + a] = touch;
+    }
+  }
+}
