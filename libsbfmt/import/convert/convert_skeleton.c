@@ -33,48 +33,6 @@ static sbf_quat rotation_from_axes(sbfi_d3 x, sbfi_d3 y) {
       (float)(q[3] * sign + 0.0)}; /* no negative zero */
 }
 
-static bool runs_straight(const sbfi_bone_draft *bone) {
-  return sbfi_d3_dot(sbfi_d3_normal(bone->y), sbfi_d3_normal(bone->along)) > SBFI_STRAIGHT;
-}
-
-/* Whether `bone` continues its parent better than what does now: straight ahead and near, else with more
- * bones behind it. */
-static bool continues_better(const sbfi_skeleton_draft *s, uint32_t bone) {
-  sbfi_bone_draft *parent = &s->bones[s->bones[bone].parent], with = *parent;
-  with.along = sbfi_d3_sub(s->bones[bone].head, parent->head);
-  double length = sbfi_d3_length(with.along);
-  if (length < 1e-9) return false;
-  if (parent->next == SBF_NONE) return true;
-  bool straight = runs_straight(&with), was_straight = runs_straight(parent);
-  if (straight != was_straight) return straight;
-  if (straight) return length < sbfi_d3_length(parent->along);
-  return s->bones[bone].below > s->bones[parent->next].below;
-}
-
-void sbfi_draft_continue(sbfi_skeleton_draft *s) {
-  for (uint32_t i = 0; i < s->count; i++) {
-    s->bones[i].below = 0;
-    s->bones[i].next = SBF_NONE;
-    s->bones[i].along = (sbfi_d3){0, 0, 0};
-  }
-  for (uint32_t i = 0; i < s->count; i++) /* not in order: bones may have been hung elsewhere */
-    for (int32_t above = s->bones[i].parent; above != SBF_NONE; above = s->bones[above].parent)
-      s->bones[above].below++;
-  uint32_t straight = 0, asked = 0;
-  for (uint32_t i = 0; i < s->count; i++) {
-    if (s->bones[i].parent == SBF_NONE || !continues_better(s, i)) continue;
-    sbfi_bone_draft *parent = &s->bones[s->bones[i].parent];
-    parent->next = (int32_t)i;
-    parent->along = sbfi_d3_sub(s->bones[i].head, parent->head);
-  }
-  for (uint32_t i = 0; i < s->count; i++) {
-    if (s->bones[i].next == SBF_NONE) continue;
-    asked++;
-    straight += runs_straight(&s->bones[i]);
-  }
-  s->along_y = 5 * (uint64_t)straight >= 3 * (uint64_t)asked;
-}
-
 /* The direction in which the bone is drawn, which becomes its +Y. */
 static sbfi_d3 direction_of(const sbfi_skeleton_draft *s, const sbfi_bone_draft *bone) {
   if (s->along_y) return bone->y;
@@ -113,7 +71,7 @@ static bool write_bone(sbfi_conversion *c, const sbfi_skeleton_draft *s, const s
   bone->rotation = rotation_from_axes(from->x, turned.y);
   if (from->next == SBF_NONE) turned.along = from->tip;
   bool has_end = sbfi_d3_length(turned.along) > 1e-9;
-  bone->length = has_end && runs_straight(&turned) ? (float)sbfi_d3_length(turned.along) : 0;
+  bone->length = has_end && sbfi_bone_runs_straight(&turned) ? (float)sbfi_d3_length(turned.along) : 0;
   return bone->id && bone->name;
 }
 

@@ -25,6 +25,9 @@ typedef struct sbfi_skeleton_draft {
 /* Cosine of the angle within which an axis runs along a bone. */
 #define SBFI_STRAIGHT 0.995
 
+/* Whether the bone's +Y points at the child that continues it. */
+bool sbfi_bone_runs_straight(const sbfi_bone_draft *bone);
+
 /* Finds `below`, `next`, `along` and `along_y`; what was there is overwritten. */
 void sbfi_draft_continue(sbfi_skeleton_draft *s);
 
