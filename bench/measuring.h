@@ -11,29 +11,27 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "chart/rounds.h"
 #include "sbfmt/base.h"
 
 /* Processor time of the calling thread: what else a busy machine does meanwhile does not count. Files are in
  * the page cache, so that loads do not wait. */
-double bench_now_s(void);
+static inline double bench_now_s(void) {
+  return chart_now_s();
+}
 
 /* Ends the program with a message; with the text of `error` where `status` is none of success. */
 _Noreturn void bench_fail(const char *format, ...);
 void bench_require(sbf_status status, const sbf_diagnostic *error);
 void *bench_allocate(size_t count, size_t size);
 
-typedef struct bench_spread {
-  double least, median, most;
-} bench_spread;
+typedef chart_spread bench_spread;
 /* Of at least one sample; sorts them. */
-bench_spread bench_spread_of(double *samples, uint32_t count);
+static inline bench_spread bench_spread_of(double *samples, uint32_t count) {
+  return chart_spread_of(samples, count);
+}
 
-typedef struct bench_case {
-  void (*run)(void *context);   /* what is timed */
-  void (*after)(void *context); /* puts away what it made; may be NULL */
-  void *context;
-  bench_spread s; /* seconds of one run */
-} bench_case;
+typedef chart_timed bench_case;
 /* Runs all cases `rounds` times, after one round that does not count. */
 void bench_rounds(bench_case *cases, uint32_t case_count, uint32_t rounds);
 

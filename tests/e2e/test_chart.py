@@ -1,0 +1,140 @@
+"""`sbfmt chart`: tables and drawings of known cases; what they say agrees with closed forms; nothing half-written."""
+
+import csv
+import io
+import json
+import math
+import os
+import shutil
+import tempfile
+import unittest
+
+from sbfmt_program import ProgramTest, call, main, read_text
+
+QUICK = ("--runs", "2", "--most-substeps", "4")
+CASES = ("spring", "chain", "pendulum")
+
+
+def rows_of(folder, case):
+    return list(csv.DictReader(io.StringIO(read_text(os.path.join(folder, case + ".csv")))))
+
+
+def pick(rows, scheme, substeps):
+    return next(row for row in rows if row["scheme"] == scheme and row["substeps"] == str(substeps))
+
+
+class Charts(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.place = tempfile.mkdtemp(prefix="sbfmt-chart-")
+        self.addCleanup(shutil.rmtree, self.place, ignore_errors=True)
+        self.out = os.path.join(self.place, "charts")
+
+    def chart(self, *arguments):
+        result = call("chart", "-o", self.out, *QUICK, *arguments)
+        self.assertEqual(result.status, 0, result.err)
+        return result
+
+    def test_every_case_fills_its_tables(self):
+        self.chart("--no-svg")
+        for case in CASES:
+            with self.subTest(case=case):
+                rows = rows_of(self.out, case)
+                reference = [row for row in rows if row["scheme"] == "reference"]
+                measured = [row for row in rows if row["scheme"] != "reference"]
+                self.assertTrue(reference)
+                self.assertLessEqual({"symplectic", "position_based", "heun", "explicit_euler", "block_descent",
+                                      "relaxation", "automatic"}, {row["scheme"] for row in measured})
+                for row in measured:
+                    self.assertTrue(row["compiler"] and row["lanes"] and row["processor"] and row["date"])
+                    self.assertIn(row["outcome"], ("sound", "failed", "refused"))
+                    if row["outcome"] != "refused":
+                        self.assertGreater(float(row["us_per_frame"]), 0)
+                        self.assertLessEqual(float(row["us_least"]), float(row["us_most"]))
+                    if row["outcome"] == "failed":
+                        self.assertTrue(row["why"])
+                self.assertTrue(any(row["front_of"] for row in measured))
+                runs = rows_of(self.out, case + "-runs")
+                self.assertEqual(len(runs), 2 * sum(row["outcome"] != "refused" for row in measured))
+        self.assertFalse([name for name in os.listdir(self.out) if name.endswith(".svg")])
+        self.assertEqual(os.listdir(self.place), ["charts"])
+
+    def test_errors_are_those_of_closed_forms(self):
+        self.chart("--no-svg", "--case", "spring")
+        rows = rows_of(self.out, "spring")
+        for substeps in (1, 2, 4):
+            turn = 5 / 60 / substeps  # w h
+            for scheme, share in (("symplectic", turn ** 2 / 24), ("position_based", turn ** 2 / 3),
+                                  ("explicit_euler", turn ** 2 / 3), ("heun", turn ** 2 / 6)):
+                off = float(pick(rows, scheme, substeps)["period"])
+                self.assertAlmostEqual(off, share, delta=0.03 * share + 3e-6, msg=f"{scheme}, {substeps}")
+            # What position-based steps lose of their height in three periods: the ratio is w h / 2.
+            kept = math.exp(-turn / 2 * 2 * math.pi * 3.4)
+            off = float(pick(rows, "position_based", substeps)["amplitude"])
+            self.assertAlmostEqual(1 - off, kept, delta=0.1, msg=f"position_based, {substeps}")
+        self.assertGreater(float(pick(rows, "explicit_euler", 1)["energy"]), 1)
+        self.assertLess(float(pick(rows, "symplectic", 1)["energy"]), 0.05)
+
+    def test_the_report_says_the_same_as_the_table(self):
+        report = json.loads(self.chart("--no-svg", "--case", "pendulum", "--case", "pendulum", "--format", "json").out)
+        self.assertEqual([case["name"] for case in report["cases"]], ["pendulum"])
+        rows = [row for row in rows_of(self.out, "pendulum") if row["scheme"] != "reference"]
+        self.assertEqual(len(report["cases"][0]["rows"]), len(rows))
+        for said, row in zip(report["cases"][0]["rows"], rows):
+            self.assertEqual(said["scheme"], row["scheme"])
+            self.assertAlmostEqual(said["errors"]["path_m"], float(row["path_m"]), delta=1e-5 * float(row["path_m"]))
+        self.assertLess(report["cases"][0]["references"][0]["errors"]["path_m"], 1e-7)
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
+    def test_drawings_hold_every_line(self):
+        self.chart("--case", "pendulum")
+        for axis in ("path_m", "farthest_m", "period", "amplitude", "energy"):
+            drawing = read_text(os.path.join(self.out, f"pendulum-{axis}.svg"))
+            self.assertTrue(drawing.rstrip().endswith("</svg>"))
+            for words in ("symplectic", "position_based", "heun by tolerance", "Pareto front", "0.1 ms", "4 ms", "failed"):
+                self.assertIn(words, drawing, axis)
+
+    def test_without_gnuplot_tables_stay(self):
+        result = call("chart", "-o", self.out, "--case", "spring", *QUICK, environment={"PATH": self.place})
+        self.assertEqual(result.status, 2)
+        self.assertIn("gnuplot-nox", result.err)
+        self.assertEqual(sorted(os.listdir(self.out)), ["spring-runs.csv", "spring.csv"])
+
+    def test_older_files_stay_beside_new_ones(self):
+        os.mkdir(self.out)
+        with open(os.path.join(self.out, "mine.txt"), "w", encoding="utf-8") as stream:
+            stream.write("mine")
+        self.chart("--no-svg", "--case", "spring")
+        self.chart("--no-svg", "--case", "chain")
+        self.assertEqual(sorted(os.listdir(self.out)),
+                         ["chain-runs.csv", "chain.csv", "mine.txt", "spring-runs.csv", "spring.csv"])
+
+    def test_jobs_are_one_a_line(self):
+        result = call("chart", "--jobs", "-o", self.out, "--no-svg", *QUICK)
+        self.assertEqual(result.status, 0, result.err)
+        lines = result.out.splitlines()
+        self.assertEqual(len(lines), len(CASES))
+        for case, line in zip(CASES, lines):
+            self.assertTrue(line.startswith(f"sbfmt chart --case {case} "), line)
+            self.assertIn(self.out, line)
+        self.assertFalse(os.path.exists(self.out))
+
+    def test_wrong_calls_are_refused(self):
+        file = os.path.join(self.place, "file")
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write("x")
+        for arguments, words in ((("--case", "spring"), "-o DIR"),
+                                 (("--case", "swing", "-o", self.out), "spring, chain, pendulum"),
+                                 (("--runs", "0", "-o", self.out), "--runs"),
+                                 (("--most-substeps", "x", "-o", self.out), "--most-substeps"),
+                                 (("--core", "1000", "-o", self.out, "--case", "spring"), "core"),
+                                 (("--case", "spring", "-o", file), "name a folder"),
+                                 (("--case", "spring", "-o", os.path.join(self.out, "deeper")), "no folder")):
+            result = call("chart", *arguments, *([] if "--runs" in arguments else ["--runs", "1"]))
+            self.assertEqual(result.status, 2, arguments)
+            self.assertIn(words, result.err)
+        self.assertEqual(os.listdir(self.place), ["file"])
+
+
+if __name__ == "__main__":
+    main()

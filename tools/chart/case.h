@@ -1,0 +1,29 @@
+/* What is charted: bodies, how they move, and what of that is judged. */
+#ifndef CHART_CASE_H
+#define CHART_CASE_H
+
+#include "chart/errors.h"
+#include "chart/subject.h"
+#include "chart/watched_motion.h"
+
+typedef struct chart_case {
+  const char *name;
+  const char *title; /* one line: what happens */
+  uint32_t ticks;
+  unsigned axes; /* bits of 1 << chart_axis */
+  chart_signal signal;
+  chart_watch watch;
+  bool grounded;
+  double raise_m;
+  sbf_vec3 gravity;
+  bool in_double; /* springs and tetrahedra alone: the reference is network_motion.h */
+  /* Makes the `number`-th body, from 0; asset NULL and SBF_OK: there are no more. */
+  sbf_status (*make)(uint32_t number, chart_subject *subject, sbf_diagnostic *error);
+} chart_case;
+
+extern const chart_case chart_cases[];
+extern const uint32_t chart_case_count;
+
+const chart_case *chart_case_named(const char *name); /* NULL: there is none */
+
+#endif

@@ -1,0 +1,34 @@
+/* How far one motion is off another, by several measures. */
+#ifndef CHART_ERRORS_H
+#define CHART_ERRORS_H
+
+#include "chart/track.h"
+
+typedef enum chart_axis {
+  CHART_PATH,      /* m: root of the mean square, over points and ticks, of how far points are off */
+  CHART_FARTHEST,  /* m: the greatest of that */
+  CHART_PERIOD,    /* share by which the signal's period is off */
+  CHART_AMPLITUDE, /* share by which its height in the last period is off */
+  CHART_SHAPE,     /* at rest: root of the mean square of how far points are off, over how far they moved */
+  CHART_VOLUME,    /* greatest difference of the enclosed volume, share of that at rest */
+  CHART_ENERGY,    /* greatest difference of the whole energy, over the most that was in motion */
+  CHART_AXIS_COUNT
+} chart_axis;
+
+extern const char *const chart_axis_names[CHART_AXIS_COUNT];  /* in tables and file names: "path_m" */
+extern const char *const chart_axis_labels[CHART_AXIS_COUNT]; /* beside the axis of a drawing */
+
+/* What swings, if anything does. */
+typedef struct chart_signal {
+  bool there;
+  bool of_volume; /* the volume; else a point's place: */
+  uint32_t point;
+  int along; /* 0, 1, 2: x, y, z */
+} chart_signal;
+
+/* Fills `errors` for the axes among `axes` (bits of 1 << axis), NAN for others and for what cannot be told of
+ * this motion. `rest` (points) are the places before it began. False where memory runs out. */
+bool chart_errors_of(const chart_track *track, const chart_track *reference, const sbf_vec3 *rest,
+    double tick_s, const chart_signal *signal, unsigned axes, double errors[CHART_AXIS_COUNT]);
+
+#endif

@@ -1,0 +1,27 @@
+/* What a body's motion is measured against. */
+#ifndef CHART_REFERENCE_H
+#define CHART_REFERENCE_H
+
+#include "chart/case.h"
+#include "chart/sheet.h"
+
+/* Tracks of the same motion by two schemes, so that each row has one by another scheme than its own. */
+typedef struct chart_truth {
+  chart_track track;       /* for all but rows of Heun's method, where the runtime gave both */
+  chart_track other;       /* for those; empty where the reference is in double precision */
+  chart_reference *stated; /* what the sheet says of it */
+} chart_truth;
+
+/* Springs and tetrahedra: in double precision, by Runge and Kutta's method with 2 n steps a tick, its own
+ * error by the distance from n, over 15 (Richardson). Everything else: by Heun's method and by the symplectic
+ * scheme of the runtime, with four times the most substeps that are swept (64 at least); their own error is
+ * the distance between the two. */
+sbf_status chart_truth_find(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
+    const sbf_vec3 *rest, uint32_t most_substeps, chart_reference *stated, sbf_diagnostic *error);
+void chart_truth_free(chart_truth *truth);
+
+static inline const chart_track *chart_truth_for(const chart_truth *truth, sbf_scheme scheme) {
+  return scheme == SBF_SCHEME_HEUN && truth->other.places ? &truth->other : &truth->track;
+}
+
+#endif

@@ -1,0 +1,199 @@
+#include "chart/sweep.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "chart/reference.h"
+#include "chart/rounds.h"
+#include "render/fault.h"
+
+static const double TICK_S = 1.0 / 60;
+/* Farther off the path, in units of how far the reference moves, is no error but a failure. */
+static const double LOST = 3;
+
+typedef struct sweep {
+  const chart_case *charted;
+  const chart_effort *effort;
+  chart_sheet *sheet;
+  chart_motion *motions; /* (rows) */
+  uint32_t motion_room;
+} sweep;
+
+static sbf_status no_memory(sbf_diagnostic *error) {
+  return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a chart");
+}
+
+static void tell(const sweep *s, const char *what, double share) {
+  if (s->effort->progress) s->effort->progress(s->effort->user, what, share);
+}
+
+/* How often a substep of the scheme visits each element. */
+static double visits_a_substep(sbf_scheme scheme, const sbf_level *level) {
+  enum { SWEEPS = 4 }; /* of block descent, each from every point of an element */
+  bool springs = level->model == SBF_ELASTIC_MODEL_SPRINGS;
+  if (scheme == SBF_SCHEME_HEUN) return 2;
+  if (scheme == SBF_SCHEME_BLOCK_DESCENT) return SWEEPS * (springs ? 2 : 4);
+  return 1;
+}
+
+static double visits_of(const chart_motion *m, const chart_setting *setting) {
+  const sbf_asset *asset = m->scene.asset;
+  if (setting->step_error_m > 0 || !asset->soft_bodies.count) return NAN;
+  uint32_t substeps = setting->substeps ? setting->substeps : sbr_model_substeps(m->model);
+  return visits_a_substep(setting->scheme, &asset->soft_bodies.at[0].levels.at[0]) * substeps *
+         chart_elements_of(asset);
+}
+
+/* How far the reference's points move, root of the mean square. */
+static double extent_of(const chart_track *t, const sbf_vec3 *rest) {
+  double sum = 0;
+  for (uint32_t i = 0; i < t->ticks; i++)
+    for (uint32_t k = 0; k < t->points; k++) {
+      sbf_vec3 p = t->places[(size_t)i * t->points + k];
+      double x = (double)p.x - (double)rest[k].x, y = (double)p.y - (double)rest[k].y,
+             z = (double)p.z - (double)rest[k].z;
+      sum += x * x + y * y + z * z;
+    }
+  return sqrt(sum / ((double)t->ticks * t->points + 1e-9));
+}
+
+static bool judge(
+    const sweep *s, chart_row *row, chart_motion *motion, const chart_truth *truth, const sbf_vec3 *rest) {
+  chart_track track;
+  const chart_track *reference = chart_truth_for(truth, row->setting.scheme);
+  if (!chart_motion_look(motion, &track)) return false;
+  bool good =
+      chart_errors_of(&track, reference, rest, TICK_S, &s->charted->signal, s->charted->axes, row->errors);
+  row->sound = track.sound;
+  snprintf(row->why, sizeof row->why, "%s", track.why);
+  if (row->sound && !(row->errors[CHART_PATH] < LOST * extent_of(reference, rest))) {
+    row->sound = false;
+    snprintf(row->why, sizeof row->why, "farther off than anything moves");
+  }
+  chart_track_free(&track);
+  return good;
+}
+
+static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_scene *scene,
+    const chart_setting *setting, const chart_truth *truth, const sbf_vec3 *rest, sbf_diagnostic *error) {
+  chart_row *row = chart_sheet_add_row(s->sheet);
+  if (!row) return no_memory(error);
+  if (s->sheet->row_room > s->motion_room) {
+    chart_motion *more = realloc(s->motions, s->sheet->row_room * sizeof *more);
+    if (!more) return no_memory(error);
+    s->motions = more, s->motion_room = s->sheet->row_room;
+  }
+  chart_motion *motion = &s->motions[s->sheet->row_count - 1];
+  sbf_diagnostic why;
+  *motion = (chart_motion){.begin = NULL};
+  snprintf(row->model, sizeof row->model, "%s", subject->model);
+  row->scheme = sbf_scheme_name(setting->scheme);
+  row->setting = *setting;
+  row->elements = chart_elements_of(subject->asset);
+  row->runs_us = calloc(s->effort->rounds, sizeof *row->runs_us);
+  sbf_status status = chart_motion_open(motion, scene, setting, &why);
+  row->refused = status != SBF_OK;
+  if (row->refused) {
+    snprintf(row->why, sizeof row->why, "%.120s", why.message);
+    chart_motion_close(motion);
+    return row->runs_us ? SBF_OK : no_memory(error);
+  }
+  row->visits = visits_of(motion, setting);
+  return row->runs_us && judge(s, row, motion, truth, rest) ? SBF_OK : no_memory(error);
+}
+
+/* All settings of all schemes; `springs` have one more scheme. */
+static sbf_status sweep_schemes(sweep *s, const chart_subject *subject, const chart_scene *scene,
+    const chart_truth *truth, const sbf_vec3 *rest, sbf_diagnostic *error) {
+  static const sbf_scheme by_substeps[] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN,
+      SBF_SCHEME_EXPLICIT_EULER, SBF_SCHEME_BLOCK_DESCENT};
+  static const float tolerances_m[] = {1e-2f, 1e-3f, 1e-4f, 1e-5f, 1e-6f};
+  sbf_status status = SBF_OK;
+  for (int i = 0; i < 5; i++)
+    for (uint32_t n = 1; status == SBF_OK && n <= s->effort->most_substeps; n *= 2) {
+      const chart_setting setting = {.scheme = by_substeps[i], .substeps = n};
+      status = add_row(s, subject, scene, &setting, truth, rest, error);
+      /* What is refused at one number of substeps is at all. */
+      if (status == SBF_OK && s->sheet->rows[s->sheet->row_count - 1].refused) break;
+    }
+  for (int i = 0; status == SBF_OK && i < 5; i++) {
+    const chart_setting setting = {.scheme = SBF_SCHEME_HEUN, .step_error_m = tolerances_m[i]};
+    status = add_row(s, subject, scene, &setting, truth, rest, error);
+  }
+  const chart_setting relaxation = {.scheme = SBF_SCHEME_RELAXATION, .substeps = 1};
+  const chart_setting automatic = {.scheme = SBF_SCHEME_AUTOMATIC};
+  if (status == SBF_OK) status = add_row(s, subject, scene, &relaxation, truth, rest, error);
+  if (status == SBF_OK) status = add_row(s, subject, scene, &automatic, truth, rest, error);
+  return status;
+}
+
+static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diagnostic *error) {
+  const chart_case *c = s->charted;
+  const chart_scene scene = {.asset = subject->asset,
+      .has_gravity = true,
+      .gravity = c->gravity,
+      .grounded = c->grounded,
+      .raise_m = c->raise_m,
+      .ticks = c->ticks,
+      .watch = c->watch};
+  const sbf_vec3 *rest = subject->asset->soft_bodies.at[0].levels.at[0].positions.at;
+  chart_truth truth = {.stated = NULL};
+  chart_reference *stated = chart_sheet_add_reference(s->sheet);
+  if (!stated) return no_memory(error);
+  snprintf(stated->model, sizeof stated->model, "%s", subject->model);
+  tell(s, "reference", 0);
+  sbf_status status = chart_truth_find(&truth, c, &scene, rest, s->effort->most_substeps, stated, error);
+  tell(s, "errors", 0);
+  if (status == SBF_OK) status = sweep_schemes(s, subject, &scene, &truth, rest, error);
+  chart_truth_free(&truth);
+  return status;
+}
+
+static void tell_share(void *user, double share) {
+  tell(user, "times", share);
+}
+
+static sbf_status time_rows(sweep *s, sbf_diagnostic *error) {
+  uint32_t rounds = s->effort->rounds, count = 0;
+  chart_timed *timed = calloc(s->sheet->row_count + 1, sizeof *timed);
+  if (!timed) return no_memory(error);
+  for (uint32_t i = 0; i < s->sheet->row_count; i++)
+    if (!s->sheet->rows[i].refused)
+      timed[count++] = (chart_timed){
+          .run = chart_motion_run, .context = &s->motions[i], .times = s->sheet->rows[i].runs_us};
+  bool good = count == 0 || chart_time_in_turns(timed, count, rounds, tell_share, s);
+  uint32_t next = 0;
+  double us = 1e6 / s->charted->ticks;
+  for (uint32_t i = 0; good && i < s->sheet->row_count; i++) {
+    chart_row *row = &s->sheet->rows[i];
+    if (row->refused) continue;
+    chart_spread *t = &timed[next++].s;
+    row->us =
+        (chart_spread){us * t->least, us * t->low, us * t->median, us * t->high, us * t->most, t->outliers};
+    for (uint32_t r = 0; r < rounds; r++) row->runs_us[r] *= us;
+  }
+  free(timed);
+  return good ? SBF_OK : no_memory(error);
+}
+
+sbf_status chart_sweep(
+    const chart_case *charted, const chart_effort *effort, chart_sheet *sheet, sbf_diagnostic *error) {
+  enum { MOST_SUBJECTS = 32 };
+  sweep s = {.charted = charted, .effort = effort, .sheet = sheet};
+  chart_subject subjects[MOST_SUBJECTS] = {{.asset = NULL}};
+  sbf_status status = SBF_OK;
+  *sheet = (chart_sheet){
+      .name = charted->name, .title = charted->title, .axes = charted->axes, .rounds = effort->rounds};
+  for (uint32_t i = 0; status == SBF_OK && i < MOST_SUBJECTS; i++) {
+    status = charted->make(i, &subjects[i], error);
+    if (status != SBF_OK || !subjects[i].asset) break;
+    status = sweep_subject(&s, &subjects[i], error);
+  }
+  if (status == SBF_OK) status = time_rows(&s, error);
+  for (uint32_t i = 0; i < sheet->row_count && i < s.motion_room; i++)
+    if (!sheet->rows[i].refused) chart_motion_close(&s.motions[i]);
+  free(s.motions);
+  for (uint32_t i = 0; i < MOST_SUBJECTS; i++) sbf_asset_free(subjects[i].asset);
+  return status;
+}

@@ -1,0 +1,120 @@
+#include "chart/watched_motion.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double FAR_DOWN_M = 1000;
+
+static sbf_status create(chart_motion *m, const chart_setting *setting, sbf_diagnostic *error) {
+  const chart_scene *scene = &m->scene;
+  const sbr_model_options options = {.scheme = setting->scheme,
+      .substeps = setting->substeps,
+      .step_error_m = setting->step_error_m,
+      .has_gravity = scene->has_gravity,
+      .gravity = scene->gravity};
+  sbr_world_definition world = sbr_default_world_definition();
+  sbr_character_definition character = sbr_default_character_definition();
+  world.ground = sbr_ground_flat(scene->grounded ? 0 : -FAR_DOWN_M);
+  world.has_gravity = scene->has_gravity;
+  world.gravity = scene->gravity;
+  world.character_capacity = 1;
+  world.sleep_after_s = 0;
+  world.control_tick_s = (double)scene->asset->environment.control_tick;
+  character.position.y = scene->raise_m + (scene->grounded ? 0 : FAR_DOWN_M);
+  sbf_status status = sbr_model_create(scene->asset, &options, &m->model, error);
+  if (status == SBF_OK) status = sbr_world_create(&world, &m->world, error);
+  if (status == SBF_OK) status = sbr_character_create(m->world, m->model, &character, &m->character, error);
+  return status;
+}
+
+sbf_status chart_motion_open(
+    chart_motion *m, const chart_scene *scene, const chart_setting *setting, sbf_diagnostic *error) {
+  *m = (chart_motion){.scene = *scene};
+  sbf_status status = create(m, setting, error);
+  if (status != SBF_OK) return status;
+  m->begin_size = sbr_world_snapshot_size(m->world);
+  m->begin = malloc(m->begin_size);
+  if (m->begin && sbr_world_snapshot_save(m->world, m->begin, m->begin_size) == SBF_OK) return SBF_OK;
+  *error = (sbf_diagnostic){.severity = SBF_SEVERITY_ERROR, .offset = -1, .index = -1};
+  snprintf(error->message, sizeof error->message, "memory ran out for the beginning of a motion");
+  return SBF_FAILED;
+}
+
+void chart_motion_close(chart_motion *m) {
+  sbr_world_destroy(m->world);
+  sbr_model_destroy(m->model);
+  free(m->begin);
+  *m = (chart_motion){.begin = NULL};
+}
+
+static void advance(chart_motion *m, uint32_t tick) {
+  if (m->scene.guide) m->scene.guide(m->scene.user, m->world, m->character, tick);
+  sbr_world_tick(m->world);
+}
+
+void chart_motion_run(void *motion) {
+  chart_motion *m = motion;
+  sbr_world_snapshot_restore(m->world, m->begin, m->begin_size);
+  for (uint32_t t = 0; t < m->scene.ticks; t++) advance(m, t);
+}
+
+static uint32_t watched(const chart_motion *m) {
+  const sbf_asset *asset = m->scene.asset;
+  uint32_t count = 0;
+  if (m->scene.watch == CHART_WATCH_POINTS) return sbr_character_points(m->world, m->character, 0, NULL, 0);
+  for (uint32_t i = 0; m->scene.watch == CHART_WATCH_SURFACE && i < asset->soft_bodies.count; i++)
+    count += asset->soft_bodies.at[i].surface.positions.count;
+  for (uint32_t i = 0; m->scene.watch == CHART_WATCH_SKIN && i < asset->render_meshes.count; i++)
+    count += asset->render_meshes.at[i].mesh.positions.count;
+  return count;
+}
+
+/* Relative to the character's origin, but for the skin: that is in world space, where it walks to. */
+static void read_places(const chart_motion *m, sbf_vec3 *places, uint32_t count) {
+  const sbf_asset *asset = m->scene.asset;
+  uint32_t at = 0;
+  if (m->scene.watch == CHART_WATCH_POINTS) {
+    sbr_character_points(m->world, m->character, 0, places, count);
+    return;
+  }
+  for (uint32_t i = 0; m->scene.watch == CHART_WATCH_SURFACE && i < asset->soft_bodies.count; i++)
+    at += sbr_character_surface(m->world, m->character, i, places + at, count - at);
+  if (m->scene.watch != CHART_WATCH_SKIN) return;
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    at += sbr_character_skin(m->world, m->character, i, places + at, NULL, NULL, count - at);
+  sbr_double3 origin = sbr_character_origin(m->world, m->character);
+  for (uint32_t i = 0; i < count; i++) {
+    places[i].x += (float)origin.x, places[i].y += (float)origin.y;
+    places[i].z += (float)origin.z;
+  }
+}
+
+static void read_health(const chart_motion *m, chart_track *track, uint32_t tick) {
+  const char *why = NULL;
+  track->volume[tick] = 1;
+  for (uint32_t i = 0; i < m->scene.asset->soft_bodies.count; i++) {
+    sbr_body_health h = sbr_character_health(m->world, m->character, i);
+    track->kinetic_j[tick] += h.kinetic_j;
+    track->energy_j[tick] += h.kinetic_j + h.elastic_j + h.potential_j;
+    track->volume[tick] = i ? fmin(track->volume[tick], (double)h.volume_ratio) : (double)h.volume_ratio;
+    if (!h.finite) why = "numbers that are none";
+    if (h.recoveries) why = "lost its shape and was put back into it";
+    if (h.inverted && tick + 1 == m->scene.ticks) why = "inside out at the end";
+  }
+  if (!why || !track->sound) return;
+  track->sound = false;
+  snprintf(track->why, sizeof track->why, "%s", why);
+}
+
+bool chart_motion_look(chart_motion *m, chart_track *track) {
+  uint32_t count = watched(m);
+  if (!chart_track_make(track, m->scene.ticks, count)) return false;
+  sbr_world_snapshot_restore(m->world, m->begin, m->begin_size);
+  for (uint32_t t = 0; t < m->scene.ticks; t++) {
+    advance(m, t);
+    read_places(m, track->places + (size_t)t * count, count);
+    read_health(m, track, t);
+  }
+  return true;
+}

@@ -1,0 +1,55 @@
+/* A body that the runtime moves by a chosen scheme: to look at, and to time, again and again from the same
+ * beginning. */
+#ifndef CHART_WATCHED_MOTION_H
+#define CHART_WATCHED_MOTION_H
+
+#include "chart/track.h"
+#include "sbrun/sbrun.h"
+
+/* Which points are looked at. */
+typedef enum chart_watch {
+  CHART_WATCH_POINTS,  /* those of the first body's level: to compare runs of one mesh */
+  CHART_WATCH_SURFACE, /* those of all bodies' surfaces: to compare meshes */
+  CHART_WATCH_SKIN     /* those of all render meshes */
+} chart_watch;
+
+typedef struct chart_scene {
+  const sbf_asset *asset;
+  bool has_gravity; /* of its own; else the asset's */
+  sbf_vec3 gravity; /* m/s^2 */
+  bool grounded;    /* there is a ground at world y = 0; else it is a kilometre down */
+  double raise_m;   /* that the character's origin begins above y = 0 */
+  uint32_t ticks;   /* of the world's 1/60 s */
+  chart_watch watch;
+  void (*guide)(void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each; may
+                                                                                              be NULL */
+  void *user;
+} chart_scene;
+
+typedef struct chart_setting {
+  sbf_scheme scheme;
+  uint32_t substeps;  /* 0: its own choice */
+  float step_error_m; /* of schemes that control it; 0: the file's */
+} chart_setting;
+
+typedef struct chart_motion {
+  chart_scene scene;
+  sbr_model *model;
+  sbr_world *world;
+  sbr_character_id character;
+  void *begin; /* snapshot of the beginning */
+  size_t begin_size;
+} chart_motion;
+
+/* The runtime's own failure, with *error, where it refuses; close it in any case. */
+sbf_status chart_motion_open(
+    chart_motion *m, const chart_scene *scene, const chart_setting *setting, sbf_diagnostic *error);
+void chart_motion_close(chart_motion *m);
+
+/* From the beginning through all ticks, without looking. Its type is that of what is timed. */
+void chart_motion_run(void *motion);
+
+/* The same, looking; false where memory runs out. */
+bool chart_motion_look(chart_motion *m, chart_track *track);
+
+#endif

@@ -1,0 +1,220 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "chart/drawing.h"
+#include "chart/rounds.h"
+#include "chart/sweep.h"
+#include "chart/table.h"
+#include "cli.h"
+
+/* What the call asks for. */
+typedef struct request {
+  const char *path;
+  const chart_case **cases;
+  uint32_t case_count;
+  chart_effort effort;
+  chart_machine machine;
+  bool drawn, on_one_core;
+  chart_sheet *sheets; /* (case_count) */
+  const chart_case *now;
+} request;
+
+static void show_progress(void *user, const char *what, double share) {
+  const request *r = user;
+  char text[96];
+  snprintf(text, sizeof text, "%s: %s", r->now->name, what);
+  cli_progress(text, share);
+}
+
+static bool choose_cases(cli_call *call, request *r) {
+  int at = 0;
+  const char *name;
+  r->cases = calloc((size_t)chart_case_count + (size_t)call->given_count, sizeof *r->cases);
+  if (!r->cases) return cli_wrong(call, "memory ran out"), false;
+  while ((name = cli_next_value(call, "--case", &at)) != NULL) {
+    const chart_case *found = chart_case_named(name);
+    if (!found) {
+      fprintf(stderr, "sbfmt chart: error: --case takes one of");
+      for (uint32_t i = 0; i < chart_case_count; i++)
+        fprintf(stderr, "%s %s", i ? "," : "", chart_cases[i].name);
+      fprintf(stderr, ", not '%s'\n", name);
+      return false;
+    }
+    bool known = false;
+    for (uint32_t i = 0; i < r->case_count; i++) known = known || r->cases[i] == found;
+    if (!known) r->cases[r->case_count++] = found;
+  }
+  for (uint32_t i = 0; r->case_count < chart_case_count && i < chart_case_count && at >= 0; i++) {
+    if (cli_value(call, "--case")) break;
+    r->cases[r->case_count++] = &chart_cases[i];
+  }
+  return true;
+}
+
+static bool parse(cli_call *call, request *r) {
+  long rounds = 15, most = 128, core = 0;
+  r->path = cli_value(call, "-o");
+  if (!choose_cases(call, r) || !cli_integer(call, "--runs", 1, 10000, &rounds) ||
+      !cli_integer(call, "--most-substeps", 1, 1024, &most) || !cli_integer(call, "--core", 0, 1023, &core))
+    return false;
+  if (!r->path && !cli_switch(call, "--jobs")) return cli_wrong(call, "say where to: -o DIR"), false;
+  r->effort = (chart_effort){
+      .rounds = (uint32_t)rounds, .most_substeps = (uint32_t)most, .progress = show_progress, .user = r};
+  r->drawn = !cli_switch(call, "--no-svg");
+  if (cli_switch(call, "--jobs")) return true;
+  r->on_one_core = chart_stay_on_core((uint32_t)core);
+  if (!r->on_one_core && cli_value(call, "--core"))
+    return cli_wrong(call, "this process cannot be kept on core %ld: ask for a lower one", core), false;
+  return true;
+}
+
+/* One line a case: what a batch runs side by side. */
+static int print_jobs(const cli_call *call, const request *r) {
+  const char *path = r->path ? r->path : "charts";
+  for (uint32_t i = 0; i < r->case_count; i++)
+    printf("sbfmt chart --case %s --runs %u --most-substeps %u%s -o '%s'\n", r->cases[i]->name,
+        (unsigned)r->effort.rounds, (unsigned)r->effort.most_substeps, r->drawn ? "" : " --no-svg", path);
+  (void)call;
+  return SBF_OK;
+}
+
+/* Tables first: where gnuplot is not there they stay. */
+static int write_all(cli_call *call, const request *r) {
+  chart_folder folder;
+  sbf_diagnostic error, undrawn;
+  sbf_status status = chart_folder_begin(&folder, r->path, &error), drawn = SBF_OK;
+  for (uint32_t i = 0; status == SBF_OK && i < r->case_count; i++)
+    status = chart_table_write(&r->sheets[i], &r->machine, &folder, &error);
+  for (uint32_t i = 0; status == SBF_OK && r->drawn && drawn == SBF_OK && i < r->case_count; i++)
+    drawn = chart_draw(&r->sheets[i], &r->machine, &folder, &undrawn);
+  if (status == SBF_OK) status = chart_folder_commit(&folder, &error);
+  chart_folder_abandon(&folder);
+  if (status != SBF_OK) cli_print_diagnostic(call, &error);
+  if (drawn != SBF_OK) cli_print_diagnostic(call, &undrawn);
+  return status != SBF_OK ? (int)status : (int)drawn;
+}
+
+/* ---- Reports ---- */
+
+static json_t *number(double value) {
+  return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *errors_json(unsigned axes, const double *errors) {
+  json_t *object = json_object();
+  for (int i = 0; i < CHART_AXIS_COUNT; i++)
+    if (axes & 1u << i) json_object_set_new(object, chart_axis_names[i], number(errors[i]));
+  return object;
+}
+
+static json_t *sheet_json(const chart_sheet *s) {
+  json_t *rows = json_array(), *references = json_array();
+  for (uint32_t i = 0; i < s->row_count; i++) {
+    const chart_row *row = &s->rows[i];
+    json_t *one = json_pack("{s:s, s:s, s:i, s:f, s:i, s:s, s:s}", "model", row->model, "scheme", row->scheme,
+        "substeps", (int)row->setting.substeps, "step_error_m", (double)row->setting.step_error_m, "elements",
+        (int)row->elements, "outcome",
+        row->refused ? "refused"
+        : row->sound ? "sound"
+                     : "failed",
+        "why", row->why);
+    json_object_set_new(one, "visits_per_frame", number(row->visits));
+    json_object_set_new(one, "us_per_frame", row->refused ? json_null() : number(row->us.median));
+    json_object_set_new(one, "errors", errors_json(s->axes, row->errors));
+    json_array_append_new(rows, one);
+  }
+  for (uint32_t i = 0; i < s->reference_count; i++)
+    json_array_append_new(
+        references, json_pack("{s:s, s:s, s:o}", "model", s->references[i].model, "what",
+                        s->references[i].what, "errors", errors_json(s->axes, s->references[i].errors)));
+  return json_pack(
+      "{s:s, s:s, s:o, s:o}", "name", s->name, "title", s->title, "references", references, "rows", rows);
+}
+
+static int print_json(const request *r, int status) {
+  json_t *cases = json_array();
+  for (uint32_t i = 0; i < r->case_count; i++) json_array_append_new(cases, sheet_json(&r->sheets[i]));
+  return cli_print_json(json_pack("{s:s, s:s, s:s, s:i, s:s, s:s, s:b, s:i, s:o}", "folder", r->path,
+                            "commit", r->machine.commit, "compiler", r->machine.compiler, "lanes",
+                            (int)r->machine.lanes, "processor", r->machine.processor, "date", r->machine.date,
+                            "one_core", (int)r->on_one_core, "runs", (int)r->effort.rounds, "cases", cases),
+      status);
+}
+
+static void print_text(const request *r) {
+  for (uint32_t i = 0; i < r->case_count; i++) {
+    const chart_sheet *s = &r->sheets[i];
+    uint32_t failed = 0, refused = 0;
+    for (uint32_t k = 0; k < s->row_count; k++)
+      failed += !s->rows[k].sound && !s->rows[k].refused, refused += s->rows[k].refused;
+    printf("%s: %u settings, %u failed, %u refused\n", s->name, (unsigned)s->row_count, (unsigned)failed,
+        (unsigned)refused);
+    for (uint32_t k = 0; k < s->reference_count; k++) {
+      printf("  reference of %s: %s; off by itself:", s->references[k].model, s->references[k].what);
+      for (int axis = 0; axis < CHART_AXIS_COUNT; axis++)
+        if (s->axes & 1u << axis && isfinite(s->references[k].errors[axis]))
+          printf(" %s %.1e", chart_axis_names[axis], s->references[k].errors[axis]);
+      printf("\n");
+    }
+  }
+  if (!r->on_one_core) printf("times are not of one core: this system does not keep a process on one\n");
+  printf("in %s\n", r->path);
+}
+
+static int measure(cli_call *call, request *r) {
+  sbf_diagnostic error;
+  sbf_status status = chart_folder_check(r->path, &error);
+  r->sheets = calloc((size_t)r->case_count + 1, sizeof *r->sheets);
+  if (!r->sheets) return cli_wrong(call, "memory ran out");
+  for (uint32_t i = 0; status == SBF_OK && i < r->case_count; i++) {
+    r->now = r->cases[i];
+    status = chart_sweep(r->cases[i], &r->effort, &r->sheets[i], &error);
+  }
+  cli_progress_end();
+  if (status != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+    return (int)status;
+  }
+  int written = write_all(call, r);
+  if (call->json) return print_json(r, written);
+  if (written == SBF_OK) print_text(r);
+  return written;
+}
+
+static int run(cli_call *call) {
+  request r = {.machine = chart_this_machine()};
+  int status = SBF_FAILED;
+  if (parse(call, &r)) status = cli_switch(call, "--jobs") ? print_jobs(call, &r) : measure(call, &r);
+  for (uint32_t i = 0; r.sheets && i < r.case_count; i++) chart_sheet_free(&r.sheets[i]);
+  free(r.sheets);
+  free(r.cases);
+  return status;
+}
+
+static const cli_option options[] = {
+    {"--case", "NAME", "spring, chain or pendulum; several times for several (default: all)"},
+    {"-o", "DIR", "folder for the tables and drawings; made if it is not there"},
+    {"--runs", "N", "runs that a time is the median of (default 15)"},
+    {"--most-substeps", "N", "schemes get 1, 2, 4 and so on up to this (default 128)"},
+    {"--core", "N", "the core to stay on, of those allowed, from 0 (default 0)"},
+    {"--no-svg", NULL, "tables alone: gnuplot is not needed"},
+    {"--jobs", NULL, "print one command a case, to be run side by side, and measure nothing"},
+    {"--format", "text|json", "how to report (default text)"}, {NULL, NULL, NULL}};
+
+const cli_verb verb_chart = {.name = "chart",
+    .synopsis = "[--case NAME] -o DIR",
+    .summary = "chart speed against accuracy",
+    .details = "Runs known cases by every scheme at many numbers of substeps, measures how far each is off a "
+               "converged\n"
+               "reference and what a frame of it costs on one core, and writes into the folder, for each "
+               "case, a table\n"
+               "(CASE.csv), every run's time (CASE-runs.csv) and a drawing for each measure of error "
+               "(CASE-ERROR.svg,\n"
+               "which needs gnuplot). Runs that fail are marked on top of the drawings. The folder gets all "
+               "of it or\n"
+               "nothing.",
+    .options = options,
+    .least_inputs = 0,
+    .most_inputs = 0,
+    .run = run};
