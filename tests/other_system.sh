@@ -1,27 +1,40 @@
 #!/bin/sh
-# Makes a folder with Debian's unstable suite, its Blender and what draws it without a graphics card, to test the add-on in a newer one
-# than the system's:
+# Makes a folder with Debian's unstable suite, its Blender and Godot and what draws them without a graphics card, to test the add-on in
+# a newer Blender than the system's, and the extension in Godot:
 #   other_system.sh FOLDER
-# It is complete or not there. Needs root, debootstrap and Debian's packages; takes some minutes and 1 GB.
+# Each of the two is complete or not there; a folder that lacks one gets it. Needs root, debootstrap and Debian's packages; takes some
+# minutes and 1.3 GB.
 set -eu
 folder=$1
-# A snapshot of the suite will do, however old: its lists need not be valid today.
 packages='blender python3-numpy python3-cattr python3-requests libegl1 libgl1 libgl1-mesa-dri'
+packages_godot='godot libgl1 libgl1-mesa-dri libx11-6 libxcursor1 libxinerama1 libxrandr2 libxi6 libxext6 libxrender1'
 
-[ ! -x "$folder/usr/bin/blender" ] || exit 0
+# Whether it runs, not whether it lies there: an installation may have been cut short.
+has_godot() { [ -x "$folder/usr/bin/godot" ] && chroot "$folder" godot --version >/dev/null 2>&1; }
+[ ! -x "$folder/usr/bin/blender" ] || [ "$(id -u)" -ne 0 ] || ! has_godot || exit 0
 if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap >/dev/null 2>&1; then
-  echo "no newer Blender: making $folder takes root and debootstrap" >&2
+  echo "no newer Blender and no Godot: making $folder takes root and debootstrap" >&2
   exit 0
 fi
-made=$folder.unfinished
-rm -rf --one-file-system "$made"
-mkdir -p "$made"
-if debootstrap --variant=minbase unstable "$made" >"$made.log" 2>&1 &&
-  chroot "$made" sh -c "apt-get update -qq -o Acquire::Check-Valid-Until=false && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages" \
-    >>"$made.log" 2>&1; then
-  chroot "$made" apt-get clean
+
+# get FOLDER PACKAGES: into that system. A snapshot of the suite will do, however old: its lists need not be valid today.
+get() {
+  chroot "$1" sh -c "dpkg --configure -a && apt-get update -qq -o Acquire::Check-Valid-Until=false && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $2"
+}
+# failed WHAT LOG
+failed() {
+  echo "no $1: debootstrap or apt-get failed; the end of $2 says why:" >&2
+  tail -n 3 "$2" >&2
+  exit 0
+}
+
+if [ ! -x "$folder/usr/bin/blender" ]; then
+  made=$folder.unfinished
+  rm -rf --one-file-system "$made"
+  mkdir -p "$made"
+  debootstrap --variant=minbase unstable "$made" >"$made.log" 2>&1 && get "$made" "$packages" >>"$made.log" 2>&1 ||
+    failed 'newer Blender' "$made.log"
   mv "$made" "$folder"
-else
-  echo "no newer Blender: debootstrap or apt-get failed; the end of $made.log says why:" >&2
-  tail -n 3 "$made.log" >&2
 fi
+has_godot || get "$folder" "$packages_godot" >"$folder.log" 2>&1 || failed 'Godot' "$folder.log"
+chroot "$folder" apt-get clean

@@ -1,0 +1,205 @@
+/* What scripts ask of a SoftCharacter3D, beyond its properties. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sbrun/animation.h"
+#include "sbrun/rigid.h"
+#include "soft_character.h"
+
+#define CALL(name) static void name(void *self, const gd_variant *const *arguments, gd_variant *result)
+#define UNUSED (void)arguments, (void)result
+
+CALL(drive) {
+  soft_character *one = self;
+  UNUSED;
+  one->settings.forward = gd_as_float(arguments[0]);
+  one->settings.sideways = gd_as_float(arguments[1]);
+  one->settings.turn = gd_as_float(arguments[2]);
+  soft_character_drive(one);
+}
+
+CALL(teleport) {
+  soft_character *one = self;
+  UNUSED;
+  if (!one->world) return;
+  soft_character_place(one, gd_as_vector3(arguments[0]), (float)gd_as_float(arguments[1]));
+  one->placed = true;
+  soft_character_follow(one);
+}
+
+CALL(reset_pose) {
+  soft_character *one = self;
+  UNUSED;
+  if (one->world) sbr_character_reset(one->world, one->id);
+  one->stale = true;
+}
+
+CALL(get_travelled) {
+  soft_character *one = self;
+  UNUSED;
+  gd_assign(result, gd_float(one->world ? sbr_character_distance(one->world, one->id) : 0));
+}
+
+CALL(get_state_hash) {
+  soft_character *one = self;
+  char text[32];
+  UNUSED;
+  snprintf(
+      text, sizeof text, "%016llx", one->world ? (unsigned long long)sbr_world_state_hash(one->world) : 0);
+  gd_assign(result, gd_string(text));
+}
+
+CALL(get_leg_count) {
+  soft_character *one = self;
+  UNUSED;
+  gd_assign(result, gd_int(one->world ? sbr_character_legs(one->world, one->id, NULL, 0) : 0));
+}
+
+CALL(is_leg_planted) {
+  soft_character *one = self;
+  sbr_leg_state legs[64];
+  uint32_t count = one->world ? sbr_character_legs(one->world, one->id, legs, 64) : 0;
+  int64_t leg = gd_as_int(arguments[0]);
+  gd_assign(result, gd_bool(leg >= 0 && leg < count && leg < 64 && legs[leg].planted));
+}
+
+/* World positions of a render mesh's vertices, in the file's order. */
+CALL(get_skin) {
+  soft_character *one = self;
+  int64_t mesh = gd_as_int(arguments[0]);
+  uint32_t count = one->world && mesh >= 0 && mesh < one->model->asset->render_meshes.count
+                       ? sbr_character_skin(one->world, one->id, (uint32_t)mesh, NULL, NULL, NULL, 0)
+                       : 0;
+  gd_assign(result, gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY, count));
+  sbf_vec3 *points = count ? gd_vector3s(result) : NULL;
+  if (!points) return;
+  sbr_character_skin(one->world, one->id, (uint32_t)mesh, points, NULL, NULL, count);
+  sbr_double3 origin = sbr_character_origin(one->world, one->id);
+  for (uint32_t i = 0; i < count; i++)
+    points[i] = (sbf_vec3){(float)(origin.x + (double)points[i].x), (float)(origin.y + (double)points[i].y),
+        (float)(origin.z + (double)points[i].z)};
+}
+
+static sbr_body_health health_of(soft_character *one, const gd_variant *body) {
+  int64_t index = gd_as_int(body);
+  sbr_body_health none = {.volume_ratio = 1, .finite = true};
+  if (!one->world || index < 0 || index >= one->model->asset->soft_bodies.count) return none;
+  return sbr_character_health(one->world, one->id, (uint32_t)index);
+}
+
+CALL(get_volume_ratio) {
+  gd_assign(result, gd_float(health_of(self, arguments[0]).volume_ratio));
+}
+
+CALL(get_max_strain) {
+  gd_assign(result, gd_float(health_of(self, arguments[0]).max_strain));
+}
+
+CALL(is_asleep) {
+  gd_assign(result, gd_bool(health_of(self, arguments[0]).asleep));
+}
+
+CALL(get_substeps_needed) {
+  soft_character *one = self;
+  UNUSED;
+  gd_assign(result, gd_int(one->model ? sbr_model_substeps(one->model->model) : 0));
+}
+
+/* Plays a clip by its name in the lowest layer; an empty name fades it out. */
+CALL(play) {
+  soft_character *one = self;
+  char name[256];
+  sbr_clip_play how = {
+      .weight = 1, .speed = 1, .bone_mask = SBF_NONE, .fade_s = (float)gd_as_float(arguments[1])};
+  int32_t clip = SBF_NONE;
+  UNUSED;
+  gd_as_text(arguments[0], name, sizeof name);
+  if (!one->world) return;
+  for (uint32_t i = 0; i < one->model->asset->clips.count; i++)
+    if (!strcmp(one->model->asset->clips.at[i].name, name) ||
+        !strcmp(one->model->asset->clips.at[i].id, name))
+      clip = (int32_t)i;
+  if (name[0] && clip == SBF_NONE)
+    gd_error("play: the asset has no clip of that name: see SoftAsset.get_clip_names");
+  else
+    sbr_character_play(one->world, one->id, 0, clip, &how);
+}
+
+/* Lets it fall over; it gets up by itself. */
+CALL(knock_over) {
+  soft_character *one = self;
+  sbr_rigid_fall fall = sbr_default_rigid_fall();
+  UNUSED;
+  if (one->world) sbr_character_rigid_fall(one->world, one->id, &fall);
+}
+
+CALL(get_skeleton) {
+  soft_character *one = self;
+  UNUSED;
+  gd_assign(result, gd_copy(&one->skeleton));
+}
+
+/* Low and high corner of what it fills at rest, in the node's own space: what the editor draws. */
+CALL(get_rest_bounds) {
+  soft_character *one = self;
+  sbf_vec3 a = one->low, b = one->high;
+  UNUSED;
+  gd_assign(result, gd_aabb_value((gd_aabb){a, {b.x - a.x, b.y - a.y, b.z - a.z}}));
+}
+
+/* Lines of the bones as they stand, in world space, two points each. */
+CALL(get_bone_lines) {
+  soft_character *one = self;
+  uint32_t count = one->world ? one->model->asset->bones.count : 0;
+  sbr_transform *bones = count ? malloc(count * sizeof *bones) : NULL;
+  UNUSED;
+  gd_assign(result, gd_packed(GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY, bones ? 2 * (int64_t)count : 0));
+  if (!bones) return;
+  sbf_vec3 *line = gd_vector3s(result);
+  sbr_double3 o = sbr_character_origin(one->world, one->id);
+  sbr_character_bones(one->world, one->id, bones, count);
+  for (uint32_t i = 0; i < count; i++) {
+    sbf_quat q = bones[i].rotation;
+    float length = one->model->asset->bones.at[i].length * one->scale;
+    sbf_vec3 p = bones[i].position;
+    p = (sbf_vec3){(float)o.x + p.x, (float)o.y + p.y, (float)o.z + p.z};
+    line[2 * i] = p; /* and its tail: where the bone's own +Y leads */
+    line[2 * i + 1] = (sbf_vec3){p.x + length * 2 * (q.x * q.y - q.w * q.z),
+        p.y + length * (1 - 2 * (q.x * q.x + q.z * q.z)), p.z + length * 2 * (q.y * q.z + q.w * q.x)};
+  }
+  free(bones);
+}
+
+#define TYPE(kind) GDEXTENSION_VARIANT_TYPE_##kind
+#define NOTHING                                                                                              \
+  false, {                                                                                                   \
+    "", TYPE(NIL), NULL                                                                                      \
+  }
+#define ANSWER(kind)                                                                                         \
+  true, {                                                                                                    \
+    "", TYPE(kind), NULL                                                                                     \
+  }
+#define WITH(label, kind)                                                                                    \
+  { label, TYPE(kind), NULL }
+const gd_method soft_character_methods[] = {
+    {"drive", drive, NOTHING, 3, {WITH("forward", FLOAT), WITH("sideways", FLOAT), WITH("turn", FLOAT)}},
+    {"teleport", teleport, NOTHING, 2, {WITH("position", VECTOR3), WITH("heading", FLOAT)}},
+    {"reset_pose", reset_pose, NOTHING, 0, {{0}}},
+    {"play", play, NOTHING, 2, {WITH("clip", STRING), WITH("fade", FLOAT)}},
+    {"knock_over", knock_over, NOTHING, 0, {{0}}},
+    {"get_travelled", get_travelled, ANSWER(FLOAT), 0, {{0}}},
+    {"get_leg_count", get_leg_count, ANSWER(INT), 0, {{0}}},
+    {"is_leg_planted", is_leg_planted, ANSWER(BOOL), 1, {WITH("leg", INT)}},
+    {"get_skin", get_skin, ANSWER(PACKED_VECTOR3_ARRAY), 1, {WITH("render_mesh", INT)}},
+    {"get_volume_ratio", get_volume_ratio, ANSWER(FLOAT), 1, {WITH("soft_body", INT)}},
+    {"get_max_strain", get_max_strain, ANSWER(FLOAT), 1, {WITH("soft_body", INT)}},
+    {"is_asleep", is_asleep, ANSWER(BOOL), 1, {WITH("soft_body", INT)}},
+    {"get_substeps_needed", get_substeps_needed, ANSWER(INT), 0, {{0}}},
+    {"get_state_hash", get_state_hash, ANSWER(STRING), 0, {{0}}},
+    {"get_skeleton", get_skeleton, ANSWER(NIL), 0, {{0}}},
+    {"get_rest_bounds", get_rest_bounds, ANSWER(AABB), 0, {{0}}},
+    {"get_bone_lines", get_bone_lines, ANSWER(PACKED_VECTOR3_ARRAY), 0, {{0}}},
+    {"_asset_changed", soft_character_asset_changed, NOTHING, 0, {{0}}},
+    {0},
+};

@@ -1,0 +1,116 @@
+/* What the inspector shows of a SoftCharacter3D. */
+#include "soft_character.h"
+
+/* The resource says that it has changed: the character takes its new content. */
+void soft_character_asset_changed(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  (void)arguments;
+  (void)result;
+  soft_character_make(self);
+}
+
+static gd_variant changed_callable(soft_character *one) {
+  gd_variant made, method = gd_name("_asset_changed");
+  GDExtensionConstVariantPtr given[2] = {&one->node, &method};
+  GDExtensionCallError error;
+  gd.variant_construct(GDEXTENSION_VARIANT_TYPE_CALLABLE, &made, given, 2, &error);
+  gd_free(&method);
+  return made;
+}
+
+static void get_asset(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  (void)arguments;
+  gd_assign(result, gd_copy(&((soft_character *)self)->asset_value));
+}
+
+static void set_asset(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  soft_character *one = self;
+  (void)result;
+  if (gd_as_object(&one->asset_value) == gd_as_object(arguments[0])) return;
+  if (gd_as_object(&one->asset_value))
+    GD_DO(&one->asset_value, "disconnect", gd_name("changed"), changed_callable(one));
+  gd_assign(&one->asset_value, gd_copy(arguments[0]));
+  if (gd_as_object(&one->asset_value))
+    GD_DO(&one->asset_value, "connect", gd_name("changed"), changed_callable(one));
+  soft_character_make(one);
+  GD_DO(&one->node, "update_configuration_warnings");
+}
+
+/* A plain setting: its getter and setter, and what follows from a change. */
+#define SETTING(name, type, after)                                                                           \
+  static void get_##name(void *self, const gd_variant *const *arguments, gd_variant *result) {               \
+    (void)arguments;                                                                                         \
+    gd_assign(result, gd_##type(((soft_character *)self)->settings.name));                                   \
+  }                                                                                                          \
+  static void set_##name(void *self, const gd_variant *const *arguments, gd_variant *result) {               \
+    soft_character *one = self;                                                                              \
+    (void)result;                                                                                            \
+    if (one->settings.name == gd_as_##type(arguments[0])) return;                                            \
+    one->settings.name = gd_as_##type(arguments[0]);                                                         \
+    after;                                                                                                   \
+  }
+
+static void set_pause(soft_character *one) {
+  if (one->world) sbr_character_pause(one->world, one->id, one->settings.paused);
+}
+
+SETTING(scheme, int, soft_character_make(one))
+SETTING(substeps, int, soft_character_make(one))
+SETTING(level, int, soft_character_make(one))
+SETTING(free_bodies, bool, soft_character_make(one))
+SETTING(hold, bool, soft_character_make(one))
+SETTING(threads, bool, soft_character_make(one))
+SETTING(forward, float, soft_character_drive(one))
+SETTING(sideways, float, soft_character_drive(one))
+SETTING(turn, float, soft_character_drive(one))
+SETTING(gravity_scale, float, soft_character_make(one))
+SETTING(paused, bool, set_pause(one))
+SETTING(preview, bool, GD_DO(&one->node, "update_gizmos"))
+SETTING(skeleton, bool, soft_character_make(one))
+SETTING(ground, int, soft_character_make(one))
+SETTING(ground_cell, float, soft_character_make(one))
+SETTING(ground_reach, float, soft_character_make(one))
+SETTING(collision_mask, int, (void)one)
+#undef SETTING
+
+enum { HINT_RANGE = 1, HINT_ENUM = 2, HINT_LAYERS_3D_PHYSICS = 11, HINT_RESOURCE_TYPE = 17 };
+
+#define GROUP(title)                                                                                         \
+  { .name = title }
+#define SHOWN(label, kind, hint_kind, text, get_word, member)                                                \
+  {                                                                                                          \
+    .name = label, .type = GDEXTENSION_VARIANT_TYPE_##kind, .hint = hint_kind, .hint_text = text,            \
+    .getter_name = get_word label, .setter_name = "set_" label, .get = get_##member, .set = set_##member     \
+  }
+const gd_property soft_character_properties[] = {
+    {.name = "asset",
+        .type = GDEXTENSION_VARIANT_TYPE_OBJECT,
+        .hint = HINT_RESOURCE_TYPE,
+        .hint_text = "SoftAsset",
+        .class_name = "SoftAsset",
+        .getter_name = "get_asset",
+        .setter_name = "set_asset",
+        .get = get_asset,
+        .set = set_asset},
+    SHOWN("paused", BOOL, 0, NULL, "is_", paused),
+    SHOWN("preview", BOOL, 0, NULL, "is_", preview),
+    GROUP("Drive"),
+    SHOWN("forward_speed", FLOAT, HINT_RANGE, "-5,5,0.01,or_less,or_greater,suffix:m/s", "get_", forward),
+    SHOWN("sideways_speed", FLOAT, HINT_RANGE, "-5,5,0.01,or_less,or_greater,suffix:m/s", "get_", sideways),
+    SHOWN("turn_speed", FLOAT, HINT_RANGE, "-3.2,3.2,0.01,or_less,or_greater,suffix:rad/s", "get_", turn),
+    GROUP("Simulation"),
+    SHOWN("scheme", INT, HINT_ENUM,
+        "Automatic,Symplectic,Position Based,Relaxation,Explicit Euler,Heun,Block Descent", "get_", scheme),
+    SHOWN("substeps", INT, HINT_RANGE, "0,100,1,or_greater", "get_", substeps),
+    SHOWN("level", INT, HINT_RANGE, "0,8,1", "get_", level),
+    SHOWN("gravity_scale", FLOAT, HINT_RANGE, "-4,4,0.01,or_less,or_greater", "get_", gravity_scale),
+    SHOWN("free_bodies", BOOL, 0, NULL, "is_", free_bodies),
+    SHOWN("hold_pose", BOOL, 0, NULL, "is_", hold),
+    SHOWN("use_threads", BOOL, 0, NULL, "is_", threads),
+    SHOWN("mirror_skeleton", BOOL, 0, NULL, "is_", skeleton),
+    GROUP("Ground"),
+    SHOWN("ground", INT, HINT_ENUM, "Physics Space,Flat", "get_", ground),
+    SHOWN("ground_cell", FLOAT, HINT_RANGE, "0,1,0.001,or_greater,suffix:m", "get_", ground_cell),
+    SHOWN("ground_reach", FLOAT, HINT_RANGE, "0,10,0.01,or_greater,suffix:m", "get_", ground_reach),
+    SHOWN("collision_mask", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_mask),
+    {0},
+};

@@ -1,0 +1,73 @@
+/* The bones as a Skeleton3D, for attachments and whatever else of Godot's works on one. */
+#include <stdlib.h>
+
+#include "soft_character.h"
+
+static sbf_quat product(sbf_quat a, sbf_quat b) {
+  return (sbf_quat){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+static gd_transform transform(sbf_quat q, sbf_vec3 at) {
+  float x = q.x, y = q.y, z = q.z, w = q.w;
+  return (gd_transform){{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}},
+      at};
+}
+
+static sbf_vec3 times(const gd_transform *t, sbf_vec3 v) {
+  return (sbf_vec3){t->basis[0][0] * v.x + t->basis[0][1] * v.y + t->basis[0][2] * v.z,
+      t->basis[1][0] * v.x + t->basis[1][1] * v.y + t->basis[1][2] * v.z,
+      t->basis[2][0] * v.x + t->basis[2][1] * v.y + t->basis[2][2] * v.z};
+}
+
+/* A bone's frame as its parent sees it; without one, as the skeleton does. */
+static gd_transform local(const sbr_transform *bones, int32_t parent, uint32_t bone) {
+  if (parent < 0) return transform(bones[bone].rotation, bones[bone].position);
+  sbf_quat q = bones[parent].rotation, back = {-q.x, -q.y, -q.z, q.w};
+  gd_transform turn = transform(back, (sbf_vec3){0, 0, 0});
+  sbf_vec3 a = bones[parent].position, b = bones[bone].position;
+  return transform(
+      product(back, bones[bone].rotation), times(&turn, (sbf_vec3){b.x - a.x, b.y - a.y, b.z - a.z}));
+}
+
+void character_skeleton_make(soft_character *one) {
+  const sbf_bone_list *list = &one->model->asset->bones;
+  sbr_transform *rest = list->count ? malloc(list->count * sizeof *rest) : NULL;
+  if (!rest) return;
+  one->skeleton = gd_new("Skeleton3D");
+  GD_DO(&one->skeleton, "set_name", gd_string("Skeleton3D"));
+  GD_DO(&one->skeleton, "set_as_top_level", gd_bool(true));
+  for (uint32_t i = 0; i < list->count; i++) {
+    const sbf_bone *bone = &list->at[i];
+    rest[i] = (sbr_transform){bone->head, bone->rotation};
+    GD_DO(&one->skeleton, "add_bone", gd_string(bone->name[0] ? bone->name : bone->id));
+    if (bone->parent >= 0) GD_DO(&one->skeleton, "set_bone_parent", gd_int(i), gd_int(bone->parent));
+    GD_DO(&one->skeleton, "set_bone_rest", gd_int(i), gd_transform_value(local(rest, bone->parent, i)));
+  }
+  free(rest);
+  GD_DO(
+      &one->node, "add_child", gd_copy(&one->skeleton), gd_bool(false), gd_int(1)); /* INTERNAL_MODE_FRONT */
+  character_skeleton_update(one);
+}
+
+void character_skeleton_free(soft_character *one) {
+  if (gd_as_object(&one->skeleton)) GD_DO(&one->skeleton, "queue_free");
+  gd_free(&one->skeleton);
+}
+
+void character_skeleton_update(soft_character *one) {
+  const sbf_bone_list *list = &one->model->asset->bones;
+  sbr_transform *bones = gd_as_object(&one->skeleton) ? malloc((list->count + 1) * sizeof *bones) : NULL;
+  if (!bones) return;
+  sbr_double3 origin = sbr_character_origin(one->world, one->id);
+  sbr_character_bones(one->world, one->id, bones, list->count);
+  GD_DO(&one->skeleton, "set_global_position",
+      gd_vector3((sbf_vec3){(float)origin.x, (float)origin.y, (float)origin.z}));
+  for (uint32_t i = 0; i < list->count; i++)
+    GD_DO(
+        &one->skeleton, "set_bone_pose", gd_int(i), gd_transform_value(local(bones, list->at[i].parent, i)));
+  free(bones);
+}

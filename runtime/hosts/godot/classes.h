@@ -1,0 +1,74 @@
+/* Classes for Godot, from tables: what one lists of methods, properties and signals is registered, and its
+ * functions are called with values whichever way Godot calls them. */
+#ifndef SBFMT_GODOT_CLASSES_H
+#define SBFMT_GODOT_CLASSES_H
+
+#include "variants.h"
+
+/* `arguments` are as many as the table says; `result` is nil, and may be assigned. */
+typedef void gd_function(void *self, const gd_variant *const *arguments, gd_variant *result);
+
+/* A value that is handed over. */
+typedef struct gd_argument {
+  const char *name;
+  GDExtensionVariantType type; /* NIL: a Variant of any type */
+  const char *class_name;      /* of an object; NULL: none in particular */
+} gd_argument;
+
+/* What can be called. In a table of virtual ones the name is Godot's, with its underscore. */
+typedef struct gd_method {
+  const char *name;
+  gd_function *run;
+  bool answers;       /* it has a result */
+  gd_argument result; /* its name does not matter; objects must be reference counted */
+  uint32_t count;     /* of arguments, at most 5 */
+  gd_argument arguments[5];
+} gd_method;
+
+/* What is shown in the inspector, by a getter and a setter. One without `get` begins a group of its name. */
+typedef struct gd_property {
+  const char *name;
+  GDExtensionVariantType type;
+  uint32_t hint; /* of Godot's PropertyHint */
+  const char *hint_text;
+  uint32_t usage; /* of Godot's PropertyUsageFlags; 0: shown and stored */
+  const char *class_name;
+  const char *getter_name, *setter_name;
+  gd_function *get, *set;
+} gd_property;
+
+/* What is told. */
+typedef struct gd_signal {
+  const char *name;
+  uint32_t count;
+  gd_argument arguments[6];
+} gd_signal;
+
+/* A number with a name, in an enumeration. */
+typedef struct gd_constant {
+  const char *enumeration, *name;
+  int64_t value;
+} gd_constant;
+
+/* Tables end with an entry without a name; they may be NULL. */
+typedef struct gd_class {
+  const char *name, *parent;
+  bool counted;                                            /* by references, as resources are */
+  size_t size;                                             /* of an instance, which begins as zeros */
+  void (*begin)(void *self, GDExtensionObjectPtr object);  /* may be NULL */
+  void (*end)(void *self);                                 /* likewise */
+  void (*notify)(void *self, int32_t what, bool reversed); /* likewise */
+  const gd_method *methods, *virtuals;
+  const gd_property *properties;
+  const gd_signal *signals;
+  const gd_constant *constants;
+} gd_class;
+
+void gd_class_register(const gd_class *form);
+void gd_class_unregister(const gd_class *form);
+/* A new instance; the object, whose own value is freed when nobody holds it. */
+gd_variant gd_class_new(const gd_class *form);
+/* What begins at `size` zeros, of an object; NULL where it is none of that class. */
+void *gd_class_instance(const gd_class *form, GDExtensionObjectPtr object);
+
+#endif

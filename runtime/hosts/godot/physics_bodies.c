@@ -1,0 +1,275 @@
+/* The moving bodies near a character: a query with its bounds as a box finds them, and each of their shapes
+ * is mirrored as a collider of the runtime, which its threads then meet without asking Godot. What stands
+ * still is ground (physics_ground.c). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "soft_character.h"
+
+enum {
+  MOST = 64,     /* shapes at once */
+  KEPT = 30,     /* frames for which one is kept that is no longer near */
+  AGAIN = 4,     /* frames between two looks around */
+  CYLINDER = 16, /* sides of a cylinder's hull */
+  MODE_RIGID = 2,
+  MODE_RIGID_LINEAR = 3,
+  PARAM_BOUNCE = 0,
+  PARAM_FRICTION = 1,
+  STATE_TRANSFORM = 0
+};
+/* Godot's kinds of shapes that a moving body may have. */
+enum { SHAPE_SPHERE = 2, SHAPE_BOX = 3, SHAPE_CAPSULE = 4, SHAPE_CYLINDER = 5, SHAPE_CONCAVE = 7 };
+
+typedef struct mirrored {
+  uint64_t body;      /* RID; 0: free */
+  int64_t index;      /* of its shapes */
+  gd_variant handle;  /* the RID as a value */
+  uint64_t object;    /* instance id of the node */
+  sbr_shape *shape;   /* NULL: of a kind that has none here */
+  sbr_collider_id id; /* in the character's world */
+  uint32_t seen;      /* frame it was last near */
+} mirrored;
+
+struct physics_bodies {
+  mirrored each[MOST];
+  uint32_t frame;
+  gd_variant query, box; /* PhysicsShapeQueryParameters3D and its BoxShape3D */
+};
+
+physics_bodies *physics_bodies_make(void) {
+  physics_bodies *made = calloc(1, sizeof *made);
+  if (!made) return NULL;
+  made->query = gd_new("PhysicsShapeQueryParameters3D");
+  made->box = gd_new("BoxShape3D");
+  GD_DO(&made->query, "set_shape", gd_copy(&made->box));
+  return made;
+}
+
+static void drop(mirrored *one, sbr_world *world) {
+  if (world) sbr_collider_destroy(world, one->id);
+  sbr_shape_destroy(one->shape);
+  gd_free(&one->handle);
+  *one = (mirrored){0};
+}
+
+void physics_bodies_free(physics_bodies *bodies, sbr_world *world) {
+  if (!bodies) return;
+  for (uint32_t i = 0; i < MOST; i++)
+    if (bodies->each[i].body) drop(&bodies->each[i], world);
+  gd_free(&bodies->query);
+  gd_free(&bodies->box);
+  free(bodies);
+}
+
+gd_variant physics_bodies_handles(const physics_bodies *bodies) {
+  gd_variant array = gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY);
+  for (uint32_t i = 0; i < MOST; i++)
+    if (bodies->each[i].body) GD_DO(&array, "push_back", gd_copy(&bodies->each[i].handle));
+  return array;
+}
+
+gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider) {
+  for (uint32_t i = 0; collider.value && i < MOST; i++)
+    if (bodies->each[i].id.value == collider.value)
+      return gd_object(gd.object_get_instance_from_id(bodies->each[i].object));
+  return gd_object(NULL);
+}
+
+/* ---- Shapes ---- */
+
+static sbr_shape *of_points(sbr_shape_kind kind, const sbf_vec3 *points, uint32_t count,
+    const uint32_t *triangles, uint32_t triangle_count) {
+  sbr_shape_definition form = sbr_default_shape_definition();
+  sbr_shape *made = NULL;
+  form.kind = kind;
+  form.points = points;
+  form.point_count = count;
+  form.triangles = triangles;
+  form.triangle_count = triangle_count;
+  return sbr_shape_create(NULL, &form, &made, NULL) == SBF_OK ? made : NULL;
+}
+
+static sbr_shape *cylinder(float radius, float height) {
+  sbf_vec3 points[2 * CYLINDER];
+  uint32_t triangles[3 * (4 * CYLINDER - 4)], written = 0;
+  for (uint32_t i = 0; i < CYLINDER; i++) {
+    float angle = 6.2831853f * (float)i / CYLINDER, x = radius * cosf(angle), z = radius * sinf(angle);
+    uint32_t j = (i + 1) % CYLINDER, side[6] = {i, j, CYLINDER + i, j, CYLINDER + j, CYLINDER + i};
+    points[i] = (sbf_vec3){x, -height / 2, z};
+    points[CYLINDER + i] = (sbf_vec3){x, height / 2, z};
+    memcpy(&triangles[written], side, sizeof side);
+    written += 6;
+    if (i < 2) continue;
+    uint32_t ends[6] = {0, i - 1, i, CYLINDER, CYLINDER + i, CYLINDER + i - 1};
+    memcpy(&triangles[written], ends, sizeof ends);
+    written += 6;
+  }
+  return of_points(SBR_SHAPE_HULL, points, 2 * CYLINDER, triangles, written / 3);
+}
+
+/* Godot's faces are clockwise seen from outside. */
+static sbr_shape *concave(const gd_variant *data) {
+  gd_variant faces = gd_key(data, "faces");
+  uint32_t count = (uint32_t)gd_size(&faces) / 3 * 3;
+  uint32_t *triangles = count ? malloc(count * sizeof *triangles) : NULL;
+  sbr_shape *made = NULL;
+  for (uint32_t i = 0; triangles && i < count; i++) triangles[i] = i - i % 3 + (3 - i % 3) % 3;
+  if (triangles) made = of_points(SBR_SHAPE_MESH, gd_vector3s(&faces), count, triangles, count / 3);
+  free(triangles);
+  gd_free(&faces);
+  return made;
+}
+
+static float number(const gd_variant *data, const char *key) {
+  return (float)gd_take_float(gd_key(data, key));
+}
+
+static sbr_shape *shape_of(const gd_variant *server, const gd_variant *body, int64_t index) {
+  gd_variant handle = GD_CALL(server, "body_get_shape", gd_copy(body), gd_int(index));
+  gd_variant data = GD_CALL(server, "shape_get_data", gd_copy(&handle));
+  sbr_shape_definition form = sbr_default_shape_definition();
+  sbr_shape *made = NULL;
+  int64_t kind = gd_take_int(GD_CALL(server, "shape_get_type", gd_copy(&handle)));
+  if (kind == SHAPE_SPHERE) {
+    form.radius = (float)gd_as_float(&data);
+    sbr_shape_create(NULL, &form, &made, NULL);
+  } else if (kind == SHAPE_BOX) {
+    form.kind = SBR_SHAPE_BOX;
+    form.half_sizes = gd_as_vector3(&data);
+    sbr_shape_create(NULL, &form, &made, NULL);
+  } else if (kind == SHAPE_CAPSULE) {
+    form.kind = SBR_SHAPE_CAPSULE;
+    form.radius = number(&data, "radius");
+    form.half_sizes.y = number(&data, "height") / 2 - form.radius;
+    sbr_shape_create(NULL, &form, &made, NULL);
+  } else if (kind == SHAPE_CYLINDER)
+    made = cylinder(number(&data, "radius"), number(&data, "height"));
+  else if (kind == SHAPE_CONCAVE)
+    made = concave(&data);
+  gd_free(&data);
+  gd_free(&handle);
+  return made;
+}
+
+/* ---- Where they are ---- */
+
+static sbf_quat quat_of(float m[3][3]) {
+  float t = m[0][0] + m[1][1] + m[2][2];
+  sbf_quat q;
+  if (t > 0) {
+    float s = 2 * sqrtf(t + 1);
+    q = (sbf_quat){(m[2][1] - m[1][2]) / s, (m[0][2] - m[2][0]) / s, (m[1][0] - m[0][1]) / s, s / 4};
+  } else if (m[0][0] > m[1][1] && m[0][0] > m[2][2]) {
+    float s = 2 * sqrtf(1 + m[0][0] - m[1][1] - m[2][2]);
+    q = (sbf_quat){s / 4, (m[0][1] + m[1][0]) / s, (m[0][2] + m[2][0]) / s, (m[2][1] - m[1][2]) / s};
+  } else if (m[1][1] > m[2][2]) {
+    float s = 2 * sqrtf(1 + m[1][1] - m[0][0] - m[2][2]);
+    q = (sbf_quat){(m[0][1] + m[1][0]) / s, s / 4, (m[1][2] + m[2][1]) / s, (m[0][2] - m[2][0]) / s};
+  } else {
+    float s = 2 * sqrtf(1 + m[2][2] - m[0][0] - m[1][1]);
+    q = (sbf_quat){(m[0][2] + m[2][0]) / s, (m[1][2] + m[2][1]) / s, s / 4, (m[1][0] - m[0][1]) / s};
+  }
+  return q;
+}
+
+static gd_transform place_of(const gd_variant *server, const mirrored *one) {
+  gd_variant body = GD_CALL(server, "body_get_state", gd_copy(&one->handle), gd_int(STATE_TRANSFORM));
+  gd_variant inner = GD_CALL(server, "body_get_shape_transform", gd_copy(&one->handle), gd_int(one->index));
+  gd_transform a = gd_as_transform(&body), b = gd_as_transform(&inner), made;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      made.basis[i][j] =
+          a.basis[i][0] * b.basis[0][j] + a.basis[i][1] * b.basis[1][j] + a.basis[i][2] * b.basis[2][j];
+  sbf_vec3 o = b.origin;
+  made.origin = (sbf_vec3){a.origin.x + a.basis[0][0] * o.x + a.basis[0][1] * o.y + a.basis[0][2] * o.z,
+      a.origin.y + a.basis[1][0] * o.x + a.basis[1][1] * o.y + a.basis[1][2] * o.z,
+      a.origin.z + a.basis[2][0] * o.x + a.basis[2][1] * o.y + a.basis[2][2] * o.z};
+  gd_free(&body);
+  gd_free(&inner);
+  return made;
+}
+
+static void meet(soft_character *one, const gd_variant *server, const gd_variant *hit) {
+  physics_bodies *bodies = one->bodies;
+  gd_variant handle = gd_key(hit, "rid"), object = gd_key(hit, "collider");
+  uint64_t body = gd_as_rid(&handle);
+  int64_t index = gd_take_int(gd_key(hit, "shape")),
+          mode = gd_take_int(GD_CALL(server, "body_get_mode", gd_copy(&handle)));
+  bool moves = mode == MODE_RIGID || mode == MODE_RIGID_LINEAR;
+  if (!moves && gd_as_object(&object)) /* a frozen body's mode says nothing of what it is */
+    moves = gd_take_bool(GD_CALL(&object, "is_class", gd_string("CharacterBody3D"))) ||
+            gd_take_bool(GD_CALL(&object, "is_class", gd_string("RigidBody3D")));
+  mirrored *room = NULL, *known = NULL;
+  for (uint32_t i = 0; i < MOST; i++) {
+    mirrored *at = &bodies->each[i];
+    if (at->body == body && at->index == index && body) known = at;
+    if (!at->body && !room) room = at;
+  }
+  if (known) known->seen = bodies->frame;
+  if (!known && moves && room && body) {
+    *room = (mirrored){
+        body, index, gd_copy(&handle), gd.variant_get_object_instance_id(&object), NULL, {0}, bodies->frame};
+    room->shape = shape_of(server, &handle, index);
+    gd_transform at = place_of(server, room);
+    sbr_collider_definition made = sbr_default_collider_definition();
+    made.shape = room->shape;
+    made.position = (sbr_double3){at.origin.x, at.origin.y, at.origin.z};
+    made.rotation = quat_of(at.basis);
+    made.friction =
+        (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&handle), gd_int(PARAM_FRICTION)));
+    made.restitution =
+        (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&handle), gd_int(PARAM_BOUNCE)));
+    if (room->shape) sbr_collider_create(one->world, &made, &room->id, NULL);
+  }
+  gd_free(&handle);
+  gd_free(&object);
+}
+
+/* The bodies in a box about the character. */
+static void look_around(soft_character *one) {
+  physics_bodies *bodies = one->bodies;
+  gd_variant world = GD_CALL(&one->node, "get_world_3d");
+  gd_variant space = gd_as_object(&world) ? GD_CALL(&world, "get_direct_space_state") : gd_nil();
+  if (gd_as_object(&space)) {
+    float wide = fmaxf(fmaxf(one->high.x, -one->low.x), fmaxf(one->high.z, -one->low.z)) * one->scale;
+    float tall = (one->high.y - one->low.y) * one->scale;
+    gd_variant server = gd_singleton("PhysicsServer3D");
+    gd_transform at = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, one->put.origin};
+    at.origin.y += (one->low.y + one->high.y) / 2 * one->scale;
+    GD_DO(&bodies->box, "set_size", gd_vector3((sbf_vec3){4 * wide, 2 * tall + 2 * wide, 4 * wide}));
+    GD_DO(&bodies->query, "set_transform", gd_transform_value(at));
+    GD_DO(&bodies->query, "set_collision_mask", gd_int(one->settings.collision_mask));
+    gd_variant hits = GD_CALL(&space, "intersect_shape", gd_copy(&bodies->query), gd_int(MOST));
+    int64_t count = gd_size(&hits);
+    for (int64_t i = 0; i < count; i++) {
+      gd_variant hit = gd_at(&hits, i);
+      meet(one, &server, &hit);
+      gd_free(&hit);
+    }
+    gd_free(&hits);
+    gd_free(&server);
+  }
+  gd_free(&space);
+  gd_free(&world);
+}
+
+void physics_bodies_look(soft_character *one) {
+  physics_bodies *bodies = one->bodies;
+  if (bodies->frame++ % AGAIN == 0) look_around(one);
+  gd_variant server = gd_nil();
+  for (uint32_t i = 0; i < MOST; i++) {
+    mirrored *at = &bodies->each[i];
+    if (!at->body) continue;
+    if (bodies->frame - at->seen > KEPT || !gd.object_get_instance_from_id(at->object)) {
+      drop(at, one->world);
+      continue;
+    }
+    if (!at->id.value) continue;
+    if (!gd_as_object(&server)) gd_assign(&server, gd_singleton("PhysicsServer3D"));
+    gd_transform now = place_of(&server, at);
+    sbr_collider_move(
+        one->world, at->id, (sbr_double3){now.origin.x, now.origin.y, now.origin.z}, quat_of(now.basis));
+  }
+  gd_free(&server);
+}

@@ -1,0 +1,113 @@
+/* SoftCharacter3D: a node that shows a SoftAsset and brings it to life.
+ *
+ * Each node has a world of its own, stepped once a physics frame. One idea a file: what the inspector shows
+ * (character_properties.c), its life (soft_character.c), what scripts call (character_calls.c), its mesh, its
+ * skeleton, the ground and the bodies that it meets. */
+#ifndef SBFMT_GODOT_SOFT_CHARACTER_H
+#define SBFMT_GODOT_SOFT_CHARACTER_H
+
+#include "sbrun/collision.h"
+#include "soft_asset.h"
+
+/* Where its ground comes from. */
+typedef enum soft_ground {
+  SOFT_GROUND_PHYSICS, /* rays into the physics space */
+  SOFT_GROUND_FLAT     /* a plane at the height where the node began */
+} soft_ground;
+
+/* What the inspector sets. */
+typedef struct soft_settings {
+  int64_t scheme, substeps, level; /* as sbr_model_options has them */
+  bool free_bodies, hold, threads;
+  double forward, sideways, turn; /* m/s, m/s, rad/s */
+  double gravity_scale;
+  bool paused, preview, skeleton;
+  int64_t ground;                   /* a soft_ground */
+  double ground_cell, ground_reach; /* m; 0: by the character's size */
+  int64_t collision_mask;           /* physics layers of what it meets */
+} soft_settings;
+
+typedef struct character_mesh character_mesh;
+typedef struct physics_ground physics_ground;
+typedef struct physics_bodies physics_bodies;
+
+typedef struct soft_character {
+  gd_variant node;        /* itself, not held */
+  gd_variant asset_value; /* the resource, held; nil: none */
+  soft_settings settings;
+  bool editor;
+
+  /* While there is an asset and the node is in a tree. */
+  soft_model *model;
+  sbr_world *world;
+  sbr_character_id id;
+  sbf_vec3 low, high; /* of the asset at rest, m */
+  float scale;        /* the node's own when it began */
+  bool placed;        /* on the ground, by the first physics frame */
+  double flat_y;      /* height of the flat ground */
+  gd_transform put;   /* where it was last put by its own motion */
+  bool stale;         /* the mesh is to be drawn anew */
+  character_mesh *mesh;
+  gd_variant skeleton; /* Skeleton3D; nil: none */
+  physics_ground *ground;
+  physics_bodies *bodies;
+} soft_character;
+
+extern const gd_class soft_character_class;
+extern const gd_property soft_character_properties[];
+extern const gd_method soft_character_methods[];
+
+/* ---- soft_character.c ---- */
+
+/* Makes model, world and mesh anew, with what they were doing where that fits; called at every change of the
+ * asset or of what a model is made with. Nothing without an asset or outside of a tree. */
+void soft_character_make(soft_character *one);
+/* Leaves the node where the character now is. */
+void soft_character_follow(soft_character *one);
+/* Puts it somewhere: a place above the ground below it (m), a heading (rad). */
+void soft_character_place(soft_character *one, sbf_vec3 position, float heading);
+void soft_character_drive(soft_character *one);
+double soft_character_ground_height(const soft_character *one, double x, double z);
+
+/* ---- character_properties.c ---- */
+
+/* The resource says that it has changed: the character takes its new content. */
+gd_function soft_character_asset_changed;
+
+/* ---- character_mesh.c ---- */
+
+/* NULL where memory runs out, or nothing is to be drawn. It shows itself under the node. */
+character_mesh *character_mesh_make(soft_character *one);
+void character_mesh_free(character_mesh *mesh);
+void character_mesh_update(character_mesh *mesh, soft_character *one);
+
+/* ---- character_skeleton.c ---- */
+
+void character_skeleton_make(soft_character *one);
+void character_skeleton_free(soft_character *one);
+void character_skeleton_update(soft_character *one);
+
+/* ---- physics_ground.c ---- */
+
+physics_ground *physics_ground_make(const soft_character *one);
+void physics_ground_free(physics_ground *ground);
+/* Casts what is missing around the character; main thread, in a physics frame. */
+void physics_ground_look(soft_character *one);
+sbr_ground physics_ground_of(physics_ground *ground);
+
+/* ---- physics_bodies.c ---- */
+
+physics_bodies *physics_bodies_make(void);
+void physics_bodies_free(physics_bodies *bodies, sbr_world *world);
+/* Makes colliders of the moving bodies near the character, and moves those that there are. */
+void physics_bodies_look(soft_character *one);
+/* Their handles, which rays leave out: an array of RIDs; and the object that a collider is of, or null. */
+gd_variant physics_bodies_handles(const physics_bodies *bodies);
+gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider);
+
+/* ---- worker_pool.c ---- */
+
+/* Tasks on Godot's WorkerThreadPool. */
+sbr_tasks worker_pool_tasks(void);
+
+#endif

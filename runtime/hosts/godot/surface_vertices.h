@@ -1,0 +1,21 @@
+/* One material's triangles of a render mesh, with a vertex for each different corner. */
+#ifndef SBFMT_GODOT_SURFACE_VERTICES_H
+#define SBFMT_GODOT_SURFACE_VERTICES_H
+
+#include "sbrun/sbrun.h"
+
+typedef struct surface_vertices {
+  uint32_t count;       /* of vertices */
+  uint32_t *points;     /* (count) of the mesh */
+  uint32_t *corners;    /* (count) one of the mesh's polygon_points that it stands for */
+  sbf_vec2 *uvs;        /* (count) origin at the upper left, as Godot's; NULL: none */
+  uint32_t index_count; /* three a triangle */
+  int32_t *indices;     /* (index_count) clockwise seen from outside, as Godot wants them */
+} surface_vertices;
+
+/* `hard`: corners of different normals are different. False where memory runs out; then there is nothing to
+ * free. */
+bool surface_vertices_make(surface_vertices *made, const sbf_render_mesh *mesh, uint32_t slot, bool hard);
+void surface_vertices_free(surface_vertices *made);
+
+#endif

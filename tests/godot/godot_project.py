@@ -1,0 +1,87 @@
+"""A Godot that runs scripts in a project of its own with the add-on as it is installed, and nothing of the user's."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.realpath(os.path.join(HERE, os.pardir, os.pardir))
+
+PROJECT = """config_version=5
+
+[application]
+
+config/name="test"
+
+[physics]
+
+3d/physics_engine="{engine}"
+"""
+
+
+def skip(why):
+    print(f"skipped: {why}")
+    sys.exit(77)
+
+
+class Godot:
+    """Of this system, or of another one in a folder (root only). `folder` is its project. Ends the test where there is none."""
+
+    def __init__(self, root, godot, build):
+        self.root = root.rstrip("/")
+        self.godot = godot or "godot"
+        if not build or not (os.path.exists(f"{self.root}/usr/bin/godot") if self.root else shutil.which(self.godot)):
+            skip("there is no Godot 4.6 and so no extension for it: tests/other_system.sh build/other-system fetches one, then configure anew")
+        self.build = build
+        self.temporary = tempfile.TemporaryDirectory(dir=f"{self.root}/tmp" if self.root else None)
+        self.folder = self.temporary.name
+
+    def __enter__(self):
+        subprocess.run(["cmake", "--install", self.build, "--component", "godot", "--prefix", self.folder], check=True,
+                       stdout=subprocess.DEVNULL)
+        # Until the editor has seen a project, this list is how a game finds its extensions.
+        self.write(".godot/extension_list.cfg", "res://addons/sbfmt/sbfmt.gdextension\n")
+        self.set_engine("Jolt Physics")
+        return self
+
+    def __exit__(self, *_):
+        self.temporary.cleanup()
+
+    def write(self, name, text):
+        path = os.path.join(self.folder, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def set_engine(self, engine):
+        self.write("project.godot", PROJECT.format(engine=engine))
+
+    def copy(self, *names):
+        for name in names:
+            shutil.copy(name, self.folder)
+
+    @property
+    def inside(self):
+        """The folder as Godot sees it."""
+        return self.folder[len(self.root):]
+
+    def command(self, *words):
+        first = ["/usr/sbin/chroot", self.root] if self.root else []
+        return [*first, self.godot, "--path", self.inside, *words]
+
+    def run(self, *words, **settings):
+        """A finished process, with what it said in one text."""
+        environment = {**os.environ, "HOME": self.inside, "PATH": "/usr/bin:/bin", **settings}
+        return subprocess.run(self.command(*words), env=environment, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, timeout=550)
+
+    def passes(self, script, *words, allowed=()):
+        """Whether a script of this folder ends with status 0 and Godot complains of nothing but what is `allowed`."""
+        self.copy(os.path.join(HERE, "checks.gd"), os.path.join(HERE, f"{script}.gd"))
+        done = self.run("--headless", "--fixed-fps", "60", "--script", f"{script}.gd", "--", *words)
+        print(done.stdout)
+        complaints = [line for line in done.stdout.splitlines() if line.startswith(("ERROR:", "SCRIPT ERROR:", "FAILED"))
+                      and not any(one in line for one in allowed)]
+        return done.returncode == 0 and not complaints
