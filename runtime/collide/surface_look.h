@@ -16,8 +16,10 @@
 #define SBRI_OUTSIDE 0.99f
 
 typedef struct sbri_surface_rule {
-  float outer, inner; /* m: contact begins so far outside, and is found so deep inside */
-  bool two_sided;     /* a sheet, or open */
+  /* m: found so far outside, which is where contact begins and what weight and springs may add to the way
+   * within the tick; and so deep inside. */
+  float outer, inner;
+  bool two_sided; /* a sheet, or open */
 } sbri_surface_rule;
 
 /* A triangle: its corners, and how far they go in the tick. */

@@ -14,6 +14,9 @@ static const float REST_SHARE = 0.9f;
 /* Nearer than this at rest, two parts are one. */
 static const float TOGETHER_M = 1e-5f;
 
+/* What lies at the thickness would else be let go each other tick, and fall: of the body's size. */
+static const float NEAR_SHARE = 0.01f;
+
 typedef struct looking {
   const sbri_island_tick *tick;
   const sbri_body *body;
@@ -68,8 +71,9 @@ static float relative_mass(const sbri_island *island, const sbri_sample *s) {
 void sbri_self_touches_add(const sbri_island_tick *t, const sbri_body *body,
     const sbri_contact_tables *tables, sbri_bounds_tree *tree, sbri_box *boxes) {
   const sbf_collision *rule = &body->source->collision;
-  looking l = {
-      t, body, {rule->outer_thickness, rule->inner_thickness, body->is_sheet || body->rest_volume_m3 == 0}};
+  looking l = {t, body,
+      {rule->outer_thickness + NEAR_SHARE * body->rest_size_m, rule->inner_thickness,
+          body->is_sheet || body->rest_volume_m3 == 0}};
   uint32_t *count = &tables->touch_counts[body - t->model->bodies];
   make_boxes(&l, boxes);
   sbri_bounds_tree_make(tree, boxes, body->self_face_count);
@@ -86,7 +90,7 @@ void sbri_self_touches_add(const sbri_island_tick *t, const sbri_body *body,
     }
     if (!sbri_surface_found(&best) || *count >= body->touch_capacity) continue;
     const uint32_t *c = body->self_faces + 3 * (size_t)best.face;
-    float rest = rest_gap(&l, slot, c), thickness = l.rule.outer;
+    float rest = rest_gap(&l, slot, c), thickness = rule->outer_thickness;
     if (rest < TOGETHER_M) continue;
     if (REST_SHARE * rest < thickness) thickness = REST_SHARE * rest;
     sbri_sample s = {

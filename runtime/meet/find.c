@@ -14,6 +14,8 @@ static const float REST_SHARE = 0.9f;
 static const float TOGETHER_SHARE = 1e-3f;
 /* How near hulls begin to touch, beside their ways: a share of their size. */
 static const float NEAR_SHARE = 0.02f;
+/* And how far beyond its margin what lies there is looked for: of the size of what it lies on. */
+static const float LET_GO_SHARE = 0.01f;
 
 typedef struct finding {
   sbr_world *world;
@@ -109,10 +111,20 @@ static sbf_vec3 rest_of(const party *p, uint32_t vertex) {
   return sbri_scale(sbri_meet_rest(p->of->character->model, p->is->number, s), p->of->scale);
 }
 
-/* The most urgent triangle of `b` for a place that goes so; whether there is one. */
-static bool find_face(const party *b, sbf_vec3 x, sbf_vec3 way, sbri_surface_finding *best) {
+/* What is kept between them: nothing between surfaces that both enclose matter. */
+static float margin_between(const party *a, const party *b) {
+  float own = a->soft ? a->soft->margin_m * a->of->scale : 0;
+  float other = b->surface->two_sided ? b->soft->source->collision.outer_thickness * b->of->scale : 0;
+  return own > other ? own : other;
+}
+
+/* The most urgent triangle of `b` for a place of `a` that goes so; whether there is one. What lies at a
+ * margin is looked for beyond it: it would else be let go each other tick, and fall. */
+static bool find_face(const party *a, const party *b, sbf_vec3 x, sbf_vec3 way, sbri_surface_finding *best) {
   sbri_surface_rule rule = rule_of(b);
+  float margin = margin_between(a, b), beyond = margin + LET_GO_SHARE * b->soft->rest_size_m * b->of->scale;
   sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, way));
+  if (a->soft && margin > 0 && beyond > rule.outer) rule.outer = beyond, box = sbri_box_grown(box, beyond);
   sbri_bounds_walk walk;
   uint32_t triangle;
   *best = sbri_surface_nothing();
@@ -125,20 +137,13 @@ static bool find_face(const party *b, sbf_vec3 x, sbf_vec3 way, sbri_surface_fin
   return sbri_surface_found(best);
 }
 
-/* What is kept between them: nothing between surfaces that both enclose matter. */
-static float margin_between(const party *a, const party *b) {
-  float own = a->soft ? a->soft->margin_m * a->of->scale : 0;
-  float other = b->surface->two_sided ? b->soft->source->collision.outer_thickness * b->of->scale : 0;
-  return own > other ? own : other;
-}
-
 static void meet_faces(const finding *f, const party *a, const party *b) {
   sbri_surface_rule rule = rule_of(b);
   const float whole = 1;
   for (uint32_t v = 0; v < a->surface->vertex_count; v++) {
     sbri_surface_finding best;
     if (!(a->surface->samples[v].mass_kg > 0) ||
-        !find_face(b, a->surface->places[v], a->surface->ways[v], &best))
+        !find_face(a, b, a->surface->places[v], a->surface->ways[v], &best))
       continue;
     const uint32_t *corners = b->surface->triangles + 3 * (size_t)best.face;
     float margin = margin_between(a, b);
@@ -280,7 +285,7 @@ static void meet_corners(const finding *f, const party *rigid, const party *soft
   for (uint32_t i = 0; i < rigid->rigid->vertex_count; i++) {
     sbf_vec3 own = rigid->rigid->vertices[i], x = out_of(&from, own, rigid->of->scale);
     sbri_surface_finding best;
-    if (!find_face(soft, x, sbri_sub(out_of(&to, own, rigid->of->scale), x), &best)) continue;
+    if (!find_face(rigid, soft, x, sbri_sub(out_of(&to, own, rigid->of->scale), x), &best)) continue;
     const uint32_t *corners = soft->surface->triangles + 3 * (size_t)best.face;
     if (are_of_one(soft, rigid)) {
       sbr_transform rest = {sbri_scale(rigid->rigid->center, rigid->of->scale), rigid->rigid->axes};
