@@ -77,10 +77,13 @@ class Godot:
         return subprocess.run(self.command(*words), env=environment, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True, timeout=550)
 
-    def passes(self, script, *words, allowed=()):
-        """Whether a script of this folder ends with status 0 and Godot complains of nothing but what is `allowed`."""
+    def passes(self, script, *words, allowed=(), display=""):
+        """Whether a script of this folder ends with status 0 and Godot complains of nothing but what is `allowed`. With a display it draws,
+        by OpenGL on the processor."""
         self.copy(os.path.join(HERE, "checks.gd"), os.path.join(HERE, f"{script}.gd"))
-        done = self.run("--headless", "--fixed-fps", "60", "--script", f"{script}.gd", "--", *words)
+        seen = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if display else ["--headless"]
+        settings = {"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"} if display else {}
+        done = self.run(*seen, "--fixed-fps", "60", "--script", f"{script}.gd", "--", *words, **settings)
         print(done.stdout)
         complaints = [line for line in done.stdout.splitlines() if line.startswith(("ERROR:", "SCRIPT ERROR:", "FAILED"))
                       and not any(one in line for one in allowed)]

@@ -9,13 +9,21 @@ build whose add-on is installed; without it there is none."""
 import argparse
 import json
 import os
+import re
+import shutil
 import subprocess
 import sys
+import tempfile
 
-from godot_project import HERE, ROOT, Godot
+from godot_project import ROOT, Godot, skip
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "blender"))
+from blender_window import Screen  # noqa: E402
 
 LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard")
 BAR = os.path.join(ROOT, "examples", "tear", "bar.sbf")
+DEMO = os.path.join(ROOT, "runtime", "hosts", "godot", "demo")
+IN_A_CHROOT = ("XDG_RUNTIME_DIR", "dbus", "Fontconfig")
 ENGINES = ("Jolt Physics", "GodotPhysics3D")
 
 
@@ -40,12 +48,51 @@ def native(program, folder):
     return json.loads(done.stdout)
 
 
+def demo(godot, keep):
+    """The demo project on a screen of its own that nobody sees; its picture is kept where `keep` says."""
+    if not shutil.which("Xvfb"):
+        skip("there is no screen: install the package xvfb")
+    for name in os.listdir(DEMO):
+        if name.endswith((".gd", ".tscn", ".godot")):
+            shutil.copy(os.path.join(DEMO, name), godot.folder)
+    with Screen(godot.folder, godot.root) as screen:
+        passed = godot.passes("demo", "res://picture.png", display=f":{screen.number}", allowed=IN_A_CHROOT)
+    if keep:
+        shutil.copy(os.path.join(godot.folder, "picture.png"), keep)
+    return passed
+
+
+def page(godot, program):
+    """What docs/godot.md says, as it says it, in a folder where `build/release`, `examples`, `sbfmt` and `mygame` are; the project and its
+    scene's floor are what the editor would have made. Whether a character walks then."""
+    with open(os.path.join(ROOT, "docs", "godot.md"), encoding="utf-8") as file:
+        text = file.read()
+    commands = re.search(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL).group(1)
+    script = re.search(r"^```gdscript\n(.*?)^```", text, re.MULTILINE | re.DOTALL).group(1)
+    lines = [line for line in script.splitlines() if line.strip()]
+    if len(lines) > 9:
+        print(f"FAILED: {len(lines)} lines are no longer under ten")
+        return False
+    with tempfile.TemporaryDirectory() as place:
+        os.mkdir(os.path.join(place, "build"))
+        os.symlink(os.path.abspath(godot.build), os.path.join(place, "build", "release"))
+        os.symlink(os.path.join(ROOT, "examples"), os.path.join(place, "examples"))
+        os.symlink(godot.folder, os.path.join(place, "mygame"))
+        shutil.rmtree(os.path.join(godot.folder, "addons"))
+        os.remove(os.path.join(godot.folder, "lizard.sbfz"))
+        path = f"{os.path.dirname(os.path.abspath(program))}:{os.environ['PATH']}"
+        subprocess.run(["sh", "-e", "-c", commands], cwd=place, env={**os.environ, "PATH": path}, check=True, stdout=subprocess.DEVNULL)
+    godot.write("main.gd", script)
+    return godot.passes("page")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--root", default="")
     parser.add_argument("--godot", default="")
     parser.add_argument("--build", default="")
     parser.add_argument("--program", required=True)
+    parser.add_argument("--keep", default="", help="where to keep the picture that a case draws")
     parser.add_argument("case")
     asked = parser.parse_args()
     with Godot(asked.root, asked.godot, asked.build) as godot:
@@ -65,6 +112,10 @@ def main():
                 with open(os.path.join(godot.folder, name), "wb") as file:
                     file.write(kept)
             passed = godot.passes("damaged", allowed=("res://", "play: ", "Failed loading resource", "Error loading resource"))
+        elif asked.case == "page":
+            passed = page(godot, asked.program)
+        elif asked.case == "demo":
+            passed = demo(godot, asked.keep)
         else:
             passed = godot.passes(asked.case)
     sys.exit(0 if passed else 1)

@@ -1,0 +1,59 @@
+extends "checks.gd"
+# The demo by its keys, drawn: it walks, its skin stays on the hills, and the picture shows it.
+
+var scene: Node3D
+var start := Vector3.ZERO
+var least := INF
+
+
+func _initialize() -> void:
+	# Without a graphics card a frame takes a second: the last ones are drawn.
+	RenderingServer.render_loop_enabled = false
+	scene = load("res://walk.tscn").instantiate()
+	root.add_child(scene)
+
+
+func press(key: Key, down: bool) -> void:
+	var event := InputEventKey.new()
+	event.keycode = key
+	event.physical_keycode = key
+	event.pressed = down
+	Input.parse_input_event(event)
+
+
+func _physics_process(_delta: float) -> bool:
+	frame += 1
+	var lizard: SoftCharacter3D = scene.get_node("Lizard")
+	if frame == 20:
+		press(KEY_UP, true)
+	if frame == 260:
+		press(KEY_A, true)
+	if frame > 60 and frame % 30 == 0:
+		least = minf(least, lowest(skin_of(lizard), func(at: Vector3): return scene.get_node("Hills").height(at.x, at.z)))
+	if frame == 396:
+		RenderingServer.render_loop_enabled = true
+	if frame == 400:
+		press(KEY_A, false)
+		press(KEY_UP, false)
+		check(lizard.get_travelled() > 1.2, "it went %f m" % lizard.get_travelled())
+		check(lizard.rotation.y > 0.5, "it turned by %f" % lizard.rotation.y)
+		check(scene.steps > 20, "%d steps were told" % scene.steps)
+		check(least > -0.02 and least < 0.02, "the lowest point of its skin is %f above the hills" % least)
+		print("went %f m, turned %f, %d steps, lowest %f" % [lizard.get_travelled(), lizard.rotation.y, scene.steps, least])
+	return false
+
+
+func _process(_delta: float) -> bool:
+	if frame < 402:
+		return false
+	var out := OS.get_cmdline_user_args()
+	if out.size() and DisplayServer.get_name() != "headless":
+		var picture := root.get_texture().get_image()
+		var colours := {}
+		for y in range(0, picture.get_height(), 4):
+			for x in range(0, picture.get_width(), 4):
+				colours[picture.get_pixel(x, y).to_rgba32()] = true
+		check(colours.size() > 200, "the picture has %d colours" % colours.size())
+		check(picture.save_png(out[0]) == OK, "the picture cannot be written")
+	finish()
+	return true
