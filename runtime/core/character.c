@@ -2,6 +2,7 @@
 
 #include "base/diagnostic.h"
 #include "collide/ground.h"
+#include "detail/rungs.h"
 #include "meet/meetings.h"
 
 enum { CHARACTER_COOKIE = 0x5b726368, INDEX_BITS = 16 };
@@ -35,7 +36,7 @@ void sbri_work_list(sbr_world *world) {
 static bool reserve_work(sbr_world *world, size_t more) {
   size_t needed = more;
   for (uint32_t i = 0; i < world->character_capacity; i++)
-    needed += world->characters[i].model ? world->characters[i].model->island_count : 0;
+    needed += world->characters[i].model ? world->characters[i].model->base->most_islands : 0;
   if (needed <= world->work_capacity) return true;
   sbri_work *grown = world->allocator.reallocate(
       world->allocator.user, world->work, world->work_capacity * sizeof *grown, needed * sizeof *grown);
@@ -82,7 +83,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
         world->character_capacity);
   unsigned char *state = sbfi_allocate(&world->allocator, model->layout.state_size);
   unsigned char *scratch = sbfi_allocate(&world->allocator, model->layout.scratch_size);
-  if (!state || !scratch || !reserve_work(world, model->island_count) ||
+  if (!state || !scratch || !reserve_work(world, model->most_islands) ||
       !sbri_meetings_reserve(world, model)) {
     sbfi_free(&world->allocator, state, model->layout.state_size);
     sbfi_free(&world->allocator, scratch, model->layout.scratch_size);
@@ -156,6 +157,8 @@ void sbr_character_teleport(
   sbri_deltas_make(c, sbri_pose(c), sbri_previous_deltas(c));
   put(world, c, position, heading);
   sbri_rigid_carry(c);
+  sbri_jiggles_place(c);
+  sbri_fade_end(c);
   sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_carry(c, i);
   sbri_settle(c);
@@ -174,6 +177,8 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = 0;
   put(world, c, (sbr_double3){origin.x + (double)place.x, place.y, origin.z + (double)place.z}, heading);
   sbri_rigid_place(c, false);
+  sbri_jiggles_place(c);
+  sbri_fade_end(c);
   sbri_mend(c);
   sbri_place_at_rest(c);
   world->stamp++;

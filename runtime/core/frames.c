@@ -8,16 +8,17 @@ static bool same_bits(const sbf_quat *a, const sbf_quat *b) {
   return a->x == b->x && a->y == b->y && a->z == b->z && a->w == b->w;
 }
 
+sbr_transform sbri_delta_of(const sbri_character *c, const sbr_transform *pose, uint32_t f) {
+  sbr_transform rest = sbri_frame_rest(c->model, f);
+  sbf_quat turn = sbri_quat_identity(); /* exactly, for a frame that has not turned */
+  if (!same_bits(&pose[f].rotation, &rest.rotation))
+    turn = sbri_quat_normalize(sbri_quat_multiply(pose[f].rotation, sbri_quat_conjugate(rest.rotation)));
+  return (sbr_transform){
+      sbri_sub(sbri_scale(pose[f].position, 1 / c->scale), sbri_rotate(turn, rest.position)), turn};
+}
+
 void sbri_deltas_make(const sbri_character *c, const sbr_transform *pose, sbr_transform *deltas) {
-  float s = 1 / c->scale;
-  for (uint32_t f = 0; f < c->model->frame_count; f++) {
-    sbr_transform rest = sbri_frame_rest(c->model, f);
-    sbf_quat turn = sbri_quat_identity(); /* exactly, for a frame that has not turned */
-    if (!same_bits(&pose[f].rotation, &rest.rotation))
-      turn = sbri_quat_normalize(sbri_quat_multiply(pose[f].rotation, sbri_quat_conjugate(rest.rotation)));
-    deltas[f].rotation = turn;
-    deltas[f].position = sbri_sub(sbri_scale(pose[f].position, s), sbri_rotate(turn, rest.position));
-  }
+  for (uint32_t f = 0; f < c->model->frame_count; f++) deltas[f] = sbri_delta_of(c, pose, f);
 }
 
 /* A rigid motion as three rows of four, the last of them the translation. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/world.h"
+#include "detail/rungs.h"
 #include "math/vec3.h"
 #include "meet/meetings.h"
 #include "solvers/outer_forces.h"
@@ -138,6 +139,7 @@ static void end_island(const sbr_world *world, sbri_meet_member *m, uint32_t ind
 static void end(const sbr_world *world, sbri_meet_member *m) {
   sbri_character *c = m->character;
   if (m->parts.steps) sbri_rigid_parts_end(&m->parts);
+  sbri_jiggles_tick(c, m->tick_s);
   if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (is_own(m, i)) end_island(world, m, i);

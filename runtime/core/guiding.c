@@ -63,9 +63,8 @@ static sbri_rigid_motion motion_of(
       sbri_guide_velocities(c) + 3 * (size_t)island->first_slot);
 }
 
-/* Carries the island with its frames, as fast as they go. */
-static void ride(sbri_character *c, const sbri_island *island, uint32_t index, float tick_s) {
-  sbri_island_carry(c, index);
+/* With the velocities of its guides, which are found. */
+static void move_along(sbri_character *c, const sbri_island *island, float tick_s) {
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -78,6 +77,12 @@ static void ride(sbri_character *c, const sbri_island *island, uint32_t index, f
   }
 }
 
+/* Carries the island with its frames, as fast as they go. */
+static void ride(sbri_character *c, const sbri_island *island, uint32_t index, float tick_s) {
+  sbri_island_carry(c, index);
+  move_along(c, island, tick_s);
+}
+
 bool sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, float tick_s) {
   bool jumped = false;
   for (uint32_t b = 0; b < island->body_count; b++) {
@@ -85,6 +90,10 @@ bool sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, fl
     jumped = (body->held && !find_velocities(c, island, body, tick_s)) || jumped;
   }
   return !jumped;
+}
+
+void sbri_guides_go_on(sbri_character *c, const sbri_island *island, float tick_s) {
+  if (sbri_guide_velocities_find(c, island, tick_s)) move_along(c, island, tick_s);
 }
 
 bool sbri_island_follow(sbri_character *c, const sbri_island *island, uint32_t index, float tick_s) {

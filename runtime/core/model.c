@@ -39,13 +39,15 @@ sbf_status sbr_model_create(
   sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
   if (!made) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
   *made = (sbr_model){.asset = asset, .kernels = sbri_kernels_of(options->instructions)};
+  made->base = made;
   sbfi_arena_init(&made->arena, &allocator, 0);
   status = sbri_model_prepare(made, options, error);
+  if (status == SBF_OK) status = sbri_rungs_make(made, options, error);
   if (status != SBF_OK) {
     sbr_model_destroy(made);
     return status;
   }
-  sbri_layout_make(made);
+  sbri_layouts_make(made);
   *model = made;
   return SBF_OK;
 }
@@ -53,6 +55,7 @@ sbf_status sbr_model_create(
 void sbr_model_destroy(sbr_model *model) {
   if (!model) return;
   sbf_allocator allocator = model->arena.allocator;
+  sbri_rungs_free(model);
   sbfi_arena_free(&model->arena);
   sbfi_free(&allocator, model, sizeof *model);
 }

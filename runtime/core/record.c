@@ -6,6 +6,7 @@
 #include "base/diagnostic.h"
 #include "core/world.h"
 #include "sbrun/animation.h"
+#include "sbrun/detail.h"
 #include "sbrun/rigid.h"
 
 static const unsigned char MAGIC[8] = {'!', 's', 'b', 'r', 'r', 'e', 'c', '1'};
@@ -29,7 +30,8 @@ static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
     [SBRI_RECORDED_RIGID_DRIVE] = 5,
     [SBRI_RECORDED_RIGID_SHARE] = 3,
     [SBRI_RECORDED_RIGID_PUSH] = 8,
-    [SBRI_RECORDED_RIGID_FALL] = 4};
+    [SBRI_RECORDED_RIGID_FALL] = 4,
+    [SBRI_RECORDED_RUNG] = 2};
 
 enum { HEAD_BYTES = 8, NUMBER_BYTES = 8 };
 
@@ -174,6 +176,9 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
     break;
   case SBRI_RECORDED_PLAY:
     sbr_character_play(r->world, id, whole(n[1]), index_of(n[2]), &how);
+    break;
+  case SBRI_RECORDED_RUNG:
+    sbr_character_set_rung(r->world, id, whole(n[1]));
     break;
   default:
     play_rigid(r->world, what, id, n);

@@ -25,6 +25,7 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_RIGID_SHARE, /* body, share */
   SBRI_RECORDED_RIGID_PUSH,  /* body, place, impulse */
   SBRI_RECORDED_RIGID_FALL,  /* share, rest, rise */
+  SBRI_RECORDED_RUNG,        /* rung */
   SBRI_RECORDED_COUNT
 } sbri_recorded;
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/world.h"
+#include "detail/rungs.h"
 #include "math/quat.h"
 #include "model/kernels.h"
 #include "skin/skin.h"
@@ -104,6 +105,7 @@ uint32_t sbr_character_level_skin(const sbr_world *world, sbr_character_id chara
   sample(world, c);
   sbri_point *vertices = sbri_vertices(c);
   sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), vertices);
+  sbri_fade_apply(c, render_mesh, render_level, skin, share_of_tick(world), vertices);
   if (positions) write_points(c, vertices, count, positions);
   if (!normals && !tangents) return skin->vertex_count;
   c->model->kernels->faces(skin, vertices, sbri_faces(c));
@@ -134,6 +136,7 @@ uint32_t sbr_character_level_corner_normals(const sbr_world *world, sbr_characte
   if (!normals || skin->vertex_count == 0) return skin->corner_count;
   sample(world, c);
   sbri_skin_vertices(c->model, skin, sbri_sampled(c), sbri_sampled_deltas(c), sbri_vertices(c));
+  sbri_fade_apply(c, render_mesh, render_level, skin, share_of_tick(world), sbri_vertices(c));
   c->model->kernels->faces(skin, sbri_vertices(c), sbri_faces(c));
   c->model->kernels->normals(&skin->split, sbri_faces(c), sbri_sums(c));
   for (uint32_t k = 0; k < skin->corner_count && k < capacity; k++) {

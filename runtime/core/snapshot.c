@@ -86,11 +86,26 @@ sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_
     if (!c->model) continue;
     from += sizeof(snapshot_part);
     memcpy(c->state, from, c->model->layout.state_size);
-    from += c->model->layout.state_size;
+    from += c->model->layout.state_size; /* of one size on all rungs */
+    const sbr_model *model = c->model->base->rungs[sbri_head(c)->rung];
+    if (model != c->model) memset(c->scratch, 0, model->layout.own_scratch_size);
+    c->model = model;
     sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
   }
   sbri_meet_memory_restore(world, from);
   return SBF_OK;
+}
+
+static void hash_rung(sbfi_hash64 *hash, const sbri_character *c) {
+  const sbri_character_state *head = sbri_head(c);
+  const uint32_t words[8] = {head->rung, head->next_rung, head->set_rung_plus_1, head->rung_ticks,
+      head->fade_ticks, head->fades_ticks, head->shown, head->unseen_ticks};
+  const float shares[2] = {head->fade, head->fade_before};
+  const uint32_t *first = c->model->base->first_vertices;
+  sbfi_hash64_u32(hash, words, 8);
+  sbfi_hash64_f32(hash, shares, 2);
+  if (head->fade_before > 0)
+    sbfi_hash64_f32(hash, &sbri_faded(c)->x, 3 * (size_t)first[c->model->asset->render_meshes.count]);
 }
 
 uint64_t sbr_world_state_hash(const sbr_world *world) {
@@ -117,7 +132,8 @@ uint64_t sbr_world_state_hash(const sbr_world *world) {
     sbfi_hash64_f32(&hash, (const float *)(const void *)(c->state + l->positions),
         (l->solids - l->positions) / sizeof(float));
     sbfi_hash64_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids),
-        (l->state_size - l->solids) / sizeof(uint32_t));
+        (l->used_size - l->solids) / sizeof(uint32_t));
+    if (c->model->base->rung_count > 1) hash_rung(&hash, c);
   }
   for (uint32_t i = 0; world->meetings && i < world->meetings->memory_count; i++) {
     const sbri_meet_memory *m = &world->meetings->memories[i];

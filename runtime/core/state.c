@@ -10,7 +10,7 @@ static size_t padded(size_t count) {
   return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
 }
 
-void sbri_layout_make(sbr_model *model) {
+static void make_layout(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
          surface = 0, surface_faces = 0, samples = 0, self_faces = 0, end = 0;
@@ -36,6 +36,9 @@ void sbri_layout_make(sbr_model *model) {
     surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
   }
   place(&end, 1, sizeof(sbri_character_state));
+  const sbr_model *base = model->base;
+  uint32_t meshes = base->rung_count > 1 ? model->asset->render_meshes.count : 0;
+  l->faded = place(&end, meshes ? base->first_vertices[meshes] : 0, sizeof(sbf_vec3));
   l->gait = place(&end, 1, sbri_gait_state_size(&model->rig));
   l->pose = place(&end, frames, sizeof(sbr_transform));
   l->previous_pose = place(&end, frames, sizeof(sbr_transform));
@@ -67,7 +70,8 @@ void sbri_layout_make(sbr_model *model) {
   l->rigid_bodies = place(&end, model->rigid.body_count, sizeof(sbri_rigid_body_state));
   l->rigid_joints = place(&end, model->rigid.joint_count, sizeof(sbri_rigid_joint_state));
   l->rigid_drive = place(&end, model->rigid.body_count ? 1 : 0, sizeof(sbri_rigid_drive_state));
-  l->state_size = (end + 63) & ~(size_t)63;
+  l->jiggles = place(&end, model->jiggle_count, sizeof(sbri_place_follower));
+  l->used_size = l->state_size = (end + 63) & ~(size_t)63;
   end = 0;
   l->deltas = place(&end, frames, sizeof(sbr_transform));
   l->previous_deltas = place(&end, frames, sizeof(sbr_transform));
@@ -113,5 +117,35 @@ void sbri_layout_make(sbr_model *model) {
   l->surface_forces = place(&end, surface, sizeof(sbri_point));
   l->surface_velocities = place(&end, surface, sizeof(sbri_point));
   l->surface_faces = place(&end, surface_faces, sizeof(sbri_point));
-  l->scratch_size = (end + 63) & ~(size_t)63;
+  l->own_scratch_size = l->scratch_size = (end + 63) & ~(size_t)63;
+}
+
+/* All rungs take as much as the one that takes the most, and behind their scratch have room for what a change
+ * of rungs keeps of the one before. */
+void sbri_layouts_make(sbr_model *model) {
+  size_t state = 0, scratch = 0, slots = 0, vertices = 0, bodies = model->asset->soft_bodies.count;
+  for (uint32_t r = 0; r < model->rung_count; r++) {
+    sbr_model *one = model->rungs[r];
+    make_layout(one);
+    state = one->layout.state_size > state ? one->layout.state_size : state;
+    scratch = one->layout.scratch_size > scratch ? one->layout.scratch_size : scratch;
+    slots = one->slot_count > slots ? one->slot_count : slots;
+  }
+  for (uint32_t i = 0; i < model->skin_count; i++)
+    vertices =
+        padded(model->skins[i].vertex_count) > vertices ? padded(model->skins[i].vertex_count) : vertices;
+  for (uint32_t r = 0; r < model->rung_count; r++) {
+    sbri_layout *l = &model->rungs[r]->layout;
+    size_t end = scratch;
+    l->state_size = state, l->scratch_size = scratch;
+    if (model->rung_count == 1) continue;
+    l->kept = place(&end, 1, state);
+    l->kept_touching = place(&end, bodies, sizeof(sbri_touching));
+    l->kept_rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
+    l->offsets = place(&end, slots, sizeof(sbri_point));
+    l->speeds = place(&end, slots, sizeof(sbri_point));
+    l->energies = place(&end, bodies, sizeof(double));
+    l->fading = place(&end, vertices, sizeof(sbri_point));
+    l->scratch_size = (end + 63) & ~(size_t)63;
+  }
 }

@@ -6,6 +6,7 @@
 #include "collide/bounds_tree.h"
 #include "collide/touching.h"
 #include "gait/gait.h"
+#include "math/follower.h"
 #include "model/island_tick.h"
 #include "model/runtime_model.h"
 #include "rigid/rigid_state.h"
@@ -18,7 +19,15 @@ typedef struct sbri_character_state {
   float forward, sideways, turn; /* wanted motion */
   uint32_t paused;
   uint32_t asleep; /* nothing of it changes until a call or the ground does */
-  uint32_t unused; /* to the next double */
+  /* Its rung, the one that it goes over to when the next tick begins, and what the host has put it on, plus
+   * 1. */
+  uint32_t rung, next_rung, set_rung_plus_1;
+  uint32_t rung_ticks;              /* since it changed */
+  uint32_t fade_ticks, fades_ticks; /* left of the change, and of how many; 0: it is over */
+  float fade, fade_before;          /* share of `faded` that shows, and a tick ago */
+  uint32_t shown;                   /* sbr_shown */
+  uint32_t unseen_ticks;            /* for how long no view has it */
+  uint32_t unused;                  /* to the next double */
 } sbri_character_state;
 
 typedef struct sbri_island_state {
@@ -56,7 +65,8 @@ typedef struct sbri_character {
   sbri_gait_event events[SBRI_TICK_EVENTS];
 } sbri_character;
 
-void sbri_layout_make(sbr_model *model);
+/* Of a model and all its rungs. */
+void sbri_layouts_make(sbr_model *model);
 
 #define SBRI_STATE_PART(name, type, offset)                                                                  \
   static inline type *sbri_##name(const sbri_character *c) {                                                 \
@@ -97,6 +107,9 @@ SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)        
 SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, c->model->layout.rigid_bodies)  /* (rigid bodies) */
 SBRI_STATE_PART(rigid_joints, sbri_rigid_joint_state, c->model->layout.rigid_joints) /* (joints) */
 SBRI_STATE_PART(rigid_drive, sbri_rigid_drive_state, c->model->layout.rigid_drive)
+/* By how much each vertex of the render meshes lay elsewhere on the rung before, asset metres. */
+SBRI_STATE_PART(faded, sbf_vec3, c->model->layout.faded)
+SBRI_STATE_PART(jiggles, sbri_place_follower, c->model->layout.jiggles) /* (jiggle_count) asset metres */
 #undef SBRI_STATE_PART
 
 #define SBRI_SCRATCH_PART(name, type, offset)                                                                \
@@ -149,6 +162,16 @@ SBRI_SCRATCH_PART(surface_vertices, sbri_point, c->model->layout.surface_vertice
 SBRI_SCRATCH_PART(surface_forces, sbri_point, c->model->layout.surface_forces)
 SBRI_SCRATCH_PART(surface_velocities, sbri_point, c->model->layout.surface_velocities)
 SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces) /* of all bodies */
+/* Of a change of rungs: the state before it, what the bodies touched, and how far each point was from its
+ * guide and how fast. */
+SBRI_SCRATCH_PART(kept_state, unsigned char, c->model->layout.kept)             /* (state_size) */
+SBRI_SCRATCH_PART(kept_touching, sbri_touching, c->model->layout.kept_touching) /* (bodies) */
+SBRI_SCRATCH_PART(
+    kept_rigid_touching, sbri_touching, c->model->layout.kept_rigid_touching) /* (rigid bodies) */
+SBRI_SCRATCH_PART(offsets, sbri_point, c->model->layout.offsets)              /* (most slots) */
+SBRI_SCRATCH_PART(speeds, sbri_point, c->model->layout.speeds)                /* likewise */
+SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading) /* (most vertices of a mesh, padded) */
+SBRI_SCRATCH_PART(energies, double, c->model->layout.energies) /* (bodies) J */
 #undef SBRI_SCRATCH_PART
 
 /* ---- core/sleep.c ---- */
@@ -197,6 +220,7 @@ void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *tick, float
 /* The frames' motion since the rest pose, in asset metres: what carries a rest position to where it is now.
  */
 void sbri_deltas_make(const sbri_character *c, const sbr_transform *pose, sbr_transform *deltas);
+sbr_transform sbri_delta_of(const sbri_character *c, const sbr_transform *pose, uint32_t frame);
 /* Where guides put the free points of a body (slot_end - slot_begin of them). */
 void sbri_guide_places(
     const sbr_model *model, const sbri_body *body, const sbr_transform *deltas, sbri_point *places);
@@ -213,6 +237,8 @@ sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground)
 bool sbri_island_follow(sbri_character *c, const sbri_island *island, uint32_t index, float tick_s);
 /* The velocities alone, over any part of a tick. False where what holds the bodies has jumped. */
 bool sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, float tick_s);
+/* The island goes on as what holds it went from `previous_deltas` to `deltas`. */
+void sbri_guides_go_on(sbri_character *c, const sbri_island *island, float tick_s);
 /* As if what holds it had stood in the last tick; whether it did. */
 void sbri_guides_stop(sbri_character *c, const sbri_island *island);
 bool sbri_guides_rest(const sbri_character *c, const sbri_island *island);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/world.h"
+#include "detail/rungs.h"
 #include "math/vec3.h"
 #include "meet/meetings.h"
 #include "solvers/scheme.h"
@@ -51,6 +52,7 @@ static void rebase(sbri_character *c) {
   shift_frames(sbri_pose(c), model->frame_count, shift);
   shift_frames(sbri_previous_pose(c), model->frame_count, shift);
   sbri_rigid_rebase(c, own);
+  sbri_jiggles_rebase(c, own);
   shift_points(sbri_positions(c), model->slot_count, own);
   shift_points(sbri_previous_positions(c), model->slot_count, own);
   for (uint32_t i = 0; i < model->island_count; i++) {
@@ -74,11 +76,17 @@ static void tick_character(void *context, uint32_t index) {
   sbri_character *c = &world->characters[index];
   c->event_count = 0;
   if (!c->model || sbri_character_sleeps(world, c)) return;
+  if (!sbri_head(c)->paused && !world->meetings) sbri_rung_change(world, c);
   for (uint32_t i = 0; i < c->model->island_count; i++)
     sbri_tears_of(c)[i].count = sbri_tears_of(c)[i].unsplit = 0;
   rebase(c);
   sbri_settle(c);
   if (sbri_head(c)->paused) return;
+  sbri_fade_tick(c);
+  if (sbri_is_away(c)) {
+    sbri_away_tick(world, c);
+    return;
+  }
   sbri_reflex_tick(world, c);
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbr_transform *pose = sbri_pose(c);
@@ -90,6 +98,7 @@ static void tick_character(void *context, uint32_t index) {
   pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
   if (is_grouped(world, c)) return;
   sbri_rigid_tick_parts(world, c);
+  sbri_jiggles_tick(c, (float)world->tick_s * c->time_scale);
   if (has_bodies) sbri_deltas_make(c, pose, sbri_deltas(c));
   sbri_head(c)->asleep = may_sleep && !world->colliders.moving && sbri_character_is_still(c);
 }

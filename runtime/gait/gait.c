@@ -43,6 +43,12 @@ void sbri_gait_place(
   state->tail_bone_count = rig->tail_bone_count;
   state->pace = state->limit = 1;
   state->since_lift_m = 1e6f; /* the first step waits for nothing */
+  sbri_body_stand(rig, state, input);
+}
+
+void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  sbf_vec3 position = state->position;
+  float heading = state->heading;
   sbri_chain_bone *chain_bones = sbri_chain_bones(rig, state);
   for (uint32_t c = 0; c < rig->chain_count; c++)
     for (uint32_t k = 0; k < rig->chains[c].source->bones.count; k++) {
@@ -62,9 +68,7 @@ void sbri_gait_place(
   sbri_tails_place(rig, state, &stance);
 }
 
-/* Eases the motion towards what is wanted and moves the body on, as fast as the feet allow. Returns the turn
- * made. */
-static float move_body(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
   float ease = 1 - sbri_exp(-input->tick_s / EASE_S), share = 1;
   float ahead = (state->limit * input->forward - state->forward) * ease;
   float aside = (state->limit * input->sideways - state->sideways) * ease;
@@ -131,7 +135,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     sbri_gait_event *events, uint32_t capacity) {
   sbri_gait_state *state = memory;
   uint32_t count = 0;
-  float turned = move_body(rig, state, input);
+  float turned = sbri_body_move(rig, state, input);
   sbri_clips_tick(rig, state, input->tick_s);
   for (uint32_t i = 0; turned != 0 && i < rig->leg_count; i++) {
     sbri_foot *foot = &state->feet[i]; /* one that is planted does not turn with the body */

@@ -35,6 +35,11 @@ void sbri_gait_place(
 uint32_t sbri_gait_tick(const sbri_rig *rig, void *state, const sbri_gait_input *input, sbr_transform *pose,
     sbri_gait_event *events, uint32_t capacity);
 
+/* A tick of the way alone: the body moves as it is driven, as fast as it has learnt that its feet can. Then
+ * standing where it has come to, its speed, its targets and what it has travelled kept. */
+void sbri_gait_travel(const sbri_rig *rig, void *state, const sbri_gait_input *input);
+void sbri_gait_arrive(const sbri_rig *rig, void *state, const sbri_gait_input *input);
+
 /* The pose of the present state, without advancing it; what lags begins anew where the character was
  * `placed`.
  */

@@ -276,6 +276,14 @@ typedef struct sbri_stance {
 uint32_t sbri_feet_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_stance *stance, sbri_gait_event *events, uint32_t capacity);
 
+/* ---- gait/gait.c ---- */
+
+/* Eases the motion towards what is wanted and moves the body on, as fast as the feet allow. Returns the turn
+ * made. */
+float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+/* Every foot at its home, body, tails and chains as they are over these. */
+void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input);
+
 /* ---- gait/body.c: the body over its feet ---- */
 
 sbri_stance sbri_body_stance(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);

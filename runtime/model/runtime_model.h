@@ -22,6 +22,7 @@
 #include "model/rigid_model.h"
 #include "model/skin_tables.h"
 #include "sbfmt/mechanics.h"
+#include "sbrun/detail.h"
 #include "skeleton/rig.h"
 
 /* One spring of each of eight points, seen from them. Inert lanes name the point itself and have zeros. */
@@ -131,6 +132,21 @@ typedef struct sbri_sample {
   float mass_kg;    /* that answers a push there: 1 / sum of weight^2 / mass; 0: nothing of it is free */
   uint32_t vertex;  /* of the surface; UINT32_MAX: a point of the level */
 } sbri_sample;
+
+/* A body that goes with its bone and a follower; its frame comes behind all others. */
+typedef struct sbri_jiggle {
+  uint32_t body;
+  uint32_t carrier; /* frame */
+  sbf_vec3 middle;  /* mean of the level's points at rest, asset space */
+  float frequency_hz, damping_ratio, response;
+} sbri_jiggle;
+
+/* Where a free point of one rung is in another's points: a mean of some of them, affine motions exactly. */
+enum { SBRI_SOURCES = 8 };
+typedef struct sbri_sources {
+  uint32_t slots[SBRI_SOURCES]; /* of the whole character on that rung */
+  float weights[SBRI_SOURCES];  /* summing to 1 */
+} sbri_sources;
 
 typedef struct sbri_body {
   const sbf_soft_body *source;
@@ -260,7 +276,7 @@ typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, guide_motions, rests,
       strengths, rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, thread_ends,
       thread_cells, thread_damping, thread_slack, thread_links, thread_blocks, skin_cells, bound_to,
-      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, state_size;
+      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, faded, jiggles, used_size, state_size;
   size_t animated, rigid_targets, reactions, stepped_pose, rigid_work;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
@@ -269,7 +285,8 @@ typedef struct sbri_layout {
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched, owners, frayed;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
-      vertices, faces, sums, scratch_size;
+      vertices, faces, sums, kept, kept_touching, kept_rigid_touching, offsets, speeds, energies, fading,
+      own_scratch_size, scratch_size;
 } sbri_layout;
 
 struct sbfi_tetrahedron;
@@ -303,7 +320,23 @@ struct sbr_model {
   uint32_t skin_count;
   float rest_size_m; /* diagonal of the box of all bodies */
   sbri_layout layout;
+  /* A model of several rungs is the first of them, and owns the others; all have the same frames but for
+   * those of jiggles, and states of one size. */
+  sbr_rung_kind kind;             /* of what its tables are: soft, jiggle or bones */
+  const struct sbr_model *base;   /* the first; of a model alone itself */
+  struct sbr_model **rungs;       /* (rung_count) of the first; away has the tables of bones alone */
+  sbr_rung *ladder;               /* (rung_count) likewise */
+  uint32_t rung_count;            /* likewise */
+  uint32_t most_islands;          /* likewise, of a rung */
+  const sbri_sources **sources;   /* (rung_count of the first) for each slot; NULL: not both are soft */
+  const uint32_t *first_vertices; /* (asset->render_meshes.count + 1) of each mesh among all */
+  sbri_jiggle *jiggles;
+  uint32_t jiggle_count;
 };
+
+static inline uint32_t sbri_first_jiggle_frame(const sbr_model *model) {
+  return model->frame_count - model->jiggle_count;
+}
 
 /* Of a rigid body: its bone, or one of its own where another body moves that or there is none. */
 static inline uint32_t sbri_body_frame(const sbr_model *model, uint32_t rigid_body) {

@@ -2,30 +2,46 @@
 #include "base/diagnostic.h"
 #include "prepare/prepare.h"
 
-static bool is_stepped(const sbf_level *level) {
+static bool has_stepped_model(const sbf_level *level) {
   return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA ||
          level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
 }
 
-/* The level with the wanted number, or the coarsest there is; where it is of a model that is not stepped, the
- * next coarser one that is, else the next finer. */
+bool sbri_level_is_stepped(const sbf_level *level) {
+  return has_stepped_model(level) && level->positions.count > 0;
+}
+
+/* The level with the wanted number, or the coarsest there is; where it is of a model that is not stepped, or
+ * was not loaded, the next coarser one that is, else the next finer. */
 static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {
   uint32_t count = body->levels.count, first = wanted < count ? wanted : count - 1;
   if (count == 0) return NULL;
   for (uint32_t i = first; i < count; i++)
-    if (is_stepped(&body->levels.at[i])) return &body->levels.at[i];
+    if (sbri_level_is_stepped(&body->levels.at[i])) return &body->levels.at[i];
   for (uint32_t i = first; i-- > 0;)
-    if (is_stepped(&body->levels.at[i])) return &body->levels.at[i];
+    if (sbri_level_is_stepped(&body->levels.at[i])) return &body->levels.at[i];
   return &body->levels.at[first];
 }
 
 static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level, sbf_diagnostic *error) {
-  if (is_stepped(level)) return SBF_OK;
+  if (has_stepped_model(level)) return SBF_OK;
   return sbfi_diagnose(error, SBF_CODE_LEVEL_NOT_SIMULATED,
       "body \"%s\": its level is of model %s and none is of springs, tetrahedra or regions, which the "
       "runtime steps: "
       "build the file with --springs",
       body->id, sbf_elastic_model_name(level->model));
+}
+
+/* Of a coarser rung: the wanted number or the next finer one that is near enough, else the first rung's. */
+static const sbf_level *coarser_of(const sbr_model *model, uint32_t body, uint32_t wanted) {
+  const sbri_body *first = &model->base->bodies[body];
+  const sbf_level_list *levels = &first->source->levels;
+  if (!first->level) return NULL;
+  for (uint32_t i = wanted < levels->count ? wanted + 1 : levels->count; i-- > 0;) {
+    const sbf_level *level = &levels->at[i];
+    if (level == first->level || sbri_level_is_useful(level, first->rest_size_m)) return level;
+  }
+  return first->level;
 }
 
 static bool is_level(const sbf_soft_body *body, const sbf_level *level, uint32_t place) {
@@ -84,7 +100,9 @@ sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
   for (uint32_t i = 0; i < count; i++) {
     const sbf_soft_body *source = &asset->soft_bodies.at[i];
-    const sbf_level *level = level_of(source, options->level);
+    const sbf_level *level = model->kind != SBR_RUNG_SOFT ? NULL
+                             : model->base == model       ? level_of(source, options->level)
+                                                          : coarser_of(model, i, options->level);
     if (level) {
       sbf_status status = check_level(source, level, error);
       if (status != SBF_OK) return status;

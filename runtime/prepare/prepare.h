@@ -12,6 +12,8 @@ sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options
 
 /* Groups the bodies into islands; gives each body its level. */
 sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
+/* Whether the level is of a model that is stepped, and was loaded. */
+bool sbri_level_is_stepped(const sbf_level *level);
 /* Whether the springs join the levels that are simulated. */
 bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross);
 /* Slots, springs, pins and frequencies of one island. */
@@ -53,6 +55,21 @@ bool sbri_shading_make(
 bool sbri_faces_make(sbri_skin *skin, const sbf_polygon_mesh *mesh, sbfi_arena *arena);
 /* Fills in rest_volume_m3 of all bodies; false where memory runs out. */
 bool sbri_rest_volumes_find(sbr_model *model);
+
+/* ---- Rungs ---- */
+
+/* Whether a level that is stepped is near enough to its body, whose size that is, to be a rung. */
+bool sbri_level_is_useful(const sbf_level *level, float size_m);
+/* The other rungs of a model that is made but for its layout, each a model likewise; SBF_OK and none where a
+ * body yields or tears. */
+sbf_status sbri_rungs_make(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
+void sbri_rungs_free(sbr_model *model);
+/* The followers of a model of jiggle. */
+bool sbri_jiggles_make(sbr_model *model);
+/* The frame that carries the body as one piece. */
+uint32_t sbri_carrier_frame(const sbr_model *model, uint32_t soft_body);
+/* Where the points of `to` are in those of `from`. */
+bool sbri_sources_make(sbr_model *to, const sbr_model *from, const sbri_sources **sources);
 
 /* ---- Rigid parts ---- */
 

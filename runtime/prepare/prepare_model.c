@@ -158,13 +158,23 @@ static bool make_skins(sbr_model *model) {
   return true;
 }
 
-sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
+/* Bones and rigid parts: those of the first rung. */
+static bool make_bones(sbr_model *model) {
+  if (model->base != model) {
+    model->rig = model->base->rig;
+    model->rigid = model->base->rigid;
+    return true;
+  }
   void *rig = sbfi_arena_allocate(&model->arena, 1, sbri_rig_size(model->asset));
-  if (!rig) return no_memory(error);
+  if (!rig) return false;
   sbri_rig_init(&model->rig, model->asset, rig);
+  return sbri_rigid_model_make(&model->rigid, model->asset, &model->arena);
+}
+
+sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
   model->rigid_substeps = options->rigid_substeps ? options->rigid_substeps : RIGID_SUBSTEPS;
-  if (!sbri_rigid_model_make(&model->rigid, model->asset, &model->arena)) return no_memory(error);
-  model->frame_count = model->rig.bone_count + 2 + model->rigid.own_frame_count;
+  if (!make_bones(model) || !sbri_jiggles_make(model)) return no_memory(error);
+  model->frame_count = model->rig.bone_count + 2 + model->rigid.own_frame_count + model->jiggle_count;
   sbf_status status = make_islands(model, options, error);
   if (status != SBF_OK) return status;
   if (!sbri_coupling_make(model) || !make_skins(model)) return no_memory(error);

@@ -17,6 +17,7 @@ typedef struct carry {
   sbfi_arena scratch;
   sbfi_array carriers; /* carrier */
   sbfi_array bindings; /* sbri_binding; `cell` is the first of four carriers until those are laid out */
+  sbfi_array pieces;   /* piece */
   bool shared;         /* the embedding at hand has vertices that several points carry */
 } carry;
 
@@ -167,11 +168,96 @@ static bool fill_cells(carry *c, uint32_t *counts) {
   return keep_bindings(c, places);
 }
 
-/* The vertices that no body carries: they follow the skin's weights, else `frame`. */
+/* What carries a vertex as one piece with a body, in rungs that are not soft. */
+typedef struct piece {
+  uint32_t vertex, frame;
+  float weight;
+} piece;
+
+static bool add_piece(carry *c, uint32_t vertex, uint32_t frame, float weight) {
+  return weight == 0 || sbfi_array_append(&c->pieces, &(piece){vertex, frame, weight}, 1);
+}
+
+/* What the guides of a point of the first rung carry. */
+static bool add_guides(carry *c, const sbri_body *body, uint32_t vertex, uint32_t point, float weight) {
+  const sbri_island *island = &c->model->base->islands[body->island];
+  uint32_t slot = body->slot_from_point[point];
+  if (slot >= island->free_count)
+    return add_piece(c, vertex, island->frame_of_held[slot - island->free_count], weight);
+  if (!body->guides) return add_piece(c, vertex, body->guide_frame, weight);
+  const sbri_guide *guide = &body->guides[slot - body->slot_begin];
+  for (int k = 0; k < SBRI_GUIDES; k++)
+    if (!add_piece(c, vertex, guide->frames[k], weight * guide->weights[k])) return false;
+  return true;
+}
+
+/* Frames that carry the vertices as bodies of the first rung would without inertia, or jiggles. */
+static bool add_pieces(carry *c, const sbri_body *body, uint32_t frame, const sbf_embedding *embedding) {
+  for (uint32_t i = 0; i < embedding->points.count; i++) {
+    uint32_t vertex = embedding->vertices.count ? embedding->vertices.at[i] : i;
+    float blend = embedding->blends.count ? embedding->blends.at[i] : 1;
+    const sbf_vec4 *w = &embedding->weights.at[i];
+    const float weights[4] = {w->x, w->y, w->z, w->w};
+    if (vertex >= c->source_count) continue;
+    if (frame != UINT32_MAX && !add_piece(c, vertex, frame, blend)) return false;
+    for (int k = 0; k < 4 && frame == UINT32_MAX; k++)
+      if (!add_guides(c, body, vertex, embedding->points.at[i].at[k], weights[k] * blend)) return false;
+  }
+  return true;
+}
+
+static bool add_all_pieces(carry *c, uint32_t render_mesh) {
+  const sbr_model *model = c->model;
+  for (uint32_t b = 0; model->kind != SBR_RUNG_SOFT && b < model->asset->soft_bodies.count; b++) {
+    const sbri_body *body = &model->base->bodies[b];
+    uint32_t frame = UINT32_MAX;
+    for (uint32_t j = 0; j < model->jiggle_count; j++)
+      if (model->jiggles[j].body == b) frame = sbri_first_jiggle_frame(model) + j;
+    for (uint32_t e = 0; body->level && e < body->level->embeddings.count; e++)
+      if (body->level->embeddings.at[e].render_mesh == (int32_t)render_mesh &&
+          !add_pieces(c, body, frame, &body->level->embeddings.at[e]))
+        return false;
+  }
+  return true;
+}
+
+/* Pieces in the order of their vertices: where those of each begin. */
+static bool sort_pieces(carry *c, const uint32_t **begins, const piece **sorted) {
+  const piece *pieces = c->pieces.at;
+  uint32_t *starts = sbfi_arena_allocate(&c->scratch, (size_t)c->source_count + 2, sizeof *starts);
+  piece *to = sbfi_arena_allocate(&c->scratch, c->pieces.count + 1, sizeof *to);
+  if (!starts || !to) return false;
+  for (size_t i = 0; i < c->pieces.count; i++) starts[pieces[i].vertex + 2]++;
+  for (uint32_t v = 0; v < c->source_count; v++) starts[v + 2] += starts[v + 1];
+  for (size_t i = 0; i < c->pieces.count; i++) to[starts[pieces[i].vertex + 1]++] = pieces[i];
+  *begins = starts, *sorted = to; /* they have moved on by one place */
+  return true;
+}
+
+/* One influence a frame, summing to one; returns where they end. */
+static uint32_t join_pieces(const piece *pieces, uint32_t count, sbri_influence *to, uint32_t begin) {
+  uint32_t end = begin;
+  float sum = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    uint32_t at = begin;
+    while (at < end && to[at].frame != pieces[i].frame) at++;
+    if (at == end) to[end++] = (sbri_influence){pieces[i].frame, 0};
+    to[at].weight += pieces[i].weight;
+    sum += pieces[i].weight;
+  }
+  if (!(sum > 1e-6f)) return begin;
+  for (uint32_t i = begin; i < end; i++) to[i].weight /= sum;
+  return end;
+}
+
+/* The vertices that no body carries: they follow pieces, else the skin's weights, else `frame`. */
 static bool fill_frames(
     carry *c, const uint32_t *counts, const sbf_vec3 *rest, const sbf_skin *weights, uint32_t frame) {
   sbri_skin *skin = c->skin;
-  uint32_t vertex_count = 0, influence_count = 0, first = 0;
+  const uint32_t *begins;
+  const piece *pieces;
+  uint32_t vertex_count = 0, influence_count = (uint32_t)c->pieces.count, first = 0;
+  if (!sort_pieces(c, &begins, &pieces)) return false;
   for (uint32_t v = 0; v < c->source_count; v++) {
     if (place_of(c, v) == UINT32_MAX || counts[place_of(c, v)]) continue;
     vertex_count++;
@@ -186,13 +272,16 @@ static bool fill_frames(
     uint32_t count = weights ? weights->influence_counts.at[v] : 0, to_place = place_of(c, v);
     if (to_place != UINT32_MAX && !counts[to_place]) {
       sbri_frame_vertex *to = &vertices[place++];
-      *to = (sbri_frame_vertex){to_place, next, count ? count : 1, rest[v]};
+      uint32_t from = next;
+      next = join_pieces(pieces + begins[v], begins[v + 1] - begins[v], influences, next);
+      bool has_pieces = next > from;
       float sum = 0;
-      for (uint32_t i = 0; i < count; i++) sum += weights->weights.at[first + i];
-      for (uint32_t i = 0; i < count; i++)
+      for (uint32_t i = 0; i < count && !has_pieces; i++) sum += weights->weights.at[first + i];
+      for (uint32_t i = 0; i < count && !has_pieces; i++)
         influences[next++] = (sbri_influence){weights->bones.at[first + i],
             sum > 1e-6f ? weights->weights.at[first + i] / sum : 1 / (float)count};
-      if (!count) influences[next++] = (sbri_influence){frame, 1};
+      if (next == from) influences[next++] = (sbri_influence){frame, 1};
+      *to = (sbri_frame_vertex){to_place, from, next - from, rest[v]};
     }
     first += count;
   }
@@ -209,6 +298,7 @@ static bool finish(carry *c, const sbf_vec3 *rest, const sbf_skin *weights, int3
     uint32_t frame = bone >= 0 ? (uint32_t)bone : sbri_root_frame(c->model);
     good = counts && fill_cells(c, counts) && fill_frames(c, counts, rest, weights, frame);
   }
+  sbfi_array_free(&c->pieces);
   sbfi_array_free(&c->bindings);
   sbfi_array_free(&c->carriers);
   sbfi_arena_free(&c->scratch);
@@ -220,6 +310,7 @@ static carry begin(sbr_model *model, sbri_skin *skin, uint32_t vertex_count) {
   sbfi_arena_init(&c.scratch, &model->arena.allocator, 0);
   sbfi_array_init(&c.carriers, &model->arena.allocator, sizeof(carrier));
   sbfi_array_init(&c.bindings, &model->arena.allocator, sizeof(sbri_binding));
+  sbfi_array_init(&c.pieces, &model->arena.allocator, sizeof(piece));
   skin->vertex_count = vertex_count;
   return c;
 }
@@ -234,6 +325,19 @@ static bool add_embeddings(carry *c, uint32_t render_mesh) {
         good = add_embedding(c, &model->bodies[b], &level->embeddings.at[e]);
   }
   return good;
+}
+
+/* Faces and normals, which all rungs share. */
+static bool shade(sbr_model *model, sbri_skin *skin, const sbf_render_mesh *shown, uint32_t render_mesh,
+    uint32_t render_level) {
+  if (model->base == model) return sbri_shading_make(skin, &shown->mesh, shown, &model->arena);
+  const sbri_skin *made = sbri_skin_of(model->base, render_mesh, render_level);
+  skin->face_block_count = made->face_block_count, skin->faces = made->faces;
+  skin->smooth = made->smooth, skin->smooth_of = made->smooth_of;
+  skin->split = made->split, skin->split_of = made->split_of, skin->corner_count = made->corner_count;
+  skin->tangent_blocks = made->tangent_blocks, skin->tangents = made->tangents;
+  skin->handedness = made->handedness;
+  return true;
 }
 
 bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_level) {
@@ -254,8 +358,8 @@ bool sbri_skin_make(sbr_model *model, uint32_t render_mesh, uint32_t render_leve
     c.place_of = level.place_of;
   }
   skin->first_polygon = model->torn_polygon_count;
-  good =
-      good && add_embeddings(&c, render_mesh) && sbri_shading_make(skin, &shown.mesh, &shown, &model->arena);
+  good = good && add_embeddings(&c, render_mesh) && add_all_pieces(&c, render_mesh) &&
+         shade(model, skin, &shown, render_mesh, render_level);
   if (c.bindings.count) model->torn_polygon_count += shown.mesh.polygon_sizes.count;
   const sbf_render_level *level = render_level ? &mesh->levels.at[render_level - 1] : NULL;
   return finish(&c, mesh->mesh.positions.at, mesh->skin, mesh->bone, good) &&

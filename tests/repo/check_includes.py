@@ -14,7 +14,7 @@ CORE = MODEL + ["libsbfmt/packed", "libsbfmt/generated"]
 MECHANICS = MODEL + ["libsbfmt/mechanics"]
 MOTION = MECHANICS + ["libsbfmt/motion"]
 FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/motion", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
-# Folders of the runtime, each with those below it that it may use; core and meet are one room.
+# Folders of the runtime, each with those below it that it may use; core, meet and detail are one room.
 RUNTIME = {
     "math": [],
     "ik": ["math"],
@@ -29,7 +29,8 @@ RUNTIME = {
     "rigid": ["math", "ik", "collide", "model"],
     "gait": ["math", "ik", "skeleton", "collide"],
     "meet": ["math", "collide", "model", "solvers", "core", "rigid"],
-    "core": ["math", "skeleton", "collide", "model", "contact", "skin", "solvers", "prepare", "rigid", "gait", "meet"],
+    "detail": ["math", "model", "skin", "core", "rigid", "gait"],
+    "core": ["math", "skeleton", "collide", "model", "contact", "skin", "solvers", "prepare", "rigid", "gait", "meet", "detail"],
 }
 
 # Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.
@@ -61,7 +62,7 @@ HEADER_BOX = {
     "sbfmt/base.h": "core", "sbfmt/codes.h": "core", "sbfmt/model.h": "core", "sbfmt/asset.h": "core",
     "sbfmt/io.h": "core", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
     "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange", "sbrun/sbrun.h": "runtime",
-    "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/collision.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
+    "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/collision.h": "runtime", "sbrun/detail.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
 }
 BOX_USES = {
     "core": {"core"},

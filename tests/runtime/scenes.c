@@ -392,10 +392,11 @@ void scene_skin(scene *s, uint32_t body_index) {
 
 void scene_models_survive_want(const scene *s) {
   bool done = false;
-  for (size_t allowed = 0; !done && allowed < 300; allowed++) {
+  for (size_t allowed = 0; !done && allowed < 2000; allowed++) {
     harness_memory memory;
     harness_memory_init(&memory, allowed);
-    sbr_model_options options = {.allocator = &memory.allocator};
+    sbr_model_options options = s->model_options;
+    options.allocator = &memory.allocator;
     sbr_model *model = NULL;
     done = sbr_model_create(s->asset, &options, &model, NULL) == SBF_OK;
     if (done) sbr_model_destroy(model);

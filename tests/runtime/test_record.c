@@ -6,20 +6,7 @@
 #include "sbfmt/codes.h"
 #include "sbrun/animation.h"
 #include "scenes.h"
-
-enum { ROOM = 1 << 16 };
-
-typedef struct tape {
-  unsigned char bytes[ROOM];
-  size_t size;
-} tape;
-
-static void keep(void *user, const void *bytes, size_t size) {
-  tape *to = user;
-  ck_assert_uint_le(to->size + size, ROOM);
-  memcpy(to->bytes + to->size, bytes, size);
-  to->size += size;
-}
+#include "tape.h"
 
 static scene make(sbr_instructions instructions) {
   scene s = scene_begin();
@@ -47,7 +34,7 @@ static uint64_t act(scene *s) {
 
 static uint64_t record(tape *t) {
   scene s = make(SBR_INSTRUCTIONS_AUTOMATIC);
-  const sbr_record_output output = {keep, t};
+  const sbr_record_output output = {tape_keep, t};
   t->size = 0;
   sbr_world_record(s.world, &output);
   uint64_t hash = act(&s);
@@ -64,7 +51,7 @@ START_TEST(what_is_played_ends_in_the_same_state)
   static tape t, again;
   uint64_t hash = record(&t);
   scene s = make(_i ? SBR_INSTRUCTIONS_SCALAR : SBR_INSTRUCTIONS_AUTOMATIC);
-  const sbr_record_output output = {keep, &again};
+  const sbr_record_output output = {tape_keep, &again};
   again.size = 0;
   sbr_world_record(s.world, &output);
   sbr_replay replay;
@@ -140,7 +127,7 @@ START_TEST(characters_made_meanwhile_are_told)
 {
   static tape t;
   scene s = make(SBR_INSTRUCTIONS_AUTOMATIC);
-  const sbr_record_output output = {keep, &t};
+  const sbr_record_output output = {tape_keep, &t};
   sbr_character_id other;
   sbr_replay replay;
   sbf_diagnostic error;

@@ -38,6 +38,7 @@ bool sbfi_jiggle_level_make(
   sbf_jiggle_init(jiggle);
   if (frequency > 0 && frequency < 1e6) jiggle->frequency = (float)frequency;
   jiggle->damping_ratio = body->attributes.damping_ratio;
+  jiggle->response = 2; /* what is damped is its motion against the bone: going on evenly it does not lag */
   level->model = SBF_ELASTIC_MODEL_JIGGLE;
   level->derived = derivation;
   level->positions = (sbf_vec3_list){positions, 4};

@@ -113,6 +113,8 @@ typedef struct sbr_model_options {
                            else 0.0001 */
   sbr_instructions instructions; /* for the solvers' loops */
   uint32_t rigid_substeps;       /* of a control tick for rigid parts (sbrun/rigid.h), at most 1000; 0: 4 */
+  bool ladder; /* coarser levels than `level` as well, jiggle and bones alone, between which characters change
+                  (sbrun/detail.h) */
 } sbr_model_options;
 
 /* `asset` must outlive the model. SBF_FAILED where memory runs out, the instructions are not available, or

@@ -1,0 +1,240 @@
+/* From one rung to another: what all rungs share is copied; soft bodies take over shapes and velocities, as
+ * each point is a mean of points of the level before (prepare/sources.c), both seen from where what holds the
+ * body would have them. A shape that would hold more energy than the one before is drawn back to rest until
+ * it does not. From jiggle and bones bodies begin in their rest shape, going as their bones go. */
+#include <string.h>
+
+#include "detail/rungs.h"
+#include "math/quat.h"
+
+enum { ATTEMPTS = 4 };
+
+/* ---- Before ---- */
+
+static float *velocity_of(const sbri_character *c, uint32_t slot) {
+  return sbri_velocities(c) + 3 * (size_t)(slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+
+/* How far and how fast the points are from their guides; those of what nothing holds from the root as it is.
+ */
+static void keep_body(sbri_character *c, const sbri_body *body, bool moves) {
+  const sbri_island *island = &c->model->islands[body->island];
+  sbri_point *guides = sbri_velocity_points(c) + island->first_slot + body->slot_begin;
+  sbri_guide_places(c->model, body, sbri_deltas(c), guides);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    uint32_t at = island->first_slot + slot;
+    const sbri_point *p = &sbri_positions(c)[at], *g = &guides[slot - body->slot_begin];
+    const float *v = velocity_of(c, at), *w = sbri_guide_velocities(c) + (v - sbri_velocities(c));
+    float held = body->held ? 1 : 0, is = moves ? 1 : 0;
+    sbri_offsets(c)[at] = (sbri_point){p->x - g->x, p->y - g->y, p->z - g->z, 0};
+    sbri_speeds(c)[at] = (sbri_point){is * (v[0] - held * w[0]), is * (v[SBRI_BLOCK] - held * w[SBRI_BLOCK]),
+        is * (v[2 * SBRI_BLOCK] - held * w[2 * SBRI_BLOCK]), 0};
+  }
+}
+
+static void keep_soft(sbri_character *c, float tick_s) {
+  const sbr_model *model = c->model;
+  bool moves = true;
+  memset(sbri_offsets(c), 0, model->slot_count * sizeof(sbri_point));
+  memset(sbri_speeds(c), 0, model->slot_count * sizeof(sbri_point));
+  for (uint32_t i = 0; i < model->island_count; i++)
+    moves = sbri_guide_velocities_find(c, &model->islands[i], tick_s) && moves;
+  for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
+    if (model->bodies[b].level) keep_body(c, &model->bodies[b], moves);
+}
+
+static void keep(sbri_character *c) {
+  const sbr_model *model = c->model;
+  memcpy(sbri_kept_state(c), c->state, model->layout.state_size);
+  memcpy(
+      sbri_kept_touching(c), sbri_soft_touching(c), model->asset->soft_bodies.count * sizeof(sbri_touching));
+  memcpy(
+      sbri_kept_rigid_touching(c), sbri_rigid_touching(c), model->rigid.body_count * sizeof(sbri_touching));
+}
+
+/* ---- What all rungs share ---- */
+
+static void take(sbri_character *c, size_t to, size_t from, size_t size) {
+  memcpy(c->state + to, sbri_kept_state(c) + from, size);
+}
+
+static void take_shared(sbri_character *c, const sbr_model *was) {
+  const sbr_model *is = c->model;
+  const sbri_layout *to = &is->layout, *from = &was->layout;
+  uint32_t frames = sbri_first_jiggle_frame(is);
+  memset(c->state + to->gait, 0, to->state_size - to->gait);
+  memset(c->scratch, 0, to->own_scratch_size);
+  take(c, to->gait, from->gait, sbri_gait_state_size(&is->rig));
+  take(c, to->pose, from->pose, frames * sizeof(sbr_transform));
+  take(c, to->previous_pose, from->previous_pose, frames * sizeof(sbr_transform));
+  take(c, to->rigid_bodies, from->rigid_bodies, is->rigid.body_count * sizeof(sbri_rigid_body_state));
+  take(c, to->rigid_joints, from->rigid_joints, is->rigid.joint_count * sizeof(sbri_rigid_joint_state));
+  take(c, to->rigid_drive, from->rigid_drive, is->rigid.body_count ? sizeof(sbri_rigid_drive_state) : 0);
+  memcpy(sbri_soft_touching(c), sbri_kept_touching(c), is->asset->soft_bodies.count * sizeof(sbri_touching));
+  memcpy(sbri_rigid_touching(c), sbri_kept_rigid_touching(c), is->rigid.body_count * sizeof(sbri_touching));
+  c->sampled_at = 0;
+}
+
+/* What is told of an island goes on with the island that has its first body. */
+static void take_counts(sbri_character *c, const sbr_model *was) {
+  const sbri_island_state *kept =
+      (const sbri_island_state *)(const void *)(sbri_kept_state(c) + was->layout.islands);
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    uint32_t body = c->model->islands[i].bodies[0];
+    if (!was->bodies[body].level) continue;
+    const sbri_island_state *from = &kept[was->bodies[body].island];
+    sbri_island_states(c)[i].recoveries = from->recoveries;
+    sbri_island_states(c)[i].recovering = from->recovering;
+    sbri_island_states(c)[i].told_asleep = from->told_asleep;
+  }
+}
+
+/* ---- Soft bodies ---- */
+
+static sbf_vec3 mean_of(const sbri_sources *sources, const sbri_point *of) {
+  sbf_vec3 sum = {0, 0, 0};
+  for (int k = 0; k < SBRI_SOURCES; k++) {
+    const sbri_point *p = &of[sources->slots[k]];
+    sum = sbri_add_scaled(sum, sbri_vec3(p->x, p->y, p->z), sources->weights[k]);
+  }
+  return sum;
+}
+
+/* `share` of the shape before, and of how it moved, at its guides' places. */
+static void shape(sbri_character *c, const sbri_body *body, const sbri_sources *sources, float share) {
+  const sbri_island *island = &c->model->islands[body->island];
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  sbri_guide_places(c->model, body, sbri_deltas(c), positions + body->slot_begin);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    sbf_vec3 off = mean_of(&sources[island->first_slot + slot], sbri_offsets(c));
+    sbri_point *p = &positions[slot];
+    *p = (sbri_point){p->x + share * off.x, p->y + share * off.y, p->z + share * off.z, 0};
+  }
+}
+
+static void add_speeds(sbri_character *c, const sbri_body *body, const sbri_sources *sources) {
+  const sbri_island *island = &c->model->islands[body->island];
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    sbf_vec3 speed = mean_of(&sources[island->first_slot + slot], sbri_speeds(c));
+    float *v = velocity_of(c, island->first_slot + slot);
+    v[0] += speed.x, v[SBRI_BLOCK] += speed.y, v[2 * SBRI_BLOCK] += speed.z;
+  }
+}
+
+static double elastic_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
+  return sbr_character_health(world, sbri_id_of(world, c), body).elastic_j;
+}
+
+/* Energy goes with the square of a small strain. */
+static void shape_within(
+    const sbr_world *world, sbri_character *c, uint32_t index, const sbri_sources *sources, double most_j) {
+  const sbri_body *body = &c->model->bodies[index];
+  float share = 1;
+  shape(c, body, sources, share);
+  for (int n = 0; n < ATTEMPTS && body->held; n++) {
+    double now = elastic_of(world, c, index);
+    if (!(now > most_j)) return;
+    share *= n + 1 < ATTEMPTS ? 0.98f * (float)sqrt(most_j / now) : 0;
+    shape(c, body, sources, share);
+  }
+}
+
+/* ---- Jiggles ---- */
+
+/* How far and how fast the body's points were off their guides on average. */
+static void mean_offset(
+    const sbri_character *c, const sbr_model *was, uint32_t index, sbf_vec3 *offset, sbf_vec3 *speed) {
+  const sbri_body *body = &was->bodies[index];
+  *offset = *speed = sbri_vec3(0, 0, 0);
+  if (!body->level || body->slot_real_end == body->slot_begin) return;
+  float share = 1 / (float)(body->slot_real_end - body->slot_begin);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    const sbri_point *o = &sbri_offsets(c)[was->islands[body->island].first_slot + slot];
+    const sbri_point *v = &sbri_speeds(c)[was->islands[body->island].first_slot + slot];
+    *offset = sbri_add_scaled(*offset, sbri_vec3(o->x, o->y, o->z), share);
+    *speed = sbri_add_scaled(*speed, sbri_vec3(v->x, v->y, v->z), share);
+  }
+}
+
+/* Followers take that over, and go on as their bones go. */
+static void swing(sbri_character *c, const sbr_model *was, float tick_s) {
+  for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
+    const sbri_jiggle *jiggle = &c->model->jiggles[j];
+    sbri_place_follower *follower = &sbri_jiggles(c)[j];
+    sbf_vec3 offset, speed;
+    mean_offset(c, was, jiggle->body, &offset, &speed);
+    sbr_transform before = sbri_delta_of(c, sbri_previous_pose(c), jiggle->carrier);
+    sbf_vec3 middle = sbri_add(before.position, sbri_rotate(before.rotation, jiggle->middle));
+    sbf_vec3 went = sbri_scale(sbri_sub(follower->followed, middle), 1 / tick_s);
+    follower->value = sbri_add(follower->followed, offset);
+    follower->rate = sbri_add(went, speed);
+    sbr_transform *frame = &sbri_pose(c)[sbri_first_jiggle_frame(c->model) + j];
+    frame->position = sbri_add_scaled(frame->position, offset, c->scale);
+  }
+}
+
+/* ---- All of it ---- */
+
+static void take_soft(const sbr_world *world, sbri_character *c, const sbr_model *was, uint32_t was_rung,
+    const double *before_j, float tick_s) {
+  const sbr_model *is = c->model;
+  const sbri_sources *sources = is->sources ? is->sources[was_rung] : NULL;
+  for (uint32_t i = 0; i < is->island_count; i++) {
+    sbri_island_place_at_rest(c, i);
+    sbri_guides_go_on(c, &is->islands[i], tick_s);
+  }
+  for (uint32_t b = 0; sources && b < is->asset->soft_bodies.count; b++) {
+    if (!is->bodies[b].level || !was->bodies[b].level) continue;
+    shape_within(world, c, b, sources, before_j[b]);
+    add_speeds(c, &is->bodies[b], sources);
+  }
+}
+
+static void go_over(const sbr_world *world, sbri_character *c, uint32_t rung) {
+  sbri_character_state *head = sbri_head(c);
+  const sbr_model *was = c->model, *is = was->base->rungs[rung];
+  uint32_t was_rung = head->rung;
+  float tick_s = (float)world->tick_s * c->time_scale;
+  bool was_soft = sbri_rung_of(c)->kind == SBR_RUNG_SOFT;
+  double *before_j = sbri_energies(c);
+  for (uint32_t b = 0; was_soft && b < was->asset->soft_bodies.count; b++)
+    before_j[b] = elastic_of(world, c, b);
+  sbri_deltas_make(c, sbri_previous_pose(c), sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  if (was_soft) keep_soft(c, tick_s);
+  keep(c);
+  c->model = is;
+  take_shared(c, was);
+  take_counts(c, was);
+  sbri_jiggles_place(c);
+  swing(c, was, tick_s);
+  sbri_deltas_make(c, sbri_previous_pose(c), sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  sbri_mend(c);
+  take_soft(world, c, was, was_rung, before_j, tick_s);
+}
+
+void sbri_rung_change(const sbr_world *world, sbri_character *c) {
+  sbri_character_state *head = sbri_head(c);
+  uint32_t rung = head->next_rung;
+  if (head->rung_ticks < UINT32_MAX) head->rung_ticks++;
+  if (c->model->base->ladder[rung].kind == SBR_RUNG_AWAY && !sbri_rigid_is_still(c))
+    rung--; /* what lies about, or falls, goes on doing so: bones alone */
+  if (rung == head->rung) return;
+  bool returns = sbri_is_away(c), same = c->model == c->model->base->rungs[rung];
+  bool fades = head->unseen_ticks == 0 && !(same && !returns);
+  if (fades) {
+    sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+    sbri_fade_keep(c);
+  }
+  if (returns) sbri_away_arrive(world, c);
+  if (!same) go_over(world, c, rung);
+  head->rung = rung;
+  head->rung_ticks = 0;
+  head->asleep = 0;
+  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  if (fades)
+    sbri_fade_begin(world, c);
+  else if (!same || returns)
+    sbri_fade_end(c);
+}

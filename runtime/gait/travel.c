@@ -1,0 +1,28 @@
+/* The way of a body that nobody sees: where it comes to, without feet. */
+#include <string.h>
+
+#include "gait/gait_state.h"
+#include "math/trig.h"
+
+void sbri_gait_travel(const sbri_rig *rig, void *memory, const sbri_gait_input *input) {
+  sbri_gait_state *state = memory;
+  sbri_gait_input footless = *input;
+  footless.hold = true; /* no foot slows it down */
+  state->waiting_s = 0;
+  (void)sbri_body_move(rig, state, &footless);
+  sbri_clips_tick(rig, state, input->tick_s);
+}
+
+void sbri_gait_arrive(const sbri_rig *rig, void *memory, const sbri_gait_input *input) {
+  sbri_gait_state *state = memory;
+  uint32_t steps[SBRI_MOST_LEGS];
+  for (uint32_t i = 0; i < rig->leg_count; i++) steps[i] = state->feet[i].steps_taken;
+  memset(state->feet, 0, sizeof state->feet);
+  for (uint32_t i = 0; i < rig->leg_count; i++) state->feet[i].steps_taken = steps[i];
+  state->sway_x = state->sway_z = state->crouch = state->upright = (sbri_lag){0, 0};
+  state->room = state->bent = (sbri_lag){0, 0};
+  state->waiting_s = 0;
+  state->since_lift_m = 1e6f;
+  sbri_body_stand(rig, state, input);
+  for (uint32_t i = 0; i < rig->leg_count; i++) state->feet[i].steps_taken = steps[i];
+}

@@ -1,0 +1,26 @@
+/* A box that a bone holds at its side, on a ladder: two lattices, jiggle, bones, away. */
+#ifndef TEST_RUNG_SCENES_H
+#define TEST_RUNG_SCENES_H
+
+#include "sbrun/detail.h"
+#include "scenes.h"
+
+/* Rungs of the scene's model. */
+enum { RUNG_FINE, RUNG_COARSE, RUNG_JIGGLE, RUNG_BONES, RUNG_AWAY, RUNGS };
+
+/* The asset and the options, before scene_start; of a loose body held by nothing, whose rungs are the first
+ * two. */
+scene rung_scene_begin(bool loose);
+/* Started, driven at 0.5 m/s and turning, on that rung, for a second and a half. */
+scene rung_scene_walking(uint32_t rung);
+
+enum { RUNG_VERTICES = 512 };
+/* The skin in world space; returns how many vertices. */
+uint32_t rung_scene_skin(const scene *s, sbf_vec3 *positions);
+/* The farthest that two are apart, m. */
+double rung_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count);
+/* J of the body: elastic, kinetic. */
+double rung_scene_elastic(const scene *s);
+double rung_scene_kinetic(const scene *s);
+
+#endif

@@ -1,0 +1,104 @@
+#include <math.h>
+#include <string.h>
+
+#include "harness.h"
+#include "rung_scenes.h"
+
+START_TEST(a_ladder_has_levels_jiggle_bones_and_away)
+{
+  scene s = rung_scene_begin(false);
+  scene_start(&s);
+  sbr_rung rungs[8];
+  ck_assert_uint_eq(sbr_model_rungs(s.model, rungs, 8), RUNGS);
+  const sbr_rung_kind kinds[RUNGS] = {
+      SBR_RUNG_SOFT, SBR_RUNG_SOFT, SBR_RUNG_JIGGLE, SBR_RUNG_BONES, SBR_RUNG_AWAY};
+  for (uint32_t r = 0; r < RUNGS; r++) {
+    ck_assert_int_eq(rungs[r].kind, kinds[r]);
+    if (r == 0) continue;
+    ck_assert(rungs[r].visits < rungs[r - 1].visits);
+    ck_assert(rungs[r].error_m >= rungs[r - 1].error_m);
+  }
+  ck_assert(rungs[0].error_m == 0);
+  ck_assert(rungs[1].error_m == 0.01f);
+  ck_assert(rungs[2].error_m == 0.02f);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(without_a_ladder_or_with_a_body_that_keeps_its_shape_there_is_one_rung)
+{
+  for (int i = 0; i < 2; i++) {
+    scene s = rung_scene_begin(false);
+    if (i == 0)
+      s.model_options.ladder = false;
+    else
+      scene_body(&s, 0)->attributes.yield_strain = 0.2f, scene_body(&s, 0)->attributes.yield_flow = 1;
+    scene_start(&s);
+    ck_assert_uint_eq(sbr_model_rungs(s.model, NULL, 0), 1);
+    sbr_character_set_rung(s.world, s.character, 3);
+    scene_ticks(&s, 3);
+    ck_assert_uint_eq(sbr_character_rung(s.world, s.character), 0);
+    scene_free(&s);
+  }
+  ck_assert_uint_eq(sbr_model_rungs(NULL, NULL, 0), 0);
+}
+END_TEST
+
+START_TEST(what_nothing_holds_has_soft_rungs_alone)
+{
+  scene s = rung_scene_begin(true);
+  scene_start(&s);
+  sbr_rung rungs[8];
+  ck_assert_uint_eq(sbr_model_rungs(s.model, rungs, 8), 2);
+  ck_assert_int_eq(rungs[1].kind, SBR_RUNG_SOFT);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(a_level_that_is_off_by_a_quarter_of_its_body_is_no_rung)
+{
+  scene s = rung_scene_begin(false);
+  ((sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at)[1].simulation.error = 0.2f;
+  scene_start(&s);
+  sbr_rung rungs[8];
+  ck_assert_uint_eq(sbr_model_rungs(s.model, rungs, 8), RUNGS - 1);
+  ck_assert_int_eq(rungs[1].kind, SBR_RUNG_JIGGLE);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(levels_that_were_not_loaded_are_passed_over)
+{
+  scene s = rung_scene_begin(false);
+  sbf_level *levels = (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at;
+  sbf_level_init(&levels[0]);
+  s.model_options.ladder = false;
+  scene_start(&s);
+  scene_ticks(&s, 30);
+  ck_assert_uint_eq(sbr_character_points(s.world, s.character, 0, NULL, 0), levels[1].positions.count);
+  ck_assert(rung_scene_elastic(&s) > 0);
+  scene_free(&s);
+}
+END_TEST
+
+START_TEST(making_one_survives_want_of_memory)
+{
+  scene s = rung_scene_begin(false);
+  scene_models_survive_want(&s);
+  sbf_asset_free(s.asset);
+}
+END_TEST
+
+int main(void) {
+  Suite *s = suite_create("rungs");
+  TCase *c = tcase_create("rungs");
+  tcase_set_timeout(c, 60);
+  tcase_add_test(c, a_ladder_has_levels_jiggle_bones_and_away);
+  tcase_add_test(c, without_a_ladder_or_with_a_body_that_keeps_its_shape_there_is_one_rung);
+  tcase_add_test(c, what_nothing_holds_has_soft_rungs_alone);
+  tcase_add_test(c, a_level_that_is_off_by_a_quarter_of_its_body_is_no_rung);
+  tcase_add_test(c, levels_that_were_not_loaded_are_passed_over);
+  tcase_add_test(c, making_one_survives_want_of_memory);
+  suite_add_tcase(s, c);
+  return harness_run(s);
+}
