@@ -3,10 +3,9 @@
  * Corners of soft surfaces against triangles of others and against hulls, corners of hulls against triangles,
  * hulls against hulls. Where two parts of one character overlap at rest they do not fight: what is inside at
  * rest is let be, and what is near is kept no further off. */
-#include "collide/hull_pair.h"
 #include "collide/shape.h"
 #include "collide/surface_look.h"
-#include "meet/meetings.h"
+#include "meet/finding.h"
 
 /* Of the distance at rest, where that is less than the margin. */
 static const float REST_SHARE = 0.9f;
@@ -17,26 +16,9 @@ static const float NEAR_SHARE = 0.02f;
 /* And how far beyond its margin what lies there is looked for: of the size of what it lies on. */
 static const float LET_GO_SHARE = 0.01f;
 
-typedef struct finding {
-  sbr_world *world;
-  sbri_meet_group *group;
-  const sbri_meet_member *members;
-} finding;
-
-/* One of the two that may meet. */
-typedef struct party {
-  const sbri_meeter *is;
-  uint32_t member; /* of the group */
-  const sbri_meet_member *of;
-  const sbri_body *soft;
-  const sbri_meet_surface *surface;
-  const sbri_rigid_body *rigid;
-  float friction, restitution;
-} party;
-
-static party party_of(const finding *f, uint32_t number) {
+static sbri_party party_of(const sbri_finding *f, uint32_t number) {
   const sbri_meeter *is = &f->world->meetings->meeters[number];
-  party p = {.is = is};
+  sbri_party p = {.is = is};
   while (f->members[p.member].character != &f->world->characters[is->character]) p.member++;
   p.of = &f->members[p.member];
   const sbr_model *model = p.of->character->model;
@@ -51,13 +33,10 @@ static party party_of(const finding *f, uint32_t number) {
   return p;
 }
 
-static bool are_of_one(const party *a, const party *b) {
-  return a->member == b->member;
-}
-
 /* ---- Sides ---- */
 
-static sbri_meet_side soft_side(const party *p, const uint32_t *vertices, const float *weights, int count) {
+static sbri_meet_side soft_side(
+    const sbri_party *p, const uint32_t *vertices, const float *weights, int count) {
   sbri_meet_side side = {.member = p->member, .rigid_body = -1, .island = p->soft->island};
   for (int i = 0; i < count; i++) {
     const sbri_sample *s = &p->surface->samples[vertices[i]];
@@ -72,11 +51,8 @@ static sbri_meet_side soft_side(const party *p, const uint32_t *vertices, const 
   return side;
 }
 
-static sbri_meet_side rigid_side(const party *p, sbf_vec3 own) {
-  return (sbri_meet_side){.member = p->member, .rigid_body = (int32_t)p->is->number, .at = own};
-}
-
-static void add(const finding *f, const party *a, const party *b, const sbri_meet_touch *touch) {
+void sbri_finding_add(
+    const sbri_finding *f, const sbri_party *a, const sbri_party *b, const sbri_meet_touch *touch) {
   if (f->group->touch_count >= f->group->touch_capacity) return;
   sbri_meet_touch *t = &f->world->meetings->touches[f->group->first_touch + f->group->touch_count++];
   *t = *touch;
@@ -91,13 +67,13 @@ static void add(const finding *f, const party *a, const party *b, const sbri_mee
 
 /* ---- Soft with soft ---- */
 
-static sbri_surface_rule rule_of(const party *p) {
+static sbri_surface_rule rule_of(const sbri_party *p) {
   const sbf_collision *rule = &p->soft->source->collision;
   return (sbri_surface_rule){
       rule->outer_thickness * p->of->scale, rule->inner_thickness * p->of->scale, p->surface->two_sided};
 }
 
-static sbri_surface_face face_of(const party *p, uint32_t triangle) {
+static sbri_surface_face face_of(const sbri_party *p, uint32_t triangle) {
   sbri_surface_face face;
   for (int k = 0; k < 3; k++) {
     uint32_t v = p->surface->triangles[3 * (size_t)triangle + (uint32_t)k];
@@ -106,13 +82,13 @@ static sbri_surface_face face_of(const party *p, uint32_t triangle) {
   return face;
 }
 
-static sbf_vec3 rest_of(const party *p, uint32_t vertex) {
+static sbf_vec3 rest_of(const sbri_party *p, uint32_t vertex) {
   const sbri_sample *s = &p->surface->samples[vertex];
   return sbri_scale(sbri_meet_rest(p->of->character->model, p->is->number, s), p->of->scale);
 }
 
 /* What is kept between them: nothing between surfaces that both enclose matter. */
-static float margin_between(const party *a, const party *b) {
+static float margin_between(const sbri_party *a, const sbri_party *b) {
   float own = a->soft ? a->soft->margin_m * a->of->scale : 0;
   float other = b->surface->two_sided ? b->soft->source->collision.outer_thickness * b->of->scale : 0;
   return own > other ? own : other;
@@ -120,7 +96,8 @@ static float margin_between(const party *a, const party *b) {
 
 /* The most urgent triangle of `b` for a place of `a` that goes so; whether there is one. What lies at a
  * margin is looked for beyond it: it would else be let go each other tick, and fall. */
-static bool find_face(const party *a, const party *b, sbf_vec3 x, sbf_vec3 way, sbri_surface_finding *best) {
+static bool find_face(
+    const sbri_party *a, const sbri_party *b, sbf_vec3 x, sbf_vec3 way, sbri_surface_finding *best) {
   sbri_surface_rule rule = rule_of(b);
   float margin = margin_between(a, b), beyond = margin + LET_GO_SHARE * b->soft->rest_size_m * b->of->scale;
   sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, way));
@@ -137,7 +114,7 @@ static bool find_face(const party *a, const party *b, sbf_vec3 x, sbf_vec3 way, 
   return sbri_surface_found(best);
 }
 
-static void meet_faces(const finding *f, const party *a, const party *b) {
+static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_party *b) {
   sbri_surface_rule rule = rule_of(b);
   const float whole = 1;
   for (uint32_t v = 0; v < a->surface->vertex_count; v++) {
@@ -147,7 +124,7 @@ static void meet_faces(const finding *f, const party *a, const party *b) {
       continue;
     const uint32_t *corners = b->surface->triangles + 3 * (size_t)best.face;
     float margin = margin_between(a, b);
-    if (are_of_one(a, b)) {
+    if (sbri_are_of_one(a, b)) {
       const sbf_vec3 p[3] = {rest_of(b, corners[0]), rest_of(b, corners[1]), rest_of(b, corners[2])};
       float rest = sbri_surface_gap(&rule, rest_of(a, v), p);
       if (rest <= TOGETHER_SHARE * a->soft->rest_size_m * a->of->scale) continue;
@@ -158,7 +135,7 @@ static void meet_faces(const finding *f, const party *a, const party *b) {
         .b = soft_side(b, corners, best.weights, 3),
         .normal = best.normal,
         .margin = margin};
-    add(f, a, b, &t);
+    sbri_finding_add(f, a, b, &t);
   }
 }
 
@@ -173,7 +150,7 @@ static bool share_points(const sbri_sample *a, const sbri_sample *b) {
 
 /* Parts that hang together do not meet: what the same points carry, and what lies in each other, or nearer
  * than this share of the body, at rest. */
-static bool may_meet_face(const party *p, const sbri_surface_rule *rule, uint32_t v, uint32_t triangle) {
+static bool may_meet_face(const sbri_party *p, const sbri_surface_rule *rule, uint32_t v, uint32_t triangle) {
   const uint32_t *corners = p->surface->triangles + 3 * (size_t)triangle;
   sbf_vec3 rest[3];
   for (int k = 0; k < 3; k++) {
@@ -184,7 +161,7 @@ static bool may_meet_face(const party *p, const sbri_surface_rule *rule, uint32_
   return sbri_surface_gap(rule, rest_of(p, v), rest) > TOGETHER_SHARE * p->soft->rest_size_m * p->of->scale;
 }
 
-static bool find_own_face(const party *p, uint32_t v, sbri_surface_finding *best) {
+static bool find_own_face(const sbri_party *p, uint32_t v, sbri_surface_finding *best) {
   sbri_surface_rule rule = rule_of(p);
   sbf_vec3 x = p->surface->places[v], way = p->surface->ways[v];
   sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, way));
@@ -202,7 +179,7 @@ static bool find_own_face(const party *p, uint32_t v, sbri_surface_finding *best
 }
 
 /* A surface that other points carry; one of a level's own points meets itself by itself. */
-static void meet_itself(const finding *f, const party *p) {
+static void meet_itself(const sbri_finding *f, const sbri_party *p) {
   const float whole = 1;
   for (uint32_t v = 0; v < p->surface->vertex_count; v++) {
     sbri_surface_finding best;
@@ -212,42 +189,18 @@ static void meet_itself(const finding *f, const party *p) {
         .b = soft_side(p, p->surface->triangles + 3 * (size_t)best.face, best.weights, 3),
         .normal = best.normal,
         .margin = margin_between(p, p)};
-    add(f, p, p, &t);
+    sbri_finding_add(f, p, p, &t);
   }
 }
 
 /* ---- Rigid ---- */
 
-/* A rigid body's own frame at the tick's beginning or its end, if nothing acts, relative to the group. */
-static sbr_transform frame_at(const party *p, bool end) {
-  const sbri_character *c = p->of->character;
-  uint32_t b = p->is->number;
-  sbr_transform at;
-  if (p->is->gives_way && p->of->parts.steps) {
-    const sbri_rigid_body_state *s = &sbri_rigid_bodies(c)[b];
-    at = s->pose;
-    if (end) {
-      at.position = sbri_add_scaled(at.position, s->velocity, p->of->tick_s);
-      (void)sbri_free_turn(p->rigid, s->pose.rotation, s->spin, p->of->tick_s, &at.rotation);
-    }
-  } else {
-    at = sbri_rigid_target(c, end ? sbri_pose(c) : sbri_previous_pose(c), b);
-  }
-  at.position = sbri_add_scaled(p->of->offset, at.position, p->of->scale);
-  return at;
-}
-
-static sbf_vec3 into(const sbr_transform *frame, sbf_vec3 x, float scale) {
-  sbf_vec3 off = sbri_scale(sbri_sub(x, frame->position), 1 / scale);
-  return sbri_rotate(sbri_quat_conjugate(frame->rotation), off);
-}
-
 static sbf_vec3 out_of(const sbr_transform *frame, sbf_vec3 own, float scale) {
   return sbri_add_scaled(frame->position, sbri_rotate(frame->rotation, own), scale);
 }
 
-static void meet_hull(const finding *f, const party *soft, const party *rigid) {
-  sbr_transform from = frame_at(rigid, false), to = frame_at(rigid, true);
+static void meet_hull(const sbri_finding *f, const sbri_party *soft, const sbri_party *rigid) {
+  sbr_transform from = sbri_party_frame(rigid, false), to = sbri_party_frame(rigid, true);
   const sbri_hull *hull = &rigid->rigid->hull;
   float scale = rigid->of->scale, margin = soft->soft->margin_m * soft->of->scale;
   float slack = NEAR_SHARE * soft->soft->rest_size_m * soft->of->scale;
@@ -255,7 +208,8 @@ static void meet_hull(const finding *f, const party *soft, const party *rigid) {
   for (uint32_t v = 0; v < soft->surface->vertex_count; v++) {
     if (!(soft->surface->samples[v].mass_kg > 0)) continue;
     sbf_vec3 x = soft->surface->places[v];
-    sbf_vec3 begin = into(&from, x, scale), end = into(&to, sbri_add(x, soft->surface->ways[v]), scale);
+    sbf_vec3 begin = sbri_into_frame(&from, x, scale),
+             end = sbri_into_frame(&to, sbri_add(x, soft->surface->ways[v]), scale);
     sbf_vec3 way = sbri_sub(end, begin), place, normal, entered;
     float reach = (margin + slack) / scale + sbri_length(way), share;
     uint32_t face;
@@ -265,29 +219,29 @@ static void meet_hull(const finding *f, const party *soft, const party *rigid) {
       place = sbri_add_scaled(begin, way, share), normal = entered;
     else if (gap > reach)
       continue;
-    if (are_of_one(soft, rigid)) {
+    if (sbri_are_of_one(soft, rigid)) {
       sbr_transform rest = {sbri_scale(rigid->rigid->center, scale), rigid->rigid->axes};
       float together = TOGETHER_SHARE * soft->soft->rest_size_m;
-      if (sbri_hull_depth(hull, into(&rest, rest_of(soft, v), scale), &face) <= together) continue;
+      if (sbri_hull_depth(hull, sbri_into_frame(&rest, rest_of(soft, v), scale), &face) <= together) continue;
     }
     sbri_meet_touch t = {.feature = v,
         .a = soft_side(soft, &v, &whole, 1),
-        .b = rigid_side(rigid, place),
+        .b = sbri_rigid_side(rigid, place),
         .normal = sbri_rotate(from.rotation, normal),
         .margin = margin};
-    add(f, soft, rigid, &t);
+    sbri_finding_add(f, soft, rigid, &t);
   }
 }
 
 /* Corners of the hull against the soft surface's triangles. */
-static void meet_corners(const finding *f, const party *rigid, const party *soft) {
-  sbr_transform from = frame_at(rigid, false), to = frame_at(rigid, true);
+static void meet_corners(const sbri_finding *f, const sbri_party *rigid, const sbri_party *soft) {
+  sbr_transform from = sbri_party_frame(rigid, false), to = sbri_party_frame(rigid, true);
   for (uint32_t i = 0; i < rigid->rigid->vertex_count; i++) {
     sbf_vec3 own = rigid->rigid->vertices[i], x = out_of(&from, own, rigid->of->scale);
     sbri_surface_finding best;
     if (!find_face(rigid, soft, x, sbri_sub(out_of(&to, own, rigid->of->scale), x), &best)) continue;
     const uint32_t *corners = soft->surface->triangles + 3 * (size_t)best.face;
-    if (are_of_one(soft, rigid)) {
+    if (sbri_are_of_one(soft, rigid)) {
       sbr_transform rest = {sbri_scale(rigid->rigid->center, rigid->of->scale), rigid->rigid->axes};
       const sbf_vec3 p[3] = {rest_of(soft, corners[0]), rest_of(soft, corners[1]), rest_of(soft, corners[2])};
       sbri_surface_rule rule = rule_of(soft);
@@ -295,46 +249,17 @@ static void meet_corners(const finding *f, const party *rigid, const party *soft
       if (sbri_surface_gap(&rule, out_of(&rest, own, rigid->of->scale), p) <= together) continue;
     }
     sbri_meet_touch t = {.feature = i,
-        .a = rigid_side(rigid, own),
+        .a = sbri_rigid_side(rigid, own),
         .b = soft_side(soft, corners, best.weights, 3),
         .normal = best.normal,
         .margin = margin_between(rigid, soft)};
-    add(f, rigid, soft, &t);
-  }
-}
-
-static sbri_placed_hull placed(const party *p, const sbr_transform *at) {
-  return (sbri_placed_hull){&p->rigid->hull, at->position, at->rotation, p->of->scale};
-}
-
-static bool overlap_at_rest(const party *a, const party *b) {
-  sbr_transform at_a = {sbri_scale(a->rigid->center, a->of->scale), a->rigid->axes},
-                at_b = {sbri_scale(b->rigid->center, b->of->scale), b->rigid->axes};
-  sbri_placed_hull hull_a = placed(a, &at_a), hull_b = placed(b, &at_b);
-  sbri_hull_pair pair;
-  return sbri_hulls_meet(&hull_a, &hull_b, 0, &pair) && pair.gap < 0;
-}
-
-static void meet_hulls(const finding *f, const party *a, const party *b) {
-  sbr_transform from_a = frame_at(a, false), from_b = frame_at(b, false), to_a = frame_at(a, true),
-                to_b = frame_at(b, true);
-  sbri_placed_hull hull_a = placed(a, &from_a), hull_b = placed(b, &from_b);
-  sbf_vec3 way = sbri_sub(sbri_sub(to_a.position, from_a.position), sbri_sub(to_b.position, from_b.position));
-  float size = a->rigid->radius * a->of->scale + b->rigid->radius * b->of->scale;
-  sbri_hull_pair pair;
-  if (!sbri_hulls_meet(&hull_a, &hull_b, sbri_length(way) + NEAR_SHARE * size, &pair)) return;
-  if (are_of_one(a, b) && overlap_at_rest(a, b)) return;
-  for (uint32_t i = 0; i < pair.count; i++) {
-    sbri_meet_touch t = {.a = rigid_side(a, into(&from_a, pair.on_a[i], a->of->scale)),
-        .b = rigid_side(b, into(&from_b, pair.on_b[i], b->of->scale)),
-        .normal = pair.normal};
-    add(f, a, b, &t);
+    sbri_finding_add(f, rigid, soft, &t);
   }
 }
 
 /* What bears others is borne by the ground itself: with its planes among the touches the push of each is
  * found with that of all. Soft bodies have their ground in every step of their own. */
-static void add_planes(const finding *f, uint32_t member) {
+static void add_planes(const sbri_finding *f, uint32_t member) {
   const sbri_meet_member *m = &f->members[member];
   const sbri_rigid_solving *work = &m->parts.work;
   for (uint32_t i = 0; m->parts.steps && i < work->touch_count; i++) {
@@ -360,7 +285,7 @@ static void add_planes(const finding *f, uint32_t member) {
 
 void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
   sbri_meetings *all = world->meetings;
-  finding f = {world, group, all->members + group->first_member};
+  sbri_finding f = {world, group, all->members + group->first_member};
   group->touch_count = 0;
   for (uint32_t m = 0; m < group->member_count; m++) {
     const sbr_model *model = f.members[m].character->model;
@@ -369,13 +294,13 @@ void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
   }
   for (uint32_t i = 0; i < group->pair_count; i++) {
     sbri_meet_pair pair = all->pairs[group->first_pair + i];
-    party a = party_of(&f, pair.a), b = party_of(&f, pair.b);
+    sbri_party a = party_of(&f, pair.a), b = party_of(&f, pair.b);
     if (pair.a == pair.b) {
       meet_itself(&f, &a);
     } else if (a.rigid && b.rigid) {
-      meet_hulls(&f, &a, &b);
+      sbri_meet_hulls(&f, &a, &b);
     } else if (a.rigid || b.rigid) {
-      const party *rigid = a.rigid ? &a : &b, *soft = a.rigid ? &b : &a;
+      const sbri_party *rigid = a.rigid ? &a : &b, *soft = a.rigid ? &b : &a;
       meet_hull(&f, soft, rigid);
       meet_corners(&f, rigid, soft);
     } else {

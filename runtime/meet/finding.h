@@ -1,0 +1,50 @@
+/* What find.c and find_hulls.c share: the places of two bodies that may touch within a tick. */
+#ifndef SBRI_FINDING_H
+#define SBRI_FINDING_H
+
+#include "math/quat.h"
+#include "meet/meetings.h"
+
+typedef struct sbri_finding {
+  sbr_world *world;
+  sbri_meet_group *group;
+  const sbri_meet_member *members;
+} sbri_finding;
+
+/* One of the two that may meet. */
+typedef struct sbri_party {
+  const sbri_meeter *is;
+  uint32_t member; /* of the group */
+  const sbri_meet_member *of;
+  const sbri_body *soft;
+  const sbri_meet_surface *surface;
+  const sbri_rigid_body *rigid;
+  float friction, restitution;
+} sbri_party;
+
+static inline bool sbri_are_of_one(const sbri_party *a, const sbri_party *b) {
+  return a->member == b->member;
+}
+
+static inline sbri_meet_side sbri_rigid_side(const sbri_party *p, sbf_vec3 own) {
+  return (sbri_meet_side){.member = p->member, .rigid_body = (int32_t)p->is->number, .at = own};
+}
+
+/* A place in that frame, of a body of that scale. */
+static inline sbf_vec3 sbri_into_frame(const sbr_transform *frame, sbf_vec3 x, float scale) {
+  sbf_vec3 off = sbri_scale(sbri_sub(x, frame->position), 1 / scale);
+  return sbri_rotate(sbri_quat_conjugate(frame->rotation), off);
+}
+
+/* One more touch, if there is room; fills in all but places, normal, margin and feature. */
+void sbri_finding_add(
+    const sbri_finding *f, const sbri_party *a, const sbri_party *b, const sbri_meet_touch *touch);
+
+/* ---- find_hulls.c ---- */
+
+/* A rigid body's own frame at the tick's beginning or its end, if nothing acts, relative to the group. */
+sbr_transform sbri_party_frame(const sbri_party *p, bool end);
+/* Hulls with hulls. */
+void sbri_meet_hulls(const sbri_finding *f, const sbri_party *a, const sbri_party *b);
+
+#endif
