@@ -32,7 +32,7 @@ static void put_at(sbri_rigid_body_state *body, sbr_transform place) {
 
 void sbri_rigid_wake(sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  drive->asleep = drive->quiet_ticks = drive->any = 0;
+  drive->asleep = drive->quiet_ticks = drive->slow_ticks = drive->any = 0;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) drive->any |= sbri_rigid_is_simulated(c, b);
   sbri_character_wake(c);
 }
@@ -59,6 +59,7 @@ void sbri_rigid_place(sbri_character *c, bool as_in_file) {
     body->share = 1;
   }
   sbri_rigid_drive(c)->last_step_s = 0;
+  sbri_rigid_drive(c)->kept_touches = 0;
   sbri_reflex_end(c);
   memset(sbri_rigid_joints(c), 0, model->joint_count * sizeof *sbri_rigid_joints(c));
   sbri_rigid_wake(c);
@@ -198,6 +199,7 @@ static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
       .bodies = sbri_rigid_bodies(c),
       .joints = sbri_rigid_joints(c),
       .drive = sbri_rigid_drive(c),
+      .kept = sbri_rigid_kept(c),
       .targets = sbri_rigid_targets(c),
       .anchor = {sbri_scale(anchor->position, 1 / c->scale), anchor->rotation},
       .ground = &world->ground,

@@ -70,6 +70,7 @@ static void make_layout(sbr_model *model) {
   l->rigid_bodies = place(&end, model->rigid.body_count, sizeof(sbri_rigid_body_state));
   l->rigid_joints = place(&end, model->rigid.joint_count, sizeof(sbri_rigid_joint_state));
   l->rigid_drive = place(&end, model->rigid.body_count ? 1 : 0, sizeof(sbri_rigid_drive_state));
+  l->rigid_kept = place(&end, sbri_rigid_touch_capacity(&model->rigid), sizeof(sbri_kept_touch));
   l->jiggles = place(&end, model->jiggle_count, sizeof(sbri_place_follower));
   l->used_size = l->state_size = (end + 63) & ~(size_t)63;
   end = 0;

@@ -107,6 +107,7 @@ SBRI_STATE_PART(torn_polygons, uint32_t, c->model->layout.torn_polygons)        
 SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, c->model->layout.rigid_bodies)  /* (rigid bodies) */
 SBRI_STATE_PART(rigid_joints, sbri_rigid_joint_state, c->model->layout.rigid_joints) /* (joints) */
 SBRI_STATE_PART(rigid_drive, sbri_rigid_drive_state, c->model->layout.rigid_drive)
+SBRI_STATE_PART(rigid_kept, sbri_kept_touch, c->model->layout.rigid_kept) /* (sbri_rigid_touch_capacity) */
 /* By how much each vertex of the render meshes lay elsewhere on the rung before, asset metres. */
 SBRI_STATE_PART(faded, sbf_vec3, c->model->layout.faded)
 SBRI_STATE_PART(jiggles, sbri_place_follower, c->model->layout.jiggles) /* (jiggle_count) asset metres */

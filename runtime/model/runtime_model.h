@@ -276,7 +276,8 @@ typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, guide_motions, rests,
       strengths, rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, thread_ends,
       thread_cells, thread_damping, thread_slack, thread_links, thread_blocks, skin_cells, bound_to,
-      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, faded, jiggles, used_size, state_size;
+      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, rigid_kept, faded, jiggles, used_size,
+      state_size;
   size_t animated, rigid_targets, reactions, stepped_pose, rigid_work;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;

@@ -4,20 +4,25 @@
  * that touches it there, as it does for soft bodies (contact/contact.h). A touch acts on one body alone, and
  * so lies in the body's own block of the system: all touches, and all joints, are solved at once. Along the
  * normal it is a row that gives way by a small share of the body's own inertia there, pushes only, and aims
- * at the vertex's lying on the plane at the substep's end. Across it is the same where it sticks; where that
- * would take more than Coulomb's law allows it is a damper of friction times normal impulse over the speed of
- * sliding, and who sticks and who slides is found in a few passes. */
+ * at the vertex's lying on the plane at the substep's end. Across it is a spring whose force goes on from
+ * that of the step before (Cundall and Strack, A discrete numerical model for granular assemblies, 1979), cut
+ * where it would be more than Coulomb's law allows. So what lies, however it is jammed, is held by the same
+ * forces step after step, and the last bits of its place are no reason to slide. */
 #include "collide/ground.h"
 #include "rigid/rigid_work.h"
 
 /* How much stiffer than the body's own inertia. */
-static const float FIRM = 3000;
-/* By this share more than Coulomb's law allows still sticks. */
-static const float STICK_SLACK = 5e-4f;
-/* Slower than this, the direction of sliding stays what it was. */
-static const float SLOW_M_S = 1e-4f;
-/* A drag that is right but for this share needs no other pass. */
-static const float DRAG_CHANGE = 0.01f;
+static const float FIRM = 300, FIRM_ACROSS = 30;
+/* In steps that are longer than this they are so much stiffer that what lies sinks in as far. */
+static const float FIRM_STEPS_1_S = 240;
+/* What is less than this share of its body's weight makes no difference. */
+static const float DOUBT = 1e-3f;
+/* A friction that is right but for this share of its bound needs no other pass, and for this the bound. */
+static const float CHANGE = 5e-3f, BOUND_CHANGE = 0.1f;
+/* What used less of its bound than this share stuck. */
+static const float STUCK = 0.99f;
+/* Of what holds a place that sticks, this share is let go in a step: it creeps by micrometres a second. */
+static const float EASE = 0.005f;
 /* What is no higher lies on the ground: to pull it down there for one step does next to nothing. */
 static const float LYING_M = 1e-4f;
 /* What lies below is moved up by this share of it a substep, and no faster than that. */
@@ -79,9 +84,28 @@ static sbf_vec3 slip_of(const sbri_rigid_solving *work, const sbri_ground_touch 
   return sbri_sub(velocity_at(m->velocity, m->turn, touch->arm), touch->velocity);
 }
 
+/* How friction answers at a change of velocity du, linearised there: it sticks, giving way from the force of
+ * the step before on, or slides with what Coulomb's law allows against where that would go. */
+static void linearise(sbri_ground_touch *touch, sbf_vec3 du) {
+  sbf_vec3 n = touch->normal, off = sbri_sub(touch->target, du);
+  sbf_vec3 pull = sbri_add_scaled(touch->hold, sbri_add_scaled(off, n, -sbri_dot(n, off)), touch->grip);
+  float across = sbri_length(pull);
+  touch->slides = across > touch->bound;
+  touch->active = sbri_dot(n, off) > 0;
+  touch->drag = sbri_vec3(0, 0, 0);
+  touch->side_grip = 0;
+  if (!touch->slides || !(touch->bound > 0)) return;
+  sbf_vec3 along = sbri_scale(pull, 1 / across);
+  touch->side = sbri_cross(n, along);
+  touch->side_grip = touch->grip * touch->bound / across;
+  touch->drag = sbri_add_scaled(
+      sbri_scale(along, touch->bound), touch->side, touch->side_grip * sbri_dot(touch->side, du));
+}
+
 void sbri_ground_touches_make(
     const sbri_rigid_tick *t, sbri_rigid_solving *work, float since_s, float step_s) {
   float bounce_from = 4 * sbri_length(t->gravity) * step_s;
+  float firmer = step_s * FIRM_STEPS_1_S > 1 ? step_s * step_s * FIRM_STEPS_1_S * FIRM_STEPS_1_S : 1;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
     const sbri_rigid_body *body = &t->model->bodies[touch->body];
@@ -93,39 +117,47 @@ void sbri_ground_touches_make(
     sbf_vec3 u = slip_of(work, touch);
     float speed = sbri_dot(n, u), lift = -LIFT_SHARE * touch->gap / step_s;
     float wanted = touch->gap > 0 ? -touch->gap / step_s : lift < LIFT_MOST_M_S ? lift : LIFT_MOST_M_S;
+    float weight = 1 / ease(body, s->pose.rotation, touch->arm, n), alone = weight * (wanted - speed);
     touch->target = sbri_sub(sbri_scale(n, wanted), u);
-    touch->active = speed < wanted;
     touch->bounce_m_s = 0;
-    if (touch->active && -speed > bounce_from) {
+    if (speed < wanted && -speed > bounce_from) {
       /* Velocities are those half a substep ago; before, the substep's own fall is in it. */
       float g = -sbri_dot(n, t->gravity), half = 0.5f * g * step_s, begin = speed + half;
       float square = begin * begin + 2 * g * (touch->gap > 0 ? touch->gap : 0);
       touch->bounce_m_s = touch->restitution * (square > 0 ? sqrtf(square) : 0) + half;
       if (!(touch->restitution > 0)) touch->bounce_m_s = 0;
     }
-    touch->stiff = FIRM / ease(body, s->pose.rotation, touch->arm, n);
-    touch->grip = touch->stiff;
-    /* What is faster than friction could stop in the substep slides, against where it comes from. */
-    float slip = sbri_length(sbri_add_scaled(u, n, -speed));
-    bool slides = !(touch->friction > 0) || slip > 4 * bounce_from * touch->friction;
-    if (slides && !touch->slides) touch->drag = sbri_vec3(0, 0, 0), touch->side_grip = 0;
-    touch->slides = touch->slides || slides;
+    touch->stiff = firmer * FIRM * weight;
+    touch->grip = firmer * FIRM_ACROSS * weight;
+    touch->doubt = DOUBT * body->mass * sbri_length(t->gravity) * step_s;
+    float normal = work->kick_s * touch->normal_n;
+    if (!(touch->known && (normal > 0 || speed > -bounce_from))) normal = alone > 0 ? alone : 0;
+    touch->bound = touch->friction * normal;
+    sbf_vec3 held = sbri_scale(touch->drag_n, touch->known ? (1 - EASE) * work->kick_s : 0);
+    touch->hold = sbri_add_scaled(held, n, -sbri_dot(n, held));
+    linearise(touch, sbri_vec3(0, 0, 0));
+    /* What stuck most likely sticks on. */
+    if (touch->known && sbri_length(touch->hold) < STUCK * touch->bound) touch->slides = false;
+    if (!touch->known) continue;
+    if (touch->normal_n > 0 && touch->gap < LYING_M) touch->active = true;
+    if (touch->normal_n == 0 && speed > -bounce_from) touch->active = false;
   }
 }
 
-/* d += J^T W J, b += J^T (W wanted + drag), with J = (1, -arm x), and W = stiff n n^T + grip (1 - n n^T)
- * where it sticks, stiff n n^T + side_grip side side^T where it slides. */
+/* d += J^T W J, b += J^T f, with J = (1, -arm x), W = stiff n n^T + grip (1 - n n^T) where it sticks and
+ * stiff n n^T + side_grip side side^T where it slides, and f the impulse that it has without giving way. */
 static void add_touch(sbri_node *node, const sbri_ground_touch *touch) {
-  float grip = touch->slides ? 0 : touch->grip, more = touch->stiff - grip;
+  float stiff = touch->active ? touch->stiff : 0, grip = touch->slides ? 0 : touch->grip, more = stiff - grip;
   float across = touch->slides ? touch->side_grip : 0;
   const float n[3] = {touch->normal.x, touch->normal.y, touch->normal.z};
   const float p[3] = {touch->side.x, touch->side.y, touch->side.z};
-  sbf_vec3 w[3], arm_w[3]; /* columns of W, and of arm x W */
+  sbf_vec3 arm_w[3]; /* columns of arm x W */
   for (int j = 0; j < 3; j++) {
     float column[3];
-    for (int i = 0; i < 3; i++) column[i] = (i == j ? grip : 0) + more * n[i] * n[j] + across * p[i] * p[j];
-    w[j] = sbri_vec3(column[0], column[1], column[2]);
-    arm_w[j] = sbri_cross(touch->arm, w[j]);
+    for (int i = 0; i < 3; i++) column[i] = (i == j ? grip : 0) + more * n[i] * n[j];
+    if (touch->slides)
+      for (int i = 0; i < 3; i++) column[i] += across * p[i] * p[j];
+    arm_w[j] = sbri_cross(touch->arm, sbri_vec3(column[0], column[1], column[2]));
     node->d[3][j] += arm_w[j].x, node->d[4][j] += arm_w[j].y, node->d[5][j] += arm_w[j].z;
     for (int i = j; i < 3; i++) node->d[i][j] += column[i];
   }
@@ -136,9 +168,14 @@ static void add_touch(sbri_node *node, const sbri_ground_touch *touch) {
     const float to[3] = {turned.x, turned.y, turned.z};
     for (int j = 0; j <= i; j++) node->d[3 + i][3 + j] += to[j];
   }
-  sbf_vec3 t = touch->target;
-  sbf_vec3 f = sbri_add_scaled(sbri_add_scaled(sbri_scale(w[0], t.x), w[1], t.y), w[2], t.z);
-  if (touch->slides) f = sbri_add(f, touch->drag);
+  float wanted = sbri_dot(touch->normal, touch->target);
+  sbf_vec3 f = sbri_scale(touch->normal, stiff * wanted);
+  if (touch->slides) {
+    f = sbri_add(f, touch->drag);
+  } else {
+    sbf_vec3 along = sbri_add_scaled(touch->target, touch->normal, -wanted);
+    f = sbri_add(f, sbri_add_scaled(touch->hold, along, touch->grip));
+  }
   sbf_vec3 moment = sbri_cross(touch->arm, f);
   const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
   for (int i = 0; i < 6; i++) node->b[i] += both[i];
@@ -146,108 +183,101 @@ static void add_touch(sbri_node *node, const sbri_ground_touch *touch) {
 
 void sbri_ground_touches_add(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++)
-    if (work->touches[i].active) add_touch(&work->system.nodes[work->touches[i].node], &work->touches[i]);
+    if (work->touches[i].active || work->touches[i].bound > 0)
+      add_touch(&work->system.nodes[work->touches[i].node], &work->touches[i]);
 }
 
-static void slide(sbri_ground_touch *touch, sbf_vec3 against, float most, float speed) {
-  touch->drag = sbri_scale(against, most);
-  touch->side = sbri_cross(touch->normal, against);
-  touch->side_grip = speed * touch->grip > most ? most / speed : touch->grip;
+static sbf_vec3 moved_by(const sbri_ground_touch *touch, const double x[6]) {
+  return velocity_at(sbri_vec3((float)x[0], (float)x[1], (float)x[2]),
+      sbri_vec3((float)x[3], (float)x[4], (float)x[5]), touch->arm);
 }
 
-/* Sticks or slides; whether that is another than it was. `left` is the velocity across that is left, `slip`
- * the speed across without the ground, and `impulse` the one across that sticking takes. */
-static bool judge_grip(
-    sbri_ground_touch *touch, float friction, sbf_vec3 impulse, sbf_vec3 left, float slip) {
-  float most = friction * (touch->normal_impulse > 0 ? touch->normal_impulse : 0);
-  if (!touch->slides) {
-    float across = sbri_length(impulse);
-    if (across <= most * (1 + STICK_SLACK)) return false;
-    touch->slides = true;
-    slide(touch, sbri_scale(impulse, 1 / across), most, slip * (1 - most / across));
-    return true;
+/* The impulse at a change of velocity: nothing but that stands in it. */
+static sbf_vec3 impulse_at(const sbri_ground_touch *touch, sbf_vec3 du, float *normal) {
+  sbf_vec3 n = touch->normal, off = sbri_sub(touch->target, du);
+  float into = sbri_dot(n, off);
+  *normal = into > 0 ? touch->stiff * into : 0;
+  sbf_vec3 pull = sbri_add_scaled(touch->hold, sbri_add_scaled(off, n, -into), touch->grip);
+  float across = sbri_length(pull);
+  return across > touch->bound ? sbri_scale(pull, touch->bound / across) : pull;
+}
+
+float sbri_ground_touches_work(const sbri_rigid_solving *work, float share) {
+  float sum = 0;
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    const sbri_ground_touch *touch = &work->touches[i];
+    float normal;
+    sbf_vec3 at = sbri_lerp(touch->was, touch->moved, share), way = sbri_sub(touch->moved, touch->was);
+    sbf_vec3 across = impulse_at(touch, at, &normal);
+    sum += normal * sbri_dot(touch->normal, way) + sbri_dot(across, way);
   }
-  float before = sbri_length(touch->drag), speed = sbri_length(left);
-  if (sbri_dot(left, touch->drag) > 0) { /* friction does not turn it round */
-    touch->slides = false;
-    return true;
-  }
-  sbf_vec3 against =
-      speed > SLOW_M_S ? sbri_scale(left, -1 / speed) : sbri_normalize(touch->drag, sbri_vec3(0, 0, 0));
-  sbf_vec3 was = touch->drag;
-  /* Half way: the normal impulses of the pass before were those of its own friction. */
-  slide(touch, against, before > 0 ? 0.5f * (before + most) : most, speed);
-  return sbri_length(sbri_sub(touch->drag, was)) > DRAG_CHANGE * (before > most ? before : most);
+  return sum;
 }
 
-/* What the system's solution gives a touch. */
-typedef struct outcome {
-  sbf_vec3 left;    /* velocity across */
-  sbf_vec3 impulse; /* across, if it sticks */
-  float slip;       /* speed across without the ground */
-  float speed;      /* along the normal */
-} outcome;
-
-static outcome outcome_of(const sbri_rigid_solving *work, sbri_ground_touch *touch) {
-  const double *x = work->system.nodes[touch->node].x;
-  sbf_vec3 n = touch->normal, du = velocity_at(sbri_vec3((float)x[0], (float)x[1], (float)x[2]),
-                                  sbri_vec3((float)x[3], (float)x[4], (float)x[5]), touch->arm);
-  sbf_vec3 u = slip_of(work, touch), now = sbri_add(u, du);
-  if (touch->active) touch->normal_impulse = touch->stiff * (sbri_dot(n, touch->target) - sbri_dot(n, du));
-  sbf_vec3 impulse = sbri_scale(sbri_sub(touch->target, du), touch->grip);
-  float speed = sbri_dot(n, now);
-  return (outcome){.left = sbri_add_scaled(now, n, -speed),
-      .impulse = sbri_add_scaled(impulse, n, -sbri_dot(n, impulse)),
-      .slip = sbri_length(sbri_add_scaled(u, n, -sbri_dot(n, u))),
-      .speed = speed};
-}
-
-/* Where passes do not settle who slides, as where a limb is jammed, friction becomes a damper of what it
- * would be at the speed that is left: that takes energy whatever its strength. */
-static bool damp_slides(sbri_rigid_solving *work) {
-  bool any = false;
+void sbri_ground_touches_move(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
-    if (!touch->active || !touch->slides) continue;
-    float normal = touch->normal_impulse > 0 ? touch->normal_impulse : 0;
-    float most = touch->friction * normal;
-    float speed = sbri_length(outcome_of(work, touch).left);
-    if (speed * touch->grip > most) touch->grip = most / speed;
-    touch->slides = false;
-    any = true;
+    touch->was = touch->moved;
+    touch->moved = moved_by(touch, work->system.nodes[touch->node].x);
   }
-  return any;
 }
 
-bool sbri_ground_touches_judge(sbri_rigid_solving *work, float step_s, int stage) {
-  bool settle = stage > 0;
-  bool changed = settle && damp_slides(work);
+/* The same as the last pass had it. */
+static sbf_vec3 linear_at(const sbri_ground_touch *touch, sbf_vec3 du, float *normal) {
+  sbf_vec3 n = touch->normal, off = sbri_sub(touch->target, du);
+  float into = sbri_dot(n, off);
+  *normal = touch->active ? touch->stiff * into : 0;
+  if (touch->slides)
+    return sbri_add_scaled(touch->drag, touch->side, -touch->side_grip * sbri_dot(touch->side, du));
+  return sbri_add_scaled(touch->hold, sbri_add_scaled(off, n, -into), touch->grip);
+}
+
+bool sbri_ground_touches_judge(sbri_rigid_solving *work) {
+  bool changed = false;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
-    outcome is = outcome_of(work, touch);
-    float friction = touch->friction;
-    if (!settle && touch->active && friction > 0 && judge_grip(touch, friction, is.impulse, is.left, is.slip))
-      changed = true;
-    else if ((stage == 0 || (stage == 1 && touch->gap < LYING_M)) && !touch->active &&
-             touch->gap + step_s * is.speed < -1e-6f && is.speed < 0)
-      touch->active = changed = true;
-  }
-  if (changed) return true; /* who pulls is judged by friction as it should be */
-  for (uint32_t i = 0; i < work->touch_count; i++) {
-    sbri_ground_touch *touch = &work->touches[i];
-    if (!touch->active || touch->normal_impulse >= 0) continue;
-    touch->active = false;
-    changed = true;
+    float normal, linear;
+    sbf_vec3 was = linear_at(touch, touch->moved, &linear), is = impulse_at(touch, touch->moved, &normal);
+    linearise(touch, touch->moved);
+    float across = sbri_length(sbri_sub(was, is));
+    changed =
+        changed || fabsf(normal - linear) > touch->doubt || across > CHANGE * touch->bound + touch->doubt;
   }
   return changed;
 }
 
-void sbri_ground_touches_tell(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+bool sbri_ground_touches_bound(sbri_rigid_solving *work) {
+  float off = 0, all = 0, doubt = 0;
   for (uint32_t i = 0; i < work->touch_count; i++) {
-    const sbri_ground_touch *touch = &work->touches[i];
-    if (touch->active && touch->normal_impulse > 0)
+    sbri_ground_touch *touch = &work->touches[i];
+    float normal, used = sbri_length(impulse_at(touch, touch->moved, &normal)),
+                  bound = touch->friction * normal;
+    all += bound;
+    doubt += touch->doubt;
+    if (touch->slides || used > bound) off += fabsf(bound - touch->bound);
+  }
+  if (off <= BOUND_CHANGE * all + doubt) return false;
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    sbri_ground_touch *touch = &work->touches[i];
+    float normal;
+    (void)impulse_at(touch, touch->moved, &normal);
+    touch->bound = touch->friction * normal;
+    linearise(touch, touch->moved);
+  }
+  return true;
+}
+
+void sbri_ground_touches_tell(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    sbri_ground_touch *touch = &work->touches[i];
+    float normal;
+    sbf_vec3 across = impulse_at(touch, touch->moved, &normal);
+    touch->known = true;
+    touch->normal_n = normal / work->kick_s;
+    touch->drag_n = sbri_scale(across, normal > 0 ? 1 / work->kick_s : 0);
+    if (normal > 0)
       sbri_touching_add(&t->touching[touch->body], touch->collider,
-          sbri_add(t->bodies[touch->body].pose.position, touch->arm), touch->normal, touch->normal_impulse);
+          sbri_add(t->bodies[touch->body].pose.position, touch->arm), touch->normal, normal);
   }
 }
 

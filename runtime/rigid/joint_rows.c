@@ -17,6 +17,9 @@ static const float MEND_M_S = 1, MEND_RAD_S = 4;
 static const float MOST_MEND_M_S = 20, MOST_MEND_RAD_S = 60;
 /* A limit that is broken by more, having been found to be free, makes a step one to be taken again. */
 static const float MISSED = 2e-3f;
+/* How much stiffer limits are than the lighter of their bodies is heavy; what they give way by is put right
+ * at the step's end. */
+static const double FIRM = 1e5;
 /* Slower than this nothing bounces off a limit. */
 static const float BOUNCE_FROM = 0.05f;
 
@@ -55,6 +58,7 @@ static sbri_row *add_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis axis) 
   sbri_row *row = &m->edge->rows[m->edge->row_count++];
   sbri_joint_gradient(m->joint, m->place, axis, row->rates);
   row->target = row->give = row->most = row->bound = row->bounce = row->impulse = 0;
+  row->wanted = row->was = row->moved = 0;
   row->sign = 0;
   row->kind = (uint8_t)kind, row->axis = (uint8_t)axis;
   row->active = true, row->full = false;
@@ -87,9 +91,11 @@ static void add_kept(row_maker *m, sbf_joint_axis axis, float value) {
   row->end = now + m->step_s * row->target;
 }
 
-static void soften(sbri_row *row, float stiffness, float damping, float off, float velocity, float step_s) {
-  row->give = 1 / (step_s * step_s * stiffness + step_s * damping);
-  row->target = row->give * step_s * (stiffness * off + damping * velocity);
+static void soften(
+    const row_maker *m, sbri_row *row, float stiffness, float damping, float off, float velocity) {
+  float kick_s = m->work->kick_s;
+  row->give = 1 / (kick_s * (m->step_s * stiffness + damping));
+  row->target = row->give * kick_s * (stiffness * off + damping * velocity);
 }
 
 /* The bound that the coordinate comes nearer to at that speed. */
@@ -105,11 +111,11 @@ static void choose_side(sbri_row *row, float speed, float step_s) {
   row->end = row->now + step_s * row->target;
 }
 
-/* Whether the coordinate is beyond the bound at the substep's end, or goes on from being so. */
-static bool breaks(const sbri_row *row, float speed, float step_s) {
-  float beyond = (float)row->sign * (row->bound - row->now - step_s * speed);
-  if (row->kind == SBRI_ROW_SPRING) return beyond > 0;
-  return beyond > 1e-6f && (float)row->sign * (row->target - speed) > 1e-6f;
+/* A spring acts beyond its bound only, and pushes only. */
+static bool acts(const sbri_row *row, float speed, float step_s) {
+  float sign = row->sign;
+  bool pushes = sign * (row->target - speed) > 0;
+  return pushes && (row->kind == SBRI_ROW_LIMIT || sign * (row->bound - row->now - step_s * speed) > 0);
 }
 
 static void add_limit(row_maker *m, const sbf_limit *limit) {
@@ -125,8 +131,12 @@ static void add_limit(row_maker *m, const sbf_limit *limit) {
   float speed = speed_of(m->work, m->tick->model, m->joint, row);
   row->now = now, row->low = limit->min, row->high = limit->max;
   choose_side(row, speed, m->step_s);
-  row->active = breaks(row, speed, m->step_s);
-  if (soft) soften(row, limit->stiffness, limit->damping, row->bound - now, 0, m->step_s);
+  if (soft)
+    soften(m, row, limit->stiffness, limit->damping, row->bound - now, 0);
+  else
+    row->give = (float)(sbri_row_alone(&m->work->system, m->edge, row) / FIRM);
+  bool pressed = m->tick->joints[m->edge->joint].pressed >> ((m->edge->row_count - 1) & 31) & 1;
+  row->active = pressed || acts(row, speed, m->step_s);
   float into = -(float)row->sign * speed;
   if (!soft && row->active && into > BOUNCE_FROM) row->bounce = limit->restitution * into;
 }
@@ -136,8 +146,8 @@ static void add_drive(row_maker *m, const sbf_drive *drive) {
   float now = sbri_joint_coordinate(m->joint, m->place, drive->target), off = drive->position - now;
   if (drive->target == SBF_JOINT_AXIS_TWIST) off = sbri_angle_between(drive->position, now);
   sbri_row *row = add_row(m, SBRI_ROW_DRIVE, drive->target);
-  soften(row, drive->stiffness, drive->damping, off, drive->velocity, m->step_s);
-  row->most = drive->maximum * m->step_s;
+  soften(m, row, drive->stiffness, drive->damping, off, drive->velocity);
+  row->most = drive->maximum * m->work->kick_s;
 }
 
 /* Between bones: the flesh about the joint damps it, and where it is driven draws it towards what the
@@ -164,8 +174,8 @@ static void add_track(row_maker *m) {
     const sbf_vec3 *u = &m->place->axes[k];
     const float along[6] = {0, 0, 0, u->x, u->y, u->z};
     for (int i = 0; i < 6; i++) row->rates[SBRI_B][i] = along[i], row->rates[SBRI_A][i] = -along[i];
-    soften(row, stiffness, damping, sbri_dot(off, *u), 0, m->step_s);
-    if (driven) row->most = share * t->drive->strength * joint->hold_torque * m->step_s;
+    soften(m, row, stiffness, damping, sbri_dot(off, *u), 0);
+    if (driven) row->most = share * t->drive->strength * joint->hold_torque * m->work->kick_s;
   }
 }
 
@@ -202,22 +212,15 @@ void sbri_joint_rows_make(const sbri_rigid_tick *t, sbri_rigid_solving *work, ui
 void sbri_joint_rows_aim(const sbri_rigid_solving *work, sbri_edge *e, const sbri_rigid_model *model) {
   const sbri_rigid_joint *joint = &model->joints[e->joint];
   sbri_edge_list_active(e);
-  for (uint32_t r = 0; r < e->row_count; r++)
-    if (!e->rows[r].full) e->rows[r].impulse = 0;
+  for (uint32_t r = 0; r < e->row_count; r++) {
+    sbri_row *row = &e->rows[r];
+    if (!row->full) row->impulse = 0;
+    if (row->sign) row->wanted = row->target - speed_of(work, model, joint, row);
+  }
   for (uint32_t r = 0; r < e->active_count; r++) {
     const sbri_row *row = &e->rows[e->actives[r]];
     e->rhs[r] = row->target - speed_of(work, model, joint, row);
   }
-}
-
-/* The rate that the system's solution gives the row's coordinate. */
-static float solved_speed(
-    const sbri_rigid_solving *work, const sbri_edge *e, const sbri_rigid_model *model, const sbri_row *row) {
-  float speed = speed_of(work, model, &model->joints[e->joint], row);
-  for (int side = 0; side < SBRI_SIDES; side++)
-    if (e->nodes[side] >= 0)
-      speed += (float)sbri_dot6_rates(row->rates[side], work->system.nodes[e->nodes[side]].x);
-  return speed;
 }
 
 /* A drive's greatest impulse goes into the motions at once; it then takes no part. */
@@ -230,26 +233,45 @@ static void give_most(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *ro
       sbri_add6_rates(work->system.nodes[e->nodes[side]].push, row->rates[side], row->impulse);
 }
 
+void sbri_joint_rows_move(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    for (uint32_t r = 0; r < e->row_count; r++) {
+      sbri_row *row = &e->rows[r];
+      if (!row->sign) continue;
+      row->was = row->moved;
+      row->moved = (float)sbri_row_moved(&work->system, e, row);
+    }
+  }
+}
+
+void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share) {
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    for (uint32_t r = 0; r < e->row_count; r++) {
+      sbri_row *row = &e->rows[r];
+      row->moved = row->was + share * (row->moved - row->was);
+    }
+  }
+}
+
 bool sbri_joint_rows_judge(
-    sbri_rigid_solving *work, sbri_edge *e, const sbri_rigid_model *model, float step_s) {
+    sbri_rigid_solving *work, sbri_edge *e, const sbri_rigid_model *model, float step_s, bool *other) {
   bool changed = false;
   for (uint32_t r = 0; r < e->row_count; r++) {
     sbri_row *row = &e->rows[r];
-    if (row->kind == SBRI_ROW_LIMIT || row->kind == SBRI_ROW_SPRING) {
-      float sign = row->sign;
+    if (row->sign) {
       bool was = row->active;
-      if (was) {
-        row->active = sign * row->impulse >= 0;
-      } else {
-        float speed = solved_speed(work, e, model, row);
-        if (row->kind == SBRI_ROW_LIMIT) choose_side(row, speed, step_s);
-        row->active = breaks(row, speed, step_s);
-      }
+      float speed = speed_of(work, model, &model->joints[e->joint], row);
+      if (!was && row->kind == SBRI_ROW_LIMIT) choose_side(row, speed + row->moved, step_s);
+      row->wanted = row->target - speed;
+      row->active = acts(row, speed + row->moved, step_s);
+      if (row->kind == SBRI_ROW_SPRING && row->active != was) *other = true;
       if (!row->active) row->impulse = 0;
       changed = changed || row->active != was;
     } else if (row->active && row->most > 0 && fabsf(row->impulse) > row->most * 1.0001f) {
       give_most(work, e, row);
-      changed = true;
+      changed = *other = true;
     }
   }
   return changed;

@@ -21,13 +21,16 @@ typedef struct sbri_rigid_body_state {
 
 typedef struct sbri_rigid_joint_state {
   uint32_t broken;
+  uint32_t pressed;       /* bits of the rows that are limits which pushed in the last step */
   sbf_vec3 force, torque; /* on body b about frame b, mean of the last tick, N and N m */
 } sbri_rigid_joint_state;
 
 typedef struct sbri_rigid_drive_state {
   float frequency_hz, damping_ratio, strength, joint_damping_1_s; /* as sbr_rigid_drive has them */
   uint32_t asleep, quiet_ticks;
+  uint32_t kept_touches;            /* of the last tick */
   uint32_t substeps;                /* of the last tick */
+  uint32_t slow_ticks;              /* for how many nothing has moved but slowly */
   float last_step_s;                /* of the last tick; 0: the bodies have just begun to move */
   uint32_t any;                     /* some body is not kinematic */
   uint32_t posture;                 /* of sbr_rigid_posture */
@@ -45,18 +48,32 @@ typedef struct sbri_ground_touch {
   sbf_vec3 velocity; /* m/s, of what the plane stands for */
   float friction, restitution;
   uint32_t collider; /* number of it, or UINT32_MAX: the ground */
+  /* Of the step before, where it is known: */
+  bool known;
+  float normal_n;  /* N; 0: it did not press */
+  sbf_vec3 drag_n; /* N, of friction where it slid */
   /* In a substep: */
   sbf_vec3 arm;
   sbf_vec3 target;   /* wanted change of the place's velocity */
   float gap;         /* m */
   float bounce_m_s;  /* to be thrown back with; 0: not */
   float stiff, grip; /* inverse give along the normal, and across where it sticks, kg */
+  sbf_vec3 hold;     /* impulse of friction in the step before, from which on it gives way where it sticks */
   sbf_vec3 drag;     /* impulse of friction where it slides, and across that and the normal: */
   sbf_vec3 side;     /* unit vector, along which friction turns with the direction of sliding */
   float side_grip;   /* kg: impulse of friction over the speed of sliding */
-  float normal_impulse;
+  float bound;       /* N s, of friction */
+  float doubt;       /* N s, that make no difference */
+  sbf_vec3 was, moved; /* its change of velocity by the pass before, and by the last */
   bool active, slides;
 } sbri_ground_touch;
+
+/* And what is kept of it to the next tick. */
+typedef struct sbri_kept_touch {
+  uint32_t body, collider;
+  sbf_vec3 at, drag_n;
+  float normal_n;
+} sbri_kept_touch;
 
 struct sbri_rigid_tick;
 
@@ -75,6 +92,7 @@ typedef struct sbri_rigid_tick {
   sbri_rigid_body_state *bodies;  /* (body_count) */
   sbri_rigid_joint_state *joints; /* (joint_count) */
   sbri_rigid_drive_state *drive;
+  sbri_kept_touch *kept;        /* (sbri_rigid_touch_capacity(model)) */
   const sbr_transform *targets; /* (body_count) where the animation has each at the end of the tick */
   sbr_transform anchor;
   const sbr_ground *ground;
@@ -90,6 +108,8 @@ typedef struct sbri_rigid_tick {
 } sbri_rigid_tick;
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model);
+/* Of touches, the most that it looks at in a tick. */
+uint32_t sbri_rigid_touch_capacity(const sbri_rigid_model *model);
 
 /* A body that what pulls on it would swing too fast for the most steps that there are is as if that much
  * heavier, to all but weight. */

@@ -6,22 +6,18 @@
  * the impulses of the joints along their directions at the step's begin, such that the joints hold at the
  * step's END; so a pendulum neither gains nor loses by the step's size. The impulses follow from a linear
  * system (rigid_system.h) that is solved exactly, and once more with what the way along an arc has left. No
- * impulse is summed over sweeps, nothing is carried on from one step to the next. Which limits and touches
- * push is found in a few passes over the same system. */
+ * impulse is summed over sweeps. Which limits and touches push is found in a few passes over the same system
+ * (rigid_passes.c), of which the first goes by what pushed in the step before. */
 #include <string.h>
 
 #include "math/quat_log.h"
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
-enum { FREE_PASSES = 6, SETTLING_PASSES = 9, MOST_PASSES = 12, MOST_CORRECTIONS = 4, MOST_SUBSTEPS = 64 };
+enum { MOST_CORRECTIONS = 4 };
 /* With shapes, beside its vertices with the ground. */
 enum { TOUCHES_OF_BODY = 24 };
 
-/* Greatest angular frequency times step: 2 is where a leapfrog ends. */
-static const float MOST_SWING = 0.8f;
-/* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
-static const float MOST_TURN = 0.2f;
 /* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again. */
 static const float FINE = 2e-5f;
 /* And before the step is taken again in halves. */
@@ -55,7 +51,7 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   work->kept = carve(&at, SBRI_RIGID_HALVINGS * (bodies + 1), sizeof *work->kept);
   work->pulls = carve(&at, joints + 1, sizeof *work->pulls);
   work->places = carve(&at, joints + 1, sizeof *work->places);
-  work->touch_capacity = m->vertex_count + TOUCHES_OF_BODY * m->body_count;
+  work->touch_capacity = sbri_rigid_touch_capacity(m);
   work->touches = carve(&at, work->touch_capacity, sizeof *work->touches);
   work->order = carve(&at, 2 * joints + 2, sizeof(uint32_t));
   work->roots = carve(&at, bodies + 1, sizeof(uint32_t));
@@ -67,6 +63,10 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   work->rhs = carve(&at, rows, sizeof(double));
   work->g = carve(&at, m->square_count, sizeof(double));
   return (size_t)(at - memory);
+}
+
+uint32_t sbri_rigid_touch_capacity(const sbri_rigid_model *model) {
+  return model->body_count ? model->vertex_count + TOUCHES_OF_BODY * model->body_count : 0;
 }
 
 size_t sbri_rigid_work_size(const sbri_rigid_model *model) {
@@ -114,30 +114,6 @@ static void go(const sbri_rigid_tick *t, uint32_t b, sbri_part_motion *m, float 
   m->turn = sbri_free_turn(&t->model->bodies[b], m->from.rotation, s->spin, step_s, &m->to.rotation);
 }
 
-/* Torque on a body per turn about each of its own axes, by pulls at its joints: the force at an arm r answers
- * a turn with (r.F - r_i F_i) about the axis i. */
-static void add_pull(
-    const sbri_rigid_joint *joint, int side, sbf_quat turn, sbf_vec3 force, float stiffness[3]) {
-  sbf_vec3 r = joint->frames[side].at, f = sbri_rotate(sbri_quat_conjugate(turn), force);
-  if (side == SBRI_A) f = sbri_scale(f, -1);
-  float along = sbri_dot(r, f);
-  stiffness[0] += along - r.x * f.x;
-  stiffness[1] += along - r.y * f.y;
-  stiffness[2] += along - r.z * f.z;
-}
-
-static void find_pulls(
-    const sbri_rigid_tick *t, const sbri_rigid_solving *work, uint32_t b, float stiffness[3]) {
-  const sbri_rigid_model *model = t->model;
-  const sbri_rigid_body *body = &model->bodies[b];
-  stiffness[0] = stiffness[1] = stiffness[2] = 0;
-  for (uint32_t k = body->joint_begin; k < body->joint_end; k++) {
-    const sbri_rigid_joint *joint = &model->joints[model->joints_of[k]];
-    int side = joint->bodies[SBRI_B] == (int32_t)b ? SBRI_B : SBRI_A;
-    add_pull(joint, side, t->bodies[b].pose.rotation, work->pulls[model->joints_of[k]], stiffness);
-  }
-}
-
 static void spread(sbf_vec3 own, sbf_quat turn, float to[3][3]) {
   const sbf_vec3 axes[3] = {sbri_rotate(turn, sbri_vec3(1, 0, 0)), sbri_rotate(turn, sbri_vec3(0, 1, 0)),
       sbri_rotate(turn, sbri_vec3(0, 0, 1))};
@@ -154,7 +130,8 @@ static void spread(sbf_vec3 own, sbf_quat turn, float to[3][3]) {
 static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   const sbri_rigid_model *model = t->model;
   /* Velocities are those of the middle of the step before. */
-  float step_s = t->tick_s * (to - from), kick_s = 0.5f * (work->last_step_s + step_s);
+  float step_s = t->tick_s * (to - from);
+  work->kick_s = 0.5f * (work->last_step_s + step_s);
   for (uint32_t b = 0; b < model->body_count; b++) {
     sbri_part_motion *m = &work->motions[b];
     if (m->node < 0) {
@@ -163,7 +140,8 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     }
     sbri_rigid_body_state *s = &t->bodies[b];
     m->from = s->pose, m->fine_from = s->fine;
-    s->velocity = sbri_add_scaled(s->velocity, t->gravity, kick_s * model->bodies[b].source->gravity_scale);
+    s->velocity =
+        sbri_add_scaled(s->velocity, t->gravity, work->kick_s * model->bodies[b].source->gravity_scale);
     go(t, b, m, step_s);
     sbri_node *node = &work->system.nodes[m->node];
     spread(model->bodies[b].inertia, m->from.rotation, node->inertia);
@@ -175,36 +153,7 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
   }
 }
 
-float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
-  float swell = pull->squares ? pull->squares[body] * step_s * step_s / (MOST_SWING * MOST_SWING) : 0;
-  return swell > 1 ? swell : 1;
-}
-
-/* ---- The system ---- */
-
-static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  for (uint32_t i = 0; i < work->system.node_count; i++) {
-    sbri_node *node = &work->system.nodes[i];
-    float mass = node->swell * t->model->bodies[node->body].mass;
-    memset(node->d, 0, sizeof node->d);
-    for (int k = 0; k < 3; k++) {
-      node->d[k][k] = mass;
-      for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->swell * node->inertia[k][j];
-    }
-    memcpy(node->b, node->push, sizeof node->b);
-  }
-  sbri_ground_touches_add(work);
-  for (uint32_t e = 0; e < work->system.edge_count; e++)
-    sbri_joint_rows_aim(work, &work->system.edges[e], t->model);
-}
-
-static bool judge(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s, int pass) {
-  bool changed =
-      sbri_ground_touches_judge(work, step_s, (pass + 1 >= FREE_PASSES) + (pass + 1 >= SETTLING_PASSES));
-  for (uint32_t e = 0; e < work->system.edge_count; e++)
-    if (sbri_joint_rows_judge(work, &work->system.edges[e], t->model, step_s)) changed = true;
-  return changed;
-}
+/* ---- A step ---- */
 
 /* Gives the bodies the changes of velocity that were solved for. */
 static void take(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
@@ -239,9 +188,11 @@ static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work
     const sbri_edge *e = &work->system.edges[i];
     sbri_rigid_joint_state *joint = &t->joints[e->joint];
     sbf_vec3 force = {0, 0, 0}, moment = {0, 0, 0};
+    joint->pressed = 0;
     for (uint32_t r = 0; r < e->row_count; r++) {
       const sbri_row *row = &e->rows[r];
       const float *b = row->rates[SBRI_B];
+      if (row->sign && row->active && r < 32) joint->pressed |= 1u << r;
       if (!row->active && !row->full) continue;
       force = sbri_add_scaled(force, sbri_vec3(b[0], b[1], b[2]), row->impulse * rate);
       moment = sbri_add_scaled(moment, sbri_vec3(b[3], b[4], b[5]), row->impulse * rate);
@@ -269,12 +220,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
   begin_step(t, work, from, to);
   sbri_ground_touches_make(t, work, t->tick_s * from, step_s);
   for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_make(t, work, e, step_s);
-  for (int pass = 0; pass < MOST_PASSES; pass++) {
-    begin_pass(t, work);
-    sbri_system_factor(s);
-    sbri_system_solve(s);
-    if (!judge(t, work, step_s, pass)) break;
-  }
+  sbri_rigid_passes(t, work, step_s);
   take_and_go(t, work, step_s);
   for (int pass = 0; pass < MOST_CORRECTIONS && s->edge_count; pass++) {
     worst = 0;
@@ -321,7 +267,7 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float fr
 
 /* The joints' pulls on bodies that have just begun to move, by a short step that is then taken back. */
 static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
-  const float share = 1 / (float)MOST_SUBSTEPS;
+  const float share = 1 / (float)SBRI_RIGID_MOST_SUBSTEPS;
   work->last_step_s = share * t->tick_s;
   keep_bodies(t, work, 0, false);
   (void)step(t, work, 0, share);
@@ -348,36 +294,6 @@ static void break_joints(const sbri_rigid_tick *t) {
   }
 }
 
-static uint32_t count_substeps(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
-  float fastest = 0; /* rad^2/s^2 */
-  for (uint32_t i = 0; i < work->system.node_count; i++) {
-    const sbri_rigid_body *body = &t->model->bodies[work->system.nodes[i].body];
-    const sbri_rigid_body_state *state = &t->bodies[work->system.nodes[i].body];
-    float stiffness[3];
-    sbf_vec3 turn = sbri_spin_velocity(body, state->pose.rotation, state->spin);
-    if (work->system.nodes[i].edge >= 0) {
-      float own = sbri_length(turn) * (MOST_SWING / MOST_TURN);
-      fastest = own * own > fastest ? own * own : fastest;
-    }
-    if (t->pull.squares) {
-      float pinned = t->pull.squares[work->system.nodes[i].body];
-      fastest = pinned > fastest ? pinned : fastest;
-    }
-    find_pulls(t, work, work->system.nodes[i].body, stiffness);
-    const float ease[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
-    for (int a = 0; a < 3; a++) fastest = stiffness[a] * ease[a] > fastest ? stiffness[a] * ease[a] : fastest;
-  }
-  /* In powers of two, and fewer than before only where a quarter would do: a leapfrog whose steps change at
-   * every turn gains by it. */
-  float steps = t->tick_s * sqrtf(fastest) / MOST_SWING;
-  uint32_t count = t->substeps, most = t->substeps > MOST_SUBSTEPS ? t->substeps : MOST_SUBSTEPS;
-  while ((float)count < steps && 2 * count <= most) count *= 2;
-  uint32_t before = t->drive->substeps;
-  if (before > count && before <= most && before < 4 * count) count = before;
-  t->drive->substeps = count;
-  return count;
-}
-
 void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
   lay_out(t->model, t->work, work);
   sbri_part_motion *still = &work->motions[t->model->body_count];
@@ -389,9 +305,10 @@ void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
     work->pulls[j] = t->joints[j].force, t->joints[j].force = t->joints[j].torque = sbri_vec3(0, 0, 0);
   sbri_ground_touches_find(t, work);
   sbri_shape_touches_find(t, work);
+  sbri_touch_memory_recall(t, work);
   work->last_step_s = t->drive->last_step_s;
   if (work->last_step_s == 0 && work->system.node_count) probe_pulls(t, work);
-  t->substeps = count_substeps(t, work);
+  t->substeps = sbri_rigid_pace(t, work);
   if (t->substeps < t->pull.steps) t->substeps = t->pull.steps;
 }
 
@@ -410,6 +327,8 @@ void sbri_rigid_end(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     t->bodies[b].velocity = all.velocity;
     t->bodies[b].spin = sbri_spin_from(&t->model->bodies[b], t->targets[b].rotation, all.turn);
   }
+  sbri_touch_memory_keep(t, work);
   t->drive->last_step_s = work->last_step_s;
+  t->drive->slow_ticks = sbri_rigid_is_slow(t, work) ? t->drive->slow_ticks + 1 : 0;
   break_joints(t);
 }

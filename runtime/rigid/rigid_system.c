@@ -146,8 +146,7 @@ static void push(sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row, 
     if (e->nodes[side] >= 0) sbri_add6_rates(s->nodes[e->nodes[side]].b, row->rates[side], impulse);
 }
 
-/* What a unit impulse of the row would change its rate by if nothing else held its bodies. */
-static double alone(const sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row) {
+double sbri_row_alone(const sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row) {
   double sum = 0;
   for (int side = 0; side < SBRI_SIDES; side++) {
     const float *j = row->rates[side];
@@ -191,7 +190,7 @@ static void factor_loops(sbri_rigid_system *s) {
       for (uint32_t k = 0; k <= at; k++)
         to[k] = seen_by(e, row, s->responses + (size_t)k * s->node_count * 6);
       to[at] += row->give;
-      s->loop_rhs[at] = REDUNDANT * alone(s, e, row);
+      s->loop_rhs[at] = REDUNDANT * sbri_row_alone(s, e, row);
     }
   }
   factor_dense(s->loop_matrix, count, s->loop_rhs);

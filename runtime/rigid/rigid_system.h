@@ -16,6 +16,7 @@
 #define SBRI_RIGID_SYSTEM_H
 
 #include "model/rigid_model.h"
+#include "rigid/sym6.h"
 
 typedef enum sbri_row_kind {
   SBRI_ROW_HELD,   /* a coordinate at one value */
@@ -35,6 +36,8 @@ typedef struct sbri_row {
   float now, low, high; /* of a limit: the coordinate when the substep begins, and its range */
   float bounce;         /* of a limit that was run into: the speed that it throws back with, else 0 */
   float impulse;        /* l */
+  float wanted;         /* of a limit: what the bodies' velocities are to change its rate by */
+  float was, moved;     /* of a limit: by what they do, by the pass before and by the last */
   int8_t sign;          /* of a limit: the impulse may only be of this sign */
   uint8_t kind, axis;   /* of sbri_row_kind and sbf_joint_axis */
   bool active;          /* takes part */
@@ -62,6 +65,7 @@ typedef struct sbri_node {
   int32_t parent, edge; /* -1: root; -1: no joint holds it to its parent or the world */
   double d[6][6];       /* lower half, then its factor, with the pivots' inverses on the diagonal */
   double b[6], x[6];
+  double was[6];       /* x of the pass before */
   double push[6];      /* impulses that are known already: of drives that give their maximum */
   float inertia[3][3]; /* in space */
   float swell;         /* sbri_rigid_swell */
@@ -81,6 +85,17 @@ typedef struct sbri_rigid_system {
   double *loop_matrix; /* (loop_row_capacity^2) its Cholesky factor */
   double *loop_rhs;    /* (loop_row_count) */
 } sbri_rigid_system;
+
+/* What the nodes' x do to the row's rate. */
+static inline double sbri_row_moved(const sbri_rigid_system *s, const sbri_edge *e, const sbri_row *row) {
+  double sum = 0;
+  for (int side = 0; side < SBRI_SIDES; side++)
+    if (e->nodes[side] >= 0) sum += sbri_dot6_rates(row->rates[side], s->nodes[e->nodes[side]].x);
+  return sum;
+}
+
+/* What a unit impulse of the row would change its rate by if nothing else held its bodies. */
+double sbri_row_alone(const sbri_rigid_system *system, const sbri_edge *edge, const sbri_row *row);
 
 /* Factors the system of the rows that are active and the nodes' d, which it overwrites. */
 void sbri_system_factor(sbri_rigid_system *system);

@@ -5,8 +5,8 @@
 #include "rigid/joint_place.h"
 #include "rigid/rigid_state.h"
 
-/* A step may be halved so often, less one. */
-enum { SBRI_RIGID_HALVINGS = 4 };
+/* A step may be halved so often, less one; and a tick has no more steps, unless the model asks for them. */
+enum { SBRI_RIGID_HALVINGS = 4, SBRI_RIGID_MOST_SUBSTEPS = 64 };
 
 /* How a body moves in a substep, if nothing more acts on it. */
 typedef struct sbri_part_motion {
@@ -25,7 +25,8 @@ typedef struct sbri_rigid_solving {
   sbri_joint_place *places;    /* (joint_count) of the edges */
   sbri_ground_touch *touches;  /* (touch_count) */
   uint32_t touch_count, touch_capacity;
-  float last_step_s;       /* length of the step before; 0: there is none */
+  float last_step_s; /* length of the step before; 0: there is none */
+  float kick_s;      /* for how long forces act in the step: from the middle of the one before to its own */
   uint32_t *order, *roots; /* of the tree's making */
   sbri_row *rows;          /* (row_count), as all that follow: the edges' share them out by joint */
   uint16_t *actives;
@@ -41,6 +42,15 @@ void sbri_rigid_begin(sbri_rigid_tick *tick, sbri_rigid_solving *work);
 void sbri_rigid_advance(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float from, float to);
 void sbri_rigid_end(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
+/* ---- rigid_pace.c ---- */
+
+/* How many steps the coming tick takes; and whether the bodies have but moved slowly in the last. */
+uint32_t sbri_rigid_pace(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
+bool sbri_rigid_is_slow(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
+
+/* ---- rigid_passes.c: the nodes' x, the rows and touches that act, for a step that has been made. ---- */
+void sbri_rigid_passes(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
+
 /* ---- rigid_tree.c: the system's graph, of the bodies that give way and the joints that are whole. ---- */
 void sbri_rigid_tree_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
@@ -50,10 +60,14 @@ void sbri_rigid_tree_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work)
 void sbri_joint_rows_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
 /* Right-hand sides of the active rows, from the bodies' motions. */
 void sbri_joint_rows_aim(const sbri_rigid_solving *work, sbri_edge *edge, const sbri_rigid_model *model);
+/* Takes from the nodes' x how the limits' rates change. */
+void sbri_joint_rows_move(sbri_rigid_solving *work);
+/* And back by that share of it. */
+void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share);
 /* Takes rows out that have pulled, lets those in that are broken, and gives drives that would exceed it their
- * maximum; whether anything has changed. */
+ * maximum; whether anything has changed, and whether `other` than limits. */
 bool sbri_joint_rows_judge(
-    sbri_rigid_solving *work, sbri_edge *edge, const sbri_rigid_model *model, float step_s);
+    sbri_rigid_solving *work, sbri_edge *edge, const sbri_rigid_model *model, float step_s, bool *other);
 /* Right-hand sides for what is still off at the substep's end; returns by how much the worst is, m or rad. */
 float sbri_joint_rows_correct(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
@@ -65,6 +79,12 @@ bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *edge, con
 /* Adds places that may touch shapes of the host within the tick. */
 void sbri_shape_touches_find(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
+/* ---- touch_memory.c ---- */
+
+/* Gives the touches that were there in the tick before what they did then; and keeps that. */
+void sbri_touch_memory_recall(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
+void sbri_touch_memory_keep(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
+
 /* ---- ground_touch.c ---- */
 
 /* Lists the vertices that may touch the ground within the tick, with the ground's planes. */
@@ -74,15 +94,25 @@ void sbri_ground_touches_make(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, float since_s, float step_s);
 /* Adds what acts to the nodes' d and b. */
 void sbri_ground_touches_add(sbri_rigid_solving *work);
-/* Notes what the bodies touch, when a substep is over. */
-void sbri_ground_touches_tell(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
+/* Notes what the bodies touch, when a substep is over, and what the next one begins with. */
+void sbri_ground_touches_tell(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 /* To the nodes' b what throws back those that have struck the ground, at the substep's end; whether any is.
  */
 bool sbri_ground_touches_bounce(sbri_rigid_solving *work);
-/* From the nodes' x: who is in contact, and who slides; whether that has changed. From stage 1 on
- * friction settles and only what lies on the ground comes in; in stage 2 touches that pull go out, nothing
- * else. */
-bool sbri_ground_touches_judge(sbri_rigid_solving *work, float step_s, int stage);
+/* Takes from the nodes' x how the places' velocities change. */
+void sbri_ground_touches_move(sbri_rigid_solving *work);
+/* What the impulses would do along the way from the pass before to the last, at that share of it, J. */
+float sbri_ground_touches_work(const sbri_rigid_solving *work, float share);
+/* Who presses, and who slides, by the last pass; whether that has changed. */
+bool sbri_ground_touches_judge(sbri_rigid_solving *work);
+/* Bounds of friction from what presses by the last pass; whether that makes a difference. */
+bool sbri_ground_touches_bound(sbri_rigid_solving *work);
+
+/* ---- rigid_search.c ---- */
+
+/* How much of the way from the pass before to the last is best: 1 where that is no further than it should be.
+ */
+float sbri_rigid_search(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
 
 /* The motion of one side of an edge. */
 static inline const sbri_part_motion *sbri_side_motion(

@@ -1,0 +1,87 @@
+/* How many steps a tick takes: as many as the model says, more where what is pulled at swings fast or turns
+ * fast, and one where everything has lain or hung still for a while. */
+#include "rigid/rigid_work.h"
+
+/* After so many slow ticks all lies, or hangs: what swings is slow for less. */
+enum { LYING_TICKS = 20 };
+
+/* Greatest angular frequency times step: 2 is where a leapfrog ends. */
+static const float MOST_SWING = 0.8f;
+/* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
+static const float MOST_TURN = 0.2f;
+/* Slower than this share of its size a second, a body hardly moves. */
+static const float SLOW_1_S = 0.1f;
+
+float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
+  float swell = pull->squares ? pull->squares[body] * step_s * step_s / (MOST_SWING * MOST_SWING) : 0;
+  return swell > 1 ? swell : 1;
+}
+
+/* Torque on a body per turn about each of its own axes, by pulls at its joints: the force at an arm r answers
+ * a turn with (r.F - r_i F_i) about the axis i. */
+static void add_pull(
+    const sbri_rigid_joint *joint, int side, sbf_quat turn, sbf_vec3 force, float stiffness[3]) {
+  sbf_vec3 r = joint->frames[side].at, f = sbri_rotate(sbri_quat_conjugate(turn), force);
+  if (side == SBRI_A) f = sbri_scale(f, -1);
+  float along = sbri_dot(r, f);
+  stiffness[0] += along - r.x * f.x;
+  stiffness[1] += along - r.y * f.y;
+  stiffness[2] += along - r.z * f.z;
+}
+
+static void find_pulls(
+    const sbri_rigid_tick *t, const sbri_rigid_solving *work, uint32_t b, float stiffness[3]) {
+  const sbri_rigid_model *model = t->model;
+  const sbri_rigid_body *body = &model->bodies[b];
+  stiffness[0] = stiffness[1] = stiffness[2] = 0;
+  for (uint32_t k = body->joint_begin; k < body->joint_end; k++) {
+    const sbri_rigid_joint *joint = &model->joints[model->joints_of[k]];
+    int side = joint->bodies[SBRI_B] == (int32_t)b ? SBRI_B : SBRI_A;
+    add_pull(joint, side, t->bodies[b].pose.rotation, work->pulls[model->joints_of[k]], stiffness);
+  }
+}
+
+uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+  float fastest = 0; /* rad^2/s^2 */
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    const sbri_rigid_body *body = &t->model->bodies[work->system.nodes[i].body];
+    const sbri_rigid_body_state *state = &t->bodies[work->system.nodes[i].body];
+    float stiffness[3];
+    sbf_vec3 turn = sbri_spin_velocity(body, state->pose.rotation, state->spin);
+    if (work->system.nodes[i].edge >= 0) {
+      float own = sbri_length(turn) * (MOST_SWING / MOST_TURN);
+      fastest = own * own > fastest ? own * own : fastest;
+    }
+    if (t->pull.squares) {
+      float pinned = t->pull.squares[work->system.nodes[i].body];
+      fastest = pinned > fastest ? pinned : fastest;
+    }
+    find_pulls(t, work, work->system.nodes[i].body, stiffness);
+    const float ease[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
+    for (int a = 0; a < 3; a++) fastest = stiffness[a] * ease[a] > fastest ? stiffness[a] * ease[a] : fastest;
+  }
+  /* In powers of two, and fewer than before only where a quarter would do: a leapfrog whose steps change at
+   * every turn gains by it. */
+  float steps = t->tick_s * sqrtf(fastest) / MOST_SWING;
+  bool lies = t->drive->slow_ticks >= LYING_TICKS;
+  uint32_t count = lies ? 1 : t->substeps,
+           most = t->substeps > SBRI_RIGID_MOST_SUBSTEPS ? t->substeps : SBRI_RIGID_MOST_SUBSTEPS;
+  while ((float)count < steps && 2 * count <= most) count *= 2;
+  uint32_t before = t->drive->substeps;
+  if (!lies && before > count && before <= most && before < 4 * count) count = before;
+  t->drive->substeps = count;
+  return count;
+}
+
+bool sbri_rigid_is_slow(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    uint32_t b = work->system.nodes[i].body;
+    const sbri_rigid_body_state *s = &t->bodies[b];
+    float size = 2 * t->model->bodies[b].radius;
+    sbf_vec3 turn = sbri_spin_velocity(&t->model->bodies[b], s->pose.rotation, s->spin);
+    if (s->mode == SBR_RIGID_DRIVEN ||
+        !(sbri_length(s->velocity) + 0.5f * size * sbri_length(turn) < SLOW_1_S * size))
+      return false;
+  }
+  return true;
+}

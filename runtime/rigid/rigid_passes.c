@@ -1,0 +1,64 @@
+/* Passes over a step's system until what pushes in it is what should.
+ *
+ * A pass is Newton's: touches, limits and friction stand in the system as they answer at the changes of
+ * velocity of the pass before, the first as they did in the step before. Friction's bounds stay as they are
+ * until the rest has settled; then they are those of what presses, and if that makes a difference it goes on.
+ */
+#include <string.h>
+
+#include "rigid/rigid_work.h"
+
+enum { MOST_PASSES = 40, MOST_BOUNDS = 3 };
+
+static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    sbri_node *node = &work->system.nodes[i];
+    float mass = node->swell * t->model->bodies[node->body].mass;
+    memset(node->d, 0, sizeof node->d);
+    for (int k = 0; k < 3; k++) {
+      node->d[k][k] = mass;
+      for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->swell * node->inertia[k][j];
+    }
+    memcpy(node->b, node->push, sizeof node->b);
+  }
+  sbri_ground_touches_add(work);
+  for (uint32_t e = 0; e < work->system.edge_count; e++)
+    sbri_joint_rows_aim(work, &work->system.edges[e], t->model);
+}
+
+/* Back by that share of the way from the pass before. */
+static void hold_back(sbri_rigid_solving *work, float share) {
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    sbri_node *node = &work->system.nodes[i];
+    for (int k = 0; k < 6; k++) node->x[k] = node->was[k] + (double)share * (node->x[k] - node->was[k]);
+  }
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    sbri_ground_touch *touch = &work->touches[i];
+    touch->moved = sbri_lerp(touch->was, touch->moved, share);
+  }
+  sbri_joint_rows_hold_back(work, share);
+}
+
+void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+  sbri_rigid_system *s = &work->system;
+  bool same = false; /* but for touches, the pass before was of the same system */
+  int bounds = MOST_BOUNDS;
+  for (int pass = 0; pass < MOST_PASSES; pass++) {
+    for (uint32_t i = 0; i < s->node_count; i++) memcpy(s->nodes[i].was, s->nodes[i].x, sizeof s->nodes[i].x);
+    begin_pass(t, work);
+    sbri_system_factor(s);
+    sbri_system_solve(s);
+    sbri_ground_touches_move(work);
+    sbri_joint_rows_move(work);
+    float share = same && pass + 1 < MOST_PASSES ? sbri_rigid_search(t, work, step_s) : 1;
+    if (share < 1) hold_back(work, share);
+    bool changed = false, other = false;
+    for (uint32_t e = 0; e < s->edge_count; e++)
+      changed = sbri_joint_rows_judge(work, &s->edges[e], t->model, step_s, &other) || changed;
+    changed = sbri_ground_touches_judge(work) || changed || share < 1;
+    same = !other;
+    if (changed) continue;
+    if (!bounds-- || !sbri_ground_touches_bound(work)) return;
+    same = false;
+  }
+}

@@ -1,0 +1,96 @@
+/* How far to go from one pass to the next.
+ *
+ * With friction's bounds as they are, touches, drives and springs have an energy of the changes of velocity,
+ * which with the kinetic one is convex, and a pass goes to its minimum as it would be if nothing began to
+ * press or to slide on the way (Newton's method, as Todorov, Convex and analytically-invertible dynamics with
+ * contacts and constraints, 2014). Where that goes too far, its least value along the way is where its slope
+ * is 0; with it the passes end, where without it they may go round in a circle. */
+#include "rigid/rigid_work.h"
+#include "rigid/sym6.h"
+
+enum { SEARCHES = 20 };
+/* Of the slope at the begin, what may be left. */
+static const float LEVEL = 0.01f;
+/* And what may have come up behind it at the end, for the way not to be too long. */
+static const float FAR = 0.3f;
+/* And of the energy that weight gives all bodies in a step from rest. */
+static const double TRIFLE = 1e-5;
+
+/* Slope of all but the touches at the begin of the way, and its change along it. */
+static void find_slope(
+    const sbri_rigid_tick *t, const sbri_rigid_solving *work, double *slope, double *rise) {
+  double a = 0, q = 0;
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    const sbri_node *node = &work->system.nodes[i];
+    double mass = (double)(node->swell * t->model->bodies[node->body].mass), way[6];
+    for (int k = 0; k < 6; k++) way[k] = node->x[k] - node->was[k], a -= node->push[k] * way[k];
+    for (int k = 0; k < 3; k++) a += mass * node->was[k] * way[k], q += mass * way[k] * way[k];
+    for (int k = 0; k < 3; k++)
+      for (int j = 0; j < 3; j++) {
+        double inertia = (double)(node->swell * node->inertia[k][j]);
+        a += inertia * node->was[3 + k] * way[3 + j], q += inertia * way[3 + k] * way[3 + j];
+      }
+  }
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    for (uint32_t r = 0; r < e->active_count; r++) {
+      const sbri_row *row = &e->rows[e->actives[r]];
+      double was = 0, now = 0;
+      if (!(row->give > 0) || row->kind == SBRI_ROW_LIMIT) continue;
+      for (int side = 0; side < SBRI_SIDES; side++) {
+        if (e->nodes[side] < 0) continue;
+        const sbri_node *node = &work->system.nodes[e->nodes[side]];
+        was += sbri_dot6_rates(row->rates[side], node->was);
+        now += sbri_dot6_rates(row->rates[side], node->x);
+      }
+      a -= (e->rhs[r] - was) * (now - was) / (double)row->give;
+      q += (now - was) * (now - was) / (double)row->give;
+    }
+  }
+  *slope = a, *rise = q;
+}
+
+/* What touches and limits would do at that share of the way. */
+static double pushed(const sbri_rigid_solving *work, float share) {
+  double sum = (double)sbri_ground_touches_work(work, share);
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    for (uint32_t r = 0; r < e->row_count; r++) {
+      const sbri_row *row = &e->rows[r];
+      if (row->kind != SBRI_ROW_LIMIT) continue;
+      float way = row->moved - row->was, off = row->wanted - (row->was + share * way);
+      if ((float)row->sign * off > 0) sum += (double)(off * way / row->give);
+    }
+  }
+  return sum;
+}
+
+static double moved_by_weight(const sbri_rigid_tick *t, const sbri_rigid_solving *work, float step_s) {
+  double mass = 0, speed = (double)(sbri_length(t->gravity) * step_s);
+  for (uint32_t i = 0; i < work->system.node_count; i++)
+    mass += (double)t->model->bodies[work->system.nodes[i].body].mass;
+  return mass * speed * speed;
+}
+
+float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+  double slope, rise;
+  find_slope(t, work, &slope, &rise);
+  double first = slope - pushed(work, 0);
+  double last = slope + rise - pushed(work, 1), level = -(double)LEVEL * first;
+  double least_level = TRIFLE * moved_by_weight(t, work, step_s);
+  if (level < least_level) level = least_level;
+  if (!(first < 0) || last <= level || last <= -(double)FAR * first) return 1;
+  float low = 0, high = 1;
+  for (int i = 0; i < SEARCHES; i++) {
+    float share = low + (high - low) * (float)(first / (first - last));
+    float least = low + 0.02f * (high - low), most = high - 0.02f * (high - low);
+    share = i & 1 ? 0.5f * (low + high) : sbri_clamp(share, least, most);
+    double here = slope + (double)share * rise - pushed(work, share);
+    if (here >= 0 && here <= level) return share;
+    if (here < 0)
+      low = share, first = here;
+    else
+      high = share, last = here;
+  }
+  return high; /* beyond what stopped it there, so that the next pass sees that */
+}
