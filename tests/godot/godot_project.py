@@ -6,6 +6,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "blender"))
+from blender_process import needed_libraries, skip  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.realpath(os.path.join(HERE, os.pardir, os.pardir))
 
@@ -19,11 +22,6 @@ config/name="test"
 
 3d/physics_engine="{engine}"
 """
-
-
-def skip(why):
-    print(f"skipped: {why}")
-    sys.exit(77)
 
 
 class Godot:
@@ -55,8 +53,19 @@ class Godot:
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
 
-    def set_engine(self, engine):
-        self.write("project.godot", PROJECT.format(engine=engine))
+    def set_engine(self, engine, more=""):
+        self.write("project.godot", PROJECT.format(engine=engine) + more)
+
+    def provide_program(self):
+        """The add-on's program, with what it rests on beside it: another system has other versions of that."""
+        folder = os.path.join(self.folder, "addons", "sbfmt", "bin")
+        program = os.path.join(folder, "sbfmt")
+        for library in needed_libraries(program) if self.root else []:
+            shutil.copy(library, folder)
+        os.rename(program, program + "-itself")
+        with open(program, "w", encoding="utf-8") as file:
+            file.write('#!/bin/sh\nhere=$(dirname "$0")\nLD_LIBRARY_PATH=$here exec "$here/sbfmt-itself" "$@"\n')
+        os.chmod(program, 0o755)
 
     def copy(self, *names):
         for name in names:
@@ -83,7 +92,11 @@ class Godot:
         self.copy(os.path.join(HERE, "checks.gd"), os.path.join(HERE, f"{script}.gd"))
         seen = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if display else ["--headless"]
         settings = {"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"} if display else {}
-        done = self.run(*seen, "--fixed-fps", "60", "--script", f"{script}.gd", "--", *words, **settings)
+        return self.is_good(self.run(*seen, "--fixed-fps", "60", "--script", f"{script}.gd", "--", *words, **settings), allowed)
+
+    @staticmethod
+    def is_good(done, allowed=()):
+        """Whether it ended with status 0, and complained of nothing else."""
         print(done.stdout)
         complaints = [line for line in done.stdout.splitlines() if line.startswith(("ERROR:", "SCRIPT ERROR:", "FAILED"))
                       and not any(one in line for one in allowed)]

@@ -15,10 +15,8 @@ import subprocess
 import sys
 import tempfile
 
-from godot_project import ROOT, Godot, skip
-
-sys.path.insert(0, os.path.join(ROOT, "tests", "blender"))
-from blender_window import Screen  # noqa: E402
+from godot_project import HERE, ROOT, Godot, skip
+from blender_window import Screen
 
 LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard")
 BAR = os.path.join(ROOT, "examples", "tear", "bar.sbf")
@@ -29,21 +27,16 @@ ENGINES = ("Jolt Physics", "GodotPhysics3D")
 
 def packed(program, folder):
     """The lizard, as an engine loads it; and a second one of stiffer flesh with the same structure."""
-    for name, flesh in (("lizard", "20000"), ("stiffer", "30000")):
+    for name, flesh in (("lizard", []), ("stiffer", ["--material", "muscle"])):
         text, out = os.path.join(folder, name + ".sbf"), os.path.join(folder, name + ".sbfz")
-        subprocess.run([program, "convert", LIZARD + ".obj", "--rig", LIZARD + ".glb", "-o", text], check=True, capture_output=True)
-        if name == "stiffer":
-            with open(text, encoding="utf-8") as file:
-                was = file.read()
-            with open(text, "w", encoding="utf-8") as file:
-                file.write(was.replace('young_modulus="20000"', f'young_modulus="{flesh}"'))
+        subprocess.run([program, "convert", LIZARD + ".obj", "--rig", LIZARD + ".glb", *flesh, "-o", text], check=True, capture_output=True)
         subprocess.run([program, "pack", text, "--store", "-o", out], check=True, capture_output=True)
         os.remove(text)
 
 
-def native(program, folder):
+def native(program, folder, name="lizard"):
     """What the program itself says of ten seconds on level ground."""
-    done = subprocess.run([program, "run", os.path.join(folder, "lizard.sbfz"), "--seconds", "10", "--drive", "0.25,0", "--format", "json"],
+    done = subprocess.run([program, "run", os.path.join(folder, name + ".sbfz"), "--seconds", "10", "--drive", "0.25,0", "--format", "json"],
                           check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
 
@@ -60,6 +53,52 @@ def demo(godot, keep):
     if keep:
         shutil.copy(os.path.join(godot.folder, "picture.png"), keep)
     return passed
+
+
+PLUGINS = '\n[editor_plugins]\n\nenabled=PackedStringArray({})\n'
+VISITED = """[gd_scene load_steps=2 format=3]
+
+[ext_resource type="SoftAsset" path="res://lizard.sbfz" id="1"]
+
+[node name="Scene" type="Node3D"]
+
+[node name="Lizard" type="SoftCharacter3D" parent="."]
+asset = ExtResource("1")
+ground = 1
+"""
+
+
+def imported(godot, program):
+    """A .sbf in the project's folder, imported by the editor, changed, and broken."""
+    godot.set_engine("Jolt Physics", PLUGINS.format('"res://addons/sbfmt/plugin.cfg"'))
+    godot.provide_program()
+    text = os.path.join(godot.folder, "lizard.sbf")
+    passed, states = True, set()
+    for name in ("lizard", "stiffer"):
+        told = native(program, godot.folder, name)
+        states.add(told["state_hash"])
+        subprocess.run([program, "unpack", os.path.join(godot.folder, name + ".sbfz"), "-o", text], check=True, capture_output=True)
+        os.remove(os.path.join(godot.folder, name + ".sbfz"))
+        passed = godot.is_good(godot.run("--headless", "--import")) and godot.passes("imported", told["state_hash"]) and passed
+    if len(states) != 2:
+        print("FAILED: the stiffer lizard is no other")
+        return False
+    godot.write("broken.sbf", "<soft_body_format/>")
+    done = godot.run("--headless", "--import")
+    print(done.stdout)
+    return passed and "res://broken.sbf: " in done.stdout and "broken.sbf" in done.stdout
+
+
+def editor(godot):
+    """A visit to a scene in the editor."""
+    godot.write("addons/visit/plugin.cfg", '[plugin]\n\nname="visit"\ndescription=""\nauthor=""\nversion=""\nscript="editor_visit.gd"\n')
+    shutil.copy(os.path.join(HERE, "editor_visit.gd"), os.path.join(godot.folder, "addons", "visit"))
+    godot.write("visited.tscn", VISITED)
+    godot.set_engine("Jolt Physics", PLUGINS.format('"res://addons/sbfmt/plugin.cfg", "res://addons/visit/plugin.cfg"'))
+    godot.run("--headless", "--import")
+    done = godot.run("--headless", "--editor", "--fixed-fps", "60", "--quit-after", "3000")
+    print(done.stdout)
+    return "\n0 failed after" in done.stdout and "SCRIPT ERROR" not in done.stdout
 
 
 def page(godot, program):
@@ -114,6 +153,10 @@ def main():
             passed = godot.passes("damaged", allowed=("res://", "play: ", "Failed loading resource", "Error loading resource"))
         elif asked.case == "page":
             passed = page(godot, asked.program)
+        elif asked.case == "imported":
+            passed = imported(godot, asked.program)
+        elif asked.case == "editor":
+            passed = editor(godot)
         elif asked.case == "demo":
             passed = demo(godot, asked.keep)
         else:

@@ -21,7 +21,7 @@ struct physics_ground {
   double cell;     /* m */
   double radius;   /* m: of what is looked at around the character */
   double reach;    /* m: how far above and below it rays go */
-  double middle_y; /* m: before anything is known */
+  double middle_y; /* m: while nothing is known */
   uint32_t across; /* corners of the ring, a power of two */
   int32_t low_x, low_z, high_x, high_z;
   uint32_t turn; /* next corner to be asked again */
@@ -83,6 +83,12 @@ void physics_ground_free(physics_ground *ground) {
 
 sbr_ground physics_ground_of(physics_ground *ground) {
   return (sbr_ground){.height = height, .user = ground};
+}
+
+void physics_ground_level(physics_ground *ground, double level) {
+  for (uint32_t i = 0; i < ground->across * ground->across; i++) ground->corners[i].known = false;
+  ground->any = false;
+  ground->middle_y = level;
 }
 
 /* The height under a corner; the lower end of the ray where it meets nothing. */

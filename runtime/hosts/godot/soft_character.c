@@ -55,7 +55,6 @@ void soft_character_follow(soft_character *one) {
 
 double soft_character_ground_height(const soft_character *one, double x, double z) {
   sbf_vec3 normal;
-  if (one->settings.ground == SOFT_GROUND_FLAT || !one->ground) return one->flat_y;
   sbr_ground ground = physics_ground_of(one->ground);
   return ground.height(&ground, x, z, &normal);
 }
@@ -137,9 +136,9 @@ static bool make_world(soft_character *one) {
     gd_error("no memory for a character");
     return false;
   }
-  one->flat_y = place.origin.y;
-  world.ground = one->settings.ground == SOFT_GROUND_FLAT ? sbr_ground_flat(one->flat_y)
-                                                          : physics_ground_of(one->ground);
+  physics_ground_level(one->ground, one->flat_y);
+  world.ground = one->settings.ground == SOFT_GROUND_FLAT && !one->editor ? sbr_ground_flat(one->flat_y)
+                                                                          : physics_ground_of(one->ground);
   if (one->settings.threads) world.tasks = worker_pool_tasks();
   world.control_tick_s = one->model->asset->environment.control_tick;
   world.has_gravity = one->model->options.has_gravity;
@@ -181,7 +180,10 @@ void soft_character_make(soft_character *one) {
   bool was_placed = one->placed;
   gd_variant answer = GD_CALL(&one->node, "is_inside_tree");
   bool inside = gd_take_bool(answer);
-  if (inside && !was_placed) one->put = transform_of(one);
+  if (inside && !was_placed) {
+    one->put = transform_of(one);
+    one->flat_y = one->put.origin.y;
+  }
   unmake(one);
   if (inside && asset && soft_asset_of(asset)) {
     const soft_settings *s = &one->settings;
@@ -254,9 +256,34 @@ static void tell(soft_character *one) {
     }
 }
 
+/* In the editor it stands where the node is put, and moves while it previews; then it is put back. */
+static void edit(soft_character *one, const gd_transform *now) {
+  if (one->previews) GD_DO(&one->node, "set_global_transform", gd_transform_value(one->from));
+  if (!one->previews && !was_moved(now, &one->put)) return;
+  one->put = one->previews ? one->from : *now;
+  one->previews = false;
+  one->flat_y = one->put.origin.y;
+  physics_ground_level(one->ground, one->flat_y);
+  sbr_character_reset(one->world, one->id);
+  sbr_character_teleport(
+      one->world, one->id, (sbr_double3){one->put.origin.x, 0, one->put.origin.z}, heading_of(&one->put));
+  character_skeleton_update(one);
+  one->stale = true;
+  GD_DO(&one->node, "update_gizmos");
+}
+
 static void step(soft_character *one) {
-  if (!one->world || (one->editor && !one->settings.preview)) return;
+  if (!one->world) return;
   gd_transform now = transform_of(one);
+  if (one->editor && !one->settings.preview) {
+    edit(one, &now);
+    return;
+  }
+  if (one->editor && !one->previews) {
+    one->previews = true;
+    one->from = now;
+    one->placed = false;
+  }
   if (!one->placed || was_moved(&now, &one->put)) {
     soft_character_place(one, now.origin, heading_of(&now));
     one->placed = true;

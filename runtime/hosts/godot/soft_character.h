@@ -47,6 +47,8 @@ typedef struct soft_character {
   double flat_y;      /* height of the flat ground */
   gd_transform put;   /* where it was last put by its own motion */
   bool stale;         /* the mesh is to be drawn anew */
+  bool previews;      /* it moves in the editor, having stood at: */
+  gd_transform from;
   character_mesh *mesh;
   gd_variant skeleton; /* Skeleton3D; nil: none */
   physics_ground *ground;
@@ -94,6 +96,8 @@ void physics_ground_free(physics_ground *ground);
 /* Casts what is missing around the character; main thread, in a physics frame. */
 void physics_ground_look(soft_character *one);
 sbr_ground physics_ground_of(physics_ground *ground);
+/* Forgets what rays found: level at that height (m) until it looks again. */
+void physics_ground_level(physics_ground *ground, double level);
 
 /* ---- physics_bodies.c ---- */
 

@@ -1,0 +1,53 @@
+@tool
+extends EditorPlugin
+# Visits a scene in the editor: the character is there at rest and goes with the node, has a gizmo, moves while it
+# previews and is put back.
+
+var failed := 0
+var frame := 0
+var character: SoftCharacter3D
+var began: Transform3D
+var hash_at_rest := ""
+
+
+func check(good: bool, what: String) -> void:
+	if not good:
+		failed += 1
+		print("FAILED: ", what)
+
+
+func _ready() -> void:
+	EditorInterface.open_scene_from_path("res://visited.tscn")
+
+
+func _physics_process(_delta: float) -> void:
+	frame += 1
+	var scene := EditorInterface.get_edited_scene_root()
+	if not scene or frame < 30:
+		return
+	if not character:
+		character = scene.get_node("Lizard")
+		frame = 100
+	if frame == 101:
+		check(character.get_skin(0).size() > 0, "no skin in the editor")
+		check(character.get_gizmos().any(func(one): return one.get_plugin().get_script() and "character_gizmo" in one.get_plugin().get_script().resource_path),
+				"no gizmo")
+		hash_at_rest = character.get_state_hash()
+	if frame == 130:
+		check(character.get_state_hash() == hash_at_rest and character.get_travelled() == 0, "it moves without preview")
+		character.position = Vector3(2, 0.5, 0)
+	if frame == 140:
+		var low := INF
+		for point in character.get_skin(0):
+			low = minf(low, point.x)
+		check(low > 1.5, "it does not go with the node: %f" % low)
+		began = character.transform
+		character.forward_speed = 0.3
+		character.preview = true
+	if frame == 260:
+		check(character.position.z > 0.2, "its preview came to %s" % character.position)
+		character.preview = false
+	if frame == 270:
+		check(character.transform.is_equal_approx(began), "it was not put back: %s" % character.transform)
+		print("%d failed after %d frames of the editor" % [failed, frame])
+		get_tree().quit(1 if failed else 0)
