@@ -102,8 +102,8 @@ START_TEST(files_that_cannot_be_read)
   sbf_diagnostic error;
   ck_assert_int_eq(read_with(&scene, "no/such.fbx", NULL, &error), SBF_FAILED);
   ck_assert_int_eq(error.code, SBF_CODE_IO_CANNOT_READ);
-  ck_assert(harness_write(harness_scratch("empty.glb"), "", 0));
-  ck_assert_int_eq(read_with(&scene, harness_scratch("empty.glb"), NULL, &error), SBF_BAD_INPUT);
+  ck_assert(harness_write(harness_scratch("no_bytes.glb"), "", 0));
+  ck_assert_int_eq(read_with(&scene, harness_scratch("no_bytes.glb"), NULL, &error), SBF_BAD_INPUT);
   ck_assert_int_eq(error.code, SBF_CODE_IMPORT_EMPTY);
   sbfi_scene_options options = {.input_limit_bytes = 6};
   ck_assert_int_eq(read_with(&scene, some_file(), &options, &error), SBF_BAD_INPUT);
