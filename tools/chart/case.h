@@ -16,7 +16,11 @@ typedef struct chart_case {
   bool grounded;
   double raise_m;
   sbf_vec3 gravity;
-  bool in_double; /* springs and tetrahedra alone: the reference is network_motion.h */
+  bool in_double; /* of springs and tetrahedra the reference is network_motion.h: nothing else acts, and
+                     nothing is damped */
+  bool of_space;  /* bodies are several meshes of one: each is run by the runtime's own choice, and measured
+                     against the first, by its surface */
+  uint32_t timed_ticks; /* of the motion's beginning that are timed; 0: all */
   /* Makes the `number`-th body, from 0; asset NULL and SBF_OK: there are no more. */
   sbf_status (*make)(uint32_t number, chart_subject *subject, sbf_diagnostic *error);
 } chart_case;

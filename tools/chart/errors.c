@@ -82,6 +82,13 @@ static bool compare_swings(const chart_track *t, const chart_track *r, const cha
   return good;
 }
 
+static uint32_t end_point(const sbf_vec3 *rest, uint32_t count) {
+  uint32_t end = 0;
+  for (uint32_t i = 0; i < count; i++)
+    if (rest[i].x > rest[end].x) end = i;
+  return end;
+}
+
 bool chart_errors_of(const chart_track *track, const chart_track *reference, const sbf_vec3 *rest,
     double tick_s, const chart_signal *signal, unsigned axes, double errors[CHART_AXIS_COUNT]) {
   for (int i = 0; i < CHART_AXIS_COUNT; i++) errors[i] = NAN;
@@ -89,7 +96,9 @@ bool chart_errors_of(const chart_track *track, const chart_track *reference, con
   errors[CHART_SHAPE] = compare_rest(track, reference, rest);
   errors[CHART_VOLUME] = compare_volumes(track, reference);
   errors[CHART_ENERGY] = compare_energies(track, reference);
-  if (signal->there && !compare_swings(track, reference, signal, tick_s, errors)) return false;
+  chart_signal found = *signal;
+  if (signal->point == CHART_END_POINT) found.point = end_point(rest, track->points);
+  if (signal->there && !compare_swings(track, reference, &found, tick_s, errors)) return false;
   for (int i = 0; i < CHART_AXIS_COUNT; i++)
     if (!(axes & 1u << i)) errors[i] = NAN;
   return true;

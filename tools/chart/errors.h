@@ -18,12 +18,15 @@ typedef enum chart_axis {
 extern const char *const chart_axis_names[CHART_AXIS_COUNT];  /* in tables and file names: "path_m" */
 extern const char *const chart_axis_labels[CHART_AXIS_COUNT]; /* beside the axis of a drawing */
 
+/* The first of those that are farthest along x at rest. */
+#define CHART_END_POINT UINT32_MAX
+
 /* What swings, if anything does. */
 typedef struct chart_signal {
   bool there;
   bool of_volume; /* the volume; else a point's place: */
-  uint32_t point;
-  int along; /* 0, 1, 2: x, y, z */
+  uint32_t point; /* or CHART_END_POINT */
+  int along;      /* 0, 1, 2: x, y, z */
 } chart_signal;
 
 /* Fills `errors` for the axes among `axes` (bits of 1 << axis), NAN for others and for what cannot be told of

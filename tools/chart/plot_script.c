@@ -156,6 +156,14 @@ static int mark_of(const plot *p, int k) {
   return marks[model % 6];
 }
 
+/* How far the references are off themselves, at worst. */
+static double reference_error(const chart_sheet *s, chart_axis axis) {
+  double worst = 0;
+  for (uint32_t i = 0; i < s->reference_count; i++)
+    if (s->references[i].errors[axis] > worst) worst = s->references[i].errors[axis];
+  return worst;
+}
+
 static void write_panel(FILE *to, const plot *p, int panel) {
   static const char *const costs[] = {
       "\302\265s a frame, median (bars: least to most; dots: runs)", "visits of elements a frame"};
@@ -164,6 +172,14 @@ static void write_panel(FILE *to, const plot *p, int panel) {
   fprintf(to, "unset arrow\nunset label\n");
   fprintf(
       to, "set label 1 'failed' at graph 0.99, first %.6g right tc rgb '#b00000' font ',10'\n", mark_at(p));
+  double own = reference_error(p->sheet, p->axis);
+  if (own > p->bottom && own < p->top)
+    fprintf(to,
+        "set arrow from graph 0, first %.6g to graph 1, first %.6g nohead dt 4 lc rgb '#b00000'\n"
+        "set label 2 'the reference itself' at graph 0.99, first %.6g right offset 0,0.5 tc rgb '#b00000' "
+        "font "
+        "',9'\n",
+        own, own, own);
   for (int i = 0; panel == 0 && i < BUDGETS; i++) {
     fprintf(to, "set arrow from %g,graph 0 to %g,graph 1 nohead dt 3 lc rgb '#555555'\n", BUDGETS_US[i],
         BUDGETS_US[i]);
@@ -200,9 +216,7 @@ static void write_head(FILE *to, const plot *p, const chart_machine *machine, co
   fprintf(to, "{/=9 %s, %s, %u lanes, commit %s, %s, median of %u runs", machine->processor,
       machine->compiler, (unsigned)machine->lanes, machine->commit[0] ? machine->commit : "unknown",
       machine->date, (unsigned)s->rounds);
-  double worst = 0;
-  for (uint32_t i = 0; i < s->reference_count; i++)
-    if (s->references[i].errors[p->axis] > worst) worst = s->references[i].errors[p->axis];
+  double worst = reference_error(s, p->axis);
   if (worst > 0)
     fprintf(to, "; reference off by %.1g}\"\n", worst);
   else

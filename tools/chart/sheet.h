@@ -8,7 +8,7 @@
 
 typedef struct chart_row {
   char model[32];
-  const char *scheme; /* its name */
+  char scheme[32]; /* its name; of a case of space, which kind of mesh */
   chart_setting setting;
   uint32_t elements;
   double visits;   /* of elements in a frame; NAN: not known, as where a scheme chooses its steps */

@@ -8,6 +8,7 @@
 typedef struct chart_subject {
   sbf_asset *asset;
   char model[32]; /* what its lines are called: the elastic model, and which of several */
+  char line[32];  /* of a case of space: what stands for the scheme */
 } chart_subject;
 
 /* All without damping, along -y under a gravity of the caller's; NULL where memory runs out. */

@@ -63,14 +63,16 @@ static bool judge(
   chart_track track;
   const chart_track *reference = chart_truth_for(truth, row->setting.scheme);
   if (!chart_motion_look(motion, &track)) return false;
-  bool good =
-      chart_errors_of(&track, reference, rest, TICK_S, &s->charted->signal, s->charted->axes, row->errors);
+  unsigned asked = s->charted->axes;
+  bool good = chart_errors_of(
+      &track, reference, rest, TICK_S, &s->charted->signal, asked | 1u << CHART_PATH, row->errors);
   row->sound = track.sound;
   snprintf(row->why, sizeof row->why, "%s", track.why);
   if (row->sound && !(row->errors[CHART_PATH] < LOST * extent_of(reference, rest))) {
     row->sound = false;
     snprintf(row->why, sizeof row->why, "farther off than anything moves");
   }
+  if (!(asked & 1u << CHART_PATH)) row->errors[CHART_PATH] = NAN;
   chart_track_free(&track);
   return good;
 }
@@ -88,7 +90,8 @@ static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_sc
   sbf_diagnostic why;
   *motion = (chart_motion){.begin = NULL};
   snprintf(row->model, sizeof row->model, "%s", subject->model);
-  row->scheme = sbf_scheme_name(setting->scheme);
+  snprintf(row->scheme, sizeof row->scheme, "%s",
+      s->charted->of_space ? subject->line : sbf_scheme_name(setting->scheme));
   row->setting = *setting;
   row->elements = chart_elements_of(subject->asset);
   row->runs_us = calloc(s->effort->rounds, sizeof *row->runs_us);
@@ -128,25 +131,66 @@ static sbf_status sweep_schemes(sweep *s, const chart_subject *subject, const ch
   return status;
 }
 
-static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diagnostic *error) {
+static chart_scene scene_of(const sweep *s, const chart_subject *subject) {
   const chart_case *c = s->charted;
-  const chart_scene scene = {.asset = subject->asset,
+  return (chart_scene){.asset = subject->asset,
       .has_gravity = true,
       .gravity = c->gravity,
       .grounded = c->grounded,
       .raise_m = c->raise_m,
       .ticks = c->ticks,
+      .timed_ticks = c->timed_ticks,
       .watch = c->watch};
-  const sbf_vec3 *rest = subject->asset->soft_bodies.at[0].levels.at[0].positions.at;
-  chart_truth truth = {.stated = NULL};
-  chart_reference *stated = chart_sheet_add_reference(s->sheet);
-  if (!stated) return no_memory(error);
-  snprintf(stated->model, sizeof stated->model, "%s", subject->model);
+}
+
+/* Where the points begin: free() it. */
+static sbf_vec3 *rest_of(const chart_scene *scene) {
+  sbf_vec3 *rest = calloc((size_t)chart_motion_points(scene) + 1, sizeof *rest);
+  if (rest) chart_motion_rest(scene, rest);
+  return rest;
+}
+
+static sbf_status state_reference(
+    sweep *s, const chart_subject *subject, chart_reference **stated, sbf_diagnostic *error) {
+  *stated = chart_sheet_add_reference(s->sheet);
+  if (!*stated) return no_memory(error);
+  snprintf((*stated)->model, sizeof(*stated)->model, "%s", subject->model);
   tell(s, "reference", 0);
-  sbf_status status = chart_truth_find(&truth, c, &scene, rest, s->effort->most_substeps, stated, error);
+  return SBF_OK;
+}
+
+static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diagnostic *error) {
+  const chart_scene scene = scene_of(s, subject);
+  chart_truth truth = {.stated = NULL};
+  chart_reference *stated;
+  sbf_vec3 *rest = rest_of(&scene);
+  sbf_status status = rest ? state_reference(s, subject, &stated, error) : no_memory(error);
+  if (status == SBF_OK)
+    status = chart_truth_find(&truth, s->charted, &scene, rest, s->effort->most_substeps, stated, error);
   tell(s, "errors", 0);
   if (status == SBF_OK) status = sweep_schemes(s, subject, &scene, &truth, rest, error);
   chart_truth_free(&truth);
+  free(rest);
+  return status;
+}
+
+/* Meshes of one body: the first is what the others are measured against. */
+static sbf_status sweep_meshes(
+    sweep *s, const chart_subject *subjects, uint32_t count, sbf_diagnostic *error) {
+  const chart_setting own = {.scheme = SBF_SCHEME_AUTOMATIC};
+  chart_scene scene = scene_of(s, &subjects[0]);
+  chart_truth truth = {.stated = NULL};
+  chart_reference *stated;
+  sbf_vec3 *rest = rest_of(&scene);
+  sbf_status status = rest ? state_reference(s, &subjects[0], &stated, error) : no_memory(error);
+  if (status == SBF_OK) status = chart_truth_find_mesh(&truth, s->charted, &scene, rest, stated, error);
+  tell(s, "errors", 0);
+  for (uint32_t i = 1; status == SBF_OK && i < count; i++) {
+    scene = scene_of(s, &subjects[i]);
+    status = add_row(s, &subjects[i], &scene, &own, &truth, rest, error);
+  }
+  chart_truth_free(&truth);
+  free(rest);
   return status;
 }
 
@@ -164,7 +208,7 @@ static sbf_status time_rows(sweep *s, sbf_diagnostic *error) {
           .run = chart_motion_run, .context = &s->motions[i], .times = s->sheet->rows[i].runs_us};
   bool good = count == 0 || chart_time_in_turns(timed, count, rounds, tell_share, s);
   uint32_t next = 0;
-  double us = 1e6 / s->charted->ticks;
+  double us = 1e6 / (s->charted->timed_ticks ? s->charted->timed_ticks : s->charted->ticks);
   for (uint32_t i = 0; good && i < s->sheet->row_count; i++) {
     chart_row *row = &s->sheet->rows[i];
     if (row->refused) continue;
@@ -183,13 +227,16 @@ sbf_status chart_sweep(
   sweep s = {.charted = charted, .effort = effort, .sheet = sheet};
   chart_subject subjects[MOST_SUBJECTS] = {{.asset = NULL}};
   sbf_status status = SBF_OK;
+  uint32_t count = 0;
   *sheet = (chart_sheet){
       .name = charted->name, .title = charted->title, .axes = charted->axes, .rounds = effort->rounds};
   for (uint32_t i = 0; status == SBF_OK && i < MOST_SUBJECTS; i++) {
     status = charted->make(i, &subjects[i], error);
     if (status != SBF_OK || !subjects[i].asset) break;
-    status = sweep_subject(&s, &subjects[i], error);
+    count++;
+    if (!charted->of_space) status = sweep_subject(&s, &subjects[i], error);
   }
+  if (status == SBF_OK && charted->of_space) status = sweep_meshes(&s, subjects, count, error);
   if (status == SBF_OK) status = time_rows(&s, error);
   for (uint32_t i = 0; i < sheet->row_count && i < s.motion_room; i++)
     if (!sheet->rows[i].refused) chart_motion_close(&s.motions[i]);

@@ -56,18 +56,31 @@ static void advance(chart_motion *m, uint32_t tick) {
 void chart_motion_run(void *motion) {
   chart_motion *m = motion;
   sbr_world_snapshot_restore(m->world, m->begin, m->begin_size);
-  for (uint32_t t = 0; t < m->scene.ticks; t++) advance(m, t);
+  uint32_t ticks = m->scene.timed_ticks ? m->scene.timed_ticks : m->scene.ticks;
+  for (uint32_t t = 0; t < ticks; t++) advance(m, t);
 }
 
-static uint32_t watched(const chart_motion *m) {
-  const sbf_asset *asset = m->scene.asset;
+/* The lists of points that are looked at: the `number`-th; NULL: there are no more. */
+static const sbf_vec3_list *watched_list(const chart_scene *scene, uint32_t number) {
+  const sbf_asset *asset = scene->asset;
+  if (scene->watch == CHART_WATCH_POINTS)
+    return number ? NULL : &asset->soft_bodies.at[0].levels.at[0].positions;
+  if (scene->watch == CHART_WATCH_SURFACE)
+    return number < asset->soft_bodies.count ? &asset->soft_bodies.at[number].surface.positions : NULL;
+  return number < asset->render_meshes.count ? &asset->render_meshes.at[number].mesh.positions : NULL;
+}
+
+uint32_t chart_motion_points(const chart_scene *scene) {
   uint32_t count = 0;
-  if (m->scene.watch == CHART_WATCH_POINTS) return sbr_character_points(m->world, m->character, 0, NULL, 0);
-  for (uint32_t i = 0; m->scene.watch == CHART_WATCH_SURFACE && i < asset->soft_bodies.count; i++)
-    count += asset->soft_bodies.at[i].surface.positions.count;
-  for (uint32_t i = 0; m->scene.watch == CHART_WATCH_SKIN && i < asset->render_meshes.count; i++)
-    count += asset->render_meshes.at[i].mesh.positions.count;
+  const sbf_vec3_list *list;
+  for (uint32_t i = 0; (list = watched_list(scene, i)) != NULL; i++) count += list->count;
   return count;
+}
+
+void chart_motion_rest(const chart_scene *scene, sbf_vec3 *places) {
+  const sbf_vec3_list *list;
+  for (uint32_t i = 0; (list = watched_list(scene, i)) != NULL; i++)
+    for (uint32_t k = 0; k < list->count; k++) *places++ = list->at[k];
 }
 
 /* Relative to the character's origin, but for the skin: that is in world space, where it walks to. */
@@ -108,7 +121,7 @@ static void read_health(const chart_motion *m, chart_track *track, uint32_t tick
 }
 
 bool chart_motion_look(chart_motion *m, chart_track *track) {
-  uint32_t count = watched(m);
+  uint32_t count = chart_motion_points(&m->scene);
   if (!chart_track_make(track, m->scene.ticks, count)) return false;
   sbr_world_snapshot_restore(m->world, m->begin, m->begin_size);
   for (uint32_t t = 0; t < m->scene.ticks; t++) {

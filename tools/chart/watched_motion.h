@@ -15,11 +15,12 @@ typedef enum chart_watch {
 
 typedef struct chart_scene {
   const sbf_asset *asset;
-  bool has_gravity; /* of its own; else the asset's */
-  sbf_vec3 gravity; /* m/s^2 */
-  bool grounded;    /* there is a ground at world y = 0; else it is a kilometre down */
-  double raise_m;   /* that the character's origin begins above y = 0 */
-  uint32_t ticks;   /* of the world's 1/60 s */
+  bool has_gravity;     /* of its own; else the asset's */
+  sbf_vec3 gravity;     /* m/s^2 */
+  bool grounded;        /* there is a ground at world y = 0; else it is a kilometre down */
+  double raise_m;       /* that the character's origin begins above y = 0 */
+  uint32_t ticks;       /* of the world's 1/60 s */
+  uint32_t timed_ticks; /* of them that chart_motion_run runs; 0: all */
   chart_watch watch;
   void (*guide)(void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each; may
                                                                                               be NULL */
@@ -46,10 +47,14 @@ sbf_status chart_motion_open(
     chart_motion *m, const chart_scene *scene, const chart_setting *setting, sbf_diagnostic *error);
 void chart_motion_close(chart_motion *m);
 
-/* From the beginning through all ticks, without looking. Its type is that of what is timed. */
+/* From the beginning through the ticks that are timed, without looking. Its type is that of what is timed. */
 void chart_motion_run(void *motion);
 
-/* The same, looking; false where memory runs out. */
+/* From the beginning through all ticks, looking; false where memory runs out. */
 bool chart_motion_look(chart_motion *m, chart_track *track);
+
+/* Where the points that are looked at are in the asset: (chart_motion_points) of them. */
+uint32_t chart_motion_points(const chart_scene *scene);
+void chart_motion_rest(const chart_scene *scene, sbf_vec3 *places);
 
 #endif
