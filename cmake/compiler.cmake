@@ -38,6 +38,12 @@ function(sbfmt_library name alias)
     list(APPEND sources ${found})
   endforeach()
   list(FILTER sources EXCLUDE REGEX "/import/assimp/") # a program of its own
+  # What differs by system is in one file for each.
+  if(WIN32)
+    list(FILTER sources EXCLUDE REGEX "_posix\\.c$")
+  else()
+    list(FILTER sources EXCLUDE REGEX "_windows\\.c$")
+  endif()
   list(FILTER sources EXCLUDE REGEX "_wasm\\.c$") # for runtime/hosts/web
   if(NOT sources)
     # A library needs a source; a declaration makes an honest empty one.

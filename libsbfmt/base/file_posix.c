@@ -1,6 +1,6 @@
 #define _XOPEN_SOURCE 700
 #define _FILE_OFFSET_BITS 64
-#include "base/file.h"
+#include "base/file_system.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -14,27 +14,17 @@
 #include <unistd.h>
 
 enum {
-  BUFFER_BYTES = 1 << 16,
   LARGEST_TRANSFER = 1 << 30, /* some systems refuse more in one call */
   FIRST_READ_BYTES = 1 << 16,
-  TEMPORARY_NAME_BYTES = 32,
   TEMPORARY_TRIES = 100
 };
 
-static sbf_status fail(
+sbf_status sbfi_file_fault(
     sbf_diagnostic *error, sbf_code code, const char *path, const char *doing, int number) {
   char why[128];
   if (strerror_r(number, why, sizeof why) != 0) snprintf(why, sizeof why, "error %d", number);
   if (number == ENOMEM) code = SBF_CODE_OUT_OF_MEMORY;
   sbf_status status = sbfi_diagnose(error, code, "cannot %s the file: %s", doing, why);
-  if (error) sbfi_copy_text(error->file, sizeof error->file, path);
-  return status;
-}
-
-static sbf_status too_large(sbf_diagnostic *error, const char *path, uint64_t limit_bytes) {
-  sbf_status status = sbfi_diagnose(error, SBF_CODE_IO_TOO_LARGE,
-      "the file is larger than the limit of %llu bytes: raise the limit if the file is trusted",
-      (unsigned long long)limit_bytes);
   if (error) sbfi_copy_text(error->file, sizeof error->file, path);
   return status;
 }
@@ -60,44 +50,34 @@ static int open_to_read(const char *path, struct stat *facts, sbf_status *status
     if (fstat(handle, facts) == 0 && !S_ISDIR(facts->st_mode)) return handle;
     if (S_ISDIR(facts->st_mode)) errno = EISDIR;
   }
-  *status = fail(error, SBF_CODE_IO_CANNOT_READ, path, "open", errno);
+  *status = sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, path, "open", errno);
   if (handle >= 0) close(handle);
   return -1;
-}
-
-/* Makes room for more of what is read; false without memory. */
-static bool grow(sbfi_file_content *content, size_t capacity) {
-  void *at = content->allocator.reallocate(
-      content->allocator.user, (void *)content->at, content->allocated_bytes, capacity);
-  if (!at) return false;
-  content->at = at;
-  content->allocated_bytes = capacity;
-  return true;
 }
 
 /* Reads to the end. The size a regular file claims is only where to begin: it may change, and files made by
  * the system claim none. One byte of room more shows the end without growing. */
 static sbf_status read_to_end(int handle, const char *path, uint64_t expected_bytes, uint64_t limit_bytes,
     sbfi_file_content *content, sbf_diagnostic *error) {
-  if (limit_bytes && expected_bytes > limit_bytes) return too_large(error, path, limit_bytes);
+  if (limit_bytes && expected_bytes > limit_bytes) return sbfi_file_too_large(error, path, limit_bytes);
   size_t capacity = expected_bytes ? (size_t)expected_bytes + 1 : FIRST_READ_BYTES;
-  if (expected_bytes >= SIZE_MAX || !grow(content, capacity))
-    return fail(error, SBF_CODE_OUT_OF_MEMORY, path, "read", ENOMEM);
+  if (expected_bytes >= SIZE_MAX || !sbfi_file_grow(content, capacity))
+    return sbfi_file_fault(error, SBF_CODE_OUT_OF_MEMORY, path, "read", ENOMEM);
   for (;;) {
     ssize_t got =
         read_again(handle, (uint8_t *)content->at + content->size, content->allocated_bytes - content->size);
-    if (got < 0) return fail(error, SBF_CODE_IO_CANNOT_READ, path, "read", errno);
+    if (got < 0) return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, path, "read", errno);
     if (got == 0) return SBF_OK;
     content->size += (size_t)got;
-    if (limit_bytes && content->size > limit_bytes) return too_large(error, path, limit_bytes);
+    if (limit_bytes && content->size > limit_bytes) return sbfi_file_too_large(error, path, limit_bytes);
     if (content->size < content->allocated_bytes) continue;
-    if (!sbfi_multiply_size(content->allocated_bytes, 2, &capacity) || !grow(content, capacity))
-      return fail(error, SBF_CODE_OUT_OF_MEMORY, path, "read", ENOMEM);
+    if (!sbfi_multiply_size(content->allocated_bytes, 2, &capacity) || !sbfi_file_grow(content, capacity))
+      return sbfi_file_fault(error, SBF_CODE_OUT_OF_MEMORY, path, "read", ENOMEM);
   }
 }
 
-static sbf_status get_content(const char *path, bool map, uint64_t limit_bytes,
-    const sbf_allocator *allocator, sbfi_file_content *content, sbf_diagnostic *error) {
+sbf_status sbfi_file_get(const char *path, bool map, uint64_t limit_bytes, const sbf_allocator *allocator,
+    sbfi_file_content *content, sbf_diagnostic *error) {
   *content = (sbfi_file_content){.allocator = sbfi_allocator_or_default(allocator)};
   struct stat facts = {.st_mode = 0};
   sbf_status status = SBF_OK;
@@ -117,16 +97,6 @@ static sbf_status get_content(const char *path, bool map, uint64_t limit_bytes,
   return status;
 }
 
-sbf_status sbfi_file_map(const char *path, uint64_t limit_bytes, const sbf_allocator *allocator,
-    sbfi_file_content *content, sbf_diagnostic *error) {
-  return get_content(path, true, limit_bytes, allocator, content, error);
-}
-
-sbf_status sbfi_file_read(const char *path, uint64_t limit_bytes, const sbf_allocator *allocator,
-    sbfi_file_content *content, sbf_diagnostic *error) {
-  return get_content(path, false, limit_bytes, allocator, content, error);
-}
-
 void sbfi_file_content_free(sbfi_file_content *content) {
   if (content->allocated_bytes)
     sbfi_free(&content->allocator, (void *)content->at, content->allocated_bytes);
@@ -143,7 +113,7 @@ sbf_status sbfi_file_open(const char *path, sbfi_file *file, sbf_diagnostic *err
   if (handle < 0) return status;
   if (!S_ISREG(facts.st_mode)) {
     close(handle);
-    return fail(error, SBF_CODE_IO_CANNOT_READ, path, "read parts of", ESPIPE);
+    return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, path, "read parts of", ESPIPE);
   }
   file->handle = handle;
   file->size = (uint64_t)facts.st_size;
@@ -159,16 +129,8 @@ sbf_status sbfi_file_read_at(
                                      : pread((int)file->handle, at,
                                            size < LARGEST_TRANSFER ? size : LARGEST_TRANSFER, (off_t)offset);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return fail(error, SBF_CODE_IO_CANNOT_READ, file->path, "read", errno);
-    if (got == 0) {
-      sbf_status status = sbfi_diagnose(error, SBF_CODE_IO_CANNOT_READ,
-          "the file ends %llu bytes before what is to be read: it was cut short", (unsigned long long)size);
-      if (error) {
-        sbfi_copy_text(error->file, sizeof error->file, file->path);
-        error->offset = offset > INT64_MAX ? -1 : (int64_t)offset;
-      }
-      return status;
-    }
+    if (got < 0) return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, file->path, "read", errno);
+    if (got == 0) return sbfi_file_ends_early(error, file->path, offset, size);
     at += got;
     offset += (uint64_t)got;
     size -= (size_t)got;
@@ -182,7 +144,7 @@ void sbfi_file_close(sbfi_file *file) {
 }
 
 /* Closes and removes what the writer holds. */
-static void end_writer(sbfi_file_writer *writer) {
+void sbfi_file_writer_end(sbfi_file_writer *writer) {
   if (writer->handle >= 0) close((int)writer->handle);
   sbfi_free(&writer->allocator, writer->memory, writer->memory_bytes);
   *writer = (sbfi_file_writer){.handle = -1};
@@ -198,28 +160,16 @@ static int create_temporary(sbfi_file_writer *writer) {
   clock_gettime(CLOCK_REALTIME, &now);
   uint32_t mark = (uint32_t)now.tv_nsec ^ (uint32_t)getpid() << 12;
   for (int i = 0; i < TEMPORARY_TRIES; i++, mark = mark * 1664525 + 1013904223) {
-    snprintf(writer->temporary_path + folder_length, TEMPORARY_NAME_BYTES, ".sbf-%08x.tmp", (unsigned)mark);
+    snprintf(
+        writer->temporary_path + folder_length, SBFI_TEMPORARY_NAME_BYTES, ".sbf-%08x.tmp", (unsigned)mark);
     int handle = open_again(writer->temporary_path, O_WRONLY | O_CREAT | O_EXCL, 0666);
     if (handle >= 0 || errno != EEXIST) return handle;
   }
   return -1;
 }
 
-/* Memory for `final_path`, a temporary one beside it, and the buffer. */
-static bool allocate_writer(sbfi_file_writer *writer, const char *final_path) {
-  size_t length = strlen(final_path) + 1;
-  writer->memory_bytes = 2 * length + TEMPORARY_NAME_BYTES + BUFFER_BYTES;
-  writer->memory = sbfi_allocate(&writer->allocator, writer->memory_bytes);
-  if (!writer->memory) return false;
-  writer->buffer = (uint8_t *)writer->memory;
-  writer->final_path = writer->memory + BUFFER_BYTES;
-  writer->temporary_path = writer->final_path + length;
-  memcpy(writer->final_path, final_path, length);
-  return true;
-}
-
 /* Opens what is to be written to; 0 or an error number. */
-static int open_target(sbfi_file_writer *writer, const char *path) {
+int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path) {
   struct stat old;
   bool exists = stat(path, &old) == 0;
   if (exists && S_ISDIR(old.st_mode)) return EISDIR;
@@ -229,7 +179,7 @@ static int open_target(sbfi_file_writer *writer, const char *path) {
   /* A rename would replace a link, not the file it names. */
   char *resolved = exists && !direct ? realpath(path, NULL) : NULL;
   if (exists && !direct && !resolved) return errno;
-  bool allocated = allocate_writer(writer, resolved ? resolved : path);
+  bool allocated = sbfi_file_writer_room(writer, resolved ? resolved : path);
   free(resolved);
   if (!allocated) return ENOMEM;
   if (direct) writer->temporary_path = NULL;
@@ -243,20 +193,7 @@ static int open_target(sbfi_file_writer *writer, const char *path) {
   return 0;
 }
 
-sbf_status sbfi_file_writer_open(
-    sbfi_file_writer *writer, const char *path, const sbf_allocator *allocator, sbf_diagnostic *error) {
-  *writer =
-      (sbfi_file_writer){.allocator = sbfi_allocator_or_default(allocator), .handle = -1, .given_path = path};
-  int number = open_target(writer, path);
-  if (number != 0) {
-    end_writer(writer);
-    return fail(error, SBF_CODE_IO_CANNOT_WRITE, path, "create", number);
-  }
-  writer->is_open = true;
-  return SBF_OK;
-}
-
-static void write_through(sbfi_file_writer *writer, const uint8_t *at, size_t size) {
+void sbfi_file_put(sbfi_file_writer *writer, const uint8_t *at, size_t size) {
   while (size > 0 && writer->failure == 0) {
     ssize_t put = write((int)writer->handle, at, size < LARGEST_TRANSFER ? size : LARGEST_TRANSFER);
     if (put < 0) {
@@ -266,26 +203,6 @@ static void write_through(sbfi_file_writer *writer, const uint8_t *at, size_t si
     at += put;
     size -= (size_t)put;
   }
-}
-
-static void flush(sbfi_file_writer *writer) {
-  write_through(writer, writer->buffer, writer->buffered_bytes);
-  writer->buffered_bytes = 0;
-}
-
-sbf_status sbfi_file_writer_write(
-    sbfi_file_writer *writer, const void *bytes, size_t size, sbf_diagnostic *error) {
-  if (!writer->is_open) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the file writer is not open");
-  if (size > BUFFER_BYTES - writer->buffered_bytes) flush(writer);
-  if (size > BUFFER_BYTES) {
-    write_through(writer, bytes, size);
-  } else if (size > 0) {
-    memcpy(writer->buffer + writer->buffered_bytes, bytes, size);
-    writer->buffered_bytes += size;
-  }
-  writer->written_bytes += size;
-  if (writer->failure == 0) return SBF_OK;
-  return fail(error, SBF_CODE_IO_CANNOT_WRITE, writer->given_path, "write", writer->failure);
 }
 
 /* Makes the rename itself last. Where the system cannot sync a folder there is nothing to be done. */
@@ -305,7 +222,7 @@ static void sync_folder(const char *path) {
 sbf_status sbfi_file_writer_commit(sbfi_file_writer *writer, sbf_diagnostic *error) {
   if (!writer->is_open) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the file writer is not open");
   const char *path = writer->given_path;
-  flush(writer);
+  sbfi_file_flush(writer);
   /* What is not a regular file often cannot be synced. */
   if (writer->failure == 0 && writer->temporary_path && fsync((int)writer->handle) != 0)
     writer->failure = errno;
@@ -317,26 +234,15 @@ sbf_status sbfi_file_writer_commit(sbfi_file_writer *writer, sbf_diagnostic *err
   int failure = writer->failure;
   if (failure != 0) {
     sbfi_file_writer_abandon(writer);
-    return fail(error, SBF_CODE_IO_CANNOT_WRITE, path, "write", failure);
+    return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_WRITE, path, "write", failure);
   }
   if (writer->temporary_path) sync_folder(writer->final_path);
-  end_writer(writer);
+  sbfi_file_writer_end(writer);
   return SBF_OK;
 }
 
 void sbfi_file_writer_abandon(sbfi_file_writer *writer) {
   if (!writer->is_open) return;
   if (writer->temporary_path) unlink(writer->temporary_path);
-  end_writer(writer);
-}
-
-sbf_status sbfi_file_write(
-    const char *path, const void *bytes, size_t size, const sbf_allocator *allocator, sbf_diagnostic *error) {
-  sbfi_file_writer writer;
-  sbf_status status = sbfi_file_writer_open(&writer, path, allocator, error);
-  if (status != SBF_OK) return status;
-  status = sbfi_file_writer_write(&writer, bytes, size, error);
-  if (status == SBF_OK) return sbfi_file_writer_commit(&writer, error);
-  sbfi_file_writer_abandon(&writer);
-  return status;
+  sbfi_file_writer_end(writer);
 }

@@ -25,6 +25,9 @@ static void check_like_strtof(const char *text) {
     ck_assert_msg(status == SBFI_NUMBER_OUT_OF_RANGE, "%s: not refused", text);
   } else {
     ck_assert_msg(status == SBFI_NUMBER_READ, "%s: refused", text);
+#ifdef __MINGW32__ /* whose strtof is wrong below the normal numbers: 2.1e-45 is not 1.2e-38 */
+    if (fabsf(value) < 1.1754944e-38f) return;
+#endif
     ck_assert_msg(
         bits_of(value) == bits_of(expected), "%s: %.9g, not %.9g", text, (double)value, (double)expected);
   }

@@ -94,7 +94,10 @@ END_TEST
 START_TEST(test_files_are_mapped_or_read_and_stay_as_long_as_the_asset)
 {
   sbf_asset *asset = small_asset(), *loaded;
-  const char *path = harness_scratch("load.sbfz"), *other = harness_scratch("other.sbfz");
+  const char *path = harness_scratch("load.sbfz");
+#ifndef _WIN32
+  const char *other = harness_scratch("other.sbfz");
+#endif
   for (int i = 0; i < 4; i++) {
     sbf_load_options options = {.copy_file = i & 1};
     ck_assert_int_eq(sbf_packed_save_file(asset, path, &(sbf_save_options){.store = i >> 1}, NULL), SBF_OK);
@@ -109,8 +112,10 @@ START_TEST(test_files_are_mapped_or_read_and_stay_as_long_as_the_asset)
       ck_assert(positions > content->at && positions < content->at + content->size);
       ck_assert_int_eq(content->allocated_bytes != 0, i & 1);
     }
+#ifndef _WIN32 /* there nobody replaces a mapped file, and rename no file at all */
     ck_assert(harness_write(other, "x", 1));
     ck_assert_int_eq(rename(other, path), 0); /* the old file lives on in the mapping */
+#endif
     ck_assert(sbf_asset_equal(asset, loaded, NULL, 0));
     sbf_asset_free(loaded);
     ck_assert_uint_eq(memory.held_bytes, 0);

@@ -90,7 +90,7 @@ OUTSIDE = [
     (r"jansson", ["tools/", "bench/"], "jansson"),
     (r"(EGL|GL|GLES\d|KHR)/|png\.h", ["tools/render/", "tools/view/"], "drawing"),
     (r"(sys|linux)/.*|unistd\.h|fcntl\.h|signal\.h|spawn\.h|dlfcn\.h|poll\.h|windows\.h",
-     [r"libsbfmt/base/\w+_(posix|windows)\.c", "libsbfmt/import/assimp/", "tools/", "bench/", "runtime/hosts/"],
+     [r"libsbfmt/base/\w+_(posix|windows)\.[ch]", "libsbfmt/import/assimp/", "tools/", "bench/", "runtime/hosts/"],
      "the operating system"),
     (r"pthread\.h|threads\.h", ["tools/", "bench/", "examples/", "runtime/hosts/"], "threads: they come from the host"),
     (r"locale\.h|xlocale\.h", [], "the locale: numbers and text do without"),

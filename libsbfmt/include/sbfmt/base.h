@@ -12,7 +12,7 @@
 /* Marks what the shared libraries export. */
 #if defined(_WIN32) && defined(SBFMT_SHARED)
 #define SBF_API __declspec(dllexport)
-#elif defined(__GNUC__)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define SBF_API __attribute__((visibility("default")))
 #else
 #define SBF_API

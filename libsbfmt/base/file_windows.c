@@ -1,0 +1,270 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file_system.h"
+#include "base/wide_path_windows.h"
+
+enum { LARGEST_TRANSFER = 1 << 30, FIRST_READ_BYTES = 1 << 16, TEMPORARY_TRIES = 100 };
+
+static HANDLE handle_of(intptr_t number) {
+  return (HANDLE)number; /* -1 is INVALID_HANDLE_VALUE */
+}
+
+sbf_status sbfi_file_fault(
+    sbf_diagnostic *error, sbf_code code, const char *path, const char *doing, int number) {
+  static const struct {
+    int number;
+    const char *why;
+  } known[] = {{ERROR_FILE_NOT_FOUND, "No such file or directory"},
+      {ERROR_PATH_NOT_FOUND, "No such file or directory"}, {ERROR_ACCESS_DENIED, "Permission denied"},
+      {ERROR_SHARING_VIOLATION, "another program has it open"}, {ERROR_DISK_FULL, "No space left on device"},
+      {ERROR_HANDLE_DISK_FULL, "No space left on device"}, {ERROR_NOT_ENOUGH_MEMORY, "no memory"},
+      {ERROR_DIRECTORY, "Is a directory"}, {ERROR_INVALID_NAME, "no system path"},
+      {ERROR_FILENAME_EXCED_RANGE, "the path is too long, or no UTF-8"}};
+  char why[64];
+  snprintf(why, sizeof why, "error %d of the system", number);
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (known[i].number == number) sbfi_copy_text(why, sizeof why, known[i].why);
+  if (number == ERROR_NOT_ENOUGH_MEMORY) code = SBF_CODE_OUT_OF_MEMORY;
+  sbf_status status = sbfi_diagnose(error, code, "cannot %s the file: %s", doing, why);
+  if (error) sbfi_copy_text(error->file, sizeof error->file, path);
+  return status;
+}
+
+/* Opens for reading; INVALID_HANDLE_VALUE and an error where that fails. `*size` is 0 for what has none. */
+static HANDLE open_to_read(const char *path, uint64_t *size, sbf_status *status, sbf_diagnostic *error) {
+  wchar_t wide[SBFI_WIDE_PATH];
+  HANDLE handle = INVALID_HANDLE_VALUE;
+  DWORD number = ERROR_FILENAME_EXCED_RANGE;
+  *size = 0;
+  if (sbfi_wide_path(path, wide)) {
+    DWORD facts = GetFileAttributesW(wide);
+    if (facts != INVALID_FILE_ATTRIBUTES && facts & FILE_ATTRIBUTE_DIRECTORY) {
+      number = ERROR_DIRECTORY;
+    } else {
+      handle = CreateFileW(wide, GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
+          OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, NULL);
+      number = GetLastError();
+    }
+  }
+  LARGE_INTEGER bytes;
+  if (handle == INVALID_HANDLE_VALUE)
+    *status = sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, path, "open", (int)number);
+  else if (GetFileType(handle) == FILE_TYPE_DISK && GetFileSizeEx(handle, &bytes))
+    *size = (uint64_t)bytes.QuadPart;
+  return handle;
+}
+
+/* To the end. One byte of room more than the expected size shows that end without growing. */
+static sbf_status read_to_end(HANDLE handle, const char *path, uint64_t expected_bytes, uint64_t limit_bytes,
+    sbfi_file_content *content, sbf_diagnostic *error) {
+  if (limit_bytes && expected_bytes > limit_bytes) return sbfi_file_too_large(error, path, limit_bytes);
+  size_t room = expected_bytes && expected_bytes < SIZE_MAX ? (size_t)expected_bytes + 1 : FIRST_READ_BYTES;
+  for (;;) {
+    if (content->size == content->allocated_bytes) {
+      if (content->size && !sbfi_multiply_size(content->size, 2, &room)) room = 0;
+      if (!room || !sbfi_file_grow(content, room))
+        return sbfi_file_fault(error, SBF_CODE_OUT_OF_MEMORY, path, "read", ERROR_NOT_ENOUGH_MEMORY);
+    }
+    size_t left = content->allocated_bytes - content->size;
+    DWORD got = 0;
+    if (!ReadFile(handle, (uint8_t *)content->at + content->size,
+            (DWORD)(left < LARGEST_TRANSFER ? left : LARGEST_TRANSFER), &got, NULL) &&
+        GetLastError() != ERROR_BROKEN_PIPE)
+      return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, path, "read", (int)GetLastError());
+    if (got == 0) return SBF_OK;
+    content->size += got;
+    if (limit_bytes && content->size > limit_bytes) return sbfi_file_too_large(error, path, limit_bytes);
+  }
+}
+
+/* The view keeps the mapping alive. */
+static void map(HANDLE handle, uint64_t size, sbfi_file_content *content) {
+  HANDLE mapping = CreateFileMappingW(handle, NULL, PAGE_READONLY, 0, 0, NULL);
+  if (!mapping) return;
+  content->at = MapViewOfFile(mapping, FILE_MAP_READ, 0, 0, (SIZE_T)size);
+  if (content->at) content->size = (size_t)size;
+  CloseHandle(mapping);
+}
+
+sbf_status sbfi_file_get(const char *path, bool mapped, uint64_t limit_bytes, const sbf_allocator *allocator,
+    sbfi_file_content *content, sbf_diagnostic *error) {
+  *content = (sbfi_file_content){.allocator = sbfi_allocator_or_default(allocator)};
+  uint64_t size;
+  sbf_status status = SBF_OK;
+  HANDLE handle = open_to_read(path, &size, &status, error);
+  if (handle == INVALID_HANDLE_VALUE) return status;
+  if (mapped && size > 0 && size <= SIZE_MAX && !(limit_bytes && size > limit_bytes))
+    map(handle, size, content);
+  if (!content->at) status = read_to_end(handle, path, size, limit_bytes, content, error);
+  CloseHandle(handle);
+  if (status != SBF_OK || content->size == 0) sbfi_file_content_free(content);
+  return status;
+}
+
+void sbfi_file_content_free(sbfi_file_content *content) {
+  if (content->allocated_bytes)
+    sbfi_free(&content->allocator, (void *)content->at, content->allocated_bytes);
+  else if (content->at)
+    UnmapViewOfFile(content->at);
+  *content = (sbfi_file_content){.allocator = content->allocator};
+}
+
+sbf_status sbfi_file_open(const char *path, sbfi_file *file, sbf_diagnostic *error) {
+  *file = (sbfi_file){.handle = -1, .path = path};
+  sbf_status status = SBF_OK;
+  HANDLE handle = open_to_read(path, &file->size, &status, error);
+  if (handle == INVALID_HANDLE_VALUE) return status;
+  if (GetFileType(handle) != FILE_TYPE_DISK) {
+    CloseHandle(handle);
+    return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, path, "read parts of", ERROR_INVALID_FUNCTION);
+  }
+  file->handle = (intptr_t)handle;
+  return SBF_OK;
+}
+
+sbf_status sbfi_file_read_at(
+    const sbfi_file *file, uint64_t offset, void *to, size_t size, sbf_diagnostic *error) {
+  uint8_t *at = to;
+  while (size > 0) {
+    OVERLAPPED place = {.Offset = (DWORD)offset, .OffsetHigh = (DWORD)(offset >> 32)};
+    DWORD got = 0;
+    if (offset <= INT64_MAX &&
+        !ReadFile(handle_of(file->handle), at, (DWORD)(size < LARGEST_TRANSFER ? size : LARGEST_TRANSFER),
+            &got, &place)) {
+      if (GetLastError() != ERROR_HANDLE_EOF)
+        return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_READ, file->path, "read", (int)GetLastError());
+      got = 0;
+    }
+    if (got == 0) return sbfi_file_ends_early(error, file->path, offset, size);
+    at += got;
+    offset += got;
+    size -= got;
+  }
+  return SBF_OK;
+}
+
+void sbfi_file_close(sbfi_file *file) {
+  if (file->handle != -1) CloseHandle(handle_of(file->handle));
+  file->handle = -1;
+}
+
+void sbfi_file_writer_end(sbfi_file_writer *writer) {
+  if (writer->handle != -1) CloseHandle(handle_of(writer->handle));
+  sbfi_free(&writer->allocator, writer->memory, writer->memory_bytes);
+  *writer = (sbfi_file_writer){.handle = -1};
+}
+
+static size_t folder_length(const char *path) {
+  size_t length = strlen(path);
+  while (length && path[length - 1] != '/' && path[length - 1] != '\\' && path[length - 1] != ':') length--;
+  return length;
+}
+
+/* Creates a file of a new name beside the final one. */
+static HANDLE create_temporary(sbfi_file_writer *writer) {
+  wchar_t wide[SBFI_WIDE_PATH];
+  size_t folder = folder_length(writer->final_path);
+  LARGE_INTEGER now;
+  QueryPerformanceCounter(&now);
+  uint32_t mark = (uint32_t)now.QuadPart ^ (uint32_t)GetCurrentProcessId() << 12;
+  memcpy(writer->temporary_path, writer->final_path, folder);
+  for (int i = 0; i < TEMPORARY_TRIES; i++, mark = mark * 1664525 + 1013904223) {
+    snprintf(writer->temporary_path + folder, SBFI_TEMPORARY_NAME_BYTES, ".sbf-%08x.tmp", (unsigned)mark);
+    if (!sbfi_wide_path(writer->temporary_path, wide)) {
+      SetLastError(ERROR_FILENAME_EXCED_RANGE);
+      return INVALID_HANDLE_VALUE;
+    }
+    HANDLE handle = CreateFileW(wide, GENERIC_WRITE, 0, NULL, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, NULL);
+    if (handle != INVALID_HANDLE_VALUE || GetLastError() != ERROR_FILE_EXISTS) return handle;
+  }
+  return INVALID_HANDLE_VALUE;
+}
+
+/* What a link names, so that the link stays one. */
+static bool follow(const wchar_t *path, char *to, size_t size) {
+  wchar_t wide[SBFI_WIDE_PATH];
+  HANDLE handle = CreateFileW(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
+      OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, NULL);
+  if (handle == INVALID_HANDLE_VALUE) return false;
+  DWORD length = GetFinalPathNameByHandleW(handle, wide, SBFI_WIDE_PATH, FILE_NAME_NORMALIZED);
+  CloseHandle(handle);
+  return length > 0 && length < SBFI_WIDE_PATH && sbfi_narrow_path(wide, to, size);
+}
+
+/* Opens what is to be written to; 0 or an error number. */
+int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path) {
+  wchar_t wide[SBFI_WIDE_PATH];
+  char followed[3 * SBFI_WIDE_PATH];
+  if (!sbfi_wide_path(path, wide)) return ERROR_FILENAME_EXCED_RANGE;
+  DWORD facts = GetFileAttributesW(wide);
+  bool exists = facts != INVALID_FILE_ATTRIBUTES, direct = false;
+  if (exists && facts & FILE_ATTRIBUTE_DIRECTORY) return ERROR_DIRECTORY;
+  if (exists && facts & FILE_ATTRIBUTE_READONLY) return ERROR_ACCESS_DENIED;
+  if (exists && facts & FILE_ATTRIBUTE_REPARSE_POINT) {
+    if (!follow(wide, followed, sizeof followed)) return (int)GetLastError();
+    path = followed;
+  }
+  /* A device, as CON or a pipe, has no attributes of a file. */
+  HANDLE device = INVALID_HANDLE_VALUE;
+  if (!exists)
+    device =
+        CreateFileW(wide, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE, NULL, OPEN_EXISTING, 0, NULL);
+  direct = device != INVALID_HANDLE_VALUE && GetFileType(device) != FILE_TYPE_DISK;
+  if (device != INVALID_HANDLE_VALUE && !direct) CloseHandle(device);
+  if (!sbfi_file_writer_room(writer, path)) {
+    if (direct) CloseHandle(device);
+    return ERROR_NOT_ENOUGH_MEMORY;
+  }
+  if (direct) writer->temporary_path = NULL;
+  writer->handle = (intptr_t)(direct ? device : create_temporary(writer));
+  return writer->handle == -1 ? (int)GetLastError() : 0;
+}
+
+void sbfi_file_put(sbfi_file_writer *writer, const uint8_t *at, size_t size) {
+  while (size > 0 && writer->failure == 0) {
+    DWORD put = 0;
+    if (!WriteFile(handle_of(writer->handle), at, (DWORD)(size < LARGEST_TRANSFER ? size : LARGEST_TRANSFER),
+            &put, NULL)) {
+      writer->failure = (int)GetLastError();
+      continue;
+    }
+    at += put;
+    size -= put;
+  }
+}
+
+static bool move_over(const char *from, const char *to) {
+  wchar_t wide_from[SBFI_WIDE_PATH], wide_to[SBFI_WIDE_PATH];
+  return sbfi_wide_path(from, wide_from) && sbfi_wide_path(to, wide_to) &&
+         MoveFileExW(wide_from, wide_to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH);
+}
+
+sbf_status sbfi_file_writer_commit(sbfi_file_writer *writer, sbf_diagnostic *error) {
+  if (!writer->is_open) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the file writer is not open");
+  const char *path = writer->given_path;
+  sbfi_file_flush(writer);
+  if (writer->failure == 0 && writer->temporary_path && !FlushFileBuffers(handle_of(writer->handle)))
+    writer->failure = (int)GetLastError();
+  if (!CloseHandle(handle_of(writer->handle)) && writer->failure == 0) writer->failure = (int)GetLastError();
+  writer->handle = -1;
+  if (writer->failure == 0 && writer->temporary_path &&
+      !move_over(writer->temporary_path, writer->final_path))
+    writer->failure = (int)GetLastError();
+  int failure = writer->failure;
+  if (failure != 0) {
+    sbfi_file_writer_abandon(writer);
+    return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_WRITE, path, "write", failure);
+  }
+  sbfi_file_writer_end(writer);
+  return SBF_OK;
+}
+
+void sbfi_file_writer_abandon(sbfi_file_writer *writer) {
+  wchar_t wide[SBFI_WIDE_PATH];
+  if (!writer->is_open) return;
+  if (writer->handle != -1) CloseHandle(handle_of(writer->handle)); /* an open file cannot be removed */
+  writer->handle = -1;
+  if (writer->temporary_path && sbfi_wide_path(writer->temporary_path, wide)) DeleteFileW(wide);
+  sbfi_file_writer_end(writer);
+}
