@@ -1,19 +1,16 @@
 /* Which places of two bodies may touch within a tick.
  *
  * Corners of soft surfaces against triangles of others and against hulls, corners of hulls against triangles,
- * hulls against hulls. Where two parts of one character overlap at rest they do not fight: what is inside at
- * rest is let be, and what is near is kept no further off. */
+ * hulls against hulls (find_hulls.c), rims against rims (find_rims.c). Where two parts of one character
+ * overlap at rest they do not fight: what is inside at rest is let be, and what is near is kept no further
+ * off. */
 #include "collide/shape.h"
 #include "collide/surface_look.h"
 #include "meet/finding.h"
 
-/* Of the distance at rest, where that is less than the margin. */
-static const float REST_SHARE = 0.9f;
-/* Nearer than this share of a body's size at rest, two parts touch there always. */
-static const float TOGETHER_SHARE = 1e-3f;
 /* How near hulls begin to touch, beside their ways: a share of their size. */
 static const float NEAR_SHARE = 0.02f;
-/* And how far beyond its margin what lies there is looked for: of the size of what it lies on. */
+/* How far beyond its margin what lies there is looked for: of the size of what it lies on. */
 static const float LET_GO_SHARE = 0.01f;
 
 static sbri_party party_of(const sbri_finding *f, uint32_t number) {
@@ -35,7 +32,7 @@ static sbri_party party_of(const sbri_finding *f, uint32_t number) {
 
 /* ---- Sides ---- */
 
-static sbri_meet_side soft_side(
+sbri_meet_side sbri_soft_side(
     const sbri_party *p, const uint32_t *vertices, const float *weights, int count) {
   sbri_meet_side side = {.member = p->member, .rigid_body = -1, .island = p->soft->island};
   for (int i = 0; i < count; i++) {
@@ -82,16 +79,19 @@ static sbri_surface_face face_of(const sbri_party *p, uint32_t triangle) {
   return face;
 }
 
-static sbf_vec3 rest_of(const sbri_party *p, uint32_t vertex) {
+sbf_vec3 sbri_party_rest(const sbri_party *p, uint32_t vertex) {
   const sbri_sample *s = &p->surface->samples[vertex];
   return sbri_scale(sbri_meet_rest(p->of->character->model, p->is->number, s), p->of->scale);
 }
 
-/* What is kept between them: nothing between surfaces that both enclose matter. */
-static float margin_between(const sbri_party *a, const sbri_party *b) {
+float sbri_party_margin(const sbri_party *a, const sbri_party *b) {
   float own = a->soft ? a->soft->margin_m * a->of->scale : 0;
   float other = b->surface->two_sided ? b->soft->source->collision.outer_thickness * b->of->scale : 0;
   return own > other ? own : other;
+}
+
+float sbri_party_beyond(float margin, const sbri_party *b) {
+  return margin + LET_GO_SHARE * b->soft->rest_size_m * b->of->scale;
 }
 
 /* The most urgent triangle of `b` for a place of `a` that goes so; whether there is one. What lies at a
@@ -99,7 +99,7 @@ static float margin_between(const sbri_party *a, const sbri_party *b) {
 static bool find_face(
     const sbri_party *a, const sbri_party *b, sbf_vec3 x, sbf_vec3 way, sbri_surface_finding *best) {
   sbri_surface_rule rule = rule_of(b);
-  float margin = margin_between(a, b), beyond = margin + LET_GO_SHARE * b->soft->rest_size_m * b->of->scale;
+  float margin = sbri_party_margin(a, b), beyond = sbri_party_beyond(margin, b);
   sbri_box box = sbri_box_with(sbri_box_of_point(x), sbri_add(x, way));
   if (a->soft && margin > 0 && beyond > rule.outer) rule.outer = beyond, box = sbri_box_grown(box, beyond);
   sbri_bounds_walk walk;
@@ -123,16 +123,17 @@ static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_pa
         !find_face(a, b, a->surface->places[v], a->surface->ways[v], &best))
       continue;
     const uint32_t *corners = b->surface->triangles + 3 * (size_t)best.face;
-    float margin = margin_between(a, b);
+    float margin = sbri_party_margin(a, b);
     if (sbri_are_of_one(a, b)) {
-      const sbf_vec3 p[3] = {rest_of(b, corners[0]), rest_of(b, corners[1]), rest_of(b, corners[2])};
-      float rest = sbri_surface_gap(&rule, rest_of(a, v), p);
-      if (rest <= TOGETHER_SHARE * a->soft->rest_size_m * a->of->scale) continue;
-      margin = REST_SHARE * rest < margin ? REST_SHARE * rest : margin;
+      const sbf_vec3 p[3] = {
+          sbri_party_rest(b, corners[0]), sbri_party_rest(b, corners[1]), sbri_party_rest(b, corners[2])};
+      float rest = sbri_surface_gap(&rule, sbri_party_rest(a, v), p);
+      if (rest <= SBRI_TOGETHER_SHARE * a->soft->rest_size_m * a->of->scale) continue;
+      margin = SBRI_REST_SHARE * rest < margin ? SBRI_REST_SHARE * rest : margin;
     }
     sbri_meet_touch t = {.feature = v,
-        .a = soft_side(a, &v, &whole, 1),
-        .b = soft_side(b, corners, best.weights, 3),
+        .a = sbri_soft_side(a, &v, &whole, 1),
+        .b = sbri_soft_side(b, corners, best.weights, 3),
         .normal = best.normal,
         .margin = margin};
     sbri_finding_add(f, a, b, &t);
@@ -156,9 +157,10 @@ static bool may_meet_face(const sbri_party *p, const sbri_surface_rule *rule, ui
   for (int k = 0; k < 3; k++) {
     if (corners[k] == v || share_points(&p->surface->samples[v], &p->surface->samples[corners[k]]))
       return false;
-    rest[k] = rest_of(p, corners[k]);
+    rest[k] = sbri_party_rest(p, corners[k]);
   }
-  return sbri_surface_gap(rule, rest_of(p, v), rest) > TOGETHER_SHARE * p->soft->rest_size_m * p->of->scale;
+  return sbri_surface_gap(rule, sbri_party_rest(p, v), rest) >
+         SBRI_TOGETHER_SHARE * p->soft->rest_size_m * p->of->scale;
 }
 
 static bool find_own_face(const sbri_party *p, uint32_t v, sbri_surface_finding *best) {
@@ -185,10 +187,10 @@ static void meet_itself(const sbri_finding *f, const sbri_party *p) {
     sbri_surface_finding best;
     if (!(p->surface->samples[v].mass_kg > 0) || !find_own_face(p, v, &best)) continue;
     sbri_meet_touch t = {.feature = v,
-        .a = soft_side(p, &v, &whole, 1),
-        .b = soft_side(p, p->surface->triangles + 3 * (size_t)best.face, best.weights, 3),
+        .a = sbri_soft_side(p, &v, &whole, 1),
+        .b = sbri_soft_side(p, p->surface->triangles + 3 * (size_t)best.face, best.weights, 3),
         .normal = best.normal,
-        .margin = margin_between(p, p)};
+        .margin = sbri_party_margin(p, p)};
     sbri_finding_add(f, p, p, &t);
   }
 }
@@ -221,11 +223,12 @@ static void meet_hull(const sbri_finding *f, const sbri_party *soft, const sbri_
       continue;
     if (sbri_are_of_one(soft, rigid)) {
       sbr_transform rest = {sbri_scale(rigid->rigid->center, scale), rigid->rigid->axes};
-      float together = TOGETHER_SHARE * soft->soft->rest_size_m;
-      if (sbri_hull_depth(hull, sbri_into_frame(&rest, rest_of(soft, v), scale), &face) <= together) continue;
+      float together = SBRI_TOGETHER_SHARE * soft->soft->rest_size_m;
+      if (sbri_hull_depth(hull, sbri_into_frame(&rest, sbri_party_rest(soft, v), scale), &face) <= together)
+        continue;
     }
     sbri_meet_touch t = {.feature = v,
-        .a = soft_side(soft, &v, &whole, 1),
+        .a = sbri_soft_side(soft, &v, &whole, 1),
         .b = sbri_rigid_side(rigid, place),
         .normal = sbri_rotate(from.rotation, normal),
         .margin = margin};
@@ -243,16 +246,17 @@ static void meet_corners(const sbri_finding *f, const sbri_party *rigid, const s
     const uint32_t *corners = soft->surface->triangles + 3 * (size_t)best.face;
     if (sbri_are_of_one(soft, rigid)) {
       sbr_transform rest = {sbri_scale(rigid->rigid->center, rigid->of->scale), rigid->rigid->axes};
-      const sbf_vec3 p[3] = {rest_of(soft, corners[0]), rest_of(soft, corners[1]), rest_of(soft, corners[2])};
+      const sbf_vec3 p[3] = {sbri_party_rest(soft, corners[0]), sbri_party_rest(soft, corners[1]),
+          sbri_party_rest(soft, corners[2])};
       sbri_surface_rule rule = rule_of(soft);
-      float together = TOGETHER_SHARE * soft->soft->rest_size_m * soft->of->scale;
+      float together = SBRI_TOGETHER_SHARE * soft->soft->rest_size_m * soft->of->scale;
       if (sbri_surface_gap(&rule, out_of(&rest, own, rigid->of->scale), p) <= together) continue;
     }
     sbri_meet_touch t = {.feature = i,
         .a = sbri_rigid_side(rigid, own),
-        .b = soft_side(soft, corners, best.weights, 3),
+        .b = sbri_soft_side(soft, corners, best.weights, 3),
         .normal = best.normal,
-        .margin = margin_between(rigid, soft)};
+        .margin = sbri_party_margin(rigid, soft)};
     sbri_finding_add(f, rigid, soft, &t);
   }
 }
@@ -306,6 +310,7 @@ void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
     } else {
       meet_faces(&f, &a, &b);
       meet_faces(&f, &b, &a);
+      if (a.surface->two_sided && b.surface->two_sided) sbri_meet_rims(&f, &a, &b);
     }
   }
   for (uint32_t m = 0; m < group->member_count; m++) add_planes(&f, m);

@@ -5,6 +5,11 @@
 #include "math/quat.h"
 #include "meet/meetings.h"
 
+/* Of the distance at rest, where that is less than the margin. */
+#define SBRI_REST_SHARE 0.9f
+/* Nearer than this share of a body's size at rest, two parts touch there always. */
+#define SBRI_TOGETHER_SHARE 1e-3f
+
 typedef struct sbri_finding {
   sbr_world *world;
   sbri_meet_group *group;
@@ -39,6 +44,19 @@ static inline sbf_vec3 sbri_into_frame(const sbr_transform *frame, sbf_vec3 x, f
 /* One more touch, if there is room; fills in all but places, normal, margin and feature. */
 void sbri_finding_add(
     const sbri_finding *f, const sbri_party *a, const sbri_party *b, const sbri_meet_touch *touch);
+
+sbri_meet_side sbri_soft_side(const sbri_party *p, const uint32_t *vertices, const float *weights, int count);
+/* Where a vertex is at rest, at the character's scale. */
+sbf_vec3 sbri_party_rest(const sbri_party *p, uint32_t vertex);
+/* What is kept between them: nothing between surfaces that both enclose matter. */
+float sbri_party_margin(const sbri_party *a, const sbri_party *b);
+/* How far off what lies at the margin of `b` is looked for. */
+float sbri_party_beyond(float margin, const sbri_party *b);
+
+/* ---- find_rims.c ---- */
+
+/* Rims of sheets with rims. */
+void sbri_meet_rims(const sbri_finding *f, const sbri_party *a, const sbri_party *b);
 
 /* ---- find_hulls.c ---- */
 

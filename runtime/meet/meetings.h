@@ -20,6 +20,8 @@ typedef struct sbri_meet_surface {
   uint32_t *triangles;  /* (triangle_count x 3) vertices */
   uint32_t vertex_count, triangle_count;
   bool two_sided; /* a sheet, or open */
+  uint8_t *rims; /* (triangle_count) of a two-sided one: bits of its sides that no other has, from each corner
+                    on */
   /* Of a tick: */
   sbf_vec3 *places, *ways; /* (vertex_count) */
   sbri_box *boxes;         /* (triangle_count) of the ways, grown */
@@ -201,6 +203,11 @@ void sbri_meet_surfaces_free(sbr_world *world, uint32_t character);
 void sbri_meetings_free(sbr_world *world);
 /* Places and ways of its vertices within the tick, and the tree over its triangles. */
 void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *member, uint32_t soft_body);
+
+/* ---- meet/find_rims.c ---- */
+
+/* Which sides of its triangles are rims; `table` is scratch. */
+void sbri_meet_rims_note(sbri_meet_surface *surface, uint32_t *table, uint32_t capacity);
 
 /* ---- meet/at_rest.c ---- */
 

@@ -15,7 +15,7 @@ static const float SLACK_M = 1e-4f, OUT_SHARE = 0.1f, SOFT_OUT_SHARE = 0.05f, OU
 static const float SLIDES_SHARE = 0.999f;
 /* Soft in soft what is deeper than this share of the smaller body's size looks ahead, by what is learnt of
  * each step. */
-static const float DEEP_SHARE = 0.003f, LEARNS = 0.3f;
+static const float DEEP_SHARE = 0.003f, DEEP_OF_MARGIN = 0.1f, LEARNS = 0.3f;
 static const sbf_vec3 nothing = {0, 0, 0};
 
 static bool is_plane(const sbri_meet_touch *t) {
@@ -66,13 +66,19 @@ static void learn(sbri_meet_row *r, float speed) {
   t->was_pushed = false;
 }
 
+/* From there on, and twice as deep wholly. */
+static float deep_of(const sbri_meet_touch *t) {
+  float deep = DEEP_SHARE * t->soft_m, thin = DEEP_OF_MARGIN * t->margin;
+  return t->margin > 0 && thin < deep ? thin : deep;
+}
+
 /* The speed against what will press in, beside weight, where something soft is pressed: rigid parts that it
  * lies on do not swing with it, another soft body does, and is looked ahead at only where it is deep. */
 static float pull_ahead(const sbri_meet_row *r, float fall) {
   const sbri_meet_touch *t = r->touch;
   float pull = t->pull - fall;
   if (!(t->soft_m > 0) || pull >= 0) return 0;
-  return both_are_soft(t) ? -pull * sbri_clamp(-r->gap / (DEEP_SHARE * t->soft_m) - 1, 0, 1) : -pull;
+  return both_are_soft(t) ? -pull * sbri_clamp(-r->gap / deep_of(t) - 1, 0, 1) : -pull;
 }
 
 /* What both may come to at the step's end, and what pushes of the step before they begin with. */

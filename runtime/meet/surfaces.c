@@ -57,6 +57,13 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
   sbf_body_measures measures;
   sbf_body_measure(body->source, &measures);
   s->two_sided = measures.sheet || body->rest_volume_m3 == 0;
+  if (!s->two_sided) return true;
+  uint32_t capacity = 8;
+  while (capacity < 6 * s->triangle_count) capacity *= 2;
+  s->rims = sbfi_arena_allocate(arena, (size_t)triangles + 1, 1);
+  uint32_t *table = sbfi_arena_allocate(arena, capacity, sizeof *table);
+  if (!s->rims || !table) return false;
+  sbri_meet_rims_note(s, table, capacity);
   return true;
 }
 

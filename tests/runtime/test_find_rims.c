@@ -1,0 +1,124 @@
+/* Strips of cloth that cross each other, no point of which comes near the other's triangles. */
+#include <math.h>
+
+#include "collision_scenes.h"
+#include "core/world.h"
+#include "harness.h"
+#include "math/vec3.h"
+#include "momentum.h"
+#include "rigid_scenes.h"
+
+/* A strip of 1 m by 4 cm in five squares' length, along x or along z, through `middle`. */
+enum { ROWS = 6, POINTS = 2 * ROWS };
+
+static sbf_level *strip(scene *s, uint32_t body, sbf_vec3 middle, bool along_z, bool held) {
+  sbf_vec3 at[POINTS];
+  float masses[POINTS], stiffness[6 * POINTS];
+  sbf_uint2 ends[6 * POINTS];
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < POINTS; i++) {
+    float u = 0.2f * (float)(i / 2) - 0.5f, v = i % 2 ? 0.02f : -0.02f;
+    at[i] = along_z ? (sbf_vec3){middle.x - v, middle.y, middle.z + u}
+                    : (sbf_vec3){middle.x + u, middle.y, middle.z + v};
+    masses[i] = 0.01f;
+    const uint32_t steps[6] = {1, 2, 3, 1, 4, 6};
+    for (int k = 0; k < 6; k++) {
+      uint32_t to = i + steps[k];
+      if (to >= POINTS || (k == 0 && i % 2) || (k == 2 && i % 2) || (k == 3 && !(i % 2))) continue;
+      ends[count] = (sbf_uint2){{i, to}};
+      stiffness[count++] = k < 2 ? 1000 : k < 4 ? 300 : 100;
+    }
+  }
+  sbf_level *level = scene_points(s, body, at, masses, POINTS);
+  scene_springs(s, level, ends, stiffness, count);
+  const uint32_t rim[4] = {0, 1, POINTS - 2, POINTS - 1};
+  if (held) scene_pin(s, level, -1, rim, 4);
+  collision_surface(s, body, at, 2, ROWS);
+  scene_body(s, body)->attributes.damping_ratio = 0.3f;
+  scene_body(s, body)->attributes.friction = 1;
+  return level;
+}
+
+/* The middle of a strip's middle square from end to end. */
+static void middle_line(const scene *s, uint32_t body, sbf_vec3 ends[2]) {
+  for (uint32_t e = 0; e < 2; e++)
+    ends[e] = sbri_lerp(scene_point(s, body, 4 + 2 * e), scene_point(s, body, 5 + 2 * e), 0.5f);
+}
+
+/* How far the second is over the first where those lines cross, seen from above. */
+static float over(const scene *s) {
+  sbf_vec3 p[2], q[2];
+  middle_line(s, 0, p), middle_line(s, 1, q);
+  float u = (q[0].x - p[0].x) / (p[1].x - p[0].x), v = (p[0].z - q[0].z) / (q[1].z - q[0].z);
+  return sbri_lerp(q[0], q[1], v).y - sbri_lerp(p[0], p[1], u).y;
+}
+
+/* One falls across the other, which is held at its ends, from 10 cm and at up to 10 m/s, square to it or not
+ * in its middle: it never passes. `meets` off, it does at once. */
+START_TEST(crossing_strips_do_not_pass)
+{
+  const float speeds[3] = {0, 2, 10};
+  for (int meets = 0; meets < 2; meets++) {
+    scene s = rigid_begin();
+    scene_bodies(&s, 2);
+    (void)strip(&s, 0, (sbf_vec3){0, 0, 0}, false, true);
+    (void)strip(&s, 1, (sbf_vec3){0.01f, 0.1f, 0.02f}, true, false);
+    scene_start(&s);
+    if (meets) ck_assert(sbr_world_bodies_meet(s.world, 0, NULL) == SBF_OK);
+    sbri_character *c = sbri_character_of(s.world, s.character);
+    const sbri_body *body = &c->model->bodies[1];
+    const sbri_island *island = &c->model->islands[body->island];
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+      (sbri_velocities(c) + 3 * (size_t)island->first_slot)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) +
+                                                            SBRI_BLOCK + slot % SBRI_BLOCK] = -speeds[_i];
+    float least = 9;
+    for (int i = 0; i < 60; i++) {
+      scene_ticks(&s, 1);
+      least = fminf(least, over(&s));
+    }
+    if (meets)
+      ck_assert_float_ge(least, 0.002f);
+    else
+      ck_assert_float_le(least, -0.05f);
+    scene_free(&s);
+  }
+}
+END_TEST
+
+/* In the air: what the one gets the other loses. */
+START_TEST(momentum_is_kept)
+{
+  scene s = rigid_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
+  scene_bodies(&s, 2);
+  (void)strip(&s, 0, (sbf_vec3){0, 0, 0}, false, false);
+  (void)strip(&s, 1, (sbf_vec3){0.01f, 0.1f, 0.02f}, true, false);
+  scene_start(&s);
+  ck_assert(sbr_world_bodies_meet(s.world, 0, NULL) == SBF_OK);
+  sbri_character *c = sbri_character_of(s.world, s.character);
+  const sbri_body *body = &c->model->bodies[1];
+  const sbri_island *island = &c->model->islands[body->island];
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    (sbri_velocities(c) + 3 * (size_t)island->first_slot)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK +
+                                                          slot % SBRI_BLOCK] = -3;
+  sbf_vec3 before = scene_point(&s, 0, 5);
+  scene_momentum was = scene_momentum_of(&s);
+  scene_ticks(&s, 20);
+  scene_momentum is = scene_momentum_of(&s);
+  for (int k = 0; k < 3; k++) {
+    ck_assert_double_eq_tol(was.linear[k], is.linear[k], 1e-4);
+    ck_assert_double_eq_tol(was.angular[k], is.angular[k], 1e-4);
+  }
+  ck_assert_float_le(scene_point(&s, 0, 5).y, before.y - 0.05f);
+  scene_free(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("find_rims");
+  TCase *tests = tcase_create("all");
+  tcase_add_loop_test(tests, crossing_strips_do_not_pass, 0, 3);
+  tcase_add_test(tests, momentum_is_kept);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
