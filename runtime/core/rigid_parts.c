@@ -66,16 +66,22 @@ void sbri_rigid_place(sbri_character *c, bool as_in_file) {
 }
 
 void sbri_rigid_carry(sbri_character *c) {
-  if (c->model->rigid.body_count) sbri_reflex_end(c);
+  if (!c->model->rigid.body_count) return;
+  sbri_reflex_end(c);
+  sbri_rigid_drive(c)->kept_touches = 0;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
     put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_target(c, sbri_pose(c), b));
-  if (c->model->rigid.body_count) sbri_rigid_wake(c);
+  sbri_rigid_wake(c);
 }
 
 void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift) {
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
     sbf_vec3 *at = &sbri_rigid_bodies(c)[b].pose.position;
     *at = sbri_sub(*at, shift);
+  }
+  for (uint32_t i = 0; c->model->rigid.body_count && i < sbri_rigid_drive(c)->kept_touches; i++) {
+    sbri_kept_touch *kept = &sbri_rigid_kept(c)[i];
+    kept->offset -= sbri_dot(kept->normal, shift);
   }
 }
 

@@ -50,6 +50,7 @@ typedef struct sbri_ground_touch {
   uint32_t collider; /* number of it, or UINT32_MAX: the ground */
   /* Of the step before, where it is known: */
   bool known;
+  uint32_t idle;   /* ticks for which it has not pressed */
   float normal_n;  /* N; 0: it did not press */
   sbf_vec3 drag_n; /* N, of friction where it slid */
   /* In a substep: */
@@ -71,8 +72,10 @@ typedef struct sbri_ground_touch {
 /* And what is kept of it to the next tick. */
 typedef struct sbri_kept_touch {
   uint32_t body, collider;
-  sbf_vec3 at, drag_n;
-  float normal_n;
+  uint32_t found; /* in this tick again */
+  uint32_t idle;  /* ticks for which it has not pressed */
+  sbf_vec3 at, drag_n, normal;
+  float normal_n, offset; /* N; of the plane, as normal.x */
 } sbri_kept_touch;
 
 struct sbri_rigid_tick;

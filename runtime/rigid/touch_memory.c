@@ -6,9 +6,47 @@
 /* A place on a shape is the same as before within this share of its body's size. */
 static const float SAME_SHARE = 0.05f;
 
+/* What has not been found again bears on within this share of it, if it pressed in so many ticks, beside one
+ * that faces as much alike. */
+static const float NEAR_SHARE = 0.02f, FACING = 0.97f;
+enum { IDLE_TICKS = 4 };
+
 static bool is_same(const sbri_kept_touch *kept, const sbri_ground_touch *touch, float most) {
   sbf_vec3 off = sbri_sub(kept->at, touch->at);
   return kept->collider == touch->collider && sbri_dot(off, off) <= most * most;
+}
+
+static void give_back(const sbri_kept_touch *kept, sbri_ground_touch *touch) {
+  touch->known = true;
+  touch->idle = kept->idle;
+  touch->normal_n = kept->normal_n, touch->drag_n = kept->drag_n;
+}
+
+/* A touch of the pair that has been found anew and faces as the one that has not; NULL: none. */
+static const sbri_ground_touch *beside(const sbri_rigid_solving *work, const sbri_kept_touch *kept) {
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    const sbri_ground_touch *touch = &work->touches[i];
+    if (touch->body == kept->body && touch->collider == kept->collider &&
+        sbri_dot(touch->normal, kept->normal) > FACING && sbri_dot(touch->velocity, touch->velocity) == 0)
+      return touch;
+  }
+  return NULL;
+}
+
+/* Two hulls whose edges cross are told to touch at one place, and rock between two: the one that has not been
+ * found this time bears on while the body is near it. */
+static void bear_on(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_kept_touch *kept) {
+  if (kept->idle > IDLE_TICKS || work->touch_count >= work->touch_capacity) return;
+  const sbri_ground_touch *by = beside(work, kept);
+  if (!by) return;
+  const sbri_rigid_body_state *s = &t->bodies[kept->body];
+  sbf_vec3 x = sbri_add(s->pose.position, sbri_rotate(s->pose.rotation, kept->at));
+  float gap = sbri_dot(kept->normal, x) - kept->offset;
+  if (fabsf(gap) > NEAR_SHARE * t->model->bodies[kept->body].radius) return;
+  sbri_ground_touch *touch = &work->touches[work->touch_count++];
+  *touch = *by;
+  touch->at = kept->at, touch->normal = kept->normal, touch->offset = kept->offset;
+  give_back(kept, touch);
 }
 
 void sbri_touch_memory_recall(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
@@ -18,14 +56,16 @@ void sbri_touch_memory_recall(const sbri_rigid_tick *t, sbri_rigid_solving *work
     float most = SAME_SHARE * t->model->bodies[touch->body].radius;
     if (touch->collider == UINT32_MAX) most = 0; /* those on the ground are vertices */
     for (uint32_t k = 0; k < count; k++) {       /* mostly the one behind the last */
-      const sbri_kept_touch *kept = &t->kept[(begin + k) % count];
+      sbri_kept_touch *kept = &t->kept[(begin + k) % count];
       if (kept->body != touch->body || !is_same(kept, touch, most)) continue;
-      touch->known = true;
-      touch->normal_n = kept->normal_n, touch->drag_n = kept->drag_n;
+      kept->found = 1;
+      give_back(kept, touch);
       begin = (begin + k + 1) % count;
       break;
     }
   }
+  for (uint32_t k = 0; k < count; k++)
+    if (!t->kept[k].found && t->kept[k].collider != UINT32_MAX) bear_on(t, work, &t->kept[k]);
 }
 
 void sbri_touch_memory_keep(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
@@ -37,6 +77,9 @@ void sbri_touch_memory_keep(const sbri_rigid_tick *t, const sbri_rigid_solving *
         .collider = touch->collider,
         .at = touch->at,
         .drag_n = touch->drag_n,
+        .idle = touch->normal_n > 0 ? 0 : touch->idle + 1,
+        .normal = touch->normal,
+        .offset = touch->offset,
         .normal_n = touch->normal_n};
   }
   t->drive->kept_touches = count;
