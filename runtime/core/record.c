@@ -5,8 +5,8 @@
 
 #include "base/diagnostic.h"
 #include "core/world.h"
+#include "detail/choose.h"
 #include "sbrun/animation.h"
-#include "sbrun/detail.h"
 #include "sbrun/rigid.h"
 
 static const unsigned char MAGIC[8] = {'!', 's', 'b', 'r', 'r', 'e', 'c', '1'};
@@ -31,7 +31,9 @@ static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
     [SBRI_RECORDED_RIGID_SHARE] = 3,
     [SBRI_RECORDED_RIGID_PUSH] = 8,
     [SBRI_RECORDED_RIGID_FALL] = 4,
-    [SBRI_RECORDED_RUNG] = 2};
+    [SBRI_RECORDED_RUNG] = 2,
+    [SBRI_RECORDED_SHOWN] = 2,
+    [SBRI_RECORDED_VIEW] = 11};
 
 enum { HEAD_BYTES = 8, NUMBER_BYTES = 8 };
 
@@ -111,6 +113,12 @@ static void check(sbr_replay *r, const double *n) {
   r->differs_at_tick = r->world->ticks;
 }
 
+static void play_view(sbr_world *world, const double *n) {
+  const sbr_view view = {
+      {n[2], n[3], n[4]}, {(float)n[5], (float)n[6], (float)n[7]}, (float)n[8], (float)n[9], (float)n[10]};
+  sbri_view_set(world, whole(n[0]), whole(n[1]), &view);
+}
+
 static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id, const double *n) {
   const sbr_rigid_drive drive = {.frequency_hz = (float)n[1],
       .damping_ratio = (float)n[2],
@@ -179,6 +187,12 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
     break;
   case SBRI_RECORDED_RUNG:
     sbr_character_set_rung(r->world, id, whole(n[1]));
+    break;
+  case SBRI_RECORDED_SHOWN:
+    sbr_character_shown(r->world, id, (sbr_shown)whole(n[1]));
+    break;
+  case SBRI_RECORDED_VIEW:
+    play_view(r->world, n);
     break;
   default:
     play_rigid(r->world, what, id, n);

@@ -26,10 +26,12 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_RIGID_PUSH,  /* body, place, impulse */
   SBRI_RECORDED_RIGID_FALL,  /* share, rest, rise */
   SBRI_RECORDED_RUNG,        /* rung */
+  SBRI_RECORDED_SHOWN,       /* how */
+  SBRI_RECORDED_VIEW,        /* which, of how many, eye, forward, height, width, lines: without a character */
   SBRI_RECORDED_COUNT
 } sbri_recorded;
 
-enum { SBRI_RECORDED_MOST = 10 }; /* numbers of one */
+enum { SBRI_RECORDED_MOST = 11 }; /* numbers of one */
 
 /* Nothing where the world is not recorded. */
 void sbri_record(sbr_world *world, sbri_recorded what, const double *numbers);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/world.h"
-#include "detail/rungs.h"
+#include "detail/choose.h"
 #include "math/vec3.h"
 #include "meet/meetings.h"
 #include "solvers/scheme.h"
@@ -229,6 +229,7 @@ void sbri_step_tick(sbr_world *world) {
   world->ticks++;
   sbri_colliders_begin_tick(&world->colliders);
   if (world->meetings) sbri_meet_pairs_find(world);
+  if (world->detail && !world->meetings) sbri_detail_choose(world);
   run(world, tick_character, world->character_capacity);
   if (world->meetings) {
     run(world, tick_group, world->meetings->group_count);

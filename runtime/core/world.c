@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/diagnostic.h"
+#include "detail/choose.h"
 #include "meet/meetings.h"
 
 enum {
@@ -84,6 +85,7 @@ void sbr_world_destroy(sbr_world *world) {
   sbf_allocator allocator = world->allocator;
   sbri_collider_set_free(&world->colliders, &allocator);
   sbri_meetings_free(world);
+  sbri_detail_free(world);
   sbfi_free(&allocator, world->work, world->work_capacity * sizeof *world->work);
   sbfi_free(&allocator, world->characters, world->character_capacity * sizeof *world->characters);
   sbfi_free(&allocator, world, sizeof *world);

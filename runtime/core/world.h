@@ -33,6 +33,7 @@ struct sbr_world {
   uint64_t stamp;  /* counts sampled moments; from 1 */
   sbri_collider_set colliders;
   struct sbri_meetings *meetings; /* meet/meetings.h; NULL: bodies of characters do not meet each other */
+  struct sbri_detail *detail;     /* detail/choose.h; NULL: rungs are the host's */
   sbri_character *characters;     /* (character_capacity) */
   uint32_t character_capacity;
   sbri_work *work; /* (work_count) of this tick, character after character */

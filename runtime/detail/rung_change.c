@@ -222,7 +222,7 @@ void sbri_rung_change(const sbr_world *world, sbri_character *c) {
     rung--; /* what lies about, or falls, goes on doing so: bones alone */
   if (rung == head->rung) return;
   bool returns = sbri_is_away(c), same = c->model == c->model->base->rungs[rung];
-  bool fades = head->unseen_ticks == 0 && !(same && !returns);
+  bool fades = head->unseen_ticks == 0 && !same && !returns; /* nobody has seen one that was away */
   if (fades) {
     sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
     sbri_fade_keep(c);

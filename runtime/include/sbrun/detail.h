@@ -56,6 +56,54 @@ SBF_API void sbr_character_set_rung(sbr_world *world, sbr_character_id character
 /* How far the skin still is from going over: 1 where it shows what it was, 0 where it is over. */
 SBF_API float sbr_character_fade(const sbr_world *world, sbr_character_id character);
 
+/* ---- Choosing ----------------------------------------------------------------------------------------- */
+
+/* How a world chooses rungs. */
+typedef struct sbr_detail_definition {
+  uint32_t cookie;    /* set by sbr_default_detail_definition */
+  float error_px;     /* that a character may be off on the screen; default 0.5 */
+  float budget_us;    /* of processor time a tick, for all characters together; 0 (default): none */
+  float ns_per_visit; /* what a visit (sbr_rung.visits) takes on this machine; default 6 */
+  float settle; /* a coarser rung is taken where its error is below this share of error_px; default 0.7 */
+  float stay_s; /* and no sooner after the last change; default 0.5 */
+  float away_after_s; /* unseen for so long, a character goes away; negative: never; default 1 */
+} sbr_detail_definition;
+
+/* What a definition begins as. */
+SBF_API sbr_detail_definition sbr_default_detail_definition(void);
+/* From now on the world chooses the rungs of characters that the host has put on none. A later call changes
+ * how. Recordings do not hold this call: make it before they begin. SBF_FAILED where memory runs out or a
+ * number is not in its range: error_px and ns_per_visit above 0, settle in (0, 1]. */
+SBF_API sbf_status sbr_world_detail(
+    sbr_world *world, const sbr_detail_definition *definition, sbf_diagnostic *error);
+
+/* Where characters are looked at from. */
+typedef struct sbr_view {
+  sbr_double3 eye;   /* world */
+  sbf_vec3 forward;  /* where it looks; of any length */
+  float height_rad;  /* what it sees from its lower to its upper edge; (0, 3] */
+  float width_ratio; /* of its sides, width over height */
+  float lines;       /* pixels from its lower to its upper edge */
+} sbr_view;
+/* The views of the frames to come, at most SBR_MOST_VIEWS; without any nobody is seen. Seen is what some view
+ * may have within its edges, and what is on the screen largest there counts. */
+#define SBR_MOST_VIEWS 4u
+SBF_API void sbr_world_views(sbr_world *world, const sbr_view *views, uint32_t count);
+
+/* What the host knows better than the views. */
+typedef enum sbr_shown {
+  SBR_SHOWN_BY_VIEWS, /* as they tell */
+  SBR_SHOWN_ALWAYS,   /* seen even outside of them, as in a mirror, by its distance */
+  SBR_SHOWN_NEVER     /* hidden, as behind a wall */
+} sbr_shown;
+SBF_API void sbr_character_shown(sbr_world *world, sbr_character_id character, sbr_shown shown);
+
+/* By how many pixels the character is taken to be off now, at its worst place: its rung's error, more where
+ * it is fast, in the view that shows it largest. 0: it is not seen. */
+SBF_API float sbr_character_error_px(const sbr_world *world, sbr_character_id character);
+/* What all characters together were taken to cost in the last tick, visits. */
+SBF_API double sbr_world_visits(const sbr_world *world);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,60 @@
+/* Saving: the change for the worse that costs the fewest pixels a visit saved comes first, then the next one,
+ * until it is enough. Of one character they become dearer one after the other (the rungs on its lower hull),
+ * so the order is that of all of them together. Ties go to the character that was made first. */
+#include "detail/choose.h"
+
+static bool is_before(const sbri_saving *a, const sbri_saving *b) {
+  return a->price < b->price || (a->price == b->price && a->choice < b->choice);
+}
+
+static void push(sbri_detail *detail, sbri_saving saving) {
+  uint32_t at = detail->saving_count++;
+  for (; at > 0 && is_before(&saving, &detail->savings[(at - 1) / 2]); at = (at - 1) / 2)
+    detail->savings[at] = detail->savings[(at - 1) / 2];
+  detail->savings[at] = saving;
+}
+
+static sbri_saving pop(sbri_detail *detail) {
+  sbri_saving first = detail->savings[0], last = detail->savings[--detail->saving_count];
+  uint32_t at = 0, count = detail->saving_count;
+  for (uint32_t next; (next = 2 * at + 1) < count; at = next) {
+    if (next + 1 < count && is_before(&detail->savings[next + 1], &detail->savings[next])) next++;
+    if (!is_before(&detail->savings[next], &last)) break;
+    detail->savings[at] = detail->savings[next];
+  }
+  detail->savings[at] = last;
+  return first;
+}
+
+static const sbr_rung *ladder_of(const sbr_world *world, const sbri_choice *choice) {
+  return world->characters[choice->character].model->base->ladder;
+}
+
+/* Offers the next change of a choice, if there is one. */
+static void offer(const sbr_world *world, uint32_t index) {
+  const sbri_choice *choice = &world->detail->choices[index];
+  const sbr_rung *ladder = ladder_of(world, choice), *now = &ladder[choice->rung];
+  sbri_saving best = {INFINITY, index, choice->rung};
+  for (uint32_t r = choice->rung + 1; r <= choice->last; r++) {
+    float saved = now->visits - ladder[r].visits;
+    if (!(saved > 0)) continue;
+    float price = choice->pixels * (ladder[r].error_m - now->error_m) / saved;
+    if (price <= best.price) best.price = price, best.to = r;
+  }
+  if (best.to != choice->rung) push(world->detail, best);
+}
+
+double sbri_budget_keep(const sbr_world *world, double visits, double most) {
+  sbri_detail *detail = world->detail;
+  detail->saving_count = 0;
+  for (uint32_t i = 0; i < detail->choice_count && visits > most; i++) offer(world, i);
+  while (visits > most && detail->saving_count > 0) {
+    sbri_saving saving = pop(detail);
+    sbri_choice *choice = &detail->choices[saving.choice];
+    const sbr_rung *ladder = ladder_of(world, choice);
+    visits += (double)ladder[saving.to].visits - (double)ladder[choice->rung].visits;
+    choice->rung = saving.to;
+    offer(world, saving.choice);
+  }
+  return visits;
+}

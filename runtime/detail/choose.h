@@ -1,0 +1,61 @@
+/* Which rung each character of a world is on: by what is seen of it, and by a budget. */
+#ifndef SBRI_CHOOSE_H
+#define SBRI_CHOOSE_H
+
+#include "detail/rungs.h"
+
+typedef struct sbri_eye {
+  sbr_view view;
+  sbf_vec3 forward;             /* unit */
+  float cone_sine, cone_cosine; /* of half the angle of the cone around all it sees */
+  float pixels;                 /* that a metre has at a metre */
+} sbri_eye;
+
+/* A character that is chosen for. */
+typedef struct sbri_choice {
+  uint32_t character, rung, last; /* what it is to be on, and the coarsest that it may */
+  float pixels;                   /* that a metre of error shows as; 0: it is not seen */
+} sbri_choice;
+
+/* A change for the worse that would save something. */
+typedef struct sbri_saving {
+  float price; /* pixels a visit */
+  uint32_t choice, to;
+} sbri_saving;
+
+typedef struct sbri_detail {
+  sbr_detail_definition is;
+  sbri_eye eyes[SBR_MOST_VIEWS];
+  uint32_t eye_count;
+  sbri_choice *choices; /* (character_capacity) */
+  sbri_saving *savings; /* likewise: a heap, the cheapest first */
+  uint32_t choice_count, saving_count;
+  double visits; /* of the last tick */
+} sbri_detail;
+
+/* ---- detail/choose.c ---- */
+
+/* At the beginning of a tick: what each character goes over to. */
+void sbri_detail_choose(sbr_world *world);
+
+/* ---- detail/seen.c ---- */
+
+sbri_eye sbri_eye_of(const sbr_view *view);
+/* Pixels that a metre of the character has where it is shown largest; 0: no view has it. */
+float sbri_pixels_of(const sbr_world *world, const sbri_character *c);
+/* By how much more than at rest it is off for being as fast as it is wanted to be. */
+float sbri_speed_factor(const sbri_character *c);
+
+/* ---- detail/budget.c ---- */
+
+/* Makes the choices coarser, the least to be seen first, until all cost no more than `most` visits of
+ * `visits`; returns what they cost then. */
+double sbri_budget_keep(const sbr_world *world, double visits, double most);
+
+/* ---- detail/detail_host.c ---- */
+
+/* The `index`-th of `count` views, as in recordings. */
+void sbri_view_set(sbr_world *world, uint32_t index, uint32_t count, const sbr_view *view);
+void sbri_detail_free(sbr_world *world);
+
+#endif

@@ -1,0 +1,207 @@
+#include <math.h>
+#include <stdlib.h>
+
+#include "harness.h"
+#include "host_threads.h"
+#include "rung_scenes.h"
+#include "sbfmt/codes.h"
+#include "tape.h"
+
+enum { CROWD = 12 };
+
+typedef struct crowd {
+  scene s;
+  sbr_character_id ids[CROWD];
+} crowd;
+
+static sbr_view view_from(double z) {
+  return (sbr_view){{0, 1, z}, {0, 0, 1}, 1.0472f, 16.0f / 9, 1080};
+}
+
+/* Boxes in a row along +Z, two metres apart, in a world that chooses. */
+static crowd make_crowd(const sbr_detail_definition *how, const sbr_tasks *tasks) {
+  crowd c = {.s = rung_scene_begin(false)};
+  sbr_detail_definition by_default = sbr_default_detail_definition();
+  if (tasks) c.s.world_definition.tasks = *tasks;
+  scene_start(&c.s);
+  ck_assert_int_eq(sbr_world_detail(c.s.world, how ? how : &by_default, NULL), SBF_OK);
+  c.ids[0] = c.s.character;
+  for (uint32_t i = 1; i < CROWD; i++) {
+    sbr_character_definition where = c.s.character_definition;
+    where.position.z = 2.0 * i;
+    ck_assert_int_eq(sbr_character_create(c.s.world, c.s.model, &where, &c.ids[i], NULL), SBF_OK);
+  }
+  return c;
+}
+
+static uint32_t rung_of(const crowd *c, uint32_t i) {
+  return sbr_character_rung(c->s.world, c->ids[i]);
+}
+
+static void look(crowd *c, double z, uint32_t ticks) {
+  const sbr_view view = view_from(z);
+  for (uint32_t t = 0; t < ticks; t++) {
+    sbr_world_views(c->s.world, &view, 1);
+    sbr_world_tick(c->s.world);
+  }
+}
+
+START_TEST(what_is_far_is_coarse_and_what_nobody_sees_goes_away)
+{
+  crowd c = make_crowd(NULL, NULL);
+  look(&c, -1, 2);
+  ck_assert_uint_eq(rung_of(&c, 0), RUNG_FINE);
+  for (uint32_t i = 0; i < CROWD; i++) {
+    ck_assert(sbr_character_error_px(c.s.world, c.ids[i]) <= 0.5f);
+    if (i > 0) ck_assert_uint_ge(rung_of(&c, i), rung_of(&c, i - 1));
+  }
+  look(&c, -120, 40); /* 2 cm of the bones' error, 120 m away: 0.15 pixels */
+  ck_assert_uint_eq(rung_of(&c, 0), RUNG_BONES);
+  ck_assert(sbr_character_error_px(c.s.world, c.ids[0]) > 0.1f);
+  look(&c, 200, 30); /* all are behind */
+  ck_assert_uint_eq(rung_of(&c, 0), RUNG_BONES);
+  ck_assert(sbr_character_error_px(c.s.world, c.ids[0]) == 0);
+  look(&c, 200, 40);
+  for (uint32_t i = 0; i < CROWD; i++) ck_assert_uint_eq(rung_of(&c, i), RUNG_AWAY);
+  look(&c, -1, 1);
+  ck_assert_uint_eq(rung_of(&c, 0), RUNG_FINE);
+  ck_assert(sbr_character_fade(c.s.world, c.ids[0]) == 0); /* nobody has seen where it was */
+  ck_assert(sbr_character_health(c.s.world, c.ids[0], 0).elastic_j > 0);
+  scene_free(&c.s);
+}
+END_TEST
+
+START_TEST(the_host_may_know_better)
+{
+  crowd c = make_crowd(NULL, NULL);
+  sbr_character_shown(c.s.world, c.ids[0], SBR_SHOWN_NEVER);
+  sbr_character_set_rung(c.s.world, c.ids[1], RUNG_COARSE);
+  look(&c, -1, 70);
+  ck_assert_uint_eq(rung_of(&c, 0), RUNG_AWAY);
+  ck_assert_uint_eq(rung_of(&c, 1), RUNG_COARSE);
+  sbr_character_shown(c.s.world, c.ids[0], SBR_SHOWN_BY_VIEWS);
+  sbr_character_shown(c.s.world, c.ids[1], SBR_SHOWN_ALWAYS);
+  sbr_character_set_rung(c.s.world, c.ids[1], SBR_RUNG_CHOSEN);
+  look(&c, 3, 70); /* both are behind */
+  ck_assert_uint_eq(rung_of(&c, 0), RUNG_AWAY);
+  ck_assert_uint_eq(rung_of(&c, 1), RUNG_FINE);
+  scene_free(&c.s);
+}
+END_TEST
+
+START_TEST(a_camera_that_trembles_changes_nothing)
+{
+  crowd c = make_crowd(NULL, NULL);
+  uint32_t changes = 0, was[CROWD];
+  look(&c, -20, 60);
+  for (uint32_t i = 0; i < CROWD; i++) was[i] = rung_of(&c, i);
+  for (int t = 0; t < 300; t++) {
+    look(&c, -20 + (t % 2 ? 1.0 : -1.0), 1);
+    for (uint32_t i = 0; i < CROWD; i++) {
+      changes += rung_of(&c, i) != was[i];
+      was[i] = rung_of(&c, i);
+    }
+  }
+  ck_assert_uint_le(changes, 2); /* to the finer ones of what it trembles between */
+  scene_free(&c.s);
+}
+END_TEST
+
+START_TEST(a_budget_is_kept_and_spent_on_what_is_near)
+{
+  sbr_rung rungs[8];
+  scene alone = rung_scene_begin(false);
+  scene_start(&alone);
+  sbr_model_rungs(alone.model, rungs, 8);
+  scene_free(&alone);
+  sbr_detail_definition how = sbr_default_detail_definition();
+  how.error_px = 1e-3f; /* all as fine as can be, but */
+  double all = CROWD * (double)rungs[0].visits, most = 6 * (double)rungs[0].visits;
+  how.budget_us = (float)(most * (double)how.ns_per_visit * 1e-3);
+  crowd c = make_crowd(&how, NULL);
+  look(&c, -6, 90);
+  ck_assert(all > most);
+  ck_assert_msg(sbr_world_visits(c.s.world) <= most, "%g of %g visits", sbr_world_visits(c.s.world), most);
+  ck_assert(sbr_world_visits(c.s.world) > 0.6 * most);
+  ck_assert_uint_eq(rung_of(&c, 0), RUNG_FINE);
+  ck_assert_uint_gt(rung_of(&c, CROWD - 1), RUNG_FINE);
+  for (uint32_t i = 1; i < CROWD; i++) ck_assert_uint_ge(rung_of(&c, i), rung_of(&c, i - 1));
+  scene_free(&c.s);
+}
+END_TEST
+
+/* Through the crowd and back. */
+static uint64_t fly(crowd *c) {
+  for (uint32_t i = 0; i < CROWD; i++)
+    sbr_character_drive(c->s.world, c->ids[i], 0.3f, 0, i % 2 ? 0.4f : -0.4f);
+  for (int t = 0; t < 200; t++) look(c, -10 + 0.3 * t - (t > 100 ? 0.6 * (t - 100) : 0), 1);
+  return sbr_world_state_hash(c->s.world);
+}
+
+START_TEST(threads_and_recordings_agree)
+{
+  static tape t;
+  const sbr_record_output output = {tape_keep, &t};
+  sbr_detail_definition how = sbr_default_detail_definition();
+  how.budget_us = 100;
+  static int threads = 3;
+  const sbr_tasks tasks = {run_on_threads, &threads};
+  crowd one = make_crowd(&how, NULL), several = make_crowd(&how, &tasks), again = make_crowd(&how, NULL);
+  sbr_world_record(one.s.world, &output);
+  uint64_t hash = fly(&one);
+  sbr_world_record(one.s.world, NULL);
+  ck_assert_uint_eq(fly(&several), hash);
+  sbr_replay replay;
+  ck_assert_int_eq(sbr_replay_begin(&replay, again.s.world, t.bytes, t.size, NULL), SBF_OK);
+  while (sbr_replay_frame(&replay)) {}
+  ck_assert(!replay.differs);
+  ck_assert_uint_eq(sbr_world_state_hash(again.s.world), hash);
+  scene_free(&one.s);
+  scene_free(&several.s);
+  scene_free(&again.s);
+}
+END_TEST
+
+START_TEST(wrong_definitions_and_want_of_memory_are_told)
+{
+  crowd c = make_crowd(NULL, NULL);
+  sbr_detail_definition how = sbr_default_detail_definition();
+  sbf_diagnostic error;
+  how.error_px = 0;
+  ck_assert_int_eq(sbr_world_detail(c.s.world, &how, &error), SBF_FAILED);
+  ck_assert_int_eq(error.code, SBF_CODE_BAD_CALL);
+  how = (sbr_detail_definition){.error_px = 1};
+  ck_assert_int_eq(sbr_world_detail(c.s.world, &how, &error), SBF_FAILED);
+  ck_assert_int_eq(sbr_world_detail(NULL, &how, &error), SBF_FAILED);
+  scene_free(&c.s);
+  for (size_t allowed = 0; allowed < 3; allowed++) {
+    harness_memory memory;
+    harness_memory_init(&memory, SIZE_MAX);
+    sbr_world_definition definition = sbr_default_world_definition();
+    definition.allocator = &memory.allocator;
+    sbr_world *world;
+    ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);
+    how = sbr_default_detail_definition();
+    memory.allowed = memory.calls + allowed;
+    ck_assert_int_eq(sbr_world_detail(world, &how, &error), SBF_FAILED);
+    ck_assert_int_eq(error.code, SBF_CODE_OUT_OF_MEMORY);
+    sbr_world_tick(world);
+    sbr_world_destroy(world);
+    ck_assert_uint_eq(memory.held_bytes, 0);
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *s = suite_create("choose");
+  TCase *c = tcase_create("choose");
+  tcase_set_timeout(c, 120);
+  tcase_add_test(c, what_is_far_is_coarse_and_what_nobody_sees_goes_away);
+  tcase_add_test(c, the_host_may_know_better);
+  tcase_add_test(c, a_camera_that_trembles_changes_nothing);
+  tcase_add_test(c, a_budget_is_kept_and_spent_on_what_is_near);
+  tcase_add_test(c, threads_and_recordings_agree);
+  tcase_add_test(c, wrong_definitions_and_want_of_memory_are_told);
+  suite_add_tcase(s, c);
+  return harness_run(s);
+}
