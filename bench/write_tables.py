@@ -12,7 +12,7 @@ import re
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md")
+DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md", "docs/detail.md")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -105,6 +105,11 @@ def crowd_row(r):
             number(r["wall_ms"]) if r["wall_ms"] else "", r["times_one"], r["ns_per_element"], r["gb_s"]]
 
 
+def detail_row(r):
+    return [r["case"], r["lizards"], number(r["ms_tick"]), r["times_full"], r["rms_px"], r["worst_lizard_px"], r["worst_px"], r["soft"],
+            r["bones"], r["away"], r["returned"]]
+
+
 def character_row(r):
     return [f"{float(r['young_modulus']) / 1000:.0f}", r["elements"], r["substeps"], r["strain"], r["residual"], r["tick_us"],
             r["skin_us"], r["frame_us"], r["worst_us"]]
@@ -127,6 +132,8 @@ TABLES = {
                            "× ours at that error", 1),
     "crowd": (crowd_row, "what | of it | threads | instructions | substeps | ms a tick | wall, ms | × one thread | ns a tetrahedron "
                          "and substep | GB/s", 1),
+    "detail": (detail_row, "rungs | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft | bones "
+                           "| away | have been away", 1),
     "character": (character_row, "E, kPa | tetrahedra | substeps | strain | off 20,000 by | tick, µs | skin, µs | frame, µs | worst", 0),
     "schemes": (schemes_row, "body | scheme | springs | substeps | µs a tick | ns a spring and substep | error, mm", 2),
     "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | greatest, m | missed", 3),

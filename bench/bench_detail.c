@@ -1,0 +1,174 @@
+/* A crowd of 200 lizards that walk, before a camera that moves: all at full detail, and with rungs chosen
+ * (sbrun/detail.h). Each world takes the same ticks one after the other; `ms_tick` is the processor time of a
+ * tick of one thread, on average. What is seen of each is compared with full detail in every tenth tick,
+ * vertex by vertex as they are projected on a screen of 1080 lines, 60 degrees high: `rms_px` over all,
+ * `worst_lizard_px` the root of the mean square of the worst one, `worst_px` of the worst vertex. Lizards
+ * that have been away walk on with other feet: they are not compared, but counted (`returned`, on average).
+ * `visits` is what the world takes a tick to cost; soft to away the lizards on such rungs, on average. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "measured_assets.h"
+#include "measuring.h"
+#include "sbfmt/build.h"
+#include "sbrun/detail.h"
+
+enum { MOST = 200, COLUMNS = 20, CASES = 4, COMPARED_EVERY = 10 };
+
+static const float HEIGHT_RAD = 1.0471976f, WIDE = 16.0f / 9, LINES = 1080;
+
+typedef struct crowd {
+  const char *name;
+  sbr_world *world;
+  sbr_character_id ids[MOST];
+  bool was_away[MOST];
+  double seconds, visits, rungs[4], returned;
+  double squares, worst_square, worst_lizard; /* pixels squared */
+  uint64_t vertices;
+  uint32_t ticks, looks;
+} crowd;
+
+static void open_crowd(
+    crowd *c, const char *name, const sbr_model *model, uint32_t count, const sbr_detail_definition *detail) {
+  sbf_diagnostic error;
+  sbr_world_definition definition = sbr_default_world_definition();
+  *c = (crowd){.name = name};
+  definition.character_capacity = count;
+  bench_require(sbr_world_create(&definition, &c->world, &error), &error);
+  if (detail) bench_require(sbr_world_detail(c->world, detail, &error), &error);
+  for (uint32_t i = 0; i < count; i++) {
+    sbr_character_definition at = sbr_default_character_definition();
+    at.position = (sbr_double3){3.0 * (i % COLUMNS) - 1.5 * COLUMNS, 0, 3.0 * (i / COLUMNS)};
+    at.heading = 0.7f * (float)i;
+    bench_require(sbr_character_create(c->world, model, &at, &c->ids[i], &error), &error);
+    sbr_character_drive(c->world, c->ids[i], 0.2f + 0.05f * (float)(i % 7), 0, 0.1f * (float)(i % 5) - 0.2f);
+  }
+}
+
+/* Along the front of the crowd, two metres from it, at a man's height; it turns as it goes. */
+static sbr_view view_at(double seconds, double all_s) {
+  double share = seconds / all_s, turn = 0.8 * (share - 0.5);
+  return (sbr_view){.eye = {40 * share - 20, 1.7, -3.5},
+      .forward = {(float)sin(turn), -0.12f, (float)cos(turn)},
+      .height_rad = HEIGHT_RAD,
+      .width_ratio = WIDE,
+      .lines = LINES};
+}
+
+/* Pixels right and up; false behind the eye and beyond the edges. */
+static bool project(const sbr_view *view, double x, double y, double z, double *right, double *up) {
+  double fx = (double)view->forward.x, fy = (double)view->forward.y, fz = (double)view->forward.z;
+  double size = sqrt(fx * fx + fy * fy + fz * fz), flat = sqrt(fx * fx + fz * fz);
+  double along, across, over, pixels = (double)LINES / 2 / tan((double)HEIGHT_RAD / 2);
+  x -= view->eye.x, y -= view->eye.y, z -= view->eye.z;
+  along = (x * fx + y * fy + z * fz) / size;
+  across = (x * fz - z * fx) / flat;
+  over = (y * flat * flat - fy * (x * fx + z * fz)) / (flat * size);
+  if (!(along > 0.1)) return false;
+  *right = pixels * across / along, *up = pixels * over / along;
+  return fabs(*up) <= 0.5 * (double)LINES && fabs(*right) <= 0.5 * (double)LINES * (double)WIDE;
+}
+
+/* The skin in the world, all meshes behind each other; returns how many vertices. */
+static uint32_t read_skin(const crowd *c, uint32_t i, uint32_t mesh_count, uint32_t capacity, sbf_vec3 *to) {
+  uint32_t count = 0;
+  for (uint32_t m = 0; m < mesh_count; m++)
+    count += sbr_character_skin(c->world, c->ids[i], m, to + count, NULL, NULL, capacity - count);
+  return count;
+}
+
+static void compare_lizard(crowd *c, const crowd *full, uint32_t i, const sbr_view *view, uint32_t mesh_count,
+    uint32_t capacity, sbf_vec3 *places[2]) {
+  sbr_double3 origins[2] = {
+      sbr_character_origin(full->world, full->ids[i]), sbr_character_origin(c->world, c->ids[i])};
+  double sum = 0, at[2][2];
+  uint32_t seen = 0, count = read_skin(full, i, mesh_count, capacity, places[0]);
+  read_skin(c, i, mesh_count, capacity, places[1]);
+  for (uint32_t v = 0; v < count; v++) {
+    bool within = true;
+    for (int k = 0; k < 2; k++)
+      within = within &&
+               project(view, origins[k].x + (double)places[k][v].x, origins[k].y + (double)places[k][v].y,
+                   origins[k].z + (double)places[k][v].z, &at[k][0], &at[k][1]);
+    if (!within) continue;
+    double x = at[1][0] - at[0][0], y = at[1][1] - at[0][1], square = x * x + y * y;
+    sum += square, seen++;
+    if (square > c->worst_square) c->worst_square = square;
+  }
+  if (!seen) return;
+  c->squares += sum, c->vertices += seen;
+  if (sum / seen > c->worst_lizard) c->worst_lizard = sum / seen;
+}
+
+static void compare(crowd *c, const crowd *full, uint32_t count, const sbr_view *view, const sbf_asset *asset,
+    uint32_t capacity, sbf_vec3 *places[2]) {
+  c->looks++;
+  for (uint32_t i = 0; i < count; i++) {
+    c->returned += c->was_away[i];
+    if (!c->was_away[i]) compare_lizard(c, full, i, view, asset->render_meshes.count, capacity, places);
+  }
+}
+
+static void step(crowd *c, uint32_t count, const sbr_view *view, const sbr_rung *rungs, bool counts) {
+  double begin = bench_now_s();
+  sbr_world_views(c->world, view, 1);
+  sbr_world_tick(c->world);
+  double taken = bench_now_s() - begin;
+  for (uint32_t i = 0; i < count; i++) {
+    const sbr_rung *rung = &rungs[sbr_character_rung(c->world, c->ids[i])];
+    c->was_away[i] = c->was_away[i] || rung->kind == SBR_RUNG_AWAY;
+    if (counts) c->rungs[rung->kind]++, c->visits += (double)rung->visits;
+  }
+  if (counts) c->seconds += taken, c->ticks++;
+}
+
+static void report(const crowd *c, const crowd *full, uint32_t count) {
+  double ticks = c->ticks, vertices = c->vertices ? (double)c->vertices : 1;
+  bench_print_row("%s,%u,%.2f,%.1f,%.0f,%.3f,%.3f,%.2f,%.1f,%.1f,%.1f,%.1f,%.1f", c->name, count,
+      1e3 * c->seconds / ticks, full->seconds / c->seconds, c->visits / ticks, sqrt(c->squares / vertices),
+      sqrt(c->worst_lizard), sqrt(c->worst_square), c->rungs[SBR_RUNG_SOFT] / ticks,
+      c->rungs[SBR_RUNG_JIGGLE] / ticks, c->rungs[SBR_RUNG_BONES] / ticks, c->rungs[SBR_RUNG_AWAY] / ticks,
+      c->looks ? c->returned / c->looks : 0);
+}
+
+int main(int argument_count, char **arguments) {
+  bool quick = bench_is_quick(argument_count, arguments);
+  uint32_t count = quick ? 6 : MOST, ticks = quick ? 12 : 210, first = quick ? 2 : 30, vertices = 1;
+  sbf_diagnostic error;
+  sbf_asset *source = our_lizard(false), *asset;
+  const sbf_build_options levels = {.levels = 2};
+  bench_require(sbf_build(source, &levels, &asset, NULL, &error), &error);
+  const sbr_model_options options = {.ladder = true};
+  sbr_model *model;
+  bench_require(sbr_model_create(asset, &options, &model, &error), &error);
+  sbr_rung rungs[16];
+  sbr_model_rungs(model, rungs, 16);
+  sbr_detail_definition stays = sbr_default_detail_definition(), goes = stays, spares = stays;
+  stays.away_after_s = -1;
+  spares.away_after_s = -1, spares.budget_us = 4000;
+  static crowd crowds[CASES];
+  open_crowd(&crowds[0], "full detail", model, count, NULL);
+  open_crowd(&crowds[1], "half a pixel", model, count, &stays);
+  open_crowd(&crowds[2], "and away where unseen", model, count, &goes);
+  open_crowd(&crowds[3], "half a pixel or 4 ms", model, count, &spares);
+  for (uint32_t m = 0; m < asset->render_meshes.count; m++)
+    vertices += asset->render_meshes.at[m].mesh.positions.count;
+  sbf_vec3 *places[2];
+  for (int k = 0; k < 2; k++) places[k] = bench_allocate(vertices, sizeof *places[k]);
+  for (uint32_t t = 0; t < ticks; t++) {
+    sbr_view view = view_at(t, ticks);
+    for (int k = 0; k < CASES; k++) step(&crowds[k], count, &view, rungs, t >= first);
+    for (int k = 1; k < CASES && t >= first && t % COMPARED_EVERY == 0; k++)
+      compare(&crowds[k], &crowds[0], count, &view, asset, vertices, places);
+  }
+  bench_print_columns("case,lizards,ms_tick,times_full,visits,rms_px,worst_lizard_px,worst_px,soft,jiggle,"
+                      "bones,away,returned");
+  for (int k = 0; k < CASES; k++) report(&crowds[k], &crowds[0], count);
+  for (int k = 0; k < CASES; k++) sbr_world_destroy(crowds[k].world);
+  for (int k = 0; k < 2; k++) free(places[k]);
+  sbr_model_destroy(model);
+  sbf_asset_free(asset);
+  sbf_asset_free(source);
+  return 0;
+}
