@@ -9,8 +9,9 @@ trap 'rm -r "$folder"' EXIT
 # film NAME VIEW SECONDS: a small GIF of the example's script
 film() {
   case " ${names:-$1} " in *" $1 "*) ;; *) return 0 ;; esac
-  if [ -f "$1/make_bundle.py" ]; then
-    python3 -B "$1/make_bundle.py" "$sbfmt" "$folder/$1.sbf"
+  maker=$(echo "$1"/make*bundle.py)
+  if [ -f "$maker" ]; then
+    python3 -B "$maker" "$sbfmt" "$folder/$1.sbf"
   else
     "$sbfmt" convert "$1/$1.glb" -o "$folder/$1.sbf"
   fi
@@ -25,3 +26,4 @@ film spider 38,24 3.5
 film snake 32,30 3.8
 film koi 48,26 4
 film dragon 48,26 3.8
+film pudding 55,16 3.8

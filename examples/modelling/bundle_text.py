@@ -1,4 +1,4 @@
-"""Adds to a bundle what a mesh and a rig cannot hold: poses of a walk, chains of bones with names. A bundle is XML, so this
+"""Adds to a bundle what a mesh and a rig cannot hold: poses of a walk, chains of bones with names, and more. A bundle is XML, so this
 is text put into text; `sbfmt build` then makes the rest and writes it in its own order.
 
 Python 3 standard library only.
@@ -70,8 +70,8 @@ def retarget_chains(text, chains):
                      for name, bones in chains.items())
 
 
-def make_bundle(sbfmt, model, out, poses, chains, options=()):
-    """Converts the model, adds poses and chains, builds; ends the program where `sbfmt` fails."""
+def make_bundle(sbfmt, model, out, poses=(), chains=None, options=(), more=""):
+    """Converts the model, adds poses, chains and what more there is, as text, builds; ends the program where `sbfmt` fails."""
     with tempfile.TemporaryDirectory() as folder:
         source = os.path.join(folder, "source.sbf")
         calls = [[sbfmt, "convert", "--no-build", model, "-o", source, *options], [sbfmt, "build", source, "-o", out]]
@@ -79,8 +79,11 @@ def make_bundle(sbfmt, model, out, poses, chains, options=()):
             sys.exit(1)
         with open(source, encoding="utf-8") as stream:
             text = stream.read()
-        added = "<poses>\n" + "\n".join(pose_text(p, rest_rotations(text)) for p in poses) + "\n</poses>\n"
-        added += "<retarget_chains>\n" + retarget_chains(text, chains) + "\n</retarget_chains>\n"
+        added = more
+        if poses:
+            added += "<poses>\n" + "\n".join(pose_text(p, rest_rotations(text)) for p in poses) + "\n</poses>\n"
+        if chains:
+            added += "<retarget_chains>\n" + retarget_chains(text, chains) + "\n</retarget_chains>\n"
         with open(source, "w", encoding="utf-8") as stream:
             stream.write(text.replace("</sbf>", added + "</sbf>"))
         if subprocess.run(calls[1], check=False).returncode:

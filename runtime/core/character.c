@@ -155,12 +155,12 @@ void sbr_character_teleport(
   sbri_record(world, SBRI_RECORDED_TELEPORT,
       (const double[]){character.value, position.x, position.y, position.z, (double)heading});
   sbri_character_wake(c);
-  sbri_deltas_make(c, sbri_pose(c), sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_previous_deltas(c));
   put(world, c, position, heading);
   sbri_rigid_carry(c);
   sbri_jiggles_place(c);
   sbri_fade_end(c);
-  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_carry(c, i);
   sbri_settle(c);
   world->stamp++;

@@ -159,9 +159,9 @@ void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *t, float
   for (uint32_t b = 0; b < t->model->body_count; b++)
     sbri_reactions(c)[b] = (sbri_reaction){.about = t->bodies[b].pose.position};
   sbri_rigid_pose(c, group->animated, from, 0, sbri_stepped_pose(c));
-  sbri_deltas_make(c, sbri_stepped_pose(c), sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_stepped_pose(c), from, sbri_previous_deltas(c));
   sbri_rigid_pose(c, group->animated, to, step_s, sbri_stepped_pose(c));
-  sbri_deltas_make(c, sbri_stepped_pose(c), sbri_deltas(c));
+  sbri_deltas_make(c, sbri_stepped_pose(c), to, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (sbri_island_is_coupled(c, i)) act_on_island(group, i, step_s, to - from);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
@@ -178,8 +178,8 @@ void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *t, float
 
 void sbri_coupled_end(sbri_coupled *group) {
   sbri_character *c = group->character;
-  sbri_deltas_make(c, sbri_previous_pose(c), sbri_previous_deltas(c));
-  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!sbri_island_is_coupled(c, i)) continue;
     const sbri_island *island = &c->model->islands[i];
@@ -198,7 +198,7 @@ void sbri_coupled_end(sbri_coupled *group) {
 bool sbri_coupled_sleep(sbri_coupled *group) {
   sbri_character *c = group->character;
   sbri_rigid_pose(c, group->animated, 1, 0, sbri_stepped_pose(c));
-  sbri_deltas_make(c, sbri_stepped_pose(c), sbri_deltas(c));
+  sbri_deltas_make(c, sbri_stepped_pose(c), 1, sbri_deltas(c));
   bool all = true;
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (sbri_island_is_coupled(c, i)) all = sbri_island_sleeps(group->world, c, i) && all;

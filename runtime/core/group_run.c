@@ -75,7 +75,7 @@ static uint32_t begin(const sbr_world *world, sbri_meet_member *m) {
   uint32_t most = LEAST_STEPS;
   if (sbri_rigid_parts_begin(world, c, &m->parts) && m->parts.tick.substeps > most)
     most = m->parts.tick.substeps;
-  if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!is_own(m, i)) {
       if (sbri_island_is_coupled(c, i)) hold(c, &c->model->islands[i]);
@@ -115,7 +115,7 @@ static void advance(const sbr_world *world, sbri_meet_member *m, float from, flo
   sbri_character *c = m->character;
   if (m->parts.steps) {
     sbri_rigid_advance(&m->parts.tick, &m->parts.work, from, to);
-    sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c)); /* which the step had for its own */
+    sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c)); /* which the step had for its own */
   }
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (is_own(m, i)) advance_island(world, m, i, from, to);
@@ -140,7 +140,7 @@ static void end(const sbr_world *world, sbri_meet_member *m) {
   sbri_character *c = m->character;
   if (m->parts.steps) sbri_rigid_parts_end(&m->parts);
   sbri_jiggles_tick(c, m->tick_s);
-  if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++)
     if (is_own(m, i)) end_island(world, m, i);
   for (uint32_t i = 0; i < c->model->island_count; i++)

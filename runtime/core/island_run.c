@@ -46,6 +46,7 @@ sbri_island_tick sbri_island_tick_of(
   const sbr_model *model = c->model;
   size_t first = island->first_slot;
   float tick_s = (float)world->tick_s * c->time_scale;
+  const sbri_delta *anchor = &sbri_deltas(c)[sbri_anchor_frame(model)];
   return (sbri_island_tick){.model = model,
       .island = island,
       .tick_s = tick_s,
@@ -72,7 +73,7 @@ sbri_island_tick sbri_island_tick_of(
       .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
       .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
       .outer = island->has_outer ? sbri_outer(c) + first : NULL,
-      .anchor = sbri_deltas(c)[sbri_anchor_frame(model)],
+      .anchor = {anchor->position, anchor->rotation},
       .surface_forces = sbri_surface_forces(c),
       .surface_velocities = sbri_surface_velocities(c),
       .accelerations = sbri_accelerations(c) + 3 * first,

@@ -153,18 +153,19 @@ void sbri_mend(sbri_character *c) {
 
 void sbri_settle(sbri_character *c) {
   memcpy(sbri_previous_pose(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
+  sbri_gait_settle(&c->model->rig, sbri_gait(c));
   memcpy(sbri_previous_positions(c), sbri_positions(c), c->model->slot_count * sizeof(sbri_point));
 }
 
 void sbri_place_at_rest(sbri_character *c) {
-  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_place_at_rest(c, i);
   sbri_settle(c);
 }
 
 /* Points of a body go where their guides go, and what they are off their guides turns with it. */
 static void carry_body(sbri_character *c, const sbri_body *body, sbri_point *positions) {
-  const sbr_transform *from = sbri_previous_deltas(c), *to = sbri_deltas(c);
+  const sbri_delta *from = sbri_previous_deltas(c), *to = sbri_deltas(c);
   uint32_t frame = turning_frame(c, body);
   sbf_quat turn =
       sbri_quat_normalize(sbri_quat_multiply(to[frame].rotation, sbri_quat_conjugate(from[frame].rotation)));

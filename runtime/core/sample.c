@@ -22,19 +22,13 @@ static void sample(const sbr_world *world, sbri_character *c) {
   const sbri_point *from = sbri_previous_positions(c), *to = sbri_positions(c);
   if (t >= 1) {
     memcpy(sbri_sampled(c), to, model->slot_count * sizeof *to);
-    sbri_deltas_make(c, sbri_pose(c), sbri_sampled_deltas(c));
+    sbri_deltas_make(c, sbri_pose(c), 1, sbri_sampled_deltas(c));
     return;
   }
   const float *a = &from->x, *b = &to->x;
   float *mixed = &sbri_sampled(c)->x;
   for (size_t i = 0; i < 4 * (size_t)model->slot_count; i++) mixed[i] = a[i] + (b[i] - a[i]) * t;
-  sbr_transform *frames = sbri_sampled_deltas(c);
-  for (uint32_t f = 0; f < model->frame_count; f++) {
-    const sbr_transform *p = &sbri_previous_pose(c)[f], *q = &sbri_pose(c)[f];
-    frames[f].position = sbri_lerp(p->position, q->position, t);
-    frames[f].rotation = sbri_quat_blend(p->rotation, q->rotation, t);
-  }
-  sbri_deltas_make(c, frames, frames);
+  sbri_deltas_between(c, t, sbri_sampled_deltas(c));
 }
 
 sbr_double3 sbr_character_origin(const sbr_world *world, sbr_character_id character) {
@@ -55,6 +49,22 @@ void sbr_character_bones(
     bones[f].position = t >= 1 ? q->position : sbri_lerp(p->position, q->position, t);
     bones[f].rotation = t >= 1 ? q->rotation : sbri_quat_blend(p->rotation, q->rotation, t);
   }
+}
+
+uint32_t sbr_character_bone_scales(
+    const sbr_world *world, sbr_character_id character, sbf_vec3 *scales, uint32_t capacity) {
+  const sbri_character *c = sbri_character_of(world, character);
+  uint32_t count = c ? c->model->rig.bone_count : 0;
+  for (uint32_t b = 0; scales && b < count && b < capacity; b++) scales[b] = (sbf_vec3){1, 1, 1};
+  for (uint32_t i = 0; c && scales && i < c->model->asset->followers.count; i++) {
+    const sbf_follower *source = &c->model->asset->followers.at[i];
+    float along = sbri_gait_stretch(&c->model->rig, sbri_gait(c), i, share_of_tick(world));
+    if (along == 1 || (uint32_t)source->bone >= capacity) continue;
+    sbf_vec3 axis = sbri_squash_axis(source);
+    float across = 1 / sqrtf(along), more = along - across;
+    scales[source->bone] = (sbf_vec3){across + more * axis.x, across + more * axis.y, across + more * axis.z};
+  }
+  return count;
 }
 
 static void write_points(const sbri_character *c, const sbri_point *from, uint32_t count, sbf_vec3 *to) {

@@ -74,8 +74,8 @@ static void make_layout(sbr_model *model) {
   l->jiggles = place(&end, model->jiggle_count, sizeof(sbri_place_follower));
   l->used_size = l->state_size = (end + 63) & ~(size_t)63;
   end = 0;
-  l->deltas = place(&end, frames, sizeof(sbr_transform));
-  l->previous_deltas = place(&end, frames, sizeof(sbr_transform));
+  l->deltas = place(&end, 1, sbri_deltas_size(model));
+  l->previous_deltas = place(&end, 1, sbri_deltas_size(model));
   l->animated = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
   l->rigid_targets = place(&end, model->rigid.body_count, sizeof(sbr_transform));
   l->reactions = place(&end, model->rigid.body_count, sizeof(sbri_reaction));
@@ -105,7 +105,7 @@ static void make_layout(sbr_model *model) {
   l->touching = place(&end, model->asset->soft_bodies.count, sizeof(sbri_touching));
   l->rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
   l->sampled = place(&end, slots, sizeof(sbri_point));
-  l->sampled_deltas = place(&end, frames, sizeof(sbr_transform));
+  l->sampled_deltas = place(&end, 1, sbri_deltas_size(model));
   l->vertices = place(&end, padded(vertices), sizeof(sbri_point));
   l->faces = place(&end, faces * SBRI_BLOCK, sizeof(sbri_point));
   l->sums = place(&end, padded(groups > vertices ? groups : vertices), sizeof(sbri_point));

@@ -7,6 +7,7 @@
 #include "collide/touching.h"
 #include "gait/gait.h"
 #include "math/follower.h"
+#include "model/delta.h"
 #include "model/island_tick.h"
 #include "model/runtime_model.h"
 #include "rigid/rigid_state.h"
@@ -117,8 +118,8 @@ SBRI_STATE_PART(jiggles, sbri_place_follower, c->model->layout.jiggles) /* (jigg
   static inline type *sbri_##name(const sbri_character *c) {                                                 \
     return (type *)(void *)(c->scratch + (offset));                                                          \
   }
-SBRI_SCRATCH_PART(deltas, sbr_transform, c->model->layout.deltas)                   /* (frame_count) */
-SBRI_SCRATCH_PART(previous_deltas, sbr_transform, c->model->layout.previous_deltas) /* (frame_count) */
+SBRI_SCRATCH_PART(deltas, sbri_delta, c->model->layout.deltas)                   /* (frame_count) */
+SBRI_SCRATCH_PART(previous_deltas, sbri_delta, c->model->layout.previous_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(
     animated, sbr_transform, c->model->layout.animated) /* (frame_count) pose before rigid parts */
 SBRI_SCRATCH_PART(rigid_targets, sbr_transform, c->model->layout.rigid_targets) /* (rigid bodies) */
@@ -154,8 +155,8 @@ SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangl
 SBRI_SCRATCH_PART(
     self_nodes, sbri_bounds_node, c->model->layout.self_nodes) /* (twice that, and one a body) */
 SBRI_SCRATCH_PART(self_items, uint32_t, c->model->layout.self_items)
-SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)                  /* (slot_count) */
-SBRI_SCRATCH_PART(sampled_deltas, sbr_transform, c->model->layout.sampled_deltas) /* (frame_count) */
+SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)               /* (slot_count) */
+SBRI_SCRATCH_PART(sampled_deltas, sbri_delta, c->model->layout.sampled_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */
 SBRI_SCRATCH_PART(faces, sbri_point, c->model->layout.faces)       /* (most faces of a mesh, padded) */
 SBRI_SCRATCH_PART(sums, sbri_point, c->model->layout.sums)         /* (most groups of a mesh, padded) */
@@ -218,15 +219,18 @@ void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *tick, float
 
 /* ---- core/frames.c ---- */
 
-/* The frames' motion since the rest pose, in asset metres: what carries a rest position to where it is now.
- */
-void sbri_deltas_make(const sbri_character *c, const sbr_transform *pose, sbr_transform *deltas);
+/* The frames' motion since the rest pose: of a pose, squashed as at a `share` of the tick between the last
+ * `settle` and now; or all of it at that share. What it fills takes sbri_deltas_size bytes. */
+size_t sbri_deltas_size(const sbr_model *model);
+void sbri_deltas_make(const sbri_character *c, const sbr_transform *pose, float share, sbri_delta *deltas);
+void sbri_deltas_between(const sbri_character *c, float share, sbri_delta *deltas);
+/* One frame of it, not squashed. */
 sbr_transform sbri_delta_of(const sbri_character *c, const sbr_transform *pose, uint32_t frame);
 /* Where guides put the free points of a body (slot_end - slot_begin of them). */
 void sbri_guide_places(
-    const sbr_model *model, const sbri_body *body, const sbr_transform *deltas, sbri_point *places);
+    const sbr_model *model, const sbri_body *body, const sbri_delta *deltas, sbri_point *places);
 /* Where frames put the held points of an island, at their slots in `places`. */
-void sbri_held_places(const sbri_island *island, const sbr_transform *deltas, sbri_point *places);
+void sbri_held_places(const sbri_island *island, const sbri_delta *deltas, sbri_point *places);
 /* The root frame of the present state. */
 sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground);
 

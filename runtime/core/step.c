@@ -91,7 +91,7 @@ static void tick_character(void *context, uint32_t index) {
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbr_transform *pose = sbri_pose(c);
   bool has_bodies = c->model->island_count > 0; /* which alone ask where frames carry them */
-  if (has_bodies) sbri_deltas_make(c, pose, sbri_previous_deltas(c));
+  if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_previous_deltas(c));
   bool may_sleep = sbri_character_may_sleep(world, c);
   if (may_sleep) sbri_character_keep_gait(c);
   c->event_count = sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events, SBRI_TICK_EVENTS);
@@ -99,7 +99,7 @@ static void tick_character(void *context, uint32_t index) {
   if (is_grouped(world, c)) return;
   sbri_rigid_tick_parts(world, c);
   sbri_jiggles_tick(c, (float)world->tick_s * c->time_scale);
-  if (has_bodies) sbri_deltas_make(c, pose, sbri_deltas(c));
+  if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_deltas(c));
   sbri_head(c)->asleep = may_sleep && !world->colliders.moving && sbri_character_is_still(c);
 }
 

@@ -199,8 +199,8 @@ static void go_over(const sbr_world *world, sbri_character *c, uint32_t rung) {
   double *before_j = sbri_energies(c);
   for (uint32_t b = 0; was_soft && b < was->asset->soft_bodies.count; b++)
     before_j[b] = elastic_of(world, c, b);
-  sbri_deltas_make(c, sbri_previous_pose(c), sbri_previous_deltas(c));
-  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   if (was_soft) keep_soft(c, tick_s);
   keep(c);
   c->model = is;
@@ -208,8 +208,8 @@ static void go_over(const sbr_world *world, sbri_character *c, uint32_t rung) {
   take_counts(c, was);
   sbri_jiggles_place(c);
   swing(c, was, tick_s);
-  sbri_deltas_make(c, sbri_previous_pose(c), sbri_previous_deltas(c));
-  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   sbri_mend(c);
   take_soft(world, c, was, was_rung, before_j, tick_s);
 }
@@ -224,7 +224,7 @@ void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   bool returns = sbri_is_away(c), same = c->model == c->model->base->rungs[rung];
   bool fades = head->unseen_ticks == 0 && !same && !returns; /* nobody has seen one that was away */
   if (fades) {
-    sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+    sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
     sbri_fade_keep(c);
   }
   if (returns) sbri_away_arrive(world, c);
@@ -232,7 +232,7 @@ void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   head->rung = rung;
   head->rung_ticks = 0;
   head->asleep = 0;
-  sbri_deltas_make(c, sbri_pose(c), sbri_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   if (fades)
     sbri_fade_begin(world, c);
   else if (!same || returns)

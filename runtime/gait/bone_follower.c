@@ -7,6 +7,7 @@ void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri
   for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
     const sbf_follower *source = &rig->asset->followers.at[i];
     uint32_t b = (uint32_t)source->bone;
+    if (source->channel == SBF_FOLLOWER_CHANNEL_SQUASH) continue; /* gait/squash.c */
     const sbr_transform *parent = rig->parents[b] >= 0 ? &pose[rig->parents[b]] : root;
     sbf_quat back = sbri_quat_conjugate(parent->rotation);
     sbf_vec3 place = sbri_rotate(back, sbri_sub(pose[b].position, parent->position));

@@ -49,6 +49,13 @@ void sbri_gait_pose(
 /* The origin moved by `shift`: subtract it from every place. */
 void sbri_gait_rebase(const sbri_rig *rig, void *state, sbf_vec3 shift);
 
+/* The axis of a follower that squashes, in its bone's frame; and how much that bone is stretched along it, at
+ * a share of the tick between the last `settle` and now; 1 for other followers. */
+sbf_vec3 sbri_squash_axis(const sbf_follower *source);
+float sbri_gait_stretch(const sbri_rig *rig, const void *state, uint32_t follower, float share);
+/* A tick begins. */
+void sbri_gait_settle(const sbri_rig *rig, void *state);
+
 /* At a share of the last tick: what came down or lifted off at its end had not done so before. */
 uint32_t sbri_gait_legs(
     const sbri_rig *rig, const void *state, float share, sbr_leg_state *legs, uint32_t capacity);

@@ -96,6 +96,8 @@ typedef struct sbri_limb_target {
 typedef struct sbri_bone_follower {
   sbri_place_follower place; /* in the parent's frame, asset metres */
   sbri_turn_follower turn;   /* against the parent */
+  /* Of a squash, whose `place` is in world axes: along the bone's axis, now and a tick ago. */
+  float stretch, stretch_before;
 } sbri_bone_follower;
 
 static inline sbri_lag *sbri_tail_lags(sbri_gait_state *state) {
@@ -334,6 +336,12 @@ void sbri_chains_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
     const sbr_transform *root, sbri_advance advance, sbr_transform *pose);
 void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbri_advance advance, sbr_transform *pose);
+
+/* ---- gait/squash.c: before the legs ---- */
+
+void sbri_squashes_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_advance advance, sbr_transform *pose);
+void sbri_squashes_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift);
 
 /* ---- gait/tail.c ---- */
 

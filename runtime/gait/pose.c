@@ -231,10 +231,14 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
     pose[i].position = sbri_add(stance.root.position, sbri_rotate(stance.root.rotation, place));
     pose[i].rotation = sbri_quat_multiply(stance.root.rotation, rig->rest[i].rotation);
   }
-  if (input->hold) return;
+  if (input->hold) {
+    sbri_squashes_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);
+    return;
+  }
   sbri_clips_pose(rig, state, input->scale, pose);
   pose_bones(rig, state, &stance, input->scale, pose);
   sbri_chains_pose(rig, state, input, &stance.root, advance, pose);
+  sbri_squashes_pose(rig, state, input, advance, pose);
   sbf_quat back = sbri_quat_conjugate(stance.root.rotation);
   for (uint32_t i = 0; i < rig->leg_count; i++)
     state->feet[i].hip = sbri_rotate(back, sbri_sub(pose[rig->legs[i].upper].position, stance.root.position));

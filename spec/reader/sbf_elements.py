@@ -22,7 +22,8 @@ weight_property: density young_modulus bending_stiffness mass_damping stiffness_
 scheme: automatic symplectic position_based relaxation explicit_euler heun block_descent
 ik_solver: two_bone ccd fabrik damped_least_squares spline
 chain_kind: lag distance
-follower_channel: rotation position both
+follower_channel: rotation position both squash
+bone_axis: x y z
 track_property: translation rotation scale
 interpolation: linear step cubic
 field_kind: uniform radial vortex drag
@@ -431,6 +432,9 @@ follower
   frequency: float default=2 range=(0,inf)
   damping_ratio: float default=0.5 range=[0,inf)
   response: float default=0
+  axis: enum(bone_axis) default=y
+  strength: float default=1 range=[0,inf)
+  limit: float default=0.5 range=(0,inf)
 clip CLIP
   id: id required
   name: string

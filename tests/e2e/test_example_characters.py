@@ -8,7 +8,7 @@ import sys
 import unittest
 
 from bundle_file import Bundle
-from motion_files import read_poses, rotated
+from motion_files import PointCache, read_poses, rotated
 from sbfmt_program import PROGRAM, ROOT, ProgramTest, main
 
 # legs; what is allowed at half a leg length a second: change of a knee's speed (degrees), slip (m)
@@ -73,6 +73,25 @@ class Characters(ProgramTest):
                            for bone in ("hand", "foot"))
             self.assertGreater(max(hands) - min(hands), least)
             self.assertLess(statistics.correlation(hands, feet), -0.7)
+
+    def test_the_pudding_is_flat_where_it_lands_and_long_in_the_air(self):
+        path, out, poses = (self.path(name) for name in ("pudding.sbf", "p.pc2", "p.csv"))
+        maker = os.path.join(ROOT, "examples", "pudding", "make_pudding_bundle.py")
+        subprocess.run([sys.executable, "-B", maker, PROGRAM, path], capture_output=True, check=True)
+        self.assertEqual(self.json_of("validate", path)["errors"], 0)
+        report = self.json_of("run", path, "--seconds", "6", "--script", self.script_of("pudding"), "--cache", out, "--pose", poses)
+        self.assertTrue(report["valid"])
+        self.assertGreater(report["volume_ratio_least"], 0.95)
+        skin, bones = PointCache(out), read_poses(poses)[0]
+        heights = [max(ys) - min(ys) for ys in ([skin.place(frame, i)[1] for i in range(skin.point_count)]
+                                                for frame in range(skin.sample_count))]
+        ups = [bones[i]["body"][1] for i in range(len(heights))]
+        landings = [i for i in range(30, len(ups)) if ups[i] < 1e-3 < ups[i - 1]]
+        self.assertGreaterEqual(len(landings), 4)
+        for i in landings[:-1]:
+            self.assertLess(min(heights[i:i + 12]), 0.8 * heights[0])
+            self.assertGreater(max(heights[i - 20:i + 1]), 1.15 * heights[0])
+            self.assertGreater(max(ups[i - 20:i]), 0.145)
 
     def test_they_walk_within_the_figures_on_flat_ground(self):
         for name, (_, knee, slip) in WALKERS.items():

@@ -15,7 +15,7 @@ from quad_mesh import check_mirror, check_surface  # noqa: E402
 from skin_files import planted, triangles_of  # noqa: E402
 from model_files import Bone  # noqa: E402
 
-NAMES = ("caterpillar", "dragon", "koi", "pup", "snake", "spider", "yeti")
+NAMES = ("caterpillar", "dragon", "koi", "pudding", "pup", "snake", "spider", "yeti")
 
 
 def make(name, *arguments):

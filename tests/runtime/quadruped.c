@@ -38,8 +38,8 @@ static const int32_t feet[4] = {10, 13, 16, 19};
 static const char *const chain_ids[4] = {"ik.hind.L", "ik.hind.R", "ik.fore.L", "ik.fore.R"};
 static const uint32_t tail_bones[3] = {5, 6, 7};
 
-void quadruped_create(quadruped *q) {
-  sbf_asset *a = q->asset = sbf_asset_create(NULL);
+sbf_asset *quadruped_asset(void) {
+  sbf_asset *a = sbf_asset_create(NULL);
   sbf_bone *bones = sbf_asset_allocate(a, BONE_COUNT, sizeof *bones);
   for (int i = 0; i < BONE_COUNT; i++) {
     sbf_bone_init(&bones[i]);
@@ -87,8 +87,13 @@ void quadruped_create(quadruped *q) {
   gait->tails = (sbf_tail_list){tail, 1};
   gait->head = head;
   a->gaits = (sbf_gait_list){gait, 1};
-  q->memory = malloc(sbri_rig_size(a));
-  sbri_rig_init(&q->rig, a, q->memory);
+  return a;
+}
+
+void quadruped_create(quadruped *q) {
+  q->asset = quadruped_asset();
+  q->memory = malloc(sbri_rig_size(q->asset));
+  sbri_rig_init(&q->rig, q->asset, q->memory);
 }
 
 void quadruped_destroy(quadruped *q) {

@@ -12,6 +12,8 @@ typedef struct quadruped {
   void *memory;
 } quadruped;
 
+/* The asset alone; freed with sbf_asset_free. */
+sbf_asset *quadruped_asset(void);
 void quadruped_create(quadruped *q);
 void quadruped_destroy(quadruped *q);
 

@@ -1,7 +1,5 @@
 /* Followers of bones: exact after a step of their pose, at any tick, in turn and in place. */
-#include <stdlib.h>
-
-#include "gait/gait_state.h"
+#include "gait_stage.h"
 #include "harness.h"
 #include "sbfmt/asset.h"
 
@@ -10,25 +8,12 @@ static const float HZ = 1.3f, RATIO = 0.4f;
 
 /* A post and an antenna on it, which a clip turns by 0.8 rad, or lifts by 0.3 m, from one tick to the next.
  */
-typedef struct stage {
-  sbf_asset *asset;
-  sbri_rig rig;
-  void *memory;
-  sbri_gait_state *state;
-  sbri_gait_input input;
-  sbr_ground ground;
-  sbr_transform pose[BONES];
-} stage;
-
-static void begin(stage *s, sbf_follower_channel channel, float tick_s, float scale) {
-  static const float times[1] = {0};
+static void begin(gait_stage *s, sbf_follower_channel channel, float tick_s, float scale) {
   static const float turned[4] = {0.389418342f, 0, 0, 0.921060994f}, lifted[3] = {0, 0.8f, 0};
   bool turns = channel == SBF_FOLLOWER_CHANNEL_ROTATION;
-  sbf_asset *a = s->asset = sbf_asset_create(NULL);
+  sbf_asset *a = sbf_asset_create(NULL);
   sbf_bone *bones = sbf_asset_allocate(a, BONES, sizeof *bones);
   sbf_follower *follower = sbf_asset_allocate(a, 1, sizeof *follower);
-  sbf_clip *clip = sbf_asset_allocate(a, 1, sizeof *clip);
-  sbf_track *track = sbf_asset_allocate(a, 1, sizeof *track);
   for (int i = 0; i < BONES; i++) {
     sbf_bone_init(&bones[i]);
     bones[i].parent = i - 1;
@@ -40,38 +25,16 @@ static void begin(stage *s, sbf_follower_channel channel, float tick_s, float sc
   follower->frequency = HZ;
   follower->damping_ratio = RATIO;
   follower->response = 0;
-  sbf_clip_init(clip);
-  sbf_track_init(track);
-  track->bone = 1;
-  track->property = turns ? SBF_TRACK_PROPERTY_ROTATION : SBF_TRACK_PROPERTY_TRANSLATION;
-  track->interpolation = SBF_INTERPOLATION_STEP;
-  track->times = (sbf_f32_list){times, 1};
-  track->values = turns ? (sbf_f32_list){turned, 4} : (sbf_f32_list){lifted, 3};
-  clip->tracks = (sbf_track_list){track, 1};
   a->bones = (sbf_bone_list){bones, BONES};
   a->followers = (sbf_follower_list){follower, 1};
-  a->clips = (sbf_clip_list){clip, 1};
-  s->memory = malloc(sbri_rig_size(a));
-  sbri_rig_init(&s->rig, a, s->memory);
-  s->ground = sbr_ground_flat(0);
-  s->input = (sbri_gait_input){.tick_s = tick_s, .scale = scale, .ground = &s->ground};
-  s->state = malloc(sbri_gait_state_size(&s->rig));
-  sbri_gait_place(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
-  sbri_gait_pose(&s->rig, s->state, &s->input, true, s->pose);
+  gait_stage_step_clip(a, 1, turns ? SBF_TRACK_PROPERTY_ROTATION : SBF_TRACK_PROPERTY_TRANSLATION,
+      turns ? turned : lifted, turns ? 4 : 3);
+  gait_stage_begin_scaled(s, a, tick_s, scale);
+  gait_stage_play(s);
 }
 
-static void tick(stage *s) {
-  sbri_gait_tick(&s->rig, s->state, &s->input, s->pose, NULL, 0);
-}
-
-static void play(stage *s) {
-  s->state->clips[0] = (sbri_clip_layer){.clip_plus_1 = 1, .speed = 1, .weight = 1, .wanted = 1};
-}
-
-static void end(stage *s) {
-  free(s->state);
-  free(s->memory);
-  sbf_asset_free(s->asset);
+static void tick(gait_stage *s) {
+  gait_stage_ticks(s, 1);
 }
 
 /* Of y + (2z/w) y' + y''/w^2 = x, where x goes evenly from 0 to 1 in h and stays: the answer to a ramp less
@@ -91,10 +54,9 @@ START_TEST(a_step_of_the_pose_is_followed_exactly_at_any_tick)
   static const int times_ms[] = {1, 4, 17, 33, 100, 250};
   for (size_t k = 0; k < sizeof times_ms / sizeof *times_ms; k++)
     for (int lifts = 0; lifts < 2; lifts++) {
-      stage s;
+      gait_stage s;
       double h = 0.001 * times_ms[k];
       begin(&s, lifts ? SBF_FOLLOWER_CHANNEL_POSITION : SBF_FOLLOWER_CHANNEL_ROTATION, (float)h, 1);
-      play(&s);
       double most = 0;
       for (int i = 1; (double)i * h < 2.5; i++) {
         tick(&s);
@@ -104,37 +66,35 @@ START_TEST(a_step_of_the_pose_is_followed_exactly_at_any_tick)
         most = is > most ? is : most;
       }
       ck_assert_double_gt(most, 1.1); /* it swings over */
-      end(&s);
+      gait_stage_end(&s);
     }
 }
 END_TEST
 
 START_TEST(what_is_placed_anew_does_not_swing)
 {
-  stage s;
+  gait_stage s;
   begin(&s, SBF_FOLLOWER_CHANNEL_ROTATION, 1.0f / 60, 1);
-  play(&s);
   for (int i = 0; i < 10; i++) tick(&s);
   sbri_gait_pose(&s.rig, s.state, &s.input, true, s.pose);
   for (int i = 0; i < 30; i++) {
     tick(&s);
     ck_assert_float_eq_tol(sbri_quat_log(s.pose[1].rotation).x, 0.8f, 1e-4f);
   }
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
 START_TEST(a_larger_copy_follows_alike)
 {
-  stage small, large;
+  gait_stage small, large;
   begin(&small, SBF_FOLLOWER_CHANNEL_POSITION, 1.0f / 60, 1);
   begin(&large, SBF_FOLLOWER_CHANNEL_POSITION, 1.0f / 60, 3);
-  play(&small), play(&large);
   for (int i = 0; i < 60; i++) {
     tick(&small), tick(&large);
     ck_assert_float_eq_tol(large.pose[1].position.y, 3 * small.pose[1].position.y, 1e-4f);
   }
-  end(&small), end(&large);
+  gait_stage_end(&small), gait_stage_end(&large);
 }
 END_TEST
 

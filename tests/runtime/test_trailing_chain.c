@@ -1,25 +1,14 @@
-#include "gait/gait_state.h"
+#include "gait_stage.h"
 #include "harness.h"
 #include "sbfmt/asset.h"
-
-#include <stdlib.h>
 
 /* A snake of eight bones of 0.2 m, head first, its body behind it. */
 enum { BONES = 8 };
 static const float LENGTH = 0.2f;
 
-typedef struct snake {
-  sbf_asset *asset;
-  sbri_rig rig;
-  void *memory, *state;
-  sbri_gait_input input;
-  sbr_ground ground;
-  sbr_transform pose[BONES];
-} snake;
-
-static void begin(snake *s, sbf_chain_kind kind, float damping) {
+static void begin(gait_stage *s, sbf_chain_kind kind, float damping) {
   static const uint32_t order[BONES] = {0, 1, 2, 3, 4, 5, 6, 7};
-  sbf_asset *a = s->asset = sbf_asset_create(NULL);
+  sbf_asset *a = sbf_asset_create(NULL);
   sbf_bone *bones = sbf_asset_allocate(a, BONES, sizeof *bones);
   for (int i = 0; i < BONES; i++) {
     sbf_bone_init(&bones[i]);
@@ -38,26 +27,14 @@ static void begin(snake *s, sbf_chain_kind kind, float damping) {
   chain->angle_limit = 0.4f;
   chain->damping = damping;
   a->chains = (sbf_chain_list){chain, 1};
-  s->memory = malloc(sbri_rig_size(a));
-  sbri_rig_init(&s->rig, a, s->memory);
-  s->ground = sbr_ground_flat(0);
-  s->input = (sbri_gait_input){.tick_s = 1.0f / 60, .scale = 1, .ground = &s->ground};
-  s->state = malloc(sbri_gait_state_size(&s->rig));
-  sbri_gait_place(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
-  sbri_gait_pose(&s->rig, s->state, &s->input, true, s->pose);
+  gait_stage_begin(s, a);
 }
 
-static void end(snake *s) {
-  free(s->state);
-  free(s->memory);
-  sbf_asset_free(s->asset);
-}
-
-static void run(snake *s, double seconds, float forward, float turn) {
+static void run(gait_stage *s, double seconds, float forward, float turn) {
   s->input.forward = forward;
   s->input.turn = turn;
   for (int i = 0; i < (int)(60 * seconds); i++) {
-    sbri_gait_tick(&s->rig, s->state, &s->input, s->pose, NULL, 0);
+    gait_stage_ticks(s, 1);
     for (int k = 1; k < BONES; k++) {
       float apart = sbri_length(sbri_sub(s->pose[k].position, s->pose[k - 1].position));
       ck_assert_float_eq_tol(apart, LENGTH, 1e-4f);
@@ -65,11 +42,11 @@ static void run(snake *s, double seconds, float forward, float turn) {
   }
 }
 
-static sbf_vec3 along(const snake *s, int k) {
+static sbf_vec3 along(const gait_stage *s, int k) {
   return sbri_rotate(s->pose[k].rotation, sbri_vec3(0, 1, 0));
 }
 
-static float most_bend(const snake *s) {
+static float most_bend(const gait_stage *s) {
   float most = 0;
   for (int k = 1; k < BONES; k++)
     most = fmaxf(most, acosf(sbri_clamp(sbri_dot(along(s, k), along(s, k - 1)), -1, 1)));
@@ -78,18 +55,18 @@ static float most_bend(const snake *s) {
 
 START_TEST(at_rest_it_is_as_modelled)
 {
-  snake s;
+  gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
   run(&s, 1, 0, 0);
   for (int k = 0; k < BONES; k++)
     ck_assert_float_le(sbri_length(sbri_sub(s.pose[k].position, s.rig.rest[k].position)), 1e-4f);
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
 START_TEST(the_body_goes_where_the_head_went)
 {
-  snake s;
+  gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
   run(&s, 3, 0.5f, 0);
   run(&s, 2, 0.5f, 0.8f);
@@ -97,79 +74,79 @@ START_TEST(the_body_goes_where_the_head_went)
   ck_assert_float_le(most_bend(&s), 0.41f);
   /* Its last bone still lies near the straight line that the head came along. */
   ck_assert_float_lt(fabsf(s.pose[BONES - 1].position.x), 0.5f * fabsf(s.pose[0].position.x));
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
 START_TEST(the_bend_is_bounded)
 {
-  snake s;
+  gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
   run(&s, 4, 0.05f, 3);
   ck_assert_float_le(most_bend(&s), 0.401f);
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
 START_TEST(damping_straightens_it_at_rest)
 {
-  snake stiff, limp;
+  gait_stage stiff, limp;
   begin(&stiff, SBF_CHAIN_KIND_DISTANCE, 3);
   begin(&limp, SBF_CHAIN_KIND_DISTANCE, 0);
   run(&stiff, 3, 0.4f, 1.2f), run(&limp, 3, 0.4f, 1.2f);
   run(&stiff, 5, 0, 0), run(&limp, 5, 0, 0);
   ck_assert_float_lt(most_bend(&stiff), 0.12f);
   ck_assert_float_gt(most_bend(&limp), 2 * most_bend(&stiff));
-  end(&stiff), end(&limp);
+  gait_stage_end(&stiff), gait_stage_end(&limp);
 }
 END_TEST
 
 START_TEST(links_keep_the_spacing_asked_for)
 {
   static const float spacing[BONES] = {0.2f, 0.3f, 0.1f, 0.25f, 0.2f, 0.2f, 0.4f, 0.2f};
-  snake s;
+  gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
   ((sbf_chain *)(uintptr_t)s.asset->chains.at)->spacing = (sbf_f32_list){spacing, BONES};
   sbri_gait_pose(&s.rig, s.state, &s.input, true, s.pose);
   s.input.forward = 0.4f, s.input.turn = 0.7f;
   for (int i = 0; i < 240; i++) {
-    sbri_gait_tick(&s.rig, s.state, &s.input, s.pose, NULL, 0);
+    gait_stage_ticks(&s, 1);
     for (int k = 1; k < BONES; k++) {
       float apart = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
       ck_assert_float_eq_tol(apart, spacing[k - 1], 1e-4f);
     }
   }
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
 START_TEST(a_swimmer_keeps_its_height)
 {
-  snake s;
+  gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 1);
   sbri_gait_place(&s.rig, s.state, &s.input, sbri_vec3(0, 0.7f, 0), 0);
   sbri_gait_pose(&s.rig, s.state, &s.input, true, s.pose);
   run(&s, 2, 0.5f, 1), run(&s, 2, 0.5f, -1);
   for (int k = 0; k < BONES; k++) ck_assert_float_eq_tol(s.pose[k].position.y, 0.8f, 1e-3f);
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
 START_TEST(a_lagging_chain_keeps_its_direction_for_a_while)
 {
-  snake s;
+  gait_stage s;
   begin(&s, SBF_CHAIN_KIND_LAG, 4);
   run(&s, 1, 0, 1);
   ck_assert_float_gt(most_bend(&s), 0.02f);
   run(&s, 5, 0, 0);
   ck_assert_float_lt(most_bend(&s), 0.01f);
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
 START_TEST(it_lies_on_the_ground)
 {
-  snake s;
+  gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 0);
   s.ground = sbr_ground_slope(15);
   run(&s, 6, 0.5f, 0);
@@ -178,7 +155,7 @@ START_TEST(it_lies_on_the_ground)
     float ground = (float)s.ground.height(&s.ground, (double)p.x, (double)p.z, &normal);
     ck_assert_float_eq_tol(p.y - ground, 0.1f, 0.06f); /* its head is held level */
   }
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
@@ -186,14 +163,14 @@ END_TEST
 START_TEST(empty_links_take_no_room)
 {
   static const float spacing[BONES] = {0.2f, 0, 0.2f, 0, 0, 0.3f, 0.2f, 0.2f};
-  snake s;
+  gait_stage s;
   begin(&s, SBF_CHAIN_KIND_DISTANCE, 1);
   ((sbf_chain *)(uintptr_t)s.asset->chains.at)->spacing = (sbf_f32_list){spacing, BONES};
   sbri_gait_pose(&s.rig, s.state, &s.input, true, s.pose);
   s.input.forward = 0.4f, s.input.turn = 0.9f;
   for (int i = 0; i < 300; i++) {
     if (i == 200) s.input.forward = s.input.turn = 0;
-    sbri_gait_tick(&s.rig, s.state, &s.input, s.pose, NULL, 0);
+    gait_stage_ticks(&s, 1);
     for (int k = 1; k < BONES; k++) {
       float apart = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
       ck_assert_float_eq_tol(apart, spacing[k - 1], 1e-4f);
@@ -201,7 +178,7 @@ START_TEST(empty_links_take_no_room)
     }
   }
   ck_assert_float_le(most_bend(&s), 0.41f);
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
@@ -211,7 +188,7 @@ START_TEST(straightening_takes_the_same_time_at_any_tick)
   float left[3];
   const int rates[3] = {30, 60, 240};
   for (int r = 0; r < 3; r++) {
-    snake s;
+    gait_stage s;
     begin(&s, SBF_CHAIN_KIND_LAG, 2);
     for (int k = 1; k < BONES; k++) { /* each continues the one before it, turned by 0.2 rad */
       sbri_chain_bone *bone = &sbri_chain_bones(&s.rig, s.state)[k];
@@ -219,9 +196,9 @@ START_TEST(straightening_takes_the_same_time_at_any_tick)
       bone->frame.rotation = sbri_quat_multiply(bend, bone->frame.rotation);
     }
     s.input.tick_s = 1 / (float)rates[r];
-    for (int i = 0; i < rates[r]; i++) sbri_gait_tick(&s.rig, s.state, &s.input, s.pose, NULL, 0);
+    gait_stage_ticks(&s, rates[r]);
     left[r] = most_bend(&s);
-    end(&s);
+    gait_stage_end(&s);
   }
   ck_assert_float_lt(left[1], 0.2f);
   ck_assert_float_eq_tol(left[0], left[1], 0.02f);
@@ -233,19 +210,19 @@ END_TEST
 START_TEST(nothing_jumps_where_headings_begin_again)
 {
   for (int kind = 0; kind < 2; kind++) {
-    snake s;
+    gait_stage s;
     begin(&s, kind ? SBF_CHAIN_KIND_LAG : SBF_CHAIN_KIND_DISTANCE, 2);
     run(&s, 2, 0.3f, 1.5f);
     sbr_transform before[BONES];
     for (int i = 0; i < 60 * 9; i++) {
       for (int k = 0; k < BONES; k++) before[k] = s.pose[k];
-      sbri_gait_tick(&s.rig, s.state, &s.input, s.pose, NULL, 0);
+      gait_stage_ticks(&s, 1);
       for (int k = 0; k < BONES; k++) {
         sbf_quat moved = sbri_quat_multiply(s.pose[k].rotation, sbri_quat_conjugate(before[k].rotation));
         ck_assert_float_le(sbri_length(sbri_quat_log(moved)), 2 * 1.5f / 60);
       }
     }
-    end(&s);
+    gait_stage_end(&s);
   }
 }
 END_TEST

@@ -1,6 +1,6 @@
 #include <stdlib.h>
 
-#include "gait/gait_state.h"
+#include "gait_stage.h"
 #include "harness.h"
 #include "quadruped.h"
 #include "sbfmt/asset.h"
@@ -14,18 +14,9 @@ typedef struct key {
   sbf_vec3 axis, translation;
 } key;
 
-typedef struct stage {
-  quadruped q;
-  sbri_gait_input input;
-  sbr_ground ground;
-  sbri_gait_state *state;
-  sbr_transform pose[BONES];
-} stage;
-
 /* One pose a key; bones turned at rest by `turned` about axes that differ. */
-static void begin(stage *s, const key *keys, uint32_t count, float turned) {
-  quadruped_create(&s->q);
-  sbf_asset *asset = s->q.asset;
+static void begin(gait_stage *s, const key *keys, uint32_t count, float turned) {
+  sbf_asset *asset = quadruped_asset();
   for (uint32_t b = 0; b < BONES && turned > 0; b++) {
     sbf_vec3 axis = sbri_normalize(sbri_vec3(1, (float)b - 7, 3), sbri_vec3(0, 1, 0));
     ((sbf_bone *)(uintptr_t)asset->bones.at)[b].rotation = sbri_quat_about(axis, turned * (float)b);
@@ -44,25 +35,10 @@ static void begin(stage *s, const key *keys, uint32_t count, float turned) {
     poses[i].keys = (sbf_pose_key_list){&pose_keys[i], 1};
   }
   asset->poses = (sbf_pose_list){poses, count};
-  free(s->q.memory);
-  s->q.memory = malloc(sbri_rig_size(asset));
-  sbri_rig_init(&s->q.rig, asset, s->q.memory);
-  s->ground = sbr_ground_flat(0);
-  s->input = (sbri_gait_input){.tick_s = 1.0f / 60, .scale = 1, .ground = &s->ground};
-  s->state = malloc(sbri_gait_state_size(&s->q.rig));
-  sbri_gait_place(&s->q.rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
+  gait_stage_begin(s, asset);
 }
 
-static void end(stage *s) {
-  free(s->state);
-  quadruped_destroy(&s->q);
-}
-
-static void ticks(stage *s, int count) {
-  for (int i = 0; i < count; i++) sbri_gait_tick(&s->q.rig, s->state, &s->input, s->pose, NULL, 0);
-}
-
-static float head_angle(const stage *s) {
+static float head_angle(const gait_stage *s) {
   return sbri_quat_log(s->pose[HEAD].rotation).x;
 }
 
@@ -70,14 +46,14 @@ START_TEST(poses_are_shown_by_the_distance_walked)
 {
   static const key keys[] = {{0.1f, 0, 0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
       {0.2f, 0, -0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
-  stage s;
+  gait_stage s;
   begin(&s, keys, 2, 0);
-  ticks(&s, 10);
+  gait_stage_ticks(&s, 10);
   ck_assert_float_eq_tol(head_angle(&s), 0, 1e-4f); /* standing */
   s.input.forward = 0.3f;
   float most = 0, least = 0;
   for (int i = 0; i < 240; i++) {
-    ticks(&s, 1);
+    gait_stage_ticks(&s, 1);
     most = fmaxf(most, head_angle(&s)), least = fminf(least, head_angle(&s));
     if (i < 120) continue;
     double s_in_cycle = fmod(s.state->distance_m, 0.2);
@@ -87,7 +63,7 @@ START_TEST(poses_are_shown_by_the_distance_walked)
   }
   ck_assert_float_gt(most, 0.3f);
   ck_assert_float_lt(least, -0.3f);
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
@@ -95,24 +71,24 @@ START_TEST(what_goes_back_goes_back_in_its_walk)
 {
   static const key keys[] = {{0.1f, 0, 0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}},
       {0.3f, 0, -0.4f, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
-  stage s;
+  gait_stage s;
   begin(&s, keys, 2, 0);
   s.input.forward = -0.2f;
-  ticks(&s, 60);
+  gait_stage_ticks(&s, 60);
   for (int i = 0; i < 100; i++) {
     float before = s.state->walk_phase;
-    ticks(&s, 1);
+    gait_stage_ticks(&s, 1);
     float gone = s.state->walk_phase - before;
     ck_assert(gone < 0 || gone > 0.9f);
   }
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
 /* Heads of all bones in asset space, of a body that is at rest but for its walk. */
-static void show(stage *s, float phase, sbf_vec3 *heads) {
+static void show(gait_stage *s, float phase, sbf_vec3 *heads) {
   sbr_transform frames[BONES];
-  const sbri_rig *rig = &s->q.rig;
+  const sbri_rig *rig = &s->rig;
   for (uint32_t b = 0; b < BONES; b++) s->pose[b] = rig->rest_local[b];
   s->state->forward = 1, s->state->pace = 1, s->state->walk_phase = phase;
   sbri_walk_pose(rig, s->state, 1, s->pose);
@@ -134,11 +110,11 @@ START_TEST(the_second_half_is_the_mirror_image_of_the_first)
   static const key keys[] = {{0.1f, 0, 0.7f, true, ARM_L, {1, 0.4f, 0.2f}, {0.01f, 0.02f, 0.03f}},
       {0.2f, 0, 0.3f, false, 2, {0.2f, 1, 0.3f}, {0, 0.01f, 0}}, /* one of them says so for all */
       {0.25f, 0, -0.5f, false, ARM_R, {1, 0, 0.1f}, {0, 0, 0}}};
-  stage s;
+  gait_stage s;
   begin(&s, keys, 3, 0.3f);
-  ck_assert_float_eq_tol(s.q.rig.walks.walks[0].cycle_m, 0.5f, 1e-6f);
-  ck_assert_uint_eq(s.q.rig.walks.walks[0].frame_count, 6);
-  ck_assert_uint_eq(s.q.rig.walks.bone_count, 3);
+  ck_assert_float_eq_tol(s.rig.walks.walks[0].cycle_m, 0.5f, 1e-6f);
+  ck_assert_uint_eq(s.rig.walks.walks[0].frame_count, 6);
+  ck_assert_uint_eq(s.rig.walks.bone_count, 3);
   float moved = 0;
   for (float phase = 0.02f; phase < 0.5f; phase += 0.06f) {
     sbf_vec3 first[BONES], second[BONES];
@@ -147,11 +123,11 @@ START_TEST(the_second_half_is_the_mirror_image_of_the_first)
       sbf_vec3 there = second[across[b]];
       there.x = -there.x;
       ck_assert_float_le(sbri_length(sbri_sub(first[b], there)), 1e-5f);
-      moved = fmaxf(moved, sbri_length(sbri_sub(first[b], s.q.rig.rest[b].position)));
+      moved = fmaxf(moved, sbri_length(sbri_sub(first[b], s.rig.rest[b].position)));
     }
   }
   ck_assert_float_gt(moved, 0.05f);
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
@@ -163,22 +139,22 @@ START_TEST(a_walk_becomes_a_run)
       {0.6f, 0.6f, 0, false, HEAD, {1, 0, 0}, {0, 0, 0}}};
   static const float speeds[] = {0.2f, 0.4f, 0.6f}, cycles[] = {0.2f, 0.4f, 0.6f},
                      tops[] = {0.4f, 0.6f, 0.8f};
-  stage s;
+  gait_stage s;
   begin(&s, keys, 4, 0);
-  ck_assert_uint_eq(s.q.rig.walks.walk_count, 2);
+  ck_assert_uint_eq(s.rig.walks.walk_count, 2);
   for (int i = 0; i < 3; i++) {
     sbri_gait_state state = {.forward = speeds[i], .pace = 1, .walk_phase = 0.5f};
-    for (uint32_t b = 0; b < BONES; b++) s.pose[b] = s.q.rig.rest_local[b];
+    for (uint32_t b = 0; b < BONES; b++) s.pose[b] = s.rig.rest_local[b];
     float weight = fminf(1, speeds[i] / 0.25f); /* half of the gait's walking speed */
-    sbri_walk_pose(&s.q.rig, &state, 1, s.pose);
+    sbri_walk_pose(&s.rig, &state, 1, s.pose);
     ck_assert_float_eq_tol(sbri_quat_log(s.pose[HEAD].rotation).x, weight * tops[i], 0.01f);
-    sbri_walk_tick(&s.q.rig, &state, 0.05f, 1);
+    sbri_walk_tick(&s.rig, &state, 0.05f, 1);
     ck_assert_float_eq_tol(state.walk_phase, 0.5f + 0.05f / cycles[i], 1e-5f);
     sbri_gait_state tall = {.forward = 2 * speeds[i], .pace = 1, .walk_phase = 0.5f};
-    sbri_walk_tick(&s.q.rig, &tall, 0.1f, 2); /* twice as large, all lengths are */
+    sbri_walk_tick(&s.rig, &tall, 0.1f, 2); /* twice as large, all lengths are */
     ck_assert_float_eq_tol(tall.walk_phase, state.walk_phase, 1e-5f);
   }
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 
@@ -187,25 +163,25 @@ START_TEST(a_mirrored_walk_keeps_step_with_the_feet)
 {
   key keys[] = {
       {0.1f, 0, 0.3f, true, HEAD, {0, 1, 0}, {0, 0, 0}}, {0.2f, 0, 0.1f, true, 8, {1, 0, 0}, {0, 0, 0}}};
-  stage s;
+  gait_stage s;
   begin(&s, keys, 2, 0);
-  ck_assert_int_eq(s.q.rig.walks.first_leg, QUADRUPED_HIND_L);
-  ck_assert_int_eq(s.q.rig.walks.other_leg, QUADRUPED_HIND_R);
+  ck_assert_int_eq(s.rig.walks.first_leg, QUADRUPED_HIND_L);
+  ck_assert_int_eq(s.rig.walks.other_leg, QUADRUPED_HIND_R);
   s.input.forward = 0.6f;
-  ticks(&s, 300);
+  gait_stage_ticks(&s, 300);
   double from = s.state->distance_m;
   uint32_t steps = s.state->feet[0].steps_taken;
-  while (s.state->feet[0].steps_taken < steps + 4) ticks(&s, 1);
+  while (s.state->feet[0].steps_taken < steps + 4) gait_stage_ticks(&s, 1);
   float stride = (float)(s.state->distance_m - from) / 4;
-  end(&s);
+  gait_stage_end(&s);
   keys[0].distance = 0.33f * stride, keys[1].distance = 0.66f * stride;
   begin(&s, keys, 2, 0);
   s.input.forward = 0.6f;
-  ticks(&s, 240);
+  gait_stage_ticks(&s, 240);
   sbf_vec3 stance[2] = {{0, 0, 0}, {0, 0, 0}};
   int landings = 0;
   for (int i = 0; i < 360; i++) {
-    ticks(&s, 1);
+    gait_stage_ticks(&s, 1);
     for (int l = 0; l < 2; l++) {
       const sbri_foot *foot = &s.state->feet[l];
       sbf_vec3 ankle = s.pose[l ? 13 : 10].position;
@@ -219,7 +195,7 @@ START_TEST(a_mirrored_walk_keeps_step_with_the_feet)
     }
   }
   ck_assert_int_ge(landings, 6);
-  end(&s);
+  gait_stage_end(&s);
 }
 END_TEST
 

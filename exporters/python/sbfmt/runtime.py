@@ -118,6 +118,7 @@ CALLS = {
     "sbr_character_play": (None, [W, C, c_uint32, c_int32, POINTER(ClipPlay)]),
     "sbr_character_origin": (Double3, [W, C]),
     "sbr_character_bones": (None, [W, C, POINTER(Transform), c_uint32]),
+    "sbr_character_bone_scales": (c_uint32, [W, C, POINTER(Vec3), c_uint32]),
     "sbr_character_skin": (c_uint32, [W, C, c_uint32, FLOATS, FLOATS, FLOATS, c_uint32]),
     "sbr_character_surface": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
     "sbr_character_points": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
@@ -327,6 +328,12 @@ class Character:
         """The first `count` bones of the asset: an array of Transform."""
         found = (Transform * count)()
         self.call("sbr_character_bones", found, count)
+        return found
+
+    def bone_scales(self, count):
+        """How the first `count` bones are scaled along their own axes: an array of 3 numbers each."""
+        found = (Vec3 * count)()
+        self.call("sbr_character_bone_scales", found, count)
         return found
 
     def health(self, soft_body):

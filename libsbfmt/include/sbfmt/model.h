@@ -152,8 +152,17 @@ typedef enum sbf_follower_channel {
   SBF_FOLLOWER_CHANNEL_ROTATION = 0,
   SBF_FOLLOWER_CHANNEL_POSITION = 1,
   SBF_FOLLOWER_CHANNEL_BOTH = 2,
-  SBF_FOLLOWER_CHANNEL_COUNT = 3
+  SBF_FOLLOWER_CHANNEL_SQUASH = 3,
+  SBF_FOLLOWER_CHANNEL_COUNT = 4
 } sbf_follower_channel;
+
+/* Words of bone_axis, in the file's spelling by sbf_bone_axis_name. */
+typedef enum sbf_bone_axis {
+  SBF_BONE_AXIS_X = 0,
+  SBF_BONE_AXIS_Y = 1,
+  SBF_BONE_AXIS_Z = 2,
+  SBF_BONE_AXIS_COUNT = 3
+} sbf_bone_axis;
 
 /* Words of track_property, in the file's spelling by sbf_track_property_name. */
 typedef enum sbf_track_property {
@@ -1214,6 +1223,14 @@ typedef struct sbf_follower {
   float damping_ratio;
   /* r. [default 0] */
   float response;
+  /* Of a squash: which of the bone's own axes it is pressed and stretched along. [default y] */
+  sbf_bone_axis axis;
+  /* Of a squash: share of its length by which the bone stretches as it lags by its length. [[0, inf); default
+   * 1] */
+  float strength;
+  /* Of a squash: it stays below 1 + limit of its length, and above 1 / (1 + limit). [(0, inf); default 0.5]
+   * */
+  float limit;
 } sbf_follower;
 typedef struct sbf_follower_list {
   const sbf_follower *at;
@@ -1530,6 +1547,7 @@ SBF_API const char *sbf_scheme_name(sbf_scheme value);
 SBF_API const char *sbf_ik_solver_name(sbf_ik_solver value);
 SBF_API const char *sbf_chain_kind_name(sbf_chain_kind value);
 SBF_API const char *sbf_follower_channel_name(sbf_follower_channel value);
+SBF_API const char *sbf_bone_axis_name(sbf_bone_axis value);
 SBF_API const char *sbf_track_property_name(sbf_track_property value);
 SBF_API const char *sbf_interpolation_name(sbf_interpolation value);
 SBF_API const char *sbf_field_kind_name(sbf_field_kind value);

@@ -229,6 +229,11 @@ typedef struct sbr_transform {
 /* Bones of the asset, in its order, at the sampled moment. */
 SBF_API void sbr_character_bones(
     const sbr_world *world, sbr_character_id character, sbr_transform *bones, uint32_t capacity);
+/* How the same bones are scaled along their own axes, about their heads: 1, but where a follower squashes
+ * one; the product of the three is 1, and bones that hang on it are not scaled with it. The skin has it
+ * already. Returns how many bones there are. */
+SBF_API uint32_t sbr_character_bone_scales(
+    const sbr_world *world, sbr_character_id character, sbf_vec3 *scales, uint32_t capacity);
 
 /* The skin: vertices of one render mesh at the sampled moment, relative to the character's origin, with unit
  * normals, and tangents whose w is the bitangent's sign (zeros where the mesh has no uvs); both may be NULL.

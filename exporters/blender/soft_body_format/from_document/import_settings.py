@@ -74,3 +74,4 @@ def fill_gait(scene, document, armature, names, space):
         follower.identity = one.id
         follower.bone, follower.channel = names[one.bone], one.channel
         follower.frequency, follower.damping_ratio, follower.response = one.frequency, one.damping_ratio, one.response
+        follower.axis, follower.strength, follower.limit = one.axis, one.strength, one.limit

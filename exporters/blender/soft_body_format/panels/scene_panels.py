@@ -98,7 +98,7 @@ class SBFMT_PT_tails(ListPanel, bpy.types.Panel):
 class SBFMT_PT_followers(ListPanel, bpy.types.Panel):
     bl_label = "Followers"
     items, active, bones = "followers", "active_follower", ("bone", )
-    numbers = ("channel", "frequency", "damping_ratio", "response")
+    numbers = ("channel", "frequency", "damping_ratio", "response", "axis", "strength", "limit")
 
 
 GAIT_CLASSES = (SBFMT_PT_gait, SBFMT_PT_legs, SBFMT_PT_head, SBFMT_PT_tails, SBFMT_PT_followers)

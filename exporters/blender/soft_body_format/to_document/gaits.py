@@ -58,7 +58,8 @@ class GaitWriter:
         for follower in gait.followers:
             writer.asset.add("followers", id=self.id("follower", follower, follower.bone),
                              bone=self.bone(follower.bone, "a follower"), channel=follower.channel,
-                             frequency=follower.frequency, damping_ratio=follower.damping_ratio, response=follower.response)
+                             frequency=follower.frequency, damping_ratio=follower.damping_ratio, response=follower.response,
+                             axis=follower.axis, strength=follower.strength, limit=follower.limit)
 
     def leg(self, record, leg):
         writer = self.writer

@@ -1,0 +1,88 @@
+/* Squash and stretch: what a bone carries hangs on its head by a spring, so that it is long while the bone
+ * speeds away from it and short where the bone is stopped; its volume stays. */
+#include "gait/gait_state.h"
+#include "math/quat.h"
+
+static bool squashes(const sbf_follower *source) {
+  return source->channel == SBF_FOLLOWER_CHANNEL_SQUASH;
+}
+
+sbf_vec3 sbri_squash_axis(const sbf_follower *source) {
+  return sbri_vec3(
+      source->axis == SBF_BONE_AXIS_X, source->axis == SBF_BONE_AXIS_Y, source->axis == SBF_BONE_AXIS_Z);
+}
+
+/* Of a lag of so many lengths; eased towards the limit either way. */
+static float stretch_of(float lag, float limit) {
+  float eased = limit * lag / (limit + fabsf(lag));
+  return eased >= 0 ? 1 + eased : 1 / (1 - eased);
+}
+
+/* Where a squashed bone carries a place, world axes. */
+static sbf_vec3 squashed(const sbr_transform *bone, sbf_vec3 axis, float along, sbf_vec3 place) {
+  sbf_vec3 off = sbri_sub(place, bone->position);
+  float across = 1 / sqrtf(along);
+  sbf_vec3 at = sbri_add_scaled(bone->position, off, across);
+  return sbri_add_scaled(at, axis, (along - across) * sbri_dot(axis, off));
+}
+
+/* What hangs on the bone goes along as it is; what is below a thigh is posed later. */
+static void shift_children(
+    const sbri_rig *rig, uint32_t bone, sbf_vec3 axis, float along, sbr_transform *pose) {
+  sbf_vec3 by = {0, 0, 0};
+  for (uint32_t k = rig->subtree_begin[bone] + 1; k < rig->subtree_end[bone]; k++) {
+    uint32_t b = rig->subtree[k];
+    if (rig->roles[b] == SBRI_ROLE_LEG) continue;
+    if (rig->parents[b] == (int32_t)bone)
+      by = sbri_sub(squashed(&pose[bone], axis, along, pose[b].position), pose[b].position);
+    pose[b].position = sbri_add(pose[b].position, by);
+  }
+}
+
+void sbri_squashes_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_advance advance, sbr_transform *pose) {
+  sbri_bone_follower *followers = sbri_bone_followers(rig, state);
+  for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
+    const sbf_follower *source = &rig->asset->followers.at[i];
+    uint32_t b = (uint32_t)source->bone;
+    sbri_bone_follower *follower = &followers[i];
+    float length = rig->asset->bones.at[b].length;
+    if (!squashes(source)) continue;
+    sbf_vec3 axis = sbri_rotate(pose[b].rotation, sbri_squash_axis(source));
+    if (advance == SBRI_ADVANCE_RESET) {
+      sbri_place_follower_reset(&follower->place, pose[b].position);
+      follower->stretch = follower->stretch_before = 1;
+    } else if (advance == SBRI_ADVANCE_TICK) {
+      sbri_follower_step step =
+          sbri_follower_step_of(source->frequency, source->damping_ratio, source->response, input->tick_s);
+      sbri_place_follower_tick(&follower->place, pose[b].position, &step);
+      float lag = sbri_dot(axis, sbri_sub(follower->place.value, pose[b].position));
+      follower->stretch =
+          length > 0 ? stretch_of(source->strength * lag / (length * input->scale), source->limit) : 1;
+    }
+    if (!input->hold && follower->stretch != 1) shift_children(rig, b, axis, follower->stretch, pose);
+  }
+}
+
+void sbri_squashes_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift) {
+  sbri_bone_follower *followers = sbri_bone_followers(rig, state);
+  for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
+    if (!squashes(&rig->asset->followers.at[i])) continue;
+    sbri_place_follower *place = &followers[i].place;
+    place->value = sbri_sub(place->value, shift);
+    place->followed = sbri_sub(place->followed, shift);
+  }
+}
+
+void sbri_gait_settle(const sbri_rig *rig, void *state) {
+  sbri_bone_follower *followers = sbri_bone_followers(rig, state);
+  for (uint32_t i = 0; i < rig->asset->followers.count; i++)
+    followers[i].stretch_before = followers[i].stretch;
+}
+
+float sbri_gait_stretch(const sbri_rig *rig, const void *state, uint32_t follower, float share) {
+  const sbf_follower *source = &rig->asset->followers.at[follower];
+  if (!squashes(source)) return 1;
+  const sbri_bone_follower *f = sbri_bone_followers(rig, (sbri_gait_state *)(uintptr_t)state) + follower;
+  return share >= 1 ? f->stretch : f->stretch_before + (f->stretch - f->stretch_before) * share;
+}

@@ -1,0 +1,33 @@
+/* Where frames have gone since the rest pose: each a rigid motion, after a squash about its head. */
+#ifndef SBRI_DELTA_H
+#define SBRI_DELTA_H
+
+#include "math/quat.h"
+
+/* Scales by `along` in the direction `axis` (of unit length) and by `across` square to it, about `head`;
+ * asset space, as at rest. */
+typedef struct sbri_squash {
+  sbf_vec3 head, axis;
+  float along, across;
+} sbri_squash;
+
+/* What carries a rest position to where it is now, in asset metres. */
+typedef struct sbri_delta {
+  sbf_vec3 position;
+  sbf_quat rotation;
+  const sbri_squash *squash; /* NULL: none */
+} sbri_delta;
+
+/* By how much a squash moves a place. */
+static inline sbf_vec3 sbri_squash_shift(const sbri_squash *squash, sbf_vec3 place) {
+  sbf_vec3 off = sbri_sub(place, squash->head);
+  float along = (squash->along - squash->across) * sbri_dot(squash->axis, off);
+  return sbri_add_scaled(sbri_scale(squash->axis, along), off, squash->across - 1);
+}
+
+static inline sbf_vec3 sbri_delta_place(const sbri_delta *delta, sbf_vec3 rest) {
+  if (delta->squash) rest = sbri_add(rest, sbri_squash_shift(delta->squash, rest));
+  return sbri_add(delta->position, sbri_rotate(delta->rotation, rest));
+}
+
+#endif

@@ -1,0 +1,55 @@
+#include "gait_stage.h"
+
+#include <stdlib.h>
+
+#include "sbfmt/asset.h"
+
+void gait_stage_begin_scaled(gait_stage *s, sbf_asset *asset, float tick_s, float scale) {
+  s->asset = asset;
+  s->memory = malloc(sbri_rig_size(asset));
+  sbri_rig_init(&s->rig, asset, s->memory);
+  s->ground = sbr_ground_flat(0);
+  s->input = (sbri_gait_input){.tick_s = tick_s, .scale = scale, .ground = &s->ground};
+  s->state = malloc(sbri_gait_state_size(&s->rig));
+  s->pose = calloc(s->rig.bone_count, sizeof *s->pose);
+  sbri_gait_place(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
+  sbri_gait_pose(&s->rig, s->state, &s->input, true, s->pose);
+}
+
+void gait_stage_begin(gait_stage *s, sbf_asset *asset) {
+  gait_stage_begin_scaled(s, asset, 1.0f / 60, 1);
+}
+
+void gait_stage_end(gait_stage *s) {
+  free(s->pose);
+  free(s->state);
+  free(s->memory);
+  sbf_asset_free(s->asset);
+}
+
+void gait_stage_ticks(gait_stage *s, int count) {
+  for (int i = 0; i < count; i++) {
+    sbri_gait_settle(&s->rig, s->state);
+    sbri_gait_tick(&s->rig, s->state, &s->input, s->pose, NULL, 0);
+  }
+}
+
+void gait_stage_play(gait_stage *s) {
+  s->state->clips[0] = (sbri_clip_layer){.clip_plus_1 = 1, .speed = 1, .weight = 1, .wanted = 1};
+}
+
+void gait_stage_step_clip(
+    sbf_asset *asset, uint32_t bone, sbf_track_property property, const float *values, uint32_t count) {
+  static const float times[1] = {0};
+  sbf_clip *clip = sbf_asset_allocate(asset, 1, sizeof *clip);
+  sbf_track *track = sbf_asset_allocate(asset, 1, sizeof *track);
+  sbf_clip_init(clip);
+  sbf_track_init(track);
+  track->bone = (int32_t)bone;
+  track->property = property;
+  track->interpolation = SBF_INTERPOLATION_STEP;
+  track->times = (sbf_f32_list){times, 1};
+  track->values = (sbf_f32_list){values, count};
+  clip->tracks = (sbf_track_list){track, 1};
+  asset->clips = (sbf_clip_list){clip, 1};
+}
