@@ -42,7 +42,7 @@ sbri_box sbri_collider_bounds(const sbri_collider *c) {
 void sbri_colliders_begin_tick(sbri_collider_set *set) {
   uint32_t count = 0;
   set->moving = set->stirred, set->stirred = false;
-  for (uint32_t i = 0; i < set->capacity; i++) {
+  for (uint32_t i = 0; i < set->end; i++) {
     sbri_collider *c = &set->at[i];
     if (!c->shape) continue;
     c->from = c->to, c->turn_from = c->turn_to;

@@ -21,6 +21,7 @@ typedef struct sbri_collider_set {
   uint32_t *listed;  /* (capacity) those that are there: items of the tree */
   sbri_bounds_tree tree;
   uint32_t capacity;
+  uint32_t end; /* none is at this place or behind it */
   bool stirred; /* some was made, moved or taken away since the last tick */
   bool moving;  /* in this tick some is on its way, or has just come or gone */
 } sbri_collider_set;

@@ -72,6 +72,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
         (unsigned)set->capacity);
   sbf_quat turn = sbri_quat_normalize(definition->rotation);
   sbri_collider *c = &set->at[index];
+  if (set->end <= index) set->end = index + 1;
   *c = (sbri_collider){.shape = definition->shape,
       .generation = (c->generation + 1) & 0xffff,
       .from = definition->position,

@@ -181,16 +181,17 @@ static void add_contacts(
 static void gather_events(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbri_character *c = &world->characters[i];
-    for (uint32_t e = 0; c->model && e < c->event_count; e++) {
+    if (!c->model) continue;
+    for (uint32_t e = 0; e < c->event_count; e++) {
       const sbri_gait_event *from = &c->events[e];
       add_event(
           world, c, (sbr_event){.kind = from->kind, .leg = from->leg, .rigid_body = -1}, from->position);
     }
-    for (uint32_t b = 0; c->model && b < c->model->asset->soft_bodies.count; b++)
-      add_contacts(world, c, &sbri_soft_touching(c)[b], b, -1);
-    for (uint32_t b = 0; c->model && b < c->model->rigid.body_count; b++)
+    uint32_t soft_count = c->model->island_count ? c->model->asset->soft_bodies.count : 0;
+    for (uint32_t b = 0; b < soft_count; b++) add_contacts(world, c, &sbri_soft_touching(c)[b], b, -1);
+    for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
       add_contacts(world, c, &sbri_rigid_touching(c)[b], 0, (int32_t)b);
-    for (uint32_t k = 0; c->model && !sbri_head(c)->asleep && k < c->model->island_count; k++) {
+    for (uint32_t k = 0; !sbri_head(c)->asleep && k < c->model->island_count; k++) {
       const sbri_tears *tears = &sbri_tears_of(c)[k];
       for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++) {
         uint32_t body = body_of_tear(c->model, &c->model->islands[k], &tears->at[e]);

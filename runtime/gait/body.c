@@ -4,7 +4,8 @@
 #include "math/quat.h"
 #include "math/trig.h"
 
-static const float LEAN_HZ = 2.1f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers */
+static const float LEAN_HZ = 2.1f, CROUCH_HZ = 4, BEND_HZ = 2.5f; /* of critically damped followers; the
+                                                                     crouch's also of the belly's room */
 static const float CROUCH_S = 0.08f; /* by which the crouch lags, and looks ahead */
 static const float MOST_YAW = 0.8f;  /* rad: hips and chest turn less than so */
 static const float NARROWEST = 0.5f; /* of the reach: feet turn the hips as if no nearer */
@@ -12,7 +13,6 @@ static const float DEEPEST = 0.3f;   /* of a leg's reach: the body comes down by
 static const float LOWEST = 0.3f;    /* of a leg's reach: no hip comes nearer to the ground than so */
 static const float EASY = 0.93f;     /* share of it that it comes down for in a stride */
 static const float UPRIGHT_HZ = 1;   /* of a critically damped follower */
-static const float ROOM_HZ = 4;      /* of a critically damped follower */
 static const float ROOM_S = 0.25f;   /* by which the belly looks ahead */
 static const float CLEAR = 0.03f;    /* of the reach: what is kept between the belly and the ground */
 static const float RAISED = 0.1f;    /* of the reach: the body rises by no more for its belly */
@@ -252,12 +252,11 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
   wanted = steady > wanted ? steady : wanted;
-  sbri_follower_step rise = sbri_follower_step_of(ROOM_HZ, 1, 0, input->tick_s);
+  sbri_follower_step step = sbri_follower_step_of(CROUCH_HZ, 1, 0, input->tick_s);
   float room = room_below(rig, state, input, &stance.root);
-  sbri_lag_tick(&state->room, room, &rise);
+  sbri_lag_tick(&state->room, room, &step);
   if (!stride) state->room = (sbri_lag){room, 0};
   if (wanted > state->room.value) wanted = state->room.value;
-  sbri_follower_step step = sbri_follower_step_of(CROUCH_HZ, 1, 0, input->tick_s);
   sbri_lag_tick(&state->crouch, wanted, &step);
   if (!stride) state->crouch = (sbri_lag){wanted, 0};
   come_down(state, needed, &stance);

@@ -163,10 +163,7 @@ static int32_t choose(
     uint32_t lifted = in_air | 1u << i;
     bool bears = c->stride.together && (state->standing_s == 0 || rig->has_pegs);
     if (!bears) {
-      const sbf_vec3 none = {0, 0, 0};
-      sbf_vec3 way = way_in(state, c->stride.duration_s);
-      bears = sbri_support_margin(rig, state, input, lifted, none) >= sbri_support_needed(rig, input) &&
-              sbri_support_margin(rig, state, input, lifted, way) >= 0;
+      bears = sbri_support_bears(rig, state, input, lifted, way_in(state, c->stride.duration_s));
       if (!bears && !in_air && state->waiting_s > WAIT_S) bears = true;
       if (!bears) {
         *unbalanced = *unbalanced || !in_air;

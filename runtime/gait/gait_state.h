@@ -228,15 +228,13 @@ void sbri_lay_sole(const sbri_rig *rig, const sbri_gait_state *state, const sbri
 
 /* ---- gait/support.c: balance ---- */
 
-/* Signed distance of the centre of mass, now and `way` further, from the edge of what feet stand on, those of
- * `lifted` (bits) not counted; positive inside. */
-float sbri_support_margin(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+/* Whether feet but those of `lifted` (bits) bear the body: its centre of mass is well inside what they stand
+ * on, and still inside `way` further. */
+bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 way);
 /* Where the body should lean so that the feet but those of `lifted` bear it, from `position`, level. */
 sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 way);
-/* How far inside the centre must be before a foot lifts off, m. */
-float sbri_support_needed(const sbri_rig *rig, const sbri_gait_input *input);
 
 /* ---- gait/step_plan.c: a step before it goes ---- */
 

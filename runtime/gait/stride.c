@@ -103,17 +103,21 @@ sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sb
   return sbri_add(root->position, sbri_rotate(root->rotation, state->feet[leg].hip));
 }
 
-/* The circle over the ground, about its hip, that a leg's foot may be in while it stands as high as it does:
- * its radius; `off` receives where the ankle over `sole` is from its middle, level. */
-static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
-    uint32_t leg, sbf_vec3 sole, bool at_home, float lowered, sbf_vec3 *off) {
+/* Where the ankle over `sole` is from the hip, as high as the foot stands. */
+static sbf_vec3 from_hip(const sbri_rig *rig, const sbri_gait_state *state, float scale, uint32_t leg,
+    sbf_vec3 hip, sbf_vec3 sole, bool at_home) {
   const sbri_leg *l = &rig->legs[leg];
   const sbri_foot *foot = &state->feet[leg];
-  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
   sole.y = foot->ground.y + state->position.y;
-  sbf_vec3 ankle = at_home ? sbri_ankle_at_home(l, foot, sole, input->scale)
-                           : sbri_ankle_over(l, foot, sole, input->scale);
-  sbf_vec3 from = sbri_sub(ankle, hip);
+  return sbri_sub(
+      at_home ? sbri_ankle_at_home(l, foot, sole, scale) : sbri_ankle_over(l, foot, sole, scale), hip);
+}
+
+/* The circle over the ground, about its hip, that a leg's foot may be in while its ankle is `from` it: its
+ * radius; `off` receives where the ankle is from its middle, level. */
+static float circle(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 from, float lowered, sbf_vec3 *off) {
+  const sbri_leg *l = &rig->legs[leg];
   float reach = STRETCH * (1 - l->soft_reach) * l->reach * input->scale;
   float upright = state->lowered - from.y, level = reach * reach - upright * upright;
   float height = -lowered * from.y; /* the body comes down for its feet */
@@ -138,8 +142,9 @@ sbri_roam sbri_roam_of(const sbri_rig *rig, const sbri_gait_state *state, const 
     uint32_t leg, sbf_vec3 arm) {
   const sbri_leg *l = &rig->legs[leg];
   sbri_roam roam;
-  float radius =
-      circle(rig, state, input, leg, sbri_add(state->position, arm), true, SBRI_LOWERED, &roam.off);
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
+  sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, sbri_add(state->position, arm), true);
+  float radius = circle(rig, state, input, leg, from, SBRI_LOWERED, &roam.off);
   float length = (l->upper_length + l->lower_length) * input->scale, away = sbri_length(roam.off);
   if (l->lower < 0) radius = away + PEG * length;
   roam.radius = radius < away + LEAST * length ? away + LEAST * length : radius;
@@ -230,9 +235,12 @@ static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state
     const sbri_gait_input *input, uint32_t leg, float lowered) {
   const sbri_leg *l = &rig->legs[leg];
   sbri_roam stance;
-  sbf_vec3 off, home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
-  float radius = circle(rig, state, input, leg, state->feet[leg].ground, false, lowered, &stance.off);
-  (void)circle(rig, state, input, leg, home, true, lowered, &off);
+  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
+  sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
+  sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, state->feet[leg].ground, false);
+  float radius = circle(rig, state, input, leg, from, lowered, &stance.off);
+  sbf_vec3 off = from_hip(rig, state, input->scale, leg, hip, home, true);
+  off.y = 0;
   float length = (l->upper_length + l->lower_length) * input->scale, rest = sbri_length(off);
   if (l->lower < 0) radius = rest + PEG * length;
   stance.radius = radius < rest + LEAST * length ? rest + LEAST * length : radius;

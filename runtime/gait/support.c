@@ -74,10 +74,6 @@ static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway
   return sbri_vec3(c.x + sway_x, 0, c.z + sway_z);
 }
 
-float sbri_support_needed(const sbri_rig *rig, const sbri_gait_input *input) {
-  return NEEDED * rig->reach * input->scale;
-}
-
 /* The worse of the margins where the centre is and where it will be, `way` further; with it the way to more.
  */
 static float least_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 way, sbf_vec3 *inwards) {
@@ -87,12 +83,12 @@ static float least_margin(const polygon *hull, sbf_vec3 at, sbf_vec3 way, sbf_ve
   return later < now ? later : now;
 }
 
-float sbri_support_margin(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 way) {
   polygon hull = hull_of(rig, state, input->scale, lifted);
-  sbf_vec3 unused;
-  if (hull.count == 0) return -1e30f;
-  return least_margin(&hull, center_at(state, state->sway_x.value, state->sway_z.value), way, &unused);
+  sbf_vec3 unused, at = center_at(state, state->sway_x.value, state->sway_z.value);
+  return margin_of(&hull, at, &unused) >= NEEDED * rig->reach * input->scale &&
+         margin_of(&hull, sbri_add(at, way), &unused) >= 0;
 }
 
 sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
