@@ -36,6 +36,11 @@ if(NOT SBFMT_RUNTIME_ONLY AND BUILD_SHARED_LIBS)
   install(DIRECTORY exporters/python/sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/sbfmt/python
     COMPONENT runtime FILES_MATCHING PATTERN *.py)
 endif()
+if(TARGET sbfmt-web)
+  add_dependencies(products sbfmt-web) # which `sbfmt export -o PAGE.html` makes pages of
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/web/ DESTINATION ${CMAKE_INSTALL_DATADIR}/sbfmt/web COMPONENT tools
+    FILES_MATCHING PATTERN sbfmt.* PATTERN viewer*)
+endif()
 if(TARGET sbfmt-manual)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
   install(FILES ${PROJECT_BINARY_DIR}/generated/bash/sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions

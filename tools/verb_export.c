@@ -26,7 +26,7 @@ static int run(cli_call *call) {
   char folder[4096];
   long render_level = 0;
   sbf_export_motion motion = {0};
-  if (!out) return cli_wrong(call, "say where to write: -o OUT.glb, OUT.obj, OUT.tet or OUT.xml");
+  if (!out) return cli_wrong(call, "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet or OUT.xml");
   if (!cli_integer(call, "--render-level", 0, 1000, &render_level)) return SBF_FAILED;
   if (motion_asked(call) && !ends_with(out, ".glb"))
     return cli_wrong(
@@ -51,12 +51,12 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.glb|.obj|.tet|.xml", "where to write; the ending says in which form"},
+    {"-o", "OUT.glb|.html|.obj|.tet|.xml", "where to write; the ending says in which form"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},
 };
-const cli_verb verb_export = {"export", "FILE -o OUT.glb|.obj|.tet|.xml [--seconds S ...]",
+const cli_verb verb_export = {"export", "FILE -o OUT.glb|.html|.obj|.tet|.xml [--seconds S ...]",
     "write what other programs read",
     "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb; meshes at rest "
     "as "
@@ -64,7 +64,10 @@ const cli_verb verb_export = {"export", "FILE -o OUT.glb|.obj|.tet|.xml [--secon
     "with its MTL; tetrahedra as PhysX's .tet; or soft and rigid bodies with their joints in the 2012 "
     "dialect, "
     ".xml.\n"
-    "Says what the form has no place for. With --seconds, --script or --replay a .glb also holds the motion "
+    "A page, .html, holds the character with the runtime as WebAssembly, to be opened without a network: it "
+    "walks,\n"
+    "can be dragged and have balls thrown at it. Says what the form has no place for. With --seconds, "
+    "--script or --replay a .glb also holds the motion "
     "that\n"
     "`run` would show, 30 frames a second unless --fps says otherwise: joints that move, and what the flesh "
     "does\n"

@@ -22,6 +22,7 @@ typedef struct sbfi_export {
 /* Each fills e->text and writes it, and what belongs to it. */
 sbf_status sbfi_export_paper(sbfi_export *e);
 sbf_status sbfi_export_glb(sbfi_export *e);
+sbf_status sbfi_export_html(sbfi_export *e);
 sbf_status sbfi_export_obj(sbfi_export *e);
 sbf_status sbfi_export_tet(sbfi_export *e);
 

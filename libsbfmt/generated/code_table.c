@@ -253,6 +253,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_TETRAHEDRA_FLAT", SBF_CODE_IMPORT_TETRAHEDRA_FLAT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra without volume were left out."},
   {"EXPORT_EMPTY", SBF_CODE_EXPORT_EMPTY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The asset has nothing that the form to be written could hold."},
   {"EXPORT_LEFT_OUT", SBF_CODE_EXPORT_LEFT_OUT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "The form to be written has no place for parts of the asset: they are left out."},
+  {"EXPORT_PAGE_MISSING", SBF_CODE_EXPORT_PAGE_MISSING, SBF_SEVERITY_ERROR, SBF_FAILED, "What a page is made of cannot be found: build sbfmt where clang makes WebAssembly or set SBFMT_WEB."},
 };
 
 const sbf_code_info *sbf_code_table(uint32_t *count) {

@@ -264,6 +264,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out. */
   SBF_CODE_EXPORT_EMPTY = 980, /* The asset has nothing that the form to be written could hold. */
   SBF_CODE_EXPORT_LEFT_OUT = 981, /* The form to be written has no place for parts of the asset: they are left out. */
+  SBF_CODE_EXPORT_PAGE_MISSING = 982, /* What a page is made of cannot be found: build sbfmt where clang makes WebAssembly or set SBFMT_WEB. */
 } sbf_code;
 // clang-format on
 

@@ -29,8 +29,8 @@ typedef struct sbf_export_options {
   void *user; /* for the callback */
   /* Of each render mesh: 0 the full one, n its n-th render level, or its last where there are fewer. */
   uint32_t render_level;
-  /* Folder that the paths of images are relative to, the asset's own: .glb takes their bytes in. NULL: those
-   * not embedded are left out. */
+  /* Folder that the paths of images are relative to, the asset's own: .glb and .html take their bytes in.
+   * NULL: those not embedded are left out. */
   const char *folder;
   /* For .glb, as an animation "motion": joints move, and what the skin does beside them is a morph target a
    * frame. NULL: none. */
@@ -40,7 +40,8 @@ typedef struct sbf_export_options {
 /* Writes the asset in the form that the ending of `path` names: .glb (binary glTF 2.0: render meshes with
  * skin, joints, materials, shape keys and clips), .obj (the render meshes at rest, or where
  * there are none the bodies' surfaces; materials to a .mtl of the same name), .tet (the bodies' first levels
- * of tetrahedra, as PhysX reads them), .xml (the 2012 dialect, section 16 of the specification).
+ * of tetrahedra, as PhysX reads them), .xml (the 2012 dialect, section 16 of the specification), .html (a
+ * page of its own, in which the asset lives; SBF_FAILED where what it is made of is not installed).
  * SBF_BAD_INPUT where the asset has nothing that the form could hold. `options` may be NULL. */
 SBF_API sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error);

@@ -13,12 +13,12 @@
 const GROUNDS = ['flat', 'slope', 'stairs', 'noise'];
 const SHAPES = ['sphere', 'box', 'capsule'];
 const KINDS = ['bones', 'meshes', 'softBodies', 'rigidBodies', 'clips', 'ikChains', 'legs', 'materials', 'textures'];
-const EVENTS = ['footDown', 'footUp', 'landed', 'tear', 'unsplit', 'asleep', 'awake', 'contact'];
+const EVENTS = ['footDown', 'footUp', 'landed', 'tear', 'unsplit', 'asleep', 'awake', 'contact', 'parted'];
 const POSTURES = ['up', 'falling', 'rising'];
 const MODES = { kinematic: 0, passive: 1, driven: 2 };
 const ALPHAS = ['opaque', 'mask', 'blend'];
 const EVENT_ROOM = 256;
-const SCRATCH_BYTES = EVENT_ROOM * 14 * 8;
+const SCRATCH_BYTES = EVENT_ROOM * 18 * 8;
 
 /** What the library refuses, with its code and, where the input is at fault, the place in the file. */
 export class SbfmtError extends Error {
@@ -193,6 +193,10 @@ class Asset {
     texture.bytes = new Uint8Array(calls.memory.buffer, at, size).slice();
   }
 
+  levelError(level = 0) {
+    return this.sbfmt.calls.web_asset_level_error(this.handle, level);
+  }
+
   model(options = {}) {
     return new Model(this, options);
   }
@@ -262,11 +266,12 @@ class World {
 
   events() {
     const { scratch } = this.sbfmt, count = this.calls.web_world_events(this.handle, scratch, EVENT_ROOM);
-    const n = this.sbfmt.doubles(scratch, count * 14);
+    const n = this.sbfmt.doubles(scratch, count * 18);
     return Array.from({ length: count }, (_, i) => {
-      const e = n.slice(i * 14, i * 14 + 14);
+      const e = n.slice(i * 18, i * 18 + 18);
       return { kind: EVENTS[e[0]], character: e[1], leg: e[2], softBody: e[3], rigidBody: e[4], collider: e[5], tick: e[6],
-        impulse: e[7], position: Array.from(e.slice(8, 11)), normal: Array.from(e.slice(11, 14)) };
+        impulse: e[7], position: Array.from(e.slice(8, 11)), normal: Array.from(e.slice(11, 14)), other: e[14],
+        otherSoftBody: e[15], otherRigidBody: e[16], speed: e[17] };
     });
   }
 
@@ -379,6 +384,14 @@ class Character {
   }
   push(rigidBody, place, impulse) {
     this.calls.web_character_push(this.world.handle, this.id, rigidBody, ...triple(place, 'place'), ...triple(impulse, 'impulse'));
+  }
+
+  rigidState(rigidBody) {
+    const { scratch } = this.sbfmt;
+    this.calls.web_character_rigid(this.world.handle, this.id, rigidBody, scratch);
+    const n = Array.from(this.sbfmt.floats(scratch, 18));
+    return { mode: Object.keys(MODES)[n[0]], position: n.slice(1, 4), rotation: n.slice(4, 8), center: n.slice(8, 11),
+      velocity: n.slice(11, 14), angularVelocity: n.slice(14, 17), mass: n[17] };
   }
 
   get origin() {

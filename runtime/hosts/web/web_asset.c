@@ -87,6 +87,17 @@ uint32_t WEB_CALL(web_asset_render_levels)(const sbf_asset *a) {
   return most;
 }
 
+/* The greatest error that bodies state for that level of theirs, m; 0: none does. */
+float WEB_CALL(web_asset_level_error)(const sbf_asset *a, uint32_t level) {
+  float most = 0;
+  for (uint32_t i = 0; i < a->soft_bodies.count; i++) {
+    const sbf_level_list *levels = &a->soft_bodies.at[i].levels;
+    if (level < levels->count && levels->at[level].simulation.error > most)
+      most = levels->at[level].simulation.error;
+  }
+  return most;
+}
+
 /* Nine numbers: parent (-1: none), head (3), rotation (4), length. */
 void WEB_CALL(web_asset_bone)(const sbf_asset *a, uint32_t i, float *to) {
   const sbf_bone *b = &a->bones.at[i];
@@ -95,7 +106,7 @@ void WEB_CALL(web_asset_bone)(const sbf_asset *a, uint32_t i, float *to) {
   memcpy(to, numbers, sizeof numbers);
 }
 
-/* The bone that a rigid body moves with, its mass as the file states it (0: by density); -1: none. */
+/* The bone that a rigid body moves with; -1: none. */
 int32_t WEB_CALL(web_asset_rigid_bone)(const sbf_asset *a, uint32_t i) {
   return i < a->rigid_bodies.count ? a->rigid_bodies.at[i].bone : SBF_NONE;
 }

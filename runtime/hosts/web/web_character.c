@@ -68,6 +68,19 @@ void WEB_CALL(web_character_push)(sbr_world *world, uint32_t character, uint32_t
       (sbf_vec3){impulse_x, impulse_y, impulse_z});
 }
 
+/* Eighteen numbers: mode, place of the body's frame (3), its rotation (4), centre of mass (3), velocity (3),
+ * angular velocity (3), mass; places relative to the origin. */
+void WEB_CALL(web_character_rigid)(
+    const sbr_world *world, uint32_t character, uint32_t rigid_body, float *to) {
+  sbr_rigid_state s = sbr_character_rigid_state(world, id_of(character), rigid_body);
+  sbf_vec3 p = s.frame.position;
+  sbf_quat q = s.frame.rotation;
+  const float numbers[18] = {(float)s.mode, p.x, p.y, p.z, q.x, q.y, q.z, q.w, s.center.x, s.center.y,
+      s.center.z, s.velocity.x, s.velocity.y, s.velocity.z, s.angular_velocity.x, s.angular_velocity.y,
+      s.angular_velocity.z, s.mass};
+  memcpy(to, numbers, sizeof numbers);
+}
+
 void WEB_CALL(web_character_origin)(const sbr_world *world, uint32_t character, sbr_double3 *origin) {
   *origin = sbr_character_origin(world, id_of(character));
 }

@@ -136,16 +136,18 @@ void WEB_CALL(web_ground_heights)(uint32_t kind, double a, double b, const float
     heights[i] = (float)ground.height(&ground, (double)places[2 * i], (double)places[2 * i + 1], &normals[i]);
 }
 
-/* An event as eight numbers: kind, character, leg, soft body, rigid body, collider, tick, impulse, then place
- * (3) and normal (3): fourteen doubles each. Returns how many there were, `capacity` at most. */
+/* An event as eighteen numbers: kind, character, leg, soft body, rigid body, collider, tick, impulse, place
+ * (3), normal (3), the other's character, soft body and rigid body, speed. Returns how many there were,
+ * `capacity` at most. */
 uint32_t WEB_CALL(web_world_events)(sbr_world *world, double *to, uint32_t capacity) {
   sbr_event event;
   uint32_t count = 0;
-  for (; count < capacity && sbr_world_events(world, &event, 1); count++, to += 14) {
-    const double numbers[14] = {event.kind, event.character.value, event.leg, event.soft_body,
+  for (; count < capacity && sbr_world_events(world, &event, 1); count++, to += 18) {
+    const double numbers[18] = {event.kind, event.character.value, event.leg, event.soft_body,
         event.rigid_body, event.collider.value, (double)event.tick, (double)event.impulse, event.position.x,
         event.position.y, event.position.z, (double)event.normal.x, (double)event.normal.y,
-        (double)event.normal.z};
+        (double)event.normal.z, event.other.value, event.other_soft_body, event.other_rigid_body,
+        (double)event.speed};
     memcpy(to, numbers, sizeof numbers);
   }
   return count;

@@ -1,0 +1,152 @@
+// Opens the exported page and works it as a visitor would; prints what came of it as one line of JSON.
+// Usage: node page_in_chromium.mjs FOLDER-OF-NODE_MODULES PAGE PICTURES RUN
+import { createRequire } from 'node:module';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [modules, page, pictures, run] = process.argv.slice(2);
+const { chromium } = createRequire(path.join(modules, 'package.json'))('playwright-core');
+const faults = [];
+const expect = (good, what) => good || faults.push(what);
+const profile = mkdtempSync(path.join(tmpdir(), 'sbfmt-page-'));
+const context = await chromium.launchPersistentContext(profile, {
+  executablePath: process.env.SBFMT_CHROMIUM ?? '/usr/bin/chromium', headless: true, viewport: { width: 1180, height: 720 }, offline: true,
+  args: ['--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
+    '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+const tab = context.pages()[0] ?? await context.newPage();
+tab.setDefaultTimeout(120000);
+tab.on('pageerror', (error) => faults.push(`the page throws ${error.message}`));
+tab.on('console', (line) => line.type() === 'error' && faults.push(`the page says ${line.text()}`));
+tab.on('request', (asked) => /^(file|data|blob):/.test(asked.url()) || faults.push(`the page asks for ${asked.url()}`));
+await tab.goto(pathToFileURL(page).href);
+await tab.waitForFunction(() => globalThis.viewer?.time > 0.2);
+const shoot = (name) => tab.screenshot({ path: path.join(pictures, `${name}.png`) });
+
+// It is drawn: the lizard's middle is not the ground's colour.
+await shoot('page');
+const seen = await tab.evaluate(() => {
+  viewer.draw();
+  const { gl } = viewer.painter, pixels = new Uint8Array(4 * gl.canvas.width * gl.canvas.height), colors = new Set();
+  gl.readPixels(0, 0, gl.canvas.width, gl.canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  for (let i = 0; i < pixels.length; i += 4) colors.add((pixels[i] >> 4) << 8 | (pixels[i + 1] >> 4) << 4 | pixels[i + 2] >> 4);
+  return colors.size;
+});
+expect(seen > 60, `the picture has ${seen} colours`);
+
+// It walks while a key is down, and stands when it is not.
+await tab.focus('#canvas');
+await tab.keyboard.down('w');
+await tab.waitForFunction(() => viewer.character.distance > 0.15);
+await shoot('walking');
+await tab.keyboard.up('w');
+expect(await tab.evaluate(() => viewer.keys.size === 0), 'a key that was let go still steers');
+
+// The keyboard reaches everything, and one sees where it is.
+await tab.focus('#canvas');
+const reached = [];
+for (let i = 0; i < 16; i++) {
+  reached.push(await tab.evaluate(() => {
+    const at = document.activeElement, style = getComputedStyle(at);
+    return { id: at.id, outline: style.outlineStyle !== 'none' && parseFloat(style.outlineWidth) >= 2,
+      label: at.labels?.[0]?.textContent.trim() || at.getAttribute('aria-label') || at.textContent.trim() };
+  }));
+  await tab.keyboard.press('Tab');
+}
+for (const id of ['canvas', 'skin', 'springs', 'lattice', 'bones', 'strain', 'ground', 'speed', 'throw', 'knock', 'restart', 'pause']) {
+  const here = reached.find((one) => one.id === id);
+  expect(here, `the keyboard does not reach ${id}`);
+  expect(!here || here.outline, `${id} does not show that it has the focus`);
+  expect(!here || here.label, `${id} has no label`);
+}
+const yaw = await tab.evaluate(() => viewer.camera.yaw);
+await tab.focus('#canvas');
+await tab.keyboard.press('ArrowLeft');
+await tab.keyboard.press('+');
+expect(await tab.evaluate((before) => viewer.camera.yaw !== before, yaw), 'arrows do not turn the view');
+for (const id of ['springs', 'bones']) {
+  await tab.focus(`#${id}`);
+  await tab.keyboard.press('Space');
+}
+expect(await tab.evaluate(() => viewer.show.springs && viewer.show.bones), 'the space bar does not switch springs and bones');
+await tab.waitForTimeout(500);
+await shoot('inside');
+await tab.uncheck('#springs');
+await tab.uncheck('#bones');
+await tab.check('#strain');
+await tab.waitForTimeout(500);
+await shoot('strain');
+await tab.uncheck('#strain');
+
+// Balls fly, hit, and come back.
+await tab.focus('#throw');
+await tab.keyboard.press('Enter');
+expect(await tab.evaluate(() => viewer.balls.length === 1), 'the button throws no ball');
+const ball = await tab.evaluate(() => {
+  viewer.pause();
+  viewer.restart();
+  for (let i = 0; i < 30; i++) viewer.step(1 / 60);
+  viewer.throwBall();
+  for (let i = 0; i < 60; i++) viewer.step(1 / 60);
+  return { hits: viewer.balls[0].hits, posture: viewer.character.posture, valid: viewer.character.health().valid };
+});
+expect(ball.hits > 0 && ball.posture === 'falling' && ball.valid, `a ball that is thrown: ${JSON.stringify(ball)}`);
+await tab.waitForTimeout(500);
+await shoot('ball');
+
+// What is under the pointer is dragged, and let go it gets up again.
+const spot = await tab.evaluate(() => {
+  viewer.restart();
+  for (let i = 0; i < 30; i++) viewer.step(1 / 60);
+  viewer.camera.focus = viewer.subject; // where the view would come to rest
+  const box = viewer.canvas.getBoundingClientRect();
+  for (let y = 0.3; y < 0.8; y += 0.02)
+    for (let x = 0.4; x < 0.6; x += 0.02) {
+      const at = [box.left + x * box.width, box.top + y * box.height];
+      if (viewer.world.ray(viewer.eye, viewer.wayThrough(...at), 100)?.character) return at;
+    }
+});
+expect(spot, 'no ray meets the character');
+if (spot) {
+  await tab.mouse.move(...spot);
+  await tab.mouse.down();
+  const height = () => tab.evaluate(() => viewer.held ? viewer.character.rigidState(viewer.held.rigid).center[1] : NaN);
+  const before = await height();
+  const target = await tab.evaluate(() => viewer.held?.target[1]);
+  await tab.mouse.move(spot[0], spot[1] - 150, { steps: 4 });
+  await tab.waitForFunction((low) => viewer.held?.target[1] > low + 0.15, target);
+  const held = await tab.evaluate(() => {
+    for (let i = 0; i < 60; i++) viewer.step(1 / 60);
+    return { valid: viewer.character.health().valid };
+  });
+  held.height = await height();
+  expect(held.valid && held.height > before + 0.08, `dragged from ${before} m: ${JSON.stringify(held)}`);
+  await tab.waitForTimeout(500);
+  await shoot('dragged');
+  await tab.mouse.up();
+  const after = await tab.evaluate(() => {
+    for (let i = 0; i < 900 && viewer.character.posture !== 'up'; i++) viewer.step(1 / 60);
+    return { held: !!viewer.held, posture: viewer.character.posture };
+  });
+  expect(!after.held && after.posture === 'up', `let go: ${JSON.stringify(after)}`);
+}
+
+// The same state as everywhere.
+const { frames, drive, ground } = JSON.parse(run);
+const { hash, us } = await tab.evaluate(([count, [forward, turn], land]) => {
+  const began = performance.now();
+  return { hash: viewer.hashAfter(count, forward, turn, land), us: 1000 * (performance.now() - began) / count };
+}, [frames, drive, ground]);
+
+// It fits a narrow window.
+await tab.setViewportSize({ width: 420, height: 800 });
+await tab.waitForFunction(() => Math.abs(viewer.canvas.width - viewer.canvas.clientWidth) < 2);
+const narrow = await tab.evaluate(() => ({ wide: document.documentElement.scrollWidth, panel: document.querySelector('aside').getBoundingClientRect().top,
+  canvas: viewer.canvas.getBoundingClientRect().bottom }));
+expect(narrow.wide <= 420 && narrow.panel >= narrow.canvas - 1, `in a narrow window: ${JSON.stringify(narrow)}`);
+await shoot('narrow');
+await context.close();
+rmSync(profile, { recursive: true, force: true });
+console.log(JSON.stringify({ hash, us, faults }));

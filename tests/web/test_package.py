@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""The npm package in a project of its own: packed, installed, run under node as its README says, checked by TypeScript and
+moved by three.js where npm can fetch those."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import web_files
+
+PROGRAM = """
+import { readFile } from 'node:fs/promises';
+import { load } from 'sbfmt';
+const sbfmt = await load();
+const world = sbfmt.world({ ground: { kind: 'noise', height: 0.1, seed: 5 } });
+const lizard = world.add(sbfmt.asset(await readFile('lizard.sbfz')).model());
+lizard.drive(0.3, 0.2);
+for (let i = 0; i < 60; i++) world.step(1 / 60);
+const { positions, indices } = lizard.skin(0);
+if (!positions.every(Number.isFinite) || Math.max(...indices) * 3 + 2 >= positions.length) throw new Error('the skin is broken');
+console.log(world.stateHash());
+"""
+TYPED = """
+import { load, type Character, type Ground, SbfmtError } from 'sbfmt';
+import { SoftCharacter } from 'sbfmt/three';
+import { Scene } from 'three';
+const ground: Ground = { kind: 'stairs', rise: 0.1, run: 0.3 };
+const sbfmt = await load(new Uint8Array(4));
+const world = sbfmt.world({ ground, gravity: [0, -9.8, 0], touches: true });
+const one: Character = world.add(sbfmt.asset(new ArrayBuffer(8)).model({ scheme: 'heun', level: 1 }), { position: [0, 1, 0] });
+one.push(0, [0, 0, 0], [1, 0, 0]);
+const positions: Float32Array = one.skin().positions;
+const hash: string = world.stateHash();
+const scene = new Scene();
+scene.add(new SoftCharacter(one, { renderLevel: 1 }));
+// @ts-expect-error a ground that there is not
+sbfmt.world({ ground: { kind: 'sea' } });
+console.log(positions, hash, SbfmtError);
+"""
+THREE = """
+import { readFile } from 'node:fs/promises';
+import { load } from 'sbfmt';
+import { SoftCharacter } from 'sbfmt/three';
+const sbfmt = await load();
+const world = sbfmt.world();
+const lizard = world.add(sbfmt.asset(await readFile('lizard.sbfz')).model());
+const shown = new SoftCharacter(lizard);
+const [mesh] = shown.children, buffer = mesh.geometry.attributes.position.array, before = buffer.slice();
+lizard.drive(0.3);
+for (let i = 0; i < 30; i++) world.step(1 / 60);
+shown.update();
+const after = mesh.geometry.attributes.position.array;
+if (buffer !== after) throw new Error('the buffer is another one');
+if (!after.some((x, i) => Math.abs(x - before[i]) > 0.01)) throw new Error('nothing moved');
+if (mesh.geometry.groups.length !== mesh.material.length || !(mesh.geometry.boundingSphere.radius > 0.01)) throw new Error('it is not dressed');
+shown.dispose();
+console.log('good', shown.children.length, mesh.geometry.groups.length);
+"""
+
+
+def write(folder, name, text):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
+        stream.write(text)
+
+
+def npm(folder, *arguments):
+    return subprocess.run(["npm", *arguments, "--no-audit", "--no-fund"], cwd=folder, capture_output=True, text=True, check=False)
+
+
+def written_example(folder, path):
+    """The first program of a document, its file read from disk: what it does to the lizard is what it says."""
+    with open(path, encoding="utf-8") as stream:
+        code = re.search(r"```js\n(.*?)```", stream.read(), re.DOTALL).group(1)
+    code = "import { readFile } from 'node:fs/promises';\nglobalThis.fetch = async (name) => new Response(await readFile(name));\n" + code
+    write(folder, "written.mjs", code + "\nfor (let i = 1; i < 300; i++) world.step(1 / 60);\n"
+          "if (lizard.distance < 0.8 || !positions.length || !normals.length || !indices.length) throw new Error('it stands');\n")
+    web_files.run("node", "written.mjs", cwd=folder)
+
+
+def main():
+    web_files.need("node", "npm")
+    web_files.run("cmake", "--build", web_files.BUILD, "--target", "sbfmt-npm")
+    tarballs = [name for name in os.listdir(web_files.BUILD) if re.fullmatch(r"sbfmt-[\d.]+\.tgz", name)]
+    if len(tarballs) != 1:
+        sys.exit(f"packed: {tarballs}")
+    listed = web_files.run("tar", "-tzf", os.path.join(web_files.BUILD, tarballs[0])).split()
+    expected = {"package/" + name for name in ("package.json", "README.md", "LICENSE", "sbfmt.js", "sbfmt.d.ts", "sbfmt.wasm",
+                                               "sbfmt-three.js", "sbfmt-three.d.ts")}
+    if set(listed) != expected:
+        sys.exit(f"the package holds {sorted(listed)}")
+    with tempfile.TemporaryDirectory() as folder:
+        lizard = web_files.bundles(folder)["lizard"]
+        write(folder, "package.json", '{ "name": "fresh", "private": true, "type": "module" }')
+        done = npm(folder, "install", "--offline", "--omit=peer", os.path.join(web_files.BUILD, tarballs[0]))
+        if done.returncode != 0:
+            sys.exit("npm install: " + done.stderr[-2000:])
+        write(folder, "walk.mjs", PROGRAM)
+        found = web_files.run("node", "walk.mjs", cwd=folder).strip()
+        there = web_files.native(lizard, "--seconds", "1", "--drive", "0.3,0.2", "--ground", "noise:0.1,5")["state_hash"]
+        if found != there:
+            sys.exit(f"installed it gives {found}, natively {there}")
+        written_example(folder, os.path.join(web_files.HOST, "README.md"))
+        written_example(folder, os.path.join(web_files.SOURCE, "docs", "web.md"))
+        if npm(folder, "install", "three@0.170", "@types/three@0.170", "typescript@5").returncode != 0:
+            web_files.skip("npm could not fetch three and typescript; what needs neither is good")
+        write(folder, "three.mjs", THREE)
+        print(web_files.run("node", "three.mjs", cwd=folder).strip())
+        write(folder, "typed.mts", TYPED)
+        web_files.run(os.path.join(folder, "node_modules", ".bin", "tsc"), "--noEmit", "--strict", "--target", "es2022", "--module",
+                      "nodenext", "--skipLibCheck", "typed.mts", cwd=folder)
+
+
+if __name__ == "__main__":
+    main()
