@@ -12,7 +12,7 @@ import re
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md", "docs/detail.md")
+DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md", "docs/detail.md", "docs/godot.md")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -100,6 +100,11 @@ def bullet_row(r):
             r["error_mm"], r["times"]]
 
 
+def godot_row(r):
+    return [r["engine"], r["precision"], r["stiffness"], r["pressure"], number(r["ms"]), f"{float(r['volume_least']):.3f}",
+            f"{float(r['volume_last']):.3f}", number(r["lowest_mm"])]
+
+
 def crowd_row(r):
     return [r["character"], r["count"], r["threads"], r["instructions"], r["substeps"], number(r["busy_ms"]),
             number(r["wall_ms"]) if r["wall_ms"] else "", r["times_one"], r["ns_per_element"], r["gb_s"]]
@@ -130,6 +135,7 @@ TABLES = {
     "skin": (skin_row, "mesh | render level | triangles | vertices | least µs | median µs | of the full mesh", 1),
     "bullet": (bullet_row, "body | elements | engine | method | steps | iterations | threads | µs a tick | ns | error, mm | "
                            "× ours at that error", 1),
+    "godot": (godot_row, "engine | precision | stiffness | pressure | ms a frame | least volume | volume at the end | lowest point, mm", 1),
     "crowd": (crowd_row, "what | of it | threads | instructions | substeps | ms a tick | wall, ms | × one thread | ns a tetrahedron "
                          "and substep | GB/s", 1),
     "detail": (detail_row, "rungs | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft | bones "

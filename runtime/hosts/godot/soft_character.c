@@ -66,8 +66,8 @@ void soft_character_place(soft_character *one, sbf_vec3 position, float heading)
   memcpy(one->put.basis, basis, sizeof basis);
   if (one->settings.ground == SOFT_GROUND_PHYSICS) physics_ground_look(one);
   double above = position.y - soft_character_ground_height(one, position.x, position.z);
-  /* What walks stands on the ground wherever it was put above it. */
-  if (one->model->asset->gaits.count || above < 0) above = 0;
+  /* What walks stands on the ground wherever it was put above it; what is loose falls from there. */
+  if ((one->model->asset->gaits.count && !one->settings.free_bodies) || above < 0) above = 0;
   sbr_character_teleport(one->world, one->id, (sbr_double3){position.x, above, position.z}, heading);
   one->stale = true;
 }
