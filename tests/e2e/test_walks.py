@@ -16,6 +16,9 @@ EXAMPLE = {
 }
 THESIS = {}
 
+# Of a caterpillar's stumps, driven beyond what they last at: they hang on a chain that goes its own way.
+CRAWLS = {"stance_slip": 0.00085, "skate_ratio": 0.004, "knee_speed_step": 10.5, "body_speed_step": 0.0023}
+
 # On flat ground: files, options, and what is not met.
 OTHERS = {
     "pup": ((ROOT, "examples", "pup", "pup.glb"), (), {}),
@@ -28,6 +31,10 @@ OTHERS = {
     "fox": ((shared("fox"), "fox.glb"), ("--unit", "0.01"), {}),
     "walkdae": ((shared("walk-dae"), "walk.dae"), (), {
         "flat, 0.1": {"support_margin": -0.06}, "flat, 0.3": {"support_margin": -0.06}}),
+    "spiderglb": ((shared("spider"), "spider.glb"), (), {}),
+    "caterpillar": ((ROOT, "examples", "caterpillar", "caterpillar.glb"), (), {
+        "flat, 2": CRAWLS, "flat, 3": CRAWLS, "flat, turning on the spot": CRAWLS, "flat, a curve": CRAWLS,
+        "flat, forward, then back": {**CRAWLS, "stance_slip": 0.0017}}),
 }
 
 # Straight walks off flat ground: what is not met.
