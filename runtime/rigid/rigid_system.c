@@ -10,6 +10,9 @@ static const double DEPENDENT = 1e-11;
 /* Most loops of hinges say some of their rows twice: those whose pivot is below this share of what they would
  * do to their bodies alone, which is what single precision leaves of the rates, are left out. */
 static const double REDUNDANT = 3e-7;
+/* And all of them give way by this share of that: of rows that nearly say the same, as a net's, none then
+ * takes what rounding has left. What they give way by is put right at the step's end. */
+static const double GIVE = 1e-5;
 
 void sbri_edge_list_active(sbri_edge *e) {
   e->active_count = 0;
@@ -189,7 +192,7 @@ static void factor_loops(sbri_rigid_system *s) {
       double *to = s->loop_matrix + (size_t)at * count;
       for (uint32_t k = 0; k <= at; k++)
         to[k] = seen_by(e, row, s->responses + (size_t)k * s->node_count * 6);
-      to[at] += row->give;
+      to[at] += row->give + GIVE * sbri_row_alone(s, e, row);
       s->loop_rhs[at] = REDUNDANT * sbri_row_alone(s, e, row);
     }
   }
