@@ -130,8 +130,9 @@ static sbf_vec3 begin_end(
     const sbri_meetings *all, const sbri_meet_group *group, const sbri_meet_side *side, sbri_meet_end *end) {
   const sbri_meet_member *m = &all->members[group->first_member + side->member];
   end->mover = NULL;
-  end->still = sbri_vec3(0, 0, 0);
+  end->still = end->arm = sbri_vec3(0, 0, 0);
   end->count = 0;
+  end->speed = 0; /* of nothing, but it is multiplied by */
   if (side->rigid_body == SBRI_MEET_SOFT) return soft_place(m, side, end);
   if (side->rigid_body == SBRI_MEET_PLANE) {
     end->still = side->goes;
