@@ -51,25 +51,20 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.glb|.html|.obj|.tet|.xml", "where to write; the ending says in which form"},
+    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.xml", "where to write; the ending says in which form"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},
 };
-const cli_verb verb_export = {"export", "FILE -o OUT.glb|.html|.obj|.tet|.xml [--seconds S ...]",
+const cli_verb verb_export = {"export",
+    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.xml [--seconds S ...]",
     "write what other programs read",
-    "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb; meshes at rest "
-    "as "
-    "OBJ\n"
-    "with its MTL; tetrahedra as PhysX's .tet; or soft and rigid bodies with their joints in the 2012 "
-    "dialect, "
-    ".xml.\n"
-    "A page, .html, holds the character with the runtime as WebAssembly, to be opened without a network: it "
-    "walks,\n"
-    "can be dragged and have balls thrown at it. Says what the form has no place for. With --seconds, "
-    "--script or --replay a .glb also holds the motion "
-    "that\n"
-    "`run` would show, 30 frames a second unless --fps says otherwise: joints that move, and what the flesh "
-    "does\n"
-    "beside them as a morph target a frame.",
+    "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb;\n"
+    "meshes at rest as OBJ with its MTL; tetrahedra as PhysX's .tet, TetGen's .node and .ele,\n"
+    "Gmsh's .msh or VTK's .vtu; or soft and rigid bodies with their joints in the 2012\n"
+    "dialect, .xml. A page, .html, holds the character with the runtime as WebAssembly, to be\n"
+    "opened without a network: it walks, can be dragged and have balls thrown at it.\n"
+    "Says what the form has no place for. With --seconds, --script or --replay\n"
+    "a .glb also holds the motion that `run` would show, 30 frames a second unless --fps says\n"
+    "otherwise: joints that move, and what the flesh does beside them as a morph target a frame.",
     options, 1, 1, run};

@@ -128,6 +128,24 @@ class Forms(ProgramTest):
         self.good("export", self.path("b.sbf"), "-o", self.path("b.tet"))
         self.assertEqual(read_bytes(self.path("b.tet")), read_bytes(self.path("a.tet")))
 
+    def test_other_tetrahedra_go_round(self):
+        self.good("convert", BAR, "-o", self.path("a.sbf"))
+        before = self.json_of("info", self.path("a.sbf"))
+        self.good("export", self.path("a.sbf"), "-o", self.path("a.tet"))
+        for ending, read in (("node", "node"), ("ele", "ele"), ("msh", "msh"), ("vtu", "vtu")):
+            for name in ("b.node", "b.ele"):
+                if os.path.exists(self.path(name)):
+                    os.remove(self.path(name))
+            said = self.good("export", self.path("a.sbf"), "-o", self.path("b." + ending)).err
+            self.assertIn("rigid bodies: 2", said)
+            self.good("convert", self.path("b." + read), "-o", self.path("c.sbf"))
+            after = self.json_of("info", self.path("c.sbf"))
+            for key in ("tetrahedra", "bounds"):
+                self.assertEqual(after[key], before[key], ending)
+            # The same points and tetrahedra, in the same order.
+            self.good("export", self.path("c.sbf"), "-o", self.path("c.tet"))
+            self.assertEqual(read_bytes(self.path("c.tet")), read_bytes(self.path("a.tet")), ending)
+
     @unittest.skipUnless(os.path.exists(shared("tets", "ball.vtk")), "the files of ../shared/data/tets are not there")
     def test_a_converted_lattice_as_the_2012_dialect(self):
         self.good("convert", shared("tets", "ball.vtk"), "-o", self.path("a.sbf"))

@@ -52,8 +52,9 @@ START_TEST(nothing_to_write_and_unknown_endings_are_errors)
 {
   sbf_asset *empty = sbf_asset_create(NULL);
   sbf_diagnostic error;
-  static const char *const names[] = {"empty.obj", "empty.tet", "empty.xml", "empty.glb"};
-  for (int i = 0; i < 4; i++) {
+  static const char *const names[] = {
+      "empty.obj", "empty.tet", "empty.xml", "empty.glb", "empty.node", "empty.msh", "empty.vtu"};
+  for (int i = 0; i < 7; i++) {
     const char *path = harness_scratch(names[i]);
     size_t size;
     ck_assert_int_eq(sbf_export(empty, path, NULL, &error), SBF_BAD_INPUT);
@@ -133,10 +134,11 @@ END_TEST
 START_TEST(memory_that_runs_out_is_reported)
 {
   sbf_asset *bars = bar(), *all = everything();
-  static const char *const names[] = {"memory.obj", "memory.tet", "memory.xml", "memory.glb"};
+  static const char *const names[] = {
+      "memory.obj", "memory.tet", "memory.xml", "memory.glb", "memory.ele", "memory.msh", "memory.vtu"};
   moved m;
   move(all, 0.25f, &m);
-  for (int i = 0; i < 4; i++)
+  for (int i = 0; i < 7; i++)
     for (size_t allowed = 0;; allowed++) {
       harness_memory memory;
       sbf_diagnostic error;
