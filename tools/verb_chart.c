@@ -2,15 +2,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chart/bundle_case.h"
 #include "chart/drawing.h"
 #include "chart/rounds.h"
 #include "chart/sweep.h"
 #include "chart/table.h"
 #include "cli.h"
+#include "sbfmt/io.h"
 
 /* What the call asks for. */
 typedef struct request {
   const char *path;
+  sbf_asset *asset; /* of the file, if one was given */
+  chart_bundle bundle;
+  chart_case bundle_cases[CHART_BUNDLE_CASES];
+  const chart_case *all; /* that there are to choose from */
+  uint32_t all_count;
   const chart_case **cases;
   uint32_t case_count;
   chart_effort effort;
@@ -27,40 +34,60 @@ static void show_progress(void *user, const char *what, double share) {
   cli_progress(text, share);
 }
 
+static const chart_case *case_named(const request *r, const char *name) {
+  for (uint32_t i = 0; i < r->all_count; i++)
+    if (strcmp(r->all[i].name, name) == 0) return &r->all[i];
+  return NULL;
+}
+
+/* Those that --case names, or all: of the file, where there is one. */
 static bool choose_cases(cli_call *call, request *r) {
   int at = 0;
   const char *name;
-  r->cases = calloc((size_t)chart_case_count + (size_t)call->given_count, sizeof *r->cases);
+  r->cases = calloc((size_t)r->all_count + 1, sizeof *r->cases);
   if (!r->cases) return cli_wrong(call, "memory ran out"), false;
   while ((name = cli_next_value(call, "--case", &at)) != NULL) {
-    const chart_case *found = chart_case_named(name);
-    if (!found) {
-      fprintf(stderr, "sbfmt chart: error: --case takes one of");
-      for (uint32_t i = 0; i < chart_case_count; i++)
-        fprintf(stderr, "%s %s", i ? "," : "", chart_cases[i].name);
-      fprintf(stderr, ", not '%s'\n", name);
-      return false;
-    }
+    const chart_case *found = case_named(r, name);
     bool known = false;
     for (uint32_t i = 0; i < r->case_count; i++) known = known || r->cases[i] == found;
-    if (!known) r->cases[r->case_count++] = found;
+    if (found && !known) r->cases[r->case_count++] = found;
+    if (found) continue;
+    fprintf(stderr, "sbfmt chart: error: --case takes one of");
+    for (uint32_t i = 0; i < r->all_count; i++) fprintf(stderr, "%s %s", i ? "," : "", r->all[i].name);
+    fprintf(stderr, "%s, not '%s'\n", r->asset ? " where a file is given" : "", name);
+    return false;
   }
-  for (uint32_t i = 0; r->case_count < chart_case_count && i < chart_case_count && at >= 0; i++) {
-    if (cli_value(call, "--case")) break;
-    r->cases[r->case_count++] = &chart_cases[i];
-  }
+  for (uint32_t i = 0; !cli_value(call, "--case") && i < r->all_count; i++)
+    r->cases[r->case_count++] = &r->all[i];
   return true;
+}
+
+/* What there is to choose from: SBF_OK, or the exit status, with a message printed. */
+static int gather_cases(cli_call *call, request *r) {
+  sbf_diagnostic error;
+  r->all = chart_cases, r->all_count = chart_case_count;
+  if (!call->input_count) return SBF_OK;
+  sbf_status status = sbf_load_file(call->inputs[0], NULL, &r->asset, &error);
+  if (status == SBF_OK) status = chart_bundle_cases(r->asset, &r->bundle, r->bundle_cases, &error);
+  if (status != SBF_OK) cli_print_diagnostic(call, &error);
+  r->all = r->bundle_cases, r->all_count = CHART_BUNDLE_CASES;
+  return (int)status;
 }
 
 static bool parse(cli_call *call, request *r) {
   long rounds = 15, most = 128, core = 0;
+  r->effort.distance_m = 5;
   r->path = cli_value(call, "-o");
   if (!choose_cases(call, r) || !cli_integer(call, "--runs", 1, 10000, &rounds) ||
-      !cli_integer(call, "--most-substeps", 1, 1024, &most) || !cli_integer(call, "--core", 0, 1023, &core))
+      !cli_integer(call, "--most-substeps", 1, 1024, &most) || !cli_integer(call, "--core", 0, 1023, &core) ||
+      !cli_number(call, "--distance", 0.01, 1e6, &r->effort.distance_m))
     return false;
   if (!r->path && !cli_switch(call, "--jobs")) return cli_wrong(call, "say where to: -o DIR"), false;
-  r->effort = (chart_effort){
-      .rounds = (uint32_t)rounds, .most_substeps = (uint32_t)most, .progress = show_progress, .user = r};
+  r->effort = (chart_effort){.rounds = (uint32_t)rounds,
+      .distance_m = r->effort.distance_m,
+      .most_substeps = (uint32_t)most,
+      .progress = show_progress,
+      .user = r};
   r->drawn = !cli_switch(call, "--no-svg");
   if (cli_switch(call, "--jobs")) return true;
   r->on_one_core = chart_stay_on_core((uint32_t)core);
@@ -73,9 +100,10 @@ static bool parse(cli_call *call, request *r) {
 static int print_jobs(const cli_call *call, const request *r) {
   const char *path = r->path ? r->path : "charts";
   for (uint32_t i = 0; i < r->case_count; i++)
-    printf("sbfmt chart --case %s --runs %u --most-substeps %u%s -o '%s'\n", r->cases[i]->name,
-        (unsigned)r->effort.rounds, (unsigned)r->effort.most_substeps, r->drawn ? "" : " --no-svg", path);
-  (void)call;
+    printf("sbfmt chart%s%s%s --case %s --runs %u --most-substeps %u --distance %g%s -o '%s'\n",
+        call->input_count ? " '" : "", call->input_count ? call->inputs[0] : "", call->input_count ? "'" : "",
+        r->cases[i]->name, (unsigned)r->effort.rounds, (unsigned)r->effort.most_substeps,
+        r->effort.distance_m, r->drawn ? "" : " --no-svg", path);
   return SBF_OK;
 }
 
@@ -184,26 +212,31 @@ static int measure(cli_call *call, request *r) {
 
 static int run(cli_call *call) {
   request r = {.machine = chart_this_machine()};
-  int status = SBF_FAILED;
-  if (parse(call, &r)) status = cli_switch(call, "--jobs") ? print_jobs(call, &r) : measure(call, &r);
+  int status = gather_cases(call, &r);
+  if (status == SBF_OK && !parse(call, &r))
+    status = SBF_FAILED;
+  else if (status == SBF_OK)
+    status = cli_switch(call, "--jobs") ? print_jobs(call, &r) : measure(call, &r);
   for (uint32_t i = 0; r.sheets && i < r.case_count; i++) chart_sheet_free(&r.sheets[i]);
   free(r.sheets);
   free(r.cases);
+  sbf_asset_free(r.asset);
   return status;
 }
 
 static const cli_option options[] = {
-    {"--case", "NAME", "one of the cases below; several times for several (default: all)"},
+    {"--case", "NAME", "one of the cases above; several times for several (default: all)"},
     {"-o", "DIR", "folder for the tables and drawings; made if it is not there"},
     {"--runs", "N", "runs that a time is the median of (default 15)"},
     {"--most-substeps", "N", "schemes get 1, 2, 4 and so on up to this (default 128)"},
     {"--core", "N", "the core to stay on, of those allowed, from 0 (default 0)"},
+    {"--distance", "M", "from which a character is looked at, for errors in pixels (default 5)"},
     {"--no-svg", NULL, "tables alone: gnuplot is not needed"},
     {"--jobs", NULL, "print one command a case, to be run side by side, and measure nothing"},
     {"--format", "text|json", "how to report (default text)"}, {NULL, NULL, NULL}};
 
 const cli_verb verb_chart = {.name = "chart",
-    .synopsis = "[--case NAME] -o DIR",
+    .synopsis = "[FILE] [--case NAME] -o DIR",
     .summary = "chart speed against accuracy",
     .details = "Runs known cases by every scheme at many numbers of substeps, measures how far each is off a "
                "converged\n"
@@ -218,8 +251,11 @@ const cli_verb verb_chart = {.name = "chart",
                "rest: errors\n"
                "there are those of steps in time. cantilever-meshes and beam-meshes compare coarse meshes "
                "with a fine\n"
-               "one: errors there are those of meshes.",
+               "one: errors there are those of meshes.\n\n"
+               "With a FILE, its character's own walk, hop and shake are charted (--case walk, hop, shake): "
+               "how far the\n"
+               "skin is off, in metres and in pixels of a screen of 1080 lines that shows 60 degrees.",
     .options = options,
     .least_inputs = 0,
-    .most_inputs = 0,
+    .most_inputs = 1,
     .run = run};

@@ -44,7 +44,7 @@ START_TEST(the_same_is_not_off)
   chart_track a = swings(0.1, 0.6), b = swings(0.1, 0.6);
   double errors[CHART_AXIS_COUNT];
   ck_assert(chart_errors_of(&a, &b, rest, tick_s, &along_y, ALL, errors));
-  for (int i = 0; i < CHART_AXIS_COUNT; i++) ck_assert_double_eq(errors[i], 0);
+  for (int i = 0; i < CHART_PIXELS; i++) ck_assert_double_eq(errors[i], 0);
   ck_assert(chart_errors_of(&a, &b, rest, tick_s, &along_y, 1u << CHART_ENERGY, errors));
   ck_assert(isnan(errors[CHART_PATH]) && !isnan(errors[CHART_ENERGY]));
   chart_track_free(&a), chart_track_free(&b);
@@ -68,11 +68,20 @@ START_TEST(rest_is_judged_by_the_last_tick_alone)
 }
 END_TEST
 
+/* A pixel is 5.3 mm from 5 m. */
+START_TEST(a_pixel_is_so_many_millimetres)
+{
+  ck_assert_double_eq_tol(1 / chart_pixels_a_metre(5), 0.005346, 1e-6);
+  ck_assert_double_eq_tol(chart_pixels_a_metre(1), 5 * chart_pixels_a_metre(5), 1e-9);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("errors");
   TCase *c = tcase_create("errors");
   tcase_add_test(c, each_axis_tells_what_differs);
   tcase_add_test(c, the_same_is_not_off);
+  tcase_add_test(c, a_pixel_is_so_many_millimetres);
   tcase_add_test(c, rest_is_judged_by_the_last_tick_alone);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -120,6 +120,34 @@ class Charts(ProgramTest):
             self.assertIn(self.out, line)
         self.assertFalse(os.path.exists(self.out))
 
+    def test_a_character_of_a_file_is_charted_by_its_skin(self):
+        source, authored, built = (os.path.join(self.place, name) for name in ("box.obj", "authored.sbf", "box.sbf"))
+        with open(source, "w", encoding="utf-8") as stream:
+            for corner in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)):
+                stream.write("v {} {} {}\n".format(*(0.2 * x for x in corner)))
+            stream.write("f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
+        for arguments in (("convert", source, "-o", authored, "--no-build"),
+                          ("build", authored, "--elements", "60", "-o", built)):
+            result = call(*arguments)
+            self.assertEqual(result.status, 0, result.err)
+        self.assertEqual(call("chart", authored, "-o", self.out).status, 1)
+        self.chart(built, "--case", "hop", "--no-svg", "--distance", "2")
+        rows = rows_of(self.out, "hop")
+        self.assertEqual({row["case"] for row in rows}, {"hop"})
+        sound = [row for row in rows if row["outcome"] == "sound" and row["scheme"] != "reference"]
+        self.assertTrue(sound)
+        pixels = 1080 / (2 * 2 * math.tan(math.radians(30)))
+        for row in sound:
+            path = float(row["path_m"])
+            self.assertAlmostEqual(float(row["path_px"]), pixels * path, delta=1e-4 * pixels * path + 1e-12)
+            self.assertLessEqual(path, float(row["farthest_m"]))
+        lines = call("chart", built, "--jobs", "-o", self.out).out.splitlines()
+        self.assertEqual(len(lines), 3)
+        result = call("chart", built, "--case", "spring", "-o", self.out)
+        self.assertEqual(result.status, 2)
+        self.assertIn("walk, hop, shake", result.err)
+        self.assertEqual(call("chart", os.path.join(self.place, "none.sbf"), "-o", self.out).status, 2)
+
     def test_wrong_calls_are_refused(self):
         file = os.path.join(self.place, "file")
         with open(file, "w", encoding="utf-8") as stream:

@@ -25,9 +25,11 @@ class Bodies(ProgramTest):
             rows = [row for row in self.rows(case) if row["scheme"] != "reference"]
             self.assertEqual({row["outcome"] for row in rows}, {"sound"})
             calibrated = next(row for row in rows if row["scheme"] == "calibrated" and int(row["elements"]) > 100)
-            for row in rows:
-                if row["scheme"] == "uncalibrated" and int(row["elements"]) < 2000:
-                    self.assertLess(float(calibrated[axis]), float(row[axis]), (case, row["elements"]))
+            finer = [row for row in rows
+                     if row["scheme"] == "uncalibrated" and int(row["elements"]) < 2000 and row[axis]]
+            self.assertGreaterEqual(len(finer), 4)  # one that is too stiff does not swing often enough for a period
+            for row in finer:
+                self.assertLess(float(calibrated[axis]), float(row[axis]), (case, row["elements"]))
 
     def test_schemes_on_a_bar_are_off_as_they_should(self):
         rows = self.rows("beam")

@@ -20,7 +20,11 @@ typedef struct chart_case {
                      nothing is damped */
   bool of_space;  /* bodies are several meshes of one: each is run by the runtime's own choice, and measured
                      against the first, by its surface */
-  uint32_t timed_ticks; /* of the motion's beginning that are timed; 0: all */
+  uint32_t timed_ticks;     /* of the motion's beginning that are timed; 0: all */
+  const sbf_asset *given;   /* a character of a file, which stands in for `make`; its own gravity acts */
+  const sbr_ground *ground; /* what it stands on; NULL: level */
+  void (*guide)(void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each */
+  void *user;
   /* Makes the `number`-th body, from 0; asset NULL and SBF_OK: there are no more. */
   sbf_status (*make)(uint32_t number, chart_subject *subject, sbf_diagnostic *error);
 } chart_case;

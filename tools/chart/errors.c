@@ -6,10 +6,16 @@
 #include "chart/oscillation.h"
 
 const char *const chart_axis_names[CHART_AXIS_COUNT] = {
-    "path_m", "farthest_m", "period", "amplitude", "shape", "volume", "energy"};
+    "path_m", "farthest_m", "period", "amplitude", "shape", "volume", "energy", "path_px", "farthest_px"};
 const char *const chart_axis_labels[CHART_AXIS_COUNT] = {"off the path, RMS (m)", "off the path, most (m)",
     "period, share off", "amplitude, share off", "shape at rest, share off", "volume, share off",
-    "energy, share of what was in motion"};
+    "energy, share of what was in motion", "off on the screen, RMS (pixels)",
+    "off on the screen, most (pixels)"};
+
+double chart_pixels_a_metre(double distance_m) {
+  static const double lines = 1080, half_field = 0.57735026918962576; /* tan 30 degrees */
+  return lines / (2 * distance_m * half_field);
+}
 
 static double square_between(sbf_vec3 p, sbf_vec3 q) {
   double x = (double)p.x - (double)q.x, y = (double)p.y - (double)q.y, z = (double)p.z - (double)q.z;

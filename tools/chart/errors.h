@@ -5,13 +5,15 @@
 #include "chart/track.h"
 
 typedef enum chart_axis {
-  CHART_PATH,      /* m: root of the mean square, over points and ticks, of how far points are off */
-  CHART_FARTHEST,  /* m: the greatest of that */
-  CHART_PERIOD,    /* share by which the signal's period is off */
-  CHART_AMPLITUDE, /* share by which its height in the last period is off */
-  CHART_SHAPE,     /* at rest: root of the mean square of how far points are off, over how far they moved */
-  CHART_VOLUME,    /* greatest difference of the enclosed volume, share of that at rest */
-  CHART_ENERGY,    /* greatest difference of the whole energy, over the most that was in motion */
+  CHART_PATH,        /* m: root of the mean square, over points and ticks, of how far points are off */
+  CHART_FARTHEST,    /* m: the greatest of that */
+  CHART_PERIOD,      /* share by which the signal's period is off */
+  CHART_AMPLITUDE,   /* share by which its height in the last period is off */
+  CHART_SHAPE,       /* at rest: root of the mean square of how far points are off, over how far they moved */
+  CHART_VOLUME,      /* greatest difference of the enclosed volume, share of that at rest */
+  CHART_ENERGY,      /* greatest difference of the whole energy, over the most that was in motion */
+  CHART_PIXELS,      /* CHART_PATH on a screen of 1080 lines that shows 60 degrees, from a chosen distance */
+  CHART_MOST_PIXELS, /* CHART_FARTHEST there */
   CHART_AXIS_COUNT
 } chart_axis;
 
@@ -29,8 +31,12 @@ typedef struct chart_signal {
   int along;      /* 0, 1, 2: x, y, z */
 } chart_signal;
 
+/* So many pixels is a metre, on such a screen. */
+double chart_pixels_a_metre(double distance_m);
+
 /* Fills `errors` for the axes among `axes` (bits of 1 << axis), NAN for others and for what cannot be told of
- * this motion. `rest` (points) are the places before it began. False where memory runs out. */
+ * this motion; pixels are left to the caller. `rest` (points) are the places before it began. False where
+ * memory runs out. */
 bool chart_errors_of(const chart_track *track, const chart_track *reference, const sbf_vec3 *rest,
     double tick_s, const chart_signal *signal, unsigned axes, double errors[CHART_AXIS_COUNT]);
 

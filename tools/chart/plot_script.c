@@ -186,7 +186,8 @@ static void write_panel(FILE *to, const plot *p, int panel) {
     fprintf(to, "set label '%g ms' at %g,graph 0.01 rotate by 90 offset -0.6,0 tc rgb '#555555' font ',9'\n",
         BUDGETS_US[i] / 1000, BUDGETS_US[i]);
   }
-  fprintf(to, "set %s\n", panel ? "key outside right top vertical noenhanced" : "nokey");
+  fprintf(to, "set %s\n",
+      panel ? "key outside right top vertical noenhanced font ',9' spacing 0.85 samplen 1.5" : "nokey");
   fprintf(to, "plot ");
   if (panel == 0) fprintf(to, "$runs using 1:2 with points pt 7 ps 0.25 lc rgb '#c8c8c8' notitle, \\\n");
   fprintf(to, "$front%d using 1:2 with lines lw 7 lc rgb '#ffe08a' title 'Pareto front', \\\n", panel);
@@ -208,7 +209,7 @@ static void write_panel(FILE *to, const plot *p, int panel) {
 static void write_head(FILE *to, const plot *p, const chart_machine *machine, const char *output) {
   const chart_sheet *s = p->sheet;
   fprintf(to,
-      "set encoding utf8\nset terminal svg size 1280,560 font 'DejaVu Sans,12' background '#ffffff'\n"
+      "set encoding utf8\nset terminal svg size 1360,600 font 'DejaVu Sans,12' background '#ffffff'\n"
       "set output '%s'\nset logscale xy\nset format '10^{%%T}'\nset grid lc rgb '#e4e4e4'\nset border 3\n"
       "set tics nomirror\nset ylabel '%s'\nset datafile missing 'NaN'\n",
       output, chart_axis_labels[p->axis]);

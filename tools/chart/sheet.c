@@ -34,6 +34,7 @@ void chart_sheet_free(chart_sheet *sheet) {
 }
 
 bool chart_row_counts(const chart_row *row, chart_axis axis) {
-  bool in_metres = axis == CHART_PATH || axis == CHART_FARTHEST;
+  bool in_metres =
+      axis == CHART_PATH || axis == CHART_FARTHEST || axis == CHART_PIXELS || axis == CHART_MOST_PIXELS;
   return row->sound && row->errors[axis] >= LEAST && (in_metres || row->errors[axis] < 1);
 }

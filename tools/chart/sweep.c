@@ -58,6 +58,13 @@ static double extent_of(const chart_track *t, const sbf_vec3 *rest) {
   return sqrt(sum / ((double)t->ticks * t->points + 1e-9));
 }
 
+static void to_pixels(const sweep *s, double errors[CHART_AXIS_COUNT]) {
+  double pixels = chart_pixels_a_metre(s->effort->distance_m);
+  if (!(s->charted->axes & 1u << CHART_PIXELS)) return;
+  errors[CHART_PIXELS] = pixels * errors[CHART_PATH];
+  errors[CHART_MOST_PIXELS] = pixels * errors[CHART_FARTHEST];
+}
+
 static bool judge(
     const sweep *s, chart_row *row, chart_motion *motion, const chart_truth *truth, const sbf_vec3 *rest) {
   chart_track track;
@@ -72,6 +79,7 @@ static bool judge(
     row->sound = false;
     snprintf(row->why, sizeof row->why, "farther off than anything moves");
   }
+  to_pixels(s, row->errors);
   if (!(asked & 1u << CHART_PATH)) row->errors[CHART_PATH] = NAN;
   chart_track_free(&track);
   return good;
@@ -134,13 +142,16 @@ static sbf_status sweep_schemes(sweep *s, const chart_subject *subject, const ch
 static chart_scene scene_of(const sweep *s, const chart_subject *subject) {
   const chart_case *c = s->charted;
   return (chart_scene){.asset = subject->asset,
-      .has_gravity = true,
+      .has_gravity = !c->given,
       .gravity = c->gravity,
+      .ground = c->ground,
       .grounded = c->grounded,
       .raise_m = c->raise_m,
       .ticks = c->ticks,
       .timed_ticks = c->timed_ticks,
-      .watch = c->watch};
+      .watch = c->watch,
+      .guide = c->guide,
+      .user = c->user};
 }
 
 /* Where the points begin: free() it. */
@@ -167,6 +178,7 @@ static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diag
   sbf_status status = rest ? state_reference(s, subject, &stated, error) : no_memory(error);
   if (status == SBF_OK)
     status = chart_truth_find(&truth, s->charted, &scene, rest, s->effort->most_substeps, stated, error);
+  if (status == SBF_OK) to_pixels(s, stated->errors);
   tell(s, "errors", 0);
   if (status == SBF_OK) status = sweep_schemes(s, subject, &scene, &truth, rest, error);
   chart_truth_free(&truth);
@@ -221,6 +233,15 @@ static sbf_status time_rows(sweep *s, sbf_diagnostic *error) {
   return good ? SBF_OK : no_memory(error);
 }
 
+/* The character of a file is the only body of its case. */
+static sbf_status take(
+    const chart_case *charted, uint32_t number, chart_subject *subject, sbf_diagnostic *error) {
+  if (number) return SBF_OK;
+  subject->asset = sbf_asset_clone(charted->given, NULL);
+  snprintf(subject->model, sizeof subject->model, "as built");
+  return subject->asset ? SBF_OK : no_memory(error);
+}
+
 sbf_status chart_sweep(
     const chart_case *charted, const chart_effort *effort, chart_sheet *sheet, sbf_diagnostic *error) {
   enum { MOST_SUBJECTS = 32 };
@@ -231,7 +252,7 @@ sbf_status chart_sweep(
   *sheet = (chart_sheet){
       .name = charted->name, .title = charted->title, .axes = charted->axes, .rounds = effort->rounds};
   for (uint32_t i = 0; status == SBF_OK && i < MOST_SUBJECTS; i++) {
-    status = charted->make(i, &subjects[i], error);
+    status = charted->given ? take(charted, i, &subjects[i], error) : charted->make(i, &subjects[i], error);
     if (status != SBF_OK || !subjects[i].asset) break;
     count++;
     if (!charted->of_space) status = sweep_subject(&s, &subjects[i], error);

@@ -16,6 +16,7 @@ static sbf_status create(chart_motion *m, const chart_setting *setting, sbf_diag
   sbr_world_definition world = sbr_default_world_definition();
   sbr_character_definition character = sbr_default_character_definition();
   world.ground = sbr_ground_flat(scene->grounded ? 0 : -FAR_DOWN_M);
+  if (scene->ground) world.ground = *scene->ground;
   world.has_gravity = scene->has_gravity;
   world.gravity = scene->gravity;
   world.character_capacity = 1;

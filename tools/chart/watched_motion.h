@@ -15,12 +15,13 @@ typedef enum chart_watch {
 
 typedef struct chart_scene {
   const sbf_asset *asset;
-  bool has_gravity;     /* of its own; else the asset's */
-  sbf_vec3 gravity;     /* m/s^2 */
-  bool grounded;        /* there is a ground at world y = 0; else it is a kilometre down */
-  double raise_m;       /* that the character's origin begins above y = 0 */
-  uint32_t ticks;       /* of the world's 1/60 s */
-  uint32_t timed_ticks; /* of them that chart_motion_run runs; 0: all */
+  bool has_gravity;         /* of its own; else the asset's */
+  sbf_vec3 gravity;         /* m/s^2 */
+  const sbr_ground *ground; /* not NULL: instead of a level one */
+  bool grounded;            /* there is a ground at world y = 0; else it is a kilometre down */
+  double raise_m;           /* that the character's origin begins above y = 0 */
+  uint32_t ticks;           /* of the world's 1/60 s */
+  uint32_t timed_ticks;     /* of them that chart_motion_run runs; 0: all */
   chart_watch watch;
   void (*guide)(void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each; may
                                                                                               be NULL */
