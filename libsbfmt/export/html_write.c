@@ -95,7 +95,7 @@ static sbf_status append_part(sbfi_export *e, const char *folder, sbfi_span name
 }
 
 static sbf_status append_bundle(sbfi_export *e) {
-  sbf_buffer buffer = {NULL};
+  sbf_buffer buffer = {0};
   sbf_status status = sbf_packed_save_memory(e->asset, NULL, &e->allocator, &buffer, e->error);
   if (status == SBF_OK) append_base64(&e->text, buffer.at, buffer.size);
   sbf_buffer_free(&buffer);
