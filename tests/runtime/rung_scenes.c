@@ -84,7 +84,8 @@ double rung_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count)
   for (uint32_t v = 0; v < count; v++) {
     double x = (double)a[v].x - (double)b[v].x, y = (double)a[v].y - (double)b[v].y;
     double z = (double)a[v].z - (double)b[v].z;
-    most = fmax(most, x * x + y * y + z * z);
+    double square = x * x + y * y + z * z;
+    if (square > most) most = square; /* fmax here breaks gcc 12 for aarch64 */
   }
   return sqrt(most);
 }
