@@ -7,6 +7,7 @@
 #include "chart/rounds.h"
 #include "chart/sweep.h"
 #include "chart/table.h"
+#include "chart_maps.h"
 #include "cli.h"
 #include "sbfmt/io.h"
 
@@ -211,6 +212,8 @@ static int measure(cli_call *call, request *r) {
 }
 
 static int run(cli_call *call) {
+  if (cli_switch(call, "--map")) return chart_maps_run(call);
+  if (cli_value(call, "--cells")) return cli_wrong(call, "--cells is of maps: ask for them with --map");
   request r = {.machine = chart_this_machine()};
   int status = gather_cases(call, &r);
   if (status == SBF_OK && !parse(call, &r))
@@ -231,6 +234,8 @@ static const cli_option options[] = {
     {"--most-substeps", "N", "schemes get 1, 2, 4 and so on up to this (default 128)"},
     {"--core", "N", "the core to stay on, of those allowed, from 0 (default 0)"},
     {"--distance", "M", "from which a character is looked at, for errors in pixels (default 5)"},
+    {"--map", NULL, "instead: where each scheme is sound, biased or dead"},
+    {"--cells", "N", "of a map: so many columns, half as many rows (default 48)"},
     {"--no-svg", NULL, "tables alone: gnuplot is not needed"},
     {"--jobs", NULL, "print one command a case, to be run side by side, and measure nothing"},
     {"--format", "text|json", "how to report (default text)"}, {NULL, NULL, NULL}};
@@ -238,23 +243,27 @@ static const cli_option options[] = {
 const cli_verb verb_chart = {.name = "chart",
     .synopsis = "[FILE] [--case NAME] -o DIR",
     .summary = "chart speed against accuracy",
-    .details = "Runs known cases by every scheme at many numbers of substeps, measures how far each is off a "
-               "converged\n"
-               "reference and what a frame of it costs on one core, and writes into the folder, for each "
-               "case, a table\n"
-               "(CASE.csv), every run's time (CASE-runs.csv) and a drawing for each measure of error "
-               "(CASE-ERROR.svg,\n"
-               "which needs gnuplot). Runs that fail are marked on top of the drawings. The folder gets all "
-               "of it or\n"
-               "nothing.\n\n"
-               "spring, chain, pendulum, beam, drop and pressure are motions, cantilever and hung come to "
-               "rest: errors\n"
-               "there are those of steps in time. cantilever-meshes and beam-meshes compare coarse meshes "
-               "with a fine\n"
-               "one: errors there are those of meshes.\n\n"
-               "With a FILE, its character's own walk, hop and shake are charted (--case walk, hop, shake): "
-               "how far the\n"
-               "skin is off, in metres and in pixels of a screen of 1080 lines that shows 60 degrees.",
+    .details =
+        "Runs known cases by every scheme at many numbers of substeps, measures how far each is off a "
+        "converged\n"
+        "reference and what a frame of it costs on one core, and writes into the folder, for each "
+        "case, a table\n"
+        "(CASE.csv), every run's time (CASE-runs.csv) and a drawing for each measure of error "
+        "(CASE-ERROR.svg,\n"
+        "which needs gnuplot). Runs that fail are marked on top of the drawings. The folder gets all "
+        "of it or\n"
+        "nothing.\n\n"
+        "spring, chain, pendulum, beam, drop and pressure are motions, cantilever and hung come to "
+        "rest: errors\n"
+        "there are those of steps in time. cantilever-meshes and beam-meshes compare coarse meshes "
+        "with a fine\n"
+        "one: errors there are those of meshes.\n\n"
+        "With a FILE, its character's own walk, hop and shake are charted (--case walk, hop, shake): "
+        "how far the\n"
+        "skin is off, in metres and in pixels of a screen of 1080 lines that shows 60 degrees.\n\n"
+        "--map draws stability maps: a mass on a spring, by every scheme, over stiffness and damping, "
+        "uneven\n"
+        "frames, one long frame and where it is let go from; map-damping.csv and so on, and their drawings.",
     .options = options,
     .least_inputs = 0,
     .most_inputs = 1,

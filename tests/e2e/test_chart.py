@@ -13,6 +13,7 @@ from sbfmt_program import ProgramTest, call, main, read_text
 
 QUICK = ("--runs", "2", "--most-substeps", "4")
 CASES = ("spring", "chain", "pendulum", "cantilever", "beam", "drop", "pressure", "hung", "cantilever-meshes", "beam-meshes")
+MAPS = ("damping", "hitch", "jitter", "stretch")
 SMALL = ("spring", "chain", "pendulum", "pressure", "drop")  # test_chart_bodies.py has the others
 
 
@@ -148,12 +149,49 @@ class Charts(ProgramTest):
         self.assertIn("walk, hop, shake", result.err)
         self.assertEqual(call("chart", os.path.join(self.place, "none.sbf"), "-o", self.out).status, 2)
 
+    def test_stability_maps_agree_with_closed_forms(self):
+        result = call("chart", "--map", "--cells", "12", "--no-svg", "--format", "json", "-o", self.out)
+        self.assertEqual(result.status, 0, result.err)
+        self.assertEqual(sorted(os.listdir(self.out)), [f"map-{name}.csv" for name in MAPS])
+        said = {(one["map"], one["scheme"]): one for one in json.loads(result.out)["maps"]}
+        for name in MAPS:
+            rows = rows_of(self.out, f"map-{name}")
+            self.assertEqual(len(rows), 6 * 12 * 6)
+            self.assertEqual(len({row["scheme"] for row in rows}), 6)
+            for scheme in {row["scheme"] for row in rows}:
+                for outcome in ("sound", "biased", "dead"):
+                    count = sum(row["scheme"] == scheme and row["outcome"] == outcome for row in rows)
+                    self.assertEqual(said[name, scheme][outcome], count)
+            for row in rows:
+                self.assertEqual(bool(row["why"]), row["outcome"] != "sound")
+                if name == "stretch" or not row["stable_below"]:
+                    continue
+                share = float(row["omega_h"]) / float(row["stable_below"])
+                if share < 0.8:
+                    self.assertIn(row["outcome"], ("sound", "biased"), row)
+                if share > 1.3:
+                    self.assertEqual(row["outcome"], "dead", row)
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
+    def test_stability_maps_are_drawn(self):
+        result = call("chart", "--map", "--cells", "4", "-o", self.out)
+        self.assertEqual(result.status, 0, result.err)
+        for name in MAPS:
+            drawing = read_text(os.path.join(self.out, f"map-{name}.svg"))
+            self.assertTrue(drawing.rstrip().endswith("</svg>"))
+            for words in ("symplectic", "relaxation", "sound", "closed form"):
+                self.assertIn(words, drawing, name)
+
     def test_wrong_calls_are_refused(self):
         file = os.path.join(self.place, "file")
         with open(file, "w", encoding="utf-8") as stream:
             stream.write("x")
         for arguments, words in ((("--case", "spring"), "-o DIR"),
                                  (("--case", "swing", "-o", self.out), "spring, chain, pendulum"),
+                                 (("--map",), "-o DIR"),
+                                 (("--map", "--cells", "1", "-o", self.out), "--cells"),
+                                 (("--map", "--case", "spring", "-o", self.out), "--map"),
+                                 (("--cells", "8", "-o", self.out), "--map"),
                                  (("--runs", "0", "-o", self.out), "--runs"),
                                  (("--most-substeps", "x", "-o", self.out), "--most-substeps"),
                                  (("--core", "1000", "-o", self.out, "--case", "spring"), "core"),

@@ -8,8 +8,7 @@
 #include "render/child_pipe.h"
 #include "render/fault.h"
 
-/* Feeds gnuplot a script. */
-static sbf_status draw(const char *script, size_t size, const char *name, sbf_diagnostic *error) {
+sbf_status chart_gnuplot(const char *script, size_t size, const char *name, sbf_diagnostic *error) {
   char program[] = "gnuplot", from_input[] = "-", *const arguments[] = {program, from_input, NULL};
   child_pipe child;
   char said[400];
@@ -44,7 +43,7 @@ static sbf_status draw_axis(const chart_sheet *sheet, chart_axis axis, const cha
   FILE *memory = open_memstream(&script, &size);
   bool good = memory && chart_plot_script(memory, sheet, axis, machine, path);
   if (memory) good = fclose(memory) == 0 && good;
-  sbf_status status = good ? draw(script, size, name, error)
+  sbf_status status = good ? chart_gnuplot(script, size, name, error)
                            : fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a drawing");
   free(script);
   return status;

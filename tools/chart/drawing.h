@@ -11,4 +11,7 @@
 sbf_status chart_draw(const chart_sheet *sheet, const chart_machine *machine, const chart_folder *folder,
     sbf_diagnostic *error);
 
+/* Feeds gnuplot a script that draws the file `name`, which messages speak of; IO_CANNOT_RUN likewise. */
+sbf_status chart_gnuplot(const char *script, size_t size, const char *name, sbf_diagnostic *error);
+
 #endif

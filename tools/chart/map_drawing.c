@@ -1,0 +1,130 @@
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "chart/drawing.h"
+#include "chart/stability_map.h"
+#include "render/fault.h"
+
+/* By outcome: colours that eyes of every kind tell apart, also as greys. */
+static const unsigned COLOURS[] = {0x56b4e9, 0xf0c430, 0x40302c, 0xffffff};
+
+/* Cells of one outcome that stand beside each other are one box. */
+static void write_boxes(FILE *to, const chart_map *map, uint32_t scheme) {
+  const chart_map_axis *a = map->axis;
+  fprintf(to, "$cells%u << EOD\n", (unsigned)scheme);
+  for (uint32_t r = 0; r < map->rows; r++) {
+    const chart_verdict *row = &map->verdicts[((size_t)scheme * map->rows + r) * map->columns];
+    double edges[2];
+    for (int k = 0; k < 2; k++) {
+      double share = (r + (double)k) / map->rows;
+      edges[k] = a->logarithmic ? a->low * pow(a->high / a->low, share) : a->low + (a->high - a->low) * share;
+    }
+    for (uint32_t c = 0, end; c < map->columns; c = end) {
+      for (end = c + 1; end < map->columns && row[end].outcome == row[c].outcome;) end++;
+      double span = CHART_MAP_MOST_TURN / CHART_MAP_LEAST_TURN;
+      double left = CHART_MAP_LEAST_TURN * pow(span, (double)c / map->columns);
+      double right = CHART_MAP_LEAST_TURN * pow(span, (double)end / map->columns);
+      fprintf(to, "%.6g %.6g %.6g %.6g %.6g %.6g %u\n", sqrt(left * right), (edges[0] + edges[1]) / 2, left,
+          right, edges[0], edges[1], COLOURS[row[c].outcome]);
+    }
+  }
+  fprintf(to, "EOD\n");
+}
+
+/* The bound along the axis; false: there is none within the map. */
+static bool write_bound(FILE *to, const chart_map *map, uint32_t scheme) {
+  enum { POINTS = 96 };
+  const chart_map_axis *a = map->axis;
+  bool some = false;
+  fprintf(to, "$bound%u << EOD\n", (unsigned)scheme);
+  for (int i = 0; i <= POINTS; i++) {
+    double share = (double)i * i / POINTS / POINTS; /* closer at the foot, where bounds bend */
+    double at = a->logarithmic ? a->low * pow(a->high / a->low, share) : a->low + (a->high - a->low) * share;
+    double damping = strcmp(a->name, "damping") == 0 ? at : chart_map_cell(map, scheme, 0, 0).damping;
+    double bound = chart_stable_below(chart_map_schemes[scheme], damping);
+    if (!(bound >= CHART_MAP_LEAST_TURN && bound <= CHART_MAP_MOST_TURN)) continue;
+    fprintf(to, "%.6g %.6g\n", bound, at);
+    some = true;
+  }
+  fprintf(to, "%sEOD\n", some ? "" : "NaN NaN\n");
+  return some;
+}
+
+static void write_panel(FILE *to, const chart_map *map, uint32_t scheme) {
+  write_boxes(to, map, scheme);
+  bool bounded = write_bound(to, map, scheme);
+  fprintf(to,
+      "set title '%s' noenhanced font ',13'\n"
+      "plot $cells%u using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder lc rgb variable notitle",
+      sbf_scheme_name(chart_map_schemes[scheme]), (unsigned)scheme);
+  if (bounded)
+    fprintf(to,
+        ", \\\n$bound%u with lines lw 5 lc rgb '#ffffff' notitle, $bound%u with lines lw 2.5 lc rgb "
+        "'#d00000' "
+        "notitle",
+        (unsigned)scheme, (unsigned)scheme);
+  fputc('\n', to);
+}
+
+/* Words with their colours in one line above all panels. */
+static void write_legend(FILE *to) {
+  static const char *const words[] = {"sound", "biased: rate off by more than 5 %",
+      "dead: more than ten times the energy, shape lost, or numbers that are none"};
+  static const double places[] = {0.05, 0.13, 0.34};
+  for (int i = 0; i < 3; i++) {
+    fprintf(to,
+        "set object %d rectangle from screen %g,screen 0.892 to screen %g,screen 0.912 fs solid border lc "
+        "rgb "
+        "'#606060' fc rgb '#%06x' front\n",
+        i + 1, places[i], places[i] + 0.014, COLOURS[i]);
+    fprintf(to, "set label %d '%s' at screen %g,screen 0.902 font ',11' front\n", i + 1, words[i],
+        places[i] + 0.019);
+  }
+  fprintf(to,
+      "set arrow 1 from screen 0.78,screen 0.902 to screen 0.81,screen 0.902 nohead lw 2.5 lc rgb '#d00000' "
+      "front\nset label 4 'stable below: closed form' at screen 0.815,screen 0.902 font ',11' front\n");
+}
+
+static void write_script(FILE *to, const chart_map *map, const chart_machine *machine, const char *output) {
+  const chart_map_axis *a = map->axis;
+  fprintf(to,
+      "set encoding utf8\nset terminal svg size 1280,760 font 'DejaVu Sans,11' background '#ffffff'\n"
+      "set output '%s'\nset logscale x\n%sset xrange [%g:%g]\nset yrange [%g:%g]\n"
+      "set xtics (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20) out nomirror\nset ytics out nomirror\n",
+      output, a->logarithmic ? "set logscale y\nset format y '%g'\n" : "", CHART_MAP_LEAST_TURN,
+      CHART_MAP_MOST_TURN, a->low, a->high);
+  fprintf(to,
+      "set xlabel 'stiffness: ωh of one substep' offset 0,0.4\nset ylabel '%s' offset 0.5,0\n"
+      "set multiplot layout 2,3 margins 0.065,0.98,0.08,0.83 spacing 0.075,0.15 title \"{/:Bold Stability}: "
+      "%s\\n"
+      "{/=9 %s, %s, %u lanes, commit %s, %s; %u x %u cells of %d ticks}\"\n",
+      a->label, a->title, machine->processor, machine->compiler, (unsigned)machine->lanes,
+      machine->commit[0] ? machine->commit : "unknown", machine->date, (unsigned)map->columns,
+      (unsigned)map->rows, (int)CHART_CELL_TICKS);
+  for (uint32_t s = 0; s < CHART_MAP_SCHEMES; s++) {
+    if (s == 0) write_legend(to);
+    write_panel(to, map, s);
+    if (s == 0) fprintf(to, "unset label\nunset object\nunset arrow\n");
+  }
+  fprintf(to, "unset multiplot\nunset output\n");
+}
+
+sbf_status chart_map_draw(
+    const chart_map *map, const chart_machine *machine, const chart_folder *folder, sbf_diagnostic *error) {
+  char name[64], path[4400], *script = NULL;
+  size_t size = 0;
+  snprintf(name, sizeof name, "map-%s.svg", map->axis->name);
+  if (!chart_folder_file(folder, name, path, sizeof path) || strpbrk(path, "'\n"))
+    return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, name,
+        "gnuplot takes no path with quotes or ends of line in it: name another folder");
+  FILE *memory = open_memstream(&script, &size);
+  if (memory) write_script(memory, map, machine, path);
+  bool good = memory && !ferror(memory);
+  if (memory) good = fclose(memory) == 0 && good;
+  sbf_status status = good ? chart_gnuplot(script, size, name, error)
+                           : fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a drawing");
+  free(script);
+  return status;
+}
