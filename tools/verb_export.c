@@ -26,7 +26,8 @@ static int run(cli_call *call) {
   char folder[4096];
   long render_level = 0;
   sbf_export_motion motion = {0};
-  if (!out) return cli_wrong(call, "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet or OUT.xml");
+  if (!out)
+    return cli_wrong(call, "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf or OUT.xml");
   if (!cli_integer(call, "--render-level", 0, 1000, &render_level)) return SBF_FAILED;
   if (motion_asked(call) && !ends_with(out, ".glb"))
     return cli_wrong(
@@ -51,18 +52,20 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.xml", "where to write; the ending says in which form"},
+    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.xml",
+        "where to write; the ending says in which form"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},
 };
 const cli_verb verb_export = {"export",
-    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.xml [--seconds S ...]",
+    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.xml [--seconds S ...]",
     "write what other programs read",
     "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb;\n"
     "meshes at rest as OBJ with its MTL; tetrahedra as PhysX's .tet, TetGen's .node and .ele,\n"
-    "Gmsh's .msh or VTK's .vtu; or soft and rigid bodies with their joints in the 2012\n"
-    "dialect, .xml. A page, .html, holds the character with the runtime as WebAssembly, to be\n"
+    "Gmsh's .msh or VTK's .vtu; or soft and rigid bodies with their joints as MuJoCo's\n"
+    ".mjcf, +Z up, or in the 2012 dialect, .xml. A page, .html, holds the character with the runtime as "
+    "WebAssembly, to be\n"
     "opened without a network: it walks, can be dragged and have balls thrown at it.\n"
     "Says what the form has no place for. With --seconds, --script or --replay\n"
     "a .glb also holds the motion that `run` would show, 30 frames a second unless --fps says\n"

@@ -81,7 +81,8 @@ static const struct {
   sbf_status (*write)(sbfi_export *e);
 } forms[] = {{".xml", sbfi_export_paper}, {".glb", sbfi_export_glb}, {".html", sbfi_export_html},
     {".obj", sbfi_export_obj}, {".tet", sbfi_export_tet}, {".node", sbfi_export_tetgen},
-    {".ele", sbfi_export_tetgen}, {".msh", sbfi_export_msh}, {".vtu", sbfi_export_vtu}};
+    {".ele", sbfi_export_tetgen}, {".msh", sbfi_export_msh}, {".vtu", sbfi_export_vtu},
+    {".mjcf", sbfi_export_mjcf}};
 
 sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error) {
@@ -106,8 +107,7 @@ sbf_status sbf_export(
     return status;
   }
   return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-      "%s: the ending says which form to write, and there are .glb, .html, .obj, .tet, .node, .msh, .vtu and "
-      ".xml "
-      "(the 2012 dialect)",
+      "%s: the ending says which form to write, and there are .glb, .html, .obj, .tet, .node, .msh, .vtu, "
+      ".mjcf and .xml (the 2012 dialect)",
       path);
 }

@@ -28,6 +28,7 @@ sbf_status sbfi_export_tet(sbfi_export *e);
 sbf_status sbfi_export_tetgen(sbfi_export *e);
 sbf_status sbfi_export_msh(sbfi_export *e);
 sbf_status sbfi_export_vtu(sbfi_export *e);
+sbf_status sbfi_export_mjcf(sbfi_export *e);
 
 sbf_status sbfi_export_no_memory(sbfi_export *e);
 /* Writes e->text to `path` and empties it. */

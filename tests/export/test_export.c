@@ -52,9 +52,9 @@ START_TEST(nothing_to_write_and_unknown_endings_are_errors)
 {
   sbf_asset *empty = sbf_asset_create(NULL);
   sbf_diagnostic error;
-  static const char *const names[] = {
-      "empty.obj", "empty.tet", "empty.xml", "empty.glb", "empty.node", "empty.msh", "empty.vtu"};
-  for (int i = 0; i < 7; i++) {
+  static const char *const names[] = {"empty.obj", "empty.tet", "empty.xml", "empty.glb", "empty.node",
+      "empty.msh", "empty.vtu", "empty.mjcf"};
+  for (int i = 0; i < 8; i++) {
     const char *path = harness_scratch(names[i]);
     size_t size;
     ck_assert_int_eq(sbf_export(empty, path, NULL, &error), SBF_BAD_INPUT);
@@ -134,11 +134,11 @@ END_TEST
 START_TEST(memory_that_runs_out_is_reported)
 {
   sbf_asset *bars = bar(), *all = everything();
-  static const char *const names[] = {
-      "memory.obj", "memory.tet", "memory.xml", "memory.glb", "memory.ele", "memory.msh", "memory.vtu"};
+  static const char *const names[] = {"memory.obj", "memory.tet", "memory.xml", "memory.glb", "memory.ele",
+      "memory.msh", "memory.vtu", "memory.mjcf"};
   moved m;
   move(all, 0.25f, &m);
-  for (int i = 0; i < 7; i++)
+  for (int i = 0; i < 8; i++)
     for (size_t allowed = 0;; allowed++) {
       harness_memory memory;
       sbf_diagnostic error;
@@ -146,7 +146,8 @@ START_TEST(memory_that_runs_out_is_reported)
       const sbf_export_options options = {.allocator = &memory.allocator,
           .motion = &m.motion,
           .folder = harness_source("spec/samples/valid")};
-      sbf_status status = sbf_export(i == 3 ? all : bars, harness_scratch(names[i]), &options, &error);
+      sbf_status status =
+          sbf_export(i == 3 || i == 7 ? all : bars, harness_scratch(names[i]), &options, &error);
       ck_assert_uint_eq(memory.held_bytes, 0);
       if (status == SBF_OK) break;
       ck_assert_int_eq(status, SBF_FAILED);
@@ -158,6 +159,24 @@ START_TEST(memory_that_runs_out_is_reported)
 }
 END_TEST
 
+START_TEST(mjcf_is_turned_and_nests_what_joints_hold)
+{
+  sbf_asset *asset = bar();
+  size_t size;
+  ck_assert_int_eq(sbf_export(asset, harness_scratch("bar.mjcf"), NULL, NULL), SBF_OK);
+  char *text = harness_read(harness_scratch("bar.mjcf"), &size);
+  ck_assert_ptr_nonnull(text);
+  text[size - 1] = 0;
+  ck_assert_ptr_nonnull(strstr(text, "gravity=\"0 0 -9.81\""));
+  ck_assert_ptr_nonnull(strstr(text, ":twist\" type=\"hinge\""));
+  ck_assert_ptr_nonnull(strstr(text, "range=\"-0.21816616 0.21816616\""));
+  ck_assert_ptr_nonnull(strstr(text, " dim=\"3\""));
+  ck_assert_ptr_nonnull(strstr(text, "<freejoint name=\"rigid.1:free\"/>"));
+  free(text);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("export");
   TCase *c = tcase_create("forms");
@@ -165,6 +184,7 @@ static Suite *suite(void) {
   tcase_add_test(c, what_is_left_out_is_said);
   tcase_add_test(c, nothing_to_write_and_unknown_endings_are_errors);
   tcase_add_test(c, what_moves_with_its_bones_needs_no_offsets);
+  tcase_add_test(c, mjcf_is_turned_and_nests_what_joints_hold);
   tcase_add_test(c, memory_that_runs_out_is_reported);
   suite_add_tcase(s, c);
   return s;

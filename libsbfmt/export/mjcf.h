@@ -1,0 +1,56 @@
+/* What the parts of the MJCF writer share. Everything is turned from +Y up to MuJoCo's +Z up: a quarter turn
+ * about +X. Bodies have no rotation at rest, as the asset's rigid bodies have none. */
+#ifndef SBFI_MJCF_H
+#define SBFI_MJCF_H
+
+#include "export/exporting.h"
+
+typedef struct mjcf_flex {
+  const sbf_soft_body *body;
+  const sbf_level *level; /* NULL: nothing of it can be written */
+  int dim;                /* 3: tetrahedra, 2: a sheet's triangles, 1: springs */
+  int32_t *holder;        /* (points) the pin set that holds it fast, or SBF_NONE */
+  sbf_vec3 *places;       /* (points) at rest, asset space */
+  float *masses;          /* (points) */
+} mjcf_flex;
+
+typedef struct mjcf_writer {
+  sbfi_export *e;
+  sbfi_arena scratch;
+  mjcf_flex *flexes;   /* (soft bodies) */
+  bool *bone_holds;    /* (bones) */
+  bool *bone_elastic;  /* (bones) holds points of elastic elements: MuJoCo takes no mocap body there */
+  bool *rigid_elastic; /* (rigid bodies) the same */
+  uint32_t *first,
+      *next;       /* (rigid bodies + 1), (2 * joints): the joints' ends at a body; the last: the world */
+  bool *is_tree;   /* (joints) joins a body to what it hangs on */
+  int32_t *parent; /* (rigid bodies) */
+  bool *placed;    /* (rigid bodies) */
+  /* Left out. */
+  uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, bare, loop_bounds, goals,
+      moduli, ratios;
+} mjcf_writer;
+
+/* An end of a joint that is not there. */
+#define MJCF_END UINT32_MAX
+
+sbf_vec3 sbfi_mjcf_turned(sbf_vec3 v);
+sbf_vec3 sbfi_mjcf_rotated(sbf_quat q, sbf_vec3 v);
+void sbfi_mjcf_vec3(mjcf_writer *w, const char *name, sbf_vec3 asset_space); /* an attribute, turned */
+void sbfi_mjcf_f32(mjcf_writer *w, const char *name, float value);
+/* The id as a word of an XML attribute's list: what is not a letter, digit, '_', '-' or '.' is '_', with the
+ * index behind it then, as ids that differ there alone must. */
+void sbfi_mjcf_name(mjcf_writer *w, const char *id, uint32_t index);
+void sbfi_mjcf_rigid_name(mjcf_writer *w, int32_t body); /* SBF_NONE: world */
+
+/* Each false where memory runs out. */
+bool sbfi_mjcf_take_flexes(mjcf_writer *w);
+bool sbfi_mjcf_take_joints(mjcf_writer *w);
+void sbfi_mjcf_write_holders_and_points(mjcf_writer *w);
+bool sbfi_mjcf_write_flexes(mjcf_writer *w);
+void sbfi_mjcf_write_meshes(mjcf_writer *w);
+void sbfi_mjcf_write_bodies(mjcf_writer *w);
+void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t index, bool forward);
+void sbfi_mjcf_write_constraints(mjcf_writer *w); /* what is not in the tree */
+
+#endif

@@ -1,0 +1,287 @@
+/* Soft bodies: a point is a body with three slides, a held point belongs to what holds it, and a flex of
+ * tetrahedra, of a sheet's triangles or of springs lies over them. */
+#include "export/mjcf.h"
+#include "sbfmt/mechanics.h"
+
+static sbf_vec3 minus(sbf_vec3 a, sbf_vec3 b) {
+  return (sbf_vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static uint32_t spring_count(const sbf_level *level) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < level->springs.count; i++) count += level->springs.at[i].ends.count;
+  return count;
+}
+
+/* Place in the level of a surface point; MJCF_END: it has none there. */
+static uint32_t place_of(const sbf_level *level, uint32_t point) {
+  uint32_t place = point < level->new_from_old.count ? level->new_from_old.at[point] : point;
+  return place < level->positions.count ? place : MJCF_END;
+}
+
+static bool is_sheet(const sbf_soft_body *body, const sbf_level *level) {
+  sbf_body_measures measures;
+  sbf_body_measure(body, &measures);
+  for (uint32_t i = 0; i < body->surface.positions.count; i++)
+    if (place_of(level, i) == MJCF_END) return false;
+  return measures.sheet && body->surface.polygon_sizes.count;
+}
+
+static void choose_level(mjcf_flex *flex, const sbf_soft_body *body) {
+  flex->body = body;
+  flex->level = sbfi_export_lattice(body);
+  flex->dim = 3;
+  for (uint32_t i = 0; !flex->level && i < body->levels.count; i++) {
+    const sbf_level *level = &body->levels.at[i];
+    if (level->model != SBF_ELASTIC_MODEL_SPRINGS || !spring_count(level)) continue;
+    flex->level = level;
+    flex->dim = is_sheet(body, level) ? 2 : 1;
+  }
+}
+
+static float weight_of(const sbf_pin_set *set, uint32_t k) {
+  float weight = set->weights.count > 1 ? set->weights.at[k] : set->weights.count ? set->weights.at[0] : 1;
+  if (weight < set->minimum) weight = set->minimum;
+  return weight > set->maximum ? set->maximum : weight;
+}
+
+/* Marks the set's points, and puts each at its offset in the frame. */
+static void take_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
+  const sbf_pin_set *set = &flex->level->pins.at[s];
+  const sbf_asset *asset = w->e->asset;
+  for (uint32_t k = 0; k < set->points.count; k++) {
+    uint32_t p = set->points.at[k];
+    if (weight_of(set, k) < 1) {
+      w->goals++;
+      continue;
+    }
+    flex->holder[p] = s;
+    if (set->bone >= 0) w->bone_holds[set->bone] = true;
+    if (set->bone >= 0 && flex->dim > 1) w->bone_elastic[set->bone] = true;
+    if (set->rigid_body >= 0 && flex->dim > 1) w->rigid_elastic[set->rigid_body] = true;
+    if (!set->offsets.count) continue;
+    sbf_vec3 at = set->offsets.at[k], from = {0, 0, 0};
+    if (set->bone >= 0) {
+      at = sbfi_mjcf_rotated(asset->bones.at[set->bone].rotation, at);
+      from = asset->bones.at[set->bone].head;
+    } else if (set->rigid_body >= 0) {
+      from = asset->rigid_bodies.at[set->rigid_body].center;
+    }
+    flex->places[p] = (sbf_vec3){at.x + from.x, at.y + from.y, at.z + from.z};
+  }
+}
+
+static bool take_flex(mjcf_writer *w, mjcf_flex *flex) {
+  uint32_t count = flex->level->positions.count;
+  uint8_t *held = sbfi_arena_allocate(&w->scratch, count, sizeof *held);
+  flex->holder = sbfi_arena_allocate(&w->scratch, count, sizeof *flex->holder);
+  flex->places = sbfi_arena_copy(&w->scratch, flex->level->positions.at, count, sizeof *flex->places);
+  flex->masses = sbfi_arena_allocate(&w->scratch, count, sizeof *flex->masses);
+  if (!held || !flex->holder || !flex->places || !flex->masses) return false;
+  for (uint32_t i = 0; i < count; i++) flex->holder[i] = SBF_NONE;
+  for (uint32_t s = 0; s < flex->level->pins.count; s++) take_pins(w, flex, (int32_t)s);
+  sbf_level_held_points(flex->level, held);
+  sbf_level_masses(flex->body, flex->level, held, flex->masses);
+  return true;
+}
+
+bool sbfi_mjcf_take_flexes(mjcf_writer *w) {
+  const sbf_asset *asset = w->e->asset;
+  uint32_t bodies = asset->soft_bodies.count;
+  w->flexes = sbfi_arena_allocate(&w->scratch, bodies + 1, sizeof *w->flexes);
+  w->bone_holds = sbfi_arena_allocate(&w->scratch, asset->bones.count + 1, sizeof *w->bone_holds);
+  w->bone_elastic = sbfi_arena_allocate(&w->scratch, asset->bones.count + 1, sizeof *w->bone_elastic);
+  w->rigid_elastic =
+      sbfi_arena_allocate(&w->scratch, asset->rigid_bodies.count + 1, sizeof *w->rigid_elastic);
+  if (!w->flexes || !w->bone_holds || !w->bone_elastic || !w->rigid_elastic) return false;
+  for (uint32_t b = 0; b < bodies; b++) {
+    choose_level(&w->flexes[b], &asset->soft_bodies.at[b]);
+    if (!w->flexes[b].level) w->bare++;
+    if (w->flexes[b].level && !take_flex(w, &w->flexes[b])) return false;
+  }
+  return true;
+}
+
+/* ---- Bodies ---- */
+
+static void write_point(mjcf_writer *w, const mjcf_flex *flex, uint32_t b, uint32_t p) {
+  sbfi_text *text = &w->e->text;
+  float mass = flex->masses[p] > 1e-9f ? flex->masses[p] : 1e-9f;
+  float radius = flex->body->collision.particle_radius;
+  if (!(flex->masses[p] > 0)) w->massless++;
+  if (radius < 1e-3f) radius = 1e-3f;
+  /* Slides alone: the moments are never felt, but have to be there. */
+  float moment = 0.4f * mass * radius * radius;
+  if (moment < 1e-12f) moment = 1e-12f;
+  sbfi_text_string(text, "    <body name=\"");
+  sbfi_mjcf_name(w, flex->body->id, b);
+  sbfi_export_format(w->e, ":%u\"", p);
+  sbfi_mjcf_vec3(w, "pos", flex->places[p]);
+  if (flex->body->attributes.gravity_scale != 1)
+    sbfi_mjcf_f32(w, "gravcomp", 1 - flex->body->attributes.gravity_scale);
+  sbfi_text_string(text, "><inertial pos=\"0 0 0\"");
+  sbfi_mjcf_f32(w, "mass", mass);
+  sbfi_text_string(text, " diaginertia=\"");
+  for (int k = 0; k < 3; k++) {
+    if (k) sbfi_text_char(text, ' ');
+    sbfi_text_f32(text, moment);
+  }
+  sbfi_text_char(text, '"');
+  sbfi_text_string(text, "/>");
+  static const char *const axes[3] = {"1 0 0", "0 1 0", "0 0 1"};
+  for (int k = 0; k < 3; k++) sbfi_export_format(w->e, "<joint type=\"slide\" axis=\"%s\"/>", axes[k]);
+  sbfi_text_string(text, "</body>\n");
+}
+
+static void write_bone_name(mjcf_writer *w, uint32_t bone) {
+  sbfi_mjcf_name(w, w->e->asset->bones.at[bone].id, bone);
+  sbfi_text_string(&w->e->text, ":bone");
+}
+
+void sbfi_mjcf_write_holders_and_points(mjcf_writer *w) {
+  const sbf_asset *asset = w->e->asset;
+  for (uint32_t i = 0; i < asset->bones.count; i++) {
+    if (!w->bone_holds[i]) continue;
+    sbfi_text_string(&w->e->text, "    <body name=\"");
+    write_bone_name(w, i);
+    sbfi_text_char(&w->e->text, '"');
+    if (!w->bone_elastic[i]) sbfi_text_string(&w->e->text, " mocap=\"true\"");
+    sbfi_mjcf_vec3(w, "pos", asset->bones.at[i].head);
+    sbfi_text_string(&w->e->text, "/>\n");
+  }
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
+    for (uint32_t p = 0; w->flexes[b].level && p < w->flexes[b].level->positions.count; p++)
+      if (w->flexes[b].holder[p] < 0) write_point(w, &w->flexes[b], b, p);
+}
+
+/* ---- Flexes ---- */
+
+static void write_elements(mjcf_writer *w, const mjcf_flex *flex) {
+  const sbf_level *level = flex->level;
+  sbfi_text_string(&w->e->text, " element=\"");
+  const char *gap = "";
+  for (uint32_t i = 0; flex->dim == 3 && i < level->lattice.tetrahedra.count; i++, gap = " ") {
+    const uint32_t *p = level->lattice.tetrahedra.at[i].at;
+    sbfi_export_format(w->e, "%s%u %u %u %u", gap, p[0], p[1], p[2], p[3]);
+  }
+  for (uint32_t s = 0; flex->dim == 1 && s < level->springs.count; s++)
+    for (uint32_t i = 0; i < level->springs.at[s].ends.count; i++, gap = " ")
+      sbfi_export_format(
+          w->e, "%s%u %u", gap, level->springs.at[s].ends.at[i].at[0], level->springs.at[s].ends.at[i].at[1]);
+  const sbf_polygon_mesh *mesh = &flex->body->surface;
+  for (uint32_t i = 0, corner = 0; flex->dim == 2 && i < mesh->polygon_sizes.count; i++) {
+    const uint32_t *points = mesh->polygon_points.at + corner;
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[i]; k++, gap = " ")
+      sbfi_export_format(w->e, "%s%u %u %u", gap, place_of(level, points[0]), place_of(level, points[k - 1]),
+          place_of(level, points[k]));
+    corner += mesh->polygon_sizes.at[i];
+  }
+  sbfi_text_char(&w->e->text, '"');
+}
+
+static float mean_of(const float *values, uint32_t count, bool *differ) {
+  double sum = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    sum += values[i];
+    *differ = *differ || values[i] != values[0];
+  }
+  return count ? (float)(sum / count) : 0;
+}
+
+/* Of all its springs or tetrahedra together, as a flex has one of each number. */
+static bool write_matter(mjcf_writer *w, const mjcf_flex *flex) {
+  const sbf_level *level = flex->level;
+  const sbf_attributes *matter = &flex->body->attributes;
+  uint32_t points = level->positions.count;
+  uint32_t count = flex->dim == 3 ? level->lattice.tetrahedra.count : spring_count(level);
+  float *volumes = sbfi_arena_allocate(&w->scratch, points, sizeof *volumes);
+  double *work = sbfi_arena_allocate(&w->scratch, points, 2 * sizeof *work);
+  float *values = sbfi_arena_allocate(&w->scratch, count, sizeof *values);
+  bool differ = false;
+  if (!volumes || !work || !values) return false;
+  if (flex->dim == 1) {
+    sbf_level_stiffness(flex->body, level, volumes, work, values);
+    sbfi_text_string(&w->e->text, "<edge");
+    float stiffness = mean_of(values, count, &differ);
+    sbfi_mjcf_f32(w, "stiffness", stiffness);
+    sbfi_mjcf_f32(w, "damping", matter->stiffness_damping * stiffness);
+  } else {
+    float modulus = matter->young_modulus, ratio = matter->poisson_ratio;
+    if (flex->dim == 3) {
+      sbf_level_moduli(flex->body, level, volumes, values);
+      modulus = mean_of(values, count, &differ);
+    }
+    if (ratio < 0 || ratio > 0.499f) w->ratios++;
+    sbfi_text_string(&w->e->text, "<elasticity");
+    sbfi_mjcf_f32(w, "young", modulus);
+    sbfi_mjcf_f32(w, "poisson", ratio < 0 ? 0 : ratio > 0.499f ? 0.499f : ratio);
+    sbfi_mjcf_f32(w, "damping", matter->stiffness_damping);
+    if (flex->dim == 2) {
+      sbfi_mjcf_f32(w, "thickness", matter->thickness);
+      sbfi_text_string(&w->e->text, " elastic2d=\"both\"");
+    }
+  }
+  w->moduli += differ;
+  sbfi_text_string(&w->e->text, "/>");
+  return true;
+}
+
+static void write_vertices(mjcf_writer *w, const mjcf_flex *flex, uint32_t b) {
+  const sbf_asset *asset = w->e->asset;
+  uint32_t count = flex->level->positions.count;
+  sbfi_text_string(&w->e->text, " body=\"");
+  for (uint32_t p = 0; p < count; p++) {
+    const sbf_pin_set *set = flex->holder[p] < 0 ? NULL : &flex->level->pins.at[flex->holder[p]];
+    if (p) sbfi_text_char(&w->e->text, ' ');
+    if (!set) {
+      sbfi_mjcf_name(w, flex->body->id, b);
+      sbfi_export_format(w->e, ":%u", p);
+    } else if (set->bone >= 0) {
+      write_bone_name(w, (uint32_t)set->bone);
+    } else {
+      sbfi_mjcf_rigid_name(w, set->rigid_body);
+    }
+  }
+  sbfi_text_string(&w->e->text, "\" vertex=\"");
+  for (uint32_t p = 0; p < count; p++) {
+    const sbf_pin_set *set = flex->holder[p] < 0 ? NULL : &flex->level->pins.at[flex->holder[p]];
+    sbf_vec3 from = {0, 0, 0};
+    if (!set)
+      from = flex->places[p];
+    else if (set->bone >= 0)
+      from = asset->bones.at[set->bone].head;
+    else if (set->rigid_body >= 0)
+      from = asset->rigid_bodies.at[set->rigid_body].center;
+    sbfi_export_vec3(w->e, sbfi_mjcf_turned(minus(flex->places[p], from)));
+  }
+  sbfi_text_char(&w->e->text, '"');
+}
+
+bool sbfi_mjcf_write_flexes(mjcf_writer *w) {
+  const sbf_asset *asset = w->e->asset;
+  sbfi_text *text = &w->e->text;
+  if (w->bare == asset->soft_bodies.count) return true;
+  sbfi_text_string(text, "  <deformable>\n");
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
+    const mjcf_flex *flex = &w->flexes[b];
+    if (!flex->level) continue;
+    const sbf_collision *collision = &flex->body->collision;
+    float radius = collision->particle_radius;
+    sbfi_text_string(text, "    <flex name=\"");
+    sbfi_mjcf_name(w, flex->body->id, b);
+    sbfi_export_format(w->e, "\" dim=\"%d\"", flex->dim);
+    sbfi_mjcf_f32(w, "radius", flex->dim < 3 && !(radius > 0) ? 1e-3f : radius);
+    write_vertices(w, flex, b);
+    write_elements(w, flex);
+    sbfi_text_char(text, '>');
+    sbfi_export_format(w->e, "<contact selfcollide=\"%s\" contype=\"%u\" conaffinity=\"%u\"",
+        collision->self ? "auto" : "none", collision->layer & INT32_MAX, collision->mask & INT32_MAX);
+    sbfi_text_string(text, " friction=\"");
+    sbfi_text_f32(text, flex->body->attributes.friction);
+    sbfi_text_string(text, " 0.005 0.0001\"/>");
+    if (!write_matter(w, flex)) return false;
+    sbfi_text_string(text, "</flex>\n");
+  }
+  sbfi_text_string(text, "  </deformable>\n");
+  return true;
+}

@@ -1,0 +1,97 @@
+/* MuJoCo's MJCF: rigid bodies as a tree with its joints, loops as equalities, soft bodies as flexes. */
+#include <stdio.h>
+#include <string.h>
+
+#include "export/mjcf.h"
+
+sbf_vec3 sbfi_mjcf_turned(sbf_vec3 v) {
+  return (sbf_vec3){v.x, 0 - v.z, v.y};
+}
+
+void sbfi_mjcf_f32(mjcf_writer *w, const char *name, float value) {
+  sbfi_export_format(w->e, " %s=\"", name);
+  sbfi_text_f32(&w->e->text, value);
+  sbfi_text_char(&w->e->text, '"');
+}
+
+void sbfi_mjcf_vec3(mjcf_writer *w, const char *name, sbf_vec3 asset_space) {
+  const sbf_vec3 v = sbfi_mjcf_turned(asset_space);
+  const float numbers[3] = {v.x, v.y, v.z};
+  sbfi_export_format(w->e, " %s=\"", name);
+  for (int k = 0; k < 3; k++) {
+    if (k) sbfi_text_char(&w->e->text, ' ');
+    sbfi_text_f32(&w->e->text, numbers[k]);
+  }
+  sbfi_text_char(&w->e->text, '"');
+}
+
+static bool is_plain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || strchr("_-.", c);
+}
+
+void sbfi_mjcf_name(mjcf_writer *w, const char *id, uint32_t index) {
+  bool plain = *id && strcmp(id, "world") != 0;
+  for (const char *c = id; *c; c++) {
+    plain = plain && is_plain(*c);
+    sbfi_text_char(&w->e->text, is_plain(*c) ? *c : '_');
+  }
+  if (!plain) sbfi_export_format(w->e, "~%u", index);
+}
+
+void sbfi_mjcf_rigid_name(mjcf_writer *w, int32_t body) {
+  if (body < 0)
+    sbfi_text_string(&w->e->text, "world");
+  else
+    sbfi_mjcf_name(w, w->e->asset->rigid_bodies.at[body].id, (uint32_t)body);
+}
+
+static void write_all(mjcf_writer *w) {
+  sbfi_text *text = &w->e->text;
+  sbfi_text_string(text, "<?xml version=\"1.0\"?>\n<mujoco model=\"sbfmt\">\n"
+                         "  <!-- Metres, kilograms, radians. Turned from +Y up to +Z up: (x, y, z) is "
+                         "(x, -z, y) of the file it was made from. -->\n"
+                         "  <compiler angle=\"radian\"/>\n  <option");
+  sbfi_mjcf_vec3(w, "gravity", w->e->asset->environment.gravity);
+  sbfi_text_string(text, "/>\n");
+  sbfi_mjcf_write_meshes(w);
+  sbfi_text_string(text, "  <worldbody>\n");
+  sbfi_mjcf_write_bodies(w);
+  sbfi_mjcf_write_holders_and_points(w);
+  sbfi_text_string(text, "  </worldbody>\n");
+}
+
+static bool write_text(mjcf_writer *w) {
+  if (!sbfi_mjcf_take_flexes(w) || !sbfi_mjcf_take_joints(w)) return false;
+  write_all(w);
+  if (!sbfi_mjcf_write_flexes(w)) return false;
+  sbfi_mjcf_write_constraints(w);
+  sbfi_text_string(&w->e->text, "</mujoco>\n");
+  return true;
+}
+
+sbf_status sbfi_export_mjcf(sbfi_export *e) {
+  const sbf_asset *asset = e->asset;
+  if (!asset->rigid_bodies.count && !asset->soft_bodies.count)
+    return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
+        "there is neither a rigid nor a soft body: there is nothing to write to %s", e->path);
+  mjcf_writer w;
+  memset(&w, 0, sizeof w);
+  w.e = e;
+  sbfi_arena_init(&w.scratch, &e->allocator, 0);
+  bool written = write_text(&w);
+  sbfi_arena_free(&w.scratch);
+  if (!written) return sbfi_export_no_memory(e);
+  const sbfi_left_out things[] = {{w.bare, "soft bodies without tetrahedra or springs (build makes them)"},
+      {w.goals, "goal springs"}, {w.moduli, "soft bodies whose elements differ (their mean is written)"},
+      {w.ratios, "Poisson ratios outside 0 to 0.499"}, {w.massless, "moving bodies' masses of 0"},
+      {w.loops, "joints that close loops"}, {w.loop_bounds, "limits and drives of those that close loops"},
+      {w.pulleys, "pulleys"}, {w.soft_limits, "limits' springs"},
+      {w.drives, "drives' speeds, bounds and distances"}, {w.breaking, "breaking loads"},
+      {w.touching, "joined bodies that touch"}, {asset->cross_springs.count, "sets of cross springs"}};
+  sbfi_export_left_out(e, "MJCF", things, sizeof things / sizeof *things);
+  const sbfi_left_out others[] = {{asset->render_meshes.count, "render meshes"},
+      {asset->clips.count, "clips"}, {asset->gaits.count, "gaits"}, {asset->ik_chains.count, "IK chains"},
+      {asset->environment.fields.count, "force fields"}};
+  sbfi_export_left_out(e, "MJCF", others, sizeof others / sizeof *others);
+  return sbfi_export_commit(e, e->path);
+}
