@@ -1,20 +1,27 @@
 /* The paper's scene: a soft figure over a rigid skeleton that hangs by its hands from two blocks, and balls
  * thrown at it (examples/bones; Matulewicz and others, Figures 9 and 10 there). The figure has about 2750
  * tetrahedra and 1036 polygons, as the paper's armadillo had, of which two at once ran at 18 frames a second.
+ * The balls are rigid bodies: what they push the figure with slows them down and throws them back.
  *
  * Four variants: the skeleton as it is, without its limits, with the masses of its bones evened out, and
  * flesh alone. Of each: the largest bend at an elbow, a knee or the neck against rest while six balls of 12
- * cm hit at 5 m/s and bounce off (`bend_deg`); the largest angle by which a joint's limit was broken
+ * cm and 7 kg hit at 8 m/s (`bend_deg`); the largest angle by which a joint's limit was broken
  * (`beyond_deg`); how far the skin hangs from its rest shape before, in the mean (`sag_mm`), and how far it
- * was moved at most (`swing_mm`); what of the bends is left eight seconds after the last ball (`left_deg`),
- * which is the shape's error; and the frames a second of two figures on one thread.
+ * was moved at most (`swing_mm`); the impulse that a ball gave, in the mean (`given_n_s`); what of the bends
+ * and of the skin's way is left eight seconds after the last ball, which is the shape's error (`left_deg`,
+ * `left_mm`); and the frames a second of one and of two figures on one thread, balls hitting all the time.
  *
- * Ends with a failure where the limits do not hold, make no difference, or the figure does not find back. */
+ * `--draw FOLDER` writes four moments of a throw beside each other instead, as files that `sbfmt render`
+ * draws: thrown-figure.sbf and thrown-flesh.sbf.
+ *
+ * Ends with a failure where the limits do not hold, make no difference, a ball misses, or the figure does not
+ * find back. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "measured_bodies.h"
 #include "measuring.h"
 #include "sbfmt/asset.h"
 #include "sbfmt/build.h"
@@ -23,19 +30,19 @@
 #include "sbrun/rigid.h"
 
 enum { MARKS = 11, BENDS = 5, BALLS = 6, MOST_VERTICES = 4096, SETTLES = 360, EVERY = 30, RESTS = 480 };
-enum { QUICK_SHARE = 3 }; /* of all that time and those balls */
+enum { MOST_FIGURES = 2, MOMENTS = 4, QUICK_SHARE = 3 }; /* of all that time and those balls */
 
 static const double HANGS_M = 2;
-static const float NEAR_M = 0.11f, BALL_M = 0.12f, BALL_M_S = 5, DEGREES = 57.29578f;
+static const float NEAR_M = 0.11f, BALL_M = 0.12f, BALL_KG = 7, BALL_M_S = 8, DEGREES = 57.29578f;
 
 /* Places of the figure at rest: joints, and the middles of the limbs at them. */
-static const sbf_vec3 marks[MARKS] = {{0, 1.2f, 0}, {0, 1.43f, 0}, {0, 1.57f, 0}, {0.30f, 1.345f, 0},
+static const sbf_vec3 marks[MARKS] = {{0, 1.2f, 0.1f}, {0, 1.43f, 0}, {0, 1.57f, 0}, {0.30f, 1.345f, 0},
     {0.42f, 1.36f, 0}, {0.54f, 1.38f, 0}, {0.105f, 0.69f, 0}, {0.115f, 0.5f, 0.01f}, {0.12f, 0.3f, 0},
     {-0.105f, 0.69f, 0}, {-0.115f, 0.5f, 0.01f}};
 static const int bends[BENDS][3] = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, -8}, {0, 6, 7}};
 /* Where each ball hits. */
-static const sbf_vec3 targets[BALLS] = {
-    {0, 1.57f, 0}, {0.05f, 1.2f, 0}, {0.12f, 0.35f, 0}, {-0.42f, 1.36f, 0}, {-0.1f, 0.7f, 0}, {0, 0.95f, 0}};
+static const sbf_vec3 targets[BALLS] = {{0, 1.57f, 0}, {0.05f, 1.2f, 0}, {0.12f, 0.35f, 0},
+    {-0.42f, 1.36f, 0}, {-0.1f, 0.7f, 0}, {0, 0.95f, 0.1f}};
 
 typedef struct shape {
   uint32_t count;
@@ -45,13 +52,13 @@ typedef struct shape {
 typedef struct scene {
   sbr_world *world;
   sbr_character_id character;
+  const sbr_model *ball;
   uint32_t joint_count;
   const shape *rest;
-  float raise;
 } scene;
 
 typedef struct result {
-  float bend, beyond, sag, swing, left;
+  float bend, beyond, sag, swing, given, left, left_m;
 } result;
 
 static sbf_asset *read_figure(const char *name) {
@@ -88,6 +95,7 @@ static sbf_vec3 carried(const scene *s, const shape *now, sbf_vec3 at) {
     sum = (sbf_vec3){sum.x + now->at[i].x, sum.y + now->at[i].y, sum.z + now->at[i].z};
     count++;
   }
+  if (!(count > 0)) bench_fail("no skin near %g %g %g", (double)at.x, (double)at.y, (double)at.z);
   return (sbf_vec3){sum.x / count, sum.y / count, sum.z / count};
 }
 
@@ -126,33 +134,33 @@ static void note(const scene *s, const shape *now, const shape *before, result *
   r->swing = moved > r->swing ? moved : r->swing;
 }
 
-/* Throws a ball, which bounces back where it touches, and goes on for a while. */
-static void throw_ball(const scene *s, const sbr_shape *ball, int number, const shape *before, result *r) {
-  sbr_collider_definition definition = sbr_default_collider_definition();
-  sbr_collider_id id;
+/* A ball on its way to a place of a character's skin, half a metre off. */
+static sbr_character_id throw_ball(const scene *s, sbf_vec3 aim) {
+  sbr_character_definition definition = sbr_default_character_definition();
+  sbr_double3 from = sbr_character_origin(s->world, s->character);
+  sbr_character_id id;
   sbf_diagnostic error;
+  from = (sbr_double3){from.x + (double)aim.x, from.y + (double)aim.y, from.z + (double)aim.z + 0.5};
+  definition.position = from;
+  bench_require(sbr_character_create(s->world, s->ball, &definition, &id, &error), &error);
+  sbr_character_rigid_push(s->world, id, 0, from, (sbf_vec3){0, 0, -BALL_KG * BALL_M_S});
+  return id;
+}
+
+/* Throws one, goes on for a while, and takes it away. */
+static void throw_and_note(const scene *s, int number, const shape *before, result *r) {
   static shape now;
   look(s, &now);
-  sbf_vec3 aim = carried(s, &now, targets[number]);
-  sbr_double3 low = sbr_character_origin(s->world, s->character);
-  sbr_double3 at = {low.x + (double)aim.x, low.y + (double)aim.y, low.z + (double)aim.z + 0.5};
-  double speed = -(double)BALL_M_S;
-  definition.shape = ball;
-  definition.position = at;
-  bench_require(sbr_collider_create(s->world, &definition, &id, &error), &error);
+  sbr_character_id ball = throw_ball(s, carried(s, &now, targets[number]));
   for (int i = 0; i < EVERY; i++) {
-    sbr_event events[64];
-    at.z += speed / 60;
-    sbr_collider_move(s->world, id, at, (sbf_quat){0, 0, 0, 1});
     sbr_world_tick(s->world);
-    uint32_t count = sbr_world_events(s->world, events, 64);
-    for (uint32_t e = 0; e < count && e < 64; e++)
-      if (events[e].kind == SBR_EVENT_CONTACT && events[e].collider.value == id.value && speed < 0)
-        speed *= -0.3;
     look(s, &now);
     note(s, &now, before, r);
   }
-  sbr_collider_destroy(s->world, id);
+  float given = BALL_KG * (BALL_M_S + sbr_character_rigid_state(s->world, ball, 0).velocity.z);
+  if (!(given > 0.3f * BALL_KG * BALL_M_S)) bench_fail("ball %d passed by", number);
+  r->given += given;
+  sbr_character_destroy(s->world, ball);
 }
 
 static sbr_world *make_world(void) {
@@ -161,6 +169,7 @@ static sbr_world *make_world(void) {
   sbf_diagnostic error;
   definition.sleep_after_s = 0;
   bench_require(sbr_world_create(&definition, &world, &error), &error);
+  bench_require(sbr_world_bodies_meet(world, 0, &error), &error);
   return world;
 }
 
@@ -173,62 +182,83 @@ static sbr_character_id hang(sbr_world *world, const sbr_model *model, double x)
   return id;
 }
 
-static result throw_all(const sbr_model *model, uint32_t joint_count, bool quick) {
+/* Hangs the figure up; `rest` is its shape before anything moves. */
+static void hang_at_rest(scene *s, const sbr_model *model, double x, shape *rest) {
+  s->rest = rest;
+  s->character = hang(s->world, model, x);
+  look(s, rest);
+  float low = (float)(sbr_character_origin(s->world, s->character).y - HANGS_M);
+  for (uint32_t i = 0; i < rest->count; i++) rest->at[i].y += low;
+}
+
+static result throw_all(const sbr_model *model, const sbr_model *ball, uint32_t joint_count, bool quick) {
   int share = quick ? QUICK_SHARE : 1;
   static shape rest, before, after;
-  scene s = {.world = make_world(), .joint_count = joint_count, .rest = &rest, .raise = (float)HANGS_M};
-  sbr_shape_definition form = sbr_default_shape_definition();
-  sbr_shape *ball;
-  sbf_diagnostic error;
-  result r = {0, 0, 0, 0, 0};
-  s.character = hang(s.world, model, 0);
-  double low = sbr_character_origin(s.world, s.character).y;
-  look(&s, &rest);
-  for (uint32_t i = 0; i < rest.count; i++) rest.at[i].y += (float)low - s.raise;
-  form.radius = BALL_M;
-  bench_require(sbr_shape_create(NULL, &form, &ball, &error), &error);
+  scene s = {.world = make_world(), .ball = ball, .joint_count = joint_count};
+  result r = {0};
+  hang_at_rest(&s, model, 0, &rest);
   for (int i = 0; i < SETTLES / share; i++) sbr_world_tick(s.world);
   look(&s, &before);
   r.sag = rms(&before, &rest);
-  for (int b = 0; b < BALLS / share; b++) throw_ball(&s, ball, b, &before, &r);
+  for (int b = 0; b < BALLS / share; b++) throw_and_note(&s, b, &before, &r);
+  r.given /= (float)(BALLS / share);
   for (int i = 0; i < RESTS / share; i++) sbr_world_tick(s.world);
   look(&s, &after);
+  r.left_m = rms(&after, &before);
   for (int b = 0; b < BENDS; b++) {
     float off = fabsf(angle_of(&s, &after, bends[b]) - angle_of(&s, &before, bends[b]));
     r.left = off > r.left ? off : r.left;
   }
   sbr_world_destroy(s.world);
-  sbr_shape_destroy(ball);
   return r;
 }
 
-/* Two of them, on one thread. */
-static double frames_a_second(const sbr_model *model, uint32_t frames) {
+/* So many figures on one thread, a ball thrown at each every half second. */
+static double frames_a_second(
+    const sbr_model *model, const sbr_model *ball, uint32_t figures, uint32_t frames) {
+  static shape rest, now;
+  scene s[MOST_FIGURES];
+  sbr_character_id balls[MOST_FIGURES];
   sbr_world *world = make_world();
-  double *times = bench_allocate(frames, sizeof *times);
-  for (int i = 0; i < 2; i++) (void)hang(world, model, 2 * i);
+  double spent = 0;
+  for (uint32_t k = 0; k < figures; k++) {
+    s[k] = (scene){.world = world, .ball = ball};
+    hang_at_rest(&s[k], model, 2 * k, &rest);
+  }
   for (uint32_t i = 0; i < frames; i++) {
+    for (uint32_t k = 0; k < figures && i % EVERY == 0; k++) {
+      if (i > 0) sbr_character_destroy(world, balls[k]);
+      look(&s[k], &now);
+      balls[k] = throw_ball(&s[k], carried(&s[k], &now, targets[i / EVERY % BALLS]));
+    }
     double begin = bench_now_s();
     sbr_world_tick(world);
-    times[i] = bench_now_s() - begin;
+    spent += bench_now_s() - begin;
   }
-  double median = bench_spread_of(times, frames).median;
   sbr_world_destroy(world);
-  free(times);
-  return 1 / median;
+  return frames / spent;
 }
 
-static result measure(const char *name, const sbf_asset *asset, bool quick) {
+static sbr_model *model_of(const sbf_asset *asset) {
   sbr_model *model;
   sbf_diagnostic error;
   bench_require(sbr_model_create(asset, NULL, &model, &error), &error);
-  result r = throw_all(model, asset->joints.count, quick);
-  bench_print_row("%s,%u,%u,%u,%.1f,%.3f,%.1f,%.1f,%.2f,%.0f", name,
+  return model;
+}
+
+static result measure(const char *name, const sbf_asset *asset, bool quick) {
+  sbf_asset *round = ball_asset(BALL_M, BALL_KG);
+  sbr_model *ball = model_of(round), *model = model_of(asset);
+  uint32_t frames = quick ? 10 : 300;
+  result r = throw_all(model, ball, asset->joints.count, quick);
+  bench_print_row("%s,%u,%u,%u,%.1f,%.3f,%.1f,%.1f,%.1f,%.2f,%.1f,%.0f,%.0f", name,
       asset->soft_bodies.at[0].levels.at[0].lattice.tetrahedra.count,
       asset->render_meshes.at[0].mesh.polygon_sizes.count, asset->joints.count, (double)(r.bend * DEGREES),
-      (double)(r.beyond * DEGREES), (double)(1000 * r.sag), (double)(1000 * r.swing),
-      (double)(r.left * DEGREES), frames_a_second(model, quick ? 10 : 300));
-  sbr_model_destroy(model);
+      (double)(r.beyond * DEGREES), (double)(1000 * r.sag), (double)(1000 * r.swing), (double)r.given,
+      (double)(r.left * DEGREES), (double)(1000 * r.left_m), frames_a_second(model, ball, 1, frames),
+      frames_a_second(model, ball, 2, frames));
+  sbr_model_destroy(model), sbr_model_destroy(ball);
+  sbf_asset_free(round);
   return r;
 }
 
@@ -262,11 +292,71 @@ static void measure_rest(void) {
   sbf_asset_free(even), sbf_asset_free(flesh);
 }
 
+/* ---- Pictures ---- */
+
+/* Adds a mesh of the same faces with its points elsewhere. */
+static void add_mesh(sbf_asset *to, sbf_render_mesh *mesh, const char *id, const sbf_polygon_mesh *like,
+    const sbf_vec3 *at, sbf_vec3 shift) {
+  sbf_vec3 *points = sbf_asset_allocate(to, like->positions.count, sizeof *points);
+  if (!points) bench_fail("memory ran out");
+  for (uint32_t i = 0; i < like->positions.count; i++)
+    points[i] = (sbf_vec3){at[i].x + shift.x, at[i].y + shift.y, at[i].z + shift.z};
+  sbf_render_mesh_init(mesh);
+  mesh->id = id;
+  mesh->mesh.positions = (sbf_vec3_list){points, like->positions.count};
+  mesh->mesh.polygon_sizes = like->polygon_sizes;
+  mesh->mesh.polygon_points = like->polygon_points;
+}
+
+/* Four moments of a ball that hits a thigh, beside each other. */
+static void draw_throw(const char *name, const char *folder) {
+  static const int moments[MOMENTS] = {2, 5, 9, 14};
+  static const char *const ids[2 * MOMENTS] = {"a", "a_ball", "b", "b_ball", "c", "c_ball", "d", "d_ball"};
+  static shape rest, now;
+  char path[512];
+  sbf_asset *figure = read_figure(name), *round = ball_asset(BALL_M, BALL_KG),
+            *drawn = sbf_asset_create(NULL);
+  sbf_render_mesh *meshes = drawn ? sbf_asset_allocate(drawn, 2 * MOMENTS, sizeof *meshes) : NULL;
+  const sbf_polygon_mesh *skin = &figure->render_meshes.at[0].mesh, *hull = round->rigid_bodies.at[0].hull;
+  sbr_model *model = model_of(figure), *ball = model_of(round);
+  scene s = {.world = make_world(), .ball = ball};
+  sbf_diagnostic error;
+  if (!meshes) bench_fail("memory ran out");
+  hang_at_rest(&s, model, 0, &rest);
+  for (int i = 0; i < SETTLES; i++) sbr_world_tick(s.world);
+  look(&s, &now);
+  sbr_character_id thrown = throw_ball(&s, carried(&s, &now, targets[4]));
+  for (int i = 0, next = 0; next < MOMENTS; i++) {
+    sbr_world_tick(s.world);
+    if (i != moments[next]) continue;
+    sbr_double3 o = sbr_character_origin(s.world, s.character), b = sbr_character_origin(s.world, thrown);
+    sbf_vec3 c = sbr_character_rigid_state(s.world, thrown, 0).center;
+    float across = 1.75f * (float)next;
+    look(&s, &now);
+    add_mesh(drawn, &meshes[2 * next], ids[2 * next], skin, now.at,
+        (sbf_vec3){across + (float)o.x, (float)o.y, (float)o.z});
+    add_mesh(drawn, &meshes[2 * next + 1], ids[2 * next + 1], hull, hull->positions.at,
+        (sbf_vec3){across + c.x + (float)b.x, c.y + (float)b.y, c.z + (float)b.z});
+    next++;
+  }
+  drawn->render_meshes = (sbf_render_mesh_list){meshes, 2 * MOMENTS};
+  (void)snprintf(path, sizeof path, "%s/thrown-%s", folder, name);
+  bench_require(sbf_save_file(drawn, path, NULL, &error), &error);
+  sbr_world_destroy(s.world);
+  sbr_model_destroy(model), sbr_model_destroy(ball);
+  sbf_asset_free(drawn), sbf_asset_free(figure), sbf_asset_free(round);
+}
+
 int main(int argc, char **argv) {
+  if (argc == 3 && strcmp(argv[1], "--draw") == 0) {
+    draw_throw("figure.sbf", argv[2]), draw_throw("flesh.sbf", argv[2]);
+    return 0;
+  }
   bool quick = bench_is_quick(argc, argv);
   sbf_asset *figure = read_figure("figure.sbf");
   bench_print_columns(
-      "variant,tetrahedra,polygons,joints,bend_deg,beyond_deg,sag_mm,swing_mm,left_deg,two_at_once_fps");
+      "variant,tetrahedra,polygons,joints,bend_deg,beyond_deg,sag_mm,swing_mm,given_n_s,left_deg,left_mm,"
+      "one_fps,two_at_once_fps");
   result with = measure("skeleton", figure, quick);
   result loose = measure_loose(quick);
   if (!quick) measure_rest();

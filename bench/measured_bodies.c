@@ -1,5 +1,6 @@
 #include "measured_bodies.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -37,6 +38,53 @@ sbf_polygon_mesh *box_hull(sbf_asset *asset, sbf_vec3 middle, sbf_vec3 size) {
   hull->polygon_sizes = (sbf_u32_list){sizes, 6};
   hull->polygon_points = (sbf_u32_list){corners, 24};
   return hull;
+}
+
+enum { RINGS = 7, AROUND = 14, CORNERS = RINGS * AROUND + 2, FACES = (RINGS + 1) * AROUND };
+
+/* Of the k-th corner on a ring; rings 0 and RINGS + 1 are the poles, 0 and 1. */
+static uint32_t on_ring(uint32_t ring, uint32_t k) {
+  if (ring == 0 || ring > RINGS) return ring > RINGS;
+  return 2 + (ring - 1) * AROUND + k % AROUND;
+}
+
+static sbf_polygon_mesh *ball_hull(sbf_asset *asset, float radius) {
+  const double half_turn = 3.14159265358979;
+  sbf_polygon_mesh *hull = allocate(asset, 1, sizeof *hull);
+  sbf_vec3 *points = allocate(asset, CORNERS, sizeof *points);
+  uint32_t *sizes = allocate(asset, FACES, sizeof *sizes);
+  uint32_t *corners = allocate(asset, (size_t)4 * FACES, sizeof *corners), face = 0, corner = 0;
+  for (uint32_t ring = 0; ring <= RINGS; ring++)
+    for (uint32_t k = 0; k < AROUND; k++) {
+      double down = half_turn * (ring + 1) / (RINGS + 1), turn = 2 * half_turn * k / AROUND;
+      if (ring < RINGS)
+        points[on_ring(ring + 1, k)] = (sbf_vec3){radius * (float)(sin(down) * cos(turn)),
+            radius * (float)cos(down), radius * (float)(sin(down) * sin(turn))};
+      corners[corner++] = on_ring(ring, k);
+      if (ring > 0) corners[corner++] = on_ring(ring, k + 1);
+      corners[corner++] = on_ring(ring + 1, k + 1);
+      if (ring < RINGS) corners[corner++] = on_ring(ring + 1, k);
+      sizes[face++] = ring > 0 && ring < RINGS ? 4 : 3;
+    }
+  points[0] = (sbf_vec3){0, radius, 0}, points[1] = (sbf_vec3){0, -radius, 0};
+  sbf_polygon_mesh_init(hull);
+  hull->positions = (sbf_vec3_list){points, CORNERS};
+  hull->polygon_sizes = (sbf_u32_list){sizes, face};
+  hull->polygon_points = (sbf_u32_list){corners, corner};
+  return hull;
+}
+
+sbf_asset *ball_asset(float radius, float mass) {
+  sbf_asset *asset = sbf_asset_create(NULL);
+  if (!asset) bench_fail("memory ran out");
+  sbf_rigid_body *body = allocate(asset, 1, sizeof *body);
+  sbf_rigid_body_init(body);
+  body->id = "ball";
+  body->motion = SBF_BODY_MOTION_DYNAMIC;
+  body->mass = mass;
+  body->hull = ball_hull(asset, radius);
+  asset->rigid_bodies = (sbf_rigid_body_list){body, 1};
+  return asset;
 }
 
 static builder begin(uint32_t points) {

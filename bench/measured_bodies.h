@@ -7,6 +7,9 @@
 /* The hull of a box. */
 sbf_polygon_mesh *box_hull(sbf_asset *asset, sbf_vec3 middle, sbf_vec3 size);
 
+/* One rigid body that is simulated: a ball about the origin, as a hull of 98 corners and two poles. */
+sbf_asset *ball_asset(float radius, float mass);
+
 /* A sheet of side x side points, 1 cm apart, held at two corners: springs along its rows, its columns and one
  * diagonal. 200: 40,000 points, 119,201 springs. */
 sbf_asset *cloth_of_springs(uint32_t side);
