@@ -7,9 +7,10 @@
  * flesh alone. Of each: the largest bend at an elbow, a knee or the neck against rest while six balls of 12
  * cm and 7 kg hit at 8 m/s (`bend_deg`); the largest angle by which a joint's limit was broken
  * (`beyond_deg`); how far the skin hangs from its rest shape before, in the mean (`sag_mm`), and how far it
- * was moved at most (`swing_mm`); the impulse that a ball gave, in the mean (`given_n_s`); what of the bends
- * and of the skin's way is left eight seconds after the last ball, which is the shape's error (`left_deg`,
- * `left_mm`); and the frames a second of one and of two figures on one thread, balls hitting all the time.
+ * was moved at most (`swing_mm`); the impulse that a ball gave, in the mean (`given_n_s`); what is left
+ * eight seconds after the last ball: of the bends, which is the shape's error (`left_deg`), and of the skin's
+ * way, in which the figure's swing about its hands counts too (`left_mm`); and the frames a second of one and
+ * of two figures on one thread, balls hitting all the time.
  *
  * `--draw FOLDER` writes four moments of a throw beside each other instead, as files that `sbfmt render`
  * draws: thrown-figure.sbf and thrown-flesh.sbf.

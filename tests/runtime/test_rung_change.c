@@ -75,7 +75,7 @@ START_TEST(energy_does_not_rise_and_the_motion_goes_on)
 }
 END_TEST
 
-/* A loose box that spins while it flies. */
+/* A loose box that falls. */
 START_TEST(what_flies_goes_on_flying)
 {
   scene s = rung_scene_begin(true), stays = rung_scene_begin(true);
