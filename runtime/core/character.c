@@ -3,6 +3,7 @@
 #include "base/diagnostic.h"
 #include "collide/ground.h"
 #include "detail/rungs.h"
+#include "math/usable.h"
 #include "meet/meetings.h"
 
 enum { CHARACTER_COOKIE = 0x5b726368, INDEX_BITS = 16 };
@@ -75,6 +76,12 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
         "sbr_character_create: begin the definition with sbr_default_character_definition");
   if (!(definition->scale > 0 && definition->scale <= 1e6f))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_character_create: scale is not above 0");
+  const double where[4] = {
+      definition->position.x, definition->position.y, definition->position.z, (double)definition->heading};
+  if (!sbri_usable(where, 4))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_character_create: position %g %g %g m or heading %g rad: give finite numbers, to 1e15", where[0],
+        where[1], where[2], where[3]);
   uint32_t index = 0;
   while (index < world->character_capacity && world->characters[index].model) index++;
   if (index == world->character_capacity)
@@ -133,8 +140,9 @@ void sbr_character_drive(
     sbr_world *world, sbr_character_id character, float forward, float sideways, float turn) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
-  sbri_record(world, SBRI_RECORDED_DRIVE,
-      (const double[]){character.value, (double)forward, (double)sideways, (double)turn});
+  if (!sbri_record(world, SBRI_RECORDED_DRIVE,
+          (const double[]){character.value, (double)forward, (double)sideways, (double)turn}))
+    return;
   sbri_character_wake(c);
   sbri_head(c)->forward = forward;
   sbri_head(c)->sideways = sideways;
@@ -152,8 +160,9 @@ void sbr_character_teleport(
     sbr_world *world, sbr_character_id character, sbr_double3 position, float heading) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c) return;
-  sbri_record(world, SBRI_RECORDED_TELEPORT,
-      (const double[]){character.value, position.x, position.y, position.z, (double)heading});
+  if (!sbri_record(world, SBRI_RECORDED_TELEPORT,
+          (const double[]){character.value, position.x, position.y, position.z, (double)heading}))
+    return;
   sbri_character_wake(c);
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_previous_deltas(c));
   put(world, c, position, heading);

@@ -1,6 +1,7 @@
 /* The host's shapes in a world: sbrun/collision.h. */
 #include "base/diagnostic.h"
 #include "core/world.h"
+#include "math/usable.h"
 
 enum { COLLIDER_COOKIE = 0x5b72636f, INDEX_BITS = 16 };
 
@@ -50,6 +51,12 @@ sbr_collider_id sbri_collider_name(const sbri_collider_set *set, uint32_t number
   return (sbr_collider_id){set->at[number].generation << INDEX_BITS | (number + 1)};
 }
 
+static bool is_place(sbr_double3 position, sbf_quat turn) {
+  const double numbers[7] = {
+      position.x, position.y, position.z, (double)turn.x, (double)turn.y, (double)turn.z, (double)turn.w};
+  return sbri_usable(numbers, 7);
+}
+
 static void stir(sbr_world *world) {
   world->colliders.stirred = true;
 }
@@ -63,6 +70,12 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_collider_create: begin the definition with sbr_default_collider_definition, and give it a "
         "shape");
+  const double how[2] = {(double)definition->friction, (double)definition->restitution};
+  if (!is_place(definition->position, definition->rotation) || !sbri_usable(how, 2))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_collider_create: position %g %g %g m, its rotation, friction %g or restitution %g: give finite "
+        "numbers, to 1e15",
+        definition->position.x, definition->position.y, definition->position.z, how[0], how[1]);
   sbri_collider_set *set = &world->colliders;
   uint32_t index = 0;
   while (index < set->capacity && set->at[index].shape) index++;
@@ -99,7 +112,7 @@ void sbr_collider_destroy(sbr_world *world, sbr_collider_id collider) {
 
 void sbr_collider_move(sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation) {
   sbri_collider *c = collider_of(world, collider);
-  if (!c) return;
+  if (!c || !is_place(position, rotation)) return;
   c->next = position;
   c->turn_next = sbri_quat_normalize(rotation);
   stir(world);
@@ -107,7 +120,7 @@ void sbr_collider_move(sbr_world *world, sbr_collider_id collider, sbr_double3 p
 
 void sbr_collider_place(sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation) {
   sbri_collider *c = collider_of(world, collider);
-  if (!c) return;
+  if (!c || !is_place(position, rotation)) return;
   c->from = c->to = c->next = position;
   c->turn_from = c->turn_to = c->turn_next = sbri_quat_normalize(rotation);
   stir(world);

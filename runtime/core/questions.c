@@ -1,6 +1,7 @@
 /* Rays and boxes among all that is in a world: sbrun/collision.h. */
 #include "collide/triangle.h"
 #include "core/world.h"
+#include "math/usable.h"
 #include "skin/skin.h"
 
 static const sbr_hit no_hit = {.rigid_body = -1, .soft_body = -1};
@@ -101,7 +102,8 @@ static void ask_surface(ray *r, const sbri_character *c, uint32_t b) {
 bool sbr_world_ray(const sbr_world *world, sbr_double3 from, sbf_vec3 direction, double length, uint32_t mask,
     sbr_hit *hit) {
   sbf_vec3 unit = sbri_normalize(direction, sbri_vec3(0, 0, 0));
-  if (!world || !hit || !(length > 0) || sbri_dot(unit, unit) == 0) return false;
+  const double place[4] = {from.x, from.y, from.z, length};
+  if (!world || !hit || !(length > 0) || !(sbri_dot(unit, unit) > 0) || !sbri_usable(place, 4)) return false;
   ray r = {world, from, sbri_scale(unit, (float)length), mask, 1.000001f, false, no_hit};
   ask_colliders(&r);
   for (uint32_t i = 0; i < world->character_capacity; i++) {

@@ -1,11 +1,11 @@
 #include "core/recorder.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/diagnostic.h"
 #include "core/world.h"
 #include "detail/choose.h"
+#include "math/usable.h"
 #include "sbrun/animation.h"
 #include "sbrun/rigid.h"
 
@@ -37,9 +37,6 @@ static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
 
 enum { HEAD_BYTES = 8, NUMBER_BYTES = 8 };
 
-/* No number that a host has a use for is greater. */
-static const double MOST_NUMBER = 1e15;
-
 /* ---- Writing ---- */
 
 static void put_u32(unsigned char *to, uint32_t value) {
@@ -53,13 +50,15 @@ static void put_double(unsigned char *to, double value) {
   put_u32(to + 4, (uint32_t)(bits >> 32));
 }
 
-void sbri_record(sbr_world *world, sbri_recorded what, const double *numbers) {
+bool sbri_record(sbr_world *world, sbri_recorded what, const double *numbers) {
   unsigned char bytes[HEAD_BYTES + SBRI_RECORDED_MOST * NUMBER_BYTES];
-  if (!world->record.write) return;
+  if (!sbri_usable(numbers, counts[what])) return false;
+  if (!world->record.write) return true;
   put_u32(bytes, (uint32_t)what);
   put_u32(bytes + 4, counts[what]);
   for (uint32_t i = 0; i < counts[what]; i++) put_double(bytes + HEAD_BYTES + i * NUMBER_BYTES, numbers[i]);
   world->record.write(world->record.user, bytes, HEAD_BYTES + (size_t)counts[what] * NUMBER_BYTES);
+  return true;
 }
 
 static void write_hash(sbr_world *world) {
@@ -214,7 +213,7 @@ static size_t read(
   if (*bad || left < HEAD_BYTES + (size_t)count * NUMBER_BYTES) return 0;
   for (uint32_t i = 0; i < count; i++) {
     numbers[i] = double_at(from + HEAD_BYTES + i * NUMBER_BYTES);
-    *bad = *bad || !(fabs(numbers[i]) <= MOST_NUMBER);
+    *bad = *bad || !sbri_usable(&numbers[i], 1);
   }
   return *bad ? 0 : HEAD_BYTES + (size_t)count * NUMBER_BYTES;
 }

@@ -33,8 +33,9 @@ typedef enum sbri_recorded {
 
 enum { SBRI_RECORDED_MOST = 11 }; /* numbers of one */
 
-/* Nothing where the world is not recorded. */
-void sbri_record(sbr_world *world, sbri_recorded what, const double *numbers);
+/* Whether the numbers are usable (math/usable.h): where they are not nothing is recorded, and the call that
+ * they were of does nothing. */
+bool sbri_record(sbr_world *world, sbri_recorded what, const double *numbers);
 /* After a step: the hash, where a second is over since the last one. */
 void sbri_record_hash(sbr_world *world);
 

@@ -42,9 +42,10 @@ void sbr_character_rigid_mode(
 void sbr_character_rigid_drive(sbr_world *world, sbr_character_id character, const sbr_rigid_drive *drive) {
   sbri_character *c = sbri_character_of(world, character);
   if (!has_body(c, -1) || !drive) return;
-  sbri_record(world, SBRI_RECORDED_RIGID_DRIVE,
-      (const double[]){character.value, (double)drive->frequency_hz, (double)drive->damping_ratio,
-          (double)drive->strength, (double)drive->joint_damping_1_s});
+  if (!sbri_record(world, SBRI_RECORDED_RIGID_DRIVE,
+          (const double[]){character.value, (double)drive->frequency_hz, (double)drive->damping_ratio,
+              (double)drive->strength, (double)drive->joint_damping_1_s}))
+    return;
   sbri_rigid_set_drive(c, drive);
   sbri_rigid_wake(c);
 }
@@ -53,7 +54,9 @@ void sbr_character_rigid_share(
     sbr_world *world, sbr_character_id character, int32_t rigid_body, float share) {
   sbri_character *c = sbri_character_of(world, character);
   if (!has_body(c, rigid_body)) return;
-  sbri_record(world, SBRI_RECORDED_RIGID_SHARE, (const double[]){character.value, rigid_body, (double)share});
+  if (!sbri_record(
+          world, SBRI_RECORDED_RIGID_SHARE, (const double[]){character.value, rigid_body, (double)share}))
+    return;
   for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
     if (rigid_body < 0 || rigid_body == (int32_t)b) sbri_rigid_bodies(c)[b].share = sbri_clamp(share, 0, 1);
   sbri_rigid_wake(c);
@@ -66,8 +69,9 @@ sbr_rigid_fall sbr_default_rigid_fall(void) {
 void sbr_character_rigid_fall(sbr_world *world, sbr_character_id character, const sbr_rigid_fall *fall) {
   sbri_character *c = sbri_character_of(world, character);
   if (!has_body(c, -1) || !fall) return;
-  sbri_record(world, SBRI_RECORDED_RIGID_FALL,
-      (const double[]){character.value, (double)fall->share, (double)fall->rest_s, (double)fall->rise_s});
+  if (!sbri_record(world, SBRI_RECORDED_RIGID_FALL,
+          (const double[]){character.value, (double)fall->share, (double)fall->rest_s, (double)fall->rise_s}))
+    return;
   if (!sbri_rigid_drive(c)->any) catch_up(world, c);
   sbri_reflex_begin(c, fall);
   sbri_rigid_wake(c);
@@ -82,9 +86,10 @@ void sbr_character_rigid_push(
     sbr_world *world, sbr_character_id character, uint32_t rigid_body, sbr_double3 place, sbf_vec3 impulse) {
   sbri_character *c = sbri_character_of(world, character);
   if (!c || rigid_body >= c->model->rigid.body_count || !sbri_rigid_is_simulated(c, rigid_body)) return;
-  sbri_record(world, SBRI_RECORDED_RIGID_PUSH,
-      (const double[]){character.value, rigid_body, place.x, place.y, place.z, (double)impulse.x,
-          (double)impulse.y, (double)impulse.z});
+  if (!sbri_record(world, SBRI_RECORDED_RIGID_PUSH,
+          (const double[]){character.value, rigid_body, place.x, place.y, place.z, (double)impulse.x,
+              (double)impulse.y, (double)impulse.z}))
+    return;
   sbr_double3 origin = sbri_head(c)->origin;
   sbf_vec3 at = {(float)(place.x - origin.x), (float)(place.y - origin.y), (float)(place.z - origin.z)};
   sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[rigid_body];

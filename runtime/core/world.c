@@ -5,6 +5,7 @@
 
 #include "base/diagnostic.h"
 #include "detail/choose.h"
+#include "math/usable.h"
 #include "meet/meetings.h"
 
 enum {
@@ -14,6 +15,8 @@ enum {
   MOST_CHARACTERS = 65534,
   MOST_COLLIDERS = 65534
 };
+/* No frame is longer. */
+static const double LONGEST_S = 3600;
 
 sbr_world_definition sbr_default_world_definition(void) {
   return (sbr_world_definition){.cookie = WORLD_COOKIE,
@@ -41,12 +44,19 @@ sbf_status sbr_world_create(
   double longest = definition->longest_frame_s != 0 ? definition->longest_frame_s : 0.25;
   uint32_t capacity = definition->character_capacity ? definition->character_capacity : DEFAULT_CAPACITY;
   uint32_t colliders = definition->collider_capacity ? definition->collider_capacity : DEFAULT_COLLIDERS;
-  if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= 3600) || capacity > MOST_CHARACTERS ||
+  if (!(tick >= 1e-4 && tick <= 1) || !(longest > 0 && longest <= LONGEST_S) || capacity > MOST_CHARACTERS ||
       colliders > MOST_COLLIDERS)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_world_create: tick %g s (0.0001 to 1), longest frame %g s (to 3600) or capacity %u or %u "
         "(to %d)",
         tick, longest, capacity, colliders, (int)MOST_CHARACTERS);
+  const double gravity[3] = {
+      (double)definition->gravity.x, (double)definition->gravity.y, (double)definition->gravity.z};
+  if ((definition->has_gravity && !sbri_usable(gravity, 3)) ||
+      definition->sleep_after_s != definition->sleep_after_s)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_world_create: gravity %g %g %g m/s^2 or sleep_after_s %g: give finite numbers", gravity[0],
+        gravity[1], gravity[2], definition->sleep_after_s);
   sbf_allocator allocator = sbfi_allocator_or_default(definition->allocator);
   sbr_world *made = sbfi_allocate(&allocator, sizeof *made);
   sbri_character *characters = sbfi_allocate(&allocator, capacity * sizeof *characters);
@@ -93,6 +103,7 @@ void sbr_world_destroy(sbr_world *world) {
 
 void sbr_world_step(sbr_world *world, double seconds) {
   if (!world || !(seconds > 0)) return;
+  if (seconds > LONGEST_S) seconds = LONGEST_S;
   sbri_record(world, SBRI_RECORDED_STEP, &seconds);
   double longest = (double)world->longest_units / SBRI_TIME_UNITS;
   world->ahead_units -= units_of(seconds < longest ? seconds : longest);

@@ -60,7 +60,7 @@ void sbri_view_set(sbr_world *world, uint32_t index, uint32_t count, const sbr_v
   const double numbers[11] = {index, count, view->eye.x, view->eye.y, view->eye.z, (double)view->forward.x,
       (double)view->forward.y, (double)view->forward.z, (double)view->height_rad, (double)view->width_ratio,
       (double)view->lines};
-  sbri_record(world, SBRI_RECORDED_VIEW, numbers);
+  if (!sbri_record(world, SBRI_RECORDED_VIEW, numbers)) return;
   if (!world->detail) return;
   world->detail->eye_count = count < SBR_MOST_VIEWS ? count : SBR_MOST_VIEWS;
   if (index < world->detail->eye_count) world->detail->eyes[index] = sbri_eye_of(view);

@@ -190,6 +190,48 @@ START_TEST(definitions_are_checked)
 }
 END_TEST
 
+/* Each number of a definition, and each of the calls that nobody hears fail. */
+START_TEST(numbers_that_are_none_never_get_in)
+{
+  static const float bad[4] = {NAN, INFINITY, -INFINITY, 1e16f};
+  const float no = bad[_i];
+  scene s = walker();
+  scene_start(&s);
+  sbf_diagnostic error;
+  for (int k = 0; k < 4; k++) {
+    sbr_character_definition d = sbr_default_character_definition();
+    sbr_character_id id;
+    double *at[3] = {&d.position.x, &d.position.y, &d.position.z};
+    if (k < 3)
+      *at[k] = (double)no;
+    else
+      d.heading = no;
+    ck_assert_int_eq(sbr_character_create(s.world, s.model, &d, &id, &error), SBF_FAILED);
+    ck_assert_ptr_nonnull(strstr(error.message, "finite"));
+    ck_assert_uint_eq(id.value, 0);
+  }
+  sbr_world_definition d = s.world_definition;
+  sbr_world *world;
+  d.has_gravity = true;
+  d.gravity.y = no;
+  ck_assert_int_eq(sbr_world_create(&d, &world, &error), SBF_FAILED);
+  ck_assert_ptr_nonnull(strstr(error.message, "finite"));
+  ck_assert_ptr_null(world);
+  scene_ticks(&s, 10);
+  uint64_t hash = sbr_world_state_hash(s.world);
+  sbr_character_drive(s.world, s.character, no, 0, 0);
+  sbr_character_drive(s.world, s.character, 0, 0, no);
+  sbr_character_teleport(s.world, s.character, (sbr_double3){0, (double)no, 0}, 0);
+  sbr_character_teleport(s.world, s.character, (sbr_double3){0, 0, 0}, no);
+  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  scene_ticks(&s, 10);
+  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  sbr_character_drive(s.world, s.character, 1, 0, 0);
+  ck_assert_uint_ne(sbr_world_state_hash(s.world), hash);
+  scene_free(&s);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("character");
   TCase *c = tcase_create("character");
@@ -201,6 +243,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_paused_character_stands_still);
   tcase_add_test(c, scaled_bodies_move_alike);
   tcase_add_test(c, definitions_are_checked);
+  tcase_add_loop_test(c, numbers_that_are_none_never_get_in, 0, 4);
   suite_add_tcase(s, c);
   return s;
 }

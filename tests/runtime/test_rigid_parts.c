@@ -152,6 +152,27 @@ START_TEST(a_larger_person_falls_the_same_way)
 }
 END_TEST
 
+START_TEST(pushes_that_are_no_numbers_do_nothing)
+{
+  scene s = person();
+  scene_start(&s);
+  scene_ticks(&s, 5);
+  uint64_t hash = sbr_world_state_hash(s.world);
+  sbr_rigid_drive drive = sbr_default_rigid_drive();
+  sbr_rigid_fall fall = sbr_default_rigid_fall();
+  drive.strength = fall.rest_s = INFINITY;
+  sbr_character_rigid_push(s.world, s.character, 1, (sbr_double3){0, 1, 0}, (sbf_vec3){0, NAN, 0});
+  sbr_character_rigid_push(s.world, s.character, 1, (sbr_double3){INFINITY, 1, 0}, (sbf_vec3){0, 1, 0});
+  sbr_character_rigid_share(s.world, s.character, -1, NAN);
+  sbr_character_rigid_drive(s.world, s.character, &drive);
+  sbr_character_rigid_fall(s.world, s.character, &fall);
+  ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
+  person_shove(&s, 1, (sbf_vec3){0, 1, 0});
+  ck_assert_uint_ne(sbr_world_state_hash(s.world), hash);
+  scene_free(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("rigid_parts");
   TCase *tests = tcase_create("all");
@@ -161,6 +182,7 @@ int main(void) {
   tcase_add_test(tests, modes_change_in_motion);
   tcase_add_test(tests, snapshots_and_sleep);
   tcase_add_test(tests, a_larger_person_falls_the_same_way);
+  tcase_add_test(tests, pushes_that_are_no_numbers_do_nothing);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

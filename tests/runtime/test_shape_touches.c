@@ -153,6 +153,35 @@ START_TEST(a_moving_ball_pushes)
 }
 END_TEST
 
+START_TEST(places_that_are_no_numbers_are_refused)
+{
+  scene s = begin();
+  scene_start(&s);
+  sbr_shape *shape = collision_shape(shape_kind(SBR_SHAPE_SPHERE));
+  sbr_collider_definition d = sbr_default_collider_definition();
+  sbr_collider_id id;
+  sbf_diagnostic error;
+  sbr_hit hit;
+  d.shape = shape;
+  d.position.z = (double)NAN;
+  ck_assert_int_eq(sbr_collider_create(s.world, &d, &id, &error), SBF_FAILED);
+  ck_assert_ptr_nonnull(strstr(error.message, "finite"));
+  d.position.z = 0, d.rotation.x = INFINITY;
+  ck_assert_int_eq(sbr_collider_create(s.world, &d, &id, &error), SBF_FAILED);
+  id = collision_collider(&s, shape, (sbr_double3){-1, 0, 0});
+  sbr_collider_move(s.world, id, (sbr_double3){(double)NAN, 0, 0}, (sbf_quat){0, 0, 0, 1});
+  sbr_collider_place(s.world, id, (sbr_double3){0, 0, 0}, (sbf_quat){0, NAN, 0, 1});
+  scene_ticks(&s, 2);
+  ck_assert(sbr_world_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){1, 0, 0}, 10, UINT32_MAX, &hit));
+  ck_assert_double_eq_tol(hit.distance, 1.5, 1e-5);
+  ck_assert(!sbr_world_ray(s.world, (sbr_double3){-3, 0, 0}, (sbf_vec3){NAN, 0, 0}, 10, UINT32_MAX, &hit));
+  ck_assert(
+      !sbr_world_ray(s.world, (sbr_double3){-3, (double)NAN, 0}, (sbf_vec3){1, 0, 0}, 10, UINT32_MAX, &hit));
+  scene_free(&s);
+  sbr_shape_destroy(shape);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("shape_touches");
   TCase *tests = tcase_create("all");
@@ -160,6 +189,7 @@ int main(void) {
   tcase_add_test(tests, friction_holds_to_its_angle);
   tcase_add_test(tests, a_bullet_stops_at_a_thin_board);
   tcase_add_test(tests, a_moving_ball_pushes);
+  tcase_add_test(tests, places_that_are_no_numbers_are_refused);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -23,7 +23,9 @@
  * models are read only and may be shared by worlds on different threads. A step never allocates.
  *
  * Errors. Calls that can fail return sbf_status and fill *error (may be NULL). Handles that name nothing are
- * ignored by setters; getters then return zeros. */
+ * ignored by setters; getters then return zeros. A position, rotation, speed, impulse or any other number
+ * that is not finite, or beyond 1e15, never gets in: what returns sbf_status fails, any other call does
+ * nothing. */
 #ifndef SBRUN_H
 #define SBRUN_H
 

@@ -1,0 +1,16 @@
+/* Numbers as hosts give them: none that is none, and none greater than any that a host has a use for. */
+#ifndef SBRI_USABLE_H
+#define SBRI_USABLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define SBRI_MOST_NUMBER 1e15
+
+static inline bool sbri_usable(const double *numbers, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++)
+    if (!(numbers[i] >= -SBRI_MOST_NUMBER && numbers[i] <= SBRI_MOST_NUMBER)) return false;
+  return true;
+}
+
+#endif
