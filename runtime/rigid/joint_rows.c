@@ -57,7 +57,7 @@ typedef struct row_maker {
 static sbri_row *add_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis axis) {
   sbri_row *row = &m->edge->rows[m->edge->row_count++];
   sbri_joint_gradient(m->joint, m->place, axis, row->rates);
-  row->target = row->give = row->most = row->bound = row->bounce = row->impulse = 0;
+  row->target = row->give = row->most = row->bound = row->bounce = row->impulse = row->flesh = 0;
   row->wanted = row->was = row->moved = 0;
   row->sign = 0;
   row->kind = (uint8_t)kind, row->axis = (uint8_t)axis;
@@ -160,7 +160,8 @@ static void add_track(row_maker *m) {
   bool driven = t->bodies[owner].mode == SBR_RIGID_DRIVEN;
   float share = driven ? t->bodies[owner].share : 0, w = TURN * t->drive->frequency_hz;
   float inertia = joint->reach_inertia, stiffness = share * inertia * w * w;
-  float damping = 2 * t->drive->damping_ratio * share * inertia * w + t->drive->joint_damping_1_s * inertia;
+  float flesh = t->drive->joint_damping_1_s * inertia;
+  float damping = 2 * t->drive->damping_ratio * share * inertia * w + flesh;
   if (!(stiffness > 0 || damping > 0)) return;
   sbf_vec3 off = {0, 0, 0};
   if (stiffness > 0) {
@@ -175,7 +176,8 @@ static void add_track(row_maker *m) {
     const float along[6] = {0, 0, 0, u->x, u->y, u->z};
     for (int i = 0; i < 6; i++) row->rates[SBRI_B][i] = along[i], row->rates[SBRI_A][i] = -along[i];
     soften(m, row, stiffness, damping, sbri_dot(off, *u), 0);
-    if (driven) row->most = share * t->drive->strength * joint->hold_torque * m->work->kick_s;
+    row->most = share * t->drive->strength * joint->hold_torque * m->work->kick_s;
+    row->flesh = flesh * m->work->kick_s;
   }
 }
 
@@ -223,8 +225,21 @@ void sbri_joint_rows_aim(const sbri_rigid_solving *work, sbri_edge *e, const sbr
   }
 }
 
-/* A drive's greatest impulse goes into the motions at once; it then takes no part. */
+/* What a drive gives of its row's impulse: all but what the flesh takes at the speed that the row leaves. */
+static float of_drive(const sbri_row *row) {
+  return row->impulse + row->flesh * (row->target - row->give * row->impulse);
+}
+
+/* A drive's greatest impulse goes into the motions at once; it then takes no part. Where there is flesh as
+ * well the row goes on as that, with the greatest impulse on top. */
 static void give_most(sbri_rigid_solving *work, const sbri_edge *e, sbri_row *row) {
+  if (row->flesh > 0) {
+    float most = of_drive(row) > 0 ? row->most : -row->most;
+    row->give = 1 / row->flesh;
+    row->target = row->give * most;
+    row->most = 0;
+    return;
+  }
   row->impulse = row->impulse > 0 ? row->most : -row->most;
   row->full = true;
   row->active = false;
@@ -269,7 +284,7 @@ bool sbri_joint_rows_judge(
       if (row->kind == SBRI_ROW_SPRING && row->active != was) *other = true;
       if (!row->active) row->impulse = 0;
       changed = changed || row->active != was;
-    } else if (row->active && row->most > 0 && fabsf(row->impulse) > row->most * 1.0001f) {
+    } else if (row->active && row->most > 0 && fabsf(of_drive(row)) > row->most * 1.0001f) {
       give_most(work, e, row);
       changed = *other = true;
     }

@@ -31,6 +31,7 @@ typedef struct sbri_row {
   float target;               /* c, of the velocities at the substep's end */
   float give;                 /* G */
   float most;                 /* N s or N m s: of drives; 0: no bound */
+  float flesh;                /* N s or N m s per speed: of what it gives way by, no part of the drive */
   float bound;                /* of the coordinate, where it is held or limited */
   float end;            /* of the coordinate, wanted at the substep's end, where it is held or limited */
   float now, low, high; /* of a limit: the coordinate when the substep begins, and its range */
