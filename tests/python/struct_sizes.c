@@ -8,6 +8,7 @@
 #include "sbfmt/mechanics.h"
 #include "sbfmt/validate.h"
 #include "sbrun/animation.h"
+#include "sbrun/detail.h"
 
 #define SIZE(type) printf(#type " %zu\n", sizeof(type))
 #define OFFSET(type, member) printf(#type "." #member " %zu\n", offsetof(type, member))
@@ -34,6 +35,9 @@ int main(void) {
   SIZE(sbr_transform);
   SIZE(sbr_clip_play);
   SIZE(sbr_body_health);
+  SIZE(sbr_rung);
+  SIZE(sbr_detail_definition);
+  SIZE(sbr_view);
   OFFSET(sbf_load_options, check_crc);
   OFFSET(sbf_load_options, extension_count);
   OFFSET(sbf_load_options, copy_file);
@@ -57,11 +61,17 @@ int main(void) {
   OFFSET(sbf_fix_options, report);
   OFFSET(sbr_model_options, gravity);
   OFFSET(sbr_model_options, instructions);
+  OFFSET(sbr_model_options, ladder);
   OFFSET(sbr_world_definition, ground);
   OFFSET(sbr_world_definition, gravity);
   OFFSET(sbr_world_definition, sleep_after_s);
   OFFSET(sbr_character_definition, hold);
   OFFSET(sbr_clip_play, bone_mask);
+  OFFSET(sbr_rung, visits);
+  OFFSET(sbr_detail_definition, ns_per_visit);
+  OFFSET(sbr_detail_definition, away_after_s);
+  OFFSET(sbr_view, forward);
+  OFFSET(sbr_view, lines);
   OFFSET(sbr_body_health, elastic_j);
   OFFSET(sbr_body_health, asleep);
   OFFSET(sbf_export_options, report);

@@ -186,13 +186,14 @@ class GroundMesh:
 # ---- Models and worlds ----
 
 class Model:
-    """What characters of one built asset share. `scheme` is one of SCHEMES; `substeps` 0: as many as it needs."""
+    """What characters of one built asset share. `scheme` is one of SCHEMES; `substeps` 0: as many as it needs; `ladder`: with all
+    rungs that it has (sbfmt.detail)."""
 
-    def __init__(self, asset, level=0, scheme="automatic", substeps=0, free=False, gravity=None):
+    def __init__(self, asset, level=0, scheme="automatic", substeps=0, free=False, gravity=None, ladder=False):
         if scheme not in SCHEMES:
             raise ValueError(f"scheme is one of {', '.join(SCHEMES)}, not {scheme!r}")
         options = ModelOptions(struct_size=ctypes.sizeof(ModelOptions), level=level, scheme=SCHEMES.index(scheme), substeps=substeps,
-                               free=free, has_gravity=gravity is not None, gravity=Vec3(*(gravity or (0, 0, 0))))
+                               free=free, has_gravity=gravity is not None, gravity=Vec3(*(gravity or (0, 0, 0))), ladder=ladder)
         made, error = c_void_p(), DiagnosticStruct()
         check(runtime_library().sbr_model_create(asset.pointer, byref(options), byref(made), byref(error)), error)
         self.asset, self.pointer = asset, made.value
@@ -214,16 +215,16 @@ class Model:
 
 
 class World:
-    """Steps characters over a ground: `flat`, or a GroundMesh."""
+    """Steps characters over a ground: `flat`, or a GroundMesh. It has room for `capacity` of them, 0: for 16."""
 
-    def __init__(self, ground=None, gravity=None, sleep_after=0.5):
+    def __init__(self, ground=None, gravity=None, sleep_after=0.5, capacity=0):
         definition = runtime_library().sbr_default_world_definition()
         self.ground, self.models, self.characters = ground, [], []
         if ground is not None:
             definition.ground = ground.ground if isinstance(ground, GroundMesh) else ground
         if gravity is not None:
             definition.has_gravity, definition.gravity = True, Vec3(*gravity)
-        definition.sleep_after_s = sleep_after
+        definition.sleep_after_s, definition.character_capacity = sleep_after, capacity
         made, error = c_void_p(), DiagnosticStruct()
         check(runtime_library().sbr_world_create(byref(definition), byref(made), byref(error)), error)
         self.pointer = made.value
