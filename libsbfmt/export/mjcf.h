@@ -28,7 +28,7 @@ typedef struct mjcf_writer {
   bool *placed;    /* (rigid bodies) */
   /* Left out. */
   uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, bare, loop_bounds, goals,
-      moduli, ratios;
+      moduli, ratios, bending;
 } mjcf_writer;
 
 /* An end of a joint that is not there. */
@@ -43,8 +43,17 @@ void sbfi_mjcf_f32(mjcf_writer *w, const char *name, float value);
 void sbfi_mjcf_name(mjcf_writer *w, const char *id, uint32_t index);
 void sbfi_mjcf_rigid_name(mjcf_writer *w, int32_t body); /* SBF_NONE: world */
 
+/* Place in the level of a surface point; MJCF_END: it has none there. */
+uint32_t sbfi_mjcf_place(const sbf_level *level, uint32_t point);
+float sbfi_mjcf_point_mass(const mjcf_flex *flex, uint32_t point); /* kg; never 0 */
+float sbfi_mjcf_ratio(const sbf_soft_body *body);                  /* Poisson's, as MuJoCo takes it */
+
 /* Each false where memory runs out. */
 bool sbfi_mjcf_take_flexes(mjcf_writer *w);
+/* The one modulus (Pa) or stiffness (N/m) of a flex, the mean where its elements `differ`. */
+bool sbfi_mjcf_matter(mjcf_writer *w, const mjcf_flex *flex, float *value, bool *differ);
+/* Seconds that its steps may take, for what is written here to stay sound. */
+bool sbfi_mjcf_timestep(mjcf_writer *w, float *step);
 bool sbfi_mjcf_take_joints(mjcf_writer *w);
 void sbfi_mjcf_write_holders_and_points(mjcf_writer *w);
 bool sbfi_mjcf_write_flexes(mjcf_writer *w);

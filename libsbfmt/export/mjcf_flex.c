@@ -13,8 +13,7 @@ static uint32_t spring_count(const sbf_level *level) {
   return count;
 }
 
-/* Place in the level of a surface point; MJCF_END: it has none there. */
-static uint32_t place_of(const sbf_level *level, uint32_t point) {
+uint32_t sbfi_mjcf_place(const sbf_level *level, uint32_t point) {
   uint32_t place = point < level->new_from_old.count ? level->new_from_old.at[point] : point;
   return place < level->positions.count ? place : MJCF_END;
 }
@@ -23,7 +22,7 @@ static bool is_sheet(const sbf_soft_body *body, const sbf_level *level) {
   sbf_body_measures measures;
   sbf_body_measure(body, &measures);
   for (uint32_t i = 0; i < body->surface.positions.count; i++)
-    if (place_of(level, i) == MJCF_END) return false;
+    if (sbfi_mjcf_place(level, i) == MJCF_END) return false;
   return measures.sheet && body->surface.polygon_sizes.count;
 }
 
@@ -104,9 +103,13 @@ bool sbfi_mjcf_take_flexes(mjcf_writer *w) {
 
 /* ---- Bodies ---- */
 
+float sbfi_mjcf_point_mass(const mjcf_flex *flex, uint32_t p) {
+  return flex->masses[p] > 1e-9f ? flex->masses[p] : 1e-9f;
+}
+
 static void write_point(mjcf_writer *w, const mjcf_flex *flex, uint32_t b, uint32_t p) {
   sbfi_text *text = &w->e->text;
-  float mass = flex->masses[p] > 1e-9f ? flex->masses[p] : 1e-9f;
+  float mass = sbfi_mjcf_point_mass(flex, p);
   float radius = flex->body->collision.particle_radius;
   if (!(flex->masses[p] > 0)) w->massless++;
   if (radius < 1e-3f) radius = 1e-3f;
@@ -172,8 +175,8 @@ static void write_elements(mjcf_writer *w, const mjcf_flex *flex) {
   for (uint32_t i = 0, corner = 0; flex->dim == 2 && i < mesh->polygon_sizes.count; i++) {
     const uint32_t *points = mesh->polygon_points.at + corner;
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i]; k++, gap = " ")
-      sbfi_export_format(w->e, "%s%u %u %u", gap, place_of(level, points[0]), place_of(level, points[k - 1]),
-          place_of(level, points[k]));
+      sbfi_export_format(w->e, "%s%u %u %u", gap, sbfi_mjcf_place(level, points[0]),
+          sbfi_mjcf_place(level, points[k - 1]), sbfi_mjcf_place(level, points[k]));
     corner += mesh->polygon_sizes.at[i];
   }
   sbfi_text_char(&w->e->text, '"');
@@ -188,37 +191,55 @@ static float mean_of(const float *values, uint32_t count, bool *differ) {
   return count ? (float)(sum / count) : 0;
 }
 
-/* Of all its springs or tetrahedra together, as a flex has one of each number. */
-static bool write_matter(mjcf_writer *w, const mjcf_flex *flex) {
+float sbfi_mjcf_ratio(const sbf_soft_body *body) {
+  float ratio = body->attributes.poisson_ratio;
+  return ratio < 0 ? 0 : ratio > 0.499f ? 0.499f : ratio;
+}
+
+bool sbfi_mjcf_matter(mjcf_writer *w, const mjcf_flex *flex, float *value, bool *differ) {
   const sbf_level *level = flex->level;
-  const sbf_attributes *matter = &flex->body->attributes;
   uint32_t points = level->positions.count;
   uint32_t count = flex->dim == 3 ? level->lattice.tetrahedra.count : spring_count(level);
   float *volumes = sbfi_arena_allocate(&w->scratch, points, sizeof *volumes);
   double *work = sbfi_arena_allocate(&w->scratch, points, 2 * sizeof *work);
   float *values = sbfi_arena_allocate(&w->scratch, count, sizeof *values);
-  bool differ = false;
   if (!volumes || !work || !values) return false;
-  if (flex->dim == 1) {
+  if (flex->dim == 1)
     sbf_level_stiffness(flex->body, level, volumes, work, values);
+  else if (flex->dim == 3)
+    sbf_level_moduli(flex->body, level, volumes, values);
+  *value = flex->dim == 2 ? flex->body->attributes.young_modulus : mean_of(values, count, differ);
+  return true;
+}
+
+static bool is_held(const mjcf_flex *flex) {
+  for (uint32_t p = 0; p < flex->level->positions.count; p++)
+    if (flex->holder[p] >= 0) return true;
+  return false;
+}
+
+/* Of all its springs or tetrahedra together, as a flex has one of each number. */
+static bool write_matter(mjcf_writer *w, const mjcf_flex *flex) {
+  const sbf_attributes *matter = &flex->body->attributes;
+  bool differ = false;
+  float value;
+  if (!sbfi_mjcf_matter(w, flex, &value, &differ)) return false;
+  if (flex->dim == 1) {
     sbfi_text_string(&w->e->text, "<edge");
-    float stiffness = mean_of(values, count, &differ);
-    sbfi_mjcf_f32(w, "stiffness", stiffness);
-    sbfi_mjcf_f32(w, "damping", matter->stiffness_damping * stiffness);
+    sbfi_mjcf_f32(w, "stiffness", value);
+    sbfi_mjcf_f32(w, "damping", matter->stiffness_damping * value);
   } else {
-    float modulus = matter->young_modulus, ratio = matter->poisson_ratio;
-    if (flex->dim == 3) {
-      sbf_level_moduli(flex->body, level, volumes, values);
-      modulus = mean_of(values, count, &differ);
-    }
-    if (ratio < 0 || ratio > 0.499f) w->ratios++;
+    w->ratios += matter->poisson_ratio != sbfi_mjcf_ratio(flex->body);
     sbfi_text_string(&w->e->text, "<elasticity");
-    sbfi_mjcf_f32(w, "young", modulus);
-    sbfi_mjcf_f32(w, "poisson", ratio < 0 ? 0 : ratio > 0.499f ? 0.499f : ratio);
+    sbfi_mjcf_f32(w, "young", value);
+    sbfi_mjcf_f32(w, "poisson", sbfi_mjcf_ratio(flex->body));
     sbfi_mjcf_f32(w, "damping", matter->stiffness_damping);
     if (flex->dim == 2) {
+      /* MuJoCo's compiler refuses bending where a point hangs on what is held. */
+      bool held = is_held(flex);
+      w->bending += held;
       sbfi_mjcf_f32(w, "thickness", matter->thickness);
-      sbfi_text_string(&w->e->text, " elastic2d=\"both\"");
+      sbfi_export_format(w->e, " elastic2d=\"%s\"", held ? "stretch" : "both");
     }
   }
   w->moduli += differ;

@@ -45,12 +45,13 @@ void sbfi_mjcf_rigid_name(mjcf_writer *w, int32_t body) {
     sbfi_mjcf_name(w, w->e->asset->rigid_bodies.at[body].id, (uint32_t)body);
 }
 
-static void write_all(mjcf_writer *w) {
+static void write_all(mjcf_writer *w, float step) {
   sbfi_text *text = &w->e->text;
   sbfi_text_string(text, "<?xml version=\"1.0\"?>\n<mujoco model=\"sbfmt\">\n"
                          "  <!-- Metres, kilograms, radians. Turned from +Y up to +Z up: (x, y, z) is "
                          "(x, -z, y) of the file it was made from. -->\n"
                          "  <compiler angle=\"radian\"/>\n  <option");
+  sbfi_mjcf_f32(w, "timestep", step);
   sbfi_mjcf_vec3(w, "gravity", w->e->asset->environment.gravity);
   sbfi_text_string(text, "/>\n");
   sbfi_mjcf_write_meshes(w);
@@ -61,8 +62,9 @@ static void write_all(mjcf_writer *w) {
 }
 
 static bool write_text(mjcf_writer *w) {
-  if (!sbfi_mjcf_take_flexes(w) || !sbfi_mjcf_take_joints(w)) return false;
-  write_all(w);
+  float step;
+  if (!sbfi_mjcf_take_flexes(w) || !sbfi_mjcf_take_joints(w) || !sbfi_mjcf_timestep(w, &step)) return false;
+  write_all(w, step);
   if (!sbfi_mjcf_write_flexes(w)) return false;
   sbfi_mjcf_write_constraints(w);
   sbfi_text_string(&w->e->text, "</mujoco>\n");
@@ -83,11 +85,12 @@ sbf_status sbfi_export_mjcf(sbfi_export *e) {
   if (!written) return sbfi_export_no_memory(e);
   const sbfi_left_out things[] = {{w.bare, "soft bodies without tetrahedra or springs (build makes them)"},
       {w.goals, "goal springs"}, {w.moduli, "soft bodies whose elements differ (their mean is written)"},
-      {w.ratios, "Poisson ratios outside 0 to 0.499"}, {w.massless, "moving bodies' masses of 0"},
-      {w.loops, "joints that close loops"}, {w.loop_bounds, "limits and drives of those that close loops"},
-      {w.pulleys, "pulleys"}, {w.soft_limits, "limits' springs"},
-      {w.drives, "drives' speeds, bounds and distances"}, {w.breaking, "breaking loads"},
-      {w.touching, "joined bodies that touch"}, {asset->cross_springs.count, "sets of cross springs"}};
+      {w.bending, "held sheets' bending"}, {w.ratios, "Poisson ratios outside 0 to 0.499"},
+      {w.massless, "moving bodies' masses of 0"}, {w.loops, "joints that close loops"},
+      {w.loop_bounds, "limits and drives of those that close loops"}, {w.pulleys, "pulleys"},
+      {w.soft_limits, "limits' springs"}, {w.drives, "drives' speeds, bounds and distances"},
+      {w.breaking, "breaking loads"}, {w.touching, "joined bodies that touch"},
+      {asset->cross_springs.count, "sets of cross springs"}};
   sbfi_export_left_out(e, "MJCF", things, sizeof things / sizeof *things);
   const sbfi_left_out others[] = {{asset->render_meshes.count, "render meshes"},
       {asset->clips.count, "clips"}, {asset->gaits.count, "gaits"}, {asset->ik_chains.count, "IK chains"},

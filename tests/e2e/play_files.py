@@ -1,4 +1,4 @@
-"""Other programs that exported files are played in: three.js and Khronos's validator under node, and Blender. Each gives None where
+"""Other programs that exported files are played in: three.js, Khronos's validator and MuJoCo under node, and Blender. Each gives None where
 it is not to be had."""
 
 import functools
@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import zlib
 
 PLAYERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "players")
 
@@ -17,7 +18,8 @@ def node_folder():
     build = os.environ.get("SBFMT_BUILD_DIR")
     if not (shutil.which("node") and shutil.which("npm") and build):
         return None
-    made = os.path.join(build, "scratch", "players")
+    with open(os.path.join(PLAYERS, "package.json"), "rb") as file:  # other packages, another folder
+        made = os.path.join(build, "scratch", f"players-{zlib.crc32(file.read()):08x}")
     sources = [name for name in os.listdir(PLAYERS) if name.endswith((".mjs", ".json"))]
     if not os.path.isdir(os.path.join(made, "node_modules")):
         os.makedirs(os.path.dirname(made), exist_ok=True)

@@ -1,12 +1,20 @@
 """MJCF that export writes: as many of everything as info counts, names once, numbers that MuJoCo's compiler takes."""
 
 import os
+import unittest
 import xml.etree.ElementTree as ElementTree
 
+import play_files
 from sbfmt_program import ProgramTest, ROOT, example, main, read_text
 
 BAR = os.path.join(ROOT, "spec", "samples", "dialect2012", "bar.xml")
 FIGURE = os.path.join(ROOT, "examples", "bones", "figure.sbf")
+
+
+EVERYTHING = os.path.join(ROOT, "spec", "samples", "valid", "everything.sbf")
+SECONDS = 0.02
+
+needs_node = unittest.skipUnless(play_files.node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
 
 
 def numbers(node, name):
@@ -87,6 +95,27 @@ class Mjcf(ProgramTest):
         places, local = self.places(root), numbers(flex, "vertex")
         return [tuple(a + b for a, b in zip(places[body], local[3 * i:3 * i + 3]))
                 for i, body in enumerate(flex.get("body").split())]
+
+    @needs_node
+    def test_mujoco_steps_it(self):
+        """Its compiler takes the files with as much of everything as they hold, and none blows up."""
+        self.good("build", FIGURE, "-o", self.path("figure.sbf"))
+        self.good("convert", BAR, "-o", self.path("bar.sbf"))
+        for path in (self.path("figure.sbf"), self.path("bar.sbf"), EVERYTHING):
+            self.good("export", path, "-o", self.path("out.mjcf"))
+            root = ElementTree.fromstring(read_text(self.path("out.mjcf")))
+            world, flexes = root.find("worldbody"), list(root.iter("flex"))
+            told = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), SECONDS)
+            count = lambda *tags: sum(len(list(world.iter(tag))) for tag in tags)  # noqa: E731
+            self.assertEqual(told["counts"], {
+                "nbody": 1 + count("body"), "njnt": count("joint", "freejoint"), "nmesh": len(list(root.iter("mesh"))),
+                "nflex": len(flexes), "nflexvert": sum(len(flex.get("body").split()) for flex in flexes),
+                "nflexelem": sum(len(flex.get("element").split()) // (int(flex.get("dim")) + 1) for flex in flexes),
+                "neq": len(root.find("equality") or []), "ntendon": len(list(root.iter("spatial"))),
+                "nmocap": len([body for body in world.iter("body") if body.get("mocap")]),
+                "nexclude": len(list(root.iter("exclude"))), "nsite": count("site")}, path)
+            self.assertEqual((told["warnings"], told["finite"]), (0, True), path)
+            self.assertLess(told["fastest"], 10)  # m/s and rad/s; a fall of so long ends at 0.2 m/s
 
     def test_a_figure_with_flesh(self):
         self.good("build", FIGURE, "-o", self.path("figure.sbf"))
