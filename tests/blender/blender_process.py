@@ -28,10 +28,11 @@ class Blender:
     """Of this system, or of another one in a folder (root only). In `folder` lie the add-on's zip, `tests`, and `kept`, where scripts
     leave files; scripts know it as the environment's SBFMT_KEPT. Ends the test where there is no such Blender."""
 
-    def __init__(self, root, libraries):
+    def __init__(self, root, libraries, packed=""):
         self.root = root.rstrip("/")
         if not (os.path.exists(f"{self.root}/usr/bin/blender") if self.root else shutil.which("blender")):
             skip(f"there is no Blender{' in ' + self.root if self.root else ': install the package blender'}")
+        self.packed = packed  # its zip, where it is not to be packed here
         self.libraries = list(libraries)
         if self.root and self.libraries:
             self.libraries += needed_libraries(self.libraries[0])
@@ -42,10 +43,17 @@ class Blender:
 
     def __enter__(self):
         archive = os.path.join(self.folder, "soft_body_format.zip")
-        subprocess.run([sys.executable, "-B", os.path.join(ROOT, "exporters", "blender", "pack.py"), archive, *self.libraries],
-                       check=True)
+        if self.packed:
+            shutil.copyfile(self.packed, archive)
+        else:
+            subprocess.run([sys.executable, "-B", os.path.join(ROOT, "exporters", "blender", "pack.py"), archive, *self.libraries],
+                           check=True)
         with zipfile.ZipFile(archive) as opened:
             opened.extractall(os.path.join(self.folder, "scripts", "addons"))
+        if self.packed and self.root:
+            lib = os.path.join(self.folder, "scripts", "addons", "soft_body_format", "sbfmt", "lib")
+            for one in [path for own in os.listdir(lib) for path in needed_libraries(os.path.join(lib, own))]:
+                shutil.copy(one, lib)
         shutil.copytree(HERE, self.tests, ignore=shutil.ignore_patterns("__pycache__", "*.txt"))
         shutil.copy(os.path.join(ROOT, "docs", "blender.md"), os.path.join(self.tests, "page.md"))
         os.mkdir(self.kept)

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Runs tests/blender/test_NAME.py inside a Blender, with the add-on as its zip installs it. Exits 77 where there is none.
 
-    run_in_blender.py [--root FOLDER] [--library FILE]... [--program SBFMT [--lizard]] [--window [--keep FOLDER]] NAME...
+    run_in_blender.py [--root FOLDER] [--library FILE... | --zip FILE] [--program SBFMT [--lizard]] [--window [--keep FOLDER]] NAME...
 
 --root names a folder that holds another system with its Blender; what the tests need is copied into it (root only).
 --library files go into the zip, first the library itself, then what it rests on; without any the add-on does without.
+--zip is an add-on packed before, and taken as it is.
 --program makes bundles of the examples for the tests of import; with --shared of real files from ../shared/data instead.
 """
 
@@ -39,6 +40,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--root", default="")
     parser.add_argument("--library", action="append", default=[])
+    parser.add_argument("--zip", default="")
     parser.add_argument("--program", default="")
     parser.add_argument("--shared", action="store_true")
     parser.add_argument("--window", action="store_true", help="run the script NAME in a window, on a bundle")
@@ -48,7 +50,7 @@ def main():
     asked = parser.parse_args()
     if asked.shared and not os.path.isdir(bundles.SHARED):
         skip("there is no ../shared/data")
-    with Blender(asked.root, asked.library) as blender:
+    with Blender(asked.root, asked.library, asked.zip) as blender:
         if asked.program:
             make = bundles.make_shared if asked.shared else bundles.make_lizard if asked.lizard else bundles.make_examples
             make(os.path.join(blender.tests, "bundles"), asked.program)

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "blender"))
 from blender_process import needed_libraries, skip  # noqa: E402
@@ -24,21 +25,31 @@ config/name="test"
 """
 
 
+def unpack(path, folder):
+    """A zip, with which of its files are programs."""
+    with zipfile.ZipFile(path) as archive:
+        for entry in archive.infolist():
+            os.chmod(archive.extract(entry, folder), entry.external_attr >> 16 or 0o644)
+
+
 class Godot:
     """Of this system, or of another one in a folder (root only). `folder` is its project. Ends the test where there is none."""
 
-    def __init__(self, root, godot, build):
+    def __init__(self, root, godot, build, addon=""):
         self.root = root.rstrip("/")
         self.godot = godot or "godot"
-        if not build or not (os.path.exists(f"{self.root}/usr/bin/godot") if self.root else shutil.which(self.godot)):
+        if not (build or addon) or not (os.path.exists(f"{self.root}/usr/bin/godot") if self.root else shutil.which(self.godot)):
             skip("there is no Godot 4.6 and so no extension for it: tests/other_system.sh build/other-system fetches one, then configure anew")
-        self.build = build
+        self.build, self.addon = build, addon
         self.temporary = tempfile.TemporaryDirectory(dir=f"{self.root}/tmp" if self.root else None)
         self.folder = self.temporary.name
 
     def __enter__(self):
-        subprocess.run(["cmake", "--install", self.build, "--component", "godot", "--prefix", self.folder], check=True,
-                       stdout=subprocess.DEVNULL)
+        if self.addon:
+            unpack(self.addon, self.folder)
+        else:
+            subprocess.run(["cmake", "--install", self.build, "--component", "godot", "--prefix", self.folder], check=True,
+                           stdout=subprocess.DEVNULL)
         # Until the editor has seen a project, this list is how a game finds its extensions.
         self.write(".godot/extension_list.cfg", "res://addons/sbfmt/sbfmt.gdextension\n")
         self.set_engine("Jolt Physics")

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Runs one case of the extension's tests inside a Godot. Exits 77 where there is none.
 
-    run_in_godot.py [--root FOLDER] [--godot PROGRAM] [--build FOLDER] --program SBFMT CASE
+    run_in_godot.py [--root FOLDER] [--godot PROGRAM] [--build FOLDER | --addon ZIP] --program SBFMT CASE
 
 --root names a folder that holds another system with its Godot; what the tests need is copied into it (root only). --build is the
-build whose add-on is installed; without it there is none."""
+build whose add-on is installed, --addon one that was packed; without either there is none."""
 
 import argparse
 import json
@@ -130,11 +130,12 @@ def main():
     parser.add_argument("--root", default="")
     parser.add_argument("--godot", default="")
     parser.add_argument("--build", default="")
+    parser.add_argument("--addon", default="")
     parser.add_argument("--program", required=True)
     parser.add_argument("--keep", default="", help="where to keep the picture that a case draws")
     parser.add_argument("case")
     asked = parser.parse_args()
-    with Godot(asked.root, asked.godot, asked.build) as godot:
+    with Godot(asked.root, asked.godot, asked.build, asked.addon) as godot:
         packed(asked.program, godot.folder)
         if asked.case == "values":
             told = native(asked.program, godot.folder)

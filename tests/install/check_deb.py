@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """The Debian packages, installed with what they ask for into a clean system, and used there.
 
-Usage: check_deb.py --source DIR --scratch DIR --cc CC [--build DIR]
-Builds a tree of shared libraries unless --build names one. Skips (77) where it is not root's to do, or where debootstrap,
-dpkg-shlibdeps or the archive of packages is out of reach.
+Usage: check_deb.py --source DIR --scratch DIR --packages DIR
+Skips (77) where it is not root's to do, or where debootstrap or the archive of packages is out of reach.
 
 Whatever is mounted for the clean system is mounted in a namespace of the command that needs it, and is gone with that command,
 however it ends. Here nothing is ever mounted below the folder, so that removing it removes nothing else; that is looked at
@@ -24,8 +23,8 @@ def skip(why):
     sys.exit(SKIPPED)
 
 
-def run(*command, folder=None, must=True):
-    done = subprocess.run(command, capture_output=True, text=True, cwd=folder, env={**os.environ, **QUIET}, check=False)
+def run(*command, must=True):
+    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **QUIET}, check=False)
     if must and done.returncode:
         sys.exit(f"{' '.join(command)}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
     return done
@@ -63,19 +62,11 @@ def codename():
     return release.get("VERSION_CODENAME", "")
 
 
-def build_packages(arguments):
-    build = arguments.build or os.path.join(arguments.scratch, "build")
-    if not arguments.build:
-        run("cmake", "-G", "Ninja", "-S", arguments.source, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
-            "-DBUILD_SHARED_LIBS=ON", "-DCMAKE_INSTALL_PREFIX=/usr", f"-DCMAKE_C_COMPILER={arguments.cc}",
-            "-DSBFMT_TESTS=OFF", "-DSBFMT_BENCH=OFF")
-        run("cmake", "--build", build, "-j", "2")
-    packages = os.path.join(arguments.scratch, "packages")
-    run("cpack", "-G", "DEB", "-B", packages, folder=build)
-    found = sorted(glob.glob(os.path.join(packages, "*.deb")))
+def packages_in(folder):
+    found = sorted(glob.glob(os.path.join(folder, "*.deb")))
     names = sorted(os.path.basename(path).split("_")[0] for path in found)
     if names != ["libsbfmt", "libsbfmt-dev", "sbfmt"]:
-        sys.exit(f"packages made: {names}")
+        sys.exit(f"packages in {folder}: {names}")
     return found
 
 
@@ -100,14 +91,13 @@ def use(system, source):
 
 def main():
     parser = argparse.ArgumentParser()
-    for name in ("source", "scratch", "cc"):
+    for name in ("source", "scratch", "packages"):
         parser.add_argument("--" + name, required=True)
-    parser.add_argument("--build")
     arguments = parser.parse_args()
     arguments.scratch = os.path.abspath(arguments.scratch)
     if os.geteuid() != 0:
         skip("a clean system can be made and entered by root only")
-    missing = [name for name in ("debootstrap", "dpkg-shlibdeps", "cpack", "chroot", "unshare") if not shutil.which(name)]
+    missing = [name for name in ("debootstrap", "chroot", "unshare") if not shutil.which(name)]
     if missing:
         skip(f"{', '.join(missing)}: not installed")
     if run(*APART, "true", must=False).returncode:
@@ -121,7 +111,7 @@ def main():
             skip("debootstrap could not make a clean system: " + last_line(done))
         inner = os.path.join(system, "packages")
         os.mkdir(inner)
-        names = [shutil.copy(path, inner) for path in build_packages(arguments)]
+        names = [shutil.copy(path, inner) for path in packages_in(arguments.packages)]
         with open(os.path.join(system, "etc", "dpkg", "dpkg.cfg.d", "thrown-away"), "w", encoding="utf-8") as file:
             file.write("force-unsafe-io\n")  # nothing need survive a loss of power
         done = enter(system, "apt-get", "update", must=False)

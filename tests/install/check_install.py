@@ -2,13 +2,15 @@
 """The installed package, used as its users do: find_package and pkg-config, C11 and C++17, moved to another place.
 
 Usage: check_install.py --source DIR --scratch DIR --cc CC [--cxx CXX] --build DIR
-       check_install.py ... --configure -DOPTION...    (builds a tree of its own with these options first)"""
+       check_install.py ... --configure -DOPTION...    (builds a tree of its own with these options first)
+       check_install.py ... --tarball FILE             (what `./run package` packs, unpacked)"""
 import argparse
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tarfile
 
 CORE_HEADERS = {"sbfmt/base.h", "sbfmt/codes.h", "sbfmt/model.h", "sbfmt/asset.h", "sbfmt/io.h", "sbfmt/mechanics.h"}
 # What an engine's program may need at run time.
@@ -50,21 +52,36 @@ class Package:
         self.source = arguments.source
         self.scratch = arguments.scratch
         self.prefix = os.path.join(self.scratch, "moved", "here")
-        self.shared = "BUILD_SHARED_LIBS:BOOL=ON" in self.cache()
-        self.runtime_only = "SBFMT_RUNTIME_ONLY:BOOL=ON" in self.cache()
-        self.has_program = os.path.exists(os.path.join(build, "tools", "sbfmt"))
+        cache = self.cache()
+        self.shared = "BUILD_SHARED_LIBS:BOOL=ON" in cache
+        self.runtime_only = "SBFMT_RUNTIME_ONLY:BOOL=ON" in cache
+        self.has_program = not build or os.path.exists(os.path.join(build, "tools", "sbfmt"))
 
     def cache(self):
+        """Of the tree it was built in; a tarball has none, and holds static libraries and the program."""
+        if not self.build:
+            return ""
         with open(os.path.join(self.build, "CMakeCache.txt"), encoding="utf-8") as file:
             return file.read()
 
     def install(self):
         first = os.path.join(self.scratch, "first")
-        run("cmake", "--install", self.build, "--prefix", first)
+        if self.build:
+            run("cmake", "--install", self.build, "--prefix", first)
+        else:
+            self.unpack(first)
         os.makedirs(os.path.dirname(self.prefix))
         os.rename(first, self.prefix)
         found = re.search(r"CMAKE_INSTALL_LIBDIR:\w+=(.*)", self.cache())
         self.libraries = os.path.join(self.prefix, found.group(1) if found else "lib")
+
+    def unpack(self, folder):
+        """The tarball holds one folder of its own name."""
+        with tarfile.open(self.arguments.tarball) as archive:
+            archive.extractall(folder + "_unpacked")
+        inside = os.listdir(folder + "_unpacked")
+        expect(inside == [os.path.basename(self.arguments.tarball)[:-len(".tar.gz")]], f"the tarball holds {inside}")
+        os.rename(os.path.join(folder + "_unpacked", inside[0]), folder)
 
     def check_tree(self):
         files = files_below(self.prefix)
@@ -88,7 +105,7 @@ class Package:
                 with open(os.path.join(self.prefix, name), encoding="utf-8") as file:
                     text = file.read()
                 for folder in (self.source, self.build, self.scratch):
-                    expect(folder not in text, f"{name} speaks of {folder}: it would not survive a move")
+                    expect(not folder or folder not in text, f"{name} speaks of {folder}: it would not survive a move")
 
     def check_exports(self):
         """Shared libraries show the public calls, and their insides under a version that promises nothing."""
@@ -168,12 +185,13 @@ def main():
         parser.add_argument("--" + name, required=True)
     parser.add_argument("--cxx")
     parser.add_argument("--build")
+    parser.add_argument("--tarball")
     parser.add_argument("--configure", nargs=argparse.REMAINDER)
     arguments = parser.parse_args()
     shutil.rmtree(arguments.scratch, ignore_errors=True)
     os.makedirs(arguments.scratch)
 
-    package = Package(arguments, arguments.build or own_build(arguments))
+    package = Package(arguments, arguments.build or ("" if arguments.tarball else own_build(arguments)))
     package.install()
     package.check_tree()
     say("tree: good")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The npm package in a project of its own: packed, installed, run under node as its README says, checked by TypeScript and
+"""test_package.py [TARBALL]: the npm package, packed here unless it is named, in a project of its own: packed, installed, run under node as its README says, checked by TypeScript and
 moved by three.js where npm can fetch those."""
 import os
 import re
@@ -78,13 +78,18 @@ def written_example(folder, path):
     web_files.run("node", "written.mjs", cwd=folder)
 
 
-def main():
-    web_files.need("node", "npm")
+def packed():
     web_files.run("cmake", "--build", web_files.BUILD, "--target", "sbfmt-npm")
     tarballs = [name for name in os.listdir(web_files.BUILD) if re.fullmatch(r"sbfmt-[\d.]+\.tgz", name)]
     if len(tarballs) != 1:
         sys.exit(f"packed: {tarballs}")
-    listed = web_files.run("tar", "-tzf", os.path.join(web_files.BUILD, tarballs[0])).split()
+    return os.path.join(web_files.BUILD, tarballs[0])
+
+
+def main():
+    web_files.need("node", "npm")
+    tarball = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else packed()
+    listed = web_files.run("tar", "-tzf", tarball).split()
     expected = {"package/" + name for name in ("package.json", "README.md", "LICENSE", "sbfmt.js", "sbfmt.d.ts", "sbfmt.wasm",
                                                "sbfmt-three.js", "sbfmt-three.d.ts")}
     if set(listed) != expected:
@@ -92,7 +97,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         lizard = web_files.bundles(folder)["lizard"]
         write(folder, "package.json", '{ "name": "fresh", "private": true, "type": "module" }')
-        done = npm(folder, "install", "--offline", "--omit=peer", os.path.join(web_files.BUILD, tarballs[0]))
+        done = npm(folder, "install", "--offline", "--omit=peer", tarball)
         if done.returncode != 0:
             sys.exit("npm install: " + done.stderr[-2000:])
         write(folder, "walk.mjs", PROGRAM)

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""What `./run package` makes, each installed and used where nothing else of this project is.
+
+Usage: check_packages.py --source DIR --build DIR --scratch DIR --cc CC [--cxx CXX] [--packages DIR]
+
+Without --packages they are made first: of the tree --build, and of one of shared libraries that is built in the scratch folder.
+The Debian packages go into a clean system, the tarball into another folder, the npm package into a fresh project under node,
+the add-ons into Blender and Godot as their users install them. A check that lacks its tool, and a package that could not be
+made, says so and is skipped. Exit status: 0 all that ran is good, 1 something is not, 77 nothing could run."""
+import argparse
+import glob
+import hashlib
+import os
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "cmake"))
+from make_packages import cache_of  # noqa: E402
+
+SKIPPED = 77
+
+
+def make(asked):
+    out, shared = os.path.join(asked.scratch, "made"), os.path.join(asked.scratch, "shared")
+    commands = [
+        ["cmake", "-G", "Ninja", "-S", asked.source, "-B", shared, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=ON",
+         "-DCMAKE_INSTALL_PREFIX=/usr", f"-DCMAKE_C_COMPILER={asked.cc}", "-DSBFMT_TESTS=OFF", "-DSBFMT_BENCH=OFF"],
+        ["cmake", "--build", shared, "-j", "2"],
+        [sys.executable, "-B", os.path.join(asked.source, "cmake", "make_packages.py"), "--static", asked.build, "--shared", shared,
+         "--out", out]]
+    for command in commands:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            sys.exit(f"{' '.join(command)}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
+    print(done.stdout, flush=True)
+    return out
+
+
+def check_sums(folder):
+    """SHA256SUMS lists every file, with its sum."""
+    with open(os.path.join(folder, "SHA256SUMS"), encoding="utf-8") as file:
+        listed = dict(reversed(line.rstrip("\n").split("  ")) for line in file)
+    if set(listed) != set(os.listdir(folder)) - {"SHA256SUMS"}:
+        sys.exit(f"SHA256SUMS lists {sorted(listed)}, there are {sorted(os.listdir(folder))}")
+    for name, told in listed.items():
+        with open(os.path.join(folder, name), "rb") as file:
+            if hashlib.sha256(file.read()).hexdigest() != told:
+                sys.exit(f"{name} has another sum than SHA256SUMS tells")
+    return listed
+
+
+def first(folder, pattern):
+    return next(iter(sorted(glob.glob(os.path.join(folder, pattern)))), "")
+
+
+def checks(asked, folder):
+    """Name, the package's file ("" where there is none), and the command that tries it."""
+    tests, cache = os.path.join(asked.source, "tests"), cache_of(asked.build)
+    program = os.path.join(asked.build, "tools", "sbfmt")
+    cxx = ["--cxx", asked.cxx] if asked.cxx else []
+    deb = first(folder, "sbfmt_*.deb")
+    yield "Debian packages, in a clean system", deb, [os.path.join(tests, "install", "check_deb.py"), "--source", asked.source,
+                                                      "--scratch", os.path.join(asked.scratch, "deb"), "--packages", folder]
+    tarball = first(folder, "sbfmt-[0-9]*.tar.gz")
+    yield "CMake package and pkg-config, moved", tarball, [
+        os.path.join(tests, "install", "check_install.py"), "--source", asked.source, "--scratch",
+        os.path.join(asked.scratch, "tarball"), "--cc", asked.cc, *cxx, "--tarball", tarball]
+    npm = first(folder, "sbfmt-npm-*.tgz")
+    yield "npm package, in a fresh project", npm, [os.path.join(tests, "web", "test_package.py"), npm]
+    addon = first(folder, "sbfmt-blender-*.zip")
+    blender = os.path.join(tests, "blender", "run_in_blender.py")
+    yield "Blender's add-on, in the system's Blender", addon, [blender, "--zip", addon, "test_addon_zip", "test_check_and_build"]
+    newer = cache.get("SBFMT_OTHER_SYSTEM", os.path.join(asked.source, "build", "other-system"))
+    yield "Blender's add-on, in a newer Blender", addon, [blender, "--root", newer, "--zip", addon, "test_addon_zip",
+                                                          "test_check_and_build"]
+    godot = first(folder, "sbfmt-godot-*.zip")
+    where = cache.get("SBFMT_GODOT_ROOT", "")
+    where = ["--root", where] if where else ["--godot", cache.get("SBFMT_GODOT", "godot")]
+    for case, what in (("values", "in a game"), ("imported", "in the editor")):
+        yield f"Godot's add-on, {what}", godot, [os.path.join(tests, "godot", "run_in_godot.py"), *where, "--addon", godot,
+                                                 "--program", program, case]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for name in ("source", "build", "scratch", "cc"):
+        parser.add_argument("--" + name, required=True)
+    parser.add_argument("--cxx", default="")
+    parser.add_argument("--packages", default="")
+    asked = parser.parse_args()
+    for name in ("source", "build", "scratch", "packages"):
+        value = getattr(asked, name)
+        setattr(asked, name, value and os.path.abspath(value))
+    os.makedirs(asked.scratch, exist_ok=True)
+    folder = asked.packages or make(asked)
+    check_sums(folder)
+    good = skipped = 0
+    failed = []
+    environment = {**os.environ, "SBFMT_BUILD_DIR": asked.build, "PYTHONDONTWRITEBYTECODE": "1"}
+    for name, package, command in checks(asked, folder):
+        if not package:
+            print(f"skipped  {name}: it was not made, see above", flush=True)
+            skipped += 1
+            continue
+        done = subprocess.run([sys.executable, "-B", *command], capture_output=True, text=True, env=environment, check=False)
+        said = (done.stdout + done.stderr).strip()
+        if done.returncode == SKIPPED:
+            print(f"skipped  {name}: {said.splitlines()[-1].removeprefix('skipped: ') if said else 'it says not why'}", flush=True)
+            skipped += 1
+        elif done.returncode:
+            print(f"FAILED   {name}\n{said[-6000:]}", flush=True)
+            failed.append(name)
+        else:
+            print(f"good     {name}", flush=True)
+            good += 1
+    print(f"{good} good, {skipped} skipped, {len(failed)} failed")
+    sys.exit(1 if failed else 0 if good else SKIPPED)
+
+
+if __name__ == "__main__":
+    main()
