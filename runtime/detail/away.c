@@ -2,6 +2,9 @@
  * goes along as it last was; nothing steps. */
 #include "detail/rungs.h"
 #include "math/quat.h"
+#include "pose/frames.h"
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
 
 static void carry(sbr_transform *frame, const sbr_transform *from, const sbr_transform *to, sbf_quat turn) {
   sbf_vec3 arm = sbri_sub(frame->position, from->position);

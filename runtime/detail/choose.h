@@ -52,10 +52,4 @@ float sbri_speed_factor(const sbri_character *c);
  * `visits`; returns what they cost then. */
 double sbri_budget_keep(const sbr_world *world, double visits, double most);
 
-/* ---- detail/detail_host.c ---- */
-
-/* The `index`-th of `count` views, as in recordings. */
-void sbri_view_set(sbr_world *world, uint32_t index, uint32_t count, const sbr_view *view);
-void sbri_detail_free(sbr_world *world);
-
 #endif

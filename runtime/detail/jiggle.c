@@ -3,6 +3,7 @@
  * its bone has carried the asset's axes, and the shift. */
 #include "detail/rungs.h"
 #include "math/quat.h"
+#include "pose/frames.h"
 
 /* Farther than so many sizes of all bodies nothing is shifted: a bone that jumps does not throw them away. */
 static const float MOST_SIZES = 0.25f;

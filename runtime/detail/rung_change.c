@@ -6,6 +6,8 @@
 
 #include "detail/rungs.h"
 #include "math/quat.h"
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
 
 enum { ATTEMPTS = 4 };
 
@@ -122,7 +124,7 @@ static void add_speeds(sbri_character *c, const sbri_body *body, const sbri_sour
 }
 
 static double elastic_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
-  return sbr_character_health(world, sbri_id_of(world, c), body).elastic_j;
+  return sbri_body_health(world, c, body).elastic_j;
 }
 
 /* Energy goes with the square of a small strain. */

@@ -2,7 +2,7 @@
 #ifndef SBRI_RUNGS_H
 #define SBRI_RUNGS_H
 
-#include "core/world.h"
+#include "world/world.h"
 
 /* What the character is on its rung. */
 static inline const sbr_rung *sbri_rung_of(const sbri_character *c) {

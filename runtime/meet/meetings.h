@@ -3,14 +3,14 @@
  *
  * When a tick begins, all whose ways within it may touch are found by their bounds (pairs.c). Characters that
  * may are a group, and a group is one task: its characters step along with each other, in as many steps as
- * the one that needs most (core/group_run.c). Before each step the places that may touch (find.c) push each
+ * the one that needs most (step/group_run.c). Before each step the places that may touch (find.c) push each
  * other off (push.c): what one gets the other loses, so that momentum is kept to rounding.
  *
  * All lengths and speeds here are the world's; places are relative to the group's origin. */
 #ifndef SBRI_MEETINGS_H
 #define SBRI_MEETINGS_H
 
-#include "core/world.h"
+#include "ragdoll/ragdoll.h"
 
 /* ---- Who may meet ---- */
 
@@ -272,10 +272,5 @@ void sbri_meet_look(const sbri_meetings *all, const sbri_meet_group *group);
 void sbri_meet_tell(sbr_world *world);
 /* A character is gone: whom it touched. */
 void sbri_meet_forget(sbr_world *world, uint32_t character);
-
-/* ---- core/group_run.c ---- */
-
-/* The tick of a group, after its characters' gaits. */
-void sbri_group_run(sbr_world *world, sbri_meet_group *group);
 
 #endif

@@ -7,7 +7,7 @@
 
 /* The points that carry the vertex with a twentieth of it or more, as slots of the character, the one that
  * carries most first; a vertex that something else carries has none, nor one that goes with one side of a
- * tear (core/torn_network.c). */
+ * tear (tear/torn_network.c). */
 typedef struct carriers {
   uint32_t slots[4], count;
 } carriers;

@@ -14,7 +14,7 @@ CORE = MODEL + ["libsbfmt/packed", "libsbfmt/generated"]
 MECHANICS = MODEL + ["libsbfmt/mechanics"]
 MOTION = MECHANICS + ["libsbfmt/motion"]
 FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/motion", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
-# Folders of the runtime, each with those below it that it may use; core, meet and detail are one room.
+# Folders of the runtime, each with those below it that it may use; check_calls.py holds its calls to the same.
 RUNTIME = {
     "math": [],
     "ik": ["math"],
@@ -28,9 +28,17 @@ RUNTIME = {
     "prepare": ["math", "skeleton", "collide", "model", "skin", "solvers"],
     "rigid": ["math", "ik", "collide", "model"],
     "gait": ["math", "ik", "skeleton", "collide"],
-    "meet": ["math", "collide", "model", "solvers", "core", "rigid"],
-    "detail": ["math", "model", "skin", "core", "rigid", "gait"],
-    "core": ["math", "skeleton", "collide", "model", "contact", "skin", "solvers", "prepare", "rigid", "gait", "meet", "detail"],
+    "world": ["math", "collide", "model", "rigid", "gait"],
+    "pose": ["math", "collide", "gait", "world"],
+    "tear": ["math", "model", "prepare", "world"],
+    "soft": ["math", "collide", "model", "contact", "skin", "solvers", "gait", "world", "pose", "tear"],
+    "ragdoll": ["math", "solvers", "rigid", "gait", "world", "pose", "tear", "soft"],
+    "meet": ["math", "collide", "model", "solvers", "rigid", "world", "ragdoll"],
+    "detail": ["math", "skin", "gait", "world", "pose", "soft", "ragdoll"],
+    "step": ["math", "collide", "solvers", "rigid", "gait", "world", "pose", "tear", "soft", "ragdoll", "meet", "detail"],
+    "api": ["math", "collide", "model", "solvers", "kernels", "prepare", "rigid", "gait", "world", "pose", "soft", "ragdoll", "meet",
+            "detail", "step"],
+    "query": ["math", "skeleton", "collide", "model", "skin", "rigid", "gait", "world", "pose", "soft", "ragdoll", "detail"],
 }
 
 # Where a file lies -> the folders whose inside it may use. The longest folder that fits counts.

@@ -4,6 +4,7 @@ import os
 import tempfile
 import unittest
 
+import check_calls
 import check_docs
 import check_includes
 import check_names
@@ -12,15 +13,14 @@ import check_words
 import repo_files
 
 FILES = {"libsbfmt/base/memory.h", "libsbfmt/model/check.h", "libsbfmt/build/springs/springs.h", "libsbfmt/xml/reader.h",
-         "libsbfmt/validate/rules.h", "libsbfmt/mechanics/spring.h", "runtime/core/world.h", "runtime/math/vec3.h", "tools/cli.h"}
+         "libsbfmt/validate/rules.h", "libsbfmt/mechanics/spring.h", "runtime/world/world.h", "runtime/math/vec3.h", "tools/cli.h"}
 
 
 class Includes(unittest.TestCase):
     def test_folders_of_the_runtime_stand_one_on_another(self):
         seen = []
         for folder, below in check_includes.RUNTIME.items():
-            room = {"core", "meet", "detail"} if folder in ("core", "meet", "detail") else set()
-            self.assertEqual(set(below) - set(seen) - room, set(), folder)
+            self.assertEqual(set(below) - set(seen), set(), folder)
             seen.append(folder)
 
     def faults(self, path, *lines):
@@ -29,30 +29,60 @@ class Includes(unittest.TestCase):
     def test_right_arrows(self):
         for path, line in [("libsbfmt/model/a.c", '"base/memory.h"'), ("libsbfmt/build/a.c", '"mechanics/spring.h"'),
                            ("libsbfmt/xml/a.c", "<libxml/parser.h>"), ("libsbfmt/packed/a.c", "<zlib.h>"),
-                           ("libsbfmt/import/assimp/a.c", "<assimp/scene.h>"), ("runtime/core/a.c", '"base/memory.h"'),
-                           ("runtime/core/a.c", '"mechanics/spring.h"'), ("runtime/core/a.c", '"math/vec3.h"'),
+                           ("libsbfmt/import/assimp/a.c", "<assimp/scene.h>"), ("runtime/step/a.c", '"base/memory.h"'),
+                           ("runtime/step/a.c", '"mechanics/spring.h"'), ("runtime/step/a.c", '"math/vec3.h"'),
                            ("libsbfmt/base/file_posix.c", "<sys/mman.h>"), ("tools/a.c", '"sbfmt/convert.h"'),
-                           ("tools/a.c", "<string.h>"), ("tests/base/a.c", '"runtime/core/world.h"')]:
+                           ("tools/a.c", "<string.h>"), ("tests/base/a.c", '"runtime/world/world.h"')]:
             self.assertEqual(self.faults(path, line), [], (path, line))
 
     def test_wrong_arrows(self):
         for path, line in [("libsbfmt/base/a.c", '"model/check.h"'), ("libsbfmt/mechanics/a.c", '"build/springs/springs.h"'),
                            ("libsbfmt/xml/a.c", '"build/springs/springs.h"'), ("libsbfmt/build/a.c", '"validate/rules.h"'),
                            ("libsbfmt/model/a.c", "<libxml/tree.h>"), ("libsbfmt/xml/a.c", "<zlib.h>"),
-                           ("libsbfmt/import/a.c", "<assimp/scene.h>"), ("runtime/core/a.c", '"build/springs/springs.h"'),
-                           ("runtime/core/a.c", "<libxml/parser.h>"), ("runtime/core/a.c", '"sbfmt/build.h"'),
-                           ("runtime/core/a.c", "<sbfmt/convert.h>"), ("runtime/math/a.h", '"core/world.h"'), ("runtime/solvers/a.c", '"core/world.h"'),
-                           ("runtime/hosts/web/a.c", '"core/world.h"'), ("tools/a.c", '"base/memory.h"'),
+                           ("libsbfmt/import/a.c", "<assimp/scene.h>"), ("runtime/step/a.c", '"build/springs/springs.h"'),
+                           ("runtime/step/a.c", "<libxml/parser.h>"), ("runtime/step/a.c", '"sbfmt/build.h"'),
+                           ("runtime/step/a.c", "<sbfmt/convert.h>"), ("runtime/math/a.h", '"world/world.h"'), ("runtime/solvers/a.c", '"world/world.h"'),
+                           ("runtime/hosts/web/a.c", '"world/world.h"'), ("tools/a.c", '"base/memory.h"'),
                            ("libsbfmt/include/sbfmt/io.h", '"sbfmt/validate.h"'),
                            ("libsbfmt/include/sbfmt/io.h", '"base/memory.h"'),
                            ("libsbfmt/include/sbfmt/novel.h", '"sbfmt/base.h"'),
                            ("libsbfmt/base/text.c", "<locale.h>"), ("libsbfmt/base/text.c", "<unistd.h>"),
-                           ("runtime/core/a.c", "<pthread.h>"), ("libsbfmt/base/a.c", '"base/nowhere.h"'),
+                           ("runtime/step/a.c", "<pthread.h>"), ("libsbfmt/base/a.c", '"base/nowhere.h"'),
                            ("libsbfmt/base/a.c", '"sbrun/sbrun.h"')]:
             self.assertEqual(len(self.faults(path, line)), 1, (path, line))
 
     def test_line_is_named(self):
         self.assertIn("libsbfmt/model/a.c:2:", self.faults("libsbfmt/model/a.c", "<string.h>", "<zlib.h>")[0])
+
+
+class Calls(unittest.TestCase):
+    PLACES = {"a.c": "runtime/step/a.c", "b.c": "runtime/world/b.c", "c.c": "runtime/world/c.c"}
+
+    def faults(self, **calls):
+        """`calls`: of each file (without its .c) the functions that it calls; each defines one of its own name."""
+        table = "".join(f"\n{name}.c.o:\n0000000000000000 T sbri_{name}\n0000000000000000 t own\n                 U memcpy\n" +
+                        "".join(f"                 U sbri_{other}\n" for other in others) for name, others in calls.items())
+        return check_calls.faults_of(*check_calls.read(table, self.PLACES))
+
+    def test_right_calls(self):
+        self.assertEqual(self.faults(a="bc", b="c", c=""), [])
+        self.assertEqual(self.faults(a="a", b="x", c=""), [])  # its own; what another library has
+
+    def test_a_circle(self):
+        faults = self.faults(a="b", b="c", c="b")
+        self.assertEqual(len(faults), 1)
+        for name in ("runtime/world/b.c", "runtime/world/c.c", "sbri_b", "sbri_c"):
+            self.assertIn(name, faults[0])
+        self.assertNotIn("runtime/step/a.c", faults[0])
+
+    def test_a_call_up(self):
+        faults = self.faults(a="", b="a", c="")
+        self.assertEqual(len(faults), 1)
+        self.assertIn("sbri_a", faults[0])
+
+    def test_members_of_another_format(self):
+        calls, _ = check_calls.read("\na.c.obj:\n0000 T sbri_a\nU sbri_b\n\nb.c.obj:\n0000 R sbri_b\n", self.PLACES)
+        self.assertEqual(calls, {"runtime/step/a.c": {"runtime/world/b.c": ["sbri_b"]}, "runtime/world/b.c": {}})
 
 
 class Files(unittest.TestCase):

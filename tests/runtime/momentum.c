@@ -1,6 +1,6 @@
 #include "momentum.h"
 
-#include "core/state.h"
+#include "world/state.h"
 
 static void add(scene_momentum *to, double mass, sbf_vec3 at, sbf_vec3 v) {
   const double x[3] = {(double)at.x, (double)at.y, (double)at.z},

@@ -2,8 +2,8 @@
 #ifndef TEST_MOMENTUM_H
 #define TEST_MOMENTUM_H
 
-#include "core/world.h"
 #include "scenes.h"
+#include "world/world.h"
 
 /* kg m/s, kg m^2/s about the origin, and kg; places and speeds are those that each character keeps. */
 typedef struct scene_momentum {

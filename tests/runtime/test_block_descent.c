@@ -2,11 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "random.h"
 #include "scenes.h"
 #include "solvers/descent_table.h"
+#include "world/world.h"
 
 static const double PI = 3.14159265358979323846;
 

@@ -2,12 +2,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/state.h"
-#include "core/world.h"
 #include "harness.h"
 #include "host_threads.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
+#include "world/state.h"
+#include "world/world.h"
 
 static const double PI = 3.14159265358979;
 

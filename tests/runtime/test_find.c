@@ -4,11 +4,11 @@
 
 #include "collide/triangle.h"
 #include "collision_scenes.h"
-#include "core/world.h"
 #include "harness.h"
 #include "meet/meetings.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
+#include "world/world.h"
 
 /* A soft bar, bent to a U that lies on its side: two legs, 8 cm apart; its lattice is of 18 x 2 x 2 cells,
  * its skin of 24 x 3 x 3 squares. */

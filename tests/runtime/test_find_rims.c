@@ -2,11 +2,11 @@
 #include <math.h>
 
 #include "collision_scenes.h"
-#include "core/world.h"
 #include "harness.h"
 #include "math/vec3.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
+#include "world/world.h"
 
 /* A strip of 1 m by 4 cm in five squares' length, along x or along z, through `middle`. */
 enum { ROWS = 6, POINTS = 2 * ROWS };

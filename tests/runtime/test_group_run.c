@@ -3,11 +3,11 @@
 #include <stdlib.h>
 
 #include "collision_scenes.h"
-#include "core/world.h"
 #include "harness.h"
 #include "host_threads.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
+#include "world/world.h"
 
 static const sbf_vec3 weight = {0, -9.81f, 0};
 

@@ -1,11 +1,11 @@
 #include <math.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "math/quat.h"
 #include "math/vec3.h"
 #include "sbrun/animation.h"
 #include "scenes.h"
+#include "world/world.h"
 
 /* ---- A rod held along its middle, by a bone at its end that a clip moves ---- */
 

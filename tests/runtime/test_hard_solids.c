@@ -1,9 +1,9 @@
 /* What is hard on a scheme that steps tetrahedra, and regions that match shapes: next to no volume change, a
  * point ten thousand times as heavy as its neighbours, a world that comes a quarter of a second late and
  * early by turns, a place that jumps, matter as stiff as steel is soft; in every scheme that takes it. */
-#include "core/state.h"
 #include "harness.h"
 #include "scenes.h"
+#include "world/state.h"
 
 static const sbf_scheme schemes[] = {SBF_SCHEME_AUTOMATIC, SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED,
     SBF_SCHEME_HEUN, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_EXPLICIT_EULER};

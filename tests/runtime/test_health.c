@@ -1,8 +1,8 @@
 #include <math.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "scenes.h"
+#include "world/world.h"
 
 START_TEST(energies_of_a_stretched_falling_pair)
 {

@@ -2,12 +2,12 @@
 #include <math.h>
 
 #include "collision_scenes.h"
-#include "core/world.h"
 #include "harness.h"
 #include "math/quat.h"
 #include "math/vec3.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
+#include "world/world.h"
 
 /* A box of 5 cm, 0.2 kg, that stands `back` metres before a plate of 1 cm by a metre, and off its middle. */
 static scene begin(sbf_vec3 at, float plate_kg) {

@@ -2,10 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "scene_state.h"
 #include "scenes.h"
+#include "world/world.h"
 
 static const double PI = 3.14159265358979323846;
 

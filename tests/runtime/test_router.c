@@ -4,10 +4,10 @@
 
 #include <math.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "random.h"
 #include "scenes.h"
+#include "world/world.h"
 
 static scene section(float modulus) {
   scene s = scene_begin();

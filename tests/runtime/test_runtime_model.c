@@ -1,9 +1,9 @@
 #include <string.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "scenes.h"
 #include "solvers/scheme.h"
+#include "world/world.h"
 
 static scene section(void) {
   scene s = scene_begin();

@@ -10,13 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/state.h"
-#include "core/world.h"
 #include "harness.h"
 #include "mechanics/static_solve.h"
 #include "mechanics/vector.h"
 #include "scene_state.h"
 #include "scenes.h"
+#include "world/state.h"
+#include "world/world.h"
 
 typedef enum { SOLID, SPRINGS, REGIONS, MODEL_COUNT } elastic;
 typedef enum { STRETCH, BEND, BEND_FAR, TWIST, INCOMPRESSIBLE, SWING, SPIN, CASE_COUNT } question;

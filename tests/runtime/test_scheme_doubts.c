@@ -1,11 +1,11 @@
 /* What is told of schemes that are known to be off the energy. */
 #include <string.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "sbfmt/codes.h"
 #include "scenes.h"
 #include "solvers/scheme.h"
+#include "world/world.h"
 
 typedef struct heard {
   uint32_t count;

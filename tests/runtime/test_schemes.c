@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/state.h"
-#include "core/world.h"
 #include "harness.h"
 #include "scenes.h"
+#include "world/state.h"
+#include "world/world.h"
 
 static const double pi = 3.14159265358979323846, tick = 1.0 / 60;
 

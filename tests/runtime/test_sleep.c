@@ -1,9 +1,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "scenes.h"
+#include "world/world.h"
 
 /* A pad that the host may raise under (0, 0), and how often it was asked. */
 typedef struct pad {

@@ -3,11 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/state.h"
-#include "core/world.h"
 #include "harness.h"
 #include "mechanics/vector.h"
 #include "scenes.h"
+#include "world/state.h"
+#include "world/world.h"
 
 static lattice_box box;
 static scene s;

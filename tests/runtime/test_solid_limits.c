@@ -2,12 +2,12 @@
 
 #include <stdlib.h>
 
-#include "core/state.h"
-#include "core/world.h"
 #include "harness.h"
 #include "mechanics/solid_strain.h"
 #include "scene_state.h"
 #include "scenes.h"
+#include "world/state.h"
+#include "world/world.h"
 
 static lattice_box box;
 static scene s;

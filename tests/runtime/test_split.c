@@ -1,14 +1,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/state.h"
-#include "core/world.h"
 #include "harness.h"
 #include "mechanics/neo_hookean.h"
 #include "model/kernels.h"
 #include "momentum.h"
 #include "scene_state.h"
 #include "scenes.h"
+#include "world/state.h"
+#include "world/world.h"
 
 /* A bar of 1 x 0.2 x 0.2 m, weakest in its middle, whose halves fly apart. */
 static lattice_box box;

@@ -1,10 +1,10 @@
 #include <math.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "random.h"
 #include "sbfmt/codes.h"
 #include "scenes.h"
+#include "world/world.h"
 
 static scene section(float modulus, float beta) {
   scene s = scene_begin();

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "collision_scenes.h"
-#include "core/world.h"
 #include "harness.h"
 #include "host_threads.h"
 #include "rigid_scenes.h"
+#include "world/world.h"
 
 enum { MOST = 256 };
 

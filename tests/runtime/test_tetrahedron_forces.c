@@ -2,8 +2,6 @@
 
 #include <stdlib.h>
 
-#include "core/state.h"
-#include "core/world.h"
 #include "harness.h"
 #include "mechanics/neo_hookean.h"
 #include "mechanics/static_solve.h"
@@ -11,6 +9,8 @@
 #include "random.h"
 #include "scene_state.h"
 #include "scenes.h"
+#include "world/state.h"
+#include "world/world.h"
 
 static lattice_box box;
 static scene s;

@@ -3,12 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/state.h"
-#include "core/world.h"
 #include "harness.h"
 #include "momentum.h"
 #include "scene_state.h"
 #include "scenes.h"
+#include "world/state.h"
+#include "world/world.h"
 
 enum {
   CELLS = 8,

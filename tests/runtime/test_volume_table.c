@@ -1,8 +1,8 @@
 #include <math.h>
 
-#include "core/world.h"
 #include "harness.h"
 #include "scenes.h"
+#include "world/world.h"
 
 static scene section(sbf_pressure_mode mode) {
   scene s = scene_begin();

@@ -1,0 +1,23 @@
+/* What the calls of hosts share. */
+#ifndef SBRI_API_H
+#define SBRI_API_H
+
+#include "world/world.h"
+
+/* ---- api/collider_host.c ---- */
+
+bool sbri_collider_set_make(sbri_collider_set *set, uint32_t capacity, const sbf_allocator *allocator);
+void sbri_collider_set_free(sbri_collider_set *set, const sbf_allocator *allocator);
+
+/* ---- api/record.c ---- */
+
+/* After a step: the hash, where a second is over since the last one. */
+void sbri_record_hash(sbr_world *world);
+
+/* ---- api/detail_host.c ---- */
+
+/* The `index`-th of `count` views, as in recordings. */
+void sbri_view_set(sbr_world *world, uint32_t index, uint32_t count, const sbr_view *view);
+void sbri_detail_free(sbr_world *world);
+
+#endif

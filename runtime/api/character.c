@@ -1,0 +1,185 @@
+#include <string.h>
+
+#include "api/api.h"
+#include "base/diagnostic.h"
+#include "collide/ground.h"
+#include "detail/rungs.h"
+#include "math/usable.h"
+#include "meet/meetings.h"
+#include "pose/frames.h"
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
+
+enum { CHARACTER_COOKIE = 0x5b726368 };
+
+sbr_character_definition sbr_default_character_definition(void) {
+  return (sbr_character_definition){.cookie = CHARACTER_COOKIE, .scale = 1};
+}
+
+static bool reserve_work(sbr_world *world, size_t more) {
+  size_t needed = more;
+  for (uint32_t i = 0; i < world->character_capacity; i++)
+    needed += world->characters[i].model ? world->characters[i].model->base->most_islands : 0;
+  if (needed <= world->work_capacity) return true;
+  sbri_work *grown = world->allocator.reallocate(
+      world->allocator.user, world->work, world->work_capacity * sizeof *grown, needed * sizeof *grown);
+  if (!grown) return false;
+  world->work = grown;
+  world->work_capacity = needed;
+  return true;
+}
+
+static double whole(double metres) {
+  return (double)(int64_t)(metres < 0 ? metres - 0.5 : metres + 0.5);
+}
+
+/* The origin at whole metres near `position`, and the gait's state standing there. */
+static void put(const sbr_world *world, sbri_character *c, sbr_double3 position, float heading) {
+  double ground = sbri_ground_height(&world->ground, position.x, position.z, NULL);
+  sbri_head(c)->origin = (sbr_double3){whole(position.x), whole(ground + position.y), whole(position.z)};
+  sbr_double3 origin = sbri_head(c)->origin;
+  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbf_vec3 place = {(float)(position.x - origin.x), (float)position.y, (float)(position.z - origin.z)};
+  sbri_gait_place(&c->model->rig, sbri_gait(c), &input, place, heading);
+  sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, true, sbri_pose(c));
+  sbr_transform root = sbri_root_place(c, &world->ground);
+  sbri_pose(c)[sbri_root_frame(c->model)] = root;
+  sbri_pose(c)[sbri_anchor_frame(c->model)] = root;
+  sbri_rigid_frames_follow(c, sbri_pose(c));
+}
+
+sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
+    const sbr_character_definition *definition, sbr_character_id *character, sbf_diagnostic *error) {
+  if (!world || !model || !definition || !character)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_character_create: NULL argument");
+  *character = (sbr_character_id){0};
+  if (definition->cookie != CHARACTER_COOKIE)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_character_create: begin the definition with sbr_default_character_definition");
+  if (!(definition->scale > 0 && definition->scale <= 1e6f))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_character_create: scale is not above 0");
+  const double where[4] = {
+      definition->position.x, definition->position.y, definition->position.z, (double)definition->heading};
+  if (!sbri_usable(where, 4))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_character_create: position %g %g %g m or heading %g rad: give finite numbers, to 1e15", where[0],
+        where[1], where[2], where[3]);
+  uint32_t index = 0;
+  while (index < world->character_capacity && world->characters[index].model) index++;
+  if (index == world->character_capacity)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_character_create: the world holds its %u characters already: raise character_capacity",
+        world->character_capacity);
+  unsigned char *state = sbfi_allocate(&world->allocator, model->layout.state_size);
+  unsigned char *scratch = sbfi_allocate(&world->allocator, model->layout.scratch_size);
+  if (!state || !scratch || !reserve_work(world, model->most_islands) ||
+      !sbri_meetings_reserve(world, model)) {
+    sbfi_free(&world->allocator, state, model->layout.state_size);
+    sbfi_free(&world->allocator, scratch, model->layout.scratch_size);
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
+  }
+  memset(state, 0, model->layout.state_size);
+  memset(scratch, 0, model->layout.scratch_size);
+  sbri_character *c = &world->characters[index];
+  *c = (sbri_character){.model = model,
+      .generation = (c->generation + 1) & 0xffff,
+      .hold = definition->hold,
+      .scale = definition->scale,
+      .time_scale = 1 / sqrtf(definition->scale),
+      .state = state,
+      .scratch = scratch};
+  if (!sbri_meet_surfaces_make(world, index)) {
+    sbfi_free(&world->allocator, state, model->layout.state_size);
+    sbfi_free(&world->allocator, scratch, model->layout.scratch_size);
+    c->model = NULL;
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character's surfaces");
+  }
+  sbri_head(c)->rung_ticks = UINT32_MAX; /* it may go over to any other at once */
+  put(world, c, definition->position, definition->heading);
+  sbri_rigid_place(c, true);
+  sbri_mend(c);
+  sbri_place_at_rest(c);
+  sbri_work_list(world);
+  world->stamp++;
+  *character = sbri_id_of(world, c);
+  sbri_record(world, SBRI_RECORDED_MADE, (const double[]){character->value});
+  return SBF_OK;
+}
+
+void sbr_character_destroy(sbr_world *world, sbr_character_id character) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  sbri_record(world, SBRI_RECORDED_DESTROY, (const double[]){character.value});
+  sbri_meet_surfaces_free(world, (uint32_t)(c - world->characters));
+  sbri_meet_forget(world, (uint32_t)(c - world->characters));
+  sbfi_free(&world->allocator, c->state, c->model->layout.state_size);
+  sbfi_free(&world->allocator, c->scratch, c->model->layout.scratch_size);
+  *c = (sbri_character){.generation = c->generation};
+  sbri_work_list(world);
+}
+
+void sbr_character_drive(
+    sbr_world *world, sbr_character_id character, float forward, float sideways, float turn) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  if (!sbri_record(world, SBRI_RECORDED_DRIVE,
+          (const double[]){character.value, (double)forward, (double)sideways, (double)turn}))
+    return;
+  sbri_character_wake(c);
+  sbri_head(c)->forward = forward;
+  sbri_head(c)->sideways = sideways;
+  sbri_head(c)->turn = turn;
+}
+
+void sbr_character_pause(sbr_world *world, sbr_character_id character, bool paused) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  sbri_record(world, SBRI_RECORDED_PAUSE, (const double[]){character.value, paused});
+  sbri_head(c)->paused = paused;
+}
+
+void sbr_character_teleport(
+    sbr_world *world, sbr_character_id character, sbr_double3 position, float heading) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  if (!sbri_record(world, SBRI_RECORDED_TELEPORT,
+          (const double[]){character.value, position.x, position.y, position.z, (double)heading}))
+    return;
+  sbri_character_wake(c);
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_previous_deltas(c));
+  put(world, c, position, heading);
+  sbri_rigid_carry(c);
+  sbri_jiggles_place(c);
+  sbri_fade_end(c);
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_carry(c, i);
+  sbri_settle(c);
+  world->stamp++;
+}
+
+void sbr_character_reset(sbr_world *world, sbr_character_id character) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  sbri_record(world, SBRI_RECORDED_RESET, (const double[]){character.value});
+  sbf_vec3 place;
+  float heading;
+  sbri_character_wake(c);
+  sbri_gait_placement(sbri_gait(c), &place, &heading);
+  sbr_double3 origin = sbri_head(c)->origin;
+  sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = 0;
+  put(world, c, (sbr_double3){origin.x + (double)place.x, place.y, origin.z + (double)place.z}, heading);
+  sbri_rigid_place(c, false);
+  sbri_jiggles_place(c);
+  sbri_fade_end(c);
+  sbri_mend(c);
+  sbri_place_at_rest(c);
+  world->stamp++;
+}
+
+void sbr_character_wake(sbr_world *world, sbr_character_id character) {
+  sbri_character *c = sbri_character_of(world, character);
+  if (!c) return;
+  sbri_record(world, SBRI_RECORDED_WAKE, (const double[]){character.value});
+  sbri_character_wake(c);
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_wake(c, i);
+}

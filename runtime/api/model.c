@@ -1,0 +1,75 @@
+/* Models as a host has them: created of an asset, asked, destroyed. */
+#include "base/diagnostic.h"
+#include "model/kernels.h"
+#include "prepare/prepare.h"
+#include "solvers/scheme.h"
+#include "world/state.h"
+
+/* Substeps of rigid parts in a control tick. */
+enum { MOST_RIGID_SUBSTEPS = 1000 };
+
+static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic *error) {
+  if (options->struct_size != 0 && options->struct_size != sizeof *options)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_model_options: struct_size is %zu, this library's is %zu", options->struct_size,
+        sizeof *options);
+  if (options->rigid_substeps > MOST_RIGID_SUBSTEPS)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_model_options: rigid_substeps is %u, at most %d",
+        (unsigned)options->rigid_substeps, (int)MOST_RIGID_SUBSTEPS);
+  if (!sbri_kernels_of(options->instructions)) {
+    const char *name = sbr_instructions_name(options->instructions);
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "this processor, or this library, does not have instructions %s: ask for automatic",
+        name ? name : "of that number");
+  }
+  if (options->scheme == SBF_SCHEME_AUTOMATIC || sbri_scheme_of(options->scheme)) return SBF_OK;
+  return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "scheme %s is not one of the runtime's: %s",
+      sbf_scheme_name(options->scheme), sbri_scheme_names());
+}
+
+sbf_status sbr_model_create(
+    const sbf_asset *asset, const sbr_model_options *options, sbr_model **model, sbf_diagnostic *error) {
+  static const sbr_model_options defaults = {0};
+  if (!asset || !model) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_model_create: NULL argument");
+  *model = NULL;
+  if (!options) options = &defaults;
+  sbf_status status = check_options(options, error);
+  if (status != SBF_OK) return status;
+  sbf_allocator allocator = sbfi_allocator_or_default(options->allocator);
+  sbr_model *made = sbfi_allocate(&allocator, sizeof *made);
+  if (!made) return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model");
+  *made = (sbr_model){.asset = asset, .kernels = sbri_kernels_of(options->instructions)};
+  made->base = made;
+  sbfi_arena_init(&made->arena, &allocator, 0);
+  status = sbri_model_prepare(made, options, error);
+  if (status == SBF_OK) status = sbri_rungs_make(made, options, error);
+  if (status != SBF_OK) {
+    sbr_model_destroy(made);
+    return status;
+  }
+  sbri_layouts_make(made);
+  *model = made;
+  return SBF_OK;
+}
+
+void sbr_model_destroy(sbr_model *model) {
+  if (!model) return;
+  sbf_allocator allocator = model->arena.allocator;
+  sbri_rungs_free(model);
+  sbfi_arena_free(&model->arena);
+  sbfi_free(&allocator, model, sizeof *model);
+}
+
+sbr_instructions sbr_model_instructions(const sbr_model *model) {
+  return model ? model->kernels->instructions : SBR_INSTRUCTIONS_AUTOMATIC;
+}
+
+uint32_t sbr_model_substeps(const sbr_model *model) {
+  uint32_t most = 1;
+  for (uint32_t i = 0; model && i < model->island_count; i++) {
+    const sbri_island *island = &model->islands[i];
+    uint32_t substeps = sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
+    most = substeps > most ? substeps : most;
+  }
+  return most;
+}

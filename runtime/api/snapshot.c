@@ -1,0 +1,149 @@
+/* Saving and restoring all mutable state, and its hash. A snapshot is for the process that made it: it is no
+ * file format. */
+#include <string.h>
+
+#include "base/diagnostic.h"
+#include "base/hash64.h"
+#include "meet/meetings.h"
+#include "pose/frames.h"
+
+typedef struct snapshot_head {
+  uint64_t magic, size, ticks, characters;
+  int64_t ahead_units;
+} snapshot_head;
+
+/* One before each character's state block. */
+typedef struct snapshot_part {
+  uint32_t index, generation;
+  uint64_t size;
+} snapshot_part;
+
+static const uint64_t MAGIC = 0x31706e7372627321; /* "!sbrsnp1" */
+
+size_t sbr_world_snapshot_size(const sbr_world *world) {
+  size_t size = sizeof(snapshot_head);
+  if (world) size += sbri_meet_memory_size(world);
+  for (uint32_t i = 0; world && i < world->character_capacity; i++)
+    if (world->characters[i].model)
+      size += sizeof(snapshot_part) + world->characters[i].model->layout.state_size;
+  return world ? size : 0;
+}
+
+static uint64_t count_characters(const sbr_world *world) {
+  uint64_t count = 0;
+  for (uint32_t i = 0; i < world->character_capacity; i++) count += world->characters[i].model != NULL;
+  return count;
+}
+
+sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t size) {
+  if (!world || !bytes || size != sbr_world_snapshot_size(world)) return SBF_FAILED;
+  snapshot_head head = {MAGIC, size, world->ticks, count_characters(world), world->ahead_units};
+  unsigned char *to = bytes;
+  memcpy(to, &head, sizeof head);
+  to += sizeof head;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    const sbri_character *c = &world->characters[i];
+    if (!c->model) continue;
+    snapshot_part part = {i, c->generation, c->model->layout.state_size};
+    memcpy(to, &part, sizeof part);
+    memcpy(to + sizeof part, c->state, part.size);
+    to += sizeof part + part.size;
+  }
+  sbri_meet_memory_save(world, to);
+  return SBF_OK;
+}
+
+/* Whether the snapshot is of this world with these characters; nothing is changed before that is known. */
+static bool fits(const sbr_world *world, const unsigned char *bytes, size_t size) {
+  snapshot_head head;
+  if (size != sbr_world_snapshot_size(world)) return false;
+  memcpy(&head, bytes, sizeof head);
+  if (head.magic != MAGIC || head.size != size || head.characters != count_characters(world)) return false;
+  bytes += sizeof head;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    const sbri_character *c = &world->characters[i];
+    snapshot_part part;
+    if (!c->model) continue;
+    memcpy(&part, bytes, sizeof part);
+    if (part.index != i || part.generation != c->generation || part.size != c->model->layout.state_size)
+      return false;
+    bytes += sizeof part + part.size;
+  }
+  return true;
+}
+
+sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_t size) {
+  if (!world || !bytes || !fits(world, bytes, size)) return SBF_FAILED;
+  const unsigned char *from = bytes;
+  snapshot_head head;
+  memcpy(&head, from, sizeof head);
+  world->ticks = head.ticks;
+  world->ahead_units = head.ahead_units;
+  world->stamp++;
+  from += sizeof head;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    sbri_character *c = &world->characters[i];
+    if (!c->model) continue;
+    from += sizeof(snapshot_part);
+    memcpy(c->state, from, c->model->layout.state_size);
+    from += c->model->layout.state_size; /* of one size on all rungs */
+    const sbr_model *model = c->model->base->rungs[sbri_head(c)->rung];
+    if (model != c->model) memset(c->scratch, 0, model->layout.own_scratch_size);
+    c->model = model;
+    sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  }
+  sbri_meet_memory_restore(world, from);
+  return SBF_OK;
+}
+
+static void hash_rung(sbfi_hash64 *hash, const sbri_character *c) {
+  const sbri_character_state *head = sbri_head(c);
+  const uint32_t words[8] = {head->rung, head->next_rung, head->set_rung_plus_1, head->rung_ticks,
+      head->fade_ticks, head->fades_ticks, head->shown, head->unseen_ticks};
+  const float shares[2] = {head->fade, head->fade_before};
+  const uint32_t *first = c->model->base->first_vertices;
+  sbfi_hash64_u32(hash, words, 8);
+  sbfi_hash64_f32(hash, shares, 2);
+  if (head->fade_before > 0)
+    sbfi_hash64_f32(hash, &sbri_faded(c)->x, 3 * (size_t)first[c->model->asset->render_meshes.count]);
+}
+
+uint64_t sbr_world_state_hash(const sbr_world *world) {
+  sbfi_hash64 hash;
+  sbfi_hash64_init(&hash);
+  if (!world) return 0;
+  sbfi_hash64_u64(&hash, &world->ticks, 1);
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    const sbri_character *c = &world->characters[i];
+    if (!c->model) continue;
+    const sbri_layout *l = &c->model->layout;
+    const sbri_character_state *head = sbri_head(c);
+    const float wanted[3] = {head->forward, head->sideways, head->turn};
+    uint32_t id[3] = {i, head->paused, head->asleep};
+    sbfi_hash64_u32(&hash, id, 3);
+    sbfi_hash64_f64(&hash, &head->origin.x, 3);
+    sbfi_hash64_f32(&hash, wanted, 3);
+    sbfi_hash64_bytes(&hash, sbri_gait(c), sbri_gait_state_size(&c->model->rig));
+    sbfi_hash64_f32(&hash, &sbri_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
+    sbfi_hash64_f32(&hash, &sbri_previous_pose(c)->position.x, 7 * (size_t)c->model->frame_count);
+    sbfi_hash64_u32(&hash, (const uint32_t *)(const void *)sbri_island_states(c),
+        (size_t)c->model->island_count * sizeof(sbri_island_state) / sizeof(uint32_t));
+    /* Positions, the tick before and velocities follow each other. */
+    sbfi_hash64_f32(&hash, (const float *)(const void *)(c->state + l->positions),
+        (l->solids - l->positions) / sizeof(float));
+    sbfi_hash64_u32(&hash, (const uint32_t *)(const void *)(c->state + l->solids),
+        (l->used_size - l->solids) / sizeof(uint32_t));
+    if (c->model->base->rung_count > 1) hash_rung(&hash, c);
+  }
+  for (uint32_t i = 0; world->meetings && i < world->meetings->memory_count; i++) {
+    const sbri_meet_memory *m = &world->meetings->memories[i];
+    sbfi_hash64_u64(&hash, m->names, 2);
+    sbfi_hash64_u32(&hash, &m->feature, 1);
+    sbfi_hash64_f32(&hash, &m->at.x, 3);
+    sbfi_hash64_f32(&hash, &m->force, 1);
+    sbfi_hash64_f32(&hash, &m->rub.x, 3);
+    sbfi_hash64_f32(&hash, &m->slid.x, 3);
+    sbfi_hash64_f32(&hash, &m->pull, 1);
+  }
+  return sbfi_hash64_value(&hash);
+}

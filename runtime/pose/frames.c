@@ -1,0 +1,55 @@
+/* How the frames of a pose have moved since rest, and are squashed. */
+#include "pose/frames.h"
+#include "collide/ground.h"
+#include "math/quat.h"
+#include "math/trig.h"
+
+static bool same_bits(const sbf_quat *a, const sbf_quat *b) {
+  return a->x == b->x && a->y == b->y && a->z == b->z && a->w == b->w;
+}
+
+static sbri_delta delta_of(const sbr_model *model, uint32_t frame, sbr_transform now, float scale) {
+  sbr_transform rest = sbri_frame_rest(model, frame);
+  sbf_quat turn = sbri_quat_identity(); /* exactly, for a frame that has not turned */
+  if (!same_bits(&now.rotation, &rest.rotation))
+    turn = sbri_quat_normalize(sbri_quat_multiply(now.rotation, sbri_quat_conjugate(rest.rotation)));
+  sbf_vec3 at = sbri_sub(sbri_scale(now.position, 1 / scale), sbri_rotate(turn, rest.position));
+  return (sbri_delta){.position = at, .rotation = turn};
+}
+
+/* Squashes lie behind the deltas, one for each follower that may be one. */
+static void squash(const sbri_character *c, float share, sbri_delta *deltas) {
+  const sbf_follower_list *followers = &c->model->asset->followers;
+  sbri_squash *squashes = (sbri_squash *)(void *)(deltas + c->model->frame_count);
+  for (uint32_t i = 0; i < followers->count; i++) {
+    float along = sbri_gait_stretch(&c->model->rig, sbri_gait(c), i, share);
+    if (along == 1) continue;
+    uint32_t frame = (uint32_t)followers->at[i].bone;
+    sbr_transform rest = sbri_frame_rest(c->model, frame);
+    squashes[i] = (sbri_squash){.head = rest.position,
+        .axis = sbri_rotate(rest.rotation, sbri_squash_axis(&followers->at[i])),
+        .along = along,
+        .across = 1 / sqrtf(along)};
+    deltas[frame].squash = &squashes[i];
+  }
+}
+
+sbr_transform sbri_delta_of(const sbri_character *c, const sbr_transform *pose, uint32_t frame) {
+  sbri_delta delta = delta_of(c->model, frame, pose[frame], c->scale);
+  return (sbr_transform){delta.position, delta.rotation};
+}
+
+void sbri_deltas_make(const sbri_character *c, const sbr_transform *pose, float share, sbri_delta *deltas) {
+  for (uint32_t f = 0; f < c->model->frame_count; f++) deltas[f] = delta_of(c->model, f, pose[f], c->scale);
+  squash(c, share, deltas);
+}
+
+void sbri_deltas_between(const sbri_character *c, float share, sbri_delta *deltas) {
+  for (uint32_t f = 0; f < c->model->frame_count; f++) {
+    const sbr_transform *p = &sbri_previous_pose(c)[f], *q = &sbri_pose(c)[f];
+    sbr_transform now = {
+        sbri_lerp(p->position, q->position, share), sbri_quat_blend(p->rotation, q->rotation, share)};
+    deltas[f] = delta_of(c->model, f, now, c->scale);
+  }
+  squash(c, share, deltas);
+}

@@ -1,0 +1,76 @@
+/* Where frames carry the points that hang on them, and how fast they were carried. */
+#include <string.h>
+
+#include "math/quat.h"
+#include "pose/frames.h"
+
+/* A rigid motion as three rows of four, the last of them the translation. */
+typedef struct rows {
+  float at[3][4];
+} rows;
+
+static rows rows_of(const sbri_delta *t) {
+  sbf_vec3 x = sbri_rotate(t->rotation, sbri_vec3(1, 0, 0)), y = sbri_rotate(t->rotation, sbri_vec3(0, 1, 0)),
+           z = sbri_rotate(t->rotation, sbri_vec3(0, 0, 1));
+  return (rows){
+      {{x.x, y.x, z.x, t->position.x}, {x.y, y.y, z.y, t->position.y}, {x.z, y.z, z.z, t->position.z}}};
+}
+
+static sbri_wide row(const rows *r, int k, sbri_wide3 p) {
+  return sbri_wide_all(r->at[k][0]) * p.x + sbri_wide_all(r->at[k][1]) * p.y +
+         sbri_wide_all(r->at[k][2]) * p.z + sbri_wide_all(r->at[k][3]);
+}
+
+static sbri_point guided(const sbri_guide *guide, const sbri_delta *deltas, const sbri_point *rest) {
+  sbf_vec3 sum = {0, 0, 0}, p = {rest->x, rest->y, rest->z};
+  for (int k = 0; k < SBRI_GUIDES; k++) {
+    if (guide->weights[k] == 0) continue;
+    sum = sbri_add_scaled(sum, sbri_delta_place(&deltas[guide->frames[k]], p), guide->weights[k]);
+  }
+  return (sbri_point){sum.x, sum.y, sum.z, 0};
+}
+
+void sbri_guide_places(
+    const sbr_model *model, const sbri_body *body, const sbri_delta *deltas, sbri_point *places) {
+  const sbri_point *rest = model->islands[body->island].rest + body->slot_begin;
+  uint32_t count = body->slot_end - body->slot_begin;
+  if (body->guides) {
+    for (uint32_t i = 0; i < count; i++) places[i] = guided(&body->guides[i], deltas, &rest[i]);
+    return;
+  }
+  if (deltas[body->guide_frame].squash) {
+    for (uint32_t i = 0; i < count; i++) {
+      sbf_vec3 p = {rest[i].x, rest[i].y, rest[i].z};
+      p = sbri_delta_place(&deltas[body->guide_frame], p);
+      places[i] = (sbri_point){p.x, p.y, p.z, 0};
+    }
+    return;
+  }
+  rows r = rows_of(&deltas[body->guide_frame]);
+  for (uint32_t i = 0; i < count; i += SBRI_LANES) {
+    sbri_wide3 p = sbri_wide_load_points(rest + i);
+    sbri_wide_store_points(places + i, (sbri_wide3){row(&r, 0, p), row(&r, 1, p), row(&r, 2, p)});
+  }
+}
+
+void sbri_held_places(const sbri_island *island, const sbri_delta *deltas, sbri_point *places) {
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
+    const sbri_delta *d = &deltas[island->frame_of_held[slot - island->free_count]];
+    const sbri_point *rest = &island->rest[slot];
+    sbf_vec3 p = sbri_delta_place(d, sbri_vec3(rest->x, rest->y, rest->z));
+    places[slot] = (sbri_point){p.x, p.y, p.z, 0};
+  }
+}
+
+void sbri_guides_stop(sbri_character *c, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++)
+    memset(&sbri_guide_motions(c)[island->bodies[b]], 0, sizeof(sbri_guide_motion));
+}
+
+bool sbri_guides_rest(const sbri_character *c, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_guide_motion *m = &sbri_guide_motions(c)[island->bodies[b]];
+    if (sbri_dot(m->velocity, m->velocity) != 0 || sbri_dot(m->spin, m->spin) != 0) return false;
+  }
+  return true;
+}

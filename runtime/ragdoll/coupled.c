@@ -1,0 +1,219 @@
+/* Soft bodies and the simulated rigid bodies that hold them, stepped together.
+ *
+ * A tick of the rigid parts is several steps. Before each the soft bodies go through the same time, what
+ * holds them going on as it moved; the impulses with which they pulled meanwhile are then given to the rigid
+ * bodies, whose step follows, and what is held is put where they have come to. Where a soft body's own step
+ * is as long as that, this is a leapfrog of all together, in which all forces are those at the step's begin:
+ * it keeps momentum to rounding and loses no energy. Where it is a fraction, the rigid bodies feel the mean
+ * of the forces (the impulse method: Grubmueller, Heller, Windemuth, Schulten 1991). How long the rigid steps
+ * may be follows from how fast the softness would swing each body alone (prepare/coupling.c): so a heavy
+ * belly on light bones is as stable as the other way round.
+ *
+ * Damping against what holds a soft body is done here, once a step, so that those who hold it feel it too. */
+#include <string.h>
+
+#include "math/quat.h"
+#include "math/trig.h"
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
+#include "solvers/outer_forces.h"
+#include "solvers/router.h"
+#include "solvers/tetrahedron_forces.h"
+#include "tear/tear.h"
+
+bool sbri_island_is_coupled(const sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  if (island->scheme->forceless || !c->model->rigid.body_count || !sbri_rigid_drive(c)->any) return false;
+  for (uint32_t i = 0; i < island->carrier_count; i++)
+    if (sbri_rigid_is_simulated(c, island->carriers[i])) return true;
+  return false;
+}
+
+/* ---- Before ---- */
+
+/* More steps of rigid parts than this are not taken in a tick. */
+enum { MOST_STEPS = 128 };
+
+/* A few numbers to choose from: a leapfrog whose steps change all the time gains by it. */
+static uint32_t rounded_steps(uint32_t steps) {
+  uint32_t whole = 4;
+  while (whole < steps && whole < MOST_STEPS) whole *= 2;
+  for (uint32_t quarter = 5; quarter < 8; quarter++)
+    if (whole * quarter / 8 >= steps) return whole * quarter / 8;
+  return whole;
+}
+
+/* As many as the soft body takes by itself, so that both go in step: in a stiff one's own substeps there are
+ * modes that would swing up against steps of others. Schemes that sweep lose such motion, and are spared it.
+ */
+static uint32_t steps_of(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  if (island->scheme->sweeps || island->substeps) return island->substeps;
+  float stretch = *t->stretch > island->rest_stretch ? *t->stretch : island->rest_stretch;
+  return rounded_steps(sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), stretch));
+}
+
+void sbri_coupled_begin(sbri_coupled *group) {
+  sbri_character *c = group->character;
+  group->any = false;
+  group->steps = 1;
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    if (!sbri_island_is_coupled(c, i)) continue;
+    group->any = true;
+    if (sbri_island_states(c)[i].asleep) sbri_island_wake(c, i);
+    sbri_island now = sbri_island_now(c, &c->model->islands[i]);
+    sbri_guides_stop(c, &now);
+    sbri_island_tuck(c, &now);
+    sbri_island_tick tick = sbri_island_tick_of(group->world, c, i, &now);
+    tick.outer_rad_s = &now.outer_rad_s;
+    sbri_outer_look(&tick);
+    sbri_island_prepare_contacts(&tick, c);
+    (void)sbri_router_choose(&tick, &sbri_island_states(c)[i].recovering); /* for the whole tick */
+    uint32_t steps = steps_of(&tick);
+    group->steps = steps > group->steps ? steps : group->steps;
+  }
+}
+
+/* ---- Meanwhile ---- */
+
+static void pull_on(const sbri_character *c, int32_t carrier, sbf_vec3 at, sbf_vec3 impulse) {
+  if (carrier < 0) return;
+  sbri_reaction *r = &sbri_reactions(c)[carrier];
+  r->impulse = sbri_add(r->impulse, impulse);
+  r->moment = sbri_add(r->moment, sbri_cross(sbri_sub(at, r->about), impulse));
+}
+
+/* What the damping of a point against its guides has given it, back to those who carry these. */
+static void pull_on_guides(
+    const sbri_character *c, const sbri_body *body, uint32_t place, sbf_vec3 at, sbf_vec3 impulse) {
+  const int32_t *carriers = c->model->carrier_of_frame;
+  if (!body->guides) {
+    pull_on(c, carriers[body->guide_frame], at, impulse);
+    return;
+  }
+  const sbri_guide *guide = &body->guides[place];
+  for (int k = 0; k < SBRI_GUIDES; k++)
+    if (guide->weights[k] > 0)
+      pull_on(c, carriers[guide->frames[k]], at, sbri_scale(impulse, guide->weights[k]));
+}
+
+/* The share of a decay that is left to it where a frame's body is lighter than the flesh that it would draw
+ * along, so that it ends as fast as that and no faster: as an implicit step does. */
+static float ease_of(const sbri_character *c, uint32_t frame, float lost) {
+  int32_t carrier = c->model->carrier_of_frame[frame];
+  if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return 1;
+  return 1 / (1 + lost * c->model->rigid.pinned_weights[carrier]);
+}
+
+static float ease_of_guides(const sbri_character *c, const sbri_body *body, uint32_t place, float lost) {
+  if (!body->guides) return ease_of(c, body->guide_frame, lost);
+  const sbri_guide *guide = &body->guides[place];
+  float least = 1;
+  for (int k = 0; k < SBRI_GUIDES; k++) {
+    float ease = guide->weights[k] > 0 ? ease_of(c, guide->frames[k], lost) : 1;
+    least = ease < least ? ease : least;
+  }
+  return least;
+}
+
+/* The decay of what points move by against their guides, over h. */
+static void damp(sbri_character *c, const sbri_island *island, const sbri_body *body, float h) {
+  if (!body->held || !(body->alpha_1_s > 0)) return;
+  float lost = 1 - sbri_exp(-body->alpha_1_s * h); /* at most */
+  size_t first = island->first_slot;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    size_t at = 3 * (first + slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    float *v = sbri_velocities(c) + at, m = island->masses[slot];
+    const float *u = sbri_guide_velocities(c) + at;
+    if (!(m > 0)) continue;
+    if (body->alphas) lost = 1 - sbri_exp(-body->alphas[slot] * h);
+    float share = lost * ease_of_guides(c, body, slot - body->slot_begin, lost);
+    sbf_vec3 change = {(u[0] - v[0]) * share, (u[SBRI_BLOCK] - v[SBRI_BLOCK]) * share,
+        (u[2 * SBRI_BLOCK] - v[2 * SBRI_BLOCK]) * share};
+    v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
+    const sbri_point *x = &sbri_positions(c)[first + slot];
+    pull_on_guides(c, body, slot - body->slot_begin, sbri_vec3(x->x, x->y, x->z), sbri_scale(change, -m));
+  }
+}
+
+static void act_on_island(const sbri_coupled *group, uint32_t index, float step_s, float share) {
+  sbri_character *c = group->character;
+  sbri_island now = sbri_island_now(c, &c->model->islands[index]);
+  size_t first = now.first_slot;
+  if (now.substeps) now.substeps = (uint32_t)ceilf(share * (float)now.substeps);
+  sbri_held_places(&now, sbri_previous_deltas(c), sbri_positions(c) + first);
+  sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + first);
+  (void)sbri_guide_velocities_find(c, &now, step_s);
+  for (uint32_t b = 0; b < now.body_count; b++) damp(c, &now, &c->model->bodies[now.bodies[b]], step_s);
+  sbri_island_tick tick = sbri_island_tick_of(group->world, c, index, &now);
+  tick.tick_s = step_s, tick.share = share;
+  tick.outer_rad_s = &now.outer_rad_s;
+  sbri_outer_look(&tick);
+  tick.undamped = true;
+  tick.reactions = sbri_reactions(c);
+  bool recovers = now.routed && sbri_island_states(c)[index].recovering > 0;
+  (recovers ? &sbri_position_based : now.scheme)->tick(&tick);
+}
+
+void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *t, float from, float to) {
+  sbri_character *c = group->character;
+  float step_s = t->tick_s * (to - from);
+  for (uint32_t b = 0; b < t->model->body_count; b++)
+    sbri_reactions(c)[b] = (sbri_reaction){.about = t->bodies[b].pose.position};
+  sbri_rigid_pose(c, group->animated, from, 0, sbri_stepped_pose(c));
+  sbri_deltas_make(c, sbri_stepped_pose(c), from, sbri_previous_deltas(c));
+  sbri_rigid_pose(c, group->animated, to, step_s, sbri_stepped_pose(c));
+  sbri_deltas_make(c, sbri_stepped_pose(c), to, sbri_deltas(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (sbri_island_is_coupled(c, i)) act_on_island(group, i, step_s, to - from);
+  for (uint32_t b = 0; b < t->model->body_count; b++) {
+    if (!sbri_rigid_is_simulated(c, b)) continue;
+    sbri_rigid_body_state *body = &t->bodies[b];
+    const sbri_reaction *r = &sbri_reactions(c)[b];
+    float share = 1 / sbri_rigid_swell(&t->pull, b, step_s);
+    body->velocity = sbri_add_scaled(body->velocity, r->impulse, share * t->model->bodies[b].inverse_mass);
+    body->spin = sbri_add_scaled(body->spin, r->moment, share);
+  }
+}
+
+/* ---- After ---- */
+
+void sbri_coupled_end(sbri_coupled *group) {
+  sbri_character *c = group->character;
+  sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    if (!sbri_island_is_coupled(c, i)) continue;
+    const sbri_island *island = &c->model->islands[i];
+    sbri_tears *tears = &sbri_tears_of(c)[i];
+    sbri_island now = sbri_island_now(c, island);
+    sbri_island_tick tick = sbri_island_tick_of(group->world, c, i, &now);
+    sbri_island_tell(&tick, c);
+    sbri_held_places(island, sbri_deltas(c), sbri_positions(c) + island->first_slot);
+    if (island->splits && tears->count > 0) tears->unsplit = sbri_island_split(c, i);
+    sbri_island_recover(group->world, c, i);
+  }
+}
+
+/* ---- Sleep ---- */
+
+bool sbri_coupled_sleep(sbri_coupled *group) {
+  sbri_character *c = group->character;
+  sbri_rigid_pose(c, group->animated, 1, 0, sbri_stepped_pose(c));
+  sbri_deltas_make(c, sbri_stepped_pose(c), 1, sbri_deltas(c));
+  bool all = true;
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (sbri_island_is_coupled(c, i)) all = sbri_island_sleeps(group->world, c, i) && all;
+  return all;
+}
+
+bool sbri_coupled_are_quiet(const sbri_character *c) {
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (sbri_island_is_coupled(c, i) && !sbri_island_is_quiet(c, i)) return false;
+  return true;
+}
+
+void sbri_coupled_put_to_sleep(const sbr_world *world, sbri_character *c) {
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (sbri_island_is_coupled(c, i)) sbri_island_put_to_sleep(world, c, i);
+}

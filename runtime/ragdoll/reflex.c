@@ -1,0 +1,169 @@
+/* Falling over and getting up again.
+ *
+ * A fallen character's bodies are driven, with a share of their strength: it goes down as somebody does who
+ * is awake. Once it lies still its gait is put where it lies, standing, and it rises: the drives get their
+ * strength back, and each body is drawn towards its place in that pose and held against its weight, softly at
+ * first and then more and more, with no more than a stated acceleration. That help comes from nowhere: it
+ * stands for the pushing off that nobody has planned. Joints, limits, ground and what is in the way act all
+ * along. Arrived, the bodies are the animation's again. */
+#include "math/quat_log.h"
+#include "math/trig.h"
+#include "pose/frames.h"
+#include "ragdoll/ragdoll.h"
+
+/* It lies still when no point of a body is faster than this, in asset metres a second; and in any case after
+ * so many seconds. */
+static const float STILL_M_S = 0.15f, LONGEST_FALL_S = 5;
+
+/* How fast the help draws, at first and at last; its greatest accelerations, of places and of turns. */
+static const float FIRST_HZ = 1, LAST_HZ = 6, MOST_M_S2 = 40, MOST_RAD_S2 = 200;
+
+/* It has arrived when no body is farther off than this, asset metres and rad; and in any case when so much
+ * longer than it should has gone. */
+static const float ARRIVED_M = 0.01f, ARRIVED_RAD = 0.06f, LATE_S = 1.5f;
+
+static const float TWO_PI = 6.28318530718f;
+
+static bool is_taken(const sbri_character *c, uint32_t body) {
+  const sbri_rigid_body *is = &c->model->rigid.bodies[body];
+  return is->mass > 0 && is->source->motion != SBF_BODY_MOTION_DYNAMIC;
+}
+
+static void set_all(sbri_character *c, sbr_rigid_mode mode, float share) {
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
+    if (!is_taken(c, b)) continue;
+    sbri_rigid_bodies(c)[b].mode = (uint32_t)mode;
+    sbri_rigid_bodies(c)[b].share = share;
+  }
+}
+
+void sbri_reflex_begin(sbri_character *c, const sbr_rigid_fall *fall) {
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  drive->posture = SBR_RIGID_FALLING;
+  drive->posture_s = drive->still_s = 0;
+  drive->limp_share = sbri_clamp(fall->share, 0, 1);
+  drive->rest_s = sbri_clamp(fall->rest_s, 0, 1e6f);
+  drive->rise_s = sbri_clamp(fall->rise_s, 0.1f, 1e6f);
+  set_all(c, SBR_RIGID_DRIVEN, drive->limp_share);
+}
+
+void sbri_reflex_end(sbri_character *c) {
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  if (drive->posture == SBR_RIGID_UP) return;
+  drive->posture = SBR_RIGID_UP;
+  set_all(c, SBR_RIGID_KINEMATIC, 1);
+  sbri_rigid_wake(c);
+}
+
+/* ---- Where it gets up ---- */
+
+/* The body nearest to the root of the bones; -1: there is none. */
+static int32_t hips_of(const sbri_character *c) {
+  const sbri_rig *rig = &c->model->rig;
+  for (uint32_t i = 0; i < rig->bone_count; i++)
+    if (c->model->rigid.body_of_bone[rig->subtree[i]] >= 0)
+      return c->model->rigid.body_of_bone[rig->subtree[i]];
+  return -1;
+}
+
+/* The way that somebody lying so faces when up: where the head is, of one who lies on the belly; the other
+ * way on the back. */
+static float heading_of(sbf_quat turn) {
+  sbf_vec3 front = sbri_rotate(turn, sbri_vec3(0, 0, 1)), up = sbri_rotate(turn, sbri_vec3(0, 1, 0));
+  return sbri_atan2(front.x - front.y * up.x, front.z - front.y * up.z);
+}
+
+static void stand_where_it_lies(const sbr_world *world, sbri_character *c) {
+  int32_t body = hips_of(c);
+  if (body < 0) return;
+  const sbri_rigid_body *is = &c->model->rigid.bodies[body];
+  const sbr_transform *now = &sbri_rigid_bodies(c)[body].pose;
+  float heading = heading_of(sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes))), s, k, old;
+  sbf_vec3 place;
+  sbri_sincos(0.5f * heading, &s, &k);
+  sbf_vec3 off = sbri_rotate((sbf_quat){0, s, 0, k}, is->center);
+  sbri_gait_placement(sbri_gait(c), &place, &old);
+  place.x = c->scale * (now->position.x - off.x), place.z = c->scale * (now->position.z - off.z);
+  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbri_gait_place(&c->model->rig, sbri_gait(c), &input, place, heading);
+}
+
+/* ---- From tick to tick ---- */
+
+static float fastest_of(const sbri_character *c) {
+  float most = 0;
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
+    const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
+    if (!is_taken(c, b)) continue;
+    sbf_vec3 turn = sbri_spin_velocity(&c->model->rigid.bodies[b], body->pose.rotation, body->spin);
+    float speed = sbri_length(body->velocity) + c->model->rigid.bodies[b].radius * sbri_length(turn);
+    most = speed > most ? speed : most;
+  }
+  return most;
+}
+
+static sbf_vec3 turn_to(const sbr_transform *to, const sbr_transform *from) {
+  return sbri_quat_log(sbri_quat_multiply(to->rotation, sbri_quat_conjugate(from->rotation)));
+}
+
+static bool has_arrived(const sbri_character *c) {
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
+    const sbr_transform *to = &sbri_rigid_targets(c)[b], *at = &sbri_rigid_bodies(c)[b].pose;
+    if (!is_taken(c, b)) continue;
+    if (sbri_length(sbri_sub(to->position, at->position)) > ARRIVED_M ||
+        sbri_length(turn_to(to, at)) > ARRIVED_RAD)
+      return false;
+  }
+  return true;
+}
+
+static float strength_of(const sbri_rigid_drive_state *drive) {
+  float t = sbri_clamp(drive->posture_s / drive->rise_s, 0, 1);
+  return t * t * (3 - 2 * t);
+}
+
+void sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
+  sbri_rigid_drive_state *drive = c->model->rigid.body_count ? sbri_rigid_drive(c) : NULL;
+  float tick_s = (float)world->tick_s * c->time_scale;
+  if (!drive || drive->posture == SBR_RIGID_UP) return;
+  drive->posture_s += tick_s;
+  if (drive->posture == SBR_RIGID_FALLING) {
+    drive->still_s = fastest_of(c) <= STILL_M_S ? drive->still_s + tick_s : 0;
+    if (drive->still_s < drive->rest_s && drive->posture_s < LONGEST_FALL_S + drive->rest_s) return;
+    drive->posture = SBR_RIGID_RISING;
+    drive->posture_s = 0;
+    stand_where_it_lies(world, c);
+    return;
+  }
+  float w = strength_of(drive);
+  bool up = w >= 1 && (has_arrived(c) || drive->posture_s > drive->rise_s + LATE_S);
+  if (up)
+    sbri_reflex_end(c);
+  else
+    set_all(c, SBR_RIGID_DRIVEN, drive->limp_share + (1 - drive->limp_share) * w);
+}
+
+static sbf_vec3 bounded(sbf_vec3 v, float most) {
+  float length = sbri_length(v);
+  return length > most ? sbri_scale(v, most / length) : v;
+}
+
+void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *t, float step_s) {
+  const sbri_rigid_drive_state *drive = t->drive;
+  if (drive->posture != SBR_RIGID_RISING) return;
+  float share = strength_of(drive), w = TWO_PI * (FIRST_HZ + (LAST_HZ - FIRST_HZ) * share);
+  for (uint32_t b = 0; b < t->model->body_count; b++) {
+    if (!is_taken(c, b) || !sbri_rigid_is_simulated(c, b)) continue;
+    const sbri_rigid_body *is = &t->model->bodies[b];
+    sbri_rigid_body_state *body = &t->bodies[b];
+    sbf_vec3 turn = sbri_spin_velocity(is, body->pose.rotation, body->spin);
+    sbf_vec3 pull = sbri_scale(sbri_sub(t->targets[b].position, body->pose.position), w * w);
+    sbf_vec3 twist = sbri_scale(turn_to(&t->targets[b], &body->pose), w * w);
+    pull = bounded(sbri_add_scaled(pull, body->velocity, -2 * w), share * MOST_M_S2);
+    twist = bounded(sbri_add_scaled(twist, turn, -2 * w), share * MOST_RAD_S2);
+    float carried = 1 + t->model->carried_masses[b] * is->inverse_mass;
+    pull = sbri_add_scaled(pull, t->gravity, -share * is->source->gravity_scale * carried);
+    body->velocity = sbri_add_scaled(body->velocity, pull, step_s);
+    body->spin = sbri_spin_from(is, body->pose.rotation, sbri_add_scaled(turn, twist, step_s));
+  }
+}

@@ -1,0 +1,118 @@
+/* A character's rigid bodies and its bones: where one has the other. */
+#include "math/quat.h"
+#include "ragdoll/ragdoll.h"
+
+bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body) {
+  return sbri_rigid_bodies(c)[body].mode != SBR_RIGID_KINEMATIC && c->model->rigid.bodies[body].mass > 0;
+}
+
+void sbri_rigid_put_at(sbri_rigid_body_state *body, sbr_transform place) {
+  body->pose = place;
+  body->velocity = body->spin = body->fine = sbri_vec3(0, 0, 0);
+}
+
+void sbri_rigid_wake(sbri_character *c) {
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  drive->asleep = drive->quiet_ticks = drive->slow_ticks = drive->any = 0;
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) drive->any |= sbri_rigid_is_simulated(c, b);
+  sbri_character_wake(c);
+}
+
+bool sbri_rigid_is_still(const sbri_character *c) {
+  const sbri_rigid_drive_state *drive = c->model->rigid.body_count ? sbri_rigid_drive(c) : NULL;
+  return !drive || !drive->any || drive->asleep;
+}
+
+sbr_rigid_drive sbr_default_rigid_drive(void) {
+  return (sbr_rigid_drive){.frequency_hz = 4, .damping_ratio = 1, .strength = 2, .joint_damping_1_s = 2};
+}
+
+void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive) {
+  sbri_rigid_drive_state *to = sbri_rigid_drive(c);
+  to->frequency_hz = sbri_clamp(drive->frequency_hz, 0, 100);
+  to->damping_ratio = sbri_clamp(drive->damping_ratio, 0, 10);
+  to->strength = sbri_clamp(drive->strength, 0, 1e6f);
+  to->joint_damping_1_s = sbri_clamp(drive->joint_damping_1_s, 0, 100);
+}
+
+/* ---- From bones to bodies ---- */
+
+sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *pose, uint32_t body) {
+  const sbri_rigid_body *is = &c->model->rigid.bodies[body];
+  uint32_t frame = is->source->bone >= 0 ? (uint32_t)is->source->bone : sbri_root_frame(c->model);
+  sbr_transform rest = sbri_frame_rest(c->model, frame);
+  sbf_quat turn = sbri_quat_multiply(pose[frame].rotation, sbri_quat_conjugate(rest.rotation));
+  sbf_vec3 arm = sbri_rotate(turn, sbri_sub(is->center, rest.position));
+  return (sbr_transform){sbri_add(sbri_scale(pose[frame].position, 1 / c->scale), arm),
+      sbri_quat_normalize(sbri_quat_multiply(turn, is->axes))};
+}
+
+/* ---- From bodies to bones ---- */
+
+/* What has carried the body from rest to `now`, applied to a place and axes of rest. */
+static sbr_transform carried(
+    const sbri_character *c, uint32_t body, const sbr_transform *now, const sbr_transform *rest) {
+  const sbri_rigid_body *is = &c->model->rigid.bodies[body];
+  sbf_quat turn = sbri_quat_multiply(now->rotation, sbri_quat_conjugate(is->axes));
+  sbf_vec3 at = sbri_add(now->position, sbri_rotate(turn, sbri_sub(rest->position, is->center)));
+  return (sbr_transform){
+      sbri_scale(at, c->scale), sbri_quat_normalize(sbri_quat_multiply(turn, rest->rotation))};
+}
+
+/* A body goes on as it moves. */
+static sbr_transform ahead(const sbri_character *c, uint32_t body, float seconds) {
+  const sbri_rigid_body_state *now = &sbri_rigid_bodies(c)[body];
+  sbr_transform to = now->pose;
+  if (!(seconds > 0)) return to;
+  to.position = sbri_add_scaled(to.position, now->velocity, seconds);
+  (void)sbri_free_turn(&c->model->rigid.bodies[body], now->pose.rotation, now->spin, seconds, &to.rotation);
+  return to;
+}
+
+/* A bone as the pose `by` has it against its parent, where that is at `parent_now`. */
+static sbr_transform against(
+    const sbr_transform *by, uint32_t bone, uint32_t parent, const sbr_transform *parent_now) {
+  sbf_quat turn = sbri_quat_multiply(parent_now->rotation, sbri_quat_conjugate(by[parent].rotation));
+  sbf_vec3 away = sbri_sub(by[bone].position, by[parent].position);
+  return (sbr_transform){sbri_add(parent_now->position, sbri_rotate(turn, away)),
+      sbri_quat_normalize(sbri_quat_multiply(turn, by[bone].rotation))};
+}
+
+static sbr_transform between(const sbr_transform *a, const sbr_transform *b, float share) {
+  return (sbr_transform){
+      sbri_lerp(a->position, b->position, share), sbri_quat_blend(a->rotation, b->rotation, share)};
+}
+
+void sbri_rigid_pose(
+    const sbri_character *c, const sbr_transform *animated, float share, float ahead_s, sbr_transform *pose) {
+  const sbr_model *model = c->model;
+  const sbr_transform *before = sbri_previous_pose(c);
+  for (uint32_t i = 0; i < model->frame_count; i++) {
+    uint32_t frame = i < model->rig.bone_count ? model->rig.subtree[i] : i;
+    int32_t body = model->carrier_of_frame[frame];
+    if (body < 0 || !sbri_rigid_is_simulated(c, (uint32_t)body)) {
+      pose[frame] = share < 1 ? between(&before[frame], &animated[frame], share) : animated[frame];
+      continue;
+    }
+    if (sbri_body_frame(model, (uint32_t)body) == frame) {
+      sbr_transform now = ahead(c, (uint32_t)body, ahead_s), rest = sbri_frame_rest(model, frame);
+      pose[frame] = carried(c, (uint32_t)body, &now, &rest);
+      continue;
+    }
+    uint32_t parent = (uint32_t)model->rig.parents[frame];
+    pose[frame] = against(animated, frame, parent, &pose[parent]);
+    if (share >= 1) continue;
+    sbr_transform was = against(before, frame, parent, &pose[parent]);
+    pose[frame] = between(&was, &pose[frame], share);
+  }
+}
+
+void sbri_rigid_frames_follow(const sbri_character *c, sbr_transform *pose) {
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
+    if (c->model->rigid.own_frames[b] == UINT32_MAX) continue;
+    int32_t bone = c->model->rigid.bodies[b].source->bone;
+    uint32_t frame = sbri_body_frame(c->model, b);
+    sbr_transform at = sbri_rigid_target(c, pose, b), rest = sbri_frame_rest(c->model, frame);
+    pose[frame] = bone < 0 ? pose[sbri_root_frame(c->model)] : carried(c, b, &at, &rest);
+  }
+}

@@ -1,0 +1,121 @@
+/* A tick of a character's rigid parts among the rest of it, with the soft bodies that are coupled to them. */
+#include <string.h>
+
+#include "math/quat.h"
+#include "ragdoll/ragdoll.h"
+
+/* Slower than this share of its size a second, with nothing that draws it, a body comes to rest. */
+static const float QUIET_1_S = 0.01f;
+
+/* ---- Stepping ---- */
+
+static bool is_lost(const sbri_rigid_body_state *body) {
+  const float *numbers = &body->pose.position.x;
+  bool lost = false;
+  for (int i = 0; i < 16; i++) lost = lost || !(fabsf(numbers[i]) < 1e6f);
+  return lost;
+}
+
+static void may_sleep(const sbr_world *world, sbri_character *c) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  bool quiet = world->sleep_ticks > 0 && sbri_coupled_are_quiet(c);
+  for (uint32_t b = 0; b < model->body_count && quiet; b++) {
+    sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
+    float size = model->bodies[b].radius > 0 ? 2 * model->bodies[b].radius : c->model->rest_size_m;
+    sbf_vec3 turn = sbri_spin_velocity(&model->bodies[b], body->pose.rotation, body->spin);
+    float speed = sbri_length(body->velocity) + 0.5f * size * sbri_length(turn);
+    quiet = body->mode != SBR_RIGID_DRIVEN && speed <= QUIET_1_S * size;
+  }
+  drive->quiet_ticks = quiet ? drive->quiet_ticks + 1 : 0;
+  if (!quiet || drive->quiet_ticks < world->sleep_ticks) return;
+  drive->asleep = 1;
+  drive->last_step_s = 0;
+  for (uint32_t b = 0; b < model->body_count; b++)
+    sbri_rigid_bodies(c)[b].velocity = sbri_rigid_bodies(c)[b].spin = sbri_vec3(0, 0, 0);
+  sbri_coupled_put_to_sleep(world, c);
+}
+
+/* Whether what holds the sleepers has moved. */
+static bool is_moved(const sbri_character *c) {
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
+    if (!sbri_rigid_is_simulated(c, b) &&
+        memcmp(&sbri_rigid_targets(c)[b], &sbri_rigid_bodies(c)[b].pose, sizeof(sbr_transform)) != 0)
+      return true;
+  return false;
+}
+
+static void act(void *user, const sbri_rigid_tick *tick, float from, float to) {
+  sbri_coupled *group = user;
+  if (group->any) sbri_coupled_act(group, tick, from, to);
+  sbri_reflex_act(group->character, tick, tick->tick_s * (to - from));
+}
+
+static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
+  const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
+  return (sbri_rigid_tick){.model = &c->model->rigid,
+      .bodies = sbri_rigid_bodies(c),
+      .joints = sbri_rigid_joints(c),
+      .drive = sbri_rigid_drive(c),
+      .kept = sbri_rigid_kept(c),
+      .targets = sbri_rigid_targets(c),
+      .anchor = {sbri_scale(anchor->position, 1 / c->scale), anchor->rotation},
+      .ground = &world->ground,
+      .colliders = &world->colliders,
+      .origin = sbri_head(c)->origin,
+      .scale = c->scale,
+      .gravity = world->has_gravity ? world->gravity : c->model->asset->environment.gravity,
+      .tick_s = (float)world->tick_s * c->time_scale,
+      .substeps = c->model->rigid_substeps,
+      .touching = sbri_rigid_touching(c),
+      .work = sbri_rigid_work(c)};
+}
+
+bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigid_parts *parts) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  parts->steps = false;
+  if (!model->body_count) return false;
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  sbri_rigid_frames_follow(c, sbri_pose(c));
+  if (!drive->any) return false;
+  for (uint32_t b = 0; b < model->body_count; b++)
+    sbri_rigid_targets(c)[b] = sbri_rigid_target(c, sbri_pose(c), b);
+  memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
+  parts->coupled = (sbri_coupled){.world = world, .character = c, .animated = sbri_animated(c)};
+  if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&parts->coupled)))
+    drive->asleep = drive->quiet_ticks = 0;
+  if (drive->asleep) {
+    sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
+    return false;
+  }
+  parts->steps = true;
+  parts->tick = tick_of(world, c);
+  sbri_coupled_begin(&parts->coupled);
+  parts->tick.pull = (sbri_rigid_pull){
+      act, &parts->coupled, parts->coupled.any ? model->pinned_squares : NULL, parts->coupled.steps};
+  sbri_rigid_begin(&parts->tick, &parts->work);
+  return true;
+}
+
+void sbri_rigid_parts_end(sbri_rigid_parts *parts) {
+  sbri_character *c = parts->coupled.character;
+  const sbri_rigid_model *model = &c->model->rigid;
+  sbri_rigid_end(&parts->tick, &parts->work);
+  bool lost = false;
+  for (uint32_t b = 0; b < model->body_count; b++) lost = lost || is_lost(&sbri_rigid_bodies(c)[b]);
+  if (lost) /* no motion any more: back to where the animation has them */
+    for (uint32_t b = 0; b < model->body_count; b++)
+      sbri_rigid_put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_targets(c)[b]);
+  sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
+  sbri_coupled_end(&parts->coupled);
+  may_sleep(parts->coupled.world, c);
+}
+
+void sbri_rigid_tick_parts(const sbr_world *world, sbri_character *c) {
+  sbri_rigid_parts parts;
+  if (!sbri_rigid_parts_begin(world, c, &parts)) return;
+  uint32_t steps = parts.tick.substeps;
+  for (uint32_t i = 0; i < steps; i++)
+    sbri_rigid_advance(&parts.tick, &parts.work, (float)i / (float)steps, (float)(i + 1) / (float)steps);
+  sbri_rigid_parts_end(&parts);
+}

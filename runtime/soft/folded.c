@@ -1,0 +1,200 @@
+/* Whether a body has lost its shape for good: it encloses next to nothing, or it rests in a knot.
+ *
+ * A knot: little moves, and yet elements and weight hold more energy than they would in the rest shape where
+ * the body is held. Whatever comes to rest from its rest shape holds less. That can be told of bodies that
+ * something holds, that touch no ground, and on which nothing else acts. Of loose ones and of those that lie
+ * on something the elements' energy alone is looked at, once they have been so wild that they may well have
+ * folded, and by another measure. */
+#include <math.h>
+
+#include "math/vec3.h"
+#include "mechanics/neo_hookean.h"
+#include "skin/skin.h"
+#include "soft/soft.h"
+#include "solvers/rigid_motion.h"
+#include "solvers/scheme.h"
+
+/* A surface that holds less than this share of its volume will not come back by itself. */
+static const double FOLDED_SHARE = 0.1;
+
+/* With less of its energy than this in its motion, for as long as the caller waits, a body rests in what it
+ * is. */
+static const double MOVING_SHARE = 0.2;
+
+/* What loses a fifth of its energy from look to look is still on its way out, however slowly it moves. */
+static const double STUCK_SHARE = 0.8;
+
+/* Shares of what an island holds all of whose elements are strained by a tenth: what a knot holds at least
+ * where the load is known, and where it is not; and what is wild, strains of 14 %. */
+static const double KNOT_SHARE = 0.02, LOOSE_KNOT_SHARE = 0.1, WILD_SHARE = 2;
+
+/* Tetrahedra so many times as stiff as at rest may be wild. */
+static const float STIFFENED = 2;
+
+static bool encloses_nothing(const sbri_character *c, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    if (!(body->rest_volume_m3 > 0)) continue;
+    if (sbri_surface_volume(c, body, sbri_positions(c)) < FOLDED_SHARE * body->rest_volume_m3) return true;
+  }
+  return false;
+}
+
+/* ---- Energies, J ---- */
+
+/* Against what holds it, or of a loose body against its rigid motion. */
+static double kinetic_of(const sbri_character *c, const sbri_island *island) {
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
+  const sbri_point *positions = sbri_positions(c) + island->first_slot;
+  double energy = 0;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    sbri_rigid_motion rigid = {0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0}};
+    if (!body->held) rigid = sbri_rigid_motion_find(island, body, positions, velocities);
+    for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+      uint32_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+      const sbri_point *p = &positions[slot];
+      sbf_vec3 v = {velocities[at], velocities[at + SBRI_BLOCK], velocities[at + 2 * SBRI_BLOCK]};
+      sbf_vec3 with = {guides[at], guides[at + SBRI_BLOCK], guides[at + 2 * SBRI_BLOCK]};
+      if (!body->held)
+        with = sbri_add(
+            rigid.velocity, sbri_cross(rigid.spin, sbri_sub(sbri_vec3(p->x, p->y, p->z), rigid.center)));
+      sbf_vec3 off = sbri_sub(v, with);
+      energy += 0.5 * (double)island->masses[slot] * (double)sbri_dot(off, off);
+    }
+  }
+  return energy;
+}
+
+/* What elements hold as they are, or where all are strained by a tenth. */
+typedef struct elastic {
+  double now_j, tenth_j;
+} elastic;
+
+static void add_tetrahedra(const sbri_body *body, const sbri_point *positions, elastic *sum) {
+  for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+    sbfi_tetrahedron element;
+    sbfi_d3 x[4];
+    if (!sbri_body_tetrahedron(body, t, &element)) continue;
+    for (int k = 0; k < 4; k++) {
+      const sbri_point *p = &positions[body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]]];
+      x[k] = (sbfi_d3){p->x, p->y, p->z};
+    }
+    sum->now_j += sbfi_tetrahedron_energy(&element, x);
+    sum->tenth_j += 0.01 * element.volume * element.lame.mu;
+  }
+}
+
+static void add_regions(
+    const sbri_island *island, const sbri_body *body, const sbri_point *positions, elastic *sum) {
+  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
+    const sbri_region_block *block = &island->region_blocks[b];
+    const sbri_region_member *members = island->region_members + block->first_member;
+    for (uint32_t lane = 0; lane < SBRI_BLOCK && block->inverse_sums[lane] > 0; lane++) {
+      sbri_region_look(block, members, lane, positions, &sum->now_j);
+      for (uint32_t i = 0; i < block->member_count; i++) {
+        const float *r[3] = {members[i].offsets[0], members[i].offsets[1], members[i].offsets[2]};
+        double square = (double)(r[0][lane] * r[0][lane] + r[1][lane] * r[1][lane] + r[2][lane] * r[2][lane]);
+        sum->tenth_j += 0.005 * (double)members[i].stiffness[lane] * square;
+      }
+    }
+  }
+}
+
+static elastic elastic_of(const sbri_character *c, const sbri_island *island, const sbri_point *positions) {
+  elastic sum = {sbfi_springs_energy(island->springs, island->spring_count, &positions->x, 4), 0};
+  for (uint32_t i = 0; i < island->spring_count; i++) {
+    double tenth = 0.1 * island->springs[i].rest_length_m;
+    sum.tenth_j += 0.5 * island->springs[i].stiffness_n_m * tenth * tenth;
+  }
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    add_tetrahedra(body, positions, &sum);
+    add_regions(island, body, positions, &sum);
+  }
+  return sum;
+}
+
+static double weight_of(const sbri_island *island, const sbri_point *positions, sbf_vec3 g) {
+  double energy = 0;
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    const sbri_point *p = &positions[slot];
+    double weight = (double)island->masses[slot] * (double)island->gravity_scales[slot];
+    energy -= weight * ((double)g.x * p->x + (double)g.y * p->y + (double)g.z * p->z);
+  }
+  return energy;
+}
+
+/* ---- Knots ---- */
+
+static bool touches_ground(const sbri_character *c, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++)
+    if (c->model->bodies[island->bodies[b]].samples && sbri_touch_counts(c)[island->bodies[b]]) return true;
+  const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
+  for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
+    if (near_ground[block]) return true;
+  return false;
+}
+
+static bool is_held(const sbri_character *c, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++)
+    if (!c->model->bodies[island->bodies[b]].held) return false;
+  return true;
+}
+
+/* What it would hold in its rest shape, where it is held: which is more than nothing for springs that cannot
+ * all have their lengths. */
+static double rest_energy(const sbri_character *c, const sbri_island *island, sbf_vec3 g) {
+  sbri_point *rest = sbri_begins(c) + island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    sbri_guide_places(c->model, body, sbri_deltas(c), rest + body->slot_begin);
+  }
+  sbri_held_places(island, sbri_deltas(c), rest);
+  return elastic_of(c, island, rest).now_j + weight_of(island, rest, g);
+}
+
+/* More than what bodies of that size hold that lie in their own weight: a column strained by e bears m g l e
+ * / 4, and holds 100 e^2 times what it does at a tenth. Four times that, for none is a column. */
+static double weight_bears(const sbri_character *c, const sbri_island *island, double tenth_j, sbf_vec3 g) {
+  double weight = 0, size = 0;
+  for (uint32_t slot = 0; slot < island->free_count; slot++)
+    weight += (double)(island->masses[slot] * fabsf(island->gravity_scales[slot]));
+  for (uint32_t b = 0; b < island->body_count; b++)
+    size = fmax(size, (double)c->model->bodies[island->bodies[b]].rest_size_m);
+  double load = weight * (double)sbri_length(g) * size;
+  return tenth_j > 0 ? load * load / (400 * tenth_j) : 0;
+}
+
+/* Of springs it is told at each look. Of other elements that would cost as much as a substep of theirs: they
+ * are looked at while they are wild, or may be by what their steps have seen. */
+static bool is_looked_at(const sbri_island *island, const sbri_island_state *state) {
+  if (island->scheme->forceless || island->link_flows || island->solid_flows) return false;
+  return state->wild || island->tetrahedron_block_count == 0 || state->stiffening > STIFFENED;
+}
+
+sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  const sbri_point *positions = sbri_positions(c) + island->first_slot;
+  const sbri_island_state *state = &sbri_island_states(c)[index];
+  bool wild = state->wild;
+  if (!(state->least_ratio > 0) || encloses_nothing(c, island))
+    return (sbri_shape){.folded = true, .heaped = true, .wild = true};
+  if (!is_looked_at(island, state)) return (sbri_shape){.folded = false};
+  elastic elements = elastic_of(c, island, positions);
+  double more = elements.now_j, least = KNOT_SHARE * elements.tenth_j;
+  bool told = !island->has_outer && is_held(c, island) && !touches_ground(c, island);
+  sbf_vec3 g = world->has_gravity ? world->gravity : c->model->asset->environment.gravity;
+  if (told)
+    more += weight_of(island, positions, g) - rest_energy(c, island, g);
+  else
+    more -= rest_energy(c, island, (sbf_vec3){0, 0, 0}),
+        least = LOOSE_KNOT_SHARE * elements.tenth_j + weight_bears(c, island, elements.tenth_j, g);
+  bool strained = more > least, stuck = more > STUCK_SHARE * (double)state->excess_j;
+  sbri_shape shape = {.told = told, .excess_j = (float)more, .heaped = more > WILD_SHARE * elements.tenth_j};
+  shape.wild = shape.heaped || (wild && strained);
+  shape.folded = strained && stuck && (told || (wild && !island->has_outer)) &&
+                 kinetic_of(c, island) < MOVING_SHARE * more;
+  return shape;
+}

@@ -1,0 +1,30 @@
+/* One control tick of an island: what is made ready, what its scheme does, and what follows from it. */
+#include "contact/contact.h"
+#include "math/vec3.h"
+#include "skin/skin.h"
+#include "soft/soft.h"
+#include "solvers/outer_forces.h"
+#include "solvers/rolling.h"
+#include "solvers/router.h"
+#include "solvers/touches.h"
+#include "tear/tear.h"
+
+void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) {
+  if (sbri_island_sleeps(world, c, index)) return;
+  const sbr_model *model = c->model;
+  sbri_island now = sbri_island_now(c, &model->islands[index]);
+  const sbri_island *island = &now;
+  size_t first = island->first_slot;
+  float tick_s = (float)world->tick_s * c->time_scale;
+  if (!sbri_island_follow(c, island, index, tick_s)) return;
+  sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + first);
+  sbri_island_tuck(c, island);
+  sbri_island_tick tick = sbri_island_tick_of(world, c, index, island);
+  tick.outer_rad_s = &now.outer_rad_s;
+  if (!island->scheme->forceless) sbri_outer_look(&tick), sbri_island_prepare_contacts(&tick, c);
+  sbri_router_choose(&tick, &sbri_island_states(c)[index].recovering)->tick(&tick);
+  sbri_island_tell(&tick, c);
+  if (island->splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
+  sbri_island_recover(world, c, index);
+  sbri_island_may_sleep(world, c, index);
+}

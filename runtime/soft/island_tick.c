@@ -1,0 +1,108 @@
+/* What a tick of an island is put together from: its tables, its points, what it may touch, and what it tells
+ * of that. */
+#include "contact/contact.h"
+#include "math/vec3.h"
+#include "skin/skin.h"
+#include "soft/soft.h"
+#include "solvers/rolling.h"
+#include "solvers/scheme.h"
+#include "solvers/touches.h"
+
+void sbri_island_tuck(sbri_character *c, const sbri_island *island) {
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    for (uint32_t slot = body->slot_real_end; slot < body->slot_end; slot++)
+      positions[slot] = positions[slot / SBRI_BLOCK * SBRI_BLOCK];
+    for (uint32_t slot = body->first_spare; slot < body->slot_end && body->slot_real_end > body->first_spare;
+         slot++) {
+      if (slot < body->slot_real_end && sbri_origins(c)[island->first_slot + slot] != SBRI_UNUSED) continue;
+      positions[slot] = positions[body->slot_begin];
+      float *v = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+      uint32_t to = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK, from = 3 * body->slot_begin;
+      for (uint32_t k = 0; k < 3; k++) v[to + k * SBRI_BLOCK] = v[from + k * SBRI_BLOCK];
+    }
+  }
+}
+
+void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
+  size_t first = tick->island->first_slot;
+  sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
+      sbri_touches(c), sbri_touch_counts(c), sbri_slot_touches(c) + first, NULL, NULL, NULL, NULL};
+  for (uint32_t b = 0; b < tick->island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
+    sbri_skin surface = sbri_skin_now(c, &body->surface);
+    tables.surface = &surface;
+    tables.self_boxes = sbri_self_boxes(c) + body->first_self_face;
+    tables.self_nodes = sbri_self_nodes(c) + 2 * (size_t)body->first_self_face + tick->island->bodies[b];
+    tables.self_items = sbri_self_items(c) + body->first_self_face;
+    sbri_contact_prepare(tick, body, &tables);
+    sbri_rolling_resist(tick, body);
+  }
+}
+
+sbri_island_tick sbri_island_tick_of(
+    const sbr_world *world, sbri_character *c, uint32_t index, const sbri_island *island) {
+  const sbr_model *model = c->model;
+  size_t first = island->first_slot;
+  float tick_s = (float)world->tick_s * c->time_scale;
+  const sbri_delta *anchor = &sbri_deltas(c)[sbri_anchor_frame(model)];
+  return (sbri_island_tick){.model = model,
+      .island = island,
+      .tick_s = tick_s,
+      .share = 1,
+      .gravity = world->has_gravity ? world->gravity : model->asset->environment.gravity,
+      .wind = sbri_scale(model->asset->environment.wind, c->time_scale),
+      .origin = sbri_head(c)->origin,
+      .scale = c->scale,
+      .ground = &world->ground,
+      .colliders = &world->colliders,
+      .positions = sbri_positions(c) + first,
+      .velocities = sbri_velocities(c) + 3 * first,
+      .targets = sbri_targets(c) + first,
+      .guide_velocities = sbri_guide_velocities(c) + 3 * first,
+      .begins = sbri_begins(c) + first,
+      .velocity_points = sbri_velocity_points(c) + first,
+      .surface_vertices = sbri_surface_vertices(c),
+      .surface_faces = sbri_surface_faces(c),
+      .planes = sbri_planes(c) + 4 * first,
+      .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
+      .touches = sbri_touches(c),
+      .touch_counts = sbri_touch_counts(c),
+      .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
+      .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
+      .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,
+      .outer = island->has_outer ? sbri_outer(c) + first : NULL,
+      .anchor = {anchor->position, anchor->rotation},
+      .surface_forces = sbri_surface_forces(c),
+      .surface_velocities = sbri_surface_velocities(c),
+      .accelerations = sbri_accelerations(c) + 3 * first,
+      .older_velocities = sbri_older_velocities(c) + 3 * first,
+      .moves = sbri_moves(c) + first,
+      .edges = sbri_edges(c) + 3 * SBRI_BLOCK * (size_t)island->first_link_block,
+      .solid_edges = sbri_solid_edges(c) + 9 * SBRI_BLOCK * (size_t)island->first_tetrahedron_block,
+      .tetrahedra =
+          island->solid_flows ? sbri_solids(c) + island->first_solid_block : island->tetrahedron_blocks,
+      .flowing = island->solid_flows ? sbri_solids(c) + island->first_solid_block : NULL,
+      .torn = island->solid_flows ? sbri_torn(c) + island->first_solid : NULL,
+      .thinning = &sbri_island_states(c)[index].thinning,
+      .tears = &sbri_tears_of(c)[index],
+      .step_error_m = island->step_error_m,
+      .element_forces = sbri_element_forces(c) + first,
+      .stretch = &sbri_island_states(c)[index].stretch,
+      .stiffening = &sbri_island_states(c)[index].stiffening,
+      .least_ratio = &sbri_island_states(c)[index].least_ratio};
+}
+
+void sbri_island_tell(const sbri_island_tick *tick, sbri_character *c) {
+  for (uint32_t b = 0; b < tick->island->body_count && !tick->island->scheme->forceless; b++) {
+    uint32_t body = tick->island->bodies[b];
+    sbri_touches_tell(tick, &c->model->bodies[body], &sbri_soft_touching(c)[body]);
+  }
+}
+
+void sbri_island_contacts(const sbr_world *world, sbri_character *c, uint32_t index) {
+  sbri_island now = sbri_island_now(c, &c->model->islands[index]);
+  sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
+  sbri_island_prepare_contacts(&tick, c);
+}

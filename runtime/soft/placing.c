@@ -1,0 +1,204 @@
+/* Putting soft bodies somewhere at once: into their rest shape, or along with their frames. */
+#include <string.h>
+
+#include "collide/ground.h"
+#include "math/quat.h"
+#include "soft/soft.h"
+#include "solvers/scheme.h"
+#include "tear/tear.h"
+
+/* At rest: no velocity, or for the relaxation scheme the same place a tick ago. */
+static void stop(sbri_character *c, uint32_t island_index) {
+  sbri_island_wake(c, island_index);
+  const sbri_island *island = &c->model->islands[island_index];
+  sbri_guides_stop(c, island);
+  const sbri_point *positions = sbri_positions(c) + island->first_slot;
+  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  memset(velocities, 0, 3 * (size_t)island->free_count * sizeof *velocities);
+  if (!island->scheme->forceless) return;
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    float *before = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    before[0] = positions[slot].x, before[SBRI_BLOCK] = positions[slot].y;
+    before[2 * SBRI_BLOCK] = positions[slot].z;
+  }
+}
+
+/* The frame that a body turns with: what holds it, else the root. */
+static uint32_t turning_frame(const sbri_character *c, const sbri_body *body) {
+  return body->held && !body->guides ? body->guide_frame : sbri_root_frame(c->model);
+}
+
+/* Rotations of the body's regions: all `first`, or where that is NULL turned on by `turn`. */
+static void turn_regions(sbri_character *c, const sbri_body *body, const sbf_quat *first, sbf_quat turn) {
+  const sbri_island *island = &c->model->islands[body->island];
+  for (uint32_t b = body->first_region_block; b < body->region_block_end; b++) {
+    float *q = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)(island->first_rotation + b);
+    for (uint32_t lane = 0; lane < SBRI_BLOCK; lane++) {
+      sbf_quat was = {q[lane], q[SBRI_BLOCK + lane], q[2 * SBRI_BLOCK + lane], q[3 * SBRI_BLOCK + lane]};
+      sbf_quat now = first ? *first : sbri_quat_normalize(sbri_quat_multiply(turn, was));
+      q[lane] = now.x, q[SBRI_BLOCK + lane] = now.y;
+      q[2 * SBRI_BLOCK + lane] = now.z, q[3 * SBRI_BLOCK + lane] = now.w;
+    }
+  }
+}
+
+void sbri_island_place_at_rest(sbri_character *c, uint32_t island_index) {
+  const sbri_island *island = &c->model->islands[island_index];
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    sbri_guide_places(c->model, body, sbri_deltas(c), positions + body->slot_begin);
+    turn_regions(c, body, &sbri_deltas(c)[turning_frame(c, body)].rotation, sbri_quat_identity());
+    sbri_follow_origins(c, body, positions + body->slot_begin);
+  }
+  sbri_held_places(island, sbri_deltas(c), positions);
+  stop(c, island_index);
+  sbri_island_states(c)[island_index].stretch = island->rest_stretch;
+  sbri_island_states(c)[island_index].stiffening = 1;
+  sbri_island_states(c)[island_index].least_ratio = 1;
+  sbri_island_states(c)[island_index].folded_ticks = 0;
+  sbri_island_states(c)[island_index].wild = 0;
+  sbri_island_states(c)[island_index].excess_j = 0;
+  sbri_island_states(c)[island_index].calm_ticks = 0;
+}
+
+static void unflow_solids(sbri_character *c, const sbri_island *island) {
+  const uint32_t *torn = sbri_torn(c) + island->first_solid;
+  sbri_tetrahedron_block *blocks = sbri_solids(c) + island->first_solid_block;
+  for (uint32_t t = 0; t < island->tetrahedron_count; t++)
+    for (int n = 0; n < 2 && !torn[t]; n++) {
+      uint32_t at = island->lanes_of_tetrahedra[2 * t + (uint32_t)n], lane = at % SBRI_BLOCK;
+      for (int i = 0; i < 6; i++)
+        blocks[at / SBRI_BLOCK].stiffness[i][lane] =
+            island->tetrahedron_blocks[at / SBRI_BLOCK].stiffness[i][lane];
+    }
+}
+
+/* Mean place of the body's points; false where that is no place. */
+static bool middle_of(const sbri_body *body, const sbri_point *positions, sbf_vec3 *middle) {
+  sbf_vec3 sum = {0, 0, 0};
+  uint32_t count = body->slot_real_end - body->slot_begin;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    sum = sbri_add(sum, sbri_vec3(positions[slot].x, positions[slot].y, positions[slot].z));
+  *middle = sbri_scale(sum, count ? 1 / (float)count : 0);
+  return count > 0 && sbri_dot(*middle, *middle) < 1e12f;
+}
+
+static void shift(const sbri_body *body, sbri_point *positions, sbf_vec3 by) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
+    sbri_point *p = &positions[slot];
+    *p = (sbri_point){p->x + by.x, p->y + by.y, p->z + by.z, 0};
+  }
+}
+
+/* How far the body reaches into the ground, asset metres. */
+static float depth_of(
+    const sbri_character *c, const sbri_body *body, const sbri_point *positions, const sbr_ground *ground) {
+  sbr_double3 origin = sbri_head(c)->origin;
+  double deepest = 0, scale = c->scale;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    const sbri_point *p = &positions[slot];
+    double height = sbri_ground_height(ground, origin.x + scale * p->x, origin.z + scale * p->z, NULL);
+    double depth = (height - origin.y) / scale - (double)p->y;
+    deepest = depth > deepest ? depth : deepest;
+  }
+  return (float)deepest;
+}
+
+void sbri_island_place_where_it_is(sbri_character *c, uint32_t island_index, const sbr_ground *ground) {
+  const sbri_island *island = &c->model->islands[island_index];
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  const sbri_point *before = sbri_previous_positions(c) + island->first_slot; /* one may be lost by now */
+  sbri_point *middles = sbri_begins(c) + island->first_slot;                  /* a body has a slot at least */
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    sbf_vec3 middle = {0, 0, 0};
+    bool good = !body->held && middle_of(body, before, &middle);
+    if (body->slot_end > body->slot_begin)
+      middles[body->slot_begin] = (sbri_point){middle.x, middle.y, middle.z, good ? 1 : 0};
+  }
+  sbri_island_place_at_rest(c, island_index);
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    sbf_vec3 now;
+    if (body->slot_end == body->slot_begin || !(middles[body->slot_begin].w > 0)) continue;
+    const sbri_point *was = &middles[body->slot_begin];
+    if (!middle_of(body, positions, &now)) continue;
+    shift(body, positions, sbri_sub(sbri_vec3(was->x, was->y, was->z), now));
+    shift(body, positions, sbri_vec3(0, depth_of(c, body, positions, ground), 0));
+  }
+}
+
+void sbri_island_unflow(sbri_character *c, uint32_t island_index) {
+  const sbri_island *island = &c->model->islands[island_index];
+  sbri_island_states(c)[island_index].thinning = 1;
+  if (island->solid_flows) unflow_solids(c, island);
+  if (!island->link_flows) return;
+  float *rests = sbri_rests(c) + island->first_flow;
+  for (uint32_t block = 0; block < island->link_block_count; block++)
+    memcpy(rests + (size_t)block * SBRI_BLOCK, island->links[block].rest, sizeof island->links[block].rest);
+}
+
+void sbri_mend(sbri_character *c) {
+  memset(sbri_torn(c), 0, c->model->solid_count * sizeof *sbri_torn(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    const sbri_island *island = &c->model->islands[i];
+    if (island->solid_flows)
+      memcpy(sbri_solids(c) + island->first_solid_block, island->tetrahedron_blocks,
+          island->tetrahedron_block_count * sizeof *island->tetrahedron_blocks);
+    sbri_island_unflow(c, i);
+  }
+  sbri_unsplit(c);
+  sbri_skins_mend(c);
+  for (uint32_t i = 0; i < c->model->flow_count; i++) sbri_strengths(c)[i] = 1;
+}
+
+void sbri_settle(sbri_character *c) {
+  memcpy(sbri_previous_pose(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
+  sbri_gait_settle(&c->model->rig, sbri_gait(c));
+  memcpy(sbri_previous_positions(c), sbri_positions(c), c->model->slot_count * sizeof(sbri_point));
+}
+
+void sbri_place_at_rest(sbri_character *c) {
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++) sbri_island_place_at_rest(c, i);
+  sbri_settle(c);
+}
+
+/* Points of a body go where their guides go, and what they are off their guides turns with it. */
+static void carry_body(sbri_character *c, const sbri_body *body, sbri_point *positions) {
+  const sbri_delta *from = sbri_previous_deltas(c), *to = sbri_deltas(c);
+  uint32_t frame = turning_frame(c, body);
+  sbf_quat turn =
+      sbri_quat_normalize(sbri_quat_multiply(to[frame].rotation, sbri_quat_conjugate(from[frame].rotation)));
+  turn_regions(c, body, NULL, turn);
+  size_t first = c->model->islands[body->island].first_slot;
+  sbri_point *old_guides = sbri_begins(c) + first, *new_guides = sbri_velocity_points(c) + first;
+  uint32_t count = body->slot_end - body->slot_begin;
+  if (body->held) {
+    sbri_guide_places(c->model, body, from, old_guides);
+    sbri_guide_places(c->model, body, to, new_guides);
+    sbri_follow_origins(c, body, old_guides);
+    sbri_follow_origins(c, body, new_guides);
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    sbri_point *p = &positions[body->slot_begin + i];
+    sbf_vec3 old_place = from[frame].position, new_place = to[frame].position;
+    if (body->held) {
+      old_place = sbri_vec3(old_guides[i].x, old_guides[i].y, old_guides[i].z);
+      new_place = sbri_vec3(new_guides[i].x, new_guides[i].y, new_guides[i].z);
+    }
+    sbf_vec3 off = sbri_sub(sbri_vec3(p->x, p->y, p->z), old_place);
+    sbf_vec3 at = sbri_add(new_place, sbri_rotate(turn, off));
+    *p = (sbri_point){at.x, at.y, at.z, 0};
+  }
+}
+
+void sbri_island_carry(sbri_character *c, uint32_t island_index) {
+  const sbri_island *island = &c->model->islands[island_index];
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++)
+    carry_body(c, &c->model->bodies[island->bodies[b]], positions);
+  sbri_held_places(island, sbri_deltas(c), positions);
+  stop(c, island_index);
+}

@@ -1,0 +1,112 @@
+/* Sleep: a soft body that has come to rest is not stepped.
+ *
+ * A group of bodies sleeps once all its points have been slower than a share of its size a second for the
+ * world's time, nothing that holds it moving. Its velocities become 0, which takes less than that speed's
+ * kinetic energy, and its places stay: so waking begins where sleep did. It wakes as soon as anything that
+ * holds it has moved, or the ground under it is another. */
+#include <string.h>
+
+#include "base/hash64.h"
+#include "collide/ground.h"
+#include "math/vec3.h"
+#include "soft/soft.h"
+#include "solvers/scheme.h"
+
+/* Slower than this share of its size a second, a body comes to rest. */
+static const float QUIET_1_S = 0.01f;
+
+/* What holds a sleeper may tremble by this share of the character's size. */
+static const float TREMBLE = 1e-5f;
+
+/* Ground that the host may change is looked at in every so many ticks. */
+enum { LOOK_EVERY = 4 };
+
+static bool is_quiet(const sbri_character *c, const sbri_island *island) {
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    float most = QUIET_1_S * body->rest_size_m;
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+      const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+      float square = v[0] * v[0] + v[SBRI_BLOCK] * v[SBRI_BLOCK] + v[2 * SBRI_BLOCK] * v[2 * SBRI_BLOCK];
+      if (!(square <= most * most)) return false;
+    }
+  }
+  return true;
+}
+
+/* Whether what holds the island is farther from where it holds it than it may tremble. */
+static bool is_moved(sbri_character *c, const sbri_island *island) {
+  const sbri_point *held = sbri_positions(c) + island->first_slot;
+  sbri_point *targets = sbri_targets(c) + island->first_slot;
+  float most = TREMBLE * c->model->rest_size_m;
+  sbri_held_places(island, sbri_deltas(c), targets);
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
+    sbf_vec3 off = {
+        targets[slot].x - held[slot].x, targets[slot].y - held[slot].y, targets[slot].z - held[slot].z};
+    if (!(sbri_dot(off, off) <= most * most)) return true;
+  }
+  return false;
+}
+
+/* Of the planes that the ground has for the island's points and samples near it, as they were last found. */
+static uint32_t ground_mark(const sbri_character *c, const sbri_island *island) {
+  const uint8_t *near_ground = sbri_near_ground(c) + island->first_slot / SBRI_BLOCK;
+  const float *planes = sbri_planes(c) + 4 * (size_t)island->first_slot;
+  sbfi_hash64 hash;
+  sbfi_hash64_init(&hash);
+  sbfi_hash64_bytes(&hash, near_ground, island->free_count / SBRI_BLOCK);
+  for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
+    if (near_ground[block]) sbfi_hash64_f32(&hash, planes + (size_t)block * 4 * SBRI_BLOCK, 4 * SBRI_BLOCK);
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    uint32_t count = sbri_touch_counts(c)[island->bodies[b]];
+    for (uint32_t i = 0; i < count; i++) {
+      const sbri_touch *touch = &sbri_touches(c)[body->first_touch + i];
+      sbfi_hash64_f32(&hash, &touch->normal.x, 3);
+      sbfi_hash64_f32(&hash, &touch->offset, 1);
+      sbfi_hash64_f32(&hash, &touch->velocity.x, 3);
+    }
+  }
+  return (uint32_t)sbfi_hash64_value(&hash);
+}
+
+/* As the island lies, without velocity. */
+static uint32_t find_ground(const sbr_world *world, sbri_character *c, uint32_t index) {
+  sbri_island_contacts(world, c, index);
+  return ground_mark(c, &c->model->islands[index]);
+}
+
+bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  if (!state->asleep) return false;
+  bool looks = world->colliders.moving ||
+               (!sbri_ground_is_fixed(&world->ground) && (world->ticks + index) % LOOK_EVERY == 0);
+  if (!is_moved(c, island) && !(looks && find_ground(world, c, index) != state->ground_mark)) return true;
+  sbri_island_wake(c, index);
+  return false;
+}
+
+bool sbri_island_is_quiet(const sbri_character *c, uint32_t index) {
+  const sbri_island_state *state = &sbri_island_states(c)[index];
+  const sbri_island *island = &c->model->islands[index];
+  return !state->recovering && !state->folded_ticks && !state->wild && sbri_guides_rest(c, island) &&
+         sbri_tears_of(c)[index].count == 0 && is_quiet(c, island);
+}
+
+void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  state->asleep = 1;
+  memset(
+      sbri_velocities(c) + 3 * (size_t)island->first_slot, 0, 3 * (size_t)island->free_count * sizeof(float));
+  state->ground_mark = find_ground(world, c, index);
+}
+
+void sbri_island_may_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {
+  sbri_island_state *state = &sbri_island_states(c)[index];
+  if (!world->sleep_ticks || c->model->islands[index].scheme->forceless) return;
+  state->quiet_ticks = sbri_island_is_quiet(c, index) ? state->quiet_ticks + 1 : 0;
+  if (state->quiet_ticks >= world->sleep_ticks) sbri_island_put_to_sleep(world, c, index);
+}

@@ -1,0 +1,40 @@
+/* Sleep of whole characters.
+ *
+ * A character sleeps once all its bodies do, it is to stand, and a tick of its gait has left the gait's state
+ * and its pose as they were, bit for bit: every further tick would, until a call or the ground changes what
+ * it goes by. Until then it costs a look at a flag. */
+#include <string.h>
+
+#include "collide/ground.h"
+#include "ragdoll/ragdoll.h"
+#include "step/step.h"
+
+/* Ground that the host may change is looked at in every so many ticks. */
+enum { LOOK_EVERY = 4 };
+
+bool sbri_character_may_sleep(const sbr_world *world, const sbri_character *c) {
+  const sbri_character_state *head = sbri_head(c);
+  if (!world->sleep_ticks || head->forward != 0 || head->sideways != 0 || head->turn != 0) return false;
+  if (head->fade_ticks > 0 || head->fade_before > 0) return false;
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (!sbri_island_states(c)[i].asleep) return false;
+  return sbri_rigid_is_still(c);
+}
+
+void sbri_character_keep_gait(sbri_character *c) {
+  memcpy(sbri_gait_before(c), sbri_gait(c), sbri_gait_state_size(&c->model->rig));
+}
+
+bool sbri_character_is_still(const sbri_character *c) {
+  return memcmp(sbri_gait_before(c), sbri_gait(c), sbri_gait_state_size(&c->model->rig)) == 0 &&
+         memcmp(sbri_previous_pose(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform)) == 0;
+}
+
+bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
+  if (!sbri_head(c)->asleep) return false;
+  bool looks = !sbri_ground_is_fixed(&world->ground) && world->ticks % LOOK_EVERY == 0;
+  if (!looks && !world->colliders.moving) return true;
+  /* The feet and the bodies look for themselves. */
+  sbri_head(c)->asleep = 0;
+  return false;
+}

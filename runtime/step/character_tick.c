@@ -1,0 +1,42 @@
+/* One control tick of a character: its gait, what is rigid of it, and the frames that its soft bodies follow.
+ */
+#include "detail/rungs.h"
+#include "meet/meetings.h"
+#include "pose/frames.h"
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
+#include "step/step.h"
+
+bool sbri_character_is_grouped(const sbr_world *world, const sbri_character *c) {
+  return world->meetings && world->meetings->group_of[c - world->characters] != UINT32_MAX;
+}
+
+void sbri_character_tick(sbr_world *world, sbri_character *c) {
+  c->event_count = 0;
+  if (!c->model || sbri_character_sleeps(world, c)) return;
+  if (!sbri_head(c)->paused && !world->meetings) sbri_rung_change(world, c);
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    sbri_tears_of(c)[i].count = sbri_tears_of(c)[i].unsplit = 0;
+  sbri_character_rebase(c);
+  sbri_settle(c);
+  if (sbri_head(c)->paused) return;
+  sbri_fade_tick(c);
+  if (sbri_is_away(c)) {
+    sbri_away_tick(world, c);
+    return;
+  }
+  sbri_reflex_tick(world, c);
+  sbri_gait_input input = sbri_gait_input_of(world, c);
+  sbr_transform *pose = sbri_pose(c);
+  bool has_bodies = c->model->island_count > 0; /* which alone ask where frames carry them */
+  if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_previous_deltas(c));
+  bool may_sleep = sbri_character_may_sleep(world, c);
+  if (may_sleep) sbri_character_keep_gait(c);
+  c->event_count = sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events, SBRI_TICK_EVENTS);
+  pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
+  if (sbri_character_is_grouped(world, c)) return;
+  sbri_rigid_tick_parts(world, c);
+  sbri_jiggles_tick(c, (float)world->tick_s * c->time_scale);
+  if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_deltas(c));
+  sbri_head(c)->asleep = may_sleep && !world->colliders.moving && sbri_character_is_still(c);
+}

@@ -1,0 +1,182 @@
+/* The tick of characters that meet each other: they step along with each other, in one task.
+ *
+ * All steps are as long for all, as short as the one needs that needs the shortest, and before each the
+ * touches between them push (meet/push.c). Within a step everybody does what it does alone. */
+#include <string.h>
+
+#include "detail/rungs.h"
+#include "math/vec3.h"
+#include "meet/meetings.h"
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
+#include "solvers/outer_forces.h"
+#include "solvers/router.h"
+#include "solvers/scheme.h"
+#include "solvers/tetrahedron_forces.h"
+#include "step/step.h"
+#include "tear/tear.h"
+
+/* Of a tick: touches that change within one are answered well by no fewer. */
+enum { LEAST_STEPS = 4, MOST_STEPS = 128 };
+/* And soft bodies that press on each other by no fewer, for each substep that they need alone. */
+enum { STEPS_OF_SOFT = 2 };
+
+static sbri_meet_member member_of(const sbr_world *world, sbri_character *c, sbr_double3 origin) {
+  sbr_double3 own = sbri_head(c)->origin;
+  sbri_meet_member m = {.character = c,
+      .offset = {(float)(own.x - origin.x), (float)(own.y - origin.y), (float)(own.z - origin.z)},
+      .scale = c->scale,
+      .speed = c->scale * c->time_scale,
+      .mass = c->scale * c->scale * c->scale,
+      .tick_s = (float)world->tick_s * c->time_scale};
+  m.held_rate = 1 / m.tick_s;
+  return m;
+}
+
+/* Soft bodies that are stepped here, one by one; the others along with rigid parts, or alone. */
+static bool is_own(const sbri_meet_member *m, uint32_t island) {
+  const sbri_character *c = m->character;
+  return !sbri_island_is_coupled(c, island) && !c->model->islands[island].scheme->forceless &&
+         !sbri_island_states(c)[island].asleep;
+}
+
+/* ---- Before ---- */
+
+static uint32_t steps_of(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  if (island->scheme->sweeps || island->substeps) return island->substeps;
+  float stretch = *t->stretch > island->rest_stretch ? *t->stretch : island->rest_stretch;
+  return STEPS_OF_SOFT * sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), stretch);
+}
+
+/* Held points go from where they are to where they shall be. */
+static void hold(sbri_character *c, const sbri_island *island) {
+  sbri_point *begins = sbri_begins(c) + island->first_slot;
+  const sbri_point *positions = sbri_positions(c) + island->first_slot;
+  sbri_held_places(island, sbri_deltas(c), sbri_targets(c) + island->first_slot);
+  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) begins[slot] = positions[slot];
+}
+
+static uint32_t begin_island(const sbr_world *world, sbri_meet_member *m, uint32_t index) {
+  sbri_character *c = m->character;
+  sbri_island now = sbri_island_now(c, &c->model->islands[index]);
+  (void)sbri_island_follow(c, &now, index, m->tick_s); /* what has jumped goes on from there */
+  sbri_island_tuck(c, &now);
+  sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
+  tick.outer_rad_s = &now.outer_rad_s;
+  sbri_outer_look(&tick);
+  sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + now.first_slot);
+  sbri_island_prepare_contacts(&tick, c);
+  (void)sbri_router_choose(&tick, &sbri_island_states(c)[index].recovering);
+  uint32_t steps = steps_of(&tick);
+  hold(c, &now);
+  return steps;
+}
+
+static uint32_t begin(const sbr_world *world, sbri_meet_member *m) {
+  sbri_character *c = m->character;
+  uint32_t most = LEAST_STEPS;
+  if (sbri_rigid_parts_begin(world, c, &m->parts) && m->parts.tick.substeps > most)
+    most = m->parts.tick.substeps;
+  if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    if (!is_own(m, i)) {
+      if (sbri_island_is_coupled(c, i)) hold(c, &c->model->islands[i]);
+      continue;
+    }
+    uint32_t steps = begin_island(world, m, i);
+    most = steps > most ? steps : most;
+  }
+  return most;
+}
+
+/* ---- Steps ---- */
+
+static void advance_island(
+    const sbr_world *world, sbri_meet_member *m, uint32_t index, float from, float to) {
+  sbri_character *c = m->character;
+  sbri_island now = sbri_island_now(c, &c->model->islands[index]);
+  sbri_point *targets = sbri_targets(c) + now.first_slot;
+  const sbri_point *positions = sbri_positions(c) + now.first_slot;
+  float share = to - from, part = share / (1 - from);
+  if (now.substeps) now.substeps = (uint32_t)ceilf(share * (float)now.substeps);
+  sbri_held_places(&now, sbri_deltas(c), targets);
+  for (uint32_t s = now.free_count; s < now.slot_count; s++) {
+    const sbri_point *x = &positions[s];
+    targets[s] = (sbri_point){x->x + part * (targets[s].x - x->x), x->y + part * (targets[s].y - x->y),
+        x->z + part * (targets[s].z - x->z), 0};
+  }
+  sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
+  tick.tick_s *= share, tick.share = share;
+  tick.outer_rad_s = &now.outer_rad_s;
+  sbri_outer_look(&tick);
+  bool recovers = now.routed && sbri_island_states(c)[index].recovering > 0;
+  (recovers ? &sbri_position_based : now.scheme)->tick(&tick);
+}
+
+static void advance(const sbr_world *world, sbri_meet_member *m, float from, float to) {
+  sbri_character *c = m->character;
+  if (m->parts.steps) {
+    sbri_rigid_advance(&m->parts.tick, &m->parts.work, from, to);
+    sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c)); /* which the step had for its own */
+  }
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (is_own(m, i)) advance_island(world, m, i, from, to);
+  m->reached = to;
+  m->held_rate = 1 / (m->tick_s * (to - from));
+}
+
+/* ---- After ---- */
+
+static void end_island(const sbr_world *world, sbri_meet_member *m, uint32_t index) {
+  sbri_character *c = m->character;
+  sbri_island now = sbri_island_now(c, &c->model->islands[index]);
+  sbri_island_tick tick = sbri_island_tick_of(world, c, index, &now);
+  sbri_held_places(&now, sbri_deltas(c), sbri_positions(c) + now.first_slot);
+  sbri_island_tell(&tick, c);
+  if (now.splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
+  sbri_island_recover(world, c, index);
+  sbri_island_may_sleep(world, c, index);
+}
+
+static void end(const sbr_world *world, sbri_meet_member *m) {
+  sbri_character *c = m->character;
+  if (m->parts.steps) sbri_rigid_parts_end(&m->parts);
+  sbri_jiggles_tick(c, m->tick_s);
+  if (c->model->island_count) sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (is_own(m, i)) end_island(world, m, i);
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    if (c->model->islands[i].scheme->forceless) sbri_island_run(world, c, i);
+}
+
+/* Up to one of few numbers: steps that change from tick to tick drive what swings. */
+static uint32_t rounded_steps(uint32_t steps) {
+  uint32_t rounded = LEAST_STEPS;
+  while (rounded < steps) rounded = rounded % 3 ? rounded / 2 * 3 : rounded / 3 * 4;
+  return rounded < MOST_STEPS ? rounded : MOST_STEPS;
+}
+
+void sbri_group_run(sbr_world *world, sbri_meet_group *group) {
+  sbri_meet_member *members = world->meetings->members + group->first_member;
+  uint32_t steps = LEAST_STEPS;
+  for (uint32_t i = 0; i < group->member_count; i++) {
+    members[i] = member_of(world, members[i].character, group->origin);
+    uint32_t own = begin(world, &members[i]);
+    steps = own > steps ? own : steps;
+  }
+  steps = rounded_steps(steps);
+  for (uint32_t i = 0; i < group->member_count; i++)
+    if (members[i].parts.steps) members[i].parts.tick.substeps = steps;
+  sbri_meet_movers_list(world->meetings, group);
+  sbri_meet_touches_find(world, group);
+  group->step_s = (float)world->tick_s / (float)steps;
+  sbri_meet_recall(world->meetings, group, group->step_s);
+  for (uint32_t k = 0; k < steps; k++) {
+    float from = (float)k / (float)steps, to = (float)(k + 1) / (float)steps;
+    sbri_meet_push(world, group, k == 0);
+    for (uint32_t i = 0; i < group->member_count; i++) advance(world, &members[i], from, to);
+  }
+  sbri_meet_look(world->meetings, group);
+  for (uint32_t i = 0; i < group->member_count; i++) end(world, &members[i]);
+}

@@ -1,0 +1,63 @@
+/* One control tick of everything: characters' poses first, each a task; then their islands, each a task. A
+ * task touches nothing that another one does, so neither the number of threads nor their order shows. */
+#include <string.h>
+
+#include "detail/choose.h"
+#include "math/vec3.h"
+#include "meet/meetings.h"
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
+#include "solvers/scheme.h"
+#include "step/step.h"
+#include "tear/tear.h"
+
+static void tick_character(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_character_tick(world, &world->characters[index]);
+}
+
+static void tick_island(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_work work = world->work[index];
+  sbri_character *c = &world->characters[work.character];
+  if (!sbri_character_is_grouped(world, c) && !sbri_island_is_coupled(c, work.island))
+    sbri_island_run(world, c, work.island);
+}
+
+static void tick_group(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_group_run(world, &world->meetings->groups[index]);
+}
+
+static void run(sbr_world *world, sbr_task *task, size_t count) {
+  if (world->tasks.run)
+    world->tasks.run(world->tasks.user, task, world, (uint32_t)count);
+  else
+    for (uint32_t i = 0; i < count; i++) task(world, i);
+}
+
+static void follow_tears(sbr_world *world) {
+  for (uint32_t i = 0; i < world->work_count; i++) {
+    sbri_character *c = &world->characters[world->work[i].character];
+    uint32_t island = world->work[i].island;
+    if (c->model->islands[island].splits && sbri_tears_of(c)[island].count > 0) sbri_skins_follow(c, island);
+  }
+}
+
+void sbri_step_tick(sbr_world *world) {
+  world->ticks++;
+  sbri_colliders_begin_tick(&world->colliders);
+  if (world->meetings) sbri_meet_pairs_find(world);
+  if (world->detail && !world->meetings) sbri_detail_choose(world);
+  run(world, tick_character, world->character_capacity);
+  if (world->meetings) {
+    run(world, tick_group, world->meetings->group_count);
+    sbri_meet_remember(world);
+  }
+  sbri_work_list(world);
+  run(world, tick_island, world->work_count);
+  follow_tears(world);
+  sbri_tick_events_gather(world);
+  if (world->meetings) sbri_meet_tell(world);
+  sbri_tick_sleep_note(world);
+}

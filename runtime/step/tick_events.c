@@ -1,0 +1,89 @@
+/* What a tick leaves to tell: steps, touches, tears, sleep. */
+#include "math/vec3.h"
+#include "step/step.h"
+
+static void add_event(sbr_world *world, const sbri_character *c, sbr_event event, sbf_vec3 place) {
+  sbr_double3 origin = sbri_head(c)->origin;
+  event.character = sbri_id_of(world, c);
+  event.position =
+      (sbr_double3){origin.x + (double)place.x, origin.y + (double)place.y, origin.z + (double)place.z};
+  sbri_event_add(world, event);
+}
+
+/* The body that lists the element: of a spring between bodies, the first. */
+static uint32_t body_of_tear(const sbr_model *model, const sbri_island *island, const sbri_tear *tear) {
+  uint32_t spring = 0, link = tear->link;
+  for (uint32_t b = 0; tear->solid && b < island->body_count; b++) {
+    const sbri_body *body = &model->bodies[island->bodies[b]];
+    if (link - body->first_tetrahedron < body->tetrahedron_count) return island->bodies[b];
+  }
+  while (spring < island->spring_count && island->link_of_spring[spring] != link) spring++;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &model->bodies[island->bodies[b]];
+    if (spring >= body->first_spring && spring < body->spring_end) return island->bodies[b];
+  }
+  return island->bodies[0];
+}
+
+/* What has begun to be touched; `soft` and `rigid` name the body. */
+static void add_contacts(
+    sbr_world *world, const sbri_character *c, sbri_touching *touching, uint32_t soft, int32_t rigid) {
+  for (uint32_t i = 0; i < touching->count; i++) {
+    sbri_touching_one *one = &touching->now[i];
+    if (!one->fresh) continue;
+    one->fresh = false;
+    sbr_event event = {.kind = SBR_EVENT_CONTACT, .soft_body = soft, .rigid_body = rigid};
+    if (one->thing < world->colliders.capacity)
+      event.collider = sbri_collider_name(&world->colliders, one->thing);
+    event.normal = one->normal;
+    event.impulse = one->impulse * c->scale * c->scale * c->scale / c->time_scale;
+    add_event(world, c, event, sbri_scale(one->place, c->scale));
+  }
+}
+
+void sbri_tick_events_gather(sbr_world *world) {
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    const sbri_character *c = &world->characters[i];
+    if (!c->model) continue;
+    for (uint32_t e = 0; e < c->event_count; e++) {
+      const sbri_gait_event *from = &c->events[e];
+      add_event(
+          world, c, (sbr_event){.kind = from->kind, .leg = from->leg, .rigid_body = -1}, from->position);
+    }
+    uint32_t soft_count = c->model->island_count ? c->model->asset->soft_bodies.count : 0;
+    for (uint32_t b = 0; b < soft_count; b++) add_contacts(world, c, &sbri_soft_touching(c)[b], b, -1);
+    for (uint32_t b = 0; b < c->model->rigid.body_count; b++)
+      add_contacts(world, c, &sbri_rigid_touching(c)[b], 0, (int32_t)b);
+    for (uint32_t k = 0; !sbri_head(c)->asleep && k < c->model->island_count; k++) {
+      const sbri_tears *tears = &sbri_tears_of(c)[k];
+      for (uint32_t e = 0; e < tears->count && e < SBRI_TEARS; e++) {
+        uint32_t body = body_of_tear(c->model, &c->model->islands[k], &tears->at[e]);
+        add_event(world, c, (sbr_event){.kind = SBR_EVENT_TEAR, .soft_body = body, .rigid_body = -1},
+            sbri_scale(tears->at[e].place, c->scale));
+      }
+      if (tears->unsplit)
+        add_event(world, c,
+            (sbr_event){
+                .kind = SBR_EVENT_UNSPLIT, .soft_body = c->model->islands[k].bodies[0], .rigid_body = -1},
+            sbri_scale(tears->at[0].place, c->scale));
+    }
+  }
+}
+
+void sbri_tick_sleep_note(sbr_world *world) {
+  world->awake_count = 0;
+  for (size_t i = 0; i < world->work_count; i++) {
+    const sbri_character *c = &world->characters[world->work[i].character];
+    const sbri_island *island = &c->model->islands[world->work[i].island];
+    sbri_island_state *state = &sbri_island_states(c)[world->work[i].island];
+    if (!state->asleep) world->awake_count += island->body_count;
+    if (state->asleep == state->told_asleep) continue;
+    state->told_asleep = state->asleep;
+    const sbri_point *p = sbri_positions(c) + island->first_slot;
+    add_event(world, c,
+        (sbr_event){.kind = state->asleep ? SBR_EVENT_ASLEEP : SBR_EVENT_AWAKE,
+            .soft_body = island->bodies[0],
+            .rigid_body = -1},
+        sbri_scale(sbri_vec3(p->x, p->y, p->z), c->scale));
+  }
+}

@@ -1,0 +1,204 @@
+/* Skins of networks of springs that tear.
+ *
+ * A vertex rides on up to four points. Where a tear has parted these, it stays with those that carry more of
+ * it: of the others it takes the copies that have split off to that side, and what is left to be carried is
+ * shared by the side's own points, its rest place extrapolated from theirs. Two points are parted that were
+ * within three springs of each other at rest and are no more.
+ */
+#include "math/vec3.h"
+#include "tear/split.h"
+
+enum { MOST_SPRINGS_APART = 3, CARRIERS = 4 };
+
+void sbri_torn_network_begin(sbri_torn_network *t, sbri_character *c, uint32_t index) {
+  const sbri_island *made = &c->model->islands[index];
+  t->c = c, t->island = sbri_island_now(c, made);
+  t->whole = (sbri_network){&t->island, sbri_strengths(c) + made->first_flow};
+  t->rest = (sbri_network){made, NULL};
+  t->origins = sbri_origins(c) + made->first_slot;
+  t->seen = sbri_owners(c) + made->first_slot; /* all SBRI_UNUSED between looks */
+  t->queue = t->seen + c->model->slot_count;
+}
+
+/* Whether so few springs lead from one to the other. */
+static bool is_near(const sbri_torn_network *t, const sbri_network *network, uint32_t from, uint32_t to) {
+  uint32_t end = 1, step_end = 1;
+  bool found = from == to;
+  t->queue[0] = from, t->seen[from] = 0;
+  for (uint32_t next = 0, steps = 0; next < end && steps < MOST_SPRINGS_APART && !found; steps++) {
+    for (; next < step_end && !found; next++)
+      for (sbri_network_end e = {0}; !found && sbri_network_next(network, t->queue[next], &e);) {
+        found = e.other == to;
+        if (t->seen[e.other] == SBRI_UNUSED) t->seen[e.other] = 0, t->queue[end++] = e.other;
+      }
+    step_end = end;
+  }
+  for (uint32_t i = 0; i < end; i++) t->seen[t->queue[i]] = SBRI_UNUSED;
+  return found;
+}
+
+/* From the free one, since held points list no springs. */
+static bool is_joined(const sbri_torn_network *t, const sbri_network *network, uint32_t a, uint32_t b) {
+  return a < t->island.free_count ? is_near(t, network, a, b) : is_near(t, network, b, a);
+}
+static bool is_parted(const sbri_torn_network *t, uint32_t a, uint32_t b) {
+  return !is_joined(t, &t->whole, a, b) && is_joined(t, &t->rest, t->origins[a], t->origins[b]);
+}
+
+/* ---- Sides ---- */
+
+/* What carries a vertex; slots of the island. */
+typedef struct carriers {
+  uint32_t slots[CARRIERS];
+  float weights[CARRIERS];
+} carriers;
+
+static carriers read_carriers(const sbri_carry_cell *cells, uint32_t lane, uint32_t first_slot) {
+  carriers is;
+  for (uint32_t k = 0; k < CARRIERS; k++)
+    is.slots[k] = cells[k].slots[lane] - first_slot, is.weights[k] = cells[k].weights[lane];
+  return is;
+}
+
+static uint32_t heaviest_of(const carriers *is) {
+  uint32_t heavy = 0;
+  for (uint32_t k = 1; k < CARRIERS; k++)
+    if (is->weights[k] > is->weights[heavy]) heavy = k;
+  return heavy;
+}
+
+/* The copy of that point, or itself, which is not parted from `from`; SBRI_UNUSED: none. */
+static uint32_t copy_beside(const sbri_torn_network *t, uint32_t from, uint32_t slot) {
+  if (!is_parted(t, from, slot)) return slot;
+  for (uint32_t b = 0; b < t->island.body_count; b++) {
+    const sbri_body *body = &t->c->model->bodies[t->island.bodies[b]];
+    if (t->origins[slot] < body->slot_begin || t->origins[slot] >= body->slot_real_end) continue;
+    if (is_joined(t, &t->whole, from, t->origins[slot])) return t->origins[slot];
+    for (uint32_t spare = body->first_spare; spare < body->slot_real_end && t->origins[spare] != SBRI_UNUSED;
+         spare++)
+      if (t->origins[spare] == t->origins[slot] && is_joined(t, &t->whole, from, spare)) return spare;
+  }
+  return SBRI_UNUSED;
+}
+
+/* The carrier by whose side most of the vertex is carried. */
+static uint32_t choose_side(const sbri_torn_network *t, const carriers *is) {
+  uint32_t best = 0;
+  float most = -1;
+  for (uint32_t k = 0; k < CARRIERS; k++) {
+    float sum = 0;
+    for (uint32_t l = 0; l < CARRIERS; l++)
+      if (is->weights[l] > 0 && copy_beside(t, is->slots[k], is->slots[l]) != SBRI_UNUSED)
+        sum += is->weights[l];
+    if (is->weights[k] > 0 && sum > most + 1e-4f) best = k, most = sum;
+  }
+  return best;
+}
+
+/* ---- Weights ---- */
+
+static sbf_vec3 rest_of(const sbri_torn_network *t, uint32_t slot) {
+  const sbri_point *p = &t->rest.island->rest[t->origins[slot]];
+  return sbri_vec3(p->x, p->y, p->z);
+}
+
+/* The place of the vertex at rest, by what carried it when it was made. */
+static sbf_vec3 rest_place(const sbri_torn_network *t, const carriers *made) {
+  sbf_vec3 sum = {0, 0, 0};
+  float all = 0;
+  for (uint32_t k = 0; k < CARRIERS; k++)
+    sum = sbri_add_scaled(sum, rest_of(t, made->slots[k]), made->weights[k]), all += made->weights[k];
+  return sbri_scale(sum, 1 / all);
+}
+
+/* The least weights of sum 1 by which `count` points come nearest to the place: with M = B' B + e, B the
+ * points' offsets from it, those in proportion to M^-1 1. */
+static void find_weights(const sbf_vec3 *offsets, uint32_t count, double *weights) {
+  double m[CARRIERS][CARRIERS], size = 0, sum = 0;
+  for (uint32_t i = 0; i < count; i++) size += (double)sbri_dot(offsets[i], offsets[i]);
+  for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t j = 0; j < count; j++) m[i][j] = (double)sbri_dot(offsets[i], offsets[j]);
+    m[i][i] += 1e-4 * size + 1e-30, weights[i] = 1;
+  }
+  for (uint32_t i = 0; i < count; i++) /* symmetric and positive: no pivots */
+    for (uint32_t row = i + 1; row < count; row++) {
+      double share = m[row][i] / m[i][i];
+      for (uint32_t j = i; j < count; j++) m[row][j] -= share * m[i][j];
+      weights[row] -= share * weights[i];
+    }
+  for (uint32_t i = count; i-- > 0;) {
+    for (uint32_t j = i + 1; j < count; j++) weights[i] -= m[i][j] * weights[j];
+    weights[i] /= m[i][i], sum += weights[i];
+  }
+  for (uint32_t i = 0; i < count; i++) weights[i] /= sum;
+}
+
+static bool has(const carriers *is, uint32_t count, uint32_t slot) {
+  for (uint32_t k = 0; k < count; k++)
+    if (is->slots[k] == slot) return true;
+  return false;
+}
+
+/* On one side alone: what is left of the carriers, then the side's other points. */
+static void ride_on(const sbri_torn_network *t, carriers *is, uint32_t side, const carriers *made) {
+  carriers next = {{0}, {0}};
+  double weights[CARRIERS];
+  sbf_vec3 offsets[CARRIERS], place = rest_place(t, made);
+  uint32_t count = 0, from = is->slots[side];
+  float all = 0;
+  for (uint32_t k = 0; k < CARRIERS; k++) {
+    uint32_t slot = is->weights[k] != 0 ? copy_beside(t, from, is->slots[k]) : SBRI_UNUSED;
+    all += is->weights[k];
+    if (slot != SBRI_UNUSED && !has(&next, count, slot)) next.slots[count++] = slot;
+  }
+  for (sbri_network_end e = {0}; count < CARRIERS && sbri_network_next(&t->whole, from, &e);)
+    if (!has(&next, count, e.other)) next.slots[count++] = e.other;
+  for (uint32_t k = 0; k < count; k++) offsets[k] = sbri_sub(rest_of(t, next.slots[k]), place);
+  find_weights(offsets, count, weights);
+  for (uint32_t k = 0; k < count; k++) next.weights[k] = all * (float)weights[k];
+  for (uint32_t k = count; k < CARRIERS; k++) next.slots[k] = from;
+  *is = next;
+}
+
+/* ---- What the tears of a tick do ---- */
+
+bool sbri_network_vertex_follow(const sbri_torn_network *t, const sbri_skin *skin, uint32_t binding) {
+  const sbri_binding *bound = &skin->bindings[binding];
+  uint32_t lane = bound->vertex % SBRI_BLOCK, first = t->island.first_slot;
+  sbri_carry_cell *cells = sbri_skin_cells(t->c) + skin->first_cell + bound->cell;
+  const uint8_t *frayed = sbri_frayed(t->c) + first;
+  carriers is = read_carriers(cells, lane, first),
+           made = read_carriers(skin->cells + bound->cell, lane, first);
+  bool near = false, parted = false, lost = false;
+  for (uint32_t k = 0; k < CARRIERS; k++) near = near || frayed[is.slots[k]];
+  if (!near) return false;
+  for (uint32_t k = 0; k < CARRIERS; k++)
+    for (uint32_t l = 0; l < k; l++)
+      parted = parted || (is.weights[k] != 0 && is.weights[l] != 0 && is_parted(t, is.slots[k], is.slots[l]));
+  if (!parted) return true;
+  uint32_t side = choose_side(t, &is);
+  carriers copies = is;
+  for (uint32_t k = 0; k < CARRIERS; k++) {
+    if (is.weights[k] != 0) copies.slots[k] = copy_beside(t, is.slots[side], is.slots[k]);
+    lost = lost || copies.slots[k] == SBRI_UNUSED;
+  }
+  if (lost)
+    ride_on(t, &is, side, &made);
+  else
+    is = copies;
+  for (uint32_t k = 0; k < CARRIERS; k++)
+    cells[k].slots[lane] = first + is.slots[k], cells[k].weights[lane] = is.weights[k];
+  return true;
+}
+
+bool sbri_network_vertices_part(
+    const sbri_torn_network *t, const sbri_skin *skin, uint32_t binding_a, uint32_t binding_b) {
+  uint32_t slots[2];
+  for (int i = 0; i < 2; i++) {
+    const sbri_binding *bound = &skin->bindings[i ? binding_b : binding_a];
+    carriers is = read_carriers(sbri_skin_cells(t->c) + skin->first_cell + bound->cell,
+        bound->vertex % SBRI_BLOCK, t->island.first_slot);
+    slots[i] = is.slots[heaviest_of(&is)];
+  }
+  return is_parted(t, slots[0], slots[1]);
+}

@@ -1,0 +1,157 @@
+/* Where the parts of a character's state and scratch lie in their blocks. */
+#include "world/state.h"
+
+static size_t place(size_t *end, size_t count, size_t size) {
+  size_t at = (*end + 63) & ~(size_t)63;
+  *end = at + count * size;
+  return at;
+}
+
+static size_t padded(size_t count) {
+  return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
+}
+
+size_t sbri_deltas_size(const sbr_model *model) {
+  return model->frame_count * sizeof(sbri_delta) + model->asset->followers.count * sizeof(sbri_squash);
+}
+
+static void make_layout(sbr_model *model) {
+  sbri_layout *l = &model->layout;
+  size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
+         surface = 0, surface_faces = 0, samples = 0, self_faces = 0, end = 0;
+  for (uint32_t i = 0; i < model->skin_count; i++) {
+    const sbri_skin *skin = &model->skins[i];
+    vertices = skin->vertex_count > vertices ? skin->vertex_count : vertices;
+    faces = skin->face_block_count > faces ? skin->face_block_count : faces;
+    groups = skin->split.group_count > groups ? skin->split.group_count : groups;
+    groups = skin->smooth.group_count > groups ? skin->smooth.group_count : groups;
+  }
+  for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
+    sbri_body *body = &model->bodies[i];
+    body->first_vertex = (uint32_t)surface;
+    body->first_face = (uint32_t)surface_faces;
+    /* One on the ground and one on something else each, and a few between several things. */
+    uint32_t places = body->samples ? 2 * body->sample_count : 2 * (body->slot_end - body->slot_begin);
+    body->first_touch = (uint32_t)samples;
+    body->touch_capacity = body->level ? places + 64 : 0;
+    samples += body->touch_capacity;
+    body->first_self_face = (uint32_t)self_faces;
+    self_faces += body->self_face_count;
+    surface += padded(body->surface.vertex_count);
+    surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
+  }
+  place(&end, 1, sizeof(sbri_character_state));
+  const sbr_model *base = model->base;
+  uint32_t meshes = base->rung_count > 1 ? model->asset->render_meshes.count : 0;
+  l->faded = place(&end, meshes ? base->first_vertices[meshes] : 0, sizeof(sbf_vec3));
+  l->gait = place(&end, 1, sbri_gait_state_size(&model->rig));
+  l->pose = place(&end, frames, sizeof(sbr_transform));
+  l->previous_pose = place(&end, frames, sizeof(sbr_transform));
+  l->islands = place(&end, model->island_count, sizeof(sbri_island_state));
+  l->positions = place(&end, slots, sizeof(sbri_point));
+  l->previous_positions = place(&end, slots, sizeof(sbri_point));
+  l->velocities = place(&end, 3 * slots, sizeof(float));
+  l->guide_motions = place(&end, model->asset->soft_bodies.count, sizeof(sbri_guide_motion));
+  l->rests = place(&end, model->flow_count, sizeof(float));
+  l->strengths = place(&end, model->flow_count, sizeof(float));
+  l->rotations = place(&end, 4 * SBRI_BLOCK * (size_t)model->region_block_count, sizeof(float));
+  l->solids = place(&end, model->solid_block_count, sizeof(sbri_tetrahedron_block));
+  l->torn = place(&end, model->solid_count, sizeof(uint32_t));
+  size_t torn_slots = model->splits ? slots : 0;
+  l->origins = place(&end, torn_slots, sizeof(uint32_t));
+  l->masses = place(&end, torn_slots, sizeof(float));
+  l->inverse_masses = place(&end, torn_slots, sizeof(float));
+  l->gravity_scales = place(&end, torn_slots, sizeof(float));
+  size_t thread_cells = model->thread_cell_count;
+  l->thread_ends = place(&end, model->thread_block_count, sizeof(uint32_t));
+  l->thread_cells = place(&end, thread_cells, sizeof(sbri_spring_cell));
+  l->thread_damping = place(&end, thread_cells * SBRI_BLOCK, sizeof(float));
+  l->thread_slack = place(&end, thread_cells * SBRI_BLOCK, sizeof(float));
+  l->thread_links = place(&end, thread_cells * SBRI_BLOCK, sizeof(uint32_t));
+  l->thread_blocks = place(&end, model->thread_link_count, sizeof(sbri_link_block));
+  l->skin_cells = place(&end, model->torn_cell_count, sizeof(sbri_carry_cell));
+  l->bound_to = place(&end, model->binding_count, sizeof(uint32_t));
+  l->torn_polygons = place(&end, model->torn_polygon_count, sizeof(uint32_t));
+  l->rigid_bodies = place(&end, model->rigid.body_count, sizeof(sbri_rigid_body_state));
+  l->rigid_joints = place(&end, model->rigid.joint_count, sizeof(sbri_rigid_joint_state));
+  l->rigid_drive = place(&end, model->rigid.body_count ? 1 : 0, sizeof(sbri_rigid_drive_state));
+  l->rigid_kept = place(&end, sbri_rigid_touch_capacity(&model->rigid), sizeof(sbri_kept_touch));
+  l->jiggles = place(&end, model->jiggle_count, sizeof(sbri_place_follower));
+  l->used_size = l->state_size = (end + 63) & ~(size_t)63;
+  end = 0;
+  l->deltas = place(&end, 1, sbri_deltas_size(model));
+  l->previous_deltas = place(&end, 1, sbri_deltas_size(model));
+  l->animated = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
+  l->rigid_targets = place(&end, model->rigid.body_count, sizeof(sbr_transform));
+  l->reactions = place(&end, model->rigid.body_count, sizeof(sbri_reaction));
+  l->stepped_pose = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
+  l->rigid_work = place(&end, sbri_rigid_work_size(&model->rigid), 1);
+  l->gait_before = place(&end, 1, sbri_gait_state_size(&model->rig));
+  l->targets = place(&end, slots, sizeof(sbri_point));
+  l->guide_velocities = place(&end, 3 * slots, sizeof(float));
+  l->begins = place(&end, slots, sizeof(sbri_point));
+  l->velocity_points = place(&end, slots, sizeof(sbri_point));
+  l->outer = place(&end, slots, sizeof(sbri_point));
+  l->accelerations = place(&end, 3 * slots, sizeof(float));
+  l->older_velocities = place(&end, 3 * slots, sizeof(float));
+  l->moves = place(&end, slots, sizeof(sbri_point));
+  l->edges = place(&end, (size_t)model->link_block_count * 3 * SBRI_BLOCK, sizeof(float));
+  l->solid_edges = place(&end, (size_t)model->tetrahedron_block_count * 9 * SBRI_BLOCK, sizeof(float));
+  l->tears = place(&end, model->island_count, sizeof(sbri_tears));
+  l->element_forces = place(&end, slots, sizeof(sbri_point));
+  l->planes = place(&end, 4 * slots, sizeof(float));
+  l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
+  l->touches = place(&end, samples, sizeof(sbri_touch));
+  l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
+  l->slot_touches = place(&end, slots, 1);
+  l->self_boxes = place(&end, self_faces, sizeof(sbri_box));
+  l->self_nodes = place(&end, 2 * self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
+  l->self_items = place(&end, self_faces, sizeof(uint32_t));
+  l->touching = place(&end, model->asset->soft_bodies.count, sizeof(sbri_touching));
+  l->rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
+  l->sampled = place(&end, slots, sizeof(sbri_point));
+  l->sampled_deltas = place(&end, 1, sbri_deltas_size(model));
+  l->vertices = place(&end, padded(vertices), sizeof(sbri_point));
+  l->faces = place(&end, faces * SBRI_BLOCK, sizeof(sbri_point));
+  l->sums = place(&end, padded(groups > vertices ? groups : vertices), sizeof(sbri_point));
+  l->visits = place(&end, 2 * (size_t)model->solid_count, sizeof(uint32_t));
+  l->queue = place(&end, model->solid_count, sizeof(uint32_t));
+  l->touched = place(&end, model->binding_count, 1);
+  l->owners = place(&end, model->thread_cell_count ? 2 * slots : 0, sizeof(uint32_t));
+  l->frayed = place(&end, model->thread_cell_count ? slots : 0, 1);
+  l->surface_vertices = place(&end, surface, sizeof(sbri_point));
+  l->surface_forces = place(&end, surface, sizeof(sbri_point));
+  l->surface_velocities = place(&end, surface, sizeof(sbri_point));
+  l->surface_faces = place(&end, surface_faces, sizeof(sbri_point));
+  l->own_scratch_size = l->scratch_size = (end + 63) & ~(size_t)63;
+}
+
+/* All rungs take as much as the one that takes the most, and behind their scratch have room for what a change
+ * of rungs keeps of the one before. */
+void sbri_layouts_make(sbr_model *model) {
+  size_t state = 0, scratch = 0, slots = 0, vertices = 0, bodies = model->asset->soft_bodies.count;
+  for (uint32_t r = 0; r < model->rung_count; r++) {
+    sbr_model *one = model->rungs[r];
+    make_layout(one);
+    state = one->layout.state_size > state ? one->layout.state_size : state;
+    scratch = one->layout.scratch_size > scratch ? one->layout.scratch_size : scratch;
+    slots = one->slot_count > slots ? one->slot_count : slots;
+  }
+  for (uint32_t i = 0; i < model->skin_count; i++)
+    vertices =
+        padded(model->skins[i].vertex_count) > vertices ? padded(model->skins[i].vertex_count) : vertices;
+  for (uint32_t r = 0; r < model->rung_count; r++) {
+    sbri_layout *l = &model->rungs[r]->layout;
+    size_t end = scratch;
+    l->state_size = state, l->scratch_size = scratch;
+    if (model->rung_count == 1) continue;
+    l->kept = place(&end, 1, state);
+    l->kept_touching = place(&end, bodies, sizeof(sbri_touching));
+    l->kept_rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
+    l->offsets = place(&end, slots, sizeof(sbri_point));
+    l->speeds = place(&end, slots, sizeof(sbri_point));
+    l->energies = place(&end, bodies, sizeof(double));
+    l->fading = place(&end, vertices, sizeof(sbri_point));
+    l->scratch_size = (end + 63) & ~(size_t)63;
+  }
+}

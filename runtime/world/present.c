@@ -1,0 +1,41 @@
+/* The model's tables as a character has them now: with what its state has in place of theirs where it may
+ * tear. */
+#include "world/state.h"
+
+sbri_island sbri_island_now(const sbri_character *c, const sbri_island *island) {
+  sbri_island now = *island;
+  if (!island->splits) return now;
+  now.masses = sbri_masses(c) + island->first_slot;
+  now.inverse_masses = sbri_inverse_masses(c) + island->first_slot;
+  now.gravity_scales = sbri_gravity_scales(c) + island->first_slot;
+  if (!island->frays) return now;
+  size_t first = island->first_thread_cell;
+  now.cell_ends = sbri_thread_ends(c) + island->first_thread_block;
+  now.cells = sbri_thread_cells(c) + first;
+  now.cell_links = sbri_thread_links(c) + first * SBRI_BLOCK;
+  if (island->cell_damping) now.cell_damping = sbri_thread_damping(c) + first * SBRI_BLOCK;
+  if (island->cell_slack) now.cell_slack = sbri_thread_slack(c) + first * SBRI_BLOCK;
+  now.links = sbri_thread_blocks(c) + island->first_thread_link;
+  for (uint32_t b = 0; b < island->body_count; b++) { /* parts may swing faster than they did as one */
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    bool reserved = body->first_spare < body->slot_real_end;
+    if (reserved && sbri_origins(c)[island->first_slot + body->first_spare] != SBRI_UNUSED)
+      now.fastest_rad_s = island->bound_rad_s;
+  }
+  return now;
+}
+
+void sbri_follow_origins(const sbri_character *c, const sbri_body *body, sbri_point *places) {
+  if (body->first_spare == body->slot_real_end) return;
+  const uint32_t *origins = sbri_origins(c) + c->model->islands[body->island].first_slot;
+  for (uint32_t slot = body->first_spare; slot < body->slot_real_end; slot++) {
+    uint32_t from = origins[slot] == SBRI_UNUSED ? body->slot_begin : origins[slot];
+    places[slot - body->slot_begin] = places[from - body->slot_begin];
+  }
+}
+
+sbri_skin sbri_skin_now(const sbri_character *c, const sbri_skin *skin) {
+  sbri_skin now = *skin;
+  if (skin->binding_count) now.cells = sbri_skin_cells(c) + skin->first_cell;
+  return now;
+}

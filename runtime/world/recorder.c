@@ -1,0 +1,57 @@
+/* Public calls on their way into a recording. */
+#include <string.h>
+
+#include "math/usable.h"
+#include "world/world.h"
+
+/* How many numbers each has. */
+static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
+    [SBRI_RECORDED_STEP] = 1,
+    [SBRI_RECORDED_TICK] = 0,
+    [SBRI_RECORDED_MADE] = 1,
+    [SBRI_RECORDED_DESTROY] = 1,
+    [SBRI_RECORDED_DRIVE] = 4,
+    [SBRI_RECORDED_TELEPORT] = 5,
+    [SBRI_RECORDED_RESET] = 1,
+    [SBRI_RECORDED_WAKE] = 1,
+    [SBRI_RECORDED_PAUSE] = 2,
+    [SBRI_RECORDED_REACH] = 10,
+    [SBRI_RECORDED_RELEASE] = 2,
+    [SBRI_RECORDED_PIVOT] = 2,
+    [SBRI_RECORDED_PLAY] = 8,
+    [SBRI_RECORDED_RIGID_MODE] = 3,
+    [SBRI_RECORDED_RIGID_DRIVE] = 5,
+    [SBRI_RECORDED_RIGID_SHARE] = 3,
+    [SBRI_RECORDED_RIGID_PUSH] = 8,
+    [SBRI_RECORDED_RIGID_FALL] = 4,
+    [SBRI_RECORDED_RUNG] = 2,
+    [SBRI_RECORDED_SHOWN] = 2,
+    [SBRI_RECORDED_VIEW] = 11};
+
+uint32_t sbri_recorded_count(sbri_recorded what) {
+  return counts[what];
+}
+
+static void put_u32(unsigned char *to, uint32_t value) {
+  for (int i = 0; i < 4; i++) to[i] = (unsigned char)(value >> 8 * i);
+}
+
+static void put_double(unsigned char *to, double value) {
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  put_u32(to, (uint32_t)bits);
+  put_u32(to + 4, (uint32_t)(bits >> 32));
+}
+
+bool sbri_record(sbr_world *world, sbri_recorded what, const double *numbers) {
+  unsigned char bytes[SBRI_RECORDED_HEAD_BYTES + SBRI_RECORDED_MOST * SBRI_RECORDED_NUMBER_BYTES];
+  if (!sbri_usable(numbers, counts[what])) return false;
+  if (!world->record.write) return true;
+  put_u32(bytes, (uint32_t)what);
+  put_u32(bytes + 4, counts[what]);
+  for (uint32_t i = 0; i < counts[what]; i++)
+    put_double(bytes + SBRI_RECORDED_HEAD_BYTES + i * SBRI_RECORDED_NUMBER_BYTES, numbers[i]);
+  world->record.write(world->record.user, bytes,
+      SBRI_RECORDED_HEAD_BYTES + (size_t)counts[what] * SBRI_RECORDED_NUMBER_BYTES);
+  return true;
+}

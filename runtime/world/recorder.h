@@ -1,0 +1,47 @@
+/* What public calls leave in a recording (sbrun/record.h). */
+#ifndef SBRI_RECORDER_H
+#define SBRI_RECORDER_H
+
+#include "sbrun/record.h"
+
+/* Numbers of the recording's form: never changed, never used again. */
+typedef enum sbri_recorded {
+  SBRI_RECORDED_HASH,     /* ticks, high and low word of the hash */
+  SBRI_RECORDED_STEP,     /* seconds */
+  SBRI_RECORDED_TICK,     /* none */
+  SBRI_RECORDED_MADE,     /* character: its making is not recorded */
+  SBRI_RECORDED_DESTROY,  /* character, as in all that follow */
+  SBRI_RECORDED_DRIVE,    /* forward, sideways, turn */
+  SBRI_RECORDED_TELEPORT, /* x, y, z, heading */
+  SBRI_RECORDED_RESET,
+  SBRI_RECORDED_WAKE,
+  SBRI_RECORDED_PAUSE,       /* 1 or 0 */
+  SBRI_RECORDED_REACH,       /* chain, position, rotation, weight */
+  SBRI_RECORDED_RELEASE,     /* chain */
+  SBRI_RECORDED_PIVOT,       /* leg */
+  SBRI_RECORDED_PLAY,        /* layer, clip, weight, fade, speed, start, mask */
+  SBRI_RECORDED_RIGID_MODE,  /* body, mode */
+  SBRI_RECORDED_RIGID_DRIVE, /* frequency, damping ratio, strength, joint damping */
+  SBRI_RECORDED_RIGID_SHARE, /* body, share */
+  SBRI_RECORDED_RIGID_PUSH,  /* body, place, impulse */
+  SBRI_RECORDED_RIGID_FALL,  /* share, rest, rise */
+  SBRI_RECORDED_RUNG,        /* rung */
+  SBRI_RECORDED_SHOWN,       /* how */
+  SBRI_RECORDED_VIEW,        /* which, of how many, eye, forward, height, width, lines: without a character */
+  SBRI_RECORDED_COUNT
+} sbri_recorded;
+
+enum { SBRI_RECORDED_MOST = 11 }; /* numbers of one */
+
+/* Whether the numbers are usable (math/usable.h): where they are not nothing is recorded, and the call that
+ * they were of does nothing. */
+bool sbri_record(sbr_world *world, sbri_recorded what, const double *numbers);
+
+/* A recording begins with this; then each has its number and how many numbers follow, of 4 bytes each, and
+ * these, doubles, all with the lowest byte first. */
+#define SBRI_RECORDING_MAGIC "!sbrrec1"
+enum { SBRI_RECORDING_MAGIC_BYTES = 8, SBRI_RECORDED_HEAD_BYTES = 8, SBRI_RECORDED_NUMBER_BYTES = 8 };
+/* How many numbers it has. */
+uint32_t sbri_recorded_count(sbri_recorded what);
+
+#endif

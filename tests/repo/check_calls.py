@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Calls point one way: reads from the built runtime which file calls which, and names the circles.
+
+Includes alone do not tell: a header may declare what any file defines. So `nm` is asked what each member of the
+static library defines and what it needs of the others, functions and tables alike.
+
+- No files call each other in a circle.
+- Folders call only what their row in check_includes.py names.
+
+Usage: check_calls.py LIBRARY.a"""
+import os
+import sys
+
+from check_includes import RUNTIME
+from check_symbols import run
+from repo_files import SKIPPED, conclude, project_files
+
+# Circles that wait to be undone, each by one of its files. One that is listed here and gone is at fault too.
+KNOWN = {"runtime/contact/contact.c", "runtime/gait/body.c", "runtime/meet/find.c", "runtime/prepare/island.c",
+         "runtime/skeleton/rig.c", "runtime/solvers/schemes.c"}
+
+
+def read(table, places):
+    """`table`: what `nm` prints of the library; `places`: file name -> path. Path -> path -> names that the first takes of the
+    second, and the members that have no source."""
+    needs, owners, lost, member = {}, {}, [], None
+    for line in table.splitlines():
+        fields = line.split()
+        if line.endswith(":"):
+            name = line[:-1].rsplit(".", 1)[0]
+            member = places.get(name)
+            if member is None:
+                lost.append(name)
+            else:
+                needs[member] = []
+        elif len(fields) >= 2 and member is not None:
+            if fields[-2] == "U":
+                needs[member].append(fields[-1])
+            elif fields[-2].isupper():
+                owners[fields[-1]] = member
+    calls = {path: {} for path in needs}
+    for path, names in needs.items():
+        for name in names:
+            if owners.get(name, path) != path:
+                calls[path].setdefault(owners[name], []).append(name)
+    return calls, lost
+
+
+def reach(calls, start):
+    found, left = set(), [start]
+    while left:
+        for path in calls[left.pop()]:
+            if path not in found:
+                found.add(path)
+                left.append(path)
+    return found
+
+
+def circles_of(calls):
+    """Sets of files each of which calls, by way of others, each."""
+    reached = {path: reach(calls, path) for path in calls}
+    return sorted({frozenset(other for other in reached[path] if path in reached[other])
+                   for path in calls if path in reached[path]}, key=sorted)
+
+
+def folder_of(path):
+    return path.split("/")[1]
+
+
+def faults_of(calls, lost, known=frozenset()):
+    faults = [f"{name}: in the library, and no one source of the runtime has that name" for name in lost]
+    circles = circles_of(calls)
+    for circle in circles:
+        if circle & known:
+            continue
+        ties = [f"\n  {a} takes {', '.join(sorted(calls[a][b]))} of {b}"
+                for a in sorted(circle) for b in sorted(calls[a]) if b in circle]
+        faults.append("a circle: move what the lower file takes of the upper one below both" + "".join(ties))
+    for path in sorted(known - {path for circle in circles for path in circle}):
+        faults.append(f"{path}: is in no circle any more: take it out of KNOWN")
+    for a in sorted(calls):
+        for b in sorted(calls[a]):
+            if folder_of(b) != folder_of(a) and folder_of(b) not in RUNTIME.get(folder_of(a), ()):
+                faults.append(f"{a}: {', '.join(sorted(calls[a][b]))} of {b}: {folder_of(a)} must not use {folder_of(b)}")
+    return faults
+
+
+def main():
+    if len(sys.argv) < 2 or not os.path.exists(sys.argv[1]):
+        print("skipped: no static library given, as in a build with BUILD_SHARED_LIBS")
+        sys.exit(SKIPPED)
+    places = {}
+    for path in project_files():
+        if path.startswith("runtime/") and path.endswith(".c") and not path.startswith("runtime/hosts/"):
+            places[os.path.basename(path)] = path
+    calls, lost = read(run("nm", sys.argv[1]), places)
+    faults = faults_of(calls, lost, KNOWN)
+    count = sum(len(names) for others in calls.values() for names in others.values())
+    if len(calls) < 20 or count < 100:
+        faults.append(f"only {count} names between {len(calls)} files seen: the check would be empty")
+    conclude(f"{count} names that {len(calls)} files take of each other", faults)
+
+
+if __name__ == "__main__":
+    main()
