@@ -17,7 +17,7 @@ foreach(component core mechanics format interchange runtime)
 endforeach()
 
 if(SBFMT_RUNTIME_ONLY)
-  set(sdk_headers PATTERN validate.h EXCLUDE PATTERN build.h EXCLUDE PATTERN materials.h EXCLUDE PATTERN convert.h EXCLUDE PATTERN export.h EXCLUDE)
+  set(sdk_headers PATTERN io.h EXCLUDE PATTERN validate.h EXCLUDE PATTERN build.h EXCLUDE PATTERN materials.h EXCLUDE PATTERN convert.h EXCLUDE PATTERN export.h EXCLUDE)
 endif()
 install(DIRECTORY libsbfmt/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.h ${sdk_headers})
 install(DIRECTORY runtime/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.h)

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 #include "sbrun/sbrun.h"
 
 static int failed(const sbf_diagnostic *error) {

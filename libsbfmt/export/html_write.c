@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/module_path.h"
 #include "export/exporting.h"
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 
 enum { PATH_SIZE = 4096, LARGEST_PART = 64 << 20 };
 static const char template_name[] = "viewer.html";

@@ -1,5 +1,5 @@
 #include "base/memory.h"
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 
 void sbf_buffer_free(sbf_buffer *buffer) {
   sbfi_free(&buffer->allocator, buffer->at, buffer->capacity);

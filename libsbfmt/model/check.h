@@ -2,7 +2,7 @@
 #ifndef SBFI_CHECK_H
 #define SBFI_CHECK_H
 
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 
 /* What a load does last, with what it has read: the structure (sbf_asset_check; of an outline what is there),
  * and that no extension is required which the caller does not know. Fills `*error` (may be NULL) with the

@@ -2,7 +2,7 @@
 #ifndef SBFI_OPTIONS_H
 #define SBFI_OPTIONS_H
 
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 
 /* Copies to `to`, of `known` bytes and zero, what the caller's struct has, whose first member is its size; 0
  * stands for all. `given` may be NULL. False where the size is none that any version had. */

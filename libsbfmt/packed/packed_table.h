@@ -3,7 +3,7 @@
 #define SBFI_PACKED_TABLE_H
 
 #include "packed/packed_format.h"
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 
 typedef struct sbfi_packed_table {
   sbfi_packed_header header;

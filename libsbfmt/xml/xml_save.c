@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "model/asset_box.h"
 #include "model/check.h"
+#include "sbfmt/io.h"
 #include "xml/xml_writer.h"
 
 sbf_status sbf_xml_save_memory(const sbf_asset *asset, const sbf_save_options *options,

@@ -10,7 +10,7 @@
 
 #include "chance_scene.h"
 #include "harness.h"
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 #include "sbrun/sbrun.h"
 
 enum { WALK_TICKS = 40 };

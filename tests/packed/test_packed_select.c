@@ -1,4 +1,4 @@
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 
 #include <stdlib.h>
 #include <string.h>

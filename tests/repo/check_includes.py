@@ -68,7 +68,7 @@ MAY_USE = {
 # Public header -> its box, and which boxes may use it.
 HEADER_BOX = {
     "sbfmt/base.h": "core", "sbfmt/codes.h": "core", "sbfmt/model.h": "core", "sbfmt/asset.h": "core",
-    "sbfmt/io.h": "core", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
+    "sbfmt/packed.h": "core", "sbfmt/io.h": "format", "sbfmt/mechanics.h": "mechanics", "sbfmt/validate.h": "format",
     "sbfmt/build.h": "format", "sbfmt/materials.h": "format", "sbfmt/convert.h": "interchange", "sbfmt/export.h": "interchange", "sbrun/sbrun.h": "runtime",
     "sbrun/animation.h": "runtime", "sbrun/record.h": "runtime", "sbrun/collision.h": "runtime", "sbrun/detail.h": "runtime", "sbrun/rigid.h": "runtime", "sbrun/terrain.h": "runtime",
 }
@@ -117,7 +117,7 @@ def box_of(path):
         if path.startswith(prefix):
             return HEADER_BOX.get(path[len(prefix):])
     folder = longest(FOLDER_BOX, path)
-    return FOLDER_BOX[folder] if folder and not path.startswith("runtime/hosts/") else "program"
+    return FOLDER_BOX[folder] if folder else "program"
 
 
 def resolve(path, name, files):

@@ -6,7 +6,7 @@
 #include "math/quat_log.h"
 #include "quadruped.h"
 #include "sbfmt/asset.h"
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 #include "sbrun/animation.h"
 
 enum { LINKS = 6, SOURCE_BONES = LINKS + 2, BONES = 20, HEAD = 4, TAIL = 5 };

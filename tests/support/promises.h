@@ -1,4 +1,4 @@
-/* What a loaded asset promises (sbfmt/io.h), found out anew: tests and fuzz targets alike ask here. */
+/* What a loaded asset promises (sbfmt/packed.h), found out anew: tests and fuzz targets alike ask here. */
 #ifndef TEST_PROMISES_H
 #define TEST_PROMISES_H
 

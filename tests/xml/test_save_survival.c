@@ -68,7 +68,7 @@ static bool has_bytes(const char *path, const sbf_buffer *bytes) {
   return same;
 }
 
-/* The name that io.h states: .sbf-, eight hexadecimal digits, .tmp */
+/* The name that packed.h states: .sbf-, eight hexadecimal digits, .tmp */
 static bool is_left_over(const char *name) {
   return strlen(name) == 17 && memcmp(name, ".sbf-", 5) == 0 && strspn(name + 5, "0123456789abcdef") == 8 &&
          strcmp(name + 13, ".tmp") == 0;

@@ -1,6 +1,6 @@
 """The shared library: where it is, and its structures and calls as ctypes has them.
 
-The structures are those of base.h, io.h, build.h, convert.h, validate.h and export.h of this very version; a newer
+The structures are those of base.h, packed.h, build.h, convert.h, validate.h and export.h of this very version; a newer
 library takes them as well, since options grow at their end alone and begin with their size.
 """
 

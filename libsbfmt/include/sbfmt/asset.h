@@ -32,7 +32,7 @@ SBF_API sbf_asset *sbf_asset_clone(const sbf_asset *asset, const sbf_allocator *
  * Where they differ, and `path` is not NULL, it receives the element path of the first difference. */
 SBF_API bool sbf_asset_equal(const sbf_asset *a, const sbf_asset *b, char *path, size_t path_size);
 
-/* Checks the structure: everything that sbfmt/io.h promises of a loaded asset. Reports faults through
+/* Checks the structure: everything that sbfmt/packed.h promises of a loaded asset. Reports faults through
  * `report` (may be NULL) and returns how many there were; stops after `limit` of them (0: none). Of a list it
  * reports the first item that breaks a rule. `asset` must come from sbf_asset_create or a load. */
 SBF_API uint32_t sbf_asset_check(const sbf_asset *asset,

@@ -4,7 +4,7 @@
  * Functions allocate nothing: results and scratch memory are the caller's, with the shapes given. They are
  * pure functions of their arguments, thread safe, and give the same bits on every machine (sums run in double
  * in the order of the lists; no mathematical function but the square root). Units are SI. Assets are valid as
- * sbfmt/io.h promises; nothing here fails. */
+ * sbfmt/packed.h promises; nothing here fails. */
 #ifndef SBFMT_MECHANICS_H
 #define SBFMT_MECHANICS_H
 

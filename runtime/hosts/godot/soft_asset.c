@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 
 /* ---- What characters share ---- */
 

@@ -4,7 +4,7 @@
 #ifndef WEB_H
 #define WEB_H
 
-#include "sbfmt/io.h"
+#include "sbfmt/packed.h"
 #include "sbrun/animation.h"
 #include "sbrun/collision.h"
 #include "sbrun/rigid.h"
