@@ -38,6 +38,8 @@ if(TARGET sbfmt)
   list(APPEND CPACK_COMPONENTS_ALL tools)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME sbfmt)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
+  # Opened at run time, by `render` and `view` alone.
+  set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libsdl2-2.0-0, ffmpeg")
   set(CPACK_COMPONENT_TOOLS_DESCRIPTION "The program sbfmt: converts, builds, checks, moves and draws sbf files")
   if(BUILD_SHARED_LIBS)
     set(CPACK_COMPONENT_TOOLS_DEPENDS runtime)

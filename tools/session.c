@@ -98,16 +98,10 @@ static bool choose_clip(session *s, const cli_call *call, int32_t *clip) {
   return true;
 }
 
-typedef struct settings {
-  sbr_model_options model;
-  double drive[2], raise, gravity;
-  long threads;
-  int32_t clip;
-} settings;
-
-static bool parse_settings(session *s, cli_call *call, settings *set) {
+static bool parse_settings(session *s, cli_call *call) {
+  session_settings *set = &s->settings;
   long substeps = 0, level = 0;
-  *set = (settings){.threads = 1};
+  *set = (session_settings){.threads = 1, .hold = cli_switch(call, "--hold")};
   bool good =
       cli_number(call, "--seconds", 0, 1e6, &s->seconds) && cli_number(call, "--fps", 1, 10000, &s->fps) &&
       cli_integer(call, "--substeps", 1, 100000, &substeps) &&
@@ -129,16 +123,16 @@ static void tell(void *user, const sbf_diagnostic *finding) {
   cli_print_diagnostic(user, finding);
 }
 
-static sbf_status create_character(
-    session *s, const cli_call *call, const settings *set, sbf_diagnostic *error) {
+static sbf_status create_character(session *s, sbf_diagnostic *error) {
   sbr_character_definition character = sbr_default_character_definition();
-  character.position.y = standing_lift(s->asset, &s->ground) + set->raise;
-  character.hold = cli_switch(call, "--hold");
+  character.position.y = standing_lift(s->asset, &s->ground) + s->settings.raise;
+  character.hold = s->settings.hold;
   return sbr_character_create(s->world, s->model, &character, &s->character, error);
 }
 
 /* What the options ask of it from the start, unless a recording does. */
-static void begin(session *s, const settings *set) {
+static void begin(session *s) {
+  const session_settings *set = &s->settings;
   if (s->recording.bytes) {
     s->frame_count = (uint32_t)s->recording.replay.frame_count;
     return;
@@ -148,11 +142,10 @@ static void begin(session *s, const settings *set) {
   if (set->clip != SBF_NONE) sbr_character_play(s->world, s->character, 0, set->clip, &how);
 }
 
-static sbf_status create(session *s, cli_call *call, const settings *set, sbf_diagnostic *error) {
+static sbf_status create(session *s, sbf_diagnostic *error) {
+  const session_settings *set = &s->settings;
   sbf_status status = sbr_model_create(s->asset, &set->model, &s->model, error);
   if (status != SBF_OK) return status;
-  sbr_model_left_out(s->model, tell, call);
-  sbr_model_scheme_doubts(s->model, tell, call);
   sbr_world_definition world = sbr_default_world_definition();
   world.tasks = thread_pool_tasks(s->threads);
   world.ground = s->ground;
@@ -160,38 +153,54 @@ static sbf_status create(session *s, cli_call *call, const settings *set, sbf_di
   world.has_gravity = set->model.has_gravity;
   world.gravity = set->model.gravity;
   status = sbr_world_create(&world, &s->world, error);
-  return status == SBF_OK ? create_character(s, call, set, error) : status;
+  return status == SBF_OK ? create_character(s, error) : status;
 }
 
 bool session_open(session *s, cli_call *call, double seconds, double fps, int *status) {
-  settings set;
   sbf_diagnostic error;
   *s = (session){.seconds = seconds, .fps = fps};
   *status = SBF_FAILED;
-  if (!parse_settings(s, call, &set)) return false;
+  if (!parse_settings(s, call)) return false;
   const char *commands = cli_value(call, "--script");
   if (commands && !script_load(&s->script, call, commands, status)) return false;
-  s->threads = thread_pool_create((uint32_t)set.threads);
+  s->threads = thread_pool_create((uint32_t)s->settings.threads);
   if (!s->threads) {
     cli_wrong(call, "the threads cannot be made: ask for fewer");
     session_close(s);
     return false;
   }
   *status = (int)sbf_load_file(call->inputs[0], NULL, &s->asset, &error);
-  if (*status == SBF_OK && !choose_clip(s, call, &set.clip)) {
+  if (*status == SBF_OK && !choose_clip(s, call, &s->settings.clip)) {
     *status = SBF_FAILED;
     session_close(s);
     return false;
   }
-  if (*status == SBF_OK) *status = (int)create(s, call, &set, &error);
+  if (*status == SBF_OK) *status = (int)create(s, &error);
   if (*status != SBF_OK) {
     cli_print_diagnostic(call, &error);
-  } else if ((*status = recording_open(&s->recording, call, s->world)) == SBF_OK) {
-    begin(s, &set);
-    return true;
+  } else {
+    sbr_model_left_out(s->model, tell, call);
+    sbr_model_scheme_doubts(s->model, tell, call);
+    if ((*status = recording_open(&s->recording, call, s->world)) == SBF_OK) {
+      begin(s);
+      return true;
+    }
   }
   session_close(s);
   return false;
+}
+
+sbf_status session_restart(session *s, const cli_call *call, sbf_diagnostic *error) {
+  recording_finish(&s->recording, call, s->world);
+  recording_close(&s->recording);
+  sbr_world_destroy(s->world);
+  sbr_model_destroy(s->model);
+  s->world = NULL, s->model = NULL;
+  s->frame = 0, s->time_s = 0;
+  s->frame_count = (uint32_t)(s->seconds * s->fps + 0.5);
+  sbf_status status = create(s, error);
+  if (status == SBF_OK) begin(s);
+  return status;
 }
 
 void session_close(session *s) {
@@ -212,14 +221,20 @@ static bool replay_frame(session *s) {
   return true;
 }
 
-bool session_step(session *s) {
+bool session_step_by(session *s, double seconds) {
   if (s->frame >= s->frame_count) return false;
   if (s->recording.bytes) return replay_frame(s);
   script_play(&s->script, s->time_s, s->world, s->character);
-  s->frame_s = 1 / s->fps;
+  s->frame_s = seconds;
   sbr_world_step(s->world, s->frame_s);
   s->frame++;
-  s->time_s = s->frame / s->fps;
+  s->time_s += seconds;
+  return true;
+}
+
+bool session_step(session *s) {
+  if (!session_step_by(s, 1 / s->fps)) return false;
+  if (!s->recording.bytes) s->time_s = s->frame / s->fps; /* without the sum's rounding */
   return true;
 }
 

@@ -33,7 +33,19 @@
     "--script", "FILE", "commands over time; see docs/scripts.md"                                            \
   }
 
+/* What the options say of the world and of the character in it. */
+typedef struct session_settings {
+  sbr_model_options model;
+  double drive[2]; /* m/s, rad/s */
+  double raise;    /* m */
+  double gravity;  /* m/s^2, downward */
+  long threads;
+  int32_t clip; /* SBF_NONE: none */
+  bool hold;
+} session_settings;
+
 typedef struct session {
+  session_settings settings;
   sbf_asset *asset;
   sbr_model *model;
   sbr_world *world;
@@ -52,9 +64,16 @@ typedef struct session {
 bool session_open(session *s, cli_call *call, double seconds, double fps, int *status);
 void session_close(session *s);
 
+/* Makes model, world and character anew, as `settings` and `ground` now say; the file stays, and nothing is
+ * recorded or played any more. On a failure nothing but closing it is left. */
+sbf_status session_restart(session *s, const cli_call *call, sbf_diagnostic *error);
+
 /* Plays the script's commands that are due, or what was recorded, and advances by one frame; false after the
  * last. */
 bool session_step(session *s);
+/* The same for a frame of so many seconds, > 0, however long it was meant to go on; of a recording it is as
+ * long as it was. */
+bool session_step_by(session *s, double seconds);
 
 /* After the last: ends a recording; false, with a message printed, where it could not be written. */
 bool session_finish(session *s, const cli_call *call);

@@ -142,14 +142,26 @@ static int compare_edges(const void *a, const void *b) {
   return memcmp(a, b, sizeof(sbf_uint2));
 }
 
-static bool look_of_lattice(const sbf_soft_body *body, body_look *look) {
+/* The level of a body that the session simulates, as far as its points' number tells. */
+static const sbf_level *level_of(const session *s, uint32_t b) {
+  const sbf_soft_body *body = &s->asset->soft_bodies.at[b];
+  uint32_t count = sbr_character_points(s->world, s->character, b, NULL, 0);
+  const sbf_level *best = NULL;
+  for (uint32_t l = 0; l < body->levels.count; l++)
+    if (body->levels.at[l].positions.count == count && (!best || l <= s->settings.model.level))
+      best = &body->levels.at[l];
+  return best;
+}
+
+static bool look_of_lattice(const session *s, uint32_t number, body_look *look) {
   static const int pairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-  uint32_t count = body->levels.count ? body->levels.at[0].lattice.tetrahedra.count : 0, kept = 0;
+  const sbf_level *level = level_of(s, number);
+  uint32_t count = level ? level->lattice.tetrahedra.count : 0, kept = 0;
   look->edges = malloc((6 * (size_t)count + 1) * sizeof *look->edges);
   if (!look->edges) return false;
   for (uint32_t t = 0; t < count; t++)
     for (int k = 0; k < 6; k++) {
-      const uint32_t *p = body->levels.at[0].lattice.tetrahedra.at[t].at;
+      const uint32_t *p = level->lattice.tetrahedra.at[t].at;
       uint32_t a = p[pairs[k][0]], b = p[pairs[k][1]];
       look->edges[6 * t + (uint32_t)k] = (sbf_uint2){{a < b ? a : b, a < b ? b : a}};
     }
@@ -193,8 +205,7 @@ stage *stage_create(const session *s, const skin_images *images, unsigned show, 
   bool good = st->meshes && st->bodies && st->positions && st->normals && st->bones && st->colours;
   for (uint32_t i = 0; good && i < st->mesh_count; i++)
     good = look_of_mesh(s, images, i, render_level, &st->meshes[i]);
-  for (uint32_t i = 0; good && i < st->body_count; i++)
-    good = look_of_lattice(&asset->soft_bodies.at[i], &st->bodies[i]);
+  for (uint32_t i = 0; good && i < st->body_count; i++) good = look_of_lattice(s, i, &st->bodies[i]);
   draw_colour_map_init_diverging(&st->strains);
   if (good) return st;
   stage_destroy(st);
@@ -292,12 +303,11 @@ static void show_springs(stage *st, const session *s, sbf_vec3 origin, draw_scen
   bool by_strain = (st->show & STAGE_STRAIN) != 0;
   unsigned seen = 0;
   for (uint32_t b = 0; b < st->body_count; b++) {
-    const sbf_soft_body *body = &s->asset->soft_bodies.at[b];
-    if (body->levels.count == 0) continue;
-    const sbf_level *level = &body->levels.at[0];
+    const sbf_level *level = level_of(s, b);
+    if (!level) continue;
     uint32_t count = sbr_character_points(s->world, s->character, b, st->positions, st->room);
     to_world(origin, st->positions, count);
-    for (uint32_t k = 0; k < level->springs.count && count == level->positions.count; k++) {
+    for (uint32_t k = 0; k < level->springs.count; k++) {
       const sbf_spring_set *set = &level->springs.at[k];
       const draw_spring_look *look = draw_spring_look_of((draw_spring_look_kind)set->kind);
       for (uint32_t i = 0; by_strain && i < set->ends.count; i++)

@@ -16,6 +16,7 @@ static const sbf_code_info table[] = {
   {"NO_FFMPEG", SBF_CODE_NO_FFMPEG, SBF_SEVERITY_ERROR, SBF_FAILED, "The program ffmpeg, which makes films, is not in PATH: install it."},
   {"FFMPEG_FAILED", SBF_CODE_FFMPEG_FAILED, SBF_SEVERITY_ERROR, SBF_FAILED, "The program ffmpeg stopped with an error: it says why."},
   {"IMAGE_NOT_DRAWN", SBF_CODE_IMAGE_NOT_DRAWN, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A base colour image cannot be drawn, its material's colour stands for it: give it as a PNG that is whole."},
+  {"NO_WINDOW", SBF_CODE_NO_WINDOW, SBF_SEVERITY_ERROR, SBF_FAILED, "There is no window to be had: install SDL 2, run it where there is a display, or draw pictures with `sbfmt render`."},
   {"XML_SYNTAX", SBF_CODE_XML_SYNTAX, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The text is not well-formed XML: mend it at the line given."},
   {"XML_DOCTYPE", SBF_CODE_XML_DOCTYPE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A DOCTYPE or an entity of its own stands in the file: remove it, the format has none."},
   {"XML_UNKNOWN_ELEMENT", SBF_CODE_XML_UNKNOWN_ELEMENT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "An element that the format does not have stands here: check its spelling and its place."},

@@ -48,6 +48,23 @@ START_TEST(second_canvas_after_the_first)
 }
 END_TEST
 
+START_TEST(another_size)
+{
+  uint8_t rgb[40 * 30 * 3];
+  sbf_diagnostic error = {0};
+  draw_canvas *canvas = opened(5, 3, _i ? DRAW_CANVAS_STILL : DRAW_CANVAS_MOVIE);
+  const gl_api *gl = draw_canvas_gl(canvas);
+  ck_assert_int_eq(draw_canvas_resize(canvas, 40, 30, &error), SBF_OK);
+  ck_assert_uint_eq(draw_canvas_width(canvas), 40);
+  draw_canvas_bind(canvas);
+  gl->ClearColor(0, 0.5f, 1, 1);
+  gl->Clear(GL_COLOR_BUFFER_BIT);
+  ck_assert_int_eq(draw_canvas_read(canvas, rgb, &error), SBF_OK);
+  for (int i = 0; i < 40 * 30; i++) check_colour(rgb + 3 * i, 0, 128, 255);
+  draw_canvas_close(canvas);
+}
+END_TEST
+
 START_TEST(largest_picture)
 {
   draw_canvas *canvas = opened(DRAW_CANVAS_LARGEST, 16, DRAW_CANVAS_STILL);
@@ -80,6 +97,7 @@ int main(void) {
   tcase_set_timeout(tests, 60);
   tcase_add_loop_test(tests, reads_back_what_was_drawn, 0, 2);
   tcase_add_test(tests, second_canvas_after_the_first);
+  tcase_add_loop_test(tests, another_size, 0, 2);
   tcase_add_test(tests, largest_picture);
   tcase_add_loop_test(tests, sizes_out_of_range, 0, 4);
   tcase_add_test(tests, closing_nothing);

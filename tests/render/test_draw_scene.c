@@ -22,6 +22,25 @@ static sbf_vec3 normal_at(size_t i) {
   return ((const sbf_vec3 *)scene->normals.at)[i];
 }
 
+START_TEST(notes_hang_from_the_top)
+{
+  static const draw_camera camera = {.distance = 1, .half_height = 1};
+  static const draw_colour red = {255, 0, 0, 255};
+  draw_scene_add_note(scene, "it's 1,5 %", &red);
+  size_t one = scene->overlay.count;
+  ck_assert_uint_gt(one, 10);
+  draw_scene_add_note(scene, "it's 1,5 %", NULL);
+  ck_assert_uint_lt(scene->overlay.count - one, one);
+  draw_scene_place_overlay(scene, &camera, 1440, 1440);
+  const draw_line *lines = scene->placed_overlay.at;
+  for (size_t i = 0; i < scene->placed_overlay.count; i++) {
+    ck_assert_float_gt(lines[i].from.y, i < one ? 0.92f : 0.85f);
+    ck_assert_float_lt(lines[i].from.y, i < one ? 1 : 0.92f);
+    ck_assert_float_lt(lines[i].from.x, -0.69f);
+  }
+}
+END_TEST
+
 START_TEST(index_out_of_range_is_left_out)
 {
   static const uint32_t wrong[6] = {0, 1, 2, 0, 2, 4};
@@ -179,6 +198,7 @@ int main(void) {
   TCase *tests = tcase_create("draw_scene");
   tcase_add_checked_fixture(tests, set_up, tear_down);
   tcase_add_test(tests, index_out_of_range_is_left_out);
+  tcase_add_test(tests, notes_hang_from_the_top);
   tcase_add_test(tests, corners_keep_their_places_in_the_image);
   tcase_add_loop_test(tests, placed_mesh_is_turned_and_moved, 0, 2);
   tcase_add_test(tests, far_lines_come_first);

@@ -97,6 +97,7 @@ OUTSIDE = [
     (r"Bullet|btBullet", ["bench/"], "Bullet, to compare with"),
     (r"jansson", ["tools/", "bench/"], "jansson"),
     (r"(EGL|GL|GLES\d|KHR)/|png\.h", ["tools/render/", "tools/view/"], "drawing"),
+    (r"SDL2?/", ["tools/view/"], "SDL"),
     (r"(sys|linux)/.*|unistd\.h|fcntl\.h|signal\.h|spawn\.h|dlfcn\.h|poll\.h|windows\.h",
      [r"libsbfmt/base/\w+_(posix|windows)\.[ch]", "libsbfmt/import/assimp/", "tools/", "bench/", "runtime/hosts/"],
      "the operating system"),

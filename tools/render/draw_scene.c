@@ -31,7 +31,7 @@ void draw_scene_clear(draw_scene *scene) {
   scene->indices.count = scene->parts.count = 0;
   scene->lines.count = scene->sorted_lines.count = scene->sorted_parts.count = 0;
   scene->overlay.count = scene->placed_overlay.count = 0;
-  scene->overlay_rows = 0;
+  scene->overlay_rows = scene->note_rows = 0;
   draw_scene_clear_ground(scene);
   scene->bounds = scene->casters = box3_empty();
   scene->failed = false;

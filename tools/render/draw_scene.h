@@ -73,8 +73,11 @@ void draw_scene_add_hull(draw_scene *scene, const sbf_vec3 *positions, uint32_t 
     const uint32_t *triangles, uint32_t triangle_count, const draw_place *place, draw_colour colour);
 
 /* Words in the lower left corner of the picture: what the colours mean, from the bottom up. Letters are those
- * of English without case, figures and + - % . / = ( ) :, and anything else is a gap. */
+ * of English without case, figures and + - % . , ' / = ( ) :, and anything else is a gap. */
 void draw_scene_add_legend(draw_scene *scene, const char *name, draw_colour colour);
+
+/* Words in the upper left corner, from the top down, behind a spot of a colour where one is given. */
+void draw_scene_add_note(draw_scene *scene, const char *words, const draw_colour *colour);
 
 /* A bar of the whole map, with words at its ends and its middle (each may be NULL). */
 void draw_scene_add_scale(

@@ -30,8 +30,10 @@ struct draw_scene {
   draw_scene_list line_corners;                /* draw_line, each four times: likewise */
   draw_scene_list sorted_parts;                /* uint32_t: parts seen through, the farthest first */
   draw_scene_list ground_positions, ground_normals, ground_indices;
-  draw_scene_list overlay; /* draw_line; x and y from the picture's lower left corner, in overlay units */
-  uint32_t overlay_rows;
+  draw_scene_list overlay; /* draw_line; x and y from the picture's lower left corner, or where z is 1 from
+                              its upper left one, in overlay units */
+  uint32_t overlay_rows, note_rows;
+  bool overlay_from_top;          /* what is added is */
   draw_scene_list placed_overlay; /* draw_line, in the world: made by the painter */
   box3 bounds;
   box3 casters; /* of what throws a shadow */

@@ -6,6 +6,8 @@
 #include <GL/glcorearb.h>
 #include <stdbool.h>
 
+#include "render/canvas.h"
+
 #define RENDER_GL_FUNCTIONS(X)                                                                               \
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                                   \
   X(PFNGLATTACHSHADERPROC, AttachShader)                                                                     \
@@ -86,8 +88,6 @@ typedef struct gl_api {
   RENDER_GL_FUNCTIONS(RENDER_GL_MEMBER)
 #undef RENDER_GL_MEMBER
 } gl_api;
-
-typedef void (*gl_function)(void);
 
 /* Fills every member through `find`; returns the name of the first function missing, NULL if none is. */
 const char *gl_api_load(gl_api *gl, gl_function (*find)(const char *name, void *user), void *user);

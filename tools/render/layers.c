@@ -22,7 +22,8 @@ static bool make_line_layer(layer_set *set, const gl_api *gl) {
 
 sbf_status layers_make(
     layer_set *set, const gl_api *gl, GLsizei width, GLsizei height, sbf_diagnostic *diagnostic) {
-  if (set->line_frame) return SBF_OK;
+  if (set->line_frame && set->width == width && set->height == height) return SBF_OK;
+  if (set->line_frame) layers_destroy(set, gl);
   set->width = width, set->height = height;
   gl->ActiveTexture(GL_TEXTURE0);
   bool good = light_maps_make_depth(gl, width, height, &set->veil_texture, &set->veil_frame);

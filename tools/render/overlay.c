@@ -56,6 +56,8 @@ static const letter letters[] = {
     {'(', "18060412"},
     {')', "08161402"},
     {':', "0303 0606"},
+    {',', "1301"},
+    {'\'', "0806"},
 };
 
 static const float letter_scale = 1.9f, letter_gap = 3.6f, word_gap = 7.0f, stroke = 1.35f; /* units */
@@ -74,7 +76,8 @@ static const char *strokes_of(char c) {
 
 static void add_overlay_line(draw_scene *scene, sbf_vec2 from, sbf_vec2 to, draw_colour colour, float width) {
   draw_line *place = draw_scene_list_push(scene, &scene->overlay, 1, sizeof *place);
-  if (place) *place = (draw_line){{from.x, from.y, 0}, {to.x, to.y, 0}, colour, colour, width};
+  float side = scene->overlay_from_top ? 1 : 0;
+  if (place) *place = (draw_line){{from.x, from.y, side}, {to.x, to.y, side}, colour, colour, width};
 }
 
 /* Draws one letter with its left foot at `at`, or only measures it where there is no scene; its width. */
@@ -117,6 +120,18 @@ void draw_scene_add_legend(draw_scene *scene, const char *name, draw_colour colo
   add_words(scene, name, (sbf_vec2){at.x + swatch + 10, at.y});
 }
 
+void draw_scene_add_note(draw_scene *scene, const char *words, const draw_colour *colour) {
+  sbf_vec2 at = {left, -bottom - row * (float)scene->note_rows++};
+  scene->overlay_from_top = true;
+  if (colour) {
+    sbf_vec2 from = {at.x, at.y + 2 * letter_scale}, to = {at.x + 0.5f * swatch, from.y};
+    add_overlay_line(scene, from, to, *colour, 7);
+    at.x += 0.5f * swatch + 10;
+  }
+  add_words(scene, words, at);
+  scene->overlay_from_top = false;
+}
+
 void draw_scene_add_scale(
     draw_scene *scene, const draw_colour_map *map, const char *low, const char *middle, const char *high) {
   enum { PIECES = 64 };
@@ -149,12 +164,14 @@ void draw_scene_place_overlay(draw_scene *scene, const draw_camera *camera, uint
   float metre = 2 * camera->distance * camera->half_height / (float)height; /* a pixel */
   sbf_vec3 corner = v3_sub(v3_sub(middle, v3_scale(right, 0.5f * metre * (float)width)),
       v3_scale(over, 0.5f * metre * (float)height));
+  sbf_vec3 top = v3_add(corner, v3_scale(over, metre * (float)height));
   for (size_t i = 0; i < count; i++) {
+    sbf_vec3 from = lines[i].from.z > 0 ? top : corner;
     placed[i] = lines[i];
     placed[i].width *= pixels * 720 / (float)height; /* a line's own unit shrinks with any picture */
     sbf_vec3 *ends[2] = {&placed[i].from, &placed[i].to};
     for (int k = 0; k < 2; k++)
-      *ends[k] = v3_add(corner,
+      *ends[k] = v3_add(from,
           v3_add(v3_scale(right, ends[k]->x * pixels * metre), v3_scale(over, ends[k]->y * pixels * metre)));
   }
 }

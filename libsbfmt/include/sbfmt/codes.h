@@ -27,6 +27,7 @@ typedef enum sbf_code {
   SBF_CODE_NO_FFMPEG = 122, /* The program ffmpeg, which makes films, is not in PATH: install it. */
   SBF_CODE_FFMPEG_FAILED = 123, /* The program ffmpeg stopped with an error: it says why. */
   SBF_CODE_IMAGE_NOT_DRAWN = 124, /* A base colour image cannot be drawn, its material's colour stands for it: give it as a PNG that is whole. */
+  SBF_CODE_NO_WINDOW = 125, /* There is no window to be had: install SDL 2, run it where there is a display, or draw pictures with `sbfmt render`. */
   SBF_CODE_XML_SYNTAX = 201, /* The text is not well-formed XML: mend it at the line given. */
   SBF_CODE_XML_DOCTYPE = 202, /* A DOCTYPE or an entity of its own stands in the file: remove it, the format has none. */
   SBF_CODE_XML_UNKNOWN_ELEMENT = 203, /* An element that the format does not have stands here: check its spelling and its place. */

@@ -1,0 +1,50 @@
+/* What draws a session: its stage, its camera and the painter, and the options that say how. Pictures, films
+ * and the window share it. */
+#ifndef STUDIO_H
+#define STUDIO_H
+
+#include "render/camera.h"
+#include "render/canvas.h"
+#include "render/painter.h"
+#include "stage.h"
+
+/* The options that all who draw share, but for sizes, which are each one's own. */
+#define STUDIO_OPTIONS                                                                                       \
+  {"--show", "LIST", "surface, springs, lattice, bones, hulls, strain, feet (surface)"},                     \
+      {"--view", "YAW,PITCH", "from where, degrees: 0 ahead, 90 its left; above (41,15)"}, {                 \
+    "--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"       \
+  }
+
+typedef struct studio {
+  session s;
+  unsigned show; /* STAGE_SURFACE and so on */
+  uint32_t render_level;
+  float yaw, pitch; /* from where the camera looks at first, rad */
+  stage *stage;
+  skin_images images;
+  draw_canvas *canvas;
+  draw_painter *painter;
+  draw_scene *scene;
+  draw_camera camera;
+  bool framed, has_images;
+  cli_call *call;
+} studio;
+
+/* By STUDIO_OPTIONS, and --size as WxH, which is `width` and `height` where the call does not say. False,
+ * with a message, where they are wrong. */
+bool studio_options(studio *st, cli_call *call);
+bool studio_size(cli_call *call, uint32_t *width, uint32_t *height);
+
+/* For the session, which is open, on a canvas, which the studio closes; NULL is ignored, and fails. */
+sbf_status studio_open(studio *st, cli_call *call, draw_canvas *canvas, sbf_diagnostic *error);
+/* Puts the session on the stage again: after it was made anew, or to show something else (st->show) or
+ * another render level. */
+sbf_status studio_dress(studio *st, sbf_diagnostic *error);
+/* Of the canvas. */
+float studio_aspect(const studio *st);
+void studio_close(studio *st); /* the session too */
+
+/* Paints the present frame; the camera frames the first and follows. */
+sbf_status studio_paint(studio *st, sbf_diagnostic *error);
+
+#endif

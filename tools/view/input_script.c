@@ -1,0 +1,147 @@
+#include "view/input_script.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LONGEST = 1024 };
+
+static bool parse_place(const char *rest, input_line *line) {
+  char more;
+  return sscanf(rest, "%f %f %c", &line->share[0], &line->share[1], &more) == 2 && line->share[0] >= 0 &&
+         line->share[0] <= 1 && line->share[1] >= 0 && line->share[1] <= 1;
+}
+
+/* What is wrong, or NULL. `rest`: what stands behind the word. */
+static const char *parse_action(const sdl_api *sdl, const char *word, const char *rest, input_line *line) {
+  char more;
+  line->down = strcmp(word, "down") == 0 || strcmp(word, "tap") == 0;
+  line->up = strcmp(word, "up") == 0 || strcmp(word, "tap") == 0;
+  if (line->down || line->up) {
+    line->kind = INPUT_KEY;
+    line->key = sdl->GetKeyFromName(rest);
+    return line->key == SDLK_UNKNOWN ? "there is no key of that name: W, 1, Left and Space are some" : NULL;
+  }
+  if (strcmp(word, "press") == 0 || strcmp(word, "move") == 0) {
+    line->kind = *word == 'p' ? INPUT_PRESS : INPUT_MOVE;
+    return parse_place(rest, line) ? NULL : "two shares of the window, 0 to 1, belong behind press and move";
+  }
+  if (strcmp(word, "release") == 0) {
+    line->kind = INPUT_RELEASE;
+    return *rest ? "nothing belongs behind release" : NULL;
+  }
+  if (strcmp(word, "wheel") == 0) {
+    line->kind = INPUT_WHEEL;
+    return sscanf(rest, "%d %c", &line->notches, &more) == 1 && abs(line->notches) <= 1000
+               ? NULL
+               : "a whole number of notches belongs behind wheel";
+  }
+  if (strcmp(word, "shot") == 0) {
+    line->kind = INPUT_SHOT;
+    if (!*rest || strlen(rest) >= sizeof line->shot) return "the name of a PNG belongs behind shot";
+    memcpy(line->shot, rest, strlen(rest) + 1);
+    return NULL;
+  }
+  return "the word behind the frame is none of down, up, tap, press, move, release, wheel, shot";
+}
+
+static const char *parse_line(const sdl_api *sdl, char *text, const input_line *before, input_line *line) {
+  char word[16];
+  int at = 0;
+  size_t end = strlen(text);
+  while (end && strchr(" \t\r\n", text[end - 1])) text[--end] = 0;
+  if (sscanf(text, "%u %15s %n", &line->frame, word, &at) < 2 || line->frame > 1000000000u)
+    return "a frame and a word belong here, as in `10 down W`";
+  if (before && line->frame < before->frame) return "frames must not go back";
+  return parse_action(sdl, word, at ? text + at : "", line);
+}
+
+static bool push(input_script *script, const input_line *line) {
+  input_line *grown = realloc(script->lines, (script->count + 1u) * sizeof *grown);
+  if (!grown) return false;
+  script->lines = grown;
+  grown[script->count++] = *line;
+  return true;
+}
+
+bool input_script_load(
+    input_script *script, const sdl_api *sdl, const cli_call *call, const char *path, int *status) {
+  char text[LONGEST];
+  FILE *file = fopen(path, "r");
+  *script = (input_script){.lines = NULL};
+  *status = SBF_FAILED;
+  if (!file) {
+    cli_wrong(call, "the input %s cannot be read: %s", path, strerror(errno));
+    return false;
+  }
+  for (int number = 1; fgets(text, sizeof text, file); number++) {
+    input_line line = {.frame = 0};
+    bool whole = strchr(text, '\n') || feof(file);
+    text[strcspn(text, "#")] = 0;
+    if (whole && text[strspn(text, " \t\r\n")] == 0) continue;
+    const input_line *before = script->count ? &script->lines[script->count - 1] : NULL;
+    const char *wrong = whole ? parse_line(sdl, text, before, &line) : "the line is too long";
+    if (!wrong && !push(script, &line)) wrong = "memory ran out";
+    if (!wrong) continue;
+    cli_wrong(call, "%s, line %d: %s", path, number, wrong);
+    *status = SBF_BAD_INPUT;
+    fclose(file);
+    input_script_free(script);
+    return false;
+  }
+  bool good = !ferror(file);
+  if (!good) cli_wrong(call, "the input %s cannot be read: %s", path, strerror(errno));
+  fclose(file);
+  if (!good) input_script_free(script);
+  return good;
+}
+
+void input_script_free(input_script *script) {
+  free(script->lines);
+  *script = (input_script){.lines = NULL};
+}
+
+static void send_key(const window *w, SDL_Keycode key, bool down) {
+  SDL_Event event = {.type = down ? SDL_KEYDOWN : SDL_KEYUP};
+  event.key.keysym.sym = key;
+  event.key.state = down ? SDL_PRESSED : SDL_RELEASED;
+  w->sdl.PushEvent(&event);
+}
+
+static void send_pointer(input_script *script, const window *w, const input_line *line) {
+  SDL_Event event = {.type = line->kind == INPUT_PRESS  ? SDL_MOUSEBUTTONDOWN
+                             : line->kind == INPUT_MOVE ? SDL_MOUSEMOTION
+                                                        : SDL_MOUSEBUTTONUP};
+  int from[2], to[2];
+  window_place(w, script->pointer, &from[0], &from[1]);
+  if (line->kind != INPUT_RELEASE) memcpy(script->pointer, line->share, sizeof script->pointer);
+  window_place(w, script->pointer, &to[0], &to[1]);
+  if (line->kind == INPUT_MOVE) {
+    event.motion.x = to[0], event.motion.y = to[1];
+    event.motion.xrel = to[0] - from[0], event.motion.yrel = to[1] - from[1];
+  } else {
+    event.button.button = SDL_BUTTON_LEFT;
+    event.button.x = to[0], event.button.y = to[1];
+  }
+  w->sdl.PushEvent(&event);
+}
+
+const char *input_script_play(input_script *script, const window *w, uint32_t frame) {
+  const char *shot = NULL;
+  for (; script->next < script->count && script->lines[script->next].frame <= frame; script->next++) {
+    const input_line *line = &script->lines[script->next];
+    if (line->kind == INPUT_SHOT) {
+      shot = line->shot;
+    } else if (line->kind == INPUT_KEY) {
+      if (line->down) send_key(w, line->key, true);
+      if (line->up) send_key(w, line->key, false);
+    } else if (line->kind == INPUT_WHEEL) {
+      SDL_Event event = {.type = SDL_MOUSEWHEEL};
+      event.wheel.y = line->notches;
+      w->sdl.PushEvent(&event);
+    } else {
+      send_pointer(script, w, line);
+    }
+  }
+  return shot;
+}

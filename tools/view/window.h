@@ -1,0 +1,30 @@
+/* A window with OpenGL 3.3, by SDL. One a program. */
+#ifndef VIEW_WINDOW_H
+#define VIEW_WINDOW_H
+
+#include "render/canvas.h"
+#include "view/sdl_api.h"
+
+typedef struct window {
+  sdl_api sdl;
+  SDL_Window *shown;
+  SDL_GLContext context;
+} window;
+
+/* Its OpenGL is current for this thread until window_close. `steady`: shown frames wait for the screen.
+ * SBF_FAILED, with a message, where there is no SDL, no display or no OpenGL 3.3. */
+sbf_status window_open(window *w, const char *title, uint32_t width, uint32_t height, bool steady,
+    draw_context *context, sbf_diagnostic *error);
+void window_close(window *w);
+
+/* Pixels, which may be finer than what the pointer moves in; at least 1 and at most the largest canvas. */
+void window_pixels(const window *w, uint32_t *width, uint32_t *height);
+
+/* Where a place of the pointer is: shares of width and height, from the upper left corner. */
+void window_share(const window *w, int x, int y, float share[2]);
+/* The other way. */
+void window_place(const window *w, const float share[2], int *x, int *y);
+
+double window_seconds(const window *w); /* a clock */
+
+#endif
