@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "collide/ground.h"
+#include "contact/carried.h"
 #include "contact/self_touch.h"
 #include "contact/shape_touch.h"
-#include "math/vec3.h"
 
 /* Range of a body's points and their greatest speed. */
 typedef struct extent {
@@ -22,17 +22,11 @@ static void extend(extent *e, const sbri_point *p) {
   e->any = true;
 }
 
-static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
-  if (slot < t->island->free_count) return sbri_slot_velocity(t, t->velocities, slot);
-  const sbri_point *from = &t->positions[slot], *to = &t->targets[slot];
-  return sbri_scale(sbri_vec3(to->x - from->x, to->y - from->y, to->z - from->z), 1 / t->tick_s);
-}
-
 static extent extent_of(const sbri_island_tick *t, const sbri_body *body) {
   extent e = {{0}, {0}, 0, false};
   float squares = 0;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    sbf_vec3 v = velocity_at(t, slot);
+    sbf_vec3 v = sbri_carried_velocity(t, slot);
     float square = sbri_dot(v, v);
     squares = square > squares ? square : squares;
     extend(&e, &t->positions[slot]);
@@ -98,14 +92,6 @@ static void prepare_points(const sbri_island_tick *t, const sbri_body *body, con
   }
 }
 
-sbri_sample sbri_sample_now(const sbri_island_tick *t, const sbri_sample *first, const sbri_skin *surface) {
-  sbri_sample s = *first;
-  if (!t->island->splits) return s;
-  if (s.vertex != UINT32_MAX) return sbri_sample_of(t->island, surface, s.vertex);
-  s.mass_kg = t->island->masses[s.slots[0]];
-  return s;
-}
-
 /* Those whose way within the tick may end on the ground. */
 static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_tables *to) {
   uint32_t first = body->slot_begin / SBRI_BLOCK, *count = &to->touch_counts[body - t->model->bodies];
@@ -117,9 +103,9 @@ static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, co
   if (e.low[1] > reach) return;
   for (uint32_t i = 0; i < body->sample_count; i++) {
     sbri_sample s = sbri_sample_now(t, &body->samples[i], to->surface);
-    sbf_vec3 x = sbri_sample_place(t, &s), v = {0, 0, 0}, n;
+    sbf_vec3 x = sbri_sample_place(t, &s), n;
     if (x.y > reach || !(s.mass_kg > 0)) continue;
-    for (int k = 0; k < 4; k++) v = sbri_add_scaled(v, velocity_at(t, s.slots[k]), s.weights[k]);
+    sbf_vec3 v = sbri_sample_velocity(t, &s);
     float y = height_at(t, x.x, x.z, &n), offset = n.x * x.x + n.y * y + n.z * x.z;
     float speed = sbri_length(v) > e.speed ? sbri_length(v) : e.speed;
     if (sbri_dot(n, x) - offset > speed * way + least) continue;
@@ -131,10 +117,6 @@ static void prepare_samples(const sbri_island_tick *t, const sbri_body *body, co
         .collider = SBRI_NO_COLLIDER,
         .fast_m_s = 2 * speed};
   }
-}
-
-sbri_sample sbri_point_sample(const sbri_island_tick *t, uint32_t slot) {
-  return (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, t->island->masses[slot], UINT32_MAX};
 }
 
 /* Bodies of points alone stand against the ground by planes a point each: as touches these are solved along

@@ -34,10 +34,6 @@ typedef struct sbri_contact_tables {
  * lists those that may. */
 void sbri_contact_prepare(
     const sbri_island_tick *tick, const sbri_body *body, const sbri_contact_tables *tables);
-/* A point of the level as a sample. */
-sbri_sample sbri_point_sample(const sbri_island_tick *tick, uint32_t slot);
-/* A sample as it is carried now: what tears is carried by other points than at first, and they weigh less. */
-sbri_sample sbri_sample_now(const sbri_island_tick *tick, const sbri_sample *first, const sbri_skin *surface);
 
 typedef struct sbri_contact_rule {
   float friction, restitution;

@@ -1,7 +1,7 @@
 #include "contact/shape_touch.h"
 
 #include "collide/colliders.h"
-#include "math/vec3.h"
+#include "contact/carried.h"
 
 /* Speeds may grow within a tick, by weight and springs: to as much again, and a share of the body more. */
 static const float SLACK_SHARE = 0.02f;
@@ -14,18 +14,6 @@ typedef struct meeting {
   uint32_t number; /* of the collider */
   sbri_box bounds; /* of the shape, grown by the ways that touches may have */
 } meeting;
-
-static sbf_vec3 velocity_at(const sbri_island_tick *t, uint32_t slot) {
-  if (slot < t->island->free_count) return sbri_slot_velocity(t, t->velocities, slot);
-  const sbri_point *from = &t->positions[slot], *to = &t->targets[slot];
-  return sbri_scale(sbri_vec3(to->x - from->x, to->y - from->y, to->z - from->z), 1 / t->tick_s);
-}
-
-static sbf_vec3 sample_velocity(const sbri_island_tick *t, const sbri_sample *s) {
-  sbf_vec3 v = {0, 0, 0};
-  for (int k = 0; k < 4; k++) v = sbri_add_scaled(v, velocity_at(t, s->slots[k]), s->weights[k]);
-  return v;
-}
 
 /* The plane for a place that goes from `begin` to `end` in the shape's frame: where it enters, or what it is
  * near. */
@@ -48,7 +36,7 @@ static void add_sample(const meeting *m, const sbri_sample *s) {
   const sbri_island_tick *t = m->tick;
   uint32_t *count = &m->tables->touch_counts[m->body - t->model->bodies];
   if (*count >= m->body->touch_capacity || !(s->mass_kg > 0)) return;
-  sbf_vec3 x = sbri_sample_place(t, s), v = sample_velocity(t, s);
+  sbf_vec3 x = sbri_sample_place(t, s), v = sbri_sample_velocity(t, s);
   sbf_vec3 begin = sbri_into_shape(&m->frame, x, false);
   sbf_vec3 end = sbri_into_shape(&m->frame, sbri_add_scaled(x, v, t->tick_s), true);
   sbri_box way = sbri_box_with(sbri_box_of_point(begin), end);
@@ -90,7 +78,7 @@ static sbri_box ways_of(const sbri_island_tick *t, const sbri_body *body, float 
   float most = 0;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
     const sbri_point *p = &t->positions[slot];
-    sbf_vec3 v = velocity_at(t, slot);
+    sbf_vec3 v = sbri_carried_velocity(t, slot);
     float square = sbri_dot(v, v);
     most = square > most ? square : most;
     box = sbri_box_with(box, sbri_vec3(p->x, p->y, p->z));

@@ -376,6 +376,10 @@ void sbri_tetrahedron_fill(
 /* The body's tetrahedron at rest; false where it encloses nothing. */
 bool sbri_body_tetrahedron(const sbri_body *body, uint32_t tetrahedron, struct sbfi_tetrahedron *made);
 
+/* Whether its tetrahedra may tear, or its springs, where these are its model. */
+bool sbri_body_tears(const sbri_body *body);
+bool sbri_body_frays(const sbri_body *body);
+
 /* Substeps of a tick of `tick_s` with which symplectic Euler is stable while no spring is stretched by more
  * than `stretch`, the share of its length that is beyond its rest length. */
 uint32_t sbri_stable_substeps(const sbri_island *island, double tick_s, float stretch);

@@ -14,34 +14,7 @@ static uint32_t padded(uint32_t count) {
   return (count + SBRI_BLOCK - 1) / SBRI_BLOCK * SBRI_BLOCK;
 }
 
-/* ---- Weight maps ---- */
-
-bool sbri_factors_find(
-    sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors) {
-  bool weighed = false;
-  *factors = NULL;
-  for (uint32_t i = 0; i < body->source->weight_maps.count; i++)
-    weighed = weighed || body->source->weight_maps.at[i].property == property;
-  if (!weighed) return true;
-  float *values = sbri_scratch(m, body->level->positions.count, sizeof *values);
-  if (!values) return false;
-  for (uint32_t i = 0; i < body->level->positions.count; i++) values[i] = 1;
-  sbfi_level_weigh(body->source, body->level, property, values);
-  *factors = values;
-  return true;
-}
-
 /* ---- What holds each point, and what it weighs ---- */
-
-float sbri_natural_stiffness(const sbf_soft_body *body, float mass) {
-  float volume = mass / body->attributes.density, low = 0, high = 1;
-  while (high * high * high < volume) high *= 2;
-  for (int i = 0; i < 30; i++) { /* the cube root, without a library's */
-    float middle = 0.5f * (low + high);
-    *(middle * middle * middle < volume ? &low : &high) = middle;
-  }
-  return body->attributes.young_modulus * high;
-}
 
 static bool read_goals(sbri_island_maker *m, uint32_t place) {
   const sbri_body *body = sbri_maker_body(m, place);
@@ -129,19 +102,6 @@ static void count_valences(const sbri_island_maker *m, uint32_t place, uint32_t 
       valences[level->springs.at[s].ends.at[i].at[0]]++;
       valences[level->springs.at[s].ends.at[i].at[1]]++;
     }
-}
-
-bool sbri_body_tears(const sbri_body *body) {
-  return body->level && body->level->model == SBF_ELASTIC_MODEL_TETRAHEDRA &&
-         body->source->attributes.tear_strain > 0;
-}
-
-bool sbri_body_frays(const sbri_body *body) {
-  if (!body->level || body->level->model != SBF_ELASTIC_MODEL_SPRINGS) return false;
-  bool tears = body->source->attributes.tear_strain > 0;
-  for (uint32_t s = 0; s < body->level->springs.count; s++)
-    tears = tears || body->level->springs.at[s].tear_strain > 0;
-  return tears;
 }
 
 /* Room for points that split. */

@@ -2,15 +2,6 @@
 #include "base/diagnostic.h"
 #include "prepare/prepare.h"
 
-static bool has_stepped_model(const sbf_level *level) {
-  return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA ||
-         level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
-}
-
-bool sbri_level_is_stepped(const sbf_level *level) {
-  return has_stepped_model(level) && level->positions.count > 0;
-}
-
 /* The level with the wanted number, or the coarsest there is; where it is of a model that is not stepped, or
  * was not loaded, the next coarser one that is, else the next finer. */
 static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {
@@ -24,7 +15,7 @@ static const sbf_level *level_of(const sbf_soft_body *body, uint32_t wanted) {
 }
 
 static sbf_status check_level(const sbf_soft_body *body, const sbf_level *level, sbf_diagnostic *error) {
-  if (has_stepped_model(level)) return SBF_OK;
+  if (sbri_level_has_stepped_model(level)) return SBF_OK;
   return sbfi_diagnose(error, SBF_CODE_LEVEL_NOT_SIMULATED,
       "body \"%s\": its level is of model %s and none is of springs, tetrahedra or regions, which the "
       "runtime steps: "
@@ -42,15 +33,6 @@ static const sbf_level *coarser_of(const sbr_model *model, uint32_t body, uint32
     if (level == first->level || sbri_level_is_useful(level, first->rest_size_m)) return level;
   }
   return first->level;
-}
-
-static bool is_level(const sbf_soft_body *body, const sbf_level *level, uint32_t place) {
-  return level && place < body->levels.count && level == &body->levels.at[place];
-}
-
-bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross) {
-  const sbri_body *a = &model->bodies[cross->body_a], *b = &model->bodies[cross->body_b];
-  return is_level(a->source, a->level, cross->level_a) && is_level(b->source, b->level, cross->level_b);
 }
 
 static uint32_t first_of(const uint32_t *joined, uint32_t body) {

@@ -12,7 +12,8 @@ sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options
 
 /* Groups the bodies into islands; gives each body its level. */
 sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
-/* Whether the level is of a model that is stepped, and was loaded. */
+/* Whether the level is of a model that is stepped; and was loaded. */
+bool sbri_level_has_stepped_model(const sbf_level *level);
 bool sbri_level_is_stepped(const sbf_level *level);
 /* Whether the springs join the levels that are simulated. */
 bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross);
@@ -38,9 +39,6 @@ bool sbri_samples_make(sbr_model *model, sbri_body *body);
 bool sbri_self_faces_make(sbr_model *model, sbri_body *body);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
-/* Whether its tetrahedra may tear, or its springs, where these are its model. */
-bool sbri_body_tears(const sbri_body *body);
-bool sbri_body_frays(const sbri_body *body);
 
 /* ---- Skins and surfaces ---- */
 
@@ -64,10 +62,10 @@ bool sbri_level_is_useful(const sbf_level *level, float size_m);
  * body yields or tears. */
 sbf_status sbri_rungs_make(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);
 void sbri_rungs_free(sbr_model *model);
+/* The level by which a body jiggles; NULL: it has none, or what holds it is not one frame. */
+const sbf_level *sbri_jiggle_of(const sbr_model *model, uint32_t soft_body);
 /* The followers of a model of jiggle. */
 bool sbri_jiggles_make(sbr_model *model);
-/* The frame that carries the body as one piece. */
-uint32_t sbri_carrier_frame(const sbr_model *model, uint32_t soft_body);
 /* Where the points of `to` are in those of `from`. */
 bool sbri_sources_make(sbr_model *to, const sbr_model *from, const sbri_sources **sources);
 

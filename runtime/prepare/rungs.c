@@ -22,53 +22,11 @@ static sbf_status no_memory(sbf_diagnostic *error) {
   return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for the model's rungs");
 }
 
-/* ---- Jiggles ---- */
-
-uint32_t sbri_carrier_frame(const sbr_model *model, uint32_t soft_body) {
-  int32_t bone = model->asset->soft_bodies.at[soft_body].bone;
-  const sbri_body *body = &model->base->bodies[soft_body];
-  if (body->level && body->held && !body->guides) return body->guide_frame;
-  return bone >= 0 ? (uint32_t)bone : sbri_root_frame(model);
-}
-
-/* NULL: it has none, or what holds it is not one frame. */
-static const sbf_level *jiggle_of(const sbr_model *model, uint32_t soft_body) {
-  const sbri_body *body = &model->base->bodies[soft_body];
-  const sbf_level_list *levels = &body->source->levels;
-  if (!body->level || !body->held || body->guides) return NULL;
-  for (uint32_t l = 0; l < levels->count; l++)
-    if (levels->at[l].model == SBF_ELASTIC_MODEL_JIGGLE && levels->at[l].jiggle &&
-        levels->at[l].positions.count)
-      return &levels->at[l];
-  return NULL;
-}
-
-bool sbri_jiggles_make(sbr_model *model) {
-  uint32_t count = model->asset->soft_bodies.count;
-  if (model->kind != SBR_RUNG_JIGGLE) return true;
-  model->jiggles = sbfi_arena_allocate(&model->arena, (size_t)count + 1, sizeof *model->jiggles);
-  if (!model->jiggles) return false;
-  for (uint32_t b = 0; b < count; b++) {
-    const sbf_level *level = jiggle_of(model, b);
-    if (!level) continue;
-    float x = 0, y = 0, z = 0, share = 1 / (float)level->positions.count;
-    for (uint32_t i = 0; i < level->positions.count; i++)
-      x += level->positions.at[i].x, y += level->positions.at[i].y, z += level->positions.at[i].z;
-    model->jiggles[model->jiggle_count++] = (sbri_jiggle){.body = b,
-        .carrier = sbri_carrier_frame(model, b),
-        .middle = {x * share, y * share, z * share},
-        .frequency_hz = level->jiggle->frequency,
-        .damping_ratio = level->jiggle->damping_ratio,
-        .response = level->jiggle->response};
-  }
-  return true;
-}
-
 /* ---- Which there are ---- */
 
 static bool any_jiggle(const sbr_model *model) {
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
-    if (jiggle_of(model, b)) return true;
+    if (sbri_jiggle_of(model, b)) return true;
   return false;
 }
 
@@ -124,7 +82,7 @@ static void rate(const sbr_model *model, sbr_rung *rung) {
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
     const sbri_body *body = &base->bodies[b];
     if (!body->level) continue;
-    const sbf_level *level = rung->kind == SBR_RUNG_SOFT ? model->bodies[b].level : jiggle_of(model, b);
+    const sbf_level *level = rung->kind == SBR_RUNG_SOFT ? model->bodies[b].level : sbri_jiggle_of(model, b);
     float error = error_of(body, level, level == body->level);
     rung->error_m = error > rung->error_m ? error : rung->error_m;
   }

@@ -26,12 +26,6 @@ static void *carve(char **memory, size_t size) {
   return at;
 }
 
-bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor) {
-  for (; bone >= 0; bone = rig->parents[bone])
-    if (bone == ancestor) return true;
-  return false;
-}
-
 /* Bones from hips to chest share the turn between the two evenly; all others follow their parent. */
 static void share_spine(const sbri_rig *rig, float *share) {
   for (uint32_t i = 0; i < rig->bone_count; i++) share[i] = -1;

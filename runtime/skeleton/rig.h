@@ -114,7 +114,11 @@ void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory);
 sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side);
 
 /* Whether a bone is another or hangs on it. */
-bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor);
+static inline bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t ancestor) {
+  for (; bone >= 0; bone = rig->parents[bone])
+    if (bone == ancestor) return true;
+  return false;
+}
 
 /* ---- skeleton/rig_limits.c: limits of the bones, from the joints of the bodies that move with them. ---- */
 void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits);

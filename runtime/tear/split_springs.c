@@ -10,7 +10,6 @@
  */
 #include <string.h>
 
-#include "prepare/prepare.h"
 #include "tear/split.h"
 
 /* Points of more springs do not split: hubs in the middle of sections, which join all there is. */

@@ -30,7 +30,7 @@ RUNTIME = {
     "gait": ["math", "ik", "skeleton", "collide"],
     "world": ["math", "collide", "model", "rigid", "gait"],
     "pose": ["math", "collide", "gait", "world"],
-    "tear": ["math", "model", "prepare", "world"],
+    "tear": ["math", "model", "world"],
     "soft": ["math", "collide", "model", "contact", "skin", "solvers", "gait", "world", "pose", "tear"],
     "ragdoll": ["math", "solvers", "rigid", "gait", "world", "pose", "tear", "soft"],
     "meet": ["math", "collide", "model", "solvers", "rigid", "world", "ragdoll"],

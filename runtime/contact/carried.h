@@ -1,0 +1,36 @@
+/* Places of a surface as the points of an island carry them now. */
+#ifndef SBRI_CARRIED_H
+#define SBRI_CARRIED_H
+
+#include "math/vec3.h"
+#include "model/island_tick.h"
+
+/* Of a point, which is held where it has a target: m/s. */
+static inline sbf_vec3 sbri_carried_velocity(const sbri_island_tick *t, uint32_t slot) {
+  if (slot < t->island->free_count) return sbri_slot_velocity(t, t->velocities, slot);
+  const sbri_point *from = &t->positions[slot], *to = &t->targets[slot];
+  return sbri_scale(sbri_vec3(to->x - from->x, to->y - from->y, to->z - from->z), 1 / t->tick_s);
+}
+
+static inline sbf_vec3 sbri_sample_velocity(const sbri_island_tick *t, const sbri_sample *s) {
+  sbf_vec3 v = {0, 0, 0};
+  for (int k = 0; k < 4; k++) v = sbri_add_scaled(v, sbri_carried_velocity(t, s->slots[k]), s->weights[k]);
+  return v;
+}
+
+/* A point of the level as a sample. */
+static inline sbri_sample sbri_point_sample(const sbri_island_tick *t, uint32_t slot) {
+  return (sbri_sample){{slot, slot, slot, slot}, {1, 0, 0, 0}, t->island->masses[slot], UINT32_MAX};
+}
+
+/* A sample as it is carried now: what tears is carried by other points than at first, and they weigh less. */
+static inline sbri_sample sbri_sample_now(
+    const sbri_island_tick *t, const sbri_sample *first, const sbri_skin *surface) {
+  sbri_sample s = *first;
+  if (!t->island->splits) return s;
+  if (s.vertex != UINT32_MAX) return sbri_sample_of(t->island, surface, s.vertex);
+  s.mass_kg = t->island->masses[s.slots[0]];
+  return s;
+}
+
+#endif

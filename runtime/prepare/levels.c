@@ -1,0 +1,20 @@
+/* What the levels of bodies are good for. */
+#include "prepare/prepare.h"
+
+bool sbri_level_has_stepped_model(const sbf_level *level) {
+  return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA ||
+         level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
+}
+
+bool sbri_level_is_stepped(const sbf_level *level) {
+  return sbri_level_has_stepped_model(level) && level->positions.count > 0;
+}
+
+static bool is_level(const sbf_soft_body *body, const sbf_level *level, uint32_t place) {
+  return level && place < body->levels.count && level == &body->levels.at[place];
+}
+
+bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross) {
+  const sbri_body *a = &model->bodies[cross->body_a], *b = &model->bodies[cross->body_b];
+  return is_level(a->source, a->level, cross->level_a) && is_level(b->source, b->level, cross->level_b);
+}
