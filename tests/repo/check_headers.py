@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every public header compiles alone, twice in one file, as C11 and as C++17, without a warning.
+"""Every public header compiles alone, twice in one file, as C11 and as C++17, without a warning: by the compilers given, and by
+gcc and clang where they are here.
 
 Usage: check_headers.py C-COMPILER [C++-COMPILER]"""
 import os
@@ -10,7 +11,7 @@ import sys
 from repo_files import ROOT, SKIPPED, conclude, project_files
 
 FOLDERS = ("libsbfmt/include/", "runtime/include/")
-WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wundef", "-Werror", "-fsyntax-only"]
+WARNINGS = ["-Wall", "-Wextra", "-pedantic-errors", "-Wshadow", "-Wundef", "-Werror", "-fsyntax-only"]
 LANGUAGES = {"c11": ["-x", "c", "-std=c11", "-Wstrict-prototypes"],
              "c++17": ["-x", "c++", "-std=c++17", "-Wold-style-cast", "-Wno-unused-const-variable"]}
 
@@ -25,22 +26,26 @@ def complaint(compiler, language, header):
 
 
 def main():
-    compilers = {"c11": sys.argv[1] if len(sys.argv) > 1 else "cc",
-                 "c++17": sys.argv[2] if len(sys.argv) > 2 else "c++"}
-    if not shutil.which(compilers["c++17"]):
+    compilers = {"c11": {sys.argv[1] if len(sys.argv) > 1 else "cc", "gcc", "clang"},
+                 "c++17": {sys.argv[2] if len(sys.argv) > 2 else "c++", "g++", "clang++"}}
+    # One compiler under two names is asked once.
+    compilers = {language: {os.path.realpath(shutil.which(name)): name for name in sorted(names) if shutil.which(name)}
+                 for language, names in compilers.items()}
+    if not compilers["c++17"]:
         print("skipped: no C++ compiler (Debian: apt-get install g++)")
         sys.exit(SKIPPED)
     headers = [path[len(folder):] for path in project_files() for folder in FOLDERS
                if path.startswith(folder) and path.endswith(".h")]
     faults = []
     for header in headers:
-        for language, compiler in compilers.items():
+        for language, compiler in [(language, name) for language, names in compilers.items() for name in names.values()]:
             said = complaint(compiler, language, header)
             if said:
-                faults.append(f"{header} as {language}: {said}")
+                faults.append(f"{header} as {language} by {compiler}: {said}")
     if not headers:
         faults.append("no public header found: the check would be empty")
-    conclude(f"{len(headers)} public headers, alone, as C11 and C++17", faults)
+    names = sorted(name for names in compilers.values() for name in names.values())
+    conclude(f"{len(headers)} public headers, alone, as C11 and C++17, by {', '.join(names)}", faults)
 
 
 if __name__ == "__main__":
