@@ -7,6 +7,7 @@ import struct
 import unittest
 import zlib
 
+import textured_box
 from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes, read_text, write_bytes
 
 SMALL = ("--size", "160x120")
@@ -56,23 +57,6 @@ def predictor(kind, left, up, corner):
 def colours(data):
     _, _, channels, rows = read_png(data)
     return {row[x:x + 3] for row in rows for x in range(0, len(row), channels)}
-
-
-def png_of(width, height, rgb):
-    """All of one colour."""
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-    rows = (b"\0" + bytes(rgb) * width) * height
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
-
-
-BOX = """mtllib box.mtl
-v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 -1\nv 1 0 -1\nv 1 1 -1\nv 0 1 -1
-vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1
-usemtl skin
-f 1/1 2/2 3/3 4/4\nf 6/1 5/2 8/3 7/4\nf 5/1 1/2 4/3 8/4\nf 2/1 6/2 7/3 3/4\nf 4/1 3/2 7/3 8/4\nf 5/1 6/2 2/3 1/4
-"""
 
 
 class Render(ProgramTest):
@@ -126,11 +110,7 @@ class Render(ProgramTest):
     def red_of_box(self, image, *arguments):
         """How many of the picture's colours are red, what `render` says, and how the report captions the skin, for a
         box that wears this image; None: no file."""
-        write_bytes(self.path("box.obj"), BOX.encode())
-        write_bytes(self.path("box.mtl"), b"newmtl skin\nKd 1 1 1\nmap_Kd red.png\n")
-        if image is not None:
-            write_bytes(self.path("red.png"), image)
-        self.good("convert", self.path("box.obj"), "-o", self.path("box.sbf"), "--springs", "surface", "--report",
+        self.good("convert", textured_box.write(self.path(""), image), "-o", self.path("box.sbf"), "--springs", "surface", "--report",
                   self.path("box.json"))
         caption = json.loads(read_text(self.path("box.json")))["pictures"][0]["caption"]
         said = self.good("render", self.path("box.sbf"), "-o", self.path("box.png"), *SMALL, *arguments).err
@@ -138,7 +118,7 @@ class Render(ProgramTest):
         return red, said, caption
 
     def test_base_colour_images_are_drawn(self):
-        red, said, caption = self.red_of_box(png_of(4, 4, (230, 20, 20)))
+        red, said, caption = self.red_of_box(textured_box.png_of(4, 4, (230, 20, 20)))
         self.assertGreater(red, 20)
         self.assertNotIn("not drawn", said + caption)
 
@@ -147,7 +127,7 @@ class Render(ProgramTest):
         self.assertEqual((red, "not drawn" in said), (0, False))
 
     def test_images_that_cannot_be_drawn_are_told(self):
-        whole = png_of(4, 4, (230, 20, 20))
+        whole = textured_box.png_of(4, 4, (230, 20, 20))
         for name, image, reason in (("missing", None, "cannot be read"), ("cut short", whole[:-30], "damaged"),
                                     ("empty", b"", "empty"), ("JPEG", b"\xff\xd8\xff\xe0" + bytes(40), "JPEG")):
             with self.subTest(name):

@@ -1,39 +1,17 @@
 // Opens the exported page and works it as a visitor would; prints what came of it as one line of JSON.
 // Usage: node page_in_chromium.mjs FOLDER-OF-NODE_MODULES PAGE PICTURES RUN
-import { createRequire } from 'node:module';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
+import { colorsDrawn, open } from './chromium.mjs';
+
 const [modules, page, pictures, run] = process.argv.slice(2);
-const { chromium } = createRequire(path.join(modules, 'package.json'))('playwright-core');
-const faults = [];
-const expect = (good, what) => good || faults.push(what);
-const profile = mkdtempSync(path.join(tmpdir(), 'sbfmt-page-'));
-const context = await chromium.launchPersistentContext(profile, {
-  executablePath: process.env.SBFMT_CHROMIUM ?? '/usr/bin/chromium', headless: true, viewport: { width: 1180, height: 720 }, offline: true,
-  args: ['--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-    '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
-const tab = context.pages()[0] ?? await context.newPage();
-tab.setDefaultTimeout(120000);
-tab.on('pageerror', (error) => faults.push(`the page throws ${error.message}`));
-tab.on('console', (line) => line.type() === 'error' && faults.push(`the page says ${line.text()}`));
-tab.on('request', (asked) => /^(file|data|blob):/.test(asked.url()) || faults.push(`the page asks for ${asked.url()}`));
+const { tab, faults, expect, shoot, close } = await open(modules, pictures);
 await tab.goto(pathToFileURL(page).href);
 await tab.waitForFunction(() => globalThis.viewer?.time > 0.2);
-const shoot = (name) => tab.screenshot({ path: path.join(pictures, `${name}.png`) });
 
 // It is drawn: the lizard's middle is not the ground's colour.
 await shoot('page');
-const seen = await tab.evaluate(() => {
-  viewer.draw();
-  const { gl } = viewer.painter, pixels = new Uint8Array(4 * gl.canvas.width * gl.canvas.height), colors = new Set();
-  gl.readPixels(0, 0, gl.canvas.width, gl.canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-  for (let i = 0; i < pixels.length; i += 4) colors.add((pixels[i] >> 4) << 8 | (pixels[i + 1] >> 4) << 4 | pixels[i + 2] >> 4);
-  return colors.size;
-});
+const seen = await colorsDrawn(tab, 'viewer');
 expect(seen > 60, `the picture has ${seen} colours`);
 
 // It walks while a key is down, and stands when it is not.
@@ -147,6 +125,5 @@ const narrow = await tab.evaluate(() => ({ wide: document.documentElement.scroll
   canvas: viewer.canvas.getBoundingClientRect().bottom }));
 expect(narrow.wide <= 420 && narrow.panel >= narrow.canvas - 1, `in a narrow window: ${JSON.stringify(narrow)}`);
 await shoot('narrow');
-await context.close();
-rmSync(profile, { recursive: true, force: true });
+await close();
 console.log(JSON.stringify({ hash, us, faults }));

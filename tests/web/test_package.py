@@ -3,7 +3,6 @@
 moved by three.js where npm can fetch those."""
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -59,36 +58,19 @@ console.log('good', shown.children.length, mesh.geometry.groups.length);
 """
 
 
-def write(folder, name, text):
-    with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
-        stream.write(text)
-
-
-def npm(folder, *arguments):
-    return subprocess.run(["npm", *arguments, "--no-audit", "--no-fund"], cwd=folder, capture_output=True, text=True, check=False)
-
-
 def written_example(folder, path):
     """The first program of a document, its file read from disk: what it does to the lizard is what it says."""
     with open(path, encoding="utf-8") as stream:
         code = re.search(r"```js\n(.*?)```", stream.read(), re.DOTALL).group(1)
     code = "import { readFile } from 'node:fs/promises';\nglobalThis.fetch = async (name) => new Response(await readFile(name));\n" + code
-    write(folder, "written.mjs", code + "\nfor (let i = 1; i < 300; i++) world.step(1 / 60);\n"
+    web_files.write(folder, "written.mjs", code + "\nfor (let i = 1; i < 300; i++) world.step(1 / 60);\n"
           "if (lizard.distance < 0.8 || !positions.length || !normals.length || !indices.length) throw new Error('it stands');\n")
     web_files.run("node", "written.mjs", cwd=folder)
 
 
-def packed():
-    web_files.run("cmake", "--build", web_files.BUILD, "--target", "sbfmt-npm")
-    tarballs = [name for name in os.listdir(web_files.BUILD) if re.fullmatch(r"sbfmt-[\d.]+\.tgz", name)]
-    if len(tarballs) != 1:
-        sys.exit(f"packed: {tarballs}")
-    return os.path.join(web_files.BUILD, tarballs[0])
-
-
 def main():
     web_files.need("node", "npm")
-    tarball = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else packed()
+    tarball = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else web_files.tarball()
     listed = web_files.run("tar", "-tzf", tarball).split()
     expected = {"package/" + name for name in ("package.json", "README.md", "LICENSE", "sbfmt.js", "sbfmt.d.ts", "sbfmt.wasm",
                                                "sbfmt-three.js", "sbfmt-three.d.ts")}
@@ -96,22 +78,19 @@ def main():
         sys.exit(f"the package holds {sorted(listed)}")
     with tempfile.TemporaryDirectory() as folder:
         lizard = web_files.bundles(folder)["lizard"]
-        write(folder, "package.json", '{ "name": "fresh", "private": true, "type": "module" }')
-        done = npm(folder, "install", "--offline", "--omit=peer", tarball)
-        if done.returncode != 0:
-            sys.exit("npm install: " + done.stderr[-2000:])
-        write(folder, "walk.mjs", PROGRAM)
+        web_files.fresh_project(folder, tarball)
+        web_files.write(folder, "walk.mjs", PROGRAM)
         found = web_files.run("node", "walk.mjs", cwd=folder).strip()
         there = web_files.native(lizard, "--seconds", "1", "--drive", "0.3,0.2", "--ground", "noise:0.1,5")["state_hash"]
         if found != there:
             sys.exit(f"installed it gives {found}, natively {there}")
         written_example(folder, os.path.join(web_files.HOST, "README.md"))
         written_example(folder, os.path.join(web_files.SOURCE, "docs", "web.md"))
-        if npm(folder, "install", "three@0.170", "@types/three@0.170", "typescript@5").returncode != 0:
+        if web_files.npm(folder, "install", "three@0.170", "@types/three@0.170", "typescript@5").returncode != 0:
             web_files.skip("npm could not fetch three and typescript; what needs neither is good")
-        write(folder, "three.mjs", THREE)
+        web_files.write(folder, "three.mjs", THREE)
         print(web_files.run("node", "three.mjs", cwd=folder).strip())
-        write(folder, "typed.mts", TYPED)
+        web_files.write(folder, "typed.mts", TYPED)
         web_files.run(os.path.join(folder, "node_modules", ".bin", "tsc"), "--noEmit", "--strict", "--target", "es2022", "--module",
                       "nodenext", "--skipLibCheck", "typed.mts", cwd=folder)
 

@@ -14,18 +14,6 @@ import web_files
 FRAMES, DRIVE, GROUND = 600, (0.3, 0.2), {"kind": "noise", "height": 0.1, "seed": 5}
 
 
-def playwright():
-    folder = os.path.join(web_files.BUILD, "web-tests")
-    if os.path.isdir(os.path.join(folder, "node_modules", "playwright-core")):
-        return folder
-    os.makedirs(folder, exist_ok=True)
-    done = subprocess.run(["npm", "install", "--prefix", folder, "--no-audit", "--no-fund", "playwright-core@1"],
-                          capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        web_files.skip("npm could not fetch playwright-core: " + (done.stderr.strip().splitlines() or ["?"])[-1])
-    return folder
-
-
 def check_missing(path, folder):
     """Without the page's parts export says so, with the status of a machine at fault, and writes nothing."""
     out = os.path.join(folder, "none.html")
@@ -37,7 +25,7 @@ def check_missing(path, folder):
 
 def main():
     web_files.need("node", "npm", "chromium")
-    modules = playwright()
+    modules = web_files.playwright()
     pictures = os.path.join(web_files.BUILD, "web-pictures")
     os.makedirs(pictures, exist_ok=True)
     script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page_in_chromium.mjs")

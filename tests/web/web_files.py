@@ -1,6 +1,7 @@
 """What the tests of the WebAssembly runtime share: where things are, and bundles to step."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -32,6 +33,44 @@ def run(*command, **options):
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))}\n{(done.stdout + done.stderr)[-4000:]}")
     return done.stdout
+
+
+def write(folder, name, text):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
+        stream.write(text)
+
+
+def npm(folder, *arguments):
+    return subprocess.run(["npm", *arguments, "--no-audit", "--no-fund"], cwd=folder, capture_output=True, text=True, check=False)
+
+
+def tarball():
+    """The npm package, packed."""
+    run("cmake", "--build", BUILD, "--target", "sbfmt-npm")
+    packed = [name for name in os.listdir(BUILD) if re.fullmatch(r"sbfmt-[\d.]+\.tgz", name)]
+    if len(packed) != 1:
+        sys.exit(f"packed: {packed}")
+    return os.path.join(BUILD, packed[0])
+
+
+def fresh_project(folder, package):
+    """A project with nothing in it but the package."""
+    write(folder, "package.json", '{ "name": "fresh", "private": true, "type": "module" }')
+    done = npm(folder, "install", "--offline", "--omit=peer", package)
+    if done.returncode != 0:
+        sys.exit("npm install: " + done.stderr[-2000:])
+
+
+def playwright():
+    """A folder whose node_modules hold what drives Chromium."""
+    folder = os.path.join(BUILD, "web-tests")
+    if os.path.isdir(os.path.join(folder, "node_modules", "playwright-core")):
+        return folder
+    os.makedirs(folder, exist_ok=True)
+    done = npm(folder, "install", "--prefix", folder, "playwright-core@1")
+    if done.returncode != 0:
+        skip("npm could not fetch playwright-core: " + (done.stderr.strip().splitlines() or ["?"])[-1])
+    return folder
 
 
 def bundles(folder):

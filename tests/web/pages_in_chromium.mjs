@@ -1,0 +1,47 @@
+// Opens pages of several characters, one after another: drawn, worn, at each of their levels, and in the same state as elsewhere.
+// Usage: node pages_in_chromium.mjs FOLDER-OF-NODE_MODULES PICTURES PAGES, these as JSON: [{ name, page, frames, drive, levels, color }]
+import { pathToFileURL } from 'node:url';
+
+import { colorsDrawn, open } from './chromium.mjs';
+
+const [modules, pictures, pages] = process.argv.slice(2);
+const { tab, faults, expect, shoot, close } = await open(modules, pictures);
+const hashes = {};
+for (const { name, page, frames, drive, levels, color } of JSON.parse(pages)) {
+  await tab.goto(pathToFileURL(page).href);
+  await tab.waitForFunction(() => globalThis.viewer?.time > 0.1);
+  await tab.evaluate(() => viewer.pause());
+  await shoot(`of-${name}`);
+  const seen = await colorsDrawn(tab, 'viewer');
+  expect(seen > 40, `${name}: the picture has ${seen} colours`);
+  hashes[name] = await tab.evaluate(([count, way]) => viewer.hashAfter(count, way), [frames, drive]);
+
+  // Every level that the file has can be chosen and stepped; the panel offers no other.
+  const offered = await tab.evaluate(() => document.querySelector('#level').options.length);
+  expect(offered === levels, `${name}: the panel offers ${offered} levels of ${levels}`);
+  for (let level = 1; level < levels; level++) {
+    await tab.selectOption('#level', String(level));
+    const went = await tab.evaluate(() => {
+      for (let i = 0; i < 30; i++) viewer.step(1 / 60);
+      viewer.draw();
+      return { level: viewer.choices.level, valid: viewer.character.health().valid };
+    });
+    expect(went.level === level && went.valid, `${name}: at level ${level} ${JSON.stringify(went)}`);
+  }
+
+  // What the image of a texture shows is on the skin: the middle of the picture has its colour, lit.
+  if (color) {
+    const middle = await tab.evaluate(() => {
+      viewer.restart({ kind: 'flat' });
+      viewer.frameCamera();
+      viewer.draw();
+      const { gl } = viewer.painter, one = new Uint8Array(4);
+      gl.readPixels(gl.canvas.width >> 1, gl.canvas.height >> 1, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
+      return [...one];
+    });
+    const most = color.indexOf(Math.max(...color));
+    expect([0, 1, 2].every((i) => i === most || middle[i] < 0.5 * middle[most]), `${name}: the middle has the colour ${middle}, the image ${color}`);
+  }
+}
+await close();
+console.log(JSON.stringify({ hashes, faults }));
