@@ -8,7 +8,7 @@ import unittest
 import zlib
 
 import textured_box
-from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes, read_text, write_bytes
+from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes, read_text
 
 SMALL = ("--size", "160x120")
 
