@@ -27,7 +27,8 @@ static int run(cli_call *call) {
   long render_level = 0;
   sbf_export_motion motion = {0};
   if (!out)
-    return cli_wrong(call, "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf or OUT.xml");
+    return cli_wrong(
+        call, "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf, OUT.usda or OUT.xml");
   if (!cli_integer(call, "--render-level", 0, 1000, &render_level)) return SBF_FAILED;
   if (motion_asked(call) && !ends_with(out, ".glb"))
     return cli_wrong(
@@ -52,19 +53,20 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.xml",
+    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml",
         "where to write; the ending says in which form"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},
 };
 const cli_verb verb_export = {"export",
-    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.xml [--seconds S ...]",
+    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml [--seconds S ...]",
     "write what other programs read",
     "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb;\n"
     "meshes at rest as OBJ with its MTL; tetrahedra as PhysX's .tet, TetGen's .node and .ele,\n"
     "Gmsh's .msh or VTK's .vtu; or soft and rigid bodies with their joints as MuJoCo's\n"
-    ".mjcf, +Z up, or in the 2012 dialect, .xml. A page, .html, holds the character with the runtime as "
+    ".mjcf, +Z up, or in the 2012 dialect, .xml; all of these together as USD's text, .usda. A page, .html, "
+    "holds the character with the runtime as "
     "WebAssembly, to be\n"
     "opened without a network: it walks, can be dragged and have balls thrown at it.\n"
     "Says what the form has no place for. With --seconds, --script or --replay\n"

@@ -68,21 +68,13 @@ void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v) {
   }
 }
 
-const sbf_level *sbfi_export_lattice(const sbf_soft_body *body) {
-  for (uint32_t i = 0; i < body->levels.count; i++)
-    if (body->levels.at[i].model == SBF_ELASTIC_MODEL_TETRAHEDRA &&
-        body->levels.at[i].lattice.tetrahedra.count)
-      return &body->levels.at[i];
-  return NULL;
-}
-
 static const struct {
   const char *ending;
   sbf_status (*write)(sbfi_export *e);
 } forms[] = {{".xml", sbfi_export_paper}, {".glb", sbfi_export_glb}, {".html", sbfi_export_html},
     {".obj", sbfi_export_obj}, {".tet", sbfi_export_tet}, {".node", sbfi_export_tetgen},
     {".ele", sbfi_export_tetgen}, {".msh", sbfi_export_msh}, {".vtu", sbfi_export_vtu},
-    {".mjcf", sbfi_export_mjcf}};
+    {".mjcf", sbfi_export_mjcf}, {".usda", sbfi_export_usda}};
 
 sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error) {
@@ -108,6 +100,6 @@ sbf_status sbf_export(
   }
   return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
       "%s: the ending says which form to write, and there are .glb, .html, .obj, .tet, .node, .msh, .vtu, "
-      ".mjcf and .xml (the 2012 dialect)",
+      ".mjcf, .usda and .xml (the 2012 dialect)",
       path);
 }

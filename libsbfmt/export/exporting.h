@@ -3,6 +3,7 @@
 #define SBFI_EXPORTING_H
 
 #include "base/diagnostic.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "sbfmt/export.h"
 
@@ -29,6 +30,7 @@ sbf_status sbfi_export_tetgen(sbfi_export *e);
 sbf_status sbfi_export_msh(sbfi_export *e);
 sbf_status sbfi_export_vtu(sbfi_export *e);
 sbf_status sbfi_export_mjcf(sbfi_export *e);
+sbf_status sbfi_export_usda(sbfi_export *e);
 
 sbf_status sbfi_export_no_memory(sbfi_export *e);
 /* Writes e->text to `path` and empties it. */
@@ -50,5 +52,18 @@ void sbfi_export_vec3(sbfi_export *e, sbf_vec3 v); /* three numbers, each behind
 
 /* The body's first level of tetrahedra, or NULL. */
 const sbf_level *sbfi_export_lattice(const sbf_soft_body *body);
+/* Its first level of springs, or NULL. */
+const sbf_level *sbfi_export_network(const sbf_soft_body *body);
+/* Place in the level of a surface point; SBFI_NO_PLACE: it has none there. */
+#define SBFI_NO_PLACE UINT32_MAX
+uint32_t sbfi_export_place(const sbf_level *level, uint32_t point);
+/* Whether the body is a sheet whose surface the level has every point of. */
+bool sbfi_export_is_sheet(const sbf_soft_body *body, const sbf_level *level);
+/* The weight of a pin, within the set's bounds; 1 holds. */
+float sbfi_export_pin_weight(const sbf_pin_set *set, uint32_t k);
+/* The skin of a mesh that sections carry, each by its bone; NULL: none does. Of `arena`; false where memory
+ * runs out. */
+bool sbfi_export_carried_skin(
+    const sbf_asset *asset, uint32_t render_mesh, sbfi_arena *arena, const sbf_skin **made);
 
 #endif

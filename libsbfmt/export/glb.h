@@ -110,7 +110,5 @@ void sbfi_glb_clips(sbfi_glb *g);
 void sbfi_glb_motion(sbfi_glb *g);
 /* Offset of each point of `mesh->shown` at that frame, in the place that its joints move from. */
 void sbfi_glb_offsets(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t frame, sbf_vec3 *offsets);
-/* The skin of a mesh that sections carry, each by its bone; NULL: none does. */
-const sbf_skin *sbfi_glb_carried_skin(sbfi_glb *g, uint32_t render_mesh);
 
 #endif

@@ -72,7 +72,10 @@ void sbfi_glb_choose_meshes(sbfi_glb *g) {
     mesh->node = node++;
     mesh->target_count = mesh->full->shape_keys.count + (g->e->motion ? g->e->motion->frame_count : 0);
     mesh->skin = mesh->full->skin && asset->bones.count ? mesh->full->skin : NULL;
-    if (!mesh->skin && mesh->full->bone < 0) mesh->skin = sbfi_glb_carried_skin(g, i);
+    if (!mesh->skin && mesh->full->bone < 0 && !sbfi_export_carried_skin(asset, i, &g->arena, &mesh->skin)) {
+      g->failed = true;
+      return;
+    }
     if (!mesh->skin) mesh->bone = mesh->full->bone;
     if (mesh->skin && leaves_points(mesh->skin, mesh->full->mesh.positions.count)) g->root_is_joint = true;
   }

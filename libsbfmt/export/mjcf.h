@@ -43,8 +43,6 @@ void sbfi_mjcf_f32(mjcf_writer *w, const char *name, float value);
 void sbfi_mjcf_name(mjcf_writer *w, const char *id, uint32_t index);
 void sbfi_mjcf_rigid_name(mjcf_writer *w, int32_t body); /* SBF_NONE: world */
 
-/* Place in the level of a surface point; MJCF_END: it has none there. */
-uint32_t sbfi_mjcf_place(const sbf_level *level, uint32_t point);
 float sbfi_mjcf_point_mass(const mjcf_flex *flex, uint32_t point); /* kg; never 0 */
 float sbfi_mjcf_ratio(const sbf_soft_body *body);                  /* Poisson's, as MuJoCo takes it */
 

@@ -13,35 +13,13 @@ static uint32_t spring_count(const sbf_level *level) {
   return count;
 }
 
-uint32_t sbfi_mjcf_place(const sbf_level *level, uint32_t point) {
-  uint32_t place = point < level->new_from_old.count ? level->new_from_old.at[point] : point;
-  return place < level->positions.count ? place : MJCF_END;
-}
-
-static bool is_sheet(const sbf_soft_body *body, const sbf_level *level) {
-  sbf_body_measures measures;
-  sbf_body_measure(body, &measures);
-  for (uint32_t i = 0; i < body->surface.positions.count; i++)
-    if (sbfi_mjcf_place(level, i) == MJCF_END) return false;
-  return measures.sheet && body->surface.polygon_sizes.count;
-}
-
 static void choose_level(mjcf_flex *flex, const sbf_soft_body *body) {
   flex->body = body;
   flex->level = sbfi_export_lattice(body);
   flex->dim = 3;
-  for (uint32_t i = 0; !flex->level && i < body->levels.count; i++) {
-    const sbf_level *level = &body->levels.at[i];
-    if (level->model != SBF_ELASTIC_MODEL_SPRINGS || !spring_count(level)) continue;
-    flex->level = level;
-    flex->dim = is_sheet(body, level) ? 2 : 1;
-  }
-}
-
-static float weight_of(const sbf_pin_set *set, uint32_t k) {
-  float weight = set->weights.count > 1 ? set->weights.at[k] : set->weights.count ? set->weights.at[0] : 1;
-  if (weight < set->minimum) weight = set->minimum;
-  return weight > set->maximum ? set->maximum : weight;
+  if (flex->level) return;
+  flex->level = sbfi_export_network(body);
+  if (flex->level) flex->dim = sbfi_export_is_sheet(body, flex->level) ? 2 : 1;
 }
 
 /* Marks the set's points, and puts each at its offset in the frame. */
@@ -50,7 +28,7 @@ static void take_pins(mjcf_writer *w, mjcf_flex *flex, int32_t s) {
   const sbf_asset *asset = w->e->asset;
   for (uint32_t k = 0; k < set->points.count; k++) {
     uint32_t p = set->points.at[k];
-    if (weight_of(set, k) < 1) {
+    if (sbfi_export_pin_weight(set, k) < 1) {
       w->goals++;
       continue;
     }
@@ -175,8 +153,8 @@ static void write_elements(mjcf_writer *w, const mjcf_flex *flex) {
   for (uint32_t i = 0, corner = 0; flex->dim == 2 && i < mesh->polygon_sizes.count; i++) {
     const uint32_t *points = mesh->polygon_points.at + corner;
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i]; k++, gap = " ")
-      sbfi_export_format(w->e, "%s%u %u %u", gap, sbfi_mjcf_place(level, points[0]),
-          sbfi_mjcf_place(level, points[k - 1]), sbfi_mjcf_place(level, points[k]));
+      sbfi_export_format(w->e, "%s%u %u %u", gap, sbfi_export_place(level, points[0]),
+          sbfi_export_place(level, points[k - 1]), sbfi_export_place(level, points[k]));
     corner += mesh->polygon_sizes.at[i];
   }
   sbfi_text_char(&w->e->text, '"');

@@ -54,7 +54,7 @@ static double fastest_of_sheet(
       const uint32_t at[3] = {corner, corner + k - 1, corner + k};
       uint32_t p[3];
       double sides[3][3], squares = 0;
-      for (int c = 0; c < 3; c++) p[c] = sbfi_mjcf_place(flex->level, mesh->polygon_points.at[at[c]]);
+      for (int c = 0; c < 3; c++) p[c] = sbfi_export_place(flex->level, mesh->polygon_points.at[at[c]]);
       for (int c = 0; c < 3; c++) {
         const sbf_vec3 a = flex->places[p[c]], b = flex->places[p[(c + 1) % 3]];
         sides[c][0] = (double)b.x - a.x, sides[c][1] = (double)b.y - a.y, sides[c][2] = (double)b.z - a.z;

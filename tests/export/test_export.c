@@ -53,8 +53,8 @@ START_TEST(nothing_to_write_and_unknown_endings_are_errors)
   sbf_asset *empty = sbf_asset_create(NULL);
   sbf_diagnostic error;
   static const char *const names[] = {"empty.obj", "empty.tet", "empty.xml", "empty.glb", "empty.node",
-      "empty.msh", "empty.vtu", "empty.mjcf"};
-  for (int i = 0; i < 8; i++) {
+      "empty.msh", "empty.vtu", "empty.mjcf", "empty.usda"};
+  for (int i = 0; i < 9; i++) {
     const char *path = harness_scratch(names[i]);
     size_t size;
     ck_assert_int_eq(sbf_export(empty, path, NULL, &error), SBF_BAD_INPUT);
@@ -135,10 +135,10 @@ START_TEST(memory_that_runs_out_is_reported)
 {
   sbf_asset *bars = bar(), *all = everything();
   static const char *const names[] = {"memory.obj", "memory.tet", "memory.xml", "memory.glb", "memory.ele",
-      "memory.msh", "memory.vtu", "memory.mjcf"};
+      "memory.msh", "memory.vtu", "memory.mjcf", "memory.usda"};
   moved m;
   move(all, 0.25f, &m);
-  for (int i = 0; i < 8; i++)
+  for (int i = 0; i < 9; i++)
     for (size_t allowed = 0;; allowed++) {
       harness_memory memory;
       sbf_diagnostic error;
@@ -147,7 +147,7 @@ START_TEST(memory_that_runs_out_is_reported)
           .motion = &m.motion,
           .folder = harness_source("spec/samples/valid")};
       sbf_status status =
-          sbf_export(i == 3 || i == 7 ? all : bars, harness_scratch(names[i]), &options, &error);
+          sbf_export(i == 3 || i >= 7 ? all : bars, harness_scratch(names[i]), &options, &error);
       ck_assert_uint_eq(memory.held_bytes, 0);
       if (status == SBF_OK) break;
       ck_assert_int_eq(status, SBF_FAILED);

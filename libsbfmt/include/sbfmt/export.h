@@ -42,9 +42,11 @@ typedef struct sbf_export_options {
  * there are none the bodies' surfaces; materials to a .mtl of the same name), .tet (the bodies' first levels
  * of tetrahedra, as PhysX reads them), .node or .ele (the same for TetGen, two files), .msh (for Gmsh, 2.2)
  * and .vtu (for VTK), .mjcf (MuJoCo's XML, +Z up: rigid
- * bodies with their joints, soft bodies as flexes), .xml (the 2012 dialect, section 16 of the specification),
- * .html (a page of its own, in which the asset lives; SBF_FAILED where what it is made of is not installed).
- * SBF_BAD_INPUT where the asset has nothing that the form could hold. `options` may be NULL. */
+ * bodies with their joints, soft bodies as flexes), .usda (USD as text, +Y up: meshes with their skeleton,
+ * rigid bodies with their joints, soft bodies by the proposed schemas of deformables), .xml (the 2012
+ * dialect, section 16 of the specification), .html (a page of its own, in which the asset lives; SBF_FAILED
+ * where what it is made of is not installed). SBF_BAD_INPUT where the asset has nothing that the form could
+ * hold. `options` may be NULL. */
 SBF_API sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error);
 

@@ -1,6 +1,6 @@
 /* A mesh that names neither weights nor a bone may be carried by sections: each of them has a bone, and says
  * how much of a vertex is its own. */
-#include "export/glb.h"
+#include "export/exporting.h"
 
 /* Calls for every vertex that a section's finest level carries. */
 typedef struct carried {
@@ -33,26 +33,28 @@ static void visit(const sbf_asset *asset, uint32_t render_mesh, carried *c) {
   }
 }
 
-const sbf_skin *sbfi_glb_carried_skin(sbfi_glb *g, uint32_t render_mesh) {
-  const sbf_asset *asset = g->e->asset;
+bool sbfi_export_carried_skin(
+    const sbf_asset *asset, uint32_t render_mesh, sbfi_arena *arena, const sbf_skin **made) {
   uint32_t points = asset->render_meshes.at[render_mesh].mesh.positions.count, all = 0;
-  if (!asset->bones.count || !points) return NULL;
-  carried c = {.counts = sbfi_glb_room(g, points, sizeof *c.counts)};
-  uint32_t *begins = sbfi_glb_room(g, points, sizeof *begins);
-  if (g->failed) return NULL;
+  *made = NULL;
+  if (!asset->bones.count || !points) return true;
+  carried c = {.counts = sbfi_arena_allocate(arena, points, sizeof *c.counts)};
+  uint32_t *begins = sbfi_arena_allocate(arena, points, sizeof *begins);
+  if (!c.counts || !begins) return false;
   visit(asset, render_mesh, &c);
   for (uint32_t p = 0; p < points; p++) {
     begins[p] = all;
     all += c.counts[p];
     c.counts[p] = 0;
   }
-  if (!all) return NULL;
-  sbf_skin *skin = sbfi_glb_room(g, 1, sizeof *skin);
+  if (!all) return true;
+  sbf_skin *skin = sbfi_arena_allocate(arena, 1, sizeof *skin);
   c.begins = begins;
-  c.bones = sbfi_glb_room(g, all, sizeof *c.bones);
-  c.weights = sbfi_glb_room(g, all, sizeof *c.weights);
-  if (g->failed) return NULL;
+  c.bones = sbfi_arena_allocate(arena, all, sizeof *c.bones);
+  c.weights = sbfi_arena_allocate(arena, all, sizeof *c.weights);
+  if (!skin || !c.bones || !c.weights) return false;
   visit(asset, render_mesh, &c);
   *skin = (sbf_skin){{c.counts, points}, {c.bones, all}, {c.weights, all}};
-  return skin;
+  *made = skin;
+  return true;
 }

@@ -1,0 +1,40 @@
+/* Which level of a soft body other programs get, and what lies where in it. */
+#include "export/exporting.h"
+#include "sbfmt/mechanics.h"
+
+const sbf_level *sbfi_export_lattice(const sbf_soft_body *body) {
+  for (uint32_t i = 0; i < body->levels.count; i++)
+    if (body->levels.at[i].model == SBF_ELASTIC_MODEL_TETRAHEDRA &&
+        body->levels.at[i].lattice.tetrahedra.count)
+      return &body->levels.at[i];
+  return NULL;
+}
+
+const sbf_level *sbfi_export_network(const sbf_soft_body *body) {
+  for (uint32_t i = 0; i < body->levels.count; i++) {
+    const sbf_level *level = &body->levels.at[i];
+    if (level->model != SBF_ELASTIC_MODEL_SPRINGS) continue;
+    for (uint32_t s = 0; s < level->springs.count; s++)
+      if (level->springs.at[s].ends.count) return level;
+  }
+  return NULL;
+}
+
+uint32_t sbfi_export_place(const sbf_level *level, uint32_t point) {
+  uint32_t place = point < level->new_from_old.count ? level->new_from_old.at[point] : point;
+  return place < level->positions.count ? place : SBFI_NO_PLACE;
+}
+
+bool sbfi_export_is_sheet(const sbf_soft_body *body, const sbf_level *level) {
+  sbf_body_measures measures;
+  sbf_body_measure(body, &measures);
+  for (uint32_t i = 0; i < body->surface.positions.count; i++)
+    if (sbfi_export_place(level, i) == SBFI_NO_PLACE) return false;
+  return measures.sheet && body->surface.polygon_sizes.count;
+}
+
+float sbfi_export_pin_weight(const sbf_pin_set *set, uint32_t k) {
+  float weight = set->weights.count > 1 ? set->weights.at[k] : set->weights.count ? set->weights.at[0] : 1;
+  if (weight < set->minimum) weight = set->minimum;
+  return weight > set->maximum ? set->maximum : weight;
+}
