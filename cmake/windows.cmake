@@ -1,5 +1,5 @@
 # A toolchain: 64-bit Windows with Debian's mingw-w64 (gcc-mingw-w64-x86-64, libz-mingw-w64-dev), run by wine. What an engine
-# embeds is built (-DSBFMT_RUNTIME_ONLY=ON).
+# embeds is built (-DSBFMT_RUNTIME_ONLY=ON), and of the program what tools/windows says.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc)

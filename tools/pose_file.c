@@ -17,7 +17,7 @@ sbf_status pose_file_open(pose_file *p, const char *path, const session *s, sbf_
   sbf_status status = output_file_begin(&p->output, path, error);
   if (status != SBF_OK) return status;
   p->bones = calloc(s->asset->bones.count + 1, sizeof *p->bones);
-  p->file = p->bones ? fopen(p->output.written_path, "w") : NULL;
+  p->file = p->bones ? fopen(p->output.written_path, "wb") : NULL;
   if (p->file && fputs("frame,time,bone,px,py,pz,qx,qy,qz,qw\n", p->file) >= 0) return SBF_OK;
   status = fault(p, errno, error);
   pose_file_close(p, false, NULL);

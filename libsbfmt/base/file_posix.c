@@ -143,13 +143,6 @@ void sbfi_file_close(sbfi_file *file) {
   file->handle = -1;
 }
 
-/* Closes and removes what the writer holds. */
-void sbfi_file_writer_end(sbfi_file_writer *writer) {
-  if (writer->handle >= 0) close((int)writer->handle);
-  sbfi_free(&writer->allocator, writer->memory, writer->memory_bytes);
-  *writer = (sbfi_file_writer){.handle = -1};
-}
-
 /* Creates a file of a new name beside the final one. Its name is short, since a long one plus a suffix might
  * be too long for the file system. */
 static int create_temporary(sbfi_file_writer *writer) {
@@ -219,30 +212,22 @@ static void sync_folder(const char *path) {
   close(handle);
 }
 
-sbf_status sbfi_file_writer_commit(sbfi_file_writer *writer, sbf_diagnostic *error) {
-  if (!writer->is_open) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the file writer is not open");
-  const char *path = writer->given_path;
-  sbfi_file_flush(writer);
-  /* What is not a regular file often cannot be synced. */
-  if (writer->failure == 0 && writer->temporary_path && fsync((int)writer->handle) != 0)
-    writer->failure = errno;
-  if (close((int)writer->handle) != 0 && writer->failure == 0 && errno != EINTR) writer->failure = errno;
-  writer->handle = -1;
-  if (writer->failure == 0 && writer->temporary_path &&
-      rename(writer->temporary_path, writer->final_path) != 0)
-    writer->failure = errno;
-  int failure = writer->failure;
-  if (failure != 0) {
-    sbfi_file_writer_abandon(writer);
-    return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_WRITE, path, "write", failure);
-  }
-  if (writer->temporary_path) sync_folder(writer->final_path);
-  sbfi_file_writer_end(writer);
-  return SBF_OK;
+int sbfi_file_sync(sbfi_file_writer *writer) {
+  return fsync((int)writer->handle) != 0 ? errno : 0;
 }
 
-void sbfi_file_writer_abandon(sbfi_file_writer *writer) {
-  if (!writer->is_open) return;
-  if (writer->temporary_path) unlink(writer->temporary_path);
-  sbfi_file_writer_end(writer);
+int sbfi_file_shut(sbfi_file_writer *writer) {
+  int handle = (int)writer->handle;
+  writer->handle = -1;
+  return handle >= 0 && close(handle) != 0 && errno != EINTR ? errno : 0;
+}
+
+int sbfi_file_rename(sbfi_file_writer *writer) {
+  if (rename(writer->temporary_path, writer->final_path) != 0) return errno;
+  sync_folder(writer->final_path);
+  return 0;
+}
+
+void sbfi_file_remove(const char *path) {
+  unlink(path);
 }

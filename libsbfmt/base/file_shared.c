@@ -51,13 +51,20 @@ bool sbfi_file_writer_room(sbfi_file_writer *writer, const char *final_path) {
   return true;
 }
 
+/* Closes what the writer holds, and frees its room. */
+static void end(sbfi_file_writer *writer) {
+  sbfi_file_shut(writer);
+  sbfi_free(&writer->allocator, writer->memory, writer->memory_bytes);
+  *writer = (sbfi_file_writer){.handle = -1};
+}
+
 sbf_status sbfi_file_writer_open(
     sbfi_file_writer *writer, const char *path, const sbf_allocator *allocator, sbf_diagnostic *error) {
   *writer =
       (sbfi_file_writer){.allocator = sbfi_allocator_or_default(allocator), .handle = -1, .given_path = path};
   int number = sbfi_file_writer_target(writer, path);
   if (number != 0) {
-    sbfi_file_writer_end(writer);
+    end(writer);
     return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_WRITE, path, "create", number);
   }
   writer->is_open = true;
@@ -82,6 +89,31 @@ sbf_status sbfi_file_writer_write(
   writer->written_bytes += size;
   if (writer->failure == 0) return SBF_OK;
   return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_WRITE, writer->given_path, "write", writer->failure);
+}
+
+sbf_status sbfi_file_writer_commit(sbfi_file_writer *writer, sbf_diagnostic *error) {
+  if (!writer->is_open) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the file writer is not open");
+  const char *path = writer->given_path;
+  sbfi_file_flush(writer);
+  /* What is not a regular file often cannot be synced. */
+  if (writer->failure == 0 && writer->temporary_path) writer->failure = sbfi_file_sync(writer);
+  int closed = sbfi_file_shut(writer);
+  if (writer->failure == 0) writer->failure = closed;
+  if (writer->failure == 0 && writer->temporary_path) writer->failure = sbfi_file_rename(writer);
+  int failure = writer->failure;
+  if (failure != 0) {
+    sbfi_file_writer_abandon(writer);
+    return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_WRITE, path, "write", failure);
+  }
+  end(writer);
+  return SBF_OK;
+}
+
+void sbfi_file_writer_abandon(sbfi_file_writer *writer) {
+  if (!writer->is_open) return;
+  sbfi_file_shut(writer); /* an open file cannot be removed everywhere */
+  if (writer->temporary_path) sbfi_file_remove(writer->temporary_path);
+  end(writer);
 }
 
 sbf_status sbfi_file_write(

@@ -20,8 +20,12 @@ sbf_status sbfi_file_get(const char *path, bool map, uint64_t limit_bytes, const
     sbfi_file_content *content, sbf_diagnostic *error);
 /* Opens what is to be written to, and makes the writer's room; 0 or an error number. */
 int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path);
-/* Closes what the writer holds, and frees its room. */
-void sbfi_file_writer_end(sbfi_file_writer *writer);
+/* Of an open writer, each 0 or an error number: what was written reaches the disk; it is closed, if it was
+ * not; its temporary file takes the final one's place. */
+int sbfi_file_sync(sbfi_file_writer *writer);
+int sbfi_file_shut(sbfi_file_writer *writer);
+int sbfi_file_rename(sbfi_file_writer *writer);
+void sbfi_file_remove(const char *path);
 
 /* Of the shared half. */
 

@@ -149,12 +149,6 @@ void sbfi_file_close(sbfi_file *file) {
   file->handle = -1;
 }
 
-void sbfi_file_writer_end(sbfi_file_writer *writer) {
-  if (writer->handle != -1) CloseHandle(handle_of(writer->handle));
-  sbfi_free(&writer->allocator, writer->memory, writer->memory_bytes);
-  *writer = (sbfi_file_writer){.handle = -1};
-}
-
 static size_t folder_length(const char *path) {
   size_t length = strlen(path);
   while (length && path[length - 1] != '/' && path[length - 1] != '\\' && path[length - 1] != ':') length--;
@@ -234,37 +228,24 @@ void sbfi_file_put(sbfi_file_writer *writer, const uint8_t *at, size_t size) {
   }
 }
 
-static bool move_over(const char *from, const char *to) {
-  wchar_t wide_from[SBFI_WIDE_PATH], wide_to[SBFI_WIDE_PATH];
-  return sbfi_wide_path(from, wide_from) && sbfi_wide_path(to, wide_to) &&
-         MoveFileExW(wide_from, wide_to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH);
+int sbfi_file_sync(sbfi_file_writer *writer) {
+  return FlushFileBuffers(handle_of(writer->handle)) ? 0 : (int)GetLastError();
 }
 
-sbf_status sbfi_file_writer_commit(sbfi_file_writer *writer, sbf_diagnostic *error) {
-  if (!writer->is_open) return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the file writer is not open");
-  const char *path = writer->given_path;
-  sbfi_file_flush(writer);
-  if (writer->failure == 0 && writer->temporary_path && !FlushFileBuffers(handle_of(writer->handle)))
-    writer->failure = (int)GetLastError();
-  if (!CloseHandle(handle_of(writer->handle)) && writer->failure == 0) writer->failure = (int)GetLastError();
+int sbfi_file_shut(sbfi_file_writer *writer) {
+  HANDLE handle = handle_of(writer->handle);
   writer->handle = -1;
-  if (writer->failure == 0 && writer->temporary_path &&
-      !move_over(writer->temporary_path, writer->final_path))
-    writer->failure = (int)GetLastError();
-  int failure = writer->failure;
-  if (failure != 0) {
-    sbfi_file_writer_abandon(writer);
-    return sbfi_file_fault(error, SBF_CODE_IO_CANNOT_WRITE, path, "write", failure);
-  }
-  sbfi_file_writer_end(writer);
-  return SBF_OK;
+  return handle == INVALID_HANDLE_VALUE || CloseHandle(handle) ? 0 : (int)GetLastError();
 }
 
-void sbfi_file_writer_abandon(sbfi_file_writer *writer) {
+int sbfi_file_rename(sbfi_file_writer *writer) {
+  wchar_t from[SBFI_WIDE_PATH], to[SBFI_WIDE_PATH];
+  if (!sbfi_wide_path(writer->temporary_path, from) || !sbfi_wide_path(writer->final_path, to))
+    return ERROR_FILENAME_EXCED_RANGE;
+  return MoveFileExW(from, to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH) ? 0 : (int)GetLastError();
+}
+
+void sbfi_file_remove(const char *path) {
   wchar_t wide[SBFI_WIDE_PATH];
-  if (!writer->is_open) return;
-  if (writer->handle != -1) CloseHandle(handle_of(writer->handle)); /* an open file cannot be removed */
-  writer->handle = -1;
-  if (writer->temporary_path && sbfi_wide_path(writer->temporary_path, wide)) DeleteFileW(wide);
-  sbfi_file_writer_end(writer);
+  if (sbfi_wide_path(path, wide)) DeleteFileW(wide);
 }
