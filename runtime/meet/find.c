@@ -53,7 +53,7 @@ void sbri_finding_add(
   if (f->group->touch_count >= f->group->touch_capacity) return;
   sbri_meet_touch *t = &f->world->meetings->touches[f->group->first_touch + f->group->touch_count++];
   *t = *touch;
-  t->friction = sqrtf(a->friction * b->friction);
+  t->friction = t->goes_out ? 0 : sqrtf(a->friction * b->friction);
   t->restitution = a->restitution > b->restitution ? a->restitution : b->restitution;
   float sizes[2] = {a->soft ? a->soft->rest_size_m * a->of->scale : INFINITY,
       b->soft ? b->soft->rest_size_m * b->of->scale : INFINITY};
@@ -119,9 +119,10 @@ static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_pa
   const float whole = 1;
   for (uint32_t v = 0; v < a->surface->vertex_count; v++) {
     sbri_surface_finding best;
-    if (!(a->surface->samples[v].mass_kg > 0) ||
-        !find_face(a, b, a->surface->places[v], a->surface->ways[v], &best))
-      continue;
+    if (!(a->surface->samples[v].mass_kg > 0)) continue;
+    sbf_vec3 x = a->surface->places[v];
+    bool deep = !find_face(a, b, x, a->surface->ways[v], &best);
+    if (deep && (sbri_are_of_one(a, b) || !sbri_meet_way_out(b, x, &best))) continue;
     const uint32_t *corners = b->surface->triangles + 3 * (size_t)best.face;
     float margin = sbri_party_margin(a, b);
     if (sbri_are_of_one(a, b)) {
@@ -135,7 +136,8 @@ static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_pa
         .a = sbri_soft_side(a, &v, &whole, 1),
         .b = sbri_soft_side(b, corners, best.weights, 3),
         .normal = best.normal,
-        .margin = margin};
+        .margin = margin,
+        .goes_out = deep};
     sbri_finding_add(f, a, b, &t);
   }
 }

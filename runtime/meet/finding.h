@@ -1,7 +1,8 @@
-/* What find.c and find_hulls.c share: the places of two bodies that may touch within a tick. */
+/* What find.c and its siblings share: the places of two bodies that may touch within a tick. */
 #ifndef SBRI_FINDING_H
 #define SBRI_FINDING_H
 
+#include "collide/surface_look.h"
 #include "math/quat.h"
 #include "meet/meetings.h"
 
@@ -57,6 +58,11 @@ float sbri_party_beyond(float margin, const sbri_party *b);
 
 /* Rims of sheets with rims. */
 void sbri_meet_rims(const sbri_finding *f, const sbri_party *a, const sbri_party *b);
+
+/* ---- find_deep.c ---- */
+
+/* Whether x lies inside of b, whose surface is closed, however deep; and then the nearest place of it. */
+bool sbri_meet_way_out(const sbri_party *b, sbf_vec3 x, sbri_surface_finding *best);
 
 /* ---- find_hulls.c ---- */
 

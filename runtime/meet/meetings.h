@@ -20,6 +20,7 @@ typedef struct sbri_meet_surface {
   uint32_t *triangles;  /* (triangle_count x 3) vertices */
   uint32_t vertex_count, triangle_count;
   bool two_sided; /* a sheet, or open */
+  bool closed;    /* each side of a triangle is one of another as well: it has an inside */
   uint8_t *rims; /* (triangle_count) of a two-sided one: bits of its sides that no other has, from each corner
                     on */
   /* Of a tick: */
@@ -87,7 +88,8 @@ typedef struct sbri_meet_touch {
   float gain;      /* N s along the normal */
   sbf_vec3 rub;    /* N s across it */
   bool pushed;
-  bool is_new; /* nobody remembers it from the tick before */
+  bool goes_out; /* too deep for a face to be near (find_deep.c): nothing rubs on its way out */
+  bool is_new;   /* nobody remembers it from the tick before */
   /* For events, of the whole tick: */
   float impulse;  /* N s along the normal */
   float closing;  /* m/s, the most with which it was pushed against */
@@ -203,6 +205,11 @@ void sbri_meet_surfaces_free(sbr_world *world, uint32_t character);
 void sbri_meetings_free(sbr_world *world);
 /* Places and ways of its vertices within the tick, and the tree over its triangles. */
 void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *member, uint32_t soft_body);
+
+/* ---- meet/find_deep.c ---- */
+
+/* Whether each side of its triangles is one of another, the other way round. */
+bool sbri_meet_is_closed(const sbri_meet_surface *surface);
 
 /* ---- meet/find_rims.c ---- */
 

@@ -57,6 +57,7 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
   sbf_body_measures measures;
   sbf_body_measure(body->source, &measures);
   s->two_sided = measures.sheet || body->rest_volume_m3 == 0;
+  s->closed = !s->two_sided && sbri_meet_is_closed(s);
   if (!s->two_sided) return true;
   uint32_t capacity = 8;
   while (capacity < 6 * s->triangle_count) capacity *= 2;

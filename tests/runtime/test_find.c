@@ -2,12 +2,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "collide/triangle.h"
 #include "collision_scenes.h"
 #include "harness.h"
 #include "meet/meetings.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
+#include "skin_depth.h"
 #include "world/world.h"
 
 /* A soft bar, bent to a U that lies on its side: two legs, 8 cm apart; its lattice is of 18 x 2 x 2 cells,
@@ -109,33 +109,8 @@ static placed_skin skin_of(const scene *s, sbr_character_id who) {
   return skin;
 }
 
-static double dot(sbf_vec3 a, sbf_vec3 b) {
-  return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
-}
-
-/* Of the triangle seen from x, by A. van Oosterom and J. Strackee, 1983. */
-static double solid_angle(sbf_vec3 x, sbf_vec3 a, sbf_vec3 b, sbf_vec3 c) {
-  a = sbri_sub(a, x), b = sbri_sub(b, x), c = sbri_sub(c, x);
-  double la = sqrt(dot(a, a)), lb = sqrt(dot(b, b)), lc = sqrt(dot(c, c));
-  return 2 * atan2(dot(a, sbri_cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-}
-
-/* How deep x is within the skin, m; 0: outside. Triangles at `own` are not looked for the way out. */
 static double depth_in(const scene *s, const placed_skin *skin, sbf_vec3 x, uint32_t own) {
-  const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
-  const uint32_t *c = mesh->polygon_points.at;
-  double angle = 0, nearest = 1e9;
-  for (uint32_t p = 0; p < mesh->polygon_sizes.count; p++, c += 4)
-    for (int k = 2; k < 4; k++) {
-      const sbf_vec3 t[3] = {skin->at[c[0]], skin->at[c[k - 1]], skin->at[c[k]]};
-      float weights[3];
-      angle += solid_angle(x, t[0], t[1], t[2]);
-      if (c[0] == own || c[k - 1] == own || c[k] == own) continue;
-      sbri_triangle_nearest(x, t[0], t[1], t[2], weights);
-      nearest =
-          fmin(nearest, (double)sbri_length(sbri_sub(x, sbri_triangle_place(weights, t[0], t[1], t[2]))));
-    }
-  return angle / 12.566370614359172 > (own == UINT32_MAX ? 0.5 : 1.5) ? nearest : 0;
+  return skin_depth(&s->asset->soft_bodies.at[0].surface, skin->at, x, own);
 }
 
 static double deepest(const scene *s, const placed_skin *a, const placed_skin *b) {
@@ -288,6 +263,53 @@ START_TEST(what_got_inside_finds_its_way_out)
 }
 END_TEST
 
+/* And by three or four centimetres, where no face is near: half of a leg is ten. */
+START_TEST(what_is_deep_inside_finds_its_way_out)
+{
+  sbr_character_id other;
+  float deep = _i ? 0.04f : 0.03f;
+  scene s = begin_two(0, GAP + 2 * THICK - deep, &other);
+  placed_skin one = skin_of(&s, s.character), two = skin_of(&s, other);
+  ck_assert_double_ge(deepest(&s, &one, &two), 0.8 * (double)deep);
+  scene_ticks(&s, 240);
+  one = skin_of(&s, s.character), two = skin_of(&s, other);
+  ck_assert_double_le(deepest(&s, &one, &two), 5e-4);
+  ck_assert_double_le(fastest(&s, other), 0.4);
+  scene_free(&s);
+}
+END_TEST
+
+/* One lies on the ground, the other falls on it at 15 m/s: what that drove into each other is out again. */
+START_TEST(what_is_thrown_down_hard_comes_apart)
+{
+  sbr_character_id other;
+  scene s = begin_bar(false, false, 1e5f);
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.character_definition.position.y = (double)(THICK + 0.5f * GAP);
+  s.asset->environment.gravity = weight;
+  start(&s);
+  sbr_character_definition d = s.character_definition;
+  d.position.x += _i ? 0.15 : 0, d.position.z += _i ? 0.03 : 0, d.position.y += 0.35;
+  d.heading = _i ? 0.6f : 0;
+  ck_assert(sbr_character_create(s.world, s.model, &d, &other, NULL) == SBF_OK);
+  sbri_character *c = sbri_character_of(s.world, other);
+  for (uint32_t slot = 0; slot < c->model->islands[0].free_count; slot++)
+    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK + slot % SBRI_BLOCK] = -15;
+  double most = 0;
+  for (int i = 0; i < 300; i++) {
+    scene_ticks(&s, 1);
+    if (i > 60 || i % 3) continue;
+    placed_skin one = skin_of(&s, s.character), two = skin_of(&s, other);
+    double deep = deepest(&s, &one, &two);
+    most = deep > most ? deep : most;
+  }
+  placed_skin one = skin_of(&s, s.character), two = skin_of(&s, other);
+  ck_assert_double_ge(most, 0.02);
+  ck_assert_double_le(deepest(&s, &one, &two), 0.004);
+  scene_free(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("find");
   TCase *tests = tcase_create("all");
@@ -297,6 +319,8 @@ int main(void) {
   tcase_add_test(tests, sections_that_touch_at_rest_hang_together);
   tcase_add_test(tests, skins_of_two_push_each_other_off);
   tcase_add_test(tests, what_got_inside_finds_its_way_out);
+  tcase_add_loop_test(tests, what_is_thrown_down_hard_comes_apart, 0, 2);
+  tcase_add_loop_test(tests, what_is_deep_inside_finds_its_way_out, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
