@@ -16,6 +16,9 @@ static const float UPRIGHT_HZ = 1;   /* of a critically damped follower */
 static const float ROOM_S = 0.25f;   /* by which the belly looks ahead */
 static const float CLEAR = 0.03f;    /* of the reach: what is kept between the belly and the ground */
 static const float RAISED = 0.1f;    /* of the reach: the body rises by no more for its belly */
+static const float UPRIGHT = 0.7f; /* cosine: legs that stand no flatter are eased by how high the body is */
+static const float MEETS = 0.06f; /* of the reach: as near as what it needs to come down is to what it does */
+static const float ABRUPT = 43;   /* of the reach, a second squared: 1.2 % a frame of 1/60 s in a frame */
 static const float SPARE = 0.965f; /* share of the uneased reach that the body comes down for ahead of need */
 
 static sbf_quat yaw_rotation(float yaw) {
@@ -76,21 +79,30 @@ static float slope(sbf_vec3 a, sbf_vec3 b, float run) {
   return run > 1e-6f ? sbri_atan2(b.y - a.y, run) : 0;
 }
 
-/* How far the body must come down for a leg to have its ankle at a place with a share of its reach. */
+static float full_reach(const sbri_leg *leg, float scale) {
+  return leg->reach * (1 - leg->soft_reach) * scale;
+}
+
+/* How far the body must come down for a leg to have its ankle, that its hip is `away` from, within `reach`.
+ */
+static float drop_into(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    uint32_t leg, sbf_vec3 away, float reach) {
+  float left = reach * reach - away.x * away.x - away.z * away.z;
+  float least = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
+  /* What a clip lifts the hip by is all taken back: the foot stands, not hangs. */
+  float lifted = state->feet[leg].hip.y - rig->rest[rig->legs[leg].upper].position.y * input->scale;
+  float drop = away.y - sqrtf(left > least ? left : least);
+  float most = DEEPEST * reach + (lifted > 0 ? lifted : 0);
+  return drop < most ? drop : most;
+}
+
+/* The same with a share of its reach. */
 static float drop_for(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 hip, sbf_vec3 ankle, float share) {
   const sbri_leg *l = &rig->legs[leg];
   float bent = state->bent.value; /* by its square, legs as straight as at rest bend at an even pace */
   if (share < l->rest_stretch) share = l->rest_stretch + bent * bent * (share - l->rest_stretch);
-  float reach = share * l->reach * (1 - l->soft_reach) * input->scale;
-  sbf_vec3 away = sbri_sub(hip, ankle);
-  float left = reach * reach - away.x * away.x - away.z * away.z;
-  float least = LOWEST * LOWEST * reach * reach; /* too far to the side, it is not helped by it */
-  /* What a clip lifts the hip by is all taken back: the foot stands, not hangs. */
-  float lifted = state->feet[leg].hip.y - rig->rest[l->upper].position.y * input->scale;
-  float drop = away.y - sqrtf(left > least ? left : least);
-  float most = DEEPEST * reach + (lifted > 0 ? lifted : 0);
-  return drop < most ? drop : most;
+  return drop_into(rig, state, input, leg, sbri_sub(hip, ankle), share * full_reach(l, input->scale));
 }
 
 /* How far the body may come down, as it will stand in a moment, before its belly is on the ground. */
@@ -133,6 +145,30 @@ static float crouch(const sbri_rig *rig, const sbri_gait_state *state, const sbr
     *spare = early > *spare ? early : *spare;
   }
   return most;
+}
+
+/* From how far it would come down to where no planted knee straightens, or bends, more abruptly than it can:
+ * legs that stand upright alone, whose knees turn as the body goes up and down. */
+static float ease_for_knees(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    const sbr_transform *root, float down) {
+  float least = -1e6f, most = 1e6f;
+  for (uint32_t i = 0; i < rig->leg_count; i++) {
+    const sbri_leg *leg = &rig->legs[i];
+    const sbri_foot *foot = &state->feet[i];
+    if (leg->lower < 0 || leg->carrier >= 0 || !foot->planted) continue;
+    sbf_vec3 ankle = sbri_ankle_over(leg, foot, foot->ground, input->scale);
+    ankle.y += state->position.y;
+    sbf_vec3 away = sbri_sub(sbri_hip_of(rig, state, input, i, root), ankle);
+    float full = full_reach(leg, input->scale), shortest, longest;
+    if (away.y <= UPRIGHT * sbri_length(away)) continue;
+    if (!sbri_knee_range(leg, foot, input, full, &shortest, &longest)) continue;
+    float bent = drop_into(rig, state, input, i, away, shortest);
+    float straight = longest < full ? drop_into(rig, state, input, i, away, longest) : least;
+    most = bent < most ? bent : most;
+    least = straight > least ? straight : least;
+  }
+  if (down > most) down = most;
+  return down < least ? least : down;
 }
 
 /* The same for where every foot comes down and lifts off in a stride: the wider, the lower the body goes, and
@@ -202,17 +238,32 @@ float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sb
   return crouch(rig, state, input, root, &unused);
 }
 
-/* Lets it down as far as it has come by itself, or as far as it must. */
-static void come_down(const sbri_gait_state *state, float needed, sbri_stance *stance) {
-  float down = state->crouch.value;
-  stance->lowered = down > needed ? down : needed;
-  stance->root.position.y -= stance->lowered;
+/* Lets it down as far as it has come by itself, or as far as it must. Where these meet, legs are nearly
+ * straight, and their knees turn fast as the body moves: there it is eased, no more abruptly than it can be.
+ */
+static void come_down(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
+    float needed, sbri_stance *stance) {
+  float size = rig->reach * input->scale, tick = input->tick_s;
+  float down = state->crouch.value > needed ? state->crouch.value : needed, eased = down;
+  if (state->eased || needed > state->crouch.value - MEETS * size)
+    eased = ease_for_knees(rig, state, input, &stance->root, down);
+  if (eased != down || state->eased) {
+    float even = stance->root.position.y - state->root.position.y - state->rise * tick; /* as it has come */
+    float change = ABRUPT * size * tick * tick, low = even - change, high = even + change;
+    if (!state->eased && down < low) low = down;
+    if (!state->eased && down > high) high = down;
+    eased = sbri_clamp(eased, low, high);
+    if (eased < needed) eased = needed;
+  }
+  stance->eased = eased != down;
+  stance->lowered = eased;
+  stance->root.position.y -= eased;
 }
 
 sbri_stance sbri_body_stance(
     const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   sbri_stance stance = stance_over(rig, state, input);
-  if (rig->leg_count) come_down(state, sbri_body_drop(rig, state, input, &stance.root), &stance);
+  if (rig->leg_count) come_down(rig, state, input, sbri_body_drop(rig, state, input, &stance.root), &stance);
   return stance;
 }
 
@@ -259,6 +310,6 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   if (wanted > state->room.value) wanted = state->room.value;
   sbri_lag_tick(&state->crouch, wanted, &step);
   if (!stride) state->crouch = (sbri_lag){wanted, 0};
-  come_down(state, needed, &stance);
+  come_down(rig, state, input, needed, &stance);
   return stance;
 }

@@ -29,6 +29,7 @@ static void keep_stance(sbri_gait_state *state, const sbri_stance *stance) {
   state->hips_pitch = stance->hips_pitch;
   state->chest_yaw = stance->chest_yaw;
   state->lowered = stance->lowered;
+  state->eased = stance->eased;
 }
 
 void sbri_gait_place(
@@ -65,6 +66,7 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
   sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));
   keep_stance(state, &stance);
+  state->rise = 0;
   sbri_tails_place(rig, state, &stance);
 }
 
@@ -149,6 +151,7 @@ uint32_t sbri_gait_tick(const sbri_rig *rig, void *memory, const sbri_gait_input
     stance = sbri_body_stance(rig, state, input);
   lead_head(rig, state, input);
   sbri_tails_tick(rig, state, &stance, turned, input->tick_s);
+  state->rise = (stance.root.position.y - state->root.position.y) / input->tick_s;
   keep_stance(state, &stance);
   sbri_body_pose(rig, state, input, SBRI_ADVANCE_TICK, pose);
   find_center(rig, state, input, pose);

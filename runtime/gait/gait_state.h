@@ -26,9 +26,13 @@ typedef struct sbri_foot {
   float leaves, arrives;                              /* phases between which it moves over the ground */
   float climbs, climbed;                              /* the same of the height between its places */
   sbri_glide x, z, base, rise, tilt_x, tilt_z, twist; /* of `ground`, `lift`, `normal`, `heading` */
-  sbf_vec3 hip;                  /* where its leg begins, as last posed: from the root, in its axes; m */
-  sbf_vec3 pole;                 /* that its knee points to, as last posed */
-  float missed;                  /* how far its sole is from its place then, for its leg's limits; m */
+  sbf_vec3 hip;  /* where its leg begins, as last posed: from the root, in its axes; m */
+  sbf_vec3 pole; /* that its knee points to, as last posed */
+  float missed;  /* how far its sole is from its place then, for its leg's limits; m */
+  /* Of the knee, rad, as last posed, straight: pi; how fast it turned, rad/s; what the foot's way asked of
+   * it; and what it was held at, 0: nothing. */
+  float knee, knee_rate, knee_wanted, knee_held;
+  uint32_t knee_known;           /* ticks that this is known of, up to 2 */
   uint32_t planted, was_planted; /* 1 or 0: now, and a tick ago */
   uint32_t steps_taken;
 } sbri_foot;
@@ -63,7 +67,9 @@ typedef struct sbri_gait_state {
   sbf_vec3 center;               /* of mass, from `position`, without the sway; last tick's */
   sbr_transform root;            /* of the last stance, and its turns */
   float hips_yaw, hips_pitch, chest_yaw;
-  float lowered; /* by how much the root is lower than over upright legs, m */
+  float lowered;  /* by how much the root is lower than over upright legs, m */
+  float rise;     /* of the root in the last tick, m/s */
+  uint32_t eased; /* 1: not lowered as its feet would have it, for its knees */
   double distance_m;
   float walk_phase; /* of the walks of poses: share of the cycle, from 0 to below 1 */
   float walk_ahead; /* by how much of a cycle that is ahead of the feet, as far as it is to be made up */
@@ -269,6 +275,7 @@ typedef struct sbri_stance {
   float hips_yaw, chest_yaw; /* rad, relative to the heading */
   float hips_pitch;          /* rad, about the left axis, from the level: above 0 where it goes down */
   float lowered;             /* how far it has come down for its feet, m */
+  bool eased;                /* not as far as it would for them: for its knees */
 } sbri_stance;
 
 /* Decides who steps, moves the feet in the air, and the body over all of them; returns how many events were
@@ -318,6 +325,21 @@ void sbri_clips_pose(const sbri_rig *rig, const sbri_gait_state *state, float sc
 /* `walked_m`: in this tick. */
 void sbri_walk_tick(const sbri_rig *rig, sbri_gait_state *state, float walked_m, float scale);
 void sbri_walk_pose(const sbri_rig *rig, const sbri_gait_state *state, float scale, sbr_transform *locals);
+
+/* ---- gait/knee.c ---- */
+
+/* The angle between thigh and shin, rad, with hip and ankle at a distance; and back. */
+float sbri_knee_angle(const sbri_leg *leg, float scale, float distance);
+float sbri_knee_distance(const sbri_leg *leg, float scale, float angle);
+/* What a knee in the air gets to of the angle that its foot's way asks for. */
+float sbri_knee_follow(const sbri_foot *foot, float wanted, float tick_s);
+/* How near to the hip, and how far from it, a planted ankle may be in a tick for its knee to turn no more
+ * abruptly, and to be able to stop where the leg is stretched to `full`; m. False where that is not in doubt.
+ */
+bool sbri_knee_range(const sbri_leg *leg, const sbri_foot *foot, const sbri_gait_input *input, float full,
+    float *shortest, float *longest);
+/* Notes what it has come to. */
+void sbri_knee_keep(sbri_foot *foot, float angle, float wanted, float tick_s);
 
 /* ---- gait/limbs.c ---- */
 

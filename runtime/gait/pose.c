@@ -128,12 +128,17 @@ static void pose_peg(
   pose_foot(rig, leg, foot, ankle, pose[leg->foot].rotation, pose);
 }
 
+/* An ankle as near as the leg's soft reach lets it be stretched. */
+static sbf_vec3 eased_ankle(const sbri_leg *leg, sbf_vec3 hip, sbf_vec3 ankle, float scale) {
+  sbf_vec3 away = sbri_sub(ankle, hip);
+  float distance = sbri_length(away), eased = sbri_ease_reach(distance, leg->reach * scale, leg->soft_reach);
+  return eased < distance ? sbri_add_scaled(hip, away, eased / distance) : ankle;
+}
+
 /* Two bones in closed form, then the limits of their joints. */
 static void solve_leg(const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, sbf_vec3 ankle,
     sbf_vec3 pole, sbf_vec3 fallback, float scale, sbr_transform *pose) {
-  sbf_vec3 hip = pose[leg->upper].position, away = sbri_sub(ankle, hip);
-  float distance = sbri_length(away), eased = sbri_ease_reach(distance, leg->reach * scale, leg->soft_reach);
-  if (eased < distance) ankle = sbri_add_scaled(hip, away, eased / distance);
+  sbf_vec3 hip = pose[leg->upper].position;
   sbri_two_bone_result solved =
       sbri_two_bone(hip, ankle, pole, fallback, leg->upper_length * scale, leg->lower_length * scale, 0);
 
@@ -174,8 +179,35 @@ static void pose_rest_of_leg(const sbri_rig *rig, const sbri_gait_state *state, 
   }
 }
 
+/* How far ankle and hip of a leg are apart as it is posed. */
+static float span_of(const sbri_leg *leg, const sbr_transform *pose) {
+  return sbri_length(sbri_sub(pose[leg->foot].position, pose[leg->upper].position));
+}
+
+/* Holds a leg's knee to what it can do in a tick, if it is in the air, and notes where it has come to. */
+static void ease_knee(const sbri_rig *rig, const sbri_gait_input *input, const sbri_leg *leg, sbri_foot *foot,
+    sbf_vec3 pole, sbf_vec3 fallback, sbri_advance advance, sbr_transform *pose) {
+  float wanted = 0, span = span_of(leg, pose);
+  if (advance == SBRI_ADVANCE_TICK) {
+    wanted = sbri_knee_angle(leg, input->scale, span);
+    bool swings = !foot->planted && leg->carrier < 0; /* what hangs on a chain goes as that is dragged */
+    float angle = swings ? sbri_knee_follow(foot, wanted, input->tick_s) : wanted;
+    foot->knee_held = angle != wanted ? angle : 0;
+  }
+  if (foot->knee_held > 0 && span > 0) {
+    float share = sbri_knee_distance(leg, input->scale, foot->knee_held) / span;
+    sbf_vec3 hip = pose[leg->upper].position;
+    sbf_vec3 ankle = sbri_add_scaled(hip, sbri_sub(pose[leg->foot].position, hip), share);
+    solve_leg(rig, leg, foot, ankle, pole, fallback, input->scale, pose);
+    span = span_of(leg, pose);
+  }
+  if (advance == SBRI_ADVANCE_TICK)
+    sbri_knee_keep(
+        foot, foot->knee_held > 0 ? sbri_knee_angle(leg, input->scale, span) : wanted, wanted, input->tick_s);
+}
+
 static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance,
-    const sbri_gait_input *input, uint32_t index, sbr_transform *pose) {
+    const sbri_gait_input *input, uint32_t index, sbri_advance advance, sbr_transform *pose) {
   const sbri_leg *leg = &rig->legs[index];
   sbri_foot *foot = &state->feet[index];
   float scale = input->scale;
@@ -193,7 +225,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   float held = SOLE_HELD * (leg->upper_length + leg->lower_length) * scale;
   foot->missed = 0;
   for (int pass = 0; pass < SOLE_PASSES; pass++) {
-    solve_leg(rig, leg, foot, ankle, pole, fallback, scale, pose);
+    solve_leg(rig, leg, foot, eased_ankle(leg, hip, ankle, scale), pole, fallback, scale, pose);
     if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;
     /* A foot that its ankle lets turn no farther stands where it stands all the same; in the air it hangs. */
     sbf_vec3 over = ankle_over_sole(rig, leg, scale, pose);
@@ -201,6 +233,7 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
     if (foot->missed <= held || stands <= 0) break;
     ankle = sbri_lerp(flat, sbri_add(sole, over), stands);
   }
+  ease_knee(rig, input, leg, foot, pole, fallback, advance, pose);
   if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
 }
 
@@ -243,7 +276,7 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   for (uint32_t i = 0; i < rig->leg_count; i++)
     state->feet[i].hip = sbri_rotate(back, sbri_sub(pose[rig->legs[i].upper].position, stance.root.position));
   lower_to_feet(rig, state, input, &stance.root, pose);
-  for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, pose);
+  for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, advance, pose);
   sbri_limbs_reach(rig, state, input, &stance.root, pose);
   sbri_followers_pose(rig, state, input, &stance.root, advance, pose);
 }

@@ -9,11 +9,7 @@ from sbfmt_program import ROOT, ProgramTest, convert_once, example, liz, main, n
 from walks import all_walks, failures, leg_of, measure, straight
 
 # What is not met, and how far off it is.
-EXAMPLE = {
-    "slope of 20°, 3": {"knee_speed_step": 5.5},
-    "stairs of a quarter leg, 2": {"knee_speed_step": 6.6},
-    "stairs of a quarter leg, 3": {"knee_speed_step": 5.5},
-}
+EXAMPLE = {}
 THESIS = {}
 
 # Of a caterpillar's stumps, driven beyond what they last at: they hang on a chain that goes its own way.
@@ -41,10 +37,9 @@ OTHERS = {
 OFF_FLAT_SPEEDS = (0.1, 0.3, 1, 3)
 OFF_FLAT = {
     "pup": {},
-    "calf": {"slope of 20°, 0.3": {"knee_speed_step": 5.2}, "stairs of a quarter leg, 1": {"knee_speed_step": 7.1},
-             "stairs of a quarter leg, 3": {"knee_speed_step": 6.6}},
+    "calf": {},
     "yeti": {"slope of 20°, 0.1": {"support_margin": -0.05}},
-    "spider": {"slope of 20°, 3": {"knee_speed_step": 5.4}, "stairs of a quarter leg, 3": {"knee_speed_step": 15}},
+    "spider": {},
     "fox": {},
 }
 

@@ -175,6 +175,7 @@ START_TEST(empty_links_take_no_room)
       float apart = sbri_length(sbri_sub(s.pose[k].position, s.pose[k - 1].position));
       ck_assert_float_eq_tol(apart, spacing[k - 1], 1e-4f);
       ck_assert(isfinite(s.pose[k].rotation.w));
+      if (spacing[k] == 0) ck_assert_float_ge(sbri_dot(along(&s, k), along(&s, k - 1)), 0.99999f);
     }
   }
   ck_assert_float_le(most_bend(&s), 0.41f);

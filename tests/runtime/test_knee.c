@@ -1,0 +1,171 @@
+#include <math.h>
+
+#include "gait/gait_state.h"
+#include "gait_stage.h"
+#include "harness.h"
+#include "quadruped.h"
+
+static const float TICK_S = 1.0f / 60, DEGREES = 57.2957795f;
+static const float MOST = 4.6f; /* degrees that a knee's turn in a tick changes by in the next */
+
+/* Greatest change of a knee's turn from tick to tick as it goes after `wanted` for so many ticks; the knee is
+ * left where it came to. */
+static float follow(sbri_foot *foot, float (*wanted)(int), int count) {
+  float most = 0, before = foot->knee_rate;
+  for (int i = 0; i < count; i++) {
+    float to = wanted(i);
+    sbri_knee_keep(foot, sbri_knee_follow(foot, to, TICK_S), to, TICK_S);
+    most = fmaxf(most, fabsf(foot->knee_rate - before) * TICK_S * DEGREES);
+    before = foot->knee_rate;
+  }
+  return most;
+}
+
+static sbri_foot at_rest(float angle) {
+  return (sbri_foot){.knee = angle, .knee_wanted = angle, .knee_known = 2};
+}
+
+static float jumps(int tick) {
+  return tick < 3 ? 1.0f : 1.6f;
+}
+
+static float swings(int tick) {
+  return 1.5f + 0.5f * sinf(0.3f * (float)tick); /* by up to 2.6 degrees more in each tick */
+}
+
+static float snaps_straight(int tick) {
+  float angle = 2 + 0.2f * (float)tick;
+  return angle < 3.14159265f ? angle : 3.14159265f;
+}
+
+START_TEST(a_knee_catches_up_without_a_jerk_and_stays)
+{
+  sbri_foot foot = at_rest(1);
+  ck_assert_float_le(follow(&foot, jumps, 60), MOST);
+  ck_assert_float_eq(foot.knee, 1.6f);
+  ck_assert_float_le(fabsf(foot.knee_rate), 1e-3f);
+}
+END_TEST
+
+START_TEST(a_knee_that_can_go_along_does_so_exactly)
+{
+  sbri_foot foot = at_rest(swings(0));
+  (void)follow(&foot, swings, 20);
+  for (int i = 20; i < 80; i++) {
+    float angle = sbri_knee_follow(&foot, swings(i), TICK_S);
+    ck_assert_float_eq(angle, swings(i));
+    sbri_knee_keep(&foot, angle, angle, TICK_S);
+  }
+}
+END_TEST
+
+START_TEST(a_knee_comes_to_rest_where_the_leg_is_straight)
+{
+  sbri_foot foot = at_rest(2);
+  ck_assert_float_le(follow(&foot, snaps_straight, 60), MOST + 0.5f); /* its own start is as abrupt */
+  ck_assert_float_eq_tol(foot.knee, 3.14159265f, 1e-4f);
+}
+END_TEST
+
+START_TEST(angle_and_distance_are_of_one_triangle)
+{
+  const sbri_leg leg = {.upper_length = 0.3f, .lower_length = 0.2f};
+  for (float angle = 0.2f; angle < 3; angle += 0.1f) {
+    float distance = sbri_knee_distance(&leg, 2, angle);
+    ck_assert_float_eq_tol(sbri_knee_angle(&leg, 2, distance), angle, 1e-4f);
+  }
+  ck_assert_float_eq_tol(sbri_knee_distance(&leg, 2, 3.14159265f), 1, 1e-5f);
+  ck_assert_float_eq_tol(sbri_knee_angle(&leg, 2, 1.5f), 3.14159265f, 1e-5f); /* beyond its reach */
+}
+END_TEST
+
+START_TEST(a_leg_that_stands_stops_before_it_is_straight)
+{
+  const sbri_leg leg = {.upper_length = 0.3f, .lower_length = 0.2f};
+  const sbri_gait_input input = {.tick_s = TICK_S, .scale = 1};
+  sbri_foot foot = at_rest(2.5f);
+  float shortest, longest;
+  ck_assert(!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest)); /* it does not turn */
+  foot.knee = foot.knee_wanted = 2.9f;
+  foot.knee_rate = 0.12f / TICK_S; /* it would be straight in two ticks more */
+  float before = foot.knee_rate, most = 0;
+  for (int i = 0; i < 30; i++) {
+    if (!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest)) break;
+    ck_assert_float_le(shortest, longest);
+    float angle = sbri_knee_angle(&leg, 1, longest);
+    sbri_knee_keep(&foot, angle, angle, TICK_S);
+    most = fmaxf(most, fabsf(foot.knee_rate - before) * TICK_S * DEGREES);
+    before = foot.knee_rate;
+  }
+  ck_assert_float_le(most, MOST + 0.2f); /* single precision says little of a leg that is nearly straight */
+  ck_assert_float_eq_tol(foot.knee, 3.14159265f, 0.02f);
+  foot.knee_rate = 10, foot.knee_known = 1;
+  ck_assert(!sbri_knee_range(&leg, &foot, &input, 0.5f, &shortest, &longest));
+}
+END_TEST
+
+/* A kerb every 60 cm. */
+static double kerbs(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
+  (void)ground, (void)x;
+  *normal = (sbf_vec3){0, 1, 0};
+  return z > 0.5 ? 0.1 * floor((z - 0.5) / 0.6 + 1) : 0;
+}
+
+START_TEST(knees_in_the_air_turn_evenly_over_kerbs)
+{
+  gait_stage stage;
+  gait_stage_begin(&stage, quadruped_asset());
+  stage.ground.height = kerbs;
+  stage.input.forward = 1.2f;
+  float rates[4] = {0}, most = 0;
+  uint32_t held = 0, known[4] = {0};
+  for (int i = 0; i < 600; i++) {
+    gait_stage_ticks(&stage, 1);
+    for (int l = 0; l < 4; l++) {
+      const sbri_foot *foot = &stage.state->feet[l];
+      float change = fabsf(foot->knee_rate - rates[l]) * TICK_S * DEGREES;
+      if (!foot->planted && known[l] == 2) most = fmaxf(most, change);
+      rates[l] = foot->knee_rate, known[l] = foot->knee_known;
+      held += foot->knee_held > 0;
+    }
+  }
+  ck_assert_float_gt(stage.state->position.z, 1.5f);
+  ck_assert_uint_gt(held, 0);
+  ck_assert_float_le(most, MOST);
+  gait_stage_end(&stage);
+}
+END_TEST
+
+START_TEST(the_same_pose_comes_of_a_state_that_is_not_moved_on)
+{
+  gait_stage stage;
+  gait_stage_begin(&stage, quadruped_asset());
+  stage.ground.height = kerbs;
+  stage.input.forward = 1.2f;
+  uint32_t held = 0;
+  sbr_transform again[32];
+  for (int i = 0; i < 600; i++) {
+    gait_stage_ticks(&stage, 1);
+    sbri_gait_pose(&stage.rig, stage.state, &stage.input, false, again);
+    for (int l = 0; l < 4; l++) held += stage.state->feet[l].knee_held > 0;
+    for (uint32_t b = 0; b < stage.rig.bone_count; b++)
+      ck_assert_float_le(sbri_length(sbri_sub(again[b].position, stage.pose[b].position)), 1e-5f);
+  }
+  ck_assert_uint_gt(held, 0);
+  gait_stage_end(&stage);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("knee");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, a_knee_catches_up_without_a_jerk_and_stays);
+  tcase_add_test(tests, a_knee_that_can_go_along_does_so_exactly);
+  tcase_add_test(tests, a_knee_comes_to_rest_where_the_leg_is_straight);
+  tcase_add_test(tests, angle_and_distance_are_of_one_triangle);
+  tcase_add_test(tests, a_leg_that_stands_stops_before_it_is_straight);
+  tcase_add_test(tests, knees_in_the_air_turn_evenly_over_kerbs);
+  tcase_add_test(tests, the_same_pose_comes_of_a_state_that_is_not_moved_on);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
