@@ -90,6 +90,18 @@ double rung_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count)
   return sqrt(most);
 }
 
+double rung_scene_apart(const scene *a, const scene *b) {
+  static sbf_vec3 of_a[RUNG_VERTICES], of_b[RUNG_VERTICES];
+  uint32_t count = rung_scene_skin(a, of_a);
+  ck_assert_uint_eq(rung_scene_skin(b, of_b), count);
+  return rung_scene_farthest(of_a, of_b, count);
+}
+
+void rung_scene_ticks(scene *a, scene *b, int ticks) {
+  scene_ticks(a, ticks);
+  scene_ticks(b, ticks);
+}
+
 double rung_scene_elastic(const scene *s) {
   return sbr_character_health(s->world, s->character, 0).elastic_j;
 }

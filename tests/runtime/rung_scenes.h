@@ -19,6 +19,9 @@ enum { RUNG_VERTICES = 512 };
 uint32_t rung_scene_skin(const scene *s, sbf_vec3 *positions);
 /* The farthest that two are apart, m. */
 double rung_scene_farthest(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count);
+/* The same of the skins of two scenes that began alike, and so many ticks of both. */
+double rung_scene_apart(const scene *a, const scene *b);
+void rung_scene_ticks(scene *a, scene *b, int ticks);
 /* J of the body: elastic, kinetic. */
 double rung_scene_elastic(const scene *s);
 double rung_scene_kinetic(const scene *s);

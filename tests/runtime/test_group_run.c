@@ -5,40 +5,14 @@
 #include "collision_scenes.h"
 #include "harness.h"
 #include "host_threads.h"
+#include "meeting_scenes.h"
 #include "momentum.h"
-#include "rigid_scenes.h"
 #include "world/world.h"
 
 static const sbf_vec3 weight = {0, -9.81f, 0};
 
-static scene begin(sbf_vec3 gravity) {
-  scene s = rigid_begin();
-  s.asset->environment.gravity = gravity;
-  return s;
-}
-
-static void start(scene *s) {
-  scene_start(s);
-  ck_assert(sbr_world_bodies_meet(s->world, 0, NULL) == SBF_OK);
-}
-
-static void throw(scene * s, uint32_t body, sbf_vec3 impulse) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
-  sbf_vec3 c = rigid_state(s, body).center;
-  sbr_character_rigid_push(s->world, s->character, body,
-      (sbr_double3){o.x + (double)c.x, o.y + (double)c.y, o.z + (double)c.z}, impulse);
-}
-
 static double size(sbf_vec3 v) {
   return sqrt((double)(v.x * v.x + v.y * v.y + v.z * v.z));
-}
-
-static sbr_character_id another(scene *s, sbr_double3 position) {
-  sbr_character_definition d = s->character_definition;
-  sbr_character_id id;
-  d.position = position;
-  ck_assert(sbr_character_create(s->world, s->model, &d, &id, NULL) == SBF_OK);
-  return id;
 }
 
 /* ---- Momentum ---- */
@@ -57,13 +31,13 @@ static double off(const scene_momentum *a, const scene_momentum *b) {
 START_TEST(boxes_stand_on_each_other)
 {
   enum { BOXES = 6 };
-  scene s = begin(weight);
+  scene s = meeting_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   for (int i = 0; i < BOXES; i++)
     rigid_box(&s, (sbf_vec3){0.01f * (float)(i % 2), 0.101f + 0.202f * (float)i, 0},
         (sbf_vec3){0.2f, 0.2f, 0.2f}, i == 5 ? 5 : 1);
-  start(&s);
+  meeting_start(&s);
   scene_ticks(&s, 300);
   for (uint32_t i = 0; i < BOXES; i++) {
     ck_assert_float_eq_tol(rigid_state(&s, i).center.y, 0.1f + 0.2f * (float)i, 2e-3f);
@@ -75,12 +49,12 @@ END_TEST
 
 START_TEST(a_hit_keeps_momentum)
 {
-  scene s = begin((sbf_vec3){0, 0, 0});
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.3f, 0.2f}, 1);
   rigid_box(&s, (sbf_vec3){0, 0.1f, 1}, (sbf_vec3){0.2f, 0.2f, 0.4f}, 30);
   rigid_body(&s, 0)->friction = 0.5f;
-  start(&s);
-  throw(&s, 0, (sbf_vec3){0.2f, 0, 4});
+  meeting_start(&s);
+  meeting_throw(&s, s.character, 0, (sbf_vec3){0.2f, 0, 4});
   scene_momentum before = scene_momentum_of(&s);
   scene_ticks(&s, 60);
   scene_momentum after = scene_momentum_of(&s);
@@ -94,13 +68,13 @@ END_TEST
 START_TEST(boxes_bounce_by_their_restitution)
 {
   const float es[3] = {0, 0.5f, 0.8f};
-  scene s = begin((sbf_vec3){0, 0, 0});
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
   for (uint32_t i = 0; i < 2; i++) {
     rigid_box(&s, (sbf_vec3){0, 0, (float)i}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
     rigid_body(&s, i)->restitution = es[_i];
   }
-  start(&s);
-  throw(&s, 0, (sbf_vec3){0, 0, 2});
+  meeting_start(&s);
+  meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
   scene_ticks(&s, 60);
   double apart = (double)(rigid_state(&s, 1).velocity.z - rigid_state(&s, 0).velocity.z);
   ck_assert_double_eq_tol(apart / 2, (double)es[_i], 0.02);
@@ -111,14 +85,14 @@ END_TEST
 /* On a slab that slides on the ground: slows down by friction, and draws the slab along. */
 START_TEST(friction_is_mutual)
 {
-  scene s = begin(weight);
+  scene s = meeting_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   rigid_box(&s, (sbf_vec3){0, 0.1f, 0}, (sbf_vec3){4, 0.2f, 4}, 4);
   rigid_box(&s, (sbf_vec3){0, 0.3f, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
   rigid_body(&s, 0)->friction = 0.05f, rigid_body(&s, 1)->friction = 1.8f; /* 0.3 between them */
-  start(&s);
-  throw(&s, 1, (sbf_vec3){2, 0, 0});
+  meeting_start(&s);
+  meeting_throw(&s, s.character, 1, (sbf_vec3){2, 0, 0});
   scene_ticks(&s, 12);
   double v = (double)rigid_state(&s, 1).velocity.x, slab = (double)rigid_state(&s, 0).velocity.x;
   double drag = 0.3 * 9.81 * 0.2, ground = 0.05 * 5 * 9.81 * 0.2;
@@ -132,12 +106,12 @@ END_TEST
 
 START_TEST(a_sheet_holds_what_falls_on_it)
 {
-  scene s = begin(weight);
+  scene s = meeting_begin(weight);
   scene_bodies(&s, 1);
   collision_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, 16, true);
   scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
   rigid_box(&s, (sbf_vec3){0.05f, 0.3f, 0}, (sbf_vec3){0.2f, 0.1f, 0.2f}, 0.1f);
-  start(&s);
+  meeting_start(&s);
   double least = 9;
   for (int i = 0; i < 240; i++) {
     scene_ticks(&s, 1);
@@ -151,12 +125,12 @@ END_TEST
 
 START_TEST(a_fast_ball_does_not_pass_a_sheet)
 {
-  scene s = begin((sbf_vec3){0, 0, 0});
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
   collision_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, 24, false);
   rigid_box(&s, (sbf_vec3){0, 3, 0}, (sbf_vec3){0.05f, 0.05f, 0.05f}, 0.05f);
-  start(&s);
-  throw(&s, 0, (sbf_vec3){0, -5, 0});
+  meeting_start(&s);
+  meeting_throw(&s, s.character, 0, (sbf_vec3){0, -5, 0});
   scene_momentum before = scene_momentum_of(&s);
   for (int i = 0; i < 20; i++) {
     scene_ticks(&s, 1);
@@ -222,7 +196,7 @@ static double deepest(const scene *s) {
  * nor nearer than half a millimetre of the five that the cloth keeps. */
 START_TEST(cloth_lies_over_a_ball_that_moves)
 {
-  scene s = begin(weight);
+  scene s = meeting_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   scene_bodies(&s, 1);
@@ -230,10 +204,10 @@ START_TEST(cloth_lies_over_a_ball_that_moves)
   scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
   rigid_box(&s, (sbf_vec3){0, 0.3f, 0}, (sbf_vec3){0.6f, 0.6f, 0.6f}, 4);
   ball(&s, 0, 0.3f);
-  start(&s);
+  meeting_start(&s);
   double most = -9;
   for (int i = 0; i < 150; i++) {
-    if (i == 60) throw(&s, 0, (sbf_vec3){6, 0, 0});
+    if (i == 60) meeting_throw(&s, s.character, 0, (sbf_vec3){6, 0, 0});
     scene_ticks(&s, 1);
     most = fmax(most, deepest(&s));
   }
@@ -307,14 +281,14 @@ static double fastest_of(const scene *s) {
 
 START_TEST(soft_cubes_stand_on_each_other)
 {
-  scene s = begin(weight);
+  scene s = meeting_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   scene_bodies(&s, 3);
   cube(&s, 0, (sbf_vec3){0, 0.001f, 0}, 0.3f, 1000);
   cube(&s, 1, (sbf_vec3){0.04f, 0.305f, 0.05f}, 0.2f, 1000);
   cube(&s, 2, (sbf_vec3){0.06f, 0.509f, 0.08f}, 0.15f, 500);
-  start(&s);
+  meeting_start(&s);
   float least[3], most[3];
   scene_ticks(&s, 300);
   for (uint32_t i = 0; i < 3; i++) { heights(&s, i, &least[i], &most[i]); }
@@ -328,12 +302,12 @@ END_TEST
 
 START_TEST(a_soft_cube_lies_still)
 {
-  scene s = begin(weight);
+  scene s = meeting_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   scene_bodies(&s, 1);
   cube(&s, 0, (sbf_vec3){0, 0.001f, 0}, 0.3f, 1000);
-  start(&s);
+  meeting_start(&s);
   scene_ticks(&s, 360);
   for (int i = 0; i < 12; i++) {
     scene_ticks(&s, 1);
@@ -346,13 +320,13 @@ END_TEST
 /* What touches push with goes on from a snapshot as it would have without. */
 START_TEST(snapshots_hold_what_touches_push_with)
 {
-  scene s = begin(weight);
+  scene s = meeting_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   for (int i = 0; i < 3; i++)
     rigid_box(&s, (sbf_vec3){0.03f * (float)(i % 2), 0.101f + 0.202f * (float)i, 0},
         (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
-  start(&s);
+  meeting_start(&s);
   scene_ticks(&s, 20);
   size_t size = sbr_world_snapshot_size(s.world);
   unsigned char *kept = malloc(size);
@@ -369,11 +343,11 @@ END_TEST
 
 START_TEST(soft_cubes_of_two_characters_keep_momentum)
 {
-  scene s = begin((sbf_vec3){0, 0, 0});
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
   cube(&s, 0, (sbf_vec3){-0.1f, -0.1f, -0.1f}, 0.2f, 1000);
-  start(&s);
-  sbr_character_id other = another(&s, (sbr_double3){0.05, s.character_definition.position.y, 0.4});
+  meeting_start(&s);
+  sbr_character_id other = meeting_another(&s, (sbr_double3){0.05, s.character_definition.position.y, 0.4});
   sbri_character *c = sbri_character_of(s.world, s.character);
   const sbri_island *island = &c->model->islands[0];
   for (uint32_t slot = 0; slot < island->free_count; slot++)
@@ -395,13 +369,13 @@ END_TEST
 /* What lies in each other at rest stays as it is; what the filters part passes through. */
 START_TEST(overlap_at_rest_does_not_fight)
 {
-  scene s = begin((sbf_vec3){0, 0, 0});
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 2);
   cube(&s, 0, (sbf_vec3){0, 0, 0}, 0.2f, 1000);
   cube(&s, 1, (sbf_vec3){0.15f, 0.02f, 0.02f}, 0.2f, 1000);
   rigid_box(&s, (sbf_vec3){0.1f, 0.1f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
   rigid_box(&s, (sbf_vec3){0.15f, 0.1f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
-  start(&s);
+  meeting_start(&s);
   sbf_vec3 a = scene_point(&s, 0, 0), b = scene_point(&s, 1, 0);
   scene_ticks(&s, 60);
   sbf_vec3 a1 = scene_point(&s, 0, 0), b1 = scene_point(&s, 1, 0);
@@ -413,12 +387,12 @@ END_TEST
 
 START_TEST(filters_let_through)
 {
-  scene s = begin((sbf_vec3){0, 0, 0});
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
   rigid_box(&s, (sbf_vec3){0, 0, 1}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
   rigid_body(&s, 0)->layer = 4, rigid_body(&s, 1)->mask = 3;
-  start(&s);
-  throw(&s, 0, (sbf_vec3){0, 0, 2});
+  meeting_start(&s);
+  meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
   scene_ticks(&s, 60);
   ck_assert_float_eq_tol(rigid_state(&s, 0).velocity.z, 2, 1e-5f);
   ck_assert_float_eq(rigid_state(&s, 1).velocity.z, 0);
@@ -428,7 +402,7 @@ END_TEST
 
 /* A heap of everything, several times: the same bits on any number of threads. */
 static uint64_t run_heap(int threads) {
-  scene s = begin(weight);
+  scene s = meeting_begin(weight);
   s.world_definition.ground = sbr_ground_flat(0);
   s.world_definition.tasks = (sbr_tasks){.run = run_on_threads, .user = &threads};
   s.world_definition.sleep_after_s = 0.5;
@@ -438,9 +412,9 @@ static uint64_t run_heap(int threads) {
   collision_sheet(&s, 1, (sbf_vec3){0.1f, 0.5f, 0.1f}, 0.6f, 8, false);
   rigid_box(&s, (sbf_vec3){0.1f, 0.3f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 1);
   rigid_box(&s, (sbf_vec3){0.12f, 0.42f, 0.1f}, (sbf_vec3){0.1f, 0.1f, 0.1f}, 2);
-  start(&s);
-  (void)another(&s, (sbr_double3){0.05, 0.7, 0.05});
-  (void)another(&s, (sbr_double3){3, 0, 0});
+  meeting_start(&s);
+  (void)meeting_another(&s, (sbr_double3){0.05, 0.7, 0.05});
+  (void)meeting_another(&s, (sbr_double3){3, 0, 0});
   scene_ticks(&s, 90);
   uint64_t hash = sbr_world_state_hash(s.world);
   scene_free(&s);

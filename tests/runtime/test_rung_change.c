@@ -59,17 +59,13 @@ START_TEST(energy_does_not_rise_and_the_motion_goes_on)
   ck_assert_msg(rung_scene_kinetic(&s) < 1.1 * kinetic, "%g J to %g", kinetic, rung_scene_kinetic(&s));
   double most = 0;
   for (int t = 0; t < 120; t++) {
-    scene_ticks(&s, 1);
-    scene_ticks(&other, 1);
+    rung_scene_ticks(&s, &other, 1);
     most = fmax(most, rung_scene_elastic(&s));
     ck_assert(sbr_character_health(s.world, s.character, 0).finite);
   }
   ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 0);
   ck_assert_msg(most < 2 * fmax(elastic, rung_scene_elastic(&other)), "%g J up to %g", elastic, most);
-  static sbf_vec3 a[RUNG_VERTICES], b[RUNG_VERTICES];
-  uint32_t count = rung_scene_skin(&s, a);
-  rung_scene_skin(&other, b);
-  ck_assert_msg(rung_scene_farthest(a, b, count) < 2e-3, "%g m", rung_scene_farthest(a, b, count));
+  ck_assert_msg(rung_scene_apart(&s, &other) < 2e-3, "%g m", rung_scene_apart(&s, &other));
   scene_free(&s);
   scene_free(&other);
 }
@@ -83,16 +79,11 @@ START_TEST(what_flies_goes_on_flying)
   s.world_definition.gravity = stays.world_definition.gravity = (sbf_vec3){0, -2, 0};
   scene_start(&s);
   scene_start(&stays);
-  static sbf_vec3 a[RUNG_VERTICES], b[RUNG_VERTICES];
-  scene_ticks(&s, 30);
-  scene_ticks(&stays, 30);
+  rung_scene_ticks(&s, &stays, 30);
   for (uint32_t n = 0; n < 4; n++) {
     sbr_character_set_rung(s.world, s.character, (n + 1) % 2);
-    scene_ticks(&s, 10);
-    scene_ticks(&stays, 10);
-    uint32_t count = rung_scene_skin(&s, a);
-    rung_scene_skin(&stays, b);
-    ck_assert_msg(rung_scene_farthest(a, b, count) < 1e-3, "%g m", rung_scene_farthest(a, b, count));
+    rung_scene_ticks(&s, &stays, 10);
+    ck_assert_msg(rung_scene_apart(&s, &stays) < 1e-3, "%g m", rung_scene_apart(&s, &stays));
   }
   scene_free(&s);
   scene_free(&stays);
@@ -106,12 +97,8 @@ START_TEST(away_goes_where_it_is_driven_and_comes_back)
   ck_assert(distance > 0.5);
   ck_assert(fabs(distance - sbr_character_distance(stays.world, stays.character)) < 1e-3);
   sbr_character_set_rung(s.world, s.character, RUNG_FINE);
-  scene_ticks(&s, 120);
-  scene_ticks(&stays, 120);
-  static sbf_vec3 a[RUNG_VERTICES], b[RUNG_VERTICES];
-  uint32_t count = rung_scene_skin(&s, a);
-  rung_scene_skin(&stays, b);
-  ck_assert(rung_scene_farthest(a, b, count) < 0.03);
+  rung_scene_ticks(&s, &stays, 120);
+  ck_assert(rung_scene_apart(&s, &stays) < 0.03);
   ck_assert(rung_scene_elastic(&s) > 0);
   ck_assert(fabs(sbr_character_distance(s.world, s.character) -
                  sbr_character_distance(stays.world, stays.character)) < 1e-3);

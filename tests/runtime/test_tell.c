@@ -5,28 +5,10 @@
 #include "collision_scenes.h"
 #include "harness.h"
 #include "host_threads.h"
-#include "rigid_scenes.h"
+#include "meeting_scenes.h"
 #include "world/world.h"
 
 enum { MOST = 256 };
-
-static scene begin(sbf_vec3 gravity) {
-  scene s = rigid_begin();
-  s.asset->environment.gravity = gravity;
-  return s;
-}
-
-static void start(scene *s) {
-  scene_start(s);
-  ck_assert(sbr_world_bodies_meet(s->world, 0, NULL) == SBF_OK);
-}
-
-static void throw(scene * s, sbr_character_id who, uint32_t body, sbf_vec3 impulse) {
-  sbr_double3 o = sbr_character_origin(s->world, who);
-  sbf_vec3 c = sbri_rigid_bodies(sbri_character_of(s->world, who))[body].pose.position;
-  sbr_character_rigid_push(
-      s->world, who, body, (sbr_double3){o.x + (double)c.x, o.y + (double)c.y, o.z + (double)c.z}, impulse);
-}
 
 /* Those of the kind. */
 static uint32_t events_of(scene *s, sbr_event_kind kind, sbr_event *to) {
@@ -40,13 +22,13 @@ static uint32_t events_of(scene *s, sbr_event_kind kind, sbr_event *to) {
 /* A box of 1 kg at 2 m/s against one that rests: 1 kg (1 + e) N s, and they part. */
 START_TEST(a_hit_says_who_where_and_how_hard)
 {
-  scene s = begin((sbf_vec3){0, 0, 0});
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
   for (uint32_t i = 0; i < 2; i++) {
     rigid_box(&s, (sbf_vec3){0, 0, (float)i}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
     rigid_body(&s, i)->restitution = 0.5f;
   }
-  start(&s);
-  throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
+  meeting_start(&s);
+  meeting_throw(&s, s.character, 0, (sbf_vec3){0, 0, 2});
   static sbr_event all[MOST];
   scene_ticks(&s, 60);
   uint32_t count = sbr_world_events(s.world, all, MOST);
@@ -78,14 +60,14 @@ END_TEST
 START_TEST(what_rests_is_told_once)
 {
   enum { BOXES = 4 };
-  scene s = begin((sbf_vec3){0, -9.81f, 0});
+  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
   s.world_definition.ground = sbr_ground_flat(0);
   s.world_definition.sleep_after_s = 0.5;
   s.character_definition.position.y = 0;
   for (int i = 0; i < BOXES; i++)
     rigid_box(
         &s, (sbf_vec3){0, 0.1f + 0.2005f * (float)i, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1 + (float)(i % 2));
-  start(&s);
+  meeting_start(&s);
   static sbr_event all[MOST];
   scene_ticks(&s, 60);
   uint32_t met = 0, count = events_of(&s, SBR_EVENT_CONTACT, all);
@@ -97,7 +79,7 @@ START_TEST(what_rests_is_told_once)
   ck_assert_uint_eq(met, BOXES - 1);
   scene_ticks(&s, 240);
   ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT, all), 0);
-  throw(&s, s.character, BOXES - 1, (sbf_vec3){0, 8, 0}); /* up, off the others */
+  meeting_throw(&s, s.character, BOXES - 1, (sbf_vec3){0, 8, 0}); /* up, off the others */
   scene_ticks(&s, 6);
   ck_assert_uint_eq(events_of(&s, SBR_EVENT_PARTED, all), 1);
   ck_assert_int_eq(all[0].rigid_body, BOXES - 2);
@@ -109,16 +91,15 @@ END_TEST
 /* A sheet of each of two characters, one falling onto the other's box; the one goes away meanwhile. */
 START_TEST(soft_bodies_of_others_are_named)
 {
-  scene s = begin((sbf_vec3){0, 0, 0});
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
   collision_sheet(&s, 0, (sbf_vec3){0, 0.5f, 0}, 0.6f, 8, false);
   rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
-  start(&s);
-  sbr_character_definition d = s.character_definition;
-  sbr_character_id other;
-  d.position.y += 0.7; /* its box, 0.2 m above the sheet of the first */
-  ck_assert(sbr_character_create(s.world, s.model, &d, &other, NULL) == SBF_OK);
-  throw(&s, other, 0, (sbf_vec3){0, -2, 0});
+  meeting_start(&s);
+  sbr_double3 above = s.character_definition.position;
+  above.y += 0.7; /* its box, 0.2 m above the sheet of the first */
+  sbr_character_id other = meeting_another(&s, above);
+  meeting_throw(&s, other, 0, (sbf_vec3){0, -2, 0});
   static sbr_event all[MOST];
   scene_ticks(&s, 8);
   ck_assert_uint_eq(events_of(&s, SBR_EVENT_CONTACT, all), 1);
@@ -138,13 +119,13 @@ END_TEST
 
 /* Three heaps of two characters each: their events, field by field, on so many threads. */
 static uint32_t heap_events(int threads, sbr_event *to) {
-  scene s = begin((sbf_vec3){0, -9.81f, 0});
+  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
   s.world_definition.ground = sbr_ground_flat(0);
   s.world_definition.tasks = (sbr_tasks){.run = run_on_threads, .user = &threads};
   s.character_definition.position.y = 0;
   for (int i = 0; i < 3; i++)
     rigid_box(&s, (sbf_vec3){0.05f * (float)i, 0.15f + 0.25f * (float)i, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
-  start(&s);
+  meeting_start(&s);
   for (int i = 1; i < 6; i++) {
     sbr_character_definition d = s.character_definition;
     sbr_character_id id;

@@ -1,0 +1,16 @@
+/* Scenes whose bodies meet each other: boxes that are thrown, other characters. */
+#ifndef TEST_MEETING_SCENES_H
+#define TEST_MEETING_SCENES_H
+
+#include "rigid_scenes.h"
+
+/* As rigid_begin, with that gravity, m/s^2. Add bodies, then meeting_start: as scene_start, and they meet. */
+scene meeting_begin(sbf_vec3 gravity);
+void meeting_start(scene *s);
+
+/* A push at the middle of a rigid body, N s. */
+void meeting_throw(scene *s, sbr_character_id who, uint32_t body, sbf_vec3 impulse);
+/* One more of the scene's character. */
+sbr_character_id meeting_another(scene *s, sbr_double3 position);
+
+#endif
