@@ -235,7 +235,7 @@ static const cli_option options[] = {
     {"--core", "N", "the core to stay on, of those allowed, from 0 (default 0)"},
     {"--distance", "M", "from which a character is looked at, for errors in pixels (default 5)"},
     {"--map", NULL, "instead: where each scheme is sound, biased or dead"},
-    {"--cells", "N", "of a map: so many columns, half as many rows (default 48)"},
+    {"--cells", "N", "of a map: so many columns, half as many rows; of bodies half of both (default 48)"},
     {"--no-svg", NULL, "tables alone: gnuplot is not needed"},
     {"--jobs", NULL, "print one command a case, to be run side by side, and measure nothing"},
     {"--format", "text|json", "how to report (default text)"}, {NULL, NULL, NULL}};
@@ -261,9 +261,13 @@ const cli_verb verb_chart = {.name = "chart",
         "With a FILE, its character's own walk, hop and shake are charted (--case walk, hop, shake): "
         "how far the\n"
         "skin is off, in metres and in pixels of a screen of 1080 lines that shows 60 degrees.\n\n"
-        "--map draws stability maps: a mass on a spring, by every scheme, over stiffness and damping, "
-        "uneven\n"
-        "frames, one long frame and where it is let go from; map-damping.csv and so on, and their drawings.",
+        "--map draws stability maps, by every scheme over stiffness: a mass on a spring by damping, uneven "
+        "frames,\n"
+        "one long frame and where it is let go from; a chain, a bar of tetrahedra and one of regions by the "
+        "mass at\n"
+        "the end, and the bar by Poisson's ratio; map-damping.csv and so on, and their drawings (--case "
+        "damping,\n"
+        "jitter, hitch, stretch, mass-springs, mass-tetrahedra, mass-regions, poisson).",
     .options = options,
     .least_inputs = 0,
     .most_inputs = 1,

@@ -55,17 +55,20 @@ static bool write_bound(FILE *to, const chart_map *map, uint32_t scheme) {
 static void write_panel(FILE *to, const chart_map *map, uint32_t scheme) {
   write_boxes(to, map, scheme);
   bool bounded = write_bound(to, map, scheme);
+  bool refused = chart_map_tally(map, scheme, CHART_REFUSED) == map->rows * map->columns;
+  if (refused)
+    fprintf(to, "set label 9 'refused: it cannot step these' at graph 0.5,0.5 center font ',11' front\n");
   fprintf(to,
       "set title '%s' noenhanced font ',13'\n"
       "plot $cells%u using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder lc rgb variable notitle",
       sbf_scheme_name(chart_map_schemes[scheme]), (unsigned)scheme);
-  if (bounded)
+  if (bounded && !refused)
     fprintf(to,
         ", \\\n$bound%u with lines lw 5 lc rgb '#ffffff' notitle, $bound%u with lines lw 2.5 lc rgb "
         "'#d00000' "
         "notitle",
         (unsigned)scheme, (unsigned)scheme);
-  fputc('\n', to);
+  fputs(refused ? "\nunset label 9\n" : "\n", to);
 }
 
 /* Words with their colours in one line above all panels. */
@@ -96,13 +99,14 @@ static void write_script(FILE *to, const chart_map *map, const chart_machine *ma
       output, a->logarithmic ? "set logscale y\nset format y '%g'\n" : "", CHART_MAP_LEAST_TURN,
       CHART_MAP_MOST_TURN, a->low, a->high);
   fprintf(to,
-      "set xlabel 'stiffness: ωh of one substep' offset 0,0.4\nset ylabel '%s' offset 0.5,0\n"
+      "set xlabel 'stiffness: ωh of one substep%s' offset 0,0.4\nset ylabel \"%s\" offset 0.5,0\n"
       "set multiplot layout 2,3 margins 0.065,0.98,0.08,0.83 spacing 0.075,0.15 title \"{/:Bold Stability}: "
       "%s\\n"
-      "{/=9 %s, %s, %u lanes, commit %s, %s; %u x %u cells of %d ticks}\"\n",
-      a->label, a->title, machine->processor, machine->compiler, (unsigned)machine->lanes,
+      "{/=9 %s, %s, %u lanes, commit %s, %s; %u x %u cells}\"\n",
+      a->kind == CHART_MAP_OF_ONE_MASS ? "" : ", ω the stiffest mode’s", a->label, a->title,
+      machine->processor, machine->compiler, (unsigned)machine->lanes,
       machine->commit[0] ? machine->commit : "unknown", machine->date, (unsigned)map->columns,
-      (unsigned)map->rows, (int)CHART_CELL_TICKS);
+      (unsigned)map->rows);
   for (uint32_t s = 0; s < CHART_MAP_SCHEMES; s++) {
     if (s == 0) write_legend(to);
     write_panel(to, map, s);

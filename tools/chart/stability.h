@@ -13,6 +13,7 @@ typedef struct chart_cell {
   double jitter;      /* frames last a tick, give or take up to this share of one; 0 to 1 */
   double hitch_ticks; /* one frame after a quarter of a second lasts so many more */
   double stretch;     /* of its length of 1 m, over 0: how far from where it would rest it is let go */
+  double mass_ratio, poisson_ratio; /* of cells of whole bodies (chart/hung_body.h); else 0 */
 } chart_cell;
 
 typedef enum chart_outcome {

@@ -2,6 +2,7 @@
 #ifndef CHART_STABILITY_MAP_H
 #define CHART_STABILITY_MAP_H
 
+#include "chart/hung_body.h"
 #include "chart/machine.h"
 #include "chart/out_folder.h"
 #include "chart/stability.h"
@@ -10,6 +11,13 @@ enum { CHART_MAP_SCHEMES = 6 };
 #define CHART_MAP_LEAST_TURN 0.05
 #define CHART_MAP_MOST_TURN 20.0
 
+/* What cells are of. */
+typedef enum chart_map_kind {
+  CHART_MAP_OF_ONE_MASS, /* a mass on a spring */
+  CHART_MAP_OF_MASSES,   /* a body whose free end weighs more */
+  CHART_MAP_OF_POISSON   /* a body whose matter keeps its volume the more */
+} chart_map_kind;
+
 /* What runs upwards. */
 typedef struct chart_map_axis {
   const char *name;  /* in file names and tables: "damping" */
@@ -17,6 +25,8 @@ typedef struct chart_map_axis {
   const char *title; /* one line */
   double low, high;  /* of the axis; each row stands in the middle of its share */
   bool logarithmic;
+  chart_map_kind kind;
+  chart_elastic elastic; /* of bodies */
 } chart_map_axis;
 
 extern const chart_map_axis chart_map_axes[];
@@ -29,7 +39,11 @@ typedef struct chart_map {
   chart_verdict *verdicts; /* (schemes x rows x columns) */
 } chart_map;
 
-/* Fills `map`; free its verdicts, also on failure. Columns and rows over 0; `progress` may be NULL. */
+/* The number of the map of that name; chart_map_count: there is none. */
+uint32_t chart_map_named(const char *name);
+
+/* Fills `map`; free its verdicts, also on failure. Columns and rows over 0, of which maps of bodies have
+ * half; `progress` may be NULL. */
 sbf_status chart_map_fill(chart_map *map, uint32_t number, uint32_t columns, uint32_t rows,
     void (*progress)(const char *what, double share), sbf_diagnostic *error);
 

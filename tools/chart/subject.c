@@ -52,6 +52,18 @@ sbf_asset *chart_held_chain(uint32_t count, float length_m, float mass_kg, float
   return make(points, count + 2, mass_kg, ends, count + 1, stiffness, (const uint32_t[]){0, count + 1}, 2);
 }
 
+sbf_asset *chart_hung_chain(uint32_t count, float length_m, float mass_kg, float end_kg, float stiffness) {
+  enum { MOST = 256 };
+  sbf_vec3 points[MOST + 1];
+  sbf_uint2 ends[MOST];
+  if (count > MOST) count = MOST;
+  for (uint32_t i = 0; i < count + 1; i++) points[i] = (sbf_vec3){0, -length_m * (float)i, 0};
+  for (uint32_t i = 0; i < count; i++) ends[i] = (sbf_uint2){{i, i + 1}};
+  sbf_asset *asset = make(points, count + 1, mass_kg, ends, count, stiffness, &(uint32_t){0}, 1);
+  if (asset) ((float *)(uintptr_t)asset->soft_bodies.at[0].levels.at[0].masses.at)[count] = end_kg;
+  return asset;
+}
+
 sbf_asset *chart_level_pendulum(float length_m, float mass_kg, float stiffness) {
   return make((const sbf_vec3[]){{0, 0, 0}, {length_m, 0, 0}}, 2, mass_kg, &(sbf_uint2){{0, 1}}, 1, stiffness,
       &(uint32_t){0}, 1);
