@@ -9,14 +9,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "crowd/crowd_camera.h"
 #include "measured_assets.h"
 #include "measuring.h"
 #include "sbfmt/build.h"
 #include "sbrun/detail.h"
 
-enum { MOST = 200, COLUMNS = 20, CASES = 4, COMPARED_EVERY = 10 };
-
-static const float HEIGHT_RAD = 1.0471976f, WIDE = 16.0f / 9, LINES = 1080;
+enum { MOST = 200, CASES = 4, COMPARED_EVERY = 10 };
 
 typedef struct crowd {
   const char *name;
@@ -38,36 +37,10 @@ static void open_crowd(
   bench_require(sbr_world_create(&definition, &c->world, &error), &error);
   if (detail) bench_require(sbr_world_detail(c->world, detail, &error), &error);
   for (uint32_t i = 0; i < count; i++) {
-    sbr_character_definition at = sbr_default_character_definition();
-    at.position = (sbr_double3){3.0 * (i % COLUMNS) - 1.5 * COLUMNS, 0, 3.0 * (i / COLUMNS)};
-    at.heading = 0.7f * (float)i;
+    sbr_character_definition at = crowd_place(i);
     bench_require(sbr_character_create(c->world, model, &at, &c->ids[i], &error), &error);
-    sbr_character_drive(c->world, c->ids[i], 0.2f + 0.05f * (float)(i % 7), 0, 0.1f * (float)(i % 5) - 0.2f);
+    crowd_drive(c->world, c->ids[i], i);
   }
-}
-
-/* Along the front of the crowd, two metres from it, at a man's height; it turns as it goes. */
-static sbr_view view_at(double seconds, double all_s) {
-  double share = seconds / all_s, turn = 0.8 * (share - 0.5);
-  return (sbr_view){.eye = {40 * share - 20, 1.7, -3.5},
-      .forward = {(float)sin(turn), -0.12f, (float)cos(turn)},
-      .height_rad = HEIGHT_RAD,
-      .width_ratio = WIDE,
-      .lines = LINES};
-}
-
-/* Pixels right and up; false behind the eye and beyond the edges. */
-static bool project(const sbr_view *view, double x, double y, double z, double *right, double *up) {
-  double fx = (double)view->forward.x, fy = (double)view->forward.y, fz = (double)view->forward.z;
-  double size = sqrt(fx * fx + fy * fy + fz * fz), flat = sqrt(fx * fx + fz * fz);
-  double along, across, over, pixels = (double)LINES / 2 / tan((double)HEIGHT_RAD / 2);
-  x -= view->eye.x, y -= view->eye.y, z -= view->eye.z;
-  along = (x * fx + y * fy + z * fz) / size;
-  across = (x * fz - z * fx) / flat;
-  over = (y * flat * flat - fy * (x * fx + z * fz)) / (flat * size);
-  if (!(along > 0.1)) return false;
-  *right = pixels * across / along, *up = pixels * over / along;
-  return fabs(*up) <= 0.5 * (double)LINES && fabs(*right) <= 0.5 * (double)LINES * (double)WIDE;
 }
 
 /* The skin in the world, all meshes behind each other; returns how many vertices. */
@@ -88,9 +61,9 @@ static void compare_lizard(crowd *c, const crowd *full, uint32_t i, const sbr_vi
   for (uint32_t v = 0; v < count; v++) {
     bool within = true;
     for (int k = 0; k < 2; k++)
-      within = within &&
-               project(view, origins[k].x + (double)places[k][v].x, origins[k].y + (double)places[k][v].y,
-                   origins[k].z + (double)places[k][v].z, &at[k][0], &at[k][1]);
+      within = within && crowd_project(view, origins[k].x + (double)places[k][v].x,
+                             origins[k].y + (double)places[k][v].y, origins[k].z + (double)places[k][v].z,
+                             &at[k][0], &at[k][1]);
     if (!within) continue;
     double x = at[1][0] - at[0][0], y = at[1][1] - at[0][1], square = x * x + y * y;
     sum += square, seen++;
@@ -157,7 +130,7 @@ int main(int argument_count, char **arguments) {
   sbf_vec3 *places[2];
   for (int k = 0; k < 2; k++) places[k] = bench_allocate(vertices, sizeof *places[k]);
   for (uint32_t t = 0; t < ticks; t++) {
-    sbr_view view = view_at(t, ticks);
+    sbr_view view = crowd_view(t, ticks);
     for (int k = 0; k < CASES; k++) step(&crowds[k], count, &view, rungs, t >= first);
     for (int k = 1; k < CASES && t >= first && t % COMPARED_EVERY == 0; k++)
       compare(&crowds[k], &crowds[0], count, &view, asset, vertices, places);

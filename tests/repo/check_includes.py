@@ -60,7 +60,7 @@ MAY_USE = {
     "runtime/include": [],
     "runtime/hosts": ["runtime/hosts"],
     "tools": ["tools"],
-    "bench": ["bench", "tools", "runtime/math", "runtime/ik"],  # for its thread pool; solvers alone are not public
+    "bench": ["bench", "tools", "examples", "runtime/math", "runtime/ik"],  # a thread pool, a crowd; solvers alone are not public
     "examples": ["examples"],
     "tests": None,  # anything: tests look inside
 }
