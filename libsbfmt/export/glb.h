@@ -108,6 +108,14 @@ void sbfi_glb_nodes(sbfi_glb *g); /* and the skin */
 void sbfi_glb_clips(sbfi_glb *g);
 /* The motion's channels; behind the meshes. */
 void sbfi_glb_motion(sbfi_glb *g);
+/* What of a mesh's normals its morph targets turn; NULL where it has none, or memory runs out. */
+typedef struct sbfi_glb_normals sbfi_glb_normals;
+sbfi_glb_normals *sbfi_glb_normals_begin(sbfi_glb *g, const sbfi_glb_mesh *mesh);
+/* Takes the points of `mesh->shown` with these offsets. */
+void sbfi_glb_normals_move(sbfi_glb_normals *normals, const sbf_vec3 *offsets);
+/* By how much the normal of a corner differs there; `normal` has unit length. */
+sbf_vec3 sbfi_glb_normals_offset(const sbfi_glb_normals *normals, uint32_t corner, sbf_vec3 normal);
+uint32_t sbfi_glb_normal_of(const sbf_render_mesh *m, uint32_t corner); /* index of a corner's normal */
 /* Offset of each point of `mesh->shown` at that frame, in the place that its joints move from. */
 void sbfi_glb_offsets(sbfi_glb *g, const sbfi_glb_mesh *mesh, uint32_t frame, sbf_vec3 *offsets);
 

@@ -11,6 +11,7 @@ enum { MOST_UV_SETS = 4 };
 typedef struct vertices {
   sbfi_glb *g;
   const sbfi_glb_mesh *mesh;
+  sbfi_glb_normals *normals; /* of its targets; NULL: none */
   uint32_t slot;
   uint32_t count;
   uint32_t uv_count; /* sets that have coordinates */
@@ -21,17 +22,13 @@ typedef struct vertices {
   uint32_t index_count;
 } vertices;
 
-static uint32_t normal_of(const sbf_render_mesh *m, uint32_t corner) {
-  return m->normal_corners.count ? m->normal_corners.at[corner] : m->mesh.polygon_points.at[corner];
-}
-
 static uint32_t coordinate_of(const sbf_render_mesh *m, const sbf_uv_set *set, uint32_t corner) {
   return set->corners.count ? set->corners.at[corner] : m->mesh.polygon_points.at[corner];
 }
 
 static bool same_vertex(const vertices *v, uint32_t a, uint32_t b) {
   const sbf_render_mesh *m = v->mesh->shown;
-  if (m->normals.count && normal_of(m, a) != normal_of(m, b)) return false;
+  if (m->normals.count && sbfi_glb_normal_of(m, a) != sbfi_glb_normal_of(m, b)) return false;
   for (uint32_t s = 0; s < v->uv_count; s++) {
     const sbf_uv_set *set = &m->uv_sets.at[v->uv_sets[s]];
     if (coordinate_of(m, set, a) != coordinate_of(m, set, b)) return false;
@@ -82,17 +79,18 @@ static uint32_t write_positions(const vertices *v) {
   return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
 }
 
+static sbf_vec3 unit_normal(const sbf_render_mesh *m, uint32_t corner) {
+  sbf_vec3 n = m->normals.at[sbfi_glb_normal_of(m, corner)];
+  double length = sqrt((double)n.x * (double)n.x + (double)n.y * (double)n.y + (double)n.z * (double)n.z);
+  return length > 0 ? (sbf_vec3){(float)((double)n.x / length), (float)((double)n.y / length),
+                          (float)((double)n.z / length)}
+                    : (sbf_vec3){0, 1, 0};
+}
+
 static uint32_t write_normals(const vertices *v) {
-  const sbf_render_mesh *m = v->mesh->shown;
   sbf_vec3 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
   if (!at) return 0;
-  for (uint32_t i = 0; i < v->count; i++) {
-    sbf_vec3 n = m->normals.at[normal_of(m, v->corners[i])];
-    double length = sqrt((double)n.x * (double)n.x + (double)n.y * (double)n.y + (double)n.z * (double)n.z);
-    at[i] = length > 0 ? (sbf_vec3){(float)((double)n.x / length), (float)((double)n.y / length),
-                             (float)((double)n.z / length)}
-                       : (sbf_vec3){0, 1, 0};
-  }
+  for (uint32_t i = 0; i < v->count; i++) at[i] = unit_normal(v->mesh->shown, v->corners[i]);
   return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
 }
 
@@ -182,24 +180,39 @@ static void write_skin(const vertices *v, sbfi_text *attributes) {
   }
 }
 
-static void write_targets(const vertices *v, sbfi_text *text) {
+/* Offsets of the points of `shown` in a target: a shape key's, then those of the motion's frames. */
+static void take_target(const vertices *v, uint32_t target, sbf_vec3 *of_full, sbf_vec3 *of_shown) {
   const sbfi_glb_mesh *mesh = v->mesh;
   uint32_t keys = mesh->full->shape_keys.count;
-  uint32_t points = mesh->shown->mesh.positions.count, full_points = mesh->full->mesh.positions.count;
-  sbf_vec3 *of_full = sbfi_glb_room(v->g, keys ? full_points : 0, sizeof *of_full);
-  sbf_vec3 *of_shown = sbfi_glb_room(v->g, mesh->target_count > keys ? points : 0, sizeof *of_shown);
+  if (target >= keys) {
+    sbfi_glb_offsets(v->g, mesh, target - keys, of_shown);
+    return;
+  }
+  const sbf_shape_key *key = &mesh->full->shape_keys.at[target];
+  memset(of_full, 0, mesh->full->mesh.positions.count * sizeof *of_full);
+  for (uint32_t i = 0; i < key->points.count; i++) of_full[key->points.at[i]] = key->offsets.at[i];
+  for (uint32_t p = 0; p < mesh->shown->mesh.positions.count; p++)
+    of_shown[p] = of_full[mesh->full_of_shown ? mesh->full_of_shown[p] : p];
+}
+
+static void write_targets(const vertices *v, sbfi_text *text) {
+  const sbfi_glb_mesh *mesh = v->mesh;
+  sbf_vec3 *of_full = sbfi_glb_room(v->g, mesh->full->mesh.positions.count, sizeof *of_full);
+  sbf_vec3 *of_shown = sbfi_glb_room(v->g, mesh->shown->mesh.positions.count, sizeof *of_shown);
   sbf_vec3 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
   for (uint32_t t = 0; t < mesh->target_count && !v->g->failed; t++) {
-    if (t < keys) {
-      const sbf_shape_key *key = &mesh->full->shape_keys.at[t];
-      memset(of_full, 0, full_points * sizeof *of_full);
-      for (uint32_t i = 0; i < key->points.count; i++) of_full[key->points.at[i]] = key->offsets.at[i];
-    } else
-      sbfi_glb_offsets(v->g, mesh, t - keys, of_shown);
-    for (uint32_t i = 0; i < v->count; i++)
-      at[i] = t < keys ? of_full[full_point_of(v, i)] : of_shown[point_of(v, i)];
+    take_target(v, t, of_full, of_shown);
+    for (uint32_t i = 0; i < v->count; i++) at[i] = of_shown[point_of(v, i)];
     uint32_t number = sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
-    sbfi_export_print(text, "%s{\"POSITION\":%u}", t ? "," : ",\"targets\":[", number);
+    sbfi_export_print(text, "%s{\"POSITION\":%u", t ? "," : ",\"targets\":[", number);
+    if (v->normals) {
+      sbfi_glb_normals_move(v->normals, of_shown);
+      for (uint32_t i = 0; i < v->count; i++)
+        at[i] = sbfi_glb_normals_offset(v->normals, v->corners[i], unit_normal(mesh->shown, v->corners[i]));
+      number = sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
+      sbfi_export_print(text, ",\"NORMAL\":%u", number);
+    }
+    sbfi_text_char(text, '}');
   }
   sbfi_text_char(text, ']');
 }
@@ -240,6 +253,7 @@ static void write_mesh(sbfi_glb *g, const sbfi_glb_mesh *mesh) {
   uint32_t corners = m->mesh.polygon_points.count, slots = m->material_slots.count;
   vertices v = {.g = g,
       .mesh = mesh,
+      .normals = sbfi_glb_normals_begin(g, mesh),
       .corners = sbfi_glb_room(g, corners, sizeof *v.corners),
       .next = sbfi_glb_room(g, corners, sizeof *v.next),
       .first = sbfi_glb_room(g, m->mesh.positions.count, sizeof *v.first),

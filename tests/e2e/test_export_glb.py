@@ -105,6 +105,33 @@ class Motion(ProgramTest):
                 self.assertEqual(mesh["keys"], 30 * SECONDS + 1)
             self.assert_plays(shown["meshes"], rest, now)
 
+    def test_normals_of_targets_turn_with_the_flesh(self):
+        """A normal keeps its angle to the faces around it that share it: triangles here, so the sums of their area vectors tell."""
+        glb, sums, rows_of, turned = Glb(self.moved("pup")[0]), ({}, {}), [], 0
+        for node, primitive in glb.primitives():
+            rest, normals = (glb.accessor(primitive["attributes"][name]) for name in ("POSITION", "NORMAL"))
+            offsets, bends = (glb.accessor(primitive["targets"][FRAME][name]) for name in ("POSITION", "NORMAL"))
+            corners = [row[0] for row in glb.accessor(primitive["indices"])]
+            keys = [(node, *p, *n) for p, n in zip(rest, normals)]
+            now = [[a + b for a, b in zip(p, o)] for p, o in zip(rest, offsets)]
+            for points, found in zip((rest, now), sums):
+                for i in range(0, len(corners), 3):
+                    a, b, c = (points[k] for k in corners[i:i + 3])
+                    u, v = ([y - x for x, y in zip(a, end)] for end in (b, c))
+                    area = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+                    for k in corners[i:i + 3]:
+                        found[keys[k]] = [x + y for x, y in zip(found.get(keys[k], (0, 0, 0)), area)]
+            rows_of += zip(keys, normals, bends)
+        for key, normal, bend in rows_of:
+            after = [a + b for a, b in zip(normal, bend)]
+            self.assertAlmostEqual(math.hypot(*after), 1, delta=1e-4)
+            if not all(math.hypot(*found[key]) > 0 for found in sums):
+                continue
+            cosines = [sum(x * y for x, y in zip(n, found[key])) / math.hypot(*found[key]) for n, found in zip((normal, after), sums)]
+            self.assertAlmostEqual(cosines[0], cosines[1], delta=1e-3)
+            turned += math.hypot(*bend) > 0.02
+        self.assertGreater(turned, 100)
+
     def test_it_reads_back(self):
         for bundle in self.bundles.values():
             self.good("export", bundle, "-o", self.path("a.glb"))
