@@ -20,6 +20,7 @@ film() {
 }
 names=$*
 film pup 62,14 4.5
+film calf 60,14 4
 film caterpillar 58,20 4
 film yeti 60,12 5
 film spider 38,24 3.5
