@@ -10,8 +10,6 @@
 
 /* How near hulls begin to touch, beside their ways: a share of their size. */
 static const float NEAR_SHARE = 0.02f;
-/* How far beyond its margin what lies there is looked for: of the size of what it lies on. */
-static const float LET_GO_SHARE = 0.01f;
 
 static sbri_party party_of(const sbri_finding *f, uint32_t number) {
   const sbri_meeter *is = &f->world->meetings->meeters[number];
@@ -30,38 +28,6 @@ static sbri_party party_of(const sbri_finding *f, uint32_t number) {
   return p;
 }
 
-/* ---- Sides ---- */
-
-sbri_meet_side sbri_soft_side(
-    const sbri_party *p, const uint32_t *vertices, const float *weights, int count) {
-  sbri_meet_side side = {.member = p->member, .rigid_body = -1, .island = p->soft->island};
-  for (int i = 0; i < count; i++) {
-    const sbri_sample *s = &p->surface->samples[vertices[i]];
-    for (int k = 0; k < 4; k++) {
-      if (s->weights[k] == 0 || weights[i] == 0) continue;
-      uint32_t at = 0;
-      while (at < side.count && side.slots[at] != s->slots[k]) at++;
-      if (at == side.count) side.slots[side.count++] = s->slots[k];
-      side.weights[at] += weights[i] * s->weights[k];
-    }
-  }
-  return side;
-}
-
-void sbri_finding_add(
-    const sbri_finding *f, const sbri_party *a, const sbri_party *b, const sbri_meet_touch *touch) {
-  if (f->group->touch_count >= f->group->touch_capacity) return;
-  sbri_meet_touch *t = &f->world->meetings->touches[f->group->first_touch + f->group->touch_count++];
-  *t = *touch;
-  t->friction = t->goes_out ? 0 : sqrtf(a->friction * b->friction);
-  t->restitution = a->restitution > b->restitution ? a->restitution : b->restitution;
-  float sizes[2] = {a->soft ? a->soft->rest_size_m * a->of->scale : INFINITY,
-      b->soft ? b->soft->rest_size_m * b->of->scale : INFINITY};
-  t->soft_m = sizes[0] < sizes[1] ? sizes[0] : sizes[1];
-  if (t->soft_m == INFINITY) t->soft_m = 0;
-  t->names[0] = sbri_meet_name(a->is), t->names[1] = sbri_meet_name(b->is);
-}
-
 /* ---- Soft with soft ---- */
 
 static sbri_surface_rule rule_of(const sbri_party *p) {
@@ -77,21 +43,6 @@ static sbri_surface_face face_of(const sbri_party *p, uint32_t triangle) {
     face.at[k] = p->surface->places[v], face.ways[k] = p->surface->ways[v];
   }
   return face;
-}
-
-sbf_vec3 sbri_party_rest(const sbri_party *p, uint32_t vertex) {
-  const sbri_sample *s = &p->surface->samples[vertex];
-  return sbri_scale(sbri_meet_rest(p->of->character->model, p->is->number, s), p->of->scale);
-}
-
-float sbri_party_margin(const sbri_party *a, const sbri_party *b) {
-  float own = a->soft ? a->soft->margin_m * a->of->scale : 0;
-  float other = b->surface->two_sided ? b->soft->source->collision.outer_thickness * b->of->scale : 0;
-  return own > other ? own : other;
-}
-
-float sbri_party_beyond(float margin, const sbri_party *b) {
-  return margin + LET_GO_SHARE * b->soft->rest_size_m * b->of->scale;
 }
 
 /* The most urgent triangle of `b` for a place of `a` that goes so; whether there is one. What lies at a

@@ -42,6 +42,8 @@ static inline sbf_vec3 sbri_into_frame(const sbr_transform *frame, sbf_vec3 x, f
   return sbri_rotate(sbri_quat_conjugate(frame->rotation), off);
 }
 
+/* ---- finding.c ---- */
+
 /* One more touch, if there is room; fills in all but places, normal, margin and feature. */
 void sbri_finding_add(
     const sbri_finding *f, const sbri_party *a, const sbri_party *b, const sbri_meet_touch *touch);
