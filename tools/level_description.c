@@ -24,11 +24,13 @@ json_t *level_description(const sbf_soft_body *body) {
     const sbf_level *level = &body->levels.at[i];
     uint64_t springs = 0;
     for (uint32_t s = 0; s < level->springs.count; s++) springs += level->springs.at[s].ends.count;
-    json_array_append_new(list,
-        json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "name", level->name ? level->name : "", "model",
-            sbf_elastic_model_name(level->model), "tetrahedra", integer(level->lattice.tetrahedra.count),
-            "springs", integer(springs), "error", measured(level->simulation.error), "cost",
-            measured(level->simulation.cost), "calibration", calibration_of(level)));
+    json_array_append_new(
+        list, json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "name",
+                  level->name ? level->name : "", "model", sbf_elastic_model_name(level->model), "tetrahedra",
+                  integer(level->lattice.tetrahedra.count), "springs", integer(springs), "error",
+                  measured(level->simulation.error), "cost", measured(level->simulation.cost), "motion_error",
+                  measured(level->simulation.motion_error), "motion_error_rms",
+                  measured(level->simulation.motion_error_rms), "calibration", calibration_of(level)));
   }
   return list;
 }
@@ -42,14 +44,17 @@ void level_description_print(const json_t *level, char *text, size_t size) {
   const char *name = json_string_value(json_object_get(level, "name"));
   const char *model = json_string_value(json_object_get(level, "model"));
   long long tetrahedra = (long long)real(level, "tetrahedra"), springs = (long long)real(level, "springs");
-  char parts[64] = "", error[64] = "", cost[64] = "", left[64] = "";
+  char parts[64] = "", error[64] = "", moving[64] = "", cost[64] = "", left[64] = "";
   if (tetrahedra > 0)
     snprintf(parts, sizeof parts, ", %lld tetrahedra", tetrahedra);
   else if (springs > 0)
     snprintf(parts, sizeof parts, ", %lld springs", springs);
   if (real(level, "error") > 0) snprintf(error, sizeof error, ", within %.3g m", real(level, "error"));
+  if (real(level, "motion_error") > 0)
+    snprintf(moving, sizeof moving, ", within %.3g m as it moves", real(level, "motion_error"));
   if (real(level, "cost") > 0) snprintf(cost, sizeof cost, ", %.0f visits a tick", real(level, "cost"));
   if (json_is_object(calibration))
     snprintf(left, sizeof left, ", calibrated to %.2g %%", 100 * real(calibration, "residual"));
-  snprintf(text, size, "%s: %s%s%s%s%s", name && *name ? name : "level", model, parts, error, left, cost);
+  snprintf(text, size, "%s: %s%s%s%s%s%s", name && *name ? name : "level", model, parts, error, moving, left,
+      cost);
 }

@@ -69,7 +69,7 @@ static int gather_cases(cli_call *call, request *r) {
   r->all = chart_cases, r->all_count = chart_case_count;
   if (!call->input_count) return SBF_OK;
   sbf_status status = sbf_load_file(call->inputs[0], NULL, &r->asset, &error);
-  if (status == SBF_OK) status = chart_bundle_cases(r->asset, &r->bundle, r->bundle_cases, &error);
+  if (status == SBF_OK) status = chart_bundle_cases(r->asset, NULL, &r->bundle, r->bundle_cases, &error);
   if (status != SBF_OK) cli_print_diagnostic(call, &error);
   r->all = r->bundle_cases, r->all_count = CHART_BUNDLE_CASES;
   return (int)status;

@@ -408,8 +408,10 @@ static const sbfi_field simulation_fields[] = {
   {.name = "step_error", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_simulation, step_error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "substeps_least", .type = SBFI_UINT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_simulation, substeps_least), .width = 1, .unit = ""},
   {.name = "substeps_most", .type = SBFI_UINT, .number = 8, .since_minor = 0, .offset = offsetof(sbf_simulation, substeps_most), .width = 1, .unit = ""},
+  {.name = "motion_error", .type = SBFI_FLOAT, .number = 9, .since_minor = 0, .offset = offsetof(sbf_simulation, motion_error), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
+  {.name = "motion_error_rms", .type = SBFI_FLOAT, .number = 10, .since_minor = 0, .offset = offsetof(sbf_simulation, motion_error_rms), .width = 1, .unit = "m", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
 };
-static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 8, simulation_fields, NULL};
+static const sbfi_element simulation_element = {"simulation", "simulation", sizeof(sbf_simulation), 0, 10, simulation_fields, NULL};
 
 static const sbfi_field calibration_fields[] = {
   {.name = "reference_elements", .type = SBFI_UINT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_calibration, reference_elements), .width = 1, .unit = ""},

@@ -64,12 +64,22 @@ sbr_instructions sbr_model_instructions(const sbr_model *model) {
   return model ? model->kernels->instructions : SBR_INSTRUCTIONS_AUTOMATIC;
 }
 
+static uint32_t substeps_at_rest(const sbri_island *island) {
+  return sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
+}
+
 uint32_t sbr_model_substeps(const sbr_model *model) {
   uint32_t most = 1;
   for (uint32_t i = 0; model && i < model->island_count; i++) {
-    const sbri_island *island = &model->islands[i];
-    uint32_t substeps = sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
+    uint32_t substeps = substeps_at_rest(&model->islands[i]);
     most = substeps > most ? substeps : most;
   }
   return most;
+}
+
+uint32_t sbr_model_body_substeps(const sbr_model *model, uint32_t soft_body) {
+  for (uint32_t i = 0; model && i < model->island_count; i++)
+    for (uint32_t b = 0; b < model->islands[i].body_count; b++)
+      if (model->islands[i].bodies[b] == soft_body) return substeps_at_rest(&model->islands[i]);
+  return 0;
 }

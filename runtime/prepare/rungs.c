@@ -64,12 +64,28 @@ static bool is_held(const sbr_model *model) {
 
 /* ---- Errors and costs ---- */
 
+/* What was measured in motion is what will be seen; else what it gives under its weight. */
+static float stated_error(const sbf_level *level) {
+  if (!level) return 0;
+  return level->simulation.motion_error > 0 ? level->simulation.motion_error : level->simulation.error;
+}
+
 bool sbri_level_is_useful(const sbf_level *level, float size_m) {
-  return sbri_level_is_stepped(level) && !(level->simulation.error > USELESS_SHARE * size_m);
+  bool measured = level->simulation.motion_error > 0;
+  return sbri_level_is_stepped(level) && (measured || !(level->simulation.error > USELESS_SHARE * size_m));
+}
+
+/* How often a substep looks at each tetrahedron, and at each spring: block descent sweeps four times, from
+ * every point of an element. */
+static float looks_of(const sbri_island *island, bool solid) {
+  if (island->scheme->word == SBF_SCHEME_HEUN) return 2;
+  if (island->scheme->word == SBF_SCHEME_BLOCK_DESCENT) return solid ? 16 : 8;
+  return 1;
 }
 
 static float error_of(const sbri_body *body, const sbf_level *level, bool is_finest) {
-  float stated = level ? level->simulation.error : 0;
+  float stated = stated_error(level);
+  if (level && level->simulation.motion_error > 0) return stated;
   if (stated > 0 && !(stated > USELESS_SHARE * body->rest_size_m)) return stated;
   return is_finest ? 0 : UNSTATED_SHARE * body->rest_size_m;
 }
@@ -91,8 +107,9 @@ static void rate(const sbr_model *model, sbr_rung *rung) {
     uint32_t members = 0;
     for (uint32_t k = 0; k < island->region_block_count; k++)
       members += SBRI_BLOCK * island->region_blocks[k].member_count;
-    float visits = (float)island->tetrahedron_count +
-                   SPRING_VISITS * (float)(island->spring_count + members) + SUBSTEP_VISITS;
+    float visits = looks_of(island, true) * (float)island->tetrahedron_count +
+                   looks_of(island, false) * SPRING_VISITS * (float)(island->spring_count + members) +
+                   SUBSTEP_VISITS;
     rung->visits += visits * (float)sbri_scheme_substeps(island, 1.0 / 60, island->rest_stretch);
   }
 }

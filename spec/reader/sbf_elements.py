@@ -333,6 +333,8 @@ simulation
   step_error: float range=[0,inf)
   substeps_least: uint
   substeps_most: uint
+  motion_error: float range=[0,inf)
+  motion_error_rms: float range=[0,inf)
 calibration
   reference_elements: uint
   factor: float default=1 range=(0,inf)

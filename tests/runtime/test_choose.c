@@ -71,6 +71,35 @@ START_TEST(what_is_far_is_coarse_and_what_nobody_sees_goes_away)
 }
 END_TEST
 
+/* At rest, seen from z metres away: error x lines / (2 tan(height / 2) x distance), the distance to the
+ * nearest of the box; and the coarse level is taken where that is below 0.7 of half a pixel. */
+START_TEST(predicted_pixels_are_those_of_the_measured_error)
+{
+  const float error_m = 0.004f;
+  for (int i = 0; i < 2; i++) {
+    double distance = i ? 16 : 9, pixels = (double)error_m * 1080 / (2 * tan(0.5236) * distance);
+    crowd c = {.s = rung_scene_begin(false)};
+    sbf_level *levels = (sbf_level *)(uintptr_t)scene_body(&c.s, 0)->levels.at;
+    const sbr_detail_definition by_default = sbr_default_detail_definition();
+    const sbr_view view = view_from(-distance);
+    levels[1].simulation.motion_error = error_m;
+    scene_start(&c.s);
+    ck_assert_int_eq(sbr_world_detail(c.s.world, &by_default, NULL), SBF_OK);
+    for (int t = 0; t < 40; t++) {
+      sbr_world_views(c.s.world, &view, 1);
+      sbr_world_tick(c.s.world);
+    }
+    ck_assert_uint_eq(sbr_character_rung(c.s.world, c.s.character), pixels < 0.35 ? 1u : 0u);
+    sbr_character_set_rung(c.s.world, c.s.character, 1);
+    sbr_world_tick(c.s.world);
+    double said = (double)sbr_character_error_px(c.s.world, c.s.character);
+    ck_assert_double_ge(said, pixels);
+    ck_assert_double_le(said, 1.1 * pixels);
+    scene_free(&c.s);
+  }
+}
+END_TEST
+
 START_TEST(the_host_may_know_better)
 {
   crowd c = make_crowd(NULL, NULL);
@@ -197,6 +226,7 @@ int main(void) {
   TCase *c = tcase_create("choose");
   tcase_set_timeout(c, 120);
   tcase_add_test(c, what_is_far_is_coarse_and_what_nobody_sees_goes_away);
+  tcase_add_test(c, predicted_pixels_are_those_of_the_measured_error);
   tcase_add_test(c, the_host_may_know_better);
   tcase_add_test(c, a_camera_that_trembles_changes_nothing);
   tcase_add_test(c, a_budget_is_kept_and_spent_on_what_is_near);

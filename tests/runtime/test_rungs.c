@@ -67,6 +67,34 @@ START_TEST(a_level_that_is_off_by_a_quarter_of_its_body_is_no_rung)
 }
 END_TEST
 
+/* What a level states of motion goes before what it states of rest, even where that has gone wrong; a scheme
+ * that looks at elements more often costs so much more. */
+START_TEST(rungs_go_by_what_was_measured_in_motion)
+{
+  float visits = 0;
+  for (int i = 0; i < 2; i++) {
+    scene s = rung_scene_begin(false);
+    sbf_level *levels = (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at;
+    levels[0].simulation.motion_error = 0.001f;
+    levels[1].simulation.error = 0.2f;
+    levels[1].simulation.motion_error = 0.004f;
+    levels[1].simulation.substeps = 3;
+    levels[1].simulation.scheme = i ? SBF_SCHEME_BLOCK_DESCENT : SBF_SCHEME_POSITION_BASED;
+    scene_start(&s);
+    sbr_rung rungs[8];
+    ck_assert_uint_eq(sbr_model_rungs(s.model, rungs, 8), RUNGS);
+    ck_assert(rungs[0].error_m == 0.001f);
+    ck_assert_int_eq(rungs[1].kind, SBR_RUNG_SOFT);
+    ck_assert(rungs[1].error_m == 0.004f);
+    ck_assert(rungs[2].error_m == 0.02f);
+    uint32_t solids = levels[1].lattice.tetrahedra.count;
+    if (i) ck_assert(fabsf(rungs[1].visits - visits - 3 * 15 * (float)solids) < 1);
+    visits = rungs[1].visits;
+    scene_free(&s);
+  }
+}
+END_TEST
+
 START_TEST(levels_that_were_not_loaded_are_passed_over)
 {
   scene s = rung_scene_begin(false);
@@ -97,6 +125,7 @@ int main(void) {
   tcase_add_test(c, without_a_ladder_or_with_a_body_that_keeps_its_shape_there_is_one_rung);
   tcase_add_test(c, what_nothing_holds_has_soft_rungs_alone);
   tcase_add_test(c, a_level_that_is_off_by_a_quarter_of_its_body_is_no_rung);
+  tcase_add_test(c, rungs_go_by_what_was_measured_in_motion);
   tcase_add_test(c, levels_that_were_not_loaded_are_passed_over);
   tcase_add_test(c, making_one_survives_want_of_memory);
   suite_add_tcase(s, c);

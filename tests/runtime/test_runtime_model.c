@@ -27,6 +27,7 @@ START_TEST(calls_are_checked)
   ck_assert_ptr_null(s.model);
   sbr_model_destroy(NULL);
   ck_assert_uint_eq(sbr_model_substeps(NULL), 1);
+  ck_assert_uint_eq(sbr_model_body_substeps(NULL, 0), 0);
   scene_free(&s);
 }
 END_TEST

@@ -5,29 +5,33 @@
 #include "render/fault.h"
 #include "sbfmt/mechanics.h"
 
-/* Its own heights a second, and how many heights a hop is high. */
-static const double SPEED = 0.5, HOP = 0.1;
-enum { TICKS = 120, HOP_TICKS = 30, TURN_TICKS = 15 };
-static const float TURN_RAD_S = 2.5f;
+enum { TICKS = 120 };
+
+const chart_drive chart_usual_drive = {
+    .speed = 0.5, .curve_rad_s = 0, .hop = 0.1, .hop_ticks = 30, .turn_rad_s = 2.5f, .turn_ticks = 15};
 
 static void walk(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   const chart_bundle *b = user;
-  if (tick == 0) sbr_character_drive(world, character, (float)b->speed_m_s, 0, 0);
+  if (tick == 0) sbr_character_drive(world, character, (float)b->speed_m_s, 0, b->drive.curve_rad_s);
 }
 
-/* What it stands on goes up and down along parabolas, two a second. */
+/* What it stands on goes up and down along parabolas. */
 static void hop(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   chart_bundle *b = user;
-  double share = tick % HOP_TICKS / (double)HOP_TICKS;
+  double share = tick % b->drive.hop_ticks / (double)b->drive.hop_ticks;
   b->ground_m = 4 * b->hop_m * share * (1 - share);
   if (tick == 0) sbr_character_wake(world, character);
 }
 
-/* From side to side, a quarter of a second each. */
+/* From side to side. */
 static void shake(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
-  (void)user;
-  if (tick % TURN_TICKS == 0)
-    sbr_character_drive(world, character, 0, 0, tick / TURN_TICKS % 2 ? -TURN_RAD_S : TURN_RAD_S);
+  const chart_drive *d = &((const chart_bundle *)user)->drive;
+  if (tick % d->turn_ticks == 0)
+    sbr_character_drive(world, character, 0, 0, tick / d->turn_ticks % 2 ? -d->turn_rad_s : d->turn_rad_s);
+}
+
+static void level_ground(void *user) {
+  ((chart_bundle *)user)->ground_m = 0;
 }
 
 static double ground_height(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
@@ -37,8 +41,8 @@ static double ground_height(const sbr_ground *ground, double x, double z, sbf_ve
   return b->ground_m;
 }
 
-sbf_status chart_bundle_cases(
-    const sbf_asset *asset, chart_bundle *bundle, chart_case *cases, sbf_diagnostic *error) {
+sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, chart_bundle *bundle,
+    chart_case *cases, sbf_diagnostic *error) {
   static const chart_case kinds[CHART_BUNDLE_CASES] = {
       {.name = "walk", .title = "half its height a second forwards: two seconds", .guide = walk},
       {.name = "hop",
@@ -56,11 +60,14 @@ sbf_status chart_bundle_cases(
         "there is no soft body with a level to chart, or one without: sbfmt build makes them");
   sbf_asset_measure(asset, &measures);
   double tall = fmax((double)measures.high.y - (double)measures.low.y, 0.01);
-  *bundle = (chart_bundle){.asset = asset, .speed_m_s = SPEED * tall, .hop_m = HOP * tall};
+  *bundle = (chart_bundle){.asset = asset, .drive = drive ? *drive : chart_usual_drive};
+  bundle->speed_m_s = bundle->drive.speed * tall;
+  bundle->hop_m = bundle->drive.hop * tall;
   bundle->ground = (sbr_ground){.height = ground_height, .user = bundle};
   for (int i = 0; i < CHART_BUNDLE_CASES; i++) {
     cases[i] = kinds[i];
     cases[i].given = asset;
+    cases[i].begin = level_ground;
     cases[i].user = bundle;
     cases[i].ground = &bundle->ground;
     cases[i].ticks = TICKS;

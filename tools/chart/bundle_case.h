@@ -6,16 +6,30 @@
 
 enum { CHART_BUNDLE_CASES = 3 };
 
+/* How hard it is driven. */
+typedef struct chart_drive {
+  double speed;        /* of the walk, its own heights a second */
+  float curve_rad_s;   /* to the left as it walks */
+  double hop;          /* heights that the ground rises by */
+  uint32_t hop_ticks;  /* from one hop to the next */
+  float turn_rad_s;    /* of the shake */
+  uint32_t turn_ticks; /* to one side */
+} chart_drive;
+
+extern const chart_drive chart_usual_drive; /* what the cases' titles say */
+
 typedef struct chart_bundle {
   const sbf_asset *asset;
+  chart_drive drive;
   double speed_m_s, hop_m;
   double ground_m;   /* the ground that it stands on rises and falls with a hop */
   sbr_ground ground; /* asks `ground_m` */
 } chart_bundle;
 
-/* Fills `cases` (CHART_BUNDLE_CASES) with walk, hop and shake of two seconds. `bundle` and the asset must
- * stay until they have been charted. SBF_BAD_INPUT where the asset has no soft body with a level. */
-sbf_status chart_bundle_cases(
-    const sbf_asset *asset, chart_bundle *bundle, chart_case *cases, sbf_diagnostic *error);
+/* Fills `cases` (CHART_BUNDLE_CASES) with walk, hop and shake of two seconds; `drive` NULL: the usual one.
+ * `bundle` and the asset must stay until they have been charted. SBF_BAD_INPUT where the asset has no soft
+ * body with a level. */
+sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, chart_bundle *bundle,
+    chart_case *cases, sbf_diagnostic *error);
 
 #endif

@@ -199,6 +199,21 @@ const chart_case chart_cases[] = {
 };
 const uint32_t chart_case_count = sizeof chart_cases / sizeof *chart_cases;
 
+chart_scene chart_scene_of(const chart_case *c, const sbf_asset *asset) {
+  return (chart_scene){.asset = asset,
+      .has_gravity = !c->given,
+      .gravity = c->gravity,
+      .ground = c->ground,
+      .grounded = c->grounded,
+      .raise_m = c->raise_m,
+      .ticks = c->ticks,
+      .timed_ticks = c->timed_ticks,
+      .watch = c->watch,
+      .guide = c->guide,
+      .begin = c->begin,
+      .user = c->user};
+}
+
 const chart_case *chart_case_named(const char *name) {
   for (uint32_t i = 0; i < chart_case_count; i++)
     if (strcmp(chart_cases[i].name, name) == 0) return &chart_cases[i];

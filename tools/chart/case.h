@@ -24,10 +24,14 @@ typedef struct chart_case {
   const sbf_asset *given;   /* a character of a file, which stands in for `make`; its own gravity acts */
   const sbr_ground *ground; /* what it stands on; NULL: level */
   void (*guide)(void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each */
+  void (*begin)(void *user); /* as of a scene (watched_motion.h) */
   void *user;
   /* Makes the `number`-th body, from 0; asset NULL and SBF_OK: there are no more. */
   sbf_status (*make)(uint32_t number, chart_subject *subject, sbf_diagnostic *error);
 } chart_case;
+
+/* The case with this body in it. */
+chart_scene chart_scene_of(const chart_case *charted, const sbf_asset *asset);
 
 extern const chart_case chart_cases[];
 extern const uint32_t chart_case_count;

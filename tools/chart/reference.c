@@ -8,6 +8,8 @@
 
 enum { LEAST_SUBSTEPS = 32 };
 static const double TICK_S = 1.0 / 60;
+static const char ALLOW_MORE[] = "allow more with --most-substeps";
+static const char MEND[] = "its matter folds up or its lattice is unsound";
 static const double RICHARDSON = 15; /* 2^4 - 1: the fine one of two of fourth order is so much nearer */
 
 static sbf_status no_memory(sbf_diagnostic *error) {
@@ -30,24 +32,25 @@ static sbf_status find_in_double(chart_truth *truth, const chart_case *charted, 
   return SBF_OK;
 }
 
+/* `hint`: what to do where it fails. */
 static sbf_status look(chart_track *track, const chart_scene *scene, sbf_scheme scheme, uint32_t substeps,
-    sbf_diagnostic *error) {
+    const char *hint, sbf_diagnostic *error) {
   chart_motion motion;
   const chart_setting setting = {.scheme = scheme, .substeps = substeps};
   sbf_status status = chart_motion_open(&motion, scene, &setting, error);
   if (status == SBF_OK && !chart_motion_look(&motion, track)) status = no_memory(error);
   if (status == SBF_OK && !track->sound)
-    status = fault_set(error, SBF_CODE_BAD_CALL,
-        "the reference itself fails with %u substeps of %s (%s): allow more with --most-substeps",
-        (unsigned)substeps, sbf_scheme_name(scheme), track->why);
+    status = fault_set(error, SBF_CODE_BAD_CALL, "the reference itself fails with %u substeps of %s, %s: %s",
+        (unsigned)substeps, sbf_scheme_name(scheme), track->why, hint);
   chart_motion_close(&motion);
   return status;
 }
 
 static sbf_status find_by_runtime(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
     const sbf_vec3 *rest, uint32_t substeps, sbf_diagnostic *error) {
-  sbf_status status = look(&truth->track, scene, SBF_SCHEME_HEUN, substeps, error);
-  if (status == SBF_OK) status = look(&truth->other, scene, SBF_SCHEME_SYMPLECTIC, substeps, error);
+  sbf_status status = look(&truth->track, scene, SBF_SCHEME_HEUN, substeps, ALLOW_MORE, error);
+  if (status == SBF_OK)
+    status = look(&truth->other, scene, SBF_SCHEME_SYMPLECTIC, substeps, ALLOW_MORE, error);
   if (status == SBF_OK && !chart_errors_of(&truth->other, &truth->track, rest, TICK_S, &charted->signal,
                               charted->axes, truth->stated->errors))
     status = no_memory(error);
@@ -81,14 +84,14 @@ sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, 
   uint32_t substeps = 0;
   *truth = (chart_truth){.stated = stated};
   sbf_status status = needed_substeps(scene, &substeps, error);
-  if (status == SBF_OK) status = look(&coarse, scene, SBF_SCHEME_SYMPLECTIC, 2 * substeps, error);
-  if (status == SBF_OK) status = look(&truth->track, scene, SBF_SCHEME_SYMPLECTIC, 4 * substeps, error);
+  if (status == SBF_OK) status = look(&coarse, scene, SBF_SCHEME_SYMPLECTIC, 2 * substeps, MEND, error);
+  if (status == SBF_OK) status = look(&truth->track, scene, SBF_SCHEME_SYMPLECTIC, 4 * substeps, MEND, error);
   if (status == SBF_OK &&
       !chart_errors_of(&coarse, &truth->track, rest, TICK_S, &charted->signal, charted->axes, stated->errors))
     status = no_memory(error);
   chart_track_free(&coarse);
   snprintf(stated->what, sizeof stated->what, "%u tetrahedra as they are, symplectic, %u substeps a frame",
-      (unsigned)chart_elements_of(scene->asset), 4 * (unsigned)substeps);
+      (unsigned)chart_all_elements_of(scene->asset), 4 * (unsigned)substeps);
   return status;
 }
 

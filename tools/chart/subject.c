@@ -69,18 +69,22 @@ sbf_asset *chart_level_pendulum(float length_m, float mass_kg, float stiffness) 
       &(uint32_t){0}, 1);
 }
 
-uint32_t chart_elements_of(const sbf_asset *asset) {
+uint32_t chart_elements_of(const sbf_soft_body *body) {
+  if (!body->levels.count) return 0;
+  const sbf_level *level = &body->levels.at[0];
+  bool springs = level->model == SBF_ELASTIC_MODEL_SPRINGS;
   uint32_t count = 0;
-  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) {
-    const sbf_level_list *levels = &asset->soft_bodies.at[b].levels;
-    if (!levels->count) continue;
-    const sbf_level *level = &levels->at[0];
-    bool springs = level->model == SBF_ELASTIC_MODEL_SPRINGS;
-    if (level->model == SBF_ELASTIC_MODEL_TETRAHEDRA) count += level->lattice.tetrahedra.count;
-    if (level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING && level->regions)
-      count += level->regions->sizes.count;
-    for (uint32_t i = 0; i < level->springs.count; i++)
-      if (springs || level->springs.at[i].extra) count += level->springs.at[i].ends.count;
-  }
+  if (level->model == SBF_ELASTIC_MODEL_TETRAHEDRA) count += level->lattice.tetrahedra.count;
+  if (level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING && level->regions)
+    count += level->regions->sizes.count;
+  for (uint32_t i = 0; i < level->springs.count; i++)
+    if (springs || level->springs.at[i].extra) count += level->springs.at[i].ends.count;
+  return count;
+}
+
+uint32_t chart_all_elements_of(const sbf_asset *asset) {
+  uint32_t count = 0;
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
+    count += chart_elements_of(&asset->soft_bodies.at[b]);
   return count;
 }

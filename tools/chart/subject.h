@@ -25,7 +25,8 @@ sbf_asset *chart_hung_chain(uint32_t count, float length_m, float mass_kg, float
 /* A mass level with what holds it, `length_m` away along x, on a spring. */
 sbf_asset *chart_level_pendulum(float length_m, float mass_kg, float stiffness);
 
-/* Springs, tetrahedra and regions of the finest level of the first body. */
-uint32_t chart_elements_of(const sbf_asset *asset);
+/* Springs, tetrahedra and regions of the finest level of a body, and of all. */
+uint32_t chart_elements_of(const sbf_soft_body *body);
+uint32_t chart_all_elements_of(const sbf_asset *asset);
 
 #endif

@@ -28,23 +28,6 @@ static void tell(const sweep *s, const char *what, double share) {
   if (s->effort->progress) s->effort->progress(s->effort->user, what, share);
 }
 
-/* How often a substep of the scheme visits each element. */
-static double visits_a_substep(sbf_scheme scheme, const sbf_level *level) {
-  enum { SWEEPS = 4 }; /* of block descent, each from every point of an element */
-  bool springs = level->model == SBF_ELASTIC_MODEL_SPRINGS;
-  if (scheme == SBF_SCHEME_HEUN) return 2;
-  if (scheme == SBF_SCHEME_BLOCK_DESCENT) return SWEEPS * (springs ? 2 : 4);
-  return 1;
-}
-
-static double visits_of(const chart_motion *m, const chart_setting *setting) {
-  const sbf_asset *asset = m->scene.asset;
-  if (setting->step_error_m > 0 || !asset->soft_bodies.count) return NAN;
-  uint32_t substeps = setting->substeps ? setting->substeps : sbr_model_substeps(m->model);
-  return visits_a_substep(setting->scheme, &asset->soft_bodies.at[0].levels.at[0]) * substeps *
-         chart_elements_of(asset);
-}
-
 /* How far the reference's points move, root of the mean square. */
 static double extent_of(const chart_track *t, const sbf_vec3 *rest) {
   double sum = 0;
@@ -101,7 +84,7 @@ static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_sc
   snprintf(row->scheme, sizeof row->scheme, "%s",
       s->charted->of_space ? subject->line : sbf_scheme_name(setting->scheme));
   row->setting = *setting;
-  row->elements = chart_elements_of(subject->asset);
+  row->elements = chart_all_elements_of(subject->asset);
   row->runs_us = calloc(s->effort->rounds, sizeof *row->runs_us);
   sbf_status status = chart_motion_open(motion, scene, setting, &why);
   row->refused = status != SBF_OK;
@@ -110,7 +93,7 @@ static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_sc
     chart_motion_close(motion);
     return row->runs_us ? SBF_OK : no_memory(error);
   }
-  row->visits = visits_of(motion, setting);
+  row->visits = chart_visits_of(motion->model, subject->asset, setting);
   return row->runs_us && judge(s, row, motion, truth, rest) ? SBF_OK : no_memory(error);
 }
 
@@ -139,28 +122,6 @@ static sbf_status sweep_schemes(sweep *s, const chart_subject *subject, const ch
   return status;
 }
 
-static chart_scene scene_of(const sweep *s, const chart_subject *subject) {
-  const chart_case *c = s->charted;
-  return (chart_scene){.asset = subject->asset,
-      .has_gravity = !c->given,
-      .gravity = c->gravity,
-      .ground = c->ground,
-      .grounded = c->grounded,
-      .raise_m = c->raise_m,
-      .ticks = c->ticks,
-      .timed_ticks = c->timed_ticks,
-      .watch = c->watch,
-      .guide = c->guide,
-      .user = c->user};
-}
-
-/* Where the points begin: free() it. */
-static sbf_vec3 *rest_of(const chart_scene *scene) {
-  sbf_vec3 *rest = calloc((size_t)chart_motion_points(scene) + 1, sizeof *rest);
-  if (rest) chart_motion_rest(scene, rest);
-  return rest;
-}
-
 static sbf_status state_reference(
     sweep *s, const chart_subject *subject, chart_reference **stated, sbf_diagnostic *error) {
   *stated = chart_sheet_add_reference(s->sheet);
@@ -171,10 +132,10 @@ static sbf_status state_reference(
 }
 
 static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diagnostic *error) {
-  const chart_scene scene = scene_of(s, subject);
+  const chart_scene scene = chart_scene_of(s->charted, subject->asset);
   chart_truth truth = {.stated = NULL};
   chart_reference *stated;
-  sbf_vec3 *rest = rest_of(&scene);
+  sbf_vec3 *rest = chart_motion_begins(&scene);
   sbf_status status = rest ? state_reference(s, subject, &stated, error) : no_memory(error);
   if (status == SBF_OK)
     status = chart_truth_find(&truth, s->charted, &scene, rest, s->effort->most_substeps, stated, error);
@@ -190,15 +151,15 @@ static sbf_status sweep_subject(sweep *s, const chart_subject *subject, sbf_diag
 static sbf_status sweep_meshes(
     sweep *s, const chart_subject *subjects, uint32_t count, sbf_diagnostic *error) {
   const chart_setting own = {.scheme = SBF_SCHEME_AUTOMATIC};
-  chart_scene scene = scene_of(s, &subjects[0]);
+  chart_scene scene = chart_scene_of(s->charted, subjects[0].asset);
   chart_truth truth = {.stated = NULL};
   chart_reference *stated;
-  sbf_vec3 *rest = rest_of(&scene);
+  sbf_vec3 *rest = chart_motion_begins(&scene);
   sbf_status status = rest ? state_reference(s, &subjects[0], &stated, error) : no_memory(error);
   if (status == SBF_OK) status = chart_truth_find_mesh(&truth, s->charted, &scene, rest, stated, error);
   tell(s, "errors", 0);
   for (uint32_t i = 1; status == SBF_OK && i < count; i++) {
-    scene = scene_of(s, &subjects[i]);
+    scene = chart_scene_of(s->charted, subjects[i].asset);
     status = add_row(s, &subjects[i], &scene, &own, &truth, rest, error);
   }
   chart_truth_free(&truth);

@@ -4,13 +4,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "chart/subject.h"
+
 static const double FAR_DOWN_M = 1000;
 
 static sbf_status create(chart_motion *m, const chart_setting *setting, sbf_diagnostic *error) {
   const chart_scene *scene = &m->scene;
+  if (scene->begin) scene->begin(scene->user);
   const sbr_model_options options = {.scheme = setting->scheme,
       .substeps = setting->substeps,
       .step_error_m = setting->step_error_m,
+      .level = setting->level,
       .has_gravity = scene->has_gravity,
       .gravity = scene->gravity};
   sbr_world_definition world = sbr_default_world_definition();
@@ -84,6 +88,39 @@ void chart_motion_rest(const chart_scene *scene, sbf_vec3 *places) {
     for (uint32_t k = 0; k < list->count; k++) *places++ = list->at[k];
 }
 
+sbf_vec3 *chart_motion_begins(const chart_scene *scene) {
+  sbf_vec3 *places = calloc((size_t)chart_motion_points(scene) + 1, sizeof *places);
+  if (places) chart_motion_rest(scene, places);
+  return places;
+}
+
+/* How often a substep of the scheme visits each element. */
+static double visits_a_substep(sbf_scheme scheme, const sbf_level *level) {
+  enum { SWEEPS = 4 }; /* of block descent, each from every point of an element */
+  bool springs = level->model == SBF_ELASTIC_MODEL_SPRINGS;
+  if (scheme == SBF_SCHEME_HEUN) return 2;
+  if (scheme == SBF_SCHEME_BLOCK_DESCENT) return SWEEPS * (springs ? 2 : 4);
+  return 1;
+}
+
+double chart_body_visits(
+    const sbr_model *model, const sbf_asset *asset, uint32_t soft_body, const chart_setting *setting) {
+  const sbf_soft_body *body = &asset->soft_bodies.at[soft_body];
+  if (!body->levels.count) return 0;
+  const sbf_simulation *own = &body->levels.at[0].simulation;
+  sbf_scheme scheme = setting->scheme == SBF_SCHEME_AUTOMATIC ? own->scheme : setting->scheme;
+  if (setting->step_error_m > 0 || (scheme == SBF_SCHEME_HEUN && !setting->substeps && !own->substeps))
+    return NAN;
+  return visits_a_substep(scheme, &body->levels.at[0]) * chart_elements_of(body) *
+         sbr_model_body_substeps(model, soft_body);
+}
+
+double chart_visits_of(const sbr_model *model, const sbf_asset *asset, const chart_setting *setting) {
+  double sum = asset->soft_bodies.count ? 0 : NAN;
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++) sum += chart_body_visits(model, asset, b, setting);
+  return sum;
+}
+
 /* Relative to the character's origin, but for the skin: that is in world space, where it walks to. */
 static void read_places(const chart_motion *m, sbf_vec3 *places, uint32_t count) {
   const sbf_asset *asset = m->scene.asset;
@@ -105,20 +142,22 @@ static void read_places(const chart_motion *m, sbf_vec3 *places, uint32_t count)
 }
 
 static void read_health(const chart_motion *m, chart_track *track, uint32_t tick) {
-  const char *why = NULL;
+  const char *why = NULL, *of = "";
   track->volume[tick] = 1;
   for (uint32_t i = 0; i < m->scene.asset->soft_bodies.count; i++) {
     sbr_body_health h = sbr_character_health(m->world, m->character, i);
+    const char *before = why;
     track->kinetic_j[tick] += h.kinetic_j;
     track->energy_j[tick] += h.kinetic_j + h.elastic_j + h.potential_j;
     track->volume[tick] = i ? fmin(track->volume[tick], (double)h.volume_ratio) : (double)h.volume_ratio;
     if (!h.finite) why = "numbers that are none";
     if (h.recoveries) why = "lost its shape and was put back into it";
     if (h.inverted && tick + 1 == m->scene.ticks) why = "inside out at the end";
+    if (why != before) of = m->scene.asset->soft_bodies.at[i].id;
   }
   if (!why || !track->sound) return;
   track->sound = false;
-  snprintf(track->why, sizeof track->why, "%s", why);
+  snprintf(track->why, sizeof track->why, "%s (%.40s, tick %u)", why, of, (unsigned)tick);
 }
 
 bool chart_motion_look(chart_motion *m, chart_track *track) {

@@ -25,6 +25,7 @@ typedef struct chart_scene {
   chart_watch watch;
   void (*guide)(void *user, sbr_world *world, sbr_character_id character, uint32_t tick); /* before each; may
                                                                                               be NULL */
+  void (*begin)(void *user); /* before a character is made: puts back what `guide` changes; may be NULL */
   void *user;
 } chart_scene;
 
@@ -32,6 +33,7 @@ typedef struct chart_setting {
   sbf_scheme scheme;
   uint32_t substeps;  /* 0: its own choice */
   float step_error_m; /* of schemes that control it; 0: the file's */
+  uint32_t level;     /* of the bodies, 0 the finest */
 } chart_setting;
 
 typedef struct chart_motion {
@@ -57,5 +59,13 @@ bool chart_motion_look(chart_motion *m, chart_track *track);
 /* Where the points that are looked at are in the asset: (chart_motion_points) of them. */
 uint32_t chart_motion_points(const chart_scene *scene);
 void chart_motion_rest(const chart_scene *scene, sbf_vec3 *places);
+sbf_vec3 *chart_motion_begins(const chart_scene *scene); /* the same: free() it; NULL: memory ran out */
+
+/* Elements that a tick looks at, as often as it does, of all bodies' finest levels at rest; NAN where the
+ * scheme chooses its steps as it goes. */
+double chart_visits_of(const sbr_model *model, const sbf_asset *asset, const chart_setting *setting);
+/* Of one body alone. */
+double chart_body_visits(
+    const sbr_model *model, const sbf_asset *asset, uint32_t soft_body, const chart_setting *setting);
 
 #endif

@@ -886,6 +886,11 @@ typedef struct sbf_simulation {
   uint32_t substeps_least;
   /* The same; 0: no bound. */
   uint32_t substeps_most;
+  /* Of the character's skin as it moves, all bodies on such levels, at its worst place and moment; 0: not
+   * measured. [m; [0, inf)] */
+  float motion_error;
+  /* The same, root of the mean square over its vertices and moments. [m; [0, inf)] */
+  float motion_error_rms;
 } sbf_simulation;
 typedef struct sbf_simulation_list {
   const sbf_simulation *at;

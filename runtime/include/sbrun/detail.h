@@ -38,7 +38,8 @@ typedef enum sbr_rung_kind {
 typedef struct sbr_rung {
   sbr_rung_kind kind; /* what it is */
   uint32_t level;     /* of soft ones: of each body that has so many, else its coarsest */
-  float error_m;      /* the greatest that its levels state; where one states none, 2 % of the body's size */
+  float error_m;      /* the greatest that its levels state, of motion where that was measured (simulation
+                         .motion_error), else at rest; where one states none, 2 % of the body's size */
   float visits;       /* what a tick costs, in visits of elements, the gait's share included */
 } sbr_rung;
 

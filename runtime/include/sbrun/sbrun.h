@@ -327,6 +327,8 @@ SBF_API sbr_body_health sbr_character_health(
     const sbr_world *world, sbr_character_id character, uint32_t soft_body);
 /* The most substeps of a tick that a body at rest and of scale 1 needs. */
 SBF_API uint32_t sbr_model_substeps(const sbr_model *model);
+/* The same of one soft body and those that hang together with it; 0: it is not stepped. */
+SBF_API uint32_t sbr_model_body_substeps(const sbr_model *model, uint32_t soft_body);
 
 /* Gait, for measuring: where a leg is and what it does. */
 typedef struct sbr_leg_state {

@@ -361,6 +361,8 @@ ELEMENTS = {element.name: element for element in (
         Field('step_error', 'float', default=0.0),
         Field('substeps_least', 'uint', default=0),
         Field('substeps_most', 'uint', default=0),
+        Field('motion_error', 'float', default=0.0),
+        Field('motion_error_rms', 'float', default=0.0),
     )),
     Element('calibration', 'calibration', (
         Field('reference_elements', 'uint', default=0),

@@ -1,0 +1,150 @@
+"""`sbfmt tune`: what it writes is what was measured, keeps its goal, is found again, and is never half of a file."""
+
+import json
+import os
+import re
+import unittest
+
+from sbfmt_program import ROOT, ProgramTest, call, main, read_bytes, read_text
+
+EXAMPLES = os.path.join(ROOT, "examples")
+SMALL = ("--reference", "400", "--elements", "60", "--elements", "100", "--runs", "2")
+
+
+class Tuned(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.place = cls.class_folder.name
+        cls.file = os.path.join(cls.place, "pudding.sbfz")
+        result = call("convert", os.path.join(EXAMPLES, "pudding", "pudding.glb"), "-o", cls.file)
+        assert result.status == 0, result.err
+        cls.all = cls.tune(cls, "all.sbf")
+
+    def tune(self, name, *options, status=0, sweep=SMALL):
+        result = call("tune", self.file, "-o", os.path.join(self.place, name), "--format", "json", *sweep, *options)
+        assert result.status == status, result.err
+        return json.loads(result.out)
+
+    def levels_of(self, name):
+        result = call("info", os.path.join(self.place, name), "--format", "json")
+        self.assertEqual(result.status, 0, result.err)
+        return [section["levels"] for section in json.loads(result.out)["sections"]]
+
+    def test_every_kind_of_candidate_is_tried_and_the_front_is_kept(self):
+        trials = self.all["trials"]
+        self.assertEqual({trial["model"] for trial in trials},
+                         {"as built"} | {f"tetrahedra {size}{kind}" for size in (60, 100) for kind in ("", " calibrated")})
+        self.assertIn("position_based", {trial["scheme"] for trial in trials})
+        sound = [trial for trial in trials if trial["outcome"] == "sound"]
+        front = [trial for trial in sound if trial["on_front"]]
+        self.assertTrue(front)
+        for trial in sound:
+            better = [other for other in front if other["visits"] <= trial["visits"]
+                      and other["error"]["most_m"] <= trial["error"]["most_m"]]
+            self.assertTrue(better, trial)
+            self.assertEqual(trial["us_per_tick"] is not None, trial["on_front"])
+            self.assertLessEqual(trial["error"]["rms_m"], trial["error"]["most_m"])
+        self.assertEqual(self.all["verdict"], "met")
+        self.assertEqual([motion["name"] for motion in self.all["reference"]["motions"]], ["walk", "hop", "shake"])
+        self.assertGreater(self.all["reference"]["most_m"], 0)
+
+    def test_the_file_holds_what_was_measured(self):
+        result = call("validate", os.path.join(self.place, "all.sbf"))
+        self.assertEqual(result.status, 0, result.out + result.err)
+        said = self.all["levels"]
+        for levels in self.levels_of("all.sbf"):
+            self.assertEqual(len(levels), len(said))
+            for level, of in zip(levels, said):
+                self.assertAlmostEqual(level["motion_error"], of["motion_error_m"], delta=1e-6 * of["motion_error_m"])
+                self.assertAlmostEqual(level["motion_error_rms"], of["motion_error_rms_m"], delta=1e-6)
+        for of in said:
+            worst = max(of["error"]["most_m"], of["verified"]["most_m"])
+            self.assertGreaterEqual(of["motion_error_m"], worst)
+        text = read_text(os.path.join(self.place, "all.sbf"))
+        for words in ('id="tune"', "measure=most", "<measured ", 'motion_error="'):
+            self.assertIn(words, text)
+        costs = [sum(levels[i]["cost"] for levels in self.levels_of("all.sbf")) for i in range(len(said))]
+        for cost, of in zip(costs, said):
+            self.assertAlmostEqual(cost, of["element_visits"], delta=1e-5 * cost)
+
+    def test_the_first_level_runs_as_it_was_chosen(self):
+        chosen = self.all["levels"][0]
+        result = call("run", os.path.join(self.place, "all.sbf"), "--seconds", "0.5", "--format", "json")
+        self.assertEqual(result.status, 0, result.err)
+        report = json.loads(result.out)
+        self.assertTrue(report["valid"])
+        if chosen["substeps"]:
+            self.assertEqual(report["substeps"], chosen["substeps"])
+
+    def test_a_goal_takes_the_cheapest_that_keeps_it(self):
+        front = sorted((trial for trial in self.all["trials"] if trial["on_front"]), key=lambda trial: trial["visits"])
+        self.assertGreater(len(front), 1)
+        own = self.all["reference"]["most_m"]
+        goal = front[0]["error"]["most_m"] + own + 1e-6
+        report = self.tune("near.sbfz", "--error", repr(goal))
+        self.assertEqual(len(report["levels"]), 1)
+        for key in ("model", "scheme", "substeps", "visits", "element_visits", "error"):
+            self.assertEqual(report["levels"][0][key], front[0][key])
+        verified = report["verified"]
+        self.assertEqual(verified["met"], verified["error_m"] <= goal)
+        if not verified["met"]:
+            self.assertAlmostEqual(verified["beyond_m"], verified["error_m"] - goal, delta=1e-9)
+            self.assertLess(verified["advised_error_m"], goal)
+
+    def test_visits_and_errors_are_the_same_each_time(self):
+        again = self.tune("again.sbf")
+        for one, other in zip(self.all["trials"], again["trials"]):
+            for key in ("model", "scheme", "substeps", "visits", "element_visits", "error", "outcome", "on_front"):
+                self.assertEqual(one[key], other[key])
+        same = call("diff", os.path.join(self.place, "all.sbf"), os.path.join(self.place, "again.sbf"))
+        self.assertEqual(same.status, 0, same.out)  # times are left out of it
+
+    def test_what_was_tuned_can_be_tuned_and_built_again(self):
+        first = os.path.join(self.place, "all.sbf")
+        second, built = os.path.join(self.place, "second.sbf"), os.path.join(self.place, "built.sbf")
+        result = call("tune", first, "-o", second, *SMALL[:4], "--quick")
+        self.assertEqual(result.status, 0, result.err)
+        self.assertEqual(read_text(second).count('id="tune"'), 1)
+        for arguments in (("validate", second), ("build", second, "-o", built), ("validate", built)):
+            result = call(*arguments)
+            self.assertEqual(result.status, 0, result.out + result.err)
+        self.assertNotIn('id="tune"', read_text(built))
+
+    def test_impossible_goals_name_the_closest_and_write_nothing(self):
+        for options, words in ((("--error", "1e-8"), "the nearest is off by"), (("--budget", "0.01"), "the cheapest takes")):
+            out = os.path.join(self.place, "nothing.sbfz")
+            result = call("tune", self.file, "-o", out, *SMALL, "--quick", *options)
+            self.assertEqual(result.status, 1, result.out)
+            self.assertIn(words, result.err)
+            self.assertFalse(os.path.exists(out))
+        report = self.tune("nothing.sbfz", "--error", "1e-8", "--quick", status=1)
+        self.assertFalse(report["written"])
+        self.assertEqual(report["verdict"], "error too small")
+        self.assertTrue(report["nearest"]["on_front"])
+        self.assertFalse([name for name in os.listdir(self.place) if name.startswith("nothing")])
+
+    def test_bad_calls_and_files_are_told(self):
+        out = os.path.join(self.place, "bad.sbfz")
+        for arguments in ((self.file,), (self.file, "-o", out, "--error", "-1"), (self.file, "-o", out, "--elements", "x"),
+                          (self.file, "-o", out, "--measure", "mean"), (os.path.join(self.place, "none.sbf"), "-o", out)):
+            result = call("tune", *arguments)
+            self.assertEqual(result.status, 2, result.err)
+            self.assertIn("error:", result.err)
+        broken = os.path.join(self.place, "broken.sbfz")
+        with open(broken, "wb") as stream:
+            stream.write(read_bytes(self.file)[:500])
+        self.assertEqual(call("tune", broken, "-o", out).status, 1)
+        authored = os.path.join(self.place, "authored.sbf")
+        self.assertEqual(call("unpack", self.file, "-o", authored).status, 0)
+        text = re.sub(r' (hull_)?derived="[^"]*"', "", read_text(authored))
+        with open(authored, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        result = call("tune", authored, "-o", out)
+        self.assertEqual(result.status, 1)
+        self.assertIn("authored", result.err)
+        self.assertFalse(os.path.exists(out))
+
+
+if __name__ == "__main__":
+    main()

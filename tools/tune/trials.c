@@ -1,0 +1,165 @@
+#include "tune/trials.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "chart/front.h"
+#include "chart/rounds.h"
+#include "render/fault.h"
+#include "sbrun/detail.h"
+
+/* Of the walk, that are timed. */
+enum { TIMED_TICKS = 30 };
+
+typedef struct sweep {
+  const tune_meshes *meshes;
+  const tune_yardstick *yard;
+  const tune_effort *effort;
+  tune_trials *to;
+  sbf_diagnostic *error;
+} sweep;
+
+static sbf_status no_memory(const sweep *s) {
+  return fault_set(s->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a sweep");
+}
+
+static void tell(const sweep *s, const char *what, double share) {
+  if (s->effort->progress) s->effort->progress(s->effort->user, what, share);
+}
+
+static tune_trial *add(sweep *s, uint32_t mesh, const chart_setting *setting) {
+  tune_trials *t = s->to;
+  if (t->count == t->room) {
+    uint32_t room = t->room ? 2 * t->room : 32;
+    tune_trial *more = realloc(t->at, room * sizeof *more);
+    if (!more) return NULL;
+    t->at = more, t->room = room;
+  }
+  t->at[t->count] = (tune_trial){.mesh = mesh, .setting = *setting};
+  return &t->at[t->count++];
+}
+
+/* What a tick of it costs, without a clock; false, with why, where the runtime refuses it. */
+static bool count_visits(const sweep *s, tune_trial *trial) {
+  const sbf_asset *asset = s->meshes->at[trial->mesh].asset;
+  const sbr_model_options options = {.scheme = trial->setting.scheme, .substeps = trial->setting.substeps};
+  sbr_model *model = NULL;
+  sbf_diagnostic why;
+  if (sbr_model_create(asset, &options, &model, &why) != SBF_OK) {
+    trial->refused = true;
+    snprintf(trial->error.why, sizeof trial->error.why, "%.120s", why.message);
+    return false;
+  }
+  sbr_rung rung;
+  sbr_model_rungs(model, &rung, 1);
+  trial->visits = (double)rung.visits;
+  trial->element_visits = chart_visits_of(model, asset, &trial->setting);
+  sbr_model_destroy(model);
+  return true;
+}
+
+static sbf_status hold(sweep *s, tune_trial *trial) {
+  return tune_yardstick_hold(
+      s->yard, s->meshes->at[trial->mesh].asset, &trial->setting, &trial->error, s->error);
+}
+
+/* The runtime's own choice first: what looks at as many elements as that follows the same energy no better,
+ * and is not tried. */
+static sbf_status try_mesh(sweep *s, uint32_t mesh) {
+  static const sbf_scheme others[] = {
+      SBF_SCHEME_POSITION_BASED, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_SYMPLECTIC};
+  enum { MOST_SUBSTEPS = 64 };
+  tune_trial *own = add(s, mesh, &(chart_setting){.scheme = SBF_SCHEME_AUTOMATIC});
+  if (!own) return no_memory(s);
+  if (!count_visits(s, own)) return SBF_OK;
+  double most = own->visits;
+  sbf_status status = hold(s, own);
+  for (int i = 0; status == SBF_OK && !s->effort->own_scheme_alone && i < 3; i++)
+    for (uint32_t n = 1; status == SBF_OK && n <= MOST_SUBSTEPS; n *= 2) {
+      tune_trial *one = add(s, mesh, &(chart_setting){.scheme = others[i], .substeps = n});
+      if (!one) return no_memory(s);
+      bool counted = count_visits(s, one);
+      if (!counted) break;
+      if (one->visits >= most) {
+        s->to->count--;
+        break;
+      }
+      status = hold(s, one);
+    }
+  return status;
+}
+
+static sbf_status find_front(sweep *s) {
+  tune_trials *t = s->to;
+  chart_point *points = calloc((size_t)t->count + 1, sizeof *points);
+  t->front = calloc((size_t)t->count + 1, sizeof *t->front);
+  if (!points || !t->front) {
+    free(points);
+    return no_memory(s);
+  }
+  for (uint32_t i = 0; i < t->count; i++) {
+    bool counts = !t->at[i].refused && t->at[i].error.sound;
+    points[i] =
+        (chart_point){counts ? t->at[i].visits : NAN, tune_error_of(&t->at[i].error, s->effort->by_rms)};
+  }
+  t->front_count = chart_front_of(points, t->count, t->front);
+  for (uint32_t i = 0; i < t->front_count; i++) t->at[t->front[i]].on_front = true;
+  free(points);
+  if (t->front_count) return SBF_OK;
+  fault_set(s->error, SBF_CODE_BAD_CALL,
+      "nothing that was tried holds through its walk, hop and shake, what it has now not either (%s): make "
+      "it "
+      "stiffer or finer, sbfmt chart shows what holds",
+      t->at[0].error.why);
+  return SBF_BAD_INPUT;
+}
+
+static void tell_times(void *user, double share) {
+  tell(user, "times", share);
+}
+
+static sbf_status time_front(sweep *s) {
+  tune_trials *t = s->to;
+  chart_motion *motions = calloc(t->front_count, sizeof *motions);
+  chart_timed *timed = calloc(t->front_count, sizeof *timed);
+  sbf_status status = motions && timed ? SBF_OK : no_memory(s);
+  for (uint32_t i = 0; status == SBF_OK && i < t->front_count; i++) {
+    const tune_trial *trial = &t->at[t->front[i]];
+    chart_scene scene = chart_scene_of(&s->yard->cases[0], s->meshes->at[trial->mesh].asset);
+    scene.timed_ticks = TIMED_TICKS;
+    timed[i] = (chart_timed){.run = chart_motion_run, .context = &motions[i]};
+    status = chart_motion_open(&motions[i], &scene, &trial->setting, s->error);
+  }
+  if (status == SBF_OK && !chart_time_in_turns(timed, t->front_count, s->effort->rounds, tell_times, s))
+    status = no_memory(s);
+  for (uint32_t i = 0; status == SBF_OK && i < t->front_count; i++) {
+    const double us = 1e6 / TIMED_TICKS;
+    const chart_spread *of = &timed[i].s;
+    t->at[t->front[i]].us = (chart_spread){
+        us * of->least, us * of->low, us * of->median, us * of->high, us * of->most, of->outliers};
+  }
+  for (uint32_t i = 0; motions && i < t->front_count; i++) chart_motion_close(&motions[i]);
+  free(motions), free(timed);
+  return status;
+}
+
+sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard, const tune_effort *effort,
+    tune_trials *trials, sbf_diagnostic *error) {
+  sweep s = {.meshes = meshes, .yard = yard, .effort = effort, .to = trials, .error = error};
+  sbf_status status = SBF_OK;
+  *trials = (tune_trials){.at = NULL};
+  for (uint32_t i = 0; status == SBF_OK && i < meshes->count; i++) {
+    tell(&s, "errors", (double)i / meshes->count);
+    status = try_mesh(&s, i);
+  }
+  if (status == SBF_OK) status = find_front(&s);
+  if (status == SBF_OK) status = time_front(&s);
+  return status;
+}
+
+void tune_trials_free(tune_trials *trials) {
+  free(trials->at);
+  free(trials->front);
+  *trials = (tune_trials){.at = NULL};
+}

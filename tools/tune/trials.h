@@ -1,0 +1,45 @@
+/* The sweep: every mesh by the runtime's own choice, and by other schemes where those look at fewer elements.
+ */
+#ifndef TUNE_TRIALS_H
+#define TUNE_TRIALS_H
+
+#include "chart/spread.h"
+#include "tune/tuned_meshes.h"
+#include "tune/yardstick.h"
+
+typedef struct tune_trial {
+  uint32_t mesh; /* number among the meshes */
+  chart_setting setting;
+  double element_visits; /* a tick; as the file states cost */
+  double visits;         /* as the runtime counts them to choose by: sbr_rung.visits */
+  tune_error error;
+  bool refused;
+  bool on_front;
+  chart_spread us; /* of a tick, on one core; of those on the front, else zeros */
+} tune_trial;
+
+typedef struct tune_trials {
+  tune_trial *at;
+  uint32_t count, room;
+  uint32_t *front; /* numbers, the cheapest first */
+  uint32_t front_count;
+} tune_trials;
+
+typedef struct tune_effort {
+  bool own_scheme_alone;
+  bool by_rms;     /* the front is of errors' root of the mean square, not of the greatest */
+  uint32_t rounds; /* that times are the median of */
+  void (*progress)(void *user, const char *what, double share); /* may be NULL */
+  void *user;
+} tune_effort;
+
+/* Free with tune_trials_free, also on failure. What is refused or breaks is a trial like any other. */
+sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard, const tune_effort *effort,
+    tune_trials *trials, sbf_diagnostic *error);
+void tune_trials_free(tune_trials *trials);
+
+static inline double tune_error_of(const tune_error *error, bool by_rms) {
+  return by_rms ? error->rms_m : error->most_m;
+}
+
+#endif

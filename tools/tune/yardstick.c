@@ -1,0 +1,105 @@
+#include "tune/yardstick.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "render/fault.h"
+#include "sbfmt/mechanics.h"
+
+static const double TICK_S = 1.0 / 60;
+/* Farther off than this share of the character's size is no level but a failure. */
+static const double LOST = 0.05;
+
+static double size_of(const sbf_asset *asset) {
+  sbf_asset_measures is;
+  sbf_asset_measure(asset, &is);
+  double x = (double)is.high.x - (double)is.low.x, y = (double)is.high.y - (double)is.low.y,
+         z = (double)is.high.z - (double)is.low.z;
+  return sqrt(x * x + y * y + z * z);
+}
+
+/* SBF_OK with `unmeasured` said, where the reference does not hold. */
+static sbf_status find_truth(
+    tune_yardstick *yard, int number, const sbf_asset *reference, sbf_diagnostic *error) {
+  const chart_scene scene = chart_scene_of(&yard->cases[number], reference);
+  chart_reference *stated = &yard->stated[number];
+  if (!yard->rest) yard->rest = chart_motion_begins(&scene);
+  if (!yard->rest) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
+  sbf_status status =
+      chart_truth_find_mesh(&yard->truths[number], &yard->cases[number], &scene, yard->rest, stated, error);
+  if (status == SBF_OK) {
+    yard->rms_m = fmax(yard->rms_m, stated->errors[CHART_PATH]);
+    yard->most_m = fmax(yard->most_m, stated->errors[CHART_FARTHEST]);
+  }
+  if (status == SBF_OK || error->code != SBF_CODE_BAD_CALL) return status;
+  snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number], "%.180s", error->message);
+  return SBF_OK;
+}
+
+sbf_status tune_yardstick_make(tune_yardstick *yard, const sbf_asset *reference, const chart_drive *drive,
+    void (*progress)(void *user, double share), void *user, sbf_diagnostic *error) {
+  *yard = (tune_yardstick){.size_m = size_of(reference)};
+  sbf_status status = chart_bundle_cases(reference, drive, &yard->bundle, yard->cases, error);
+  uint32_t measured = 0;
+  for (int i = 0; status == SBF_OK && i < CHART_BUNDLE_CASES; i++) {
+    if (progress) progress(user, (double)i / CHART_BUNDLE_CASES);
+    status = find_truth(yard, i, reference, error);
+    measured += !yard->unmeasured[i][0];
+  }
+  if (status != SBF_OK || measured) return status;
+  return fault_set(error, SBF_CODE_BAD_CALL,
+      "there is nothing to measure against, not even its %s: %s; --reference takes another lattice",
+      yard->cases[0].name, yard->unmeasured[0]);
+}
+
+void tune_yardstick_free(tune_yardstick *yard) {
+  for (int i = 0; i < CHART_BUNDLE_CASES; i++) chart_truth_free(&yard->truths[i]);
+  free(yard->rest);
+  *yard = (tune_yardstick){.rest = NULL};
+}
+
+static void fail(tune_error *is, const char *motion, const char *why) {
+  is->sound = false;
+  snprintf(is->why, sizeof is->why, "%s: %.110s", motion, why);
+}
+
+/* One motion more. */
+static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *asset,
+    const chart_setting *setting, tune_error *is, sbf_diagnostic *error) {
+  const chart_case *motion_case = &yard->cases[number];
+  const chart_scene scene = chart_scene_of(motion_case, asset);
+  chart_motion motion;
+  chart_track track = {.ticks = 0};
+  double errors[CHART_AXIS_COUNT];
+  sbf_diagnostic refusal;
+  sbf_status status = chart_motion_open(&motion, &scene, setting, &refusal);
+  if (status != SBF_OK) {
+    chart_motion_close(&motion);
+    fail(is, motion_case->name, refusal.message);
+    return SBF_OK;
+  }
+  bool good =
+      chart_motion_look(&motion, &track) && chart_errors_of(&track, &yard->truths[number].track, yard->rest,
+                                                TICK_S, &motion_case->signal, motion_case->axes, errors);
+  chart_motion_close(&motion);
+  if (good && !track.sound) fail(is, motion_case->name, track.why);
+  if (good && is->sound && !(errors[CHART_FARTHEST] < LOST * yard->size_m))
+    fail(is, motion_case->name, "farther off than a twentieth of its size");
+  if (good && is->sound) {
+    if (!is->worst || errors[CHART_FARTHEST] > is->most_m) is->worst = motion_case->name;
+    is->rms_m = fmax(is->rms_m, errors[CHART_PATH]);
+    is->most_m = fmax(is->most_m, errors[CHART_FARTHEST]);
+  }
+  chart_track_free(&track);
+  return good ? SBF_OK : fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a motion");
+}
+
+sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asset,
+    const chart_setting *setting, tune_error *is, sbf_diagnostic *error) {
+  sbf_status status = SBF_OK;
+  *is = (tune_error){.sound = true};
+  for (int i = 0; status == SBF_OK && is->sound && i < CHART_BUNDLE_CASES; i++)
+    if (!yard->unmeasured[i][0]) status = look(yard, i, asset, setting, is, error);
+  return status;
+}

@@ -1,0 +1,224 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "chart/rounds.h"
+#include "sbfmt/io.h"
+#include "tuning_report.h"
+
+/* Slower and in a curve, lower and oftener, slower and for longer: nothing of what it is tuned by. */
+static const chart_drive OTHER_DRIVE = {
+    .speed = 0.35, .curve_rad_s = 0.6f, .hop = 0.07, .hop_ticks = 26, .turn_rad_s = 2, .turn_ticks = 20};
+
+static void show(void *user, const char *what, double share) {
+  (void)user;
+  cli_progress(what, share);
+}
+static void show_reference(void *user, double share) {
+  (void)user;
+  cli_progress("reference", share);
+}
+static void show_other(void *user, double share) {
+  (void)user;
+  cli_progress("another drive", share);
+}
+
+typedef struct request {
+  tune_grid grid;
+  tune_effort effort;
+  bool on_one_core;
+} request;
+
+static bool read_sizes(const cli_call *call, tune_grid *grid) {
+  int at = 0;
+  const char *text;
+  while ((text = cli_next_value(call, "--elements", &at)) != NULL) {
+    char *end;
+    long size = strtol(text, &end, 10);
+    if (end == text || *end || size < 1 || size > 100000)
+      return cli_wrong(call, "--elements takes a whole number from 1 to 100000, not '%s'", text), false;
+    if (grid->size_count == TUNE_MOST_SIZES)
+      return cli_wrong(call, "--elements may be given %d times, no more", (int)TUNE_MOST_SIZES), false;
+    grid->sizes[grid->size_count++] = (uint32_t)size;
+  }
+  return true;
+}
+
+static bool parse(cli_call *call, tuning *t, request *r) {
+  static const char *const measures[] = {"most", "rms"};
+  long rounds = 7, reference = 0, core = 0;
+  int measure = 0;
+  bool quick = cli_switch(call, "--quick");
+  t->path = call->inputs[0];
+  t->out = cli_value(call, "-o");
+  if (!t->out) return cli_wrong(call, "say where to write: -o FILE"), false;
+  if (!cli_number(call, "--error", 1e-9, 1e6, &t->goal.error_m) ||
+      !cli_number(call, "--budget", 1e-3, 1e9, &t->goal.budget_us) ||
+      !cli_word(call, "--measure", measures, 2, &measure) ||
+      !cli_integer(call, "--runs", 1, 10000, &rounds) ||
+      !cli_integer(call, "--reference", 12, 100000, &reference) ||
+      !cli_integer(call, "--core", 0, 1023, &core) || !read_sizes(call, &r->grid))
+    return false;
+  t->by_rms = measure == 1;
+  r->grid.reference = (uint32_t)reference;
+  r->grid.coarse = r->grid.calibrated_alone = quick;
+  r->grid.progress = show;
+  r->effort = (tune_effort){
+      .own_scheme_alone = quick, .by_rms = t->by_rms, .rounds = (uint32_t)rounds, .progress = show};
+  r->on_one_core = chart_stay_on_core((uint32_t)core);
+  if (!r->on_one_core && cli_value(call, "--core"))
+    return cli_wrong(call, "this process cannot be kept on core %ld: ask for a lower one", core), false;
+  return true;
+}
+
+static sbf_status sweep(tuning *t, const request *r, sbf_diagnostic *error) {
+  sbf_asset *asset;
+  sbf_status status = sbf_load_file(t->path, &(sbf_load_options){.check_crc = true}, &asset, error);
+  if (status != SBF_OK) return status;
+  status = tune_meshes_make(asset, &r->grid, &t->meshes, error);
+  sbf_asset_free(asset);
+  if (status == SBF_OK)
+    status = tune_yardstick_make(&t->yard, t->meshes.reference.asset, NULL, show_reference, NULL, error);
+  if (status == SBF_OK) status = tune_trials_run(&t->meshes, &t->yard, &r->effort, &t->trials, error);
+  return status;
+}
+
+static bool choose(tuning *t) {
+  tune_offer *offers = calloc((size_t)t->trials.front_count + 1, sizeof *offers);
+  if (!offers) return false;
+  for (uint32_t i = 0; i < t->trials.front_count; i++) {
+    const tune_trial *trial = &t->trials.at[t->trials.front[i]];
+    offers[i] = (tune_offer){tuning_error(t, trial), trial->us.median};
+  }
+  t->verdict = tune_choose(offers, t->trials.front_count, &t->goal, &t->chosen);
+  free(offers);
+  return true;
+}
+
+/* The one that is chosen first, and what is cheaper behind it. */
+static void take_levels(tuning *t) {
+  for (uint32_t i = t->chosen + 1; i-- > 0 && t->level_count < TUNE_MOST_MESHES;) {
+    const tune_trial *trial = &t->trials.at[t->trials.front[i]];
+    t->levels[t->level_count++] = (tune_level){&t->meshes.at[trial->mesh], trial,
+        trial->error.rms_m + t->yard.rms_m, trial->error.most_m + t->yard.most_m};
+  }
+}
+
+/* Settings as a derivation has them, in alphabetical order. */
+static void say_settings(const tuning *t, char *text, size_t size) {
+  char budget[32] = "", error[32] = "";
+  if (t->goal.budget_us > 0) snprintf(budget, sizeof budget, "budget_us=%.9g ", t->goal.budget_us);
+  if (t->goal.error_m > 0) snprintf(error, sizeof error, "error_m=%.9g ", t->goal.error_m);
+  snprintf(text, size, "%s%smeasure=%s reference=%u", budget, error, t->by_rms ? "rms" : "most",
+      (unsigned)t->meshes.reference.asked);
+}
+
+static sbf_status make(tuning *t, sbf_asset **made, sbf_diagnostic *error) {
+  char settings[160], machine[224];
+  say_settings(t, settings, sizeof settings);
+  snprintf(machine, sizeof machine, "%s, %s", t->machine.processor, t->machine.compiler);
+  return tune_levels_write(t->meshes.base, t->levels, t->level_count, settings, machine, made, error);
+}
+
+/* What was made, as a runtime will have it, by another drive; each level then states the larger of both. */
+static sbf_status verify(tuning *t, const sbf_asset *made, sbf_diagnostic *error) {
+  sbf_status status =
+      tune_yardstick_make(&t->other, t->meshes.reference.asset, &OTHER_DRIVE, show_other, NULL, error);
+  for (uint32_t l = 0; status == SBF_OK && l < t->level_count; l++) {
+    tune_level *level = &t->levels[l];
+    status = tune_yardstick_hold(&t->other, made, &(chart_setting){.level = l}, &t->verified[l], error);
+    if (status != SBF_OK || !t->verified[l].sound) continue;
+    level->rms_m = fmax(level->rms_m, t->verified[l].rms_m + t->other.rms_m);
+    level->most_m = fmax(level->most_m, t->verified[l].most_m + t->other.most_m);
+  }
+  return status;
+}
+
+static sbf_status write_out(tuning *t, sbf_diagnostic *error) {
+  sbf_asset *made = NULL, *verified = NULL;
+  take_levels(t);
+  sbf_status status = make(t, &made, error);
+  if (status == SBF_OK) status = verify(t, made, error);
+  if (status == SBF_OK) status = make(t, &verified, error);
+  if (status == SBF_OK) status = sbf_save_file(verified, t->out, NULL, error);
+  t->written = status == SBF_OK;
+  sbf_asset_free(made);
+  sbf_asset_free(verified);
+  return status;
+}
+
+static int finish(cli_call *call, tuning *t, const request *r) {
+  sbf_diagnostic error;
+  if (!choose(t)) return cli_wrong(call, "memory ran out");
+  bool met = t->verdict == TUNE_MET;
+  sbf_status status = met ? write_out(t, &error) : SBF_OK;
+  cli_progress_end();
+  if (!met) tuning_say_unmet(call, t);
+  if (status != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+    return (int)status;
+  }
+  if (call->json) return cli_print_json(tuning_json(t), met ? SBF_OK : SBF_BAD_INPUT);
+  if (!met) return SBF_BAD_INPUT;
+  tuning_print(t);
+  if (!r->on_one_core) printf("times are not of one core: this system does not keep a process on one\n");
+  return SBF_OK;
+}
+
+static int run(cli_call *call) {
+  request r = {.on_one_core = false};
+  tuning *t = calloc(1, sizeof *t);
+  sbf_diagnostic error;
+  if (!t) return cli_wrong(call, "memory ran out");
+  t->machine = chart_this_machine();
+  int status = SBF_FAILED;
+  if (parse(call, t, &r)) {
+    status = (int)sweep(t, &r, &error);
+    cli_progress_end();
+    if (status == SBF_OK)
+      status = finish(call, t, &r);
+    else
+      cli_print_diagnostic(call, &error);
+  }
+  tune_trials_free(&t->trials);
+  tune_yardstick_free(&t->yard);
+  tune_yardstick_free(&t->other);
+  tune_meshes_free(&t->meshes);
+  free(t);
+  return status;
+}
+
+static const cli_option options[] = {{"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
+    {"--error", "METRES", "how far its skin may be off: the cheapest that keeps it becomes level 0"},
+    {"--budget", "MICROSECONDS", "what a tick may take on one core here: the nearest within becomes level 0"},
+    {"--measure", "most|rms", "what an error is: of the worst vertex, or the root of the mean square (most)"},
+    {"--elements", "N", "lattices to try, of so many tetrahedra a body; several times for several"},
+    {"--reference", "N", "tetrahedra a body of what all are measured against (24000 in all)"},
+    {"--quick", NULL, "a coarser reference, calibrated lattices and the runtime's own scheme alone"},
+    {"--runs", "N", "runs that a time is the median of (7)"},
+    {"--core", "N", "the core to stay on, of those allowed, from 0 (0)"},
+    {"--format", "text|json", "how to report (text)"}, {NULL, NULL, NULL}};
+
+const cli_verb verb_tune = {"tune", "FILE [--error METRES] [--budget MICROSECONDS] -o OUT",
+    "find the cheapest levels that are near enough",
+    "Tries the file's own levels and lattices of several sizes, calibrated and as they are, by several "
+    "schemes "
+    "and\n"
+    "numbers of substeps; runs each through the character's own walk, hop and shake, and measures how far "
+    "its "
+    "skin is\n"
+    "off a fine lattice's and what a tick costs. What nothing else beats in both is kept: OUT has as level 0 "
+    "what the\n"
+    "goal asks for, and behind it what is cheaper, each with its measured error and cost, by which the "
+    "runtime "
+    "changes\n"
+    "levels. Without a goal level 0 is the nearest of all. Errors include what the reference is off itself "
+    "by "
+    "its steps.\n\n"
+    "What is written is then run by other commands than it was tuned by, and the report says whether it is "
+    "as "
+    "near there.\n"
+    "An error or a budget that nothing keeps is told with the closest that can be had, with status 1; "
+    "nothing is "
+    "written.",
+    options, 1, 1, run};
