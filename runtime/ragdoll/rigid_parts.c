@@ -6,6 +6,9 @@
 
 /* Slower than this share of its size a second, with nothing that draws it, a body comes to rest. */
 static const float QUIET_1_S = 0.01f;
+/* And slower than this one that calms down: the fastest has but this share of its speed left after so long,
+ * in which a hand swings there and back. */
+static const float CALM_1_S = 0.2f, CALMING = 0.8f, CALM_S = 0.5f;
 
 /* ---- Stepping ---- */
 
@@ -16,19 +19,46 @@ static bool is_lost(const sbri_rigid_body_state *body) {
   return lost;
 }
 
+/* Speed of the fastest over its size, 1/s; infinite where something may not rest. */
+static float restlessness(const sbri_character *c) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  float most = sbri_coupled_are_quiet(c) ? 0 : INFINITY;
+  for (uint32_t b = 0; b < model->body_count; b++) {
+    const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
+    float size = model->bodies[b].radius > 0 ? 2 * model->bodies[b].radius : c->model->rest_size_m;
+    sbf_vec3 turn = sbri_spin_velocity(&model->bodies[b], body->pose.rotation, body->spin);
+    float share = sbri_length(body->velocity) / size + 0.5f * sbri_length(turn);
+    if (body->mode == SBR_RIGID_DRIVEN || !(share <= CALM_1_S)) return INFINITY;
+    most = share > most ? share : most;
+  }
+  return most;
+}
+
+/* Whether all has moved slowly for some time, and more slowly than in as much time before: what swings out
+ * comes to rest, what slumps or tips grows faster and does not. */
+static bool is_calming(const sbr_world *world, const sbri_character *c, float share) {
+  sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
+  float tick_s = (float)world->tick_s * c->time_scale;
+  if (!(share <= CALM_1_S)) {
+    drive->calm_ticks = 0, drive->calm_most = drive->calm_before = 0;
+    return false;
+  }
+  drive->calm_most = share > drive->calm_most ? share : drive->calm_most;
+  if (++drive->calm_ticks < world->sleep_ticks || (float)drive->calm_ticks * tick_s < CALM_S) return false;
+  bool calms = drive->calm_most <= CALMING * drive->calm_before;
+  drive->calm_before = drive->calm_most;
+  drive->calm_ticks = 0, drive->calm_most = 0;
+  return calms;
+}
+
 static void may_sleep(const sbr_world *world, sbri_character *c) {
   const sbri_rigid_model *model = &c->model->rigid;
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
-  bool quiet = world->sleep_ticks > 0 && sbri_coupled_are_quiet(c);
-  for (uint32_t b = 0; b < model->body_count && quiet; b++) {
-    sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
-    float size = model->bodies[b].radius > 0 ? 2 * model->bodies[b].radius : c->model->rest_size_m;
-    sbf_vec3 turn = sbri_spin_velocity(&model->bodies[b], body->pose.rotation, body->spin);
-    float speed = sbri_length(body->velocity) + 0.5f * size * sbri_length(turn);
-    quiet = body->mode != SBR_RIGID_DRIVEN && speed <= QUIET_1_S * size;
-  }
+  if (!world->sleep_ticks) return;
+  float share = restlessness(c);
+  bool quiet = share <= QUIET_1_S, calms = is_calming(world, c, share);
   drive->quiet_ticks = quiet ? drive->quiet_ticks + 1 : 0;
-  if (!quiet || drive->quiet_ticks < world->sleep_ticks) return;
+  if (!calms && drive->quiet_ticks < world->sleep_ticks) return;
   drive->asleep = 1;
   drive->last_step_s = 0;
   for (uint32_t b = 0; b < model->body_count; b++)
@@ -83,7 +113,7 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   memcpy(sbri_animated(c), sbri_pose(c), c->model->frame_count * sizeof(sbr_transform));
   parts->coupled = (sbri_coupled){.world = world, .character = c, .animated = sbri_animated(c)};
   if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&parts->coupled)))
-    drive->asleep = drive->quiet_ticks = 0;
+    drive->asleep = drive->quiet_ticks = 0, drive->calm_before = 0;
   if (drive->asleep) {
     sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
     return false;

@@ -13,9 +13,12 @@
 
 /* How much stiffer than the body's own inertia. */
 static const float FIRM = 300, FIRM_ACROSS = 30;
+/* What presses with more than its body's weight, as a toe with a leg on it, grips as much harder, and no more
+ * than this. */
+static const float MOST_LOAD = 1000;
 /* In steps that are longer than this they are so much stiffer that what lies sinks in as far. */
 static const float FIRM_STEPS_1_S = 240;
-/* What is less than this share of its body's weight makes no difference. */
+/* What is less than this share of its body's weight, or of what presses, makes no difference. */
 static const float DOUBT = 1e-3f;
 /* A friction that is right but for this share of its bound needs no other pass, and for this the bound. */
 static const float CHANGE = 5e-3f, BOUND_CHANGE = 0.1f;
@@ -127,10 +130,11 @@ void sbri_ground_touches_make(
       touch->bounce_m_s = touch->restitution * (square > 0 ? sqrtf(square) : 0) + half;
       if (!(touch->restitution > 0)) touch->bounce_m_s = 0;
     }
+    float normal = work->kick_s * touch->normal_n, own = body->mass * sbri_length(t->gravity) * step_s;
+    float load = sbri_clamp(own > 0 ? normal / own : 1, 1, MOST_LOAD);
     touch->stiff = firmer * FIRM * weight;
-    touch->grip = firmer * FIRM_ACROSS * weight;
-    touch->doubt = DOUBT * body->mass * sbri_length(t->gravity) * step_s;
-    float normal = work->kick_s * touch->normal_n;
+    touch->grip = load * firmer * FIRM_ACROSS * weight;
+    touch->doubt = DOUBT * load * own;
     if (!(touch->known && (normal > 0 || speed > -bounce_from))) normal = alone > 0 ? alone : 0;
     touch->bound = touch->friction * normal;
     sbf_vec3 held = sbri_scale(touch->drag_n, touch->known ? (1 - EASE) * work->kick_s : 0);

@@ -130,6 +130,9 @@ static void add_limit(row_maker *m, const sbf_limit *limit) {
   sbri_row *row = add_row(m, soft ? SBRI_ROW_SPRING : SBRI_ROW_LIMIT, axis);
   float speed = speed_of(m->work, m->tick->model, m->joint, row);
   row->now = now, row->low = limit->min, row->high = limit->max;
+  /* A length is never below 0: there it has no direction either, and must hold nothing. */
+  if ((axis == SBF_JOINT_AXIS_SWING || axis == SBF_JOINT_AXIS_DISTANCE) && limit->min <= 0)
+    row->low = -INFINITY;
   choose_side(row, speed, m->step_s);
   if (soft)
     soften(m, row, limit->stiffness, limit->damping, row->bound - now, 0);

@@ -28,13 +28,15 @@ typedef struct sbri_rigid_joint_state {
 typedef struct sbri_rigid_drive_state {
   float frequency_hz, damping_ratio, strength, joint_damping_1_s; /* as sbr_rigid_drive has them */
   uint32_t asleep, quiet_ticks;
-  uint32_t kept_touches;            /* of the last tick */
-  uint32_t substeps;                /* of the last tick */
-  uint32_t slow_ticks;              /* for how many nothing has moved but slowly */
-  float last_step_s;                /* of the last tick; 0: the bodies have just begun to move */
-  uint32_t any;                     /* some body is not kinematic */
-  uint32_t posture;                 /* of sbr_rigid_posture */
-  float posture_s, still_s;         /* for how long, and for how long it has lain still in that */
+  uint32_t calm_ticks;          /* of the time over which it is seen whether what moves slowly calms down */
+  float calm_most, calm_before; /* 1/s: fastest body over its size in that time, and in the one before */
+  uint32_t kept_touches;        /* of the last tick */
+  uint32_t substeps;            /* of the last tick */
+  uint32_t slow_ticks;          /* for how many nothing has moved but slowly */
+  float last_step_s;            /* of the last tick; 0: the bodies have just begun to move */
+  uint32_t any;                 /* some body is not kinematic */
+  uint32_t posture;             /* of sbr_rigid_posture */
+  float posture_s, still_s;     /* for how long, and for how long it has lain still in that */
   float limp_share, rest_s, rise_s; /* of sbr_rigid_fall */
 } sbri_rigid_drive_state;
 

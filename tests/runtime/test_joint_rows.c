@@ -40,6 +40,24 @@ static double period(const scene *s, uint32_t joint, sbf_joint_axis axis, double
 
 static const double small_box = 0.02 * 0.02 / 6; /* I / m of a cube of 2 cm */
 
+/* A cone's bound is no wall at its axis: what hangs along it swings out either way, at once. */
+START_TEST(a_cone_holds_nothing_at_its_axis)
+{
+  scene s = begin();
+  rigid_box(&s, (sbf_vec3){0, -1, 0}, (sbf_vec3){0.02f, 0.02f, 0.02f}, 1);
+  sbf_joint *joint = rigid_joint(&s, SBF_JOINT_KIND_SPHERICAL, -1, 0, (sbf_vec3){0, 0, 0}, rigid_along_y);
+  rigid_limit(&s, joint, (sbf_limit){.target = SBF_JOINT_AXIS_SWING, .max = 0.7f});
+  scene_start(&s);
+  const sbf_vec3 ways[4] = {{0.3f, 0, 0}, {-0.3f, 0, 0}, {0, 0, 0.3f}, {0, 0, -0.3f}};
+  push(&s, 0, ways[_i]);
+  scene_ticks(&s, 6);
+  sbf_vec3 v = rigid_state(&s, 0).velocity;
+  float along = (v.x * ways[_i].x + v.z * ways[_i].z) / 0.3f;
+  ck_assert_double_eq_tol((double)along, 0.3 * cos(0.1 * sqrt(G)), 0.01); /* after a tenth of a second */
+  scene_free(&s);
+}
+END_TEST
+
 /* 60 degrees either way: T = T0 / agm(1, cos(amplitude / 2)). */
 START_TEST(a_hinge_swings_as_a_pendulum)
 {
@@ -352,6 +370,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("joint_rows");
   TCase *tests = tcase_create("all");
+  tcase_add_loop_test(tests, a_cone_holds_nothing_at_its_axis, 0, 4);
   tcase_add_test(tests, a_hinge_swings_as_a_pendulum);
   tcase_add_test(tests, a_ball_joint_swings_round);
   tcase_add_test(tests, a_slider_slides);
