@@ -46,8 +46,9 @@ class Documents(ProgramTest):
         for line, text in blocks(document, "sh"):
             for command in text.splitlines():
                 words = shlex.split(command, comments=True)
-                # Drawing needs a driver (test_render_files.py), ./run is tested by tests/repo/test_run.py.
-                if words[0] != "sbfmt" or words[1] == "render":
+                # Drawing needs a driver (test_render_files.py) or a window that waits (test_view.py), ./run is tested by
+                # tests/repo/test_run.py.
+                if words[0] != "sbfmt" or words[1] in ("render", "view"):
                     self.assertIn(words[0], ("sbfmt", "./run"), f"{document}:{line}")
                     continue
                 done = subprocess.run([PROGRAM, *words[1:]], cwd=self.folder, capture_output=True, text=True,
