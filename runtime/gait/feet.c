@@ -5,9 +5,7 @@
  * down. Slow enough, a foot lifts off only once the others bear the body, which leans over them. There is no
  * clock: stride and rhythm follow from speed, reach and trigger. */
 #include "gait/gait_state.h"
-#include "math/trig.h"
 
-static const float PI = 3.14159265f;
 static const float SETTLE_AFTER_S = 0.15f; /* of standing; then feet go home */
 static const float SETTLED = 0.15f;        /* share of the trigger within which a foot is at home */
 static const float DUE = 0.9f;             /* of the half stride behind home: the foot steps */
@@ -20,55 +18,6 @@ static const float STRAINED = 0.7f;        /* share of its roam that a foot may 
 static const float JOINS = 0.4f;           /* phase of a step up to which others of its group join it */
 static const float WAIT_S =
     0.7f; /* for balance; then, sooner where the body waits too, a foot steps all the same */
-
-float sbri_wrap_angle(float angle) {
-  while (angle > PI) angle -= 2 * PI;
-  while (angle <= -PI) angle += 2 * PI;
-  return angle;
-}
-
-sbf_vec3 sbri_turned(sbf_vec3 v, float yaw) {
-  float s, c;
-  sbri_sincos(yaw, &s, &c);
-  return sbri_vec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
-}
-
-sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 place, sbf_vec3 *normal) {
-  sbf_vec3 unit;
-  double y = input->ground->height(
-      input->ground, input->origin.x + (double)place.x, input->origin.z + (double)place.z, &unit);
-  if (normal) *normal = unit;
-  return sbri_vec3(place.x, (float)(y - input->origin.y), place.z);
-}
-
-void sbri_foot_home_faces(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
-  const sbf_vec3 *ankle = &rig->legs[leg].ankle;
-  sbri_foot *foot = &state->feet[leg];
-  sbf_vec3 beside = sbri_headed(state, sbri_vec3(ankle->x * input->scale, 0, ankle->z * input->scale));
-  bool level = foot->normal.x == 0 && foot->normal.z == 0;
-  foot->beside_at_home = level ? beside : sbri_rotate(foot->tilt, beside);
-}
-
-void sbri_foot_faces(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {
-  const sbf_vec3 up = {0, 1, 0};
-  sbri_foot *foot = &state->feet[leg];
-  float x = rig->legs[leg].ankle.x * input->scale, z = rig->legs[leg].ankle.z * input->scale;
-  float heading = state->heading + foot->heading;
-  bool level = foot->normal.x == 0 && foot->normal.z == 0;
-  sbri_sincos(heading, &foot->sine, &foot->cosine);
-  foot->tilt = level ? sbri_quat_identity() : sbri_quat_between(up, foot->normal);
-  foot->turned = sbri_quat_multiply(foot->tilt, sbri_quat_about(up, heading));
-  foot->beside = sbri_vec3(foot->cosine * x + foot->sine * z, 0, foot->cosine * z - foot->sine * x);
-  if (!level) foot->beside = sbri_rotate(foot->tilt, foot->beside);
-  sbri_foot_home_faces(rig, state, input, leg);
-}
-
-float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b) {
-  float x = a.x - b.x, z = a.z - b.z;
-  return sqrtf(x * x + z * z);
-}
 
 void sbri_foot_place(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg) {

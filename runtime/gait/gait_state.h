@@ -119,12 +119,6 @@ static inline sbri_bone_follower *sbri_bone_followers(const sbri_rig *rig, sbri_
   return (sbri_bone_follower *)(void *)(sbri_limb_targets(rig, state) + rig->asset->ik_chains.count);
 }
 
-/* An angle brought into (-pi, pi]. */
-float sbri_wrap_angle(float angle);
-
-/* `v` turned about +Y. */
-sbf_vec3 sbri_turned(sbf_vec3 v, float yaw);
-
 /* `v` turned as the body is; and back. */
 static inline sbf_vec3 sbri_headed(const sbri_gait_state *state, sbf_vec3 v) {
   float s = state->heading_sine, c = state->heading_cosine;
@@ -135,13 +129,24 @@ static inline sbf_vec3 sbri_unheaded(const sbri_gait_state *state, sbf_vec3 v) {
   return sbri_vec3(c * v.x - s * v.z, v.y, c * v.z + s * v.x);
 }
 
-/* Rises from 0 to 1 with t from 0 to 1; speed and acceleration are 0 at both ends. */
-float sbri_smooth(float t);
+/* ---- gait/over_ground.c: turns, distances, the ground ---- */
 
+/* An angle brought into (-pi, pi]. */
+float sbri_wrap_angle(float angle);
+/* `v` turned about +Y. */
+sbf_vec3 sbri_turned(sbf_vec3 v, float yaw);
 /* The place on the ground above or below `place`; `normal` may be NULL. */
 sbf_vec3 sbri_ground_below(const sbri_gait_input *input, sbf_vec3 place, sbf_vec3 *normal);
-
+/* Between two places as seen from above. */
 float sbri_flat_distance(sbf_vec3 a, sbf_vec3 b);
+
+/* ---- gait/foot_faces.c: how a foot stands ---- */
+
+/* Keeps up what follows from a foot's heading and its normal; and what of it follows from the body's heading
+ * alone, where a foot stays as it is. */
+void sbri_foot_faces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
+void sbri_foot_home_faces(
+    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 
 /* ---- gait/stride.c: how far feet go, and how fast ---- */
 
@@ -259,12 +264,6 @@ bool sbri_swing_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     const sbri_stride *stride, uint32_t leg);
 
 /* ---- gait/feet.c: who steps ---- */
-
-/* Keeps up what follows from a foot's heading and its normal; and what of it follows from the body's heading
- * alone, where a foot stays as it is. */
-void sbri_foot_faces(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
-void sbri_foot_home_faces(
-    const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);
 
 /* Puts a leg's foot down at its home. */
 void sbri_foot_place(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, uint32_t leg);

@@ -4,6 +4,8 @@
 #ifndef SBRI_GLIDE_H
 #define SBRI_GLIDE_H
 
+#include "math/vec3.h"
+
 typedef struct sbri_glide {
   float at, rate, bend; /* place, speed, acceleration */
 } sbri_glide;
@@ -24,6 +26,14 @@ static inline void sbri_glide_tick(sbri_glide *g, float target, float left_s, fl
   g->at += t * (v + t * (a + t * (c3 + t * (c4 + t * c5))));
   g->rate = (v + t * (2 * a + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))) / left_s;
   g->bend = (2 * a + t * (6 * c3 + t * (12 * c4 + t * 20 * c5))) / (left_s * left_s);
+}
+
+/* The same from rest to rest: rises from 0 to 1 with t from 0 to 1; speed and acceleration are 0 at both
+ * ends.
+ */
+static inline float sbri_smooth(float t) {
+  t = sbri_clamp(t, 0, 1);
+  return t * t * t * (10 + t * (6 * t - 15));
 }
 
 #endif

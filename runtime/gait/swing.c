@@ -11,11 +11,6 @@ static const float REPLANNED = 0.02f;     /* of the reach: a target so far off m
 static const float WIDEST = 1.7f;         /* reaches: a step that begins far behind goes no farther ahead */
 enum { PASSES = 4 };
 
-float sbri_smooth(float t) {
-  t = sbri_clamp(t, 0, 1);
-  return t * t * t * (10 + t * (6 * t - 15));
-}
-
 /* Ahead of where its home will be when it comes down. */
 static sbf_vec3 wanted_place(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t leg, float left_s) {

@@ -1,6 +1,10 @@
 /* What the levels of bodies are good for. */
 #include "prepare/prepare.h"
 
+/* A level that is off by more than this share of the body has gone wrong: it is of no use, whatever it costs.
+ */
+static const float USELESS_SHARE = 0.25f;
+
 bool sbri_level_has_stepped_model(const sbf_level *level) {
   return level->model == SBF_ELASTIC_MODEL_SPRINGS || level->model == SBF_ELASTIC_MODEL_TETRAHEDRA ||
          level->model == SBF_ELASTIC_MODEL_SHAPE_MATCHING;
@@ -8,6 +12,15 @@ bool sbri_level_has_stepped_model(const sbf_level *level) {
 
 bool sbri_level_is_stepped(const sbf_level *level) {
   return sbri_level_has_stepped_model(level) && level->positions.count > 0;
+}
+
+bool sbri_level_has_gone_wrong(const sbf_level *level, float size_m) {
+  bool measured = level->simulation.motion_error > 0;
+  return !measured && level->simulation.error > USELESS_SHARE * size_m;
+}
+
+bool sbri_level_is_useful(const sbf_level *level, float size_m) {
+  return sbri_level_is_stepped(level) && !sbri_level_has_gone_wrong(level, size_m);
 }
 
 static bool is_level(const sbf_soft_body *body, const sbf_level *level, uint32_t place) {

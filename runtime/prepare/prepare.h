@@ -15,6 +15,11 @@ sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options
 /* Whether the level is of a model that is stepped; and was loaded. */
 bool sbri_level_has_stepped_model(const sbf_level *level);
 bool sbri_level_is_stepped(const sbf_level *level);
+/* Whether the error a level states under its weight is too large a share of its body, whose size that is;
+ * one measured in motion is taken as it is. */
+bool sbri_level_has_gone_wrong(const sbf_level *level, float size_m);
+/* Whether a level that is stepped is near enough to its body to be a rung. */
+bool sbri_level_is_useful(const sbf_level *level, float size_m);
 /* Whether the springs join the levels that are simulated. */
 bool sbri_cross_springs_act(const sbr_model *model, const sbf_cross_springs *cross);
 /* Slots, springs, pins and frequencies of one island. */
@@ -56,8 +61,6 @@ bool sbri_rest_volumes_find(sbr_model *model);
 
 /* ---- Rungs ---- */
 
-/* Whether a level that is stepped is near enough to its body, whose size that is, to be a rung. */
-bool sbri_level_is_useful(const sbf_level *level, float size_m);
 /* The other rungs of a model that is made but for its layout, each a model likewise; SBF_OK and none where a
  * body yields or tears. */
 sbf_status sbri_rungs_make(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error);

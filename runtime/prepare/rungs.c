@@ -6,10 +6,6 @@
 /* Of a level that states no error: a body that swings shows about so much of its size. */
 static const float UNSTATED_SHARE = 0.02f;
 
-/* A level that is off by more than this share of the body has gone wrong: it is of no use, whatever it costs.
- */
-static const float USELESS_SHARE = 0.25f;
-
 /* What else a tick costs, in visits of tetrahedra, of which each takes 6 ns: a visit of a spring or of a
  * point by a region, a substep of an island beside those, a gait and its pose, a follower, a place that
  * moves. Measured: 1.9 ns, 1 us, 5 us, 50 ns and 0.5 us. */
@@ -70,11 +66,6 @@ static float stated_error(const sbf_level *level) {
   return level->simulation.motion_error > 0 ? level->simulation.motion_error : level->simulation.error;
 }
 
-bool sbri_level_is_useful(const sbf_level *level, float size_m) {
-  bool measured = level->simulation.motion_error > 0;
-  return sbri_level_is_stepped(level) && (measured || !(level->simulation.error > USELESS_SHARE * size_m));
-}
-
 /* How often a substep looks at each tetrahedron, and at each spring: block descent sweeps four times, from
  * every point of an element. */
 static float looks_of(const sbri_island *island, bool solid) {
@@ -85,8 +76,7 @@ static float looks_of(const sbri_island *island, bool solid) {
 
 static float error_of(const sbri_body *body, const sbf_level *level, bool is_finest) {
   float stated = stated_error(level);
-  if (level && level->simulation.motion_error > 0) return stated;
-  if (stated > 0 && !(stated > USELESS_SHARE * body->rest_size_m)) return stated;
+  if (stated > 0 && !sbri_level_has_gone_wrong(level, body->rest_size_m)) return stated;
   return is_finest ? 0 : UNSTATED_SHARE * body->rest_size_m;
 }
 

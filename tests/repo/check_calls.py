@@ -15,9 +15,6 @@ from check_includes import RUNTIME
 from check_symbols import run
 from repo_files import SKIPPED, conclude, project_files
 
-# Circles that wait to be undone, each by one of its files. One that is listed here and gone is at fault too.
-KNOWN = {"runtime/gait/body.c", "runtime/prepare/islands.c"}
-
 
 def read(table, places):
     """`table`: what `nm` prints of the library; `places`: file name -> path. Path -> path -> names that the first takes of the
@@ -66,17 +63,12 @@ def folder_of(path):
     return path.split("/")[1]
 
 
-def faults_of(calls, lost, known=frozenset()):
+def faults_of(calls, lost):
     faults = [f"{name}: in the library, and no one source of the runtime has that name" for name in lost]
-    circles = circles_of(calls)
-    for circle in circles:
-        if circle & known:
-            continue
+    for circle in circles_of(calls):
         ties = [f"\n  {a} takes {', '.join(sorted(calls[a][b]))} of {b}"
                 for a in sorted(circle) for b in sorted(calls[a]) if b in circle]
         faults.append("a circle: move what the lower file takes of the upper one below both" + "".join(ties))
-    for path in sorted(known - {path for circle in circles for path in circle}):
-        faults.append(f"{path}: is in no circle any more: take it out of KNOWN")
     for a in sorted(calls):
         for b in sorted(calls[a]):
             if folder_of(b) != folder_of(a) and folder_of(b) not in RUNTIME.get(folder_of(a), ()):
@@ -93,7 +85,7 @@ def main():
         if path.startswith("runtime/") and path.endswith(".c") and not path.startswith("runtime/hosts/"):
             places[os.path.basename(path)] = path
     calls, lost = read(run("nm", sys.argv[1]), places)
-    faults = faults_of(calls, lost, KNOWN)
+    faults = faults_of(calls, lost)
     count = sum(len(names) for others in calls.values() for names in others.values())
     if len(calls) < 20 or count < 100:
         faults.append(f"only {count} names between {len(calls)} files seen: the check would be empty")
