@@ -4,27 +4,50 @@
 
 #include "sbfmt/asset.h"
 
-void gait_stage_begin_scaled(gait_stage *s, sbf_asset *asset, float tick_s, float scale) {
-  s->asset = asset;
-  s->memory = malloc(sbri_rig_size(asset));
-  sbri_rig_init(&s->rig, asset, s->memory);
-  s->ground = sbr_ground_flat(0);
-  s->input = (sbri_gait_input){.tick_s = tick_s, .scale = scale, .ground = &s->ground};
+/* Rig, state and pose, of the asset and the input. */
+static void make(gait_stage *s) {
+  s->memory = malloc(sbri_rig_size(s->asset));
+  sbri_rig_init(&s->rig, s->asset, s->memory);
   s->state = malloc(sbri_gait_state_size(&s->rig));
   s->pose = calloc(s->rig.bone_count, sizeof *s->pose);
   sbri_gait_place(&s->rig, s->state, &s->input, sbri_vec3(0, 0, 0), 0);
   sbri_gait_pose(&s->rig, s->state, &s->input, true, s->pose);
 }
 
+static void drop(gait_stage *s) {
+  free(s->pose);
+  free(s->state);
+  free(s->memory);
+}
+
+static void begin(gait_stage *s, sbf_asset *asset, float tick_s, float scale, sbr_ground ground) {
+  s->asset = asset;
+  s->ground = ground;
+  s->input = (sbri_gait_input){.tick_s = tick_s, .scale = scale, .ground = &s->ground};
+  make(s);
+}
+
+void gait_stage_begin_scaled(gait_stage *s, sbf_asset *asset, float tick_s, float scale) {
+  begin(s, asset, tick_s, scale, sbr_ground_flat(0));
+}
+
 void gait_stage_begin(gait_stage *s, sbf_asset *asset) {
   gait_stage_begin_scaled(s, asset, 1.0f / 60, 1);
 }
 
+void gait_stage_begin_on(gait_stage *s, sbf_asset *asset,
+    double (*height)(const sbr_ground *, double, double, sbf_vec3 *), double parameter) {
+  begin(s, asset, 1.0f / 60, 1, (sbr_ground){height, NULL, {parameter, 0, 0, 0}});
+}
+
 void gait_stage_end(gait_stage *s) {
-  free(s->pose);
-  free(s->state);
-  free(s->memory);
+  drop(s);
   sbf_asset_free(s->asset);
+}
+
+void gait_stage_remake(gait_stage *s) {
+  drop(s);
+  make(s);
 }
 
 void gait_stage_ticks(gait_stage *s, int count) {

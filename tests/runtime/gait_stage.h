@@ -18,7 +18,13 @@ typedef struct gait_stage {
 void gait_stage_begin(gait_stage *stage, sbf_asset *asset);
 /* Other ticks, another scale; from the beginning. */
 void gait_stage_begin_scaled(gait_stage *stage, sbf_asset *asset, float tick_s, float scale);
+/* On a ground of the caller's, told `parameter` as its first; as gait_stage_begin else. */
+void gait_stage_begin_on(gait_stage *stage, sbf_asset *asset,
+    double (*height)(const sbr_ground *, double, double, sbf_vec3 *), double parameter);
 void gait_stage_end(gait_stage *stage);
+
+/* Once more from the beginning, of the asset as it has become. */
+void gait_stage_remake(gait_stage *stage);
 
 void gait_stage_ticks(gait_stage *stage, int count);
 /* The asset's first clip from now on, at once and whole. */

@@ -1,7 +1,5 @@
 #include "quadruped.h"
 
-#include <stdlib.h>
-
 #include "sbfmt/asset.h"
 
 typedef struct bone_row {
@@ -88,15 +86,4 @@ sbf_asset *quadruped_asset(void) {
   gait->head = head;
   a->gaits = (sbf_gait_list){gait, 1};
   return a;
-}
-
-void quadruped_create(quadruped *q) {
-  q->asset = quadruped_asset();
-  q->memory = malloc(sbri_rig_size(q->asset));
-  sbri_rig_init(&q->rig, q->asset, q->memory);
-}
-
-void quadruped_destroy(quadruped *q) {
-  free(q->memory);
-  sbf_asset_free(q->asset);
 }

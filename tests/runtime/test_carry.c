@@ -85,18 +85,17 @@ static float turned(const sbf_asset *a, const sbr_transform *pose, int bone, sbf
 
 START_TEST(chains_of_one_name_carry_a_clip_to_other_bones)
 {
-  quadruped q;
+  sbf_asset *q = quadruped_asset();
   notes n = {0};
   sbf_diagnostic error;
-  quadruped_create(&q);
-  name_chains(q.asset);
+  name_chains(q);
   sbf_asset *from = serpent();
-  ck_assert_msg(sbr_carry_clips(q.asset, from, "a serpent", take, &n, &error) == SBF_OK, "%s", error.message);
+  ck_assert_msg(sbr_carry_clips(q, from, "a serpent", take, &n, &error) == SBF_OK, "%s", error.message);
   sbf_asset_free(from); /* what was carried over stands by itself */
   ck_assert_uint_eq(n.clips, 1);
   ck_assert_uint_eq(n.unmatched, 2);
-  ck_assert_uint_eq(q.asset->clips.count, 1);
-  ck_assert_str_eq(q.asset->clips.at[0].name, "sway");
+  ck_assert_uint_eq(q->clips.count, 1);
+  ck_assert_str_eq(q->clips.at[0].name, "sway");
 
   sbr_model *model;
   sbr_world *world;
@@ -105,7 +104,7 @@ START_TEST(chains_of_one_name_carry_a_clip_to_other_bones)
   sbr_character_definition standing = sbr_default_character_definition();
   sbr_clip_play how = {.weight = 1, .speed = 1, .bone_mask = SBF_NONE};
   sbr_transform pose[BONES];
-  ck_assert_int_eq(sbr_model_create(q.asset, NULL, &model, NULL), SBF_OK);
+  ck_assert_int_eq(sbr_model_create(q, NULL, &model, NULL), SBF_OK);
   ck_assert_int_eq(sbr_world_create(&definition, &world, NULL), SBF_OK);
   ck_assert_int_eq(sbr_character_create(world, model, &standing, &character, NULL), SBF_OK);
   sbr_character_play(world, character, 0, 0, &how);
@@ -113,26 +112,25 @@ START_TEST(chains_of_one_name_carry_a_clip_to_other_bones)
   sbr_character_bones(world, character, pose, BONES);
   /* Three bones for six links: each turns as the second, fourth and sixth have. */
   for (int k = 0; k < 3; k++)
-    ck_assert_float_eq_tol(turned(q.asset, pose, TAIL + k, UP), 0.2f * (float)(k + 1), 2e-3f);
-  ck_assert_float_eq_tol(turned(q.asset, pose, HEAD, sbri_vec3(1, 0, 0)), 0.5f, 2e-3f);
-  ck_assert_float_le(fabsf(turned(q.asset, pose, 3, UP)), 1e-3f); /* the chest has no counterpart */
+    ck_assert_float_eq_tol(turned(q, pose, TAIL + k, UP), 0.2f * (float)(k + 1), 2e-3f);
+  ck_assert_float_eq_tol(turned(q, pose, HEAD, sbri_vec3(1, 0, 0)), 0.5f, 2e-3f);
+  ck_assert_float_le(fabsf(turned(q, pose, 3, UP)), 1e-3f); /* the chest has no counterpart */
   for (int foot = 10; foot < BONES; foot += 3)
-    ck_assert_float_le(sbri_length(sbri_sub(pose[foot].position, q.asset->bones.at[foot].head)), 1e-3f);
+    ck_assert_float_le(sbri_length(sbri_sub(pose[foot].position, q->bones.at[foot].head)), 1e-3f);
   sbr_world_destroy(world);
   sbr_model_destroy(model);
-  quadruped_destroy(&q);
+  sbf_asset_free(q);
 }
 END_TEST
 
 START_TEST(a_loaded_character_takes_clips_too)
 {
-  quadruped q;
+  sbf_asset *q = quadruped_asset();
   sbf_asset *loaded;
   sbf_diagnostic error;
-  quadruped_create(&q);
-  name_chains(q.asset);
+  name_chains(q);
   const char *path = harness_scratch("carry.sbfz");
-  ck_assert_msg(sbf_packed_save_file(q.asset, path, NULL, &error) == SBF_OK, "%s", error.message);
+  ck_assert_msg(sbf_packed_save_file(q, path, NULL, &error) == SBF_OK, "%s", error.message);
   ck_assert_msg(sbf_packed_load_file(path, NULL, &loaded, &error) == SBF_OK, "%s", error.message);
   sbf_asset *from = serpent();
   for (int i = 0; i < 2; i++)
@@ -141,25 +139,23 @@ START_TEST(a_loaded_character_takes_clips_too)
   ck_assert_uint_eq(sbf_asset_check(loaded, NULL, NULL, 0), 0);
   sbf_asset_free(from);
   sbf_asset_free(loaded);
-  quadruped_destroy(&q);
+  sbf_asset_free(q);
 }
 END_TEST
 
 START_TEST(skeletons_that_share_nothing_are_refused)
 {
-  quadruped q;
+  sbf_asset *q = quadruped_asset();
   sbf_diagnostic error;
-  quadruped_create(&q);
   sbf_asset *from = serpent();
-  ck_assert_int_eq(sbr_carry_clips(q.asset, from, "a serpent", NULL, NULL, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(sbr_carry_clips(q, from, "a serpent", NULL, NULL, &error), SBF_BAD_INPUT);
   ck_assert_int_eq(error.code, SBF_CODE_IMPORT_MOTION_NONE);
   ck_assert_str_eq(error.file, "a serpent");
-  ck_assert_uint_eq(q.asset->clips.count, 0);
-  ck_assert_int_eq(
-      sbr_carry_clips(from, q.asset, NULL, NULL, NULL, &error), SBF_BAD_INPUT); /* it has no clip */
+  ck_assert_uint_eq(q->clips.count, 0);
+  ck_assert_int_eq(sbr_carry_clips(from, q, NULL, NULL, NULL, &error), SBF_BAD_INPUT); /* it has no clip */
   ck_assert_int_eq(sbr_carry_clips(NULL, from, NULL, NULL, NULL, &error), SBF_FAILED);
   sbf_asset_free(from);
-  quadruped_destroy(&q);
+  sbf_asset_free(q);
 }
 END_TEST
 

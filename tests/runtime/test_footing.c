@@ -1,25 +1,13 @@
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "gait/gait_state.h"
+#include "gait_stage.h"
 #include "harness.h"
 #include "quadruped.h"
 #include "sbrun/terrain.h"
 
-enum { BONES = 32 };
-
-typedef struct walk {
-  quadruped q;
-  sbri_gait_state *state;
-  sbri_gait_input input;
-  sbr_ground ground;
-  sbr_transform pose[BONES];
-} walk;
-
 /* What a ground was asked for. */
 typedef struct asked {
-  const walk *walk;
+  const gait_stage *walk;
   double farthest;
 } asked;
 
@@ -56,32 +44,13 @@ static double hillside(const sbr_ground *ground, double x, double z, sbf_vec3 *n
   return rise * x;
 }
 
-static void begin(
-    walk *w, double (*height)(const sbr_ground *, double, double, sbf_vec3 *), double parameter) {
-  memset(w, 0, sizeof *w);
-  quadruped_create(&w->q);
-  w->ground = (sbr_ground){height, NULL, {parameter, 0, 0, 0}};
-  w->input = (sbri_gait_input){.tick_s = 1.0f / 60, .scale = 1, .ground = &w->ground};
-  w->state = malloc(sbri_gait_state_size(&w->q.rig));
-  sbri_gait_place(&w->q.rig, w->state, &w->input, (sbf_vec3){0, 0, 0}, 0);
-}
-
-static void run(walk *w, int ticks) {
-  for (int i = 0; i < ticks; i++) sbri_gait_tick(&w->q.rig, w->state, &w->input, w->pose, NULL, 0);
-}
-
-static void end(walk *w) {
-  free(w->state);
-  quadruped_destroy(&w->q);
-}
-
 START_TEST(no_foot_goes_over_an_edge)
 {
-  walk w;
-  begin(&w, cliff, 0);
+  gait_stage w;
+  gait_stage_begin_on(&w, quadruped_asset(), cliff, 0);
   w.input.forward = 0.3f;
   for (int i = 0; i < 900; i++) {
-    run(&w, 1);
+    gait_stage_ticks(&w, 1);
     for (int l = 0; l < 4; l++)
       if (w.state->feet[l].planted) ck_assert_float_le(w.state->feet[l].ground.z, 1);
   }
@@ -89,54 +58,54 @@ START_TEST(no_foot_goes_over_an_edge)
   ck_assert_float_lt(w.state->position.z, 1.2f); /* and stops */
   float stopped = w.state->position.z;
   w.input.forward = -0.3f;
-  run(&w, 300);
+  gait_stage_ticks(&w, 300);
   ck_assert_float_lt(w.state->position.z, stopped - 0.8f); /* back it can go */
-  end(&w);
+  gait_stage_end(&w);
 }
 END_TEST
 
 START_TEST(slopes_are_walked_unless_they_are_too_steep)
 {
-  walk steep, mild;
-  begin(&steep, bank, 1.6);
-  begin(&mild, bank, 0.5);
+  gait_stage steep, mild;
+  gait_stage_begin_on(&steep, quadruped_asset(), bank, 1.6);
+  gait_stage_begin_on(&mild, quadruped_asset(), bank, 0.5);
   steep.input.forward = mild.input.forward = 0.3f;
-  run(&steep, 900);
-  run(&mild, 900);
+  gait_stage_ticks(&steep, 900);
+  gait_stage_ticks(&mild, 900);
   for (int l = 0; l < 4; l++) ck_assert_float_le(steep.state->feet[l].ground.z, 1.01f);
   ck_assert_float_gt(mild.state->position.z, 3);
-  end(&steep);
-  end(&mild);
+  gait_stage_end(&steep);
+  gait_stage_end(&mild);
 }
 END_TEST
 
 START_TEST(feet_and_body_tilt_with_the_ground)
 {
-  walk w;
-  begin(&w, hillside, 0.3);
+  gait_stage w;
+  gait_stage_begin_on(&w, quadruped_asset(), hillside, 0.3);
   w.input.forward = 0.2f;
-  run(&w, 300);
+  gait_stage_ticks(&w, 300);
   sbf_vec3 up = {0, 1, 0}, wanted = sbri_normalize(sbri_vec3(-0.3f, 1, 0), up);
   for (int l = 0; l < 4; l++) {
     ck_assert_float_ge(sbri_dot(w.state->feet[l].normal, wanted), 0.9999f);
-    sbf_quat back = sbri_quat_conjugate(w.q.rig.rest[w.q.rig.legs[l].foot].rotation);
-    sbf_quat turned = sbri_quat_multiply(w.pose[w.q.rig.legs[l].foot].rotation, back);
+    sbf_quat back = sbri_quat_conjugate(w.rig.rest[w.rig.legs[l].foot].rotation);
+    sbf_quat turned = sbri_quat_multiply(w.pose[w.rig.legs[l].foot].rotation, back);
     ck_assert_float_ge(sbri_dot(sbri_rotate(turned, up), wanted), 0.999f);
   }
   sbf_vec3 body = sbri_rotate(w.state->root.rotation, up);
   ck_assert_float_lt(body.x, -0.05f); /* it rolls to the same side, by its share */
-  end(&w);
+  gait_stage_end(&w);
 }
 END_TEST
 
 START_TEST(a_sole_lies_as_a_board_does)
 {
-  walk w;
-  begin(&w, bank, 0.25);
+  gait_stage w;
+  gait_stage_begin_on(&w, quadruped_asset(), bank, 0.25);
   for (int l = 0; l < 4; l++)
-    w.q.rig.legs[l].sole = (sbri_sole){.left = 0.03f, .right = -0.03f, .toe = 0.05f, .heel = -0.05f};
+    w.rig.legs[l].sole = (sbri_sole){.left = 0.03f, .right = -0.03f, .toe = 0.05f, .heel = -0.05f};
   sbf_vec3 place = {0, 0, 1}, normal; /* half of it on the level, half on the bank */
-  sbri_lay_sole(&w.q.rig, w.state, &w.input, 0, &place, &normal);
+  sbri_lay_sole(&w.rig, w.state, &w.input, 0, &place, &normal);
   float slope = -normal.z / normal.y;
   ck_assert_float_eq_tol(slope, 0.125f, 0.01f);
   for (float z = -0.05f; z <= 0.051f; z += 0.01f) {
@@ -144,7 +113,7 @@ START_TEST(a_sole_lies_as_a_board_does)
     double ground = bank(&w.ground, 0, 1 + (double)z, &unused);
     ck_assert_double_ge((double)(place.y + slope * z), ground - 1e-6);
   }
-  end(&w);
+  gait_stage_end(&w);
 }
 END_TEST
 
@@ -153,14 +122,14 @@ START_TEST(it_looks_no_farther_than_it_may_go)
   double farthest[2];
   const float speeds[2] = {0.1f, 0.6f};
   for (int k = 0; k < 2; k++) {
-    walk w;
+    gait_stage w;
     asked a = {&w, 0};
-    begin(&w, plain, 0);
+    gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
     w.ground.user = &a;
     w.input.forward = speeds[k];
-    run(&w, 600);
+    gait_stage_ticks(&w, 600);
     farthest[k] = a.farthest;
-    end(&w);
+    gait_stage_end(&w);
   }
   ck_assert_double_lt(farthest[0], farthest[1]);       /* the faster, the farther */
   ck_assert_double_lt(farthest[1], 0.33 + 0.32 + 0.3); /* a home, a leg's length, and the way of a step */
@@ -168,7 +137,7 @@ START_TEST(it_looks_no_farther_than_it_may_go)
 END_TEST
 
 /* How deep any point of a sole is in the ground on its way, and at rest; m. */
-static float deepest(const walk *w) {
+static float deepest(const gait_stage *w) {
   float most = 0;
   for (int l = 0; l < 4; l++) {
     const sbri_foot *foot = &w->state->feet[l];
@@ -189,20 +158,20 @@ START_TEST(feet_go_over_what_lies_between)
       {SBR_OBSTACLE_CYLINDER, {-0.12, 0, 1.8}, {0.03f, 0.05f, 0}, 0}};
   sbr_ground floor = sbr_ground_flat(0);
   const sbr_obstacle_set set = {&floor, things, 4};
-  walk w;
-  begin(&w, plain, 0);
+  gait_stage w;
+  gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
   w.ground = sbr_ground_obstacles(&set);
   w.input.forward = 0.25f;
   float most = 0, lift = 0;
   for (int i = 0; i < 1200; i++) {
-    run(&w, 1);
+    gait_stage_ticks(&w, 1);
     most = fmaxf(most, deepest(&w));
     for (int l = 0; l < 4; l++) lift = fmaxf(lift, w.state->feet[l].lift);
   }
   ck_assert_float_le(most, 1e-3f);
   ck_assert_float_gt(lift, 0.055f);
   ck_assert_float_gt(w.state->position.z, 2.5f); /* it has come by all of them */
-  end(&w);
+  gait_stage_end(&w);
 }
 END_TEST
 
@@ -211,17 +180,17 @@ START_TEST(a_wall_is_not_climbed)
   static const sbr_obstacle wall = {SBR_OBSTACLE_BOX, {0, 0.5, 1.25}, {3, 0.5f, 0.25f}, 0};
   sbr_ground floor = sbr_ground_flat(0);
   const sbr_obstacle_set set = {&floor, &wall, 1};
-  walk w;
-  begin(&w, plain, 0);
+  gait_stage w;
+  gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
   w.ground = sbr_ground_obstacles(&set);
   w.input.forward = 0.3f;
   for (int i = 0; i < 900; i++) {
-    run(&w, 1);
+    gait_stage_ticks(&w, 1);
     for (int l = 0; l < 4; l++) ck_assert_float_le(w.state->feet[l].ground.y, 0.01f);
   }
   ck_assert_float_gt(w.state->position.z, 0.4f);
   ck_assert_float_lt(w.state->position.z, 1.1f);
-  end(&w);
+  gait_stage_end(&w);
 }
 END_TEST
 
@@ -246,19 +215,19 @@ START_TEST(every_kind_of_ground_carries_the_same_walk)
       sbr_ground_height_field(&field), sbr_ground_rays(&caster)};
   sbf_vec3 ends[4];
   for (int g = 0; g < 4; g++) {
-    walk w;
-    begin(&w, plain, 0);
+    gait_stage w;
+    gait_stage_begin_on(&w, quadruped_asset(), plain, 0);
     w.ground = grounds[g];
-    sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
+    sbri_gait_place(&w.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
     w.input.forward = 0.25f;
     for (int i = 0; i < 480; i++) {
-      run(&w, 1);
+      gait_stage_ticks(&w, 1);
       ck_assert_float_le(deepest(&w), 1e-3f);
     }
     ends[g] = w.pose[3].position;
     ck_assert_float_gt(ends[g].z, 1.5f);
     ck_assert_float_le(sbri_length(sbri_sub(ends[g], ends[0])), 0.02f);
-    end(&w);
+    gait_stage_end(&w);
   }
   sbr_ground_mesh_destroy(mesh);
 }
@@ -266,19 +235,17 @@ END_TEST
 
 START_TEST(without_a_chest_it_pitches_as_its_feet_lie)
 {
-  walk w;
-  begin(&w, bank, 0.3);
-  free(w.state);
-  sbf_gait gait = w.q.asset->gaits.at[0];
+  gait_stage w;
+  gait_stage_begin_on(&w, quadruped_asset(), bank, 0.3);
+  sbf_gait gait = w.asset->gaits.at[0];
   gait.chest = -1; /* as of a spider */
-  w.q.asset->gaits.at = &gait;
-  sbri_rig_init(&w.q.rig, w.q.asset, w.q.memory);
-  w.state = malloc(sbri_gait_state_size(&w.q.rig));
-  sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 3}, 0);
-  run(&w, 2);
-  float share = w.q.rig.gait->body_tilt;
+  w.asset->gaits.at = &gait;
+  gait_stage_remake(&w);
+  sbri_gait_place(&w.rig, w.state, &w.input, (sbf_vec3){0, 0, 3}, 0);
+  gait_stage_ticks(&w, 2);
+  float share = w.rig.gait->body_tilt;
   ck_assert_float_eq_tol(-w.state->hips_pitch, share * atanf(0.3f), 0.02f);
-  end(&w);
+  gait_stage_end(&w);
 }
 END_TEST
 
@@ -294,19 +261,19 @@ START_TEST(the_belly_keeps_off_the_ground)
   const float low = 0.2f, high = 0.195f;
   float lowest[2];
   for (uint32_t bellies = 0; bellies < 2; bellies++) {
-    walk w;
-    begin(&w, ridge, (double)high);
-    w.q.rig.belly[0] = (sbf_vec3){0, low, 0};
-    w.q.rig.belly_count = bellies;
+    gait_stage w;
+    gait_stage_begin_on(&w, quadruped_asset(), ridge, (double)high);
+    w.rig.belly[0] = (sbf_vec3){0, low, 0};
+    w.rig.belly_count = bellies;
     w.input.forward = 0.15f;
     lowest[bellies] = 1;
     for (int i = 0; i < 240; i++) {
-      run(&w, 1);
+      gait_stage_ticks(&w, 1);
       sbf_vec3 at = sbri_rotate(w.state->root.rotation, (sbf_vec3){0, low, 0});
       float over = w.state->root.position.y + at.y - high;
       if (i > 60 && over < lowest[bellies]) lowest[bellies] = over;
     }
-    end(&w);
+    gait_stage_end(&w);
   }
   ck_assert_float_le(lowest[0], 0.006f); /* no higher than it stands on level ground */
   ck_assert_float_ge(lowest[1], 0.006f);

@@ -1,10 +1,9 @@
 #include "gait/gait.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "gait/gait_state.h"
+#include "gait_stage.h"
 #include "harness.h"
 #include "math/quat.h"
 #include "quadruped.h"
@@ -13,11 +12,7 @@
 enum { MOST_BONES = 32, TICKS_A_SECOND = 60 };
 
 typedef struct walk {
-  quadruped q;
-  void *state;
-  sbri_gait_input input;
-  sbr_ground ground;
-  sbr_transform pose[MOST_BONES];
+  gait_stage on;
   uint32_t events;
   float worst_slip, worst_stretch, most_lift;
   uint32_t opposite_in_air;
@@ -42,32 +37,23 @@ static double slope(const sbr_ground *ground, double x, double z, sbf_vec3 *norm
 static void begin(
     walk *w, double (*height)(const sbr_ground *, double, double, sbf_vec3 *), double parameter) {
   memset(w, 0, sizeof *w);
-  quadruped_create(&w->q);
-  w->ground = (sbr_ground){height, NULL, {parameter, 0, 0, 0}};
-  w->input = (sbri_gait_input){.tick_s = 1.0f / TICKS_A_SECOND, .scale = 1, .ground = &w->ground};
-  w->state = malloc(sbri_gait_state_size(&w->q.rig));
-  sbri_gait_place(&w->q.rig, w->state, &w->input, (sbf_vec3){0, 0, 0}, 0);
-}
-
-static void end(walk *w) {
-  free(w->state);
-  quadruped_destroy(&w->q);
+  gait_stage_begin_on(&w->on, quadruped_asset(), height, parameter);
 }
 
 static float length_between(const walk *w, uint32_t a, uint32_t b) {
-  return sbri_length(sbri_sub(w->pose[a].position, w->pose[b].position));
+  return sbri_length(sbri_sub(w->on.pose[a].position, w->on.pose[b].position));
 }
 
 /* One tick, and the measures that every walk is judged by. */
 static void tick(walk *w) {
   sbri_gait_event events[16];
-  w->events += sbri_gait_tick(&w->q.rig, w->state, &w->input, w->pose, events, 16);
+  w->events += sbri_gait_tick(&w->on.rig, w->on.state, &w->on.input, w->on.pose, events, 16);
   sbr_leg_state legs[4];
-  ck_assert_uint_eq(sbri_gait_legs(&w->q.rig, w->state, 1, legs, 4), 4);
+  ck_assert_uint_eq(sbri_gait_legs(&w->on.rig, w->on.state, 1, legs, 4), 4);
   uint32_t groups = 0;
   for (int l = 0; l < 4; l++) {
-    const sbri_leg *leg = &w->q.rig.legs[l];
-    sbf_vec3 ankle = w->pose[leg->foot].position;
+    const sbri_leg *leg = &w->on.rig.legs[l];
+    sbf_vec3 ankle = w->on.pose[leg->foot].position;
     if (legs[l].planted && !w->was_planted[l]) w->stance[l] = ankle;
     w->was_planted[l] = legs[l].planted;
     if (legs[l].planted) {
@@ -82,25 +68,26 @@ static void tick(walk *w) {
     w->worst_stretch = fmaxf(w->worst_stretch, fmaxf(fabsf(upper), fabsf(lower)));
   }
   w->opposite_in_air += groups == 3;
-  for (uint32_t i = 0; i < w->q.rig.bone_count; i++) {
-    ck_assert(isfinite(w->pose[i].position.x) && isfinite(w->pose[i].rotation.w));
-    ck_assert_float_eq_tol(
-        w->pose[i].rotation.x * w->pose[i].rotation.x + w->pose[i].rotation.y * w->pose[i].rotation.y +
-            w->pose[i].rotation.z * w->pose[i].rotation.z + w->pose[i].rotation.w * w->pose[i].rotation.w,
+  for (uint32_t i = 0; i < w->on.rig.bone_count; i++) {
+    ck_assert(isfinite(w->on.pose[i].position.x) && isfinite(w->on.pose[i].rotation.w));
+    ck_assert_float_eq_tol(w->on.pose[i].rotation.x * w->on.pose[i].rotation.x +
+                               w->on.pose[i].rotation.y * w->on.pose[i].rotation.y +
+                               w->on.pose[i].rotation.z * w->on.pose[i].rotation.z +
+                               w->on.pose[i].rotation.w * w->on.pose[i].rotation.w,
         1, 1e-4f);
   }
 }
 
 static void run(walk *w, double seconds, float forward, float sideways, float turn) {
-  w->input.forward = forward;
-  w->input.sideways = sideways;
-  w->input.turn = turn;
+  w->on.input.forward = forward;
+  w->on.input.sideways = sideways;
+  w->on.input.turn = turn;
   for (int i = 0; i < (int)(seconds * TICKS_A_SECOND + 0.5); i++) tick(w);
 }
 
 static void expect_good_walk(const walk *w, uint32_t steps) {
   sbr_leg_state legs[4];
-  sbri_gait_legs(&w->q.rig, w->state, 1, legs, 4);
+  sbri_gait_legs(&w->on.rig, w->on.state, 1, legs, 4);
   for (int l = 0; l < 4; l++) ck_assert_uint_ge(legs[l].steps_taken, steps);
   ck_assert_float_le(w->worst_slip, 1e-4f);
   ck_assert_float_le(w->worst_stretch, 1e-5f);
@@ -112,13 +99,13 @@ START_TEST(standing_is_the_rest_pose)
   walk w;
   begin(&w, flat, 0);
   run(&w, 1, 0, 0, 0);
-  for (uint32_t i = 0; i < w.q.rig.bone_count; i++) {
-    ck_assert_float_le(sbri_length(sbri_sub(w.pose[i].position, w.q.rig.rest[i].position)), 2e-5f);
-    sbf_quat a = w.pose[i].rotation, b = w.q.rig.rest[i].rotation;
+  for (uint32_t i = 0; i < w.on.rig.bone_count; i++) {
+    ck_assert_float_le(sbri_length(sbri_sub(w.on.pose[i].position, w.on.rig.rest[i].position)), 2e-5f);
+    sbf_quat a = w.on.pose[i].rotation, b = w.on.rig.rest[i].rotation;
     ck_assert_float_ge(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 0.99999f);
   }
   ck_assert_uint_eq(w.events, 0);
-  end(&w);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -130,12 +117,12 @@ START_TEST(walks_forward_step_by_step)
   expect_good_walk(&w, 8);
   sbf_vec3 place;
   float heading;
-  sbri_gait_placement(w.state, &place, &heading);
+  sbri_gait_placement(w.on.state, &place, &heading);
   ck_assert_float_eq_tol(place.z, 3, 0.1f);
-  ck_assert_double_eq_tol(sbri_gait_distance(w.state), 3, 0.1);
+  ck_assert_double_eq_tol(sbri_gait_distance(w.on.state), 3, 0.1);
   ck_assert_float_eq_tol(w.most_lift, 0.04f, 0.002f);
   ck_assert_uint_gt(w.events, 60);
-  end(&w);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -147,7 +134,7 @@ START_TEST(walks_backward_sideways_and_turns)
     begin(&w, flat, 0);
     run(&w, 10, drives[d][0], drives[d][1], drives[d][2]);
     expect_good_walk(&w, 4);
-    end(&w);
+    gait_stage_end(&w.on);
   }
 }
 END_TEST
@@ -160,19 +147,19 @@ START_TEST(feet_come_home_when_it_stops)
   run(&w, 4, 0, 0, 0);
   sbf_vec3 place;
   float heading;
-  sbri_gait_placement(w.state, &place, &heading);
+  sbri_gait_placement(w.on.state, &place, &heading);
   sbr_leg_state legs[4];
-  sbri_gait_legs(&w.q.rig, w.state, 1, legs, 4);
+  sbri_gait_legs(&w.on.rig, w.on.state, 1, legs, 4);
   for (int l = 0; l < 4; l++) {
     sbf_quat turn = {0, sinf(heading / 2), 0, cosf(heading / 2)};
-    sbf_vec3 home = w.q.rig.legs[l].home;
+    sbf_vec3 home = w.on.rig.legs[l].home;
     home.y = 0;
     home = sbri_add(place, sbri_rotate(turn, home));
     ck_assert(legs[l].planted);
     ck_assert_float_le(sbri_length(sbri_sub(legs[l].foot, home)), 0.012f);
   }
   ck_assert_float_le(w.worst_slip, 1e-4f);
-  end(&w);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -183,12 +170,12 @@ START_TEST(feet_stand_on_a_slope_and_the_body_follows)
   run(&w, 8, 0.25f, 0, 0);
   expect_good_walk(&w, 5);
   sbr_leg_state legs[4];
-  sbri_gait_legs(&w.q.rig, w.state, 1, legs, 4);
+  sbri_gait_legs(&w.on.rig, w.on.state, 1, legs, 4);
   for (int l = 0; l < 4; l++)
     if (legs[l].planted) ck_assert_float_eq_tol(legs[l].foot.y, 0.3f * legs[l].foot.z, 1e-4f);
-  sbf_vec3 chest = w.pose[3].position, hips = w.pose[1].position;
+  sbf_vec3 chest = w.on.pose[3].position, hips = w.on.pose[1].position;
   ck_assert_float_gt(chest.y - hips.y, 0.08f); /* uphill, the chest is higher */
-  end(&w);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -201,11 +188,11 @@ START_TEST(tail_lags_and_overshoots)
   sbf_vec3 forward = {0, 0, 1};
   for (int phase = 0; phase < 2; phase++) {
     for (int i = 0; i < 120; i++) {
-      if (phase == 1) w.input.turn = 0;
+      if (phase == 1) w.on.input.turn = 0;
       tick(&w);
-      sbf_vec3 place, tip = sbri_sub(w.pose[7].position, w.pose[5].position);
+      sbf_vec3 place, tip = sbri_sub(w.on.pose[7].position, w.on.pose[5].position);
       float heading;
-      sbri_gait_placement(w.state, &place, &heading);
+      sbri_gait_placement(w.on.state, &place, &heading);
       sbf_quat back = {0, sinf(-heading / 2), 0, cosf(-heading / 2)};
       sbf_vec3 local = sbri_rotate(back, tip); /* straight: (0, 0, -) */
       if (phase == 0)
@@ -218,8 +205,8 @@ START_TEST(tail_lags_and_overshoots)
   ck_assert_float_gt(behind, 0.01f);   /* turning left, the tip hangs out on one side */
   ck_assert_float_lt(beyond, -0.005f); /* and swings over to the other when the turn ends */
   run(&w, 6, 0, 0, 0);
-  ck_assert_float_le(fabsf(sbri_sub(w.pose[7].position, w.pose[5].position).y), 0.01f);
-  end(&w);
+  ck_assert_float_le(fabsf(sbri_sub(w.on.pose[7].position, w.on.pose[5].position).y), 0.01f);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -230,16 +217,16 @@ START_TEST(head_leads_a_turn_and_comes_back)
   run(&w, 1, 0, 0, 1);
   sbf_vec3 place;
   float heading;
-  sbri_gait_placement(w.state, &place, &heading);
-  sbf_vec3 looks = sbri_rotate(w.pose[4].rotation, (sbf_vec3){0, 0, 1});
+  sbri_gait_placement(w.on.state, &place, &heading);
+  sbf_vec3 looks = sbri_rotate(w.on.pose[4].rotation, (sbf_vec3){0, 0, 1});
   float ahead = atan2f(looks.x, looks.z) - heading;
   ck_assert_float_gt(ahead, 0.25f);
   ck_assert_float_le(ahead, 0.75f);
   run(&w, 4, 0, 0, 0);
-  sbri_gait_placement(w.state, &place, &heading);
-  looks = sbri_rotate(w.pose[4].rotation, (sbf_vec3){0, 0, 1});
+  sbri_gait_placement(w.on.state, &place, &heading);
+  looks = sbri_rotate(w.on.pose[4].rotation, (sbf_vec3){0, 0, 1});
   ck_assert_float_eq_tol(remainderf(atan2f(looks.x, looks.z) - heading, 6.2831853f), 0, 0.02f);
-  end(&w);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -248,19 +235,22 @@ START_TEST(a_knee_turns_with_the_bone_of_its_pole)
   walk with_hips, with_head;
   begin(&with_hips, flat, 0);
   begin(&with_head, flat, 0);
-  ck_assert_int_eq(with_hips.q.rig.legs[QUADRUPED_HIND_L].pole_bone, 1); /* the thigh hangs on it */
-  sbri_leg *leg = &with_head.q.rig.legs[QUADRUPED_HIND_L];
+  ck_assert_int_eq(with_hips.on.rig.legs[QUADRUPED_HIND_L].pole_bone, 1); /* the thigh hangs on it */
+  sbri_leg *leg = &with_head.on.rig.legs[QUADRUPED_HIND_L];
   leg->pole_bone = 4;
-  leg->pole_place = sbri_sub(leg->pole, with_head.q.rig.rest[4].position);
+  leg->pole_place = sbri_sub(leg->pole, with_head.on.rig.rest[4].position);
   run(&with_hips, 0.1, 0, 0, 0);
   run(&with_head, 0.1, 0, 0, 0);
-  ck_assert_float_le(sbri_length(sbri_sub(with_hips.pose[9].position, with_head.pose[9].position)), 1e-5f);
+  ck_assert_float_le(
+      sbri_length(sbri_sub(with_hips.on.pose[9].position, with_head.on.pose[9].position)), 1e-5f);
   run(&with_hips, 1, 0, 0, 1); /* the head leads */
   run(&with_head, 1, 0, 0, 1);
-  ck_assert_float_gt(sbri_length(sbri_sub(with_hips.pose[9].position, with_head.pose[9].position)), 1e-3f);
-  ck_assert_float_le(sbri_length(sbri_sub(with_hips.pose[10].position, with_head.pose[10].position)), 1e-5f);
-  end(&with_hips);
-  end(&with_head);
+  ck_assert_float_gt(
+      sbri_length(sbri_sub(with_hips.on.pose[9].position, with_head.on.pose[9].position)), 1e-3f);
+  ck_assert_float_le(
+      sbri_length(sbri_sub(with_hips.on.pose[10].position, with_head.on.pose[10].position)), 1e-5f);
+  gait_stage_end(&with_hips.on);
+  gait_stage_end(&with_head.on);
 }
 END_TEST
 
@@ -268,15 +258,15 @@ START_TEST(knees_bend_both_ways_and_point_at_their_poles)
 {
   walk w;
   begin(&w, flat, 0);
-  w.input.forward = 0.3f;
+  w.on.input.forward = 0.3f;
   for (int i = 0; i < 300; i++) {
     tick(&w);
     sbr_leg_state legs[4];
-    sbri_gait_legs(&w.q.rig, w.state, 1, legs, 4);
+    sbri_gait_legs(&w.on.rig, w.on.state, 1, legs, 4);
     for (int l = 0; l < 4; l++) {
-      const sbri_leg *leg = &w.q.rig.legs[l];
-      sbf_vec3 hip = w.pose[leg->upper].position, ankle = w.pose[leg->foot].position;
-      sbf_vec3 knee = sbri_sub(w.pose[leg->lower].position, hip), pole = sbri_sub(legs[l].pole, hip);
+      const sbri_leg *leg = &w.on.rig.legs[l];
+      sbf_vec3 hip = w.on.pose[leg->upper].position, ankle = w.on.pose[leg->foot].position;
+      sbf_vec3 knee = sbri_sub(w.on.pose[leg->lower].position, hip), pole = sbri_sub(legs[l].pole, hip);
       sbf_vec3 along = sbri_normalize(sbri_sub(ankle, hip), sbri_vec3(0, -1, 0));
       knee = sbri_add_scaled(knee, along, -sbri_dot(knee, along));
       pole = sbri_add_scaled(pole, along, -sbri_dot(pole, along));
@@ -287,7 +277,7 @@ START_TEST(knees_bend_both_ways_and_point_at_their_poles)
         ck_assert_float_lt(knee.z, 0); /* elbows backward */
     }
   }
-  end(&w);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -298,20 +288,20 @@ START_TEST(the_same_speed_at_any_size)
   for (int k = 0; k < 3; k++) {
     walk w;
     begin(&w, flat, 0);
-    w.input.scale = scales[k];
-    sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
-    w.input.forward = 0.3f;
+    w.on.input.scale = scales[k];
+    sbri_gait_place(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){0, 0, 0}, 0);
+    w.on.input.forward = 0.3f;
     uint32_t before = 0, after = 0;
     for (int i = 0; i < 900; i++) {
       sbri_gait_event events[16];
-      sbri_gait_tick(&w.q.rig, w.state, &w.input, w.pose, events, 16);
+      sbri_gait_tick(&w.on.rig, w.on.state, &w.on.input, w.on.pose, events, 16);
       sbr_leg_state leg;
-      sbri_gait_legs(&w.q.rig, w.state, 1, &leg, 1);
+      sbri_gait_legs(&w.on.rig, w.on.state, 1, &leg, 1);
       *(i < 300 ? &before : &after) = leg.steps_taken;
     }
-    distance[k] = sbri_gait_distance(w.state);
+    distance[k] = sbri_gait_distance(w.on.state);
     stride[k] = 3.0 / (after - before); /* of the last ten seconds */
-    end(&w);
+    gait_stage_end(&w.on);
   }
   for (int k = 1; k < 3; k++) {
     ck_assert_double_eq_tol(distance[k], distance[0], 0.2);
@@ -326,11 +316,11 @@ START_TEST(a_body_left_behind_puts_its_feet_down_anew)
   walk w;
   begin(&w, flat, 0);
   run(&w, 1, 0.3f, 0, 0);
-  sbri_gait_rebase(&w.q.rig, w.state, (sbf_vec3){0, 0, 0});
-  sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){50, 0, 0}, 1);
+  sbri_gait_rebase(&w.on.rig, w.on.state, (sbf_vec3){0, 0, 0});
+  sbri_gait_place(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){50, 0, 0}, 1);
   run(&w, 1, 0.3f, 0, 0);
   ck_assert_float_le(w.worst_stretch, 1e-4f);
-  end(&w);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -342,15 +332,16 @@ START_TEST(moving_the_origin_changes_nothing)
   run(&a, 2, 0.3f, 0, 0.2f);
   run(&b, 2, 0.3f, 0, 0.2f);
   sbf_vec3 shift = {4, 0, -8};
-  sbri_gait_rebase(&b.q.rig, b.state, shift);
-  b.input.origin = (sbr_double3){4, 0, -8};
+  sbri_gait_rebase(&b.on.rig, b.on.state, shift);
+  b.on.input.origin = (sbr_double3){4, 0, -8};
   for (int l = 0; l < 4; l++) b.stance[l] = sbri_sub(b.stance[l], shift);
   run(&a, 2, 0.3f, 0, 0.2f);
   run(&b, 2, 0.3f, 0, 0.2f);
-  for (uint32_t i = 0; i < a.q.rig.bone_count; i++)
-    ck_assert_float_le(sbri_length(sbri_sub(a.pose[i].position, sbri_add(b.pose[i].position, shift))), 2e-4f);
-  end(&a);
-  end(&b);
+  for (uint32_t i = 0; i < a.on.rig.bone_count; i++)
+    ck_assert_float_le(
+        sbri_length(sbri_sub(a.on.pose[i].position, sbri_add(b.on.pose[i].position, shift))), 2e-4f);
+  gait_stage_end(&a.on);
+  gait_stage_end(&b.on);
 }
 END_TEST
 
@@ -358,16 +349,16 @@ START_TEST(a_taller_copy_walks_at_the_same_speed)
 {
   walk w;
   begin(&w, flat, 0);
-  w.input.scale = 3;
-  sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
-  w.input.forward = 0.5f;
+  w.on.input.scale = 3;
+  sbri_gait_place(&w.on.rig, w.on.state, &w.on.input, (sbf_vec3){0, 0, 0}, 0);
+  w.on.input.forward = 0.5f;
   for (int i = 0; i < 600; i++) {
     sbri_gait_event events[16];
-    sbri_gait_tick(&w.q.rig, w.state, &w.input, w.pose, events, 16);
+    sbri_gait_tick(&w.on.rig, w.on.state, &w.on.input, w.on.pose, events, 16);
   }
-  ck_assert_double_eq_tol(sbri_gait_distance(w.state), 5, 0.15);
-  ck_assert_float_eq_tol(w.pose[3].position.y, 0.9f, 0.02f);
-  end(&w);
+  ck_assert_double_eq_tol(sbri_gait_distance(w.on.state), 5, 0.15);
+  ck_assert_float_eq_tol(w.on.pose[3].position.y, 0.9f, 0.02f);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -379,15 +370,15 @@ START_TEST(nothing_jumps_where_headings_begin_again)
   run(&w, 2, 0, 0, 1.4f);
   sbr_transform before[MOST_BONES];
   for (int i = 0; i < 10 * TICKS_A_SECOND; i++) {
-    memcpy(before, w.pose, sizeof before);
+    memcpy(before, w.on.pose, w.on.rig.bone_count * sizeof *before);
     tick(&w);
     for (uint32_t b = 0; b < 8; b++) { /* body, head and tail */
-      sbf_quat moved = sbri_quat_multiply(w.pose[b].rotation, sbri_quat_conjugate(before[b].rotation));
+      sbf_quat moved = sbri_quat_multiply(w.on.pose[b].rotation, sbri_quat_conjugate(before[b].rotation));
       ck_assert_float_le(2 * acosf(fminf(1, fabsf(moved.w))), 2.5f * 1.4f / TICKS_A_SECOND);
     }
   }
   expect_good_walk(&w, 10);
-  end(&w);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -398,20 +389,20 @@ START_TEST(a_foot_beyond_its_margin_is_put_down_anew)
     walk w;
     begin(&w, flat, 0);
     run(&w, 0.5, 0, 0, 0);
-    const sbri_leg *leg = &w.q.rig.legs[QUADRUPED_FORE_L];
-    float margin = w.q.asset->gaits.at[0].legs.at[QUADRUPED_FORE_L].jump_margin;
+    const sbri_leg *leg = &w.on.rig.legs[QUADRUPED_FORE_L];
+    float margin = w.on.asset->gaits.at[0].legs.at[QUADRUPED_FORE_L].jump_margin;
     ck_assert_float_gt(margin, 0);
     float lost = leg->upper_length + leg->lower_length + margin;
-    sbri_foot *foot = &((sbri_gait_state *)w.state)->feet[QUADRUPED_FORE_L];
+    sbri_foot *foot = &w.on.state->feet[QUADRUPED_FORE_L];
     foot->ground.z += far ? lost + 0.02f : lost - 0.02f;
     uint32_t steps = foot->steps_taken;
     sbf_vec3 home = {leg->home.x, 0, leg->home.z};
-    sbri_gait_tick(&w.q.rig, w.state, &w.input, w.pose, NULL, 0);
+    sbri_gait_tick(&w.on.rig, w.on.state, &w.on.input, w.on.pose, NULL, 0);
     ck_assert_int_eq(sbri_length(sbri_sub(foot->ground, home)) < 1e-4f, far);
-    for (int i = 0; i < 180; i++) sbri_gait_tick(&w.q.rig, w.state, &w.input, w.pose, NULL, 0);
+    for (int i = 0; i < 180; i++) sbri_gait_tick(&w.on.rig, w.on.state, &w.on.input, w.on.pose, NULL, 0);
     ck_assert_float_le(sbri_length(sbri_sub(foot->ground, home)), 0.012f);
     ck_assert_int_eq(foot->steps_taken > steps, !far);
-    end(&w);
+    gait_stage_end(&w.on);
   }
 }
 END_TEST
@@ -422,20 +413,20 @@ START_TEST(steps_are_quicker_when_it_goes_faster)
   walk w;
   begin(&w, flat, 0);
   run(&w, 0.5, 0.1f, 0, 0);
-  sbri_gait_state *state = w.state;
+  sbri_gait_state *state = w.on.state;
   float last = 1, last_half = 0;
   for (float speed = 0.6f; speed < 2; speed += 0.2f) {
     state->forward = speed;
-    sbri_stride stride = sbri_stride_of(&w.q.rig, state, &w.input);
+    sbri_stride stride = sbri_stride_of(&w.on.rig, state, &w.on.input);
     ck_assert(stride.together);
     ck_assert_float_le(stride.duration_s, last);
     ck_assert_float_ge(stride.half_m, last_half - 1e-6f);
     last = stride.duration_s, last_half = stride.half_m;
   }
-  ck_assert_float_lt(last, 0.8f * w.q.asset->gaits.at[0].step_duration);
+  ck_assert_float_lt(last, 0.8f * w.on.asset->gaits.at[0].step_duration);
   state->forward = 0.1f;
-  ck_assert(!sbri_stride_of(&w.q.rig, state, &w.input).together);
-  end(&w);
+  ck_assert(!sbri_stride_of(&w.on.rig, state, &w.on.input).together);
+  gait_stage_end(&w.on);
 }
 END_TEST
 
@@ -447,7 +438,7 @@ START_TEST(what_hangs_on_a_leg_goes_along)
   walk plain, w;
   begin(&plain, flat, 0);
   begin(&w, flat, 0);
-  sbf_asset *asset = w.q.asset;
+  sbf_asset *asset = w.on.asset;
   sbf_bone *bones = sbf_asset_allocate(asset, ALL, sizeof *bones);
   memcpy(bones, asset->bones.at, PLAIN * sizeof *bones);
   for (int i = 0; i < 2; i++) {
@@ -456,18 +447,13 @@ START_TEST(what_hangs_on_a_leg_goes_along)
     bones[PLAIN + i].head.y -= 0.05f;
   }
   asset->bones = (sbf_bone_list){bones, ALL};
-  free(w.q.memory);
-  free(w.state);
-  w.q.memory = malloc(sbri_rig_size(asset));
-  sbri_rig_init(&w.q.rig, asset, w.q.memory);
-  w.state = malloc(sbri_gait_state_size(&w.q.rig));
-  sbri_gait_place(&w.q.rig, w.state, &w.input, (sbf_vec3){0, 0, 0}, 0);
-  plain.input.forward = w.input.forward = 0.3f;
+  gait_stage_remake(&w.on);
+  plain.on.input.forward = w.on.input.forward = 0.3f;
   for (int i = 0; i < 300; i++) {
     tick(&plain), tick(&w);
     for (int k = 0; k < 2; k++) {
-      const sbr_transform *on = &w.pose[parents[k]], *is = &w.pose[PLAIN + k];
-      const sbr_transform *rest = &w.q.rig.rest_local[PLAIN + k];
+      const sbr_transform *on = &w.on.pose[parents[k]], *is = &w.on.pose[PLAIN + k];
+      const sbr_transform *rest = &w.on.rig.rest_local[PLAIN + k];
       sbf_vec3 there = sbri_add(on->position, sbri_rotate(on->rotation, rest->position));
       ck_assert_float_le(sbri_length(sbri_sub(is->position, there)), 1e-5f);
       sbf_quat turned = sbri_quat_multiply(on->rotation, rest->rotation);
@@ -475,10 +461,10 @@ START_TEST(what_hangs_on_a_leg_goes_along)
       ck_assert_float_ge(fabsf(off.w), 1 - 1e-6f);
     }
     for (int b = 0; b < PLAIN; b++)
-      ck_assert_float_le(sbri_length(sbri_sub(w.pose[b].position, plain.pose[b].position)), 1e-5f);
+      ck_assert_float_le(sbri_length(sbri_sub(w.on.pose[b].position, plain.on.pose[b].position)), 1e-5f);
   }
-  end(&w);
-  end(&plain);
+  gait_stage_end(&w.on);
+  gait_stage_end(&plain.on);
 }
 END_TEST
 

@@ -1,49 +1,42 @@
-#include "gait/gait_state.h"
+#include "gait_stage.h"
 #include "harness.h"
 #include "quadruped.h"
 
-#include <stdlib.h>
-
-enum { BONES = 20, FORE_FOOT = 16 };
+enum { FORE_FOOT = 16 };
 
 START_TEST(a_limb_reaches_while_the_others_stand)
 {
   for (int solver = 0; solver <= SBF_IK_SOLVER_DAMPED_LEAST_SQUARES; solver++) {
-    quadruped q;
-    quadruped_create(&q);
-    ((sbf_ik_chain *)(uintptr_t)&q.asset->ik_chains.at[2])->solver = (sbf_ik_solver)solver;
-    sbr_ground ground = sbr_ground_flat(0);
-    sbri_gait_input input = {.tick_s = 1.0f / 60, .scale = 1, .ground = &ground};
-    sbri_gait_state *state = malloc(sbri_gait_state_size(&q.rig));
-    sbr_transform pose[BONES];
-    sbri_gait_place(&q.rig, state, &input, sbri_vec3(0, 0, 0), 0);
+    gait_stage s;
+    sbf_asset *asset = quadruped_asset();
+    ((sbf_ik_chain *)(uintptr_t)&asset->ik_chains.at[2])->solver = (sbf_ik_solver)solver;
+    gait_stage_begin(&s, asset);
     sbf_vec3 target = {0.15f, 0.15f, 0.3f};
-    sbri_limb_targets(&q.rig, state)[2] = (sbri_limb_target){target, {0, 0, 0, 1}, 1};
-    for (int i = 0; i < 20; i++) sbri_gait_tick(&q.rig, state, &input, pose, NULL, 0);
-    ck_assert_float_le(sbri_length(sbri_sub(pose[FORE_FOOT].position, target)), 1e-3f);
-    ck_assert_float_le(sbri_length(sbri_sub(pose[10].position, q.rig.rest[10].position)), 1e-4f);
-    sbri_gait_rebase(&q.rig, state, sbri_vec3(4, 0, 0)); /* the origin moves, the target does not */
-    ck_assert_float_eq_tol(sbri_limb_targets(&q.rig, state)[2].position.x, target.x - 4, 1e-6f);
-    sbri_gait_rebase(&q.rig, state, sbri_vec3(-4, 0, 0));
-    sbri_limb_targets(&q.rig, state)[2].weight = 0.5f;
-    sbri_gait_tick(&q.rig, state, &input, pose, NULL, 0);
-    float halfway = sbri_length(sbri_sub(pose[FORE_FOOT].position, target));
+    sbri_limb_targets(&s.rig, s.state)[2] = (sbri_limb_target){target, {0, 0, 0, 1}, 1};
+    gait_stage_ticks(&s, 20);
+    ck_assert_float_le(sbri_length(sbri_sub(s.pose[FORE_FOOT].position, target)), 1e-3f);
+    ck_assert_float_le(sbri_length(sbri_sub(s.pose[10].position, s.rig.rest[10].position)), 1e-4f);
+    sbri_gait_rebase(&s.rig, s.state, sbri_vec3(4, 0, 0)); /* the origin moves, the target does not */
+    ck_assert_float_eq_tol(sbri_limb_targets(&s.rig, s.state)[2].position.x, target.x - 4, 1e-6f);
+    sbri_gait_rebase(&s.rig, s.state, sbri_vec3(-4, 0, 0));
+    sbri_limb_targets(&s.rig, s.state)[2].weight = 0.5f;
+    gait_stage_ticks(&s, 1);
+    float halfway = sbri_length(sbri_sub(s.pose[FORE_FOOT].position, target));
     ck_assert_float_gt(halfway, 0.01f);
-    sbri_limb_targets(&q.rig, state)[2].weight = 0;
-    sbri_gait_tick(&q.rig, state, &input, pose, NULL, 0);
+    sbri_limb_targets(&s.rig, s.state)[2].weight = 0;
+    gait_stage_ticks(&s, 1);
     ck_assert_float_le(
-        sbri_length(sbri_sub(pose[FORE_FOOT].position, q.rig.rest[FORE_FOOT].position)), 1e-4f);
-    free(state);
-    quadruped_destroy(&q);
+        sbri_length(sbri_sub(s.pose[FORE_FOOT].position, s.rig.rest[FORE_FOOT].position)), 1e-4f);
+    gait_stage_end(&s);
   }
 }
 END_TEST
 
 START_TEST(a_leg_is_kept_within_its_limits)
 {
-  quadruped q;
-  quadruped_create(&q);
-  sbri_joint_limit *limits = (sbri_joint_limit *)(uintptr_t)q.rig.limits;
+  gait_stage s;
+  gait_stage_begin(&s, quadruped_asset());
+  sbri_joint_limit *limits = (sbri_joint_limit *)(uintptr_t)s.rig.limits;
   for (int b = 8; b < 10; b++) /* thigh and shin: no more than 0.05 rad from rest */
     limits[b] = (sbri_joint_limit){.before = {0, 0, 0, 1},
         .after = {0, 0, 0, 1},
@@ -52,38 +45,28 @@ START_TEST(a_leg_is_kept_within_its_limits)
         .swing_z = {-0.05f, 0.05f},
         .cone = 0.05f,
         .active = true};
-  sbr_ground ground = sbr_ground_flat(0);
-  sbri_gait_input input = {.tick_s = 1.0f / 60, .scale = 1, .ground = &ground, .forward = 0.3f};
-  sbri_gait_state *state = malloc(sbri_gait_state_size(&q.rig));
-  sbr_transform pose[BONES];
-  sbri_gait_place(&q.rig, state, &input, sbri_vec3(0, 0, 0), 0);
+  s.input.forward = 0.3f;
   for (int i = 0; i < 240; i++) {
-    sbri_gait_tick(&q.rig, state, &input, pose, NULL, 0);
-    ck_assert_float_le(sbri_rig_limit_excess(&q.rig, pose), 2e-4f);
+    gait_stage_ticks(&s, 1);
+    ck_assert_float_le(sbri_rig_limit_excess(&s.rig, s.pose), 2e-4f);
   }
-  free(state);
-  quadruped_destroy(&q);
+  gait_stage_end(&s);
 }
 END_TEST
 
 START_TEST(turning_about_a_foot_leaves_it_where_it_is)
 {
-  quadruped q;
-  quadruped_create(&q);
-  sbr_ground ground = sbr_ground_flat(0);
-  sbri_gait_input input = {.tick_s = 1.0f / 60, .scale = 1, .ground = &ground, .turn = 0.8f};
-  sbri_gait_state *state = malloc(sbri_gait_state_size(&q.rig));
-  sbr_transform pose[BONES];
-  sbri_gait_place(&q.rig, state, &input, sbri_vec3(0, 0, 0), 0);
-  sbf_vec3 foot = state->feet[0].ground;
-  state->pivot = 1;
-  for (int i = 0; i < 300; i++) sbri_gait_tick(&q.rig, state, &input, pose, NULL, 0);
-  ck_assert_float_le(sbri_length(sbri_sub(state->feet[0].ground, foot)), 1e-6f);
-  ck_assert_uint_eq(state->feet[0].steps_taken, 0);
-  ck_assert_uint_ge(state->feet[3].steps_taken, 3);
-  ck_assert_float_gt(fabsf(state->heading), 0.5f);
-  free(state);
-  quadruped_destroy(&q);
+  gait_stage s;
+  gait_stage_begin(&s, quadruped_asset());
+  s.input.turn = 0.8f;
+  sbf_vec3 foot = s.state->feet[0].ground;
+  s.state->pivot = 1;
+  gait_stage_ticks(&s, 300);
+  ck_assert_float_le(sbri_length(sbri_sub(s.state->feet[0].ground, foot)), 1e-6f);
+  ck_assert_uint_eq(s.state->feet[0].steps_taken, 0);
+  ck_assert_uint_ge(s.state->feet[3].steps_taken, 3);
+  ck_assert_float_gt(fabsf(s.state->heading), 0.5f);
+  gait_stage_end(&s);
 }
 END_TEST
 

@@ -1,9 +1,8 @@
 #include "skeleton/rig.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "gait/gait.h"
+#include "gait_stage.h"
 #include "harness.h"
 #include "math/vec3.h"
 #include "quadruped.h"
@@ -56,71 +55,50 @@ static sbf_asset *make(void) {
 
 START_TEST(legs_are_three_bones_or_a_peg)
 {
-  sbf_asset *asset = make();
-  sbri_rig rig;
-  void *memory = malloc(sbri_rig_size(asset));
-  sbri_rig_init(&rig, asset, memory);
-  ck_assert_uint_eq(rig.leg_count, 2); /* what is neither is left out */
-  ck_assert(rig.legs[0].upper == 1 && rig.legs[0].lower == -1 && rig.legs[0].foot == 2);
-  ck_assert_float_eq_tol(rig.legs[0].upper_length, sqrtf(0.09f + 0.0025f), 1e-6f);
-  free(memory);
-  sbf_asset_free(asset);
-  quadruped q;
-  quadruped_create(&q);
-  ck_assert_uint_eq(q.rig.leg_count, 4);
-  for (uint32_t l = 0; l < 4; l++) ck_assert_int_eq(q.rig.legs[l].lower, q.rig.legs[l].upper + 1);
-  quadruped_destroy(&q);
+  gait_stage s;
+  gait_stage_begin(&s, make());
+  ck_assert_uint_eq(s.rig.leg_count, 2); /* what is neither is left out */
+  ck_assert(s.rig.legs[0].upper == 1 && s.rig.legs[0].lower == -1 && s.rig.legs[0].foot == 2);
+  ck_assert_float_eq_tol(s.rig.legs[0].upper_length, sqrtf(0.09f + 0.0025f), 1e-6f);
+  gait_stage_end(&s);
+  gait_stage_begin(&s, quadruped_asset());
+  ck_assert_uint_eq(s.rig.leg_count, 4);
+  for (uint32_t l = 0; l < 4; l++) ck_assert_int_eq(s.rig.legs[l].lower, s.rig.legs[l].upper + 1);
+  gait_stage_end(&s);
 }
 END_TEST
-
-static double flat(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
-  (void)ground;
-  (void)x;
-  (void)z;
-  *normal = (sbf_vec3){0, 1, 0};
-  return 0;
-}
 
 /* Five seconds at 0.2 m/s: both feet step in turn, and stay where they stand; what a peg lacks or has too
  * much of is little. */
 START_TEST(a_character_walks_on_pegs)
 {
-  sbf_asset *asset = make();
-  sbri_rig rig;
-  void *memory = malloc(sbri_rig_size(asset));
-  sbri_rig_init(&rig, asset, memory);
-  void *state = malloc(sbri_gait_state_size(&rig));
-  sbr_ground ground = {flat, NULL, {0}};
-  sbri_gait_input input = {.tick_s = 1.0f / 60, .scale = 1, .ground = &ground, .forward = 0.2f};
-  sbr_transform pose[BONES];
-  sbri_gait_place(&rig, state, &input, (sbf_vec3){0, 0, 0}, 0);
+  gait_stage s;
+  gait_stage_begin(&s, make());
+  s.input.forward = 0.2f;
   sbf_vec3 stance[2] = {{0}};
   bool was_planted[2] = {false, false};
   float slip = 0;
   for (int i = 0; i < 300; i++) {
-    sbri_gait_event events[8];
-    sbri_gait_tick(&rig, state, &input, pose, events, 8);
+    gait_stage_ticks(&s, 1);
     sbr_leg_state now[2];
-    ck_assert_uint_eq(sbri_gait_legs(&rig, state, 1, now, 2), 2);
+    ck_assert_uint_eq(sbri_gait_legs(&s.rig, s.state, 1, now, 2), 2);
     ck_assert(now[0].planted || now[1].planted);
     for (int l = 0; l < 2; l++) {
-      sbf_vec3 foot = pose[rig.legs[l].foot].position, hip = pose[rig.legs[l].upper].position;
-      ck_assert_float_eq_tol(sbri_length(sbri_sub(foot, hip)), rig.legs[l].upper_length, 0.15f);
+      sbf_vec3 foot = s.pose[s.rig.legs[l].foot].position, hip = s.pose[s.rig.legs[l].upper].position;
+      ck_assert_float_eq_tol(sbri_length(sbri_sub(foot, hip)), s.rig.legs[l].upper_length, 0.15f);
       if (now[l].planted && !was_planted[l]) stance[l] = foot;
       if (now[l].planted) slip = fmaxf(slip, sbri_length(sbri_sub(foot, stance[l])));
       was_planted[l] = now[l].planted;
     }
     /* The toe hangs on its foot and stays level with it. */
-    ck_assert_float_eq_tol(pose[2].position.y - pose[3].position.y, 0.2f, 1e-5f);
+    ck_assert_float_eq_tol(s.pose[2].position.y - s.pose[3].position.y, 0.2f, 1e-5f);
   }
   sbr_leg_state now[2];
-  sbri_gait_legs(&rig, state, 1, now, 2);
+  sbri_gait_legs(&s.rig, s.state, 1, now, 2);
   ck_assert_uint_ge(now[0].steps_taken, 4);
   ck_assert_uint_ge(now[1].steps_taken, 4);
   ck_assert_float_lt(slip, 1e-4f);
-  free(state);
-  free(memory);
-  sbf_asset_free(asset);
+  gait_stage_end(&s);
 }
 END_TEST
 

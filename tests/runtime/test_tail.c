@@ -1,24 +1,13 @@
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "gait/gait.h"
-#include "gait/gait_state.h"
+#include "gait_stage.h"
 #include "harness.h"
 #include "math/quat.h"
 #include "quadruped.h"
 
 /* Three bones, the first of them hung on the root: (0, 0.30, -0.35) to (0, 0.30, -0.65) at rest. */
-enum { TAIL_BONES = 3, FIRST = 5, LAST = 7, HIPS = 1, CHEST = 3, MOST_BONES = 32 };
+enum { TAIL_BONES = 3, FIRST = 5, LAST = 7, HIPS = 1, CHEST = 3 };
 static const double PI = 3.14159265358979;
-
-typedef struct tail_case {
-  quadruped q;
-  sbri_gait_state *state;
-  sbri_gait_input input;
-  sbr_ground ground;
-  sbr_transform pose[MOST_BONES];
-} tail_case;
 
 /* Level up to z = 0.8, from there on it rises by `parameters[0]`. */
 static double ramp(const sbr_ground *ground, double x, double z, sbf_vec3 *normal) {
@@ -28,22 +17,13 @@ static double ramp(const sbr_ground *ground, double x, double z, sbf_vec3 *norma
   return rise * (z - 0.8);
 }
 
-static void begin(tail_case *t, double rise, float z) {
-  memset(t, 0, sizeof *t);
-  quadruped_create(&t->q);
-  t->ground = (sbr_ground){ramp, NULL, {rise, 0, 0, 0}};
-  t->input = (sbri_gait_input){.tick_s = 1.0f / 60, .scale = 1, .ground = &t->ground};
-  t->state = malloc(sbri_gait_state_size(&t->q.rig));
-  sbri_gait_place(&t->q.rig, t->state, &t->input, (sbf_vec3){0, 0, z}, 0);
-}
-
-static void end(tail_case *t) {
-  free(t->state);
-  quadruped_destroy(&t->q);
+static void begin(gait_stage *t, double rise, float z) {
+  gait_stage_begin_on(t, quadruped_asset(), ramp, rise);
+  sbri_gait_place(&t->rig, t->state, &t->input, (sbf_vec3){0, 0, z}, 0);
 }
 
 /* Yaw (0) or pitch (1) of a bone of the tail, and the aim that it has. */
-static float bent(const tail_case *t, int bone, int about) {
+static float bent(const gait_stage *t, int bone, int about) {
   return sbri_tail_lags(t->state)[2 * bone + about].value;
 }
 static void aim(sbri_stance *stance, int about, float angle) {
@@ -51,16 +31,16 @@ static void aim(sbri_stance *stance, int about, float angle) {
 }
 
 /* How steeply the way from one bone's head to another's rises in the axes that a rotation has made. */
-static float rises(const tail_case *t, uint32_t from, uint32_t to, sbf_quat axes) {
+static float rises(const gait_stage *t, uint32_t from, uint32_t to, sbf_quat axes) {
   sbf_vec3 way = sbri_sub(t->pose[to].position, t->pose[from].position);
   way = sbri_rotate(sbri_quat_conjugate(axes), way);
   return atan2f(way.y, hypotf(way.x, way.z));
 }
 /* The same of the body against the world, and of the tail against the body. */
-static float climbs(const tail_case *t) {
+static float climbs(const gait_stage *t) {
   return rises(t, HIPS, CHEST, sbri_quat_identity());
 }
-static float raised(const tail_case *t) {
+static float raised(const gait_stage *t) {
   return rises(t, FIRST, LAST, t->state->root.rotation);
 }
 
@@ -76,17 +56,17 @@ START_TEST(first_bone_follows_the_hips_at_any_frame_time)
   const sbri_tail *tail;
   for (int about = 0; about < 2; about++)
     for (int i = 0; i < 4; i++) {
-      tail_case t;
+      gait_stage t;
       begin(&t, 0, 0);
-      tail = &t.q.rig.tails[0];
+      tail = &t.rig.tails[0];
       sbri_stance stance = {.hips_yaw = 0};
       aim(&stance, about, 0.3f);
       for (int k = 0; k < frames[i] / 2; k++)
-        sbri_tails_tick(&t.q.rig, t.state, &stance, 0, 1.0f / (float)frames[i]);
+        sbri_tails_tick(&t.rig, t.state, &stance, 0, 1.0f / (float)frames[i]);
       double expected = 0.3 * answer((double)tail->frequency, (double)tail->damping_ratio, 0.5);
       ck_assert_float_eq_tol(bent(&t, 0, about), (float)expected, 2e-5f);
       ck_assert_float_eq(bent(&t, 0, !about), 0);
-      end(&t);
+      gait_stage_end(&t);
     }
 }
 END_TEST
@@ -94,14 +74,14 @@ END_TEST
 START_TEST(bones_lag_one_after_the_other_and_swing_over)
 {
   for (int about = 0; about < 2; about++) {
-    tail_case t;
+    gait_stage t;
     begin(&t, 0, 0);
     sbri_stance stance = {.hips_yaw = 0};
     aim(&stance, about, 0.2f);
     int half_way[TAIL_BONES] = {0};
     float most[TAIL_BONES] = {0};
     for (int k = 1; k <= 1200; k++) {
-      sbri_tails_tick(&t.q.rig, t.state, &stance, 0, 1.0f / 120);
+      sbri_tails_tick(&t.rig, t.state, &stance, 0, 1.0f / 120);
       for (int b = 0; b < TAIL_BONES; b++) {
         if (!half_way[b] && bent(&t, b, about) >= 0.1f) half_way[b] = k;
         most[b] = fmaxf(most[b], bent(&t, b, about));
@@ -112,7 +92,7 @@ START_TEST(bones_lag_one_after_the_other_and_swing_over)
       ck_assert_float_gt(most[b], 0.26f);
       ck_assert_float_eq_tol(bent(&t, b, about), 0.2f, 1e-3f);
     }
-    end(&t);
+    gait_stage_end(&t);
   }
 }
 END_TEST
@@ -120,14 +100,14 @@ END_TEST
 START_TEST(no_bone_bends_beyond_its_limit)
 {
   for (int about = 0; about < 2; about++) {
-    tail_case t;
+    gait_stage t;
     begin(&t, 0, 0);
-    float limit = t.q.rig.tails[0].limit;
+    float limit = t.rig.tails[0].limit;
     bool cut = false;
     for (int k = 0; k < 600; k++) {
       sbri_stance stance = {.hips_yaw = 0};
       aim(&stance, about, k / 50 % 2 ? 1.2f : -1.2f); /* to and fro near the frequency of the tail */
-      sbri_tails_tick(&t.q.rig, t.state, &stance, 0, 1.0f / 120);
+      sbri_tails_tick(&t.rig, t.state, &stance, 0, 1.0f / 120);
       for (int b = 0; b < TAIL_BONES; b++) {
         float leader = b ? bent(&t, b - 1, about) : about ? stance.hips_pitch : stance.hips_yaw;
         float bend = fabsf(bent(&t, b, about) - leader);
@@ -137,20 +117,19 @@ START_TEST(no_bone_bends_beyond_its_limit)
       }
     }
     ck_assert(cut);
-    end(&t);
+    gait_stage_end(&t);
   }
 }
 END_TEST
 
 START_TEST(tail_stays_behind_where_the_ground_rises_and_swings_over)
 {
-  tail_case t;
+  gait_stage t;
   begin(&t, 0.35, 0);
   t.input.forward = 1;
   float above = 0, below = 0, steepest = 0;
   for (int k = 0; k < 240; k++) {
-    sbri_gait_event events[16];
-    sbri_gait_tick(&t.q.rig, t.state, &t.input, t.pose, events, 16);
+    gait_stage_ticks(&t, 1);
     above = fmaxf(above, raised(&t));
     below = fminf(below, raised(&t));
     steepest = fmaxf(steepest, climbs(&t));
@@ -159,26 +138,22 @@ START_TEST(tail_stays_behind_where_the_ground_rises_and_swings_over)
   ck_assert_float_gt(above, 0.04f);   /* the body is on the rise, the tail still level */
   ck_assert_float_lt(below, -0.008f); /* the body's pitch has come to its end, the tail goes beyond it */
   t.input.forward = 0;
-  for (int k = 0; k < 480; k++) {
-    sbri_gait_event events[16];
-    sbri_gait_tick(&t.q.rig, t.state, &t.input, t.pose, events, 16);
-  }
+  gait_stage_ticks(&t, 480);
   ck_assert_float_eq_tol(raised(&t), 0, 0.005f);
-  end(&t);
+  gait_stage_end(&t);
 }
 END_TEST
 
 START_TEST(placed_on_a_slope_it_is_straight_at_once)
 {
-  tail_case t;
+  gait_stage t;
   begin(&t, 0.35, 3);
   for (int k = 0; k < 60; k++) {
-    sbri_gait_event events[16];
-    sbri_gait_tick(&t.q.rig, t.state, &t.input, t.pose, events, 16);
+    gait_stage_ticks(&t, 1);
     ck_assert_float_gt(climbs(&t), 0.2f);
     ck_assert_float_eq_tol(raised(&t), 0, 1e-4f);
   }
-  end(&t);
+  gait_stage_end(&t);
 }
 END_TEST
 
