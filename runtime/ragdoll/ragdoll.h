@@ -31,8 +31,8 @@ void sbri_rigid_put_at(sbri_rigid_body_state *body, sbr_transform place);
 void sbri_reflex_begin(sbri_character *c, const sbr_rigid_fall *fall);
 /* The animation has its bodies again. */
 void sbri_reflex_end(sbri_character *c);
-/* Before a tick of the gait. */
-void sbri_reflex_tick(const struct sbr_world *world, sbri_character *c);
+/* Before a tick of the gait; true where it fell and now begins to get up. */
+bool sbri_reflex_tick(const struct sbr_world *world, sbri_character *c);
 /* Before a step of the rigid parts. */
 void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *tick, float step_s);
 

@@ -122,18 +122,18 @@ static float strength_of(const sbri_rigid_drive_state *drive) {
   return t * t * (3 - 2 * t);
 }
 
-void sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
+bool sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
   sbri_rigid_drive_state *drive = c->model->rigid.body_count ? sbri_rigid_drive(c) : NULL;
   float tick_s = (float)world->tick_s * c->time_scale;
-  if (!drive || drive->posture == SBR_RIGID_UP) return;
+  if (!drive || drive->posture == SBR_RIGID_UP) return false;
   drive->posture_s += tick_s;
   if (drive->posture == SBR_RIGID_FALLING) {
     drive->still_s = fastest_of(c) <= STILL_M_S ? drive->still_s + tick_s : 0;
-    if (drive->still_s < drive->rest_s && drive->posture_s < LONGEST_FALL_S + drive->rest_s) return;
+    if (drive->still_s < drive->rest_s && drive->posture_s < LONGEST_FALL_S + drive->rest_s) return false;
     drive->posture = SBR_RIGID_RISING;
     drive->posture_s = 0;
     stand_where_it_lies(world, c);
-    return;
+    return true;
   }
   float w = strength_of(drive);
   bool up = w >= 1 && (has_arrived(c) || drive->posture_s > drive->rise_s + LATE_S);
@@ -141,6 +141,7 @@ void sbri_reflex_tick(const sbr_world *world, sbri_character *c) {
     sbri_reflex_end(c);
   else
     set_all(c, SBR_RIGID_DRIVEN, drive->limp_share + (1 - drive->limp_share) * w);
+  return false;
 }
 
 static sbf_vec3 bounded(sbf_vec3 v, float most) {

@@ -11,6 +11,13 @@ bool sbri_character_is_grouped(const sbr_world *world, const sbri_character *c) 
   return world->meetings && world->meetings->group_of[c - world->characters] != UINT32_MAX;
 }
 
+static void note_landing(sbri_character *c) {
+  float heading;
+  sbri_gait_event *event = &c->events[c->event_count++];
+  *event = (sbri_gait_event){.kind = SBR_EVENT_LANDED};
+  sbri_gait_placement(sbri_gait(c), &event->position, &heading);
+}
+
 void sbri_character_tick(sbr_world *world, sbri_character *c) {
   c->event_count = 0;
   if (!c->model || sbri_character_sleeps(world, c)) return;
@@ -25,14 +32,15 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
     sbri_away_tick(world, c);
     return;
   }
-  sbri_reflex_tick(world, c);
+  if (sbri_reflex_tick(world, c)) note_landing(c);
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbr_transform *pose = sbri_pose(c);
   bool has_bodies = c->model->island_count > 0; /* which alone ask where frames carry them */
   if (has_bodies) sbri_deltas_make(c, pose, 1, sbri_previous_deltas(c));
   bool may_sleep = sbri_character_may_sleep(world, c);
   if (may_sleep) sbri_character_keep_gait(c);
-  c->event_count = sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events, SBRI_TICK_EVENTS);
+  c->event_count += sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events + c->event_count,
+      SBRI_TICK_EVENTS - c->event_count);
   pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
   if (sbri_character_is_grouped(world, c)) return;
   sbri_rigid_tick_parts(world, c);

@@ -12,7 +12,7 @@
 #include "model/runtime_model.h"
 #include "rigid/rigid_state.h"
 
-enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS };
+enum { SBRI_TICK_EVENTS = 2 * SBRI_MOST_LEGS + 1 }; /* feet go up and down, and it lands */
 
 /* What has become of a polygon. */
 enum { SBRI_POLYGON_TORN = 1 };

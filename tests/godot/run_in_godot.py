@@ -145,6 +145,9 @@ def main():
             for engine in ENGINES:
                 godot.set_engine(engine)
                 passed = godot.passes(asked.case) and passed
+        elif asked.case == "signals":
+            subprocess.run([asked.program, "build", BAR, "-o", os.path.join(godot.folder, "bar.sbfz"), "--elements", "600"], check=True, capture_output=True)
+            passed = godot.passes("signals")
         elif asked.case == "damaged":
             with open(os.path.join(godot.folder, "lizard.sbfz"), "rb") as file:
                 whole = file.read()

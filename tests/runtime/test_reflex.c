@@ -40,8 +40,19 @@ static float worst_jump(const scene *s, sbf_vec3 places[PARTS], sbf_vec3 ways[PA
   return most;
 }
 
-/* Down within two seconds, up again within eight, no joint broken by a degree on the way, and no joint apart;
- * nothing jumps while it gets up, or when it is up; the pose is that of before, a step away at most. */
+/* The events of landing since the last call, and where the last of them was. */
+static uint32_t landings(const scene *s, sbr_double3 *place) {
+  sbr_event events[64];
+  uint32_t count, landed = 0;
+  while ((count = sbr_world_events(s->world, events, 64)))
+    for (uint32_t e = 0; e < count; e++)
+      if (events[e].kind == SBR_EVENT_LANDED) landed++, *place = events[e].position;
+  return landed;
+}
+
+/* Down within two seconds, up again within eight, which is told of when it has landed and where, no joint
+ * broken by a degree on the way, and no joint apart; nothing jumps while it gets up, or when it is up; the
+ * pose is that of before, a step away at most. */
 START_TEST(hit_falls_and_gets_up)
 {
   static const sbf_vec3 hits[4] = {{0, 0, 120}, {150, 0, -40}, {-80, 60, 0}, {0, 0, -150}};
@@ -52,7 +63,8 @@ START_TEST(hit_falls_and_gets_up)
   float beyond = 0, apart = 0, lowest = 10, resting = 0;
   float jump = 0;
   sbf_vec3 places[PARTS] = {{0}}, ways[PARTS] = {{0}};
-  int down = 0, rising = 0, up = 0;
+  int down = 0, rising = 0, up = 0, landed = 0;
+  sbr_double3 place = {NAN, 0, 0};
   for (int i = 1; i <= 480 && !up; i++) {
     sbr_world_tick(s.world);
     sbr_rigid_posture posture = sbr_character_rigid_posture(s.world, s.character);
@@ -64,15 +76,21 @@ START_TEST(hit_falls_and_gets_up)
     if (head < 0.6f && !down) down = i;
     if (posture == SBR_RIGID_RISING && !rising) rising = i, resting = worst_limit(&s);
     if (posture == SBR_RIGID_UP) up = i;
+    uint32_t told = landings(&s, &place);
+    ck_assert_uint_eq(told, rising == i);
+    landed += (int)told;
   }
   ck_assert(down > 0 && down <= 120);
   ck_assert_int_gt(rising, down);
+  ck_assert_int_eq(landed, 1);
   ck_assert_int_gt(up, rising);
   ck_assert_float_le(beyond, 0.01745f);
   ck_assert_float_le(resting, 0.001745f);
   ck_assert_float_le(apart, 1e-3f);
   ck_assert_float_le(jump, 0.025f); /* the help's 40 m/s^2 make 11 mm, the drives and the ground the rest */
   scene_ticks(&s, 30);
+  sbf_vec3 chest = rigid_state(&s, 1).center;
+  ck_assert_float_le(hypotf(chest.x - (float)place.x, chest.z - (float)place.z), 0.2f);
   ck_assert_float_eq_tol(rigid_state(&s, 2).center.y, 1.625f, 0.03f);
   scene_free(&s);
 }

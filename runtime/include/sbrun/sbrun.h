@@ -277,8 +277,9 @@ typedef struct sbr_collider_id {
 typedef enum sbr_event_kind {
   SBR_EVENT_FOOT_DOWN,
   SBR_EVENT_FOOT_UP,
-  SBR_EVENT_LANDED,
-  SBR_EVENT_TEAR, /* an element tore; of more than 16 in one tick of bodies that hang together, the first */
+  SBR_EVENT_LANDED, /* what fell (sbr_character_rigid_fall) lies still and begins to get up; where it will
+                       stand */
+  SBR_EVENT_TEAR,   /* an element tore; of more than 16 in one tick of bodies that hang together, the first */
   SBR_EVENT_UNSPLIT, /* a tear found no room to split points: more tear_points */
   SBR_EVENT_ASLEEP,  /* bodies that hang together are no longer stepped */
   SBR_EVENT_AWAKE,   /* and are again */
