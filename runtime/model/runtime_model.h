@@ -210,8 +210,9 @@ typedef struct sbri_island {
   const float *masses;         /* (free_count) kg; 0: padding */
   const float *inverse_masses; /* (free_count) 1/kg; 0: padding */
   const float *gravity_scales; /* (free_count) 0: padding */
-  const uint32_t *cell_begins; /* (free_count / 8 + 1) */
-  const uint32_t *cell_ends;   /* (free_count / 8) what is in use of each block's; beyond it is room */
+  uint32_t cell_slot_count;    /* slots that have cells: all where there are rigid bodies, else the free */
+  const uint32_t *cell_begins; /* (cell_slot_count / 8 + 1) */
+  const uint32_t *cell_ends;   /* (cell_slot_count / 8) what is in use of each block's; beyond it is room */
   const sbri_spring_cell *cells;
   const float *cell_damping;      /* (cells x 8) N s/m; NULL: no spring is damped or has slack */
   const float *cell_slack;        /* (cells x 8) as sbfi_spring's; NULL: no spring has any */

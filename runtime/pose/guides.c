@@ -53,12 +53,33 @@ void sbri_guide_places(
   }
 }
 
+/* sbri_delta_place of a group of lanes without a squash, to the bit. */
+static sbri_wide3 placed(const sbri_delta *d, sbri_wide3 v) {
+  const sbri_wide ux = sbri_wide_all(d->rotation.x), uy = sbri_wide_all(d->rotation.y),
+                  uz = sbri_wide_all(d->rotation.z), w = sbri_wide_all(d->rotation.w), two = sbri_wide_all(2);
+  const sbri_wide3 t = {
+      (uy * v.z - uz * v.y) * two, (uz * v.x - ux * v.z) * two, (ux * v.y - uy * v.x) * two};
+  return (sbri_wide3){sbri_wide_all(d->position.x) + (v.x + t.x * w + (uy * t.z - uz * t.y)),
+      sbri_wide_all(d->position.y) + (v.y + t.y * w + (uz * t.x - ux * t.z)),
+      sbri_wide_all(d->position.z) + (v.z + t.z * w + (ux * t.y - uy * t.x))};
+}
+
 void sbri_held_places(const sbri_island *island, const sbri_delta *deltas, sbri_point *places) {
-  for (uint32_t slot = island->free_count; slot < island->slot_count; slot++) {
-    const sbri_delta *d = &deltas[island->frame_of_held[slot - island->free_count]];
-    const sbri_point *rest = &island->rest[slot];
-    sbf_vec3 p = sbri_delta_place(d, sbri_vec3(rest->x, rest->y, rest->z));
-    places[slot] = (sbri_point){p.x, p.y, p.z, 0};
+  const sbri_point *rest = island->rest;
+  for (uint32_t first = island->free_count; first < island->slot_count; first += SBRI_LANES) {
+    const uint32_t *frames = island->frame_of_held + (first - island->free_count);
+    bool one = !deltas[frames[0]].squash;
+    for (uint32_t i = 1; i < SBRI_LANES; i++) one = one && frames[i] == frames[0];
+    if (one) {
+      sbri_wide3 p = sbri_wide_load_points(rest + first);
+      sbri_wide_store_points(places + first, placed(&deltas[frames[0]], p));
+      continue;
+    }
+    for (uint32_t i = 0; i < SBRI_LANES; i++) {
+      const sbri_point *at = &rest[first + i];
+      sbf_vec3 p = sbri_delta_place(&deltas[frames[i]], sbri_vec3(at->x, at->y, at->z));
+      places[first + i] = (sbri_point){p.x, p.y, p.z, 0};
+    }
   }
 }
 

@@ -176,7 +176,7 @@ typedef struct cell_tables {
 static void put(const sbri_island *island, const cell_tables *t, uint32_t *used, uint32_t spring,
     uint32_t slot, uint32_t other) {
   const sbfi_spring *s = &island->springs[spring];
-  if (slot >= island->free_count) return;
+  if (slot >= island->cell_slot_count) return;
   uint32_t lane = slot % SBRI_BLOCK, place = island->cell_begins[slot / SBRI_BLOCK] + used[slot]++;
   t->cells[place].others[lane] = other;
   t->cells[place].stiffness[lane] = s->stiffness_n_m;
@@ -205,7 +205,9 @@ static void reserve_rows(const sbri_island_maker *m, uint32_t *used) {
 
 static bool make_cells(sbri_island_maker *m) {
   sbri_island *island = m->island;
-  uint32_t block_count = island->free_count / SBRI_BLOCK;
+  /* What holds a body feels it only where there is something to be moved. */
+  island->cell_slot_count = m->model->rigid.body_count ? island->slot_count : island->free_count;
+  uint32_t block_count = island->cell_slot_count / SBRI_BLOCK;
   uint32_t *begins = sbri_keep(m, (size_t)block_count + 1, sizeof *begins);
   uint32_t *ends = sbri_keep(m, block_count, sizeof *ends);
   uint32_t *used = sbri_scratch(m, island->slot_count, sizeof *used);
@@ -243,7 +245,7 @@ static bool make_cells(sbri_island_maker *m) {
     put(island, &t, used, i, s->a, s->b);
     put(island, &t, used, i, s->b, s->a);
   }
-  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+  for (uint32_t slot = 0; slot < island->cell_slot_count; slot++) {
     uint32_t block = slot / SBRI_BLOCK, end = begins[block] + used[slot];
     if (slot % SBRI_BLOCK == 0 || end > ends[block]) ends[block] = end;
   }

@@ -53,6 +53,17 @@ static uint32_t steps_of(const sbri_island_tick *t) {
   return rounded_steps(sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), stretch));
 }
 
+/* As many as keep up with how fast it makes what is simulated swing: always the same. */
+static uint32_t swung_steps(const sbri_character *c, float tick_s) {
+  const sbri_rigid_model *rigid = &c->model->rigid;
+  float fastest = 0; /* rad^2/s^2 */
+  for (uint32_t b = 0; b < rigid->body_count; b++)
+    if (sbri_rigid_is_simulated(c, b) && rigid->pinned_squares[b] > fastest)
+      fastest = rigid->pinned_squares[b];
+  float steps = tick_s * sqrtf(fastest) / SBRI_RIGID_MOST_SWING;
+  return steps < SBRI_RIGID_MOST_SUBSTEPS ? (uint32_t)ceilf(steps) : SBRI_RIGID_MOST_SUBSTEPS;
+}
+
 void sbri_coupled_begin(sbri_coupled *group) {
   sbri_character *c = group->character;
   group->any = false;
@@ -72,6 +83,8 @@ void sbri_coupled_begin(sbri_coupled *group) {
     uint32_t steps = steps_of(&tick);
     group->steps = steps > group->steps ? steps : group->steps;
   }
+  uint32_t swung = group->any ? swung_steps(c, (float)group->world->tick_s * c->time_scale) : 1;
+  group->steps = swung > group->steps ? swung : group->steps;
 }
 
 /* ---- Meanwhile ---- */
@@ -120,18 +133,22 @@ static float ease_of_guides(const sbri_character *c, const sbri_body *body, uint
 static void damp(sbri_character *c, const sbri_island *island, const sbri_body *body, float h) {
   if (!body->held || !(body->alpha_1_s > 0)) return;
   float lost = 1 - sbri_exp(-body->alpha_1_s * h); /* at most */
+  float share = body->guides ? 0 : lost * ease_of(c, body->guide_frame, lost);
   size_t first = island->first_slot;
+  const sbri_point *places = sbri_positions(c) + first;
+  float *velocities = sbri_velocities(c) + 3 * first;
+  const float *along = sbri_guide_velocities(c) + 3 * first;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    size_t at = 3 * (first + slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    float *v = sbri_velocities(c) + at, m = island->masses[slot];
-    const float *u = sbri_guide_velocities(c) + at;
+    size_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    float *v = velocities + at, m = island->masses[slot];
+    const float *u = along + at;
     if (!(m > 0)) continue;
     if (body->alphas) lost = 1 - sbri_exp(-body->alphas[slot] * h);
-    float share = lost * ease_of_guides(c, body, slot - body->slot_begin, lost);
+    if (body->alphas || body->guides) share = lost * ease_of_guides(c, body, slot - body->slot_begin, lost);
     sbf_vec3 change = {(u[0] - v[0]) * share, (u[SBRI_BLOCK] - v[SBRI_BLOCK]) * share,
         (u[2 * SBRI_BLOCK] - v[2 * SBRI_BLOCK]) * share};
     v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
-    const sbri_point *x = &sbri_positions(c)[first + slot];
+    const sbri_point *x = &places[slot];
     pull_on_guides(c, body, slot - body->slot_begin, sbri_vec3(x->x, x->y, x->z), sbri_scale(change, -m));
   }
 }

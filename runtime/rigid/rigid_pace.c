@@ -1,19 +1,20 @@
 /* How many steps a tick takes: as many as the model says, more where what is pulled at swings fast or turns
- * fast, and one where everything has lain or hung still for a while. */
+ * fast, and one where everything has lain or hung still for a while. What soft bodies ask for comes on top
+ * (ragdoll/coupled.c). */
 #include "rigid/rigid_work.h"
 
 /* After so many slow ticks all lies, or hangs: what swings is slow for less. */
 enum { LYING_TICKS = 20 };
 
-/* Greatest angular frequency times step: 2 is where a leapfrog ends. */
-static const float MOST_SWING = 0.8f;
 /* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
 static const float MOST_TURN = 0.2f;
 /* Slower than this share of its size a second, a body hardly moves. */
 static const float SLOW_1_S = 0.1f;
 
 float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
-  float swell = pull->squares ? pull->squares[body] * step_s * step_s / (MOST_SWING * MOST_SWING) : 0;
+  float swell = pull->squares
+                    ? pull->squares[body] * step_s * step_s / (SBRI_RIGID_MOST_SWING * SBRI_RIGID_MOST_SWING)
+                    : 0;
   return swell > 1 ? swell : 1;
 }
 
@@ -49,12 +50,8 @@ uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, const sbri_rigid_solving *wor
     float stiffness[3];
     sbf_vec3 turn = sbri_spin_velocity(body, state->pose.rotation, state->spin);
     if (work->system.nodes[i].edge >= 0) {
-      float own = sbri_length(turn) * (MOST_SWING / MOST_TURN);
+      float own = sbri_length(turn) * (SBRI_RIGID_MOST_SWING / MOST_TURN);
       fastest = own * own > fastest ? own * own : fastest;
-    }
-    if (t->pull.squares) {
-      float pinned = t->pull.squares[work->system.nodes[i].body];
-      fastest = pinned > fastest ? pinned : fastest;
     }
     find_pulls(t, work, work->system.nodes[i].body, stiffness);
     const float ease[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
@@ -62,7 +59,7 @@ uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, const sbri_rigid_solving *wor
   }
   /* In powers of two, and fewer than before only where a quarter would do: a leapfrog whose steps change at
    * every turn gains by it. */
-  float steps = t->tick_s * sqrtf(fastest) / MOST_SWING;
+  float steps = t->tick_s * sqrtf(fastest) / SBRI_RIGID_MOST_SWING;
   bool lies = t->drive->slow_ticks >= LYING_TICKS;
   uint32_t count = lies ? 1 : t->substeps,
            most = t->substeps > SBRI_RIGID_MOST_SUBSTEPS ? t->substeps : SBRI_RIGID_MOST_SUBSTEPS;

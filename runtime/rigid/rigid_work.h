@@ -7,6 +7,8 @@
 
 /* A step may be halved so often, less one; and a tick has no more steps, unless the model asks for them. */
 enum { SBRI_RIGID_HALVINGS = 4, SBRI_RIGID_MOST_SUBSTEPS = 64 };
+/* Greatest angular frequency times step: 2 is where a leapfrog ends. */
+#define SBRI_RIGID_MOST_SWING 0.8f
 
 /* How a body moves in a substep, if nothing more acts on it. */
 typedef struct sbri_part_motion {

@@ -22,7 +22,8 @@ static inline void sbri_react_at(const sbri_island_tick *t, uint32_t slot, sbf_v
   r->moment = sbri_add(r->moment, sbri_cross(arm, impulse));
 }
 
-/* Of the springs that reach what is held: as sbri_spring_forces has them. */
+/* Of the springs that reach what is held, where they flow and may have split: as sbri_spring_forces has them.
+ */
 static inline void sbri_react_springs(const sbri_island_tick *t, float h) {
   const sbri_island *island = t->island;
   for (uint32_t i = 0; i < island->held_spring_count; i++) {
@@ -54,17 +55,27 @@ static inline void sbri_react_springs(const sbri_island_tick *t, float h) {
   }
 }
 
+static inline sbf_vec3 sbri_point_vec3(const sbri_point *p) {
+  return sbri_vec3(p->x, p->y, p->z);
+}
+
 /* By the forces that a scheme has just found for a substep of h, before anything moves. */
 static inline void sbri_react(const sbri_island_tick *t, float h) {
   const sbri_island *island = t->island;
-  bool elements = sbri_has_element_forces(island);
-  sbri_react_springs(t, h);
-  for (uint32_t slot = island->free_count; (elements || t->outer) && slot < island->slot_count; slot++) {
-    sbf_vec3 sum = {0, 0, 0};
-    if (elements)
-      sum = sbri_vec3(t->element_forces[slot].x, t->element_forces[slot].y, t->element_forces[slot].z);
-    if (t->outer) sum = sbri_add(sum, sbri_vec3(t->outer[slot].x, t->outer[slot].y, t->outer[slot].z));
-    sbri_react_at(t, slot, sum, h);
+  const bool flows = t->rests != NULL, damped = island->cell_damping != NULL;
+  if (flows) sbri_react_springs(t, h);
+  for (uint32_t first = island->free_count; first < island->slot_count; first += SBRI_LANES) {
+    sbri_point sums[SBRI_LANES] = {{0, 0, 0, 0}};
+    sbri_wide3 x = sbri_wide_load_points(t->positions + first);
+    if (!flows)
+      sbri_wide_store_points(sums, damped ? sbri_spring_forces(t, first, x, SBRI_DAMPED, NULL)
+                                          : sbri_spring_forces(t, first, x, 0, NULL));
+    for (uint32_t slot = first; slot < first + SBRI_LANES; slot++) {
+      sbf_vec3 sum = sbri_point_vec3(&sums[slot - first]);
+      if (sbri_has_element_forces(island)) sum = sbri_add(sum, sbri_point_vec3(&t->element_forces[slot]));
+      if (t->outer) sum = sbri_add(sum, sbri_point_vec3(&t->outer[slot]));
+      sbri_react_at(t, slot, sum, h);
+    }
   }
 }
 

@@ -86,6 +86,47 @@ START_TEST(a_hit_keeps_momentum)
 }
 END_TEST
 
+/* Points between two boxes, each on springs to four points of either: what the springs give the boxes, and
+ * their damping too, they take from the points. */
+START_TEST(springs_keep_momentum)
+{
+  enum { HELD = 8, FREE = 3 };
+  scene s = weightless();
+  sbf_vec3 at[HELD + FREE];
+  float points_kg[HELD + FREE] = {0}, k[HELD * FREE];
+  sbf_uint2 ends[HELD * FREE];
+  uint32_t count = 0, pinned[2][4];
+  for (uint32_t i = 0; i < HELD; i++)
+    at[i] = (sbf_vec3){i < 4 ? -0.2f : 0.2f, i & 1 ? 0.06f : -0.06f, i & 2 ? 0.06f : -0.06f},
+    pinned[i / 4][i % 4] = i;
+  for (uint32_t i = 0; i < FREE; i++)
+    at[HELD + i] = (sbf_vec3){0.01f * (float)i, 0.05f * (float)i - 0.05f, 0.02f}, points_kg[HELD + i] = 0.3f;
+  for (uint32_t i = 0; i < HELD * FREE; i++)
+    ends[count] = (sbf_uint2){{i / FREE, HELD + i % FREE}}, k[count++] = 40;
+  sbf_level *level = scene_points(&s, 0, at, points_kg, HELD + FREE);
+  scene_springs(&s, level, ends, k, count);
+  scene_body(&s, 0)->attributes.stiffness_damping = _i ? 0.02f : 0;
+  for (uint32_t end = 0; end < 2; end++) {
+    float x = end ? 0.22f : -0.22f;
+    uint32_t body = rigid_box(&s, (sbf_vec3){x, 0, 0}, (sbf_vec3){0.08f, 0.12f, 0.12f}, 1);
+    pin_to(&s, level, end, (int32_t)body, pinned[end], 4);
+  }
+  scene_start(&s);
+  push(&s, 0, (sbf_vec3){0, 0, 0.05f}, (sbf_vec3){0.09f, 0.15f, 0.03f});
+  scene_momentum first = scene_momentum_of(&s);
+  for (int second = 0; second < 5; second++) {
+    scene_ticks(&s, 60);
+    scene_momentum now = scene_momentum_of(&s);
+    for (int i = 0; i < 3; i++) {
+      ck_assert_double_eq_tol(now.linear[i], first.linear[i], 5e-5);
+      ck_assert_double_eq_tol(now.angular[i], first.angular[i], 5e-4);
+    }
+  }
+  ck_assert_float_ge(fabsf(rigid_state(&s, 1).velocity.y), 0.02f);
+  scene_free(&s);
+}
+END_TEST
+
 /* ---- Periods and sag ---- */
 
 /* The time from one upward passing of `level` to the tenth after it, over ten. */
@@ -295,6 +336,7 @@ int main(void) {
   Suite *suite = suite_create("coupled");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, a_hit_keeps_momentum, 0, sizeof dumbbells / sizeof *dumbbells);
+  tcase_add_loop_test(tests, springs_keep_momentum, 0, 2);
   tcase_add_loop_test(tests, a_mass_swings_on_a_soft_spring, 0, 3);
   tcase_add_loop_test(tests, both_ends_of_a_spring_swing, 0, 3);
   tcase_add_loop_test(tests, a_load_presses_a_column, 0, 3);
