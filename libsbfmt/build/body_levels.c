@@ -107,6 +107,23 @@ static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
   r->calibrated_springs++;
 }
 
+static void warn_of_unrest(sbfi_build *b, uint32_t number, const sbfi_ladder *ladder) {
+  const char *name = b->bodies[number].name;
+  if (ladder->has_reference && ladder->reference.statics.turns)
+    sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
+        "soft body \"%s\", or a piece of it, is held at points of one line alone and turns about them: "
+        "nothing "
+        "is calibrated and no error stated, pin points beside that line",
+        name);
+  for (uint32_t i = 0; i < ladder->unsettled_count; i++)
+    sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
+        "a level of %u tetrahedra of soft body \"%s\" comes to no rest under gravity where a fine one does: "
+        "%s, "
+        "give it more elements (--elements, --cell) or pin more points",
+        (unsigned)ladder->unsettled[i].elements, name,
+        ladder->unsettled[i].is_kept ? "its error is not stated" : "it is left out");
+}
+
 /* The rest of the levels of a body whose finest has been made, and what they are worth. */
 static sbf_status make_ladder(sbfi_build *b, uint32_t number, sbfi_ladder *ladder) {
   sbf_soft_body *body = &b->bodies[number];
@@ -115,6 +132,7 @@ static sbf_status make_ladder(sbfi_build *b, uint32_t number, sbfi_ladder *ladde
   sbf_status status = outcome_status(
       b, number, sbfi_ladder_make(ladder, body->levels.at, of_springs ? map : NULL, &b->scratch));
   if (status != SBF_OK) return status;
+  warn_of_unrest(b, number, ladder);
   body->levels = (sbf_level_list){ladder->levels, ladder->level_count};
   b->report.levels += ladder->level_count - 1;
   for (uint32_t l = 0; l < ladder->level_count; l++) {

@@ -66,6 +66,29 @@ START_TEST(tetrahedra_join_too)
 }
 END_TEST
 
+/* A square of springs with its diagonal, and a pair that nothing holds. */
+static bool turns(const char *held) {
+  static const sbf_uint2 sides[] = {{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}, {{0, 2}}, {{4, 5}}};
+  static const sbf_vec3 at[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {9, 0, 0}, {9, 1, 0}};
+  sbf_spring_network n = network();
+  bool turn;
+  for (int i = 0; i < 6; i++) masses[i] = held[i] == '1' ? 0 : 1;
+  n.ends = sides, n.spring_count = 6, n.positions = at;
+  ck_assert(sbfi_pieces_turn(&n, 10, &turn, &arena));
+  return turn;
+}
+
+START_TEST(what_is_held_at_a_line_turns)
+{
+  ck_assert(!turns("000000"));
+  ck_assert(turns("100000"));
+  ck_assert(turns("110000"));
+  ck_assert(!turns("111000"));
+  ck_assert(turns("111010"));  /* the pair, about one end */
+  ck_assert(!turns("111011")); /* which does not move any more */
+}
+END_TEST
+
 START_TEST(memory_may_run_out)
 {
   harness_memory memory;
@@ -92,6 +115,7 @@ int main(void) {
   tcase_add_test(c, what_hangs_on_a_held_point_stays);
   tcase_add_test(c, a_goal_holds_as_well);
   tcase_add_test(c, tetrahedra_join_too);
+  tcase_add_test(c, what_is_held_at_a_line_turns);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(s, c);
   return harness_run(s);

@@ -3,9 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "build/geometry/line_width.h"
 #include "build/geometry/topology.h"
 #include "build/geometry/triangle_tree.h"
 #include "build/lattice/lattice_core.h"
+#include "build/lattice/lattice_hold.h"
 #include "build/sections/level_pins.h"
 
 /* As a share of the cell: so near to the surface a point is on it. */
@@ -34,6 +36,10 @@ typedef struct work {
 static double squared_between(sbf_vec3 a, const double b[3]) {
   double x = a.x - b[0], y = a.y - b[1], z = a.z - b[2];
   return x * x + y * y + z * z;
+}
+
+static double least_width(const work *w) {
+  return core_width * (double)w->level->cell;
 }
 
 static void load(sbf_vec3 from, double to[3]) {
@@ -139,39 +145,14 @@ static bool carry_set(work *w, sbf_pin_set *to, const sbf_pin_set *from) {
   return true;
 }
 
-/* The point of the list that is farthest from one, and with `along` from the line through both. */
-static uint32_t farthest(const work *w, const uint32_t *list, uint32_t count, sbf_vec3 from,
-    const double *along, double *distance2) {
-  uint32_t best = list[0];
-  *distance2 = -1;
-  for (uint32_t i = 0; i < count; i++) {
-    sbf_vec3 p = w->level->positions.at[list[i]];
-    double d[3] = {(double)p.x - from.x, (double)p.y - from.y, (double)p.z - from.z};
-    double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    double dot = along ? d[0] * along[0] + d[1] * along[1] + d[2] * along[2] : 0;
-    if (square - dot * dot <= *distance2) continue;
-    *distance2 = square - dot * dot;
-    best = list[i];
-  }
-  return best;
-}
-
 /* Whether what is held there cannot turn about a line through it. */
 static bool is_wide(const work *w, const uint32_t *core, uint32_t count) {
-  double length2, width2, at[3], along[3];
-  if (count < 3) return false;
-  sbf_vec3 a =
-      w->level->positions.at[farthest(w, core, count, w->level->positions.at[core[0]], NULL, &length2)];
-  sbf_vec3 b = w->level->positions.at[farthest(w, core, count, a, NULL, &length2)];
-  load(a, at);
-  along[0] = (double)b.x - at[0], along[1] = (double)b.y - at[1], along[2] = (double)b.z - at[2];
-  for (int k = 0; k < 3; k++) along[k] /= sqrt(length2 > 0 ? length2 : 1);
-  farthest(w, core, count, a, along, &width2);
-  return width2 >= core_width * core_width * (double)w->level->cell * (double)w->level->cell;
+  return count >= 3 && sbfi_farthest_line_of(w->level->positions.at, core, count).width >= least_width(w);
 }
 
 /* The points of the inner half, by depth, where the body is thick and where it is thin; of a shallower part
- * where those are but a line, which would leave the body free to turn about it. */
+ * where those are but a line, which would leave the body free to turn about it; and so many on the surface as
+ * it takes where all inside are, or a piece has none. */
 static bool find_core(work *w, uint32_t **core, uint32_t *count) {
   uint32_t points = w->level->positions.count;
   float *thickness = sbfi_arena_allocate(w->scratch, (size_t)points + 1, sizeof *thickness);
@@ -188,7 +169,7 @@ static bool find_core(work *w, uint32_t **core, uint32_t *count) {
     }
     if (is_wide(w, *core, *count)) break;
   }
-  return true;
+  return sbfi_lattice_hold_pieces(w->level, w->depths2, w->taken, least_width(w), *core, count, w->scratch);
 }
 
 static bool carry_attachment(work *w, sbf_pin_set *to, const sbf_attachment *from) {

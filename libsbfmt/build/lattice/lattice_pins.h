@@ -12,7 +12,8 @@
  * place. Of several sets the first has a point.
  * They are held where they are at rest: offsets, which are those of the body's points, are left out;
  *   "interior" in a body with a bone: the points at least half as deep under the surface as the body is thick
- * around them (lattice_core.h), to the tip of a tail, less those; more of them where these lie on a line;
+ * around them (lattice_core.h), to the tip of a tail, less those; more of them where these lie on a line, and
+ * every piece of the lattice at three points that do not (lattice_hold.h);
  * attachments by a hull: the points inside it that no set before holds. False where memory runs out.
  */
 bool sbfi_lattice_pins_make(

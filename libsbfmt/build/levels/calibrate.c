@@ -30,6 +30,7 @@ static sbfi_lattice_outcome measure(sbfi_reference *r, const sbfi_reference_use 
   sbfi_linear_statics linear;
   uint32_t loads = r->statics.load_count;
   size_t numbers = 3 * (size_t)r->statics.body->surface.positions.count + 1;
+  if (r->statics.turns) return SBFI_LATTICE_MADE;
   if (!sbfi_linear_statics_make(&linear, &r->statics.network, scratch)) return SBFI_LATTICE_NO_MEMORY;
   for (uint32_t l = 0; l < loads; l++) {
     if (!sbfi_progress_say(use->progress, 0.5 + 0.2 * l / loads)) return SBFI_LATTICE_CANCELLED;
@@ -311,6 +312,10 @@ static bool compare_under(work *w, uint32_t l, bool gives, double factor, double
     *off = farthest(w->gives[l], w->r->fall / factor, w->r->gives[l], w->r->fall, points);
   else /* what does not give at all */
     *off = farthest(give, 1, w->r->gives[l], w->r->fall, points);
+  /* Small strains that move what they bend by more than its size say nothing of where it is. */
+  if (converged || !gives || *off <= w->r->statics.size) return true;
+  *off = INFINITY;
+  w->c->unsettled |= farthest(w->r->gives[l], w->r->fall, give, 0, points) <= w->r->statics.size;
   return true;
 }
 
@@ -342,11 +347,13 @@ static bool record(work *w) {
 static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, double tick) {
   sbf_level *level = w->level;
   bool lattice = level->model == SBF_ELASTIC_MODEL_TETRAHEDRA;
+  const sbf_level before = *level;
   double factor = 1;
   springs &= level->model == SBF_ELASTIC_MODEL_SPRINGS;
   if (!sbfi_level_statics_make(&w->statics, w->body, level, interior, w->scratch)) return false;
   bool gives = level->model != SBF_ELASTIC_MODEL_JIGGLE && w->statics.held == w->r->statics.held;
-  if (gives) {
+  w->c->unsettled = w->statics.turns;
+  if (gives && !w->c->unsettled) {
     uint32_t load = softest(w->r);
     if (!sbfi_linear_statics_make(&w->linear, &w->statics.network, w->scratch)) return false;
     if (!(lattice ? fit_lattice(w, &factor) : springs ? fit_springs(w) : find_yieldings(w))) return false;
@@ -354,8 +361,16 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
     if (load < SBFI_MOST_LOADS && w->frequencies[load] > 0)
       w->c->period_error = w->r->frequencies[load] / (w->frequencies[load] * sqrt(factor)) - 1;
   }
-  if (!compare(w, gives, factor) || (gives && (lattice || springs) && !record(w))) return false;
-  level->simulation.error = (float)fmin(w->c->error, FLT_MAX);
+  if (!w->c->unsettled && !compare(w, gives, factor)) return false;
+  if (w->c->unsettled) {
+    w->c->error = INFINITY;
+    level->lattice = before.lattice;
+    level->springs = before.springs;
+    if (!sbfi_level_statics_make(&w->statics, w->body, level, interior, w->scratch)) return false;
+  } else if (gives && (lattice || springs) && !record(w)) {
+    return false;
+  }
+  level->simulation.error = w->c->error < FLT_MAX ? (float)w->c->error : 0;
   level->simulation.cost = level->model == SBF_ELASTIC_MODEL_JIGGLE
                                ? 1
                                : (float)fmin(sbfi_level_cost(&w->statics, tick, w->scratch), FLT_MAX);

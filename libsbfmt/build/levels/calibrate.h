@@ -68,7 +68,10 @@ typedef struct sbfi_calibration {
   double period_error; /* share by which it swings slower under the load it yields to most; NAN: not known */
   double error;        /* m, greatest distance of a surface point from where the reference has it under
                           gravity along one of the axes; from small strains, where one of the two has not come to
-                          rest */
+                          rest; INFINITY: these say nothing, as they displace it by more than the body's size, and
+                          the level states none */
+  bool unsettled; /* it comes to no rest, as parts of it turn about what holds them, or go so far where the
+                     reference's do not: it is left as it was, without a calibration */
 } sbfi_calibration;
 
 /* Calibrates a level of tetrahedra or, where `springs` says so, of springs, whose lists become memory of

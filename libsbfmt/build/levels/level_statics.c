@@ -150,7 +150,9 @@ bool sbfi_level_statics_make(sbfi_level_statics *statics, const sbf_soft_body *b
       !take_anchors(statics, masses, arena) || !carry_surface(statics, interior, arena))
     return false;
   double loose_kg;
-  if (!sbfi_loose_pieces_hold(&statics->network, statics->held, masses, &loose_kg, arena)) return false;
+  if (!sbfi_loose_pieces_hold(&statics->network, statics->held, masses, &loose_kg, arena) ||
+      !sbfi_pieces_turn(&statics->network, statics->size, &statics->turns, arena))
+    return false;
   statics->mass -= loose_kg;
   if (!statics->held && !add_tethers(statics, arena)) return false;
   statics->load_count = statics->held ? SBFI_HELD_LOADS : SBFI_FREE_LOADS;

@@ -12,6 +12,7 @@ typedef struct sbfi_level_statics {
   const sbf_level *level;
   sbf_spring_network network;
   bool held;
+  bool turns; /* about the points that hold it, all of it or a piece: what its statics says means nothing */
   uint32_t load_count;
   sbfi_carrier carrier;
   sbfi_carried *carried; /* (surface points) */

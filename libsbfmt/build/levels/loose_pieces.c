@@ -1,6 +1,22 @@
 #include "build/levels/loose_pieces.h"
 
 #include "base/union_find.h"
+#include "build/geometry/line_width.h"
+
+static const double held_width = 1e-4;
+
+static void join(const sbf_spring_network *network, uint32_t *parents) {
+  sbfi_sets_begin(parents, network->point_count);
+  for (uint32_t s = 0; s < network->spring_count; s++)
+    sbfi_sets_join(parents, network->ends[s].at[0], network->ends[s].at[1]);
+  for (uint32_t t = 0; t < network->tetrahedron_count; t++)
+    for (int k = 1; k < 4; k++)
+      sbfi_sets_join(parents, network->tetrahedra[t].at[0], network->tetrahedra[t].at[k]);
+}
+
+static bool holds_point(const sbf_spring_network *network, uint32_t point) {
+  return !(network->masses[point] > 0) || (network->anchors && network->anchors[point] > 0);
+}
 
 bool sbfi_loose_pieces_hold(
     const sbf_spring_network *network, bool held, float *masses, double *loose_kg, sbfi_arena *scratch) {
@@ -10,12 +26,7 @@ bool sbfi_loose_pieces_hold(
   uint8_t *holds = sbfi_arena_allocate(scratch, (size_t)points + 1, 1);
   *loose_kg = 0;
   if (!parents || !weights || !holds) return false;
-  sbfi_sets_begin(parents, points);
-  for (uint32_t s = 0; s < network->spring_count; s++)
-    sbfi_sets_join(parents, network->ends[s].at[0], network->ends[s].at[1]);
-  for (uint32_t t = 0; t < network->tetrahedron_count; t++)
-    for (int k = 1; k < 4; k++)
-      sbfi_sets_join(parents, network->tetrahedra[t].at[0], network->tetrahedra[t].at[k]);
+  join(network, parents);
   for (uint32_t i = 0; i < points; i++) {
     uint32_t piece = sbfi_set_root(parents, i);
     if (!(masses[i] > 0) || (network->anchors && network->anchors[i] > 0)) holds[piece] = 1;
@@ -27,6 +38,35 @@ bool sbfi_loose_pieces_hold(
     if (held ? holds[piece] : piece == heaviest) continue;
     *loose_kg += (double)masses[i];
     masses[i] = 0;
+  }
+  return true;
+}
+
+bool sbfi_pieces_turn(const sbf_spring_network *network, double size_m, bool *turn, sbfi_arena *scratch) {
+  uint32_t points = network->point_count;
+  uint32_t *parents = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *parents);
+  uint32_t *ends = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *ends);
+  uint32_t *holding = sbfi_arena_allocate(scratch, (size_t)points + 1, sizeof *holding);
+  uint8_t *moves = sbfi_arena_allocate(scratch, (size_t)points + 1, 1);
+  *turn = false;
+  if (!parents || !ends || !holding || !moves) return false;
+  join(network, parents);
+  for (uint32_t i = 0; i < points; i++) {
+    uint32_t piece = sbfi_set_root(parents, i);
+    ends[piece] += holds_point(network, i);
+    moves[piece] |= network->masses[i] > 0;
+  }
+  for (uint32_t i = 0, before = 0; i < points; i++) {
+    uint32_t count = ends[i];
+    ends[i] = before;
+    before += count;
+  }
+  for (uint32_t i = 0; i < points; i++)
+    if (holds_point(network, i)) holding[ends[sbfi_set_root(parents, i)]++] = i;
+  for (uint32_t i = 0, from = 0; i < points; from = ends[i++]) {
+    uint32_t count = ends[i] - from;
+    if (!moves[i] || count == 0) continue;
+    *turn |= sbfi_farthest_line_of(network->positions, holding + from, count).width <= held_width * size_m;
   }
   return true;
 }

@@ -12,4 +12,9 @@
 bool sbfi_loose_pieces_hold(
     const sbf_spring_network *network, bool held, float *masses, double *loose_kg, sbfi_arena *scratch);
 
+/* Whether a piece with some free point is held at points of one line alone, within 1e-4 of `size_m`, or at
+ * one: it turns about them, and no load that is not balanced about them finds an answer. Pieces that nothing
+ * holds do not count. False where memory runs out. */
+bool sbfi_pieces_turn(const sbf_spring_network *network, double size_m, bool *turn, sbfi_arena *scratch);
+
 #endif
