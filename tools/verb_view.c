@@ -146,8 +146,8 @@ static int run(cli_call *call) {
 static int run(cli_call *call) {
   return cli_wrong(call,
       "this sbfmt was built without a window: install SDL 2's headers (Debian, Ubuntu: apt install "
-      "libsdl2-dev), "
-      "configure with -DSBFMT_WINDOW=ON and build again; `sbfmt render` draws pictures without one");
+      "libsdl2-dev), configure with -DSBFMT_WINDOW=ON and build again; `sbfmt render` draws pictures without "
+      "one");
 }
 
 #endif
@@ -164,12 +164,8 @@ static const cli_option options[] = {
 };
 const cli_verb verb_view = {"view", "FILE [--ground KIND] [--show LIST] ...",
     "show it in a window, to walk, drag and throw balls at",
-    "W A S D walk, Q E sideways, B throws a ball, K knocks over, R begins again, P pauses; 1 to 7 switch "
-    "skin, "
-    "springs,\n"
-    "lattice, bones, strain, hulls and feet; G, L, M, F choose ground, levels of bodies and skin, pace; "
-    "arrows, + "
-    "and - turn\n"
-    "and zoom, as the pointer does on the ground; on the body it pulls. H shows the keys. Needs SDL 2 and a "
-    "display.",
+    "W A S D walk, Q E sideways, B throws a ball, K knocks over, R begins again, P pauses; 1 to 7 switch\n"
+    "skin, springs, lattice, bones, strain, hulls and feet; G, L, M, F choose ground, levels of bodies and\n"
+    "skin, pace; arrows, + and - turn and zoom, as the pointer does on the ground; on the body it pulls.\n"
+    "H shows the keys. Needs SDL 2 and a display.",
     options, 1, 1, run};

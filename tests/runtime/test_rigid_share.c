@@ -46,6 +46,15 @@ static void give(const scene *s, int32_t body, float share) {
   sbr_character_rigid_share(s->world, s->character, body, share);
 }
 
+/* Each arm driven with its share. */
+static scene arms_sharing(const float shares[ARMS]) {
+  scene s = arms();
+  scene_start(&s);
+  drive_all(&s);
+  for (int i = 0; i < ARMS; i++) give(&s, i + 1, shares[i]);
+  return s;
+}
+
 /* How far below level an arm is, rad. */
 static float sag(const scene *s, uint32_t arm) {
   return asinf(-rigid_state(s, arm).center.y / REACH_M);
@@ -90,10 +99,7 @@ END_TEST
 START_TEST(shares_are_of_one_bone_each)
 {
   static const float shares[ARMS] = {0, 1, 0.3f};
-  scene mixed = arms();
-  scene_start(&mixed);
-  drive_all(&mixed);
-  for (int i = 0; i < ARMS; i++) give(&mixed, i + 1, shares[i]);
+  scene mixed = arms_sharing(shares);
   scene alone[ARMS];
   for (int i = 0; i < ARMS; i++) {
     alone[i] = arms();
@@ -140,10 +146,7 @@ END_TEST
 START_TEST(a_small_share_is_nearly_none)
 {
   static const float shares[ARMS] = {0, 0.001f, 0.01f};
-  scene s = arms();
-  scene_start(&s);
-  drive_all(&s);
-  for (int i = 0; i < ARMS; i++) give(&s, i + 1, shares[i]);
+  scene s = arms_sharing(shares);
   for (int tick = 0; tick < 180; tick++) {
     scene_ticks(&s, 1);
     ck_assert_float_eq_tol(rigid_state(&s, 2).center.y, rigid_state(&s, 1).center.y, 0.002f);
