@@ -1,5 +1,5 @@
-/* What the two halves of file.h share: file_shared.c, the same everywhere, and file_posix.c or
- * file_windows.c. */
+/* The files behind file.h: file.c is the same everywhere, and calls the system's, file_posix.c or
+ * file_windows.c; both use file_parts.c. */
 #ifndef SBFI_FILE_SYSTEM_H
 #define SBFI_FILE_SYSTEM_H
 
@@ -7,7 +7,7 @@
 
 enum { SBFI_FILE_BUFFER_BYTES = 1 << 16, SBFI_TEMPORARY_NAME_BYTES = 32 };
 
-/* Of the system's half. */
+/* ---- file_posix.c, file_windows.c ---- */
 
 /* Fills the error for the system's error `number` while `doing` ("open") something; its status. */
 sbf_status sbfi_file_fault(
@@ -27,7 +27,7 @@ int sbfi_file_shut(sbfi_file_writer *writer);
 int sbfi_file_rename(sbfi_file_writer *writer);
 void sbfi_file_remove(const char *path);
 
-/* Of the shared half. */
+/* ---- file_parts.c ---- */
 
 /* Makes room for more of what is read; false without memory. */
 bool sbfi_file_grow(sbfi_file_content *content, size_t capacity);
@@ -37,6 +37,5 @@ sbf_status sbfi_file_too_large(sbf_diagnostic *error, const char *path, uint64_t
 sbf_status sbfi_file_ends_early(sbf_diagnostic *error, const char *path, uint64_t offset, size_t missing);
 /* Memory for `final_path`, a temporary one beside it, and the buffer. */
 bool sbfi_file_writer_room(sbfi_file_writer *writer, const char *final_path);
-void sbfi_file_flush(sbfi_file_writer *writer);
 
 #endif

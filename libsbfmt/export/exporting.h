@@ -59,6 +59,8 @@ const sbf_level *sbfi_export_network(const sbf_soft_body *body);
 uint32_t sbfi_export_place(const sbf_level *level, uint32_t point);
 /* Whether the body is a sheet whose surface the level has every point of. */
 bool sbfi_export_is_sheet(const sbf_soft_body *body, const sbf_level *level);
+/* The lattice, or the springs of a sheet; NULL: neither. */
+const sbf_level *sbfi_export_level(const sbf_soft_body *body);
 /* The weight of a pin, within the set's bounds; 1 holds. */
 float sbfi_export_pin_weight(const sbf_pin_set *set, uint32_t k);
 /* The skin of a mesh that sections carry, each by its bone; NULL: none does. Of `arena`; false where memory

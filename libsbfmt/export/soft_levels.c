@@ -33,6 +33,13 @@ bool sbfi_export_is_sheet(const sbf_soft_body *body, const sbf_level *level) {
   return measures.sheet && body->surface.polygon_sizes.count;
 }
 
+const sbf_level *sbfi_export_level(const sbf_soft_body *body) {
+  const sbf_level *level = sbfi_export_lattice(body);
+  if (level) return level;
+  level = sbfi_export_network(body);
+  return level && sbfi_export_is_sheet(body, level) ? level : NULL;
+}
+
 float sbfi_export_pin_weight(const sbf_pin_set *set, uint32_t k) {
   float weight = set->weights.count > 1 ? set->weights.at[k] : set->weights.count ? set->weights.at[0] : 1;
   if (weight < set->minimum) weight = set->minimum;

@@ -62,7 +62,5 @@ bool sbfi_usda_mesh(usda_writer *w, uint32_t index);
 void sbfi_usda_rigid_bodies(usda_writer *w);
 void sbfi_usda_joints(usda_writer *w);
 bool sbfi_usda_soft_bodies(usda_writer *w); /* and the bones that hold their points */
-/* The level that is written of a soft body; NULL: none. */
-const sbf_level *sbfi_usda_level(const sbf_soft_body *body);
 
 #endif

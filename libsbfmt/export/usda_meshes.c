@@ -43,7 +43,7 @@ bool sbfi_usda_choose_meshes(usda_writer *w) {
     if (mesh->skin || mesh->full->bone >= 0) continue;
     int32_t body = carrier_of(asset, i);
     if (body == -2) w->shared++;
-    if (body >= 0 && asset->soft_bodies.at[body].bone < 0 && sbfi_usda_level(&asset->soft_bodies.at[body]))
+    if (body >= 0 && asset->soft_bodies.at[body].bone < 0 && sbfi_export_level(&asset->soft_bodies.at[body]))
       mesh->body = body, w->keys += mesh->full->shape_keys.count;
     else if (!sbfi_export_carried_skin(asset, i, &w->scratch, &mesh->skin))
       return false;

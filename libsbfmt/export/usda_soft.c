@@ -6,13 +6,6 @@
 #include "export/usda.h"
 #include "sbfmt/mechanics.h"
 
-const sbf_level *sbfi_usda_level(const sbf_soft_body *body) {
-  const sbf_level *level = sbfi_export_lattice(body);
-  if (level) return level;
-  level = sbfi_export_network(body);
-  return level && sbfi_export_is_sheet(body, level) ? level : NULL;
-}
-
 /* ---- The surface of a lattice ---- */
 
 typedef struct face {
@@ -240,7 +233,7 @@ static bool write_pins(
 static bool write_body(usda_writer *w, uint32_t index) {
   const sbf_asset *asset = w->e->asset;
   const sbf_soft_body *body = &asset->soft_bodies.at[index];
-  const sbf_level *level = sbfi_usda_level(body);
+  const sbf_level *level = sbfi_export_level(body);
   if (!level) {
     w->bare++;
     return true;

@@ -38,6 +38,9 @@ sbfi_path sbfi_path_of(const char *format, ...) __attribute__((format(printf, 1,
 void sbfi_found(sbfi_validation *v, sbf_code code, const char *path, int64_t index, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
+/* Says how many findings were not listed at the place that is left now. */
+void sbfi_leave_place(sbfi_validation *v);
+
 /* Zeroed scratch memory, never NULL for want of a count; NULL, with out_of_memory set, where it ran out. */
 void *sbfi_scratch(sbfi_validation *v, size_t count, size_t size);
 

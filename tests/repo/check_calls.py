@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Calls point one way: reads from the built runtime which file calls which, and names the circles.
+"""Calls point one way: reads from the built libraries which file calls which, and names the circles.
 
 Includes alone do not tell: a header may declare what any file defines. So `nm` is asked what each member of the
-static library defines and what it needs of the others, functions and tables alike.
+static libraries defines and what it needs of the others, functions and tables alike.
 
 - No files call each other in a circle.
-- Folders call only what their row in check_includes.py names.
+- Folders take inner names only of those that their row in check_includes.py names.
 
-Usage: check_calls.py LIBRARY.a"""
+Usage: check_calls.py LIBRARY.a..."""
 import os
 import sys
 
-from check_includes import RUNTIME
+from check_includes import MAY_USE, longest
 from check_symbols import run
 from repo_files import SKIPPED, conclude, project_files
 
@@ -59,32 +59,33 @@ def circles_of(calls):
                    for path in calls if path in reached[path]}, key=sorted)
 
 
-def folder_of(path):
-    return path.split("/")[1]
+def is_inner(name):
+    return not name.startswith(("sbf_", "sbr_"))
 
 
 def faults_of(calls, lost):
-    faults = [f"{name}: in the library, and no one source of the runtime has that name" for name in lost]
+    faults = [f"{name}: in a library, and no one source of the project has that name" for name in lost]
     for circle in circles_of(calls):
         ties = [f"\n  {a} takes {', '.join(sorted(calls[a][b]))} of {b}"
                 for a in sorted(circle) for b in sorted(calls[a]) if b in circle]
         faults.append("a circle: move what the lower file takes of the upper one below both" + "".join(ties))
     for a in sorted(calls):
+        folder = longest(MAY_USE, a)
         for b in sorted(calls[a]):
-            if folder_of(b) != folder_of(a) and folder_of(b) not in RUNTIME.get(folder_of(a), ()):
-                faults.append(f"{a}: {', '.join(sorted(calls[a][b]))} of {b}: {folder_of(a)} must not use {folder_of(b)}")
+            inner = sorted(filter(is_inner, calls[a][b]))
+            if inner and not any(b.startswith(one + "/") for one in MAY_USE[folder] or []):
+                faults.append(f"{a}: {', '.join(inner)} of {b}: {folder} must not use {b.rsplit('/', 1)[0]}")
     return faults
 
 
 def main():
-    if len(sys.argv) < 2 or not os.path.exists(sys.argv[1]):
+    libraries = [path for path in sys.argv[1:] if os.path.exists(path)]
+    if not libraries:
         print("skipped: no static library given, as in a build with BUILD_SHARED_LIBS")
         sys.exit(SKIPPED)
-    places = {}
-    for path in project_files():
-        if path.startswith("runtime/") and path.endswith(".c") and not path.startswith("runtime/hosts/"):
-            places[os.path.basename(path)] = path
-    calls, lost = read(run("nm", sys.argv[1]), places)
+    places = {os.path.basename(path): path for path in project_files()
+              if path.startswith(("libsbfmt/", "runtime/")) and path.endswith(".c") and not path.startswith("runtime/hosts/")}
+    calls, lost = read("".join(run("nm", path) for path in libraries), places)
     faults = faults_of(calls, lost)
     count = sum(len(names) for others in calls.values() for names in others.values())
     if len(calls) < 20 or count < 100:

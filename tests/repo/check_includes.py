@@ -9,8 +9,8 @@ import sys
 from repo_files import ROOT, conclude, project_files, read_text
 
 BASE = ["libsbfmt/base"]
-MODEL = BASE + ["libsbfmt/model"]
-CORE = MODEL + ["libsbfmt/packed", "libsbfmt/generated"]
+MODEL = BASE + ["libsbfmt/model", "libsbfmt/generated"]  # the schema's tables are the model's own
+CORE = MODEL + ["libsbfmt/packed"]
 MECHANICS = MODEL + ["libsbfmt/mechanics"]
 MOTION = MECHANICS + ["libsbfmt/motion"]
 FORMAT = CORE + ["libsbfmt/mechanics", "libsbfmt/motion", "libsbfmt/xml", "libsbfmt/validate", "libsbfmt/build"]
