@@ -6,7 +6,7 @@
 static bool parse_show(cli_call *call, unsigned *show) {
   static const char *const words[] = {"surface", "springs", "lattice", "bones", "hulls", "strain", "feet"};
   const char *text = cli_value(call, "--show");
-  *show = text ? 0 : STAGE_SURFACE;
+  *show = 0;
   while (text && *text) {
     size_t length = strcspn(text, ",");
     int found = -1;
@@ -85,9 +85,16 @@ sbf_status studio_dress(studio *st, sbf_diagnostic *error) {
   return st->stage ? SBF_OK : out_of_memory(error);
 }
 
+/* What there is to see of it, where nobody says what to show. */
+static unsigned usual_show(const sbf_asset *asset) {
+  if (asset->render_meshes.count || asset->soft_bodies.count) return STAGE_SURFACE;
+  return asset->bones.count ? STAGE_BONES : STAGE_HULLS;
+}
+
 sbf_status studio_open(studio *st, cli_call *call, draw_canvas *canvas, sbf_diagnostic *error) {
   st->canvas = canvas;
   st->call = call;
+  if (!cli_value(call, "--show")) st->show = usual_show(st->s.asset);
   sbf_status status = draw_painter_create(&st->painter, st->canvas, error);
   if (status != SBF_OK) return status;
   if (!(st->scene = draw_scene_create())) return out_of_memory(error);

@@ -10,14 +10,15 @@
 
 /* The options that all who draw share, but for sizes, which are each one's own. */
 #define STUDIO_OPTIONS                                                                                       \
-  {"--show", "LIST", "surface, springs, lattice, bones, hulls, strain, feet (surface)"},                     \
+  {"--show", "LIST",                                                                                         \
+      "surface, springs, lattice, bones, hulls, strain, feet (surface; without one: bones, or hulls)"},      \
       {"--view", "YAW,PITCH", "from where, degrees: 0 ahead, 90 its left; above (41,15)"}, {                 \
     "--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"       \
   }
 
 typedef struct studio {
   session s;
-  unsigned show; /* STAGE_SURFACE and so on */
+  unsigned show; /* STAGE_SURFACE and so on; 0 until studio_open where the call does not say */
   uint32_t render_level;
   float yaw, pitch; /* from where the camera looks at first, rad */
   stage *stage;

@@ -8,7 +8,7 @@ import unittest
 import zlib
 
 import textured_box
-from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes, read_text
+from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes, read_text, write_bytes
 
 SMALL = ("--size", "160x120")
 
@@ -74,6 +74,20 @@ class Render(ProgramTest):
         out = self.path(name)
         self.good("render", self.file, "-o", out, *arguments)
         return read_bytes(out)
+
+    def test_a_skeleton_alone_shows_its_bones(self):
+        rig = self.path("arm.bvh")
+        write_bytes(rig, b"HIERARCHY\nROOT Hips\n{\nOFFSET 0 1 0\nCHANNELS 3 Xposition Yposition Zposition\n"
+                    b"JOINT Arm\n{\nOFFSET 0 0.5 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n"
+                    b"OFFSET 0.5 0 0\n}\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 1 0 0 0 0\n")
+        file, out = self.path("arm.sbf"), self.path("arm.png")
+        self.good("convert", rig, "-o", file)
+        pictures = []
+        for show in ((), ("--show", "bones"), ("--show", "surface")):
+            self.good("render", file, "-o", out, *SMALL, *show)
+            pictures.append(read_bytes(out))
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[0], pictures[2])
 
     def test_a_picture_has_the_size_asked_for(self):
         for size in ("160x120", "97x41"):
