@@ -121,3 +121,16 @@ void sbr_collider_place(sbr_world *world, sbr_collider_id collider, sbr_double3 
   c->turn_from = c->turn_to = c->turn_next = sbri_quat_normalize(rotation);
   stir(world);
 }
+
+static sbf_vec3 taken(double sum[3]) {
+  sbf_vec3 all = {(float)sum[0], (float)sum[1], (float)sum[2]};
+  sum[0] = sum[1] = sum[2] = 0;
+  return all;
+}
+
+sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id collider) {
+  sbri_collider *c = collider_of(world, collider);
+  if (!c) return (sbr_collider_push){{0, 0, 0}, {0, 0, 0}};
+  sbf_vec3 impulse = taken(c->impulse);
+  return (sbr_collider_push){impulse, taken(c->moment)};
+}

@@ -13,6 +13,7 @@ typedef struct sbri_collider {
   sbf_quat turn_from, turn_to, turn_next;
   float friction, restitution; /* negative: of what touches it */
   uint32_t layer, mask;
+  double impulse[3], moment[3]; /* N s and N m s about `to`, that it was pushed with; output, not state */
 } sbri_collider;
 
 typedef struct sbri_collider_set {

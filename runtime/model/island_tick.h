@@ -42,6 +42,7 @@ typedef struct sbri_touch {
   float gain;        /* m/s that the push gives the sample along the normal */
   sbf_vec3 rub;      /* and friction across it */
   float pushed;      /* most of the gains in the tick */
+  sbf_vec3 given;    /* m/s that all pushes of the tick have given the sample */
   float
       fast_m_s; /* it nears its plane no faster in the tick, but for what springs and weight add; 0: it may */
   float idle_s; /* for how long it cannot touch */

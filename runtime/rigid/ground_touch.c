@@ -122,6 +122,7 @@ void sbri_ground_touches_make(
     float wanted = touch->gap > 0 ? -touch->gap / step_s : lift < LIFT_MOST_M_S ? lift : LIFT_MOST_M_S;
     float weight = 1 / ease(body, s->pose.rotation, touch->arm, n), alone = weight * (wanted - speed);
     touch->target = sbri_sub(sbri_scale(n, wanted), u);
+    touch->more = sbri_vec3(0, 0, 0);
     touch->bounce_m_s = 0;
     if (speed < wanted && -speed > bounce_from) {
       /* Velocities are those half a substep ago; before, the substep's own fall is in it. */
@@ -189,6 +190,14 @@ void sbri_ground_touches_add(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++)
     if (work->touches[i].active || work->touches[i].bound > 0)
       add_touch(&work->system.nodes[work->touches[i].node], &work->touches[i]);
+}
+
+/* W x of add_touch. */
+static sbf_vec3 given_way(const sbri_ground_touch *touch, sbf_vec3 x) {
+  float along = sbri_dot(touch->normal, x);
+  sbf_vec3 f = sbri_scale(touch->normal, touch->active ? touch->stiff * along : 0);
+  if (touch->slides) return sbri_add_scaled(f, touch->side, touch->side_grip * sbri_dot(touch->side, x));
+  return sbri_add_scaled(f, sbri_add_scaled(x, touch->normal, -along), touch->grip);
 }
 
 static sbf_vec3 moved_by(const sbri_ground_touch *touch, const double x[6]) {
@@ -271,6 +280,15 @@ bool sbri_ground_touches_bound(sbri_rigid_solving *work) {
   return true;
 }
 
+void sbri_ground_touches_give(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    sbri_ground_touch *touch = &work->touches[i];
+    if (!touch->active && !(touch->bound > 0)) continue;
+    sbf_vec3 way = given_way(touch, moved_by(touch, work->system.nodes[touch->node].x));
+    touch->more = sbri_sub(touch->more, way);
+  }
+}
+
 void sbri_ground_touches_tell(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
@@ -279,9 +297,12 @@ void sbri_ground_touches_tell(const sbri_rigid_tick *t, sbri_rigid_solving *work
     touch->known = true;
     touch->normal_n = normal / work->kick_s;
     touch->drag_n = sbri_scale(across, normal > 0 ? 1 / work->kick_s : 0);
-    if (normal > 0)
-      sbri_touching_add(&t->touching[touch->body], touch->collider,
-          sbri_add(t->bodies[touch->body].pose.position, touch->arm), touch->normal, normal);
+    if (!(normal > 0)) continue;
+    sbf_vec3 place = sbri_add(t->bodies[touch->body].pose.position, touch->arm);
+    sbri_touching_one *one =
+        sbri_touching_add(&t->touching[touch->body], touch->collider, place, touch->normal, normal);
+    sbf_vec3 push = sbri_add(sbri_add_scaled(across, touch->normal, normal), touch->more);
+    if (one) sbri_touching_push(one, place, push);
   }
 }
 
@@ -295,6 +316,7 @@ bool sbri_ground_touches_bounce(sbri_rigid_solving *work) {
     sbf_vec3 moment = sbri_cross(touch->arm, f);
     const float both[6] = {f.x, f.y, f.z, moment.x, moment.y, moment.z};
     for (int k = 0; k < 6; k++) work->system.nodes[touch->node].b[k] += both[k];
+    touch->more = sbri_add(touch->more, f);
     any = true;
   }
   return any;

@@ -69,6 +69,7 @@ typedef struct sbri_ground_touch {
   float doubt;       /* N s, that make no difference */
   sbf_vec3 was, moved; /* its change of velocity by the pass before, and by the last */
   bool active, slides;
+  sbf_vec3 more; /* N s, given on top of what the passes came to */
 } sbri_ground_touch;
 
 /* And what is kept of it to the next tick. */

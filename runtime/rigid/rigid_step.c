@@ -210,6 +210,7 @@ static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     if (sbri_joint_rows_bounce(work, &work->system.edges[e], t->model)) any = true;
   if (!any) return;
   sbri_system_solve(&work->system);
+  sbri_ground_touches_give(work);
   take(t, work);
 }
 
@@ -232,6 +233,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
     if (pass > 0 && worst < FINE) break;
     clear_b(work);
     sbri_system_solve(s);
+    sbri_ground_touches_give(work);
     take_and_go(t, work, step_s);
   }
   return worst < COARSE && curved < CURVED;
@@ -256,8 +258,8 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float fr
     return;
   }
   work->last_step_s = t->tick_s * (to - from);
-  sbri_ground_touches_tell(t, work);
   throw_back(t, work);
+  sbri_ground_touches_tell(t, work);
   note_forces(t, work);
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     uint32_t b = work->system.nodes[i].body;

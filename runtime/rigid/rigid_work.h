@@ -96,6 +96,8 @@ void sbri_ground_touches_make(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, float since_s, float step_s);
 /* Adds what acts to the nodes' d and b. */
 void sbri_ground_touches_add(sbri_rigid_solving *work);
+/* Adds to what each has given what a solve beyond the passes, by the nodes' x, makes it give. */
+void sbri_ground_touches_give(sbri_rigid_solving *work);
 /* Notes what the bodies touch, when a substep is over, and what the next one begins with. */
 void sbri_ground_touches_tell(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 /* To the nodes' b what throws back those that have struck the ground, at the substep's end; whether any is.

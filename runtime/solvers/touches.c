@@ -117,8 +117,8 @@ static void answer_alone(const touching *c, sbri_touch *touch, const sbri_contac
   }
   sbf_vec3 sideways = sbri_add_scaled(v, n, -speed);
   float size = sbri_length(sideways), most = friction_of(c, touch, rule) * touch->gain;
-  sbf_vec3 change = sbri_scale(n, touch->gain);
-  change = sbri_add_scaled(change, sideways, size > most ? -most / size : -1);
+  touch->rub = sbri_scale(sideways, size > most ? -most / size : -1);
+  sbf_vec3 change = sbri_add_scaled(touch->rub, n, touch->gain);
   velocity[0] += change.x, velocity[SBRI_BLOCK] += change.y, velocity[2 * SBRI_BLOCK] += change.z;
   float up = lift_of(touch, rule);
   if (up > 0) x->x += up * n.x, x->y += up * n.y, x->z += up * n.z;
@@ -183,8 +183,12 @@ void sbri_touches_answer(
 
 void sbri_touches_go_on(const sbri_island_tick *t, const sbri_body *body, float step_s) {
   touching c = touching_of(t, body, t->velocities);
-  for (uint32_t i = 0; i < c.count; i++)
-    c.touches[i].offset += step_s * sbri_dot(c.touches[i].normal, c.touches[i].velocity);
+  for (uint32_t i = 0; i < c.count; i++) {
+    sbri_touch *touch = &c.touches[i];
+    touch->offset += step_s * sbri_dot(touch->normal, touch->velocity);
+    if (touch->gain > 0)
+      touch->given = sbri_add(touch->given, sbri_add_scaled(touch->rub, touch->normal, touch->gain));
+  }
 }
 
 static void tell_planes(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
@@ -202,9 +206,12 @@ void sbri_touches_tell(const sbri_island_tick *t, const sbri_body *body, sbri_to
   sbri_touching_begin(to);
   for (uint32_t i = 0; i < sbri_touch_count(t, body); i++) {
     const sbri_touch *touch = &t->touches[body->first_touch + i];
-    if (touch->pushed > 0 && touch->collider != SBRI_ITSELF)
-      sbri_touching_add(to, touch->collider, sbri_sample_place(t, &touch->sample), touch->normal,
-          touch->pushed * touch->sample.mass_kg);
+    if (touch->collider == SBRI_ITSELF || !(touch->pushed > 0 || sbri_dot(touch->normal, touch->given) > 0))
+      continue;
+    sbf_vec3 place = sbri_sample_place(t, &touch->sample);
+    sbri_touching_one *one =
+        sbri_touching_add(to, touch->collider, place, touch->normal, touch->pushed * touch->sample.mass_kg);
+    if (one) sbri_touching_push(one, place, sbri_scale(touch->given, touch->sample.mass_kg));
   }
   tell_planes(t, body, to);
 }
@@ -217,7 +224,7 @@ void sbri_touches_remember(const sbri_island_tick *t, const sbri_body *body) {
 void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
   touching c = touching_of(t, body, t->velocities);
   for (uint32_t i = 0; i < c.count; i++) {
-    const sbri_touch *touch = &c.touches[i];
+    sbri_touch *touch = &c.touches[i];
     const sbri_sample *s = &touch->sample;
     float least = touch->gap < -rule->slack_m ? touch->gap : -rule->slack_m, lift = least - gap_of(&c, touch);
     if (!(lift > 0)) continue;
@@ -227,5 +234,6 @@ void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const 
     float size = sbri_length(sideways), most = friction_of(&c, touch, rule) * gain;
     sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
     push(&c, s, change, sbri_scale(change, rule->step_s));
+    touch->given = sbri_add(touch->given, change);
   }
 }

@@ -25,6 +25,30 @@ static uint32_t body_of_tear(const sbr_model *model, const sbri_island *island, 
   return island->bodies[0];
 }
 
+/* Gives colliders the other side of what pushed a body. Of one that sleeps it is what it lay down with. */
+static void push_colliders(sbr_world *world, const sbri_character *c, sbri_touching *touching, bool asleep) {
+  bool acts = touching->stepped || asleep;
+  touching->stepped = false;
+  double mass = (double)(c->scale * c->scale * c->scale) / (double)c->time_scale, scale = (double)c->scale;
+  for (uint32_t i = 0; acts && i < touching->count; i++) {
+    const sbri_touching_one *one = &touching->now[i];
+    if (one->thing >= world->colliders.end || !world->colliders.at[one->thing].shape) continue;
+    sbri_collider *collider = &world->colliders.at[one->thing];
+    sbr_double3 origin = sbri_head(c)->origin;
+    const double arm[3] = {origin.x + scale * (double)one->place.x - collider->to.x,
+        origin.y + scale * (double)one->place.y - collider->to.y,
+        origin.z + scale * (double)one->place.z - collider->to.z};
+    const double push[3] = {
+        -mass * (double)one->push.x, -mass * (double)one->push.y, -mass * (double)one->push.z};
+    const float moment[3] = {one->moment.x, one->moment.y, one->moment.z};
+    for (int k = 0; k < 3; k++) {
+      int a = (k + 1) % 3, b = (k + 2) % 3;
+      collider->impulse[k] += push[k];
+      collider->moment[k] += arm[a] * push[b] - arm[b] * push[a] - mass * scale * (double)moment[k];
+    }
+  }
+}
+
 /* What has begun to be touched; `soft` and `rigid` name the body. */
 static void add_contacts(
     sbr_world *world, const sbri_character *c, sbri_touching *touching, uint32_t soft, int32_t rigid) {
@@ -41,10 +65,24 @@ static void add_contacts(
   }
 }
 
+static void push_from(sbr_world *world, const sbri_character *c) {
+  if (sbri_head(c)->paused) return;
+  for (uint32_t k = 0; k < c->model->island_count; k++) {
+    const sbri_island *island = &c->model->islands[k];
+    bool asleep = sbri_head(c)->asleep || sbri_island_states(c)[k].asleep;
+    for (uint32_t b = 0; b < island->body_count; b++)
+      push_colliders(world, c, &sbri_soft_touching(c)[island->bodies[b]], asleep);
+  }
+  uint32_t rigid = c->model->rigid.body_count;
+  bool asleep = sbri_head(c)->asleep || (rigid && sbri_rigid_drive(c)->asleep);
+  for (uint32_t b = 0; b < rigid; b++) push_colliders(world, c, &sbri_rigid_touching(c)[b], asleep);
+}
+
 void sbri_tick_events_gather(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbri_character *c = &world->characters[i];
     if (!c->model) continue;
+    if (world->colliders.end) push_from(world, c);
     for (uint32_t e = 0; e < c->event_count; e++) {
       const sbri_gait_event *from = &c->events[e];
       add_event(

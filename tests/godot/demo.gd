@@ -4,6 +4,7 @@ extends "checks.gd"
 var scene: Node3D
 var start := Vector3.ZERO
 var least := INF
+var balls := []
 
 
 func _initialize() -> void:
@@ -24,6 +25,8 @@ func press(key: Key, down: bool) -> void:
 func _physics_process(_delta: float) -> bool:
 	frame += 1
 	var lizard: SoftCharacter3D = scene.get_node("Lizard")
+	if frame == 60:
+		balls = range(1, 5).map(func(i): return scene.get_node("Ball%d" % i).position)
 	if frame == 20:
 		press(KEY_UP, true)
 	if frame == 260:
@@ -37,6 +40,9 @@ func _physics_process(_delta: float) -> bool:
 		press(KEY_UP, false)
 		check(lizard.get_travelled() > 1.2, "it went %f m" % lizard.get_travelled())
 		check(lizard.rotation.y > 0.5, "it turned by %f" % lizard.rotation.y)
+		var rolled := range(1, 5).map(func(i): return balls[i - 1].distance_to(scene.get_node("Ball%d" % i).position))
+		print("balls rolled ", rolled)
+		check(rolled.max() > 0.2, "no ball was pushed away: %s" % [rolled])
 		check(scene.steps > 20, "%d steps were told" % scene.steps)
 		check(least > -0.02 and least < 0.02, "the lowest point of its skin is %f above the hills" % least)
 		print("went %f m, turned %f, %d steps, lowest %f" % [lizard.get_travelled(), lizard.rotation.y, scene.steps, least])

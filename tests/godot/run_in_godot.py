@@ -34,6 +34,31 @@ def packed(program, folder):
         os.remove(text)
 
 
+def cube(program, folder, cells=6, side=0.3):
+    """A closed cube of flesh that nothing holds, of 27 kg, standing on y = 0."""
+    points, faces = {}, []
+    def point(*at):
+        return points.setdefault(at, len(points) + 1)
+    for a in range(cells):
+        for b in range(cells):
+            around = [(a, b), (a + 1, b), (a + 1, b + 1), (a, b + 1)]
+            for axis in range(3):
+                for end in (0, cells):
+                    corners = [point(*(pair[:axis] + (end,) + pair[axis:])) for pair in around]
+                    faces.append(corners if (end > 0) == (axis != 1) else corners[::-1])
+    path = os.path.join(folder, "cube.obj")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("o Cube\n")
+        for x, y, z in points:
+            file.write(f"v {side * (x / cells - 0.5)} {side * y / cells} {side * (z / cells - 0.5)}\n")
+        for corners in faces:
+            file.write("f " + " ".join(map(str, corners)) + "\n")
+    subprocess.run([program, "convert", path, "-o", path[:-3] + "sbf"], check=True, capture_output=True)
+    subprocess.run([program, "pack", path[:-3] + "sbf", "--store", "-o", path[:-3] + "sbfz"], check=True, capture_output=True)
+    os.remove(path)
+    os.remove(path[:-3] + "sbf")
+
+
 def native(program, folder, name="lizard"):
     """What the program itself says of ten seconds on level ground."""
     done = subprocess.run([program, "run", os.path.join(folder, name + ".sbfz"), "--seconds", "10", "--drive", "0.25,0", "--format", "json"],
@@ -140,8 +165,10 @@ def main():
         if asked.case == "values":
             told = native(asked.program, godot.folder)
             passed = godot.passes("values", told["state_hash"], str(told["distance"]), str(sum(told["steps_taken"].values())))
-        elif asked.case in ("ground", "bodies"):
+        elif asked.case in ("ground", "bodies", "push"):
             passed = True
+            if asked.case == "push":
+                cube(asked.program, godot.folder)
             for engine in ENGINES:
                 godot.set_engine(engine)
                 passed = godot.passes(asked.case) and passed

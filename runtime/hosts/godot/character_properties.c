@@ -70,6 +70,8 @@ SETTING(ground, int, soft_character_make(one))
 SETTING(ground_cell, float, soft_character_make(one))
 SETTING(ground_reach, float, soft_character_make(one))
 SETTING(collision_mask, int, (void)one)
+SETTING(push_bodies, bool, (void)one)
+SETTING(push_limit, float, (void)one)
 #undef SETTING
 
 enum { HINT_RANGE = 1, HINT_ENUM = 2, HINT_LAYERS_3D_PHYSICS = 11, HINT_RESOURCE_TYPE = 17 };
@@ -112,5 +114,7 @@ const gd_property soft_character_properties[] = {
     SHOWN("ground_cell", FLOAT, HINT_RANGE, "0,1,0.001,or_greater,suffix:m", "get_", ground_cell),
     SHOWN("ground_reach", FLOAT, HINT_RANGE, "0,10,0.01,or_greater,suffix:m", "get_", ground_reach),
     SHOWN("collision_mask", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_mask),
+    SHOWN("push_bodies", BOOL, 0, NULL, "is_", push_bodies),
+    SHOWN("push_limit", FLOAT, HINT_RANGE, "0,20,0.1,or_greater,suffix:m/s", "get_", push_limit),
     {0},
 };

@@ -64,7 +64,10 @@ void soft_character_place(soft_character *one, sbf_vec3 position, float heading)
   float basis[3][3] = {{k * c, 0, k * s}, {0, k, 0}, {-k * s, 0, k * c}};
   one->put.origin = position;
   memcpy(one->put.basis, basis, sizeof basis);
-  if (one->settings.ground == SOFT_GROUND_PHYSICS) physics_ground_look(one);
+  if (one->settings.ground == SOFT_GROUND_PHYSICS) {
+    physics_bodies_look(one, true); /* which are no ground */
+    physics_ground_look(one);
+  }
   double above = position.y - soft_character_ground_height(one, position.x, position.z);
   /* What walks stands on the ground wherever it was put above it; what is loose falls from there. */
   if ((one->model->asset->gaits.count && !one->settings.free_bodies) || above < 0) above = 0;
@@ -288,11 +291,12 @@ static void step(soft_character *one) {
     soft_character_place(one, now.origin, heading_of(&now));
     one->placed = true;
   } else if (one->settings.ground == SOFT_GROUND_PHYSICS && !one->settings.paused) {
-    physics_bodies_look(one);
+    physics_bodies_look(one, false);
     physics_ground_look(one);
   }
   if (one->settings.paused) return;
   sbr_world_step(one->world, gd_take_float(GD_CALL(&one->node, "get_physics_process_delta_time")));
+  physics_bodies_push(one);
   soft_character_follow(one);
   character_skeleton_update(one);
   one->stale = true;
@@ -323,7 +327,12 @@ static void begin(void *self, GDExtensionObjectPtr object) {
   one->asset_value = gd_nil();
   one->skeleton = gd_nil();
   one->editor = gd_take_bool(GD_CALL(&engine, "is_editor_hint"));
-  one->settings = (soft_settings){.gravity_scale = 1, .skeleton = true, .threads = true, .collision_mask = 1};
+  one->settings = (soft_settings){.gravity_scale = 1,
+      .skeleton = true,
+      .threads = true,
+      .collision_mask = 1,
+      .push_bodies = true,
+      .push_limit = 5};
   gd_free(&engine);
 }
 

@@ -25,6 +25,8 @@ typedef struct soft_settings {
   int64_t ground;                   /* a soft_ground */
   double ground_cell, ground_reach; /* m; 0: by the character's size */
   int64_t collision_mask;           /* physics layers of what it meets */
+  bool push_bodies;
+  double push_limit; /* m/s by which a frame's push makes a body faster at most; 0: no bound */
 } soft_settings;
 
 typedef struct character_mesh character_mesh;
@@ -103,8 +105,11 @@ void physics_ground_level(physics_ground *ground, double level);
 
 physics_bodies *physics_bodies_make(void);
 void physics_bodies_free(physics_bodies *bodies, sbr_world *world);
-/* Makes colliders of the moving bodies near the character, and moves those that there are. */
-void physics_bodies_look(soft_character *one);
+/* Makes colliders of the moving bodies near the character, for which it looks now or by and by, and moves
+ * those that there are. */
+void physics_bodies_look(soft_character *one, bool now);
+/* Gives the bodies what the last step has pushed them with. */
+void physics_bodies_push(soft_character *one);
 /* Their handles, which rays leave out: an array of RIDs; and the object that a collider is of, or null. */
 gd_variant physics_bodies_handles(const physics_bodies *bodies);
 gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider);

@@ -96,6 +96,18 @@ SBF_API void sbr_collider_move(
 SBF_API void sbr_collider_place(
     sbr_world *world, sbr_collider_id collider, sbr_double3 position, sbf_quat rotation);
 
+/* What a collider was pushed with: what soft bodies and hulls of simulated rigid bodies that touched it were
+ * pushed with themselves, friction included, the other way. */
+typedef struct sbr_collider_push {
+  sbf_vec3 impulse; /* N s, world axes */
+  sbf_vec3 moment;  /* N m s, about where the collider's position was at the end of the last tick */
+} sbr_collider_push;
+/* All since it was last asked, or made. Characters meet a collider as something that nothing can move; a
+ * host whose own body it is gives this to the body, before it moves that: what the two have of momentum is
+ * then kept. A body that touches more than four things at once pushes the first four. Output, as events are:
+ * snapshots do not hold it. */
+SBF_API sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id collider);
+
 /* ---- Each other --------------------------------------------------------------------------------------- */
 
 /* From now on bodies of characters meet each other as well: soft ones, and hulls of rigid ones, of one

@@ -1,0 +1,167 @@
+/* What a host's bodies are pushed with: the two have as much momentum after as before. */
+#include <math.h>
+
+#include "collision_scenes.h"
+#include "harness.h"
+#include "momentum.h"
+#include "rigid_scenes.h"
+
+/* A body of the host, which goes by what its collider was pushed with. */
+typedef struct guest {
+  sbr_shape *shape;
+  sbr_collider_id id;
+  double mass, at[3], velocity[3], spin[3]; /* kg, m, m/s, kg m^2/s about its middle */
+} guest;
+
+static sbr_shape_definition a_ball(void) {
+  sbr_shape_definition d = sbr_default_shape_definition();
+  d.radius = 0.3f;
+  return d;
+}
+
+static sbr_shape_definition a_box(float half) {
+  sbr_shape_definition d = sbr_default_shape_definition();
+  d.kind = SBR_SHAPE_BOX, d.half_sizes = (sbf_vec3){half, half, half};
+  return d;
+}
+
+static guest guest_of(
+    scene *s, sbr_shape_definition form, double mass, sbr_double3 at, sbr_double3 velocity) {
+  guest g = {.shape = collision_shape(form), .mass = mass, .at = {at.x, at.y, at.z}};
+  g.velocity[0] = velocity.x, g.velocity[1] = velocity.y, g.velocity[2] = velocity.z;
+  sbr_collider_definition d = sbr_default_collider_definition();
+  d.shape = g.shape, d.position = at, d.friction = 0.5f, d.restitution = 0;
+  ck_assert(sbr_collider_create(s->world, &d, &g.id, NULL) == SBF_OK);
+  return g;
+}
+
+/* It takes the push that it got, and its way of the next tick; turning does not show in a ball, nor in what
+ * little a box turns. */
+static void guest_tick(scene *s, guest *g, double tick_s) {
+  sbr_collider_move(s->world, g->id,
+      (sbr_double3){g->at[0] + tick_s * g->velocity[0], g->at[1] + tick_s * g->velocity[1],
+          g->at[2] + tick_s * g->velocity[2]},
+      (sbf_quat){0, 0, 0, 1});
+  scene_ticks(s, 1);
+  sbr_collider_push push = sbr_collider_take_push(s->world, g->id);
+  const float j[3] = {push.impulse.x, push.impulse.y, push.impulse.z},
+              l[3] = {push.moment.x, push.moment.y, push.moment.z};
+  for (int k = 0; k < 3; k++) {
+    g->at[k] += tick_s * g->velocity[k];
+    g->velocity[k] += (double)j[k] / g->mass;
+    g->spin[k] += (double)l[k];
+  }
+}
+
+static scene_momentum all_of(const scene *s, const guest *g) {
+  scene_momentum m = scene_momentum_of(s);
+  for (int k = 0; k < 3; k++) {
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    m.linear[k] += g->mass * g->velocity[k];
+    m.angular[k] += g->mass * (g->at[i] * g->velocity[j] - g->at[j] * g->velocity[i]) + g->spin[k];
+  }
+  return m;
+}
+
+/* Turning but as well as the host goes by ticks: it gets a push where its place is at the end of one. */
+static void assert_kept(const scene_momentum *is, const scene_momentum *was, double within, double turning) {
+  for (int k = 0; k < 3; k++) {
+    ck_assert_double_eq_tol(is->linear[k], was->linear[k], within);
+    ck_assert_double_eq_tol(is->angular[k], was->angular[k], turning);
+  }
+}
+
+/* A cloth is struck by a ball, off its middle and from aside, by each scheme that follows the energy. */
+START_TEST(a_ball_and_a_cloth_keep_their_momentum)
+{
+  const sbf_scheme schemes[3] = {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_POSITION_BASED, SBF_SCHEME_HEUN};
+  scene s = scene_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
+  s.character_definition.position = (sbr_double3){0, 1000, 0};
+  collision_sheet(&s, 0, (sbf_vec3){0, 0.5f, 0}, 1, 12, false);
+  s.model_options.scheme = schemes[_i];
+  scene_start(&s);
+  guest g = guest_of(&s, a_ball(), 0.5, (sbr_double3){0.1, 0, 0.05}, (sbr_double3){1, 3, 0});
+  scene_momentum before = all_of(&s, &g);
+  for (int i = 0; i < 60; i++) guest_tick(&s, &g, 1.0 / 60);
+  scene_momentum after = all_of(&s, &g);
+  ck_assert_double_lt(g.velocity[1], 2.9); /* it has given some of it away */
+  ck_assert_double_gt(g.spin[2] * g.spin[2] + g.spin[0] * g.spin[0], 1e-8);
+  assert_kept(&after, &before, 2e-5, 1e-3);
+  scene_free(&s);
+  sbr_shape_destroy(g.shape);
+}
+END_TEST
+
+/* Two rigid boxes on a joint, thrown at the host's. */
+START_TEST(boxes_keep_their_momentum)
+{
+  scene s = rigid_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
+  s.character_definition.position.y = 1000;
+  rigid_box(&s, (sbf_vec3){0, 0.8f, 0.05f}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
+  rigid_box(&s, (sbf_vec3){0.3f, 0.8f, 0.05f}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 0.5f);
+  rigid_joint(&s, SBF_JOINT_KIND_SPHERICAL, 0, 1, (sbf_vec3){0.15f, 0.8f, 0.05f}, (sbf_quat){0, 0, 0, 1});
+  rigid_body(&s, 0)->restitution = _i ? 0.5f : 0;
+  scene_start(&s);
+  sbr_character_rigid_push(s.world, s.character, 0, (sbr_double3){0, 0.8, 0.05}, (sbf_vec3){0.3f, -3, 0});
+  guest g = guest_of(&s, a_box(0.3f), 4, (sbr_double3){0, 0, 0}, (sbr_double3){0, 0, 0});
+  scene_ticks(&s, 2);
+  scene_momentum before = all_of(&s, &g);
+  for (int i = 0; i < 40; i++) guest_tick(&s, &g, 1.0 / 60);
+  scene_momentum after = all_of(&s, &g);
+  ck_assert_double_lt(g.velocity[1], -0.3);
+  assert_kept(&after, &before, 1e-4, 5e-3);
+  scene_free(&s);
+  sbr_shape_destroy(g.shape);
+}
+END_TEST
+
+/* What lies on it pushes with its weight, of any size, and goes on when it sleeps. */
+START_TEST(what_lies_weighs)
+{
+  scene s = scene_begin();
+  const sbf_vec3 at[2] = {{0.1f, 0.011f, 0}, {-0.1f, 0.011f, 0}};
+  const float masses[2] = {1, 2}, scale = _i ? 2.0f : 1.0f;
+  const sbf_uint2 ends[1] = {{{0, 1}}};
+  const float stiffness[1] = {4000};
+  sbf_level *level = scene_points(&s, 0, at, masses, 2);
+  scene_springs(&s, level, ends, stiffness, 1);
+  scene_body(&s, 0)->attributes.media_friction = 1;
+  s.character_definition.position = (sbr_double3){0, 1000, 0};
+  s.character_definition.scale = scale;
+  s.world_definition.sleep_after_s = 0.3;
+  scene_start(&s);
+  guest g = guest_of(&s, a_box(1), 1, (sbr_double3){0, -1, 0}, (sbr_double3){0, 0, 0});
+  scene_ticks(&s, 50);
+  bool slept = false;
+  for (int i = 0; i < 60; i++) {
+    (void)sbr_collider_take_push(s.world, g.id);
+    scene_ticks(&s, 1);
+    sbr_collider_push push = sbr_collider_take_push(s.world, g.id);
+    float k = scale * scale * scale, weight = 3 * k * 9.81f / 60;
+    ck_assert_float_eq_tol(push.impulse.y, -weight, 0.02f * weight);
+    ck_assert_float_eq_tol(push.moment.z, 0.1f * scale * weight / 3, 0.02f * weight);
+    slept = slept || sbr_world_awake(s.world) == 0;
+  }
+  ck_assert(slept);
+  sbr_collider_push none = sbr_collider_take_push(s.world, g.id);
+  ck_assert(none.impulse.y == 0 && none.moment.z == 0); /* it was asked already */
+  sbr_character_pause(s.world, s.character, true);
+  scene_ticks(&s, 5);
+  ck_assert(sbr_collider_take_push(s.world, g.id).impulse.y == 0);
+  ck_assert(sbr_collider_take_push(s.world, (sbr_collider_id){77}).impulse.y == 0);
+  scene_free(&s);
+  sbr_shape_destroy(g.shape);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("collider_host");
+  TCase *tests = tcase_create("all");
+  tcase_add_loop_test(tests, a_ball_and_a_cloth_keep_their_momentum, 0, 3);
+  tcase_add_loop_test(tests, boxes_keep_their_momentum, 0, 2);
+  tcase_add_loop_test(tests, what_lies_weighs, 0, 2);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
