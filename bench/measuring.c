@@ -33,15 +33,6 @@ void bench_rounds(bench_case *cases, uint32_t case_count, uint32_t rounds) {
 
 /* ---- Where and when ---- */
 
-/* The end of every row. */
-static const char *where_and_when(void) {
-  static char text[512];
-  if (*text) return text;
-  chart_machine m = chart_this_machine();
-  snprintf(text, sizeof text, "%s,%s,%u,%s,%s", m.commit, m.compiler, (unsigned)m.lanes, m.processor, m.date);
-  return text;
-}
-
 void bench_print_columns(const char *columns) {
   printf("%s,%s\n", columns, CHART_MACHINE_COLUMNS);
 }
@@ -51,7 +42,11 @@ void bench_print_row(const char *format, ...) {
   va_start(arguments, format);
   vprintf(format, arguments);
   va_end(arguments);
-  printf(",%s\n", where_and_when());
+  static chart_machine machine;
+  if (!machine.lanes) machine = chart_this_machine();
+  putchar(',');
+  chart_machine_write(stdout, &machine);
+  putchar('\n');
   fflush(stdout);
 }
 

@@ -87,6 +87,7 @@ static void take_counts(sbri_character *c, const sbr_model *was) {
     const sbri_island_state *from = &kept[was->bodies[body].island];
     sbri_island_states(c)[i].recoveries = from->recoveries;
     sbri_island_states(c)[i].recovering = from->recovering;
+    sbri_island_states(c)[i].passes = from->passes;
     sbri_island_states(c)[i].told_asleep = from->told_asleep;
   }
 }

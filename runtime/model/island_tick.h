@@ -100,7 +100,12 @@ typedef struct sbri_island_tick {
   float *least_ratio; /* out: least J of the tetrahedra when last looked at, 1 without them */
   float *stretch;     /* greatest share of a spring beyond its rest length: in of the last tick, out
                          of this one's last substep */
+  uint32_t *passes;   /* over all elements are added to; NULL: nobody counts */
 } sbri_island_tick;
+
+static inline void sbri_count_passes(const sbri_island_tick *t, uint32_t passes) {
+  if (t->passes) *t->passes += passes;
+}
 
 /* Velocity of a slot; of held ones that of their way through the tick. */
 static inline sbf_vec3 sbri_slot_velocity(const sbri_island_tick *t, const float *velocities, uint32_t slot) {

@@ -9,6 +9,13 @@ sbr_body_health sbr_character_health(const sbr_world *world, sbr_character_id ch
   return sbri_body_health(world, c, soft_body);
 }
 
+uint32_t sbr_character_passes(const sbr_world *world, sbr_character_id character, uint32_t soft_body) {
+  const sbri_character *c = sbri_character_of(world, character);
+  if (!c || soft_body >= c->model->asset->soft_bodies.count) return 0;
+  const sbri_body *body = &c->model->bodies[soft_body];
+  return body->level ? sbri_island_states(c)[body->island].passes : 0;
+}
+
 float sbr_character_limit_excess(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);
   return c ? sbri_rig_limit_excess(&c->model->rig, sbri_pose(c)) : 0;

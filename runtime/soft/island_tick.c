@@ -90,6 +90,7 @@ sbri_island_tick sbri_island_tick_of(
       .step_error_m = island->step_error_m,
       .element_forces = sbri_element_forces(c) + first,
       .stretch = &sbri_island_states(c)[index].stretch,
+      .passes = &sbri_island_states(c)[index].passes,
       .stiffening = &sbri_island_states(c)[index].stiffening,
       .least_ratio = &sbri_island_states(c)[index].least_ratio};
 }

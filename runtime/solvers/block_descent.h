@@ -194,7 +194,8 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
   const sbri_descent *table = island->descent;
   uint32_t substeps = sbri_scheme_substeps(island, t->tick_s, *t->stretch);
   float h = t->tick_s / (float)substeps, per_square = 1 / (h * h);
-  sbri_point *drawn = t->element_forces, *moved = t->moves; /* scratch that nothing else uses here */
+  sbri_point *drawn = t->element_forces, *moved = t->moves;       /* scratch that nothing else uses here */
+  uint32_t corners = island->tetrahedron_block_count > 0 ? 4 : 2; /* from each of which an element is seen */
   sbri_remember_held(t);
   for (uint32_t s = 0; s < substeps; s++) {
     if (t->outer) sbri_outer_forces(t, h);
@@ -206,6 +207,7 @@ static inline void sbri_lanes_block_descent_tick(const sbri_island_tick *t) {
     sbri_descent_end(t, h, moved);
     sbri_drift(t, h);
     if (island->tetrahedron_block_count > 0) sbri_crush_look(t);
+    sbri_count_passes(t, SBRI_DESCENT_SWEEPS * corners);
     sbri_finish_substep(t, h);
     if (t->reactions) sbri_react_at_end(t, h);
   }

@@ -33,6 +33,7 @@ static inline void sbri_lanes_explicit_euler_tick(const sbri_island_tick *t) {
     sbri_add_accelerations(t, h);
     sbri_decay_all(t, h);
     sbri_carry_held(t, last ? 1 : (float)(s + 1) / (float)substeps);
+    sbri_count_passes(t, 1);
     sbri_finish_substep(t, h);
   }
   sbri_keep_stretch(t, stretches);

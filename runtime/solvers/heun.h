@@ -112,6 +112,7 @@ static inline void sbri_heun_keep_first(const sbri_island_tick *t, sbri_point *f
 static inline void sbri_heun_evaluate(const sbri_island_tick *t, float h, float *stretches) {
   if (sbri_has_damping(t->island)) sbri_spread_velocities(t, 1 / t->tick_s);
   sbri_accelerate(t, h, stretches);
+  sbri_count_passes(t, 1);
 }
 
 /* The tick in units of its 2^-10th, and how far and how fast it has come in them. */

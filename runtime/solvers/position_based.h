@@ -264,6 +264,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
     }
     sbri_carry_held(t, share);
     if (solid && s % SBRI_LOOK_EVERY == 0) sbri_crush_look(t);
+    sbri_count_passes(t, 1);
     sbri_finish_substep(t, h);
     if (t->reactions) sbri_react_at_end(t, h);
     if ((followed || sbri_is_crushed(t)) && !last) sbri_moves_follow(t);

@@ -64,6 +64,7 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
     sbri_drift(t, h);
     rest = (float)--left * h;
     sbri_carry_held(t, left == 0 ? 1 : 1 - rest / t->tick_s);
+    sbri_count_passes(t, 1);
     sbri_finish_substep(t, h);
   }
   sbri_keep_stretch(t, stretches);

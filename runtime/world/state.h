@@ -50,6 +50,7 @@ typedef struct sbri_island_state {
   uint32_t told_asleep; /* what the host was last told of that */
   uint32_t quiet_ticks; /* for how long it has been as slow as a sleeper */
   uint32_t ground_mark; /* of the ground that a sleeper lies on */
+  uint32_t passes;      /* over its elements, since it was made */
 } sbri_island_state;
 
 /* How what holds a body moved in the last tick, as a rigid body. */

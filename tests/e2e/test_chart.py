@@ -97,6 +97,29 @@ class Charts(ProgramTest):
             for words in ("symplectic", "position_based", "heun by tolerance", "Pareto front", "0.1 ms", "4 ms", "failed"):
                 self.assertIn(words, drawing, axis)
 
+    @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
+    def test_the_key_has_every_scheme_once(self):
+        self.chart("--case", "pressure")  # where most fail, and some have no point at all
+        schemes = {row["scheme"] for row in rows_of(self.out, "pressure") if row["scheme"] != "reference"}
+        for axis in ("path_m", "volume"):
+            drawing = read_text(os.path.join(self.out, f"pressure-{axis}.svg"))
+            for scheme in schemes | {"heun by tolerance"}:
+                self.assertEqual(drawing.count(f"<text>{scheme}</text>"), 1, (axis, scheme))
+
+    def test_visits_are_counted_where_a_scheme_chooses_its_steps(self):
+        self.chart("--no-svg", "--case", "chain")
+        rows = [row for row in rows_of(self.out, "chain") if row["scheme"] != "reference"]
+        springs = int(rows[0]["elements"])
+        for substeps in (1, 2, 4):
+            for scheme, visits in (("symplectic", substeps), ("position_based", substeps), ("explicit_euler", substeps),
+                                   ("heun", 1 + 2 * substeps)):
+                self.assertEqual(float(pick(rows, scheme, substeps)["visits_per_frame"]), visits * springs, (scheme, substeps))
+        chosen = sorted((row for row in rows if row["step_error_m"]), key=lambda row: -float(row["step_error_m"]))
+        visits = [float(row["visits_per_frame"]) for row in chosen]
+        self.assertEqual(len(visits), 5)
+        self.assertEqual(visits, sorted(visits))
+        self.assertGreater(visits[-1], 3 * visits[0])
+
     def test_without_gnuplot_tables_stay(self):
         result = call("chart", "-o", self.out, "--case", "spring", *QUICK, environment={"PATH": self.place})
         self.assertEqual(result.status, 2)

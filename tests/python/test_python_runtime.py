@@ -33,6 +33,7 @@ class Jelly(unittest.TestCase):
                 world.step(1 / 60)
             after = lowest(jelly.surface(0)) + jelly.origin[1]
             self.assertTrue(jelly.health(0).finite)
+            self.assertGreaterEqual(jelly.passes(0), 120)
         self.assertGreater(before - after, 0.4)
         self.assertGreater(after, -0.02)
 

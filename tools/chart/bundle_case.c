@@ -5,7 +5,8 @@
 #include "render/fault.h"
 #include "sbfmt/mechanics.h"
 
-enum { TICKS = 120 };
+/* Times are of its beginning: the first step, hop or turn. */
+enum { TICKS = 120, TIMED_TICKS = 30 };
 
 const chart_drive chart_usual_drive = {
     .speed = 0.5, .curve_rad_s = 0, .hop = 0.1, .hop_ticks = 30, .turn_rad_s = 2.5f, .turn_ticks = 15};
@@ -71,6 +72,7 @@ sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, 
     cases[i].user = bundle;
     cases[i].ground = &bundle->ground;
     cases[i].ticks = TICKS;
+    cases[i].timed_ticks = TIMED_TICKS;
     cases[i].grounded = true;
     cases[i].watch = asset->render_meshes.count ? CHART_WATCH_SKIN : CHART_WATCH_SURFACE;
     cases[i].axes = 1u << CHART_PATH | 1u << CHART_FARTHEST | 1u << CHART_PIXELS | 1u << CHART_MOST_PIXELS |

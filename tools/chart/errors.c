@@ -22,6 +22,14 @@ static double square_between(sbf_vec3 p, sbf_vec3 q) {
   return x * x + y * y + z * z;
 }
 
+double chart_extent_of(const chart_track *t, const sbf_vec3 *rest) {
+  double sum = 0;
+  for (uint32_t i = 0; i < t->ticks; i++)
+    for (uint32_t k = 0; k < t->points; k++)
+      sum += square_between(t->places[(size_t)i * t->points + k], rest[k]);
+  return sqrt(sum / ((double)t->ticks * t->points + 1e-9));
+}
+
 static void compare_paths(const chart_track *t, const chart_track *r, double errors[CHART_AXIS_COUNT]) {
   size_t count = (size_t)t->ticks * t->points;
   double sum = 0, most = 0;

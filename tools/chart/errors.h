@@ -34,6 +34,9 @@ typedef struct chart_signal {
 /* So many pixels is a metre, on such a screen. */
 double chart_pixels_a_metre(double distance_m);
 
+/* How far points move from where they were at rest: root of the mean square over points and ticks. */
+double chart_extent_of(const chart_track *track, const sbf_vec3 *rest);
+
 /* Fills `errors` for the axes among `axes` (bits of 1 << axis), NAN for others and for what cannot be told of
  * this motion; pixels are left to the caller. `rest` (points) are the places before it began. False where
  * memory runs out. */

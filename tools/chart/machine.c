@@ -1,7 +1,7 @@
-#define _POSIX_C_SOURCE 200809L
 #include "chart/machine.h"
 
-#include <stdio.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -46,6 +46,13 @@ chart_machine chart_this_machine(void) {
   snprintf(m.compiler, sizeof m.compiler, "%s", compiler());
   find_processor(m.processor, sizeof m.processor);
   strftime(m.date, sizeof m.date, "%Y-%m-%d", gmtime_r(&now, &day));
+  double loads[1] = {NAN};
+  m.load = getloadavg(loads, 1) == 1 ? loads[0] : NAN;
   clean(m.commit), clean(m.compiler), clean(m.processor);
   return m;
+}
+
+void chart_machine_write(FILE *to, const chart_machine *m) {
+  fprintf(to, "%s,%s,%u,%s,%s,", m->commit, m->compiler, (unsigned)m->lanes, m->processor, m->date);
+  if (isfinite(m->load)) fprintf(to, "%.2f", m->load);
 }

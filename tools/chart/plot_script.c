@@ -194,10 +194,14 @@ static void write_panel(FILE *to, const plot *p, int panel) {
   for (int k = 0; k < p->line_count; k++) {
     unsigned colour = chart_scheme_colour(p->lines[k].scheme);
     const char *data = panel ? "visits" : "line", *dash = p->lines[k].by_error ? "dt 2 " : "";
-    fprintf(to, "$%s%d using 1:($4*$5) with linespoints pt %d ps 0.7 lw 1.5 %slc rgb '#%06x' title '", data,
-        k, mark_of(p, k), dash, colour);
-    write_title(to, p, k);
-    fprintf(to, "', \\\n");
+    fprintf(to, "$%s%d using 1:($4*$5) with linespoints pt %d ps 0.7 lw 1.5 %slc rgb '#%06x' notitle, \\\n",
+        data, k, mark_of(p, k), dash, colour);
+    if (panel == 1) { /* by itself: data without a point of this panel would have no entry in the key */
+      fprintf(to, "keyentry with linespoints pt %d ps 0.7 lw 1.5 %slc rgb '#%06x' title '", mark_of(p, k),
+          dash, colour);
+      write_title(to, p, k);
+      fprintf(to, "', \\\n");
+    }
     if (panel == 0)
       fprintf(to, "$line%d using 1:($4*$5):2:3 with xerrorbars pt 0 lw 1 lc rgb '#%06x' notitle, \\\n", k,
           colour);

@@ -2,14 +2,17 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "chart/network_motion.h"
 #include "render/fault.h"
 
-enum { LEAST_SUBSTEPS = 32 };
+enum { LEAST_SUBSTEPS = 32, MOST_SUBSTEPS = 1024 }; /* of what is swept; of the runtime */
 static const double TICK_S = 1.0 / 60;
-static const char ALLOW_MORE[] = "allow more with --most-substeps";
 static const char MEND[] = "its matter folds up or its lattice is unsound";
+/* How far the two tracks of a reference may be apart, as a share of how far things move, for it to be left as
+ * it is. */
+static const double CONVERGED = 0.001;
 static const double RICHARDSON = 15; /* 2^4 - 1: the fine one of two of fourth order is so much nearer */
 
 static sbf_status no_memory(sbf_diagnostic *error) {
@@ -46,16 +49,80 @@ static sbf_status look(chart_track *track, const chart_scene *scene, sbf_scheme 
   return status;
 }
 
+/* Two tracks of one motion, of which the second is the better one or as good. */
+typedef struct reference_pair {
+  const chart_case *charted;
+  const chart_scene *scene;
+  const sbf_vec3 *rest;
+  sbf_scheme schemes[2];
+  uint32_t substeps[2];
+} reference_pair;
+
+/* How far the two are apart, as a share of how far things move. */
+static double apart(const reference_pair *p, const chart_track *track, const double *errors) {
+  if (!(p->charted->axes & 1u << CHART_PATH)) return errors[CHART_SHAPE];
+  double extent = chart_extent_of(track, p->rest);
+  return extent > 0 ? errors[CHART_PATH] / extent : 0;
+}
+
+static sbf_status look_at_both(
+    const reference_pair *p, chart_track tracks[2], double *errors, const char *hint, sbf_diagnostic *error) {
+  sbf_status status = SBF_OK;
+  for (int i = 0; i < 2; i++) chart_track_free(&tracks[i]);
+  for (int i = 0; status == SBF_OK && i < 2; i++)
+    status = look(&tracks[i], p->scene, p->schemes[i], p->substeps[i], hint, error);
+  if (status == SBF_OK && !chart_errors_of(&tracks[0], &tracks[1], p->rest, TICK_S, &p->charted->signal,
+                              p->charted->axes, errors))
+    status = no_memory(error);
+  return status;
+}
+
+/* Twice the substeps until both hold and have converged, there are no more to be had, or more come no nearer:
+ * then what was nearest is kept. `tracks` and `errors` are of `substeps`. */
+static sbf_status refine(
+    reference_pair *p, chart_track tracks[2], double *errors, const char *hint, sbf_diagnostic *error) {
+  sbf_status status = look_at_both(p, tracks, errors, hint, error);
+  while ((status == SBF_OK ? apart(p, &tracks[1], errors) > CONVERGED : error->code == SBF_CODE_BAD_CALL) &&
+         2 * p->substeps[1] <= MOST_SUBSTEPS) {
+    reference_pair finer = *p;
+    chart_track more[2] = {{.ticks = 0}, {.ticks = 0}};
+    double finer_errors[CHART_AXIS_COUNT];
+    bool held = status == SBF_OK;
+    for (int i = 0; i < 2; i++) finer.substeps[i] *= 2;
+    status = look_at_both(&finer, more, finer_errors, hint, error);
+    bool nearer =
+        status == SBF_OK && (!held || apart(&finer, &more[1], finer_errors) < apart(p, &tracks[1], errors));
+    for (int i = 0; i < 2; i++) chart_track_free(nearer || !held ? &tracks[i] : &more[i]);
+    if (held && !nearer) return status == SBF_OK || error->code == SBF_CODE_BAD_CALL ? SBF_OK : status;
+    for (int i = 0; i < 2; i++) tracks[i] = more[i];
+    memcpy(errors, finer_errors, sizeof finer_errors);
+    *p = finer;
+  }
+  return status;
+}
+
+static sbf_status needed_substeps(const chart_scene *scene, uint32_t *substeps, sbf_diagnostic *error) {
+  chart_motion motion;
+  const chart_setting own = {.scheme = SBF_SCHEME_SYMPLECTIC};
+  sbf_status status = chart_motion_open(&motion, scene, &own, error);
+  if (status == SBF_OK) *substeps = sbr_model_substeps(motion.model);
+  chart_motion_close(&motion);
+  return status;
+}
+
 static sbf_status find_by_runtime(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
     const sbf_vec3 *rest, uint32_t substeps, sbf_diagnostic *error) {
-  sbf_status status = look(&truth->track, scene, SBF_SCHEME_HEUN, substeps, ALLOW_MORE, error);
-  if (status == SBF_OK)
-    status = look(&truth->other, scene, SBF_SCHEME_SYMPLECTIC, substeps, ALLOW_MORE, error);
-  if (status == SBF_OK && !chart_errors_of(&truth->other, &truth->track, rest, TICK_S, &charted->signal,
-                              charted->axes, truth->stated->errors))
-    status = no_memory(error);
+  chart_track tracks[2] = {{.ticks = 0}, {.ticks = 0}};
+  uint32_t needed = 1;
+  sbf_status status = needed_substeps(scene, &needed, error);
+  while (substeps < 2 * needed && substeps < MOST_SUBSTEPS) substeps *= 2;
+  if (substeps > MOST_SUBSTEPS) substeps = MOST_SUBSTEPS;
+  reference_pair pair = {
+      charted, scene, rest, {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_HEUN}, {substeps, substeps}};
+  if (status == SBF_OK) status = refine(&pair, tracks, truth->stated->errors, MEND, error);
+  truth->other = tracks[0], truth->track = tracks[1];
   snprintf(truth->stated->what, sizeof truth->stated->what,
-      "heun, and symplectic for heun's own rows, %u substeps a frame", (unsigned)substeps);
+      "heun, and symplectic for heun's own rows, %u substeps a frame", (unsigned)pair.substeps[1]);
   return status;
 }
 
@@ -69,29 +136,19 @@ sbf_status chart_truth_find(chart_truth *truth, const chart_case *charted, const
              : find_by_runtime(truth, charted, scene, rest, 4 * most_substeps, error);
 }
 
-static sbf_status needed_substeps(const chart_scene *scene, uint32_t *substeps, sbf_diagnostic *error) {
-  chart_motion motion;
-  const chart_setting own = {.scheme = SBF_SCHEME_SYMPLECTIC};
-  sbf_status status = chart_motion_open(&motion, scene, &own, error);
-  if (status == SBF_OK) *substeps = sbr_model_substeps(motion.model);
-  chart_motion_close(&motion);
-  return status;
-}
-
 sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
     const sbf_vec3 *rest, chart_reference *stated, sbf_diagnostic *error) {
-  chart_track coarse = {.ticks = 0};
-  uint32_t substeps = 0;
+  chart_track tracks[2] = {{.ticks = 0}, {.ticks = 0}};
+  uint32_t needed = 0;
   *truth = (chart_truth){.stated = stated};
-  sbf_status status = needed_substeps(scene, &substeps, error);
-  if (status == SBF_OK) status = look(&coarse, scene, SBF_SCHEME_SYMPLECTIC, 2 * substeps, MEND, error);
-  if (status == SBF_OK) status = look(&truth->track, scene, SBF_SCHEME_SYMPLECTIC, 4 * substeps, MEND, error);
-  if (status == SBF_OK &&
-      !chart_errors_of(&coarse, &truth->track, rest, TICK_S, &charted->signal, charted->axes, stated->errors))
-    status = no_memory(error);
-  chart_track_free(&coarse);
+  sbf_status status = needed_substeps(scene, &needed, error);
+  reference_pair pair = {
+      charted, scene, rest, {SBF_SCHEME_SYMPLECTIC, SBF_SCHEME_SYMPLECTIC}, {2 * needed, 4 * needed}};
+  if (status == SBF_OK) status = refine(&pair, tracks, stated->errors, MEND, error);
+  chart_track_free(&tracks[0]);
+  truth->track = tracks[1];
   snprintf(stated->what, sizeof stated->what, "%u tetrahedra as they are, symplectic, %u substeps a frame",
-      (unsigned)chart_all_elements_of(scene->asset), 4 * (unsigned)substeps);
+      (unsigned)chart_all_elements_of(scene->asset), (unsigned)pair.substeps[1]);
   return status;
 }
 

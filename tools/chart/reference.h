@@ -14,12 +14,15 @@ typedef struct chart_truth {
 
 /* Springs and tetrahedra: in double precision, by Runge and Kutta's method with 2 n steps a tick, its own
  * error by the distance from n, over 15 (Richardson). Everything else: by Heun's method and by the symplectic
- * scheme of the runtime, with four times the most substeps that are swept (32 at least); their own error is
- * the distance between the two. */
+ * scheme of the runtime, with four times the most substeps that are swept (32 at least) and twice what is
+ * stable; their own error is the distance between the two. Where one of them breaks, or they are farther
+ * apart than a thousandth of how far things move, both get twice as many, up to the runtime's 1024, for as
+ * long as that brings them nearer. */
 sbf_status chart_truth_find(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
     const sbf_vec3 *rest, uint32_t most_substeps, chart_reference *stated, sbf_diagnostic *error);
 /* Of a mesh that others are measured against: symplectic, four times as many substeps as it needs, its own
- * error by the distance from half of them. How far it is off a finer mesh is not in that. */
+ * error by the distance from half of them; twice as many of both likewise. How far it is off a finer mesh is
+ * not in that. */
 sbf_status chart_truth_find_mesh(chart_truth *truth, const chart_case *charted, const chart_scene *scene,
     const sbf_vec3 *rest, chart_reference *stated, sbf_diagnostic *error);
 void chart_truth_free(chart_truth *truth);

@@ -11,7 +11,7 @@ typedef struct chart_row {
   char scheme[32]; /* its name; of a case of space, which kind of mesh */
   chart_setting setting;
   uint32_t elements;
-  double visits;   /* of elements in a frame; NAN: not known, as where a scheme chooses its steps */
+  double visits;   /* of elements in a frame, as counted; NAN: refused, or nothing is stepped */
   bool refused;    /* the runtime does not step it so */
   bool sound;      /* neither refused nor broken */
   char why[128];   /* it is not */

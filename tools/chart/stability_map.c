@@ -153,7 +153,9 @@ static void write_cell(FILE *file, const chart_map *map, const chart_cell *cell,
   if (isfinite(bound)) fprintf(file, "%.6g", bound);
   fputs(",\"", file);
   for (const char *c = v->why; *c; c++) fputc(*c == '"' || *c == '\n' ? '\'' : *c, file);
-  fprintf(file, "\",%s,%s,%u,%s,%s\n", m->commit, m->compiler, (unsigned)m->lanes, m->processor, m->date);
+  fputs("\",", file);
+  chart_machine_write(file, m);
+  fputc('\n', file);
 }
 
 sbf_status chart_map_table(

@@ -28,19 +28,6 @@ static void tell(const sweep *s, const char *what, double share) {
   if (s->effort->progress) s->effort->progress(s->effort->user, what, share);
 }
 
-/* How far the reference's points move, root of the mean square. */
-static double extent_of(const chart_track *t, const sbf_vec3 *rest) {
-  double sum = 0;
-  for (uint32_t i = 0; i < t->ticks; i++)
-    for (uint32_t k = 0; k < t->points; k++) {
-      sbf_vec3 p = t->places[(size_t)i * t->points + k];
-      double x = (double)p.x - (double)rest[k].x, y = (double)p.y - (double)rest[k].y,
-             z = (double)p.z - (double)rest[k].z;
-      sum += x * x + y * y + z * z;
-    }
-  return sqrt(sum / ((double)t->ticks * t->points + 1e-9));
-}
-
 static void to_pixels(const sweep *s, double errors[CHART_AXIS_COUNT]) {
   double pixels = chart_pixels_a_metre(s->effort->distance_m);
   if (!(s->charted->axes & 1u << CHART_PIXELS)) return;
@@ -58,7 +45,7 @@ static bool judge(
       &track, reference, rest, TICK_S, &s->charted->signal, asked | 1u << CHART_PATH, row->errors);
   row->sound = track.sound;
   snprintf(row->why, sizeof row->why, "%s", track.why);
-  if (row->sound && !(row->errors[CHART_PATH] < LOST * extent_of(reference, rest))) {
+  if (row->sound && !(row->errors[CHART_PATH] < LOST * chart_extent_of(reference, rest))) {
     row->sound = false;
     snprintf(row->why, sizeof row->why, "farther off than anything moves");
   }
@@ -93,8 +80,9 @@ static sbf_status add_row(sweep *s, const chart_subject *subject, const chart_sc
     chart_motion_close(motion);
     return row->runs_us ? SBF_OK : no_memory(error);
   }
-  row->visits = chart_visits_of(motion->model, subject->asset, setting);
-  return row->runs_us && judge(s, row, motion, truth, rest) ? SBF_OK : no_memory(error);
+  bool judged = row->runs_us && judge(s, row, motion, truth, rest);
+  row->visits = motion->visits;
+  return judged ? SBF_OK : no_memory(error);
 }
 
 /* All settings of all schemes; `springs` have one more scheme. */

@@ -43,7 +43,9 @@ static void write_text(FILE *file, const char *text) {
 }
 
 static void write_machine(FILE *file, const chart_machine *m) {
-  fprintf(file, ",%s,%s,%u,%s,%s\n", m->commit, m->compiler, (unsigned)m->lanes, m->processor, m->date);
+  fputc(',', file);
+  chart_machine_write(file, m);
+  fputc('\n', file);
 }
 
 static void write_setting(FILE *file, const chart_sheet *sheet, const chart_row *row) {

@@ -160,14 +160,27 @@ static void read_health(const chart_motion *m, chart_track *track, uint32_t tick
   snprintf(track->why, sizeof track->why, "%s (%.40s, tick %u)", why, of, (unsigned)tick);
 }
 
+/* Since the character was made, of all bodies. */
+static double visits_until_now(const chart_motion *m) {
+  const sbf_asset *asset = m->scene.asset;
+  double sum = 0;
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
+    sum += (double)sbr_character_passes(m->world, m->character, b) *
+           chart_elements_of(&asset->soft_bodies.at[b]);
+  return sum;
+}
+
 bool chart_motion_look(chart_motion *m, chart_track *track) {
   uint32_t count = chart_motion_points(&m->scene);
   if (!chart_track_make(track, m->scene.ticks, count)) return false;
   sbr_world_snapshot_restore(m->world, m->begin, m->begin_size);
+  double before = visits_until_now(m);
   for (uint32_t t = 0; t < m->scene.ticks; t++) {
     advance(m, t);
     read_places(m, track->places + (size_t)t * count, count);
     read_health(m, track, t);
   }
+  double visits = visits_until_now(m) - before;
+  m->visits = visits > 0 ? visits / m->scene.ticks : NAN;
   return true;
 }

@@ -43,6 +43,8 @@ typedef struct chart_motion {
   sbr_character_id character;
   void *begin; /* snapshot of the beginning */
   size_t begin_size;
+  double visits; /* of elements in a tick, on average over those that were last looked at; NAN: nothing is
+                    stepped */
 } chart_motion;
 
 /* The runtime's own failure, with *error, where it refuses; close it in any case. */
@@ -53,7 +55,7 @@ void chart_motion_close(chart_motion *m);
 /* From the beginning through the ticks that are timed, without looking. Its type is that of what is timed. */
 void chart_motion_run(void *motion);
 
-/* From the beginning through all ticks, looking; false where memory runs out. */
+/* From the beginning through all ticks, looking; counts `visits`; false where memory runs out. */
 bool chart_motion_look(chart_motion *m, chart_track *track);
 
 /* Where the points that are looked at are in the asset: (chart_motion_points) of them. */
@@ -61,8 +63,8 @@ uint32_t chart_motion_points(const chart_scene *scene);
 void chart_motion_rest(const chart_scene *scene, sbf_vec3 *places);
 sbf_vec3 *chart_motion_begins(const chart_scene *scene); /* the same: free() it; NULL: memory ran out */
 
-/* Elements that a tick looks at, as often as it does, of all bodies' finest levels at rest; NAN where the
- * scheme chooses its steps as it goes. */
+/* Elements that a tick will look at, as often as it does, of all bodies' finest levels at rest, before
+ * anything has moved; NAN where the scheme chooses its steps as it goes. */
 double chart_visits_of(const sbr_model *model, const sbf_asset *asset, const chart_setting *setting);
 /* Of one body alone. */
 double chart_body_visits(

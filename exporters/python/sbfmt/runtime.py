@@ -124,6 +124,7 @@ CALLS = {
     "sbr_character_points": (c_uint32, [W, C, c_uint32, FLOATS, c_uint32]),
     "sbr_character_torn_polygons": (c_uint32, [W, C, c_uint32, c_uint32, POINTER(c_uint8), c_uint32]),
     "sbr_character_health": (BodyHealth, [W, C, c_uint32]),
+    "sbr_character_passes": (c_uint32, [W, C, c_uint32]),
     "sbr_character_distance": (c_double, [W, C]),
 }
 
@@ -339,3 +340,7 @@ class Character:
 
     def health(self, soft_body):
         return self.call("sbr_character_health", soft_body)
+
+    def passes(self, soft_body):
+        """How often all elements of a soft body have been looked at: what its motion costs, on any machine."""
+        return self.call("sbr_character_passes", soft_body)
