@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the yeti's bundle: the model, the poses of its walk and of its run, and named chains for the motion of others.
+"""Makes the yeti's bundle: the model, the poses of its walk and of its run, its weight, and named chains for the motion of
+others.
 
   make_bundle.py SBFMT OUT.sbf [CONVERT'S OPTIONS...]      SBFMT: the program
 """
@@ -15,6 +16,12 @@ from bundle_text import Pose, make_bundle  # noqa: E402
 CHAINS = {"spine": ["hips", "spine", "chest"], "head": ["neck", "head"],
           **{f"{limb}_{side}": [f"{bone}.{letter}" for bone in bones] for side, letter in (("left", "L"), ("right", "R"))
              for limb, bones in (("arm", ("upper_arm", "forearm", "hand")), ("leg", ("thigh", "shin", "foot")))}}
+
+FOLLOWERS = """<followers>
+<follower id="follower.weight" name="weight" bone="bone.spine" channel="weight" frequency="1.6" damping_ratio="0.4" \
+response="2" strength="1.2" limit="0.35"/>
+</followers>
+"""
 
 
 def arms(left, right, elbow):
@@ -41,7 +48,7 @@ def main():
     if len(sys.argv) < 3:
         print(__doc__, file=sys.stderr)
         return 2
-    make_bundle(sys.argv[1], os.path.join(HERE, "yeti.glb"), sys.argv[2], poses(), CHAINS, sys.argv[3:])
+    make_bundle(sys.argv[1], os.path.join(HERE, "yeti.glb"), sys.argv[2], poses(), CHAINS, sys.argv[3:], FOLLOWERS)
     return 0
 
 

@@ -18,7 +18,7 @@ static const char *const weight_property_values[] = {"density", "young_modulus",
 static const char *const scheme_values[] = {"automatic", "symplectic", "position_based", "relaxation", "explicit_euler", "heun", "block_descent"};
 static const char *const ik_solver_values[] = {"two_bone", "ccd", "fabrik", "damped_least_squares", "spline"};
 static const char *const chain_kind_values[] = {"lag", "distance"};
-static const char *const follower_channel_values[] = {"rotation", "position", "both", "squash"};
+static const char *const follower_channel_values[] = {"rotation", "position", "both", "squash", "weight"};
 static const char *const bone_axis_values[] = {"x", "y", "z"};
 static const char *const track_property_values[] = {"translation", "rotation", "scale"};
 static const char *const interpolation_values[] = {"linear", "step", "cubic"};
@@ -581,7 +581,7 @@ static const sbfi_field follower_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_follower, id), .width = 1, .unit = "", .required = true, .default_text = ""},
   {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_follower, name), .width = 1, .unit = "", .default_text = ""},
   {.name = "bone", .type = SBFI_REF, .number = 3, .since_minor = 0, .offset = offsetof(sbf_follower, bone), .width = 1, .unit = "", .required = true, .target = offsetof(sbf_asset, bones), .target_name = "bones"},
-  {.name = "channel", .type = SBFI_ENUM, .number = 4, .since_minor = 0, .offset = offsetof(sbf_follower, channel), .width = 1, .unit = "", .default_integer = 0, .values = follower_channel_values, .value_count = 4},
+  {.name = "channel", .type = SBFI_ENUM, .number = 4, .since_minor = 0, .offset = offsetof(sbf_follower, channel), .width = 1, .unit = "", .default_integer = 0, .values = follower_channel_values, .value_count = 5},
   {.name = "frequency", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_follower, frequency), .width = 1, .unit = "Hz", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {2.0f}},
   {.name = "damping_ratio", .type = SBFI_FLOAT, .number = 6, .since_minor = 0, .offset = offsetof(sbf_follower, damping_ratio), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true, .defaults = {0.5f}},
   {.name = "response", .type = SBFI_FLOAT, .number = 7, .since_minor = 0, .offset = offsetof(sbf_follower, response), .width = 1, .unit = "", .defaults = {0.0f}},
@@ -824,7 +824,7 @@ const char *sbf_chain_kind_name(sbf_chain_kind value) {
 }
 
 const char *sbf_follower_channel_name(sbf_follower_channel value) {
-  return (unsigned)value < 4u ? follower_channel_values[value] : "?";
+  return (unsigned)value < 5u ? follower_channel_values[value] : "?";
 }
 
 const char *sbf_bone_axis_name(sbf_bone_axis value) {

@@ -1,13 +1,28 @@
 /* Followers: bones that go after their own animated pose as second-order systems. */
 #include "gait/gait_state.h"
 
+/* gait/squash.c, gait/weight.c */
+static bool in_world(const sbf_follower *source) {
+  return source->channel == SBF_FOLLOWER_CHANNEL_SQUASH || source->channel == SBF_FOLLOWER_CHANNEL_WEIGHT;
+}
+
+void sbri_followers_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift) {
+  sbri_bone_follower *followers = sbri_bone_followers(rig, state);
+  for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
+    if (!in_world(&rig->asset->followers.at[i])) continue;
+    sbri_place_follower *place = &followers[i].place;
+    place->value = sbri_sub(place->value, shift);
+    place->followed = sbri_sub(place->followed, shift);
+  }
+}
+
 void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbr_transform *root, sbri_advance advance, sbr_transform *pose) {
   sbri_bone_follower *followers = sbri_bone_followers(rig, state);
   for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
     const sbf_follower *source = &rig->asset->followers.at[i];
     uint32_t b = (uint32_t)source->bone;
-    if (source->channel == SBF_FOLLOWER_CHANNEL_SQUASH) continue; /* gait/squash.c */
+    if (in_world(source)) continue;
     const sbr_transform *parent = rig->parents[b] >= 0 ? &pose[rig->parents[b]] : root;
     sbf_quat back = sbri_quat_conjugate(parent->rotation);
     sbf_vec3 place = sbri_rotate(back, sbri_sub(pose[b].position, parent->position));

@@ -185,7 +185,7 @@ void sbri_gait_rebase(const sbri_rig *rig, void *memory, sbf_vec3 shift) {
   sbri_limb_target *targets = sbri_limb_targets(rig, state);
   for (uint32_t i = 0; i < rig->asset->ik_chains.count; i++)
     targets[i].position = sbri_sub(targets[i].position, shift);
-  sbri_squashes_rebase(rig, state, shift);
+  sbri_followers_rebase(rig, state, shift);
 }
 
 uint32_t sbri_gait_legs(

@@ -102,7 +102,8 @@ typedef struct sbri_limb_target {
 typedef struct sbri_bone_follower {
   sbri_place_follower place; /* in the parent's frame, asset metres */
   sbri_turn_follower turn;   /* against the parent */
-  /* Of a squash, whose `place` is in world axes: along the bone's axis, now and a tick ago. */
+  /* Of a squash, whose `place` is in world axes as that of a weight is: along the bone's axis, now and a tick
+   * ago. */
   float stretch, stretch_before;
 } sbri_bone_follower;
 
@@ -360,7 +361,17 @@ void sbri_followers_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri
 
 void sbri_squashes_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     sbri_advance advance, sbr_transform *pose);
-void sbri_squashes_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift);
+
+/* ---- gait/weight.c: before the legs ---- */
+
+/* True where a bone is elsewhere for it. */
+bool sbri_weights_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_advance advance, sbr_transform *pose);
+
+/* ---- gait/bone_follower.c ---- */
+
+/* Of those that follow places in the world. */
+void sbri_followers_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift);
 
 /* ---- gait/tail.c ---- */
 

@@ -237,15 +237,35 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
 }
 
+/* Where legs begin, as they are posed. */
+static void note_hips(
+    const sbri_rig *rig, sbri_gait_state *state, const sbr_transform *root, const sbr_transform *pose) {
+  sbf_quat back = sbri_quat_conjugate(root->rotation);
+  for (uint32_t i = 0; i < rig->leg_count; i++)
+    state->feet[i].hip = sbri_rotate(back, sbri_sub(pose[rig->legs[i].upper].position, root->position));
+}
+
 /* The body came down for where its hips were a tick ago. What moves them by itself is slow enough for that; a
- * clip may have thrown them up since. */
+ * clip, or its weight, may have thrown them up since. */
 static void lower_to_feet(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     sbr_transform *root, sbr_transform *pose) {
-  float drop = rig->leg_count && sbri_clips_play(state) ? sbri_body_drop(rig, state, input, root) : 0;
+  float drop = sbri_body_drop(rig, state, input, root);
   if (!(drop > 0)) return;
   root->position.y -= drop;
   for (uint32_t i = 0; i < rig->bone_count; i++)
     if (rig->roles[i] != SBRI_ROLE_LEG) pose[i].position.y -= drop;
+}
+
+/* The gait plans for a body that is not moved by its weight, or each would answer the other. */
+static void weigh_down(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_advance advance, sbr_transform *root, sbr_transform *pose) {
+  sbf_vec3 hips[SBRI_MOST_LEGS];
+  bool moved = sbri_weights_pose(rig, state, input, advance, pose);
+  if (!rig->leg_count || (!moved && !sbri_clips_play(state))) return;
+  for (uint32_t i = 0; moved && i < rig->leg_count; i++) hips[i] = state->feet[i].hip;
+  if (moved) note_hips(rig, state, root, pose);
+  lower_to_feet(rig, state, input, root, pose);
+  for (uint32_t i = 0; moved && i < rig->leg_count; i++) state->feet[i].hip = hips[i];
 }
 
 void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
@@ -266,16 +286,15 @@ void sbri_body_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait
   }
   if (input->hold) {
     sbri_squashes_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);
+    sbri_weights_pose(rig, state, input, SBRI_ADVANCE_RESET, pose);
     return;
   }
   sbri_clips_pose(rig, state, input->scale, pose);
   pose_bones(rig, state, &stance, input->scale, pose);
   sbri_chains_pose(rig, state, input, &stance.root, advance, pose);
   sbri_squashes_pose(rig, state, input, advance, pose);
-  sbf_quat back = sbri_quat_conjugate(stance.root.rotation);
-  for (uint32_t i = 0; i < rig->leg_count; i++)
-    state->feet[i].hip = sbri_rotate(back, sbri_sub(pose[rig->legs[i].upper].position, stance.root.position));
-  lower_to_feet(rig, state, input, &stance.root, pose);
+  note_hips(rig, state, &stance.root, pose);
+  weigh_down(rig, state, input, advance, &stance.root, pose);
   for (uint32_t i = 0; i < rig->leg_count; i++) pose_leg(rig, state, &stance, input, i, advance, pose);
   sbri_limbs_reach(rig, state, input, &stance.root, pose);
   sbri_followers_pose(rig, state, input, &stance.root, advance, pose);

@@ -64,16 +64,6 @@ void sbri_squashes_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_
   }
 }
 
-void sbri_squashes_rebase(const sbri_rig *rig, sbri_gait_state *state, sbf_vec3 shift) {
-  sbri_bone_follower *followers = sbri_bone_followers(rig, state);
-  for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
-    if (!squashes(&rig->asset->followers.at[i])) continue;
-    sbri_place_follower *place = &followers[i].place;
-    place->value = sbri_sub(place->value, shift);
-    place->followed = sbri_sub(place->followed, shift);
-  }
-}
-
 void sbri_gait_settle(const sbri_rig *rig, void *state) {
   sbri_bone_follower *followers = sbri_bone_followers(rig, state);
   for (uint32_t i = 0; i < rig->asset->followers.count; i++)

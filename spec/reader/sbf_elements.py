@@ -22,7 +22,7 @@ weight_property: density young_modulus bending_stiffness mass_damping stiffness_
 scheme: automatic symplectic position_based relaxation explicit_euler heun block_descent
 ik_solver: two_bone ccd fabrik damped_least_squares spline
 chain_kind: lag distance
-follower_channel: rotation position both squash
+follower_channel: rotation position both squash weight
 bone_axis: x y z
 track_property: translation rotation scale
 interpolation: linear step cubic

@@ -74,6 +74,8 @@ def biped():
         leg.root, leg.end, leg.group = f"thigh.{side}", f"foot.{side}", group
     follower = gait.followers.add()
     follower.bone, follower.frequency, follower.damping_ratio, follower.response = "head", 3, 0.5, -0.5
+    weight = gait.followers.add()
+    weight.bone, weight.channel, weight.response, weight.strength, weight.limit = "hips", "weight", 2, 0.25, 0.125
 
 
 # ---- A quadruped: parts on bones, four legs, a tail ----

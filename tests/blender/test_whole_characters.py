@@ -76,6 +76,9 @@ class Characters(fixtures.RoundTripTest):
         self.assertEqual((gait.step_height, gait.step_duration, gait.walk_speed), (0.0625, 0.375, 0.75))
         follower = asset.followers[0]
         self.assertEqual((names[follower.bone], follower.frequency, follower.damping_ratio, follower.response), ("head", 3, 0.5, -0.5))
+        weight = asset.followers[1]
+        self.assertEqual((names[weight.bone], weight.channel, weight.response, weight.strength, weight.limit),
+                         ("hips", "weight", 2, 0.25, 0.125))
         self.assertGreater(sum(1 for body in asset.soft_bodies if body.derived), 8)
 
     def test_quadruped(self):

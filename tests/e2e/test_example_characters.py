@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -73,6 +74,33 @@ class Characters(ProgramTest):
                            for bone in ("hand", "foot"))
             self.assertGreater(max(hands) - min(hands), least)
             self.assertLess(statistics.correlation(hands, feet), -0.7)
+
+    def test_the_yeti_leans_back_as_it_sets_off_and_dives_as_it_stops(self):
+        heavy, light, script, out = (self.path(name) for name in ("heavy.sbf", "light.sbf", "stop.txt", "p.csv"))
+        maker = os.path.join(ROOT, "examples", "yeti", "make_bundle.py")
+        subprocess.run([sys.executable, "-B", maker, PROGRAM, heavy], capture_output=True, check=True)
+        with open(heavy, encoding="utf-8") as stream:
+            text, count = re.subn(r"<followers>.*</followers>", "", stream.read(), flags=re.DOTALL)
+        self.assertEqual(count, 1)
+        with open(light, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        with open(script, "w", encoding="utf-8") as stream:
+            stream.write("0 drive 0.8 0\n3 drive 0 0\n")
+        leans, heights = [], []
+        for path in (heavy, light):
+            report = self.json_of("run", path, "--seconds", "6", "--script", script, "--pose", out)
+            self.assertTrue(report["valid"])
+            self.assertEqual(report["skate_ratio"], 0)
+            poses = read_poses(out)[0]
+            # how far the trunk, half a metre of it, is ahead of its foot, along +Z; and how far above it
+            leans.append([pose["neck"][2] - pose["spine"][2] for pose in poses.values()])
+            heights.append([pose["spine"][1] - pose["hips"][1] for pose in poses.values()])
+        leans, heights = ([one - other for one, other in zip(*both)] for both in (leans, heights))
+        self.assertLess(min(leans[:60]), -0.01)
+        self.assertGreater(max(leans[180:240]), 0.01)
+        self.assertLess(min(heights), -0.01)
+        self.assertGreater(max(heights), 0.01)
+        self.assertAlmostEqual(leans[-1], 0, delta=0.008)
 
     def test_the_pudding_is_flat_where_it_lands_and_long_in_the_air(self):
         path, out, poses = (self.path(name) for name in ("pudding.sbf", "p.pc2", "p.csv"))

@@ -153,7 +153,8 @@ typedef enum sbf_follower_channel {
   SBF_FOLLOWER_CHANNEL_POSITION = 1,
   SBF_FOLLOWER_CHANNEL_BOTH = 2,
   SBF_FOLLOWER_CHANNEL_SQUASH = 3,
-  SBF_FOLLOWER_CHANNEL_COUNT = 4
+  SBF_FOLLOWER_CHANNEL_WEIGHT = 4,
+  SBF_FOLLOWER_CHANNEL_COUNT = 5
 } sbf_follower_channel;
 
 /* Words of bone_axis, in the file's spelling by sbf_bone_axis_name. */
@@ -1230,11 +1231,11 @@ typedef struct sbf_follower {
   float response;
   /* Of a squash: which of the bone's own axes it is pressed and stretched along. [default y] */
   sbf_bone_axis axis;
-  /* Of a squash: share of its length by which the bone stretches as it lags by its length. [[0, inf); default
-   * 1] */
+  /* Of a squash or a weight: share of its length by which the bone stretches, or moves and leans, as it lags
+   * by its length. [[0, inf); default 1] */
   float strength;
-  /* Of a squash: it stays below 1 + limit of its length, and above 1 / (1 + limit). [(0, inf); default 0.5]
-   * */
+  /* Of a squash: it stays below 1 + limit of its length, and above 1 / (1 + limit); of a weight: it moves by
+   * less than limit of its length and leans by less than limit rad. [(0, inf); default 0.5] */
   float limit;
 } sbf_follower;
 typedef struct sbf_follower_list {

@@ -44,17 +44,18 @@ class SBFMT_PG_follower(bpy.types.PropertyGroup):
     bone: StringProperty(name="Bone")
     channel: EnumProperty(name="What follows", default="rotation", items=(
         ("rotation", "Rotation", ""), ("position", "Position", ""), ("both", "Both", ""),
-        ("squash", "Squash", "Shorter where its head is stopped, longer where it speeds away; the volume stays")))
+        ("squash", "Squash", "Shorter where its head is stopped, longer where it speeds away; the volume stays"),
+        ("weight", "Weight", "Sinks, rises and leans as its head lags behind in the world, and all that hangs on it with it")))
     frequency: FloatProperty(name="Frequency (Hz)", default=2, min=0.01, soft_max=10)
     damping_ratio: FloatProperty(name="Damping ratio", default=0.5, min=0, soft_max=2)
     response: FloatProperty(name="Response", default=0, soft_min=-2, soft_max=2,
                             description="Above 1 overshoots at once, below 0 anticipates; 2 for a squash")
     axis: EnumProperty(name="Squash along", default="y", description="The bone's own axis",
                        items=(("x", "X", ""), ("y", "Y", ""), ("z", "Z", "")))
-    strength: FloatProperty(name="Squash", default=1, min=0, soft_max=3,
-                            description="Share of its length by which the bone stretches as it lags by its length")
-    limit: FloatProperty(name="Squash limit", default=0.5, min=0.01, soft_max=2,
-                         description="It stays below 1 + this of its length, and above 1 / (1 + this)")
+    strength: FloatProperty(name="Strength", default=1, min=0, soft_max=3,
+                            description="Of a squash or a weight: share of its length by which the bone stretches, or moves, as it lags by its length")
+    limit: FloatProperty(name="Limit", default=0.5, min=0.01, soft_max=2,
+                         description="A squash stays below 1 + this of its length, above 1 / (1 + this); a weight moves by less than this of its length")
 
 
 class SBFMT_PG_gait(bpy.types.PropertyGroup):

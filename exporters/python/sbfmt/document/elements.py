@@ -18,7 +18,7 @@ ENUMS = {
     'scheme': ('automatic', 'symplectic', 'position_based', 'relaxation', 'explicit_euler', 'heun', 'block_descent'),
     'ik_solver': ('two_bone', 'ccd', 'fabrik', 'damped_least_squares', 'spline'),
     'chain_kind': ('lag', 'distance'),
-    'follower_channel': ('rotation', 'position', 'both', 'squash'),
+    'follower_channel': ('rotation', 'position', 'both', 'squash', 'weight'),
     'bone_axis': ('x', 'y', 'z'),
     'track_property': ('translation', 'rotation', 'scale'),
     'interpolation': ('linear', 'step', 'cubic'),

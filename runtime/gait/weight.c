@@ -1,0 +1,63 @@
+/* Weight: a bone that lags behind its own place in the world sinks or rises by what it lags up and down, and
+ * leans towards where it lags aside, whichever way the body faces. */
+#include "gait/gait_state.h"
+#include "math/quat.h"
+
+static bool weighs(const sbri_rig *rig, const sbf_follower *source) {
+  return source->channel == SBF_FOLLOWER_CHANNEL_WEIGHT && rig->roles[source->bone] != SBRI_ROLE_LEG;
+}
+
+/* How it lags, in its lengths, eased towards the limit whichever way that is. */
+static sbf_vec3 eased_lag(const sbf_follower *source, const sbri_place_follower *place, float length) {
+  sbf_vec3 lag = sbri_scale(sbri_sub(place->value, place->followed), source->strength / length);
+  return sbri_scale(lag, source->limit / (source->limit + sbri_length(lag)));
+}
+
+/* How far up it moves: down no farther than a walking body's belly has room for. */
+static float heave(const sbri_rig *rig, const sbri_gait_state *state, float lag) {
+  float room = rig->leg_count ? state->room.value - state->lowered : -lag;
+  return lag < -room ? -(room > 0 ? room : 0) : lag;
+}
+
+/* The rotation by the length of `aside`, level, in rad, that takes what is above the head that way. */
+static sbf_quat lean_towards(sbf_vec3 aside) {
+  return sbri_quat_exp(sbri_vec3(aside.z, 0, -aside.x));
+}
+
+/* A bone and what hangs on it; what is below a thigh is posed later. */
+static void move(const sbri_rig *rig, uint32_t bone, sbf_quat lean, float up, sbr_transform *pose) {
+  sbf_vec3 head = pose[bone].position;
+  for (uint32_t k = rig->subtree_begin[bone]; k < rig->subtree_end[bone]; k++) {
+    uint32_t b = rig->subtree[k];
+    if (rig->roles[b] == SBRI_ROLE_LEG) continue;
+    pose[b].position = sbri_add(head, sbri_rotate(lean, sbri_sub(pose[b].position, head)));
+    pose[b].position.y += up;
+    pose[b].rotation = sbri_quat_normalize(sbri_quat_multiply(lean, pose[b].rotation));
+  }
+}
+
+bool sbri_weights_pose(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
+    sbri_advance advance, sbr_transform *pose) {
+  sbri_bone_follower *followers = sbri_bone_followers(rig, state);
+  bool moved = false;
+  for (uint32_t i = 0; i < rig->asset->followers.count; i++) {
+    const sbf_follower *source = &rig->asset->followers.at[i];
+    uint32_t b = (uint32_t)source->bone;
+    float length = rig->asset->bones.at[b].length * input->scale;
+    sbri_place_follower *place = &followers[i].place;
+    if (!weighs(rig, source)) continue;
+    if (advance == SBRI_ADVANCE_RESET) {
+      sbri_place_follower_reset(place, pose[b].position);
+    } else if (advance == SBRI_ADVANCE_TICK) {
+      sbri_follower_step step =
+          sbri_follower_step_of(source->frequency, source->damping_ratio, source->response, input->tick_s);
+      sbri_place_follower_tick(place, pose[b].position, &step);
+    }
+    if (input->hold || !(length > 0)) continue;
+    sbf_vec3 lag = eased_lag(source, place, length);
+    if (lag.x == 0 && lag.y == 0 && lag.z == 0) continue;
+    move(rig, b, lean_towards(lag), heave(rig, state, lag.y * length), pose);
+    moved = true;
+  }
+  return moved;
+}
