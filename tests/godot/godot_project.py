@@ -93,9 +93,17 @@ class Godot:
 
     def run(self, *words, **settings):
         """A finished process, with what it said in one text."""
+        return self.finished(self.command(*words), **settings)
+
+    def run_packed(self, *words):
+        """The same of a game without a project, in the folder."""
+        first = ["/usr/sbin/chroot", self.root] if self.root else []
+        return self.finished([*first, "/usr/bin/env", "-C", self.inside, self.godot, *words])
+
+    def finished(self, command, **settings):
         environment = {**os.environ, "HOME": self.inside, "PATH": "/usr/bin:/bin", **settings}
-        return subprocess.run(self.command(*words), env=environment, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, timeout=550)
+        return subprocess.run(command, env=environment, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              timeout=550)
 
     def passes(self, script, *words, allowed=(), display=""):
         """Whether a script of this folder ends with status 0 and Godot complains of nothing but what is `allowed`. With a display it draws,

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from godot_project import HERE, ROOT, Godot, skip
+from godot_project import HERE, ROOT, Godot, needed_libraries, skip
 from blender_window import Screen
 
 LIZARD = os.path.join(ROOT, "examples", "lizard", "lizard")
@@ -126,6 +126,72 @@ def editor(godot):
     return "\n0 failed after" in done.stdout and "SCRIPT ERROR" not in done.stdout
 
 
+PRESET = """[preset.0]
+
+name="Linux"
+platform="Linux"
+runnable=true
+export_filter="all_resources"
+include_filter=""
+exclude_filter="addons/sbfmt/*.gd"
+export_path="game.pck"
+
+[preset.0.options]
+
+binary_format/architecture="x86_64"
+"""
+GAME = """[gd_scene load_steps=3 format=3]
+
+[ext_resource type="Script" path="res://exported.gd" id="1"]
+[ext_resource type="SoftAsset" path="res://lizard.sbfz" id="2"]
+
+[node name="Game" type="Node3D"]
+script = ExtResource("1")
+
+[node name="Lizard" type="SoftCharacter3D" parent="."]
+asset = ExtResource("2")
+ground = 1
+forward_speed = 0.25
+"""
+
+
+def exported(godot, program):
+    """The demo as a packed game, as docs/godot.md says, away from its project: the pack and the extension's library are all there is."""
+    state = native(program, godot.folder)["state_hash"]
+    for name in os.listdir(DEMO):
+        if name.endswith((".gd", ".tscn", ".godot")):
+            shutil.copy(os.path.join(DEMO, name), godot.folder)
+    godot.copy(os.path.join(HERE, "exported.gd"))
+    godot.write("export_presets.cfg", PRESET)
+    godot.write("game.tscn", GAME)
+    done = godot.run("--headless", "--export-pack", "Linux", f"{godot.inside}/game.pck")
+    pack = os.path.join(godot.folder, "game.pck")
+    if not os.path.exists(pack):
+        print(done.stdout)
+        return False
+    library = os.path.join("addons", "sbfmt", "bin", "libsbfmt_godot.so")
+    needed = [os.path.basename(one) for one in needed_libraries(os.path.join(godot.folder, library))]
+    for name in os.listdir(godot.folder):
+        if name not in ("game.pck", "addons"):
+            path = os.path.join(godot.folder, name)
+            (shutil.rmtree if os.path.isdir(path) else os.remove)(path)
+    kept = os.path.join(godot.folder, "kept.so")
+    os.rename(os.path.join(godot.folder, library), kept)
+    shutil.rmtree(os.path.join(godot.folder, "addons"))
+    os.makedirs(os.path.join(godot.folder, os.path.dirname(library)))
+    os.rename(kept, os.path.join(godot.folder, library))
+    passed = True
+    for words in (["res://game.tscn"], ["--quit-after", "90"]):
+        done = godot.run_packed("--headless", "--fixed-fps", "60", "--main-pack", "game.pck", *words)
+        passed = godot.is_good(done) and passed
+        if words[0].endswith("tscn"):
+            passed = f"state {state}\n" in done.stdout and "sbf_import" not in done.stdout and passed
+    if any("xml" in name or "assimp" in name for name in needed):
+        print("FAILED: the library needs", needed)
+        passed = False
+    return passed
+
+
 def page(godot, program):
     """What docs/godot.md says, as it says it, in a folder where `build/release`, `examples`, `sbfmt` and `mygame` are; the project and its
     scene's floor are what the editor would have made. Whether a character walks then."""
@@ -184,6 +250,8 @@ def main():
             passed = godot.passes("damaged", allowed=("res://", "play: ", "Failed loading resource", "Error loading resource"))
         elif asked.case == "page":
             passed = page(godot, asked.program)
+        elif asked.case == "exported":
+            passed = exported(godot, asked.program)
         elif asked.case == "imported":
             passed = imported(godot, asked.program)
         elif asked.case == "editor":
