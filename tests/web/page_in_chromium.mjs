@@ -74,6 +74,27 @@ expect(ball.hits > 0 && ball.posture === 'falling' && ball.valid, `a ball that i
 await tab.waitForTimeout(500);
 await shoot('ball');
 
+// Physics that is dearer than there is time for goes slowly, and the page says so; pictures go on. Cheap, it goes as the clock.
+const hurried = await tab.evaluate(async () => {
+  const { draw, step } = viewer, covered = {};
+  if (!viewer.paused) viewer.pause();
+  const cost = (ms) => { viewer.step = () => { for (const began = performance.now(); performance.now() - began < ms;); }; };
+  cost(0);
+  covered.cheap = [1 / 60, 0.1, 0.25].map((seconds) => 60 * viewer.advance(seconds));
+  cost(60);
+  covered.dear = [1 / 60, 0.1, 0.25].map((seconds) => 60 * viewer.advance(seconds));
+  viewer.draw = () => { frames++; };
+  viewer.pause();
+  let frames = 0;
+  await new Promise((done) => setTimeout(done, 2500));
+  const said = document.querySelector('#pace').textContent;
+  Object.assign(viewer, { draw, step });
+  return { ...covered, frames, said };
+});
+expect([1, 6, 15].every((ticks, i) => Math.abs(hurried.cheap[i] - ticks) < 1e-6), `cheap ticks: ${JSON.stringify(hurried)}`);
+expect(hurried.dear.every((ticks) => Math.abs(ticks - 1) < 1e-6), `dear ticks: ${JSON.stringify(hurried)}`);
+expect(hurried.frames > 5 && /^slowed to \d+ %$/.test(hurried.said), `ticks of 60 ms: ${JSON.stringify(hurried)}`);
+
 // What is under the pointer is dragged, and let go it gets up again.
 const spot = await tab.evaluate(() => {
   viewer.restart();
@@ -110,6 +131,27 @@ if (spot) {
   });
   expect(!after.held && after.posture === 'up', `let go: ${JSON.stringify(after)}`);
 }
+
+// In the page too a recording gives the same state again, over a field of heights.
+const replayed = await tab.evaluate(() => {
+  const heights = Float32Array.from({ length: 400 }, (_, i) => 0.03 * Math.sin(i)), ground = { kind: 'heights', heights, columns: 20, rows: 20, cell: 0.2, x: -2, z: -2 };
+  const hashes = [0, 1].map((again) => {
+    viewer.restart(ground);
+    if (!again) {
+      viewer.world.record();
+      viewer.character.drive(0.3);
+      for (let i = 0; i < 60; i++) viewer.world.step(1 / 60);
+      const hash = viewer.world.stateHash();
+      viewer.recording = viewer.world.recorded();
+      return hash;
+    }
+    const replay = viewer.world.replay(viewer.recording);
+    while (replay.frame());
+    return replay.state.differs ? 'differs' : viewer.world.stateHash();
+  });
+  return hashes;
+});
+expect(replayed[0] === replayed[1], `a replay in the page: ${replayed}`);
 
 // The same state as everywhere.
 const { frames, drive, ground } = JSON.parse(run);

@@ -31,11 +31,18 @@ const one: Character = world.add(sbfmt.asset(new ArrayBuffer(8)).model({ scheme:
 one.push(0, [0, 0, 0], [1, 0, 0]);
 const positions: Float32Array = one.skin().positions;
 const hash: string = world.stateHash();
+const field: Ground = { kind: 'heights', heights: new Float32Array(4), columns: 2, rows: 2, cell: 1 };
+world.detail({ errorPx: 1, budget: 500 });
+world.views([{ eye: [0, 1, -3], forward: [0, 0, 1], height: 0.8, ratio: 1.6, lines: sbfmt.groundAt(field, [0, 0]).heights.length }]);
+one.setRung(one.model.rungs.findIndex((rung) => rung.kind === 'bones'));
+one.shown('always');
+world.record();
+const played: boolean = world.replay(world.recorded()).frame();
 const scene = new Scene();
 scene.add(new SoftCharacter(one, { renderLevel: 1 }));
 // @ts-expect-error a ground that there is not
 sbfmt.world({ ground: { kind: 'sea' } });
-console.log(positions, hash, SbfmtError);
+console.log(positions, hash, played, SbfmtError);
 """
 THREE = """
 import { readFile } from 'node:fs/promises';

@@ -27,7 +27,10 @@ export type Ground =
   /** -45 to 45 degrees, rising towards +Z. */
   | { kind: 'slope'; degrees: number }
   | { kind: 'stairs'; rise: number; run: number }
-  | { kind: 'noise'; height: number; seed?: number };
+  | { kind: 'noise'; height: number; seed?: number }
+  /** Heights at the corners of squares of `cell` metres, columns along +X, rows along +Z, the first at (x, z); bilinear
+   * between them, level beyond the edge. Copied. */
+  | { kind: 'heights'; heights: ArrayLike<number>; columns: number; rows: number; cell: number; x?: number; z?: number };
 
 export interface Sbfmt {
   /** Loads and checks an .sbfz file, compressed or stored; throws an SbfmtError that says what is wrong and where. */
@@ -106,6 +109,18 @@ export interface ModelOptions {
   gravity?: Vector;
   /** One number at a time instead of four: the same bits, slower. */
   scalar?: boolean;
+  /** Coarser levels than `level` as well, jiggle and bones alone, between which characters change. */
+  ladder?: boolean;
+}
+/** What a character may be: a level of the file's bodies, jiggle, bones alone, or but a place. */
+export interface Rung {
+  readonly kind: 'soft' | 'jiggle' | 'bones' | 'away';
+  /** Of soft ones. */
+  readonly level: number;
+  /** The greatest that its levels state, m. */
+  readonly error: number;
+  /** What a tick costs, visits of elements. */
+  readonly visits: number;
 }
 /** What many characters of one asset share. */
 export interface Model {
@@ -113,6 +128,8 @@ export interface Model {
   readonly level: number;
   readonly substeps: number;
   readonly instructions: string;
+  /** Finest first; one without a ladder. */
+  readonly rungs: readonly Rung[];
   free(): void;
 }
 
@@ -172,8 +189,53 @@ export interface World {
   /** Since the last call, oldest first. */
   events(): Event[];
   ray(from: Vector, direction: Vector, length?: number): Hit | null;
+  /** From now on the world chooses the rungs of characters that are put on none, by the views. */
+  detail(options?: DetailOptions): void;
+  /** From where characters are looked at, at most four; without any nobody is seen. */
+  views(views: readonly View[]): void;
+  /** What all characters were taken to cost in the last tick. */
+  readonly visits: number;
+  /** Begins a recording of what moves the world. Make characters before it. */
+  record(): void;
+  /** Ends it. Played in a world made alike, here or by the program, it gives the same states to the bit. */
+  recorded(): Uint8Array;
+  /** Begins to play one; throws where the bytes are none. */
+  replay(recording: Uint8Array): Replay;
   snapshot(): Uint8Array;
   restore(snapshot: Uint8Array): void;
+  free(): void;
+}
+
+export interface DetailOptions {
+  /** Pixels that a character may be off on the screen; 0.5. */
+  errorPx?: number;
+  /** Microseconds of processor time a tick for all together; 0: none. */
+  budget?: number;
+  /** What a visit takes on this machine; 6. */
+  nsPerVisit?: number;
+  /** A coarser rung is taken where its error is below this share of errorPx; 0.7. */
+  settle?: number;
+  /** And no sooner after the last change, s; 0.5. */
+  stay?: number;
+  /** Unseen for so long it goes away, s; negative: never; 1. */
+  awayAfter?: number;
+}
+export interface View {
+  eye: Vector;
+  forward: Vector;
+  /** Radians from the lower to the upper edge, above 0, at most 3. */
+  height: number;
+  /** Width over height. */
+  ratio: number;
+  /** Pixels from the lower to the upper edge. */
+  lines: number;
+}
+
+export interface Replay {
+  /** Plays up to and with the next step, and compares the hash behind it; false where nothing was left. */
+  frame(): boolean;
+  /** Steps in it and played, hashes compared, and whether one was another, first at which tick. */
+  readonly state: { count: number; frames: number; checks: number; differs: boolean; differsAt: number | null };
   free(): void;
 }
 
@@ -249,6 +311,16 @@ export interface Character {
   /** An impulse in N s at a place of the world, on a rigid body that is simulated. */
   push(rigidBody: number, place: Vector, impulse: Vector): void;
   rigidState(rigidBody: number): RigidState;
+  /** The rung that it is on, or goes over to. */
+  readonly rung: number;
+  /** Puts it on a rung; null: the world chooses. In a world whose bodies meet each other it stays on its own. */
+  setRung(rung: number | null): void;
+  /** How far the skin still is from going over, 1 to 0. */
+  readonly fade: number;
+  /** What is known better than by the views. */
+  shown(how: 'byViews' | 'always' | 'never'): void;
+  /** Pixels that it is taken to be off now; 0: it is not seen. */
+  readonly errorPx: number;
   /** What bones and vertices are relative to, in world space. */
   readonly origin: number[];
   /** Metres walked. */

@@ -10,12 +10,16 @@
  *
  * Views of numbers lie in the library's own memory: they are read at once or copied. */
 
-const GROUNDS = ['flat', 'slope', 'stairs', 'noise'];
+const GROUNDS = ['flat', 'slope', 'stairs', 'noise', 'heights'];
 const SHAPES = ['sphere', 'box', 'capsule'];
 const KINDS = ['bones', 'meshes', 'softBodies', 'rigidBodies', 'clips', 'ikChains', 'legs', 'materials', 'textures'];
 const EVENTS = ['footDown', 'footUp', 'landed', 'tear', 'unsplit', 'asleep', 'awake', 'contact', 'parted'];
 const POSTURES = ['up', 'falling', 'rising'];
 const MODES = { kinematic: 0, passive: 1, driven: 2 };
+const RUNGS = ['soft', 'jiggle', 'bones', 'away'];
+const SHOWN = ['byViews', 'always', 'never'];
+const RUNG_CHOSEN = 0xffffffff;
+const MOST_VIEWS = 4;
 const ALPHAS = ['opaque', 'mask', 'blend'];
 const EVENT_ROOM = 256;
 const SCRATCH_BYTES = EVENT_ROOM * 18 * 8;
@@ -88,14 +92,29 @@ class Sbfmt {
 
   /** Heights and unit normals of a ground at places x, z, x, z, ... */
   groundAt(ground, places) {
-    const [kind, a, b] = groundOf(ground);
+    const [kind, a, b, free] = this.ground(ground);
     const count = places.length / 2, at = this.room(places.length * 4 + count * 16);
     this.floats(at, places.length).set(places);
     const heights = at + places.length * 4, normals = heights + count * 4;
     this.calls.web_ground_heights(kind, a, b, at, count, heights, normals);
     const found = { heights: this.floats(heights, count).slice(), normals: this.floats(normals, count * 3).slice() };
     this.calls.web_free(at);
+    free();
     return found;
+  }
+
+  /** The numbers that a ground is made of, and what frees the memory that they lie in. */
+  ground(ground) {
+    if (ground?.kind !== 'heights') return [...groundOf(ground), () => {}];
+    const { heights, columns, rows } = ground, cell = number(ground.cell, 'ground.cell');
+    if (!(columns >= 2 && rows >= 2) || heights?.length !== columns * rows)
+      throw new TypeError('ground.heights are columns x rows numbers, at least 2 x 2');
+    if (!(cell > 0)) throw new TypeError('ground.cell is above 0');
+    if (!Array.prototype.every.call(heights, Number.isFinite)) throw new TypeError('ground.heights are finite numbers');
+    const at = this.room(4 * heights.length);
+    this.floats(at, heights.length).set(heights);
+    const field = this.calls.web_heights_create(at, columns, rows, cell, number(ground.x, 'ground.x', 0), number(ground.z, 'ground.z', 0));
+    return [GROUNDS.indexOf('heights'), field, 0, () => { this.calls.web_free(field); this.calls.web_free(at); }];
   }
 
   // What follows is for this file alone.
@@ -220,10 +239,12 @@ class Model {
     this.asset = asset;
     this.level = number(options.level, 'level', 0);
     this.handle = c.web_model_create(asset.handle, this.level, sbfmt.scratch, number(options.substeps, 'substeps', 0),
-      options.free ? 1 : 0, options.gravity ? 1 : 0, ...gravity, options.scalar ? 1 : 0);
+      options.free ? 1 : 0, options.gravity ? 1 : 0, ...gravity, options.scalar ? 1 : 0, options.ladder ? 1 : 0);
     if (!this.handle) throw sbfmt.failure();
     this.substeps = c.web_model_substeps(this.handle);
     this.instructions = sbfmt.text(c.web_model_instructions(this.handle));
+    const count = c.web_model_rungs(this.handle, sbfmt.scratch, 64), n = sbfmt.floats(sbfmt.scratch, 4 * count);
+    this.rungs = Array.from({ length: count }, (_, i) => ({ kind: RUNGS[n[4 * i]], level: n[4 * i + 1], error: n[4 * i + 2], visits: n[4 * i + 3] }));
   }
 
   free() {
@@ -237,10 +258,15 @@ class World {
     this.sbfmt = sbfmt;
     this.calls = sbfmt.calls;
     const gravity = triple(options.gravity, 'gravity', [0, 0, 0]);
-    this.handle = this.calls.web_world_create(...groundOf(options.ground), options.gravity ? 1 : 0, ...gravity,
+    const [kind, a, b, free] = sbfmt.ground(options.ground);
+    this.freeGround = free;
+    this.handle = this.calls.web_world_create(kind, a, b, options.gravity ? 1 : 0, ...gravity,
       number(options.characters, 'characters', 0), number(options.colliders, 'colliders', 0),
       number(options.sleepAfter, 'sleepAfter', -1), options.touches === true ? 4096 : number(options.touches || 0, 'touches'));
-    if (!this.handle) throw sbfmt.failure();
+    if (!this.handle) {
+      free();
+      throw sbfmt.failure();
+    }
   }
 
   add(model, options = {}) {
@@ -302,9 +328,87 @@ class World {
     if (!good) throw new SbfmtError('the snapshot is of another world, or of other characters', 'FAILED', '');
   }
 
+  // ---- Levels of detail ----
+
+  /** From now on it chooses the rungs of characters that are put on none. */
+  detail(options = {}) {
+    const { errorPx, budget, nsPerVisit, settle, stay, awayAfter } = options, { scratch } = this.sbfmt;
+    this.sbfmt.floats(scratch, 6).set([errorPx, budget, nsPerVisit, settle, stay, awayAfter].map((one) => number(one, 'a setting', NaN)));
+    if (!this.calls.web_world_detail(this.handle, scratch)) throw this.sbfmt.failure();
+  }
+  views(views) {
+    if (views.length > MOST_VIEWS) throw new TypeError(`there are ${MOST_VIEWS} views at most`);
+    views.forEach((one, i) => this.sbfmt.doubles(this.sbfmt.scratch + 72 * i, 9).set([...triple(one.eye, 'eye'),
+      ...triple(one.forward, 'forward'), number(one.height, 'height'), number(one.ratio, 'ratio'), number(one.lines, 'lines')]));
+    this.calls.web_world_views(this.handle, this.sbfmt.scratch, views.length);
+  }
+  get visits() {
+    return this.calls.web_world_visits(this.handle);
+  }
+
+  // ---- Recordings ----
+
+  /** Begins a recording; the one before is dropped. */
+  record() {
+    this.dropRecording();
+    this.recording = this.calls.web_record_begin(this.handle);
+    if (!this.recording) throw new SbfmtError('memory ran out', 'OUT_OF_MEMORY', '');
+  }
+  /** Ends it: a copy of its bytes. */
+  recorded() {
+    if (!this.recording) throw new TypeError('nothing is being recorded: call record() first');
+    this.calls.web_record_end(this.handle);
+    const at = this.calls.web_record_bytes(this.recording, this.sbfmt.scratch), [size] = this.sbfmt.words(this.sbfmt.scratch, 1);
+    const bytes = new Uint8Array(this.calls.memory.buffer, at, size).slice();
+    this.dropRecording();
+    return bytes;
+  }
+  replay(bytes) {
+    return new Replay(this, bytes);
+  }
+  dropRecording() {
+    if (!this.recording) return;
+    this.calls.web_record_end(this.handle);
+    this.calls.web_record_free(this.recording);
+    this.recording = 0;
+  }
+
   /** With its characters and colliders. */
   free() {
+    this.dropRecording();
     this.calls.web_world_free(this.handle);
+    this.freeGround();
+    this.handle = 0;
+  }
+}
+
+/** A recording that is played in a world that was made alike. */
+class Replay {
+  constructor(world, bytes) {
+    const { sbfmt, calls } = world;
+    this.world = world;
+    this.memory = sbfmt.room(bytes.byteLength);
+    new Uint8Array(calls.memory.buffer, this.memory, bytes.byteLength).set(bytes);
+    this.handle = calls.web_replay_begin(world.handle, this.memory, bytes.byteLength);
+    if (this.handle) return;
+    const failure = sbfmt.failure();
+    calls.web_free(this.memory);
+    throw failure;
+  }
+
+  /** Plays up to and with the next step; false where nothing was left. */
+  frame() {
+    return this.world.calls.web_replay_frame(this.handle) !== 0;
+  }
+  get state() {
+    const { sbfmt, calls } = this.world;
+    calls.web_replay_state(this.handle, sbfmt.scratch);
+    const [count, frames, checks, differs, tick] = sbfmt.doubles(sbfmt.scratch, 5);
+    return { count, frames, checks, differs: differs !== 0, differsAt: differs ? tick : null };
+  }
+  free() {
+    this.world.calls.web_free(this.handle);
+    this.world.calls.web_free(this.memory);
     this.handle = 0;
   }
 }
@@ -392,6 +496,22 @@ class Character {
     const n = Array.from(this.sbfmt.floats(scratch, 18));
     return { mode: Object.keys(MODES)[n[0]], position: n.slice(1, 4), rotation: n.slice(4, 8), center: n.slice(8, 11),
       velocity: n.slice(11, 14), angularVelocity: n.slice(14, 17), mass: n[17] };
+  }
+
+  get rung() {
+    return this.calls.web_character_rung(this.world.handle, this.id);
+  }
+  setRung(rung) {
+    this.calls.web_character_set_rung(this.world.handle, this.id, rung === null ? RUNG_CHOSEN : number(rung, 'rung'));
+  }
+  get fade() {
+    return this.calls.web_character_fade(this.world.handle, this.id);
+  }
+  shown(how) {
+    this.calls.web_character_shown(this.world.handle, this.id, chosen(SHOWN, how, 'how it is shown'));
+  }
+  get errorPx() {
+    return this.calls.web_character_error_px(this.world.handle, this.id);
   }
 
   get origin() {

@@ -10,6 +10,8 @@ function bytesIn(selector) {
 }
 const SPRINGS = 0b011111, LATTICE = 0b100000;
 const BALLS = 6, FRAME = 1 / 60, GRAVITY = 9.80665;
+/** Physics may take so much of a frame, in ms or as a share of the frame before; what time it then has not covered is let go: slow motion. */
+const PHYSICS_MS = 10, PHYSICS_SHARE = 0.35, LONGEST_FRAME = 0.25;
 const LANDS = {
   flat: () => ({ kind: 'flat' }),
   uneven: (size) => ({ kind: 'noise', height: 0.12 * size, seed: 7 }),
@@ -32,7 +34,7 @@ class Viewer {
     this.camera = { yaw: 0.72, pitch: 0.26, distance: 1, focus: [0, 0, 0], halfHeight: 0.3 };
     this.choices = { ground: 'uneven', level: 0, renderLevel: 0, speed: 0.5 };
     this.keys = new Set();
-    this.costs = { step: 0, skin: 0, frames: 0, since: 0 };
+    this.costs = { step: 0, skin: 0, frames: 0, since: 0, wanted: 0, covered: 0 };
     this.paused = false;
     this.size = 1;
     this.restart();
@@ -246,11 +248,28 @@ class Viewer {
     this.time += seconds;
   }
 
+  /** Steps so many seconds, tick by tick, or as many of them as there is time for; returns how many. */
+  advance(seconds) {
+    const most = Math.max(PHYSICS_MS, 1000 * PHYSICS_SHARE * seconds), began = performance.now();
+    let left = seconds, spent = 0, last = 0;
+    do {
+      const part = Math.min(left, FRAME);
+      this.step(part);
+      left -= part;
+      last = performance.now() - began - spent;
+      spent += last;
+    } while (left > 1e-9 && spent + last < most);
+    return seconds - left;
+  }
+
   frame(now) {
     requestAnimationFrame((next) => this.frame(next));
-    const seconds = Math.min((now - (this.last ?? now)) / 1000, 0.05);
+    const seconds = Math.min((now - (this.last ?? now)) / 1000, LONGEST_FRAME);
     this.last = now;
-    if (!this.paused && seconds > 0) this.step(seconds);
+    if (!this.paused && seconds > 0) {
+      this.costs.wanted += seconds;
+      this.costs.covered += this.advance(seconds);
+    }
     const follow = this.held ? 0 : 1 - Math.exp(-4 * seconds);
     this.camera.focus = vector.add(this.camera.focus, vector.scale(vector.subtract(this.subject, this.camera.focus), follow));
     this.draw();
@@ -259,9 +278,10 @@ class Viewer {
   }
 
   tell(now) {
-    const { step, skin, frames, since } = this.costs, health = this.character.health(), figures = {
+    const { step, skin, frames, since, wanted, covered } = this.costs, pace = wanted ? covered / wanted : 1, health = this.character.health(), figures = {
       step: `${Math.round(1000 * step / frames)} µs`,
       skinCost: `${Math.round(1000 * skin / frames)} µs`,
+      pace: pace > 0.98 ? 'as the clock' : `slowed to ${Math.round(100 * pace)} %`,
       rate: `${Math.round(1000 * frames / (now - since))} /s`,
       volume: `${(100 * Math.abs(1 - health.volumeRatio)).toFixed(2)} %`,
       strainMost: `${(100 * health.maxStrain).toFixed(0)} %`,
@@ -269,7 +289,7 @@ class Viewer {
       walked: `${this.character.distance.toFixed(2)} m`,
     };
     for (const [id, text] of Object.entries(figures)) element(id).textContent = text;
-    this.costs = { step: 0, skin: 0, frames: 0, since: now };
+    this.costs = { step: 0, skin: 0, frames: 0, since: now, wanted: 0, covered: 0 };
   }
 
   /** The state after so many frames of a sixtieth of a second on a ground, from a new start: what `sbfmt run` gives. */

@@ -43,7 +43,8 @@ void WEB_CALL(web_asset_free)(sbf_asset *asset) {
 }
 
 sbr_model *WEB_CALL(web_model_create)(const sbf_asset *asset, uint32_t level, const char *scheme,
-    uint32_t substeps, uint32_t loose, uint32_t has_gravity, float x, float y, float z, uint32_t scalar) {
+    uint32_t substeps, uint32_t loose, uint32_t has_gravity, float x, float y, float z, uint32_t scalar,
+    uint32_t ladder) {
   sbr_model *model = NULL;
   sbr_model_options options = {.level = level,
       .scheme = SBF_SCHEME_COUNT, /* refused, where the name is none */
@@ -51,6 +52,7 @@ sbr_model *WEB_CALL(web_model_create)(const sbf_asset *asset, uint32_t level, co
       .free = loose != 0,
       .has_gravity = has_gravity != 0,
       .gravity = {x, y, z},
+      .ladder = ladder != 0,
       .instructions = scalar ? SBR_INSTRUCTIONS_SCALAR : SBR_INSTRUCTIONS_AUTOMATIC};
   memset(&failure, 0, sizeof failure);
   for (int i = 0; i < SBF_SCHEME_COUNT; i++)
@@ -69,10 +71,23 @@ const char *WEB_CALL(web_model_instructions)(const sbr_model *model) {
 
 /* ---- Worlds ---- */
 
-enum ground_kind { GROUND_FLAT, GROUND_SLOPE, GROUND_STAIRS, GROUND_NOISE };
+enum ground_kind { GROUND_FLAT, GROUND_SLOPE, GROUND_STAIRS, GROUND_NOISE, GROUND_HEIGHTS };
 
+/* Of heights that stay where they are until web_free of what is returned. */
+sbr_height_field *WEB_CALL(web_heights_create)(
+    const float *heights, uint32_t columns, uint32_t rows, double cell, double x, double z) {
+  sbr_height_field *made = malloc(sizeof *made);
+  if (made)
+    *made = (sbr_height_field){
+        .heights_m = heights, .columns = columns, .rows = rows, .cell_m = cell, .x = x, .z = z};
+  return made;
+}
+
+/* Of heights `a` is where they are. */
 static sbr_ground ground_of(uint32_t kind, double a, double b) {
   switch (kind) {
+  case GROUND_HEIGHTS:
+    return sbr_ground_height_field((const sbr_height_field *)(uintptr_t)(uint32_t)a);
   case GROUND_SLOPE:
     return sbr_ground_slope(a);
   case GROUND_STAIRS:

@@ -1,0 +1,97 @@
+// Levels of detail, height fields and recordings as test_more.py asks, and prints what came of it as JSON.
+// Usage: node more_under_node.mjs SBFMT.JS BUNDLE RECORDING-TO-WRITE
+import { readFile, writeFile } from 'node:fs/promises';
+import { pathToFileURL } from 'node:url';
+
+const { load, SbfmtError } = await import(pathToFileURL(process.argv[2]));
+const sbfmt = await load(), bytes = await readFile(process.argv[3]), asset = sbfmt.asset(bytes);
+const faults = [], expect = (good, what) => good || faults.push(what);
+const throws = (call, kind, what) => {
+  try {
+    call();
+    faults.push(`${what} throws nothing`);
+  } catch (error) {
+    expect(error instanceof kind && error.message.length > 10, `${what} throws ${error}`);
+  }
+};
+
+// A height field that is a plane has its height everywhere; a hill is stood on.
+const plane = { kind: 'heights', columns: 3, rows: 4, cell: 2, x: -2, z: -2, heights: Array.from({ length: 12 }, (_, i) => 0.1 * (i % 3)) };
+const { heights, normals } = sbfmt.groundAt(plane, [-1, 0, 0.5, 1, 7, 7]);
+expect(Math.abs(heights[0] - 0.05) < 1e-6 && Math.abs(heights[1] - 0.125) < 1e-6 && Math.abs(heights[2] - 0.2) < 1e-6, `heights ${heights}`);
+expect(Math.abs(normals[0] / normals[1] + 0.05) < 1e-6, `normals ${normals}`);
+const side = 81, hill = { kind: 'heights', columns: side, rows: side, cell: 0.1, x: -4, z: -4,
+  heights: Float32Array.from({ length: side * side }, (_, i) => 0.3 * Math.exp(-(((i % side) * 0.1 - 4) ** 2 + (Math.floor(i / side) * 0.1 - 5.2) ** 2))) };
+const model = asset.model({ ladder: true }), uphill = sbfmt.world({ ground: hill }), climber = uphill.add(model);
+climber.drive(0.3);
+for (let i = 0; i < 300; i++) uphill.step(1 / 60);
+const lowest = () => {
+  let least = Infinity;
+  asset.meshes.forEach((_, i) => {
+    const { positions } = climber.skin(i), { origin } = climber;
+    const under = sbfmt.groundAt(hill, Float32Array.from({ length: positions.length / 3 * 2 }, (_, k) => positions[3 * (k >> 1) + 2 * (k & 1)] + origin[2 * (k & 1)]));
+    const again = climber.skin(i).positions;
+    under.heights.forEach((height, k) => { least = Math.min(least, again[3 * k + 1] + origin[1] - height); });
+  });
+  return least;
+};
+const least = lowest();
+expect(climber.distance > 1 && least > -0.02 && least < 0.02, `on the hill it went ${climber.distance} m, its lowest point ${least} m over it`);
+for (const wrong of [{ ...plane, heights: [1] }, { ...plane, columns: 1 }, { ...plane, cell: 0 }, { ...plane, heights: new Array(12).fill(NaN) }])
+  throws(() => sbfmt.world({ ground: wrong }), TypeError, JSON.stringify(wrong));
+climber.free();
+uphill.free();
+
+// Rungs: named, changed by hand, and chosen by views.
+const kinds = model.rungs.map((one) => one.kind);
+expect(kinds[0] === 'soft' && kinds.at(-1) === 'away' && kinds.includes('bones'), `rungs ${kinds}`);
+expect(model.rungs.every((one, i) => !i || one.visits <= model.rungs[i - 1].visits), 'a coarser rung costs more');
+expect(asset.model().rungs.length === 1, 'without a ladder there is one rung');
+const world = sbfmt.world(), near = world.add(model), far = world.add(model, { position: [0, 0, 60] });
+for (const one of [near, far]) one.drive(0.25);
+near.setRung(1);
+for (let i = 0; i < 3; i++) world.step(1 / 60);
+expect(near.rung === 1 && near.fade > 0, `put on rung 1 it is on ${near.rung}, its skin at ${near.fade}`);
+near.setRung(null);
+world.detail({ errorPx: 1, awayAfter: 0.5 });
+world.views([{ eye: [0, 0.5, -1.5], forward: [0, -0.1, 1], height: 0.8, ratio: 1.6, lines: 1080 }]);
+for (let i = 0; i < 120; i++) world.step(1 / 60);
+expect(near.rung === 0 && far.rung > 0, `chosen: near ${near.rung}, far ${far.rung}`);
+expect(near.errorPx > 0 && far.errorPx <= 1 && world.visits < 2 * model.rungs[0].visits, `off by ${near.errorPx} and ${far.errorPx} px, ${world.visits} visits`);
+far.shown('never');
+for (let i = 0; i < 60; i++) world.step(1 / 60);
+expect(model.rungs[far.rung].kind === 'away', `hidden it is ${model.rungs[far.rung].kind}`);
+throws(() => world.detail({ errorPx: -1 }), SbfmtError, 'an error below 0');
+throws(() => world.views(new Array(5).fill({})), TypeError, 'a fifth view');
+throws(() => far.shown('rarely'), TypeError, 'a way to be shown that there is not');
+world.free();
+
+// A recording gives the same state again, tells another world apart, and is the program's own form.
+const land = { kind: 'noise', height: 0.1, seed: 5 }, plain = asset.model();
+const made = () => {
+  const one = sbfmt.world({ ground: land });
+  return { one, character: one.add(plain) };
+};
+const first = made();
+first.one.record();
+first.character.drive(0.3, 0.2);
+for (let i = 0; i < 150; i++) {
+  if (i === 70) first.character.drive(0.1, -0.5);
+  first.one.step(i % 3 ? 1 / 60 : 1 / 40);
+}
+const hash = first.one.stateHash(), recording = first.one.recorded();
+await writeFile(process.argv[4], recording);
+const second = made(), replay = second.one.replay(recording);
+while (replay.frame());
+const { count, frames, checks, differs } = replay.state;
+expect(count === 150 && frames === 150 && checks >= 3 && !differs, `replayed: ${JSON.stringify(replay.state)}`);
+expect(second.one.stateHash() === hash, 'a replay ends in another state');
+replay.free();
+const third = sbfmt.world({ ground: { kind: 'flat' } });
+third.add(plain, { position: [1, 0, 0] });
+expect(third.replay(recording).state.differs, 'another world passes for the same');
+throws(() => third.replay(new Uint8Array(40)), SbfmtError, 'what is no recording');
+throws(() => third.recorded(), TypeError, 'the end of what was not begun');
+third.record(); // and is dropped with its world
+third.free();
+console.log(JSON.stringify({ hash, faults }));
