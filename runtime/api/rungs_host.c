@@ -26,5 +26,5 @@ void sbr_character_set_rung(sbr_world *world, sbr_character_id character, uint32
 
 float sbr_character_fade(const sbr_world *world, sbr_character_id character) {
   const sbri_character *c = sbri_character_of(world, character);
-  return c ? sbri_head(c)->fade : 0;
+  return !c ? 0 : sbri_head(c)->fade_kept ? 1 : sbri_head(c)->fade;
 }

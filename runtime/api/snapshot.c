@@ -98,14 +98,15 @@ sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_
 
 static void hash_rung(sbfi_hash64 *hash, const sbri_character *c) {
   const sbri_character_state *head = sbri_head(c);
-  const uint32_t words[8] = {head->rung, head->next_rung, head->set_rung_plus_1, head->rung_ticks,
-      head->fade_ticks, head->fades_ticks, head->shown, head->unseen_ticks};
+  const uint32_t words[10] = {head->rung, head->next_rung, head->set_rung_plus_1, head->rung_ticks,
+      head->fade_ticks, head->fades_ticks, head->shown, head->unseen_ticks, head->fade_kept,
+      head->swing_ticks};
   const float shares[2] = {head->fade, head->fade_before};
   const uint32_t *first = c->model->base->first_vertices;
-  sbfi_hash64_u32(hash, words, 8);
+  sbfi_hash64_u32(hash, words, 10);
   sbfi_hash64_f32(hash, shares, 2);
-  if (head->fade_before > 0)
-    sbfi_hash64_f32(hash, &sbri_faded(c)->x, 3 * (size_t)first[c->model->asset->render_meshes.count]);
+  if (head->fade_before > 0 || head->fade_kept)
+    sbfi_hash64_f32(hash, &sbri_faded(c)->place.x, 12 * (size_t)first[c->model->asset->render_meshes.count]);
 }
 
 uint64_t sbr_world_state_hash(const sbr_world *world) {

@@ -18,7 +18,7 @@ static uint32_t rung_for(const sbr_world *world, const sbri_character *c, float 
   const sbri_detail *detail = world->detail;
   const sbri_character_state *head = sbri_head(c);
   const sbr_model *base = c->model->base;
-  uint32_t last = last_posed(base), now = head->rung < last ? head->rung : last, found = 0;
+  uint32_t last = last_posed(base), now = head->next_rung < last ? head->next_rung : last, found = 0;
   if (!(pixels > 0)) {
     float after = detail->is.away_after_s;
     return after >= 0 && head->unseen_ticks >= ticks_of(world, after) ? base->rung_count - 1 : last;
@@ -61,6 +61,7 @@ void sbri_detail_choose(sbr_world *world) {
   for (uint32_t i = 0; i < world->character_capacity; i++)
     if (choose_for(world, i, &detail->choices[detail->choice_count], &visits)) detail->choice_count++;
   bool is_short = most > 0 && visits > most;
+  detail->is_short = is_short;
   if (is_short) visits = sbri_budget_keep(world, visits, most);
   for (uint32_t i = 0; i < detail->choice_count; i++) {
     sbri_character *c = &world->characters[detail->choices[i].character];

@@ -30,6 +30,7 @@ typedef struct sbri_detail {
   sbri_choice *choices; /* (character_capacity) */
   sbri_saving *savings; /* likewise: a heap, the cheapest first */
   uint32_t choice_count, saving_count;
+  bool is_short; /* in this tick the budget does not last for what is wanted */
   double visits; /* of the last tick */
 } sbri_detail;
 

@@ -1,18 +1,32 @@
-/* From what one rung shows to what the next does, over a while; at the moment of the change the skin is
- * exactly where it was. By how much each vertex was elsewhere than the bones alone would have it goes along
- * with the bones and fades, while the new rung's skin comes up: what a soft rung does at first, before it has
- * found where it rests, hardly shows. Of bodies that nothing holds, which have no rung of bones, the
- * difference of both skins fades from the new one. */
+/* From what one rung shows to what the next does, over a while, and nothing is seen to jump: neither the skin
+ * nor how fast it goes, nor how that changes.
+ *
+ * For a tick before the change the skin is looked at, so that it is known by three moments how each vertex
+ * moves, seen from where the bones alone would have it: as a weight on a spring, as fast as its body swings
+ * (its jiggle says so). On that it goes on, along with the bones, while it fades and the new rung's skin
+ * comes up: what a soft rung does at first, before it has found where it rests, hardly shows. Of bodies that
+ * nothing holds, which have no rung of bones, the difference of both skins fades from the new one. */
 #include <string.h>
 
 #include "detail/rungs.h"
+#include "math/trig.h"
 #include "math/vec3.h"
+#include "pose/frames.h"
 #include "skin/skin.h"
 
 /* A quarter of a second, or longer where much is to fade: no vertex goes faster for it than so much of the
- * character's size a second. */
-static const float FADES_S = 0.25f, MOST_SIZES_1_S = 0.05f;
+ * character's size a second, but for one that swings, which ends within so many radians of that. */
+static const float FADES_S = 0.25f, MOST_SIZES_1_S = 0.05f, SWINGS_RAD = 9.4f;
 static const uint32_t MOST_TICKS = 240;
+
+/* Where it is steepest the share falls so much faster than on average. */
+static const float STEEPEST = 1.875f;
+
+/* What is taken to swing goes no farther than so many times as far as it has been seen. */
+static const float MOST_REACHES = 2;
+
+/* How far it turns in a tick, at most: what swings faster than three moments can tell. */
+static const float MOST_TURN_RAD = 1.5f;
 
 /* The bones' rung; NULL: there is none. */
 static const sbr_model *bones_of(const sbri_character *c) {
@@ -20,78 +34,184 @@ static const sbr_model *bones_of(const sbri_character *c) {
   return last->kind == SBR_RUNG_BONES ? last : NULL;
 }
 
-/* Adds `model`'s skins as they are now, times `share`. */
-static void add_skins(sbri_character *c, const sbr_model *model, float share) {
-  for (uint32_t m = 0; model && m < model->asset->render_meshes.count; m++) {
-    const sbri_skin *skin = sbri_skin_of(model, m, 0);
-    sbf_vec3 *to = sbri_faded(c) + model->base->first_vertices[m];
-    sbri_point *vertices = sbri_fading(c);
-    sbri_skin_vertices(model, skin, sbri_positions(c), sbri_deltas(c), vertices);
-    for (uint32_t v = 0; v < skin->vertex_count; v++)
-      to[v] = sbri_add_scaled(to[v], sbri_vec3(vertices[v].x, vertices[v].y, vertices[v].z), share);
-  }
+static uint32_t first_vertex(const sbri_character *c, uint32_t mesh) {
+  return c->model->base->first_vertices[mesh];
 }
 
-static uint32_t vertex_count(const sbri_character *c) {
-  return c->model->base->first_vertices[c->model->asset->render_meshes.count];
+static uint32_t vertex_count(const sbri_character *c, uint32_t mesh) {
+  return first_vertex(c, mesh + 1) - first_vertex(c, mesh);
 }
 
-void sbri_fade_end(sbri_character *c) {
-  sbri_character_state *head = sbri_head(c);
-  head->fade = head->fade_before = 0;
-  head->fade_ticks = head->fades_ticks = 0;
+static sbf_vec3 of_point(const sbri_point *p) {
+  return sbri_vec3(p->x, p->y, p->z);
 }
 
-void sbri_fade_keep(sbri_character *c) {
+static float turn_of(const sbr_world *world, const sbri_character *c, uint32_t body) {
+  float turn = c->model->base->swing_rad_s[body] * (float)world->tick_s * c->time_scale;
+  return turn < MOST_TURN_RAD ? turn : MOST_TURN_RAD;
+}
+
+/* Of a spring that turns by so much in a tick, what a tick's steps change by for each metre from its rest. */
+static float pull_of(float turn) {
+  float sine, cosine;
+  sbri_sincos(0.5f * turn, &sine, &cosine);
+  return 4 * sine * sine;
+}
+
+/* ---- What is seen ---- */
+
+static void skin_of(sbri_character *c, const sbr_model *model, uint32_t mesh, bool now, sbri_point *to) {
+  sbri_skin_vertices(model, sbri_skin_of(model, mesh, 0),
+      now ? sbri_positions(c) : sbri_previous_positions(c), now ? sbri_deltas(c) : sbri_previous_deltas(c),
+      to);
+}
+
+/* What fades, over a skin and, where there are, bones'. */
+static void mix(const sbri_character *c, uint32_t mesh, const sbri_skin *skin, const sbri_point *bones,
+    float share, sbri_point *to) {
   const sbri_character_state *head = sbri_head(c);
-  float left = head->fade;
-  sbf_vec3 *faded = sbri_faded(c);
-  for (uint32_t v = 0; v < vertex_count(c); v++)
-    faded[v] = left > 0 ? sbri_scale(faded[v], left) : sbri_vec3(0, 0, 0);
-  add_skins(c, c->model, bones_of(c) ? 1 - left : 1);
-  if (bones_of(c) && left > 0) add_skins(c, bones_of(c), left);
-}
-
-void sbri_fade_begin(const sbr_world *world, sbri_character *c) {
-  sbri_character_state *head = sbri_head(c);
-  float most = 0;
-  add_skins(c, bones_of(c) ? bones_of(c) : c->model, -1);
-  for (uint32_t v = 0; v < vertex_count(c); v++)
-    most = fmaxf(most, sbri_dot(sbri_faded(c)[v], sbri_faded(c)[v]));
-  sbri_fade_end(c);
-  if (!(most < 1e12f)) return;
-  /* Where it is steepest the share falls half as fast again as on average. */
-  float seconds = 1.5f * sqrtf(most) / (MOST_SIZES_1_S * c->model->base->rest_size_m);
-  if (!(seconds > FADES_S)) seconds = FADES_S;
-  float ticks = ceilf(seconds / (float)world->tick_s);
-  head->fades_ticks = head->fade_ticks = ticks < (float)MOST_TICKS ? (uint32_t)ticks : MOST_TICKS;
-  head->fade = head->fade_before = 1;
-}
-
-void sbri_fade_tick(sbri_character *c) {
-  sbri_character_state *head = sbri_head(c);
-  head->fade_before = head->fade;
-  if (head->fade_ticks == 0) return;
-  float left = (float)--head->fade_ticks / (float)head->fades_ticks;
-  head->fade = left * left * (3 - 2 * left);
+  const sbri_going *all = sbri_faded(c) + first_vertex(c, mesh);
+  float left = head->fade_before + (head->fade - head->fade_before) * share;
+  for (uint32_t v = 0; v < skin->vertex_count; v++) {
+    const sbri_going *g = &all[skin->vertices ? skin->vertices[v] : v];
+    sbf_vec3 off = sbri_add_scaled(g->was, sbri_sub(g->place, g->was), share);
+    if (bones) off = sbri_add(off, sbri_sub(of_point(&bones[v]), of_point(&to[v])));
+    to[v].x += left * off.x, to[v].y += left * off.y, to[v].z += left * off.z;
+  }
 }
 
 void sbri_fade_apply(const sbri_character *c, uint32_t render_mesh, uint32_t render_level,
     const sbri_skin *skin, float share, sbri_point *vertices) {
-  const sbri_character_state *head = sbri_head(c);
   const sbr_model *bones = bones_of(c);
-  if (!(head->fade_before > 0)) return;
-  float left = head->fade_before + (head->fade - head->fade_before) * share;
-  const sbf_vec3 *faded = sbri_faded(c) + c->model->base->first_vertices[render_mesh];
-  sbri_point *from = sbri_fading(c);
+  if (!(sbri_head(c)->fade_before > 0)) return;
   if (bones)
-    sbri_skin_vertices(
-        bones, sbri_skin_of(bones, render_mesh, render_level), sbri_sampled(c), sbri_sampled_deltas(c), from);
-  for (uint32_t v = 0; v < skin->vertex_count; v++) {
-    sbri_point *p = &vertices[v];
-    const sbf_vec3 *d = &faded[skin->vertices ? skin->vertices[v] : v];
-    float x = d->x, y = d->y, z = d->z;
-    if (bones) x += from[v].x - p->x, y += from[v].y - p->y, z += from[v].z - p->z;
-    p->x += left * x, p->y += left * y, p->z += left * z;
+    sbri_skin_vertices(bones, sbri_skin_of(bones, render_mesh, render_level), sbri_sampled(c),
+        sbri_sampled_deltas(c), sbri_fading(c));
+  mix(c, render_mesh, skin, bones ? sbri_fading(c) : NULL, share, vertices);
+}
+
+/* As it is shown when this tick is over, or when it began, from the bones. */
+static void shown(sbri_character *c, uint32_t mesh, bool now, sbri_point *to) {
+  const sbr_model *bones = bones_of(c);
+  sbri_point *from = sbri_fading(c);
+  skin_of(c, c->model, mesh, now, to);
+  if (bones) skin_of(c, bones, mesh, now, from);
+  if (sbri_head(c)->fade_before > 0)
+    mix(c, mesh, sbri_skin_of(c->model, mesh, 0), bones ? from : NULL, now ? 1.0f : 0.0f, to);
+  for (uint32_t v = 0; bones && v < vertex_count(c, mesh); v++)
+    to[v] = (sbri_point){to[v].x - from[v].x, to[v].y - from[v].y, to[v].z - from[v].z, 0};
+}
+
+static void make_deltas(sbri_character *c) {
+  sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
+  sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
+}
+
+void sbri_fade_look(sbri_character *c) {
+  sbri_point *was = sbri_sums(c);
+  make_deltas(c);
+  for (uint32_t m = 0; m < c->model->asset->render_meshes.count; m++) {
+    sbri_going *to = sbri_faded(c) + first_vertex(c, m);
+    shown(c, m, false, was);
+    for (uint32_t v = 0; v < vertex_count(c, m); v++) to[v].kept = of_point(&was[v]);
   }
+  sbri_head(c)->fade_kept = 1;
+}
+
+/* ---- How it goes on ---- */
+
+/* As three places, a tick after each other, on a spring that turns by so much in each; no farther than it has
+ * been seen. Returns how far it swings. */
+static float attach(sbri_going *g, float turn) {
+  sbf_vec3 bend = sbri_sub(sbri_add(g->kept, g->place), sbri_scale(g->was, 2));
+  g->still = sbri_add_scaled(g->was, bend, 1 / pull_of(turn));
+  sbf_vec3 off = sbri_sub(g->place, g->still), went = sbri_sub(g->place, g->was);
+  float reach = MOST_REACHES * fmaxf(sbri_length(g->place), sbri_length(g->was));
+  float swings = sqrtf(sbri_dot(off, off) + sbri_dot(went, went) / (turn * turn));
+  if (swings <= reach) return swings;
+  float share = swings < 1e6f ? reach / swings : 0;
+  g->still = sbri_sub(g->place, sbri_scale(off, share));
+  g->was = sbri_sub(g->place, sbri_scale(went, share));
+  return reach;
+}
+
+/* A spring's next tick. */
+static void go_on(sbri_going *g, float pull) {
+  sbf_vec3 to = sbri_add(g->place, sbri_sub(g->place, g->was));
+  g->was = g->place;
+  g->place = sbri_add_scaled(to, sbri_sub(g->place, g->still), -pull);
+}
+
+float sbri_fade_keep(const sbr_world *world, sbri_character *c) {
+  bool swings = sbri_head(c)->fade_kept && bones_of(c);
+  float most = 0;
+  make_deltas(c);
+  for (uint32_t m = 0; m < c->model->asset->render_meshes.count; m++) {
+    sbri_going *all = sbri_faded(c) + first_vertex(c, m);
+    const uint32_t *with = c->model->base->swings_with + first_vertex(c, m);
+    sbri_point *was = sbri_sums(c), *is = sbri_vertices(c);
+    shown(c, m, false, was);
+    shown(c, m, true, is);
+    for (uint32_t v = 0; v < vertex_count(c, m); v++) {
+      all[v].place = all[v].was = all[v].still = of_point(&is[v]);
+      if (!swings) continue;
+      all[v].was = of_point(&was[v]);
+      most = fmaxf(most, attach(&all[v], turn_of(world, c, with[v])));
+    }
+  }
+  return most;
+}
+
+void sbri_fade_tick(const sbr_world *world, sbri_character *c) {
+  sbri_character_state *head = sbri_head(c);
+  head->fade_before = head->fade;
+  if (head->fade_ticks == 0) return;
+  float left = (float)--head->fade_ticks / (float)head->fades_ticks;
+  head->fade = left * left * left * (10 + left * (6 * left - 15));
+  uint32_t bodies = c->model->asset->soft_bodies.count;
+  uint32_t vertices = first_vertex(c, c->model->asset->render_meshes.count);
+  float *pulls = sbri_pulls(c);
+  for (uint32_t b = 0; b <= bodies; b++) pulls[b] = pull_of(turn_of(world, c, b));
+  for (uint32_t v = 0; v < vertices; v++) go_on(&sbri_faded(c)[v], pulls[c->model->base->swings_with[v]]);
+}
+
+/* ---- A change ---- */
+
+void sbri_fade_end(sbri_character *c) {
+  sbri_character_state *head = sbri_head(c);
+  head->fade = head->fade_before = 0;
+  head->fade_ticks = head->fades_ticks = head->fade_kept = 0;
+}
+
+/* Of bodies that nothing holds: what fades is the difference to the new skin. */
+static void take_off(sbri_character *c, uint32_t mesh) {
+  sbri_going *all = sbri_faded(c) + first_vertex(c, mesh);
+  sbri_point *is = sbri_fading(c);
+  skin_of(c, c->model, mesh, true, is);
+  for (uint32_t v = 0; v < vertex_count(c, mesh); v++)
+    all[v].place = all[v].was = all[v].still = sbri_sub(all[v].place, of_point(&is[v]));
+}
+
+void sbri_fade_begin(const sbr_world *world, sbri_character *c) {
+  sbri_character_state *head = sbri_head(c);
+  const sbr_model *base = c->model->base;
+  uint32_t meshes = base->asset->render_meshes.count;
+  float off = 0, swings = 0, slowest = INFINITY, tick_s = (float)world->tick_s;
+  for (uint32_t m = 0; m < meshes && !bones_of(c); m++) take_off(c, m);
+  for (uint32_t v = 0; v < first_vertex(c, meshes); v++) {
+    const sbri_going *g = &sbri_faded(c)[v];
+    sbf_vec3 swing = sbri_sub(g->place, g->still);
+    off = fmaxf(off, sbri_dot(g->still, g->still)), swings = fmaxf(swings, sbri_dot(swing, swing));
+  }
+  for (uint32_t b = 0; b <= base->asset->soft_bodies.count; b++)
+    slowest = fminf(slowest, turn_of(world, c, b));
+  sbri_fade_end(c);
+  if (!(off < 1e12f && swings < 1e12f)) return;
+  float most_m_s = MOST_SIZES_1_S * base->rest_size_m;
+  float swings_s = fminf(STEEPEST * sqrtf(swings) / most_m_s, SWINGS_RAD / slowest * tick_s);
+  float seconds = fmaxf(STEEPEST * sqrtf(off) / most_m_s, swings_s);
+  if (!(seconds > FADES_S)) seconds = FADES_S;
+  float ticks = ceilf(seconds / tick_s);
+  head->fades_ticks = head->fade_ticks = ticks < (float)MOST_TICKS ? (uint32_t)ticks : MOST_TICKS;
+  head->fade = head->fade_before = 1;
 }

@@ -4,7 +4,7 @@
  * it does not. From jiggle and bones bodies begin in their rest shape, going as their bones go. */
 #include <string.h>
 
-#include "detail/rungs.h"
+#include "detail/choose.h"
 #include "math/quat.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
@@ -217,19 +217,51 @@ static void go_over(const sbr_world *world, sbri_character *c, uint32_t rung) {
   take_soft(world, c, was, was_rung, before_j, tick_s);
 }
 
+/* Of what it swings by, what may be seen to jump where it swings on: measured, of what is shaken hard. */
+static const float JUMPS_SHARE = 0.15f;
+/* No longer is one that is to be finer kept from it, s. */
+static const float SWINGS_MOST_S = 1;
+
+/* Of one that is chosen for, and the budget does not ask for it: whether too much would be missed, on a rung
+ * that does not swing, or be seen to jump. It is looked at again in a while, or at once if it is to be finer.
+ */
+static bool swings_too_far(const sbr_world *world, sbri_character *c, uint32_t rung, float swings_m) {
+  const sbri_detail *detail = world->detail;
+  sbri_character_state *head = sbri_head(c);
+  const sbr_rung *ladder = c->model->base->ladder;
+  if (!detail || detail->is_short || head->set_rung_plus_1 || head->fade_before > 0) return false;
+  bool finer = rung < head->rung, swings_on = finer || ladder[rung].kind == SBR_RUNG_SOFT;
+  float shows = sbri_pixels_of(world, c) * c->scale * swings_m * (swings_on ? JUMPS_SHARE : 1);
+  return shows > detail->is.error_px &&
+         !(finer && (float)head->swing_ticks++ * (float)world->tick_s > SWINGS_MOST_S);
+}
+
 void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   sbri_character_state *head = sbri_head(c);
   uint32_t rung = head->next_rung;
   if (head->rung_ticks < UINT32_MAX) head->rung_ticks++;
   if (c->model->base->ladder[rung].kind == SBR_RUNG_AWAY && !sbri_rigid_is_still(c))
     rung--; /* what lies about, or falls, goes on doing so: bones alone */
-  if (rung == head->rung) return;
+  bool kept = head->fade_kept > 0;
+  if (rung == head->rung) {
+    head->fade_kept = 0;
+    return;
+  }
+  bool coarser = rung > head->rung, chosen = world->detail && !head->set_rung_plus_1;
+  if (coarser && chosen && head->fade_before > 0 && !world->detail->is_short)
+    return; /* one after the other */
   bool returns = sbri_is_away(c), same = c->model == c->model->base->rungs[rung];
   bool fades = head->unseen_ticks == 0 && !same && !returns; /* nobody has seen one that was away */
-  if (fades) {
-    sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
-    sbri_fade_keep(c);
+  if (fades && !kept) {
+    sbri_fade_look(c);
+    return;
   }
+  if (fades && swings_too_far(world, c, rung, sbri_fade_keep(world, c))) {
+    head->next_rung = head->rung;
+    head->rung_ticks = head->fade_kept = 0;
+    return;
+  }
+  head->fade_kept = head->swing_ticks = 0;
   if (returns) sbri_away_arrive(world, c);
   if (!same) go_over(world, c, rung);
   head->rung = rung;

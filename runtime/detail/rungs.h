@@ -19,13 +19,15 @@ void sbri_rung_change(const sbr_world *world, sbri_character *c);
 
 /* ---- detail/fade.c ---- */
 
-/* Of a change of rungs: before it, and after it; then the skin is where it was. */
-void sbri_fade_keep(sbri_character *c);
+/* Of a change of rungs: a tick before it; then right before it, and after it, when the skin is where it was.
+ * The second returns how far what is seen swings at most, asset metres. */
+void sbri_fade_look(sbri_character *c);
+float sbri_fade_keep(const sbr_world *world, sbri_character *c);
 void sbri_fade_begin(const sbr_world *world, sbri_character *c);
 /* No vertex is off its place any more. */
 void sbri_fade_end(sbri_character *c);
 /* A tick of it. */
-void sbri_fade_tick(sbri_character *c);
+void sbri_fade_tick(const sbr_world *world, sbri_character *c);
 /* What is left of it, at a share of the tick, on vertices of a skin of a render mesh, asset metres. */
 void sbri_fade_apply(const sbri_character *c, uint32_t render_mesh, uint32_t render_level,
     const sbri_skin *skin, float share, sbri_point *vertices);

@@ -288,7 +288,7 @@ typedef struct sbri_layout {
   size_t visits, queue, touched, owners, frayed;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
       vertices, faces, sums, kept, kept_touching, kept_rigid_touching, offsets, speeds, energies, fading,
-      own_scratch_size, scratch_size;
+      pulls, own_scratch_size, scratch_size;
 } sbri_layout;
 
 struct sbfi_tetrahedron;
@@ -332,6 +332,8 @@ struct sbr_model {
   uint32_t most_islands;          /* likewise, of a rung */
   const sbri_sources **sources;   /* (rung_count of the first) for each slot; NULL: not both are soft */
   const uint32_t *first_vertices; /* (asset->render_meshes.count + 1) of each mesh among all */
+  const uint32_t *swings_with; /* (all of those) the body that a vertex swings with, or how many there are */
+  const float *swing_rad_s;    /* (bodies + 1) how fast each swings to and fro; the last: what is of none */
   sbri_jiggle *jiggles;
   uint32_t jiggle_count;
 };

@@ -168,6 +168,52 @@ static bool number_vertices(sbr_model *base) {
   return first != NULL;
 }
 
+/* ---- How bodies swing ---- */
+
+/* Of a body without a jiggle. */
+static const float SWINGS_HZ = 8;
+static const float TWO_PI = 6.2831853f;
+
+static void note_embedding(const sbr_model *base, uint32_t body, uint32_t *with, float *shares) {
+  const sbf_embedding_list *all = &base->bodies[body].level->embeddings;
+  for (uint32_t e = 0; e < all->count; e++) {
+    const sbf_embedding *one = &all->at[e];
+    uint32_t mesh = (uint32_t)one->render_mesh;
+    if (one->render_mesh < 0) continue;
+    uint32_t first = base->first_vertices[mesh], count = base->first_vertices[mesh + 1] - first;
+    for (uint32_t i = 0; i < one->points.count; i++) {
+      uint32_t vertex = one->vertices.count ? one->vertices.at[i] : i;
+      float blend = one->blends.count ? one->blends.at[i] : 1;
+      if (vertex >= count || !(blend > shares[first + vertex])) continue;
+      shares[first + vertex] = blend, with[first + vertex] = body;
+    }
+  }
+}
+
+/* Which body most of each vertex is of, and how fast that swings. */
+static bool note_swings(sbr_model *base) {
+  uint32_t bodies = base->asset->soft_bodies.count;
+  size_t vertices = base->first_vertices[base->asset->render_meshes.count];
+  uint32_t *with = sbfi_arena_allocate(&base->arena, vertices + 1, sizeof *with);
+  float *rad_s = sbfi_arena_allocate(&base->arena, (size_t)bodies + 1, sizeof *rad_s);
+  float *shares = sbfi_allocate(&base->arena.allocator, (vertices + 1) * sizeof *shares);
+  if (!with || !rad_s || !shares) {
+    sbfi_free(&base->arena.allocator, shares, (vertices + 1) * sizeof *shares);
+    return false;
+  }
+  for (size_t v = 0; v < vertices; v++) with[v] = bodies, shares[v] = 0;
+  for (uint32_t b = 0; b <= bodies; b++) {
+    const sbf_level *level = b < bodies ? sbri_jiggle_of(base, b) : NULL;
+    rad_s[b] = TWO_PI * (level && level->jiggle->frequency > 0 ? level->jiggle->frequency : SWINGS_HZ);
+    if (b < bodies && base->bodies[b].level) note_embedding(base, b, with, shares);
+  }
+  sbfi_free(&base->arena.allocator, shares, (vertices + 1) * sizeof *shares);
+  base->swings_with = with, base->swing_rad_s = rad_s;
+  return true;
+}
+
+/* ---- What changes go by ---- */
+
 static bool make_sources(sbr_model *base) {
   for (uint32_t to = 0; to < base->rung_count; to++) {
     sbr_model *model = base->rungs[to];
@@ -194,7 +240,7 @@ sbf_status sbri_rungs_make(sbr_model *model, const sbr_model_options *options, s
     sbf_status status = make_coarser(model, options, error);
     if (status == SBF_OK) status = make_unsoft(model, options, error);
     if (status != SBF_OK) return status;
-    if (!number_vertices(model) || !make_sources(model)) return no_memory(error);
+    if (!number_vertices(model) || !note_swings(model) || !make_sources(model)) return no_memory(error);
   }
   for (uint32_t r = 0; r < model->rung_count; r++) {
     uint32_t islands = model->rungs[r]->island_count;

@@ -43,7 +43,7 @@ static void make_layout(sbr_model *model) {
   place(&end, 1, sizeof(sbri_character_state));
   const sbr_model *base = model->base;
   uint32_t meshes = base->rung_count > 1 ? model->asset->render_meshes.count : 0;
-  l->faded = place(&end, meshes ? base->first_vertices[meshes] : 0, sizeof(sbf_vec3));
+  l->faded = place(&end, meshes ? base->first_vertices[meshes] : 0, sizeof(sbri_going));
   l->gait = place(&end, 1, sbri_gait_state_size(&model->rig));
   l->pose = place(&end, frames, sizeof(sbr_transform));
   l->previous_pose = place(&end, frames, sizeof(sbr_transform));
@@ -152,6 +152,7 @@ void sbri_layouts_make(sbr_model *model) {
     l->speeds = place(&end, slots, sizeof(sbri_point));
     l->energies = place(&end, bodies, sizeof(double));
     l->fading = place(&end, vertices, sizeof(sbri_point));
+    l->pulls = place(&end, bodies + 1, sizeof(float));
     l->scratch_size = (end + 63) & ~(size_t)63;
   }
 }

@@ -31,6 +31,8 @@ typedef struct sbri_character_state {
   float fade, fade_before;          /* share of `faded` that shows, and a tick ago */
   uint32_t shown;                   /* sbr_shown */
   uint32_t unseen_ticks;            /* for how long no view has it */
+  uint32_t fade_kept;               /* it goes over in the next tick, and is looked at meanwhile */
+  uint32_t swing_ticks;             /* for how long a change has been put off because it swings */
   uint32_t unused;                  /* to the next double */
 } sbri_character_state;
 
@@ -57,6 +59,14 @@ typedef struct sbri_island_state {
 typedef struct sbri_guide_motion {
   sbf_vec3 velocity, spin; /* of its middle, m/s; rad/s */
 } sbri_guide_motion;
+
+/* A vertex as the rung before would have it go on, asset metres: as a weight on a spring. Places are from
+ * where the bones alone would have it, or, where there are none, from where the new rung has it. */
+typedef struct sbri_going {
+  sbf_vec3 place, was; /* and a tick ago */
+  sbf_vec3 still;      /* where it would come to rest */
+  sbf_vec3 kept;       /* while a change is begun: where it was shown two ticks before that */
+} sbri_going;
 
 typedef struct sbri_character {
   const sbr_model *model; /* NULL: the place is free */
@@ -117,8 +127,7 @@ SBRI_STATE_PART(rigid_bodies, sbri_rigid_body_state, c->model->layout.rigid_bodi
 SBRI_STATE_PART(rigid_joints, sbri_rigid_joint_state, c->model->layout.rigid_joints) /* (joints) */
 SBRI_STATE_PART(rigid_drive, sbri_rigid_drive_state, c->model->layout.rigid_drive)
 SBRI_STATE_PART(rigid_kept, sbri_kept_touch, c->model->layout.rigid_kept) /* (sbri_rigid_touch_capacity) */
-/* By how much each vertex of the render meshes lay elsewhere on the rung before, asset metres. */
-SBRI_STATE_PART(faded, sbf_vec3, c->model->layout.faded)
+SBRI_STATE_PART(faded, sbri_going, c->model->layout.faded)              /* (vertices of all render meshes) */
 SBRI_STATE_PART(jiggles, sbri_place_follower, c->model->layout.jiggles) /* (jiggle_count) asset metres */
 #undef SBRI_STATE_PART
 
@@ -181,6 +190,7 @@ SBRI_SCRATCH_PART(
 SBRI_SCRATCH_PART(offsets, sbri_point, c->model->layout.offsets)              /* (most slots) */
 SBRI_SCRATCH_PART(speeds, sbri_point, c->model->layout.speeds)                /* likewise */
 SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading) /* (most vertices of a mesh, padded) */
+SBRI_SCRATCH_PART(pulls, float, c->model->layout.pulls)        /* (bodies + 1) */
 SBRI_SCRATCH_PART(energies, double, c->model->layout.energies) /* (bodies) J */
 #undef SBRI_SCRATCH_PART
 

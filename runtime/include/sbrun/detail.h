@@ -48,9 +48,11 @@ typedef struct sbr_rung {
  * nothing holds have no rungs below the soft ones. */
 SBF_API uint32_t sbr_model_rungs(const sbr_model *model, sbr_rung *rungs, uint32_t capacity);
 
-/* The rung that the character is on, or begins to go over to in the next tick; from 0. */
+/* The rung that the character is on, or is about to go over to; from 0. */
 SBF_API uint32_t sbr_character_rung(const sbr_world *world, sbr_character_id character);
-/* Puts it on a rung from the next tick on, beyond the last: the last; SBR_RUNG_CHOSEN: the world chooses
+/* Puts it on a rung, beyond the last: the last. It goes over when the tick after the next begins: until then
+ * it is looked at, so that it is known how it moves; at once where nobody sees it, or it is away.
+ * SBR_RUNG_CHOSEN: the world chooses
  * again. In a world whose bodies meet each other (sbrun/collision.h) characters stay on their rung. */
 #define SBR_RUNG_CHOSEN 0xffffffffu
 SBF_API void sbr_character_set_rung(sbr_world *world, sbr_character_id character, uint32_t rung);
@@ -62,7 +64,7 @@ SBF_API float sbr_character_fade(const sbr_world *world, sbr_character_id charac
 /* How a world chooses rungs. */
 typedef struct sbr_detail_definition {
   uint32_t cookie;    /* set by sbr_default_detail_definition */
-  float error_px;     /* that a character may be off on the screen; default 0.5 */
+  float error_px;     /* that a character may be off on the screen, or jump when it changes; default 0.5 */
   float budget_us;    /* of processor time a tick, for all characters together; 0 (default): none */
   float ns_per_visit; /* what a visit (sbr_rung.visits) takes on this machine; default 6 */
   float settle; /* a coarser rung is taken where its error is below this share of error_px; default 0.7 */
