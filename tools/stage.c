@@ -357,10 +357,14 @@ static void show_bones(stage *st, const session *s, draw_scene *scene) {
   }
 }
 
-/* The bone before a leg's foot. */
+/* The bone below a leg's first, or that one where its foot hangs on it. */
 static int32_t leg_knee(const sbf_asset *asset, uint32_t leg) {
-  int32_t foot = asset->ik_chains.at[asset->gaits.at[0].legs.at[leg].ik].end;
-  return asset->bones.at[foot].parent >= 0 ? asset->bones.at[foot].parent : foot;
+  const sbf_ik_chain *chain = &asset->ik_chains.at[asset->gaits.at[0].legs.at[leg].ik];
+  int32_t knee = asset->bones.at[chain->end].parent >= 0 ? asset->bones.at[chain->end].parent : chain->end;
+  while (
+      knee != chain->root && asset->bones.at[knee].parent >= 0 && asset->bones.at[knee].parent != chain->root)
+    knee = asset->bones.at[knee].parent;
+  return knee;
 }
 
 /* Footprints as rings; from every knee a line to its pole; of a foot in the air where it goes, and the ray

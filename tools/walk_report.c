@@ -79,9 +79,12 @@ walk_report *walk_report_create(const session *s, const soles *feet) {
     leg->foot = asset->ik_chains.at[gait->legs.at[l].ik].end;
     leg->lower = asset->bones.at[leg->foot].parent;
     leg->upper = leg->lower >= 0 ? asset->bones.at[leg->lower].parent : -1;
+    int32_t root = asset->ik_chains.at[gait->legs.at[l].ik].root;
+    if (leg->upper >= 0 && leg->upper != root && asset->bones.at[leg->upper].parent == root)
+      leg->foot = leg->lower, leg->lower = leg->upper, leg->upper = root; /* it ends in a toe */
     leg->group = gait->legs.at[l].group;
     if (leg->lower >= 0) leg->length = rest_length(asset, leg->foot, leg->lower);
-    if (leg->lower < 0 || leg->upper < 0 || asset->ik_chains.at[gait->legs.at[l].ik].root != leg->upper)
+    if (leg->lower < 0 || leg->upper < 0 || root != leg->upper)
       leg->lower = -1;
     else
       leg->length += rest_length(asset, leg->lower, leg->upper);

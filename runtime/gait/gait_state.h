@@ -188,7 +188,8 @@ sbf_vec3 sbri_home_arm(
 /* Velocity of a foot's home over the ground. */
 sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, uint32_t leg, sbf_vec3 arm);
 /* Speed of the fastest home in the motion that is wanted. */
-float sbri_wanted_speed(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
+float sbri_wanted_speed(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, const sbri_home *homes);
 /* Where a leg's upper bone begins when the body stands at `root`, its spine as it was last posed. */
 sbf_vec3 sbri_hip_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, const sbr_transform *root);
@@ -340,6 +341,19 @@ bool sbri_knee_range(const sbri_leg *leg, const sbri_foot *foot, const sbri_gait
     float *shortest, float *longest);
 /* Notes what it has come to. */
 void sbri_knee_keep(sbri_foot *foot, float angle, float wanted, float tick_s);
+
+/* ---- gait/long_foot.c: of legs with a toe ---- */
+
+/* Leans the foot over its toe: where its ankle goes instead of to where it would be upright; `leans` receives
+ * how it is turned from its rest then. Keeps its knee. */
+sbf_vec3 sbri_long_foot_lean(const sbri_leg *leg, sbri_foot *foot, sbf_vec3 hip, sbf_vec3 sole,
+    sbf_vec3 ankle, const sbri_gait_input *input, sbri_advance advance, sbf_quat *leans);
+/* Where the ankle is from the middle of the sole, as the foot is posed. */
+sbf_vec3 sbri_long_foot_over(
+    const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float scale, const sbr_transform *pose);
+/* How the toe stands before the foot as that is posed. */
+sbr_transform sbri_long_foot_toe(
+    const sbri_rig *rig, const sbri_leg *leg, const sbri_foot *foot, float scale, const sbr_transform *pose);
 
 /* ---- gait/limbs.c ---- */
 

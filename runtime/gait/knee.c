@@ -56,11 +56,16 @@ bool sbri_knee_range(const sbri_leg *leg, const sbri_foot *foot, const sbri_gait
     float *shortest, float *longest) {
   if (foot->knee_known < 2 || (foot->knee < STRAIGHT && fabsf(foot->knee_rate) < QUICK)) return false;
   float tick = input->tick_s, change = ABRUPT * tick;
-  float ends = sbri_knee_angle(leg, input->scale, full), left = ends - foot->knee;
+  float ends = sbri_knee_angle(leg, input->scale, sbri_leg_span(leg, input->scale, full)),
+        left = ends - foot->knee;
   float most = foot->knee_rate + change, stops = left > 0 ? approach(left, tick) : 0;
   if (stops < most) most = stops > foot->knee_rate - change ? stops : foot->knee_rate - change;
   float straight = foot->knee + most * tick, bent = foot->knee + (foot->knee_rate - change) * tick;
-  *longest = straight < ends ? sbri_knee_distance(leg, input->scale, straight) : full;
-  *shortest = bent > 0 ? sbri_knee_distance(leg, input->scale, bent) : 0;
+  *longest = *shortest = 0;
+  if (straight < ends)
+    *longest = sbri_leg_upright(leg, input->scale, sbri_knee_distance(leg, input->scale, straight));
+  else
+    *longest = full;
+  if (bent > 0) *shortest = sbri_leg_upright(leg, input->scale, sbri_knee_distance(leg, input->scale, bent));
   return true;
 }

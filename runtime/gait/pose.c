@@ -171,7 +171,7 @@ static void pose_rest_of_leg(const sbri_rig *rig, const sbri_gait_state *state, 
   for (uint32_t k = rig->subtree_begin[leg->upper] + 1; k < rig->subtree_end[leg->upper]; k++) {
     uint32_t b = rig->subtree[k];
     const sbr_transform *parent = &pose[rig->parents[b]];
-    if ((int32_t)b == leg->lower || (int32_t)b == leg->foot) continue;
+    if ((int32_t)b == leg->lower || (int32_t)b == leg->foot || (int32_t)b == leg->toe) continue;
     sbf_vec3 offset = sbri_scale(pose[b].position, scale);
     pose[b].position = sbri_add(parent->position, sbri_rotate(parent->rotation, offset));
     pose[b].rotation = sbri_quat_normalize(sbri_quat_multiply(parent->rotation, pose[b].rotation));
@@ -206,6 +206,31 @@ static void ease_knee(const sbri_rig *rig, const sbri_gait_input *input, const s
         foot, foot->knee_held > 0 ? sbri_knee_angle(leg, input->scale, span) : wanted, wanted, input->tick_s);
 }
 
+/* A leg whose long foot leans over its toe: its ankle goes where that takes it, and its sole stays. */
+static void pose_long_foot(const sbri_rig *rig, const sbri_leg *leg, sbri_foot *foot,
+    const sbri_gait_input *input, sbf_vec3 sole, sbf_vec3 fallback, sbri_advance advance,
+    sbr_transform *pose) {
+  float scale = input->scale, held = SOLE_HELD * (leg->upper_length + leg->lower_length) * scale;
+  sbri_foot leaning = *foot;
+  sbf_vec3 upright = sbri_ankle_over(leg, foot, sole, scale);
+  sbf_vec3 ankle = sbri_long_foot_lean(
+      leg, foot, pose[leg->upper].position, sole, upright, input, advance, &leaning.turned);
+  for (int pass = 0; pass < SOLE_PASSES; pass++) {
+    solve_leg(rig, leg, &leaning, ankle, foot->pole, fallback, scale, pose);
+    if (!rig->limits[leg->foot].active) break;
+    ankle = sbri_add(sole, sbri_long_foot_over(rig, leg, foot, scale, pose));
+    foot->missed = sbri_length(sbri_sub(ankle, pose[leg->foot].position));
+    if (foot->missed <= held) break;
+  }
+  sbr_transform toe = sbri_long_foot_toe(rig, leg, foot, scale, pose), *is = &pose[leg->toe];
+  if (!leg->last) {
+    sbri_rig_turn(
+        rig, (uint32_t)leg->toe, sbri_quat_multiply(toe.rotation, sbri_quat_conjugate(is->rotation)), pose);
+    sbri_rig_shift(rig, (uint32_t)leg->toe, sbri_sub(toe.position, is->position), pose);
+  }
+  *is = toe;
+}
+
 static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_stance *stance,
     const sbri_gait_input *input, uint32_t index, sbri_advance advance, sbr_transform *pose) {
   const sbri_leg *leg = &rig->legs[index];
@@ -224,6 +249,11 @@ static void pose_leg(const sbri_rig *rig, sbri_gait_state *state, const sbri_sta
   float stands = foot->planted ? 1 : 1 - sbri_smooth(near / HANGS);
   float held = SOLE_HELD * (leg->upper_length + leg->lower_length) * scale;
   foot->missed = 0;
+  if (leg->has_toe) {
+    pose_long_foot(rig, leg, foot, input, sole, fallback, advance, pose);
+    if (leg->last) pose_rest_of_leg(rig, state, leg, scale, pose);
+    return;
+  }
   for (int pass = 0; pass < SOLE_PASSES; pass++) {
     solve_leg(rig, leg, foot, eased_ankle(leg, hip, ankle, scale), pole, fallback, scale, pose);
     if (!rig->limits[leg->foot].active && leg->copy_rotation == 1) break;

@@ -152,7 +152,7 @@ static float knee_step(const sbri_rig *rig, const sbri_gait_state *state, const 
     sbf_vec3 at = sbri_add_scaled(hip, drift, t);
     at.y += 0.5f * rise * sbri_smooth(in_air); /* the body follows its feet */
     float s = sbri_length(sbri_sub(sbri_add(sole, over), at));
-    s = s > limit ? limit : s;
+    s = sbri_leg_span(l, input->scale, s > limit ? limit : s);
     knee[0] = knee[1], knee[1] = knee[2];
     knee[2] = sbri_acos((upper * upper + lower * lower - s * s) / (2 * upper * lower));
     if (k < 0) continue;

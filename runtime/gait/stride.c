@@ -76,7 +76,8 @@ sbf_vec3 sbri_home_velocity(const sbri_rig *rig, const sbri_gait_state *state, u
   return sbri_vec3(v.x + state->turn * arm.z, 0, v.z - state->turn * arm.x);
 }
 
-float sbri_wanted_speed(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+float sbri_wanted_speed(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, const sbri_home *homes) {
   sbri_gait_state wanted = {.heading_sine = state->heading_sine,
       .heading_cosine = state->heading_cosine,
       .forward = input->forward,
@@ -85,7 +86,7 @@ float sbri_wanted_speed(const sbri_rig *rig, const sbri_gait_state *state, const
   sbf_vec3 v = sbri_body_velocity(&wanted);
   float most = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    sbf_vec3 arm = sbri_home_arm(rig, state, input, i);
+    sbf_vec3 arm = homes[i].arm;
     float speed = sbri_length(sbri_vec3(v.x + input->turn * arm.z, 0, v.z - input->turn * arm.x));
     most = speed > most ? speed : most;
   }
@@ -190,7 +191,7 @@ sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, co
   float usual = rig->gait->step_duration, needed_s = state->needed_s > usual ? state->needed_s : usual;
   float groups = (float)(rig->group_count > 1 ? rig->group_count : 2);
   float turns = rig->leg_count < MANY_LEGS ? (float)rig->leg_count : groups;
-  float wanted = sbri_wanted_speed(rig, state, input), fastest = wanted > s.speed ? wanted : s.speed;
+  float wanted = sbri_wanted_speed(rig, state, input, s.homes), fastest = wanted > s.speed ? wanted : s.speed;
   bool slow = fastest <= SLOW * rig->reach * input->scale && rig->leg_count < MANY_LEGS;
   float lean_two = slow ? LEAN_SLOW_S : LEAN_TWO_S;
   float lean = rig->leg_count == 2 ? lean_two : rig->leg_count < MANY_LEGS ? LEAN_S : 0;
@@ -232,10 +233,10 @@ float sbri_strain(const sbri_gait_state *state, const sbri_home *home, uint32_t 
 
 /* The circle that a leg's foot may be in where it stands. */
 static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state,
-    const sbri_gait_input *input, uint32_t leg, float lowered) {
+    const sbri_gait_input *input, uint32_t leg, sbf_vec3 arm, float lowered) {
   const sbri_leg *l = &rig->legs[leg];
   sbri_roam stance;
-  sbf_vec3 home = sbri_add(state->position, sbri_home_arm(rig, state, input, leg));
+  sbf_vec3 home = sbri_add(state->position, arm);
   sbf_vec3 hip = sbri_hip_of(rig, state, input, leg, &state->root);
   sbf_vec3 from = from_hip(rig, state, input->scale, leg, hip, state->feet[leg].ground, false);
   float radius = circle(rig, state, input, leg, from, lowered, &stance.off);
@@ -249,18 +250,19 @@ static sbri_roam stance_circle(const sbri_rig *rig, const sbri_gait_state *state
 
 float sbri_way_left(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, sbf_vec3 way) {
-  sbri_roam stance = stance_circle(rig, state, input, leg, LEANING);
+  sbf_vec3 arm = sbri_home_arm(rig, state, input, leg);
+  sbri_roam stance = stance_circle(rig, state, input, leg, arm, LEANING);
   return to_edge(stance.off, stance.radius, sbri_scale(way, -1));
 }
 
 /* What a planted leg has left before the end of its reach, as its home goes on at `speed`; m. */
 static float left_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t leg, float *speed) {
-  sbf_vec3 v = sbri_home_velocity(rig, state, leg, sbri_home_arm(rig, state, input, leg));
+  sbf_vec3 arm = sbri_home_arm(rig, state, input, leg), v = sbri_home_velocity(rig, state, leg, arm);
   *speed = sbri_length(v);
   if (*speed <= 0) return 0;
   sbf_vec3 way = sbri_scale(v, 1 / *speed);
-  sbri_roam stance = stance_circle(rig, state, input, leg, SBRI_LOWERED);
+  sbri_roam stance = stance_circle(rig, state, input, leg, arm, SBRI_LOWERED);
   float left = to_edge(stance.off, stance.radius, sbri_scale(way, -1));
   float turned = left > 0 ? sbri_clamp(state->turn * left / *speed, -2, 2) : 0; /* on its way there */
   if (turned != 0) left = to_edge(stance.off, stance.radius, sbri_scale(sbri_turned(way, 0.5f * turned), -1));

@@ -73,7 +73,8 @@ static void learn(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_i
     const sbri_stride *stride, float needed_s) {
   float share = needed_s > state->needed_s || rig->leg_count < 2 ? 1 : 2 / (float)rig->leg_count;
   state->needed_s += share * (needed_s - state->needed_s);
-  float wanted = sbri_wanted_speed(rig, state, input), most = stride->available_s * stride->speed;
+  float wanted = sbri_wanted_speed(rig, state, input, stride->homes),
+        most = stride->available_s * stride->speed;
   float at_most = most / (SPARE_TIME * state->needed_s); /* m/s */
   state->limit = wanted > at_most ? at_most / wanted : 1;
 }

@@ -4,6 +4,9 @@
 
 #include "math/quat.h"
 
+/* Share of what a leg stretches from its rest that a long foot's lean adds to its reach. */
+static const float LEANS = 0.4f;
+
 static size_t rounded(size_t size) {
   return (size + 15) & ~(size_t)15;
 }
@@ -46,7 +49,10 @@ sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side) {
 
 static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   const sbf_ik_chain *chain = &rig->asset->ik_chains.at[from->ik];
-  int32_t foot = chain->end, lower = rig->parents[foot], upper = lower >= 0 ? rig->parents[lower] : -1;
+  int32_t foot = chain->end, lower = rig->parents[foot], upper = lower >= 0 ? rig->parents[lower] : -1,
+          toe = -1;
+  if (upper >= 0 && upper != chain->root && lower != chain->root && rig->parents[upper] == chain->root)
+    toe = foot, foot = lower, lower = upper, upper = chain->root;
   bool peg = lower >= 0 && lower == chain->root;
   if (peg) upper = lower;
   if (upper < 0 || upper != chain->root) return false;
@@ -55,12 +61,15 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   *leg = (sbri_leg){.upper = upper,
       .lower = peg ? -1 : lower,
       .foot = foot,
+      .has_toe = toe >= 0,
+      .toe = toe >= 0 ? toe : 0,
       .home = from->home,
       .group = from->group,
       .upper_length = sbri_length(sbri_sub(knee, hip)),
       .lower_length = sbri_length(sbri_sub(ankle, knee)),
       .pole_bone = chain->pole_bone >= 0 ? chain->pole_bone : rig->parents[upper],
-      .copy_rotation = chain->copy_rotation,
+      .copy_rotation = toe >= 0 ? 1 : chain->copy_rotation,
+      .toe_copies = chain->copy_rotation,
       .soft_reach = chain->soft_reach};
   leg->home.y = from->sole;
   /* Without a pole the leg goes on bending the way it is bent at rest. */
@@ -74,8 +83,10 @@ static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
   sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
   leg->upper_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
   leg->lower_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(ankle, knee), side));
+  leg->rest_span = sbri_length(sbri_sub(ankle, hip));
   leg->reach = sbri_rig_leg_reach(rig, leg);
-  float rest_reach = sbri_length(sbri_sub(ankle, hip)) / leg->reach; /* a leg straight at rest stays so */
+  if (toe >= 0) leg->reach += LEANS * (leg->reach - leg->rest_span);
+  float rest_reach = leg->rest_span / leg->reach; /* a leg straight at rest stays so */
   if (leg->soft_reach > 1 - rest_reach) leg->soft_reach = rest_reach < 1 ? 1 - rest_reach : 0;
   leg->rest_stretch = rest_reach / (1 - leg->soft_reach);
   uint32_t own = peg ? 1 : 2, all = rig->subtree_end[upper] - rig->subtree_begin[upper];

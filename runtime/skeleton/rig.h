@@ -18,16 +18,20 @@ typedef struct sbri_sole {
 } sbri_sole;
 
 /* A leg as the gait uses it: three bones of the chain, and what the rest pose says of it. Or two, a peg: the
- * upper one swings the foot, and how far the foot is from it says nothing of how far the leg may reach. */
+ * upper one swings the foot, and how far the foot is from it says nothing of how far the leg may reach. Or
+ * four: the third is a long foot that leans over the toe it stands on. */
 typedef struct sbri_leg {
   int32_t upper, lower, foot; /* bones: thigh, shin (-1: a peg), and the one whose head is the ankle */
+  int32_t toe;                /* the one that stands, where that is not the foot itself; else 0 */
   sbf_vec3 pole;              /* asset space, rest pose */
   int32_t pole_bone;          /* the pole moves with it; -1: with the root */
   sbf_vec3 pole_place;        /* in that bone's frame, m */
   sbf_vec3 home; /* middle of the sole at rest, asset space, y that of the ankle above the ground */
   float upper_length, lower_length;
-  float
-      reach; /* farthest that the ankle may be from the hip, as far as the knee's limits let it stretch, m */
+  float reach; /* farthest that the ankle may be from the hip, as far as the knee's limits let it stretch, m;
+                  of a long foot, were that upright: sbri_leg_span */
+  float rest_span;    /* distance of hip and ankle at rest, m */
+  float toe_copies;   /* share of how the ground lies that the toe takes; the foot leans, and takes none */
   float rest_stretch; /* distance of hip and ankle at rest, in shares of what `soft_reach` leaves of the reach
                        */
   uint32_t group;
@@ -38,7 +42,9 @@ typedef struct sbri_leg {
   int32_t carrier;                 /* place among the chains' bones of the one it hangs on; -1: none */
   sbf_vec3 carried_home;           /* in that bone's frame, m */
   sbf_vec3 ankle;                  /* from the middle of the sole, m; `home` is above that middle */
+  sbf_vec3 toe_place;              /* the same of the toe's head */
   sbri_sole sole;
+  bool has_toe;    /* its foot is long */
   bool has_others; /* bones hang on thigh or shin beside the leg's own, as those that share a twist */
   bool last; /* all that hangs on the thigh is posed after the leg is solved: nothing but legs moves it */
 } sbri_leg;
@@ -106,9 +112,18 @@ typedef struct sbri_rig {
 } sbri_rig;
 
 /* Bytes the tables take, and their making in a block of that size. The asset must outlive the rig. A leg
- * whose chain is neither thigh, shin and foot nor a peg and its foot is left out. */
+ * whose chain is neither thigh, shin, foot and, it may be, toe, nor a peg and its foot is left out. */
 size_t sbri_rig_size(const sbf_asset *asset);
 void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory);
+
+/* A long foot leans by half of what the leg would have to stretch or to bend, were it upright: how far the
+ * ankle is from the hip then, `upright` being how far it would be, m; and back. */
+static inline float sbri_leg_span(const sbri_leg *leg, float scale, float upright) {
+  return !leg->has_toe ? upright : 0.5f * (upright + leg->rest_span * scale);
+}
+static inline float sbri_leg_upright(const sbri_leg *leg, float scale, float span) {
+  return !leg->has_toe ? span : 2 * span - leg->rest_span * scale;
+}
 
 /* Rotation whose +Y runs along a bone and whose +X is square to it, towards `side`. */
 sbf_quat sbri_bone_facing(sbf_vec3 along, sbf_vec3 side);

@@ -66,14 +66,15 @@ static void look_at_skins(const sbri_rig *rig, int32_t foot, int pass, sbf_vec3 
 
 void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
   foot_points f = {.any = false};
+  int32_t foot = leg->has_toe ? leg->toe : leg->foot;
   for (int pass = 0; pass < 2; pass++) {
     bool bodies = false;
     for (uint32_t b = 0; b < rig->asset->soft_bodies.count; b++)
-      bodies = bodies || sbri_rig_is_below(rig, rig->asset->soft_bodies.at[b].bone, leg->foot);
+      bodies = bodies || sbri_rig_is_below(rig, rig->asset->soft_bodies.at[b].bone, foot);
     if (bodies)
-      look_at_bodies(rig, leg->foot, pass, leg->home, &f);
+      look_at_bodies(rig, foot, pass, leg->home, &f);
     else
-      look_at_skins(rig, leg->foot, pass, leg->home, &f);
+      look_at_skins(rig, foot, pass, leg->home, &f);
   }
   /* Its middle is what stands on the ground. Nothing is seen of the foot, or something far from it hangs on
    * it: a small sole below the ankle will do. */
@@ -91,5 +92,8 @@ void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg) {
         sbri_vec3(sbri_clamp(corner.x, -wide, wide), 0, sbri_clamp(corner.z, -along, along));
   }
   leg->home.x += x, leg->home.z += z;
-  leg->ankle = sbri_vec3(-x, leg->home.y, -z);
+  leg->toe_place = leg->ankle = sbri_vec3(-x, leg->home.y, -z);
+  if (!leg->has_toe) return;
+  sbf_vec3 over = sbri_sub(rig->rest[leg->foot].position, rig->rest[leg->toe].position);
+  leg->ankle = sbri_add(leg->toe_place, over);
 }

@@ -1,4 +1,4 @@
-"""Every walk of walks.py of the two lizards, those of other characters on flat ground, and their straight ones off
+"""Every walk of walks.py of the two lizards and of some others, those of all others on flat ground, and straight ones off
 it, against what was asked for. Takes minutes."""
 
 import concurrent.futures
@@ -32,6 +32,9 @@ OTHERS = {
         "flat, 2": CRAWLS, "flat, 3": CRAWLS, "flat, turning on the spot": CRAWLS, "flat, a curve": CRAWLS,
         "flat, forward, then back": {**CRAWLS, "stance_slip": 0.0017}}),
 }
+
+# All walks on every ground: nothing is missed.
+EVERYWHERE = ("spiderglb",)
 
 # Straight walks off flat ground: what is not met.
 OFF_FLAT_SPEEDS = (0.1, 0.3, 1, 3)
@@ -71,9 +74,9 @@ class Others(ProgramTest):
             self.skipTest(f"{place[-1]} is not there")
         return convert_once(self.class_folder.name, name + ".sbf", os.path.join(*place), *options)
 
-    def test_flat_walks(self):
-        walks = [walk for walk in all_walks() if walk.ground == "flat"]
+    def test_flat_walks_and_some_everywhere(self):
         for name, (_, _, known) in OTHERS.items():
+            walks = [walk for walk in all_walks() if walk.ground == "flat" or name in EVERYWHERE]
             with self.subTest(name):
                 self.assertEqual(missed_of(self.file_of(name), walks, known), [])
 

@@ -14,7 +14,8 @@ static const struct {
   int32_t parent;
   sbf_vec3 head;
 } rows[] = {{"root", -1, {0, 0, 0}}, {"hip.L", 0, {0.1f, 0.3f, 0}}, {"foot.L", 1, {0.4f, 0.25f, 0}},
-    {"toe.L", 2, {0.4f, 0.05f, 0.1f}}, {"hip.R", 0, {-0.1f, 0.3f, 0}}, {"foot.R", 4, {-0.4f, 0.25f, 0}}};
+    {"toe.L", 2, {0.4f, 0.05f, 0.1f}}, {"hip.R", 0, {-0.1f, 0.3f, 0}}, {"foot.R", 4, {-0.4f, 0.25f, 0}},
+    {"claw.L", 3, {0.4f, 0, 0.15f}}};
 enum { BONES = sizeof rows / sizeof *rows };
 
 static sbf_bone bones[BONES];
@@ -30,7 +31,7 @@ static sbf_asset *make(void) {
     bones[i].parent = rows[i].parent;
     bones[i].head = rows[i].head;
   }
-  static const int32_t ends[3] = {2, 5, 3}, roots[3] = {1, 4, 0}; /* the last: three bones below its root */
+  static const int32_t ends[3] = {2, 5, 6}, roots[3] = {1, 4, 0}; /* the last: four bones below its root */
   for (int i = 0; i < 3; i++) {
     sbf_ik_chain_init(&chains[i]);
     chains[i].root = roots[i];
@@ -53,7 +54,7 @@ static sbf_asset *make(void) {
   return asset;
 }
 
-START_TEST(legs_are_three_bones_or_a_peg)
+START_TEST(legs_are_three_bones_or_a_peg_or_have_a_toe)
 {
   gait_stage s;
   gait_stage_begin(&s, make());
@@ -61,9 +62,19 @@ START_TEST(legs_are_three_bones_or_a_peg)
   ck_assert(s.rig.legs[0].upper == 1 && s.rig.legs[0].lower == -1 && s.rig.legs[0].foot == 2);
   ck_assert_float_eq_tol(s.rig.legs[0].upper_length, sqrtf(0.09f + 0.0025f), 1e-6f);
   gait_stage_end(&s);
+  sbf_asset *toed = make();
+  chains[2].end = 3;
+  gait_stage_begin(&s, toed);
+  ck_assert_uint_eq(s.rig.leg_count, 3);
+  const sbri_leg *leg = &s.rig.legs[2];
+  ck_assert(leg->has_toe && leg->toe == 3 && leg->foot == 2 && leg->lower == 1 && leg->upper == 0);
+  ck_assert_float_eq_tol(leg->ankle.y - leg->toe_place.y, 0.2f, 1e-6f);
+  ck_assert_float_gt(leg->reach, leg->upper_length + leg->lower_length); /* its foot leans */
+  gait_stage_end(&s);
   gait_stage_begin(&s, quadruped_asset());
   ck_assert_uint_eq(s.rig.leg_count, 4);
-  for (uint32_t l = 0; l < 4; l++) ck_assert_int_eq(s.rig.legs[l].lower, s.rig.legs[l].upper + 1);
+  for (uint32_t l = 0; l < 4; l++)
+    ck_assert(s.rig.legs[l].lower == s.rig.legs[l].upper + 1 && !s.rig.legs[l].has_toe);
   gait_stage_end(&s);
 }
 END_TEST
@@ -105,7 +116,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rig");
   TCase *tests = tcase_create("all");
-  tcase_add_test(tests, legs_are_three_bones_or_a_peg);
+  tcase_add_test(tests, legs_are_three_bones_or_a_peg_or_have_a_toe);
   tcase_add_test(tests, a_character_walks_on_pegs);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -3,7 +3,8 @@
  * A limb begins where everything below a bone lies on one side. It is a leg where it comes down to the
  * ground; the way from its root to what stands there is followed, and of the bones on that way the three that
  * follow each other with the longest reach are thigh, shin and foot: a collar bone before them, or the long
- * middle foot of an animal that walks on its toes, goes along with its neighbour. */
+ * middle foot of an animal that walks on its toes, goes along with its neighbour. A spider's foot, as long
+ * as they, stands on its toe: a fourth. */
 #include <math.h>
 
 #include "import/gait/gait_draft.h"
@@ -12,6 +13,8 @@ static const double GROUND_SHARE = 0.05;  /* of the height: a leg ends no higher
 static const double FOOT_SHARE = 0.02;    /* of the height: what stands as low as the leg's lowest point */
 static const double HIP_SHARE = 0.05;     /* of the height: a leg begins higher than that above its sole */
 static const double LEAST_SEGMENT = 0.05; /* share of the reach that thigh and shin have at least */
+static const double LONG_FOOT = 0.25;     /* share of the reach: a foot so long leans over its toe, */
+static const double HIGH_ANKLE = 0.7;     /* where its ankle is so high, in shares of the hip's height */
 
 /* The child by which the ground is reached; the longer way where several reach it. */
 static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
@@ -22,6 +25,14 @@ static int32_t next_down(const sbfi_gait_draft *d, int32_t bone) {
     if (best == SBF_NONE || shape->low_below < d->shapes[best].low_below) best = (int32_t)i;
   }
   return best;
+}
+
+/* Whether a foot stands upright below an ankle about as high as the hip, as a spider's: the leg has little to
+ * bend and to stretch by itself. */
+static bool is_long_foot(const sbfi_gait_draft *d, const sbfi_leg_draft *leg, int32_t toe) {
+  double hip = (double)sbfi_draft_bone(d, leg->upper)->head.y - d->ground;
+  double ankle = (double)sbfi_draft_bone(d, leg->end)->head.y - d->ground;
+  return sbfi_draft_distance(d, leg->end, toe) > LONG_FOOT * leg->reach && ankle > HIGH_ANKLE * hip;
 }
 
 /* Thigh, shin and foot among the bones of a way down; false where it has none. */
@@ -35,6 +46,7 @@ static bool choose_bones(const sbfi_gait_draft *d, const int32_t *way, uint32_t 
     leg->lower = way[i + 1];
     leg->end = way[i + 2];
     leg->reach = reach;
+    leg->toe = i + 3 < count && is_long_foot(d, leg, way[i + 3]) ? way[i + 3] : SBF_NONE;
   }
   if (leg->reach > 0) return true;
   if (count < 2) return false;
@@ -55,7 +67,7 @@ static bool take_leg(sbfi_gait_draft *d, int32_t limb, int32_t *way) {
     if (d->shapes[bone].low <= shape->low_below + FOOT_SHARE * d->height) break;
   }
   sbfi_leg_draft *leg = &d->legs[d->leg_count];
-  *leg = (sbfi_leg_draft){.limb = limb, .side = shape->side};
+  *leg = (sbfi_leg_draft){.limb = limb, .side = shape->side, .toe = SBF_NONE};
   return choose_bones(d, way, count, leg);
 }
 

@@ -21,6 +21,7 @@ typedef struct sbfi_bone_shape {
 typedef struct sbfi_leg_draft {
   int32_t limb;              /* topmost bone of the leg: its parent is the girdle */
   int32_t upper, lower, end; /* consecutive; lower is SBF_NONE where end hangs on upper itself */
+  int32_t toe;               /* what a long foot at `end` stands on; SBF_NONE: `end` stands itself */
   double reach;              /* m, from upper's head by lower's to the end's */
   int side;
 } sbfi_leg_draft;
@@ -49,6 +50,11 @@ bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch);
 
 static inline const sbf_bone *sbfi_draft_bone(const sbfi_gait_draft *d, int32_t bone) {
   return &d->asset->bones.at[bone];
+}
+
+/* The bone that a leg stands on. */
+static inline int32_t sbfi_draft_stands(const sbfi_leg_draft *leg) {
+  return leg->toe != SBF_NONE ? leg->toe : leg->end;
 }
 
 double sbfi_draft_distance(const sbfi_gait_draft *d, int32_t a, int32_t b); /* between two heads, m */

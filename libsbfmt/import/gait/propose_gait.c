@@ -42,16 +42,17 @@ static bool write_ik_chains(sbfi_conversion *c, sbfi_gait_draft *d) {
   for (uint32_t l = 0; l < d->leg_count; l++) {
     const sbfi_leg_draft *leg = &d->legs[l];
     sbf_ik_chain_init(&chains[l]);
-    chains[l].name = sbfi_draft_bone(d, leg->end)->name;
+    chains[l].name = sbfi_draft_bone(d, sbfi_draft_stands(leg))->name;
     chains[l].id = sbfi_new_id(c, "ik", chains[l].name);
     if (!chains[l].id) return false;
     chains[l].root = leg->upper;
-    chains[l].end = leg->end;
+    chains[l].end = sbfi_draft_stands(leg);
     chains[l].proposed = true;
     if (leg->lower == SBF_NONE) {
       chains[l].solver = SBF_IK_SOLVER_CCD;
       continue;
     }
+    if (leg->toe != SBF_NONE) chains[l].solver = SBF_IK_SOLVER_CCD;
     chains[l].has_pole = true;
     chains[l].pole = pole_of(d, leg);
   }
@@ -76,11 +77,12 @@ static bool write_legs(sbfi_gait_draft *d, sbf_gait *gait) {
   if (!legs) return false;
   for (uint32_t l = 0; l < d->leg_count; l++) {
     const sbfi_leg_draft *from = &d->legs[l];
-    double lowest = d->shapes[from->end].low_below;
+    int32_t stands = sbfi_draft_stands(from);
+    double lowest = d->shapes[stands].low_below;
     sbf_leg_init(&legs[l]);
-    legs[l].name = sbfi_draft_bone(d, from->end)->name;
+    legs[l].name = sbfi_draft_bone(d, stands)->name;
     legs[l].ik = (int32_t)l;
-    legs[l].home = sbfi_draft_bone(d, from->end)->head;
+    legs[l].home = sbfi_draft_bone(d, stands)->head;
     legs[l].sole = (float)fmax(0, (double)legs[l].home.y - (isfinite(lowest) ? lowest : d->ground));
     legs[l].jump_margin = (float)(0.5 * from->reach);
     legs[l].group = (legs_ahead(d, l) + (from->side > 0)) % 2;

@@ -1,0 +1,107 @@
+#include <math.h>
+
+#include "gait/gait_state.h"
+#include "harness.h"
+#include "math/quat.h"
+
+static const float TICK_S = 1.0f / 60, MOST = 4.6f * 3.14159265f / 180; /* rad a tick in a tick */
+
+/* A leg of two bones of 1 m, its hip 1 m up, and a foot 0.8 m high that stands upright before it on its toe.
+ */
+static sbri_leg long_legged(void) {
+  sbri_leg leg = {.upper_length = 1, .lower_length = 1, .has_toe = true, .rest_span = 1.4f, .reach = 1.7f};
+  leg.ankle = sbri_vec3(0, 0.9f, 0);
+  leg.toe_place = sbri_vec3(0, 0.1f, 0);
+  return leg;
+}
+
+static sbri_foot standing(void) {
+  return (sbri_foot){.planted = 1, .turned = {0, 0, 0, 1}, .normal = {0, 1, 0}};
+}
+
+/* The ankle of a foot that stands `ahead` of the hip; its `tilt` becomes how it leans. */
+static sbf_vec3 lean_ahead(
+    const sbri_leg *leg, sbri_foot *foot, float ahead, float scale, sbri_advance advance) {
+  const sbri_gait_input input = {.tick_s = TICK_S, .scale = scale};
+  sbf_vec3 sole = sbri_scale(sbri_vec3(0, 0, ahead), scale);
+  sbf_vec3 ankle = sbri_add(sole, sbri_scale(leg->ankle, scale)), hip = sbri_vec3(0, scale, 0);
+  return sbri_long_foot_lean(leg, foot, hip, sole, ankle, &input, advance, &foot->tilt);
+}
+
+static float from_hip(sbf_vec3 ankle, float scale) {
+  return sbri_length(sbri_sub(ankle, sbri_vec3(0, scale, 0)));
+}
+
+START_TEST(it_stands_upright_as_at_rest)
+{
+  sbri_leg leg = long_legged();
+  sbri_foot foot = standing();
+  float ahead = sqrtf(1.4f * 1.4f - 0.01f); /* the ankle 0.1 m below the hip */
+  sbf_vec3 ankle = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_RESET);
+  ck_assert_float_le(sbri_length(sbri_sub(ankle, sbri_vec3(0, 0.9f, ahead))), 1e-5f);
+  ck_assert_float_eq_tol(foot.tilt.w, 1, 1e-6f);
+}
+END_TEST
+
+START_TEST(it_takes_half_of_what_the_leg_would_stretch_or_bend)
+{
+  sbri_leg leg = long_legged();
+  for (float scale = 1; scale < 4; scale += 2)
+    for (float ahead = 1.1f; ahead < 1.65f; ahead += 0.1f) {
+      sbri_foot foot = standing();
+      sbf_vec3 ankle = lean_ahead(&leg, &foot, ahead, scale, SBRI_ADVANCE_RESET);
+      float upright = from_hip(sbri_vec3(0, 0.9f * scale, ahead * scale), scale);
+      ck_assert_float_eq_tol(from_hip(ankle, scale), 0.5f * (upright + 1.4f * scale), 1e-4f);
+      /* On its toe, as long as it is, turned as its ankle has gone. */
+      sbf_vec3 toe = sbri_scale(sbri_vec3(0, 0.1f, ahead), scale), is = sbri_sub(ankle, toe);
+      ck_assert_float_eq_tol(sbri_length(is), 0.8f * scale, 1e-4f);
+      sbf_vec3 turned = sbri_rotate(foot.tilt, sbri_vec3(0, 0.8f * scale, 0));
+      ck_assert_float_le(sbri_length(sbri_sub(turned, is)), 1e-4f);
+    }
+}
+END_TEST
+
+START_TEST(beyond_its_lean_the_knee_straightens_so_that_it_stands_where_it_stands)
+{
+  sbri_leg leg = long_legged();
+  sbri_foot foot = standing();
+  for (float ahead = 1.7f; ahead < 2.5f; ahead += 0.1f) {
+    sbf_vec3 toe = {0, 0.1f, ahead}, ankle = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_RESET);
+    ck_assert_float_eq_tol(sbri_length(sbri_sub(ankle, toe)), 0.8f, 1e-4f);
+    ck_assert_float_le(from_hip(ankle, 1), 2); /* as far as thigh and shin reach */
+    ck_assert_float_gt(from_hip(ankle, 1), sbri_length(sbri_sub(toe, sbri_vec3(0, 1, 0))) - 0.8f);
+  }
+}
+END_TEST
+
+START_TEST(a_knee_that_stands_turns_evenly_and_the_foot_leans_for_it)
+{
+  sbri_leg leg = long_legged();
+  sbri_foot foot = standing();
+  float before = 0, most = 0;
+  for (int i = 0; i < 60; i++) {
+    float ahead = i < 20 ? 1.2f : 1.6f; /* the body is thrown back in one tick */
+    sbf_vec3 ankle = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_TICK);
+    ck_assert_float_eq_tol(sbri_length(sbri_sub(ankle, sbri_vec3(0, 0.1f, ahead))), 0.8f, 1e-4f);
+    ck_assert_float_eq_tol(sbri_knee_angle(&leg, 1, from_hip(ankle, 1)), foot.knee, 2e-3f);
+    if (i > 2) most = fmaxf(most, fabsf(foot.knee_rate - before) * TICK_S);
+    before = foot.knee_rate;
+    sbf_vec3 again = lean_ahead(&leg, &foot, ahead, 1, SBRI_ADVANCE_NOT); /* the same pose once more */
+    ck_assert_float_le(sbri_length(sbri_sub(again, ankle)), 1e-5f);
+  }
+  ck_assert_float_le(most, MOST);
+  ck_assert_float_gt(most, 0.5f * MOST);
+  ck_assert_float_eq(foot.knee, foot.knee_wanted); /* caught up */
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("long_foot");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, it_stands_upright_as_at_rest);
+  tcase_add_test(tests, it_takes_half_of_what_the_leg_would_stretch_or_bend);
+  tcase_add_test(tests, beyond_its_lean_the_knee_straightens_so_that_it_stands_where_it_stands);
+  tcase_add_test(tests, a_knee_that_stands_turns_evenly_and_the_foot_leans_for_it);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
