@@ -27,6 +27,7 @@ typedef struct sbri_contact_tables {
   struct sbri_box *self_boxes; /* scratch of the body, where it meets itself */
   struct sbri_bounds_node *self_nodes;
   uint32_t *self_items;
+  uint8_t *self_edges;
 } sbri_contact_tables;
 
 /* Marks the body's blocks of points that may touch the ground within the tick, and gives each of their points

@@ -9,4 +9,9 @@
 void sbri_self_touches_add(const sbri_island_tick *tick, const sbri_body *body,
     const sbri_contact_tables *tables, sbri_bounds_tree *tree, sbri_box *boxes);
 
+/* ---- self_follow.c ---- */
+
+/* Where the two touch, and along which normal, as they are now: before a substep. */
+void sbri_self_touch_follow(const sbri_island_tick *tick, sbri_touch *touch);
+
 #endif

@@ -1,6 +1,7 @@
-/* Where rims of two sheets cross: strips, and corners of cloth, whose points nowhere come near the other's
- * triangles. */
+/* Where rims of two sheets, and the ridges that they are folded to, cross: strips, and corners of cloth,
+ * whose points nowhere come near the other's triangles. */
 #include "collide/edge_look.h"
+#include "collide/sides.h"
 #include "math/vec3.h"
 #include "meet/finding.h"
 
@@ -67,27 +68,17 @@ void sbri_meet_rims(const sbri_finding *f, const sbri_party *a, const sbri_party
   }
 }
 
-/* ---- Making ---- */
+/* ---- Of a tick ---- */
 
-static uint32_t bucket_of(uint32_t low, uint32_t high, uint32_t mask) {
-  return (low * 0x9e3779b1u ^ high * 0x85ebca6bu) & mask;
-}
-
-/* Sides by their ends, in a table of `capacity`, a power of two of at least twice as many: those that stand
- * there once are rims. */
-void sbri_meet_rims_note(sbri_meet_surface *s, uint32_t *table, uint32_t capacity) {
-  for (uint32_t i = 0; i < capacity; i++) table[i] = UINT32_MAX;
-  for (uint32_t t = 0; t < s->triangle_count; t++) s->rims[t] = 7;
-  for (uint32_t i = 0; i < 3 * s->triangle_count; i++) {
-    uint32_t a = s->triangles[i], b = s->triangles[i / 3 * 3 + (i % 3 + 1) % 3];
-    uint32_t low = a < b ? a : b, high = a < b ? b : a, at = bucket_of(low, high, capacity - 1);
-    for (; table[at] != UINT32_MAX; at = (at + 1) & (capacity - 1)) {
-      uint32_t k = table[at], c = s->triangles[k], d = s->triangles[k / 3 * 3 + (k % 3 + 1) % 3];
-      if ((c < d ? c : d) != low || (c < d ? d : c) != high) continue;
-      s->rims[k / 3] &= (uint8_t) ~(1u << k % 3);
-      s->rims[i / 3] &= (uint8_t) ~(1u << i % 3);
-      break;
+void sbri_meet_rims_look(sbri_meet_surface *s) {
+  for (uint32_t t = 0; t < s->triangle_count; t++) {
+    const uint32_t *c = s->triangles + 3 * (size_t)t, *beside = s->sides + 3 * (size_t)t;
+    s->rims[t] = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+      if (beside[k] == SBRI_SAME_SIDE) continue;
+      if (beside[k] == SBRI_RIM || sbri_side_is_bent(s->places[c[k]], s->places[c[(k + 1) % 3]],
+                                       s->places[c[(k + 2) % 3]], s->places[beside[k]]))
+        s->rims[t] |= (uint8_t)(1u << k);
     }
-    if (table[at] == UINT32_MAX) table[at] = i;
   }
 }

@@ -19,11 +19,11 @@ typedef struct sbri_meet_surface {
   sbri_sample *samples; /* (vertex_count) what carries each vertex; mass 0: it is not there */
   uint32_t *triangles;  /* (triangle_count x 3) vertices */
   uint32_t vertex_count, triangle_count;
-  bool two_sided; /* a sheet, or open */
-  bool closed;    /* each side of a triangle is one of another as well: it has an inside */
-  uint8_t *rims; /* (triangle_count) of a two-sided one: bits of its sides that no other has, from each corner
-                    on */
+  bool two_sided;  /* a sheet, or open */
+  bool closed;     /* each side of a triangle is one of another as well: it has an inside */
+  uint32_t *sides; /* (triangle_count x 3) of a two-sided one, as collide/sides.h has them */
   /* Of a tick: */
+  uint8_t *rims; /* (triangle_count) likewise: bits of its sides that are rims, or across which it is bent */
   sbf_vec3 *places, *ways; /* (vertex_count) */
   sbri_box *boxes;         /* (triangle_count) of the ways, grown */
   sbri_bounds_tree tree;
@@ -213,8 +213,8 @@ bool sbri_meet_is_closed(const sbri_meet_surface *surface);
 
 /* ---- meet/find_rims.c ---- */
 
-/* Which sides of its triangles are rims; `table` is scratch. */
-void sbri_meet_rims_note(sbri_meet_surface *surface, uint32_t *table, uint32_t capacity);
+/* Which sides of its triangles stand out, as it is placed now. */
+void sbri_meet_rims_look(sbri_meet_surface *surface);
 
 /* ---- meet/at_rest.c ---- */
 

@@ -1,6 +1,7 @@
 /* What soft bodies meet others with, and the memory for it. */
 #include <string.h>
 
+#include "collide/sides.h"
 #include "math/vec3.h"
 #include "meet/meetings.h"
 #include "sbfmt/mechanics.h"
@@ -59,12 +60,11 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
   s->two_sided = measures.sheet || body->rest_volume_m3 == 0;
   s->closed = !s->two_sided && sbri_meet_is_closed(s);
   if (!s->two_sided) return true;
-  uint32_t capacity = 8;
-  while (capacity < 6 * s->triangle_count) capacity *= 2;
   s->rims = sbfi_arena_allocate(arena, (size_t)triangles + 1, 1);
-  uint32_t *table = sbfi_arena_allocate(arena, capacity, sizeof *table);
-  if (!s->rims || !table) return false;
-  sbri_meet_rims_note(s, table, capacity);
+  s->sides = sbfi_arena_allocate(arena, 3 * (size_t)triangles + 1, sizeof *s->sides);
+  uint32_t *table = sbfi_arena_allocate(arena, sbri_sides_table(s->triangle_count), sizeof *table);
+  if (!s->rims || !s->sides || !table) return false;
+  sbri_sides_find(s->triangles, s->triangle_count, s->sides, table);
   return true;
 }
 
@@ -220,6 +220,7 @@ void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *m, uint32
     s->places[v] = sbri_add_scaled(m->offset, x, m->scale);
     s->ways[v] = way_of(m, island, sample);
   }
+  if (s->two_sided && s->triangle_count) sbri_meet_rims_look(s);
   const sbf_collision *rule = &body->source->collision;
   float reach = m->scale * fmaxf(rule->outer_thickness, rule->inner_thickness);
   for (uint32_t t = 0; t < s->triangle_count; t++) {

@@ -35,7 +35,8 @@ typedef struct sbri_touch {
   sbf_vec3 velocity;                 /* m/s, of what it stands for */
   float friction_share, restitution; /* of the body's coefficient of friction; its own */
   uint32_t collider; /* number of the collider, or SBRI_NO_COLLIDER: the ground, or SBRI_ITSELF: the
-        body, against the corners whose weights are below 0 */
+        body, against the points whose weights are below 0 */
+  bool edges;        /* of itself: the first two points against the last two */
   bool alone;        /* the sample is one free point that no other touch moves */
   /* Of solvers/touches.c, from substep to substep: */
   float gap, wanted; /* m and m/s, at the beginning of one */

@@ -175,7 +175,11 @@ typedef struct sbri_body {
   uint32_t first_touch, touch_capacity;      /* in a character's scratch */
   const uint32_t *self_faces;                /* (self_face_count x 3) slots; NULL: it does not meet itself */
   uint32_t self_face_count, first_self_face; /* first in a character's scratch */
-  bool is_sheet;                             /* of one that meets itself: its surface encloses nothing */
+  const uint32_t *self_sides;                /* (self_face_count x 3) as collide/sides.h has them */
+  const uint32_t *self_ring_begins; /* (slots of the island + 1) of each slot, in self_ring: those that a side
+                                       joins it to */
+  const uint32_t *self_ring;
+  bool is_sheet;       /* of one that meets itself: its surface encloses nothing */
   float margin_m;      /* that shapes of the host and other bodies keep from it: of sheets and bare points */
   float sample_beyond; /* greatest sum of a sample's weights below 0, as a positive number */
   float rest_size_m;   /* diagonal of its box */
@@ -283,7 +287,8 @@ typedef struct sbri_layout {
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
-  size_t touches, touch_counts, slot_touches, touching, rigid_touching, self_boxes, self_nodes, self_items;
+  size_t touches, touch_counts, slot_touches, touching, rigid_touching, self_boxes, self_nodes, self_items,
+      self_edges;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched, owners, frayed;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,

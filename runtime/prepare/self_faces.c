@@ -1,4 +1,8 @@
-/* The triangles by which a body meets itself: those of its surface, where its points are the level's own. */
+/* The triangles by which a body meets itself: those of its surface, where its points are the level's own; and
+ * what hangs together there. */
+#include <string.h>
+
+#include "collide/sides.h"
 #include "prepare/prepare.h"
 
 /* Slot of each vertex; false where some vertex is no point of the level. */
@@ -10,6 +14,41 @@ static bool find_slots(const sbri_island *island, const sbri_body *body, uint32_
     slots[v] = s.slots[0];
   }
   return true;
+}
+
+/* Whom the sides join each slot to: at first how many begin at each, then where the next one goes. */
+static bool make_rings(sbr_model *model, sbri_body *body, const uint32_t *sides) {
+  uint32_t slots = model->islands[body->island].slot_count, count = 3 * body->self_face_count;
+  uint32_t *begins = sbfi_arena_allocate(&model->arena, (size_t)slots + 2, sizeof *begins);
+  uint32_t *ring = sbfi_arena_allocate(&model->arena, 2 * (size_t)count + 1, sizeof *ring);
+  if (!begins || !ring) return false;
+  const uint32_t *corners = body->self_faces;
+  memset(begins, 0, (slots + 2) * sizeof *begins);
+  for (int pass = 0; pass < 2; pass++) {
+    for (uint32_t i = 0; i < count; i++) {
+      if (sides[i] == SBRI_SAME_SIDE) continue;
+      uint32_t ends[2] = {corners[i], corners[i / 3 * 3 + (i + 1) % 3]};
+      for (int k = 0; k < 2; k++) {
+        if (pass)
+          ring[begins[ends[k] + 1]++] = ends[1 - k];
+        else
+          begins[ends[k] + 2]++;
+      }
+    }
+    for (uint32_t i = 2; i < slots + 2 && !pass; i++) begins[i] += begins[i - 1];
+  }
+  body->self_ring_begins = begins, body->self_ring = ring;
+  return true;
+}
+
+static bool make_sides(sbr_model *model, sbri_body *body) {
+  uint32_t count = body->self_face_count;
+  uint32_t *sides = sbfi_arena_allocate(&model->arena, 3 * (size_t)count + 1, sizeof *sides);
+  uint32_t *table = sbfi_arena_allocate(&model->arena, sbri_sides_table(count), sizeof *table);
+  if (!sides || !table) return false;
+  sbri_sides_find(body->self_faces, count, sides, table);
+  body->self_sides = sides;
+  return make_rings(model, body, sides);
 }
 
 bool sbri_self_faces_make(sbr_model *model, sbri_body *body) {
@@ -30,5 +69,5 @@ bool sbri_self_faces_make(sbr_model *model, sbri_body *body) {
   sbf_body_measures measures;
   sbf_body_measure(body->source, &measures);
   body->is_sheet = measures.sheet;
-  return true;
+  return make_sides(model, body);
 }

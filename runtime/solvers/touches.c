@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "contact/self_touch.h"
 #include "math/vec3.h"
 
 /* While some speed changes by more than this in a sweep, another follows, in m/s. */
@@ -86,6 +87,7 @@ static float idle_time(const touching *c, const sbri_touch *touch, float gap) {
 
 /* Says whether it may touch. */
 static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+  if (touch->collider == SBRI_ITSELF) sbri_self_touch_follow(c->tick, touch);
   sbf_vec3 v = velocity_of(c, &touch->sample);
   float speed = sbri_dot(touch->normal, sbri_sub(v, touch->velocity));
   touch->gap = gap_of(c, touch);

@@ -33,6 +33,8 @@ static void make_layout(sbr_model *model) {
     /* One on the ground and one on something else each, and a few between several things. */
     uint32_t places = body->samples ? 2 * body->sample_count : 2 * (body->slot_end - body->slot_begin);
     body->first_touch = (uint32_t)samples;
+    /* And of itself, points and edges. */
+    places += body->self_face_count ? body->slot_end - body->slot_begin + body->self_face_count : 0;
     body->touch_capacity = body->level ? places + 64 : 0;
     samples += body->touch_capacity;
     body->first_self_face = (uint32_t)self_faces;
@@ -107,6 +109,7 @@ static void make_layout(sbr_model *model) {
   l->self_boxes = place(&end, self_faces, sizeof(sbri_box));
   l->self_nodes = place(&end, 2 * self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
   l->self_items = place(&end, self_faces, sizeof(uint32_t));
+  l->self_edges = place(&end, self_faces, 1);
   l->touching = place(&end, model->asset->soft_bodies.count, sizeof(sbri_touching));
   l->rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
   l->sampled = place(&end, slots, sizeof(sbri_point));

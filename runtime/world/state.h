@@ -172,6 +172,7 @@ SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangl
 SBRI_SCRATCH_PART(
     self_nodes, sbri_bounds_node, c->model->layout.self_nodes) /* (twice that, and one a body) */
 SBRI_SCRATCH_PART(self_items, uint32_t, c->model->layout.self_items)
+SBRI_SCRATCH_PART(self_edges, uint8_t, c->model->layout.self_edges)
 SBRI_SCRATCH_PART(sampled, sbri_point, c->model->layout.sampled)               /* (slot_count) */
 SBRI_SCRATCH_PART(sampled_deltas, sbri_delta, c->model->layout.sampled_deltas) /* (frame_count) */
 SBRI_SCRATCH_PART(vertices, sbri_point, c->model->layout.vertices) /* (most vertices of a mesh, padded) */

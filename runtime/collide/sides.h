@@ -1,0 +1,38 @@
+/* Sides of a surface's triangles: which are its rims, and across which it is bent. */
+#ifndef SBRI_SIDES_H
+#define SBRI_SIDES_H
+
+#include <stdbool.h>
+
+#include "math/vec3.h"
+
+/* In place of the corner on the other side: there is none; or the side stands there already, of a triangle
+ * before. */
+#define SBRI_RIM UINT32_MAX
+#define SBRI_SAME_SIDE (UINT32_MAX - 1)
+
+/* Entries of the table that finding takes as scratch. */
+static inline uint32_t sbri_sides_table(uint32_t triangle_count) {
+  uint32_t capacity = 8;
+  while (capacity < 6 * triangle_count) capacity *= 2;
+  return capacity;
+}
+
+/* Of each side of each triangle (3 x count), from each corner on: the third corner of the other triangle that
+ * has it, SBRI_RIM or SBRI_SAME_SIDE. */
+void sbri_sides_find(const uint32_t *triangles, uint32_t count, uint32_t *beside, uint32_t *table);
+
+/* Cosine squared of the angle from which on a side counts as bent: 18 degrees. Flatter surfaces meet by their
+ * corners and faces. */
+#define SBRI_BENT 0.9045f
+
+/* Whether two triangles at the side from a to b are bent across it: `own` and `other` are their third
+ * corners. */
+static inline bool sbri_side_is_bent(sbf_vec3 a, sbf_vec3 b, sbf_vec3 own, sbf_vec3 other) {
+  sbf_vec3 side = sbri_sub(b, a), n = sbri_cross(side, sbri_sub(own, a)),
+           m = sbri_cross(sbri_sub(other, a), side);
+  float both = sbri_dot(n, m);
+  return !(both > 0) || both * both < SBRI_BENT * sbri_dot(n, n) * sbri_dot(m, m);
+}
+
+#endif

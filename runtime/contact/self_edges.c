@@ -1,0 +1,95 @@
+/* A sheet's rims, and the ridges that it is folded to, against each other: where edges cross and no corner
+ * comes near a face, points meet nothing. A touch is a sample whose weights are above 0 for the one edge and
+ * below for the other. */
+#include "collide/edge_look.h"
+#include "collide/sides.h"
+#include "contact/self_looking.h"
+
+/* Edges that are nearer than the thickness, as rims are that lie beside each other, come to it by this share
+ * of what is missing a tick: they are there to stay on their sides, and points to keep the distance. */
+static const float COMES_OUT_SHARE = 0.05f;
+
+typedef struct edge {
+  uint32_t ends[2];
+  sbri_soft_edge is;
+} edge;
+
+static edge edge_of(const sbri_self_looking *l, uint32_t triangle, uint32_t side) {
+  const uint32_t *c = l->body->self_faces + 3 * (size_t)triangle;
+  edge e = {.ends = {c[side], c[(side + 1) % 3]}};
+  for (int k = 0; k < 2; k++) {
+    e.is.at[k] = sbri_self_place(l->tick->positions, e.ends[k]);
+    e.is.ways[k] = sbri_self_way(l->tick, e.ends[k]);
+  }
+  return e;
+}
+
+/* Bits of each triangle's sides that stand out. */
+static void find_edges(const sbri_self_looking *l) {
+  const sbri_point *at = l->tick->positions;
+  for (uint32_t f = 0; f < l->body->self_face_count; f++) {
+    const uint32_t *c = l->body->self_faces + 3 * (size_t)f, *beside = l->body->self_sides + 3 * (size_t)f;
+    sbf_vec3 p[3];
+    for (int k = 0; k < 3; k++) p[k] = sbri_self_place(at, c[k]);
+    l->tables->self_edges[f] = 0;
+    for (int k = 0; k < 3; k++) {
+      if (beside[k] == SBRI_SAME_SIDE) continue;
+      if (beside[k] == SBRI_RIM ||
+          sbri_side_is_bent(p[k], p[(k + 1) % 3], p[(k + 2) % 3], sbri_self_place(at, beside[k])))
+        l->tables->self_edges[f] |= (uint8_t)(1u << k);
+    }
+  }
+}
+
+static bool hang_together(const sbri_body *body, const edge *p, const edge *q) {
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 2; k++)
+      if (p->ends[i] == q->ends[k] || sbri_self_are_joined(body, p->ends[i], q->ends[k])) return true;
+  return false;
+}
+
+/* How far apart they are at rest, where they cross each other there. */
+static float rest_distance(const sbri_self_looking *l, const edge *p, const edge *q) {
+  sbri_soft_edge edges[2] = {0};
+  sbri_edge_finding found;
+  for (int k = 0; k < 2; k++) {
+    edges[0].at[k] = sbri_self_place(l->tick->island->rest, p->ends[k]);
+    edges[1].at[k] = sbri_self_place(l->tick->island->rest, q->ends[k]);
+  }
+  return sbri_edges_look(&edges[0], &edges[1], INFINITY, &found) ? found.distance : INFINITY;
+}
+
+static void meet(const sbri_self_looking *l, const edge *p, const edge *q) {
+  sbri_edge_finding found;
+  if (hang_together(l->body, p, q) || !sbri_edges_look(&p->is, &q->is, l->rule.outer, &found)) return;
+  const uint32_t slots[4] = {p->ends[0], p->ends[1], q->ends[0], q->ends[1]};
+  const float *to = found.shares, weights[4] = {1 - to[0], to[0], to[1] - 1, -to[1]};
+  sbri_sample s = sbri_self_sample(l->tick->island, slots, weights);
+  float most = l->body->source->collision.outer_thickness, now = found.distance;
+  sbri_self_add(l, &s, found.normal, rest_distance(l, p, q),
+      now < most ? now + COMES_OUT_SHARE * (most - now) : most, true);
+}
+
+/* With those that come after it. */
+static void meet_others(const sbri_self_looking *l, uint32_t number) {
+  edge p = edge_of(l, number / 3, number % 3);
+  sbri_box box = sbri_box_join(
+      sbri_self_swept(l->tick, p.ends[0], l->rule.outer), sbri_self_swept(l->tick, p.ends[1], l->rule.outer));
+  sbri_bounds_walk walk;
+  uint32_t triangle;
+  sbri_bounds_walk_begin(&walk, l->tree, box);
+  while (sbri_bounds_walk_next(&walk, &triangle)) {
+    if (!l->tables->self_edges[triangle] || !sbri_box_meets(&box, &l->boxes[triangle])) continue;
+    for (uint32_t side = 0; side < 3; side++) {
+      if (!(l->tables->self_edges[triangle] >> side & 1) || 3 * triangle + side <= number) continue;
+      edge q = edge_of(l, triangle, side);
+      meet(l, &p, &q);
+    }
+  }
+}
+
+void sbri_self_edges_add(const sbri_self_looking *l) {
+  find_edges(l);
+  for (uint32_t i = 0; i < 3 * l->body->self_face_count; i++)
+    if (l->tables->self_edges[i / 3] >> i % 3 & 1) meet_others(l, i);
+}

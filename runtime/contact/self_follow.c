@@ -1,0 +1,69 @@
+/* A body's touches with itself go along with both sides of it from substep to substep. What stood for a whole
+ * tick would let a row of points that swings about a fold come nearer on its way, and be lifted in the next:
+ * that puts in energy, and the row swings on for ever. */
+#include "collide/edge_look.h"
+#include "contact/self_looking.h"
+#include "contact/self_touch.h"
+
+/* A place so far beside its triangle, as a share of that, stays what it was found as. */
+static const float BESIDE = 0.5f;
+
+/* Weights of the place over which x is, on a triangle's plane; the way along a side leads from one corner. */
+static void over_plane(sbf_vec3 x, const sbf_vec3 p[3], float weights[3]) {
+  sbf_vec3 ab = sbri_sub(p[1], p[0]), ac = sbri_sub(p[2], p[0]), off = sbri_sub(x, p[0]);
+  float bb = sbri_dot(ab, ab), bc = sbri_dot(ab, ac), cc = sbri_dot(ac, ac), b = sbri_dot(ab, off),
+        c = sbri_dot(ac, off), whole = bb * cc - bc * bc;
+  if (!(whole > 0)) return;
+  weights[1] = (cc * b - bc * c) / whole, weights[2] = (bb * c - bc * b) / whole;
+  weights[0] = 1 - weights[1] - weights[2];
+}
+
+/* On a side's line, if the place was on that. */
+static void over_side(sbf_vec3 x, const sbf_vec3 p[3], float weights[3]) {
+  int from = 0, to = 2;
+  while (from < 2 && weights[from] == 0) from++;
+  while (to > from && weights[to] == 0) to--;
+  sbf_vec3 side = sbri_sub(p[to], p[from]);
+  float length2 = sbri_dot(side, side);
+  if (!(length2 > 0)) return;
+  weights[to] = sbri_dot(sbri_sub(x, p[from]), side) / length2, weights[from] = 1 - weights[to];
+}
+
+static bool follow_point(const sbf_vec3 p[4], float weights[4]) {
+  float on[3] = {-weights[1], -weights[2], -weights[3]};
+  if (on[0] != 0 && on[1] != 0 && on[2] != 0)
+    over_plane(p[0], p + 1, on);
+  else
+    over_side(p[0], p + 1, on);
+  for (int k = 0; k < 3; k++)
+    if (!(on[k] >= -BESIDE && on[k] <= 1 + BESIDE)) return false;
+  for (int k = 0; k < 3; k++) weights[1 + k] = -on[k];
+  return true;
+}
+
+static bool follow_edges(const sbf_vec3 p[4], float weights[4]) {
+  float shares[2];
+  if (!sbri_lines_cross(p, p + 2, shares)) return false;
+  for (int k = 0; k < 2; k++)
+    if (!(shares[k] >= 0 && shares[k] <= 1)) return false;
+  weights[0] = 1 - shares[0], weights[1] = shares[0], weights[2] = shares[1] - 1, weights[3] = -shares[1];
+  return true;
+}
+
+void sbri_self_touch_follow(const sbri_island_tick *t, sbri_touch *touch) {
+  float weights[4];
+  sbf_vec3 p[4], off = {0, 0, 0};
+  for (int k = 0; k < 4; k++) {
+    weights[k] = touch->sample.weights[k];
+    p[k] = sbri_self_place(t->positions, touch->sample.slots[k]);
+  }
+  if (!(touch->edges ? follow_edges : follow_point)(p, weights)) return;
+  for (int k = 0; k < 4; k++) off = sbri_add_scaled(off, p[k], weights[k]);
+  float distance = sbri_length(off), along = sbri_dot(off, touch->normal);
+  if (!(fabsf(along) > 0.5f * distance) || distance < 1e-6f) return; /* it does not say which side is which */
+  sbri_sample s = sbri_self_sample(t->island, touch->sample.slots, weights);
+  if (!(s.mass_kg > 0)) return;
+  touch->sample = s;
+  touch->normal = sbri_scale(off, (along < 0 ? -1 : 1) / distance);
+  touch->rub = sbri_add_scaled(touch->rub, touch->normal, -sbri_dot(touch->rub, touch->normal));
+}
