@@ -72,8 +72,9 @@ class Glb:
 
         return [world(i) for i in range(len(self.nodes))]
 
-    def skinned(self, worlds):
-        """The vertices of all skinned primitives, in the order of the file, where the joints carry them."""
+    def skinned(self, worlds, target=None):
+        """The vertices of all skinned primitives, in the order of the file, where the joints carry them; as a morph target
+        has them before."""
         points = []
         for node, primitive in self.primitives():
             skin = self.json["skins"][self.nodes[node]["skin"]]
@@ -81,7 +82,11 @@ class Glb:
                      for m in self.accessor(skin["inverseBindMatrices"])]
             moved = [product(worlds[joint], bind) for joint, bind in zip(skin["joints"], binds)]
             attributes = primitive["attributes"]
-            for place, joints, weights in zip(self.accessor(attributes["POSITION"]),
+            places = self.accessor(attributes["POSITION"])
+            if target is not None:
+                offsets = self.accessor(primitive["targets"][target]["POSITION"])
+                places = [tuple(a + b for a, b in zip(p, by)) for p, by in zip(places, offsets)]
+            for place, joints, weights in zip(places,
                                               self.accessor(attributes["JOINTS_0"]),
                                               self.accessor(attributes["WEIGHTS_0"])):
                 there = [(apply(moved[j], place), w) for j, w in zip(joints, weights) if w > 0]

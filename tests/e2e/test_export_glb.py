@@ -3,17 +3,20 @@
 import math
 import os
 import struct
+import subprocess
+import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 import play_files
 from bundle_file import numbers, rows
 from glb_file import Glb
-from sbfmt_program import ProgramTest, ROOT, convert_once, example, main, read_text, write_bytes
+from sbfmt_program import PROGRAM, ProgramTest, ROOT, convert_once, example, main, read_text, write_bytes
 
-FRAME = 20
+FRAME = 22
 SECONDS = 1
 DRIVE = ("--drive", "0.3,0.2", "--ground", "noise:0.1,3")
+HOP = ("--clip", "0")
 NEAR_M = 1e-5
 
 needs_node = unittest.skipUnless(play_files.node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
@@ -36,21 +39,24 @@ def rest_points(bundle):
 
 
 class Motion(ProgramTest):
-    """Two characters: one whose skin has weights, one of parts that hang on bones."""
+    """Three characters: one whose skin has weights, one of parts that hang on bones, one that squashes."""
 
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
         cls.bundles = {
             "pup": convert_once(cls.class_folder.name, "pup.sbf", os.path.join(ROOT, "examples", "pup", "pup.glb")),
-            "lizard": example(cls.class_folder.name)}
+            "lizard": example(cls.class_folder.name), "pudding": os.path.join(cls.class_folder.name, "pudding.sbf")}
+        maker = os.path.join(ROOT, "examples", "pudding", "make_pudding_bundle.py")
+        subprocess.run([sys.executable, "-B", maker, PROGRAM, cls.bundles["pudding"]], capture_output=True, check=True)
 
     def moved(self, name):
         """The exported walk; the points of the skin at rest and at the frame, as a run has them."""
         bundle, out, cache = self.bundles[name], self.made(name + "_walk.glb"), self.made(name + ".pc2")
+        moves = HOP if name == "pudding" else DRIVE
         if not os.path.exists(out):
-            self.good("export", bundle, "-o", out, "--seconds", SECONDS, *DRIVE)
-            self.good("run", bundle, "--seconds", SECONDS, "--fps", "30", *DRIVE, "--cache", cache)
+            self.good("export", bundle, "-o", out, "--seconds", SECONDS, *moves)
+            self.good("run", bundle, "--seconds", SECONDS, "--fps", "30", *moves, "--cache", cache)
         return out, rest_points(bundle), points_at(cache, FRAME)
 
     def assert_plays(self, meshes, rest, now):
@@ -86,7 +92,7 @@ class Motion(ProgramTest):
             out, rest, now = self.moved(name)
             info = self.json_of("info", bundle)
             shown = play_files.node("three_gltf.mjs", out, FRAME / 30)
-            self.assertEqual(shown["animations"], ["motion"])
+            self.assertEqual(shown["animations"], ["hop", "motion"] if name == "pudding" else ["motion"])
             self.assertEqual(sum(mesh["triangles"] for mesh in shown["meshes"]),
                              sum(mesh["triangles"] for mesh in info["render_meshes"]))
             self.assert_plays(shown["meshes"], rest, now)
@@ -94,6 +100,8 @@ class Motion(ProgramTest):
     @needs_blender
     def test_blender_plays_it(self):
         for name, bundle in self.bundles.items():
+            if name == "pudding":
+                continue  # of two animations it shows the first, a clip
             out, rest, now = self.moved(name)
             info = self.json_of("info", bundle)
             shown = play_files.blender("blender_gltf.py", out, FRAME)
@@ -104,6 +112,18 @@ class Motion(ProgramTest):
             for mesh in shown["meshes"]:
                 self.assertEqual(mesh["keys"], 30 * SECONDS + 1)
             self.assert_plays(shown["meshes"], rest, now)
+
+    def test_what_squashes_is_squashed(self):
+        """Pressed as it lands: in the targets, for the joints alone leave it as broad as it was."""
+        out, rest, now = self.moved("pudding")
+        glb = Glb(out)
+        motion, = (a for a in glb.json["animations"] if any(c["target"]["path"] == "weights" for c in a["channels"]))
+        worlds = glb.worlds({key: keys for key, keys in glb.tracks(motion).items() if key[1] != "weights"}, FRAME / 30)
+        widths = [max(xs) - min(xs) for xs in ([p[0] for p in points] for points in (
+            rest, now, glb.skinned(worlds), glb.skinned(worlds, FRAME)))]
+        self.assertGreater(widths[1], 1.03 * widths[0])
+        self.assertAlmostEqual(widths[2], widths[0], delta=1e-3 * widths[0])
+        self.assertAlmostEqual(widths[3], widths[1], delta=NEAR_M)
 
     def test_normals_of_targets_turn_with_the_flesh(self):
         """A normal keeps its angle to the faces around it that share it: triangles here, so the sums of their area vectors tell."""

@@ -1,4 +1,4 @@
-// What three.js shows of a file's first animation at a time in seconds: for each mesh its vertices at rest and where they
+// What three.js shows of a file's last animation, the motion where there is one, at a time in seconds: for each mesh its vertices at rest and where they
 // are then.
 import fs from "node:fs";
 import * as THREE from "three";
@@ -8,7 +8,7 @@ const [path, time] = process.argv.slice(2);
 const file = fs.readFileSync(path);
 const gltf = await new GLTFLoader().parseAsync(file.buffer.slice(file.byteOffset, file.byteOffset + file.length), "");
 const mixer = new THREE.AnimationMixer(gltf.scene);
-if (gltf.animations.length) mixer.clipAction(gltf.animations[0]).play();
+if (gltf.animations.length) mixer.clipAction(gltf.animations.at(-1)).play();
 mixer.setTime(Number(time));
 gltf.scene.updateMatrixWorld(true);
 const meshes = [];
