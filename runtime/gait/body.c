@@ -267,13 +267,23 @@ sbri_stance sbri_body_stance(
   return stance;
 }
 
+void sbri_body_steps_keep(const sbri_rig *rig, sbri_gait_state *state, float tick_s) {
+  const sbf_head_turn *head = rig->gait ? rig->gait->head : NULL;
+  if (state->steps.tick_s == tick_s) return;
+  state->steps = (sbri_body_steps){.tick_s = tick_s,
+      .lean = sbri_follower_step_of(LEAN_HZ, 1, 0, tick_s),
+      .bend = sbri_follower_step_of(BEND_HZ, 1, 0, tick_s),
+      .upright = sbri_follower_step_of(UPRIGHT_HZ, 1, 0, tick_s),
+      .crouch = sbri_follower_step_of(CROUCH_HZ, 1, 0, tick_s)};
+  if (head) state->steps.head = sbri_follower_step_of(head->frequency, head->damping_ratio, 0, tick_s);
+}
+
 /* Leans on towards `lean`, no farther than the feet that stand allow. */
 static void sway_to(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, sbf_vec3 lean) {
   sbri_lag x = state->sway_x, z = state->sway_z;
-  sbri_follower_step step = sbri_follower_step_of(LEAN_HZ, 1, 0, input->tick_s);
-  sbri_lag_tick(&x, lean.x, &step);
-  sbri_lag_tick(&z, lean.z, &step);
+  sbri_lag_tick(&x, lean.x, &state->steps.lean);
+  sbri_lag_tick(&z, lean.z, &state->steps.lean);
   sbf_vec3 by = sbri_vec3(x.value - state->sway_x.value, 0, z.value - state->sway_z.value);
   float size = sbri_length(by), share = 1;
   sbf_vec3 way = sbri_normalize(by, sbri_vec3(0, 0, 0));
@@ -289,26 +299,25 @@ static void sway_to(
 sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input,
     const sbri_stride *stride, uint32_t lifting, sbf_vec3 way) {
   if (!rig->leg_count) return stance_over(rig, state, input);
+  sbri_body_steps_keep(rig, state, input->tick_s);
+  const sbri_body_steps *steps = &state->steps;
   sbf_vec3 lean = {0, 0, 0};
   if (lifting) lean = sbri_support_sway(rig, state, input, lifting, way);
   sway_to(rig, state, input, lean);
   if (!stride) state->sway_x = state->sway_z = (sbri_lag){0, 0};
-  sbri_follower_step bend = sbri_follower_step_of(BEND_HZ, 1, 0, input->tick_s);
   bool at_home = state->standing_s > 0 && !lifting; /* no foot has still to go there */
-  if (stride) sbri_lag_tick(&state->bent, at_home ? 0 : 1, &bend);
-  sbri_follower_step even = sbri_follower_step_of(UPRIGHT_HZ, 1, 0, input->tick_s);
-  sbri_lag_tick(&state->upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &even);
+  if (stride) sbri_lag_tick(&state->bent, at_home ? 0 : 1, &steps->bend);
+  sbri_lag_tick(&state->upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &steps->upright);
   if (!stride) state->upright = (sbri_lag){0, 0};
   sbri_stance stance = stance_over(rig, state, input);
   float wanted, needed = crouch(rig, state, input, &stance.root, &wanted);
   float steady = stride ? crouch_for_stride(rig, state, input, &stance.root, stride) : 0;
   wanted = steady > wanted ? steady : wanted;
-  sbri_follower_step step = sbri_follower_step_of(CROUCH_HZ, 1, 0, input->tick_s);
   float room = room_below(rig, state, input, &stance.root);
-  sbri_lag_tick(&state->room, room, &step);
+  sbri_lag_tick(&state->room, room, &steps->crouch);
   if (!stride) state->room = (sbri_lag){room, 0};
   if (wanted > state->room.value) wanted = state->room.value;
-  sbri_lag_tick(&state->crouch, wanted, &step);
+  sbri_lag_tick(&state->crouch, wanted, &steps->crouch);
   if (!stride) state->crouch = (sbri_lag){wanted, 0};
   come_down(rig, state, input, needed, &stance);
   return stance;

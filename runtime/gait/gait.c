@@ -114,8 +114,8 @@ static void lead_head(const sbri_rig *rig, sbri_gait_state *state, const sbri_ga
   const sbf_head_turn *head = rig->gait ? rig->gait->head : NULL;
   if (!head) return;
   float target = sbri_clamp(input->turn * head->lead, -head->limit, head->limit);
-  sbri_follower_step step = sbri_follower_step_of(head->frequency, head->damping_ratio, 0, input->tick_s);
-  sbri_lag_tick(&state->head_yaw, target, &step);
+  sbri_body_steps_keep(rig, state, input->tick_s);
+  sbri_lag_tick(&state->head_yaw, target, &state->steps.head);
 }
 
 /* Where the centre of mass is when the body does not lean: over the middle of the homes, where nothing is

@@ -44,6 +44,12 @@ typedef struct sbri_clip_layer {
   float time_s, speed, weight, wanted, fade_s;
 } sbri_clip_layer;
 
+/* What a tick of a given length does to what follows in the body: kept, since ticks are of one length. */
+typedef struct sbri_body_steps {
+  float tick_s; /* 0: not known yet */
+  sbri_follower_step lean, bend, upright, crouch, head;
+} sbri_body_steps;
+
 typedef struct sbri_gait_state {
   sbf_vec3 position; /* where the asset's origin stands; y: how far all is raised above the ground */
   float heading;     /* rad, in (-pi, pi] */
@@ -77,6 +83,7 @@ typedef struct sbri_gait_state {
       walk_since_m;     /* asset metres: between the last two landings; 0: not known; since the last */
   uint32_t walk_landed; /* 1, 2: which of the two legs came down last; 0: none */
   sbri_lag head_yaw;
+  sbri_body_steps steps;
   uint32_t foot_count, tail_bone_count;
   sbri_clip_layer clips[SBRI_CLIP_LAYERS];
   sbri_foot feet[SBRI_MOST_LEGS];
@@ -294,6 +301,8 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
 
 /* ---- gait/body.c: the body over its feet ---- */
 
+/* Keeps `steps` up to the length of the ticks. */
+void sbri_body_steps_keep(const sbri_rig *rig, sbri_gait_state *state, float tick_s);
 sbri_stance sbri_body_stance(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input);
 /* By how much more it has to come down for every leg to reach its foot from where its hip is now. */
 float sbri_body_drop(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
