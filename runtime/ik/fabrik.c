@@ -4,6 +4,8 @@
  * on, and so keeps lengths, limits and the least twist. */
 #include "ik/ik.h"
 
+enum { PATIENCE = 16 }; /* passes */
+
 typedef struct places {
   sbf_vec3 at[SBRI_IK_MOST_JOINTS];   /* where the backward pass puts the joints */
   sbf_vec3 sums[SBRI_IK_MOST_JOINTS]; /* of what the children ask for */
@@ -154,7 +156,8 @@ static uint32_t solve_places(sbri_ik_tree *tree, places *p) {
   return passes;
 }
 
-static uint32_t solve(sbri_ik_tree *tree, places *p) {
+/* With `patience` above 0 it gives up where so many passes do not take a fifth off the error. */
+static uint32_t solve(sbri_ik_tree *tree, places *p, uint32_t patience) {
   uint32_t passes = 0;
   bool free = true;
   for (uint32_t i = 0; i < tree->count; i++) p->lengths[i] = sbri_length(tree->joints[i].offset);
@@ -167,12 +170,17 @@ static uint32_t solve(sbri_ik_tree *tree, places *p) {
   } else if (is_free_chain(tree)) {
     return solve_places(tree, p);
   }
+  float mark = error;
   while (passes < tree->iterations && error > tree->tolerance) {
     backward(tree, p);
     forward(tree, p);
     passes++;
     float before = error;
     error = worst_error(tree, p);
+    if (patience && passes % patience == 0) {
+      if (error > 0.8f * mark) break;
+      mark = error;
+    }
     if (fabsf(error - before) < 1e-3f * tree->tolerance) break; /* no nearer than this */
   }
   return passes;
@@ -182,14 +190,48 @@ sbri_ik_result sbri_fabrik_tree(sbri_ik_tree *tree) {
   places p;
   for (uint32_t i = 0; i < tree->count; i++)
     tree->joints[i].rotation = sbri_joint_limit_clamp(tree->joints[i].limit, tree->joints[i].rotation);
-  uint32_t passes = solve(tree, &p);
+  uint32_t passes = solve(tree, &p, 0);
   float error = worst_error(tree, &p);
   return (sbri_ik_result){passes, error, error <= tree->tolerance};
+}
+
+static bool is_limited(const sbri_ik_chain *chain) {
+  bool limited = false;
+  for (uint32_t i = 0; i < chain->count; i++)
+    limited = limited || (chain->joints[i].limit && chain->joints[i].limit->active);
+  return limited;
+}
+
+static void take_rotations(const sbri_ik_chain *chain, sbf_quat *rotations) {
+  for (uint32_t i = 0; i < chain->count; i++) rotations[i] = chain->joints[i].rotation;
+}
+
+static void give_rotations(const sbf_quat *rotations, sbri_ik_chain *chain) {
+  for (uint32_t i = 0; i < chain->count; i++) chain->joints[i].rotation = rotations[i];
+}
+
+/* Limits may stop it in a corner, above all where joints are hinges: places that one joint after another is
+ * to go to are of no use to joints that only turn about one line. With what is left of the passes joints are
+ * turned for the end's sake, one by one from where they began; the better of both answers stays. */
+static sbri_ik_result out_of_corner(sbri_ik_chain *chain, const sbf_quat *began_with, sbri_ik_result so_far) {
+  sbf_quat kept[SBRI_IK_MOST_JOINTS];
+  sbri_ik_chain rest = *chain;
+  rest.iterations = chain->iterations - so_far.iterations;
+  take_rotations(chain, kept);
+  give_rotations(began_with, chain);
+  sbri_ik_result then = sbri_ccd(&rest);
+  then.iterations += so_far.iterations;
+  if (then.error <= so_far.error) return then;
+  give_rotations(kept, chain);
+  so_far.iterations = then.iterations;
+  return so_far;
 }
 
 sbri_ik_result sbri_fabrik(sbri_ik_chain *chain) {
   places p;
   uint32_t parents[SBRI_IK_MOST_JOINTS];
+  sbf_quat began_with[SBRI_IK_MOST_JOINTS];
+  take_rotations(chain, began_with);
   sbf_vec3 target = sbri_ik_begin(chain, p.frames);
   sbri_ik_goal goal = {chain->count - 1, target};
   for (uint32_t i = 0; i < chain->count; i++) parents[i] = i ? i - 1 : 0;
@@ -201,6 +243,9 @@ sbri_ik_result sbri_fabrik(sbri_ik_chain *chain) {
       .goal_count = 1,
       .tolerance = chain->tolerance,
       .iterations = chain->iterations};
-  uint32_t passes = solve(&tree, &p);
-  return sbri_ik_finish(chain, target, p.frames, passes);
+  uint32_t passes = solve(&tree, &p, is_limited(chain) ? PATIENCE : 0);
+  sbri_ik_result result = sbri_ik_finish(chain, target, p.frames, passes);
+  bool near = sbri_length(sbri_sub(target, p.frames[0].position)) < sbri_ik_reach(chain);
+  if (result.reached || !near || passes >= chain->iterations || !is_limited(chain)) return result;
+  return out_of_corner(chain, began_with, result);
 }

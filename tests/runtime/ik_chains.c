@@ -99,6 +99,38 @@ void ik_expect_keeps_limits(ik_method *solve, int least) {
   ck_assert_int_ge(reached, least);
 }
 
+void ik_expect_keeps_hinges(ik_method *solve, int least) {
+  static const sbf_vec3 axes[2] = {{1, 0, 0}, {0, 0, 1}}; /* by turns */
+  sbri_joint_limit hinges[2];
+  uint32_t seed = 13;
+  int reached = 0;
+  for (int k = 0; k < 2; k++) {
+    sbf_quat turn = sbri_quat_between(axes[k], sbri_vec3(1, 0, 0));
+    hinges[k] = (sbri_joint_limit){.before = turn,
+        .after = sbri_quat_conjugate(turn),
+        .twist = {-0.3f, 1.2f},
+        .cone = 3.2f,
+        .active = true};
+  }
+  for (int i = 0; i < 200; i++) {
+    ik_chain_fixture f;
+    ik_chain_straight(&f);
+    for (int k = 1; k + 1 < IK_CHAIN_JOINTS; k++) {
+      f.joints[k].limit = &hinges[k % 2];
+      f.joints[k].rotation = sbri_quat_about(axes[k % 2], 0.2f);
+    }
+    f.chain.target = ik_random_place(&seed, 8);
+    if (sbri_length(f.chain.target) < 4) f.chain.target.y += 5;
+    reached += solve(&f.chain).reached;
+    ck_assert_float_le(ik_chain_excess(&f), 2e-5f);
+    for (int k = 1; k + 1 < IK_CHAIN_JOINTS; k++) {
+      sbf_vec3 still = sbri_sub(sbri_rotate(f.joints[k].rotation, axes[k % 2]), axes[k % 2]);
+      ck_assert_float_le(sbri_length(still), 1e-4f);
+    }
+  }
+  ck_assert_int_ge(reached, least);
+}
+
 void ik_expect_stretches_to(ik_method *solve) {
   uint32_t seed = 17;
   for (int i = 0; i < 50; i++) {

@@ -30,6 +30,8 @@ typedef sbri_ik_result ik_method(sbri_ik_chain *chain);
 /* What every iterative method must do; `most_passes` is the mean over reachable targets it may take. */
 void ik_expect_reaches(ik_method *solve, float most_passes, int least_of_200);
 void ik_expect_keeps_limits(ik_method *solve, int least_of_200);
+/* The same of hinges whose axes turn by turn are square to each other. */
+void ik_expect_keeps_hinges(ik_method *solve, int least);
 void ik_expect_stretches_to(ik_method *solve);
 void ik_expect_bows_to_pole(ik_method *solve);
 void ik_expect_copies_rotation(ik_method *solve);

@@ -9,6 +9,10 @@ START_TEST(keeps_limits)
 { ik_expect_keeps_limits(sbri_ccd, 150); }
 END_TEST
 
+START_TEST(keeps_hinges)
+{ ik_expect_keeps_hinges(sbri_ccd, 180); }
+END_TEST
+
 START_TEST(stretches_out_to_what_is_too_far)
 { ik_expect_stretches_to(sbri_ccd); }
 END_TEST
@@ -34,6 +38,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, reaches_what_can_be_reached);
   tcase_add_test(tests, keeps_limits);
+  tcase_add_test(tests, keeps_hinges);
   tcase_add_test(tests, stretches_out_to_what_is_too_far);
   tcase_add_test(tests, bows_towards_the_pole);
   tcase_add_test(tests, copies_the_target_s_rotation);

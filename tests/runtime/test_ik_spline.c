@@ -37,6 +37,10 @@ START_TEST(keeps_limits)
 }
 END_TEST
 
+START_TEST(keeps_hinges)
+{ ik_expect_keeps_hinges(sbri_ik_spline, 0); }
+END_TEST
+
 START_TEST(what_is_too_far_makes_it_straight)
 {
   ik_chain_fixture f;
@@ -70,6 +74,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, ends_at_the_target_on_one_smooth_bow);
   tcase_add_test(tests, keeps_limits);
+  tcase_add_test(tests, keeps_hinges);
   tcase_add_test(tests, what_is_too_far_makes_it_straight);
   tcase_add_test(tests, odd_targets_leave_it_whole);
   tcase_add_test(tests, extension_is_eased);
