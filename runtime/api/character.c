@@ -35,14 +35,14 @@ static double whole(double metres) {
 
 /* The origin at whole metres near `position`, and the gait's state standing there. */
 static void put(const sbr_world *world, sbri_character *c, sbr_double3 position, float heading) {
-  double ground = sbri_ground_height(&world->ground, position.x, position.z, NULL);
+  double ground = sbri_ground_height(&c->ground, position.x, position.z, NULL);
   sbri_head(c)->origin = (sbr_double3){whole(position.x), whole(ground + position.y), whole(position.z)};
   sbr_double3 origin = sbri_head(c)->origin;
   sbri_gait_input input = sbri_gait_input_of(world, c);
   sbf_vec3 place = {(float)(position.x - origin.x), (float)position.y, (float)(position.z - origin.z)};
   sbri_gait_place(&c->model->rig, sbri_gait(c), &input, place, heading);
   sbri_gait_pose(&c->model->rig, sbri_gait(c), &input, true, sbri_pose(c));
-  sbr_transform root = sbri_root_place(c, &world->ground);
+  sbr_transform root = sbri_root_place(c, &c->ground);
   sbri_pose(c)[sbri_root_frame(c->model)] = root;
   sbri_pose(c)[sbri_anchor_frame(c->model)] = root;
   sbri_rigid_frames_follow(c, sbri_pose(c));
@@ -86,6 +86,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
       .hold = definition->hold,
       .scale = definition->scale,
       .time_scale = 1 / sqrtf(definition->scale),
+      .ground = definition->ground.height ? definition->ground : world->ground,
       .state = state,
       .scratch = scratch};
   if (!sbri_meet_surfaces_make(world, index)) {

@@ -13,7 +13,7 @@ sbri_gait_input sbri_gait_input_of(const sbr_world *world, const sbri_character 
       .scale = c->scale,
       .hold = c->hold,
       .origin = head->origin,
-      .ground = &world->ground};
+      .ground = &c->ground};
 }
 
 sbr_transform sbri_root_place(const sbri_character *c, const sbr_ground *ground) {

@@ -90,7 +90,7 @@ static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
       .kept = sbri_rigid_kept(c),
       .targets = sbri_rigid_targets(c),
       .anchor = {sbri_scale(anchor->position, 1 / c->scale), anchor->rotation},
-      .ground = &world->ground,
+      .ground = &c->ground,
       .colliders = &world->colliders,
       .origin = sbri_head(c)->origin,
       .scale = c->scale,

@@ -56,7 +56,7 @@ sbri_island_tick sbri_island_tick_of(
       .wind = sbri_scale(model->asset->environment.wind, c->time_scale),
       .origin = sbri_head(c)->origin,
       .scale = c->scale,
-      .ground = &world->ground,
+      .ground = &c->ground,
       .colliders = &world->colliders,
       .positions = sbri_positions(c) + first,
       .velocities = sbri_velocities(c) + 3 * first,

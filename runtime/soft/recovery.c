@@ -48,11 +48,11 @@ static void calm(sbri_character *c, uint32_t index) {
   }
 }
 
-static void put_back(const sbr_world *world, sbri_character *c, uint32_t index) {
+static void put_back(sbri_character *c, uint32_t index) {
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
   sbri_island_unflow(c, index);
-  sbri_island_place_where_it_is(c, index, &world->ground);
+  sbri_island_place_where_it_is(c, index, &c->ground);
   memcpy(sbri_previous_positions(c) + island->first_slot, sbri_positions(c) + island->first_slot,
       island->slot_count * sizeof(sbri_point));
   state->recoveries++;
@@ -64,7 +64,7 @@ void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t ind
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!are_sound(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) ||
       !are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count)) {
-    put_back(world, c, index);
+    put_back(c, index);
     return;
   }
   if (state->calm_ticks > 0) {
@@ -83,5 +83,5 @@ void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t ind
   if (shape.folded) state->recovering = SBRI_RECOVERING_TICKS;
   if (state->folded_ticks >= (shape.wild && shape.told ? CALMED_TICKS : FOLDED_TICKS) ||
       (shape.told && shape.heaped && state->wild >= WILD_TICKS))
-    put_back(world, c, index);
+    put_back(c, index);
 }

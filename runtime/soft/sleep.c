@@ -82,7 +82,7 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!state->asleep) return false;
   bool looks = world->colliders.moving ||
-               (!sbri_ground_is_fixed(&world->ground) && (world->ticks + index) % LOOK_EVERY == 0);
+               (!sbri_ground_is_fixed(&c->ground) && (world->ticks + index) % LOOK_EVERY == 0);
   if (!is_moved(c, island) && !(looks && find_ground(world, c, index) != state->ground_mark)) return true;
   sbri_island_wake(c, index);
   return false;

@@ -32,7 +32,7 @@ bool sbri_character_is_still(const sbri_character *c) {
 
 bool sbri_character_sleeps(const sbr_world *world, sbri_character *c) {
   if (!sbri_head(c)->asleep) return false;
-  bool looks = !sbri_ground_is_fixed(&world->ground) && world->ticks % LOOK_EVERY == 0;
+  bool looks = !sbri_ground_is_fixed(&c->ground) && world->ticks % LOOK_EVERY == 0;
   if (!looks && !world->colliders.moving) return true;
   /* The feet and the bodies look for themselves. */
   sbri_head(c)->asleep = 0;

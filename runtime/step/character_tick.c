@@ -41,7 +41,7 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
   if (may_sleep) sbri_character_keep_gait(c);
   c->event_count += sbri_gait_tick(&c->model->rig, sbri_gait(c), &input, pose, c->events + c->event_count,
       SBRI_TICK_EVENTS - c->event_count);
-  pose[sbri_root_frame(c->model)] = sbri_root_place(c, &world->ground);
+  pose[sbri_root_frame(c->model)] = sbri_root_place(c, &c->ground);
   if (sbri_character_is_grouped(world, c)) return;
   sbri_rigid_tick_parts(world, c);
   sbri_jiggles_tick(c, (float)world->tick_s * c->time_scale);

@@ -73,7 +73,8 @@ typedef struct sbri_character {
   uint32_t generation;
   bool hold;
   float scale;
-  float time_scale; /* 1 / sqrt(scale): its own seconds in one of the world's */
+  float time_scale;  /* 1 / sqrt(scale): its own seconds in one of the world's */
+  sbr_ground ground; /* that it stands on */
   unsigned char *state, *scratch;
   uint64_t sampled_at;  /* stamp of the moment that `sampled` holds; 0: none */
   uint32_t event_count; /* of the last tick */

@@ -49,6 +49,13 @@ func skin_of(character: SoftCharacter3D) -> PackedVector3Array:
 	return points
 
 
+func middle_of(character: SoftCharacter3D) -> Vector3:
+	var sum := Vector3.ZERO
+	var skin := skin_of(character)
+	for point in skin: sum += point
+	return sum / skin.size()
+
+
 # The lowest point of a skin above what a function says of the ground.
 func lowest(skin: PackedVector3Array, height: Callable) -> float:
 	var least := INF

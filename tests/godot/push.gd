@@ -41,13 +41,6 @@ func add_cube(at: Vector3, weight: float) -> SoftCharacter3D:
 	return one
 
 
-func middle_of(one: SoftCharacter3D) -> Vector3:
-	var sum := Vector3.ZERO
-	var skin := skin_of(one)
-	for point in skin: sum += point
-	return sum / skin.size()
-
-
 func begin(mass: float, pushes: bool) -> void:
 	for one in [cube, ball]: if one: one.queue_free()
 	cube = add_cube(Vector3(0, 3, 0), 0)

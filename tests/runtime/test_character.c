@@ -232,6 +232,30 @@ START_TEST(numbers_that_are_none_never_get_in)
 }
 END_TEST
 
+/* One world, two floors: what stands on the upper one goes as the other does, as much higher. */
+START_TEST(each_may_have_a_ground_of_its_own)
+{
+  scene s = walker();
+  scene_start(&s);
+  sbr_character_definition above = s.character_definition;
+  above.ground = sbr_ground_flat(3);
+  sbr_character_id upper;
+  ck_assert(sbr_character_create(s.world, s.model, &above, &upper, NULL) == SBF_OK);
+  sbr_character_drive(s.world, s.character, 0.5f, 0, 0);
+  sbr_character_drive(s.world, upper, 0.5f, 0, 0);
+  scene_ticks(&s, 120);
+  sbr_character_teleport(s.world, upper, (sbr_double3){2, 0, 5}, 0);
+  sbr_character_teleport(s.world, s.character, (sbr_double3){2, 0, 5}, 0);
+  scene_ticks(&s, 60);
+  sbr_double3 low = world_point(&s, 0);
+  s.character = upper;
+  sbr_double3 high = world_point(&s, 0);
+  ck_assert_double_eq_tol(high.y - low.y, 3, 1e-5);
+  ck_assert_double_eq_tol(high.z, low.z, 1e-5);
+  scene_free(&s);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("character");
   TCase *c = tcase_create("character");
@@ -242,6 +266,7 @@ static Suite *suite(void) {
   tcase_add_test(c, a_reset_brings_back_the_rest_shape);
   tcase_add_test(c, a_paused_character_stands_still);
   tcase_add_test(c, scaled_bodies_move_alike);
+  tcase_add_test(c, each_may_have_a_ground_of_its_own);
   tcase_add_test(c, definitions_are_checked);
   tcase_add_loop_test(c, numbers_that_are_none_never_get_in, 0, 4);
   suite_add_tcase(s, c);

@@ -64,7 +64,8 @@ class WorldDefinition(Structure):
 
 
 class CharacterDefinition(Structure):
-    _fields_ = [("cookie", c_uint32), ("position", Double3), ("heading", c_float), ("scale", c_float), ("hold", c_bool)]
+    _fields_ = [("cookie", c_uint32), ("position", Double3), ("heading", c_float), ("scale", c_float), ("hold", c_bool),
+                ("ground", Ground)]
 
 
 class CharacterId(Structure):

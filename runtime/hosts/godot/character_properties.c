@@ -72,6 +72,7 @@ SETTING(ground_reach, float, soft_character_make(one))
 SETTING(collision_mask, int, (void)one)
 SETTING(push_bodies, bool, (void)one)
 SETTING(push_limit, float, (void)one)
+SETTING(meet_others, bool, soft_character_make(one))
 #undef SETTING
 
 enum { HINT_RANGE = 1, HINT_ENUM = 2, HINT_LAYERS_3D_PHYSICS = 11, HINT_RESOURCE_TYPE = 17 };
@@ -115,6 +116,7 @@ const gd_property soft_character_properties[] = {
     SHOWN("ground_reach", FLOAT, HINT_RANGE, "0,10,0.01,or_greater,suffix:m", "get_", ground_reach),
     SHOWN("collision_mask", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_mask),
     SHOWN("push_bodies", BOOL, 0, NULL, "is_", push_bodies),
+    SHOWN("meet_others", BOOL, 0, NULL, "is_", meet_others),
     SHOWN("push_limit", FLOAT, HINT_RANGE, "0,20,0.1,or_greater,suffix:m/s", "get_", push_limit),
     {0},
 };

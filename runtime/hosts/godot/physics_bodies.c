@@ -213,7 +213,7 @@ static sbf_vec3 velocity_of(const gd_variant *server, const mirrored *at, int64_
 
 /* To where the body will be after the physics step that follows, if nothing changes its velocity; what is not
  * rigid moves by itself, and stays where it is. */
-static void move(soft_character *one, const gd_variant *server, mirrored *at, float frame_s) {
+static void move(sbr_world *world, const gd_variant *server, mirrored *at, float frame_s) {
   gd_transform now = place_of(server, at);
   sbf_vec3 o = now.origin;
   sbf_quat q = quat_of(now.basis);
@@ -227,7 +227,7 @@ static void move(soft_character *one, const gd_variant *server, mirrored *at, fl
         q.y + h * (w.y * q.w + w.z * q.x - w.x * q.z), q.z + h * (w.z * q.w + w.x * q.y - w.y * q.x),
         q.w - h * (w.x * q.x + w.y * q.y + w.z * q.z)};
   }
-  sbr_collider_move(one->world, at->id, (sbr_double3){o.x, o.y, o.z}, q);
+  sbr_collider_move(world, at->id, (sbr_double3){o.x, o.y, o.z}, q);
 }
 
 static void meet(soft_character *one, const gd_variant *server, const gd_variant *hit) {
@@ -310,19 +310,22 @@ static void look_around(soft_character *one) {
 
 void physics_bodies_look(soft_character *one, bool now) {
   physics_bodies *bodies = one->bodies;
-  if (bodies->frame++ % AGAIN == 0 || now) look_around(one);
+  if (bodies->frame % AGAIN == 0 || now) look_around(one);
+}
+
+void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s) {
   gd_variant server = gd_nil();
-  float frame_s = (float)gd_take_float(GD_CALL(&one->node, "get_physics_process_delta_time"));
+  bodies->frame++;
   for (uint32_t i = 0; i < MOST; i++) {
     mirrored *at = &bodies->each[i];
     if (!at->body) continue;
     if (bodies->frame - at->seen > KEPT || !gd.object_get_instance_from_id(at->object)) {
-      drop(at, one->world);
+      drop(at, world);
       continue;
     }
     if (!at->id.value) continue;
     if (!gd_as_object(&server)) gd_assign(&server, gd_singleton("PhysicsServer3D"));
-    move(one, &server, at, frame_s);
+    move(world, &server, at, frame_s);
   }
   gd_free(&server);
 }
@@ -340,18 +343,17 @@ static float share_of(const gd_variant *server, const mirrored *at, sbf_vec3 imp
   return limit > 0 && size > most ? most / size : 1;
 }
 
-void physics_bodies_push(soft_character *one) {
-  physics_bodies *bodies = one->bodies;
+void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings) {
   gd_variant server = gd_nil();
   for (uint32_t i = 0; i < MOST; i++) {
     mirrored *at = &bodies->each[i];
     if (!at->id.value) continue;
-    sbr_collider_push push = sbr_collider_take_push(one->world, at->id);
+    sbr_collider_push push = sbr_collider_take_push(world, at->id);
     sbf_vec3 j = push.impulse, m = push.moment;
-    if (!one->settings.push_bodies || (length(j) == 0 && length(m) == 0)) continue;
+    if (!settings->push_bodies || (length(j) == 0 && length(m) == 0)) continue;
     if (!gd_as_object(&server)) gd_assign(&server, gd_singleton("PhysicsServer3D"));
     if (!gd.object_get_instance_from_id(at->object) || !is_rigid(&server, &at->handle)) continue;
-    float k = share_of(&server, at, j, (float)one->settings.push_limit);
+    float k = share_of(&server, at, j, (float)settings->push_limit);
     GD_DO(&server, "body_apply_impulse", gd_copy(&at->handle),
         gd_vector3((sbf_vec3){k * j.x, k * j.y, k * j.z}), gd_vector3(at->arm));
     GD_DO(&server, "body_apply_torque_impulse", gd_copy(&at->handle),

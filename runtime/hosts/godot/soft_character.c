@@ -114,13 +114,10 @@ static void measure(soft_character *one) {
 static void unmake(soft_character *one) {
   character_mesh_free(one->mesh);
   character_skeleton_free(one);
-  physics_bodies_free(one->bodies, one->world);
-  sbr_world_destroy(one->world);
+  shared_world_leave(one);
   physics_ground_free(one->ground);
   soft_model_release(one->model);
   one->mesh = NULL;
-  one->bodies = NULL;
-  one->world = NULL;
   one->ground = NULL;
   one->model = NULL;
   one->placed = false;
@@ -134,32 +131,30 @@ static bool make_world(soft_character *one) {
   one->scale = scale_of(&place);
   measure(one);
   one->ground = physics_ground_make(one);
-  one->bodies = physics_bodies_make();
-  if (!one->ground || !one->bodies) {
+  if (!one->ground) {
     gd_error("no memory for a character");
     return false;
   }
   physics_ground_level(one->ground, one->flat_y);
-  world.ground = one->settings.ground == SOFT_GROUND_FLAT && !one->editor ? sbr_ground_flat(one->flat_y)
-                                                                          : physics_ground_of(one->ground);
+  character.ground = one->settings.ground == SOFT_GROUND_FLAT && !one->editor
+                         ? sbr_ground_flat(one->flat_y)
+                         : physics_ground_of(one->ground);
   if (one->settings.threads) world.tasks = worker_pool_tasks();
   world.control_tick_s = one->model->asset->environment.control_tick;
   world.has_gravity = one->model->options.has_gravity;
   world.gravity = one->model->options.gravity;
-  world.character_capacity = 1;
-  world.collider_capacity = 128;
   character.position = (sbr_double3){place.origin.x, 0, place.origin.z};
   character.heading = heading_of(&place);
   character.scale = one->scale;
   character.hold = one->settings.hold;
-  if (sbr_world_create(&world, &one->world, &error) == SBF_OK &&
-      sbr_character_create(one->world, one->model->model, &character, &one->id, &error) == SBF_OK)
+  if (!shared_world_join(one, &world)) return false;
+  if (sbr_character_create(one->world, one->model->model, &character, &one->id, &error) == SBF_OK)
     return true;
   gd_error(error.message);
   return false;
 }
 
-/* All that a world knows, to be put into the next one. */
+/* All that a world of its own knows, to be put into the next one. */
 typedef struct kept_state {
   void *bytes;
   size_t size;
@@ -167,7 +162,7 @@ typedef struct kept_state {
 
 static kept_state keep(const soft_character *one) {
   kept_state kept = {0};
-  if (!one->world || !one->placed) return kept;
+  if (!one->world || !one->placed || shared_world_count(one->shared) > 1) return kept;
   kept.size = sbr_world_snapshot_size(one->world);
   kept.bytes = malloc(kept.size);
   if (kept.bytes && sbr_world_snapshot_save(one->world, kept.bytes, kept.size) != SBF_OK) {
@@ -226,39 +221,6 @@ void soft_character_drive(soft_character *one) {
 
 /* ---- Life ---- */
 
-static void tell(soft_character *one) {
-  sbr_event events[64];
-  uint32_t count;
-  while ((count = sbr_world_events(one->world, events, 64)))
-    for (uint32_t i = 0; i < count; i++) {
-      const sbr_event *e = &events[i];
-      sbf_vec3 p = {(float)e->position.x, (float)e->position.y, (float)e->position.z};
-      gd_variant at = gd_vector3(p);
-      switch (e->kind) {
-      case SBR_EVENT_FOOT_DOWN:
-        GD_DO(&one->node, "emit_signal", gd_name("foot_down"), gd_int(e->leg), gd_copy(&at));
-        break;
-      case SBR_EVENT_FOOT_UP:
-        GD_DO(&one->node, "emit_signal", gd_name("foot_up"), gd_int(e->leg), gd_copy(&at));
-        break;
-      case SBR_EVENT_LANDED:
-        GD_DO(&one->node, "emit_signal", gd_name("landed"), gd_copy(&at));
-        break;
-      case SBR_EVENT_TEAR:
-        GD_DO(&one->node, "emit_signal", gd_name("torn"), gd_int(e->soft_body), gd_copy(&at));
-        break;
-      case SBR_EVENT_CONTACT:
-        GD_DO(&one->node, "emit_signal", gd_name("contact"),
-            gd_int(e->rigid_body < 0 ? (int64_t)e->soft_body : -1), gd_copy(&at), gd_vector3(e->normal),
-            gd_float(e->impulse), physics_bodies_object(one->bodies, e->collider));
-        break;
-      default:
-        break;
-      }
-      gd_free(&at);
-    }
-}
-
 /* In the editor it stands where the node is put, and moves while it previews; then it is put back. */
 static void edit(soft_character *one, const gd_transform *now) {
   if (one->previews) GD_DO(&one->node, "set_global_transform", gd_transform_value(one->from));
@@ -275,12 +237,11 @@ static void edit(soft_character *one, const gd_transform *now) {
   GD_DO(&one->node, "update_gizmos");
 }
 
-static void step(soft_character *one) {
-  if (!one->world) return;
+bool soft_character_prepare(soft_character *one) {
   gd_transform now = transform_of(one);
   if (one->editor && !one->settings.preview) {
     edit(one, &now);
-    return;
+    return false;
   }
   if (one->editor && !one->previews) {
     one->previews = true;
@@ -294,13 +255,13 @@ static void step(soft_character *one) {
     physics_bodies_look(one, false);
     physics_ground_look(one);
   }
-  if (one->settings.paused) return;
-  sbr_world_step(one->world, gd_take_float(GD_CALL(&one->node, "get_physics_process_delta_time")));
-  physics_bodies_push(one);
+  return !one->settings.paused;
+}
+
+void soft_character_show(soft_character *one) {
   soft_character_follow(one);
   character_skeleton_update(one);
   one->stale = true;
-  tell(one);
 }
 
 static void notify(void *self, int32_t what, bool reversed) {
@@ -313,7 +274,7 @@ static void notify(void *self, int32_t what, bool reversed) {
   } else if (what == EXIT_TREE) {
     unmake(one);
   } else if (what == INTERNAL_PHYSICS_PROCESS) {
-    step(one);
+    if (one->world) shared_world_step(one);
   } else if (what == INTERNAL_PROCESS && one->world && one->stale) {
     character_mesh_update(one->mesh, one);
     one->stale = false;

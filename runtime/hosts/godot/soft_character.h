@@ -1,8 +1,9 @@
 /* SoftCharacter3D: a node that shows a SoftAsset and brings it to life.
  *
- * Each node has a world of its own, stepped once a physics frame. One idea a file: what the inspector shows
- * (character_properties.c), its life (soft_character.c), what scripts call (character_calls.c), its mesh, its
- * skeleton, the ground and the bodies that it meets. */
+ * Each node has a world of its own, stepped once a physics frame, or shares one with all that it may meet
+ * (shared_world.c). One idea a file: what the inspector shows (character_properties.c), its life
+ * (soft_character.c), what scripts call (character_calls.c), its mesh, its skeleton, the ground and the
+ * bodies that it meets. */
 #ifndef SBFMT_GODOT_SOFT_CHARACTER_H
 #define SBFMT_GODOT_SOFT_CHARACTER_H
 
@@ -26,12 +27,14 @@ typedef struct soft_settings {
   double ground_cell, ground_reach; /* m; 0: by the character's size */
   int64_t collision_mask;           /* physics layers of what it meets */
   bool push_bodies;
+  bool meet_others;  /* nodes of one physics space that do meet each other */
   double push_limit; /* m/s by which a frame's push makes a body faster at most; 0: no bound */
 } soft_settings;
 
 typedef struct character_mesh character_mesh;
 typedef struct physics_ground physics_ground;
 typedef struct physics_bodies physics_bodies;
+typedef struct shared_world shared_world;
 
 typedef struct soft_character {
   gd_variant node;        /* itself, not held */
@@ -41,7 +44,8 @@ typedef struct soft_character {
 
   /* While there is an asset and the node is in a tree. */
   soft_model *model;
-  sbr_world *world;
+  shared_world *shared;
+  sbr_world *world; /* its */
   sbr_character_id id;
   sbf_vec3 low, high; /* of the asset at rest, m */
   float scale;        /* the node's own when it began */
@@ -54,7 +58,7 @@ typedef struct soft_character {
   character_mesh *mesh;
   gd_variant skeleton; /* Skeleton3D; nil: none */
   physics_ground *ground;
-  physics_bodies *bodies;
+  physics_bodies *bodies; /* the shared world's */
 } soft_character;
 
 extern const gd_class soft_character_class;
@@ -71,6 +75,10 @@ void soft_character_follow(soft_character *one);
 /* Puts it somewhere: a place above the ground below it (m), a heading (rad). */
 void soft_character_place(soft_character *one, sbf_vec3 position, float heading);
 void soft_character_drive(soft_character *one);
+/* Before its world steps: puts it where its node was put, and looks around; whether it moves. */
+bool soft_character_prepare(soft_character *one);
+/* And after: its node and its skeleton follow. */
+void soft_character_show(soft_character *one);
 double soft_character_ground_height(const soft_character *one, double x, double z);
 
 /* ---- character_properties.c ---- */
@@ -105,14 +113,25 @@ void physics_ground_level(physics_ground *ground, double level);
 
 physics_bodies *physics_bodies_make(void);
 void physics_bodies_free(physics_bodies *bodies, sbr_world *world);
-/* Makes colliders of the moving bodies near the character, for which it looks now or by and by, and moves
- * those that there are. */
+/* Makes colliders of the moving bodies near the character, for which it looks now or by and by. */
 void physics_bodies_look(soft_character *one, bool now);
-/* Gives the bodies what the last step has pushed them with. */
-void physics_bodies_push(soft_character *one);
+/* Once a step: moves those that there are; and gives the bodies what the step has pushed them with. */
+void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s);
+void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings);
 /* Their handles, which rays leave out: an array of RIDs; and the object that a collider is of, or null. */
 gd_variant physics_bodies_handles(const physics_bodies *bodies);
 gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider);
+
+/* ---- shared_world.c ---- */
+
+/* A world for the character, which has its model and its place: its own, or that of those that it may meet.
+ * Sets what of it is the world's; false, and said, where it cannot be had. */
+bool shared_world_join(soft_character *one, const sbr_world_definition *definition);
+void shared_world_leave(soft_character *one);
+/* How many nodes are in it. */
+uint32_t shared_world_count(const shared_world *shared);
+/* The character's physics frame: the first of the world's that is called in one steps it for all. */
+void shared_world_step(soft_character *one);
 
 /* ---- worker_pool.c ---- */
 

@@ -196,7 +196,9 @@ typedef struct sbr_character_definition {
   /* (0, inf), default 1. Lengths scale by it, masses by its cube, stiffnesses (N/m) by its square and times
    * by its square root: the same shape under the same gravity, moving as a body of that size does. */
   float scale;
-  bool hold; /* bones stay in their rest pose */
+  bool hold;         /* bones stay in their rest pose */
+  sbr_ground ground; /* of its own, where `height` is set; else the world's: characters of one world may stand
+                        on floors above each other */
 } sbr_character_definition;
 
 /* A character likewise; its model must outlive it. */

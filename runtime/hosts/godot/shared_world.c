@@ -1,0 +1,198 @@
+/* The runtime's worlds: a node's own, or one for all nodes of a physics space that are to meet each other,
+ * which then bear each other's weight and push each other as the runtime's bodies do. Characters of one world
+ * have their gravity and their control tick together. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "soft_character.h"
+
+enum {
+  MOST = 64, /* characters that meet each other */
+  COLLIDERS = 128
+};
+
+struct shared_world {
+  shared_world *next;
+  uint64_t space; /* RID; 0: it is one node's own */
+  bool has_gravity, threads;
+  sbf_vec3 gravity;
+  double tick_s;
+  sbr_world *world;
+  physics_bodies *bodies;
+  soft_character *members[MOST];
+  uint32_t count, holders; /* nodes, and these and who is busy with it */
+  int64_t frame;           /* last stepped */
+};
+
+/* Of the main thread alone. */
+static shared_world *shared_worlds;
+
+static uint64_t space_of(const soft_character *one) {
+  gd_variant world = GD_CALL(&one->node, "get_world_3d");
+  gd_variant space = gd_as_object(&world) ? GD_CALL(&world, "get_space") : gd_nil();
+  uint64_t found = gd_type(&space) == GDEXTENSION_VARIANT_TYPE_RID ? gd_as_rid(&space) : 0;
+  gd_free(&space);
+  gd_free(&world);
+  return found;
+}
+
+static void release(shared_world *shared) {
+  if (!shared || --shared->holders) return;
+  for (shared_world **link = &shared_worlds; *link; link = &(*link)->next)
+    if (*link == shared) {
+      *link = shared->next;
+      break;
+    }
+  physics_bodies_free(shared->bodies, shared->world);
+  sbr_world_destroy(shared->world);
+  free(shared);
+}
+
+static shared_world *make(const sbr_world_definition *given, uint64_t space) {
+  sbr_world_definition definition = *given;
+  sbf_diagnostic error = {0};
+  shared_world *made = calloc(1, sizeof *made);
+  if (!made) {
+    gd_error("no memory for a world");
+    return NULL;
+  }
+  definition.character_capacity = space ? MOST : 1;
+  definition.collider_capacity = COLLIDERS;
+  *made = (shared_world){.space = space,
+      .has_gravity = given->has_gravity,
+      .threads = given->tasks.run != NULL,
+      .gravity = given->gravity,
+      .tick_s = given->control_tick_s,
+      .holders = 1,
+      .frame = -1};
+  made->bodies = physics_bodies_make();
+  bool good = sbr_world_create(&definition, &made->world, &error) == SBF_OK &&
+              (!space || sbr_world_bodies_meet(made->world, 0, &error) == SBF_OK);
+  if (!good || !made->bodies) {
+    gd_error(good ? "no memory for a world's bodies" : error.message);
+    release(made);
+    return NULL;
+  }
+  if (space) made->next = shared_worlds, shared_worlds = made;
+  return made;
+}
+
+static shared_world *find(const sbr_world_definition *definition, uint64_t space) {
+  for (shared_world *one = space ? shared_worlds : NULL; one; one = one->next)
+    if (one->space == space && one->count < MOST && one->has_gravity == definition->has_gravity &&
+        one->threads == (definition->tasks.run != NULL) && one->tick_s == definition->control_tick_s &&
+        (!one->has_gravity || !memcmp(&one->gravity, &definition->gravity, sizeof one->gravity)))
+      return one->holders++, one;
+  return make(definition, space);
+}
+
+bool shared_world_join(soft_character *one, const sbr_world_definition *definition) {
+  shared_world *shared = find(definition, one->settings.meet_others && !one->editor ? space_of(one) : 0);
+  if (!shared) return false;
+  shared->members[shared->count++] = one;
+  one->shared = shared;
+  one->world = shared->world;
+  one->bodies = shared->bodies;
+  return true;
+}
+
+void shared_world_leave(soft_character *one) {
+  shared_world *shared = one->shared;
+  if (!shared) return;
+  sbr_character_destroy(shared->world, one->id);
+  uint32_t at = 0;
+  while (shared->members[at] != one) at++;
+  shared->count--;
+  memmove(&shared->members[at], &shared->members[at + 1], (shared->count - at) * sizeof shared->members[0]);
+  one->shared = NULL;
+  one->world = NULL;
+  one->bodies = NULL;
+  one->id = (sbr_character_id){0};
+  release(shared);
+}
+
+uint32_t shared_world_count(const shared_world *shared) {
+  return shared->count;
+}
+
+/* ---- What happened ---- */
+
+static soft_character *member_of(const shared_world *shared, sbr_character_id id) {
+  for (uint32_t i = 0; id.value && i < shared->count; i++)
+    if (shared->members[i]->id.value == id.value) return shared->members[i];
+  return NULL;
+}
+
+static void tell_contact(const gd_variant *node, int32_t rigid, uint32_t soft, const gd_variant *at,
+    sbf_vec3 normal, float impulse, gd_variant with) {
+  GD_DO(node, "emit_signal", gd_name("contact"), gd_int(rigid < 0 ? (int64_t)soft : -1), gd_copy(at),
+      gd_vector3(normal), gd_float((double)impulse), with);
+}
+
+/* Of two nodes each is told. Handlers may take away any node. */
+static void tell_contacts(shared_world *shared, const sbr_event *e, const gd_variant *at) {
+  soft_character *one = member_of(shared, e->character), *other = member_of(shared, e->other);
+  sbf_vec3 n = e->normal, back = {-n.x, -n.y, -n.z};
+  if (one && one != other)
+    tell_contact(&one->node, e->rigid_body, e->soft_body, at, n, e->impulse,
+        other ? gd_object(gd_as_object(&other->node)) : physics_bodies_object(shared->bodies, e->collider));
+  one = member_of(shared, e->character), other = member_of(shared, e->other);
+  if (other && one != other)
+    tell_contact(&other->node, e->other_rigid_body, e->other_soft_body, at, back, e->impulse,
+        gd_object(one ? gd_as_object(&one->node) : NULL));
+}
+
+static void tell(shared_world *shared, const sbr_event *e) {
+  soft_character *one = member_of(shared, e->character);
+  if (!one) return;
+  gd_variant at = gd_vector3((sbf_vec3){(float)e->position.x, (float)e->position.y, (float)e->position.z});
+  switch (e->kind) {
+  case SBR_EVENT_FOOT_DOWN:
+    GD_DO(&one->node, "emit_signal", gd_name("foot_down"), gd_int(e->leg), gd_copy(&at));
+    break;
+  case SBR_EVENT_FOOT_UP:
+    GD_DO(&one->node, "emit_signal", gd_name("foot_up"), gd_int(e->leg), gd_copy(&at));
+    break;
+  case SBR_EVENT_LANDED:
+    GD_DO(&one->node, "emit_signal", gd_name("landed"), gd_copy(&at));
+    break;
+  case SBR_EVENT_TEAR:
+    GD_DO(&one->node, "emit_signal", gd_name("torn"), gd_int(e->soft_body), gd_copy(&at));
+    break;
+  case SBR_EVENT_CONTACT:
+    tell_contacts(shared, e, &at);
+    break;
+  default:
+    break;
+  }
+  gd_free(&at);
+}
+
+/* ---- A frame ---- */
+
+void shared_world_step(soft_character *one) {
+  shared_world *shared = one->shared;
+  if (shared->count > 1) {
+    gd_variant engine = gd_singleton("Engine");
+    int64_t frame = gd_take_int(GD_CALL(&engine, "get_physics_frames"));
+    gd_free(&engine);
+    if (shared->frame == frame) return;
+    shared->frame = frame;
+  }
+  float frame_s = (float)gd_take_float(GD_CALL(&one->node, "get_physics_process_delta_time"));
+  bool moves[MOST], any = false;
+  for (uint32_t i = 0; i < shared->count; i++)
+    any = (moves[i] = soft_character_prepare(shared->members[i])) || any;
+  if (!any) return;
+  physics_bodies_move(shared->bodies, shared->world, frame_s);
+  sbr_world_step(shared->world, (double)frame_s);
+  physics_bodies_push(shared->bodies, shared->world, &one->settings);
+  for (uint32_t i = 0; i < shared->count; i++)
+    if (moves[i]) soft_character_show(shared->members[i]);
+  sbr_event events[64];
+  uint32_t count;
+  shared->holders++;
+  while ((count = sbr_world_events(shared->world, events, 64)))
+    for (uint32_t i = 0; i < count; i++) tell(shared, &events[i]);
+  release(shared);
+}
