@@ -8,7 +8,7 @@
 
 /* Slower and in a curve, lower and oftener, slower and for longer: nothing of what it is tuned by. */
 static const chart_drive OTHER_DRIVE = {
-    .speed = 0.35, .curve_rad_s = 0.6f, .hop = 0.07, .hop_ticks = 26, .turn_rad_s = 2, .turn_ticks = 20};
+    .speed = 0.35, .curve_rad_s = 0.6f, .hop = 0.015, .hop_ticks = 26, .turn_rad_s = 2, .turn_ticks = 20};
 
 static void show(void *user, const char *what, double share) {
   (void)user;

@@ -56,6 +56,24 @@ START_TEST(what_is_off_is_what_the_scheme_adds)
 }
 END_TEST
 
+/* Damped by z: the first order of |s' - s| / w is z w h / (2 sqrt(1 - z^2)), and what damping grows by z^2 w
+ * h, since a step's damping goes by the speed before it. Undamped there is no first order at all. */
+START_TEST(damping_makes_symplectic_steps_off_in_proportion)
+{
+  static const double ratios[] = {0.1, 0.3, 0.5}, turns[] = {0.03, 0.06};
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 2; k++) {
+      double z = ratios[i], expected = z * turns[k] / (2 * sqrt(1 - z * z));
+      double off = judge(SBF_SCHEME_SYMPLECTIC, turns[k], z).off;
+      ck_assert_msg(
+          fabs(off - expected) < 0.1 * expected, "z %g, w h %g: %g, not %g", z, turns[k], off, expected);
+    }
+  ck_assert_int_eq(judge(SBF_SCHEME_SYMPLECTIC, 0.14, 0.5).outcome, CHART_SOUND);
+  ck_assert_int_eq(judge(SBF_SCHEME_SYMPLECTIC, 0.17, 0.5).outcome, CHART_BIASED);
+  ck_assert_int_eq(judge(SBF_SCHEME_SYMPLECTIC, 0.9, 0).outcome, CHART_SOUND);
+}
+END_TEST
+
 /* No step that is implicit dies, however stiff; nor does any become sound again. */
 START_TEST(implicit_steps_live_and_are_biased)
 {
@@ -95,6 +113,7 @@ int main(void) {
   tcase_add_loop_test(c, steps_die_beyond_their_bound_and_not_before, 0, 3);
   tcase_add_test(c, bounds_are_those_of_the_books);
   tcase_add_test(c, what_is_off_is_what_the_scheme_adds);
+  tcase_add_test(c, damping_makes_symplectic_steps_off_in_proportion);
   tcase_add_test(c, implicit_steps_live_and_are_biased);
   tcase_add_test(c, frames_move_no_bound);
   suite_add_tcase(suite, c);

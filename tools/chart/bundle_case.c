@@ -9,14 +9,15 @@
 enum { TICKS = 120, TIMED_TICKS = 30 };
 
 const chart_drive chart_usual_drive = {
-    .speed = 0.5, .curve_rad_s = 0, .hop = 0.1, .hop_ticks = 30, .turn_rad_s = 2.5f, .turn_ticks = 15};
+    .speed = 0.5, .curve_rad_s = 0, .hop = 0.02, .hop_ticks = 30, .turn_rad_s = 2.5f, .turn_ticks = 15};
 
 static void walk(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   const chart_bundle *b = user;
   if (tick == 0) sbr_character_drive(world, character, (float)b->speed_m_s, 0, b->drive.curve_rad_s);
 }
 
-/* What it stands on goes up and down along parabolas. */
+/* What it stands on goes up and down along parabolas. Feet that are planted stay where they are, so that it
+ * presses into their soles: a tenth of its height would crush the hands of a lizard flat. */
 static void hop(void *user, sbr_world *world, sbr_character_id character, uint32_t tick) {
   chart_bundle *b = user;
   double share = tick % b->drive.hop_ticks / (double)b->drive.hop_ticks;
@@ -47,7 +48,7 @@ sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, 
   static const chart_case kinds[CHART_BUNDLE_CASES] = {
       {.name = "walk", .title = "half its height a second forwards: two seconds", .guide = walk},
       {.name = "hop",
-          .title = "the ground throws it up by a tenth of its height, twice a second: two seconds",
+          .title = "the ground under it rises by a fiftieth of its height, twice a second: two seconds",
           .guide = hop},
       {.name = "shake",
           .title = "turned by 2.5 rad/s to and fro, a quarter of a second each: two seconds",
