@@ -5,6 +5,7 @@ import tempfile
 import unittest
 
 import check_calls
+import check_charts
 import check_docs
 import check_includes
 import check_names
@@ -54,6 +55,17 @@ class Includes(unittest.TestCase):
 
     def test_line_is_named(self):
         self.assertIn("libsbfmt/model/a.c:2:", self.faults("libsbfmt/model/a.c", "<string.h>", "<zlib.h>")[0])
+
+
+class Charts(unittest.TestCase):
+    TABLE = "case,scheme,commit\nbeam,heun,12ab\nbeam,reference,\n"
+
+    def test_a_chart_is_of_its_table(self):
+        drawing = "<text>{}</text><text>commit {}, 2026-01-01</text>"
+        self.assertEqual(check_charts.faults_of_chart("beam", drawing.format("beam", "12ab"), self.TABLE), [])
+        for case, commit, table in (("drop", "12ab", self.TABLE), ("beam", "34cd", self.TABLE), ("beam", "12ab", None)):
+            faults = check_charts.faults_of_chart("beam", drawing.format(case, commit), table)
+            self.assertEqual(len(faults), 1, (case, commit))
 
 
 class Calls(unittest.TestCase):
