@@ -136,3 +136,8 @@ bool sbri_ground_is_flat(const sbr_ground *ground, double *height) {
   *height = ground->parameters[0];
   return ground->height == flat;
 }
+
+bool sbri_ground_is_stairs(const sbr_ground *ground, double *rise, double *run) {
+  *rise = ground->parameters[0], *run = ground->parameters[1];
+  return ground->height == stairs && *run > 0 && *rise != 0;
+}

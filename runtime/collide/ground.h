@@ -11,5 +11,7 @@ double sbri_ground_height(const sbr_ground *ground, double x, double z, sbf_vec3
 bool sbri_ground_is_fixed(const sbr_ground *ground);
 /* Whether it is one of the built-in flat ones; `height` receives where. */
 bool sbri_ground_is_flat(const sbr_ground *ground, double *height);
+/* Whether it is one of the built-in stairs that go up or down. */
+bool sbri_ground_is_stairs(const sbr_ground *ground, double *rise, double *run);
 
 #endif

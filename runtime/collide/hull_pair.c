@@ -197,7 +197,33 @@ static void gather(const sbri_placed_hull *h, sbf_vec3 n, float offset, float mo
   }
 }
 
-/* Of the hull whose face the axis is, that face; of the other all that is near, cut to lie over it. */
+/* The corners of the face that looks most against n. */
+static void gather_face(
+    const sbri_placed_hull *h, sbf_vec3 n, sbf_vec3 side, sbf_vec3 other_side, outline *to) {
+  sbf_vec3 own = into(h, n);
+  const sbri_hull_face *most = &h->hull->faces[0];
+  for (uint32_t f = 1; f < h->hull->face_count; f++)
+    if (sbri_dot(own, h->hull->faces[f].normal) < sbri_dot(own, most->normal)) most = &h->hull->faces[f];
+  to->count = 0;
+  for (uint32_t i = 0; i < most->count; i++) {
+    sbf_vec3 x = out_of(h, h->hull->vertices[h->hull->corners[most->first + i]]);
+    add_corner(to, x, sbri_dot(side, x), sbri_dot(other_side, x));
+  }
+}
+
+/* What of an outline lies over a face's; in `parts` of the number that it returns. */
+static int cut_to(const outline *face, const outline *found, float slack, outline parts[2]) {
+  int now = 0;
+  make_outline(found, &parts[0]);
+  for (uint32_t i = 0; face->count > 2 && i < face->count; i++, now = 1 - now) {
+    uint32_t k = (i + 1) % face->count;
+    cut(&parts[now], face->u[i], face->v[i], face->u[k], face->v[k], slack, &parts[1 - now]);
+  }
+  return now;
+}
+
+/* Of the hull whose face the axis is, that face; of the other all that is near, cut to lie over it. Where no
+ * corner of that does, as of a plank across a sill, what of its own face does. */
 static void add_patches(const sbri_placed_hull *face_of, const sbri_placed_hull *other, sbf_vec3 n, bool of_a,
     float reach, sbri_hull_pair *pair) {
   sbf_vec3 x_axis = fabsf(n.x) < 0.7f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 1, 0);
@@ -208,15 +234,15 @@ static void add_patches(const sbri_placed_hull *face_of, const sbri_placed_hull 
   make_outline(&found, &face);
   gather(other, n, offset, reach, side, other_side, &found);
   if (!found.count) return;
-  make_outline(&found, &parts[0]);
-  int now = 0;
-  for (uint32_t i = 0; face.count > 2 && i < face.count; i++, now = 1 - now) {
-    uint32_t k = (i + 1) % face.count;
-    cut(&parts[now], face.u[i], face.v[i], face.u[k], face.v[k], 1e-3f * reach, &parts[1 - now]);
+  int now = cut_to(&face, &found, 1e-3f * reach, parts);
+  if (!parts[now].count) {
+    gather_face(other, n, side, other_side, &found);
+    now = cut_to(&face, &found, 1e-3f * reach, parts);
   }
   for (uint32_t i = 0; i < parts[now].count; i++) {
     sbf_vec3 x = parts[now].at[i];
     float gap = sbri_dot(n, x) - offset;
+    if (gap > reach) continue;
     sbf_vec3 on_face = sbri_add_scaled(x, n, -gap);
     sbri_hull_pair_add(pair, of_a ? on_face : x, of_a ? x : on_face, gap);
   }

@@ -47,8 +47,8 @@ static void list_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32
   float slope = normal.y > 0.1f ? 1 / normal.y : 10; /* and ground that rises nearby by as much again */
   double flat;
   float reach = body->radius * (sbri_ground_is_flat(t->ground, &flat) ? 1 : 1 + slope) + way;
-  if (s->pose.position.y - under > reach) return;
-  for (uint32_t i = 0; i < body->vertex_count; i++) {
+  if (s->pose.position.y - under > reach || sbri_stair_touches_find(t, work, b, node)) return;
+  for (uint32_t i = 0; i < body->vertex_count && work->touch_count < work->touch_capacity; i++) {
     sbf_vec3 at = sbri_add(s->pose.position, sbri_rotate(s->pose.rotation, body->vertices[i]));
     float y = height_at(t, at.x, at.z, &normal);
     if (at.y - y > way * slope) continue;
@@ -60,7 +60,8 @@ static void list_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32
         .offset = sbri_dot(normal, sbri_vec3(at.x, y, at.z)),
         .friction = body->source->friction,
         .restitution = body->source->restitution,
-        .collider = UINT32_MAX};
+        .collider = UINT32_MAX,
+        .surface = UINT32_MAX};
   }
 }
 
@@ -87,10 +88,20 @@ static sbf_vec3 slip_of(const sbri_rigid_solving *work, const sbri_ground_touch 
   return sbri_sub(velocity_at(m->velocity, m->turn, touch->arm), touch->velocity);
 }
 
+/* Neither presses at that change of velocity nor has any friction: the most of those nearby. */
+static bool is_idle(const sbri_ground_touch *touch, sbf_vec3 du) {
+  return !(touch->bound > 0) && !(sbri_dot(touch->normal, sbri_sub(touch->target, du)) > 0);
+}
+
 /* How friction answers at a change of velocity du, linearised there: it sticks, giving way from the force of
  * the step before on, or slides with what Coulomb's law allows against where that would go. */
 static void linearise(sbri_ground_touch *touch, sbf_vec3 du) {
   sbf_vec3 n = touch->normal, off = sbri_sub(touch->target, du);
+  if (is_idle(touch, du)) {
+    touch->slides = true, touch->active = false;
+    touch->drag = sbri_vec3(0, 0, 0), touch->side_grip = 0;
+    return;
+  }
   sbf_vec3 pull = sbri_add_scaled(touch->hold, sbri_add_scaled(off, n, -sbri_dot(n, off)), touch->grip);
   float across = sbri_length(pull);
   touch->slides = across > touch->bound;
@@ -221,6 +232,7 @@ float sbri_ground_touches_work(const sbri_rigid_solving *work, float share) {
     const sbri_ground_touch *touch = &work->touches[i];
     float normal;
     sbf_vec3 at = sbri_lerp(touch->was, touch->moved, share), way = sbri_sub(touch->moved, touch->was);
+    if (is_idle(touch, at)) continue;
     sbf_vec3 across = impulse_at(touch, at, &normal);
     sum += normal * sbri_dot(touch->normal, way) + sbri_dot(across, way);
   }
@@ -249,6 +261,7 @@ bool sbri_ground_touches_judge(sbri_rigid_solving *work) {
   bool changed = false;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
+    if (!touch->active && is_idle(touch, touch->moved)) continue;
     float normal, linear;
     sbf_vec3 was = linear_at(touch, touch->moved, &linear), is = impulse_at(touch, touch->moved, &normal);
     linearise(touch, touch->moved);

@@ -7,6 +7,14 @@
  */
 #include "rigid/joint_place.h"
 
+sbf_vec3 sbri_joint_apart(
+    const sbri_rigid_joint *joint, const sbr_transform *const poses[SBRI_SIDES], sbf_vec3 fine) {
+  sbf_vec3 a = sbri_rotate(poses[SBRI_A]->rotation, joint->frames[SBRI_A].at);
+  sbf_vec3 b = sbri_rotate(poses[SBRI_B]->rotation, joint->frames[SBRI_B].at);
+  sbf_vec3 apart = sbri_sub(poses[SBRI_B]->position, poses[SBRI_A]->position);
+  return sbri_add(sbri_add(apart, sbri_sub(b, a)), fine);
+}
+
 sbri_joint_place sbri_joint_place_of(const sbri_rigid_joint *joint,
     const sbr_transform *const poses[SBRI_SIDES], const sbr_transform *anchor, sbf_vec3 fine) {
   sbri_joint_place p;

@@ -26,6 +26,10 @@ typedef struct sbri_joint_place {
 sbri_joint_place sbri_joint_place_of(const sbri_rigid_joint *joint,
     const sbr_transform *const poses[SBRI_SIDES], const sbr_transform *anchor, sbf_vec3 fine);
 
+/* Of that only from frame a's origin to frame b's. */
+sbf_vec3 sbri_joint_apart(
+    const sbri_rigid_joint *joint, const sbr_transform *const poses[SBRI_SIDES], sbf_vec3 fine);
+
 float sbri_joint_coordinate(const sbri_rigid_joint *joint, sbri_joint_place *place, sbf_joint_axis axis);
 /* The same of a coordinate that is held at 0: 0 where that is, with the same rate there, but of an angle
  * twice the tangent of half of it. */

@@ -1,10 +1,15 @@
 /* How many steps a tick takes: as many as the model says, more where what is pulled at swings fast or turns
- * fast, and one where everything has lain or hung still for a while. What soft bodies ask for comes on top
- * (ragdoll/coupled.c). */
+ * fast, fewer in flight, and one where everything has lain or hung still for a while. What soft bodies ask
+ * for comes on top (ragdoll/coupled.c). */
 #include "rigid/rigid_work.h"
 
 /* After so many slow ticks all lies, or hangs: what swings is slow for less. */
 enum { LYING_TICKS = 20 };
+
+/* In flight a tick has so many times fewer steps than the model says at the least, and while it has fewer
+ * each is so much shorter than it must be. */
+enum { MOST_FEWER = 4 };
+static const float FINE_FLIGHT = 2;
 
 /* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
 static const float MOST_TURN = 0.2f;
@@ -42,31 +47,67 @@ static void find_pulls(
   }
 }
 
-uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
-  float fastest = 0; /* rad^2/s^2 */
+/* Nothing is near, nothing holds it, and nothing draws it: weight pulls at no joint. */
+static bool is_flying(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+  if (work->touch_count || work->system.loop_count) return false;
+  for (uint32_t e = 0; e < work->system.edge_count; e++)
+    if (t->model->joints[work->system.edges[e].joint].source->kind == SBF_JOINT_KIND_PULLEY) return false;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
-    const sbri_rigid_body *body = &t->model->bodies[work->system.nodes[i].body];
-    const sbri_rigid_body_state *state = &t->bodies[work->system.nodes[i].body];
-    float stiffness[3];
-    sbf_vec3 turn = sbri_spin_velocity(body, state->pose.rotation, state->spin);
-    if (work->system.nodes[i].edge >= 0) {
-      float own = sbri_length(turn) * (SBRI_RIGID_MOST_SWING / MOST_TURN);
-      fastest = own * own > fastest ? own * own : fastest;
-    }
-    find_pulls(t, work, work->system.nodes[i].body, stiffness);
-    const float ease[3] = {body->inverse_inertia.x, body->inverse_inertia.y, body->inverse_inertia.z};
-    for (int a = 0; a < 3; a++) fastest = stiffness[a] * ease[a] > fastest ? stiffness[a] * ease[a] : fastest;
+    const sbri_node *node = &work->system.nodes[i];
+    if (t->bodies[node->body].mode == SBR_RIGID_DRIVEN || (node->parent < 0 && node->edge >= 0)) return false;
   }
-  /* In powers of two, and fewer than before only where a quarter would do: a leapfrog whose steps change at
-   * every turn gains by it. */
-  float steps = t->tick_s * sqrtf(fastest) / SBRI_RIGID_MOST_SWING;
-  bool lies = t->drive->slow_ticks >= LYING_TICKS;
-  uint32_t count = lies ? 1 : t->substeps,
+  return true;
+}
+
+/* As many as the model says; one where all lies; and in flight as many as keep turns and swings fine. */
+static uint32_t least_steps(const sbri_rigid_tick *t, bool lies, bool flies, float steps) {
+  if (lies) return 1;
+  if (!flies) return t->substeps;
+  uint32_t count = t->substeps > MOST_FEWER ? t->substeps / MOST_FEWER : 1;
+  while (count < t->substeps && (float)count < steps) count *= 2;
+  return count < t->substeps ? count : t->substeps;
+}
+
+float sbri_rigid_swings(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+  float fastest = 0;
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    float stiffness[3];
+    const sbf_vec3 *ease = &t->model->bodies[work->system.nodes[i].body].inverse_inertia;
+    find_pulls(t, work, work->system.nodes[i].body, stiffness);
+    const float squares[3] = {stiffness[0] * ease->x, stiffness[1] * ease->y, stiffness[2] * ease->z};
+    for (int a = 0; a < 3; a++) fastest = squares[a] > fastest ? squares[a] : fastest;
+  }
+  return fastest;
+}
+
+/* Of the fastest body at a joint, rad/s. */
+static float fastest_turn(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
+  float fastest = 0;
+  for (uint32_t i = 0; i < work->system.node_count; i++) {
+    if (work->system.nodes[i].edge < 0) continue;
+    const sbri_rigid_body_state *state = &t->bodies[work->system.nodes[i].body];
+    const sbri_rigid_body *body = &t->model->bodies[work->system.nodes[i].body];
+    float turn = sbri_length(sbri_spin_velocity(body, state->pose.rotation, state->spin));
+    fastest = turn > fastest ? turn : fastest;
+  }
+  return fastest;
+}
+
+uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  work->swings = sbri_rigid_swings(t, work);
+  float turns = t->tick_s * fastest_turn(t, work) / MOST_TURN;
+  float swings = t->tick_s * sqrtf(work->swings) / SBRI_RIGID_MOST_SWING;
+  float steps = turns > swings ? turns : swings;
+  /* In powers of two, and fewer than before only where a quarter would do, or what fell has landed or the
+   * other way about: a leapfrog whose steps change at every turn gains by it. */
+  bool lies = t->drive->slow_ticks >= LYING_TICKS, flies = is_flying(t, work), flew = t->drive->flies;
+  uint32_t count = least_steps(t, lies, flies, FINE_FLIGHT * steps),
            most = t->substeps > SBRI_RIGID_MOST_SUBSTEPS ? t->substeps : SBRI_RIGID_MOST_SUBSTEPS;
   while ((float)count < steps && 2 * count <= most) count *= 2;
   uint32_t before = t->drive->substeps;
-  if (!lies && before > count && before <= most && before < 4 * count) count = before;
+  if (!lies && flies == flew && before > count && before <= most && before < 4 * count) count = before;
   t->drive->substeps = count;
+  t->drive->flies = flies;
   return count;
 }
 

@@ -22,8 +22,7 @@ static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     memcpy(node->b, node->push, sizeof node->b);
   }
   sbri_ground_touches_add(work);
-  for (uint32_t e = 0; e < work->system.edge_count; e++)
-    sbri_joint_rows_aim(work, &work->system.edges[e], t->model);
+  for (uint32_t e = 0; e < work->system.edge_count; e++) sbri_joint_rows_aim(&work->system.edges[e]);
 }
 
 /* Back by that share of the way from the pass before. */
@@ -49,12 +48,12 @@ void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     sbri_system_factor(s);
     sbri_system_solve(s);
     sbri_ground_touches_move(work);
-    sbri_joint_rows_move(work);
+    sbri_joint_rows_move(work, t->model, step_s);
     float share = same && pass + 1 < MOST_PASSES ? sbri_rigid_search(t, work, step_s) : 1;
     if (share < 1) hold_back(work, share);
     bool changed = false, other = false;
     for (uint32_t e = 0; e < s->edge_count; e++)
-      changed = sbri_joint_rows_judge(work, &s->edges[e], t->model, step_s, &other) || changed;
+      changed = sbri_joint_rows_judge(work, &s->edges[e], step_s, &other) || changed;
     changed = sbri_ground_touches_judge(work) || changed || share < 1;
     same = !other;
     if (changed) continue;

@@ -16,6 +16,21 @@ static const float FAR = 0.3f;
 /* And of the energy that weight gives all bodies in a step from rest. */
 static const double TRIFLE = 1e-5;
 
+static void add_flesh(const sbri_rigid_solving *work, const sbri_edge *e, double *slope, double *rise) {
+  double was[3] = {0, 0, 0}, now[3] = {0, 0, 0};
+  for (int side = 0; side < SBRI_SIDES; side++) {
+    if (e->nodes[side] < 0) continue;
+    const sbri_node *node = &work->system.nodes[e->nodes[side]];
+    double sign = side == SBRI_B ? 1 : -1;
+    for (int k = 0; k < 3; k++) was[k] += sign * node->was[3 + k], now[k] += sign * node->x[3 + k];
+  }
+  for (int k = 0; k < 3; k++) {
+    double way = now[k] - was[k];
+    *slope -= e->ball->flesh * (e->ball->flesh_rhs[k] - was[k]) * way;
+    *rise += e->ball->flesh * way * way;
+  }
+}
+
 /* Slope of all but the touches at the begin of the way, and its change along it. */
 static void find_slope(
     const sbri_rigid_tick *t, const sbri_rigid_solving *work, double *slope, double *rise) {
@@ -33,6 +48,7 @@ static void find_slope(
   }
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
+    if (e->ball) add_flesh(work, e, &a, &q);
     for (uint32_t r = 0; r < e->active_count; r++) {
       const sbri_row *row = &e->rows[e->actives[r]];
       double was = 0, now = 0;

@@ -34,6 +34,7 @@ typedef struct sbri_rigid_drive_state {
   uint32_t substeps;            /* of the last tick */
   uint32_t slow_ticks;          /* for how many nothing has moved but slowly */
   float last_step_s;            /* of the last tick; 0: the bodies have just begun to move */
+  uint32_t flies;               /* in the last tick nothing was near and nothing held it */
   uint32_t any;                 /* some body is not kinematic */
   uint32_t posture;             /* of sbr_rigid_posture */
   float posture_s, still_s;     /* for how long, and for how long it has lain still in that */
@@ -50,6 +51,7 @@ typedef struct sbri_ground_touch {
   sbf_vec3 velocity; /* m/s, of what the plane stands for */
   float friction, restitution;
   uint32_t collider; /* number of it, or UINT32_MAX: the ground */
+  uint32_t surface;  /* likewise, but of the ground's steps another each: what it is known again by */
   /* Of the step before, where it is known: */
   bool known;
   uint32_t idle;   /* ticks for which it has not pressed */
@@ -74,7 +76,7 @@ typedef struct sbri_ground_touch {
 
 /* And what is kept of it to the next tick. */
 typedef struct sbri_kept_touch {
-  uint32_t body, collider;
+  uint32_t body, surface;
   uint32_t found; /* in this tick again */
   uint32_t idle;  /* ticks for which it has not pressed */
   sbf_vec3 at, drag_n, normal;

@@ -14,10 +14,13 @@
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
-enum { MOST_CORRECTIONS = 4 };
+enum { MOST_CORRECTIONS = 4, TOUCHING_HALVINGS = 4 };
 /* With shapes, beside its vertices with the ground. */
 enum { TOUCHES_OF_BODY = 24 };
 
+/* Greatest angular frequency times step by what pulls in the step itself, where its square is so many times
+ * that of the tick before: as light parts crack between heavy ones. */
+static const float PULLED_SWING = 0.3f, PULLED_MORE = 2;
 /* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again. */
 static const float FINE = 2e-5f;
 /* And before the step is taken again in halves. */
@@ -50,6 +53,7 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   work->begins = carve(&at, bodies + 1, sizeof *work->begins);
   work->kept = carve(&at, SBRI_RIGID_HALVINGS * (bodies + 1), sizeof *work->kept);
   work->pulls = carve(&at, joints + 1, sizeof *work->pulls);
+  work->balls = carve(&at, joints + 1, sizeof *work->balls);
   work->places = carve(&at, joints + 1, sizeof *work->places);
   work->touch_capacity = sbri_rigid_touch_capacity(m);
   work->touches = carve(&at, work->touch_capacity, sizeof *work->touches);
@@ -182,24 +186,47 @@ static void clear_b(sbri_rigid_solving *work) {
     memset(work->system.nodes[i].b, 0, sizeof work->system.nodes[i].b);
 }
 
+/* What an edge has done to body b in the step: an impulse, and a moment about the joint's place on b. */
+static sbf_vec3 impulse_of(const sbri_rigid_solving *work, const sbri_edge *e, sbf_vec3 *moment) {
+  sbf_vec3 impulse = {0, 0, 0}, about = {0, 0, 0}, arm = work->places[e - work->system.edges].arms[SBRI_B];
+  for (uint32_t r = 0; r < e->row_count; r++) {
+    const sbri_row *row = &e->rows[r];
+    const float *b = row->rates[SBRI_B];
+    if ((e->ball && row->active) || (!row->active && !row->full)) continue;
+    impulse = sbri_add_scaled(impulse, sbri_vec3(b[0], b[1], b[2]), row->impulse);
+    about = sbri_add_scaled(about, sbri_vec3(b[3], b[4], b[5]), row->impulse);
+  }
+  *moment = sbri_sub(about, sbri_cross(arm, impulse));
+  if (!e->ball) return impulse;
+  const double *i = e->ball->impulse, *m = e->ball->moment;
+  *moment = sbri_add(*moment, sbri_vec3((float)m[0], (float)m[1], (float)m[2]));
+  return sbri_add(impulse, sbri_vec3((float)i[0], (float)i[1], (float)i[2]));
+}
+
+/* Whether what pulls in the step, and did not before, lets some body swing too fast for it, as a light link
+ * of a chain that is suddenly taut: a leapfrog gains by that without bound. */
+static bool is_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+  if (work->touch_count) return false; /* what strikes pulls for a step alone */
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
+    work->pulls[e->joint] = sbri_scale(impulse, 1 / work->kick_s);
+  }
+  float swings = sbri_rigid_swings(t, work), most = PULLED_SWING / step_s;
+  return swings > most * most && swings > PULLED_MORE * work->swings;
+}
+
 static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   float rate = 1 / t->tick_s;
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     sbri_rigid_joint_state *joint = &t->joints[e->joint];
-    sbf_vec3 force = {0, 0, 0}, moment = {0, 0, 0};
+    sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
     joint->pressed = 0;
-    for (uint32_t r = 0; r < e->row_count; r++) {
-      const sbri_row *row = &e->rows[r];
-      const float *b = row->rates[SBRI_B];
-      if (row->sign && row->active && r < 32) joint->pressed |= 1u << r;
-      if (!row->active && !row->full) continue;
-      force = sbri_add_scaled(force, sbri_vec3(b[0], b[1], b[2]), row->impulse * rate);
-      moment = sbri_add_scaled(moment, sbri_vec3(b[3], b[4], b[5]), row->impulse * rate);
-    }
-    moment = sbri_sub(moment, sbri_cross(work->places[i].arms[SBRI_B], force));
-    joint->force = sbri_add(joint->force, force);
-    joint->torque = sbri_add(joint->torque, moment);
+    for (uint32_t r = 0; r < e->row_count && r < 32; r++)
+      if (e->rows[r].sign && e->rows[r].active) joint->pressed |= 1u << r;
+    joint->force = sbri_add_scaled(joint->force, impulse, rate);
+    joint->torque = sbri_add_scaled(joint->torque, moment, rate);
   }
 }
 
@@ -236,7 +263,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
     sbri_ground_touches_give(work);
     take_and_go(t, work, step_s);
   }
-  return worst < COARSE && curved < CURVED;
+  return worst < COARSE && curved < CURVED && !is_too_fast(t, work, step_s);
 }
 
 static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int depth, bool restore) {
@@ -249,8 +276,9 @@ static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int 
 
 /* A step, or where the joints do not meet at its end, as when a whip cracks, two of half the length. */
 static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to, int depth) {
+  int most = work->touch_count ? TOUCHING_HALVINGS : SBRI_RIGID_HALVINGS;
   keep_bodies(t, work, depth, false);
-  if (!step(t, work, from, to) && depth + 1 < SBRI_RIGID_HALVINGS) {
+  if (!step(t, work, from, to) && depth + 1 < most) {
     keep_bodies(t, work, depth, true);
     float middle = 0.5f * (from + to);
     substep(t, work, from, middle, depth + 1);
@@ -276,12 +304,8 @@ static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   keep_bodies(t, work, 0, true);
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
-    sbf_vec3 *pull = &work->pulls[e->joint];
-    for (uint32_t r = 0; r < e->row_count; r++) {
-      const sbri_row *row = &e->rows[r];
-      const sbf_vec3 along = {row->rates[SBRI_B][0], row->rates[SBRI_B][1], row->rates[SBRI_B][2]};
-      if (row->active) *pull = sbri_add_scaled(*pull, along, row->impulse / work->last_step_s);
-    }
+    sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
+    work->pulls[e->joint] = sbri_add_scaled(work->pulls[e->joint], impulse, 1 / work->last_step_s);
   }
   work->last_step_s = 0;
 }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "rigid/ball_edge.h"
 #include "rigid/sym6.h"
 
 /* A pivot below this share of its row's own weight belongs to a row that others say already. */
@@ -85,9 +86,17 @@ static void eliminate_edge(sbri_rigid_system *s, sbri_node *node, sbri_edge *e) 
   }
 }
 
+static sbri_node *parent_of(sbri_rigid_system *s, const sbri_node *node) {
+  return node->parent >= 0 ? &s->nodes[node->parent] : NULL;
+}
+
 static void factor_tree(sbri_rigid_system *s) {
   for (uint32_t i = s->node_count; i-- > 0;) {
     sbri_node *node = &s->nodes[i];
+    if (node->edge >= 0 && s->edges[node->edge].ball) {
+      sbri_ball_eliminate(&s->edges[node->edge], node, parent_of(s, node));
+      continue;
+    }
     sbri_sym6_factor(node->d);
     if (node->edge >= 0) eliminate_edge(s, node, &s->edges[node->edge]);
   }
@@ -98,6 +107,10 @@ static void factor_tree(sbri_rigid_system *s) {
 static void solve_tree(sbri_rigid_system *s, bool with_rhs, bool keep) {
   for (uint32_t i = s->node_count; i-- > 0;) {
     sbri_node *node = &s->nodes[i];
+    if (node->edge >= 0 && s->edges[node->edge].ball) {
+      sbri_ball_forward(&s->edges[node->edge], node, parent_of(s, node), with_rhs);
+      continue;
+    }
     sbri_sym6_forward(node->d, node->b);
     if (node->edge < 0) continue;
     sbri_edge *e = &s->edges[node->edge];
@@ -109,6 +122,10 @@ static void solve_tree(sbri_rigid_system *s, bool with_rhs, bool keep) {
   }
   for (uint32_t i = 0; i < s->node_count; i++) {
     sbri_node *node = &s->nodes[i];
+    if (node->edge >= 0 && s->edges[node->edge].ball) {
+      sbri_ball_back(&s->edges[node->edge], node, parent_of(s, node), keep);
+      continue;
+    }
     memcpy(node->x, node->b, sizeof node->x);
     if (node->edge >= 0) {
       sbri_edge *e = &s->edges[node->edge];

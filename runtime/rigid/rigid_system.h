@@ -37,17 +37,35 @@ typedef struct sbri_row {
   float now, low, high; /* of a limit: the coordinate when the substep begins, and its range */
   float bounce;         /* of a limit that was run into: the speed that it throws back with, else 0 */
   float impulse;        /* l */
-  float wanted;         /* of a limit: what the bodies' velocities are to change its rate by */
-  float was, moved;     /* of a limit: by what they do, by the pass before and by the last */
-  int8_t sign;          /* of a limit: the impulse may only be of this sign */
-  uint8_t kind, axis;   /* of sbri_row_kind and sbf_joint_axis */
-  bool active;          /* takes part */
-  bool full;            /* of a drive: it gives its maximum, which is in the velocities already */
+  float speed;          /* of the coordinate, as the bodies moved when the step was made */
+  float clear;        /* rad, of a limit that the coordinate is that far from: it has no rates yet; else 0 */
+  float wanted;       /* of a limit: what the bodies' velocities are to change its rate by */
+  float was, moved;   /* of a limit: by what they do, by the pass before and by the last */
+  int8_t sign;        /* of a limit: the impulse may only be of this sign */
+  uint8_t kind, axis; /* of sbri_row_kind and sbf_joint_axis */
+  bool active;        /* takes part */
+  bool full;          /* of a drive: it gives its maximum, which is in the velocities already */
 } sbri_row;
+
+/* What a joint that holds a place and no turn has instead of rows for that; see ball_edge.h. */
+typedef struct sbri_ball {
+  int child;                    /* side of the body farther from the root */
+  double levers[SBRI_SIDES][3]; /* m, from the bodies' centres of mass to the place */
+  double rhs[3];                /* m/s: by how much the place of b is to change its speed against that of a */
+  double flesh;                 /* N m s per rad/s, about all axes, */
+  double flesh_rhs[3];          /* rad/s, and what it wants b's turn against a's to change by */
+  double impulse[3], moment[3]; /* N s and N m s, on body b, about the place */
+  sbf_vec3 end;                 /* m, along a's axes: how far apart the places are to be at the step's end */
+  /* Of the factor: */
+  double a[3][3], e[3][3], k[3][3], l[3][3], y[3][3], z[3][3];
+  /* And of the solution: */
+  double wanted[3], shift[3], force[3], p[3];
+} sbri_ball;
 
 /* A joint in the system. */
 typedef struct sbri_edge {
   uint32_t joint;
+  sbri_ball *ball;           /* NULL: it has rows for all that it asks */
   int32_t nodes[SBRI_SIDES]; /* -1: that side does not give way */
   uint32_t row_count;
   sbri_row *rows;        /* (row_count) */

@@ -42,6 +42,26 @@ static void add_node(sbri_rigid_solving *work, uint32_t body, int32_t parent, in
   s->nodes[s->node_count++] = (sbri_node){.body = body, .parent = parent, .edge = edge};
 }
 
+/* Whether it holds a place and lets all turns free, but for limits. */
+static bool is_ball(const sbri_rigid_joint *joint) {
+  const sbf_limit_list *limits = &joint->source->limits;
+  if (joint->source->kind != SBF_JOINT_KIND_SPHERICAL) return false;
+  for (uint32_t i = 0; i < limits->count; i++)
+    if (limits->at[i].min == limits->at[i].max && !(limits->at[i].stiffness > 0)) return false;
+  return true;
+}
+
+static void make_balls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  sbri_rigid_system *s = &work->system;
+  for (uint32_t i = 0; i < s->edge_count; i++) s->edges[i].ball = NULL;
+  for (uint32_t i = 0; i < s->node_count; i++) {
+    int32_t edge = s->nodes[i].edge;
+    if (edge < 0 || !is_ball(&t->model->joints[s->edges[edge].joint])) continue;
+    s->edges[edge].ball = &work->balls[edge];
+    work->balls[edge] = (sbri_ball){.child = s->edges[edge].nodes[SBRI_B] == (int32_t)i ? SBRI_B : SBRI_A};
+  }
+}
+
 /* Follows the tree's joints from what is in the list of nodes already. */
 static void grow(const sbri_rigid_tick *t, sbri_rigid_solving *work, const int32_t *edge_of_joint,
     const uint8_t *in_tree, uint32_t from) {
@@ -89,4 +109,5 @@ void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
       int32_t body = m->joints[s->edges[e].joint].bodies[side];
       s->edges[e].nodes[side] = body >= 0 ? work->motions[body].node : -1;
     }
+  make_balls(t, work);
 }

@@ -6,8 +6,8 @@
 #include "rigid/rigid_state.h"
 
 /* A step may be halved so often, less one; and a tick has no more steps, unless the model asks for them. */
-enum { SBRI_RIGID_HALVINGS = 4, SBRI_RIGID_MOST_SUBSTEPS = 64 };
-/* Greatest angular frequency times step: 2 is where a leapfrog ends. */
+enum { SBRI_RIGID_HALVINGS = 8, SBRI_RIGID_MOST_SUBSTEPS = 64 };
+/* Greatest angular frequency times step, by what pulled in the tick before: 2 is where a leapfrog ends. */
 #define SBRI_RIGID_MOST_SWING 0.8f
 
 /* How a body moves in a substep, if nothing more acts on it. */
@@ -22,11 +22,13 @@ typedef struct sbri_rigid_solving {
   sbri_rigid_system system;
   sbri_part_motion *motions;   /* (body_count + 1); the last is the anchor, which stands */
   sbr_transform *begins;       /* (body_count) poses when the tick began */
-  sbf_vec3 *pulls;             /* (joint_count) N on body b, mean of the last tick */
+  sbf_vec3 *pulls;             /* (joint_count) N on body b: mean of the last tick, then of the last step */
   sbri_rigid_body_state *kept; /* (SBRI_RIGID_HALVINGS x body_count) before steps that may be taken again */
+  sbri_ball *balls;            /* (joint_count) likewise: of the edges */
   sbri_joint_place *places;    /* (joint_count) of the edges */
   sbri_ground_touch *touches;  /* (touch_count) */
   uint32_t touch_count, touch_capacity;
+  float swings;      /* (rad/s)^2, by what pulled in the tick before: sbri_rigid_swings */
   float last_step_s; /* length of the step before; 0: there is none */
   float kick_s;      /* for how long forces act in the step: from the middle of the one before to its own */
   uint32_t *order, *roots; /* of the tree's making */
@@ -46,8 +48,10 @@ void sbri_rigid_end(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
 /* ---- rigid_pace.c ---- */
 
+/* Square of the angular frequency at which the joints' pulls let some body swing, (rad/s)^2. */
+float sbri_rigid_swings(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
 /* How many steps the coming tick takes; and whether the bodies have but moved slowly in the last. */
-uint32_t sbri_rigid_pace(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
+uint32_t sbri_rigid_pace(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 bool sbri_rigid_is_slow(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
 
 /* ---- rigid_passes.c: the nodes' x, the rows and touches that act, for a step that has been made. ---- */
@@ -56,20 +60,19 @@ void sbri_rigid_passes(const sbri_rigid_tick *tick, sbri_rigid_solving *work, fl
 /* ---- rigid_tree.c: the system's graph, of the bodies that give way and the joints that are whole. ---- */
 void sbri_rigid_tree_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
-/* ---- joint_rows.c ---- */
+/* ---- joint_rows.c, joint_judge.c, joint_ends.c ---- */
 
 /* The rows of an edge for a substep, from the bodies' motions so far. */
 void sbri_joint_rows_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
-/* Right-hand sides of the active rows, from the bodies' motions. */
-void sbri_joint_rows_aim(const sbri_rigid_solving *work, sbri_edge *edge, const sbri_rigid_model *model);
+/* Lists the active rows, with their right-hand sides. */
+void sbri_joint_rows_aim(sbri_edge *edge);
 /* Takes from the nodes' x how the limits' rates change. */
-void sbri_joint_rows_move(sbri_rigid_solving *work);
+void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *model, float step_s);
 /* And back by that share of it. */
 void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share);
 /* Takes rows out that have pulled, lets those in that are broken, and gives drives that would exceed it their
  * maximum; whether anything has changed, and whether `other` than limits. */
-bool sbri_joint_rows_judge(
-    sbri_rigid_solving *work, sbri_edge *edge, const sbri_rigid_model *model, float step_s, bool *other);
+bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *edge, float step_s, bool *other);
 /* Right-hand sides for what is still off at the substep's end; returns by how much the worst is, m or rad. */
 float sbri_joint_rows_correct(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
@@ -80,6 +83,12 @@ bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *edge, con
 
 /* Adds places that may touch shapes of the host within the tick. */
 void sbri_shape_touches_find(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
+
+/* ---- stair_touches.c ---- */
+
+/* Adds places of a body that may touch stairs of the ground; false where its vertices are to be looked at. */
+bool sbri_stair_touches_find(
+    const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t body, int32_t node);
 
 /* ---- touch_memory.c ---- */
 

@@ -40,7 +40,8 @@ static void add_touch(const meeting *m, sbf_vec3 on_hull, sbf_vec3 on_shape, sbf
       .velocity = sbri_scale(sbri_shape_way(&m->frame, on_shape), 1 / m->tick->tick_s),
       .friction = sbri_friction_with(c, m->body->source->friction),
       .restitution = sbri_restitution_with(c, m->body->source->restitution),
-      .collider = m->collider};
+      .collider = m->collider,
+      .surface = m->collider};
 }
 
 static void add_pair(const meeting *m, const sbri_hull_pair *pair) {

@@ -13,7 +13,7 @@ enum { IDLE_TICKS = 4 };
 
 static bool is_same(const sbri_kept_touch *kept, const sbri_ground_touch *touch, float most) {
   sbf_vec3 off = sbri_sub(kept->at, touch->at);
-  return kept->collider == touch->collider && sbri_dot(off, off) <= most * most;
+  return kept->surface == touch->surface && sbri_dot(off, off) <= most * most;
 }
 
 static void give_back(const sbri_kept_touch *kept, sbri_ground_touch *touch) {
@@ -26,7 +26,7 @@ static void give_back(const sbri_kept_touch *kept, sbri_ground_touch *touch) {
 static const sbri_ground_touch *beside(const sbri_rigid_solving *work, const sbri_kept_touch *kept) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
     const sbri_ground_touch *touch = &work->touches[i];
-    if (touch->body == kept->body && touch->collider == kept->collider &&
+    if (touch->body == kept->body && touch->surface == kept->surface &&
         sbri_dot(touch->normal, kept->normal) > FACING && sbri_dot(touch->velocity, touch->velocity) == 0)
       return touch;
   }
@@ -54,8 +54,8 @@ void sbri_touch_memory_recall(const sbri_rigid_tick *t, sbri_rigid_solving *work
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];
     float most = SAME_SHARE * t->model->bodies[touch->body].radius;
-    if (touch->collider == UINT32_MAX) most = 0; /* those on the ground are vertices */
-    for (uint32_t k = 0; k < count; k++) {       /* mostly the one behind the last */
+    if (touch->surface == UINT32_MAX) most = 0; /* those on the ground are vertices */
+    for (uint32_t k = 0; k < count; k++) {      /* mostly the one behind the last */
       sbri_kept_touch *kept = &t->kept[(begin + k) % count];
       if (kept->body != touch->body || !is_same(kept, touch, most)) continue;
       kept->found = 1;
@@ -65,7 +65,7 @@ void sbri_touch_memory_recall(const sbri_rigid_tick *t, sbri_rigid_solving *work
     }
   }
   for (uint32_t k = 0; k < count; k++)
-    if (!t->kept[k].found && t->kept[k].collider != UINT32_MAX) bear_on(t, work, &t->kept[k]);
+    if (!t->kept[k].found && t->kept[k].surface != UINT32_MAX) bear_on(t, work, &t->kept[k]);
 }
 
 void sbri_touch_memory_keep(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
@@ -74,7 +74,7 @@ void sbri_touch_memory_keep(const sbri_rigid_tick *t, const sbri_rigid_solving *
     const sbri_ground_touch *touch = &work->touches[i];
     if (!touch->known) continue;
     t->kept[count++] = (sbri_kept_touch){.body = touch->body,
-        .collider = touch->collider,
+        .surface = touch->surface,
         .at = touch->at,
         .drag_n = touch->drag_n,
         .idle = touch->normal_n > 0 ? 0 : touch->idle + 1,

@@ -45,24 +45,37 @@ START_TEST(light_chains_hold_heavy_bobs)
 }
 END_TEST
 
+static void falls_from_level(float ratio, int ticks, double most_apart, double most_drift) {
+  scene s = rigid_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
+  chain(&s, 10, ratio, (float)(PI / 2));
+  scene_start(&s);
+  double begin = rigid_energy(&s, 10), mass = 9 + (double)ratio, worst = 0, drift = 0;
+  for (int i = 0; i < ticks; i++) {
+    sbr_world_tick(s.world);
+    worst = fmax(worst, (double)worst_apart(&s, 10));
+    drift = fmax(drift, fabs(rigid_energy(&s, 10) - begin) / (mass * 9.81 * 2));
+  }
+  ck_assert_double_le(worst, most_apart);
+  ck_assert_double_le(drift, most_drift);
+  scene_free(&s);
+}
+
 /* Let go from level they swing down and up on the other side and back, three seconds: no joint is off by a
  * tenth of a millimetre, and the energy stays within 1 % of what the fall to the lowest place sets free. */
 START_TEST(light_chains_fall_from_level)
 {
   const float ratios[4] = {1, 10, 100, 1000};
-  scene s = rigid_begin();
-  s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
-  chain(&s, 10, ratios[_i], (float)(PI / 2));
-  scene_start(&s);
-  double begin = rigid_energy(&s, 10), mass = 9 + (double)ratios[_i], worst = 0, drift = 0;
-  for (int i = 0; i < 180; i++) {
-    sbr_world_tick(s.world);
-    worst = fmax(worst, (double)worst_apart(&s, 10));
-    drift = fmax(drift, fabs(rigid_energy(&s, 10) - begin) / (mass * 9.81 * 2));
-  }
-  ck_assert_double_le(worst, 1e-4);
-  ck_assert_double_le(drift, 0.01);
-  scene_free(&s);
+  falls_from_level(ratios[_i], 180, 1e-4, 0.01);
+}
+END_TEST
+
+/* And on for ten seconds, in which they crumple where they come back to and are pulled straight again, so
+ * that their links crack as whips do. */
+START_TEST(light_chains_crack)
+{
+  const float ratios[3] = {10, 100, 1000};
+  falls_from_level(ratios[_i], 600, 1e-3, 0.03);
 }
 END_TEST
 
@@ -169,6 +182,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, light_chains_hold_heavy_bobs, 0, 4);
   tcase_add_loop_test(tests, light_chains_fall_from_level, 0, 4);
+  tcase_add_loop_test(tests, light_chains_crack, 0, 3);
   tcase_add_test(tests, a_loop_of_four_bars_closes);
   tcase_add_test(tests, a_net_holds);
   tcase_add_test(tests, a_chain_held_at_both_ends_hangs);

@@ -7,7 +7,7 @@
 #include "host_threads.h"
 #include "rigid_person.h"
 
-enum { STEPS = 9 };
+enum { STEPS = 9, RANDOM_SHOVES = 15 };
 static const float RISE = 0.17f, RUN = 0.29f;
 static const sbf_vec3 SHOVES[3] = {{0, 0, -130}, {40, 0, -150}, {-60, 0, -120}};
 
@@ -59,27 +59,36 @@ static float fastest(const flight *f) {
   return most;
 }
 
+typedef struct fall {
+  float apart, on_the_way, at_rest; /* m, rad: of joints and limits, until it is to be at rest and then */
+  int moved;                        /* ticks until nothing moves by more than 1 mm/s any more */
+} fall;
+
+static fall tumble(flight *f, int ticks, int rests_from) {
+  fall found = {0};
+  for (int i = 0; i < ticks; i++) {
+    sbr_world_tick(f->scene.world);
+    float *beyond = i < rests_from ? &found.on_the_way : &found.at_rest;
+    for (uint32_t j = 0; j + 1 < f->parts; j++) {
+      sbr_joint_state now = rigid_joint_state(&f->scene, j);
+      found.apart = larger(found.apart, now.apart), *beyond = larger(*beyond, now.beyond_angle);
+    }
+    if (fastest(f) > 1e-3f) found.moved = i + 1;
+  }
+  return found;
+}
+
 /* No joint comes off by a millimetre and no limit is broken by a degree on the way, or by a tenth of one at
  * rest; and after 5 s nothing moves by more than 1 mm/s. */
 static void falls(bool whole, bool boxes, sbf_vec3 shove) {
   flight f = begin(whole, boxes);
   start(&f, boxes);
   person_shove(&f.scene, 1, (sbf_vec3){shove.x, shove.y, boxes ? shove.z : -shove.z});
-  const int rests_from = 300;
-  float apart = 0, on_the_way = 0, at_rest = 0, shaking = 0;
-  for (int i = 0; i < rests_from + 60; i++) {
-    sbr_world_tick(f.scene.world);
-    float *beyond = i < rests_from ? &on_the_way : &at_rest;
-    for (uint32_t j = 0; j + 1 < f.parts; j++) {
-      sbr_joint_state now = rigid_joint_state(&f.scene, j);
-      apart = larger(apart, now.apart), *beyond = larger(*beyond, now.beyond_angle);
-    }
-    if (i >= rests_from) shaking = larger(shaking, fastest(&f));
-  }
-  ck_assert_float_le(apart, 1e-3f);
-  ck_assert_float_le(on_the_way, 0.0175f);
-  ck_assert_float_le(at_rest, 0.00175f);
-  ck_assert_float_le(shaking, 1e-3f);
+  fall found = tumble(&f, 360, 300);
+  ck_assert_float_le(found.apart, 1e-3f);
+  ck_assert_float_le(found.on_the_way, 0.0175f);
+  ck_assert_float_le(found.at_rest, 0.00175f);
+  ck_assert_int_le(found.moved, 300);
   sbf_vec3 hips = rigid_state(&f.scene, 0).center;
   double z = (double)hips.z + sbr_character_origin(f.scene.world, f.scene.character).z;
   ck_assert_double_ge(boxes ? -z : z, 0.5);
@@ -92,6 +101,59 @@ END_TEST
 
 START_TEST(a_person_falls_down_stairs_of_the_ground)
 { falls(_i & 1, false, SHOVES[1 + _i / 2]); }
+END_TEST
+
+static float next_share(uint32_t *seed) {
+  *seed = *seed * 1664525u + 1013904223u;
+  return (float)(*seed >> 8) / 16777216.0f;
+}
+
+/* However they are shoved, of fourteen parts nearly all lie still within 5 s, of twenty, whose toes and tails
+ * swing out by their flesh alone, most; and all within 12 s. */
+START_TEST(all_that_fall_down_stairs_of_the_ground_come_to_rest)
+{
+  bool whole = _i;
+  uint32_t seed = 12345;
+  int in_time = 0;
+  for (int i = 0; i < RANDOM_SHOVES; i++) {
+    flight f = begin(whole, false);
+    start(&f, false);
+    float aside = 120 * next_share(&seed) - 60;
+    person_shove(&f.scene, 1, (sbf_vec3){aside, 0, 120 + 60 * next_share(&seed)});
+    fall found = tumble(&f, 780, 720);
+    ck_assert_float_le(found.apart, 1e-3f);
+    ck_assert_float_le(found.on_the_way, 0.0175f);
+    ck_assert_float_le(found.at_rest, 0.00175f);
+    ck_assert_int_le(found.moved, 720);
+    in_time += found.moved <= 300;
+    end(&f);
+  }
+  ck_assert_int_ge(in_time, whole ? RANDOM_SHOVES * 2 / 3 : RANDOM_SHOVES - 2);
+}
+END_TEST
+
+/* A plank let go level over stairs tips until it lies along them, on their nosings alone: its corners are
+ * over treads that it does not reach. */
+START_TEST(a_plank_lies_across_nosings)
+{
+  bool down = _i;
+  scene s = rigid_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
+  s.world_definition.ground = sbr_ground_stairs((double)(down ? -RISE : RISE), (double)RUN);
+  s.world_definition.sleep_after_s = 0.5;
+  uint32_t plank = rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.3f, 0.04f, 1.5f}, 5);
+  rigid_body(&s, plank)->friction = 1;
+  s.character_definition.position = (sbr_double3){0, 0.5, 7.5 * (double)RUN};
+  scene_start(&s);
+  scene_ticks(&s, 300);
+  sbf_vec3 c = rigid_state(&s, plank).center;
+  sbr_double3 o = sbr_character_origin(s.world, s.character);
+  double slope = (double)(RISE / RUN) * (down ? -1 : 1), z = (double)c.z + o.z;
+  double nosings = slope * (z - (down ? (double)RUN : 0)) + 0.02 * sqrt(1 + slope * slope);
+  ck_assert_double_eq_tol((double)c.y + o.y, nosings, 2e-3);
+  ck_assert_float_eq(rigid_state(&s, plank).velocity.y, 0);
+  scene_free(&s);
+}
 END_TEST
 
 /* A post that bears a weight aside, whose common centre is 4 mm inside of the post's foot or beyond it: one
@@ -174,8 +236,11 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("tumble");
   TCase *tests = tcase_create("all");
+  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, a_person_falls_down_stairs, 0, 6);
   tcase_add_loop_test(tests, a_person_falls_down_stairs_of_the_ground, 0, 4);
+  tcase_add_loop_test(tests, all_that_fall_down_stairs_of_the_ground_come_to_rest, 0, 2);
+  tcase_add_loop_test(tests, a_plank_lies_across_nosings, 0, 2);
   tcase_add_loop_test(tests, what_tips_does_not_fall_asleep, 0, 2);
   tcase_add_loop_test(tests, what_swings_out_sleeps, 0, 2);
   tcase_add_test(tests, threads_change_nothing);

@@ -1,0 +1,124 @@
+/* What is still off of joints at a step's end, and what their limits throw back. */
+#include "rigid/joint_rows.h"
+
+#include <string.h>
+
+/* What is off is put right no faster than this, in m/s and rad/s. */
+static const float MOST_MEND_M_S = 20, MOST_MEND_RAD_S = 60;
+/* A limit that is broken by more, having been found to be free, makes a step one to be taken again. */
+static const float MISSED = 2e-3f;
+
+static sbf_vec3 along_axes(const sbri_joint_place *place, sbf_vec3 v) {
+  return sbri_add_scaled(
+      sbri_add_scaled(sbri_scale(place->axes[0], v.x), place->axes[1], v.y), place->axes[2], v.z);
+}
+
+/* What of a ball's place is off. */
+static float correct_ball(sbri_ball *ball, sbf_vec3 wanted, sbf_vec3 apart, float step_s) {
+  sbf_vec3 off = sbri_sub(wanted, apart);
+  float rates[3] = {off.x / step_s, off.y / step_s, off.z / step_s}, worst = 0;
+  for (int k = 0; k < 3; k++) {
+    ball->rhs[k] = (double)sbri_clamp(rates[k], -MOST_MEND_M_S, MOST_MEND_M_S);
+    ball->flesh_rhs[k] = 0;
+  }
+  const float parts[3] = {fabsf(off.x), fabsf(off.y), fabsf(off.z)};
+  for (int k = 0; k < 3; k++) worst = parts[k] > worst ? parts[k] : worst;
+  return worst;
+}
+
+static float correct_rows(
+    sbri_edge *e, const sbri_rigid_joint *joint, sbri_joint_place *place, float step_s) {
+  float worst = 0;
+  for (uint32_t r = 0; r < e->active_count; r++) {
+    const sbri_row *row = &e->rows[e->actives[r]];
+    sbf_joint_axis axis = (sbf_joint_axis)row->axis;
+    e->rhs[r] = 0;
+    if (row->kind > SBRI_ROW_LIMIT) continue;
+    bool at_zero = row->kind == SBRI_ROW_HELD && joint->held >> axis & 1;
+    float now = at_zero ? sbri_joint_held_coordinate(place, axis) : sbri_joint_coordinate(joint, place, axis);
+    if (axis == SBF_JOINT_AXIS_TWIST && !at_zero) now = sbri_nearest_turn(now, row->end, row->end);
+    float off = row->end - now;
+    if (row->kind == SBRI_ROW_LIMIT && !((float)row->sign * off > 0)) continue;
+    e->rhs[r] = (double)sbri_clamped_rate(axis, off / step_s, MOST_MEND_M_S, MOST_MEND_RAD_S);
+    worst = fabsf(off) > worst ? fabsf(off) : worst;
+  }
+  return worst;
+}
+
+/* By how much limits that were found to be free are broken, but for those that are out of reach. */
+static float missed(const sbri_edge *e, const sbri_rigid_joint *joint, sbri_joint_place *place, float reach) {
+  float worst = 0;
+  for (uint32_t r = 0; r < e->row_count; r++) {
+    const sbri_row *row = &e->rows[r];
+    if (row->kind != SBRI_ROW_LIMIT || row->active || row->clear > reach) continue;
+    float now = sbri_joint_coordinate(joint, place, (sbf_joint_axis)row->axis);
+    if (row->axis == SBF_JOINT_AXIS_TWIST) now = sbri_nearest_turn(now, row->low, row->high);
+    float beyond = now < row->low ? row->low - now : now - row->high;
+    float begun = row->now < row->low ? row->low - row->now : row->now - row->high;
+    if (beyond > MISSED && beyond > begun) worst = beyond > worst ? beyond : worst;
+  }
+  return worst;
+}
+
+/* How far the bodies of a ball may turn against each other in the step. */
+static float reach_in_step(
+    const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *e, float step_s) {
+  if (!e->ball) return 0;
+  const sbri_rigid_joint *joint = &model->joints[e->joint];
+  return sbri_turn_reach(sbri_length(sbri_sub(sbri_side_motion(work, model, joint, SBRI_B)->turn,
+                             sbri_side_motion(work, model, joint, SBRI_A)->turn)),
+      step_s);
+}
+
+/* Whether nothing but a ball's place is to be looked at, at the step's end. */
+static bool is_bare_ball(const sbri_edge *e, float reach) {
+  if (!e->ball || e->ball->end.x != 0 || e->ball->end.y != 0 || e->ball->end.z != 0) return false;
+  for (uint32_t r = 0; r < e->row_count; r++)
+    if (e->rows[r].kind <= SBRI_ROW_LIMIT && !(e->rows[r].clear > reach)) return false;
+  return true;
+}
+
+float sbri_joint_rows_correct(
+    const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32_t edge, float step_s) {
+  sbri_edge *e = &work->system.edges[edge];
+  const sbri_rigid_joint *joint = &t->model->joints[e->joint];
+  bool any = e->ball != NULL;
+  for (uint32_t r = 0; r < e->row_count; r++) /* a limit that was not seen to be run into */
+    any = any || e->rows[r].kind == SBRI_ROW_LIMIT;
+  for (uint32_t r = 0; r < e->active_count; r++) any = any || e->rows[e->actives[r]].kind <= SBRI_ROW_LIMIT;
+  if (!any) {
+    for (uint32_t r = 0; r < e->active_count; r++) e->rhs[r] = 0;
+    return 0;
+  }
+  const sbr_transform *poses[SBRI_SIDES] = {&sbri_side_motion(work, t->model, joint, SBRI_A)->to,
+      &sbri_side_motion(work, t->model, joint, SBRI_B)->to};
+  sbf_vec3 fine = sbri_sub(sbri_side_motion(work, t->model, joint, SBRI_B)->fine_to,
+      sbri_side_motion(work, t->model, joint, SBRI_A)->fine_to);
+  float reach = reach_in_step(work, t->model, e, step_s);
+  if (is_bare_ball(e, reach)) {
+    for (uint32_t r = 0; r < e->active_count; r++) e->rhs[r] = 0;
+    return correct_ball(e->ball, sbri_vec3(0, 0, 0), sbri_joint_apart(joint, poses, fine), step_s);
+  }
+  sbri_joint_place place = sbri_joint_place_of(joint, poses, &t->anchor, fine);
+  float place_off = 0;
+  if (e->ball) place_off = correct_ball(e->ball, along_axes(&place, e->ball->end), place.apart, step_s);
+  float off = correct_rows(e, joint, &place, step_s), beyond = missed(e, joint, &place, reach);
+  float worst = off > beyond ? off : beyond;
+  return worst > place_off ? worst : place_off;
+}
+
+bool sbri_joint_rows_bounce(const sbri_rigid_solving *work, sbri_edge *e, const sbri_rigid_model *model) {
+  bool any = false;
+  if (e->ball) {
+    memset(e->ball->rhs, 0, sizeof e->ball->rhs);
+    memset(e->ball->flesh_rhs, 0, sizeof e->ball->flesh_rhs);
+  }
+  for (uint32_t r = 0; r < e->active_count; r++) {
+    const sbri_row *row = &e->rows[e->actives[r]];
+    e->rhs[r] = 0;
+    if (!(row->bounce > 0)) continue;
+    e->rhs[r] = (float)row->sign * row->bounce - sbri_row_speed(work, model, &model->joints[e->joint], row);
+    any = true;
+  }
+  return any;
+}

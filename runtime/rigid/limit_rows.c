@@ -1,0 +1,64 @@
+/* Limits' rows: speeds, sides, and how far off a limit is out of reach. */
+#include "rigid/joint_rows.h"
+
+#include "rigid/sym6.h"
+
+static const float TURN = 6.28318530718f;
+/* How much stiffer limits are than the lighter of their bodies is heavy; what they give way by is put right
+ * at the step's end. */
+static const double FIRM = 1e5;
+/* A small turn changes its swing and twist by no more than this times what the bodies turn against each
+ * other; and so much more is let be for what comes of steps of finite length. */
+static const float REACH = 1.4f, REACH_LEAST = 0.02f;
+
+float sbri_row_speed(const sbri_rigid_solving *work, const sbri_rigid_model *model,
+    const sbri_rigid_joint *joint, const sbri_row *row) {
+  float speed = 0;
+  for (int side = 0; side < SBRI_SIDES; side++) {
+    const sbri_part_motion *m = sbri_side_motion(work, model, joint, side);
+    const double v[6] = {m->velocity.x, m->velocity.y, m->velocity.z, m->turn.x, m->turn.y, m->turn.z};
+    speed += (float)sbri_dot6_rates(row->rates[side], v);
+  }
+  return speed;
+}
+
+float sbri_nearest_turn(float value, float low, float high) {
+  float outside = value < low ? low - value : value > high ? value - high : 0, best = value;
+  for (int way = -1; way <= 1; way += 2) {
+    float other = value + (float)way * TURN;
+    float beyond = other < low ? low - other : other > high ? other - high : 0;
+    if (beyond < outside) outside = beyond, best = other;
+  }
+  return best;
+}
+
+void sbri_limit_choose_side(sbri_row *row, float speed, float step_s) {
+  float next = row->now + step_s * speed;
+  bool low = next - row->low < row->high - next;
+  row->sign = low ? 1 : -1;
+  row->bound = low ? row->low : row->high;
+  if (row->kind != SBRI_ROW_LIMIT) return;
+  float most = sbri_axis_turns((sbf_joint_axis)row->axis) ? SBRI_MEND_RAD_S : SBRI_MEND_M_S;
+  float back = (row->bound - row->now) / step_s;
+  row->target = low ? (back > most ? most : back) : (back < -most ? -most : back);
+  row->end = row->now + step_s * row->target;
+}
+
+bool sbri_limit_acts(const sbri_row *row, float speed, float step_s) {
+  float sign = row->sign;
+  bool pushes = sign * (row->target - speed) > 0;
+  return pushes && (row->kind == SBRI_ROW_LIMIT || sign * (row->bound - row->now - step_s * speed) > 0);
+}
+
+float sbri_turn_reach(float turn_rad_s, float step_s) {
+  return REACH * step_s * turn_rad_s + REACH_LEAST;
+}
+
+void sbri_limit_ready(const sbri_rigid_solving *work, const sbri_rigid_model *model, const sbri_edge *e,
+    sbri_joint_place *place, sbri_row *row, float step_s) {
+  const sbri_rigid_joint *joint = &model->joints[e->joint];
+  sbri_joint_gradient(joint, place, (sbf_joint_axis)row->axis, row->rates);
+  row->speed = sbri_row_speed(work, model, joint, row);
+  sbri_limit_choose_side(row, row->speed, step_s);
+  row->give = (float)(sbri_row_alone(&work->system, e, row) / FIRM);
+}
