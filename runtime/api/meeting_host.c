@@ -13,6 +13,7 @@ static bool make(sbr_world *world, uint32_t touches) {
   world->meetings = all;
   all->arenas = sbfi_allocate(a, characters * sizeof *all->arenas);
   all->surfaces = sbfi_allocate(a, characters * sizeof *all->surfaces);
+  all->all_surfaces = sbfi_allocate(a, characters * sizeof *all->all_surfaces);
   all->together = sbfi_allocate(a, characters * sizeof *all->together);
   all->kept = sbfi_allocate(a, characters * sizeof *all->kept);
   all->group_of = sbfi_allocate(a, characters * sizeof *all->group_of);
@@ -30,10 +31,11 @@ static bool make(sbr_world *world, uint32_t touches) {
   for (uint32_t i = 0; all->found_memories && i < all->found_capacity; i++)
     all->found_memories[i] = UINT32_MAX;
   for (size_t i = 0; all->surfaces && i < characters; i++) all->surfaces[i] = NULL;
-  bool good = all->arenas && all->surfaces && all->together && all->kept && all->group_of && all->members &&
-              all->groups && all->pairs && all->touches && all->rows && all->memories && all->next_memories &&
-              all->contacts && all->next_contacts && all->found_memories &&
-              sbri_meetings_reserve(world, NULL);
+  for (size_t i = 0; all->all_surfaces && i < characters; i++) all->all_surfaces[i] = NULL;
+  bool good = all->arenas && all->surfaces && all->all_surfaces && all->together && all->kept &&
+              all->group_of && all->members && all->groups && all->pairs && all->touches && all->rows &&
+              all->memories && all->next_memories && all->contacts && all->next_contacts &&
+              all->found_memories && sbri_meetings_reserve(world, NULL);
   for (uint32_t i = 0; good && i < characters; i++) {
     all->group_of[i] = UINT32_MAX;
     if (world->characters[i].model) good = sbri_meet_surfaces_make(world, i);

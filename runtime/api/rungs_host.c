@@ -19,7 +19,7 @@ void sbr_character_set_rung(sbr_world *world, sbr_character_id character, uint32
   uint32_t last = c->model->base->rung_count - 1;
   if (rung != SBR_RUNG_CHOSEN && rung > last) rung = last;
   sbri_head(c)->set_rung_plus_1 = rung + 1; /* 0: chosen */
-  if (rung == SBR_RUNG_CHOSEN || world->meetings) return;
+  if (rung == SBR_RUNG_CHOSEN) return;
   if (sbri_head(c)->next_rung != rung) sbri_character_wake(c);
   sbri_head(c)->next_rung = rung;
 }

@@ -90,6 +90,7 @@ sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_
     const sbr_model *model = c->model->base->rungs[sbri_head(c)->rung];
     if (model != c->model) memset(c->scratch, 0, model->layout.own_scratch_size);
     c->model = model;
+    sbri_meet_surfaces_choose(world, i);
     sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   }
   sbri_meet_memory_restore(world, from);

@@ -8,9 +8,11 @@ static uint32_t ticks_of(const sbr_world *world, float seconds) {
   return !(ticks > 0) ? 0 : ticks < 1e9f ? (uint32_t)ticks : 1000000000u;
 }
 
-/* The coarsest that has a pose. */
-static uint32_t last_posed(const sbr_model *base) {
+/* The coarsest that has a pose; of one that others may meet, that has bodies. */
+static uint32_t last_posed(const sbri_character *c) {
+  const sbr_model *base = c->model->base;
   uint32_t last = base->rung_count - 1;
+  if (c->near) return sbri_last_that_meets(base);
   return base->ladder[last].kind == SBR_RUNG_AWAY ? last - 1 : last;
 }
 
@@ -18,10 +20,11 @@ static uint32_t rung_for(const sbr_world *world, const sbri_character *c, float 
   const sbri_detail *detail = world->detail;
   const sbri_character_state *head = sbri_head(c);
   const sbr_model *base = c->model->base;
-  uint32_t last = last_posed(base), now = head->next_rung < last ? head->next_rung : last, found = 0;
+  uint32_t last = last_posed(c), now = head->next_rung < last ? head->next_rung : last, found = 0;
   if (!(pixels > 0)) {
     float after = detail->is.away_after_s;
-    return after >= 0 && head->unseen_ticks >= ticks_of(world, after) ? base->rung_count - 1 : last;
+    return !c->near && after >= 0 && head->unseen_ticks >= ticks_of(world, after) ? base->rung_count - 1
+                                                                                  : last;
   }
   bool may_coarsen = head->rung_ticks >= ticks_of(world, detail->is.stay_s);
   for (uint32_t r = 1; r <= last; r++) {
@@ -48,7 +51,7 @@ static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choi
   pixels *= sbri_speed_factor(c) * c->scale;
   uint32_t rung = rung_for(world, c, pixels);
   if (head->asleep && rung >= head->rung) return false; /* it costs nothing as it is */
-  *choice = (sbri_choice){index, rung, last_posed(base), pixels};
+  *choice = (sbri_choice){index, rung, last_posed(c), pixels};
   if (rung > choice->last) choice->last = rung;
   *visits += base->ladder[rung].visits;
   return true;

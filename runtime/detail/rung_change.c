@@ -242,6 +242,9 @@ void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   if (head->rung_ticks < UINT32_MAX) head->rung_ticks++;
   if (c->model->base->ladder[rung].kind == SBR_RUNG_AWAY && !sbri_rigid_is_still(c))
     rung--; /* what lies about, or falls, goes on doing so: bones alone */
+  uint32_t meets = sbri_last_that_meets(c->model->base);
+  bool must_meet = c->near && rung > meets;
+  if (must_meet) rung = meets;
   bool kept = head->fade_kept > 0;
   if (rung == head->rung) {
     head->fade_kept = 0;
@@ -252,11 +255,13 @@ void sbri_rung_change(const sbr_world *world, sbri_character *c) {
     return; /* one after the other */
   bool returns = sbri_is_away(c), same = c->model == c->model->base->rungs[rung];
   bool fades = head->unseen_ticks == 0 && !same && !returns; /* nobody has seen one that was away */
-  if (fades && !kept) {
+  if (fades && !kept && !must_meet) {
     sbri_fade_look(c);
     return;
   }
-  if (fades && swings_too_far(world, c, rung, sbri_fade_keep(world, c))) {
+  if (fades && must_meet) {
+    (void)sbri_fade_keep(world, c); /* at once: somebody is coming */
+  } else if (fades && swings_too_far(world, c, rung, sbri_fade_keep(world, c))) {
     head->next_rung = head->rung;
     head->rung_ticks = head->fade_kept = 0;
     return;

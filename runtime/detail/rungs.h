@@ -12,6 +12,13 @@ static inline bool sbri_is_away(const sbri_character *c) {
   return sbri_rung_of(c)->kind == SBR_RUNG_AWAY;
 }
 
+/* The coarsest that can meet others, where it has to. */
+static inline uint32_t sbri_last_that_meets(const sbr_model *base) {
+  uint32_t last = 0;
+  while (last + 1 < base->rung_count && base->ladder[last + 1].kind == SBR_RUNG_SOFT) last++;
+  return last;
+}
+
 /* ---- detail/rung_change.c ---- */
 
 /* At the beginning of a tick, before anything of it: goes over to `next_rung`, if that is another. */

@@ -167,13 +167,15 @@ typedef struct sbri_meet_group {
 } sbri_meet_group;
 
 typedef struct sbri_meetings {
-  sbfi_arena *arenas;           /* (character_capacity) */
-  sbri_meet_surface **surfaces; /* (character_capacity) each of its soft bodies; NULL: none is made */
-  uint8_t **together;           /* (character_capacity) of each two of its soft bodies: they hang together */
-  unsigned char **kept;         /* (character_capacity) room for its state */
-  uint32_t *group_of;           /* (character_capacity) UINT32_MAX: it meets nobody */
-  sbri_meet_member *members;    /* (character_capacity) group after group */
-  sbri_meet_group *groups;      /* (character_capacity) */
+  sbfi_arena *arenas; /* (character_capacity) */
+  sbri_meet_surface *
+      *surfaces; /* (character_capacity) each of its soft bodies on its rung; NULL: none is made */
+  sbri_meet_surface **all_surfaces; /* (character_capacity) of each of its soft rungs, one behind the other */
+  uint8_t **together;        /* (character_capacity) of each two of its soft bodies: they hang together */
+  unsigned char **kept;      /* (character_capacity) room for its state */
+  uint32_t *group_of;        /* (character_capacity) UINT32_MAX: it meets nobody */
+  sbri_meet_member *members; /* (character_capacity) group after group */
+  sbri_meet_group *groups;   /* (character_capacity) */
   uint32_t group_count;
   sbri_meeter *meeters; /* (meeter_capacity) */
   sbri_box *boxes;      /* likewise, of their ways */
@@ -202,6 +204,8 @@ bool sbri_meetings_reserve(sbr_world *world, const sbr_model *model);
 /* The surfaces of a character that has just been made; false likewise. */
 bool sbri_meet_surfaces_make(sbr_world *world, uint32_t character);
 void sbri_meet_surfaces_free(sbr_world *world, uint32_t character);
+/* Those of the rung that it is on now. */
+void sbri_meet_surfaces_choose(sbr_world *world, uint32_t character);
 void sbri_meetings_free(sbr_world *world);
 /* Places and ways of its vertices within the tick, and the tree over its triangles. */
 void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *member, uint32_t soft_body);
@@ -229,6 +233,11 @@ void sbri_meet_sections_look(const sbr_model *model, sbri_meet_surface *surfaces
 /* Finds who may meet whom in this tick, and the groups. */
 void sbri_meet_pairs_find(sbr_world *world);
 bool sbri_meet_is_awake(const sbri_character *c);
+
+/* ---- meet/near.c ---- */
+
+/* Notes of each character whether another is so near that both must be able to meet. */
+void sbri_meet_near_find(sbr_world *world);
 
 /* ---- meet/find.c ---- */
 

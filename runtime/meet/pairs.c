@@ -52,6 +52,7 @@ static void add(sbri_meetings *all, sbri_meeter meeter, sbri_box box) {
 static void list_character(sbr_world *world, uint32_t index) {
   const sbri_character *c = &world->characters[index];
   const sbr_model *model = c->model;
+  if (model->base->ladder[sbri_head(c)->rung].kind == SBR_RUNG_AWAY) return; /* nobody is near */
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++) {
     const sbri_body *body = &model->bodies[b];
     const sbf_collision *rule = &body->source->collision;

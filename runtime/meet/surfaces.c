@@ -32,7 +32,24 @@ static uint32_t count_triangles(const sbf_polygon_mesh *mesh) {
   return count;
 }
 
-static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surface *s, sbfi_arena *arena) {
+/* What is of a tick alone: as the body's surface on another rung has it, or its own. */
+static bool make_room(sbri_meet_surface *s, const sbri_meet_surface *other, uint32_t vertices,
+    uint32_t triangles, sbfi_arena *arena) {
+  if (other) {
+    s->places = other->places, s->ways = other->ways, s->boxes = other->boxes, s->tree = other->tree;
+    return true;
+  }
+  s->places = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->places);
+  s->ways = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->ways);
+  s->boxes = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->boxes);
+  s->tree.items = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->tree.items);
+  s->tree.nodes = sbfi_arena_allocate(arena, sbri_bounds_tree_nodes(triangles), sizeof *s->tree.nodes);
+  return s->places && s->ways && s->boxes && s->tree.items && s->tree.nodes;
+}
+
+/* `first`: that of the first rung, or NULL. */
+static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surface *s,
+    const sbri_meet_surface *first, sbfi_arena *arena) {
   const sbri_island *island = &model->islands[body->island];
   bool meshed = has_surface(body);
   uint32_t bare = body->slot_real_end - body->slot_begin;
@@ -40,12 +57,7 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
   uint32_t triangles = meshed ? count_triangles(&body->source->surface) : 0;
   s->samples = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->samples);
   s->triangles = sbfi_arena_allocate(arena, 3 * (size_t)triangles + 1, sizeof *s->triangles);
-  s->places = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->places);
-  s->ways = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->ways);
-  s->boxes = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->boxes);
-  s->tree.items = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->tree.items);
-  s->tree.nodes = sbfi_arena_allocate(arena, sbri_bounds_tree_nodes(triangles), sizeof *s->tree.nodes);
-  if (!s->samples || !s->triangles || !s->places || !s->ways || !s->boxes || !s->tree.items || !s->tree.nodes)
+  if (!s->samples || !s->triangles || !make_room(s, meshed ? first : NULL, vertices, triangles, arena))
     return false;
   s->vertex_count = vertices;
   for (uint32_t v = 0; v < vertices; v++) {
@@ -72,10 +84,11 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
 static void note_together(
     sbr_world *world, uint32_t character, sbri_meet_surface *surfaces, uint8_t *together) {
   const sbri_meetings *all = world->meetings;
-  const sbr_model *model = world->characters[character].model;
+  const sbr_model *model = world->characters[character].model->base;
   size_t count = model->asset->soft_bodies.count;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
-    if (world->characters[i].model != model || !all->surfaces[i]) continue;
+    const sbr_model *other = world->characters[i].model;
+    if (!other || other->base != model || !all->surfaces[i]) continue;
     memcpy(together, all->together[i], count * count);
     return;
   }
@@ -83,37 +96,63 @@ static void note_together(
   sbri_meet_sections_look(model, surfaces, together);
 }
 
+static uint32_t soft_rungs_of(const sbr_model *base) {
+  uint32_t count = 0;
+  while (count < base->rung_count && base->ladder[count].kind == SBR_RUNG_SOFT) count++;
+  return count;
+}
+
+/* Of all soft rungs, whose points others are; what a tick makes of them they share. */
+static bool make_all(const sbr_model *base, sbri_meet_surface *surfaces, sbfi_arena *arena) {
+  uint32_t count = base->asset->soft_bodies.count;
+  for (uint32_t r = 0; r < soft_rungs_of(base); r++)
+    for (uint32_t b = 0; b < count; b++) {
+      const sbri_body *body = &base->rungs[r]->bodies[b];
+      const sbri_meet_surface *first = r > 0 && base->bodies[b].level ? &surfaces[b] : NULL;
+      if (body->level && !make(base->rungs[r], body, &surfaces[(size_t)r * count + b], first, arena))
+        return false;
+    }
+  return true;
+}
+
+void sbri_meet_surfaces_choose(sbr_world *world, uint32_t character) {
+  sbri_meetings *all = world->meetings;
+  const sbr_model *model = world->characters[character].model;
+  if (!all || !model || !all->all_surfaces[character]) return;
+  for (uint32_t r = 0; r < soft_rungs_of(model->base); r++)
+    if (model->base->rungs[r] == model)
+      all->surfaces[character] = all->all_surfaces[character] + (size_t)r * model->asset->soft_bodies.count;
+}
+
 bool sbri_meet_surfaces_make(sbr_world *world, uint32_t character) {
   sbri_meetings *all = world->meetings;
   const sbr_model *model = world->characters[character].model;
   if (!all || all->surfaces[character]) return true;
-  uint32_t count = model->asset->soft_bodies.count;
+  uint32_t count = model->asset->soft_bodies.count, rungs = soft_rungs_of(model->base);
   sbfi_arena *arena = &all->arenas[character];
   sbfi_arena_init(arena, &world->allocator, 0);
-  sbri_meet_surface *surfaces = sbfi_arena_allocate(arena, (size_t)count + 1, sizeof *surfaces);
-  bool good = surfaces != NULL;
-  for (uint32_t b = 0; b < count && good; b++) {
-    const sbri_body *body = &model->bodies[b];
-    if (body->level) good = make(model, body, &surfaces[b], arena);
-  }
+  sbri_meet_surface *surfaces = sbfi_arena_allocate(arena, (size_t)rungs * count + 1, sizeof *surfaces);
+  bool good = surfaces && make_all(model->base, surfaces, arena);
   uint8_t *together = good ? sbfi_arena_allocate(arena, (size_t)count * count + 1, 1) : NULL;
   good = together != NULL;
   if (good) note_together(world, character, surfaces, together);
   unsigned char *kept = good ? sbfi_arena_allocate(arena, 1, model->layout.state_size) : NULL;
   good = kept != NULL;
   all->kept[character] = kept, all->together[character] = together;
-  if (good)
-    all->surfaces[character] = surfaces;
-  else
+  if (!good) {
     sbfi_arena_free(arena);
-  return good;
+    return false;
+  }
+  all->surfaces[character] = all->all_surfaces[character] = surfaces;
+  sbri_meet_surfaces_choose(world, character);
+  return true;
 }
 
 void sbri_meet_surfaces_free(sbr_world *world, uint32_t character) {
   sbri_meetings *all = world->meetings;
   if (!all || !all->surfaces[character]) return;
   sbfi_arena_free(&all->arenas[character]);
-  all->surfaces[character] = NULL;
+  all->surfaces[character] = all->all_surfaces[character] = NULL;
 }
 
 /* ---- Memory of all ---- */
@@ -163,6 +202,7 @@ void sbri_meetings_free(sbr_world *world) {
   free_meeters(world);
   sbfi_free(a, all->arenas, characters * sizeof *all->arenas);
   sbfi_free(a, all->surfaces, characters * sizeof *all->surfaces);
+  sbfi_free(a, all->all_surfaces, characters * sizeof *all->all_surfaces);
   sbfi_free(a, all->together, characters * sizeof *all->together);
   sbfi_free(a, all->kept, characters * sizeof *all->kept);
   sbfi_free(a, all->group_of, characters * sizeof *all->group_of);

@@ -21,7 +21,7 @@ static void note_landing(sbri_character *c) {
 void sbri_character_tick(sbr_world *world, sbri_character *c) {
   c->event_count = 0;
   if (!c->model || sbri_character_sleeps(world, c)) return;
-  if (!sbri_head(c)->paused && !world->meetings) sbri_rung_change(world, c);
+  if (!sbri_head(c)->paused && !world->meetings) sbri_rung_change(world, c); /* else before: step.c */
   for (uint32_t i = 0; i < c->model->island_count; i++)
     sbri_tears_of(c)[i].count = sbri_tears_of(c)[i].unsplit = 0;
   sbri_character_rebase(c);

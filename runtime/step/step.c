@@ -16,6 +16,15 @@ static void tick_character(void *context, uint32_t index) {
   sbri_character_tick(world, &world->characters[index]);
 }
 
+/* Before it is known who meets whom. */
+static void change_rung(void *context, uint32_t index) {
+  sbr_world *world = context;
+  sbri_character *c = &world->characters[index];
+  if (!c->model || sbri_head(c)->paused || sbri_head(c)->asleep) return;
+  sbri_rung_change(world, c);
+  sbri_meet_surfaces_choose(world, index);
+}
+
 static void tick_island(void *context, uint32_t index) {
   sbr_world *world = context;
   sbri_work work = world->work[index];
@@ -47,8 +56,12 @@ static void follow_tears(sbr_world *world) {
 void sbri_step_tick(sbr_world *world) {
   world->ticks++;
   sbri_colliders_begin_tick(&world->colliders);
-  if (world->meetings) sbri_meet_pairs_find(world);
-  if (world->detail && !world->meetings) sbri_detail_choose(world);
+  if (world->meetings) sbri_meet_near_find(world);
+  if (world->detail) sbri_detail_choose(world);
+  if (world->meetings) {
+    run(world, change_rung, world->character_capacity);
+    sbri_meet_pairs_find(world);
+  }
   run(world, tick_character, world->character_capacity);
   if (world->meetings) {
     run(world, tick_group, world->meetings->group_count);

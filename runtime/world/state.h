@@ -72,6 +72,7 @@ typedef struct sbri_character {
   const sbr_model *model; /* NULL: the place is free */
   uint32_t generation;
   bool hold;
+  bool near; /* others are about that its bodies may have to meet: of this tick */
   float scale;
   float time_scale;  /* 1 / sqrt(scale): its own seconds in one of the world's */
   sbr_ground ground; /* that it stands on */

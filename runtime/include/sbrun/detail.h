@@ -52,8 +52,9 @@ SBF_API uint32_t sbr_model_rungs(const sbr_model *model, sbr_rung *rungs, uint32
 SBF_API uint32_t sbr_character_rung(const sbr_world *world, sbr_character_id character);
 /* Puts it on a rung, beyond the last: the last. It goes over when the tick after the next begins: until then
  * it is looked at, so that it is known how it moves; at once where nobody sees it, or it is away.
- * SBR_RUNG_CHOSEN: the world chooses
- * again. In a world whose bodies meet each other (sbrun/collision.h) characters stay on their rung. */
+ * SBR_RUNG_CHOSEN: the world chooses again.
+ * In a world whose bodies meet each other (sbrun/collision.h) one that others are near, or will be within
+ * half a second, is on no rung below the soft ones, whatever it is put on: it could not meet them. */
 #define SBR_RUNG_CHOSEN 0xffffffffu
 SBF_API void sbr_character_set_rung(sbr_world *world, sbr_character_id character, uint32_t rung);
 /* How far the skin still is from going over: 1 where it shows what it was, 0 where it is over. */
