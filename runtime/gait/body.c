@@ -301,10 +301,11 @@ sbri_stance sbri_body_tick(const sbri_rig *rig, sbri_gait_state *state, const sb
   if (!rig->leg_count) return stance_over(rig, state, input);
   sbri_body_steps_keep(rig, state, input->tick_s);
   const sbri_body_steps *steps = &state->steps;
-  sbf_vec3 lean = {0, 0, 0};
+  sbf_vec3 lean = {0, 0, 0}, stands = sbri_headed(state, sbri_scale(state->stands, input->scale));
+  if (!state->together || state->standing_s > 0) lean = stands;
   if (lifting) lean = sbri_support_sway(rig, state, input, lifting, way);
   sway_to(rig, state, input, lean);
-  if (!stride) state->sway_x = state->sway_z = (sbri_lag){0, 0};
+  if (!stride) state->sway_x = (sbri_lag){stands.x, 0}, state->sway_z = (sbri_lag){stands.z, 0};
   bool at_home = state->standing_s > 0 && !lifting; /* no foot has still to go there */
   if (stride) sbri_lag_tick(&state->bent, at_home ? 0 : 1, &steps->bend);
   sbri_lag_tick(&state->upright, stride && stride->balanced && stride->speed > 0 ? 1 : 0, &steps->upright);

@@ -15,7 +15,8 @@ static const float TWISTED = 0.6f;         /* rad that a planted foot may be tur
 static const float MISSED = 0.002f;        /* of the reach: a sole so far from its place has to step */
 static const float NOTED = 0.4f;           /* sideways and twisted: less than this does not count */
 static const float STRAINED = 0.7f;        /* share of its roam that a foot may be from home */
-static const float JOINS = 0.4f;           /* phase of a step up to which others of its group join it */
+static const float KEPT = 0.15f; /* half strides: a foot worse by less than so does not take another's turn */
+static const float JOINS = 0.4f; /* phase of a step up to which others of its group join it */
 static const float WAIT_S =
     0.7f; /* for balance; then, sooner where the body waits too, a foot steps all the same */
 
@@ -97,6 +98,7 @@ static int32_t choose(
     const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input, choice *c, bool *unbalanced) {
   uint32_t groups, in_air = feet_in_air(rig, state, &groups);
   int32_t best = -1, worst = -1;
+  float most = 0;
   float wanted = state->since_lift_m >= 0.95f * c->stride.spacing_m ? EARLY : DUE;
   if (state->standing_s > 0) wanted = SETTLED;
   if (state->standing_s > 0 && state->standing_s < SETTLE_AFTER_S) return -1;
@@ -104,7 +106,8 @@ static int32_t choose(
     if (!state->feet[i].planted || state->pivot == i + 1) continue;
     uint32_t own = 1u << (rig->legs[i].group & 15);
     bool companion = in_air && groups == own;
-    if (worst < 0 || c->off[i] > c->off[worst]) worst = (int32_t)i;
+    float off = state->next == i + 1 ? c->off[i] + KEPT : c->off[i]; /* it has begun to lean for that one */
+    if (worst < 0 || off > most) worst = (int32_t)i, most = off;
     if (in_air && !companion) continue;
     float least = companion ? COMPANION : wanted;
     if (state->standing_s > 0) least = SETTLED;
@@ -122,6 +125,7 @@ static int32_t choose(
     if (best < 0 || c->off[i] > c->off[best]) best = (int32_t)i;
   }
   c->next = worst >= 0 ? 1u << worst : 0;
+  state->next = (uint32_t)(worst + 1);
   return best;
 }
 

@@ -62,6 +62,9 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     }
   for (uint32_t i = 0; i < rig->leg_count; i++)
     state->feet[i].hip = sbri_scale(rig->rest[rig->legs[i].upper].position, input->scale);
+  state->stands = sbri_support_stand(rig);
+  sbf_vec3 stands = sbri_headed(state, sbri_scale(state->stands, input->scale));
+  state->sway_x = (sbri_lag){stands.x, 0}, state->sway_z = (sbri_lag){stands.z, 0};
   state->root = sbri_body_stance(rig, state, input).root;
   for (uint32_t i = 0; i < rig->leg_count; i++) sbri_foot_place(rig, state, input, i);
   sbri_stance stance = sbri_body_tick(rig, state, input, NULL, 0, sbri_vec3(0, 0, 0));

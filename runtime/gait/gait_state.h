@@ -65,6 +65,8 @@ typedef struct sbri_gait_state {
   float waiting_s;               /* for how long a foot has wanted to step and could not */
   uint32_t together;             /* 1: feet of a group go together; 0: as many as balance allows */
   uint32_t pivot;                /* leg that it turns about, plus 1; 0: none */
+  uint32_t next;                 /* leg that is to lift next, for which it leans, plus 1; 0: none */
+  sbf_vec3 stands;               /* by how much it stands off its rest pose to be over its feet, level; m */
   sbri_lag sway_x, sway_z;       /* of the body over its feet, world axes, m */
   sbri_lag crouch;               /* how far it comes down for its feet, m */
   sbri_lag upright;              /* 1: the body tilts about its hips, balanced; 0: about the ground */
@@ -255,6 +257,9 @@ bool sbri_support_bears(const sbri_rig *rig, const sbri_gait_state *state, const
 /* Where the body should lean so that the feet but those of `lifted` bear it, from `position`, level. */
 sbf_vec3 sbri_support_sway(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input,
     uint32_t lifted, sbf_vec3 way);
+
+/* By how much a body has to be off its rest pose to stand over its feet, asset space, level; m. */
+sbf_vec3 sbri_support_stand(const sbri_rig *rig);
 
 /* ---- gait/step_plan.c: a step before it goes ---- */
 

@@ -69,6 +69,29 @@ static float margin_of(const polygon *hull, sbf_vec3 p, sbf_vec3 *inwards) {
   return inside ? nearest : -nearest;
 }
 
+/* How far a place is from within `low` to `high`, less a margin at both ends. */
+static float into(float place, float low, float high, float margin) {
+  float middle = 0.5f * (low + high);
+  low = low + margin < middle ? low + margin : middle, high = high - margin > middle ? high - margin : middle;
+  return sbri_clamp(place, low, high) - place;
+}
+
+sbf_vec3 sbri_support_stand(const sbri_rig *rig) {
+  float low[2] = {1e30f, 1e30f}, high[2] = {-1e30f, -1e30f}, margin = NEEDED * rig->reach;
+  sbf_vec3 center;
+  bool leans = rig->leg_count && !rig->has_pegs && sbri_rig_center(rig, rig->rest, 1, &center);
+  if (!leans) return sbri_vec3(0, 0, 0);
+  for (uint32_t i = 0; i < 4 * rig->leg_count; i++) {
+    const sbri_leg *leg = &rig->legs[i / 4];
+    float at[2] = {leg->home.x + leg->sole.corners[i % 4].x, leg->home.z + leg->sole.corners[i % 4].z};
+    for (int k = 0; k < 2; k++) {
+      low[k] = at[k] < low[k] ? at[k] : low[k];
+      high[k] = at[k] > high[k] ? at[k] : high[k];
+    }
+  }
+  return sbri_vec3(into(center.x, low[0], high[0], margin), 0, into(center.z, low[1], high[1], margin));
+}
+
 static sbf_vec3 center_at(const sbri_gait_state *state, float sway_x, float sway_z) {
   sbf_vec3 c = sbri_add(state->position, state->center);
   return sbri_vec3(c.x + sway_x, 0, c.z + sway_z);

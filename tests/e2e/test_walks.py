@@ -25,8 +25,7 @@ OTHERS = {
     "greenman": ((shared("greenman"), "greenman.glb"), (), {
         "flat, 0.1": {"support_margin": -0.35}, "flat, 0.3": {"support_margin": -0.36}}),
     "fox": ((shared("fox"), "fox.glb"), ("--unit", "0.01"), {}),
-    "walkdae": ((shared("walk-dae"), "walk.dae"), (), {
-        "flat, 0.1": {"support_margin": -0.06}, "flat, 0.3": {"support_margin": -0.06}}),
+    "walkdae": ((shared("walk-dae"), "walk.dae"), (), {}),
     "spiderglb": ((shared("spider"), "spider.glb"), (), {}),
     "caterpillar": ((ROOT, "examples", "caterpillar", "caterpillar.glb"), (), {
         "flat, 2": CRAWLS, "flat, 3": CRAWLS, "flat, turning on the spot": CRAWLS, "flat, a curve": CRAWLS,
@@ -41,7 +40,12 @@ OFF_FLAT_SPEEDS = (0.1, 0.3, 1, 3)
 OFF_FLAT = {
     "pup": {},
     "calf": {},
-    "yeti": {"slope of 20°, 0.1": {"support_margin": -0.05}},
+    "yeti": {},
+    "kenney": {"stairs of a quarter leg, 0.3": {"support_margin": -0.039},
+               **{f"noise, {speed}": {"penetration": 0.0024, "stance_slip": 0.0025} for speed in OFF_FLAT_SPEEDS}},
+    "walkdae": {"slope of 20°, 0.1": {"support_margin": -0.062}, "slope of 20°, 0.3": {"support_margin": -0.042},
+                "stairs of a quarter leg, 1": {"body_speed_step": 0.03, "body_turn_step": 1.7},
+                "stairs of a quarter leg, 3": {"body_speed_step": 0.053, "body_turn_step": 3.2}},
     "spider": {},
     "fox": {},
 }

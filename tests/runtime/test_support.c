@@ -1,0 +1,59 @@
+#include <math.h>
+
+#include "gait_stage.h"
+#include "harness.h"
+#include "math/quat.h"
+#include "quadruped.h"
+
+/* A quadruped all of whose mass is `ahead` of the middle between its feet, m. */
+static void begin(gait_stage *stage, float ahead) {
+  gait_stage_begin(stage, quadruped_asset());
+  sbri_bone_mass *masses = (sbri_bone_mass *)(uintptr_t)stage->rig.masses; /* of the stage's own memory */
+  float middle = 0;
+  for (uint32_t l = 0; l < stage->rig.leg_count; l++)
+    middle += stage->rig.legs[l].home.z / (float)stage->rig.leg_count;
+  for (uint32_t b = 0; b < stage->rig.bone_count; b++) masses[b] = (sbri_bone_mass){0};
+  const sbr_transform *root = &stage->rig.rest[0];
+  sbf_vec3 place = sbri_sub(sbri_vec3(0, 0.3f, middle + ahead), root->position);
+  masses[0] = (sbri_bone_mass){1, sbri_rotate(sbri_quat_conjugate(root->rotation), place)};
+  sbri_gait_place(&stage->rig, stage->state, &stage->input, sbri_vec3(0, 0, 0), 0);
+}
+
+START_TEST(a_balanced_rest_pose_stands_as_it_is)
+{
+  gait_stage stage;
+  begin(&stage, 0.02f);
+  ck_assert(stage.state->stands.x == 0 && stage.state->stands.z == 0);
+  ck_assert(stage.state->sway_z.value == 0);
+  gait_stage_end(&stage);
+}
+END_TEST
+
+START_TEST(one_that_would_fall_stands_over_its_feet_and_stays_there)
+{
+  gait_stage stage;
+  begin(&stage, 1);
+  float foremost = -1e30f, margin = 0.02f * stage.rig.reach;
+  sbf_vec3 center;
+  for (uint32_t i = 0; i < 4 * stage.rig.leg_count; i++) {
+    const sbri_leg *leg = &stage.rig.legs[i / 4];
+    foremost = fmaxf(foremost, leg->home.z + leg->sole.corners[i % 4].z);
+  }
+  ck_assert(sbri_rig_center(&stage.rig, stage.rig.rest, 1, &center));
+  ck_assert_float_eq_tol(center.z + stage.state->stands.z, foremost - margin, 1e-5f);
+  ck_assert_float_eq(stage.state->stands.x, 0);
+  ck_assert_float_eq(stage.state->sway_z.value, stage.state->stands.z);
+  gait_stage_ticks(&stage, 120);
+  ck_assert_float_eq_tol(stage.state->sway_z.value, stage.state->stands.z, 1e-5f);
+  gait_stage_end(&stage);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("support");
+  TCase *tests = tcase_create("all");
+  tcase_add_test(tests, a_balanced_rest_pose_stands_as_it_is);
+  tcase_add_test(tests, one_that_would_fall_stands_over_its_feet_and_stays_there);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
