@@ -73,11 +73,15 @@ static bool gather_skinned(const sbf_asset *asset, int32_t foot, sole *s) {
   return true;
 }
 
-static double rest_height(const sbf_asset *asset, uint32_t vertex) {
+static sbf_vec3 rest_place(const sbf_asset *asset, uint32_t vertex) {
   uint32_t mesh = 0;
   while (vertex >= asset->render_meshes.at[mesh].mesh.positions.count)
     vertex -= asset->render_meshes.at[mesh++].mesh.positions.count;
-  return (double)asset->render_meshes.at[mesh].mesh.positions.at[vertex].y;
+  return asset->render_meshes.at[mesh].mesh.positions.at[vertex];
+}
+
+static double rest_height(const sbf_asset *asset, uint32_t vertex) {
+  return (double)rest_place(asset, vertex).y;
 }
 
 /* Keeps the lowest vertices and notes their heights. */
@@ -152,6 +156,21 @@ void soles_measure(soles *all, const session *s, const sbf_vec3 *skin) {
 uint32_t soles_vertices(const soles *all, uint32_t leg, const uint32_t **vertices) {
   *vertices = leg < all->count ? all->at[leg].vertices : NULL;
   return leg < all->count ? all->at[leg].count : 0;
+}
+
+double soles_radius(const soles *all, const session *s, uint32_t leg) {
+  const sole *one = leg < all->count ? &all->at[leg] : NULL;
+  double x = 0, z = 0, radius = 0;
+  for (uint32_t i = 0; one && i < one->count; i++) {
+    sbf_vec3 p = rest_place(s->asset, one->vertices[i]);
+    x += (double)p.x / one->count;
+    z += (double)p.z / one->count;
+  }
+  for (uint32_t i = 0; one && i < one->count; i++) {
+    sbf_vec3 p = rest_place(s->asset, one->vertices[i]);
+    radius = fmax(radius, hypot((double)p.x - x, (double)p.z - z));
+  }
+  return radius;
 }
 
 sole_report soles_report(const soles *all) {

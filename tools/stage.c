@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sole.h"
+
 /* The triangles of one mesh that bear one material. */
 typedef struct patch {
   uint32_t *triangles, *whole; /* all, and room for those that no tear has opened */
@@ -26,16 +28,19 @@ typedef struct body_look {
 } body_look;
 
 enum { MOST_LEGS = 16, PRINTS = 64 };
+static const float AROUND = 1.3f; /* of a sole: its footprint is drawn so wide, to be seen round it */
 
 /* Where a foot came down. */
 typedef struct footprint {
   sbf_vec3 place, normal;
+  float radius; /* m */
 } footprint;
 
 struct stage {
   footprint prints[PRINTS];
   uint32_t print_count; /* ever; the last PRINTS are kept */
   bool was_planted[MOST_LEGS];
+  float sole_radii[MOST_LEGS]; /* m, at rest */
   unsigned show;
   mesh_look *meshes;
   body_look *bodies;
@@ -188,6 +193,14 @@ static uint32_t largest_room(const sbf_asset *asset) {
   return room;
 }
 
+static bool measure_soles(stage *st, const session *s) {
+  if (s->asset->gaits.count == 0) return true;
+  soles *all = soles_create(s);
+  for (uint32_t l = 0; all && l < MOST_LEGS; l++) st->sole_radii[l] = (float)soles_radius(all, s, l);
+  soles_destroy(all);
+  return all != NULL;
+}
+
 stage *stage_create(const session *s, const skin_images *images, unsigned show, uint32_t render_level) {
   const sbf_asset *asset = s->asset;
   stage *st = calloc(1, sizeof *st);
@@ -206,6 +219,7 @@ stage *stage_create(const session *s, const skin_images *images, unsigned show, 
   for (uint32_t i = 0; good && i < st->mesh_count; i++)
     good = look_of_mesh(s, images, i, render_level, &st->meshes[i]);
   for (uint32_t i = 0; good && i < st->body_count; i++) good = look_of_lattice(s, i, &st->bodies[i]);
+  if (good && show & STAGE_FEET) good = measure_soles(st, s);
   draw_colour_map_init_diverging(&st->strains);
   if (good) return st;
   stage_destroy(st);
@@ -385,7 +399,8 @@ static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *
     static const sbf_uint2 one[1] = {{{0, 1}}};
     draw_scene_add_lines(scene, knee, 2, one, NULL, 1, draw_colour_of_pole(), 2.5f);
     draw_scene_add_sphere(scene, knee[1], 0.2f * size, draw_colour_of_pole());
-    footprint print = {.place = ends[0]};
+    float around = AROUND * st->sole_radii[i];
+    footprint print = {.place = ends[0], .radius = around > size ? around : size};
     float y = (float)s->ground.height(&s->ground, (double)ends[0].x, (double)ends[0].z, &print.normal);
     if (legs[i].planted && !st->was_planted[i]) st->prints[st->print_count++ % PRINTS] = print;
     st->was_planted[i] = legs[i].planted;
@@ -397,7 +412,8 @@ static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *
     draw_scene_add_lines(scene, ray, 2, one, NULL, 1, draw_colour_of_ray(), 3);
   }
   for (uint32_t i = 0; i < st->print_count && i < PRINTS; i++)
-    draw_scene_add_ring(scene, st->prints[i].place, st->prints[i].normal, size, 3, draw_colour_of_contact());
+    draw_scene_add_ring(
+        scene, st->prints[i].place, st->prints[i].normal, st->prints[i].radius, 3, draw_colour_of_contact());
   draw_scene_add_legend(scene, "knee to its pole", draw_colour_of_pole());
   draw_scene_add_legend(scene, "ray down", draw_colour_of_ray());
   draw_scene_add_legend(scene, "where the step goes", draw_colour_of_target());
