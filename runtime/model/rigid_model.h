@@ -45,6 +45,12 @@ typedef struct sbri_rigid_joint {
   float hold_torque;     /* N m that hold what hangs on it out level, in the earth's gravity */
 } sbri_rigid_joint;
 
+/* Flesh that hangs on one body and on nothing else. */
+typedef struct sbri_flesh {
+  bool bearable;     /* all that hangs on it has answers (sbri_answers) */
+  double mass[6][6]; /* what these add to the body's masses and moments, about its centre, axes of rest */
+} sbri_flesh;
+
 typedef struct sbri_rigid_model {
   const sbri_rigid_body *bodies;
   uint32_t body_count;
@@ -62,6 +68,7 @@ typedef struct sbri_rigid_model {
   /* (body_count) how much more than the body the flesh weighs that is damped against it, or has moment. */
   float *pinned_weights;
   float *carried_masses; /* (body_count) kg of flesh that hangs on each */
+  sbri_flesh *flesh;     /* (body_count) */
   uint32_t bone_count, vertex_count, row_count;
   size_t square_count;
   uint32_t loop_row_capacity; /* rows of joints that close loops; see loop_solve.h */

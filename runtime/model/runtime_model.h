@@ -163,6 +163,7 @@ typedef struct sbri_body {
   bool held;                /* by some pin: it is damped relative to its guide; else relative to itself */
   uint32_t guide_frame;     /* of all its points, where `guides` is NULL */
   const sbri_guide *guides; /* (slot_end - slot_begin), where several frames hold it */
+  float lowest_rad_s;       /* slowest mode that deforms it; 0: nothing resists */
   float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
   const float *alphas;      /* (free slots of the island) of each point, where a map scales it, alpha_1_s the
                                greatest; else NULL */
@@ -200,6 +201,18 @@ typedef struct sbri_body {
   const sbri_carry_cell *volume_cells; /* faces, as `slots`, with their shares in each slot's gradient */
 } sbri_body;
 
+/* Steps of a control tick in which bodies bear their flesh: ragdoll/borne_flesh.c. */
+enum { SBRI_BORNE_STEPS = 6 };
+/* How the points of an island that hangs on one rigid body answer a change of that body's speed in such a
+ * step; prepare/flesh_answers.c. */
+enum { SBRI_ANSWER = 18 };
+typedef struct sbri_answers {
+  sbf_vec3 about;    /* asset space, at rest */
+  double mass[6][6]; /* kg, kg m, kg m^2: impulse and moment about there, of linear and angular speeds */
+  const float
+      *shares; /* (free slots x 18) blocks of 18 by eight: of each of six speeds, x y z at the step's end */
+} sbri_answers;
+
 /* A body that needs more substeps than this is not one to step explicitly. A power of two. */
 enum { SBRI_MOST_SUBSTEPS = 1024 };
 
@@ -224,6 +237,7 @@ typedef struct sbri_island {
   const int32_t *carrier_of_held; /* (slot_count - free_count) of model.carrier_of_frame */
   const uint32_t *carriers;       /* (carrier_count) the rigid bodies that may carry what holds it */
   uint32_t carrier_count;
+  const sbri_answers *answers;  /* NULL: it does not hang on one body alone, or may not be borne */
   const uint32_t *held_springs; /* (held_spring_count) springs with one end held */
   uint32_t held_spring_count;
   const sbfi_spring *springs; /* (spring_count) each once, ends as slots */
@@ -283,7 +297,7 @@ typedef struct sbri_layout {
       thread_cells, thread_damping, thread_slack, thread_links, thread_blocks, skin_cells, bound_to,
       torn_polygons, rigid_bodies, rigid_joints, rigid_drive, rigid_kept, faded, jiggles, used_size,
       state_size;
-  size_t animated, rigid_targets, reactions, stepped_pose, rigid_work;
+  size_t animated, rigid_targets, reactions, burdens, stepped_pose, rigid_work;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;

@@ -11,7 +11,7 @@
 /* ---- Who carries what ---- */
 
 /* A bone goes with the body of the nearest bone above it, or its own, that has one. */
-static bool list_carriers(sbr_model *model) {
+bool sbri_carriers_list(sbr_model *model) {
   const sbri_rigid_model *rigid = &model->rigid;
   int32_t *carriers = sbfi_arena_allocate(&model->arena, model->frame_count, sizeof *carriers);
   if (!carriers) return false;
@@ -179,7 +179,13 @@ static void add_weights(const sbr_model *model, const sbri_island *island, const
 }
 
 bool sbri_coupling_make(sbr_model *model) {
-  if (!list_carriers(model)) return false;
+  sbri_rigid_model *rigid = &model->rigid; /* on each rung its own */
+  rigid->pinned_weights = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
+  rigid->pinned_squares = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
+  rigid->carried_masses = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof(float));
+  rigid->flesh = sbfi_arena_allocate(&model->arena, (size_t)rigid->body_count + 1, sizeof *rigid->flesh);
+  if (!rigid->pinned_weights || !rigid->pinned_squares || !rigid->carried_masses || !rigid->flesh)
+    return false;
   for (uint32_t i = 0; i < model->island_count; i++)
     if (!list_held(model, &model->islands[i])) return false;
   for (uint32_t i = 0; i < model->island_count; i++)

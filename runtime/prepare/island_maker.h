@@ -43,6 +43,8 @@ static inline sbri_body *sbri_maker_body(const sbri_island_maker *m, uint32_t pl
 float sbri_natural_stiffness(const sbf_soft_body *body, float mass);
 
 /* Each false where memory runs out. */
+/* How the island answers the rigid body that it hangs on, where that is one alone. */
+bool sbri_flesh_answers_make(sbri_island_maker *m, const sbf_spring_network *network);
 /* What weight maps of the body make of a property, as factors at its level's points; NULL: 1 everywhere. */
 bool sbri_factors_find(
     sbri_island_maker *m, const sbri_body *body, sbf_weight_property property, const float **factors);

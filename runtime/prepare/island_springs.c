@@ -415,7 +415,7 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
   if (!sbri_island_preload(m, &network)) return false;
   find_damping(m, network, masses, scratch);
-  if (!find_alphas(m) || !find_frictions(m)) return false;
+  if (!find_alphas(m) || !find_frictions(m) || !sbri_flesh_answers_make(m, &network)) return false;
   *found = network;
   return true;
 }

@@ -34,8 +34,11 @@ bool sbri_outer_make(sbr_model *model);
 /* Sides along springs that may tear, of polygons over the vertices of the mesh that `full` is of. */
 bool sbri_torn_sides_make(sbr_model *model, sbri_skin *skin, const sbri_skin *full, const sbf_u32_list *sizes,
     const sbf_u32_list *points);
-/* Which rigid bodies the islands may pull on, and how stiffly; false where memory runs out. */
+/* The rigid bodies that frames go with; which of them the islands may pull on, and how stiffly; the flesh
+ * that hangs on each alone, after all that acts on it. The first two false where memory runs out. */
+bool sbri_carriers_list(sbr_model *model);
 bool sbri_coupling_make(sbr_model *model);
+void sbri_flesh_join(sbr_model *model);
 /* Neighbours and what lies around each point; false where memory runs out. */
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
 /* The places of the surface that meet the ground; after the surfaces. */

@@ -175,6 +175,7 @@ sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options
   model->rigid_substeps = options->rigid_substeps ? options->rigid_substeps : RIGID_SUBSTEPS;
   if (!make_bones(model) || !sbri_jiggles_make(model)) return no_memory(error);
   model->frame_count = model->rig.bone_count + 2 + model->rigid.own_frame_count + model->jiggle_count;
+  if (!sbri_carriers_list(model)) return no_memory(error);
   sbf_status status = make_islands(model, options, error);
   if (status != SBF_OK) return status;
   if (!sbri_coupling_make(model) || !make_skins(model)) return no_memory(error);
@@ -185,5 +186,6 @@ sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options
     island->scheme = &sbri_position_based;
     island->routed = false;
   }
+  sbri_flesh_join(model);
   return check_substeps(model, error);
 }

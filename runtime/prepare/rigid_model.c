@@ -181,12 +181,7 @@ bool sbri_rigid_model_make(sbri_rigid_model *model, const sbf_asset *asset, sbfi
   sbri_rigid_joint *joints = sbfi_arena_allocate(arena, (size_t)joint_count + 1, sizeof *joints);
   int32_t *body_of_bone = sbfi_arena_allocate(arena, (size_t)bone_count + 1, sizeof *body_of_bone);
   uint32_t *own_frames = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof *own_frames);
-  model->pinned_weights = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof(float));
-  model->pinned_squares = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof(float));
-  model->carried_masses = sbfi_arena_allocate(arena, (size_t)body_count + 1, sizeof(float));
-  if (!bodies || !joints || !body_of_bone || !own_frames || !model->pinned_squares ||
-      !model->pinned_weights || !model->carried_masses)
-    return false;
+  if (!bodies || !joints || !body_of_bone || !own_frames) return false;
   model->bodies = bodies, model->joints = joints, model->body_of_bone = body_of_bone;
   model->own_frames = own_frames;
   for (uint32_t i = 0; i < bone_count; i++) body_of_bone[i] = -1;

@@ -9,15 +9,19 @@
  * may be follows from how fast the softness would swing each body alone (prepare/coupling.c): so a heavy
  * belly on light bones is as stable as the other way round.
  *
+ * Flesh that hangs on one bone alone is borne by it, in fewer steps (borne_flesh.c).
+ *
  * Damping against what holds a soft body is done here, once a step, so that those who hold it feel it too. */
 #include <string.h>
 
+#include "math/lane_sums.h"
 #include "math/quat.h"
 #include "math/trig.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 #include "solvers/outer_forces.h"
 #include "solvers/router.h"
+#include "solvers/spring_forces.h"
 #include "solvers/tetrahedron_forces.h"
 #include "tear/tear.h"
 
@@ -53,21 +57,31 @@ static uint32_t steps_of(const sbri_island_tick *t) {
   return rounded_steps(sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), stretch));
 }
 
-/* As many as keep up with how fast it makes what is simulated swing: always the same. */
-static uint32_t swung_steps(const sbri_character *c, float tick_s) {
-  const sbri_rigid_model *rigid = &c->model->rigid;
-  float fastest = 0; /* rad^2/s^2 */
-  for (uint32_t b = 0; b < rigid->body_count; b++)
-    if (sbri_rigid_is_simulated(c, b) && rigid->pinned_squares[b] > fastest)
-      fastest = rigid->pinned_squares[b];
-  float steps = tick_s * sqrtf(fastest) / SBRI_RIGID_MOST_SWING;
-  return steps < SBRI_RIGID_MOST_SUBSTEPS ? (uint32_t)ceilf(steps) : SBRI_RIGID_MOST_SUBSTEPS;
+/* As many as keep up with how fast all that is soft makes a body swing: always the same. */
+static float swung_steps(const sbri_character *c, uint32_t body, float tick_s) {
+  return tick_s * sqrtf(c->model->rigid.pinned_squares[body]) / SBRI_RIGID_MOST_SWING;
+}
+
+static void take_steps(sbri_coupled *group, float steps) {
+  if (steps > (float)group->steps) group->steps = steps < MOST_STEPS ? (uint32_t)ceilf(steps) : MOST_STEPS;
+}
+
+/* The steps that the tick needs; what bones need that may bear their flesh is looked at when it is known of
+ * all. */
+static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
+  if (carrier < 0 || !sbri_may_bear(group->character, (uint32_t)carrier)) {
+    take_steps(group, steps);
+    return;
+  }
+  sbri_rigid_burden *burden = &sbri_burdens(group->character)[carrier];
+  burden->needed_steps = steps > burden->needed_steps ? steps : burden->needed_steps;
 }
 
 void sbri_coupled_begin(sbri_coupled *group) {
   sbri_character *c = group->character;
   group->any = false;
   group->steps = 1;
+  memset(sbri_burdens(c), 0, c->model->rigid.body_count * sizeof(sbri_rigid_burden));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!sbri_island_is_coupled(c, i)) continue;
     group->any = true;
@@ -80,11 +94,17 @@ void sbri_coupled_begin(sbri_coupled *group) {
     sbri_outer_look(&tick);
     sbri_island_prepare_contacts(&tick, c);
     (void)sbri_router_choose(&tick, &sbri_island_states(c)[i].recovering); /* for the whole tick */
-    uint32_t steps = steps_of(&tick);
-    group->steps = steps > group->steps ? steps : group->steps;
+    need_steps(group, (float)steps_of(&tick), now.carrier_count == 1 ? (int32_t)now.carriers[0] : -1);
   }
-  uint32_t swung = group->any ? swung_steps(c, (float)group->world->tick_s * c->time_scale) : 1;
-  group->steps = swung > group->steps ? swung : group->steps;
+  for (uint32_t b = 0; group->any && b < c->model->rigid.body_count; b++) {
+    float steps = swung_steps(c, b, (float)group->world->tick_s * c->time_scale);
+    if (!sbri_rigid_is_simulated(c, b)) continue;
+    need_steps(group, steps < SBRI_RIGID_MOST_SUBSTEPS ? steps : SBRI_RIGID_MOST_SUBSTEPS, (int32_t)b);
+    float needed = sbri_burdens(c)[b].needed_steps;
+    if (!(needed > (float)group->steps)) continue;
+    float bearing = sbri_bearing_steps(c, b, (float)group->world->tick_s * c->time_scale);
+    take_steps(group, needed < bearing ? needed : bearing);
+  }
 }
 
 /* ---- Meanwhile ---- */
@@ -129,11 +149,42 @@ static float ease_of_guides(const sbri_character *c, const sbri_body *body, uint
   return least;
 }
 
+/* Of a body that one frame guides, and every point of which loses the same share: by lanes of eight, summed
+ * alike for any number of them at once. */
+static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri_body *body, float share) {
+  const sbri_point *places = sbri_positions(c) + island->first_slot;
+  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  const float *along = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
+  int32_t carrier = c->model->carrier_of_frame[body->guide_frame];
+  sbf_vec3 about = carrier >= 0 ? sbri_reactions(c)[carrier].about : sbri_vec3(0, 0, 0);
+  sbri_lane_sums taken = {{{0}}, {{0}}};
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
+    float *at = sbri_triple(velocities, slot);
+    sbri_wide3 v = sbri_load3(at), u = sbri_load3(sbri_const_triple(along, slot));
+    sbri_wide m = sbri_wide_load(island->masses + slot);
+    sbri_wide part = sbri_wide_select(m > sbri_wide_all(0), sbri_wide_all(share), sbri_wide_all(0));
+    sbri_wide3 change = {(u.x - v.x) * part, (u.y - v.y) * part, (u.z - v.z) * part};
+    sbri_store3(at, (sbri_wide3){v.x + change.x, v.y + change.y, v.z + change.z});
+    sbri_wide3 x = sbri_wide_load_points(places + slot);
+    x.x = x.x - sbri_wide_all(about.x), x.y = x.y - sbri_wide_all(about.y),
+    x.z = x.z - sbri_wide_all(about.z);
+    sbri_lane_sums_add(&taken, slot % SBRI_BLOCK, x, (sbri_wide3){m * change.x, m * change.y, m * change.z});
+  }
+  if (carrier < 0) return;
+  sbri_reaction *r = &sbri_reactions(c)[carrier];
+  r->impulse = sbri_sub(r->impulse, sbri_lanes_push(&taken));
+  r->moment = sbri_sub(r->moment, sbri_lanes_moment(&taken));
+}
+
 /* The decay of what points move by against their guides, over h. */
 static void damp(sbri_character *c, const sbri_island *island, const sbri_body *body, float h) {
   if (!body->held || !(body->alpha_1_s > 0)) return;
   float lost = 1 - sbri_exp(-body->alpha_1_s * h); /* at most */
   float share = body->guides ? 0 : lost * ease_of(c, body->guide_frame, lost);
+  if (!body->guides && !body->alphas) {
+    damp_evenly(c, island, body, share);
+    return;
+  }
   size_t first = island->first_slot;
   const sbri_point *places = sbri_positions(c) + first;
   float *velocities = sbri_velocities(c) + 3 * first;
@@ -177,6 +228,7 @@ void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *t, float
   float step_s = t->tick_s * (to - from);
   for (uint32_t b = 0; b < t->model->body_count; b++)
     sbri_reactions(c)[b] = (sbri_reaction){.about = t->bodies[b].pose.position};
+  sbri_burdens_begin(c, t, step_s);
   sbri_rigid_pose(c, group->animated, from, 0, sbri_stepped_pose(c));
   sbri_deltas_make(c, sbri_stepped_pose(c), from, sbri_previous_deltas(c));
   sbri_rigid_pose(c, group->animated, to, step_s, sbri_stepped_pose(c));
@@ -187,6 +239,10 @@ void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *t, float
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbri_rigid_body_state *body = &t->bodies[b];
     const sbri_reaction *r = &sbri_reactions(c)[b];
+    if (sbri_burdens(c)[b].on) {
+      sbri_burden_push(t, b, r);
+      continue;
+    }
     float share = 1 / sbri_rigid_swell(&t->pull, b, step_s);
     body->velocity = sbri_add_scaled(body->velocity, r->impulse, share * t->model->bodies[b].inverse_mass);
     body->spin = sbri_add_scaled(body->spin, r->moment, share);

@@ -15,6 +15,8 @@ sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *po
  * keep what the animation has them turned and away from their parents. */
 void sbri_rigid_pose(
     const sbri_character *c, const sbr_transform *animated, float share, float ahead_s, sbr_transform *pose);
+/* Where a body goes with the velocities that it has. */
+sbr_transform sbri_rigid_ahead(const sbri_character *c, uint32_t body, float seconds);
 /* Puts the frames that bodies have for their own where the pose has these. */
 void sbri_rigid_frames_follow(const sbri_character *c, sbr_transform *pose);
 bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body);
@@ -68,6 +70,19 @@ void sbri_coupled_end(sbri_coupled *group);
 bool sbri_coupled_sleep(sbri_coupled *group);
 bool sbri_coupled_are_quiet(const sbri_character *c);
 void sbri_coupled_put_to_sleep(const sbr_world *world, sbri_character *c);
+
+/* ---- ragdoll/borne_flesh.c ---- */
+
+/* Whether a body is simulated and may bear its flesh; and how many steps a tick that begins now takes then.
+ */
+bool sbri_may_bear(const sbri_character *c, uint32_t body);
+float sbri_bearing_steps(const sbri_character *c, uint32_t body, float tick_s);
+/* Before a step of so long: finds out who bears its flesh in it, by `needed_steps`, and what that adds. */
+void sbri_burdens_begin(sbri_character *c, const sbri_rigid_tick *tick, float step_s);
+/* What the flesh pulled with, on who bears it. */
+void sbri_burden_push(const sbri_rigid_tick *tick, uint32_t body, const sbri_reaction *by);
+/* After the step: the flesh takes its share of how its bones' speeds have changed. */
+void sbri_burdens_end(sbri_character *c, const sbri_rigid_tick *tick, float step_s, float weight_s);
 
 /* ---- ragdoll/rigid_parts.c ---- */
 

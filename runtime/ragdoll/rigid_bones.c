@@ -60,8 +60,7 @@ static sbr_transform carried(
       sbri_scale(at, c->scale), sbri_quat_normalize(sbri_quat_multiply(turn, rest->rotation))};
 }
 
-/* A body goes on as it moves. */
-static sbr_transform ahead(const sbri_character *c, uint32_t body, float seconds) {
+sbr_transform sbri_rigid_ahead(const sbri_character *c, uint32_t body, float seconds) {
   const sbri_rigid_body_state *now = &sbri_rigid_bodies(c)[body];
   sbr_transform to = now->pose;
   if (!(seconds > 0)) return to;
@@ -96,7 +95,7 @@ void sbri_rigid_pose(
       continue;
     }
     if (sbri_body_frame(model, (uint32_t)body) == frame) {
-      sbr_transform now = ahead(c, (uint32_t)body, ahead_s), rest = sbri_frame_rest(model, frame);
+      sbr_transform now = sbri_rigid_ahead(c, (uint32_t)body, ahead_s), rest = sbri_frame_rest(model, frame);
       pose[frame] = carried(c, (uint32_t)body, &now, &rest);
       continue;
     }

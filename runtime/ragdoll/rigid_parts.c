@@ -81,6 +81,11 @@ static void act(void *user, const sbri_rigid_tick *tick, float from, float to) {
   sbri_reflex_act(group->character, tick, tick->tick_s * (to - from));
 }
 
+static void acted(void *user, const sbri_rigid_tick *tick, float step_s, float weight_s) {
+  const sbri_coupled *group = user;
+  if (group->any) sbri_burdens_end(group->character, tick, step_s, weight_s);
+}
+
 static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
   const sbr_transform *anchor = &sbri_pose(c)[sbri_anchor_frame(c->model)];
   return (sbri_rigid_tick){.model = &c->model->rigid,
@@ -121,8 +126,13 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   parts->steps = true;
   parts->tick = tick_of(world, c);
   sbri_coupled_begin(&parts->coupled);
-  parts->tick.pull = (sbri_rigid_pull){
-      act, &parts->coupled, parts->coupled.any ? model->pinned_squares : NULL, parts->coupled.steps};
+  bool any = parts->coupled.any;
+  parts->tick.pull = (sbri_rigid_pull){.act = act,
+      .acted = acted,
+      .user = &parts->coupled,
+      .squares = any ? model->pinned_squares : NULL,
+      .burdens = any ? sbri_burdens(c) : NULL,
+      .steps = parts->coupled.steps};
   sbri_rigid_begin(&parts->tick, &parts->work);
   return true;
 }

@@ -17,6 +17,7 @@ static const float MOST_TURN = 0.2f;
 static const float SLOW_1_S = 0.1f;
 
 float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s) {
+  if (pull->burdens && pull->burdens[body].on) return 1;
   float swell = pull->squares
                     ? pull->squares[body] * step_s * step_s / (SBRI_RIGID_MOST_SWING * SBRI_RIGID_MOST_SWING)
                     : 0;

@@ -19,6 +19,8 @@ static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
       node->d[k][k] = mass;
       for (int j = 0; j <= k; j++) node->d[3 + k][3 + j] = node->swell * node->inertia[k][j];
     }
+    for (int k = 0; node->burden && k < 6; k++)
+      for (int j = 0; j <= k; j++) node->d[k][j] += node->burden[k][j];
     memcpy(node->b, node->push, sizeof node->b);
   }
   sbri_ground_touches_add(work);

@@ -45,6 +45,11 @@ static void find_slope(
         double inertia = (double)(node->swell * node->inertia[k][j]);
         a += inertia * node->was[3 + k] * way[3 + j], q += inertia * way[3 + k] * way[3 + j];
       }
+    for (int k = 0; node->burden && k < 6; k++)
+      for (int j = 0; j < 6; j++) {
+        double mass_of = node->burden[k][j];
+        a += mass_of * node->was[k] * way[j], q += mass_of * way[k] * way[j];
+      }
   }
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];

@@ -85,13 +85,25 @@ typedef struct sbri_kept_touch {
 
 struct sbri_rigid_tick;
 
+/* What flesh adds to the masses and moments of a body that bears it through a step: ragdoll/borne_flesh.c. */
+typedef struct sbri_rigid_burden {
+  bool on;
+  double mass[6][6];   /* about the body's centre, in space */
+  float needed_steps;  /* of a tick, if it were not borne */
+  sbr_transform begin; /* of the body, when the step begins: */
+  sbf_vec3 velocity, spin;
+} sbri_rigid_burden;
+
 /* What else acts on the bodies: called before each step over that share of the tick, `act` adds impulses to
- * their velocities and spins (sbri_rigid_swell). */
+ * their velocities and spins (sbri_rigid_swell); `acted` is called after it, with its seconds, and those for
+ * which weight has changed velocities in it. */
 typedef struct sbri_rigid_pull {
   void (*act)(void *user, const struct sbri_rigid_tick *tick, float from, float to);
+  void (*acted)(void *user, const struct sbri_rigid_tick *tick, float step_s, float weight_s);
   void *user;
-  const float *squares; /* (body_count) rad^2/s^2, that it makes a body swing by at most */
-  uint32_t steps;       /* of a tick, at least */
+  const float *squares;             /* (body_count) rad^2/s^2, that it makes a body swing by at most */
+  const sbri_rigid_burden *burdens; /* (body_count); NULL: nobody bears anything */
+  uint32_t steps;                   /* of a tick, at least */
 } sbri_rigid_pull;
 
 /* A tick of all rigid parts of a character. */
@@ -122,6 +134,9 @@ uint32_t sbri_rigid_touch_capacity(const sbri_rigid_model *model);
 /* A body that what pulls on it would swing too fast for the most steps that there are is as if that much
  * heavier, to all but weight. */
 float sbri_rigid_swell(const sbri_rigid_pull *pull, uint32_t body, float step_s);
+
+/* Principal moments of a body that is turned so, in space. */
+void sbri_rigid_moments(sbf_vec3 own, sbf_quat turn, float to[3][3]);
 
 /* Mean angular velocity over a step of what keeps its angular momentum, and where it turns to. */
 sbf_vec3 sbri_free_turn(

@@ -118,7 +118,7 @@ static void go(const sbri_rigid_tick *t, uint32_t b, sbri_part_motion *m, float 
   m->turn = sbri_free_turn(&t->model->bodies[b], m->from.rotation, s->spin, step_s, &m->to.rotation);
 }
 
-static void spread(sbf_vec3 own, sbf_quat turn, float to[3][3]) {
+void sbri_rigid_moments(sbf_vec3 own, sbf_quat turn, float to[3][3]) {
   const sbf_vec3 axes[3] = {sbri_rotate(turn, sbri_vec3(1, 0, 0)), sbri_rotate(turn, sbri_vec3(0, 1, 0)),
       sbri_rotate(turn, sbri_vec3(0, 0, 1))};
   const float moments[3] = {own.x, own.y, own.z};
@@ -148,11 +148,12 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
         sbri_add_scaled(s->velocity, t->gravity, work->kick_s * model->bodies[b].source->gravity_scale);
     go(t, b, m, step_s);
     sbri_node *node = &work->system.nodes[m->node];
-    spread(model->bodies[b].inertia, m->from.rotation, node->inertia);
+    sbri_rigid_moments(model->bodies[b].inertia, m->from.rotation, node->inertia);
     const sbf_vec3 *ease = &model->bodies[b].inverse_inertia;
     node->ease[0] = model->bodies[b].inverse_mass;
     node->ease[1] = (ease->x + ease->y + ease->z) / 3;
     node->swell = sbri_rigid_swell(&t->pull, b, step_s);
+    node->burden = t->pull.burdens && t->pull.burdens[b].on ? t->pull.burdens[b].mass : NULL;
     memset(node->push, 0, sizeof node->push);
   }
 }
@@ -340,8 +341,11 @@ void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
 
 void sbri_rigid_advance(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   if (!work->system.node_count) return;
+  float before_s = work->last_step_s;
   if (t->pull.act) t->pull.act(t->pull.user, t, from, to);
   substep(t, work, from, to, 0);
+  float step_s = t->tick_s * (to - from), weight_s = step_s + 0.5f * (before_s - work->last_step_s);
+  if (t->pull.acted) t->pull.acted(t->pull.user, t, step_s, weight_s);
 }
 
 void sbri_rigid_end(const sbri_rigid_tick *t, sbri_rigid_solving *work) {

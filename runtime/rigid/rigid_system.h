@@ -84,11 +84,12 @@ typedef struct sbri_node {
   int32_t parent, edge; /* -1: root; -1: no joint holds it to its parent or the world */
   double d[6][6];       /* lower half, then its factor, with the pivots' inverses on the diagonal */
   double b[6], x[6];
-  double was[6];       /* x of the pass before */
-  double push[6];      /* impulses that are known already: of drives that give their maximum */
-  float inertia[3][3]; /* in space */
-  float swell;         /* sbri_rigid_swell */
-  float ease[2];       /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
+  double was[6];             /* x of the pass before */
+  double push[6];            /* impulses that are known already: of drives that give their maximum */
+  float inertia[3][3];       /* in space */
+  float swell;               /* sbri_rigid_swell */
+  const double (*burden)[6]; /* sbri_rigid_burden.mass; NULL: it bears nothing */
+  float ease[2];             /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
 } sbri_node;
 
 typedef struct sbri_rigid_system {

@@ -84,15 +84,16 @@ static inline sbri_wide3 sbri_decayed(
   return v;
 }
 
-/* v += h a(x), and what damping leaves of it. */
-static inline void sbri_kick_body(
-    const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep, int kind, float *stretches) {
+/* v += h a(x), and what damping leaves of it; `pulls`: NULL, or what the springs do is added to that. */
+static inline void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep,
+    int kind, float *stretches, sbri_pull_sums *pulls) {
   sbri_wide step = sbri_wide_all(h);
   bool guided = sbri_is_guided(t, body, keep);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot), v = sbri_load3(velocity);
     sbri_wide3 a = sbri_acceleration(t, slot, x, kind, stretches);
+    if (pulls) sbri_pulls_add(t, slot, x, a, pulls);
     v.x = v.x + step * a.x;
     v.y = v.y + step * a.y;
     v.z = v.z + step * a.z;
@@ -111,15 +112,17 @@ static inline void sbri_kick(const sbri_island_tick *t, float h, float self_s, b
   int kind = sbri_force_kind(t, last);
   if (t->outer) sbri_outer_forces(t, h);
   if (t->island->region_block_count > 0) sbri_region_forces(t);
-  if (t->reactions) sbri_react(t, h);
+  sbri_pull_sums sums = {{{0}}, {{0}}}, *pulls = t->reactions && sbri_pulls_tell_all(t) ? &sums : NULL;
+  if (t->reactions && !pulls) sbri_react(t, h);
   for (uint32_t b = 0; b < t->island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
     sbri_decay keep = sbri_decay_of(body, h);
-#define SBRI_CALL(known) sbri_kick_body(t, body, h, keep, known, stretches)
+#define SBRI_CALL(known) sbri_kick_body(t, body, h, keep, known, stretches, pulls)
     SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
     if (!body->held && self_s > 0 && body->alpha_1_s > 0) sbri_self_damp(t, body, self_s);
   }
+  if (pulls) sbri_react_by_pulls(t, pulls, h);
 }
 
 /* The damping alone, over h seconds. */

@@ -6,6 +6,7 @@
 #ifndef SBRI_REACTION_H
 #define SBRI_REACTION_H
 
+#include "math/lane_sums.h"
 #include "math/vec3.h"
 #include "solvers/outer_forces.h"
 #include "solvers/region_forces.h"
@@ -77,6 +78,33 @@ static inline void sbri_react(const sbri_island_tick *t, float h) {
       sbri_react_at(t, slot, sum, h);
     }
   }
+}
+
+/* Of springs alone whose held ends all go with one rigid body: forces between two points along the line
+ * through both leave no sum and no moment, so what they do to the free points tells what they do to that
+ * body. By lanes of eight, so that the sums are the same for any number of them at once. */
+typedef sbri_lane_sums sbri_pull_sums; /* N and N m on the free points, about reaction.about */
+
+static inline bool sbri_pulls_tell_all(const sbri_island_tick *t) {
+  return t->island->answers && !t->outer && !sbri_has_element_forces(t->island);
+}
+
+/* Of a group of lanes at x with accelerations a. */
+static inline void sbri_pulls_add(
+    const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, sbri_wide3 a, sbri_pull_sums *pulls) {
+  const sbf_vec3 about = t->reactions[t->island->carriers[0]].about;
+  sbri_wide m = sbri_wide_load(t->island->masses + slot),
+            g = sbri_wide_load(t->island->gravity_scales + slot);
+  sbri_wide3 f = {m * (a.x - g * sbri_wide_all(t->gravity.x)), m * (a.y - g * sbri_wide_all(t->gravity.y)),
+      m * (a.z - g * sbri_wide_all(t->gravity.z))};
+  sbri_wide3 r = {x.x - sbri_wide_all(about.x), x.y - sbri_wide_all(about.y), x.z - sbri_wide_all(about.z)};
+  sbri_lane_sums_add(pulls, slot % SBRI_BLOCK, r, f);
+}
+
+static inline void sbri_react_by_pulls(const sbri_island_tick *t, const sbri_pull_sums *pulls, float h) {
+  sbri_reaction *r = &t->reactions[t->island->carriers[0]];
+  r->impulse = sbri_add_scaled(r->impulse, sbri_lanes_push(pulls), -h);
+  r->moment = sbri_add_scaled(r->moment, sbri_lanes_moment(pulls), -h);
 }
 
 /* The same of schemes that do not go by forces: those at the substep's end. */

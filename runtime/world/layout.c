@@ -86,6 +86,7 @@ static void make_layout(sbr_model *model) {
   l->animated = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
   l->rigid_targets = place(&end, model->rigid.body_count, sizeof(sbr_transform));
   l->reactions = place(&end, model->rigid.body_count, sizeof(sbri_reaction));
+  l->burdens = place(&end, model->rigid.body_count, sizeof(sbri_rigid_burden));
   l->stepped_pose = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
   l->rigid_work = place(&end, sbri_rigid_work_size(&model->rigid), 1);
   l->gait_before = place(&end, 1, sbri_gait_state_size(&model->rig));

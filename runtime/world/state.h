@@ -143,6 +143,7 @@ SBRI_SCRATCH_PART(
     animated, sbr_transform, c->model->layout.animated) /* (frame_count) pose before rigid parts */
 SBRI_SCRATCH_PART(rigid_targets, sbr_transform, c->model->layout.rigid_targets) /* (rigid bodies) */
 SBRI_SCRATCH_PART(reactions, sbri_reaction, c->model->layout.reactions)         /* (rigid bodies) */
+SBRI_SCRATCH_PART(burdens, sbri_rigid_burden, c->model->layout.burdens)         /* (rigid bodies) */
 SBRI_SCRATCH_PART(stepped_pose, sbr_transform, c->model->layout.stepped_pose)   /* (frame_count) in a tick */
 SBRI_SCRATCH_PART(rigid_work, void, c->model->layout.rigid_work)
 SBRI_SCRATCH_PART(gait_before, void, c->model->layout.gait_before)

@@ -106,3 +106,25 @@ double rigid_energy(const scene *s, uint32_t body_count) {
   }
   return sum;
 }
+
+void rigid_pin(
+    scene *s, sbf_level *level, uint32_t set_number, int32_t body, const uint32_t *points, uint32_t count) {
+  sbf_pin_set *sets = sbf_asset_allocate(s->asset, level->pins.count + 1, sizeof *sets);
+  uint32_t *copy = sbf_asset_allocate(s->asset, count, sizeof *copy);
+  ck_assert(sets && copy);
+  ck_assert_uint_eq(set_number, level->pins.count);
+  for (uint32_t i = 0; i < level->pins.count; i++) sets[i] = level->pins.at[i];
+  for (uint32_t i = 0; i < count; i++) copy[i] = points[i];
+  sbf_pin_set_init(&sets[set_number]);
+  sets[set_number].rigid_body = body;
+  sets[set_number].points = (sbf_u32_list){copy, count};
+  level->pins = (sbf_pin_set_list){sets, set_number + 1};
+}
+
+void rigid_push(const scene *s, uint32_t body, sbf_vec3 offset, sbf_vec3 impulse) {
+  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  sbf_vec3 c = rigid_state(s, body).center;
+  sbr_double3 at = {
+      o.x + (double)(c.x + offset.x), o.y + (double)(c.y + offset.y), o.z + (double)(c.z + offset.z)};
+  sbr_character_rigid_push(s->world, s->character, body, at, impulse);
+}

@@ -19,6 +19,12 @@ sbf_joint *rigid_joint(scene *s, sbf_joint_kind kind, int32_t a, uint32_t b, sbf
 void rigid_limit(scene *s, sbf_joint *joint, sbf_limit limit);
 void rigid_drive(scene *s, sbf_joint *joint, sbf_drive drive);
 
+/* The level's points that the body holds; sets are numbered as they are added. */
+void rigid_pin(
+    scene *s, sbf_level *level, uint32_t set_number, int32_t body, const uint32_t *points, uint32_t count);
+/* N s, at that place from the body's centre. */
+void rigid_push(const scene *s, uint32_t body, sbf_vec3 offset, sbf_vec3 impulse);
+
 sbr_rigid_state rigid_state(const scene *s, uint32_t body);
 sbr_joint_state rigid_joint_state(const scene *s, uint32_t joint);
 /* Of all bodies, J. */

@@ -18,28 +18,6 @@ static scene weightless(void) {
   return s;
 }
 
-static void pin_to(
-    scene *s, sbf_level *level, uint32_t set_number, int32_t body, const uint32_t *points, uint32_t count) {
-  sbf_pin_set *sets = sbf_asset_allocate(s->asset, level->pins.count + 1, sizeof *sets);
-  uint32_t *copy = sbf_asset_allocate(s->asset, count, sizeof *copy);
-  ck_assert(sets && copy);
-  ck_assert_uint_eq(set_number, level->pins.count);
-  for (uint32_t i = 0; i < level->pins.count; i++) sets[i] = level->pins.at[i];
-  for (uint32_t i = 0; i < count; i++) copy[i] = points[i];
-  sbf_pin_set_init(&sets[set_number]);
-  sets[set_number].rigid_body = body;
-  sets[set_number].points = (sbf_u32_list){copy, count};
-  level->pins = (sbf_pin_set_list){sets, set_number + 1};
-}
-
-static void push(const scene *s, uint32_t body, sbf_vec3 offset, sbf_vec3 impulse) {
-  sbr_double3 o = sbr_character_origin(s->world, s->character);
-  sbf_vec3 c = rigid_state(s, body).center;
-  sbr_double3 at = {
-      o.x + (double)(c.x + offset.x), o.y + (double)(c.y + offset.y), o.z + (double)(c.z + offset.z)};
-  sbr_character_rigid_push(s->world, s->character, body, at, impulse);
-}
-
 /* A block of flesh of that mass, both ends of which are held by a box each. */
 static scene dumbbell(float soft_kg, float rigid_kg, float damping_ratio) {
   scene s = weightless();
@@ -51,7 +29,7 @@ static scene dumbbell(float soft_kg, float rigid_kg, float damping_ratio) {
     float x = end ? 0.22f : -0.22f;
     uint32_t body = rigid_box(&s, (sbf_vec3){x, 0, 0}, (sbf_vec3){0.08f, 0.12f, 0.12f}, rigid_kg), points[9];
     for (uint32_t i = 0; i < 9; i++) points[i] = lattice_box_point(&box, end ? 8 : 0, i % 3, i / 3);
-    pin_to(&s, level, (uint32_t)end, (int32_t)body, points, 9);
+    rigid_pin(&s, level, (uint32_t)end, (int32_t)body, points, 9);
   }
   lattice_box_free(&box);
   return s;
@@ -69,7 +47,7 @@ START_TEST(a_hit_keeps_momentum)
   float whole = dumbbells[_i].soft_kg + 2 * dumbbells[_i].rigid_kg;
   float kg = dumbbells[_i].rigid_kg; /* at some 2 m/s */
   sbf_vec3 impulse = {0.9f * kg, 1.5f * kg, 0.3f * kg};
-  push(&s, 0, (sbf_vec3){0, 0, 0.05f}, impulse);
+  rigid_push(&s, 0, (sbf_vec3){0, 0, 0.05f}, impulse);
   scene_momentum first = scene_momentum_of(&s);
   ck_assert_double_eq_tol(first.linear[1], (double)impulse.y, 1e-5 * (double)whole);
   for (int second = 0; second < 5; second++) {
@@ -109,10 +87,10 @@ START_TEST(springs_keep_momentum)
   for (uint32_t end = 0; end < 2; end++) {
     float x = end ? 0.22f : -0.22f;
     uint32_t body = rigid_box(&s, (sbf_vec3){x, 0, 0}, (sbf_vec3){0.08f, 0.12f, 0.12f}, 1);
-    pin_to(&s, level, end, (int32_t)body, pinned[end], 4);
+    rigid_pin(&s, level, end, (int32_t)body, pinned[end], 4);
   }
   scene_start(&s);
-  push(&s, 0, (sbf_vec3){0, 0, 0.05f}, (sbf_vec3){0.09f, 0.15f, 0.03f});
+  rigid_push(&s, 0, (sbf_vec3){0, 0, 0.05f}, (sbf_vec3){0.09f, 0.15f, 0.03f});
   scene_momentum first = scene_momentum_of(&s);
   for (int second = 0; second < 5; second++) {
     scene_ticks(&s, 60);
@@ -162,8 +140,8 @@ START_TEST(a_mass_swings_on_a_soft_spring)
   scene_springs(&s, level, ends, k, 2);
   const uint32_t top = 0, bottom = 2;
   uint32_t body = rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, masses[_i]);
-  pin_to(&s, level, 0, -1, &top, 1);
-  pin_to(&s, level, 1, (int32_t)body, &bottom, 1);
+  rigid_pin(&s, level, 0, -1, &top, 1);
+  rigid_pin(&s, level, 1, (int32_t)body, &bottom, 1);
   scene_start(&s);
   float sag = (masses[_i] * 9.81f + 0.01f * 9.81f) / stiffness[_i];
   double expected = 2 * PI * sqrt((double)(masses[_i] + 0.005f) / (double)stiffness[_i]);
@@ -186,9 +164,9 @@ START_TEST(both_ends_of_a_spring_swing)
   sbf_level *level = scene_points(&s, 0, at, points_kg, 2);
   scene_springs(&s, level, ends, k, 1);
   uint32_t body = rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1);
-  pin_to(&s, level, 0, (int32_t)body, &bottom, 1);
+  rigid_pin(&s, level, 0, (int32_t)body, &bottom, 1);
   scene_start(&s);
-  push(&s, body, (sbf_vec3){0, 0, 0}, (sbf_vec3){0, 0.05f, 0});
+  rigid_push(&s, body, (sbf_vec3){0, 0, 0}, (sbf_vec3){0, 0.05f, 0});
   sbri_character *c = sbri_character_of(s.world, s.character);
   sbri_velocities(c)[SBRI_BLOCK] = -0.05f / soft[_i]; /* all of it stands */
   double expected = 2 * PI * sqrt((double)(soft[_i] / (soft[_i] + 1) / 50));
@@ -213,7 +191,7 @@ START_TEST(a_load_presses_a_column)
   for (int end = 0; end < 2; end++) {
     uint32_t points[9];
     for (uint32_t i = 0; i < 9; i++) points[i] = lattice_box_point(&box, i % 3, end ? 4 : 0, i / 3);
-    pin_to(&s, level, (uint32_t)end, end ? (int32_t)body : -1, points, 9);
+    rigid_pin(&s, level, (uint32_t)end, end ? (int32_t)body : -1, points, 9);
   }
   lattice_box_free(&box);
   scene_start(&s);
@@ -248,11 +226,11 @@ START_TEST(flesh_hangs_on_a_joint)
            points[9];
   rigid_joint(&s, SBF_JOINT_KIND_SPHERICAL, -1, body, (sbf_vec3){0, 0, 0}, rigid_along_y);
   for (uint32_t i = 0; i < 9; i++) points[i] = lattice_box_point(&box, i % 3, 5, i / 3);
-  pin_to(&s, level, 0, (int32_t)body, points, 9);
+  rigid_pin(&s, level, 0, (int32_t)body, points, 9);
   lattice_box_free(&box);
   scene_start(&s);
   scene_ticks(&s, 60);
-  push(&s, body, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.3f * hung[_i].rigid_kg, 0, 0});
+  rigid_push(&s, body, (sbf_vec3){0, 0, 0}, (sbf_vec3){0.3f * hung[_i].rigid_kg, 0, 0});
   float apart = 0, farthest = 0;
   for (int i = 0; i < 600; i++) {
     sbr_world_tick(s.world);
@@ -290,7 +268,7 @@ START_TEST(the_same_bits_on_any_threads)
       s.character_definition.heading += 0.7f;
       ck_assert_int_eq(sbr_character_create(s.world, s.model, &s.character_definition, &id, NULL), SBF_OK);
     }
-    push(&s, 0, (sbf_vec3){0, 0, 0.05f}, (sbf_vec3){1, 2, 0.5f});
+    rigid_push(&s, 0, (sbf_vec3){0, 0, 0.05f}, (sbf_vec3){1, 2, 0.5f});
     scene_ticks(&s, 30);
     size_t size = sbr_world_snapshot_size(s.world);
     void *kept = malloc(size);
@@ -324,7 +302,7 @@ START_TEST(they_sleep_together)
   ck_assert_int_ge(slept_at, 30);
   ck_assert_uint_eq(sbri_head(c)->asleep, 1);
   sbf_vec3 before = scene_point(&s, 0, 40);
-  push(&s, 0, (sbf_vec3){0, 0, 0}, (sbf_vec3){0, 3, 0});
+  rigid_push(&s, 0, (sbf_vec3){0, 0, 0}, (sbf_vec3){0, 3, 0});
   scene_ticks(&s, 12);
   ck_assert_uint_eq(sbri_island_states(c)[0].asleep, 0);
   ck_assert_float_ge(fabsf(scene_point(&s, 0, 40).y - before.y), 0.005f);

@@ -1,0 +1,120 @@
+/* A character of soft sections on bones that is knocked over: the example lizard, 22 sections of springs on
+ * 22 simulated bodies, dropped limp from its stand and lying, nothing asleep, three seconds.
+ *
+ * `steps` is what rigid parts are asked for in a tick (`rigid_substeps`; 0: what the runtime takes by itself,
+ * with bones that bear their flesh; 64: more than its softness asks for, so that none does, which is what
+ * `bone_mm` and `flesh_mm` are measured against: root of the mean square of how far bodies and points are
+ * from there, over the first third of a second, in which it strikes the ground). `tick_us` is a tick's
+ * processor time, the least of the rounds of the mean over all; `walk_us` of the same character walking, for
+ * comparison.
+ *
+ * Ends with a failure where it goes elsewhere. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "measured_assets.h"
+#include "measuring.h"
+#include "sbrun/rigid.h"
+
+enum { TICKS = 180, COMPARED = 20, MOST_POINTS = 16384, MOST_BODIES = 64 };
+
+typedef struct knock {
+  double tick_us;
+  uint32_t body_count, point_count;
+  sbf_vec3 (*bodies)[MOST_BODIES], (*points)[MOST_POINTS]; /* (COMPARED) */
+} knock;
+
+static knock knock_of(uint32_t body_count) {
+  return (knock){.body_count = body_count,
+      .bodies = bench_allocate(COMPARED, sizeof(sbf_vec3[MOST_BODIES])),
+      .points = bench_allocate(COMPARED, sizeof(sbf_vec3[MOST_POINTS]))};
+}
+
+static void knock_free(knock *k) {
+  free(k->bodies);
+  free(k->points);
+}
+
+static void note(const sbr_world *world, sbr_character_id id, const sbf_asset *asset, knock *k, int tick) {
+  k->point_count = 0;
+  for (uint32_t b = 0; b < k->body_count; b++)
+    k->bodies[tick][b] = sbr_character_rigid_state(world, id, b).center;
+  for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
+    k->point_count +=
+        sbr_character_points(world, id, b, k->points[tick] + k->point_count, MOST_POINTS - k->point_count);
+}
+
+static double run(const sbf_asset *asset, const sbr_model *model, bool falls, int ticks, knock *k) {
+  sbr_world_definition definition = sbr_default_world_definition();
+  sbr_character_definition standing = sbr_default_character_definition();
+  sbr_world *world;
+  sbr_character_id id;
+  sbf_diagnostic error;
+  double taken = 0;
+  definition.ground = sbr_ground_flat(0);
+  definition.sleep_after_s = 0;
+  bench_require(sbr_world_create(&definition, &world, &error), &error);
+  bench_require(sbr_character_create(world, model, &standing, &id, &error), &error);
+  if (falls)
+    sbr_character_rigid_mode(world, id, -1, SBR_RIGID_PASSIVE);
+  else
+    sbr_character_drive(world, id, 0.3f, 0, 0);
+  for (int t = 0; t < ticks; t++) {
+    double begin = bench_now_s();
+    sbr_world_tick(world);
+    taken += bench_now_s() - begin;
+    if (k && t < COMPARED) note(world, id, asset, k, t);
+  }
+  sbr_world_destroy(world);
+  return 1e6 * taken / ticks;
+}
+
+static double off_mm(const sbf_vec3 *a, const sbf_vec3 *b, uint32_t count) {
+  double sum = 0;
+  for (uint32_t i = 0; i < count; i++) {
+    double x = (double)(a[i].x - b[i].x), y = (double)(a[i].y - b[i].y), z = (double)(a[i].z - b[i].z);
+    sum += x * x + y * y + z * z;
+  }
+  return sum / count;
+}
+
+int main(int argument_count, char **arguments) {
+  static const uint32_t steps[] = {64, 40, 32, 16, 12, 8, 0};
+  enum { CASES = sizeof steps / sizeof *steps };
+  bool quick = bench_is_quick(argument_count, arguments);
+  sbf_asset *asset = our_lizard(true);
+  sbr_model *models[CASES];
+  sbf_diagnostic error;
+  knock knocks[CASES];
+  double walk_us = 0;
+  int rounds = quick ? 1 : 5, ticks = quick ? COMPARED : TICKS;
+  if (asset->rigid_bodies.count > MOST_BODIES) bench_fail("the lizard has too many bodies");
+  for (int i = 0; i < CASES; i++) {
+    sbr_model_options options = {.rigid_substeps = steps[i]};
+    bench_require(sbr_model_create(asset, &options, &models[i], &error), &error);
+    knocks[i] = knock_of(asset->rigid_bodies.count);
+  }
+  for (int r = 0; r < rounds; r++) {
+    for (int i = 0; i < CASES; i++) {
+      double us = run(asset, models[i], true, ticks, &knocks[i]);
+      if (r == 0 || us < knocks[i].tick_us) knocks[i].tick_us = us;
+    }
+    double us = run(asset, models[CASES - 1], false, ticks, NULL);
+    if (r == 0 || us < walk_us) walk_us = us;
+  }
+  bench_print_columns("scene,sections,steps,tick_us,walk_us,bone_mm,flesh_mm");
+  for (int i = 0; i < CASES; i++) {
+    double bones = 0, flesh = 0;
+    for (int t = 0; t < COMPARED; t++) {
+      bones += off_mm(knocks[i].bodies[t], knocks[0].bodies[t], knocks[i].body_count) / COMPARED;
+      flesh += off_mm(knocks[i].points[t], knocks[0].points[t], knocks[i].point_count) / COMPARED;
+    }
+    bench_print_row("knocked lizard,%u,%u,%.0f,%.0f,%.3f,%.3f", asset->soft_bodies.count, steps[i],
+        knocks[i].tick_us, walk_us, 1e3 * sqrt(bones), 1e3 * sqrt(flesh));
+    if (!(bones < 1e-5) || !(flesh < 4e-5)) bench_fail("it goes elsewhere in %u steps", steps[i]);
+    sbr_model_destroy(models[i]);
+  }
+  for (int i = 0; i < CASES; i++) knock_free(&knocks[i]);
+  sbf_asset_free(asset);
+  return 0;
+}
