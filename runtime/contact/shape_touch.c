@@ -13,6 +13,7 @@ typedef struct meeting {
   sbri_collider_frame frame;
   uint32_t number; /* of the collider */
   sbri_box bounds; /* of the shape, grown by the ways that touches may have */
+  float fastest_m; /* the longest way that one of the body's places has in the tick */
 } meeting;
 
 /* The plane for a place that goes from `begin` to `end` in the shape's frame: where it enters, or what it is
@@ -43,18 +44,20 @@ static void add_sample(const meeting *m, const sbri_sample *s) {
   if (!sbri_box_meets(&m->bounds, &way)) return;
   const sbf_collision *rule = &m->body->source->collision;
   float margin = m->body->margin_m * t->scale;
-  float reach = margin + sbri_length(sbri_sub(end, begin)) + SLACK_SHARE * m->body->rest_size_m * t->scale;
+  float own = sbri_length(sbri_sub(end, begin));
+  float reach =
+      margin + (own > m->fastest_m ? own : m->fastest_m) + SLACK_SHARE * m->body->rest_size_m * t->scale;
   sbri_nearest found;
   if (!find_plane(m, begin, end, reach, rule->inner_thickness * t->scale, &found)) return;
   sbf_vec3 normal = sbri_rotate(m->frame.collider->turn_from, found.normal);
   sbf_vec3 place = sbri_out_of_shape(&m->frame, found.place);
   sbf_vec3 velocity = sbri_scale(sbri_shape_way(&m->frame, found.place), 1 / t->tick_s);
-  float own = m->body->friction;
+  float friction = m->body->friction;
   m->tables->touches[m->body->first_touch + (*count)++] = (sbri_touch){.sample = *s,
       .normal = normal,
       .offset = sbri_dot(normal, place) + m->body->margin_m,
       .velocity = velocity,
-      .friction_share = own > 0 ? sbri_friction_with(m->frame.collider, own) / own : 1,
+      .friction_share = friction > 0 ? sbri_friction_with(m->frame.collider, friction) / friction : 1,
       .restitution = sbri_restitution_with(m->frame.collider, m->body->restitution),
       .collider = m->number};
 }
@@ -72,7 +75,7 @@ static void add_all(const meeting *m) {
 }
 
 /* Where the ways of the body's places may take them, and the greatest of these. */
-static sbri_box ways_of(const sbri_island_tick *t, const sbri_body *body, float *longest) {
+static sbri_box ways_of(const sbri_island_tick *t, const sbri_body *body, float *fastest, float *longest) {
   sbri_box box = sbri_box_of_point(sbri_vec3(
       t->positions[body->slot_begin].x, t->positions[body->slot_begin].y, t->positions[body->slot_begin].z));
   float most = 0;
@@ -87,8 +90,8 @@ static sbri_box ways_of(const sbri_island_tick *t, const sbri_body *body, float 
        slot++)
     box = sbri_box_with(box, sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z));
   sbf_vec3 size = sbri_sub(box.high, box.low);
-  *longest = sqrtf(most) * t->tick_s * (1 + 2 * body->sample_beyond) + SLACK_SHARE * body->rest_size_m +
-             body->margin_m;
+  *fastest = sqrtf(most) * t->tick_s;
+  *longest = *fastest * (1 + 2 * body->sample_beyond) + SLACK_SHARE * body->rest_size_m + body->margin_m;
   return sbri_box_grown(box, *longest + body->sample_beyond * (size.x + size.y + size.z));
 }
 
@@ -97,8 +100,8 @@ void sbri_shape_touches_add(
   const sbri_collider_set *set = t->colliders;
   const sbf_collision *rule = &body->source->collision;
   if (!set || !set->tree.node_count || body->slot_begin == body->slot_real_end) return;
-  float longest;
-  sbri_box ways = ways_of(t, body, &longest), world = sbri_box_in_world(ways, t->origin, t->scale);
+  float fastest, longest;
+  sbri_box ways = ways_of(t, body, &fastest, &longest), world = sbri_box_in_world(ways, t->origin, t->scale);
   sbri_bounds_walk walk;
   uint32_t item;
   sbri_bounds_walk_begin(&walk, &set->tree, world);
@@ -108,7 +111,7 @@ void sbri_shape_touches_add(
         !sbri_layers_meet(rule->layer, rule->mask, c->layer, c->mask))
       continue;
     meeting m = {t, body, tables, sbri_collider_frame_of(c, t->origin, t->scale), set->listed[item],
-        sbri_box_grown(c->shape->bounds, longest * t->scale)};
+        sbri_box_grown(c->shape->bounds, longest * t->scale), fastest * t->scale};
     add_all(&m);
   }
 }
