@@ -114,7 +114,8 @@ typedef struct sbr_model_options {
   float step_error_m;   /* error that a step of a scheme with error control (heun) may have; 0: the file's,
                            else 0.0001 */
   sbr_instructions instructions; /* for the solvers' loops */
-  uint32_t rigid_substeps;       /* of a control tick for rigid parts (sbrun/rigid.h), at most 1000; 0: 4 */
+  uint32_t rigid_substeps;       /* of a control tick for rigid parts (sbrun/rigid.h), in flight a quarter at
+                                  * the least; at most 1000; 0: 4 */
   bool ladder; /* coarser levels than `level` as well, jiggle and bones alone, between which characters change
                   (sbrun/detail.h) */
 } sbr_model_options;
