@@ -34,11 +34,13 @@ static const float AROUND = 1.3f; /* of a sole: its footprint is drawn so wide, 
 typedef struct footprint {
   sbf_vec3 place, normal;
   float radius; /* m */
+  uint32_t leg;
 } footprint;
 
 struct stage {
   footprint prints[PRINTS];
-  uint32_t print_count; /* ever; the last PRINTS are kept */
+  uint32_t print_count;         /* ever; the last PRINTS are kept */
+  uint32_t print_of[MOST_LEGS]; /* of all ever, the last that each has left */
   bool was_planted[MOST_LEGS];
   float sole_radii[MOST_LEGS]; /* m, at rest */
   unsigned show;
@@ -381,39 +383,57 @@ static int32_t leg_knee(const sbf_asset *asset, uint32_t leg) {
   return knee;
 }
 
+/* Those of feet that still stand there can be seen through what stands before them. */
+static void show_prints(const stage *st, const sbr_leg_state *legs, draw_scene *scene) {
+  uint32_t first = st->print_count > PRINTS ? st->print_count - PRINTS : 0;
+  for (uint32_t p = first; p < st->print_count; p++) {
+    const footprint *print = &st->prints[p % PRINTS];
+    bool stands = legs[print->leg].planted && st->print_of[print->leg] == p;
+    (stands ? draw_scene_add_ring_mark : draw_scene_add_print)(
+        scene, print->place, print->normal, print->radius, 3, draw_colour_of_contact());
+  }
+}
+
+/* A line, and a dot where it ends. */
+static void mark_line(draw_scene *scene, sbf_vec3 from, sbf_vec3 to, float dot, draw_colour colour) {
+  draw_scene_add_mark(scene, &(draw_line){from, to, colour, colour, 3});
+  draw_scene_add_mark(scene, &(draw_line){to, to, colour, colour, dot});
+}
+
 /* Footprints as rings; from every knee a line to its pole; of a foot in the air where it goes, and the ray
- * below it. */
+ * from it down to the ground. */
 static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
   sbr_leg_state legs[MOST_LEGS];
   uint32_t count = sbr_character_legs(s->world, s->character, legs, MOST_LEGS);
   float size = 0;
-  for (uint32_t i = 0; i < count && i < MOST_LEGS; i++) {
+  count = count < MOST_LEGS ? count : MOST_LEGS;
+  for (uint32_t i = 0; i < count; i++) {
     float length = s->asset->bones.at[leg_knee(s->asset, i)].length;
     size = length > size ? 0.25f * length : size;
+    to_world(origin, &legs[i].foot, 1);
+    to_world(origin, &legs[i].target, 1);
+    to_world(origin, &legs[i].pole, 1);
   }
-  for (uint32_t i = 0; i < count && i < MOST_LEGS; i++) {
-    sbf_vec3 ends[2] = {legs[i].foot, legs[i].target}, below;
-    sbf_vec3 knee[2] = {st->bones[leg_knee(s->asset, i)].position, legs[i].pole};
-    to_world(origin, ends, 2);
-    to_world(origin, knee + 1, 1); /* bones are there already */
-    static const sbf_uint2 one[1] = {{{0, 1}}};
-    draw_scene_add_lines(scene, knee, 2, one, NULL, 1, draw_colour_of_pole(), 2.5f);
-    draw_scene_add_sphere(scene, knee[1], 0.2f * size, draw_colour_of_pole());
+  for (uint32_t i = 0; i < count; i++) {
     float around = AROUND * st->sole_radii[i];
-    footprint print = {.place = ends[0], .radius = around > size ? around : size};
-    float y = (float)s->ground.height(&s->ground, (double)ends[0].x, (double)ends[0].z, &print.normal);
-    if (legs[i].planted && !st->was_planted[i]) st->prints[st->print_count++ % PRINTS] = print;
+    footprint print = {.place = legs[i].foot, .radius = around > size ? around : size, .leg = i};
+    s->ground.height(&s->ground, (double)print.place.x, (double)print.place.z, &print.normal);
+    if (legs[i].planted && !st->was_planted[i]) {
+      st->print_of[i] = st->print_count;
+      st->prints[st->print_count++ % PRINTS] = print;
+    }
     st->was_planted[i] = legs[i].planted;
-    if (legs[i].planted) continue;
-    below = (sbf_vec3){ends[0].x, y, ends[0].z};
-    sbf_vec3 ray[2] = {ends[0], below};
-    draw_scene_add_lines(scene, ends, 2, one, NULL, 1, draw_colour_of_target(), 3);
-    draw_scene_add_sphere(scene, ends[1], 0.35f * size, draw_colour_of_target());
-    draw_scene_add_lines(scene, ray, 2, one, NULL, 1, draw_colour_of_ray(), 3);
   }
-  for (uint32_t i = 0; i < st->print_count && i < PRINTS; i++)
-    draw_scene_add_ring(
-        scene, st->prints[i].place, st->prints[i].normal, st->prints[i].radius, 3, draw_colour_of_contact());
+  show_prints(st, legs, scene);
+  for (uint32_t i = 0; i < count; i++) /* bones are in the world */
+    mark_line(scene, st->bones[leg_knee(s->asset, i)].position, legs[i].pole, 9, draw_colour_of_pole());
+  for (uint32_t i = 0; i < count; i++) {
+    if (legs[i].planted) continue;
+    sbf_vec3 foot = legs[i].foot, below = foot, normal;
+    below.y = (float)s->ground.height(&s->ground, (double)foot.x, (double)foot.z, &normal);
+    mark_line(scene, foot, legs[i].target, 13, draw_colour_of_target());
+    mark_line(scene, foot, below, 7, draw_colour_of_ray());
+  }
   draw_scene_add_legend(scene, "knee to its pole", draw_colour_of_pole());
   draw_scene_add_legend(scene, "ray down", draw_colour_of_ray());
   draw_scene_add_legend(scene, "where the step goes", draw_colour_of_target());

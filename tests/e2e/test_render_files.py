@@ -11,6 +11,7 @@ import textured_box
 from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes, read_text, write_bytes
 
 SMALL = ("--size", "160x120")
+MARKS = {"footprints": 0x2f7fd0, "targets": 0xe8743b, "rays": 0xc8283c, "poles": 0xa34fb0}  # as docs/gait.md calls their colours
 
 
 def draws(ending, folder, file):
@@ -59,6 +60,15 @@ def colours(data):
     return {row[x:x + 3] for row in rows for x in range(0, len(row), channels)}
 
 
+def marked(data):
+    """How many pixels have about the colour of each kind of the feet's marks, outside the corner of the legend."""
+    width, height, channels, rows = read_png(data)
+    seen = [row[x * channels:x * channels + 3] for y, row in enumerate(rows) for x in range(width)
+            if 2 * x > width or 10 * y < 7 * height]
+    return {kind: sum(all(abs(p[k] - (colour >> (16 - 8 * k) & 255)) <= 30 for k in range(3)) for p in seen)
+            for kind, colour in MARKS.items()}
+
+
 class Render(ProgramTest):
     @classmethod
     def setUpClass(cls):
@@ -101,6 +111,14 @@ class Render(ProgramTest):
         pictures = {show: self.draw("a.png", *SMALL, "--show", show)
                     for show in ("surface", "springs", "surface,springs", "bones", "hulls", "strain")}
         self.assertEqual(len(set(pictures.values())), len(pictures))
+
+    def test_feet_have_their_marks(self):
+        walk = ("--size", "480x360", "--seconds", "1.5", "--drive", "0.3,0.35")
+        with_marks, without = (marked(self.draw("a.png", *walk, "--show", show)) for show in ("surface,feet", "surface"))
+        for kind in MARKS:
+            with self.subTest(kind):
+                self.assertGreater(with_marks[kind], 9)
+                self.assertLess(without[kind], 3)
 
     def test_a_picture_of_a_later_moment_differs(self):
         self.assertNotEqual(self.draw("a.png", *SMALL), self.draw("b.png", *SMALL, "--seconds", "1", "--drive", "0.3,0"))

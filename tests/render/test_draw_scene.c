@@ -156,6 +156,22 @@ START_TEST(solid_meshes_of_one_look_are_one_part)
 }
 END_TEST
 
+START_TEST(marks_are_framed_but_not_rings)
+{
+  draw_colour black = draw_colour_rgb(0);
+  draw_camera plain, with_ring, with_mark;
+  draw_scene_add_sphere(scene, v3(0, 0, 0), 1, black);
+  draw_scene_frame(scene, &plain, 1, 0, 0);
+  draw_scene_add_ring_mark(scene, v3(9, 0, 0), v3(0, 1, 0), 1, 3, black);
+  draw_scene_frame(scene, &with_ring, 1, 0, 0);
+  draw_scene_add_mark(scene, &(draw_line){{0, 0, 0}, {9, 0, 0}, black, black, 3});
+  draw_scene_frame(scene, &with_mark, 1, 0, 0);
+  ck_assert_float_eq(with_ring.distance, plain.distance);
+  ck_assert_float_gt(with_mark.distance, 3 * plain.distance);
+  ck_assert_float_gt(with_mark.subject.x, 3);
+}
+END_TEST
+
 START_TEST(steady_frames_allocate_nothing)
 {
   const void *places[4] = {NULL};
@@ -205,6 +221,7 @@ int main(void) {
   tcase_add_test(tests, far_veils_come_first);
   tcase_add_test(tests, sections_seen_through_are_one_skin);
   tcase_add_test(tests, solid_meshes_of_one_look_are_one_part);
+  tcase_add_test(tests, marks_are_framed_but_not_rings);
   tcase_add_test(tests, steady_frames_allocate_nothing);
   tcase_add_test(tests, hull_shows_its_edges_but_not_its_cuts);
   tcase_add_test(tests, bone_without_length_is_nothing);

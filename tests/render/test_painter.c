@@ -212,6 +212,33 @@ START_TEST(deep_inside_a_veil_is_dimmer)
 }
 END_TEST
 
+START_TEST(marks_are_over_what_hides_them)
+{
+  draw_colour blue = draw_colour_rgb(0x0000e0);
+  add_square(0, 0, 1, 0.9f, 0xc02020, _i ? DRAW_XRAY : 0);
+  draw_scene_add_mark(scene, &(draw_line){{-0.6f, 0.3f, 0}, {0.2f, 0.3f, 0}, blue, blue, 30});
+  draw_scene_add_ring_mark(scene, v3(0, -0.2f, 0), v3(0, 0, 1), 0.4f, 30, blue);
+  paint();
+  ck_assert_int_gt(blueness(pixel_at(-0.2f, 0.3f)), 100);
+  ck_assert_int_gt(blueness(pixel_at(0.4f, -0.2f)), 100);
+  ck_assert_int_gt(redness(pixel_at(0, -0.2f)), 30); /* inside the ring */
+}
+END_TEST
+
+START_TEST(prints_lie_on_the_ground)
+{
+  draw_colour blue = draw_colour_rgb(0x0000e0);
+  camera.pitch = 0.5f;
+  draw_scene_set_floor(scene, -0.4f);
+  add_square(0.8f, 0, 0.8f, 0.5f, 0xc02020, 0);
+  draw_scene_add_print(scene, v3(-0.5f, -0.4f, 0), v3(0, 1, 0), 0.5f, 30, blue);
+  draw_scene_add_print(scene, v3(0.5f, -0.4f, 0), v3(0, 1, 0), 0.3f, 30, blue);
+  paint();
+  ck_assert_int_gt(blueness(pixel_at(-1, -0.37f)), 60);
+  ck_assert_int_gt(redness(pixel_at(0.8f, -0.37f)), 60); /* hidden */
+}
+END_TEST
+
 START_TEST(nearer_lines_are_over_farther)
 {
   draw_colour red = draw_colour_rgb(0xe00000), blue = draw_colour_rgb(0x0000e0);
@@ -253,7 +280,7 @@ START_TEST(same_scene_same_picture)
   add_square(0.2f, 0.1f, 0, 0.4f, 0x3050c0, _i ? DRAW_XRAY : 0);
   draw_scene_add_sphere(scene, v3(-0.6f, 0.2f, 0), 0.3f, draw_colour_rgb(0x808080));
   draw_scene_add_bone(scene, v3(-0.5f, -0.3f, 0), v3(0.4f, 0.4f, 0), draw_colour_of_bone());
-  draw_scene_add_ring(scene, v3(0, -0.49f, 0), v3(0, 1, 0), 0.4f, 2, draw_colour_of_target());
+  draw_scene_add_ring_mark(scene, v3(0, -0.49f, 0), v3(0, 1, 0), 0.4f, 2, draw_colour_of_target());
   draw_scene_add_legend(scene, "structural", draw_colour_rgb(0x1060c0));
   paint();
   for (size_t i = 0; i < sizeof rgb; i++) first[i] = rgb[i];
@@ -302,6 +329,8 @@ int main(void) {
   tcase_add_test(tests, image_repeats_and_is_multiplied);
   tcase_add_test(tests, veil_has_no_image);
   tcase_add_test(tests, deep_inside_a_veil_is_dimmer);
+  tcase_add_loop_test(tests, marks_are_over_what_hides_them, 0, 2);
+  tcase_add_test(tests, prints_lie_on_the_ground);
   tcase_add_test(tests, nearer_lines_are_over_farther);
   tcase_add_test(tests, line_behind_the_eye_is_cut);
   tcase_add_test(tests, ground_is_dark_under_what_stands_on_it);

@@ -15,8 +15,9 @@ void draw_scene_destroy(draw_scene *scene) {
   if (!scene) return;
   draw_scene_list *lists[] = {&scene->positions, &scene->normals, &scene->colours, &scene->uvs,
       &scene->smooth_normals, &scene->indices, &scene->parts, &scene->lines, &scene->sorted_lines,
-      &scene->line_corners, &scene->sorted_parts, &scene->overlay, &scene->placed_overlay,
-      &scene->ground_positions, &scene->ground_normals, &scene->ground_indices};
+      &scene->marks, &scene->prints, &scene->mark_rims, &scene->line_corners, &scene->sorted_parts,
+      &scene->overlay, &scene->placed_overlay, &scene->ground_positions, &scene->ground_normals,
+      &scene->ground_indices};
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) free(lists[i]->at);
   free(scene);
 }
@@ -30,6 +31,7 @@ void draw_scene_clear(draw_scene *scene) {
   scene->positions.count = scene->normals.count = scene->colours.count = scene->uvs.count = 0;
   scene->indices.count = scene->parts.count = 0;
   scene->lines.count = scene->sorted_lines.count = scene->sorted_parts.count = 0;
+  scene->marks.count = scene->prints.count = scene->mark_rims.count = 0;
   scene->overlay.count = scene->placed_overlay.count = 0;
   scene->overlay_rows = scene->note_rows = 0;
   draw_scene_clear_ground(scene);

@@ -62,7 +62,18 @@ void draw_scene_add_lines(draw_scene *scene, const sbf_vec3 *positions, uint32_t
     const sbf_uint2 *ends, const draw_colour *colours, uint32_t line_count, draw_colour colour, float width);
 
 void draw_scene_add_sphere(draw_scene *scene, sbf_vec3 centre, float radius, draw_colour colour);
-void draw_scene_add_ring(
+
+/* Marks are painted over all else, what is inside of bodies or behind them too, with a pale rim that sets
+ * them off from any skin; one that ends where it begins is a dot. Pictures are framed for their ends too, but
+ * not for rings. */
+void draw_scene_add_mark(draw_scene *scene, const draw_line *mark);
+void draw_scene_add_ring_mark(
+    draw_scene *scene, sbf_vec3 centre, sbf_vec3 normal, float radius, float width, draw_colour colour);
+
+/* A ring on the ground, which what stands before it hides; it may be left behind, no picture is framed for
+ * it.
+ */
+void draw_scene_add_print(
     draw_scene *scene, sbf_vec3 centre, sbf_vec3 normal, float radius, float width, draw_colour colour);
 
 /* A bone as animators know it: an octahedron, thick near its head, with a small ball at either end. */

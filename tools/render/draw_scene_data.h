@@ -27,6 +27,9 @@ struct draw_scene {
   draw_scene_list parts;                       /* draw_scene_part */
   draw_scene_list lines;                       /* draw_line */
   draw_scene_list sorted_lines;                /* draw_line, the farthest first: made by the painter */
+  draw_scene_list marks;                       /* draw_line */
+  draw_scene_list prints;                      /* draw_line */
+  draw_scene_list mark_rims;                   /* draw_line, behind them: made by the painter */
   draw_scene_list line_corners;                /* draw_line, each four times: likewise */
   draw_scene_list sorted_parts;                /* uint32_t: parts seen through, the farthest first */
   draw_scene_list ground_positions, ground_normals, ground_indices;
@@ -71,6 +74,9 @@ void draw_scene_smooth_normals(const sbf_vec3 *positions, uint32_t vertex_count,
 /* A pixel of a picture 720 high is one unit; in a smaller one no less than 0.7 pixels, so that words stay
  * legible. `width` and `height` are the picture's. */
 void draw_scene_place_overlay(draw_scene *scene, const draw_camera *camera, uint32_t width, uint32_t height);
+
+/* Fills mark_rims. */
+void draw_scene_rim_marks(draw_scene *scene);
 
 /* Fills sorted_lines and sorted_parts for an eye here; `back` as draw_camera_back. */
 void draw_scene_sort(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back);

@@ -1,9 +1,9 @@
-/* The ready-made things of a scene: spheres, rings, bones, hulls. */
+/* The ready-made things of a scene: spheres, bones, hulls. */
 #include <stdlib.h>
 
 #include "render/draw_scene_data.h"
 
-enum { SPHERE_RINGS = 10, SPHERE_SEGMENTS = 18, RING_SEGMENTS = 40 };
+enum { SPHERE_RINGS = 10, SPHERE_SEGMENTS = 18 };
 
 static const float full_turn = 6.28318531f;
 static const draw_scene_part solid = {.casts_shadow = true};
@@ -29,19 +29,6 @@ void draw_scene_add_sphere(draw_scene *scene, sbf_vec3 centre, float radius, dra
       for (int k = 0; k < 6; k++) room.indices[index++] = two[k];
     }
   draw_scene_close_part(scene, &room, VERTICES, index, &solid);
-}
-
-void draw_scene_add_ring(
-    draw_scene *scene, sbf_vec3 centre, sbf_vec3 normal, float radius, float width, draw_colour colour) {
-  sbf_vec3 up = v3_unit(normal, v3(0, 1, 0)), right = v3_side(up), over = v3_cross(up, right);
-  sbf_vec3 before = v3_add(centre, v3_scale(right, radius));
-  for (int i = 1; i <= RING_SEGMENTS; i++) {
-    float angle = full_turn * (float)i / RING_SEGMENTS;
-    sbf_vec3 out = v3_add(v3_scale(right, cosf(angle)), v3_scale(over, sinf(angle)));
-    sbf_vec3 here = v3_add(centre, v3_scale(out, radius));
-    draw_scene_add_line(scene, &(draw_line){before, here, colour, colour, width});
-    before = here;
-  }
 }
 
 void draw_scene_add_bone(draw_scene *scene, sbf_vec3 head, sbf_vec3 tail, draw_colour colour) {

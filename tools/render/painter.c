@@ -404,6 +404,7 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   gl->DepthMask(GL_FALSE);
   gl->DepthFunc(GL_LESS);
+  paint_lines(painter, gl, scene, &scene->prints, 0, 1);
   if (scene->sorted_lines.count) {
     gl->Disable(GL_DEPTH_TEST);
     gl->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -419,6 +420,8 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   for (size_t i = 0; i < scene->sorted_parts.count; i++) paint_veil(painter, gl, &parts[order[i]]);
   gl->DepthMask(GL_TRUE);
   gl->Disable(GL_DEPTH_TEST);
+  paint_lines(painter, gl, scene, &scene->mark_rims, 0, 1);
+  paint_lines(painter, gl, scene, &scene->marks, 0, 1);
   paint_lines(painter, gl, scene, &scene->placed_overlay, 0, 1);
   gl->Disable(GL_BLEND);
 }
@@ -508,6 +511,7 @@ sbf_status draw_painter_paint(
   box3 ground = box3_empty();
   sbf_vec3 eye = draw_camera_eye(camera), back = draw_camera_back(camera);
   draw_scene_sort(scene, eye, back);
+  draw_scene_rim_marks(scene);
   draw_scene_place_overlay(
       scene, camera, draw_canvas_width(painter->canvas), draw_canvas_height(painter->canvas));
   if (scene->failed) return out_of_memory(diagnostic);

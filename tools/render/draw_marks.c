@@ -1,0 +1,59 @@
+/* Marks: lines and dots over all else, each with a pale rim; and prints, which lie on the ground. */
+#include "render/draw_scene_data.h"
+
+enum { RING_SEGMENTS = 40 };
+
+static const float full_turn = 6.28318531f;
+static const float rim_width = 2.4f; /* of both sides together */
+static const float lifted = 0.08f;   /* of a print's radius: so that the ground does not cut through it */
+
+/* A vertex of no triangle: the picture is framed so that it is in it. */
+static void keep_in_picture(draw_scene *scene, sbf_vec3 place) {
+  draw_scene_room room;
+  if (!draw_scene_make_room(scene, 1, 0, &room)) return;
+  *room.positions = place;
+  *room.normals = v3(0, 1, 0);
+  *room.colours = (draw_colour){0, 0, 0, 0};
+}
+
+void draw_scene_add_mark(draw_scene *scene, const draw_line *mark) {
+  draw_line *place = draw_scene_list_push(scene, &scene->marks, 1, sizeof *place);
+  if (place) *place = *mark;
+  keep_in_picture(scene, mark->from);
+  keep_in_picture(scene, mark->to);
+}
+
+static void push_ring(draw_scene *scene, draw_scene_list *list, sbf_vec3 centre, sbf_vec3 normal,
+    float radius, float width, draw_colour colour) {
+  sbf_vec3 up = v3_unit(normal, v3(0, 1, 0)), right = v3_side(up), over = v3_cross(up, right);
+  sbf_vec3 before = v3_add(centre, v3_scale(right, radius));
+  draw_line *place = draw_scene_list_push(scene, list, RING_SEGMENTS, sizeof *place);
+  for (int i = 1; place && i <= RING_SEGMENTS; i++) {
+    float angle = full_turn * (float)i / RING_SEGMENTS;
+    sbf_vec3 out = v3_add(v3_scale(right, cosf(angle)), v3_scale(over, sinf(angle)));
+    sbf_vec3 here = v3_add(centre, v3_scale(out, radius));
+    *place++ = (draw_line){before, here, colour, colour, width};
+    before = here;
+  }
+}
+
+void draw_scene_add_ring_mark(
+    draw_scene *scene, sbf_vec3 centre, sbf_vec3 normal, float radius, float width, draw_colour colour) {
+  push_ring(scene, &scene->marks, centre, normal, radius, width, colour);
+}
+
+void draw_scene_add_print(
+    draw_scene *scene, sbf_vec3 centre, sbf_vec3 normal, float radius, float width, draw_colour colour) {
+  sbf_vec3 above = v3_add(centre, v3_scale(v3_unit(normal, v3(0, 1, 0)), lifted * radius));
+  push_ring(scene, &scene->prints, above, normal, radius, width, colour);
+}
+
+void draw_scene_rim_marks(draw_scene *scene) {
+  static const draw_colour pale = {250, 250, 246, 255};
+  const draw_line *marks = scene->marks.at;
+  size_t count = scene->marks.count;
+  scene->mark_rims.count = 0;
+  draw_line *rims = draw_scene_list_push(scene, &scene->mark_rims, count, sizeof *rims);
+  for (size_t i = 0; rims && i < count; i++)
+    rims[i] = (draw_line){marks[i].from, marks[i].to, pale, pale, marks[i].width + rim_width};
+}
