@@ -1,7 +1,8 @@
 /* From one rung to another: what all rungs share is copied; soft bodies take over shapes and velocities, as
  * each point is a mean of points of the level before (prepare/sources.c), both seen from where what holds the
  * body would have them. A shape that would hold more energy than the one before is drawn back to rest until
- * it does not. From jiggle and bones bodies begin in their rest shape, going as their bones go. */
+ * it does not. What nothing holds goes on as a whole just as fast, and turns as fast, as it did. From jiggle
+ * and bones bodies begin in their rest shape, going as their bones go. */
 #include <string.h>
 
 #include "detail/choose.h"
@@ -34,7 +35,8 @@ static void keep_body(sbri_character *c, const sbri_body *body, bool moves) {
   }
 }
 
-static void keep_soft(sbri_character *c, float tick_s) {
+/* Whether it moves: not where what holds it has jumped. */
+static bool keep_soft(sbri_character *c, float tick_s) {
   const sbr_model *model = c->model;
   bool moves = true;
   memset(sbri_offsets(c), 0, model->slot_count * sizeof(sbri_point));
@@ -43,6 +45,7 @@ static void keep_soft(sbri_character *c, float tick_s) {
     moves = sbri_guide_velocities_find(c, &model->islands[i], tick_s) && moves;
   for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
     if (model->bodies[b].level) keep_body(c, &model->bodies[b], moves);
+  return moves;
 }
 
 static void keep(sbri_character *c) {
@@ -179,7 +182,7 @@ static void swing(sbri_character *c, const sbr_model *was, float tick_s) {
 /* ---- All of it ---- */
 
 static void take_soft(const sbr_world *world, sbri_character *c, const sbr_model *was, uint32_t was_rung,
-    const double *before_j, float tick_s) {
+    bool moves, const double *before_j, float tick_s) {
   const sbr_model *is = c->model;
   const sbri_sources *sources = is->sources ? is->sources[was_rung] : NULL;
   for (uint32_t i = 0; i < is->island_count; i++) {
@@ -190,6 +193,7 @@ static void take_soft(const sbr_world *world, sbri_character *c, const sbr_model
     if (!is->bodies[b].level || !was->bodies[b].level) continue;
     shape_within(world, c, b, sources, before_j[b]);
     add_speeds(c, &is->bodies[b], sources);
+    if (moves && !is->bodies[b].held && !was->bodies[b].held) sbri_body_go_on(c, was, b);
   }
 }
 
@@ -204,7 +208,7 @@ static void go_over(const sbr_world *world, sbri_character *c, uint32_t rung) {
     before_j[b] = elastic_of(world, c, b);
   sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
-  if (was_soft) keep_soft(c, tick_s);
+  bool moves = was_soft && keep_soft(c, tick_s);
   keep(c);
   c->model = is;
   take_shared(c, was);
@@ -214,7 +218,7 @@ static void go_over(const sbr_world *world, sbri_character *c, uint32_t rung) {
   sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   sbri_mend(c);
-  take_soft(world, c, was, was_rung, before_j, tick_s);
+  take_soft(world, c, was, was_rung, moves, before_j, tick_s);
 }
 
 /* Of what it swings by, what may be seen to jump where it swings on: measured, of what is shaken hard. */

@@ -35,6 +35,12 @@ bool sbri_guide_velocities_find(sbri_character *c, const sbri_island *island, fl
 /* The island goes on as what holds it went from `previous_deltas` to `deltas`. */
 void sbri_guides_go_on(sbri_character *c, const sbri_island *island, float tick_s);
 
+/* ---- soft/whole_motion.c ---- */
+
+/* What the body, of a character whose model was another and whose state then is kept, moves by as a rigid one
+ * becomes what it moved by before: its momentum is the same, and it turns as fast. */
+void sbri_body_go_on(sbri_character *c, const sbr_model *was, uint32_t soft_body);
+
 /* ---- soft/island_tick.c ---- */
 
 /* Planes of the ground near the island's points, into the character's scratch, as of now. */

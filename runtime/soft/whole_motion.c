@@ -1,0 +1,29 @@
+/* A body that nothing holds, as one whole, from level to level. */
+#include "soft/soft.h"
+#include "solvers/rigid_motion.h"
+#include "solvers/scheme.h"
+
+/* Its angular momentum changes with its inertia: a coarse lattice has more mass far out, and to see it turn
+ * slower would be worse than that (docs/detail.md). */
+void sbri_body_go_on(sbri_character *c, const sbr_model *was, uint32_t index) {
+  const sbri_body *body = &c->model->bodies[index], *old_body = &was->bodies[index];
+  const sbri_island *island = &c->model->islands[body->island], *old = &was->islands[old_body->island];
+  const unsigned char *kept = sbri_kept_state(c);
+  const sbri_point *positions = sbri_positions(c) + island->first_slot,
+                   *old_positions =
+                       (const sbri_point *)(const void *)(kept + was->layout.positions) + old->first_slot;
+  const float *old_velocities =
+      (const float *)(const void *)(kept + was->layout.velocities) + 3 * (size_t)old->first_slot;
+  if (island->scheme->forceless || old->scheme->forceless) return;
+  sbri_rigid_motion went = sbri_rigid_motion_find(old, old_body, old_positions, old_velocities);
+  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  sbri_rigid_motion goes = sbri_rigid_motion_find(island, body, positions, velocities);
+  sbf_vec3 push = sbri_sub(went.velocity, goes.velocity), turn = sbri_sub(went.spin, goes.spin);
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+    const sbri_point *p = &positions[slot];
+    sbf_vec3 arm = sbri_sub(sbri_vec3(p->x, p->y, p->z), goes.center);
+    sbf_vec3 more = sbri_add(push, sbri_cross(turn, arm));
+    float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    v[0] += more.x, v[SBRI_BLOCK] += more.y, v[2 * SBRI_BLOCK] += more.z;
+  }
+}
