@@ -2,9 +2,7 @@
 
 #include "collide/colliders.h"
 #include "contact/carried.h"
-
-/* Speeds may grow within a tick, by weight and springs: to as much again, and a share of the body more. */
-static const float SLACK_SHARE = 0.02f;
+#include "model/reach.h"
 
 typedef struct meeting {
   const sbri_island_tick *tick;
@@ -13,7 +11,7 @@ typedef struct meeting {
   sbri_collider_frame frame;
   uint32_t number; /* of the collider */
   sbri_box bounds; /* of the shape, grown by the ways that touches may have */
-  float fastest_m; /* the longest way that one of the body's places has in the tick */
+  float fastest_m; /* the way of the body's fastest point in the tick, m of the world */
 } meeting;
 
 /* The plane for a place that goes from `begin` to `end` in the shape's frame: where it enters, or what it is
@@ -43,10 +41,7 @@ static void add_sample(const meeting *m, const sbri_sample *s) {
   sbri_box way = sbri_box_with(sbri_box_of_point(begin), end);
   if (!sbri_box_meets(&m->bounds, &way)) return;
   const sbf_collision *rule = &m->body->source->collision;
-  float margin = m->body->margin_m * t->scale;
-  float own = sbri_length(sbri_sub(end, begin));
-  float reach =
-      margin + (own > m->fastest_m ? own : m->fastest_m) + SLACK_SHARE * m->body->rest_size_m * t->scale;
+  float reach = sbri_reach_of(m->body, t->scale, sbri_length(sbri_sub(end, begin)), m->fastest_m);
   sbri_nearest found;
   if (!find_plane(m, begin, end, reach, rule->inner_thickness * t->scale, &found)) return;
   sbf_vec3 normal = sbri_rotate(m->frame.collider->turn_from, found.normal);
@@ -78,20 +73,14 @@ static void add_all(const meeting *m) {
 static sbri_box ways_of(const sbri_island_tick *t, const sbri_body *body, float *fastest, float *longest) {
   sbri_box box = sbri_box_of_point(sbri_vec3(
       t->positions[body->slot_begin].x, t->positions[body->slot_begin].y, t->positions[body->slot_begin].z));
-  float most = 0;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    const sbri_point *p = &t->positions[slot];
-    sbf_vec3 v = sbri_carried_velocity(t, slot);
-    float square = sbri_dot(v, v);
-    most = square > most ? square : most;
-    box = sbri_box_with(box, sbri_vec3(p->x, p->y, p->z));
-  }
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
+    box = sbri_box_with(box, sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z));
   for (uint32_t slot = t->island->free_count; body->samples && body->held && slot < t->island->slot_count;
        slot++)
     box = sbri_box_with(box, sbri_vec3(t->positions[slot].x, t->positions[slot].y, t->positions[slot].z));
   sbf_vec3 size = sbri_sub(box.high, box.low);
-  *fastest = sqrtf(most) * t->tick_s;
-  *longest = *fastest * (1 + 2 * body->sample_beyond) + SLACK_SHARE * body->rest_size_m + body->margin_m;
+  *fastest = sbri_fastest_of(body, t->velocities) * t->tick_s;
+  *longest = *fastest * (1 + 2 * body->sample_beyond) + SBRI_REACH_SHARE * body->rest_size_m + body->margin_m;
   return sbri_box_grown(box, *longest + body->sample_beyond * (size.x + size.y + size.z));
 }
 

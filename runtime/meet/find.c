@@ -7,9 +7,7 @@
 #include "collide/shape.h"
 #include "collide/surface_look.h"
 #include "meet/finding.h"
-
-/* How near hulls begin to touch, beside their ways: a share of their size. */
-static const float NEAR_SHARE = 0.02f;
+#include "model/reach.h"
 
 static sbri_party party_of(const sbri_finding *f, uint32_t number) {
   const sbri_meeter *is = &f->world->meetings->meeters[number];
@@ -158,7 +156,6 @@ static void meet_hull(const sbri_finding *f, const sbri_party *soft, const sbri_
   sbr_transform from = sbri_party_frame(rigid, false), to = sbri_party_frame(rigid, true);
   const sbri_hull *hull = &rigid->rigid->hull;
   float scale = rigid->of->scale, margin = soft->soft->margin_m * soft->of->scale;
-  float slack = NEAR_SHARE * soft->soft->rest_size_m * soft->of->scale;
   const float whole = 1;
   for (uint32_t v = 0; v < soft->surface->vertex_count; v++) {
     if (!(soft->surface->samples[v].mass_kg > 0)) continue;
@@ -166,7 +163,8 @@ static void meet_hull(const sbri_finding *f, const sbri_party *soft, const sbri_
     sbf_vec3 begin = sbri_into_frame(&from, x, scale),
              end = sbri_into_frame(&to, sbri_add(x, soft->surface->ways[v]), scale);
     sbf_vec3 way = sbri_sub(end, begin), place, normal, entered;
-    float reach = (margin + slack) / scale + sbri_length(way), share;
+    float share, own = sbri_length(way) * scale;
+    float reach = sbri_reach_of(soft->soft, soft->of->scale, own, soft->surface->fastest_m) / scale;
     uint32_t face;
     if (sbri_hull_depth(hull, begin, &face) > reach) continue;
     float gap = sbri_hull_nearest(hull, begin, &place, &normal);

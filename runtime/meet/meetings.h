@@ -25,6 +25,7 @@ typedef struct sbri_meet_surface {
   /* Of a tick: */
   uint8_t *rims; /* (triangle_count) likewise: bits of its sides that are rims, or across which it is bent */
   sbf_vec3 *places, *ways; /* (vertex_count) */
+  float fastest_m;         /* the way of its fastest point */
   sbri_box *boxes;         /* (triangle_count) of the ways, grown */
   sbri_bounds_tree tree;
 } sbri_meet_surface;

@@ -1,6 +1,7 @@
 /* Who may meet whom in a tick, by bounds of their ways; and the groups that follow. */
 #include "math/vec3.h"
 #include "meet/meetings.h"
+#include "model/reach.h"
 #include "solvers/scheme.h"
 
 /* As far as something may go in a tick: its present way, twice, and this share of its size. */
@@ -14,18 +15,13 @@ static sbri_box soft_box(const sbr_world *world, const sbri_character *c, const 
   const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   uint32_t first = body->slot_begin < body->slot_real_end ? body->slot_begin : island->free_count;
   sbri_box box = sbri_box_of_point(sbri_vec3(points[first].x, points[first].y, points[first].z));
-  float most = 0;
-  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    float square = v[0] * v[0] + v[SBRI_BLOCK] * v[SBRI_BLOCK] + v[2 * SBRI_BLOCK] * v[2 * SBRI_BLOCK];
-    most = square > most ? square : most;
+  for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++)
     box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
-  }
   for (uint32_t slot = island->free_count; body->held && slot < island->slot_count; slot++)
     box = sbri_box_with(box, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
   sbf_vec3 size = sbri_sub(box.high, box.low);
-  float by = 2 * sqrtf(most) * (float)world->tick_s * c->time_scale + MOTION_SHARE * body->rest_size_m +
-             body->source->collision.outer_thickness + body->margin_m +
+  float by = 2 * sbri_fastest_of(body, velocities) * (float)world->tick_s * c->time_scale +
+             MOTION_SHARE * body->rest_size_m + body->source->collision.outer_thickness + body->margin_m +
              body->sample_beyond * (size.x + size.y + size.z);
   return sbri_box_in_world(sbri_box_grown(box, by), sbri_head(c)->origin, c->scale);
 }

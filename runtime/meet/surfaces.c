@@ -4,6 +4,7 @@
 #include "collide/sides.h"
 #include "math/vec3.h"
 #include "meet/meetings.h"
+#include "model/reach.h"
 #include "sbfmt/mechanics.h"
 
 /* ---- Making ---- */
@@ -260,6 +261,8 @@ void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *m, uint32
     s->places[v] = sbri_add_scaled(m->offset, x, m->scale);
     s->ways[v] = way_of(m, island, sample);
   }
+  s->fastest_m =
+      sbri_fastest_of(body, sbri_velocities(c) + 3 * (size_t)island->first_slot) * m->tick_s * m->scale;
   if (s->two_sided && s->triangle_count) sbri_meet_rims_look(s);
   const sbf_collision *rule = &body->source->collision;
   float reach = m->scale * fmaxf(rule->outer_thickness, rule->inner_thickness);

@@ -142,56 +142,6 @@ START_TEST(a_fast_ball_does_not_pass_a_sheet)
 }
 END_TEST
 
-/* Rings of points about the y axis between two poles. */
-static void ball(scene *s, uint32_t body, float radius) {
-  enum { RINGS = 7, AROUND = 14, POINTS = RINGS * AROUND + 2, FACES = (RINGS + 1) * AROUND };
-  sbf_polygon_mesh *hull = sbf_asset_allocate(s->asset, 1, sizeof *hull);
-  sbf_vec3 *at = sbf_asset_allocate(s->asset, POINTS, sizeof *at);
-  uint32_t *sizes = sbf_asset_allocate(s->asset, FACES, sizeof *sizes);
-  uint32_t *corners = sbf_asset_allocate(s->asset, 4 * FACES, sizeof *corners);
-  uint32_t faces = 0, count = 0;
-  ck_assert(hull && at && sizes && corners);
-  for (uint32_t i = 0; i < RINGS * AROUND; i++) {
-    double up = 3.14159265 * (i / AROUND + 1) / (RINGS + 1), turn = 6.2831853 * (i % AROUND) / AROUND;
-    at[i] = (sbf_vec3){radius * (float)(sin(up) * cos(turn)), radius * (float)cos(up),
-        radius * (float)(sin(up) * sin(turn))};
-  }
-  at[RINGS * AROUND] = (sbf_vec3){0, radius, 0}, at[RINGS * AROUND + 1] = (sbf_vec3){0, -radius, 0};
-  for (uint32_t ring = 0; ring <= RINGS; ring++)
-    for (uint32_t k = 0; k < AROUND; k++) {
-      uint32_t next = (k + 1) % AROUND, first = count;
-      if (ring > 0) corners[count++] = (ring - 1) * AROUND + k;
-      if (ring > 0) corners[count++] = (ring - 1) * AROUND + next;
-      if (ring == 0) corners[count++] = RINGS * AROUND;
-      if (ring < RINGS) corners[count++] = ring * AROUND + next;
-      if (ring < RINGS) corners[count++] = ring * AROUND + k;
-      if (ring == RINGS) corners[count++] = RINGS * AROUND + 1;
-      sizes[faces++] = count - first;
-    }
-  sbf_polygon_mesh_init(hull);
-  hull->positions = (sbf_vec3_list){at, POINTS};
-  hull->polygon_sizes = (sbf_u32_list){sizes, faces};
-  hull->polygon_points = (sbf_u32_list){corners, count};
-  rigid_body(s, body)->hull = hull;
-}
-
-/* How deep the deepest point of the first soft body is in the first rigid one, m. */
-static double deepest(const scene *s) {
-  const sbri_character *c = sbri_character_of(s->world, s->character);
-  const sbri_island *island = &c->model->islands[0];
-  const sbri_point *p = sbri_positions(c) + island->first_slot;
-  const sbri_rigid_body_state *b = sbri_rigid_bodies(c);
-  double most = -9;
-  for (uint32_t slot = 0; slot < island->free_count; slot++) {
-    uint32_t face;
-    sbf_vec3 off = sbri_sub(sbri_vec3(p[slot].x, p[slot].y, p[slot].z), b->pose.position);
-    if (!(island->masses[slot] > 0)) continue;
-    most = fmax(most, -(double)sbri_hull_depth(&c->model->rigid.bodies[0].hull,
-                          sbri_rotate(sbri_quat_conjugate(b->pose.rotation), off), &face));
-  }
-  return most;
-}
-
 /* Over a ball of 4 kg that lies on the ground and is then pushed away under it: no point gets inside,
  * nor nearer than half a millimetre of the five that the cloth keeps. */
 START_TEST(cloth_lies_over_a_ball_that_moves)
@@ -203,13 +153,13 @@ START_TEST(cloth_lies_over_a_ball_that_moves)
   collision_sheet(&s, 0, (sbf_vec3){0, 0.75f, 0}, 0.9f, 24, false);
   scene_body(&s, 0)->attributes.damping_ratio = 0.3f;
   rigid_box(&s, (sbf_vec3){0, 0.3f, 0}, (sbf_vec3){0.6f, 0.6f, 0.6f}, 4);
-  ball(&s, 0, 0.3f);
+  meeting_ball(&s, 0, 0.3f);
   meeting_start(&s);
   double most = -9;
   for (int i = 0; i < 150; i++) {
     if (i == 60) meeting_throw(&s, s.character, 0, (sbf_vec3){6, 0, 0});
     scene_ticks(&s, 1);
-    most = fmax(most, deepest(&s));
+    most = fmax(most, meeting_deepest(&s));
   }
   ck_assert_double_le(most, -5e-4);
   ck_assert_float_ge(rigid_state(&s, 0).center.x, 0.5f);
