@@ -115,9 +115,23 @@ static bool open_outputs(run_state *r, cli_call *call) {
   return true;
 }
 
-static json_t *report(const run_state *r) {
+static void add_steps(const run_state *r, json_t *o) {
   sbr_leg_state legs[16];
   uint32_t leg_count = sbr_character_legs(r->s.world, r->s.character, legs, 16);
+  if (leg_count == 0 || !r->soles) return;
+  const sbf_gait *gait = &r->s.asset->gaits.at[0];
+  json_t *steps = json_object();
+  for (uint32_t l = 0; l < leg_count && l < 16; l++)
+    json_object_set_new(steps, gait->legs.at[l].name, json_integer(legs[l].steps_taken));
+  sole_report walked = soles_report(r->soles);
+  json_object_set_new(o, "distance", json_real(sbr_character_distance(r->s.world, r->s.character)));
+  json_object_set_new(o, "steps_taken", steps);
+  json_object_set_new(o, "stance_slip", json_real(walked.slip_m));
+  json_object_set_new(o, "penetration", json_real(walked.penetration_m));
+  if (r->walk) walk_report_add(r->walk, &r->s, o);
+}
+
+static json_t *report(const run_state *r) {
   char hash[24];
   snprintf(hash, sizeof hash, "%016llx", (unsigned long long)sbr_world_state_hash(r->s.world));
   uint64_t ticks = sbr_world_ticks(r->s.world);
@@ -134,18 +148,8 @@ static json_t *report(const run_state *r) {
   json_object_set_new(o, "volume_ratio_least", json_real(r->least_volume));
   json_object_set_new(o, "max_strain", json_real(r->most_strain));
   recording_report(&r->s.recording, o);
-  rigid_report_add(&r->rigid, &r->s, o);
-  if (leg_count == 0 || !r->soles) return o;
-  const sbf_gait *gait = &r->s.asset->gaits.at[0];
-  json_t *steps = json_object();
-  for (uint32_t l = 0; l < leg_count && l < 16; l++)
-    json_object_set_new(steps, gait->legs.at[l].name, json_integer(legs[l].steps_taken));
-  sole_report walked = soles_report(r->soles);
-  json_object_set_new(o, "distance", json_real(sbr_character_distance(r->s.world, r->s.character)));
-  json_object_set_new(o, "steps_taken", steps);
-  json_object_set_new(o, "stance_slip", json_real(walked.slip_m));
-  json_object_set_new(o, "penetration", json_real(walked.penetration_m));
-  if (r->walk) walk_report_add(r->walk, &r->s, o);
+  add_steps(r, o);
+  rigid_report_add(&r->rigid, &r->s, o); /* of what is simulated the limits of its joints, not of its pose */
   return o;
 }
 

@@ -40,6 +40,13 @@ class Characters(ProgramTest):
                 self.assertEqual(len(report["steps_taken"]), WALKERS[name][0])
                 self.assertLessEqual(report["limit_excess"], 0.02, name)
 
+    def test_a_ragdoll_of_sections_keeps_its_joints(self):
+        report = self.json_of("run", self.bundle("lizard"), "--seconds", "3", "--ragdoll")
+        self.assertTrue(report["valid"])
+        self.assertLess(report["limit_excess"], 1e-5)  # rad
+        self.assertLess(report["joint_gap"], 2e-5)  # m
+        self.assertLess(report["rest_time"], 2.5)
+
     def test_links_follow_each_other_at_their_spacing_and_bend_no_further_than_they_may(self):
         for name, count in CHAINS.items():
             path, out = self.bundle(name), self.path("p.csv")
