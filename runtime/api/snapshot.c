@@ -146,6 +146,7 @@ uint64_t sbr_world_state_hash(const sbr_world *world) {
     sbfi_hash64_f32(&hash, &m->rub.x, 3);
     sbfi_hash64_f32(&hash, &m->slid.x, 3);
     sbfi_hash64_f32(&hash, &m->pull, 1);
+    if (sbri_dot(m->through, m->through) > 0) sbfi_hash64_f32(&hash, &m->through.x, 3);
   }
   return sbfi_hash64_value(&hash);
 }

@@ -259,8 +259,11 @@ void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
       meet_hull(&f, soft, rigid);
       meet_corners(&f, rigid, soft);
     } else {
+      uint32_t first = group->touch_count;
       meet_faces(&f, &a, &b);
       meet_faces(&f, &b, &a);
+      if (a.surface->closed && b.surface->closed && !sbri_are_of_one(&a, &b) && group->touch_count > first)
+        sbri_meet_through(&f, &a, &b, first);
       if (a.surface->two_sided && b.surface->two_sided) sbri_meet_rims(&f, &a, &b);
     }
   }

@@ -11,6 +11,8 @@
 static const float ON_IT_M = 1e-6f;
 /* How far the way out is looked for at first, then twice as far and so on: of the body's size. */
 static const float FIRST_SHARE = 0.02f;
+/* Along a way: of the most. */
+static const float FIRST_REACH_SHARE = 0.125f;
 
 /* ---- Surfaces that are closed ---- */
 
@@ -57,7 +59,7 @@ static void corners_of(const sbri_meet_surface *s, uint32_t triangle, sbf_vec3 p
   for (uint32_t k = 0; k < 3; k++) p[k] = s->places[s->triangles[3 * (size_t)triangle + k]];
 }
 
-static bool is_inside(const sbri_meet_surface *s, sbf_vec3 x) {
+bool sbri_meet_is_inside(const sbri_meet_surface *s, sbf_vec3 x) {
   const sbri_box *all = &s->tree.nodes[0].box;
   sbri_box ray = sbri_box_of_point(x);
   if (!sbri_box_meets(all, &ray)) return false;
@@ -100,9 +102,51 @@ static bool find_nearest(const sbri_meet_surface *s, sbf_vec3 x, float reach, sb
 
 bool sbri_meet_way_out(const sbri_party *b, sbf_vec3 x, sbri_surface_finding *best) {
   const sbri_meet_surface *s = b->surface;
-  if (!s->closed || !is_inside(s, x)) return false;
+  if (!s->closed || !sbri_meet_is_inside(s, x)) return false;
   float size = b->soft->rest_size_m * b->of->scale;
   for (float reach = FIRST_SHARE * size; reach < size; reach *= 2)
     if (find_nearest(s, x, reach, best)) return true;
   return false;
+}
+
+/* ---- Out along a way ---- */
+
+static sbf_vec3 into_way(const sbri_meet_way *w, sbf_vec3 x) {
+  return sbri_vec3(sbri_dot(x, w->across), sbri_dot(x, w->along), sbri_dot(x, w->beside));
+}
+
+sbri_meet_way sbri_meet_way_along(sbf_vec3 along) {
+  sbf_vec3 off = fabsf(along.x) < 0.6f ? sbri_vec3(1, 0, 0) : sbri_vec3(0, 1, 0);
+  sbri_meet_way w = {.along = along, .across = sbri_normalize(sbri_cross(along, off), off)};
+  w.beside = sbri_cross(w.across, along);
+  return w;
+}
+
+/* As is_inside tells it: between two triangles nothing slips through. */
+static void look_along(const sbri_meet_surface *s, const sbri_meet_way *w, sbf_vec3 x, uint32_t triangle,
+    float *least, sbri_surface_finding *best) {
+  sbf_vec3 p[3], q[3], from = into_way(w, x);
+  corners_of(s, triangle, p);
+  for (int k = 0; k < 3; k++) q[k] = into_way(w, p[k]);
+  if (passage(from, q, 1) <= 0) return;
+  sbf_vec3 normal = sbri_cross(sbri_sub(q[1], q[0]), sbri_sub(q[2], q[0]));
+  float ahead = sbri_dot(sbri_sub(q[0], from), normal) / normal.y;
+  if (!(ahead < *least)) return;
+  *least = ahead;
+  best->face = triangle, best->normal = w->along, best->behind = true;
+  sbri_triangle_nearest(sbri_add_scaled(x, w->along, ahead), p[0], p[1], p[2], best->weights);
+}
+
+float sbri_meet_way_along_out(
+    const sbri_meet_surface *s, const sbri_meet_way *w, sbf_vec3 x, float most, sbri_surface_finding *best) {
+  for (float reach = FIRST_REACH_SHARE * most;; reach *= 2) {
+    float far = reach < most ? reach : most, least = far;
+    sbri_box ray = sbri_box_with(sbri_box_of_point(x), sbri_add_scaled(x, w->along, far));
+    sbri_bounds_walk walk;
+    uint32_t triangle;
+    sbri_bounds_walk_begin(&walk, &s->tree, sbri_box_grown(ray, ON_IT_M));
+    while (sbri_bounds_walk_next(&walk, &triangle)) look_along(s, w, x, triangle, &least, best);
+    if (least < far) return least;
+    if (far >= most) return INFINITY;
+  }
 }

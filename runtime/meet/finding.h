@@ -66,6 +66,24 @@ void sbri_meet_rims(const sbri_finding *f, const sbri_party *a, const sbri_party
 /* Whether x lies inside of b, whose surface is closed, however deep; and then the nearest place of it. */
 bool sbri_meet_way_out(const sbri_party *b, sbf_vec3 x, sbri_surface_finding *best);
 
+/* Whether x lies inside of a closed surface. */
+bool sbri_meet_is_inside(const sbri_meet_surface *s, sbf_vec3 x);
+
+/* A direction, and two across it. */
+typedef struct sbri_meet_way {
+  sbf_vec3 across, along, beside;
+} sbri_meet_way;
+sbri_meet_way sbri_meet_way_along(sbf_vec3 along);
+/* m from x along the way to where it leaves the surface, less than `most`, with that place; or INFINITY. */
+float sbri_meet_way_along_out(
+    const sbri_meet_surface *s, const sbri_meet_way *way, sbf_vec3 x, float most, sbri_surface_finding *best);
+
+/* ---- find_through.c ---- */
+
+/* Gives what of two soft bodies lies crosswise through the other, of the group's touches from `first` on, a
+ * common way out. */
+void sbri_meet_through(const sbri_finding *f, const sbri_party *a, const sbri_party *b, uint32_t first);
+
 /* ---- find_hulls.c ---- */
 
 /* A rigid body's own frame at the tick's beginning or its end, if nothing acts, relative to the group. */

@@ -26,6 +26,7 @@ typedef struct sbri_meet_surface {
   uint8_t *rims; /* (triangle_count) likewise: bits of its sides that are rims, or across which it is bent */
   sbf_vec3 *places, *ways; /* (vertex_count) */
   float fastest_m;         /* the way of its fastest point */
+  uint32_t *inside;        /* (vertex_count) room for find_through.c */
   sbri_box *boxes;         /* (triangle_count) of the ways, grown */
   sbri_bounds_tree tree;
 } sbri_meet_surface;
@@ -89,8 +90,9 @@ typedef struct sbri_meet_touch {
   float gain;      /* N s along the normal */
   sbf_vec3 rub;    /* N s across it */
   bool pushed;
-  bool goes_out; /* too deep for a face to be near (find_deep.c): nothing rubs on its way out */
-  bool is_new;   /* nobody remembers it from the tick before */
+  bool goes_out;     /* too deep for a face to be near (find_deep.c): nothing rubs on its way out */
+  bool goes_through; /* likewise, along what its neighbours go as well (find_through.c) */
+  bool is_new;       /* nobody remembers it from the tick before */
   /* For events, of the whole tick: */
   float impulse;  /* N s along the normal */
   float closing;  /* m/s, the most with which it was pushed against */
@@ -102,11 +104,12 @@ typedef struct sbri_meet_touch {
 typedef struct sbri_meet_memory {
   uint64_t names[2];
   uint32_t feature;
-  sbf_vec3 at;   /* in a's own frame, if it is rigid */
-  float force;   /* N along the normal */
-  sbf_vec3 rub;  /* N across it */
-  sbf_vec3 slid; /* m across */
-  float pull;    /* m/s^2 along the normal */
+  sbf_vec3 at;      /* in a's own frame, if it is rigid */
+  float force;      /* N along the normal */
+  sbf_vec3 rub;     /* N across it */
+  sbf_vec3 slid;    /* m across */
+  float pull;       /* m/s^2 along the normal */
+  sbf_vec3 through; /* unit, the common way out of what lies through another; 0: it does not */
 } sbri_meet_memory;
 
 /* Two bodies that touch, for events. */
@@ -255,6 +258,9 @@ static inline uint64_t sbri_meet_name(const sbri_meeter *is) {
 
 /* Whether the two touched in the tick before. */
 bool sbri_meet_is_remembered(const sbri_meetings *all, const uint64_t names[2]);
+/* What is remembered of the two, in that order. */
+const sbri_meet_memory *sbri_meet_memories_of(
+    const sbri_meetings *all, const uint64_t names[2], uint32_t *count);
 /* What the group's touches have from the tick before. */
 void sbri_meet_recall(const sbri_meetings *all, const sbri_meet_group *group, float step_s);
 /* Keeps what pushes now, when all groups have stepped with steps of that share of the tick. */

@@ -45,6 +45,14 @@ bool sbri_meet_is_remembered(const sbri_meetings *all, const uint64_t names[2]) 
   return first_of(all, names) < all->memory_count;
 }
 
+const sbri_meet_memory *sbri_meet_memories_of(
+    const sbri_meetings *all, const uint64_t names[2], uint32_t *count) {
+  uint32_t first = first_of(all, names), end = first;
+  while (end < all->memory_count && are_named(&all->memories[end], names)) end++;
+  *count = end - first;
+  return all->memories + first;
+}
+
 /* ---- Recalling ---- */
 
 static float same_within(const sbri_meet_member *members, const sbri_meet_touch *t) {
@@ -74,6 +82,7 @@ void sbri_meet_recall(const sbri_meetings *all, const sbri_meet_group *group, fl
   for (uint32_t i = 0; i < group->touch_count; i++) {
     sbri_meet_touch *t = &all->touches[group->first_touch + i];
     const sbri_meet_memory *m = memory_of(all, all->members + group->first_member, t);
+    if (m && t->goes_through != (sbri_dot(m->through, m->through) > 0)) m = NULL; /* another way */
     t->is_new = t->pushed = m == NULL;
     if (!m) {
       t->pushed = false;
@@ -96,7 +105,8 @@ static sbri_meet_memory memory_from(const sbri_meet_touch *t, float step_s) {
       .force = t->gain / step_s,
       .rub = sbri_scale(t->rub, 1 / step_s),
       .slid = t->slid,
-      .pull = t->pull / step_s};
+      .pull = t->pull / step_s,
+      .through = t->goes_through ? t->normal : (sbf_vec3){0, 0, 0}};
 }
 
 /* What sleeps keeps its own. */
@@ -114,7 +124,7 @@ void sbri_meet_remember(sbr_world *world) {
   for (uint32_t g = 0; g < all->group_count; g++)
     for (uint32_t i = 0; i < all->groups[g].touch_count; i++) {
       const sbri_meet_touch *t = &all->touches[all->groups[g].first_touch + i];
-      if (t->pushed && count < all->touch_capacity)
+      if ((t->pushed || t->goes_through) && count < all->touch_capacity)
         all->next_memories[count++] = memory_from(t, all->groups[g].step_s);
     }
   sbri_meet_memory *before = all->memories;

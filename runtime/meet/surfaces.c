@@ -38,14 +38,16 @@ static bool make_room(sbri_meet_surface *s, const sbri_meet_surface *other, uint
     uint32_t triangles, sbfi_arena *arena) {
   if (other) {
     s->places = other->places, s->ways = other->ways, s->boxes = other->boxes, s->tree = other->tree;
+    s->inside = other->inside;
     return true;
   }
   s->places = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->places);
   s->ways = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->ways);
+  s->inside = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->inside);
   s->boxes = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->boxes);
   s->tree.items = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->tree.items);
   s->tree.nodes = sbfi_arena_allocate(arena, sbri_bounds_tree_nodes(triangles), sizeof *s->tree.nodes);
-  return s->places && s->ways && s->boxes && s->tree.items && s->tree.nodes;
+  return s->places && s->ways && s->inside && s->boxes && s->tree.items && s->tree.nodes;
 }
 
 /* `first`: that of the first rung, or NULL. */

@@ -44,7 +44,10 @@ static double deepest(const sbf_polygon_mesh *mesh, const sbf_vec3 *in, const sb
 /* From 20 m: no deeper at last than the thickness within which faces answer for themselves. */
 START_TEST(armadillos_dropped_hard_come_apart)
 {
-  static const struct { float young_pa, x, heading; } drops[2] = {{1e5f, 0, 0}, {5e4f, 0.1f, 2}};
+  static const struct {
+    float young_pa, x, heading;
+  } drops[] = {
+      {1e5f, 0, 0}, {5e4f, 0.1f, 2}, {3e4f, 0.1f, 2}, {2e4f, 0, 0}, {3e4f, 0.05f, 1}, {2e4f, -0.05f, 3}};
   const char *path = harness_shared("armadillo/armadillo_1k.obj");
   if (!path) return;
   sbf_asset *asset = armadillo(path, drops[_i].young_pa);
@@ -88,7 +91,7 @@ int main(void) {
   Suite *suite = suite_create("piled");
   TCase *tests = tcase_create("all");
   tcase_set_timeout(tests, 300);
-  tcase_add_loop_test(tests, armadillos_dropped_hard_come_apart, 0, 2);
+  tcase_add_loop_test(tests, armadillos_dropped_hard_come_apart, 0, 6);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
