@@ -27,14 +27,16 @@ static void make_boxes(const sbri_self_looking *l, sbri_box *boxes) {
   }
 }
 
-static void look(const sbri_self_looking *l, uint32_t slot, uint32_t number, sbri_surface_finding *best) {
+static sbri_surface_finding look(const sbri_self_looking *l, uint32_t slot, uint32_t number) {
   const sbri_island_tick *t = l->tick;
   const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
   sbri_surface_face face;
   for (int k = 0; k < 3; k++)
     face.at[k] = sbri_self_place(t->positions, c[k]), face.ways[k] = sbri_self_way(t, c[k]);
+  sbri_surface_finding found = sbri_surface_nothing();
   sbri_surface_look(
-      &l->rule, sbri_self_place(t->positions, slot), sbri_self_way(t, slot), &face, number, best);
+      &l->rule, sbri_self_place(t->positions, slot), sbri_self_way(t, slot), &face, number, &found);
+  return found;
 }
 
 /* How far off it is at rest from that place; negative behind a surface that encloses matter. */
@@ -52,33 +54,66 @@ static bool hangs_on(const sbri_body *body, uint32_t slot, const uint32_t *c) {
   return false;
 }
 
-/* Which triangles a point looks for: all that it does not hang on; of those, what is on its other side; and
- * those that it hangs on. */
-typedef enum looks_for { ANY, OTHER_SIDE, JOINED } looks_for;
+/* What a point has found: of the triangles that it does not hang on, of those that it hangs on, and what of
+ * the former may lie on its other side. */
+enum { OTHERS = 128 };
+typedef struct around {
+  sbri_surface_finding best, joined, others[OTHERS];
+  uint32_t other_count; /* more than there is room for: they are looked for anew */
+} around;
 
-static void consider(const sbri_self_looking *l, uint32_t slot, uint32_t item, looks_for what,
-    const sbri_surface_finding *found, sbri_surface_finding *best) {
-  const uint32_t *c = l->body->self_faces + 3 * (size_t)item;
-  if (c[0] == slot || c[1] == slot || c[2] == slot || hangs_on(l->body, slot, c) != (what == JOINED)) return;
-  if (what != OTHER_SIDE) {
-    look(l, slot, item, best);
-    return;
-  }
-  sbri_surface_finding one = sbri_surface_nothing();
-  look(l, slot, item, &one);
-  if (!one.behind && one.urgency < best->urgency && sbri_dot(one.normal, found->normal) < 0) *best = one;
+/* As if one look had followed the other. */
+static void take(sbri_surface_finding *best, const sbri_surface_finding *one) {
+  float before = one->before < best->before ? one->before : best->before;
+  if (one->urgency < best->urgency) *best = *one;
+  best->before = before;
 }
 
-/* The most urgent of them; `found` is that of ANY. */
-static bool find(const sbri_self_looking *l, uint32_t slot, looks_for what, const sbri_surface_finding *found,
-    sbri_surface_finding *best) {
+static void look_around(const sbri_self_looking *l, uint32_t slot, around *a) {
   sbri_bounds_walk walk;
   uint32_t item;
   sbri_box box = sbri_self_swept(l->tick, slot, l->rule.outer);
-  *best = sbri_surface_nothing();
+  a->best = a->joined = sbri_surface_nothing();
+  a->other_count = 0;
   sbri_bounds_walk_begin(&walk, l->tree, box);
-  while (sbri_bounds_walk_next(&walk, &item))
-    if (sbri_box_meets(&box, &l->boxes[item])) consider(l, slot, item, what, found, best);
+  while (sbri_bounds_walk_next(&walk, &item)) {
+    const uint32_t *c = l->body->self_faces + 3 * (size_t)item;
+    if (!sbri_box_meets(&box, &l->boxes[item]) || c[0] == slot || c[1] == slot || c[2] == slot) continue;
+    sbri_surface_finding one = look(l, slot, item);
+    if (hangs_on(l->body, slot, c)) {
+      take(&a->joined, &one);
+      continue;
+    }
+    take(&a->best, &one);
+    if (one.urgency == INFINITY || one.behind) continue;
+    if (a->other_count < OTHERS) a->others[a->other_count] = one;
+    a->other_count++;
+  }
+}
+
+static void take_other(
+    const sbri_surface_finding *one, const sbri_surface_finding *found, sbri_surface_finding *best) {
+  if (one->urgency < best->urgency && sbri_dot(one->normal, found->normal) < 0) *best = *one;
+}
+
+/* The most urgent on the other side than the most urgent of all. */
+static bool find_other(
+    const sbri_self_looking *l, uint32_t slot, const around *a, sbri_surface_finding *best) {
+  *best = sbri_surface_nothing();
+  if (a->other_count <= OTHERS) {
+    for (uint32_t i = 0; i < a->other_count; i++) take_other(&a->others[i], &a->best, best);
+    return sbri_surface_found(best);
+  }
+  sbri_bounds_walk walk;
+  uint32_t item;
+  sbri_box box = sbri_self_swept(l->tick, slot, l->rule.outer);
+  sbri_bounds_walk_begin(&walk, l->tree, box);
+  while (sbri_bounds_walk_next(&walk, &item)) {
+    const uint32_t *c = l->body->self_faces + 3 * (size_t)item;
+    if (!sbri_box_meets(&box, &l->boxes[item]) || c[0] == slot || c[1] == slot || c[2] == slot) continue;
+    sbri_surface_finding one = look(l, slot, item);
+    if (!one.behind && !hangs_on(l->body, slot, c)) take_other(&one, &a->best, best);
+  }
   return sbri_surface_found(best);
 }
 
@@ -91,13 +126,15 @@ static void add(
 }
 
 static void add_point(const sbri_self_looking *l, uint32_t slot) {
-  sbri_surface_finding best, other;
+  around a;
+  sbri_surface_finding other;
   float thickness = l->body->source->collision.outer_thickness;
-  if (find(l, slot, ANY, NULL, &best)) {
-    add(l, slot, &best, thickness);
-    if (!best.behind && find(l, slot, OTHER_SIDE, &best, &other)) add(l, slot, &other, thickness);
+  look_around(l, slot, &a);
+  if (sbri_surface_found(&a.best)) {
+    add(l, slot, &a.best, thickness);
+    if (!a.best.behind && find_other(l, slot, &a, &other)) add(l, slot, &other, thickness);
   }
-  if (find(l, slot, JOINED, NULL, &other)) add(l, slot, &other, JOINED_SHARE * thickness);
+  if (sbri_surface_found(&a.joined)) add(l, slot, &a.joined, JOINED_SHARE * thickness);
 }
 
 void sbri_self_touches_add(const sbri_island_tick *t, const sbri_body *body,
