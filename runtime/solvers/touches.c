@@ -41,16 +41,29 @@ static float gap_of(const touching *c, const sbri_touch *touch) {
   return sbri_dot(touch->normal, sbri_sample_place(c->tick, &touch->sample)) - touch->offset;
 }
 
-/* What changes the velocity of the sample by `faster`, and its place by `moved`. */
-static void push(const touching *c, const sbri_sample *s, sbf_vec3 faster, sbf_vec3 moved) {
+/* Of what the sample is pushed by, that its point k moves with. */
+static float share_of(const touching *c, const sbri_sample *s, int k) {
   const sbri_island *island = c->tick->island;
+  if (s->slots[k] >= island->free_count) return 0;
+  return s->weights[k] * island->inverse_masses[s->slots[k]] * s->mass_kg;
+}
+
+/* What changes the velocity of the sample by `faster`. */
+static void push(const touching *c, const sbri_sample *s, sbf_vec3 faster) {
   for (int k = 0; k < 4; k++) {
-    uint32_t slot = s->slots[k];
-    if (slot >= island->free_count || s->weights[k] == 0) continue;
-    float share = s->weights[k] * island->inverse_masses[slot] * s->mass_kg;
-    float *v = c->velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    float share = share_of(c, s, k);
+    if (share == 0) continue;
+    float *v = c->velocities + 3 * (s->slots[k] / SBRI_BLOCK * SBRI_BLOCK) + s->slots[k] % SBRI_BLOCK;
     v[0] += share * faster.x, v[SBRI_BLOCK] += share * faster.y, v[2 * SBRI_BLOCK] += share * faster.z;
-    sbri_point *x = &c->tick->positions[slot];
+  }
+}
+
+/* And its place by `moved`. */
+static void move(const touching *c, const sbri_sample *s, sbf_vec3 moved) {
+  for (int k = 0; k < 4; k++) {
+    float share = share_of(c, s, k);
+    if (share == 0) continue;
+    sbri_point *x = &c->tick->positions[s->slots[k]];
     x->x += share * moved.x, x->y += share * moved.y, x->z += share * moved.z;
   }
 }
@@ -67,8 +80,6 @@ static float friction_of(const touching *c, const sbri_touch *touch, const sbri_
   }
   return sum > 0 ? sum * touch->friction_share : 0;
 }
-
-static const sbf_vec3 nowhere = {0, 0, 0};
 
 /* To where it just arrives; nowhere, where it lies below already; thrown back, where it is fast. */
 static float wanted_of(const sbri_touch *touch, float speed, const sbri_contact_rule *rule) {
@@ -154,7 +165,7 @@ static float correct(const touching *c, sbri_touch *touch, const sbri_contact_ru
   if (size > most) rub = sbri_scale(rub, most / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
   touch->gain = gain, touch->rub = rub;
-  push(c, s, change, nowhere);
+  push(c, s, change);
   return sbri_length(change);
 }
 
@@ -164,8 +175,7 @@ void sbri_touches_answer(
   c.count = begin_all(&c, rule);
   for (uint32_t i = 0; i < c.count; i++) {
     const sbri_touch *touch = &c.touches[i];
-    if (touch->gain > 0)
-      push(&c, &touch->sample, sbri_add_scaled(touch->rub, touch->normal, touch->gain), nowhere);
+    if (touch->gain > 0) push(&c, &touch->sample, sbri_add_scaled(touch->rub, touch->normal, touch->gain));
   }
   float most = SETTLED_M_S;
   for (int sweep = 0; sweep < MOST_SWEEPS && most >= SETTLED_M_S; sweep++) {
@@ -179,7 +189,7 @@ void sbri_touches_answer(
     sbri_touch *touch = &c.touches[i];
     touch->pushed = touch->gain > touch->pushed ? touch->gain : touch->pushed;
     float up = lift_of(touch, rule);
-    if (touch->gain > 0 && up > 0) push(&c, &touch->sample, nowhere, sbri_scale(touch->normal, up));
+    if (touch->gain > 0 && up > 0) move(&c, &touch->sample, sbri_scale(touch->normal, up));
   }
 }
 
@@ -235,7 +245,8 @@ void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const 
     sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
     float size = sbri_length(sideways), most = friction_of(&c, touch, rule) * gain;
     sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
-    push(&c, s, change, sbri_scale(change, rule->step_s));
+    push(&c, s, change);
+    move(&c, s, sbri_scale(change, rule->step_s));
     touch->given = sbri_add(touch->given, change);
   }
 }
