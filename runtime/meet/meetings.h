@@ -110,6 +110,7 @@ typedef struct sbri_meet_memory {
   sbf_vec3 slid;    /* m across */
   float pull;       /* m/s^2 along the normal */
   sbf_vec3 through; /* unit, the common way out of what lies through another; 0: it does not */
+  uint32_t none;    /* 0: snapshots hold no bytes that nothing has written */
 } sbri_meet_memory;
 
 /* Two bodies that touch, for events. */
