@@ -1,6 +1,7 @@
 #include "collision_scenes.h"
 
 #include <check.h>
+#include <math.h>
 #include <stdlib.h>
 
 #include "sbfmt/mechanics.h"
@@ -68,4 +69,16 @@ sbr_collider_id collision_collider(scene *s, const sbr_shape *shape, sbr_double3
   d.shape = shape, d.position = position;
   ck_assert(sbr_collider_create(s->world, &d, &id, NULL) == SBF_OK);
   return id;
+}
+
+void collision_check_over(scene *s, float (*over)(const scene *), bool meets) {
+  float least = 9;
+  for (int i = 0; i < 60; i++) {
+    scene_ticks(s, 1);
+    least = fminf(least, over(s));
+  }
+  if (meets)
+    ck_assert_float_ge(least, 0.002f);
+  else
+    ck_assert_float_le(least, -0.05f);
 }

@@ -16,4 +16,7 @@ void collision_surface(scene *s, uint32_t body, const sbf_vec3 *at, uint32_t col
 sbr_shape *collision_shape(sbr_shape_definition definition);
 sbr_collider_id collision_collider(scene *s, const sbr_shape *shape, sbr_double3 position);
 
+/* For a second, what `over` tells stays above 2 mm where it `meets`; else it falls through, by 5 cm. */
+void collision_check_over(scene *s, float (*over)(const scene *), bool meets);
+
 #endif

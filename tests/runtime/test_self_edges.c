@@ -97,15 +97,7 @@ START_TEST(rims_meet_their_own_body)
     scene_pin(&s, (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at, -1, held, 4);
     scene_body(&s, 0)->collision.self = meets;
     scene_start(&s);
-    float least = 9;
-    for (int i = 0; i < 60; i++) {
-      scene_ticks(&s, 1);
-      least = fminf(least, over(&s));
-    }
-    if (meets)
-      ck_assert_float_ge(least, 0.002f);
-    else
-      ck_assert_float_le(least, -0.05f);
+    collision_check_over(&s, over, meets);
     scene_free(&s);
   }
 }
