@@ -52,7 +52,7 @@ static void folder_of(const char *path, char *folder, size_t size) {
   snprintf(folder, size, "%.*s", (int)length, path);
 }
 
-void check_asset(const sbf_asset *asset, const char *path, checked *result) {
+void check_loaded(const sbf_asset *asset, const char *path, checked *result) {
   char folder[4096];
   sbf_diagnostic error;
   result->path = path;
@@ -69,7 +69,7 @@ void check_file(const char *path, checked *result) {
   *result = (checked){.path = path};
   result->status = load(result, &asset);
   if (result->status != SBF_OK) return;
-  check_asset(asset, path, result);
+  check_loaded(asset, path, result);
   sbf_asset_free(asset);
   if (result->found.count) sbf_locate_findings(path, NULL, result->found.at, (uint32_t)result->found.count);
 }

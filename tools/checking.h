@@ -28,7 +28,7 @@ typedef struct checked {
 void check_file(const char *path, checked *result);
 
 /* The rules alone, on an asset that lies, or will lie, at `path`; lines are not looked up. */
-void check_asset(const sbf_asset *asset, const char *path, checked *result);
+void check_loaded(const sbf_asset *asset, const char *path, checked *result);
 
 bool checked_is_valid(const checked *one, bool strict);
 

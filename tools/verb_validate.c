@@ -135,7 +135,7 @@ static sbf_status mend(const char *from, const char *to, mended *m, sbf_diagnost
     return status;
   }
   if (m->done.count) sbf_locate_findings(from, NULL, m->done.at, (uint32_t)m->done.count);
-  check_asset(fixed, to, &m->left);
+  check_loaded(fixed, to, &m->left);
   status = sbf_save_file(fixed, to, NULL, error);
   sbf_asset_free(fixed);
   if (status != SBF_OK) {

@@ -1,5 +1,5 @@
 /* Which chunks are compressed, and how: the same bytes for the same content, level and zlib. */
-#include "packed/packed_codec.h"
+#include "packed/packed_attempt.h"
 #include "packed/packed_plan.h"
 
 /* The bytes that a compressed chunk may take: one block of alignment less than before, and a sixteenth, or it
@@ -10,61 +10,32 @@ static size_t room_of(size_t raw_size) {
   return by_blocks < by_share ? by_blocks : by_share;
 }
 
-typedef struct attempt {
-  uint8_t *at;
-  size_t size;
-  sbfi_packed_filter filter;
-} attempt;
-
-/* Tries one filter; where it beats the best so far, the two exchange their memory. */
-static sbfi_planned try_filter(sbfi_packed_coder *coder, const sbfi_planned_chunk *planned,
-    sbfi_packed_filter filter, uint8_t **spare, attempt *best, size_t room) {
-  size_t size, limit = best->size ? best->size - 1 : room;
-  sbfi_coded coded = sbfi_packed_deflate(coder, planned->at, (size_t)planned->chunk.raw_size, filter,
-      planned->chunk.stride / 4, *spare, limit, &size);
-  if (coded == SBFI_CODED_NO_MEMORY) return SBFI_PLANNED_NO_MEMORY;
-  if (coded != SBFI_CODED) return SBFI_PLANNED;
-  uint8_t *beaten = best->at;
-  *best = (attempt){*spare, size, filter};
-  *spare = beaten;
-  return SBFI_PLANNED;
+static bool try_filters(
+    sbfi_packed_attempt *attempt, sbfi_packed_coder *coder, const sbfi_planned_chunk *planned, size_t room) {
+  bool is_record = planned->item == SBFI_ITEM_U8, is_index = planned->item == SBFI_ITEM_U32;
+  int first = is_record ? SBFI_FILTER_NONE : SBFI_FILTER_PLANES;
+  int last = is_record ? SBFI_FILTER_NONE : is_index ? SBFI_FILTER_RECENT : SBFI_FILTER_DELTA;
+  for (int f = first; f <= last; f++)
+    if (!sbfi_packed_try(attempt, coder, planned->at, (size_t)planned->chunk.raw_size, planned->chunk.stride,
+            (sbfi_packed_filter)f, room))
+      return false;
+  return true;
 }
 
 static sbfi_planned compress_chunk(
     sbfi_packed_plan *plan, sbfi_packed_coder *coder, sbfi_planned_chunk *planned, uint8_t *memory[2]) {
   size_t room = room_of((size_t)planned->chunk.raw_size);
-  attempt best = {.at = memory[0]};
-  uint8_t *spare = memory[1];
-  sbfi_planned result = SBFI_PLANNED;
-  if (room == 0) return result;
-  if (planned->item == SBFI_ITEM_U8) {
-    result = try_filter(coder, planned, SBFI_FILTER_NONE, &spare, &best, room);
-  } else {
-    result = try_filter(coder, planned, SBFI_FILTER_PLANES, &spare, &best, room);
-    if (result == SBFI_PLANNED) result = try_filter(coder, planned, SBFI_FILTER_DELTA, &spare, &best, room);
-    if (result == SBFI_PLANNED && planned->item == SBFI_ITEM_U32)
-      result = try_filter(coder, planned, SBFI_FILTER_RECENT, &spare, &best, room);
-  }
-  if (result != SBFI_PLANNED || best.size == 0) return result;
-  void *kept = sbfi_arena_copy(&plan->arena, best.at, best.size, 1);
+  sbfi_packed_attempt attempt = {.best = memory[0], .spare = memory[1]};
+  if (room == 0) return SBFI_PLANNED;
+  if (!try_filters(&attempt, coder, planned, room)) return SBFI_PLANNED_NO_MEMORY;
+  if (attempt.size == 0) return SBFI_PLANNED;
+  void *kept = sbfi_arena_copy(&plan->arena, attempt.best, attempt.size, 1);
   if (!kept) return SBFI_PLANNED_NO_MEMORY;
   planned->at = kept;
-  planned->chunk.stored_size = best.size;
-  planned->chunk.filter = (uint8_t)best.filter;
+  planned->chunk.stored_size = attempt.size;
+  planned->chunk.filter = (uint8_t)attempt.filter;
   planned->chunk.codec = SBFI_CODEC_ZLIB;
   return SBFI_PLANNED;
-}
-
-sbfi_planned sbfi_packed_best_filter(
-    sbfi_packed_coder *coder, const void *items, size_t size, uint32_t stride, sbfi_packed_filter *filter) {
-  uint8_t memory[2][SBFI_PACKED_CHUNK_FROM_COMPRESSED], *spare = memory[1];
-  const sbfi_planned_chunk planned = {.chunk = {.stride = stride, .raw_size = size}, .at = items};
-  attempt best = {.at = memory[0]};
-  sbfi_planned result = SBFI_PLANNED;
-  for (int f = SBFI_FILTER_NONE; f <= SBFI_FILTER_DELTA && result == SBFI_PLANNED; f++)
-    result = try_filter(coder, &planned, (sbfi_packed_filter)f, &spare, &best, size - 1);
-  *filter = best.filter;
-  return result;
 }
 
 sbfi_planned sbfi_packed_plan_compress(sbfi_packed_plan *plan, sbfi_packed_coder *coder) {

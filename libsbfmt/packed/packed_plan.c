@@ -2,6 +2,7 @@
 #include "packed/packed_plan.h"
 
 #include "base/memory.h"
+#include "packed/packed_attempt.h"
 #include "packed/packed_filter.h"
 
 /* A part whose record is to be written; parts stand in a queue, the root first. */
@@ -142,9 +143,11 @@ static bool write_filtered_list(planner *p, const sbfi_field *field, sbfi_list l
   sbfi_packed_filter filter;
   uint8_t planes[SBFI_PACKED_CHUNK_FROM_COMPRESSED];
   if (!p->coder || field->item == SBFI_ITEM_U8 || size < FILTERED_FROM) return false;
-  sbfi_planned result = sbfi_packed_best_filter(p->coder, list.at, size, sbfi_item_size(field), &filter);
-  if (result != SBFI_PLANNED) p->result = result;
-  if (result != SBFI_PLANNED || filter == SBFI_FILTER_NONE) return false;
+  if (!sbfi_packed_best_filter(p->coder, list.at, size, sbfi_item_size(field), &filter)) {
+    p->result = SBFI_PLANNED_NO_MEMORY;
+    return false;
+  }
+  if (filter == SBFI_FILTER_NONE) return false;
   sbfi_filter_block(filter, list.at, 0, size / 4, field->width, planes);
   size_t begin = begin_field(p, field, filter == SBFI_FILTER_PLANES ? SBFI_FORM_PLANES : SBFI_FORM_DELTA);
   sbfi_text_append(p->to, planes, size);

@@ -30,11 +30,6 @@ void sbfi_packed_plan_free(sbfi_packed_plan *plan);
 /* Compresses what becomes smaller by it, each list with the filter that serves it best. */
 sbfi_planned sbfi_packed_plan_compress(sbfi_packed_plan *plan, sbfi_packed_coder *coder);
 
-/* The filter with which a list of less than SBFI_PACKED_CHUNK_FROM_COMPRESSED bytes would deflate to the
- * least, the first of equals; none where no filter makes that less than `size`. */
-sbfi_planned sbfi_packed_best_filter(
-    sbfi_packed_coder *coder, const void *items, size_t size, uint32_t stride, sbfi_packed_filter *filter);
-
 static inline sbfi_planned_chunk *sbfi_packed_plan_chunk(const sbfi_packed_plan *plan, size_t number) {
   return (sbfi_planned_chunk *)plan->chunks.at + number;
 }

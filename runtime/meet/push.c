@@ -4,7 +4,7 @@
  * rests would sink by a step's fall each time. What else does is answered where it has moved places: into
  * each other, or across while they stick, by a share of that a step. To look ahead at it too, by what it did
  * in the step before, drives soft bodies against each other. */
-#include "meet/push.h"
+#include "meet/settle.h"
 
 /* Slower contacts do not bounce. */
 static const float BOUNCE_FROM_M_S = 0.3f;

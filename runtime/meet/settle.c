@@ -7,7 +7,7 @@
  * before as conjugate gradients do (M. Silcowitz-Hansen, S. Niebe, K. Erleben, A nonsmooth nonlinear
  * conjugate gradient method for interactive contact force problems, 2010), or a tower would need a pass for
  * nearly every pair of its boxes. */
-#include "meet/push.h"
+#include "meet/settle.h"
 
 enum { PASSES = 60 }; /* at most */
 /* A pass that changes no speed by more is the last. */

@@ -1,7 +1,7 @@
-/* A touch in a step, as those see it who look for its push (push.c, settle.c): how its two ends move against
- * each other, and what an impulse does to that. */
-#ifndef SBRI_PUSH_H
-#define SBRI_PUSH_H
+/* The pushes of touches that act on each other, and a touch as those see it who look for its push: how its
+ * two ends move against each other, and what an impulse does to that. */
+#ifndef SBRI_SETTLE_H
+#define SBRI_SETTLE_H
 
 #include "math/vec3.h"
 #include "meet/meetings.h"
@@ -42,8 +42,6 @@ static inline void sbri_meet_give(const sbri_meet_row *r, sbf_vec3 impulse) {
   sbri_meet_give_end(&r->a, impulse);
   sbri_meet_give_end(&r->b, sbri_scale(impulse, -1));
 }
-
-/* ---- settle.c ---- */
 
 /* Finds the impulses of all rows, from those that they have been given already. */
 void sbri_meet_settle(sbri_meet_row *rows, uint32_t count);
