@@ -1,8 +1,8 @@
-/* Which sections of a character hang together: those that touch, or lie in each other, at rest. At a joint
- * flesh goes into flesh as far as the bones turn; what would push that apart would tear the joint's skin. */
-#include "collide/surface_look.h"
+/* Which soft bodies of a character touch, or lie in each other, at rest. Sections that do hang together: at a
+ * joint flesh goes into flesh as far as the bones turn, and what would push that apart would tear the joint's
+ * skin. Others that do are not let out of each other as a whole, which would bend them out of their shape. */
 #include "math/vec3.h"
-#include "meet/meetings.h"
+#include "meet/finding.h"
 
 /* Of the smaller one's size: nearer than the one it touches, and what is inside is looked for so deep. */
 static const float TOUCHES_SHARE = 0.01f, INSIDE_SHARE = 0.1f;
@@ -27,7 +27,7 @@ static void place(const sbr_model *model, uint32_t body, sbri_meet_surface *s, f
   sbri_bounds_tree_make(&s->tree, s->boxes, s->triangle_count);
 }
 
-/* Whether a vertex of the one touches the other, which is placed. */
+/* Whether a vertex of the one touches the other, which is placed, or lies in it. */
 static bool touches(const sbr_model *model, uint32_t one, const sbri_meet_surface *surfaces, uint32_t other,
     const sbri_surface_rule *rule) {
   const sbri_meet_surface *a = &surfaces[one], *b = &surfaces[other];
@@ -37,6 +37,7 @@ static bool touches(const sbr_model *model, uint32_t one, const sbri_meet_surfac
     sbri_bounds_walk walk;
     uint32_t triangle;
     sbri_box box = sbri_box_of_point(x);
+    if (a->samples[v].weights[0] == 0) continue; /* it follows frames, not points */
     sbri_bounds_walk_begin(&walk, &b->tree, box);
     while (sbri_bounds_walk_next(&walk, &triangle)) {
       const uint32_t *c = b->triangles + 3 * (size_t)triangle;
@@ -44,27 +45,28 @@ static bool touches(const sbr_model *model, uint32_t one, const sbri_meet_surfac
       if (sbri_box_meets(&box, &b->boxes[triangle]))
         sbri_surface_look(rule, x, still, &face, triangle, &best);
     }
-    if (sbri_surface_found(&best)) return true;
+    if (sbri_surface_found(&best) || (b->closed && sbri_meet_is_inside(b, x))) return true;
   }
   return false;
 }
 
 static bool is_section(const sbr_model *model, uint32_t body) {
-  return model->bodies[body].level && model->bodies[body].source->bone >= 0;
+  return model->bodies[body].source->bone >= 0;
 }
 
-void sbri_meet_sections_look(const sbr_model *model, sbri_meet_surface *surfaces, uint8_t *together) {
+void sbri_meet_rest_look(const sbr_model *model, sbri_meet_surface *surfaces, uint8_t *together) {
   uint32_t count = model->asset->soft_bodies.count;
   for (uint32_t b = 0; b < count; b++) {
     float size = model->bodies[b].rest_size_m;
-    if (!is_section(model, b)) continue;
+    if (!model->bodies[b].level || !surfaces[b].triangle_count) continue;
     place(model, b, &surfaces[b], INSIDE_SHARE * size);
     for (uint32_t a = 0; a < count; a++) {
-      if (a == b || !is_section(model, a) || together[(size_t)a * count + b]) continue;
+      if (a == b || !model->bodies[a].level || together[(size_t)a * count + b]) continue;
       float least = size < model->bodies[a].rest_size_m ? size : model->bodies[a].rest_size_m;
       sbri_surface_rule rule = {TOUCHES_SHARE * least, INSIDE_SHARE * least, surfaces[b].two_sided};
-      bool touch = touches(model, a, surfaces, b, &rule);
-      together[(size_t)a * count + b] = together[(size_t)b * count + a] = touch;
+      uint8_t as = is_section(model, a) && is_section(model, b) ? SBRI_HANG_TOGETHER : SBRI_TOUCH_AT_REST;
+      if (touches(model, a, surfaces, b, &rule))
+        together[(size_t)a * count + b] = together[(size_t)b * count + a] = as;
     }
   }
 }

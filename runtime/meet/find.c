@@ -63,7 +63,16 @@ static bool find_face(
   return sbri_surface_found(best);
 }
 
-static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_party *b) {
+/* Whether what lies deep in the other, or through it, is let out: not where two parts of one character do so
+ * at rest. */
+static bool may_let_out(const sbri_finding *f, const sbri_party *a, const sbri_party *b) {
+  if (!sbri_are_of_one(a, b)) return true;
+  uint32_t count = a->of->character->model->asset->soft_bodies.count;
+  const uint8_t *together = f->world->meetings->together[a->is->character];
+  return together[(size_t)a->is->number * count + b->is->number] == SBRI_APART_AT_REST;
+}
+
+static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_party *b, bool lets_out) {
   sbri_surface_rule rule = rule_of(b);
   const float whole = 1;
   for (uint32_t v = 0; v < a->surface->vertex_count; v++) {
@@ -71,10 +80,10 @@ static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_pa
     if (!(a->surface->samples[v].mass_kg > 0)) continue;
     sbf_vec3 x = a->surface->places[v];
     bool deep = !find_face(a, b, x, a->surface->ways[v], &best);
-    if (deep && (sbri_are_of_one(a, b) || !sbri_meet_way_out(b, x, &best))) continue;
+    if (deep && (!lets_out || !sbri_meet_way_out(b, x, &best))) continue;
     const uint32_t *corners = b->surface->triangles + 3 * (size_t)best.face;
     float margin = sbri_party_margin(a, b);
-    if (sbri_are_of_one(a, b)) {
+    if (sbri_are_of_one(a, b) && !deep) {
       const sbf_vec3 p[3] = {
           sbri_party_rest(b, corners[0]), sbri_party_rest(b, corners[1]), sbri_party_rest(b, corners[2])};
       float rest = sbri_surface_gap(&rule, sbri_party_rest(a, v), p);
@@ -260,9 +269,10 @@ void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
       meet_corners(&f, rigid, soft);
     } else {
       uint32_t first = group->touch_count;
-      meet_faces(&f, &a, &b);
-      meet_faces(&f, &b, &a);
-      if (a.surface->closed && b.surface->closed && !sbri_are_of_one(&a, &b) && group->touch_count > first)
+      bool let_out = may_let_out(&f, &a, &b);
+      meet_faces(&f, &a, &b, let_out);
+      meet_faces(&f, &b, &a, let_out);
+      if (a.surface->closed && b.surface->closed && let_out && group->touch_count > first)
         sbri_meet_through(&f, &a, &b, first);
       if (a.surface->two_sided && b.surface->two_sided) sbri_meet_rims(&f, &a, &b);
     }

@@ -171,16 +171,19 @@ typedef struct sbri_meet_group {
   sbr_double3 origin;
 } sbri_meet_group;
 
+/* How two soft bodies of a character are at rest: apart, two sections that touch, or others that do. */
+typedef enum sbri_at_rest { SBRI_APART_AT_REST, SBRI_HANG_TOGETHER, SBRI_TOUCH_AT_REST } sbri_at_rest;
+
 typedef struct sbri_meetings {
   sbfi_arena *arenas; /* (character_capacity) */
   sbri_meet_surface *
       *surfaces; /* (character_capacity) each of its soft bodies on its rung; NULL: none is made */
   sbri_meet_surface **all_surfaces; /* (character_capacity) of each of its soft rungs, one behind the other */
-  uint8_t **together;        /* (character_capacity) of each two of its soft bodies: they hang together */
-  unsigned char **kept;      /* (character_capacity) room for its state */
-  uint32_t *group_of;        /* (character_capacity) UINT32_MAX: it meets nobody */
-  sbri_meet_member *members; /* (character_capacity) group after group */
-  sbri_meet_group *groups;   /* (character_capacity) */
+  uint8_t **together;               /* (character_capacity) of each two of its soft bodies: an sbri_at_rest */
+  unsigned char **kept;             /* (character_capacity) room for its state */
+  uint32_t *group_of;               /* (character_capacity) UINT32_MAX: it meets nobody */
+  sbri_meet_member *members;        /* (character_capacity) group after group */
+  sbri_meet_group *groups;          /* (character_capacity) */
   uint32_t group_count;
   sbri_meeter *meeters; /* (meeter_capacity) */
   sbri_box *boxes;      /* likewise, of their ways */
@@ -230,8 +233,8 @@ void sbri_meet_rims_look(sbri_meet_surface *surface);
 /* Where that carries at rest, in the model's own metres. */
 sbf_vec3 sbri_meet_rest(const sbr_model *model, uint32_t soft_body, const sbri_sample *sample);
 
-/* Notes, of each two soft bodies, the sections that touch at rest, into zeros; places surfaces for it. */
-void sbri_meet_sections_look(const sbr_model *model, sbri_meet_surface *surfaces, uint8_t *together);
+/* Notes of each two soft bodies how they are at rest, into zeros; places surfaces for it. */
+void sbri_meet_rest_look(const sbr_model *model, sbri_meet_surface *surfaces, uint8_t *together);
 
 /* ---- meet/pairs.c ---- */
 

@@ -93,7 +93,8 @@ static bool belong_together(const sbr_world *world, const sbri_meeter *a, const 
   if (a->rigid && b->rigid) return are_jointed(&model->rigid, a->number, b->number);
   if (!a->rigid && !b->rigid)
     return world->meetings
-        ->together[a->character][(size_t)a->number * model->asset->soft_bodies.count + b->number];
+               ->together[a->character][(size_t)a->number * model->asset->soft_bodies.count + b->number] ==
+           SBRI_HANG_TOGETHER;
   const sbri_meeter *soft = a->rigid ? b : a, *rigid = a->rigid ? a : b;
   const sbri_island *island = &model->islands[model->bodies[soft->number].island];
   for (uint32_t i = 0; i < island->carrier_count; i++)

@@ -96,7 +96,7 @@ static void note_together(
     return;
   }
   memset(together, 0, count * count);
-  sbri_meet_sections_look(model, surfaces, together);
+  sbri_meet_rest_look(model, surfaces, together);
 }
 
 static uint32_t soft_rungs_of(const sbr_model *base) {

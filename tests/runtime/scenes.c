@@ -198,8 +198,14 @@ static void weights_of(const lattice_box *box, uint32_t element, sbf_vec3 p, dou
   w[0] = 1 - w[1] - w[2] - w[3];
 }
 
+static sbf_soft_body *body_of(scene *s, const sbf_level *level) {
+  uint32_t b = 0;
+  while (scene_body(s, b)->levels.at != level) b++;
+  return scene_body(s, b);
+}
+
 void scene_embed(scene *s, sbf_level *level, const lattice_box *box) {
-  const sbf_vec3_list *vertices = &scene_body(s, 0)->surface.positions;
+  const sbf_vec3_list *vertices = &body_of(s, level)->surface.positions;
   sbf_uint4 *points = sbf_asset_allocate(s->asset, vertices->count, sizeof *points);
   sbf_vec4 *weights = sbf_asset_allocate(s->asset, vertices->count, sizeof *weights);
   for (uint32_t v = 0; v < vertices->count; v++) {

@@ -57,7 +57,8 @@ sbf_level *scene_lattice(scene *s, uint32_t body, const lattice_box *box);
 sbf_level *scene_regions(scene *s, uint32_t body, sbf_vec3 low, float step, const uint32_t counts[3],
     uint32_t reach, float w, float point_kg);
 
-/* Carries the body's surface by that level: each vertex by the element of which it lies the least outside. */
+/* Carries the surface of the level's body by it: each vertex by the element of which it lies the least
+ * outside. */
 void scene_embed(scene *s, sbf_level *level, const lattice_box *box);
 
 /* Models of the asset with memory that runs out at each call in turn: none leaves anything behind. */

@@ -15,21 +15,34 @@
 enum { LONG = 15, WIDE = 3, SKIN_LONG = 24, SKIN_WIDE = 4, MOST = 512 };
 static const float LENGTH = 0.6f, THICK = 0.1f;
 
+/* About `center`, along X or along Z. */
+static void add_bar(scene *s, uint32_t body, sbf_vec3 center, bool along_z, float young_pa) {
+  lattice_box box = lattice_box_make((sbf_vec3){-0.5f * LENGTH, -0.5f * THICK, -0.5f * THICK},
+      (sbf_vec3){LENGTH, THICK, THICK}, LONG, WIDE, WIDE, 1000, young_pa, 0.3f);
+  sbf_polygon_mesh bar = shape_bar(s->asset, SKIN_LONG, SKIN_WIDE, LENGTH, THICK);
+  sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)bar.positions.at;
+  for (uint32_t i = 0; i < bar.positions.count; i++) at[i].x -= 0.5f * LENGTH;
+  for (uint32_t k = 0; k < 2; k++) {
+    sbf_vec3 *list = k ? at : box.positions;
+    uint32_t count = k ? bar.positions.count : box.point_count;
+    for (uint32_t i = 0; i < count; i++) {
+      sbf_vec3 x = along_z ? (sbf_vec3){-list[i].z, list[i].y, list[i].x} : list[i];
+      list[i] = (sbf_vec3){x.x + center.x, x.y + center.y, x.z + center.z};
+    }
+  }
+  sbf_level *level = scene_lattice(s, body, &box);
+  scene_body(s, body)->surface = bar;
+  scene_body(s, body)->surface.target = SBF_MESH_TARGET_SURFACE;
+  scene_embed(s, level, &box);
+  lattice_box_free(&box);
+  scene_body(s, body)->attributes.damping_ratio = 0.5f;
+  scene_body(s, body)->attributes.friction = 0.5f;
+}
+
 static scene begin_bar(float young_pa) {
   scene s = rigid_begin();
   scene_bodies(&s, 1);
-  lattice_box box = lattice_box_make((sbf_vec3){-0.5f * LENGTH, -0.5f * THICK, -0.5f * THICK},
-      (sbf_vec3){LENGTH, THICK, THICK}, LONG, WIDE, WIDE, 1000, young_pa, 0.3f);
-  sbf_level *level = scene_lattice(&s, 0, &box);
-  sbf_polygon_mesh bar = shape_bar(s.asset, SKIN_LONG, SKIN_WIDE, LENGTH, THICK);
-  sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)bar.positions.at;
-  for (uint32_t i = 0; i < bar.positions.count; i++) at[i].x -= 0.5f * LENGTH;
-  scene_body(&s, 0)->surface = bar;
-  scene_body(&s, 0)->surface.target = SBF_MESH_TARGET_SURFACE;
-  scene_embed(&s, level, &box);
-  lattice_box_free(&box);
-  scene_body(&s, 0)->attributes.damping_ratio = 0.5f;
-  scene_body(&s, 0)->attributes.friction = 0.5f;
+  add_bar(&s, 0, (sbf_vec3){0, 0, 0}, false, young_pa);
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
   return s;
 }
@@ -48,19 +61,20 @@ static void start(scene *s) {
   ck_assert(sbr_world_bodies_meet(s->world, 0, NULL) == SBF_OK);
 }
 
-static uint32_t look(const scene *s, sbr_character_id who, sbf_vec3 at[MOST]) {
+static uint32_t look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MOST]) {
   sbr_double3 o = sbr_character_origin(s->world, who);
-  uint32_t count = sbr_character_surface(s->world, who, 0, at, MOST);
+  uint32_t count = sbr_character_surface(s->world, who, body, at, MOST);
   for (uint32_t i = 0; i < count; i++)
     at[i] = (sbf_vec3){at[i].x + (float)o.x, at[i].y + (float)o.y, at[i].z + (float)o.z};
   return count;
 }
 
+/* Of the first body of one in the last of the other. */
 static double deepest(const scene *s, sbr_character_id one, sbr_character_id other) {
   static sbf_vec3 a[MOST], b[MOST];
   const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
-  uint32_t count = look(s, one, a);
-  ck_assert_uint_eq(look(s, other, b), count);
+  uint32_t count = look(s, one, 0, a);
+  ck_assert_uint_eq(look(s, other, s->asset->soft_bodies.count - 1, b), count);
   double most = 0;
   for (uint32_t i = 0; i < count; i++)
     most = fmax(most, fmax(skin_depth(mesh, b, a[i], UINT32_MAX), skin_depth(mesh, a, b[i], UINT32_MAX)));
@@ -70,8 +84,9 @@ static double deepest(const scene *s, sbr_character_id one, sbr_character_id oth
 static double fastest(const scene *s, sbr_character_id who) {
   const sbri_character *c = sbri_character_of(s->world, who);
   double most = 0;
-  for (uint32_t slot = 0; slot < c->model->islands[0].free_count; slot++)
-    most = fmax(most, (double)sbri_length(scene_slot_velocity(c, &c->model->islands[0], slot)));
+  for (uint32_t k = 0; k < c->model->island_count; k++)
+    for (uint32_t slot = 0; slot < c->model->islands[k].free_count; slot++)
+      most = fmax(most, (double)sbri_length(scene_slot_velocity(c, &c->model->islands[k], slot)));
   return most;
 }
 
@@ -140,12 +155,72 @@ START_TEST(the_way_out_is_of_the_same_bits)
 }
 END_TEST
 
+/* ---- Parts of one character ---- */
+
+static scene begin_two_bars(sbf_vec3 off) {
+  scene s = rigid_begin();
+  scene_bodies(&s, 2);
+  add_bar(&s, 0, (sbf_vec3){0, 0, 0}, false, 1e5f);
+  add_bar(&s, 1, off, true, 1e5f);
+  s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
+  start(&s);
+  return s;
+}
+
+/* All of its points at once, from where they are. */
+static void shift(const scene *s, uint32_t body, sbf_vec3 by) {
+  sbri_character *c = sbri_character_of(s->world, s->character);
+  const sbri_body *b = &c->model->bodies[body];
+  sbri_point *points = sbri_positions(c) + c->model->islands[b->island].first_slot;
+  for (uint32_t slot = b->slot_begin; slot < b->slot_real_end; slot++)
+    points[slot].x += by.x, points[slot].y += by.y, points[slot].z += by.z;
+}
+
+/* Two that are apart at rest, put through each other: as two characters. */
+START_TEST(parts_of_one_that_got_through_each_other_come_apart)
+{
+  static const sbf_vec3 put[3] = {{0, 0.005f, 0}, {0.11f, 0.03f, 0.06f}, {0.02f, -0.06f, 0.25f}};
+  scene s = begin_two_bars((sbf_vec3){0, 0.2f, 0});
+  shift(&s, 1, (sbf_vec3){put[_i].x, put[_i].y - 0.2f, put[_i].z});
+  double speed = 0;
+  for (int i = 0; i < 180; i++) {
+    scene_ticks(&s, 1);
+    if (i == 0) ck_assert_double_ge(deepest(&s, s.character, s.character), 0.025);
+    if (i > 3) speed = fmax(speed, fastest(&s, s.character));
+  }
+  scene_momentum after = scene_momentum_of(&s);
+  ck_assert_double_le(deepest(&s, s.character, s.character), 5e-4);
+  ck_assert_double_le(speed, 0.5);
+  for (int k = 0; k < 3; k++) ck_assert_double_le(fabs(after.linear[k]), 1e-4 * after.mass);
+  scene_free(&s);
+}
+END_TEST
+
+/* Two that lie through each other at rest stay as they are. */
+START_TEST(parts_that_overlap_at_rest_stay_quiet)
+{
+  scene s = begin_two_bars((sbf_vec3){0.02f, 0.03f * (float)_i, 0.05f});
+  static sbf_vec3 before[MOST], after[MOST];
+  uint32_t count = look(&s, s.character, 1, before);
+  ck_assert_double_ge(deepest(&s, s.character, s.character), 0.01);
+  for (int i = 0; i < 120; i++) {
+    scene_ticks(&s, 1);
+    ck_assert_double_le(fastest(&s, s.character), 1e-4);
+  }
+  (void)look(&s, s.character, 1, after);
+  for (uint32_t i = 0; i < count; i++) ck_assert_float_le(sbri_length(sbri_sub(after[i], before[i])), 1e-5f);
+  scene_free(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("find_through");
   TCase *tests = tcase_create("all");
   tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, bars_that_lie_crosswise_come_apart, 0, sizeof places / sizeof *places);
   tcase_add_test(tests, the_way_out_is_of_the_same_bits);
+  tcase_add_loop_test(tests, parts_of_one_that_got_through_each_other_come_apart, 0, 3);
+  tcase_add_loop_test(tests, parts_that_overlap_at_rest_stay_quiet, 0, 3);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
