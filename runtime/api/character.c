@@ -95,7 +95,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
     c->model = NULL;
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character's surfaces");
   }
-  sbri_head(c)->rung_ticks = UINT32_MAX; /* it may go over to any other at once */
+  sbri_head(c)->rung_ticks = UINT32_MAX; /* it has not ticked: it may go over to any other at once */
   put(world, c, definition->position, definition->heading);
   sbri_rigid_place(c, true);
   sbri_mend(c);

@@ -7,10 +7,14 @@
 
 #include "detail/choose.h"
 #include "math/quat.h"
+#include "pose/frames.h"
 #include "ragdoll/ragdoll.h"
 #include "soft/soft.h"
 
 enum { ATTEMPTS = 4 };
+
+/* Longer than that no rung is counted to have been kept: 200 days. */
+static const uint32_t LONG_TICKS = 1u << 30;
 
 /* ---- Before ---- */
 
@@ -223,8 +227,16 @@ static void go_over(const sbr_world *world, sbri_character *c, uint32_t rung) {
 
 /* Of what it swings by, what may be seen to jump where it swings on: measured, of what is shaken hard. */
 static const float JUMPS_SHARE = 0.15f;
-/* No longer is one that is to be finer kept from it, s. */
-static const float SWINGS_MOST_S = 1;
+/* No longer is one that is to be finer kept from it, s; one that is driven elsewhere again and again. */
+static const float SWINGS_MOST_S = 1, LAGS_MOST_S = 2;
+
+/* How far a body lags more than it did at the end of this tick, as it is driven elsewhere: nothing that was
+ * seen of it before tells so. Asset metres. */
+static float lags_m(const sbr_world *world, const sbri_character *c) {
+  sbri_gait_input input = sbri_gait_input_of(world, c);
+  float radius_m = 0.5f * c->scale * c->model->base->rest_size_m;
+  return sbri_gait_jolt(&c->model->rig, sbri_gait(c), &input, radius_m) * input.tick_s / c->scale;
+}
 
 /* Of one that is chosen for, and the budget does not ask for it: whether too much would be missed, on a rung
  * that does not swing, or be seen to jump. It is looked at again in a while, or at once if it is to be finer.
@@ -235,15 +247,18 @@ static bool swings_too_far(const sbr_world *world, sbri_character *c, uint32_t r
   const sbr_rung *ladder = c->model->base->ladder;
   if (!detail || detail->is_short || head->set_rung_plus_1 || head->fade_before > 0) return false;
   bool finer = rung < head->rung, swings_on = finer || ladder[rung].kind == SBR_RUNG_SOFT;
-  float shows = sbri_pixels_of(world, c) * c->scale * swings_m * (swings_on ? JUMPS_SHARE : 1);
+  float a_metre = sbri_pixels_of(world, c) * c->scale, lags = a_metre * lags_m(world, c);
+  float shows = lags + a_metre * swings_m * (swings_on ? JUMPS_SHARE : 1);
+  float most_s = lags > detail->is.error_px ? LAGS_MOST_S : SWINGS_MOST_S;
   return shows > detail->is.error_px &&
-         !(finer && (float)head->swing_ticks++ * (float)world->tick_s > SWINGS_MOST_S);
+         !(finer && (float)head->swing_ticks++ * (float)world->tick_s > most_s);
 }
 
 void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   sbri_character_state *head = sbri_head(c);
   uint32_t rung = head->next_rung;
-  if (head->rung_ticks < UINT32_MAX) head->rung_ticks++;
+  bool is_new = head->rung_ticks == UINT32_MAX; /* it has not ticked */
+  head->rung_ticks = is_new ? LONG_TICKS : head->rung_ticks + (head->rung_ticks < LONG_TICKS);
   if (c->model->base->ladder[rung].kind == SBR_RUNG_AWAY && !sbri_rigid_is_still(c))
     rung--; /* what lies about, or falls, goes on doing so: bones alone */
   uint32_t meets = sbri_last_that_meets(c->model->base);
@@ -258,7 +273,7 @@ void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   if (coarser && chosen && head->fade_before > 0 && !world->detail->is_short)
     return; /* one after the other */
   bool returns = sbri_is_away(c), same = c->model == c->model->base->rungs[rung];
-  bool fades = head->unseen_ticks == 0 && !same && !returns; /* nobody has seen one that was away */
+  bool unseen = head->unseen_ticks > 0 || returns || (is_new && chosen), fades = !unseen && !same;
   if (fades && !kept && !must_meet) {
     sbri_fade_look(c);
     return;

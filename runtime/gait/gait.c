@@ -73,7 +73,12 @@ void sbri_body_stand(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
   sbri_tails_place(rig, state, &stance);
 }
 
-float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+/* By how much it goes and turns faster in a tick. */
+typedef struct gain {
+  float ahead, aside, turn;
+} gain;
+
+static gain gain_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
   float ease = 1 - sbri_exp(-input->tick_s / EASE_S), share = 1;
   float ahead = (state->limit * input->forward - state->forward) * ease;
   float aside = (state->limit * input->sideways - state->sideways) * ease;
@@ -84,9 +89,20 @@ float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gai
     float change = sqrtf(ahead * ahead + aside * aside + round * round);
     share = change > most ? most / change : 1;
   }
-  state->forward += share * ahead;
-  state->sideways += share * aside;
-  state->turn += share * turn;
+  return (gain){share * ahead, share * aside, share * turn};
+}
+
+float sbri_gait_jolt(const sbri_rig *rig, const void *memory, const sbri_gait_input *input, float radius_m) {
+  gain by = gain_of(rig, memory, input);
+  float round = by.turn * radius_m;
+  return sqrtf(by.ahead * by.ahead + by.aside * by.aside + round * round);
+}
+
+float sbri_body_move(const sbri_rig *rig, sbri_gait_state *state, const sbri_gait_input *input) {
+  gain by = gain_of(rig, state, input);
+  state->forward += by.ahead;
+  state->sideways += by.aside;
+  state->turn += by.turn;
   bool wanted = input->forward != 0 || input->sideways != 0 || input->turn != 0;
   float speed = sqrtf(state->forward * state->forward + state->sideways * state->sideways);
   if (!wanted && speed < STILL * input->scale && fabsf(state->turn) < STILL) {

@@ -35,6 +35,10 @@ void sbri_gait_place(
 uint32_t sbri_gait_tick(const sbri_rig *rig, void *state, const sbri_gait_input *input, sbr_transform *pose,
     sbri_gait_event *events, uint32_t capacity);
 
+/* By how much what is `radius_m` from its middle will be faster at most after a tick, m/s: it is driven
+ * elsewhere. */
+float sbri_gait_jolt(const sbri_rig *rig, const void *state, const sbri_gait_input *input, float radius_m);
+
 /* A tick of the way alone: the body moves as it is driven, as fast as it has learnt that its feet can. Then
  * standing where it has come to, its speed, its targets and what it has travelled kept. */
 void sbri_gait_travel(const sbri_rig *rig, void *state, const sbri_gait_input *input);
