@@ -280,16 +280,30 @@ SBRI_INLINE void sbri_wide_scatter_sum(
   SBRI_SUM(6, _mm256_extractf128_ps(c, 1));
   SBRI_SUM(7, _mm256_extractf128_ps(d, 1));
 #undef SBRI_SUM
+#elif SBRI_LANES == 4
+  sbri_quad xy = __builtin_shufflevector(v.x, v.y, 0, 4, 1, 5), z = v.z;
+  sbri_quad xy_high = __builtin_shufflevector(v.x, v.y, 2, 6, 3, 7);
+  sbri_quad rows[4] = {__builtin_shufflevector(xy, z, 0, 1, 4, 4), __builtin_shufflevector(xy, z, 2, 3, 5, 5),
+      __builtin_shufflevector(xy_high, z, 0, 1, 6, 6), __builtin_shufflevector(xy_high, z, 2, 3, 7, 7)};
+#define SBRI_SUM(i)                                                                                          \
+  do {                                                                                                       \
+    sbri_point *to = &points[places[i]];                                                                     \
+    sbri_quad sum;                                                                                           \
+    memcpy(&sum, to, sizeof sum);                                                                            \
+    sum = subtract ? sum - rows[i] : sum + rows[i];                                                          \
+    memcpy(to, &sum, sizeof sum);                                                                            \
+  } while (0)
+  SBRI_SUM(0);
+  SBRI_SUM(1);
+  SBRI_SUM(2);
+  SBRI_SUM(3);
+#undef SBRI_SUM
 #else
-  sbri_point rows[SBRI_LANES];
-  sbri_wide_store_points(rows, v);
-  for (int i = 0; i < SBRI_LANES; i++) {
-    sbri_point *to = &points[places[i]];
-    if (subtract)
-      to->x -= rows[i].x, to->y -= rows[i].y, to->z -= rows[i].z;
-    else
-      to->x += rows[i].x, to->y += rows[i].y, to->z += rows[i].z;
-  }
+  sbri_point *to = &points[places[0]];
+  if (subtract)
+    to->x -= v.x, to->y -= v.y, to->z -= v.z;
+  else
+    to->x += v.x, to->y += v.y, to->z += v.z;
 #endif
 }
 SBRI_INLINE void sbri_wide_scatter_add(sbri_point *points, const uint32_t *places, sbri_wide3 v) {

@@ -85,7 +85,7 @@ static inline sbri_wide3 sbri_decayed(
 }
 
 /* v += h a(x), and what damping leaves of it; `pulls`: NULL, or what the springs do is added to that. */
-static inline void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep,
+SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body, float h, sbri_decay keep,
     int kind, float *stretches, sbri_pull_sums *pulls) {
   sbri_wide step = sbri_wide_all(h);
   bool guided = sbri_is_guided(t, body, keep);
@@ -140,7 +140,7 @@ static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
   }
 }
 
-static inline void sbri_accelerate_body(
+SBRI_INLINE void sbri_accelerate_body(
     const sbri_island_tick *t, const sbri_body *body, int kind, float *stretches) {
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot);

@@ -59,7 +59,7 @@ static inline int sbri_force_kind(const sbri_island_tick *t, bool tracked) {
 }
 
 /* Force of its springs on each point of a group of lanes; `stretches` (8) where tracked. */
-static inline sbri_wide3 sbri_spring_forces(
+SBRI_INLINE sbri_wide3 sbri_spring_forces(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, int kind, float *stretches) {
   const sbri_island *island = t->island;
   const bool damped = kind & SBRI_DAMPED, track = kind & SBRI_TRACKED, flowing = kind & SBRI_FLOWING;
@@ -111,7 +111,7 @@ static inline bool sbri_has_element_forces(const sbri_island *island) {
 }
 
 /* Acceleration of each point of a group of lanes by all forces but frame damping and media friction. */
-static inline sbri_wide3 sbri_acceleration(
+SBRI_INLINE sbri_wide3 sbri_acceleration(
     const sbri_island_tick *t, uint32_t slot, sbri_wide3 x, int kind, float *stretches) {
   sbri_wide3 f = sbri_spring_forces(t, slot, x, kind, stretches);
   if (t->outer) {

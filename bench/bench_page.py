@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""The physics of the page that `sbfmt export -o lizard.html` writes, in Chromium: walking, knocked over, hit by a ball, dragged. As CSV:
+milliseconds of processor time a tick of 1/60 s, over all and in the dearest half second, and how many ticks a second that leaves room for.
+
+    bench_page.py [--quick]
+
+Beside it the program's own loops of the same width and of the widest, on the same walk. --quick measures less, and fails where a scene leaves
+room for fewer than 60 ticks a second. Exits 77 where there is no Chromium."""
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TESTS = os.path.join(HERE, os.pardir, "tests", "web")
+sys.path.insert(0, TESTS)
+import web_files  # noqa: E402
+
+LEAST_TICKS_S = 60
+WALK = ("--drive", "0.3,0", "--ground", "noise:0.1,7")
+
+
+def processor_s(*command):
+    before = os.times().children_user
+    subprocess.run(command, check=True, capture_output=True)
+    return os.times().children_user - before
+
+
+def native_ms(path, instructions, seconds, rounds):
+    """Of a tick on a walk: what so many seconds take beyond half of one."""
+    command = (web_files.SBFMT, "run", path, *WALK, "--instructions", instructions, "--seconds")
+    return min((processor_s(*command, str(seconds + 0.5)) - processor_s(*command, "0.5")) / seconds / 60 * 1e3 for _ in range(rounds))
+
+
+def main():
+    quick = "--quick" in sys.argv[1:]
+    web_files.need("node", "npm", "chromium")
+    modules = web_files.playwright()
+    rows = csv.writer(sys.stdout, lineterminator="\n")
+    rows.writerow(("scene", "with", "mean_ms", "dearest_ms", "ticks_s", "dearest_ticks_s"))
+    slow = []
+    with tempfile.TemporaryDirectory() as folder:
+        lizard, page = web_files.bundles(folder)["lizard"], os.path.join(folder, "lizard.html")
+        web_files.run(web_files.SBFMT, "export", lizard, "-o", page)
+        found = json.loads(web_files.run("node", os.path.join(HERE, "page_scenes.mjs"), os.path.join(TESTS, "chromium.mjs"), modules, page,
+                                         "4" if quick else "12").splitlines()[-1])
+        for scene, cost in found["scenes"].items():
+            rows.writerow((scene, f"Chromium {found['browser']}", f"{cost['mean']:.2f}", f"{cost['most']:.2f}", round(1000 / cost["mean"]),
+                           round(1000 / cost["most"])))
+            if 1000 / cost["mean"] < LEAST_TICKS_S:
+                slow.append(f"{scene}: {1000 / cost['mean']:.0f} ticks a second")
+        for instructions in () if quick else ("sse2", "automatic"):
+            took = native_ms(lizard, instructions, 4, 3)
+            rows.writerow(("walks", f"sbfmt run, {instructions}", f"{took:.2f}", "", round(1000 / took), ""))
+    if found["faults"] or slow:
+        sys.exit("\n".join(found["faults"] + slow))
+
+
+if __name__ == "__main__":
+    main()
