@@ -1,18 +1,38 @@
 #include "collide/hull.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "collide/triangle.h"
 
 /* ---- Making ---- */
 
+/* A face so much narrower than long has its normal from sums in double precision. */
+static const float SLIVER = 1e-3f;
+
+/* The same as area_of. */
+static sbf_vec3 area_of_sliver(const sbf_vec3 *vertices, const uint32_t *corners, uint32_t count) {
+  double x = 0, y = 0, z = 0;
+  sbf_vec3 o = vertices[corners[0]];
+  for (uint32_t i = 2; i < count; i++) {
+    sbf_vec3 p = vertices[corners[i - 1]], q = vertices[corners[i]];
+    double px = (double)p.x - (double)o.x, py = (double)p.y - (double)o.y, pz = (double)p.z - (double)o.z;
+    double qx = (double)q.x - (double)o.x, qy = (double)q.y - (double)o.y, qz = (double)q.z - (double)o.z;
+    x += py * qz - pz * qy, y += pz * qx - px * qz, z += px * qy - py * qx;
+  }
+  return sbri_vec3((float)x, (float)y, (float)z);
+}
+
 /* Twice the area by Newell's sum, as a vector. */
 static sbf_vec3 area_of(const sbf_vec3 *vertices, const uint32_t *corners, uint32_t count) {
   sbf_vec3 sum = {0, 0, 0}, first = vertices[corners[0]];
-  for (uint32_t i = 2; i < count; i++)
-    sum = sbri_add(
-        sum, sbri_cross(sbri_sub(vertices[corners[i - 1]], first), sbri_sub(vertices[corners[i]], first)));
-  return sum;
+  float wide = 0;
+  for (uint32_t i = 2; i < count; i++) {
+    sbf_vec3 a = sbri_sub(vertices[corners[i - 1]], first), b = sbri_sub(vertices[corners[i]], first);
+    sum = sbri_add(sum, sbri_cross(a, b));
+    wide = fmaxf(wide, fmaxf(sbri_dot(a, a), sbri_dot(b, b)));
+  }
+  return sbri_length(sum) > SLIVER * wide ? sum : area_of_sliver(vertices, corners, count);
 }
 
 typedef struct making {

@@ -1,7 +1,9 @@
 /* Shapes from what a host has. */
+#include <math.h>
 #include <string.h>
 
 #include "base/diagnostic.h"
+#include "collide/hull_points.h"
 #include "collide/shape.h"
 
 enum { SHAPE_COOKIE = 0x5b727368 };
@@ -35,11 +37,26 @@ static bool make_box(sbr_shape *s) {
   return make_hull(s, points, 8, sizes, 6, corners);
 }
 
-static bool make_hull_of_triangles(sbr_shape *s, const sbr_shape_definition *d) {
-  uint32_t *sizes = sbfi_arena_allocate(&s->arena, d->triangle_count, sizeof *sizes);
+static bool make_hull_of_triangles(sbr_shape *s, const sbf_vec3 *points, uint32_t point_count,
+    const uint32_t *triangles, uint32_t triangle_count) {
+  uint32_t *sizes = sbfi_arena_allocate(&s->arena, triangle_count, sizeof *sizes);
   if (!sizes) return false;
-  for (uint32_t i = 0; i < d->triangle_count; i++) sizes[i] = 3;
-  return make_hull(s, d->points, d->point_count, sizes, d->triangle_count, d->triangles);
+  for (uint32_t i = 0; i < triangle_count; i++) sizes[i] = 3;
+  return make_hull(s, points, point_count, sizes, triangle_count, triangles);
+}
+
+/* Without triangles it is around the points; around points in a plane is nothing, which has no faces. */
+static bool make_convex(sbr_shape *s, const sbr_shape_definition *d) {
+  if (d->triangle_count)
+    return make_hull_of_triangles(s, d->points, d->point_count, d->triangles, d->triangle_count);
+  sbri_point_hull hull;
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &s->allocator, 0);
+  bool good = sbri_hull_of_points(&hull, d->points, d->point_count, &scratch) &&
+              (!hull.triangle_count || make_hull_of_triangles(s, hull.vertices, hull.vertex_count,
+                                           hull.corners, hull.triangle_count));
+  sbfi_arena_free(&scratch);
+  return good;
 }
 
 /* The tree over triangles that are the shape's own already. */
@@ -107,7 +124,14 @@ static const char *fault_of(const sbr_shape_definition *d) {
   }
   if (d->kind == SBR_SHAPE_HOST) return d->host.distance ? NULL : "a host's shape has a distance";
   if (d->kind != SBR_SHAPE_HULL && d->kind != SBR_SHAPE_MESH) return NULL;
-  if (!d->points || !d->triangles || !d->point_count || !d->triangle_count) return "there are no triangles";
+  bool of_points = d->kind == SBR_SHAPE_HULL && !d->triangle_count;
+  if (!d->points || !d->point_count) return "there are no points";
+  if (!of_points && (!d->triangles || !d->triangle_count)) return "there are no triangles";
+  for (uint32_t i = 0; of_points && i < d->point_count; i++) {
+    sbf_vec3 p = d->points[i];
+    if (!(fabsf(p.x) < FAR_M && fabsf(p.y) < FAR_M && fabsf(p.z) < FAR_M))
+      return "a point is not a number below 10^9";
+  }
   for (size_t i = 0; i < 3 * (size_t)d->triangle_count; i++)
     if (d->triangles[i] >= d->point_count) return "a triangle names a point beyond the last";
   return NULL;
@@ -128,7 +152,7 @@ static bool make(sbr_shape *s, const sbr_shape_definition *d) {
   case SBR_SHAPE_BOX:
     return make_box(s);
   case SBR_SHAPE_HULL:
-    return make_hull_of_triangles(s, d);
+    return make_convex(s, d);
   case SBR_SHAPE_MESH:
     return make_mesh(s, d);
   case SBR_SHAPE_HEIGHT_FIELD:
@@ -164,7 +188,8 @@ sbf_status sbr_shape_create(const sbf_allocator *allocator, const sbr_shape_defi
     return SBF_OK;
   }
   sbr_shape_destroy(s);
-  return made ? sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_shape_create: the hull encloses nothing")
+  return made ? sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+                    "sbr_shape_create: the hull encloses nothing: its points lie in a plane")
               : sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a shape");
 }
 

@@ -105,13 +105,18 @@ class Godot:
         return subprocess.run(command, env=environment, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                               timeout=550)
 
-    def passes(self, script, *words, allowed=(), display=""):
-        """Whether a script of this folder ends with status 0 and Godot complains of nothing but what is `allowed`. With a display it draws,
-        by OpenGL on the processor."""
+    def passes(self, script, *words, allowed=(), display="", said=""):
+        """Whether a script of this folder ends with status 0, Godot complains of nothing but what is `allowed`, and it says once what is to
+        be `said`. With a display it draws, by OpenGL on the processor."""
         self.copy(os.path.join(HERE, "checks.gd"), os.path.join(HERE, f"{script}.gd"))
         seen = ["--rendering-driver", "opengl3", "--audio-driver", "Dummy"] if display else ["--headless"]
         settings = {"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"} if display else {}
-        return self.is_good(self.run(*seen, "--fixed-fps", "60", "--script", f"{script}.gd", "--", *words, **settings), allowed)
+        done = self.run(*seen, "--fixed-fps", "60", "--script", f"{script}.gd", "--", *words, **settings)
+        good = self.is_good(done, allowed)
+        times = done.stdout.count(said) if said else 1
+        if times != 1:
+            print(f"FAILED: said {times} times: {said}")
+        return good and times == 1
 
     @staticmethod
     def is_good(done, allowed=()):

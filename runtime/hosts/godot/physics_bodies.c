@@ -1,19 +1,17 @@
 /* The moving bodies near a character: a query with its bounds as a box finds them, and each of their shapes
- * is mirrored as a collider of the runtime, which its threads then meet without asking Godot. What these are
- * pushed with goes to the bodies. What stands still is ground (physics_ground.c). */
+ * (physics_shapes.c) is mirrored as a collider of the runtime, which its threads then meet without asking
+ * Godot. What these are pushed with goes to the bodies. What stands still is ground (physics_ground.c). */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "soft_character.h"
 
 enum {
-  MOST = 64,     /* shapes at once */
-  KEPT = 30,     /* frames for which one is kept that is no longer near */
-  AGAIN = 4,     /* frames between two looks around */
-  FORGET = 64,   /* frames after which what stood still is looked at again */
-  QUERIES = 8,   /* most of them in a look: a mesh that stands still may fill one by itself */
-  CYLINDER = 16, /* sides of a cylinder's hull */
+  MOST = 64,   /* shapes at once */
+  KEPT = 30,   /* frames for which one is kept that is no longer near */
+  AGAIN = 4,   /* frames between two looks around */
+  FORGET = 64, /* frames after which what stood still is looked at again */
+  QUERIES = 8, /* most of them in a look: a mesh that stands still may fill one by itself */
   MODE_RIGID = 2,
   MODE_RIGID_LINEAR = 3,
   PARAM_BOUNCE = 0,
@@ -23,9 +21,6 @@ enum {
   STATE_LINEAR_VELOCITY = 1,
   STATE_ANGULAR_VELOCITY = 2
 };
-/* Godot's kinds of shapes that a moving body may have. */
-enum { SHAPE_SPHERE = 2, SHAPE_BOX = 3, SHAPE_CAPSULE = 4, SHAPE_CYLINDER = 5, SHAPE_CONCAVE = 7 };
-
 typedef struct mirrored {
   uint64_t body;      /* RID; 0: free */
   int64_t index;      /* of its shapes */
@@ -83,82 +78,6 @@ gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id c
     if (bodies->each[i].id.value == collider.value)
       return gd_object(gd.object_get_instance_from_id(bodies->each[i].object));
   return gd_object(NULL);
-}
-
-/* ---- Shapes ---- */
-
-static sbr_shape *of_points(sbr_shape_kind kind, const sbf_vec3 *points, uint32_t count,
-    const uint32_t *triangles, uint32_t triangle_count) {
-  sbr_shape_definition form = sbr_default_shape_definition();
-  sbr_shape *made = NULL;
-  form.kind = kind;
-  form.points = points;
-  form.point_count = count;
-  form.triangles = triangles;
-  form.triangle_count = triangle_count;
-  return sbr_shape_create(NULL, &form, &made, NULL) == SBF_OK ? made : NULL;
-}
-
-static sbr_shape *cylinder(float radius, float height) {
-  sbf_vec3 points[2 * CYLINDER];
-  uint32_t triangles[3 * (4 * CYLINDER - 4)], written = 0;
-  for (uint32_t i = 0; i < CYLINDER; i++) {
-    float angle = 6.2831853f * (float)i / CYLINDER, x = radius * cosf(angle), z = radius * sinf(angle);
-    uint32_t j = (i + 1) % CYLINDER, side[6] = {i, j, CYLINDER + i, j, CYLINDER + j, CYLINDER + i};
-    points[i] = (sbf_vec3){x, -height / 2, z};
-    points[CYLINDER + i] = (sbf_vec3){x, height / 2, z};
-    memcpy(&triangles[written], side, sizeof side);
-    written += 6;
-    if (i < 2) continue;
-    uint32_t ends[6] = {0, i - 1, i, CYLINDER, CYLINDER + i, CYLINDER + i - 1};
-    memcpy(&triangles[written], ends, sizeof ends);
-    written += 6;
-  }
-  return of_points(SBR_SHAPE_HULL, points, 2 * CYLINDER, triangles, written / 3);
-}
-
-/* Godot's faces are clockwise seen from outside. */
-static sbr_shape *concave(const gd_variant *data) {
-  gd_variant faces = gd_key(data, "faces");
-  uint32_t count = (uint32_t)gd_size(&faces) / 3 * 3;
-  uint32_t *triangles = count ? malloc(count * sizeof *triangles) : NULL;
-  sbr_shape *made = NULL;
-  for (uint32_t i = 0; triangles && i < count; i++) triangles[i] = i - i % 3 + (3 - i % 3) % 3;
-  if (triangles) made = of_points(SBR_SHAPE_MESH, gd_vector3s(&faces), count, triangles, count / 3);
-  free(triangles);
-  gd_free(&faces);
-  return made;
-}
-
-static float number(const gd_variant *data, const char *key) {
-  return (float)gd_take_float(gd_key(data, key));
-}
-
-static sbr_shape *shape_of(const gd_variant *server, const gd_variant *body, int64_t index) {
-  gd_variant handle = GD_CALL(server, "body_get_shape", gd_copy(body), gd_int(index));
-  gd_variant data = GD_CALL(server, "shape_get_data", gd_copy(&handle));
-  sbr_shape_definition form = sbr_default_shape_definition();
-  sbr_shape *made = NULL;
-  int64_t kind = gd_take_int(GD_CALL(server, "shape_get_type", gd_copy(&handle)));
-  if (kind == SHAPE_SPHERE) {
-    form.radius = (float)gd_as_float(&data);
-    sbr_shape_create(NULL, &form, &made, NULL);
-  } else if (kind == SHAPE_BOX) {
-    form.kind = SBR_SHAPE_BOX;
-    form.half_sizes = gd_as_vector3(&data);
-    sbr_shape_create(NULL, &form, &made, NULL);
-  } else if (kind == SHAPE_CAPSULE) {
-    form.kind = SBR_SHAPE_CAPSULE;
-    form.radius = number(&data, "radius");
-    form.half_sizes.y = number(&data, "height") / 2 - form.radius;
-    sbr_shape_create(NULL, &form, &made, NULL);
-  } else if (kind == SHAPE_CYLINDER)
-    made = cylinder(number(&data, "radius"), number(&data, "height"));
-  else if (kind == SHAPE_CONCAVE)
-    made = concave(&data);
-  gd_free(&data);
-  gd_free(&handle);
-  return made;
 }
 
 /* ---- Where they are ---- */
@@ -252,7 +171,7 @@ static void meet(soft_character *one, const gd_variant *server, const gd_variant
         .handle = gd_copy(&handle),
         .object = gd.variant_get_object_instance_id(&object),
         .seen = bodies->frame};
-    room->shape = shape_of(server, &handle, index);
+    room->shape = physics_shape_of(server, &handle, index, &object);
     gd_transform at = place_of(server, room);
     sbr_collider_definition made = sbr_default_collider_definition();
     made.shape = room->shape;

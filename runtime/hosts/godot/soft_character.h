@@ -122,6 +122,13 @@ void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_se
 gd_variant physics_bodies_handles(const physics_bodies *bodies);
 gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider);
 
+/* ---- physics_shapes.c ---- */
+
+/* A body's shape as the runtime's; NULL where it has none, which is said once if it should have one.
+ * `object`: whose it is. */
+sbr_shape *physics_shape_of(
+    const gd_variant *server, const gd_variant *body, int64_t index, const gd_variant *object);
+
 /* ---- shared_world.c ---- */
 
 /* A world for the character, which has its model and its place: its own, or that of those that it may meet.

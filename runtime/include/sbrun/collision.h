@@ -25,7 +25,9 @@ typedef enum sbr_shape_kind {
   SBR_SHAPE_SPHERE,  /* radius, about the origin */
   SBR_SHAPE_BOX,     /* half_sizes, about the origin */
   SBR_SHAPE_CAPSULE, /* radius, about the straight line from -half_sizes.y to half_sizes.y on the y axis */
-  SBR_SHAPE_HULL,    /* convex: points and triangles of its surface, in any winding */
+  SBR_SHAPE_HULL,    /* convex: points and triangles of its surface, in any winding; or points alone, which it
+                        lies around: of more than 256 vertices those that stand out the furthest, placed to a
+                        millionth of its size */
   SBR_SHAPE_MESH,    /* triangles, solid behind their faces (counter-clockwise seen from outside) */
   SBR_SHAPE_HEIGHT_FIELD, /* heights, solid below */
   SBR_SHAPE_HOST          /* what the host's own physics holds, asked by calls */
@@ -54,7 +56,7 @@ typedef struct sbr_shape_definition {
   const sbf_vec3 *points;          /* (point_count) hull, mesh */
   uint32_t point_count;            /* of points */
   const uint32_t *triangles;       /* (triangle_count x 3) hull, mesh */
-  uint32_t triangle_count;         /* of triangles */
+  uint32_t triangle_count;         /* of triangles; 0: a hull around the points */
   const sbr_height_field *heights; /* height field; its x and z in the shape's frame */
   sbr_host_shape host;             /* of the host's own */
 } sbr_shape_definition;
@@ -63,7 +65,7 @@ typedef struct sbr_shape_definition {
 typedef struct sbr_shape sbr_shape;
 SBF_API sbr_shape_definition sbr_default_shape_definition(void);
 /* SBF_FAILED where memory runs out, a size is not positive, an index is beyond the points or a hull encloses
- * nothing. The shape must outlive its colliders. */
+ * nothing, as around points in a plane. The shape must outlive its colliders. */
 SBF_API sbf_status sbr_shape_create(const sbf_allocator *allocator, const sbr_shape_definition *definition,
     sbr_shape **shape, sbf_diagnostic *error);
 SBF_API void sbr_shape_destroy(sbr_shape *shape);
