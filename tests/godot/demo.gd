@@ -5,6 +5,8 @@ var scene: Node3D
 var start := Vector3.ZERO
 var least := INF
 var balls := []
+var jellies := []
+var met := {}
 
 
 func _initialize() -> void:
@@ -12,6 +14,9 @@ func _initialize() -> void:
 	RenderingServer.render_loop_enabled = false
 	scene = load("res://walk.tscn").instantiate()
 	root.add_child(scene)
+	for name in ["Jelly", "Jelly2"]:
+		scene.get_node(name).contact.connect(func(_soft_body: int, _position: Vector3, _normal: Vector3, _impulse: float, with: Object):
+			if with == scene.get_node("Lizard"): met[name] = true)
 
 
 func press(key: Key, down: bool) -> void:
@@ -27,6 +32,7 @@ func _physics_process(_delta: float) -> bool:
 	var lizard: SoftCharacter3D = scene.get_node("Lizard")
 	if frame == 60:
 		balls = range(1, 5).map(func(i): return scene.get_node("Ball%d" % i).position)
+		jellies = ["Jelly", "Jelly2"].map(func(name): return middle_of(scene.get_node(name)))
 	if frame == 20:
 		press(KEY_UP, true)
 	if frame == 260:
@@ -43,6 +49,10 @@ func _physics_process(_delta: float) -> bool:
 		var rolled := range(1, 5).map(func(i): return balls[i - 1].distance_to(scene.get_node("Ball%d" % i).position))
 		print("balls rolled ", rolled)
 		check(rolled.max() > 0.2, "no ball was pushed away: %s" % [rolled])
+		var went := [0, 1].map(func(i): return jellies[i].distance_to(middle_of(scene.get_node(["Jelly", "Jelly2"][i]))))
+		print("jellies went ", went, ", met ", met.keys())
+		check(met.size() == 2, "the lizard met %s of the jellies" % [met.keys()])
+		check(went.min() > 0.2, "a jelly was not pushed away: %s" % [went])
 		check(scene.steps > 20, "%d steps were told" % scene.steps)
 		check(least > -0.02 and least < 0.02, "the lowest point of its skin is %f above the hills" % least)
 		print("went %f m, turned %f, %d steps, lowest %f" % [lizard.get_travelled(), lizard.rotation.y, scene.steps, least])

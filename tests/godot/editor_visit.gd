@@ -1,7 +1,7 @@
 @tool
 extends EditorPlugin
 # Visits a scene in the editor: the character is there at rest and goes with the node, has a gizmo, moves while it
-# previews and is put back.
+# previews and is put back; its properties and signals have help.
 
 var failed := 0
 var frame := 0
@@ -47,7 +47,12 @@ func _physics_process(_delta: float) -> void:
 	if frame == 260:
 		check(character.position.z > 0.2, "its preview came to %s" % character.position)
 		character.preview = false
+		EditorInterface.get_script_editor().goto_help("class_name:SoftCharacter3D")
 	if frame == 270:
 		check(character.transform.is_equal_approx(began), "it was not put back: %s" % character.transform)
+		var pages := EditorInterface.get_script_editor().find_children("*", "RichTextLabel", true, false)
+		var help := "".join(pages.map(func(one): return one.get_parsed_text()))
+		for words in ["its flesh gives", "pushed with what the flesh feels", "begins to touch something", "A foot of the gait comes down"]:
+			check(words in help, "its help does not say: %s" % words)
 		print("%d failed after %d frames of the editor" % [failed, frame])
 		get_tree().quit(1 if failed else 0)

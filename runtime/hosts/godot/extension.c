@@ -1,5 +1,6 @@
 /* Where Godot enters: sbfmt_godot_begin, as addons/sbfmt/sbfmt.gdextension names it. */
 #include "asset_loader.h"
+#include "class_help.h"
 #include "soft_character.h"
 
 #if defined(_WIN32)
@@ -13,6 +14,7 @@ enum { CLASSES = sizeof classes / sizeof *classes };
 
 static void initialize(void *userdata, GDExtensionInitializationLevel level) {
   (void)userdata;
+  if (level == GDEXTENSION_INITIALIZATION_EDITOR) words_tell();
   if (level != GDEXTENSION_INITIALIZATION_SCENE) return;
   for (int i = 0; i < CLASSES; i++) gd_class_register(classes[i]);
   asset_loader_begin();

@@ -56,6 +56,7 @@ typedef struct gd_api {
   GD_CALLS(X)
 #undef X
   GDExtensionClassLibraryPtr library;
+  GDExtensionInterfaceGetProcAddress get; /* asks for others */
 } gd_api;
 
 /* Set once, before anything else of the extension runs. */
@@ -63,5 +64,7 @@ extern gd_api gd;
 
 /* False where this Godot lacks one of them: the extension is not for it. */
 bool gd_api_load(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library);
+/* What takes help for classes; NULL where this is no editor. */
+GDExtensionsInterfaceEditorHelpLoadXmlFromUtf8Chars gd_editor_help(void);
 
 #endif

@@ -1,0 +1,96 @@
+/* What the editor's help says. docs/godot.md says the same at more length. */
+#include "class_help.h"
+#include "soft_character.h"
+
+static const gd_help character_words[] = {
+    {"asset", "The character. Several nodes share one, and what is made of it."},
+    {"paused", "It keeps still, and costs nothing."},
+    {"preview", "It also moves in the editor, and is put back when this is switched off."},
+    {"forward_speed", "What it is to do, m/s to its front. See [method drive]."},
+    {"sideways_speed", "What it is to do, m/s to its left."},
+    {"turn_speed", "What it is to do, rad/s to its left."},
+    {"scheme", "How its bodies are stepped; automatic is the file's own choice."},
+    {"substeps", "Steps a control tick, 1/60 s unless the file says otherwise. 0: the file's own choice."},
+    {"level", "Which level of detail of the file is stepped, 0 being the finest."},
+    {"gravity_scale", "Times the file's gravity."},
+    {"free_bodies", "Pins are dropped: sections fall apart from the bones."},
+    {"hold_pose", "Bones stay in their rest pose, and flesh alone moves."},
+    {"use_threads", "Steps on the [WorkerThreadPool]. The motion is the same to the bit."},
+    {"mirror_skeleton",
+        "A [Skeleton3D] under the node has the bones, for attachments. See [method get_skeleton]."},
+    {"ground", "What it stands on."},
+    {"ground_cell", "Metres between two rays that look for the ground. 0: a 24th of the character's size."},
+    {"ground_reach", "Metres above the node at which these rays begin. 0: the character's size. What is "
+                     "higher is a roof."},
+    {"collision_mask", "Physics layers of the ground and of the bodies that it meets."},
+    {"push_bodies", "What it touches of [RigidBody3D] is pushed with what the flesh feels."},
+    {"meet_others", "It meets the other nodes of its physics space that have this too; parts of it meet each "
+                    "other then. It costs."},
+    {"push_limit", "Metres a second by which one frame's push makes a body faster at most. 0: no bound."},
+    {"drive",
+        "Sets [member forward_speed], [member sideways_speed] and [member turn_speed]: m/s, m/s, rad/s."},
+    {"teleport", "Puts it over a place, on the ground there, turned by [param heading] radians about +Y. The "
+                 "pose is kept."},
+    {"reset_pose", "Puts it into its rest pose, where it stands."},
+    {"play", "Plays the file's clip of that name, faded in over [param fade] seconds. See [method "
+             "SoftAsset.get_clip_names]."},
+    {"knock_over", "It falls, lies, and gets up again if it has legs. See [signal landed]."},
+    {"get_travelled", "Metres that it has gone."},
+    {"get_leg_count", "Legs of its gait."},
+    {"is_leg_planted", "Whether that leg stands on the ground."},
+    {"get_skin", "The vertices of one of its render meshes, in world space. See [method "
+                 "SoftAsset.get_render_mesh_names]."},
+    {"get_volume_ratio",
+        "A soft body's volume as a share of that at rest. See [method SoftAsset.get_soft_body_names]."},
+    {"get_max_strain", "The greatest strain in a soft body; 0 at rest."},
+    {"is_asleep", "Whether a soft body is at rest, and costs nothing."},
+    {"get_substeps_needed", "Substeps that its bodies need now to be stable."},
+    {"get_state_hash", "A hash of all that moves: equal where two runs are equal to the bit."},
+    {"get_skeleton", "The [Skeleton3D] with its bones, or null. See [member mirror_skeleton]."},
+    {"get_rest_bounds", "The box that it fills at rest, in the node's space."},
+    {"get_bone_lines", "Head and tail of every bone, in world space."},
+    {"foot_down", "A foot of the gait comes down."},
+    {"foot_up", "A foot of the gait lifts."},
+    {"landed", "Knocked over, it has come to lie and begins to get up, there."},
+    {"contact", "A body begins to touch something: [param with] is the physics body or the other character, "
+                "null for the "
+                "ground; [param soft_body] is -1 for a rigid part; [param impulse] is in N s."},
+    {"torn", "An element of a soft body tore."},
+    {"SCHEME_AUTOMATIC", "The file's own choice."},
+    {"SCHEME_SYMPLECTIC", "Symplectic Euler: the cheapest for most soft bodies."},
+    {"SCHEME_POSITION_BASED", "Position-based with compliance, in small steps: stiff bodies, limits."},
+    {"SCHEME_RELAXATION", "Verlet with a stiffness fraction and a damping factor a tick."},
+    {"SCHEME_EXPLICIT_EULER", "Explicit Euler, to compare with: it gains energy."},
+    {"SCHEME_HEUN", "Heun's, with steps as short as its error asks for."},
+    {"SCHEME_BLOCK_DESCENT", "Vertex block descent: stiff bodies of tetrahedra."},
+    {"GROUND_PHYSICS", "What stands still in the physics space, by rays."},
+    {"GROUND_FLAT", "A plane at the height where the node began."},
+    {0},
+};
+
+static const gd_help asset_words[] = {
+    {"data", "The bytes of a .sbfz. Characters take other content up at once, and go on where they were if "
+             "its structure is the same."},
+    {"get_bone_names", "Names of its bones."},
+    {"get_soft_body_names",
+        "Names of its soft bodies, in the order that calls of [SoftCharacter3D] count them in."},
+    {"get_render_mesh_names", "Names of its render meshes, likewise."},
+    {"get_clip_names", "Names of its clips, for [method SoftCharacter3D.play]."},
+    {"get_left_out", "What of the file is not acted on, a sentence each."},
+    {0},
+};
+
+void words_tell(void) {
+  gd_class_tell(&soft_character_class,
+      "A soft character: it walks, its flesh gives, its feet find the ground. It shows a [SoftAsset] and "
+      "goes where its "
+      "character goes; moving the node puts the character there. Physics bodies that stand still are its "
+      "ground, those "
+      "that move are touched and pushed.",
+      character_words);
+  gd_class_tell(&soft_asset_class,
+      "A soft character's bundle, as [SoftCharacter3D] shows it. It is loaded from a .sbfz, or imported from "
+      "a .sbf by "
+      "the add-on's plugin.",
+      asset_words);
+}
