@@ -2,19 +2,10 @@
  * joint flesh goes into flesh as far as the bones turn, and what would push that apart would tear the joint's
  * skin. Others that do are not let out of each other as a whole, which would bend them out of their shape. */
 #include "math/vec3.h"
-#include "meet/finding.h"
+#include "meet/inside.h"
 
 /* Of the smaller one's size: nearer than the one it touches, and what is inside is looked for so deep. */
 static const float TOUCHES_SHARE = 0.01f, INSIDE_SHARE = 0.1f;
-
-sbf_vec3 sbri_meet_rest(const sbr_model *model, uint32_t body, const sbri_sample *s) {
-  const sbri_point *rest = model->islands[model->bodies[body].island].rest;
-  sbf_vec3 x = {0, 0, 0};
-  for (int k = 0; k < 4; k++)
-    x = sbri_add_scaled(
-        x, sbri_vec3(rest[s->slots[k]].x, rest[s->slots[k]].y, rest[s->slots[k]].z), s->weights[k]);
-  return x;
-}
 
 /* Its vertices and the tree over its triangles, at rest. */
 static void place(const sbr_model *model, uint32_t body, sbri_meet_surface *s, float reach) {
@@ -47,19 +38,18 @@ static bool touches(const sbr_model *model, uint32_t one, const sbri_meet_surfac
     }
     if (sbri_surface_found(&best) || (b->closed && sbri_meet_is_inside(b, x))) return true;
   }
-  return false;
+  return a->closed && b->closed && sbri_edges_go_through(a, b);
 }
 
 static bool is_section(const sbr_model *model, uint32_t body) {
   return model->bodies[body].source->bone >= 0;
 }
 
-void sbri_meet_rest_look(const sbr_model *model, sbri_meet_surface *surfaces, uint8_t *together) {
+static void note_softs(const sbr_model *model, const sbri_meet_surface *surfaces, uint8_t *together) {
   uint32_t count = model->asset->soft_bodies.count;
   for (uint32_t b = 0; b < count; b++) {
     float size = model->bodies[b].rest_size_m;
-    if (!model->bodies[b].level || !surfaces[b].triangle_count) continue;
-    place(model, b, &surfaces[b], INSIDE_SHARE * size);
+    if (!surfaces[b].triangle_count) continue;
     for (uint32_t a = 0; a < count; a++) {
       if (a == b || !model->bodies[a].level || together[(size_t)a * count + b]) continue;
       float least = size < model->bodies[a].rest_size_m ? size : model->bodies[a].rest_size_m;
@@ -69,4 +59,40 @@ void sbri_meet_rest_look(const sbr_model *model, sbri_meet_surface *surfaces, ui
         together[(size_t)a * count + b] = together[(size_t)b * count + a] = as;
     }
   }
+}
+
+/* Whether the hull, which is placed, and the soft body touch. */
+static bool hull_touches(
+    const sbri_rigid_body *body, const sbri_meet_surface *hull, const sbri_meet_surface *soft, float near) {
+  sbr_transform at = {body->center, body->axes};
+  sbri_box grown = sbri_box_grown(hull->tree.nodes[0].box, near);
+  uint32_t face;
+  if (!sbri_box_meets(&grown, &soft->tree.nodes[0].box)) return false;
+  for (uint32_t v = 0; v < hull->vertex_count; v++)
+    if (sbri_meet_is_inside(soft, hull->places[v])) return true;
+  for (uint32_t v = 0; v < soft->vertex_count; v++)
+    if (sbri_hull_depth(&body->hull, sbri_into_frame(&at, soft->places[v], 1), &face) <= near) return true;
+  return sbri_edges_go_through(soft, hull);
+}
+
+static void note_hulls(const sbr_model *model, const sbri_meet_surface *surfaces, sbri_meet_surface *hulls,
+    uint8_t *with_hulls) {
+  for (uint32_t r = 0; r < model->rigid.body_count; r++) {
+    const sbri_rigid_body *body = &model->rigid.bodies[r];
+    if (!hulls[r].triangle_count) continue;
+    sbri_meet_hull_place(body, &(sbr_transform){body->center, body->axes}, 1, &hulls[r]);
+    for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
+      if (surfaces[b].closed &&
+          hull_touches(body, &hulls[r], &surfaces[b], TOUCHES_SHARE * model->bodies[b].rest_size_m))
+        with_hulls[(size_t)b * model->rigid.body_count + r] = SBRI_TOUCH_AT_REST;
+  }
+}
+
+void sbri_meet_rest_look(
+    const sbr_model *model, sbri_meet_surface *surfaces, sbri_meet_surface *hulls, uint8_t *together) {
+  size_t count = model->asset->soft_bodies.count;
+  for (uint32_t b = 0; b < count; b++)
+    if (model->bodies[b].level) place(model, b, &surfaces[b], INSIDE_SHARE * model->bodies[b].rest_size_m);
+  note_softs(model, surfaces, together);
+  note_hulls(model, surfaces, hulls, together + count * count);
 }

@@ -9,6 +9,9 @@
 #include "meet/finding.h"
 #include "model/reach.h"
 
+/* What lies so deep behind faces, of the depth to which they are looked for, is in the body. */
+static const float IN_SHARE = 0.25f;
+
 static sbri_party party_of(const sbri_finding *f, uint32_t number) {
   const sbri_meeter *is = &f->world->meetings->meeters[number];
   sbri_party p = {.is = is};
@@ -17,6 +20,7 @@ static sbri_party party_of(const sbri_finding *f, uint32_t number) {
   const sbr_model *model = p.of->character->model;
   if (is->rigid) {
     p.rigid = &model->rigid.bodies[is->number];
+    p.surface = &f->world->meetings->hulls[is->character][is->number];
     p.friction = p.rigid->source->friction, p.restitution = p.rigid->source->restitution;
   } else {
     p.soft = &model->bodies[is->number];
@@ -65,11 +69,13 @@ static bool find_face(
 
 /* Whether what lies deep in the other, or through it, is let out: not where two parts of one character do so
  * at rest. */
-static bool may_let_out(const sbri_finding *f, const sbri_party *a, const sbri_party *b) {
-  if (!sbri_are_of_one(a, b)) return true;
-  uint32_t count = a->of->character->model->asset->soft_bodies.count;
-  const uint8_t *together = f->world->meetings->together[a->is->character];
-  return together[(size_t)a->is->number * count + b->is->number] == SBRI_APART_AT_REST;
+static bool may_let_out(const sbri_finding *f, const sbri_party *soft, const sbri_party *other) {
+  if (!sbri_are_of_one(soft, other)) return true;
+  const sbr_model *model = soft->of->character->model;
+  size_t softs = model->asset->soft_bodies.count, i = soft->is->number, k = other->is->number;
+  const uint8_t *together = f->world->meetings->together[soft->is->character];
+  return together[other->rigid ? softs * softs + i * model->rigid.body_count + k : i * softs + k] ==
+         SBRI_APART_AT_REST;
 }
 
 static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_party *b, bool lets_out) {
@@ -95,6 +101,7 @@ static void meet_faces(const sbri_finding *f, const sbri_party *a, const sbri_pa
         .b = sbri_soft_side(b, corners, best.weights, 3),
         .normal = best.normal,
         .margin = margin,
+        .is_in = deep || (best.behind && best.urgency - 1 > IN_SHARE * rule.inner),
         .goes_out = deep};
     sbri_finding_add(f, a, b, &t);
   }
@@ -191,20 +198,23 @@ static void meet_hull(const sbri_finding *f, const sbri_party *soft, const sbri_
         .a = sbri_soft_side(soft, &v, &whole, 1),
         .b = sbri_rigid_side(rigid, place),
         .normal = sbri_rotate(from.rotation, normal),
-        .margin = margin};
+        .margin = margin,
+        .is_in = -gap * scale > IN_SHARE * rule_of(soft).inner};
     sbri_finding_add(f, soft, rigid, &t);
   }
 }
 
 /* Corners of the hull against the soft surface's triangles. */
-static void meet_corners(const sbri_finding *f, const sbri_party *rigid, const sbri_party *soft) {
+static void meet_corners(
+    const sbri_finding *f, const sbri_party *rigid, const sbri_party *soft, bool lets_out) {
   sbr_transform from = sbri_party_frame(rigid, false), to = sbri_party_frame(rigid, true);
   for (uint32_t i = 0; i < rigid->rigid->vertex_count; i++) {
     sbf_vec3 own = rigid->rigid->vertices[i], x = out_of(&from, own, rigid->of->scale);
     sbri_surface_finding best;
-    if (!find_face(rigid, soft, x, sbri_sub(out_of(&to, own, rigid->of->scale), x), &best)) continue;
+    bool deep = !find_face(rigid, soft, x, sbri_sub(out_of(&to, own, rigid->of->scale), x), &best);
+    if (deep && (!lets_out || !sbri_meet_way_out(soft, x, &best))) continue;
     const uint32_t *corners = soft->surface->triangles + 3 * (size_t)best.face;
-    if (sbri_are_of_one(soft, rigid)) {
+    if (sbri_are_of_one(soft, rigid) && !deep) {
       sbr_transform rest = {sbri_scale(rigid->rigid->center, rigid->of->scale), rigid->rigid->axes};
       const sbf_vec3 p[3] = {sbri_party_rest(soft, corners[0]), sbri_party_rest(soft, corners[1]),
           sbri_party_rest(soft, corners[2])};
@@ -216,7 +226,9 @@ static void meet_corners(const sbri_finding *f, const sbri_party *rigid, const s
         .a = sbri_rigid_side(rigid, own),
         .b = sbri_soft_side(soft, corners, best.weights, 3),
         .normal = best.normal,
-        .margin = sbri_party_margin(rigid, soft)};
+        .margin = sbri_party_margin(rigid, soft),
+        .is_in = deep || (best.behind && best.urgency - 1 > IN_SHARE * rule_of(soft).inner),
+        .goes_out = deep};
     sbri_finding_add(f, rigid, soft, &t);
   }
 }
@@ -265,15 +277,17 @@ void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
       sbri_meet_hulls(&f, &a, &b);
     } else if (a.rigid || b.rigid) {
       const sbri_party *rigid = a.rigid ? &a : &b, *soft = a.rigid ? &b : &a;
+      uint32_t first = group->touch_count;
+      bool let_out = may_let_out(&f, soft, rigid);
       meet_hull(&f, soft, rigid);
-      meet_corners(&f, rigid, soft);
+      meet_corners(&f, rigid, soft, let_out);
+      if (let_out && soft->surface->closed) sbri_meet_through(&f, soft, rigid, first);
     } else {
       uint32_t first = group->touch_count;
       bool let_out = may_let_out(&f, &a, &b);
       meet_faces(&f, &a, &b, let_out);
       meet_faces(&f, &b, &a, let_out);
-      if (a.surface->closed && b.surface->closed && let_out && group->touch_count > first)
-        sbri_meet_through(&f, &a, &b, first);
+      if (let_out && a.surface->closed && b.surface->closed) sbri_meet_through(&f, &a, &b, first);
       if (a.surface->two_sided && b.surface->two_sided) sbri_meet_rims(&f, &a, &b);
     }
   }

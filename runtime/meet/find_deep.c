@@ -103,7 +103,7 @@ static bool find_nearest(const sbri_meet_surface *s, sbf_vec3 x, float reach, sb
 bool sbri_meet_way_out(const sbri_party *b, sbf_vec3 x, sbri_surface_finding *best) {
   const sbri_meet_surface *s = b->surface;
   if (!s->closed || !sbri_meet_is_inside(s, x)) return false;
-  float size = b->soft->rest_size_m * b->of->scale;
+  float size = sbri_party_size(b);
   for (float reach = FIRST_SHARE * size; reach < size; reach *= 2)
     if (find_nearest(s, x, reach, best)) return true;
   return false;

@@ -10,24 +10,6 @@ static const float NEAR_SHARE = 0.02f;
 static const float FAST_SHARE = 0.5f;
 enum { MIDDLE = 1 }; /* the feature of a touch of that; corners have 0 */
 
-sbr_transform sbri_party_frame(const sbri_party *p, bool end) {
-  const sbri_character *c = p->of->character;
-  uint32_t b = p->is->number;
-  sbr_transform at;
-  if (p->is->gives_way && p->of->parts.steps) {
-    const sbri_rigid_body_state *s = &sbri_rigid_bodies(c)[b];
-    at = s->pose;
-    if (end) {
-      at.position = sbri_add_scaled(at.position, s->velocity, p->of->tick_s);
-      (void)sbri_free_turn(p->rigid, s->pose.rotation, s->spin, p->of->tick_s, &at.rotation);
-    }
-  } else {
-    at = sbri_rigid_target(c, end ? sbri_pose(c) : sbri_previous_pose(c), b);
-  }
-  at.position = sbri_add_scaled(p->of->offset, at.position, p->of->scale);
-  return at;
-}
-
 static sbri_placed_hull placed(const sbri_party *p, const sbr_transform *at) {
   return (sbri_placed_hull){&p->rigid->hull, at->position, at->rotation, p->of->scale};
 }

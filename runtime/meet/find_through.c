@@ -5,37 +5,36 @@
  * of the other body, and those of the other inside of this one that lie about them, go the same way, and
  * back: the one along which all are out the soonest, by rays out of both bodies. It is remembered, so that it
  * does not change about. */
-#include "base/union_find.h"
-#include "meet/finding.h"
+#include "meet/inside.h"
 
-enum { SETS = 32, WAYS = 26, LOOKED_AT = 40 };
-#define OUTSIDE UINT32_MAX
-#define NONE UINT32_MAX
-/* The nearest ways out of some lead against the common one by more than this (a cosine). */
-static const float AGAINST = -0.3f;
+enum { WAYS = 26, LOOKED_AT = 40, PRODUCTS = 8 };
+/* The nearest ways out of some lead against the common one by more than this (a cosine); and against each
+ * other: along some axis by more than this share to both sides. */
+static const float AGAINST = -0.3f, APART_SHARE = 0.5f;
 /* A way that is so much shorter than the one that it goes takes its place. */
 static const float SHORTER_SHARE = 0.6f;
 /* One that is so many times as long as the nearest way out of the deepest of them is none: what has come in
  * all around, as an arm around a body, goes back as it came. */
 static const float LONGER = 3;
+/* Of thin limbs' thicknesses together, if that is more: the middles of their edges are never deep. */
+static const float THROUGH_SHARE = 0.75f;
+/* An edge whose nearest way out is longer than this share of how thick the other one is goes through it. */
+static const float EDGE_DEEP_SHARE = 0.25f;
+/* A way along an edge (a cosine). */
+static const float ALONG = 0.7f;
+/* Of the thinner one's thickness. */
+static const float ABOUT_SHARE = 0.25f;
+/* Limbs that lie along each other by less than this (a sine) do not cross. */
+static const float CROSS_SINE = 0.2f;
 static const sbf_vec3 no_way = {0, 0, 0};
-
-/* Vertices of a surface that hang together and lie inside of the other one. */
-typedef struct inner_set {
-  uint32_t root, side; /* lowest vertex; 0: of a, in b, or 1 */
-  uint32_t knot;       /* the first set of those that lie about each other */
-  sbri_box box;
-  uint32_t count;
-} inner_set;
 
 typedef struct looking {
   const sbri_finding *f;
-  const sbri_party *parties[2];
-  inner_set sets[SETS];
-  uint32_t set_count;
-  sbf_vec3 ways[SETS]; /* of each knot, for a's vertices; b's go back; 0: each by the nearest face */
-  uint32_t first;      /* of the group's touches, that are theirs */
-  float most;          /* m, that a way out is looked for at most */
+  sbri_inside in;
+  sbf_vec3 ways[SBRI_INNER_SETS]; /* of each knot, for a's; b's go back; 0: each by the nearest face */
+  uint32_t first;                 /* of the group's touches, that are theirs */
+  float most;                     /* m, that a way out is looked for at most */
+  float about;                    /* m: what is so near to a knot is not to be in its way */
 } looking;
 
 static float sign_of(uint32_t side) {
@@ -46,80 +45,63 @@ static bool is_way(sbf_vec3 way) {
   return sbri_dot(way, way) > 0;
 }
 
-/* ---- What is inside ---- */
-
-static void note_inside(const sbri_party *a, const sbri_party *b) {
-  const sbri_meet_surface *s = a->surface;
-  for (uint32_t v = 0; v < s->vertex_count; v++) {
-    bool inside = s->samples[v].mass_kg > 0 && sbri_meet_is_inside(b->surface, s->places[v]);
-    s->inside[v] = inside ? v : OUTSIDE;
-  }
-  for (uint32_t i = 0; i < 3 * s->triangle_count; i++) {
-    uint32_t from = s->triangles[i], to = s->triangles[i % 3 == 2 ? i - 2 : i + 1];
-    if (s->inside[from] == OUTSIDE || s->inside[to] == OUTSIDE) continue;
-    sbfi_sets_join(s->inside, from, to);
-  }
+static float thickness(const sbri_party *p) {
+  return p->surface->thick_m * p->of->scale;
 }
 
-static uint32_t set_of(const looking *l, uint32_t side, uint32_t vertex) {
-  uint32_t *inside = l->parties[side]->surface->inside;
-  if (inside[vertex] == OUTSIDE) return NONE;
-  uint32_t root = sbfi_set_root(inside, vertex);
-  for (uint32_t i = 0; i < l->set_count; i++)
-    if (l->sets[i].side == side && l->sets[i].root == root) return i;
-  return NONE;
+/* Of an edge of the knot: its side, or 2. */
+static uint32_t side_in_knot(const looking *l, const sbri_inner_edge *e, uint32_t knot) {
+  return sbri_knot_of_edge(&l->in, e) == knot ? sbri_side_of_edge(&l->in, e) : 2;
 }
 
-static void list_sets(looking *l, uint32_t side) {
-  const sbri_meet_surface *s = l->parties[side]->surface;
-  for (uint32_t v = 0; v < s->vertex_count; v++) {
-    if (s->inside[v] == OUTSIDE) continue;
-    sbri_box box = sbri_box_of_point(s->places[v]);
-    uint32_t i = set_of(l, side, v);
-    if (i == NONE) {
-      if (l->set_count == SETS) continue;
-      i = l->set_count++;
-      l->sets[i] = (inner_set){sbfi_set_root(s->inside, v), side, i, box, 0};
-    }
-    l->sets[i].box = sbri_box_join(l->sets[i].box, box), l->sets[i].count++;
-  }
+/* Whether the way leads a long edge along itself: so it does not leave. */
+static bool leads_along(const looking *l, const sbri_inner_edge *e, sbf_vec3 way) {
+  const sbri_party *in = l->in.parties[1 - sbri_side_of_edge(&l->in, e)];
+  return e->length > thickness(in) && fabsf(sbri_dot(way, e->along)) > ALONG;
 }
 
-/* Sets of the two that lie about each other are one knot. */
-static void tie(looking *l) {
-  for (uint32_t i = 0; i < l->set_count; i++)
-    for (uint32_t k = 0; k < i; k++) {
-      const inner_set *p = &l->sets[i], *q = &l->sets[k];
-      if (p->side == q->side || !sbri_box_meets(&p->box, &q->box)) continue;
-      uint32_t one = p->knot, other = q->knot, low = one < other ? one : other;
-      for (uint32_t j = 0; j < l->set_count; j++)
-        if (l->sets[j].knot == one || l->sets[j].knot == other) l->sets[j].knot = low;
-    }
-}
-
-static uint32_t knot_of(const looking *l, uint32_t side, uint32_t vertex) {
-  uint32_t set = set_of(l, side, vertex);
-  return set == NONE ? NONE : l->sets[set].knot;
+/* Of an edge: m to the nearest face of the other, and the way there; 0: there is none. */
+static float nearest_out(const looking *l, const sbri_inner_edge *e, sbf_vec3 *out) {
+  const sbri_party *in = l->in.parties[1 - sbri_side_of_edge(&l->in, e)];
+  sbri_surface_finding found;
+  if (!sbri_meet_way_out(in, e->at, &found)) return 0;
+  *out = found.normal;
+  return sbri_party_distance(in, &found, e->at);
 }
 
 /* ---- Ways ---- */
 
-/* m that the knot has to go until all of it is out; `most` and more: not less than that. */
+/* m that the place has to go; or `longest`, if that is more. */
+static float longer_of(
+    const sbri_meet_surface *in, const sbri_meet_way *way, sbf_vec3 x, float most, float longest) {
+  sbri_surface_finding found;
+  float out = sbri_meet_way_along_out(in, way, x, most, &found);
+  return out > longest ? out : longest;
+}
+
+/* m that the knot has to go until all of it is out; INFINITY: not less than `most`. */
 static float way_out_along(const looking *l, uint32_t knot, sbf_vec3 along, float most) {
   float longest = 0;
   for (uint32_t side = 0; side < 2; side++) {
-    const sbri_meet_surface *s = l->parties[side]->surface, *other = l->parties[1 - side]->surface;
+    const sbri_meet_surface *s = l->in.parties[side]->surface, *other = l->in.parties[1 - side]->surface;
     sbri_meet_way way = sbri_meet_way_along(sbri_scale(along, sign_of(side)));
     uint32_t count = 0, seen = 0, stride;
-    for (uint32_t i = 0; i < l->set_count; i++)
-      if (l->sets[i].side == side && l->sets[i].knot == knot) count += l->sets[i].count;
+    for (uint32_t i = 0; i < l->in.set_count; i++) {
+      const sbri_inner_set *set = &l->in.sets[i];
+      if (set->side == side && set->knot == knot && set->root != SBRI_NOWHERE) count += set->count;
+    }
     stride = 1 + count / LOOKED_AT;
     for (uint32_t v = 0; v < s->vertex_count && count > 0; v++) {
-      sbri_surface_finding found;
-      if (s->inside[v] == OUTSIDE || knot_of(l, side, v) != knot || seen++ % stride) continue;
-      float out = sbri_meet_way_along_out(other, &way, s->places[v], most, &found);
-      if (!(out < most)) return INFINITY;
-      longest = out > longest ? out : longest;
+      if (s->inside[v] == SBRI_NOT_INSIDE || sbri_knot_of(&l->in, side, v) != knot || seen++ % stride)
+        continue;
+      longest = longer_of(other, &way, s->places[v], most, longest);
+      if (!(longest < most)) return INFINITY;
+    }
+    for (uint32_t i = 0; i < l->in.edge_count; i++) {
+      const sbri_inner_edge *e = &l->in.edges[i];
+      if (side_in_knot(l, e, knot) != side) continue;
+      longest = longer_of(other, &way, e->at, most, longest);
+      if (!(longest < most) || leads_along(l, e, way.along)) return INFINITY;
     }
   }
   return longest;
@@ -143,29 +125,67 @@ static sbf_vec3 find_way(const looking *l, uint32_t knot) {
   return best;
 }
 
+/* The direction that the knot's edges of one side have in common: what the sum of their squares turns least,
+ * by repeated products; and the middle of their stretches. */
+static sbf_vec3 axis_of(const looking *l, uint32_t knot, uint32_t side, sbf_vec3 *middle) {
+  float xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0, count = 0;
+  *middle = no_way;
+  for (uint32_t i = 0; i < l->in.edge_count; i++) {
+    const sbri_inner_edge *e = &l->in.edges[i];
+    sbf_vec3 d = e->along, to = sbri_scale(d, e->length);
+    if (side_in_knot(l, e, knot) != side) continue;
+    xx += d.x * to.x, yy += d.y * to.y, zz += d.z * to.z;
+    xy += d.x * to.y, xz += d.x * to.z, yz += d.y * to.z;
+    *middle = sbri_add(*middle, e->at), count++;
+  }
+  sbf_vec3 axis = xx >= yy && xx >= zz ? sbri_vec3(1, 0, 0)
+                  : yy >= zz           ? sbri_vec3(0, 1, 0)
+                                       : sbri_vec3(0, 0, 1);
+  if (count == 0) return no_way;
+  *middle = sbri_scale(*middle, 1 / count);
+  for (int i = 0; i < PRODUCTS; i++)
+    axis =
+        sbri_normalize(sbri_vec3(xx * axis.x + xy * axis.y + xz * axis.z,
+                           xy * axis.x + yy * axis.y + yz * axis.z, xz * axis.x + yz * axis.y + zz * axis.z),
+            axis);
+  return axis;
+}
+
+/* Of thin limbs that cross: across both, to the side that each is on; or 0. */
+static sbf_vec3 way_across(const looking *l, uint32_t knot) {
+  sbf_vec3 middles[2], a = axis_of(l, knot, 0, &middles[0]), b = axis_of(l, knot, 1, &middles[1]);
+  sbf_vec3 n = sbri_cross(a, b);
+  if (sbri_length(n) < CROSS_SINE) return no_way;
+  n = sbri_normalize(n, n);
+  if (sbri_dot(n, sbri_sub(middles[0], middles[1])) < 0) n = sbri_scale(n, -1);
+  return way_out_along(l, knot, n, l->most) < l->most ? n : no_way;
+}
+
 /* m that the deepest has to the nearest face. */
 static float deepest_of(const looking *l, uint32_t knot) {
   float deepest = 0;
   for (uint32_t side = 0; side < 2; side++) {
-    const sbri_meet_surface *s = l->parties[side]->surface;
-    const sbri_party *in = l->parties[1 - side];
+    const sbri_meet_surface *s = l->in.parties[side]->surface;
+    const sbri_party *in = l->in.parties[1 - side];
     for (uint32_t v = 0; v < s->vertex_count; v++) {
       sbri_surface_finding found;
-      if (s->inside[v] == OUTSIDE || knot_of(l, side, v) != knot) continue;
+      if (s->inside[v] == SBRI_NOT_INSIDE || sbri_knot_of(&l->in, side, v) != knot) continue;
       if (!sbri_meet_way_out(in, s->places[v], &found)) continue;
-      const uint32_t *c = in->surface->triangles + 3 * (size_t)found.face;
-      const sbf_vec3 *at = in->surface->places;
-      float deep = sbri_length(
-          sbri_sub(sbri_triangle_place(found.weights, at[c[0]], at[c[1]], at[c[2]]), s->places[v]));
-      deepest = deep > deepest ? deep : deepest;
+      deepest = fmaxf(deepest, sbri_party_distance(in, &found, s->places[v]));
     }
+  }
+  for (uint32_t i = 0; i < l->in.edge_count; i++) {
+    sbf_vec3 out;
+    if (side_in_knot(l, &l->in.edges[i], knot) < 2)
+      deepest = fmaxf(deepest, nearest_out(l, &l->in.edges[i], &out));
   }
   return deepest;
 }
 
-/* What is remembered of one side's vertices. */
+/* What is remembered of one side. */
 static const sbri_meet_memory *memories_of(const looking *l, uint32_t side, uint32_t *count) {
-  const uint64_t names[2] = {sbri_meet_name(l->parties[side]->is), sbri_meet_name(l->parties[1 - side]->is)};
+  const uint64_t names[2] = {
+      sbri_meet_name(l->in.parties[side]->is), sbri_meet_name(l->in.parties[1 - side]->is)};
   return sbri_meet_memories_of(l->f->world->meetings, names, count);
 }
 
@@ -176,7 +196,7 @@ static sbf_vec3 recall_way(const looking *l, uint32_t knot) {
     uint32_t count;
     const sbri_meet_memory *m = memories_of(l, side, &count);
     for (uint32_t i = 0; i < count; i++)
-      if (is_way(m[i].through) && knot_of(l, side, m[i].feature) == knot)
+      if (is_way(m[i].through) && sbri_knot_of(&l->in, side, m[i].feature) == knot)
         sum = sbri_add_scaled(sum, m[i].through, sign_of(side));
   }
   return is_way(sum) ? sbri_normalize(sum, sum) : sum;
@@ -197,7 +217,7 @@ static sbri_meet_touch *touches_of(const looking *l) {
 }
 
 static uint32_t side_of(const looking *l, const sbri_meet_touch *t) {
-  return t->names[0] == sbri_meet_name(l->parties[0]->is) ? 0 : 1;
+  return t->names[0] == sbri_meet_name(l->in.parties[0]->is) ? 0 : 1;
 }
 
 /* Whether the nearest way out of some of the knot leads against the common one. */
@@ -205,7 +225,7 @@ static bool is_against(const looking *l, uint32_t knot, sbf_vec3 way) {
   for (uint32_t i = l->first; i < l->f->group->touch_count; i++) {
     const sbri_meet_touch *t = &touches_of(l)[i];
     uint32_t side = side_of(l, t);
-    if (sbri_dot(t->normal, way) * sign_of(side) < AGAINST && knot_of(l, side, t->feature) == knot)
+    if (sbri_dot(t->normal, way) * sign_of(side) < AGAINST && sbri_knot_of(&l->in, side, t->feature) == knot)
       return true;
   }
   return false;
@@ -215,36 +235,112 @@ static bool is_against(const looking *l, uint32_t knot, sbf_vec3 way) {
 static bool is_deep(const looking *l, uint32_t knot) {
   for (uint32_t i = l->first; i < l->f->group->touch_count; i++) {
     const sbri_meet_touch *t = &touches_of(l)[i];
-    if (t->goes_out && knot_of(l, side_of(l, t), t->feature) == knot) return true;
+    if (t->goes_out && sbri_knot_of(&l->in, side_of(l, t), t->feature) == knot) return true;
   }
   return false;
+}
+
+static bool lead_apart(const sbri_box *ways) {
+  const sbf_vec3 *a = &ways->low, *b = &ways->high;
+  return (a->x < -APART_SHARE && b->x > APART_SHARE) || (a->y < -APART_SHARE && b->y > APART_SHARE) ||
+         (a->z < -APART_SHARE && b->z > APART_SHARE);
+}
+
+/* Whether nearest ways out lead against each other, of vertices in the knot that are in so far that it is no
+ * matter of how surfaces lie on each other; or, SBRI_NOWHERE, of any. */
+static bool lies_across(const looking *l, uint32_t knot) {
+  sbri_box ways = sbri_box_of_point(no_way);
+  for (uint32_t i = l->first; i < l->f->group->touch_count; i++) {
+    const sbri_meet_touch *t = &touches_of(l)[i];
+    uint32_t side = side_of(l, t);
+    if (t->is_in && (knot == SBRI_NOWHERE || sbri_knot_of(&l->in, side, t->feature) == knot))
+      ways = sbri_box_with(ways, sbri_scale(t->normal, sign_of(side)));
+  }
+  return lead_apart(&ways);
+}
+
+/* Likewise of its edges; or one is as deep as vertices would be that have gone through. */
+static bool edges_lie_across(const looking *l, uint32_t knot) {
+  sbri_box ways = sbri_box_of_point(no_way);
+  for (uint32_t i = 0; i < l->in.edge_count; i++) {
+    sbf_vec3 out;
+    uint32_t side = side_in_knot(l, &l->in.edges[i], knot);
+    if (side > 1) continue;
+    const sbri_party *in = l->in.parties[1 - side];
+    float depth = nearest_out(l, &l->in.edges[i], &out);
+    if (depth > EDGE_DEEP_SHARE * thickness(in)) return true;
+    if (depth > 0) ways = sbri_box_with(ways, sbri_scale(out, sign_of(side)));
+  }
+  return lead_apart(&ways);
 }
 
 /* What went a common way goes it until that is the nearest one. */
 static sbf_vec3 choose_way(const looking *l, uint32_t knot) {
   sbf_vec3 way = recall_way(l, knot);
+  bool edges = edges_lie_across(l, knot);
   if (is_way(way)) {
-    way = keep_way(l, knot, way);
-    return is_deep(l, knot) || is_against(l, knot, way) ? way : no_way;
+    if (!edges || !(way_out_along(l, knot, way, l->most) < l->most)) way = keep_way(l, knot, way);
+    return edges || is_deep(l, knot) || is_against(l, knot, way) ? way : no_way;
   }
-  if (!is_deep(l, knot)) return no_way;
-  way = find_way(l, knot);
-  if (!is_way(way) || !is_against(l, knot, way)) return no_way;
-  return way_out_along(l, knot, way, l->most) > LONGER * deepest_of(l, knot) ? no_way : way;
+  if (!edges && !is_deep(l, knot) && !lies_across(l, knot)) return no_way;
+  if (edges) way = way_across(l, knot);
+  if (!is_way(way)) way = find_way(l, knot);
+  bool rigid = l->in.parties[1]->rigid != NULL; /* which goes all one way anyhow */
+  if (!is_way(way) || !(edges || rigid || is_against(l, knot, way))) return no_way;
+  float longest = LONGER * deepest_of(l, knot);
+  if (edges)
+    longest = fmaxf(longest, THROUGH_SHARE * (thickness(l->in.parties[0]) + thickness(l->in.parties[1])));
+  return way_out_along(l, knot, way, l->most) > longest ? no_way : way;
 }
 
-static void lead_out(const looking *l, sbri_meet_touch *t) {
-  uint32_t side = side_of(l, t), knot = knot_of(l, side, t->feature);
-  if (knot == NONE || !is_way(l->ways[knot])) return;
-  const sbri_party *in = l->parties[1 - side];
-  sbri_meet_way way = sbri_meet_way_along(sbri_scale(l->ways[knot], sign_of(side)));
+/* Where x leaves the other one: as a touch of it. */
+static bool leave(const looking *l, uint32_t side, sbf_vec3 along, sbf_vec3 x, sbri_meet_touch *t) {
+  const sbri_party *in = l->in.parties[1 - side];
+  sbri_meet_way way = sbri_meet_way_along(along);
   sbri_surface_finding found;
-  sbf_vec3 x = l->parties[side]->surface->places[t->feature];
-  if (!(sbri_meet_way_along_out(in->surface, &way, x, l->most, &found) < l->most)) return;
-  t->b = sbri_soft_side(in, in->surface->triangles + 3 * (size_t)found.face, found.weights, 3);
+  if (!(sbri_meet_way_along_out(in->surface, &way, x, l->most, &found) < l->most)) return false;
+  t->b = sbri_party_side(in, in->surface->triangles + 3 * (size_t)found.face, found.weights, 3);
   t->normal = way.along;
   t->goes_out = t->goes_through = true;
   t->friction = 0;
+  return true;
+}
+
+static void lead_out(const looking *l, sbri_meet_touch *t) {
+  uint32_t side = side_of(l, t), knot = sbri_knot_of(&l->in, side, t->feature);
+  if (knot == SBRI_NOWHERE || !is_way(l->ways[knot])) return;
+  (void)leave(
+      l, side, sbri_scale(l->ways[knot], sign_of(side)), l->in.parties[side]->surface->places[t->feature], t);
+}
+
+static void lead_edge_out(const looking *l, const sbri_inner_edge *e) {
+  uint32_t side = sbri_side_of_edge(&l->in, e), knot = sbri_knot_of_edge(&l->in, e);
+  const float weights[2] = {1 - e->share, e->share};
+  sbri_meet_touch t = {.feature = e->feature};
+  if (!e->alone || !is_way(l->ways[knot])) return;
+  if (!leave(l, side, sbri_scale(l->ways[knot], sign_of(side)), e->at, &t)) return;
+  t.a = sbri_party_side(l->in.parties[side], e->ends, weights, 2);
+  sbri_finding_add(l->f, l->in.parties[side], l->in.parties[1 - side], &t);
+}
+
+/* Whether it keeps what is outside from going along with a knot that it lies about. */
+static bool is_in_the_way(const looking *l, const sbri_meet_touch *t) {
+  uint32_t side = side_of(l, t);
+  sbf_vec3 x = l->in.parties[side]->surface->places[t->feature];
+  if (t->goes_out || sbri_knot_of(&l->in, side, t->feature) != SBRI_NOWHERE) return false;
+  for (uint32_t i = 0; i < l->in.set_count; i++) {
+    sbf_vec3 way = l->ways[l->in.sets[i].knot];
+    sbri_box at = sbri_box_of_point(x), about = sbri_box_grown(l->in.sets[i].box, l->about);
+    if (sbri_dot(t->normal, way) * sign_of(side) < AGAINST && sbri_box_meets(&at, &about)) return true;
+  }
+  return false;
+}
+
+static void clear_the_way(const looking *l) {
+  uint32_t kept = l->first;
+  for (uint32_t i = l->first; i < l->f->group->touch_count; i++)
+    if (!is_in_the_way(l, &touches_of(l)[i])) touches_of(l)[kept++] = touches_of(l)[i];
+  l->f->group->touch_count = kept;
 }
 
 /* ---- All ---- */
@@ -265,15 +361,32 @@ static bool went_through(const looking *l) {
   return false;
 }
 
+static bool are_near(const sbri_party *a, const sbri_party *b) {
+  sbri_box box = b->surface->tree.nodes[0].box;
+  if (b->rigid) {
+    sbr_transform at = sbri_party_frame(b, false);
+    box = sbri_box_grown(sbri_box_of_point(at.position), b->rigid->radius * b->of->scale);
+  }
+  return sbri_box_meets(&a->surface->tree.nodes[0].box, &box);
+}
+
 void sbri_meet_through(const sbri_finding *f, const sbri_party *a, const sbri_party *b, uint32_t first) {
-  float sizes[2] = {a->soft->rest_size_m * a->of->scale, b->soft->rest_size_m * b->of->scale};
-  looking l = {.f = f, .parties = {a, b}, .first = first, .most = sizes[0] < sizes[1] ? sizes[0] : sizes[1]};
-  if (!goes_out(&l) && !went_through(&l)) return;
-  note_inside(a, b);
-  note_inside(b, a);
-  list_sets(&l, 0);
-  list_sets(&l, 1);
-  tie(&l);
-  for (uint32_t k = 0; k < l.set_count; k++) l.ways[k] = l.sets[k].knot == k ? choose_way(&l, k) : no_way;
-  for (uint32_t i = first; i < f->group->touch_count; i++) lead_out(&l, &touches_of(&l)[i]);
+  float sizes[2] = {sbri_party_size(a), sbri_party_size(b)};
+  looking l = {.f = f, .first = first, .most = fminf(sizes[0], sizes[1])};
+  l.in.parties[0] = a, l.in.parties[1] = b;
+  l.about = ABOUT_SHARE * fminf(thickness(a), thickness(b));
+  bool begins = goes_out(&l) || went_through(&l) || lies_across(&l, SBRI_NOWHERE);
+  if (!begins && !(sbri_are_coarse(a, b) && are_near(a, b))) return;
+  if (b->rigid) {
+    sbr_transform at = sbri_party_frame(b, false);
+    sbri_meet_hull_place(b->rigid, &at, b->of->scale, b->surface);
+  }
+  if (!begins && !sbri_edges_go_through(a->surface, b->surface)) return;
+  sbri_inside_look(&l.in);
+  for (uint32_t k = 0; k < l.in.set_count; k++)
+    l.ways[k] = l.in.sets[k].knot == k ? choose_way(&l, k) : no_way;
+  clear_the_way(&l);
+  uint32_t end = f->group->touch_count;
+  for (uint32_t i = first; i < end; i++) lead_out(&l, &touches_of(&l)[i]);
+  for (uint32_t i = 0; i < l.in.edge_count; i++) lead_edge_out(&l, &l.in.edges[i]);
 }

@@ -20,6 +20,43 @@ sbri_meet_side sbri_soft_side(
   return side;
 }
 
+sbr_transform sbri_party_frame(const sbri_party *p, bool end) {
+  const sbri_character *c = p->of->character;
+  uint32_t b = p->is->number;
+  sbr_transform at;
+  if (p->is->gives_way && p->of->parts.steps) {
+    const sbri_rigid_body_state *s = &sbri_rigid_bodies(c)[b];
+    at = s->pose;
+    if (end) {
+      at.position = sbri_add_scaled(at.position, s->velocity, p->of->tick_s);
+      (void)sbri_free_turn(p->rigid, s->pose.rotation, s->spin, p->of->tick_s, &at.rotation);
+    }
+  } else {
+    at = sbri_rigid_target(c, end ? sbri_pose(c) : sbri_previous_pose(c), b);
+  }
+  at.position = sbri_add_scaled(p->of->offset, at.position, p->of->scale);
+  return at;
+}
+
+sbri_meet_side sbri_party_side(
+    const sbri_party *p, const uint32_t *vertices, const float *weights, int count) {
+  if (p->soft) return sbri_soft_side(p, vertices, weights, count);
+  sbr_transform at = sbri_party_frame(p, false);
+  sbf_vec3 x = {0, 0, 0};
+  for (int i = 0; i < count; i++) x = sbri_add_scaled(x, p->surface->places[vertices[i]], weights[i]);
+  return sbri_rigid_side(p, sbri_into_frame(&at, x, p->of->scale));
+}
+
+float sbri_party_distance(const sbri_party *p, const sbri_surface_finding *found, sbf_vec3 x) {
+  const uint32_t *c = p->surface->triangles + 3 * (size_t)found->face;
+  const sbf_vec3 *at = p->surface->places;
+  return sbri_length(sbri_sub(sbri_triangle_place(found->weights, at[c[0]], at[c[1]], at[c[2]]), x));
+}
+
+float sbri_party_size(const sbri_party *p) {
+  return p->of->scale * (p->soft ? p->soft->rest_size_m : 2 * p->rigid->radius);
+}
+
 void sbri_finding_add(
     const sbri_finding *f, const sbri_party *a, const sbri_party *b, const sbri_meet_touch *touch) {
   if (f->group->touch_count >= f->group->touch_capacity) return;

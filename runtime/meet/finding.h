@@ -23,7 +23,7 @@ typedef struct sbri_party {
   uint32_t member; /* of the group */
   const sbri_meet_member *of;
   const sbri_body *soft;
-  const sbri_meet_surface *surface;
+  sbri_meet_surface *surface; /* of a rigid one: its hull's, placed where it is needed */
   const sbri_rigid_body *rigid;
   float friction, restitution;
 } sbri_party;
@@ -49,6 +49,14 @@ void sbri_finding_add(
     const sbri_finding *f, const sbri_party *a, const sbri_party *b, const sbri_meet_touch *touch);
 
 sbri_meet_side sbri_soft_side(const sbri_party *p, const uint32_t *vertices, const float *weights, int count);
+/* A rigid body's own frame at the tick's beginning or its end, if nothing acts, relative to the group. */
+sbr_transform sbri_party_frame(const sbri_party *p, bool end);
+/* A place between vertices of its surface or hull, as these are placed. */
+sbri_meet_side sbri_party_side(
+    const sbri_party *p, const uint32_t *vertices, const float *weights, int count);
+/* m from x to a place that was found on it. */
+float sbri_party_distance(const sbri_party *p, const sbri_surface_finding *found, sbf_vec3 x);
+float sbri_party_size(const sbri_party *p);
 /* Where a vertex is at rest, at the character's scale. */
 sbf_vec3 sbri_party_rest(const sbri_party *p, uint32_t vertex);
 /* What is kept between them: nothing between surfaces that both enclose matter. */
@@ -80,14 +88,12 @@ float sbri_meet_way_along_out(
 
 /* ---- find_through.c ---- */
 
-/* Gives what of two soft bodies lies crosswise through the other, of the group's touches from `first` on, a
- * common way out. */
+/* Gives what of a soft body and another body, both closed, lies crosswise through the other, of the group's
+ * touches from `first` on, a common way out. */
 void sbri_meet_through(const sbri_finding *f, const sbri_party *a, const sbri_party *b, uint32_t first);
 
 /* ---- find_hulls.c ---- */
 
-/* A rigid body's own frame at the tick's beginning or its end, if nothing acts, relative to the group. */
-sbr_transform sbri_party_frame(const sbri_party *p, bool end);
 /* Hulls with hulls. */
 void sbri_meet_hulls(const sbri_finding *f, const sbri_party *a, const sbri_party *b);
 

@@ -19,14 +19,15 @@ typedef struct sbri_meet_surface {
   sbri_sample *samples; /* (vertex_count) what carries each vertex; mass 0: it is not there */
   uint32_t *triangles;  /* (triangle_count x 3) vertices */
   uint32_t vertex_count, triangle_count;
-  bool two_sided;  /* a sheet, or open */
-  bool closed;     /* each side of a triangle is one of another as well: it has an inside */
-  uint32_t *sides; /* (triangle_count x 3) of a two-sided one, as collide/sides.h has them */
+  bool two_sided;        /* a sheet, or open */
+  bool closed;           /* each side of a triangle is one of another as well: it has an inside */
+  float edge_m, thick_m; /* of a closed one at rest: mean length of its edges; how thick it is, as a rod is */
+  uint32_t *sides;       /* (triangle_count x 3) of a two-sided one, as collide/sides.h has them */
   /* Of a tick: */
   uint8_t *rims; /* (triangle_count) likewise: bits of its sides that are rims, or across which it is bent */
   sbf_vec3 *places, *ways; /* (vertex_count) */
   float fastest_m;         /* the way of its fastest point */
-  uint32_t *inside;        /* (vertex_count) room for find_through.c */
+  uint32_t *inside;        /* (vertex_count) room for find_inside.c */
   sbri_box *boxes;         /* (triangle_count) of the ways, grown */
   sbri_bounds_tree tree;
 } sbri_meet_surface;
@@ -90,6 +91,7 @@ typedef struct sbri_meet_touch {
   float gain;      /* N s along the normal */
   sbf_vec3 rub;    /* N s across it */
   bool pushed;
+  bool is_in;        /* too far in b for it to be a matter of how surfaces lie on each other */
   bool goes_out;     /* too deep for a face to be near (find_deep.c): nothing rubs on its way out */
   bool goes_through; /* likewise, along what its neighbours go as well (find_through.c) */
   bool is_new;       /* nobody remembers it from the tick before */
@@ -171,7 +173,7 @@ typedef struct sbri_meet_group {
   sbr_double3 origin;
 } sbri_meet_group;
 
-/* How two soft bodies of a character are at rest: apart, two sections that touch, or others that do. */
+/* How two bodies of a character are at rest: apart, two sections that touch, or others that do. */
 typedef enum sbri_at_rest { SBRI_APART_AT_REST, SBRI_HANG_TOGETHER, SBRI_TOUCH_AT_REST } sbri_at_rest;
 
 typedef struct sbri_meetings {
@@ -179,11 +181,13 @@ typedef struct sbri_meetings {
   sbri_meet_surface *
       *surfaces; /* (character_capacity) each of its soft bodies on its rung; NULL: none is made */
   sbri_meet_surface **all_surfaces; /* (character_capacity) of each of its soft rungs, one behind the other */
-  uint8_t **together;               /* (character_capacity) of each two of its soft bodies: an sbri_at_rest */
-  unsigned char **kept;             /* (character_capacity) room for its state */
-  uint32_t *group_of;               /* (character_capacity) UINT32_MAX: it meets nobody */
-  sbri_meet_member *members;        /* (character_capacity) group after group */
-  sbri_meet_group *groups;          /* (character_capacity) */
+  sbri_meet_surface **hulls;        /* (character_capacity) of each of its rigid bodies */
+  uint8_t **together;        /* (character_capacity) an sbri_at_rest of each two of its soft bodies, then of
+                                each of these and each rigid one */
+  unsigned char **kept;      /* (character_capacity) room for its state */
+  uint32_t *group_of;        /* (character_capacity) UINT32_MAX: it meets nobody */
+  sbri_meet_member *members; /* (character_capacity) group after group */
+  sbri_meet_group *groups;   /* (character_capacity) */
   uint32_t group_count;
   sbri_meeter *meeters; /* (meeter_capacity) */
   sbri_box *boxes;      /* likewise, of their ways */
@@ -218,6 +222,24 @@ void sbri_meetings_free(sbr_world *world);
 /* Places and ways of its vertices within the tick, and the tree over its triangles. */
 void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *member, uint32_t soft_body);
 
+/* ---- meet/surface_room.c ---- */
+
+/* Where that carries at rest, in the model's own metres. */
+sbf_vec3 sbri_meet_rest(const sbr_model *model, uint32_t soft_body, const sbri_sample *sample);
+
+/* Room for what is of a tick alone. */
+bool sbri_meet_surface_room(
+    sbri_meet_surface *surface, uint32_t vertices, uint32_t triangles, sbfi_arena *arena);
+/* How long its edges are and how thick it is, as it is placed. */
+void sbri_meet_surface_measure(sbri_meet_surface *surface);
+
+/* ---- meet/hull_surfaces.c ---- */
+
+bool sbri_meet_hulls_make(const sbr_model *model, sbri_meet_surface *hulls, sbfi_arena *arena);
+/* Its vertices and the tree over its triangles, of a character of that scale. */
+void sbri_meet_hull_place(
+    const sbri_rigid_body *body, const sbr_transform *at, float scale, sbri_meet_surface *hull);
+
 /* ---- meet/find_deep.c ---- */
 
 /* Whether each side of its triangles is one of another, the other way round. */
@@ -230,11 +252,9 @@ void sbri_meet_rims_look(sbri_meet_surface *surface);
 
 /* ---- meet/at_rest.c ---- */
 
-/* Where that carries at rest, in the model's own metres. */
-sbf_vec3 sbri_meet_rest(const sbr_model *model, uint32_t soft_body, const sbri_sample *sample);
-
-/* Notes of each two soft bodies how they are at rest, into zeros; places surfaces for it. */
-void sbri_meet_rest_look(const sbr_model *model, sbri_meet_surface *surfaces, uint8_t *together);
+/* Notes how bodies are to each other at rest, into zeros; places surfaces and hulls for it. */
+void sbri_meet_rest_look(
+    const sbr_model *model, sbri_meet_surface *surfaces, sbri_meet_surface *hulls, uint8_t *together);
 
 /* ---- meet/pairs.c ---- */
 

@@ -36,18 +36,16 @@ static uint32_t count_triangles(const sbf_polygon_mesh *mesh) {
 /* What is of a tick alone: as the body's surface on another rung has it, or its own. */
 static bool make_room(sbri_meet_surface *s, const sbri_meet_surface *other, uint32_t vertices,
     uint32_t triangles, sbfi_arena *arena) {
-  if (other) {
-    s->places = other->places, s->ways = other->ways, s->boxes = other->boxes, s->tree = other->tree;
-    s->inside = other->inside;
-    return true;
-  }
-  s->places = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->places);
-  s->ways = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->ways);
-  s->inside = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->inside);
-  s->boxes = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->boxes);
-  s->tree.items = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->tree.items);
-  s->tree.nodes = sbfi_arena_allocate(arena, sbri_bounds_tree_nodes(triangles), sizeof *s->tree.nodes);
-  return s->places && s->ways && s->inside && s->boxes && s->tree.items && s->tree.nodes;
+  if (!other) return sbri_meet_surface_room(s, vertices, triangles, arena);
+  s->places = other->places, s->ways = other->ways, s->boxes = other->boxes, s->tree = other->tree;
+  s->inside = other->inside;
+  return true;
+}
+
+/* As it is at rest. */
+static void measure(const sbr_model *model, uint32_t body, sbri_meet_surface *s) {
+  for (uint32_t v = 0; v < s->vertex_count; v++) s->places[v] = sbri_meet_rest(model, body, &s->samples[v]);
+  sbri_meet_surface_measure(s);
 }
 
 /* `first`: that of the first rung, or NULL. */
@@ -74,6 +72,7 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
   sbf_body_measure(body->source, &measures);
   s->two_sided = measures.sheet || body->rest_volume_m3 == 0;
   s->closed = !s->two_sided && sbri_meet_is_closed(s);
+  if (s->closed) measure(model, (uint32_t)(body - model->bodies), s);
   if (!s->two_sided) return true;
   s->rims = sbfi_arena_allocate(arena, (size_t)triangles + 1, 1);
   s->sides = sbfi_arena_allocate(arena, 3 * (size_t)triangles + 1, sizeof *s->sides);
@@ -84,19 +83,18 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
 }
 
 /* As of another of the same model, if there is one. */
-static void note_together(
-    sbr_world *world, uint32_t character, sbri_meet_surface *surfaces, uint8_t *together) {
+static void note_together(sbr_world *world, uint32_t character, sbri_meet_surface *surfaces,
+    sbri_meet_surface *hulls, uint8_t *together, size_t count) {
   const sbri_meetings *all = world->meetings;
   const sbr_model *model = world->characters[character].model->base;
-  size_t count = model->asset->soft_bodies.count;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     const sbr_model *other = world->characters[i].model;
     if (!other || other->base != model || !all->surfaces[i]) continue;
-    memcpy(together, all->together[i], count * count);
+    memcpy(together, all->together[i], count);
     return;
   }
-  memset(together, 0, count * count);
-  sbri_meet_rest_look(model, surfaces, together);
+  memset(together, 0, count);
+  sbri_meet_rest_look(model, surfaces, hulls, together);
 }
 
 static uint32_t soft_rungs_of(const sbr_model *base) {
@@ -131,17 +129,21 @@ bool sbri_meet_surfaces_make(sbr_world *world, uint32_t character) {
   sbri_meetings *all = world->meetings;
   const sbr_model *model = world->characters[character].model;
   if (!all || all->surfaces[character]) return true;
-  uint32_t count = model->asset->soft_bodies.count, rungs = soft_rungs_of(model->base);
+  uint32_t count = model->asset->soft_bodies.count, rungs = soft_rungs_of(model->base),
+           rigid = model->rigid.body_count;
+  size_t pairs = (size_t)count * count + (size_t)count * rigid;
   sbfi_arena *arena = &all->arenas[character];
   sbfi_arena_init(arena, &world->allocator, 0);
   sbri_meet_surface *surfaces = sbfi_arena_allocate(arena, (size_t)rungs * count + 1, sizeof *surfaces);
   bool good = surfaces && make_all(model->base, surfaces, arena);
-  uint8_t *together = good ? sbfi_arena_allocate(arena, (size_t)count * count + 1, 1) : NULL;
+  sbri_meet_surface *hulls = good ? sbfi_arena_allocate(arena, (size_t)rigid + 1, sizeof *hulls) : NULL;
+  good = hulls && sbri_meet_hulls_make(model, hulls, arena);
+  uint8_t *together = good ? sbfi_arena_allocate(arena, pairs + 1, 1) : NULL;
   good = together != NULL;
-  if (good) note_together(world, character, surfaces, together);
+  if (good) note_together(world, character, surfaces, hulls, together, pairs);
   unsigned char *kept = good ? sbfi_arena_allocate(arena, 1, model->layout.state_size) : NULL;
   good = kept != NULL;
-  all->kept[character] = kept, all->together[character] = together;
+  all->kept[character] = kept, all->together[character] = together, all->hulls[character] = hulls;
   if (!good) {
     sbfi_arena_free(arena);
     return false;
@@ -206,6 +208,7 @@ void sbri_meetings_free(sbr_world *world) {
   sbfi_free(a, all->arenas, characters * sizeof *all->arenas);
   sbfi_free(a, all->surfaces, characters * sizeof *all->surfaces);
   sbfi_free(a, all->all_surfaces, characters * sizeof *all->all_surfaces);
+  sbfi_free(a, all->hulls, characters * sizeof *all->hulls);
   sbfi_free(a, all->together, characters * sizeof *all->together);
   sbfi_free(a, all->kept, characters * sizeof *all->kept);
   sbfi_free(a, all->group_of, characters * sizeof *all->group_of);

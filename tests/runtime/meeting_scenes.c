@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "harness.h"
+#include "momentum.h"
 #include "sbrun/collision.h"
 #include "world/world.h"
 
@@ -77,5 +78,14 @@ double meeting_deepest(const scene *s) {
     most = fmax(most, -(double)sbri_hull_depth(&c->model->rigid.bodies[0].hull,
                           sbri_rotate(sbri_quat_conjugate(b->pose.rotation), off), &face));
   }
+  return most;
+}
+
+double meeting_fastest(const scene *s, sbr_character_id who) {
+  const sbri_character *c = sbri_character_of(s->world, who);
+  double most = 0;
+  for (uint32_t k = 0; k < c->model->island_count; k++)
+    for (uint32_t slot = 0; slot < c->model->islands[k].free_count; slot++)
+      most = fmax(most, (double)sbri_length(scene_slot_velocity(c, &c->model->islands[k], slot)));
   return most;
 }

@@ -17,5 +17,7 @@ sbr_character_id meeting_another(scene *s, sbr_double3 position);
 void meeting_ball(scene *s, uint32_t body, float radius);
 /* How deep the deepest point of the first soft body is in its first rigid one, m. */
 double meeting_deepest(const scene *s);
+/* m/s of the fastest point of its soft bodies. */
+double meeting_fastest(const scene *s, sbr_character_id who);
 
 #endif

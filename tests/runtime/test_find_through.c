@@ -5,8 +5,8 @@
 #include "collision_scenes.h"
 #include "harness.h"
 #include "host_threads.h"
+#include "meeting_scenes.h"
 #include "momentum.h"
-#include "rigid_scenes.h"
 #include "shapes.h"
 #include "skin_depth.h"
 #include "world/world.h"
@@ -56,11 +56,6 @@ static sbr_character_id another(scene *s, sbf_vec3 off, float heading) {
   return id;
 }
 
-static void start(scene *s) {
-  scene_start(s);
-  ck_assert(sbr_world_bodies_meet(s->world, 0, NULL) == SBF_OK);
-}
-
 static uint32_t look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MOST]) {
   sbr_double3 o = sbr_character_origin(s->world, who);
   uint32_t count = sbr_character_surface(s->world, who, body, at, MOST);
@@ -81,15 +76,6 @@ static double deepest(const scene *s, sbr_character_id one, sbr_character_id oth
   return most;
 }
 
-static double fastest(const scene *s, sbr_character_id who) {
-  const sbri_character *c = sbri_character_of(s->world, who);
-  double most = 0;
-  for (uint32_t k = 0; k < c->model->island_count; k++)
-    for (uint32_t slot = 0; slot < c->model->islands[k].free_count; slot++)
-      most = fmax(most, (double)sbri_length(scene_slot_velocity(c, &c->model->islands[k], slot)));
-  return most;
-}
-
 /* Where the second lies: by so much off, and turned about Y. */
 typedef struct crosswise {
   sbf_vec3 off;
@@ -105,7 +91,7 @@ static const crosswise places[] = {
 static scene begin_crosswise(const crosswise *at, sbr_tasks tasks, sbr_character_id *other) {
   scene s = begin_bar(1e5f);
   s.world_definition.tasks = tasks;
-  start(&s);
+  meeting_start(&s);
   *other = another(&s, at->off, at->heading);
   return s;
 }
@@ -120,7 +106,7 @@ START_TEST(bars_that_lie_crosswise_come_apart)
   double speed = 0;
   for (int i = 0; i < 180; i++) {
     scene_ticks(&s, 1);
-    if (i > 3) speed = fmax(speed, fmax(fastest(&s, s.character), fastest(&s, other)));
+    if (i > 3) speed = fmax(speed, fmax(meeting_fastest(&s, s.character), meeting_fastest(&s, other)));
   }
   scene_momentum after = scene_momentum_of(&s);
   ck_assert_double_le(deepest(&s, s.character, other), 5e-4);
@@ -163,7 +149,7 @@ static scene begin_two_bars(sbf_vec3 off) {
   add_bar(&s, 0, (sbf_vec3){0, 0, 0}, false, 1e5f);
   add_bar(&s, 1, off, true, 1e5f);
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
-  start(&s);
+  meeting_start(&s);
   return s;
 }
 
@@ -186,7 +172,7 @@ START_TEST(parts_of_one_that_got_through_each_other_come_apart)
   for (int i = 0; i < 180; i++) {
     scene_ticks(&s, 1);
     if (i == 0) ck_assert_double_ge(deepest(&s, s.character, s.character), 0.025);
-    if (i > 3) speed = fmax(speed, fastest(&s, s.character));
+    if (i > 3) speed = fmax(speed, meeting_fastest(&s, s.character));
   }
   scene_momentum after = scene_momentum_of(&s);
   ck_assert_double_le(deepest(&s, s.character, s.character), 5e-4);
@@ -205,7 +191,7 @@ START_TEST(parts_that_overlap_at_rest_stay_quiet)
   ck_assert_double_ge(deepest(&s, s.character, s.character), 0.01);
   for (int i = 0; i < 120; i++) {
     scene_ticks(&s, 1);
-    ck_assert_double_le(fastest(&s, s.character), 1e-4);
+    ck_assert_double_le(meeting_fastest(&s, s.character), 1e-4);
   }
   (void)look(&s, s.character, 1, after);
   for (uint32_t i = 0; i < count; i++) ck_assert_float_le(sbri_length(sbri_sub(after[i], before[i])), 1e-5f);

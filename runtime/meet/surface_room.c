@@ -1,0 +1,37 @@
+/* What all surfaces have, of soft bodies and of hulls: room for what a tick makes of
+ * them, where they are at rest, and measures of that. */
+#include "math/vec3.h"
+#include "meet/meetings.h"
+
+sbf_vec3 sbri_meet_rest(const sbr_model *model, uint32_t body, const sbri_sample *s) {
+  const sbri_point *rest = model->islands[model->bodies[body].island].rest;
+  sbf_vec3 x = {0, 0, 0};
+  for (int k = 0; k < 4; k++)
+    x = sbri_add_scaled(
+        x, sbri_vec3(rest[s->slots[k]].x, rest[s->slots[k]].y, rest[s->slots[k]].z), s->weights[k]);
+  return x;
+}
+
+bool sbri_meet_surface_room(sbri_meet_surface *s, uint32_t vertices, uint32_t triangles, sbfi_arena *arena) {
+  s->places = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->places);
+  s->ways = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->ways);
+  s->inside = sbfi_arena_allocate(arena, (size_t)vertices + 1, sizeof *s->inside);
+  s->boxes = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->boxes);
+  s->tree.items = sbfi_arena_allocate(arena, (size_t)triangles + 1, sizeof *s->tree.items);
+  s->tree.nodes = sbfi_arena_allocate(arena, sbri_bounds_tree_nodes(triangles), sizeof *s->tree.nodes);
+  return s->places && s->ways && s->inside && s->boxes && s->tree.items && s->tree.nodes;
+}
+
+void sbri_meet_surface_measure(sbri_meet_surface *s) {
+  double length = 0, area = 0, volume = 0;
+  for (uint32_t t = 0; t < s->triangle_count; t++) {
+    const uint32_t *c = s->triangles + 3 * (size_t)t;
+    sbf_vec3 p[3] = {s->places[c[0]], s->places[c[1]], s->places[c[2]]};
+    sbf_vec3 normal = sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0]));
+    for (int k = 0; k < 3; k++) length += (double)sbri_length(sbri_sub(p[(k + 1) % 3], p[k]));
+    area += 0.5 * (double)sbri_length(normal);
+    volume += (double)sbri_dot(sbri_sub(p[0], s->places[0]), normal) / 6;
+  }
+  s->edge_m = s->triangle_count ? (float)(length / (3.0 * s->triangle_count)) : 0;
+  s->thick_m = area > 0 ? (float)(4 * volume / area) : 0;
+}
