@@ -33,7 +33,7 @@ for (let i = 0; i < 16; i++) {
   }));
   await tab.keyboard.press('Tab');
 }
-for (const id of ['canvas', 'skin', 'springs', 'lattice', 'bones', 'strain', 'ground', 'speed', 'throw', 'knock', 'restart', 'pause']) {
+for (const id of ['canvas', 'skin', 'springs', 'bones', 'strain', 'ground', 'level', 'speed', 'throw', 'knock', 'restart', 'pause']) {
   const here = reached.find((one) => one.id === id);
   expect(here, `the keyboard does not reach ${id}`);
   expect(!here || here.outline, `${id} does not show that it has the focus`);
@@ -167,5 +167,19 @@ const narrow = await tab.evaluate(() => ({ wide: document.documentElement.scroll
   canvas: viewer.canvas.getBoundingClientRect().bottom }));
 expect(narrow.wide <= 420 && narrow.panel >= narrow.canvas - 1, `in a narrow window: ${JSON.stringify(narrow)}`);
 await shoot('narrow');
+
+// There fingers walk: a button of the picture, held and let go.
+const pad = await tab.locator('#pad [data-code=KeyW]').boundingBox();
+expect(pad && pad.width >= 44 && pad.height >= 44, `a button to walk by: ${JSON.stringify(pad)}`);
+await tab.evaluate(() => viewer.restart());
+await tab.mouse.move(pad.x + pad.width / 2, pad.y + pad.height / 2);
+await tab.mouse.down();
+expect(await tab.evaluate(() => {
+  for (let i = 0; i < 90; i++) viewer.step(1 / 60);
+  return viewer.keys.has('KeyW') && viewer.character.distance > 0.1;
+}), 'the button does not walk');
+await tab.mouse.up();
+expect(await tab.evaluate(() => viewer.keys.size === 0), 'a button that was let go still steers');
+for (const way of ['Forward', 'Back', 'Turn left', 'Turn right']) expect(await tab.getByRole('button', { name: way }).isVisible(), `no button '${way}'`);
 await close();
 console.log(JSON.stringify({ hash, us, faults }));

@@ -17,7 +17,10 @@ for (const { name, page, frames, drive, levels, color } of JSON.parse(pages)) {
   hashes[name] = await tab.evaluate(([count, way]) => viewer.hashAfter(count, way), [frames, drive]);
 
   // Every level that the file has can be chosen and stepped; the panel offers no other.
-  const offered = await tab.evaluate(() => document.querySelector('#level').options.length);
+  const { offered, rungs } = await tab.evaluate(() => {
+    const values = Array.from(document.querySelector('#level').options, (one) => one.value), number = /^\d+$/;
+    return { offered: values.filter((one) => number.test(one)).length, rungs: values.filter((one) => !number.test(one)) };
+  });
   expect(offered === levels, `${name}: the panel offers ${offered} levels of ${levels}`);
   for (let level = 1; level < levels; level++) {
     await tab.selectOption('#level', String(level));
@@ -28,6 +31,27 @@ for (const { name, page, frames, drive, levels, color } of JSON.parse(pages)) {
     });
     expect(went.level === level && went.valid, `${name}: at level ${level} ${JSON.stringify(went)}`);
   }
+  // And the rungs that the runtime makes of it, below those.
+  for (const rung of rungs) {
+    await tab.selectOption('#level', rung);
+    const went = await tab.evaluate(() => {
+      for (let i = 0; i < 60; i++) viewer.step(1 / 60);
+      viewer.draw();
+      return { kind: viewer.model.rungs[viewer.character.rung].kind, valid: viewer.character.health().valid };
+    });
+    expect(went.kind === rung && went.valid, `${name}: on the rung ${rung} ${JSON.stringify(went)}`);
+  }
+  const made = await tab.evaluate(() => (viewer.asset.bones.length ? viewer.asset.model({ ladder: true }).rungs : []).map(({ kind }) => kind).filter((kind) => /jiggle|bones/.test(kind)));
+  expect(String(rungs) === String(made), `${name}: the panel offers ${rungs}, the runtime has ${made}`);
+
+  // What is inside can be shown if there is any of it, and only then.
+  const inside = await tab.evaluate(() => {
+    viewer.choices.level = 0;
+    viewer.restart();
+    const lines = viewer.character.lines(), kinds = Array.from({ length: lines.length / 10 }, (_, i) => lines[10 * i + 3]);
+    return { springs: kinds.some((kind) => kind < 5), lattice: kinds.includes(5), bones: viewer.asset.bones.length > 0 };
+  });
+  for (const [id, there] of Object.entries(inside)) expect(await tab.isDisabled(`#${id}`) === !there, `${name}: the switch of ${id}, of which there ${there ? 'are' : 'are none'}`);
 
   // What the image of a texture shows is on the skin: the middle of the picture has its colour, lit.
   if (color) {

@@ -80,7 +80,8 @@ def main():
     tarball = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else web_files.tarball()
     listed = web_files.run("tar", "-tzf", tarball).split()
     expected = {"package/" + name for name in ("package.json", "README.md", "LICENSE", "sbfmt.js", "sbfmt.d.ts", "sbfmt.wasm",
-                                               "sbfmt-three.js", "sbfmt-three.d.ts")}
+                                               "sbfmt-three.js", "sbfmt-three.d.ts",
+                                               *(f"modules/{name}" for name in os.listdir(os.path.join(web_files.HOST, "modules"))))}
     if set(listed) != expected:
         sys.exit(f"the package holds {sorted(listed)}")
     with tempfile.TemporaryDirectory() as folder:
@@ -92,7 +93,6 @@ def main():
         if found != there:
             sys.exit(f"installed it gives {found}, natively {there}")
         written_example(folder, os.path.join(web_files.HOST, "README.md"))
-        written_example(folder, os.path.join(web_files.SOURCE, "docs", "web.md"))
         if web_files.npm(folder, "install", "three@0.170", "@types/three@0.170", "typescript@5").returncode != 0:
             web_files.skip("npm could not fetch three and typescript; what needs neither is good")
         web_files.write(folder, "three.mjs", THREE)

@@ -1,13 +1,10 @@
 #!/usr/bin/env python3
 """The npm package and three.js in a page that a server on this machine hands out, as a site of one's own does: Chromium draws the
 lizard, it walks across the picture, and its state is the program's. Pictures go to BUILD/web-pictures."""
-import functools
-import http.server
 import json
 import os
 import sys
 import tempfile
-import threading
 
 import web_files
 
@@ -50,13 +47,6 @@ stage.draw();
 """
 
 
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".wasm": "application/wasm", ".js": "text/javascript"}
-
-    def log_message(self, *_):
-        pass
-
-
 def main():
     web_files.need("node", "npm", "chromium")
     modules = web_files.playwright()
@@ -69,10 +59,8 @@ def main():
         if web_files.npm(folder, "install", "three@0.170").returncode != 0:
             web_files.skip("npm could not fetch three")
         web_files.write(folder, "index.html", PAGE)
-        with http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=folder)) as server:
-            threading.Thread(target=server.serve_forever, daemon=True).start()
-            told = web_files.run("node", script, modules, f"http://127.0.0.1:{server.server_port}/", pictures)
-            server.shutdown()
+        with web_files.served(folder) as address:
+            told = web_files.run("node", script, modules, address, pictures)
         found = json.loads(told.splitlines()[-1])
         there = web_files.native(lizard, "--seconds", "2", "--drive", "0.3,0")["state_hash"]
     if found["hash"] != there:

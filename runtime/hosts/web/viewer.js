@@ -1,239 +1,27 @@
 /* The page of `sbfmt export -o PAGE.html`: a character to look at, to walk about, to drag and to throw balls at.
  * Keys and pointer steer; what is pressed, shown and chosen stands in the panel of viewer.html. */
 import { load } from './sbfmt.js';
-import { Painter, ball, boneShapes, vector } from './viewer_draw.js';
+import { ball, boneShapes, vector } from './viewer_draw.js';
+import { Hands, MOVES } from './viewer_hands.js';
 
 const element = (id) => document.getElementById(id);
-/** The bytes that stand in the page. */
-function bytesIn(selector) {
-  return Uint8Array.from(atob(document.querySelector(selector)?.textContent ?? ''), (one) => one.charCodeAt(0));
-}
 const SPRINGS = 0b011111, LATTICE = 0b100000;
-const BALLS = 6, FRAME = 1 / 60, GRAVITY = 9.80665;
+const RUNG_NAMES = { jiggle: 'springy bones', bones: 'bones alone' };
+const FRAME = 1 / 60;
 /** Physics may take so much of a frame, in ms or as a share of the frame before; what time it then has not covered is let go: slow motion. */
 const PHYSICS_MS = 10, PHYSICS_SHARE = 0.35, LONGEST_FRAME = 0.25;
-const LANDS = {
-  flat: () => ({ kind: 'flat' }),
-  uneven: (size) => ({ kind: 'noise', height: 0.12 * size, seed: 7 }),
-  stairs: (size) => ({ kind: 'stairs', rise: 0.03 * size, run: 0.45 * size }),
-  slope: () => ({ kind: 'slope', degrees: 12 }),
-};
-const MOVES = {
-  KeyW: ['forward', 1], KeyS: ['forward', -0.5], KeyA: ['turn', 1], KeyD: ['turn', -1], KeyQ: ['sideways', 0.5], KeyE: ['sideways', -0.5],
-};
 const TURNS = { ArrowLeft: [-0.06, 0], ArrowRight: [0.06, 0], ArrowUp: [0, 0.05], ArrowDown: [0, -0.05] };
 
-class Viewer {
+class Viewer extends Hands {
   constructor(sbfmt, bytes, canvas) {
-    this.sbfmt = sbfmt;
-    this.canvas = canvas;
-    this.asset = sbfmt.asset(bytes);
-    this.painter = new Painter(canvas);
-    this.ballMesh = this.meshOf(ball());
-    this.show = { skin: true, springs: false, lattice: false, bones: false, strain: false };
-    this.camera = { yaw: 0.72, pitch: 0.26, distance: 1, focus: [0, 0, 0], halfHeight: 0.3 };
-    this.choices = { ground: 'uneven', level: 0, renderLevel: 0, speed: 0.5 };
-    this.keys = new Set();
+    super(sbfmt, bytes, canvas);
     this.costs = { step: 0, skin: 0, frames: 0, since: 0, wanted: 0, covered: 0 };
     this.paused = false;
-    this.size = 1;
-    this.restart();
-    this.frameCamera();
-    this.restart(); // now that the size is known
-    this.wearTextures();
   }
 
-  /** Makes world and character anew, at the chosen level on the chosen ground. */
-  restart(ground = LANDS[this.choices.ground](this.size), at) {
-    this.release();
-    this.world?.free();
-    this.model?.free();
-    this.balls = [];
-    this.skins?.forEach((one) => this.painter.freeMesh(one.mesh));
-    this.model = this.asset.model({ level: this.choices.level });
-    this.ground = ground;
-    this.world = this.sbfmt.world({ ground });
-    this.character = this.world.add(this.model, at);
-    this.skins = this.asset.meshes.map((_, i) => this.dress(i));
-    this.groundMesh = undefined;
-    this.rigidOf = new Map(this.asset.rigidBodies.map((body) => [body.bone, body.index]));
-    this.mass = this.asset.rigidBodies.reduce((sum, body) => sum + this.character.rigidState(body.index).mass, 0);
-    this.time = 0;
-  }
-
-  meshOf({ positions, normals, indices }) {
-    const mesh = this.painter.mesh(indices);
-    this.painter.fill(mesh, positions, normals);
-    return mesh;
-  }
-
-  dress(number) {
-    const skin = this.character.skin(number, this.choices.renderLevel);
-    const parts = skin.groups.map(({ start, count, material }) => {
-      const look = this.asset.materials[material];
-      return { start, count, material, color: look ? [...look.baseColor] : [0.37, 0.65, 0.47, 1], roughness: look?.roughness ?? 0.6,
-        metallic: look?.metallic ?? 0, image: this.images?.[look?.baseColorTexture] };
-    });
-    return { mesh: this.painter.mesh(skin.indices, skin.uvs), parts };
-  }
-
-  async wearTextures() {
-    const images = await Promise.all(this.asset.textures.map(async (texture) => {
-      const bytes = texture.bytes.length ? texture.bytes : bytesIn(`[data-texture="${texture.index}"]`);
-      if (!bytes.length) return undefined;
-      try {
-        return this.painter.image(await createImageBitmap(new Blob([bytes], { type: texture.mediaType })));
-      } catch {
-        return undefined; // an image that this browser does not read: the plain colour is shown
-      }
-    }));
-    this.images = images;
-    for (const { parts } of this.skins)
-      for (const part of parts) part.image = images[this.asset.materials[part.material]?.baseColorTexture];
-  }
-
-  /** Stands where all of the character is seen. */
-  frameCamera() {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], { origin } = this.character;
-    const meet = (numbers, stride) => {
-      for (let i = 0; i + 2 < numbers.length; i += stride)
-        for (let k = 0; k < 3; k++) {
-          low[k] = Math.min(low[k], numbers[i + k] + origin[k]);
-          high[k] = Math.max(high[k], numbers[i + k] + origin[k]);
-        }
-    };
-    this.asset.meshes.forEach((_, i) => meet(this.character.skin(i, this.choices.renderLevel).positions, 3));
-    if (low[0] > high[0]) meet(this.character.lines(), 5);
-    if (low[0] > high[0]) meet(this.character.bones(), 7);
-    if (low[0] > high[0]) low.fill(-0.5), high.fill(0.5);
-    this.size = Math.max(vector.length(vector.subtract(high, low)), 1e-3);
-    this.middle = vector.scale(vector.add(low, high), 0.5);
-    this.height = this.middle[1] - origin[1];
-    this.camera.focus = this.middle;
-    this.camera.distance = this.size * 1.6;
-  }
-
-  /** In a narrow window more of the height is seen, so that the width stays. */
-  get halfHeight() {
-    return this.camera.halfHeight * Math.max(1, 1.25 * this.canvas.clientHeight / (this.canvas.clientWidth || 1));
-  }
-
-  get eye() {
-    const { yaw, pitch, distance, focus } = this.camera;
-    return vector.add(focus, vector.scale([Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)], distance));
-  }
-
-  /** Where the character's middle is. */
-  get subject() {
-    const { origin } = this.character;
-    if (!this.asset.bones.length) return vector.add(origin, [this.middle[0], this.height, this.middle[2]]);
-    const bones = this.character.bones(), fleshed = new Set(this.asset.softBodies.map((body) => body.bone).filter((bone) => bone >= 0));
-    const chosen = fleshed.size ? [...fleshed] : this.asset.bones.map((bone) => bone.index);
-    const sum = chosen.reduce((so_far, bone) => vector.add(so_far, bones.subarray(7 * bone, 7 * bone + 3)), [0, 0, 0]);
-    return vector.add(origin, vector.scale(sum, 1 / chosen.length));
-  }
-
-  /** The direction from the eye through a place of the canvas, in pixels of the page. */
-  wayThrough(x, y) {
-    const box = this.canvas.getBoundingClientRect(), { halfHeight } = this, { focus } = this.camera;
-    const back = vector.unit(vector.subtract(this.eye, focus)), right = vector.unit(vector.cross([0, 1, 0], back)), up = vector.cross(back, right);
-    const across = (2 * (x - box.left) / box.width - 1) * halfHeight * box.width / box.height, above = (1 - 2 * (y - box.top) / box.height) * halfHeight;
-    return vector.unit(vector.add(vector.add(vector.scale(right, across), vector.scale(up, above)), vector.scale(back, -1)));
-  }
-
-  // ---- What the character is asked and made to do ----
-
-  steer() {
-    const wish = { forward: 0, turn: 0, sideways: 0 };
-    for (const key of this.keys) wish[MOVES[key][0]] += MOVES[key][1];
-    const speed = this.choices.speed * this.size;
-    this.character.drive(wish.forward * speed, wish.turn * 0.9, wish.sideways * speed);
-  }
-
-  /** Takes hold of what lies under the pointer; false where that is nothing. */
-  grab(x, y) {
-    const way = this.wayThrough(x, y), hit = this.world.ray(this.eye, way, this.camera.distance * 4);
-    if (!hit || !hit.character) return false;
-    const rigid = hit.rigidBody >= 0 ? hit.rigidBody : this.rigidOf.get(this.asset.softBodies[hit.softBody]?.bone);
-    this.held = { rigid, target: hit.position, depth: vector.dot(vector.subtract(hit.position, this.eye), this.forward) };
-    if (rigid === undefined || !this.mass) { // nothing that could be pulled: a finger presses
-      this.held.finger = this.world.collider({ shape: 'sphere', radius: 0.04 * this.size, position: hit.position });
-      return true;
-    }
-    this.character.fall();
-    const state = this.character.rigidState(rigid), center = vector.add(this.character.origin, state.position);
-    const back = [-state.rotation[0], -state.rotation[1], -state.rotation[2], state.rotation[3]];
-    this.held.local = vector.turn(back, vector.subtract(hit.position, center));
-    return true;
-  }
-  get forward() {
-    return vector.unit(vector.subtract(this.camera.focus, this.eye));
-  }
-  dragTo(x, y) {
-    const way = this.wayThrough(x, y);
-    this.held.target = vector.add(this.eye, vector.scale(way, this.held.depth / vector.dot(way, this.forward)));
-    this.held.target[1] = Math.max(this.held.target[1], this.groundHeight(this.held.target) + 0.02 * this.size);
-  }
-  release() {
-    this.held?.finger?.free();
-    this.held = undefined;
-  }
-
-  /** Draws what is held towards the pointer, strongly enough to lift all of it. */
-  pull(seconds) {
-    const { held } = this;
-    if (!held) return;
-    if (held.finger) return held.finger.move(held.target);
-    if (this.character.posture !== 'falling') this.character.fall();
-    const state = this.character.rigidState(held.rigid);
-    const place = vector.add(vector.add(this.character.origin, state.position), vector.turn(state.rotation, held.local));
-    // Towards the pointer at a speed, by impulses that this body alone can take, and most of the weight of all that hangs on it.
-    let wanted = vector.scale(vector.subtract(held.target, place), 9);
-    wanted = vector.scale(wanted, Math.min(1, 3 * Math.sqrt(GRAVITY * this.size) / (vector.length(wanted) || 1)));
-    const impulse = vector.scale(vector.subtract(wanted, state.velocity), 1.5 * state.mass);
-    const lift = wanted[1] > 0 ? 0.9 * this.mass * GRAVITY * seconds : 0;
-    this.character.push(held.rigid, place, vector.add(impulse, [0, lift, 0]));
-  }
-
-  groundHeight(place) {
-    return this.sbfmt.groundAt(this.ground, [place[0], place[2]]).heights[0];
-  }
-
-  /** Throws a ball from beside the eye to the character's middle. */
-  throwBall() {
-    const radius = 0.07 * this.size, speed = 1.8 * Math.sqrt(GRAVITY * this.size), to = this.subject;
-    const from = vector.add(this.eye, vector.scale(this.forward, this.camera.distance * 0.25)), way = vector.subtract(to, from);
-    const seconds = vector.length(way) / speed, velocity = vector.scale(way, 1 / seconds);
-    velocity[1] += GRAVITY * seconds / 2;
-    if (this.balls.length === BALLS) this.balls.shift().collider.free();
-    this.balls.push({ collider: this.world.collider({ shape: 'sphere', radius, position: from }), place: from, velocity, radius, hits: 0 });
-  }
-
-  /** Flies the balls; one that meets the character knocks it and comes back. */
-  flyBalls(seconds) {
-    for (const one of this.balls) {
-      one.velocity[1] -= GRAVITY * seconds;
-      const step = vector.scale(one.velocity, seconds), length = vector.length(step);
-      const hit = length > 1e-6 && this.world.ray(one.place, step, length + one.radius);
-      if (hit && hit.character && vector.dot(hit.normal, one.velocity) < 0) this.knock(one, hit);
-      one.place = vector.add(one.place, vector.scale(one.velocity, seconds));
-      const least = this.groundHeight(one.place) + one.radius;
-      if (one.place[1] < least) {
-        one.place[1] = least;
-        one.velocity = [one.velocity[0] * 0.97, Math.abs(one.velocity[1]) * 0.55, one.velocity[2] * 0.97];
-      }
-      one.collider.move(one.place);
-    }
-  }
-
-  knock(one, hit) {
-    const into = vector.dot(one.velocity, hit.normal), change = vector.scale(hit.normal, -1.4 * into);
-    one.velocity = vector.add(one.velocity, change);
-    one.hits++;
-    const rigid = hit.rigidBody >= 0 ? hit.rigidBody : this.rigidOf.get(this.asset.softBodies[hit.softBody]?.bone);
-    if (rigid === undefined || !this.mass) return;
-    this.character.fall();
-    this.character.push(rigid, hit.position, vector.scale(change, -0.03 * this.mass));
+  restart(...how) {
+    super.restart(...how);
+    this.offerInside();
   }
 
   // ---- Time ----
@@ -279,13 +67,13 @@ class Viewer {
 
   tell(now) {
     const { step, skin, frames, since, wanted, covered } = this.costs, pace = wanted ? covered / wanted : 1, health = this.character.health(), figures = {
-      step: `${Math.round(1000 * step / frames)} µs`,
-      skinCost: `${Math.round(1000 * skin / frames)} µs`,
+      step: `${Math.round(1000 * step / frames).toLocaleString('en')} µs`,
+      skinCost: `${Math.round(1000 * skin / frames).toLocaleString('en')} µs`,
       pace: pace > 0.98 ? 'as the clock' : `slowed to ${Math.round(100 * pace)} %`,
       rate: `${Math.round(1000 * frames / (now - since))} /s`,
       volume: `${(100 * Math.abs(1 - health.volumeRatio)).toFixed(2)} %`,
       strainMost: `${(100 * health.maxStrain).toFixed(0)} %`,
-      stated: this.asset.levelError(this.choices.level) ? `${(1000 * this.asset.levelError(this.choices.level)).toFixed(2)} mm` : 'not measured',
+      stated: this.statedError ? `${(1000 * this.statedError).toFixed(2)} mm` : 'not measured',
       walked: `${this.character.distance.toFixed(2)} m`,
     };
     for (const [id, text] of Object.entries(figures)) element(id).textContent = text;
@@ -329,11 +117,11 @@ class Viewer {
   }
 
   drawBall(one) {
-    if (one.drawn === undefined) {
+    if (this.ballMesh?.radius !== one.radius) {
       const shape = ball();
-      one.drawn = this.meshOf({ ...shape, positions: shape.positions.map((x) => x * one.radius) });
+      this.ballMesh = Object.assign(this.meshOf({ ...shape, positions: shape.positions.map((x) => x * one.radius) }), { radius: one.radius });
     }
-    this.painter.drawMesh(one.drawn, [{ color: [0.80, 0.16, 0.10, 1], roughness: 0.35 }], one.place);
+    this.painter.drawMesh(this.ballMesh, [{ color: [0.80, 0.16, 0.10, 1], roughness: 0.35 }], one.place);
   }
 
   /** The ground about what is looked at, made anew when that has gone on. */
@@ -401,12 +189,27 @@ class Viewer {
     for (const name of Object.keys(this.show))
       element(name).addEventListener('change', (event) => { this.show[name] = event.target.checked; });
     for (const name of ['ground', 'level', 'renderLevel', 'speed'])
-      element(name).addEventListener('change', (event) => this.choose(name, name === 'ground' ? event.target.value : Number(event.target.value)));
+      element(name).addEventListener('change', ({ target: { value } }) => this.choose(name, Number.isNaN(Number(value)) ? value : Number(value)));
     for (const [id, act] of Object.entries({ throw: () => this.throwBall(), knock: () => this.character.fall(), restart: () => this.restart(),
       pause: () => this.pause() })) element(id).addEventListener('click', act);
-    this.offer('level', this.asset.levels || 1, 'finest');
+    for (const button of document.querySelectorAll('#pad button')) this.listenToPad(button);
+    this.offer('level', this.asset.levels || 1, 'finest', this.rungs.map(({ kind }) => [RUNG_NAMES[kind], kind]));
     this.offer('renderLevel', this.asset.renderLevels, 'full');
     element('knock').disabled = !this.mass;
+  }
+
+  /** A button that walks while it is held, by a finger or by the keyboard. */
+  listenToPad(button) {
+    const { code } = button.dataset, press = () => this.keys.add(code), lift = () => this.keys.delete(code);
+    button.addEventListener('pointerdown', (event) => {
+      button.setPointerCapture(event.pointerId);
+      press();
+    });
+    for (const kind of ['pointerup', 'pointercancel', 'lostpointercapture', 'blur', 'keyup']) button.addEventListener(kind, lift);
+    button.addEventListener('keydown', (event) => {
+      if (event.code === 'Space' || event.code === 'Enter') press();
+    });
+    button.addEventListener('contextmenu', (event) => event.preventDefault()); // of a long touch
   }
 
   pause() {
@@ -426,10 +229,23 @@ class Viewer {
     event.preventDefault();
   }
 
-  /** Levels to choose from. */
-  offer(id, count, first) {
-    element(id).replaceChildren(...Array.from({ length: count }, (_, i) => new Option(i ? String(i) : `0, ${first}`, String(i))));
-    element(id).disabled = count < 2;
+  /** Levels to choose from, and what else there is: [[text, value]]. */
+  offer(id, count, first, more = []) {
+    const levels = Array.from({ length: count }, (_, i) => [i ? String(i) : `0, ${first}`, i]);
+    element(id).replaceChildren(...[...levels, ...more].map(([text, value]) => new Option(text, String(value))));
+    element(id).disabled = levels.length + more.length < 2;
+  }
+
+  /** Of what is inside only that can be shown which this character has at its level. */
+  offerInside() {
+    const lines = this.character.lines(), kinds = new Set();
+    for (let at = 3; at < lines.length; at += 10) kinds.add(lines[at]);
+    const has = { lattice: kinds.delete(5), springs: kinds.size > 0, bones: this.asset.bones.length > 0 };
+    has.strain = has.lattice || has.springs;
+    for (const [id, there] of Object.entries(has)) {
+      element(id).disabled = !there;
+      element(id).closest('label').title = there ? '' : 'This character has none.';
+    }
   }
 }
 

@@ -1,0 +1,76 @@
+import { Model } from './model.js';
+
+const KINDS = ['bones', 'meshes', 'softBodies', 'rigidBodies', 'clips', 'ikChains', 'legs', 'materials', 'textures'];
+const ALPHAS = ['opaque', 'mask', 'blend'];
+
+/** A file, loaded and checked. */
+export class Asset {
+  constructor(sbfmt, bytes) {
+    const c = sbfmt.calls, from = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
+    if (!ArrayBuffer.isView(from)) throw new TypeError('an asset is made of the bytes of an .sbfz file: an ArrayBuffer or a Uint8Array');
+    this.sbfmt = sbfmt;
+    // Lists that are stored uncompressed are used where they lie, aligned as in the file.
+    this.memory = sbfmt.room(from.byteLength + 64);
+    const at = (this.memory + 63) & ~63;
+    new Uint8Array(c.memory.buffer, at, from.byteLength).set(new Uint8Array(from.buffer, from.byteOffset, from.byteLength));
+    this.handle = c.web_asset_load(at, from.byteLength);
+    if (!this.handle) {
+      const failure = sbfmt.failure();
+      c.web_free(this.memory);
+      throw failure;
+    }
+    this.title = sbfmt.text(c.web_asset_title(this.handle));
+    for (const [kind, name] of KINDS.entries())
+      this[name] = Array.from({ length: c.web_asset_count(this.handle, kind) }, (_, i) => ({
+        index: i,
+        name: sbfmt.text(c.web_asset_name(this.handle, kind, i)),
+      }));
+    this.levels = c.web_asset_levels(this.handle);
+    this.renderLevels = c.web_asset_render_levels(this.handle);
+    for (const bone of this.bones) this.readBone(bone);
+    for (const body of this.rigidBodies) body.bone = c.web_asset_rigid_bone(this.handle, body.index);
+    for (const body of this.softBodies) body.bone = c.web_asset_body_bone(this.handle, body.index);
+    for (const material of this.materials) this.readMaterial(material);
+    for (const texture of this.textures) this.readTexture(texture);
+  }
+
+  readBone(bone) {
+    const { calls, scratch } = this.sbfmt;
+    calls.web_asset_bone(this.handle, bone.index, scratch);
+    const n = Array.from(this.sbfmt.floats(scratch, 9));
+    Object.assign(bone, { parent: n[0], head: n.slice(1, 4), rotation: n.slice(4, 8), length: n[8] });
+  }
+
+  readMaterial(material) {
+    const { calls, scratch } = this.sbfmt;
+    calls.web_asset_material(this.handle, material.index, scratch);
+    const n = Array.from(this.sbfmt.floats(scratch, 15));
+    Object.assign(material, {
+      baseColor: n.slice(0, 4), metallic: n[4], roughness: n[5], emissive: n.slice(6, 9), alphaMode: ALPHAS[n[9]],
+      alphaCutoff: n[10], doubleSided: n[11] !== 0, baseColorTexture: n[12], metallicRoughnessTexture: n[13], normalTexture: n[14],
+    });
+  }
+
+  readTexture(texture) {
+    const { calls, scratch } = this.sbfmt, at = calls.web_asset_texture_bytes(this.handle, texture.index, scratch);
+    const size = this.sbfmt.words(scratch, 1)[0];
+    texture.mediaType = this.sbfmt.text(calls.web_asset_texture_type(this.handle, texture.index));
+    texture.path = this.sbfmt.text(calls.web_asset_texture_path(this.handle, texture.index));
+    texture.bytes = new Uint8Array(calls.memory.buffer, at, size).slice();
+  }
+
+  levelError(level = 0) {
+    return this.sbfmt.calls.web_asset_level_error(this.handle, level);
+  }
+
+  model(options = {}) {
+    return new Model(this, options);
+  }
+
+  /** After everything that was made of it. */
+  free() {
+    this.sbfmt.calls.web_asset_free(this.handle);
+    this.sbfmt.calls.web_free(this.memory);
+    this.handle = 0;
+  }
+}

@@ -1,0 +1,150 @@
+import { chosen, number, triple } from './checked.js';
+import { SbfmtError } from './sbfmt_error.js';
+
+const POSTURES = ['up', 'falling', 'rising'];
+const MODES = { kinematic: 0, passive: 1, driven: 2 };
+const SHOWN = ['byViews', 'always', 'never'];
+const RUNG_CHOSEN = 0xffffffff;
+
+/** One of the characters of a world: what it is asked, and what it is now. */
+export class Character {
+  constructor(world, model, options) {
+    const c = world.calls;
+    Object.assign(this, { world, model, sbfmt: world.sbfmt, calls: c, meshes: new Map() });
+    this.id = c.web_character_create(world.handle, model.handle, ...triple(options.position, 'position', [0, 0, 0]),
+      number(options.heading, 'heading', 0), number(options.scale, 'scale', 1), options.hold ? 1 : 0);
+    if (!this.id) throw this.sbfmt.failure();
+    this.boneRoom = this.sbfmt.room(28 * model.asset.bones.length + 4);
+  }
+
+  drive(forward, turn = 0, sideways = 0) {
+    this.calls.web_character_drive(this.world.handle, this.id, number(forward, 'forward'), number(sideways, 'sideways'),
+      number(turn, 'turn'));
+  }
+  teleport(position, heading = 0) {
+    this.calls.web_character_teleport(this.world.handle, this.id, ...triple(position, 'position'), number(heading, 'heading'));
+  }
+  reset() {
+    this.calls.web_character_reset(this.world.handle, this.id);
+  }
+  wake() {
+    this.calls.web_character_wake(this.world.handle, this.id);
+  }
+  pause(paused = true) {
+    this.calls.web_character_pause(this.world.handle, this.id, paused ? 1 : 0);
+  }
+  play(clip, { layer = 0, weight = 1, fade = 0.3, speed = 1, start = 0 } = {}) {
+    const place = typeof clip === 'string' ? this.model.asset.clips.findIndex((one) => one.name === clip) : clip ?? -1;
+    if (typeof clip === 'string' && place < 0) throw new TypeError(`the asset has no clip '${clip}'`);
+    this.calls.web_character_play(this.world.handle, this.id, layer, place, weight, fade, speed, start);
+  }
+  reach(ikChain, position, weight = 1) {
+    const [x, y, z] = position ? triple(position, 'position') : [0, 0, 0];
+    this.calls.web_character_reach(this.world.handle, this.id, ikChain, x, y, z, position ? weight : -1);
+  }
+  rigidMode(mode, rigidBody = -1) {
+    if (!(mode in MODES)) throw new TypeError(`a mode is one of ${Object.keys(MODES).join(', ')}, not ${mode}`);
+    this.calls.web_character_rigid_mode(this.world.handle, this.id, rigidBody, MODES[mode]);
+  }
+  fall() {
+    this.calls.web_character_fall(this.world.handle, this.id);
+  }
+  get posture() {
+    return POSTURES[this.calls.web_character_posture(this.world.handle, this.id)];
+  }
+  push(rigidBody, place, impulse) {
+    this.calls.web_character_push(this.world.handle, this.id, rigidBody, ...triple(place, 'place'), ...triple(impulse, 'impulse'));
+  }
+
+  rigidState(rigidBody) {
+    const { scratch } = this.sbfmt;
+    this.calls.web_character_rigid(this.world.handle, this.id, rigidBody, scratch);
+    const n = Array.from(this.sbfmt.floats(scratch, 18));
+    return { mode: Object.keys(MODES)[n[0]], position: n.slice(1, 4), rotation: n.slice(4, 8), center: n.slice(8, 11),
+      velocity: n.slice(11, 14), angularVelocity: n.slice(14, 17), mass: n[17] };
+  }
+
+  get rung() {
+    return this.calls.web_character_rung(this.world.handle, this.id);
+  }
+  setRung(rung) {
+    this.calls.web_character_set_rung(this.world.handle, this.id, rung === null ? RUNG_CHOSEN : number(rung, 'rung'));
+  }
+  get fade() {
+    return this.calls.web_character_fade(this.world.handle, this.id);
+  }
+  shown(how) {
+    this.calls.web_character_shown(this.world.handle, this.id, chosen(SHOWN, how, 'how it is shown'));
+  }
+  get errorPx() {
+    return this.calls.web_character_error_px(this.world.handle, this.id);
+  }
+
+  get origin() {
+    this.calls.web_character_origin(this.world.handle, this.id, this.sbfmt.scratch);
+    return Array.from(this.sbfmt.doubles(this.sbfmt.scratch, 3));
+  }
+  get distance() {
+    return this.calls.web_character_distance(this.world.handle, this.id);
+  }
+  bones() {
+    const count = this.model.asset.bones.length;
+    this.calls.web_character_bones(this.world.handle, this.id, this.boneRoom, count);
+    return this.sbfmt.floats(this.boneRoom, count * 7);
+  }
+  health() {
+    this.calls.web_character_health(this.world.handle, this.id, this.model.asset.softBodies.length, this.sbfmt.scratch);
+    const n = this.sbfmt.doubles(this.sbfmt.scratch, 7);
+    return { volumeRatio: n[0], maxStrain: n[1], energy: n[2], recoveries: n[3], torn: n[4], valid: n[5] !== 0, asleep: n[6] !== 0 };
+  }
+  legs() {
+    const { scratch } = this.sbfmt, count = this.calls.web_character_legs(this.world.handle, this.id, scratch, 64);
+    const n = this.sbfmt.floats(scratch, count * 10);
+    return Array.from({ length: count }, (_, i) => {
+      const leg = Array.from(n.slice(i * 10, i * 10 + 10));
+      return { planted: leg[0] !== 0, steps: leg[1], phase: leg[2], foot: leg.slice(3, 6), target: leg.slice(6, 9) };
+    });
+  }
+
+  /** Vertices as a graphics card wants them: made once, filled anew by each call. */
+  skin(mesh = 0, level = 0) {
+    const key = `${mesh}:${level}`, c = this.calls;
+    let at = this.meshes.get(key);
+    if (!at) {
+      at = c.web_mesh_create(this.model.asset.handle, this.model.handle, mesh, level);
+      if (!at) throw new SbfmtError(`there is no mesh ${mesh}, or memory ran out`, 'FAILED', '');
+      this.meshes.set(key, at);
+    }
+    c.web_mesh_update(at, this.world.handle, this.id);
+    c.web_mesh_layout(at, this.sbfmt.scratch);
+    const [vertices, indices, groups, indicesAt, groupsAt, uvsAt, positionsAt, normalsAt] = this.sbfmt.words(this.sbfmt.scratch, 8);
+    const parts = this.sbfmt.words(groupsAt, groups * 3);
+    return {
+      positions: this.sbfmt.floats(positionsAt, vertices * 3),
+      normals: this.sbfmt.floats(normalsAt, vertices * 3),
+      uvs: uvsAt ? this.sbfmt.floats(uvsAt, vertices * 2) : null,
+      indices: this.sbfmt.words(indicesAt, indices),
+      groups: Array.from({ length: groups }, (_, i) => ({ start: parts[3 * i], count: parts[3 * i + 1], material: parts[3 * i + 2] - 1 })),
+    };
+  }
+
+  /** Springs and edges of lattices: ten numbers a line, see sbfmt.d.ts. */
+  lines() {
+    const c = this.calls;
+    this.lineRoom ??= c.web_lines_create(this.model.asset.handle, this.world.handle, this.id, this.model.level);
+    if (!this.lineRoom) throw new SbfmtError('memory ran out', 'OUT_OF_MEMORY', '');
+    const at = c.web_lines_update(this.lineRoom, this.world.handle, this.id);
+    return this.sbfmt.floats(at, c.web_lines_count(this.lineRoom) * 10);
+  }
+
+  /** Before its world. */
+  free() {
+    for (const mesh of this.meshes.values()) this.calls.web_mesh_free(mesh);
+    this.meshes.clear();
+    if (this.lineRoom) this.calls.web_lines_free(this.lineRoom);
+    this.lineRoom = undefined;
+    this.calls.web_free(this.boneRoom);
+    this.calls.web_character_free(this.world.handle, this.id);
+    this.id = 0;
+  }
+}

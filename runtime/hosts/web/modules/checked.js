@@ -1,0 +1,19 @@
+/* What calls are given, checked before the library sees it. */
+
+export function number(value, name, otherwise) {
+  if (value === undefined && otherwise !== undefined) return otherwise;
+  if (typeof value !== 'number' || !Number.isFinite(value)) throw new TypeError(`${name} is to be a finite number, not ${value}`);
+  return value;
+}
+
+export function triple(value, name, otherwise) {
+  if (value === undefined && otherwise) return otherwise;
+  if (!value || value.length !== 3) throw new TypeError(`${name} is to be three numbers, [x, y, z]`);
+  return Array.from(value, (one) => number(one, name));
+}
+
+export function chosen(list, value, name) {
+  const place = list.indexOf(value);
+  if (place < 0) throw new TypeError(`${name} is one of ${list.join(', ')}, not ${value}`);
+  return place;
+}

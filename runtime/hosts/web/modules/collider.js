@@ -1,0 +1,32 @@
+import { chosen, number, triple } from './checked.js';
+
+const SHAPES = ['sphere', 'box', 'capsule'];
+
+/** What a host puts into the world for characters to meet. */
+export class Collider {
+  constructor(world, options) {
+    const c = world.calls, kind = chosen(SHAPES, options.shape ?? 'sphere', 'shape');
+    this.world = world;
+    this.shape = c.web_shape_create(kind, number(options.radius, 'radius', 0.5),
+      ...triple(options.halfSizes, 'halfSizes', [0.5, 0.5, 0.5]));
+    if (!this.shape) throw world.sbfmt.failure();
+    this.id = c.web_collider_create(world.handle, this.shape, ...triple(options.position, 'position', [0, 0, 0]),
+      number(options.friction, 'friction', -1), number(options.restitution, 'restitution', -1));
+    if (this.id) return;
+    const failure = world.sbfmt.failure();
+    c.web_shape_free(this.shape);
+    throw failure;
+  }
+
+  move(position, rotation = [0, 0, 0, 1]) {
+    this.world.calls.web_collider_move(this.world.handle, this.id, 0, ...triple(position, 'position'), ...rotation);
+  }
+  place(position, rotation = [0, 0, 0, 1]) {
+    this.world.calls.web_collider_move(this.world.handle, this.id, 1, ...triple(position, 'position'), ...rotation);
+  }
+  free() {
+    this.world.calls.web_collider_free(this.world.handle, this.id);
+    this.world.calls.web_shape_free(this.shape);
+    this.id = 0;
+  }
+}

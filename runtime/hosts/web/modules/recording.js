@@ -1,0 +1,56 @@
+/* What a world is asked, kept and played again. */
+import { SbfmtError } from './sbfmt_error.js';
+
+/** What a world is asked from now on. */
+export class Recording {
+  constructor(world) {
+    this.world = world;
+    this.handle = world.calls.web_record_begin(world.handle);
+    if (!this.handle) throw new SbfmtError('memory ran out', 'OUT_OF_MEMORY', '');
+  }
+
+  /** Ends it: a copy of its bytes. */
+  bytes() {
+    const { sbfmt, calls, handle } = this.world;
+    calls.web_record_end(handle);
+    const at = calls.web_record_bytes(this.handle, sbfmt.scratch), [size] = sbfmt.words(sbfmt.scratch, 1);
+    return new Uint8Array(calls.memory.buffer, at, size).slice();
+  }
+
+  free() {
+    this.world.calls.web_record_end(this.world.handle);
+    this.world.calls.web_record_free(this.handle);
+    this.handle = 0;
+  }
+}
+
+/** A recording that is played in a world that was made alike. */
+export class Replay {
+  constructor(world, bytes) {
+    const { sbfmt, calls } = world;
+    this.world = world;
+    this.memory = sbfmt.room(bytes.byteLength);
+    new Uint8Array(calls.memory.buffer, this.memory, bytes.byteLength).set(bytes);
+    this.handle = calls.web_replay_begin(world.handle, this.memory, bytes.byteLength);
+    if (this.handle) return;
+    const failure = sbfmt.failure();
+    calls.web_free(this.memory);
+    throw failure;
+  }
+
+  /** Plays up to and with the next step; false where nothing was left. */
+  frame() {
+    return this.world.calls.web_replay_frame(this.handle) !== 0;
+  }
+  get state() {
+    const { sbfmt, calls } = this.world;
+    calls.web_replay_state(this.handle, sbfmt.scratch);
+    const [count, frames, checks, differs, tick] = sbfmt.doubles(sbfmt.scratch, 5);
+    return { count, frames, checks, differs: differs !== 0, differsAt: differs ? tick : null };
+  }
+  free() {
+    this.world.calls.web_free(this.handle);
+    this.world.calls.web_free(this.memory);
+    this.handle = 0;
+  }
+}

@@ -1,0 +1,151 @@
+/* What the page shows: a character in a world, dressed in its skin, and a camera that looks at it. */
+import { Painter, vector } from './viewer_draw.js';
+
+/** The bytes that stand in the page. */
+export function bytesIn(selector) {
+  return Uint8Array.from(atob(document.querySelector(selector)?.textContent ?? ''), (one) => one.charCodeAt(0));
+}
+const LANDS = {
+  flat: () => ({ kind: 'flat' }),
+  uneven: (size) => ({ kind: 'noise', height: 0.12 * size, seed: 7 }),
+  stairs: (size) => ({ kind: 'stairs', rise: 0.03 * size, run: 0.45 * size }),
+  slope: () => ({ kind: 'slope', degrees: 12 }),
+};
+
+export class Stage {
+  constructor(sbfmt, bytes, canvas) {
+    this.sbfmt = sbfmt;
+    this.canvas = canvas;
+    this.asset = sbfmt.asset(bytes);
+    this.painter = new Painter(canvas);
+    this.show = { skin: true, springs: false, lattice: false, bones: false, strain: false };
+    this.camera = { yaw: 0.72, pitch: 0.26, distance: 1, focus: [0, 0, 0], halfHeight: 0.3 };
+    this.choices = { ground: 'uneven', level: 0, renderLevel: 0, speed: 0.5 };
+    this.rungs = this.rungsBelow();
+    this.size = 1;
+    this.restart();
+    this.frameCamera();
+    this.restart(); // now that the size is known
+    this.wearTextures();
+  }
+
+  /** What the runtime has that is coarser than the file's levels. */
+  rungsBelow() {
+    if (!this.asset.softBodies.length || !this.asset.bones.length) return [];
+    const model = this.asset.model({ ladder: true }), found = model.rungs.filter(({ kind }) => kind === 'jiggle' || kind === 'bones');
+    model.free();
+    return found;
+  }
+  /** Of the chosen level, m; 0: nobody has measured it. */
+  get statedError() {
+    const { level } = this.choices;
+    return Number.isInteger(level) ? this.asset.levelError(level) : this.rungs.find(({ kind }) => kind === level).error;
+  }
+
+  /** Makes world and character anew, at the chosen level on the chosen ground. */
+  restart(ground = LANDS[this.choices.ground](this.size), at) {
+    this.world?.free();
+    this.model?.free();
+    this.balls = [];
+    this.skins?.forEach((one) => this.painter.freeMesh(one.mesh));
+    const { level } = this.choices, ofFile = Number.isInteger(level);
+    this.model = this.asset.model(ofFile ? { level } : { ladder: true });
+    this.ground = ground;
+    this.world = this.sbfmt.world({ ground });
+    this.character = this.world.add(this.model, at);
+    if (!ofFile) this.character.setRung(this.model.rungs.findIndex(({ kind }) => kind === level));
+    this.skins = this.asset.meshes.map((_, i) => this.dress(i));
+    this.groundMesh = undefined;
+    this.rigidOf = new Map(this.asset.rigidBodies.map((body) => [body.bone, body.index]));
+    this.mass = this.asset.rigidBodies.reduce((sum, body) => sum + this.character.rigidState(body.index).mass, 0);
+    this.time = 0;
+  }
+
+  meshOf({ positions, normals, indices }) {
+    const mesh = this.painter.mesh(indices);
+    this.painter.fill(mesh, positions, normals);
+    return mesh;
+  }
+
+  dress(number) {
+    const skin = this.character.skin(number, this.choices.renderLevel);
+    const parts = skin.groups.map(({ start, count, material }) => {
+      const look = this.asset.materials[material];
+      return { start, count, material, color: look ? [...look.baseColor] : [0.37, 0.65, 0.47, 1], roughness: look?.roughness ?? 0.6,
+        metallic: look?.metallic ?? 0, image: this.images?.[look?.baseColorTexture] };
+    });
+    return { mesh: this.painter.mesh(skin.indices, skin.uvs), parts };
+  }
+
+  async wearTextures() {
+    const images = await Promise.all(this.asset.textures.map(async (texture) => {
+      const bytes = texture.bytes.length ? texture.bytes : bytesIn(`[data-texture="${texture.index}"]`);
+      if (!bytes.length) return undefined;
+      try {
+        return this.painter.image(await createImageBitmap(new Blob([bytes], { type: texture.mediaType })));
+      } catch {
+        return undefined; // an image that this browser does not read: the plain colour is shown
+      }
+    }));
+    this.images = images;
+    for (const { parts } of this.skins)
+      for (const part of parts) part.image = images[this.asset.materials[part.material]?.baseColorTexture];
+  }
+
+  /** Stands where all of the character is seen. */
+  frameCamera() {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], { origin } = this.character;
+    const meet = (numbers, stride) => {
+      for (let i = 0; i + 2 < numbers.length; i += stride)
+        for (let k = 0; k < 3; k++) {
+          low[k] = Math.min(low[k], numbers[i + k] + origin[k]);
+          high[k] = Math.max(high[k], numbers[i + k] + origin[k]);
+        }
+    };
+    this.asset.meshes.forEach((_, i) => meet(this.character.skin(i, this.choices.renderLevel).positions, 3));
+    if (low[0] > high[0]) meet(this.character.lines(), 5);
+    if (low[0] > high[0]) meet(this.character.bones(), 7);
+    if (low[0] > high[0]) low.fill(-0.5), high.fill(0.5);
+    this.size = Math.max(vector.length(vector.subtract(high, low)), 1e-3);
+    this.middle = vector.scale(vector.add(low, high), 0.5);
+    this.height = this.middle[1] - origin[1];
+    this.camera.focus = this.middle;
+    this.camera.distance = this.size * 1.6;
+  }
+
+  /** In a narrow window more of the height is seen, so that the width stays. */
+  get halfHeight() {
+    return this.camera.halfHeight * Math.max(1, 1.25 * this.canvas.clientHeight / (this.canvas.clientWidth || 1));
+  }
+
+  get eye() {
+    const { yaw, pitch, distance, focus } = this.camera;
+    return vector.add(focus, vector.scale([Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)], distance));
+  }
+
+  get forward() {
+    return vector.unit(vector.subtract(this.camera.focus, this.eye));
+  }
+
+  /** Where the character's middle is. */
+  get subject() {
+    const { origin } = this.character;
+    if (!this.asset.bones.length) return vector.add(origin, [this.middle[0], this.height, this.middle[2]]);
+    const bones = this.character.bones(), fleshed = new Set(this.asset.softBodies.map((body) => body.bone).filter((bone) => bone >= 0));
+    const chosen = fleshed.size ? [...fleshed] : this.asset.bones.map((bone) => bone.index);
+    const sum = chosen.reduce((so_far, bone) => vector.add(so_far, bones.subarray(7 * bone, 7 * bone + 3)), [0, 0, 0]);
+    return vector.add(origin, vector.scale(sum, 1 / chosen.length));
+  }
+
+  /** The direction from the eye through a place of the canvas, in pixels of the page. */
+  wayThrough(x, y) {
+    const box = this.canvas.getBoundingClientRect(), { halfHeight } = this, { focus } = this.camera;
+    const back = vector.unit(vector.subtract(this.eye, focus)), right = vector.unit(vector.cross([0, 1, 0], back)), up = vector.cross(back, right);
+    const across = (2 * (x - box.left) / box.width - 1) * halfHeight * box.width / box.height, above = (1 - 2 * (y - box.top) / box.height) * halfHeight;
+    return vector.unit(vector.add(vector.add(vector.scale(right, across), vector.scale(up, above)), vector.scale(back, -1)));
+  }
+
+  groundHeight(place) {
+    return this.sbfmt.groundAt(this.ground, [place[0], place[2]]).heights[0];
+  }
+}
