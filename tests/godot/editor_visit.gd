@@ -1,7 +1,8 @@
 @tool
 extends EditorPlugin
 # Visits a scene in the editor: the character is there at rest and goes with the node, has a gizmo, moves while it
-# previews and is put back; its properties and signals have help.
+# previews and is put back; its properties and signals have help, and
+# one without an asset a warning.
 
 var failed := 0
 var frame := 0
@@ -14,6 +15,17 @@ func check(good: bool, what: String) -> void:
 	if not good:
 		failed += 1
 		print("FAILED: ", what)
+
+
+# What the scene tree's icons say, in one text.
+func warnings() -> String:
+	var told := ""
+	for tree in EditorInterface.get_base_control().find_children("*", "Tree", true, false):
+		var item: TreeItem = tree.get_root()
+		while item:
+			for i in item.get_button_count(0): told += item.get_button_tooltip_text(0, i) + "\n"
+			item = item.get_next_in_tree()
+	return told
 
 
 func _ready() -> void:
@@ -33,7 +45,13 @@ func _physics_process(_delta: float) -> void:
 		check(character.get_gizmos().any(func(one): return one.get_plugin().get_script() and "character_gizmo" in one.get_plugin().get_script().resource_path),
 				"no gizmo")
 		hash_at_rest = character.get_state_hash()
+		var bare := SoftCharacter3D.new()
+		scene.add_child(bare)
+		bare.owner = scene
+		bare.scale = Vector3(1, 2, 1)
 	if frame == 130:
+		for words in ["There is nothing to show", "scaled unevenly"]:
+			check(warnings().count(words) == 1, "warned %d times: %s" % [warnings().count(words), words])
 		check(character.get_state_hash() == hash_at_rest and character.get_travelled() == 0, "it moves without preview")
 		character.position = Vector3(2, 0.5, 0)
 	if frame == 140:

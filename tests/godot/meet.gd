@@ -1,6 +1,7 @@
 extends "checks.gd"
 # Two soft cubes of a physics space, one let go over the other: it comes to lie on it, and both are told who it is; of two that are not to
-# meet each other one falls into the other. Each stands on its own floor.
+# meet each other one falls into the other. Each stands on its own floor. Dropped from 30 cm on a third one, a cube first touches it from above,
+# and is thrown back.
 
 const SIZE := 0.3
 var lower: SoftCharacter3D
@@ -8,6 +9,10 @@ var upper: SoftCharacter3D
 var apart: Array[SoftCharacter3D] = []
 var told := {}
 var least := INF
+var fast: Array[SoftCharacter3D] = []
+var fast_normal := Vector3.ZERO
+var fast_least := INF
+var fast_most := 0.0
 
 
 func add_cube(at: Vector3, meets: bool) -> SoftCharacter3D:
@@ -35,6 +40,9 @@ func _initialize() -> void:
 	for one in [lower, upper]:
 		one.contact.connect(func(_soft_body: int, _position: Vector3, normal: Vector3, _impulse: float, with: Object):
 			if with: told[one] = [with, normal])
+	fast = [add_cube(Vector3(-2, 0, 0), true), add_cube(Vector3(-1.987, SIZE + 0.3, 0.007), true)]
+	fast[1].contact.connect(func(_soft_body: int, _position: Vector3, normal: Vector3, _impulse: float, with: Object):
+		if with == fast[0] and fast_normal == Vector3.ZERO: fast_normal = normal)
 	apart.append(add_cube(Vector3(0, 3, 0), true)) # over both, on a floor of its own
 	for height in [0.0, 0.6]: apart.append(add_cube(Vector3(2, height, 0), false))
 
@@ -43,6 +51,15 @@ func _physics_process(_delta: float) -> bool:
 	frame += 1
 	if frame > 5 and frame <= 150:
 		least = minf(least, bottom_of(upper) - 0.5 * top_of(lower))
+	if frame <= 40:
+		var between := middle_of(fast[1]) - middle_of(fast[0])
+		fast_least = minf(fast_least, between.y)
+		if fast_normal != Vector3.ZERO: fast_most = maxf(fast_most, between.y)
+	if frame == 40:
+		print("dropped from 30 cm: first touched along %s, as near as %f, then %f over it" % [fast_normal, fast_least, fast_most])
+		check(fast_normal.y > 0.99, "what falls fast is first touched along %s" % fast_normal)
+		check(fast_least > 0.7 * SIZE, "it came as near as %f" % fast_least)
+		check(fast_most > 1.2 * SIZE, "it was not thrown back: %f" % fast_most)
 	if frame == 150:
 		print("after %s: the lower from %f to %f, the upper from %f, the others from %f, %f, %f" %
 				[ProjectSettings.get_setting("physics/3d/physics_engine"), bottom_of(lower), top_of(lower), bottom_of(upper),

@@ -1,5 +1,7 @@
-/* What the inspector shows of a SoftCharacter3D. */
+/* What the inspector shows of a SoftCharacter3D, and what the editor warns of. */
 #include "soft_character.h"
+
+#include <math.h>
 
 /* The resource says that it has changed: the character takes its new content. */
 void soft_character_asset_changed(void *self, const gd_variant *const *arguments, gd_variant *result) {
@@ -118,5 +120,40 @@ const gd_property soft_character_properties[] = {
     SHOWN("push_bodies", BOOL, 0, NULL, "is_", push_bodies),
     SHOWN("meet_others", BOOL, 0, NULL, "is_", meet_others),
     SHOWN("push_limit", FLOAT, HINT_RANGE, "0,20,0.1,or_greater,suffix:m/s", "get_", push_limit),
+    {0},
+};
+
+/* ---- Warnings ---- */
+
+static bool is_uneven(const gd_transform *at) {
+  float least = INFINITY, most = 0;
+  for (int k = 0; k < 3; k++) {
+    float size = sqrtf(at->basis[0][k] * at->basis[0][k] + at->basis[1][k] * at->basis[1][k] +
+                       at->basis[2][k] * at->basis[2][k]);
+    least = fminf(least, size), most = fmaxf(most, size);
+  }
+  return most > 1.001f * least;
+}
+
+static void warnings(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  soft_character *one = self;
+  soft_asset *asset = gd_class_instance(&soft_asset_class, gd_as_object(&one->asset_value));
+  gd_variant value = GD_CALL(&one->node, "get_transform");
+  gd_transform at = gd_as_transform(&value);
+  (void)arguments;
+  gd_free(&value);
+  gd_assign(result, gd_empty(GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY));
+  if (!asset || !soft_asset_of(asset))
+    GD_DO(result, "push_back",
+        gd_string("There is nothing to show: set Asset to a .sbfz, or to a .sbf that the plugin sbfmt has "
+                  "imported."));
+  if (is_uneven(&at))
+    GD_DO(result, "push_back",
+        gd_string("It is scaled unevenly: a character has one scale, the same along all axes."));
+}
+
+const gd_method soft_character_virtuals[] = {
+    {"_get_configuration_warnings", warnings, true, {"", GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY, NULL},
+        0, {{0}}},
     {0},
 };

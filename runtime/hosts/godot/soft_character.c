@@ -235,6 +235,7 @@ static void edit(soft_character *one, const gd_transform *now) {
   character_skeleton_update(one);
   one->stale = true;
   GD_DO(&one->node, "update_gizmos");
+  GD_DO(&one->node, "update_configuration_warnings");
 }
 
 bool soft_character_prepare(soft_character *one) {
@@ -338,6 +339,7 @@ const gd_class soft_character_class = {
     .end = end,
     .notify = notify,
     .methods = soft_character_methods,
+    .virtuals = soft_character_virtuals,
     .properties = soft_character_properties,
     .signals = signals,
     .constants = constants,

@@ -63,7 +63,7 @@ typedef struct soft_character {
 
 extern const gd_class soft_character_class;
 extern const gd_property soft_character_properties[];
-extern const gd_method soft_character_methods[];
+extern const gd_method soft_character_methods[], soft_character_virtuals[];
 
 /* ---- soft_character.c ---- */
 
