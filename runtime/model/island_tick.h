@@ -49,9 +49,12 @@ typedef struct sbri_touch {
   float idle_s; /* for how long it cannot touch */
 } sbri_touch;
 
-/* What has been pulled with on a rigid body, N s and N m s about a place. */
+/* What has been pulled with on a rigid body, N s and N m s about a place; and by how much that changes its
+ * speeds, 1/kg and 1/(kg m^2) about the axis about which it turns most easily: 0 where it does not give way.
+ */
 typedef struct sbri_reaction {
   sbf_vec3 about, impulse, moment;
+  float ease, turn_ease;
 } sbri_reaction;
 
 typedef struct sbri_island_tick {

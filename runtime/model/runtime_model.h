@@ -237,6 +237,7 @@ typedef struct sbri_island {
   const int32_t *carrier_of_held; /* (slot_count - free_count) of model.carrier_of_frame */
   const uint32_t *carriers;       /* (carrier_count) the rigid bodies that may carry what holds it */
   uint32_t carrier_count;
+  bool lightly_damped;          /* some body of it by a ratio that does not take what coarse steps add */
   const sbri_answers *answers;  /* NULL: it does not hang on one body alone, or may not be borne */
   const uint32_t *held_springs; /* (held_spring_count) springs with one end held */
   uint32_t held_spring_count;

@@ -9,7 +9,11 @@
  * rigid motion of the free points, p the polynomial of least degree that is 1 at 0 and no more than a
  * thousandth from 1.8^2 up to the fastest mode's square: Chebyshev's, by its recurrence (Zhou and Saad, A
  * Chebyshev-Davidson algorithm for large symmetric eigenproblems, 2007). The impulses M v it draws from the
- * body, X^T M v, symmetric: masses and moments that the body has in that step beside its own. */
+ * body, X^T M v, symmetric: masses and moments that the body has in that step beside its own.
+ *
+ * Bone and flesh then keep their momentum, but no energy: what swings fast takes some up in each exchange
+ * (of undamped flesh eight times as heavy as its bone twelve times that of the hit, in nine seconds). So it
+ * is for flesh whose own damping takes more than that. */
 #include <string.h>
 
 #include "mechanics/network.h"
@@ -24,6 +28,8 @@ enum { MOST_DEGREE = 64 };
 /* A bone bears no more than so many times its own mass: what rounding and strain leave over is its own to
  * take. */
 static const float MOST_BORNE = 10;
+/* Nor flesh whose slowest mode has less than this damping ratio. */
+static const float LEAST_DAMPING = 0.03f;
 
 /* The rigid body that all held points and springs of the island go with; -1: they go with several, or none.
  */
@@ -47,6 +53,19 @@ static int32_t carrier_alone(const sbri_island_maker *m) {
     found = carrier;
   }
   return found;
+}
+
+/* Whether no point of the island's bodies is damped by too little. */
+static bool is_damped(const sbri_island_maker *m) {
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    float w = body->lowest_rad_s, least = body->alpha_1_s;
+    for (uint32_t slot = body->slot_begin; body->alphas && slot < body->slot_real_end; slot++)
+      least = body->alphas[slot] < least ? body->alphas[slot] : least;
+    float springs = body->source->attributes.stiffness_damping * w * w;
+    if (!(least + springs >= 2 * LEAST_DAMPING * w)) return false;
+  }
+  return true;
 }
 
 /* The rigid motion at one of its six speeds. */
@@ -136,7 +155,10 @@ static void filter(
 bool sbri_flesh_answers_make(sbri_island_maker *m, const sbf_spring_network *found) {
   sbri_island *island = m->island;
   uint32_t points = island->slot_count;
-  if (island->scheme != &sbri_symplectic || island->region_block_count || carrier_alone(m) < 0) return true;
+  island->lightly_damped = !is_damped(m);
+  if (island->scheme != &sbri_symplectic || island->region_block_count || carrier_alone(m) < 0 ||
+      island->lightly_damped)
+    return true;
   sbf_spring_network network = *found;
   size_t size = 3 * (size_t)points;
   float *masses = sbri_scratch(m, points, sizeof *masses);

@@ -317,8 +317,8 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     double region_lowest = sbri_regions_lowest(m->island, body, scratch);
     lowest = sqrt(lowest * lowest + region_lowest * region_lowest);
     bound_start(m->island, MOST_SWAY * reach_of(body, m->island->free_count), (float)lowest);
+    body->lowest_rad_s = (float)lowest;
     body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
-
     body->rolling_share = lowest > 0 ? sbri_rolling_share(0.5f * body->alpha_1_s / (float)lowest) : 0;
     body->media_friction_1_s = is->media_friction + environment->media_friction;
     body->friction = is->friction;

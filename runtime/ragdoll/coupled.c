@@ -22,64 +22,24 @@
 #include "solvers/outer_forces.h"
 #include "solvers/router.h"
 #include "solvers/spring_forces.h"
-#include "solvers/tetrahedron_forces.h"
 #include "tear/tear.h"
 
-bool sbri_island_is_coupled(const sbri_character *c, uint32_t index) {
-  const sbri_island *island = &c->model->islands[index];
-  if (island->scheme->forceless || !c->model->rigid.body_count || !sbri_rigid_drive(c)->any) return false;
-  for (uint32_t i = 0; i < island->carrier_count; i++)
-    if (sbri_rigid_is_simulated(c, island->carriers[i])) return true;
-  return false;
-}
+/* -log(SBRI_CALM_KEPT) */
+static const float CALMING_OF_TICK = 0.35667494f;
 
 /* ---- Before ---- */
 
-/* More steps of rigid parts than this are not taken in a tick. */
-enum { MOST_STEPS = 128 };
-
-/* A few numbers to choose from: a leapfrog whose steps change all the time gains by it. */
-static uint32_t rounded_steps(uint32_t steps) {
-  uint32_t whole = 4;
-  while (whole < steps && whole < MOST_STEPS) whole *= 2;
-  for (uint32_t quarter = 5; quarter < 8; quarter++)
-    if (whole * quarter / 8 >= steps) return whole * quarter / 8;
-  return whole;
-}
-
-/* As many as the soft body takes by itself, so that both go in step: in a stiff one's own substeps there are
- * modes that would swing up against steps of others. Schemes that sweep lose such motion, and are spared it.
- */
-static uint32_t steps_of(const sbri_island_tick *t) {
-  const sbri_island *island = t->island;
-  if (island->scheme->sweeps || island->substeps) return island->substeps;
-  float stretch = *t->stretch > island->rest_stretch ? *t->stretch : island->rest_stretch;
-  return rounded_steps(sbri_scheme_substeps(island, sbri_stiffened_time(t, t->tick_s), stretch));
-}
-
-/* As many as keep up with how fast all that is soft makes a body swing: always the same. */
-static float swung_steps(const sbri_character *c, uint32_t body, float tick_s) {
-  return tick_s * sqrtf(c->model->rigid.pinned_squares[body]) / SBRI_RIGID_MOST_SWING;
-}
-
-static void take_steps(sbri_coupled *group, float steps) {
-  if (steps > (float)group->steps) group->steps = steps < MOST_STEPS ? (uint32_t)ceilf(steps) : MOST_STEPS;
-}
-
-/* The steps that the tick needs; what bones need that may bear their flesh is looked at when it is known of
- * all. */
-static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
-  if (carrier < 0 || !sbri_may_bear(group->character, (uint32_t)carrier)) {
-    take_steps(group, steps);
-    return;
-  }
-  sbri_rigid_burden *burden = &sbri_burdens(group->character)[carrier];
-  burden->needed_steps = steps > burden->needed_steps ? steps : burden->needed_steps;
+static bool may_touch(const sbri_island_tick *t) {
+  bool any = false;
+  for (uint32_t b = 0; b < t->island->body_count; b++) any = any || t->touch_counts[t->island->bodies[b]] > 0;
+  for (uint32_t block = 0; block < t->island->free_count / SBRI_BLOCK; block++)
+    any = any || t->near_ground[block];
+  return any;
 }
 
 void sbri_coupled_begin(sbri_coupled *group) {
   sbri_character *c = group->character;
-  group->any = false;
+  group->any = group->touches = false;
   group->steps = 1;
   memset(sbri_burdens(c), 0, c->model->rigid.body_count * sizeof(sbri_rigid_burden));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
@@ -94,17 +54,10 @@ void sbri_coupled_begin(sbri_coupled *group) {
     sbri_outer_look(&tick);
     sbri_island_prepare_contacts(&tick, c);
     (void)sbri_router_choose(&tick, &sbri_island_states(c)[i].recovering); /* for the whole tick */
-    need_steps(group, (float)steps_of(&tick), now.carrier_count == 1 ? (int32_t)now.carriers[0] : -1);
+    group->touches = group->touches || may_touch(&tick);
+    sbri_coupled_need(group, &tick);
   }
-  for (uint32_t b = 0; group->any && b < c->model->rigid.body_count; b++) {
-    float steps = swung_steps(c, b, (float)group->world->tick_s * c->time_scale);
-    if (!sbri_rigid_is_simulated(c, b)) continue;
-    need_steps(group, steps < SBRI_RIGID_MOST_SUBSTEPS ? steps : SBRI_RIGID_MOST_SUBSTEPS, (int32_t)b);
-    float needed = sbri_burdens(c)[b].needed_steps;
-    if (!(needed > (float)group->steps)) continue;
-    float bearing = sbri_bearing_steps(c, b, (float)group->world->tick_s * c->time_scale);
-    take_steps(group, needed < bearing ? needed : bearing);
-  }
+  if (group->any) sbri_coupled_need_of_bones(group);
 }
 
 /* ---- Meanwhile ---- */
@@ -176,10 +129,11 @@ static void damp_evenly(sbri_character *c, const sbri_island *island, const sbri
   r->moment = sbri_sub(r->moment, sbri_lanes_moment(&taken));
 }
 
-/* The decay of what points move by against their guides, over h. */
-static void damp(sbri_character *c, const sbri_island *island, const sbri_body *body, float h) {
-  if (!body->held || !(body->alpha_1_s > 0)) return;
-  float lost = 1 - sbri_exp(-body->alpha_1_s * h); /* at most */
+/* The decay of what points move by against their guides, over h, at a further `calming` 1/s. */
+static void damp(
+    sbri_character *c, const sbri_island *island, const sbri_body *body, float calming, float h) {
+  if (!body->held || !(body->alpha_1_s + calming > 0)) return;
+  float lost = 1 - sbri_exp(-(body->alpha_1_s + calming) * h); /* at most */
   float share = body->guides ? 0 : lost * ease_of(c, body->guide_frame, lost);
   if (!body->guides && !body->alphas) {
     damp_evenly(c, island, body, share);
@@ -194,7 +148,7 @@ static void damp(sbri_character *c, const sbri_island *island, const sbri_body *
     float *v = velocities + at, m = island->masses[slot];
     const float *u = along + at;
     if (!(m > 0)) continue;
-    if (body->alphas) lost = 1 - sbri_exp(-body->alphas[slot] * h);
+    if (body->alphas) lost = 1 - sbri_exp(-(body->alphas[slot] + calming) * h);
     if (body->alphas || body->guides) share = lost * ease_of_guides(c, body, slot - body->slot_begin, lost);
     sbf_vec3 change = {(u[0] - v[0]) * share, (u[SBRI_BLOCK] - v[SBRI_BLOCK]) * share,
         (u[2 * SBRI_BLOCK] - v[2 * SBRI_BLOCK]) * share};
@@ -204,7 +158,18 @@ static void damp(sbri_character *c, const sbri_island *island, const sbri_body *
   }
 }
 
-static void act_on_island(const sbri_coupled *group, uint32_t index, float step_s, float share) {
+/* In flight weight acts on flesh and bones at the same time and for as long: so they fall as one, whatever
+ * their steps, and the flesh keeps its shape. */
+static void gain_speed(sbri_character *c, const sbri_island *island, sbf_vec3 gain) {
+  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    float scale = island->gravity_scales[slot];
+    v[0] += scale * gain.x, v[SBRI_BLOCK] += scale * gain.y, v[2 * SBRI_BLOCK] += scale * gain.z;
+  }
+}
+
+static void act_on_island(sbri_coupled *group, uint32_t index, float step_s, float share, sbf_vec3 gain) {
   sbri_character *c = group->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
   size_t first = now.first_slot;
@@ -212,29 +177,48 @@ static void act_on_island(const sbri_coupled *group, uint32_t index, float step_
   sbri_held_places(&now, sbri_previous_deltas(c), sbri_positions(c) + first);
   sbri_held_places(&now, sbri_deltas(c), sbri_targets(c) + first);
   (void)sbri_guide_velocities_find(c, &now, step_s);
-  for (uint32_t b = 0; b < now.body_count; b++) damp(c, &now, &c->model->bodies[now.bodies[b]], step_s);
+  if (group->falls) gain_speed(c, &now, gain);
+  bool calms = sbri_island_states(c)[index].calm_ticks > 0; /* soft/recovery.c */
+  float calming = calms ? CALMING_OF_TICK * share / step_s : 0;
+  for (uint32_t b = 0; b < now.body_count; b++)
+    damp(c, &now, &c->model->bodies[now.bodies[b]], calming, step_s);
   sbri_island_tick tick = sbri_island_tick_of(group->world, c, index, &now);
   tick.tick_s = step_s, tick.share = share;
   tick.outer_rad_s = &now.outer_rad_s;
   sbri_outer_look(&tick);
+  if (group->falls) tick.gravity = sbri_vec3(0, 0, 0);
   tick.undamped = true;
   tick.reactions = sbri_reactions(c);
   bool recovers = now.routed && sbri_island_states(c)[index].recovering > 0;
   (recovers ? &sbri_position_based : now.scheme)->tick(&tick);
+  sbri_coupled_need_now(group, &tick);
 }
 
-void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *t, float from, float to) {
+static sbri_reaction no_reaction(
+    const sbri_character *c, const sbri_rigid_tick *t, uint32_t b, float step_s) {
+  const sbri_rigid_body *is = &t->model->bodies[b];
+  const sbf_vec3 *turns = &is->inverse_inertia;
+  float most = turns->x > turns->y ? turns->x : turns->y;
+  float share = sbri_rigid_is_simulated(c, b) ? 1 / sbri_rigid_swell(&t->pull, b, step_s) : 0;
+  return (sbri_reaction){.about = t->bodies[b].pose.position,
+      .ease = share * is->inverse_mass,
+      .turn_ease = share * (most > turns->z ? most : turns->z)};
+}
+
+void sbri_coupled_act(sbri_coupled *group, const sbri_rigid_tick *t, float from, float to, float weight_s) {
   sbri_character *c = group->character;
+  group->falls = t->drive->flies && !group->touches;
+  group->weight_s = weight_s;
+  sbf_vec3 gain = sbri_scale(t->gravity, group->falls ? weight_s : 0);
   float step_s = t->tick_s * (to - from);
-  for (uint32_t b = 0; b < t->model->body_count; b++)
-    sbri_reactions(c)[b] = (sbri_reaction){.about = t->bodies[b].pose.position};
   sbri_burdens_begin(c, t, step_s);
-  sbri_rigid_pose(c, group->animated, from, 0, sbri_stepped_pose(c));
+  for (uint32_t b = 0; b < t->model->body_count; b++) sbri_reactions(c)[b] = no_reaction(c, t, b, step_s);
+  sbri_rigid_pose(c, group->animated, from, 0, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
   sbri_deltas_make(c, sbri_stepped_pose(c), from, sbri_previous_deltas(c));
-  sbri_rigid_pose(c, group->animated, to, step_s, sbri_stepped_pose(c));
+  sbri_rigid_pose(c, group->animated, to, step_s, gain, sbri_stepped_pose(c));
   sbri_deltas_make(c, sbri_stepped_pose(c), to, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++)
-    if (sbri_island_is_coupled(c, i)) act_on_island(group, i, step_s, to - from);
+    if (sbri_island_is_coupled(c, i)) act_on_island(group, i, step_s, to - from, gain);
   for (uint32_t b = 0; b < t->model->body_count; b++) {
     if (!sbri_rigid_is_simulated(c, b)) continue;
     sbri_rigid_body_state *body = &t->bodies[b];
@@ -251,8 +235,20 @@ void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *t, float
 
 /* ---- After ---- */
 
+/* A step that has been taken in halves has had its weight for less. */
+void sbri_coupled_acted(const sbri_coupled *group, const sbri_rigid_tick *t, float weight_s) {
+  sbri_character *c = group->character;
+  if (!group->falls || weight_s == group->weight_s) return;
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    if (!sbri_island_is_coupled(c, i)) continue;
+    sbri_island now = sbri_island_now(c, &c->model->islands[i]);
+    gain_speed(c, &now, sbri_scale(t->gravity, weight_s - group->weight_s));
+  }
+}
+
 void sbri_coupled_end(sbri_coupled *group) {
   sbri_character *c = group->character;
+  sbri_rigid_drive(c)->soft_steps = group->any ? group->steps : 0;
   sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   for (uint32_t i = 0; i < c->model->island_count; i++) {
@@ -264,7 +260,7 @@ void sbri_coupled_end(sbri_coupled *group) {
     sbri_island_tell(&tick, c);
     sbri_held_places(island, sbri_deltas(c), sbri_positions(c) + island->first_slot);
     if (island->splits && tears->count > 0) tears->unsplit = sbri_island_split(c, i);
-    sbri_island_recover(group->world, c, i);
+    sbri_island_recover(group->world, c, i, true);
   }
 }
 
@@ -272,7 +268,7 @@ void sbri_coupled_end(sbri_coupled *group) {
 
 bool sbri_coupled_sleep(sbri_coupled *group) {
   sbri_character *c = group->character;
-  sbri_rigid_pose(c, group->animated, 1, 0, sbri_stepped_pose(c));
+  sbri_rigid_pose(c, group->animated, 1, 0, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
   sbri_deltas_make(c, sbri_stepped_pose(c), 1, sbri_deltas(c));
   bool all = true;
   for (uint32_t i = 0; i < c->model->island_count; i++)

@@ -10,16 +10,20 @@
 
 /* Where a pose has a body's own frame, asset metres. */
 sbr_transform sbri_rigid_target(const sbri_character *c, const sbr_transform *pose, uint32_t body);
-/* The pose with the bones where simulated bodies have them after they have gone on for `ahead_s`, and all
- * else at that share of the way from the tick's beginning to `animated`. Bones below them that have no body
- * keep what the animation has them turned and away from their parents. */
-void sbri_rigid_pose(
-    const sbri_character *c, const sbr_transform *animated, float share, float ahead_s, sbr_transform *pose);
-/* Where a body goes with the velocities that it has. */
-sbr_transform sbri_rigid_ahead(const sbri_character *c, uint32_t body, float seconds);
+/* The pose with the bones where simulated bodies have them after they have gone on for `ahead_s`, each by its
+ * share of `gain` faster (m/s, that weight gives it), and all else at that share of the way from the tick's
+ * beginning to `animated`. Bones below them that have no body keep what the animation has them turned and
+ * away from their parents. */
+void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, float share, float ahead_s,
+    sbf_vec3 gain, sbr_transform *pose);
+/* Where a body goes with the velocities that it has, and its share of that gain. */
+sbr_transform sbri_rigid_ahead(const sbri_character *c, uint32_t body, float seconds, sbf_vec3 gain);
 /* Puts the frames that bodies have for their own where the pose has these. */
 void sbri_rigid_frames_follow(const sbri_character *c, sbr_transform *pose);
 bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body);
+/* Soft bodies that pull on simulated rigid bodies: they are stepped along with these, in the character's own
+ * task, not in one of their own. */
+bool sbri_island_is_coupled(const sbri_character *c, uint32_t island);
 void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive);
 /* After any change to modes, drives or motion. */
 void sbri_rigid_wake(sbri_character *c);
@@ -49,27 +53,38 @@ void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift);
 
 /* ---- ragdoll/coupled.c ---- */
 
-/* Soft bodies that pull on simulated rigid bodies: they are stepped along with these, in the character's own
- * task, not in one of their own. */
-bool sbri_island_is_coupled(const sbri_character *c, uint32_t island);
-
 typedef struct sbri_coupled {
   const sbr_world *world;
   sbri_character *character;
   const sbr_transform *animated; /* (frame_count) the pose at the tick's end but for what bodies move */
   bool any;                      /* soft body is coupled; set by sbri_coupled_begin, as: */
-  uint32_t steps;                /* of the tick, that the soft bodies ask for */
+  bool touches;                  /* one may touch something within the tick */
+  bool falls;                    /* in this step weight acts on flesh as it does on the bones, for: */
+  float weight_s;
+  uint32_t steps; /* of a whole tick, that the soft bodies ask for as they are now */
 } sbri_coupled;
 
-/* A tick of them: what comes before it, before each step of the rigid parts (rigid_state.h), and after it. */
+/* A tick of them: what comes before it, before and after each step of the rigid parts (rigid_state.h), and
+ * after it. */
 void sbri_coupled_begin(sbri_coupled *group);
-void sbri_coupled_act(const sbri_coupled *group, const sbri_rigid_tick *tick, float from, float to);
+void sbri_coupled_act(sbri_coupled *group, const sbri_rigid_tick *tick, float from, float to, float weight_s);
+void sbri_coupled_acted(const sbri_coupled *group, const sbri_rigid_tick *tick, float weight_s);
 void sbri_coupled_end(sbri_coupled *group);
 
 /* Whether all of them may go on sleeping, whether all are slow enough to begin to, and their beginning to. */
 bool sbri_coupled_sleep(sbri_coupled *group);
 bool sbri_coupled_are_quiet(const sbri_character *c);
 void sbri_coupled_put_to_sleep(const sbr_world *world, sbri_character *c);
+
+/* ---- ragdoll/coupled_steps.c ---- */
+
+/* What a tick that begins asks for in `steps`: of an island, after which of all bones; and what flesh that no
+ * bone bears asks for after a step of it. */
+void sbri_coupled_need(sbri_coupled *group, const sbri_island_tick *tick);
+void sbri_coupled_need_of_bones(sbri_coupled *group);
+void sbri_coupled_need_now(sbri_coupled *group, const sbri_island_tick *tick);
+/* Steps for the rest of a tick, that share of it, which was to take `left`. */
+uint32_t sbri_coupled_steps_left(const sbri_coupled *group, float rest, uint32_t left);
 
 /* ---- ragdoll/borne_flesh.c ---- */
 

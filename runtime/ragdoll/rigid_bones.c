@@ -1,9 +1,18 @@
 /* A character's rigid bodies and its bones: where one has the other. */
 #include "math/quat.h"
 #include "ragdoll/ragdoll.h"
+#include "solvers/scheme.h"
 
 bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body) {
   return sbri_rigid_bodies(c)[body].mode != SBR_RIGID_KINEMATIC && c->model->rigid.bodies[body].mass > 0;
+}
+
+bool sbri_island_is_coupled(const sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  if (island->scheme->forceless || !c->model->rigid.body_count || !sbri_rigid_drive(c)->any) return false;
+  for (uint32_t i = 0; i < island->carrier_count; i++)
+    if (sbri_rigid_is_simulated(c, island->carriers[i])) return true;
+  return false;
 }
 
 void sbri_rigid_put_at(sbri_rigid_body_state *body, sbr_transform place) {
@@ -60,11 +69,12 @@ static sbr_transform carried(
       sbri_scale(at, c->scale), sbri_quat_normalize(sbri_quat_multiply(turn, rest->rotation))};
 }
 
-sbr_transform sbri_rigid_ahead(const sbri_character *c, uint32_t body, float seconds) {
+sbr_transform sbri_rigid_ahead(const sbri_character *c, uint32_t body, float seconds, sbf_vec3 gain) {
   const sbri_rigid_body_state *now = &sbri_rigid_bodies(c)[body];
   sbr_transform to = now->pose;
   if (!(seconds > 0)) return to;
-  to.position = sbri_add_scaled(to.position, now->velocity, seconds);
+  float scale = c->model->rigid.bodies[body].source->gravity_scale;
+  to.position = sbri_add_scaled(to.position, sbri_add_scaled(now->velocity, gain, scale), seconds);
   (void)sbri_free_turn(&c->model->rigid.bodies[body], now->pose.rotation, now->spin, seconds, &to.rotation);
   return to;
 }
@@ -83,8 +93,8 @@ static sbr_transform between(const sbr_transform *a, const sbr_transform *b, flo
       sbri_lerp(a->position, b->position, share), sbri_quat_blend(a->rotation, b->rotation, share)};
 }
 
-void sbri_rigid_pose(
-    const sbri_character *c, const sbr_transform *animated, float share, float ahead_s, sbr_transform *pose) {
+void sbri_rigid_pose(const sbri_character *c, const sbr_transform *animated, float share, float ahead_s,
+    sbf_vec3 gain, sbr_transform *pose) {
   const sbr_model *model = c->model;
   const sbr_transform *before = sbri_previous_pose(c);
   for (uint32_t i = 0; i < model->frame_count; i++) {
@@ -95,7 +105,8 @@ void sbri_rigid_pose(
       continue;
     }
     if (sbri_body_frame(model, (uint32_t)body) == frame) {
-      sbr_transform now = sbri_rigid_ahead(c, (uint32_t)body, ahead_s), rest = sbri_frame_rest(model, frame);
+      sbr_transform now = sbri_rigid_ahead(c, (uint32_t)body, ahead_s, gain),
+                    rest = sbri_frame_rest(model, frame);
       pose[frame] = carried(c, (uint32_t)body, &now, &rest);
       continue;
     }

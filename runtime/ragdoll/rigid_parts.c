@@ -75,14 +75,15 @@ static bool is_moved(const sbri_character *c) {
   return false;
 }
 
-static void act(void *user, const sbri_rigid_tick *tick, float from, float to) {
+static void act(void *user, const sbri_rigid_tick *tick, float from, float to, float weight_s) {
   sbri_coupled *group = user;
-  if (group->any) sbri_coupled_act(group, tick, from, to);
+  if (group->any) sbri_coupled_act(group, tick, from, to, weight_s);
   sbri_reflex_act(group->character, tick, tick->tick_s * (to - from));
 }
 
 static void acted(void *user, const sbri_rigid_tick *tick, float step_s, float weight_s) {
   const sbri_coupled *group = user;
+  if (group->any) sbri_coupled_acted(group, tick, weight_s);
   if (group->any) sbri_burdens_end(group->character, tick, step_s, weight_s);
 }
 
@@ -120,7 +121,7 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&parts->coupled)))
     drive->asleep = drive->quiet_ticks = 0, drive->calm_before = 0;
   if (drive->asleep) {
-    sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
+    sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_vec3(0, 0, 0), sbri_pose(c));
     return false;
   }
   parts->steps = true;
@@ -146,7 +147,7 @@ void sbri_rigid_parts_end(sbri_rigid_parts *parts) {
   if (lost) /* no motion any more: back to where the animation has them */
     for (uint32_t b = 0; b < model->body_count; b++)
       sbri_rigid_put_at(&sbri_rigid_bodies(c)[b], sbri_rigid_targets(c)[b]);
-  sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_pose(c));
+  sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_vec3(0, 0, 0), sbri_pose(c));
   sbri_coupled_end(&parts->coupled);
   may_sleep(parts->coupled.world, c);
 }
@@ -154,8 +155,13 @@ void sbri_rigid_parts_end(sbri_rigid_parts *parts) {
 void sbri_rigid_tick_parts(const sbr_world *world, sbri_character *c) {
   sbri_rigid_parts parts;
   if (!sbri_rigid_parts_begin(world, c, &parts)) return;
-  uint32_t steps = parts.tick.substeps;
-  for (uint32_t i = 0; i < steps; i++)
-    sbri_rigid_advance(&parts.tick, &parts.work, (float)i / (float)steps, (float)(i + 1) / (float)steps);
+  uint32_t steps = parts.tick.substeps, done = 0;
+  float begin = 0; /* of the steps that are as long as each other */
+  for (float from = 0, to; done < steps; from = to) {
+    to = begin + (1 - begin) * ((float)++done / (float)steps);
+    sbri_rigid_advance(&parts.tick, &parts.work, from, to);
+    uint32_t left = sbri_coupled_steps_left(&parts.coupled, 1 - to, steps - done);
+    if (left > steps - done && done < steps) begin = to, steps = left, done = 0;
+  }
   sbri_rigid_parts_end(&parts);
 }

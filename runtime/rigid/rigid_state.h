@@ -32,6 +32,7 @@ typedef struct sbri_rigid_drive_state {
   float calm_most, calm_before; /* 1/s: fastest body over its size in that time, and in the one before */
   uint32_t kept_touches;        /* of the last tick */
   uint32_t substeps;            /* of the last tick */
+  uint32_t soft_steps;          /* that its soft bodies last asked for; 0: none has */
   uint32_t slow_ticks;          /* for how many nothing has moved but slowly */
   float last_step_s;            /* of the last tick; 0: the bodies have just begun to move */
   uint32_t flies;               /* in the last tick nothing was near and nothing held it */
@@ -94,11 +95,11 @@ typedef struct sbri_rigid_burden {
   sbf_vec3 velocity, spin;
 } sbri_rigid_burden;
 
-/* What else acts on the bodies: called before each step over that share of the tick, `act` adds impulses to
- * their velocities and spins (sbri_rigid_swell); `acted` is called after it, with its seconds, and those for
- * which weight has changed velocities in it. */
+/* What else acts on the bodies: called before each step over that share of the tick, with the seconds for
+ * which weight will change velocities in it, `act` adds impulses to their velocities and spins
+ * (sbri_rigid_swell); `acted` is called after it, with its seconds, and those for which weight has. */
 typedef struct sbri_rigid_pull {
-  void (*act)(void *user, const struct sbri_rigid_tick *tick, float from, float to);
+  void (*act)(void *user, const struct sbri_rigid_tick *tick, float from, float to, float weight_s);
   void (*acted)(void *user, const struct sbri_rigid_tick *tick, float step_s, float weight_s);
   void *user;
   const float *squares;             /* (body_count) rad^2/s^2, that it makes a body swing by at most */

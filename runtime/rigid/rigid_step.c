@@ -341,10 +341,10 @@ void sbri_rigid_begin(sbri_rigid_tick *t, sbri_rigid_solving *work) {
 
 void sbri_rigid_advance(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from, float to) {
   if (!work->system.node_count) return;
-  float before_s = work->last_step_s;
-  if (t->pull.act) t->pull.act(t->pull.user, t, from, to);
+  float before_s = work->last_step_s, step_s = t->tick_s * (to - from);
+  if (t->pull.act) t->pull.act(t->pull.user, t, from, to, 0.5f * (before_s + step_s));
   substep(t, work, from, to, 0);
-  float step_s = t->tick_s * (to - from), weight_s = step_s + 0.5f * (before_s - work->last_step_s);
+  float weight_s = step_s + 0.5f * (before_s - work->last_step_s);
   if (t->pull.acted) t->pull.acted(t->pull.user, t, step_s, weight_s);
 }
 

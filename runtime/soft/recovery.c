@@ -22,9 +22,6 @@ enum { WILD_TICKS = 36 };
  * wild, so that what is meant to be as strained as that is left alone then. */
 enum { CALM_TICKS = 30 };
 
-/* Of its speed against what holds it, or against its own rigid motion, a calmed body keeps this in a tick. */
-static const float CALM_KEPT = 0.7f;
-
 /* Places beyond this many metres from the origin and speeds beyond as many metres a second are no motion any
  * more, though the numbers may be finite yet. */
 static const float LOST_BEYOND = 1e6f;
@@ -35,16 +32,17 @@ static bool are_sound(const float *numbers, size_t count) {
   return lost == 0;
 }
 
-static void calm(sbri_character *c, uint32_t index) {
+/* What holds a body feels nothing of it; so where that is simulated, whoever steps both does it. */
+static void calm(sbri_character *c, uint32_t index, bool coupled) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (!body->held) sbri_rigid_motion_damp(island, body, positions, velocities, CALM_KEPT);
-    for (uint32_t i = 3 * body->slot_begin; body->held && i < 3 * body->slot_end; i++)
-      velocities[i] = guides[i] + (velocities[i] - guides[i]) * CALM_KEPT;
+    if (!body->held) sbri_rigid_motion_damp(island, body, positions, velocities, SBRI_CALM_KEPT);
+    for (uint32_t i = 3 * body->slot_begin; body->held && !coupled && i < 3 * body->slot_end; i++)
+      velocities[i] = guides[i] + (velocities[i] - guides[i]) * SBRI_CALM_KEPT;
   }
 }
 
@@ -59,7 +57,7 @@ static void put_back(sbri_character *c, uint32_t index) {
   state->recovering = SBRI_RECOVERING_TICKS;
 }
 
-void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t index) {
+void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t index, bool coupled) {
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!are_sound(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) ||
@@ -69,7 +67,7 @@ void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t ind
   }
   if (state->calm_ticks > 0) {
     state->calm_ticks--;
-    calm(c, index);
+    calm(c, index, coupled);
   }
   if ((world->ticks + index) % LOOK_EVERY) return;
   sbri_shape shape = sbri_shape_of(world, c, index);

@@ -82,9 +82,12 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
 
 /* ---- soft/recovery.c ---- */
 
+/* Of its speed against what holds it, or against its own rigid motion, a calmed body keeps this in a tick. */
+#define SBRI_CALM_KEPT 0.7f
 /* After a tick: calms what is wild, and puts into its rest shape what has lost its numbers or its shape for
- * good. */
-void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t island);
+ * good. `coupled`: what moves against what holds it is calmed by the caller, in the next tick, who gives that
+ * its part of it. */
+void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t island, bool coupled);
 
 /* ---- soft/sleep.c ---- */
 

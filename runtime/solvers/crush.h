@@ -1,7 +1,8 @@
 /* A wall in front of J = 0: what a blow crushes to less than a tenth of its volume at the end of a
  * substep is brought back there along the gradient of J, by the corners' inverse masses, and the speed with
  * which it was being crushed is taken. Momentum is kept; what is inside out already comes back a step at a
- * time.
+ * time. Held corners stay where they are, but what carries them takes its part of the push: else a light bone
+ * would drive flesh before it as if it weighed more than anything, and give it energy without end.
  *
  * The energy itself is finite and smooth through J = 0, so that nothing bursts there; but thin tips that
  * strike the ground first, with all of a body behind them, would go through. Bias against the energy: none
@@ -12,6 +13,7 @@
 #ifndef SBRI_CRUSH_H
 #define SBRI_CRUSH_H
 
+#include "solvers/held_push.h"
 #include "solvers/strain_limit.h"
 #include "solvers/tetrahedron_forces.h"
 #include "solvers/touches.h"
@@ -42,7 +44,7 @@ static inline void sbri_uncrush(
   gradients[2] = sbri_scale(sbri_cross(d3, d1), s);
   gradients[3] = sbri_scale(sbri_cross(d1, d2), s);
   gradients[0] = sbri_scale(sbri_add(sbri_add(gradients[1], gradients[2]), gradients[3]), -1);
-  float missing = SBRI_CRUSHED - sbri_dot(d1, gradients[1]), sum = 0, rate = 0, steepest = 0;
+  float missing = SBRI_CRUSHED - sbri_dot(d1, gradients[1]), sum = 0, held = 0, rate = 0, steepest = 0;
   if (!(missing > 0)) return;
   missing = missing < SBRI_CRUSH_STEP ? missing : SBRI_CRUSH_STEP;
   for (int k = 0; k < 4; k++) {
@@ -50,15 +52,20 @@ static inline void sbri_uncrush(
     float square = sbri_dot(gradients[k], gradients[k]);
     sum += w * square;
     steepest = w * w * square > steepest ? w * w * square : steepest;
+    held += sbri_held_ease(t, slots[k], gradients[k]);
     rate += sbri_dot(gradients[k], sbri_slot_velocity(t, t->velocities, slots[k]));
+    rate += sbri_dot(gradients[k], sbri_held_gain(t, slots[k]));
   }
   if (!(sum > 0)) return;
   float share = missing / sum, most = SBRI_CRUSH_STEP * t->island->cell_m, way = share * sqrtf(steepest);
   if (most > 0 && way > most) share *= most / way;
-  float push = rate < 0 ? -rate / sum : 0;
+  float push = rate < 0 ? -rate / (sum + held) : 0;
   if (way > most) push = 0; /* so flat that it has no direction to speak of */
   for (int k = 0; k < 4; k++) {
-    if (slots[k] >= t->island->free_count) continue;
+    if (slots[k] >= t->island->free_count) {
+      sbri_held_push(t, slots[k], sbri_scale(gradients[k], push));
+      continue;
+    }
     sbf_vec3 g = sbri_scale(gradients[k], t->island->inverse_masses[slots[k]]);
     sbri_shift_slot(t, slots[k], sbri_scale(g, share), sbri_scale(g, push));
   }

@@ -1,5 +1,6 @@
 #include "momentum.h"
 
+#include "rigid_scenes.h"
 #include "world/state.h"
 
 static void add(scene_momentum *to, double mass, sbf_vec3 at, sbf_vec3 v) {
@@ -39,4 +40,13 @@ scene_momentum scene_momentum_of(const scene *s) {
     }
   }
   return m;
+}
+
+double scene_energy_of(const scene *s) {
+  double sum = rigid_energy(s, s->asset->rigid_bodies.count);
+  for (uint32_t b = 0; b < s->asset->soft_bodies.count; b++) {
+    sbr_body_health health = sbr_character_health(s->world, s->character, b);
+    sum += health.kinetic_j + health.elastic_j + health.potential_j;
+  }
+  return sum;
 }

@@ -14,4 +14,7 @@ scene_momentum scene_momentum_of(const scene *s);
 /* m/s, of a free slot. */
 sbf_vec3 scene_slot_velocity(const sbri_character *c, const sbri_island *island, uint32_t slot);
 
+/* J: of rigid and soft bodies of the scene's character, kinetic, elastic and by weight. */
+double scene_energy_of(const scene *s);
+
 #endif

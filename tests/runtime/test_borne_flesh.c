@@ -17,8 +17,10 @@ typedef struct limb {
 } limb;
 
 static const limb limbs[] = {{false, 0.4f, 0.3f, 0.2f}, {true, 0.4f, 0.3f, 0.2f}, {false, 0.4f, 0.3f, 0},
-    {true, 0.4f, 0.3f, 0}, {false, 0.4f, 0.05f, 0.2f}, {true, 0.4f, 0.05f, 0.2f}};
-enum { LIMBS = sizeof limbs / sizeof *limbs };
+    {true, 0.4f, 0.3f, 0}, {false, 0.4f, 0.05f, 0.2f}, {true, 0.4f, 0.05f, 0.2f}, {false, 0.4f, 0.05f, 0},
+    {true, 0.4f, 0.3f, 0.01f}, {true, 0.4f, 0.05f, 0}};
+/* The bone of the last is so light that it counts as heavier. */
+enum { LIMBS = sizeof limbs / sizeof *limbs - 1 };
 
 /* Springs between all points of the grid that are near enough. */
 static void spring_all(scene *s, sbf_level *level, const sbf_vec3 *at, float stiffness) {
@@ -61,14 +63,23 @@ static scene limb_of(const limb *of, float gravity) {
   return s;
 }
 
-static void hit(const scene *s, const limb *of) {
-  float kg = of->bone_kg;
-  rigid_push(s, TRUNK, (sbf_vec3){0, 0.05f, 0}, (sbf_vec3){0.5f, 1.5f, 0.4f});
+static void hit_hard(const scene *s, const limb *of, float times) {
+  float kg = times * of->bone_kg;
+  rigid_push(s, TRUNK, (sbf_vec3){0, 0.05f, 0}, (sbf_vec3){0.5f * times, 1.5f * times, 0.4f * times});
   rigid_push(s, LIMB, (sbf_vec3){0.02f, 0, 0}, (sbf_vec3){0.2f * kg, -0.8f * kg, 0.5f * kg});
+}
+
+static void hit(const scene *s, const limb *of) {
+  hit_hard(s, of, 1);
 }
 
 static bool bears(const scene *s) {
   return sbri_burdens(sbri_character_of(s->world, s->character))[LIMB].on;
+}
+
+/* Flesh that hardly damps itself would swing up, so it is not borne. */
+static bool may_bear(const limb *of) {
+  return of->damping_ratio >= 0.03f;
 }
 
 /* What the step has the flesh take it takes, to rounding, however it lies. */
@@ -80,7 +91,7 @@ START_TEST(momentum_is_kept)
   scene_momentum first = scene_momentum_of(&s);
   for (int second = 0; second < 5; second++) {
     scene_ticks(&s, 60);
-    ck_assert(bears(&s));
+    ck_assert_int_eq(bears(&s), may_bear(&limbs[_i]));
     scene_momentum now = scene_momentum_of(&s);
     for (int k = 0; k < 3; k++) {
       ck_assert_double_eq_tol(now.linear[k], first.linear[k], 2e-5 * first.mass);
@@ -117,6 +128,31 @@ START_TEST(nothing_swings_up)
 }
 END_TEST
 
+/* What nothing takes stays, nine seconds long, and nothing is added: at ten times the hit what is crushed
+ * takes some, and what is wild is calmed. The slack is what the halves of a step, at which places and
+ * velocities are known, leave open. */
+START_TEST(undamped_flesh_keeps_its_energy)
+{
+  static const int which[] = {2, 3, 6, 8};
+  static const float hits[] = {1, 10};
+  const limb *of = &limbs[which[_i / 2]];
+  scene s = limb_of(of, 0);
+  scene_start(&s);
+  hit_hard(&s, of, hits[_i % 2]);
+  double first = scene_energy_of(&s), last = 0;
+  scene_ticks(&s, 2); /* the blow is taken up at once, in part by walls */
+  double taken = scene_energy_of(&s);
+  for (int t = 0; t < 540; t++) {
+    sbr_world_tick(s.world);
+    last = scene_energy_of(&s);
+    ck_assert_msg(
+        last < 1.05 * first && last < 1.1 * taken, "tick %d: %g J of %g, %g", t, last, first, taken);
+  }
+  if (hits[_i % 2] == 1) ck_assert_double_ge(last, 0.95 * taken);
+  scene_free(&s);
+}
+END_TEST
+
 static float apart(sbf_vec3 a, sbf_vec3 b) {
   return sqrtf((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
 }
@@ -134,7 +170,7 @@ START_TEST(it_moves_as_in_fine_steps)
   for (int t = 0; t < 30; t++) {
     sbr_world_tick(s.world);
     sbr_world_tick(fine.world);
-    ck_assert(bears(&s) && !bears(&fine));
+    ck_assert(bears(&s) == may_bear(&limbs[_i]) && !bears(&fine));
     float bone = apart(rigid_state(&s, LIMB).center, rigid_state(&fine, LIMB).center), flesh = 0;
     for (uint32_t i = 0; i < POINTS; i++)
       flesh = fmaxf(flesh, apart(scene_point(&s, 0, i), scene_point(&fine, 0, i)));
@@ -150,7 +186,8 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, momentum_is_kept, 0, LIMBS);
   tcase_add_loop_test(tests, nothing_swings_up, 0, LIMBS);
-  tcase_add_loop_test(tests, it_moves_as_in_fine_steps, 0, 2);
+  tcase_add_loop_test(tests, it_moves_as_in_fine_steps, 0, 4);
+  tcase_add_loop_test(tests, undamped_flesh_keeps_its_energy, 0, 8);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -1,0 +1,169 @@
+/* How many steps a tick of soft bodies and of the rigid bodies that hold them takes.
+ *
+ * Flesh that its bone bears asks for few (borne_flesh.c). All other goes in step with the bones: each step is
+ * no longer than the flesh's own substeps may be, and than what its softness swings each bone by alone
+ * allows. Both are asked for again after each step, since what is crushed stiffens: a step that has become
+ * too long is where undamped flesh and its bones swing each other up, so the rest of the tick is then divided
+ * anew. And no point goes farther against the bones about it in a step than a share of a cell, so that what
+ * is struck is seen to stiffen. */
+#include "ragdoll/ragdoll.h"
+#include "soft/soft.h"
+#include "solvers/router.h"
+#include "solvers/tetrahedron_forces.h"
+
+/* More steps of rigid parts than this are not taken in a tick. */
+enum { MOST_STEPS = SBRI_MOST_STRAINED_SOLID_SUBSTEPS };
+
+/* Way of a point against its guides in a step, as a share of its body's cells. */
+static const float MOST_WAY = 0.25f;
+
+/* Greatest angular frequency times step of a bone on flesh that is stiffer than at rest, where that at rest
+ * is no more than SBRI_RIGID_MOST_SWING. */
+static const float MOST_STIFFENED_SWING = 1.2f;
+
+/* What nothing damps goes on for ever, and gains by each change of its steps near those that are just stable:
+ * it takes so many times as many. */
+static const float FINER_UNDAMPED = 1.25f;
+
+/* A few numbers to choose from: a leapfrog whose steps change all the time gains by it. */
+static uint32_t rounded_steps(uint32_t steps) {
+  uint32_t whole = 4;
+  while (whole < steps && whole < MOST_STEPS) whole *= 2;
+  for (uint32_t quarter = 5; quarter < 8; quarter++)
+    if (whole * quarter / 8 >= steps) return whole * quarter / 8;
+  return whole;
+}
+
+/* As many as the soft body takes by itself, so that both go in step: in a stiff one's own substeps there are
+ * modes that would swing up against steps of others. Schemes that sweep lose such motion, and are spared it.
+ */
+static uint32_t steps_of(const sbri_island_tick *t, float tick_s) {
+  const sbri_island *island = t->island;
+  if (island->scheme->sweeps || island->substeps) return island->substeps;
+  float stretch = *t->stretch > island->rest_stretch ? *t->stretch : island->rest_stretch;
+  float finer = island->lightly_damped ? FINER_UNDAMPED : 1;
+  return rounded_steps(sbri_scheme_substeps(island, sbri_stiffened_time(t, finer * tick_s), stretch));
+}
+
+/* As many as keep up with how fast all that is soft makes a body swing, at rest: always the same. */
+static float swung_steps(const sbri_character *c, uint32_t body, float tick_s) {
+  return tick_s * sqrtf(c->model->rigid.pinned_squares[body]) / SBRI_RIGID_MOST_SWING;
+}
+
+static float tick_of(const sbri_coupled *group) {
+  return (float)group->world->tick_s * group->character->time_scale;
+}
+
+static void take_steps(sbri_coupled *group, float steps) {
+  if (steps > (float)group->steps) group->steps = steps < MOST_STEPS ? (uint32_t)ceilf(steps) : MOST_STEPS;
+}
+
+static bool may_be_borne(const sbri_character *c, const sbri_island *island) {
+  return island->carrier_count == 1 && sbri_may_bear(c, island->carriers[0]);
+}
+
+/* The steps that the tick needs; what bones need that may bear their flesh is looked at when it is known of
+ * all. */
+static void need_steps(sbri_coupled *group, float steps, int32_t carrier) {
+  if (carrier < 0 || !sbri_may_bear(group->character, (uint32_t)carrier)) {
+    take_steps(group, steps);
+    return;
+  }
+  sbri_rigid_burden *burden = &sbri_burdens(group->character)[carrier];
+  burden->needed_steps = steps > burden->needed_steps ? steps : burden->needed_steps;
+}
+
+/* ---- By way ---- */
+
+/* Of the fastest point against its guides, m/s. */
+static float speed_against_guides(const sbri_character *c, const sbri_island *island) {
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot,
+              *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
+  float most = 0;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    for (uint32_t slot = body->slot_begin; body->held && slot < body->slot_real_end; slot++) {
+      size_t at = 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+      const float *v = velocities + at, *u = guides + at;
+      float x = v[0] - u[0], y = v[SBRI_BLOCK] - u[SBRI_BLOCK], z = v[2 * SBRI_BLOCK] - u[2 * SBRI_BLOCK];
+      float square = x * x + y * y + z * z;
+      most = island->masses[slot] > 0 && square > most ? square : most;
+    }
+  }
+  return sqrtf(most);
+}
+
+/* Looks a step of the present length ahead. */
+static void look_at_ways(sbri_coupled *group) {
+  sbri_character *c = group->character;
+  float share = 1 / (float)group->steps, step_s = tick_of(group) * share;
+  bool any = false;
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    const sbri_island *island = &c->model->islands[i];
+    if (!sbri_island_is_coupled(c, i) || may_be_borne(c, island) || island->scheme->sweeps ||
+        !(island->cell_m > 0))
+      continue;
+    if (!any) {
+      sbri_rigid_pose(c, group->animated, 0, 0, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
+      sbri_deltas_make(c, sbri_stepped_pose(c), 0, sbri_previous_deltas(c));
+      sbri_rigid_pose(c, group->animated, share, step_s, sbri_vec3(0, 0, 0), sbri_stepped_pose(c));
+      sbri_deltas_make(c, sbri_stepped_pose(c), share, sbri_deltas(c));
+      any = true;
+    }
+    (void)sbri_guide_velocities_find(c, island, step_s);
+    take_steps(group, tick_of(group) * speed_against_guides(c, island) / (MOST_WAY * island->cell_m));
+  }
+  if (any) sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
+}
+
+/* ---- For a tick, and for what is left of it ---- */
+
+void sbri_coupled_need(sbri_coupled *group, const sbri_island_tick *tick) {
+  const sbri_island *island = tick->island;
+  int32_t carrier = island->carrier_count == 1 ? (int32_t)island->carriers[0] : -1;
+  need_steps(group, (float)steps_of(tick, tick_of(group)), carrier);
+}
+
+/* Whether anything coupled goes on swinging for long. */
+static bool is_lightly_damped(const sbri_character *c) {
+  bool any = false;
+  for (uint32_t i = 0; i < c->model->island_count; i++)
+    any = any || (c->model->islands[i].lightly_damped && sbri_island_is_coupled(c, i));
+  return any;
+}
+
+/* What nothing damps gains whenever steps near those that are just stable change: so it takes as many as
+ * before, unless half as many would do. */
+void sbri_coupled_need_of_bones(sbri_coupled *group) {
+  const sbri_character *c = group->character;
+  for (uint32_t b = 0; b < c->model->rigid.body_count; b++) {
+    float steps = swung_steps(c, b, tick_of(group));
+    if (!sbri_rigid_is_simulated(c, b)) continue;
+    need_steps(group, steps < SBRI_RIGID_MOST_SUBSTEPS ? steps : SBRI_RIGID_MOST_SUBSTEPS, (int32_t)b);
+    float needed = sbri_burdens(c)[b].needed_steps;
+    if (!(needed > (float)group->steps)) continue;
+    float bearing = sbri_bearing_steps(c, b, tick_of(group));
+    take_steps(group, needed < bearing ? needed : bearing);
+  }
+  look_at_ways(group);
+  if (is_lightly_damped(c) && 2 * group->steps > sbri_rigid_drive(c)->soft_steps)
+    take_steps(group, (float)sbri_rigid_drive(c)->soft_steps);
+}
+
+void sbri_coupled_need_now(sbri_coupled *group, const sbri_island_tick *tick) {
+  const sbri_character *c = group->character;
+  const sbri_island *island = tick->island;
+  if (island->scheme->sweeps || may_be_borne(c, island)) return;
+  take_steps(group, (float)steps_of(tick, tick_of(group)));
+  double stiffened_s = sbri_stiffened_time(tick, tick_of(group));
+  for (uint32_t i = 0; i < island->carrier_count; i++) {
+    uint32_t b = island->carriers[i];
+    if (sbri_rigid_is_simulated(c, b))
+      take_steps(group, (float)stiffened_s * sqrtf(c->model->rigid.pinned_squares[b]) / MOST_STIFFENED_SWING);
+  }
+}
+
+uint32_t sbri_coupled_steps_left(const sbri_coupled *group, float rest, uint32_t left) {
+  uint32_t needed = group->any ? (uint32_t)ceilf(rest * (float)group->steps * 0.9999f) : 1;
+  return needed > left ? needed : left;
+}
