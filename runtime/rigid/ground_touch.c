@@ -22,8 +22,6 @@ static const float FIRM_STEPS_1_S = 240;
 static const float DOUBT = 1e-3f;
 /* A friction that is right but for this share of its bound needs no other pass, and for this the bound. */
 static const float CHANGE = 5e-3f, BOUND_CHANGE = 0.1f;
-/* What used less of its bound than this share stuck. */
-static const float STUCK = 0.99f;
 /* Of what holds a place that sticks, this share is let go in a step: it creeps by micrometres a second. */
 static const float EASE = 0.005f;
 /* What is no higher lies on the ground: to pull it down there for one step does next to nothing. */
@@ -39,6 +37,7 @@ static float height_at(const sbri_rigid_tick *t, float x, float z, sbf_vec3 *nor
 static void list_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32_t b, int32_t node) {
   const sbri_rigid_body *body = &t->model->bodies[b];
   const sbri_rigid_body_state *s = &t->bodies[b];
+  if (sbri_stair_touches_find(t, work, b, node)) return;
   sbf_vec3 turn = sbri_spin_velocity(body, s->pose.rotation, s->spin), normal;
   float fastest = sbri_length(s->velocity) + sbri_length(turn) * body->radius;
   float way =
@@ -47,7 +46,7 @@ static void list_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32
   float slope = normal.y > 0.1f ? 1 / normal.y : 10; /* and ground that rises nearby by as much again */
   double flat;
   float reach = body->radius * (sbri_ground_is_flat(t->ground, &flat) ? 1 : 1 + slope) + way;
-  if (s->pose.position.y - under > reach || sbri_stair_touches_find(t, work, b, node)) return;
+  if (s->pose.position.y - under > reach) return;
   for (uint32_t i = 0; i < body->vertex_count && work->touch_count < work->touch_capacity; i++) {
     sbf_vec3 at = sbri_add(s->pose.position, sbri_rotate(s->pose.rotation, body->vertices[i]));
     float y = height_at(t, at.x, at.z, &normal);
@@ -151,9 +150,8 @@ void sbri_ground_touches_make(
     touch->bound = touch->friction * normal;
     sbf_vec3 held = sbri_scale(touch->drag_n, touch->known ? (1 - EASE) * work->kick_s : 0);
     touch->hold = sbri_add_scaled(held, n, -sbri_dot(n, held));
-    linearise(touch, sbri_vec3(0, 0, 0));
-    /* What stuck most likely sticks on. */
-    if (touch->known && sbri_length(touch->hold) < STUCK * touch->bound) touch->slides = false;
+    /* What stuck most likely sticks on, and what slid slides on as it did. */
+    linearise(touch, touch->known ? sbri_sub(touch->target, touch->left) : sbri_vec3(0, 0, 0));
     if (!touch->known) continue;
     if (touch->normal_n > 0 && touch->gap < LYING_M) touch->active = true;
     if (touch->normal_n == 0 && speed > -bounce_from) touch->active = false;
@@ -308,6 +306,7 @@ void sbri_ground_touches_tell(const sbri_rigid_tick *t, sbri_rigid_solving *work
     float normal;
     sbf_vec3 across = impulse_at(touch, touch->moved, &normal);
     touch->known = true;
+    touch->left = sbri_sub(touch->target, touch->moved);
     touch->normal_n = normal / work->kick_s;
     touch->drag_n = sbri_scale(across, normal > 0 ? 1 / work->kick_s : 0);
     if (!(normal > 0)) continue;

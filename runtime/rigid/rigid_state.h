@@ -58,6 +58,7 @@ typedef struct sbri_ground_touch {
   uint32_t idle;   /* ticks for which it has not pressed */
   float normal_n;  /* N; 0: it did not press */
   sbf_vec3 drag_n; /* N, of friction where it slid */
+  sbf_vec3 left;   /* m/s, of what was wanted then what was not had: backwards, how it slid */
   /* In a substep: */
   sbf_vec3 arm;
   sbf_vec3 target;   /* wanted change of the place's velocity */
@@ -80,7 +81,7 @@ typedef struct sbri_kept_touch {
   uint32_t body, surface;
   uint32_t found; /* in this tick again */
   uint32_t idle;  /* ticks for which it has not pressed */
-  sbf_vec3 at, drag_n, normal;
+  sbf_vec3 at, drag_n, normal, left;
   float normal_n, offset; /* N; of the plane, as normal.x */
 } sbri_kept_touch;
 

@@ -20,6 +20,7 @@ static void give_back(const sbri_kept_touch *kept, sbri_ground_touch *touch) {
   touch->known = true;
   touch->idle = kept->idle;
   touch->normal_n = kept->normal_n, touch->drag_n = kept->drag_n;
+  touch->left = kept->left;
 }
 
 /* A touch of the pair that has been found anew and faces as the one that has not; NULL: none. */
@@ -77,6 +78,7 @@ void sbri_touch_memory_keep(const sbri_rigid_tick *t, const sbri_rigid_solving *
         .surface = touch->surface,
         .at = touch->at,
         .drag_n = touch->drag_n,
+        .left = touch->left,
         .idle = touch->normal_n > 0 ? 0 : touch->idle + 1,
         .normal = touch->normal,
         .offset = touch->offset,
