@@ -46,7 +46,8 @@ static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id
   const sbr_rigid_drive drive = {.frequency_hz = (float)n[1],
       .damping_ratio = (float)n[2],
       .strength = (float)n[3],
-      .joint_damping_1_s = (float)n[4]};
+      .joint_damping_1_s = (float)n[4],
+      .joint_friction = (float)n[5]};
   if (what == SBRI_RECORDED_RIGID_MODE)
     sbr_character_rigid_mode(world, id, index_of(n[1]), (sbr_rigid_mode)whole(n[2]));
   else if (what == SBRI_RECORDED_RIGID_DRIVE)

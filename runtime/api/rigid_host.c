@@ -40,7 +40,7 @@ void sbr_character_rigid_drive(sbr_world *world, sbr_character_id character, con
   if (!has_body(c, -1) || !drive) return;
   if (!sbri_record(world, SBRI_RECORDED_RIGID_DRIVE,
           (const double[]){character.value, (double)drive->frequency_hz, (double)drive->damping_ratio,
-              (double)drive->strength, (double)drive->joint_damping_1_s}))
+              (double)drive->strength, (double)drive->joint_damping_1_s, (double)drive->joint_friction}))
     return;
   sbri_rigid_set_drive(c, drive);
   sbri_rigid_wake(c);

@@ -34,7 +34,8 @@ bool sbri_rigid_is_still(const sbri_character *c) {
 }
 
 sbr_rigid_drive sbr_default_rigid_drive(void) {
-  return (sbr_rigid_drive){.frequency_hz = 4, .damping_ratio = 1, .strength = 2, .joint_damping_1_s = 2};
+  return (sbr_rigid_drive){
+      .frequency_hz = 4, .damping_ratio = 1, .strength = 2, .joint_damping_1_s = 2, .joint_friction = 0.04f};
 }
 
 void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive) {
@@ -43,6 +44,7 @@ void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive) {
   to->damping_ratio = sbri_clamp(drive->damping_ratio, 0, 10);
   to->strength = sbri_clamp(drive->strength, 0, 1e6f);
   to->joint_damping_1_s = sbri_clamp(drive->joint_damping_1_s, 0, 100);
+  to->joint_friction = sbri_clamp(drive->joint_friction, 0, 1);
 }
 
 /* ---- From bones to bodies ---- */

@@ -62,6 +62,36 @@ static void wake_limit(sbri_rigid_solving *work, const sbri_rigid_model *model, 
   row->moved = sbri_dot(sbri_vec3(row->rates[SBRI_B][3], row->rates[SBRI_B][4], row->rates[SBRI_B][5]), was);
 }
 
+/* Dry friction that would brake with more than so many times its torque, as in a hit, brakes with that. */
+static const float DRY_MORE = 2;
+
+static bool slip_ball(const sbri_rigid_system *s, sbri_edge *e) {
+  sbri_ball *ball = e->ball;
+  if (!(ball->dry > 0)) return false;
+  sbf_vec3 was, now;
+  find_turns(s, e, &was, &now);
+  const double *slow = ball->flesh_rhs;
+  double turns =
+      (double)sbri_length(sbri_vec3(now.x - (float)slow[0], now.y - (float)slow[1], now.z - (float)slow[2]));
+  if (!(ball->dry * turns > (double)DRY_MORE * ball->most_dry)) return false;
+  double dry = ball->most_dry / turns;
+  ball->flesh += dry - ball->dry;
+  ball->dry = dry;
+  return true;
+}
+
+static bool slip_row(sbri_row *row) {
+  if (!row->active || !(row->dry > 0)) return false;
+  float turns = fabsf(row->target - row->give * row->impulse), pull = row->target / row->give;
+  if (!(row->dry * turns > DRY_MORE * row->most_dry)) return false;
+  float dry = row->most_dry / turns, rate = 1 / row->give + dry - row->dry;
+  row->flesh += dry - row->dry;
+  row->dry = dry;
+  row->give = 1 / rate;
+  row->target = row->give * pull;
+  return true;
+}
+
 static void move_ball(sbri_rigid_solving *work, const sbri_rigid_model *model, sbri_edge *e, float step_s) {
   const double *slow = e->ball->flesh_rhs; /* how they turned when the step was made, backwards */
   sbf_vec3 was, now;
@@ -117,7 +147,10 @@ bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *e, float step_s,
     } else if (row->active && row->most > 0 && fabsf(of_drive(row)) > row->most * 1.0001f) {
       give_most(work, e, row);
       changed = *other = true;
+    } else if (slip_row(row)) {
+      changed = *other = true;
     }
   }
+  if (e->ball && slip_ball(&work->system, e)) changed = *other = true;
   return changed;
 }

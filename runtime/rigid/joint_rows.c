@@ -10,6 +10,9 @@
 /* Beyond a swing of that length, or below that w of the turn, it is not told without an arctangent how far
  * off a limit is. */
 static const float CLEAR_SWING = 0.9f, CLEAR_TURN = 0.6f;
+/* rad/s: what turns no faster is held by dry friction, which holds with so much more than it brakes with
+ * where that turns so much faster: what breaks loose does not creep. */
+static const float STICKS = 0.001f, HOLDS_MORE = 0.25f, LOOSE = 5;
 /* Slower than this nothing bounces off a limit. */
 static const float BOUNCE_FROM = 0.05f;
 
@@ -27,6 +30,7 @@ typedef struct row_maker {
 static sbri_row *add_bare_row(row_maker *m, sbri_row_kind kind, sbf_joint_axis axis) {
   sbri_row *row = &m->edge->rows[m->edge->row_count++];
   row->target = row->give = row->most = row->bound = row->bounce = row->impulse = row->flesh = 0;
+  row->dry = row->most_dry = 0;
   row->wanted = row->was = row->moved = row->clear = row->speed = 0;
   row->sign = 0;
   row->kind = (uint8_t)kind, row->axis = (uint8_t)axis;
@@ -127,8 +131,18 @@ static void add_drive(row_maker *m, const sbf_drive *drive) {
   row->most = drive->maximum * m->work->kick_s;
 }
 
+/* How fast the bodies turn against each other when the step begins. */
+static float turning_of(const row_maker *m) {
+  if (m->edge->ball) return m->turn_rad_s;
+  const sbri_rigid_model *model = m->tick->model;
+  return sbri_length(sbri_sub(sbri_side_motion(m->work, model, m->joint, SBRI_B)->turn,
+      sbri_side_motion(m->work, model, m->joint, SBRI_A)->turn));
+}
+
 /* Between bones: the flesh about the joint damps it, and where it is driven draws it towards what the
- * animation has the two bodies turned against each other; about the axes that turn. */
+ * animation has the two bodies turned against each other; about the axes that turn. Dry friction is as much
+ * damping as brakes with its torque at the speed that the bodies turn at; where they hardly turn it holds,
+ * but for a creep below STICKS. */
 static void add_track(row_maker *m) {
   const sbri_rigid_tick *t = m->tick;
   const sbri_rigid_joint *joint = m->joint;
@@ -137,11 +151,16 @@ static void add_track(row_maker *m) {
   bool driven = t->bodies[owner].mode == SBR_RIGID_DRIVEN;
   float share = driven ? t->bodies[owner].share : 0, w = 6.28318530718f * t->drive->frequency_hz;
   float inertia = joint->reach_inertia, stiffness = share * inertia * w * w;
-  float flesh = t->drive->joint_damping_1_s * inertia;
+  float turns = turning_of(m), loose = (turns / STICKS - 1) / (LOOSE - 1);
+  float torque =
+      t->drive->joint_friction * joint->hold_torque * (1 + HOLDS_MORE * sbri_clamp(1 - loose, 0, 1));
+  float dry = torque / (turns > STICKS ? turns : STICKS), flesh = t->drive->joint_damping_1_s * inertia + dry;
   float damping = 2 * t->drive->damping_ratio * share * inertia * w + flesh;
   if (!(stiffness > 0 || damping > 0)) return;
   if (m->edge->ball && !(stiffness > 0)) {
     m->edge->ball->flesh = (double)(damping * m->work->kick_s);
+    m->edge->ball->dry = (double)(dry * m->work->kick_s);
+    m->edge->ball->most_dry = (double)(torque * m->work->kick_s);
     return;
   }
   sbf_vec3 off = {0, 0, 0};
@@ -160,6 +179,7 @@ static void add_track(row_maker *m) {
     soften(m, row, stiffness, damping, sbri_dot(off, *u), 0);
     row->most = share * t->drive->strength * joint->hold_torque * m->work->kick_s;
     row->flesh = flesh * m->work->kick_s;
+    row->dry = dry * m->work->kick_s, row->most_dry = torque * m->work->kick_s;
   }
 }
 
@@ -198,7 +218,7 @@ static void make_ball(row_maker *m) {
   put(ball->levers[SBRI_B], place->arms[SBRI_B]);
   put(ball->rhs, sbri_sub(target, slip));
   put(ball->flesh_rhs, sbri_scale(turn, -1));
-  ball->flesh = 0;
+  ball->flesh = ball->dry = ball->most_dry = 0;
   m->turn_rad_s = sbri_length(turn);
 }
 

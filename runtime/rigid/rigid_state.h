@@ -26,7 +26,7 @@ typedef struct sbri_rigid_joint_state {
 } sbri_rigid_joint_state;
 
 typedef struct sbri_rigid_drive_state {
-  float frequency_hz, damping_ratio, strength, joint_damping_1_s; /* as sbr_rigid_drive has them */
+  float frequency_hz, damping_ratio, strength, joint_damping_1_s, joint_friction; /* as sbr_rigid_drive */
   uint32_t asleep, quiet_ticks;
   uint32_t calm_ticks;          /* of the time over which it is seen whether what moves slowly calms down */
   float calm_most, calm_before; /* 1/s: fastest body over its size in that time, and in the one before */

@@ -21,7 +21,7 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_PIVOT,       /* leg */
   SBRI_RECORDED_PLAY,        /* layer, clip, weight, fade, speed, start, mask */
   SBRI_RECORDED_RIGID_MODE,  /* body, mode */
-  SBRI_RECORDED_RIGID_DRIVE, /* frequency, damping ratio, strength, joint damping */
+  SBRI_RECORDED_RIGID_DRIVE, /* frequency, damping ratio, strength, joint damping, joint friction */
   SBRI_RECORDED_RIGID_SHARE, /* body, share */
   SBRI_RECORDED_RIGID_PUSH,  /* body, place, impulse */
   SBRI_RECORDED_RIGID_FALL,  /* share, rest, rise */

@@ -84,6 +84,9 @@ START_TEST(share_is_how_much_holds_it)
       {1, 0.75f, 0.6f}, {0.6f, 1, 0.4f}, {0.4f, 0.3f, 0.2f}, {0, 1, 0.1f}, {0.05f, 0.45f, 0}};
   scene s = arms();
   scene_start(&s);
+  sbr_rigid_drive drive = sbr_default_rigid_drive();
+  drive.joint_friction = 0; /* which would hold it before */
+  sbr_character_rigid_drive(s.world, s.character, &drive);
   drive_all(&s);
   for (uint32_t i = 0; i < ARMS; i++) give(&s, (int32_t)i + 1, shares[_i][i]);
   scene_ticks(&s, 1200);

@@ -7,7 +7,7 @@
 #include "host_threads.h"
 #include "rigid_person.h"
 
-enum { STEPS = 9, RANDOM_SHOVES = 15 };
+enum { STEPS = 9, RANDOM_SHOVES = 30 };
 static const float RISE = 0.17f, RUN = 0.29f;
 static const sbf_vec3 SHOVES[3] = {{0, 0, -130}, {40, 0, -150}, {-60, 0, -120}};
 
@@ -108,27 +108,23 @@ static float next_share(uint32_t *seed) {
   return (float)(*seed >> 8) / 16777216.0f;
 }
 
-/* However they are shoved, of fourteen parts nearly all lie still within 5 s, of twenty, whose toes and tails
- * swing out by their flesh alone, most; and all within 12 s. */
+/* However they are shoved, all lie still within 5 s. */
 START_TEST(all_that_fall_down_stairs_of_the_ground_come_to_rest)
 {
   bool whole = _i;
   uint32_t seed = 12345;
-  int in_time = 0;
   for (int i = 0; i < RANDOM_SHOVES; i++) {
     flight f = begin(whole, false);
     start(&f, false);
     float aside = 120 * next_share(&seed) - 60;
     person_shove(&f.scene, 1, (sbf_vec3){aside, 0, 120 + 60 * next_share(&seed)});
-    fall found = tumble(&f, 780, 720);
+    fall found = tumble(&f, 360, 300);
     ck_assert_float_le(found.apart, 1e-3f);
     ck_assert_float_le(found.on_the_way, 0.0175f);
     ck_assert_float_le(found.at_rest, 0.00175f);
-    ck_assert_int_le(found.moved, 720);
-    in_time += found.moved <= 300;
+    ck_assert_int_le(found.moved, 300);
     end(&f);
   }
-  ck_assert_int_ge(in_time, whole ? RANDOM_SHOVES * 2 / 3 : RANDOM_SHOVES - 2);
 }
 END_TEST
 
@@ -181,13 +177,17 @@ START_TEST(what_tips_does_not_fall_asleep)
 }
 END_TEST
 
-/* A limp leg sleeps within 4 s, near where it hangs, where its flesh alone takes longer; a push wakes it. */
+/* A limp leg without friction sleeps within 4 s, near where it hangs, where its flesh alone takes longer; a
+ * push wakes it. */
 START_TEST(what_swings_out_sleeps)
 {
   scene s = person();
   s.world_definition.sleep_after_s = _i ? 0.5 : 0;
   s.character_definition.position.y = 1;
   scene_start(&s);
+  sbr_rigid_drive drive = sbr_default_rigid_drive();
+  drive.joint_friction = 0;
+  sbr_character_rigid_drive(s.world, s.character, &drive);
   sbr_character_rigid_mode(s.world, s.character, -1, SBR_RIGID_KINEMATIC);
   sbr_character_rigid_mode(s.world, s.character, 8, SBR_RIGID_PASSIVE); /* a shin and its foot */
   sbr_character_rigid_mode(s.world, s.character, 9, SBR_RIGID_PASSIVE);

@@ -37,6 +37,10 @@ typedef struct sbr_rigid_drive {
   /* [0, 100] 1/s: at which joints between bones, driven or not, lose what their bodies turn against each
    * other, as flesh about them does; default 2. */
   float joint_damping_1_s;
+  /* [0, 1]: dry friction of such joints, the torque that it can hold or brake with, as a share of the one
+   * that holds what hangs on the joint out level against the earth's gravity; default 0.04. So what swings
+   * comes to rest, up to 2.3 degrees off where it would hang. */
+  float joint_friction;
 } sbr_rigid_drive;
 
 /* Sets the mode of one rigid body, or of all where `rigid_body` is negative. A body begins as the file has
