@@ -152,6 +152,34 @@ START_TEST(a_plank_lies_across_nosings)
 }
 END_TEST
 
+/* A cube whose middle is beyond a nosing, over the step below, meets the nosing as it falls on it. */
+START_TEST(what_hangs_over_a_nosing_meets_it)
+{
+  const float half = 0.05f;
+  scene s = rigid_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
+  s.world_definition.ground = sbr_ground_stairs(-(double)RISE, (double)RUN);
+  uint32_t cube = rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){2 * half, 2 * half, 2 * half}, 1);
+  double z = 5 * (double)RUN, y = -4 * (double)RISE;                  /* the nosing */
+  s.character_definition.position = (sbr_double3){0, 0.25, z + 0.03}; /* over the ground there */
+  scene_start(&s);
+  float deepest = 0;
+  for (int i = 0; i < 60; i++) {
+    scene_ticks(&s, 1);
+    sbr_rigid_state state = rigid_state(&s, cube);
+    sbr_double3 o = sbr_character_origin(s.world, s.character);
+    sbf_vec3 off = {0, (float)(y - o.y) - state.center.y, (float)(z - o.z) - state.center.z};
+    sbf_quat q = state.frame.rotation; /* about x alone */
+    float c = 1 - 2 * q.x * q.x, w = 2 * q.w * q.x;
+    float deep = half - larger(fabsf(c * off.y + w * off.z), fabsf(c * off.z - w * off.y));
+    deepest = larger(deepest, deep);
+  }
+  ck_assert_float_ge(deepest, -1e-3f); /* it met it */
+  ck_assert_float_le(deepest, 2e-3f);
+  scene_free(&s);
+}
+END_TEST
+
 /* A post that bears a weight aside, whose common centre is 4 mm inside of the post's foot or beyond it: one
  * stands and sleeps, the other tips, however slowly it begins to. */
 START_TEST(what_tips_does_not_fall_asleep)
@@ -241,6 +269,7 @@ int main(void) {
   tcase_add_loop_test(tests, a_person_falls_down_stairs_of_the_ground, 0, 4);
   tcase_add_loop_test(tests, all_that_fall_down_stairs_of_the_ground_come_to_rest, 0, 2);
   tcase_add_loop_test(tests, a_plank_lies_across_nosings, 0, 2);
+  tcase_add_test(tests, what_hangs_over_a_nosing_meets_it);
   tcase_add_loop_test(tests, what_tips_does_not_fall_asleep, 0, 2);
   tcase_add_loop_test(tests, what_swings_out_sleeps, 0, 2);
   tcase_add_test(tests, threads_change_nothing);
