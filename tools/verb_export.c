@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "motion_bake.h"
+#include "motion_cache.h"
 #include "sbfmt/io.h"
 
 static void report(void *user, const sbf_diagnostic *diagnostic) {
@@ -27,13 +28,14 @@ static int run(cli_call *call) {
   long render_level = 0;
   sbf_export_motion motion = {0};
   if (!out)
-    return cli_wrong(
-        call, "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf, OUT.usda or OUT.xml");
+    return cli_wrong(call,
+        "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf, OUT.usda, OUT.xml or OUT.pc2");
   if (!cli_integer(call, "--render-level", 0, 1000, &render_level)) return SBF_FAILED;
-  if (motion_asked(call) && !ends_with(out, ".glb"))
-    return cli_wrong(
-        call, "only .glb holds a motion: leave --seconds, --script and --replay out for %s", out);
-  int status = motion_asked(call) ? motion_bake(call, &motion) : SBF_OK;
+  bool as_cache = motion_cache_named(out), moves = motion_asked(call) || as_cache;
+  if (moves && !as_cache && !ends_with(out, ".glb"))
+    return cli_wrong(call,
+        "only .glb, .pc2 and .mdd hold a motion: leave --seconds, --script and --replay out for %s", out);
+  int status = moves ? motion_bake(call, &motion) : SBF_OK;
   if (status != SBF_OK) return status;
   sbf_asset *asset;
   sbf_diagnostic error;
@@ -44,7 +46,8 @@ static int run(cli_call *call) {
         .render_level = (uint32_t)render_level,
         .folder = folder_of(call->inputs[0], folder, sizeof folder),
         .motion = &motion};
-    status = (int)sbf_export(asset, out, &options, &error);
+    status = (int)(as_cache ? motion_cache_write(call, out, asset, &motion, &error)
+                            : sbf_export(asset, out, &options, &error));
     sbf_asset_free(asset);
   }
   motion_free(&motion);
@@ -53,14 +56,14 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml",
+    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.pc2|.mdd",
         "where to write; the ending says in which form"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},
 };
 const cli_verb verb_export = {"export",
-    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml [--seconds S ...]",
+    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.pc2|.mdd [--seconds S ...]",
     "write what other programs read",
     "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb;\n"
     "meshes at rest as OBJ with its MTL; tetrahedra as PhysX's .tet, TetGen's .node and .ele,\n"
@@ -71,5 +74,7 @@ const cli_verb verb_export = {"export",
     "opened without a network: it walks, can be dragged and have balls thrown at it.\n"
     "Says what the form has no place for. With --seconds, --script or --replay\n"
     "a .glb also holds the motion that `run` would show, 30 frames a second unless --fps says\n"
-    "otherwise: joints that move, and what the flesh does beside them as a morph target a frame.",
+    "otherwise: joints that move, and what the flesh does beside them as a morph target a frame.\n"
+    "A .pc2 or .mdd is that motion alone, 5 seconds unless said otherwise: places of the skin's points, a "
+    "sample a frame.",
     options, 1, 1, run};

@@ -49,7 +49,9 @@ static sbf_status begin(sbfi_export *e, lattices *all) {
   *all = count_lattices(e->asset);
   if (all->bodies) return SBF_OK;
   return sbfi_diagnose(e->error, SBF_CODE_EXPORT_EMPTY,
-      "no soft body has a level of tetrahedra: there is nothing to write to %s", e->path);
+      "no soft body has a level of tetrahedra: there is nothing to write to %s; "
+      "`sbfmt build IN -o OUT --springs tetrahedra` makes them",
+      e->path);
 }
 
 static sbf_status end(sbfi_export *e, const lattices *all, const char *form) {

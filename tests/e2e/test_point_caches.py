@@ -1,12 +1,13 @@
 """Point caches: both forms hold the same places, and Blender's Mesh Cache plays both."""
 
 import math
+import os
 import struct
 import unittest
 
 import play_files
 from bundle_file import rows
-from sbfmt_program import ProgramTest, example, main, read_bytes
+from sbfmt_program import ROOT, ProgramTest, call, example, main, read_bytes
 
 FRAMES = 30
 HOW = ("--seconds", "1", "--fps", "30", "--drive", "0.3,0.2")
@@ -41,6 +42,19 @@ class Caches(ProgramTest):
             self.assertGreater(count, 100)
             self.assertEqual(pc2, mdd)
             self.assertNotEqual(pc2[:3 * count], pc2[-3 * count:])
+
+    def test_export_writes_the_same_and_says_what_it_leaves_out(self):
+        for ending in ("pc2", "mdd"):
+            self.good("run", self.bundle, *HOW, "--cache", self.path("run." + ending))
+            said = self.good("export", self.bundle, *HOW, "-o", self.path("export." + ending)).err
+            self.assertEqual(read_bytes(self.path("run." + ending)), read_bytes(self.path("export." + ending)))
+            self.assertRegex(said, r"bones: [1-9].*soft bodies: [1-9].*EXPORT_LEFT_OUT")
+        skinless = os.path.join(ROOT, "spec", "samples", "valid", "minimal.sbf")
+        self.assertEqual(self.json_of("info", skinless)["render_meshes"], [])
+        refused = call("export", skinless, "-o", self.path("none.pc2"))
+        self.assertEqual(refused.status, 1)
+        self.assertIn("--of surface", refused.err)
+        self.assertFalse(os.path.exists(self.path("none.pc2")))
 
     @unittest.skipUnless(play_files.has_blender(), "there is no Blender: install the package blender")
     def test_blender_plays_both(self):
