@@ -1,14 +1,14 @@
-"""A box of OBJ whose skin is one image of one colour, for tests that look for it in pictures."""
+"""A box of OBJ whose skin is one image of a colour or two, for tests that look for it in pictures."""
 import os
 import struct
 import zlib
 
 
-def png_of(width, height, rgb):
-    """All of one colour."""
+def png_of(width, height, rgb, below=None):
+    """All of one colour, or of another in the lower half."""
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-    rows = (b"\0" + bytes(rgb) * width) * height
+    rows = b"".join(b"\0" + bytes(below if below and row >= height // 2 else rgb) * width for row in range(height))
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
             chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 

@@ -1,5 +1,5 @@
 // Opens pages of several characters, one after another: drawn, worn, at each of their levels, and in the same state as elsewhere.
-// Usage: node pages_in_chromium.mjs FOLDER-OF-NODE_MODULES PICTURES PAGES, these as JSON: [{ name, page, frames, drive, levels, color }]
+// Usage: node pages_in_chromium.mjs FOLDER-OF-NODE_MODULES PICTURES PAGES, these as JSON: [{ name, page, frames, drive, levels, colors }]
 import { pathToFileURL } from 'node:url';
 
 import { colorsDrawn, open } from './chromium.mjs';
@@ -7,7 +7,7 @@ import { colorsDrawn, open } from './chromium.mjs';
 const [modules, pictures, pages] = process.argv.slice(2);
 const { tab, faults, expect, shoot, close } = await open(modules, pictures);
 const hashes = {};
-for (const { name, page, frames, drive, levels, color } of JSON.parse(pages)) {
+for (const { name, page, frames, drive, levels, colors } of JSON.parse(pages)) {
   await tab.goto(pathToFileURL(page).href);
   await tab.waitForFunction(() => globalThis.viewer?.time > 0.1);
   await tab.evaluate(() => viewer.pause());
@@ -53,18 +53,22 @@ for (const { name, page, frames, drive, levels, color } of JSON.parse(pages)) {
   });
   for (const [id, there] of Object.entries(inside)) expect(await tab.isDisabled(`#${id}`) === !there, `${name}: the switch of ${id}, of which there ${there ? 'are' : 'are none'}`);
 
-  // What the image of a texture shows is on the skin: the middle of the picture has its colour, lit.
-  if (color) {
-    const middle = await tab.evaluate(() => {
+  // What the image of a texture shows is on the skin, the right way up: above and below the middle of the picture have its colours, lit.
+  if (colors) {
+    const seen = await tab.evaluate(() => {
       viewer.restart({ kind: 'flat' });
       viewer.frameCamera();
       viewer.draw();
       const { gl } = viewer.painter, one = new Uint8Array(4);
-      gl.readPixels(gl.canvas.width >> 1, gl.canvas.height >> 1, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
-      return [...one];
+      return [0.6, 0.2].map((share) => {
+        gl.readPixels(gl.canvas.width >> 1, Math.round(share * gl.canvas.height), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
+        return [...one];
+      });
     });
-    const most = color.indexOf(Math.max(...color));
-    expect([0, 1, 2].every((i) => i === most || middle[i] < 0.5 * middle[most]), `${name}: the middle has the colour ${middle}, the image ${color}`);
+    colors.forEach((color, k) => {
+      const most = color.indexOf(Math.max(...color));
+      expect([0, 1, 2].every((i) => i === most || seen[k][i] < 0.6 * seen[k][most]), `${name}: it shows ${seen[k]} where the image has ${color}`);
+    });
   }
 }
 await close();

@@ -14,7 +14,7 @@ import textured_box  # noqa: E402
 FRAMES = 120
 # example: speed (m/s)
 EXAMPLES = {"spider": 0.1, "snake": 0.3, "pudding": 0.2, "yeti": 0.3}
-RED = (190, 20, 20)
+RED, BLUE = (190, 20, 20), (20, 20, 190)  # upper and lower half of the image
 
 def sources(folder):
     """Names, files, and what is special: levels, the image's colour, the drive."""
@@ -24,10 +24,10 @@ def sources(folder):
         yield {"name": name, "file": made, "drive": speed, "levels": 1}
     yield {"name": "flesh", "file": os.path.join(web_files.SOURCE, "examples", "bones", "flesh.sbf"), "drive": 0, "levels": 1}
     box = os.path.join(folder, "box.sbf")
-    web_files.run(web_files.SBFMT, "convert", textured_box.write(folder, textured_box.png_of(4, 4, RED)), "-o", box)
+    web_files.run(web_files.SBFMT, "convert", textured_box.write(folder, textured_box.png_of(64, 64, RED, BLUE)), "-o", box)
     several = os.path.join(folder, "several.sbf")
     web_files.run(web_files.SBFMT, "build", box, "-o", several, "--levels", "3", "--springs", "tetrahedra", "--elements", "400")
-    yield {"name": "box", "file": several, "drive": 0, "levels": 3, "color": RED}
+    yield {"name": "box", "file": several, "drive": 0, "levels": 3, "colors": (RED, BLUE)}
 
 
 def main():

@@ -5,9 +5,11 @@ import { Painter, vector } from './viewer_draw.js';
 export function bytesIn(selector) {
   return Uint8Array.from(atob(document.querySelector(selector)?.textContent ?? ''), (one) => one.charCodeAt(0));
 }
+/** Hills of noise are as wide whatever the character's size: for a larger one they grow no higher, or they would be spikes. */
+const LARGEST_HILLS = 1.5;
 const LANDS = {
   flat: () => ({ kind: 'flat' }),
-  uneven: (size) => ({ kind: 'noise', height: 0.12 * size, seed: 7 }),
+  uneven: (size) => ({ kind: 'noise', height: 0.12 * Math.min(size, LARGEST_HILLS), seed: 7 }),
   stairs: (size) => ({ kind: 'stairs', rise: 0.03 * size, run: 0.45 * size }),
   slope: () => ({ kind: 'slope', degrees: 12 }),
 };

@@ -98,7 +98,7 @@ static bool make_vertices(const sbf_render_mesh *mesh, const polygons *p, web_me
   if (good && uv) m->uvs = malloc((m->vertex_count + 1u) * 2 * sizeof *m->uvs);
   for (uint32_t v = 0; good && m->uvs && v < m->vertex_count; v++) {
     m->uvs[2 * v] = uv->coordinates.at[keys[v].uv].x;
-    m->uvs[2 * v + 1] = uv->coordinates.at[keys[v].uv].y;
+    m->uvs[2 * v + 1] = 1 - uv->coordinates.at[keys[v].uv].y;
   }
   free(table);
   free(keys);
