@@ -5,6 +5,10 @@
 
 #include "collide/triangle.h"
 
+/* Nearer than this share of the distance from the middle, what leads from the nearest place is rounding and
+ * no direction. */
+static const float ON_IT_SHARE = 1e-5f;
+
 /* ---- Making ---- */
 
 /* A face so much narrower than long has its normal from sums in double precision. */
@@ -134,7 +138,7 @@ float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *place, sbf_
   *normal = hull->faces[deepest].normal;
   *place = sbri_add_scaled(x, *normal, -depth);
   if (depth <= 0) return depth;
-  float least = INFINITY;
+  float least = INFINITY, on_it = ON_IT_SHARE * sbri_length(sbri_sub(x, hull->middle));
   for (uint32_t f = 0; f < hull->face_count; f++) {
     const sbri_hull_face *face = &hull->faces[f];
     float height = sbri_dot(face->normal, x) - face->offset;
@@ -143,7 +147,7 @@ float sbri_hull_nearest(const sbri_hull *hull, sbf_vec3 x, sbf_vec3 *place, sbf_
     float square = sbri_dot(off, off);
     if (square >= least) continue;
     least = square, *place = on;
-    *normal = sbri_normalize(off, face->normal);
+    *normal = square > on_it * on_it ? sbri_normalize(off, face->normal) : face->normal;
   }
   return sqrtf(least);
 }

@@ -9,6 +9,8 @@
 #include "meet/finding.h"
 #include "model/reach.h"
 
+/* What looks more along with a corner than this (a cosine) has it come through. */
+static const float COME_THROUGH = 0.3f;
 /* What lies so deep behind faces, of the depth to which they are looked for, is in the body. */
 static const float IN_SHARE = 0.25f;
 
@@ -204,6 +206,17 @@ static void meet_hull(const sbri_finding *f, const sbri_party *soft, const sbri_
   }
 }
 
+/* A sheet lies before a corner, not behind it: one without thickness that the corner has come through goes
+ * back over it, or they would push against what holds the sheet's own points off the hull. */
+static void turn_back(const sbri_party *rigid, const sbri_party *soft, sbf_vec3 corner,
+    const sbr_transform *at, sbri_surface_finding *best) {
+  sbf_vec3 out = sbri_rotate(at->rotation, sbri_sub(corner, rigid->rigid->hull.middle));
+  sbri_surface_rule rule = rule_of(soft);
+  bool near = best->urgency >= 1 && best->urgency - 1 <= rule.inner && rule.outer == 0;
+  if (near && sbri_dot(best->normal, out) > COME_THROUGH * sbri_length(out))
+    best->normal = sbri_scale(best->normal, -1);
+}
+
 /* Corners of the hull against the soft surface's triangles. */
 static void meet_corners(
     const sbri_finding *f, const sbri_party *rigid, const sbri_party *soft, bool lets_out) {
@@ -214,6 +227,7 @@ static void meet_corners(
     bool deep = !find_face(rigid, soft, x, sbri_sub(out_of(&to, own, rigid->of->scale), x), &best);
     if (deep && (!lets_out || !sbri_meet_way_out(soft, x, &best))) continue;
     const uint32_t *corners = soft->surface->triangles + 3 * (size_t)best.face;
+    if (soft->surface->two_sided) turn_back(rigid, soft, own, &from, &best);
     if (sbri_are_of_one(soft, rigid) && !deep) {
       sbr_transform rest = {sbri_scale(rigid->rigid->center, rigid->of->scale), rigid->rigid->axes};
       const sbf_vec3 p[3] = {sbri_party_rest(soft, corners[0]), sbri_party_rest(soft, corners[1]),

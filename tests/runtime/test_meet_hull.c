@@ -8,21 +8,22 @@
 static const sbf_vec3 weight = {0, -9.81f, 0};
 static const float RADIUS = 0.3f;
 
-enum { HEIGHTS = 3, CLOTHS = 3 };
+enum { HEIGHTS = 3, CLOTHS = 9 };
 
 /* Cloth falls on a ball, on its middle and beside it: what springs throw back under the ball is faster in a
- * tick than it was before. Left is what they pull points by within a step. */
+ * tick than it was before. Left is what they pull points by within a step: of the stiffest, in cells of 17 cm
+ * and at 14 m/s, 6.1 mm. */
 START_TEST(cloth_does_not_go_into_a_ball)
 {
-  static const uint32_t cells[CLOTHS] = {12, 24, 24};
-  static const float thicknesses[CLOTHS] = {0.02f, 0.002f, 0.02f}, heights[HEIGHTS] = {0.1f, 2, 10};
+  static const uint32_t cells[3] = {6, 12, 24};
+  static const float thicknesses[3] = {0, 0.002f, 0.02f}, heights[HEIGHTS] = {0.1f, 2, 10};
   for (int i = 0; i < 2 * HEIGHTS; i++) {
     scene s = meeting_begin(weight);
-    float thick = thicknesses[_i], height = heights[i % HEIGHTS], aside = i < HEIGHTS ? 0 : 1;
+    float thick = thicknesses[_i % 3], height = heights[i % HEIGHTS], aside = i < HEIGHTS ? 0 : 1;
     double most = -9;
     scene_bodies(&s, 1);
     collision_sheet(
-        &s, 0, (sbf_vec3){0.13f * aside, RADIUS + thick + height, 0.07f * aside}, 1, cells[_i], false);
+        &s, 0, (sbf_vec3){0.13f * aside, RADIUS + thick + height, 0.07f * aside}, 1, cells[_i / 3], false);
     scene_body(&s, 0)->attributes.damping_ratio = 0.05f;
     scene_body(&s, 0)->collision.outer_thickness = thick;
     rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){2 * RADIUS, 2 * RADIUS, 2 * RADIUS}, 4);
@@ -34,8 +35,10 @@ START_TEST(cloth_does_not_go_into_a_ball)
       scene_ticks(&s, 1);
       most = fmax(most, meeting_deepest(&s));
     }
-    ck_assert_msg(most <= 3e-3 - (double)thick, "%u cells, %g m thick, from %g m, %g m aside: %g m in",
-        cells[_i], (double)thick, (double)height, 0.13 * (double)aside, most);
+    bool coarse = cells[_i / 3] == 6 && height == 10, bare = cells[_i / 3] < 24 && thick < 0.02f;
+    double may = coarse ? 7e-3 : bare ? 3.5e-3 : 3e-3;
+    ck_assert_msg(most <= may - (double)thick, "%u cells, %g m thick, from %g m, %g m aside: %g m in",
+        cells[_i / 3], (double)thick, (double)height, 0.13 * (double)aside, most);
     scene_free(&s);
   }
 }
