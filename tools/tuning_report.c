@@ -120,9 +120,10 @@ static json_t *trial_json(const tuning *t, const tune_trial *trial) {
   json_t *object = json_pack("{s:s, s:i, s:b, s:s, s:i, s:s, s:b}", "model", mesh->name, "elements",
       (int)mesh->elements, "calibrated", (int)mesh->calibrated, "scheme",
       sbf_scheme_name(trial->setting.scheme), "substeps", (int)trial->setting.substeps, "outcome",
-      trial->refused       ? "refused"
-      : trial->error.sound ? "sound"
-                           : "failed",
+      trial->refused        ? "refused"
+      : !trial->error.sound ? "failed"
+      : trial->error.beaten ? "beaten"
+                            : "sound",
       "on_front", (int)trial->on_front);
   json_object_set_new(object, "visits", trial->refused ? json_null() : number(trial->visits));
   json_object_set_new(object, "element_visits", trial->refused ? json_null() : number(trial->element_visits));

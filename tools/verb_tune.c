@@ -2,8 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chart/out_folder.h"
 #include "chart/rounds.h"
 #include "sbfmt/io.h"
+#include "tune/forecast.h"
 #include "tuning_report.h"
 
 /* Slower and in a curve, lower and oftener, slower and for longer: nothing of what it is tuned by. */
@@ -14,13 +16,11 @@ static void show(void *user, const char *what, double share) {
   (void)user;
   cli_progress(what, share);
 }
-static void show_reference(void *user, double share) {
-  (void)user;
-  cli_progress("reference", share);
-}
-static void show_other(void *user, double share) {
-  (void)user;
-  cli_progress("another drive", share);
+/* `user` says of which drive. */
+static void show_reference(void *user, const char *motion, uint32_t substeps, double share) {
+  char what[96];
+  snprintf(what, sizeof what, "%s: %s by %u substeps", (const char *)user, motion, (unsigned)substeps);
+  cli_progress(what, share);
 }
 
 typedef struct request {
@@ -71,14 +71,31 @@ static bool parse(cli_call *call, tuning *t, request *r) {
   return true;
 }
 
-static sbf_status sweep(tuning *t, const request *r, sbf_diagnostic *error) {
+/* What is about to happen, and how long it takes. */
+static sbf_status announce(const cli_call *call, const tuning *t, sbf_diagnostic *error) {
+  tune_forecast forecast;
+  char time[48];
+  sbf_status status = tune_forecast_make(&t->meshes, &t->trials, &forecast, error);
+  if (status != SBF_OK || call->json) return status;
+  tune_forecast_say(&forecast, time, sizeof time);
+  cli_progress_end();
+  fprintf(stderr,
+      "sbfmt tune: info: %u ways to step %u meshes, against %u elements: %s on a core of its own\n",
+      (unsigned)t->trials.count, (unsigned)t->meshes.count, (unsigned)t->meshes.reference.elements, time);
+  return SBF_OK;
+}
+
+static sbf_status sweep(const cli_call *call, tuning *t, const request *r, sbf_diagnostic *error) {
+  static char of_this[] = "reference";
+  const tune_measure measure = {NULL, t->by_rms, show_reference, of_this};
   sbf_asset *asset;
   sbf_status status = sbf_load_file(t->path, &(sbf_load_options){.check_crc = true}, &asset, error);
   if (status != SBF_OK) return status;
   status = tune_meshes_make(asset, &r->grid, &t->meshes, error);
   sbf_asset_free(asset);
-  if (status == SBF_OK)
-    status = tune_yardstick_make(&t->yard, t->meshes.reference.asset, NULL, show_reference, NULL, error);
+  if (status == SBF_OK) status = tune_trials_plan(&t->meshes, &r->effort, &t->trials, error);
+  if (status == SBF_OK) status = announce(call, t, error);
+  if (status == SBF_OK) status = tune_yardstick_make(&t->yard, t->meshes.reference.asset, &measure, error);
   if (status == SBF_OK) status = tune_trials_run(&t->meshes, &t->yard, &r->effort, &t->trials, error);
   return status;
 }
@@ -122,11 +139,12 @@ static sbf_status make(tuning *t, sbf_asset **made, sbf_diagnostic *error) {
 
 /* What was made, as a runtime will have it, by another drive; each level then states the larger of both. */
 static sbf_status verify(tuning *t, const sbf_asset *made, sbf_diagnostic *error) {
-  sbf_status status =
-      tune_yardstick_make(&t->other, t->meshes.reference.asset, &OTHER_DRIVE, show_other, NULL, error);
+  static char of_other[] = "another drive";
+  const tune_measure measure = {&OTHER_DRIVE, t->by_rms, show_reference, of_other};
+  sbf_status status = tune_yardstick_make(&t->other, t->meshes.reference.asset, &measure, error);
   for (uint32_t l = 0; status == SBF_OK && l < t->level_count; l++) {
     tune_level *level = &t->levels[l];
-    status = tune_yardstick_hold(&t->other, made, &(chart_setting){.level = l}, &t->verified[l], error);
+    status = tune_yardstick_hold(&t->other, made, &(chart_setting){.level = l}, NULL, &t->verified[l], error);
     if (status != SBF_OK || !t->verified[l].sound) continue;
     level->rms_m = fmax(level->rms_m, t->verified[l].rms_m + t->other.rms_m);
     level->most_m = fmax(level->most_m, t->verified[l].most_m + t->other.most_m);
@@ -173,7 +191,8 @@ static int run(cli_call *call) {
   t->machine = chart_this_machine();
   int status = SBF_FAILED;
   if (parse(call, t, &r)) {
-    status = (int)sweep(t, &r, &error);
+    status = (int)chart_place_check(t->out, &error); /* before minutes of work */
+    if (status == SBF_OK) status = (int)sweep(call, t, &r, &error);
     cli_progress_end();
     if (status == SBF_OK)
       status = finish(call, t, &r);

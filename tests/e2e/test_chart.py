@@ -115,6 +115,7 @@ class Charts(ProgramTest):
                                    ("heun", 1 + 2 * substeps)):
                 self.assertEqual(float(pick(rows, scheme, substeps)["visits_per_frame"]), visits * springs, (scheme, substeps))
         chosen = sorted((row for row in rows if row["step_error_m"]), key=lambda row: -float(row["step_error_m"]))
+        self.assertEqual(float(pick(rows, "relaxation", 1)["visits_per_frame"]), 2 * springs)  # all of them structural
         visits = [float(row["visits_per_frame"]) for row in chosen]
         self.assertEqual(len(visits), 5)
         self.assertEqual(visits, sorted(visits))

@@ -3,9 +3,12 @@
 import json
 import os
 import re
+import shutil
+import subprocess
+import tempfile
 import unittest
 
-from sbfmt_program import ROOT, ProgramTest, call, main, read_bytes, read_text
+from sbfmt_program import PROGRAM, ROOT, ProgramTest, call, main, read_bytes, read_text
 
 EXAMPLES = os.path.join(ROOT, "examples")
 SMALL = ("--reference", "400", "--elements", "60", "--elements", "100", "--runs", "2")
@@ -123,6 +126,45 @@ class Tuned(ProgramTest):
         self.assertEqual(report["verdict"], "error too small")
         self.assertTrue(report["nearest"]["on_front"])
         self.assertFalse([name for name in os.listdir(self.place) if name.startswith("nothing")])
+
+    def test_what_is_beaten_is_not_looked_at_to_its_end(self):
+        visits = [trial["visits"] for trial in self.all["trials"]]
+        self.assertEqual(visits, sorted(visits))
+        beaten = [trial for trial in self.all["trials"] if trial["outcome"] == "beaten"]
+        self.assertTrue(beaten)
+        for trial in beaten:
+            better = [other for other in self.all["trials"] if other["on_front"] and other["visits"] <= trial["visits"]
+                      and other["error"]["most_m"] <= trial["error"]["most_m"]]
+            self.assertTrue(better, trial)
+            self.assertFalse(trial["on_front"])
+
+    def test_it_says_how_long_it_takes(self):
+        result = call("tune", self.file, "-o", os.path.join(self.place, "timed.sbfz"), *SMALL, "--quick")
+        self.assertEqual(result.status, 0, result.err)
+        self.assertRegex(result.err, r"info: 3 ways to step 3 meshes, against \d+ elements: (\d+ to )?\d+ (seconds?|minutes) on")
+
+    def test_a_missing_folder_is_told_before_the_work(self):
+        out = os.path.join(self.place, "none", "out.sbfz")
+        result = call("tune", self.file, "-o", out)
+        self.assertEqual(result.status, 2)
+        self.assertIn("there is no folder", result.err)
+        self.assertNotIn("info:", result.err)
+
+    @unittest.skipUnless(shutil.which("parallel"), "GNU parallel is not installed (Debian: parallel)")
+    def test_the_documented_line_tunes_many_in_parallel(self):
+        text = read_text(os.path.join(ROOT, "docs", "speed-and-accuracy.md"))
+        line = re.search(r"^mkdir -p tuned && ls .*$", text, re.M).group(0).split(" # ")[0].replace("sbfmt tune {}", " ".join(
+            [PROGRAM, "tune {}", *SMALL, "--quick"])).replace("--error 0.005", "--error 0.05")
+        with tempfile.TemporaryDirectory(dir=self.place) as folder:
+            for name in ("one.sbfz", "the second.sbfz"):
+                shutil.copy(self.file, os.path.join(folder, name))
+            ran = subprocess.run(["sh", "-c", line], cwd=folder, capture_output=True, text=True, check=False)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            names = sorted(os.listdir(os.path.join(folder, "tuned")))
+            self.assertEqual(names, ["one.sbfz", "the second.sbfz"])
+            same = call("diff", *[os.path.join(folder, "tuned", name) for name in names])
+            self.assertEqual(same.status, 0, same.out)
+            self.assertEqual(sorted(os.listdir(folder)), ["one.sbfz", "the second.sbfz", "tuned"])
 
     def test_bad_calls_and_files_are_told(self):
         out = os.path.join(self.place, "bad.sbfz")

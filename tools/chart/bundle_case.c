@@ -1,6 +1,8 @@
 #include "chart/bundle_case.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "render/fault.h"
 #include "sbfmt/mechanics.h"
@@ -43,6 +45,18 @@ static double ground_height(const sbr_ground *ground, double x, double z, sbf_ve
   return b->ground_m;
 }
 
+/* Whose motion it is, without what means something to gnuplot. */
+static void entitle(char *title, size_t size, const char *whose, const char *motion) {
+  char name[48];
+  size_t length = 0;
+  for (; whose && *whose && length + 1 < sizeof name; whose++)
+    if (!strchr("{}_^@&~\\'\"`$%", *whose) && (unsigned char)*whose > 31) name[length++] = *whose;
+  if (whose && (*whose & 0xc0) == 0x80) /* within a letter of several bytes */
+    while (length && (name[--length] & 0xc0) == 0x80) continue;
+  name[length] = 0;
+  snprintf(title, size, "%s%s%s", name, length ? ", " : "", motion);
+}
+
 sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, chart_bundle *bundle,
     chart_case *cases, sbf_diagnostic *error) {
   static const chart_case kinds[CHART_BUNDLE_CASES] = {
@@ -68,6 +82,8 @@ sbf_status chart_bundle_cases(const sbf_asset *asset, const chart_drive *drive, 
   bundle->ground = (sbr_ground){.height = ground_height, .user = bundle};
   for (int i = 0; i < CHART_BUNDLE_CASES; i++) {
     cases[i] = kinds[i];
+    entitle(bundle->titles[i], sizeof bundle->titles[i], asset->info.title, kinds[i].title);
+    cases[i].title = bundle->titles[i];
     cases[i].given = asset;
     cases[i].begin = level_ground;
     cases[i].user = bundle;

@@ -24,6 +24,7 @@ typedef struct chart_bundle {
   double speed_m_s, hop_m;
   double ground_m;   /* the ground that it stands on rises and falls with a hop */
   sbr_ground ground; /* asks `ground_m` */
+  char titles[CHART_BUNDLE_CASES][144];
 } chart_bundle;
 
 /* Fills `cases` (CHART_BUNDLE_CASES) with walk, hop and shake of two seconds; `drive` NULL: the usual one.

@@ -10,6 +10,8 @@
 
 #include "render/fault.h"
 
+enum { MOST_PATH = 4096 };
+
 static sbf_status cannot(sbf_diagnostic *error, const char *path, const char *what) {
   return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "%s: %s", what, strerror(errno));
 }
@@ -23,22 +25,29 @@ static void parent_of(const char *path, char *to, size_t size) {
   snprintf(to, size, "%.*s", length ? (int)length : 1, length ? path : ".");
 }
 
+sbf_status chart_place_check(const char *path, sbf_diagnostic *error) {
+  struct stat is;
+  char parent[MOST_PATH];
+  if (!*path || strlen(path) > sizeof parent - 8)
+    return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "this is no path to write to");
+  parent_of(path, parent, sizeof parent);
+  if (stat(parent, &is) != 0 || !S_ISDIR(is.st_mode))
+    return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path,
+        "there is no folder '%s' to make this in: make it first", parent);
+  if (access(parent, W_OK | X_OK) != 0) return cannot(error, parent, "this folder cannot be written to");
+  return SBF_OK;
+}
+
 sbf_status chart_folder_check(const char *path, sbf_diagnostic *error) {
   struct stat is;
-  char parent[4096];
-  if (!*path || strlen(path) > sizeof parent - 8)
+  if (!*path || strlen(path) > MOST_PATH - 8)
     return fault_set_file(error, SBF_CODE_IO_CANNOT_WRITE, path, "this is no path for a folder");
   if (stat(path, &is) == 0 && !S_ISDIR(is.st_mode))
     return fault_set_file(
         error, SBF_CODE_IO_CANNOT_WRITE, path, "there is a file of that name: name a folder");
   if (stat(path, &is) == 0 && access(path, W_OK | X_OK) != 0)
     return cannot(error, path, "this folder cannot be written to");
-  parent_of(path, parent, sizeof parent);
-  if (stat(parent, &is) != 0 || !S_ISDIR(is.st_mode))
-    return fault_set_file(
-        error, SBF_CODE_IO_CANNOT_WRITE, path, "there is no folder '%s' to make this one in", parent);
-  if (access(parent, W_OK | X_OK) != 0) return cannot(error, parent, "this folder cannot be written to");
-  return SBF_OK;
+  return chart_place_check(path, error);
 }
 
 sbf_status chart_folder_begin(chart_folder *folder, const char *path, sbf_diagnostic *error) {

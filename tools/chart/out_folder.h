@@ -12,7 +12,10 @@ typedef struct chart_folder {
   bool open;
 } chart_folder;
 
-/* Whether files could be put there, before any work is done. */
+/* Whether a file or folder could be made there, before any work is done: the folder that it is to be in is
+ * there. */
+sbf_status chart_place_check(const char *path, sbf_diagnostic *error);
+/* Whether files could be put into that folder, which may be there or not. */
 sbf_status chart_folder_check(const char *path, sbf_diagnostic *error);
 
 /* Makes the temporary folder. */

@@ -170,20 +170,21 @@ static void write_panel(FILE *to, const plot *p, int panel) {
   fprintf(to, "set xlabel '%s'\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n", costs[panel],
       p->cheapest[panel], p->dearest[panel], p->bottom, p->top);
   fprintf(to, "unset arrow\nunset label\n");
-  fprintf(
-      to, "set label 1 'failed' at graph 0.99, first %.6g right tc rgb '#b00000' font ',10'\n", mark_at(p));
+  fprintf(to,
+      "set label 1 'failed' at graph 0.99, first %.6g right offset 0,0.9 tc rgb '#b00000' font ',10'\n",
+      mark_at(p));
   double own = reference_error(p->sheet, p->axis);
   if (own > p->bottom && own < p->top)
     fprintf(to,
         "set arrow from graph 0, first %.6g to graph 1, first %.6g nohead dt 4 lc rgb '#b00000'\n"
-        "set label 2 'the reference itself' at graph 0.99, first %.6g right offset 0,0.5 tc rgb '#b00000' "
-        "font "
-        "',9'\n",
+        "set label 2 'the reference itself' at graph 0.01, first %.6g left offset 0,0.5 tc rgb '#b00000' "
+        "font ',9'\n", /* nothing is that near for so little */
         own, own, own);
   for (int i = 0; panel == 0 && i < BUDGETS; i++) {
+    if (!(BUDGETS_US[i] > 1.05 * p->cheapest[0])) continue;
     fprintf(to, "set arrow from %g,graph 0 to %g,graph 1 nohead dt 3 lc rgb '#555555'\n", BUDGETS_US[i],
         BUDGETS_US[i]);
-    fprintf(to, "set label '%g ms' at %g,graph 0.01 rotate by 90 offset -0.6,0 tc rgb '#555555' font ',9'\n",
+    fprintf(to, "set label '%g ms' at %g,graph 0.015 rotate by 90 offset 1,0 tc rgb '#555555' font ',9'\n",
         BUDGETS_US[i] / 1000, BUDGETS_US[i]);
   }
   fprintf(to, "set %s\n",

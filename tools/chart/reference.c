@@ -41,6 +41,7 @@ static sbf_status look(chart_track *track, const chart_scene *scene, sbf_scheme 
   chart_motion motion;
   const chart_setting setting = {.scheme = scheme, .substeps = substeps};
   sbf_status status = chart_motion_open(&motion, scene, &setting, error);
+  motion.scene.stop_broken = true;
   if (status == SBF_OK && !chart_motion_look(&motion, track)) status = no_memory(error);
   if (status == SBF_OK && !track->sound)
     status = fault_set(error, SBF_CODE_BAD_CALL, "the reference itself fails with %u substeps of %s, %s: %s",
@@ -65,11 +66,13 @@ static double apart(const reference_pair *p, const chart_track *track, const dou
   return extent > 0 ? errors[CHART_PATH] / extent : 0;
 }
 
-static sbf_status look_at_both(
-    const reference_pair *p, chart_track tracks[2], double *errors, const char *hint, sbf_diagnostic *error) {
+/* `first` is the first of them where it is there already; NULL: it is not. */
+static sbf_status look_at_both(const reference_pair *p, const chart_track *first, chart_track tracks[2],
+    double *errors, const char *hint, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   for (int i = 0; i < 2; i++) chart_track_free(&tracks[i]);
-  for (int i = 0; status == SBF_OK && i < 2; i++)
+  if (first && !chart_track_copy(&tracks[0], first)) status = no_memory(error);
+  for (int i = first ? 1 : 0; status == SBF_OK && i < 2; i++)
     status = look(&tracks[i], p->scene, p->schemes[i], p->substeps[i], hint, error);
   if (status == SBF_OK && !chart_errors_of(&tracks[0], &tracks[1], p->rest, TICK_S, &p->charted->signal,
                               p->charted->axes, errors))
@@ -81,15 +84,16 @@ static sbf_status look_at_both(
  * then what was nearest is kept. `tracks` and `errors` are of `substeps`. */
 static sbf_status refine(
     reference_pair *p, chart_track tracks[2], double *errors, const char *hint, sbf_diagnostic *error) {
-  sbf_status status = look_at_both(p, tracks, errors, hint, error);
+  sbf_status status = look_at_both(p, NULL, tracks, errors, hint, error);
   while ((status == SBF_OK ? apart(p, &tracks[1], errors) > CONVERGED : error->code == SBF_CODE_BAD_CALL) &&
          2 * p->substeps[1] <= MOST_SUBSTEPS) {
     reference_pair finer = *p;
     chart_track more[2] = {{.ticks = 0}, {.ticks = 0}};
     double finer_errors[CHART_AXIS_COUNT];
     bool held = status == SBF_OK;
+    bool known = held && p->schemes[0] == p->schemes[1] && p->substeps[1] == 2 * p->substeps[0];
     for (int i = 0; i < 2; i++) finer.substeps[i] *= 2;
-    status = look_at_both(&finer, more, finer_errors, hint, error);
+    status = look_at_both(&finer, known ? &tracks[1] : NULL, more, finer_errors, hint, error);
     bool nearer =
         status == SBF_OK && (!held || apart(&finer, &more[1], finer_errors) < apart(p, &tracks[1], errors));
     for (int i = 0; i < 2; i++) chart_track_free(nearer || !held ? &tracks[i] : &more[i]);

@@ -1,6 +1,7 @@
 #include "chart/track.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 bool chart_track_make(chart_track *track, uint32_t ticks, uint32_t points) {
   *track = (chart_track){.ticks = ticks, .points = points, .sound = true};
@@ -11,6 +12,18 @@ bool chart_track_make(chart_track *track, uint32_t ticks, uint32_t points) {
   if (track->places && track->energy_j && track->kinetic_j && track->volume) return true;
   chart_track_free(track);
   return false;
+}
+
+bool chart_track_copy(chart_track *track, const chart_track *from) {
+  if (!chart_track_make(track, from->ticks, from->points)) return false;
+  size_t ticks = from->ticks;
+  memcpy(track->places, from->places, ticks * from->points * sizeof *track->places);
+  memcpy(track->energy_j, from->energy_j, ticks * sizeof *track->energy_j);
+  memcpy(track->kinetic_j, from->kinetic_j, ticks * sizeof *track->kinetic_j);
+  memcpy(track->volume, from->volume, ticks * sizeof *track->volume);
+  track->sound = from->sound;
+  memcpy(track->why, from->why, sizeof track->why);
+  return true;
 }
 
 void chart_track_free(chart_track *track) {

@@ -17,6 +17,8 @@ typedef struct chart_track {
 
 /* Room for so many; false where memory runs out. Free with chart_track_free. */
 bool chart_track_make(chart_track *track, uint32_t ticks, uint32_t points);
+/* The same, of its own; false likewise. */
+bool chart_track_copy(chart_track *track, const chart_track *from);
 void chart_track_free(chart_track *track);
 
 #endif

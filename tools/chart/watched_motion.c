@@ -35,7 +35,7 @@ static sbf_status create(chart_motion *m, const chart_setting *setting, sbf_diag
 
 sbf_status chart_motion_open(
     chart_motion *m, const chart_scene *scene, const chart_setting *setting, sbf_diagnostic *error) {
-  *m = (chart_motion){.scene = *scene};
+  *m = (chart_motion){.scene = *scene, .scheme = setting->scheme};
   sbf_status status = create(m, setting, error);
   if (status != SBF_OK) return status;
   m->begin_size = sbr_world_snapshot_size(m->world);
@@ -160,13 +160,28 @@ static void read_health(const chart_motion *m, chart_track *track, uint32_t tick
   snprintf(track->why, sizeof track->why, "%s (%.40s, tick %u)", why, of, (unsigned)tick);
 }
 
+/* That a pass looks at: each once, but for relaxation, which goes to structural and shear springs from
+ * either end, and to none of flexion. */
+static double visits_a_pass(sbf_scheme scheme, const sbf_soft_body *body) {
+  const sbf_level *level = body->levels.count ? &body->levels.at[0] : NULL;
+  if (level && scheme == SBF_SCHEME_AUTOMATIC) scheme = level->simulation.scheme;
+  if (!level || scheme != SBF_SCHEME_RELAXATION) return chart_elements_of(body);
+  double sum = 0;
+  for (uint32_t s = 0; s < level->springs.count; s++) {
+    const sbf_spring_set *set = &level->springs.at[s];
+    bool twice = set->kind == SBF_SPRING_KIND_STRUCTURAL || set->kind == SBF_SPRING_KIND_SHEAR;
+    sum += (twice ? 2.0 : set->kind == SBF_SPRING_KIND_INTERNAL ? 1.0 : 0.0) * set->ends.count;
+  }
+  return sum;
+}
+
 /* Since the character was made, of all bodies. */
 static double visits_until_now(const chart_motion *m) {
   const sbf_asset *asset = m->scene.asset;
   double sum = 0;
   for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
-    sum += (double)sbr_character_passes(m->world, m->character, b) *
-           chart_elements_of(&asset->soft_bodies.at[b]);
+    sum +=
+        sbr_character_passes(m->world, m->character, b) * visits_a_pass(m->scheme, &asset->soft_bodies.at[b]);
   return sum;
 }
 
@@ -175,12 +190,14 @@ bool chart_motion_look(chart_motion *m, chart_track *track) {
   if (!chart_track_make(track, m->scene.ticks, count)) return false;
   sbr_world_snapshot_restore(m->world, m->begin, m->begin_size);
   double before = visits_until_now(m);
-  for (uint32_t t = 0; t < m->scene.ticks; t++) {
-    advance(m, t);
-    read_places(m, track->places + (size_t)t * count, count);
-    read_health(m, track, t);
+  uint32_t ticks = 0;
+  for (; ticks < m->scene.ticks && (track->sound || !m->scene.stop_broken); ticks++) {
+    if (m->scene.looked) m->scene.looked(m->scene.looked_user, sbr_model_substeps(m->model), ticks);
+    advance(m, ticks);
+    read_places(m, track->places + (size_t)ticks * count, count);
+    read_health(m, track, ticks);
   }
   double visits = visits_until_now(m) - before;
-  m->visits = visits > 0 ? visits / m->scene.ticks : NAN;
+  m->visits = visits > 0 ? visits / ticks : NAN;
   return true;
 }

@@ -27,6 +27,11 @@ typedef struct chart_scene {
                                                                                               be NULL */
   void (*begin)(void *user); /* before a character is made: puts back what `guide` changes; may be NULL */
   void *user;
+  /* Each tick as it is looked at, of a motion by so many substeps; may be NULL. */
+  void (*looked)(void *looked_user, uint32_t substeps, uint32_t tick);
+  void *looked_user;
+  bool stop_broken; /* looking ends with the tick in which something breaks; what the track has of those
+                       behind it is zeros */
 } chart_scene;
 
 typedef struct chart_setting {
@@ -38,6 +43,7 @@ typedef struct chart_setting {
 
 typedef struct chart_motion {
   chart_scene scene;
+  sbf_scheme scheme; /* that was asked for */
   sbr_model *model;
   sbr_world *world;
   sbr_character_id character;

@@ -59,14 +59,9 @@ static bool count_visits(const sweep *s, tune_trial *trial) {
   return true;
 }
 
-static sbf_status hold(sweep *s, tune_trial *trial) {
-  return tune_yardstick_hold(
-      s->yard, s->meshes->at[trial->mesh].asset, &trial->setting, &trial->error, s->error);
-}
-
 /* The runtime's own choice first: what looks at as many elements as that follows the same energy no better,
  * and is not tried. */
-static sbf_status try_mesh(sweep *s, uint32_t mesh) {
+static sbf_status plan_mesh(sweep *s, uint32_t mesh) {
   static const sbf_scheme others[] = {
       SBF_SCHEME_POSITION_BASED, SBF_SCHEME_BLOCK_DESCENT, SBF_SCHEME_SYMPLECTIC};
   enum { MOST_SUBSTEPS = 64 };
@@ -74,20 +69,68 @@ static sbf_status try_mesh(sweep *s, uint32_t mesh) {
   if (!own) return no_memory(s);
   if (!count_visits(s, own)) return SBF_OK;
   double most = own->visits;
-  sbf_status status = hold(s, own);
-  for (int i = 0; status == SBF_OK && !s->effort->own_scheme_alone && i < 3; i++)
-    for (uint32_t n = 1; status == SBF_OK && n <= MOST_SUBSTEPS; n *= 2) {
+  for (int i = 0; !s->effort->own_scheme_alone && i < 3; i++)
+    for (uint32_t n = 1; n <= MOST_SUBSTEPS; n *= 2) {
       tune_trial *one = add(s, mesh, &(chart_setting){.scheme = others[i], .substeps = n});
       if (!one) return no_memory(s);
-      bool counted = count_visits(s, one);
-      if (!counted) break;
+      if (!count_visits(s, one)) break;
       if (one->visits >= most) {
         s->to->count--;
         break;
       }
-      status = hold(s, one);
     }
+  return SBF_OK;
+}
+
+static double order_of(const tune_trial *trial) {
+  return trial->refused ? INFINITY : trial->visits;
+}
+
+/* Of as many visits those that were planned first. */
+static void sort(tune_trials *t) {
+  for (uint32_t i = 1; i < t->count; i++) {
+    tune_trial one = t->at[i];
+    uint32_t at = i;
+    for (; at > 0 && order_of(&t->at[at - 1]) > order_of(&one); at--) t->at[at] = t->at[at - 1];
+    t->at[at] = one;
+  }
+}
+
+sbf_status tune_trials_plan(
+    const tune_meshes *meshes, const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error) {
+  sweep s = {.meshes = meshes, .effort = effort, .to = trials, .error = error};
+  sbf_status status = SBF_OK;
+  *trials = (tune_trials){.at = NULL};
+  for (uint32_t i = 0; status == SBF_OK && i < meshes->count; i++) status = plan_mesh(&s, i);
+  sort(trials);
   return status;
+}
+
+static sbf_status hold_all(sweep *s) {
+  tune_trials *t = s->to;
+  tune_bar bar = {.error_m = INFINITY, .by_rms = s->effort->by_rms};
+  double all = 0, done = 0;
+  sbf_status status = SBF_OK;
+  for (uint32_t i = 0; i < t->count; i++) all += t->at[i].refused ? 0 : t->at[i].visits;
+  for (uint32_t i = 0; status == SBF_OK && i < t->count && !t->at[i].refused; i++) {
+    tune_trial *trial = &t->at[i];
+    tune_error *is = &trial->error;
+    tell(s, "errors", done / all);
+    status =
+        tune_yardstick_hold(s->yard, s->meshes->at[trial->mesh].asset, &trial->setting, &bar, is, s->error);
+    done += trial->visits;
+    if (status != SBF_OK || !is->sound) continue;
+    bar.first = is->worst_number;
+    if (!is->beaten) bar.error_m = fmin(bar.error_m, tune_error_of(is, bar.by_rms));
+  }
+  return status;
+}
+
+/* Of what the file has as it is. */
+static const char *why_not(const sweep *s) {
+  uint32_t i = 0;
+  while (s->to->at[i].mesh != 0 || s->to->at[i].setting.scheme != SBF_SCHEME_AUTOMATIC) i++;
+  return s->to->at[i].error.why;
 }
 
 static sbf_status find_front(sweep *s) {
@@ -99,7 +142,7 @@ static sbf_status find_front(sweep *s) {
     return no_memory(s);
   }
   for (uint32_t i = 0; i < t->count; i++) {
-    bool counts = !t->at[i].refused && t->at[i].error.sound;
+    bool counts = !t->at[i].refused && t->at[i].error.sound && !t->at[i].error.beaten;
     points[i] =
         (chart_point){counts ? t->at[i].visits : NAN, tune_error_of(&t->at[i].error, s->effort->by_rms)};
   }
@@ -111,7 +154,7 @@ static sbf_status find_front(sweep *s) {
       "nothing that was tried holds through its walk, hop and shake, what it has now not either (%s): make "
       "it "
       "stiffer or finer, sbfmt chart shows what holds",
-      t->at[0].error.why);
+      why_not(s));
   return SBF_BAD_INPUT;
 }
 
@@ -147,12 +190,7 @@ static sbf_status time_front(sweep *s) {
 sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard, const tune_effort *effort,
     tune_trials *trials, sbf_diagnostic *error) {
   sweep s = {.meshes = meshes, .yard = yard, .effort = effort, .to = trials, .error = error};
-  sbf_status status = SBF_OK;
-  *trials = (tune_trials){.at = NULL};
-  for (uint32_t i = 0; status == SBF_OK && i < meshes->count; i++) {
-    tell(&s, "errors", (double)i / meshes->count);
-    status = try_mesh(&s, i);
-  }
+  sbf_status status = hold_all(&s);
   if (status == SBF_OK) status = find_front(&s);
   if (status == SBF_OK) status = time_front(&s);
   return status;

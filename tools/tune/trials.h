@@ -1,5 +1,6 @@
 /* The sweep: every mesh by the runtime's own choice, and by other schemes where those look at fewer elements.
- */
+ * The cheapest go first, so that what is farther off than one of them, in whatever motion, need not be looked
+ * at any longer. */
 #ifndef TUNE_TRIALS_H
 #define TUNE_TRIALS_H
 
@@ -20,8 +21,8 @@ typedef struct tune_trial {
 
 typedef struct tune_trials {
   tune_trial *at;
-  uint32_t count, room;
-  uint32_t *front; /* numbers, the cheapest first */
+  uint32_t count, room; /* in order of visits; what is refused behind */
+  uint32_t *front;      /* numbers, the cheapest first */
   uint32_t front_count;
 } tune_trials;
 
@@ -33,13 +34,12 @@ typedef struct tune_effort {
   void *user;
 } tune_effort;
 
-/* Free with tune_trials_free, also on failure. What is refused or breaks is a trial like any other. */
+/* What is to be tried, and its visits. Free with tune_trials_free, also on failure. */
+sbf_status tune_trials_plan(
+    const tune_meshes *meshes, const tune_effort *effort, tune_trials *trials, sbf_diagnostic *error);
+/* Tries it. What is refused or breaks is a trial like any other. */
 sbf_status tune_trials_run(const tune_meshes *meshes, const tune_yardstick *yard, const tune_effort *effort,
     tune_trials *trials, sbf_diagnostic *error);
 void tune_trials_free(tune_trials *trials);
-
-static inline double tune_error_of(const tune_error *error, bool by_rms) {
-  return by_rms ? error->rms_m : error->most_m;
-}
 
 #endif

@@ -10,6 +10,8 @@
 static const double TICK_S = 1.0 / 60;
 /* Farther off than this share of the character's size is no level but a failure. */
 static const double LOST = 0.05;
+/* A reference that is off itself by more than this share of it tells nothing. */
+static const double TELLS = 0.005;
 
 static double size_of(const sbf_asset *asset) {
   sbf_asset_measures is;
@@ -19,32 +21,55 @@ static double size_of(const sbf_asset *asset) {
   return sqrt(x * x + y * y + z * z);
 }
 
+typedef struct finding {
+  const tune_measure *measure;
+  const char *motion;
+  uint32_t ticks;
+} finding;
+
+static void show(void *user, uint32_t substeps, uint32_t tick) {
+  const finding *f = user;
+  f->measure->progress(f->measure->user, f->motion, substeps, (double)tick / f->ticks);
+}
+
+/* What it is off itself counts where something is measured by it. */
+static void judge(tune_yardstick *yard, int number, bool by_rms) {
+  const chart_reference *stated = &yard->stated[number];
+  double rms = stated->errors[CHART_PATH], most = stated->errors[CHART_FARTHEST], is = by_rms ? rms : most;
+  if (!(is < TELLS * yard->size_m)) {
+    snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number],
+        "the reference is off itself by %.2g m%s: half as many substeps are so far from it", is,
+        by_rms ? "" : " at the worst place");
+    return;
+  }
+  yard->rms_m = fmax(yard->rms_m, rms);
+  yard->most_m = fmax(yard->most_m, most);
+}
+
 /* SBF_OK with `unmeasured` said, where the reference does not hold. */
-static sbf_status find_truth(
-    tune_yardstick *yard, int number, const sbf_asset *reference, sbf_diagnostic *error) {
-  const chart_scene scene = chart_scene_of(&yard->cases[number], reference);
-  chart_reference *stated = &yard->stated[number];
+static sbf_status find_truth(tune_yardstick *yard, int number, const sbf_asset *reference,
+    const tune_measure *measure, sbf_diagnostic *error) {
+  finding f = {measure, yard->cases[number].name, yard->cases[number].ticks};
+  chart_scene scene = chart_scene_of(&yard->cases[number], reference);
+  if (measure->progress) scene.looked = show, scene.looked_user = &f;
   if (!yard->rest) yard->rest = chart_motion_begins(&scene);
   if (!yard->rest) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
-  sbf_status status =
-      chart_truth_find_mesh(&yard->truths[number], &yard->cases[number], &scene, yard->rest, stated, error);
-  if (status == SBF_OK) {
-    yard->rms_m = fmax(yard->rms_m, stated->errors[CHART_PATH]);
-    yard->most_m = fmax(yard->most_m, stated->errors[CHART_FARTHEST]);
-  }
+  sbf_status status = chart_truth_find_mesh(
+      &yard->truths[number], &yard->cases[number], &scene, yard->rest, &yard->stated[number], error);
+  if (status == SBF_OK) judge(yard, number, measure->by_rms);
   if (status == SBF_OK || error->code != SBF_CODE_BAD_CALL) return status;
   snprintf(yard->unmeasured[number], sizeof yard->unmeasured[number], "%.180s", error->message);
+  yard->broken[number] = true;
   return SBF_OK;
 }
 
-sbf_status tune_yardstick_make(tune_yardstick *yard, const sbf_asset *reference, const chart_drive *drive,
-    void (*progress)(void *user, double share), void *user, sbf_diagnostic *error) {
+sbf_status tune_yardstick_make(
+    tune_yardstick *yard, const sbf_asset *reference, const tune_measure *measure, sbf_diagnostic *error) {
   *yard = (tune_yardstick){.size_m = size_of(reference)};
-  sbf_status status = chart_bundle_cases(reference, drive, &yard->bundle, yard->cases, error);
+  sbf_status status = chart_bundle_cases(reference, measure->drive, &yard->bundle, yard->cases, error);
   uint32_t measured = 0;
   for (int i = 0; status == SBF_OK && i < CHART_BUNDLE_CASES; i++) {
-    if (progress) progress(user, (double)i / CHART_BUNDLE_CASES);
-    status = find_truth(yard, i, reference, error);
+    status = find_truth(yard, i, reference, measure, error);
     measured += !yard->unmeasured[i][0];
   }
   if (status != SBF_OK || measured) return status;
@@ -68,38 +93,47 @@ static void fail(tune_error *is, const char *motion, const char *why) {
 static sbf_status look(const tune_yardstick *yard, int number, const sbf_asset *asset,
     const chart_setting *setting, tune_error *is, sbf_diagnostic *error) {
   const chart_case *motion_case = &yard->cases[number];
-  const chart_scene scene = chart_scene_of(motion_case, asset);
+  chart_scene scene = chart_scene_of(motion_case, asset);
   chart_motion motion;
   chart_track track = {.ticks = 0};
   double errors[CHART_AXIS_COUNT];
   sbf_diagnostic refusal;
+  scene.stop_broken = true;
   sbf_status status = chart_motion_open(&motion, &scene, setting, &refusal);
   if (status != SBF_OK) {
     chart_motion_close(&motion);
     fail(is, motion_case->name, refusal.message);
     return SBF_OK;
   }
-  bool good =
-      chart_motion_look(&motion, &track) && chart_errors_of(&track, &yard->truths[number].track, yard->rest,
-                                                TICK_S, &motion_case->signal, motion_case->axes, errors);
+  bool good = chart_motion_look(&motion, &track);
   chart_motion_close(&motion);
   if (good && !track.sound) fail(is, motion_case->name, track.why);
-  if (good && is->sound && !(errors[CHART_FARTHEST] < LOST * yard->size_m))
+  bool told = good && is->sound && !yard->unmeasured[number][0];
+  if (told)
+    good = chart_errors_of(&track, &yard->truths[number].track, yard->rest, TICK_S, &motion_case->signal,
+        motion_case->axes, errors);
+  chart_track_free(&track);
+  if (!good) return fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a motion");
+  if (told && !(errors[CHART_FARTHEST] < LOST * yard->size_m)) {
     fail(is, motion_case->name, "farther off than a twentieth of its size");
-  if (good && is->sound) {
-    if (!is->worst || errors[CHART_FARTHEST] > is->most_m) is->worst = motion_case->name;
+  } else if (told) {
+    if (!is->worst || errors[CHART_FARTHEST] > is->most_m)
+      is->worst = motion_case->name, is->worst_number = number;
     is->rms_m = fmax(is->rms_m, errors[CHART_PATH]);
     is->most_m = fmax(is->most_m, errors[CHART_FARTHEST]);
   }
-  chart_track_free(&track);
-  return good ? SBF_OK : fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a motion");
+  return SBF_OK;
 }
 
 sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asset,
-    const chart_setting *setting, tune_error *is, sbf_diagnostic *error) {
+    const chart_setting *setting, const tune_bar *bar, tune_error *is, sbf_diagnostic *error) {
   sbf_status status = SBF_OK;
   *is = (tune_error){.sound = true};
-  for (int i = 0; status == SBF_OK && is->sound && i < CHART_BUNDLE_CASES; i++)
-    if (!yard->unmeasured[i][0]) status = look(yard, i, asset, setting, is, error);
+  for (int i = 0; status == SBF_OK && is->sound && !is->beaten && i < CHART_BUNDLE_CASES; i++) {
+    int number = ((bar ? bar->first : 0) + i) % CHART_BUNDLE_CASES;
+    if (!yard->broken[number]) status = look(yard, number, asset, setting, is, error);
+    is->beaten =
+        bar && is->sound && i + 1 < CHART_BUNDLE_CASES && !(tune_error_of(is, bar->by_rms) < bar->error_m);
+  }
   return status;
 }

@@ -11,7 +11,8 @@ typedef struct tune_yardstick {
   chart_case cases[CHART_BUNDLE_CASES];
   chart_truth truths[CHART_BUNDLE_CASES];
   chart_reference stated[CHART_BUNDLE_CASES];
-  char unmeasured[CHART_BUNDLE_CASES][192]; /* why there is no reference for a motion; empty: there is */
+  char unmeasured[CHART_BUNDLE_CASES][192]; /* why nothing is measured by a motion; empty: it is */
+  bool broken[CHART_BUNDLE_CASES];          /* of those: the reference breaks; else what breaks is told */
   sbf_vec3 *rest;
   double size_m;        /* of the character */
   double rms_m, most_m; /* that the reference is off itself by its steps, at most */
@@ -20,19 +21,43 @@ typedef struct tune_yardstick {
 typedef struct tune_error {
   double rms_m, most_m; /* over the vertices and ticks of the motion where each is greatest */
   const char *worst;    /* the motion in which one is off by most */
+  int worst_number;     /* of it */
   bool sound;
-  char why[128]; /* it is not */
+  bool beaten;   /* no motion was tried after that in which it was; errors are those until then */
+  char why[128]; /* it is not sound */
 } tune_error;
 
-/* A motion in which the reference itself breaks is left out; SBF_FAILED where all are.
- * `progress` (may be NULL) is told the share that is done. Does not move while it is in use; free it with
- * tune_yardstick_free, also on failure. `reference` must stay. */
-sbf_status tune_yardstick_make(tune_yardstick *yard, const sbf_asset *reference, const chart_drive *drive,
-    void (*progress)(void *user, double share), void *user, sbf_diagnostic *error);
+static inline double tune_error_of(const tune_error *error, bool by_rms) {
+  return by_rms ? error->rms_m : error->most_m;
+}
+
+/* What is to be measured by it. */
+typedef struct tune_measure {
+  const chart_drive *drive; /* NULL: the usual one */
+  bool by_rms;              /* errors are told by their root of the mean square, not by the greatest */
+  void (*progress)(
+      void *user, const char *motion, uint32_t substeps, double share); /* may be NULL: of one look
+                                                                           at the reference */
+  void *user;
+} tune_measure;
+
+/* Nothing is measured by a motion in which the reference itself breaks, or is off itself by so much that it
+ * tells nothing: a two-hundredth of the character's size; SBF_FAILED where that is so in all. Does not move
+ * while it is in use; free it with tune_yardstick_free, also on failure. `reference` must stay. */
+sbf_status tune_yardstick_make(
+    tune_yardstick *yard, const sbf_asset *reference, const tune_measure *measure, sbf_diagnostic *error);
 void tune_yardstick_free(tune_yardstick *yard);
 
-/* A character with the reference's skin. What the runtime refuses is not sound; failures are memory. */
+/* When to stop looking at a character. */
+typedef struct tune_bar {
+  double error_m; /* farther off it is beaten */
+  bool by_rms;
+  int first; /* the motion to begin with */
+} tune_bar;
+
+/* A character with the reference's skin. What the runtime refuses is not sound; failures are memory. `bar`
+ * NULL: it is looked at through all motions. */
 sbf_status tune_yardstick_hold(const tune_yardstick *yard, const sbf_asset *asset,
-    const chart_setting *setting, tune_error *is, sbf_diagnostic *error);
+    const chart_setting *setting, const tune_bar *bar, tune_error *is, sbf_diagnostic *error);
 
 #endif

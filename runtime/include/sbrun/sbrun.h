@@ -332,7 +332,9 @@ SBF_API sbr_body_health sbr_character_health(
 /* How often all elements of a body, and of those that hang together with it, have been looked at since it was
  * made: what its motion costs, on any machine. Once a substep by most schemes; twice
  * by heun, three times where springs are damped; by block_descent in each of its sweeps, from each end of an
- * element. Counts on from 2^32 - 1 to 0. Part of the state. 0: there is no such body, or it is not stepped.
+ * element; once a tick by relaxation, in which it goes to structural and shear springs from either end and to
+ * none of flexion. Counts on from 2^32 - 1 to 0. Part of the state. 0: there is no such body, or it is not
+ * stepped.
  */
 SBF_API uint32_t sbr_character_passes(const sbr_world *world, sbr_character_id character, uint32_t soft_body);
 /* The most substeps of a tick that a body at rest and of scale 1 needs. */

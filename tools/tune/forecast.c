@@ -1,0 +1,56 @@
+#include "tune/forecast.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "chart/rounds.h"
+#include "render/fault.h"
+
+/* Drives: that which it is tuned by, and another. Looks at the reference by so many times the substeps it
+ * needs: 2 and 4, and 8 where it is refined. */
+enum { DRIVES = 2, LOOKED_TICKS = 3, LOOKS = 6, REFINED_LOOKS = 14 };
+/* Of what is tried, that which is sound to the end of a motion and not beaten there. */
+static const double LAST = 0.15;
+
+sbf_status tune_forecast_make(
+    const tune_meshes *meshes, const tune_trials *planned, tune_forecast *forecast, sbf_diagnostic *error) {
+  const chart_setting setting = {.scheme = SBF_SCHEME_SYMPLECTIC};
+  chart_bundle bundle;
+  chart_case cases[CHART_BUNDLE_CASES];
+  chart_motion motion = {.begin = NULL};
+  *forecast = (tune_forecast){0, 0};
+  sbf_status status = chart_bundle_cases(meshes->reference.asset, NULL, &bundle, cases, error);
+  if (status != SBF_OK) return status;
+  chart_scene scene = chart_scene_of(&cases[0], meshes->reference.asset);
+  double ticks = scene.ticks * (double)CHART_BUNDLE_CASES, tried = 0;
+  scene.ticks = LOOKED_TICKS;
+  status = chart_motion_open(&motion, &scene, &setting, error);
+  if (status == SBF_OK) {
+    chart_track track;
+    chart_motion_run(&motion); /* what is used for the first time is slower */
+    double begin = chart_now_s();
+    if (chart_motion_look(&motion, &track))
+      chart_track_free(&track);
+    else
+      status = fault_set(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out for a reference");
+    double tick_s = (chart_now_s() - begin) / LOOKED_TICKS;
+    double visit_s = tick_s / fmax(chart_visits_of(motion.model, meshes->reference.asset, &setting), 1);
+    for (uint32_t i = 0; i < planned->count; i++)
+      if (!planned->at[i].refused) tried += planned->at[i].element_visits;
+    forecast->least_s = ticks * (DRIVES * LOOKS * tick_s + LAST * tried * visit_s);
+    forecast->most_s = ticks * (DRIVES * REFINED_LOOKS * tick_s + tried * visit_s);
+  }
+  chart_motion_close(&motion);
+  return status;
+}
+
+void tune_forecast_say(const tune_forecast *forecast, char *text, size_t size) {
+  bool minutes = forecast->most_s > 100;
+  double unit = minutes ? 60 : 1, least = ceil(forecast->least_s / unit),
+         most = ceil(forecast->most_s / unit);
+  const char *name = minutes ? "minutes" : most > 1 ? "seconds" : "second";
+  if (least < most)
+    snprintf(text, size, "%.0f to %.0f %s", least, most, name);
+  else
+    snprintf(text, size, "%.0f %s", most, name);
+}
