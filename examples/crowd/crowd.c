@@ -102,7 +102,7 @@ int main(int argc, char **argv) {
   memset(&options, 0, sizeof options);
   options.ladder = true;
   if (sbr_model_create(asset, &options, &model, &error) != SBF_OK) return failed(&error);
-  sbr_model_rungs(model, c.rungs, 16);
+  uint32_t rungs = sbr_model_rungs(model, c.rungs, 16);
   sbr_world_definition definition = sbr_default_world_definition();
   definition.character_capacity = c.count;
   if (sbr_world_create(&definition, &c.world, &error) != SBF_OK) return failed(&error);
@@ -111,6 +111,7 @@ int main(int argc, char **argv) {
   if (sbr_world_detail(c.world, &detail, &error) != SBF_OK) return failed(&error);
   for (uint32_t i = 0; i < c.count; i++) {
     sbr_character_definition at = crowd_place(i);
+    at.rung = rungs > 1 ? rungs - 2 : 0; /* bones: memory and time are for those who turn out to be near */
     if (sbr_character_create(c.world, model, &at, &c.ids[i], &error) != SBF_OK) return failed(&error);
     crowd_drive(c.world, c.ids[i], i);
   }

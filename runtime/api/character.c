@@ -70,34 +70,32 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: the world holds its %u characters already: raise character_capacity",
         world->character_capacity);
-  unsigned char *state = sbfi_allocate(&world->allocator, model->layout.state_size);
-  unsigned char *scratch = sbfi_allocate(&world->allocator, model->layout.scratch_size);
-  if (!state || !scratch || !reserve_work(world, model->most_islands) ||
-      !sbri_meetings_reserve(world, model)) {
-    sbfi_free(&world->allocator, state, model->layout.state_size);
-    sbfi_free(&world->allocator, scratch, model->layout.scratch_size);
+  uint32_t rung = definition->rung < model->rung_count ? definition->rung : model->rung_count - 1;
+  sbri_room room;
+  if (!sbri_room_make(&world->allocator, model->rungs[rung], &room))
+    return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
+  if (!reserve_work(world, model->most_islands) || !sbri_meetings_reserve(world, model)) {
+    sbri_room_free(&world->allocator, &room);
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character");
   }
-  memset(state, 0, model->layout.state_size);
-  memset(scratch, 0, model->layout.scratch_size);
   sbri_character *c = &world->characters[index];
-  *c = (sbri_character){.model = model,
-      .generation = (c->generation + 1) & 0xffff,
+  *c = (sbri_character){.generation = (c->generation + 1) & 0xffff,
       .hold = definition->hold,
       .scale = definition->scale,
       .time_scale = 1 / sqrtf(definition->scale),
       .ground = definition->ground.height ? definition->ground : world->ground,
-      .state = state,
-      .scratch = scratch};
+      .spare = room};
+  sbri_room_swap(c);
   if (!sbri_meet_surfaces_make(world, index)) {
-    sbfi_free(&world->allocator, state, model->layout.state_size);
-    sbfi_free(&world->allocator, scratch, model->layout.scratch_size);
+    sbri_room_free(&world->allocator, &room);
     c->model = NULL;
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for a character's surfaces");
   }
+  sbri_head(c)->rung = sbri_head(c)->next_rung = rung;
   sbri_head(c)->rung_ticks = UINT32_MAX; /* it has not ticked: it may go over to any other at once */
   put(world, c, definition->position, definition->heading);
   sbri_rigid_place(c, true);
+  sbri_jiggles_place(c);
   sbri_mend(c);
   sbri_place_at_rest(c);
   sbri_work_list(world);
@@ -113,8 +111,9 @@ void sbr_character_destroy(sbr_world *world, sbr_character_id character) {
   sbri_record(world, SBRI_RECORDED_DESTROY, (const double[]){character.value});
   sbri_meet_surfaces_free(world, (uint32_t)(c - world->characters));
   sbri_meet_forget(world, (uint32_t)(c - world->characters));
-  sbfi_free(&world->allocator, c->state, c->model->layout.state_size);
-  sbfi_free(&world->allocator, c->scratch, c->model->layout.scratch_size);
+  sbri_rigid_work_free(&world->allocator, c);
+  sbri_room_free(&world->allocator, &(sbri_room){c->model, c->state, c->scratch});
+  sbri_room_free(&world->allocator, &c->spare);
   *c = (sbri_character){.generation = c->generation};
   sbri_work_list(world);
 }

@@ -16,7 +16,6 @@ static bool make(sbr_world *world, uint32_t touches) {
   all->all_surfaces = sbfi_allocate(a, characters * sizeof *all->all_surfaces);
   all->hulls = sbfi_allocate(a, characters * sizeof *all->hulls);
   all->together = sbfi_allocate(a, characters * sizeof *all->together);
-  all->kept = sbfi_allocate(a, characters * sizeof *all->kept);
   all->group_of = sbfi_allocate(a, characters * sizeof *all->group_of);
   all->members = sbfi_allocate(a, characters * sizeof *all->members);
   all->groups = sbfi_allocate(a, characters * sizeof *all->groups);
@@ -33,7 +32,7 @@ static bool make(sbr_world *world, uint32_t touches) {
     all->found_memories[i] = UINT32_MAX;
   for (size_t i = 0; all->surfaces && i < characters; i++) all->surfaces[i] = NULL;
   for (size_t i = 0; all->all_surfaces && i < characters; i++) all->all_surfaces[i] = NULL;
-  bool good = all->arenas && all->surfaces && all->all_surfaces && all->hulls && all->together && all->kept &&
+  bool good = all->arenas && all->surfaces && all->all_surfaces && all->hulls && all->together &&
               all->group_of && all->members && all->groups && all->pairs && all->touches && all->rows &&
               all->memories && all->next_memories && all->contacts && all->next_contacts &&
               all->found_memories && sbri_meetings_reserve(world, NULL);

@@ -25,7 +25,7 @@ size_t sbr_world_snapshot_size(const sbr_world *world) {
   if (world) size += sbri_meet_memory_size(world);
   for (uint32_t i = 0; world && i < world->character_capacity; i++)
     if (world->characters[i].model)
-      size += sizeof(snapshot_part) + world->characters[i].model->layout.state_size;
+      size += sizeof(snapshot_part) + world->characters[i].model->base->most_state_size;
   return world ? size : 0;
 }
 
@@ -50,26 +50,46 @@ sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t s
     to += sizeof part + part.size;
   }
   sbri_meet_memory_save(world, to);
+  to += sbri_meet_memory_size(world);
+  memset(to, 0, size - (size_t)(to - (unsigned char *)bytes)); /* what other rungs would need */
   return SBF_OK;
 }
 
-/* Whether the snapshot is of this world with these characters; nothing is changed before that is known. */
-static bool fits(const sbr_world *world, const unsigned char *bytes, size_t size) {
+/* The model of the rung that a state is on; NULL: it is none of the character's, or does not lie within. */
+static const sbr_model *model_of(
+    const sbri_character *c, const snapshot_part *part, const unsigned char *state, size_t left) {
+  sbri_character_state head;
+  if (part->size < sizeof head || part->size > left) return NULL;
+  memcpy(&head, state, sizeof head);
+  const sbr_model *base = c->model->base;
+  const sbr_model *model = head.rung < base->rung_count ? base->rungs[head.rung] : NULL;
+  return model && part->size == model->layout.state_size ? model : NULL;
+}
+
+/* Whether the snapshot is of this world with these characters, and there is room for the rungs that they were
+ * on; nothing is changed before that is known. */
+static bool fits(sbr_world *world, const unsigned char *bytes, size_t size) {
+  const unsigned char *end = bytes + size;
   snapshot_head head;
   if (size != sbr_world_snapshot_size(world)) return false;
   memcpy(&head, bytes, sizeof head);
   if (head.magic != MAGIC || head.size != size || head.characters != count_characters(world)) return false;
   bytes += sizeof head;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
-    const sbri_character *c = &world->characters[i];
+    sbri_character *c = &world->characters[i];
     snapshot_part part;
     if (!c->model) continue;
+    if ((size_t)(end - bytes) < sizeof part) return false;
     memcpy(&part, bytes, sizeof part);
-    if (part.index != i || part.generation != c->generation || part.size != c->model->layout.state_size)
-      return false;
-    bytes += sizeof part + part.size;
+    bytes += sizeof part;
+    const sbr_model *model = model_of(c, &part, bytes, (size_t)(end - bytes));
+    if (part.index != i || part.generation != c->generation || !model) return false;
+    bytes += part.size;
+    if (model == c->model || model == c->spare.model) continue;
+    sbri_room_free(&world->allocator, &c->spare);
+    if (!sbri_room_make(&world->allocator, model, &c->spare)) return false;
   }
-  return true;
+  return sbri_meet_memory_size(world) <= (size_t)(end - bytes);
 }
 
 sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_t size) {
@@ -83,13 +103,13 @@ sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_
   from += sizeof head;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     sbri_character *c = &world->characters[i];
+    snapshot_part part;
     if (!c->model) continue;
-    from += sizeof(snapshot_part);
-    memcpy(c->state, from, c->model->layout.state_size);
-    from += c->model->layout.state_size; /* of one size on all rungs */
-    const sbr_model *model = c->model->base->rungs[sbri_head(c)->rung];
-    if (model != c->model) memset(c->scratch, 0, model->layout.own_scratch_size);
-    c->model = model;
+    memcpy(&part, from, sizeof part);
+    from += sizeof part;
+    if (model_of(c, &part, from, part.size) != c->model) sbri_room_swap(c);
+    memcpy(c->state, from, part.size);
+    from += part.size;
     sbri_meet_surfaces_choose(world, i);
     sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   }

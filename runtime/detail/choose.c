@@ -3,11 +3,6 @@
  * what is allowed, and a while. Done by one thread, in the order of the characters. */
 #include "detail/choose.h"
 
-static uint32_t ticks_of(const sbr_world *world, float seconds) {
-  float ticks = seconds / (float)world->tick_s;
-  return !(ticks > 0) ? 0 : ticks < 1e9f ? (uint32_t)ticks : 1000000000u;
-}
-
 /* The coarsest that has a pose; of one that others may meet, that has bodies. */
 static uint32_t last_posed(const sbri_character *c) {
   const sbr_model *base = c->model->base;
@@ -23,10 +18,10 @@ static uint32_t rung_for(const sbr_world *world, const sbri_character *c, float 
   uint32_t last = last_posed(c), now = head->next_rung < last ? head->next_rung : last, found = 0;
   if (!(pixels > 0)) {
     float after = detail->is.away_after_s;
-    return !c->near && after >= 0 && head->unseen_ticks >= ticks_of(world, after) ? base->rung_count - 1
-                                                                                  : last;
+    return !c->near && after >= 0 && head->unseen_ticks >= sbri_ticks_of(world, after) ? base->rung_count - 1
+                                                                                       : last;
   }
-  bool may_coarsen = head->rung_ticks >= ticks_of(world, detail->is.stay_s);
+  bool may_coarsen = head->rung_ticks >= sbri_ticks_of(world, detail->is.stay_s);
   for (uint32_t r = 1; r <= last; r++) {
     float error = pixels * base->ladder[r].error_m;
     float most = r > now ? detail->is.settle * detail->is.error_px : detail->is.error_px;
@@ -73,7 +68,7 @@ void sbri_detail_choose(sbr_world *world) {
     uint32_t rung = detail->choices[i].rung;
     /* Where the budget is short two characters would take turns. */
     if (is_short && rung < head->rung && ladder[head->rung].kind != SBR_RUNG_AWAY &&
-        head->rung_ticks < ticks_of(world, detail->is.stay_s)) {
+        head->rung_ticks < sbri_ticks_of(world, detail->is.stay_s)) {
       visits += (double)ladder[head->rung].visits - (double)ladder[rung].visits;
       rung = head->rung;
     }

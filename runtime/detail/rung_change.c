@@ -52,46 +52,34 @@ static bool keep_soft(sbri_character *c, float tick_s) {
   return moves;
 }
 
-static void keep(sbri_character *c) {
-  const sbr_model *model = c->model;
-  memcpy(sbri_kept_state(c), c->state, model->layout.state_size);
-  memcpy(
-      sbri_kept_touching(c), sbri_soft_touching(c), model->asset->soft_bodies.count * sizeof(sbri_touching));
-  memcpy(
-      sbri_kept_rigid_touching(c), sbri_rigid_touching(c), model->rigid.body_count * sizeof(sbri_touching));
-}
-
 /* ---- What all rungs share ---- */
 
-static void take(sbri_character *c, size_t to, size_t from, size_t size) {
-  memcpy(c->state + to, sbri_kept_state(c) + from, size);
-}
-
-static void take_shared(sbri_character *c, const sbr_model *was) {
+static void take_shared(sbri_character *c, const sbri_character *was) {
   const sbr_model *is = c->model;
-  const sbri_layout *to = &is->layout, *from = &was->layout;
-  uint32_t frames = sbri_first_jiggle_frame(is);
-  memset(c->state + to->gait, 0, to->state_size - to->gait);
-  memset(c->scratch, 0, to->own_scratch_size);
-  take(c, to->gait, from->gait, sbri_gait_state_size(&is->rig));
-  take(c, to->pose, from->pose, frames * sizeof(sbr_transform));
-  take(c, to->previous_pose, from->previous_pose, frames * sizeof(sbr_transform));
-  take(c, to->rigid_bodies, from->rigid_bodies, is->rigid.body_count * sizeof(sbri_rigid_body_state));
-  take(c, to->rigid_joints, from->rigid_joints, is->rigid.joint_count * sizeof(sbri_rigid_joint_state));
-  take(c, to->rigid_drive, from->rigid_drive, is->rigid.body_count ? sizeof(sbri_rigid_drive_state) : 0);
-  memcpy(sbri_soft_touching(c), sbri_kept_touching(c), is->asset->soft_bodies.count * sizeof(sbri_touching));
-  memcpy(sbri_rigid_touching(c), sbri_kept_rigid_touching(c), is->rigid.body_count * sizeof(sbri_touching));
-  c->sampled_at = 0;
+  uint32_t frames = sbri_first_jiggle_frame(is), rigid = is->rigid.body_count;
+  uint32_t vertices = is->base->first_vertices[is->asset->render_meshes.count];
+  memcpy(sbri_head(c), sbri_head(was), sizeof(sbri_character_state));
+  memcpy(sbri_faded(c), sbri_faded(was), vertices * sizeof(sbri_going));
+  memcpy(sbri_gait(c), sbri_gait(was), sbri_gait_state_size(&is->rig));
+  memcpy(sbri_pose(c), sbri_pose(was), frames * sizeof(sbr_transform));
+  memcpy(sbri_previous_pose(c), sbri_previous_pose(was), frames * sizeof(sbr_transform));
+  memcpy(sbri_rigid_bodies(c), sbri_rigid_bodies(was), rigid * sizeof(sbri_rigid_body_state));
+  memcpy(
+      sbri_rigid_joints(c), sbri_rigid_joints(was), is->rigid.joint_count * sizeof(sbri_rigid_joint_state));
+  memcpy(sbri_rigid_drive(c), sbri_rigid_drive(was), rigid ? sizeof(sbri_rigid_drive_state) : 0);
+  memcpy(sbri_rigid_kept(c), sbri_rigid_kept(was),
+      sbri_rigid_touch_capacity(&is->rigid) * sizeof(sbri_kept_touch));
+  memcpy(
+      sbri_soft_touching(c), sbri_soft_touching(was), is->asset->soft_bodies.count * sizeof(sbri_touching));
+  memcpy(sbri_rigid_touching(c), sbri_rigid_touching(was), rigid * sizeof(sbri_touching));
 }
 
 /* What is told of an island goes on with the island that has its first body. */
-static void take_counts(sbri_character *c, const sbr_model *was) {
-  const sbri_island_state *kept =
-      (const sbri_island_state *)(const void *)(sbri_kept_state(c) + was->layout.islands);
+static void take_counts(sbri_character *c, const sbri_character *was) {
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     uint32_t body = c->model->islands[i].bodies[0];
-    if (!was->bodies[body].level) continue;
-    const sbri_island_state *from = &kept[was->bodies[body].island];
+    if (!was->model->bodies[body].level) continue;
+    const sbri_island_state *from = &sbri_island_states(was)[was->model->bodies[body].island];
     sbri_island_states(c)[i].recoveries = from->recoveries;
     sbri_island_states(c)[i].recovering = from->recovering;
     sbri_island_states(c)[i].passes = from->passes;
@@ -111,21 +99,23 @@ static sbf_vec3 mean_of(const sbri_sources *sources, const sbri_point *of) {
 }
 
 /* `share` of the shape before, and of how it moved, at its guides' places. */
-static void shape(sbri_character *c, const sbri_body *body, const sbri_sources *sources, float share) {
+static void shape(sbri_character *c, const sbri_character *was, const sbri_body *body,
+    const sbri_sources *sources, float share) {
   const sbri_island *island = &c->model->islands[body->island];
   sbri_point *positions = sbri_positions(c) + island->first_slot;
   sbri_guide_places(c->model, body, sbri_deltas(c), positions + body->slot_begin);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    sbf_vec3 off = mean_of(&sources[island->first_slot + slot], sbri_offsets(c));
+    sbf_vec3 off = mean_of(&sources[island->first_slot + slot], sbri_offsets(was));
     sbri_point *p = &positions[slot];
     *p = (sbri_point){p->x + share * off.x, p->y + share * off.y, p->z + share * off.z, 0};
   }
 }
 
-static void add_speeds(sbri_character *c, const sbri_body *body, const sbri_sources *sources) {
+static void add_speeds(
+    sbri_character *c, const sbri_character *was, const sbri_body *body, const sbri_sources *sources) {
   const sbri_island *island = &c->model->islands[body->island];
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    sbf_vec3 speed = mean_of(&sources[island->first_slot + slot], sbri_speeds(c));
+    sbf_vec3 speed = mean_of(&sources[island->first_slot + slot], sbri_speeds(was));
     float *v = velocity_of(c, island->first_slot + slot);
     v[0] += speed.x, v[SBRI_BLOCK] += speed.y, v[2 * SBRI_BLOCK] += speed.z;
   }
@@ -136,43 +126,43 @@ static double elastic_of(const sbr_world *world, const sbri_character *c, uint32
 }
 
 /* Energy goes with the square of a small strain. */
-static void shape_within(
-    const sbr_world *world, sbri_character *c, uint32_t index, const sbri_sources *sources, double most_j) {
+static void shape_within(const sbr_world *world, sbri_character *c, const sbri_character *was, uint32_t index,
+    const sbri_sources *sources) {
   const sbri_body *body = &c->model->bodies[index];
+  double most_j = sbri_energies(was)[index];
   float share = 1;
-  shape(c, body, sources, share);
+  shape(c, was, body, sources, share);
   for (int n = 0; n < ATTEMPTS && body->held; n++) {
     double now = elastic_of(world, c, index);
     if (!(now > most_j)) return;
     share *= n + 1 < ATTEMPTS ? 0.98f * (float)sqrt(most_j / now) : 0;
-    shape(c, body, sources, share);
+    shape(c, was, body, sources, share);
   }
 }
 
 /* ---- Jiggles ---- */
 
 /* How far and how fast the body's points were off their guides on average. */
-static void mean_offset(
-    const sbri_character *c, const sbr_model *was, uint32_t index, sbf_vec3 *offset, sbf_vec3 *speed) {
-  const sbri_body *body = &was->bodies[index];
+static void mean_offset(const sbri_character *was, uint32_t index, sbf_vec3 *offset, sbf_vec3 *speed) {
+  const sbri_body *body = &was->model->bodies[index];
   *offset = *speed = sbri_vec3(0, 0, 0);
   if (!body->level || body->slot_real_end == body->slot_begin) return;
   float share = 1 / (float)(body->slot_real_end - body->slot_begin);
+  uint32_t first = was->model->islands[body->island].first_slot;
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
-    const sbri_point *o = &sbri_offsets(c)[was->islands[body->island].first_slot + slot];
-    const sbri_point *v = &sbri_speeds(c)[was->islands[body->island].first_slot + slot];
+    const sbri_point *o = &sbri_offsets(was)[first + slot], *v = &sbri_speeds(was)[first + slot];
     *offset = sbri_add_scaled(*offset, sbri_vec3(o->x, o->y, o->z), share);
     *speed = sbri_add_scaled(*speed, sbri_vec3(v->x, v->y, v->z), share);
   }
 }
 
 /* Followers take that over, and go on as their bones go. */
-static void swing(sbri_character *c, const sbr_model *was, float tick_s) {
+static void swing(sbri_character *c, const sbri_character *was, float tick_s) {
   for (uint32_t j = 0; j < c->model->jiggle_count; j++) {
     const sbri_jiggle *jiggle = &c->model->jiggles[j];
     sbri_place_follower *follower = &sbri_jiggles(c)[j];
     sbf_vec3 offset, speed;
-    mean_offset(c, was, jiggle->body, &offset, &speed);
+    mean_offset(was, jiggle->body, &offset, &speed);
     sbr_transform before = sbri_delta_of(c, sbri_previous_pose(c), jiggle->carrier);
     sbf_vec3 middle = sbri_add(before.position, sbri_rotate(before.rotation, jiggle->middle));
     sbf_vec3 went = sbri_scale(sbri_sub(follower->followed, middle), 1 / tick_s);
@@ -185,44 +175,41 @@ static void swing(sbri_character *c, const sbr_model *was, float tick_s) {
 
 /* ---- All of it ---- */
 
-static void take_soft(const sbr_world *world, sbri_character *c, const sbr_model *was, uint32_t was_rung,
-    bool moves, const double *before_j, float tick_s) {
+static void take_soft(
+    const sbr_world *world, sbri_character *c, const sbri_character *was, bool moves, float tick_s) {
   const sbr_model *is = c->model;
-  const sbri_sources *sources = is->sources ? is->sources[was_rung] : NULL;
+  const sbri_sources *sources = is->sources ? is->sources[sbri_head(was)->rung] : NULL;
   for (uint32_t i = 0; i < is->island_count; i++) {
     sbri_island_place_at_rest(c, i);
     sbri_guides_go_on(c, &is->islands[i], tick_s);
   }
   for (uint32_t b = 0; sources && b < is->asset->soft_bodies.count; b++) {
-    if (!is->bodies[b].level || !was->bodies[b].level) continue;
-    shape_within(world, c, b, sources, before_j[b]);
-    add_speeds(c, &is->bodies[b], sources);
-    if (moves && !is->bodies[b].held && !was->bodies[b].held) sbri_body_go_on(c, was, b);
+    if (!is->bodies[b].level || !was->model->bodies[b].level) continue;
+    shape_within(world, c, was, b, sources);
+    add_speeds(c, was, &is->bodies[b], sources);
+    if (moves && !is->bodies[b].held && !was->model->bodies[b].held) sbri_body_go_on(c, was, b);
   }
 }
 
-static void go_over(const sbr_world *world, sbri_character *c, uint32_t rung) {
-  sbri_character_state *head = sbri_head(c);
-  const sbr_model *was = c->model, *is = was->base->rungs[rung];
-  uint32_t was_rung = head->rung;
+/* Into the spare room; what it had stays as it was, and is the spare one then. */
+static void go_over(const sbr_world *world, sbri_character *c) {
   float tick_s = (float)world->tick_s * c->time_scale;
   bool was_soft = sbri_rung_of(c)->kind == SBR_RUNG_SOFT;
-  double *before_j = sbri_energies(c);
-  for (uint32_t b = 0; was_soft && b < was->asset->soft_bodies.count; b++)
-    before_j[b] = elastic_of(world, c, b);
+  for (uint32_t b = 0; was_soft && b < c->model->asset->soft_bodies.count; b++)
+    sbri_energies(c)[b] = elastic_of(world, c, b);
   sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   bool moves = was_soft && keep_soft(c, tick_s);
-  keep(c);
-  c->model = is;
-  take_shared(c, was);
-  take_counts(c, was);
+  const sbri_character was = *c;
+  sbri_room_swap(c);
+  take_shared(c, &was);
+  take_counts(c, &was);
   sbri_jiggles_place(c);
-  swing(c, was, tick_s);
+  swing(c, &was, tick_s);
   sbri_deltas_make(c, sbri_previous_pose(c), 0, sbri_previous_deltas(c));
   sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c));
   sbri_mend(c);
-  take_soft(world, c, was, was_rung, moves, before_j, tick_s);
+  take_soft(world, c, &was, moves, tick_s);
 }
 
 /* Of what it swings by, what may be seen to jump where it swings on: measured, of what is shaken hard. */
@@ -254,25 +241,35 @@ static bool swings_too_far(const sbr_world *world, sbri_character *c, uint32_t r
          !(finer && (float)head->swing_ticks++ * (float)world->tick_s > most_s);
 }
 
+/* Where it goes, of what it is to be. */
+static uint32_t rung_ahead(const sbri_character *c) {
+  const sbr_model *base = c->model->base;
+  uint32_t rung = sbri_head(c)->next_rung, meets = sbri_last_that_meets(base);
+  if (base->ladder[rung].kind == SBR_RUNG_AWAY && !sbri_rigid_is_still(c))
+    rung--; /* what lies about, or falls, goes on doing so: bones alone */
+  return c->near && rung > meets ? meets : rung;
+}
+
+const sbr_model *sbri_rung_ahead(const sbri_character *c) {
+  return c->model->base->rungs[rung_ahead(c)];
+}
+
 void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   sbri_character_state *head = sbri_head(c);
-  uint32_t rung = head->next_rung;
   bool is_new = head->rung_ticks == UINT32_MAX; /* it has not ticked */
   head->rung_ticks = is_new ? LONG_TICKS : head->rung_ticks + (head->rung_ticks < LONG_TICKS);
-  if (c->model->base->ladder[rung].kind == SBR_RUNG_AWAY && !sbri_rigid_is_still(c))
-    rung--; /* what lies about, or falls, goes on doing so: bones alone */
-  uint32_t meets = sbri_last_that_meets(c->model->base);
-  bool must_meet = c->near && rung > meets;
-  if (must_meet) rung = meets;
-  bool kept = head->fade_kept > 0;
+  uint32_t rung = rung_ahead(c);
+  bool must_meet = c->near && head->next_rung > rung;
+  bool kept = head->fade_kept > 0, same = c->model == c->model->base->rungs[rung];
   if (rung == head->rung) {
     head->fade_kept = 0;
     return;
   }
+  if (!same && c->spare.model != c->model->base->rungs[rung]) return; /* there is no memory for it */
   bool coarser = rung > head->rung, chosen = world->detail && !head->set_rung_plus_1;
   if (coarser && chosen && head->fade_before > 0 && !world->detail->is_short)
     return; /* one after the other */
-  bool returns = sbri_is_away(c), same = c->model == c->model->base->rungs[rung];
+  bool returns = sbri_is_away(c);
   bool unseen = head->unseen_ticks > 0 || returns || (is_new && chosen), fades = !unseen && !same;
   if (fades && !kept && !must_meet) {
     sbri_fade_look(c);
@@ -287,7 +284,8 @@ void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   }
   head->fade_kept = head->swing_ticks = 0;
   if (returns) sbri_away_arrive(world, c);
-  if (!same) go_over(world, c, rung);
+  if (!same) go_over(world, c);
+  head = sbri_head(c);
   head->rung = rung;
   head->rung_ticks = 0;
   head->asleep = 0;

@@ -19,9 +19,17 @@ static inline uint32_t sbri_last_that_meets(const sbr_model *base) {
   return last;
 }
 
+static inline uint32_t sbri_ticks_of(const sbr_world *world, float seconds) {
+  float ticks = seconds / (float)world->tick_s;
+  return !(ticks > 0) ? 0 : ticks < 1e9f ? (uint32_t)ticks : 1000000000u;
+}
+
 /* ---- detail/rung_change.c ---- */
 
-/* At the beginning of a tick, before anything of it: goes over to `next_rung`, if that is another. */
+/* What `next_rung` will be for one who lies about, or must meet others. */
+const sbr_model *sbri_rung_ahead(const sbri_character *c);
+/* At the beginning of a tick, before anything of it: goes over to `next_rung`, if that is another and there
+ * is room for it. */
 void sbri_rung_change(const sbr_world *world, sbri_character *c);
 
 /* ---- detail/fade.c ---- */

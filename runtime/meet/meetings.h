@@ -184,7 +184,6 @@ typedef struct sbri_meetings {
   sbri_meet_surface **hulls;        /* (character_capacity) of each of its rigid bodies */
   uint8_t **together;        /* (character_capacity) an sbri_at_rest of each two of its soft bodies, then of
                                 each of these and each rigid one */
-  unsigned char **kept;      /* (character_capacity) room for its state */
   uint32_t *group_of;        /* (character_capacity) UINT32_MAX: it meets nobody */
   sbri_meet_member *members; /* (character_capacity) group after group */
   sbri_meet_group *groups;   /* (character_capacity) */

@@ -141,9 +141,7 @@ bool sbri_meet_surfaces_make(sbr_world *world, uint32_t character) {
   uint8_t *together = good ? sbfi_arena_allocate(arena, pairs + 1, 1) : NULL;
   good = together != NULL;
   if (good) note_together(world, character, surfaces, hulls, together, pairs);
-  unsigned char *kept = good ? sbfi_arena_allocate(arena, 1, model->layout.state_size) : NULL;
-  good = kept != NULL;
-  all->kept[character] = kept, all->together[character] = together, all->hulls[character] = hulls;
+  all->together[character] = together, all->hulls[character] = hulls;
   if (!good) {
     sbfi_arena_free(arena);
     return false;
@@ -210,7 +208,6 @@ void sbri_meetings_free(sbr_world *world) {
   sbfi_free(a, all->all_surfaces, characters * sizeof *all->all_surfaces);
   sbfi_free(a, all->hulls, characters * sizeof *all->hulls);
   sbfi_free(a, all->together, characters * sizeof *all->together);
-  sbfi_free(a, all->kept, characters * sizeof *all->kept);
   sbfi_free(a, all->group_of, characters * sizeof *all->group_of);
   sbfi_free(a, all->members, characters * sizeof *all->members);
   sbfi_free(a, all->groups, characters * sizeof *all->groups);

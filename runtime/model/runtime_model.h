@@ -298,7 +298,7 @@ typedef struct sbri_layout {
       thread_cells, thread_damping, thread_slack, thread_links, thread_blocks, skin_cells, bound_to,
       torn_polygons, rigid_bodies, rigid_joints, rigid_drive, rigid_kept, faded, jiggles, used_size,
       state_size;
-  size_t animated, rigid_targets, reactions, burdens, stepped_pose, rigid_work;
+  size_t animated, rigid_targets, reactions, burdens, stepped_pose, rigid_work_size;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
       near_ground;
   size_t element_forces;
@@ -307,8 +307,7 @@ typedef struct sbri_layout {
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
   size_t visits, queue, touched, owners, frayed;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
-      vertices, faces, sums, kept, kept_touching, kept_rigid_touching, offsets, speeds, energies, fading,
-      pulls, own_scratch_size, scratch_size;
+      vertices, faces, sums, offsets, speeds, energies, fading, pulls, scratch_size;
 } sbri_layout;
 
 struct sbfi_tetrahedron;
@@ -343,13 +342,14 @@ struct sbr_model {
   float rest_size_m; /* diagonal of the box of all bodies */
   sbri_layout layout;
   /* A model of several rungs is the first of them, and owns the others; all have the same frames but for
-   * those of jiggles, and states of one size. */
+   * those of jiggles. */
   sbr_rung_kind kind;             /* of what its tables are: soft, jiggle or bones */
   const struct sbr_model *base;   /* the first; of a model alone itself */
   struct sbr_model **rungs;       /* (rung_count) of the first; away has the tables of bones alone */
   sbr_rung *ladder;               /* (rung_count) likewise */
   uint32_t rung_count;            /* likewise */
   uint32_t most_islands;          /* likewise, of a rung */
+  size_t most_state_size;         /* likewise */
   const sbri_sources **sources;   /* (rung_count of the first) for each slot; NULL: not both are soft */
   const uint32_t *first_vertices; /* (asset->render_meshes.count + 1) of each mesh among all */
   const uint32_t *swings_with; /* (all of those) the body that a vertex swings with, or how many there are */

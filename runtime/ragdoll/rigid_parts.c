@@ -104,7 +104,7 @@ static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
       .tick_s = (float)world->tick_s * c->time_scale,
       .substeps = c->model->rigid_substeps,
       .touching = sbri_rigid_touching(c),
-      .work = sbri_rigid_work(c)};
+      .work = c->rigid_work};
 }
 
 bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigid_parts *parts) {
@@ -120,7 +120,7 @@ bool sbri_rigid_parts_begin(const sbr_world *world, sbri_character *c, sbri_rigi
   parts->coupled = (sbri_coupled){.world = world, .character = c, .animated = sbri_animated(c)};
   if (drive->asleep && (world->colliders.moving || is_moved(c) || !sbri_coupled_sleep(&parts->coupled)))
     drive->asleep = drive->quiet_ticks = 0, drive->calm_before = 0;
-  if (drive->asleep) {
+  if (drive->asleep || !c->rigid_work) {
     sbri_rigid_pose(c, sbri_animated(c), 1, 0, sbri_vec3(0, 0, 0), sbri_pose(c));
     return false;
   }

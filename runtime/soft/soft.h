@@ -37,9 +37,9 @@ void sbri_guides_go_on(sbri_character *c, const sbri_island *island, float tick_
 
 /* ---- soft/whole_motion.c ---- */
 
-/* What the body, of a character whose model was another and whose state then is kept, moves by as a rigid one
- * becomes what it moved by before: its momentum is the same, and it turns as fast. */
-void sbri_body_go_on(sbri_character *c, const sbr_model *was, uint32_t soft_body);
+/* What the body moves by as a rigid one becomes what it moved by as the character was on another rung: its
+ * momentum is the same, and it turns as fast. */
+void sbri_body_go_on(sbri_character *c, const sbri_character *was, uint32_t soft_body);
 
 /* ---- soft/island_tick.c ---- */
 

@@ -5,15 +5,12 @@
 
 /* Its angular momentum changes with its inertia: a coarse lattice has more mass far out, and to see it turn
  * slower would be worse than that (docs/detail.md). */
-void sbri_body_go_on(sbri_character *c, const sbr_model *was, uint32_t index) {
-  const sbri_body *body = &c->model->bodies[index], *old_body = &was->bodies[index];
-  const sbri_island *island = &c->model->islands[body->island], *old = &was->islands[old_body->island];
-  const unsigned char *kept = sbri_kept_state(c);
+void sbri_body_go_on(sbri_character *c, const sbri_character *was, uint32_t index) {
+  const sbri_body *body = &c->model->bodies[index], *old_body = &was->model->bodies[index];
+  const sbri_island *island = &c->model->islands[body->island], *old = &was->model->islands[old_body->island];
   const sbri_point *positions = sbri_positions(c) + island->first_slot,
-                   *old_positions =
-                       (const sbri_point *)(const void *)(kept + was->layout.positions) + old->first_slot;
-  const float *old_velocities =
-      (const float *)(const void *)(kept + was->layout.velocities) + 3 * (size_t)old->first_slot;
+                   *old_positions = sbri_positions(was) + old->first_slot;
+  const float *old_velocities = sbri_velocities(was) + 3 * (size_t)old->first_slot;
   if (island->scheme->forceless || old->scheme->forceless) return;
   sbri_rigid_motion went = sbri_rigid_motion_find(old, old_body, old_positions, old_velocities);
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;

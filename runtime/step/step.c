@@ -58,6 +58,7 @@ void sbri_step_tick(sbr_world *world) {
   sbri_colliders_begin_tick(&world->colliders);
   if (world->meetings) sbri_meet_near_find(world);
   if (world->detail) sbri_detail_choose(world);
+  sbri_rooms_tend(world);
   if (world->meetings) {
     run(world, change_rung, world->character_capacity);
     sbri_meet_pairs_find(world);

@@ -8,6 +8,12 @@
 
 void sbri_step_tick(sbr_world *world);
 
+/* ---- step/rooms.c ---- */
+
+/* When it is known who goes over to which rung, by one thread: memory for what this tick needs, and back what
+ * is of no use. */
+void sbri_rooms_tend(sbr_world *world);
+
 /* ---- step/rebase.c ---- */
 
 /* Moves the origin by whole metres to where the character is, and everything the other way. */

@@ -88,7 +88,7 @@ static void make_layout(sbr_model *model) {
   l->reactions = place(&end, model->rigid.body_count, sizeof(sbri_reaction));
   l->burdens = place(&end, model->rigid.body_count, sizeof(sbri_rigid_burden));
   l->stepped_pose = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
-  l->rigid_work = place(&end, sbri_rigid_work_size(&model->rigid), 1);
+  l->rigid_work_size = sbri_rigid_work_size(&model->rigid);
   l->gait_before = place(&end, 1, sbri_gait_state_size(&model->rig));
   l->targets = place(&end, slots, sizeof(sbri_point));
   l->guide_velocities = place(&end, 3 * slots, sizeof(float));
@@ -124,39 +124,25 @@ static void make_layout(sbr_model *model) {
   l->owners = place(&end, model->thread_cell_count ? 2 * slots : 0, sizeof(uint32_t));
   l->frayed = place(&end, model->thread_cell_count ? slots : 0, 1);
   l->surface_vertices = place(&end, surface, sizeof(sbri_point));
-  l->surface_forces = place(&end, surface, sizeof(sbri_point));
-  l->surface_velocities = place(&end, surface, sizeof(sbri_point));
-  l->surface_faces = place(&end, surface_faces, sizeof(sbri_point));
-  l->own_scratch_size = l->scratch_size = (end + 63) & ~(size_t)63;
+  bool steps = model->island_count > 0; /* the vertices alone are asked for without */
+  l->surface_forces = place(&end, steps ? surface : 0, sizeof(sbri_point));
+  l->surface_velocities = place(&end, steps ? surface : 0, sizeof(sbri_point));
+  l->surface_faces = place(&end, steps ? surface_faces : 0, sizeof(sbri_point));
+  if (base->rung_count > 1) {
+    size_t bodies = model->asset->soft_bodies.count;
+    l->offsets = l->begins, l->speeds = l->moves; /* between ticks nothing else is there */
+    l->energies = place(&end, bodies, sizeof(double));
+    l->fading = place(&end, padded(vertices), sizeof(sbri_point));
+    l->pulls = place(&end, bodies + 1, sizeof(float));
+  }
+  l->scratch_size = (end + 63) & ~(size_t)63;
 }
 
-/* All rungs take as much as the one that takes the most, and behind their scratch have room for what a change
- * of rungs keeps of the one before. */
 void sbri_layouts_make(sbr_model *model) {
-  size_t state = 0, scratch = 0, slots = 0, vertices = 0, bodies = model->asset->soft_bodies.count;
   for (uint32_t r = 0; r < model->rung_count; r++) {
     sbr_model *one = model->rungs[r];
     make_layout(one);
-    state = one->layout.state_size > state ? one->layout.state_size : state;
-    scratch = one->layout.scratch_size > scratch ? one->layout.scratch_size : scratch;
-    slots = one->slot_count > slots ? one->slot_count : slots;
-  }
-  for (uint32_t i = 0; i < model->skin_count; i++)
-    vertices =
-        padded(model->skins[i].vertex_count) > vertices ? padded(model->skins[i].vertex_count) : vertices;
-  for (uint32_t r = 0; r < model->rung_count; r++) {
-    sbri_layout *l = &model->rungs[r]->layout;
-    size_t end = scratch;
-    l->state_size = state, l->scratch_size = scratch;
-    if (model->rung_count == 1) continue;
-    l->kept = place(&end, 1, state);
-    l->kept_touching = place(&end, bodies, sizeof(sbri_touching));
-    l->kept_rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
-    l->offsets = place(&end, slots, sizeof(sbri_point));
-    l->speeds = place(&end, slots, sizeof(sbri_point));
-    l->energies = place(&end, bodies, sizeof(double));
-    l->fading = place(&end, vertices, sizeof(sbri_point));
-    l->pulls = place(&end, bodies + 1, sizeof(float));
-    l->scratch_size = (end + 63) & ~(size_t)63;
+    model->ladder[r].bytes = sbri_room_size(one);
+    if (one->layout.state_size > model->most_state_size) model->most_state_size = one->layout.state_size;
   }
 }

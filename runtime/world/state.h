@@ -68,8 +68,14 @@ typedef struct sbri_going {
   sbf_vec3 kept;       /* while a change is begun: where it was shown two ticks before that */
 } sbri_going;
 
+/* Memory for a rung: a state block and scratch behind it, each as its model lays them out. */
+typedef struct sbri_room {
+  const sbr_model *model; /* NULL: there is none */
+  unsigned char *state, *scratch;
+} sbri_room;
+
 typedef struct sbri_character {
-  const sbr_model *model; /* NULL: the place is free */
+  const sbr_model *model; /* of the rung that it is on; NULL: the place is free */
   uint32_t generation;
   bool hold;
   bool near; /* others are about that its bodies may have to meet: of this tick */
@@ -77,10 +83,26 @@ typedef struct sbri_character {
   float time_scale;  /* 1 / sqrt(scale): its own seconds in one of the world's */
   sbr_ground ground; /* that it stands on */
   unsigned char *state, *scratch;
-  uint64_t sampled_at;  /* stamp of the moment that `sampled` holds; 0: none */
-  uint32_t event_count; /* of the last tick */
+  sbri_room spare;        /* of the rung that it was on before, or is about to go over to */
+  uint32_t spare_ticks;   /* for which nothing has asked for that */
+  void *rigid_work;       /* (rigid_work_size) what simulated rigid parts are solved in; NULL: none are */
+  uint32_t rigid_ticks;   /* for which none have been */
+  uint32_t refused_ticks; /* until memory that there was not is asked for again */
+  uint64_t sampled_at;    /* stamp of the moment that `sampled` holds; 0: none */
+  uint32_t event_count;   /* of the last tick */
   sbri_gait_event events[SBRI_TICK_EVENTS];
 } sbri_character;
+
+/* ---- world/room.c ---- */
+
+/* Bytes of a room. */
+size_t sbri_room_size(const sbr_model *model);
+/* Room for the model, of any content; false: memory has run out. */
+bool sbri_room_make(const sbf_allocator *allocator, const sbr_model *model, sbri_room *room);
+void sbri_room_free(const sbf_allocator *allocator, sbri_room *room);
+void sbri_rigid_work_free(const sbf_allocator *allocator, sbri_character *c);
+/* The character has the spare room, full of zeros, and what it had is the spare one. */
+void sbri_room_swap(sbri_character *c);
 
 /* ---- world/layout.c ---- */
 
@@ -145,7 +167,6 @@ SBRI_SCRATCH_PART(rigid_targets, sbr_transform, c->model->layout.rigid_targets) 
 SBRI_SCRATCH_PART(reactions, sbri_reaction, c->model->layout.reactions)         /* (rigid bodies) */
 SBRI_SCRATCH_PART(burdens, sbri_rigid_burden, c->model->layout.burdens)         /* (rigid bodies) */
 SBRI_SCRATCH_PART(stepped_pose, sbr_transform, c->model->layout.stepped_pose)   /* (frame_count) in a tick */
-SBRI_SCRATCH_PART(rigid_work, void, c->model->layout.rigid_work)
 SBRI_SCRATCH_PART(gait_before, void, c->model->layout.gait_before)
 SBRI_SCRATCH_PART(targets, sbri_point, c->model->layout.targets)                 /* (slot_count) */
 SBRI_SCRATCH_PART(guide_velocities, float, c->model->layout.guide_velocities)    /* (slot_count x 3) */
@@ -185,17 +206,12 @@ SBRI_SCRATCH_PART(surface_vertices, sbri_point, c->model->layout.surface_vertice
 SBRI_SCRATCH_PART(surface_forces, sbri_point, c->model->layout.surface_forces)
 SBRI_SCRATCH_PART(surface_velocities, sbri_point, c->model->layout.surface_velocities)
 SBRI_SCRATCH_PART(surface_faces, sbri_point, c->model->layout.surface_faces) /* of all bodies */
-/* Of a change of rungs: the state before it, what the bodies touched, and how far each point was from its
- * guide and how fast. */
-SBRI_SCRATCH_PART(kept_state, unsigned char, c->model->layout.kept)             /* (state_size) */
-SBRI_SCRATCH_PART(kept_touching, sbri_touching, c->model->layout.kept_touching) /* (bodies) */
-SBRI_SCRATCH_PART(
-    kept_rigid_touching, sbri_touching, c->model->layout.kept_rigid_touching) /* (rigid bodies) */
-SBRI_SCRATCH_PART(offsets, sbri_point, c->model->layout.offsets)              /* (most slots) */
-SBRI_SCRATCH_PART(speeds, sbri_point, c->model->layout.speeds)                /* likewise */
-SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading) /* (most vertices of a mesh, padded) */
-SBRI_SCRATCH_PART(pulls, float, c->model->layout.pulls)        /* (bodies + 1) */
-SBRI_SCRATCH_PART(energies, double, c->model->layout.energies) /* (bodies) J */
+/* Of a change of rungs, of the one before it: how far each point was from its guide, and how fast. */
+SBRI_SCRATCH_PART(offsets, sbri_point, c->model->layout.offsets) /* (slot_count) */
+SBRI_SCRATCH_PART(speeds, sbri_point, c->model->layout.speeds)   /* (slot_count) */
+SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading)   /* (most vertices of a mesh, padded) */
+SBRI_SCRATCH_PART(pulls, float, c->model->layout.pulls)          /* (bodies + 1) */
+SBRI_SCRATCH_PART(energies, double, c->model->layout.energies)   /* (bodies) J */
 #undef SBRI_SCRATCH_PART
 
 static inline void sbri_island_wake(sbri_character *c, uint32_t island) {

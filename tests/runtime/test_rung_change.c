@@ -248,21 +248,6 @@ START_TEST(recordings_hold_changes)
 }
 END_TEST
 
-START_TEST(a_change_does_not_allocate)
-{
-  harness_memory memory;
-  harness_memory_init(&memory, SIZE_MAX);
-  scene s = rung_scene_begin(false);
-  s.world_definition.allocator = &memory.allocator;
-  scene_start(&s);
-  size_t held = memory.held_bytes, calls = memory.calls;
-  wander(&s);
-  ck_assert_uint_eq(memory.held_bytes, held);
-  ck_assert_uint_eq(memory.calls, calls);
-  scene_free(&s);
-}
-END_TEST
-
 START_TEST(bones_that_stand_sleep_and_wake_for_a_change)
 {
   scene s = rung_scene_begin(false);
@@ -291,7 +276,6 @@ int main(void) {
   tcase_add_test(c, jiggle_follows_its_bone);
   tcase_add_test(c, snapshots_hold_rungs_and_fades);
   tcase_add_test(c, recordings_hold_changes);
-  tcase_add_test(c, a_change_does_not_allocate);
   tcase_add_test(c, bones_that_stand_sleep_and_wake_for_a_change);
   suite_add_tcase(s, c);
   return harness_run(s);

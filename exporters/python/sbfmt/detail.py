@@ -4,7 +4,7 @@
     model = runtime.Model(asset, ladder=True)
     with runtime.World(runtime.flat(0.0), capacity=200) as world:
         detail.choose(world, error_px=0.5, budget_us=4000)
-        lizards = [world.add(model, position=(2 * i, 0, 0)) for i in range(200)]
+        lizards = [world.add(model, position=(2 * i, 0, 0), rung=len(detail.rungs(model)) - 2) for i in range(200)]
         detail.look(world, [detail.view(eye=(0, 1.7, -4), forward=(0, -0.1, 1))])
         world.step(1 / 60)
         print(detail.visits(world), [detail.rung(lizard) for lizard in lizards])
@@ -16,7 +16,7 @@ import collections
 import ctypes
 import functools
 import math
-from ctypes import POINTER, Structure, byref, c_double, c_float, c_int, c_uint32, c_void_p
+from ctypes import POINTER, Structure, byref, c_double, c_float, c_int, c_size_t, c_uint32, c_void_p
 
 from .library import DiagnosticStruct, check
 from .runtime import C, ERROR, Double3, Vec3, W, runtime_library
@@ -26,12 +26,12 @@ SHOWN = ("by_views", "always", "never")
 CHOSEN = 0xFFFFFFFF  # of set_rung: the world chooses
 MOST_VIEWS = 4
 
-# What a character is on a rung: one of KINDS, the level of soft ones, metres that it may be off, visits of elements a tick.
-Rung = collections.namedtuple("Rung", "kind level error_m visits")
+# What a character is on a rung: one of KINDS, the level of soft ones, metres that it may be off, visits of elements a tick, bytes that it holds.
+Rung = collections.namedtuple("Rung", "kind level error_m visits bytes")
 
 
 class RungStruct(Structure):
-    _fields_ = [("kind", c_int), ("level", c_uint32), ("error_m", c_float), ("visits", c_float)]
+    _fields_ = [("kind", c_int), ("level", c_uint32), ("error_m", c_float), ("visits", c_float), ("bytes", c_size_t)]
 
 
 class Definition(Structure):
@@ -79,7 +79,7 @@ def rungs(model):
     count = _library().sbr_model_rungs(model.pointer, None, 0)
     found = (RungStruct * count)()
     _library().sbr_model_rungs(model.pointer, found, count)
-    return [Rung(KINDS[one.kind], one.level, one.error_m, one.visits) for one in found]
+    return [Rung(KINDS[one.kind], one.level, one.error_m, one.visits, one.bytes) for one in found]
 
 
 def rung(character):

@@ -65,7 +65,7 @@ class WorldDefinition(Structure):
 
 class CharacterDefinition(Structure):
     _fields_ = [("cookie", c_uint32), ("position", Double3), ("heading", c_float), ("scale", c_float), ("hold", c_bool),
-                ("ground", Ground)]
+                ("ground", Ground), ("rung", c_uint32)]
 
 
 class CharacterId(Structure):
@@ -243,11 +243,11 @@ class World:
         self._finalizer()
         self.pointer, self.characters, self.models = None, [], []
 
-    def add(self, model, position=(0, 0, 0), heading=0.0, scale=1.0, hold=False):
-        """A character; the height of its position counts from the ground."""
+    def add(self, model, position=(0, 0, 0), heading=0.0, scale=1.0, hold=False, rung=0):
+        """A character; the height of its position counts from the ground. Who is far off begins on a coarse rung (detail.py)."""
         definition = runtime_library().sbr_default_character_definition()
         definition.position, definition.heading = Double3(*position), heading
-        definition.scale, definition.hold = scale, hold
+        definition.scale, definition.hold, definition.rung = scale, hold, rung
         made, error = CharacterId(), DiagnosticStruct()
         check(runtime_library().sbr_character_create(self.pointer, model.pointer, byref(definition), byref(made), byref(error)), error)
         self.models.append(model)

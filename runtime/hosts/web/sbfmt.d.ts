@@ -147,7 +147,7 @@ export interface WorldOptions {
 }
 
 export interface Event {
-  readonly kind: 'footDown' | 'footUp' | 'landed' | 'tear' | 'unsplit' | 'asleep' | 'awake' | 'contact' | 'parted';
+  readonly kind: 'footDown' | 'footUp' | 'landed' | 'tear' | 'unsplit' | 'asleep' | 'awake' | 'contact' | 'parted' | 'noMemory';
   readonly character: number;
   readonly leg: number;
   readonly softBody: number;

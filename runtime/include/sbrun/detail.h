@@ -12,9 +12,16 @@
  * depends on what it was told alone: the same on any number of threads and any machine. Without that call the
  * host chooses.
  *
- * The same rules as in sbrun.h: handles that name nothing are ignored, getters then return zeros; nothing
- * allocates but sbr_world_detail. Rungs, and how far a change has come, are state, which snapshots hold;
- * views are the host's. Recordings hold both. */
+ * Memory follows: a character holds what its rung needs (sbr_rung.bytes), of the world's allocator. A change
+ * to another rung is asked for when a tick begins, before anything of it, one character after the other, in
+ * the thread that steps; what the character has left is given back when it has not gone back there for a
+ * second. So a step in which nobody goes over, comes near, or has done so a second ago asks the allocator for
+ * nothing. Where memory runs out the character stays on its rung, SBR_EVENT_NO_MEMORY tells, and it is asked
+ * for again every half second. Begin who is far off on a coarse rung (sbr_character_definition.rung).
+ *
+ * The same rules as in sbrun.h: handles that name nothing are ignored, getters then return zeros; besides,
+ * nothing allocates but sbr_world_detail. Rungs, and how far a change has come, are state, which snapshots
+ * hold; views are the host's. Recordings hold both. */
 #ifndef SBRUN_DETAIL_H
 #define SBRUN_DETAIL_H
 
@@ -41,6 +48,7 @@ typedef struct sbr_rung {
   float error_m;      /* the greatest that its levels state, of motion where that was measured (simulation
                          .motion_error), else at rest; where one states none, 2 % of the body's size */
   float visits;       /* what a tick costs, in visits of elements, the gait's share included */
+  size_t bytes;       /* that a character holds; what its surfaces meet others with comes on top */
 } sbr_rung;
 
 /* Rungs of the model, finest first; returns how many there are, of which up to `capacity` are written. 1: it

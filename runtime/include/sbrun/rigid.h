@@ -8,9 +8,11 @@
  * Joints hold as the specification says (spec/sbf.md, 8.3): all ten kinds, limits hard or by springs, drives,
  * pulleys, loops. docs/rigid.md has the equations, and what was measured.
  *
- * The same rules as in sbrun.h: handles that name nothing are ignored, getters then return zeros; nothing
- * allocates; everything set here is state, which snapshots hold. Lengths are world metres, masses and torques
- * those of the asset times the character's scale (sbr_character_definition.scale). */
+ * The same rules as in sbrun.h: handles that name nothing are ignored, getters then return zeros; no call
+ * here allocates. The first tick in which a character has simulated bodies does, for what they are solved in,
+ * and a second after the last of them is kinematic again that is given back. Everything set here is state,
+ * which snapshots hold. Lengths are world metres, masses and torques those of the asset times the character's
+ * scale (sbr_character_definition.scale). */
 #ifndef SBRUN_RIGID_H
 #define SBRUN_RIGID_H
 

@@ -20,7 +20,10 @@
  * whose shape are lost for good is put back into its rest shape; sbr_body_health.recoveries counts that.
  *
  * Threads. A world and its characters belong to one thread at a time; different worlds are independent;
- * models are read only and may be shared by worlds on different threads. A step never allocates.
+ * models are read only and may be shared by worlds on different threads. A step allocates only where
+ * characters change their level of detail (sbrun/detail.h) or begin to have simulated rigid parts
+ * (sbrun/rigid.h), by the world's allocator, in the thread that steps; where memory runs out it tells by
+ * SBR_EVENT_NO_MEMORY.
  *
  * Errors. Calls that can fail return sbf_status and fill *error (may be NULL). Handles that name nothing are
  * ignored by setters; getters then return zeros. A position, rotation, speed, impulse or any other number
@@ -181,8 +184,10 @@ SBF_API uint32_t sbr_world_awake(const sbr_world *world);
  * states, equal hashes, on every machine and at every frame rate. */
 SBF_API uint64_t sbr_world_state_hash(const sbr_world *world);
 
-/* A snapshot is a plain copy: save into `bytes` (sbr_world_snapshot_size of them), restore into the same
- * world with the same characters. SBF_FAILED where the sizes or the characters differ. */
+/* A snapshot is a plain copy: save into `bytes` (sbr_world_snapshot_size of them, as many as long as the
+ * characters are the same), restore into the same world with the same characters. SBF_FAILED where the sizes
+ * or the characters differ, or memory for the levels of detail that they were on runs out; nothing has
+ * changed then. */
 SBF_API size_t sbr_world_snapshot_size(const sbr_world *world);
 SBF_API sbf_status sbr_world_snapshot_save(const sbr_world *world, void *bytes, size_t size);
 SBF_API sbf_status sbr_world_snapshot_restore(sbr_world *world, const void *bytes, size_t size);
@@ -200,6 +205,8 @@ typedef struct sbr_character_definition {
   bool hold;         /* bones stay in their rest pose */
   sbr_ground ground; /* of its own, where `height` is set; else the world's: characters of one world may stand
                         on floors above each other */
+  uint32_t rung; /* the level of detail that it begins on (sbrun/detail.h), beyond the last: the last; default
+                    0: the finest */
 } sbr_character_definition;
 
 /* A character likewise; its model must outlive it. */
@@ -283,12 +290,16 @@ typedef enum sbr_event_kind {
   SBR_EVENT_LANDED, /* what fell (sbr_character_rigid_fall) lies still and begins to get up; where it will
                        stand */
   SBR_EVENT_TEAR,   /* an element tore; of more than 16 in one tick of bodies that hang together, the first */
-  SBR_EVENT_UNSPLIT, /* a tear found no room to split points: more tear_points */
-  SBR_EVENT_ASLEEP,  /* bodies that hang together are no longer stepped */
-  SBR_EVENT_AWAKE,   /* and are again */
-  SBR_EVENT_CONTACT, /* a body that did not in the tick before touches the ground or a collider (of more than
-                        four at once, the first four), or another body (sbr_world_bodies_meet) */
-  SBR_EVENT_PARTED   /* two bodies of characters that touched each other do so no longer */
+  SBR_EVENT_UNSPLIT,  /* a tear found no room to split points: more tear_points */
+  SBR_EVENT_ASLEEP,   /* bodies that hang together are no longer stepped */
+  SBR_EVENT_AWAKE,    /* and are again */
+  SBR_EVENT_CONTACT,  /* a body that did not in the tick before touches the ground or a collider (of more than
+                         four at once, the first four), or another body (sbr_world_bodies_meet) */
+  SBR_EVENT_PARTED,   /* two bodies of characters that touched each other do so no longer */
+  SBR_EVENT_NO_MEMORY /* there was none for the level of detail that it was to go over to: it stays on its
+                         own; or for its simulated rigid parts: they stand still. Asked for again in half a
+                         second
+                         */
 } sbr_event_kind;
 /* Something that happened in a step. */
 typedef struct sbr_event {

@@ -1,6 +1,6 @@
 import { EVENT_NUMBERS, EVENT_ROOM } from './memory.js';
 
-const EVENTS = ['footDown', 'footUp', 'landed', 'tear', 'unsplit', 'asleep', 'awake', 'contact', 'parted'];
+const EVENTS = ['footDown', 'footUp', 'landed', 'tear', 'unsplit', 'asleep', 'awake', 'contact', 'parted', 'noMemory'];
 
 /** What happened in a world since the last call, oldest first. */
 export function eventsOf({ sbfmt, calls, handle }) {
