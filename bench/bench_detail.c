@@ -4,7 +4,10 @@
  * vertex by vertex as they are projected on a screen of 1080 lines, 60 degrees high: `rms_px` over all,
  * `worst_lizard_px` the root of the mean square of the worst one, `worst_px` of the worst vertex. Lizards
  * that have been away walk on with other feet: they are not compared, but counted (`returned`, on average).
- * `visits` is what the world takes a tick to cost; soft to away the lizards on such rungs, on average. */
+ * `visits` is what the world takes a tick to cost; soft to away the lizards on such rungs, on average; `mb`
+ * what the world and its characters hold, on average, and `mb_most` at most, from their making on. In the
+ * last two cases the lizards stand closer and meet each other, and are compared with those of them at full
+ * detail. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,31 +16,49 @@
 #include "measured_assets.h"
 #include "measuring.h"
 #include "sbfmt/build.h"
+#include "sbrun/collision.h"
 #include "sbrun/detail.h"
 
-enum { MOST = 200, CASES = 4, COMPARED_EVERY = 10 };
+enum { MOST = 200, MEETING = 40, CASES = 6, FIRST_MEETING = 4, COMPARED_EVERY = 10 };
 
 typedef struct crowd {
   const char *name;
+  uint32_t count;
+  sbf_allocator allocator;
+  size_t held, most; /* bytes */
   sbr_world *world;
   sbr_character_id ids[MOST];
   bool was_away[MOST];
-  double seconds, visits, rungs[4], returned;
+  double seconds, visits, rungs[4], returned, bytes;
   double squares, worst_square, worst_lizard; /* pixels squared */
   uint64_t vertices;
   uint32_t ticks, looks;
 } crowd;
 
-static void open_crowd(
-    crowd *c, const char *name, const sbr_model *model, uint32_t count, const sbr_detail_definition *detail) {
+static void *counted(void *user, void *memory, size_t old_size, size_t new_size) {
+  crowd *c = user;
+  void *moved = new_size ? realloc(memory, new_size) : NULL;
+  if (!new_size) free(memory);
+  if (new_size && !moved) return NULL;
+  c->held += new_size - (memory ? old_size : 0);
+  if (c->held > c->most) c->most = c->held;
+  return moved;
+}
+
+/* `detail`: NULL for all of it. All who are chosen for begin as bones. */
+static void open_crowd(crowd *c, const char *name, const sbr_model *model, uint32_t count, bool meets,
+    const sbr_detail_definition *detail) {
   sbf_diagnostic error;
   sbr_world_definition definition = sbr_default_world_definition();
-  *c = (crowd){.name = name};
+  *c = (crowd){.name = name, .count = count, .allocator = {counted, c}};
   definition.character_capacity = count;
+  definition.allocator = &c->allocator;
   bench_require(sbr_world_create(&definition, &c->world, &error), &error);
   if (detail) bench_require(sbr_world_detail(c->world, detail, &error), &error);
+  if (meets) bench_require(sbr_world_bodies_meet(c->world, 0, &error), &error);
   for (uint32_t i = 0; i < count; i++) {
-    sbr_character_definition at = crowd_place(i);
+    sbr_character_definition at = meets ? crowd_place_close(i) : crowd_place(i);
+    if (detail) at.rung = sbr_model_rungs(model, NULL, 0) - 2;
     bench_require(sbr_character_create(c->world, model, &at, &c->ids[i], &error), &error);
     crowd_drive(c->world, c->ids[i], i);
   }
@@ -74,40 +95,46 @@ static void compare_lizard(crowd *c, const crowd *full, uint32_t i, const sbr_vi
   if (sum / seen > c->worst_lizard) c->worst_lizard = sum / seen;
 }
 
-static void compare(crowd *c, const crowd *full, uint32_t count, const sbr_view *view, const sbf_asset *asset,
+static void compare(crowd *c, const crowd *full, const sbr_view *view, const sbf_asset *asset,
     uint32_t capacity, sbf_vec3 *places[2]) {
   c->looks++;
-  for (uint32_t i = 0; i < count; i++) {
+  for (uint32_t i = 0; i < c->count; i++) {
     c->returned += c->was_away[i];
     if (!c->was_away[i]) compare_lizard(c, full, i, view, asset->render_meshes.count, capacity, places);
   }
 }
 
-static void step(crowd *c, uint32_t count, const sbr_view *view, const sbr_rung *rungs, bool counts) {
+static void step(crowd *c, const sbr_view *view, const sbr_rung *rungs, bool counts) {
   double begin = bench_now_s();
   sbr_world_views(c->world, view, 1);
   sbr_world_tick(c->world);
   double taken = bench_now_s() - begin;
-  for (uint32_t i = 0; i < count; i++) {
+  for (uint32_t i = 0; i < c->count; i++) {
     const sbr_rung *rung = &rungs[sbr_character_rung(c->world, c->ids[i])];
     c->was_away[i] = c->was_away[i] || rung->kind == SBR_RUNG_AWAY;
     if (counts) c->rungs[rung->kind]++, c->visits += (double)rung->visits;
   }
-  if (counts) c->seconds += taken, c->ticks++;
+  if (counts) c->seconds += taken, c->bytes += (double)c->held, c->ticks++;
 }
 
-static void report(const crowd *c, const crowd *full, uint32_t count) {
+static void report(const crowd *c, const crowd *full) {
   double ticks = c->ticks, vertices = c->vertices ? (double)c->vertices : 1;
-  bench_print_row("%s,%u,%.2f,%.1f,%.0f,%.3f,%.3f,%.2f,%.1f,%.1f,%.1f,%.1f,%.1f", c->name, count,
+  bench_print_row("%s,%u,%.2f,%.1f,%.0f,%.3f,%.3f,%.2f,%.1f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f", c->name, c->count,
       1e3 * c->seconds / ticks, full->seconds / c->seconds, c->visits / ticks, sqrt(c->squares / vertices),
       sqrt(c->worst_lizard), sqrt(c->worst_square), c->rungs[SBR_RUNG_SOFT] / ticks,
       c->rungs[SBR_RUNG_JIGGLE] / ticks, c->rungs[SBR_RUNG_BONES] / ticks, c->rungs[SBR_RUNG_AWAY] / ticks,
-      c->looks ? c->returned / c->looks : 0);
+      c->looks ? c->returned / c->looks : 0, c->bytes / ticks / 1e6, (double)c->most / 1e6);
+}
+
+/* What a case is compared with. */
+static int full_of(int k) {
+  return k < FIRST_MEETING ? 0 : FIRST_MEETING;
 }
 
 int main(int argument_count, char **arguments) {
   bool quick = bench_is_quick(argument_count, arguments);
-  uint32_t count = quick ? 6 : MOST, ticks = quick ? 12 : 210, first = quick ? 2 : 30, vertices = 1;
+  uint32_t count = quick ? 6 : MOST, meeting = quick ? 4 : MEETING, ticks = quick ? 12 : 210;
+  uint32_t first = quick ? 2 : 30, vertices = 1;
   sbf_diagnostic error;
   sbf_asset *source = our_lizard(false), *asset;
   const sbf_build_options levels = {.levels = 2};
@@ -121,23 +148,25 @@ int main(int argument_count, char **arguments) {
   stays.away_after_s = -1;
   spares.away_after_s = -1, spares.budget_us = 4000;
   static crowd crowds[CASES];
-  open_crowd(&crowds[0], "full detail", model, count, NULL);
-  open_crowd(&crowds[1], "half a pixel", model, count, &stays);
-  open_crowd(&crowds[2], "and away where unseen", model, count, &goes);
-  open_crowd(&crowds[3], "half a pixel or 4 ms", model, count, &spares);
+  open_crowd(&crowds[0], "full detail", model, count, false, NULL);
+  open_crowd(&crowds[1], "half a pixel", model, count, false, &stays);
+  open_crowd(&crowds[2], "and away where unseen", model, count, false, &goes);
+  open_crowd(&crowds[3], "half a pixel or 4 ms", model, count, false, &spares);
+  open_crowd(&crowds[4], "meeting, full detail", model, meeting, true, NULL);
+  open_crowd(&crowds[5], "meeting, half a pixel", model, meeting, true, &stays);
   for (uint32_t m = 0; m < asset->render_meshes.count; m++)
     vertices += asset->render_meshes.at[m].mesh.positions.count;
   sbf_vec3 *places[2];
   for (int k = 0; k < 2; k++) places[k] = bench_allocate(vertices, sizeof *places[k]);
   for (uint32_t t = 0; t < ticks; t++) {
     sbr_view view = crowd_view(t, ticks);
-    for (int k = 0; k < CASES; k++) step(&crowds[k], count, &view, rungs, t >= first);
-    for (int k = 1; k < CASES && t >= first && t % COMPARED_EVERY == 0; k++)
-      compare(&crowds[k], &crowds[0], count, &view, asset, vertices, places);
+    for (int k = 0; k < CASES; k++) step(&crowds[k], &view, rungs, t >= first);
+    for (int k = 0; k < CASES && t >= first && t % COMPARED_EVERY == 0; k++)
+      if (full_of(k) != k) compare(&crowds[k], &crowds[full_of(k)], &view, asset, vertices, places);
   }
   bench_print_columns("case,lizards,ms_tick,times_full,visits,rms_px,worst_lizard_px,worst_px,soft,jiggle,"
-                      "bones,away,returned");
-  for (int k = 0; k < CASES; k++) report(&crowds[k], &crowds[0], count);
+                      "bones,away,returned,mb,mb_most");
+  for (int k = 0; k < CASES; k++) report(&crowds[k], &crowds[full_of(k)]);
   for (int k = 0; k < CASES; k++) sbr_world_destroy(crowds[k].world);
   for (int k = 0; k < 2; k++) free(places[k]);
   sbr_model_destroy(model);

@@ -18,6 +18,13 @@ static inline sbr_character_definition crowd_place(uint32_t i) {
   at.heading = 0.7f * (float)i;
   return at;
 }
+/* Likewise, so close that they run into each other. */
+static inline sbr_character_definition crowd_place_close(uint32_t i) {
+  sbr_character_definition at = crowd_place(i);
+  sbr_double3 position = {2.4 * (i % 10) - 12, 0, 2.4 * (i / 10)};
+  at.position = position;
+  return at;
+}
 static inline void crowd_drive(sbr_world *world, sbr_character_id id, uint32_t i) {
   sbr_character_drive(world, id, 0.2f + 0.05f * (float)(i % 7), 0, 0.1f * (float)(i % 5) - 0.2f);
 }
