@@ -56,22 +56,16 @@ static bool keep_soft(sbri_character *c, float tick_s) {
 
 static void take_shared(sbri_character *c, const sbri_character *was) {
   const sbr_model *is = c->model;
-  uint32_t frames = sbri_first_jiggle_frame(is), rigid = is->rigid.body_count;
+  uint32_t frames = sbri_first_jiggle_frame(is);
   uint32_t vertices = is->base->first_vertices[is->asset->render_meshes.count];
   memcpy(sbri_head(c), sbri_head(was), sizeof(sbri_character_state));
   memcpy(sbri_faded(c), sbri_faded(was), vertices * sizeof(sbri_going));
   memcpy(sbri_gait(c), sbri_gait(was), sbri_gait_state_size(&is->rig));
   memcpy(sbri_pose(c), sbri_pose(was), frames * sizeof(sbr_transform));
   memcpy(sbri_previous_pose(c), sbri_previous_pose(was), frames * sizeof(sbr_transform));
-  memcpy(sbri_rigid_bodies(c), sbri_rigid_bodies(was), rigid * sizeof(sbri_rigid_body_state));
-  memcpy(
-      sbri_rigid_joints(c), sbri_rigid_joints(was), is->rigid.joint_count * sizeof(sbri_rigid_joint_state));
-  memcpy(sbri_rigid_drive(c), sbri_rigid_drive(was), rigid ? sizeof(sbri_rigid_drive_state) : 0);
-  memcpy(sbri_rigid_kept(c), sbri_rigid_kept(was),
-      sbri_rigid_touch_capacity(&is->rigid) * sizeof(sbri_kept_touch));
   memcpy(
       sbri_soft_touching(c), sbri_soft_touching(was), is->asset->soft_bodies.count * sizeof(sbri_touching));
-  memcpy(sbri_rigid_touching(c), sbri_rigid_touching(was), rigid * sizeof(sbri_touching));
+  sbri_rigid_take(c, was);
 }
 
 /* What is told of an island goes on with the island that has its first body. */

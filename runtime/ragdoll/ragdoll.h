@@ -46,6 +46,8 @@ void sbri_reflex_act(const sbri_character *c, const sbri_rigid_tick *tick, float
 
 /* Every rigid body at its bone, joints whole; modes and drives as they are, or as the file has them. */
 void sbri_rigid_place(sbri_character *c, bool as_in_file);
+/* As they were on another rung, of one model. */
+void sbri_rigid_take(sbri_character *c, const sbri_character *was);
 /* Rigid bodies go where the pose has gone from what their bones were at, and stop. */
 void sbri_rigid_carry(sbri_character *c);
 /* The origin moved by `shift`, in asset metres. */

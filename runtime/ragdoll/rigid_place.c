@@ -43,3 +43,13 @@ void sbri_rigid_rebase(sbri_character *c, sbf_vec3 shift) {
     kept->offset -= sbri_dot(kept->normal, shift);
   }
 }
+
+void sbri_rigid_take(sbri_character *c, const sbri_character *was) {
+  const sbri_rigid_model *model = &c->model->rigid;
+  size_t bodies = model->body_count, joints = model->joint_count, kept = sbri_rigid_touch_capacity(model);
+  memcpy(sbri_rigid_bodies(c), sbri_rigid_bodies(was), bodies * sizeof(sbri_rigid_body_state));
+  memcpy(sbri_rigid_joints(c), sbri_rigid_joints(was), joints * sizeof(sbri_rigid_joint_state));
+  memcpy(sbri_rigid_drive(c), sbri_rigid_drive(was), bodies ? sizeof(sbri_rigid_drive_state) : 0);
+  memcpy(sbri_rigid_kept(c), sbri_rigid_kept(was), kept * sizeof(sbri_kept_touch));
+  memcpy(sbri_rigid_touching(c), sbri_rigid_touching(was), bodies * sizeof(sbri_touching));
+}
