@@ -17,9 +17,12 @@ static bool make(sbr_world *world, uint32_t touches) {
   all->hulls = sbfi_allocate(a, characters * sizeof *all->hulls);
   all->together = sbfi_allocate(a, characters * sizeof *all->together);
   all->group_of = sbfi_allocate(a, characters * sizeof *all->group_of);
+  all->member_of = sbfi_allocate(a, characters * sizeof *all->member_of);
+  all->next_of_group = sbfi_allocate(a, characters * sizeof *all->next_of_group);
   all->members = sbfi_allocate(a, characters * sizeof *all->members);
   all->groups = sbfi_allocate(a, characters * sizeof *all->groups);
   all->pairs = sbfi_allocate(a, touches * sizeof *all->pairs);
+  all->found_pairs = sbfi_allocate(a, touches * sizeof *all->found_pairs);
   all->touches = sbfi_allocate(a, touches * sizeof *all->touches);
   all->rows = sbfi_allocate(a, touches * sizeof *all->rows);
   all->memories = sbfi_allocate(a, touches * sizeof *all->memories);
@@ -33,9 +36,10 @@ static bool make(sbr_world *world, uint32_t touches) {
   for (size_t i = 0; all->surfaces && i < characters; i++) all->surfaces[i] = NULL;
   for (size_t i = 0; all->all_surfaces && i < characters; i++) all->all_surfaces[i] = NULL;
   bool good = all->arenas && all->surfaces && all->all_surfaces && all->hulls && all->together &&
-              all->group_of && all->members && all->groups && all->pairs && all->touches && all->rows &&
-              all->memories && all->next_memories && all->contacts && all->next_contacts &&
-              all->found_memories && sbri_meetings_reserve(world, NULL);
+              all->group_of && all->member_of && all->next_of_group && all->members && all->groups &&
+              all->pairs && all->found_pairs && all->touches && all->rows && all->memories &&
+              all->next_memories && all->contacts && all->next_contacts && all->found_memories &&
+              sbri_meetings_reserve(world, NULL);
   for (uint32_t i = 0; good && i < characters; i++) {
     all->group_of[i] = UINT32_MAX;
     if (world->characters[i].model) good = sbri_meet_surfaces_make(world, i);

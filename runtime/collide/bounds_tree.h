@@ -13,9 +13,17 @@ typedef struct sbri_box {
 static inline sbri_box sbri_box_of_point(sbf_vec3 x) {
   return (sbri_box){x, x};
 }
+/* Comparisons, which are an instruction each where fminf is a call. */
+static inline float sbri_least(float a, float b) {
+  return b < a ? b : a;
+}
+static inline float sbri_most(float a, float b) {
+  return b > a ? b : a;
+}
 static inline sbri_box sbri_box_join(sbri_box a, sbri_box b) {
-  return (sbri_box){{fminf(a.low.x, b.low.x), fminf(a.low.y, b.low.y), fminf(a.low.z, b.low.z)},
-      {fmaxf(a.high.x, b.high.x), fmaxf(a.high.y, b.high.y), fmaxf(a.high.z, b.high.z)}};
+  return (sbri_box){
+      {sbri_least(a.low.x, b.low.x), sbri_least(a.low.y, b.low.y), sbri_least(a.low.z, b.low.z)},
+      {sbri_most(a.high.x, b.high.x), sbri_most(a.high.y, b.high.y), sbri_most(a.high.z, b.high.z)}};
 }
 static inline sbri_box sbri_box_with(sbri_box a, sbf_vec3 x) {
   return sbri_box_join(a, sbri_box_of_point(x));

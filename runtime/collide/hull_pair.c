@@ -42,11 +42,13 @@ static bool try_faces(
   return true;
 }
 
-/* Whether the arcs between two faces' normals each cross on the sphere. */
-static bool arcs_cross(sbf_vec3 a, sbf_vec3 b, sbf_vec3 c, sbf_vec3 d) {
-  sbf_vec3 ba = sbri_cross(b, a), dc = sbri_cross(d, c);
-  float cba = sbri_dot(c, ba), dba = sbri_dot(d, ba), adc = sbri_dot(a, dc), bdc = sbri_dot(b, dc);
-  return cba * dba < 0 && adc * bdc < 0 && cba * bdc > 0;
+/* Whether the arc from a to b, with b x a, and that between the opposites of c and d cross on the sphere. */
+static bool arcs_cross(sbf_vec3 a, sbf_vec3 b, sbf_vec3 ba, sbf_vec3 c, sbf_vec3 d) {
+  float cba = sbri_dot(c, ba), dba = sbri_dot(d, ba);
+  if (!(cba * dba < 0)) return false; /* most do not */
+  sbf_vec3 dc = sbri_cross(d, c);
+  float adc = sbri_dot(a, dc), bdc = sbri_dot(b, dc);
+  return adc * bdc < 0 && cba * bdc < 0;
 }
 
 /* Nearest places of two lines that are not parallel. */
@@ -67,9 +69,10 @@ static bool try_edges(const sbri_placed_hull *a, const sbri_placed_hull *b, floa
     const sbri_hull_edge *e = &a->hull->edges[i];
     sbf_vec3 n0 = sbri_rotate(a->turn, e->normals[0]), n1 = sbri_rotate(a->turn, e->normals[1]);
     sbf_vec3 c0 = into(b, n0), c1 = into(b, n1); /* in b's frame, where its edges stand */
+    sbf_vec3 across = sbri_cross(c1, c0);
     for (uint32_t k = 0; k < b->hull->edge_count; k++) {
       const sbri_hull_edge *g = &b->hull->edges[k];
-      if (!arcs_cross(c0, c1, sbri_scale(g->normals[0], -1), sbri_scale(g->normals[1], -1))) continue;
+      if (!arcs_cross(c0, c1, across, g->normals[0], g->normals[1])) continue;
       sbf_vec3 p = out_of(a, a->hull->vertices[e->ends[0]]), q = out_of(b, b->hull->vertices[g->ends[0]]);
       sbf_vec3 along_p = sbri_sub(out_of(a, a->hull->vertices[e->ends[1]]), p);
       sbf_vec3 along_q = sbri_sub(out_of(b, b->hull->vertices[g->ends[1]]), q);

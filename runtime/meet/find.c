@@ -16,8 +16,7 @@ static const float IN_SHARE = 0.25f;
 
 static sbri_party party_of(const sbri_finding *f, uint32_t number) {
   const sbri_meeter *is = &f->world->meetings->meeters[number];
-  sbri_party p = {.is = is};
-  while (f->members[p.member].character != &f->world->characters[is->character]) p.member++;
+  sbri_party p = {.is = is, .member = f->world->meetings->member_of[is->character]};
   p.of = &f->members[p.member];
   const sbr_model *model = p.of->character->model;
   if (is->rigid) {

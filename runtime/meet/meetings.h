@@ -185,6 +185,8 @@ typedef struct sbri_meetings {
   uint8_t **together;        /* (character_capacity) an sbri_at_rest of each two of its soft bodies, then of
                                 each of these and each rigid one */
   uint32_t *group_of;        /* (character_capacity) UINT32_MAX: it meets nobody */
+  uint32_t *member_of;       /* (character_capacity) its number in its group */
+  uint32_t *next_of_group;   /* (character_capacity) while groups are made: the next in it, or UINT32_MAX */
   sbri_meet_member *members; /* (character_capacity) group after group */
   sbri_meet_group *groups;   /* (character_capacity) */
   uint32_t group_count;
@@ -192,7 +194,7 @@ typedef struct sbri_meetings {
   sbri_box *boxes;      /* likewise, of their ways */
   sbri_bounds_tree tree;
   uint32_t meeter_count, meeter_capacity;
-  sbri_meet_pair *pairs; /* (touch_capacity) */
+  sbri_meet_pair *pairs, *found_pairs; /* (touch_capacity) group after group, and as they are found */
   uint32_t pair_count;
   sbri_meet_touch *touches; /* (touch_capacity) */
   sbri_meet_row *rows;      /* likewise */
@@ -263,7 +265,7 @@ bool sbri_meet_is_awake(const sbri_character *c);
 
 /* ---- meet/near.c ---- */
 
-/* Notes of each character whether another is so near that both must be able to meet. */
+/* Notes of each character that has rungs whether another is so near that both must be able to meet. */
 void sbri_meet_near_find(sbr_world *world);
 
 /* ---- meet/find.c ---- */

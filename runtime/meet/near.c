@@ -1,5 +1,6 @@
-/* Who is near whom, before rungs are changed: a body that is jiggle or bones alone has nothing to meet others
- * with, so a character goes to such a rung only where nobody is about, and comes back before anybody is. */
+/* Who of those that have rungs is near whom, before they are changed: a body that is jiggle or bones alone
+ * has nothing to meet others with, so a character goes to such a rung only where nobody is about, and comes
+ * back before anybody is. */
 #include "math/vec3.h"
 #include "meet/meetings.h"
 
@@ -31,25 +32,33 @@ static bool meets_others(const sbri_character *c) {
   return c->model && c->model->asset->soft_bodies.count + c->model->rigid.body_count > 0;
 }
 
+static bool has_rungs(const sbri_character *c) {
+  return c->model->base->rung_count > 1;
+}
+
 void sbri_meet_near_find(sbr_world *world) {
   sbri_meetings *all = world->meetings;
   uint32_t count = 0;
+  bool any = false;
+  for (uint32_t i = 0; i < world->character_capacity; i++) {
+    world->characters[i].near = false;
+    if (meets_others(&world->characters[i]) && has_rungs(&world->characters[i])) any = true;
+  }
+  if (!any) return;
   for (uint32_t i = 0; i < world->character_capacity; i++) {
     sbri_character *c = &world->characters[i];
-    c->near = false;
     if (!meets_others(c)) continue;
     all->meeters[count].character = i;
     all->boxes[count++] = box_of(world, c);
   }
   sbri_bounds_tree_make(&all->tree, all->boxes, count);
   for (uint32_t a = 0; a < count; a++) {
+    sbri_character *c = &world->characters[all->meeters[a].character];
     sbri_bounds_walk walk;
     uint32_t b;
+    if (!has_rungs(c)) continue;
     sbri_bounds_walk_begin(&walk, &all->tree, all->boxes[a]);
-    while (sbri_bounds_walk_next(&walk, &b)) {
-      if (b <= a || !sbri_box_meets(&all->boxes[a], &all->boxes[b])) continue;
-      world->characters[all->meeters[a].character].near = true;
-      world->characters[all->meeters[b].character].near = true;
-    }
+    while (!c->near && sbri_bounds_walk_next(&walk, &b))
+      c->near = b != a && sbri_box_meets(&all->boxes[a], &all->boxes[b]);
   }
 }

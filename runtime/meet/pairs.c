@@ -119,7 +119,7 @@ static void find_pairs(sbr_world *world) {
       if (b < a || !sbri_box_meets(&all->boxes[a], &all->boxes[b]) ||
           !(a == b ? all->meeters[a].itself : may_meet(world, &all->meeters[a], &all->meeters[b])))
         continue;
-      if (all->pair_count < all->touch_capacity) all->pairs[all->pair_count++] = (sbri_meet_pair){a, b};
+      if (all->pair_count < all->touch_capacity) all->found_pairs[all->pair_count++] = (sbri_meet_pair){a, b};
     }
   }
 }
@@ -147,14 +147,31 @@ static void stir(sbri_character *c) {
   if (c->model->rigid.body_count) sbri_rigid_drive(c)->asleep = 0;
 }
 
-/* Pairs one group after the other, in their order within each. */
+static uint32_t group_of_pair(const sbri_meetings *all, const sbri_meet_pair *pair) {
+  return all->group_of[all->meeters[pair->a].character];
+}
+
+/* Pairs one group after the other, in their order within each: by counting those of each. */
 static void sort_pairs(sbri_meetings *all) {
-  for (uint32_t i = 1; i < all->pair_count; i++) {
-    sbri_meet_pair pair = all->pairs[i];
-    uint32_t group = all->group_of[all->meeters[pair.a].character], k = i;
-    while (k > 0 && all->group_of[all->meeters[all->pairs[k - 1].a].character] > group)
-      all->pairs[k] = all->pairs[k - 1], k--;
-    all->pairs[k] = pair;
+  uint32_t *ends = all->member_of, first = 0; /* nobody has a number yet */
+  for (uint32_t i = 0; i < all->character_capacity; i++) ends[i] = 0;
+  for (uint32_t i = 0; i < all->pair_count; i++) ends[group_of_pair(all, &all->found_pairs[i])]++;
+  for (uint32_t i = 0; i < all->character_capacity; i++) {
+    uint32_t count = ends[i];
+    ends[i] = first, first += count;
+  }
+  for (uint32_t i = 0; i < all->pair_count; i++)
+    all->pairs[ends[group_of_pair(all, &all->found_pairs[i])]++] = all->found_pairs[i];
+}
+
+/* A group has the number of its first character; the others follow it by theirs. */
+static void link_groups(sbri_meetings *all) {
+  for (uint32_t i = 0; i < all->character_capacity; i++) all->next_of_group[i] = UINT32_MAX;
+  for (uint32_t i = all->character_capacity; i-- > 0;) {
+    uint32_t first = all->group_of[i];
+    if (first == i) continue;
+    all->next_of_group[i] = all->next_of_group[first];
+    all->next_of_group[first] = i;
   }
 }
 
@@ -165,9 +182,9 @@ static void sort_pairs(sbri_meetings *all) {
 static bool add_members(sbr_world *world, sbri_meet_group *group, uint32_t number) {
   sbri_meetings *all = world->meetings;
   bool awake = false;
-  for (uint32_t i = number; i < world->character_capacity; i++) {
-    if (all->group_of[i] != number) continue;
+  for (uint32_t i = number; i != UINT32_MAX; i = all->next_of_group[i]) {
     awake = awake || sbri_meet_is_awake(&world->characters[i]);
+    all->member_of[i] = group->member_count;
     all->members[group->first_member + group->member_count++].character = &world->characters[i];
   }
   group->origin = sbri_head(all->members[group->first_member].character)->origin;
@@ -220,12 +237,13 @@ void sbri_meet_pairs_find(sbr_world *world) {
   }
   find_pairs(world);
   for (uint32_t i = 0; i < all->pair_count; i++) {
-    uint32_t a = root_of(group_of, all->meeters[all->pairs[i].a].character),
-             b = root_of(group_of, all->meeters[all->pairs[i].b].character);
+    uint32_t a = root_of(group_of, all->meeters[all->found_pairs[i].a].character),
+             b = root_of(group_of, all->meeters[all->found_pairs[i].b].character);
     group_of[a > b ? a : b] = a > b ? b : a;
   }
   for (uint32_t i = 0; i < world->character_capacity; i++) group_of[i] = root_of(group_of, i);
   sort_pairs(all);
+  link_groups(all);
   make_groups(world);
   share_touches(all);
 }

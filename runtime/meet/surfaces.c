@@ -209,9 +209,12 @@ void sbri_meetings_free(sbr_world *world) {
   sbfi_free(a, all->hulls, characters * sizeof *all->hulls);
   sbfi_free(a, all->together, characters * sizeof *all->together);
   sbfi_free(a, all->group_of, characters * sizeof *all->group_of);
+  sbfi_free(a, all->member_of, characters * sizeof *all->member_of);
+  sbfi_free(a, all->next_of_group, characters * sizeof *all->next_of_group);
   sbfi_free(a, all->members, characters * sizeof *all->members);
   sbfi_free(a, all->groups, characters * sizeof *all->groups);
   sbfi_free(a, all->pairs, touches * sizeof *all->pairs);
+  sbfi_free(a, all->found_pairs, touches * sizeof *all->found_pairs);
   sbfi_free(a, all->touches, touches * sizeof *all->touches);
   sbfi_free(a, all->rows, touches * sizeof *all->rows);
   sbfi_free(a, all->memories, touches * sizeof *all->memories);
