@@ -62,31 +62,48 @@ static void nearest_of_lines(
   *on_q = sbri_add_scaled(q, along_q, sbri_clamp(t, 0, 1));
 }
 
+static sbf_vec3 along_of(const sbri_hull *hull, const sbri_hull_edge *e) {
+  return sbri_sub(hull->vertices[e->ends[1]], hull->vertices[e->ends[0]]);
+}
+
+/* As directions of edges, whatever their lengths. */
+static bool are_parallel(sbf_vec3 p, sbf_vec3 q) {
+  sbf_vec3 n = sbri_cross(p, q);
+  return sbri_dot(n, n) < 1e-4f * sbri_dot(p, p) * sbri_dot(q, q);
+}
+
+/* The axis that two edges make, from b to a. */
+static axis axis_of_edges(const sbri_placed_hull *a, const sbri_hull_edge *e, const sbri_placed_hull *b,
+    const sbri_hull_edge *g, sbf_vec3 middle) {
+  sbf_vec3 p = out_of(a, a->hull->vertices[e->ends[0]]), q = out_of(b, b->hull->vertices[g->ends[0]]);
+  sbf_vec3 along_p = sbri_sub(out_of(a, a->hull->vertices[e->ends[1]]), p);
+  sbf_vec3 along_q = sbri_sub(out_of(b, b->hull->vertices[g->ends[1]]), q);
+  sbf_vec3 n = sbri_cross(along_p, along_q);
+  n = sbri_scale(n, 1 / sbri_length(n));
+  if (sbri_dot(n, sbri_sub(p, middle)) > 0) n = sbri_scale(n, -1); /* into a */
+  axis found = {.gap = sbri_dot(n, sbri_sub(p, q)), .normal = n, .of_edges = true};
+  nearest_of_lines(p, along_p, q, along_q, &found.on_a, &found.on_b);
+  return found;
+}
+
 static bool try_edges(const sbri_placed_hull *a, const sbri_placed_hull *b, float reach, axis *best) {
   float least = best->gap + EDGE_SHARE * (reach > 0 ? reach : 0) + EDGE_M;
   sbf_vec3 middle = out_of(a, a->hull->middle);
+  sbf_quat turn = sbri_quat_multiply(sbri_quat_conjugate(b->turn), a->turn);
   for (uint32_t i = 0; i < a->hull->edge_count; i++) {
-    const sbri_hull_edge *e = &a->hull->edges[i];
-    sbf_vec3 n0 = sbri_rotate(a->turn, e->normals[0]), n1 = sbri_rotate(a->turn, e->normals[1]);
-    sbf_vec3 c0 = into(b, n0), c1 = into(b, n1); /* in b's frame, where its edges stand */
-    sbf_vec3 across = sbri_cross(c1, c0);
+    const sbri_hull_edge *e = &a->hull->edges[i]; /* in b's frame, where its edges stand: */
+    sbf_vec3 c0 = sbri_rotate(turn, e->normals[0]), c1 = sbri_rotate(turn, e->normals[1]);
+    sbf_vec3 across = sbri_cross(c1, c0), along = sbri_rotate(turn, along_of(a->hull, e));
     for (uint32_t k = 0; k < b->hull->edge_count; k++) {
       const sbri_hull_edge *g = &b->hull->edges[k];
-      if (!arcs_cross(c0, c1, across, g->normals[0], g->normals[1])) continue;
-      sbf_vec3 p = out_of(a, a->hull->vertices[e->ends[0]]), q = out_of(b, b->hull->vertices[g->ends[0]]);
-      sbf_vec3 along_p = sbri_sub(out_of(a, a->hull->vertices[e->ends[1]]), p);
-      sbf_vec3 along_q = sbri_sub(out_of(b, b->hull->vertices[g->ends[1]]), q);
-      sbf_vec3 n = sbri_cross(along_p, along_q);
-      float size = sbri_length(n);
-      if (size * size < 1e-4f * sbri_dot(along_p, along_p) * sbri_dot(along_q, along_q)) continue;
-      n = sbri_scale(n, 1 / size);
-      if (sbri_dot(n, sbri_sub(p, middle)) > 0) n = sbri_scale(n, -1); /* into a */
-      float gap = sbri_dot(n, sbri_sub(p, q));
-      if (gap > reach) return false;
-      if (gap <= least) continue;
-      least = gap;
-      *best = (axis){.gap = gap, .normal = n, .of_edges = true};
-      nearest_of_lines(p, along_p, q, along_q, &best->on_a, &best->on_b);
+      if (!arcs_cross(c0, c1, across, g->normals[0], g->normals[1]) ||
+          are_parallel(along, along_of(b->hull, g)))
+        continue;
+      axis found = axis_of_edges(a, e, b, g, middle);
+      if (found.gap > reach) return false;
+      if (found.gap <= least) continue;
+      least = found.gap;
+      *best = found;
     }
   }
   return true;

@@ -10,6 +10,7 @@
 #ifndef SBRI_MEETINGS_H
 #define SBRI_MEETINGS_H
 
+#include "math/four.h"
 #include "ragdoll/ragdoll.h"
 
 /* ---- Who may meet ---- */
@@ -126,12 +127,12 @@ typedef struct sbri_meet_contact {
 /* A rigid body that gives way, as pushes see it in a step. */
 typedef struct sbri_meet_mover {
   uint32_t member, body;
-  sbf_vec3 position, fine; /* and what that has beyond its rounded numbers */
-  float turn[3][3];        /* its own axes to the world's */
-  sbf_vec3 velocity, spin; /* m/s, rad/s */
-  float ease;              /* 1/kg */
-  float eases[3][3];       /* 1/(kg m^2), about the world's axes */
-  sbf_vec3 given, moment;  /* N s and N m s: the pushes so far */
+  sbf_vec3 position, fine;  /* and what that has beyond its rounded numbers */
+  float turn[3][3];         /* its own axes to the world's */
+  sbri_four velocity, spin; /* m/s, rad/s */
+  float ease;               /* 1/kg */
+  float eases[3][3];        /* 1/(kg m^2), about the world's axes */
+  sbf_vec3 given, moment;   /* N s and N m s: of all the step's pushes */
 } sbri_meet_mover;
 
 /* A side as pushes see it in a step: a mover, or points and what nothing pushes. */
@@ -139,6 +140,7 @@ typedef struct sbri_meet_end {
   sbri_meet_mover *mover; /* NULL: points */
   sbf_vec3 arm;           /* m, from the mover's centre of mass to where it is pushed */
   sbf_vec3 made;          /* the arm that the row's eases are for */
+  sbri_four spins[3];     /* 1/(kg m), of the mover by a push along x, y and z */
   sbf_vec3 still;         /* m/s, of what is not pushed */
   uint32_t count;
   float speed;                                            /* of the points' numbers */
@@ -155,13 +157,21 @@ typedef struct sbri_meet_row {
   float block[6];
   float gain;
   sbf_vec3 rub;
-  sbf_vec3 way, change; /* N s, of passes so far and of the present one */
   float gap;
   sbf_vec3 apart; /* a from b, m */
   sbf_vec3 place; /* where both are pushed */
   float speed;    /* m/s along the normal before its pushes */
   bool bears;     /* takes part */
   sbri_meet_end a, b;
+  /* While its push is looked for: */
+  sbri_four impulse;                 /* N s, gain and rub */
+  sbri_four along, aim;              /* the normal; what is wanted of what is pushed */
+  sbri_four blocks[3];               /* columns of `block` */
+  sbri_four arms[2], arms_turned[2]; /* of both movers */
+  sbri_meet_mover *movers[2];        /* one that stands in place of none */
+  float ease;                        /* 1/kg^2 along the normal, squared */
+  bool is_soft;                      /* points are pushed */
+  sbri_four way, change;             /* N s, of passes so far and of the present one */
 } sbri_meet_row;
 
 typedef struct sbri_meet_group {

@@ -15,75 +15,135 @@ static const float SETTLED_M_S = 2e-5f;
 /* m^2/s^2: slower across than this is no direction. */
 static const float NO_SLIP = 1e-20f;
 
-static sbf_vec3 answer(const float m[6], sbf_vec3 v) {
-  return sbri_vec3(m[0] * v.x + m[3] * v.y + m[4] * v.z, m[3] * v.x + m[1] * v.y + m[5] * v.z,
-      m[4] * v.x + m[5] * v.y + m[2] * v.z);
+static sbri_four answer(const float m[6], sbri_four v) {
+  const sbri_four columns[3] = {sbri_four_of(sbri_vec3(m[0], m[3], m[4])),
+      sbri_four_of(sbri_vec3(m[3], m[1], m[5])), sbri_four_of(sbri_vec3(m[4], m[5], m[2]))};
+  return sbri_four_times(columns, v);
 }
 
-static sbf_vec3 impulse_of(const sbri_meet_row *r) {
-  return sbri_add_scaled(r->rub, r->normal, r->gain);
+static float larger(float a, float b) {
+  return b > a ? b : a;
 }
 
-static sbf_vec3 within_friction(const sbri_meet_row *r, sbf_vec3 rub, float gain) {
-  float most = r->friction * gain, size = sbri_dot(rub, rub);
-  return size > most * most ? sbri_scale(rub, most / sqrtf(size)) : rub;
+/* ---- Before and after ---- */
+
+static void begin_side(sbri_meet_row *r, int side, const sbri_meet_end *end, sbri_meet_mover *nobody) {
+  r->movers[side] = end->mover ? end->mover : nobody;
+  r->arms[side] = sbri_four_of(end->mover ? end->arm : sbri_vec3(0, 0, 0));
+  r->arms_turned[side] = sbri_four_turn(r->arms[side]);
 }
 
-static void take(sbri_meet_row *r, float gain, sbf_vec3 rub) {
-  sbf_vec3 before = impulse_of(r);
-  r->gain = gain, r->rub = rub;
-  sbri_meet_give(r, sbri_sub(impulse_of(r), before));
+static void begin(sbri_meet_row *r, sbri_meet_mover *nobody) {
+  const float *b = r->block;
+  r->along = sbri_four_of(r->normal);
+  r->impulse = sbri_four_of(sbri_add_scaled(r->rub, r->normal, r->gain));
+  r->aim = sbri_four_of(sbri_sub(r->wanted, sbri_sub(r->a.still, r->b.still)));
+  r->blocks[0] = sbri_four_of(sbri_vec3(b[0], b[3], b[4]));
+  r->blocks[1] = sbri_four_of(sbri_vec3(b[3], b[1], b[5]));
+  r->blocks[2] = sbri_four_of(sbri_vec3(b[4], b[5], b[2]));
+  begin_side(r, 0, &r->a, nobody);
+  begin_side(r, 1, &r->b, nobody);
+  r->ease = r->mass > 0 ? 1 / (r->mass * r->mass) : 0;
+  r->is_soft = r->a.count + r->b.count > 0;
+  r->way = sbri_four_of(sbri_vec3(0, 0, 0));
+}
+
+static void end(sbri_meet_row *r) {
+  if (!r->bears) return;
+  r->rub = sbri_four_xyz(sbri_four_add_scaled(r->impulse, r->along, -r->gain));
+}
+
+/* ---- A touch ---- */
+
+/* m/s that are missing. */
+static sbri_four off_of(const sbri_meet_row *r) {
+  const sbri_meet_mover *a = r->movers[0], *b = r->movers[1];
+  sbri_four v =
+      sbri_four_sub(a->velocity, b->velocity); /* and the products of spins and arms, turned back: */
+  sbri_four w = sbri_four_sub(
+      sbri_four_mul(a->spin, r->arms_turned[0]), sbri_four_mul(sbri_four_turn(a->spin), r->arms[0]));
+  sbri_four u = sbri_four_sub(
+      sbri_four_mul(b->spin, r->arms_turned[1]), sbri_four_mul(sbri_four_turn(b->spin), r->arms[1]));
+  v = sbri_four_add(v, sbri_four_turn(sbri_four_sub(w, u)));
+  if (r->is_soft)
+    v = sbri_four_add(v, sbri_four_of(sbri_sub(sbri_meet_points_move(&r->a), sbri_meet_points_move(&r->b))));
+  return sbri_four_sub(r->aim, v);
+}
+
+static void give_mover(const sbri_meet_end *end, sbri_meet_mover *m, sbri_four p) {
+  m->velocity = sbri_four_add_scaled(m->velocity, p, m->ease);
+  m->spin = sbri_four_add(m->spin, sbri_four_times(end->spins, p));
+}
+
+/* Gives both the difference; returns the square of the speed that it has changed. */
+static float take(sbri_meet_row *r, float gain, sbri_four impulse) {
+  sbri_four change = sbri_four_sub(impulse, r->impulse), back = sbri_four_sub(r->impulse, impulse);
+  r->gain = gain, r->impulse = impulse;
+  if (r->a.mover) give_mover(&r->a, r->a.mover, change);
+  if (r->b.mover) give_mover(&r->b, r->b.mover, back);
+  if (r->is_soft) {
+    sbri_meet_give_points(&r->a, sbri_four_xyz(change));
+    sbri_meet_give_points(&r->b, sbri_four_xyz(back));
+  }
+  return sbri_four_dot(change, change) * r->ease;
+}
+
+static sbri_four within_friction(const sbri_meet_row *r, sbri_four rub, float gain) {
+  float most = r->friction * gain, size = sbri_four_dot(rub, rub);
+  return size > most * most ? sbri_four_scale(rub, most / sqrtf(size)) : rub;
+}
+
+/* Where it slides, or lets go. */
+static float slide(sbri_meet_row *r, sbri_four off, float along, float gain) {
+  sbri_four n = r->along, rub = sbri_four_add_scaled(r->impulse, n, -r->gain);
+  if (!(gain > 0)) gain = 0;
+  sbri_four side = sbri_four_add_scaled(off, n, -along);
+  float slip = sbri_four_dot(side, side);
+  if (slip > NO_SLIP)
+    rub = sbri_four_add_scaled(rub, side, slip / sbri_four_dot(side, answer(r->eases, side)));
+  return take(r, gain, sbri_four_add_scaled(within_friction(r, rub, gain), n, gain));
 }
 
 /* Returns the square of the speed that it has changed. */
 static float correct(sbri_meet_row *r) {
   if (!r->bears) return 0;
-  sbf_vec3 n = r->normal, before = impulse_of(r), off = sbri_sub(r->wanted, sbri_meet_between(r));
-  float along = sbri_dot(n, off), gain = r->gain + r->mass * along;
+  sbri_four n = r->along, off = off_of(r);
+  float along = sbri_four_dot(n, off), gain = r->gain + r->mass * along;
   if (!(gain > 0) && r->gain == 0) return 0;
-  sbf_vec3 sticks = sbri_add(before, answer(r->block, off));
-  float bears = sbri_dot(sticks, n), most = r->friction * bears;
-  sbf_vec3 rub = sbri_add_scaled(sticks, n, -bears);
-  if (bears > 0 && sbri_dot(rub, rub) <= most * most) {
-    take(r, bears, rub);
-  } else {
-    if (!(gain > 0)) gain = 0;
-    sbf_vec3 side = sbri_add_scaled(off, n, -along);
-    float slip = sbri_dot(side, side);
-    rub = slip > NO_SLIP ? sbri_add_scaled(r->rub, side, slip / sbri_dot(side, answer(r->eases, side)))
-                         : r->rub;
-    take(r, gain, within_friction(r, rub, gain));
-  }
-  sbf_vec3 change = sbri_sub(impulse_of(r), before);
-  return sbri_dot(change, change) / (r->mass * r->mass);
+  sbri_four sticks = sbri_four_add(r->impulse, sbri_four_times(r->blocks, off));
+  float bears = sbri_four_dot(sticks, n), most = r->friction * bears;
+  sbri_four rub = sbri_four_add_scaled(sticks, n, -bears);
+  if (!(bears > 0 && sbri_four_dot(rub, rub) <= most * most)) return slide(r, off, along, gain);
+  return take(r, bears, sticks);
 }
 
 /* On along the way, as far as a touch may. */
 static void go_on(sbri_meet_row *r, float share) {
-  sbf_vec3 p = sbri_add_scaled(impulse_of(r), r->way, share);
-  float gain = sbri_dot(p, r->normal);
-  sbf_vec3 rub = sbri_add_scaled(p, r->normal, -gain);
+  sbri_four p = sbri_four_add_scaled(r->impulse, r->way, share);
+  float gain = sbri_four_dot(p, r->along);
+  sbri_four rub = sbri_four_add_scaled(p, r->along, -gain);
   if (!(gain > 0)) gain = 0;
-  take(r, gain, within_friction(r, rub, gain));
+  (void)take(r, gain, sbri_four_add_scaled(within_friction(r, rub, gain), r->along, gain));
 }
 
-void sbri_meet_settle(sbri_meet_row *rows, uint32_t count) {
+/* ---- All ---- */
+
+static void settle(sbri_meet_row *rows, uint32_t count) {
   const float settled = SETTLED_M_S * SETTLED_M_S;
   float last = 0;
-  for (uint32_t i = 0; i < count; i++) rows[i].way = sbri_vec3(0, 0, 0);
   for (int pass = 0; pass < PASSES; pass++) {
     float most = 0, sum = 0;
     for (uint32_t i = 0; i < count; i++) {
-      rows[i].change = sbri_scale(impulse_of(&rows[i]), -1);
-      most = fmaxf(most, correct(&rows[i]));
+      rows[i].change = sbri_four_scale(rows[i].impulse, -1);
+      most = larger(most, correct(&rows[i]));
     }
-    for (uint32_t i = count; i-- > 0;) most = fmaxf(most, correct(&rows[i]));
+    for (uint32_t i = count; i-- > 0;) most = larger(most, correct(&rows[i]));
     if (most < settled) return;
     for (uint32_t i = 0; i < count; i++) {
       sbri_meet_row *r = &rows[i];
       if (!r->bears) continue;
-      r->change = sbri_add(r->change, impulse_of(r));
-      sum += sbri_dot(r->change, r->change) / r->mass;
+      r->change = sbri_four_add(r->change, r->impulse);
+      sum += sbri_four_dot(r->change, r->change) / r->mass;
     }
     float share = last > 0 && sum <= last ? sum / last : 0;
     last = sum;
@@ -91,7 +151,14 @@ void sbri_meet_settle(sbri_meet_row *rows, uint32_t count) {
       sbri_meet_row *r = &rows[i];
       if (!r->bears) continue;
       if (share > 0) go_on(r, share);
-      r->way = sbri_add_scaled(r->change, r->way, share);
+      r->way = sbri_four_add_scaled(r->change, r->way, share);
     }
   }
+}
+
+void sbri_meet_settle(sbri_meet_row *rows, uint32_t count) {
+  sbri_meet_mover nobody = {.ease = 0};
+  for (uint32_t i = 0; i < count; i++) begin(&rows[i], &nobody);
+  settle(rows, count);
+  for (uint32_t i = 0; i < count; i++) end(&rows[i]);
 }
