@@ -27,6 +27,10 @@ static float larger(float a, float b) {
 
 /* ---- Before and after ---- */
 
+static sbf_vec3 impulse_of(const sbri_meet_row *r) {
+  return sbri_add_scaled(r->rub, r->normal, r->gain);
+}
+
 static void begin_side(sbri_meet_row *r, int side, const sbri_meet_end *end, sbri_meet_mover *nobody) {
   r->movers[side] = end->mover ? end->mover : nobody;
   r->arms[side] = sbri_four_of(end->mover ? end->arm : sbri_vec3(0, 0, 0));
@@ -36,7 +40,7 @@ static void begin_side(sbri_meet_row *r, int side, const sbri_meet_end *end, sbr
 static void begin(sbri_meet_row *r, sbri_meet_mover *nobody) {
   const float *b = r->block;
   r->along = sbri_four_of(r->normal);
-  r->impulse = sbri_four_of(sbri_add_scaled(r->rub, r->normal, r->gain));
+  r->impulse = sbri_four_of(impulse_of(r));
   r->aim = sbri_four_of(sbri_sub(r->wanted, sbri_sub(r->a.still, r->b.still)));
   r->blocks[0] = sbri_four_of(sbri_vec3(b[0], b[3], b[4]));
   r->blocks[1] = sbri_four_of(sbri_vec3(b[3], b[1], b[5]));
@@ -49,11 +53,11 @@ static void begin(sbri_meet_row *r, sbri_meet_mover *nobody) {
 }
 
 static void end(sbri_meet_row *r) {
-  if (!r->bears) return;
+  if (!r->bears || r->is_soft) return;
   r->rub = sbri_four_xyz(sbri_four_add_scaled(r->impulse, r->along, -r->gain));
 }
 
-/* ---- A touch ---- */
+/* ---- A touch of rigid bodies ---- */
 
 /* m/s that are missing. */
 static sbri_four off_of(const sbri_meet_row *r) {
@@ -64,10 +68,7 @@ static sbri_four off_of(const sbri_meet_row *r) {
       sbri_four_mul(a->spin, r->arms_turned[0]), sbri_four_mul(sbri_four_turn(a->spin), r->arms[0]));
   sbri_four u = sbri_four_sub(
       sbri_four_mul(b->spin, r->arms_turned[1]), sbri_four_mul(sbri_four_turn(b->spin), r->arms[1]));
-  v = sbri_four_add(v, sbri_four_turn(sbri_four_sub(w, u)));
-  if (r->is_soft)
-    v = sbri_four_add(v, sbri_four_of(sbri_sub(sbri_meet_points_move(&r->a), sbri_meet_points_move(&r->b))));
-  return sbri_four_sub(r->aim, v);
+  return sbri_four_sub(r->aim, sbri_four_add(v, sbri_four_turn(sbri_four_sub(w, u))));
 }
 
 static void give_mover(const sbri_meet_end *end, sbri_meet_mover *m, sbri_four p) {
@@ -81,10 +82,6 @@ static float take(sbri_meet_row *r, float gain, sbri_four impulse) {
   r->gain = gain, r->impulse = impulse;
   if (r->a.mover) give_mover(&r->a, r->a.mover, change);
   if (r->b.mover) give_mover(&r->b, r->b.mover, back);
-  if (r->is_soft) {
-    sbri_meet_give_points(&r->a, sbri_four_xyz(change));
-    sbri_meet_give_points(&r->b, sbri_four_xyz(back));
-  }
   return sbri_four_dot(change, change) * r->ease;
 }
 
@@ -106,7 +103,6 @@ static float slide(sbri_meet_row *r, sbri_four off, float along, float gain) {
 
 /* Returns the square of the speed that it has changed. */
 static float correct(sbri_meet_row *r) {
-  if (!r->bears) return 0;
   sbri_four n = r->along, off = off_of(r);
   float along = sbri_four_dot(n, off), gain = r->gain + r->mass * along;
   if (!(gain > 0) && r->gain == 0) return 0;
@@ -126,7 +122,57 @@ static void go_on(sbri_meet_row *r, float share) {
   (void)take(r, gain, sbri_four_add_scaled(within_friction(r, rub, gain), r->along, gain));
 }
 
+/* ---- A touch that points carry ---- */
+
+static sbf_vec3 soft_answer(const float m[6], sbf_vec3 v) {
+  return sbri_vec3(m[0] * v.x + m[3] * v.y + m[4] * v.z, m[3] * v.x + m[1] * v.y + m[5] * v.z,
+      m[4] * v.x + m[5] * v.y + m[2] * v.z);
+}
+
+static sbf_vec3 soft_within_friction(const sbri_meet_row *r, sbf_vec3 rub, float gain) {
+  float most = r->friction * gain, size = sbri_dot(rub, rub);
+  return size > most * most ? sbri_scale(rub, most / sqrtf(size)) : rub;
+}
+
+static float take_soft(sbri_meet_row *r, float gain, sbf_vec3 rub) {
+  sbf_vec3 before = impulse_of(r);
+  r->gain = gain, r->rub = rub;
+  sbf_vec3 now = impulse_of(r), change = sbri_sub(now, before);
+  sbri_meet_give(r, change);
+  r->impulse = sbri_four_of(now);
+  return sbri_dot(change, change) / (r->mass * r->mass);
+}
+
+static float correct_soft(sbri_meet_row *r) {
+  sbf_vec3 n = r->normal, off = sbri_sub(r->wanted, sbri_meet_between(r));
+  float along = sbri_dot(n, off), gain = r->gain + r->mass * along;
+  if (!(gain > 0) && r->gain == 0) return 0;
+  sbf_vec3 sticks = sbri_add(impulse_of(r), soft_answer(r->block, off));
+  float bears = sbri_dot(sticks, n), most = r->friction * bears;
+  sbf_vec3 rub = sbri_add_scaled(sticks, n, -bears);
+  if (bears > 0 && sbri_dot(rub, rub) <= most * most) return take_soft(r, bears, rub);
+  if (!(gain > 0)) gain = 0;
+  sbf_vec3 side = sbri_add_scaled(off, n, -along);
+  float slip = sbri_dot(side, side);
+  rub = slip > NO_SLIP ? sbri_add_scaled(r->rub, side, slip / sbri_dot(side, soft_answer(r->eases, side)))
+                       : r->rub;
+  return take_soft(r, gain, soft_within_friction(r, rub, gain));
+}
+
+static void go_on_soft(sbri_meet_row *r, float share) {
+  sbf_vec3 p = sbri_add_scaled(impulse_of(r), sbri_four_xyz(r->way), share);
+  float gain = sbri_dot(p, r->normal);
+  sbf_vec3 rub = sbri_add_scaled(p, r->normal, -gain);
+  if (!(gain > 0)) gain = 0;
+  (void)take_soft(r, gain, soft_within_friction(r, rub, gain));
+}
+
 /* ---- All ---- */
+
+static float correct_any(sbri_meet_row *r) {
+  if (!r->bears) return 0;
+  return r->is_soft ? correct_soft(r) : correct(r);
+}
 
 static void settle(sbri_meet_row *rows, uint32_t count) {
   const float settled = SETTLED_M_S * SETTLED_M_S;
@@ -135,9 +181,9 @@ static void settle(sbri_meet_row *rows, uint32_t count) {
     float most = 0, sum = 0;
     for (uint32_t i = 0; i < count; i++) {
       rows[i].change = sbri_four_scale(rows[i].impulse, -1);
-      most = larger(most, correct(&rows[i]));
+      most = larger(most, correct_any(&rows[i]));
     }
-    for (uint32_t i = count; i-- > 0;) most = larger(most, correct(&rows[i]));
+    for (uint32_t i = count; i-- > 0;) most = larger(most, correct_any(&rows[i]));
     if (most < settled) return;
     for (uint32_t i = 0; i < count; i++) {
       sbri_meet_row *r = &rows[i];
@@ -150,7 +196,7 @@ static void settle(sbri_meet_row *rows, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
       sbri_meet_row *r = &rows[i];
       if (!r->bears) continue;
-      if (share > 0) go_on(r, share);
+      if (share > 0) (r->is_soft ? go_on_soft : go_on)(r, share);
       r->way = sbri_four_add_scaled(r->change, r->way, share);
     }
   }
