@@ -37,6 +37,12 @@ static inline bool sbri_box_meets(const sbri_box *a, const sbri_box *b) {
          a->low.z <= b->high.z && b->low.z <= a->high.z;
 }
 
+/* About what moves, and how far that part of it goes that goes furthest. */
+typedef struct sbri_moving_ball {
+  sbf_vec3 middle;
+  float radius, way;
+} sbri_moving_ball;
+
 typedef struct sbri_bounds_node {
   sbri_box box;
   uint32_t first, count; /* items of a leaf; of an inner node count is 0 and first its second child, the

@@ -46,19 +46,26 @@ static inline bool sbri_surface_found(const sbri_surface_finding *f) {
   return f->urgency != INFINITY && !(f->behind && f->before < SBRI_OUTSIDE * (f->urgency - 1));
 }
 
+/* Whether what goes so against a face is too far off to touch it within the tick, or to lie inside. */
+static inline bool sbri_surface_is_far(const sbri_surface_rule *rule, sbf_vec3 off, sbf_vec3 way) {
+  float square = sbri_dot(off, off), most = rule->outer + 2 * (fabsf(way.x) + fabsf(way.y) + fabsf(way.z));
+  return square > 1.0001f * most * most && (rule->two_sided || square > rule->inner * rule->inner);
+}
+
 static inline void sbri_surface_look(const sbri_surface_rule *rule, sbf_vec3 x, sbf_vec3 own_way,
     const sbri_surface_face *face, uint32_t number, sbri_surface_finding *best) {
   const sbf_vec3 *p = face->at;
   sbri_surface_finding f = {.face = number, .before = best->before};
   sbri_triangle_nearest(x, p[0], p[1], p[2], f.weights);
   sbf_vec3 off = sbri_sub(x, sbri_triangle_place(f.weights, p[0], p[1], p[2]));
+  sbf_vec3 way =
+      sbri_sub(own_way, sbri_triangle_place(f.weights, face->ways[0], face->ways[1], face->ways[2]));
+  if (sbri_surface_is_far(rule, off, way)) return;
   sbf_vec3 up = sbri_normalize(sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0])), off);
   float distance = sbri_length(off), height = sbri_dot(off, up);
   bool behind = !rule->two_sided && height < 0;
   bool at_rim = f.weights[0] == 0 || f.weights[1] == 0 || f.weights[2] == 0;
   if (behind && (distance > rule->inner || (at_rim && -height < SBRI_BESIDE * distance))) return;
-  sbf_vec3 way =
-      sbri_sub(own_way, sbri_triangle_place(f.weights, face->ways[0], face->ways[1], face->ways[2]));
   sbf_vec3 side = rule->two_sided && height < 0 ? sbri_scale(up, -1) : up;
   if (height >= 0 && distance < f.before) f.before = best->before = distance;
   f.behind = behind;

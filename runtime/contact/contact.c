@@ -172,7 +172,7 @@ void sbri_contact_prepare(
   sbri_shape_touches_add(t, body, tables);
   if (body->self_face_count) {
     sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};
-    sbri_self_touches_add(t, body, tables, &tree, tables->self_boxes);
+    sbri_self_touches_add(t, body, tables, &tree);
   }
   if (*count > before && !body->samples) {
     turn_planes_into_touches(t, body, tables);

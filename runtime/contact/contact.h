@@ -25,6 +25,7 @@ typedef struct sbri_contact_tables {
   uint8_t *slot_touches;       /* (slots) scratch: how many touches move each point, as two where more */
   const sbri_skin *surface;    /* of the body, as it is carried now */
   struct sbri_box *self_boxes; /* scratch of the body, where it meets itself */
+  struct sbri_moving_ball *self_balls;
   struct sbri_bounds_node *self_nodes;
   uint32_t *self_items;
   uint8_t *self_edges;

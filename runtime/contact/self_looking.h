@@ -17,6 +17,7 @@ typedef struct sbri_self_looking {
   const sbri_contact_tables *tables;
   const sbri_bounds_tree *tree; /* over the boxes of the triangles' ways */
   const sbri_box *boxes;
+  const sbri_moving_ball *balls; /* about them when the tick begins */
   sbri_surface_rule rule;
 } sbri_self_looking;
 

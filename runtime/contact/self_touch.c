@@ -18,24 +18,70 @@ static const float NEAR_SHARE = 0.01f;
 /* Of the thickness, that a point keeps from triangles with a corner that a side joins it to. */
 static const float JOINED_SHARE = 0.2f;
 
-static void make_boxes(const sbri_self_looking *l, sbri_box *boxes) {
+static sbri_moving_ball ball_of(const sbri_self_looking *l, const uint32_t *c) {
+  sbri_moving_ball ball;
+  sbf_vec3 p[3];
+  float square = 0, ways = 0;
+  for (int k = 0; k < 3; k++) {
+    sbf_vec3 way = sbri_self_way(l->tick, c[k]);
+    p[k] = sbri_self_place(l->tick->positions, c[k]);
+    ways = sbri_most(ways, sbri_dot(way, way));
+  }
+  ball.middle = sbri_scale(sbri_add(sbri_add(p[0], p[1]), p[2]), 1.0f / 3);
+  for (int k = 0; k < 3; k++) {
+    sbf_vec3 off = sbri_sub(p[k], ball.middle);
+    square = sbri_most(square, sbri_dot(off, off));
+  }
+  ball.radius = sqrtf(square), ball.way = sqrtf(ways);
+  return ball;
+}
+
+static void make_bounds(const sbri_self_looking *l, sbri_box *boxes, sbri_moving_ball *balls) {
   for (uint32_t f = 0; f < l->body->self_face_count; f++) {
     const uint32_t *c = l->body->self_faces + 3 * (size_t)f;
     boxes[f] = sbri_self_swept(l->tick, c[0], l->rule.outer);
     for (int k = 1; k < 3; k++)
       boxes[f] = sbri_box_join(boxes[f], sbri_self_swept(l->tick, c[k], l->rule.outer));
+    balls[f] = ball_of(l, c);
   }
 }
 
-static sbri_surface_finding look(const sbri_self_looking *l, uint32_t slot, uint32_t number) {
+/* A point, and all that may be near to it. */
+typedef struct place {
+  uint32_t slot;
+  sbf_vec3 x, way;
+  float reach; /* m, beside how a triangle goes */
+  sbri_box box;
+} place;
+
+static place place_of(const sbri_self_looking *l, uint32_t slot) {
+  place p = {.slot = slot,
+      .x = sbri_self_place(l->tick->positions, slot),
+      .way = sbri_self_way(l->tick, slot),
+      .box = sbri_self_swept(l->tick, slot, l->rule.outer)};
+  float near = l->rule.outer + 2 * sbri_length(p.way);
+  p.reach = l->rule.two_sided ? near : sbri_most(near, l->rule.inner);
+  return p;
+}
+
+/* Whether a triangle of the tree may be one that it comes near to, or lies behind. */
+static bool may_meet(const sbri_self_looking *l, const place *p, uint32_t number) {
+  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  const sbri_moving_ball *ball = &l->balls[number];
+  sbf_vec3 off = sbri_sub(p->x, ball->middle);
+  float most = ball->radius + 2 * ball->way + p->reach;
+  return sbri_dot(off, off) <= 1.0001f * most * most && sbri_box_meets(&p->box, &l->boxes[number]) &&
+         c[0] != p->slot && c[1] != p->slot && c[2] != p->slot;
+}
+
+static sbri_surface_finding look(const sbri_self_looking *l, const place *at, uint32_t number) {
   const sbri_island_tick *t = l->tick;
   const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
   sbri_surface_face face;
   for (int k = 0; k < 3; k++)
     face.at[k] = sbri_self_place(t->positions, c[k]), face.ways[k] = sbri_self_way(t, c[k]);
   sbri_surface_finding found = sbri_surface_nothing();
-  sbri_surface_look(
-      &l->rule, sbri_self_place(t->positions, slot), sbri_self_way(t, slot), &face, number, &found);
+  sbri_surface_look(&l->rule, at->x, at->way, &face, number, &found);
   return found;
 }
 
@@ -69,18 +115,17 @@ static void take(sbri_surface_finding *best, const sbri_surface_finding *one) {
   best->before = before;
 }
 
-static void look_around(const sbri_self_looking *l, uint32_t slot, around *a) {
+static void look_around(const sbri_self_looking *l, const place *p, around *a) {
   sbri_bounds_walk walk;
   uint32_t item;
-  sbri_box box = sbri_self_swept(l->tick, slot, l->rule.outer);
   a->best = a->joined = sbri_surface_nothing();
   a->other_count = 0;
-  sbri_bounds_walk_begin(&walk, l->tree, box);
+  sbri_bounds_walk_begin(&walk, l->tree, p->box);
   while (sbri_bounds_walk_next(&walk, &item)) {
-    const uint32_t *c = l->body->self_faces + 3 * (size_t)item;
-    if (!sbri_box_meets(&box, &l->boxes[item]) || c[0] == slot || c[1] == slot || c[2] == slot) continue;
-    sbri_surface_finding one = look(l, slot, item);
-    if (hangs_on(l->body, slot, c)) {
+    if (!may_meet(l, p, item)) continue;
+    sbri_surface_finding one = look(l, p, item);
+    if (one.urgency == INFINITY && (l->rule.two_sided || one.before == INFINITY)) continue;
+    if (hangs_on(l->body, p->slot, l->body->self_faces + 3 * (size_t)item)) {
       take(&a->joined, &one);
       continue;
     }
@@ -98,7 +143,7 @@ static void take_other(
 
 /* The most urgent on the other side than the most urgent of all. */
 static bool find_other(
-    const sbri_self_looking *l, uint32_t slot, const around *a, sbri_surface_finding *best) {
+    const sbri_self_looking *l, const place *p, const around *a, sbri_surface_finding *best) {
   *best = sbri_surface_nothing();
   if (a->other_count <= OTHERS) {
     for (uint32_t i = 0; i < a->other_count; i++) take_other(&a->others[i], &a->best, best);
@@ -106,13 +151,12 @@ static bool find_other(
   }
   sbri_bounds_walk walk;
   uint32_t item;
-  sbri_box box = sbri_self_swept(l->tick, slot, l->rule.outer);
-  sbri_bounds_walk_begin(&walk, l->tree, box);
+  sbri_bounds_walk_begin(&walk, l->tree, p->box);
   while (sbri_bounds_walk_next(&walk, &item)) {
-    const uint32_t *c = l->body->self_faces + 3 * (size_t)item;
-    if (!sbri_box_meets(&box, &l->boxes[item]) || c[0] == slot || c[1] == slot || c[2] == slot) continue;
-    sbri_surface_finding one = look(l, slot, item);
-    if (!one.behind && !hangs_on(l->body, slot, c)) take_other(&one, &a->best, best);
+    if (!may_meet(l, p, item)) continue;
+    sbri_surface_finding one = look(l, p, item);
+    if (!one.behind && !hangs_on(l->body, p->slot, l->body->self_faces + 3 * (size_t)item))
+      take_other(&one, &a->best, best);
   }
   return sbri_surface_found(best);
 }
@@ -129,22 +173,23 @@ static void add_point(const sbri_self_looking *l, uint32_t slot) {
   around a;
   sbri_surface_finding other;
   float thickness = l->body->source->collision.outer_thickness;
-  look_around(l, slot, &a);
+  place p = place_of(l, slot);
+  look_around(l, &p, &a);
   if (sbri_surface_found(&a.best)) {
     add(l, slot, &a.best, thickness);
-    if (!a.best.behind && find_other(l, slot, &a, &other)) add(l, slot, &other, thickness);
+    if (!a.best.behind && find_other(l, &p, &a, &other)) add(l, slot, &other, thickness);
   }
   if (sbri_surface_found(&a.joined)) add(l, slot, &a.joined, JOINED_SHARE * thickness);
 }
 
 void sbri_self_touches_add(const sbri_island_tick *t, const sbri_body *body,
-    const sbri_contact_tables *tables, sbri_bounds_tree *tree, sbri_box *boxes) {
+    const sbri_contact_tables *tables, sbri_bounds_tree *tree) {
   const sbf_collision *rule = &body->source->collision;
-  sbri_self_looking l = {t, body, tables, tree, boxes,
+  sbri_self_looking l = {t, body, tables, tree, tables->self_boxes, tables->self_balls,
       {rule->outer_thickness + NEAR_SHARE * body->rest_size_m, rule->inner_thickness,
           body->is_sheet || body->rest_volume_m3 == 0}};
-  make_boxes(&l, boxes);
-  sbri_bounds_tree_make(tree, boxes, body->self_face_count);
+  make_bounds(&l, tables->self_boxes, tables->self_balls);
+  sbri_bounds_tree_make(tree, tables->self_boxes, body->self_face_count);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) add_point(&l, slot);
   if (l.rule.two_sided) sbri_self_edges_add(&l);
 }

@@ -5,9 +5,9 @@
 #include "collide/bounds_tree.h"
 #include "contact/contact.h"
 
-/* Adds to the body's touches; `tree` and `boxes` have room for its self_face_count triangles. */
+/* Adds to the body's touches; `tree` has room for its self_face_count triangles. */
 void sbri_self_touches_add(const sbri_island_tick *tick, const sbri_body *body,
-    const sbri_contact_tables *tables, sbri_bounds_tree *tree, sbri_box *boxes);
+    const sbri_contact_tables *tables, sbri_bounds_tree *tree);
 
 /* ---- self_follow.c ---- */
 

@@ -71,19 +71,7 @@ void sbri_meet_movers_read(const sbri_meetings *all, const sbri_meet_group *grou
   }
 }
 
-static void add_push(const sbri_meet_end *end, sbf_vec3 impulse) {
-  if (!end->mover) return;
-  end->mover->given = sbri_add(end->mover->given, impulse);
-  end->mover->moment = sbri_add(end->mover->moment, sbri_cross(end->arm, impulse));
-}
-
 void sbri_meet_movers_write(const sbri_meetings *all, const sbri_meet_group *group) {
-  for (uint32_t i = 0; i < group->touch_count; i++) {
-    const sbri_meet_row *r = &all->rows[group->first_touch + i];
-    sbf_vec3 impulse = sbri_add_scaled(r->rub, r->normal, r->gain);
-    add_push(&r->a, impulse);
-    add_push(&r->b, sbri_scale(impulse, -1));
-  }
   for (uint32_t i = 0; i < group->mover_count; i++) {
     const sbri_meet_mover *mover = &all->movers[group->first_mover + i];
     const sbri_meet_member *m = &all->members[group->first_member + mover->member];
@@ -183,17 +171,6 @@ static void add_eases(const sbri_meet_end *end, float eases[6]) {
   for (int i = 0; i < 3; i++) eases[i] += own;
 }
 
-/* How a push at the end of its arm turns the mover. */
-static void find_spins(sbri_meet_end *end) {
-  if (!end->mover) return;
-  float(*e)[3] = end->mover->eases;
-  sbf_vec3 r = end->arm, x = sbri_vec3(e[0][0], e[1][0], e[2][0]), y = sbri_vec3(e[0][1], e[1][1], e[2][1]),
-           z = sbri_vec3(e[0][2], e[1][2], e[2][2]);
-  end->spins[0] = sbri_four_of(sbri_add_scaled(sbri_scale(y, r.z), z, -r.y));
-  end->spins[1] = sbri_four_of(sbri_add_scaled(sbri_scale(z, r.x), x, -r.z));
-  end->spins[2] = sbri_four_of(sbri_add_scaled(sbri_scale(x, r.y), y, -r.x));
-}
-
 /* Of a symmetric matrix that is positive definite, or 0. */
 static void invert(const float a[6], float to[6]) {
   float xx = a[1] * a[2] - a[5] * a[5], xy = a[4] * a[5] - a[3] * a[2], xz = a[3] * a[5] - a[1] * a[4];
@@ -226,8 +203,6 @@ void sbri_meet_row_begin(
   }
   if (row->a.mover) row->a.arm = sbri_sub(middle, row->a.mover->position);
   if (row->b.mover) row->b.arm = sbri_sub(middle, row->b.mover->position);
-  find_spins(&row->a);
-  find_spins(&row->b);
   row->apart = off;
   row->place = middle;
   row->gap = sbri_dot(n, off) - t->margin;

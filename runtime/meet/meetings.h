@@ -132,7 +132,7 @@ typedef struct sbri_meet_mover {
   sbri_four velocity, spin; /* m/s, rad/s */
   float ease;               /* 1/kg */
   float eases[3][3];        /* 1/(kg m^2), about the world's axes */
-  sbf_vec3 given, moment;   /* N s and N m s: of all the step's pushes */
+  sbf_vec3 given, moment;   /* N s and N m s: the pushes so far */
 } sbri_meet_mover;
 
 /* A side as pushes see it in a step: a mover, or points and what nothing pushes. */
@@ -140,7 +140,7 @@ typedef struct sbri_meet_end {
   sbri_meet_mover *mover; /* NULL: points */
   sbf_vec3 arm;           /* m, from the mover's centre of mass to where it is pushed */
   sbf_vec3 made;          /* the arm that the row's eases are for */
-  sbri_four spins[3];     /* 1/(kg m), of the mover by a push along x, y and z */
+  sbri_four spins[3];     /* 1/(kg m), of the mover by a push along x, y and z, while one is looked for */
   sbf_vec3 still;         /* m/s, of what is not pushed */
   uint32_t count;
   float speed;                                            /* of the points' numbers */
@@ -164,13 +164,12 @@ typedef struct sbri_meet_row {
   bool bears;     /* takes part */
   sbri_meet_end a, b;
   /* While its push is looked for: */
-  sbri_four impulse;                 /* N s, gain and rub */
+  sbri_four impulse, first;          /* N s, gain and rub; and when it begins */
   sbri_four along, aim;              /* the normal; what is wanted of what is pushed */
   sbri_four blocks[3];               /* columns of `block` */
   sbri_four arms[2], arms_turned[2]; /* of both movers */
   sbri_meet_mover *movers[2];        /* one that stands in place of none */
   float ease;                        /* 1/kg^2 along the normal, squared */
-  bool is_soft;                      /* points are pushed */
   sbri_four way, change;             /* N s, of passes so far and of the present one */
 } sbri_meet_row;
 

@@ -31,16 +31,27 @@ static sbf_vec3 impulse_of(const sbri_meet_row *r) {
   return sbri_add_scaled(r->rub, r->normal, r->gain);
 }
 
-static void begin_side(sbri_meet_row *r, int side, const sbri_meet_end *end, sbri_meet_mover *nobody) {
+/* How a push at the end of its arm turns the mover. */
+static void find_spins(sbri_meet_end *end) {
+  float(*e)[3] = end->mover->eases;
+  sbf_vec3 r = end->arm, x = sbri_vec3(e[0][0], e[1][0], e[2][0]), y = sbri_vec3(e[0][1], e[1][1], e[2][1]),
+           z = sbri_vec3(e[0][2], e[1][2], e[2][2]);
+  end->spins[0] = sbri_four_of(sbri_add_scaled(sbri_scale(y, r.z), z, -r.y));
+  end->spins[1] = sbri_four_of(sbri_add_scaled(sbri_scale(z, r.x), x, -r.z));
+  end->spins[2] = sbri_four_of(sbri_add_scaled(sbri_scale(x, r.y), y, -r.x));
+}
+
+static void begin_side(sbri_meet_row *r, int side, sbri_meet_end *end, sbri_meet_mover *nobody) {
   r->movers[side] = end->mover ? end->mover : nobody;
   r->arms[side] = sbri_four_of(end->mover ? end->arm : sbri_vec3(0, 0, 0));
+  if (end->mover) find_spins(end);
   r->arms_turned[side] = sbri_four_turn(r->arms[side]);
 }
 
 static void begin(sbri_meet_row *r, sbri_meet_mover *nobody) {
   const float *b = r->block;
   r->along = sbri_four_of(r->normal);
-  r->impulse = sbri_four_of(impulse_of(r));
+  r->first = r->impulse;
   r->aim = sbri_four_of(sbri_sub(r->wanted, sbri_sub(r->a.still, r->b.still)));
   r->blocks[0] = sbri_four_of(sbri_vec3(b[0], b[3], b[4]));
   r->blocks[1] = sbri_four_of(sbri_vec3(b[3], b[1], b[5]));
@@ -48,13 +59,20 @@ static void begin(sbri_meet_row *r, sbri_meet_mover *nobody) {
   begin_side(r, 0, &r->a, nobody);
   begin_side(r, 1, &r->b, nobody);
   r->ease = r->mass > 0 ? 1 / (r->mass * r->mass) : 0;
-  r->is_soft = r->a.count + r->b.count > 0;
-  r->way = sbri_four_of(sbri_vec3(0, 0, 0));
+}
+
+static void note(const sbri_meet_end *end, sbf_vec3 impulse) {
+  if (!end->mover) return;
+  end->mover->given = sbri_add(end->mover->given, impulse);
+  end->mover->moment = sbri_add(end->mover->moment, sbri_cross(end->arm, impulse));
 }
 
 static void end(sbri_meet_row *r) {
-  if (!r->bears || r->is_soft) return;
+  if (!r->bears) return;
+  sbf_vec3 given = sbri_four_xyz(sbri_four_sub(r->impulse, r->first));
   r->rub = sbri_four_xyz(sbri_four_add_scaled(r->impulse, r->along, -r->gain));
+  note(&r->a, given);
+  note(&r->b, sbri_scale(given, -1));
 }
 
 /* ---- A touch of rigid bodies ---- */
@@ -122,14 +140,14 @@ static void go_on(sbri_meet_row *r, float share) {
   (void)take(r, gain, sbri_four_add_scaled(within_friction(r, rub, gain), r->along, gain));
 }
 
-/* ---- A touch that points carry ---- */
+/* ---- A touch of which one end may be carried by points ---- */
 
-static sbf_vec3 soft_answer(const float m[6], sbf_vec3 v) {
+static sbf_vec3 answer_of(const float m[6], sbf_vec3 v) {
   return sbri_vec3(m[0] * v.x + m[3] * v.y + m[4] * v.z, m[3] * v.x + m[1] * v.y + m[5] * v.z,
       m[4] * v.x + m[5] * v.y + m[2] * v.z);
 }
 
-static sbf_vec3 soft_within_friction(const sbri_meet_row *r, sbf_vec3 rub, float gain) {
+static sbf_vec3 within_friction_of(const sbri_meet_row *r, sbf_vec3 rub, float gain) {
   float most = r->friction * gain, size = sbri_dot(rub, rub);
   return size > most * most ? sbri_scale(rub, most / sqrtf(size)) : rub;
 }
@@ -147,16 +165,16 @@ static float correct_soft(sbri_meet_row *r) {
   sbf_vec3 n = r->normal, off = sbri_sub(r->wanted, sbri_meet_between(r));
   float along = sbri_dot(n, off), gain = r->gain + r->mass * along;
   if (!(gain > 0) && r->gain == 0) return 0;
-  sbf_vec3 sticks = sbri_add(impulse_of(r), soft_answer(r->block, off));
+  sbf_vec3 sticks = sbri_add(impulse_of(r), answer_of(r->block, off));
   float bears = sbri_dot(sticks, n), most = r->friction * bears;
   sbf_vec3 rub = sbri_add_scaled(sticks, n, -bears);
   if (bears > 0 && sbri_dot(rub, rub) <= most * most) return take_soft(r, bears, rub);
   if (!(gain > 0)) gain = 0;
   sbf_vec3 side = sbri_add_scaled(off, n, -along);
   float slip = sbri_dot(side, side);
-  rub = slip > NO_SLIP ? sbri_add_scaled(r->rub, side, slip / sbri_dot(side, soft_answer(r->eases, side)))
+  rub = slip > NO_SLIP ? sbri_add_scaled(r->rub, side, slip / sbri_dot(side, answer_of(r->eases, side)))
                        : r->rub;
-  return take_soft(r, gain, soft_within_friction(r, rub, gain));
+  return take_soft(r, gain, within_friction_of(r, rub, gain));
 }
 
 static void go_on_soft(sbri_meet_row *r, float share) {
@@ -164,26 +182,27 @@ static void go_on_soft(sbri_meet_row *r, float share) {
   float gain = sbri_dot(p, r->normal);
   sbf_vec3 rub = sbri_add_scaled(p, r->normal, -gain);
   if (!(gain > 0)) gain = 0;
-  (void)take_soft(r, gain, soft_within_friction(r, rub, gain));
+  (void)take_soft(r, gain, within_friction_of(r, rub, gain));
 }
 
 /* ---- All ---- */
 
-static float correct_any(sbri_meet_row *r) {
-  if (!r->bears) return 0;
-  return r->is_soft ? correct_soft(r) : correct(r);
-}
+typedef struct kind {
+  float (*correct)(sbri_meet_row *row);
+  void (*go_on)(sbri_meet_row *row, float share);
+} kind;
 
-static void settle(sbri_meet_row *rows, uint32_t count) {
+SBRI_INLINE void settle(sbri_meet_row *rows, uint32_t count, const kind *of) {
   const float settled = SETTLED_M_S * SETTLED_M_S;
   float last = 0;
   for (int pass = 0; pass < PASSES; pass++) {
     float most = 0, sum = 0;
     for (uint32_t i = 0; i < count; i++) {
       rows[i].change = sbri_four_scale(rows[i].impulse, -1);
-      most = larger(most, correct_any(&rows[i]));
+      if (rows[i].bears) most = larger(most, of->correct(&rows[i]));
     }
-    for (uint32_t i = count; i-- > 0;) most = larger(most, correct_any(&rows[i]));
+    for (uint32_t i = count; i-- > 0;)
+      if (rows[i].bears) most = larger(most, of->correct(&rows[i]));
     if (most < settled) return;
     for (uint32_t i = 0; i < count; i++) {
       sbri_meet_row *r = &rows[i];
@@ -196,15 +215,26 @@ static void settle(sbri_meet_row *rows, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
       sbri_meet_row *r = &rows[i];
       if (!r->bears) continue;
-      if (share > 0) (r->is_soft ? go_on_soft : go_on)(r, share);
+      if (share > 0) of->go_on(r, share);
       r->way = sbri_four_add_scaled(r->change, r->way, share);
     }
   }
 }
 
 void sbri_meet_settle(sbri_meet_row *rows, uint32_t count) {
+  static const kind rigid = {correct, go_on}, any = {correct_soft, go_on_soft};
   sbri_meet_mover nobody = {.ease = 0};
+  bool all_are_rigid = true;
+  for (uint32_t i = 0; i < count; i++) {
+    rows[i].impulse = sbri_four_of(impulse_of(&rows[i]));
+    rows[i].way = sbri_four_of(sbri_vec3(0, 0, 0));
+    all_are_rigid = all_are_rigid && rows[i].a.count + rows[i].b.count == 0;
+  }
+  if (!all_are_rigid) {
+    settle(rows, count, &any);
+    return;
+  }
   for (uint32_t i = 0; i < count; i++) begin(&rows[i], &nobody);
-  settle(rows, count);
+  settle(rows, count, &rigid);
   for (uint32_t i = 0; i < count; i++) end(&rows[i]);
 }

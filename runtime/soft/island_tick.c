@@ -28,12 +28,14 @@ void sbri_island_tuck(sbri_character *c, const sbri_island *island) {
 void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
   size_t first = tick->island->first_slot;
   sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
-      sbri_touches(c), sbri_touch_counts(c), sbri_slot_touches(c) + first, NULL, NULL, NULL, NULL, NULL};
+      sbri_touches(c), sbri_touch_counts(c), sbri_slot_touches(c) + first, NULL, NULL, NULL, NULL, NULL,
+      NULL};
   for (uint32_t b = 0; b < tick->island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
     sbri_skin surface = sbri_skin_now(c, &body->surface);
     tables.surface = &surface;
     tables.self_boxes = sbri_self_boxes(c) + body->first_self_face;
+    tables.self_balls = sbri_self_balls(c) + body->first_self_face;
     tables.self_nodes = sbri_self_nodes(c) + 2 * (size_t)body->first_self_face + tick->island->bodies[b];
     tables.self_items = sbri_self_items(c) + body->first_self_face;
     tables.self_edges = sbri_self_edges(c) + body->first_self_face;

@@ -108,6 +108,7 @@ static void make_layout(sbr_model *model) {
   l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
   l->slot_touches = place(&end, slots, 1);
   l->self_boxes = place(&end, self_faces, sizeof(sbri_box));
+  l->self_balls = place(&end, self_faces, sizeof(sbri_moving_ball));
   l->self_nodes = place(&end, 2 * self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
   l->self_items = place(&end, self_faces, sizeof(uint32_t));
   l->self_edges = place(&end, self_faces, 1);

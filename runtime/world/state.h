@@ -193,6 +193,7 @@ SBRI_SCRATCH_PART(slot_touches, uint8_t, c->model->layout.slot_touches)    /* (s
 SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching) /* (bodies) */
 SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching) /* (rigid bodies) */
 SBRI_SCRATCH_PART(self_boxes, sbri_box, c->model->layout.self_boxes) /* (triangles of bodies that do) */
+SBRI_SCRATCH_PART(self_balls, sbri_moving_ball, c->model->layout.self_balls)
 SBRI_SCRATCH_PART(
     self_nodes, sbri_bounds_node, c->model->layout.self_nodes) /* (twice that, and one a body) */
 SBRI_SCRATCH_PART(self_items, uint32_t, c->model->layout.self_items)
