@@ -47,6 +47,11 @@ def gait_row(r):
             number(r["worst_us"])]
 
 
+def contacts_row(r):
+    return [r["layout"], number(r["boxes"]), number(r["touches"]) if r["touches"] != "0" else "", number(r["tick_us"]), number(r["box_us"]),
+            number(r["touches_a_second"]) if r["touches"] != "0" else "", r["slope"] if r["boxes"] != "16" else ""]
+
+
 def size_row(r):
     return [r["file"], number(r["vertices"]), number(r["springs"]), number(r["xml"]), number(r["gzip"]),
             number(r["packed"]), number(r["stored"]), r["packed/xml"], r["packed/gzip"], number(r["meshes"]),
@@ -142,6 +147,7 @@ TABLES = {
                            "| away | have been away", 1),
     "character": (character_row, "E, kPa | tetrahedra | substeps | strain | off 20,000 by | tick, µs | skin, µs | frame, µs | worst", 0),
     "schemes": (schemes_row, "body | scheme | springs | substeps | µs a tick | ns a spring and substep | error, mm", 2),
+    "contacts": (contacts_row, "boxes | of them | touches | tick, µs | a box, µs | touches/s | slope", 1),
     "ik": (ik_row, "solver | limits | targets | tolerance, m | passes | µs | mean error, m | greatest, m | missed", 3),
     "size": (size_row, "file | vertices | springs | XML | gzip of it | packed | stored | packed / XML | "
                        "packed / gzip | meshes | GLB | meshes / GLB", 1),
