@@ -1,11 +1,12 @@
-/* What a body touches, for events: up to four other things at once, told when each begins. Output, not state:
- * nothing that moves goes by it. */
+/* What a body touches, for events: up to so many other things at once, told when each begins. Output, not
+ * state: nothing that moves goes by it. */
 #ifndef SBRI_TOUCHING_H
 #define SBRI_TOUCHING_H
 
 #include "math/vec3.h"
 
-enum { SBRI_TOUCHING = 4 };
+/* Of a host's bodies those that are beyond it get no push back. */
+enum { SBRI_TOUCHING = 12 };
 
 typedef struct sbri_touching_one {
   uint32_t thing; /* number of the collider, or UINT32_MAX: the ground */

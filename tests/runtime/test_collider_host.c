@@ -156,12 +156,47 @@ START_TEST(what_lies_weighs)
 }
 END_TEST
 
+enum { MANY = 11 }; /* and the ground makes twelve */
+
+/* A body that lies on many bodies of the host at once pushes each of them. */
+START_TEST(each_of_many_bears_its_share)
+{
+  scene s = scene_begin();
+  sbf_vec3 at[MANY];
+  float masses[MANY], stiffness[MANY - 1];
+  sbf_uint2 ends[MANY - 1];
+  guest guests[MANY];
+  for (uint32_t i = 0; i < MANY; i++) {
+    at[i] = (sbf_vec3){0.2f * (float)i, 0.011f, 0}, masses[i] = 1 + 0.1f * (float)i;
+    if (i > 0) ends[i - 1] = (sbf_uint2){{i - 1, i}}, stiffness[i - 1] = 50;
+  }
+  sbf_level *level = scene_points(&s, 0, at, masses, MANY);
+  scene_springs(&s, level, ends, stiffness, MANY - 1);
+  scene_body(&s, 0)->attributes.media_friction = 1;
+  s.character_definition.position = (sbr_double3){0, 1000, 0};
+  scene_start(&s);
+  for (uint32_t i = 0; i < MANY; i++)
+    guests[i] =
+        guest_of(&s, a_box(0.05f), 1, (sbr_double3){(double)at[i].x, -0.05, 0}, (sbr_double3){0, 0, 0});
+  scene_ticks(&s, 90);
+  for (uint32_t i = 0; i < MANY; i++) (void)sbr_collider_take_push(s.world, guests[i].id);
+  scene_ticks(&s, 1);
+  for (uint32_t i = 0; i < MANY; i++) {
+    float weight = masses[i] * 9.81f / 60;
+    ck_assert_float_eq_tol(sbr_collider_take_push(s.world, guests[i].id).impulse.y, -weight, 0.02f * weight);
+  }
+  scene_free(&s);
+  for (uint32_t i = 0; i < MANY; i++) sbr_shape_destroy(guests[i].shape);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("collider_host");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, a_ball_and_a_cloth_keep_their_momentum, 0, 3);
   tcase_add_loop_test(tests, boxes_keep_their_momentum, 0, 2);
   tcase_add_loop_test(tests, what_lies_weighs, 0, 2);
+  tcase_add_test(tests, each_of_many_bears_its_share);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
