@@ -106,8 +106,8 @@ typedef struct sbr_collider_push {
 } sbr_collider_push;
 /* All since it was last asked, or made. Characters meet a collider as something that nothing can move; a
  * host whose own body it is gives this to the body, before it moves that: what the two have of momentum is
- * then kept. A body that touches more than four things at once pushes the first four. Output, as events are:
- * snapshots do not hold it. */
+ * then kept. A body that touches more than twelve things at once pushes the first twelve. Output, as events
+ * are: snapshots do not hold it. */
 SBF_API sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id collider);
 
 /* ---- Each other --------------------------------------------------------------------------------------- */
