@@ -2,8 +2,8 @@
  *
  * Each node has a world of its own, stepped once a physics frame, or shares one with all that it may meet
  * (shared_world.c). One idea a file: what the inspector shows (character_properties.c), its life
- * (soft_character.c), what scripts call (character_calls.c), its mesh, its skeleton, the ground and the
- * bodies that it meets. */
+ * (soft_character.c), what it has (character_making.c), where it is (character_place.c), what scripts call
+ * (character_calls.c), its mesh, its skeleton, the ground and the bodies that it meets. */
 #ifndef SBFMT_GODOT_SOFT_CHARACTER_H
 #define SBFMT_GODOT_SOFT_CHARACTER_H
 
@@ -65,16 +65,23 @@ extern const gd_class soft_character_class;
 extern const gd_property soft_character_properties[];
 extern const gd_method soft_character_methods[], soft_character_virtuals[];
 
-/* ---- soft_character.c ---- */
+/* ---- character_making.c ---- */
 
 /* Makes model, world and mesh anew, with what they were doing where that fits; called at every change of the
  * asset or of what a model is made with. Nothing without an asset or outside of a tree. */
 void soft_character_make(soft_character *one);
+void soft_character_unmake(soft_character *one);
+void soft_character_drive(soft_character *one);
+
+/* ---- character_place.c ---- */
+
+/* Its node's, in the world; and which way something placed so faces, rad. */
+gd_transform soft_character_transform(const soft_character *one);
+float transform_heading(const gd_transform *place);
 /* Leaves the node where the character now is. */
 void soft_character_follow(soft_character *one);
 /* Puts it somewhere: a place above the ground below it (m), a heading (rad). */
 void soft_character_place(soft_character *one, sbf_vec3 position, float heading);
-void soft_character_drive(soft_character *one);
 /* Before its world steps: puts it where its node was put, and looks around; whether it moves. */
 bool soft_character_prepare(soft_character *one);
 /* And after: its node and its skeleton follow. */

@@ -1,0 +1,139 @@
+/* What a node has while it has an asset and is in a tree: made, kept over a change, and given back. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "soft_character.h"
+
+static float scale_of(const gd_transform *place) {
+  float x = place->basis[0][1], y = place->basis[1][1], z = place->basis[2][1];
+  float length = sqrtf(x * x + y * y + z * z);
+  return length > 0 ? length : 1;
+}
+
+static void grow(sbf_vec3 *low, sbf_vec3 *high, const sbf_vec3_list *points) {
+  for (uint32_t i = 0; i < points->count; i++) {
+    sbf_vec3 p = points->at[i];
+    *low = (sbf_vec3){fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z)};
+    *high = (sbf_vec3){fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z)};
+  }
+}
+
+static void measure(soft_character *one) {
+  const sbf_asset *asset = one->model->asset;
+  sbf_vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
+    grow(&low, &high, &asset->render_meshes.at[i].mesh.positions);
+  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
+    grow(&low, &high, &asset->soft_bodies.at[i].surface.positions);
+  if (!(low.x <= high.x)) low = (sbf_vec3){-0.5f, 0, -0.5f}, high = (sbf_vec3){0.5f, 1, 0.5f};
+  one->low = low;
+  one->high = high;
+}
+
+void soft_character_unmake(soft_character *one) {
+  character_mesh_free(one->mesh);
+  character_skeleton_free(one);
+  shared_world_leave(one);
+  physics_ground_free(one->ground);
+  soft_model_release(one->model);
+  one->mesh = NULL;
+  one->ground = NULL;
+  one->model = NULL;
+  one->placed = false;
+}
+
+static bool make_world(soft_character *one) {
+  sbr_world_definition world = sbr_default_world_definition();
+  sbr_character_definition character = sbr_default_character_definition();
+  sbf_diagnostic error;
+  gd_transform place = one->put;
+  one->scale = scale_of(&place);
+  measure(one);
+  one->ground = physics_ground_make(one);
+  if (!one->ground) {
+    gd_error("no memory for a character");
+    return false;
+  }
+  physics_ground_level(one->ground, one->flat_y);
+  character.ground = one->settings.ground == SOFT_GROUND_FLAT && !one->editor
+                         ? sbr_ground_flat(one->flat_y)
+                         : physics_ground_of(one->ground);
+  if (one->settings.threads) world.tasks = worker_pool_tasks();
+  world.control_tick_s = one->model->asset->environment.control_tick;
+  world.has_gravity = one->model->options.has_gravity;
+  world.gravity = one->model->options.gravity;
+  character.position = (sbr_double3){place.origin.x, 0, place.origin.z};
+  character.heading = transform_heading(&place);
+  character.scale = one->scale;
+  character.hold = one->settings.hold;
+  if (!shared_world_join(one, &world)) return false;
+  if (sbr_character_create(one->world, one->model->model, &character, &one->id, &error) == SBF_OK)
+    return true;
+  gd_error(error.message);
+  return false;
+}
+
+/* All that a world of its own knows, to be put into the next one. */
+typedef struct kept_state {
+  void *bytes;
+  size_t size;
+} kept_state;
+
+static kept_state keep(const soft_character *one) {
+  kept_state kept = {0};
+  if (!one->world || !one->placed || shared_world_count(one->shared) > 1) return kept;
+  kept.size = sbr_world_snapshot_size(one->world);
+  kept.bytes = malloc(kept.size);
+  if (kept.bytes && sbr_world_snapshot_save(one->world, kept.bytes, kept.size) != SBF_OK) {
+    free(kept.bytes);
+    kept.bytes = NULL;
+  }
+  return kept;
+}
+
+void soft_character_make(soft_character *one) {
+  soft_asset *asset = gd_class_instance(&soft_asset_class, gd_as_object(&one->asset_value));
+  kept_state kept = keep(one);
+  bool was_placed = one->placed;
+  gd_variant answer = GD_CALL(&one->node, "is_inside_tree");
+  bool inside = gd_take_bool(answer);
+  if (inside && !was_placed) {
+    one->put = soft_character_transform(one);
+    one->flat_y = one->put.origin.y;
+  }
+  soft_character_unmake(one);
+  if (inside && asset && soft_asset_of(asset)) {
+    const soft_settings *s = &one->settings;
+    sbf_vec3 g = soft_asset_of(asset)->environment.gravity;
+    float k = (float)s->gravity_scale;
+    sbr_model_options options = {.level = (uint32_t)s->level,
+        .scheme = (sbf_scheme)s->scheme,
+        .substeps = (uint32_t)s->substeps,
+        .free = s->free_bodies,
+        .has_gravity = s->gravity_scale != 1,
+        .gravity = {k * g.x, k * g.y, k * g.z}};
+    one->model = soft_model_hold(asset, &options);
+    if (one->model && make_world(one)) {
+      /* A bundle of the same structure goes on as it was; another one begins where that stood. */
+      if (kept.bytes && sbr_world_snapshot_restore(one->world, kept.bytes, kept.size) == SBF_OK) {
+        one->placed = true;
+        if (s->ground == SOFT_GROUND_PHYSICS) physics_ground_look(one);
+      } else
+        one->placed = s->ground == SOFT_GROUND_FLAT;
+      soft_character_drive(one);
+      sbr_character_pause(one->world, one->id, s->paused);
+      one->mesh = character_mesh_make(one);
+      if (s->skeleton) character_skeleton_make(one);
+      one->stale = true;
+    } else
+      soft_character_unmake(one);
+  }
+  free(kept.bytes);
+  GD_DO(&one->node, "update_gizmos");
+}
+
+void soft_character_drive(soft_character *one) {
+  const soft_settings *s = &one->settings;
+  if (one->world)
+    sbr_character_drive(one->world, one->id, (float)s->forward, (float)s->sideways, (float)s->turn);
+}
