@@ -37,6 +37,7 @@ static bool choose_for(const sbr_world *world, uint32_t index, sbri_choice *choi
   sbri_character_state *head = sbri_head(c);
   const sbr_model *base = c->model->base;
   float pixels = sbri_pixels_of(world, c);
+  if (pixels > 0 && head->unseen_ticks > 0) head->rung_ticks = UINT32_MAX; /* as a new one: nobody saw it */
   head->unseen_ticks = pixels > 0 ? 0 : head->unseen_ticks < UINT32_MAX ? head->unseen_ticks + 1 : UINT32_MAX;
   double now = head->asleep ? 0 : base->ladder[head->rung].visits;
   if (base->rung_count == 1 || head->set_rung_plus_1) {

@@ -250,7 +250,7 @@ const sbr_model *sbri_rung_ahead(const sbri_character *c) {
 
 void sbri_rung_change(const sbr_world *world, sbri_character *c) {
   sbri_character_state *head = sbri_head(c);
-  bool is_new = head->rung_ticks == UINT32_MAX; /* it has not ticked */
+  bool is_new = head->rung_ticks == UINT32_MAX; /* nobody has seen it yet, or lately */
   head->rung_ticks = is_new ? LONG_TICKS : head->rung_ticks + (head->rung_ticks < LONG_TICKS);
   uint32_t rung = rung_ahead(c);
   bool must_meet = c->near && head->next_rung > rung;

@@ -7,9 +7,9 @@
 /* Nearer than that nothing is looked at. */
 static const float NEAREST_M = 0.05f;
 
-/* Beyond the edges a character is still seen as far as this share of its distance, and one that was not needs
- * less to be taken for seen: it comes back before it is. */
-static const float MARGIN = 0.1f, MORE_MARGIN = 0.2f;
+/* A character is taken for seen as far beyond the edges as this share of its distance, so that it is ready
+ * when it comes within; one that is, until it is further beyond, so that it does not come and go there. */
+static const float MARGIN = 0.1f, MORE_MARGIN = 0.15f;
 
 static const float G_M_S2 = 9.81f;
 
@@ -36,7 +36,7 @@ float sbri_pixels_of(const sbr_world *world, const sbri_character *c) {
   const sbri_character_state *head = sbri_head(c);
   sbf_vec3 root = sbri_pose(c)[sbri_root_frame(c->model)].position;
   float radius = radius_of(c), most = 0;
-  float margin = head->unseen_ticks > 0 ? MORE_MARGIN : MARGIN;
+  float margin = head->unseen_ticks > 0 ? MARGIN : MORE_MARGIN;
   for (uint32_t i = 0; i < detail->eye_count && head->shown != SBR_SHOWN_NEVER; i++) {
     const sbri_eye *eye = &detail->eyes[i];
     const sbr_double3 *at = &eye->view.eye;

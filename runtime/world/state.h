@@ -26,7 +26,7 @@ typedef struct sbri_character_state {
   /* Its rung, the one that it goes over to when the next tick begins, and what the host has put it on, plus
    * 1. */
   uint32_t rung, next_rung, set_rung_plus_1;
-  uint32_t rung_ticks;              /* since it changed */
+  uint32_t rung_ticks;              /* since it changed; UINT32_MAX: nobody has seen how it is */
   uint32_t fade_ticks, fades_ticks; /* left of the change, and of how many; 0: it is over */
   float fade, fade_before;          /* share of `faded` that shows, and a tick ago */
   uint32_t shown;                   /* sbr_shown */

@@ -136,6 +136,45 @@ START_TEST(a_camera_that_trembles_changes_nothing)
 }
 END_TEST
 
+/* From three metres away, looking `aside` rad beside it. */
+static uint32_t rung_beside(crowd *c, double aside) {
+  sbr_view view = view_from(-3);
+  view.forward = (sbf_vec3){(float)sin(aside), 0, (float)cos(aside)};
+  sbr_world_views(c->s.world, &view, 1);
+  sbr_world_tick(c->s.world);
+  return rung_of(c, 0);
+}
+
+/* Beyond a view's edges it becomes fine in one tick, before it can be seen, and nowhere does it come and go.
+ */
+START_TEST(a_view_that_turns_finds_it_ready)
+{
+  crowd c = make_crowd(NULL, NULL);
+  double in = 0, out = 0, step = 0.002, far = 1.6;
+  const double edge = atan(tan(0.5236) * sqrt(1 + 256.0 / 81));
+  uint32_t changes = 0, rung, before = RUNG_BONES;
+  for (uint32_t t = 0; t < 5; t++) rung_beside(&c, far);
+  ck_assert_uint_eq(rung_of(&c, 0), RUNG_BONES);
+  for (double aside = far; aside > 0; aside -= step)
+    for (int tick = 0; tick < 3; tick++, before = rung) {
+      rung = rung_beside(&c, aside);
+      if ((rung == RUNG_FINE) == (before == RUNG_FINE)) continue;
+      ck_assert(sbr_character_fade(c.s.world, c.ids[0]) == 0);
+      in = aside, changes++;
+    }
+  ck_assert_uint_eq(changes, 1);
+  ck_assert_double_gt(in, edge);
+  for (double aside = 0; aside < far; aside += step)
+    for (int tick = 0; tick < 3; tick++, before = rung) {
+      rung = rung_beside(&c, aside);
+      if ((rung == RUNG_FINE) != (before == RUNG_FINE)) out = aside, changes++;
+    }
+  ck_assert_uint_eq(changes, 2);
+  ck_assert_double_gt(out, in + 5 * step);
+  scene_free(&c.s);
+}
+END_TEST
+
 START_TEST(a_budget_is_kept_and_spent_on_what_is_near)
 {
   sbr_rung rungs[8];
@@ -229,6 +268,7 @@ int main(void) {
   tcase_add_test(c, predicted_pixels_are_those_of_the_measured_error);
   tcase_add_test(c, the_host_may_know_better);
   tcase_add_test(c, a_camera_that_trembles_changes_nothing);
+  tcase_add_test(c, a_view_that_turns_finds_it_ready);
   tcase_add_test(c, a_budget_is_kept_and_spent_on_what_is_near);
   tcase_add_test(c, threads_and_recordings_agree);
   tcase_add_test(c, wrong_definitions_and_want_of_memory_are_told);
