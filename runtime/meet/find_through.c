@@ -182,23 +182,24 @@ static float deepest_of(const looking *l, uint32_t knot) {
   return deepest;
 }
 
-/* What is remembered of one side. */
-static const sbri_meet_memory *memories_of(const looking *l, uint32_t side, uint32_t *count) {
+/* The first of what is remembered of one side, and the next; NULL: no more. */
+static const sbri_meet_memory *first_memory(const looking *l, uint32_t side) {
   const uint64_t names[2] = {
       sbri_meet_name(l->in.parties[side]->is), sbri_meet_name(l->in.parties[1 - side]->is)};
-  return sbri_meet_memories_of(l->f->world->meetings, names, count);
+  return sbri_meet_first_memory(l->f->world->meetings, names);
+}
+
+static const sbri_meet_memory *next_memory(const looking *l, const sbri_meet_memory *m) {
+  return sbri_meet_next_memory(l->f->world->meetings, m);
 }
 
 /* The one that it went in the tick before, but for the turns of both; or 0. */
 static sbf_vec3 recall_way(const looking *l, uint32_t knot) {
   sbf_vec3 sum = no_way;
-  for (uint32_t side = 0; side < 2; side++) {
-    uint32_t count;
-    const sbri_meet_memory *m = memories_of(l, side, &count);
-    for (uint32_t i = 0; i < count; i++)
-      if (is_way(m[i].through) && sbri_knot_of(&l->in, side, m[i].feature) == knot)
-        sum = sbri_add_scaled(sum, m[i].through, sign_of(side));
-  }
+  for (uint32_t side = 0; side < 2; side++)
+    for (const sbri_meet_memory *m = first_memory(l, side); m; m = next_memory(l, m))
+      if (is_way(m->through) && sbri_knot_of(&l->in, side, m->feature) == knot)
+        sum = sbri_add_scaled(sum, m->through, sign_of(side));
   return is_way(sum) ? sbri_normalize(sum, sum) : sum;
 }
 
@@ -352,12 +353,9 @@ static bool goes_out(const looking *l) {
 }
 
 static bool went_through(const looking *l) {
-  for (uint32_t side = 0; side < 2; side++) {
-    uint32_t count;
-    const sbri_meet_memory *m = memories_of(l, side, &count);
-    for (uint32_t i = 0; i < count; i++)
-      if (is_way(m[i].through)) return true;
-  }
+  for (uint32_t side = 0; side < 2; side++)
+    for (const sbri_meet_memory *m = first_memory(l, side); m; m = next_memory(l, m))
+      if (is_way(m->through)) return true;
   return false;
 }
 

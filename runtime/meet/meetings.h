@@ -113,7 +113,7 @@ typedef struct sbri_meet_memory {
   sbf_vec3 slid;    /* m across */
   float pull;       /* m/s^2 along the normal */
   sbf_vec3 through; /* unit, the common way out of what lies through another; 0: it does not */
-  uint32_t none;    /* 0: snapshots hold no bytes that nothing has written */
+  uint32_t next;    /* number of the next one of the same names; or UINT32_MAX */
 } sbri_meet_memory;
 
 /* Two bodies that touch, for events. */
@@ -207,11 +207,10 @@ typedef struct sbri_meetings {
   uint32_t pair_count;
   sbri_meet_touch *touches; /* (touch_capacity) */
   sbri_meet_row *rows;      /* likewise */
-  /* (touch_capacity) of the tick before and of this one, those of a pair beside each other; state. */
+  /* (touch_capacity) of the tick before and of this one; state. */
   sbri_meet_memory *memories, *next_memories;
   uint32_t memory_count;
-  uint32_t
-      *found_memories; /* (found_capacity, a power of two) by names: where a pair's begin, or UINT32_MAX */
+  uint32_t *found_memories; /* (found_capacity, a power of two) by names: their first memory, or UINT32_MAX */
   uint32_t found_capacity;
   sbri_meet_contact *contacts, *next_contacts; /* (touch_capacity) by names; output, not state */
   uint32_t contact_count;
@@ -290,11 +289,9 @@ static inline uint64_t sbri_meet_name(const sbri_meeter *is) {
 /* Those of the host's shapes come before it. */
 #define SBRI_MEET_NAME_OF_GROUND UINT64_MAX
 
-/* Whether the two touched in the tick before. */
-bool sbri_meet_is_remembered(const sbri_meetings *all, const uint64_t names[2]);
-/* What is remembered of the two, in that order. */
-const sbri_meet_memory *sbri_meet_memories_of(
-    const sbri_meetings *all, const uint64_t names[2], uint32_t *count);
+/* What is remembered of the two, in that order, one after the other; NULL: no more. */
+const sbri_meet_memory *sbri_meet_first_memory(const sbri_meetings *all, const uint64_t names[2]);
+const sbri_meet_memory *sbri_meet_next_memory(const sbri_meetings *all, const sbri_meet_memory *m);
 /* What the group's touches have from the tick before. */
 void sbri_meet_recall(const sbri_meetings *all, const sbri_meet_group *group, float step_s);
 /* Keeps what pushes now, when all groups have stepped with steps of that share of the tick. */

@@ -21,36 +21,35 @@ static bool are_named(const sbri_meet_memory *m, const uint64_t names[2]) {
   return m->names[0] == names[0] && m->names[1] == names[1];
 }
 
-/* Where the pair's memories begin; or memory_count. */
-static uint32_t first_of(const sbri_meetings *all, const uint64_t names[2]) {
+static const sbri_meet_memory *memory_at(const sbri_meetings *all, uint32_t number) {
+  return number == UINT32_MAX ? NULL : &all->memories[number];
+}
+
+/* Where it is told which memory of the two is the first; or where that would be. */
+static uint32_t *place_of(const sbri_meetings *all, const uint64_t names[2]) {
   for (uint32_t at = bucket_of(all, names);; at = (at + 1) & (all->found_capacity - 1)) {
-    uint32_t first = all->found_memories[at];
-    if (first == UINT32_MAX) return all->memory_count;
-    if (are_named(&all->memories[first], names)) return first;
+    const sbri_meet_memory *first = memory_at(all, all->found_memories[at]);
+    if (!first || are_named(first, names)) return &all->found_memories[at];
   }
 }
 
+/* Those of two bodies follow each other however they lie: what their faces keep and what their rims keep have
+ * that of the one's faces on the other's between them. */
 static void index_memories(sbri_meetings *all) {
   memset(all->found_memories, 0xff, all->found_capacity * sizeof *all->found_memories);
-  for (uint32_t i = 0; i < all->memory_count; i++) {
-    const sbri_meet_memory *m = &all->memories[i];
-    if (i > 0 && are_named(&all->memories[i - 1], m->names)) continue;
-    uint32_t at = bucket_of(all, m->names);
-    while (all->found_memories[at] != UINT32_MAX) at = (at + 1) & (all->found_capacity - 1);
-    all->found_memories[at] = i;
+  for (uint32_t i = all->memory_count; i-- > 0;) { /* so that they do so in their order */
+    uint32_t *first = place_of(all, all->memories[i].names);
+    all->memories[i].next = *first;
+    *first = i;
   }
 }
 
-bool sbri_meet_is_remembered(const sbri_meetings *all, const uint64_t names[2]) {
-  return first_of(all, names) < all->memory_count;
+const sbri_meet_memory *sbri_meet_first_memory(const sbri_meetings *all, const uint64_t names[2]) {
+  return memory_at(all, *place_of(all, names));
 }
 
-const sbri_meet_memory *sbri_meet_memories_of(
-    const sbri_meetings *all, const uint64_t names[2], uint32_t *count) {
-  uint32_t first = first_of(all, names), end = first;
-  while (end < all->memory_count && are_named(&all->memories[end], names)) end++;
-  *count = end - first;
-  return all->memories + first;
+const sbri_meet_memory *sbri_meet_next_memory(const sbri_meetings *all, const sbri_meet_memory *m) {
+  return memory_at(all, m->next);
 }
 
 /* ---- Recalling ---- */
@@ -66,9 +65,8 @@ static const sbri_meet_memory *memory_of(
   float least = same_within(members, t);
   least *= least;
   const sbri_meet_memory *best = NULL;
-  for (uint32_t i = first_of(all, t->names); i < all->memory_count; i++) {
-    const sbri_meet_memory *m = &all->memories[i];
-    if (!are_named(m, t->names)) break;
+  const sbri_meet_memory *m = sbri_meet_first_memory(all, t->names);
+  for (; m; m = sbri_meet_next_memory(all, m)) {
     sbf_vec3 off = sbri_sub(m->at, t->a.at);
     float square = sbri_dot(off, off);
     if (m->feature != t->feature || square > least) continue;

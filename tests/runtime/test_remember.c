@@ -1,0 +1,124 @@
+/* What touches keep from tick to tick: all of two bodies, whichever of them its places lie on, and whether
+ * these are of faces or of rims. */
+#include <stdlib.h>
+
+#include "collision_scenes.h"
+#include "harness.h"
+#include "meet/meetings.h"
+#include "rigid_scenes.h"
+#include "world/world.h"
+
+enum { CELLS = 16 };
+
+static void add_sheet(scene *s, uint32_t body, sbf_vec3 at, float side, bool held) {
+  (void)collision_sheet(s, body, at, side, CELLS, held);
+  scene_body(s, body)->attributes.damping_ratio = 0.3f;
+  scene_body(s, body)->attributes.friction = 0.5f;
+  scene_body(s, body)->collision.outer_thickness = 0.005f;
+}
+
+static void start(scene *s) {
+  scene_start(s);
+  ck_assert(sbr_world_bodies_meet(s->world, 0, NULL) == SBF_OK);
+}
+
+/* ---- Of a scene ---- */
+
+typedef enum kind { FACES, FACES_OF_THE_OTHER, RIMS, KINDS } kind;
+
+static kind kind_of(const sbri_meet_touch *t) {
+  if (t->feature >> 31) return RIMS; /* meet/find_rims.c */
+  return t->names[0] < t->names[1] ? FACES : FACES_OF_THE_OTHER;
+}
+
+typedef struct tally {
+  uint32_t again, known; /* touches that pushed in the tick before and are there again; of these, known */
+} tally;
+
+static bool are_same(const sbri_meet_memory *m, const sbri_meet_touch *t) {
+  return m->names[0] == t->names[0] && m->names[1] == t->names[1] && m->feature == t->feature;
+}
+
+/* Goes on by a tick. What was remembered is in the list for the next one then. */
+static void go_on(scene *s, tally of[KINDS]) {
+  const sbri_meetings *all = s->world->meetings;
+  uint32_t before = all->memory_count;
+  scene_ticks(s, 1);
+  for (uint32_t i = 0; i < all->groups[0].touch_count; i++) {
+    const sbri_meet_touch *t = &all->touches[all->groups[0].first_touch + i];
+    bool again = false;
+    for (uint32_t k = 0; k < before; k++) again = again || are_same(&all->next_memories[k], t);
+    of[kind_of(t)].again += again;
+    of[kind_of(t)].known += again && !t->is_new;
+  }
+}
+
+/* Two sheets hang over a ball, askew on each other: points of each lie on the other, and their rims cross.
+ * Nothing that pushed is new in the next tick. */
+START_TEST(what_pushed_is_known_again)
+{
+  scene s = rigid_begin();
+  scene_bodies(&s, 2);
+  add_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, false);
+  add_sheet(&s, 1, (sbf_vec3){0.073f, 0.006f, 0.119f}, 0.9f, false);
+  s.character_definition.position.y = 0.31;
+  start(&s);
+  sbr_shape_definition ball = sbr_default_shape_definition();
+  ball.radius = 0.3f;
+  sbr_shape *shape = collision_shape(ball);
+  (void)collision_collider(&s, shape, (sbr_double3){0, 0, 0});
+  scene_ticks(&s, 20);
+  tally of[KINDS] = {{0, 0}};
+  for (int i = 0; i < 30; i++) go_on(&s, of);
+  for (kind k = 0; k < KINDS; k++) {
+    ck_assert_uint_ge(of[k].again, 30);
+    ck_assert_uint_eq(of[k].known, of[k].again);
+  }
+  scene_free(&s);
+  sbr_shape_destroy(shape);
+}
+END_TEST
+
+/* ---- By names ---- */
+
+/* However memories lie: each two bodies' are told in their order. */
+START_TEST(memories_follow_each_other_by_names)
+{
+  static const uint64_t names[4][2] = {{1, 2}, {2, 1}, {1, 3}, {1, 4}};
+  static const uint32_t lie[9] = {0, 0, 1, 0, 2, 1, 2, 0, 2};
+  scene s = rigid_begin();
+  scene_bodies(&s, 1);
+  add_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, true);
+  start(&s);
+  sbri_meetings *all = s.world->meetings;
+  unsigned char *bytes = calloc(1, sbri_meet_memory_size(s.world));
+  ck_assert(bytes != NULL);
+  for (uint32_t i = 0; i < 9; i++)
+    all->memories[i] = (sbri_meet_memory){.names = {names[lie[i]][0], names[lie[i]][1]}, .feature = i};
+  all->memory_count = 9;
+  sbri_meet_memory_save(s.world, bytes);
+  sbri_meet_memory_restore(s.world, bytes);
+  for (uint32_t k = 0; k < 4; k++) {
+    const sbri_meet_memory *m = sbri_meet_first_memory(all, names[k]);
+    for (uint32_t i = 0; i < 9; i++) {
+      if (lie[i] != k) continue;
+      ck_assert(m != NULL);
+      ck_assert_uint_eq(m->feature, i);
+      m = sbri_meet_next_memory(all, m);
+    }
+    ck_assert(m == NULL);
+  }
+  free(bytes);
+  scene_free(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("remember");
+  TCase *tests = tcase_create("all");
+  tcase_set_timeout(tests, 60);
+  tcase_add_test(tests, what_pushed_is_known_again);
+  tcase_add_test(tests, memories_follow_each_other_by_names);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
