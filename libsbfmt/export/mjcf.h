@@ -7,11 +7,12 @@
 
 typedef struct mjcf_flex {
   const sbf_soft_body *body;
-  const sbf_level *level; /* NULL: nothing of it can be written */
-  int dim;                /* 3: tetrahedra, 2: a sheet's triangles, 1: springs */
-  int32_t *holder;        /* (points) the pin set that holds it fast, or SBF_NONE */
-  sbf_vec3 *places;       /* (points) at rest, asset space */
-  float *masses;          /* (points) */
+  const sbf_level *level;              /* NULL: nothing of it can be written */
+  int dim;                             /* 3: tetrahedra, 2: a sheet's triangles, 1: springs */
+  int32_t *holder;                     /* (points) the pin set that holds it fast, or SBF_NONE */
+  sbf_vec3 *places;                    /* (points) at rest, asset space */
+  float *masses;                       /* (points) */
+  uint32_t contact_type, contact_with; /* MuJoCo's bits */
 } mjcf_flex;
 
 typedef struct mjcf_writer {
@@ -26,9 +27,12 @@ typedef struct mjcf_writer {
   bool *is_tree;   /* (joints) joins a body to what it hangs on */
   int32_t *parent; /* (rigid bodies) */
   bool *placed;    /* (rigid bodies) */
+  struct mjcf_extent *hull_extents; /* (rigid bodies) */
+  uint32_t *hull_meets;             /* (rigid bodies) bits of the flexes that it touches */
+  uint8_t *jointed;                 /* (rigid bodies) scratch */
   /* Left out. */
   uint32_t soft_limits, drives, breaking, touching, loops, pulleys, massless, bare, loop_bounds, goals,
-      moduli, ratios, bending;
+      moduli, ratios, bending, sharing, selves;
 } mjcf_writer;
 
 /* An end of a joint that is not there. */
@@ -53,11 +57,16 @@ bool sbfi_mjcf_matter(mjcf_writer *w, const mjcf_flex *flex, float *value, bool 
 /* Seconds that its steps may take, for what is written here to stay sound. */
 bool sbfi_mjcf_timestep(mjcf_writer *w, float *step);
 bool sbfi_mjcf_take_joints(mjcf_writer *w);
+bool sbfi_mjcf_take_contacts(mjcf_writer *w); /* after the flexes */
 void sbfi_mjcf_write_holders_and_points(mjcf_writer *w);
 bool sbfi_mjcf_write_flexes(mjcf_writer *w);
 void sbfi_mjcf_write_meshes(mjcf_writer *w);
 void sbfi_mjcf_write_bodies(mjcf_writer *w);
 void sbfi_mjcf_write_joint(mjcf_writer *w, const sbf_joint *joint, uint32_t index, bool forward);
 void sbfi_mjcf_write_constraints(mjcf_writer *w); /* what is not in the tree */
+/* contype and conaffinity. */
+void sbfi_mjcf_flex_bits(mjcf_writer *w, const mjcf_flex *flex);
+void sbfi_mjcf_hull_bits(mjcf_writer *w, uint32_t body);
+void sbfi_mjcf_write_excludes(mjcf_writer *w);
 
 #endif

@@ -273,8 +273,11 @@ bool sbfi_mjcf_write_flexes(mjcf_writer *w) {
     write_vertices(w, flex, b);
     write_elements(w, flex);
     sbfi_text_char(text, '>');
-    sbfi_export_format(w->e, "<contact selfcollide=\"%s\" contype=\"%u\" conaffinity=\"%u\"",
-        collision->self ? "auto" : "none", collision->layer & INT32_MAX, collision->mask & INT32_MAX);
+    /* Springs that cross lie in each other at rest. */
+    bool self = collision->self && flex->dim > 1;
+    w->selves += collision->self && !self;
+    sbfi_export_format(w->e, "<contact selfcollide=\"%s\"", self ? "auto" : "none");
+    sbfi_mjcf_flex_bits(w, flex);
     sbfi_text_string(text, " friction=\"");
     sbfi_text_f32(text, flex->body->attributes.friction);
     sbfi_text_string(text, " 0.005 0.0001\"/>");

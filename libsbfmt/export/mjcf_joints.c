@@ -230,12 +230,5 @@ void sbfi_mjcf_write_constraints(mjcf_writer *w) {
   sbfi_text_string(&w->e->text, "  </tendon>\n  <equality>\n");
   for (uint32_t j = 0; j < joints.count; j++)
     if (!w->is_tree[j]) write_equality(w, &joints.at[j], j);
-  sbfi_text_string(&w->e->text, "  </equality>\n  <contact>\n");
-  for (uint32_t j = 0; j < joints.count; j++) {
-    if (joints.at[j].collide || joints.at[j].body_a < 0 || joints.at[j].body_b < 0) continue;
-    sbfi_text_string(&w->e->text, "    <exclude");
-    write_pair(w, &joints.at[j]);
-    sbfi_text_string(&w->e->text, "/>\n");
-  }
-  sbfi_text_string(&w->e->text, "  </contact>\n");
+  sbfi_text_string(&w->e->text, "  </equality>\n");
 }

@@ -127,8 +127,8 @@ static void open_body(mjcf_writer *w, uint32_t i, int32_t parent, uint32_t end) 
   if (body->hull && body->hull->positions.count >= 4) {
     sbfi_text_string(text, "      <geom type=\"mesh\" mesh=\"");
     sbfi_mjcf_rigid_name(w, (int32_t)i);
-    sbfi_export_format(
-        w->e, "\" contype=\"%u\" conaffinity=\"%u\"", body->layer & INT32_MAX, body->mask & INT32_MAX);
+    sbfi_text_char(text, '"');
+    sbfi_mjcf_hull_bits(w, i);
     sbfi_text_string(text, " friction=\"");
     sbfi_text_f32(text, body->friction);
     sbfi_text_string(text, " 0.005 0.0001\"/>\n");

@@ -22,10 +22,13 @@ static void write_all(mjcf_writer *w, float step) {
 
 static bool write_text(mjcf_writer *w) {
   float step;
-  if (!sbfi_mjcf_take_flexes(w) || !sbfi_mjcf_take_joints(w) || !sbfi_mjcf_timestep(w, &step)) return false;
+  if (!sbfi_mjcf_take_flexes(w) || !sbfi_mjcf_take_contacts(w) || !sbfi_mjcf_take_joints(w) ||
+      !sbfi_mjcf_timestep(w, &step))
+    return false;
   write_all(w, step);
   if (!sbfi_mjcf_write_flexes(w)) return false;
   sbfi_mjcf_write_constraints(w);
+  sbfi_mjcf_write_excludes(w);
   sbfi_text_string(&w->e->text, "</mujoco>\n");
   return true;
 }
@@ -49,6 +52,8 @@ sbf_status sbfi_export_mjcf(sbfi_export *e) {
       {w.loop_bounds, "limits and drives of those that close loops"}, {w.pulleys, "pulleys"},
       {w.soft_limits, "limits' springs"}, {w.drives, "drives' speeds, bounds and distances"},
       {w.breaking, "breaking loads"}, {w.touching, "joined bodies that touch"},
+      {w.selves, "contacts of springs' bodies with themselves"},
+      {w.sharing, "soft bodies whose contacts have no bits of their own"},
       {asset->cross_springs.count, "sets of cross springs"}};
   sbfi_export_left_out(e, "MJCF", things, sizeof things / sizeof *things);
   const sbfi_left_out others[] = {{asset->render_meshes.count, "render meshes"},

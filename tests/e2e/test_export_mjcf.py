@@ -9,12 +9,27 @@ from sbfmt_program import ProgramTest, ROOT, example, main, read_text
 
 BAR = os.path.join(ROOT, "spec", "samples", "dialect2012", "bar.xml")
 FIGURE = os.path.join(ROOT, "examples", "bones", "figure.sbf")
-
-
+SHARED = os.path.join(ROOT, os.pardir, "shared", "data")
 EVERYTHING = os.path.join(ROOT, "spec", "samples", "valid", "everything.sbf")
 SECONDS = 0.02
+# Polygons of a box whose corners are counted by x first, then y, then z.
+BOX = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
 
 needs_node = unittest.skipUnless(play_files.node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
+
+
+def corners(low, high):
+    return [(low[0] if i % 2 == 0 else high[0], low[1] if i // 2 % 2 == 0 else high[1], low[2] if i < 4 else high[2])
+            for i in range(8)]
+
+
+def hull(name, low, high):
+    """A kinematic box, as the file has it."""
+    words = lambda rows: " ".join(str(x) for row in rows for x in row)  # noqa: E731
+    middle = [(a + b) / 2 for a, b in zip(low, high)]
+    return (f'<rigid_body id="{name}" motion="kinematic" center="{words([middle])}"><polygon_mesh target="collision_detection">'
+            f'<positions>{words(corners(low, high))}</positions><polygon_sizes>{"4 " * 6}</polygon_sizes>'
+            f'<polygon_points>{words(BOX)}</polygon_points></polygon_mesh></rigid_body>')
 
 
 def numbers(node, name):
@@ -116,6 +131,54 @@ class Mjcf(ProgramTest):
                 "nexclude": len(list(root.iter("exclude"))), "nsite": count("site")}, path)
             self.assertEqual((told["warnings"], told["finite"]), (0, True), path)
             self.assertLess(told["fastest"], 10)  # m/s and rad/s; a fall of so long ends at 0.2 m/s
+
+    @needs_node
+    @unittest.skipUnless(os.path.isdir(SHARED), "the files of ../shared/data are not there")
+    def test_mujoco_steps_characters(self):
+        """Their sections lie in each other and around their hulls: nothing drives those apart, and nothing moves faster than it would fall."""
+        lattices = ["--springs", "tetrahedra", "--elements", "100"]
+        for name, options in (("fox/fox.glb", ["--unit", "0.01"]), ("greenman/greenman.glb", []), ("greenman/greenman.glb", lattices),
+                              ("letter-f/letter_f.dae", [])):
+            self.good("convert", os.path.join(SHARED, name), *options, "-o", self.path("a.sbf"))
+            self.good("export", self.path("a.sbf"), "-o", self.path("out.mjcf"))
+            told = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), 0.1)
+            self.assertEqual((told["warnings"], told["finite"], told["touches"]), (0, True, 0), name)
+            self.assertGreater(told["fastest"], 0.1, name)
+            self.assertLess(told["fastest"], 0.981, name)
+            self.assertLess(told["falls"], 1.2, name)
+
+    @needs_node
+    def test_mujoco_lets_touch_what_may(self):
+        """Two soft boxes on a hull touch, and it the lower one; what lies in one of them does not, nor what layers part."""
+        with open(self.path("boxes.obj"), "w", encoding="ascii") as file:
+            for i, name in enumerate(("low", "high")):
+                at = 0.22 * i
+                print("o", name, file=file)
+                print(*("v {:g} {:g} {:g}".format(*p) for p in corners((0, at, 0), (0.2, at + 0.2, 0.2))), sep="\n", file=file)
+                print(*("f {} {} {} {}".format(*(8 * i + p + 1 for p in face)) for face in BOX), sep="\n", file=file)
+        self.good("convert", self.path("boxes.obj"), "--springs", "tetrahedra", "--elements", "100", "--material", "flesh",
+                  "-o", self.path("boxes.sbf"))
+        text = read_text(self.path("boxes.sbf"))
+        inner = hull("inner", (0.08, 0.3, 0.08), (0.12, 0.34, 0.12))
+        beside = hull("beside", (-0.1, -0.1, -0.1), (0.3, -0.02, 0.3)).replace("<rigid_body", '<rigid_body layer="2" mask="2"')
+        for floor, want in ((hull("floor", (-0.1, -0.1, -0.1), (0.3, -0.02, 0.3)), ["body.high body.low", "body.low floor"]),
+                            (beside, ["body.high body.low"])):
+            with open(self.path("a.sbf"), "w", encoding="utf-8") as file:
+                file.write(text.replace("  <soft_body", f"  <rigid_bodies>{floor}{inner}</rigid_bodies>\n  <soft_body", 1))
+            self.good("export", self.path("a.sbf"), "-o", self.path("out.mjcf"))
+            told = play_files.node("step_mujoco.mjs", self.path("out.mjcf"), 0.08)
+            self.assertEqual((told["warnings"], told["finite"], told["pairs"]), (0, True, want))
+            self.assertLess(told["fastest"], 0.9)  # they begin 0.02 m apart, which their radii are in sum
+
+    def test_hulls_that_lie_in_each_other(self):
+        """The first and second of three do at rest, the second and third only touch; the fourth is beside all, on another layer."""
+        places = [(0, "a", ""), (0.15, "b", ""), (0.35, "c", ""), (0.6, "d", ' layer="2" mask="2"')]
+        bodies = "".join(hull(name, (x, 0, 0), (x + 0.2, 0.2, 0.2)).replace('motion="kinematic"', f'motion="dynamic" mass="1"{more}')
+                         for x, name, more in places)
+        with open(self.path("a.sbf"), "w", encoding="ascii") as file:
+            file.write(f'<sbf version="1.0"><asset title="boxes"/><rigid_bodies>{bodies}</rigid_bodies></sbf>')
+        pairs = {(pair.get("body1"), pair.get("body2")) for pair in self.exported(self.path("a.sbf")).iter("exclude")}
+        self.assertEqual(pairs, {("a", "b"), ("a", "d"), ("b", "d"), ("c", "d")})
 
     def test_a_figure_with_flesh(self):
         self.good("build", FIGURE, "-o", self.path("figure.sbf"))
