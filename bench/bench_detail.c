@@ -152,8 +152,8 @@ int main(int argument_count, char **arguments) {
   open_crowd(&crowds[1], "half a pixel", model, count, false, &stays);
   open_crowd(&crowds[2], "and away where unseen", model, count, false, &goes);
   open_crowd(&crowds[3], "half a pixel or 4 ms", model, count, false, &spares);
-  open_crowd(&crowds[4], "meeting, full detail", model, meeting, true, NULL);
-  open_crowd(&crowds[5], "meeting, half a pixel", model, meeting, true, &stays);
+  open_crowd(&crowds[4], "meeting at full detail", model, meeting, true, NULL);
+  open_crowd(&crowds[5], "meeting at half a pixel", model, meeting, true, &stays);
   for (uint32_t m = 0; m < asset->render_meshes.count; m++)
     vertices += asset->render_meshes.at[m].mesh.positions.count;
   sbf_vec3 *places[2];

@@ -12,7 +12,8 @@ import re
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md", "docs/detail.md", "docs/godot.md")
+DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md", "docs/detail.md", "docs/godot.md",
+             "docs/rigid.md")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -117,7 +118,23 @@ def crowd_row(r):
 
 def detail_row(r):
     return [r["case"], r["lizards"], number(r["ms_tick"]), r["times_full"], r["rms_px"], r["worst_lizard_px"], r["worst_px"], r["soft"],
-            r["bones"], r["away"], r["returned"]]
+            r["bones"], r["away"], r["returned"], r["mb_most"]]
+
+
+def falls_row(r):
+    steps = "as needed" if r["steps"] == "0" else r["steps"]
+    return [r["scene"], number(r["elements"]), r["engine"], r["method"], steps, r["iterations"], number(r["fall_us"]), number(r["lie_us"]),
+            r["apart_mm"], r["beyond_deg"], r["deep_mm"], r["rest_mm_s"], r["stretch_pct"]]
+
+
+def knocked_row(r):
+    off = [r["bone_mm"], r["flesh_mm"]] if r["steps"] != "64" else ["", ""]
+    return ["as needed" if r["steps"] == "0" else r["steps"], f"{float(r['tick_us']) / 1000:.1f}", f"{float(r['walk_us']) / 1000:.1f}", *off]
+
+
+def thrown_row(r):
+    return [r["variant"], r["bend_deg"], "" if r["joints"] == "0" or "without limits" in r["variant"] else r["beyond_deg"], r["sag_mm"], r["swing_mm"], r["given_n_s"],
+            r["left_deg"], r["left_mm"], r["one_fps"], r["two_at_once_fps"]]
 
 
 def character_row(r):
@@ -144,7 +161,12 @@ TABLES = {
     "crowd": (crowd_row, "what | of it | threads | instructions | substeps | ms a tick | wall, ms | × one thread | ns a tetrahedron "
                          "and substep | GB/s", 1),
     "detail": (detail_row, "rungs | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft | bones "
-                           "| away | have been away", 1),
+                           "| away | have been away | MB at most", 1),
+    "falls": (falls_row, "scene | of it | engine | method | steps | iterations | falling, µs | lying, µs | apart, mm | beyond limits, degrees "
+                         "| deep, mm | lying, mm/s | stretched, %", 1),
+    "knocked": (knocked_row, "steps | tick, ms | of a walk, ms | bones off by, mm | points off by, mm", 1),
+    "thrown": (thrown_row, "variant | largest bend, degrees | limits broken by | hangs off its shape by, mm | moved by at most, mm "
+                           "| a ball gives, N s | bends left after 8 s | off by then, mm | one, frames/s | two at once", 1),
     "character": (character_row, "E, kPa | tetrahedra | substeps | strain | off 20,000 by | tick, µs | skin, µs | frame, µs | worst", 0),
     "schemes": (schemes_row, "body | scheme | springs | substeps | µs a tick | ns a spring and substep | error, mm", 2),
     "contacts": (contacts_row, "boxes | of them | touches | tick, µs | a box, µs | touches/s | slope", 1),
