@@ -169,7 +169,7 @@ static double count_steps(growing *g, const sbf_vec3 *points, place *low) {
     double most = -INFINITY;
     for (uint32_t i = 0; i < g->count; i++) {
       double x = (double)(k == 0 ? points[i].x : k == 1 ? points[i].y : points[i].z);
-      least[k] = fmin(least[k], x), most = fmax(most, x);
+      least[k] = x < least[k] ? x : least[k], most = x > most ? x : most;
     }
     extent = fmax(extent, most - least[k]);
   }
