@@ -5,6 +5,7 @@
 #include "collision_scenes.h"
 #include "harness.h"
 #include "meet/meetings.h"
+#include "meeting_scenes.h"
 #include "momentum.h"
 #include "rigid_scenes.h"
 #include "skin_depth.h"
@@ -139,15 +140,6 @@ static double deepest_in_itself(const scene *s, const placed_skin *skin) {
   return most;
 }
 
-static double fastest(const scene *s, sbr_character_id who) {
-  const sbri_character *c = sbri_character_of(s->world, who);
-  double most = 0;
-  for (uint32_t k = 0; k < c->model->island_count; k++)
-    for (uint32_t slot = 0; slot < c->model->islands[k].free_count; slot++)
-      most = fmax(most, (double)sbri_length(scene_slot_velocity(c, &c->model->islands[k], slot)));
-  return most;
-}
-
 /* ---- Itself ---- */
 
 /* The upper leg sinks onto the lower one, and lies there; without `self` it sinks into it. */
@@ -164,7 +156,7 @@ START_TEST(a_skin_lies_on_itself)
       if (i % 5 == 0) most[self] = fmax(most[self], deepest_in_itself(&s, &skin));
     }
     ck_assert(!sbr_character_health(s.world, s.character, 0).inverted);
-    if (self) ck_assert_double_le(fastest(&s, s.character), 1e-3);
+    if (self) ck_assert_double_le(meeting_fastest(&s, s.character), 1e-3);
     scene_free(&s);
   }
   ck_assert_double_ge(most[0], 0.02);
@@ -179,7 +171,7 @@ START_TEST(what_is_apart_at_rest_does_not_fight)
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
   start(&s);
   scene_ticks(&s, 60);
-  ck_assert_double_le(fastest(&s, s.character), 1e-4);
+  ck_assert_double_le(meeting_fastest(&s, s.character), 1e-4);
   scene_free(&s);
 }
 END_TEST
@@ -258,7 +250,7 @@ START_TEST(what_got_inside_finds_its_way_out)
   scene_ticks(&s, 120);
   one = skin_of(&s, s.character), two = skin_of(&s, other);
   ck_assert_double_le(deepest(&s, &one, &two), 5e-4);
-  ck_assert_double_le(fastest(&s, other), 0.25); /* no faster than they were let out */
+  ck_assert_double_le(meeting_fastest(&s, other), 0.25); /* no faster than they were let out */
   scene_free(&s);
 }
 END_TEST
@@ -274,7 +266,7 @@ START_TEST(what_is_deep_inside_finds_its_way_out)
   scene_ticks(&s, 240);
   one = skin_of(&s, s.character), two = skin_of(&s, other);
   ck_assert_double_le(deepest(&s, &one, &two), 5e-4);
-  ck_assert_double_le(fastest(&s, other), 0.4);
+  ck_assert_double_le(meeting_fastest(&s, other), 0.4);
   scene_free(&s);
 }
 END_TEST
