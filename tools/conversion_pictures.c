@@ -22,13 +22,17 @@ static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const 
     uint32_t slot, const skin_look *look, const sbf_render_mesh *unwrapped, float transparency) {
   size_t room = 3 * (size_t)mesh->polygon_points.count + 1;
   uint32_t *triangles = malloc(room * sizeof *triangles), count = 0;
+  bool stated = unwrapped && unwrapped->normal_corners.count == mesh->polygon_points.count && room > 1;
   sbf_vec2 *uvs = look->image ? malloc(room * sizeof *uvs) : NULL;
+  sbf_vec3 *normals = stated ? malloc(room * sizeof *normals) : NULL;
   for (uint32_t i = 0, at = 0; triangles && i < mesh->polygon_sizes.count; at += mesh->polygon_sizes.at[i++])
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i] && (!slots || !slots->count || slots->at[i] == slot);
          k++) {
       const uint32_t corners[3] = {at, at + k - 1, at + k};
       for (int c = 0; c < 3; c++) {
         if (uvs) uvs[3 * count + (uint32_t)c] = skin_corner_uv(unwrapped, corners[c]);
+        if (normals)
+          normals[3 * count + (uint32_t)c] = unwrapped->normals.at[unwrapped->normal_corners.at[corners[c]]];
         triangles[3 * count + (uint32_t)c] = mesh->polygon_points.at[corners[c]];
       }
       count++;
@@ -41,9 +45,11 @@ static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const 
                                    .colour = look->colour,
                                    .image = look->image,
                                    .corner_uvs = uvs,
+                                   .corner_normals = normals,
                                    .transparency = transparency});
   free(triangles);
   free(uvs);
+  free(normals);
 }
 
 /* What a view shows. */

@@ -4,23 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shown_skin.h"
 #include "sole.h"
-
-/* The triangles of one mesh that bear one material. */
-typedef struct patch {
-  uint32_t *triangles, *whole; /* all, and room for those that no tear has opened */
-  uint32_t *polygons;          /* (triangle_count) which each is of */
-  sbf_vec2 *uvs, *whole_uvs;   /* (3 triangle_count) likewise, on the image; NULL: there is none */
-  uint32_t triangle_count;
-  skin_look look;
-} patch;
-
-typedef struct mesh_look {
-  patch *patches;
-  uint32_t patch_count;
-  uint8_t *torn;  /* (polygons) */
-  uint32_t level; /* of the mesh that is shown */
-} mesh_look;
 
 typedef struct body_look {
   sbf_uint2 *edges; /* of its tetrahedra, each once */
@@ -44,106 +29,15 @@ struct stage {
   bool was_planted[MOST_LEGS];
   float sole_radii[MOST_LEGS]; /* m, at rest */
   unsigned show;
-  mesh_look *meshes;
+  shown_skin *skin;
   body_look *bodies;
-  uint32_t mesh_count, body_count;
-  sbf_vec3 *positions, *normals; /* room for the largest mesh or level */
+  uint32_t body_count;
+  sbf_vec3 *positions; /* room for the points of the largest level */
   sbr_transform *bones;
   draw_colour *colours; /* room for the largest set of springs */
   draw_colour_map strains;
   uint32_t room;
 };
-
-/* The polygons of a mesh or of one of its levels, over the vertices that the runtime writes for it. */
-typedef struct shown_polygons {
-  sbf_u32_list sizes, points, materials;
-  uint32_t *place_of;  /* (vertices of the mesh); NULL: all are written */
-  uint32_t *corner_of; /* (corners shown) of the full mesh, whose looks each has; NULL: the same */
-} shown_polygons;
-
-/* A level may leave unsaid which corner of the full mesh each of its own looks like: then the first there is.
- */
-static bool find_corners(const sbf_render_mesh *mesh, const sbf_render_level *from, shown_polygons *shown) {
-  const sbf_u32_list *points = &mesh->mesh.polygon_points;
-  uint32_t *first = malloc((mesh->mesh.positions.count + 1u) * sizeof *first);
-  shown->corner_of = malloc((from->polygon_points.count + 1u) * sizeof *shown->corner_of);
-  bool good = first && shown->corner_of;
-  for (uint32_t i = 0; good && i < mesh->mesh.positions.count; i++) first[i] = 0;
-  for (uint32_t i = good ? points->count : 0; i-- > 0;) first[points->at[i]] = i;
-  for (uint32_t i = 0; good && i < from->polygon_points.count; i++)
-    shown->corner_of[i] = from->corners.count ? from->corners.at[i] : first[from->polygon_points.at[i]];
-  free(first);
-  return good;
-}
-
-static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, shown_polygons *shown) {
-  const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
-  *shown = (shown_polygons){
-      mesh->mesh.polygon_sizes, mesh->mesh.polygon_points, mesh->polygon_materials, NULL, NULL};
-  if (level == 0) return true;
-  const sbf_render_level *from = &mesh->levels.at[level - 1];
-  uint32_t count = sbr_model_level_vertices(s->model, number, level, NULL, 0);
-  uint32_t *vertices = malloc((count + 1u) * sizeof *vertices);
-  shown->place_of = calloc(mesh->mesh.positions.count + 1u, sizeof *shown->place_of);
-  bool good = vertices && shown->place_of;
-  if (good) sbr_model_level_vertices(s->model, number, level, vertices, count);
-  for (uint32_t i = 0; good && i < count; i++) shown->place_of[vertices[i]] = i;
-  free(vertices);
-  shown->sizes = from->polygon_sizes;
-  shown->points = from->polygon_points;
-  shown->materials = from->polygon_materials;
-  return good && find_corners(mesh, from, shown);
-}
-
-/* Cuts the polygons of one material slot into fans of triangles. */
-static bool cut_patch(const sbf_render_mesh *mesh, const shown_polygons *shown, uint32_t slot, patch *p) {
-  size_t most = 3 * (size_t)shown->points.count + 1;
-  p->triangles = malloc(most * sizeof *p->triangles);
-  p->whole = malloc(most * sizeof *p->whole);
-  p->polygons = malloc(((size_t)shown->points.count + 1) * sizeof *p->polygons);
-  if (!p->triangles || !p->whole || !p->polygons) return false;
-  if (p->look.image) {
-    p->uvs = malloc(most * sizeof *p->uvs);
-    p->whole_uvs = malloc(most * sizeof *p->whole_uvs);
-    if (!p->uvs || !p->whole_uvs) return false;
-  }
-  for (uint32_t i = 0, at = 0; i < shown->sizes.count; at += shown->sizes.at[i++]) {
-    const uint32_t *corner = shown->points.at + at;
-    if ((shown->materials.count ? shown->materials.at[i] : 0) != slot) continue;
-    for (uint32_t k = 2; k < shown->sizes.at[i]; k++) {
-      const uint32_t fan[3] = {corner[0], corner[k - 1], corner[k]};
-      const uint32_t corners[3] = {at, at + k - 1, at + k};
-      for (uint32_t c = 0; c < 3; c++) {
-        uint32_t to = 3 * p->triangle_count + c;
-        p->triangles[to] = shown->place_of ? shown->place_of[fan[c]] : fan[c];
-        if (p->uvs)
-          p->uvs[to] = skin_corner_uv(mesh, shown->corner_of ? shown->corner_of[corners[c]] : corners[c]);
-      }
-      p->polygons[p->triangle_count++] = i;
-    }
-  }
-  return true;
-}
-
-static bool look_of_mesh(
-    const session *s, const skin_images *images, uint32_t number, uint32_t level, mesh_look *look) {
-  const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
-  uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
-  shown_polygons shown;
-  look->level = level < mesh->levels.count ? level : mesh->levels.count;
-  look->patches = calloc(slots, sizeof *look->patches);
-  look->patch_count = slots;
-  bool good = shown_of_mesh(s, number, look->level, &shown) && look->patches;
-  look->torn = calloc(shown.sizes.count + 1u, 1);
-  good = good && look->torn;
-  for (uint32_t p = 0; good && p < slots; p++) {
-    look->patches[p].look = skin_look_of(s->asset, images, mesh, p);
-    good = cut_patch(mesh, &shown, p, &look->patches[p]);
-  }
-  free(shown.place_of);
-  free(shown.corner_of);
-  return good;
-}
 
 static int compare_edges(const void *a, const void *b) {
   return memcmp(a, b, sizeof(sbf_uint2));
@@ -182,9 +76,6 @@ static bool look_of_lattice(const session *s, uint32_t number, body_look *look) 
 
 static uint32_t largest_room(const sbf_asset *asset) {
   uint32_t room = 1;
-  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    if (asset->render_meshes.at[i].mesh.positions.count > room)
-      room = asset->render_meshes.at[i].mesh.positions.count;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
     for (uint32_t l = 0; l < asset->soft_bodies.at[i].levels.count; l++) {
       const sbf_level *level = &asset->soft_bodies.at[i].levels.at[l];
@@ -208,18 +99,14 @@ stage *stage_create(const session *s, const skin_images *images, unsigned show, 
   stage *st = calloc(1, sizeof *st);
   if (!st) return NULL;
   st->show = show;
-  st->mesh_count = asset->render_meshes.count;
   st->body_count = asset->soft_bodies.count;
   st->room = largest_room(asset);
-  st->meshes = calloc(st->mesh_count + 1u, sizeof *st->meshes);
+  st->skin = shown_skin_create(s, images, render_level);
   st->bodies = calloc(st->body_count + 1u, sizeof *st->bodies);
   st->positions = malloc(st->room * sizeof *st->positions);
-  st->normals = malloc(st->room * sizeof *st->normals);
   st->bones = malloc((asset->bones.count + 1u) * sizeof *st->bones);
   st->colours = malloc(st->room * sizeof *st->colours);
-  bool good = st->meshes && st->bodies && st->positions && st->normals && st->bones && st->colours;
-  for (uint32_t i = 0; good && i < st->mesh_count; i++)
-    good = look_of_mesh(s, images, i, render_level, &st->meshes[i]);
+  bool good = st->skin && st->bodies && st->positions && st->bones && st->colours;
   for (uint32_t i = 0; good && i < st->body_count; i++) good = look_of_lattice(s, i, &st->bodies[i]);
   if (good && show & STAGE_FEET) good = measure_soles(st, s);
   draw_colour_map_init_diverging(&st->strains);
@@ -228,27 +115,12 @@ stage *stage_create(const session *s, const skin_images *images, unsigned show, 
   return NULL;
 }
 
-static void free_patch(patch *p) {
-  free(p->triangles);
-  free(p->whole);
-  free(p->polygons);
-  free(p->uvs);
-  free(p->whole_uvs);
-}
-
 void stage_destroy(stage *st) {
   if (!st) return;
-  for (uint32_t i = 0; st->meshes && i < st->mesh_count; i++) {
-    for (uint32_t p = 0; st->meshes[i].patches && p < st->meshes[i].patch_count; p++)
-      free_patch(&st->meshes[i].patches[p]);
-    free(st->meshes[i].patches);
-    free(st->meshes[i].torn);
-  }
   for (uint32_t i = 0; st->bodies && i < st->body_count; i++) free(st->bodies[i].edges);
-  free(st->meshes);
+  shown_skin_destroy(st->skin);
   free(st->bodies);
   free(st->positions);
-  free(st->normals);
   free(st->bones);
   free(st->colours);
   free(st);
@@ -264,42 +136,6 @@ static void to_world(sbf_vec3 origin, sbf_vec3 *points, uint32_t count) {
     points[i].x += origin.x;
     points[i].y += origin.y;
     points[i].z += origin.z;
-  }
-}
-
-/* Those of the patch's triangles that no tear has opened, in p->whole and p->whole_uvs; returns how many. */
-static uint32_t keep_whole(const patch *p, const uint8_t *torn) {
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < p->triangle_count; i++) {
-    if (torn[p->polygons[i]]) continue;
-    if (p->uvs) memcpy(p->whole_uvs + 3 * (size_t)count, p->uvs + 3 * (size_t)i, 3 * sizeof *p->uvs);
-    memcpy(p->whole + 3 * (size_t)count++, p->triangles + 3 * (size_t)i, 3 * sizeof *p->whole);
-  }
-  return count;
-}
-
-static void show_skin(stage *st, const session *s, sbf_vec3 origin, draw_scene *scene) {
-  bool inside = (st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET)) != 0;
-  for (uint32_t m = 0; m < st->mesh_count; m++) {
-    uint32_t count = sbr_character_level_skin(
-        s->world, s->character, m, st->meshes[m].level, st->positions, st->normals, NULL, st->room);
-    to_world(origin, st->positions, count);
-    uint32_t polygons = sbr_character_torn_polygons(s->world, s->character, m, st->meshes[m].level, NULL, 0);
-    sbr_character_torn_polygons(s->world, s->character, m, st->meshes[m].level, st->meshes[m].torn, polygons);
-    for (uint32_t p = 0; p < st->meshes[m].patch_count; p++) {
-      const patch *one = &st->meshes[m].patches[p];
-      uint32_t triangles = keep_whole(one, st->meshes[m].torn);
-      if (triangles == 0) continue;
-      draw_scene_add_mesh(scene, &(draw_mesh){.positions = st->positions,
-                                     .normals = st->normals,
-                                     .triangles = one->whole,
-                                     .vertex_count = count,
-                                     .triangle_count = triangles,
-                                     .colour = one->look.colour,
-                                     .image = one->look.image,
-                                     .corner_uvs = one->whole_uvs,
-                                     .transparency = inside ? DRAW_XRAY : 0});
-    }
   }
 }
 
@@ -483,7 +319,8 @@ void stage_show(stage *st, const session *s, draw_scene *scene) {
   draw_scene_clear(scene);
   sbr_character_bones(s->world, s->character, st->bones, s->asset->bones.count);
   for (uint32_t i = 0; i < s->asset->bones.count; i++) to_world(origin, &st->bones[i].position, 1);
-  if (st->show & STAGE_SURFACE) show_skin(st, s, origin, scene);
+  bool inside = (st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET)) != 0;
+  if (st->show & STAGE_SURFACE) shown_skin_add(st->skin, s, origin, inside ? DRAW_XRAY : 0, scene);
   if (st->show & (STAGE_SPRINGS | STAGE_STRAIN)) show_springs(st, s, origin, scene);
   if (st->show & STAGE_LATTICE) show_lattices(st, s, origin, scene);
   if (st->show & STAGE_BONES) show_bones(st, s, scene);

@@ -120,6 +120,26 @@ class Render(ProgramTest):
                 self.assertGreater(with_marks[kind], 9)
                 self.assertLess(without[kind], 3)
 
+    def test_hard_edges_of_the_source_stay_hard(self):
+        """On either side of an edge seen in the middle a cube's colours differ by a step where its source states
+        normals of faces, and hardly where it states none, as then its surface is smooth."""
+        corners = "".join(f"v {i >> 2 & 1} {i >> 1 & 1} {i & 1}\n" for i in range(8))
+        faces = ((1, 0, 0), (4, 6, 7, 5)), ((-1, 0, 0), (0, 1, 3, 2)), ((0, 1, 0), (2, 3, 7, 6)), \
+            ((0, -1, 0), (0, 4, 5, 1)), ((0, 0, 1), (1, 5, 7, 3)), ((0, 0, -1), (0, 2, 6, 4))
+        normals = "".join("vn {} {} {}\n".format(*normal) for normal, _ in faces)
+        steps = {}
+        for kind, corner in (("hard", "{0}//{1}"), ("smooth", "{0}")):
+            lines = [" ".join(["f"] + [corner.format(c + 1, n + 1) for c in face]) for n, (_, face) in enumerate(faces)]
+            source, file, out = (self.path(f"{kind}.{ending}") for ending in ("obj", "sbf", "png"))
+            write_bytes(source, (corners + normals + "\n".join(lines) + "\n").encode())
+            self.good("convert", source, "-o", file, "--elements", "100")
+            self.good("render", file, "-o", out, *SMALL, "--view", "45,15")
+            _, _, channels, rows = read_png(read_bytes(out))
+            left, right = (rows[60][x * channels:x * channels + 3] for x in (76, 84))
+            steps[kind] = max(abs(a - b) for a, b in zip(left, right))
+        self.assertGreater(steps["hard"], 25)
+        self.assertLess(steps["smooth"], 12)
+
     def test_a_picture_of_a_later_moment_differs(self):
         self.assertNotEqual(self.draw("a.png", *SMALL), self.draw("b.png", *SMALL, "--seconds", "1", "--drive", "0.3,0"))
 

@@ -85,6 +85,29 @@ START_TEST(corners_keep_their_places_in_the_image)
 }
 END_TEST
 
+/* Triangles that meet along a hard edge have normals of their own there, one left out or not. */
+START_TEST(corners_keep_their_normals)
+{
+  static const uint32_t three[9] = {0, 1, 2, 0, 9, 1, 0, 2, 3};
+  static const sbf_vec3 smooth[4] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+  const draw_place place = {{0, sqrtf(0.5f), 0, sqrtf(0.5f)}, {0, 0, 0}};
+  sbf_vec3 normals[9];
+  for (int i = 0; i < 9; i++) normals[i] = i < 3 ? v3(0, 1, 0) : v3(0, 0, 1);
+  draw_mesh mesh = square;
+  mesh.triangles = three;
+  mesh.triangle_count = 3;
+  mesh.normals = smooth;
+  mesh.corner_normals = normals;
+  mesh.place = &place;
+  draw_scene_add_mesh(scene, &mesh);
+  ck_assert_uint_eq(scene->positions.count, 6);
+  for (size_t i = 0; i < 6; i++) {
+    ck_assert_float_eq_tol(normal_at(i).y, i < 3 ? 1 : 0, 1e-5f);
+    ck_assert_float_eq_tol(normal_at(i).x, i < 3 ? 0 : 1, 1e-5f);
+  }
+}
+END_TEST
+
 START_TEST(placed_mesh_is_turned_and_moved)
 {
   /* A quarter turn about +Y takes +Z to +X. */
@@ -216,6 +239,7 @@ int main(void) {
   tcase_add_test(tests, index_out_of_range_is_left_out);
   tcase_add_test(tests, notes_hang_from_the_top);
   tcase_add_test(tests, corners_keep_their_places_in_the_image);
+  tcase_add_test(tests, corners_keep_their_normals);
   tcase_add_loop_test(tests, placed_mesh_is_turned_and_moved, 0, 2);
   tcase_add_test(tests, far_lines_come_first);
   tcase_add_test(tests, far_veils_come_first);

@@ -289,6 +289,27 @@ START_TEST(same_scene_same_picture)
 }
 END_TEST
 
+/* The bright line along an edge is of what is turned from the eye, not of a facet that faces it, whatever its
+ * smooth normals say: a coarse body is not pale where its normals lean away. */
+START_TEST(facets_that_face_the_eye_are_no_edges)
+{
+  static const sbf_vec3 corners[4] = {{-1, -0.8f, 0}, {1, -0.8f, 0}, {1, 0.8f, 0}, {-1, 0.8f, 0}};
+  static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
+  const float s = _i ? 1 : -1;
+  const sbf_vec3 normals[4] = {{0, 0, 1}, {s, 0, 0}, {s, 0, 0}, {0, 0, 1}};
+  draw_scene_add_mesh(scene, &(draw_mesh){.positions = corners,
+                                 .normals = normals,
+                                 .vertex_count = 4,
+                                 .triangles = triangles,
+                                 .triangle_count = 2,
+                                 .colour = draw_colour_rgb(0x20a020)});
+  paint();
+  const uint8_t *there = pixel_at(0.95f, 0);
+  ck_assert_int_gt(greenness(there), 30);
+  ck_assert_int_lt(there[0], 80);
+}
+END_TEST
+
 START_TEST(what_is_not_finite_does_no_harm)
 {
   const sbf_vec3 corners[4] = {{NAN, 0, 0}, {INFINITY, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
@@ -335,6 +356,7 @@ int main(void) {
   tcase_add_test(tests, line_behind_the_eye_is_cut);
   tcase_add_test(tests, ground_is_dark_under_what_stands_on_it);
   tcase_add_loop_test(tests, same_scene_same_picture, 0, 2);
+  tcase_add_loop_test(tests, facets_that_face_the_eye_are_no_edges, 0, 2);
   tcase_add_test(tests, what_is_not_finite_does_no_harm);
   tcase_add_test(tests, empty_scene_is_a_backdrop);
   suite_add_tcase(suite, tests);

@@ -210,9 +210,8 @@ static const sbf_vec3 *find_smooth_normals(draw_scene *scene, const draw_mesh *m
   return normals;
 }
 
-/* Each corner a vertex of its own: for facets, and where an image parts along lines that the surface does
- * not.
- */
+/* Each corner a vertex of its own: for facets, hard edges, and where an image parts along lines that the
+ * surface does not. */
 static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_scene_part *look) {
   draw_scene_room room;
   uint32_t count = 0;
@@ -221,9 +220,9 @@ static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_sce
     scene->failed = true;
     return;
   }
-  const sbf_vec3 *normals = mesh->normals;
-  if (!mesh->flat && !normals) normals = find_smooth_normals(scene, mesh, room.indices);
-  bool facets = mesh->flat || !normals;
+  const sbf_vec3 *normals = mesh->normals, *hard = mesh->flat ? NULL : mesh->corner_normals;
+  if (!mesh->flat && !normals && !hard) normals = find_smooth_normals(scene, mesh, room.indices);
+  bool facets = mesh->flat || (!normals && !hard);
   for (uint32_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *triangle = mesh->triangles + 3 * (size_t)t;
     if (!in_range(triangle, mesh->vertex_count)) continue;
@@ -233,7 +232,8 @@ static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_sce
     sbf_vec3 of_facet = v3_unit(across, v3(0, 1, 0));
     for (int k = 0; k < 3; k++, count++) {
       room.positions[count] = corner[k];
-      room.normals[count] = facets ? of_facet : turned(mesh->place, normals[triangle[k]]);
+      const sbf_vec3 *stated = hard ? &hard[3 * (size_t)t + (size_t)k] : &normals[triangle[k]];
+      room.normals[count] = facets ? of_facet : turned(mesh->place, *stated);
       room.colours[count] = mesh->colours ? mesh->colours[triangle[k]] : mesh->colour;
       if (look->image) room.uvs[count] = mesh->corner_uvs[3 * (size_t)t + (size_t)k];
       room.indices[count] = room.first_vertex + count;
@@ -248,7 +248,7 @@ void draw_scene_add_mesh(draw_scene *scene, const draw_mesh *mesh) {
   draw_scene_part look = {.transparency = mesh->transparency, .casts_shadow = !mesh->no_shadow};
   if (mesh->triangle_count == 0 || mesh->vertex_count == 0) return;
   if (mesh->transparency <= 0 && mesh->corner_uvs) look.image = mesh->image;
-  if (mesh->flat || look.image)
+  if (mesh->flat || mesh->corner_normals || look.image)
     add_corners(scene, mesh, &look);
   else
     add_smooth(scene, mesh, &look);

@@ -33,8 +33,9 @@ typedef struct draw_mesh {
   const draw_image *image;    /* multiplies the colour where it is solid; NULL: none. Not copied: it stays,
                                  unchanged, as long as the painters that have painted it */
   const sbf_vec2 *corner_uvs; /* (3 triangle_count) a place in it for each corner, its lower left 0, 0 */
-  float transparency;         /* 0 solid; 0.75 an x-ray view, which shows what is inside; below 1 */
-  bool flat;                  /* facets keep their edges */
+  const sbf_vec3 *corner_normals; /* (3 triangle_count) unit, instead of `normals`; NULL: no hard edges */
+  float transparency;             /* 0 solid; 0.75 an x-ray view, which shows what is inside; below 1 */
+  bool flat;                      /* facets keep their edges */
   bool no_shadow;
   const draw_place *place; /* NULL: positions are in the world */
 } draw_mesh;

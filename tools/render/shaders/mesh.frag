@@ -15,6 +15,9 @@ void main() {
   vec3 to_eye = normalize(eye.xyz - world);
   vec3 normal = normalize(facing);
   if (dot(normal, to_eye) < 0.0 && !gl_FrontFacing) normal = -normal;
+  // The facet as it is, which smooth normals of a coarse body lean far off.
+  vec3 facet = normalize(cross(dFdx(world), dFdy(world)));
+  if (dot(facet, to_eye) < 0.0) facet = -facet;
   vec3 albedo = linear_from_stored(colour.rgb);
 #ifdef BASE_IMAGE
   albedo *= linear_from_stored(texture(base_image, vec2(on_image.x, 1.0 - on_image.y)).rgb);
@@ -33,7 +36,8 @@ void main() {
   vec3 seen = albedo * light;
 
   // A satin sheen from the key, and a bright line along the edge that is turned to the light behind.
-  float facing_eye = clamp(dot(normal, to_eye), 0.0, 1.0);
+  // A facet that the eye sees whole is no edge, wherever its smooth normals point.
+  float facing_eye = clamp(max(dot(normal, to_eye), dot(facet, to_eye) - 0.1), 0.0, 1.0);
   float fresnel = pow(1.0 - facing_eye, 4.0);
   float half_way = clamp(dot(normal, normalize(key.xyz + to_eye)), 0.0, 1.0);
   seen += vec3(1.0, 0.97, 0.92) * (0.16 * pow(half_way, 28.0) * arrives * wrapped);

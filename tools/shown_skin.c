@@ -1,0 +1,261 @@
+#include "shown_skin.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The triangles of one mesh that bear one material. */
+typedef struct patch {
+  uint32_t *triangles, *whole;       /* all, and room for those that no tear has opened */
+  uint32_t *polygons;                /* (triangle_count) which each is of */
+  sbf_vec2 *uvs, *whole_uvs;         /* (3 triangle_count) likewise, on the image; NULL: there is none */
+  uint32_t *corners, *whole_corners; /* (3 triangle_count) likewise, of the polygons; NULL: no hard edges */
+  uint32_t triangle_count;
+  skin_look look;
+} patch;
+
+typedef struct mesh_look {
+  patch *patches;
+  uint32_t patch_count;
+  uint8_t *torn;  /* (polygons) */
+  uint32_t level; /* of the mesh that is shown */
+} mesh_look;
+
+struct shown_skin {
+  mesh_look *meshes;
+  uint32_t mesh_count;
+  sbf_vec3 *positions, *normals; /* room for the largest mesh */
+  sbf_vec3 *of_corners;          /* room for the corners of the largest mesh or level with hard edges */
+  sbf_vec3 *of_triangles;        /* likewise for those of its triangles, three each */
+  uint32_t room, corner_room;
+};
+
+/* The polygons of a mesh or of one of its levels, over the vertices that the runtime writes for it. */
+typedef struct shown_polygons {
+  sbf_u32_list sizes, points, materials;
+  uint32_t *place_of;  /* (vertices of the mesh); NULL: all are written */
+  uint32_t *corner_of; /* (corners shown) of the full mesh, whose looks each has; NULL: the same */
+} shown_polygons;
+
+/* A level may leave unsaid which corner of the full mesh each of its own looks like: then the first there is.
+ */
+static bool find_corners(const sbf_render_mesh *mesh, const sbf_render_level *from, shown_polygons *shown) {
+  const sbf_u32_list *points = &mesh->mesh.polygon_points;
+  uint32_t *first = malloc((mesh->mesh.positions.count + 1u) * sizeof *first);
+  shown->corner_of = malloc((from->polygon_points.count + 1u) * sizeof *shown->corner_of);
+  bool good = first && shown->corner_of;
+  for (uint32_t i = 0; good && i < mesh->mesh.positions.count; i++) first[i] = 0;
+  for (uint32_t i = good ? points->count : 0; i-- > 0;) first[points->at[i]] = i;
+  for (uint32_t i = 0; good && i < from->polygon_points.count; i++)
+    shown->corner_of[i] = from->corners.count ? from->corners.at[i] : first[from->polygon_points.at[i]];
+  free(first);
+  return good;
+}
+
+static bool shown_of_mesh(const session *s, uint32_t number, uint32_t level, shown_polygons *shown) {
+  const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
+  *shown = (shown_polygons){
+      mesh->mesh.polygon_sizes, mesh->mesh.polygon_points, mesh->polygon_materials, NULL, NULL};
+  if (level == 0) return true;
+  const sbf_render_level *from = &mesh->levels.at[level - 1];
+  uint32_t count = sbr_model_level_vertices(s->model, number, level, NULL, 0);
+  uint32_t *vertices = malloc((count + 1u) * sizeof *vertices);
+  shown->place_of = calloc(mesh->mesh.positions.count + 1u, sizeof *shown->place_of);
+  bool good = vertices && shown->place_of;
+  if (good) sbr_model_level_vertices(s->model, number, level, vertices, count);
+  for (uint32_t i = 0; good && i < count; i++) shown->place_of[vertices[i]] = i;
+  free(vertices);
+  shown->sizes = from->polygon_sizes;
+  shown->points = from->polygon_points;
+  shown->materials = from->polygon_materials;
+  return good && find_corners(mesh, from, shown);
+}
+
+/* Cuts the polygons of one material slot into fans of triangles. */
+static bool cut_patch(
+    const sbf_render_mesh *mesh, const shown_polygons *shown, bool hard, uint32_t slot, patch *p) {
+  size_t most = 3 * (size_t)shown->points.count + 1;
+  p->triangles = malloc(most * sizeof *p->triangles);
+  p->whole = malloc(most * sizeof *p->whole);
+  p->polygons = malloc(((size_t)shown->points.count + 1) * sizeof *p->polygons);
+  if (!p->triangles || !p->whole || !p->polygons) return false;
+  if (p->look.image) {
+    p->uvs = malloc(most * sizeof *p->uvs);
+    p->whole_uvs = malloc(most * sizeof *p->whole_uvs);
+    if (!p->uvs || !p->whole_uvs) return false;
+  }
+  if (hard) {
+    p->corners = malloc(most * sizeof *p->corners);
+    p->whole_corners = malloc(most * sizeof *p->whole_corners);
+    if (!p->corners || !p->whole_corners) return false;
+  }
+  for (uint32_t i = 0, at = 0; i < shown->sizes.count; at += shown->sizes.at[i++]) {
+    const uint32_t *corner = shown->points.at + at;
+    if ((shown->materials.count ? shown->materials.at[i] : 0) != slot) continue;
+    for (uint32_t k = 2; k < shown->sizes.at[i]; k++) {
+      const uint32_t fan[3] = {corner[0], corner[k - 1], corner[k]};
+      const uint32_t corners[3] = {at, at + k - 1, at + k};
+      for (uint32_t c = 0; c < 3; c++) {
+        uint32_t to = 3 * p->triangle_count + c;
+        p->triangles[to] = shown->place_of ? shown->place_of[fan[c]] : fan[c];
+        if (p->corners) p->corners[to] = corners[c];
+        if (p->uvs)
+          p->uvs[to] = skin_corner_uv(mesh, shown->corner_of ? shown->corner_of[corners[c]] : corners[c]);
+      }
+      p->polygons[p->triangle_count++] = i;
+    }
+  }
+  return true;
+}
+
+/* Whether corners of polygons state normals that differ at one point by more than a degree. */
+static bool has_hard_edges(const sbf_render_mesh *mesh, bool *hard) {
+  const sbf_u32_list *points = &mesh->mesh.polygon_points, *of = &mesh->normal_corners;
+  *hard = false;
+  if (of->count == 0) return true;
+  uint32_t *first = malloc((mesh->mesh.positions.count + 1u) * sizeof *first);
+  if (!first) return false;
+  memset(first, 0xff, (mesh->mesh.positions.count + 1u) * sizeof *first);
+  for (uint32_t c = 0; c < points->count && c < of->count && !*hard; c++) {
+    uint32_t *to = &first[points->at[c]];
+    if (*to == UINT32_MAX) *to = of->at[c];
+    sbf_vec3 a = mesh->normals.at[*to], b = mesh->normals.at[of->at[c]];
+    *hard = a.x * b.x + a.y * b.y + a.z * b.z < 0.99985f;
+  }
+  free(first);
+  return true;
+}
+
+static bool look_of_mesh(
+    const session *s, const skin_images *images, uint32_t number, uint32_t level, mesh_look *look) {
+  const sbf_render_mesh *mesh = &s->asset->render_meshes.at[number];
+  uint32_t slots = mesh->material_slots.count ? mesh->material_slots.count : 1;
+  shown_polygons shown;
+  look->level = level < mesh->levels.count ? level : mesh->levels.count;
+  look->patches = calloc(slots, sizeof *look->patches);
+  look->patch_count = slots;
+  bool hard, good = shown_of_mesh(s, number, look->level, &shown) && look->patches;
+  look->torn = calloc(shown.sizes.count + 1u, 1);
+  good = good && look->torn && has_hard_edges(mesh, &hard);
+  for (uint32_t p = 0; good && p < slots; p++) {
+    look->patches[p].look = skin_look_of(s->asset, images, mesh, p);
+    good = cut_patch(mesh, &shown, hard, p, &look->patches[p]);
+  }
+  free(shown.place_of);
+  free(shown.corner_of);
+  return good;
+}
+
+/* Room for what is written anew in each frame. */
+static bool make_room(shown_skin *skin, const sbf_asset *asset) {
+  uint32_t corners = 0;
+  skin->room = 1;
+  for (uint32_t m = 0; m < skin->mesh_count; m++) {
+    const sbf_render_mesh *mesh = &asset->render_meshes.at[m];
+    if (mesh->mesh.positions.count > skin->room) skin->room = mesh->mesh.positions.count;
+    if (mesh->mesh.polygon_points.count > corners) corners = mesh->mesh.polygon_points.count;
+    for (uint32_t l = 0; l < mesh->levels.count; l++)
+      if (mesh->levels.at[l].polygon_points.count > corners)
+        corners = mesh->levels.at[l].polygon_points.count;
+  }
+  skin->corner_room = corners;
+  skin->positions = malloc(skin->room * sizeof *skin->positions);
+  skin->normals = malloc(skin->room * sizeof *skin->normals);
+  skin->of_corners = malloc((corners + 1u) * sizeof *skin->of_corners);
+  skin->of_triangles = malloc((3 * (size_t)corners + 1) * sizeof *skin->of_triangles);
+  return skin->positions && skin->normals && skin->of_corners && skin->of_triangles;
+}
+
+shown_skin *shown_skin_create(const session *s, const skin_images *images, uint32_t render_level) {
+  shown_skin *skin = calloc(1, sizeof *skin);
+  if (!skin) return NULL;
+  skin->mesh_count = s->asset->render_meshes.count;
+  skin->meshes = calloc(skin->mesh_count + 1u, sizeof *skin->meshes);
+  bool good = skin->meshes && make_room(skin, s->asset);
+  for (uint32_t i = 0; good && i < skin->mesh_count; i++)
+    good = look_of_mesh(s, images, i, render_level, &skin->meshes[i]);
+  if (good) return skin;
+  shown_skin_destroy(skin);
+  return NULL;
+}
+
+static void free_patch(patch *p) {
+  free(p->triangles);
+  free(p->whole);
+  free(p->polygons);
+  free(p->uvs);
+  free(p->whole_uvs);
+  free(p->corners);
+  free(p->whole_corners);
+}
+
+void shown_skin_destroy(shown_skin *skin) {
+  if (!skin) return;
+  for (uint32_t i = 0; skin->meshes && i < skin->mesh_count; i++) {
+    for (uint32_t p = 0; skin->meshes[i].patches && p < skin->meshes[i].patch_count; p++)
+      free_patch(&skin->meshes[i].patches[p]);
+    free(skin->meshes[i].patches);
+    free(skin->meshes[i].torn);
+  }
+  free(skin->meshes);
+  free(skin->positions);
+  free(skin->normals);
+  free(skin->of_corners);
+  free(skin->of_triangles);
+  free(skin);
+}
+
+/* Those of the patch's triangles that no tear has opened, in p->whole and its like; returns how many. */
+static uint32_t keep_whole(const patch *p, const uint8_t *torn) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < p->triangle_count; i++) {
+    if (torn[p->polygons[i]]) continue;
+    if (p->uvs) memcpy(p->whole_uvs + 3 * (size_t)count, p->uvs + 3 * (size_t)i, 3 * sizeof *p->uvs);
+    if (p->corners)
+      memcpy(p->whole_corners + 3 * (size_t)count, p->corners + 3 * (size_t)i, 3 * sizeof *p->corners);
+    memcpy(p->whole + 3 * (size_t)count++, p->triangles + 3 * (size_t)i, 3 * sizeof *p->whole);
+  }
+  return count;
+}
+
+/* The normals of the corners of so many whole triangles; NULL: the patch has no hard edges. */
+static const sbf_vec3 *normals_of(shown_skin *skin, const patch *p, uint32_t triangles) {
+  if (!p->corners) return NULL;
+  for (uint32_t k = 0; k < 3 * triangles; k++) skin->of_triangles[k] = skin->of_corners[p->whole_corners[k]];
+  return skin->of_triangles;
+}
+
+static void add_mesh(shown_skin *skin, const session *s, uint32_t number, sbf_vec3 origin, float transparency,
+    draw_scene *scene) {
+  const mesh_look *mesh = &skin->meshes[number];
+  uint32_t count = sbr_character_level_skin(
+      s->world, s->character, number, mesh->level, skin->positions, skin->normals, NULL, skin->room);
+  for (uint32_t i = 0; i < count; i++) {
+    sbf_vec3 *p = &skin->positions[i];
+    *p = (sbf_vec3){p->x + origin.x, p->y + origin.y, p->z + origin.z};
+  }
+  uint32_t polygons = sbr_character_torn_polygons(s->world, s->character, number, mesh->level, NULL, 0);
+  sbr_character_torn_polygons(s->world, s->character, number, mesh->level, mesh->torn, polygons);
+  if (mesh->patches[0].corners)
+    sbr_character_level_corner_normals(
+        s->world, s->character, number, mesh->level, skin->of_corners, skin->corner_room);
+  for (uint32_t p = 0; p < mesh->patch_count; p++) {
+    const patch *one = &mesh->patches[p];
+    uint32_t triangles = keep_whole(one, mesh->torn);
+    if (triangles == 0) continue;
+    draw_scene_add_mesh(scene, &(draw_mesh){.positions = skin->positions,
+                                   .normals = skin->normals,
+                                   .corner_normals = normals_of(skin, one, triangles),
+                                   .triangles = one->whole,
+                                   .vertex_count = count,
+                                   .triangle_count = triangles,
+                                   .colour = one->look.colour,
+                                   .image = one->look.image,
+                                   .corner_uvs = one->whole_uvs,
+                                   .transparency = transparency});
+  }
+}
+
+void shown_skin_add(
+    shown_skin *skin, const session *s, sbf_vec3 origin, float transparency, draw_scene *scene) {
+  for (uint32_t m = 0; m < skin->mesh_count; m++) add_mesh(skin, s, m, origin, transparency, scene);
+}
