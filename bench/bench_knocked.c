@@ -8,9 +8,6 @@
  * processor time, the least of the rounds of the mean over all; `walk_us` of the same character walking, for
  * comparison.
  *
- * Joints have no dry friction here: bones that bear their flesh are held by it where those that tremble
- * against theirs in fine steps slip, by some 4 mm whatever the steps.
- *
  * Ends with a failure where it goes elsewhere. */
 #include <math.h>
 #include <stdlib.h>
@@ -58,9 +55,6 @@ static double run(const sbf_asset *asset, const sbr_model *model, bool falls, in
   definition.sleep_after_s = 0;
   bench_require(sbr_world_create(&definition, &world, &error), &error);
   bench_require(sbr_character_create(world, model, &standing, &id, &error), &error);
-  sbr_rigid_drive drive = sbr_default_rigid_drive();
-  drive.joint_friction = 0;
-  sbr_character_rigid_drive(world, id, &drive);
   if (falls)
     sbr_character_rigid_mode(world, id, -1, SBR_RIGID_PASSIVE);
   else

@@ -51,7 +51,7 @@ void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     sbri_system_solve(s);
     sbri_ground_touches_move(work);
     sbri_joint_rows_move(work, t->model, step_s);
-    float share = same && pass + 1 < MOST_PASSES ? sbri_rigid_search(t, work, step_s) : 1;
+    float share = same ? sbri_rigid_search(t, work, step_s) : 1;
     if (share < 1) hold_back(work, share);
     bool changed = false, other = false;
     for (uint32_t e = 0; e < s->edge_count; e++)

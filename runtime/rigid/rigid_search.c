@@ -8,7 +8,11 @@
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
-enum { SEARCHES = 20 };
+/* Enough to find what sticks: the share of the way in which a hard strike's friction turns round is the speed
+ * that it gives way by, some 0.05 mm/s, over that of the way, metres a second where all slides. A search that
+ * ends before has the passes go to and fro over it without end. The last are halvings: of a slope that is
+ * steep on one side and flat on the other a secant comes back with next to nothing. */
+enum { SECANTS = 20, SEARCHES = 60 };
 /* Of the slope at the begin, what may be left. */
 static const float LEVEL = 0.01f;
 /* And what may have come up behind it at the end, for the way not to be too long. */
@@ -105,7 +109,7 @@ float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
   for (int i = 0; i < SEARCHES; i++) {
     float share = low + (high - low) * (float)(first / (first - last));
     float least = low + 0.02f * (high - low), most = high - 0.02f * (high - low);
-    share = i & 1 ? 0.5f * (low + high) : sbri_clamp(share, least, most);
+    share = i & 1 || i > SECANTS ? 0.5f * (low + high) : sbri_clamp(share, least, most);
     double here = slope + (double)share * rise - pushed(work, share);
     if (here >= 0 && here <= level) return share;
     if (here < 0)

@@ -8,9 +8,12 @@
 enum { KINDS = 3, ARM = 1 };
 static const float KG = 2, REACH_M = 0.25f, G = 9.81f, FRICTION = 0.04f, TICK_S = 1 / 60.0f;
 
-/* The arm is let go `aside`, rad, of where it hangs. */
-static scene arm_of(int kind, float aside, float friction) {
+/* The arm is let go `aside`, rad, of where it hangs; `steps` a tick, 0: as many as it takes by itself. */
+static scene arm_in(int kind, float aside, float friction, bool weighs, uint32_t steps) {
   scene s = rigid_begin();
+  s.world_definition.has_gravity = !weighs;
+  s.world_definition.gravity = (sbf_vec3){0, 0, 0};
+  s.model_options.rigid_substeps = steps;
   s.asset->environment.gravity = (sbf_vec3){0, -G, 0};
   sbf_bone *bones = sbf_asset_allocate(s.asset, 2, sizeof *bones);
   ck_assert_ptr_nonnull(bones);
@@ -34,6 +37,10 @@ static scene arm_of(int kind, float aside, float friction) {
   sbr_character_rigid_mode(s.world, s.character, ARM, kind == 2 ? SBR_RIGID_DRIVEN : SBR_RIGID_PASSIVE);
   sbr_character_rigid_share(s.world, s.character, ARM, kind == 2 ? 1e-6f : 1);
   return s;
+}
+
+static scene arm_of(int kind, float aside, float friction) {
+  return arm_in(kind, aside, friction, true, 0);
 }
 
 static float angle(const scene *s) {
@@ -83,6 +90,33 @@ START_TEST(it_holds_what_it_can)
 }
 END_TEST
 
+/* Turned without weight it slows down evenly by a = torque / moment and stands where that has used up its
+ * speed, after w^2 / 2a: beyond that by less than a step's way at the speed that it began with, however many
+ * steps. There it stays. */
+START_TEST(what_is_turned_slows_down_evenly)
+{
+  const uint32_t steps[4] = {4, 8, 16, 64};
+  const float side = 0.1f, moment = KG * (REACH_M * REACH_M + side * side / 6);
+  const float a = FRICTION * KG * G * REACH_M / moment, began = 0.9f;
+  for (int i = 0; i < 4; i++) {
+    scene s = arm_in(_i, 0, FRICTION, false, steps[i]);
+    rigid_push(&s, ARM, (sbf_vec3){0, 0, 0}, (sbf_vec3){began * moment / REACH_M, 0, 0});
+    const float tick = TICK_S, off = began * TICK_S / (float)steps[i];
+    int half = (int)(0.5f * began / (a * tick));
+    scene_ticks(&s, (uint32_t)half);
+    float since = (float)half * tick;
+    ck_assert_float_eq_tol(spin(&s), began - a * since, 1.5f * a * tick / (float)steps[i] + 1e-3f);
+    ck_assert_float_eq_tol(angle(&s), (began - 0.5f * a * since) * since, off);
+    scene_ticks(&s, (uint32_t)half + 12);
+    float stands = angle(&s);
+    ck_assert_float_eq_tol(stands, 0.5f * began * began / a, off);
+    scene_ticks(&s, 300);
+    ck_assert_float_eq_tol(angle(&s), stands, 1e-5f);
+    scene_free(&s);
+  }
+}
+END_TEST
+
 /* A hit on an arm at rest loses no more than friction takes in the tick. */
 START_TEST(a_hit_is_not_held)
 {
@@ -107,6 +141,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, each_swing_is_shorter_by_what_friction_takes, 0, KINDS);
   tcase_add_loop_test(tests, it_holds_what_it_can, 0, 2 * KINDS);
+  tcase_add_loop_test(tests, what_is_turned_slows_down_evenly, 0, KINDS);
   tcase_add_loop_test(tests, a_hit_is_not_held, 0, KINDS);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -1,0 +1,61 @@
+/* How far a pass goes, where what stops it is a narrow place on a long way. */
+#include <math.h>
+#include <string.h>
+
+#include "harness.h"
+#include "rigid/rigid_work.h"
+
+static const float KG = 8;
+
+/* A box of eight kilograms that the pass before has at `was`, m/s along x, and that without a touch would be
+ * at `to`: what slides gives an impulse of at most `bound` against that, and within `sticks` m/s of standing
+ * it holds with as much as it takes. */
+typedef struct slide {
+  sbri_node node;
+  sbri_rigid_body body;
+  sbri_rigid_model model;
+  sbri_ground_touch touch;
+  sbri_rigid_solving work;
+  sbri_rigid_tick tick;
+} slide;
+
+static void slide_of(slide *s, float was, float to, float bound, float sticks) {
+  memset(s, 0, sizeof *s);
+  s->body.mass = KG;
+  s->model = (sbri_rigid_model){.bodies = &s->body, .body_count = 1};
+  s->node.swell = 1;
+  s->node.was[0] = (double)was, s->node.x[0] = (double)to;
+  s->node.push[0] = (double)(KG * to); /* what moves it there */
+  for (int k = 0; k < 3; k++) s->node.inertia[k][k] = 1;
+  s->touch.normal = (sbf_vec3){0, 1, 0};
+  s->touch.grip = bound / sticks, s->touch.bound = bound, s->touch.slides = true;
+  s->touch.was.x = was, s->touch.moved.x = to;
+  s->work.system.nodes = &s->node, s->work.system.node_count = 1;
+  s->work.touches = &s->touch, s->work.touch_count = 1;
+  s->tick.model = &s->model;
+}
+
+/* Friction of up to 6.9 N s on what 6.4 N s push: it stands, within what friction gives way by, however
+ * narrow that is and from whichever side it comes. */
+START_TEST(what_sticks_is_found_however_narrow)
+{
+  const float sticks[4] = {1e-2f, 1e-3f, 5e-5f, 1e-5f};
+  for (int side = -1; side <= 1; side += 2)
+    for (int from = -1; from <= 1; from += 2) {
+      slide s;
+      slide_of(&s, 2e-4f * (float)from, 0.8f * (float)side, 6.9f, sticks[_i]);
+      if (from == side) s.node.was[0] = s.touch.was.x = -2.1f * sticks[_i] * (float)side;
+      float share = sbri_rigid_search(&s.tick, &s.work, 1e-3f);
+      double at = s.node.was[0] + (double)share * (s.node.x[0] - s.node.was[0]);
+      ck_assert_double_le(fabs(at), 1.02 * (double)sticks[_i]);
+    }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("rigid_search");
+  TCase *tests = tcase_create("all");
+  tcase_add_loop_test(tests, what_sticks_is_found_however_narrow, 0, 4);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
