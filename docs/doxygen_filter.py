@@ -7,7 +7,7 @@ a header documents the file. Nothing in a comment is a command or markup."""
 import re
 import sys
 
-LIST = re.compile(r"typedef struct (\w+)_list \{\n  (const [^;]*\bat);\n  uint32_t count;\n\}")
+LIST = re.compile(r"typedef struct (\w+)_list \{\s+(const [^;]*\bat);\s+uint32_t count;\s+\}")
 LIST_PAGE = ("/** A list of \\1. */\ntypedef struct \\1_list {\n  \\2; /**< The items; NULL where there are none. */\n"
              "  uint32_t count; /**< How many. */\n}")
 VECTOR = re.compile(r"typedef struct (sbf_(?:vec|quat|uint)\w*) \{\n  (float|uint32_t) ([^;]*);\n\}")

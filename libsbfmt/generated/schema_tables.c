@@ -5,17 +5,18 @@
 #include "model/schema.h"
 #include "sbfmt/model.h"
 
+static const char *const alpha_mode_values[] = {"opaque", "mask", "blend"};
+static const char *const attachment_rule_values[] = {"explicit", "inside_hull"};
 static const char *const mesh_target_values[] = {"rendering", "surface", "collision_detection"};
-static const char *const volume_target_values[] = {"volume"};
-static const char *const elastic_model_values[] = {"springs", "tetrahedra", "shape_matching", "jiggle"};
-static const char *const spring_kind_values[] = {"structural", "shear", "flexion", "internal", "cross_body"};
-static const char *const pressure_mode_values[] = {"none", "gas", "volume"};
 static const char *const body_motion_values[] = {"kinematic", "dynamic"};
 static const char *const joint_kind_values[] = {"prismatic", "revolute", "cylindrical", "spherical", "point_on_line", "point_in_plane", "distance", "pulley", "fixed", "six_dof"};
 static const char *const joint_axis_values[] = {"linear_x", "linear_y", "linear_z", "twist", "swing_y", "swing_z", "swing", "distance"};
-static const char *const attachment_rule_values[] = {"explicit", "inside_hull"};
-static const char *const weight_property_values[] = {"density", "young_modulus", "bending_stiffness", "mass_damping", "stiffness_damping", "friction", "pressure", "yield_strain", "tear_strain"};
+static const char *const volume_target_values[] = {"volume"};
+static const char *const spring_kind_values[] = {"structural", "shear", "flexion", "internal", "cross_body"};
+static const char *const elastic_model_values[] = {"springs", "tetrahedra", "shape_matching", "jiggle"};
 static const char *const scheme_values[] = {"automatic", "symplectic", "position_based", "relaxation", "explicit_euler", "heun", "block_descent"};
+static const char *const pressure_mode_values[] = {"none", "gas", "volume"};
+static const char *const weight_property_values[] = {"density", "young_modulus", "bending_stiffness", "mass_damping", "stiffness_damping", "friction", "pressure", "yield_strain", "tear_strain"};
 static const char *const ik_solver_values[] = {"two_bone", "ccd", "fabrik", "damped_least_squares", "spline"};
 static const char *const chain_kind_values[] = {"lag", "distance"};
 static const char *const follower_channel_values[] = {"rotation", "position", "both", "squash", "weight"};
@@ -23,7 +24,6 @@ static const char *const bone_axis_values[] = {"x", "y", "z"};
 static const char *const track_property_values[] = {"translation", "rotation", "scale"};
 static const char *const interpolation_values[] = {"linear", "step", "cubic"};
 static const char *const field_kind_values[] = {"uniform", "radial", "vortex", "drag"};
-static const char *const alpha_mode_values[] = {"opaque", "mask", "blend"};
 
 static const sbfi_field author_fields[] = {
   {.name = "name", .type = SBFI_STRING, .number = 1, .since_minor = 0, .offset = offsetof(sbf_author, name), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -771,24 +771,16 @@ void sbf_extension_init(sbf_extension *extension) { sbfi_element_init(&extension
 void sbf_section_recipe_init(sbf_section_recipe *section_recipe) { sbfi_element_init(&section_recipe_element, section_recipe); }
 void sbf_asset_init(sbf_asset *asset) { sbfi_element_init(&sbfi_asset_element, asset); }
 
+const char *sbf_alpha_mode_name(sbf_alpha_mode value) {
+  return (unsigned)value < 3u ? alpha_mode_values[value] : "?";
+}
+
+const char *sbf_attachment_rule_name(sbf_attachment_rule value) {
+  return (unsigned)value < 2u ? attachment_rule_values[value] : "?";
+}
+
 const char *sbf_mesh_target_name(sbf_mesh_target value) {
   return (unsigned)value < 3u ? mesh_target_values[value] : "?";
-}
-
-const char *sbf_volume_target_name(sbf_volume_target value) {
-  return (unsigned)value < 1u ? volume_target_values[value] : "?";
-}
-
-const char *sbf_elastic_model_name(sbf_elastic_model value) {
-  return (unsigned)value < 4u ? elastic_model_values[value] : "?";
-}
-
-const char *sbf_spring_kind_name(sbf_spring_kind value) {
-  return (unsigned)value < 5u ? spring_kind_values[value] : "?";
-}
-
-const char *sbf_pressure_mode_name(sbf_pressure_mode value) {
-  return (unsigned)value < 3u ? pressure_mode_values[value] : "?";
 }
 
 const char *sbf_body_motion_name(sbf_body_motion value) {
@@ -803,16 +795,28 @@ const char *sbf_joint_axis_name(sbf_joint_axis value) {
   return (unsigned)value < 8u ? joint_axis_values[value] : "?";
 }
 
-const char *sbf_attachment_rule_name(sbf_attachment_rule value) {
-  return (unsigned)value < 2u ? attachment_rule_values[value] : "?";
+const char *sbf_volume_target_name(sbf_volume_target value) {
+  return (unsigned)value < 1u ? volume_target_values[value] : "?";
 }
 
-const char *sbf_weight_property_name(sbf_weight_property value) {
-  return (unsigned)value < 9u ? weight_property_values[value] : "?";
+const char *sbf_spring_kind_name(sbf_spring_kind value) {
+  return (unsigned)value < 5u ? spring_kind_values[value] : "?";
+}
+
+const char *sbf_elastic_model_name(sbf_elastic_model value) {
+  return (unsigned)value < 4u ? elastic_model_values[value] : "?";
 }
 
 const char *sbf_scheme_name(sbf_scheme value) {
   return (unsigned)value < 7u ? scheme_values[value] : "?";
+}
+
+const char *sbf_pressure_mode_name(sbf_pressure_mode value) {
+  return (unsigned)value < 3u ? pressure_mode_values[value] : "?";
+}
+
+const char *sbf_weight_property_name(sbf_weight_property value) {
+  return (unsigned)value < 9u ? weight_property_values[value] : "?";
 }
 
 const char *sbf_ik_solver_name(sbf_ik_solver value) {
@@ -841,8 +845,4 @@ const char *sbf_interpolation_name(sbf_interpolation value) {
 
 const char *sbf_field_kind_name(sbf_field_kind value) {
   return (unsigned)value < 4u ? field_kind_values[value] : "?";
-}
-
-const char *sbf_alpha_mode_name(sbf_alpha_mode value) {
-  return (unsigned)value < 3u ? alpha_mode_values[value] : "?";
 }

@@ -1,10 +1,11 @@
-"""C from the schema: the structs of sbfmt/model.h and the tables behind model/schema.h."""
+"""C from the schema: the structs of sbfmt/model.h, a header a chapter, and the tables behind model/schema.h."""
 from schema import LISTS, WIDTH, ordered
 
 C_SCALARS = {"bool": "bool", "int": "int32_t", "uint": "uint32_t", "float": "float", "vec2": "sbf_vec2",
              "vec3": "sbf_vec3", "vec4": "sbf_vec4", "quat": "sbf_quat", "string": "const char *",
              "text": "const char *", "id": "const char *", "ref": "int32_t"}
-NOTE = "/* Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */\n"
+SOURCE = "Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file."
+NOTE = f"/* {SOURCE} */\n"
 
 
 def c_type(field):
@@ -17,6 +18,9 @@ def c_type(field):
     if field.type == "many":
         return f"sbf_{field.argument}_list"
     return C_SCALARS[field.type]
+
+
+GLUE = "\u00a0"  # holds words together in a comment
 
 
 def bound_text(value):
@@ -40,7 +44,7 @@ def shape(field):
     if field.type == "ref":
         notes.append(f"index into asset.{field.argument}, or SBF_NONE")
     notes = [n for n in notes if n]
-    return f" [{'; '.join(notes)}]" if notes else ""
+    return f" [{'; '.join(notes)}]".replace(" ", GLUE).replace(GLUE, " ", 1) if notes else ""
 
 
 def length_text(terms):
@@ -54,53 +58,82 @@ def length_text(terms):
     return " + ".join(texts)
 
 
-def wrap(text, indent, width=110):
-    lines, line = [], indent + "/*"
-    for word in (text + " */").split(" "):
-        if len(line) + len(word) + 1 > width:
-            lines.append(line)
-            line = indent + " *"
-        line += " " + word
-    return "\n".join(lines + [line]) + "\n"
+def wrap(text, begin="", width=120):
+    """A comment behind `begin`, its further lines below its first. An empty line in the text stays one; what stands
+    in brackets behind it stays together."""
+    lines, line, rest = [], begin + "/*", " " * len(begin) + " *"
+    for number, paragraph in enumerate((text + GLUE + "*/").split("\n\n")):
+        if number:
+            lines += [line, rest]
+            line = rest
+        for word in paragraph.split(" "):
+            for part in [word] if len(rest) + len(word) < width else word.split(GLUE):
+                if len(line) + len(part) + 1 > width:
+                    lines.append(line)
+                    line = rest
+                line += " " + part
+    return "\n".join(lines + [line]).replace(GLUE, " ") + "\n"
 
 
-def model_header(schema):
-    out = ["/* The asset: plain read-only data, as the format defines it.\n"
-           " *\n"
-           " * Units are SI: metres, kilograms, seconds, newtons, pascals, radians. Right-handed, +Y up, +Z\n"
-           " * forward; all positions are in asset space and in the rest pose unless they say otherwise.\n"
-           " * Everything a loaded asset points at lives in it and is freed with it; it may be read by any\n"
-           " * number of threads at once. Strings are UTF-8 and never NULL. References are places in a list of\n"
-           " * the asset, or SBF_NONE. Square brackets give unit, range, default, and the length of a list.\n"
-           " *\n"
-           " * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */\n"
-           "#ifndef SBFMT_MODEL_H\n#define SBFMT_MODEL_H\n\n#include \"sbfmt/base.h\"\n\n"
-           "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n// clang-format off\n\n"
-           f"/* Of the format this library writes. */\n#define SBF_FORMAT_VERSION \"{schema.version}\"\n\n"]
-    for name, values in schema.enums.items():
-        out.append(f"/* Words of {name}, in the file's spelling by sbf_{name}_name. */\ntypedef enum sbf_{name} {{\n")
-        out += [f"  SBF_{name.upper()}_{v.upper()} = {i},\n" for i, v in enumerate(values)]
-        out.append(f"  SBF_{name.upper()}_COUNT = {len(values)}\n}} sbf_{name};\n\n")
-    for element in ordered(schema):
-        out.append(wrap(element.meaning, ""))
-        out.append(f"typedef struct sbf_{element.name} {{\n")
-        for field in element.fields:
-            out.append(wrap(field.meaning + shape(field), "  "))
-            kind = c_type(field)
-            out.append(f"  {kind}{'' if kind.endswith('*') else ' '}{field.name};\n")
-        out.append(f"}} sbf_{element.name};\n")
-        if element is not schema.root:
-            out.append(f"typedef struct sbf_{element.name}_list {{\n  const sbf_{element.name} *at;\n"
-                       f"  uint32_t count;\n}} sbf_{element.name}_list;\n")
-        out.append("\n")
-    out.append("/* Every field at its default, lists empty, references SBF_NONE. */\n")
-    for element in ordered(schema):
-        out.append(f"SBF_API void sbf_{element.name}_init(sbf_{element.name} *{element.name});\n")
-    out.append("\n/* The word the format uses for a value, or \"?\" for one out of range. */\n")
-    for name in schema.enums:
-        out.append(f"SBF_API const char *sbf_{name}_name(sbf_{name} value);\n")
-    out.append("\n// clang-format on\n\n#ifdef __cplusplus\n}\n#endif\n#endif\n")
+def enum_type(name, values):
+    return (f"/* Words of {name}, in the file's spelling by sbf_{name}_name. */\ntypedef enum sbf_{name} {{\n"
+            + "".join(f"  SBF_{name.upper()}_{v.upper()} = {i},\n" for i, v in enumerate(values))
+            + f"  SBF_{name.upper()}_COUNT = {len(values)}\n}} sbf_{name};\n\n")
+
+
+def struct(element, is_root=False):
+    kinds = [c_type(field) for field in element.fields]
+    declared = [f"  {kind}{'' if kind.endswith('*') else ' '}{field.name};" for kind, field in zip(kinds, element.fields)]
+    column = max(map(len, declared)) + 2
+    out = [wrap(element.meaning), f"typedef struct sbf_{element.name} {{\n"]
+    out += [wrap(field.meaning + shape(field), line.ljust(column)) for line, field in zip(declared, element.fields)]
+    out.append(f"}} sbf_{element.name};\n")
+    if not is_root:
+        out.append(f"typedef struct sbf_{element.name}_list {{ const sbf_{element.name} *at; uint32_t count; }} "
+                   f"sbf_{element.name}_list;\n")
+    return "".join(out) + "\n"
+
+
+def calls(elements, enums):
+    out = ["/* Every field at its default, lists empty, references SBF_NONE. */\n"]
+    out += [f"SBF_API void sbf_{element.name}_init(sbf_{element.name} *{element.name});\n" for element in elements]
+    if enums:
+        out.append("\n/* The word the format uses for a value, or \"?\" for one out of range. */\n")
+    out += [f"SBF_API const char *sbf_{name}_name(sbf_{name} value);\n" for name in enums]
     return "".join(out)
+
+
+def header(name, opening, includes, body):
+    guard = f"SBFMT_{name.upper()}_H"
+    return (wrap(opening + "\n\n" + SOURCE) + f"#ifndef {guard}\n#define {guard}\n\n"
+            + "".join(f'#include "sbfmt/{include}.h"\n' for include in includes)
+            + f'\n#ifdef __cplusplus\nextern "C" {{\n#endif\n\n// clang-format off\n\n{body}'
+            "\n// clang-format on\n\n#ifdef __cplusplus\n}\n#endif\n#endif\n")
+
+
+def chapter_header(schema, chapter):
+    elements = [element for element in ordered(schema) if element in chapter.elements]
+    body = [enum_type(name, schema.enums[name]) for name in chapter.enums] + [struct(element) for element in elements]
+    return header("model_" + chapter.name, chapter.meaning + " A chapter of sbfmt/model.h, which says what holds for all of them.",
+                  [f"model_{above.name}" for above in chapter.above] or ["base"],
+                  "".join(body) + calls(elements, chapter.enums))
+
+
+MODEL = ("The asset: plain read-only data, as the format defines it, a header for each of its chapters.\n\n"
+         "Units are SI: metres, kilograms, seconds, newtons, pascals, radians. Right-handed, +Y up, +Z forward; all "
+         "positions are in asset space and in the rest pose unless they say otherwise. Everything a loaded asset points "
+         "at lives in it and is freed with it; it may be read by any number of threads at once. Strings are UTF-8 and "
+         "never NULL. References are places in a list of the asset, or SBF_NONE. Square brackets give unit, range, "
+         "default, and the length of a list.")
+
+
+def model_headers(schema):
+    """Name below sbfmt/ -> text: a header for each chapter, and model.h, which includes them and holds the root."""
+    headers = {f"model_{chapter.name}.h": chapter_header(schema, chapter) for chapter in schema.chapters}
+    version = f"/* Of the format this library writes. */\n#define SBF_FORMAT_VERSION \"{schema.version}\"\n\n"
+    headers["model.h"] = header("model", MODEL, [f"model_{chapter.name}" for chapter in schema.chapters],
+                                version + struct(schema.root, is_root=True) + calls([schema.root], []))
+    return headers
 
 
 def c_string(text):

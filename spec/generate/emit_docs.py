@@ -26,9 +26,13 @@ def reference(schema):
            "What equals its default is left out. A reference is the `id` of an object of the named collection.\n\n"
            "## Words\n\n| enumeration | values, numbered from 0 |\n|---|---|\n"]
     out += [f"| `{name}` | {', '.join(values)} |\n" for name, values in schema.enums.items()]
+    first = {chapter.elements[0].name: chapter for chapter in schema.chapters}
     for element in schema.elements.values():
         part = f" A part of kind `{element.part}` in the packed form." if element.part else ""
-        out.append(f"\n## {element.name}\n\n`<{element.xml}>`: {element.meaning}{part}\n\n"
+        if element.name in first:
+            chapter = first[element.name]
+            out.append(f"\n## Chapter: {chapter.name.replace('_', ' ')}\n\n{chapter.meaning} In C: `sbfmt/model_{chapter.name}.h`.\n")
+        out.append(f"\n{'##' if element is schema.root else '###'} {element.name}\n\n`<{element.xml}>`: {element.meaning}{part}\n\n"
                    "| nr | field | written as | type | unit | default | range | length | indexes | meaning |\n"
                    "|---|---|---|---|---|---|---|---|---|---|\n")
         for f in element.fields:

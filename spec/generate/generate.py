@@ -24,7 +24,7 @@ def products():
     with open(os.path.join(ROOT, "docs", "materials.md"), encoding="utf-8") as file:
         materials_page = file.read()
     return {
-        "libsbfmt/include/sbfmt/model.h": emit_c.model_header(schema),
+        **{"libsbfmt/include/sbfmt/" + name: text for name, text in emit_c.model_headers(schema).items()},
         "libsbfmt/generated/schema_tables.c": emit_c.tables(schema),
         "libsbfmt/include/sbfmt/codes.h": emit_codes.header(codes),
         "libsbfmt/generated/code_table.c": emit_codes.table(codes),

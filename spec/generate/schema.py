@@ -43,9 +43,19 @@ class Element:
         return next((f for f in self.fields if f.name == name), None)
 
 
+class Chapter:
+    """What stands together in the schema, in a C header and in the reference; `above` are the chapters it builds on."""
+
+    def __init__(self, name, meaning):
+        self.name, self.meaning = name, meaning
+        self.enums, self.elements, self.above = [], [], []
+
+
 class Schema:
+    """Elements and enums by name, in the schema's order, and the chapters that share them out: all but the root's."""
+
     def __init__(self):
-        self.version, self.enums, self.elements = None, {}, {}
+        self.version, self.enums, self.elements, self.chapters = None, {}, {}, []
 
     @property
     def root(self):
@@ -103,11 +113,17 @@ def read(path):
         head, _, meaning = line.partition(" -- ")
         if match := re.fullmatch(r"version (\S+)", line):
             schema.version = match[1]
+        elif match := re.fullmatch(r"chapter (\w+)", head):
+            schema.chapters.append(Chapter(match[1], meaning))
         elif match := re.fullmatch(r"enum (\w+): (.*)", line):
             schema.enums[match[1]] = match[2].split()
+            if schema.chapters:
+                schema.chapters[-1].enums.append(match[1])
         elif match := re.fullmatch(r"element (\w+)(?: xml=(\w+))?(?: part=([A-Z]{4}))?", head):
             element = Element(match[1], match[2] or match[1], match[3], meaning, number)
             schema.elements[element.name] = element
+            if schema.chapters:
+                schema.chapters[-1].elements.append(element)
         elif match := re.fullmatch(r"  size = (.*)", line):
             element.size = parse_terms(match[1])
         elif match := re.fullmatch(r"  (\w+)\s*: ([a-z0-9]+(?:\[\])?)(?:\((\w+)\))?( .*)?", head):
@@ -141,6 +157,7 @@ def check(schema, path):
         check_names(schema, element, path)
     check_depth(schema, schema.root, [], path)
     check_parts(schema, path)
+    check_chapters(schema, path)
 
 
 def check_names(schema, element, path):
@@ -180,6 +197,23 @@ def check_parts(schema, path):
     for element in schema.elements.values():
         if element.part and (element.name not in depth or kinds.count(element.part) > 1):
             raise SystemExit(f"{path}:{element.line}: a part lies in a part and has a kind of its own")
+
+
+def check_chapters(schema, path):
+    """Chapters build on those before them; finds which."""
+    place = {name: chapter for chapter in schema.chapters for name in [*chapter.enums, *(e.name for e in chapter.elements)]}
+    for element in schema.elements.values():
+        if (element.name in place) == (element is schema.root):
+            raise SystemExit(f"{path}:{element.line}: the root stands before all chapters, every other element in one")
+    for name in schema.enums:
+        if name not in place:
+            raise SystemExit(f"{path}: the enum {name} stands in no chapter")
+    for number, chapter in enumerate(schema.chapters):
+        used = [(place[f.argument], f) for e in chapter.elements for f in e.fields if f.is_child or f.type == "enum"]
+        for other, field in used:
+            if other not in schema.chapters[:number + 1]:
+                raise SystemExit(f"{path}:{field.line}: {field.argument} belongs to a later chapter, {other.name}")
+        chapter.above = [one for one in schema.chapters[:number] if one in (other for other, _ in used)]
 
 
 def ordered(schema):

@@ -137,8 +137,8 @@ class Samples(Comparison):
         from sbf_elements import ELEMENTS  # pylint: disable=import-outside-toplevel
         stated, element = [], None
         for line in read_bytes(os.path.join(ROOT, "spec", "reference.md")).decode().splitlines():
-            if line.startswith("## "):
-                element = line[3:]
+            if line.startswith(("## ", "### ")):
+                element = line.lstrip("# ")
             elif line.startswith("| ") and line[2].isdigit():
                 number, name, _written, kind, _unit, default = (cell.strip() for cell in line.split(" | ")[:6])
                 stated.append((element, int(number.strip("| ")), name, kind, default))

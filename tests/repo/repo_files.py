@@ -5,7 +5,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 # Written by spec/generate/generate.py: as long as they need to be.
-GENERATED = ("libsbfmt/generated/", "libsbfmt/include/sbfmt/model.h", "libsbfmt/include/sbfmt/codes.h",
+GENERATED = ("libsbfmt/generated/", "libsbfmt/include/sbfmt/model", "libsbfmt/include/sbfmt/codes.h",
              "spec/reference.md", "spec/codes.md", "spec/sbf.xsd")
 LEFT_OUT = {".git", "__pycache__", "node_modules"}
 LEFT_OUT_AT_ROOT = LEFT_OUT | {"build", "out"}

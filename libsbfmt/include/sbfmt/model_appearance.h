@@ -1,0 +1,63 @@
+/* Materials, and the images that they use. A chapter of sbfmt/model.h, which says what holds for all of them.
+ *
+ * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
+#ifndef SBFMT_MODEL_APPEARANCE_H
+#define SBFMT_MODEL_APPEARANCE_H
+
+#include "sbfmt/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// clang-format off
+
+/* Words of alpha_mode, in the file's spelling by sbf_alpha_mode_name. */
+typedef enum sbf_alpha_mode {
+  SBF_ALPHA_MODE_OPAQUE = 0,
+  SBF_ALPHA_MODE_MASK = 1,
+  SBF_ALPHA_MODE_BLEND = 2,
+  SBF_ALPHA_MODE_COUNT = 3
+} sbf_alpha_mode;
+
+/* An image. */
+typedef struct sbf_texture {
+  const char *id;          /* Identity. */
+  const char *name;        /* Name for people. */
+  const char *path;        /* Path relative to the file, with forward slashes; empty where the bytes are embedded. */
+  const char *media_type;  /* As image/png or image/jpeg. */
+  sbf_u8_list bytes;       /* The image file itself, where it is embedded. */
+} sbf_texture;
+typedef struct sbf_texture_list { const sbf_texture *at; uint32_t count; } sbf_texture_list;
+
+/* An appearance: metallic-roughness, as glTF 2.0 defines it. */
+typedef struct sbf_material {
+  const char *id;                      /* Identity. */
+  const char *name;                    /* Name for people. */
+  sbf_vec4 base_color;                 /* Linear red, green, blue and opacity. [[0, 1]; default 1,1,1,1] */
+  float metallic;                      /* 0 dielectric, 1 metal. [[0, 1]; default 0] */
+  float roughness;                     /* 0 mirror, 1 matt. [[0, 1]; default 1] */
+  sbf_vec3 emissive;                   /* Emitted linear colour. [[0, inf)] */
+  sbf_alpha_mode alpha_mode;           /* What opacity means. [default opaque] */
+  float alpha_cutoff;                  /* Below it nothing is drawn, with alpha mode `mask`. [[0, 1]; default 0.5] */
+  bool double_sided;                   /* Seen from behind as well. [default false] */
+  int32_t base_color_texture;          /* Multiplies the base colour. [index into asset.textures, or SBF_NONE] */
+  int32_t metallic_roughness_texture;  /* Roughness in green, metallic in blue.
+                                        * [index into asset.textures, or SBF_NONE] */
+  int32_t normal_texture;              /* Tangent-space normals. [index into asset.textures, or SBF_NONE] */
+} sbf_material;
+typedef struct sbf_material_list { const sbf_material *at; uint32_t count; } sbf_material_list;
+
+/* Every field at its default, lists empty, references SBF_NONE. */
+SBF_API void sbf_texture_init(sbf_texture *texture);
+SBF_API void sbf_material_init(sbf_material *material);
+
+/* The word the format uses for a value, or "?" for one out of range. */
+SBF_API const char *sbf_alpha_mode_name(sbf_alpha_mode value);
+
+// clang-format on
+
+#ifdef __cplusplus
+}
+#endif
+#endif

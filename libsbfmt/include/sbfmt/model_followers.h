@@ -1,0 +1,88 @@
+/* Bones that follow: chains that trail behind their first bone, and bones that lag behind their own pose. A chapter of
+ * sbfmt/model.h, which says what holds for all of them.
+ *
+ * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
+#ifndef SBFMT_MODEL_FOLLOWERS_H
+#define SBFMT_MODEL_FOLLOWERS_H
+
+#include "sbfmt/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// clang-format off
+
+/* Words of chain_kind, in the file's spelling by sbf_chain_kind_name. */
+typedef enum sbf_chain_kind {
+  SBF_CHAIN_KIND_LAG = 0,
+  SBF_CHAIN_KIND_DISTANCE = 1,
+  SBF_CHAIN_KIND_COUNT = 2
+} sbf_chain_kind;
+
+/* Words of follower_channel, in the file's spelling by sbf_follower_channel_name. */
+typedef enum sbf_follower_channel {
+  SBF_FOLLOWER_CHANNEL_ROTATION = 0,
+  SBF_FOLLOWER_CHANNEL_POSITION = 1,
+  SBF_FOLLOWER_CHANNEL_BOTH = 2,
+  SBF_FOLLOWER_CHANNEL_SQUASH = 3,
+  SBF_FOLLOWER_CHANNEL_WEIGHT = 4,
+  SBF_FOLLOWER_CHANNEL_COUNT = 5
+} sbf_follower_channel;
+
+/* Words of bone_axis, in the file's spelling by sbf_bone_axis_name. */
+typedef enum sbf_bone_axis {
+  SBF_BONE_AXIS_X = 0,
+  SBF_BONE_AXIS_Y = 1,
+  SBF_BONE_AXIS_Z = 2,
+  SBF_BONE_AXIS_COUNT = 3
+} sbf_bone_axis;
+
+/* Bones one after the other. */
+typedef struct sbf_chain {
+  const char *id;        /* Identity. */
+  const char *name;      /* Name for people. */
+  sbf_chain_kind kind;   /* lag: each follows its parent's turn; distance: each is dragged at its spacing.
+                          * [default lag] */
+  sbf_u32_list bones;    /* From the leading bone on. [index into asset.bones] */
+  sbf_f32_list spacing;  /* Distance to the next; empty: bone lengths. [m; [0, inf); length 0 or bones] */
+  float angle_limit;     /* Greatest bend between two. [rad; [0, 3.15]; default 1] */
+  float damping;         /* Rate at which it straightens at rest. [1/s; [0, inf)] */
+  bool proposed;         /* Guessed from the rig, for a person to confirm. [default false] */
+} sbf_chain;
+typedef struct sbf_chain_list { const sbf_chain *at; uint32_t count; } sbf_chain_list;
+
+/* A bone follows its own animated pose as a second-order system. */
+typedef struct sbf_follower {
+  const char *id;                /* Identity. */
+  const char *name;              /* Name for people. */
+  int32_t bone;                  /* The bone. [index into asset.bones, or SBF_NONE] */
+  sbf_follower_channel channel;  /* What follows. [default rotation] */
+  float frequency;               /* f. [Hz; (0, inf); default 2] */
+  float damping_ratio;           /* z. [[0, inf); default 0.5] */
+  float response;                /* r. [default 0] */
+  sbf_bone_axis axis;            /* Of a squash: which of the bone's own axes it is pressed and stretched along.
+                                  * [default y] */
+  float strength;                /* Of a squash or a weight: share of its length by which the bone stretches, or moves
+                                  * and leans, as it lags by its length. [[0, inf); default 1] */
+  float limit;                   /* Of a squash: it stays below 1 + limit of its length, and above 1 / (1 + limit); of a
+                                  * weight: it moves by less than limit of its length and leans by less than limit rad.
+                                  * [(0, inf); default 0.5] */
+} sbf_follower;
+typedef struct sbf_follower_list { const sbf_follower *at; uint32_t count; } sbf_follower_list;
+
+/* Every field at its default, lists empty, references SBF_NONE. */
+SBF_API void sbf_chain_init(sbf_chain *chain);
+SBF_API void sbf_follower_init(sbf_follower *follower);
+
+/* The word the format uses for a value, or "?" for one out of range. */
+SBF_API const char *sbf_chain_kind_name(sbf_chain_kind value);
+SBF_API const char *sbf_follower_channel_name(sbf_follower_channel value);
+SBF_API const char *sbf_bone_axis_name(sbf_bone_axis value);
+
+// clang-format on
+
+#ifdef __cplusplus
+}
+#endif
+#endif

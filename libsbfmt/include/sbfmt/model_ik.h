@@ -1,0 +1,67 @@
+/* Inverse kinematics: chains of bones that reach for a target. A chapter of sbfmt/model.h, which says what holds for
+ * all of them.
+ *
+ * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
+#ifndef SBFMT_MODEL_IK_H
+#define SBFMT_MODEL_IK_H
+
+#include "sbfmt/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// clang-format off
+
+/* Words of ik_solver, in the file's spelling by sbf_ik_solver_name. */
+typedef enum sbf_ik_solver {
+  SBF_IK_SOLVER_TWO_BONE = 0,
+  SBF_IK_SOLVER_CCD = 1,
+  SBF_IK_SOLVER_FABRIK = 2,
+  SBF_IK_SOLVER_DAMPED_LEAST_SQUARES = 3,
+  SBF_IK_SOLVER_SPLINE = 4,
+  SBF_IK_SOLVER_COUNT = 5
+} sbf_ik_solver;
+
+/* A rotation a bone prefers, relative to its parent's rest. */
+typedef struct sbf_comfort {
+  int32_t bone;       /* The bone. [index into asset.bones, or SBF_NONE] */
+  sbf_quat rotation;  /* The rotation. */
+  float weight;       /* How much. [[0, 1]; default 1] */
+  sbf_vec3 axes;      /* Shares of the weight about the bone's own X, Y and Z. [[0, 1]; default 1,1,1] */
+} sbf_comfort;
+typedef struct sbf_comfort_list { const sbf_comfort *at; uint32_t count; } sbf_comfort_list;
+
+/* Bones from root to end reach for a target. */
+typedef struct sbf_ik_chain {
+  const char *id;             /* Identity. */
+  const char *name;           /* Name for people. */
+  sbf_ik_solver solver;       /* Method. [default two_bone] */
+  int32_t root;               /* First bone. [index into asset.bones, or SBF_NONE] */
+  int32_t end;                /* Last bone; its head is what reaches. [index into asset.bones, or SBF_NONE] */
+  bool has_pole;              /* The chain bends towards the pole. [default false] */
+  sbf_vec3 pole;              /* The pole, asset space, rest pose. [m] */
+  int32_t pole_bone;          /* The pole moves with it; absent: with the root bone's parent.
+                               * [index into asset.bones, or SBF_NONE] */
+  float copy_rotation;        /* How much of the target's orientation the end takes. [[0, 1]; default 1] */
+  float soft_reach;           /* Share of the reach over which full extension is eased. [[0, 1); default 0.02] */
+  float tolerance;            /* Iterative methods stop within it. [m; (0, inf); default 0.0001] */
+  uint32_t iterations;        /* Iterative methods stop after so many. [default 32] */
+  sbf_comfort_list comforts;  /* Rotations the bones prefer. */
+  bool proposed;              /* Guessed from the rig, for a person to confirm. [default false] */
+} sbf_ik_chain;
+typedef struct sbf_ik_chain_list { const sbf_ik_chain *at; uint32_t count; } sbf_ik_chain_list;
+
+/* Every field at its default, lists empty, references SBF_NONE. */
+SBF_API void sbf_comfort_init(sbf_comfort *comfort);
+SBF_API void sbf_ik_chain_init(sbf_ik_chain *ik_chain);
+
+/* The word the format uses for a value, or "?" for one out of range. */
+SBF_API const char *sbf_ik_solver_name(sbf_ik_solver value);
+
+// clang-format on
+
+#ifdef __cplusplus
+}
+#endif
+#endif

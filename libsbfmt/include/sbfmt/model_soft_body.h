@@ -1,0 +1,147 @@
+/* What deforms: surface, material, collision, and the levels at which it is simulated. A chapter of sbfmt/model.h,
+ * which says what holds for all of them.
+ *
+ * Made from spec/sbf.schema by spec/generate/generate.py: change the schema, not this file. */
+#ifndef SBFMT_MODEL_SOFT_BODY_H
+#define SBFMT_MODEL_SOFT_BODY_H
+
+#include "sbfmt/model_pins.h"
+#include "sbfmt/model_mesh.h"
+#include "sbfmt/model_level.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// clang-format off
+
+/* Words of pressure_mode, in the file's spelling by sbf_pressure_mode_name. */
+typedef enum sbf_pressure_mode {
+  SBF_PRESSURE_MODE_NONE = 0,
+  SBF_PRESSURE_MODE_GAS = 1,
+  SBF_PRESSURE_MODE_VOLUME = 2,
+  SBF_PRESSURE_MODE_COUNT = 3
+} sbf_pressure_mode;
+
+/* Words of weight_property, in the file's spelling by sbf_weight_property_name. */
+typedef enum sbf_weight_property {
+  SBF_WEIGHT_PROPERTY_DENSITY = 0,
+  SBF_WEIGHT_PROPERTY_YOUNG_MODULUS = 1,
+  SBF_WEIGHT_PROPERTY_BENDING_STIFFNESS = 2,
+  SBF_WEIGHT_PROPERTY_MASS_DAMPING = 3,
+  SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING = 4,
+  SBF_WEIGHT_PROPERTY_FRICTION = 5,
+  SBF_WEIGHT_PROPERTY_PRESSURE = 6,
+  SBF_WEIGHT_PROPERTY_YIELD_STRAIN = 7,
+  SBF_WEIGHT_PROPERTY_TEAR_STRAIN = 8,
+  SBF_WEIGHT_PROPERTY_COUNT = 9
+} sbf_weight_property;
+
+/* Physical properties. Every value is in SI units. */
+typedef struct sbf_attributes {
+  float density;                    /* Of a volume. [kg/m^3; (0, inf); default 1000] */
+  float mass;                       /* Of the whole body, free points; 0: from the density. [kg; [0, inf)] */
+  float area_density;               /* Of an open surface; 0: density times thickness. [kg/m^2; [0, inf)] */
+  float thickness;                  /* Of an open surface. [m; (0, inf); default 0.001] */
+  float young_modulus;              /* Stiffness. [Pa; (0, inf); default 80000] */
+  float poisson_ratio;              /* Sideways contraction; spring levels show a quarter. [(-1, 0.5); default 0.4] */
+  float bending_stiffness;          /* Flexural rigidity of an open surface; 0: from modulus and thickness.
+                                     * [N*m; [0, inf)] */
+  float mass_damping;               /* Rayleigh alpha. [1/s; [0, inf)] */
+  float stiffness_damping;          /* Rayleigh beta. [s; [0, inf)] */
+  float damping_ratio;              /* At the body's lowest free mode, as further alpha. [[0, inf); default 0.2] */
+  float friction;                   /* Coulomb coefficient. [[0, inf); default 0.6] */
+  float restitution;                /* Of normal speed. [[0, 1]; default 0] */
+  float gravity_scale;              /* Factor on gravity. [default 1] */
+  float media_friction;             /* Rate at which speed against the medium is lost. [1/s; [0, inf)] */
+  float pressure;                   /* Of the gas inside above the outside, at rest. [Pa] */
+  sbf_pressure_mode pressure_mode;  /* none: no pressure; gas: pressure times volume is constant; volume: the volume is
+                                     * kept. [default none] */
+  float strain_min;                 /* Springs are kept from shrinking below; -1: no bound. [[-1, 0]; default -1] */
+  float strain_max;                 /* Springs are kept from stretching beyond; 0: no bound. [[0, inf)] */
+  float yield_strain;               /* Beyond it the rest shape flows; 0: never. [[0, inf)] */
+  float yield_flow;                 /* Rate of that flow. [1/s; [0, inf)] */
+  float tear_strain;                /* Beyond it the element stops; 0: never. [[0, inf)] */
+  bool sag_free;                    /* Bears its weight in the authored shape: springs without stated rest lengths are
+                                     * loaded so. [default false] */
+} sbf_attributes;
+typedef struct sbf_attributes_list { const sbf_attributes *at; uint32_t count; } sbf_attributes_list;
+
+/* How a body meets other things. */
+typedef struct sbf_collision {
+  float particle_radius;  /* Of a point. [m; [0, inf); default 0.01] */
+  float outer_thickness;  /* Contact begins this far outside a face. [m; [0, inf); default 0.005] */
+  float inner_thickness;  /* A point this far inside a face is still pushed out. [m; [0, inf); default 0.01] */
+  bool self;              /* Meets itself. [default false] */
+  uint32_t layer;         /* Bits it is. [default 1] */
+  uint32_t mask;          /* Bits it meets. [default 4294967295] */
+} sbf_collision;
+typedef struct sbf_collision_list { const sbf_collision *at; uint32_t count; } sbf_collision_list;
+
+/* Factors on one attribute. */
+typedef struct sbf_weight_map {
+  sbf_weight_property property;  /* Which attribute. */
+  sbf_f32_list values;           /* Factor at each source point; an element takes the mean of its points'.
+                                  * [[0, inf); length parent.size] */
+} sbf_weight_map;
+typedef struct sbf_weight_map_list { const sbf_weight_map *at; uint32_t count; } sbf_weight_map_list;
+
+/* Attributes of the 2012 dialect, dimensionless as they were. */
+typedef struct sbf_legacy {
+  float mass;                  /* As read. */
+  float volume_stiffness;      /* As read. */
+  float stretching_stiffness;  /* As read. */
+  float friction;              /* As read. */
+  float particle_radius;       /* As read. */
+  uint32_t solver_iterations;  /* As read. */
+} sbf_legacy;
+typedef struct sbf_legacy_list { const sbf_legacy *at; uint32_t count; } sbf_legacy_list;
+
+/* A deformable body: its source points are the surface's points, then the interior ones. */
+typedef struct sbf_soft_body {
+  const char *id;                   /* Identity. */
+  const char *name;                 /* Name for people. */
+  int32_t bone;                     /* The bone of a section. [index into asset.bones, or SBF_NONE] */
+  int32_t derived;                  /* Set where `build` cut it from a skinned mesh.
+                                     * [index into asset.derivations, or SBF_NONE] */
+  sbf_polygon_mesh surface;         /* Its skin. */
+  sbf_vec3_list interior;           /* Points an author placed inside. [m] */
+  sbf_u32_list source_points;       /* Number from 0 of each surface point in the source file.
+                                     * [length 0 or surface.positions] */
+  sbf_attributes attributes;        /* What it is made of. */
+  sbf_collision collision;          /* How it meets other things. */
+  sbf_weight_map_list weight_maps;  /* Factors on attributes, per source point. */
+  sbf_pin_set_list pins;            /* What holds it, on source points. */
+  sbf_attachment_list attachments;  /* Rules that `build` turns into pins. */
+  sbf_level_list levels;            /* Its simulation levels, finest first. */
+  const sbf_legacy *legacy;         /* Attributes of the 2012 dialect, kept for a round trip. */
+} sbf_soft_body;
+typedef struct sbf_soft_body_list { const sbf_soft_body *at; uint32_t count; } sbf_soft_body_list;
+
+/* What the section that `build` cuts from a skin for a bone is like. */
+typedef struct sbf_section_recipe {
+  int32_t bone;               /* The section's bone; none: every one that no other recipe names.
+                               * [index into asset.bones, or SBF_NONE] */
+  sbf_attributes attributes;  /* What it is made of. */
+  sbf_collision collision;    /* How it meets other things. */
+} sbf_section_recipe;
+typedef struct sbf_section_recipe_list { const sbf_section_recipe *at; uint32_t count; } sbf_section_recipe_list;
+
+/* Every field at its default, lists empty, references SBF_NONE. */
+SBF_API void sbf_attributes_init(sbf_attributes *attributes);
+SBF_API void sbf_collision_init(sbf_collision *collision);
+SBF_API void sbf_weight_map_init(sbf_weight_map *weight_map);
+SBF_API void sbf_legacy_init(sbf_legacy *legacy);
+SBF_API void sbf_soft_body_init(sbf_soft_body *soft_body);
+SBF_API void sbf_section_recipe_init(sbf_section_recipe *section_recipe);
+
+/* The word the format uses for a value, or "?" for one out of range. */
+SBF_API const char *sbf_pressure_mode_name(sbf_pressure_mode value);
+SBF_API const char *sbf_weight_property_name(sbf_weight_property value);
+
+// clang-format on
+
+#ifdef __cplusplus
+}
+#endif
+#endif
