@@ -7,8 +7,10 @@
 #include "chart/rounds.h"
 #include "chart/sweep.h"
 #include "chart/table.h"
+#include "chart/table_reader.h"
 #include "chart_maps.h"
 #include "cli.h"
+#include "render/fault.h"
 #include "sbfmt/io.h"
 
 /* What the call asks for. */
@@ -211,12 +213,57 @@ static int measure(cli_call *call, request *r) {
   return written;
 }
 
+/* ---- Drawings of tables that are there ---- */
+
+static sbf_status draw_again(
+    const request *r, const char *table, const chart_folder *folder, sbf_diagnostic *error) {
+  char name[64];
+  chart_sheet sheet;
+  chart_machine machine;
+  sbf_status status = chart_table_read(table, &sheet, &machine, name, sizeof name, error);
+  const chart_case *c = status == SBF_OK ? case_named(r, name) : NULL;
+  if (status == SBF_OK && !c)
+    status =
+        fault_set_file(error, SBF_CODE_IO_UNKNOWN_FORMAT, table, "it is of the case %s, which there is not%s",
+            name, r->asset ? " of a character" : ": of a character's motion, give the character's FILE too");
+  if (c) sheet.title = c->title, sheet.axes = c->axes;
+  if (c) status = chart_draw(&sheet, &machine, folder, error);
+  chart_sheet_free(&sheet);
+  return status;
+}
+
+static int redraw(cli_call *call, request *r) {
+  chart_folder folder;
+  sbf_diagnostic error;
+  const char *table;
+  int at = 0;
+  r->path = cli_value(call, "-o");
+  if (!r->path) return cli_wrong(call, "say where to: -o DIR");
+  if (call->json || cli_switch(call, "--no-svg") || cli_switch(call, "--jobs") || cli_value(call, "--case"))
+    return cli_wrong(
+        call, "--redraw draws all of each table and measures nothing: it goes with FILE and -o alone");
+  sbf_status status = chart_folder_begin(&folder, r->path, &error);
+  while (status == SBF_OK && (table = cli_next_value(call, "--redraw", &at)) != NULL)
+    status = draw_again(r, table, &folder, &error);
+  if (status == SBF_OK) status = chart_folder_commit(&folder, &error);
+  chart_folder_abandon(&folder);
+  if (status == SBF_OK)
+    printf("in %s\n", r->path);
+  else
+    cli_print_diagnostic(call, &error);
+  return (int)status;
+}
+
 static int run(cli_call *call) {
+  if (cli_switch(call, "--map") && cli_value(call, "--redraw"))
+    return cli_wrong(call, "--redraw is of tables of cases; maps are the same each time: leave it out");
   if (cli_switch(call, "--map")) return chart_maps_run(call);
   if (cli_value(call, "--cells")) return cli_wrong(call, "--cells is of maps: ask for them with --map");
   request r = {.machine = chart_this_machine()};
   int status = gather_cases(call, &r);
-  if (status == SBF_OK && !parse(call, &r))
+  if (status == SBF_OK && cli_value(call, "--redraw"))
+    status = redraw(call, &r);
+  else if (status == SBF_OK && !parse(call, &r))
     status = SBF_FAILED;
   else if (status == SBF_OK)
     status = cli_switch(call, "--jobs") ? print_jobs(call, &r) : measure(call, &r);
@@ -236,6 +283,8 @@ static const cli_option options[] = {
     {"--distance", "M", "from which a character is looked at, for errors in pixels (default 5)"},
     {"--map", NULL, "instead: where each scheme is sound, biased or dead"},
     {"--cells", "N", "of a map: so many columns, half as many rows; of bodies half of both (default 48)"},
+    {"--redraw", "TABLE",
+        "measure nothing: draw CASE.csv, with CASE-runs.csv beside it, again; several times for several"},
     {"--no-svg", NULL, "tables alone: gnuplot is not needed"},
     {"--jobs", NULL, "print one command a case, to be run side by side, and measure nothing"},
     {"--format", "text|json", "how to report (default text)"}, {NULL, NULL, NULL}};

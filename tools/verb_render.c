@@ -5,36 +5,38 @@
 #include "render/picture.h"
 #include "studio.h"
 
-typedef enum output { OUTPUT_PNG, OUTPUT_GIF, OUTPUT_MP4 } output;
+typedef enum output { OUTPUT_PNG, OUTPUT_GIF, OUTPUT_MP4, OUTPUT_WEBP, OUTPUTS } output;
 
 typedef struct shooting {
   studio st;
   uint8_t *rgb;
   uint32_t width, height;
-  unsigned colors;
+  unsigned colors, quality;
   output kind;
 } shooting;
 
 static bool parse_output(cli_call *call, output *kind) {
-  static const char *const endings[] = {".png", ".gif", ".mp4"};
+  static const char *const endings[] = {".png", ".gif", ".mp4", ".webp"};
   const char *path = cli_value(call, "-o"), *dot = path ? strrchr(path, '.') : NULL;
-  for (int i = 0; dot && i < 3; i++)
+  for (int i = 0; dot && i < OUTPUTS; i++)
     if (strcmp(dot, endings[i]) == 0) {
       *kind = (output)i;
       return true;
     }
-  cli_wrong(call, "say where to draw: -o OUT.png, OUT.gif or OUT.mp4");
+  cli_wrong(call, "say where to draw: -o OUT.png, OUT.gif, OUT.mp4 or OUT.webp");
   return false;
 }
 
-static bool parse_colors(cli_call *call, shooting *shot) {
-  const char *colors = cli_value(call, "--colors");
-  char rest;
-  if (!colors || (shot->kind == OUTPUT_GIF && sscanf(colors, "%u%c", &shot->colors, &rest) == 1 &&
-                     shot->colors >= 4 && shot->colors <= 256))
-    return true;
-  cli_wrong(call, "--colors takes 4 to 256, for a GIF, not '%s'", colors);
-  return false;
+/* An option that one kind of film has. */
+static bool parse_own(cli_call *call, const shooting *shot, const char *option, output kind, long least,
+    long most, unsigned *to) {
+  long value = 0;
+  if (!cli_value(call, option)) return true;
+  if (shot->kind != kind)
+    return cli_wrong(call, "%s is of a %s: leave it out", option, kind == OUTPUT_GIF ? "GIF" : "WebP"), false;
+  if (!cli_integer(call, option, least, most, &value)) return false;
+  *to = (unsigned)value;
+  return true;
 }
 
 static sbf_status open_shooting(shooting *shot, cli_call *call, sbf_diagnostic *error) {
@@ -64,12 +66,15 @@ static sbf_status draw_picture(shooting *shot, const char *path, sbf_diagnostic 
 
 static sbf_status draw_film(shooting *shot, const char *path, sbf_diagnostic *error) {
   session *s = &shot->st.s;
-  draw_movie_options options = {.kind = shot->kind == OUTPUT_GIF ? DRAW_MOVIE_GIF : DRAW_MOVIE_MP4,
+  static const draw_movie_kind kinds[] = {
+      [OUTPUT_GIF] = DRAW_MOVIE_GIF, [OUTPUT_MP4] = DRAW_MOVIE_MP4, [OUTPUT_WEBP] = DRAW_MOVIE_WEBP};
+  draw_movie_options options = {.kind = kinds[shot->kind],
       .width = shot->width,
       .height = shot->height,
       .fps = (uint32_t)(s->fps + 0.5),
       .frame_count = s->frame_count,
-      .colors = shot->colors};
+      .colors = shot->colors,
+      .quality = shot->quality};
   draw_movie *movie;
   sbf_status status = draw_movie_open(&movie, path, &options, error);
   if (status != SBF_OK) return status;
@@ -84,8 +89,8 @@ static sbf_status draw_film(shooting *shot, const char *path, sbf_diagnostic *er
 }
 
 static int run(cli_call *call) {
-  static const double usual_fps[] = {60, 25, 30}, usual_seconds[] = {0, 5, 5};
-  static const uint32_t usual_size[3][2] = {{1280, 960}, {640, 360}, {1280, 720}};
+  static const double usual_fps[] = {60, 25, 30, 25}, usual_seconds[] = {0, 5, 5, 5};
+  static const uint32_t usual_size[OUTPUTS][2] = {{1280, 960}, {640, 360}, {1280, 720}, {640, 360}};
   shooting shot = {.width = 0};
   studio *st = &shot.st;
   int status;
@@ -94,7 +99,8 @@ static int run(cli_call *call) {
   shot.width = usual_size[shot.kind][0];
   shot.height = usual_size[shot.kind][1];
   if (!studio_options(st, call) || !studio_size(call, &shot.width, &shot.height) ||
-      !parse_colors(call, &shot))
+      !parse_own(call, &shot, "--colors", OUTPUT_GIF, 4, 256, &shot.colors) ||
+      !parse_own(call, &shot, "--quality", OUTPUT_WEBP, 1, 100, &shot.quality))
     return SBF_FAILED;
   if (!session_open(&st->s, call, usual_seconds[shot.kind], usual_fps[shot.kind], &status)) return status;
   status = (int)open_shooting(&shot, call, &error);
@@ -113,14 +119,15 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.png|gif|mp4", "where to draw; films need the program ffmpeg"},
+    {"-o", "OUT.png|gif|mp4|webp", "where to draw; films need the program ffmpeg"},
     STUDIO_OPTIONS,
-    {"--size", "WxH", "pixels (1280x960, GIF 640x360, MP4 1280x720)"},
+    {"--size", "WxH", "pixels (1280x960, GIF and WebP 640x360, MP4 1280x720)"},
     {"--colors", "N", "of a GIF's palette; few make it small (256)"},
+    {"--quality", "N", "of a WebP, 1 to 100 (75)"},
     SESSION_OPTIONS,
     {NULL, NULL, NULL},
 };
-const cli_verb verb_render = {"render", "FILE -o OUT.png|gif|mp4 [--show LIST] [--seconds S] ...",
+const cli_verb verb_render = {"render", "FILE -o OUT.png|gif|mp4|webp [--show LIST] [--seconds S] ...",
     "draw a picture or a film",
     "Draws without a display. A picture shows the moment after --seconds (0), a film the time until then "
     "(5). The\n"

@@ -94,7 +94,7 @@ class Charts(ProgramTest):
         for axis in ("path_m", "farthest_m", "period", "amplitude", "energy"):
             drawing = read_text(os.path.join(self.out, f"pendulum-{axis}.svg"))
             self.assertTrue(drawing.rstrip().endswith("</svg>"))
-            for words in ("symplectic", "position_based", "heun by tolerance", "Pareto front", "0.1 ms", "4 ms", "failed"):
+            for words in ("symplectic", "position_based", "heun by tolerance", "Pareto front", "0.1 ms", "4 ms", "failed", "one run"):
                 self.assertIn(words, drawing, axis)
 
     @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
@@ -105,6 +105,41 @@ class Charts(ProgramTest):
             drawing = read_text(os.path.join(self.out, f"pressure-{axis}.svg"))
             for scheme in schemes | {"heun by tolerance"}:
                 self.assertEqual(drawing.count(f"<text>{scheme}</text>"), 1, (axis, scheme))
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "gnuplot is not installed")
+    def test_a_table_is_drawn_again_as_it_was(self):
+        self.chart("--case", "pendulum", "--case", "pressure")
+        again = os.path.join(self.place, "again")
+        result = call("chart", "-o", again, *(word for case in ("pendulum", "pressure")
+                                              for word in ("--redraw", os.path.join(self.out, case + ".csv"))))
+        self.assertEqual(result.status, 0, result.err)
+        drawings = sorted(name for name in os.listdir(self.out) if name.endswith(".svg"))
+        self.assertEqual(sorted(os.listdir(again)), drawings)
+        for name in drawings:
+            self.assertEqual(read_text(os.path.join(again, name)), read_text(os.path.join(self.out, name)), name)
+
+    def test_tables_that_are_none_are_not_drawn(self):
+        self.chart("--no-svg", "--case", "spring")
+        table, runs = (read_text(os.path.join(self.out, name)) for name in ("spring.csv", "spring-runs.csv"))
+        again = os.path.join(self.place, "again")
+        for whole, times, words in (("", runs, "it is empty"), (table.replace("outcome", "income", 1), runs, "column outcome is missing"),
+                                    (table, runs.rsplit("\n", 3)[0] + "\n", "runs are missing"),
+                                    (table, runs.replace("spring,", "beam,"), "not of the row"),
+                                    (table.replace(",sound,", ",fine,", 1), runs, "none of sound"),
+                                    (table.replace("spring,", "sprung,"), runs.replace("spring,", "sprung,"), "case sprung"),
+                                    (table.replace(",sound,", ",", 1), runs, "not as many fields"), (table, None, "is it there")):
+            with self.subTest(words=words):
+                for name, text in (("bad.csv", whole), ("bad-runs.csv", times)):
+                    path = os.path.join(self.place, name)
+                    if text is None:
+                        os.remove(path)
+                        continue
+                    with open(path, "w", encoding="utf-8") as stream:
+                        stream.write(text)
+                result = call("chart", "--redraw", os.path.join(self.place, "bad.csv"), "-o", again)
+                self.assertEqual(result.status, 2 if times is None else 1, result.err)
+                self.assertIn(words, result.err)
+                self.assertFalse(os.path.exists(again))
 
     def test_visits_are_counted_where_a_scheme_chooses_its_steps(self):
         self.chart("--no-svg", "--case", "chain")
@@ -230,6 +265,9 @@ class Charts(ProgramTest):
                                  (("--map", "--cells", "1", "-o", self.out), "--cells"),
                                  (("--map", "--case", "spring", "-o", self.out), "mass-springs"),
                                  (("--cells", "8", "-o", self.out), "--map"),
+                                 (("--redraw", file), "-o DIR"),
+                                 (("--redraw", file, "--case", "spring", "-o", self.out), "measures nothing"),
+                                 (("--map", "--redraw", file, "-o", self.out), "--redraw"),
                                  (("--runs", "0", "-o", self.out), "--runs"),
                                  (("--most-substeps", "x", "-o", self.out), "--most-substeps"),
                                  (("--core", "1000", "-o", self.out, "--case", "spring"), "core"),

@@ -159,6 +159,21 @@ class Render(ProgramTest):
         small, large = self.draw("a.gif", *walk, "--colors", "16"), self.draw("b.gif", *walk)
         self.assertLess(len(small), 0.6 * len(large))
 
+    @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
+    def test_a_webp_of_a_walk(self):
+        walk = (*SMALL, "--seconds", "0.5", "--fps", "20", "--drive", "0.3,0")
+        data, small = self.draw("a.webp", *walk), self.draw("b.webp", *walk, "--quality", "10")
+        self.assertEqual((data[:4], data[8:16]), (b"RIFF", b"WEBPVP8X"))
+        self.assertEqual([1 + int.from_bytes(data[at:at + 3], "little") for at in (24, 27)], [160, 120])
+        frames, at = [], 12  # how long each is shown, ms
+        while at < len(data):
+            if data[at:at + 4] == b"ANMF":
+                frames.append(int.from_bytes(data[at + 20:at + 23], "little"))
+            at += 8 + (int.from_bytes(data[at + 4:at + 8], "little") + 1 & ~1)
+        self.assertGreaterEqual(len(frames), 8)
+        self.assertAlmostEqual(sum(frames), 550, delta=60)
+        self.assertLess(len(small), 0.8 * len(data))
+
     def red_of_box(self, image, *arguments):
         """How many of the picture's colours are red, what `render` says, and how the report captions the skin, for a
         box that wears this image; None: no file."""
@@ -204,6 +219,8 @@ class Render(ProgramTest):
                           ("-o", self.path("a.png"), "--size", "0x0"), ("-o", self.path("a.png"), "--size", "wide"),
                           ("-o", self.path("a.png"), "--view", "30"), ("-o", self.path("a.png"), "--view", "0,90"),
                           ("-o", self.path("a.png"), "--colors", "16"), ("-o", self.path("a.gif"), "--colors", "2"),
+                          ("-o", self.path("a.gif"), "--quality", "50"), ("-o", self.path("a.webp"), "--quality", "0"),
+                          ("-o", self.path("a.webp"), "--colors", "16"),
                           ("-o", self.path("no folder/a.png"), *SMALL)):
             with self.subTest(arguments):
                 self.fails(2, "render", self.file, *arguments)

@@ -40,7 +40,7 @@ START_TEST(film_is_whole)
     draw_movie_kind kind;
     uint32_t expected;
   } films[] = {{"film.gif", "GIF89a", 0, DRAW_MOVIE_GIF, 6}, {"stream.gif", "GIF89a", 0, DRAW_MOVIE_GIF, 0},
-      {"film.mp4", "ftyp", 4, DRAW_MOVIE_MP4, 6}};
+      {"film.mp4", "ftyp", 4, DRAW_MOVIE_MP4, 6}, {"film.webp", "WEBPVP8X", 8, DRAW_MOVIE_WEBP, 6}};
   draw_movie *movie;
   sbf_diagnostic error = {0};
   size_t size;
@@ -151,8 +151,9 @@ START_TEST(wrong_calls)
   static const struct {
     draw_movie_kind kind;
     uint32_t width, height, fps;
-  } calls[] = {{DRAW_MOVIE_GIF, 8, 8, 0}, {DRAW_MOVIE_GIF, 8, 8, DRAW_MOVIE_GIF_FPS_MOST + 1},
-      {DRAW_MOVIE_MP4, 8, 8, 241}, {DRAW_MOVIE_GIF, 0, 8, 25}, {DRAW_MOVIE_MP4, 1, 8, 25}};
+  } calls[] = {{DRAW_MOVIE_GIF, 8, 8, 0}, {DRAW_MOVIE_GIF, 8, 8, DRAW_MOVIE_LOOP_FPS_MOST + 1},
+      {DRAW_MOVIE_MP4, 8, 8, 241}, {DRAW_MOVIE_WEBP, 8, 8, DRAW_MOVIE_LOOP_FPS_MOST + 1},
+      {DRAW_MOVIE_GIF, 0, 8, 25}, {DRAW_MOVIE_MP4, 1, 8, 25}};
   draw_movie *movie;
   sbf_diagnostic error = {0};
   draw_movie_options options = {
@@ -187,12 +188,12 @@ int main(void) {
   Suite *suite = suite_create("movie");
   TCase *tests = tcase_create("movie");
   tcase_set_timeout(tests, 60);
-  tcase_add_loop_test(tests, film_is_whole, 0, 3);
+  tcase_add_loop_test(tests, film_is_whole, 0, 4);
   tcase_add_loop_test(tests, no_ffmpeg, 0, 2);
   tcase_add_loop_test(tests, ffmpeg_fails, 0, 2);
   tcase_add_test(tests, abandoned);
   tcase_add_loop_test(tests, interrupted, 0, 3);
-  tcase_add_loop_test(tests, wrong_calls, 0, 5);
+  tcase_add_loop_test(tests, wrong_calls, 0, 6);
   tcase_add_test(tests, film_without_a_frame);
   tcase_add_test(tests, place_that_cannot_be_written);
   suite_add_tcase(suite, tests);

@@ -59,7 +59,7 @@ static void write_panel(FILE *to, const chart_map *map, uint32_t scheme) {
   if (refused)
     fprintf(to, "set label 9 'refused: it cannot step these' at graph 0.5,0.5 center font ',11' front\n");
   fprintf(to,
-      "set title '%s' noenhanced font ',13'\n"
+      "set title '%s' noenhanced font ',13' offset 0,-0.5\n"
       "plot $cells%u using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder lc rgb variable notitle",
       sbf_scheme_name(chart_map_schemes[scheme]), (unsigned)scheme);
   if (bounded && !refused)
@@ -71,44 +71,59 @@ static void write_panel(FILE *to, const chart_map *map, uint32_t scheme) {
   fputs(refused ? "\nunset label 9\n" : "\n", to);
 }
 
-/* Words with their colours in one line above all panels. */
-static void write_legend(FILE *to) {
-  static const char *const words[] = {"sound", "biased: rate off by more than 5 %",
-      "dead: more than ten times the energy, shape lost, or numbers that are none"};
-  static const double places[] = {0.05, 0.13, 0.34};
+/* Words with their colours above all panels, what both axes are beside them. */
+static void write_legend(FILE *to, const chart_map *map) {
+  static const struct {
+    const char *words;
+    double x, y;
+  } entries[] = {{"sound", 0.085, 0.895}, {"biased: rate off by more than 5 %", 0.215, 0.895},
+      {"dead: more than ten times the energy, shape lost, or numbers that are none", 0.215, 0.858}};
   for (int i = 0; i < 3; i++) {
+    double x = entries[i].x, y = entries[i].y;
     fprintf(to,
-        "set object %d rectangle from screen %g,screen 0.892 to screen %g,screen 0.912 fs solid border lc "
-        "rgb "
+        "set object %d rectangle from screen %g,screen %g to screen %g,screen %g fs solid border lc rgb "
         "'#606060' fc rgb '#%06x' front\n",
-        i + 1, places[i], places[i] + 0.014, COLOURS[i]);
-    fprintf(to, "set label %d '%s' at screen %g,screen 0.902 font ',11' front\n", i + 1, words[i],
-        places[i] + 0.019);
+        i + 1, x, y - 0.012, x + 0.022, y + 0.012, COLOURS[i]);
+    fprintf(to, "set label %d '%s' at screen %g,screen %g font ',12' front\n", i + 1, entries[i].words,
+        x + 0.03, y);
   }
   fprintf(to,
-      "set arrow 1 from screen 0.78,screen 0.902 to screen 0.81,screen 0.902 nohead lw 2.5 lc rgb '#d00000' "
-      "front\nset label 4 'stable below: closed form' at screen 0.815,screen 0.902 font ',11' front\n");
+      "set arrow 1 from screen 0.58,screen 0.895 to screen 0.61,screen 0.895 nohead lw 2.5 lc rgb '#d00000' "
+      "front\nset label 4 'stable to the left of it: closed form' at screen 0.62,screen 0.895 font ',12' "
+      "front\n"
+      "set label 5 'stiffness: ωh of one substep (rad)%s' at screen 0.53,screen 0.025 center font ',13' "
+      "front\n"
+      "set label 6 \"%s\" at screen 0.018,screen 0.45 center rotate by 90 font ',13' front\n",
+      map->axis->kind == CHART_MAP_OF_ONE_MASS ? "" : ", ω of the stiffest mode", map->axis->label);
+}
+
+/* Panels stand side by side, with numbers along the outer ones alone. */
+static void write_place(FILE *to, uint32_t scheme) {
+  uint32_t column = scheme % 3, row = scheme / 3;
+  fprintf(to,
+      "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen "
+      "%g\n",
+      0.085 + column * 0.3075, 0.085 + column * 0.3075 + 0.27, 0.785 - row * 0.37, 0.785 - row * 0.37 - 0.3);
+  fprintf(to, "set format x '%s'\nset format y '%s'\n", row == 1 ? "%g" : "", column == 0 ? "%g" : "");
 }
 
 static void write_script(FILE *to, const chart_map *map, const chart_machine *machine, const char *output) {
   const chart_map_axis *a = map->axis;
   fprintf(to,
-      "set encoding utf8\nset terminal svg size 1280,760 font 'DejaVu Sans,11' background '#ffffff'\n"
+      "set encoding utf8\nset terminal svg size 1000,640 font 'DejaVu Sans,12' background '#ffffff'\n"
       "set output '%s'\nset logscale x\n%sset xrange [%g:%g]\nset yrange [%g:%g]\n"
       "set xtics (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20) out nomirror\nset ytics out nomirror\n",
-      output, a->logarithmic ? "set logscale y\nset format y '%g'\n" : "", CHART_MAP_LEAST_TURN,
-      CHART_MAP_MOST_TURN, a->low, a->high);
+      output, a->logarithmic ? "set logscale y\n" : "", CHART_MAP_LEAST_TURN, CHART_MAP_MOST_TURN, a->low,
+      a->high);
   fprintf(to,
-      "set xlabel 'stiffness: ωh of one substep%s' offset 0,0.4\nset ylabel \"%s\" offset 0.5,0\n"
-      "set multiplot layout 2,3 margins 0.065,0.98,0.08,0.83 spacing 0.075,0.15 title \"{/:Bold Stability}: "
-      "%s\\n"
-      "{/=9 %s, %s, %u lanes, commit %s, %s; %u x %u cells}\"\n",
-      a->kind == CHART_MAP_OF_ONE_MASS ? "" : ", ω the stiffest mode’s", a->label, a->title,
-      machine->processor, machine->compiler, (unsigned)machine->lanes,
-      machine->commit[0] ? machine->commit : "unknown", machine->date, (unsigned)map->columns,
-      (unsigned)map->rows);
+      "set multiplot title \"{/*1.1 {/:Bold map-%s}: %s}\\n"
+      "{/*0.9 sbfmt chart --map --case %s --cells %u; %u × %u cells, %u lanes, %s, commit %s, %s}\"\n",
+      a->name, a->title, a->name, map->columns * (a->kind == CHART_MAP_OF_ONE_MASS ? 1u : 2u),
+      (unsigned)map->columns, (unsigned)map->rows, (unsigned)machine->lanes, machine->compiler,
+      machine->commit[0] ? machine->commit : "unknown", machine->date);
   for (uint32_t s = 0; s < CHART_MAP_SCHEMES; s++) {
-    if (s == 0) write_legend(to);
+    if (s == 0) write_legend(to, map);
+    write_place(to, s);
     write_panel(to, map, s);
     if (s == 0) fprintf(to, "unset label\nunset object\nunset arrow\n");
   }

@@ -9,6 +9,11 @@
 
 static const double BUDGETS_US[] = {100, 1000, 4000};
 enum { BUDGETS = 3, MOST_LINES = 64 };
+/* Of a panel's height, for a scheme's failures on its top. */
+static const double STRIP = 0.034;
+static const unsigned FRONT = 0xffd966;
+/* Pixels: of the drawing without its key, of a row of the key, and of what stands below panels and key. */
+enum { WIDTH = 1000, REST_HEIGHT = 478, KEY_ROW = 21, KEY_COLUMNS = 5, BELOW_PANELS = 58, FOOT = 30 };
 
 unsigned chart_scheme_colour(const char *scheme) {
   static const struct {
@@ -34,9 +39,12 @@ typedef struct plot {
   line lines[MOST_LINES];
   int line_count;
   bool *front;
-  double bottom, top; /* of the axis */
+  double bottom, top, failed; /* of the axis; from `failed` on stands what failed */
+  int failing[MOST_LINES],
+      failing_count; /* lines of schemes that failed somewhere, a place in the strip each */
   double cheapest[2], dearest[2];
   bool several_models;
+  int key_rows, foot, height; /* pixels but for the rows */
 } plot;
 
 static bool is_of(const line *l, const chart_row *row) {
@@ -59,6 +67,28 @@ static double cost_of(const chart_row *row, int panel) {
   return panel ? row->visits : row->us.median;
 }
 
+static bool has_failed(const plot *p, const chart_row *row) {
+  return !row->refused && !chart_row_counts(row, p->axis);
+}
+
+/* The place of its scheme among those that failed, from below; -1: it has none. */
+static int place_of(const plot *p, const char *scheme) {
+  for (int i = 0; i < p->failing_count; i++)
+    if (strcmp(p->lines[p->failing[i]].scheme, scheme) == 0) return i;
+  return -1;
+}
+
+static void find_failing(plot *p) {
+  for (int k = p->line_count - 1; k >= 0; k--) {
+    bool some = false;
+    for (uint32_t i = 0; i < p->sheet->row_count; i++) {
+      const chart_row *row = &p->sheet->rows[i];
+      some = some || (has_failed(p, row) && strcmp(row->scheme, p->lines[k].scheme) == 0);
+    }
+    if (some && place_of(p, p->lines[k].scheme) < 0) p->failing[p->failing_count++] = k;
+  }
+}
+
 static void find_range(plot *p) {
   double low = INFINITY, high = 0;
   for (int k = 0; k < 2; k++) p->cheapest[k] = INFINITY, p->dearest[k] = 0;
@@ -75,7 +105,11 @@ static void find_range(plot *p) {
   }
   if (!(high > 0)) low = 1e-3, high = 1;
   p->bottom = pow(10, floor(log10(low)) - 0.2);
-  p->top = pow(10, ceil(log10(high) + 0.3) + 0.4);
+  p->failed = p->top = pow(10, ceil(log10(high) + 0.1) + 0.1);
+  if (p->failing_count) {
+    double share = STRIP * (p->failing_count + 1);
+    p->top = p->failed * pow(p->failed / p->bottom, share / (1 - share));
+  }
   for (int k = 0; k < 2; k++) {
     if (!(p->dearest[k] > 0)) p->cheapest[k] = 1, p->dearest[k] = 10;
     p->cheapest[k] = pow(10, floor(log10(p->cheapest[k]) * 2 - 0.3) / 2);
@@ -84,9 +118,9 @@ static void find_range(plot *p) {
   p->dearest[0] = fmax(p->dearest[0], 8000);
 }
 
-/* Where failures are marked: between the highest error and the top. */
-static double mark_at(const plot *p) {
-  return p->top / pow(10, 0.25);
+/* Where its failures are marked: in the strip on top, a line a scheme. */
+static double mark_at(const plot *p, const chart_row *row) {
+  return p->failed * pow(p->top / p->failed, (place_of(p, row->scheme) + 1.0) / (p->failing_count + 1.0));
 }
 
 static void write_data(FILE *to, const plot *p) {
@@ -97,14 +131,14 @@ static void write_data(FILE *to, const plot *p) {
       if (row->refused || !is_of(&p->lines[k], row)) continue;
       bool counts = chart_row_counts(row, p->axis);
       fprintf(to, "%.6g %.6g %.6g %.6g %s %s\n", row->us.median, row->us.least, row->us.most,
-          counts ? row->errors[p->axis] : mark_at(p), counts ? "1" : "NaN", counts ? "NaN" : "1");
+          counts ? row->errors[p->axis] : mark_at(p, row), counts ? "1" : "NaN", counts ? "NaN" : "1");
     }
     fprintf(to, "EOD\n$visits%d << EOD\nNaN NaN NaN NaN NaN NaN\n", k);
     for (uint32_t i = 0; i < p->sheet->row_count; i++) {
       const chart_row *row = &p->sheet->rows[i];
       if (row->refused || !(row->visits > 0) || !is_of(&p->lines[k], row)) continue;
       bool counts = chart_row_counts(row, p->axis);
-      fprintf(to, "%.6g 0 0 %.6g %s %s\n", row->visits, counts ? row->errors[p->axis] : mark_at(p),
+      fprintf(to, "%.6g 0 0 %.6g %s %s\n", row->visits, counts ? row->errors[p->axis] : mark_at(p, row),
           counts ? "1" : "NaN", counts ? "NaN" : "1");
     }
     fprintf(to, "EOD\n");
@@ -112,9 +146,9 @@ static void write_data(FILE *to, const plot *p) {
   fprintf(to, "$runs << EOD\nNaN NaN\n");
   for (uint32_t i = 0; i < p->sheet->row_count; i++) {
     const chart_row *row = &p->sheet->rows[i];
-    double y = chart_row_counts(row, p->axis) ? row->errors[p->axis] : mark_at(p);
-    for (uint32_t r = 0; !row->refused && r < p->sheet->rounds; r++)
-      fprintf(to, "%.6g %.6g\n", row->runs_us[r], y);
+    if (row->refused) continue;
+    double y = chart_row_counts(row, p->axis) ? row->errors[p->axis] : mark_at(p, row);
+    for (uint32_t r = 0; r < p->sheet->rounds; r++) fprintf(to, "%.6g %.6g\n", row->runs_us[r], y);
   }
   fprintf(to, "EOD\n");
 }
@@ -139,94 +173,165 @@ static bool write_front(FILE *to, const plot *p, int panel) {
   return true;
 }
 
-static void write_title(FILE *to, const plot *p, int k) {
-  const line *l = &p->lines[k];
-  bool refused = true;
-  for (uint32_t i = 0; i < p->sheet->row_count; i++)
-    if (is_of(l, &p->sheet->rows[i])) refused = refused && p->sheet->rows[i].refused;
-  fprintf(to, "%s%s%s%s%s", p->several_models ? l->model : "", p->several_models ? ", " : "", l->scheme,
-      l->by_error ? " by tolerance" : "", refused ? ": refused" : "");
-}
-
 /* Points by model, so that lines of one scheme keep their colour. */
-static int mark_of(const plot *p, int k) {
+static int mark_of(const plot *p, const char *model) {
   static const int marks[] = {7, 5, 9, 13, 11, 15};
-  int model = 0;
-  for (int i = 0; i < k; i++) model += strcmp(p->lines[i].model, p->lines[i + 1].model) != 0;
-  return marks[model % 6];
+  int models = 0;
+  for (int k = 0; k < p->line_count; k++) {
+    if (strcmp(p->lines[k].model, model) == 0) break;
+    models += k == 0 || strcmp(p->lines[k - 1].model, p->lines[k].model) != 0;
+  }
+  return marks[models % 6];
 }
 
 /* How far the references are off themselves, at worst. */
-static double reference_error(const chart_sheet *s, chart_axis axis) {
-  double worst = 0;
+static const chart_reference *worst_reference(const chart_sheet *s, chart_axis axis) {
+  const chart_reference *worst = NULL;
   for (uint32_t i = 0; i < s->reference_count; i++)
-    if (s->references[i].errors[axis] > worst) worst = s->references[i].errors[axis];
+    if (s->references[i].errors[axis] > (worst ? worst->errors[axis] : 0)) worst = &s->references[i];
   return worst;
 }
 
-static void write_panel(FILE *to, const plot *p, int panel) {
-  static const char *const costs[] = {
-      "\302\265s a frame, median (bars: least to most; dots: runs)", "visits of elements a frame"};
-  fprintf(to, "set xlabel '%s'\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n", costs[panel],
-      p->cheapest[panel], p->dearest[panel], p->bottom, p->top);
-  fprintf(to, "unset arrow\nunset label\n");
-  fprintf(to,
-      "set label 1 'failed' at graph 0.99, first %.6g right offset 0,0.9 tc rgb '#b00000' font ',10'\n",
-      mark_at(p));
-  double own = reference_error(p->sheet, p->axis);
-  if (own > p->bottom && own < p->top)
+static bool shows_reference(const plot *p) {
+  const chart_reference *own = worst_reference(p->sheet, p->axis);
+  return own && own->errors[p->axis] > p->bottom && own->errors[p->axis] < p->failed;
+}
+
+/* What lies under the points: the strip of failures, what games may spend, how far off the reference is. */
+static void write_marks(FILE *to, const plot *p, int panel) {
+  fprintf(to, "unset arrow\nunset label\nunset object\n");
+  if (p->failing_count) {
     fprintf(to,
-        "set arrow from graph 0, first %.6g to graph 1, first %.6g nohead dt 4 lc rgb '#b00000'\n"
-        "set label 2 'the reference itself' at graph 0.01, first %.6g left offset 0,0.5 tc rgb '#b00000' "
-        "font ',9'\n", /* nothing is that near for so little */
-        own, own, own);
+        "set object 1 rectangle from graph 0, first %.6g to graph 1, graph 1 fc rgb '#f1f1f1' fs solid "
+        "noborder "
+        "behind\n",
+        p->failed);
+    if (panel == 0)
+      fprintf(to, "set label 1 'failed' at graph -0.02, first %.6g right tc rgb '#b00000'\n",
+          sqrt(p->failed * p->top));
+  }
+  const chart_reference *own = worst_reference(p->sheet, p->axis);
+  if (shows_reference(p))
+    fprintf(to, "set arrow from graph 0, first %.6g to graph 1, first %.6g nohead dt 4 lc rgb '#b00000'\n",
+        own->errors[p->axis], own->errors[p->axis]);
   for (int i = 0; panel == 0 && i < BUDGETS; i++) {
     if (!(BUDGETS_US[i] > 1.05 * p->cheapest[0])) continue;
     fprintf(to, "set arrow from %g,graph 0 to %g,graph 1 nohead dt 3 lc rgb '#555555'\n", BUDGETS_US[i],
         BUDGETS_US[i]);
-    fprintf(to, "set label '%g ms' at %g,graph 0.015 rotate by 90 offset 1,0 tc rgb '#555555' font ',9'\n",
+    fprintf(to, "set label '%g ms' at %g,graph 0.015 rotate by 90 offset 0.9,0 tc rgb '#555555' font ',11'\n",
         BUDGETS_US[i] / 1000, BUDGETS_US[i]);
   }
-  fprintf(to, "set %s\n",
-      panel ? "key outside right top vertical noenhanced font ',9' spacing 0.85 samplen 1.5" : "nokey");
+}
+
+/* An entry of the key, by number: a line or not, a mark (0: none) and words. */
+static void write_entry(FILE *to, const plot *p, int number, unsigned colour, const char *line_of, int mark,
+    const char *words, const char *more) {
+  if (!to) return;
+  double x = 0.085 + number % KEY_COLUMNS * 0.185,
+         y = (p->foot + KEY_ROW * (p->key_rows - number / KEY_COLUMNS - 0.5)) / p->height;
+  if (line_of)
+    fprintf(to, "set arrow from screen %.4g,%.4g to screen %.4g,%.4g nohead %s lc rgb '#%06x'\n", x, y,
+        x + 0.028, y, line_of, colour);
+  if (mark)
+    fprintf(to, "set label '' at screen %.4g,%.4g point pt %d ps 0.9 lw 1.5 lc rgb '#%06x'\n", x + 0.014, y,
+        mark, colour);
+  fprintf(to, "set label '%s%s' at screen %.4g,%.4g left noenhanced font ',12'\n", words, more, x + 0.036, y);
+}
+
+/* Below both panels: each scheme once, in its colour, then each model, by its mark. Returns how many there
+ * are; `to` NULL: writes none. */
+static int write_key(FILE *to, const plot *p) {
+  int count = 0;
+  for (int k = 0; k < p->line_count; k++) {
+    const line *l = &p->lines[k];
+    bool known = false;
+    for (int i = 0; i < k; i++)
+      known = known || (strcmp(p->lines[i].scheme, l->scheme) == 0 && p->lines[i].by_error == l->by_error);
+    if (!known)
+      write_entry(to, p, count++, chart_scheme_colour(l->scheme), l->by_error ? "lw 2 dt 2" : "lw 2",
+          p->several_models ? 0 : mark_of(p, l->model), l->scheme, l->by_error ? " by tolerance" : "");
+  }
+  for (int k = 0; p->several_models && k < p->line_count; k++)
+    if (k == 0 || strcmp(p->lines[k - 1].model, p->lines[k].model) != 0)
+      write_entry(to, p, count++, 0x606060, NULL, mark_of(p, p->lines[k].model), "of ", p->lines[k].model);
+  write_entry(to, p, count++, FRONT, "lw 8", 0, "Pareto front", "");
+  if (shows_reference(p)) write_entry(to, p, count++, 0xb00000, "lw 1 dt 4", 0, "the reference itself", "");
+  if (p->failing_count) write_entry(to, p, count++, 0x606060, NULL, 2, "failed", "");
+  write_entry(to, p, count++, 0xb8b8b8, NULL, 7, "one run", "");
+  return count;
+}
+
+/* What the runtime does not step so: of each model, in a line at the foot. */
+static void write_refused(FILE *to, const plot *p) {
+  const char *model = NULL, *scheme = "";
+  for (uint32_t i = 0; i < p->sheet->row_count; i++) {
+    const chart_row *row = &p->sheet->rows[i];
+    bool other = model && strcmp(model, row->model) != 0;
+    if (!row->refused || (!other && strcmp(scheme, row->scheme) == 0)) continue;
+    fputs(!model ? "set label \"refused by the runtime: " : other ? "; " : ", ", to);
+    if (p->several_models && (!model || other)) fprintf(to, "%s ", row->model);
+    fprintf(to, "%s", row->scheme);
+    model = row->model, scheme = row->scheme;
+  }
+  if (model)
+    fprintf(to, "\" at screen 0.085,%.4g left noenhanced tc rgb '#555555' font ',11'\n", 12.0 / p->height);
+}
+
+static void write_panel(FILE *to, const plot *p, int panel) {
+  static const char *const costs[] = {
+      "processor time a frame of 1/60 s (\302\265s): median, least to most", "visits of elements a frame"};
+  fprintf(to, "set lmargin at screen %s\nset rmargin at screen %s\n", panel ? "0.565" : "0.085",
+      panel ? "0.985" : "0.535");
+  fprintf(to, "set xlabel '%s' offset 0,0.5\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n", costs[panel],
+      p->cheapest[panel], p->dearest[panel], p->bottom, p->top);
+  fprintf(to, "set ytics %.6g,%d,%.6g\n", pow(10, ceil(log10(p->bottom))),
+      log10(p->failed / p->bottom) > 9 ? 100 : 10, p->failed);
+  if (panel == 1) fputs("unset ylabel\nset format y ''\n", to);
+  write_marks(to, p, panel);
+  if (panel == 1) write_key(to, p), write_refused(to, p);
   fprintf(to, "plot ");
-  if (panel == 0) fprintf(to, "$runs using 1:2 with points pt 7 ps 0.25 lc rgb '#c8c8c8' notitle, \\\n");
-  fprintf(to, "$front%d using 1:2 with lines lw 7 lc rgb '#ffe08a' title 'Pareto front', \\\n", panel);
+  if (panel == 0) fprintf(to, "$runs using 1:2 with points pt 7 ps 0.3 lc rgb '#b8b8b8' notitle, \\\n");
+  fprintf(to, "$front%d using 1:2 with lines lw 8 lc rgb '#%06x' notitle, \\\n", panel, FRONT);
   for (int k = 0; k < p->line_count; k++) {
     unsigned colour = chart_scheme_colour(p->lines[k].scheme);
     const char *data = panel ? "visits" : "line", *dash = p->lines[k].by_error ? "dt 2 " : "";
-    fprintf(to, "$%s%d using 1:($4*$5) with linespoints pt %d ps 0.7 lw 1.5 %slc rgb '#%06x' notitle, \\\n",
-        data, k, mark_of(p, k), dash, colour);
-    if (panel == 1) { /* by itself: data without a point of this panel would have no entry in the key */
-      fprintf(to, "keyentry with linespoints pt %d ps 0.7 lw 1.5 %slc rgb '#%06x' title '", mark_of(p, k),
-          dash, colour);
-      write_title(to, p, k);
-      fprintf(to, "', \\\n");
-    }
+    fprintf(to, "$%s%d using 1:($4*$5) with linespoints pt %d ps 0.8 lw 1.5 %slc rgb '#%06x' notitle, \\\n",
+        data, k, mark_of(p, p->lines[k].model), dash, colour);
     if (panel == 0)
       fprintf(to, "$line%d using 1:($4*$5):2:3 with xerrorbars pt 0 lw 1 lc rgb '#%06x' notitle, \\\n", k,
           colour);
-    fprintf(to, "$%s%d using 1:($4*$6) with points pt 2 ps 0.9 lw 2 lc rgb '#%06x' notitle%s\n", data, k,
+    fprintf(to, "$%s%d using 1:($4*$6) with points pt 2 ps 0.7 lw 1.5 lc rgb '#%06x' notitle%s\n", data, k,
         colour, k + 1 < p->line_count ? ", \\" : "");
   }
+}
+
+static void find_height(plot *p) {
+  p->foot = 8;
+  for (uint32_t i = 0; i < p->sheet->row_count; i++)
+    if (p->sheet->rows[i].refused) p->foot = FOOT;
+  p->key_rows = (write_key(NULL, p) + KEY_COLUMNS - 1) / KEY_COLUMNS;
+  p->height = REST_HEIGHT + p->key_rows * KEY_ROW + p->foot;
 }
 
 static void write_head(FILE *to, const plot *p, const chart_machine *machine, const char *output) {
   const chart_sheet *s = p->sheet;
   fprintf(to,
-      "set encoding utf8\nset terminal svg size 1360,600 font 'DejaVu Sans,12' background '#ffffff'\n"
+      "set encoding utf8\nset terminal svg size %d,%d font 'DejaVu Sans,13' background '#ffffff'\n"
       "set output '%s'\nset logscale xy\nset format '10^{%%T}'\nset grid lc rgb '#e4e4e4'\nset border 3\n"
-      "set tics nomirror\nset ylabel '%s'\nset datafile missing 'NaN'\n",
-      output, chart_axis_labels[p->axis]);
-  fprintf(to, "set multiplot layout 1,2 title \"{/:Bold %s}: %s\\n", s->name, s->title);
-  fprintf(to, "{/=9 %s, %s, %u lanes, commit %s, %s, median of %u runs", machine->processor,
+      "set tics nomirror\nunset key\nset ylabel '%s'\nset datafile missing 'NaN'\n",
+      WIDTH, p->height, output, chart_axis_labels[p->axis]);
+  fprintf(to, "set multiplot title \"{/:Bold %s}: %s\\n", s->name, s->title);
+  fprintf(to, "{/*0.85 %s, %s, %u lanes, commit %s, %s, median of %u runs", machine->processor,
       machine->compiler, (unsigned)machine->lanes, machine->commit[0] ? machine->commit : "unknown",
       machine->date, (unsigned)s->rounds);
-  double worst = reference_error(s, p->axis);
-  if (worst > 0)
-    fprintf(to, "; reference off by %.1g}\"\n", worst);
+  const chart_reference *worst = worst_reference(s, p->axis);
+  if (worst)
+    fprintf(to, "; reference%s%s off by %.1g}\"\n", p->several_models ? " of " : "",
+        p->several_models ? worst->model : "", worst->errors[p->axis]);
   else
     fprintf(to, "; reference exact to the digits of single precision}\"\n");
+  fprintf(to, "set tmargin at screen %.4g\nset bmargin at screen %.4g\n", 1 - 64.0 / p->height,
+      (double)(p->foot + p->key_rows * KEY_ROW + BELOW_PANELS) / p->height);
 }
 
 bool chart_plot_script(
@@ -235,7 +340,9 @@ bool chart_plot_script(
   p.front = calloc(sheet->row_count + 1, sizeof *p.front);
   if (!p.front) return false;
   find_lines(&p);
+  find_failing(&p);
   find_range(&p);
+  find_height(&p);
   write_data(to, &p);
   bool good = write_front(to, &p, 0) && write_front(to, &p, 1);
   write_head(to, &p, machine, output);

@@ -32,7 +32,8 @@ static void write_gif_filter(const draw_movie_options *options, char *filter, si
 }
 
 static sbf_status check(const char *path, const draw_movie_options *options, sbf_diagnostic *diagnostic) {
-  uint32_t most = options->kind == DRAW_MOVIE_GIF ? DRAW_MOVIE_GIF_FPS_MOST : 240;
+  static const char *const kinds[] = {"a GIF", "an MP4", "a WebP"};
+  uint32_t most = options->kind == DRAW_MOVIE_MP4 ? 240 : DRAW_MOVIE_LOOP_FPS_MOST;
   if (options->width == 0 || options->height == 0 || options->width > 16384 || options->height > 16384)
     return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "a film of %ux%u pixels cannot be made",
         (unsigned)options->width, (unsigned)options->height);
@@ -40,16 +41,17 @@ static sbf_status check(const char *path, const draw_movie_options *options, sbf
     return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "an MP4 needs at least 2x2 pixels");
   if (options->fps == 0 || options->fps > most)
     return fault_set_file(diagnostic, SBF_CODE_BAD_CALL, path, "%u frames a second: %s holds 1 to %u",
-        (unsigned)options->fps, options->kind == DRAW_MOVIE_GIF ? "a GIF" : "a film", (unsigned)most);
+        (unsigned)options->fps, kinds[options->kind], (unsigned)most);
   return SBF_OK;
 }
 
 static int start(draw_movie *movie, const draw_movie_options *options, const char *file) {
-  char size[32], rate[16], gif_filter[192];
+  char size[32], rate[16], quality[16], gif_filter[192];
   const char *arguments[48];
   size_t count = 0;
   snprintf(size, sizeof size, "%ux%u", (unsigned)options->width, (unsigned)options->height);
   snprintf(rate, sizeof rate, "%u", (unsigned)options->fps);
+  snprintf(quality, sizeof quality, "%u", options->quality ? (unsigned)options->quality : 75u);
   write_gif_filter(options, gif_filter, sizeof gif_filter);
   const char *const common[] = {options->ffmpeg ? options->ffmpeg : "ffmpeg", "-hide_banner", "-loglevel",
       "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size, "-framerate", rate,
@@ -60,11 +62,12 @@ static int start(draw_movie *movie, const draw_movie_options *options, const cha
       "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-c:v",
       "libx264", "-preset", "medium", "-crf", "17", "-colorspace", "bt709", "-color_primaries", "bt709",
       "-color_trc", "bt709", "-movflags", "+faststart", "-f", "mp4"};
+  const char *const webp[] = {
+      "-c:v", "libwebp_anim", "-lossless", "0", "-quality", quality, "-loop", "0", "-f", "webp"};
+  const char *const *const own[] = {gif, mp4, webp}; /* by kind */
+  const size_t own_count[] = {sizeof gif / sizeof *gif, sizeof mp4 / sizeof *mp4, sizeof webp / sizeof *webp};
   for (size_t i = 0; i < sizeof common / sizeof *common; i++) arguments[count++] = common[i];
-  if (options->kind == DRAW_MOVIE_GIF)
-    for (size_t i = 0; i < sizeof gif / sizeof *gif; i++) arguments[count++] = gif[i];
-  else
-    for (size_t i = 0; i < sizeof mp4 / sizeof *mp4; i++) arguments[count++] = mp4[i];
+  for (size_t i = 0; i < own_count[options->kind]; i++) arguments[count++] = own[options->kind][i];
   arguments[count++] = file;
   arguments[count] = NULL;
   /* posix_spawn takes char *const * for the sake of old programs; it changes nothing. */

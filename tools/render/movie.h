@@ -1,4 +1,4 @@
-/* Frames into a GIF or MP4 file, through the program ffmpeg. */
+/* Frames into a GIF, MP4 or WebP file, through the program ffmpeg. */
 #ifndef RENDER_MOVIE_H
 #define RENDER_MOVIE_H
 
@@ -6,17 +6,20 @@
 
 typedef enum draw_movie_kind {
   DRAW_MOVIE_GIF, /* loops for ever; one palette for the whole film */
-  DRAW_MOVIE_MP4  /* H.264, yuv420p: plays everywhere */
+  DRAW_MOVIE_MP4, /* H.264, yuv420p: plays everywhere */
+  DRAW_MOVIE_WEBP /* loops for ever, where pages show pictures: all colours in a fraction of a GIF's bytes */
 } draw_movie_kind;
 
-enum { DRAW_MOVIE_GIF_FPS_MOST = 50 }; /* a GIF counts hundredths of a second, and players slow below two */
+/* Of what loops: a GIF counts hundredths of a second, and players slow down what is shorter than two. */
+enum { DRAW_MOVIE_LOOP_FPS_MOST = 50 };
 
 typedef struct draw_movie_options {
   draw_movie_kind kind;
   uint32_t width, height; /* of every frame, pixels */
-  uint32_t fps;           /* frames a second, 1 to 240; a GIF: to 50 */
+  uint32_t fps;           /* frames a second, 1 to 240; GIF and WebP: to 50 */
   uint32_t frame_count;   /* as expected; 0: not known */
   uint32_t colors;    /* of a GIF's palette, 4 to 256; 0: 256. With fewer nothing is dithered: far smaller */
+  uint32_t quality;   /* of a WebP, 1 to 100; 0: 75 */
   const char *ffmpeg; /* the program; NULL: "ffmpeg", found in PATH */
 } draw_movie_options;
 
