@@ -80,12 +80,11 @@ static void report(void *user, const sbf_diagnostic *diagnostic) {
 }
 
 static void print_lattices(const sbf_build_report *r) {
-  printf("tetrahedra: %u, %.4g m^3, dihedral angles %.1f to %.1f degrees, vertices within %.3g m, "
-         "%u points thicken thin parts\n",
-      r->tetrahedra, r->lattice_volume, r->least_dihedral_deg, r->most_dihedral_deg, r->farthest_m,
-      r->thickened_points);
-  printf("dihedral angles by tens of degrees:");
-  for (int i = 0; i < 18; i++) printf(" %" PRIu64, r->dihedrals[i]);
+  printf("tetrahedra: %u, %.4g m^3, dihedral angles %.1f to %.1f degrees, vertices within %.3g m",
+      r->tetrahedra, r->lattice_volume, r->least_dihedral_deg, r->most_dihedral_deg, r->farthest_m);
+  if (r->thickened_points)
+    printf(
+        ", %u point%s thin parts", r->thickened_points, r->thickened_points == 1 ? " thickens" : "s thicken");
   printf("\n");
 }
 
@@ -101,29 +100,65 @@ static void print_left_over(const sbf_asset *built) {
   }
 }
 
-static void print_report(const sbf_asset *built, const sbf_build_report *r) {
-  if (r->sections) printf("cut %u sections along the bones\n", r->sections);
-  printf("built %u bodies: %u interior points, %u pins, %u hulls, %u embedded vertices\n", r->bodies,
-      r->interior_points, r->pins, r->hulls, r->embedded_vertices);
-  if (r->tetrahedra) print_lattices(r);
-  if (r->calibrated)
-    printf("calibrated %u lattices: modulus times %.3g to %.3g, gives within %.3g %% of the reference under "
-           "every "
-           "load, swings within %.3g %%\n",
-        r->calibrated, r->least_factor, r->most_factor, 100 * r->most_residual, 100 * r->most_period_error);
-  if (r->calibrated_springs)
-    printf(
-        "calibrated the springs of %u levels: stiffness times %.3g to %.3g, surfaces within %.3g %% of where "
-        "tetrahedra have them\n",
-        r->calibrated_springs, r->least_spring_factor, r->most_spring_factor, 100 * r->most_spring_residual);
-  print_left_over(built);
-  if (r->levels) printf("levels: %u beside the finest\n", r->levels);
-  if (r->render_levels) printf("render levels: %u beside the full meshes\n", r->render_levels);
+static const char *many(uint32_t count) {
+  return count == 1 ? "" : "s";
+}
+
+/* Bodies whose finest level somebody made, and not the build. */
+static void print_kept(const sbf_asset *built) {
+  uint32_t bodies = 0;
+  uint64_t tetrahedra = 0, springs = 0;
+  for (uint32_t i = 0; i < built->soft_bodies.count; i++) {
+    const sbf_soft_body *body = &built->soft_bodies.at[i];
+    if (body->levels.count == 0 || body->levels.at[0].derived != SBF_NONE) continue;
+    const sbf_level *level = &body->levels.at[0];
+    bodies++;
+    tetrahedra += level->lattice.tetrahedra.count;
+    for (uint32_t k = 0; k < level->springs.count; k++) springs += level->springs.at[k].ends.count;
+  }
+  if (bodies == 0) return;
+  printf("kept %u bod%s as authored:", bodies, bodies == 1 ? "y" : "ies");
+  if (tetrahedra) printf(" %" PRIu64 " tetrahedr%s", tetrahedra, tetrahedra == 1 ? "on" : "a");
+  if (springs) printf("%s %" PRIu64 " springs", tetrahedra ? "," : "", springs);
+  printf("\n");
+}
+
+static void print_springs(const sbf_build_report *r) {
+  uint32_t count = r->inert_springs;
+  for (int k = 0; k < SBF_SPRING_KIND_COUNT; k++) count += r->springs[k];
+  if (count == 0) return;
   printf("springs: %u structural, %u shear, %u flexion, %u internal", r->springs[SBF_SPRING_KIND_STRUCTURAL],
       r->springs[SBF_SPRING_KIND_SHEAR], r->springs[SBF_SPRING_KIND_FLEXION],
       r->springs[SBF_SPRING_KIND_INTERNAL] + r->inert_springs);
   if (r->inert_springs) printf(" (%u of them join two pinned points and were left out)", r->inert_springs);
   printf("\n");
+}
+
+static void print_report(const sbf_asset *built, const sbf_build_report *r) {
+  if (r->sections) printf("cut %u section%s along the bones\n", r->sections, many(r->sections));
+  print_kept(built);
+  if (r->bodies || built->soft_bodies.count == 0)
+    printf("built %u bod%s: %u interior points, %u pins, %u hull%s, %u embedded vertices\n", r->bodies,
+        r->bodies == 1 ? "y" : "ies", r->interior_points, r->pins, r->hulls, many(r->hulls),
+        r->embedded_vertices);
+  else
+    printf("%u embedded vertices\n", r->embedded_vertices);
+  if (r->tetrahedra) print_lattices(r);
+  if (r->calibrated)
+    printf("calibrated %u lattice%s: modulus times %.3g to %.3g, gives within %.3g %% of the reference under "
+           "every load, swings within %.3g %%\n",
+        r->calibrated, many(r->calibrated), r->least_factor, r->most_factor, 100 * r->most_residual,
+        100 * r->most_period_error);
+  if (r->calibrated_springs)
+    printf("calibrated the springs of %u level%s: stiffness times %.3g to %.3g, surfaces within %.3g %% of "
+           "where "
+           "tetrahedra have them\n",
+        r->calibrated_springs, many(r->calibrated_springs), r->least_spring_factor, r->most_spring_factor,
+        100 * r->most_spring_residual);
+  print_left_over(built);
+  if (r->levels) printf("levels: %u beside the finest\n", r->levels);
+  if (r->render_levels) printf("render levels: %u beside the full meshes\n", r->render_levels);
+  print_springs(r);
 }
 
 sbf_status building_run(cli_call *call, sbf_asset **asset, sbf_diagnostic *error) {

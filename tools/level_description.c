@@ -1,6 +1,7 @@
 #include "level_description.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static json_t *integer(uint64_t value) {
   return json_integer((json_int_t)value);
@@ -44,17 +45,23 @@ void level_description_print(const json_t *level, char *text, size_t size) {
   const char *name = json_string_value(json_object_get(level, "name"));
   const char *model = json_string_value(json_object_get(level, "model"));
   long long tetrahedra = (long long)real(level, "tetrahedra"), springs = (long long)real(level, "springs");
+  double residual = json_is_object(calibration) ? 100 * real(calibration, "residual") : 0;
   char parts[64] = "", error[64] = "", moving[64] = "", cost[64] = "", left[64] = "";
+  if (!model) model = "";
   if (tetrahedra > 0)
-    snprintf(parts, sizeof parts, ", %lld tetrahedra", tetrahedra);
+    snprintf(parts, sizeof parts, "%lld tetrahedra", tetrahedra);
   else if (springs > 0)
-    snprintf(parts, sizeof parts, ", %lld springs", springs);
+    snprintf(parts, sizeof parts, "%lld springs", springs);
   if (real(level, "error") > 0) snprintf(error, sizeof error, ", within %.3g m", real(level, "error"));
   if (real(level, "motion_error") > 0)
     snprintf(moving, sizeof moving, ", within %.3g m as it moves", real(level, "motion_error"));
   if (real(level, "cost") > 0) snprintf(cost, sizeof cost, ", %.0f visits a tick", real(level, "cost"));
   if (json_is_object(calibration))
-    snprintf(left, sizeof left, ", calibrated to %.2g %%", 100 * real(calibration, "residual"));
-  snprintf(text, size, "%s: %s%s%s%s%s%s", name && *name ? name : "level", model, parts, error, moving, left,
-      cost);
+    snprintf(
+        left, sizeof left, residual < 10 ? ", calibrated to %.2g %%" : ", calibrated to %.0f %%", residual);
+  /* What is counted says by itself that a level is of springs, or of tetrahedra. */
+  bool implied = *parts && strcmp(model, tetrahedra > 0 ? "tetrahedra" : "springs") == 0;
+  bool named = name && *name && strcmp(name, model) != 0;
+  snprintf(text, size, "%s%s%s%s%s%s%s%s%s", named ? name : "", named ? ": " : "", implied ? "" : model,
+      implied || !*parts ? "" : ", ", parts, error, moving, left, cost);
 }

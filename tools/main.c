@@ -15,13 +15,41 @@ static void print_help(void) {
   printf("\nExit status: 0 good, 1 the input is at fault, 2 the call or the machine is.\n");
 }
 
+enum { HELP_COLUMN = 27, HELP_WIDTH = 100 };
+
+/* From the column on, in as many lines as it takes; an empty line parts paragraphs. */
+static void print_wrapped(const char *text, int column) {
+  int at = column;
+  while (*text) {
+    int length = (int)strcspn(text, " \n");
+    if (at > column && at + 1 + length > HELP_WIDTH) {
+      printf("\n%*s", column, "");
+      at = column;
+    }
+    if (at > column) at += printf(" ");
+    at += printf("%.*s", length, text);
+    text += length;
+    if (strncmp(text, "\n\n", 2) == 0) {
+      printf("\n\n%*s", column, "");
+      at = column;
+    }
+    text += strspn(text, " \n");
+  }
+  printf("\n");
+}
+
 static void print_verb_help(const cli_verb *verb) {
-  printf("sbfmt %s: %s\n\nUsage: sbfmt %s %s\n\n%s\n\n", verb->name, verb->summary, verb->name,
-      verb->synopsis, verb->details);
+  printf("sbfmt %s: %s\n\nUsage: sbfmt %s %s\n\n", verb->name, verb->summary, verb->name, verb->synopsis);
+  print_wrapped(verb->details, 0);
+  printf("\n");
   for (const cli_option *o = verb->options; o->name; o++) {
-    char left[40];
-    snprintf(left, sizeof left, "%s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
-    printf("  %-24s %s\n", left, o->help);
+    int width = printf("  %s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
+    if (width > HELP_COLUMN - 1) {
+      printf("\n");
+      width = 0;
+    }
+    printf("%*s", HELP_COLUMN - width, "");
+    print_wrapped(o->help, HELP_COLUMN);
   }
 }
 

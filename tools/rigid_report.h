@@ -13,9 +13,8 @@ typedef struct rigid_report {
   double moving_s;     /* time at which something last moved faster than REST_M_S */
 } rigid_report;
 
-/* Sets the modes that --ragdoll or --strength ask for; false, with a message printed, where they are wrong.
- */
-bool rigid_report_begin(rigid_report *report, session *s, cli_call *call);
+/* Before the first frame. */
+void rigid_report_begin(rigid_report *report, const session *s);
 /* After each frame. */
 void rigid_report_measure(rigid_report *report, const session *s);
 void rigid_report_add(const rigid_report *report, const session *s, json_t *object);

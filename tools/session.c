@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "sbrun/animation.h"
+#include "sbrun/rigid.h"
 #include "standing.h"
 
 /* A clip begins in another pose than that of rest: bones take so long to go there. */
@@ -101,13 +102,17 @@ static bool choose_clip(session *s, const cli_call *call, int32_t *clip) {
 static bool parse_settings(session *s, cli_call *call) {
   session_settings *set = &s->settings;
   long substeps = 0, level = 0;
-  *set = (session_settings){.threads = 1, .hold = cli_switch(call, "--hold")};
+  *set = (session_settings){.threads = 1,
+      .hold = cli_switch(call, "--hold"),
+      .ragdoll = cli_switch(call, "--ragdoll"),
+      .driven = cli_value(call, "--strength") != NULL};
   bool good =
       cli_number(call, "--seconds", 0, 1e6, &s->seconds) && cli_number(call, "--fps", 1, 10000, &s->fps) &&
       cli_integer(call, "--substeps", 1, 100000, &substeps) &&
       cli_integer(call, "--level", 0, 1000, &level) && cli_integer(call, "--threads", 1, 64, &set->threads) &&
       cli_number(call, "--raise", -1000, 1000, &set->raise) &&
-      cli_number(call, "--gravity", -1000, 1000, &set->gravity) && parse_drive(call, set->drive) &&
+      cli_number(call, "--gravity", -1000, 1000, &set->gravity) &&
+      cli_number(call, "--strength", 0, 1e6, &set->strength) && parse_drive(call, set->drive) &&
       parse_ground(call, &s->ground) && parse_scheme(call, &set->model.scheme) &&
       parse_instructions(call, &set->model.instructions);
   set->model.substeps = (uint32_t)substeps;
@@ -130,6 +135,21 @@ static sbf_status create_character(session *s, sbf_diagnostic *error) {
   return sbr_character_create(s->world, s->model, &character, &s->character, error);
 }
 
+static bool has_rigid_parts(const session *s, const cli_call *call) {
+  if (!(s->settings.ragdoll || s->settings.driven) || s->asset->rigid_bodies.count) return true;
+  cli_wrong(call, "the file has no rigid bodies, which --ragdoll and --strength are for");
+  return false;
+}
+
+static void loosen_rigid_parts(session *s) {
+  sbr_rigid_drive drive = sbr_default_rigid_drive();
+  drive.strength = (float)s->settings.strength;
+  if (s->settings.driven) sbr_character_rigid_drive(s->world, s->character, &drive);
+  if (s->settings.driven || s->settings.ragdoll)
+    sbr_character_rigid_mode(
+        s->world, s->character, -1, s->settings.driven ? SBR_RIGID_DRIVEN : SBR_RIGID_PASSIVE);
+}
+
 /* What the options ask of it from the start, unless a recording does. */
 static void begin(session *s) {
   const session_settings *set = &s->settings;
@@ -140,6 +160,7 @@ static void begin(session *s) {
   script_drive(&s->script, 0, s->world, s->character, set->drive[0], 0, set->drive[1]);
   const sbr_clip_play how = {.weight = 1, .fade_s = CLIP_FADE_S, .speed = 1, .bone_mask = SBF_NONE};
   if (set->clip != SBF_NONE) sbr_character_play(s->world, s->character, 0, set->clip, &how);
+  loosen_rigid_parts(s);
 }
 
 static sbf_status create(session *s, sbf_diagnostic *error) {
@@ -170,7 +191,7 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
     return false;
   }
   *status = (int)sbf_load_file(call->inputs[0], NULL, &s->asset, &error);
-  if (*status == SBF_OK && !choose_clip(s, call, &s->settings.clip)) {
+  if (*status == SBF_OK && !(choose_clip(s, call, &s->settings.clip) && has_rigid_parts(s, call))) {
     *status = SBF_FAILED;
     session_close(s);
     return false;

@@ -10,8 +10,8 @@
 #include "thread_pool.h"
 
 /* The options that both verbs share; put them first in a verb's table. */
-#define SESSION_OPTIONS                                                                                      \
-  {"--seconds", "S", "how long"}, {"--fps", "N", "frames a second"},                                         \
+#define SESSION_OPTIONS(seconds_help, fps_help)                                                              \
+  {"--seconds", "S", seconds_help}, {"--fps", "N", fps_help},                                                \
       {"--scheme", "NAME",                                                                                   \
           "automatic, symplectic, position_based, relaxation, explicit_euler, heun, block_descent "          \
           "(automatic)"},                                                                                    \
@@ -28,6 +28,10 @@
       {"--clip", "NAME",                                                                                     \
           "play this clip as it is keyed, by its name or number; the gait leaves the bones to it"},          \
       {"--level", "N", "simulation level, 0 the finest (0)"},                                                \
+      {"--ragdoll", NULL, "every rigid body with a mass falls and swings by its joints alone"},              \
+      {"--strength", "TIMES",                                                                                \
+          "every such body is drawn to its pose, by so many times what holds its limb out level; 0: no "     \
+          "bound"},                                                                                          \
       {"--record", "OUT.sbrec", "record all that moves the character, to be played again"},                  \
       {"--replay", "FILE.sbrec", "play what was recorded, with the same file and options, to the bit"}, {    \
     "--script", "FILE", "commands over time; see docs/scripts.md"                                            \
@@ -39,9 +43,11 @@ typedef struct session_settings {
   double drive[2]; /* m/s, rad/s */
   double raise;    /* m */
   double gravity;  /* m/s^2, downward */
+  double strength; /* of `driven`, as sbr_rigid_drive has it */
   long threads;
   int32_t clip; /* SBF_NONE: none */
   bool hold;
+  bool ragdoll, driven; /* rigid bodies swing by their joints alone, or are drawn to their pose */
 } session_settings;
 
 typedef struct session {

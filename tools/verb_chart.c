@@ -275,19 +275,19 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"--case", "NAME", "one of the cases above; several times for several (default: all)"},
+    {"--case", "NAME", "one of the cases above; several times for several (all)"},
     {"-o", "DIR", "folder for the tables and drawings; made if it is not there"},
-    {"--runs", "N", "runs that a time is the median of (default 15)"},
-    {"--most-substeps", "N", "schemes get 1, 2, 4 and so on up to this (default 128)"},
-    {"--core", "N", "the core to stay on, of those allowed, from 0 (default 0)"},
-    {"--distance", "M", "from which a character is looked at, for errors in pixels (default 5)"},
+    {"--runs", "N", "runs that a time is the median of (15)"},
+    {"--most-substeps", "N", "schemes get 1, 2, 4 and so on up to this (128)"},
+    {"--core", "N", "the core to stay on, of those allowed, from 0 (0)"},
+    {"--distance", "M", "from which a character is looked at, for errors in pixels (5)"},
     {"--map", NULL, "instead: where each scheme is sound, biased or dead"},
-    {"--cells", "N", "of a map: so many columns, half as many rows; of bodies half of both (default 48)"},
+    {"--cells", "N", "of a map: so many columns, half as many rows; of bodies half of both (48)"},
     {"--redraw", "TABLE",
         "measure nothing: draw CASE.csv, with CASE-runs.csv beside it, again; several times for several"},
     {"--no-svg", NULL, "tables alone: gnuplot is not needed"},
     {"--jobs", NULL, "print one command a case, to be run side by side, and measure nothing"},
-    {"--format", "text|json", "how to report (default text)"}, {NULL, NULL, NULL}};
+    {"--format", "text|json", "how to report (text)"}, {NULL, NULL, NULL}};
 
 const cli_verb verb_chart = {.name = "chart",
     .synopsis = "[FILE] [--case NAME] -o DIR",

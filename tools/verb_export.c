@@ -59,7 +59,7 @@ static const cli_option options[] = {
     {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.pc2|.mdd",
         "where to write; the ending says in which form"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
-    SESSION_OPTIONS,
+    SESSION_OPTIONS("how much of the motion (.pc2 and .mdd 5, .glb none)", "frames a second (30)"),
     {NULL, NULL, NULL},
 };
 const cli_verb verb_export = {"export",

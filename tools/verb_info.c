@@ -208,6 +208,8 @@ static const char *text_of(const json_t *object, const char *key) {
   return text && *text ? text : "-";
 }
 
+enum { MOST_COLUMNS = 40 };
+
 static void print_levels(const json_t *levels) {
   size_t i;
   json_t *level;
@@ -218,13 +220,26 @@ static void print_levels(const json_t *levels) {
   }
 }
 
+/* The columns that the texts of a list need. */
+static int widest(const json_t *rows, const char *key) {
+  size_t i, most = 0;
+  json_t *row;
+  json_array_foreach(rows, i, row) {
+    size_t length = strlen(text_of(row, key));
+    most = length > most ? length : most;
+  }
+  return most < MOST_COLUMNS ? (int)most : MOST_COLUMNS;
+}
+
 static void print_sections(const json_t *object) {
   size_t i;
   json_t *row;
+  const json_t *all = json_object_get(object, "sections");
+  int name = widest(all, "name"), bone = widest(all, "bone");
   printf("sections       %zu\n", json_array_size(json_object_get(object, "sections")));
   json_array_foreach(json_object_get(object, "sections"), i, row) {
-    printf("  %-16s on %-16s %6lld vertices %6lld polygons %6lld interior %7lld tetrahedra %6lld pins\n",
-        text_of(row, "name"), text_of(row, "bone"), number(row, "vertices"), number(row, "polygons"),
+    printf("  %-*s on %-*s %6lld vertices %6lld polygons %6lld interior %7lld tetrahedra %6lld pins\n", name,
+        text_of(row, "name"), bone, text_of(row, "bone"), number(row, "vertices"), number(row, "polygons"),
         number(row, "interior_points"), number(row, "tetrahedra"), number(row, "pins"));
     print_levels(json_object_get(row, "levels"));
   }
@@ -241,12 +256,13 @@ static void print_text(const json_t *object, uint64_t read_bytes) {
   size_t i;
   json_t *row;
   const json_t *springs = json_object_get(object, "springs");
+  int mesh = widest(json_object_get(object, "render_meshes"), "name");
   printf("format         sbf %s, %lld bytes, %llu of them read\n", text_of(object, "format_version"),
       number(object, "bytes"), (unsigned long long)read_bytes);
   printf("title          %s\n", text_of(object, "title"));
   printf("render meshes  %zu\n", json_array_size(json_object_get(object, "render_meshes")));
   json_array_foreach(json_object_get(object, "render_meshes"), i, row) {
-    printf("  %-32s %7lld vertices %7lld polygons %7lld triangles, %s\n", text_of(row, "name"),
+    printf("  %-*s %7lld vertices %7lld polygons %7lld triangles, %s\n", mesh, text_of(row, "name"),
         number(row, "vertices"), number(row, "polygons"), number(row, "triangles"), text_of(row, "material"));
     print_render_levels(json_object_get(row, "levels"));
   }

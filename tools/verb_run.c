@@ -5,6 +5,7 @@
 
 #include "pose_file.h"
 #include "rigid_report.h"
+#include "run_text.h"
 #include "sbfmt/export.h"
 #include "session.h"
 #include "walk_report.h"
@@ -153,16 +154,6 @@ static json_t *report(const run_state *r) {
   return o;
 }
 
-static void print_text(const json_t *o) {
-  const char *key;
-  json_t *value;
-  json_object_foreach((json_t *)(uintptr_t)o, key, value) {
-    char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_REAL_PRECISION(6));
-    printf("%-18s %s\n", key, text ? text : "");
-    free(text);
-  }
-}
-
 static bool play(run_state *r, cli_call *call) {
   sbf_diagnostic error;
   read_skin(r);
@@ -196,7 +187,8 @@ static int run(cli_call *call) {
   status = SBF_FAILED;
   if (!make_room(&r))
     cli_wrong(call, "memory ran out");
-  else if (rigid_report_begin(&r.rigid, &r.s, call) && open_outputs(&r, call)) {
+  else if (open_outputs(&r, call)) {
+    rigid_report_begin(&r.rigid, &r.s);
     r.soles = soles_create(&r.s);
     r.walk = walk_report_create(&r.s, r.soles);
     if (play(&r, call) && session_finish(&r.s, call)) status = SBF_OK;
@@ -218,7 +210,7 @@ static int run(cli_call *call) {
     if (call->json)
       status = cli_print_json(object, status);
     else {
-      print_text(object);
+      run_text_print(object);
       json_decref(object);
     }
   }
@@ -233,10 +225,7 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    SESSION_OPTIONS,
-    {"--ragdoll", NULL, "every rigid body with a mass falls and swings by its joints alone"},
-    {"--strength", "TIMES",
-        "every such body is drawn to its pose, by so many times what holds its limb out level; 0: no bound"},
+    SESSION_OPTIONS("how long (5)", "frames a second (60)"),
     {"--cache", "OUT.pc2|.mdd", "write a point cache, a sample a frame"},
     {"--of", "skin|surface", "what the cache holds: the skin, or every section's surface (skin)"},
     {"--pose", "OUT.csv", "write every bone's place and rotation, frame by frame"},
@@ -245,16 +234,12 @@ static const cli_option options[] = {
 };
 const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S] [--ground KIND] ...",
     "simulate and say how it went",
-    "Loads the file, steps it and prints measures: `valid` is true where no number was infinite and no "
-    "element\n"
-    "inverted at any frame; `volume_ratio` is the least of all sections at the end, `volume_ratio_least` at "
-    "any\n"
-    "frame; slip and penetration are measured on the skin's soles. With\n"
-    "--ragdoll or --strength, `limit_excess` is by how much a joint's limit was broken at worst (rad), "
-    "`joint_gap`\n"
-    "how far a joint was off (m), `rest_time` when everything lay still (s; null: it does not). The same "
-    "call gives the same state_hash;\n"
-    "with --replay, `replay_same` is true where every state hash was the one recorded, else the exit status "
-    "is "
-    "1.",
+    "Loads the file, steps it and prints measures: `valid` is true where no number was infinite and no\n"
+    "element inverted at any frame; `volume_ratio` is the least of all sections at the end,\n"
+    "`volume_ratio_least` at any frame; slip and penetration are measured on the skin's soles; docs/gait.md\n"
+    "says what else is told of who walks. With --ragdoll or --strength, `limit_excess` is by how many\n"
+    "degrees a joint's limit was broken at worst, `joint_gap` how far a joint was off, `rest_time` when\n"
+    "everything lay still (null, or -: it does not). The same call gives the same state_hash; with "
+    "--replay,\n"
+    "`replay_same` is true where every state hash was the one recorded, else the exit status is 1.",
     options, 1, 1, run};

@@ -159,7 +159,7 @@ static const cli_option options[] = {
     {"--input", "FILE", "keys and pointer, frame by frame; see docs/view.md"},
     {"--shot", "OUT.png", "the last frame as a picture"},
     {"--format", "text|json", "how to print (text)"},
-    SESSION_OPTIONS,
+    SESSION_OPTIONS("how long (until it is closed)", "frames a second of --frames (60)"),
     {NULL, NULL, NULL},
 };
 const cli_verb verb_view = {"view", "FILE [--ground KIND] [--show LIST] ...",

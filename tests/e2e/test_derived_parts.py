@@ -87,6 +87,14 @@ class Derived(ProgramTest):
         self.assertEqual(settings, sorted(settings))
         self.assertEqual(self.json_of("info", out)["springs"]["internal"], 0)
 
+    def test_what_is_kept_as_authored_is_told(self):
+        nodes = write_bytes(self.path("one.node"), b"4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n")
+        write_bytes(self.path("one.ele"), b"1 4 0\n0 0 1 2 3\n")
+        told = self.good("convert", nodes, "-o", self.path("one.sbf"), "--material", "rubber").out
+        self.assertIn("kept 1 body as authored: 1 tetrahedron\n", told)
+        self.assertNotIn("built", told)
+        self.assertNotIn("springs", told)
+
     def test_bodies_are_made_of_what_is_said(self):
         call("build", self.file, "--material", "flesh", "--material", "Head=muscle", "-o", self.path("firm.sbf"))
         text = read_text(self.path("firm.sbf"))

@@ -56,6 +56,16 @@ class Generated(ProgramTest):
             for option in options(verb):
                 self.assertIn(".B " + option.replace("-", "\\-"), read_text(self.page(verb)))
 
+    def test_help_is_whole_and_fits_a_terminal(self):
+        """No text is cut off, none is wider than 100 columns but what cannot be broken."""
+        for verb in verbs():
+            text = call(verb, "--help").out
+            for line in text.split("\n\n", 2)[2].splitlines():
+                self.assertTrue(len(line) <= 100 or " " not in line.strip(), f"{verb}: {line}")
+            for cut in re.findall(r"^  -.*\|[^ ]*$", text, re.MULTILINE):
+                self.assertRegex(cut, r"[a-z0-9\]]$", verb)
+        self.assertRegex(call("export", "--help").out, r"(?m)^  -o OUT\.glb\|.*\.mdd$")
+
     @needs("mandoc")
     def test_pages_are_well_formed(self):
         for name in os.listdir(self.made("man")):

@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import stat
 import threading
 
@@ -40,6 +41,35 @@ class Run(ProgramTest):
         text = self.good("run", self.file, "--seconds", "0.1").out
         for key in KEYS:
             self.assertIn(key, text)
+
+    def test_text_has_units_and_a_line_a_leg(self):
+        report = self.run_json("--drive", "0.4,0", seconds=3)
+        text = self.good("run", self.file, "--seconds", "3", "--drive", "0.4,0").out
+        self.assertRegex(text, r"(?m)^distance +[0-9.]+ m$")
+        self.assertRegex(text, r"(?m)^us_per_frame +[0-9.]+ us$")
+        self.assertRegex(text, rf"(?m)^state_hash +{report['state_hash']}$")
+        self.assertRegex(text, r"(?m)^valid +true$")
+        for leg, steps in report["steps_taken"].items():
+            self.assertRegex(text, rf"(?m)^steps_taken .*\b{re.escape(leg)} {steps}(,|$)")
+            self.assertRegex(text, rf"(?m)^  {re.escape(leg)} +stride [0-9.]+ m, period [0-9.]+ s, ")
+        self.assertNotIn("{", text)
+
+    def test_a_ragdoll_is_drawn_too_and_needs_rigid_bodies(self):
+        """What --ragdoll asks for belongs to every verb that moves a character, and to its recording."""
+        tape = self.path("fall.sbrec")
+        fallen = self.run_json("--ragdoll", "--record", tape)
+        self.assertEqual(self.run_json("--replay", tape)["state_hash"], fallen["state_hash"])
+        self.assertNotEqual(self.run_json()["state_hash"], fallen["state_hash"])
+        self.assertLess(fallen["limit_excess"], 0.1)  # degrees
+        still, down, up = (self.path(name) for name in ("still.obj", "down.pc2", "up.pc2"))
+        self.good("export", self.file, "-o", down, "--seconds", "1", "--ragdoll")
+        self.good("export", self.file, "-o", up, "--seconds", "1")
+        self.assertNotEqual(read_bytes(down), read_bytes(up))
+        write_bytes(still, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.good("convert", still, "-o", self.path("still.sbf"))
+        refused = call("run", self.path("still.sbf"), "--ragdoll")
+        self.assertEqual(refused.status, 2)
+        self.assertIn("no rigid bodies", refused.err)
 
     def test_the_same_call_gives_the_same_state(self):
         hashes = {self.run_json("--drive", "0.2,0.1")["state_hash"] for _ in range(2)}

@@ -177,12 +177,12 @@ static void report_guesses(const work *w) {
   sbf_diagnostic finding;
   char range[64] = "";
   if (w->guessed_count == 0) return;
-  if (w->most_guess > w->least_guess) snprintf(range, sizeof range, "%.6g to ", (double)w->least_guess);
+  if (w->most_guess > w->least_guess)
+    snprintf(range, sizeof range, "%.6g to ", 1e-3 * (double)w->least_guess);
   sbfi_diagnose(&finding, SBF_CODE_MATERIAL_GUESSED,
-      "nobody says what %u section%s cut from skins %s made of: %s%.6g Pa, which bear their weight, are "
-      "taken; say it, as by --material flesh",
-      (unsigned)w->guessed_count, w->guessed_count == 1 ? "" : "s", w->guessed_count == 1 ? "is" : "are",
-      range, (double)w->most_guess);
+      "no material is given for %u section%s cut from skins: %s%.6g kPa, which bear their weight, are taken; "
+      "give one, as by --material flesh",
+      (unsigned)w->guessed_count, w->guessed_count == 1 ? "" : "s", range, 1e-3 * (double)w->most_guess);
   sbfi_report(w->reporter, &finding);
 }
 

@@ -44,14 +44,15 @@ void sbfi_guess_moduli(sbfi_conversion *c) {
   }
   if (sections.count)
     sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
-        "nobody says what %u section%s made of: flesh of %.6g Pa is taken%s; say it, as by --material muscle",
-        sections.count, sections.count == 1 ? " is" : "s are", sections.most,
+        "no material is given for %u section%s: flesh of %.6g kPa is taken%s; give one, as by --material "
+        "muscle",
+        sections.count, sections.count == 1 ? "" : "s", 1e-3 * sections.most,
         sections.most > sections.least ? " for the thickest" : "");
   if (standing.count)
     sbfi_convert_warn(c, SBF_CODE_MATERIAL_GUESSED,
-        "nobody says what %u bod%s made of that the usual modulus would not bear: %.6g Pa are taken%s; say "
-        "it, as by "
-        "--material rubber",
-        standing.count, standing.count == 1 ? "y is" : "ies are", standing.most,
+        "no material is given for %u bod%s, too heavy for the usual modulus: %.6g kPa are taken%s; give one, "
+        "as "
+        "by --material rubber",
+        standing.count, standing.count == 1 ? "y" : "ies", 1e-3 * standing.most,
         standing.most > standing.least ? " for the largest" : "");
 }
