@@ -131,7 +131,7 @@ void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share) {
   }
 }
 
-bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *e, float step_s, bool *other) {
+bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *e, float step_s) {
   bool changed = false;
   for (uint32_t r = 0; r < e->row_count; r++) {
     sbri_row *row = &e->rows[r];
@@ -141,16 +141,15 @@ bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *e, float step_s,
       if (!was && row->kind == SBRI_ROW_LIMIT) sbri_limit_choose_side(row, speed + row->moved, step_s);
       row->wanted = row->target - speed;
       row->active = sbri_limit_acts(row, speed + row->moved, step_s);
-      if (row->kind == SBRI_ROW_SPRING && row->active != was) *other = true;
       if (!row->active) row->impulse = 0;
       changed = changed || row->active != was;
     } else if (row->active && row->most > 0 && fabsf(of_drive(row)) > row->most * 1.0001f) {
       give_most(work, e, row);
-      changed = *other = true;
+      changed = true;
     } else if (slip_row(row)) {
-      changed = *other = true;
+      changed = true;
     }
   }
-  if (e->ball && slip_ball(&work->system, e)) changed = *other = true;
+  if (e->ball && slip_ball(&work->system, e)) changed = true;
   return changed;
 }

@@ -200,6 +200,16 @@ static sbf_vec3 slip_of(
       sbri_add(a->velocity, sbri_cross(a->turn, lever)));
 }
 
+/* What the bodies' turning at the speeds that they have bends the place's way by, as a mean speed. */
+static sbf_vec3 bend_of(const row_maker *m, sbf_vec3 slip) {
+  const sbri_part_motion *a = sbri_side_motion(m->work, m->tick->model, m->joint, SBRI_A),
+                         *b = sbri_side_motion(m->work, m->tick->model, m->joint, SBRI_B);
+  const sbr_transform *poses[SBRI_SIDES] = {&a->to, &b->to};
+  sbf_vec3 apart = sbri_joint_apart(m->joint, poses, sbri_sub(b->fine_to, a->fine_to));
+  sbf_vec3 mean = sbri_scale(sbri_sub(apart, m->place->apart), 1 / m->step_s);
+  return sbri_sub(mean, slip);
+}
+
 /* What a ball asks of its place; its turns are wanted to be as its flesh has them, at rest. */
 static void make_ball(row_maker *m) {
   sbri_ball *ball = m->edge->ball;
@@ -214,6 +224,7 @@ static void make_ball(row_maker *m) {
     target = sbri_add_scaled(target, place->axes[k], rate);
   }
   ball->end = sbri_vec3(left[0], left[1], left[2]);
+  if (sbri_rigid_foresees(m->tick, m->work)) slip = sbri_add(slip, bend_of(m, slip));
   put(ball->levers[SBRI_A], sbri_add(place->arms[SBRI_A], place->apart));
   put(ball->levers[SBRI_B], place->arms[SBRI_B]);
   put(ball->rhs, sbri_sub(target, slip));

@@ -6,10 +6,10 @@
 /* After so many slow ticks all lies, or hangs: what swings is slow for less. */
 enum { LYING_TICKS = 20 };
 
-/* In flight a tick has so many times fewer steps than the model says at the least, and while it has fewer
- * each is so much shorter than it must be. */
+/* In flight a tick has so many times fewer steps than the model says at the least. */
 enum { MOST_FEWER = 4 };
-static const float FINE_FLIGHT = 2;
+/* And there goes back to fewer below this share of what those would do for. */
+static const float NEARLY = 0.8f;
 
 /* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
 static const float MOST_TURN = 0.2f;
@@ -55,7 +55,9 @@ static bool is_flying(const sbri_rigid_tick *t, const sbri_rigid_solving *work) 
     if (t->model->joints[work->system.edges[e].joint].source->kind == SBF_JOINT_KIND_PULLEY) return false;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_node *node = &work->system.nodes[i];
-    if (t->bodies[node->body].mode == SBR_RIGID_DRIVEN || (node->parent < 0 && node->edge >= 0)) return false;
+    const sbri_rigid_body_state *body = &t->bodies[node->body];
+    if ((body->mode == SBR_RIGID_DRIVEN && body->share > 0) || (node->parent < 0 && node->edge >= 0))
+      return false;
   }
   return true;
 }
@@ -99,14 +101,16 @@ uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   float turns = t->tick_s * fastest_turn(t, work) / MOST_TURN;
   float swings = t->tick_s * sqrtf(work->swings) / SBRI_RIGID_MOST_SWING;
   float steps = turns > swings ? turns : swings;
-  /* In powers of two, and fewer than before only where a quarter would do, or what fell has landed or the
-   * other way about: a leapfrog whose steps change at every turn gains by it. */
+  /* In powers of two, and fewer than before only where a quarter would do, in flight where half would do with
+   * some to spare, or what fell has landed or the other way about: a leapfrog whose steps change at every
+   * turn gains by it. */
   bool lies = t->drive->slow_ticks >= LYING_TICKS, flies = is_flying(t, work), flew = t->drive->flies;
-  uint32_t count = least_steps(t, lies, flies, FINE_FLIGHT * steps),
+  uint32_t count = least_steps(t, lies, flies, steps),
            most = t->substeps > SBRI_RIGID_MOST_SUBSTEPS ? t->substeps : SBRI_RIGID_MOST_SUBSTEPS;
   while ((float)count < steps && 2 * count <= most) count *= 2;
   uint32_t before = t->drive->substeps;
-  if (!lies && flies == flew && before > count && before <= most && before < 4 * count) count = before;
+  bool nearly = flies ? steps > NEARLY * (float)count : before < 4 * count;
+  if (!lies && flies == flew && before > count && before <= most && nearly) count = before;
   t->drive->substeps = count;
   t->drive->flies = flies;
   return count;

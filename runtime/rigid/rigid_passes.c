@@ -1,8 +1,10 @@
 /* Passes over a step's system until what pushes in it is what should.
  *
  * A pass is Newton's: touches, limits and friction stand in the system as they answer at the changes of
- * velocity of the pass before, the first as they did in the step before. Friction's bounds stay as they are
- * until the rest has settled; then they are those of what presses, and if that makes a difference it goes on.
+ * velocity of the pass before, the first as they did in the step before; from the second on the way is
+ * searched, also where drives have come to their most or dry friction of joints slips: else those go round in
+ * circles with limits. Friction's bounds stay as they are until the rest has settled; then they are those of
+ * what presses, and if that makes a difference it goes on.
  */
 #include <string.h>
 
@@ -42,7 +44,6 @@ static void hold_back(sbri_rigid_solving *work, float share) {
 
 void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   sbri_rigid_system *s = &work->system;
-  bool same = false; /* but for touches, the pass before was of the same system */
   int bounds = MOST_BOUNDS;
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     for (uint32_t i = 0; i < s->node_count; i++) memcpy(s->nodes[i].was, s->nodes[i].x, sizeof s->nodes[i].x);
@@ -51,15 +52,13 @@ void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     sbri_system_solve(s);
     sbri_ground_touches_move(work);
     sbri_joint_rows_move(work, t->model, step_s);
-    float share = same ? sbri_rigid_search(t, work, step_s) : 1;
+    float share = pass > 0 ? sbri_rigid_search(t, work, step_s) : 1;
     if (share < 1) hold_back(work, share);
-    bool changed = false, other = false;
+    bool changed = false;
     for (uint32_t e = 0; e < s->edge_count; e++)
-      changed = sbri_joint_rows_judge(work, &s->edges[e], step_s, &other) || changed;
+      changed = sbri_joint_rows_judge(work, &s->edges[e], step_s) || changed;
     changed = sbri_ground_touches_judge(work) || changed || share < 1;
-    same = !other;
     if (changed) continue;
     if (!bounds-- || !sbri_ground_touches_bound(work)) return;
-    same = false;
   }
 }

@@ -21,12 +21,13 @@ enum { TOUCHES_OF_BODY = 24 };
 /* Greatest angular frequency times step by what pulls in the step itself, where its square is so many times
  * that of the tick before: as light parts crack between heavy ones. */
 static const float PULLED_SWING = 0.3f, PULLED_MORE = 2;
-/* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again. */
-static const float FINE = 2e-5f;
+/* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again; and of
+ * what was foreseen (sbri_rigid_foresees), before it is for the first time. */
+static const float FINE = 2e-5f, FINE_AT_ONCE = 5e-6f;
 /* And before the step is taken again in halves. */
 static const float COARSE = 3e-4f;
-/* Or where the way along its arcs is so far from its tangents, m and rad. */
-static const float CURVED = 3e-3f;
+/* Or where the way along its arcs is so far from its tangents, m and rad; or from where it was foreseen. */
+static const float CURVED = 3e-3f, CURVED_FORESEEN = 1e-2f;
 
 /* ---- Memory ---- */
 
@@ -251,6 +252,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
   for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_make(t, work, e, step_s);
   sbri_rigid_passes(t, work, step_s);
   take_and_go(t, work, step_s);
+  bool foresees = sbri_rigid_foresees(t, work);
   for (int pass = 0; pass < MOST_CORRECTIONS && s->edge_count; pass++) {
     worst = 0;
     for (uint32_t e = 0; e < s->edge_count; e++) {
@@ -258,13 +260,13 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
       worst = off > worst ? off : worst;
     }
     if (pass == 0) curved = worst;
-    if (pass > 0 && worst < FINE) break;
+    if (worst < (pass > 0 ? FINE : foresees ? FINE_AT_ONCE : 0)) break;
     clear_b(work);
     sbri_system_solve(s);
     sbri_ground_touches_give(work);
     take_and_go(t, work, step_s);
   }
-  return worst < COARSE && curved < CURVED && !is_too_fast(t, work, step_s);
+  return worst < COARSE && curved < (foresees ? CURVED_FORESEEN : CURVED) && !is_too_fast(t, work, step_s);
 }
 
 static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int depth, bool restore) {
@@ -296,12 +298,13 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float fr
   }
 }
 
-/* The joints' pulls on bodies that have just begun to move, by a short step that is then taken back. */
+/* The joints' pulls on bodies that have just begun to move, by short steps that are then taken back: the
+ * first passes on a push that one of them was given, which is no pull, and the second has what is left. */
 static void probe_pulls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   const float share = 1 / (float)SBRI_RIGID_MOST_SUBSTEPS;
   work->last_step_s = share * t->tick_s;
   keep_bodies(t, work, 0, false);
-  (void)step(t, work, 0, share);
+  for (int k = 0; k < 2; k++) (void)step(t, work, 0, share);
   keep_bodies(t, work, 0, true);
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];

@@ -54,6 +54,13 @@ float sbri_rigid_swings(const sbri_rigid_tick *tick, const sbri_rigid_solving *w
 uint32_t sbri_rigid_pace(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 bool sbri_rigid_is_slow(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
 
+/* Whether joints reckon with the arcs that bodies turn along as they go: in flight, and where something is
+ * near which stops them within a step. What swings by what pulls at it, as a whip, goes by the tangents, by
+ * which its steps are judged. */
+static inline bool sbri_rigid_foresees(const sbri_rigid_tick *tick, const sbri_rigid_solving *work) {
+  return tick->drive->flies || work->touch_count > 0;
+}
+
 /* ---- rigid_passes.c: the nodes' x, the rows and touches that act, for a step that has been made. ---- */
 void sbri_rigid_passes(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
 
@@ -71,8 +78,8 @@ void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *mode
 /* And back by that share of it. */
 void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share);
 /* Takes rows out that have pulled, lets those in that are broken, and gives drives that would exceed it their
- * maximum; whether anything has changed, and whether `other` than limits. */
-bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *edge, float step_s, bool *other);
+ * maximum; whether anything has changed. */
+bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *edge, float step_s);
 /* Right-hand sides for what is still off at the substep's end; returns by how much the worst is, m or rad. */
 float sbri_joint_rows_correct(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
