@@ -4,6 +4,7 @@
 #ifdef SBFMT_WINDOW
 #include "render/picture.h"
 #include "view/viewer.h"
+#include "view/viewer_choices.h"
 #else
 #include "studio.h"
 #endif

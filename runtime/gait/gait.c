@@ -5,6 +5,7 @@
 #include "gait/gait_state.h"
 #include "math/quat.h"
 #include "math/trig.h"
+#include "skeleton/rig_mass.h"
 
 static const float EASE_S = 0.18f;     /* time over which wanted motion takes effect */
 static const float ACCELERATES = 0.2f; /* reaches, in the square of the time of a step: no faster than so */

@@ -1,5 +1,6 @@
 /* Balance: the centre of mass over the polygon of the feet that stand, now and as far as it will go. */
 #include "gait/gait_state.h"
+#include "skeleton/rig_mass.h"
 
 static const float NEEDED = 0.02f; /* of the legs' reach: how far inside before a foot lifts off */
 static const float SOUGHT = 0.05f; /* and where the body leans to */

@@ -23,20 +23,19 @@ static void sums(const sbri_sum_table *table, const sbri_point *from, sbri_point
 static void normals(const sbri_sum_table *table, const sbri_point *from, sbri_point *to) {
   sbri_lanes_normals(table, from, to);
 }
-static void symplectic_tick(const sbri_island_tick *tick) {
+static void run_symplectic(const sbri_island_tick *tick) {
   sbri_lanes_symplectic_tick(tick);
 }
-static void explicit_euler_tick(const sbri_island_tick *tick) {
+static void run_explicit_euler(const sbri_island_tick *tick) {
   sbri_lanes_explicit_euler_tick(tick);
 }
-static void heun_tick(const sbri_island_tick *tick) {
+static void run_heun(const sbri_island_tick *tick) {
   sbri_lanes_heun_tick(tick);
 }
-static void position_based_tick(const sbri_island_tick *tick) {
+static void run_position_based(const sbri_island_tick *tick) {
   sbri_lanes_position_based_tick(tick);
 }
-
-static void block_descent_tick(const sbri_island_tick *tick) {
+static void run_block_descent(const sbri_island_tick *tick) {
   sbri_lanes_block_descent_tick(tick);
 }
 
@@ -55,4 +54,4 @@ static void block_descent_tick(const sbri_island_tick *tick) {
 #endif
 
 const sbri_kernels SBRI_KERNELS = {SBRI_INSTRUCTIONS, SBRI_LANES, vertices, faces, tangents, sums, normals,
-    symplectic_tick, explicit_euler_tick, heun_tick, position_based_tick, block_descent_tick};
+    run_symplectic, run_explicit_euler, run_heun, run_position_based, run_block_descent};

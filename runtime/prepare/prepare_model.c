@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/diagnostic.h"
+#include "skeleton/rig_make.h"
 #include "skin/skin.h"
 #include "solvers/router.h"
 

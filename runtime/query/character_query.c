@@ -1,5 +1,7 @@
 /* How characters are: sbrun/sbrun.h, sbrun/animation.h. */
 #include "sbrun/animation.h"
+#include "skeleton/rig_limits.h"
+#include "skeleton/rig_mass.h"
 #include "soft/soft.h"
 #include "world/world.h"
 

@@ -1,13 +1,13 @@
 /* The skeleton as the runtime uses it: constant tables of a rig, shared by all characters of a model.
  *
- * Bone frames are as in the asset: +Y from head to tail. A pose holds every bone's frame in world axes,
- * relative to the character's origin, already scaled. */
+ * Made by skeleton/rig_make.h. Bone frames are as in the asset: +Y from head to tail. A pose holds every
+ * bone's frame in world axes, relative to the character's origin, already scaled. */
 #ifndef SBRI_RIG_H
 #define SBRI_RIG_H
 
 #include "ik/joint_limit.h"
 #include "sbrun/sbrun.h"
-#include "skeleton/rig_walks.h"
+#include "skeleton/walk_table.h"
 
 /* What has to have ground under a foot, from its middle: left (+x), right, toe (+z), heel; m. */
 typedef struct sbri_sole {
@@ -111,11 +111,6 @@ typedef struct sbri_rig {
   uint32_t belly_count;
 } sbri_rig;
 
-/* Bytes the tables take, and their making in a block of that size. The asset must outlive the rig. A leg
- * whose chain is neither thigh, shin, foot and, it may be, toe, nor a peg and its foot is left out. */
-size_t sbri_rig_size(const sbf_asset *asset);
-void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory);
-
 /* A long foot leans by half of what the leg would have to stretch or to bend, were it upright: how far the
  * ankle is from the hip then, `upright` being how far it would be, m; and back. */
 static inline float sbri_leg_span(const sbri_leg *leg, float scale, float upright) {
@@ -134,24 +129,6 @@ static inline bool sbri_rig_is_below(const sbri_rig *rig, int32_t bone, int32_t 
     if (bone == ancestor) return true;
   return false;
 }
-
-/* ---- skeleton/rig_limits.c: limits of the bones, from the joints of the bodies that move with them. ---- */
-void sbri_rig_find_limits(const sbri_rig *rig, sbri_joint_limit *limits);
-/* How far a leg stretches before its knee is at its limit, m. */
-float sbri_rig_leg_reach(const sbri_rig *rig, const sbri_leg *leg);
-/* ---- skeleton/rig_mass.c: what each bone carries, by the volume of what is seen of it. ---- */
-void sbri_rig_find_masses(const sbri_rig *rig, sbri_bone_mass *masses);
-
-/* ---- skeleton/rig_belly.c: once the bones' roles are known. ---- */
-void sbri_rig_find_belly(sbri_rig *rig);
-
-/* ---- skeleton/rig_soles.c ---- */
-void sbri_rig_find_sole(const sbri_rig *rig, sbri_leg *leg);
-
-/* The centre of mass of a pose; false where nothing is known of masses. */
-bool sbri_rig_center(const sbri_rig *rig, const sbr_transform *pose, float scale, sbf_vec3 *center);
-/* By how much the worst bone of a pose breaks its limit, rad. */
-float sbri_rig_limit_excess(const sbri_rig *rig, const sbr_transform *pose);
 
 /* Turns a bone, and all that hangs on it, about the bone's head. */
 void sbri_rig_turn(const sbri_rig *rig, uint32_t bone, sbf_quat turn, sbr_transform *pose);

@@ -1,5 +1,5 @@
 /* The belly: the lowest of what legs carry, which the body keeps off the ground. */
-#include "skeleton/rig.h"
+#include "skeleton/rig_belly.h"
 
 static const float RISES =
     0.35f; /* a point so much higher for each metre that it is farther out matters as much */

@@ -1,7 +1,7 @@
 /* Limits of bones against their parents, from the joints between the bodies that move with them. */
+#include "skeleton/rig_limits.h"
 #include "math/trig.h"
 #include "mechanics/joint_freedom.h"
-#include "skeleton/rig.h"
 
 static const float ALL_ROUND = 3.2f; /* beyond half a turn: no bound */
 

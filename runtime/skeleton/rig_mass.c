@@ -1,6 +1,6 @@
 /* What each bone carries: the volume of the soft bodies that hang on it; where there are none, as many points
  * of the skinned meshes as follow it. Volumes are sums of signed tetrahedra from the bone's head. */
-#include "skeleton/rig.h"
+#include "skeleton/rig_mass.h"
 
 #include <string.h>
 

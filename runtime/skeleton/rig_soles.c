@@ -1,5 +1,5 @@
 /* Soles: the lowest part of what hangs on a foot. */
-#include "skeleton/rig.h"
+#include "skeleton/rig_soles.h"
 
 /* Of a foot's height: what has to have ground under it; and what stands on it, for a round foot is wider
  * above. */

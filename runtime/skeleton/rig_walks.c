@@ -1,7 +1,6 @@
 #include "skeleton/rig_walks.h"
 
 #include "math/quat.h"
-#include "skeleton/rig.h"
 
 static const float SAME_PLACE = 0.02f; /* of the distance from the plane: so near are mirror images */
 

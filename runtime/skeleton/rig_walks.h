@@ -1,45 +1,14 @@
-/* Walks of pose keys as the runtime uses them: every pose of a walk, mirrored ones too, laid out bone by
- * bone, so that a tick looks nothing up. */
+/* Makes the walks of a rig. */
 #ifndef SBRI_RIG_WALKS_H
 #define SBRI_RIG_WALKS_H
 
-#include "sbrun/sbrun.h"
-
-/* On top of rest, as a pose key has it; of a bone that a pose does not name: nothing. */
-typedef struct sbri_posed_bone {
-  sbf_vec3 translation; /* in the parent's frame, asset metres */
-  sbf_quat rotation;
-} sbri_posed_bone;
-
-/* A pose of a walk. */
-typedef struct sbri_walk_frame {
-  float at;                     /* share of the cycle, above 0, ascending; the last at 1, which is also 0 */
-  const sbri_posed_bone *bones; /* one for each of the walks' bones */
-} sbri_walk_frame;
-
-typedef struct sbri_walk {
-  float speed;   /* that it is for, m/s */
-  float cycle_m; /* walked in one cycle */
-  bool mirrored; /* its second half is the mirror image of the first */
-  const sbri_walk_frame *frames;
-  uint32_t frame_count;
-} sbri_walk;
-
-typedef struct sbri_walks {
-  const sbri_walk *walks; /* by speed, ascending */
-  uint32_t walk_count;
-  const uint32_t *bones; /* that any of their poses moves */
-  uint32_t bone_count;
-  int32_t first_leg, other_leg; /* legs whose steps begin the halves of mirrored walks; -1: none */
-} sbri_walks;
-
-struct sbri_rig;
+#include "skeleton/rig.h"
 
 /* Bytes that the tables take, and their making there; after bones and legs of the rig. */
 size_t sbri_walks_size(const sbf_asset *asset);
-void sbri_walks_init(sbri_walks *walks, const struct sbri_rig *rig, void *memory);
+void sbri_walks_init(sbri_walks *walks, const sbri_rig *rig, void *memory);
 
 /* The bone that stands where another's mirror image in the plane x = 0 would; itself where none does. */
-uint32_t sbri_mirror_bone(const struct sbri_rig *rig, uint32_t bone);
+uint32_t sbri_mirror_bone(const sbri_rig *rig, uint32_t bone);
 
 #endif

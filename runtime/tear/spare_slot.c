@@ -1,5 +1,5 @@
 /* Room for points that split: slots of a body that are not used yet. */
-#include "tear/split.h"
+#include "tear/spare_slot.h"
 
 uint32_t sbri_split_room(const sbri_character *c, const sbri_island *island, uint32_t slot) {
   const sbr_model *model = c->model;

@@ -7,7 +7,8 @@
  */
 #include <string.h>
 
-#include "tear/split.h"
+#include "tear/spare_slot.h"
+#include "tear/split_springs.h"
 #include "tear/tear.h"
 
 /* Of a point with more tetrahedra around it only so many are looked at. */

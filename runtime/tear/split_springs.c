@@ -8,9 +8,12 @@
  * could; momentum and energy are kept. A spring that is a part by itself is a thread: it stays, and tears by
  * itself. What never hung together, as the two sides of a rope's point, stays too. Held points do not split.
  */
+#include "tear/split_springs.h"
+
 #include <string.h>
 
-#include "tear/split.h"
+#include "tear/spare_slot.h"
+#include "tear/spring_network.h"
 
 /* Points of more springs do not split: hubs in the middle of sections, which join all there is. */
 enum { MOST_SPRINGS = 192 };

@@ -5,8 +5,9 @@
  * shared by the side's own points, its rest place extrapolated from theirs. Two points are parted that were
  * within three springs of each other at rest and are no more.
  */
+#include "tear/torn_network.h"
+
 #include "math/vec3.h"
-#include "tear/split.h"
 
 enum { MOST_SPRINGS_APART = 3, CARRIERS = 4 };
 

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "mechanics/neo_hookean.h"
-#include "tear/split.h"
 #include "tear/tear.h"
+#include "tear/torn_network.h"
 
 /* The way from one corner's tetrahedron to the next one's goes through no more sides than this. */
 enum { MOST_SIDES = 6 };

@@ -1,9 +1,11 @@
-/* The words in the picture: what is switched on, what a frame costs, which keys there are. */
+/* What is switched on, what a frame costs, which keys there are. */
+#include "view/panel.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "view/viewer.h"
+#include "view/viewer_choices.h"
 
 static const draw_colour ON = {11, 94, 168, 255}, OFF = {201, 210, 217, 255};
 

@@ -2,38 +2,11 @@
 
 #include <math.h>
 
+#include "view/panel.h"
+#include "view/viewer_choices.h"
+
 static const float PITCH_LEAST = 0.02f, PITCH_MOST = 1.5f;
 static const float ROOM = 1.7f; /* as far again as would fill the picture */
-
-/* Grounds that fit a character of a metre. */
-typedef struct land {
-  const char *name;
-  sbr_ground (*make)(float size);
-} land;
-
-static sbr_ground make_flat(float size) {
-  (void)size;
-  return sbr_ground_flat(0);
-}
-static sbr_ground make_uneven(float size) {
-  return sbr_ground_noise(0.12 * (double)size, 7);
-}
-static sbr_ground make_stairs(float size) {
-  return sbr_ground_stairs(0.03 * (double)size, 0.45 * (double)size);
-}
-static sbr_ground make_slope(float size) {
-  (void)size;
-  return sbr_ground_slope(12);
-}
-static const land lands[] = {
-    {"flat", make_flat}, {"uneven", make_uneven}, {"stairs", make_stairs}, {"slope", make_slope}};
-enum { LAND_COUNT = sizeof lands / sizeof *lands };
-
-static const struct pace {
-  const char *name;
-  float sizes_s;
-} paces[] = {{"slow", 0.25f}, {"walk", 0.5f}, {"fast", 0.9f}};
-enum { PACE_COUNT = sizeof paces / sizeof *paces };
 
 /* Keys that walk while they are down. */
 static const struct move {
@@ -52,33 +25,6 @@ enum { TURN_COUNT = sizeof turns / sizeof *turns };
 static const unsigned switches[] = {
     STAGE_SURFACE, STAGE_SPRINGS, STAGE_LATTICE, STAGE_BONES, STAGE_STRAIN, STAGE_HULLS, STAGE_FEET};
 enum { SWITCH_COUNT = sizeof switches / sizeof *switches };
-
-const char *viewer_ground_name(const viewer *v) {
-  return v->ground < 0 ? "as given" : lands[v->ground].name;
-}
-
-static int pace_of(const viewer *v) {
-  for (int i = 0; i < PACE_COUNT; i++)
-    if (paces[i].sizes_s == v->p.pace) return i;
-  return 0;
-}
-const char *viewer_pace_name(const viewer *v) {
-  return paces[pace_of(v)].name;
-}
-
-uint32_t viewer_level_count(const sbf_asset *asset) {
-  uint32_t most = 1;
-  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
-    if (asset->soft_bodies.at[i].levels.count > most) most = asset->soft_bodies.at[i].levels.count;
-  return most;
-}
-
-uint32_t viewer_render_level_count(const sbf_asset *asset) {
-  uint32_t most = 0;
-  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    if (asset->render_meshes.at[i].levels.count > most) most = asset->render_meshes.at[i].levels.count;
-  return most + 1;
-}
 
 /* ---- Beginning ---- */
 
@@ -102,12 +48,12 @@ static void look_at_it(viewer *v) {
 
 sbf_status viewer_begin(viewer *v, sbf_diagnostic *error) {
   bool first = !v->st.framed;
-  float pace = first ? paces[1].sizes_s : v->p.pace;
+  float pace = first ? viewer_first_pace() : v->p.pace;
   uint32_t thrown = v->p.thrown, hits = v->p.hits;
   if (first) {
     frame_camera(v);
     v->own_ground = v->st.s.ground;
-    if (v->own_ground.height == lands[0].make(1).height) v->ground = 0;
+    v->ground = viewer_ground_find(&v->own_ground);
   }
   sbf_status status = player_open(&v->p, &v->st.s, v->size, error);
   if (status != SBF_OK) return status;
@@ -123,7 +69,7 @@ static sbf_status restart(viewer *v, sbf_diagnostic *error) {
   v->orbits = v->grabs = false;
   player_close(&v->p);
   v->p.pace = gone.pace, v->p.thrown = gone.thrown, v->p.hits = gone.hits;
-  v->st.s.ground = v->ground < 0 ? v->own_ground : lands[v->ground].make(v->size);
+  v->st.s.ground = viewer_ground_make(v);
   sbf_status status = session_restart(&v->st.s, v->call, error);
   if (status == SBF_OK) status = viewer_begin(v, error);
   return status == SBF_OK ? studio_dress(&v->st, error) : status;
@@ -221,7 +167,7 @@ static sbf_status choose(viewer *v, SDL_Keycode key, sbf_diagnostic *error) {
     v->panel = (v->panel + 1) % PANEL_COUNT;
     break;
   case SDLK_f:
-    v->p.pace = paces[(pace_of(v) + 1) % PACE_COUNT].sizes_s;
+    v->p.pace = viewer_next_pace(v);
     break;
   case SDLK_ESCAPE:
     v->quit = true;
@@ -233,7 +179,7 @@ static sbf_status choose(viewer *v, SDL_Keycode key, sbf_diagnostic *error) {
   case SDLK_m:
     return next_level(v, true, error);
   case SDLK_g:
-    v->ground = (v->ground + 1) % LAND_COUNT;
+    v->ground = viewer_next_ground(v);
     return restart(v, error);
   default:
     if (key < SDLK_1 || key >= SDLK_1 + SWITCH_COUNT) break;

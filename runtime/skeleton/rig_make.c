@@ -1,0 +1,285 @@
+#include "skeleton/rig_make.h"
+
+#include "math/quat.h"
+#include "skeleton/rig_belly.h"
+#include "skeleton/rig_limits.h"
+#include "skeleton/rig_mass.h"
+#include "skeleton/rig_soles.h"
+#include "skeleton/rig_walks.h"
+
+/* Share of what a leg stretches from its rest that a long foot's lean adds to its reach. */
+static const float LEANS = 0.4f;
+
+static size_t rounded(size_t size) {
+  return (size + 15) & ~(size_t)15;
+}
+
+static uint32_t tail_count(const sbf_asset *asset) {
+  return asset->gaits.count ? asset->gaits.at[0].tails.count : 0;
+}
+
+size_t sbri_rig_size(const sbf_asset *asset) {
+  size_t n = asset->bones.count;
+  return rounded(n * sizeof(int32_t)) + 2 * rounded(n * sizeof(sbr_transform)) + rounded(n * sizeof(float)) +
+         rounded(tail_count(asset) * sizeof(sbri_tail)) + rounded(n) + rounded(n * sizeof(sbri_joint_limit)) +
+         3 * rounded(n * sizeof(uint32_t)) + rounded(n * sizeof(sbri_bone_mass)) +
+         rounded(asset->chains.count * sizeof(sbri_bone_chain)) + rounded(sbri_walks_size(asset)) + 16;
+}
+
+static void *carve(char **memory, size_t size) {
+  void *at = *memory;
+  *memory += rounded(size);
+  return at;
+}
+
+/* Bones from hips to chest share the turn between the two evenly; all others follow their parent. */
+static void share_spine(const sbri_rig *rig, float *share) {
+  for (uint32_t i = 0; i < rig->bone_count; i++) share[i] = -1;
+  if (!rig->gait || rig->gait->hips < 0) return;
+  int32_t hips = rig->gait->hips, chest = rig->gait->chest;
+  share[hips] = 0;
+  if (chest < 0 || chest == hips || !sbri_rig_is_below(rig, chest, hips)) return;
+  uint32_t steps = 0, place = 0;
+  for (int32_t b = chest; b != hips; b = rig->parents[b]) steps++;
+  for (int32_t b = chest; b != hips; b = rig->parents[b]) share[b] = 1 - (float)place++ / (float)steps;
+}
+
+static bool init_leg(const sbri_rig *rig, const sbf_leg *from, sbri_leg *leg) {
+  const sbf_ik_chain *chain = &rig->asset->ik_chains.at[from->ik];
+  int32_t foot = chain->end, lower = rig->parents[foot], upper = lower >= 0 ? rig->parents[lower] : -1,
+          toe = -1;
+  if (upper >= 0 && upper != chain->root && lower != chain->root && rig->parents[upper] == chain->root)
+    toe = foot, foot = lower, lower = upper, upper = chain->root;
+  bool peg = lower >= 0 && lower == chain->root;
+  if (peg) upper = lower;
+  if (upper < 0 || upper != chain->root) return false;
+  sbf_vec3 hip = rig->rest[upper].position, ankle = rig->rest[foot].position;
+  sbf_vec3 knee = peg ? ankle : rig->rest[lower].position;
+  *leg = (sbri_leg){.upper = upper,
+      .lower = peg ? -1 : lower,
+      .foot = foot,
+      .has_toe = toe >= 0,
+      .toe = toe >= 0 ? toe : 0,
+      .home = from->home,
+      .group = from->group,
+      .upper_length = sbri_length(sbri_sub(knee, hip)),
+      .lower_length = sbri_length(sbri_sub(ankle, knee)),
+      .pole_bone = chain->pole_bone >= 0 ? chain->pole_bone : rig->parents[upper],
+      .copy_rotation = toe >= 0 ? 1 : chain->copy_rotation,
+      .toe_copies = chain->copy_rotation,
+      .soft_reach = chain->soft_reach};
+  leg->home.y = from->sole;
+  /* Without a pole the leg goes on bending the way it is bent at rest. */
+  sbf_vec3 middle = sbri_lerp(hip, ankle, 0.5f), out = sbri_sub(knee, middle);
+  leg->pole = chain->has_pole ? chain->pole : sbri_add_scaled(knee, out, 2);
+  leg->pole_place = leg->pole;
+  if (leg->pole_bone >= 0) {
+    const sbr_transform *rest = &rig->rest[leg->pole_bone];
+    leg->pole_place = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(leg->pole, rest->position));
+  }
+  sbf_vec3 side = sbri_cross(sbri_sub(ankle, hip), sbri_sub(leg->pole, hip));
+  leg->upper_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(knee, hip), side));
+  leg->lower_back = sbri_quat_conjugate(sbri_bone_facing(sbri_sub(ankle, knee), side));
+  leg->rest_span = sbri_length(sbri_sub(ankle, hip));
+  leg->reach = sbri_rig_leg_reach(rig, leg);
+  if (toe >= 0) leg->reach += LEANS * (leg->reach - leg->rest_span);
+  float rest_reach = leg->rest_span / leg->reach; /* a leg straight at rest stays so */
+  if (leg->soft_reach > 1 - rest_reach) leg->soft_reach = rest_reach < 1 ? 1 - rest_reach : 0;
+  leg->rest_stretch = rest_reach / (1 - leg->soft_reach);
+  uint32_t own = peg ? 1 : 2, all = rig->subtree_end[upper] - rig->subtree_begin[upper];
+  leg->has_others = all - (rig->subtree_end[foot] - rig->subtree_begin[foot]) > own;
+  leg->hind = rig->gait->chest < 0 || !sbri_rig_is_below(rig, upper, rig->gait->chest);
+  return leg->upper_length > 0 && (peg || leg->lower_length > 0);
+}
+
+/* Those on the chest are in front; without one, on four legs and more, those before the middle of all. */
+static void find_fore_legs(sbri_rig *rig) {
+  float fore = 0, hind = 0, middle = 0;
+  uint32_t fore_count = 0, count = rig->leg_count;
+  for (uint32_t i = 0; i < count; i++) middle += rig->legs[i].home.z / (float)count;
+  for (uint32_t i = 0; i < count; i++) {
+    sbri_leg *leg = &rig->legs[i];
+    leg->fore = rig->gait->chest >= 0 ? !leg->hind : count >= 4 && leg->home.z > middle;
+    fore_count += leg->fore;
+    *(leg->fore ? &fore : &hind) += leg->home.z;
+  }
+  rig->hind_z = fore_count < count ? hind / (float)(count - fore_count) : 0;
+  rig->fore_z = fore_count ? fore / (float)fore_count : rig->hind_z;
+}
+
+static void init_legs(sbri_rig *rig) {
+  float width = 0;
+  for (uint32_t i = 0; i < rig->gait->legs.count && rig->leg_count < SBRI_MOST_LEGS; i++) {
+    sbri_leg *leg = &rig->legs[rig->leg_count];
+    if (!init_leg(rig, &rig->gait->legs.at[i], leg)) continue;
+    rig->leg_count++;
+    rig->has_pegs = rig->has_pegs || leg->lower < 0;
+    sbri_rig_find_sole(rig, leg);
+    rig->reach += leg->upper_length + leg->lower_length;
+    if (leg->group + 1 > rig->group_count) rig->group_count = leg->group + 1;
+    rig->hips_y += rig->rest[leg->upper].position.y;
+    width += fabsf(leg->home.x);
+    float away = sqrtf(leg->home.x * leg->home.x + leg->home.z * leg->home.z);
+    rig->spread = away > rig->spread ? away : rig->spread;
+  }
+  find_fore_legs(rig);
+  rig->reach = rig->leg_count ? rig->reach / (float)rig->leg_count : 0;
+  rig->hips_y = rig->leg_count ? rig->hips_y / (float)rig->leg_count : 0;
+  rig->half_width = rig->leg_count ? width / (float)rig->leg_count : 0;
+}
+
+static void init_tails(sbri_rig *rig, sbri_tail *tails) {
+  for (uint32_t i = 0; i < rig->tail_count; i++) {
+    const sbf_tail *from = &rig->gait->tails.at[i];
+    const sbf_chain *chain = &rig->asset->chains.at[from->chain];
+    tails[i] = (sbri_tail){chain->bones.at, chain->bones.count, rig->tail_bone_count, from->frequency,
+        from->damping_ratio, from->limit};
+    rig->tail_bone_count += chain->bones.count;
+  }
+}
+
+static bool moves_as_tail(const sbri_rig *rig, uint32_t chain) {
+  for (uint32_t t = 0; rig->gait && t < rig->gait->tails.count; t++)
+    if (rig->gait->tails.at[t].chain == (int32_t)chain) return true;
+  return false;
+}
+
+static void init_chains(sbri_rig *rig, sbri_bone_chain *chains) {
+  for (uint32_t i = 0; i < rig->asset->chains.count; i++) {
+    const sbf_chain *source = &rig->asset->chains.at[i];
+    if (source->bones.count < 2 || moves_as_tail(rig, i)) continue;
+    chains[rig->chain_count++] = (sbri_bone_chain){source, rig->chain_bone_count};
+    rig->chain_bone_count += source->bones.count;
+  }
+}
+
+/* Legs that hang on a chain have their homes where it goes. */
+static void find_carriers(sbri_rig *rig) {
+  for (uint32_t l = 0; l < rig->leg_count; l++) {
+    sbri_leg *leg = &rig->legs[l];
+    leg->carrier = -1;
+    for (uint32_t c = 0; c < rig->chain_count; c++) {
+      const sbf_u32_list *bones = &rig->chains[c].source->bones;
+      for (uint32_t k = 0; k < bones->count; k++) {
+        const sbr_transform *rest = &rig->rest[bones->at[k]];
+        if (rig->parents[leg->upper] != (int32_t)bones->at[k]) continue;
+        leg->carrier = (int32_t)(rig->chains[c].first_state + k);
+        sbf_vec3 home = sbri_vec3(leg->home.x, 0, leg->home.z);
+        leg->carried_home = sbri_rotate(sbri_quat_conjugate(rest->rotation), sbri_sub(home, rest->position));
+      }
+    }
+  }
+}
+
+/* Every bone's stretch in an order in which what hangs on a bone follows it at once. */
+static void order_bones(const sbri_rig *rig, uint32_t *subtree, uint32_t *begin, uint32_t *end) {
+  uint32_t n = rig->bone_count, roots = 0;
+  for (uint32_t i = 0; i < n; i++) end[i] = 1; /* how many bones its stretch has */
+  for (uint32_t i = n; i-- > 0;)
+    if (rig->parents[i] >= 0) end[rig->parents[i]] += end[i];
+  for (uint32_t i = 0; i < n; i++) { /* `subtree` serves for where the next child of a bone begins */
+    int32_t parent = rig->parents[i];
+    begin[i] = parent >= 0 ? subtree[parent] : roots;
+    *(parent >= 0 ? &subtree[parent] : &roots) += end[i];
+    subtree[i] = begin[i] + 1;
+  }
+  for (uint32_t i = 0; i < n; i++) end[i] += begin[i];
+  for (uint32_t i = 0; i < n; i++) subtree[i] = 0;
+  for (uint32_t i = 0; i < n; i++) subtree[begin[i]] = i;
+}
+
+static void find_roles(const sbri_rig *rig, uint8_t *roles) {
+  for (uint32_t i = 0; i < rig->bone_count; i++)
+    roles[i] = rig->spine_share[i] >= 0 ? SBRI_ROLE_SPINE : SBRI_ROLE_NONE;
+  if (rig->gait && rig->gait->head) roles[rig->gait->head->bone] = SBRI_ROLE_HEAD;
+  for (uint32_t t = 0; t < rig->tail_count; t++)
+    for (uint32_t k = 0; k < rig->tails[t].bone_count; k++) roles[rig->tails[t].bones[k]] = SBRI_ROLE_TAIL;
+}
+
+static bool on_chain(const sbri_rig *rig, uint32_t bone) {
+  for (uint32_t c = 0; c < rig->chain_count; c++)
+    for (uint32_t k = 0; k < rig->chains[c].source->bones.count; k++)
+      if (rig->chains[c].source->bones.at[k] == bone) return true;
+  return false;
+}
+
+/* Legs below which there is nothing that moves by itself, and which hang on no chain that moves them. */
+static void find_last_legs(sbri_rig *rig, uint8_t *roles) {
+  for (uint32_t l = 0; l < rig->leg_count; l++) {
+    sbri_leg *leg = &rig->legs[l];
+    uint32_t begin = rig->subtree_begin[leg->upper], end = rig->subtree_end[leg->upper];
+    leg->last = leg->lower >= 0;
+    for (int32_t b = rig->parents[leg->upper]; b >= 0; b = rig->parents[b])
+      if (on_chain(rig, (uint32_t)b)) leg->last = false;
+    for (uint32_t k = begin; k < end; k++) {
+      uint32_t b = rig->subtree[k];
+      if (roles[b] != SBRI_ROLE_NONE || on_chain(rig, b)) leg->last = false;
+    }
+    for (uint32_t other = 0; other < rig->leg_count; other++) {
+      const sbri_leg *o = &rig->legs[other];
+      bool hangs = other != l && sbri_rig_is_below(rig, o->upper, leg->upper);
+      if (hangs || (o->pole_bone >= 0 && sbri_rig_is_below(rig, o->pole_bone, leg->upper))) leg->last = false;
+    }
+    for (uint32_t k = begin + 1; leg->last && k < end; k++) roles[rig->subtree[k]] = SBRI_ROLE_LEG;
+  }
+}
+
+static void init_bones(const sbf_asset *asset, int32_t *parents, sbr_transform *rest, sbr_transform *local) {
+  for (uint32_t i = 0; i < asset->bones.count; i++) {
+    const sbf_bone *bone = &asset->bones.at[i];
+    parents[i] = bone->parent;
+    local[i] = rest[i] = (sbr_transform){bone->head, sbri_quat_normalize(bone->rotation)};
+    if (bone->parent < 0) continue;
+    const sbr_transform *parent = &rest[bone->parent];
+    sbf_quat back = sbri_quat_conjugate(parent->rotation);
+    local[i].position = sbri_rotate(back, sbri_sub(rest[i].position, parent->position));
+    local[i].rotation = sbri_quat_multiply(back, rest[i].rotation);
+  }
+}
+
+void sbri_rig_init(sbri_rig *rig, const sbf_asset *asset, void *memory) {
+  uint32_t n = asset->bones.count;
+  char *free_memory = memory;
+  int32_t *parents = carve(&free_memory, n * sizeof *parents);
+  sbr_transform *rest = carve(&free_memory, n * sizeof *rest),
+                *local = carve(&free_memory, n * sizeof *local);
+  float *share = carve(&free_memory, n * sizeof *share);
+  sbri_tail *tails = carve(&free_memory, tail_count(asset) * sizeof *tails);
+  uint8_t *roles = carve(&free_memory, n);
+  sbri_joint_limit *limits = carve(&free_memory, n * sizeof *limits);
+  uint32_t *subtree = carve(&free_memory, n * sizeof *subtree),
+           *begin = carve(&free_memory, n * sizeof *begin), *end = carve(&free_memory, n * sizeof *end);
+  sbri_bone_mass *masses = carve(&free_memory, n * sizeof *masses);
+  sbri_bone_chain *chains = carve(&free_memory, asset->chains.count * sizeof *chains);
+  *rig = (sbri_rig){.asset = asset,
+      .bone_count = n,
+      .parents = parents,
+      .rest = rest,
+      .rest_local = local,
+      .spine_share = share,
+      .tails = tails,
+      .roles = roles,
+      .limits = limits,
+      .subtree = subtree,
+      .subtree_begin = begin,
+      .subtree_end = end,
+      .masses = masses,
+      .chains = chains,
+      .tail_count = tail_count(asset),
+      .gait = asset->gaits.count ? &asset->gaits.at[0] : NULL};
+  init_bones(asset, parents, rest, local);
+  order_bones(rig, subtree, begin, end);
+  share_spine(rig, share);
+  sbri_rig_find_limits(rig, limits);
+  sbri_rig_find_masses(rig, masses);
+  if (rig->gait) {
+    init_legs(rig);
+    init_tails(rig, tails);
+  }
+  init_chains(rig, chains);
+  find_carriers(rig);
+  find_roles(rig, roles);
+  find_last_legs(rig, roles);
+  sbri_rig_find_belly(rig);
+  sbri_walks_init(&rig->walks, rig, carve(&free_memory, sbri_walks_size(asset)));
+}

@@ -1,0 +1,31 @@
+/* Networks of springs as graphs. */
+#ifndef SBRI_SPRING_NETWORK_H
+#define SBRI_SPRING_NETWORK_H
+
+#include "model/runtime_model.h"
+
+/* An island's springs from point to point: as made, or as they are now. */
+typedef struct sbri_network {
+  const sbri_island *island; /* as sbri_island_now has it, or the model's */
+  const float *strengths;    /* of its links; NULL: all springs are whole */
+} sbri_network;
+typedef struct sbri_network_end {
+  uint32_t row, other, link; /* cell, slot of the other end, link of the island */
+} sbri_network_end;
+
+/* Goes to the next whole spring of the slot, from `end->row` on, which begins with 0; false: there is none.
+ * Held slots list none. */
+static inline bool sbri_network_next(const sbri_network *n, uint32_t slot, sbri_network_end *end) {
+  const sbri_island *island = n->island;
+  if (slot >= island->free_count) return false;
+  uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
+  for (uint32_t row = end->row; row < island->cell_ends[block] - island->cell_begins[block]; row++) {
+    uint32_t cell = island->cell_begins[block] + row;
+    *end = (sbri_network_end){
+        row + 1, island->cells[cell].others[lane], island->cell_links[cell * SBRI_BLOCK + lane]};
+    if (end->other != slot && (!n->strengths || n->strengths[end->link] > 0)) return true;
+  }
+  return false;
+}
+
+#endif
