@@ -125,7 +125,7 @@ static const cli_option options[] = {
     {"--colors", "N", "of a GIF's palette; few make it small (256)"},
     {"--quality", "N", "of a WebP, 1 to 100 (75)"},
     SESSION_OPTIONS(
-        "the moment of a picture (0), the length of a film (5)", "frames a second (GIF 25, others 30)"),
+        "the moment of a picture (0), the length of a film (5)", "frames a second (GIF and WebP 25, MP4 30)"),
     {NULL, NULL, NULL},
 };
 const cli_verb verb_render = {"render", "FILE -o OUT.png|gif|mp4|webp [--show LIST] [--seconds S] ...",

@@ -12,10 +12,10 @@ bl_info = {
 
 from . import panels, preview, settings  # noqa: E402
 from .operators import (bake_preview, build_scene, check_scene, copy_settings, export, import_bundle, live_check,  # noqa: E402
-                        preview_scene)
+                        preview_scene, propose_gait)
 from .overlay import joints, structure  # noqa: E402
 
-PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, preview_scene, bake_preview, copy_settings, structure, joints, preview,
+PARTS = (settings, panels, export, import_bundle, build_scene, check_scene, preview_scene, propose_gait, bake_preview, copy_settings, structure, joints, preview,
          live_check)
 
 

@@ -6,6 +6,7 @@ import weakref
 import xml.etree.ElementTree as ElementTree
 
 from .description import describe
+from .document.reading import from_xml
 from .document.writing import to_parts
 from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertAttachment, ConvertOptions, ConvertPin, \
     DiagnosticStruct, ExportOptions, FixOptions, FixResult, GivenList, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, \
@@ -164,6 +165,17 @@ def load_document(record, mendable=False):
     loaded, error = ctypes.c_void_p(), DiagnosticStruct()
     check(library().sbf_xml_load_memory(text, len(text), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
     return Asset(loaded.value)
+
+
+def propose_gait(record, report=None):
+    """A `document.Record` with a gait proposed for its rig, as `convert` proposes one; without gait where the rig has no legs, of
+    which `report` then hears. One that has a gait or chains comes back as it is."""
+    callbacks, error = Callbacks(report), DiagnosticStruct()
+    with load_document(record) as asset:
+        options = ConvertOptions(struct_size=ctypes.sizeof(ConvertOptions), report=callbacks.report)
+        status = library().sbf_convert_gait(asset.pointer, ctypes.byref(options), ctypes.byref(error))
+        callbacks.check(status, error)
+        return from_xml(asset.to_xml())
 
 
 def convert(path, rig=None, unit=0.0, up=None, gait=True, helper=None, report=None, pins=None, goals=(0.0, 1.0),

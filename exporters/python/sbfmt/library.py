@@ -127,6 +127,7 @@ CALLS = {
     "sbf_xml_save_memory": [c_void_p, POINTER(SaveOptions), c_void_p, POINTER(Buffer), POINTER(DiagnosticStruct)],
     "sbf_build": [c_void_p, POINTER(BuildOptions), POINTER(c_void_p), c_void_p, POINTER(DiagnosticStruct)],
     "sbf_convert": [c_char_p, POINTER(ConvertOptions), POINTER(c_void_p), POINTER(DiagnosticStruct)],
+    "sbf_convert_gait": [c_void_p, POINTER(ConvertOptions), POINTER(DiagnosticStruct)],
     "sbf_validate": [c_void_p, POINTER(ValidateOptions), POINTER(ValidateResult), POINTER(DiagnosticStruct)],
     "sbf_fix": [c_void_p, POINTER(FixOptions), POINTER(c_void_p), POINTER(FixResult), POINTER(DiagnosticStruct)],
     "sbf_export": [c_void_p, c_char_p, POINTER(ExportOptions), POINTER(DiagnosticStruct)],

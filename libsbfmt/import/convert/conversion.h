@@ -51,6 +51,8 @@ sbf_status sbfi_measure_leaf_bones(sbfi_conversion *c);
 /* An id that no other object has: kind and name with what an id may not hold replaced, numbered where taken.
  */
 const char *sbfi_new_id(sbfi_conversion *c, const char *kind, const char *name);
+/* Takes an id that an object has already, and that stays as long as the conversion; false: memory ran out. */
+bool sbfi_claim_id(sbfi_conversion *c, const char *id);
 
 void sbfi_convert_warn(sbfi_conversion *c, sbf_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -115,6 +115,17 @@ SBF_API sbf_status sbf_convert(
 SBF_API sbf_status sbf_convert_motion(
     sbf_asset *asset, const char *file, const sbf_convert_options *options, sbf_diagnostic *error);
 
+/* Proposes how an asset under construction walks, as `sbf_convert` does of what it has read: legs with their
+ * chains of inverse kinematics, head and tail, by the rig's shape and what of the meshes its bones hold;
+ * every part is marked as proposed. One that has a gait, chains or chains of inverse kinematics stays as it
+ * is. Without legs it gets no gait: RIG_NO_LEGS, or RIG_CRAWLS for what gets a chain to crawl by, is
+ * reported.
+ *
+ * Of `options` (may be NULL) only allocator, report and user are heeded. On failure (no memory, BAD_CALL) the
+ * asset has no gait. */
+SBF_API sbf_status sbf_convert_gait(
+    sbf_asset *asset, const sbf_convert_options *options, sbf_diagnostic *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -42,6 +42,12 @@ def fill_gait(scene, document, armature, names, space):
     """The first gait; the panel holds one."""
     if not document.gaits or armature is None:
         return
+    fill_walk(scene, document, armature, names, space)
+    fill_followers(scene.soft_body_format.gait, document, names)
+
+
+def fill_walk(scene, document, armature, names, space):
+    """Of the gait all but the followers."""
     record, gait = document.gaits[0], scene.soft_body_format.gait
     gait.use, gait.armature, gait.identity = True, armature, record.id
     for name in ("body", "hips", "chest"):
@@ -52,7 +58,6 @@ def fill_gait(scene, document, armature, names, space):
         setattr(gait, name, getattr(record, name))
     gait.legs.clear()
     gait.tails.clear()
-    gait.followers.clear()
     for one in record.legs:
         chain = document.find("ik_chains", one.ik)
         leg = gait.legs.add()
@@ -61,6 +66,7 @@ def fill_gait(scene, document, armature, names, space):
         leg.use_home, leg.home = True, space.point_back(one.home)
         if chain.has_pole:
             leg.use_pole, leg.pole = True, space.point_back(chain.pole)
+    gait.head = ""
     if record.head is not None:
         gait.head, gait.head_lead, gait.head_limit = names[record.head.bone], record.head.lead, record.head.limit
     for one in record.tails:
@@ -69,6 +75,10 @@ def fill_gait(scene, document, armature, names, space):
         tail.identity = chain.id
         tail.root, tail.end = (names[document.bones[chain.bones[at]].id] for at in (0, -1))
         tail.frequency, tail.damping_ratio, tail.limit = one.frequency, one.damping_ratio, one.limit
+
+
+def fill_followers(gait, document, names):
+    gait.followers.clear()
     for one in document.followers:
         follower = gait.followers.add()
         follower.identity = one.id

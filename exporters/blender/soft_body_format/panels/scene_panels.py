@@ -36,6 +36,8 @@ class SBFMT_PT_gait(ScenePanel, bpy.types.Panel):
     def draw(self, context):
         layout, gait = self.layout, context.scene.soft_body_format.gait
         layout.use_property_split = True
+        layout.operator("sbfmt.propose_gait", icon="ARMATURE_DATA")
+        layout = layout.column()
         layout.active = gait.use
         layout.prop(gait, "armature")
         if gait.armature is None:
