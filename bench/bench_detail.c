@@ -6,8 +6,9 @@
  * that have been away walk on with other feet: they are not compared, but counted (`returned`, on average).
  * `visits` is what the world takes a tick to cost; soft to away the lizards on such rungs, on average; `mb`
  * what the world and its characters hold, on average, and `mb_most` at most, from their making on. In the
- * last two cases the lizards stand closer and meet each other, and are compared with those of them at full
- * detail. */
+ * last cases the lizards stand closer and meet each other, and are compared with those of them at full
+ * detail: of springs, which have one soft level, and of tetrahedra, which have three. `coarser` are those of
+ * the soft ones that are on another than the finest. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,17 +20,27 @@
 #include "sbrun/collision.h"
 #include "sbrun/detail.h"
 
-enum { MOST = 200, MEETING = 40, CASES = 6, FIRST_MEETING = 4, COMPARED_EVERY = 10 };
+enum { MOST = 200, MEETING = 40, LATTICES = 20, CASES = 8, COMPARED_EVERY = 10 };
+
+/* Who they are. */
+typedef struct species {
+  sbf_asset *asset;
+  sbr_model *model;
+  sbr_rung rungs[16];
+  uint32_t rung_count, vertex_count; /* of all skins */
+} species;
 
 typedef struct crowd {
   const char *name;
+  const species *of;
+  const struct crowd *full; /* that it is compared with; itself: it is */
   uint32_t count;
   sbf_allocator allocator;
   size_t held, most; /* bytes */
   sbr_world *world;
   sbr_character_id ids[MOST];
   bool was_away[MOST];
-  double seconds, visits, rungs[4], returned, bytes;
+  double seconds, visits, rungs[4], coarser, returned, bytes;
   double squares, worst_square, worst_lizard; /* pixels squared */
   uint64_t vertices;
   uint32_t ticks, looks;
@@ -45,12 +56,21 @@ static void *counted(void *user, void *memory, size_t old_size, size_t new_size)
   return moved;
 }
 
+static void open_species(species *of, const sbf_asset *source, const sbf_build_options *built) {
+  sbf_diagnostic error;
+  const sbr_model_options options = {.ladder = true};
+  bench_require(sbf_build(source, built, &of->asset, NULL, &error), &error);
+  bench_require(sbr_model_create(of->asset, &options, &of->model, &error), &error);
+  of->rung_count = sbr_model_rungs(of->model, of->rungs, 16);
+  of->vertex_count = vertex_count_of(of->asset);
+}
+
 /* `detail`: NULL for all of it. All who are chosen for begin as bones. */
-static void open_crowd(crowd *c, const char *name, const sbr_model *model, uint32_t count, bool meets,
-    const sbr_detail_definition *detail) {
+static void open_crowd(crowd *c, const char *name, const crowd *full, const species *of, uint32_t count,
+    bool meets, const sbr_detail_definition *detail) {
   sbf_diagnostic error;
   sbr_world_definition definition = sbr_default_world_definition();
-  *c = (crowd){.name = name, .count = count, .allocator = {counted, c}};
+  *c = (crowd){.name = name, .of = of, .full = full, .count = count, .allocator = {counted, c}};
   definition.character_capacity = count;
   definition.allocator = &c->allocator;
   bench_require(sbr_world_create(&definition, &c->world, &error), &error);
@@ -58,27 +78,27 @@ static void open_crowd(crowd *c, const char *name, const sbr_model *model, uint3
   if (meets) bench_require(sbr_world_bodies_meet(c->world, 0, &error), &error);
   for (uint32_t i = 0; i < count; i++) {
     sbr_character_definition at = meets ? crowd_place_close(i) : crowd_place(i);
-    if (detail) at.rung = sbr_model_rungs(model, NULL, 0) - 2;
-    bench_require(sbr_character_create(c->world, model, &at, &c->ids[i], &error), &error);
+    if (detail) at.rung = of->rung_count - 2;
+    bench_require(sbr_character_create(c->world, of->model, &at, &c->ids[i], &error), &error);
     crowd_drive(c->world, c->ids[i], i);
   }
 }
 
 /* The skin in the world, all meshes behind each other; returns how many vertices. */
-static uint32_t read_skin(const crowd *c, uint32_t i, uint32_t mesh_count, uint32_t capacity, sbf_vec3 *to) {
-  uint32_t count = 0;
-  for (uint32_t m = 0; m < mesh_count; m++)
+static uint32_t read_skin(const crowd *c, uint32_t i, sbf_vec3 *to) {
+  uint32_t count = 0, capacity = c->of->vertex_count;
+  for (uint32_t m = 0; m < c->of->asset->render_meshes.count; m++)
     count += sbr_character_skin(c->world, c->ids[i], m, to + count, NULL, NULL, capacity - count);
   return count;
 }
 
-static void compare_lizard(crowd *c, const crowd *full, uint32_t i, const sbr_view *view, uint32_t mesh_count,
-    uint32_t capacity, sbf_vec3 *places[2]) {
+static void compare_lizard(crowd *c, uint32_t i, const sbr_view *view, sbf_vec3 *places[2]) {
+  const crowd *full = c->full;
   sbr_double3 origins[2] = {
       sbr_character_origin(full->world, full->ids[i]), sbr_character_origin(c->world, c->ids[i])};
   double sum = 0, at[2][2];
-  uint32_t seen = 0, count = read_skin(full, i, mesh_count, capacity, places[0]);
-  read_skin(c, i, mesh_count, capacity, places[1]);
+  uint32_t seen = 0, count = read_skin(full, i, places[0]);
+  read_skin(c, i, places[1]);
   for (uint32_t v = 0; v < count; v++) {
     bool within = true;
     for (int k = 0; k < 2; k++)
@@ -95,82 +115,83 @@ static void compare_lizard(crowd *c, const crowd *full, uint32_t i, const sbr_vi
   if (sum / seen > c->worst_lizard) c->worst_lizard = sum / seen;
 }
 
-static void compare(crowd *c, const crowd *full, const sbr_view *view, const sbf_asset *asset,
-    uint32_t capacity, sbf_vec3 *places[2]) {
+static void compare(crowd *c, const sbr_view *view, sbf_vec3 *places[2]) {
   c->looks++;
   for (uint32_t i = 0; i < c->count; i++) {
     c->returned += c->was_away[i];
-    if (!c->was_away[i]) compare_lizard(c, full, i, view, asset->render_meshes.count, capacity, places);
+    if (!c->was_away[i]) compare_lizard(c, i, view, places);
   }
 }
 
-static void step(crowd *c, const sbr_view *view, const sbr_rung *rungs, bool counts) {
+static void step(crowd *c, const sbr_view *view, bool counts) {
   double begin = bench_now_s();
   sbr_world_views(c->world, view, 1);
   sbr_world_tick(c->world);
   double taken = bench_now_s() - begin;
   for (uint32_t i = 0; i < c->count; i++) {
-    const sbr_rung *rung = &rungs[sbr_character_rung(c->world, c->ids[i])];
+    uint32_t number = sbr_character_rung(c->world, c->ids[i]);
+    const sbr_rung *rung = &c->of->rungs[number];
     c->was_away[i] = c->was_away[i] || rung->kind == SBR_RUNG_AWAY;
-    if (counts) c->rungs[rung->kind]++, c->visits += (double)rung->visits;
+    if (!counts) continue;
+    c->rungs[rung->kind]++, c->visits += (double)rung->visits;
+    if (rung->kind == SBR_RUNG_SOFT && number > 0) c->coarser++;
   }
   if (counts) c->seconds += taken, c->bytes += (double)c->held, c->ticks++;
 }
 
-static void report(const crowd *c, const crowd *full) {
+static void report(const crowd *c) {
   double ticks = c->ticks, vertices = c->vertices ? (double)c->vertices : 1;
-  bench_print_row("%s,%u,%.2f,%.1f,%.0f,%.3f,%.3f,%.2f,%.1f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f", c->name, c->count,
-      1e3 * c->seconds / ticks, full->seconds / c->seconds, c->visits / ticks, sqrt(c->squares / vertices),
-      sqrt(c->worst_lizard), sqrt(c->worst_square), c->rungs[SBR_RUNG_SOFT] / ticks,
-      c->rungs[SBR_RUNG_JIGGLE] / ticks, c->rungs[SBR_RUNG_BONES] / ticks, c->rungs[SBR_RUNG_AWAY] / ticks,
+  bench_print_row("%s,%u,%.2f,%.1f,%.0f,%.3f,%.3f,%.2f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f", c->name,
+      c->count, 1e3 * c->seconds / ticks, c->full->seconds / c->seconds, c->visits / ticks,
+      sqrt(c->squares / vertices), sqrt(c->worst_lizard), sqrt(c->worst_square),
+      c->rungs[SBR_RUNG_SOFT] / ticks, c->coarser / ticks, c->rungs[SBR_RUNG_JIGGLE] / ticks,
+      c->rungs[SBR_RUNG_BONES] / ticks, c->rungs[SBR_RUNG_AWAY] / ticks,
       c->looks ? c->returned / c->looks : 0, c->bytes / ticks / 1e6, (double)c->most / 1e6);
-}
-
-/* What a case is compared with. */
-static int full_of(int k) {
-  return k < FIRST_MEETING ? 0 : FIRST_MEETING;
 }
 
 int main(int argument_count, char **arguments) {
   bool quick = bench_is_quick(argument_count, arguments);
-  uint32_t count = quick ? 6 : MOST, meeting = quick ? 4 : MEETING, ticks = quick ? 12 : 210;
-  uint32_t first = quick ? 2 : 30, vertices = 1;
-  sbf_diagnostic error;
-  sbf_asset *source = our_lizard(false), *asset;
-  const sbf_build_options levels = {.levels = 2};
-  bench_require(sbf_build(source, &levels, &asset, NULL, &error), &error);
-  const sbr_model_options options = {.ladder = true};
-  sbr_model *model;
-  bench_require(sbr_model_create(asset, &options, &model, &error), &error);
-  sbr_rung rungs[16];
-  sbr_model_rungs(model, rungs, 16);
+  uint32_t count = quick ? 6 : MOST, meeting = quick ? 4 : MEETING, lattices = quick ? 4 : LATTICES,
+           ticks = quick ? 12 : 210;
+  uint32_t first = quick ? 2 : 30;
+  sbf_asset *source = our_lizard(false);
+  static species springs, tetrahedra;
+  open_species(&springs, source, &(sbf_build_options){.levels = 2});
+  open_species(
+      &tetrahedra, source, &(sbf_build_options){.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .levels = 4});
   sbr_detail_definition stays = sbr_default_detail_definition(), goes = stays, spares = stays;
   stays.away_after_s = -1;
   spares.away_after_s = -1, spares.budget_us = 4000;
-  static crowd crowds[CASES];
-  open_crowd(&crowds[0], "full detail", model, count, false, NULL);
-  open_crowd(&crowds[1], "half a pixel", model, count, false, &stays);
-  open_crowd(&crowds[2], "and away where unseen", model, count, false, &goes);
-  open_crowd(&crowds[3], "half a pixel or 4 ms", model, count, false, &spares);
-  open_crowd(&crowds[4], "meeting at full detail", model, meeting, true, NULL);
-  open_crowd(&crowds[5], "meeting at half a pixel", model, meeting, true, &stays);
-  for (uint32_t m = 0; m < asset->render_meshes.count; m++)
-    vertices += asset->render_meshes.at[m].mesh.positions.count;
+  static crowd c[CASES];
+  open_crowd(&c[0], "full detail", &c[0], &springs, count, false, NULL);
+  open_crowd(&c[1], "half a pixel", &c[0], &springs, count, false, &stays);
+  open_crowd(&c[2], "and away where unseen", &c[0], &springs, count, false, &goes);
+  open_crowd(&c[3], "half a pixel or 4 ms", &c[0], &springs, count, false, &spares);
+  open_crowd(&c[4], "meeting at full detail", &c[4], &springs, meeting, true, NULL);
+  open_crowd(&c[5], "meeting at half a pixel", &c[4], &springs, meeting, true, &stays);
+  open_crowd(&c[6], "lattices meeting at full detail", &c[6], &tetrahedra, lattices, true, NULL);
+  open_crowd(&c[7], "lattices meeting at half a pixel", &c[6], &tetrahedra, lattices, true, &stays);
   sbf_vec3 *places[2];
-  for (int k = 0; k < 2; k++) places[k] = bench_allocate(vertices, sizeof *places[k]);
+  uint32_t most =
+      springs.vertex_count > tetrahedra.vertex_count ? springs.vertex_count : tetrahedra.vertex_count;
+  for (int k = 0; k < 2; k++) places[k] = bench_allocate(most + 1, sizeof *places[k]);
   for (uint32_t t = 0; t < ticks; t++) {
     sbr_view view = crowd_view(t, ticks);
-    for (int k = 0; k < CASES; k++) step(&crowds[k], &view, rungs, t >= first);
+    for (int k = 0; k < CASES; k++) step(&c[k], &view, t >= first);
     for (int k = 0; k < CASES && t >= first && t % COMPARED_EVERY == 0; k++)
-      if (full_of(k) != k) compare(&crowds[k], &crowds[full_of(k)], &view, asset, vertices, places);
+      if (c[k].full != &c[k]) compare(&c[k], &view, places);
   }
-  bench_print_columns("case,lizards,ms_tick,times_full,visits,rms_px,worst_lizard_px,worst_px,soft,jiggle,"
-                      "bones,away,returned,mb,mb_most");
-  for (int k = 0; k < CASES; k++) report(&crowds[k], &crowds[full_of(k)]);
-  for (int k = 0; k < CASES; k++) sbr_world_destroy(crowds[k].world);
+  bench_print_columns(
+      "case,lizards,ms_tick,times_full,visits,rms_px,worst_lizard_px,worst_px,soft,coarser,jiggle,"
+      "bones,away,returned,mb,mb_most");
+  for (int k = 0; k < CASES; k++) report(&c[k]);
+  for (int k = 0; k < CASES; k++) sbr_world_destroy(c[k].world);
   for (int k = 0; k < 2; k++) free(places[k]);
-  sbr_model_destroy(model);
-  sbf_asset_free(asset);
+  for (int k = 0; k < 2; k++) {
+    const species *of = k ? &tetrahedra : &springs;
+    sbr_model_destroy(of->model);
+    sbf_asset_free(of->asset);
+  }
   sbf_asset_free(source);
   return 0;
 }

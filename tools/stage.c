@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sbrun/rigid.h"
 #include "shown_skin.h"
 #include "sole.h"
 
@@ -276,8 +277,9 @@ static void show_feet(stage *st, const session *s, sbf_vec3 origin, draw_scene *
   draw_scene_add_legend(scene, "where a foot came down", draw_colour_of_contact());
 }
 
-/* A hull's polygons as triangles, fans of each. */
-static void show_hull(stage *st, const sbf_asset *asset, const sbf_rigid_body *body, draw_scene *scene) {
+/* A hull's polygons as triangles, fans of each. It lies where its bone is, or where it went by itself. */
+static void show_hull(stage *st, const session *s, sbf_vec3 origin, uint32_t number, draw_scene *scene) {
+  const sbf_rigid_body *body = &s->asset->rigid_bodies.at[number];
   const sbf_polygon_mesh *hull = body->hull;
   uint32_t *triangles = malloc((3 * (size_t)hull->polygon_points.count + 1) * sizeof *triangles), count = 0;
   for (uint32_t i = 0, at = 0; triangles && i < hull->polygon_sizes.count; at += hull->polygon_sizes.at[i++])
@@ -286,14 +288,18 @@ static void show_hull(stage *st, const sbf_asset *asset, const sbf_rigid_body *b
       triangles[3 * count + 1] = hull->polygon_points.at[at + k - 1];
       triangles[3 * count++ + 2] = hull->polygon_points.at[at + k];
     }
-  draw_place place = {{0, 0, 0, 1}, {0, 0, 0}};
+  sbr_transform now = sbr_character_rigid_state(s->world, s->character, number).frame;
+  sbf_vec3 from = body->center;
+  to_world(origin, &now.position, 1);
   if (body->bone >= 0) {
-    const sbf_bone *bone = &asset->bones.at[body->bone];
+    const sbf_bone *bone = &s->asset->bones.at[body->bone];
     sbf_quat rest = bone->rotation, back = {-rest.x, -rest.y, -rest.z, rest.w};
-    place.rotation = multiply(st->bones[body->bone].rotation, back);
-    sbf_vec3 head = rotate(place.rotation, bone->head), now = st->bones[body->bone].position;
-    place.position = (sbf_vec3){now.x - head.x, now.y - head.y, now.z - head.z};
+    now = st->bones[body->bone], from = bone->head;
+    now.rotation = multiply(now.rotation, back);
   }
+  from = rotate(now.rotation, from);
+  draw_place place = {
+      now.rotation, {now.position.x - from.x, now.position.y - from.y, now.position.z - from.z}};
   if (triangles)
     draw_scene_add_hull(
         scene, hull->positions.at, hull->positions.count, triangles, count, &place, draw_colour_of_hull());
@@ -325,7 +331,7 @@ void stage_show(stage *st, const session *s, draw_scene *scene) {
   if (st->show & STAGE_LATTICE) show_lattices(st, s, origin, scene);
   if (st->show & STAGE_BONES) show_bones(st, s, scene);
   for (uint32_t i = 0; st->show & STAGE_HULLS && i < s->asset->rigid_bodies.count; i++)
-    if (s->asset->rigid_bodies.at[i].hull) show_hull(st, s->asset, &s->asset->rigid_bodies.at[i], scene);
+    if (s->asset->rigid_bodies.at[i].hull) show_hull(st, s, origin, i, scene);
   if (st->show & STAGE_FEET) show_feet(st, s, origin, scene);
   show_ground(s, origin, scene);
 }

@@ -123,7 +123,7 @@ static const cli_option options[] = {
     STUDIO_OPTIONS,
     {"--size", "WxH", "pixels (1280x960, GIF and WebP 640x360, MP4 1280x720)"},
     {"--colors", "N", "of a GIF's palette; few make it small (256)"},
-    {"--quality", "N", "of a WebP, 1 to 100 (75)"},
+    {"--quality", "N", "of a WebP, 1 to 100 (80)"},
     SESSION_OPTIONS(
         "the moment of a picture (0), the length of a film (5)", "frames a second (GIF and WebP 25, MP4 30)"),
     {NULL, NULL, NULL},

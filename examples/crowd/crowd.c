@@ -7,30 +7,22 @@
 #include <time.h>
 
 #include "crowd_camera.h"
+#include "crowd_picture.h"
 #include "sbfmt/packed.h"
+#include "sbrun/collision.h"
 
-enum { MOST = 1000, WIDTH = 640, HEIGHT = 360, RATE = 60, DRAWN_EVERY = 6 };
+enum { MOST = 1000, RATE = 60, DRAWN_EVERY = 6 };
 
 static int failed(const sbf_diagnostic *error) {
   fprintf(stderr, "%s: %s\n", error->file, error->message);
   return 1;
 }
 
-/* A point of the skin: what is nearer hides what is farther. Soft red, jiggle orange, bones blue, away grey.
- */
-static void draw_point(
-    unsigned char *pixels, float *depths, double right, double up, float depth, sbr_rung_kind kind) {
-  static const unsigned char colours[4][3] = {{214, 64, 48}, {240, 150, 30}, {60, 120, 190}, {150, 150, 150}};
-  int size = depth < 6 ? 2 : 1, x0 = (int)(WIDTH / 2 + right), y0 = (int)(HEIGHT / 2 - up);
-  float light = depth < 30 ? 1 - depth / 60 : 0.5f;
-  for (int y = y0; y < y0 + size; y++)
-    for (int x = x0; x < x0 + size; x++) {
-      if (x < 0 || y < 0 || x >= WIDTH || y >= HEIGHT || depths[y * WIDTH + x] < depth) continue;
-      depths[y * WIDTH + x] = depth;
-      for (int c = 0; c < 3; c++)
-        pixels[3 * (y * WIDTH + x) + c] =
-            (unsigned char)((float)colours[kind][c] * light + 235 * (1 - light));
-    }
+/* Red: at full detail; orange and yellow: coarser, and soft; green: jiggle; blue: bones; grey: away. */
+static const unsigned char *colour_of(const sbr_rung *rungs, uint32_t rung) {
+  static const unsigned char soft[3][3] = {{213, 70, 20}, {235, 160, 20}, {240, 228, 90}};
+  static const unsigned char others[4][3] = {{0, 0, 0}, {0, 158, 115}, {30, 120, 190}, {150, 150, 150}};
+  return rungs[rung].kind == SBR_RUNG_SOFT ? soft[rung < 2 ? rung : 2] : others[rungs[rung].kind];
 }
 
 typedef struct crowd {
@@ -38,52 +30,65 @@ typedef struct crowd {
   sbr_character_id ids[MOST];
   sbr_rung rungs[16];
   uint32_t count, mesh_count, capacity;
-  sbf_vec3 *skin;
-  unsigned char pixels[3 * WIDTH * HEIGHT];
-  float depths[WIDTH * HEIGHT];
+  const sbf_asset *asset;
+  sbf_vec3 *skin, *normals;
+  crowd_picture picture;
 } crowd;
 
-static bool draw(crowd *c, const sbr_view *seen, const char *folder, int number) {
-  char path[1024];
-  sbr_view view = *seen;
-  view.lines = HEIGHT; /* what the runtime was told is a larger screen */
-  memset(c->pixels, 235, sizeof c->pixels);
-  for (int i = 0; i < WIDTH * HEIGHT; i++) c->depths[i] = 1e9f;
-  for (uint32_t i = 0; i < c->count; i++) {
-    sbr_rung_kind kind = c->rungs[sbr_character_rung(c->world, c->ids[i])].kind;
-    sbr_double3 origin = sbr_character_origin(c->world, c->ids[i]);
-    for (uint32_t m = 0; m < c->mesh_count; m++) {
-      uint32_t points = sbr_character_skin(c->world, c->ids[i], m, c->skin, NULL, NULL, c->capacity);
-      for (uint32_t v = 0; v < points && v < c->capacity; v++) {
-        double x = origin.x + (double)c->skin[v].x, y = origin.y + (double)c->skin[v].y;
-        double z = origin.z + (double)c->skin[v].z, right, up;
-        if (!crowd_project(&view, x, y, z, &right, &up)) continue;
-        x -= view.eye.x, y -= view.eye.y, z -= view.eye.z;
-        draw_point(c->pixels, c->depths, right, up, (float)sqrt(x * x + y * y + z * z), kind);
+/* The skin of one mesh, and its shadow; a polygon is a fan of triangles. */
+static void draw_mesh(
+    crowd *c, const sbf_polygon_mesh *mesh, const sbr_double3 *origin, const unsigned char *colour) {
+  const uint32_t *point = mesh->polygon_points.at;
+  for (uint32_t i = 0; i < mesh->polygon_sizes.count; point += mesh->polygon_sizes.at[i++])
+    for (uint32_t k = 2; k < mesh->polygon_sizes.at[i]; k++) {
+      const uint32_t points[3] = {point[0], point[k - 1], point[k]};
+      crowd_corner seen[3], thrown[3];
+      bool before = true, lit = true;
+      for (int j = 0; j < 3; j++) {
+        sbf_vec3 at = c->skin[points[j]];
+        double place[3] = {origin->x + (double)at.x, origin->y + (double)at.y, origin->z + (double)at.z};
+        double down = place[1] / CROWD_LIGHT[1];
+        double floor_[3] = {place[0] - down * CROWD_LIGHT[0], 0, place[2] - down * CROWD_LIGHT[2]};
+        before = crowd_corner_at(&c->picture, place, &c->normals[points[j]], &seen[j]) && before;
+        lit = crowd_corner_at(&c->picture, floor_, NULL, &thrown[j]) && lit;
       }
+      if (lit) crowd_triangle(&c->picture, thrown, NULL);
+      if (before) crowd_triangle(&c->picture, seen, colour);
+    }
+}
+
+static bool draw(crowd *c, const sbr_view *view, const char *folder, int number) {
+  char path[1024];
+  crowd_empty(&c->picture, view);
+  for (uint32_t i = 0; i < c->count; i++) {
+    sbr_double3 origin = sbr_character_origin(c->world, c->ids[i]);
+    const unsigned char *colour = colour_of(c->rungs, sbr_character_rung(c->world, c->ids[i]));
+    for (uint32_t m = 0; m < c->mesh_count; m++) {
+      sbr_character_skin(c->world, c->ids[i], m, c->skin, c->normals, NULL, c->capacity);
+      draw_mesh(c, &c->asset->render_meshes.at[m].mesh, &origin, colour);
     }
   }
   snprintf(path, sizeof path, "%s/frame%04d.ppm", folder, number);
-  FILE *file = fopen(path, "wb");
-  if (!file) return fprintf(stderr, "%s: this frame cannot be written: is the folder there?\n", path), false;
-  fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT);
-  bool good = fwrite(c->pixels, sizeof c->pixels, 1, file) == 1;
-  return fclose(file) == 0 && good;
+  if (crowd_picture_write(&c->picture, path)) return true;
+  return fprintf(stderr, "%s: this frame cannot be written: is the folder there?\n", path), false;
 }
 
 static void tell(const crowd *c, int second, double ms, double visits) {
-  uint32_t on[4] = {0, 0, 0, 0};
+  uint32_t on[4] = {0, 0, 0, 0}, coarser = 0;
   double most = 0, sum = 0;
   for (uint32_t i = 0; i < c->count; i++) {
     double off = (double)sbr_character_error_px(c->world, c->ids[i]);
-    on[c->rungs[sbr_character_rung(c->world, c->ids[i])].kind]++;
+    uint32_t rung = sbr_character_rung(c->world, c->ids[i]);
+    on[c->rungs[rung].kind]++;
+    coarser += c->rungs[rung].kind == SBR_RUNG_SOFT && rung > 0;
     most = off > most ? off : most, sum += off;
   }
   fprintf(stderr, "%d s: %.2f ms a tick\n", second, ms); /* apart: what follows is the same on any machine */
-  printf("%d s: %.0f visits a tick; %u soft, %u jiggle, %u bones, %u away; predicted off by %.3f pixels at "
+  printf("%d s: %.0f visits a tick; %u soft (%u coarsely), %u jiggle, %u bones, %u away; predicted off by "
+         "%.3f pixels at "
          "most, %.3f on average\n",
-      second, visits, (unsigned)on[0], (unsigned)on[1], (unsigned)on[2], (unsigned)on[3], most,
-      sum / c->count);
+      second, visits, (unsigned)on[0], (unsigned)coarser, (unsigned)on[1], (unsigned)on[2], (unsigned)on[3],
+      most, sum / c->count);
 }
 
 int main(int argc, char **argv) {
@@ -92,10 +97,13 @@ int main(int argc, char **argv) {
   sbf_asset *asset;
   sbr_model *model;
   int seconds = argc > 3 ? atoi(argv[3]) : 3;
-  const char *folder = argc > 5 ? argv[5] : NULL;
+  const char *folder = argc > 5 && strcmp(argv[5], "-") != 0 ? argv[5] : NULL;
   c.count = argc > 2 ? (uint32_t)atoi(argv[2]) : 200;
-  if (argc < 2 || argc > 6 || c.count < 1 || c.count > MOST || seconds < 1)
-    return fprintf(stderr, "usage: %s FILE.sbfz [LIZARDS [SECONDS [BUDGET_US [FOLDER]]]]\n", argv[0]), 2;
+  bool close = argc == 7 && strcmp(argv[6], "close") == 0;
+  if (argc < 2 || argc > 7 || (argc == 7 && !close) || c.count < 1 || c.count > MOST || seconds < 1)
+    return fprintf(
+               stderr, "usage: %s FILE.sbfz [LIZARDS [SECONDS [BUDGET_US [FOLDER|- [close]]]]]\n", argv[0]),
+           2;
 
   if (sbf_packed_load_file(argv[1], NULL, &asset, &error) != SBF_OK) return failed(&error);
   sbr_model_options options;
@@ -109,8 +117,9 @@ int main(int argc, char **argv) {
   sbr_detail_definition detail = sbr_default_detail_definition();
   detail.budget_us = argc > 4 ? (float)atof(argv[4]) : 4000;
   if (sbr_world_detail(c.world, &detail, &error) != SBF_OK) return failed(&error);
+  if (close && sbr_world_bodies_meet(c.world, 0, &error) != SBF_OK) return failed(&error);
   for (uint32_t i = 0; i < c.count; i++) {
-    sbr_character_definition at = crowd_place(i);
+    sbr_character_definition at = close ? crowd_place_close(i) : crowd_place(i);
     at.rung = rungs > 1 ? rungs - 2 : 0; /* bones: memory and time are for those who turn out to be near */
     if (sbr_character_create(c.world, model, &at, &c.ids[i], &error) != SBF_OK) return failed(&error);
     crowd_drive(c.world, c.ids[i], i);
@@ -119,8 +128,10 @@ int main(int argc, char **argv) {
   for (uint32_t m = 0; m < c.mesh_count; m++)
     if (asset->render_meshes.at[m].mesh.positions.count > c.capacity)
       c.capacity = asset->render_meshes.at[m].mesh.positions.count;
+  c.asset = asset;
   c.skin = (sbf_vec3 *)calloc(c.capacity + 1, sizeof *c.skin);
-  if (!c.skin) return 2;
+  c.normals = (sbf_vec3 *)calloc(c.capacity + 1, sizeof *c.normals);
+  if (!c.skin || !c.normals) return 2;
 
   double taken = 0, visits = 0;
   for (int tick = 1; tick <= seconds * RATE; tick++) {
@@ -137,7 +148,7 @@ int main(int argc, char **argv) {
   }
   printf("state %016llx\n", (unsigned long long)sbr_world_state_hash(c.world));
 
-  free(c.skin);
+  free(c.skin), free(c.normals);
   sbr_world_destroy(c.world);
   sbr_model_destroy(model);
   sbf_asset_free(asset);

@@ -8,7 +8,7 @@ import unittest
 import zlib
 
 import textured_box
-from sbfmt_program import PROGRAM, ProgramTest, call, example, main, read_bytes, read_text, write_bytes
+from sbfmt_program import PROGRAM, ROOT, ProgramTest, call, example, main, read_bytes, read_text, write_bytes
 
 SMALL = ("--size", "160x120")
 MARKS = {"footprints": 0x2f7fd0, "targets": 0xe8743b, "rays": 0xc8283c, "poles": 0xa34fb0}  # as docs/gait.md calls their colours
@@ -111,6 +111,18 @@ class Render(ProgramTest):
         pictures = {show: self.draw("a.png", *SMALL, "--show", show)
                     for show in ("surface", "springs", "surface,springs", "bones", "hulls", "strain")}
         self.assertEqual(len(set(pictures.values())), len(pictures))
+
+    def test_hulls_without_bones_go_with_their_character(self):
+        """A figure is as large in a picture with the hulls of its bodies two metres up as on the ground: they lie in it."""
+        figure, shares = self.path("figure.sbfz"), []
+        self.good("build", ROOT + "/examples/bones/figure.sbf", "-o", figure, "--elements", "300")
+        for raised in ("0", "2"):
+            self.good("render", figure, "-o", self.path("a.png"), *SMALL, "--raise", raised, "--show", "surface,hulls")
+            _, _, channels, rows = read_png(read_bytes(self.path("a.png")))
+            pixels = [row[x:x + 3] for row in rows for x in range(0, len(row), channels)]
+            shares.append(sum(g > r + 8 for r, g, _ in pixels) / len(pixels))
+        self.assertGreater(shares[0], 0.05)
+        self.assertAlmostEqual(shares[1], shares[0], delta=0.3 * shares[0])
 
     def test_feet_have_their_marks(self):
         walk = ("--size", "480x360", "--seconds", "1.5", "--drive", "0.3,0.35")

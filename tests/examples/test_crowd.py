@@ -14,7 +14,7 @@ PROGRAM, SBFMT = os.environ.get("CROWD_PROGRAM", ""), os.environ.get("SBFMT_PROG
 if not os.path.exists(PROGRAM) or not os.path.exists(SBFMT):
     print("skipped: CROWD_PROGRAM and SBFMT_PROGRAM name no programs")
     sys.exit(77)
-LINE = re.compile(r"(\d+) s: (\d+) visits a tick; (\d+) soft, (\d+) jiggle, (\d+) bones, (\d+) away; "
+LINE = re.compile(r"(\d+) s: (\d+) visits a tick; (\d+) soft \((\d+) coarsely\), (\d+) jiggle, (\d+) bones, (\d+) away; "
                   r"predicted off by ([\d.]+) pixels at most, ([\d.]+) on average")
 
 
@@ -37,11 +37,12 @@ class Crowd(unittest.TestCase):
         seconds, _ = self.crowd(200, 2, 0)
         self.assertEqual(len(seconds), 2)
         for row in seconds:
-            self.assertEqual(sum(row[2:6]), 200)
+            self.assertEqual(row[2] + sum(row[4:7]), 200)
             self.assertGreater(row[2], 0)
-            self.assertGreater(row[4], 3 * row[2])  # who was near a moment ago is soft for half a second more
-            self.assertLess(row[6], 2)
-        self.assertGreater(seconds[1][5], 0)
+            self.assertEqual(row[3], 0)  # springs have one soft level
+            self.assertGreater(row[5], 3 * row[2])  # who was near a moment ago is soft for half a second more
+            self.assertLess(row[7], 2)
+        self.assertGreater(seconds[1][6], 0)
 
     def test_a_budget_is_kept(self):
         rows, state = self.crowd(60, 2, 600)  # us, by 6 ns a visit: 100,000 visits
@@ -55,15 +56,25 @@ class Crowd(unittest.TestCase):
         self.assertEqual(len(frames), 10)
         with open(os.path.join(self.folder, frames[-1]), "rb") as stream:
             data = stream.read()
-        self.assertTrue(data.startswith(b"P6\n640 360\n255\n"))
+        self.assertTrue(data.startswith(b"P6\n960 540\n255\n"))
         pixels = data[15:]
-        self.assertEqual(len(pixels), 3 * 640 * 360)
+        self.assertEqual(len(pixels), 3 * 960 * 540)
         colours = {pixels[i:i + 3] for i in range(0, len(pixels), 3)}
         self.assertTrue(any(one[0] > one[2] + 60 for one in colours))  # red: soft
         self.assertTrue(any(one[2] > one[0] + 30 for one in colours))  # blue: bones
 
+    def test_who_meets_others_is_soft_and_coarse_where_it_may(self):
+        made = subprocess.run([SBFMT, "build", self.lizard, "--springs", "tetrahedra", "--elements", "200", "--levels", "4", "-o",
+                               os.path.join(self.folder, "lattices.sbfz")], capture_output=True, text=True, check=False)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        done = subprocess.run([PROGRAM, os.path.join(self.folder, "lattices.sbfz"), "8", "1", "0", "-", "close"],
+                              capture_output=True, text=True, check=True)
+        row = [float(number) for number in LINE.fullmatch(done.stdout.splitlines()[0]).groups()]
+        self.assertGreater(row[2], 4)
+        self.assertGreater(row[3], 0.5 * row[2])
+
     def test_wrong_calls(self):
-        for arguments, status in (((), 2), ((self.lizard, "0"), 2), ((os.path.join(self.folder, "none.sbfz"),), 1)):
+        for arguments, status in (((), 2), ((self.lizard, "0"), 2), ((self.lizard, "2", "1", "0", "-", "far"), 2), ((os.path.join(self.folder, "none.sbfz"),), 1)):
             done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, status, done.stderr)
             self.assertTrue(done.stderr)

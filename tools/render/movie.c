@@ -51,7 +51,7 @@ static int start(draw_movie *movie, const draw_movie_options *options, const cha
   size_t count = 0;
   snprintf(size, sizeof size, "%ux%u", (unsigned)options->width, (unsigned)options->height);
   snprintf(rate, sizeof rate, "%u", (unsigned)options->fps);
-  snprintf(quality, sizeof quality, "%u", options->quality ? (unsigned)options->quality : 75u);
+  snprintf(quality, sizeof quality, "%u", options->quality ? (unsigned)options->quality : 80u);
   write_gif_filter(options, gif_filter, sizeof gif_filter);
   const char *const common[] = {options->ffmpeg ? options->ffmpeg : "ffmpeg", "-hide_banner", "-loglevel",
       "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size, "-framerate", rate,

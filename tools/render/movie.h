@@ -19,7 +19,7 @@ typedef struct draw_movie_options {
   uint32_t fps;           /* frames a second, 1 to 240; GIF and WebP: to 50 */
   uint32_t frame_count;   /* as expected; 0: not known */
   uint32_t colors;    /* of a GIF's palette, 4 to 256; 0: 256. With fewer nothing is dithered: far smaller */
-  uint32_t quality;   /* of a WebP, 1 to 100; 0: 75 */
+  uint32_t quality;   /* of a WebP, 1 to 100; 0: 80 */
   const char *ffmpeg; /* the program; NULL: "ffmpeg", found in PATH */
 } draw_movie_options;
 
