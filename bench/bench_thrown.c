@@ -295,9 +295,9 @@ static void measure_rest(void) {
 
 /* ---- Pictures ---- */
 
-/* Adds a mesh of the same faces with its points elsewhere. */
+/* Adds a mesh of the same faces with its points elsewhere; slot: what it is made of. */
 static void add_mesh(sbf_asset *to, sbf_render_mesh *mesh, const char *id, const sbf_polygon_mesh *like,
-    const sbf_vec3 *at, sbf_vec3 shift) {
+    const sbf_vec3 *at, sbf_vec3 shift, const sbf_material_slot *slot) {
   sbf_vec3 *points = sbf_asset_allocate(to, like->positions.count, sizeof *points);
   if (!points) bench_fail("memory ran out");
   for (uint32_t i = 0; i < like->positions.count; i++)
@@ -307,6 +307,7 @@ static void add_mesh(sbf_asset *to, sbf_render_mesh *mesh, const char *id, const
   mesh->mesh.positions = (sbf_vec3_list){points, like->positions.count};
   mesh->mesh.polygon_sizes = like->polygon_sizes;
   mesh->mesh.polygon_points = like->polygon_points;
+  mesh->material_slots = (sbf_material_slot_list){slot, 1};
 }
 
 /* Four moments of a ball that hits a thigh, beside each other. */
@@ -322,7 +323,13 @@ static void draw_throw(const char *name, const char *folder) {
   sbr_model *model = model_of(figure), *ball = model_of(round);
   scene s = {.world = make_world(), .ball = ball};
   sbf_diagnostic error;
-  if (!meshes) bench_fail("memory ran out");
+  static const sbf_material_slot slots[2] = {{0}, {1}};
+  sbf_material *materials = drawn ? sbf_asset_allocate(drawn, 2, sizeof *materials) : NULL;
+  if (!meshes || !materials) bench_fail("memory ran out");
+  for (int k = 0; k < 2; k++) sbf_material_init(&materials[k]);
+  materials[0].id = "flesh", materials[0].base_color = (sbf_vec4){0.12f, 0.42f, 0.2f, 1};
+  materials[1].id = "ball", materials[1].base_color = (sbf_vec4){0.8f, 0.25f, 0.03f, 1};
+  drawn->materials = (sbf_material_list){materials, 2};
   hang_at_rest(&s, model, 0, &rest);
   for (int i = 0; i < SETTLES; i++) sbr_world_tick(s.world);
   look(&s, &now);
@@ -335,9 +342,9 @@ static void draw_throw(const char *name, const char *folder) {
     float across = 1.75f * (float)next;
     look(&s, &now);
     add_mesh(drawn, &meshes[2 * next], ids[2 * next], skin, now.at,
-        (sbf_vec3){across + (float)o.x, (float)o.y, (float)o.z});
+        (sbf_vec3){across + (float)o.x, (float)o.y, (float)o.z}, &slots[0]);
     add_mesh(drawn, &meshes[2 * next + 1], ids[2 * next + 1], hull, hull->positions.at,
-        (sbf_vec3){across + c.x + (float)b.x, c.y + (float)b.y, c.z + (float)b.z});
+        (sbf_vec3){across + c.x + (float)b.x, c.y + (float)b.y, c.z + (float)b.z}, &slots[1]);
     next++;
   }
   drawn->render_meshes = (sbf_render_mesh_list){meshes, 2 * MOMENTS};

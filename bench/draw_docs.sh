@@ -1,6 +1,7 @@
 #!/bin/sh
-# Draws the charts and maps of docs/media again: draw_docs.sh SBFMT [NAME...], SBFMT being the program. Charts come from the
-# tables in bench/results, so nothing is timed; maps are computed, which gives the same on every machine.
+# Draws the charts, maps and throws of docs/media again: draw_docs.sh SBFMT [NAME...], SBFMT being the program of a build that has
+# its benchmarks. Charts come from the tables in bench/results, so nothing is timed; maps are computed, which gives the same on
+# every machine.
 set -eu
 [ $# -gt 0 ] || { echo 'draw_docs.sh: give the program: draw_docs.sh build/release/tools/sbfmt [NAME...]' >&2; exit 2; }
 sbfmt=$(realpath "$1")
@@ -36,4 +37,10 @@ fi
 map damping 96
 map mass-springs 96
 map poisson 96
+if wanted thrown; then
+  "$(dirname "$sbfmt")/../bench/bench_thrown" --draw "$folder"
+  for name in figure flesh; do
+    "$sbfmt" render "$folder/thrown-$name.sbf" -o "docs/media/thrown-$name.png" --view 12,4 --size 1280x400
+  done
+fi
 if wanted levels; then gnuplot bench/draw_levels.gp; fi

@@ -93,7 +93,7 @@ static void write_legend(FILE *to, const chart_map *map) {
       "front\n"
       "set label 5 'stiffness: ωh of one substep (rad)%s' at screen 0.53,screen 0.025 center font ',13' "
       "front\n"
-      "set label 6 \"%s\" at screen 0.018,screen 0.45 center rotate by 90 font ',13' front\n",
+      "set label 6 \"%s\" at screen 0.013,screen 0.45 center rotate by 90 font ',13' front\n",
       map->axis->kind == CHART_MAP_OF_ONE_MASS ? "" : ", ω of the stiffest mode", map->axis->label);
 }
 
