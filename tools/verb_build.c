@@ -1,3 +1,4 @@
+/* sbfmt build: makes what is derived anew. */
 #include "building.h"
 #include "material_options.h"
 

@@ -1,3 +1,4 @@
+/* sbfmt chart: error against time of every scheme, on known cases and on a character's own motion. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

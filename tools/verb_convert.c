@@ -1,3 +1,4 @@
+/* sbfmt convert: foreign files to bundles. */
 #include <errno.h>
 #include <float.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* sbfmt diff: whether two files hold the same. */
 #include "cli.h"
 #include "sbfmt/io.h"
 

@@ -1,3 +1,4 @@
+/* sbfmt export: bundles to foreign files, at rest or in motion. */
 #include <stdio.h>
 #include <string.h>
 

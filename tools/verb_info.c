@@ -1,3 +1,4 @@
+/* sbfmt info: what a file holds. */
 #include <string.h>
 #include <sys/stat.h>
 

@@ -1,3 +1,4 @@
+/* sbfmt pack and unpack: from XML to the packed form and back. */
 #include <string.h>
 
 #include "cli.h"

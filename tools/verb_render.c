@@ -1,3 +1,4 @@
+/* sbfmt render: pictures and films without a window. */
 #include <stdlib.h>
 #include <string.h>
 

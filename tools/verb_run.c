@@ -1,3 +1,4 @@
+/* sbfmt run: a character steps, and what came of it is told and written. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

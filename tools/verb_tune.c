@@ -1,3 +1,4 @@
+/* sbfmt tune: the cheapest levels within an error, or the nearest within a budget. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* sbfmt validate: findings of files, several at a time, and mending. */
 #include <pthread.h>
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+/* sbfmt view: a character in a window. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* The list of verbs. */
 #include "cli.h"
 
 extern const cli_verb verb_build, verb_chart, verb_convert, verb_diff, verb_export, verb_info, verb_pack,

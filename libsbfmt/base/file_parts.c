@@ -1,3 +1,4 @@
+/* What reading a file shares on every system: faults of size, and room for its content. */
 #include <string.h>
 
 #include "base/file_system.h"

@@ -1,3 +1,4 @@
+/* Files by POSIX calls: read, mapped, and written beside the old one before they take its place. */
 #define _XOPEN_SOURCE 700
 #define _FILE_OFFSET_BITS 64
 #include "base/file_system.h"

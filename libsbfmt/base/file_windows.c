@@ -1,3 +1,4 @@
+/* Files by calls of Windows: read, mapped, and written beside the old one before they take its place. */
 #include <stdio.h>
 #include <string.h>
 

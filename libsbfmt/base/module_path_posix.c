@@ -1,3 +1,4 @@
+/* Where the program and the library lie, as the dynamic linker tells it. */
 #define _GNU_SOURCE /* dladdr */
 #include "base/module_path.h"
 

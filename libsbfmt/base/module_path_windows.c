@@ -1,3 +1,4 @@
+/* Where the program and the library lie, as Windows tells it. */
 #include "base/module_path.h"
 
 #include <string.h>

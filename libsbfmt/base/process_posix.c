@@ -1,3 +1,4 @@
+/* A child process with limits: forked, fed and read through pipes, ended when its time is up. */
 #define _DEFAULT_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #include "base/process.h"

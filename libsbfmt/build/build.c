@@ -1,3 +1,4 @@
+/* The order of a build: what is derived goes, then each pass makes its part anew. */
 #include "sbfmt/build.h"
 
 #include <float.h>

@@ -1,3 +1,4 @@
+/* Which writer a file's ending stands for. */
 #include <string.h>
 
 #include "export/exporting.h"

@@ -1,3 +1,4 @@
+/* Pieces of a glTF file: room in its binary part, items of its lists, strings. */
 #include <string.h>
 
 #include "export/glb.h"

@@ -1,3 +1,5 @@
+/* Volume and mass of a body, which points of a level are held, and how the mass is shared among the
+ * rest. */
 #include "mechanics/level_points.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"

@@ -1,3 +1,4 @@
+/* How good a lattice is: volumes, dihedral angles and quality of its tetrahedra. */
 #include <math.h>
 
 #include "mechanics/angle.h"

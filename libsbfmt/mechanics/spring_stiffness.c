@@ -1,3 +1,4 @@
+/* Stiffness of springs that stand for a material. */
 #include "mechanics/level_points.h"
 #include "mechanics/symmetric_eigen.h"
 #include "mechanics/vector.h"

@@ -1,3 +1,4 @@
+/* Area, volume and opening of a surface, and normals of its points. */
 #include "mechanics/polygon.h"
 #include "mechanics/symmetric_eigen.h"
 #include "sbfmt/mechanics.h"

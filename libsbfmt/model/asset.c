@@ -1,3 +1,4 @@
+/* Life of an asset: one arena that holds all of it. */
 #include "sbfmt/asset.h"
 
 #include "base/memory.h"

@@ -1,3 +1,4 @@
+/* Bytes that a call has made for its caller. */
 #include "base/memory.h"
 #include "sbfmt/packed.h"
 

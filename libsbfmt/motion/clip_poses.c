@@ -1,3 +1,4 @@
+/* Poses of a clip at any time, in double precision. */
 #include <math.h>
 
 #include "motion/carried_motion.h"

@@ -1,3 +1,5 @@
+/* Mends what can be mended without a choice: source parts first, then what is derived from them is made
+ * again. */
 #include <string.h>
 
 #include "validate/mend/mending.h"

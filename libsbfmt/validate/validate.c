@@ -1,3 +1,4 @@
+/* Runs every rule over an asset. */
 #include "sbfmt/validate.h"
 
 #include <string.h>

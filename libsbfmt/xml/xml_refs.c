@@ -1,3 +1,4 @@
+/* Turns the ids that references name into places, once everything has been read. */
 #include <stdio.h>
 
 #include "base/diagnostic.h"

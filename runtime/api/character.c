@@ -1,3 +1,4 @@
+/* Characters made, moved and ended by their host. */
 #include <string.h>
 
 #include "api/api.h"

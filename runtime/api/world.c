@@ -1,3 +1,4 @@
+/* Worlds made and ended, and the time that passes in them. */
 #include <math.h>
 #include <string.h>
 

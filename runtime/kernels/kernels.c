@@ -1,3 +1,4 @@
+/* Which of the tables of kernels this machine runs. */
 #include "model/kernels.h"
 
 /* The fastest first. */

@@ -1,3 +1,5 @@
+/* The order in which a model is made of an asset: bones, rigid parts, islands of soft bodies, skins,
+ * schemes. */
 #include "prepare/prepare.h"
 
 #include <float.h>

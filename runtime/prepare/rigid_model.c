@@ -1,3 +1,4 @@
+/* The rigid bodies and joints of a model: masses, inertia, frames, limits. */
 #include "prepare/prepare.h"
 
 #include "mechanics/joint_freedom.h"

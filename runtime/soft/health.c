@@ -1,3 +1,4 @@
+/* How a body does: energy, volume, strain, elements that are inside out. */
 #include "mechanics/neo_hookean.h"
 #include "mechanics/shape_region.h"
 #include "mechanics/solid_strain.h"

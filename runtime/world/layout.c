@@ -15,33 +15,54 @@ size_t sbri_deltas_size(const sbr_model *model) {
   return model->frame_count * sizeof(sbri_delta) + model->asset->followers.count * sizeof(sbri_squash);
 }
 
-static void make_layout(sbr_model *model) {
-  sbri_layout *l = &model->layout;
-  size_t slots = model->slot_count, frames = model->frame_count, vertices = 0, faces = 0, groups = 0,
-         surface = 0, surface_faces = 0, samples = 0, self_faces = 0, end = 0;
+/* Room that no one count of the model says. */
+typedef struct extents {
+  size_t vertices, faces, groups; /* of the largest skin */
+  size_t surface, surface_faces;  /* of all bodies' surfaces, padded */
+  size_t touches, self_faces;     /* of all bodies */
+} extents;
+
+static size_t larger(size_t a, size_t b) {
+  return a > b ? a : b;
+}
+
+static void measure_skins(const sbr_model *model, extents *e) {
   for (uint32_t i = 0; i < model->skin_count; i++) {
     const sbri_skin *skin = &model->skins[i];
-    vertices = skin->vertex_count > vertices ? skin->vertex_count : vertices;
-    faces = skin->face_block_count > faces ? skin->face_block_count : faces;
-    groups = skin->split.group_count > groups ? skin->split.group_count : groups;
-    groups = skin->smooth.group_count > groups ? skin->smooth.group_count : groups;
+    e->vertices = larger(e->vertices, skin->vertex_count);
+    e->faces = larger(e->faces, skin->face_block_count);
+    e->groups = larger(e->groups, larger(skin->split.group_count, skin->smooth.group_count));
   }
+}
+
+/* A touch of each sample, or point, on the ground and one on something else, a few between several things;
+ * and of the body itself, points and edges. */
+static uint32_t touch_capacity(const sbri_body *body) {
+  uint32_t slots = body->slot_end - body->slot_begin;
+  uint32_t own = body->self_face_count ? slots + body->self_face_count : 0;
+  return body->level ? 2 * (body->samples ? body->sample_count : slots) + own + 64 : 0;
+}
+
+/* Where each body's share of what all of them have in common begins. */
+static void share_out(sbr_model *model, extents *e) {
   for (uint32_t i = 0; i < model->asset->soft_bodies.count; i++) {
     sbri_body *body = &model->bodies[i];
-    body->first_vertex = (uint32_t)surface;
-    body->first_face = (uint32_t)surface_faces;
-    /* One on the ground and one on something else each, and a few between several things. */
-    uint32_t places = body->samples ? 2 * body->sample_count : 2 * (body->slot_end - body->slot_begin);
-    body->first_touch = (uint32_t)samples;
-    /* And of itself, points and edges. */
-    places += body->self_face_count ? body->slot_end - body->slot_begin + body->self_face_count : 0;
-    body->touch_capacity = body->level ? places + 64 : 0;
-    samples += body->touch_capacity;
-    body->first_self_face = (uint32_t)self_faces;
-    self_faces += body->self_face_count;
-    surface += padded(body->surface.vertex_count);
-    surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
+    body->first_vertex = (uint32_t)e->surface;
+    body->first_face = (uint32_t)e->surface_faces;
+    body->first_touch = (uint32_t)e->touches;
+    body->first_self_face = (uint32_t)e->self_faces;
+    body->touch_capacity = touch_capacity(body);
+    e->surface += padded(body->surface.vertex_count);
+    e->surface_faces += (size_t)body->surface.face_block_count * SBRI_BLOCK;
+    e->touches += body->touch_capacity;
+    e->self_faces += body->self_face_count;
   }
+}
+
+/* What a snapshot copies and the hash covers. */
+static void place_state(sbr_model *model) {
+  sbri_layout *l = &model->layout;
+  size_t slots = model->slot_count, frames = model->frame_count, end = 0;
   place(&end, 1, sizeof(sbri_character_state));
   const sbr_model *base = model->base;
   uint32_t meshes = base->rung_count > 1 ? model->asset->render_meshes.count : 0;
@@ -80,7 +101,12 @@ static void make_layout(sbr_model *model) {
   l->rigid_kept = place(&end, sbri_rigid_touch_capacity(&model->rigid), sizeof(sbri_kept_touch));
   l->jiggles = place(&end, model->jiggle_count, sizeof(sbri_place_follower));
   l->used_size = l->state_size = (end + 63) & ~(size_t)63;
-  end = 0;
+}
+
+/* What means nothing between calls. */
+static void place_scratch(sbr_model *model, const extents *e) {
+  sbri_layout *l = &model->layout;
+  size_t slots = model->slot_count, frames = model->frame_count, end = 0;
   l->deltas = place(&end, 1, sbri_deltas_size(model));
   l->previous_deltas = place(&end, 1, sbri_deltas_size(model));
   l->animated = place(&end, model->rigid.body_count ? frames : 0, sizeof(sbr_transform));
@@ -104,39 +130,47 @@ static void make_layout(sbr_model *model) {
   l->element_forces = place(&end, slots, sizeof(sbri_point));
   l->planes = place(&end, 4 * slots, sizeof(float));
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
-  l->touches = place(&end, samples, sizeof(sbri_touch));
+  l->touches = place(&end, e->touches, sizeof(sbri_touch));
   l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
   l->slot_touches = place(&end, slots, 1);
-  l->self_boxes = place(&end, self_faces, sizeof(sbri_box));
-  l->self_balls = place(&end, self_faces, sizeof(sbri_moving_ball));
-  l->self_nodes = place(&end, 2 * self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
-  l->self_items = place(&end, self_faces, sizeof(uint32_t));
-  l->self_edges = place(&end, self_faces, 1);
+  l->self_boxes = place(&end, e->self_faces, sizeof(sbri_box));
+  l->self_balls = place(&end, e->self_faces, sizeof(sbri_moving_ball));
+  l->self_nodes = place(&end, 2 * e->self_faces + model->asset->soft_bodies.count, sizeof(sbri_bounds_node));
+  l->self_items = place(&end, e->self_faces, sizeof(uint32_t));
+  l->self_edges = place(&end, e->self_faces, 1);
   l->touching = place(&end, model->asset->soft_bodies.count, sizeof(sbri_touching));
   l->rigid_touching = place(&end, model->rigid.body_count, sizeof(sbri_touching));
   l->sampled = place(&end, slots, sizeof(sbri_point));
   l->sampled_deltas = place(&end, 1, sbri_deltas_size(model));
-  l->vertices = place(&end, padded(vertices), sizeof(sbri_point));
-  l->faces = place(&end, faces * SBRI_BLOCK, sizeof(sbri_point));
-  l->sums = place(&end, padded(groups > vertices ? groups : vertices), sizeof(sbri_point));
+  l->vertices = place(&end, padded(e->vertices), sizeof(sbri_point));
+  l->faces = place(&end, e->faces * SBRI_BLOCK, sizeof(sbri_point));
+  l->sums = place(&end, padded(larger(e->groups, e->vertices)), sizeof(sbri_point));
   l->visits = place(&end, 2 * (size_t)model->solid_count, sizeof(uint32_t));
   l->queue = place(&end, model->solid_count, sizeof(uint32_t));
   l->touched = place(&end, model->binding_count, 1);
   l->owners = place(&end, model->thread_cell_count ? 2 * slots : 0, sizeof(uint32_t));
   l->frayed = place(&end, model->thread_cell_count ? slots : 0, 1);
-  l->surface_vertices = place(&end, surface, sizeof(sbri_point));
+  l->surface_vertices = place(&end, e->surface, sizeof(sbri_point));
   bool steps = model->island_count > 0; /* the vertices alone are asked for without */
-  l->surface_forces = place(&end, steps ? surface : 0, sizeof(sbri_point));
-  l->surface_velocities = place(&end, steps ? surface : 0, sizeof(sbri_point));
-  l->surface_faces = place(&end, steps ? surface_faces : 0, sizeof(sbri_point));
-  if (base->rung_count > 1) {
+  l->surface_forces = place(&end, steps ? e->surface : 0, sizeof(sbri_point));
+  l->surface_velocities = place(&end, steps ? e->surface : 0, sizeof(sbri_point));
+  l->surface_faces = place(&end, steps ? e->surface_faces : 0, sizeof(sbri_point));
+  if (model->base->rung_count > 1) {
     size_t bodies = model->asset->soft_bodies.count;
     l->offsets = l->begins, l->speeds = l->moves; /* between ticks nothing else is there */
     l->energies = place(&end, bodies, sizeof(double));
-    l->fading = place(&end, padded(vertices), sizeof(sbri_point));
+    l->fading = place(&end, padded(e->vertices), sizeof(sbri_point));
     l->pulls = place(&end, bodies + 1, sizeof(float));
   }
   l->scratch_size = (end + 63) & ~(size_t)63;
+}
+
+static void make_layout(sbr_model *model) {
+  extents e = {0};
+  measure_skins(model, &e);
+  share_out(model, &e);
+  place_state(model);
+  place_scratch(model, &e);
 }
 
 void sbri_layouts_make(sbr_model *model) {

@@ -1,3 +1,4 @@
+/* A world: its characters by handle, what they meet, what happened, and what is recorded of it. */
 #ifndef SBRI_WORLD_H
 #define SBRI_WORLD_H
 

@@ -1,3 +1,4 @@
+/* Draws stability maps: a coloured box for each case, and the bound that theory gives. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Files that a verb writes, by calls of Windows: beside the old one, which they then replace. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

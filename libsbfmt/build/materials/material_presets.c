@@ -1,3 +1,4 @@
+/* Material presets by name, from the table that the specification makes. */
 #include <string.h>
 
 #include "build/materials/material_table.h"

@@ -12,12 +12,17 @@ typedef struct sbfi_spring_list {
 } sbfi_spring_list;
 
 /* Springs over the surface, no pair twice in any of the three:
- *   structural  the sides of the polygons: corner k to corner k + 1, as the walk over the polygons meets
- * them; shear       in the same walk, of each polygon of four and more corners, corner k to corner k + 2 (of
- * a quad both diagonals), and where a triangle's side belongs to it and one more triangle, the two corners
- * opposite that side; flexion     for each point, its neighbours that lie opposite each other: no polygon at
- * the point holds both, and each is the straightest continuation of the other. Points with more than 64
- *               neighbours, the poles of a sphere, have none. */
+ *
+ * - structural: the sides of the polygons, corner k to corner k + 1, as the walk over the polygons meets
+ * them;
+ *
+ * - shear: in the same walk, of each polygon of four and more corners, corner k to corner k + 2 (of a quad
+ * both diagonals), and where a triangle's side belongs to it and one more triangle, the two corners opposite
+ * that side;
+ *
+ * - flexion: for each point, its neighbours that lie opposite each other: no polygon at the point holds both,
+ * and each is the straightest continuation of the other. Points with more than 64 neighbours, the poles of a
+ * sphere, have none. */
 typedef struct sbfi_surface_springs {
   sbfi_spring_list structural, shear, flexion;
 } sbfi_surface_springs;

@@ -1,3 +1,4 @@
+/* An interior of a centre and a point for each polygon, in the order and precision of its reference. */
 #include "build/springs/springs.h"
 
 static sbf_vec3 plus(sbf_vec3 a, sbf_vec3 b) {

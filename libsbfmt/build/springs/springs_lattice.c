@@ -1,3 +1,4 @@
+/* An interior on a body-centred grid, joined only where the surface is not in between. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Springs over the surface: along sides, across polygons, and straight on over a point. */
 #include <math.h>
 
 #include "build/springs/pair_set.h"

@@ -1,3 +1,4 @@
+/* The order of a conversion: scenes are read, turned into asset space, made into an asset, and built. */
 #include "sbfmt/convert.h"
 
 #include <float.h>

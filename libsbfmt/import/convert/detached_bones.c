@@ -1,3 +1,5 @@
+/* Bones that were moved by hand: they hold skin and hang on nothing; each goes to the limb that points at
+ * its head. */
 #include "import/convert/skeleton_draft.h"
 
 /* How often the length of the bone before it a limb's last bone may have. */

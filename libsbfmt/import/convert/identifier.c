@@ -1,3 +1,4 @@
+/* Ids of names: letters that a file may hold, and each only once. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,3 +1,5 @@
+/* What a gait is drafted from: how wide and how low is what each bone carries, and on which side it
+ * hangs. */
 #include <math.h>
 #include <string.h>
 

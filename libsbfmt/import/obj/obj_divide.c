@@ -1,3 +1,4 @@
+/* Divides what an OBJ file holds into meshes, by its objects and groups. */
 #include <string.h>
 
 #include "base/diagnostic.h"

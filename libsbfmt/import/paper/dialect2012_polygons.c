@@ -1,3 +1,4 @@
+/* Polygons of the 2012 dialect, whose corners name vertices by id. */
 #include <string.h>
 
 #include "import/paper/dialect2012.h"

@@ -1,3 +1,5 @@
+/* Makes a scene of what an importer found: axes and units first, then nodes, materials, meshes and
+ * clips. */
 #include <math.h>
 #include <string.h>
 

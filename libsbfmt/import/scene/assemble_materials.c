@@ -1,3 +1,4 @@
+/* Materials of a scene and the images they name, embedded or beside the file. */
 #include <string.h>
 
 #include "import/scene/assembly.h"

@@ -1,3 +1,4 @@
+/* Nodes of a scene; those an importer made of one node's pivots are folded into one again. */
 #include <string.h>
 
 #include "import/scene/assembly.h"

@@ -1,3 +1,4 @@
+/* Which reader a file is for: OBJ has our own, everything else goes to assimp's process. */
 #include <string.h>
 
 #include "base/diagnostic.h"

@@ -1,3 +1,4 @@
+/* A file that was loaded: what is in it, and models made of it. */
 import { Model } from './model.js';
 
 const KINDS = ['bones', 'meshes', 'softBodies', 'rigidBodies', 'clips', 'ikChains', 'legs', 'materials', 'textures'];

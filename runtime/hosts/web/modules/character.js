@@ -1,3 +1,4 @@
+/* A character in a world: driven, posed, pulled, and what is drawn of it. */
 import { chosen, number, triple } from './checked.js';
 import { SbfmtError } from './sbfmt_error.js';
 

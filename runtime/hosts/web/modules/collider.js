@@ -1,3 +1,4 @@
+/* A shape of the host's. */
 import { chosen, number, triple } from './checked.js';
 
 const SHAPES = ['sphere', 'box', 'capsule'];

@@ -1,3 +1,4 @@
+/* Events, from numbers to objects. */
 import { EVENT_NUMBERS, EVENT_ROOM } from './memory.js';
 
 const EVENTS = ['footDown', 'footUp', 'landed', 'tear', 'unsplit', 'asleep', 'awake', 'contact', 'parted', 'noMemory'];

@@ -1,3 +1,4 @@
+/* What characters of one asset share. */
 import { number, triple } from './checked.js';
 import { SCRATCH_BYTES } from './memory.js';
 

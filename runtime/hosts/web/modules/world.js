@@ -1,3 +1,4 @@
+/* A world and its clock. */
 import { Character } from './character.js';
 import { number, triple } from './checked.js';
 import { Collider } from './collider.js';
