@@ -149,22 +149,29 @@ static uint32_t find_near(
   return count;
 }
 
-static bool join_surface(const work *w, const sbf_vec3 *interior, uint32_t first, sbfi_array *springs) {
+/* To the nearest nodes that a surface point sees; false: no memory. */
+static bool join_point(
+    const work *w, const sbf_vec3 *interior, uint32_t first, uint32_t i, sbfi_array *springs) {
   enum { MOST_NEAR = 256 };
   neighbour near[MOST_NEAR];
-  for (uint32_t i = 0; i < w->mesh->positions.count; i++) {
-    if (!sbfi_progress_step(sbfi_progress_part(w->progress, 0.5, 0.8), i, w->mesh->positions.count))
-      return false;
-    sbf_vec3 point = w->mesh->positions.at[i];
-    uint32_t joined = 0;
-    for (int round = 0; round < 2 && joined == 0; round++) {
-      uint32_t count = find_near(w, interior, point, round ? far_reach : near_reach, near, MOST_NEAR);
-      for (uint32_t k = 0; k < count && joined < MOST_OF_A_POINT; k++) {
-        if (!is_clear(w, interior[near[k].point], point)) continue;
-        if (!sbfi_array_append(springs, &(sbf_uint2){{first + near[k].point, i}}, 1)) return false;
-        joined++;
-      }
+  sbf_vec3 point = w->mesh->positions.at[i];
+  uint32_t joined = 0;
+  for (int round = 0; round < 2 && joined == 0; round++) {
+    uint32_t count = find_near(w, interior, point, round ? far_reach : near_reach, near, MOST_NEAR);
+    for (uint32_t k = 0; k < count && joined < MOST_OF_A_POINT; k++) {
+      if (!is_clear(w, interior[near[k].point], point)) continue;
+      if (!sbfi_array_append(springs, &(sbf_uint2){{first + near[k].point, i}}, 1)) return false;
+      joined++;
     }
+  }
+  return true;
+}
+
+static bool join_surface(const work *w, const sbf_vec3 *interior, uint32_t first, sbfi_array *springs) {
+  uint32_t count = w->mesh->positions.count;
+  for (uint32_t i = 0; i < count; i++) {
+    if (!sbfi_progress_step(sbfi_progress_part(w->progress, 0.5, 0.8), i, count)) return false;
+    if (!join_point(w, interior, first, i, springs)) return false;
   }
   return true;
 }
