@@ -51,9 +51,12 @@ typedef struct sbri_touch {
 
 /* What has been pulled with on a rigid body, N s and N m s about a place; and by how much that changes its
  * speeds, 1/kg and 1/(kg m^2) about the axis about which it turns most easily: 0 where it does not give way.
- */
+ *
+ * Where points have been moved at once against what holds them, its part of that: kg m and kg m^2 likewise,
+ * and the angular momentum that these have at the held places' speeds. */
 typedef struct sbri_reaction {
   sbf_vec3 about, impulse, moment;
+  sbf_vec3 shift, shift_turn, shift_moment;
   float ease, turn_ease;
 } sbri_reaction;
 

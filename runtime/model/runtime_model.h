@@ -199,6 +199,8 @@ typedef struct sbri_body {
   const sbri_face_block *volume_faces; /* the surface's over slots; NULL: its points are embedded */
   const uint32_t *volume_begins;       /* (blocks of its slots + 1), where it keeps its volume */
   const sbri_carry_cell *volume_cells; /* faces, as `slots`, with their shares in each slot's gradient */
+  const sbri_face_share *volume_held;  /* (volume_held_count) likewise of the points that are held */
+  uint32_t volume_held_count;
 } sbri_body;
 
 /* Steps of a control tick in which bodies bear their flesh: ragdoll/borne_flesh.c. */

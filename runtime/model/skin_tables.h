@@ -13,6 +13,12 @@ typedef struct sbri_carry_cell {
   float weights[SBRI_BLOCK];
 } sbri_carry_cell;
 
+/* A slot's share of a face. */
+typedef struct sbri_face_share {
+  uint32_t slot, face; /* slot of the island */
+  float weight;
+} sbri_face_share;
+
 /* A vertex that follows frames (bones, or the character's root). */
 typedef struct sbri_frame_vertex {
   uint32_t vertex;

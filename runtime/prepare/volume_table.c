@@ -3,13 +3,8 @@
 
 #include "prepare/prepare.h"
 
-typedef struct share {
-  uint32_t slot, face;
-  float weight;
-} share;
-
 static bool add_share(sbfi_array *shares, uint32_t slot, uint32_t face, float weight) {
-  return sbfi_array_append(shares, &(share){slot, face, weight}, 1);
+  return sbfi_array_append(shares, &(sbri_face_share){slot, face, weight}, 1);
 }
 
 /* What carries a vertex receives its part of each of the vertex's faces: an eighth of the product of the
@@ -33,7 +28,8 @@ static bool list_shares(const sbri_skin *skin, uint32_t first_slot, sbfi_array *
   return true;
 }
 
-static bool fill_table(sbr_model *model, sbri_body *body, const share *shares, size_t count, uint32_t *used) {
+static bool fill_table(
+    sbr_model *model, sbri_body *body, const sbri_face_share *shares, size_t count, uint32_t *used) {
   uint32_t block_count = (body->slot_end - body->slot_begin) / SBRI_BLOCK, begin = body->slot_begin;
   uint32_t *begins = sbfi_arena_allocate(&model->arena, (size_t)block_count + 1, sizeof *begins);
   if (!begins) return false;
@@ -58,6 +54,18 @@ static bool fill_table(sbr_model *model, sbri_body *body, const share *shares, s
   }
   body->volume_begins = begins;
   body->volume_cells = cells;
+  return true;
+}
+
+/* Of what is held: a free point's pull is another's push on the bone. */
+static bool list_held(sbr_model *model, sbri_body *body, const sbri_face_share *shares, size_t count) {
+  uint32_t free_count = model->islands[body->island].free_count, held = 0;
+  for (size_t i = 0; i < count; i++) held += shares[i].slot >= free_count;
+  sbri_face_share *to = sbfi_arena_allocate(&model->arena, (size_t)held + 1, sizeof *to);
+  if (!to) return false;
+  for (size_t i = 0; i < count; i++)
+    if (shares[i].slot >= free_count) to[body->volume_held_count++] = shares[i];
+  body->volume_held = to;
   return true;
 }
 
@@ -87,12 +95,13 @@ bool sbri_volume_table_make(sbr_model *model, sbri_body *body) {
   uint32_t count = body->slot_end - body->slot_begin;
   if (count == 0) return true;
   sbfi_array shares;
-  sbfi_array_init(&shares, &model->arena.allocator, sizeof(share));
+  sbfi_array_init(&shares, &model->arena.allocator, sizeof(sbri_face_share));
   uint32_t *used = sbfi_allocate(&model->arena.allocator, count * sizeof *used);
   bool good = used && list_shares(&body->surface, model->islands[body->island].first_slot, &shares);
   if (good) {
     memset(used, 0, count * sizeof *used);
-    good = fill_table(model, body, shares.at, shares.count, used);
+    good = fill_table(model, body, shares.at, shares.count, used) &&
+           list_held(model, body, shares.at, shares.count);
   }
   sbfi_free(&model->arena.allocator, used, count * sizeof *used);
   sbfi_array_free(&shares);

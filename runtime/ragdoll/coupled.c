@@ -205,6 +205,18 @@ static sbri_reaction no_reaction(
       .turn_ease = share * (most > turns->z ? most : turns->z)};
 }
 
+/* What has been moved at once against the bodies that hold it moves these by their part of it, in the step
+ * that follows: for that step they are as much faster as it takes, so that joints go along with it. */
+static void shift(sbri_character *c, const sbri_rigid_tick *t, float rate) {
+  for (uint32_t b = 0; b < t->model->body_count; b++) {
+    const sbri_reaction *r = &sbri_reactions(c)[b];
+    if (!(r->ease > 0)) continue;
+    float share = rate * r->ease * t->model->bodies[b].mass; /* by sbri_rigid_swell */
+    t->bodies[b].velocity = sbri_add_scaled(t->bodies[b].velocity, r->shift, rate * r->ease);
+    t->bodies[b].spin = sbri_add_scaled(t->bodies[b].spin, r->shift_turn, share);
+  }
+}
+
 void sbri_coupled_act(sbri_coupled *group, const sbri_rigid_tick *t, float from, float to, float weight_s) {
   sbri_character *c = group->character;
   group->falls = t->drive->flies && !group->touches;
@@ -231,13 +243,23 @@ void sbri_coupled_act(sbri_coupled *group, const sbri_rigid_tick *t, float from,
     body->velocity = sbri_add_scaled(body->velocity, r->impulse, share * t->model->bodies[b].inverse_mass);
     body->spin = sbri_add_scaled(body->spin, r->moment, share);
   }
+  shift(c, t, 1 / step_s);
 }
 
 /* ---- After ---- */
 
 /* A step that has been taken in halves has had its weight for less. */
-void sbri_coupled_acted(const sbri_coupled *group, const sbri_rigid_tick *t, float weight_s) {
+void sbri_coupled_acted(const sbri_coupled *group, const sbri_rigid_tick *t, float step_s, float weight_s) {
   sbri_character *c = group->character;
+  shift(c, t, -1 / step_s);
+  for (uint32_t b = 0; b < t->model->body_count; b++) {
+    /* The body went at its centre's speed, where the points did at that of the places which hold them. */
+    const sbri_reaction *r = &sbri_reactions(c)[b];
+    if (!(r->ease > 0)) continue;
+    sbf_vec3 more = sbri_sub(r->shift_moment, sbri_cross(r->shift, t->bodies[b].velocity));
+    t->bodies[b].spin = sbri_add(t->bodies[b].spin, more);
+    sbri_burdens(c)[b].spin = sbri_add(sbri_burdens(c)[b].spin, more); /* none that it shares */
+  }
   if (!group->falls || weight_s == group->weight_s) return;
   for (uint32_t i = 0; i < c->model->island_count; i++) {
     if (!sbri_island_is_coupled(c, i)) continue;
@@ -260,7 +282,8 @@ void sbri_coupled_end(sbri_coupled *group) {
     sbri_island_tell(&tick, c);
     sbri_held_places(island, sbri_deltas(c), sbri_positions(c) + island->first_slot);
     if (island->splits && tears->count > 0) tears->unsplit = sbri_island_split(c, i);
-    sbri_island_recover(group->world, c, i, true);
+    sbri_whole_momentum lost;
+    if (sbri_island_recover(group->world, c, i, &lost)) sbri_flesh_goes_on(c, i, &lost);
   }
 }
 

@@ -70,13 +70,20 @@ typedef struct sbri_coupled {
  * after it. */
 void sbri_coupled_begin(sbri_coupled *group);
 void sbri_coupled_act(sbri_coupled *group, const sbri_rigid_tick *tick, float from, float to, float weight_s);
-void sbri_coupled_acted(const sbri_coupled *group, const sbri_rigid_tick *tick, float weight_s);
+void sbri_coupled_acted(const sbri_coupled *group, const sbri_rigid_tick *tick, float step_s, float weight_s);
 void sbri_coupled_end(sbri_coupled *group);
 
 /* Whether all of them may go on sleeping, whether all are slow enough to begin to, and their beginning to. */
 bool sbri_coupled_sleep(sbri_coupled *group);
 bool sbri_coupled_are_quiet(const sbri_character *c);
 void sbri_coupled_put_to_sleep(const sbr_world *world, sbri_character *c);
+
+/* ---- ragdoll/put_back.c ---- */
+
+/* A soft body that has just been put back into its rest shape goes as its bones do, and both take up what it
+ * had of momentum. */
+struct sbri_whole_momentum;
+void sbri_flesh_goes_on(sbri_character *c, uint32_t island, const struct sbri_whole_momentum *had);
 
 /* ---- ragdoll/coupled_steps.c ---- */
 

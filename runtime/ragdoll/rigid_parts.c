@@ -83,7 +83,7 @@ static void act(void *user, const sbri_rigid_tick *tick, float from, float to, f
 
 static void acted(void *user, const sbri_rigid_tick *tick, float step_s, float weight_s) {
   const sbri_coupled *group = user;
-  if (group->any) sbri_coupled_acted(group, tick, weight_s);
+  if (group->any) sbri_coupled_acted(group, tick, step_s, weight_s);
   if (group->any) sbri_burdens_end(group->character, tick, step_s, weight_s);
 }
 

@@ -25,6 +25,6 @@ void sbri_island_run(const sbr_world *world, sbri_character *c, uint32_t index) 
   sbri_router_choose(&tick, &sbri_island_states(c)[index].recovering)->tick(&tick);
   sbri_island_tell(&tick, c);
   if (island->splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
-  sbri_island_recover(world, c, index, false);
+  (void)sbri_island_recover(world, c, index, NULL);
   sbri_island_may_sleep(world, c, index);
 }

@@ -57,19 +57,21 @@ static void put_back(sbri_character *c, uint32_t index) {
   state->recovering = SBRI_RECOVERING_TICKS;
 }
 
-void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t index, bool coupled) {
+bool sbri_island_recover(
+    const sbr_world *world, sbri_character *c, uint32_t index, sbri_whole_momentum *lost) {
   const sbri_island *island = &c->model->islands[index];
   sbri_island_state *state = &sbri_island_states(c)[index];
   if (!are_sound(&sbri_positions(c)[island->first_slot].x, 4 * (size_t)island->slot_count) ||
       !are_sound(sbri_velocities(c) + 3 * (size_t)island->first_slot, 3 * (size_t)island->free_count)) {
+    if (lost) lost->mass = 0;
     put_back(c, index);
-    return;
+    return true;
   }
   if (state->calm_ticks > 0) {
     state->calm_ticks--;
-    calm(c, index, coupled);
+    calm(c, index, lost != NULL);
   }
-  if ((world->ticks + index) % LOOK_EVERY) return;
+  if ((world->ticks + index) % LOOK_EVERY) return false;
   sbri_shape shape = sbri_shape_of(world, c, index);
   if (!shape.wild)
     state->calm_ticks = 0;
@@ -79,7 +81,9 @@ void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t ind
   state->excess_j = shape.excess_j;
   state->folded_ticks = shape.folded ? state->folded_ticks + LOOK_EVERY : 0;
   if (shape.folded) state->recovering = SBRI_RECOVERING_TICKS;
-  if (state->folded_ticks >= (shape.wild && shape.told ? CALMED_TICKS : FOLDED_TICKS) ||
-      (shape.told && shape.heaped && state->wild >= WILD_TICKS))
-    put_back(c, index);
+  bool stays = state->folded_ticks >= (shape.wild && shape.told ? CALMED_TICKS : FOLDED_TICKS);
+  if (!stays && !(shape.told && shape.heaped && state->wild >= WILD_TICKS)) return false;
+  if (lost) *lost = sbri_island_momentum(c, index);
+  put_back(c, index);
+  return true;
 }

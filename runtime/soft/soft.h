@@ -82,12 +82,22 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
 
 /* ---- soft/recovery.c ---- */
 
+/* Of many masses: kg, kg m, kg m/s and kg m^2/s, about the origin. */
+typedef struct sbri_whole_momentum {
+  double mass, first[3], linear[3], angular[3];
+} sbri_whole_momentum;
+void sbri_momentum_add(sbri_whole_momentum *to, double mass, sbf_vec3 at, sbf_vec3 velocity);
+/* Of the island's free points. */
+sbri_whole_momentum sbri_island_momentum(const sbri_character *c, uint32_t island);
+
 /* Of its speed against what holds it, or against its own rigid motion, a calmed body keeps this in a tick. */
 #define SBRI_CALM_KEPT 0.7f
 /* After a tick: calms what is wild, and puts into its rest shape what has lost its numbers or its shape for
- * good. `coupled`: what moves against what holds it is calmed by the caller, in the next tick, who gives that
- * its part of it. */
-void sbri_island_recover(const sbr_world *world, sbri_character *c, uint32_t island, bool coupled);
+ * good; whether it has done that. `lost`: NULL, or the caller steps what holds it as well: calms, in the next
+ * tick, what moves against that, and gives it what rest shapes have not of the momentum before, which is put
+ * there; its mass is 0 where that was lost with its numbers. */
+bool sbri_island_recover(
+    const sbr_world *world, sbri_character *c, uint32_t island, sbri_whole_momentum *lost);
 
 /* ---- soft/sleep.c ---- */
 

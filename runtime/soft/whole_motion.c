@@ -1,4 +1,5 @@
-/* A body that nothing holds, as one whole, from level to level. */
+/* Bodies as one whole: what all their points weigh and have of momentum, and how one that nothing holds goes
+ * on from level to level. */
 #include "soft/soft.h"
 #include "solvers/rigid_motion.h"
 #include "solvers/scheme.h"
@@ -23,4 +24,29 @@ void sbri_body_go_on(sbri_character *c, const sbri_character *was, uint32_t inde
     float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
     v[0] += more.x, v[SBRI_BLOCK] += more.y, v[2 * SBRI_BLOCK] += more.z;
   }
+}
+
+void sbri_momentum_add(sbri_whole_momentum *to, double mass, sbf_vec3 at, sbf_vec3 velocity) {
+  const double x[3] = {(double)at.x, (double)at.y, (double)at.z};
+  const double p[3] = {mass * (double)velocity.x, mass * (double)velocity.y, mass * (double)velocity.z};
+  to->mass += mass;
+  for (int k = 0; k < 3; k++) {
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    to->first[k] += mass * x[k], to->linear[k] += p[k];
+    to->angular[k] += x[i] * p[j] - x[j] * p[i];
+  }
+}
+
+sbri_whole_momentum sbri_island_momentum(const sbri_character *c, uint32_t index) {
+  const sbri_island *island = &c->model->islands[index];
+  const sbri_point *points = sbri_positions(c) + island->first_slot;
+  const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  sbri_whole_momentum sum = {0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    const sbri_point *x = &points[slot];
+    const float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    sbri_momentum_add(&sum, (double)island->masses[slot], sbri_vec3(x->x, x->y, x->z),
+        sbri_vec3(v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]));
+  }
+  return sum;
 }

@@ -17,9 +17,19 @@ static inline sbri_reaction *sbri_reaction_at(const sbri_island_tick *t, uint32_
   return carrier >= 0 ? &t->reactions[carrier] : NULL;
 }
 
+/* Where a slot shall be: what holds it moves, in the step that follows, by its part of what has been moved at
+ * once. */
+static inline sbf_vec3 sbri_shifted_place(const sbri_island_tick *t, uint32_t slot) {
+  const sbri_reaction *r = sbri_reaction_at(t, slot);
+  const sbri_point *p = &t->positions[slot];
+  sbf_vec3 at = {p->x, p->y, p->z};
+  if (!r) return at;
+  sbf_vec3 turn = sbri_cross(r->shift_turn, sbri_sub(at, r->about));
+  return sbri_add(at, sbri_add_scaled(sbri_scale(r->shift, r->ease), turn, r->turn_ease));
+}
+
 static inline sbf_vec3 sbri_reaction_arm(const sbri_island_tick *t, const sbri_reaction *r, uint32_t slot) {
-  const sbri_point *at = &t->positions[slot];
-  return sbri_sub(sbri_vec3(at->x, at->y, at->z), r->about);
+  return sbri_sub(sbri_shifted_place(t, slot), r->about);
 }
 
 /* d . v of the held point where it is pushed with d, an impulse; 0 of a free one. */
@@ -43,6 +53,16 @@ static inline void sbri_held_push(const sbri_island_tick *t, uint32_t slot, sbf_
   if (!r) return;
   r->moment = sbri_add(r->moment, sbri_cross(sbri_reaction_arm(t, r, slot), impulse));
   r->impulse = sbri_add(r->impulse, impulse);
+}
+
+/* The body's part of what has been moved at once, kg m. */
+static inline void sbri_held_shift(const sbri_island_tick *t, uint32_t slot, sbf_vec3 shift) {
+  sbri_reaction *r = sbri_reaction_at(t, slot);
+  if (!r) return;
+  sbf_vec3 speed = sbri_add(sbri_slot_velocity(t, t->velocities, slot), sbri_held_gain(t, slot));
+  r->shift_turn = sbri_add(r->shift_turn, sbri_cross(sbri_reaction_arm(t, r, slot), shift));
+  r->shift = sbri_add(r->shift, shift);
+  r->shift_moment = sbri_add(r->shift_moment, sbri_cross(shift, speed));
 }
 
 #endif

@@ -3,8 +3,8 @@
  *
  * A limit is a wall, as that of a spring (strain_limit.h): a principal stretch beyond it is brought to it
  * along its own gradient, by the corners' inverse masses, and the speed with which it was leaving is taken.
- * Momentum is kept, and angular momentum but for what is shifted. Up to four sweeps a substep: of elements
- * that pull at the same points some may stay a little beyond.
+ * Momentum and angular momentum are kept, as there. Up to four sweeps a substep: of elements that pull at the
+ * same points some may stay a little beyond.
  *
  * What yields gets a new metric of its rest shape, what tears stops: both are the blocks themselves, which
  * are state then. Written for the lanes of the file that includes it; see model/kernels.h. */
@@ -32,38 +32,41 @@ static inline uint32_t sbri_corner(const sbri_solid_lane *e, int k) {
 }
 
 static inline void sbri_solid_edges_of(const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_d3 d[3]) {
-  const sbri_point *o = &t->positions[sbri_corner(e, 0)];
+  sbf_vec3 o = sbri_shifted_place(t, sbri_corner(e, 0));
   for (int k = 0; k < 3; k++) {
-    const sbri_point *p = &t->positions[sbri_corner(e, k + 1)];
-    d[k] = (sbfi_d3){(double)p->x - o->x, (double)p->y - o->y, (double)p->z - o->z};
+    sbf_vec3 p = sbri_shifted_place(t, sbri_corner(e, k + 1));
+    d[k] = (sbfi_d3){(double)p.x - (double)o.x, (double)p.y - (double)o.y, (double)p.z - (double)o.z};
   }
 }
 
-/* Brings the k-th stretch to `bound`. */
-static inline void sbri_limit_stretch(const sbri_island_tick *t, const sbri_solid_lane *e, const sbfi_d3 d[3],
-    sbfi_stretches *s, int k, double bound) {
+/* Brings the k-th stretch to `bound`, from where those before it have left the corners. */
+static inline void sbri_limit_stretch(
+    const sbri_island_tick *t, const sbri_solid_lane *e, sbfi_stretches *s, int k, double bound) {
   const double *q = s->directions[k];
-  double value = s->values[k], sum = 0, speed = 0, shares[4] = {0, q[0], q[1], q[2]};
-  if (!(fabs(value) > 1e-6)) return;
+  double sum = 0, held = 0, shares[4] = {0, q[0], q[1], q[2]};
+  bool is_long = s->values[k] > bound;
+  sbfi_d3 d[3];
+  sbri_solid_edges_of(t, e, d);
   sbfi_d3 u = sbfi_d3_add(
       sbfi_d3_add(sbfi_d3_scale(d[0], q[0]), sbfi_d3_scale(d[1], q[1])), sbfi_d3_scale(d[2], q[2]));
-  sbf_vec3 n = sbfi_d3_rounded(sbfi_d3_scale(u, 1 / value));
+  double value = s->values[k] < 0 ? -sqrt(sbfi_d3_dot(u, u)) : sqrt(sbfi_d3_dot(u, u));
+  if (!(fabs(value) > 1e-6) || is_long != (value > bound)) return;
+  sbf_vec3 n = sbfi_d3_rounded(sbfi_d3_scale(u, 1 / value)), apart = {0, 0, 0};
   shares[0] = -(q[0] + q[1] + q[2]);
   for (int i = 0; i < 4; i++) {
     uint32_t slot = sbri_corner(e, i);
     double w = slot < t->island->free_count ? t->island->inverse_masses[slot] : 0;
     sum += w * shares[i] * shares[i];
-    speed += shares[i] * (double)sbri_dot(sbri_slot_velocity(t, t->velocities, slot), n);
+    held += (double)sbri_held_ease(t, slot, sbri_scale(n, (float)shares[i]));
+    apart = sbri_add_scaled(apart, sbri_pushed_velocity(t, slot), (float)shares[i]);
   }
   if (!(sum > 0)) return;
-  bool leaving = value > bound ? speed > 0 : speed < 0;
-  for (int i = 0; i < 4; i++) {
-    uint32_t slot = sbri_corner(e, i);
-    if (slot >= t->island->free_count) continue;
-    double w = -t->island->inverse_masses[slot] * shares[i] / sum;
-    sbri_shift_slot(t, slot, sbri_scale(n, (float)(w * (value - bound))),
-        sbri_scale(n, leaving ? (float)(w * speed) : 0));
-  }
+  float all = (float)(sum + held), speed = sbri_dot(apart, n), way = (float)(value - bound) / all;
+  bool leaving = is_long ? speed > 0 : speed < 0;
+  sbf_vec3 push = sbri_limit_turn(apart, n, way, all, (float)bound);
+  push = sbri_add_scaled(push, n, leaving ? -speed / all : 0);
+  for (int i = 0; i < 4; i++) sbri_move_slot(t, sbri_corner(e, i), sbri_scale(n, -(float)shares[i] * way));
+  for (int i = 0; i < 4; i++) sbri_push_slot(t, sbri_corner(e, i), sbri_scale(push, (float)shares[i]));
   s->values[k] = bound;
 }
 
@@ -136,7 +139,7 @@ static inline bool sbri_limit_solid(const sbri_island_tick *t, const sbri_solid_
     if (!is_long && !(is->least[e->lane] > -1 && value < least)) continue;
     double bound = is_long ? most : least;
     moved = moved || fabs(value - bound) > SBRI_LIMIT_TOLERANCE;
-    sbri_limit_stretch(t, e, d, &stretches, k, bound);
+    sbri_limit_stretch(t, e, &stretches, k, bound);
   }
   return moved;
 }

@@ -1,8 +1,10 @@
 /* Walls in the energy of springs: what is longer or shorter than its strain limits allow is brought to them,
  * and the speed with which it was leaving them is taken (Provot, Deformation Constraints in a Mass-Spring
- * Model, 1995, moves the points alike). Momentum is kept. One sweep a substep: of springs that pull at the
- * same points some may stay a little beyond. What is within its limits is not touched, so that a second sweep
- * over a state that the first one has put right changes nothing.
+ * Model, 1995, moves the points alike). What turns about the other end as it is brought nearer turns so much
+ * faster, and what holds a held end takes its part of the push: momentum and angular momentum are kept. One
+ * sweep a substep: of springs that pull at the same points some may stay a little beyond. What is within its
+ * limits is not touched, so that a second sweep over a state that the first one has put right changes
+ * nothing.
  *
  * Bias against the energy: such a wall would throw a spring back with the speed it came with; here it takes
  * it.
@@ -12,10 +14,14 @@
 #define SBRI_STRAIN_LIMIT_H
 
 #include "math/vec3.h"
+#include "solvers/held_push.h"
 #include "solvers/motion.h"
 
 /* Beyond a limit by less than this share is at it. */
 #define SBRI_LIMIT_SLACK 2e-6f
+/* No turn becomes faster or slower by more than this share as its arm is made shorter or longer: what lies in
+ * a heap is not to be thrown about. */
+#define SBRI_LIMIT_MOST_TURN 0.2f
 
 static inline void sbri_shift_slot(
     const sbri_island_tick *t, uint32_t slot, sbf_vec3 way, sbf_vec3 velocity_change) {
@@ -26,21 +32,56 @@ static inline void sbri_shift_slot(
   v[0] += velocity_change.x, v[SBRI_BLOCK] += velocity_change.y, v[2 * SBRI_BLOCK] += velocity_change.z;
 }
 
-/* One spring, of length `length`, to the length `bound`. */
+/* An impulse on any slot. */
+static inline void sbri_push_slot(const sbri_island_tick *t, uint32_t slot, sbf_vec3 impulse) {
+  if (slot < t->island->free_count)
+    sbri_shift_slot(t, slot, sbri_vec3(0, 0, 0), sbri_scale(impulse, t->island->inverse_masses[slot]));
+  else
+    sbri_held_push(t, slot, impulse);
+}
+
+static inline sbf_vec3 sbri_pushed_velocity(const sbri_island_tick *t, uint32_t slot) {
+  return sbri_add(sbri_slot_velocity(t, t->velocities, slot), sbri_held_gain(t, slot));
+}
+
+/* What keeps the angular momentum of an arm along n whose ends have been moved against each other, by `moved`
+ * N s^2 at masses, to the length `bound`: an impulse across it, of the speed between its ends. */
+static inline sbf_vec3 sbri_limit_turn(sbf_vec3 speed, sbf_vec3 n, float moved, float sum, float bound) {
+  float share = moved / bound, most = SBRI_LIMIT_MOST_TURN / sum;
+  if (!(bound > 0)) return sbri_vec3(0, 0, 0);
+  share = share > most ? most : share < -most ? -most : share;
+  return sbri_scale(sbri_add_scaled(speed, n, -sbri_dot(speed, n)), share);
+}
+
+/* Moves any slot at once, by kg m. */
+static inline void sbri_move_slot(const sbri_island_tick *t, uint32_t slot, sbf_vec3 shift) {
+  if (slot < t->island->free_count)
+    sbri_shift_slot(t, slot, sbri_scale(shift, t->island->inverse_masses[slot]), sbri_vec3(0, 0, 0));
+  else
+    sbri_held_shift(t, slot, shift);
+}
+
+/* One spring, of length `length`, to the length `bound`. What holds it may have been moved out of the way. */
 static inline void sbri_limit_link(
     const sbri_island_tick *t, uint32_t a, uint32_t b, float length, float bound) {
   uint32_t free_count = t->island->free_count;
   float wa = a < free_count ? t->island->inverse_masses[a] : 0;
   float wb = b < free_count ? t->island->inverse_masses[b] : 0;
   if (!(wa + wb > 0) || !(length > 0)) return;
-  const sbri_point *p = &t->positions[a], *q = &t->positions[b];
-  sbf_vec3 n = sbri_scale(sbri_vec3(q->x - p->x, q->y - p->y, q->z - p->z), 1 / length);
-  float speed =
-      sbri_dot(sbri_sub(sbri_slot_velocity(t, t->velocities, b), sbri_slot_velocity(t, t->velocities, a)), n);
-  bool leaving = length > bound ? speed > 0 : speed < 0;
-  float way = (length - bound) / (wa + wb), taken = leaving ? speed / (wa + wb) : 0;
-  sbri_shift_slot(t, a, sbri_scale(n, wa * way), sbri_scale(n, wa * taken));
-  sbri_shift_slot(t, b, sbri_scale(n, -wb * way), sbri_scale(n, -wb * taken));
+  bool is_long = length > bound;
+  sbf_vec3 along = sbri_sub(sbri_shifted_place(t, b), sbri_shifted_place(t, a));
+  length = sbri_length(along);
+  if (!(length > 0) || is_long != (length > bound)) return;
+  sbf_vec3 n = sbri_scale(along, 1 / length);
+  sbf_vec3 apart = sbri_sub(sbri_pushed_velocity(t, b), sbri_pushed_velocity(t, a));
+  float speed = sbri_dot(apart, n), ease = wa + wb + sbri_held_ease(t, a, n) + sbri_held_ease(t, b, n);
+  bool leaving = is_long ? speed > 0 : speed < 0;
+  float way = (length - bound) / ease, taken = leaving ? speed / ease : 0;
+  sbf_vec3 push = sbri_sub(sbri_scale(n, taken), sbri_limit_turn(apart, n, way, ease, bound));
+  sbri_move_slot(t, a, sbri_scale(n, way));
+  sbri_move_slot(t, b, sbri_scale(n, -way));
+  sbri_push_slot(t, a, push);
+  sbri_push_slot(t, b, sbri_scale(push, -1));
 }
 
 static inline void sbri_limit_strains(const sbri_island_tick *t) {

@@ -7,6 +7,10 @@
  * that takes, and needs no more substeps, as a bulk modulus would. What a step leaves is of second order in
  * it: one is enough but where a body strikes the ground.
  *
+ * Held points stay where they are, but simulated bodies that carry them take their part of the push, and give
+ * way to it as far as their weight lets them (held_push.h): that part of the volume is theirs to bring back.
+ * The gradient is then that where the substep began, so that angular momentum is kept (SHAKE).
+ *
  * Points on the ground have nowhere to go below it. They count in the sum with that of their gradient which
  * leads along the ground or off it; what presses them down is taken by the ground, and rubs.
  *
@@ -16,6 +20,7 @@
 #define SBRI_VOLUME_KEEP_H
 
 #include "skin/skin_lanes.h"
+#include "solvers/held_push.h"
 #include "solvers/motion.h"
 
 /* No more than this share of the volume is regained in a step: a body turned inside out comes back slowly. */
@@ -65,22 +70,84 @@ static inline float sbri_volume_gradients(
   return sbri_tree_sum(lanes);
 }
 
-/* One step at the end of a substep; the share of the volume that was missing before it. */
-static inline float sbri_volume_step(
-    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
+static inline sbf_vec3 sbri_held_gradient(const sbri_point *faces, const sbri_face_share *share) {
+  const sbri_point *n = &faces[share->face];
+  return sbri_scale(sbri_vec3(n->x, n->y, n->z), share->weight);
+}
+
+/* What the held points' bodies add to that sum where they give way. */
+static inline float sbri_volume_held_ease(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces) {
+  float sum = 0;
+  for (uint32_t k = 0; t->reactions && k < t->island->carrier_count; k++) {
+    const sbri_reaction *r = &t->reactions[t->island->carriers[k]];
+    sbf_vec3 push = {0, 0, 0}, turn = {0, 0, 0};
+    for (uint32_t i = 0; i < body->volume_held_count; i++) {
+      const sbri_face_share *share = &body->volume_held[i];
+      if (sbri_reaction_at(t, share->slot) != r) continue;
+      sbf_vec3 g = sbri_held_gradient(faces, share);
+      push = sbri_add(push, g);
+      turn = sbri_add(turn, sbri_cross(sbri_reaction_arm(t, r, share->slot), g));
+    }
+    sum += r->ease * sbri_dot(push, push) + r->turn_ease * sbri_dot(turn, turn);
+  }
+  return sum;
+}
+
+/* On what is held, where it was when the substep began. */
+static inline void sbri_volume_push_held(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces, float impulse, float h) {
+  for (uint32_t i = 0; t->reactions && i < body->volume_held_count; i++) {
+    const sbri_face_share *share = &body->volume_held[i];
+    sbri_reaction *r = sbri_reaction_at(t, share->slot);
+    sbf_vec3 push = sbri_scale(sbri_held_gradient(faces, share), impulse);
+    if (!r) continue;
+    sbri_held_push(t, share->slot, push);
+    sbf_vec3 way = sbri_scale(sbri_slot_velocity(t, t->velocities, share->slot), h);
+    r->moment = sbri_sub(r->moment, sbri_cross(way, push));
+  }
+}
+
+/* The volume within the surface of those points, and its faces' areas, twice. */
+static inline float sbri_volume_within(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_point *points, sbri_point *faces) {
   const sbri_skin *skin = &body->surface;
-  sbri_point *vertices = t->positions, *faces = t->surface_faces + body->first_face;
+  const sbri_point *vertices = points;
   const sbri_face_block *named = body->volume_faces;
   if (!named) {
     vertices = t->surface_vertices + body->first_vertex;
     named = skin->faces;
-    sbri_lanes_vertices(skin, t->positions - t->island->first_slot, vertices);
+    sbri_lanes_vertices(skin, points - t->island->first_slot, t->surface_vertices + body->first_vertex);
   }
+  return sbri_lanes_volume(named, skin->face_block_count, vertices, faces);
+}
+
+/* The faces as they were when the substep began: by how places and speeds are now, which is all that a push
+ * which changes both alike has to do with. */
+static inline void sbri_volume_faces_before(
+    const sbri_island_tick *t, const sbri_body *body, sbri_point *faces, float h) {
+  sbri_point *before = t->element_forces; /* scratch that nothing else uses here */
+  for (uint32_t slot = 0; slot < t->island->slot_count; slot++) {
+    const sbri_point *x = &t->positions[slot];
+    sbf_vec3 v = sbri_slot_velocity(t, t->velocities, slot);
+    before[slot] = (sbri_point){x->x - h * v.x, x->y - h * v.y, x->z - h * v.z, 0};
+  }
+  (void)sbri_volume_within(t, body, before, faces);
+}
+
+/* One step at the end of a substep; the share of the volume that was missing before it. `owed`: what
+ * simulated bodies will bring back, by what the steps before have pushed them with. */
+static inline float sbri_volume_step(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule, float *owed) {
+  sbri_point *faces = t->surface_faces + body->first_face;
   float rest = (float)body->rest_volume_m3, most = SBRI_MOST_VOLUME_SHARE * rest;
-  float missing = rest - sbri_lanes_volume(named, skin->face_block_count, vertices, faces);
-  float sum = sbri_volume_gradients(t, body, faces, missing);
+  float missing = rest - sbri_volume_within(t, body, t->positions, faces) - *owed;
+  if (t->reactions) sbri_volume_faces_before(t, body, faces, rule->step_s);
+  float sum = sbri_volume_gradients(t, body, faces, missing), held = sbri_volume_held_ease(t, body, faces);
   if (!(sum > 0) || !(missing - missing == 0)) return 0;
-  float s = (missing > most ? most : missing < -most ? -most : missing) / sum;
+  float s = (missing > most ? most : missing < -most ? -most : missing) / (sum + held);
+  *owed += s * held;
+  sbri_volume_push_held(t, body, faces, s / rule->step_s, rule->step_s);
   sbri_wide rate = sbri_wide_all(1 / rule->step_s);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
@@ -102,12 +169,13 @@ static inline float sbri_volume_step(
 
 /* At the end of a substep of `h` seconds: moves the body's free points along the gradient of the volume, by
  * their inverse masses, until the rest volume is enclosed again, and changes their velocities by as much per
- * second. Momentum is kept, but for what the ground takes. */
+ * second. Momentum is kept with what the held points' bodies take, but for what the ground does. */
 static inline void sbri_volume_keep(const sbri_island_tick *t, const sbri_body *body, float h) {
   const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
   sbri_touches_remember(t, body);
+  float owed = 0;
   for (int i = 0; i < SBRI_MOST_VOLUME_STEPS; i++) {
-    float missing = sbri_volume_step(t, body, &rule);
+    float missing = sbri_volume_step(t, body, &rule, &owed);
     if (missing < SBRI_VOLUME_SHARE_LEFT && -missing < SBRI_VOLUME_SHARE_LEFT) break;
   }
   sbri_touches_bound(t, body, &rule);

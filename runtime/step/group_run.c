@@ -135,7 +135,7 @@ static void end_island(const sbr_world *world, sbri_meet_member *m, uint32_t ind
   sbri_held_places(&now, sbri_deltas(c), sbri_positions(c) + now.first_slot);
   sbri_island_tell(&tick, c);
   if (now.splits && tick.tears->count > 0) tick.tears->unsplit = sbri_island_split(c, index);
-  sbri_island_recover(world, c, index, false);
+  (void)sbri_island_recover(world, c, index, NULL);
   sbri_island_may_sleep(world, c, index);
 }
 

@@ -70,9 +70,8 @@ END_TEST
 static const struct {
   float soft_kg, rigid_kg, times;
   int ticks;
-  bool whole; /* nothing is ever put back into its rest shape, which takes momentum */
-} hard_hits[] = {{1, 1, 1, 540, true}, {0.1f, 10, 1, 540, true}, {1, 1, 10, 300, true},
-    {0.1f, 10, 10, 90, true}, {10, 0.1f, 10, 300, false}, {100, 0.1f, 10, 300, false}};
+} hard_hits[] = {{1, 1, 1, 540}, {0.1f, 10, 1, 540}, {1, 1, 10, 300}, {0.1f, 10, 10, 90}, {10, 0.1f, 10, 300},
+    {100, 0.1f, 10, 300}};
 
 START_TEST(a_hard_hit_swings_nothing_up)
 {
@@ -88,8 +87,7 @@ START_TEST(a_hard_hit_swings_nothing_up)
     ck_assert_msg(now < 1.04 * first, "tick %d: %g J of %g", t, now, first);
   }
   scene_momentum after = scene_momentum_of(&s);
-  for (int k = 0; k < 3 && hard_hits[_i].whole; k++)
-    ck_assert_double_eq_tol(after.linear[k], before.linear[k], 1e-3 * (double)kg);
+  for (int k = 0; k < 3; k++) ck_assert_double_eq_tol(after.linear[k], before.linear[k], 1e-3 * (double)kg);
   scene_free(&s);
 }
 END_TEST

@@ -1,0 +1,136 @@
+/* What becomes of a soft body's momentum when it is put back into its rest shape on bones that are simulated.
+ *
+ * In its rest shape it goes as its bones do. What that lacks of the momentum that it had, and of the angular
+ * momentum about the centre of mass of both, bones and flesh take up as one rigid body: of all changes of
+ * speed that do so the one with the least energy. */
+#include <string.h>
+
+#include "ragdoll/ragdoll.h"
+#include "rigid/sym6.h"
+#include "soft/soft.h"
+#include "solvers/scheme.h"
+
+/* How a place that goes with a frame moves; false where no simulated body carries that. */
+static bool add_velocity(const sbri_character *c, uint32_t frame, float weight, sbf_vec3 at, sbf_vec3 *sum) {
+  int32_t carrier = c->model->carrier_of_frame[frame];
+  if (carrier < 0 || !sbri_rigid_is_simulated(c, (uint32_t)carrier)) return false;
+  const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[carrier];
+  sbf_vec3 turn = sbri_spin_velocity(&c->model->rigid.bodies[carrier], body->pose.rotation, body->spin);
+  sbf_vec3 v = sbri_add(body->velocity, sbri_cross(turn, sbri_sub(at, body->pose.position)));
+  *sum = sbri_add_scaled(*sum, v, weight);
+  return true;
+}
+
+static bool find_velocity(
+    const sbri_character *c, const sbri_body *body, uint32_t place, sbf_vec3 at, sbf_vec3 *v) {
+  *v = sbri_vec3(0, 0, 0);
+  if (!body->guides) return add_velocity(c, body->guide_frame, 1, at, v);
+  const sbri_guide *guide = &body->guides[place];
+  for (int k = 0; k < SBRI_GUIDES; k++)
+    if (guide->weights[k] > 0 && !add_velocity(c, guide->frames[k], guide->weights[k], at, v)) return false;
+  return true;
+}
+
+/* False where something else than simulated bodies holds some of it, which then takes what it lacks. */
+static bool go_with_bones(sbri_character *c, const sbri_island *island) {
+  const sbri_point *points = sbri_positions(c) + island->first_slot;
+  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = &c->model->bodies[island->bodies[b]];
+    if (!body->held) return false;
+    for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) {
+      float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+      sbf_vec3 at = {points[slot].x, points[slot].y, points[slot].z}, with;
+      if (!find_velocity(c, body, slot - body->slot_begin, at, &with)) return false;
+      v[0] = with.x, v[SBRI_BLOCK] = with.y, v[2 * SBRI_BLOCK] = with.z;
+    }
+  }
+  return true;
+}
+
+static void add_bones(const sbri_character *c, const sbri_island *island, sbri_whole_momentum *to) {
+  for (uint32_t k = 0; k < island->carrier_count; k++) {
+    uint32_t b = island->carriers[k];
+    const sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
+    if (!sbri_rigid_is_simulated(c, b)) continue;
+    const float spin[3] = {body->spin.x, body->spin.y, body->spin.z};
+    sbri_momentum_add(to, (double)c->model->rigid.bodies[b].mass, body->pose.position, body->velocity);
+    for (int i = 0; i < 3; i++) to->angular[i] += (double)spin[i];
+  }
+}
+
+/* About its own centre of mass. */
+static void find_turning(const sbri_whole_momentum *m, double to[3]) {
+  for (int k = 0; k < 3; k++) {
+    int i = (k + 1) % 3, j = (k + 2) % 3;
+    to[k] = m->angular[k] - (m->first[i] * m->linear[j] - m->first[j] * m->linear[i]) / m->mass;
+  }
+}
+
+static void add_moments(double d[6][6], double mass, const double center[3], sbf_vec3 at) {
+  const double r[3] = {(double)at.x - center[0], (double)at.y - center[1], (double)at.z - center[2]};
+  double square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j <= i; j++) d[3 + i][3 + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
+}
+
+/* Masses and moments of bones and flesh, about the centre. */
+static void weigh(
+    const sbri_character *c, const sbri_island *island, const double center[3], double d[6][6]) {
+  const sbri_point *points = sbri_positions(c) + island->first_slot;
+  for (uint32_t slot = 0; slot < island->free_count; slot++)
+    add_moments(
+        d, (double)island->masses[slot], center, sbri_vec3(points[slot].x, points[slot].y, points[slot].z));
+  for (uint32_t k = 0; k < island->carrier_count; k++) {
+    uint32_t b = island->carriers[k];
+    const sbr_transform *pose = &sbri_rigid_bodies(c)[b].pose;
+    float moments[3][3];
+    if (!sbri_rigid_is_simulated(c, b)) continue;
+    add_moments(d, (double)c->model->rigid.bodies[b].mass, center, pose->position);
+    sbri_rigid_moments(c->model->rigid.bodies[b].inertia, pose->rotation, moments);
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j <= i; j++) d[3 + i][3 + j] += (double)moments[i][j];
+  }
+}
+
+static void change(
+    sbri_character *c, const sbri_island *island, sbf_vec3 center, sbf_vec3 by, sbf_vec3 turn) {
+  const sbri_point *points = sbri_positions(c) + island->first_slot;
+  float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+  for (uint32_t slot = 0; slot < island->free_count; slot++) {
+    float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+    sbf_vec3 arm = sbri_sub(sbri_vec3(points[slot].x, points[slot].y, points[slot].z), center);
+    sbf_vec3 more = sbri_add(by, sbri_cross(turn, arm));
+    if (!(island->masses[slot] > 0)) continue;
+    v[0] += more.x, v[SBRI_BLOCK] += more.y, v[2 * SBRI_BLOCK] += more.z;
+  }
+  for (uint32_t k = 0; k < island->carrier_count; k++) {
+    uint32_t b = island->carriers[k];
+    sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[b];
+    if (!sbri_rigid_is_simulated(c, b)) continue;
+    sbf_vec3 more = sbri_add(by, sbri_cross(turn, sbri_sub(body->pose.position, center)));
+    body->velocity = sbri_add(body->velocity, more);
+    body->spin = sbri_add(body->spin, sbri_spin_from(&c->model->rigid.bodies[b], body->pose.rotation, turn));
+  }
+}
+
+void sbri_flesh_goes_on(sbri_character *c, uint32_t index, const sbri_whole_momentum *had) {
+  const sbri_island *island = &c->model->islands[index];
+  if (island->scheme->forceless || !go_with_bones(c, island) || !(had->mass > 0)) return;
+  sbri_whole_momentum before = *had, now = sbri_island_momentum(c, index);
+  double turned[3], turns[3], center[3], d[6][6] = {{0}}, x[6];
+  add_bones(c, island, &before);
+  add_bones(c, island, &now);
+  find_turning(&before, turned);
+  find_turning(&now, turns);
+  for (int k = 0; k < 3; k++) {
+    center[k] = now.first[k] / now.mass, d[k][k] = now.mass;
+    x[k] = before.linear[k] - now.linear[k], x[3 + k] = turned[k] - turns[k];
+  }
+  weigh(c, island, center, d);
+  sbri_sym6_factor(d);
+  sbri_sym6_forward(d, x);
+  sbri_sym6_back(d, x);
+  change(c, island, sbri_vec3((float)center[0], (float)center[1], (float)center[2]),
+      sbri_vec3((float)x[0], (float)x[1], (float)x[2]), sbri_vec3((float)x[3], (float)x[4], (float)x[5]));
+}
