@@ -49,11 +49,7 @@ static void put(const sbr_world *world, sbri_character *c, sbr_double3 position,
   sbri_rigid_frames_follow(c, sbri_pose(c));
 }
 
-sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
-    const sbr_character_definition *definition, sbr_character_id *character, sbf_diagnostic *error) {
-  if (!world || !model || !definition || !character)
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_character_create: NULL argument");
-  *character = (sbr_character_id){0};
+static sbf_status check_definition(const sbr_character_definition *definition, sbf_diagnostic *error) {
   if (definition->cookie != CHARACTER_COOKIE)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: begin the definition with sbr_default_character_definition");
@@ -65,6 +61,27 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: position %g %g %g m or heading %g rad: give finite numbers, to 1e15", where[0],
         where[1], where[2], where[3]);
+  return SBF_OK;
+}
+
+/* It stands where it is to, at rest. */
+static void begin(sbr_world *world, sbri_character *c, const sbr_character_definition *definition) {
+  put(world, c, definition->position, definition->heading);
+  sbri_rigid_place(c, true);
+  sbri_jiggles_place(c);
+  sbri_mend(c);
+  sbri_place_at_rest(c);
+  sbri_work_list(world);
+  world->stamp++;
+}
+
+sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
+    const sbr_character_definition *definition, sbr_character_id *character, sbf_diagnostic *error) {
+  if (!world || !model || !definition || !character)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_character_create: NULL argument");
+  *character = (sbr_character_id){0};
+  sbf_status status = check_definition(definition, error);
+  if (status != SBF_OK) return status;
   uint32_t index = 0;
   while (index < world->character_capacity && world->characters[index].model) index++;
   if (index == world->character_capacity)
@@ -94,13 +111,7 @@ sbf_status sbr_character_create(sbr_world *world, const sbr_model *model,
   }
   sbri_head(c)->rung = sbri_head(c)->next_rung = rung;
   sbri_head(c)->rung_ticks = UINT32_MAX; /* it has not ticked: it may go over to any other at once */
-  put(world, c, definition->position, definition->heading);
-  sbri_rigid_place(c, true);
-  sbri_jiggles_place(c);
-  sbri_mend(c);
-  sbri_place_at_rest(c);
-  sbri_work_list(world);
-  world->stamp++;
+  begin(world, c, definition);
   *character = sbri_id_of(world, c);
   sbri_record(world, SBRI_RECORDED_MADE, (const double[]){character->value});
   return SBF_OK;

@@ -170,21 +170,29 @@ float sbri_ahead(const sbri_roam *roam, sbf_vec3 way, float half) {
   return 2 * half - ahead > most.behind ? 2 * half - most.behind : ahead;
 }
 
-sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
-  sbri_stride s = {0};
+/* Where each leg's home moves and how far about it the foot may be; half of the widest stride that all of
+ * them can take, m. */
+static float look_at_homes(
+    const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input, sbri_stride *s) {
   float most = 0;
   for (uint32_t i = 0; i < rig->leg_count; i++) {
-    sbri_home *home = &s.homes[i];
+    sbri_home *home = &s->homes[i];
     home->arm = sbri_home_arm(rig, state, input, i);
     home->velocity = sbri_home_velocity(rig, state, i, home->arm);
     home->speed = sbri_length(home->velocity);
     home->roam = sbri_roam_of(rig, state, input, i, home->arm);
-    s.speed = home->speed > s.speed ? home->speed : s.speed;
+    s->speed = home->speed > s->speed ? home->speed : s->speed;
     sbf_vec3 way = sbri_normalize(home->velocity, sbri_headed(state, sbri_vec3(0, 0, 1)));
     span own = span_of(&home->roam, way);
     float half = 0.5f * (own.ahead + own.behind);
     most = i == 0 || half < most ? half : most;
   }
+  return most;
+}
+
+sbri_stride sbri_stride_of(const sbri_rig *rig, const sbri_gait_state *state, const sbri_gait_input *input) {
+  sbri_stride s = {0};
+  float most = look_at_homes(rig, state, input, &s);
   if (state->widest_m > 0) most = state->widest_m + (most - state->widest_m) * input->tick_s / STRIDE_S;
   s.widest_m = most;
   most *= SURE;
