@@ -181,6 +181,9 @@ f 4 1 5 8
         at = ("view", self.file, *SMALL)
         said = self.fails(2, *at, "--frames", "1", environment={**QUIET, "DISPLAY": ":999"})
         self.assertIn("display", said)
+        nowhere = {name: "" for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "XDG_RUNTIME_DIR")}
+        said = self.fails(2, *at, "--frames", "1", environment=nowhere)  # not on a screen that SDL makes up
+        self.assertIn("display", said)
         self.fails(2, *at, "--frames", "0", environment=self.environment)
         self.fails(2, *at, "--frames", "1", "--input", self.path("none.txt"), environment=self.environment)
         self.fails(2, *at, "--frames", "1", "--shot", self.path("no/folder.png"), environment=self.environment)

@@ -18,6 +18,7 @@
   X(GL_SetAttribute)                                                                                         \
   X(GL_SetSwapInterval)                                                                                      \
   X(GL_SwapWindow)                                                                                           \
+  X(GetCurrentVideoDriver)                                                                                   \
   X(GetError)                                                                                                \
   X(GetKeyFromName)                                                                                          \
   X(GetPerformanceCounter)                                                                                   \

@@ -1,6 +1,7 @@
 #include "view/window.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "render/fault.h"
@@ -21,6 +22,23 @@ static void ask_for_opengl(const sdl_api *sdl) {
   sdl->GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
 }
 
+/* Without a desktop SDL takes a screen that nobody sees and no key reaches, unless it is told to: nobody
+ * could close the window. */
+static sbf_status open_display(const sdl_api *sdl, sbf_diagnostic *error) {
+  bool works = sdl->Init(SDL_INIT_VIDEO) == 0;
+  const char *driver = works ? sdl->GetCurrentVideoDriver() : NULL, *asked = getenv("SDL_VIDEODRIVER");
+  bool unseen =
+      driver && !(asked && *asked) &&
+      (strcmp(driver, "offscreen") == 0 || strcmp(driver, "dummy") == 0 || strcmp(driver, "evdev") == 0);
+  if (works && !unseen) return SBF_OK;
+  sbf_status status = fault_set(error, SBF_CODE_NO_WINDOW,
+      "there is no display to open a window on (%s): run it in a desktop's session, or draw a picture with "
+      "`sbfmt render`",
+      unseen ? driver : sdl->GetError());
+  if (works) sdl->Quit();
+  return status;
+}
+
 sbf_status window_open(window *w, const char *title, uint32_t width, uint32_t height, bool steady,
     draw_context *context, sbf_diagnostic *error) {
   *w = (window){.shown = NULL};
@@ -30,11 +48,8 @@ sbf_status window_open(window *w, const char *title, uint32_t width, uint32_t he
   sdl->SetMainReady();
   sdl->SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
   sdl->SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-  if (sdl->Init(SDL_INIT_VIDEO) != 0)
-    return fault_set(error, SBF_CODE_NO_WINDOW,
-        "there is no display to open a window on (%s): run it in a desktop's session, or draw a picture with "
-        "`sbfmt render`",
-        sdl->GetError());
+  status = open_display(sdl, error);
+  if (status != SBF_OK) return status;
   ask_for_opengl(sdl);
   w->shown = sdl->CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, (int)width, (int)height,
       SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
