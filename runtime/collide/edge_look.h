@@ -31,21 +31,26 @@ static inline bool sbri_lines_cross(const sbf_vec3 p[2], const sbf_vec3 q[2], fl
   return true;
 }
 
-/* Whether they touch within the tick, or come as near as `outer`. */
-static inline bool sbri_edges_look(
-    const sbri_soft_edge *p, const sbri_soft_edge *q, float outer, sbri_edge_finding *to) {
+/* What is across both, and how far they are apart along it; the first is on that side. */
+static inline bool sbri_edges_cross(const sbri_soft_edge *p, const sbri_soft_edge *q, sbri_edge_finding *to) {
   if (!sbri_lines_cross(p->at, q->at, to->shares)) return false;
   sbf_vec3 n = sbri_cross(sbri_sub(p->at[1], p->at[0]), sbri_sub(q->at[1], q->at[0]));
   n = sbri_scale(n, 1 / sbri_length(n));
   to->distance = sbri_dot(n, sbri_sub(p->at[0], q->at[0]));
   if (to->distance < 0) n = sbri_scale(n, -1), to->distance = -to->distance;
   to->normal = n;
+  return true;
+}
+
+/* Whether what lies so to each other touches within the tick, or comes as near as `outer`. */
+static inline bool sbri_edges_touch(
+    const sbri_soft_edge *p, const sbri_soft_edge *q, float outer, sbri_edge_finding *to) {
   /* Where they cross may lie beside them now: as they are when they have come near. */
   sbf_vec3 way = sbri_sub(sbri_lerp(p->ways[0], p->ways[1], sbri_clamp(to->shares[0], 0, 1)),
       sbri_lerp(q->ways[0], q->ways[1], sbri_clamp(to->shares[1], 0, 1)));
-  float closing = -sbri_dot(n, way);
+  float closing = -sbri_dot(to->normal, way);
   if (to->distance - (closing > 0 ? 2 * closing : 0) >= outer) return false;
-  if (closing > 0) {
+  if (closing > 0 && to->distance >= 0) {
     float when = to->distance < closing ? to->distance / closing : 1;
     sbf_vec3 ends[2][2];
     for (int k = 0; k < 2; k++) {
@@ -55,6 +60,12 @@ static inline bool sbri_edges_look(
     if (!sbri_lines_cross(ends[0], ends[1], to->shares)) return false;
   }
   return to->shares[0] >= 0 && to->shares[0] <= 1 && to->shares[1] >= 0 && to->shares[1] <= 1;
+}
+
+/* Whether they touch within the tick, or come as near as `outer`. */
+static inline bool sbri_edges_look(
+    const sbri_soft_edge *p, const sbri_soft_edge *q, float outer, sbri_edge_finding *to) {
+  return sbri_edges_cross(p, q, to) && sbri_edges_touch(p, q, outer, to);
 }
 
 #endif

@@ -9,13 +9,11 @@ static const float TOUCHES_SHARE = 0.01f, INSIDE_SHARE = 0.1f;
 
 /* Its vertices and the tree over its triangles, at rest. */
 static void place(const sbr_model *model, uint32_t body, sbri_meet_surface *s, float reach) {
-  for (uint32_t v = 0; v < s->vertex_count; v++) s->places[v] = sbri_meet_rest(model, body, &s->samples[v]);
-  for (uint32_t t = 0; t < s->triangle_count; t++) {
-    const uint32_t *c = s->triangles + 3 * (size_t)t;
-    sbri_box box = sbri_box_with(sbri_box_of_point(s->places[c[0]]), s->places[c[1]]);
-    s->boxes[t] = sbri_box_grown(sbri_box_with(box, s->places[c[2]]), reach);
+  for (uint32_t v = 0; v < s->vertex_count; v++) {
+    s->places[v] = sbri_meet_rest(model, body, &s->samples[v]);
+    s->ways[v] = sbri_vec3(0, 0, 0);
   }
-  sbri_bounds_tree_make(&s->tree, s->boxes, s->triangle_count);
+  sbri_meet_tree_make(s, reach);
 }
 
 /* Whether a vertex of the one touches the other, which is placed, or lies in it. */
@@ -80,7 +78,8 @@ static void note_hulls(const sbr_model *model, const sbri_meet_surface *surfaces
   for (uint32_t r = 0; r < model->rigid.body_count; r++) {
     const sbri_rigid_body *body = &model->rigid.bodies[r];
     if (!hulls[r].triangle_count) continue;
-    sbri_meet_hull_place(body, &(sbr_transform){body->center, body->axes}, 1, &hulls[r]);
+    const sbr_transform at = {body->center, body->axes};
+    sbri_meet_hull_place(body, &at, &at, 1, &hulls[r]);
     for (uint32_t b = 0; b < model->asset->soft_bodies.count; b++)
       if (surfaces[b].closed &&
           hull_touches(body, &hulls[r], &surfaces[b], TOUCHES_SHARE * model->bodies[b].rest_size_m))

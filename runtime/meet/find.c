@@ -294,13 +294,19 @@ void sbri_meet_touches_find(sbr_world *world, sbri_meet_group *group) {
       bool let_out = may_let_out(&f, soft, rigid);
       meet_hull(&f, soft, rigid);
       meet_corners(&f, rigid, soft, let_out);
-      if (let_out && soft->surface->closed) sbri_meet_through(&f, soft, rigid, first);
+      if (let_out && soft->surface->closed) {
+        sbri_meet_through(&f, soft, rigid, first);
+        sbri_meet_ridges(&f, soft, rigid, first);
+      }
     } else {
       uint32_t first = group->touch_count;
       bool let_out = may_let_out(&f, &a, &b);
       meet_faces(&f, &a, &b, let_out);
       meet_faces(&f, &b, &a, let_out);
-      if (let_out && a.surface->closed && b.surface->closed) sbri_meet_through(&f, &a, &b, first);
+      if (let_out && a.surface->closed && b.surface->closed) {
+        sbri_meet_through(&f, &a, &b, first);
+        sbri_meet_ridges(&f, &a, &b, first);
+      }
       if (a.surface->two_sided && b.surface->two_sided) sbri_meet_rims(&f, &a, &b);
     }
   }

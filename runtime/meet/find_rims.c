@@ -1,19 +1,30 @@
-/* Where rims of two sheets, and the ridges that they are folded to, cross: strips, and corners of cloth,
- * whose points nowhere come near the other's triangles. */
-#include "collide/edge_look.h"
+/* Where edges of two surfaces cross, and no corner comes near a face.
+ *
+ * Of sheets: rims, and the ridges that they are folded to. Of closed surfaces: ridges that stand out at rest
+ * and are so long that nothing else would keep the two off each other. At a ridge with an angle of a between
+ * the normals beside it, an edge of 1 m may lie tan(a/2) / 2 deep without a corner in the other: bodies whose
+ * edges do not get far into each other by that leave it to their corners. */
+#include "collide/ridge_look.h"
 #include "collide/sides.h"
 #include "math/vec3.h"
 #include "meet/finding.h"
 
+/* Of the thinner one's thickness: what may be in it unnoticed; and what is past a ridge by more goes out as
+ * what is deep does. */
+static const float UNNOTICED_SHARE = 0.25f, PAST_SHARE = 0.5f;
+
 typedef struct rim {
-  uint32_t ends[2];
-  sbri_soft_edge edge;
+  uint32_t ends[2], wings[2]; /* those of ridges */
+  sbri_soft_ridge is;
 } rim;
 
 static rim rim_of(const sbri_meet_surface *s, uint32_t triangle, uint32_t side) {
   const uint32_t *c = s->triangles + 3 * (size_t)triangle;
   rim r = {.ends = {c[side], c[(side + 1) % 3]}};
-  for (int k = 0; k < 2; k++) r.edge.at[k] = s->places[r.ends[k]], r.edge.ways[k] = s->ways[r.ends[k]];
+  for (int k = 0; k < 2; k++) r.is.edge.at[k] = s->places[r.ends[k]], r.is.edge.ways[k] = s->ways[r.ends[k]];
+  if (s->two_sided) return r;
+  r.wings[0] = c[(side + 2) % 3], r.wings[1] = s->sides[3 * (size_t)triangle + side];
+  for (int k = 0; k < 2; k++) r.is.wings[k] = s->places[r.wings[k]];
   return r;
 }
 
@@ -26,59 +37,172 @@ static float rest_distance(const sbri_party *a, const rim *p, const sbri_party *
   return sbri_edges_look(&edges[0], &edges[1], INFINITY, &found) ? found.distance : INFINITY;
 }
 
-static void meet(const sbri_finding *f, const sbri_party *a, const rim *p, const sbri_party *b, const rim *q,
-    float margin, float beyond) {
+/* Two surfaces, and how near what of them meets. */
+typedef struct meeting {
+  const sbri_finding *f;
+  const sbri_party *a, *b;
+  bool closed;
+  float margin, beyond, past;
+  float unnoticed; /* m */
+} meeting;
+
+static bool look(const meeting *m, const rim *p, const rim *q, sbri_edge_finding *found) {
+  if (m->closed) return sbri_ridges_look(&p->is, &q->is, m->beyond, m->past, found);
+  return sbri_edges_look(&p->is.edge, &q->is.edge, m->beyond, found);
+}
+
+/* Whether something of the two goes out from so deep in the other that ridges are no matter. */
+static bool goes_out(const sbri_finding *f, uint32_t first) {
+  const sbri_meet_touch *touches = f->world->meetings->touches + f->group->first_touch;
+  for (uint32_t i = first; i < f->group->touch_count; i++)
+    if (touches[i].goes_out) return true;
+  return false;
+}
+
+static void meet(const meeting *m, const rim *p, const rim *q) {
   sbri_edge_finding found;
-  if (!sbri_edges_look(&p->edge, &q->edge, beyond, &found)) return;
-  if (sbri_are_of_one(a, b)) {
-    float rest = rest_distance(a, p, b, q);
-    if (rest <= SBRI_TOGETHER_SHARE * a->soft->rest_size_m * a->of->scale) return;
+  float margin = m->margin;
+  if (!look(m, p, q, &found)) return;
+  if (sbri_are_of_one(m->a, m->b) && m->b->soft) {
+    float rest = rest_distance(m->a, p, m->b, q);
+    if (rest <= SBRI_TOGETHER_SHARE * m->a->soft->rest_size_m * m->a->of->scale) return;
     margin = SBRI_REST_SHARE * rest < margin ? SBRI_REST_SHARE * rest : margin;
   }
   const float shares[2][2] = {{1 - found.shares[0], found.shares[0]}, {1 - found.shares[1], found.shares[1]}};
   uint32_t mixed = p->ends[0] * 0x9e3779b1u ^ p->ends[1] * 0x85ebca6bu ^ q->ends[0] * 0xc2b2ae35u ^
                    q->ends[1] * 0x27d4eb2fu;
   sbri_meet_touch t = {.feature = mixed | 0x80000000u, /* vertices have less */
-      .a = sbri_soft_side(a, p->ends, shares[0], 2),
-      .b = sbri_soft_side(b, q->ends, shares[1], 2),
+      .a = sbri_soft_side(m->a, p->ends, shares[0], 2),
+      .b = sbri_party_side(m->b, q->ends, shares[1], 2),
       .normal = found.normal,
       .margin = margin};
-  sbri_finding_add(f, a, b, &t);
+  sbri_finding_add(m->f, m->a, m->b, &t);
 }
 
-void sbri_meet_rims(const sbri_finding *f, const sbri_party *a, const sbri_party *b) {
-  float margin = sbri_party_margin(a, b), beyond = sbri_party_beyond(margin, b);
-  for (uint32_t i = 0; i < 3 * a->surface->triangle_count; i++) {
-    if (!(a->surface->rims[i / 3] >> i % 3 & 1)) continue;
-    rim p = rim_of(a->surface, i / 3, i % 3);
-    sbri_box box = sbri_box_with(sbri_box_of_point(p.edge.at[0]), p.edge.at[1]);
-    for (int k = 0; k < 2; k++) box = sbri_box_with(box, sbri_add(p.edge.at[k], p.edge.ways[k]));
-    box = sbri_box_grown(box, beyond);
+/* Whether so much of an edge may be in the other beside its sharpest ridge that it is to be looked for. */
+static bool is_long(const meeting *m, const rim *p, const sbri_party *other) {
+  return !m->closed ||
+         sbri_length(sbri_sub(p->is.edge.at[1], p->is.edge.at[0])) * other->surface->sharpness > m->unnoticed;
+}
+
+static void meet_all(const meeting *m) {
+  const sbri_meet_surface *s = m->a->surface, *other = m->b->surface;
+  for (uint32_t i = 0; i < 3 * s->triangle_count; i++) {
+    if (!(s->rims[i / 3] >> i % 3 & 1)) continue;
+    rim p = rim_of(s, i / 3, i % 3);
+    sbri_box box = sbri_box_with(sbri_box_of_point(p.is.edge.at[0]), p.is.edge.at[1]);
+    for (int k = 0; k < 2; k++) box = sbri_box_with(box, sbri_add(p.is.edge.at[k], p.is.edge.ways[k]));
+    box = sbri_box_grown(box, m->beyond);
+    if (!is_long(m, &p, m->b)) continue;
     sbri_bounds_walk walk;
     uint32_t triangle;
-    sbri_bounds_walk_begin(&walk, &b->surface->tree, box);
+    sbri_bounds_walk_begin(&walk, &other->tree, box);
     while (sbri_bounds_walk_next(&walk, &triangle)) {
-      if (!b->surface->rims[triangle] || !sbri_box_meets(&box, &b->surface->boxes[triangle])) continue;
+      if (!other->rims[triangle] || !sbri_box_meets(&box, &other->boxes[triangle])) continue;
       for (uint32_t side = 0; side < 3; side++) {
-        if (!(b->surface->rims[triangle] >> side & 1)) continue;
-        rim q = rim_of(b->surface, triangle, side);
-        meet(f, a, &p, b, &q, margin, beyond);
+        if (!(other->rims[triangle] >> side & 1)) continue;
+        rim q = rim_of(other, triangle, side);
+        if (is_long(m, &q, m->a)) meet(m, &p, &q);
       }
     }
   }
+}
+
+void sbri_meet_rims(const sbri_finding *f, const sbri_party *a, const sbri_party *b) {
+  float margin = sbri_party_margin(a, b);
+  meeting m = {.f = f, .a = a, .b = b, .margin = margin, .beyond = sbri_party_beyond(margin, b)};
+  meet_all(&m);
+}
+
+/* ---- Closed surfaces ---- */
+
+static float thickness(const sbri_party *p) {
+  return p->surface->thick_m * p->of->scale;
+}
+
+void sbri_meet_ridges(const sbri_finding *f, const sbri_party *a, const sbri_party *b, uint32_t first) {
+  float margin = fmaxf(sbri_party_margin(a, b), sbri_party_margin(b, a));
+  float thin = fminf(thickness(a), thickness(b));
+  meeting m = {.f = f,
+      .a = a,
+      .b = b,
+      .closed = true,
+      .margin = margin,
+      .past = PAST_SHARE * thin,
+      .unnoticed = UNNOTICED_SHARE * thin};
+  if (!(a->surface->ridge_m * a->of->scale * b->surface->sharpness > m.unnoticed) ||
+      !(b->surface->ridge_m * b->of->scale * a->surface->sharpness > m.unnoticed))
+    return;
+  if (goes_out(f, first)) return;
+  m.beyond = sbri_party_beyond(margin, b->soft ? b : a);
+  if (b->rigid) {
+    sbr_transform from = sbri_party_frame(b, false), to = sbri_party_frame(b, true);
+    sbri_meet_hull_place(b->rigid, &from, &to, b->of->scale, b->surface);
+  }
+  meet_all(&m);
+}
+
+/* ---- Making ---- */
+
+static bool bends(const sbri_meet_surface *s, uint32_t t, uint32_t k) {
+  const uint32_t *c = s->triangles + 3 * (size_t)t;
+  return sbri_side_is_bent(s->places[c[k]], s->places[c[(k + 1) % 3]], s->places[c[(k + 2) % 3]],
+      s->places[s->sides[3 * (size_t)t + k]]);
+}
+
+/* Whether what lies beyond the side is behind the triangle. */
+static bool is_convex(const rim *r) {
+  const sbf_vec3 *at = r->is.edge.at;
+  sbf_vec3 out = sbri_cross(sbri_sub(at[1], at[0]), sbri_sub(r->is.wings[0], at[0]));
+  return sbri_dot(out, sbri_sub(r->is.wings[1], at[0])) < 0;
+}
+
+/* How deep of something as long as 1 m may be at the ridge unnoticed: half of the tangent of half the angle
+ * between the normals beside it. */
+static float sharpness_of(const rim *r) {
+  sbf_vec3 a = r->is.edge.at[0], along = sbri_sub(r->is.edge.at[1], a);
+  sbf_vec3 n = sbri_cross(along, sbri_sub(r->is.wings[0], a)),
+           o = sbri_cross(sbri_sub(r->is.wings[1], a), along);
+  float size = sqrtf(sbri_dot(n, n) * sbri_dot(o, o)), cosine = size > 0 ? sbri_dot(n, o) / size : 1;
+  return cosine > -1 ? 0.5f * sqrtf((1 - cosine) / (1 + cosine)) : INFINITY;
+}
+
+static void note_ridges(sbri_meet_surface *s) {
+  for (uint32_t t = 0; t < s->triangle_count; t++) {
+    s->rims[t] = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+      if (s->sides[3 * (size_t)t + k] >= s->vertex_count || !bends(s, t, k)) continue;
+      rim r = rim_of(s, t, k);
+      if (!is_convex(&r)) continue;
+      s->rims[t] |= (uint8_t)(1u << k);
+      s->ridge_m = fmaxf(s->ridge_m, sbri_length(sbri_sub(r.is.edge.at[1], r.is.edge.at[0])));
+      s->sharpness = fmaxf(s->sharpness, sharpness_of(&r));
+    }
+  }
+}
+
+/* The table of sides is scratch: no tree is made yet, and its room is more. */
+bool sbri_meet_rims_make(sbri_meet_surface *s, sbfi_arena *arena) {
+  _Static_assert(
+      sizeof(sbri_bounds_node) >= 8 * sizeof(uint32_t), "a table has less than 12 entries a triangle");
+  s->rims = sbfi_arena_allocate(arena, (size_t)s->triangle_count + 1, 1);
+  s->sides = sbfi_arena_allocate(arena, 3 * (size_t)s->triangle_count + 1, sizeof *s->sides);
+  if (!s->rims || !s->sides) return false;
+  sbri_sides_find(s->triangles, s->triangle_count, s->sides, (uint32_t *)(void *)s->tree.nodes);
+  s->ridge_m = s->sharpness = 0;
+  if (s->closed) note_ridges(s);
+  return true;
 }
 
 /* ---- Of a tick ---- */
 
 void sbri_meet_rims_look(sbri_meet_surface *s) {
   for (uint32_t t = 0; t < s->triangle_count; t++) {
-    const uint32_t *c = s->triangles + 3 * (size_t)t, *beside = s->sides + 3 * (size_t)t;
+    const uint32_t *beside = s->sides + 3 * (size_t)t;
     s->rims[t] = 0;
     for (uint32_t k = 0; k < 3; k++) {
       if (beside[k] == SBRI_SAME_SIDE) continue;
-      if (beside[k] == SBRI_RIM || sbri_side_is_bent(s->places[c[k]], s->places[c[(k + 1) % 3]],
-                                       s->places[c[(k + 2) % 3]], s->places[beside[k]]))
-        s->rims[t] |= (uint8_t)(1u << k);
+      if (beside[k] == SBRI_RIM || bends(s, t, k)) s->rims[t] |= (uint8_t)(1u << k);
     }
   }
 }

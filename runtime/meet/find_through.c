@@ -20,6 +20,8 @@ static const float LONGER = 3;
 static const float THROUGH_SHARE = 0.75f;
 /* An edge whose nearest way out is longer than this share of how thick the other one is goes through it. */
 static const float EDGE_DEEP_SHARE = 0.25f;
+/* Less of that than this is what ridges that touch may come to. */
+static const float EDGE_IN_SHARE = 0.1f;
 /* A way along an edge (a cosine). */
 static const float ALONG = 0.7f;
 /* Of the thinner one's thickness. */
@@ -151,12 +153,26 @@ static sbf_vec3 axis_of(const looking *l, uint32_t knot, uint32_t side, sbf_vec3
   return axis;
 }
 
+/* Where the limb is about that place: not where its edges' stretches are, which of limbs that are in each
+ * other a little are on the other's side. */
+static sbf_vec3 middle_about(const sbri_party *p, sbf_vec3 x) {
+  const sbri_meet_surface *s = p->surface;
+  float near = (s->edge_m + s->thick_m) * p->of->scale, count = 0;
+  sbf_vec3 sum = no_way;
+  for (uint32_t v = 0; v < s->vertex_count; v++) {
+    sbf_vec3 off = sbri_sub(s->places[v], x);
+    if (sbri_dot(off, off) < near * near) sum = sbri_add(sum, s->places[v]), count++;
+  }
+  return count > 0 ? sbri_scale(sum, 1 / count) : x;
+}
+
 /* Of thin limbs that cross: across both, to the side that each is on; or 0. */
 static sbf_vec3 way_across(const looking *l, uint32_t knot) {
   sbf_vec3 middles[2], a = axis_of(l, knot, 0, &middles[0]), b = axis_of(l, knot, 1, &middles[1]);
   sbf_vec3 n = sbri_cross(a, b);
   if (sbri_length(n) < CROSS_SINE) return no_way;
   n = sbri_normalize(n, n);
+  for (int k = 0; k < 2; k++) middles[k] = middle_about(l->in.parties[k], middles[k]);
   if (sbri_dot(n, sbri_sub(middles[0], middles[1])) < 0) n = sbri_scale(n, -1);
   return way_out_along(l, knot, n, l->most) < l->most ? n : no_way;
 }
@@ -264,13 +280,13 @@ static bool lies_across(const looking *l, uint32_t knot) {
 static bool edges_lie_across(const looking *l, uint32_t knot) {
   sbri_box ways = sbri_box_of_point(no_way);
   for (uint32_t i = 0; i < l->in.edge_count; i++) {
-    sbf_vec3 out;
+    sbf_vec3 out = no_way;
     uint32_t side = side_in_knot(l, &l->in.edges[i], knot);
     if (side > 1) continue;
     const sbri_party *in = l->in.parties[1 - side];
     float depth = nearest_out(l, &l->in.edges[i], &out);
     if (depth > EDGE_DEEP_SHARE * thickness(in)) return true;
-    if (depth > 0) ways = sbri_box_with(ways, sbri_scale(out, sign_of(side)));
+    if (depth > EDGE_IN_SHARE * thickness(in)) ways = sbri_box_with(ways, sbri_scale(out, sign_of(side)));
   }
   return lead_apart(&ways);
 }
@@ -377,7 +393,7 @@ void sbri_meet_through(const sbri_finding *f, const sbri_party *a, const sbri_pa
   if (!begins && !(sbri_are_coarse(a, b) && are_near(a, b))) return;
   if (b->rigid) {
     sbr_transform at = sbri_party_frame(b, false);
-    sbri_meet_hull_place(b->rigid, &at, b->of->scale, b->surface);
+    sbri_meet_hull_place(b->rigid, &at, &at, b->of->scale, b->surface);
   }
   if (!begins && !sbri_edges_go_through(a->surface, b->surface)) return;
   sbri_inside_look(&l.in);

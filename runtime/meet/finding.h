@@ -68,6 +68,9 @@ float sbri_party_beyond(float margin, const sbri_party *b);
 
 /* Rims of sheets with rims. */
 void sbri_meet_rims(const sbri_finding *f, const sbri_party *a, const sbri_party *b);
+/* Ridges of a soft body with those of another body, both closed, whose touches so far are those of the group
+ * from `first` on. */
+void sbri_meet_ridges(const sbri_finding *f, const sbri_party *a, const sbri_party *b, uint32_t first);
 
 /* ---- find_deep.c ---- */
 

@@ -24,7 +24,7 @@ static bool make(const sbri_rigid_body *body, sbri_meet_surface *s, sbfi_arena *
   }
   s->closed = sbri_meet_is_closed(s);
   sbri_meet_surface_measure(s);
-  return true;
+  return sbri_meet_rims_make(s, arena);
 }
 
 bool sbri_meet_hulls_make(const sbr_model *model, sbri_meet_surface *hulls, sbfi_arena *arena) {
@@ -34,14 +34,13 @@ bool sbri_meet_hulls_make(const sbr_model *model, sbri_meet_surface *hulls, sbfi
   return true;
 }
 
-void sbri_meet_hull_place(
-    const sbri_rigid_body *body, const sbr_transform *at, float scale, sbri_meet_surface *s) {
-  for (uint32_t v = 0; v < s->vertex_count; v++)
-    s->places[v] = sbri_add_scaled(at->position, sbri_rotate(at->rotation, body->hull.vertices[v]), scale);
-  for (uint32_t t = 0; t < s->triangle_count; t++) {
-    const uint32_t *c = s->triangles + 3 * (size_t)t;
-    sbri_box box = sbri_box_with(sbri_box_of_point(s->places[c[0]]), s->places[c[1]]);
-    s->boxes[t] = sbri_box_with(box, s->places[c[2]]);
+void sbri_meet_hull_place(const sbri_rigid_body *body, const sbr_transform *at, const sbr_transform *end,
+    float scale, sbri_meet_surface *s) {
+  for (uint32_t v = 0; v < s->vertex_count; v++) {
+    sbf_vec3 own = body->hull.vertices[v];
+    s->places[v] = sbri_add_scaled(at->position, sbri_rotate(at->rotation, own), scale);
+    sbf_vec3 to = sbri_add_scaled(end->position, sbri_rotate(end->rotation, own), scale);
+    s->ways[v] = sbri_sub(to, s->places[v]);
   }
-  sbri_bounds_tree_make(&s->tree, s->boxes, s->triangle_count);
+  sbri_meet_tree_make(s, 0);
 }

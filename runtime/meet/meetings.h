@@ -23,9 +23,12 @@ typedef struct sbri_meet_surface {
   bool two_sided;        /* a sheet, or open */
   bool closed;           /* each side of a triangle is one of another as well: it has an inside */
   float edge_m, thick_m; /* of a closed one at rest: mean length of its edges; how thick it is, as a rod is */
-  uint32_t *sides;       /* (triangle_count x 3) of a two-sided one, as collide/sides.h has them */
+  float ridge_m, sharpness; /* likewise: its longest ridge, and its sharpest, as find_rims.c has it */
+  uint32_t *sides;          /* (triangle_count x 3) as collide/sides.h has them */
+  /* (triangle_count) Bits of its sides: of a two-sided one those that are rims, or across which it is bent,
+   * of a tick; of a closed one those that are ridges at rest. */
+  uint8_t *rims;
   /* Of a tick: */
-  uint8_t *rims; /* (triangle_count) likewise: bits of its sides that are rims, or across which it is bent */
   sbf_vec3 *places, *ways; /* (vertex_count) */
   float fastest_m;         /* the way of its fastest point */
   uint32_t *inside;        /* (vertex_count) room for find_inside.c */
@@ -239,15 +242,18 @@ sbf_vec3 sbri_meet_rest(const sbr_model *model, uint32_t soft_body, const sbri_s
 /* Room for what is of a tick alone. */
 bool sbri_meet_surface_room(
     sbri_meet_surface *surface, uint32_t vertices, uint32_t triangles, sbfi_arena *arena);
+/* Over its triangles and their ways, grown. */
+void sbri_meet_tree_make(sbri_meet_surface *surface, float reach);
 /* How long its edges are and how thick it is, as it is placed. */
 void sbri_meet_surface_measure(sbri_meet_surface *surface);
 
 /* ---- meet/hull_surfaces.c ---- */
 
 bool sbri_meet_hulls_make(const sbr_model *model, sbri_meet_surface *hulls, sbfi_arena *arena);
-/* Its vertices and the tree over its triangles, of a character of that scale. */
-void sbri_meet_hull_place(
-    const sbri_rigid_body *body, const sbr_transform *at, float scale, sbri_meet_surface *hull);
+/* Its vertices, how they go to where it ends, and the tree over its triangles, of a character of that scale.
+ */
+void sbri_meet_hull_place(const sbri_rigid_body *body, const sbr_transform *at, const sbr_transform *end,
+    float scale, sbri_meet_surface *hull);
 
 /* ---- meet/find_deep.c ---- */
 
@@ -256,7 +262,10 @@ bool sbri_meet_is_closed(const sbri_meet_surface *surface);
 
 /* ---- meet/find_rims.c ---- */
 
-/* Which sides of its triangles stand out, as it is placed now. */
+/* Finds the sides of its triangles, and ridges of a closed one, which is placed at rest; takes the tree for
+ * scratch. False where memory runs out. */
+bool sbri_meet_rims_make(sbri_meet_surface *surface, sbfi_arena *arena);
+/* Which sides of the triangles of a two-sided one stand out, as it is placed now. */
 void sbri_meet_rims_look(sbri_meet_surface *surface);
 
 /* ---- meet/at_rest.c ---- */

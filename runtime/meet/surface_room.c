@@ -22,6 +22,19 @@ bool sbri_meet_surface_room(sbri_meet_surface *s, uint32_t vertices, uint32_t tr
   return s->places && s->ways && s->inside && s->boxes && s->tree.items && s->tree.nodes;
 }
 
+void sbri_meet_tree_make(sbri_meet_surface *s, float reach) {
+  for (uint32_t t = 0; t < s->triangle_count; t++) {
+    const uint32_t *corners = s->triangles + 3 * (size_t)t;
+    sbri_box box = sbri_box_of_point(s->places[corners[0]]);
+    for (int k = 0; k < 3; k++) {
+      box = sbri_box_with(box, s->places[corners[k]]);
+      box = sbri_box_with(box, sbri_add(s->places[corners[k]], s->ways[corners[k]]));
+    }
+    s->boxes[t] = sbri_box_grown(box, reach);
+  }
+  sbri_bounds_tree_make(&s->tree, s->boxes, s->triangle_count);
+}
+
 void sbri_meet_surface_measure(sbri_meet_surface *s) {
   double length = 0, area = 0, volume = 0;
   for (uint32_t t = 0; t < s->triangle_count; t++) {

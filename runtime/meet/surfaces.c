@@ -1,7 +1,6 @@
 /* What soft bodies meet others with, and the memory for it. */
 #include <string.h>
 
-#include "collide/sides.h"
 #include "math/vec3.h"
 #include "meet/meetings.h"
 #include "model/reach.h"
@@ -73,13 +72,7 @@ static bool make(const sbr_model *model, const sbri_body *body, sbri_meet_surfac
   s->two_sided = measures.sheet || body->rest_volume_m3 == 0;
   s->closed = !s->two_sided && sbri_meet_is_closed(s);
   if (s->closed) measure(model, (uint32_t)(body - model->bodies), s);
-  if (!s->two_sided) return true;
-  s->rims = sbfi_arena_allocate(arena, (size_t)triangles + 1, 1);
-  s->sides = sbfi_arena_allocate(arena, 3 * (size_t)triangles + 1, sizeof *s->sides);
-  uint32_t *table = sbfi_arena_allocate(arena, sbri_sides_table(s->triangle_count), sizeof *table);
-  if (!s->rims || !s->sides || !table) return false;
-  sbri_sides_find(s->triangles, s->triangle_count, s->sides, table);
-  return true;
+  return (!s->two_sided && !s->closed) || sbri_meet_rims_make(s, arena);
 }
 
 /* As of another of the same model, if there is one. */
@@ -271,14 +264,5 @@ void sbri_meet_surface_place(sbr_world *world, const sbri_meet_member *m, uint32
   if (s->two_sided && s->triangle_count) sbri_meet_rims_look(s);
   const sbf_collision *rule = &body->source->collision;
   float reach = m->scale * fmaxf(rule->outer_thickness, rule->inner_thickness);
-  for (uint32_t t = 0; t < s->triangle_count; t++) {
-    const uint32_t *corners = s->triangles + 3 * (size_t)t;
-    sbri_box box = sbri_box_of_point(s->places[corners[0]]);
-    for (int k = 0; k < 3; k++) {
-      box = sbri_box_with(box, s->places[corners[k]]);
-      box = sbri_box_with(box, sbri_add(s->places[corners[k]], s->ways[corners[k]]));
-    }
-    s->boxes[t] = sbri_box_grown(box, reach);
-  }
-  sbri_bounds_tree_make(&s->tree, s->boxes, s->triangle_count);
+  sbri_meet_tree_make(s, reach);
 }

@@ -33,6 +33,16 @@ sbr_character_id meeting_another(scene *s, sbr_double3 position) {
   return id;
 }
 
+void meeting_flesh(scene *s, uint32_t body, lattice_box *box, const sbf_polygon_mesh *skin) {
+  sbf_level *level = scene_lattice(s, body, box);
+  scene_body(s, body)->surface = *skin;
+  scene_body(s, body)->surface.target = SBF_MESH_TARGET_SURFACE;
+  scene_embed(s, level, box);
+  lattice_box_free(box);
+  scene_body(s, body)->attributes.damping_ratio = 0.5f;
+  scene_body(s, body)->attributes.friction = 0.5f;
+}
+
 void meeting_ball(scene *s, uint32_t body, float radius) {
   enum { RINGS = 7, AROUND = 14, POINTS = RINGS * AROUND + 2, FACES = (RINGS + 1) * AROUND };
   sbf_polygon_mesh *hull = sbf_asset_allocate(s->asset, 1, sizeof *hull);

@@ -13,6 +13,8 @@ void meeting_throw(scene *s, sbr_character_id who, uint32_t body, sbf_vec3 impul
 /* One more of the scene's character. */
 sbr_character_id meeting_another(scene *s, sbr_double3 position);
 
+/* Gives a body that lattice, which it frees, and a skin that it carries; damping and friction 0.5. */
+void meeting_flesh(scene *s, uint32_t body, lattice_box *box, const sbf_polygon_mesh *skin);
 /* Makes a rigid body's hull a ball: rings of points about the y axis between two poles. */
 void meeting_ball(scene *s, uint32_t body, float radius);
 /* How deep the deepest point of the first soft body is in its first rigid one, m. */

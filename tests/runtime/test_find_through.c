@@ -30,13 +30,7 @@ static void add_bar(scene *s, uint32_t body, sbf_vec3 center, bool along_z, floa
       list[i] = (sbf_vec3){x.x + center.x, x.y + center.y, x.z + center.z};
     }
   }
-  sbf_level *level = scene_lattice(s, body, &box);
-  scene_body(s, body)->surface = bar;
-  scene_body(s, body)->surface.target = SBF_MESH_TARGET_SURFACE;
-  scene_embed(s, level, &box);
-  lattice_box_free(&box);
-  scene_body(s, body)->attributes.damping_ratio = 0.5f;
-  scene_body(s, body)->attributes.friction = 0.5f;
+  meeting_flesh(s, body, &box, &bar);
 }
 
 static scene begin_bar(float young_pa) {

@@ -113,7 +113,8 @@ SBF_API sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_
 /* ---- Each other --------------------------------------------------------------------------------------- */
 
 /* From now on bodies of characters meet each other as well: soft ones, and hulls of rigid ones, of one
- * character and of several, by the layers and masks of the file. Up to `touch_capacity` places at once (0:
+ * character and of several, by the layers and masks of the file; corners meet faces, and edges edges, which
+ * only coarse closed bodies and sheets need (docs/collision.md). Up to `touch_capacity` places at once (0:
  * 4096); of more, some pass through each other. Parts of one character that lie in each other at rest, that
  * are jointed, or hold each other, do not. Who may touch is stepped in one task. What touches have pushed
  * with is kept from tick to tick: snapshots take room for `touch_capacity` of them. Call it for a world

@@ -1,0 +1,198 @@
+/* Coarse bars, four faces round and with edges 10 cm long, that meet where neither has a vertex. */
+#include <math.h>
+
+#include "harness.h"
+#include "meeting_scenes.h"
+#include "momentum.h"
+#include "shapes.h"
+#include "skin_depth.h"
+#include "world/world.h"
+
+enum { CELLS = 6, MOST = 64, PLACES = 24 };
+static const float LENGTH = 0.6f, THICK = 0.06f;
+
+typedef struct lies {
+  sbf_vec3 center;
+  float heading, roll; /* about Y, and before that about its own axis */
+} lies;
+
+static void put(sbf_vec3 *at, uint32_t count, const lies *to) {
+  float c = cosf(to->heading), s = sinf(to->heading), d = cosf(to->roll), r = sinf(to->roll);
+  for (uint32_t i = 0; i < count; i++) {
+    sbf_vec3 x = {at[i].x, d * at[i].y - r * at[i].z, r * at[i].y + d * at[i].z};
+    at[i] = sbri_add(to->center, sbri_vec3(c * x.x + s * x.z, x.y, c * x.z - s * x.x));
+  }
+}
+
+static void add_bar(scene *s, uint32_t body, const lies *to, float young_pa, bool held) {
+  lattice_box box = lattice_box_make((sbf_vec3){-0.5f * LENGTH, -0.5f * THICK, -0.5f * THICK},
+      (sbf_vec3){LENGTH, THICK, THICK}, CELLS, 1, 1, 1000, young_pa, 0.3f);
+  sbf_polygon_mesh bar = shape_bar(s->asset, CELLS, 1, LENGTH, THICK);
+  sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)bar.positions.at;
+  for (uint32_t i = 0; i < bar.positions.count; i++) at[i].x -= 0.5f * LENGTH;
+  for (uint32_t i = 0; i < box.point_count; i++)
+    if (held && fabsf(box.positions[i].x) > 0.49f * LENGTH) box.masses[i] = 0;
+  put(at, bar.positions.count, to);
+  put(box.positions, box.point_count, to);
+  meeting_flesh(s, body, &box, &bar);
+  scene_body(s, body)->attributes.damping_ratio = 0.3f;
+}
+
+/* Places of a body's vertices, from the second character on that character's. */
+static void look(const scene *s, sbr_character_id who, uint32_t body, sbf_vec3 at[MOST]) {
+  sbr_double3 o = sbr_character_origin(s->world, who), own = sbr_character_origin(s->world, s->character);
+  uint32_t count = sbr_character_surface(s->world, who, body, at, MOST);
+  for (uint32_t i = 0; i < count; i++)
+    at[i] = sbri_add(at[i], sbri_vec3((float)(o.x - own.x), (float)(o.y - own.y), (float)(o.z - own.z)));
+}
+
+/* How deep edges of the one are in the other, m. */
+static double deepest_edge(
+    const sbf_polygon_mesh *one, const sbf_vec3 *at, const sbf_polygon_mesh *other, const sbf_vec3 *others) {
+  double most = 0;
+  const uint32_t *c = one->polygon_points.at;
+  for (uint32_t p = 0; p < one->polygon_sizes.count; c += one->polygon_sizes.at[p++])
+    for (uint32_t k = 0; k < one->polygon_sizes.at[p]; k++)
+      for (int i = 0; i < PLACES; i++) {
+        uint32_t to = (k + 1) % one->polygon_sizes.at[p];
+        if (c[k] > c[to]) continue;
+        sbf_vec3 x = sbri_lerp(at[c[k]], at[c[to]], (float)i / PLACES);
+        most = fmax(most, skin_depth(other, others, x, UINT32_MAX));
+      }
+  return most;
+}
+
+static double deepest(
+    const sbf_polygon_mesh *one, const sbf_vec3 *at, const sbf_polygon_mesh *other, const sbf_vec3 *others) {
+  return fmax(deepest_edge(one, at, other, others), deepest_edge(other, others, one, at));
+}
+
+static double deepest_of_bars(const scene *s, sbr_character_id other, uint32_t body) {
+  static sbf_vec3 a[MOST], b[MOST];
+  const sbf_polygon_mesh *mesh = &s->asset->soft_bodies.at[0].surface;
+  look(s, s->character, 0, a), look(s, other, body, b);
+  return deepest(mesh, a, mesh, b);
+}
+
+/* ---- Dropped ---- */
+
+typedef struct drop {
+  float height, heading, roll;
+  double may; /* m deep */
+} drop;
+static const float square = 1.5708f, askew = 1.0472f, on_edge = 0.7854f;
+static const drop drops[] = {
+    {0.2f, square, 0, 0.005},
+    {0.5f, square, 0, 0.005},
+    {1, square, 0, 0.005},
+    {0.2f, askew, 0, 0.005},
+    {0.5f, askew, 0, 0.005},
+    {1, askew, 0, 0.005},
+    {0.2f, square, on_edge, 0.01},
+    {0.5f, square, on_edge, 0.01},
+    {1, square, on_edge, 0.01},
+    {0.2f, askew, on_edge, 0.01},
+    {0.5f, askew, on_edge, 0.01},
+    {1, askew, on_edge, 0.01},
+};
+
+static float far_of(const drop *d) {
+  return d->roll != 0 ? 1.4143f * THICK : THICK;
+}
+
+static int ticks_until_hit(float height) {
+  return (int)(60 * sqrtf(2 * height / 9.81f)) - 1;
+}
+
+/* The one is held at its ends; they are parts of one character. Whatever happens no edge goes in deeper than
+ * `inner_thickness`, which is 1 cm, and nothing gives energy. */
+START_TEST(bars_that_fall_across_each_other_do_not_pass)
+{
+  const drop *d = &drops[_i];
+  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene_bodies(&s, 2);
+  add_bar(&s, 0, &(lies){{0, 0, 0}, 0, d->roll}, 1e6f, true);
+  add_bar(&s, 1, &(lies){{0.01f, d->height + far_of(d), 0.012f}, d->heading, d->roll}, 1e6f, false);
+  meeting_start(&s);
+  scene_ticks(&s, 1);
+  double first = scene_energy_of(&s), most = 0;
+  scene_ticks(&s, ticks_until_hit(d->height));
+  for (int i = 0; i < 60; i++) {
+    scene_ticks(&s, 1);
+    ck_assert_double_le(scene_energy_of(&s), first);
+    most = fmax(most, deepest_of_bars(&s, s.character, 1));
+  }
+  ck_assert_double_le(most, d->may);
+  scene_free(&s);
+}
+END_TEST
+
+/* A kinematic rigid beam lies on its edge under one. */
+START_TEST(bars_that_fall_across_a_rigid_edge_do_not_pass)
+{
+  static sbf_vec3 at[MOST], beam[8];
+  const drop *d = &drops[_i];
+  scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
+  scene_bodies(&s, 1);
+  add_bar(&s, 0, &(lies){{0.01f, d->height + 1.2072f * THICK, 0.012f}, d->heading, d->roll}, 1e6f, false);
+  uint32_t number = rigid_box(&s, (sbf_vec3){0, 0, 0}, (sbf_vec3){1, THICK, THICK}, 4);
+  const sbf_polygon_mesh *hull = rigid_body(&s, number)->hull;
+  rigid_body(&s, number)->motion = SBF_BODY_MOTION_KINEMATIC;
+  put((sbf_vec3 *)(uintptr_t)hull->positions.at, hull->positions.count, &(lies){{0, 0, 0}, 0, on_edge});
+  for (uint32_t i = 0; i < 8; i++) beam[i] = hull->positions.at[i];
+  meeting_start(&s);
+  scene_ticks(&s, ticks_until_hit(d->height));
+  double most = 0;
+  for (int i = 0; i < 60; i++) {
+    scene_ticks(&s, 1);
+    look(&s, s.character, 0, at);
+    most = fmax(most, deepest(&s.asset->soft_bodies.at[0].surface, at, hull, beam));
+  }
+  ck_assert_double_le(most, 0.002);
+  scene_free(&s);
+}
+END_TEST
+
+/* ---- Thrown ---- */
+
+/* Two characters in the air: what the one gets the other loses, angular momentum to 2e-4 of what is thrown,
+ * as places slide on each other within a tick. */
+START_TEST(what_is_thrown_keeps_its_momentum)
+{
+  scene s = meeting_begin((sbf_vec3){0, 0, 0});
+  scene_bodies(&s, 1);
+  add_bar(&s, 0, &(lies){{0, 0, 0}, 0, on_edge}, 1e6f, false);
+  meeting_start(&s);
+  sbr_character_definition d = s.character_definition;
+  sbr_character_id other;
+  d.position.x += 0.01, d.position.y += 0.15, d.position.z += 0.012, d.heading = askew;
+  ck_assert(sbr_character_create(s.world, s.model, &d, &other, NULL) == SBF_OK);
+  sbri_character *c = sbri_character_of(s.world, other);
+  for (uint32_t slot = 0; slot < c->model->islands[0].free_count; slot++)
+    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK + slot % SBRI_BLOCK] = -3;
+  scene_momentum was = scene_momentum_of(&s);
+  double most = 0;
+  for (int i = 0; i < 40; i++) {
+    scene_ticks(&s, 1);
+    most = fmax(most, deepest_of_bars(&s, other, 0));
+  }
+  scene_momentum is = scene_momentum_of(&s);
+  for (int k = 0; k < 3; k++) {
+    ck_assert_double_eq_tol(was.linear[k], is.linear[k], 1e-5 * 1.5 * was.mass);
+    ck_assert_double_eq_tol(was.angular[k], is.angular[k], 2e-4 * 1.5 * was.mass * (double)LENGTH);
+  }
+  ck_assert_double_le(most, 0.01);
+  scene_free(&s);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("find_edges");
+  TCase *tests = tcase_create("all");
+  tcase_set_timeout(tests, 220);
+  tcase_add_loop_test(tests, bars_that_fall_across_each_other_do_not_pass, 0, sizeof drops / sizeof *drops);
+  tcase_add_loop_test(tests, bars_that_fall_across_a_rigid_edge_do_not_pass, 0, sizeof drops / sizeof *drops);
+  tcase_add_test(tests, what_is_thrown_keeps_its_momentum);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
