@@ -85,25 +85,35 @@ static bool is_long(const meeting *m, const rim *p, const sbri_party *other) {
          sbri_length(sbri_sub(p->is.edge.at[1], p->is.edge.at[0])) * other->surface->sharpness > m->unnoticed;
 }
 
+static void meet_others(const meeting *m, const rim *p) {
+  const sbri_meet_surface *other = m->b->surface;
+  const sbri_soft_edge *edge = &p->is.edge;
+  sbri_box box = sbri_box_with(sbri_box_of_point(edge->at[0]), edge->at[1]);
+  for (int k = 0; k < 2; k++) box = sbri_box_with(box, sbri_add(edge->at[k], edge->ways[k]));
+  box = sbri_box_grown(box, m->beyond);
+  sbri_bounds_walk walk;
+  uint32_t triangle;
+  sbri_bounds_walk_begin(&walk, &other->tree, box);
+  while (sbri_bounds_walk_next(&walk, &triangle)) {
+    if (!other->rims[triangle] || !sbri_box_meets(&box, &other->boxes[triangle])) continue;
+    for (uint32_t side = 0; side < 3; side++) {
+      if (!(other->rims[triangle] >> side & 1)) continue;
+      rim q = rim_of(other, triangle, side);
+      if (is_long(m, &q, m->a)) meet(m, p, &q);
+    }
+  }
+}
+
 static void meet_all(const meeting *m) {
-  const sbri_meet_surface *s = m->a->surface, *other = m->b->surface;
-  for (uint32_t i = 0; i < 3 * s->triangle_count; i++) {
-    if (!(s->rims[i / 3] >> i % 3 & 1)) continue;
-    rim p = rim_of(s, i / 3, i % 3);
-    sbri_box box = sbri_box_with(sbri_box_of_point(p.is.edge.at[0]), p.is.edge.at[1]);
-    for (int k = 0; k < 2; k++) box = sbri_box_with(box, sbri_add(p.is.edge.at[k], p.is.edge.ways[k]));
-    box = sbri_box_grown(box, m->beyond);
-    if (!is_long(m, &p, m->b)) continue;
-    sbri_bounds_walk walk;
-    uint32_t triangle;
-    sbri_bounds_walk_begin(&walk, &other->tree, box);
-    while (sbri_bounds_walk_next(&walk, &triangle)) {
-      if (!other->rims[triangle] || !sbri_box_meets(&box, &other->boxes[triangle])) continue;
-      for (uint32_t side = 0; side < 3; side++) {
-        if (!(other->rims[triangle] >> side & 1)) continue;
-        rim q = rim_of(other, triangle, side);
-        if (is_long(m, &q, m->a)) meet(m, &p, &q);
-      }
+  const sbri_meet_surface *s = m->a->surface;
+  if (!m->b->surface->tree.node_count) return;
+  sbri_box about = sbri_box_grown(m->b->surface->tree.nodes[0].box, m->beyond);
+  for (uint32_t t = 0; t < s->triangle_count; t++) {
+    if (!s->rims[t] || !sbri_box_meets(&s->boxes[t], &about)) continue;
+    for (uint32_t side = 0; side < 3; side++) {
+      if (!(s->rims[t] >> side & 1)) continue;
+      rim p = rim_of(s, t, side);
+      if (is_long(m, &p, m->b)) meet_others(m, &p);
     }
   }
 }
