@@ -5,7 +5,6 @@
  * the normals beside it, an edge of 1 m may lie tan(a/2) / 2 deep without a corner in the other: bodies whose
  * edges do not get far into each other by that leave it to their corners. */
 #include "collide/ridge_look.h"
-#include "collide/sides.h"
 #include "math/vec3.h"
 #include "meet/finding.h"
 
@@ -150,69 +149,4 @@ void sbri_meet_ridges(const sbri_finding *f, const sbri_party *a, const sbri_par
     sbri_meet_hull_place(b->rigid, &from, &to, b->of->scale, b->surface);
   }
   meet_all(&m);
-}
-
-/* ---- Making ---- */
-
-static bool bends(const sbri_meet_surface *s, uint32_t t, uint32_t k) {
-  const uint32_t *c = s->triangles + 3 * (size_t)t;
-  return sbri_side_is_bent(s->places[c[k]], s->places[c[(k + 1) % 3]], s->places[c[(k + 2) % 3]],
-      s->places[s->sides[3 * (size_t)t + k]]);
-}
-
-/* Whether what lies beyond the side is behind the triangle. */
-static bool is_convex(const rim *r) {
-  const sbf_vec3 *at = r->is.edge.at;
-  sbf_vec3 out = sbri_cross(sbri_sub(at[1], at[0]), sbri_sub(r->is.wings[0], at[0]));
-  return sbri_dot(out, sbri_sub(r->is.wings[1], at[0])) < 0;
-}
-
-/* How deep of something as long as 1 m may be at the ridge unnoticed: half of the tangent of half the angle
- * between the normals beside it. */
-static float sharpness_of(const rim *r) {
-  sbf_vec3 a = r->is.edge.at[0], along = sbri_sub(r->is.edge.at[1], a);
-  sbf_vec3 n = sbri_cross(along, sbri_sub(r->is.wings[0], a)),
-           o = sbri_cross(sbri_sub(r->is.wings[1], a), along);
-  float size = sqrtf(sbri_dot(n, n) * sbri_dot(o, o)), cosine = size > 0 ? sbri_dot(n, o) / size : 1;
-  return cosine > -1 ? 0.5f * sqrtf((1 - cosine) / (1 + cosine)) : INFINITY;
-}
-
-static void note_ridges(sbri_meet_surface *s) {
-  for (uint32_t t = 0; t < s->triangle_count; t++) {
-    s->rims[t] = 0;
-    for (uint32_t k = 0; k < 3; k++) {
-      if (s->sides[3 * (size_t)t + k] >= s->vertex_count || !bends(s, t, k)) continue;
-      rim r = rim_of(s, t, k);
-      if (!is_convex(&r)) continue;
-      s->rims[t] |= (uint8_t)(1u << k);
-      s->ridge_m = fmaxf(s->ridge_m, sbri_length(sbri_sub(r.is.edge.at[1], r.is.edge.at[0])));
-      s->sharpness = fmaxf(s->sharpness, sharpness_of(&r));
-    }
-  }
-}
-
-/* The table of sides is scratch: no tree is made yet, and its room is more. */
-bool sbri_meet_rims_make(sbri_meet_surface *s, sbfi_arena *arena) {
-  _Static_assert(
-      sizeof(sbri_bounds_node) >= 8 * sizeof(uint32_t), "a table has less than 12 entries a triangle");
-  s->rims = sbfi_arena_allocate(arena, (size_t)s->triangle_count + 1, 1);
-  s->sides = sbfi_arena_allocate(arena, 3 * (size_t)s->triangle_count + 1, sizeof *s->sides);
-  if (!s->rims || !s->sides) return false;
-  sbri_sides_find(s->triangles, s->triangle_count, s->sides, (uint32_t *)(void *)s->tree.nodes);
-  s->ridge_m = s->sharpness = 0;
-  if (s->closed) note_ridges(s);
-  return true;
-}
-
-/* ---- Of a tick ---- */
-
-void sbri_meet_rims_look(sbri_meet_surface *s) {
-  for (uint32_t t = 0; t < s->triangle_count; t++) {
-    const uint32_t *beside = s->sides + 3 * (size_t)t;
-    s->rims[t] = 0;
-    for (uint32_t k = 0; k < 3; k++) {
-      if (beside[k] == SBRI_SAME_SIDE) continue;
-      if (beside[k] == SBRI_RIM || bends(s, t, k)) s->rims[t] |= (uint8_t)(1u << k);
-    }
-  }
 }

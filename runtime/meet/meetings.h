@@ -23,7 +23,7 @@ typedef struct sbri_meet_surface {
   bool two_sided;        /* a sheet, or open */
   bool closed;           /* each side of a triangle is one of another as well: it has an inside */
   float edge_m, thick_m; /* of a closed one at rest: mean length of its edges; how thick it is, as a rod is */
-  float ridge_m, sharpness; /* likewise: its longest ridge, and its sharpest, as find_rims.c has it */
+  float ridge_m, sharpness; /* likewise: its longest ridge, and its sharpest, as rims.c has it */
   uint32_t *sides;          /* (triangle_count x 3) as collide/sides.h has them */
   /* (triangle_count) Bits of its sides: of a two-sided one those that are rims, or across which it is bent,
    * of a tick; of a closed one those that are ridges at rest. */
@@ -260,7 +260,7 @@ void sbri_meet_hull_place(const sbri_rigid_body *body, const sbr_transform *at, 
 /* Whether each side of its triangles is one of another, the other way round. */
 bool sbri_meet_is_closed(const sbri_meet_surface *surface);
 
-/* ---- meet/find_rims.c ---- */
+/* ---- meet/rims.c ---- */
 
 /* Finds the sides of its triangles, and ridges of a closed one, which is placed at rest; takes the tree for
  * scratch. False where memory runs out. */
