@@ -2,6 +2,7 @@
 #include "api/api.h"
 #include "base/diagnostic.h"
 #include "math/usable.h"
+#include "math/vec3.h"
 
 enum { COLLIDER_COOKIE = 0x5b72636f, INDEX_BITS = 16 };
 
@@ -34,6 +35,7 @@ void sbri_collider_set_free(sbri_collider_set *set, const sbf_allocator *allocat
 sbr_collider_definition sbr_default_collider_definition(void) {
   return (sbr_collider_definition){.cookie = COLLIDER_COOKIE,
       .rotation = {0, 0, 0, 1},
+      .inertia_axes = {0, 0, 0, 1},
       .friction = OWN,
       .restitution = OWN,
       .layer = 1,
@@ -51,6 +53,30 @@ static bool is_place(sbr_double3 position, sbf_quat turn) {
   const double numbers[7] = {
       position.x, position.y, position.z, (double)turn.x, (double)turn.y, (double)turn.z, (double)turn.w};
   return sbri_usable(numbers, 7);
+}
+
+/* What is not to be, as an answer; SBF_OK: nothing. */
+static sbf_status check_body(
+    const sbr_world *world, const sbr_collider_definition *d, sbf_diagnostic *error) {
+  const double numbers[11] = {(double)d->mass, (double)d->inertia.x, (double)d->inertia.y,
+      (double)d->inertia.z, (double)d->centre.x, (double)d->centre.y, (double)d->centre.z,
+      (double)d->inertia_axes.x, (double)d->inertia_axes.y, (double)d->inertia_axes.z,
+      (double)d->inertia_axes.w};
+  if (!sbri_usable(numbers, 11) || numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 0 || numbers[3] < 0)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_collider_create: mass %g kg, inertia %g %g %g kg m^2, its axes or its centre: give finite numbers, "
+        "to 1e15, none of the masses below 0",
+        numbers[0], numbers[1], numbers[2], numbers[3]);
+  const sbri_collider *leader = collider_of((sbr_world *)world, d->part_of);
+  if (d->part_of.value && (!leader || !(leader->body.ease > 0)))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_collider_create: part_of names no collider with a mass: make that one first, and give the parts "
+        "none");
+  return SBF_OK;
+}
+
+static float inverse(float number) {
+  return number > 0 ? 1 / number : 0;
 }
 
 static void stir(sbr_world *world) {
@@ -72,6 +98,7 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
         "sbr_collider_create: position %g %g %g m, its rotation, friction %g or restitution %g: give finite "
         "numbers, to 1e15",
         definition->position.x, definition->position.y, definition->position.z, how[0], how[1]);
+  if (check_body(world, definition, error) != SBF_OK) return SBF_FAILED;
   sbri_collider_set *set = &world->colliders;
   uint32_t index = 0;
   while (index < set->capacity && set->at[index].shape) index++;
@@ -93,7 +120,16 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
       .friction = definition->friction,
       .restitution = definition->restitution,
       .layer = definition->layer,
-      .mask = definition->mask};
+      .mask = definition->mask,
+      .leader = index};
+  if (definition->part_of.value)
+    c->leader = (definition->part_of.value & 0xffff) - 1;
+  else if (definition->mass > 0)
+    c->body = (sbri_host_body){.ease = 1 / definition->mass,
+        .turn_eases = {inverse(definition->inertia.x), inverse(definition->inertia.y),
+            inverse(definition->inertia.z)},
+        .axes = sbri_quat_normalize(definition->inertia_axes),
+        .centre = definition->centre};
   stir(world);
   *collider = sbri_collider_name(set, index);
   return SBF_OK;
@@ -102,6 +138,9 @@ sbf_status sbr_collider_create(sbr_world *world, const sbr_collider_definition *
 void sbr_collider_destroy(sbr_world *world, sbr_collider_id collider) {
   sbri_collider *c = collider_of(world, collider);
   if (!c) return;
+  uint32_t index = (uint32_t)(c - world->colliders.at);
+  for (uint32_t i = 0; i < world->colliders.end; i++) /* what it had the mass of is nobody's part now */
+    if (world->colliders.at[i].leader == index) world->colliders.at[i].leader = i;
   *c = (sbri_collider){.generation = c->generation};
   stir(world);
 }
@@ -111,6 +150,7 @@ void sbr_collider_move(sbr_world *world, sbr_collider_id collider, sbr_double3 p
   if (!c || !is_place(position, rotation)) return;
   c->next = position;
   c->turn_next = sbri_quat_normalize(rotation);
+  c->body.goes = false;
   stir(world);
 }
 
@@ -119,6 +159,41 @@ void sbr_collider_place(sbr_world *world, sbr_collider_id collider, sbr_double3 
   if (!c || !is_place(position, rotation)) return;
   c->from = c->to = c->next = position;
   c->turn_from = c->turn_to = c->turn_next = sbri_quat_normalize(rotation);
+  c->body.goes = false;
+  stir(world);
+}
+
+/* Less than this share of what its weight gives it, and this speed in m/s, come from nowhere: hosts damp. */
+static const float FROM_WEIGHT = 0.2f, FROM_NOWHERE_M_S = 0.01f;
+
+/* What its velocity shows that the host's own things have pushed it with since it was last told. */
+static void look_who_holds(sbri_host_body *b, const sbr_collider_motion *m, sbf_vec3 velocity) {
+  b->held_along = sbri_vec3(0, 0, 0);
+  if (!b->goes || !(m->since_s > 0)) {
+    b->sharers = b->sharing = 0;
+    return;
+  }
+  sbf_vec3 known = sbri_add_scaled(sbri_scale(b->acceleration, m->since_s), b->handed, b->ease);
+  sbf_vec3 other = sbri_sub(sbri_sub(velocity, b->told_velocity), known);
+  float size = sbri_length(other), weight = sbri_length(b->acceleration) * m->since_s;
+  if (size > FROM_WEIGHT * weight + FROM_NOWHERE_M_S) b->held_along = sbri_scale(other, 1 / size);
+}
+
+void sbr_collider_set_motion(
+    sbr_world *world, sbr_collider_id collider, const sbr_collider_motion *motion) {
+  sbri_collider *c = collider_of(world, collider);
+  if (!c || !motion || !is_place(motion->position, motion->rotation)) return;
+  const sbf_vec3 v = motion->velocity, w = motion->spin, a = motion->acceleration;
+  const double numbers[10] = {(double)v.x, (double)v.y, (double)v.z, (double)w.x, (double)w.y, (double)w.z,
+      (double)a.x, (double)a.y, (double)a.z, (double)motion->since_s};
+  if (!sbri_usable(numbers, 10)) return;
+  c->to = c->next = motion->position;
+  c->turn_to = c->turn_next = sbri_quat_normalize(motion->rotation);
+  sbf_vec3 of_mass = sbri_add(v, sbri_cross(w, sbri_rotate(c->turn_to, c->body.centre)));
+  look_who_holds(&c->body, motion, of_mass);
+  c->body.goes = c->body.told = true;
+  c->body.velocity = v, c->body.told_velocity = of_mass, c->body.spin = w, c->body.acceleration = a;
+  c->body.handed = sbri_vec3(0, 0, 0);
   stir(world);
 }
 
@@ -132,5 +207,7 @@ sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id colli
   sbri_collider *c = collider_of(world, collider);
   if (!c) return (sbr_collider_push){{0, 0, 0}, {0, 0, 0}};
   sbf_vec3 impulse = taken(c->impulse);
+  sbri_host_body *body = &world->colliders.at[c->leader].body;
+  body->handed = sbri_add(body->handed, impulse);
   return (sbr_collider_push){impulse, taken(c->moment)};
 }

@@ -39,9 +39,52 @@ sbri_box sbri_collider_bounds(const sbri_collider *c) {
   return rounded(all);
 }
 
-void sbri_colliders_begin_tick(sbri_collider_set *set) {
+static sbf_vec3 single_of(const double v[3]) {
+  return sbri_vec3((float)v[0], (float)v[1], (float)v[2]);
+}
+
+/* What has pushed it in the tick that is over is what others may push it with in the next. Where the host has
+ * not told of it since, it goes on. */
+static void begin_body(sbri_collider *c, float tick_s) {
+  sbri_host_body *b = &c->body;
+  b->sharers = b->sharing, b->push = single_of(b->pushing), b->moment = single_of(b->turning);
+  b->sharing = 0;
+  for (int k = 0; k < 3; k++) b->pushing[k] = b->turning[k] = 0;
+  if (!b->goes || b->told) return;
+  sbf_vec3 faster = sbri_add_scaled(sbri_scale(b->acceleration, tick_s), b->push, b->ease);
+  b->velocity = sbri_add(b->velocity, sbri_host_body_free(b, faster));
+}
+
+/* To where it will be after the tick if nothing pushes it. */
+static void go_on(const sbri_collider_set *set, sbri_collider *c, float tick_s) {
+  sbri_host_body *b = &c->body;
+  if (!b->goes) return;
+  const sbri_collider *leader = &set->at[c->leader];
+  if (!b->told && leader != c) {
+    sbf_vec3 arm = {(float)(c->to.x - leader->to.x), (float)(c->to.y - leader->to.y),
+        (float)(c->to.z - leader->to.z)};
+    b->spin = leader->body.spin;
+    b->velocity = sbri_add(leader->body.velocity, sbri_cross(b->spin, arm));
+  }
+  b->told = false;
+  c->next = (sbr_double3){c->to.x + (double)(tick_s * b->velocity.x), c->to.y + (double)(tick_s * b->velocity.y),
+      c->to.z + (double)(tick_s * b->velocity.z)};
+  sbf_vec3 half = sbri_scale(b->spin, 0.5f * tick_s);
+  if (!(sbri_dot(half, half) > 0)) {
+    c->turn_next = c->turn_to;
+    return;
+  }
+  c->turn_next =
+      sbri_quat_normalize(sbri_quat_multiply((sbf_quat){half.x, half.y, half.z, 1}, c->turn_to));
+}
+
+void sbri_colliders_begin_tick(sbri_collider_set *set, double tick_s) {
   uint32_t count = 0;
   set->moving = set->stirred, set->stirred = false;
+  for (uint32_t i = 0; i < set->end; i++)
+    if (set->at[i].shape && set->at[i].body.ease > 0) begin_body(&set->at[i], (float)tick_s);
+  for (uint32_t i = 0; i < set->end; i++)
+    if (set->at[i].shape) go_on(set, &set->at[i], (float)tick_s);
   for (uint32_t i = 0; i < set->end; i++) {
     sbri_collider *c = &set->at[i];
     if (!c->shape) continue;

@@ -3,6 +3,7 @@
 #ifndef SBRI_COLLIDERS_H
 #define SBRI_COLLIDERS_H
 
+#include "collide/host_body.h"
 #include "collide/shape.h"
 #include "math/quat.h"
 
@@ -14,6 +15,8 @@ typedef struct sbri_collider {
   float friction, restitution; /* negative: of what touches it */
   uint32_t layer, mask;
   double impulse[3], moment[3]; /* N s and N m s about `to`, that it was pushed with; output, not state */
+  uint32_t leader;     /* number of the collider whose body it is of; its own */
+  sbri_host_body body; /* of the leader's */
 } sbri_collider;
 
 typedef struct sbri_collider_set {
@@ -28,7 +31,25 @@ typedef struct sbri_collider_set {
 } sbri_collider_set;
 
 /* All go where they were to go; the tree over the ways. Who sleeps looks around when some moves. */
-void sbri_colliders_begin_tick(sbri_collider_set *set);
+void sbri_colliders_begin_tick(sbri_collider_set *set, double tick_s);
+
+/* The collider whose mass counts; NULL: nothing moves it. */
+static inline sbri_collider *sbri_collider_leader(const sbri_collider_set *set, uint32_t number) {
+  sbri_collider *leader = &set->at[set->at[number].leader];
+  return leader->shape && leader->body.ease > 0 ? leader : NULL;
+}
+
+/* Where the centre of mass of a leader's body is at the tick's beginning, m of the world. */
+static inline sbr_double3 sbri_collider_centre(const sbri_collider *leader) {
+  sbf_vec3 arm = sbri_rotate(leader->turn_from, leader->body.centre);
+  const sbr_double3 *at = &leader->from;
+  return (sbr_double3){at->x + (double)arm.x, at->y + (double)arm.y, at->z + (double)arm.z};
+}
+
+/* The part of a change of its velocity that what holds it from elsewhere lets be. */
+static inline sbf_vec3 sbri_host_body_free(const sbri_host_body *body, sbf_vec3 change) {
+  return sbri_add_scaled(change, body->held_along, -sbri_dot(body->held_along, change));
+}
 
 /* Bounds of its way in the tick, world metres. */
 sbri_box sbri_collider_bounds(const sbri_collider *collider);

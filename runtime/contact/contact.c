@@ -4,6 +4,7 @@
 
 #include "collide/ground.h"
 #include "contact/carried.h"
+#include "contact/guest.h"
 #include "contact/self_touch.h"
 #include "contact/shape_touch.h"
 
@@ -155,7 +156,7 @@ static void find_alone(const sbri_island_tick *t, const sbri_body *body, const s
     }
   for (uint32_t i = 0; i < count; i++) {
     const sbri_sample *s = &touches[i].sample;
-    touches[i].alone = s->weights[0] == 1 && s->weights[1] == 0 && s->weights[2] == 0 && s->weights[3] == 0 &&
+    touches[i].alone = !touches[i].guest && s->weights[0] == 1 && s->weights[1] == 0 && s->weights[2] == 0 && s->weights[3] == 0 &&
                        s->slots[0] < t->island->free_count && tables->slot_touches[s->slots[0]] == 1;
   }
 }
@@ -169,6 +170,7 @@ void sbri_contact_prepare(
   else
     prepare_points(t, body, tables);
   uint32_t *count = &tables->touch_counts[body - t->model->bodies], before = *count;
+  tables->guests->count = 0;
   sbri_shape_touches_add(t, body, tables);
   if (body->self_face_count) {
     sbri_bounds_tree tree = {.nodes = tables->self_nodes, .items = tables->self_items};

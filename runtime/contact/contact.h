@@ -22,6 +22,8 @@ typedef struct sbri_contact_tables {
   float *planes;
   sbri_touch *touches;
   uint32_t *touch_counts;
+  struct sbri_guests *guests;          /* of the body */
+  const struct sbri_touching *touched; /* by the body in the tick before */
   uint8_t *slot_touches;       /* (slots) scratch: how many touches move each point, as two where more */
   const sbri_skin *surface;    /* of the body, as it is carried now */
   struct sbri_box *self_boxes; /* scratch of the body, where it meets itself */

@@ -2,6 +2,7 @@
 
 #include "collide/colliders.h"
 #include "contact/carried.h"
+#include "contact/guest.h"
 #include "model/reach.h"
 
 typedef struct meeting {
@@ -48,13 +49,16 @@ static void add_sample(const meeting *m, const sbri_sample *s) {
   sbf_vec3 place = sbri_out_of_shape(&m->frame, found.place);
   sbf_vec3 velocity = sbri_scale(sbri_shape_way(&m->frame, found.place), 1 / t->tick_s);
   float friction = m->body->friction;
-  m->tables->touches[m->body->first_touch + (*count)++] = (sbri_touch){.sample = *s,
+  sbri_touch *made = &m->tables->touches[m->body->first_touch + (*count)++];
+  *made = (sbri_touch){.sample = *s,
       .normal = normal,
       .offset = sbri_dot(normal, place) + m->body->margin_m,
       .velocity = velocity,
       .friction_share = friction > 0 ? sbri_friction_with(m->frame.collider, friction) / friction : 1,
       .restitution = sbri_restitution_with(m->frame.collider, m->body->restitution),
       .collider = m->number};
+  made->guest = sbri_guest_of(m->tables->guests, t, &m->frame, m->number, m->tables->touched);
+  if (made->guest) made->arm = sbri_sub(place, m->tables->guests->at[made->guest - 1].centre);
 }
 
 static void add_all(const meeting *m) {

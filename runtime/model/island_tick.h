@@ -32,12 +32,16 @@ typedef struct sbri_touch {
   sbri_sample sample;                /* as it is carried in this tick */
   sbf_vec3 normal;                   /* unit */
   float offset;                      /* normal . x of the plane, as of the present substep's beginning */
-  sbf_vec3 velocity;                 /* m/s, of what it stands for */
+  union {
+    sbf_vec3 velocity; /* m/s, of what it stands for */
+    sbf_vec3 arm;      /* of a guest, which has its own: from its centre of mass */
+  };
   float friction_share, restitution; /* of the body's coefficient of friction; its own */
   uint32_t collider; /* number of the collider, or SBRI_NO_COLLIDER: the ground, or SBRI_ITSELF: the
         body, against the points whose weights are below 0 */
   bool edges;        /* of itself: the first two points against the last two */
   bool alone;        /* the sample is one free point that no other touch moves */
+  uint8_t guest;     /* from 1 on: which of the body's guests it pushes (contact/guest.h); 0: none */
   /* Of solvers/touches.c, from substep to substep: */
   float gap, wanted; /* m and m/s, at the beginning of one */
   float gain;        /* m/s that the push gives the sample along the normal */
@@ -89,6 +93,7 @@ typedef struct sbri_island_tick {
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
   sbri_touch *touches;                             /* of the character; see sbri_body.first_touch */
+  struct sbri_guests *guests;                      /* (bodies of the model) contact/guest.h */
   const uint32_t *touch_counts;                    /* (bodies of the model) NULL: none */
   float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
   float *rotations;         /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */

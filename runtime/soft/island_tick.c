@@ -1,6 +1,7 @@
 /* What a tick of an island is put together from: its tables, its points, what it may touch, and what it tells
  * of that. */
 #include "contact/contact.h"
+#include "contact/guest.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
 #include "soft/soft.h"
@@ -28,12 +29,14 @@ void sbri_island_tuck(sbri_character *c, const sbri_island *island) {
 void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
   size_t first = tick->island->first_slot;
   sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
-      sbri_touches(c), sbri_touch_counts(c), sbri_slot_touches(c) + first, NULL, NULL, NULL, NULL, NULL,
-      NULL};
+      sbri_touches(c), sbri_touch_counts(c), NULL, NULL, sbri_slot_touches(c) + first, NULL, NULL, NULL,
+      NULL, NULL, NULL};
   for (uint32_t b = 0; b < tick->island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
     sbri_skin surface = sbri_skin_now(c, &body->surface);
     tables.surface = &surface;
+    tables.guests = &sbri_guests_of(c)[tick->island->bodies[b]];
+    tables.touched = &sbri_soft_touching(c)[tick->island->bodies[b]];
     tables.self_boxes = sbri_self_boxes(c) + body->first_self_face;
     tables.self_balls = sbri_self_balls(c) + body->first_self_face;
     tables.self_nodes = sbri_self_nodes(c) + 2 * (size_t)body->first_self_face + tick->island->bodies[b];
@@ -72,6 +75,7 @@ sbri_island_tick sbri_island_tick_of(
       .near_ground = sbri_near_ground(c) + first / SBRI_BLOCK,
       .touches = sbri_touches(c),
       .touch_counts = sbri_touch_counts(c),
+      .guests = sbri_guests_of(c),
       .rests = island->link_flows ? sbri_rests(c) + island->first_flow : NULL,
       .strengths = island->link_flows ? sbri_strengths(c) + island->first_flow : NULL,
       .rotations = sbri_rotations(c) + 4 * SBRI_BLOCK * (size_t)island->first_rotation,

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "contact/guest.h"
 #include "contact/self_touch.h"
 #include "math/vec3.h"
 
@@ -15,7 +16,9 @@ static const float NEAR_M_S = 1;
 /* A point that is no higher over its plane touches it. */
 static const float TOUCHES_M = 1e-5f;
 
-enum { MOST_SWEEPS = 16 };
+/* A light guest hangs from all that touches it at once. */
+enum { MOST_SWEEPS = 16, MOST_GUEST_SWEEPS = 64 };
+static const float FINER_WITH_GUESTS = 10;
 
 typedef struct touching {
   const sbri_island_tick *tick;
@@ -23,10 +26,22 @@ typedef struct touching {
   float *velocities;
   sbri_touch *touches;
   uint32_t count;
+  sbri_guests *guests;
 } touching;
 
 static touching touching_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
-  return (touching){t, body, velocities, t->touches + body->first_touch, sbri_touch_count(t, body)};
+  uint32_t count = sbri_touch_count(t, body);
+  return (touching){t, body, velocities, t->touches + body->first_touch, count,
+      count ? &t->guests[body - t->model->bodies] : NULL};
+}
+
+static sbri_guest *guest_of(const touching *c, const sbri_touch *touch) {
+  return &c->guests->at[touch->guest - 1];
+}
+
+/* Of what the touch stands for. */
+static sbf_vec3 velocity_under(const touching *c, const sbri_touch *touch) {
+  return touch->guest ? sbri_guest_velocity(guest_of(c, touch), touch->arm) : touch->velocity;
 }
 
 static sbf_vec3 velocity_of(const touching *c, const sbri_sample *s) {
@@ -68,6 +83,12 @@ static void move(const touching *c, const sbri_sample *s, sbf_vec3 moved) {
   }
 }
 
+/* The other side of what changes the sample's velocity by `faster`. */
+static void push_guest(const touching *c, const sbri_touch *touch, sbf_vec3 faster) {
+  if (!touch->guest) return;
+  sbri_guest_push(guest_of(c, touch), touch->arm, sbri_scale(faster, -touch->sample.mass_kg));
+}
+
 static float friction_of(const touching *c, const sbri_touch *touch, const sbri_contact_rule *rule) {
   const sbri_sample *s = &touch->sample;
   if (!rule->frictions) return rule->friction * touch->friction_share;
@@ -100,7 +121,7 @@ static float idle_time(const touching *c, const sbri_touch *touch, float gap) {
 static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   if (touch->collider == SBRI_ITSELF) sbri_self_touch_follow(c->tick, touch);
   sbf_vec3 v = velocity_of(c, &touch->sample);
-  float speed = sbri_dot(touch->normal, sbri_sub(v, touch->velocity));
+  float speed = sbri_dot(touch->normal, sbri_sub(v, velocity_under(c, touch)));
   touch->gap = gap_of(c, touch);
   touch->wanted = wanted_of(touch, speed, rule);
   if (touch->gain > 0 || touch->gap < rule->step_s * (NEAR_M_S - speed)) return true;
@@ -153,32 +174,49 @@ static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
   return near;
 }
 
+/* What a guest gives way by is not the sample's to gain. */
+static void yield(const touching *c, const sbri_touch *touch, float *missing, float *slips) {
+  const sbri_guest *g = guest_of(c, touch);
+  float mass = touch->sample.mass_kg, far = sbri_dot(touch->arm, touch->arm);
+  *missing /= 1 + mass * sbri_dot(touch->normal, sbri_guest_answer(g, touch->arm, touch->normal));
+  *slips = -1 / (1 + mass * g->lever * (g->most_ease + far * g->most_turn_ease));
+}
+
 /* One push made right; by how much it changed. */
 static float correct(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   const sbri_sample *s = &touch->sample;
-  sbf_vec3 v = sbri_sub(velocity_of(c, s), touch->velocity), n = touch->normal;
-  float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed);
+  sbf_vec3 v = sbri_sub(velocity_of(c, s), velocity_under(c, touch)), n = touch->normal;
+  float speed = sbri_dot(n, v), missing = touch->wanted - speed, slips = -1;
+  if (touch->guest) yield(c, touch, &missing, &slips);
+  float gain = touch->gain + missing;
   if (!(gain > 0)) gain = 0;
   if (gain == 0 && touch->gain == 0) return 0;
-  sbf_vec3 rub = sbri_sub(touch->rub, sbri_add_scaled(v, n, -speed));
+  sbf_vec3 rub = sbri_add_scaled(touch->rub, sbri_add_scaled(v, n, -speed), slips);
   float size = sbri_length(rub), most = friction_of(c, touch, rule) * gain;
   if (size > most) rub = sbri_scale(rub, most / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
   touch->gain = gain, touch->rub = rub;
   push(c, s, change);
-  return sbri_length(change);
+  if (!touch->guest) return sbri_length(change);
+  push_guest(c, touch, change);
+  return sbri_length(change) * (FINER_WITH_GUESTS + s->mass_kg * guest_of(c, touch)->most_ease);
 }
 
 void sbri_touches_answer(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
   touching c = touching_of(t, body, velocities);
+  int most_sweeps = MOST_SWEEPS;
+  if (c.count && c.guests->count) sbri_guests_begin(c.guests, rule->step_s), most_sweeps = MOST_GUEST_SWEEPS;
   c.count = begin_all(&c, rule);
   for (uint32_t i = 0; i < c.count; i++) {
     const sbri_touch *touch = &c.touches[i];
-    if (touch->gain > 0) push(&c, &touch->sample, sbri_add_scaled(touch->rub, touch->normal, touch->gain));
+    if (!(touch->gain > 0)) continue;
+    sbf_vec3 change = sbri_add_scaled(touch->rub, touch->normal, touch->gain);
+    push(&c, &touch->sample, change);
+    push_guest(&c, touch, change);
   }
   float most = SETTLED_M_S;
-  for (int sweep = 0; sweep < MOST_SWEEPS && most >= SETTLED_M_S; sweep++) {
+  for (int sweep = 0; sweep < most_sweeps && most >= SETTLED_M_S; sweep++) {
     most = 0;
     for (uint32_t i = 0; i < c.count; i++) {
       float change = correct(&c, &c.touches[sweep % 2 ? c.count - 1 - i : i], rule);
@@ -197,10 +235,11 @@ void sbri_touches_go_on(const sbri_island_tick *t, const sbri_body *body, float 
   touching c = touching_of(t, body, t->velocities);
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_touch *touch = &c.touches[i];
-    touch->offset += step_s * sbri_dot(touch->normal, touch->velocity);
+    touch->offset += step_s * sbri_dot(touch->normal, velocity_under(&c, touch));
     if (touch->gain > 0)
       touch->given = sbri_add(touch->given, sbri_add_scaled(touch->rub, touch->normal, touch->gain));
   }
+  if (c.count) sbri_guests_go_on(c.guests, step_s);
 }
 
 static void tell_planes(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
@@ -240,12 +279,13 @@ void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const 
     const sbri_sample *s = &touch->sample;
     float least = touch->gap < -rule->slack_m ? touch->gap : -rule->slack_m, lift = least - gap_of(&c, touch);
     if (!(lift > 0)) continue;
-    sbf_vec3 v = sbri_sub(velocity_of(&c, s), touch->velocity), n = touch->normal;
+    sbf_vec3 v = sbri_sub(velocity_of(&c, s), velocity_under(&c, touch)), n = touch->normal;
     float gain = lift / rule->step_s;
     sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
     float size = sbri_length(sideways), most = friction_of(&c, touch, rule) * gain;
     sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
     push(&c, s, change);
+    push_guest(&c, touch, change);
     move(&c, s, sbri_scale(change, rule->step_s));
     touch->given = sbri_add(touch->given, change);
   }

@@ -55,7 +55,7 @@ static void follow_tears(sbr_world *world) {
 
 void sbri_step_tick(sbr_world *world) {
   world->ticks++;
-  sbri_colliders_begin_tick(&world->colliders);
+  sbri_colliders_begin_tick(&world->colliders, world->tick_s);
   if (world->meetings) sbri_meet_near_find(world);
   if (world->detail) sbri_detail_choose(world);
   sbri_rooms_tend(world);

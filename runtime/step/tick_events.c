@@ -25,6 +25,28 @@ static uint32_t body_of_tear(const sbr_model *model, const sbri_island *island, 
   return island->bodies[0];
 }
 
+/* Of those before it in the list none is of that body. */
+static bool is_first_of(const sbri_collider_set *set, const sbri_touching *touching, uint32_t i) {
+  uint32_t leader = set->at[touching->now[i].thing].leader;
+  for (uint32_t k = 0; k < i; k++)
+    if (touching->now[k].thing < set->end && set->at[touching->now[k].thing].leader == leader) return false;
+  return true;
+}
+
+/* Notes what a body with a mass was pushed with by one of those that touch it. */
+static void note_push(sbri_collider *leader, const double push[3], const double moment[3], sbr_double3 about,
+    bool is_first) {
+  sbri_host_body *body = &leader->body;
+  sbr_double3 centre = sbri_collider_centre(leader);
+  const double arm[3] = {about.x - centre.x, about.y - centre.y, about.z - centre.z};
+  body->sharing += is_first ? 1 : 0;
+  for (int k = 0; k < 3; k++) {
+    int a = (k + 1) % 3, b = (k + 2) % 3;
+    body->pushing[k] += push[k];
+    body->turning[k] += arm[a] * push[b] - arm[b] * push[a] + moment[k];
+  }
+}
+
 /* Gives colliders the other side of what pushed a body. Of one that sleeps it is what it lay down with. */
 static void push_colliders(sbr_world *world, const sbri_character *c, sbri_touching *touching, bool asleep) {
   bool acts = touching->stepped || asleep;
@@ -35,17 +57,23 @@ static void push_colliders(sbr_world *world, const sbri_character *c, sbri_touch
     if (one->thing >= world->colliders.end || !world->colliders.at[one->thing].shape) continue;
     sbri_collider *collider = &world->colliders.at[one->thing];
     sbr_double3 origin = sbri_head(c)->origin;
-    const double arm[3] = {origin.x + scale * (double)one->place.x - collider->to.x,
-        origin.y + scale * (double)one->place.y - collider->to.y,
-        origin.z + scale * (double)one->place.z - collider->to.z};
+    const sbr_double3 *place = collider->body.goes ? &collider->from : &collider->to;
+    const double arm[3] = {origin.x + scale * (double)one->place.x - place->x,
+        origin.y + scale * (double)one->place.y - place->y,
+        origin.z + scale * (double)one->place.z - place->z};
     const double push[3] = {
         -mass * (double)one->push.x, -mass * (double)one->push.y, -mass * (double)one->push.z};
-    const float moment[3] = {one->moment.x, one->moment.y, one->moment.z};
+    const double moment[3] = {-mass * scale * (double)one->moment.x, -mass * scale * (double)one->moment.y,
+        -mass * scale * (double)one->moment.z};
     for (int k = 0; k < 3; k++) {
       int a = (k + 1) % 3, b = (k + 2) % 3;
       collider->impulse[k] += push[k];
-      collider->moment[k] += arm[a] * push[b] - arm[b] * push[a] - mass * scale * (double)moment[k];
+      collider->moment[k] += arm[a] * push[b] - arm[b] * push[a] + moment[k];
     }
+    sbri_collider *leader = sbri_collider_leader(&world->colliders, one->thing);
+    if (!leader) continue;
+    sbr_double3 about = {place->x + arm[0], place->y + arm[1], place->z + arm[2]};
+    note_push(leader, push, moment, about, is_first_of(&world->colliders, touching, i));
   }
 }
 

@@ -189,6 +189,7 @@ SBRI_SCRATCH_PART(planes, float, c->model->layout.planes)    /* (slot_count x 4)
 SBRI_SCRATCH_PART(near_ground, uint8_t, c->model->layout.near_ground)      /* (slot_count / 8) */
 SBRI_SCRATCH_PART(touches, sbri_touch, c->model->layout.touches)           /* (samples of all bodies) */
 SBRI_SCRATCH_PART(touch_counts, uint32_t, c->model->layout.touch_counts)   /* (bodies) */
+SBRI_SCRATCH_PART(guests_of, struct sbri_guests, c->model->layout.guests)  /* (bodies) */
 SBRI_SCRATCH_PART(slot_touches, uint8_t, c->model->layout.slot_touches)    /* (slot_count) */
 SBRI_SCRATCH_PART(soft_touching, sbri_touching, c->model->layout.touching) /* (bodies) */
 SBRI_SCRATCH_PART(rigid_touching, sbri_touching, c->model->layout.rigid_touching) /* (rigid bodies) */

@@ -3,6 +3,7 @@
  * Godot. What these are pushed with goes to the bodies. What stands still is ground (physics_ground.c). */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "soft_character.h"
 
@@ -16,11 +17,17 @@ enum {
   MODE_RIGID_LINEAR = 3,
   PARAM_BOUNCE = 0,
   PARAM_FRICTION = 1,
-  PARAM_MASS = 2,
   STATE_TRANSFORM = 0,
   STATE_LINEAR_VELOCITY = 1,
   STATE_ANGULAR_VELOCITY = 2
 };
+
+/* What of a body makes it light or heavy; zeros: nothing moves it. */
+typedef struct body_mass {
+  float inverse;                    /* 1/kg */
+  sbf_vec3 inverse_inertia, centre; /* 1/(kg m^2); m, in the body's frame */
+} body_mass;
+
 typedef struct mirrored {
   uint64_t body;      /* RID; 0: free */
   int64_t index;      /* of its shapes */
@@ -30,6 +37,8 @@ typedef struct mirrored {
   sbr_collider_id id; /* in the character's world */
   sbf_vec3 arm;       /* from the body's origin to the shape's, where it was last moved to */
   uint32_t seen;      /* frame it was last near */
+  body_mass mass;     /* the body's, as its collider was made */
+  bool leads, told;   /* its collider has the mass; it was told of in the frame before */
 } mirrored;
 
 struct physics_bodies {
@@ -126,27 +135,139 @@ static bool is_rigid(const gd_variant *server, const gd_variant *handle) {
   return mode == MODE_RIGID || mode == MODE_RIGID_LINEAR;
 }
 
-static sbf_vec3 velocity_of(const gd_variant *server, const mirrored *at, int64_t which) {
+static sbf_vec3 state_of(const gd_variant *server, const mirrored *at, int64_t which) {
   return gd_take_vector3(GD_CALL(server, "body_get_state", gd_copy(&at->handle), gd_int(which)));
 }
 
-/* To where the body will be after the physics step that follows, if nothing changes its velocity; what is not
- * rigid moves by itself, and stays where it is. */
+static sbf_vec3 cross(sbf_vec3 a, sbf_vec3 b) {
+  return (sbf_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* ---- What they weigh ---- */
+
+static body_mass mass_of(const gd_variant *server, const mirrored *at) {
+  body_mass mass = {0, {0, 0, 0}, {0, 0, 0}};
+  if (!is_rigid(server, &at->handle)) return mass;
+  gd_variant state = GD_CALL(server, "body_get_direct_state", gd_copy(&at->handle));
+  if (gd_as_object(&state)) {
+    mass.inverse = (float)gd_take_float(GD_CALL(&state, "get_inverse_mass"));
+    mass.inverse_inertia = gd_take_vector3(GD_CALL(&state, "get_inverse_inertia"));
+    mass.centre = gd_take_vector3(GD_CALL(&state, "get_center_of_mass_local"));
+  }
+  gd_free(&state);
+  return mass;
+}
+
+/* The collider of its body that has the mass; NULL: there is none yet. */
+static mirrored *leader_of(physics_bodies *bodies, const mirrored *at) {
+  for (uint32_t i = 0; i < MOST; i++) {
+    mirrored *other = &bodies->each[i];
+    if (other->body == at->body && other->leads && other->id.value) return other;
+  }
+  return NULL;
+}
+
+static float inverse(float number) {
+  return number > 0 ? 1 / number : 0;
+}
+
+/* The turn from the shape's axes to the world's, taken off one from others to the world's. */
+static sbf_quat without(sbf_quat turn, sbf_quat shape) {
+  sbf_quat a = {-shape.x, -shape.y, -shape.z, shape.w}, b = turn;
+  return (sbf_quat){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+/* How the body's principal axes stand in the world. */
+static sbf_quat axes_of(const gd_variant *server, const mirrored *at) {
+  gd_variant state = GD_CALL(server, "body_get_direct_state", gd_copy(&at->handle));
+  gd_variant axes = gd_as_object(&state) ? GD_CALL(&state, "get_principal_inertia_axes") : gd_nil();
+  float m[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int64_t k = 0; k < 3 && gd_type(&axes) == GDEXTENSION_VARIANT_TYPE_BASIS; k++) {
+    gd_variant column = gd_at(&axes, k);
+    sbf_vec3 v = gd_take_vector3(column);
+    m[0][k] = v.x, m[1][k] = v.y, m[2][k] = v.z;
+  }
+  gd_free(&axes);
+  gd_free(&state);
+  return quat_of(m);
+}
+
+/* A collider for the body's shape; what it weighs is the first one's of the body. */
+static void make_collider(physics_bodies *bodies, sbr_world *world, const gd_variant *server, mirrored *at) {
+  sbr_collider_definition made = sbr_default_collider_definition();
+  gd_transform place = place_of(server, at);
+  made.shape = at->shape;
+  made.position = (sbr_double3){place.origin.x, place.origin.y, place.origin.z};
+  made.rotation = quat_of(place.basis);
+  made.friction =
+      (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&at->handle), gd_int(PARAM_FRICTION)));
+  made.restitution =
+      (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&at->handle), gd_int(PARAM_BOUNCE)));
+  const mirrored *leader = leader_of(bodies, at);
+  at->leads = at->told = false;
+  if (at->mass.inverse > 0 && leader) {
+    made.part_of = leader->id;
+  } else if (at->mass.inverse > 0) {
+    sbf_vec3 i = at->mass.inverse_inertia, c = at->mass.centre;
+    at->leads = true;
+    made.mass = 1 / at->mass.inverse;
+    made.inertia = (sbf_vec3){inverse(i.x), inverse(i.y), inverse(i.z)};
+    made.inertia_axes = without(axes_of(server, at), made.rotation);
+    gd_variant inner = GD_CALL(server, "body_get_shape_transform", gd_copy(&at->handle), gd_int(at->index));
+    gd_transform t = gd_as_transform(&inner); /* a shape's own axes may be scaled */
+    gd_free(&inner);
+    sbf_vec3 off = {c.x - t.origin.x, c.y - t.origin.y, c.z - t.origin.z}, *to = &made.centre;
+    sbf_quat back = quat_of(t.basis);
+    sbf_vec3 axis = {-back.x, -back.y, -back.z}, once = cross(axis, off);
+    once = (sbf_vec3){2 * once.x, 2 * once.y, 2 * once.z};
+    sbf_vec3 twice = cross(axis, once);
+    *to = (sbf_vec3){off.x + back.w * once.x + twice.x, off.y + back.w * once.y + twice.y,
+        off.z + back.w * once.z + twice.z};
+  }
+  sbr_collider_create(world, &made, &at->id, NULL);
+}
+
+/* What has another mass than its collider, or lost the one that had it, gets a new one. */
+static void follow_mass(physics_bodies *bodies, sbr_world *world, const gd_variant *server, mirrored *at,
+    bool pushes) {
+  body_mass now = pushes ? mass_of(server, at) : (body_mass){0, {0, 0, 0}, {0, 0, 0}};
+  bool same = !memcmp(&now, &at->mass, sizeof now);
+  if (same && (!(now.inverse > 0) || leader_of(bodies, at))) return;
+  sbr_collider_destroy(world, at->id);
+  at->id = (sbr_collider_id){0};
+  at->mass = now;
+  make_collider(bodies, world, server, at);
+}
+
+/* From where it is, by its velocity; with a mass also by what pulls at it. What is not rigid moves by itself, and
+ * stays where it is. */
 static void move(sbr_world *world, const gd_variant *server, mirrored *at, float frame_s) {
   gd_transform now = place_of(server, at);
   sbf_vec3 o = now.origin;
   sbf_quat q = quat_of(now.basis);
-  if (is_rigid(server, &at->handle)) {
-    sbf_vec3 v = velocity_of(server, at, STATE_LINEAR_VELOCITY),
-             w = velocity_of(server, at, STATE_ANGULAR_VELOCITY), a = at->arm;
-    v = (sbf_vec3){v.x + w.y * a.z - w.z * a.y, v.y + w.z * a.x - w.x * a.z, v.z + w.x * a.y - w.y * a.x};
-    o = (sbf_vec3){o.x + frame_s * v.x, o.y + frame_s * v.y, o.z + frame_s * v.z};
-    float h = 0.5f * frame_s; /* q + h w q, which the runtime makes a unit again */
-    q = (sbf_quat){q.x + h * (w.x * q.w + w.y * q.z - w.z * q.y),
-        q.y + h * (w.y * q.w + w.z * q.x - w.x * q.z), q.z + h * (w.z * q.w + w.x * q.y - w.y * q.x),
-        q.w - h * (w.x * q.x + w.y * q.y + w.z * q.z)};
+  if (!is_rigid(server, &at->handle)) {
+    sbr_collider_move(world, at->id, (sbr_double3){o.x, o.y, o.z}, q);
+    return;
   }
-  sbr_collider_move(world, at->id, (sbr_double3){o.x, o.y, o.z}, q);
+  gd_variant state = GD_CALL(server, "body_get_direct_state", gd_copy(&at->handle));
+  sbf_vec3 v = state_of(server, at, STATE_LINEAR_VELOCITY), w = state_of(server, at, STATE_ANGULAR_VELOCITY);
+  sbf_vec3 centre = {0, 0, 0}, pull = {0, 0, 0};
+  if (gd_as_object(&state)) {
+    centre = gd_take_vector3(GD_CALL(&state, "get_center_of_mass"));
+    pull = gd_take_vector3(GD_CALL(&state, "get_total_gravity"));
+  }
+  gd_free(&state);
+  sbf_vec3 off = cross(w, (sbf_vec3){at->arm.x - centre.x, at->arm.y - centre.y, at->arm.z - centre.z});
+  sbr_collider_motion motion = {.position = {o.x, o.y, o.z},
+      .rotation = q,
+      .velocity = {v.x + off.x, v.y + off.y, v.z + off.z},
+      .spin = w,
+      .acceleration = pull,
+      .since_s = at->told ? frame_s : 0};
+  at->told = true;
+  sbr_collider_set_motion(world, at->id, &motion);
 }
 
 static void meet(soft_character *one, const gd_variant *server, const gd_variant *hit) {
@@ -172,16 +293,8 @@ static void meet(soft_character *one, const gd_variant *server, const gd_variant
         .object = gd.variant_get_object_instance_id(&object),
         .seen = bodies->frame};
     room->shape = physics_shape_of(server, &handle, index, &object);
-    gd_transform at = place_of(server, room);
-    sbr_collider_definition made = sbr_default_collider_definition();
-    made.shape = room->shape;
-    made.position = (sbr_double3){at.origin.x, at.origin.y, at.origin.z};
-    made.rotation = quat_of(at.basis);
-    made.friction =
-        (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&handle), gd_int(PARAM_FRICTION)));
-    made.restitution =
-        (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&handle), gd_int(PARAM_BOUNCE)));
-    if (room->shape) sbr_collider_create(one->world, &made, &room->id, NULL);
+    if (one->settings.push_bodies) room->mass = mass_of(server, room);
+    if (room->shape) make_collider(bodies, one->world, server, room);
   }
   if (!known && !moves && body) GD_DO(&bodies->still, "push_back", gd_copy(&handle));
   gd_free(&handle);
@@ -232,7 +345,7 @@ void physics_bodies_look(soft_character *one, bool now) {
   if (bodies->frame % AGAIN == 0 || now) look_around(one);
 }
 
-void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s) {
+void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes) {
   gd_variant server = gd_nil();
   bodies->frame++;
   for (uint32_t i = 0; i < MOST; i++) {
@@ -244,6 +357,11 @@ void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s
     }
     if (!at->id.value) continue;
     if (!gd_as_object(&server)) gd_assign(&server, gd_singleton("PhysicsServer3D"));
+    follow_mass(bodies, world, &server, at, pushes);
+  }
+  for (uint32_t i = 0; i < MOST; i++) {
+    mirrored *at = &bodies->each[i];
+    if (!at->body || !at->id.value) continue;
     move(world, &server, at, frame_s);
   }
   gd_free(&server);
@@ -253,12 +371,9 @@ static float length(sbf_vec3 v) {
   return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
-/* No more at once than makes the body so much faster: one far lighter than what pushes it would be shot away,
- * as what pushes takes it for something that does not give way within the frame. */
-static float share_of(const gd_variant *server, const mirrored *at, sbf_vec3 impulse, float limit) {
-  float mass =
-      (float)gd_take_float(GD_CALL(server, "body_get_param", gd_copy(&at->handle), gd_int(PARAM_MASS)));
-  float size = length(impulse), most = limit * mass;
+/* No more at once than makes the body so much faster. */
+static float share_of(const mirrored *at, sbf_vec3 impulse, float limit) {
+  float size = length(impulse) * at->mass.inverse, most = limit;
   return limit > 0 && size > most ? most / size : 1;
 }
 
@@ -272,7 +387,7 @@ void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_se
     if (!settings->push_bodies || (length(j) == 0 && length(m) == 0)) continue;
     if (!gd_as_object(&server)) gd_assign(&server, gd_singleton("PhysicsServer3D"));
     if (!gd.object_get_instance_from_id(at->object) || !is_rigid(&server, &at->handle)) continue;
-    float k = share_of(&server, at, j, (float)settings->push_limit);
+    float k = share_of(at, j, (float)settings->push_limit);
     GD_DO(&server, "body_apply_impulse", gd_copy(&at->handle),
         gd_vector3((sbf_vec3){k * j.x, k * j.y, k * j.z}), gd_vector3(at->arm));
     GD_DO(&server, "body_apply_torque_impulse", gd_copy(&at->handle),

@@ -184,7 +184,7 @@ void shared_world_step(soft_character *one) {
   for (uint32_t i = 0; i < shared->count; i++)
     any = (moves[i] = soft_character_prepare(shared->members[i])) || any;
   if (!any) return;
-  physics_bodies_move(shared->bodies, shared->world, frame_s);
+  physics_bodies_move(shared->bodies, shared->world, frame_s, one->settings.push_bodies);
   sbr_world_step(shared->world, (double)frame_s);
   physics_bodies_push(shared->bodies, shared->world, &one->settings);
   for (uint32_t i = 0; i < shared->count; i++)

@@ -123,7 +123,7 @@ void physics_bodies_free(physics_bodies *bodies, sbr_world *world);
 /* Makes colliders of the moving bodies near the character, for which it looks now or by and by. */
 void physics_bodies_look(soft_character *one, bool now);
 /* Once a step: moves those that there are; and gives the bodies what the step has pushed them with. */
-void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s);
+void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes);
 void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings);
 /* Their handles, which rays leave out: an array of RIDs; and the object that a collider is of, or null. */
 gd_variant physics_bodies_handles(const physics_bodies *bodies);
