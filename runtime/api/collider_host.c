@@ -64,7 +64,8 @@ static sbf_status check_body(
       (double)d->inertia_axes.w};
   if (!sbri_usable(numbers, 11) || numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 0 || numbers[3] < 0)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
-        "sbr_collider_create: mass %g kg, inertia %g %g %g kg m^2, its axes or its centre: give finite numbers, "
+        "sbr_collider_create: mass %g kg, inertia %g %g %g kg m^2, its axes or its centre: give finite "
+        "numbers, "
         "to 1e15, none of the masses below 0",
         numbers[0], numbers[1], numbers[2], numbers[3]);
   const sbri_collider *leader = collider_of((sbr_world *)world, d->part_of);
@@ -179,8 +180,7 @@ static void look_who_holds(sbri_host_body *b, const sbr_collider_motion *m, sbf_
   if (size > FROM_WEIGHT * weight + FROM_NOWHERE_M_S) b->held_along = sbri_scale(other, 1 / size);
 }
 
-void sbr_collider_set_motion(
-    sbr_world *world, sbr_collider_id collider, const sbr_collider_motion *motion) {
+void sbr_collider_set_motion(sbr_world *world, sbr_collider_id collider, const sbr_collider_motion *motion) {
   sbri_collider *c = collider_of(world, collider);
   if (!c || !motion || !is_place(motion->position, motion->rotation)) return;
   const sbf_vec3 v = motion->velocity, w = motion->spin, a = motion->acceleration;

@@ -61,21 +61,20 @@ static void go_on(const sbri_collider_set *set, sbri_collider *c, float tick_s) 
   if (!b->goes) return;
   const sbri_collider *leader = &set->at[c->leader];
   if (!b->told && leader != c) {
-    sbf_vec3 arm = {(float)(c->to.x - leader->to.x), (float)(c->to.y - leader->to.y),
-        (float)(c->to.z - leader->to.z)};
+    sbf_vec3 arm = {
+        (float)(c->to.x - leader->to.x), (float)(c->to.y - leader->to.y), (float)(c->to.z - leader->to.z)};
     b->spin = leader->body.spin;
     b->velocity = sbri_add(leader->body.velocity, sbri_cross(b->spin, arm));
   }
   b->told = false;
-  c->next = (sbr_double3){c->to.x + (double)(tick_s * b->velocity.x), c->to.y + (double)(tick_s * b->velocity.y),
-      c->to.z + (double)(tick_s * b->velocity.z)};
+  c->next = (sbr_double3){c->to.x + (double)(tick_s * b->velocity.x),
+      c->to.y + (double)(tick_s * b->velocity.y), c->to.z + (double)(tick_s * b->velocity.z)};
   sbf_vec3 half = sbri_scale(b->spin, 0.5f * tick_s);
   if (!(sbri_dot(half, half) > 0)) {
     c->turn_next = c->turn_to;
     return;
   }
-  c->turn_next =
-      sbri_quat_normalize(sbri_quat_multiply((sbf_quat){half.x, half.y, half.z, 1}, c->turn_to));
+  c->turn_next = sbri_quat_normalize(sbri_quat_multiply((sbf_quat){half.x, half.y, half.z, 1}, c->turn_to));
 }
 
 void sbri_colliders_begin_tick(sbri_collider_set *set, double tick_s) {

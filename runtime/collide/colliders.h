@@ -15,8 +15,8 @@ typedef struct sbri_collider {
   float friction, restitution; /* negative: of what touches it */
   uint32_t layer, mask;
   double impulse[3], moment[3]; /* N s and N m s about `to`, that it was pushed with; output, not state */
-  uint32_t leader;     /* number of the collider whose body it is of; its own */
-  sbri_host_body body; /* of the leader's */
+  uint32_t leader;              /* number of the collider whose body it is of; its own */
+  sbri_host_body body;          /* of the leader's */
 } sbri_collider;
 
 typedef struct sbri_collider_set {

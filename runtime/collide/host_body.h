@@ -9,13 +9,13 @@
 #include "sbfmt/base.h"
 
 typedef struct sbri_host_body {
-  float ease;                           /* 1/kg; 0: nothing moves it */
-  sbf_vec3 turn_eases;                  /* 1/(kg m^2), about its principal axes */
-  sbf_quat axes;                        /* from these to the shape's */
-  sbf_vec3 centre;                      /* of its mass, in the shape's frame */
-  bool goes;                            /* the host has told its motion: it goes on by that */
-  bool told;                            /* since the last tick */
-  sbf_vec3 velocity, spin;              /* m/s of the collider's place, and rad/s: as told, or gone on from that */
+  float ease;              /* 1/kg; 0: nothing moves it */
+  sbf_vec3 turn_eases;     /* 1/(kg m^2), about its principal axes */
+  sbf_quat axes;           /* from these to the shape's */
+  sbf_vec3 centre;         /* of its mass, in the shape's frame */
+  bool goes;               /* the host has told its motion: it goes on by that */
+  bool told;               /* since the last tick */
+  sbf_vec3 velocity, spin; /* m/s of the collider's place, and rad/s: as told, or gone on from that */
   sbf_vec3 told_velocity, acceleration; /* m/s and m/s^2 */
   sbf_vec3 held_along;                  /* unit, along which something else holds it; or zeros */
   sbf_vec3 handed;                      /* N s that the host has taken since it told */

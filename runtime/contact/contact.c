@@ -156,8 +156,9 @@ static void find_alone(const sbri_island_tick *t, const sbri_body *body, const s
     }
   for (uint32_t i = 0; i < count; i++) {
     const sbri_sample *s = &touches[i].sample;
-    touches[i].alone = !touches[i].guest && s->weights[0] == 1 && s->weights[1] == 0 && s->weights[2] == 0 && s->weights[3] == 0 &&
-                       s->slots[0] < t->island->free_count && tables->slot_touches[s->slots[0]] == 1;
+    touches[i].alone = !touches[i].guest && s->weights[0] == 1 && s->weights[1] == 0 && s->weights[2] == 0 &&
+                       s->weights[3] == 0 && s->slots[0] < t->island->free_count &&
+                       tables->slot_touches[s->slots[0]] == 1;
   }
 }
 

@@ -36,8 +36,7 @@ typedef struct own_push {
 } own_push;
 
 /* What the body has pushed it with in the tick before; moments about where its centre was. */
-static own_push push_before(
-    const sbri_island_tick *t, const sbri_guest *g, const sbri_touching *before) {
+static own_push push_before(const sbri_island_tick *t, const sbri_guest *g, const sbri_touching *before) {
   own_push own = {{0, 0, 0}, {0, 0, 0}, false};
   for (uint32_t i = 0; i < before->count; i++) {
     const sbri_touching_one *one = &before->now[i];
@@ -64,9 +63,8 @@ static void take_others(sbri_guest *g, const sbri_island_tick *t, const sbri_hos
 
 static void begin_guest(sbri_guest *g, const sbri_island_tick *t, const sbri_collider_frame *frame,
     const sbri_collider *leader, const sbri_touching *before) {
-  sbri_collider_frame of = frame->collider == leader
-                               ? *frame
-                               : sbri_collider_frame_of(leader, t->origin, t->scale);
+  sbri_collider_frame of =
+      frame->collider == leader ? *frame : sbri_collider_frame_of(leader, t->origin, t->scale);
   const sbri_host_body *b = &leader->body;
   sbf_quat turn = sbri_quat_multiply(leader->turn_to, sbri_quat_conjugate(leader->turn_from));
   float rate = (turn.w < 0 ? -2 : 2) / t->tick_s;

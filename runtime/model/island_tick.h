@@ -29,9 +29,9 @@ enum sbri_torn_state { SBRI_WHOLE, SBRI_TORN_NOW, SBRI_TORN_BEFORE };
 /* A sample of a body that may touch something within the tick: the plane it must not go below. A sample may
  * be in several. */
 typedef struct sbri_touch {
-  sbri_sample sample;                /* as it is carried in this tick */
-  sbf_vec3 normal;                   /* unit */
-  float offset;                      /* normal . x of the plane, as of the present substep's beginning */
+  sbri_sample sample; /* as it is carried in this tick */
+  sbf_vec3 normal;    /* unit */
+  float offset;       /* normal . x of the plane, as of the present substep's beginning */
   union {
     sbf_vec3 velocity; /* m/s, of what it stands for */
     sbf_vec3 arm;      /* of a guest, which has its own: from its centre of mass */

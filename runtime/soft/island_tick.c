@@ -29,8 +29,8 @@ void sbri_island_tuck(sbri_character *c, const sbri_island *island) {
 void sbri_island_prepare_contacts(const sbri_island_tick *tick, sbri_character *c) {
   size_t first = tick->island->first_slot;
   sbri_contact_tables tables = {sbri_near_ground(c) + first / SBRI_BLOCK, sbri_planes(c) + 4 * first,
-      sbri_touches(c), sbri_touch_counts(c), NULL, NULL, sbri_slot_touches(c) + first, NULL, NULL, NULL,
-      NULL, NULL, NULL};
+      sbri_touches(c), sbri_touch_counts(c), NULL, NULL, sbri_slot_touches(c) + first, NULL, NULL, NULL, NULL,
+      NULL, NULL};
   for (uint32_t b = 0; b < tick->island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[tick->island->bodies[b]];
     sbri_skin surface = sbri_skin_now(c, &body->surface);

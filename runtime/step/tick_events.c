@@ -34,8 +34,8 @@ static bool is_first_of(const sbri_collider_set *set, const sbri_touching *touch
 }
 
 /* Notes what a body with a mass was pushed with by one of those that touch it. */
-static void note_push(sbri_collider *leader, const double push[3], const double moment[3], sbr_double3 about,
-    bool is_first) {
+static void note_push(
+    sbri_collider *leader, const double push[3], const double moment[3], sbr_double3 about, bool is_first) {
   sbri_host_body *body = &leader->body;
   sbr_double3 centre = sbri_collider_centre(leader);
   const double arm[3] = {about.x - centre.x, about.y - centre.y, about.z - centre.z};

@@ -27,7 +27,8 @@ typedef struct thrown {
 
 static thrown thrown_of(
     scene *s, sbr_shape_definition form, double mass, const sbf_vec3 *arms, uint32_t parts, sbr_double3 at) {
-  thrown b = {.shape = collision_shape(form), .mass = mass, .weight = G, .turn = {0, 0, 0, 1}, .parts = parts};
+  thrown b = {
+      .shape = collision_shape(form), .mass = mass, .weight = G, .turn = {0, 0, 0, 1}, .parts = parts};
   sbf_vec3 h = form.half_sizes;
   const double half[3] = {(double)h.x, (double)h.y, (double)h.z};
   for (int k = 0; k < 3; k++) {
@@ -128,12 +129,10 @@ static double fastest(scene *s, thrown *b, uint32_t ticks) {
 enum flesh { CUBE, MATTRESS }; /* 30 cm and 27 kg; 80 x 20 x 80 cm and 20 kg */
 
 static void add_flesh(scene *s, uint32_t body, enum flesh kind, float x, float young_pa) {
-  lattice_box box =
-      kind == MATTRESS
-          ? lattice_box_make(
-                (sbf_vec3){x - 0.4f, 0, -0.4f}, (sbf_vec3){0.8f, 0.2f, 0.8f}, 12, 3, 12, 160, young_pa, 0)
-          : lattice_box_make(
-                (sbf_vec3){x - 0.15f, 0, -0.15f}, (sbf_vec3){0.3f, 0.3f, 0.3f}, 6, 6, 6, 1000, young_pa, 0.3f);
+  lattice_box box = kind == MATTRESS ? lattice_box_make((sbf_vec3){x - 0.4f, 0, -0.4f},
+                                           (sbf_vec3){0.8f, 0.2f, 0.8f}, 12, 3, 12, 160, young_pa, 0)
+                                     : lattice_box_make((sbf_vec3){x - 0.15f, 0, -0.15f},
+                                           (sbf_vec3){0.3f, 0.3f, 0.3f}, 6, 6, 6, 1000, young_pa, 0.3f);
   scene_lattice(s, body, &box);
   lattice_box_free(&box);
   scene_body(s, body)->attributes.damping_ratio = 0.3f;
@@ -164,7 +163,8 @@ START_TEST(momentum_is_kept)
   s.character_definition.position.y = 1000; /* above the ground */
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
   scene_start(&s);
-  thrown b = thrown_of(&s, a_ball(0.1f), mass, NULL, 1, (sbr_double3){0.07, kind == MATTRESS ? 0.33 : 0.43, 0.02});
+  thrown b =
+      thrown_of(&s, a_ball(0.1f), mass, NULL, 1, (sbr_double3){0.07, kind == MATTRESS ? 0.33 : 0.43, 0.02});
   b.weight = 0, b.velocity[0] = 0.5, b.velocity[1] = -2;
   for (int i = 0; i < 90; i++) {
     go(&s, &b, 1, -10);
@@ -180,7 +180,8 @@ START_TEST(momentum_is_kept)
 }
 END_TEST
 
-/* Dropped from 10 cm: within five seconds it lies, as light as a thousandth of the cube or as heavy as that. */
+/* Dropped from 10 cm: within five seconds it lies, as light as a thousandth of the cube or as heavy as that.
+ */
 START_TEST(what_is_dropped_comes_to_rest)
 {
   const double masses[6] = {0.027, 0.1, 0.5, 1, 5, 27};
@@ -216,7 +217,8 @@ START_TEST(weight_presses_as_it_should)
       (sbr_double3){0, height + 0.05 * (double)scale, 0});
   go(&s, &b, 240, -10);
   double own = 0.5 * 160 * G * 0.04 / 50000; /* what it sinks by itself */
-  double sinks = height - (b.at[1] - (0.05 + (double)KEPT_M) * (double)scale), wanted = (100 * G * 0.2 / (0.64 * 50000) + own) * (double)scale;
+  double sinks = height - (b.at[1] - (0.05 + (double)KEPT_M) * (double)scale),
+         wanted = (100 * G * 0.2 / (0.64 * 50000) + own) * (double)scale;
   ck_assert_double_eq_tol(sinks, wanted, 0.05 * wanted);
   ck_assert_double_lt(fastest(&s, &b, 60), 1e-3);
   end(&s, &b);

@@ -230,8 +230,8 @@ static void make_collider(physics_bodies *bodies, sbr_world *world, const gd_var
 }
 
 /* What has another mass than its collider, or lost the one that had it, gets a new one. */
-static void follow_mass(physics_bodies *bodies, sbr_world *world, const gd_variant *server, mirrored *at,
-    bool pushes) {
+static void follow_mass(
+    physics_bodies *bodies, sbr_world *world, const gd_variant *server, mirrored *at, bool pushes) {
   body_mass now = pushes ? mass_of(server, at) : (body_mass){0, {0, 0, 0}, {0, 0, 0}};
   bool same = !memcmp(&now, &at->mass, sizeof now);
   if (same && (!(now.inverse > 0) || leader_of(bodies, at))) return;
@@ -241,8 +241,8 @@ static void follow_mass(physics_bodies *bodies, sbr_world *world, const gd_varia
   make_collider(bodies, world, server, at);
 }
 
-/* From where it is, by its velocity; with a mass also by what pulls at it. What is not rigid moves by itself, and
- * stays where it is. */
+/* From where it is, by its velocity; with a mass also by what pulls at it. What is not rigid moves by itself,
+ * and stays where it is. */
 static void move(sbr_world *world, const gd_variant *server, mirrored *at, float frame_s) {
   gd_transform now = place_of(server, at);
   sbf_vec3 o = now.origin;

@@ -84,12 +84,12 @@ typedef struct sbr_collider_definition {
   uint32_t mask;          /* bits it meets; default all */
   float mass;             /* kg, > 0: of a body of the host's own, which what touches it moves (below); 0
                              (default): nothing moves it */
-  sbf_vec3 inertia;       /* kg m^2, >= 0, about its principal axes through its centre of mass; 0 (default): about
-                             that axis nothing turns it */
-  sbf_quat inertia_axes;  /* from those axes to the shape's; default none */
-  sbf_vec3 centre;        /* m, of its mass, in the shape's frame; default its origin */
-  sbr_collider_id part_of; /* of one body with that collider, made before and with a mass, which is that of all
-                             its parts; 0 (default): of none */
+  sbf_vec3 inertia; /* kg m^2, >= 0, about its principal axes through its centre of mass; 0 (default): about
+                       that axis nothing turns it */
+  sbf_quat inertia_axes;   /* from those axes to the shape's; default none */
+  sbf_vec3 centre;         /* m, of its mass, in the shape's frame; default its origin */
+  sbr_collider_id part_of; /* of one body with that collider, made before and with a mass, which is that of
+                             all its parts; 0 (default): of none */
 } sbr_collider_definition;
 
 /* A collider from a definition that begins as the default, until it is destroyed or the world is. */
@@ -115,12 +115,13 @@ typedef struct sbr_collider_motion {
   sbf_vec3 acceleration; /* m/s^2, of all that the host itself will add evenly: weight */
   float since_s;         /* s that the host has moved it for since it was last told; 0: it was put there */
 } sbr_collider_motion;
-/* Of a collider with a mass, before each step: from there it goes by itself, by that velocity, the acceleration
- * and what soft bodies that touch it push it with, so that a light one gives way at once, not a tick later.
- * That motion is the runtime's guess within its ticks: the host moves its body by sbr_collider_take_push, and
- * tells anew. What its velocity shows to have come from elsewhere since it was last told, as from a floor
- * that bears it, holds it along that direction in the next tick, and keeps it from being turned. Of a body of
- * several colliders each is told. Until it is told of again, or moved or placed, it goes on. */
+/* Of a collider with a mass, before each step: from there it goes by itself, by that velocity, the
+ * acceleration and what soft bodies that touch it push it with, so that a light one gives way at once, not a
+ * tick later. That motion is the runtime's guess within its ticks: the host moves its body by
+ * sbr_collider_take_push, and tells anew. What its velocity shows to have come from elsewhere since it was
+ * last told, as from a floor that bears it, holds it along that direction in the next tick, and keeps it from
+ * being turned. Of a body of several colliders each is told. Until it is told of again, or moved or placed,
+ * it goes on. */
 SBF_API void sbr_collider_set_motion(
     sbr_world *world, sbr_collider_id collider, const sbr_collider_motion *motion);
 
@@ -128,13 +129,13 @@ SBF_API void sbr_collider_set_motion(
  * pushed with themselves, friction included, the other way. */
 typedef struct sbr_collider_push {
   sbf_vec3 impulse; /* N s, world axes */
-  sbf_vec3 moment;  /* N m s, about where the collider's position was at the end of the last tick; of one whose
-                       motion was told, at its beginning, where the host's body still is */
+  sbf_vec3 moment; /* N m s, about where the collider's position was at the end of the last tick; of one whose
+                      motion was told, at its beginning, where the host's body still is */
 } sbr_collider_push;
 /* All since it was last asked, or made. A host whose own body it is gives this to the body, before it moves
  * that: what the two have of momentum is then kept. Without a mass characters meet a collider as something
- * that nothing can move; so do simulated rigid bodies one with a mass. A body that touches more than twelve things at once pushes the first twelve. Output, as events
- * are: snapshots do not hold it. */
+ * that nothing can move; so do simulated rigid bodies one with a mass. A body that touches more than twelve
+ * things at once pushes the first twelve. Output, as events are: snapshots do not hold it. */
 SBF_API sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id collider);
 
 /* ---- Each other --------------------------------------------------------------------------------------- */
