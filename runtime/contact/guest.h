@@ -16,28 +16,7 @@
 #define SBRI_GUEST_H
 
 #include "collide/colliders.h"
-#include "collide/touching.h"
 #include "model/island_tick.h"
-
-/* Those that are beyond them are taken for something that nothing moves. */
-enum { SBRI_GUESTS = SBRI_TOUCHING };
-
-typedef struct sbri_guest {
-  uint32_t leader;                     /* number of the collider with the mass */
-  sbf_vec3 centre;                     /* of its mass, at the tick's beginning */
-  sbf_vec3 begin_velocity, begin_spin; /* m/s and rad/s as of the present substep's beginning */
-  sbf_vec3 velocity, spin;             /* and as of its end */
-  sbf_vec3 seen_velocity, seen_spin;   /* by which it goes in the substep */
-  float elapsed_s, lever;              /* of the tick; how much more a push moves it than its velocity */
-  sbf_vec3 acceleration, turning;      /* m/s^2 and rad/s^2, of all but this body's pushes */
-  float ease[6], turn_ease[6];         /* 1/kg and 1/(kg m^2): xx, yy, zz, xy, xz, yz */
-  float most_ease, most_turn_ease;     /* along and about any axis */
-} sbri_guest;
-
-typedef struct sbri_guests {
-  uint32_t count;
-  sbri_guest at[SBRI_GUESTS];
-} sbri_guests;
 
 /* Which of the body's guests, from 1 on, the collider is of; 0: nothing moves it, or there is no room.
  * `before`: what the body touched in the tick before. */

@@ -26,13 +26,14 @@ typedef struct touching {
   float *velocities;
   sbri_touch *touches;
   uint32_t count;
-  sbri_guests *guests;
+  sbri_guests *guests; /* NULL: there are none */
 } touching;
 
 static touching touching_of(const sbri_island_tick *t, const sbri_body *body, float *velocities) {
   uint32_t count = sbri_touch_count(t, body);
-  return (touching){t, body, velocities, t->touches + body->first_touch, count,
-      count ? &t->guests[body - t->model->bodies] : NULL};
+  sbri_guests *guests = count && t->guests ? &t->guests[body - t->model->bodies] : NULL;
+  if (guests && !guests->count) guests = NULL;
+  return (touching){t, body, velocities, t->touches + body->first_touch, count, guests};
 }
 
 static sbri_guest *guest_of(const touching *c, const sbri_touch *touch) {
@@ -85,7 +86,6 @@ static void move(const touching *c, const sbri_sample *s, sbf_vec3 moved) {
 
 /* The other side of what changes the sample's velocity by `faster`. */
 static void push_guest(const touching *c, const sbri_touch *touch, sbf_vec3 faster) {
-  if (!touch->guest) return;
   sbri_guest_push(guest_of(c, touch), touch->arm, sbri_scale(faster, -touch->sample.mass_kg));
 }
 
@@ -121,7 +121,7 @@ static float idle_time(const touching *c, const sbri_touch *touch, float gap) {
 static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   if (touch->collider == SBRI_ITSELF) sbri_self_touch_follow(c->tick, touch);
   sbf_vec3 v = velocity_of(c, &touch->sample);
-  float speed = sbri_dot(touch->normal, sbri_sub(v, velocity_under(c, touch)));
+  float speed = sbri_dot(touch->normal, sbri_sub(v, c->guests ? velocity_under(c, touch) : touch->velocity));
   touch->gap = gap_of(c, touch);
   touch->wanted = wanted_of(touch, speed, rule);
   if (touch->gain > 0 || touch->gap < rule->step_s * (NEAR_M_S - speed)) return true;
@@ -174,52 +174,62 @@ static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
   return near;
 }
 
-/* What a guest gives way by is not the sample's to gain. */
-static void yield(const touching *c, const sbri_touch *touch, float *missing, float *slips) {
-  const sbri_guest *g = guest_of(c, touch);
-  float mass = touch->sample.mass_kg, far = sbri_dot(touch->arm, touch->arm);
-  *missing /= 1 + mass * sbri_dot(touch->normal, sbri_guest_answer(g, touch->arm, touch->normal));
-  *slips = -1 / (1 + mass * g->lever * (g->most_ease + far * g->most_turn_ease));
-}
-
 /* One push made right; by how much it changed. */
 static float correct(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   const sbri_sample *s = &touch->sample;
-  sbf_vec3 v = sbri_sub(velocity_of(c, s), velocity_under(c, touch)), n = touch->normal;
-  float speed = sbri_dot(n, v), missing = touch->wanted - speed, slips = -1;
-  if (touch->guest) yield(c, touch, &missing, &slips);
-  float gain = touch->gain + missing;
+  sbf_vec3 v = sbri_sub(velocity_of(c, s), touch->velocity), n = touch->normal;
+  float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed);
   if (!(gain > 0)) gain = 0;
   if (gain == 0 && touch->gain == 0) return 0;
-  sbf_vec3 rub = sbri_add_scaled(touch->rub, sbri_add_scaled(v, n, -speed), slips);
+  sbf_vec3 rub = sbri_sub(touch->rub, sbri_add_scaled(v, n, -speed));
   float size = sbri_length(rub), most = friction_of(c, touch, rule) * gain;
   if (size > most) rub = sbri_scale(rub, most / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
   touch->gain = gain, touch->rub = rub;
   push(c, s, change);
-  if (!touch->guest) return sbri_length(change);
+  return sbri_length(change);
+}
+
+/* The same against a guest: what that gives way by is not the sample's to gain. */
+static float correct_with_guest(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
+  const sbri_sample *s = &touch->sample;
+  const sbri_guest *g = guest_of(c, touch);
+  sbf_vec3 arm = touch->arm, v = sbri_sub(velocity_of(c, s), sbri_guest_velocity(g, arm)), n = touch->normal;
+  float along = 1 + s->mass_kg * sbri_dot(n, sbri_guest_answer(g, arm, n));
+  float across = 1 + s->mass_kg * g->lever * (g->most_ease + sbri_dot(arm, arm) * g->most_turn_ease);
+  float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed) / along;
+  if (!(gain > 0)) gain = 0;
+  if (gain == 0 && touch->gain == 0) return 0;
+  sbf_vec3 rub = sbri_add_scaled(touch->rub, sbri_add_scaled(v, n, -speed), -1 / across);
+  float size = sbri_length(rub), most = friction_of(c, touch, rule) * gain;
+  if (size > most) rub = sbri_scale(rub, most / size);
+  sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
+  touch->gain = gain, touch->rub = rub;
+  push(c, s, change);
   push_guest(c, touch, change);
-  return sbri_length(change) * (FINER_WITH_GUESTS + s->mass_kg * guest_of(c, touch)->most_ease);
+  return sbri_length(change) * (FINER_WITH_GUESTS + s->mass_kg * g->most_ease);
 }
 
 void sbri_touches_answer(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
   touching c = touching_of(t, body, velocities);
+  const bool with = c.guests != NULL; /* few have: loops without look no further */
   int most_sweeps = MOST_SWEEPS;
-  if (c.count && c.guests->count) sbri_guests_begin(c.guests, rule->step_s), most_sweeps = MOST_GUEST_SWEEPS;
+  if (with) sbri_guests_begin(c.guests, rule->step_s), most_sweeps = MOST_GUEST_SWEEPS;
   c.count = begin_all(&c, rule);
   for (uint32_t i = 0; i < c.count; i++) {
     const sbri_touch *touch = &c.touches[i];
     if (!(touch->gain > 0)) continue;
     sbf_vec3 change = sbri_add_scaled(touch->rub, touch->normal, touch->gain);
     push(&c, &touch->sample, change);
-    push_guest(&c, touch, change);
+    if (with && touch->guest) push_guest(&c, touch, change);
   }
   float most = SETTLED_M_S;
   for (int sweep = 0; sweep < most_sweeps && most >= SETTLED_M_S; sweep++) {
     most = 0;
     for (uint32_t i = 0; i < c.count; i++) {
-      float change = correct(&c, &c.touches[sweep % 2 ? c.count - 1 - i : i], rule);
+      sbri_touch *touch = &c.touches[sweep % 2 ? c.count - 1 - i : i];
+      float change = with && touch->guest ? correct_with_guest(&c, touch, rule) : correct(&c, touch, rule);
       most = change > most ? change : most;
     }
   }
@@ -233,13 +243,14 @@ void sbri_touches_answer(
 
 void sbri_touches_go_on(const sbri_island_tick *t, const sbri_body *body, float step_s) {
   touching c = touching_of(t, body, t->velocities);
+  const bool with = c.guests != NULL;
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_touch *touch = &c.touches[i];
-    touch->offset += step_s * sbri_dot(touch->normal, velocity_under(&c, touch));
+    touch->offset += step_s * sbri_dot(touch->normal, with ? velocity_under(&c, touch) : touch->velocity);
     if (touch->gain > 0)
       touch->given = sbri_add(touch->given, sbri_add_scaled(touch->rub, touch->normal, touch->gain));
   }
-  if (c.count) sbri_guests_go_on(c.guests, step_s);
+  if (with) sbri_guests_go_on(c.guests, step_s);
 }
 
 static void tell_planes(const sbri_island_tick *t, const sbri_body *body, sbri_touching *to) {
@@ -285,7 +296,7 @@ void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const 
     float size = sbri_length(sideways), most = friction_of(&c, touch, rule) * gain;
     sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
     push(&c, s, change);
-    push_guest(&c, touch, change);
+    if (touch->guest) push_guest(&c, touch, change);
     move(&c, s, sbri_scale(change, rule->step_s));
     touch->given = sbri_add(touch->given, change);
   }

@@ -1,5 +1,5 @@
 /* Where the parts of a character's state and scratch lie in their blocks. */
-#include "contact/guest.h"
+#include "collide/host_body.h"
 #include "world/state.h"
 
 static size_t place(size_t *end, size_t count, size_t size) {
