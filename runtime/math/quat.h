@@ -23,6 +23,20 @@ static inline sbf_vec3 sbri_rotate(sbf_quat q, sbf_vec3 v) {
   return sbri_add(sbri_add_scaled(v, t, q.w), sbri_cross(u, t));
 }
 
+/* The axes of its frame: what it turns +X, +Y and +Z to. */
+static inline sbf_vec3 sbri_quat_x(sbf_quat q) {
+  float y = 2 * q.y, z = 2 * q.z;
+  return (sbf_vec3){1 - (q.y * y + q.z * z), q.x * y + q.w * z, q.x * z - q.w * y};
+}
+static inline sbf_vec3 sbri_quat_y(sbf_quat q) {
+  float x = 2 * q.x, z = 2 * q.z;
+  return (sbf_vec3){q.y * x - q.w * z, 1 - (q.x * x + q.z * z), q.y * z + q.w * x};
+}
+static inline sbf_vec3 sbri_quat_z(sbf_quat q) {
+  float x = 2 * q.x, y = 2 * q.y;
+  return (sbf_vec3){q.z * x + q.w * y, q.z * y - q.w * x, 1 - (q.x * x + q.y * y)};
+}
+
 static inline sbf_quat sbri_quat_normalize(sbf_quat q) {
   float length = sqrtf(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   if (!(length > 1e-12f)) return sbri_quat_identity();

@@ -6,7 +6,7 @@
  * The angular momentum in space stays what it is by construction, and p' - p is square to w, so that the
  * energy stays too (Lewis and Simo, Conserving algorithms for the dynamics of Hamiltonian systems on Lie
  * groups, 1994): a body that tumbles about its middle axis does so for ever, at any step. */
-#include "rigid/rigid_state.h"
+#include "rigid/free_turn.h"
 
 static sbf_vec3 times(sbf_vec3 a, sbf_vec3 b) {
   return (sbf_vec3){a.x * b.x, a.y * b.y, a.z * b.z};
@@ -36,6 +36,89 @@ sbf_vec3 sbri_free_turn(
   }
   *to = sbri_quat_normalize(sbri_quat_multiply(turn, (sbf_quat){half.x, half.y, half.z, 1}));
   return sbri_rotate(turn, w);
+}
+
+/* ---- The same, of as many bodies at once as there are lanes: each operation as above ---- */
+
+static sbri_wide3 cross(sbri_wide3 a, sbri_wide3 b) {
+  return (sbri_wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+static sbri_wide dot(sbri_wide3 a, sbri_wide3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static sbri_wide3 scale(sbri_wide3 a, sbri_wide s) {
+  return (sbri_wide3){a.x * s, a.y * s, a.z * s};
+}
+
+static sbri_wide3 add(sbri_wide3 a, sbri_wide3 b) {
+  return (sbri_wide3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static sbri_wide3 turn_by(sbri_wide3 u, sbri_wide w, sbri_wide3 v) {
+  sbri_wide3 t = scale(cross(u, v), sbri_wide_all(2));
+  return add(add(v, scale(t, w)), cross(u, t));
+}
+
+static sbri_wide3 all_turned_back(sbri_wide3 a, sbri_wide3 p) {
+  const sbri_wide one = sbri_wide_all(1), two = sbri_wide_all(2);
+  sbri_wide square = dot(a, a), share = one / (one + square), along = two * dot(a, p);
+  sbri_wide3 across = cross(a, p);
+  return (sbri_wide3){((one - square) * p.x + along * a.x - two * across.x) * share,
+      ((one - square) * p.y + along * a.y - two * across.y) * share,
+      ((one - square) * p.z + along * a.z - two * across.z) * share};
+}
+
+static sbri_wide3 all_times(sbri_wide3 a, sbri_wide3 b) {
+  return (sbri_wide3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+static sbri_wide3 chosen(sbri_mask mask, sbri_wide3 a, sbri_wide3 b) {
+  return (sbri_wide3){
+      sbri_wide_select(mask, a.x, b.x), sbri_wide_select(mask, a.y, b.y), sbri_wide_select(mask, a.z, b.z)};
+}
+
+void sbri_free_turns(sbri_free_turning *t, float step_s) {
+  sbri_wide3 u = {sbri_wide_load(t->x), sbri_wide_load(t->y), sbri_wide_load(t->z)};
+  sbri_wide w_of = sbri_wide_load(t->w), half_s = sbri_wide_all(0.5f * step_s);
+  sbri_wide3 ease = {sbri_wide_load(t->ease[0]), sbri_wide_load(t->ease[1]), sbri_wide_load(t->ease[2])};
+  sbri_wide3 spin = {sbri_wide_load(t->spin[0]), sbri_wide_load(t->spin[1]), sbri_wide_load(t->spin[2])};
+  sbri_wide3 p = turn_by((sbri_wide3){-u.x, -u.y, -u.z}, w_of, spin), w = all_times(ease, p);
+  sbri_wide3 half = scale(w, half_s);
+  float squares[SBRI_LANES], passes[SBRI_LANES];
+  int most = 0;
+  sbri_wide_store(squares, dot(half, half));
+  for (int k = 0; k < SBRI_LANES; k++) {
+    int count = passes_for(squares[k]);
+    most = count > most ? count : most;
+    passes[k] = (float)count;
+  }
+  for (int pass = 0; pass < most; pass++) {
+    sbri_mask goes_on = sbri_wide_load(passes) > sbri_wide_all((float)pass);
+    sbri_wide3 mean = scale(add(p, all_turned_back(half, p)), sbri_wide_all(0.5f));
+    w = chosen(goes_on, all_times(ease, mean), w);
+    half = scale(w, half_s);
+  }
+  /* turn (half, 1) */
+  sbri_wide x = w_of * half.x + u.x + u.y * half.z - u.z * half.y;
+  sbri_wide y = w_of * half.y - u.x * half.z + u.y + u.z * half.x;
+  sbri_wide z = w_of * half.z + u.x * half.y - u.y * half.x + u.z;
+  sbri_wide r = w_of - u.x * half.x - u.y * half.y - u.z * half.z;
+  sbri_wide share = sbri_wide_all(1) / sbri_wide_sqrt(x * x + y * y + z * z + r * r);
+  sbri_wide3 velocity = turn_by(u, w_of, w);
+  sbri_wide_store(t->x, x * share), sbri_wide_store(t->y, y * share);
+  sbri_wide_store(t->z, z * share), sbri_wide_store(t->w, r * share);
+  sbri_wide_store(t->spin[0], velocity.x), sbri_wide_store(t->spin[1], velocity.y);
+  sbri_wide_store(t->spin[2], velocity.z);
+}
+
+void sbri_free_turning_put(
+    sbri_free_turning *t, int lane, const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin) {
+  t->x[lane] = turn.x, t->y[lane] = turn.y, t->z[lane] = turn.z, t->w[lane] = turn.w;
+  t->spin[0][lane] = spin.x, t->spin[1][lane] = spin.y, t->spin[2][lane] = spin.z;
+  t->ease[0][lane] = body->inverse_inertia.x, t->ease[1][lane] = body->inverse_inertia.y;
+  t->ease[2][lane] = body->inverse_inertia.z;
 }
 
 sbf_vec3 sbri_spin_velocity(const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin) {

@@ -25,8 +25,8 @@ sbri_joint_place sbri_joint_place_of(const sbri_rigid_joint *joint,
   p.apart = sbri_add(p.apart, fine);
   sbf_quat a = sbri_quat_multiply(poses[SBRI_A]->rotation, joint->frames[SBRI_A].axes);
   sbf_quat b = sbri_quat_multiply(poses[SBRI_B]->rotation, joint->frames[SBRI_B].axes);
-  p.axes[0] = sbri_rotate(a, sbri_vec3(1, 0, 0));
-  p.axes[1] = sbri_rotate(a, sbri_vec3(0, 1, 0));
+  p.axes[0] = sbri_quat_x(a);
+  p.axes[1] = sbri_quat_y(a);
   p.axes[2] = sbri_cross(p.axes[0], p.axes[1]);
   sbf_quat q = sbri_quat_multiply(sbri_quat_conjugate(a), b);
   p.turn = q;

@@ -9,10 +9,15 @@ enum { LYING_TICKS = 20 };
 /* In flight a tick has so many times fewer steps than the model says at the least. */
 enum { MOST_FEWER = 4 };
 /* And there goes back to fewer below this share of what those would do for. */
-static const float NEARLY = 0.8f;
+static const float NEARLY = 0.75f;
 
 /* No body turns by more in a step, rad: the way along an arc is then short enough for its tangent. */
 static const float MOST_TURN = 0.2f;
+/* Greatest angular frequency times step by what pulls in the step itself, where its square is so many times
+ * that of the tick before: as light parts crack between heavy ones. */
+static const float PULLED_SWING = 0.3f, PULLED_MORE = 2;
+/* A bound of what pulls is no smaller for rounding. */
+static const float ROUNDED = 1.001f;
 /* Slower than this share of its size a second, a body hardly moves. */
 static const float SLOW_1_S = 0.1f;
 
@@ -83,6 +88,33 @@ float sbri_rigid_swings(const sbri_rigid_tick *t, const sbri_rigid_solving *work
   return fastest;
 }
 
+/* What the edge's pull swings its bodies by at most, whatever its direction. */
+static void note_pull(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sbri_edge *e) {
+  const sbri_rigid_joint *joint = &t->model->joints[e->joint];
+  sbf_vec3 pull = work->pulls[e->joint];
+  float square = sbri_dot(pull, pull);
+  for (int side = 0; side < SBRI_SIDES; side++) {
+    if (e->nodes[side] < 0) continue;
+    const sbf_vec3 *i = &t->model->bodies[joint->bodies[side]].inverse_inertia, at = joint->frames[side].at;
+    float ease = i->x > i->y ? i->x : i->y;
+    ease = i->z > ease ? i->z : ease;
+    work->system.nodes[e->nodes[side]].pulled += ROUNDED * ease * sqrtf(square * sbri_dot(at, at));
+  }
+}
+
+bool sbri_rigid_pulls_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+  sbri_rigid_system *s = &work->system;
+  float most = PULLED_SWING / step_s;
+  most *= most;
+  for (uint32_t i = 0; i < s->node_count; i++) s->nodes[i].pulled = 0;
+  for (uint32_t i = 0; i < s->edge_count; i++) note_pull(t, work, &s->edges[i]);
+  bool may = false;
+  for (uint32_t i = 0; i < s->node_count; i++) may = may || s->nodes[i].pulled > most;
+  if (!may) return false; /* mostly, and directions need not be looked at */
+  float swings = sbri_rigid_swings(t, work);
+  return swings > most && swings > PULLED_MORE * work->swings;
+}
+
 /* Of the fastest body at a joint, rad/s. */
 static float fastest_turn(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {
   float fastest = 0;
@@ -109,7 +141,7 @@ uint32_t sbri_rigid_pace(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
            most = t->substeps > SBRI_RIGID_MOST_SUBSTEPS ? t->substeps : SBRI_RIGID_MOST_SUBSTEPS;
   while ((float)count < steps && 2 * count <= most) count *= 2;
   uint32_t before = t->drive->substeps;
-  bool nearly = flies ? steps > NEARLY * (float)count : before < 4 * count;
+  bool nearly = flies || work->touch_count ? steps > NEARLY * (float)count : before < 4 * count;
   if (!lies && flies == flew && before > count && before <= most && nearly) count = before;
   t->drive->substeps = count;
   t->drive->flies = flies;

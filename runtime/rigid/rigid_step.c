@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "math/quat_log.h"
+#include "rigid/free_turn.h"
 #include "rigid/rigid_work.h"
 #include "rigid/sym6.h"
 
@@ -18,9 +19,6 @@ enum { MOST_CORRECTIONS = 4, TOUCHING_HALVINGS = 4 };
 /* With shapes, beside its vertices with the ground. */
 enum { TOUCHES_OF_BODY = 24 };
 
-/* Greatest angular frequency times step by what pulls in the step itself, where its square is so many times
- * that of the tick before: as light parts crack between heavy ones. */
-static const float PULLED_SWING = 0.3f, PULLED_MORE = 2;
 /* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again; and of
  * what was foreseen (sbri_rigid_foresees), before it is for the first time. */
 static const float FINE = 2e-5f, FINE_AT_ONCE = 5e-6f;
@@ -109,26 +107,48 @@ static void follow(sbri_part_motion *m, const sbr_transform *begin, const sbr_tr
   m->turn = sbri_scale(sbri_quat_log(turn), 1 / step_s);
 }
 
-/* Where a body goes with the velocities that it has. */
+/* Where a body goes with the velocity that it has. */
 static void go(const sbri_rigid_tick *t, uint32_t b, sbri_part_motion *m, float step_s) {
   sbri_rigid_body_state *s = &t->bodies[b];
   m->velocity = s->velocity;
   sbf_vec3 way = sbri_add_scaled(m->fine_from, s->velocity, step_s); /* a sum that keeps what it rounds off */
   m->to.position = sbri_add(m->from.position, way);
   m->fine_to = sbri_sub(way, sbri_sub(m->to.position, m->from.position));
-  m->turn = sbri_free_turn(&t->model->bodies[b], m->from.rotation, s->spin, step_s, &m->to.rotation);
+}
+
+/* And all that give way: their turns by lanes. */
+static void go_all(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
+  const sbri_node *nodes = work->system.nodes;
+  uint32_t count = work->system.node_count;
+  for (uint32_t i = 0; i < count; i += SBRI_LANES) {
+    sbri_free_turning turning;
+    for (uint32_t k = 0; k < SBRI_LANES; k++) { /* the last fills what lanes are left */
+      uint32_t b = nodes[i + k < count ? i + k : count - 1].body;
+      sbri_free_turning_put(
+          &turning, (int)k, &t->model->bodies[b], work->motions[b].from.rotation, t->bodies[b].spin);
+    }
+    sbri_free_turns(&turning, step_s);
+    for (uint32_t k = 0; k < SBRI_LANES && i + k < count; k++) {
+      uint32_t b = nodes[i + k].body;
+      sbri_part_motion *m = &work->motions[b];
+      go(t, b, m, step_s);
+      m->turn = sbri_vec3(turning.spin[0][k], turning.spin[1][k], turning.spin[2][k]);
+      m->to.rotation = (sbf_quat){turning.x[k], turning.y[k], turning.z[k], turning.w[k]};
+    }
+  }
 }
 
 void sbri_rigid_moments(sbf_vec3 own, sbf_quat turn, float to[3][3]) {
-  const sbf_vec3 axes[3] = {sbri_rotate(turn, sbri_vec3(1, 0, 0)), sbri_rotate(turn, sbri_vec3(0, 1, 0)),
-      sbri_rotate(turn, sbri_vec3(0, 0, 1))};
+  const sbf_vec3 axes[3] = {sbri_quat_x(turn), sbri_quat_y(turn), sbri_quat_z(turn)};
   const float moments[3] = {own.x, own.y, own.z};
-  memset(to, 0, 9 * sizeof(float));
+  float a[3][3], m[3][3];
   for (int k = 0; k < 3; k++) {
-    const float a[3] = {axes[k].x, axes[k].y, axes[k].z};
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++) to[i][j] += moments[k] * a[i] * a[j];
+    a[k][0] = axes[k].x, a[k][1] = axes[k].y, a[k][2] = axes[k].z;
+    for (int i = 0; i < 3; i++) m[k][i] = moments[k] * a[k][i];
   }
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j <= i; j++)
+      to[i][j] = to[j][i] = m[0][i] * a[0][j] + m[1][i] * a[1][j] + m[2][i] * a[2][j];
 }
 
 /* `from` and `to`: shares of the tick. */
@@ -147,7 +167,6 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     m->from = s->pose, m->fine_from = s->fine;
     s->velocity =
         sbri_add_scaled(s->velocity, t->gravity, work->kick_s * model->bodies[b].source->gravity_scale);
-    go(t, b, m, step_s);
     sbri_node *node = &work->system.nodes[m->node];
     sbri_rigid_moments(model->bodies[b].inertia, m->from.rotation, node->inertia);
     const sbf_vec3 *ease = &model->bodies[b].inverse_inertia;
@@ -157,6 +176,7 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     node->burden = t->pull.burdens && t->pull.burdens[b].on ? t->pull.burdens[b].mass : NULL;
     memset(node->push, 0, sizeof node->push);
   }
+  go_all(t, work, step_s);
 }
 
 /* ---- A step ---- */
@@ -177,10 +197,7 @@ static void take(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
 
 static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   take(t, work);
-  for (uint32_t i = 0; i < work->system.node_count; i++) {
-    uint32_t b = work->system.nodes[i].body;
-    go(t, b, &work->motions[b], step_s);
-  }
+  go_all(t, work, step_s);
 }
 
 static void clear_b(sbri_rigid_solving *work) {
@@ -205,8 +222,7 @@ static sbf_vec3 impulse_of(const sbri_rigid_solving *work, const sbri_edge *e, s
   return sbri_add(impulse, sbri_vec3((float)i[0], (float)i[1], (float)i[2]));
 }
 
-/* Whether what pulls in the step, and did not before, lets some body swing too fast for it, as a light link
- * of a chain that is suddenly taut: a leapfrog gains by that without bound. */
+/* Notes what pulls in the step; whether that lets some body swing too fast for it. */
 static bool is_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   if (work->touch_count) return false; /* what strikes pulls for a step alone */
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
@@ -214,8 +230,7 @@ static bool is_too_fast(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
     sbf_vec3 moment, impulse = impulse_of(work, e, &moment);
     work->pulls[e->joint] = sbri_scale(impulse, 1 / work->kick_s);
   }
-  float swings = sbri_rigid_swings(t, work), most = PULLED_SWING / step_s;
-  return swings > most * most && swings > PULLED_MORE * work->swings;
+  return sbri_rigid_pulls_too_fast(t, work, step_s);
 }
 
 static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work) {

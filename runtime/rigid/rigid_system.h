@@ -92,6 +92,7 @@ typedef struct sbri_node {
   float inertia[3][3];       /* in space */
   float swell;               /* sbri_rigid_swell */
   const double (*burden)[6]; /* sbri_rigid_burden.mass; NULL: it bears nothing */
+  float pulled;              /* (rad/s)^2 that its joints' pulls swing it by, at most */
   float ease[2];             /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
 } sbri_node;
 

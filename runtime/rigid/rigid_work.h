@@ -50,6 +50,9 @@ void sbri_rigid_end(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
 /* Square of the angular frequency at which the joints' pulls let some body swing, (rad/s)^2. */
 float sbri_rigid_swings(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);
+/* Whether what pulls in a step, and did not before, lets some body swing too fast for it, as a light link of
+ * a chain that is suddenly taut: a leapfrog gains by that without bound. */
+bool sbri_rigid_pulls_too_fast(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
 /* How many steps the coming tick takes; and whether the bodies have but moved slowly in the last. */
 uint32_t sbri_rigid_pace(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 bool sbri_rigid_is_slow(const sbri_rigid_tick *tick, const sbri_rigid_solving *work);

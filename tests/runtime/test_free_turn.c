@@ -1,6 +1,8 @@
 #include "harness.h"
+#include <string.h>
+
 #include "math/quat_log.h"
-#include "rigid/rigid_state.h"
+#include "rigid/free_turn.h"
 
 static const sbri_rigid_body brick = {
     .inertia = {1, 2, 3}, .inverse_inertia = {1, 0.5f, 1.0f / 3}, .mass = 1, .inverse_mass = 1};
@@ -55,9 +57,46 @@ START_TEST(a_symmetric_body_precesses)
 }
 END_TEST
 
+static float next_share(uint32_t *seed) {
+  *seed = *seed * 1664525u + 1013904223u;
+  return (float)(*seed >> 8) / 8388608.0f - 1;
+}
+
+/* By lanes, of bodies that turn slowly and fast side by side, bit for bit what each does alone. */
+START_TEST(lanes_turn_as_each_alone)
+{
+  uint32_t seed = 7;
+  for (int round = 0; round < 200; round++) {
+    sbri_free_turning turning;
+    sbri_rigid_body bodies[SBRI_LANES];
+    sbf_quat turns[SBRI_LANES];
+    sbf_vec3 spins[SBRI_LANES];
+    for (int k = 0; k < SBRI_LANES; k++) {
+      static const float fast[4] = {1e-4f, 0.03f, 1, 30};
+      float most = fast[(round + k) % 4];
+      sbf_vec3 at = {2 + next_share(&seed), 2 + next_share(&seed), 2 + next_share(&seed)};
+      bodies[k] = (sbri_rigid_body){.inertia = at, .inverse_inertia = {1 / at.x, 1 / at.y, 1 / at.z}};
+      turns[k] = sbri_quat_normalize(
+          (sbf_quat){next_share(&seed), next_share(&seed), next_share(&seed), next_share(&seed)});
+      spins[k] = sbri_vec3(most * next_share(&seed), most * next_share(&seed), most * next_share(&seed));
+      sbri_free_turning_put(&turning, k, &bodies[k], turns[k], spins[k]);
+    }
+    sbri_free_turns(&turning, 1.0f / 120);
+    for (int k = 0; k < SBRI_LANES; k++) {
+      sbf_quat to, by_lanes = {turning.x[k], turning.y[k], turning.z[k], turning.w[k]};
+      sbf_vec3 w = sbri_free_turn(&bodies[k], turns[k], spins[k], 1.0f / 120, &to),
+               of_lane = sbri_vec3(turning.spin[0][k], turning.spin[1][k], turning.spin[2][k]);
+      ck_assert_mem_eq(&to, &by_lanes, sizeof to);
+      ck_assert_mem_eq(&w, &of_lane, sizeof w);
+    }
+  }
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("free_turn");
   TCase *tests = tcase_create("all");
+  tcase_add_test(tests, lanes_turn_as_each_alone);
   tcase_add_test(tests, the_middle_axis_turns_over);
   tcase_add_test(tests, a_symmetric_body_precesses);
   suite_add_tcase(suite, tests);

@@ -71,11 +71,32 @@ START_TEST(a_push_is_no_pull)
 }
 END_TEST
 
+/* What strikes the ground turns and pulls hard for a tick or two, and then takes as few steps again as it
+ * needs. */
+START_TEST(steps_go_back_after_a_strike)
+{
+  scene s = whole_person();
+  s.world_definition.sleep_after_s = 0;
+  scene_start(&s);
+  person_shove(&s, 1, (sbf_vec3){40, 0, _i ? -150 : 110});
+  uint32_t steps = 0, most = 0;
+  for (int t = 0; t < 2 * TICKS; t++) {
+    sbr_world_tick(s.world);
+    steps += steps_of(&s);
+    most = steps_of(&s) > most ? steps_of(&s) : most;
+  }
+  ck_assert_uint_ge(most, 8);
+  ck_assert_uint_le(steps, 2 * TICKS * 9 / 2);
+  scene_free(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("rigid pace");
   TCase *tests = tcase_create("all");
   tcase_add_loop_test(tests, flight_takes_few_steps, 0, 2);
   tcase_add_loop_test(tests, a_push_is_no_pull, 0, 2);
+  tcase_add_loop_test(tests, steps_go_back_after_a_strike, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

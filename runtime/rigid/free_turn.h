@@ -1,0 +1,20 @@
+/* Bodies that nothing twists, as many at once as there are lanes: bit for bit sbri_free_turn of each. */
+#ifndef SBRI_FREE_TURN_H
+#define SBRI_FREE_TURN_H
+
+#include "math/wide.h"
+#include "rigid/rigid_state.h"
+
+/* Lane after lane. Before: turns and angular momenta, as sbri_free_turning_put has them. After: where they
+ * turn to, and the mean angular velocities in place of the momenta. */
+typedef struct sbri_free_turning {
+  float x[SBRI_LANES], y[SBRI_LANES], z[SBRI_LANES], w[SBRI_LANES];
+  float spin[3][SBRI_LANES];
+  float ease[3][SBRI_LANES]; /* inverse principal moments */
+} sbri_free_turning;
+
+void sbri_free_turning_put(
+    sbri_free_turning *turning, int lane, const sbri_rigid_body *body, sbf_quat turn, sbf_vec3 spin);
+void sbri_free_turns(sbri_free_turning *turning, float step_s);
+
+#endif
