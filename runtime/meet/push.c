@@ -59,17 +59,22 @@ static sbf_vec3 slid_now(const sbri_meet_row *r) {
   return sbri_add(t->slid, sbri_add_scaled(way, t->normal, -sbri_dot(way, t->normal)));
 }
 
-/* Notes what the step before has changed the speed along the normal by. */
-static void learn(sbri_meet_row *r, float speed) {
-  sbri_meet_touch *t = r->touch;
-  if (t->was_pushed) t->pull += LEARNS * (speed - t->after - t->pull);
-  t->was_pushed = false;
-}
-
 /* From there on, and twice as deep wholly. */
 static float deep_of(const sbri_meet_touch *t) {
   float deep = DEEP_SHARE * t->soft_m, thin = DEEP_OF_MARGIN * t->margin;
   return t->margin > 0 && thin < deep ? thin : deep;
+}
+
+/* Notes what the step before has changed the speed along the normal by: by a share, but at once where a blow
+ * presses soft bodies into each other, which would go in as it is learnt. What lay deep in when the tick
+ * began goes out gently. */
+static void learn(sbri_meet_row *r, float speed) {
+  sbri_meet_touch *t = r->touch;
+  float change = speed - t->after - t->pull;
+  bool presses = change < 0 && speed < -BOUNCE_FROM_M_S && both_are_soft(t) && t->margin == 0 && !t->is_in &&
+                 -r->gap > 2 * deep_of(t);
+  if (t->was_pushed) t->pull += presses ? change : LEARNS * change;
+  t->was_pushed = false;
 }
 
 /* The speed against what will press in, beside weight, where something soft is pressed: rigid parts that it

@@ -271,7 +271,7 @@ START_TEST(what_is_deep_inside_finds_its_way_out)
 }
 END_TEST
 
-/* One lies on the ground, the other falls on it at 15 m/s: what that drove into each other is out again. */
+/* One lies on the ground, the other falls on it at 25 m/s: what that drove into each other is out again. */
 START_TEST(what_is_thrown_down_hard_comes_apart)
 {
   sbr_character_id other;
@@ -286,7 +286,7 @@ START_TEST(what_is_thrown_down_hard_comes_apart)
   ck_assert(sbr_character_create(s.world, s.model, &d, &other, NULL) == SBF_OK);
   sbri_character *c = sbri_character_of(s.world, other);
   for (uint32_t slot = 0; slot < c->model->islands[0].free_count; slot++)
-    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK + slot % SBRI_BLOCK] = -15;
+    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK + slot % SBRI_BLOCK] = -25;
   double most = 0;
   for (int i = 0; i < 300; i++) {
     scene_ticks(&s, 1);
