@@ -101,7 +101,7 @@ class Reports(ProgramTest):
         calf = os.path.join(ROOT, "examples", "calf", "calf.glb")
         guessed = [m for m in self.report(calf)["guessed"] if m["code"] == "MATERIAL_GUESSED"]
         self.assertEqual(len(guessed), 1)
-        self.assertRegex(guessed[0]["message"], "22 sections cut from skins are .* Pa, which bear their weight")
+        self.assertRegex(guessed[0]["message"], "22 sections cut from skins: .* kPa, which bear their weight")
         told = self.report(calf, "--material", "flesh")["guessed"]
         self.assertNotIn("MATERIAL_GUESSED", {m["code"] for m in told})
 
