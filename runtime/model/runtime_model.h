@@ -201,6 +201,7 @@ typedef struct sbri_body {
   const sbri_carry_cell *volume_cells; /* faces, as `slots`, with their shares in each slot's gradient */
   const sbri_face_share *volume_held;  /* (volume_held_count) likewise of the points that are held */
   uint32_t volume_held_count;
+  int32_t volume_carrier; /* the one rigid body that holds these, or the island; -1: none */
 } sbri_body;
 
 /* Steps of a control tick in which bodies bear their flesh: ragdoll/borne_flesh.c. */

@@ -57,15 +57,28 @@ static bool fill_table(
   return true;
 }
 
+/* The rigid body that holds all that is held, or all on which it hangs; -1: several, or something else. */
+static int32_t find_carrier(const sbri_island *island, const sbri_body *body) {
+  int32_t carrier = island->carrier_count == 1 ? (int32_t)island->carriers[0] : -1;
+  for (uint32_t i = 0; i < body->volume_held_count; i++) {
+    int32_t by = island->carrier_of_held[body->volume_held[i].slot - island->free_count];
+    if (by < 0 || (i > 0 && by != carrier)) return -1;
+    carrier = by;
+  }
+  return carrier;
+}
+
 /* Of what is held: a free point's pull is another's push on the bone. */
 static bool list_held(sbr_model *model, sbri_body *body, const sbri_face_share *shares, size_t count) {
-  uint32_t free_count = model->islands[body->island].free_count, held = 0;
+  const sbri_island *island = &model->islands[body->island];
+  uint32_t free_count = island->free_count, held = 0;
   for (size_t i = 0; i < count; i++) held += shares[i].slot >= free_count;
   sbri_face_share *to = sbfi_arena_allocate(&model->arena, (size_t)held + 1, sizeof *to);
   if (!to) return false;
   for (size_t i = 0; i < count; i++)
     if (shares[i].slot >= free_count) to[body->volume_held_count++] = shares[i];
   body->volume_held = to;
+  body->volume_carrier = find_carrier(island, body);
   return true;
 }
 

@@ -9,7 +9,9 @@
  *
  * Held points stay where they are, but simulated bodies that carry them take their part of the push, and give
  * way to it as far as their weight lets them (held_push.h): that part of the volume is theirs to bring back.
- * The gradient is then that where the substep began, so that angular momentum is kept (SHAKE).
+ * Where one body holds all that is held, or all on which the surface hangs, it takes what the free points
+ * gain, with the other sign, of momentum and of angular momentum. Several could not share that out: the
+ * gradient is then that where the substep began, by which the held points' parts add up to it (SHAKE).
  *
  * Points on the ground have nowhere to go below it. They count in the sum with that of their gradient which
  * leads along the ground or off it; what presses them down is taken by the ground, and rubs.
@@ -19,6 +21,7 @@
 #ifndef SBRI_VOLUME_KEEP_H
 #define SBRI_VOLUME_KEEP_H
 
+#include "math/lane_sums.h"
 #include "skin/skin_lanes.h"
 #include "solvers/held_push.h"
 #include "solvers/motion.h"
@@ -46,10 +49,26 @@ static inline sbri_wide3 sbri_volume_off_ground(
   return (sbri_wide3){g.x - along * p.normal.x, g.y - along * p.normal.y, g.z - along * p.normal.z};
 }
 
+/* Where what goes with those places and speeds was `h` before. */
+static inline sbri_wide3 sbri_places_before(const sbri_island_tick *t, uint32_t slot, float h) {
+  sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
+  sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
+  sbri_wide step = sbri_wide_all(h);
+  return (sbri_wide3){x.x - step * v.x, x.y - step * v.y, x.z - step * v.z};
+}
+
+/* What one body holds it with: gradients of the free points and their moments about the body's place, where
+ * the points were when the substep began. */
+typedef struct sbri_volume_hold {
+  sbri_reaction *by; /* NULL: several, or it does not give way */
+  float h;
+  sbri_lane_sums sums;
+} sbri_volume_hold;
+
 /* Gradients of the volume at the body's slots, and the sum of w |g|^2 of what may move by a multiplier of
  * that sign. */
-static inline float sbri_volume_gradients(
-    const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces, float sign) {
+static inline float sbri_volume_gradients(const sbri_island_tick *t, const sbri_body *body,
+    const sbri_point *faces, float sign, sbri_volume_hold *hold) {
   float lanes[SBRI_BLOCK] = {0};
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t lane = slot % SBRI_BLOCK, block = (slot - body->slot_begin) / SBRI_BLOCK;
@@ -63,6 +82,12 @@ static inline float sbri_volume_gradients(
       g.z = g.z + w * n.z;
     }
     sbri_wide_store_points(t->velocity_points + slot, g);
+    if (hold->by) {
+      const sbf_vec3 *o = &hold->by->about;
+      sbri_wide3 r = sbri_places_before(t, slot, hold->h);
+      r.x = r.x - sbri_wide_all(o->x), r.y = r.y - sbri_wide_all(o->y), r.z = r.z - sbri_wide_all(o->z);
+      sbri_lane_sums_add(&hold->sums, lane, r, g);
+    }
     if (t->near_ground[slot / SBRI_BLOCK]) g = sbri_volume_off_ground(t, slot, g, sign);
     sbri_wide w = sbri_wide_load(t->island->inverse_masses + slot);
     sbri_wide_store(lanes + lane, sbri_wide_load(lanes + lane) + w * (g.x * g.x + g.y * g.y + g.z * g.z));
@@ -75,21 +100,33 @@ static inline sbf_vec3 sbri_held_gradient(const sbri_point *faces, const sbri_fa
   return sbri_scale(sbri_vec3(n->x, n->y, n->z), share->weight);
 }
 
+/* Whether it hangs on several bodies, of which at least one gives way. */
+static inline bool sbri_volume_is_shared(const sbri_island_tick *t, const sbri_body *body) {
+  if (!t->reactions || body->volume_carrier >= 0) return false;
+  for (uint32_t k = 0; k < t->island->carrier_count; k++)
+    if (t->reactions[t->island->carriers[k]].ease > 0) return true;
+  return false;
+}
+
+static inline float sbri_reaction_ease(const sbri_reaction *r, sbf_vec3 push, sbf_vec3 turn) {
+  return r->ease * sbri_dot(push, push) + r->turn_ease * sbri_dot(turn, turn);
+}
+
 /* What the held points' bodies add to that sum where they give way. */
 static inline float sbri_volume_held_ease(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces) {
   float sum = 0;
-  for (uint32_t k = 0; t->reactions && k < t->island->carrier_count; k++) {
+  for (uint32_t k = 0; k < t->island->carrier_count; k++) {
     const sbri_reaction *r = &t->reactions[t->island->carriers[k]];
     sbf_vec3 push = {0, 0, 0}, turn = {0, 0, 0};
-    for (uint32_t i = 0; i < body->volume_held_count; i++) {
+    for (uint32_t i = 0; r->ease > 0 && i < body->volume_held_count; i++) {
       const sbri_face_share *share = &body->volume_held[i];
       if (sbri_reaction_at(t, share->slot) != r) continue;
       sbf_vec3 g = sbri_held_gradient(faces, share);
       push = sbri_add(push, g);
       turn = sbri_add(turn, sbri_cross(sbri_reaction_arm(t, r, share->slot), g));
     }
-    sum += r->ease * sbri_dot(push, push) + r->turn_ease * sbri_dot(turn, turn);
+    sum += sbri_reaction_ease(r, push, turn);
   }
   return sum;
 }
@@ -97,7 +134,7 @@ static inline float sbri_volume_held_ease(
 /* On what is held, where it was when the substep began. */
 static inline void sbri_volume_push_held(
     const sbri_island_tick *t, const sbri_body *body, const sbri_point *faces, float impulse, float h) {
-  for (uint32_t i = 0; t->reactions && i < body->volume_held_count; i++) {
+  for (uint32_t i = 0; i < body->volume_held_count; i++) {
     const sbri_face_share *share = &body->volume_held[i];
     sbri_reaction *r = sbri_reaction_at(t, share->slot);
     sbf_vec3 push = sbri_scale(sbri_held_gradient(faces, share), impulse);
@@ -127,7 +164,9 @@ static inline float sbri_volume_within(
 static inline void sbri_volume_faces_before(
     const sbri_island_tick *t, const sbri_body *body, sbri_point *faces, float h) {
   sbri_point *before = t->element_forces; /* scratch that nothing else uses here */
-  for (uint32_t slot = 0; slot < t->island->slot_count; slot++) {
+  for (uint32_t slot = 0; slot < t->island->free_count; slot += SBRI_LANES)
+    sbri_wide_store_points(before + slot, sbri_places_before(t, slot, h));
+  for (uint32_t slot = t->island->free_count; slot < t->island->slot_count; slot++) {
     const sbri_point *x = &t->positions[slot];
     sbf_vec3 v = sbri_slot_velocity(t, t->velocities, slot);
     before[slot] = (sbri_point){x->x - h * v.x, x->y - h * v.y, x->z - h * v.z, 0};
@@ -142,12 +181,25 @@ static inline float sbri_volume_step(
   sbri_point *faces = t->surface_faces + body->first_face;
   float rest = (float)body->rest_volume_m3, most = SBRI_MOST_VOLUME_SHARE * rest;
   float missing = rest - sbri_volume_within(t, body, t->positions, faces) - *owed;
-  if (t->reactions) sbri_volume_faces_before(t, body, faces, rule->step_s);
-  float sum = sbri_volume_gradients(t, body, faces, missing), held = sbri_volume_held_ease(t, body, faces);
+  const bool shared = sbri_volume_is_shared(t, body);
+  if (shared) sbri_volume_faces_before(t, body, faces, rule->step_s);
+  sbri_reaction *by = t->reactions && body->volume_carrier >= 0 ? &t->reactions[body->volume_carrier] : NULL;
+  sbri_volume_hold hold;
+  hold.by = by && by->ease > 0 ? by : NULL, hold.h = rule->step_s;
+  if (hold.by) memset(&hold.sums, 0, sizeof hold.sums);
+  float sum = sbri_volume_gradients(t, body, faces, missing, &hold), held = 0;
+  sbf_vec3 push = {0, 0, 0}, turn = {0, 0, 0};
+  if (hold.by) push = sbri_lanes_push(&hold.sums), turn = sbri_lanes_moment(&hold.sums);
+  if (hold.by && body->volume_held_count > 0) held = sbri_reaction_ease(hold.by, push, turn);
+  if (shared) held = sbri_volume_held_ease(t, body, faces);
   if (!(sum > 0) || !(missing - missing == 0)) return 0;
   float s = (missing > most ? most : missing < -most ? -most : missing) / (sum + held);
   *owed += s * held;
-  sbri_volume_push_held(t, body, faces, s / rule->step_s, rule->step_s);
+  if (hold.by) {
+    hold.by->impulse = sbri_add_scaled(hold.by->impulse, push, -s / rule->step_s);
+    hold.by->moment = sbri_add_scaled(hold.by->moment, turn, -s / rule->step_s);
+  }
+  if (shared) sbri_volume_push_held(t, body, faces, s / rule->step_s, rule->step_s);
   sbri_wide rate = sbri_wide_all(1 / rule->step_s);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     float *velocity = sbri_triple(t->velocities, slot);
