@@ -133,7 +133,7 @@ static void place_scratch(sbr_model *model, const extents *e) {
   l->near_ground = place(&end, slots / SBRI_BLOCK + 1, 1);
   l->touches = place(&end, e->touches, sizeof(sbri_touch));
   l->touch_counts = place(&end, model->asset->soft_bodies.count, sizeof(uint32_t));
-  l->guests = place(&end, model->asset->soft_bodies.count, sizeof(sbri_guests));
+  l->guests = place(&end, model->island_count ? model->asset->soft_bodies.count : 0, sizeof(sbri_guests));
   l->slot_touches = place(&end, slots, 1);
   l->self_boxes = place(&end, e->self_faces, sizeof(sbri_box));
   l->self_balls = place(&end, e->self_faces, sizeof(sbri_moving_ball));
