@@ -22,10 +22,10 @@ typedef struct sbri_host_body {
   double pushing[3], turning[3];
 } sbri_host_body;
 
-/* As a soft body sees it through a tick (contact/guest.h), in the character's own lengths and times. */
-/* Those that are beyond them are taken for something that nothing moves. */
+/* Of a soft body; those beyond them are taken for something that nothing moves. */
 enum { SBRI_GUESTS = SBRI_TOUCHING };
 
+/* As a soft body sees it through a tick (contact/guest.h), in the character's own lengths and times. */
 typedef struct sbri_guest {
   uint32_t leader;                     /* number of the collider with the mass */
   sbf_vec3 centre;                     /* of its mass, at the tick's beginning */

@@ -271,9 +271,12 @@ START_TEST(what_is_deep_inside_finds_its_way_out)
 }
 END_TEST
 
-/* One lies on the ground, the other falls on it at 25 m/s: what that drove into each other is out again. */
+/* One lies on the ground, the other falls on it, straight or aslant: what that drove into each other is out
+ * again. Only the faster of these blows goes deep however it hits. */
 START_TEST(what_is_thrown_down_hard_comes_apart)
 {
+  static const float speeds_m_s[] = {15, 25};
+  bool aslant = _i % 2, fast = _i / 2;
   sbr_character_id other;
   scene s = begin_bar(false, false, 1e5f);
   s.world_definition.ground = sbr_ground_flat(0);
@@ -281,12 +284,13 @@ START_TEST(what_is_thrown_down_hard_comes_apart)
   s.asset->environment.gravity = weight;
   start(&s);
   sbr_character_definition d = s.character_definition;
-  d.position.x += _i ? 0.15 : 0, d.position.z += _i ? 0.03 : 0, d.position.y += 0.35;
-  d.heading = _i ? 0.6f : 0;
+  d.position.x += aslant ? 0.15 : 0, d.position.z += aslant ? 0.03 : 0, d.position.y += 0.35;
+  d.heading = aslant ? 0.6f : 0;
   ck_assert(sbr_character_create(s.world, s.model, &d, &other, NULL) == SBF_OK);
   sbri_character *c = sbri_character_of(s.world, other);
   for (uint32_t slot = 0; slot < c->model->islands[0].free_count; slot++)
-    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK + slot % SBRI_BLOCK] = -25;
+    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + SBRI_BLOCK + slot % SBRI_BLOCK] =
+        -speeds_m_s[fast];
   double most = 0;
   for (int i = 0; i < 300; i++) {
     scene_ticks(&s, 1);
@@ -296,7 +300,7 @@ START_TEST(what_is_thrown_down_hard_comes_apart)
     most = deep > most ? deep : most;
   }
   placed_skin one = skin_of(&s, s.character), two = skin_of(&s, other);
-  ck_assert_double_ge(most, 0.02);
+  if (fast) ck_assert_double_ge(most, 0.02);
   ck_assert_double_le(deepest(&s, &one, &two), 0.004);
   scene_free(&s);
 }
@@ -311,7 +315,7 @@ int main(void) {
   tcase_add_test(tests, sections_that_touch_at_rest_hang_together);
   tcase_add_test(tests, skins_of_two_push_each_other_off);
   tcase_add_test(tests, what_got_inside_finds_its_way_out);
-  tcase_add_loop_test(tests, what_is_thrown_down_hard_comes_apart, 0, 2);
+  tcase_add_loop_test(tests, what_is_thrown_down_hard_comes_apart, 0, 4);
   tcase_add_loop_test(tests, what_is_deep_inside_finds_its_way_out, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
