@@ -56,6 +56,18 @@ sbf_level *collision_sheet(
   return level;
 }
 
+sbr_shape_definition collision_ball(float radius) {
+  sbr_shape_definition d = sbr_default_shape_definition();
+  d.radius = radius;
+  return d;
+}
+
+sbr_shape_definition collision_box(float x, float y, float z) {
+  sbr_shape_definition d = sbr_default_shape_definition();
+  d.kind = SBR_SHAPE_BOX, d.half_sizes = (sbf_vec3){x, y, z};
+  return d;
+}
+
 sbr_shape *collision_shape(sbr_shape_definition definition) {
   sbr_shape *shape = NULL;
   sbf_diagnostic error;

@@ -12,6 +12,10 @@ sbf_level *collision_sheet(scene *s, uint32_t body, sbf_vec3 center, float side,
 /* A surface of squares over points that stand in rows of so many columns. */
 void collision_surface(scene *s, uint32_t body, const sbf_vec3 *at, uint32_t columns, uint32_t rows);
 
+/* Shapes about their place: half the sizes of a box along x, y, z. */
+sbr_shape_definition collision_ball(float radius);
+sbr_shape_definition collision_box(float x, float y, float z);
+
 /* A collider at a world place (scenes stand at the origin); the caller destroys the shape after the world. */
 sbr_shape *collision_shape(sbr_shape_definition definition);
 sbr_collider_id collision_collider(scene *s, const sbr_shape *shape, sbr_double3 position);

@@ -13,18 +13,6 @@ typedef struct guest {
   double mass, at[3], velocity[3], spin[3]; /* kg, m, m/s, kg m^2/s about its middle */
 } guest;
 
-static sbr_shape_definition a_ball(void) {
-  sbr_shape_definition d = sbr_default_shape_definition();
-  d.radius = 0.3f;
-  return d;
-}
-
-static sbr_shape_definition a_box(float half) {
-  sbr_shape_definition d = sbr_default_shape_definition();
-  d.kind = SBR_SHAPE_BOX, d.half_sizes = (sbf_vec3){half, half, half};
-  return d;
-}
-
 static guest guest_of(
     scene *s, sbr_shape_definition form, double mass, sbr_double3 at, sbr_double3 velocity) {
   guest g = {.shape = collision_shape(form), .mass = mass, .at = {at.x, at.y, at.z}};
@@ -81,7 +69,7 @@ START_TEST(a_ball_and_a_cloth_keep_their_momentum)
   collision_sheet(&s, 0, (sbf_vec3){0, 0.5f, 0}, 1, 12, false);
   s.model_options.scheme = schemes[_i];
   scene_start(&s);
-  guest g = guest_of(&s, a_ball(), 0.5, (sbr_double3){0.1, 0, 0.05}, (sbr_double3){1, 3, 0});
+  guest g = guest_of(&s, collision_ball(0.3f), 0.5, (sbr_double3){0.1, 0, 0.05}, (sbr_double3){1, 3, 0});
   scene_momentum before = all_of(&s, &g);
   for (int i = 0; i < 60; i++) guest_tick(&s, &g, 1.0 / 60);
   scene_momentum after = all_of(&s, &g);
@@ -105,7 +93,7 @@ START_TEST(boxes_keep_their_momentum)
   rigid_body(&s, 0)->restitution = _i ? 0.5f : 0;
   scene_start(&s);
   sbr_character_rigid_push(s.world, s.character, 0, (sbr_double3){0, 0.8, 0.05}, (sbf_vec3){0.3f, -3, 0});
-  guest g = guest_of(&s, a_box(0.3f), 4, (sbr_double3){0, 0, 0}, (sbr_double3){0, 0, 0});
+  guest g = guest_of(&s, collision_box(0.3f, 0.3f, 0.3f), 4, (sbr_double3){0, 0, 0}, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 2);
   scene_momentum before = all_of(&s, &g);
   for (int i = 0; i < 40; i++) guest_tick(&s, &g, 1.0 / 60);
@@ -132,7 +120,7 @@ START_TEST(what_lies_weighs)
   s.character_definition.scale = scale;
   s.world_definition.sleep_after_s = 0.3;
   scene_start(&s);
-  guest g = guest_of(&s, a_box(1), 1, (sbr_double3){0, -1, 0}, (sbr_double3){0, 0, 0});
+  guest g = guest_of(&s, collision_box(1, 1, 1), 1, (sbr_double3){0, -1, 0}, (sbr_double3){0, 0, 0});
   scene_ticks(&s, 50);
   bool slept = false;
   for (int i = 0; i < 60; i++) {
@@ -176,8 +164,8 @@ START_TEST(each_of_many_bears_its_share)
   s.character_definition.position = (sbr_double3){0, 1000, 0};
   scene_start(&s);
   for (uint32_t i = 0; i < MANY; i++)
-    guests[i] =
-        guest_of(&s, a_box(0.05f), 1, (sbr_double3){(double)at[i].x, -0.05, 0}, (sbr_double3){0, 0, 0});
+    guests[i] = guest_of(&s, collision_box(0.05f, 0.05f, 0.05f), 1, (sbr_double3){(double)at[i].x, -0.05, 0},
+        (sbr_double3){0, 0, 0});
   scene_ticks(&s, 90);
   for (uint32_t i = 0; i < MANY; i++) (void)sbr_collider_take_push(s.world, guests[i].id);
   scene_ticks(&s, 1);

@@ -51,17 +51,6 @@ static thrown thrown_of(
   return b;
 }
 
-static sbr_shape_definition a_ball(float radius) {
-  sbr_shape_definition form = sbr_default_shape_definition();
-  form.radius = radius;
-  return form;
-}
-static sbr_shape_definition a_crate(float x, float y, float z) {
-  sbr_shape_definition form = sbr_default_shape_definition();
-  form.kind = SBR_SHAPE_BOX, form.half_sizes = (sbf_vec3){x, y, z};
-  return form;
-}
-
 static sbf_vec3 single(const double v[3]) {
   return sbri_vec3((float)v[0], (float)v[1], (float)v[2]);
 }
@@ -163,8 +152,8 @@ START_TEST(momentum_is_kept)
   s.character_definition.position.y = 1000; /* above the ground */
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
   scene_start(&s);
-  thrown b =
-      thrown_of(&s, a_ball(0.1f), mass, NULL, 1, (sbr_double3){0.07, kind == MATTRESS ? 0.33 : 0.43, 0.02});
+  thrown b = thrown_of(
+      &s, collision_ball(0.1f), mass, NULL, 1, (sbr_double3){0.07, kind == MATTRESS ? 0.33 : 0.43, 0.02});
   b.weight = 0, b.velocity[0] = 0.5, b.velocity[1] = -2;
   for (int i = 0; i < 90; i++) {
     go(&s, &b, 1, -10);
@@ -193,7 +182,7 @@ START_TEST(what_is_dropped_comes_to_rest)
   scene_ticks(&s, 60);
   double top = kind == MATTRESS ? 0.2 : 0.3;
   bool ball = mass < 2; /* heavy ones roll off */
-  thrown b = thrown_of(&s, ball ? a_ball(0.15f) : a_crate(0.125f, 0.05f, 0.125f), mass, NULL, 1,
+  thrown b = thrown_of(&s, ball ? collision_ball(0.15f) : collision_box(0.125f, 0.05f, 0.125f), mass, NULL, 1,
       (sbr_double3){0.025, top + (ball ? 0.25 : 0.15), 0.025});
   go(&s, &b, 300, -10);
   ck_assert_double_lt(fastest(&s, &b, 60), 1e-3);
@@ -213,7 +202,7 @@ START_TEST(weight_presses_as_it_should)
   s.character_definition.scale = scale;
   scene_start(&s);
   scene_ticks(&s, 120);
-  thrown b = thrown_of(&s, a_crate(0.5f * scale, 0.05f * scale, 0.5f * scale), mass, NULL, 1,
+  thrown b = thrown_of(&s, collision_box(0.5f * scale, 0.05f * scale, 0.5f * scale), mass, NULL, 1,
       (sbr_double3){0, height + 0.05 * (double)scale, 0});
   go(&s, &b, 240, -10);
   double own = 0.5 * 160 * G * 0.04 / 50000; /* what it sinks by itself */
@@ -233,7 +222,7 @@ START_TEST(what_a_floor_holds_bears)
   s.world_definition.ground = sbr_ground_flat(-1000);
   s.character_definition.position.y = 1000.25;
   scene_start(&s);
-  thrown b = thrown_of(&s, a_crate(0.25f, 0.1f, 0.25f), 1, NULL, 1, (sbr_double3){0, 0.1, 0});
+  thrown b = thrown_of(&s, collision_box(0.25f, 0.1f, 0.25f), 1, NULL, 1, (sbr_double3){0, 0.1, 0});
   float lowest = 1;
   for (int i = 0; i < 240; i++) {
     go(&s, &b, 1, 0.1);
@@ -257,8 +246,8 @@ START_TEST(several_bear_it_together)
   add_flesh(&s, 1, CUBE, 0.3f, 20000);
   scene_start(&s);
   scene_ticks(&s, 60);
-  thrown b = _i ? thrown_of(&s, a_crate(0.3f, 0.05f, 0.1f), 0.5, arms, 2, (sbr_double3){0.1, 0.36, 0})
-                : thrown_of(&s, a_crate(0.6f, 0.05f, 0.1f), 0.5, NULL, 1, (sbr_double3){0.1, 0.36, 0});
+  thrown b = _i ? thrown_of(&s, collision_box(0.3f, 0.05f, 0.1f), 0.5, arms, 2, (sbr_double3){0.1, 0.36, 0})
+                : thrown_of(&s, collision_box(0.6f, 0.05f, 0.1f), 0.5, NULL, 1, (sbr_double3){0.1, 0.36, 0});
   for (int k = 0; k < 3; k++) b.inertia[k] = k ? 0.06 : 0.002;
   go(&s, &b, 300, -10);
   ck_assert_double_lt(fastest(&s, &b, 60), 1e-3);
@@ -274,7 +263,7 @@ START_TEST(untold_it_goes_on)
   scene s = flesh_begin();
   add_flesh(&s, 0, CUBE, 0, 20000);
   scene_start(&s);
-  thrown b = thrown_of(&s, a_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 5, 0});
+  thrown b = thrown_of(&s, collision_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 5, 0});
   b.velocity[0] = 1;
   tell(&s, &b);
   scene_ticks(&s, 60);
@@ -290,7 +279,7 @@ START_TEST(bad_ones_are_refused)
   scene s = flesh_begin();
   add_flesh(&s, 0, CUBE, 0, 20000);
   scene_start(&s);
-  sbr_shape *shape = collision_shape(a_ball(0.1f));
+  sbr_shape *shape = collision_shape(collision_ball(0.1f));
   sbf_diagnostic error;
   for (int i = 0; i < 6; i++) {
     sbr_collider_definition d = sbr_default_collider_definition();
@@ -307,7 +296,7 @@ START_TEST(bad_ones_are_refused)
     ck_assert(sbr_collider_create(s.world, &d, &id, &error) == SBF_FAILED);
     ck_assert_uint_eq(id.value, 0);
   }
-  thrown b = thrown_of(&s, a_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 0.4, 0});
+  thrown b = thrown_of(&s, collision_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 0.4, 0});
   sbr_collider_motion bad = {.position = {0, 1, 0}, .rotation = {0, 0, 0, 1}, .velocity = {NAN, 0, 0}};
   sbr_collider_set_motion(s.world, b.ids[0], &bad);
   sbr_collider_set_motion(s.world, b.ids[0], NULL);

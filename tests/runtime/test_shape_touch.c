@@ -12,18 +12,6 @@ static scene begin(void) {
   return s;
 }
 
-static sbr_shape_definition ball(float radius) {
-  sbr_shape_definition d = sbr_default_shape_definition();
-  d.radius = radius;
-  return d;
-}
-
-static sbr_shape_definition box(float x, float y, float z) {
-  sbr_shape_definition d = sbr_default_shape_definition();
-  d.kind = SBR_SHAPE_BOX, d.half_sizes = (sbf_vec3){x, y, z};
-  return d;
-}
-
 enum { CELLS = 24, POINTS = (CELLS + 1) * (CELLS + 1) };
 
 static double least_distance(const scene *s, sbf_vec3 center) {
@@ -45,7 +33,7 @@ START_TEST(cloth_lies_over_a_ball)
   collision_sheet(&s, 0, (sbf_vec3){0, 0.4f, 0}, 1, CELLS, false);
   scene_body(&s, 0)->attributes.damping_ratio = 0.05f;
   scene_start(&s);
-  sbr_shape *shape = collision_shape(ball(0.3f));
+  sbr_shape *shape = collision_shape(collision_ball(0.3f));
   collision_collider(&s, shape, (sbr_double3){0, 0, 0});
   for (int i = 0; i < 180; i++) {
     scene_ticks(&s, 1);
@@ -64,7 +52,7 @@ START_TEST(no_point_goes_into_a_ball)
 {
   static const uint32_t cells[3] = {6, 12, CELLS};
   static const float thicknesses[3] = {0, 0.002f, 0.02f}, heights[3] = {0.1f, 2, 10};
-  sbr_shape *shape = collision_shape(ball(0.3f));
+  sbr_shape *shape = collision_shape(collision_ball(0.3f));
   for (int i = 0; i < 18; i++) {
     scene s = begin();
     float thick = thicknesses[i / 3 % 3], height = heights[i % 3], aside = i / 9 ? 1 : 0;
@@ -96,7 +84,7 @@ START_TEST(a_fast_ball_takes_a_sheet_along)
   collision_sheet(&s, 0, (sbf_vec3){0, 0, 0}, 1, CELLS, true);
   scene_body(&s, 0)->attributes.damping_ratio = 0.05f;
   scene_start(&s);
-  sbr_shape *shape = collision_shape(ball(0.05f));
+  sbr_shape *shape = collision_shape(collision_ball(0.05f));
   sbr_collider_id id = collision_collider(&s, shape, (sbr_double3){0, 1, 0});
   scene_ticks(&s, 2);
   double y = 1;
@@ -138,7 +126,7 @@ static scene plate_on(double degrees, float friction, sbr_shape **shape) {
   scene_body(&s, 0)->attributes.damping_ratio = 0.1f;
   scene_body(&s, 0)->collision.particle_radius = 0.01f;
   scene_start(&s);
-  *shape = collision_shape(box(5, 1, 5));
+  *shape = collision_shape(collision_box(5, 1, 5));
   sbr_collider_definition d = sbr_default_collider_definition();
   d.shape = *shape;
   d.position = (sbr_double3){0, -1.0101 * cos((double)a), 1.0101 * sin((double)a)};
@@ -181,7 +169,7 @@ START_TEST(bounces_rise_as_restitution_says)
     scene_points(&s, 0, &at, &mass, 1);
     s.model_options.substeps = 16;
     scene_start(&s);
-    sbr_shape *shape = collision_shape(box(1, 0.5f, 1));
+    sbr_shape *shape = collision_shape(collision_box(1, 0.5f, 1));
     sbr_collider_definition d = sbr_default_collider_definition();
     d.shape = shape, d.position.y = -0.5, d.restitution = e[i];
     sbr_collider_id id;
@@ -211,7 +199,7 @@ START_TEST(a_moving_board_carries_and_a_filter_lets_through)
     scene_body(&s, 0)->collision.layer = 4;
     scene_body(&s, 0)->collision.mask = meets ? 3 : 2;
     scene_start(&s);
-    sbr_shape *shape = collision_shape(box(1, 0.5f, 1));
+    sbr_shape *shape = collision_shape(collision_box(1, 0.5f, 1));
     sbr_collider_id id = collision_collider(&s, shape, (sbr_double3){0, -0.5, 0});
     for (int i = 1; i <= 60; i++) {
       sbr_collider_move(s.world, id, (sbr_double3){0.01 * i, -0.5 + 0.005 * i, 0}, (sbf_quat){0, 0, 0, 1});
@@ -238,7 +226,7 @@ START_TEST(what_is_inside_finds_its_way_out)
   const float mass = 1;
   scene_points(&s, 0, &at, &mass, 1);
   scene_start(&s);
-  sbr_shape *shape = collision_shape(box(1, 0.5f, 1));
+  sbr_shape *shape = collision_shape(collision_box(1, 0.5f, 1));
   collision_collider(&s, shape, (sbr_double3){0, -0.5, 0});
   float before = -0.05f, fastest = 0;
   for (int i = 0; i < 60; i++) {
@@ -264,7 +252,7 @@ START_TEST(a_sleeper_wakes_when_its_bed_goes)
   s.world_definition.sleep_after_s = 0.2;
   scene_body(&s, 0)->attributes.media_friction = 1;
   scene_start(&s);
-  sbr_shape *shape = collision_shape(box(1, 0.5f, 1));
+  sbr_shape *shape = collision_shape(collision_box(1, 0.5f, 1));
   sbr_collider_id id = collision_collider(&s, shape, (sbr_double3){0, -0.5, 0});
   scene_ticks(&s, 60);
   float y = scene_point(&s, 0, 0).y;
