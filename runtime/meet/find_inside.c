@@ -12,13 +12,13 @@ static const float LIMB = 3.5f;
 static const float ABOUT_SHARE = 0.5f;
 
 static bool is_limb(const sbri_party *p) {
-  return sbri_party_size(p) > LIMB * p->surface->thick_m * p->of->scale;
+  return sbri_party_size(p) > LIMB * sbri_party_thickness(p);
 }
 
 bool sbri_are_coarse(const sbri_party *a, const sbri_party *b) {
   const sbri_meet_surface *s = a->surface, *t = b->surface;
-  return is_limb(a) && is_limb(b) && s->edge_m * a->of->scale > COARSE_SHARE * t->thick_m * b->of->scale &&
-         t->edge_m * b->of->scale > COARSE_SHARE * s->thick_m * a->of->scale;
+  return is_limb(a) && is_limb(b) && s->edge_m * a->of->scale > COARSE_SHARE * sbri_party_thickness(b) &&
+         t->edge_m * b->of->scale > COARSE_SHARE * sbri_party_thickness(a);
 }
 
 /* ---- Edges ---- */
@@ -86,7 +86,7 @@ static void list_edges(sbri_inside *in, uint32_t side) {
   const sbri_meet_surface *s = in->parties[side]->surface;
   const sbri_party *other = in->parties[1 - side];
   edge_walk w = {.s = s, .in = other->surface, .noted = true};
-  float about = ABOUT_SHARE * other->surface->thick_m * other->of->scale;
+  float about = ABOUT_SHARE * sbri_party_thickness(other);
   while (in->edge_count < SBRI_INNER_EDGES && in->set_count < SBRI_INNER_SETS && next_edge(&w)) {
     uint32_t a = w.ends[0], b = w.ends[1];
     sbf_vec3 from = sbri_lerp(s->places[a], s->places[b], w.shares[0]),

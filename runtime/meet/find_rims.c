@@ -125,13 +125,9 @@ void sbri_meet_rims(const sbri_finding *f, const sbri_party *a, const sbri_party
 
 /* ---- Closed surfaces ---- */
 
-static float thickness(const sbri_party *p) {
-  return p->surface->thick_m * p->of->scale;
-}
-
 void sbri_meet_ridges(const sbri_finding *f, const sbri_party *a, const sbri_party *b, uint32_t first) {
   float margin = fmaxf(sbri_party_margin(a, b), sbri_party_margin(b, a));
-  float thin = fminf(thickness(a), thickness(b));
+  float thin = fminf(sbri_party_thickness(a), sbri_party_thickness(b));
   meeting m = {.f = f,
       .a = a,
       .b = b,

@@ -47,10 +47,6 @@ static bool is_way(sbf_vec3 way) {
   return sbri_dot(way, way) > 0;
 }
 
-static float thickness(const sbri_party *p) {
-  return p->surface->thick_m * p->of->scale;
-}
-
 /* Of an edge of the knot: its side, or 2. */
 static uint32_t side_in_knot(const looking *l, const sbri_inner_edge *e, uint32_t knot) {
   return sbri_knot_of_edge(&l->in, e) == knot ? sbri_side_of_edge(&l->in, e) : 2;
@@ -59,7 +55,7 @@ static uint32_t side_in_knot(const looking *l, const sbri_inner_edge *e, uint32_
 /* Whether the way leads a long edge along itself: so it does not leave. */
 static bool leads_along(const looking *l, const sbri_inner_edge *e, sbf_vec3 way) {
   const sbri_party *in = l->in.parties[1 - sbri_side_of_edge(&l->in, e)];
-  return e->length > thickness(in) && fabsf(sbri_dot(way, e->along)) > ALONG;
+  return e->length > sbri_party_thickness(in) && fabsf(sbri_dot(way, e->along)) > ALONG;
 }
 
 /* Of an edge: m to the nearest face of the other, and the way there; 0: there is none. */
@@ -285,8 +281,9 @@ static bool edges_lie_across(const looking *l, uint32_t knot) {
     if (side > 1) continue;
     const sbri_party *in = l->in.parties[1 - side];
     float depth = nearest_out(l, &l->in.edges[i], &out);
-    if (depth > EDGE_DEEP_SHARE * thickness(in)) return true;
-    if (depth > EDGE_IN_SHARE * thickness(in)) ways = sbri_box_with(ways, sbri_scale(out, sign_of(side)));
+    if (depth > EDGE_DEEP_SHARE * sbri_party_thickness(in)) return true;
+    if (depth > EDGE_IN_SHARE * sbri_party_thickness(in))
+      ways = sbri_box_with(ways, sbri_scale(out, sign_of(side)));
   }
   return lead_apart(&ways);
 }
@@ -306,7 +303,8 @@ static sbf_vec3 choose_way(const looking *l, uint32_t knot) {
   if (!is_way(way) || !(edges || rigid || is_against(l, knot, way))) return no_way;
   float longest = LONGER * deepest_of(l, knot);
   if (edges)
-    longest = fmaxf(longest, THROUGH_SHARE * (thickness(l->in.parties[0]) + thickness(l->in.parties[1])));
+    longest = fmaxf(longest,
+        THROUGH_SHARE * (sbri_party_thickness(l->in.parties[0]) + sbri_party_thickness(l->in.parties[1])));
   return way_out_along(l, knot, way, l->most) > longest ? no_way : way;
 }
 
@@ -388,7 +386,7 @@ void sbri_meet_through(const sbri_finding *f, const sbri_party *a, const sbri_pa
   float sizes[2] = {sbri_party_size(a), sbri_party_size(b)};
   looking l = {.f = f, .first = first, .most = fminf(sizes[0], sizes[1])};
   l.in.parties[0] = a, l.in.parties[1] = b;
-  l.about = ABOUT_SHARE * fminf(thickness(a), thickness(b));
+  l.about = ABOUT_SHARE * fminf(sbri_party_thickness(a), sbri_party_thickness(b));
   bool begins = goes_out(&l) || went_through(&l) || lies_across(&l, SBRI_NOWHERE);
   if (!begins && !(sbri_are_coarse(a, b) && are_near(a, b))) return;
   if (b->rigid) {

@@ -76,6 +76,10 @@ sbf_vec3 sbri_party_rest(const sbri_party *p, uint32_t vertex) {
   return sbri_scale(sbri_meet_rest(p->of->character->model, p->is->number, s), p->of->scale);
 }
 
+float sbri_party_thickness(const sbri_party *p) {
+  return p->surface->thick_m * p->of->scale;
+}
+
 float sbri_party_margin(const sbri_party *a, const sbri_party *b) {
   float own = a->soft ? a->soft->margin_m * a->of->scale : 0;
   float other = b->surface->two_sided ? b->soft->source->collision.outer_thickness * b->of->scale : 0;

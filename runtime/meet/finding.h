@@ -57,6 +57,8 @@ sbri_meet_side sbri_party_side(
 /* m from x to a place that was found on it. */
 float sbri_party_distance(const sbri_party *p, const sbri_surface_finding *found, sbf_vec3 x);
 float sbri_party_size(const sbri_party *p);
+/* Of its surface, at the character's scale; m. */
+float sbri_party_thickness(const sbri_party *p);
 /* Where a vertex is at rest, at the character's scale. */
 sbf_vec3 sbri_party_rest(const sbri_party *p, uint32_t vertex);
 /* What is kept between them: nothing between surfaces that both enclose matter. */
