@@ -232,8 +232,11 @@ static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_sce
     sbf_vec3 of_facet = v3_unit(across, v3(0, 1, 0));
     for (int k = 0; k < 3; k++, count++) {
       room.positions[count] = corner[k];
-      const sbf_vec3 *stated = hard ? &hard[3 * (size_t)t + (size_t)k] : &normals[triangle[k]];
-      room.normals[count] = facets ? of_facet : turned(mesh->place, *stated);
+      if (facets)
+        room.normals[count] = of_facet;
+      else
+        room.normals[count] =
+            turned(mesh->place, hard ? hard[3 * (size_t)t + (size_t)k] : normals[triangle[k]]);
       room.colours[count] = mesh->colours ? mesh->colours[triangle[k]] : mesh->colour;
       if (look->image) room.uvs[count] = mesh->corner_uvs[3 * (size_t)t + (size_t)k];
       room.indices[count] = room.first_vertex + count;
