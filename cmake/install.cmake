@@ -42,6 +42,7 @@ if(TARGET sbfmt-web)
     FILES_MATCHING PATTERN sbfmt.* PATTERN viewer*)
 endif()
 if(TARGET sbfmt-manual)
+  add_dependencies(products sbfmt-manual)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
   install(FILES ${PROJECT_BINARY_DIR}/generated/bash/sbfmt DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
     COMPONENT tools)
