@@ -5,8 +5,10 @@
  * [x, y, z], rotations quaternions [x, y, z, w]. The same calls give the same bits on every machine.
  *
  * Views (Float32Array, Uint32Array) lie in the library's own memory, and hold until something else is asked or made: read
- * them at once, or copy them with slice(). What was made is freed by free(), characters and colliders before their
- * world, all before the model, the model before the asset.
+ * them at once, or copy them with slice(). What was made is freed by free(): a world with its characters and colliders, a model
+ * after its characters, an asset after its models. What was freed throws a TypeError when it is used; to free it again does nothing.
+ *
+ * A TypeError is thrown for arguments that are wrong in themselves, an SbfmtError for what the library refuses.
  */
 
 export type Vector = readonly [number, number, number] | ArrayLike<number>;

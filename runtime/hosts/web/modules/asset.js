@@ -1,24 +1,35 @@
 /* A file that was loaded: what is in it, and models made of it. */
+import { Lent } from './lent.js';
 import { Model } from './model.js';
+import { SbfmtError } from './sbfmt_error.js';
 
 const KINDS = ['bones', 'meshes', 'softBodies', 'rigidBodies', 'clips', 'ikChains', 'legs', 'materials', 'textures'];
 const ALPHAS = ['opaque', 'mask', 'blend'];
 
+/** What to do about bytes that are another kind of file: text begins with '<', be it an .sbf or a server's page. */
+function unpacked(failure, bytes) {
+  const [first] = new Uint8Array(bytes.buffer, bytes.byteOffset, Math.min(bytes.byteLength, 1));
+  const cure = first === 0x3c ? 'it begins as XML or a page of a server does; an .sbf is packed by `sbfmt pack IN.sbf -o OUT.sbfz`' :
+    '`sbfmt convert` makes one of a mesh and its rig';
+  return new SbfmtError(`${failure.message}: ${cure}`, failure.code, failure.path);
+}
+
 /** A file, loaded and checked. */
-export class Asset {
+export class Asset extends Lent {
   constructor(sbfmt, bytes) {
+    super('asset');
     const c = sbfmt.calls, from = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
     if (!ArrayBuffer.isView(from)) throw new TypeError('an asset is made of the bytes of an .sbfz file: an ArrayBuffer or a Uint8Array');
     this.sbfmt = sbfmt;
     // Lists that are stored uncompressed are used where they lie, aligned as in the file.
     this.memory = sbfmt.room(from.byteLength + 64);
-    const at = (this.memory + 63) & ~63;
-    new Uint8Array(c.memory.buffer, at, from.byteLength).set(new Uint8Array(from.buffer, from.byteOffset, from.byteLength));
+    const at = 64 * Math.ceil(this.memory / 64);
+    sbfmt.bytes(at, from.byteLength).set(new Uint8Array(from.buffer, from.byteOffset, from.byteLength));
     this.handle = c.web_asset_load(at, from.byteLength);
-    if (!this.handle) {
+    if (this.freed) {
       const failure = sbfmt.failure();
       c.web_free(this.memory);
-      throw failure;
+      throw failure.code === 'PACKED_MAGIC' ? unpacked(failure, from) : failure;
     }
     this.title = sbfmt.text(c.web_asset_title(this.handle));
     for (const [kind, name] of KINDS.entries())
@@ -57,7 +68,7 @@ export class Asset {
     const size = this.sbfmt.words(scratch, 1)[0];
     texture.mediaType = this.sbfmt.text(calls.web_asset_texture_type(this.handle, texture.index));
     texture.path = this.sbfmt.text(calls.web_asset_texture_path(this.handle, texture.index));
-    texture.bytes = new Uint8Array(calls.memory.buffer, at, size).slice();
+    texture.bytes = this.sbfmt.bytes(at, size).slice();
   }
 
   levelError(level = 0) {
@@ -68,8 +79,10 @@ export class Asset {
     return new Model(this, options);
   }
 
-  /** After everything that was made of it. */
+  /** After its models. */
   free() {
+    if (this.freed) return;
+    this.refuseUsers('models');
     this.sbfmt.calls.web_asset_free(this.handle);
     this.sbfmt.calls.web_free(this.memory);
     this.handle = 0;

@@ -1,5 +1,5 @@
 /* A character in a world: driven, posed, pulled, and what is drawn of it. */
-import { chosen, number, triple } from './checked.js';
+import { chosen, number, placeIn, triple } from './checked.js';
 import { SbfmtError } from './sbfmt_error.js';
 
 const POSTURES = ['up', 'falling', 'rising'];
@@ -15,91 +15,105 @@ export class Character {
     this.id = c.web_character_create(world.handle, model.handle, ...triple(options.position, 'position', [0, 0, 0]),
       number(options.heading, 'heading', 0), number(options.scale, 'scale', 1), options.hold ? 1 : 0);
     if (!this.id) throw this.sbfmt.failure();
+    world.use(this);
+    model.use(this);
     this.boneRoom = this.sbfmt.room(28 * model.asset.bones.length + 4);
   }
 
+  /** Its world's handle, while it is there. */
+  get home() {
+    if (!this.id) throw new TypeError('this character was freed');
+    return this.world.handle;
+  }
+
   drive(forward, turn = 0, sideways = 0) {
-    this.calls.web_character_drive(this.world.handle, this.id, number(forward, 'forward'), number(sideways, 'sideways'),
+    this.calls.web_character_drive(this.home, this.id, number(forward, 'forward'), number(sideways, 'sideways'),
       number(turn, 'turn'));
   }
   teleport(position, heading = 0) {
-    this.calls.web_character_teleport(this.world.handle, this.id, ...triple(position, 'position'), number(heading, 'heading'));
+    this.calls.web_character_teleport(this.home, this.id, ...triple(position, 'position'), number(heading, 'heading'));
   }
   reset() {
-    this.calls.web_character_reset(this.world.handle, this.id);
+    this.calls.web_character_reset(this.home, this.id);
   }
   wake() {
-    this.calls.web_character_wake(this.world.handle, this.id);
+    this.calls.web_character_wake(this.home, this.id);
   }
   pause(paused = true) {
-    this.calls.web_character_pause(this.world.handle, this.id, paused ? 1 : 0);
+    this.calls.web_character_pause(this.home, this.id, paused ? 1 : 0);
   }
   play(clip, { layer = 0, weight = 1, fade = 0.3, speed = 1, start = 0 } = {}) {
     const place = typeof clip === 'string' ? this.model.asset.clips.findIndex((one) => one.name === clip) : clip ?? -1;
     if (typeof clip === 'string' && place < 0) throw new TypeError(`the asset has no clip '${clip}'`);
-    this.calls.web_character_play(this.world.handle, this.id, layer, place, weight, fade, speed, start);
+    if (place !== -1) placeIn(place, this.model.asset.clips.length, 'clip');
+    this.calls.web_character_play(this.home, this.id, layer, place, weight, fade, speed, start);
   }
   reach(ikChain, position, weight = 1) {
+    placeIn(ikChain, this.model.asset.ikChains.length, 'ikChain');
     const [x, y, z] = position ? triple(position, 'position') : [0, 0, 0];
-    this.calls.web_character_reach(this.world.handle, this.id, ikChain, x, y, z, position ? weight : -1);
+    this.calls.web_character_reach(this.home, this.id, ikChain, x, y, z, position ? weight : -1);
+  }
+  /** The number of one of its rigid bodies. */
+  ofRigid(rigidBody) {
+    return placeIn(rigidBody, this.model.asset.rigidBodies.length, 'rigidBody');
   }
   rigidMode(mode, rigidBody = -1) {
     if (!(mode in MODES)) throw new TypeError(`a mode is one of ${Object.keys(MODES).join(', ')}, not ${mode}`);
-    this.calls.web_character_rigid_mode(this.world.handle, this.id, rigidBody, MODES[mode]);
+    this.calls.web_character_rigid_mode(this.home, this.id, rigidBody === -1 ? -1 : this.ofRigid(rigidBody), MODES[mode]);
   }
   fall() {
-    this.calls.web_character_fall(this.world.handle, this.id);
+    this.calls.web_character_fall(this.home, this.id);
   }
   get posture() {
-    return POSTURES[this.calls.web_character_posture(this.world.handle, this.id)];
+    return POSTURES[this.calls.web_character_posture(this.home, this.id)];
   }
   push(rigidBody, place, impulse) {
-    this.calls.web_character_push(this.world.handle, this.id, rigidBody, ...triple(place, 'place'), ...triple(impulse, 'impulse'));
+    this.calls.web_character_push(this.home, this.id, this.ofRigid(rigidBody), ...triple(place, 'place'), ...triple(impulse, 'impulse'));
   }
 
   rigidState(rigidBody) {
     const { scratch } = this.sbfmt;
-    this.calls.web_character_rigid(this.world.handle, this.id, rigidBody, scratch);
+    this.calls.web_character_rigid(this.home, this.id, this.ofRigid(rigidBody), scratch);
     const n = Array.from(this.sbfmt.floats(scratch, 18));
     return { mode: Object.keys(MODES)[n[0]], position: n.slice(1, 4), rotation: n.slice(4, 8), center: n.slice(8, 11),
       velocity: n.slice(11, 14), angularVelocity: n.slice(14, 17), mass: n[17] };
   }
 
   get rung() {
-    return this.calls.web_character_rung(this.world.handle, this.id);
+    return this.calls.web_character_rung(this.home, this.id);
   }
   setRung(rung) {
-    this.calls.web_character_set_rung(this.world.handle, this.id, rung === null ? RUNG_CHOSEN : number(rung, 'rung'));
+    this.calls.web_character_set_rung(this.home, this.id, rung === null ? RUNG_CHOSEN : placeIn(rung, this.model.rungs.length, 'rung'));
   }
   get fade() {
-    return this.calls.web_character_fade(this.world.handle, this.id);
+    return this.calls.web_character_fade(this.home, this.id);
   }
   shown(how) {
-    this.calls.web_character_shown(this.world.handle, this.id, chosen(SHOWN, how, 'how it is shown'));
+    this.calls.web_character_shown(this.home, this.id, chosen(SHOWN, how, 'how it is shown'));
   }
   get errorPx() {
-    return this.calls.web_character_error_px(this.world.handle, this.id);
+    return this.calls.web_character_error_px(this.home, this.id);
   }
 
   get origin() {
-    this.calls.web_character_origin(this.world.handle, this.id, this.sbfmt.scratch);
+    this.calls.web_character_origin(this.home, this.id, this.sbfmt.scratch);
     return Array.from(this.sbfmt.doubles(this.sbfmt.scratch, 3));
   }
   get distance() {
-    return this.calls.web_character_distance(this.world.handle, this.id);
+    return this.calls.web_character_distance(this.home, this.id);
   }
   bones() {
     const count = this.model.asset.bones.length;
-    this.calls.web_character_bones(this.world.handle, this.id, this.boneRoom, count);
+    this.calls.web_character_bones(this.home, this.id, this.boneRoom, count);
     return this.sbfmt.floats(this.boneRoom, count * 7);
   }
   health() {
-    this.calls.web_character_health(this.world.handle, this.id, this.model.asset.softBodies.length, this.sbfmt.scratch);
+    this.calls.web_character_health(this.home, this.id, this.model.asset.softBodies.length, this.sbfmt.scratch);
     const n = this.sbfmt.doubles(this.sbfmt.scratch, 7);
     return { volumeRatio: n[0], maxStrain: n[1], energy: n[2], recoveries: n[3], torn: n[4], valid: n[5] !== 0, asleep: n[6] !== 0 };
   }
   legs() {
-    const { scratch } = this.sbfmt, count = this.calls.web_character_legs(this.world.handle, this.id, scratch, 64);
+    const { scratch } = this.sbfmt, count = this.calls.web_character_legs(this.home, this.id, scratch, 64);
     const n = this.sbfmt.floats(scratch, count * 10);
     return Array.from({ length: count }, (_, i) => {
       const leg = Array.from(n.slice(i * 10, i * 10 + 10));
@@ -109,14 +123,15 @@ export class Character {
 
   /** Vertices as a graphics card wants them: made once, filled anew by each call. */
   skin(mesh = 0, level = 0) {
-    const key = `${mesh}:${level}`, c = this.calls;
+    const key = `${mesh}:${level}`, c = this.calls, { home } = this;
     let at = this.meshes.get(key);
     if (!at) {
-      at = c.web_mesh_create(this.model.asset.handle, this.model.handle, mesh, level);
-      if (!at) throw new SbfmtError(`there is no mesh ${mesh}, or memory ran out`, 'FAILED', '');
+      placeIn(mesh, this.model.asset.meshes.length, 'mesh');
+      at = c.web_mesh_create(this.model.asset.handle, this.model.handle, mesh, number(level, 'level'));
+      if (!at) throw new SbfmtError('memory ran out', 'OUT_OF_MEMORY', '');
       this.meshes.set(key, at);
     }
-    c.web_mesh_update(at, this.world.handle, this.id);
+    c.web_mesh_update(at, home, this.id);
     c.web_mesh_layout(at, this.sbfmt.scratch);
     const [vertices, indices, groups, indicesAt, groupsAt, uvsAt, positionsAt, normalsAt] = this.sbfmt.words(this.sbfmt.scratch, 8);
     const parts = this.sbfmt.words(groupsAt, groups * 3);
@@ -132,20 +147,22 @@ export class Character {
   /** Springs and edges of lattices: ten numbers a line, see sbfmt.d.ts. */
   lines() {
     const c = this.calls;
-    this.lineRoom ??= c.web_lines_create(this.model.asset.handle, this.world.handle, this.id, this.model.level);
+    this.lineRoom ??= c.web_lines_create(this.model.asset.handle, this.home, this.id, this.model.level);
     if (!this.lineRoom) throw new SbfmtError('memory ran out', 'OUT_OF_MEMORY', '');
-    const at = c.web_lines_update(this.lineRoom, this.world.handle, this.id);
+    const at = c.web_lines_update(this.lineRoom, this.home, this.id);
     return this.sbfmt.floats(at, c.web_lines_count(this.lineRoom) * 10);
   }
 
-  /** Before its world. */
   free() {
+    if (!this.id) return;
     for (const mesh of this.meshes.values()) this.calls.web_mesh_free(mesh);
     this.meshes.clear();
     if (this.lineRoom) this.calls.web_lines_free(this.lineRoom);
     this.lineRoom = undefined;
     this.calls.web_free(this.boneRoom);
-    this.calls.web_character_free(this.world.handle, this.id);
+    this.calls.web_character_free(this.home, this.id);
+    this.world.leave(this);
+    this.model.leave(this);
     this.id = 0;
   }
 }

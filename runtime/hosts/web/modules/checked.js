@@ -12,6 +12,18 @@ export function triple(value, name, otherwise) {
   return Array.from(value, (one) => number(one, name));
 }
 
+export function quadruple(value, name) {
+  if (!value || value.length !== 4) throw new TypeError(`${name} is to be four numbers, [x, y, z, w]`);
+  return Array.from(value, (one) => number(one, name));
+}
+
+/** A place in a list of so many. */
+export function placeIn(value, count, name) {
+  if (!Number.isInteger(value) || value < 0 || value >= count)
+    throw new TypeError(count ? `${name} is 0 to ${count - 1}, not ${value}` : `there is no ${name} ${value}: the asset has none`);
+  return value;
+}
+
 export function chosen(list, value, name) {
   const place = list.indexOf(value);
   if (place < 0) throw new TypeError(`${name} is one of ${list.join(', ')}, not ${value}`);

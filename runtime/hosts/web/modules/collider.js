@@ -1,5 +1,5 @@
 /* A shape of the host's. */
-import { chosen, number, triple } from './checked.js';
+import { chosen, number, quadruple, triple } from './checked.js';
 
 const SHAPES = ['sphere', 'box', 'capsule'];
 
@@ -13,20 +13,31 @@ export class Collider {
     if (!this.shape) throw world.sbfmt.failure();
     this.id = c.web_collider_create(world.handle, this.shape, ...triple(options.position, 'position', [0, 0, 0]),
       number(options.friction, 'friction', -1), number(options.restitution, 'restitution', -1));
-    if (this.id) return;
+    if (this.id) {
+      world.use(this);
+      return;
+    }
     const failure = world.sbfmt.failure();
     c.web_shape_free(this.shape);
     throw failure;
   }
 
+  /** Its world's handle, while it is there. */
+  get home() {
+    if (!this.id) throw new TypeError('this collider was freed');
+    return this.world.handle;
+  }
+
   move(position, rotation = [0, 0, 0, 1]) {
-    this.world.calls.web_collider_move(this.world.handle, this.id, 0, ...triple(position, 'position'), ...rotation);
+    this.world.calls.web_collider_move(this.home, this.id, 0, ...triple(position, 'position'), ...quadruple(rotation, 'rotation'));
   }
   place(position, rotation = [0, 0, 0, 1]) {
-    this.world.calls.web_collider_move(this.world.handle, this.id, 1, ...triple(position, 'position'), ...rotation);
+    this.world.calls.web_collider_move(this.home, this.id, 1, ...triple(position, 'position'), ...quadruple(rotation, 'rotation'));
   }
   free() {
-    this.world.calls.web_collider_free(this.world.handle, this.id);
+    if (!this.id) return;
+    this.world.calls.web_collider_free(this.home, this.id);
+    this.world.leave(this);
     this.world.calls.web_shape_free(this.shape);
     this.id = 0;
   }

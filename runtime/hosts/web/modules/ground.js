@@ -25,7 +25,8 @@ export function groundNumbers(memory, ground) {
   if (!Array.prototype.every.call(heights, Number.isFinite)) throw new TypeError('ground.heights are finite numbers');
   const at = memory.room(4 * heights.length);
   memory.floats(at, heights.length).set(heights);
-  const field = memory.calls.web_heights_create(at, columns, rows, cell, number(ground.x, 'ground.x', 0), number(ground.z, 'ground.z', 0));
+  // An address among numbers: without its sign.
+  const field = memory.calls.web_heights_create(at, columns, rows, cell, number(ground.x, 'ground.x', 0), number(ground.z, 'ground.z', 0)) >>> 0;
   return [GROUNDS.indexOf('heights'), field, 0, () => { memory.calls.web_free(field); memory.calls.web_free(at); }];
 }
 

@@ -5,6 +5,9 @@ import { SbfmtError } from './sbfmt_error.js';
 export const EVENT_ROOM = 256, EVENT_NUMBERS = 18;
 export const SCRATCH_BYTES = EVENT_ROOM * EVENT_NUMBERS * 8;
 
+/** All that there can be: addresses are 32 bits, which WebAssembly hands out with a sign. */
+const MEMORY_BYTES = 2 ** 32;
+
 export class Memory {
   constructor(calls) {
     this.calls = calls;
@@ -12,23 +15,26 @@ export class Memory {
   }
 
   floats(at, count) {
-    return new Float32Array(this.calls.memory.buffer, at, count);
+    return new Float32Array(this.calls.memory.buffer, at >>> 0, count);
   }
   doubles(at, count) {
-    return new Float64Array(this.calls.memory.buffer, at, count);
+    return new Float64Array(this.calls.memory.buffer, at >>> 0, count);
+  }
+  bytes(at, count) {
+    return new Uint8Array(this.calls.memory.buffer, at >>> 0, count);
   }
   words(at, count) {
-    return new Uint32Array(this.calls.memory.buffer, at, count);
+    return new Uint32Array(this.calls.memory.buffer, at >>> 0, count);
   }
   text(at) {
     if (!at) return '';
-    const bytes = new Uint8Array(this.calls.memory.buffer);
-    return new TextDecoder().decode(bytes.slice(at, bytes.indexOf(0, at)));
+    const bytes = new Uint8Array(this.calls.memory.buffer), first = at >>> 0;
+    return new TextDecoder().decode(bytes.slice(first, bytes.indexOf(0, first)));
   }
   room(size) {
-    const at = this.calls.web_allocate(size);
-    if (!at) throw new SbfmtError('memory ran out', 'OUT_OF_MEMORY', '');
-    return at;
+    const at = size < MEMORY_BYTES ? this.calls.web_allocate(size) : 0;
+    if (!at) throw new SbfmtError(`no memory for ${size} bytes: WebAssembly has 4 GiB in all`, 'OUT_OF_MEMORY', '');
+    return at >>> 0;
   }
   failure() {
     const c = this.calls;

@@ -1,29 +1,36 @@
 /* What characters of one asset share. */
-import { number, triple } from './checked.js';
-import { SCRATCH_BYTES } from './memory.js';
+import { chosen, number, triple } from './checked.js';
+import { Lent } from './lent.js';
 
+const SCHEMES = ['automatic', 'symplectic', 'position_based', 'relaxation', 'explicit_euler', 'heun', 'block_descent'];
 const RUNGS = ['soft', 'jiggle', 'bones', 'away'];
 
 /** What many characters of one asset share. */
-export class Model {
+export class Model extends Lent {
   constructor(asset, options) {
+    super('model');
     const sbfmt = asset.sbfmt, c = sbfmt.calls, scheme = options.scheme ?? 'automatic';
     const name = new TextEncoder().encode(scheme + '\0');
-    if (name.length > SCRATCH_BYTES) throw new TypeError('no scheme has such a name');
-    new Uint8Array(c.memory.buffer, sbfmt.scratch, name.length).set(name);
+    chosen(SCHEMES, scheme, 'scheme');
+    sbfmt.bytes(sbfmt.scratch, name.length).set(name);
     const gravity = triple(options.gravity, 'gravity', [0, 0, 0]);
     this.asset = asset;
     this.level = number(options.level, 'level', 0);
     this.handle = c.web_model_create(asset.handle, this.level, sbfmt.scratch, number(options.substeps, 'substeps', 0),
       options.free ? 1 : 0, options.gravity ? 1 : 0, ...gravity, options.scalar ? 1 : 0, options.ladder ? 1 : 0);
-    if (!this.handle) throw sbfmt.failure();
+    if (this.freed) throw sbfmt.failure();
+    asset.use(this);
     this.substeps = c.web_model_substeps(this.handle);
     this.instructions = sbfmt.text(c.web_model_instructions(this.handle));
     const count = c.web_model_rungs(this.handle, sbfmt.scratch, 64), n = sbfmt.floats(sbfmt.scratch, 4 * count);
     this.rungs = Array.from({ length: count }, (_, i) => ({ kind: RUNGS[n[4 * i]], level: n[4 * i + 1], error: n[4 * i + 2], visits: n[4 * i + 3] }));
   }
 
+  /** After its characters. */
   free() {
+    if (this.freed) return;
+    this.refuseUsers('characters');
+    this.asset.leave(this);
     this.asset.sbfmt.calls.web_model_free(this.handle);
     this.handle = 0;
   }

@@ -1,4 +1,5 @@
 /* What a world is asked, kept and played again. */
+import { Lent } from './lent.js';
 import { SbfmtError } from './sbfmt_error.js';
 
 /** What a world is asked from now on. */
@@ -14,7 +15,7 @@ export class Recording {
     const { sbfmt, calls, handle } = this.world;
     calls.web_record_end(handle);
     const at = calls.web_record_bytes(this.handle, sbfmt.scratch), [size] = sbfmt.words(sbfmt.scratch, 1);
-    return new Uint8Array(calls.memory.buffer, at, size).slice();
+    return sbfmt.bytes(at, size).slice();
   }
 
   free() {
@@ -25,17 +26,20 @@ export class Recording {
 }
 
 /** A recording that is played in a world that was made alike. */
-export class Replay {
+export class Replay extends Lent {
   constructor(world, bytes) {
+    super('replay');
     const { sbfmt, calls } = world;
     this.world = world;
     this.memory = sbfmt.room(bytes.byteLength);
-    new Uint8Array(calls.memory.buffer, this.memory, bytes.byteLength).set(bytes);
+    sbfmt.bytes(this.memory, bytes.byteLength).set(bytes);
     this.handle = calls.web_replay_begin(world.handle, this.memory, bytes.byteLength);
-    if (this.handle) return;
-    const failure = sbfmt.failure();
-    calls.web_free(this.memory);
-    throw failure;
+    if (this.freed) {
+      const failure = sbfmt.failure();
+      calls.web_free(this.memory);
+      throw failure;
+    }
+    world.use(this);
   }
 
   /** Plays up to and with the next step; false where nothing was left. */
@@ -49,6 +53,8 @@ export class Replay {
     return { count, frames, checks, differs: differs !== 0, differsAt: differs ? tick : null };
   }
   free() {
+    if (this.freed) return;
+    this.world.leave(this);
     this.world.calls.web_free(this.handle);
     this.world.calls.web_free(this.memory);
     this.handle = 0;

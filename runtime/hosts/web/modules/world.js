@@ -4,14 +4,17 @@ import { number, triple } from './checked.js';
 import { Collider } from './collider.js';
 import { eventsOf } from './events.js';
 import { groundNumbers } from './ground.js';
+import { Lent } from './lent.js';
+import { Model } from './model.js';
 import { Recording, Replay } from './recording.js';
 import { SbfmtError } from './sbfmt_error.js';
 
 const MOST_VIEWS = 4;
 
 /** Characters and what they meet, stepped together. */
-export class World {
+export class World extends Lent {
   constructor(sbfmt, options) {
+    super('world');
     this.sbfmt = sbfmt;
     this.calls = sbfmt.calls;
     const gravity = triple(options.gravity, 'gravity', [0, 0, 0]);
@@ -20,13 +23,15 @@ export class World {
     this.handle = this.calls.web_world_create(kind, a, b, options.gravity ? 1 : 0, ...gravity,
       number(options.characters, 'characters', 0), number(options.colliders, 'colliders', 0),
       number(options.sleepAfter, 'sleepAfter', -1), options.touches === true ? 4096 : number(options.touches || 0, 'touches'));
-    if (!this.handle) {
+    if (this.freed) {
       free();
       throw sbfmt.failure();
     }
   }
 
   add(model, options = {}) {
+    if (!(model instanceof Model)) throw new TypeError('a character is made of a model: world.add(asset.model())');
+    if (model.asset.sbfmt !== this.sbfmt) throw new TypeError('world and model are of two libraries: call load() once');
     return new Character(this, model, options);
   }
   collider(options = {}) {
@@ -64,18 +69,18 @@ export class World {
   snapshot() {
     const size = this.calls.web_world_snapshot_size(this.handle), at = this.sbfmt.room(size);
     const good = this.calls.web_world_snapshot_save(this.handle, at, size);
-    const bytes = new Uint8Array(this.calls.memory.buffer, at, size).slice();
+    const bytes = this.sbfmt.bytes(at, size).slice();
     this.calls.web_free(at);
-    if (!good) throw new SbfmtError('the state could not be saved', 'FAILED', '');
+    if (!good) throw new SbfmtError('the state could not be saved', 'OUT_OF_MEMORY', '');
     return bytes;
   }
 
   restore(snapshot) {
     const at = this.sbfmt.room(snapshot.byteLength);
-    new Uint8Array(this.calls.memory.buffer, at, snapshot.byteLength).set(snapshot);
+    this.sbfmt.bytes(at, snapshot.byteLength).set(snapshot);
     const good = this.calls.web_world_snapshot_restore(this.handle, at, snapshot.byteLength);
     this.calls.web_free(at);
-    if (!good) throw new SbfmtError('the snapshot is of another world, or of other characters', 'FAILED', '');
+    if (!good) throw new SbfmtError('the snapshot is of another world, or of other characters', 'BAD_CALL', '');
   }
 
   // ---- Levels of detail ----
@@ -118,6 +123,8 @@ export class World {
 
   /** With its characters and colliders. */
   free() {
+    if (this.freed) return;
+    for (const one of this.users) one.free();
     this.recording?.free();
     this.recording = undefined;
     this.calls.web_world_free(this.handle);
