@@ -1,7 +1,9 @@
 #include "building.h"
 
 #include <inttypes.h>
+#include <sys/stat.h>
 
+#include "chart/out_folder.h"
 #include "mesh_quality.h"
 #include "sbfmt/build.h"
 
@@ -36,9 +38,20 @@ static bool read_options(const cli_call *call, sbf_build_options *options) {
   return true;
 }
 
+/* A build may take minutes: that nothing can be written where it is to go is said before. */
+static bool has_place(const cli_call *call) {
+  const char *out = cli_value(call, "-o");
+  struct stat facts;
+  sbf_diagnostic error;
+  bool is_special = out && stat(out, &facts) == 0 && !S_ISREG(facts.st_mode) && !S_ISDIR(facts.st_mode);
+  if (!out || is_special || chart_place_check(out, &error) == SBF_OK) return true;
+  cli_print_diagnostic(call, &error);
+  return false;
+}
+
 bool building_check(const cli_call *call) {
   sbf_build_options options;
-  return read_options(call, &options);
+  return read_options(call, &options) && has_place(call);
 }
 
 static bool progress(void *user, const char *pass, double done) {

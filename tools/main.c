@@ -109,12 +109,26 @@ static bool parse(cli_call *call, int count, char **arguments) {
   return true;
 }
 
+static int no_verb(const char *name) {
+  fprintf(stderr, "sbfmt: error: no verb '%s'; sbfmt --help lists them\n", name);
+  return SBF_FAILED;
+}
+
+/* `sbfmt help VERB` is `sbfmt VERB --help`. */
+static int help(int argc, char **argv) {
+  const cli_verb *verb = argc > 2 ? find_verb(argv[2]) : NULL;
+  if (argc > 2 && !verb && argv[2][0] != '-') return no_verb(argv[2]);
+  if (verb)
+    print_verb_help(verb);
+  else
+    print_help();
+  return argc < 2 ? SBF_FAILED : SBF_OK;
+}
+
 int main(int argc, char **argv) {
   if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 ||
-      strcmp(argv[1], "-h") == 0) {
-    print_help();
-    return argc < 2 ? SBF_FAILED : SBF_OK;
-  }
+      strcmp(argv[1], "-h") == 0)
+    return help(argc, argv);
   if (strcmp(argv[1], "--version") == 0) {
     printf("sbfmt %s\n", VERSION_TEXT(SBF_VERSION_MAJOR, SBF_VERSION_MINOR, SBF_VERSION_PATCH));
     return SBF_OK;
@@ -125,10 +139,7 @@ int main(int argc, char **argv) {
     return SBF_FAILED;
   }
   const cli_verb *verb = find_verb(argv[1]);
-  if (!verb) {
-    fprintf(stderr, "sbfmt: error: no verb '%s'; sbfmt --help lists them\n", argv[1]);
-    return SBF_FAILED;
-  }
+  if (!verb) return no_verb(argv[1]);
   for (int i = 2; i < argc; i++)
     if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
       print_verb_help(verb);

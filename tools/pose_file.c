@@ -24,16 +24,25 @@ sbf_status pose_file_open(pose_file *p, const char *path, const session *s, sbf_
   return status;
 }
 
+/* A name as a field of CSV: one that holds what parts fields or lines stands in quotes, its own doubled. */
+static bool put_name(FILE *file, const char *name) {
+  if (!strpbrk(name, ",\"\r\n")) return fputs(name, file) >= 0;
+  bool good = fputc('"', file) != EOF;
+  for (; *name && good; name++) good = (*name != '"' || fputc('"', file) != EOF) && fputc(*name, file) != EOF;
+  return good && fputc('"', file) != EOF;
+}
+
 sbf_status pose_file_add(pose_file *p, const session *s, sbf_diagnostic *error) {
   sbr_double3 origin = sbr_character_origin(s->world, s->character);
   sbr_character_bones(s->world, s->character, p->bones, s->asset->bones.count);
   bool good = true;
   for (uint32_t i = 0; i < s->asset->bones.count && good; i++) {
     const sbr_transform *b = &p->bones[i];
-    good = fprintf(p->file, "%u,%.6f,%s,%.7f,%.7f,%.7f,%.7f,%.7f,%.7f,%.7f\n", s->frame, s->time_s,
-               s->asset->bones.at[i].name, origin.x + (double)b->position.x, origin.y + (double)b->position.y,
-               origin.z + (double)b->position.z, (double)b->rotation.x, (double)b->rotation.y,
-               (double)b->rotation.z, (double)b->rotation.w) > 0;
+    good = fprintf(p->file, "%u,%.6f,", s->frame, s->time_s) > 0 &&
+           put_name(p->file, s->asset->bones.at[i].name) &&
+           fprintf(p->file, ",%.7f,%.7f,%.7f,%.7f,%.7f,%.7f,%.7f\n", origin.x + (double)b->position.x,
+               origin.y + (double)b->position.y, origin.z + (double)b->position.z, (double)b->rotation.x,
+               (double)b->rotation.y, (double)b->rotation.z, (double)b->rotation.w) > 0;
   }
   return good ? SBF_OK : fault(p, errno, error);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "output_name.h"
 #include "sbrun/animation.h"
 #include "sbrun/rigid.h"
 #include "standing.h"
@@ -181,7 +182,8 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
   sbf_diagnostic error;
   *s = (session){.seconds = seconds, .fps = fps};
   *status = SBF_FAILED;
-  if (!parse_settings(s, call)) return false;
+  if (!parse_settings(s, call) || !output_name_check(call, "--record", (const char *const[]){".sbrec", NULL}))
+    return false;
   const char *commands = cli_value(call, "--script");
   if (commands && !script_load(&s->script, call, commands, status)) return false;
   s->threads = thread_pool_create((uint32_t)s->settings.threads);

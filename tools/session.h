@@ -27,7 +27,7 @@
       {"--gravity", "M/S2", "downward (the file's)"},                                                        \
       {"--clip", "NAME",                                                                                     \
           "play this clip as it is keyed, by its name or number; the gait leaves the bones to it"},          \
-      {"--level", "N", "simulation level, 0 the finest (0)"},                                                \
+      {"--level", "N", "simulation level, 0 the finest (0); of bodies that have fewer, the last"},           \
       {"--ragdoll", NULL, "every rigid body with a mass falls and swings by its joints alone"},              \
       {"--strength", "TIMES",                                                                                \
           "every such body is drawn to its pose, by so many times what holds its limb out level; 0: no "     \

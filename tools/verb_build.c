@@ -1,11 +1,13 @@
 /* sbfmt build: makes what is derived anew. */
 #include "building.h"
 #include "material_options.h"
+#include "output_name.h"
 
 static int run(cli_call *call) {
   const char *out = cli_value(call, "-o");
   if (!out) return cli_wrong(call, "say where to write: -o FILE");
-  if (!building_check(call) || !materials_check(call)) return SBF_FAILED;
+  if (!output_name_of_bundle(call, "-o") || !building_check(call) || !materials_check(call))
+    return SBF_FAILED;
   sbf_asset *asset;
   sbf_diagnostic error;
   sbf_status status = sbf_load_file(call->inputs[0], &(sbf_load_options){.check_crc = true}, &asset, &error);

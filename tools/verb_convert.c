@@ -4,13 +4,18 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "building.h"
+#include "chart/out_folder.h"
 #include "conversion_report.h"
 #include "material_options.h"
+#include "output_name.h"
 #include "pin_options.h"
 #include "sbfmt/convert.h"
 #include "sbfmt/mechanics.h"
+
+enum { MOST_PATH = 4096 };
 
 /* OUT-DIR/NAME.sbf for an input's NAME.ending. */
 static bool path_in(const char *folder, const char *input, char *path, size_t size) {
@@ -90,13 +95,35 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
   return (int)status;
 }
 
+/* That every input has a place of its own in the folder, and that the folder is there: it is made. */
+static bool prepare_folder(const cli_call *call, const char *folder) {
+  char path[MOST_PATH], other[MOST_PATH];
+  for (int i = 0; i < call->input_count; i++) {
+    if (!path_in(folder, call->inputs[i], path, sizeof path))
+      return cli_wrong(call, "the path of %s in %s is too long", call->inputs[i], folder), false;
+    for (int k = 0; k < i; k++)
+      if (path_in(folder, call->inputs[k], other, sizeof other) && strcmp(path, other) == 0)
+        return cli_wrong(call, "%s and %s would both become %s: convert them one by one with -o",
+                   call->inputs[k], call->inputs[i], path),
+               false;
+  }
+  sbf_diagnostic error;
+  if (chart_folder_check(folder, &error) != SBF_OK) {
+    cli_print_diagnostic(call, &error);
+    return false;
+  }
+  if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+    return cli_wrong(call, "the folder %s cannot be made: %s", folder, strerror(errno)), false;
+  return true;
+}
+
 static int convert_all(cli_call *call, sbf_convert_options *options) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
   int status = SBF_OK;
+  if (folder && !prepare_folder(call, folder)) return SBF_FAILED;
   for (int i = 0; i < call->input_count; i++) {
-    char path[4096];
-    if (folder && !path_in(folder, call->inputs[i], path, sizeof path))
-      return cli_wrong(call, "the path of %s in %s is too long", call->inputs[i], folder);
+    char path[MOST_PATH];
+    if (folder) path_in(folder, call->inputs[i], path, sizeof path);
     int one = convert(call, call->inputs[i], out ? out : path, options);
     if (one > status) status = one;
   }
@@ -113,8 +140,9 @@ static int run(cli_call *call) {
   if (!out == !folder)
     return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
-  if (!cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) || !cli_word(call, "--up", axes, 2, &up) ||
-      !cli_word(call, "--limits", animals, 4, &limits) || !building_check(call) || !materials_check(call))
+  if (!output_name_of_bundle(call, "-o") || !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) ||
+      !cli_word(call, "--up", axes, 2, &up) || !cli_word(call, "--limits", animals, 4, &limits) ||
+      !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
   options.keep_modulus = materials_of_all(call);
@@ -133,7 +161,7 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
-    {"--out-dir", "DIR", "write each input there, under its own name"},
+    {"--out-dir", "DIR", "write each input there, under its own name; made if it is not there"},
     {"--rig", "FILE", "take the skeleton from this file"},
     {"--motion", "FILE", "carry its clips over to the skeleton; several allowed"},
     {"--unit", "METRES", "metres in a unit of the input (what the file says, else 1)"},

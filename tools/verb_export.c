@@ -4,6 +4,7 @@
 
 #include "motion_bake.h"
 #include "motion_cache.h"
+#include "output_name.h"
 #include "sbfmt/io.h"
 
 static void report(void *user, const sbf_diagnostic *diagnostic) {
@@ -31,7 +32,10 @@ static int run(cli_call *call) {
   if (!out)
     return cli_wrong(call,
         "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf, OUT.usda, OUT.xml or OUT.pc2");
-  if (!cli_integer(call, "--render-level", 0, 1000, &render_level)) return SBF_FAILED;
+  static const char *const endings[] = {".glb", ".html", ".obj", ".tet", ".node", ".ele", ".msh", ".vtu",
+      ".mjcf", ".usda", ".xml", ".pc2", ".mdd", NULL};
+  if (!output_name_check(call, "-o", endings) || !cli_integer(call, "--render-level", 0, 1000, &render_level))
+    return SBF_FAILED;
   bool as_cache = motion_cache_named(out), moves = motion_asked(call) || as_cache;
   if (moves && !as_cache && !ends_with(out, ".glb"))
     return cli_wrong(call,

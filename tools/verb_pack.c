@@ -1,14 +1,15 @@
 /* sbfmt pack and unpack: from XML to the packed form and back. */
 #include <string.h>
 
-#include "cli.h"
+#include "output_name.h"
 #include "sbfmt/io.h"
 
-/* Loads the call's input and saves it as `save` does. */
-static int transcode(cli_call *call, const sbf_save_options *options,
+/* Loads the call's input and saves it as `save` does, under a name of that ending. */
+static int transcode(cli_call *call, const char *ending, const sbf_save_options *options,
     sbf_status (*save)(const sbf_asset *, const char *, const sbf_save_options *, sbf_diagnostic *)) {
   const char *out = cli_value(call, "-o");
-  if (!out) return cli_wrong(call, "say where to write: -o FILE");
+  if (!out) return cli_wrong(call, "say where to write: -o FILE%s", ending);
+  if (!output_name_check(call, "-o", (const char *const[]){ending, NULL})) return SBF_FAILED;
   sbf_asset *asset;
   sbf_diagnostic error;
   sbf_status status = sbf_load_file(call->inputs[0], &(sbf_load_options){.check_crc = true}, &asset, &error);
@@ -24,11 +25,11 @@ static int run_pack(cli_call *call) {
   long level = 6;
   if (!cli_integer(call, "--level", 1, 9, &level)) return SBF_FAILED;
   sbf_save_options options = {.store = cli_switch(call, "--store"), .level = (int)level};
-  return transcode(call, &options, sbf_packed_save_file);
+  return transcode(call, ".sbfz", &options, sbf_packed_save_file);
 }
 
 static int run_unpack(cli_call *call) {
-  return transcode(call, NULL, sbf_xml_save_file);
+  return transcode(call, ".sbf", NULL, sbf_xml_save_file);
 }
 
 static const cli_option pack_options[] = {

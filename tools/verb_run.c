@@ -4,6 +4,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "output_name.h"
 #include "pose_file.h"
 #include "rigid_report.h"
 #include "run_text.h"
@@ -184,6 +185,9 @@ static int run(cli_call *call) {
   run_state r = {.valid = true, .least_volume = 1, .end_volume = 1};
   sbf_diagnostic error;
   int status;
+  if (!output_name_check(call, "--cache", (const char *const[]){".pc2", ".mdd", NULL}) ||
+      !output_name_check(call, "--pose", (const char *const[]){".csv", NULL}))
+    return SBF_FAILED;
   if (!session_open(&r.s, call, 5, 60, &status)) return status;
   status = SBF_FAILED;
   if (!make_room(&r))

@@ -5,6 +5,7 @@
 
 #include "chart/out_folder.h"
 #include "chart/rounds.h"
+#include "output_name.h"
 #include "sbfmt/io.h"
 #include "tune/forecast.h"
 #include "tuning_report.h"
@@ -53,7 +54,7 @@ static bool parse(cli_call *call, tuning *t, request *r) {
   t->path = call->inputs[0];
   t->out = cli_value(call, "-o");
   if (!t->out) return cli_wrong(call, "say where to write: -o FILE"), false;
-  if (!cli_number(call, "--error", 1e-9, 1e6, &t->goal.error_m) ||
+  if (!output_name_of_bundle(call, "-o") || !cli_number(call, "--error", 1e-9, 1e6, &t->goal.error_m) ||
       !cli_number(call, "--budget", 1e-3, 1e9, &t->goal.budget_us) ||
       !cli_word(call, "--measure", measures, 2, &measure) ||
       !cli_integer(call, "--runs", 1, 10000, &rounds) ||

@@ -5,6 +5,7 @@
 
 #include "checking.h"
 #include "file_list.h"
+#include "output_name.h"
 #include "thread_pool.h"
 
 enum { BATCH = 64 }; /* files whose findings are in memory at one time */
@@ -189,6 +190,7 @@ static int run_fix(const cli_call *call) {
   const char *to = cli_value(call, "-o");
   if (!to) return cli_wrong(call, "--fix needs -o OUT: the file given is not changed");
   if (call->input_count != 1) return cli_wrong(call, "--fix mends one file at a time");
+  if (!output_name_of_bundle(call, "-o")) return SBF_FAILED;
   return fix(call, call->inputs[0], to);
 }
 
@@ -218,7 +220,7 @@ static int run(cli_call *call) {
 static const cli_option options[] = {
     {"--strict", NULL, "let warnings fail as errors do"},
     {"--fix", NULL, "mend what has one right answer, and write the result"},
-    {"-o", "OUT", "the file that --fix writes; .sbfz: packed"},
+    {"-o", "OUT.sbf[z]", "the file that --fix writes, by its ending as XML or packed"},
     {"--threads", "N", "files checked at one time (as many as there are processors)"},
     {"--format", "text|json", "how to print (text)"},
     {NULL, NULL, NULL},

@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #define _FILE_OFFSET_BITS 64
 #include "base/file_system.h"
+#include "base/unnamed_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -144,28 +145,60 @@ void sbfi_file_close(sbfi_file *file) {
   file->handle = -1;
 }
 
-/* Creates a file of a new name beside the final one. Its name is short, since a long one plus a suffix might
- * be too long for the file system. */
-static int create_temporary(sbfi_file_writer *writer) {
+/* Where the name begins in the path of a writer's temporary file. */
+static size_t folder_length(const sbfi_file_writer *writer) {
   const char *slash = strrchr(writer->final_path, '/');
-  size_t folder_length = slash ? (size_t)(slash - writer->final_path) + 1 : 0;
-  memcpy(writer->temporary_path, writer->final_path, folder_length);
+  return slash ? (size_t)(slash - writer->final_path) + 1 : 0;
+}
+
+/* Tries new names beside the final one until `make` makes one, as open does. The name is short, since a long
+ * one plus a suffix might be too long for the file system. Without success there is none. */
+static int with_new_name(sbfi_file_writer *writer, int (*make)(const sbfi_file_writer *writer)) {
+  char *name = writer->temporary_path + folder_length(writer);
   struct timespec now = {0, 0};
   clock_gettime(CLOCK_REALTIME, &now);
   uint32_t mark = (uint32_t)now.tv_nsec ^ (uint32_t)getpid() << 12;
-  for (int i = 0; i < TEMPORARY_TRIES; i++, mark = mark * 1664525 + 1013904223) {
-    snprintf(
-        writer->temporary_path + folder_length, SBFI_TEMPORARY_NAME_BYTES, ".sbf-%08x.tmp", (unsigned)mark);
-    int handle = open_again(writer->temporary_path, O_WRONLY | O_CREAT | O_EXCL, 0666);
-    if (handle >= 0 || errno != EEXIST) return handle;
+  int made = -1;
+  errno = EEXIST;
+  for (int i = 0; i < TEMPORARY_TRIES && made < 0 && errno == EEXIST;
+       i++, mark = mark * 1664525 + 1013904223) {
+    snprintf(name, SBFI_TEMPORARY_NAME_BYTES, ".sbf-%08x.tmp", (unsigned)mark);
+    made = make(writer);
   }
-  return -1;
+  if (made < 0) *name = 0;
+  return made;
+}
+
+static int create_named(const sbfi_file_writer *writer) {
+  return open_again(writer->temporary_path, O_WRONLY | O_CREAT | O_EXCL, 0666);
+}
+
+static int name_unnamed(const sbfi_file_writer *writer) {
+  return sbfi_unnamed_file_name((int)writer->handle, writer->temporary_path);
+}
+
+/* A file beside the final one. Until it is whole it has no name where the system can do so: whatever ends the
+ * process, nothing is left behind. */
+static int create_temporary(sbfi_file_writer *writer) {
+  size_t folder = folder_length(writer);
+  memcpy(writer->temporary_path, writer->final_path, folder);
+  writer->temporary_path[folder] = 0;
+  int handle = sbfi_unnamed_file_open(folder ? writer->temporary_path : ".");
+  return handle >= 0 ? handle : with_new_name(writer, create_named);
+}
+
+/* Renaming would put the file in the place of a link that names nothing. */
+static bool is_link(const char *path) {
+  struct stat facts;
+  return lstat(path, &facts) == 0 && S_ISLNK(facts.st_mode);
 }
 
 /* Opens what is to be written to; 0 or an error number. */
 int sbfi_file_writer_target(sbfi_file_writer *writer, const char *path) {
   struct stat old;
   bool exists = stat(path, &old) == 0;
+  int absent = exists ? 0 : errno;
+  if (!exists && is_link(path)) return absent; /* to nothing */
   if (exists && S_ISDIR(old.st_mode)) return EISDIR;
   /* A rename would go around the write permission of the file itself. */
   if (exists && faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) != 0) return errno;
@@ -214,7 +247,9 @@ static void sync_folder(const char *path) {
 }
 
 int sbfi_file_sync(sbfi_file_writer *writer) {
-  return fsync((int)writer->handle) != 0 ? errno : 0;
+  if (fsync((int)writer->handle) != 0) return errno;
+  bool named = writer->temporary_path[folder_length(writer)] != 0;
+  return named || with_new_name(writer, name_unnamed) >= 0 ? 0 : errno;
 }
 
 int sbfi_file_shut(sbfi_file_writer *writer) {

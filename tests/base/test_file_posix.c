@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/unnamed_file.h"
 
 static char folder[512]; /* absolute: a test changes the current folder */
 
@@ -221,6 +222,27 @@ START_TEST(pieces_add_up_to_the_file)
 }
 END_TEST
 
+/* So that nothing is left behind by a process that ends meanwhile. */
+START_TEST(a_file_has_no_name_before_it_is_whole)
+{
+  sbfi_file_writer writer;
+  int probe = sbfi_unnamed_file_open(folder);
+  bool has_unnamed = probe >= 0;
+  if (has_unnamed) close(probe);
+  ck_assert_int_eq(sbfi_file_writer_open(&writer, in_folder("a"), NULL, NULL), SBF_OK);
+  ck_assert_int_eq(sbfi_file_writer_write(&writer, "new", 3, NULL), SBF_OK);
+  ck_assert_int_eq(entries(), has_unnamed ? 0 : 1);
+  sbfi_file_writer_abandon(&writer);
+  ck_assert_int_eq(entries(), 0);
+  ck_assert_int_eq(chdir(folder), 0); /* and have no folder in its path */
+  ck_assert_int_eq(sbfi_file_writer_open(&writer, "b", NULL, NULL), SBF_OK);
+  ck_assert_int_eq(entries(), has_unnamed ? 0 : 1);
+  ck_assert_int_eq(sbfi_file_writer_commit(&writer, NULL), SBF_OK);
+  ck_assert_int_eq(entries(), 1);
+  expect_content(in_folder("b"), "");
+}
+END_TEST
+
 START_TEST(the_old_file_stands_until_the_commit)
 {
   sbfi_file_writer writer;
@@ -310,6 +332,20 @@ START_TEST(permissions_and_links_are_kept)
 }
 END_TEST
 
+/* A file in its place would be one that nobody named; as root that link may be /dev/stdout. */
+START_TEST(a_link_to_nothing_stays)
+{
+  struct stat facts;
+  sbf_diagnostic d;
+  ck_assert_int_eq(symlink("absent", in_folder("link")), 0);
+  ck_assert_int_eq(sbfi_file_write(in_folder("link"), "x", 1, NULL, &d), SBF_FAILED);
+  ck_assert_int_eq(d.code, SBF_CODE_IO_CANNOT_WRITE);
+  ck_assert_int_eq(lstat(in_folder("link"), &facts), 0);
+  ck_assert(S_ISLNK(facts.st_mode));
+  ck_assert_int_eq(entries(), 1);
+}
+END_TEST
+
 START_TEST(a_name_may_be_as_long_as_the_system_allows)
 {
   char name[256];
@@ -367,10 +403,12 @@ static Suite *suite(void) {
   c = tcase_create("write");
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, pieces_add_up_to_the_file);
+  tcase_add_test(c, a_file_has_no_name_before_it_is_whole);
   tcase_add_test(c, the_old_file_stands_until_the_commit);
   tcase_add_test(c, a_failing_write_leaves_the_old_file_alone);
   tcase_add_test(c, what_cannot_be_written_is_told);
   tcase_add_test(c, permissions_and_links_are_kept);
+  tcase_add_test(c, a_link_to_nothing_stays);
   tcase_add_test(c, a_name_may_be_as_long_as_the_system_allows);
   tcase_add_test(c, a_device_is_written_to_and_stays);
   tcase_add_test(c, writing_without_memory_leaves_nothing);

@@ -10,6 +10,21 @@ from sbfmt_program import (ProgramTest, ROOT, call, example, main, needs_bad_fil
 
 SAMPLES = os.path.join(ROOT, "spec", "samples", "valid")
 BAD_INPUT, FAILED = 1, 2
+CUBE = b"""v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
 
 
 @needs_bad_files
@@ -62,9 +77,10 @@ class Calls(ProgramTest):
 
     def test_an_output_that_cannot_be_written(self):
         nowhere = self.path("no such folder/out.sbf")
-        for arguments in (("pack", self.file, "-o", nowhere), ("unpack", self.file, "-o", nowhere),
-                          ("build", self.file, "-o", nowhere), ("run", self.file, "--seconds", "0", "--cache", nowhere),
-                          ("run", self.file, "--seconds", "0", "--pose", nowhere),
+        for arguments in (("pack", self.file, "-o", nowhere + "z"), ("unpack", self.file, "-o", nowhere),
+                          ("build", self.file, "-o", nowhere),
+                          ("run", self.file, "--seconds", "0", "--cache", nowhere + ".pc2"),
+                          ("run", self.file, "--seconds", "0", "--pose", nowhere + ".csv"),
                           ("convert", os.path.join(ROOT, "examples", "lizard", "lizard.glb"), "-o", nowhere)):
             with self.subTest(arguments):
                 self.fails(FAILED, *arguments)
@@ -101,6 +117,60 @@ class Calls(ProgramTest):
                 self.assertEqual(result.status, FAILED, result.err)
                 self.assertTrue(result.err or "Usage" in result.out)
         self.assert_empty_folder()
+
+    def test_no_slip_writes_over_what_was_read(self):
+        """A file that is written has an ending of its own form."""
+        mesh = write_bytes(self.path("cube.obj"), CUBE)
+        bundle = self.path("cube.sbf")
+        self.good("convert", mesh, "-o", bundle)
+        was = read_bytes(bundle)
+        for arguments in (("convert", mesh, "-o", mesh), ("build", bundle, "-o", mesh), ("pack", bundle, "-o", bundle),
+                          ("validate", bundle, "--fix", "-o", mesh), ("unpack", bundle, "-o", "-"),
+                          ("tune", bundle, "-o", mesh), ("export", bundle, "-o", bundle),
+                          ("run", bundle, "--cache", bundle), ("run", bundle, "--pose", bundle),
+                          ("run", bundle, "--record", bundle)):
+            with self.subTest(arguments):
+                self.assertIn("a name with", self.fails(FAILED, *arguments))
+                self.assertEqual((read_bytes(mesh), read_bytes(bundle)), (CUBE, was))
+        self.good("pack", bundle, "-o", self.path("CUBE.SBFZ"))
+        self.assert_empty_folder(but=["cube.obj", "cube.sbf", "CUBE.SBFZ"])
+
+    def test_inputs_of_one_name_do_not_replace_each_other(self):
+        for folder in ("a", "b"):
+            os.mkdir(self.path(folder))
+            write_bytes(self.path(folder + "/cube.obj"), CUBE)
+        message = self.fails(FAILED, "convert", self.path("a/cube.obj"), self.path("b/cube.obj"), "--out-dir",
+                             self.path("out"))
+        self.assertIn("would both become", message)
+        self.assert_empty_folder(but=["a", "b"])
+
+    def test_the_folder_of_many_is_made(self):
+        mesh, folder = write_bytes(self.path("cube.obj"), CUBE), self.path("out")
+        self.good("convert", mesh, "--out-dir", folder)
+        self.assertEqual(os.listdir(folder), ["cube.sbf"])
+        self.good("convert", mesh, "--out-dir", folder)
+        self.assertIn("make it first", self.fails(FAILED, "convert", mesh, "--out-dir", self.path("no/such")))
+        self.assertIn("name a folder", self.fails(FAILED, "convert", mesh, "--out-dir", mesh))
+
+    def test_that_there_is_no_place_is_said_before_the_work(self):
+        mesh = write_bytes(self.path("cube.obj"), CUBE)
+        result = call("convert", mesh, "-o", self.path("no/such.sbf"))
+        self.assertEqual((result.status, result.out), (FAILED, ""))
+        self.assertIn("make it first", result.err)
+
+    def test_a_link_to_nothing_is_not_replaced(self):
+        for name, arguments in (("out.sbf", ("unpack", self.file, "-o")), ("p.csv", ("run", self.file, "--seconds", "0",
+                                                                                    "--pose"))):
+            with self.subTest(name):
+                os.symlink("absent", self.path(name))
+                self.fails(FAILED, *arguments, self.path(name))
+                self.assertEqual(os.readlink(self.path(name)), "absent")
+        self.assert_empty_folder(but=["out.sbf", "p.csv"])
+
+    def test_help_of_a_verb(self):
+        self.assertEqual(self.good("help", "info").out, self.good("info", "--help").out)
+        self.assertEqual(self.good("help").out, self.good("--help").out)
+        self.assertIn("no verb 'frobnicate'", self.fails(FAILED, "help", "frobnicate"))
 
     def test_help_is_printed(self):
         for arguments in (("--help",), ("--version",), ("info", "--help"), ("convert", "--help")):

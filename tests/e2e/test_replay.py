@@ -65,7 +65,7 @@ class Replay(ProgramTest):
         self.assertIn("damaged", self.fails(1, "run", self.file, "--replay", self.tape))
         self.assertIn("cannot be read", self.fails(2, "run", self.file, "--replay", self.path("none")))
         self.assertIn("leave --drive", self.fails(2, "run", self.file, "--replay", self.tape, "--drive", "1,0"))
-        nowhere = os.path.join(self.path("no"), "x")
+        nowhere = os.path.join(self.path("no"), "x.sbrec")
         self.assertIn("cannot be written", self.fails(2, "run", self.file, "--record", nowhere))
 
 

@@ -186,6 +186,16 @@ class Run(ProgramTest):
             for row in pose.values():
                 self.assertAlmostEqual(sum(n * n for n in row[3:]), 1, delta=1e-5)
 
+    def test_bones_of_any_name_have_their_field(self):
+        strange = 'left, or "L"\nof it'
+        text = read_bytes(self.file).decode()
+        first = next(bone["name"] for bone in self.json_of("info", self.file)["bones"])
+        quoted = strange.replace('"', "&quot;").replace("\n", "&#10;")
+        self.assertIn(f'name="{first}"', text)
+        odd = write_bytes(self.path("odd.sbf"), text.replace(f'name="{first}"', f'name="{quoted}"').encode())
+        self.json_of("run", odd, "--seconds", "0", "--pose", self.path("p.csv"))
+        self.assertIn(strange, read_poses(self.path("p.csv"))[0][0])
+
     def test_nothing_is_left_beside_the_files(self):
         self.run_json("--cache", self.path("a.pc2"), "--pose", self.path("b.csv"))
         self.assert_empty_folder(but=["a.pc2", "b.csv"])

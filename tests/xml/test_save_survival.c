@@ -17,6 +17,7 @@
 #include <sys/mount.h>
 #endif
 
+#include "base/unnamed_file.h"
 #include "fill_asset.h"
 #include "harness.h"
 #include "sbfmt/io.h"
@@ -95,6 +96,13 @@ static void make_folder(char *folder, size_t size) {
   ck_assert_ptr_nonnull(mkdtemp(folder));
 }
 
+/* Whether files there have no name before they are whole, so that nothing is left of them. */
+static bool has_unnamed(const char *folder) {
+  int handle = sbfi_unnamed_file_open(folder);
+  if (handle >= 0) close(handle);
+  return handle >= 0;
+}
+
 static void remove_folder(const char *folder, const char *own) {
   unlink(in(folder, own));
   rmdir(folder);
@@ -134,7 +142,9 @@ START_TEST(a_kill_at_any_moment)
     ck_assert_msg(found == 0 || found == 1, "%d files were left behind", found);
     left_overs += found;
   }
-  fprintf(stderr, "%s: %d kills, %d of them while a temporary file was open\n", name, KILLS, left_overs);
+  fprintf(stderr, "%s: %d kills, %d left a temporary file\n", name, KILLS, left_overs);
+  /* Between its naming and its renaming a file has a temporary name for a moment. */
+  if (has_unnamed(folder)) ck_assert_int_le(left_overs, KILLS / 4);
   remove_folder(folder, name);
 }
 END_TEST
@@ -163,7 +173,7 @@ START_TEST(an_end_at_any_byte)
     waitpid(child, &status, 0);
     ck_assert(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ);
     ck_assert(has_bytes(in(folder, name), &older.bytes[form]));
-    ck_assert_int_eq(clear_left_overs(folder, name), 1);
+    ck_assert_int_eq(clear_left_overs(folder, name), has_unnamed(folder) ? 0 : 1);
   }
   remove_folder(folder, name);
 }

@@ -93,8 +93,11 @@ sbf_status output_file_begin(output_file *output, const char *path, sbf_diagnost
   if (is_busy)
     return fault_set_file(
         diagnostic, SBF_CODE_BAD_CALL, path, "another file is being written: one at a time");
-  struct stat there;
+  struct stat there, link;
   bool exists = stat(path, &there) == 0;
+  /* Renaming would put the file in the place of a link that names nothing. */
+  if (!exists && lstat(path, &link) == 0 && S_ISLNK(link.st_mode))
+    return cannot_write(output, ENOENT, diagnostic);
   if (exists && S_ISDIR(there.st_mode)) return cannot_write(output, EISDIR, diagnostic);
   if (exists && access(path, W_OK) != 0) return cannot_write(output, errno, diagnostic);
   output->direct = exists && !S_ISREG(there.st_mode);

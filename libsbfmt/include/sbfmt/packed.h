@@ -96,9 +96,10 @@ SBF_API void sbf_buffer_free(sbf_buffer *buffer);
  * options give the same bytes, with the same version of zlib.
  *
  * Saving, of either form, writes a temporary file in the same folder, syncs and renames it: whoever reads
- * sees the old file or the new one, whole, also where the disk is full or the process is ended. A process
- * that is killed meanwhile leaves the temporary file behind, .sbf-XXXXXXXX.tmp with eight hexadecimal digits:
- * it may be removed whenever nothing is being saved. */
+ * sees the old file or the new one, whole, also where the disk is full or the process is ended. On Linux that
+ * file has no name until it is whole, where the file system can do so: nothing is left of it when the process
+ * is killed. Elsewhere .sbf-XXXXXXXX.tmp is, with eight hexadecimal digits: it may be removed whenever
+ * nothing is being saved. A link that names nothing is refused. */
 SBF_API sbf_status sbf_packed_load_file(
     const char *path, const sbf_load_options *options, sbf_asset **asset, sbf_diagnostic *error);
 /* `bytes` must outlive the asset: lists may point into them (they do where stored and aligned to four bytes).
