@@ -1,5 +1,6 @@
 // Opens the exported page and works it as a visitor would; prints what came of it as one line of JSON.
 // Usage: node page_in_chromium.mjs FOLDER-OF-NODE_MODULES PAGE PICTURES RUN
+import { readFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 
 import { colorsDrawn, open } from './chromium.mjs';
@@ -33,7 +34,7 @@ for (let i = 0; i < 16; i++) {
   }));
   await tab.keyboard.press('Tab');
 }
-for (const id of ['canvas', 'skin', 'springs', 'bones', 'strain', 'ground', 'level', 'speed', 'throw', 'knock', 'restart', 'pause']) {
+for (const id of ['canvas', 'skin', 'springs', 'bones', 'strain', 'ground', 'level', 'speed', 'throw', 'knock', 'restart', 'pause', 'open']) {
   const here = reached.find((one) => one.id === id);
   expect(here, `the keyboard does not reach ${id}`);
   expect(!here || here.outline, `${id} does not show that it has the focus`);
@@ -109,6 +110,26 @@ const spot = await tab.evaluate(() => {
 });
 expect(spot, 'no ray meets the character');
 if (spot) {
+  // A pointer that is merely down does nothing yet: a second finger may come, and the two zoom.
+  const touches = (...at) => tab.evaluate(([kind, id, [x, y]]) => viewer.canvas.dispatchEvent(
+    new PointerEvent(kind, { pointerId: id, clientX: x, clientY: y, button: 0, pointerType: 'touch' })), at);
+  const far = await tab.evaluate(() => {
+    viewer.canvas.setPointerCapture = () => undefined; // which only a finger of flesh has
+    return viewer.camera.distance;
+  });
+  await touches('pointerdown', 11, spot);
+  await touches('pointerdown', 12, [spot[0] + 40, spot[1]]);
+  await touches('pointermove', 12, [spot[0] + 120, spot[1]]);
+  await touches('pointerup', 11, spot);
+  await touches('pointerup', 12, [spot[0] + 120, spot[1]]);
+  const pinched = await tab.evaluate(() => {
+    delete viewer.canvas.setPointerCapture;
+    viewer.step(1 / 60);
+    const { camera: { distance }, held, character: { posture } } = viewer;
+    return { distance, held: !!held, posture };
+  });
+  expect(pinched.distance < 0.5 * far && !pinched.held && pinched.posture === 'up', `two fingers from ${far} m: ${JSON.stringify(pinched)}`);
+  await tab.evaluate((distance) => { viewer.camera.distance = distance; }, far);
   await tab.mouse.move(...spot);
   await tab.mouse.down();
   const height = () => tab.evaluate(() => viewer.held ? viewer.character.rigidState(viewer.held.rigid).center[1] : NaN);
@@ -154,11 +175,67 @@ const replayed = await tab.evaluate(() => {
 expect(replayed[0] === replayed[1], `a replay in the page: ${replayed}`);
 
 // The same state as everywhere.
-const { frames, drive, ground } = JSON.parse(run);
+const { frames, drive, ground, other, text, dropped } = JSON.parse(run);
 const { hash, us } = await tab.evaluate(([count, [forward, turn], land]) => {
   const began = performance.now();
   return { hash: viewer.hashAfter(count, forward, turn, land), us: 1000 * (performance.now() - began) / count };
 }, [frames, drive, ground]);
+
+// Another file takes its place. What cannot be shown leaves what is there, and the page says why.
+const shown = () => tab.evaluate(() => {
+  viewer.step(1 / 60);
+  viewer.draw();
+  return { title: document.title, head: document.querySelector('#title').textContent, label: viewer.canvas.getAttribute('aria-label'),
+    bones: viewer.asset.bones.length, valid: viewer.character.health().valid, trouble: !document.querySelector('#trouble').hidden,
+    says: document.querySelector('#troubleText').textContent, kib: viewer.sbfmt.calls.memory.buffer.byteLength / 1024 };
+});
+const opened = async (path) => {
+  await tab.evaluate(() => { viewer.before = viewer.asset; });
+  await tab.setInputFiles('#file', path);
+  await tab.waitForFunction(() => viewer.asset !== viewer.before || !document.querySelector('#trouble').hidden);
+  return shown();
+};
+const first = await shown(), another = await opened(other);
+expect(another.bones !== first.bones && another.title !== first.title && another.head === another.title && another.label.startsWith(another.title) && another.valid,
+  `another file: ${JSON.stringify(another)}`);
+await shoot('another');
+const refused = await opened(text);
+expect(refused.trouble && /sbfmt pack/.test(refused.says) && refused.bones === another.bones && refused.valid, `XML: ${JSON.stringify(refused)}`);
+await shoot('refused');
+await tab.click('#troubleAway');
+expect(!(await shown()).trouble, 'what is wrong cannot be put away');
+const second = await opened(other);
+let last = second;
+for (let i = 0; i < 5; i++) last = await opened(other);
+expect(last.kib === second.kib, `opened seven times it holds ${last.kib} KiB, twice ${second.kib}`);
+await tab.evaluate((bytes) => {
+  const carried = new DataTransfer();
+  carried.items.add(new File([Uint8Array.from(bytes, (one) => one.charCodeAt(0))], 'dropped.sbfz'));
+  viewer.before = viewer.asset;
+  for (const kind of ['dragover', 'drop']) document.body.dispatchEvent(new DragEvent(kind, { bubbles: true, cancelable: true, dataTransfer: carried }));
+}, readFileSync(dropped, 'latin1'));
+await tab.waitForFunction(() => viewer.asset !== viewer.before);
+const back = await shown();
+expect(back.bones === first.bones && back.valid && !back.trouble, `dropped: ${JSON.stringify(back)}`);
+
+// By night the panel is dark, and as easy to read.
+const contrast = () => tab.evaluate(() => {
+  const light = (color) => {
+    const [r, g, b] = color.match(/[\d.]+/g).map((x) => (x / 255 <= 0.04045 ? x / 255 / 12.92 : ((x / 255 + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const paper = light(getComputedStyle(document.querySelector('aside')).backgroundColor);
+  return { paper, least: Math.min(...[...document.querySelectorAll('aside h1, aside h2, aside label, aside dt, aside dd, aside p')].map((one) => {
+    const ink = light(getComputedStyle(one).color);
+    return (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05);
+  })) };
+});
+for (const colorScheme of ['dark', 'light']) {
+  await tab.emulateMedia({ colorScheme });
+  const { paper, least } = await contrast();
+  expect(least >= 4.5 && (colorScheme === 'dark') === paper < 0.2, `${colorScheme}: paper ${paper}, a contrast of ${least}`);
+  await shoot(`${colorScheme}-panel`);
+}
 
 // It fits a narrow window.
 await tab.setViewportSize({ width: 420, height: 800 });

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The page that `sbfmt export -o PAGE.html` writes, opened from disk in Chromium without a network: it is drawn, ends in
-the same state as the program, walks by its keys, is dragged, is hit by balls, can be worked by the keyboard alone, and
-fits its window. Pictures go to BUILD/web-pictures. Playwright's core is fetched by npm into BUILD/web-tests."""
+the same state as the program, walks by its keys, is dragged, is hit by balls, can be worked by the keyboard alone, shows other
+files that are opened or dropped, is read by night, and fits its window. Pictures go to BUILD/web-pictures. Playwright's core is fetched by npm into BUILD/web-tests."""
 import json
 import os
 import re
@@ -30,7 +30,8 @@ def main():
     os.makedirs(pictures, exist_ok=True)
     script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page_in_chromium.mjs")
     with tempfile.TemporaryDirectory() as folder:
-        lizard = web_files.bundles(folder)["lizard"]
+        bundles = web_files.bundles(folder)
+        lizard = bundles["lizard"]
         page = os.path.join(folder, "lizard.html")
         web_files.run(web_files.SBFMT, "export", lizard, "-o", page)
         check_missing(lizard, folder)
@@ -40,7 +41,8 @@ def main():
         if outside or "{{" in text:
             sys.exit(f"the page is not whole: {outside[:5]}")
         told = web_files.run("node", script, modules, page, pictures,
-                             json.dumps({"frames": FRAMES, "drive": DRIVE, "ground": GROUND}))
+                             json.dumps({"frames": FRAMES, "drive": DRIVE, "ground": GROUND, "other": bundles["figure"],
+                                         "text": os.path.join(folder, "lizard.sbf"), "dropped": lizard}))
         found = json.loads(told.splitlines()[-1])
         native = web_files.native(lizard, "--seconds", FRAMES / 60, "--drive", "0.3,0.2", "--ground", "noise:0.1,5")
     print(f"{len(text) / 1e6:.1f} MB; {found['us']:.0f} us a step, in this run alone; {found['hash']}")

@@ -2,6 +2,7 @@
  * Keys and pointer steer; what is pressed, shown and chosen stands in the panel of viewer.html. */
 import { load } from './sbfmt.js';
 import { ball, boneShapes, vector } from './viewer_draw.js';
+import { listenForFiles } from './viewer_files.js';
 import { Hands, MOVES } from './viewer_hands.js';
 
 const element = (id) => document.getElementById(id);
@@ -11,6 +12,9 @@ const FRAME = 1 / 60;
 /** Physics may take so much of a frame, in ms or as a share of the frame before; what time it then has not covered is let go: slow motion. */
 const PHYSICS_MS = 10, PHYSICS_SHARE = 0.35, LONGEST_FRAME = 0.25;
 const TURNS = { ArrowLeft: [-0.06, 0], ArrowRight: [0.06, 0], ArrowUp: [0, 0.05], ArrowDown: [0, -0.05] };
+
+/** Plus without Shift is = on many keyboards. */
+const ZOOMS = ['+', '=', '-'];
 
 class Viewer extends Hands {
   constructor(sbfmt, bytes, canvas) {
@@ -22,6 +26,13 @@ class Viewer extends Hands {
   restart(...how) {
     super.restart(...how);
     this.offerInside();
+  }
+
+  put(asset) {
+    super.put(asset);
+    this.offer('level', asset.levels || 1, 'finest', this.rungs.map(({ kind }) => [RUNG_NAMES[kind], kind]));
+    this.offer('renderLevel', asset.renderLevels, 'full');
+    element('knock').disabled = !this.mass;
   }
 
   // ---- Time ----
@@ -161,6 +172,7 @@ class Viewer extends Hands {
       canvas.focus();
       canvas.setPointerCapture(event.pointerId);
       fingers.set(event.pointerId, [event.clientX, event.clientY]);
+      if (fingers.size > 1) this.release();
       if (fingers.size === 1 && event.button === 0 && this.grab(event.clientX, event.clientY)) canvas.classList.add('holds');
     });
     canvas.addEventListener('pointermove', (event) => {
@@ -179,6 +191,8 @@ class Viewer extends Hands {
         this.release();
         canvas.classList.remove('holds');
       });
+    canvas.addEventListener('contextmenu', (event) => event.preventDefault()); // the right button looks around
+    canvas.addEventListener('webglcontextlost', () => tellTrouble('The graphics card was taken away from the page: load it again.'));
     canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
       this.zoom(Math.exp(event.deltaY * 0.001));
@@ -193,9 +207,7 @@ class Viewer extends Hands {
     for (const [id, act] of Object.entries({ throw: () => this.throwBall(), knock: () => this.character.fall(), restart: () => this.restart(),
       pause: () => this.pause() })) element(id).addEventListener('click', act);
     for (const button of document.querySelectorAll('#pad button')) this.listenToPad(button);
-    this.offer('level', this.asset.levels || 1, 'finest', this.rungs.map(({ kind }) => [RUNG_NAMES[kind], kind]));
-    this.offer('renderLevel', this.asset.renderLevels, 'full');
-    element('knock').disabled = !this.mass;
+    listenForFiles(this, element, tellTrouble);
   }
 
   /** A button that walks while it is held, by a finger or by the keyboard. */
@@ -223,7 +235,7 @@ class Viewer extends Hands {
     else if (event.code === 'KeyB' && !event.repeat) this.throwBall();
     else if (event.code === 'KeyR' && !event.repeat) this.restart();
     else if (event.code === 'KeyP' && !event.repeat) this.pause();
-    else if (event.key === '+' || event.key === '-') this.zoom(event.key === '+' ? 0.9 : 1.1);
+    else if (ZOOMS.includes(event.key)) this.zoom(event.key === '-' ? 1.1 : 0.9);
     else if (TURNS[event.code] && event.target === this.canvas) this.orbit(...TURNS[event.code]);
     else return;
     event.preventDefault();
@@ -249,16 +261,23 @@ class Viewer extends Hands {
   }
 }
 
+/** Says what went wrong, until it is put away. */
+function tellTrouble(text) {
+  element('trouble').hidden = !text;
+  element('troubleText').textContent = text;
+}
+
 /** Starts the page; what goes wrong is said in it. */
 export async function view(wasm, bundle) {
+  addEventListener('error', ({ message }) => tellTrouble(message));
+  element('troubleAway').addEventListener('click', () => tellTrouble(''));
   try {
     const viewer = new Viewer(await load(wasm), bundle, element('canvas'));
     viewer.listen();
     globalThis.viewer = viewer;
     requestAnimationFrame((now) => viewer.frame(now));
   } catch (error) {
-    element('trouble').textContent = error.message;
-    element('trouble').hidden = false;
+    tellTrouble(error.message);
     throw error;
   }
 }

@@ -187,6 +187,10 @@ export class Painter {
     return texture;
   }
 
+  freeImage(texture) {
+    this.gl.deleteTexture(texture ?? null);
+  }
+
   /** Buffers for a mesh whose vertices may change each frame. */
   mesh(indices, uvs) {
     const { gl } = this, made = { array: gl.createVertexArray(), buffers: [0, 1].map(() => gl.createBuffer()), count: indices.length };

@@ -3,6 +3,8 @@ import { Stage } from './viewer_stage.js';
 import { vector } from './viewer_draw.js';
 
 const BALLS = 6, GRAVITY = 9.80665;
+/** A pointer that is down has to go so many pixels before it pulls: a second finger may come, to zoom. */
+const SLOP_PX = 4;
 /** What keys ask of it, in shares of its pace. */
 export const MOVES = {
   KeyW: ['forward', 1], KeyS: ['forward', -0.5], KeyA: ['turn', 1], KeyD: ['turn', -1], KeyQ: ['sideways', 0.5], KeyE: ['sideways', -0.5],
@@ -31,21 +33,22 @@ export class Hands extends Stage {
     const way = this.wayThrough(x, y), hit = this.world.ray(this.eye, way, this.camera.distance * 4);
     if (!hit || !hit.character) return false;
     const rigid = hit.rigidBody >= 0 ? hit.rigidBody : this.rigidOf.get(this.asset.softBodies[hit.softBody]?.bone);
-    this.held = { rigid, target: hit.position, depth: vector.dot(vector.subtract(hit.position, this.eye), this.forward) };
+    this.held = { rigid, from: [x, y], target: hit.position, depth: vector.dot(vector.subtract(hit.position, this.eye), this.forward) };
     if (rigid === undefined || !this.mass) { // nothing that could be pulled: a finger presses
       this.held.finger = this.world.collider({ shape: 'sphere', radius: 0.04 * this.size, position: hit.position });
       return true;
     }
-    this.character.fall();
     const state = this.character.rigidState(rigid), center = vector.add(this.character.origin, state.position);
     const back = [-state.rotation[0], -state.rotation[1], -state.rotation[2], state.rotation[3]];
     this.held.local = vector.turn(back, vector.subtract(hit.position, center));
     return true;
   }
   dragTo(x, y) {
-    const way = this.wayThrough(x, y);
-    this.held.target = vector.add(this.eye, vector.scale(way, this.held.depth / vector.dot(way, this.forward)));
-    this.held.target[1] = Math.max(this.held.target[1], this.groundHeight(this.held.target) + 0.02 * this.size);
+    const { held } = this, way = this.wayThrough(x, y);
+    if (!held.pulled && Math.hypot(x - held.from[0], y - held.from[1]) < SLOP_PX) return;
+    held.pulled = true;
+    held.target = vector.add(this.eye, vector.scale(way, held.depth / vector.dot(way, this.forward)));
+    held.target[1] = Math.max(held.target[1], this.groundHeight(held.target) + 0.02 * this.size);
   }
   release() {
     this.held?.finger?.free();
@@ -55,7 +58,7 @@ export class Hands extends Stage {
   /** Draws what is held towards the pointer, strongly enough to lift all of it. */
   pull(seconds) {
     const { held } = this;
-    if (!held) return;
+    if (!held?.pulled) return;
     if (held.finger) return held.finger.move(held.target);
     if (this.character.posture !== 'falling') this.character.fall();
     const state = this.character.rigidState(held.rigid);

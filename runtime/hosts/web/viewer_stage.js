@@ -18,17 +18,49 @@ export class Stage {
   constructor(sbfmt, bytes, canvas) {
     this.sbfmt = sbfmt;
     this.canvas = canvas;
-    this.asset = sbfmt.asset(bytes);
     this.painter = new Painter(canvas);
     this.show = { skin: true, springs: false, lattice: false, bones: false, strain: false };
     this.camera = { yaw: 0.72, pitch: 0.26, distance: 1, focus: [0, 0, 0], halfHeight: 0.3 };
     this.choices = { ground: 'uneven', level: 0, renderLevel: 0, speed: 0.5 };
+    this.put(sbfmt.asset(bytes));
+    this.wearTextures((texture) => bytesIn(`[data-texture="${texture.index}"]`));
+  }
+
+  /** Shows another file; one that it cannot show is thrown out again, and what was shown stays. */
+  open(bytes) {
+    const asset = this.sbfmt.asset(bytes), before = this.asset, { images } = this;
+    this.images = undefined;
+    try {
+      this.put(asset);
+    } catch (error) {
+      this.images = images;
+      this.put(before);
+      asset.free();
+      throw error;
+    }
+    before.free();
+    images?.forEach((image) => this.painter.freeImage(image));
+    this.wearTextures();
+  }
+
+  /** Puts a character on the stage, the one before gone. */
+  put(asset) {
+    this.clear();
+    Object.assign(this, { asset, size: 1 });
+    Object.assign(this.choices, { level: 0, renderLevel: 0 });
     this.rungs = this.rungsBelow();
-    this.size = 1;
     this.restart();
     this.frameCamera();
     this.restart(); // now that the size is known
-    this.wearTextures();
+  }
+
+  /** Frees the world and what is drawn of it. */
+  clear() {
+    this.world?.free();
+    this.model?.free();
+    this.skins?.forEach((one) => this.painter.freeMesh(one.mesh));
+    if (this.groundMesh) this.painter.freeMesh(this.groundMesh);
+    Object.assign(this, { balls: [], skins: [], world: undefined, model: undefined, groundMesh: undefined });
   }
 
   /** What the runtime has that is coarser than the file's levels. */
@@ -46,10 +78,7 @@ export class Stage {
 
   /** Makes world and character anew, at the chosen level on the chosen ground. */
   restart(ground = LANDS[this.choices.ground](this.size), at) {
-    this.world?.free();
-    this.model?.free();
-    this.balls = [];
-    this.skins?.forEach((one) => this.painter.freeMesh(one.mesh));
+    this.clear();
     const { level } = this.choices, ofFile = Number.isInteger(level);
     this.model = this.asset.model(ofFile ? { level } : { ladder: true });
     this.ground = ground;
@@ -57,7 +86,6 @@ export class Stage {
     this.character = this.world.add(this.model, at);
     if (!ofFile) this.character.setRung(this.model.rungs.findIndex(({ kind }) => kind === level));
     this.skins = this.asset.meshes.map((_, i) => this.dress(i));
-    this.groundMesh = undefined;
     this.rigidOf = new Map(this.asset.rigidBodies.map((body) => [body.bone, body.index]));
     this.mass = this.asset.rigidBodies.reduce((sum, body) => sum + this.character.rigidState(body.index).mass, 0);
     this.time = 0;
@@ -79,19 +107,21 @@ export class Stage {
     return { mesh: this.painter.mesh(skin.indices, skin.uvs), parts };
   }
 
-  async wearTextures() {
-    const images = await Promise.all(this.asset.textures.map(async (texture) => {
-      const bytes = texture.bytes.length ? texture.bytes : bytesIn(`[data-texture="${texture.index}"]`);
+  /** `beside`: the bytes of a texture that is not in the file. */
+  async wearTextures(beside = () => []) {
+    const { asset } = this, images = await Promise.all(asset.textures.map(async (texture) => {
+      const bytes = texture.bytes.length ? texture.bytes : beside(texture);
       if (!bytes.length) return undefined;
       try {
-        return this.painter.image(await createImageBitmap(new Blob([bytes], { type: texture.mediaType })));
+        return await createImageBitmap(new Blob([bytes], { type: texture.mediaType }));
       } catch {
         return undefined; // an image that this browser does not read: the plain colour is shown
       }
     }));
-    this.images = images;
+    if (asset !== this.asset) return; // another file was opened meanwhile
+    this.images = images.map((bitmap) => bitmap && this.painter.image(bitmap));
     for (const { parts } of this.skins)
-      for (const part of parts) part.image = images[this.asset.materials[part.material]?.baseColorTexture];
+      for (const part of parts) part.image = this.images[this.asset.materials[part.material]?.baseColorTexture];
   }
 
   /** Stands where all of the character is seen. */

@@ -9,7 +9,7 @@ const ALPHAS = ['opaque', 'mask', 'blend'];
 /** What to do about bytes that are another kind of file: text begins with '<', be it an .sbf or a server's page. */
 function unpacked(failure, bytes) {
   const [first] = new Uint8Array(bytes.buffer, bytes.byteOffset, Math.min(bytes.byteLength, 1));
-  const cure = first === 0x3c ? 'it begins as XML or a page of a server does; an .sbf is packed by `sbfmt pack IN.sbf -o OUT.sbfz`' :
+  const cure = first === 0x3c ? 'it begins as XML does, or a server\'s page; `sbfmt pack` makes one of an .sbf' :
     '`sbfmt convert` makes one of a mesh and its rig';
   return new SbfmtError(`${failure.message}: ${cure}`, failure.code, failure.path);
 }
