@@ -22,10 +22,11 @@ typedef struct sbri_host_body {
   double pushing[3], turning[3];
 } sbri_host_body;
 
-/* Of a soft body; those beyond them are taken for something that nothing moves. */
+/* Of a body; those beyond them are taken for something that nothing moves. */
 enum { SBRI_GUESTS = SBRI_TOUCHING };
 
-/* As a soft body sees it through a tick (contact/guest.h), in the character's own lengths and times. */
+/* As a body that touches it sees it through a tick (collide/guest.h), in the character's own lengths and
+ * times. */
 typedef struct sbri_guest {
   uint32_t leader;                     /* number of the collider with the mass */
   sbf_vec3 centre;                     /* of its mass, at the tick's beginning */

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "collide/ground.h"
+#include "collide/guest.h"
 #include "contact/carried.h"
-#include "contact/guest.h"
 #include "contact/self_touch.h"
 #include "contact/shape_touch.h"
 

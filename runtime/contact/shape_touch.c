@@ -1,8 +1,8 @@
 #include "contact/shape_touch.h"
 
 #include "collide/colliders.h"
+#include "collide/guest.h"
 #include "contact/carried.h"
-#include "contact/guest.h"
 #include "model/reach.h"
 
 typedef struct meeting {
@@ -57,7 +57,9 @@ static void add_sample(const meeting *m, const sbri_sample *s) {
       .friction_share = friction > 0 ? sbri_friction_with(m->frame.collider, friction) / friction : 1,
       .restitution = sbri_restitution_with(m->frame.collider, m->body->restitution),
       .collider = m->number};
-  made->guest = sbri_guest_of(m->tables->guests, t, &m->frame, m->number, m->tables->touched);
+  sbri_guest_maker maker = {
+      t->colliders, t->origin, t->scale, t->tick_s, m->tables->touched->now, m->tables->touched->count};
+  made->guest = sbri_guest_of(m->tables->guests, &maker, &m->frame, m->number);
   if (made->guest) made->arm = sbri_sub(place, m->tables->guests->at[made->guest - 1].centre);
 }
 

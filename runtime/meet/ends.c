@@ -21,6 +21,9 @@ void sbri_meet_movers_list(const sbri_meetings *all, sbri_meet_group *group) {
     m->first_mover = group->mover_count;
     for (uint32_t b = 0; b < m->character->model->rigid.body_count; b++)
       movers[group->mover_count++] = (sbri_meet_mover){.member = i, .body = b};
+    m->first_guest = group->mover_count;
+    for (uint32_t k = 1; k <= sbri_meet_guests_of(m); k++)
+      movers[group->mover_count++] = (sbri_meet_mover){.member = i, .guest = k};
   }
 }
 
@@ -63,11 +66,51 @@ static void read_mover(const sbri_meet_member *m, sbri_meet_mover *to) {
   to->given = to->moment = sbri_vec3(0, 0, 0);
 }
 
+static sbri_guest *guest_of(const sbri_meet_member *m, const sbri_meet_mover *mover) {
+  return &m->parts.work.guests[mover->guest - 1].is;
+}
+
+/* A body of the host goes a way by each change of its velocity that is longer the later in the tick that is
+ * (collide/guest.h). */
+static float lever_of(const sbri_meet_group *group, const sbri_meet_member *m, const sbri_guest *g) {
+  return 1 + g->elapsed_s / (group->step_s * m->character->time_scale);
+}
+
+static void read_guest(const sbri_meet_group *group, const sbri_meet_member *m, sbri_meet_mover *to) {
+  const sbri_guest *g = guest_of(m, to);
+  static const int places[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  float lever = lever_of(group, m, g), inertia = m->mass * m->scale * m->scale;
+  sbf_vec3 at = sbri_add_scaled(g->centre, g->begin_velocity, g->elapsed_s);
+  to->position = sbri_add_scaled(m->offset, at, m->scale);
+  to->fine = to->given = to->moment = sbri_vec3(0, 0, 0);
+  to->velocity = sbri_four_of(sbri_scale(g->begin_velocity, m->speed));
+  to->spin = sbri_four_of(sbri_scale(g->begin_spin, m->speed / m->scale));
+  to->ease = lever * g->most_ease / m->mass;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) to->eases[i][j] = lever * g->turn_ease[places[i][j]] / inertia;
+}
+
+static void write_guest(const sbri_meet_member *m, const sbri_meet_mover *from) {
+  sbri_guest *g = guest_of(m, from);
+  float impulse = 1 / (m->mass * m->speed);
+  g->begin_velocity = sbri_add_scaled(g->begin_velocity, from->given, g->most_ease * impulse);
+  sbf_vec3 turn = sbri_guest_times(g->turn_ease, sbri_scale(from->moment, impulse / m->scale));
+  g->begin_spin = sbri_add(g->begin_spin, turn);
+}
+
+sbf_vec3 sbri_meet_guest_fall(const sbri_meet_group *group, const sbri_meet_member *m, uint32_t guest) {
+  const sbri_guest *g = &m->parts.work.guests[guest - 1].is;
+  return sbri_scale(g->acceleration, lever_of(group, m, g));
+}
+
 void sbri_meet_movers_read(const sbri_meetings *all, const sbri_meet_group *group) {
   for (uint32_t i = 0; i < group->mover_count; i++) {
     sbri_meet_mover *mover = &all->movers[group->first_mover + i];
     const sbri_meet_member *m = &all->members[group->first_member + mover->member];
-    if (gives_way(m, mover->body)) read_mover(m, mover);
+    if (mover->guest)
+      read_guest(group, m, mover);
+    else if (gives_way(m, mover->body))
+      read_mover(m, mover);
   }
 }
 
@@ -75,7 +118,8 @@ void sbri_meet_movers_write(const sbri_meetings *all, const sbri_meet_group *gro
   for (uint32_t i = 0; i < group->mover_count; i++) {
     const sbri_meet_mover *mover = &all->movers[group->first_mover + i];
     const sbri_meet_member *m = &all->members[group->first_member + mover->member];
-    if (!gives_way(m, mover->body)) continue;
+    if (mover->guest) write_guest(m, mover);
+    if (mover->guest || !gives_way(m, mover->body)) continue;
     sbri_rigid_body_state *s = &sbri_rigid_bodies(m->character)[mover->body];
     s->velocity = sbri_add_scaled(s->velocity, mover->given, mover->ease / m->speed);
     s->spin = sbri_add_scaled(s->spin, mover->moment, 1 / (m->mass * m->speed * m->scale));
@@ -134,6 +178,13 @@ static sbf_vec3 begin_end(
   end->count = 0;
   end->speed = 0; /* of nothing, but it is multiplied by */
   if (side->rigid_body == SBRI_MEET_SOFT) return soft_place(m, side, end);
+  if (side->guest) {
+    end->mover = &all->movers[group->first_mover + m->first_guest + side->guest - 1];
+    const sbri_guest *g = guest_of(m, end->mover);
+    sbf_vec3 turned_by = sbri_scale(sbri_cross(g->begin_spin, side->at), g->elapsed_s);
+    end->arm = sbri_scale(sbri_add(side->at, turned_by), m->scale);
+    return sbri_add(end->mover->position, end->arm);
+  }
   if (side->rigid_body == SBRI_MEET_PLANE) {
     end->still = side->goes;
     return sbri_add_scaled(side->at, side->goes, m->reached * m->tick_s / m->character->time_scale);
@@ -206,7 +257,8 @@ void sbri_meet_row_begin(
   row->apart = off;
   row->place = middle;
   row->gap = sbri_dot(n, off) - t->margin;
-  if (!is_new && !has_turned(&row->a) && !has_turned(&row->b)) return;
+  bool is_other = is_new || t->b.guest; /* whose eases grow with the tick */
+  if (!is_other && !has_turned(&row->a) && !has_turned(&row->b)) return;
   row->a.made = row->a.arm, row->b.made = row->b.arm;
   for (int i = 0; i < 6; i++) row->eases[i] = 0;
   add_eases(&row->a, row->eases);

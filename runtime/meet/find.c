@@ -253,20 +253,23 @@ static void add_planes(const sbri_finding *f, uint32_t member) {
   const sbri_rigid_solving *work = &m->parts.work;
   for (uint32_t i = 0; m->parts.steps && i < work->touch_count; i++) {
     const sbri_ground_touch *from = &work->touches[i];
+    bool gives = from->guest && sbri_rigid_guest_gives(&work->guests[from->guest - 1], from->normal);
+    if (gives && from->guest > sbri_meet_guests_of(m)) continue;
     if (f->group->touch_count >= f->group->touch_capacity) return;
     sbri_meet_touch *t = &f->world->meetings->touches[f->group->first_touch + f->group->touch_count++];
     sbf_vec3 on = sbri_scale(from->normal, from->offset);
     *t = (sbri_meet_touch){.a = {.member = member, .rigid_body = (int32_t)from->body, .at = from->at},
         .b = {.member = member,
             .rigid_body = SBRI_MEET_PLANE,
-            .at = sbri_add_scaled(m->offset, on, m->scale),
-            .goes = sbri_scale(from->velocity, m->speed)},
+            .at = gives ? from->guest_arm : sbri_add_scaled(m->offset, on, m->scale),
+            .goes = sbri_scale(from->velocity, m->speed),
+            .guest = gives ? from->guest : 0},
         .names = {sbri_meet_name(&(sbri_meeter){.character = (uint32_t)(m->character - f->world->characters),
                       .number = from->body,
                       .rigid = true}),
             SBRI_MEET_NAME_OF_GROUND - (from->collider + 1)},
         .normal = from->normal,
-        .friction = from->friction};
+        .friction = from->guest && !gives ? 0 : from->friction}; /* it gives way across, in the body's step */
   }
 }
 

@@ -60,10 +60,14 @@ typedef struct sbri_meet_member {
   float held_rate;    /* 1/s of its own: what held points go between `begins` and `targets`, times this */
   float last_step_s;  /* of its rigid parts, when the tick began */
   sbri_rigid_parts parts;
-  uint32_t first_mover; /* of the group's: of its first rigid body */
+  uint32_t first_mover; /* of the group's: of its first rigid body, */
+  uint32_t first_guest; /* and of the first of the host's bodies that they push */
 } sbri_meet_member;
 
 /* ---- Touches ---- */
+
+/* A rigid body, and as many of the host's that it pushes. */
+enum { SBRI_MOVERS_OF_BODY = 3 };
 
 enum { SBRI_MEET_SLOTS = 12, SBRI_MEET_SOFT = -1, SBRI_MEET_PLANE = -2 };
 
@@ -74,8 +78,10 @@ typedef struct sbri_meet_side {
   uint32_t island, count;
   uint32_t slots[SBRI_MEET_SLOTS];
   float weights[SBRI_MEET_SLOTS];
-  sbf_vec3 at;   /* in the rigid body's own frame, m; of a plane: a place on it when the tick begins */
-  sbf_vec3 goes; /* m/s of a plane */
+  sbf_vec3 at; /* in the rigid body's own frame, m; of a plane: a place on it when the tick begins, or, if it
+                  gives way, from the guest's centre of mass */
+  sbf_vec3 goes;  /* m/s of a plane */
+  uint32_t guest; /* of a plane that gives way, from 1 on: number of the rigid parts' guest; 0: it does not */
 } sbri_meet_side;
 
 typedef struct sbri_meet_touch {
@@ -127,15 +133,15 @@ typedef struct sbri_meet_contact {
   float impulse, speed; /* N s of all, and the fastest in m/s, in this tick */
 } sbri_meet_contact;
 
-/* A rigid body that gives way, as pushes see it in a step. */
+/* A rigid body that gives way, or one of the host, as pushes see it in a step. */
 typedef struct sbri_meet_mover {
-  uint32_t member, body;
-  sbf_vec3 position, fine;  /* and what that has beyond its rounded numbers */
-  float turn[3][3];         /* its own axes to the world's */
-  sbri_four velocity, spin; /* m/s, rad/s */
-  float ease;               /* 1/kg */
-  float eases[3][3];        /* 1/(kg m^2), about the world's axes */
-  sbf_vec3 given, moment;   /* N s and N m s: the pushes so far */
+  uint32_t member, body, guest; /* as a side has it, or 0: it is a body of the character's own */
+  sbf_vec3 position, fine;      /* and what that has beyond its rounded numbers */
+  float turn[3][3];             /* its own axes to the world's */
+  sbri_four velocity, spin;     /* m/s, rad/s */
+  float ease;                   /* 1/kg */
+  float eases[3][3];            /* 1/(kg m^2), about the world's axes */
+  sbf_vec3 given, moment;       /* N s and N m s: the pushes so far */
 } sbri_meet_mover;
 
 /* A side as pushes see it in a step: a mover, or points and what nothing pushes. */
@@ -217,7 +223,7 @@ typedef struct sbri_meetings {
   uint32_t found_capacity;
   sbri_meet_contact *contacts, *next_contacts; /* (touch_capacity) by names; output, not state */
   uint32_t contact_count;
-  sbri_meet_mover *movers; /* (meeter_capacity) group after group */
+  sbri_meet_mover *movers; /* (meeter_capacity x SBRI_MOVERS_OF_BODY) group after group */
   uint32_t touch_capacity, character_capacity;
 } sbri_meetings;
 
@@ -297,6 +303,10 @@ static inline uint64_t sbri_meet_name(const sbri_meeter *is) {
 }
 /* Those of the host's shapes come before it. */
 #define SBRI_MEET_NAME_OF_GROUND UINT64_MAX
+/* The number of that shape; UINT32_MAX: the ground. */
+static inline uint32_t sbri_meet_collider_of(uint64_t name) {
+  return (uint32_t)(SBRI_MEET_NAME_OF_GROUND - name) - 1;
+}
 
 /* What is remembered of the two, in that order, one after the other; NULL: no more. */
 const sbri_meet_memory *sbri_meet_first_memory(const sbri_meetings *all, const uint64_t names[2]);
@@ -312,10 +322,19 @@ void sbri_meet_memory_restore(sbr_world *world, const unsigned char *from);
 
 /* ---- meet/ends.c ---- */
 
-/* The movers of a group that begins to step, and which each touch has. */
+/* How many of the member's guests are movers. */
+static inline uint32_t sbri_meet_guests_of(const sbri_meet_member *m) {
+  uint32_t most = (SBRI_MOVERS_OF_BODY - 1) * m->character->model->rigid.body_count;
+  if (!m->parts.steps) return 0;
+  return m->parts.work.guest_count < most ? m->parts.work.guest_count : most;
+}
+
+/* The movers of a group that begins to step. */
 void sbri_meet_movers_list(const sbri_meetings *all, sbri_meet_group *group);
 /* Where they are and how they move now. */
 void sbri_meet_movers_read(const sbri_meetings *all, const sbri_meet_group *group);
+/* By what that guest's velocity, as touches see it, will grow a second in the step, beside pushes, m/s^2. */
+sbf_vec3 sbri_meet_guest_fall(const sbri_meet_group *group, const sbri_meet_member *m, uint32_t guest);
 /* Gives the bodies what the movers were given. */
 void sbri_meet_movers_write(const sbri_meetings *all, const sbri_meet_group *group);
 /* The two ends of a touch now, its gap but for the margin, and where the tick is new its eases. */

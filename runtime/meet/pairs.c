@@ -220,7 +220,8 @@ static void make_groups(sbr_world *world) {
     filled += group->member_count;
     group->first_mover = movers;
     for (uint32_t m = 0; m < group->member_count; m++)
-      movers += all->members[group->first_member + m].character->model->rigid.body_count;
+      movers +=
+          SBRI_MOVERS_OF_BODY * all->members[group->first_member + m].character->model->rigid.body_count;
     all->group_count++;
   }
   for (uint32_t i = 0; i < world->character_capacity; i++)

@@ -45,6 +45,7 @@ static sbf_vec3 fall_of(const sbr_world *world, const sbri_meet_group *group, co
     const sbri_meet_end *end) {
   const sbri_meet_member *m = &world->meetings->members[group->first_member + side->member];
   const sbr_model *model = m->character->model;
+  if (side->guest) return sbri_meet_guest_fall(group, m, side->guest);
   sbf_vec3 weight = world->has_gravity ? world->gravity : model->asset->environment.gravity;
   float share = end->mover ? model->rigid.bodies[side->rigid_body].source->gravity_scale : 0;
   for (uint32_t k = 0; k < end->count; k++) share += end->weights[k];
@@ -108,6 +109,17 @@ static void begin(const sbr_world *world, const sbri_meet_group *group, sbri_mee
   r->gain = t->gain, r->rub = t->rub;
 }
 
+/* To the body's touches, of which it is one: the ground and the host's shapes hear of it from there. */
+static void tell_plane(const sbri_meetings *all, const sbri_meet_group *group, const sbri_meet_row *r) {
+  const sbri_meet_touch *t = r->touch;
+  const sbri_meet_member *m = &all->members[group->first_member + t->a.member];
+  sbf_vec3 place = sbri_scale(sbri_sub(r->place, m->offset), 1 / m->scale);
+  sbf_vec3 push = sbri_scale(sbri_add_scaled(r->rub, r->normal, r->gain), 1 / (m->mass * m->speed));
+  sbri_touching_one *one = sbri_touching_add(&sbri_rigid_touching(m->character)[t->a.rigid_body],
+      sbri_meet_collider_of(t->names[1]), place, r->normal, sbri_dot(push, r->normal));
+  if (one) sbri_touching_push(one, place, push);
+}
+
 static void end(const sbri_meet_row *r) {
   sbri_meet_touch *t = r->touch;
   float most = SLIDES_SHARE * t->friction * r->gain;
@@ -137,7 +149,10 @@ void sbri_meet_push(const sbr_world *world, const sbri_meet_group *group, bool f
     if (rows[i].touch->pushed)
       sbri_meet_give(&rows[i], sbri_add_scaled(rows[i].rub, rows[i].normal, rows[i].gain));
   sbri_meet_settle(rows, count);
-  for (uint32_t i = 0; i < count; i++) end(&rows[i]);
+  for (uint32_t i = 0; i < count; i++) {
+    end(&rows[i]);
+    if (is_plane(rows[i].touch) && rows[i].gain > 0) tell_plane(all, group, &rows[i]);
+  }
   sbri_meet_movers_write(all, group);
 }
 

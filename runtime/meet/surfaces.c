@@ -158,7 +158,7 @@ static void free_meeters(sbr_world *world) {
   size_t capacity = all->meeter_capacity;
   sbfi_free(&world->allocator, all->meeters, capacity * sizeof *all->meeters);
   sbfi_free(&world->allocator, all->boxes, capacity * sizeof *all->boxes);
-  sbfi_free(&world->allocator, all->movers, capacity * sizeof *all->movers);
+  sbfi_free(&world->allocator, all->movers, SBRI_MOVERS_OF_BODY * capacity * sizeof *all->movers);
   sbfi_free(&world->allocator, all->tree.items, capacity * sizeof *all->tree.items);
   sbfi_free(&world->allocator, all->tree.nodes,
       sbri_bounds_tree_nodes(all->meeter_capacity) * sizeof *all->tree.nodes);
@@ -180,7 +180,7 @@ bool sbri_meetings_reserve(sbr_world *world, const sbr_model *model) {
   all->meeter_capacity = needed;
   all->meeters = sbfi_allocate(&world->allocator, needed * sizeof *all->meeters);
   all->boxes = sbfi_allocate(&world->allocator, needed * sizeof *all->boxes);
-  all->movers = sbfi_allocate(&world->allocator, needed * sizeof *all->movers);
+  all->movers = sbfi_allocate(&world->allocator, SBRI_MOVERS_OF_BODY * (size_t)needed * sizeof *all->movers);
   all->tree.items = sbfi_allocate(&world->allocator, needed * sizeof *all->tree.items);
   all->tree.nodes =
       sbfi_allocate(&world->allocator, sbri_bounds_tree_nodes(needed) * sizeof *all->tree.nodes);

@@ -41,7 +41,7 @@ typedef struct sbri_touch {
         body, against the points whose weights are below 0 */
   bool edges;        /* of itself: the first two points against the last two */
   bool alone;        /* the sample is one free point that no other touch moves */
-  uint8_t guest;     /* from 1 on: which of the body's guests it pushes (contact/guest.h); 0: none */
+  uint8_t guest;     /* from 1 on: which of the body's guests it pushes (collide/guest.h); 0: none */
   /* Of solvers/touches.c, from substep to substep: */
   float gap, wanted; /* m and m/s, at the beginning of one */
   float gain;        /* m/s that the push gives the sample along the normal */
@@ -93,7 +93,7 @@ typedef struct sbri_island_tick {
   const float *planes;                             /* (free_count x 4) of the ground */
   const uint8_t *near_ground;                      /* (free_count / 8) */
   sbri_touch *touches;                             /* of the character; see sbri_body.first_touch */
-  struct sbri_guests *guests;                      /* (bodies of the model) contact/guest.h; NULL: none */
+  struct sbri_guests *guests;                      /* (bodies of the model) collide/guest.h; NULL: none */
   const uint32_t *touch_counts;                    /* (bodies of the model) NULL: none */
   float *rests, *strengths; /* (links x 8) m, and 1 or 0 where torn; NULL: no spring yields or tears */
   float *rotations;         /* (region_block_count x 4 x 8) of the regions: in of the last substep, out */

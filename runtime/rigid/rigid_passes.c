@@ -12,7 +12,7 @@
 
 enum { MOST_PASSES = 40, MOST_BOUNDS = 3 };
 
-static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+void sbri_rigid_factor(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     sbri_node *node = &work->system.nodes[i];
     float mass = node->swell * t->model->bodies[node->body].mass;
@@ -25,8 +25,10 @@ static void begin_pass(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
       for (int j = 0; j <= k; j++) node->d[k][j] += node->burden[k][j];
     memcpy(node->b, node->push, sizeof node->b);
   }
+  sbri_rigid_guests_clear(work);
   sbri_ground_touches_add(work);
-  for (uint32_t e = 0; e < work->system.edge_count; e++) sbri_joint_rows_aim(&work->system.edges[e]);
+  sbri_rigid_guests_factor(work);
+  sbri_system_factor(&work->system);
 }
 
 /* Back by that share of the way from the pass before. */
@@ -39,6 +41,7 @@ static void hold_back(sbri_rigid_solving *work, float share) {
     sbri_ground_touch *touch = &work->touches[i];
     touch->moved = sbri_lerp(touch->was, touch->moved, share);
   }
+  sbri_rigid_guests_hold_back(work, share);
   sbri_joint_rows_hold_back(work, share);
 }
 
@@ -47,9 +50,10 @@ void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
   int bounds = MOST_BOUNDS;
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     for (uint32_t i = 0; i < s->node_count; i++) memcpy(s->nodes[i].was, s->nodes[i].x, sizeof s->nodes[i].x);
-    begin_pass(t, work);
-    sbri_system_factor(s);
-    sbri_system_solve(s);
+    sbri_rigid_guests_note(work);
+    for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_aim(&s->edges[e]);
+    sbri_rigid_factor(t, work);
+    sbri_rigid_solve(work);
     sbri_ground_touches_move(work);
     sbri_joint_rows_move(work, t->model, step_s);
     float share = pass > 0 ? sbri_rigid_search(t, work, step_s) : 1;

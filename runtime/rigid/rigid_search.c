@@ -73,6 +73,7 @@ static void find_slope(
     }
   }
   *slope = a, *rise = q;
+  sbri_rigid_guests_slope(work, slope, rise);
 }
 
 /* What touches and limits would do at that share of the way. */

@@ -51,8 +51,10 @@ typedef struct sbri_ground_touch {
   float offset;      /* of the plane through the ground's place, as normal.x, at the tick's beginning */
   sbf_vec3 velocity; /* m/s, of what the plane stands for */
   float friction, restitution;
-  uint32_t collider; /* number of it, or UINT32_MAX: the ground */
-  uint32_t surface;  /* likewise, but of the ground's steps another each: what it is known again by */
+  uint32_t collider;  /* number of it, or UINT32_MAX: the ground */
+  uint32_t surface;   /* likewise, but of the ground's steps another each: what it is known again by */
+  uint32_t guest;     /* from 1 on: the copy of the host's body that it pushes (rigid_guests.h); 0: none */
+  sbf_vec3 guest_arm; /* m, from that one's centre of mass */
   /* Of the step before, where it is known: */
   bool known;
   uint32_t idle;   /* ticks for which it has not pressed */

@@ -18,6 +18,8 @@
 enum { MOST_CORRECTIONS = 4, TOUCHING_HALVINGS = 4 };
 /* With shapes, beside its vertices with the ground. */
 enum { TOUCHES_OF_BODY = 24 };
+/* Copies of the host's bodies that have a mass; those beyond them are taken for what nothing moves. */
+enum { GUESTS = 6, GUESTS_OF_BODY = 2 };
 
 /* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again; and of
  * what was foreseen (sbri_rigid_foresees), before it is for the first time. */
@@ -56,6 +58,8 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   work->places = carve(&at, joints + 1, sizeof *work->places);
   work->touch_capacity = sbri_rigid_touch_capacity(m);
   work->touches = carve(&at, work->touch_capacity, sizeof *work->touches);
+  work->guest_capacity = (uint32_t)(GUESTS + GUESTS_OF_BODY * bodies);
+  work->guests = carve(&at, work->guest_capacity, sizeof *work->guests);
   work->order = carve(&at, 2 * joints + 2, sizeof(uint32_t));
   work->roots = carve(&at, bodies + 1, sizeof(uint32_t));
   work->rows = carve(&at, rows, sizeof *work->rows);
@@ -176,6 +180,7 @@ static void begin_step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     node->burden = t->pull.burdens && t->pull.burdens[b].on ? t->pull.burdens[b].mass : NULL;
     memset(node->push, 0, sizeof node->push);
   }
+  sbri_rigid_guests_begin(work, step_s);
   go_all(t, work, step_s);
 }
 
@@ -193,6 +198,7 @@ static void take(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
       spin[k] = (float)(node->inertia[k][0] * x[3] + node->inertia[k][1] * x[4] + node->inertia[k][2] * x[5]);
     s->spin = sbri_add(s->spin, sbri_vec3(spin[0], spin[1], spin[2]));
   }
+  sbri_rigid_guests_take(work);
 }
 
 static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
@@ -203,6 +209,7 @@ static void take_and_go(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
 static void clear_b(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.node_count; i++)
     memset(work->system.nodes[i].b, 0, sizeof work->system.nodes[i].b);
+  for (uint32_t i = 0; i < work->guest_count; i++) memset(work->guests[i].b, 0, sizeof work->guests[i].b);
 }
 
 /* What an edge has done to body b in the step: an impulse, and a moment about the joint's place on b. */
@@ -248,12 +255,16 @@ static void note_forces(const sbri_rigid_tick *t, const sbri_rigid_solving *work
 }
 
 static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  if (work->guest_count) {
+    sbri_rigid_guests_be_seen(work);
+    sbri_rigid_factor(t, work);
+  }
   clear_b(work);
   bool any = sbri_ground_touches_bounce(work);
   for (uint32_t e = 0; e < work->system.edge_count; e++)
     if (sbri_joint_rows_bounce(work, &work->system.edges[e], t->model)) any = true;
   if (!any) return;
-  sbri_system_solve(&work->system);
+  sbri_rigid_solve(work);
   sbri_ground_touches_give(work);
   take(t, work);
 }
@@ -277,7 +288,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
     if (pass == 0) curved = worst;
     if (worst < (pass > 0 ? FINE : foresees ? FINE_AT_ONCE : 0)) break;
     clear_b(work);
-    sbri_system_solve(s);
+    sbri_rigid_solve(work);
     sbri_ground_touches_give(work);
     take_and_go(t, work, step_s);
   }
@@ -306,6 +317,7 @@ static void substep(const sbri_rigid_tick *t, sbri_rigid_solving *work, float fr
   work->last_step_s = t->tick_s * (to - from);
   throw_back(t, work);
   sbri_ground_touches_tell(t, work);
+  sbri_rigid_guests_go_on(work, work->last_step_s);
   note_forces(t, work);
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     uint32_t b = work->system.nodes[i].body;

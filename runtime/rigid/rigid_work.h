@@ -3,6 +3,7 @@
 #define SBRI_RIGID_WORK_H
 
 #include "rigid/joint_place.h"
+#include "rigid/rigid_guests.h"
 #include "rigid/rigid_state.h"
 
 /* A step may be halved so often, less one; and a tick has no more steps, unless the model asks for them. */
@@ -28,6 +29,8 @@ typedef struct sbri_rigid_solving {
   sbri_joint_place *places;    /* (joint_count) of the edges */
   sbri_ground_touch *touches;  /* (touch_count) */
   uint32_t touch_count, touch_capacity;
+  sbri_rigid_guest *guests; /* (guest_count) of the host's bodies that have a mass */
+  uint32_t guest_count, guest_capacity;
   float swings;      /* (rad/s)^2, by what pulled in the tick before: sbri_rigid_swings */
   float last_step_s; /* length of the step before; 0: there is none */
   float kick_s;      /* for how long forces act in the step: from the middle of the one before to its own */
@@ -66,6 +69,8 @@ static inline bool sbri_rigid_foresees(const sbri_rigid_tick *tick, const sbri_r
 
 /* ---- rigid_passes.c: the nodes' x, the rows and touches that act, for a step that has been made. ---- */
 void sbri_rigid_passes(const sbri_rigid_tick *tick, sbri_rigid_solving *work, float step_s);
+/* The system with what acts, factored; its right-hand sides so far are pushes and touches. */
+void sbri_rigid_factor(const sbri_rigid_tick *tick, sbri_rigid_solving *work);
 
 /* ---- rigid_tree.c: the system's graph, of the bodies that give way and the joints that are whole. ---- */
 void sbri_rigid_tree_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work);

@@ -31,17 +31,21 @@ static void add_touch(const meeting *m, sbf_vec3 on_hull, sbf_vec3 on_shape, sbf
   if (m->work->touch_count >= m->work->touch_capacity) return;
   const sbri_collider *c = m->frame.collider;
   sbf_vec3 own = sbri_sub(sbri_out_of_shape(&m->frame, on_hull), m->pose.position);
-  sbf_vec3 n = sbri_rotate(c->turn_from, normal);
+  sbf_vec3 n = sbri_rotate(c->turn_from, normal), place = sbri_out_of_shape(&m->frame, on_shape);
+  uint32_t guest = sbri_rigid_guest_of(m->tick, m->work, m->number, m->node, &m->frame, m->collider);
+  sbf_vec3 centre = guest ? m->work->guests[guest - 1].is.centre : place;
   m->work->touches[m->work->touch_count++] = (sbri_ground_touch){.node = m->node,
       .body = m->number,
       .at = sbri_rotate(sbri_quat_conjugate(m->pose.rotation), own),
       .normal = n,
-      .offset = sbri_dot(n, sbri_out_of_shape(&m->frame, on_shape)),
+      .offset = sbri_dot(n, place),
       .velocity = sbri_scale(sbri_shape_way(&m->frame, on_shape), 1 / m->tick->tick_s),
       .friction = sbri_friction_with(c, m->body->source->friction),
       .restitution = sbri_restitution_with(c, m->body->source->restitution),
       .collider = m->collider,
-      .surface = m->collider};
+      .surface = m->collider,
+      .guest = guest,
+      .guest_arm = sbri_sub(place, centre)};
 }
 
 static void add_pair(const meeting *m, const sbri_hull_pair *pair) {
@@ -243,6 +247,7 @@ static void meet_body(const sbri_rigid_tick *t, sbri_rigid_solving *work, uint32
 }
 
 void sbri_shape_touches_find(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
+  work->guest_count = 0;
   if (!t->colliders || !t->colliders->tree.node_count) return;
   for (uint32_t i = 0; i < work->system.node_count; i++)
     meet_body(t, work, work->system.nodes[i].body, (int32_t)i);

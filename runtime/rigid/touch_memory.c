@@ -47,6 +47,7 @@ static void bear_on(const sbri_rigid_tick *t, sbri_rigid_solving *work, const sb
   sbri_ground_touch *touch = &work->touches[work->touch_count++];
   *touch = *by;
   touch->at = kept->at, touch->normal = kept->normal, touch->offset = kept->offset;
+  if (touch->guest) touch->guest_arm = sbri_sub(x, work->guests[touch->guest - 1].is.centre);
   give_back(kept, touch);
 }
 

@@ -1,7 +1,7 @@
 /* What a tick of an island is put together from: its tables, its points, what it may touch, and what it tells
  * of that. */
+#include "collide/guest.h"
 #include "contact/contact.h"
-#include "contact/guest.h"
 #include "math/vec3.h"
 #include "skin/skin.h"
 #include "soft/soft.h"

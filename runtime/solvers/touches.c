@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "contact/guest.h"
+#include "collide/guest.h"
 #include "contact/self_touch.h"
 #include "math/vec3.h"
 

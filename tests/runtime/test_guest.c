@@ -1,119 +1,16 @@
 /* Bodies of a host that flesh moves within the tick: they come to rest on it, and momentum is kept. */
-#include "contact/guest.h"
+#include "collide/guest.h"
 
 #include <math.h>
 
-#include "collision_scenes.h"
 #include "harness.h"
+#include "host_bodies.h"
 #include "momentum.h"
 
-static const double TICK_S = 1.0 / 60, G = 9.81;
+static const double G = 9.81;
 
 /* Bare points keep their radius from what they touch. */
 static const float KEPT_M = 0.01f;
-
-enum { PARTS = 2 };
-
-/* A body of the host, which moves it as engines do: the new velocity, and then a way by that. */
-typedef struct thrown {
-  sbr_shape *shape;
-  sbr_collider_id ids[PARTS];
-  sbf_vec3 arms[PARTS]; /* of its colliders */
-  uint32_t parts;
-  double mass, inertia[3], at[3], velocity[3], spin[3], weight; /* the last in m/s^2 */
-  sbf_quat turn;
-  bool told;
-} thrown;
-
-static thrown thrown_of(
-    scene *s, sbr_shape_definition form, double mass, const sbf_vec3 *arms, uint32_t parts, sbr_double3 at) {
-  thrown b = {
-      .shape = collision_shape(form), .mass = mass, .weight = G, .turn = {0, 0, 0, 1}, .parts = parts};
-  sbf_vec3 h = form.half_sizes;
-  const double half[3] = {(double)h.x, (double)h.y, (double)h.z};
-  for (int k = 0; k < 3; k++) {
-    double y = half[(k + 1) % 3], z = half[(k + 2) % 3], r = (double)form.radius;
-    b.inertia[k] = form.kind == SBR_SHAPE_SPHERE ? 0.4 * mass * r * r : mass * (y * y + z * z) / 3;
-  }
-  b.at[0] = at.x, b.at[1] = at.y, b.at[2] = at.z;
-  for (uint32_t i = 0; i < parts; i++) {
-    sbr_collider_definition d = sbr_default_collider_definition();
-    b.arms[i] = arms ? arms[i] : (sbf_vec3){0, 0, 0};
-    d.shape = b.shape, d.friction = 0.5f, d.restitution = 0, d.position = at;
-    d.inertia = (sbf_vec3){(float)b.inertia[0], (float)b.inertia[1], (float)b.inertia[2]};
-    d.centre = (sbf_vec3){-b.arms[i].x, -b.arms[i].y, -b.arms[i].z};
-    if (i > 0)
-      d.part_of = b.ids[0];
-    else
-      d.mass = (float)mass;
-    ck_assert(sbr_collider_create(s->world, &d, &b.ids[i], NULL) == SBF_OK);
-  }
-  return b;
-}
-
-static sbf_vec3 single(const double v[3]) {
-  return sbri_vec3((float)v[0], (float)v[1], (float)v[2]);
-}
-
-static void tell(scene *s, thrown *b) {
-  for (uint32_t i = 0; i < b->parts; i++) {
-    sbf_vec3 arm = sbri_rotate(b->turn, b->arms[i]);
-    sbr_collider_motion m = {
-        .position = {b->at[0] + (double)arm.x, b->at[1] + (double)arm.y, b->at[2] + (double)arm.z},
-        .rotation = b->turn,
-        .velocity = sbri_add(single(b->velocity), sbri_cross(single(b->spin), arm)),
-        .spin = single(b->spin),
-        .acceleration = {0, (float)-b->weight, 0},
-        .since_s = b->told ? (float)TICK_S : 0};
-    sbr_collider_set_motion(s->world, b->ids[i], &m);
-  }
-  b->told = true;
-}
-
-/* Its push and its weight, then its way; `floor`: a height that its middle does not go below. */
-static void take(scene *s, thrown *b, double floor) {
-  b->velocity[1] -= b->weight * TICK_S;
-  for (uint32_t i = 0; i < b->parts; i++) {
-    sbr_collider_push push = sbr_collider_take_push(s->world, b->ids[i]);
-    sbf_vec3 turn = sbri_add(push.moment, sbri_cross(sbri_rotate(b->turn, b->arms[i]), push.impulse));
-    /* What turns it is taken along its own axes: balls, and crates that hardly turn. */
-    const float j[3] = {push.impulse.x, push.impulse.y, push.impulse.z}, l[3] = {turn.x, turn.y, turn.z};
-    for (int k = 0; k < 3; k++) {
-      b->velocity[k] += (double)j[k] / b->mass;
-      b->spin[k] += (double)l[k] / b->inertia[k];
-    }
-  }
-  if (b->at[1] + TICK_S * b->velocity[1] < floor) {
-    b->velocity[1] = (floor - b->at[1]) / TICK_S;
-    for (int k = 0; k < 3; k++) b->spin[k] = 0;
-  }
-  for (int k = 0; k < 3; k++) b->at[k] += TICK_S * b->velocity[k];
-  sbf_vec3 half = sbri_scale(single(b->spin), (float)TICK_S / 2);
-  b->turn = sbri_quat_normalize(sbri_quat_multiply((sbf_quat){half.x, half.y, half.z, 1}, b->turn));
-}
-
-static void go(scene *s, thrown *b, uint32_t ticks, double floor) {
-  for (uint32_t i = 0; i < ticks; i++) {
-    tell(s, b);
-    scene_ticks(s, 1);
-    take(s, b, floor);
-  }
-}
-
-static double speed_of(const thrown *b) {
-  const double *v = b->velocity;
-  return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
-/* Its fastest in so many ticks. */
-static double fastest(scene *s, thrown *b, uint32_t ticks) {
-  double most = 0;
-  for (uint32_t i = 0; i < ticks; i++) {
-    go(s, b, 1, -10);
-    most = speed_of(b) > most ? speed_of(b) : most;
-  }
-  return most;
-}
 
 enum flesh { CUBE, MATTRESS }; /* 30 cm and 27 kg; 80 x 20 x 80 cm and 20 kg */
 
@@ -135,7 +32,7 @@ static scene flesh_begin(void) {
   return s;
 }
 
-static void end(scene *s, thrown *b) {
+static void end(scene *s, host_body *b) {
   scene_free(s);
   sbr_shape_destroy(b->shape);
 }
@@ -152,11 +49,11 @@ START_TEST(momentum_is_kept)
   s.character_definition.position.y = 1000; /* above the ground */
   s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
   scene_start(&s);
-  thrown b = thrown_of(
+  host_body b = host_body_make(
       &s, collision_ball(0.1f), mass, NULL, 1, (sbr_double3){0.07, kind == MATTRESS ? 0.33 : 0.43, 0.02});
   b.weight = 0, b.velocity[0] = 0.5, b.velocity[1] = -2;
   for (int i = 0; i < 90; i++) {
-    go(&s, &b, 1, -10);
+    host_body_go(&s, &b, 1, -10);
     scene_momentum m = scene_momentum_of(&s);
     ck_assert_double_eq_tol(m.linear[0] + mass * b.velocity[0], mass * 0.5, 1e-4 * mass * 2);
     ck_assert_double_eq_tol(m.linear[1] + mass * b.velocity[1], mass * -2, 1e-4 * mass * 2);
@@ -164,7 +61,7 @@ START_TEST(momentum_is_kept)
   }
   ck_assert_double_gt(b.velocity[1], mass > 20 ? -1.6 : -0.2); /* it has given it away, and is not shot off */
   ck_assert_double_lt(b.velocity[1], 1);
-  ck_assert_double_lt(speed_of(&b), sqrt(4.25));
+  ck_assert_double_lt(host_body_speed(&b), sqrt(4.25));
   end(&s, &b);
 }
 END_TEST
@@ -182,10 +79,10 @@ START_TEST(what_is_dropped_comes_to_rest)
   scene_ticks(&s, 60);
   double top = kind == MATTRESS ? 0.2 : 0.3;
   bool ball = mass < 2; /* heavy ones roll off */
-  thrown b = thrown_of(&s, ball ? collision_ball(0.15f) : collision_box(0.125f, 0.05f, 0.125f), mass, NULL, 1,
-      (sbr_double3){0.025, top + (ball ? 0.25 : 0.15), 0.025});
-  go(&s, &b, 300, -10);
-  ck_assert_double_lt(fastest(&s, &b, 60), 1e-3);
+  host_body b = host_body_make(&s, ball ? collision_ball(0.15f) : collision_box(0.125f, 0.05f, 0.125f), mass,
+      NULL, 1, (sbr_double3){0.025, top + (ball ? 0.25 : 0.15), 0.025});
+  host_body_go(&s, &b, 300, -10);
+  ck_assert_double_lt(host_body_fastest(&s, &b, 60), 1e-3);
   ck_assert_double_gt(b.at[1], top - 0.08);
   end(&s, &b);
 }
@@ -202,14 +99,14 @@ START_TEST(weight_presses_as_it_should)
   s.character_definition.scale = scale;
   scene_start(&s);
   scene_ticks(&s, 120);
-  thrown b = thrown_of(&s, collision_box(0.5f * scale, 0.05f * scale, 0.5f * scale), mass, NULL, 1,
+  host_body b = host_body_make(&s, collision_box(0.5f * scale, 0.05f * scale, 0.5f * scale), mass, NULL, 1,
       (sbr_double3){0, height + 0.05 * (double)scale, 0});
-  go(&s, &b, 240, -10);
+  host_body_go(&s, &b, 240, -10);
   double own = 0.5 * 160 * G * 0.04 / 50000; /* what it sinks by itself */
   double sinks = height - (b.at[1] - (0.05 + (double)KEPT_M) * (double)scale),
          wanted = (100 * G * 0.2 / (0.64 * 50000) + own) * (double)scale;
   ck_assert_double_eq_tol(sinks, wanted, 0.05 * wanted);
-  ck_assert_double_lt(fastest(&s, &b, 60), 1e-3);
+  ck_assert_double_lt(host_body_fastest(&s, &b, 60), 1e-3);
   end(&s, &b);
 }
 END_TEST
@@ -222,10 +119,10 @@ START_TEST(what_a_floor_holds_bears)
   s.world_definition.ground = sbr_ground_flat(-1000);
   s.character_definition.position.y = 1000.25;
   scene_start(&s);
-  thrown b = thrown_of(&s, collision_box(0.25f, 0.1f, 0.25f), 1, NULL, 1, (sbr_double3){0, 0.1, 0});
+  host_body b = host_body_make(&s, collision_box(0.25f, 0.1f, 0.25f), 1, NULL, 1, (sbr_double3){0, 0.1, 0});
   float lowest = 1;
   for (int i = 0; i < 240; i++) {
-    go(&s, &b, 1, 0.1);
+    host_body_go(&s, &b, 1, 0.1);
     float bottom = scene_point(&s, 0, 150).y;
     lowest = bottom < lowest ? bottom : lowest;
   }
@@ -239,18 +136,19 @@ END_TEST
 /* A plank lies over two cubes, more on one than on the other; as one collider and as two. */
 START_TEST(several_bear_it_together)
 {
-  const sbf_vec3 arms[PARTS] = {{-0.3f, 0, 0}, {0.3f, 0, 0}};
+  const sbf_vec3 arms[HOST_BODY_PARTS] = {{-0.3f, 0, 0}, {0.3f, 0, 0}};
   scene s = flesh_begin();
   scene_bodies(&s, 2);
   add_flesh(&s, 0, CUBE, -0.3f, 20000);
   add_flesh(&s, 1, CUBE, 0.3f, 20000);
   scene_start(&s);
   scene_ticks(&s, 60);
-  thrown b = _i ? thrown_of(&s, collision_box(0.3f, 0.05f, 0.1f), 0.5, arms, 2, (sbr_double3){0.1, 0.36, 0})
-                : thrown_of(&s, collision_box(0.6f, 0.05f, 0.1f), 0.5, NULL, 1, (sbr_double3){0.1, 0.36, 0});
+  host_body b =
+      _i ? host_body_make(&s, collision_box(0.3f, 0.05f, 0.1f), 0.5, arms, 2, (sbr_double3){0.1, 0.36, 0})
+         : host_body_make(&s, collision_box(0.6f, 0.05f, 0.1f), 0.5, NULL, 1, (sbr_double3){0.1, 0.36, 0});
   for (int k = 0; k < 3; k++) b.inertia[k] = k ? 0.06 : 0.002;
-  go(&s, &b, 300, -10);
-  ck_assert_double_lt(fastest(&s, &b, 60), 1e-3);
+  host_body_go(&s, &b, 300, -10);
+  ck_assert_double_lt(host_body_fastest(&s, &b, 60), 1e-3);
   ck_assert_double_eq_tol(b.at[1], 0.34, 0.001); /* 1 cm over them, which it presses in by as much */
   ck_assert_float_lt(fabsf(b.turn.z), 0.02f);
   end(&s, &b);
@@ -263,9 +161,9 @@ START_TEST(untold_it_goes_on)
   scene s = flesh_begin();
   add_flesh(&s, 0, CUBE, 0, 20000);
   scene_start(&s);
-  thrown b = thrown_of(&s, collision_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 5, 0});
+  host_body b = host_body_make(&s, collision_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 5, 0});
   b.velocity[0] = 1;
-  tell(&s, &b);
+  host_body_tell(&s, &b);
   scene_ticks(&s, 60);
   sbr_hit hit;
   ck_assert(sbr_world_ray(s.world, (sbr_double3){59.0 / 60, 4, 0}, (sbf_vec3){0, -1, 0}, 4, 1, &hit));
@@ -296,12 +194,12 @@ START_TEST(bad_ones_are_refused)
     ck_assert(sbr_collider_create(s.world, &d, &id, &error) == SBF_FAILED);
     ck_assert_uint_eq(id.value, 0);
   }
-  thrown b = thrown_of(&s, collision_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 0.4, 0});
+  host_body b = host_body_make(&s, collision_ball(0.1f), 0.5, NULL, 1, (sbr_double3){0, 0.4, 0});
   sbr_collider_motion bad = {.position = {0, 1, 0}, .rotation = {0, 0, 0, 1}, .velocity = {NAN, 0, 0}};
   sbr_collider_set_motion(s.world, b.ids[0], &bad);
   sbr_collider_set_motion(s.world, b.ids[0], NULL);
   sbr_collider_set_motion(s.world, (sbr_collider_id){999}, &bad);
-  go(&s, &b, 60, -10);
+  host_body_go(&s, &b, 60, -10);
   ck_assert_double_gt(b.at[1], 0.3);
   end(&s, &b);
   sbr_shape_destroy(shape);

@@ -116,8 +116,8 @@ typedef struct sbr_collider_motion {
   float since_s;         /* s that the host has moved it for since it was last told; 0: it was put there */
 } sbr_collider_motion;
 /* Of a collider with a mass, before each step: from there it goes by itself, by that velocity, the
- * acceleration and what soft bodies that touch it push it with, so that a light one gives way at once, not a
- * tick later. That motion is the runtime's guess within its ticks: the host moves its body by
+ * acceleration and what soft bodies and hulls that touch it push it with, so that a light one gives way at
+ * once, not a tick later. That motion is the runtime's guess within its ticks: the host moves its body by
  * sbr_collider_take_push, and tells anew. What its velocity shows to have come from elsewhere since it was
  * last told, as from a floor that bears it, holds it along that direction in the next tick, and keeps it from
  * being turned. Of a body of several colliders each is told. Until it is told of again, or moved or placed,
@@ -134,7 +134,7 @@ typedef struct sbr_collider_push {
 } sbr_collider_push;
 /* All since it was last asked, or made. A host whose own body it is gives this to the body, before it moves
  * that: what the two have of momentum is then kept. Without a mass characters meet a collider as something
- * that nothing can move; so do simulated rigid bodies one with a mass. A body that touches more than twelve
+ * that nothing can move. A body that touches more than twelve
  * things at once pushes the first twelve. Output, as events are: snapshots do not hold it. */
 SBF_API sbr_collider_push sbr_collider_take_push(sbr_world *world, sbr_collider_id collider);
 
