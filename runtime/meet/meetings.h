@@ -313,6 +313,8 @@ const sbri_meet_memory *sbri_meet_first_memory(const sbri_meetings *all, const u
 const sbri_meet_memory *sbri_meet_next_memory(const sbri_meetings *all, const sbri_meet_memory *m);
 /* What the group's touches have from the tick before. */
 void sbri_meet_recall(const sbri_meetings *all, const sbri_meet_group *group, float step_s);
+/* The same of what pushed in the step before, for steps of another length. */
+void sbri_meet_go_on(const sbri_meetings *all, sbri_meet_group *group, float step_s);
 /* Keeps what pushes now, when all groups have stepped with steps of that share of the tick. */
 void sbri_meet_remember(sbr_world *world);
 /* Of a snapshot: the memories, as many bytes whatever there is. */

@@ -96,6 +96,15 @@ void sbri_meet_recall(const sbri_meetings *all, const sbri_meet_group *group, fl
 
 /* ---- Remembering ---- */
 
+void sbri_meet_go_on(const sbri_meetings *all, sbri_meet_group *group, float step_s) {
+  float share = step_s / group->step_s;
+  for (uint32_t i = 0; i < group->touch_count; i++) {
+    sbri_meet_touch *t = &all->touches[group->first_touch + i];
+    t->gain *= share, t->pull *= share, t->rub = sbri_scale(t->rub, share);
+  }
+  group->step_s = step_s;
+}
+
 static sbri_meet_memory memory_from(const sbri_meet_touch *t, float step_s) {
   return (sbri_meet_memory){.names = {t->names[0], t->names[1]},
       .feature = t->feature,

@@ -1,7 +1,9 @@
 /* The tick of characters that meet each other: they step along with each other, in one task.
  *
  * All steps are as long for all, as short as the one needs that needs the shortest, and before each the
- * touches between them push (meet/push.c). Within a step everybody does what it does alone. */
+ * touches between them push (meet/push.c). Within a step everybody does what it does alone. What is crushed
+ * stiffens, so after each step all are asked again, and if someone needs shorter ones the rest of the tick is
+ * divided anew. */
 #include <string.h>
 
 #include "detail/rungs.h"
@@ -92,7 +94,8 @@ static uint32_t begin(const sbr_world *world, sbri_meet_member *m) {
 
 /* ---- Steps ---- */
 
-static void advance_island(
+/* Returns how many such steps of a tick it needs by now. */
+static uint32_t advance_island(
     const sbr_world *world, sbri_meet_member *m, uint32_t index, float from, float to) {
   sbri_character *c = m->character;
   sbri_island now = sbri_island_now(c, &c->model->islands[index]);
@@ -112,18 +115,27 @@ static void advance_island(
   sbri_outer_look(&tick);
   bool recovers = now.routed && sbri_island_states(c)[index].recovering > 0;
   (recovers ? &sbri_position_based : now.scheme)->tick(&tick);
+  if (now.scheme->sweeps || now.substeps) return 0;
+  tick.tick_s = m->tick_s, tick.share = 1;
+  return steps_of(&tick);
 }
 
-static void advance(const sbr_world *world, sbri_meet_member *m, float from, float to) {
+/* Likewise. */
+static uint32_t advance(const sbr_world *world, sbri_meet_member *m, float from, float to) {
   sbri_character *c = m->character;
+  uint32_t most = 0;
   if (m->parts.steps) {
     sbri_rigid_advance(&m->parts.tick, &m->parts.work, from, to);
     sbri_deltas_make(c, sbri_pose(c), 1, sbri_deltas(c)); /* which the step had for its own */
+    most = m->parts.coupled.any ? m->parts.coupled.steps : 0;
   }
-  for (uint32_t i = 0; i < c->model->island_count; i++)
-    if (is_own(m, i)) advance_island(world, m, i, from, to);
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    uint32_t steps = is_own(m, i) ? advance_island(world, m, i, from, to) : 0;
+    most = steps > most ? steps : most;
+  }
   m->reached = to;
   m->held_rate = 1 / (m->tick_s * (to - from));
+  return most;
 }
 
 /* ---- After ---- */
@@ -157,6 +169,25 @@ static uint32_t rounded_steps(uint32_t steps) {
   return rounded < MOST_STEPS ? rounded : MOST_STEPS;
 }
 
+static void run_steps(const sbr_world *world, sbri_meet_group *group, uint32_t steps) {
+  sbri_meet_member *members = world->meetings->members + group->first_member;
+  float begin = 0, from = 0; /* of the steps that are as long as each other */
+  for (uint32_t done = 0; done < steps;) {
+    float to = begin + (1 - begin) * ((float)(done + 1) / (float)steps);
+    uint32_t most = 0;
+    sbri_meet_push(world, group, from == 0);
+    for (uint32_t i = 0; i < group->member_count; i++) {
+      uint32_t own = advance(world, &members[i], from, to);
+      most = own > most ? own : most;
+    }
+    done++, from = to;
+    uint32_t left = (uint32_t)ceilf((1 - to) * (float)rounded_steps(most) * 0.9999f);
+    if (done == steps || left <= steps - done) continue;
+    begin = to, steps = left, done = 0;
+    sbri_meet_go_on(world->meetings, group, (float)world->tick_s * (1 - begin) / (float)steps);
+  }
+}
+
 void sbri_group_run(sbr_world *world, sbri_meet_group *group) {
   sbri_meet_member *members = world->meetings->members + group->first_member;
   uint32_t steps = LEAST_STEPS;
@@ -172,11 +203,7 @@ void sbri_group_run(sbr_world *world, sbri_meet_group *group) {
   sbri_meet_touches_find(world, group);
   group->step_s = (float)world->tick_s / (float)steps;
   sbri_meet_recall(world->meetings, group, group->step_s);
-  for (uint32_t k = 0; k < steps; k++) {
-    float from = (float)k / (float)steps, to = (float)(k + 1) / (float)steps;
-    sbri_meet_push(world, group, k == 0);
-    for (uint32_t i = 0; i < group->member_count; i++) advance(world, &members[i], from, to);
-  }
+  run_steps(world, group, steps);
   sbri_meet_look(world->meetings, group);
   for (uint32_t i = 0; i < group->member_count; i++) end(world, &members[i]);
 }

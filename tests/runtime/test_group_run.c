@@ -291,17 +291,20 @@ START_TEST(snapshots_hold_what_touches_push_with)
 }
 END_TEST
 
+/* At 60 m/s they are crushed within a tick, and need shorter steps in that: else they would lose their shape
+ * for good and be put back into it. */
 START_TEST(soft_cubes_of_two_characters_keep_momentum)
 {
+  const float speeds[3] = {2, 40, 60}, thrown = speeds[_i];
   scene s = meeting_begin((sbf_vec3){0, 0, 0});
   scene_bodies(&s, 1);
-  cube(&s, 0, (sbf_vec3){-0.1f, -0.1f, -0.1f}, 0.2f, 1000);
+  cube(&s, 0, (sbf_vec3){-0.1f, -0.1f, -0.1f}, 0.2f, 2000);
   meeting_start(&s);
   sbr_character_id other = meeting_another(&s, (sbr_double3){0.05, s.character_definition.position.y, 0.4});
   sbri_character *c = sbri_character_of(s.world, s.character);
   const sbri_island *island = &c->model->islands[0];
   for (uint32_t slot = 0; slot < island->free_count; slot++)
-    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + 2 * SBRI_BLOCK + slot % SBRI_BLOCK] = 2;
+    sbri_velocities(c)[3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + 2 * SBRI_BLOCK + slot % SBRI_BLOCK] = thrown;
   scene_momentum before = scene_momentum_of(&s);
   scene_ticks(&s, 60);
   scene_momentum after = scene_momentum_of(&s);
@@ -311,7 +314,9 @@ START_TEST(soft_cubes_of_two_characters_keep_momentum)
     speed += (double)scene_slot_velocity(second, island, slot).z / island->free_count;
   for (int k = 0; k < 3; k++)
     ck_assert_double_eq_tol(before.linear[k], after.linear[k], 1e-4 * before.linear[2]);
-  ck_assert_double_ge(speed, 0.9);
+  ck_assert_double_ge(speed, 0.4 * (double)thrown);
+  ck_assert_uint_eq(sbr_character_health(s.world, s.character, 0).recoveries, 0);
+  ck_assert_uint_eq(sbr_character_health(s.world, other, 0).recoveries, 0);
   scene_free(&s);
 }
 END_TEST
@@ -393,7 +398,7 @@ int main(void) {
   tcase_add_test(tests, soft_cubes_stand_on_each_other);
   tcase_add_test(tests, a_soft_cube_lies_still);
   tcase_add_test(tests, snapshots_hold_what_touches_push_with);
-  tcase_add_test(tests, soft_cubes_of_two_characters_keep_momentum);
+  tcase_add_loop_test(tests, soft_cubes_of_two_characters_keep_momentum, 0, 3);
   tcase_add_test(tests, overlap_at_rest_does_not_fight);
   tcase_add_test(tests, filters_let_through);
   tcase_add_test(tests, any_number_of_threads_gives_the_same_bits);
