@@ -251,6 +251,7 @@ static const sbf_code_info table[] = {
   {"IMPORT_GROUND", SBF_CODE_IMPORT_GROUND, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character did not stand on y = 0 and was moved there."},
   {"IMPORT_PIN_UNKNOWN", SBF_CODE_IMPORT_PIN_UNKNOWN, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A pin or an attachment names a group, an object or a bone that the input does not have: see what sbfmt info lists."},
   {"MATERIAL_GUESSED", SBF_CODE_MATERIAL_GUESSED, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "Nobody says what bodies are made of: sections on bones are taken for flesh, and what the usual modulus would not bear is as stiff as it takes to stand."},
+  {"IMPORT_FACING", SBF_CODE_IMPORT_FACING, SBF_SEVERITY_INFO, SBF_BAD_INPUT, "The character did not look along +Z and was turned to."},
   {"IMPORT_TETRAHEDRA_TURNED", SBF_CODE_IMPORT_TETRAHEDRA_TURNED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra were listed the other way round: they have been turned."},
   {"IMPORT_TETRAHEDRA_FLAT", SBF_CODE_IMPORT_TETRAHEDRA_FLAT, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Tetrahedra without volume were left out."},
   {"EXPORT_EMPTY", SBF_CODE_EXPORT_EMPTY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The asset has nothing that the form to be written could hold."},

@@ -84,6 +84,12 @@ static void take_meaning(const char *name, meaning *m) {
       }
 }
 
+int sbfi_name_side(const char *name) {
+  meaning m;
+  take_meaning(name, &m);
+  return m.side == LEFT ? 1 : m.side == RIGHT ? -1 : 0;
+}
+
 /* --- Words that mean different parts in different skeletons ------------------------------------------- */
 
 static bool has_part(const meaning *all, uint32_t count, const char *part, side s) {

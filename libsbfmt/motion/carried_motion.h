@@ -28,6 +28,9 @@ typedef struct sbfi_bone_match {
 int64_t sbfi_match_bones(
     const sbf_asset *from, const sbf_asset *to, sbfi_arena *scratch, sbfi_bone_match *matches);
 
+/* The side that a bone's name says, as thigh.L and RightFoot do: 1 left, -1 right, 0 none. */
+int sbfi_name_side(const char *name);
+
 /* A bone's frame in asset space: a turn (x y z w) and a place. */
 typedef struct sbfi_bone_frame {
   double rotation[4], place[3];

@@ -117,10 +117,12 @@ class Scene(fixtures.SceneTest):
     def test_a_bone_without_a_section(self):
         rig = fixtures.armature("rig", [("hip", None, (0, 0, 0), (0, 0, 1), 0), ("neck", "hip", (0, 0, 1), (0, 0, 2), 0),
                                         ("head", "neck", (0, 0, 2), (0, 0, 3), 0)])
-        fixtures.hang(fixtures.box("belly"), rig, "hip")
+        fixtures.hang(fixtures.box("belly"), rig, "head")
+        self.assertEqual([one for one in findings_of() if "no section" in one.message], [])  # what is above all that moves it
+        fixtures.hang(fixtures.box("seat"), rig, "hip")
         found = [one for one in findings_of() if "no section" in one.message]
         self.assertEqual([(one.object_name, one.bone_name) for one in found], [("rig", "neck")])
-        rig.data.bones["neck"].use_deform = False
+        rig.data.bones["hip"].use_deform = rig.data.bones["neck"].use_deform = False
         self.assertEqual([one for one in findings_of() if "no section" in one.message], [])
 
     def test_a_missing_image(self):

@@ -71,7 +71,7 @@ class Characters(fixtures.RoundTripTest):
         gait = asset.gaits[0]
         self.assertEqual([(leg.name, leg.group) for leg in gait.legs], [("foot.L", 0), ("foot.R", 1)])
         self.assert_near(gait.legs[0].home, asset_space((0.12, 0.02, 0.12)))
-        self.assertAlmostEqual(gait.legs[0].sole, 0.1, places=5)
+        self.assertAlmostEqual(gait.legs[0].sole, 0.12 - min(skin.mesh.positions[1::3]), places=5)
         self.assertEqual((names[gait.body], names[gait.chest], names[gait.head.bone]), ("hips", "chest", "head"))
         self.assertEqual((gait.step_height, gait.step_duration, gait.walk_speed), (0.0625, 0.375, 0.75))
         follower = asset.followers[0]

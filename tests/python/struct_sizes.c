@@ -19,6 +19,7 @@ int main(void) {
   SIZE(sbf_save_options);
   SIZE(sbf_build_options);
   SIZE(sbf_convert_options);
+  SIZE(sbf_convert_stance);
   SIZE(sbf_validate_options);
   SIZE(sbf_export_options);
   SIZE(sbf_diagnostic);

@@ -99,7 +99,21 @@ def without_library(document, path, findings):
     return True
 
 
+# What the library says for whoever types commands, in words of Blender.
+IN_BLENDER = ((", as by --material flesh", ", in Scene > Soft body format > What a build makes"),
+              ("(--cell, --elements)", "(Scene > Soft body format > What a build makes)"),
+              ("(--elements, --cell)", "(Scene > Soft body format > What a build makes)"),
+              ("convert the source with --unit", "scale all of it and apply the scale, or set the scene's Unit Scale"),
+              (", as --fix does", ", as Check's button does"), (", or by --fix", ", or by Check's button"))
+
+
+def in_blender(message):
+    for typed, shown in IN_BLENDER:
+        message = message.replace(typed, shown)
+    return message
+
+
 def add(found, findings, locator=None):
     """A diagnostic of the library as a finding, with what it is about."""
     tell = {"error": findings.error, "warning": findings.warning}.get(found.severity, findings.info)
-    tell(found.message, code=found.code, **(locator.locate(found) if locator else {}))
+    tell(in_blender(found.message), code=found.code, **(locator.locate(found) if locator else {}))

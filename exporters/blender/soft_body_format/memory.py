@@ -13,21 +13,27 @@ TOGETHER = {"render_mesh": ("normals", "normal_corners"), "uv_set": ("coordinate
             "shape_key": ("points", "offsets"), "pin_set": ("points", "offsets", "weights"),
             "spring_set": ("ends", "rest_lengths", "stiffness", "damping", "compression_ratio")}
 
-READ, UNTOUCHED = "soft_body_format_read", "soft_body_format_untouched"
+READ, UNTOUCHED, PLACEMENT = "soft_body_format_read", "soft_body_format_untouched", "soft_body_format_placement"
 
 
-def keep(collection, read, untouched):
-    """In the collection that the import made."""
+def keep(collection, read, untouched, space):
+    """In the collection that the import made, with where ahead and the ground were then."""
+    collection[PLACEMENT] = [float(one) for one in space.placement]
     for name, document in ((READ, read), (UNTOUCHED, untouched)):
         collection[name] = zlib.compress(to_xml(document, canonical=False), 1)
 
 
-def recall(objects):
-    """(file as read, untouched export) of the one import that objects come from; None where they come from none, or several."""
+def recall(objects, space, findings):
+    """(file as read, untouched export) of the one import that objects come from; None where they come from none, or several, or
+    where ahead or the ground are elsewhere since."""
     found = {collection for one in objects for collection in one.users_collection if READ in collection}
     if len(found) != 1:
         return None
     collection = found.pop()
+    if any(abs(one - then) > 1e-6 for one, then in zip(space.placement, collection.get(PLACEMENT, (0, 0)))):
+        findings.warning(f"{collection.name} was imported with another Looks along or Stands at: what Blender has no place for, as clips "
+                         "and levels of a build, is left out; set them back to keep it, in Scene > Soft body format")
+        return None
     return tuple(from_xml(zlib.decompress(collection[name])) for name in (READ, UNTOUCHED))
 
 

@@ -69,12 +69,24 @@ def exchange_limits(source, bone_name):
             setattr(owner, high, most)
 
 
+def stand_on_ground(source, _bone_name):
+    """The feet of its gait, as an export finds them."""
+    from .findings import Findings
+    from .to_document import Options
+    from .whole import write_whole
+    settings = bpy.context.scene.soft_body_format
+    whole = write_whole(bpy.context, Options(textures="EMBED"), Findings())
+    for gait in whole.document.gaits:
+        settings.ground += min(leg.home[1] - leg.sole for leg in gait.legs) / whole.writer.space.unit_m
+
+
 IN_SCENE = {
     "SURFACE_WINDING": Mend("Turn faces outwards", face_outwards),
     "SURFACE_INSIDE_OUT": Mend("Turn faces outwards", face_outwards),
     "POINT_UNUSED": Mend("Delete loose vertices", remove_loose),
     "MESH_POINT_UNUSED": Mend("Delete loose vertices", remove_loose),
     "LIMIT_ORDER": Mend("Exchange the limits", exchange_limits),
+    "GAIT_GROUND": Mend("Stand on the ground", stand_on_ground),
     "MESH_MIRRORED": Mend("Apply the scale", apply_scale),
 }
 # What `sbfmt validate --fix` mends and no click in the scene does: it came with an imported file, or lies in how panels are combined.

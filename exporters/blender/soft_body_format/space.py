@@ -1,11 +1,14 @@
-"""Blender's space and the format's: Z-up in scene units here, metres and Y-up there. A character that faces -Y faces +Z."""
+"""Blender's space and the format's: Z-up in scene units here, metres and Y-up there. Ahead is +Z there; here the scene says what is
+(-Y, as seen in front view, where it says nothing), and how high the ground is."""
 
 import numpy
 from mathutils import Matrix, Quaternion, Vector
 
-# Asset from Blender: (x, y, z) becomes (x, z, -y).
-ASSET_FROM_BLENDER = Matrix(((1, 0, 0), (0, 0, 1), (0, -1, 0)))
-TURN = ASSET_FROM_BLENDER.to_quaternion()
+WAYS = ("-Y", "X", "Y", "-X")  # ahead, by quarter turns about the vertical
+# Asset from Blender, of what looks along -Y: (x, y, z) becomes (x, z, -y).
+UPRIGHT = Matrix(((1, 0, 0), (0, 0, 1), (0, -1, 0)))
+BACK = tuple(Matrix(rows) for rows in (((1, 0, 0), (0, 1, 0), (0, 0, 1)), ((0, 0, -1), (0, 1, 0), (1, 0, 0)),
+                                       ((-1, 0, 0), (0, 1, 0), (0, 0, -1)), ((0, 0, 1), (0, 1, 0), (-1, 0, 0))))
 
 
 def frame_rate(scene):
@@ -14,19 +17,32 @@ def frame_rate(scene):
 
 
 class Space:
-    """Maps a scene's world to asset space, and back. `unit_m` is the length of a scene unit in metres."""
+    """Maps a scene's world to asset space, and back. `unit_m` is the length of a scene unit in metres, `way` where ahead is, `ground`
+    how high the ground is, in scene units."""
 
-    def __init__(self, unit_m=1.0):
-        self.unit_m = unit_m
+    def __init__(self, unit_m=1.0, way="-Y", ground=0.0):
+        self.unit_m, self.way, self.ground = unit_m, way, ground
+        self.turn = BACK[WAYS.index(way)] @ UPRIGHT
+        self.quaternion = self.turn.to_quaternion()
+        self.lift = Vector((0, 0, -ground))
 
     @classmethod
     def of_scene(cls, scene):
-        return cls(scene.unit_settings.scale_length if scene.unit_settings.system != "NONE" else 1.0)
+        settings = scene.soft_body_format
+        return cls(scene.unit_settings.scale_length if scene.unit_settings.system != "NONE" else 1.0, settings.ahead, settings.ground)
+
+    @property
+    def placement(self):
+        """What an artist says of it."""
+        return [WAYS.index(self.way), self.ground]
+
+    def height(self, height):
+        """Of a height in the scene, above the ground, in metres."""
+        return (height - self.ground) * self.unit_m
 
     def matrix(self, world):
         """From an object's own space to asset space: 4x4, lengths in metres."""
-        turn = ASSET_FROM_BLENDER.to_4x4()
-        return Matrix.Scale(self.unit_m, 4) @ turn @ world
+        return Matrix.Scale(self.unit_m, 4) @ self.turn.to_4x4() @ Matrix.Translation(self.lift) @ world
 
     def points(self, points, world):
         """An (n, 3) array of an object's points in asset space, as binary32."""
@@ -48,32 +64,33 @@ class Space:
 
     def point(self, point):
         """One point of the world."""
-        return tuple(ASSET_FROM_BLENDER @ point * self.unit_m)
+        return tuple(self.turn @ (point + self.lift) * self.unit_m)
 
     def direction(self, vector):
         """One direction of the world."""
-        return tuple(ASSET_FROM_BLENDER @ vector)
+        return tuple(self.turn @ vector)
 
-    @staticmethod
-    def rotation(rotation):
+    def rotation(self, rotation):
         """A rotation from some frame to the world, as x, y, z, w from that frame to asset space."""
-        turned = (TURN @ rotation).normalized()
+        turned = (self.quaternion @ rotation).normalized()
         return (turned.x, turned.y, turned.z, turned.w)
 
     # ---- Back ----
 
     def point_back(self, point):
-        return ASSET_FROM_BLENDER.transposed() @ Vector(point) / self.unit_m
+        return self.turn.transposed() @ Vector(point) / self.unit_m - self.lift
 
-    @staticmethod
-    def direction_back(vector):
-        return ASSET_FROM_BLENDER.transposed() @ Vector(vector)
+    def direction_back(self, vector):
+        return self.turn.transposed() @ Vector(vector)
+
+    def offsets_back(self, offsets):
+        """An (n, 3) array of differences of points in the world."""
+        back = numpy.array(self.turn, dtype=numpy.float64)
+        return (numpy.asarray(offsets, dtype=numpy.float64).reshape(-1, 3) @ back / self.unit_m).astype(numpy.float32)
 
     def points_back(self, points):
-        back = numpy.array(ASSET_FROM_BLENDER, dtype=numpy.float64)
-        return (numpy.asarray(points, dtype=numpy.float64).reshape(-1, 3) @ back / self.unit_m).astype(numpy.float32)
+        return self.offsets_back(points) - numpy.array(self.lift, dtype=numpy.float32)
 
-    @staticmethod
-    def rotation_back(xyzw):
+    def rotation_back(self, xyzw):
         x, y, z, w = xyzw
-        return TURN.inverted() @ Quaternion((w, x, y, z))
+        return self.quaternion.inverted() @ Quaternion((w, x, y, z))

@@ -21,6 +21,6 @@ class Whole:
 def write_whole(context, options, findings):
     """What is wrong with the scene joins the findings."""
     writer = SceneWriter(context, options, findings)
-    now, known = writer.write(), memory.recall(writer.objects)
+    now, known = writer.write(), memory.recall(writer.objects, writer.space, findings)
     document = memory.merge_documents(*known, now) if known else now
     return Whole(document, writer, not known or document != known[0])

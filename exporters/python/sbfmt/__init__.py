@@ -13,9 +13,9 @@ Functions raise `Error`, which has `code`, `path`, `file` and `line`. Assets are
 Different threads may use different assets, and read one asset together.
 """
 
-from .asset import Asset, Validation, convert, load, load_document, propose_gait
+from .asset import Asset, Validation, convert, load, load_document, propose_gait, stand
 from .library import library_path, library_version
 from .messages import Cancelled, Diagnostic, Error
 
 __all__ = ["Asset", "Cancelled", "Diagnostic", "Error", "Validation", "convert", "library_path", "library_version", "load",
-           "load_document", "propose_gait"]
+           "load_document", "propose_gait", "stand"]

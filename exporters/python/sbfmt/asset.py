@@ -9,7 +9,7 @@ from .description import describe
 from .document.reading import from_xml
 from .document.writing import to_parts
 from .library import AssetMeasures, Buffer, BuildOptions, Callbacks, ConvertAttachment, ConvertOptions, ConvertPin, \
-    DiagnosticStruct, ExportOptions, FixOptions, FixResult, GivenList, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, \
+    ConvertStance, DiagnosticStruct, ExportOptions, FixOptions, FixResult, GivenList, LoadOptions, OK, SaveOptions, ValidateOptions, ValidateResult, \
     check, library
 
 INTERIORS = ("automatic", "centroid", "none", "lattice", "brute", "tetrahedra", "shape_matching")
@@ -165,6 +165,25 @@ def load_document(record, mendable=False):
     loaded, error = ctypes.c_void_p(), DiagnosticStruct()
     check(library().sbf_xml_load_memory(text, len(text), ctypes.byref(options), ctypes.byref(loaded), ctypes.byref(error)), error)
     return Asset(loaded.value)
+
+
+class Stance:
+    """How a character stands: `quarter_turns` about +Y away from looking along +Z (1: along +X), `ground` its lowest foot's y and
+    `height` what its bones hold reaches above its lowest point, both in metres; `hangs_on`, {bone id: bone id}, of bones that ought
+    to hang on another."""
+
+    def __init__(self, found, hangs_on):
+        self.quarter_turns, self.ground, self.height, self.hangs_on = found.quarter_turns, found.ground_m, found.height_m, hangs_on
+
+
+def stand(record):
+    """The Stance of a `document.Record`, as `propose_gait` wants it: no turns, ground 0, no bone to be hung elsewhere. Where some
+    are, hang them there and ask again."""
+    found, error = ConvertStance(struct_size=ctypes.sizeof(ConvertStance)), DiagnosticStruct()
+    hangs_on = (ctypes.c_int32 * len(record.bones))(*[-1] * len(record.bones))
+    with load_document(record) as asset:
+        check(library().sbf_convert_stand(asset.pointer, None, ctypes.byref(found), hangs_on, ctypes.byref(error)), error)
+    return Stance(found, {record.bones[index].id: record.bones[other].id for index, other in enumerate(hangs_on) if other >= 0})
 
 
 def propose_gait(record, report=None):

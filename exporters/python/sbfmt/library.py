@@ -104,6 +104,10 @@ class ExportOptions(Structure):
                 ("render_level", c_uint32), ("folder", ctypes.c_char_p), ("motion", c_void_p)]
 
 
+class ConvertStance(Structure):
+    _fields_ = [("struct_size", c_size_t), ("quarter_turns", c_uint32), ("ground_m", c_double), ("height_m", c_double)]
+
+
 class Buffer(Structure):
     _fields_ = [("at", POINTER(ctypes.c_uint8)), ("size", c_size_t), ("reallocate", c_void_p), ("user", c_void_p),
                 ("capacity", c_size_t)]
@@ -115,7 +119,7 @@ class AssetMeasures(Structure):
 
 # Options whose struct_size the library compares with its own: tests look that they are of its size.
 OPTIONS = {"sbf_load_options": LoadOptions, "sbf_given_list": GivenList, "sbf_save_options": SaveOptions, "sbf_build_options": BuildOptions,
-           "sbf_convert_options": ConvertOptions, "sbf_validate_options": ValidateOptions,
+           "sbf_convert_options": ConvertOptions, "sbf_convert_stance": ConvertStance, "sbf_validate_options": ValidateOptions,
            "sbf_export_options": ExportOptions, "sbf_diagnostic": DiagnosticStruct, "sbf_buffer": Buffer,
            "sbf_validate_result": ValidateResult, "sbf_asset_measures": AssetMeasures, "sbf_code_info": CodeInfo,
            "sbf_fix_options": FixOptions, "sbf_fix_result": FixResult}
@@ -128,6 +132,7 @@ CALLS = {
     "sbf_build": [c_void_p, POINTER(BuildOptions), POINTER(c_void_p), c_void_p, POINTER(DiagnosticStruct)],
     "sbf_convert": [c_char_p, POINTER(ConvertOptions), POINTER(c_void_p), POINTER(DiagnosticStruct)],
     "sbf_convert_gait": [c_void_p, POINTER(ConvertOptions), POINTER(DiagnosticStruct)],
+    "sbf_convert_stand": [c_void_p, POINTER(ConvertOptions), POINTER(ConvertStance), POINTER(c_int32), POINTER(DiagnosticStruct)],
     "sbf_validate": [c_void_p, POINTER(ValidateOptions), POINTER(ValidateResult), POINTER(DiagnosticStruct)],
     "sbf_fix": [c_void_p, POINTER(FixOptions), POINTER(c_void_p), POINTER(FixResult), POINTER(DiagnosticStruct)],
     "sbf_export": [c_void_p, c_char_p, POINTER(ExportOptions), POINTER(DiagnosticStruct)],

@@ -16,3 +16,9 @@ sbf_status sbfi_convert_no_memory(sbfi_conversion *c) {
   return sbfi_diagnose(
       c->error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while converting %s", c->scene->file);
 }
+
+bool sbfi_is_of_section(const sbf_asset *a, const sbf_vec3_list points) {
+  for (uint32_t i = 0; i < a->soft_bodies.count; i++)
+    if (a->soft_bodies.at[i].surface.positions.at == points.at) return true;
+  return false;
+}

@@ -39,6 +39,8 @@ sbf_status sbfi_convert_skeleton(sbfi_conversion *c);
 sbf_status sbfi_match_sections(sbfi_conversion *c);
 sbf_status sbfi_convert_materials(sbfi_conversion *c);
 sbf_status sbfi_convert_meshes(sbfi_conversion *c);
+/* After the meshes: turns what would walk sideways or backwards so that it looks along +Z. */
+sbf_status sbfi_face_ahead(sbfi_conversion *c);
 /* After the gait: moves what walks onto y = 0. */
 sbf_status sbfi_stand_on_ground(sbfi_conversion *c);
 /* After the meshes and the ground: a rigid body for each bone that carries sections, joints between those. */
@@ -53,6 +55,9 @@ sbf_status sbfi_measure_leaf_bones(sbfi_conversion *c);
 const char *sbfi_new_id(sbfi_conversion *c, const char *kind, const char *name);
 /* Takes an id that an object has already, and that stays as long as the conversion; false: memory ran out. */
 bool sbfi_claim_id(sbfi_conversion *c, const char *id);
+
+/* Whether these are a section's: one that is seen shares its points with the mesh that shows it. */
+bool sbfi_is_of_section(const sbf_asset *a, const sbf_vec3_list points);
 
 void sbfi_convert_warn(sbfi_conversion *c, sbf_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -35,18 +35,11 @@ static void lift_one(const sbf_vec3 *point, double by) {
   lift((sbf_vec3_list){point, 1}, by);
 }
 
-/* A section that is seen shares its points with the mesh that shows it. */
-static bool is_of_section(const sbf_asset *a, const sbf_vec3_list points) {
-  for (uint32_t i = 0; i < a->soft_bodies.count; i++)
-    if (a->soft_bodies.at[i].surface.positions.at == points.at) return true;
-  return false;
-}
-
 static void lift_asset(const sbf_asset *a, double by) {
   for (uint32_t i = 0; i < a->bones.count; i++) lift_one(&a->bones.at[i].head, by);
   for (uint32_t i = 0; i < a->soft_bodies.count; i++) lift(a->soft_bodies.at[i].surface.positions, by);
   for (uint32_t i = 0; i < a->render_meshes.count; i++)
-    if (!is_of_section(a, a->render_meshes.at[i].mesh.positions))
+    if (!sbfi_is_of_section(a, a->render_meshes.at[i].mesh.positions))
       lift(a->render_meshes.at[i].mesh.positions, by);
   for (uint32_t i = 0; i < a->ik_chains.count; i++)
     if (a->ik_chains.at[i].has_pole) lift_one(&a->ik_chains.at[i].pole, by);

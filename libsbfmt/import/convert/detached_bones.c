@@ -57,18 +57,28 @@ static int32_t find_limb(const sbfi_skeleton_draft *s, uint32_t bone) {
   return best;
 }
 
+bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs) {
+  bool moved = false;
+  /* All are found before any is moved, so that their order does not matter. Where bones do not run along +Y
+   * the last one of a limb does not say where it points. */
+  for (uint32_t i = 0; i < s->count; i++)
+    limbs[i] = s->along_y && is_detached(s, i) ? find_limb(s, i) : SBF_NONE;
+  for (uint32_t i = 0; i < s->count; i++) {
+    if (limbs[i] != SBF_NONE && hangs_below(s, limbs[i], (int32_t)i)) limbs[i] = SBF_NONE;
+    if (limbs[i] == SBF_NONE) continue;
+    s->bones[i].parent = limbs[i];
+    moved = true;
+  }
+  return moved;
+}
+
 sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s) {
-  if (!s->along_y) return SBF_OK; /* then the last bone of a limb does not say where it points */
   count_points(c, s);
   int32_t *limbs = sbfi_arena_allocate(&c->scratch, s->count, sizeof *limbs);
   if (!limbs) return sbfi_convert_no_memory(c);
-  /* All are found before any is moved, so that their order does not matter. */
-  for (uint32_t i = 0; i < s->count; i++) limbs[i] = is_detached(s, i) ? find_limb(s, i) : SBF_NONE;
-  bool moved = false;
+  if (!sbfi_hang_on_limbs(s, limbs)) return SBF_OK;
   for (uint32_t i = 0; i < s->count; i++) {
-    if (limbs[i] == SBF_NONE || hangs_below(s, limbs[i], (int32_t)i)) continue;
-    s->bones[i].parent = limbs[i];
-    moved = true;
+    if (limbs[i] == SBF_NONE) continue;
     sbfi_convert_warn(c, SBF_CODE_RIG_BONE_REHUNG,
         "bone '%s' holds the skin where '%s' ends but hangs on the root, to be moved by hand: it now hangs "
         "on "
@@ -76,6 +86,6 @@ sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s) {
         c->rig->nodes[s->bones[i].node].name, c->rig->nodes[s->bones[limbs[i]].node].name,
         c->rig->nodes[s->bones[limbs[i]].node].name);
   }
-  if (moved) sbfi_draft_continue(s);
+  sbfi_draft_continue(s);
   return SBF_OK;
 }

@@ -37,4 +37,8 @@ void sbfi_draft_continue(sbfi_skeleton_draft *s);
  */
 sbf_status sbfi_hang_detached(sbfi_conversion *c, sbfi_skeleton_draft *s);
 
+/* The same of a draft whose points are counted: `limbs` (s->count) receives the bone that each now hangs on,
+ * SBF_NONE where it stays. Whether any was hung elsewhere. */
+bool sbfi_hang_on_limbs(sbfi_skeleton_draft *s, int32_t *limbs);
+
 #endif

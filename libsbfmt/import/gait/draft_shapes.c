@@ -27,6 +27,7 @@ int32_t sbfi_draft_only_child(const sbfi_gait_draft *d, int32_t bone) {
 
 typedef struct extents {
   double low[3], high[3];
+  bool all;      /* what no bone holds counts too */
   double *sum_x; /* (bones) of the points each holds */
 } extents;
 
@@ -42,13 +43,15 @@ static void hold(sbfi_gait_draft *d, extents *e, uint32_t bone, sbf_vec3 point) 
   sbfi_bone_shape *shape = &d->shapes[bone];
   shape->points++;
   shape->low = fmin(shape->low, (double)point.y);
+  shape->sum_z += (double)point.z;
   e->sum_x[bone] += (double)point.x;
 }
 
 static void see_points(sbfi_gait_draft *d, extents *e, const sbf_vec3_list points, int32_t bone) {
   for (uint32_t i = 0; i < points.count; i++) {
-    see(e, points.at[i]);
-    if (bone >= 0) hold(d, e, (uint32_t)bone, points.at[i]);
+    sbf_vec3 point = sbfi_draft_seen(d, points.at[i]);
+    if (bone >= 0 || e->all) see(e, point);
+    if (bone >= 0) hold(d, e, (uint32_t)bone, point);
   }
 }
 
@@ -58,12 +61,13 @@ static void see_skin(sbfi_gait_draft *d, extents *e, const sbf_render_mesh *mesh
     uint32_t most = at;
     for (uint32_t s = at; s < at + skin->influence_counts.at[i]; s++)
       if (skin->weights.at[s] > skin->weights.at[most]) most = s;
-    see(e, mesh->mesh.positions.at[i]);
-    if (skin->influence_counts.at[i]) hold(d, e, skin->bones.at[most], mesh->mesh.positions.at[i]);
+    sbf_vec3 point = sbfi_draft_seen(d, mesh->mesh.positions.at[i]);
+    if (skin->influence_counts.at[i] || e->all) see(e, point);
+    if (skin->influence_counts.at[i]) hold(d, e, skin->bones.at[most], point);
   }
 }
 
-static void see_everything(sbfi_gait_draft *d, extents *e) {
+static void see_meshes(sbfi_gait_draft *d, extents *e) {
   const sbf_asset *a = d->asset;
   for (uint32_t b = 0; b < a->soft_bodies.count; b++)
     see_points(d, e, a->soft_bodies.at[b].surface.positions, a->soft_bodies.at[b].bone);
@@ -75,7 +79,17 @@ static void see_everything(sbfi_gait_draft *d, extents *e) {
       see_points(d, e, mesh->mesh.positions, mesh->bone);
   }
   d->has_mesh = e->low[0] <= e->high[0];
-  for (uint32_t i = 0; i < a->bones.count && !d->has_mesh; i++) see(e, a->bones.at[i].head);
+}
+
+/* A floor or a prop beside the character makes it no taller; where bones hold nothing all is seen. */
+static void see_everything(sbfi_gait_draft *d, extents *e) {
+  const sbf_asset *a = d->asset;
+  see_meshes(d, e);
+  if (!d->has_mesh) {
+    e->all = true;
+    see_meshes(d, e);
+  }
+  for (uint32_t i = 0; i < a->bones.count && !d->has_mesh; i++) see(e, sbfi_draft_head(d, (int32_t)i));
 }
 
 static bool is_tip(const sbf_bone *bone) {
@@ -102,7 +116,8 @@ static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
     shape->bears |= shape->points > 0;
     shape->low_below = fmin(shape->low_below, shape->low);
     if (shape->points) widen(shape, e->sum_x[i] / shape->points, e->sum_x[i] / shape->points);
-    if (shape->bears) widen(shape, (double)bone->head.x, (double)bone->head.x);
+    double head_x = (double)sbfi_draft_head(d, (int32_t)i).x;
+    if (shape->bears) widen(shape, head_x, head_x);
     shape->side = shape->bears && shape->least_x > -margin && shape->most_x > margin   ? 1
                   : shape->bears && shape->most_x < margin && shape->least_x < -margin ? -1
                                                                                        : 0;
@@ -119,7 +134,7 @@ static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
 
 bool sbfi_draft_shapes(sbfi_gait_draft *d, sbfi_arena *scratch) {
   uint32_t count = d->asset->bones.count;
-  extents e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, NULL};
+  extents e = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, false, NULL};
   d->shapes = sbfi_arena_allocate(scratch, count, sizeof *d->shapes);
   e.sum_x = sbfi_arena_allocate(scratch, count, sizeof *e.sum_x);
   if (!d->shapes || !e.sum_x) return false;

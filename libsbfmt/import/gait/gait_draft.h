@@ -15,6 +15,7 @@ typedef struct sbfi_bone_shape {
   double low;       /* y of its lowest point; of its head in a rig without meshes; INFINITY without points */
   double low_below; /* the same of it and all below */
   double least_x, most_x; /* of the heads and the points' middles of it and all below that bear */
+  double sum_z;           /* of the points it holds */
   int side;               /* 1: all of it and below is on the left (+X), -1: on the right, 0: neither */
 } sbfi_bone_shape;
 
@@ -28,6 +29,7 @@ typedef struct sbfi_leg_draft {
 
 typedef struct sbfi_gait_draft {
   sbf_asset *asset;
+  uint32_t turns;          /* what was turned so many quarters about +Y is seen as if it looked along +Z */
   sbfi_bone_shape *shapes; /* (asset->bones.count) */
   bool has_mesh;
   double ground, height, low_z, high_z; /* m, of all that is seen, or of the bones' heads */
@@ -48,8 +50,31 @@ bool sbfi_draft_row(sbfi_gait_draft *d);
 bool sbfi_draft_ends(sbfi_gait_draft *d);
 bool sbfi_draft_spine(sbfi_gait_draft *d, sbfi_arena *scratch);
 
+/* How many quarters the character has been turned from +Z: 0 where its legs pair up across x = 0, or nowhere.
+ * Which of both ways along that line it looks is said by the names of its legs, else by its feet; backwards,
+ * as 2, only where both say so. */
+bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *turns);
+
 static inline const sbf_bone *sbfi_draft_bone(const sbfi_gait_draft *d, int32_t bone) {
   return &d->asset->bones.at[bone];
+}
+
+/* A point as the draft sees it. */
+static inline sbf_vec3 sbfi_draft_seen(const sbfi_gait_draft *d, sbf_vec3 p) {
+  switch (d->turns) {
+  case 1:
+    return (sbf_vec3){0 - p.z, p.y, p.x};
+  case 2:
+    return (sbf_vec3){0 - p.x, p.y, 0 - p.z};
+  case 3:
+    return (sbf_vec3){p.z, p.y, 0 - p.x};
+  default:
+    return p;
+  }
+}
+
+static inline sbf_vec3 sbfi_draft_head(const sbfi_gait_draft *d, int32_t bone) {
+  return sbfi_draft_seen(d, sbfi_draft_bone(d, bone)->head);
 }
 
 /* The bone that a leg stands on. */

@@ -262,6 +262,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_GROUND = 955, /* The character did not stand on y = 0 and was moved there. */
   SBF_CODE_IMPORT_PIN_UNKNOWN = 956, /* A pin or an attachment names a group, an object or a bone that the input does not have: see what sbfmt info lists. */
   SBF_CODE_MATERIAL_GUESSED = 957, /* Nobody says what bodies are made of: sections on bones are taken for flesh, and what the usual modulus would not bear is as stiff as it takes to stand. */
+  SBF_CODE_IMPORT_FACING = 958, /* The character did not look along +Z and was turned to. */
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra were listed the other way round: they have been turned. */
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out. */
   SBF_CODE_EXPORT_EMPTY = 980, /* The asset has nothing that the form to be written could hold. */

@@ -126,6 +126,27 @@ SBF_API sbf_status sbf_convert_motion(
 SBF_API sbf_status sbf_convert_gait(
     sbf_asset *asset, const sbf_convert_options *options, sbf_diagnostic *error);
 
+/* How a character stands, against how one does that walks: on y = 0, looking along +Z. */
+typedef struct sbf_convert_stance {
+  size_t struct_size;     /* sizeof(sbf_convert_stance), or 0 for this version's: set by the caller */
+  uint32_t quarter_turns; /* 0..3 about +Y, by which it is turned away from +Z: at 1 it looks along +X */
+  double ground_m;        /* y of its lowest foot */
+  double height_m;        /* of what its bones hold, from its lowest point */
+} sbf_convert_stance;
+
+/* Says what of an asset would have to change for `sbf_convert_gait` to find its legs, as `sbf_convert` finds
+ * them where it reads bones; the asset stays as it is.
+ *
+ * `hangs_on` (asset->bones.count) receives SBF_NONE, or the bone that one ought to hang on that hangs on the
+ * root and holds the skin where a limb ends, as feet do that are moved by hand. Where that is so, hang it
+ * there and ask again: `stance` is of the skeleton as it is.
+ *
+ * `stance` is that of its legs. Which of two ways it looks is told by the names of its legs (foot.L,
+ * RightFoot), else by where its feet point; turns are 0 and the ground is 0 where it has no legs. Of
+ * `options` (may be NULL) only the allocator is heeded. Fails where memory runs out, or by BAD_CALL. */
+SBF_API sbf_status sbf_convert_stand(const sbf_asset *asset, const sbf_convert_options *options,
+    sbf_convert_stance *stance, int32_t *hangs_on, sbf_diagnostic *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -19,7 +19,7 @@ def fill_normals(mesh, record, space, corners):
     which = numpy.array(record.normal_corners if len(record.normal_corners) else record.mesh.polygon_points, dtype=numpy.int64)
     if not len(record.normal_corners) or len(normals) != len(record.mesh.polygon_sizes):
         mesh.polygons.foreach_set("use_smooth", numpy.ones(len(mesh.polygons), dtype=bool))
-    turned = space.points_back(normals[which[corners.corner]]) * space.unit_m
+    turned = space.offsets_back(normals[which[corners.corner]]) * space.unit_m
     if hasattr(mesh, "use_auto_smooth"):
         mesh.use_auto_smooth = True
     mesh.normals_split_custom_set(turned.tolist())
@@ -49,7 +49,7 @@ def fill_shape_keys(made, record, space):
     made.shape_key_add(name="Basis", from_mix=False)
     for key in record.shape_keys:
         block = made.shape_key_add(name=key.name, from_mix=False)
-        offsets = space.points_back(key.offsets)
+        offsets = space.offsets_back(key.offsets)
         for point, offset in zip(key.points, offsets.tolist()):
             for axis in range(3):
                 block.data[point].co[axis] += offset[axis]

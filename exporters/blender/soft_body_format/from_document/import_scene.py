@@ -38,7 +38,7 @@ class SceneMaker:
         import_recipes.fill_recipes(self.context.scene, self.document, self.armature, self.names)
         self.context.view_layer.update()
         untouched = SceneWriter(self.context, Options(collection=self.collection.name), Findings()).write()
-        memory.keep(self.collection, self.document, untouched)
+        memory.keep(self.collection, self.document, untouched, self.space)
 
     def act_on(self, made, call):
         """Calls one of Blender's operators that work on the active object."""

@@ -33,10 +33,8 @@ def find(context):
     return findings
 
 
-def show(scene, findings_of):
-    """Puts what is found into the scene's list, where it differs from what stands there; and how long the search took."""
-    settings, began = scene.soft_body_format, time.monotonic()
-    found = findings_of()
+def put_in_list(settings, found):
+    """What is found becomes the scene's list, where it differs from what stands there."""
     lines = [(one.severity, one.message, one.object_name, one.bone_name, one.code, " ".join(map(str, one.vertices))) for one in found]
     if lines != [tuple(getattr(entry, name) for name in COLUMNS) for entry in settings.findings]:
         settings.findings.clear()
@@ -44,6 +42,13 @@ def show(scene, findings_of):
             entry = settings.findings.add()
             for name, value in zip(COLUMNS, line):
                 setattr(entry, name, value)
+
+
+def show(scene, findings_of):
+    """Puts what is found into the scene's list; and how long the search took."""
+    settings, began = scene.soft_body_format, time.monotonic()
+    found = findings_of()
+    put_in_list(settings, found)
     settings.is_checked, settings.check_time = True, time.monotonic() - began
     return found
 

@@ -11,6 +11,7 @@ from ..finishing import finish, refusal
 from ..settings.build_settings import build_arguments
 from ..to_document import Options
 from ..whole import write_whole
+from .check_scene import put_in_list
 from .own_faults import told
 
 
@@ -65,6 +66,7 @@ class EXPORT_SCENE_OT_soft_body_format(bpy.types.Operator, ExportHelper):
         arguments = build_arguments(context.scene, whole.writer.space.unit_m) if self.build and whole.changed else None
         written = not findings.errors and finish(whole.document, self.filepath, arguments, findings, whole.locator,
                                                  whole.writer.materials.files, context.scene.soft_body_format.mends_files)
+        put_in_list(context.scene.soft_body_format, findings)
         findings.show(self)
         if not written:
             return {"CANCELLED"}

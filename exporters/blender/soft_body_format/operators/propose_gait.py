@@ -6,7 +6,9 @@ from .. import sbfmt
 from ..findings import Findings
 from ..finishing import has_library
 from ..from_document.import_settings import fill_walk
-from ..to_document import Options
+from ..space import WAYS
+from ..to_document import NOTHING, Options
+from ..to_document.gaits import OFF_GROUND
 from ..whole import write_whole
 from .own_faults import told
 
@@ -19,6 +21,7 @@ def without_gait(context, findings):
         whole = write_whole(context, Options(textures="COPY"), findings)
     finally:
         gait.use = used
+    findings[:] = [one for one in findings if one.code != NOTHING]  # bones are enough
     for kind in ("gaits", "chains", "ik_chains"):
         getattr(whole.document, kind).clear()
     return whole
@@ -32,6 +35,50 @@ def armature_of(context, whole, body):
             if body in names:
                 return one, names
     return None, {}
+
+
+def placement(scene):
+    """What a proposal changes beside the panel of the gait, to be put back."""
+    settings = scene.soft_body_format
+    hangs = [(one.data, bone.name, bone.soft_body_format.hangs_on) for one in scene.objects if one.type == "ARMATURE" for bone in one.data.bones]
+    return settings.ahead, settings.ground, hangs
+
+
+def put_back(scene, before):
+    settings = scene.soft_body_format
+    settings.ahead, settings.ground, hangs = before
+    for data, name, hangs_on in hangs:
+        data.bones[name].soft_body_format.hangs_on = hangs_on
+
+
+def placed(context, findings):
+    """The scene's document, with bones, ahead and the ground where a gait needs them; and what was changed for it, in words."""
+    settings, notes = context.scene.soft_body_format, []
+    whole = without_gait(context, findings)
+    if findings.errors:
+        return whole, notes
+    stance = sbfmt.stand(whole.document)
+    if stance.hangs_on:
+        bones = {identity: (armature, name) for (armature, name), identity in whole.writer.skeleton.ids.items()}
+        for identity, other in stance.hangs_on.items():
+            armature, name = bones[identity]
+            if context.scene.objects[armature].data.library is not None:
+                findings.error(f"{name} holds the skin where a leg ends and hangs on the root; it can't be hung on its leg in a linked armature: "
+                               "make it local (Object > Relations > Make Local)", object_name=armature, bone_name=name)
+                return whole, notes
+            context.scene.objects[armature].data.bones[name].soft_body_format.hangs_on = bones[other][1]
+        notes.append(f"{len(stance.hangs_on)} bones hang on their limbs in the file, as Bone > Soft body format says")
+        whole = without_gait(context, Findings())
+        stance = sbfmt.stand(whole.document)
+    turned = stance.quarter_turns != 0
+    off = abs(stance.ground) > OFF_GROUND * stance.height
+    if turned:
+        settings.ahead = WAYS[(WAYS.index(settings.ahead) + stance.quarter_turns) % len(WAYS)]
+        notes.append(f"looks along {settings.ahead}")
+    if off:
+        settings.ground += stance.ground / whole.writer.space.unit_m
+        notes.append(f"stands at {settings.ground:.4g}")
+    return without_gait(context, Findings()) if turned or off else whole, notes
 
 
 class SBFMT_OT_propose_gait(bpy.types.Operator):
@@ -53,24 +100,33 @@ class SBFMT_OT_propose_gait(bpy.types.Operator):
 
     @told
     def execute(self, context):
-        findings, said = Findings(), []
-        whole = without_gait(context, findings)
-        if findings.errors:
-            findings.show(self)
-            return {"CANCELLED"}
-        proposed = sbfmt.propose_gait(whole.document, said.append)
-        if not proposed.gaits:
-            self.report({"ERROR"}, "no legs are found: the character is taken to look along -Y, as seen in front view, with legs that come down "
-                        "to the ground on its left and its right; turn it so, or fill in the legs by hand")
+        findings, before = Findings(), placement(context.scene)
+        whole, notes = placed(context, findings)
+        proposed = None if findings.errors else sbfmt.propose_gait(whole.document)
+        wrong = self.refusal(context, whole, proposed) if proposed is not None else ""
+        if findings.errors or wrong:
+            put_back(context.scene, before)
+            if wrong:
+                self.report({"ERROR"}, wrong)
+            else:
+                findings.show(self)
             return {"CANCELLED"}
         armature, names = armature_of(context, whole, proposed.gaits[0].body)
-        if armature is None or any(chain.root not in names for chain in proposed.ik_chains):
-            self.report({"ERROR"}, "the legs hang on different armatures: join them, or fill in the legs by hand")
-            return {"CANCELLED"}
         fill_walk(context.scene, proposed, armature, names, whole.writer.space)
         legs = context.scene.soft_body_format.gait.legs
-        self.report({"INFO"}, f"{len(legs)} legs: {', '.join(leg.end for leg in legs)}")
+        self.report({"INFO"}, "; ".join([f"{len(legs)} legs: {', '.join(leg.end for leg in legs)}", *notes]))
         return {"FINISHED"}
+
+    @staticmethod
+    def refusal(context, whole, proposed):
+        """Why the panel is not filled, or nothing."""
+        if not proposed.gaits:
+            return "no legs are found: they come down to the ground on the left and the right of a character, each by bones of its own; " \
+                "turn it upright, or fill in the legs by hand"
+        armature, names = armature_of(context, whole, proposed.gaits[0].body)
+        if armature is None or any(chain.root not in names for chain in proposed.ik_chains):
+            return "the legs hang on different armatures: join them, or fill in the legs by hand"
+        return ""
 
 
 def register():

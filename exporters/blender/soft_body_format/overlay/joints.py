@@ -8,6 +8,7 @@ from mathutils import Matrix, Vector
 
 from ..findings import Findings
 from ..space import Space
+from ..to_document.armatures import hung_on
 from ..to_document.rigid_parts import ABOUT, wish_of
 from . import joint_shapes
 from .joint_shapes import CONE, SLIDE, SWING_Y, SWING_Z, TWIST
@@ -49,9 +50,10 @@ def bones_of(context, which):
 
 def frame_at_rest(source, pose):
     """Where the bone would be if it alone were at rest: what its joint's limits count from."""
-    bone, above = pose.bone, pose.parent
-    if above is None:
+    bone, over = pose.bone, hung_on(pose.bone)
+    if over is None:
         return source.matrix_world @ bone.matrix_local
+    above = source.pose.bones[over.name]
     return source.matrix_world @ above.matrix @ above.bone.matrix_local.inverted_safe() @ bone.matrix_local
 
 

@@ -16,6 +16,7 @@ class SBFMT_PT_bone(bpy.types.Panel):
     def draw(self, context):
         layout, joint = self.layout, context.bone.soft_body_format.joint
         layout.use_property_split = True
+        layout.prop_search(context.bone.soft_body_format, "hangs_on", context.bone.id_data, "bones")
         layout.prop(joint, "kind")
         layout.row().prop(context.scene.soft_body_format, "show_joints", text="Drawn", expand=True)
         if joint.kind not in ("NONE", "fixed"):

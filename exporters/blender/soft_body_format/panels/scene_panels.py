@@ -12,8 +12,11 @@ class ScenePanel:
 class SBFMT_PT_scene(ScenePanel, bpy.types.Panel):
     bl_label = "Soft body format"
 
-    def draw(self, _context):
-        pass
+    def draw(self, context):
+        layout, settings = self.layout, context.scene.soft_body_format
+        layout.use_property_split = True
+        layout.prop(settings, "ahead")
+        layout.prop(settings, "ground")
 
 
 class GaitPanel(ScenePanel):

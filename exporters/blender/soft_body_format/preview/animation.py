@@ -2,6 +2,7 @@
 
 from ..sbfmt.document import Record
 from ..space import frame_rate
+from ..to_document.armatures import hung_on
 
 NAME = "soft_body_format_preview"
 
@@ -46,11 +47,12 @@ def sample(armature, name, writer, sampled):
         identity = writer.skeleton.ids.get((name, pose.name))
         if identity is None:
             continue
-        if pose.parent is None:
+        over = hung_on(pose.bone)
+        if over is None:
             frame = world @ pose.matrix
             place, turn = space.point(frame.translation), space.rotation(frame.to_quaternion())
         else:
-            frame = pose.parent.matrix.inverted_safe() @ pose.matrix
+            frame = armature.pose.bones[over.name].matrix.inverted_safe() @ pose.matrix
             place = tuple(frame.translation * world.median_scale * space.unit_m)
             quaternion = frame.to_quaternion()
             turn = (quaternion.x, quaternion.y, quaternion.z, quaternion.w)

@@ -56,6 +56,8 @@ class SBFMT_PG_bone(bpy.types.PropertyGroup):
     identity: StringProperty(options={"HIDDEN"}, description="Id in the file it was imported from")
     order: IntProperty(options={"HIDDEN"}, description="Place in that file, from 1; 0: it is new")
     chain_identity: StringProperty(options={"HIDDEN"}, description="Id of the chain of inverse kinematics that ends at it")
+    hangs_on: StringProperty(name="Hangs on", description="Bone that this one hangs on in the file, such as the shin of a foot that is moved "
+                             "by hand; empty: its parent")
     joint: PointerProperty(type=SBFMT_PG_joint)
     use_material: BoolProperty(name="Material of its section", default=False,
                                description="What the section cut from a skin for this bone is made of; else as the scene's panel says")

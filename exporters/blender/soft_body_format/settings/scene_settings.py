@@ -4,6 +4,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, \
     PointerProperty, StringProperty
 
+from ..space import WAYS
 from .build_settings import SBFMT_PG_build
 from .preview_settings import SBFMT_PG_preview
 
@@ -99,6 +100,9 @@ class SBFMT_PG_finding(bpy.types.PropertyGroup):
 
 
 class SBFMT_PG_scene(bpy.types.PropertyGroup):
+    ahead: EnumProperty(name="Looks along", default="-Y", description="Which way of the scene is ahead in the file, where the character walks to",
+                        items=[(way, way, f"Ahead is {way}") for way in WAYS])
+    ground: FloatProperty(name="Stands at", default=0, unit="LENGTH", description="Height of the scene that is the ground, 0, in the file")
     gait: PointerProperty(type=SBFMT_PG_gait)
     build: PointerProperty(type=SBFMT_PG_build)
     preview: PointerProperty(type=SBFMT_PG_preview)

@@ -14,6 +14,23 @@ class Skeleton:
         return self.ids.get((armature.name, bone_name))
 
 
+def hung_on(bone):
+    """The bone that this one hangs on in the file: as its panel says, else its parent."""
+    found = bone.id_data.bones.get(bone.soft_body_format.hangs_on) if bone.soft_body_format.hangs_on else None
+    return bone.parent if found is None or is_below(found, bone) else found
+
+
+def is_below(bone, other):
+    """Whether a bone is another one or hangs below it, by the armature and by what the panels say."""
+    seen = set()
+    while bone is not None and bone.name not in seen:
+        if bone == other:
+            return True
+        seen.add(bone.name)
+        bone = bone.id_data.bones.get(bone.soft_body_format.hangs_on) or bone.parent
+    return False
+
+
 def parents_first(bones):
     """Imported bones in their file's order, so that numbers stay what they were; then the others."""
     known = sorted((bone for bone in bones if bone.soft_body_format.order), key=lambda bone: bone.soft_body_format.order)
@@ -21,7 +38,7 @@ def parents_first(bones):
 
     def put(bone):
         if bone is not None and bone.name not in done:
-            put(bone.parent)
+            put(hung_on(bone))
             done.add(bone.name)
             order.append(bone)
 
@@ -42,8 +59,8 @@ def write_bones(asset, armature, space, identifiers, skeleton):
         key = (armature.name, bone.name)
         skeleton.ids[key] = identifiers.of("bone", key, bone.name, bone.soft_body_format.identity)
         skeleton.numbers[key] = len(asset.bones)
-        frame = world @ bone.matrix_local
+        frame, parent = world @ bone.matrix_local, hung_on(bone)
         asset.add("bones", id=skeleton.ids[key], name=bone.name, head=space.point(frame.translation),
                   rotation=space.rotation(frame.to_quaternion()), length=bone.length * scale,
-                  parent=skeleton.id(armature, bone.parent.name) if bone.parent else None,
+                  parent=skeleton.id(armature, parent.name) if parent else None,
                   inherit_rotation=bone.use_inherit_rotation, inherit_scale=inherits_scale(bone))

@@ -1,8 +1,36 @@
 """The gait of the scene's panel, and what rests on it: chains of inverse kinematics, tails, followers."""
 
+import numpy
 from mathutils import Vector
 
 from ..sbfmt.document import Record
+from .armatures import hung_on
+
+
+OFF_GROUND = 0.05  # of the height of what bones hold: how far off the ground a foot may be that stands on it
+
+
+def held_heights(asset):
+    """For each bone the least y of the points of meshes that it holds more than others do, infinite without any; and the greatest of
+    all of them, or of the bones."""
+    lowest, highest = numpy.full(len(asset.bones), numpy.inf), -numpy.inf
+    number = {bone.id: index for index, bone in enumerate(asset.bones)}
+    for record in (*asset.render_meshes, *asset.soft_bodies):
+        skin = getattr(record, "skin", None) if record.element.name == "render_mesh" else None
+        shown = record.mesh if record.element.name == "render_mesh" else record.surface
+        heights = numpy.asarray(shown.positions, dtype=numpy.float32).reshape(-1, 3)[:, 1]
+        if skin is not None:
+            counts = numpy.asarray(skin.influence_counts, dtype=numpy.uint32)
+            vertex = numpy.repeat(numpy.arange(len(counts)), counts)
+            # Of each vertex the last, by weight.
+            order = numpy.lexsort((numpy.asarray(skin.weights, dtype=numpy.float32), vertex))
+            last = order[numpy.flatnonzero(numpy.diff(vertex, append=len(counts)))] if len(vertex) else order
+            highest = max(highest, heights[vertex].max(initial=highest))
+            numpy.minimum.at(lowest, numpy.asarray(skin.bones, dtype=numpy.uint32)[last], heights[vertex[last]])
+        elif record.bone in number and len(heights):
+            lowest[number[record.bone]] = min(lowest[number[record.bone]], heights.min())
+            highest = max(highest, heights.max())
+    return lowest, highest if numpy.isfinite(highest) else max(bone.head[1] for bone in asset.bones)
 
 
 class GaitWriter:
@@ -33,7 +61,7 @@ class GaitWriter:
             found.insert(0, bone)
             if bone.name == root:
                 return found
-            bone = bone.parent
+            bone = hung_on(bone)
         self.fault(f"{what} goes from {root!r} to {end!r}, but the second does not hang below the first: choose others")
         return None
 
@@ -49,8 +77,10 @@ class GaitWriter:
             setattr(record, name, getattr(gait, name) * writer.space.unit_m)
         for name in ("step_duration", "walk_speed", "hip_tilt", "body_tilt"):
             setattr(record, name, getattr(gait, name))
+        self.lowest, self.highest = held_heights(writer.asset)
         for leg in gait.legs:
             self.leg(record, leg)
+        self.look_at_ground(record)
         if gait.head:
             record.add("head", bone=self.bone(gait.head, "the head"), lead=gait.head_lead, limit=gait.head_limit)
         for tail in gait.tails:
@@ -75,10 +105,24 @@ class GaitWriter:
         record.legs.append(Record("leg", name=leg.end, ik=chain.id, home=home, sole=self.sole(bones[-1], home), group=leg.group))
 
     def sole(self, foot, home):
-        """How far the foot bone's head is above the lowest of the foot: the head's and the tails' of the bones below it."""
-        points = [foot.tail_local] + [bone.tail_local for bone in foot.children_recursive]
-        heights = [self.writer.space.point(self.armature.matrix_world @ point)[1] for point in points]
-        return max(0.0, home[1] - min(heights))
+        """How far the foot bone's head is above the lowest that it and the bones below it hold; where they hold nothing, above the
+        lowest of their tails."""
+        below = [foot, *foot.children_recursive]
+        low = min(self.lowest[self.writer.skeleton.number(self.armature, bone.name)] for bone in below)
+        if not numpy.isfinite(low):
+            low = min(self.writer.space.point(self.armature.matrix_world @ bone.tail_local)[1] for bone in below)
+        return max(0.0, home[1] - float(low))
+
+    def look_at_ground(self, record):
+        """Feet that stand in the air, or below the ground, walk so."""
+        if not record.legs:
+            return
+        low = min(leg.home[1] - leg.sole for leg in record.legs)
+        if abs(low) > OFF_GROUND * (self.highest - low):
+            space = self.writer.space
+            self.writer.findings.warning(
+                f"its feet are {abs(low):.3g} m {'above' if low > 0 else 'below'} the ground: set Stands at to "
+                f"{space.ground + low / space.unit_m:.4g}, in Scene > Soft body format", object_name=self.armature.name, code="GAIT_GROUND")
 
     def tail(self, record, tail):
         end, bone = tail.end, self.bones.get(tail.root)

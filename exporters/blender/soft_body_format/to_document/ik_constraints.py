@@ -1,6 +1,7 @@
 """IK constraints of pose bones: chains with pole, stiffness as comfort."""
 
 from ..sbfmt.document import Record
+from .armatures import hung_on
 
 
 class IkConstraints:
@@ -16,15 +17,15 @@ class IkConstraints:
     def chain(self, pose, one):
         """What reaches is the tail of the constrained bone, or its head: here the head of a bone that begins there."""
         writer, bone = self.writer, self.armature.data.bones[pose.name]
-        last = bone if one.use_tail else bone.parent
+        last = bone if one.use_tail else hung_on(bone)
         if last is None:
             writer.findings.warning("its IK constraint is left out: it does not use the tail, and there is no bone above it to turn",
                                     object_name=self.armature.name, bone_name=pose.name)
             return
         end = self.end_of(bone) if one.use_tail else bone.name
         bones = [last]
-        while bones[-1].parent is not None and (one.chain_count == 0 or len(bones) < one.chain_count):
-            bones.append(bones[-1].parent)
+        while hung_on(bones[-1]) is not None and (one.chain_count == 0 or len(bones) < one.chain_count):
+            bones.append(hung_on(bones[-1]))
         if any(chain.end == writer.skeleton.id(self.armature, end) for chain in writer.asset.ik_chains):
             return  # the gait has it already
         made = writer.asset.add("ik_chains", id=self.chain_id(end), name=one.name,

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from mathutils import Matrix
 
 from ..sbfmt.document import Record
+from .armatures import hung_on
 
 # Columns: where a joint's X, Y and Z lie in its bone's frame. X is the twist axis.
 BALL = Matrix(((0, 0, 1), (1, 0, 0), (0, 1, 0)))
@@ -158,16 +159,16 @@ class RigidParts:
         for bone in armature.data.bones:
             if bone.name in wanted:
                 self.body(armature, bone)
-            if wishes[bone.name] is not None and bone.parent is not None:
+            if wishes[bone.name] is not None and hung_on(bone) is not None:
                 self.joint(armature, bone, wishes[bone.name], self.above(armature, bone, wanted))
 
     def above(self, armature, bone, wanted):
         """The rigid body a bone hangs on: of the nearest bone above that has one, else of its parent."""
-        parent = bone.parent
+        parent = hung_on(bone)
         while parent is not None and parent.name not in wanted and \
                 not self.writer.identifiers.known("rigid", (armature.name, parent.name)):
-            parent = parent.parent
-        return self.body(armature, parent if parent is not None else bone.parent)
+            parent = hung_on(parent)
+        return self.body(armature, parent if parent is not None else hung_on(bone))
 
     def joint(self, armature, bone, wish, above):
         writer = self.writer

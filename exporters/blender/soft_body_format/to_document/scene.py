@@ -25,6 +25,7 @@ from .rigid_parts import RigidParts
 from .roles import COLLISION, IGNORE, RENDER, SECTION, SOFT, SURFACES, armature_of, holding_bone, modifier, role_of
 from .surroundings import write_surroundings
 
+NOTHING = "NOTHING_TO_EXPORT"
 COLLIDER_LEFT_OUT = (("damping", "damping of soft bodies", 0.1), ("absorption", "field absorption", 0.0),
                      ("use_culling", "single sided", True), ("use_normal", "override normals", False))
 
@@ -108,7 +109,8 @@ class SceneWriter:
             for armature in self.of_type("ARMATURE"):
                 soundness.bones_without_section(self, armature)
         if not self.asset.render_meshes and not self.findings.errors:
-            self.findings.error("nothing to export: no visible mesh with faces is chosen; select one, or turn off Selected Objects Only")
+            self.findings.error("nothing to export: no visible mesh with faces is chosen; select one, or turn off Selected Objects Only",
+                                code=NOTHING)
 
     def write_info(self):
         info = self.asset.info

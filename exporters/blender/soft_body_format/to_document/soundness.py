@@ -5,6 +5,7 @@ import os
 import bpy
 import numpy
 
+from .armatures import hung_on
 from .chosen import is_instance
 from .roles import IGNORE, SURFACES
 
@@ -69,6 +70,11 @@ def sound_armature(findings, source, volume):
         findings.error("its scale is negative, and bones can't be mirrored: apply the scale (Ctrl+A > Scale)",
                        object_name=source.name)
         return False
+    for bone in source.data.bones:
+        wanted = bone.soft_body_format.hangs_on
+        if wanted and (hung_on(bone) is None or hung_on(bone).name != wanted):
+            findings.warning(f"is to hang on {wanted!r}, which is not there or hangs below it: it stays on its parent. Choose another in "
+                             "Bone > Soft body format", object_name=source.name, bone_name=bone.name)
     scale = source.matrix_world.to_scale()
     if max(scale) > 1.001 * min(scale):
         findings.warning("its scale differs by axis, which bones can't show: their lengths take the middle one. Apply the scale "
@@ -97,7 +103,8 @@ def finite(findings, source, positions):
 
 
 def bones_without_section(writer, armature):
-    """Bones that should deform and hold neither a part nor a weight, where others of their armature do."""
+    """Bones that should deform and hold neither a part nor a weight, where a bone above them does: those above all that is held, as
+    roots and controls, move the rest."""
     ids = {bone.name: writer.skeleton.id(armature, bone.name) for bone in armature.data.bones}
     held = {body.bone for body in writer.asset.soft_bodies} | {body.bone for body in writer.asset.rigid_bodies if body.hull}
     held |= {mesh.bone for mesh in writer.asset.render_meshes}
@@ -106,7 +113,8 @@ def bones_without_section(writer, armature):
             held |= {writer.asset.bones[number].id for number in set(mesh.skin.bones)}
     if not held & set(ids.values()):
         return
-    empty = [bone.name for bone in armature.data.bones if bone.use_deform and bone.children and ids[bone.name] not in held]
+    empty = [bone.name for bone in armature.data.bones if bone.use_deform and bone.children and ids[bone.name] not in held and
+             any(ids[one.name] in held for one in bone.parent_recursive)]
     if empty:
         writer.findings.warning(f"no section hangs on {', '.join(empty)}, and no vertex has a weight of theirs: parent parts to them "
                                 "(Ctrl+P > Bone), paint weights, or turn off Deform in the bones' properties",

@@ -1,0 +1,69 @@
+/* Which way a character looks: its legs pair up across the plane that divides left from right, and their
+ * names or their feet say which end is the front. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "import/gait/gait_draft.h"
+#include "motion/carried_motion.h"
+
+static const double PAIR_SHARE = 0.1; /* of the height: from where its twin is mirrored to a leg, at most */
+static const double DOUBT = 0.25;     /* by how much looking aside must be the better guess */
+
+/* Above 0: the legs named left are on the left; below 0: on the right. */
+static int ask_names(const sbfi_gait_draft *d) {
+  int votes = 0;
+  for (uint32_t l = 0; l < d->leg_count; l++)
+    votes += d->legs[l].side * sbfi_name_side(sbfi_draft_bone(d, sbfi_draft_stands(&d->legs[l]))->name);
+  return votes;
+}
+
+/* How well left and right are told apart: of each leg how near its twin is to where it is mirrored, 0 to 1,
+ * and what the names say. */
+static double rate_sides(const sbfi_gait_draft *d) {
+  double sum = abs(ask_names(d));
+  for (uint32_t l = 0; l < d->leg_count; l++) {
+    sbf_vec3 here = sbfi_draft_head(d, sbfi_draft_stands(&d->legs[l]));
+    double nearest = PAIR_SHARE * d->height;
+    for (uint32_t k = 0; k < d->leg_count; k++) {
+      sbf_vec3 there = sbfi_draft_head(d, sbfi_draft_stands(&d->legs[k]));
+      double x = (double)here.x + (double)there.x, y = (double)here.y - (double)there.y;
+      double z = (double)here.z - (double)there.z;
+      if (d->legs[k].side != d->legs[l].side) nearest = fmin(nearest, sqrt(x * x + y * y + z * z));
+    }
+    sum += 1 - nearest / (PAIR_SHARE * d->height);
+  }
+  return sum;
+}
+
+/* Above 0: the feet reach farther ahead of where they are joined than behind it. */
+static double ask_feet(const sbfi_gait_draft *d) {
+  double ahead = 0;
+  for (uint32_t l = 0; l < d->leg_count; l++) {
+    int32_t foot = sbfi_draft_stands(&d->legs[l]);
+    double ankle = (double)sbfi_draft_head(d, foot).z;
+    for (uint32_t i = (uint32_t)foot; i < d->asset->bones.count; i++) {
+      if (!sbfi_draft_is_below(d, (int32_t)i, foot)) continue;
+      if (d->has_mesh)
+        ahead += d->shapes[i].sum_z - d->shapes[i].points * ankle;
+      else
+        ahead += (double)sbfi_draft_head(d, (int32_t)i).z - ankle;
+    }
+  }
+  return ahead;
+}
+
+bool sbfi_draft_facing(const sbf_asset *asset, sbfi_arena *scratch, uint32_t *turns) {
+  sbfi_gait_draft seen[2];
+  double rates[2];
+  for (uint32_t t = 0; t < 2; t++) {
+    seen[t] = (sbfi_gait_draft){.asset = (sbf_asset *)(uintptr_t)asset, .turns = t}; /* only read from here */
+    if (!sbfi_draft_shapes(&seen[t], scratch) || !sbfi_draft_legs(&seen[t], scratch)) return false;
+    rates[t] = rate_sides(&seen[t]);
+  }
+  uint32_t side = rates[1] > rates[0] + DOUBT;
+  int names = ask_names(&seen[side]);
+  double feet = ask_feet(&seen[side]);
+  bool backwards = side ? names < 0 || (names == 0 && feet < 0) : names < 0 && feet < 0;
+  *turns = side + 2 * backwards;
+  return true;
+}

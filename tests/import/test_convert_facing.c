@@ -1,0 +1,127 @@
+#include <math.h>
+
+#include "conversions.h"
+
+typedef struct turned {
+  uint32_t quarters; /* about +Y, from looking along +Z */
+  bool named;        /* its legs say which is left */
+  bool toes;         /* its feet point ahead */
+} turned;
+
+static int32_t put(const turned *t, sbfi_scene *s, const char *name, int32_t parent, bool bone, double x,
+    double y, double z) {
+  static const double cosine[4] = {1, 0, -1, 0}, sine[4] = {0, 1, 0, -1};
+  double c = cosine[t->quarters], q = sine[t->quarters];
+  return scene_node(s, name, parent, bone, c * x + q * z, y, c * z - q * x);
+}
+
+/* Somebody with two legs, whose boots reach ahead of the ankles; the left one stands a little wider. */
+static void make(sbfi_scene *s, const turned *t) {
+  static const float times[2] = {0, 1};
+  scene_begin(s);
+  int32_t hips = put(t, s, "hips", SBF_NONE, true, 0, 1, 0);
+  scene_box(s, put(t, s, "coat", hips, false, 0, 0.5, 0), 0.25, 0, 0, 0, false);
+  for (int side = -1; side <= 1; side += 2) {
+    const char *thigh_name = t->named ? side > 0 ? "thigh.L" : "thigh.R" : side > 0 ? "thigh1" : "thigh2";
+    const char *foot_name = t->named ? side > 0 ? "LeftFoot" : "RightFoot" : side > 0 ? "foot1" : "foot2";
+    int32_t thigh = put(t, s, thigh_name, hips, true, side > 0 ? 0.28125 : -0.25, 0, 0);
+    int32_t shin = put(t, s, side > 0 ? "shin1" : "shin2", thigh, true, 0, -0.5, 0);
+    int32_t foot = put(t, s, foot_name, shin, true, 0, -0.4375, 0);
+    int32_t boot = put(t, s, side > 0 ? "boot1" : "boot2", foot, false, 0, 0, t->toes ? 0.0625 : 0);
+    scene_box(s, boot, 0.0625, 0, 0, 0, false);
+  }
+  scene_end(s);
+  static const sbf_vec3 leaps[4][2] = {
+      {{0, 1, 0}, {0, 1, 2}}, {{0, 1, 0}, {2, 1, 0}}, {{0, 1, 0}, {0, 1, -2}}, {{0, 1, 0}, {-2, 1, 0}}};
+  sbfi_scene_channel *channel = scene_clip(s, "leap", 1, 1);
+  *channel = (sbfi_scene_channel){
+      .node = hips, .position_count = 2, .position_times = times, .positions = leaps[t->quarters]};
+}
+
+static uint32_t leg_on(const sbf_asset *a, int side) {
+  const sbf_gait *gait = &a->gaits.at[0];
+  for (uint32_t l = 0; l < gait->legs.count; l++)
+    if (gait->legs.at[l].home.x * (float)side > 0) return l;
+  ck_abort_msg("no leg on that side");
+  return 0;
+}
+
+static sbf_vec3 middle_of(const sbf_render_mesh *mesh) {
+  sbf_vec3 sum = {0, 0, 0};
+  float share = 1.0f / (float)mesh->mesh.positions.count;
+  for (uint32_t i = 0; i < mesh->mesh.positions.count; i++) {
+    sum.x += share * mesh->mesh.positions.at[i].x;
+    sum.y += share * mesh->mesh.positions.at[i].y;
+    sum.z += share * mesh->mesh.positions.at[i].z;
+  }
+  return sum;
+}
+
+/* Whichever way the file has it look, and whether names or feet tell. */
+START_TEST(it_looks_along_z)
+{
+  for (int told = 0; told < 3; told++)
+    for (uint32_t quarters = 0; quarters < 4; quarters++) {
+      /* Backwards is believed where both say so. */
+      turned t = {quarters, told != 1, told != 0};
+      uint32_t expected = quarters == 2 && told != 2 ? 2 : 0;
+      sbfi_scene scene;
+      converted c;
+      make(&scene, &t);
+      converted_scene(&c, &scene, &scene, NULL);
+      const sbf_asset *a = c.asset;
+      ck_assert_uint_eq(a->gaits.count, 1);
+      ck_assert_uint_eq(a->gaits.at[0].legs.count, 2);
+      ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_FACING), quarters && expected == 0);
+      float wide = a->gaits.at[0].legs.at[leg_on(a, expected ? -1 : 1)].home.x;
+      ck_assert_float_eq_tol(fabsf(wide), 0.28125f, 1e-6f);
+      double way_on = expected ? -1 : 1;
+      check_near(
+          middle_of(mesh_named(a, "boot1")), way_on * 0.28125, 0.0625, t.toes ? way_on * 0.0625 : 0, 1e-6);
+      ck_assert_uint_eq(a->clips.count, 1);
+      const sbf_track *way = &a->clips.at[0].tracks.at[0];
+      ck_assert_float_eq_tol(way->values.at[3], 0, 1e-6f);
+      ck_assert_float_eq_tol(way->values.at[5], 2 * (float)way_on, 1e-6f);
+      converted_free(&c);
+      sbfi_scene_free(&scene);
+    }
+}
+END_TEST
+
+/* Without a gait nobody asks where ahead is. */
+START_TEST(what_need_not_walk_stays)
+{
+  sbfi_scene scene;
+  converted c;
+  turned t = {1, true, true};
+  sbf_convert_options options = {.no_gait = true};
+  make(&scene, &t);
+  converted_scene(&c, &scene, &scene, &options);
+  ck_assert_float_eq_tol(c.asset->bones.at[bone_named(c.asset, "LeftFoot")].head.z, -0.28125f, 1e-6f);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_FACING), 0);
+  /* Asked, it says so, and touches nothing. */
+  sbf_convert_stance stance = {.struct_size = 0};
+  int32_t hangs_on[7];
+  sbf_diagnostic error;
+  ck_assert_uint_eq(c.asset->bones.count, 7);
+  ck_assert_int_eq(sbf_convert_stand(c.asset, NULL, &stance, hangs_on, &error), SBF_OK);
+  ck_assert_uint_eq(stance.quarter_turns, 1);
+  ck_assert_double_eq_tol(stance.ground_m, 0, 1e-6);
+  ck_assert_double_eq_tol(stance.height_m, 1.75, 1e-6);
+  for (int i = 0; i < 7; i++) ck_assert_int_eq(hangs_on[i], SBF_NONE);
+  stance.struct_size = 3;
+  ck_assert_int_ne(sbf_convert_stand(c.asset, NULL, &stance, hangs_on, &error), SBF_OK);
+  ck_assert_int_eq(error.code, SBF_CODE_BAD_CALL);
+  converted_free(&c);
+  sbfi_scene_free(&scene);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("convert_facing");
+  TCase *tests = tcase_create("convert_facing");
+  tcase_add_test(tests, it_looks_along_z);
+  tcase_add_test(tests, what_need_not_walk_stays);
+  suite_add_tcase(suite, tests);
+  return harness_run(suite);
+}
