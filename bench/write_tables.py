@@ -118,7 +118,7 @@ def crowd_row(r):
 
 def detail_row(r):
     return [r["case"], r["lizards"], number(r["ms_tick"]), r["times_full"], r["rms_px"], r["worst_lizard_px"], r["worst_px"], r["soft"],
-            r["bones"], r["away"], r["returned"], r["mb_most"]]
+            r["coarser"], r["bones"], r["away"], r["returned"], r["mb_most"]]
 
 
 def falls_row(r):
@@ -160,8 +160,8 @@ TABLES = {
     "godot": (godot_row, "engine | precision | stiffness | pressure | ms a frame | least volume | volume at the end | lowest point, mm", 1),
     "crowd": (crowd_row, "what | of it | threads | instructions | substeps | ms a tick | wall, ms | × one thread | ns a tetrahedron "
                          "and substep | GB/s", 1),
-    "detail": (detail_row, "rungs | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft | bones "
-                           "| away | have been away | MB at most", 1),
+    "detail": (detail_row, "rungs | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft "
+                           "| of them coarser | bones | away | have been away | MB at most", 1),
     "falls": (falls_row, "scene | of it | engine | method | steps | iterations | falling, µs | lying, µs | apart, mm | beyond limits, degrees "
                          "| deep, mm | lying, mm/s | stretched, %", 1),
     "knocked": (knocked_row, "steps | tick, ms | of a walk, ms | bones off by, mm | points off by, mm", 1),

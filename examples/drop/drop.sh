@@ -8,6 +8,7 @@ sbfmt=${SBFMT:-$here/../../build/release/tools/sbfmt}
 out=${1:-drop-out}
 mkdir -p "$out"
 cp "$lizard.obj" "$out/as-it-is.obj"
+cp "$lizard.mtl" "$out"
 python3 "$here/subdivide.py" "$lizard.obj" "$out/subdivided.obj"
 for name in as-it-is subdivided; do
   "$sbfmt" convert "$out/$name.obj" --rig "$lizard.glb" -o "$out/$name.sbfz"

@@ -86,6 +86,48 @@ START_TEST(closed_surfaces_are_turned_outwards)
 }
 END_TEST
 
+/* What has no area could have no mass: with something else it is left out and said, alone it is refused. */
+START_TEST(objects_without_area_are_left_out)
+{
+  enum { WITH_A_BOX, ALONE, SKINNED, CASES };
+  for (int which = 0; which < CASES; which++) {
+    bool alone = which != WITH_A_BOX;
+    sbfi_scene scene;
+    scene_begin(&scene);
+    int32_t line = scene_node(&scene, "line", SBF_NONE, false, 3, 0, 0);
+    sbfi_scene_mesh *mesh = scene_box(&scene, line, 1, 0, 0, 0, false);
+    for (uint32_t i = 0; i < mesh->point_count; i++) {
+      sbf_vec3 *p = (sbf_vec3 *)(uintptr_t)&mesh->points[i];
+      *p = (sbf_vec3){0.1f * (float)i, 0.3f * (float)i, 0.7f * (float)i};
+    }
+    if (which == SKINNED) {
+      int32_t bone = scene_node(&scene, "bone", SBF_NONE, true, 0, 0, 0);
+      scene_skin(&scene, mesh, 1, &bone, (const uint32_t[8]){0});
+    }
+    if (!alone) scene_box(&scene, scene_node(&scene, "box", SBF_NONE, false, 0, 0, 0), 1, 0, 0, 0, false);
+    scene_end(&scene);
+    if (alone) {
+      sbf_asset *asset = NULL;
+      sbf_diagnostic d;
+      ck_assert_int_eq(sbfi_convert_scenes(&scene, which == SKINNED ? &scene : NULL,
+                           &(sbf_convert_options){.unit_m = 1}, &asset, &d),
+          SBF_BAD_INPUT);
+      ck_assert_int_eq(d.code, SBF_CODE_IMPORT_EMPTY);
+      ck_assert_ptr_null(asset);
+    } else {
+      converted c;
+      converted_scene(&c, &scene, NULL, NULL);
+      ck_assert_uint_eq(c.asset->soft_bodies.count, 1);
+      ck_assert_uint_eq(c.asset->render_meshes.count, 1);
+      ck_assert_ptr_nonnull(body_named(c.asset, "box"));
+      ck_assert_ptr_nonnull(strstr(converted_note(&c, SBF_CODE_IMPORT_IGNORED)->message, "'line'"));
+      converted_free(&c);
+    }
+    sbfi_scene_free(&scene);
+  }
+}
+END_TEST
+
 /* Without a face there is no inside to be sure of. */
 START_TEST(open_surfaces_stay_as_they_are)
 {
@@ -278,6 +320,7 @@ int main(void) {
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, mirrors_turn_polygons);
   tcase_add_test(tests, closed_surfaces_are_turned_outwards);
+  tcase_add_test(tests, objects_without_area_are_left_out);
   tcase_add_test(tests, open_surfaces_stay_as_they_are);
   tcase_add_test(tests, slots_are_the_materials_in_use);
   tcase_add_test(tests, uvs_that_leave_corners_out_are_dropped);

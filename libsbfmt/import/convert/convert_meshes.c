@@ -15,7 +15,8 @@ typedef struct geometry {
   uint32_t *
       corner_order; /* (corner_count) scene's corner at each corner: differs where a mirror turned polygons */
   sbfi_matrix to_asset;
-  bool turned; /* it was drawn inside out */
+  bool turned;  /* it was drawn inside out */
+  bool is_flat; /* none of its polygons has an area */
 } geometry;
 
 /* Rest places of a skinned mesh's points: sum of weight * joint * bind, as at run time. */
@@ -80,6 +81,38 @@ static void write_polygons(
   }
 }
 
+typedef struct box {
+  float low[3], high[3];
+  uint32_t points;
+} box;
+
+static void box_add(box *b, sbf_vec3 p) {
+  const float at[3] = {p.x, p.y, p.z};
+  for (int k = 0; k < 3; k++) {
+    b->low[k] = b->points && b->low[k] < at[k] ? b->low[k] : at[k];
+    b->high[k] = b->points && b->high[k] > at[k] ? b->high[k] : at[k];
+  }
+  b->points++;
+}
+
+static double box_diagonal(const box *b) {
+  double squared = 0;
+  for (int k = 0; k < 3; k++) squared += pow((double)b->high[k] - (double)b->low[k], 2);
+  return sqrt(squared);
+}
+
+/* Below this share of its extent squared an area is none: points that were in a line, rounded. */
+static const double LEAST_AREA = 1e-7;
+
+/* All polygons are lines or points: there is nothing to see, and nothing that could have a mass. */
+static bool has_no_area(const sbf_polygon_mesh *mesh) {
+  sbf_surface_measures measures;
+  box own = {.points = 0};
+  for (uint32_t i = 0; i < mesh->positions.count; i++) box_add(&own, mesh->positions.at[i]);
+  sbf_surface_measure(mesh, NULL, &measures);
+  return mesh->polygon_sizes.count && measures.area <= LEAST_AREA * pow(box_diagonal(&own), 2);
+}
+
 /* Points and polygons in asset space, counter-clockwise from outside: a mirroring transform turns every
  * polygon round, and so does a closed surface that was drawn inside out. */
 static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *mesh, geometry *g) {
@@ -103,6 +136,7 @@ static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *me
   g->mesh.polygon_sizes = (sbf_u32_list){sizes, mesh->polygon_count};
   g->mesh.polygon_points = (sbf_u32_list){points, mesh->corner_count};
   if (status == SBF_OK) status = find_inside_out(c, &g->mesh, &g->turned);
+  g->is_flat = has_no_area(&g->mesh);
   if (status != SBF_OK || !g->turned) return status;
   write_polygons(mesh, !mirrored, sizes, points, g->corner_order);
   sbfi_convert_warn(c, SBF_CODE_IMPORT_INSIDE_OUT,
@@ -333,26 +367,6 @@ static sbf_status fill_body(
   return copy_sources(c, &c->scene->meshes[place], &body->source_points);
 }
 
-typedef struct box {
-  float low[3], high[3];
-  uint32_t points;
-} box;
-
-static void box_add(box *b, sbf_vec3 p) {
-  const float at[3] = {p.x, p.y, p.z};
-  for (int k = 0; k < 3; k++) {
-    b->low[k] = b->points && b->low[k] < at[k] ? b->low[k] : at[k];
-    b->high[k] = b->points && b->high[k] > at[k] ? b->high[k] : at[k];
-  }
-  b->points++;
-}
-
-static double box_diagonal(const box *b) {
-  double squared = 0;
-  for (int k = 0; k < 3; k++) squared += pow((double)b->high[k] - (double)b->low[k], 2);
-  return sqrt(squared);
-}
-
 /* Boxes around the points of skinned meshes that each bone holds most: where such a box is about as large as
  * a section of the bone, the section is covered and not seen itself. */
 static box *boxes_of_skin(sbfi_conversion *c, const sbf_render_mesh *meshes, uint32_t count) {
@@ -387,7 +401,11 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   sbf_status status = SBF_OK;
   for (uint32_t i = 0; i < count && status == SBF_OK; i++) {
     status = convert_geometry(c, &c->scene->meshes[i], &geometries[i]);
-    if (status == SBF_OK && c->scene->meshes[i].joint_count && c->asset->bones.count)
+    if (status == SBF_OK && geometries[i].is_flat)
+      sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
+          "object '%s' is left out: none of its polygons has an area",
+          c->scene->nodes[c->scene->meshes[i].node].name);
+    else if (status == SBF_OK && c->scene->meshes[i].joint_count && c->asset->bones.count)
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
   }
   if (status != SBF_OK) return status;
@@ -396,7 +414,7 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   for (uint32_t i = 0; i < count && status == SBF_OK; i++) {
     bool skinned = c->scene->meshes[i].joint_count && c->asset->bones.count;
     bool pinned = sbfi_mesh_is_pinned(c, &c->scene->meshes[i]);
-    if (skinned && !pinned) continue;
+    if (geometries[i].is_flat || (skinned && !pinned)) continue;
     sbf_soft_body *body = &bodies[body_count++];
     status = fill_body(c, i, skinned, &geometries[i], body);
     if (status == SBF_OK && pinned && !sbfi_pin_body(c, &c->scene->meshes[i], body))
@@ -406,6 +424,10 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   }
   c->asset->soft_bodies = (sbf_soft_body_list){bodies, body_count};
   c->asset->render_meshes = (sbf_render_mesh_list){renders, render_count};
+  if (status == SBF_OK && body_count + render_count == 0)
+    return sbfi_diagnose(c->error, SBF_CODE_IMPORT_EMPTY,
+        "%s holds no surface: none of its polygons has an area; is all scaled to nothing, as by a unit of 0?",
+        c->scene->file);
   if (status == SBF_OK && body_count == 0)
     sbfi_convert_warn(c, SBF_CODE_RIG_NO_SECTIONS,
         "every mesh is skinned and none hangs on a bone by itself: the build cuts sections along the bones");
