@@ -91,61 +91,90 @@ static void tell(const crowd *c, int second, double ms, double visits) {
       most, sum / c->count);
 }
 
+/* What the command line asks for. */
+typedef struct wishes {
+  const char *file, *folder; /* no folder: nothing is drawn */
+  int seconds;
+  float budget_us;
+  bool close;
+} wishes;
+
+static bool read_wishes(int argc, char **argv, wishes *w, uint32_t *count) {
+  w->file = argv[1];
+  *count = argc > 2 ? (uint32_t)atoi(argv[2]) : 200;
+  w->seconds = argc > 3 ? atoi(argv[3]) : 3;
+  w->budget_us = argc > 4 ? (float)atof(argv[4]) : 4000;
+  w->folder = argc > 5 && strcmp(argv[5], "-") != 0 ? argv[5] : NULL;
+  w->close = argc == 7 && strcmp(argv[6], "close") == 0;
+  return argc >= 2 && argc <= 7 && (argc < 7 || w->close) && *count >= 1 && *count <= MOST && w->seconds >= 1;
+}
+
+/* A world that chooses levels, and its crowd. */
+static sbf_status fill_world(crowd *c, const sbr_model *model, const wishes *w, sbf_diagnostic *error) {
+  uint32_t rungs = sbr_model_rungs(model, c->rungs, 16);
+  sbr_world_definition definition = sbr_default_world_definition();
+  definition.character_capacity = c->count;
+  sbf_status status = sbr_world_create(&definition, &c->world, error);
+  if (status != SBF_OK) return status;
+  sbr_detail_definition detail = sbr_default_detail_definition();
+  detail.budget_us = w->budget_us;
+  status = sbr_world_detail(c->world, &detail, error);
+  if (status == SBF_OK && w->close) status = sbr_world_bodies_meet(c->world, 0, error);
+  for (uint32_t i = 0; i < c->count && status == SBF_OK; i++) {
+    sbr_character_definition at = w->close ? crowd_place_close(i) : crowd_place(i);
+    at.rung = rungs > 1 ? rungs - 2 : 0; /* bones: memory and time are for those who turn out to be near */
+    status = sbr_character_create(c->world, model, &at, &c->ids[i], error);
+    if (status == SBF_OK) crowd_drive(c->world, c->ids[i], i);
+  }
+  return status;
+}
+
+static bool make_room_for_skins(crowd *c, const sbf_asset *asset) {
+  c->asset = asset;
+  c->mesh_count = asset->render_meshes.count;
+  for (uint32_t m = 0; m < c->mesh_count; m++)
+    if (asset->render_meshes.at[m].mesh.positions.count > c->capacity)
+      c->capacity = asset->render_meshes.at[m].mesh.positions.count;
+  c->skin = (sbf_vec3 *)calloc(c->capacity + 1, sizeof *c->skin);
+  c->normals = (sbf_vec3 *)calloc(c->capacity + 1, sizeof *c->normals);
+  return c->skin && c->normals;
+}
+
+static bool walk(crowd *c, const wishes *w) {
+  double taken = 0, visits = 0;
+  for (int tick = 1; tick <= w->seconds * RATE; tick++) {
+    sbr_view view = crowd_view(tick, w->seconds * RATE);
+    clock_t begin = clock();
+    sbr_world_views(c->world, &view, 1); /* an engine's camera */
+    sbr_world_step(c->world, 1.0 / RATE);
+    taken += 1e3 * (double)(clock() - begin) / CLOCKS_PER_SEC;
+    visits += sbr_world_visits(c->world);
+    if (w->folder && tick % DRAWN_EVERY == 0 && !draw(c, &view, w->folder, tick / DRAWN_EVERY)) return false;
+    if (tick % RATE) continue;
+    tell(c, tick / RATE, taken / RATE, visits / RATE);
+    taken = visits = 0;
+  }
+  return true;
+}
+
 int main(int argc, char **argv) {
   static crowd c;
+  wishes w;
   sbf_diagnostic error;
   sbf_asset *asset;
   sbr_model *model;
-  int seconds = argc > 3 ? atoi(argv[3]) : 3;
-  const char *folder = argc > 5 && strcmp(argv[5], "-") != 0 ? argv[5] : NULL;
-  c.count = argc > 2 ? (uint32_t)atoi(argv[2]) : 200;
-  bool close = argc == 7 && strcmp(argv[6], "close") == 0;
-  if (argc < 2 || argc > 7 || (argc == 7 && !close) || c.count < 1 || c.count > MOST || seconds < 1)
+  sbr_model_options options;
+  if (!read_wishes(argc, argv, &w, &c.count))
     return fprintf(
                stderr, "usage: %s FILE.sbfz [LIZARDS [SECONDS [BUDGET_US [FOLDER|- [close]]]]]\n", argv[0]),
            2;
-
-  if (sbf_packed_load_file(argv[1], NULL, &asset, &error) != SBF_OK) return failed(&error);
-  sbr_model_options options;
   memset(&options, 0, sizeof options);
   options.ladder = true;
-  if (sbr_model_create(asset, &options, &model, &error) != SBF_OK) return failed(&error);
-  uint32_t rungs = sbr_model_rungs(model, c.rungs, 16);
-  sbr_world_definition definition = sbr_default_world_definition();
-  definition.character_capacity = c.count;
-  if (sbr_world_create(&definition, &c.world, &error) != SBF_OK) return failed(&error);
-  sbr_detail_definition detail = sbr_default_detail_definition();
-  detail.budget_us = argc > 4 ? (float)atof(argv[4]) : 4000;
-  if (sbr_world_detail(c.world, &detail, &error) != SBF_OK) return failed(&error);
-  if (close && sbr_world_bodies_meet(c.world, 0, &error) != SBF_OK) return failed(&error);
-  for (uint32_t i = 0; i < c.count; i++) {
-    sbr_character_definition at = close ? crowd_place_close(i) : crowd_place(i);
-    at.rung = rungs > 1 ? rungs - 2 : 0; /* bones: memory and time are for those who turn out to be near */
-    if (sbr_character_create(c.world, model, &at, &c.ids[i], &error) != SBF_OK) return failed(&error);
-    crowd_drive(c.world, c.ids[i], i);
-  }
-  c.mesh_count = asset->render_meshes.count;
-  for (uint32_t m = 0; m < c.mesh_count; m++)
-    if (asset->render_meshes.at[m].mesh.positions.count > c.capacity)
-      c.capacity = asset->render_meshes.at[m].mesh.positions.count;
-  c.asset = asset;
-  c.skin = (sbf_vec3 *)calloc(c.capacity + 1, sizeof *c.skin);
-  c.normals = (sbf_vec3 *)calloc(c.capacity + 1, sizeof *c.normals);
-  if (!c.skin || !c.normals) return 2;
-
-  double taken = 0, visits = 0;
-  for (int tick = 1; tick <= seconds * RATE; tick++) {
-    sbr_view view = crowd_view(tick, seconds * RATE);
-    clock_t begin = clock();
-    sbr_world_views(c.world, &view, 1); /* an engine's camera */
-    sbr_world_step(c.world, 1.0 / RATE);
-    taken += 1e3 * (double)(clock() - begin) / CLOCKS_PER_SEC;
-    visits += sbr_world_visits(c.world);
-    if (folder && tick % DRAWN_EVERY == 0 && !draw(&c, &view, folder, tick / DRAWN_EVERY)) return 2;
-    if (tick % RATE) continue;
-    tell(&c, tick / RATE, taken / RATE, visits / RATE);
-    taken = visits = 0;
-  }
+  if (sbf_packed_load_file(w.file, NULL, &asset, &error) != SBF_OK ||
+      sbr_model_create(asset, &options, &model, &error) != SBF_OK ||
+      fill_world(&c, model, &w, &error) != SBF_OK)
+    return failed(&error);
+  if (!make_room_for_skins(&c, asset) || !walk(&c, &w)) return 2;
   printf("state %016llx\n", (unsigned long long)sbr_world_state_hash(c.world));
 
   free(c.skin), free(c.normals);

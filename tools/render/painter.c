@@ -1,82 +1,26 @@
 #include "render/painter.h"
 
-#include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "render/draw_scene_data.h"
 #include "render/fault.h"
+#include "render/frame_block.h"
 #include "render/image_textures.h"
 #include "render/layers.h"
-#include "render/light_maps.h"
 #include "render/programs.h"
-
-enum { DISC_POINTS = 24 };
-
-/* The block Frame of shaders/common.glsl, in its order: std140 packs vec4 and mat4 as C does. */
-typedef struct frame_block {
-  matrix4 clip_from_world, shadow_from_world;
-  float eye[4], subject[4], key[4], fill[4], rim[4], screen[4], floor_grid[4], ground_map[4], heights[4],
-      shadow[4], depth[4];
-  float disc[DISC_POINTS][4];
-} frame_block;
-
-/* A vertex array and the buffers it reads. */
-typedef struct mesh_buffers {
-  GLuint array, positions, normals, colours, uvs, indices;
-} mesh_buffers;
+#include "render/scene_buffers.h"
 
 struct draw_painter {
   draw_canvas *canvas;
   program_set programs;
   light_maps maps;
   mesh_buffers meshes, ground;
-  GLuint line_array, line_buffer, line_indices, empty_array, frame_buffer;
-  size_t line_room; /* lines that line_indices has corners for */
+  line_buffers lines;
+  GLuint empty_array, frame_buffer;
   layer_set layers;
   image_textures images;
   frame_block frame;
   GLsizei ground_indices; /* in this frame */
 };
-
-static void make_attribute(
-    const gl_api *gl, GLuint buffer, GLuint place, GLint size, GLenum type, GLsizei stride, size_t offset) {
-  gl->BindBuffer(GL_ARRAY_BUFFER, buffer);
-  gl->EnableVertexAttribArray(place);
-  gl->VertexAttribPointer(
-      place, size, type, type == GL_UNSIGNED_BYTE, stride, (const void *)(uintptr_t)offset);
-}
-
-static void make_mesh_buffers(const gl_api *gl, mesh_buffers *made, bool coloured) {
-  GLuint buffers[5];
-  gl->GenVertexArrays(1, &made->array);
-  gl->GenBuffers(5, buffers);
-  made->positions = buffers[0], made->normals = buffers[1], made->colours = buffers[2];
-  made->uvs = buffers[3], made->indices = buffers[4];
-  gl->BindVertexArray(made->array);
-  make_attribute(gl, made->positions, 0, 3, GL_FLOAT, 0, 0);
-  make_attribute(gl, made->normals, 1, 3, GL_FLOAT, 0, 0);
-  if (coloured) {
-    make_attribute(gl, made->colours, 2, 4, GL_UNSIGNED_BYTE, 0, 0);
-    make_attribute(gl, made->uvs, 3, 2, GL_FLOAT, 0, 0);
-  }
-  gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, made->indices);
-}
-
-static void make_line_buffers(const gl_api *gl, draw_painter *painter) {
-  const GLsizei stride = (GLsizei)sizeof(draw_line);
-  gl->GenVertexArrays(1, &painter->line_array);
-  gl->GenBuffers(1, &painter->line_buffer);
-  gl->BindVertexArray(painter->line_array);
-  GLuint buffer = painter->line_buffer;
-  make_attribute(gl, buffer, 0, 3, GL_FLOAT, stride, offsetof(draw_line, from));
-  make_attribute(gl, buffer, 1, 3, GL_FLOAT, stride, offsetof(draw_line, to));
-  make_attribute(gl, buffer, 2, 4, GL_UNSIGNED_BYTE, stride, offsetof(draw_line, from_colour));
-  make_attribute(gl, buffer, 3, 4, GL_UNSIGNED_BYTE, stride, offsetof(draw_line, to_colour));
-  make_attribute(gl, buffer, 4, 1, GL_FLOAT, stride, offsetof(draw_line, width));
-  gl->GenBuffers(1, &painter->line_indices);
-  gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, painter->line_indices);
-}
 
 sbf_status draw_painter_create(draw_painter **created, draw_canvas *canvas, sbf_diagnostic *diagnostic) {
   const gl_api *gl = draw_canvas_gl(canvas);
@@ -92,17 +36,12 @@ sbf_status draw_painter_create(draw_painter **created, draw_canvas *canvas, sbf_
     draw_painter_destroy(made);
     return status;
   }
-  make_mesh_buffers(gl, &made->meshes, true);
-  make_mesh_buffers(gl, &made->ground, false);
-  make_line_buffers(gl, made);
+  mesh_buffers_create(&made->meshes, gl, true);
+  mesh_buffers_create(&made->ground, gl, false);
+  line_buffers_create(&made->lines, gl);
   gl->GenVertexArrays(1, &made->empty_array);
   gl->GenBuffers(1, &made->frame_buffer);
-  /* Vogel's spiral: the golden angle from each point to the next covers a disc evenly. */
-  for (int i = 0; i < DISC_POINTS; i++) {
-    float radius = sqrtf(((float)i + 0.5f) / DISC_POINTS), angle = 2.39996323f * (float)i;
-    made->frame.disc[i][0] = radius * cosf(angle);
-    made->frame.disc[i][1] = radius * sinf(angle);
-  }
+  frame_block_begin(&made->frame);
   *created = made;
   return SBF_OK;
 }
@@ -110,32 +49,16 @@ sbf_status draw_painter_create(draw_painter **created, draw_canvas *canvas, sbf_
 void draw_painter_destroy(draw_painter *painter) {
   if (!painter) return;
   const gl_api *gl = draw_canvas_gl(painter->canvas);
-  const GLuint buffers[] = {painter->meshes.positions, painter->meshes.normals, painter->meshes.colours,
-      painter->meshes.uvs, painter->meshes.indices, painter->ground.positions, painter->ground.normals,
-      painter->ground.colours, painter->ground.uvs, painter->ground.indices, painter->line_buffer,
-      painter->line_indices, painter->frame_buffer};
-  const GLuint arrays[] = {
-      painter->meshes.array, painter->ground.array, painter->line_array, painter->empty_array};
-  gl->DeleteBuffers((GLsizei)(sizeof buffers / sizeof *buffers), buffers); /* 0 is ignored */
-  gl->DeleteVertexArrays((GLsizei)(sizeof arrays / sizeof *arrays), arrays);
+  mesh_buffers_destroy(&painter->meshes, gl);
+  mesh_buffers_destroy(&painter->ground, gl);
+  line_buffers_destroy(&painter->lines, gl);
+  gl->DeleteBuffers(1, &painter->frame_buffer);
+  gl->DeleteVertexArrays(1, &painter->empty_array);
   image_textures_destroy(&painter->images, gl);
   layers_destroy(&painter->layers, gl);
   light_maps_destroy(&painter->maps, gl);
   programs_destroy(&painter->programs, gl);
   free(painter);
-}
-
-static void upload(const gl_api *gl, GLenum target, GLuint buffer, const void *items, size_t bytes) {
-  gl->BindBuffer(target, buffer);
-  gl->BufferData(target, (GLsizeiptr)bytes, bytes ? items : NULL, GL_STREAM_DRAW);
-}
-
-static void upload_mesh(const gl_api *gl, const mesh_buffers *to, const draw_scene_list *positions,
-    const draw_scene_list *normals, const draw_scene_list *indices) {
-  gl->BindVertexArray(to->array);
-  upload(gl, GL_ARRAY_BUFFER, to->positions, positions->at, positions->count * sizeof(sbf_vec3));
-  upload(gl, GL_ARRAY_BUFFER, to->normals, normals->at, normals->count * sizeof(sbf_vec3));
-  upload(gl, GL_ELEMENT_ARRAY_BUFFER, to->indices, indices->at, indices->count * sizeof(uint32_t));
 }
 
 /* A floor without end is a square about the subject, as far as the ground is seen. */
@@ -149,21 +72,21 @@ static void upload_floor(
     normals[i] = v3(0, 1, 0);
   }
   draw_scene_list positions = {corners, 4, 4}, up = {normals, 4, 4}, indices = {triangles, 6, 6};
-  upload_mesh(gl, &painter->ground, &positions, &up, &indices);
+  mesh_buffers_fill(&painter->ground, gl, &positions, &up, &indices);
   painter->ground_indices = 6;
 }
 
 static void upload_scene(
     draw_painter *painter, const gl_api *gl, const draw_scene *scene, sbf_vec3 subject, float ground_radius) {
-  upload_mesh(gl, &painter->meshes, &scene->positions, &scene->normals, &scene->indices);
-  upload(gl, GL_ARRAY_BUFFER, painter->meshes.colours, scene->colours.at,
+  mesh_buffers_fill(&painter->meshes, gl, &scene->positions, &scene->normals, &scene->indices);
+  buffer_fill(gl, GL_ARRAY_BUFFER, painter->meshes.colours, scene->colours.at,
       scene->colours.count * sizeof(draw_colour));
-  upload(gl, GL_ARRAY_BUFFER, painter->meshes.uvs, scene->uvs.at, scene->uvs.count * sizeof(sbf_vec2));
+  buffer_fill(gl, GL_ARRAY_BUFFER, painter->meshes.uvs, scene->uvs.at, scene->uvs.count * sizeof(sbf_vec2));
   if (scene->has_floor) {
     upload_floor(painter, gl, scene, subject, ground_radius);
   } else {
-    upload_mesh(
-        gl, &painter->ground, &scene->ground_positions, &scene->ground_normals, &scene->ground_indices);
+    mesh_buffers_fill(
+        &painter->ground, gl, &scene->ground_positions, &scene->ground_normals, &scene->ground_indices);
     painter->ground_indices = (GLsizei)scene->ground_indices.count;
   }
 }
@@ -322,24 +245,6 @@ static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw
   draw_indices(gl, part->first_index, (GLsizei)part->index_count);
 }
 
-/* Corners 0 1 2 and 2 1 3 of every line, for as many as were ever shown. */
-static bool grow_line_indices(draw_painter *painter, const gl_api *gl, size_t line_count) {
-  gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, painter->line_indices);
-  if (line_count <= painter->line_room) return true;
-  if (line_count > UINT32_MAX / 6) return false;
-  size_t room = line_count + line_count / 2;
-  uint32_t *indices = room <= UINT32_MAX / 6 ? malloc(room * 6 * sizeof *indices) : NULL;
-  if (!indices) return false;
-  for (size_t i = 0; i < room; i++) {
-    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
-    for (int k = 0; k < 6; k++) indices[6 * i + k] = (uint32_t)(4 * i) + corners[k];
-  }
-  gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(room * 6 * sizeof *indices), indices, GL_STATIC_DRAW);
-  free(indices);
-  painter->line_room = room;
-  return true;
-}
-
 /* Each line goes to OpenGL four times, a corner of its rectangle each; instancing would say it once, but
  * costs llvmpipe a call of its own for every line. */
 static void paint_lines(draw_painter *painter, const gl_api *gl, draw_scene *scene,
@@ -347,15 +252,15 @@ static void paint_lines(draw_painter *painter, const gl_api *gl, draw_scene *sce
   const draw_line *lines = list->at;
   scene->line_corners.count = 0;
   if (list->count == 0) return;
-  gl->BindVertexArray(painter->line_array);
+  gl->BindVertexArray(painter->lines.array);
   draw_line *corners = draw_scene_list_push(scene, &scene->line_corners, 4 * list->count, sizeof *corners);
-  if (!corners || !grow_line_indices(painter, gl, list->count)) {
+  if (!corners || !line_buffers_grow(&painter->lines, gl, list->count)) {
     scene->failed = true;
     return;
   }
   for (size_t i = 0; i < list->count; i++)
     for (int k = 0; k < 4; k++) corners[4 * i + k] = lines[i];
-  upload(gl, GL_ARRAY_BUFFER, painter->line_buffer, corners, 4 * list->count * sizeof *corners);
+  buffer_fill(gl, GL_ARRAY_BUFFER, painter->lines.corners, corners, 4 * list->count * sizeof *corners);
   gl->UseProgram(painter->programs.at[PROGRAM_LINE]);
   gl->Uniform1f(painter->programs.murk, murk);
   gl->Uniform1f(painter->programs.thinness, thinness);
@@ -426,53 +331,6 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
   gl->Disable(GL_BLEND);
 }
 
-static void set4(float *to, sbf_vec3 v, float w) {
-  to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = w;
-}
-
-/* A direction given as seen by the camera where it first stood. */
-static sbf_vec3 towards(float home_yaw, float yaw, float pitch) {
-  float level = cosf(pitch);
-  return v3(level * sinf(home_yaw + yaw), sinf(pitch), level * cosf(home_yaw + yaw));
-}
-
-static sbf_vec3 key_direction(const draw_camera *camera) {
-  return towards(camera->home_yaw, -0.75f, 0.82f);
-}
-
-/* 1, 2 or 5 times a power of ten, such that a subject of this size spans about ten cells. */
-static float grid_cell(float size) {
-  float decade = powf(10, floorf(log10f(fmaxf(size, 1e-3f) / 10))), steps = size / 10 / decade;
-  return decade * (steps < 1.5f ? 1.0f : steps < 3.5f ? 2.0f : steps < 7.5f ? 5.0f : 10.0f);
-}
-
-static void fill_frame(draw_painter *painter, const draw_camera *camera, const light_place *place,
-    float ground_radius, bool bodies_shadow_bodies, uint32_t scale) {
-  frame_block *frame = &painter->frame;
-  uint32_t width = draw_canvas_width(painter->canvas) * scale,
-           height = draw_canvas_height(painter->canvas) * scale;
-  float aspect = (float)width / (float)height, size = 2 * camera->distance * camera->half_height;
-  matrix4 view = draw_camera_view(camera),
-          projection = draw_camera_projection(camera, aspect, 12 * camera->distance * camera->half_height);
-  frame->clip_from_world = matrix4_product(&projection, &view);
-  const matrix4 half = {{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
-  frame->shadow_from_world = matrix4_product(&half, &place->shadow_clip_from_world);
-  set4(frame->eye, draw_camera_eye(camera), camera->distance);
-  set4(frame->subject, camera->subject, ground_radius);
-  set4(frame->key, key_direction(camera), bodies_shadow_bodies ? 1 : 0);
-  set4(frame->fill, towards(camera->home_yaw, 1.1f, 0.35f), 0);
-  set4(frame->rim, towards(camera->home_yaw, 2.6f, 0.55f), 0);
-  set4(frame->screen, v3((float)width, (float)height, 1 / (float)width), 1 / (float)height);
-  set4(frame->floor_grid, v3(grid_cell(size), fmaxf(1, (float)height / 720), 0), 0);
-  set4(frame->ground_map, v3(place->least_x, place->least_z, 1 / place->ground_side),
-      place->ground_side / GROUND_MAP_SIDE);
-  set4(frame->heights, v3(place->low, place->high, 0), 0);
-  set4(frame->depth, v3(0.5f * projection.at[14], 0.5f * projection.at[10] - 0.5f, 0.07f * size), 0);
-  /* A light 14 degrees across: the penumbra is that share of the way from what throws the shadow. */
-  float texel = 1.0f / SHADOW_MAP_SIDE, growth = 0.125f * place->shadow_depth / place->shadow_side;
-  set4(frame->shadow, v3(0.028f, growth, 1.5f * texel), 2.0f * texel * place->shadow_side);
-}
-
 /* The box of the ground, and the lowest height it has about the casters. */
 static float measure_ground(const draw_scene *scene, const box3 *casters, box3 *ground) {
   const sbf_vec3 *at = scene->ground_positions.at;
@@ -518,7 +376,7 @@ sbf_status draw_painter_paint(
   const box3 *casters = box3_is_empty(&scene->casters) ? &scene->bounds : &scene->casters;
   float ground_near = measure_ground(scene, casters, &ground);
   float ground_radius = fade_radius(scene, camera, &ground);
-  light_maps_place(&painter->maps, casters, &ground, ground_near, key_direction(camera), &place);
+  light_maps_place(&painter->maps, casters, &ground, ground_near, frame_block_key(camera), &place);
 
   upload_scene(painter, gl, scene, camera->subject, ground_radius);
   uint32_t scale = draw_canvas_bind(painter->canvas);
@@ -529,7 +387,9 @@ sbf_status draw_painter_paint(
     if (status != SBF_OK) return status;
   }
   /* What stands inside a veil is to be seen in full light. */
-  fill_frame(painter, camera, &place, ground_radius, scene->sorted_parts.count == 0, scale);
+  frame_block_fill(&painter->frame, draw_canvas_width(painter->canvas) * scale,
+      draw_canvas_height(painter->canvas) * scale, camera, &place, ground_radius,
+      scene->sorted_parts.count == 0);
   gl->BindBuffer(GL_UNIFORM_BUFFER, painter->frame_buffer);
   gl->BufferData(GL_UNIFORM_BUFFER, sizeof painter->frame, &painter->frame, GL_STREAM_DRAW);
   gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, painter->frame_buffer);
