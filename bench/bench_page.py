@@ -7,8 +7,11 @@ milliseconds of processor time a tick of 1/60 s, over all and in the dearest hal
 Beside it the program's own loops of the same width and of the widest, on the same walk. --quick measures less, and fails where a scene leaves
 room for fewer than 60 ticks a second. Exits 77 where there is no Chromium."""
 import csv
+import datetime
 import json
 import os
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -34,12 +37,26 @@ def native_ms(path, instructions, seconds, rounds):
     return min((processor_s(*command, str(seconds + 0.5)) - processor_s(*command, "0.5")) / seconds / 60 * 1e3 for _ in range(rounds))
 
 
+def first_line(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=HERE).stdout.splitlines()[0]
+
+
+def circumstances():
+    """What table() of write_tables.py puts above a table: of this source, machine and day."""
+    clang = next(name for name in ("clang", "clang-19", "clang-16", "clang-14") if shutil.which(name))
+    with open("/proc/cpuinfo", encoding="ascii") as file:
+        processor = re.search(r"^model name\s*: (.*)$", file.read(), re.MULTILINE).group(1)
+    return {"commit": first_line("git", "rev-parse", "--short=9", "HEAD"), "compiler": "clang " + re.search(r"[\d.]+", first_line(clang, "--version")).group(),
+            "processor": processor, "date": datetime.date.today().isoformat(), "load": f"{os.getloadavg()[0]:.2f}"}
+
+
 def main():
     quick = "--quick" in sys.argv[1:]
     web_files.need("node", "npm", "chromium")
     modules = web_files.playwright()
     rows = csv.writer(sys.stdout, lineterminator="\n")
-    rows.writerow(("scene", "with", "mean_ms", "dearest_ms", "ticks_s", "dearest_ticks_s"))
+    here = circumstances()
+    rows.writerow(("scene", "with", "mean_ms", "dearest_ms", "ticks_s", "dearest_ticks_s", *here))
     slow = []
     with tempfile.TemporaryDirectory() as folder:
         lizard, page = web_files.bundles(folder)["lizard"], os.path.join(folder, "lizard.html")
@@ -48,12 +65,12 @@ def main():
                                          "4" if quick else "12").splitlines()[-1])
         for scene, cost in found["scenes"].items():
             rows.writerow((scene, f"Chromium {found['browser']}", f"{cost['mean']:.2f}", f"{cost['most']:.2f}", round(1000 / cost["mean"]),
-                           round(1000 / cost["most"])))
+                           round(1000 / cost["most"]), *here.values()))
             if 1000 / cost["mean"] < LEAST_TICKS_S:
                 slow.append(f"{scene}: {1000 / cost['mean']:.0f} ticks a second")
         for instructions in () if quick else ("sse2", "automatic"):
             took = native_ms(lizard, instructions, 4, 3)
-            rows.writerow(("walks", f"sbfmt run, {instructions}", f"{took:.2f}", "", round(1000 / took), ""))
+            rows.writerow(("walks", f"sbfmt run, {instructions}", f"{took:.2f}", "", round(1000 / took), "", *here.values()))
     if found["faults"] or slow:
         sys.exit("\n".join(found["faults"] + slow))
 

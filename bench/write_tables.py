@@ -13,7 +13,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md", "docs/detail.md", "docs/godot.md",
-             "docs/rigid.md")
+             "docs/rigid.md", "docs/web.md")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -121,6 +121,10 @@ def detail_row(r):
             r["coarser"], r["bones"], r["away"], r["returned"], r["mb_most"]]
 
 
+def page_row(r):
+    return [r["scene"], r["with"], number(r["mean_ms"]), number(r["dearest_ms"]), r["ticks_s"], r["dearest_ticks_s"]]
+
+
 def falls_row(r):
     steps = "as needed" if r["steps"] == "0" else r["steps"]
     return [r["scene"], number(r["elements"]), r["engine"], r["method"], steps, r["iterations"], number(r["fall_us"]), number(r["lie_us"]),
@@ -162,6 +166,7 @@ TABLES = {
                          "and substep | GB/s", 1),
     "detail": (detail_row, "rungs | lizards | ms a tick | × full detail | RMS, px | of the worst lizard | worst vertex, px | soft "
                            "| of them coarser | bones | away | have been away | MB at most", 1),
+    "page": (page_row, "the lizard | with | ms a tick | in the dearest half second | ticks a second | there", 2),
     "falls": (falls_row, "scene | of it | engine | method | steps | iterations | falling, µs | lying, µs | apart, mm | beyond limits, degrees "
                          "| deep, mm | lying, mm/s | stretched, %", 1),
     "knocked": (knocked_row, "steps | tick, ms | of a walk, ms | bones off by, mm | points off by, mm", 1),
