@@ -33,6 +33,25 @@ func add_box(kind: String, size: Vector3, at: Vector3, turned := Vector3.ZERO) -
 	return body
 
 
+# A weightless one that nothing brakes.
+func add_ball(mass: float, radius: float, at: Vector3, velocity: Vector3) -> RigidBody3D:
+	var body := RigidBody3D.new()
+	var form := CollisionShape3D.new()
+	form.shape = SphereShape3D.new()
+	form.shape.radius = radius
+	body.add_child(form)
+	body.mass = mass
+	body.gravity_scale = 0
+	for kind in ["linear_damp", "angular_damp"]:
+		body.set(kind + "_mode", RigidBody3D.DAMP_MODE_REPLACE)
+		body.set(kind, 0.0)
+	body.can_sleep = false
+	body.position = at
+	body.linear_velocity = velocity
+	root.add_child(body)
+	return body
+
+
 func add_character(path := "res://lizard.sbfz", at := Vector3.ZERO) -> SoftCharacter3D:
 	var character := SoftCharacter3D.new()
 	character.asset = load(path)

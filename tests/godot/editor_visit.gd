@@ -1,7 +1,7 @@
 @tool
 extends EditorPlugin
 # Visits a scene in the editor: the character is there at rest and goes with the node, has a gizmo, moves while it
-# previews and is put back; its properties and signals have help, and
+# previews, is saved where it stood and put back; its properties and signals have help, and
 # one without an asset a warning.
 
 var failed := 0
@@ -49,8 +49,9 @@ func _physics_process(_delta: float) -> void:
 		scene.add_child(bare)
 		bare.owner = scene
 		bare.scale = Vector3(1, 2, 1)
+		bare.rotation.x = 0.3
 	if frame == 130:
-		for words in ["There is nothing to show", "scaled unevenly"]:
+		for words in ["There is nothing to show", "scaled unevenly", "It is tilted"]:
 			check(warnings().count(words) == 1, "warned %d times: %s" % [warnings().count(words), words])
 		check(character.get_state_hash() == hash_at_rest and character.get_travelled() == 0, "it moves without preview")
 		character.position = Vector3(2, 0.5, 0)
@@ -64,13 +65,19 @@ func _physics_process(_delta: float) -> void:
 		character.preview = true
 	if frame == 260:
 		check(character.position.z > 0.2, "its preview came to %s" % character.position)
+		var previewed := character.position
+		EditorInterface.save_scene()
+		check(character.position.is_equal_approx(previewed), "saving moved it to %s" % character.position)
+		var saved: Node = load("res://visited.tscn").instantiate()
+		check(saved.get_node("Lizard").transform.is_equal_approx(began), "saved while it previews it is at %s" % saved.get_node("Lizard").position)
+		saved.free()
 		character.preview = false
 		EditorInterface.get_script_editor().goto_help("class_name:SoftCharacter3D")
 	if frame == 270:
 		check(character.transform.is_equal_approx(began), "it was not put back: %s" % character.transform)
 		var pages := EditorInterface.get_script_editor().find_children("*", "RichTextLabel", true, false)
 		var help := "".join(pages.map(func(one): return one.get_parsed_text()))
-		for words in ["its flesh gives", "pushed with what the flesh feels", "begins to touch something", "A foot of the gait comes down"]:
+		for words in ["whose flesh gives", "pushed with what the flesh feels", "begins to touch something", "A foot of the gait comes down"]:
 			check(words in help, "its help does not say: %s" % words)
 		print("%d failed after %d frames of the editor" % [failed, frame])
 		get_tree().quit(1 if failed else 0)

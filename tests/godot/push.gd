@@ -13,24 +13,6 @@ var wanted := 0.0
 var spun := 0.0
 
 
-func add_ball(mass: float, at: Vector3) -> RigidBody3D:
-	var body := RigidBody3D.new()
-	var form := CollisionShape3D.new()
-	form.shape = SphereShape3D.new()
-	form.shape.radius = 0.1
-	body.add_child(form)
-	body.mass = mass
-	body.gravity_scale = 0
-	for kind in ["linear_damp", "angular_damp"]:
-		body.set(kind + "_mode", RigidBody3D.DAMP_MODE_REPLACE)
-		body.set(kind, 0.0)
-	body.can_sleep = false
-	body.position = at
-	body.linear_velocity = Vector3(SPEED, 0, 0)
-	root.add_child(body)
-	return body
-
-
 func add_cube(at: Vector3, weight: float) -> SoftCharacter3D:
 	var one := SoftCharacter3D.new()
 	one.asset = load("res://cube.sbfz")
@@ -45,7 +27,7 @@ func begin(mass: float, pushes: bool) -> void:
 	for one in [cube, ball]: if one: one.queue_free()
 	cube = add_cube(Vector3(0, 3, 0), 0)
 	cube.push_bodies = pushes
-	ball = add_ball(mass, Vector3(-0.5, 3.2, 0))
+	ball = add_ball(mass, 0.1, Vector3(-0.5, 3.2, 0), Vector3(SPEED, 0, 0))
 	wanted = mass * SPEED
 
 

@@ -13,9 +13,14 @@
 CALL(drive) {
   soft_character *one = self;
   UNUSED;
-  one->settings.forward = gd_as_float(arguments[0]);
-  one->settings.sideways = gd_as_float(arguments[1]);
-  one->settings.turn = gd_as_float(arguments[2]);
+  double wanted[3];
+  for (int i = 0; i < 3; i++) {
+    wanted[i] = gd_as_float(arguments[i]);
+    if (!soft_character_fits(one, "drive", wanted[i], -SOFT_MOST, SOFT_MOST)) return;
+  }
+  one->settings.forward_speed = wanted[0];
+  one->settings.sideways_speed = wanted[1];
+  one->settings.turn_speed = wanted[2];
   soft_character_drive(one);
 }
 
@@ -31,7 +36,9 @@ CALL(teleport) {
 CALL(reset_pose) {
   soft_character *one = self;
   UNUSED;
-  if (one->world) sbr_character_reset(one->world, one->id);
+  if (!one->world) return;
+  sbr_character_reset(one->world, one->id);
+  soft_character_loose_place(one);
   one->stale = true;
 }
 
@@ -121,7 +128,7 @@ CALL(play) {
         !strcmp(one->model->asset->clips.at[i].id, name))
       clip = (int32_t)i;
   if (name[0] && clip == SBF_NONE)
-    gd_error("play: the asset has no clip of that name: see SoftAsset.get_clip_names");
+    soft_character_error(one, "play: the asset has no clip of that name: see SoftAsset.get_clip_names");
   else
     sbr_character_play(one->world, one->id, 0, clip, &how);
 }
@@ -138,6 +145,13 @@ CALL(get_skeleton) {
   soft_character *one = self;
   UNUSED;
   gd_assign(result, gd_copy(&one->skeleton));
+}
+
+/* What it is drawn with, for a surface's own material and whatever else is a mesh's. */
+CALL(get_mesh_instance) {
+  soft_character *one = self;
+  UNUSED;
+  gd_assign(result, character_mesh_instance(one->mesh, gd_as_int(arguments[0])));
 }
 
 /* Low and high corner of what it fills at rest, in the node's own space: what the editor draws. */
@@ -180,6 +194,10 @@ CALL(get_bone_lines) {
   true, {                                                                                                    \
     "", TYPE(kind), NULL                                                                                     \
   }
+#define NODE(of)                                                                                             \
+  true, {                                                                                                    \
+    "", TYPE(OBJECT), of                                                                                     \
+  }
 #define WITH(label, kind)                                                                                    \
   { label, TYPE(kind), NULL }
 const gd_method soft_character_methods[] = {
@@ -197,7 +215,8 @@ const gd_method soft_character_methods[] = {
     {"is_asleep", is_asleep, ANSWER(BOOL), 1, {WITH("soft_body", INT)}},
     {"get_substeps_needed", get_substeps_needed, ANSWER(INT), 0, {{0}}},
     {"get_state_hash", get_state_hash, ANSWER(STRING), 0, {{0}}},
-    {"get_skeleton", get_skeleton, ANSWER(NIL), 0, {{0}}},
+    {"get_skeleton", get_skeleton, NODE("Skeleton3D"), 0, {{0}}},
+    {"get_mesh_instance", get_mesh_instance, NODE("MeshInstance3D"), 1, {WITH("render_mesh", INT)}},
     {"get_rest_bounds", get_rest_bounds, ANSWER(AABB), 0, {{0}}},
     {"get_bone_lines", get_bone_lines, ANSWER(PACKED_VECTOR3_ARRAY), 0, {{0}}},
     {"_asset_changed", soft_character_asset_changed, NOTHING, 0, {{0}}},

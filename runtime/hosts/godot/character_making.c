@@ -4,12 +4,6 @@
 
 #include "soft_character.h"
 
-static float scale_of(const gd_transform *place) {
-  float x = place->basis[0][1], y = place->basis[1][1], z = place->basis[2][1];
-  float length = sqrtf(x * x + y * y + z * z);
-  return length > 0 ? length : 1;
-}
-
 static void grow(sbf_vec3 *low, sbf_vec3 *high, const sbf_vec3_list *points) {
   for (uint32_t i = 0; i < points->count; i++) {
     sbf_vec3 p = points->at[i];
@@ -47,7 +41,8 @@ static bool make_world(soft_character *one) {
   sbr_character_definition character = sbr_default_character_definition();
   sbf_diagnostic error;
   gd_transform place = one->put;
-  one->scale = scale_of(&place);
+  one->scale = transform_scale(&place);
+  one->loose = soft_asset_is_loose(one->model->asset);
   measure(one);
   one->ground = physics_ground_make(one);
   if (!one->ground) {
@@ -58,17 +53,19 @@ static bool make_world(soft_character *one) {
   character.ground = one->settings.ground == SOFT_GROUND_FLAT && !one->editor
                          ? sbr_ground_flat(one->flat_y)
                          : physics_ground_of(one->ground);
-  if (one->settings.threads) world.tasks = worker_pool_tasks();
+  if (one->settings.use_threads) world.tasks = worker_pool_tasks();
   world.control_tick_s = one->model->asset->environment.control_tick;
   world.has_gravity = one->model->options.has_gravity;
   world.gravity = one->model->options.gravity;
   character.position = (sbr_double3){place.origin.x, 0, place.origin.z};
   character.heading = transform_heading(&place);
   character.scale = one->scale;
-  character.hold = one->settings.hold;
+  character.hold = one->settings.hold_pose;
   if (!shared_world_join(one, &world)) return false;
-  if (sbr_character_create(one->world, one->model->model, &character, &one->id, &error) == SBF_OK)
+  if (sbr_character_create(one->world, one->model->model, &character, &one->id, &error) == SBF_OK) {
+    soft_character_loose_begin(one);
     return true;
+  }
   gd_error(error.message);
   return false;
 }
@@ -95,6 +92,7 @@ void soft_character_make(soft_character *one) {
   soft_asset *asset = gd_class_instance(&soft_asset_class, gd_as_object(&one->asset_value));
   kept_state kept = keep(one);
   bool was_placed = one->placed;
+  sbr_double3 frame = one->frame;
   gd_variant answer = GD_CALL(&one->node, "is_inside_tree");
   bool inside = gd_take_bool(answer);
   if (inside && !was_placed) {
@@ -117,13 +115,15 @@ void soft_character_make(soft_character *one) {
       /* A bundle of the same structure goes on as it was; another one begins where that stood. */
       if (kept.bytes && sbr_world_snapshot_restore(one->world, kept.bytes, kept.size) == SBF_OK) {
         one->placed = true;
+        one->frame = frame;
         if (s->ground == SOFT_GROUND_PHYSICS) physics_ground_look(one);
       } else
         one->placed = s->ground == SOFT_GROUND_FLAT;
       soft_character_drive(one);
-      sbr_character_pause(one->world, one->id, s->paused);
+      one->still = false;
+      soft_character_pause(one);
       one->mesh = character_mesh_make(one);
-      if (s->skeleton) character_skeleton_make(one);
+      if (s->mirror_skeleton) character_skeleton_make(one);
       one->stale = true;
     } else
       soft_character_unmake(one);
@@ -135,5 +135,6 @@ void soft_character_make(soft_character *one) {
 void soft_character_drive(soft_character *one) {
   const soft_settings *s = &one->settings;
   if (one->world)
-    sbr_character_drive(one->world, one->id, (float)s->forward, (float)s->sideways, (float)s->turn);
+    sbr_character_drive(
+        one->world, one->id, (float)s->forward_speed, (float)s->sideways_speed, (float)s->turn_speed);
 }

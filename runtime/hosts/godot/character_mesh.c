@@ -17,7 +17,8 @@ enum {
   ARRAY_NORMAL = 1,
   ARRAY_TEX_UV = 4,
   ARRAY_INDEX = 12,
-  ARRAY_MAX = 13
+  ARRAY_MAX = 13,
+  INTERPOLATION_OFF = 2 /* its vertices move, not its place */
 };
 
 typedef struct shown_surface {
@@ -150,6 +151,7 @@ static bool show(shown_mesh *shown, soft_character *one, uint32_t index) {
   GD_DO(&shown->instance, "set_mesh", gd_copy(&shown->mesh));
   GD_DO(&shown->instance, "set_name", gd_string(mesh->name[0] ? mesh->name : mesh->id));
   GD_DO(&shown->instance, "set_as_top_level", gd_bool(true));
+  GD_DO(&shown->instance, "set_physics_interpolation_mode", gd_int(INTERPOLATION_OFF));
   GD_DO(&one->node, "add_child", gd_copy(&shown->instance), gd_bool(false),
       gd_int(1)); /* INTERNAL_MODE_FRONT */
   return shown->surfaces != NULL;
@@ -171,7 +173,10 @@ character_mesh *character_mesh_make(soft_character *one) {
   bool good = made->meshes && made->positions && made->normals;
   for (uint32_t i = 0; good && i < asset->render_meshes.count; i++)
     good = show(&made->meshes[made->count++], one, i);
-  if (good) return made;
+  if (good) {
+    character_mesh_dress(made, one);
+    return made;
+  }
   gd_error("no memory for a character's mesh");
   character_mesh_free(made);
   return NULL;
@@ -194,6 +199,21 @@ void character_mesh_free(character_mesh *mesh) {
   free(mesh->positions);
   free(mesh->normals);
   free(mesh);
+}
+
+void character_mesh_dress(character_mesh *mesh, const soft_character *one) {
+  for (uint32_t i = 0; mesh && i < mesh->count; i++) {
+    const gd_variant *instance = &mesh->meshes[i].instance;
+    GD_DO(instance, "set_material_override", gd_copy(&one->material));
+    GD_DO(instance, "set_cast_shadows_setting", gd_int(one->settings.cast_shadow));
+    GD_DO(instance, "set_layer_mask", gd_int(one->settings.layers));
+  }
+}
+
+gd_variant character_mesh_instance(const character_mesh *mesh, int64_t render_mesh) {
+  for (uint32_t i = 0; mesh && i < mesh->count; i++)
+    if (mesh->meshes[i].render_mesh == render_mesh) return gd_copy(&mesh->meshes[i].instance);
+  return gd_nil();
 }
 
 /* ---- Each frame ---- */

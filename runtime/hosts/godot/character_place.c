@@ -4,15 +4,16 @@
 #include <string.h>
 
 #include "soft_character.h"
-
-static sbf_vec3 turned(sbf_quat q, sbf_vec3 v) {
-  sbf_vec3 t = {2 * (q.y * v.z - q.z * v.y), 2 * (q.z * v.x - q.x * v.z), 2 * (q.x * v.y - q.y * v.x)};
-  return (sbf_vec3){v.x + q.w * t.x + (q.y * t.z - q.z * t.y), v.y + q.w * t.y + (q.z * t.x - q.x * t.z),
-      v.z + q.w * t.z + (q.x * t.y - q.y * t.x)};
-}
+#include "turns.h"
 
 float transform_heading(const gd_transform *place) {
   return atan2f(place->basis[0][2], place->basis[2][2]);
+}
+
+float transform_scale(const gd_transform *place) {
+  float x = place->basis[0][1], y = place->basis[1][1], z = place->basis[2][1];
+  float length = sqrtf(x * x + y * y + z * z);
+  return length > 0 ? length : 1;
 }
 
 /* The bone that travels with the character. */
@@ -21,26 +22,42 @@ static const sbf_bone *body_bone(const sbf_asset *asset, uint32_t *index) {
   return asset->bones.count ? &asset->bones.at[*index] : NULL;
 }
 
+double soft_character_size(const soft_character *one) {
+  float wide = fmaxf(fmaxf(one->high.x, -one->low.x), fmaxf(one->high.z, -one->low.z));
+  return (double)(fmaxf(wide, one->high.y - one->low.y) * one->scale);
+}
+
+double soft_character_around(const soft_character *one) {
+  float wide = fmaxf(fmaxf(one->high.x, -one->low.x), fmaxf(one->high.z, -one->low.z)) * one->scale;
+  double size = soft_character_size(one); /* what is tall may come to lie */
+  return fmax(1.5 * (double)wide + 0.1 * size, size);
+}
+
+/* What a parent's transform makes of it is what it has to be compared with. */
+static void leave_node(soft_character *one) {
+  GD_DO(&one->node, "set_global_transform", gd_transform_value(one->put));
+  one->put = soft_character_transform(one);
+}
+
 void soft_character_follow(soft_character *one) {
+  if (soft_character_loose_follow(one)) {
+    leave_node(one);
+    return;
+  }
   uint32_t index, count = one->model->asset->bones.count;
   const sbf_bone *bone = body_bone(one->model->asset, &index);
   sbr_transform *bones = bone ? malloc(count * sizeof *bones) : NULL;
   if (!bones) return;
   sbr_character_bones(one->world, one->id, bones, count);
   sbr_double3 origin = sbr_character_origin(one->world, one->id);
-  sbf_quat back = {-bone->rotation.x, -bone->rotation.y, -bone->rotation.z, bone->rotation.w};
-  sbf_vec3 ahead = turned(bones[index].rotation, turned(back, (sbf_vec3){0, 0, 1}));
-  float heading = atan2f(ahead.x, ahead.z), c = cosf(heading), s = sinf(heading), k = one->scale;
-  sbf_vec3 rest = {
-      k * (c * bone->head.x + s * bone->head.z), k * bone->head.y, k * (c * bone->head.z - s * bone->head.x)};
-  gd_transform *put = &one->put;
-  put->origin = (sbf_vec3){(float)(origin.x + bones[index].position.x - rest.x),
-      (float)(origin.y + bones[index].position.y - rest.y),
-      (float)(origin.z + bones[index].position.z - rest.z)};
-  float basis[3][3] = {{k * c, 0, k * s}, {0, k, 0}, {-k * s, 0, k * c}};
-  memcpy(put->basis, basis, sizeof basis);
+  sbf_vec3 at = bones[index].position;
+  sbf_vec3 ahead = turned(bones[index].rotation, turned(turn_back(bone->rotation), (sbf_vec3){0, 0, 1}));
+  one->put = upright((sbf_vec3){0, 0, 0}, atan2f(ahead.x, ahead.z), one->scale);
+  sbf_vec3 rest = placed_vector(&one->put, bone->head);
+  one->put.origin = (sbf_vec3){(float)(origin.x + (double)(at.x - rest.x)),
+      (float)(origin.y + (double)(at.y - rest.y)), (float)(origin.z + (double)(at.z - rest.z))};
   free(bones);
-  GD_DO(&one->node, "set_global_transform", gd_transform_value(*put));
+  leave_node(one);
 }
 
 double soft_character_ground_height(const soft_character *one, double x, double z) {
@@ -50,19 +67,17 @@ double soft_character_ground_height(const soft_character *one, double x, double 
 }
 
 void soft_character_place(soft_character *one, sbf_vec3 position, float heading) {
-  float c = cosf(heading), s = sinf(heading), k = one->scale;
-  float basis[3][3] = {{k * c, 0, k * s}, {0, k, 0}, {-k * s, 0, k * c}};
-  one->put.origin = position;
-  memcpy(one->put.basis, basis, sizeof basis);
+  one->put = upright(position, heading, one->scale);
   if (one->settings.ground == SOFT_GROUND_PHYSICS) {
     physics_bodies_look(one, true); /* which are no ground */
     physics_ground_look(one);
   }
+  one->stale = true;
+  if (soft_character_loose_place(one)) return;
   double above = position.y - soft_character_ground_height(one, position.x, position.z);
   /* What walks stands on the ground wherever it was put above it; what is loose falls from there. */
   if ((one->model->asset->gaits.count && !one->settings.free_bodies) || above < 0) above = 0;
   sbr_character_teleport(one->world, one->id, (sbr_double3){position.x, above, position.z}, heading);
-  one->stale = true;
 }
 
 gd_transform soft_character_transform(const soft_character *one) {
@@ -81,6 +96,11 @@ static bool was_moved(const gd_transform *a, const gd_transform *b) {
 
 /* ---- A frame ---- */
 
+void soft_character_save(soft_character *one, bool done) {
+  if (one->previews)
+    GD_DO(&one->node, "set_global_transform", gd_transform_value(done ? one->put : one->from));
+}
+
 /* In the editor it stands where the node is put, and moves while it previews; then it is put back. */
 static void edit(soft_character *one, const gd_transform *now) {
   if (one->previews) GD_DO(&one->node, "set_global_transform", gd_transform_value(one->from));
@@ -90,16 +110,19 @@ static void edit(soft_character *one, const gd_transform *now) {
   one->flat_y = one->put.origin.y;
   physics_ground_level(one->ground, one->flat_y);
   sbr_character_reset(one->world, one->id);
-  sbr_character_teleport(one->world, one->id, (sbr_double3){one->put.origin.x, 0, one->put.origin.z},
-      transform_heading(&one->put));
+  one->frame = (sbr_double3){one->put.origin.x, 0, one->put.origin.z};
+  sbr_character_teleport(one->world, one->id, one->frame, transform_heading(&one->put));
   character_skeleton_update(one);
   one->stale = true;
   GD_DO(&one->node, "update_gizmos");
-  GD_DO(&one->node, "update_configuration_warnings");
 }
 
 bool soft_character_prepare(soft_character *one) {
   gd_transform now = soft_character_transform(one);
+  if (one->editor && memcmp(&now, &one->warned, sizeof now) != 0) {
+    one->warned = now;
+    GD_DO(&one->node, "update_configuration_warnings");
+  }
   if (one->editor && !one->settings.preview) {
     edit(one, &now);
     return false;
@@ -116,7 +139,24 @@ bool soft_character_prepare(soft_character *one) {
     physics_bodies_look(one, false);
     physics_ground_look(one);
   }
-  return !one->settings.paused;
+  soft_character_pause(one);
+  return !one->still;
+}
+
+/* A node that does not process may be stepped all the same, by one that it meets. */
+void soft_character_pause(soft_character *one) {
+  bool still = one->settings.paused || !gd_take_bool(GD_CALL(&one->node, "can_process"));
+  if (one->world && still != one->still) sbr_character_pause(one->world, one->id, still);
+  one->still = still;
+}
+
+bool soft_character_rescale(soft_character *one) {
+  gd_transform now = soft_character_transform(one);
+  float scale = transform_scale(&now);
+  if (fabsf(scale - one->scale) <= 1e-4f * one->scale) return false;
+  one->placed = false; /* it begins again, where it stands */
+  soft_character_make(one);
+  return true;
 }
 
 void soft_character_show(soft_character *one) {

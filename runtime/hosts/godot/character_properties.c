@@ -2,6 +2,7 @@
 #include "soft_character.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* The resource says that it has changed: the character takes its new content. */
 void soft_character_asset_changed(void *self, const gd_variant *const *arguments, gd_variant *result) {
@@ -28,6 +29,11 @@ static void set_asset(void *self, const gd_variant *const *arguments, gd_variant
   soft_character *one = self;
   (void)result;
   if (gd_as_object(&one->asset_value) == gd_as_object(arguments[0])) return;
+  if (gd_as_object(arguments[0]) && !gd_class_instance(&soft_asset_class, gd_as_object(arguments[0]))) {
+    soft_character_error(
+        one, "asset: that is no SoftAsset: load a .sbfz, or a .sbf that the plugin sbfmt has imported");
+    return;
+  }
   if (gd_as_object(&one->asset_value))
     GD_DO(&one->asset_value, "disconnect", gd_name("changed"), changed_callable(one));
   gd_assign(&one->asset_value, gd_copy(arguments[0]));
@@ -37,8 +43,17 @@ static void set_asset(void *self, const gd_variant *const *arguments, gd_variant
   GD_DO(&one->node, "update_configuration_warnings");
 }
 
+bool soft_character_fits(const soft_character *one, const char *name, double value, double low, double high) {
+  char message[256];
+  if (value >= low && value <= high) return true;
+  snprintf(message, sizeof message, "%s: %g is not a number from %g to %g; it stays as it was", name, value,
+      low, high);
+  soft_character_error(one, message);
+  return false;
+}
+
 /* A plain setting: its getter and setter, and what follows from a change. */
-#define SETTING(name, type, after)                                                                           \
+#define SETTING(name, type, low, high, after)                                                                \
   static void get_##name(void *self, const gd_variant *const *arguments, gd_variant *result) {               \
     (void)arguments;                                                                                         \
     gd_assign(result, gd_##type(((soft_character *)self)->settings.name));                                   \
@@ -47,37 +62,54 @@ static void set_asset(void *self, const gd_variant *const *arguments, gd_variant
     soft_character *one = self;                                                                              \
     (void)result;                                                                                            \
     if (one->settings.name == gd_as_##type(arguments[0])) return;                                            \
+    if (!soft_character_fits(one, #name, (double)gd_as_##type(arguments[0]), low, high)) return;             \
     one->settings.name = gd_as_##type(arguments[0]);                                                         \
     after;                                                                                                   \
   }
 
-static void set_pause(soft_character *one) {
-  if (one->world) sbr_character_pause(one->world, one->id, one->settings.paused);
+static void get_material(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  (void)arguments;
+  gd_assign(result, gd_copy(&((soft_character *)self)->material));
 }
 
-SETTING(scheme, int, soft_character_make(one))
-SETTING(substeps, int, soft_character_make(one))
-SETTING(level, int, soft_character_make(one))
-SETTING(free_bodies, bool, soft_character_make(one))
-SETTING(hold, bool, soft_character_make(one))
-SETTING(threads, bool, soft_character_make(one))
-SETTING(forward, float, soft_character_drive(one))
-SETTING(sideways, float, soft_character_drive(one))
-SETTING(turn, float, soft_character_drive(one))
-SETTING(gravity_scale, float, soft_character_make(one))
-SETTING(paused, bool, set_pause(one))
-SETTING(preview, bool, GD_DO(&one->node, "update_gizmos"))
-SETTING(skeleton, bool, soft_character_make(one))
-SETTING(ground, int, soft_character_make(one))
-SETTING(ground_cell, float, soft_character_make(one))
-SETTING(ground_reach, float, soft_character_make(one))
-SETTING(collision_mask, int, (void)one)
-SETTING(push_bodies, bool, (void)one)
-SETTING(push_limit, float, (void)one)
-SETTING(meet_others, bool, soft_character_make(one))
+static void set_material(void *self, const gd_variant *const *arguments, gd_variant *result) {
+  soft_character *one = self;
+  (void)result;
+  gd_assign(&one->material, gd_copy(arguments[0]));
+  character_mesh_dress(one->mesh, one);
+}
+
+SETTING(scheme, int, SBF_SCHEME_AUTOMATIC, SBF_SCHEME_BLOCK_DESCENT, soft_character_make(one))
+SETTING(substeps, int, 0, 1024, soft_character_make(one))
+SETTING(level, int, 0, 64, soft_character_make(one))
+SETTING(free_bodies, bool, 0, 1, soft_character_make(one))
+SETTING(hold_pose, bool, 0, 1, soft_character_make(one))
+SETTING(use_threads, bool, 0, 1, soft_character_make(one))
+SETTING(forward_speed, float, -SOFT_MOST, SOFT_MOST, soft_character_drive(one))
+SETTING(sideways_speed, float, -SOFT_MOST, SOFT_MOST, soft_character_drive(one))
+SETTING(turn_speed, float, -SOFT_MOST, SOFT_MOST, soft_character_drive(one))
+SETTING(gravity_scale, float, -SOFT_MOST, SOFT_MOST, soft_character_make(one))
+SETTING(paused, bool, 0, 1, soft_character_pause(one))
+SETTING(preview, bool, 0, 1, GD_DO(&one->node, "update_gizmos"))
+SETTING(mirror_skeleton, bool, 0, 1, soft_character_make(one))
+SETTING(ground, int, 0, 1, soft_character_make(one))
+SETTING(ground_cell, float, 0, SOFT_MOST, soft_character_make(one))
+SETTING(ground_reach, float, 0, SOFT_MOST, soft_character_make(one))
+SETTING(collision_mask, int, INT32_MIN, UINT32_MAX, (void)one)
+SETTING(push_bodies, bool, 0, 1, (void)one)
+SETTING(push_limit, float, 0, SOFT_MOST, (void)one)
+SETTING(meet_others, bool, 0, 1, soft_character_make(one))
+SETTING(cast_shadow, int, 0, 3, character_mesh_dress(one->mesh, one))
+SETTING(layers, int, INT32_MIN, UINT32_MAX, character_mesh_dress(one->mesh, one))
 #undef SETTING
 
-enum { HINT_RANGE = 1, HINT_ENUM = 2, HINT_LAYERS_3D_PHYSICS = 11, HINT_RESOURCE_TYPE = 17 };
+enum {
+  HINT_RANGE = 1,
+  HINT_ENUM = 2,
+  HINT_LAYERS_3D_RENDER = 10,
+  HINT_LAYERS_3D_PHYSICS = 11,
+  HINT_RESOURCE_TYPE = 17
+};
 
 #define GROUP(title)                                                                                         \
   { .name = title }
@@ -86,40 +118,53 @@ enum { HINT_RANGE = 1, HINT_ENUM = 2, HINT_LAYERS_3D_PHYSICS = 11, HINT_RESOURCE
     .name = label, .type = GDEXTENSION_VARIANT_TYPE_##kind, .hint = hint_kind, .hint_text = text,            \
     .getter_name = get_word label, .setter_name = "set_" label, .get = get_##member, .set = set_##member     \
   }
+#define CHOICE(label, of, text, member)                                                                      \
+  {                                                                                                          \
+    .name = label, .type = GDEXTENSION_VARIANT_TYPE_INT, .hint = HINT_ENUM, .hint_text = text,               \
+    .class_name = of, .getter_name = "get_" label, .setter_name = "set_" label, .get = get_##member,         \
+    .set = set_##member                                                                                      \
+  }
+#define RESOURCE(label, of, member)                                                                          \
+  {                                                                                                          \
+    .name = label, .type = GDEXTENSION_VARIANT_TYPE_OBJECT, .hint = HINT_RESOURCE_TYPE, .hint_text = of,     \
+    .class_name = of, .getter_name = "get_" label, .setter_name = "set_" label, .get = get_##member,         \
+    .set = set_##member                                                                                      \
+  }
 const gd_property soft_character_properties[] = {
-    {.name = "asset",
-        .type = GDEXTENSION_VARIANT_TYPE_OBJECT,
-        .hint = HINT_RESOURCE_TYPE,
-        .hint_text = "SoftAsset",
-        .class_name = "SoftAsset",
-        .getter_name = "get_asset",
-        .setter_name = "set_asset",
-        .get = get_asset,
-        .set = set_asset},
+    RESOURCE("asset", "SoftAsset", asset),
     SHOWN("paused", BOOL, 0, NULL, "is_", paused),
     SHOWN("preview", BOOL, 0, NULL, "is_", preview),
     GROUP("Drive"),
-    SHOWN("forward_speed", FLOAT, HINT_RANGE, "-5,5,0.01,or_less,or_greater,suffix:m/s", "get_", forward),
-    SHOWN("sideways_speed", FLOAT, HINT_RANGE, "-5,5,0.01,or_less,or_greater,suffix:m/s", "get_", sideways),
-    SHOWN("turn_speed", FLOAT, HINT_RANGE, "-3.2,3.2,0.01,or_less,or_greater,suffix:rad/s", "get_", turn),
+    SHOWN(
+        "forward_speed", FLOAT, HINT_RANGE, "-5,5,0.01,or_less,or_greater,suffix:m/s", "get_", forward_speed),
+    SHOWN("sideways_speed", FLOAT, HINT_RANGE, "-5,5,0.01,or_less,or_greater,suffix:m/s", "get_",
+        sideways_speed),
+    SHOWN(
+        "turn_speed", FLOAT, HINT_RANGE, "-3.2,3.2,0.01,or_less,or_greater,suffix:rad/s", "get_", turn_speed),
     GROUP("Simulation"),
-    SHOWN("scheme", INT, HINT_ENUM,
-        "Automatic,Symplectic,Position Based,Relaxation,Explicit Euler,Heun,Block Descent", "get_", scheme),
+    CHOICE("scheme", "SoftCharacter3D.Scheme",
+        "Automatic,Symplectic,Position Based,Relaxation,Explicit Euler,Heun,Block Descent", scheme),
     SHOWN("substeps", INT, HINT_RANGE, "0,100,1,or_greater", "get_", substeps),
     SHOWN("level", INT, HINT_RANGE, "0,8,1", "get_", level),
     SHOWN("gravity_scale", FLOAT, HINT_RANGE, "-4,4,0.01,or_less,or_greater", "get_", gravity_scale),
     SHOWN("free_bodies", BOOL, 0, NULL, "is_", free_bodies),
-    SHOWN("hold_pose", BOOL, 0, NULL, "is_", hold),
-    SHOWN("use_threads", BOOL, 0, NULL, "is_", threads),
-    SHOWN("mirror_skeleton", BOOL, 0, NULL, "is_", skeleton),
+    SHOWN("hold_pose", BOOL, 0, NULL, "is_", hold_pose),
+    SHOWN("use_threads", BOOL, 0, NULL, "is_", use_threads),
+    SHOWN("mirror_skeleton", BOOL, 0, NULL, "is_", mirror_skeleton),
     GROUP("Ground"),
-    SHOWN("ground", INT, HINT_ENUM, "Physics Space,Flat", "get_", ground),
+    CHOICE("ground", "SoftCharacter3D.Ground", "Physics Space,Flat", ground),
     SHOWN("ground_cell", FLOAT, HINT_RANGE, "0,1,0.001,or_greater,suffix:m", "get_", ground_cell),
     SHOWN("ground_reach", FLOAT, HINT_RANGE, "0,10,0.01,or_greater,suffix:m", "get_", ground_reach),
+    GROUP("Collision"),
     SHOWN("collision_mask", INT, HINT_LAYERS_3D_PHYSICS, NULL, "get_", collision_mask),
     SHOWN("push_bodies", BOOL, 0, NULL, "is_", push_bodies),
-    SHOWN("meet_others", BOOL, 0, NULL, "is_", meet_others),
     SHOWN("push_limit", FLOAT, HINT_RANGE, "0,20,0.1,or_greater,suffix:m/s", "get_", push_limit),
+    SHOWN("meet_others", BOOL, 0, NULL, "is_", meet_others),
+    GROUP("Geometry"),
+    RESOURCE("material_override", "Material", material),
+    CHOICE("cast_shadow", "GeometryInstance3D.ShadowCastingSetting", "Off,On,Double-Sided,Shadows Only",
+        cast_shadow),
+    SHOWN("layers", INT, HINT_LAYERS_3D_RENDER, NULL, "get_", layers),
     {0},
 };
 
@@ -135,6 +180,11 @@ static bool is_uneven(const gd_transform *at) {
   return most > 1.001f * least;
 }
 
+static bool is_tilted(const gd_transform *at) {
+  float x = at->basis[0][1], y = at->basis[1][1], z = at->basis[2][1];
+  return !(y > 0) || x * x + z * z > 1e-4f * y * y;
+}
+
 static void warnings(void *self, const gd_variant *const *arguments, gd_variant *result) {
   soft_character *one = self;
   soft_asset *asset = gd_class_instance(&soft_asset_class, gd_as_object(&one->asset_value));
@@ -147,6 +197,10 @@ static void warnings(void *self, const gd_variant *const *arguments, gd_variant 
     GD_DO(result, "push_back",
         gd_string("There is nothing to show: set Asset to a .sbfz, or to a .sbf that the plugin sbfmt has "
                   "imported."));
+  if (is_tilted(&at))
+    GD_DO(result, "push_back",
+        gd_string("It is tilted, and stands upright all the same: a character turns about +Y alone. Set the "
+                  "rotation about X and Z to 0."));
   if (is_uneven(&at))
     GD_DO(result, "push_back",
         gd_string("It is scaled unevenly: a character has one scale, the same along all axes."));

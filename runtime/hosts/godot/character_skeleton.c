@@ -2,12 +2,7 @@
 #include <stdlib.h>
 
 #include "soft_character.h"
-
-static sbf_quat product(sbf_quat a, sbf_quat b) {
-  return (sbf_quat){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
-      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
-}
+#include "turns.h"
 
 static gd_transform transform(sbf_quat q, sbf_vec3 at) {
   float x = q.x, y = q.y, z = q.z, w = q.w;
@@ -17,20 +12,13 @@ static gd_transform transform(sbf_quat q, sbf_vec3 at) {
       at};
 }
 
-static sbf_vec3 times(const gd_transform *t, sbf_vec3 v) {
-  return (sbf_vec3){t->basis[0][0] * v.x + t->basis[0][1] * v.y + t->basis[0][2] * v.z,
-      t->basis[1][0] * v.x + t->basis[1][1] * v.y + t->basis[1][2] * v.z,
-      t->basis[2][0] * v.x + t->basis[2][1] * v.y + t->basis[2][2] * v.z};
-}
-
 /* A bone's frame as its parent sees it; without one, as the skeleton does. */
 static gd_transform local(const sbr_transform *bones, int32_t parent, uint32_t bone) {
   if (parent < 0) return transform(bones[bone].rotation, bones[bone].position);
-  sbf_quat q = bones[parent].rotation, back = {-q.x, -q.y, -q.z, q.w};
-  gd_transform turn = transform(back, (sbf_vec3){0, 0, 0});
+  sbf_quat back = turn_back(bones[parent].rotation);
   sbf_vec3 a = bones[parent].position, b = bones[bone].position;
   return transform(
-      product(back, bones[bone].rotation), times(&turn, (sbf_vec3){b.x - a.x, b.y - a.y, b.z - a.z}));
+      turn_product(back, bones[bone].rotation), turned(back, (sbf_vec3){b.x - a.x, b.y - a.y, b.z - a.z}));
 }
 
 void character_skeleton_make(soft_character *one) {

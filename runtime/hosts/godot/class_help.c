@@ -47,7 +47,7 @@ static const char *type_name(GDExtensionVariantType type, const char *class_name
   switch (type) {
   case GDEXTENSION_VARIANT_TYPE_BOOL:
     return "bool";
-  case GDEXTENSION_VARIANT_TYPE_INT:
+  case GDEXTENSION_VARIANT_TYPE_INT: /* of an enumeration, whose name is in class_name, too */
     return "int";
   case GDEXTENSION_VARIANT_TYPE_FLOAT:
     return "float";
@@ -113,10 +113,13 @@ static void write_members(text *to, const gd_class *form, const gd_help *words) 
   }
   write(to, "</methods><members>");
   for (const gd_property *one = form->properties; one && one->name; one++)
-    if (one->get)
-      write(to, "<member name=\"%s\" type=\"%s\" setter=\"%s\" getter=\"%s\">%s</member>", one->name,
-          type_name(one->type, one->class_name), one->set ? one->setter_name : "", one->getter_name,
-          word_of(form, words, one->name));
+    if (one->get) {
+      write(to, "<member name=\"%s\" type=\"%s\" setter=\"%s\" getter=\"%s\"", one->name,
+          type_name(one->type, one->class_name), one->set ? one->setter_name : "", one->getter_name);
+      if (one->type == GDEXTENSION_VARIANT_TYPE_INT && one->class_name)
+        write(to, " enum=\"%s\"", one->class_name);
+      write(to, ">%s</member>", word_of(form, words, one->name));
+    }
   write(to, "</members><signals>");
   for (const gd_signal *one = form->signals; one && one->name; one++) {
     write(to, "<signal name=\"%s\">", one->name);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ARGUMENTS = 6, USAGE_DEFAULT = 6, USAGE_NIL_IS_VARIANT = 131072 };
+enum { MOST_ARGUMENTS = 6, USAGE_DEFAULT = 6, USAGE_IS_ENUM = 65536, USAGE_NIL_IS_VARIANT = 131072 };
 
 /* ---- Instances ---- */
 
@@ -80,6 +80,15 @@ static void call_values(void *userdata, GDExtensionClassInstancePtr made,
   gd_free(&answer);
 }
 
+/* A result is a null pointer to begin with, and counts what is counted. */
+static void give_object(GDExtensionTypePtr result, const gd_variant *answer) {
+  if (!gd_as_object(answer)) return;
+  if (gd_take_bool(GD_CALL(answer, "is_class", gd_string("RefCounted"))))
+    gd.ref_set_object(result, gd_as_object(answer));
+  else
+    *(GDExtensionObjectPtr *)result = gd_as_object(answer);
+}
+
 /* Raw values, as typed scripts and Godot's own code hand them over. */
 static void call_raw(const gd_method *method, instance *made, const GDExtensionConstTypePtr *arguments,
     GDExtensionTypePtr result) {
@@ -98,9 +107,9 @@ static void call_raw(const gd_method *method, instance *made, const GDExtensionC
   if (method->answers && result) {
     if (method->result.type == GDEXTENSION_VARIANT_TYPE_NIL)
       gd.variant_new_copy(result, &answer);
-    else if (method->result.type == GDEXTENSION_VARIANT_TYPE_OBJECT) {
-      if (gd_as_object(&answer)) gd.ref_set_object(result, gd_as_object(&answer));
-    } else
+    else if (method->result.type == GDEXTENSION_VARIANT_TYPE_OBJECT)
+      give_object(result, &answer);
+    else
       gd.get_variant_to_type_constructor(method->result.type)(result, &answer);
   }
   gd_free(&answer);
@@ -135,6 +144,7 @@ typedef struct described {
 
 static void describe(described *one, const char *name, GDExtensionVariantType type, const char *class_name,
     uint32_t hint, const char *hint_text, uint32_t usage) {
+  if (type == GDEXTENSION_VARIANT_TYPE_INT && class_name) usage |= USAGE_IS_ENUM;
   gd.string_new_with_utf8_chars(&one->text, hint_text ? hint_text : "");
   one->info = (GDExtensionPropertyInfo){type, (GDExtensionStringNamePtr)(uintptr_t)gd_string_name(name),
       (GDExtensionStringNamePtr)(uintptr_t)gd_string_name(class_name ? class_name : ""), hint, &one->text,

@@ -12,7 +12,7 @@ typedef void gd_function(void *self, const gd_variant *const *arguments, gd_vari
 typedef struct gd_argument {
   const char *name;
   GDExtensionVariantType type; /* NIL: a Variant of any type */
-  const char *class_name;      /* of an object; NULL: none in particular */
+  const char *class_name;      /* of an object, or CLASS.ENUM of an INT; NULL: none in particular */
 } gd_argument;
 
 /* What can be called. In a table of virtual ones the name is Godot's, with its underscore. */
@@ -20,7 +20,7 @@ typedef struct gd_method {
   const char *name;
   gd_function *run;
   bool answers;       /* it has a result */
-  gd_argument result; /* its name does not matter; objects must be reference counted */
+  gd_argument result; /* its name does not matter */
   uint32_t count;     /* of arguments, at most 5 */
   gd_argument arguments[5];
 } gd_method;

@@ -1,15 +1,21 @@
 /* The ground as rays find it: heights at the corners of squares of a grid that lies still in the world, asked
  * once each on the main thread, kept while the character is near and asked again in turn. The runtime's
- * threads then read heights between them, which a physics engine's rays would not stand. */
+ * threads then read heights between them, which a physics engine's rays would not stand. Rays go through what
+ * moves, which is met as a body (physics_bodies.c), and through what hangs on the character itself. */
 #include <math.h>
 #include <stdlib.h>
 
+#include "physics_kinds.h"
 #include "soft_character.h"
 
 enum {
   LOOKED_AGAIN = 48, /* corners a frame that are asked again, in turn */
-  MOST_ACROSS = 256  /* corners across the window */
+  MOST_ACROSS = 256, /* corners across the window */
+  PASSED = 16,       /* most bodies that a ray goes through, one by one, before it gives up */
+  FORGET = 64        /* frames after which what rays go through is looked at again */
 };
+/* m: how far down rays look; what is thrown high finds the floor long before it falls on it. */
+static const double DEEP = 1000;
 
 typedef struct corner {
   int32_t x, z; /* of the grid */
@@ -20,13 +26,16 @@ typedef struct corner {
 struct physics_ground {
   double cell;     /* m */
   double radius;   /* m: of what is looked at around the character */
-  double reach;    /* m: how far above and below it rays go */
+  double reach;    /* m: how far above it rays begin */
+  double low;      /* m: how far below the node the ground is taken to be where there is none */
   double middle_y; /* m: while nothing is known */
   uint32_t across; /* corners of the ring, a power of two */
   int32_t low_x, low_z, high_x, high_z;
-  uint32_t turn; /* next corner to be asked again */
-  bool any;
-  gd_variant query; /* PhysicsRayQueryParameters3D */
+  uint32_t turn, frame; /* next corner to be asked again; looks so far */
+  bool any, told;       /* something is known; it was said that there is nothing */
+  gd_variant query;     /* PhysicsRayQueryParameters3D */
+  gd_variant passed;    /* RIDs that rays go through */
+  gd_variant still;     /* the body that the last ray found to be ground: most find the same one */
   corner corners[];
 };
 
@@ -57,9 +66,7 @@ static double height(const sbr_ground *asked, double x, double z, sbf_vec3 *norm
 }
 
 physics_ground *physics_ground_make(const soft_character *one) {
-  double wide = fmax(fmax(one->high.x, -one->low.x), fmax(one->high.z, -one->low.z)) * one->scale;
-  double size = fmax(wide, (one->high.y - one->low.y) * one->scale);
-  double radius = 1.5 * wide + 0.1 * size;
+  double size = soft_character_size(one), radius = soft_character_around(one);
   double cell = one->settings.ground_cell > 0 ? one->settings.ground_cell : size / 24;
   uint32_t across = 16;
   if (!(cell > 0)) cell = 0.05;
@@ -71,13 +78,18 @@ physics_ground *physics_ground_make(const soft_character *one) {
   made->radius = radius;
   made->reach = one->settings.ground_reach > 0 ? one->settings.ground_reach : size;
   made->across = across;
+  made->low = one->loose ? DEEP : 2 * made->reach;
   made->query = gd_new("PhysicsRayQueryParameters3D");
+  made->passed = gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY);
+  made->still = gd_nil();
   return made;
 }
 
 void physics_ground_free(physics_ground *ground) {
   if (!ground) return;
   gd_free(&ground->query);
+  gd_free(&ground->passed);
+  gd_free(&ground->still);
   free(ground);
 }
 
@@ -91,19 +103,55 @@ void physics_ground_level(physics_ground *ground, double level) {
   ground->middle_y = level;
 }
 
-/* The height under a corner; the lower end of the ray where it meets nothing. */
-static void ask(
-    physics_ground *ground, const gd_variant *space, corner *at, int32_t x, int32_t z, double middle) {
+/* Whether what a ray hit is no ground; then the next one goes through it. */
+static bool passes(physics_ground *ground, const soft_character *one, const gd_variant *hit) {
+  gd_variant handle = gd_key(hit, "rid");
+  bool through = false;
+  if (gd_type(&ground->still) != GDEXTENSION_VARIANT_TYPE_RID ||
+      gd_as_rid(&ground->still) != gd_as_rid(&handle)) {
+    gd_variant server = gd_singleton("PhysicsServer3D"), object = gd_key(hit, "collider");
+    through = body_moves(&server, &handle, &object) || body_is_below(&one->node, &object);
+    gd_free(&object);
+    gd_free(&server);
+    if (!through) gd_assign(&ground->still, gd_copy(&handle));
+  }
+  if (through) {
+    GD_DO(&ground->passed, "push_back", gd_copy(&handle));
+    GD_DO(&ground->query, "set_exclude", gd_copy(&ground->passed));
+  }
+  gd_free(&handle);
+  return through;
+}
+
+/* The height under a corner; whether there is any. */
+static bool ask(physics_ground *ground, const soft_character *one, const gd_variant *space, int32_t x,
+    int32_t z, double middle) {
   sbf_vec3 from = {(float)(x * ground->cell), (float)(middle + ground->reach), (float)(z * ground->cell)};
-  sbf_vec3 to = {from.x, (float)(middle - 2 * ground->reach), from.z};
+  sbf_vec3 to = {from.x, (float)(middle - fmax(DEEP, ground->low)), from.z};
+  bool found = false;
   GD_DO(&ground->query, "set_from", gd_vector3(from));
   GD_DO(&ground->query, "set_to", gd_vector3(to));
-  gd_variant hit = GD_CALL(space, "intersect_ray", gd_copy(&ground->query));
-  gd_variant place = gd_key(&hit, "position");
-  bool found = gd_type(&place) == GDEXTENSION_VARIANT_TYPE_VECTOR3;
-  *at = (corner){x, z, true, found ? gd_as_vector3(&place).y : to.y};
-  gd_free(&place);
-  gd_free(&hit);
+  corner *at = corner_at(ground, x, z);
+  *at = (corner){x, z, true, middle - ground->low};
+  for (int i = 0; i < PASSED; i++) {
+    gd_variant hit = GD_CALL(space, "intersect_ray", gd_copy(&ground->query));
+    bool any = gd_size(&hit) > 0, through = any && passes(ground, one, &hit);
+    if (any && !through) {
+      at->y = gd_take_vector3(gd_key(&hit, "position")).y;
+      found = true;
+    }
+    gd_free(&hit);
+    if (!through) break;
+  }
+  return found;
+}
+
+/* Once, as it may be meant: a character that flies. */
+static void tell_of_nothing(physics_ground *ground, const soft_character *one) {
+  ground->told = true;
+  soft_character_warning(one,
+      "there is no ground: nothing below it that stands still has a layer of its collision_mask. Add a "
+      "StaticBody3D with a CollisionShape3D, or set ground to GROUND_FLAT");
 }
 
 void physics_ground_look(soft_character *one) {
@@ -113,7 +161,12 @@ void physics_ground_look(soft_character *one) {
   gd_variant space = gd_as_object(&world) ? GD_CALL(&world, "get_direct_space_state") : gd_nil();
   if (gd_as_object(&space)) {
     GD_DO(&ground->query, "set_collision_mask", gd_int(one->settings.collision_mask));
-    GD_DO(&ground->query, "set_exclude", physics_bodies_handles(one->bodies));
+    if (ground->frame++ % FORGET == 0) {
+      gd_assign(&ground->passed, gd_empty(GDEXTENSION_VARIANT_TYPE_ARRAY));
+      gd_assign(&ground->still, gd_nil());
+    }
+    GD_DO(&ground->query, "set_exclude", gd_copy(&ground->passed));
+    bool begins = !ground->any, found = false;
     ground->low_x = (int32_t)floor((x - ground->radius) / ground->cell);
     ground->low_z = (int32_t)floor((z - ground->radius) / ground->cell);
     ground->high_x = (int32_t)ceil((x + ground->radius) / ground->cell);
@@ -121,16 +174,17 @@ void physics_ground_look(soft_character *one) {
     for (int32_t i = ground->low_x; i <= ground->high_x; i++)
       for (int32_t j = ground->low_z; j <= ground->high_z; j++) {
         corner *at = corner_at(ground, i, j);
-        if (!at->known || at->x != i || at->z != j) ask(ground, &space, at, i, j, y);
+        if (!at->known || at->x != i || at->z != j) found = ask(ground, one, &space, i, j, y) || found;
       }
     uint32_t wide = (uint32_t)(ground->high_z - ground->low_z + 1);
     uint32_t all = wide * (uint32_t)(ground->high_x - ground->low_x + 1);
     for (uint32_t i = 0; i < LOOKED_AGAIN && ground->any; i++, ground->turn++) {
       int32_t cx = ground->low_x + (int32_t)(ground->turn % all / wide);
       int32_t cz = ground->low_z + (int32_t)(ground->turn % wide);
-      ask(ground, &space, corner_at(ground, cx, cz), cx, cz, y);
+      ask(ground, one, &space, cx, cz, y);
     }
     ground->any = true;
+    if (begins && !found && !ground->told && !one->editor) tell_of_nothing(ground, one);
   } else {
     ground->middle_y = y;
   }

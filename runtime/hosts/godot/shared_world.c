@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "physics_kinds.h"
 #include "soft_character.h"
 
 enum {
@@ -115,6 +116,12 @@ uint32_t shared_world_count(const shared_world *shared) {
   return shared->count;
 }
 
+bool shared_world_has(const shared_world *shared, const gd_variant *object) {
+  for (uint32_t i = 0; i < shared->count; i++)
+    if (body_is_below(&shared->members[i]->node, object)) return true;
+  return false;
+}
+
 /* ---- What happened ---- */
 
 static soft_character *member_of(const shared_world *shared, sbr_character_id id) {
@@ -170,8 +177,18 @@ static void tell(shared_world *shared, const sbr_event *e) {
 
 /* ---- A frame ---- */
 
+/* Those whose nodes were scaled are made anew, and are then the last of the world, or in another one. */
+static void rescale(shared_world *shared) {
+  shared->holders++;
+  for (uint32_t i = 0; i < shared->count;)
+    if (!soft_character_rescale(shared->members[i])) i++;
+  release(shared);
+}
+
 void shared_world_step(soft_character *one) {
+  rescale(one->shared);
   shared_world *shared = one->shared;
+  if (!shared) return;
   if (shared->count > 1) {
     gd_variant engine = gd_singleton("Engine");
     int64_t frame = gd_take_int(GD_CALL(&engine, "get_physics_frames"));

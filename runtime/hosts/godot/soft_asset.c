@@ -28,6 +28,14 @@ static bool same_options(const sbr_model_options *a, const sbr_model_options *b)
          a->has_gravity == b->has_gravity && !memcmp(&a->gravity, &b->gravity, sizeof a->gravity);
 }
 
+/* Where it was loaded from, for messages. */
+static void name_of(const soft_asset *asset, char *name, size_t size) {
+  gd_variant value = gd_object(asset->object), path = GD_CALL(&value, "get_path");
+  if (!gd_as_text(&path, name, size)) snprintf(name, size, "SoftAsset");
+  gd_free(&path);
+  gd_free(&value);
+}
+
 soft_model *soft_model_hold(soft_asset *asset, const sbr_model_options *options) {
   soft_content *content = asset->content;
   sbf_diagnostic error;
@@ -36,7 +44,10 @@ soft_model *soft_model_hold(soft_asset *asset, const sbr_model_options *options)
     if (same_options(&one->options, options)) return one->holders++, one;
   soft_model *made = calloc(1, sizeof *made);
   if (!made || sbr_model_create(content->asset, options, &made->model, &error) != SBF_OK) {
-    gd_error(made ? error.message : "no memory for a model");
+    char name[512], message[sizeof error.message + 2 * sizeof name];
+    name_of(asset, name, sizeof name);
+    snprintf(message, sizeof message, "%s: %s", name, made ? error.message : "no memory for a model");
+    gd_error(message);
     free(made);
     return NULL;
   }
@@ -112,12 +123,10 @@ static void get_data(void *self, const gd_variant *const *arguments, gd_variant 
 static void set_data(void *self, const gd_variant *const *arguments, gd_variant *result) {
   soft_asset *asset = self;
   gd_variant value = gd_object(asset->object);
-  char path[1024];
-  gd_variant told = GD_CALL(&value, "get_path");
+  char name[512];
   (void)result;
-  gd_as_text(&told, path, sizeof path);
-  gd_free(&told);
-  if (soft_asset_read(asset, arguments[0], path[0] ? path : "SoftAsset")) GD_DO(&value, "emit_changed");
+  name_of(asset, name, sizeof name);
+  if (soft_asset_read(asset, arguments[0], name)) GD_DO(&value, "emit_changed");
   gd_free(&value);
 }
 

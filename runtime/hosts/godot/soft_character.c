@@ -1,7 +1,34 @@
 #include "soft_character.h"
 
+#include <stdio.h>
+
 /* Godot's notifications of a node. */
-enum { ENTER_TREE = 10, EXIT_TREE = 11, READY = 13, INTERNAL_PROCESS = 25, INTERNAL_PHYSICS_PROCESS = 26 };
+enum {
+  ENTER_TREE = 10,
+  EXIT_TREE = 11,
+  READY = 13,
+  INTERNAL_PROCESS = 25,
+  INTERNAL_PHYSICS_PROCESS = 26,
+  EDITOR_PRE_SAVE = 9001,
+  EDITOR_POST_SAVE = 9002
+};
+
+static void tell(const soft_character *one, const char *message, void (*log)(const char *)) {
+  char name[256], line[1024];
+  gd_variant text = GD_CALL(&one->node, "to_string");
+  gd_as_text(&text, name, sizeof name);
+  gd_free(&text);
+  snprintf(line, sizeof line, "%s: %s", name, message);
+  log(line);
+}
+
+void soft_character_error(const soft_character *one, const char *message) {
+  tell(one, message, gd_error);
+}
+
+void soft_character_warning(const soft_character *one, const char *message) {
+  tell(one, message, gd_warning);
+}
 
 static void notify(void *self, int32_t what, bool reversed) {
   soft_character *one = self;
@@ -15,8 +42,11 @@ static void notify(void *self, int32_t what, bool reversed) {
   } else if (what == INTERNAL_PHYSICS_PROCESS) {
     if (one->world) shared_world_step(one);
   } else if (what == INTERNAL_PROCESS && one->world && one->stale) {
+    if (!gd_take_bool(GD_CALL(&one->node, "is_visible_in_tree"))) return; /* drawn when it is seen again */
     character_mesh_update(one->mesh, one);
     one->stale = false;
+  } else if (what == EDITOR_PRE_SAVE || what == EDITOR_POST_SAVE) {
+    soft_character_save(one, what == EDITOR_POST_SAVE);
   }
 }
 
@@ -25,14 +55,17 @@ static void begin(void *self, GDExtensionObjectPtr object) {
   gd_variant engine = gd_singleton("Engine");
   one->node = gd_object(object);
   one->asset_value = gd_nil();
+  one->material = gd_nil();
   one->skeleton = gd_nil();
   one->editor = gd_take_bool(GD_CALL(&engine, "is_editor_hint"));
   one->settings = (soft_settings){.gravity_scale = 1,
-      .skeleton = true,
-      .threads = true,
+      .mirror_skeleton = true,
+      .use_threads = true,
       .collision_mask = 1,
       .push_bodies = true,
-      .push_limit = 5};
+      .push_limit = 5,
+      .cast_shadow = 1,
+      .layers = 1};
   gd_free(&engine);
 }
 
@@ -40,6 +73,7 @@ static void end(void *self) {
   soft_character *one = self;
   soft_character_unmake(one);
   gd_free(&one->asset_value);
+  gd_free(&one->material);
   gd_free(&one->node);
 }
 

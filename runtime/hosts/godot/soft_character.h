@@ -2,8 +2,8 @@
  *
  * Each node has a world of its own, stepped once a physics frame, or shares one with all that it may meet
  * (shared_world.c). One idea a file: what the inspector shows (character_properties.c), its life
- * (soft_character.c), what it has (character_making.c), where it is (character_place.c), what scripts call
- * (character_calls.c), its mesh, its skeleton, the ground and the bodies that it meets. */
+ * (soft_character.c), what it has (character_making.c), where it is (character_place.c, character_loose.c),
+ * what scripts call (character_calls.c), its mesh, its skeleton, the ground and the bodies that it meets. */
 #ifndef SBFMT_GODOT_SOFT_CHARACTER_H
 #define SBFMT_GODOT_SOFT_CHARACTER_H
 
@@ -19,16 +19,17 @@ typedef enum soft_ground {
 /* What the inspector sets. */
 typedef struct soft_settings {
   int64_t scheme, substeps, level; /* as sbr_model_options has them */
-  bool free_bodies, hold, threads;
-  double forward, sideways, turn; /* m/s, m/s, rad/s */
+  bool free_bodies, hold_pose, use_threads;
+  double forward_speed, sideways_speed, turn_speed; /* m/s, m/s, rad/s */
   double gravity_scale;
-  bool paused, preview, skeleton;
+  bool paused, preview, mirror_skeleton;
   int64_t ground;                   /* a soft_ground */
   double ground_cell, ground_reach; /* m; 0: by the character's size */
   int64_t collision_mask;           /* physics layers of what it meets */
   bool push_bodies;
-  bool meet_others;  /* nodes of one physics space that do meet each other */
-  double push_limit; /* m/s by which a frame's push makes a body faster at most; 0: no bound */
+  bool meet_others;            /* nodes of one physics space that do meet each other */
+  double push_limit;           /* m/s by which a frame's push makes a body faster at most; 0: no bound */
+  int64_t cast_shadow, layers; /* as Godot's GeometryInstance3D has them */
 } soft_settings;
 
 typedef struct character_mesh character_mesh;
@@ -39,6 +40,7 @@ typedef struct shared_world shared_world;
 typedef struct soft_character {
   gd_variant node;        /* itself, not held */
   gd_variant asset_value; /* the resource, held; nil: none */
+  gd_variant material;    /* likewise: what all its meshes are drawn with */
   soft_settings settings;
   bool editor;
 
@@ -48,18 +50,27 @@ typedef struct soft_character {
   sbr_world *world; /* its */
   sbr_character_id id;
   sbf_vec3 low, high; /* of the asset at rest, m */
-  float scale;        /* the node's own when it began */
+  float scale;        /* the node's own when it was made */
+  bool loose;         /* nothing holds it (character_loose.c); then, as it was put last: */
+  sbr_double3 frame;  /* its frame in the runtime, y above the ground there */
+  sbf_vec3 middle;    /* of its points at rest, from the node's origin, not turned */
   bool placed;        /* on the ground, by the first physics frame */
+  bool still;         /* it does not move: paused, or its node does not process */
   double flat_y;      /* height of the flat ground */
   gd_transform put;   /* where it was last put by its own motion */
   bool stale;         /* the mesh is to be drawn anew */
   bool previews;      /* it moves in the editor, having stood at: */
   gd_transform from;
+  gd_transform warned; /* what the editor's warnings were about */
   character_mesh *mesh;
   gd_variant skeleton; /* Skeleton3D; nil: none */
   physics_ground *ground;
   physics_bodies *bodies; /* the shared world's */
 } soft_character;
+
+/* Into Godot's log, with the node's name before it. */
+void soft_character_error(const soft_character *one, const char *message);
+void soft_character_warning(const soft_character *one, const char *message);
 
 extern const gd_class soft_character_class;
 extern const gd_property soft_character_properties[];
@@ -78,18 +89,41 @@ void soft_character_drive(soft_character *one);
 /* Its node's, in the world; and which way something placed so faces, rad. */
 gd_transform soft_character_transform(const soft_character *one);
 float transform_heading(const gd_transform *place);
+/* By how much it is larger than without it, along +Y; 1 where that is nothing. */
+float transform_scale(const gd_transform *place);
 /* Leaves the node where the character now is. */
 void soft_character_follow(soft_character *one);
 /* Puts it somewhere: a place above the ground below it (m), a heading (rad). */
 void soft_character_place(soft_character *one, sbf_vec3 position, float heading);
+/* m: the greatest of its width and height; and how far from its node it may reach. */
+double soft_character_size(const soft_character *one);
+double soft_character_around(const soft_character *one);
 /* Before its world steps: puts it where its node was put, and looks around; whether it moves. */
 bool soft_character_prepare(soft_character *one);
+/* It keeps still, or goes on. */
+void soft_character_pause(soft_character *one);
+/* Whether its node was scaled: then it has been made anew, in that size. */
+bool soft_character_rescale(soft_character *one);
+/* In the editor: a scene is saved with the node where it stood before the preview. */
+void soft_character_save(soft_character *one, bool done);
 /* And after: its node and its skeleton follow. */
 void soft_character_show(soft_character *one);
 double soft_character_ground_height(const soft_character *one, double x, double z);
 
+/* ---- character_loose.c ---- */
+
+bool soft_asset_is_loose(const sbf_asset *asset);
+/* It has just been made where its node is. */
+void soft_character_loose_begin(soft_character *one);
+/* `put` goes with it; it goes to where `put` is. False where something holds it. */
+bool soft_character_loose_follow(soft_character *one);
+bool soft_character_loose_place(soft_character *one);
+
 /* ---- character_properties.c ---- */
 
+/* Whether a number may be set; else it stays as it was, and that is said. */
+bool soft_character_fits(const soft_character *one, const char *name, double value, double low, double high);
+#define SOFT_MOST 1e4 /* of what has a unit: more is not meant */
 /* The resource says that it has changed: the character takes its new content. */
 gd_function soft_character_asset_changed;
 
@@ -99,6 +133,10 @@ gd_function soft_character_asset_changed;
 character_mesh *character_mesh_make(soft_character *one);
 void character_mesh_free(character_mesh *mesh);
 void character_mesh_update(character_mesh *mesh, soft_character *one);
+/* By its settings: material, shadows, layers. */
+void character_mesh_dress(character_mesh *mesh, const soft_character *one);
+/* The MeshInstance3D of a render mesh; nil where there is none. */
+gd_variant character_mesh_instance(const character_mesh *mesh, int64_t render_mesh);
 
 /* ---- character_skeleton.c ---- */
 
@@ -125,8 +163,7 @@ void physics_bodies_look(soft_character *one, bool now);
 /* Once a step: moves those that there are; and gives the bodies what the step has pushed them with. */
 void physics_bodies_move(physics_bodies *bodies, sbr_world *world, float frame_s, bool pushes);
 void physics_bodies_push(physics_bodies *bodies, sbr_world *world, const soft_settings *settings);
-/* Their handles, which rays leave out: an array of RIDs; and the object that a collider is of, or null. */
-gd_variant physics_bodies_handles(const physics_bodies *bodies);
+/* The object that a collider is of, or null. */
 gd_variant physics_bodies_object(const physics_bodies *bodies, sbr_collider_id collider);
 
 /* ---- physics_shapes.c ---- */
@@ -144,6 +181,8 @@ bool shared_world_join(soft_character *one, const sbr_world_definition *definiti
 void shared_world_leave(soft_character *one);
 /* How many nodes are in it. */
 uint32_t shared_world_count(const shared_world *shared);
+/* Whether an object hangs below one of them, as a hit box does. */
+bool shared_world_has(const shared_world *shared, const gd_variant *object);
 /* The character's physics frame: the first of the world's that is called in one steps it for all. */
 void shared_world_step(soft_character *one);
 

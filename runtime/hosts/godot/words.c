@@ -4,33 +4,48 @@
 
 static const gd_help character_words[] = {
     {"asset", "The character. Several nodes share one, and what is made of it."},
-    {"paused", "It keeps still, and costs nothing."},
-    {"preview", "It also moves in the editor, and is put back when this is switched off."},
-    {"forward_speed", "What it is to do, m/s to its front. See [method drive]."},
-    {"sideways_speed", "What it is to do, m/s to its left."},
-    {"turn_speed", "What it is to do, rad/s to its left."},
-    {"scheme", "How its bodies are stepped; automatic is the file's own choice."},
-    {"substeps", "Steps a control tick, 1/60 s unless the file says otherwise. 0: the file's own choice."},
-    {"level", "Which level of detail of the file is stepped, 0 being the finest."},
-    {"gravity_scale", "Times the file's gravity."},
+    {"paused", "It keeps still, and costs nothing. A node that does not process, as in a paused tree, keeps "
+               "still too."},
+    {"preview", "It also moves in the editor, and is put back when this is switched off. A scene is saved "
+                "with the node where it stood before."},
+    {"forward_speed", "The speed that it walks at to its front, in m/s; below 0 to its back. Its gait may be "
+                      "slower than what is asked. See [method drive]."},
+    {"sideways_speed", "The speed that it walks at to its left, in m/s; below 0 to its right."},
+    {"turn_speed", "How fast it turns to its left, in rad/s; below 0 to its right. Rotating the node instead "
+                   "puts it there at once."},
+    {"scheme",
+        "How its soft bodies are stepped. Automatic is the file's own choice, and the best one to begin "
+        "with."},
+    {"substeps", "Steps a control tick, which is 1/60 s unless the file says otherwise. 0 is the file's own "
+                 "choice. More cost as much more, and bear stiffer flesh."},
+    {"level", "Which level of detail of the file is stepped: 0 is the finest; beyond the last is the last."},
+    {"gravity_scale", "Times the file's gravity. That of the project and of its areas does not matter."},
     {"free_bodies", "Pins are dropped: sections fall apart from the bones."},
     {"hold_pose", "Bones stay in their rest pose, and flesh alone moves."},
     {"use_threads", "Steps on the [WorkerThreadPool]. The motion is the same to the bit."},
-    {"mirror_skeleton",
-        "A [Skeleton3D] under the node has the bones, for attachments. See [method get_skeleton]."},
+    {"mirror_skeleton", "A [Skeleton3D] under the node has the bones, for attachments. It follows the "
+                        "character; posing it does not. See [method get_skeleton]."},
     {"ground", "What it stands on."},
-    {"ground_cell", "Metres between two rays that look for the ground. 0: a 24th of the character's size."},
-    {"ground_reach", "Metres above the node at which these rays begin. 0: the character's size. What is "
+    {"ground_cell", "Metres between two of the rays that look for the ground. 0 is a 24th of the character's "
+                    "size. Steps of the ground become slopes as wide as this."},
+    {"ground_reach", "Metres above the node at which these rays begin. 0 is the character's size. What is "
                      "higher is a roof."},
-    {"collision_mask", "Physics layers of the ground and of the bodies that it meets."},
-    {"push_bodies", "What it touches of [RigidBody3D] is pushed with what the flesh feels."},
+    {"collision_mask", "Physics layers of the ground and of the bodies that it meets. It is on no layer "
+                       "itself: areas and rays do not find it."},
+    {"push_bodies", "A [RigidBody3D] that it touches is pushed with what the flesh feels."},
+    {"push_limit", "By how many m/s the push of a frame makes a body faster at most; what came faster is "
+                   "still thrown back. 0 is no bound."},
     {"meet_others", "It meets the other nodes of its physics space that have this too; parts of it meet each "
                     "other then. It costs."},
-    {"push_limit", "Metres a second by which one frame's push makes a body faster at most. 0: no bound."},
+    {"material_override",
+        "What all its meshes are drawn with instead of the file's materials. For a material "
+        "of one surface see [method get_mesh_instance]."},
+    {"cast_shadow", "Whether its meshes cast shadows."},
+    {"layers", "Render layers of its meshes, for cameras and lights."},
     {"drive",
         "Sets [member forward_speed], [member sideways_speed] and [member turn_speed]: m/s, m/s, rad/s."},
-    {"teleport", "Puts it over a place, on the ground there, turned by [param heading] radians about +Y. The "
-                 "pose is kept."},
+    {"teleport", "Puts it over a place, turned by [param heading] radians about +Y: what walks stands on the "
+                 "ground there, what is loose falls to it. The pose is kept."},
     {"reset_pose", "Puts it into its rest pose, where it stands."},
     {"play", "Plays the file's clip of that name, faded in over [param fade] seconds. See [method "
              "SoftAsset.get_clip_names]."},
@@ -47,6 +62,9 @@ static const gd_help character_words[] = {
     {"get_substeps_needed", "Substeps that its bodies need now to be stable."},
     {"get_state_hash", "A hash of all that moves: equal where two runs are equal to the bit."},
     {"get_skeleton", "The [Skeleton3D] with its bones, or null. See [member mirror_skeleton]."},
+    {"get_mesh_instance",
+        "The [MeshInstance3D] that draws one of its render meshes, or null. It is made anew "
+        "with the character: see [method SoftAsset.get_render_mesh_names]."},
     {"get_rest_bounds", "The box that it fills at rest, in the node's space."},
     {"get_bone_lines", "Head and tail of every bone, in world space."},
     {"foot_down", "A foot of the gait comes down."},
@@ -82,15 +100,16 @@ static const gd_help asset_words[] = {
 
 void words_tell(void) {
   gd_class_tell(&soft_character_class,
-      "A soft character: it walks, its flesh gives, its feet find the ground. It shows a [SoftAsset] and "
-      "goes where its "
-      "character goes; moving the node puts the character there. Physics bodies that stand still are its "
-      "ground, those "
-      "that move are touched and pushed.",
+      "A soft character that walks, whose flesh gives and whose feet find the ground. It shows a [SoftAsset] "
+      "and "
+      "goes where its character goes; moving the node puts the character there, scaling it makes it anew in "
+      "that "
+      "size. Physics bodies that stand still are its ground, those that move are touched and pushed; what "
+      "hangs "
+      "below the node, as a hit box does, is neither.",
       character_words);
   gd_class_tell(&soft_asset_class,
       "A soft character's bundle, as [SoftCharacter3D] shows it. It is loaded from a .sbfz, or imported from "
-      "a .sbf by "
-      "the add-on's plugin.",
+      "a .sbf by the add-on's plugin.",
       asset_words);
 }

@@ -1,0 +1,16 @@
+/* Of what a query of the physics space finds: what stands still, what moves, and what is the character's own.
+ */
+#ifndef SBFMT_GODOT_PHYSICS_KINDS_H
+#define SBFMT_GODOT_PHYSICS_KINDS_H
+
+#include "variants.h"
+
+/* Whether Godot's engine moves it by its mass; what is frozen it does not. `body`: its RID. */
+bool body_is_rigid(const gd_variant *server, const gd_variant *body);
+/* Whether it is of a kind that moves: a RigidBody3D, frozen ones too, or a CharacterBody3D. `object`: its
+ * node. */
+bool body_moves(const gd_variant *server, const gd_variant *body, const gd_variant *object);
+/* Whether it hangs in the tree below the node, as a hit box does, which it goes with. */
+bool body_is_below(const gd_variant *node, const gd_variant *object);
+
+#endif

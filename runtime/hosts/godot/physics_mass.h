@@ -1,0 +1,20 @@
+/* What of a body of Godot's makes it light or heavy, as a collider of the runtime has it. */
+#ifndef SBFMT_GODOT_PHYSICS_MASS_H
+#define SBFMT_GODOT_PHYSICS_MASS_H
+
+#include "sbrun/collision.h"
+#include "variants.h"
+
+/* Zeros: nothing moves it. */
+typedef struct body_mass {
+  float inverse;                    /* 1/kg */
+  sbf_vec3 inverse_inertia, centre; /* 1/(kg m^2), about its principal axes; m, in the body's frame */
+} body_mass;
+
+/* `body`: its RID. */
+body_mass body_mass_of(const gd_variant *server, const gd_variant *body);
+/* Gives it to the collider of one of the body's shapes, whose place and rotation it has already. */
+void body_mass_give(const body_mass *mass, const gd_variant *server, const gd_variant *body, int64_t shape,
+    sbr_collider_definition *collider);
+
+#endif

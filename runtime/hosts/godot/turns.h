@@ -1,0 +1,20 @@
+/* Rotations between the runtime, which has quaternions, and Godot, whose values here are rows of a matrix. */
+#ifndef SBFMT_GODOT_TURNS_H
+#define SBFMT_GODOT_TURNS_H
+
+#include "variants.h"
+
+/* First b, then a. */
+sbf_quat turn_product(sbf_quat a, sbf_quat b);
+sbf_quat turn_back(sbf_quat q);
+sbf_vec3 turned(sbf_quat q, sbf_vec3 v);
+sbf_vec3 turn_cross(sbf_vec3 a, sbf_vec3 b);
+/* Of a matrix whose columns are unit vectors at right angles. */
+sbf_quat turn_of(float rows[3][3]);
+/* A matrix with a vector, and a place in a place. */
+sbf_vec3 placed_vector(const gd_transform *place, sbf_vec3 v);
+gd_transform placed_in(const gd_transform *outer, const gd_transform *inner);
+/* Upright: turned about +Y alone (rad), as large as `scale`. */
+gd_transform upright(sbf_vec3 origin, float heading, float scale);
+
+#endif
