@@ -113,7 +113,16 @@ func dress(one: SoftCharacter3D) -> void:
 	one.material_override = StandardMaterial3D.new()
 	one.layers = 5
 	one.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
+	var hat := BoneAttachment3D.new()
+	skeleton.add_child(hat)
+	hat.bone_name = skeleton.get_bone_name(5)
 	one.scheme = SoftCharacter3D.SCHEME_POSITION_BASED # made anew
+	check(one.get_skeleton() == skeleton and skeleton.get_child_count() == 1, "what hangs on its bones is gone")
+	check(skeleton.get_bone_count() == one.asset.get_bone_names().size(), "its skeleton has %d bones" % skeleton.get_bone_count())
+	one.mirror_skeleton = false
+	check(one.get_skeleton() == null, "it still has a skeleton")
+	one.mirror_skeleton = true
+	check(one.get_skeleton() != null, "it has no skeleton again")
 	mesh = one.get_mesh_instance(0)
 	check(mesh.material_override == one.material_override and mesh.layers == 5 and
 			mesh.cast_shadow == GeometryInstance3D.SHADOW_CASTING_SETTING_OFF, "it is not dressed")

@@ -26,7 +26,6 @@ static void measure(soft_character *one) {
 
 void soft_character_unmake(soft_character *one) {
   character_mesh_free(one->mesh);
-  character_skeleton_free(one);
   shared_world_leave(one);
   physics_ground_free(one->ground);
   soft_model_release(one->model);
@@ -123,11 +122,12 @@ void soft_character_make(soft_character *one) {
       one->still = false;
       soft_character_pause(one);
       one->mesh = character_mesh_make(one);
-      if (s->mirror_skeleton) character_skeleton_make(one);
+      character_skeleton_make(one);
       one->stale = true;
     } else
       soft_character_unmake(one);
-  }
+  } else if (inside)
+    character_skeleton_free(one);
   free(kept.bytes);
   GD_DO(&one->node, "update_gizmos");
 }

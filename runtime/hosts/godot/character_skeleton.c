@@ -21,13 +21,28 @@ static gd_transform local(const sbr_transform *bones, int32_t parent, uint32_t b
       turn_product(back, bones[bone].rotation), turned(back, (sbf_vec3){b.x - a.x, b.y - a.y, b.z - a.z}));
 }
 
+/* The node stays the same one when the character is made anew, as things hang on it. */
+static void begin(soft_character *one) {
+  if (gd_as_object(&one->skeleton)) {
+    GD_DO(&one->skeleton, "clear_bones");
+    return;
+  }
+  gd_assign(&one->skeleton, gd_new("Skeleton3D"));
+  GD_DO(&one->skeleton, "set_name", gd_string("Skeleton3D"));
+  GD_DO(&one->skeleton, "set_as_top_level", gd_bool(true));
+  GD_DO(
+      &one->node, "add_child", gd_copy(&one->skeleton), gd_bool(false), gd_int(1)); /* INTERNAL_MODE_FRONT */
+}
+
 void character_skeleton_make(soft_character *one) {
   const sbf_bone_list *list = &one->model->asset->bones;
   sbr_transform *rest = list->count ? malloc(list->count * sizeof *rest) : NULL;
-  if (!rest) return;
-  one->skeleton = gd_new("Skeleton3D");
-  GD_DO(&one->skeleton, "set_name", gd_string("Skeleton3D"));
-  GD_DO(&one->skeleton, "set_as_top_level", gd_bool(true));
+  if (!one->settings.mirror_skeleton || !rest) {
+    free(rest);
+    character_skeleton_free(one);
+    return;
+  }
+  begin(one);
   for (uint32_t i = 0; i < list->count; i++) {
     const sbf_bone *bone = &list->at[i];
     rest[i] = (sbr_transform){bone->head, bone->rotation};
@@ -36,14 +51,12 @@ void character_skeleton_make(soft_character *one) {
     GD_DO(&one->skeleton, "set_bone_rest", gd_int(i), gd_transform_value(local(rest, bone->parent, i)));
   }
   free(rest);
-  GD_DO(
-      &one->node, "add_child", gd_copy(&one->skeleton), gd_bool(false), gd_int(1)); /* INTERNAL_MODE_FRONT */
   character_skeleton_update(one);
 }
 
 void character_skeleton_free(soft_character *one) {
   if (gd_as_object(&one->skeleton)) GD_DO(&one->skeleton, "queue_free");
-  gd_free(&one->skeleton);
+  gd_assign(&one->skeleton, gd_nil());
 }
 
 void character_skeleton_update(soft_character *one) {
@@ -52,7 +65,7 @@ void character_skeleton_update(soft_character *one) {
   if (!bones) return;
   sbr_double3 origin = sbr_character_origin(one->world, one->id);
   sbr_character_bones(one->world, one->id, bones, list->count);
-  GD_DO(&one->skeleton, "set_global_position",
+  GD_DO(&one->skeleton, "set_position", /* at the top level: the world's */
       gd_vector3((sbf_vec3){(float)origin.x, (float)origin.y, (float)origin.z}));
   for (uint32_t i = 0; i < list->count; i++)
     GD_DO(

@@ -140,6 +140,7 @@ gd_variant character_mesh_instance(const character_mesh *mesh, int64_t render_me
 
 /* ---- character_skeleton.c ---- */
 
+/* Gives it the model's bones, if it is to have any; else it goes. */
 void character_skeleton_make(soft_character *one);
 void character_skeleton_free(soft_character *one);
 void character_skeleton_update(soft_character *one);
