@@ -5,6 +5,7 @@
 #include "collide/guest.h"
 #include "contact/self_touch.h"
 #include "math/vec3.h"
+#include "solvers/held_push.h"
 
 /* While some speed changes by more than this in a sweep, another follows, in m/s. */
 static const float SETTLED_M_S = 1e-3f;
@@ -45,11 +46,21 @@ static sbf_vec3 velocity_under(const touching *c, const sbri_touch *touch) {
   return touch->guest ? sbri_guest_velocity(guest_of(c, touch), touch->arm) : touch->velocity;
 }
 
-static sbf_vec3 velocity_of(const touching *c, const sbri_sample *s) {
+/* Whether simulated bodies that hold points of the touch feel it: what flesh does to itself, they get back.
+ */
+static bool is_felt(const touching *c, const sbri_touch *touch) {
+  return c->tick->reactions && touch->collider == SBRI_ITSELF;
+}
+
+static sbf_vec3 velocity_of(const touching *c, const sbri_touch *touch) {
+  const sbri_sample *s = &touch->sample;
+  const bool felt = is_felt(c, touch);
   sbf_vec3 v = {0, 0, 0};
-  for (int k = 0; k < 4; k++)
-    if (s->weights[k] != 0)
-      v = sbri_add_scaled(v, sbri_slot_velocity(c->tick, c->velocities, s->slots[k]), s->weights[k]);
+  for (int k = 0; k < 4; k++) {
+    if (s->weights[k] == 0) continue;
+    v = sbri_add_scaled(v, sbri_slot_velocity(c->tick, c->velocities, s->slots[k]), s->weights[k]);
+    if (felt) v = sbri_add_scaled(v, sbri_held_gain(c->tick, s->slots[k]), s->weights[k]);
+  }
   return v;
 }
 
@@ -65,19 +76,24 @@ static float share_of(const touching *c, const sbri_sample *s, int k) {
 }
 
 /* What changes the velocity of the sample by `faster`. */
-static void push(const touching *c, const sbri_sample *s, sbf_vec3 faster) {
+static void push(const touching *c, const sbri_touch *touch, sbf_vec3 faster) {
+  const sbri_sample *s = &touch->sample;
+  const bool felt = is_felt(c, touch);
   for (int k = 0; k < 4; k++) {
     float share = share_of(c, s, k);
+    if (felt) sbri_held_push(c->tick, s->slots[k], sbri_scale(faster, s->weights[k] * s->mass_kg));
     if (share == 0) continue;
     float *v = c->velocities + 3 * (s->slots[k] / SBRI_BLOCK * SBRI_BLOCK) + s->slots[k] % SBRI_BLOCK;
     v[0] += share * faster.x, v[SBRI_BLOCK] += share * faster.y, v[2 * SBRI_BLOCK] += share * faster.z;
   }
 }
 
-/* And its place by `moved`. */
-static void move(const touching *c, const sbri_sample *s, sbf_vec3 moved) {
+/* And its place by `moved`; `felt`: by those that hold it too. */
+static void move(const touching *c, const sbri_touch *touch, sbf_vec3 moved, bool felt) {
+  const sbri_sample *s = &touch->sample;
   for (int k = 0; k < 4; k++) {
     float share = share_of(c, s, k);
+    if (felt) sbri_held_shift(c->tick, s->slots[k], sbri_scale(moved, s->weights[k] * s->mass_kg));
     if (share == 0) continue;
     sbri_point *x = &c->tick->positions[s->slots[k]];
     x->x += share * moved.x, x->y += share * moved.y, x->z += share * moved.z;
@@ -117,10 +133,39 @@ static float idle_time(const touching *c, const sbri_touch *touch, float gap) {
   return c->tick->tick_s * (2 * gap / (way + sqrtf(way * way + 4 * most * gap)));
 }
 
+/* By how much a push of 1 N s moves what holds the sample's points, at most: along whichever way. */
+static float held_ease(const touching *c, const sbri_sample *s) {
+  float sum = 0;
+  for (int k = 0; k < 4; k++) {
+    const sbri_reaction *r = sbri_reaction_at(c->tick, s->slots[k]);
+    sbf_vec3 arm = {0, 0, 0};
+    float weight = 0;
+    bool first = true; /* of those that this body holds, which are moved as one */
+    for (int i = 0; r && i < 4; i++) {
+      if (sbri_reaction_at(c->tick, s->slots[i]) != r) continue;
+      first = first && i >= k;
+      weight += s->weights[i];
+      arm = sbri_add_scaled(arm, sbri_reaction_arm(c->tick, r, s->slots[i]), s->weights[i]);
+    }
+    if (r && first) sum += r->ease * weight * weight + r->turn_ease * sbri_dot(arm, arm);
+  }
+  return sum;
+}
+
+/* The mass that a push on the body itself meets where bodies that hold it give way. */
+static float mass_of(const touching *c, const sbri_sample *s) {
+  float sum = held_ease(c, s);
+  for (int k = 0; k < 4; k++)
+    if (s->slots[k] < c->tick->island->free_count)
+      sum += s->weights[k] * s->weights[k] * c->tick->island->inverse_masses[s->slots[k]];
+  return 1 / sum;
+}
+
 /* Says whether it may touch. */
 static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   if (touch->collider == SBRI_ITSELF) sbri_self_touch_follow(c->tick, touch);
-  sbf_vec3 v = velocity_of(c, &touch->sample);
+  if (is_felt(c, touch)) touch->sample.mass_kg = mass_of(c, &touch->sample);
+  sbf_vec3 v = velocity_of(c, touch);
   float speed = sbri_dot(touch->normal, sbri_sub(v, c->guests ? velocity_under(c, touch) : touch->velocity));
   touch->gap = gap_of(c, touch);
   touch->wanted = wanted_of(touch, speed, rule);
@@ -176,8 +221,7 @@ static uint32_t begin_all(const touching *c, const sbri_contact_rule *rule) {
 
 /* One push made right; by how much it changed. */
 static float correct(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
-  const sbri_sample *s = &touch->sample;
-  sbf_vec3 v = sbri_sub(velocity_of(c, s), touch->velocity), n = touch->normal;
+  sbf_vec3 v = sbri_sub(velocity_of(c, touch), touch->velocity), n = touch->normal;
   float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed);
   if (!(gain > 0)) gain = 0;
   if (gain == 0 && touch->gain == 0) return 0;
@@ -186,7 +230,7 @@ static float correct(const touching *c, sbri_touch *touch, const sbri_contact_ru
   if (size > most) rub = sbri_scale(rub, most / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
   touch->gain = gain, touch->rub = rub;
-  push(c, s, change);
+  push(c, touch, change);
   return sbri_length(change);
 }
 
@@ -194,7 +238,8 @@ static float correct(const touching *c, sbri_touch *touch, const sbri_contact_ru
 static float correct_with_guest(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
   const sbri_sample *s = &touch->sample;
   const sbri_guest *g = guest_of(c, touch);
-  sbf_vec3 arm = touch->arm, v = sbri_sub(velocity_of(c, s), sbri_guest_velocity(g, arm)), n = touch->normal;
+  sbf_vec3 arm = touch->arm, v = sbri_sub(velocity_of(c, touch), sbri_guest_velocity(g, arm)),
+           n = touch->normal;
   float along = 1 + s->mass_kg * sbri_dot(n, sbri_guest_answer(g, arm, n));
   float across = 1 + s->mass_kg * g->lever * (g->most_ease + sbri_dot(arm, arm) * g->most_turn_ease);
   float speed = sbri_dot(n, v), gain = touch->gain + (touch->wanted - speed) / along;
@@ -205,7 +250,7 @@ static float correct_with_guest(const touching *c, sbri_touch *touch, const sbri
   if (size > most) rub = sbri_scale(rub, most / size);
   sbf_vec3 change = sbri_add_scaled(sbri_sub(rub, touch->rub), n, gain - touch->gain);
   touch->gain = gain, touch->rub = rub;
-  push(c, s, change);
+  push(c, touch, change);
   push_guest(c, touch, change);
   return sbri_length(change) * (FINER_WITH_GUESTS + s->mass_kg * g->most_ease);
 }
@@ -221,7 +266,7 @@ void sbri_touches_answer(
     const sbri_touch *touch = &c.touches[i];
     if (!(touch->gain > 0)) continue;
     sbf_vec3 change = sbri_add_scaled(touch->rub, touch->normal, touch->gain);
-    push(&c, &touch->sample, change);
+    push(&c, touch, change);
     if (with && touch->guest) push_guest(&c, touch, change);
   }
   float most = SETTLED_M_S;
@@ -237,7 +282,7 @@ void sbri_touches_answer(
     sbri_touch *touch = &c.touches[i];
     touch->pushed = touch->gain > touch->pushed ? touch->gain : touch->pushed;
     float up = lift_of(touch, rule);
-    if (touch->gain > 0 && up > 0) move(&c, &touch->sample, sbri_scale(touch->normal, up));
+    if (touch->gain > 0 && up > 0) move(&c, touch, sbri_scale(touch->normal, up), is_felt(&c, touch));
   }
 }
 
@@ -287,17 +332,16 @@ void sbri_touches_bound(const sbri_island_tick *t, const sbri_body *body, const 
   touching c = touching_of(t, body, t->velocities);
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_touch *touch = &c.touches[i];
-    const sbri_sample *s = &touch->sample;
     float least = touch->gap < -rule->slack_m ? touch->gap : -rule->slack_m, lift = least - gap_of(&c, touch);
     if (!(lift > 0)) continue;
-    sbf_vec3 v = sbri_sub(velocity_of(&c, s), velocity_under(&c, touch)), n = touch->normal;
+    sbf_vec3 v = sbri_sub(velocity_of(&c, touch), velocity_under(&c, touch)), n = touch->normal;
     float gain = lift / rule->step_s;
     sbf_vec3 sideways = sbri_add_scaled(v, n, -sbri_dot(n, v));
     float size = sbri_length(sideways), most = friction_of(&c, touch, rule) * gain;
     sbf_vec3 change = sbri_add_scaled(sbri_scale(n, gain), sideways, size > most ? -most / size : -1);
-    push(&c, s, change);
+    push(&c, touch, change);
     if (touch->guest) push_guest(&c, touch, change);
-    move(&c, s, sbri_scale(change, rule->step_s));
+    move(&c, touch, sbri_scale(change, rule->step_s), false); /* they go by the push */
     touch->given = sbri_add(touch->given, change);
   }
 }

@@ -84,11 +84,17 @@ typedef struct kind {
   bool hung;           /* the first box holds nothing of the surface */
   sbf_pressure_mode pressure;
   float pa, limit, yield, tear, goal, damping, times;
+  float keeps_m; /* the surface meets itself, at that thickness or at 0.9 of what it is apart at rest */
+  float box_kg;  /* 0: BOX_KG */
   sbf_scheme scheme;
   double linear, angular; /* that may be lost or gained, as shares; 0: LINEAR and ANGULAR */
 } kind;
 
 static const double LINEAR = 1e-6, ANGULAR = 2e-6;
+
+static float kg_of(const kind *is) {
+  return is->box_kg > 0 ? is->box_kg : BOX_KG;
+}
 
 static scene dumbbell(const kind *is, sbr_instructions instructions) {
   scene s = rigid_begin();
@@ -103,13 +109,18 @@ static scene dumbbell(const kind *is, sbr_instructions instructions) {
   sbf_attributes *a = &scene_body(&s, 0)->attributes;
   a->pressure_mode = is->pressure, a->pressure = is->pa;
   a->damping_ratio = is->damping;
+  if (is->keeps_m > 0) {
+    sbf_collision *rule = &scene_body(&s, 0)->collision;
+    rule->self = true, rule->outer_thickness = is->keeps_m;
+    a->friction = 0; /* so far apart it would turn them */
+  }
   if (is->limit > 0) a->strain_max = is->limit, a->strain_min = -is->limit;
   a->yield_strain = is->yield, a->yield_flow = is->yield > 0 ? 5 : 0, a->tear_strain = is->tear;
   for (uint32_t end = 0; end < (is->alone ? 1 : 2); end++) {
     uint32_t points[WIDE * WIDE];
     for (uint32_t i = 0; i < WIDE * WIDE; i++) points[i] = grid_point(end ? LONG - 1 : 0, i % WIDE, i / WIDE);
     uint32_t body =
-        rigid_box(&s, (sbf_vec3){end ? 0.22f : -0.22f, 0, 0}, (sbf_vec3){0.08f, 0.12f, 0.12f}, BOX_KG);
+        rigid_box(&s, (sbf_vec3){end ? 0.22f : -0.22f, 0, 0}, (sbf_vec3){0.08f, 0.12f, 0.12f}, kg_of(is));
     rigid_pin(&s, level, end, (int32_t)body, points, WIDE * WIDE);
     if (is->goal > 0) {
       sbf_pin_set *pins = (sbf_pin_set *)(uintptr_t)&level->pins.at[end];
@@ -144,6 +155,13 @@ static const kind kinds[] = {
         .surface = true,
         .hung = true,
         .pressure = SBF_PRESSURE_MODE_VOLUME},
+    {.name = "springs, itself", .model = SPRINGS, .surface = true, .keeps_m = 0.2f, .angular = 3e-4},
+    {.name = "springs, itself, light",
+        .model = SPRINGS,
+        .surface = true,
+        .keeps_m = 0.2f,
+        .times = 3,
+        .box_kg = 0.02f},
     {.name = "springs, goal", .model = SPRINGS, .goal = 0.5f},
     {.name = "regions", .model = REGIONS},
     {.name = "regions, damped", .model = REGIONS, .damping = 0.2f},
@@ -172,6 +190,19 @@ static const kind kinds[] = {
         .hung = true,
         .pressure = SBF_PRESSURE_MODE_VOLUME,
         .damping = 0.1f},
+    {.name = "borne springs, itself",
+        .model = SPRINGS,
+        .alone = true,
+        .surface = true,
+        .keeps_m = 0.2f,
+        .angular = 3e-4},
+    {.name = "borne springs, itself, light",
+        .model = SPRINGS,
+        .alone = true,
+        .surface = true,
+        .keeps_m = 0.2f,
+        .times = 3,
+        .box_kg = 0.02f},
     /* Whose forces are not those of a step's begin: */
     {.name = "heun", .model = SPRINGS, .scheme = SBF_SCHEME_HEUN, .linear = 1e-3, .angular = 1e-3},
     {.name = "swept springs",
@@ -199,7 +230,8 @@ static const kind kinds[] = {
 /* How many times the usual. */
 static float hit(scene *s, const kind *is) {
   float times = is->times > 0 ? is->times : 1;
-  sbf_vec3 impulse = {0.9f * BOX_KG * times, 1.5f * BOX_KG * times, 0.3f * BOX_KG * times};
+  float kg = kg_of(is);
+  sbf_vec3 impulse = {0.9f * kg * times, 1.5f * kg * times, 0.3f * kg * times};
   rigid_push(s, 0, (sbf_vec3){0, 0, 0.05f}, impulse);
   return times;
 }
@@ -210,9 +242,11 @@ START_TEST(what_points_gain_boxes_lose)
   scene s = dumbbell(is, SBR_INSTRUCTIONS_AUTOMATIC);
   float speed = 1.8f * hit(&s, is);
   scene_momentum first = scene_momentum_of(&s);
+  double energy = scene_energy_of(&s);
   double linear = 0, angular = 0, unit = first.mass * (double)speed;
   for (int t = 0; t < 120; t++) {
     scene_ticks(&s, 1);
+    if (is->keeps_m > 0) ck_assert_double_le(scene_energy_of(&s), 1.002 * energy);
     scene_momentum now = scene_momentum_of(&s);
     for (int k = 0; k < 3; k++) {
       linear = fmax(linear, fabs(now.linear[k] - first.linear[k]) / unit);
