@@ -281,8 +281,10 @@ void sbri_touches_answer(
   for (uint32_t i = 0; i < c.count; i++) {
     sbri_touch *touch = &c.touches[i];
     touch->pushed = touch->gain > touch->pushed ? touch->gain : touch->pushed;
+    if (!(touch->gain > 0 && lift_of(touch, rule) > 0)) continue;
+    touch->gap = gap_of(&c, touch); /* of what others that share its points have left */
     float up = lift_of(touch, rule);
-    if (touch->gain > 0 && up > 0) move(&c, touch, sbri_scale(touch->normal, up), is_felt(&c, touch));
+    if (up > 0) move(&c, touch, sbri_scale(touch->normal, up), is_felt(&c, touch));
   }
 }
 
