@@ -78,4 +78,9 @@ static inline void sbri_self_add(const sbri_self_looking *l, const sbri_sample *
 /* Rims of a sheet, and what it is bent across now, where they cross each other. */
 void sbri_self_edges_add(const sbri_self_looking *looking);
 
+/* ---- self_cross.c ---- */
+
+/* Sides that go through triangles, which go out again. */
+void sbri_self_crossings_add(const sbri_self_looking *looking);
+
 #endif

@@ -188,8 +188,10 @@ void sbri_self_touches_add(const sbri_island_tick *t, const sbri_body *body,
   sbri_self_looking l = {t, body, tables, tree, tables->self_boxes, tables->self_balls,
       {rule->outer_thickness + NEAR_SHARE * body->rest_size_m, rule->inner_thickness,
           body->is_sheet || body->rest_volume_m3 == 0}};
+  uint32_t *count = &tables->touch_counts[body - t->model->bodies], before = *count;
   make_bounds(&l, tables->self_boxes, tables->self_balls);
   sbri_bounds_tree_make(tree, tables->self_boxes, body->self_face_count);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) add_point(&l, slot);
   if (l.rule.two_sided) sbri_self_edges_add(&l);
+  if (*count > before && !body->is_tangled) sbri_self_crossings_add(&l);
 }

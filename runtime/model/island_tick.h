@@ -40,6 +40,7 @@ typedef struct sbri_touch {
   uint32_t collider; /* number of the collider, or SBRI_NO_COLLIDER: the ground, or SBRI_ITSELF: the
         body, against the points whose weights are below 0 */
   bool edges;        /* of itself: the first two points against the last two */
+  bool crosses;      /* of itself: they have gone through each other */
   bool alone;        /* the sample is one free point that no other touch moves */
   uint8_t guest;     /* from 1 on: which of the body's guests it pushes (collide/guest.h); 0: none */
   /* Of solvers/touches.c, from substep to substep: */

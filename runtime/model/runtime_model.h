@@ -181,6 +181,7 @@ typedef struct sbri_body {
                                        joins it to */
   const uint32_t *self_ring;
   bool is_sheet;       /* of one that meets itself: its surface encloses nothing */
+  bool is_tangled;     /* likewise: it goes through itself at rest */
   float margin_m;      /* that shapes of the host and other bodies keep from it: of sheets and bare points */
   float sample_beyond; /* greatest sum of a sample's weights below 0, as a positive number */
   float rest_size_m;   /* diagonal of its box */

@@ -45,6 +45,8 @@ bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
 bool sbri_samples_make(sbr_model *model, sbri_body *body);
 /* The triangles by which it meets itself, where it does; likewise. */
 bool sbri_self_faces_make(sbr_model *model, sbri_body *body);
+/* Whether these go through each other at rest; after them. */
+bool sbri_self_tangles_find(sbr_model *model, sbri_body *body);
 /* The gradient's table of a body that keeps its volume. */
 bool sbri_volume_table_make(sbr_model *model, sbri_body *body);
 

@@ -69,5 +69,5 @@ bool sbri_self_faces_make(sbr_model *model, sbri_body *body) {
   sbf_body_measures measures;
   sbf_body_measure(body->source, &measures);
   body->is_sheet = measures.sheet;
-  return make_sides(model, body);
+  return make_sides(model, body) && sbri_self_tangles_find(model, body);
 }

@@ -107,6 +107,7 @@ static void push_guest(const touching *c, const sbri_touch *touch, sbf_vec3 fast
 
 static float friction_of(const touching *c, const sbri_touch *touch, const sbri_contact_rule *rule) {
   const sbri_sample *s = &touch->sample;
+  if (touch->crosses) return 0;
   if (!rule->frictions) return rule->friction * touch->friction_share;
   float sum = 0;
   if (touch->collider == SBRI_ITSELF) /* of the point alone */
@@ -163,7 +164,7 @@ static float mass_of(const touching *c, const sbri_sample *s) {
 
 /* Says whether it may touch. */
 static bool begin(const touching *c, sbri_touch *touch, const sbri_contact_rule *rule) {
-  if (touch->collider == SBRI_ITSELF) sbri_self_touch_follow(c->tick, touch);
+  if (touch->collider == SBRI_ITSELF && !touch->crosses) sbri_self_touch_follow(c->tick, touch);
   if (is_felt(c, touch)) touch->sample.mass_kg = mass_of(c, &touch->sample);
   sbf_vec3 v = velocity_of(c, touch);
   float speed = sbri_dot(touch->normal, sbri_sub(v, c->guests ? velocity_under(c, touch) : touch->velocity));

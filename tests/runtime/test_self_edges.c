@@ -1,65 +1,10 @@
 /* Rims and ridges of a sheet against itself, and strips that fold onto themselves. */
 #include <math.h>
-#include <string.h>
 
 #include "collision_scenes.h"
+#include "grid_scenes.h"
 #include "harness.h"
 #include "math/vec3.h"
-
-/* A grid of points with springs and squares between them. */
-typedef struct grid {
-  const sbf_vec3 *at;
-  uint32_t columns, rows, cut; /* no square and no spring joins row cut - 1 to row cut; 0: all are joined */
-  float point_kg, stiffness, bending;
-} grid;
-
-enum { MOST_POINTS = 256 };
-
-static bool joined(const grid *g, uint32_t a, uint32_t b) {
-  return g->cut == 0 || (a / g->columns < g->cut) == (b / g->columns < g->cut);
-}
-
-static void add_surface(scene *s, const grid *g) {
-  static uint32_t sizes[MOST_POINTS], corners[4 * MOST_POINTS];
-  uint32_t count = 0;
-  for (uint32_t a = 0; a + g->columns < g->columns * g->rows; a++) {
-    const uint32_t square[4] = {a, a + g->columns, a + g->columns + 1, a + 1};
-    if (a % g->columns == g->columns - 1 || !joined(g, a, a + g->columns)) continue;
-    memcpy(corners + 4 * (size_t)count, square, sizeof square);
-    sizes[count++] = 4;
-  }
-  sbf_polygon_mesh *mesh = &scene_body(s, 0)->surface;
-  mesh->positions = (sbf_vec3_list){g->at, g->columns * g->rows};
-  mesh->polygon_sizes = (sbf_u32_list){sizes, count};
-  mesh->polygon_points = (sbf_u32_list){corners, 4 * count};
-}
-
-static scene begin(const grid *g) {
-  static float masses[MOST_POINTS], stiffness[6 * MOST_POINTS];
-  static sbf_uint2 ends[6 * MOST_POINTS];
-  scene s = scene_begin();
-  uint32_t count = g->columns * g->rows, springs = 0;
-  ck_assert_uint_le(count, MOST_POINTS);
-  for (uint32_t i = 0; i < count; i++) {
-    static const int steps[6][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 0}, {0, 2}};
-    masses[i] = g->point_kg;
-    for (int k = 0; k < 6; k++) {
-      int x = (int)(i % g->columns) + steps[k][0], y = (int)(i / g->columns) + steps[k][1];
-      uint32_t to = (uint32_t)(y * (int)g->columns + x);
-      if (x < 0 || x >= (int)g->columns || y >= (int)g->rows || !joined(g, i, to)) continue;
-      ends[springs] = (sbf_uint2){{i, to}};
-      stiffness[springs++] = k < 2 ? g->stiffness : k < 4 ? 0.3f * g->stiffness : g->bending;
-    }
-  }
-  sbf_level *level = scene_points(&s, 0, g->at, masses, count);
-  scene_springs(&s, level, ends, stiffness, springs);
-  add_surface(&s, g);
-  scene_body(&s, 0)->attributes.mass_damping = 1;
-  scene_body(&s, 0)->attributes.friction = 1;
-  scene_body(&s, 0)->collision.self = true;
-  scene_body(&s, 0)->collision.outer_thickness = 0.005f;
-  return s;
-}
 
 /* ---- Edges that cross where no point is near ---- */
 
@@ -93,7 +38,7 @@ START_TEST(rims_meet_their_own_body)
   strips(at);
   for (int meets = 0; meets < 2; meets++) {
     grid g = {at, 2, 2 * ROWS, ROWS, 0.01f, 1000, 100};
-    scene s = begin(&g);
+    scene s = grid_begin(&g);
     scene_pin(&s, (sbf_level *)(uintptr_t)scene_body(&s, 0)->levels.at, -1, held, 4);
     scene_body(&s, 0)->collision.self = meets;
     scene_start(&s);
@@ -128,17 +73,6 @@ static void three_legs(sbf_vec3 at[ALL]) {
   }
 }
 
-/* Whether the way from a to b goes through the triangle. */
-static bool pierces(sbf_vec3 a, sbf_vec3 b, sbf_vec3 p, sbf_vec3 q, sbf_vec3 r) {
-  sbf_vec3 n = sbri_cross(sbri_sub(q, p), sbri_sub(r, p));
-  float from = sbri_dot(n, sbri_sub(a, p)), to = sbri_dot(n, sbri_sub(b, p));
-  if ((from > 0) == (to > 0) || fabsf(from - to) < 1e-9f) return false;
-  sbf_vec3 x = sbri_add_scaled(a, sbri_sub(b, a), from / (from - to));
-  return sbri_dot(n, sbri_cross(sbri_sub(q, p), sbri_sub(x, p))) > 0 &&
-         sbri_dot(n, sbri_cross(sbri_sub(r, q), sbri_sub(x, q))) > 0 &&
-         sbri_dot(n, sbri_cross(sbri_sub(p, r), sbri_sub(x, r))) > 0;
-}
-
 /* Sides of squares that go through triangles more than two rows away. */
 static uint32_t count_pierced(const sbf_vec3 at[ALL]) {
   uint32_t count = 0;
@@ -149,8 +83,8 @@ static uint32_t count_pierced(const sbf_vec3 at[ALL]) {
       for (uint32_t c = 0; c + ACROSS < ALL; c++) {
         uint32_t rows = a / ACROSS > c / ACROSS ? a / ACROSS - c / ACROSS : c / ACROSS - a / ACROSS;
         if (c % ACROSS == ACROSS - 1 || rows <= 2) continue;
-        count += pierces(at[a], at[b], at[c], at[c + ACROSS], at[c + ACROSS + 1]) ||
-                 pierces(at[a], at[b], at[c], at[c + ACROSS + 1], at[c + 1]);
+        count += grid_pierces(at[a], at[b], at[c], at[c + ACROSS], at[c + ACROSS + 1]) ||
+                 grid_pierces(at[a], at[b], at[c], at[c + ACROSS + 1], at[c + 1]);
       }
     }
   return count;
@@ -160,7 +94,7 @@ static scene strip_of_three_legs(void) {
   static sbf_vec3 at[ALL];
   three_legs(at);
   grid g = {at, ACROSS, ALONG, 0, 0.0005f, 100, 0.2f};
-  scene s = begin(&g);
+  scene s = grid_begin(&g);
   s.world_definition.ground = sbr_ground_flat(0);
   s.character_definition.position.y = 0;
   return s;

@@ -1,0 +1,118 @@
+/* What has gone through itself comes out again: a sheet has no right side to be led back to, but what goes
+ * through it does so along a line, and that can be made shorter until nothing is left of it.
+ *
+ * The line has a corner wherever a side of the surface goes through a triangle. Moved by d against the
+ * triangle, the side takes the corner along by d - (d.n / e.n) e, with e along the side and n across the
+ * triangle. The two pieces of the line that end there lead by R1 and R2 into the triangles that the side
+ * belongs to, and get shorter by (R1 + R2) times that: so d is along R1 + R2 - ((R1 + R2).e / e.n) n (by the
+ * idea of P. Volino and N. Magnenat-Thalmann, Resolving Surface Collisions through Intersection Contour
+ * Minimization, 2006). Points meet the surface meanwhile as ever, on the side that they are on. */
+#include "collide/sides.h"
+#include "contact/self_looking.h"
+
+/* So fast sides go out of triangles, m/s, where the line is as crooked as this, and else by a share of it. */
+static const float OUT_M_S = 0.2f, CROOKED = 0.5f;
+/* As steep as this, at least, a side is taken to stand on a triangle: sine of the angle. */
+static const float STEEP = 0.1f;
+
+typedef struct side {
+  const sbri_self_looking *looking;
+  uint32_t ends[2], beside[2]; /* slots; of the third corners of its triangles, or SBRI_RIM */
+  sbf_vec3 from, way;
+} side;
+
+static sbf_vec3 place(const side *s, uint32_t slot) {
+  return sbri_self_place(s->looking->tick->positions, slot);
+}
+
+static side side_of(const sbri_self_looking *l, uint32_t number) {
+  const uint32_t *c = l->body->self_faces + number / 3 * 3;
+  side s = {.looking = l,
+      .ends = {c[number % 3], c[(number + 1) % 3]},
+      .beside = {c[(number + 2) % 3], l->body->self_sides[number]}};
+  s.from = place(&s, s.ends[0]);
+  s.way = sbri_sub(place(&s, s.ends[1]), s.from);
+  return s;
+}
+
+/* Adds the way by which the line leads along n's triangle into that beside the side. */
+static sbf_vec3 with_line(const side *s, sbf_vec3 e, sbf_vec3 n, uint32_t beside, sbf_vec3 sum) {
+  if (beside == SBRI_RIM) return sum;
+  sbf_vec3 across = sbri_sub(place(s, beside), s->from);
+  across = sbri_add_scaled(across, e, -sbri_dot(across, e));
+  sbf_vec3 line = sbri_cross(n, sbri_cross(e, across));
+  float length = sbri_length(line);
+  if (!(length > 1e-6f * sbri_length(across))) return sum;
+  return sbri_add_scaled(sum, line, (sbri_dot(line, across) < 0 ? -1 : 1) / length);
+}
+
+/* Where the side is to go against the triangle whose corners are p; not of unit length. */
+static sbf_vec3 way_out(const side *s, const sbf_vec3 p[3]) {
+  sbf_vec3 none = {0, 0, 0}, e = sbri_normalize(s->way, none),
+           n = sbri_normalize(sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0])), none);
+  sbf_vec3 out = with_line(s, e, n, s->beside[1], with_line(s, e, n, s->beside[0], none));
+  float steep = sbri_dot(e, n);
+  if (fabsf(steep) < STEEP) steep = steep < 0 ? -STEEP : STEEP;
+  return sbri_add_scaled(out, n, -sbri_dot(out, e) / steep);
+}
+
+/* Parts that touch at rest are one, however they are joined. */
+static bool are_one(const side *s, const uint32_t *c) {
+  const sbri_point *rest = s->looking->tick->island->rest;
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 3; k++) {
+      sbf_vec3 off = sbri_sub(sbri_self_place(rest, s->ends[i]), sbri_self_place(rest, c[k]));
+      if (sbri_dot(off, off) < SBRI_SELF_TOGETHER_M * SBRI_SELF_TOGETHER_M) return true;
+    }
+  return false;
+}
+
+/* A touch has four points: of the triangle's corners that which has the least share gives it to the others.
+ */
+static sbri_sample sample_of(const side *s, float share, const uint32_t *c, const float weights[3]) {
+  int least = weights[1] < weights[0] ? 1 : 0;
+  if (weights[2] < weights[least]) least = 2;
+  int i = (least + 1) % 3, k = (least + 2) % 3;
+  const float half = 0.5f * weights[least],
+              on[4] = {1 - share, share, -weights[i] - half, -weights[k] - half};
+  const uint32_t slots[4] = {s->ends[0], s->ends[1], c[i], c[k]};
+  return sbri_self_sample(s->looking->tick->island, slots, on);
+}
+
+static void cross(const side *s, uint32_t number) {
+  const sbri_self_looking *l = s->looking;
+  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  uint32_t *count = &l->tables->touch_counts[l->body - l->tick->model->bodies];
+  sbf_vec3 p[3];
+  for (int k = 0; k < 3; k++) {
+    if (c[k] == s->ends[0] || c[k] == s->ends[1]) return;
+    p[k] = place(s, c[k]);
+  }
+  float share = sbri_triangle_cross(s->from, s->way, p[0], p[1], p[2]), weights[3];
+  if (share < 0 || *count >= l->body->touch_capacity || are_one(s, c)) return;
+  sbri_triangle_nearest(sbri_add_scaled(s->from, s->way, share), p[0], p[1], p[2], weights);
+  sbri_sample sample = sample_of(s, share, c, weights);
+  sbf_vec3 out = way_out(s, p);
+  float crooked = sbri_length(out);
+  if (!(crooked > 1e-3f) || !(sample.mass_kg > 0)) return;
+  sbf_vec3 n = sbri_scale(out, 1 / crooked);
+  l->tables->touches[l->body->first_touch + (*count)++] = (sbri_touch){.sample = sample,
+      .normal = n,
+      .offset = sbri_dot(n, sbri_sample_place(l->tick, &sample)),
+      .velocity = sbri_scale(n, OUT_M_S * sbri_least(crooked / CROOKED, 1)),
+      .collider = SBRI_ITSELF,
+      .crosses = true};
+}
+
+void sbri_self_crossings_add(const sbri_self_looking *l) {
+  for (uint32_t i = 0; i < 3 * l->body->self_face_count; i++) {
+    if (l->body->self_sides[i] == SBRI_SAME_SIDE) continue;
+    side s = side_of(l, i);
+    sbri_box box = sbri_box_with(sbri_box_of_point(s.from), sbri_add(s.from, s.way));
+    sbri_bounds_walk walk;
+    uint32_t triangle;
+    sbri_bounds_walk_begin(&walk, l->tree, box);
+    while (sbri_bounds_walk_next(&walk, &triangle))
+      if (sbri_box_meets(&box, &l->boxes[triangle])) cross(&s, triangle);
+  }
+}
