@@ -13,6 +13,8 @@ typedef struct command {
   int least, most; /* numbers */
 } command;
 
+enum { LAYERS = 4 }; /* of sbr_character_play */
+
 static const command commands[] = {
     {"drive", SCRIPT_DRIVE, 2, 3},       /* forward, turn, sideways */
     {"teleport", SCRIPT_TELEPORT, 3, 4}, /* x, y, z, heading */
@@ -25,11 +27,18 @@ static const command commands[] = {
     {"resume", SCRIPT_RESUME, 0, 0},
 };
 
+/* What the runtime takes all numbers for: so far away or so fast is a slip of the pen. */
+static const double MOST = 1e9;
+
+static bool is_number(const char *text, const char *end, double value) {
+  return end != text && fabs(value) <= MOST; /* false of what is none */
+}
+
 /* Reads `SECONDS COMMAND NUMBERS`; false where the text is something else. */
 static bool parse_line(char *text, script_line *line) {
   char *rest, *word, *end;
   line->at_s = strtod(text, &rest);
-  if (rest == text || line->at_s < 0) return false;
+  if (!is_number(text, rest, line->at_s) || line->at_s < 0) return false;
   word = strtok(rest, " \t\r\n");
   if (!word) return false;
   for (size_t c = 0; c < sizeof commands / sizeof *commands; c++) {
@@ -38,13 +47,31 @@ static bool parse_line(char *text, script_line *line) {
     for (char *number; (number = strtok(NULL, " \t\r\n")) != NULL; count++) {
       if (count == commands[c].most) return false;
       line->numbers[count] = strtod(number, &end);
-      if (end == number || *end) return false;
+      if (!is_number(number, end, line->numbers[count]) || *end) return false;
     }
     line->kind = commands[c].kind;
     line->count = count;
     return count >= commands[c].least;
   }
   return false;
+}
+
+/* Reads the next line, whatever its length; what is behind a '#', or too long for a command, is dropped, and
+ * `whole` tells of the latter. */
+static bool read_line(FILE *file, char *text, size_t size, bool *whole) {
+  size_t length = 0;
+  bool comment = false, any = false;
+  *whole = true;
+  for (int c; (c = fgetc(file)) != EOF && (any = true) && c != '\n';) {
+    comment |= c == '#';
+    if (comment) continue;
+    if (length + 1 < size)
+      text[length++] = (char)c;
+    else
+      *whole = false;
+  }
+  text[length] = 0;
+  return any;
 }
 
 bool script_load(script *s, cli_call *call, const char *path, int *status) {
@@ -55,24 +82,49 @@ bool script_load(script *s, cli_call *call, const char *path, int *status) {
     return false;
   }
   char text[512];
-  bool good = true;
-  for (unsigned number = 1; good && fgets(text, sizeof text, file); number++) {
-    char *hash = strchr(text, '#');
-    if (hash) *hash = 0;
+  bool good = true, whole;
+  for (unsigned number = 1; good && read_line(file, text, sizeof text, &whole); number++) {
     if (text[strspn(text, " \t\r\n")] == 0) continue;
-    script_line line = {0}, *grown = realloc(s->lines, (s->count + 1) * sizeof *s->lines);
+    script_line line = {.number = number}, *grown = realloc(s->lines, (s->count + 1) * sizeof *s->lines);
     if (grown) s->lines = grown;
-    good = grown && parse_line(text, &line) && (s->count == 0 || line.at_s >= s->lines[s->count - 1].at_s);
+    good = grown && whole && parse_line(text, &line) &&
+           (s->count == 0 || line.at_s >= s->lines[s->count - 1].at_s);
     if (good) {
       s->lines[s->count++] = line;
       continue;
     }
-    cli_wrong(call, "%s:%u: not a command `SECONDS COMMAND NUMBERS` in order of time", path, number);
+    cli_wrong(call, "%s:%u: not a command `SECONDS COMMAND NUMBERS` in order of time, with numbers up to %g",
+        path, number, MOST);
     *status = SBF_BAD_INPUT;
   }
   fclose(file);
   if (!good) script_free(s);
   return good;
+}
+
+/* Whether there is a thing of that number; -1 is none of them, where that may be said. */
+static bool has(const cli_call *call, const char *path, const script_line *line, double number,
+    const char *what, uint32_t count, bool none) {
+  if ((number >= 0 && number < count && number == floor(number)) || (none && number == -1)) return true;
+  cli_wrong(call, "%s:%u: there is no %s %g: %s %u, counted from 0", path, line->number, what, number,
+      strcmp(what, "layer") == 0 ? "there are" : "the file has", count);
+  return false;
+}
+
+bool script_fits(const script *s, const cli_call *call, const char *path, const sbf_asset *asset) {
+  uint32_t legs = asset->gaits.count ? asset->gaits.at[0].legs.count : 0;
+  for (uint32_t i = 0; i < s->count; i++) {
+    const script_line *line = &s->lines[i];
+    double first = line->numbers[0];
+    if (line->kind == SCRIPT_PLAY && (!has(call, path, line, first, "clip", asset->clips.count, true) ||
+                                         !has(call, path, line, line->numbers[3], "layer", LAYERS, false)))
+      return false;
+    if (line->kind == SCRIPT_PIVOT && !has(call, path, line, first, "leg", legs, true)) return false;
+    if ((line->kind == SCRIPT_REACH || line->kind == SCRIPT_RELEASE) &&
+        !has(call, path, line, first, "IK chain", asset->ik_chains.count, false))
+      return false;
+  }
+  return true;
 }
 
 void script_free(script *s) {

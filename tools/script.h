@@ -21,7 +21,8 @@ typedef struct script_line {
   double at_s;
   script_kind kind;
   double numbers[5];
-  int count; /* of them */
+  int count;       /* of them */
+  unsigned number; /* of the line in the file */
 } script_line;
 
 typedef struct script {
@@ -34,6 +35,9 @@ typedef struct script {
  * *status then says whose fault it is. */
 bool script_load(script *s, cli_call *call, const char *path, int *status);
 void script_free(script *s);
+
+/* Whether the file has the chains, clips and legs that the script names; false, with a message. */
+bool script_fits(const script *s, const cli_call *call, const char *path, const sbf_asset *asset);
 
 /* Drives the character from `time_s` on: forward and sideways, m/s, and turning, rad/s. */
 void script_drive(script *s, double time_s, sbr_world *world, sbr_character_id character, double forward,

@@ -109,8 +109,8 @@ static bool parse_settings(session *s, cli_call *call) {
       .driven = cli_value(call, "--strength") != NULL};
   bool good =
       cli_number(call, "--seconds", 0, 1e6, &s->seconds) && cli_number(call, "--fps", 1, 10000, &s->fps) &&
-      cli_integer(call, "--substeps", 1, 100000, &substeps) &&
-      cli_integer(call, "--level", 0, 1000, &level) && cli_integer(call, "--threads", 1, 64, &set->threads) &&
+      cli_integer(call, "--substeps", 1, 1024, &substeps) && cli_integer(call, "--level", 0, 1000, &level) &&
+      cli_integer(call, "--threads", 1, 64, &set->threads) &&
       cli_number(call, "--raise", -1000, 1000, &set->raise) &&
       cli_number(call, "--gravity", -1000, 1000, &set->gravity) &&
       cli_number(call, "--strength", 0, 1e6, &set->strength) && parse_drive(call, set->drive) &&
@@ -195,6 +195,11 @@ bool session_open(session *s, cli_call *call, double seconds, double fps, int *s
   *status = (int)sbf_load_file(call->inputs[0], NULL, &s->asset, &error);
   if (*status == SBF_OK && !(choose_clip(s, call, &s->settings.clip) && has_rigid_parts(s, call))) {
     *status = SBF_FAILED;
+    session_close(s);
+    return false;
+  }
+  if (*status == SBF_OK && !script_fits(&s->script, call, commands, s->asset)) {
+    *status = SBF_BAD_INPUT;
     session_close(s);
     return false;
   }

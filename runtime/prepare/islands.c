@@ -40,6 +40,21 @@ static uint32_t first_of(const uint32_t *joined, uint32_t body) {
   return body;
 }
 
+/* Ends are points of levels named by number, which a load does not compare with them. */
+static sbf_status check_ends(const sbr_model *model, const sbf_cross_springs *cross, sbf_diagnostic *error) {
+  if (!sbri_cross_springs_act(model, cross)) return SBF_OK;
+  const sbf_level *levels[] = {model->bodies[cross->body_a].level, model->bodies[cross->body_b].level};
+  for (uint32_t i = 0; i < cross->ends.count; i++)
+    for (int end = 0; end < 2; end++)
+      if (cross->ends.at[i].at[end] >= levels[end]->positions.count)
+        return sbfi_diagnose(error, SBF_CODE_CROSS_SPRING_POINT,
+            "spring %u between \"%s\" and \"%s\" names point %u and the level has %u points: sbfmt validate "
+            "says more",
+            i, model->bodies[cross->body_a].source->id, model->bodies[cross->body_b].source->id,
+            cross->ends.at[i].at[end], levels[end]->positions.count);
+  return SBF_OK;
+}
+
 /* `joined` leads from each body to the first of its group. */
 static void join(const sbr_model *model, uint32_t *joined) {
   const sbf_asset *asset = model->asset;
@@ -91,6 +106,10 @@ sbf_status sbri_islands_group(sbr_model *model, const sbr_model_options *options
     }
     model->bodies[i].source = source;
     model->bodies[i].level = level && level->positions.count ? level : NULL;
+  }
+  for (uint32_t i = 0; i < asset->cross_springs.count; i++) {
+    sbf_status status = check_ends(model, &asset->cross_springs.at[i], error);
+    if (status != SBF_OK) return status;
   }
   join(model, joined);
   if (!make_islands(model, joined))

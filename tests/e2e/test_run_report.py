@@ -242,11 +242,22 @@ class Run(ProgramTest):
 
     def test_a_bad_script_is_refused_with_its_line(self):
         for text, line in (("0 jump\n", 1), ("1 reset\n0 reset\n", 2), ("0 drive 1\n", 1), ("\n# x\n0 teleport 1 2\n", 3),
-                           ("0 drive 1 2 3 4\n", 1), ("soon reset\n", 1), ("-1 reset\n", 1), ("0 pause now\n", 1)):
+                           ("0 drive 1 2 3 4\n", 1), ("soon reset\n", 1), ("-1 reset\n", 1), ("0 pause now\n", 1),
+                           ("0 drive nan 0\n", 1), ("0 teleport 0 inf 0\n", 1), ("nan reset\n", 1), ("0 drive 1e300 0\n", 1),
+                           ("0 reset" + " " * 600 + "1 reset\n", 1), ("0 reset\n1 play 99\n", 2), ("0 play 0.5 1 0 4\n", 1),
+                           ("0 reach 99 0 0 0\n", 1), ("0 release -1\n", 1), ("0 pivot 4\n", 1)):
             script = write_bytes(self.path("script.txt"), text.encode())
             message = self.fails(1, "run", self.file, "--script", script)
             self.assertIn(f"script.txt:{line}:", message, text)
         self.fails(2, "run", self.file, "--script", self.path("absent.txt"))
+
+    def test_a_comment_may_be_long(self):
+        long = self.run_script("0 drive 0.3 0.1 # " + "0 reset " * 200 + "\n0.1 drive 0 0\n")
+        self.assertEqual(long["state_hash"], self.run_script("0 drive 0.3 0.1\n0.1 drive 0 0")["state_hash"])
+
+    def test_so_many_substeps_are_no_step(self):
+        self.assertIn("--substeps takes a whole number from 1 to 1024",
+                      self.fails(2, "run", self.file, "--seconds", "0", "--substeps", "1025"))
 
     def test_long_runs_stay_in_bounds(self):
         report = self.run_script("0 drive 0.3 0.5\n3 drive -0.2 -0.5\n5 drive 0 0\n", seconds=6)

@@ -60,6 +60,26 @@ START_TEST(springs_between_levels_that_are_not_simulated_do_not)
 }
 END_TEST
 
+/* A load does not see it: which points there are is a matter of the levels named. */
+START_TEST(springs_to_points_that_are_not_there_are_refused)
+{
+  for (int end = 0; end < 2; end++) {
+    scene s = joined();
+    sbf_uint2 ends[] = {{{0, 0}}};
+    ends[0].at[end] = 1000000;
+    sbf_cross_springs *cross = (sbf_cross_springs *)(uintptr_t)s.asset->cross_springs.at;
+    cross->ends.at = ends;
+    sbf_diagnostic error;
+    ck_assert_int_eq(sbr_model_create(s.asset, &s.model_options, &s.model, &error), SBF_BAD_INPUT);
+    ck_assert_int_eq(error.code, SBF_CODE_CROSS_SPRING_POINT);
+    ck_assert_ptr_nonnull(strstr(error.message, "1000000"));
+    cross->level_b = 1; /* of what is not simulated nothing is asked */
+    scene_start(&s);
+    scene_free(&s);
+  }
+}
+END_TEST
+
 START_TEST(levels_are_chosen)
 {
   scene s = scene_begin();
@@ -129,6 +149,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("islands");
   tcase_add_test(c, springs_between_bodies_act);
   tcase_add_test(c, springs_between_levels_that_are_not_simulated_do_not);
+  tcase_add_test(c, springs_to_points_that_are_not_there_are_refused);
   tcase_add_test(c, levels_are_chosen);
   tcase_add_test(c, a_level_that_is_stepped_is_taken_where_there_is_one);
   tcase_add_test(c, what_is_not_simulated_is_refused);
