@@ -49,12 +49,17 @@ static void put(const sbr_world *world, sbri_character *c, sbr_double3 position,
   sbri_rigid_frames_follow(c, sbri_pose(c));
 }
 
+/* Beyond, numbers of single precision do not last: a tick of the least is 17 s of one of scale 1. */
+static const float LEAST_SCALE = 1e-6f, MOST_SCALE = 1e6f;
+
 static sbf_status check_definition(const sbr_character_definition *definition, sbf_diagnostic *error) {
   if (definition->cookie != CHARACTER_COOKIE)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_character_create: begin the definition with sbr_default_character_definition");
-  if (!(definition->scale > 0 && definition->scale <= 1e6f))
-    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_character_create: scale is not above 0");
+  if (!(definition->scale >= LEAST_SCALE && definition->scale <= MOST_SCALE))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_character_create: scale is %g: give one from %g to %g", (double)definition->scale,
+        (double)LEAST_SCALE, (double)MOST_SCALE);
   const double where[4] = {
       definition->position.x, definition->position.y, definition->position.z, (double)definition->heading};
   if (!sbri_usable(where, 4))

@@ -2,6 +2,7 @@
 #include "api/api.h"
 #include "base/diagnostic.h"
 #include "detail/choose.h"
+#include "math/usable.h"
 
 enum { DETAIL_COOKIE = 0x5b726474 };
 
@@ -51,6 +52,14 @@ sbf_status sbr_world_detail(
         "%g and stay_s %g not below 0",
         (double)definition->error_px, (double)definition->ns_per_visit, (double)definition->settle,
         (double)definition->budget_us, (double)definition->stay_s);
+  const double numbers[6] = {(double)definition->error_px, (double)definition->budget_us,
+      (double)definition->ns_per_visit, (double)definition->settle, (double)definition->stay_s,
+      (double)definition->away_after_s};
+  if (!sbri_usable(numbers, 6))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_world_detail: error_px %g, budget_us %g, ns_per_visit %g, stay_s %g or away_after_s %g: give "
+        "finite numbers, to 1e15",
+        numbers[0], numbers[1], numbers[2], numbers[4], numbers[5]);
   if (!world->detail && !make(world))
     return sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "no memory for choosing levels of detail");
   world->detail->is = *definition;

@@ -1,5 +1,6 @@
 /* Models as a host has them: created of an asset, asked, destroyed. */
 #include "base/diagnostic.h"
+#include "math/usable.h"
 #include "model/kernels.h"
 #include "prepare/prepare.h"
 #include "solvers/scheme.h"
@@ -16,6 +17,12 @@ static sbf_status check_options(const sbr_model_options *options, sbf_diagnostic
   if (options->rigid_substeps > MOST_RIGID_SUBSTEPS)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "sbr_model_options: rigid_substeps is %u, at most %d",
         (unsigned)options->rigid_substeps, (int)MOST_RIGID_SUBSTEPS);
+  const double numbers[4] = {(double)options->gravity.x, (double)options->gravity.y,
+      (double)options->gravity.z, (double)options->step_error_m};
+  if (!sbri_usable(numbers, options->has_gravity ? 3 : 0) || !sbri_usable(numbers + 3, 1))
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
+        "sbr_model_options: gravity %g %g %g m/s^2 or step_error_m %g: give finite numbers, to 1e15",
+        numbers[0], numbers[1], numbers[2], numbers[3]);
   if (!sbri_kernels_of(options->instructions)) {
     const char *name = sbr_instructions_name(options->instructions);
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,

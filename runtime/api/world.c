@@ -53,8 +53,7 @@ sbf_status sbr_world_create(
         tick, longest, capacity, colliders, (int)MOST_CHARACTERS);
   const double gravity[3] = {
       (double)definition->gravity.x, (double)definition->gravity.y, (double)definition->gravity.z};
-  if ((definition->has_gravity && !sbri_usable(gravity, 3)) ||
-      definition->sleep_after_s != definition->sleep_after_s)
+  if ((definition->has_gravity && !sbri_usable(gravity, 3)) || !sbri_usable(&definition->sleep_after_s, 1))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
         "sbr_world_create: gravity %g %g %g m/s^2 or sleep_after_s %g: give finite numbers", gravity[0],
         gravity[1], gravity[2], definition->sleep_after_s);
@@ -103,7 +102,7 @@ void sbr_world_destroy(sbr_world *world) {
 }
 
 void sbr_world_step(sbr_world *world, double seconds) {
-  if (!world || !(seconds > 0)) return;
+  if (!world || !(seconds > 0) || !sbri_usable(&seconds, 1)) return;
   if (seconds > LONGEST_S) seconds = LONGEST_S;
   sbri_record(world, SBRI_RECORDED_STEP, &seconds);
   double longest = (double)world->longest_units / SBRI_TIME_UNITS;

@@ -35,12 +35,12 @@ static bool are_sound(const float *numbers, size_t count) {
 /* What holds a body feels nothing of it; so where that is simulated, whoever steps both does it. */
 static void calm(sbri_character *c, uint32_t index, bool coupled) {
   const sbri_island now = sbri_island_now(c, &c->model->islands[index]), *island = &now;
-  const sbri_point *positions = sbri_positions(c) + island->first_slot;
+  sbri_point *positions = sbri_positions(c) + island->first_slot;
   float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
   const float *guides = sbri_guide_velocities(c) + 3 * (size_t)island->first_slot;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &c->model->bodies[island->bodies[b]];
-    if (!body->held) sbri_rigid_motion_damp(island, body, positions, velocities, SBRI_CALM_KEPT);
+    if (!body->held) sbri_rigid_motion_damp(island, body, positions, velocities, SBRI_CALM_KEPT, 0);
     for (uint32_t i = 3 * body->slot_begin; body->held && !coupled && i < 3 * body->slot_end; i++)
       velocities[i] = guides[i] + (velocities[i] - guides[i]) * SBRI_CALM_KEPT;
   }

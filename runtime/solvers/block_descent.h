@@ -142,7 +142,7 @@ static inline void sbri_descent_begin(const sbri_island_tick *t, const sbri_body
   size_t first = 3 * (size_t)body->slot_begin,
          size = 3 * (size_t)(body->slot_end - body->slot_begin) * sizeof(float);
   memcpy(t->accelerations + first, (body->held ? t->guide_velocities : t->velocities) + first, size);
-  if (!body->held) sbri_rigid_motion_damp(t->island, body, t->positions, t->accelerations, 0);
+  if (!body->held) sbri_rigid_motion_damp(t->island, body, t->positions, t->accelerations, 0, 0);
 }
 
 /* v += h (weight and what is no element), `drawn` = h v; points go where the body as a whole does. */

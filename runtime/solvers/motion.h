@@ -50,12 +50,15 @@ static inline sbri_wide sbri_kept(sbri_decay keep, uint32_t slot) {
   return sbri_wide_load(shares);
 }
 
-/* Damps a body that nothing holds against itself, over `time_s` seconds. */
-static inline void sbri_self_damp(const sbri_island_tick *t, const sbri_body *body, float time_s) {
+/* Damps a body that nothing holds against itself, over `time_s` seconds; what is lost has moved it for
+ * another `ahead_s`. */
+static inline void sbri_self_damp(
+    const sbri_island_tick *t, const sbri_body *body, float time_s, float ahead_s) {
+  float *v = t->velocities;
   if (body->alphas)
-    sbri_rigid_motion_damp_each(t->island, body, t->positions, t->velocities, body->alphas, time_s);
+    sbri_rigid_motion_damp_each(t->island, body, t->positions, v, body->alphas, time_s, ahead_s);
   else
-    sbri_rigid_motion_damp(t->island, body, t->positions, t->velocities, sbri_exp(-body->alpha_1_s * time_s));
+    sbri_rigid_motion_damp(t->island, body, t->positions, v, sbri_exp(-body->alpha_1_s * time_s), ahead_s);
 }
 
 /* Whether damping draws the body towards what its frames do. */
@@ -107,8 +110,12 @@ SBRI_INLINE void sbri_kick_body(const sbri_island_tick *t, const sbri_body *body
 enum { SBRI_SELF_DAMP_EVERY = 4 };
 
 /* v += h a(x), and damping; of bodies that nothing holds, over the `self_s` seconds for which they were not
- * damped (0: not yet). */
-static inline void sbri_kick(const sbri_island_tick *t, float h, float self_s, bool last, float *stretches) {
+ * damped (0: not yet). Where that is put off it comes in the middle of the drift, where places and velocities
+ * are of one time and any mode that is stable loses by it: before the drift, modes that turn by a multiple of
+ * pi in so many substeps gain, and bodies in free flight begin to sway. */
+static inline void sbri_kick(
+    const sbri_island_tick *t, float h, float self_s, bool put_off, bool last, float *stretches) {
+  float ahead_s = put_off ? 0.5f * h : 0;
   int kind = sbri_force_kind(t, last);
   if (t->outer) sbri_outer_forces(t, h);
   if (t->island->region_block_count > 0) sbri_region_forces(t);
@@ -120,7 +127,7 @@ static inline void sbri_kick(const sbri_island_tick *t, float h, float self_s, b
 #define SBRI_CALL(known) sbri_kick_body(t, body, h, keep, known, stretches, pulls)
     SBRI_FOR_FORCE_KIND(kind, SBRI_CALL)
 #undef SBRI_CALL
-    if (!body->held && self_s > 0 && body->alpha_1_s > 0) sbri_self_damp(t, body, self_s);
+    if (!body->held && self_s > 0 && body->alpha_1_s > 0) sbri_self_damp(t, body, self_s, ahead_s);
   }
   if (pulls) sbri_react_by_pulls(t, pulls, h);
 }
@@ -136,7 +143,7 @@ static inline void sbri_decay_all(const sbri_island_tick *t, float h) {
       float *velocity = sbri_triple(t->velocities, slot);
       sbri_store3(velocity, sbri_decayed(t, slot, sbri_load3(velocity), keep, guided));
     }
-    if (!body->held && keep.frame < 1) sbri_self_damp(t, body, h);
+    if (!body->held && keep.frame < 1) sbri_self_damp(t, body, h, 0);
   }
 }
 

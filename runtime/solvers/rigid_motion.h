@@ -92,11 +92,12 @@ static inline sbri_rigid_motion sbri_rigid_motion_find(
   return motion;
 }
 
-/* Keeps the share `kept` of what each velocity differs from that motion, which stays as it is. */
+/* Keeps the share `kept` of what each velocity differs from that motion, which stays as it is. What is lost
+ * has moved the points for another `ahead_s` seconds. */
 static inline void sbri_rigid_motion_damp(const sbri_island *island, const sbri_body *body,
-    const sbri_point *positions, float *velocities, float kept) {
+    sbri_point *positions, float *velocities, float kept, float ahead_s) {
   sbri_rigid_motion m = sbri_rigid_motion_find(island, body, positions, velocities);
-  sbri_wide k = sbri_wide_all(kept), zero = sbri_wide_all(0);
+  sbri_wide k = sbri_wide_all(kept), zero = sbri_wide_all(0), ahead = sbri_wide_all(ahead_s);
   sbri_wide sx = sbri_wide_all(m.spin.x), sy = sbri_wide_all(m.spin.y), sz = sbri_wide_all(m.spin.z);
   sbri_wide cx = sbri_wide_all(m.center.x), cy = sbri_wide_all(m.center.y), cz = sbri_wide_all(m.center.z);
   sbri_wide vx = sbri_wide_all(m.velocity.x), vy = sbri_wide_all(m.velocity.y),
@@ -107,30 +108,37 @@ static inline void sbri_rigid_motion_damp(const sbri_island *island, const sbri_
     sbri_wide ux = vx + (sy * rz - sz * ry), uy = vy + (sz * rx - sx * rz), uz = vz + (sx * ry - sy * rx);
     sbri_mask real = sbri_wide_load(island->masses + slot) > zero;
     float *to = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
-    sbri_wide_store(to, sbri_wide_select(real, ux + (v.x - ux) * k, v.x));
-    sbri_wide_store(to + SBRI_BLOCK, sbri_wide_select(real, uy + (v.y - uy) * k, v.y));
-    sbri_wide_store(to + 2 * SBRI_BLOCK, sbri_wide_select(real, uz + (v.z - uz) * k, v.z));
+    ux = sbri_wide_select(real, ux + (v.x - ux) * k, v.x);
+    uy = sbri_wide_select(real, uy + (v.y - uy) * k, v.y);
+    uz = sbri_wide_select(real, uz + (v.z - uz) * k, v.z);
+    sbri_wide_store(to, ux);
+    sbri_wide_store(to + SBRI_BLOCK, uy);
+    sbri_wide_store(to + 2 * SBRI_BLOCK, uz);
+    if (!(ahead_s > 0)) continue;
+    x.x = x.x + ahead * (v.x - ux), x.y = x.y + ahead * (v.y - uy), x.z = x.z + ahead * (v.z - uz);
+    sbri_wide_store_points(positions + slot, x);
   }
 }
 
 /* The same with a rate for each slot, 1/s, over `time_s` seconds. What that would take of the motion as a
  * whole is given back. */
 static inline void sbri_rigid_motion_damp_each(const sbri_island *island, const sbri_body *body,
-    const sbri_point *positions, float *velocities, const float *rates, float time_s) {
+    sbri_point *positions, float *velocities, const float *rates, float time_s, float ahead_s) {
   sbri_rigid_motion was = sbri_rigid_motion_find(island, body, positions, velocities), now;
   sbf_vec3 move = was.velocity, spin = was.spin;
   for (int pass = 0; pass < 2; pass++) {
     for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++) {
-      const sbri_point *x = &positions[slot];
+      sbri_point *x = &positions[slot];
       float *v = velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
       if (!(island->masses[slot] > 0)) continue;
       sbf_vec3 r = sbri_sub((sbf_vec3){x->x, x->y, x->z}, was.center);
-      sbf_vec3 u = sbri_add(move, sbri_cross(spin, r)), w = {v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
+      sbf_vec3 u = sbri_add(move, sbri_cross(spin, r)), w = {v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]}, had = w;
       if (pass == 0)
         w = sbri_add_scaled(u, sbri_sub(w, u), sbri_exp(-rates[slot] * time_s));
       else
         w = sbri_add(w, u);
       v[0] = w.x, v[SBRI_BLOCK] = w.y, v[2 * SBRI_BLOCK] = w.z;
+      x->x += ahead_s * (had.x - w.x), x->y += ahead_s * (had.y - w.y), x->z += ahead_s * (had.z - w.z);
     }
     now = sbri_rigid_motion_find(island, body, positions, velocities);
     move = sbri_sub(was.velocity, now.velocity), spin = sbri_sub(was.spin, now.spin);

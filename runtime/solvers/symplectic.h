@@ -29,10 +29,10 @@ static inline bool sbri_touches_any(const sbri_island_tick *t) {
   return any;
 }
 
-/* How many substeps share a damping of what nothing holds: on the ground each has its own, or bodies would
- * creep by what falls between them. */
+/* How many substeps share a damping of what nothing holds: on the ground, and where others may touch it, each
+ * has its own, or bodies would creep by what falls between them. */
 static inline uint32_t sbri_self_damp_every(const sbri_island_tick *t) {
-  return sbri_touches_any(t) ? 1 : SBRI_SELF_DAMP_EVERY;
+  return t->meets || sbri_touches_any(t) ? 1 : SBRI_SELF_DAMP_EVERY;
 }
 
 /* Where tetrahedra or gases have stiffened beyond what the substep allows for, the rest of the tick is
@@ -59,7 +59,7 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
     }
     bool damps = last || s % damp_every == 0;
     self_s += h;
-    sbri_kick(t, h, damps ? self_s : 0, last, stretches);
+    sbri_kick(t, h, damps ? self_s : 0, damp_every > 1, last, stretches);
     if (damps) self_s = 0;
     sbri_drift(t, h);
     rest = (float)--left * h;

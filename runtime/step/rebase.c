@@ -1,16 +1,36 @@
 /* The origin that a character's numbers are relative to goes with it, so that they stay exact however far it
- * walks. */
+ * walks, or its bodies are thrown. */
 #include "detail/rungs.h"
 #include "math/vec3.h"
 #include "ragdoll/ragdoll.h"
 #include "solvers/scheme.h"
 #include "step/step.h"
 
-/* The origin follows when the character is this far from it, in m. */
+/* The origin follows when the character is this far from it, in m; small ones keep their digits as well. */
 static const float REBASE_AT_M = 4;
 
-static float whole(float metres) {
-  return (float)(int32_t)(metres < 0 ? metres - 0.5f : metres + 0.5f);
+/* Bodies that have left their root by so much, of the asset's metres, are where the character is: a body of
+ * 1 m that nothing holds is strained by a hundredth by what is rounded 3 km away from where it began. */
+static const float LEFT_ROOT_M = 16;
+
+/* m, a power of two: what the origin goes by, a metre or a character's scale if that is less. */
+static float step_of(float scale) {
+  float step = 1;
+  while (step > scale && step > 1e-6f) step *= 0.5f;
+  return step;
+}
+
+static float whole(float metres, float step) {
+  float steps = metres / step;
+  return step * (float)(int32_t)(steps < 0 ? steps - 0.5f : steps + 0.5f);
+}
+
+static sbf_vec3 place_of(const sbri_character *c) {
+  sbf_vec3 root = sbri_pose(c)[sbri_root_frame(c->model)].position;
+  if (!c->model->island_count || !c->model->slot_count) return root;
+  const sbri_point *p = &sbri_positions(c)[c->model->islands[0].first_slot];
+  sbf_vec3 flesh = sbri_scale((sbf_vec3){p->x, p->y, p->z}, c->scale);
+  return sbri_length(sbri_sub(flesh, root)) > LEFT_ROOT_M * c->scale ? flesh : root;
 }
 
 static void shift_frames(sbr_transform *pose, uint32_t count, sbf_vec3 shift) {
@@ -24,10 +44,12 @@ static void shift_points(sbri_point *points, uint32_t count, sbf_vec3 shift) {
 
 void sbri_character_rebase(sbri_character *c) {
   const sbr_model *model = c->model;
-  sbf_vec3 at = sbri_pose(c)[sbri_root_frame(model)].position;
-  if (fabsf(at.x) < REBASE_AT_M && fabsf(at.y) < REBASE_AT_M && fabsf(at.z) < REBASE_AT_M) return;
-  if (!(fabsf(at.x) < 1e9f && fabsf(at.y) < 1e9f && fabsf(at.z) < 1e9f)) return;
-  sbf_vec3 shift = {whole(at.x), whole(at.y), whole(at.z)}, own = sbri_scale(shift, 1 / c->scale);
+  sbf_vec3 at = place_of(c);
+  float step = step_of(c->scale), near = REBASE_AT_M * step, far = 1e9f * step;
+  if (fabsf(at.x) < near && fabsf(at.y) < near && fabsf(at.z) < near) return;
+  if (!(fabsf(at.x) < far && fabsf(at.y) < far && fabsf(at.z) < far)) return;
+  sbf_vec3 shift = {whole(at.x, step), whole(at.y, step), whole(at.z, step)};
+  sbf_vec3 own = sbri_scale(shift, 1 / c->scale);
   sbri_character_state *head = sbri_head(c);
   head->origin.x += (double)shift.x, head->origin.y += (double)shift.y, head->origin.z += (double)shift.z;
   sbri_gait_rebase(&model->rig, sbri_gait(c), shift);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "harness.h"
+#include "sbrun/detail.h"
 #include "scenes.h"
 
 static scene walker(void) {
@@ -178,8 +179,12 @@ START_TEST(definitions_are_checked)
   ck_assert_int_eq(sbr_character_create(s.world, s.model, &definition, &id, &error), SBF_FAILED);
   ck_assert_ptr_nonnull(strstr(error.message, "sbr_default_character_definition"));
   definition = sbr_default_character_definition();
-  definition.scale = 0;
-  ck_assert_int_eq(sbr_character_create(s.world, s.model, &definition, &id, &error), SBF_FAILED);
+  const float scales[] = {0, -1, 1e-30f, 1e30f, NAN};
+  for (int k = 0; k < 5; k++) {
+    definition.scale = scales[k];
+    ck_assert_int_eq(sbr_character_create(s.world, s.model, &definition, &id, &error), SBF_FAILED);
+    ck_assert_ptr_nonnull(strstr(error.message, "1e-06 to 1e+06"));
+  }
   ck_assert_int_eq(sbr_character_create(s.world, NULL, &definition, &id, &error), SBF_FAILED);
   sbr_character_id none = {0}, wrong = {0x00050099};
   sbr_character_drive(s.world, none, 1, 1, 1);
@@ -217,12 +222,33 @@ START_TEST(numbers_that_are_none_never_get_in)
   ck_assert_int_eq(sbr_world_create(&d, &world, &error), SBF_FAILED);
   ck_assert_ptr_nonnull(strstr(error.message, "finite"));
   ck_assert_ptr_null(world);
+  d = s.world_definition;
+  d.sleep_after_s = (double)no;
+  ck_assert_int_eq(sbr_world_create(&d, &world, &error), SBF_FAILED);
+  for (int k = 0; k < 4; k++) {
+    sbr_model_options options = s.model_options;
+    float *at[4] = {&options.gravity.x, &options.gravity.y, &options.gravity.z, &options.step_error_m};
+    sbr_model *model;
+    options.has_gravity = true;
+    *at[k] = no;
+    ck_assert_int_eq(sbr_model_create(s.asset, &options, &model, &error), SBF_FAILED);
+    ck_assert_ptr_nonnull(strstr(error.message, "finite"));
+    ck_assert_ptr_null(model);
+  }
+  for (int k = 0; k < 5; k++) {
+    sbr_detail_definition detail = sbr_default_detail_definition();
+    float *at[5] = {
+        &detail.error_px, &detail.budget_us, &detail.ns_per_visit, &detail.stay_s, &detail.away_after_s};
+    *at[k] = no;
+    ck_assert_int_eq(sbr_world_detail(s.world, &detail, &error), SBF_FAILED);
+  }
   scene_ticks(&s, 10);
   uint64_t hash = sbr_world_state_hash(s.world);
   sbr_character_drive(s.world, s.character, no, 0, 0);
   sbr_character_drive(s.world, s.character, 0, 0, no);
   sbr_character_teleport(s.world, s.character, (sbr_double3){0, (double)no, 0}, 0);
   sbr_character_teleport(s.world, s.character, (sbr_double3){0, 0, 0}, no);
+  sbr_world_step(s.world, (double)no);
   ck_assert_uint_eq(sbr_world_state_hash(s.world), hash);
   scene_ticks(&s, 10);
   ck_assert(sbr_character_health(s.world, s.character, 0).finite);

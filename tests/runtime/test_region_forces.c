@@ -21,20 +21,22 @@ static scene make_block(float w) {
   return s;
 }
 
-/* Momentum, angular momentum about the origin, and energy. */
+/* Momentum, angular momentum about where the character's origin is at first, and energy. */
 typedef struct kept {
   sbf_vec3 momentum, spin;
   double energy;
 } kept;
 
 static kept measure(const scene *s) {
+  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  double off[3] = {o.x - s->character_definition.position.x, o.y, o.z - s->character_definition.position.z};
   const sbri_island *island = &s->model->islands[0];
   const sbri_point *x = sbri_positions(character_of(s));
   double p[3] = {0}, l[3] = {0};
   for (uint32_t i = 0; i < island->free_count; i++) {
     const float *v = scene_velocity(s, i);
     double m = island->masses[i], u[3] = {v[0], v[SBRI_BLOCK], v[2 * SBRI_BLOCK]};
-    double r[3] = {x[i].x, x[i].y, x[i].z};
+    double r[3] = {off[0] + (double)x[i].x, off[1] + (double)x[i].y, off[2] + (double)x[i].z};
     for (int k = 0; k < 3; k++) {
       p[k] += m * u[k];
       l[k] += m * (r[(k + 1) % 3] * u[(k + 2) % 3] - r[(k + 2) % 3] * u[(k + 1) % 3]);

@@ -57,7 +57,7 @@ START_TEST(damping_leaves_it_alone)
   make((sbf_vec3){1, -2, 0.5f}, (sbf_vec3){0.3f, 2, -1}, 0.5f);
   momenta(before[0], before[1]);
   sbri_rigid_motion first = sbri_rigid_motion_find(&island, &body, positions, velocities);
-  for (int i = 0; i < 200; i++) sbri_rigid_motion_damp(&island, &body, positions, velocities, 0.9f);
+  for (int i = 0; i < 200; i++) sbri_rigid_motion_damp(&island, &body, positions, velocities, 0.9f, 0);
   momenta(after[0], after[1]);
   for (int k = 0; k < 3; k++) {
     ck_assert_double_eq_tol(after[0][k], before[0][k], 1e-3);
@@ -95,7 +95,7 @@ START_TEST(rates_of_their_own_leave_it_alone)
   for (int i = 0; i < POINTS; i++) rates[i] = i % 2 ? 8 : 0.5f;
   momenta(before[0], before[1]);
   for (int i = 0; i < 100; i++)
-    sbri_rigid_motion_damp_each(&island, &body, positions, velocities, rates, 0.01f);
+    sbri_rigid_motion_damp_each(&island, &body, positions, velocities, rates, 0.01f, 0);
   momenta(after[0], after[1]);
   for (int k = 0; k < 3; k++) {
     ck_assert_double_eq_tol(after[0][k], before[0][k], 2e-3);

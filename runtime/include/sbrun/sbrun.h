@@ -199,8 +199,8 @@ typedef struct sbr_character_definition {
   uint32_t cookie;      /* set by sbr_default_character_definition */
   sbr_double3 position; /* of the asset's origin; y counts from the ground below it */
   float heading;        /* rad */
-  /* (0, inf), default 1. Lengths scale by it, masses by its cube, stiffnesses (N/m) by its square and times
-   * by its square root: the same shape under the same gravity, moving as a body of that size does. */
+  /* [1e-6, 1e6], default 1. Lengths scale by it, masses by its cube, stiffnesses (N/m) by its square and
+   * times by its square root: the same shape under the same gravity, moving as a body of that size does. */
   float scale;
   bool hold;         /* bones stay in their rest pose */
   sbr_ground ground; /* of its own, where `height` is set; else the world's: characters of one world may stand
