@@ -137,6 +137,26 @@ static bool touches_ground(const sbri_character *c, const sbri_island *island) {
   return false;
 }
 
+/* Pushed from two sides at once, as between walls that close: what strains a body then is what presses it,
+ * and its rest shape would be in the walls. */
+static bool is_squeezed(const sbri_character *c, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_touch *touches = sbri_touches(c) + c->model->bodies[island->bodies[b]].first_touch;
+    uint32_t count = sbri_touch_counts(c)[island->bodies[b]];
+    sbf_vec3 low = {0, 0, 0}, high = {0, 0, 0};
+    for (uint32_t i = 0; i < count; i++) {
+      sbf_vec3 n = touches[i].normal;
+      if (!(touches[i].pushed > 0) || touches[i].collider == SBRI_ITSELF) continue;
+      low = (sbf_vec3){fminf(low.x, n.x), fminf(low.y, n.y), fminf(low.z, n.z)};
+      high = (sbf_vec3){fmaxf(high.x, n.x), fmaxf(high.y, n.y), fmaxf(high.z, n.z)};
+    }
+    if ((low.x < -0.5f && high.x > 0.5f) || (low.y < -0.5f && high.y > 0.5f) ||
+        (low.z < -0.5f && high.z > 0.5f))
+      return true;
+  }
+  return false;
+}
+
 static bool is_held(const sbri_character *c, const sbri_island *island) {
   for (uint32_t b = 0; b < island->body_count; b++)
     if (!c->model->bodies[island->bodies[b]].held) return false;
@@ -179,6 +199,7 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   const sbri_island_state *state = &sbri_island_states(c)[index];
   bool wild = state->wild;
+  if (is_squeezed(c, island)) return (sbri_shape){.wild = wild};
   if (!(state->least_ratio > 0) || encloses_nothing(c, island))
     return (sbri_shape){.folded = true, .heaped = true, .wild = true};
   if (!is_looked_at(island, state)) return (sbri_shape){.folded = false};

@@ -1,0 +1,53 @@
+#include <math.h>
+
+#include "collision_scenes.h"
+#include "harness.h"
+
+enum { CLOSING = 120, SHUT = 180, END = 330 };
+
+/* A press comes down on a block of flesh to a share of its height, stays for a second and goes up. What is
+ * pressed is no knot: it is not put back into its rest shape, which is in the press, and lies still; let go,
+ * it has its shape again within a quarter of a second, and leaps. */
+START_TEST(what_is_pressed_flat_is_left_alone)
+{
+  const double height = 0.4, share = _i ? 0.05 : 0.3;
+  scene s = scene_begin();
+  lattice_box box = lattice_box_make((sbf_vec3){-0.3f, 0, -0.2f}, (sbf_vec3){0.6f, (float)height, 0.4f}, 6, 4,
+      4, 1000, _i ? 2e4f : 2e5f, 0.45f);
+  scene_bone(&s, (sbf_vec3){0, 0.2f, 0});
+  scene_section(&s, 0, (sbf_vec3){0, 0.2f, 0}, (sbf_vec3){0.6f, (float)height, 0.4f}, 4);
+  scene_embed(&s, scene_lattice(&s, 0, &box), &box);
+  lattice_box_free(&box);
+  scene_body(&s, 0)->attributes.damping_ratio = 0.2f;
+  scene_body(&s, 0)->attributes.friction = 0.5f;
+  s.world_definition.ground = sbr_ground_flat(0);
+  s.character_definition.position.y = 0;
+  scene_start(&s);
+  sbr_shape *press = collision_shape(collision_box(2, 0.5f, 2));
+  sbr_collider_id id = collision_collider(&s, press, (sbr_double3){0, height + 0.52, 0});
+  sbr_body_health h = {0};
+  for (int i = 1; i <= END; i++) {
+    double down = i < CLOSING ? (double)i / CLOSING : 1, gap = height + 0.02;
+    gap = i <= SHUT ? gap + (share * height - gap) * down : gap + 0.05 * (i - SHUT);
+    sbr_collider_move(s.world, id, (sbr_double3){0, gap + 0.5, 0}, (sbf_quat){0, 0, 0, 1});
+    scene_ticks(&s, 1);
+    h = sbr_character_health(s.world, s.character, 0);
+    ck_assert(h.finite);
+    ck_assert_msg(h.recoveries == 0, "put back in tick %d", i);
+    if (i == SHUT && !_i) ck_assert_double_lt(h.kinetic_j, 1);
+    if (i >= SHUT + 16 && i <= SHUT + 40) ck_assert(!h.inverted && fabsf(h.volume_ratio - 1) < 0.03f);
+  }
+  ck_assert_float_lt(h.max_strain, 0.2f);
+  scene_free(&s);
+  sbr_shape_destroy(press);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("folded");
+  TCase *c = tcase_create("folded");
+  tcase_set_timeout(c, 60);
+  tcase_add_loop_test(c, what_is_pressed_flat_is_left_alone, 0, 2);
+  suite_add_tcase(suite, c);
+  return harness_run(suite);
+}
