@@ -3,10 +3,11 @@
 import math
 
 import bpy
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 import characters
 import fixtures
+from soft_body_format.preview import handlers
 
 
 def forget_gait(scene):
@@ -164,3 +165,42 @@ class ProposedGait(fixtures.SceneTest):
         bpy.ops.import_scene.soft_body_format(filepath=self.path("out.sbf"))
         made = next(one for one in bpy.context.scene.objects if one.type == "ARMATURE" and one.name != "biped")
         self.assert_near(made.matrix_world @ made.data.bones["head"].head_local, head, 1e-5)
+
+    def test_it_walks_where_it_looks_in_the_preview(self):
+        stork()
+        place(Matrix.Translation((0.5, 0, -0.75)) @ Matrix.Rotation(math.radians(90), 4, "Z"))
+        bpy.ops.sbfmt.propose_gait()
+        self.addCleanup(handlers.stop)
+        settings = self.scene.soft_body_format.preview
+        settings.drive, settings.speed = "WALK", 0.5
+        self.scene.frame_set(1)
+        own = bpy.data.objects["skin"]
+        rest = sum((own.matrix_world @ vertex.co for vertex in own.data.vertices), Vector()) / len(own.data.vertices)
+        self.assertEqual(bpy.ops.sbfmt.preview_start(), {"FINISHED"})
+
+        def middle():
+            vertices = bpy.data.objects["skin (preview)"].data.vertices
+            return sum((vertex.co for vertex in vertices), Vector()) / len(vertices)
+        self.assert_near(middle(), rest, 0.1)  # the weight goes over the feet
+        for frame in range(2, 42):
+            self.scene.frame_set(frame)
+        way = middle() - rest
+        self.assertGreater(way.x, 0.5)
+        self.assertLess(abs(way.y), 0.15)
+        self.assertLess(abs(way.z), 0.15)
+        foot = bpy.data.objects["stork (preview)"].pose.bones["foot.L"]
+        shin = bpy.data.objects["stork (preview)"].pose.bones["shin.L"]
+        self.assertLess((foot.head - shin.tail).length, 0.02)
+
+    def test_bones_of_a_library_can_not_be_hung_elsewhere(self):
+        stork()
+        bpy.ops.wm.save_as_mainfile(filepath=self.path("library.blend"))
+        fixtures.fresh_scene()
+        with bpy.data.libraries.load(self.path("library.blend"), link=True) as (there, here):
+            here.objects = list(there.objects)
+        for one in here.objects:
+            fixtures.link(one)
+        with self.assertRaises(RuntimeError) as raised:
+            bpy.ops.sbfmt.propose_gait()
+        self.assertIn("Make Local", str(raised.exception))
+        self.assertFalse(bpy.context.scene.soft_body_format.gait.use)

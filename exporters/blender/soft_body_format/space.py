@@ -36,10 +36,6 @@ class Space:
         """What an artist says of it."""
         return [WAYS.index(self.way), self.ground]
 
-    def height(self, height):
-        """Of a height in the scene, above the ground, in metres."""
-        return (height - self.ground) * self.unit_m
-
     def matrix(self, world):
         """From an object's own space to asset space: 4x4, lengths in metres."""
         return Matrix.Scale(self.unit_m, 4) @ self.turn.to_4x4() @ Matrix.Translation(self.lift) @ world

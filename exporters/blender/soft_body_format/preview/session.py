@@ -47,7 +47,7 @@ class Session:
             self.walker = Walker(path, self.size_m) if path is not None else None
 
     def make_ground(self, context, settings):
-        height = self.space.height(settings.ground_height)
+        height = settings.ground_height * self.space.unit_m
         if settings.ground == "NONE":
             return runtime.flat(-BOTTOMLESS_M)
         if settings.ground == "OBJECT" and settings.ground_object is not None:

@@ -13,7 +13,7 @@ class SBFMT_PG_preview(bpy.types.PropertyGroup):
         ("LEVEL", "Level", "A level ground at a height"),
         ("OBJECT", "Object", "A mesh; level at the height where there is none of it"),
         ("NONE", "None", "Nothing to stand on")))
-    ground_height: FloatProperty(name="Height", default=0, unit="LENGTH", description="Of the level ground")
+    ground_height: FloatProperty(name="Height", default=0, unit="LENGTH", description="Of the level ground, above what Stands at says")
     ground_object: PointerProperty(name="Object", type=bpy.types.Object, poll=lambda _self, one: one.type == "MESH",
                                    description="The mesh that is stood on")
     drive: EnumProperty(name="Drive", default="STAND", items=(
