@@ -1,7 +1,7 @@
 extends "checks.gd"
 # What is a node's: it keeps still where it does not process, also among those that it meets; it is as large as it is scaled to; what hangs
 # below it is neither ground nor in its way; it is dressed, saved, loaded, doubled, given another parent, and freed by the
-# signal of one that it meets; a number that is none is refused; and without any ground it says so.
+# signal of one that it meets; a number that is none is refused; and without any ground, or with too much to meet, it says so.
 
 var walkers: Array[SoftCharacter3D] = []
 var scaled: SoftCharacter3D
@@ -54,6 +54,8 @@ func _initialize() -> void:
 	gone.meet_others = true
 	walkers[0].foot_down.connect(func(_leg: int, _at: Vector3): if is_instance_valid(gone): gone.free())
 	add_character("res://lizard.sbfz", Vector3(500, 0, 0))
+	add_character("res://lizard.sbfz", Vector3(-20, 0, 0))
+	for i in 80: add_ball(1, 0.02, Vector3(-20 + 0.06 * (i % 10 - 5), 0.6 + 0.06 * (i / 10), 0), Vector3.ZERO)
 
 
 func _physics_process(_delta: float) -> bool:

@@ -42,6 +42,7 @@ struct physics_bodies {
   uint32_t frame;
   gd_variant query, box; /* PhysicsShapeQueryParameters3D and its BoxShape3D */
   gd_variant still;      /* RIDs that queries leave out: they do not move */
+  bool told;             /* it was said that there is no room for more */
 };
 
 physics_bodies *physics_bodies_make(void) {
@@ -182,7 +183,14 @@ static void adopt(soft_character *one, const gd_variant *server, const gd_varian
   mirrored *room = NULL;
   for (uint32_t i = 0; i < MOST && !room; i++)
     if (!bodies->each[i].body) room = &bodies->each[i];
-  if (!room) return;
+  if (!room) {
+    if (!bodies->told)
+      soft_character_warning(one, "more than 64 shapes of moving bodies are near it, and it passes through "
+                                  "the rest (said of the first "
+                                  "one alone). Take some off the layers of its collision_mask");
+    bodies->told = true;
+    return;
+  }
   *room = (mirrored){.body = gd_as_rid(handle),
       .index = index,
       .handle = gd_copy(handle),
