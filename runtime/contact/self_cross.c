@@ -104,15 +104,57 @@ static void cross(const side *s, uint32_t number) {
       .crosses = true};
 }
 
-void sbri_self_crossings_add(const sbri_self_looking *l) {
-  for (uint32_t i = 0; i < 3 * l->body->self_face_count; i++) {
+/* A triangle, and the plane that it lies in. */
+typedef struct flat {
+  uint32_t number;
+  const uint32_t *c;
+  sbf_vec3 at, normal;
+  sbri_box box;
+} flat;
+
+static flat flat_of(const sbri_self_looking *l, uint32_t number) {
+  const uint32_t *c = l->body->self_faces + 3 * (size_t)number;
+  const sbri_point *at = l->tick->positions;
+  sbf_vec3 p[3];
+  for (int k = 0; k < 3; k++) p[k] = sbri_self_place(at, c[k]);
+  return (flat){number, c, p[0], sbri_cross(sbri_sub(p[1], p[0]), sbri_sub(p[2], p[0])),
+      sbri_box_with(sbri_box_with(sbri_box_of_point(p[0]), p[1]), p[2])};
+}
+
+/* Whether another triangle lies on one side of it, or goes on from a side of it. */
+static bool is_clear(const sbri_self_looking *l, const flat *f, const uint32_t *c) {
+  int shared = 0, over = 0, below = 0;
+  for (int k = 0; k < 3; k++) {
+    if (c[k] == f->c[0] || c[k] == f->c[1] || c[k] == f->c[2]) {
+      shared++;
+      continue;
+    }
+    float height = sbri_dot(f->normal, sbri_sub(sbri_self_place(l->tick->positions, c[k]), f->at));
+    over += height >= 0, below += height <= 0;
+  }
+  return shared > 1 || !over || !below;
+}
+
+/* The sides of one triangle, but those that another has in the table, against another one. */
+static void cross_sides(const sbri_self_looking *l, uint32_t of, uint32_t number) {
+  for (uint32_t i = 3 * of; i < 3 * of + 3; i++) {
     if (l->body->self_sides[i] == SBRI_SAME_SIDE) continue;
     side s = side_of(l, i);
-    sbri_box box = sbri_box_with(sbri_box_of_point(s.from), sbri_add(s.from, s.way));
+    cross(&s, number);
+  }
+}
+
+void sbri_self_crossings_add(const sbri_self_looking *l) {
+  for (uint32_t number = 0; number < l->body->self_face_count; number++) {
+    const flat f = flat_of(l, number);
     sbri_bounds_walk walk;
-    uint32_t triangle;
-    sbri_bounds_walk_begin(&walk, l->tree, box);
-    while (sbri_bounds_walk_next(&walk, &triangle))
-      if (sbri_box_meets(&box, &l->boxes[triangle])) cross(&s, triangle);
+    uint32_t other;
+    sbri_bounds_walk_begin(&walk, l->tree, f.box);
+    while (sbri_bounds_walk_next(&walk, &other)) {
+      if (other <= number || !sbri_box_meets(&f.box, &l->boxes[other])) continue;
+      if (is_clear(l, &f, l->body->self_faces + 3 * (size_t)other)) continue;
+      cross_sides(l, number, other);
+      cross_sides(l, other, number);
+    }
   }
 }

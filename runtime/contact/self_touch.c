@@ -193,5 +193,6 @@ void sbri_self_touches_add(const sbri_island_tick *t, const sbri_body *body,
   sbri_bounds_tree_make(tree, tables->self_boxes, body->self_face_count);
   for (uint32_t slot = body->slot_begin; slot < body->slot_real_end; slot++) add_point(&l, slot);
   if (l.rule.two_sided) sbri_self_edges_add(&l);
-  if (*count > before && !body->is_tangled) sbri_self_crossings_add(&l);
+  /* A sheet that is through itself touches itself somewhere; what is deep in a closed surface need not. */
+  if ((*count > before || !l.rule.two_sided) && !body->is_tangled) sbri_self_crossings_add(&l);
 }

@@ -5,6 +5,7 @@
 #include "grid_scenes.h"
 #include "harness.h"
 #include "math/vec3.h"
+#include "world/world.h"
 
 enum { COLUMNS = 21, ROWS = 25, ALL = COLUMNS * ROWS };
 
@@ -83,12 +84,86 @@ START_TEST(what_is_through_itself_at_rest_stays)
 }
 END_TEST
 
+/* ---- Closed surfaces ---- */
+
+/* Of two cubes of 10 cm, whose corners have springs to each other. */
+static const uint32_t cube_quads[24] = {
+    0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6};
+
+static void two_cubes(scene *s) {
+  static sbf_vec3 at[16];
+  static float kg[16], stiffness[56];
+  static sbf_uint2 ends[56];
+  static uint32_t corners[48], sizes[12];
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < 16; i++) {
+    float x = i & 1 ? 0.05f : -0.05f, y = i & 2 ? 0.05f : -0.05f, z = i & 4 ? 0.05f : -0.05f;
+    sbf_vec3 turned = {0.94f * x - 0.34f * z + 0.013f, y + 0.2f, 0.34f * x + 0.94f * z + 0.021f};
+    at[i] = i < 8 ? (sbf_vec3){x, y, z} : turned;
+    kg[i] = 0.05f;
+    for (uint32_t j = i + 1; j < (i / 8 + 1) * 8; j++)
+      ends[count] = (sbf_uint2){{i, j}}, stiffness[count++] = 500;
+  }
+  for (uint32_t i = 0; i < 48; i++) corners[i] = cube_quads[i % 24] + i / 24 * 8;
+  for (uint32_t i = 0; i < 12; i++) sizes[i] = 4;
+  scene_springs(s, scene_points(s, 0, at, kg, 16), ends, stiffness, count);
+  sbf_polygon_mesh *mesh = &scene_body(s, 0)->surface;
+  mesh->positions = (sbf_vec3_list){at, 16};
+  mesh->polygon_sizes = (sbf_u32_list){sizes, 12};
+  mesh->polygon_points = (sbf_u32_list){corners, 48};
+}
+
+/* Sides of one cube through triangles of the other. */
+static uint32_t count_cubes(const sbf_vec3 at[16]) {
+  uint32_t count = 0;
+  for (uint32_t e = 0; e < 48; e++) {
+    uint32_t cube = e / 24 * 8, a = cube + cube_quads[e % 24],
+             b = cube + cube_quads[e % 24 / 4 * 4 + (e + 1) % 4];
+    for (uint32_t t = 0; t < 12; t++) {
+      const uint32_t *q = cube_quads + t / 2 * 4, other = 8 - cube;
+      count +=
+          grid_pierces(at[a], at[b], at[other + q[0]], at[other + q[1 + t % 2]], at[other + q[2 + t % 2]]);
+    }
+  }
+  return count;
+}
+
+/* One cube of a body is put so deep into the other that none of its corners is within `inner_thickness` of a
+ * face: it comes out, and the body as a whole stays where it was. (It was let be.) */
+START_TEST(what_is_deep_in_itself_comes_out)
+{
+  static const float deep_m[3] = {0.03f, 0.045f, 0.06f};
+  sbf_vec3 at[16], before[16];
+  scene s = scene_begin();
+  two_cubes(&s);
+  sbf_soft_body *body = scene_body(&s, 0);
+  body->collision.self = true;
+  body->collision.outer_thickness = 0.001f, body->collision.inner_thickness = 0.001f;
+  body->attributes.mass_damping = 1;
+  s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
+  scene_start(&s);
+  sbri_character *c = sbri_character_of(s.world, s.character);
+  for (uint32_t i = 8; i < 16; i++)
+    sbri_positions(c)[c->model->bodies[0].slot_from_point[i]].y -= 0.1f + deep_m[_i];
+  scene_read(&s, 0, before, 16);
+  ck_assert_uint_gt(count_cubes(before), 0);
+  scene_ticks(&s, 60);
+  scene_read(&s, 0, at, 16);
+  sbf_vec3 moved = {0, 0, 0};
+  for (int i = 0; i < 16; i++) moved = sbri_add_scaled(moved, sbri_sub(at[i], before[i]), 1.0f / 16);
+  ck_assert_uint_eq(count_cubes(at), 0);
+  ck_assert_float_le(sbri_length(moved), 1e-5f);
+  scene_free(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("self_cross");
   TCase *tests = tcase_create("all");
   tcase_set_timeout(tests, 120);
   tcase_add_test(tests, a_crumpled_sheet_is_not_through_itself);
   tcase_add_test(tests, what_is_through_itself_at_rest_stays);
+  tcase_add_loop_test(tests, what_is_deep_in_itself_comes_out, 0, 3);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }
