@@ -1,5 +1,5 @@
 /* Joints of the tree that hold a place and leave every turn free, as most of a ragdoll's do: eliminated by
- * their own three unknowns, without rows for what they hold.
+ * their own three unknowns, without rows for what they hold, and two at once, as limbs come in pairs.
  *
  * With the child's inertia about the joint's place, A of speeds, E between turns and speeds, C of turns, and
  * K of what gives way between the two bodies' turns (flesh, drives, limits that press), the child turns by (C
@@ -11,11 +11,13 @@
 
 #include "rigid/rigid_system.h"
 
-/* Takes the child out, whose d stays as it is, and adds what its parent, NULL: none, feels of it. */
-void sbri_ball_eliminate(sbri_edge *edge, const sbri_node *child, sbri_node *parent);
-/* Likewise of the child's b, which it overwrites; `with_rhs`: what the edge wants, else as if that were 0. */
-void sbri_ball_forward(sbri_edge *edge, sbri_node *child, sbri_node *parent, bool with_rhs);
-/* The child's x from its parent's; `keep`: adds to the active rows' impulses and to the edge's own. */
-void sbri_ball_back(sbri_edge *edge, sbri_node *child, const sbri_node *parent, bool keep);
+/* Takes the children out, whose d stay as they are, and adds what their parents feel of it. */
+void sbri_balls_eliminate(sbri_ball_pair *pair);
+/* Likewise of the children's b; `with_rhs`: what the edges want, else as if that were 0. */
+void sbri_balls_forward(sbri_ball_pair *pair, bool with_rhs);
+/* The children's x from their parents'; `keep`: adds to the active rows' impulses. */
+void sbri_balls_back(sbri_ball_pair *pair, bool keep);
+/* Adds what the last solution has done to the edges' own impulses. */
+void sbri_balls_note(sbri_ball_pair *pair);
 
 #endif

@@ -260,17 +260,25 @@ static sbf_vec3 impulse_at(const sbri_ground_touch *touch, sbf_vec3 du, float *n
   return across > touch->bound ? sbri_scale(pull, touch->bound / across) : pull;
 }
 
-float sbri_ground_touches_work(const sbri_rigid_solving *work, float share) {
-  float sum = 0;
+static double dot_of(sbf_vec3 a, sbf_vec3 b) {
+  return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
+}
+
+void sbri_ground_touches_on_the_way(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
     const sbri_ground_touch *touch = &work->touches[i];
-    float normal;
-    sbf_vec3 at = sbri_lerp(touch->was, touch->moved, share), way = sbri_sub(touch->moved, touch->was);
-    if (is_idle(touch, at)) continue;
-    sbf_vec3 across = impulse_at(touch, at, &normal);
-    sum += normal * sbri_dot(touch->normal, way) + sbri_dot(across, way);
+    if (is_idle(touch, touch->was) && is_idle(touch, touch->moved)) continue;
+    sbf_vec3 n = touch->normal, off = sbri_sub(touch->target, touch->was), way = sbri_sub(touch->moved, touch->was);
+    float into = sbri_dot(n, off), along = sbri_dot(n, way);
+    sbri_push_way *p = &work->pushes[work->push_count++];
+    *p = (sbri_push_way){.stiff = (double)touch->stiff, .into = (double)into, .way = (double)along};
+    if (!(touch->bound > 0)) continue;
+    sbf_vec3 across = sbri_add_scaled(off, n, -into), turn = sbri_add_scaled(way, n, -along);
+    sbf_vec3 pull = sbri_add_scaled(touch->hold, across, touch->grip), grip = sbri_scale(turn, touch->grip);
+    p->bound = (double)touch->bound;
+    p->ease = 1 / (double)touch->grip;
+    p->pull_pull = dot_of(pull, pull), p->pull_grip = dot_of(pull, grip), p->grip_grip = dot_of(grip, grip);
   }
-  return sum;
 }
 
 void sbri_ground_touches_move(sbri_rigid_solving *work) {

@@ -76,17 +76,35 @@ static void find_slope(
   sbri_rigid_guests_slope(work, slope, rise);
 }
 
-/* What touches and limits would do at that share of the way. */
-static double pushed(const sbri_rigid_solving *work, float share) {
-  double sum = (double)sbri_ground_touches_work(work, share);
+/* What pushes one way only and the friction with it, along the way: `into` goes from that at its begin by
+ * -`way`, and the force is as stiff; friction's pull goes likewise from P by -G, of which the squares are known
+ * and by how much it grips, up to its bound. */
+static void add_limits(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];
     for (uint32_t r = 0; r < e->row_count; r++) {
       const sbri_row *row = &e->rows[r];
-      if (row->kind != SBRI_ROW_LIMIT) continue;
-      float way = row->moved - row->was, off = row->wanted - (row->was + share * way);
-      if ((float)row->sign * off > 0) sum += (double)(off * way / row->give);
+      float way = row->moved - row->was, sign = (float)row->sign;
+      if (row->kind != SBRI_ROW_LIMIT || way == 0) continue;
+      work->pushes[work->push_count++] = (sbri_push_way){.stiff = 1 / (double)row->give,
+          .into = (double)(sign * (row->wanted - row->was)),
+          .way = (double)(sign * way)};
     }
+  }
+}
+
+/* What touches and limits do at that share of the way. */
+static double pushed(const sbri_rigid_solving *work, double share) {
+  double sum = 0;
+  for (uint32_t i = 0; i < work->push_count; i++) {
+    const sbri_push_way *p = &work->pushes[i];
+    double into = p->into - share * p->way;
+    if (into > 0) sum += p->stiff * into * p->way;
+    if (!(p->bound > 0)) continue;
+    double square = p->pull_pull - share * (2 * p->pull_grip - share * p->grip_grip);
+    double along = p->pull_grip - share * p->grip_grip;
+    if (square > p->bound * p->bound) along *= p->bound / sqrt(square);
+    sum += along * p->ease;
   }
   return sum;
 }
@@ -101,6 +119,9 @@ static double moved_by_weight(const sbri_rigid_tick *t, const sbri_rigid_solving
 float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, float step_s) {
   double slope, rise;
   find_slope(t, work, &slope, &rise);
+  work->push_count = 0;
+  sbri_ground_touches_on_the_way(work);
+  add_limits(work);
   double first = slope - pushed(work, 0);
   double last = slope + rise - pushed(work, 1), level = -(double)LEVEL * first;
   double least_level = TRIFLE * moved_by_weight(t, work, step_s);
@@ -111,7 +132,7 @@ float sbri_rigid_search(const sbri_rigid_tick *t, sbri_rigid_solving *work, floa
     float share = low + (high - low) * (float)(first / (first - last));
     float least = low + 0.02f * (high - low), most = high - 0.02f * (high - low);
     share = i & 1 || i > SECANTS ? 0.5f * (low + high) : sbri_clamp(share, least, most);
-    double here = slope + (double)share * rise - pushed(work, share);
+    double here = slope + (double)share * rise - pushed(work, (double)share);
     if (here >= 0 && here <= level) return share;
     if (here < 0)
       low = share, first = here;

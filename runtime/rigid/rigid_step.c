@@ -44,6 +44,7 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
          loop_rows = m->loop_row_capacity;
   sbri_rigid_system *s = &work->system;
   s->nodes = carve(&at, bodies + 1, sizeof *s->nodes);
+  s->steps = carve(&at, bodies + 1, sizeof *s->steps);
   s->edges = carve(&at, joints + 1, sizeof *s->edges);
   s->loops = carve(&at, joints + 1, sizeof *s->loops);
   s->loop_row_capacity = m->loop_row_capacity;
@@ -55,11 +56,13 @@ static size_t lay_out(const sbri_rigid_model *m, unsigned char *memory, sbri_rig
   work->kept = carve(&at, SBRI_RIGID_HALVINGS * (bodies + 1), sizeof *work->kept);
   work->pulls = carve(&at, joints + 1, sizeof *work->pulls);
   work->balls = carve(&at, joints + 1, sizeof *work->balls);
+  work->pairs = carve(&at, joints + 1, sizeof *work->pairs);
   work->places = carve(&at, joints + 1, sizeof *work->places);
   work->touch_capacity = sbri_rigid_touch_capacity(m);
   work->touches = carve(&at, work->touch_capacity, sizeof *work->touches);
   work->guest_capacity = (uint32_t)(GUESTS + GUESTS_OF_BODY * bodies);
   work->guests = carve(&at, work->guest_capacity, sizeof *work->guests);
+  work->pushes = carve(&at, work->touch_capacity + rows, sizeof *work->pushes);
   work->order = carve(&at, 2 * joints + 2, sizeof(uint32_t));
   work->roots = carve(&at, bodies + 1, sizeof(uint32_t));
   work->rows = carve(&at, rows, sizeof *work->rows);
@@ -265,6 +268,7 @@ static void throw_back(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
     if (sbri_joint_rows_bounce(work, &work->system.edges[e], t->model)) any = true;
   if (!any) return;
   sbri_rigid_solve(work);
+  sbri_system_note(&work->system);
   sbri_ground_touches_give(work);
   take(t, work);
 }
@@ -277,6 +281,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
   sbri_ground_touches_make(t, work, t->tick_s * from, step_s);
   for (uint32_t e = 0; e < s->edge_count; e++) sbri_joint_rows_make(t, work, e, step_s);
   sbri_rigid_passes(t, work, step_s);
+  sbri_system_note(s);
   take_and_go(t, work, step_s);
   bool foresees = sbri_rigid_foresees(t, work);
   for (int pass = 0; pass < MOST_CORRECTIONS && s->edge_count; pass++) {
@@ -289,6 +294,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
     if (worst < (pass > 0 ? FINE : foresees ? FINE_AT_ONCE : 0)) break;
     clear_b(work);
     sbri_rigid_solve(work);
+    sbri_system_note(s);
     sbri_ground_touches_give(work);
     take_and_go(t, work, step_s);
   }

@@ -86,15 +86,11 @@ static void eliminate_edge(sbri_rigid_system *s, sbri_node *node, sbri_edge *e) 
   }
 }
 
-static sbri_node *parent_of(sbri_rigid_system *s, const sbri_node *node) {
-  return node->parent >= 0 ? &s->nodes[node->parent] : NULL;
-}
-
 static void factor_tree(sbri_rigid_system *s) {
-  for (uint32_t i = s->node_count; i-- > 0;) {
-    sbri_node *node = &s->nodes[i];
-    if (node->edge >= 0 && s->edges[node->edge].ball) {
-      sbri_ball_eliminate(&s->edges[node->edge], node, parent_of(s, node));
+  for (uint32_t i = 0; i < s->step_count; i++) {
+    sbri_node *node = s->steps[i].node;
+    if (s->steps[i].pair) {
+      sbri_balls_eliminate(s->steps[i].pair);
       continue;
     }
     sbri_sym6_factor(node->d);
@@ -102,43 +98,45 @@ static void factor_tree(sbri_rigid_system *s) {
   }
 }
 
+static void forward_node(sbri_rigid_system *s, sbri_node *node, bool with_rhs) {
+  sbri_sym6_forward(node->d, node->b);
+  if (node->edge < 0) return;
+  sbri_edge *e = &s->edges[node->edge];
+  for (uint32_t r = 0; r < e->active_count; r++)
+    e->t[r] = (with_rhs ? e->rhs[r] : 0) - sbri_dot6(e->y + 6 * (size_t)r, node->b);
+  forward_dense(e->g, e->active_count, e->t);
+  for (uint32_t r = 0; node->parent >= 0 && r < e->active_count; r++)
+    sbri_add6(s->nodes[node->parent].b, e->w + 6 * (size_t)r, e->t[r]);
+}
+
+static void back_node(sbri_rigid_system *s, sbri_node *node, bool keep) {
+  memcpy(node->x, node->b, sizeof node->x);
+  if (node->edge >= 0) {
+    sbri_edge *e = &s->edges[node->edge];
+    for (uint32_t r = 0; node->parent >= 0 && r < e->active_count; r++)
+      e->t[r] -= sbri_dot6(e->w + 6 * (size_t)r, s->nodes[node->parent].x);
+    back_dense(e->g, e->active_count, e->t);
+    for (uint32_t r = 0; r < e->active_count; r++) {
+      sbri_add6(node->x, e->y + 6 * (size_t)r, e->t[r]);
+      if (keep) e->rows[e->actives[r]].impulse += (float)e->t[r];
+    }
+  }
+  sbri_sym6_back(node->d, node->x);
+}
+
 /* Of the nodes' b, to their x; `with_rhs` of the edges, else as if that were 0; rows of the tree may keep
  * their impulses. */
 static void solve_tree(sbri_rigid_system *s, bool with_rhs, bool keep) {
-  for (uint32_t i = s->node_count; i-- > 0;) {
-    sbri_node *node = &s->nodes[i];
-    if (node->edge >= 0 && s->edges[node->edge].ball) {
-      sbri_ball_forward(&s->edges[node->edge], node, parent_of(s, node), with_rhs);
-      continue;
-    }
-    sbri_sym6_forward(node->d, node->b);
-    if (node->edge < 0) continue;
-    sbri_edge *e = &s->edges[node->edge];
-    for (uint32_t r = 0; r < e->active_count; r++)
-      e->t[r] = (with_rhs ? e->rhs[r] : 0) - sbri_dot6(e->y + 6 * (size_t)r, node->b);
-    forward_dense(e->g, e->active_count, e->t);
-    for (uint32_t r = 0; node->parent >= 0 && r < e->active_count; r++)
-      sbri_add6(s->nodes[node->parent].b, e->w + 6 * (size_t)r, e->t[r]);
-  }
-  for (uint32_t i = 0; i < s->node_count; i++) {
-    sbri_node *node = &s->nodes[i];
-    if (node->edge >= 0 && s->edges[node->edge].ball) {
-      sbri_ball_back(&s->edges[node->edge], node, parent_of(s, node), keep);
-      continue;
-    }
-    memcpy(node->x, node->b, sizeof node->x);
-    if (node->edge >= 0) {
-      sbri_edge *e = &s->edges[node->edge];
-      for (uint32_t r = 0; node->parent >= 0 && r < e->active_count; r++)
-        e->t[r] -= sbri_dot6(e->w + 6 * (size_t)r, s->nodes[node->parent].x);
-      back_dense(e->g, e->active_count, e->t);
-      for (uint32_t r = 0; r < e->active_count; r++) {
-        sbri_add6(node->x, e->y + 6 * (size_t)r, e->t[r]);
-        if (keep) e->rows[e->actives[r]].impulse += (float)e->t[r];
-      }
-    }
-    sbri_sym6_back(node->d, node->x);
-  }
+  for (uint32_t i = 0; i < s->step_count; i++)
+    if (s->steps[i].pair)
+      sbri_balls_forward(s->steps[i].pair, with_rhs);
+    else
+      forward_node(s, s->steps[i].node, with_rhs);
+  for (uint32_t i = s->step_count; i-- > 0;)
+    if (s->steps[i].pair)
+      sbri_balls_back(s->steps[i].pair, keep);
+    else
+      back_node(s, s->steps[i].node, keep);
 }
 
 /* ---- Loops ---- */
@@ -252,4 +250,9 @@ void sbri_system_solve(sbri_rigid_system *s) {
     }
   }
   solve_tree(s, true, true);
+}
+
+void sbri_system_note(sbri_rigid_system *s) {
+  for (uint32_t i = 0; i < s->step_count; i++)
+    if (s->steps[i].pair) sbri_balls_note(s->steps[i].pair);
 }

@@ -15,6 +15,7 @@
 #ifndef SBRI_RIGID_SYSTEM_H
 #define SBRI_RIGID_SYSTEM_H
 
+#include "math/twin.h"
 #include "model/rigid_model.h"
 #include "rigid/sym6.h"
 
@@ -59,10 +60,6 @@ typedef struct sbri_ball {
   double flesh_rhs[3];          /* rad/s, and what it wants b's turn against a's to change by */
   double impulse[3], moment[3]; /* N s and N m s, on body b, about the place */
   sbf_vec3 end;                 /* m, along a's axes: how far apart the places are to be at the step's end */
-  /* Of the factor: */
-  double a[3][3], e[3][3], k[3][3], l[3][3], y[3][3], z[3][3];
-  /* And of the solution: */
-  double wanted[3], shift[3], force[3], p[3];
 } sbri_ball;
 
 /* A joint in the system. */
@@ -96,7 +93,28 @@ typedef struct sbri_node {
   float ease[2];             /* 1 / mass, and the mean of 1 / moment: how it would give way alone */
 } sbri_node;
 
+/* Two of the tree's balls that are eliminated at once, neither being above the other; or one. */
+typedef struct sbri_ball_pair {
+  sbri_edge *edges[2]; /* twice the same, as what follows, where there is but one */
+  sbri_node *children[2];
+  sbri_node *parents[2]; /* NULL: the world */
+  uint32_t count;
+  /* Of the factor: levers of the child and of its parent, 1 where the child is body b and -1 where it is a, */
+  sbri_twin own[3], other[3], sign;
+  sbri_twin a[3][3], e[3][3], k[3][3], l[3][3], y[3][3], z[3][3];
+  /* and of the solution: */
+  sbri_twin wanted[3], shift[3], force[3], p[3];
+} sbri_ball_pair;
+
+/* A node, or a pair of balls with their children, in the order of elimination. */
+typedef struct sbri_tree_step {
+  sbri_node *node;
+  sbri_ball_pair *pair; /* NULL: the node alone, on rows or on nothing */
+} sbri_tree_step;
+
 typedef struct sbri_rigid_system {
+  sbri_tree_step *steps; /* (step_count) each behind those of what hangs on it */
+  uint32_t step_count;
   sbri_node *nodes; /* (node_count) each behind its parent */
   uint32_t node_count;
   sbri_edge *edges; /* (edge_count) of the joints that act */
@@ -127,6 +145,9 @@ void sbri_system_factor(sbri_rigid_system *system);
 /* Solves for the nodes' x and adds to the active rows' impulses, from the nodes' b and the edges' rhs (of
  * active rows). Overwrites b. May be called again with other b and rhs. */
 void sbri_system_solve(sbri_rigid_system *system);
+
+/* Adds what the last solution has done to the balls' impulses and moments. */
+void sbri_system_note(sbri_rigid_system *system);
 
 /* Lists which rows are active. */
 void sbri_edge_list_active(sbri_edge *edge);

@@ -62,6 +62,47 @@ static void make_balls(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
   }
 }
 
+static bool is_on_ball(const sbri_rigid_system *s, uint32_t node) {
+  return s->nodes[node].edge >= 0 && s->edges[s->nodes[node].edge].ball;
+}
+
+/* So far on from a ball another is looked for that goes along with it; a limb's is a place or two off. */
+enum { PARTNERS = 16 };
+
+/* Puts balls in pairs and all in the order of elimination: from the end of the list on, which is behind what
+ * it hangs on, each with the next that nothing else waits for. */
+static void list_steps(sbri_rigid_solving *work) {
+  sbri_rigid_system *s = &work->system;
+  uint32_t *waits = work->roots, pair_count = 0; /* for so many that hang on it, */
+  const uint32_t gone = UINT32_MAX;
+  for (uint32_t i = 0; i < s->node_count; i++) waits[i] = 0;
+  for (uint32_t i = 0; i < s->node_count; i++)
+    if (s->nodes[i].parent >= 0) waits[s->nodes[i].parent]++;
+  s->step_count = 0;
+  for (uint32_t i = s->node_count; i-- > 0;) {
+    if (waits[i] == gone) continue;
+    sbri_tree_step *step = &s->steps[s->step_count++];
+    uint32_t both[2] = {i, i}, count = 1;
+    *step = (sbri_tree_step){.node = &s->nodes[i]};
+    if (is_on_ball(s, i)) {
+      for (uint32_t j = i; count < SBRI_TWINS && j-- > 0 && j + PARTNERS >= i;)
+        if (waits[j] == 0 && is_on_ball(s, j)) both[count++] = j;
+      step->pair = &work->pairs[pair_count++];
+      step->pair->count = count;
+    }
+    for (uint32_t k = 0; k < 2 && step->pair; k++) {
+      sbri_node *node = &s->nodes[both[k]];
+      step->pair->children[k] = node;
+      step->pair->edges[k] = &s->edges[node->edge];
+      step->pair->parents[k] = node->parent >= 0 ? &s->nodes[node->parent] : NULL;
+    }
+    for (uint32_t k = 0; k < count; k++) {
+      waits[both[k]] = gone;
+      if (s->nodes[both[k]].parent >= 0) waits[s->nodes[both[k]].parent]--;
+    }
+  }
+}
+
 /* Follows the tree's joints from what is in the list of nodes already. */
 static void grow(const sbri_rigid_tick *t, sbri_rigid_solving *work, const int32_t *edge_of_joint,
     const uint8_t *in_tree, uint32_t from) {
@@ -110,4 +151,5 @@ void sbri_rigid_tree_make(const sbri_rigid_tick *t, sbri_rigid_solving *work) {
       s->edges[e].nodes[side] = body >= 0 ? work->motions[body].node : -1;
     }
   make_balls(t, work);
+  list_steps(work);
 }

@@ -19,6 +19,15 @@ typedef struct sbri_part_motion {
   int32_t node;                /* -1: it does not give way */
 } sbri_part_motion;
 
+/* What pushes one way only, and the friction with it, along the way from a pass to the next: at a share s of
+ * it the force is stiff (into - s way) where that is above 0, and friction's pull P - s G, cut to its bound. */
+typedef struct sbri_push_way {
+  double stiff, into, way;
+  double bound;                           /* N s; 0: there is no friction */
+  double pull_pull, pull_grip, grip_grip; /* P.P, P.G, G.G */
+  double ease;                            /* 1 / kg: the way over G */
+} sbri_push_way;
+
 typedef struct sbri_rigid_solving {
   sbri_rigid_system system;
   sbri_part_motion *motions;   /* (body_count + 1); the last is the anchor, which stands */
@@ -26,11 +35,14 @@ typedef struct sbri_rigid_solving {
   sbf_vec3 *pulls;             /* (joint_count) N on body b: mean of the last tick, then of the last step */
   sbri_rigid_body_state *kept; /* (SBRI_RIGID_HALVINGS x body_count) before steps that may be taken again */
   sbri_ball *balls;            /* (joint_count) likewise: of the edges */
+  sbri_ball_pair *pairs;       /* (joint_count) of those of the tree */
   sbri_joint_place *places;    /* (joint_count) of the edges */
   sbri_ground_touch *touches;  /* (touch_count) */
   uint32_t touch_count, touch_capacity;
   sbri_rigid_guest *guests; /* (guest_count) of the host's bodies that have a mass */
   uint32_t guest_count, guest_capacity;
+  sbri_push_way *pushes; /* (touch_capacity + row_count) of the way that is searched */
+  uint32_t push_count;
   float swings;      /* (rad/s)^2, by what pulled in the tick before: sbri_rigid_swings */
   float last_step_s; /* length of the step before; 0: there is none */
   float kick_s;      /* for how long forces act in the step: from the middle of the one before to its own */
@@ -129,8 +141,8 @@ void sbri_ground_touches_tell(const sbri_rigid_tick *tick, sbri_rigid_solving *w
 bool sbri_ground_touches_bounce(sbri_rigid_solving *work);
 /* Takes from the nodes' x how the places' velocities change. */
 void sbri_ground_touches_move(sbri_rigid_solving *work);
-/* What the impulses would do along the way from the pass before to the last, at that share of it, J. */
-float sbri_ground_touches_work(const sbri_rigid_solving *work, float share);
+/* Lists what may press, or rub, somewhere on the way from the pass before to the last. */
+void sbri_ground_touches_on_the_way(sbri_rigid_solving *work);
 /* Who presses, and who slides, by the last pass; whether that has changed. */
 bool sbri_ground_touches_judge(sbri_rigid_solving *work);
 /* Bounds of friction from what presses by the last pass; whether that makes a difference. */

@@ -16,6 +16,7 @@ typedef struct slide {
   sbri_rigid_model model;
   sbri_ground_touch touch;
   sbri_rigid_solving work;
+  sbri_push_way way;
   sbri_rigid_tick tick;
 } slide;
 
@@ -31,6 +32,7 @@ static void slide_of(slide *s, float was, float to, float bound, float sticks) {
   s->touch.grip = bound / sticks, s->touch.bound = bound, s->touch.slides = true;
   s->touch.was.x = was, s->touch.moved.x = to;
   s->work.system.nodes = &s->node, s->work.system.node_count = 1;
+  s->work.pushes = &s->way;
   s->work.touches = &s->touch, s->work.touch_count = 1;
   s->tick.model = &s->model;
 }
