@@ -299,19 +299,23 @@ static sbf_vec3 linear_at(const sbri_ground_touch *touch, sbf_vec3 du, float *no
   return sbri_add_scaled(touch->hold, sbri_add_scaled(off, n, -into), touch->grip);
 }
 
-bool sbri_ground_touches_judge(sbri_rigid_solving *work) {
-  bool changed = false;
+bool sbri_ground_touches_agree(const sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
-    sbri_ground_touch *touch = &work->touches[i];
+    const sbri_ground_touch *touch = &work->touches[i];
     if (!touch->active && is_idle(touch, touch->moved)) continue;
     float normal, linear;
     sbf_vec3 was = linear_at(touch, touch->moved, &linear), is = impulse_at(touch, touch->moved, &normal);
-    linearise(touch, touch->moved);
     float across = sbri_length(sbri_sub(was, is));
-    changed =
-        changed || fabsf(normal - linear) > touch->doubt || across > CHANGE * touch->bound + touch->doubt;
+    if (fabsf(normal - linear) > touch->doubt || across > CHANGE * touch->bound + touch->doubt) return false;
   }
-  return changed;
+  return true;
+}
+
+void sbri_ground_touches_judge(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    sbri_ground_touch *touch = &work->touches[i];
+    if (touch->active || !is_idle(touch, touch->moved)) linearise(touch, touch->moved);
+  }
 }
 
 bool sbri_ground_touches_bound(sbri_rigid_solving *work) {

@@ -121,6 +121,18 @@ void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *mode
   }
 }
 
+bool sbri_joint_rows_agree(const sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->system.edge_count; i++) {
+    const sbri_edge *e = &work->system.edges[i];
+    for (uint32_t r = 0; r < e->row_count; r++) {
+      const sbri_row *row = &e->rows[r];
+      if (row->kind == SBRI_ROW_LIMIT && row->active != ((float)row->sign * (row->wanted - row->moved) > 0))
+        return false;
+    }
+  }
+  return true;
+}
+
 void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];

@@ -56,12 +56,13 @@ void sbri_rigid_passes(const sbri_rigid_tick *t, sbri_rigid_solving *work, float
     sbri_rigid_solve(work);
     sbri_ground_touches_move(work);
     sbri_joint_rows_move(work, t->model, step_s);
-    float share = pass > 0 ? sbri_rigid_search(t, work, step_s) : 1;
+    bool agree = sbri_ground_touches_agree(work), all = agree && sbri_joint_rows_agree(work);
+    float share = pass > 0 && !all ? sbri_rigid_search(t, work, step_s) : 1;
     if (share < 1) hold_back(work, share);
-    bool changed = false;
+    bool changed = !agree || share < 1;
+    if (changed) sbri_ground_touches_judge(work);
     for (uint32_t e = 0; e < s->edge_count; e++)
       changed = sbri_joint_rows_judge(work, &s->edges[e], step_s) || changed;
-    changed = sbri_ground_touches_judge(work) || changed || share < 1;
     if (changed) continue;
     if (!bounds-- || !sbri_ground_touches_bound(work)) return;
   }

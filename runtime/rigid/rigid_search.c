@@ -41,14 +41,16 @@ static void find_slope(
   double a = 0, q = 0;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_node *node = &work->system.nodes[i];
-    double mass = (double)(node->swell * t->model->bodies[node->body].mass), way[6];
+    double mass = (double)(node->swell * t->model->bodies[node->body].mass), swell = (double)node->swell, way[6];
     for (int k = 0; k < 6; k++) way[k] = node->x[k] - node->was[k], a -= node->push[k] * way[k];
-    for (int k = 0; k < 3; k++) a += mass * node->was[k] * way[k], q += mass * way[k] * way[k];
-    for (int k = 0; k < 3; k++)
-      for (int j = 0; j < 3; j++) {
-        double inertia = (double)(node->swell * node->inertia[k][j]);
-        a += inertia * node->was[3 + k] * way[3 + j], q += inertia * way[3 + k] * way[3 + j];
-      }
+    for (int k = 0; k < 3; k++) {
+      const float *row = node->inertia[k];
+      double linear = mass * way[k];
+      double angular =
+          swell * ((double)row[0] * way[3] + (double)row[1] * way[4] + (double)row[2] * way[5]);
+      a += node->was[k] * linear + node->was[3 + k] * angular;
+      q += way[k] * linear + way[3 + k] * angular;
+    }
     for (int k = 0; node->burden && k < 6; k++)
       for (int j = 0; j < 6; j++) {
         double mass_of = node->burden[k][j];

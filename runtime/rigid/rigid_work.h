@@ -95,6 +95,8 @@ void sbri_joint_rows_make(const sbri_rigid_tick *tick, sbri_rigid_solving *work,
 void sbri_joint_rows_aim(sbri_edge *edge);
 /* Takes from the nodes' x how the limits' rates change. */
 void sbri_joint_rows_move(sbri_rigid_solving *work, const sbri_rigid_model *model, float step_s);
+/* Whether limits push in the last pass's system just where they would at what it came to. */
+bool sbri_joint_rows_agree(const sbri_rigid_solving *work);
 /* And back by that share of it. */
 void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share);
 /* Takes rows out that have pulled, lets those in that are broken, and gives drives that would exceed it their
@@ -143,8 +145,10 @@ bool sbri_ground_touches_bounce(sbri_rigid_solving *work);
 void sbri_ground_touches_move(sbri_rigid_solving *work);
 /* Lists what may press, or rub, somewhere on the way from the pass before to the last. */
 void sbri_ground_touches_on_the_way(sbri_rigid_solving *work);
-/* Who presses, and who slides, by the last pass; whether that has changed. */
-bool sbri_ground_touches_judge(sbri_rigid_solving *work);
+/* Whether they do what they did in the last pass's system at the velocities that it came to. */
+bool sbri_ground_touches_agree(const sbri_rigid_solving *work);
+/* Who presses, and who slides, by the last pass. */
+void sbri_ground_touches_judge(sbri_rigid_solving *work);
 /* Bounds of friction from what presses by the last pass; whether that makes a difference. */
 bool sbri_ground_touches_bound(sbri_rigid_solving *work);
 
