@@ -5,7 +5,7 @@
  * the last: the least of the rounds of the mean over that time, nothing asleep. `apart_mm`: the farthest that
  * a joint's two ends were from each other; `beyond_deg`: by how much the worst limit of a joint was broken;
  * `deep_mm`: how deep the corner of a box was in the ground; `rest_mm_s`: the fastest middle of a part in the
- * last second.
+ * last second. `coarse` is the same with rigid_coarse.
  *
  * `cloth`: 100 x 100 points 1 cm apart, 0.8 kg, springs of 200 N/m, dropped on a ball of 0.3 m, two seconds.
  * `fall_us` and `lie_us` as above, of the first and the last half second; `deep_mm`: how deep a point was in
@@ -164,23 +164,27 @@ static void print_ragdoll(const char *engine, const char *method, int steps, int
 }
 
 static void measure_ragdolls(bool quick) {
-  static const int ours[] = {0, 2, 1}, theirs[][2] = {{1, 10}, {1, 50}, {4, 10}, {8, 10}};
+  static const struct {
+    uint32_t steps; /* 0: as many as it takes by itself */
+    bool coarse;
+  } ours[] = {{0, false}, {2, false}, {1, false}, {0, true}};
+  static const int theirs[][2] = {{1, 10}, {1, 50}, {4, 10}, {8, 10}};
   sbf_asset *asset = ragdoll_asset();
   sbf_diagnostic error;
   int rounds = quick ? 1 : 5, ticks = quick ? 90 : RAGDOLL_TICKS;
   for (size_t k = 0; k < sizeof ours / sizeof *ours; k++) {
     sbr_model *model;
-    sbr_model_options options = {.rigid_substeps = (uint32_t)ours[k]};
+    sbr_model_options options = {.rigid_substeps = ours[k].steps, .rigid_coarse = ours[k].coarse};
     fall best = {0};
     bench_require(sbr_model_create(asset, &options, &model, &error), &error);
     for (int r = 0; r < rounds; r++) {
       fall f = our_ragdoll(model, ticks);
       keep_least(&best, &f, r == 0);
     }
-    print_ragdoll("sbrun", "direct", ours[k], 1, &best);
-    if (ours[k] == 0 && best.apart_m > 1e-3f)
+    print_ragdoll("sbrun", ours[k].coarse ? "coarse" : "direct", (int)ours[k].steps, 1, &best);
+    if (ours[k].steps == 0 && best.apart_m > 1e-3f)
       bench_fail("our ragdoll comes apart by %g m", (double)best.apart_m);
-    if (ours[k] == 0 && best.beyond * DEGREES > 1)
+    if (ours[k].steps == 0 && best.beyond * DEGREES > 1)
       bench_fail("a limit is broken by %g degrees", (double)(best.beyond * DEGREES));
     sbr_model_destroy(model);
   }

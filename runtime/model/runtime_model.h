@@ -324,6 +324,7 @@ struct sbr_model {
   sbri_rig rig;
   sbri_rigid_model rigid;
   uint32_t rigid_substeps;         /* of a control tick */
+  bool rigid_coarse;               /* as sbr_model_options has it */
   uint32_t frame_count;            /* bones, root, anchor, bodies (sbri_body_frame) */
   const int32_t *carrier_of_frame; /* (frame_count) the rigid body that a frame goes with where that is
                                       simulated; -1: none */

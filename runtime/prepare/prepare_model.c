@@ -175,7 +175,10 @@ static bool make_bones(sbr_model *model) {
 }
 
 sbf_status sbri_model_prepare(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
-  model->rigid_substeps = options->rigid_substeps ? options->rigid_substeps : RIGID_SUBSTEPS;
+  model->rigid_coarse = options->rigid_coarse;
+  model->rigid_substeps = options->rigid_substeps ? options->rigid_substeps
+                          : options->rigid_coarse ? 1
+                                                  : RIGID_SUBSTEPS;
   if (!make_bones(model) || !sbri_jiggles_make(model)) return no_memory(error);
   model->frame_count = model->rig.bone_count + 2 + model->rigid.own_frame_count + model->jiggle_count;
   if (!sbri_carriers_list(model)) return no_memory(error);

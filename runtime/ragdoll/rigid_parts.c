@@ -103,6 +103,7 @@ static sbri_rigid_tick tick_of(const sbr_world *world, sbri_character *c) {
       .gravity = world->has_gravity ? world->gravity : c->model->asset->environment.gravity,
       .tick_s = (float)world->tick_s * c->time_scale,
       .substeps = c->model->rigid_substeps,
+      .coarse = c->model->rigid_coarse,
       .touching = sbri_rigid_touching(c),
       .work = c->rigid_work};
 }

@@ -145,8 +145,8 @@ void sbri_ground_touches_make(
     float wanted = touch->gap > 0 ? -touch->gap / step_s : lift < LIFT_MOST_M_S ? lift : LIFT_MOST_M_S;
     float gives = guest ? sbri_rigid_guest_ease(guest, touch->guest_arm, n) : 0, mass = body->mass;
     if (guest && guest->is.most_ease * mass > 1) mass = 1 / guest->is.most_ease;
-    float weight = 1 / (ease(body, s->pose.rotation, touch->arm, n) + gives),
-          alone = weight * (wanted - speed);
+    touch->ease = ease(body, s->pose.rotation, touch->arm, n) + gives;
+    float weight = 1 / touch->ease, alone = weight * (wanted - speed);
     touch->target = sbri_sub(sbri_scale(n, wanted), u);
     touch->more = sbri_vec3(0, 0, 0);
     touch->bounce_m_s = 0;
@@ -268,7 +268,8 @@ void sbri_ground_touches_on_the_way(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
     const sbri_ground_touch *touch = &work->touches[i];
     if (is_idle(touch, touch->was) && is_idle(touch, touch->moved)) continue;
-    sbf_vec3 n = touch->normal, off = sbri_sub(touch->target, touch->was), way = sbri_sub(touch->moved, touch->was);
+    sbf_vec3 n = touch->normal, off = sbri_sub(touch->target, touch->was),
+             way = sbri_sub(touch->moved, touch->was);
     float into = sbri_dot(n, off), along = sbri_dot(n, way);
     sbri_push_way *p = &work->pushes[work->push_count++];
     *p = (sbri_push_way){.stiff = (double)touch->stiff, .into = (double)into, .way = (double)along};
@@ -299,16 +300,19 @@ static sbf_vec3 linear_at(const sbri_ground_touch *touch, sbf_vec3 du, float *no
   return sbri_add_scaled(touch->hold, sbri_add_scaled(off, n, -into), touch->grip);
 }
 
-bool sbri_ground_touches_agree(const sbri_rigid_solving *work) {
+float sbri_ground_touches_off(const sbri_rigid_solving *work) {
+  float energy = 0;
   for (uint32_t i = 0; i < work->touch_count; i++) {
     const sbri_ground_touch *touch = &work->touches[i];
     if (!touch->active && is_idle(touch, touch->moved)) continue;
     float normal, linear;
     sbf_vec3 was = linear_at(touch, touch->moved, &linear), is = impulse_at(touch, touch->moved, &normal);
     float across = sbri_length(sbri_sub(was, is));
-    if (fabsf(normal - linear) > touch->doubt || across > CHANGE * touch->bound + touch->doubt) return false;
+    float along = fabsf(normal - linear);
+    if (along > touch->doubt || across > CHANGE * touch->bound + touch->doubt)
+      energy += touch->ease * (along * along + across * across);
   }
-  return true;
+  return energy;
 }
 
 void sbri_ground_touches_judge(sbri_rigid_solving *work) {

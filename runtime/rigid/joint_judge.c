@@ -143,8 +143,8 @@ void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share) {
   }
 }
 
-bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *e, float step_s) {
-  bool changed = false;
+bool sbri_joint_rows_judge(const sbri_rigid_tick *t, sbri_rigid_solving *work, sbri_edge *e, float step_s) {
+  bool changed = false, slips = false;
   for (uint32_t r = 0; r < e->row_count; r++) {
     sbri_row *row = &e->rows[r];
     if (row->sign) {
@@ -159,9 +159,9 @@ bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *e, float step_s)
       give_most(work, e, row);
       changed = true;
     } else if (slip_row(row)) {
-      changed = true;
+      slips = true;
     }
   }
-  if (e->ball && slip_ball(&work->system, e)) changed = true;
-  return changed;
+  if (e->ball && slip_ball(&work->system, e)) slips = true;
+  return changed || (slips && !t->coarse);
 }

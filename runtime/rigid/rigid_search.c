@@ -41,13 +41,13 @@ static void find_slope(
   double a = 0, q = 0;
   for (uint32_t i = 0; i < work->system.node_count; i++) {
     const sbri_node *node = &work->system.nodes[i];
-    double mass = (double)(node->swell * t->model->bodies[node->body].mass), swell = (double)node->swell, way[6];
+    double mass = (double)(node->swell * t->model->bodies[node->body].mass), swell = (double)node->swell,
+           way[6];
     for (int k = 0; k < 6; k++) way[k] = node->x[k] - node->was[k], a -= node->push[k] * way[k];
     for (int k = 0; k < 3; k++) {
       const float *row = node->inertia[k];
       double linear = mass * way[k];
-      double angular =
-          swell * ((double)row[0] * way[3] + (double)row[1] * way[4] + (double)row[2] * way[5]);
+      double angular = swell * ((double)row[0] * way[3] + (double)row[1] * way[4] + (double)row[2] * way[5]);
       a += node->was[k] * linear + node->was[3 + k] * angular;
       q += way[k] * linear + way[3 + k] * angular;
     }
@@ -79,8 +79,8 @@ static void find_slope(
 }
 
 /* What pushes one way only and the friction with it, along the way: `into` goes from that at its begin by
- * -`way`, and the force is as stiff; friction's pull goes likewise from P by -G, of which the squares are known
- * and by how much it grips, up to its bound. */
+ * -`way`, and the force is as stiff; friction's pull goes likewise from P by -G, of which the squares are
+ * known and by how much it grips, up to its bound. */
 static void add_limits(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->system.edge_count; i++) {
     const sbri_edge *e = &work->system.edges[i];

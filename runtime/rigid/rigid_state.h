@@ -66,6 +66,7 @@ typedef struct sbri_ground_touch {
   sbf_vec3 target;   /* wanted change of the place's velocity */
   float gap;         /* m */
   float bounce_m_s;  /* to be thrown back with; 0: not */
+  float ease;        /* 1 / kg: how its body alone would answer along the normal */
   float stiff, grip; /* inverse give along the normal, and across where it sticks, kg */
   sbf_vec3 hold;     /* impulse of friction in the step before, from which on it gives way where it sticks */
   sbf_vec3 drag;     /* impulse of friction where it slides, and across that and the normal: */
@@ -126,6 +127,7 @@ typedef struct sbri_rigid_tick {
   sbf_vec3 gravity;
   float tick_s;
   uint32_t substeps;
+  bool coarse;             /* joints and touches are left as sbr_model_options.rigid_coarse has it */
   sbri_touching *touching; /* (body_count) */
   sbri_rigid_pull pull;    /* all 0: nothing does */
   void *work;              /* sbri_rigid_work_size(model) bytes, of which nothing need be known */

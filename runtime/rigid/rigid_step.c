@@ -23,11 +23,15 @@ enum { GUESTS = 6, GUESTS_OF_BODY = 2 };
 
 /* What may be left of a joint's error at a step's end, in m and rad, before it is solved for again; and of
  * what was foreseen (sbri_rigid_foresees), before it is for the first time. */
-static const float FINE = 2e-5f, FINE_AT_ONCE = 5e-6f;
+typedef struct tolerance {
+  float fine, fine_at_once;
+  float curved_foreseen;
+} tolerance;
+static const tolerance EXACT = {2e-5f, 5e-6f, 1e-2f}, ROUGH = {1e-4f, 1e-4f, 2e-2f};
 /* And before the step is taken again in halves. */
 static const float COARSE = 3e-4f;
 /* Or where the way along its arcs is so far from its tangents, m and rad; or from where it was foreseen. */
-static const float CURVED = 3e-3f, CURVED_FORESEEN = 1e-2f;
+static const float CURVED = 3e-3f;
 
 /* ---- Memory ---- */
 
@@ -284,6 +288,7 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
   sbri_system_note(s);
   take_and_go(t, work, step_s);
   bool foresees = sbri_rigid_foresees(t, work);
+  const tolerance *most = t->coarse ? &ROUGH : &EXACT;
   for (int pass = 0; pass < MOST_CORRECTIONS && s->edge_count; pass++) {
     worst = 0;
     for (uint32_t e = 0; e < s->edge_count; e++) {
@@ -291,14 +296,15 @@ static bool step(const sbri_rigid_tick *t, sbri_rigid_solving *work, float from,
       worst = off > worst ? off : worst;
     }
     if (pass == 0) curved = worst;
-    if (worst < (pass > 0 ? FINE : foresees ? FINE_AT_ONCE : 0)) break;
+    if (worst < (pass > 0 ? most->fine : foresees ? most->fine_at_once : 0)) break;
     clear_b(work);
     sbri_rigid_solve(work);
     sbri_system_note(s);
     sbri_ground_touches_give(work);
     take_and_go(t, work, step_s);
   }
-  return worst < COARSE && curved < (foresees ? CURVED_FORESEEN : CURVED) && !is_too_fast(t, work, step_s);
+  return worst < COARSE && curved < (foresees ? most->curved_foreseen : CURVED) &&
+         !is_too_fast(t, work, step_s);
 }
 
 static void keep_bodies(const sbri_rigid_tick *t, sbri_rigid_solving *work, int depth, bool restore) {

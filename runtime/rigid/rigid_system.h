@@ -99,7 +99,8 @@ typedef struct sbri_ball_pair {
   sbri_node *children[2];
   sbri_node *parents[2]; /* NULL: the world */
   uint32_t count;
-  /* Of the factor: levers of the child and of its parent, 1 where the child is body b and -1 where it is a, */
+  /* Of the factor: levers of the child and of its parent, 1 where the child is body b and -1 where it is a,
+   */
   sbri_twin own[3], other[3], sign;
   sbri_twin a[3][3], e[3][3], k[3][3], l[3][3], y[3][3], z[3][3];
   /* and of the solution: */

@@ -20,7 +20,8 @@ typedef struct sbri_part_motion {
 } sbri_part_motion;
 
 /* What pushes one way only, and the friction with it, along the way from a pass to the next: at a share s of
- * it the force is stiff (into - s way) where that is above 0, and friction's pull P - s G, cut to its bound. */
+ * it the force is stiff (into - s way) where that is above 0, and friction's pull P - s G, cut to its bound.
+ */
 typedef struct sbri_push_way {
   double stiff, into, way;
   double bound;                           /* N s; 0: there is no friction */
@@ -100,8 +101,9 @@ bool sbri_joint_rows_agree(const sbri_rigid_solving *work);
 /* And back by that share of it. */
 void sbri_joint_rows_hold_back(sbri_rigid_solving *work, float share);
 /* Takes rows out that have pulled, lets those in that are broken, and gives drives that would exceed it their
- * maximum; whether anything has changed. */
-bool sbri_joint_rows_judge(sbri_rigid_solving *work, sbri_edge *edge, float step_s);
+ * maximum; whether anything has changed, which where it is coarse dry friction does not count for. */
+bool sbri_joint_rows_judge(
+    const sbri_rigid_tick *tick, sbri_rigid_solving *work, sbri_edge *edge, float step_s);
 /* Right-hand sides for what is still off at the substep's end; returns by how much the worst is, m or rad. */
 float sbri_joint_rows_correct(
     const sbri_rigid_tick *tick, sbri_rigid_solving *work, uint32_t edge, float step_s);
@@ -145,8 +147,9 @@ bool sbri_ground_touches_bounce(sbri_rigid_solving *work);
 void sbri_ground_touches_move(sbri_rigid_solving *work);
 /* Lists what may press, or rub, somewhere on the way from the pass before to the last. */
 void sbri_ground_touches_on_the_way(sbri_rigid_solving *work);
-/* Whether they do what they did in the last pass's system at the velocities that it came to. */
-bool sbri_ground_touches_agree(const sbri_rigid_solving *work);
+/* By how much what they do at the velocities that the last pass came to is not what they did in its system:
+ * the energy, J, by which that would move each body alone; 0 where it makes no difference. */
+float sbri_ground_touches_off(const sbri_rigid_solving *work);
 /* Who presses, and who slides, by the last pass. */
 void sbri_ground_touches_judge(sbri_rigid_solving *work);
 /* Bounds of friction from what presses by the last pass; whether that makes a difference. */

@@ -54,7 +54,8 @@ class Tasks(Structure):
 class ModelOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("level", c_uint32), ("scheme", c_int), ("substeps", c_uint32),
                 ("free", c_bool), ("has_gravity", c_bool), ("gravity", Vec3), ("tear_points", c_uint32), ("step_error_m", c_float),
-                ("instructions", c_int), ("rigid_substeps", c_uint32), ("ladder", c_bool)]
+                ("instructions", c_int), ("rigid_substeps", c_uint32), ("ladder", c_bool),
+                ("rigid_coarse", c_bool)]
 
 
 class WorldDefinition(Structure):

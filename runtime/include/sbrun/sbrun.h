@@ -118,9 +118,12 @@ typedef struct sbr_model_options {
                            else 0.0001 */
   sbr_instructions instructions; /* for the solvers' loops */
   uint32_t rigid_substeps;       /* of a control tick for rigid parts (sbrun/rigid.h), in flight a quarter at
-                                  * the least; at most 1000; 0: 4 */
+                                  * the least; at most 1000; 0: 4, or 1 where `rigid_coarse` */
   bool ladder; /* coarser levels than `level` as well, jiggle and bones alone, between which characters change
                   (sbrun/detail.h) */
+  /* Rigid parts fall for about half the time: one step of a tick where nothing asks for more, joints off by
+   * up to 0.1 mm, a thousandth of a strike's energy left undecided (docs/rigid.md, "Coarse"). */
+  bool rigid_coarse;
 } sbr_model_options;
 
 /* `asset` must outlive the model. SBF_FAILED where memory runs out, the instructions are not available, or
