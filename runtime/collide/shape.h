@@ -13,6 +13,19 @@ typedef struct sbri_triangles {
   sbri_bounds_tree tree;
 } sbri_triangles;
 
+/* An edge that stands out, and the normals of the faces beside it, in turn about it. */
+typedef struct sbri_shape_ridge {
+  sbf_vec3 at[2], normals[2];
+} sbri_shape_ridge;
+
+/* All of a box, a hull or a mesh; collide/shape_ridges.c. */
+typedef struct sbri_shape_ridges {
+  const sbri_shape_ridge *at; /* (count) */
+  uint32_t count;
+  sbri_bounds_tree tree;
+  float past_m; /* of a hull: what is past one by no more goes back over it */
+} sbri_shape_ridges;
+
 struct sbr_shape {
   sbfi_arena arena;
   sbf_allocator allocator;
@@ -21,6 +34,7 @@ struct sbr_shape {
   sbf_vec3 half_sizes;
   sbri_hull hull;           /* of box and hull */
   sbri_triangles triangles; /* of mesh and height field */
+  sbri_shape_ridges ridges;
   sbr_host_shape host;
   sbri_box bounds; /* a plane's is as large as numbers allow */
 };

@@ -4,7 +4,7 @@
 
 #include "base/diagnostic.h"
 #include "collide/hull_points.h"
-#include "collide/shape.h"
+#include "collide/shape_ridges.h"
 
 enum { SHAPE_COOKIE = 0x5b727368 };
 
@@ -182,7 +182,7 @@ sbf_status sbr_shape_create(const sbf_allocator *allocator, const sbr_shape_defi
       .radius = definition->radius,
       .half_sizes = definition->half_sizes};
   sbfi_arena_init(&s->arena, &s->allocator, 0);
-  bool made = make(s, definition);
+  bool made = make(s, definition) && sbri_shape_ridges_make(s);
   if (made && (s->kind != SBR_SHAPE_HULL || s->hull.face_count >= 4)) {
     *shape = s;
     return SBF_OK;

@@ -1,19 +1,11 @@
 #include "contact/shape_touch.h"
 
 #include "collide/colliders.h"
-#include "collide/guest.h"
 #include "contact/carried.h"
+#include "contact/shape_edges.h"
 #include "model/reach.h"
 
-typedef struct meeting {
-  const sbri_island_tick *tick;
-  const sbri_body *body;
-  const sbri_contact_tables *tables;
-  sbri_collider_frame frame;
-  uint32_t number; /* of the collider */
-  sbri_box bounds; /* of the shape, grown by the ways that touches may have */
-  float fastest_m; /* the way of the body's fastest point in the tick, m of the world */
-} meeting;
+typedef sbri_shape_meeting meeting;
 
 /* The plane for a place that goes from `begin` to `end` in the shape's frame: where it enters, or what it is
  * near. */
@@ -34,8 +26,7 @@ static bool find_plane(
 
 static void add_sample(const meeting *m, const sbri_sample *s) {
   const sbri_island_tick *t = m->tick;
-  uint32_t *count = &m->tables->touch_counts[m->body - t->model->bodies];
-  if (*count >= m->body->touch_capacity || !(s->mass_kg > 0)) return;
+  if (!(s->mass_kg > 0)) return;
   sbf_vec3 x = sbri_sample_place(t, s), v = sbri_sample_velocity(t, s);
   sbf_vec3 begin = sbri_into_shape(&m->frame, x, false);
   sbf_vec3 end = sbri_into_shape(&m->frame, sbri_add_scaled(x, v, t->tick_s), true);
@@ -45,22 +36,7 @@ static void add_sample(const meeting *m, const sbri_sample *s) {
   float reach = sbri_reach_of(m->body, t->scale, sbri_length(sbri_sub(end, begin)), m->fastest_m);
   sbri_nearest found;
   if (!find_plane(m, begin, end, reach, rule->inner_thickness * t->scale, &found)) return;
-  sbf_vec3 normal = sbri_rotate(m->frame.collider->turn_from, found.normal);
-  sbf_vec3 place = sbri_out_of_shape(&m->frame, found.place);
-  sbf_vec3 velocity = sbri_scale(sbri_shape_way(&m->frame, found.place), 1 / t->tick_s);
-  float friction = m->body->friction;
-  sbri_touch *made = &m->tables->touches[m->body->first_touch + (*count)++];
-  *made = (sbri_touch){.sample = *s,
-      .normal = normal,
-      .offset = sbri_dot(normal, place) + m->body->margin_m,
-      .velocity = velocity,
-      .friction_share = friction > 0 ? sbri_friction_with(m->frame.collider, friction) / friction : 1,
-      .restitution = sbri_restitution_with(m->frame.collider, m->body->restitution),
-      .collider = m->number};
-  sbri_guest_maker maker = {
-      t->colliders, t->origin, t->scale, t->tick_s, m->tables->touched->now, m->tables->touched->count};
-  made->guest = sbri_guest_of(m->tables->guests, &maker, &m->frame, m->number);
-  if (made->guest) made->arm = sbri_sub(place, m->tables->guests->at[made->guest - 1].centre);
+  sbri_shape_touch_add(m, s, found.place, found.normal);
 }
 
 static void add_all(const meeting *m) {
@@ -108,5 +84,6 @@ void sbri_shape_touches_add(
     meeting m = {t, body, tables, sbri_collider_frame_of(c, t->origin, t->scale), set->listed[item],
         sbri_box_grown(c->shape->bounds, longest * t->scale), fastest * t->scale};
     add_all(&m);
+    if (body->coarse_edge_count) sbri_shape_edges_add(&m);
   }
 }

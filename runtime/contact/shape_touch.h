@@ -3,7 +3,23 @@
 #ifndef SBRI_SHAPE_TOUCH_H
 #define SBRI_SHAPE_TOUCH_H
 
+#include "collide/colliders.h"
 #include "contact/contact.h"
+
+/* A body and a shape that it may reach within the tick. */
+typedef struct sbri_shape_meeting {
+  const sbri_island_tick *tick;
+  const sbri_body *body;
+  const sbri_contact_tables *tables;
+  sbri_collider_frame frame;
+  uint32_t number; /* of the collider */
+  sbri_box bounds; /* of the shape, grown by the ways that touches may have */
+  float fastest_m; /* the way of the body's fastest point in the tick, m of the world */
+} sbri_shape_meeting;
+
+/* Adds a touch of the sample with a place of the shape, in that one's frame, if there is room. */
+void sbri_shape_touch_add(
+    const sbri_shape_meeting *meeting, const sbri_sample *sample, sbf_vec3 place, sbf_vec3 normal);
 
 /* Adds to the body's touches; after those of the ground. */
 void sbri_shape_touches_add(

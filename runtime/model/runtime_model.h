@@ -173,6 +173,9 @@ typedef struct sbri_body {
   float rolling_share;        /* see solvers/rolling.h */
   const sbri_sample *samples; /* (sample_count) NULL: its points themselves meet the ground */
   uint32_t sample_count;
+  const uint32_t
+      *coarse_edges; /* (coarse_edge_count x 2) of its surface: samples, or slots where it has none */
+  uint32_t coarse_edge_count;
   uint32_t first_touch, touch_capacity;      /* in a character's scratch */
   const uint32_t *self_faces;                /* (self_face_count x 3) slots; NULL: it does not meet itself */
   uint32_t self_face_count, first_self_face; /* first in a character's scratch */

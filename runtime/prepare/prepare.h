@@ -43,6 +43,7 @@ void sbri_flesh_join(sbr_model *model);
 bool sbri_tear_table_make(sbr_model *model, sbri_island *island);
 /* The places of the surface that meet the ground; after the surfaces. */
 bool sbri_samples_make(sbr_model *model, sbri_body *body);
+bool sbri_coarse_edges_make(sbr_model *model, sbri_body *body);
 /* The triangles by which it meets itself, where it does; likewise. */
 bool sbri_self_faces_make(sbr_model *model, sbri_body *body);
 /* Whether these go through each other at rest; after them. */

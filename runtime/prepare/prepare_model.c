@@ -156,7 +156,7 @@ static bool make_skins(sbr_model *model) {
       if (!sbri_skin_make(model, i, l)) return false;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
     if (!sbri_surface_make(model, i) || !sbri_samples_make(model, &model->bodies[i]) ||
-        !sbri_self_faces_make(model, &model->bodies[i]))
+        !sbri_coarse_edges_make(model, &model->bodies[i]) || !sbri_self_faces_make(model, &model->bodies[i]))
       return false;
   return true;
 }

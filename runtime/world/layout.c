@@ -37,11 +37,12 @@ static void measure_skins(const sbr_model *model, extents *e) {
 }
 
 /* A touch of each sample, or point, on the ground and one on something else, a few between several things;
- * and of the body itself, points and edges. */
+ * and of the body itself, points and edges. A quarter of coarse edges may be over ridges at once. */
 static uint32_t touch_capacity(const sbri_body *body) {
   uint32_t slots = body->slot_end - body->slot_begin;
   uint32_t own = body->self_face_count ? slots + body->self_face_count : 0;
-  return body->level ? 2 * (body->samples ? body->sample_count : slots) + own + 64 : 0;
+  uint32_t edges = body->coarse_edge_count / 4 + (body->coarse_edge_count ? 32 : 0);
+  return body->level ? 2 * (body->samples ? body->sample_count : slots) + own + edges + 64 : 0;
 }
 
 /* Where each body's share of what all of them have in common begins. */

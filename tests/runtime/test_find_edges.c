@@ -1,6 +1,7 @@
 /* Coarse bars, four faces round and with edges 10 cm long, that meet where neither has a vertex. */
 #include <math.h>
 
+#include "collision_scenes.h"
 #include "harness.h"
 #include "meeting_scenes.h"
 #include "momentum.h"
@@ -127,10 +128,22 @@ START_TEST(bars_that_fall_across_each_other_do_not_pass)
 }
 END_TEST
 
+/* For a second neither goes deeper into the other than 2 mm. */
+static void check_over_beam(scene *s, const sbf_polygon_mesh *hull, const sbf_vec3 *beam) {
+  static sbf_vec3 at[MOST];
+  double most = 0;
+  for (int i = 0; i < 60; i++) {
+    scene_ticks(s, 1);
+    look(s, s->character, 0, at);
+    most = fmax(most, deepest(&s->asset->soft_bodies.at[0].surface, at, hull, beam));
+  }
+  ck_assert_double_le(most, 0.002);
+}
+
 /* A kinematic rigid beam lies on its edge under one. */
 START_TEST(bars_that_fall_across_a_rigid_edge_do_not_pass)
 {
-  static sbf_vec3 at[MOST], beam[8];
+  static sbf_vec3 beam[8];
   const drop *d = &drops[_i];
   scene s = meeting_begin((sbf_vec3){0, -9.81f, 0});
   scene_bodies(&s, 1);
@@ -142,14 +155,65 @@ START_TEST(bars_that_fall_across_a_rigid_edge_do_not_pass)
   for (uint32_t i = 0; i < 8; i++) beam[i] = hull->positions.at[i];
   meeting_start(&s);
   scene_ticks(&s, ticks_until_hit(d->height));
-  double most = 0;
-  for (int i = 0; i < 60; i++) {
-    scene_ticks(&s, 1);
-    look(&s, s.character, 0, at);
-    most = fmax(most, deepest(&s.asset->soft_bodies.at[0].surface, at, hull, beam));
-  }
-  ck_assert_double_le(most, 0.002);
+  check_over_beam(&s, hull, beam);
   scene_free(&s);
+}
+END_TEST
+
+/* The same beam as a box, a hull and a mesh of the host. */
+START_TEST(bars_that_fall_across_a_collider_do_not_pass)
+{
+  static const uint32_t sides[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,
+      0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  static sbf_vec3 beam[8];
+  const drop *d = &drops[_i % 12];
+  scene s = rigid_begin(), of_beam = rigid_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
+  scene_bodies(&s, 1);
+  add_bar(&s, 0, &(lies){{0.01f, d->height + 1.2072f * THICK, 0.012f}, d->heading, d->roll}, 1e6f, false);
+  scene_start(&s);
+  uint32_t number = rigid_box(&of_beam, (sbf_vec3){0, 0, 0}, (sbf_vec3){1, THICK, THICK}, 4);
+  const sbf_polygon_mesh *hull = rigid_body(&of_beam, number)->hull;
+  put((sbf_vec3 *)(uintptr_t)hull->positions.at, hull->positions.count, &(lies){{0, 0, 0}, 0, on_edge});
+  for (uint32_t i = 0; i < 8; i++) beam[i] = hull->positions.at[i];
+  sbr_shape_definition form = collision_box(0.5f, 0.5f * THICK, 0.5f * THICK);
+  if (_i >= 12)
+    form.kind = _i < 24 ? SBR_SHAPE_HULL : SBR_SHAPE_MESH, form.points = beam, form.point_count = 8;
+  if (_i >= 24) form.triangles = sides, form.triangle_count = 12;
+  sbr_shape *shape = collision_shape(form);
+  sbr_collider_definition c = sbr_default_collider_definition();
+  sbr_collider_id id;
+  c.shape = shape;
+  if (_i < 12) c.rotation = (sbf_quat){sinf(0.5f * on_edge), 0, 0, cosf(0.5f * on_edge)};
+  ck_assert(sbr_collider_create(s.world, &c, &id, NULL) == SBF_OK);
+  scene_ticks(&s, ticks_until_hit(d->height));
+  check_over_beam(&s, hull, beam);
+  scene_free(&s);
+  scene_free(&of_beam);
+  sbr_shape_destroy(shape);
+}
+END_TEST
+
+/* A box of the host's that is narrower than a bar's edges are long, and between its vertices: it lies there.
+ */
+START_TEST(a_bar_lies_over_a_narrow_box)
+{
+  scene s = rigid_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
+  scene_bodies(&s, 1);
+  add_bar(&s, 0, &(lies){{0.05f, 0.05f + 0.51f * THICK, 0}, 0, 0}, 1e6f, false);
+  scene_start(&s);
+  sbr_shape *shape = collision_shape(collision_box(0.04f, 0.05f, 0.1f));
+  collision_collider(&s, shape, (sbr_double3){0.1, 0, 0});
+  collision_collider(&s, shape, (sbr_double3){0, 0, 0});
+  scene_ticks(&s, 240);
+  ck_assert_double_le(meeting_fastest(&s, s.character), 1e-3);
+  static sbf_vec3 at[MOST];
+  look(&s, s.character, 0, at);
+  for (uint32_t i = 0; i < scene_body(&s, 0)->surface.positions.count; i++)
+    ck_assert_float_ge(at[i].y, 0.03f); /* its ends hang */
+  scene_free(&s);
+  sbr_shape_destroy(shape);
 }
 END_TEST
 
@@ -192,6 +256,8 @@ int main(void) {
   tcase_set_timeout(tests, 220);
   tcase_add_loop_test(tests, bars_that_fall_across_each_other_do_not_pass, 0, sizeof drops / sizeof *drops);
   tcase_add_loop_test(tests, bars_that_fall_across_a_rigid_edge_do_not_pass, 0, sizeof drops / sizeof *drops);
+  tcase_add_loop_test(tests, bars_that_fall_across_a_collider_do_not_pass, 0, 36);
+  tcase_add_test(tests, a_bar_lies_over_a_narrow_box);
   tcase_add_test(tests, what_is_thrown_keeps_its_momentum);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

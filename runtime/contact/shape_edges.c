@@ -1,0 +1,152 @@
+/* What is across an edge of the body and a ridge of the shape parts them if it leads out of the shape: if it
+ * lies between the normals of the faces beside the ridge (D. Gregorius, The Separating Axis Test between
+ * Convex Polyhedra, 2013). An edge that is past the ridge goes back over it, if no face is a nearer way out
+ * for all of it. */
+#include "contact/shape_edges.h"
+
+#include "collide/colliders.h"
+#include "collide/ridge_look.h"
+#include "contact/carried.h"
+#include "model/reach.h"
+
+/* So far beyond the normals (a sine) it is between them. */
+static const float BETWEEN = 0.1f;
+/* Weights by which a place may hang on points about another one. */
+static const float LEAST_WEIGHT = -1, MOST_WEIGHT = 2;
+/* Smaller ones are left out. */
+static const float TRIFLE = 1e-5f;
+
+/* ---- A place between two samples ---- */
+
+/* Gives the sample its mass; false where nothing of it is free. */
+static bool weigh(const sbri_island_tick *t, sbri_sample *s) {
+  float sum = 0;
+  for (int k = 0; k < 4; k++)
+    if (s->slots[k] < t->island->free_count)
+      sum += s->weights[k] * s->weights[k] * t->island->inverse_masses[s->slots[k]];
+  s->mass_kg = sum > 0 ? 1 / sum : 0;
+  return sum > 0;
+}
+
+static sbf_vec3 position(const sbri_island_tick *t, uint32_t slot) {
+  const sbri_point *p = &t->positions[slot];
+  return sbri_vec3(p->x, p->y, p->z);
+}
+
+/* x by the points that carry a place near it, as what moves evenly goes on beyond them. */
+static bool carry_by(const sbri_island_tick *t, const sbri_sample *near, sbf_vec3 x, sbri_sample *to) {
+  sbf_vec3 at = position(t, near->slots[0]), off = sbri_sub(x, at), e[3];
+  for (int k = 0; k < 3; k++) e[k] = sbri_sub(position(t, near->slots[k + 1]), at);
+  float whole = sbri_dot(e[0], sbri_cross(e[1], e[2]));
+  *to = *near;
+  to->weights[0] = 1;
+  for (int k = 0; k < 3; k++) {
+    float w = sbri_dot(off, sbri_cross(e[(k + 1) % 3], e[(k + 2) % 3])) / whole;
+    if (!(w >= LEAST_WEIGHT && w <= MOST_WEIGHT)) return false;
+    to->weights[k + 1] = w, to->weights[0] -= w;
+  }
+  return to->weights[0] >= LEAST_WEIGHT && to->weights[0] <= MOST_WEIGHT && weigh(t, to);
+}
+
+static bool sample_between(
+    const sbri_island_tick *t, const sbri_sample ends[2], float share, sbri_sample *to) {
+  const float parts[2] = {1 - share, share};
+  uint32_t count = 0, slots[8];
+  float weights[8];
+  for (int i = 0; i < 8; i++) {
+    const sbri_sample *s = &ends[i / 4];
+    uint32_t slot = s->slots[i % 4], k = 0;
+    float weight = parts[i / 4] * s->weights[i % 4];
+    if (fabsf(weight) < TRIFLE) continue; /* what rounding has left of a place on a corner */
+    while (k < count && slots[k] != slot) k++;
+    if (k == count) slots[count] = slot, weights[count++] = 0;
+    weights[k] += weight;
+  }
+  if (count > 4) {
+    sbf_vec3 x = sbri_lerp(sbri_sample_place(t, &ends[0]), sbri_sample_place(t, &ends[1]), share);
+    return carry_by(t, &ends[share > 0.5f], x, to) || carry_by(t, &ends[share <= 0.5f], x, to);
+  }
+  *to = (sbri_sample){.vertex = UINT32_MAX};
+  float sum = 0;
+  for (uint32_t k = 0; k < count; k++) sum += weights[k];
+  for (uint32_t k = 0; k < 4; k++) {
+    to->slots[k] = k < count ? slots[k] : slots[0];
+    to->weights[k] = k < count ? weights[k] / sum : 0;
+  }
+  return weigh(t, to);
+}
+
+/* ---- Edges ---- */
+
+typedef struct looking {
+  const sbri_shape_meeting *is;
+  sbri_sample ends[2];
+  sbri_soft_edge edge; /* in the shape's frame */
+  float outer, past;
+} looking;
+
+/* m that all of the edge would have to go to be out by the nearer one of the faces. */
+static float depth_by_faces(const sbri_soft_edge *edge, const sbri_shape_ridge *r) {
+  float least = INFINITY;
+  for (int k = 0; k < 2; k++) {
+    float one = sbri_dot(r->normals[k], sbri_sub(r->at[0], edge->at[0])),
+          other = sbri_dot(r->normals[k], sbri_sub(r->at[0], edge->at[1]));
+    least = fminf(least, fmaxf(one, other));
+  }
+  return least;
+}
+
+static bool leads_out(const sbri_shape_ridge *r, sbf_vec3 n) {
+  sbf_vec3 along = sbri_sub(r->at[1], r->at[0]);
+  float least = -BETWEEN * sbri_length(along);
+  return sbri_dot(sbri_cross(r->normals[0], n), along) >= least &&
+         sbri_dot(sbri_cross(n, r->normals[1]), along) >= least;
+}
+
+static void look(const looking *l, const sbri_shape_ridge *r) {
+  const sbri_soft_edge ridge = {{r->at[0], r->at[1]}, {{0, 0, 0}, {0, 0, 0}}};
+  sbri_edge_finding found;
+  if (!sbri_edges_cross(&l->edge, &ridge, &found)) return;
+  if (sbri_dot(found.normal, sbri_add(r->normals[0], r->normals[1])) < 0)
+    found.normal = sbri_scale(found.normal, -1), found.distance = -found.distance;
+  if (found.distance < -l->past || !leads_out(r, found.normal)) return;
+  if (!sbri_edges_touch(&l->edge, &ridge, l->outer, &found)) return;
+  if (found.distance < -SBRI_RIDGE_ON_IT_M &&
+      -found.distance > SBRI_RIDGE_NEARER * depth_by_faces(&l->edge, r))
+    return;
+  sbri_sample s;
+  if (!sample_between(l->is->tick, l->ends, found.shares[0], &s)) return;
+  sbri_shape_touch_add(l->is, &s, sbri_lerp(r->at[0], r->at[1], found.shares[1]), found.normal);
+}
+
+static sbri_sample end_of(const sbri_shape_meeting *m, uint32_t number) {
+  return m->body->samples ? m->body->samples[number] : sbri_point_sample(m->tick, number);
+}
+
+void sbri_shape_edges_add(const sbri_shape_meeting *m) {
+  const sbri_island_tick *t = m->tick;
+  const sbr_shape *shape = m->frame.collider->shape;
+  const sbri_shape_ridges *ridges = &shape->ridges;
+  if (!ridges->count || t->island->splits) return; /* what tears has other edges then */
+  looking l = {.is = m};
+  l.past =
+      shape->kind == SBR_SHAPE_MESH ? m->body->source->collision.inner_thickness * t->scale : ridges->past_m;
+  l.outer = sbri_reach_of(m->body, t->scale, 0, 0);
+  for (uint32_t i = 0; i < m->body->coarse_edge_count; i++) {
+    sbri_box box;
+    for (int k = 0; k < 2; k++) {
+      l.ends[k] = end_of(m, m->body->coarse_edges[2 * i + (uint32_t)k]);
+      sbf_vec3 x = sbri_sample_place(t, &l.ends[k]), v = sbri_sample_velocity(t, &l.ends[k]);
+      sbf_vec3 end = sbri_into_shape(&m->frame, sbri_add_scaled(x, v, t->tick_s), true);
+      l.edge.at[k] = sbri_into_shape(&m->frame, x, false);
+      l.edge.ways[k] = sbri_sub(end, l.edge.at[k]);
+      box = sbri_box_with(k ? sbri_box_with(box, l.edge.at[k]) : sbri_box_of_point(l.edge.at[k]), end);
+    }
+    box = sbri_box_grown(box, l.outer);
+    if (!sbri_box_meets(&box, &shape->bounds)) continue;
+    sbri_bounds_walk walk;
+    uint32_t item;
+    sbri_bounds_walk_begin(&walk, &ridges->tree, box);
+    while (sbri_bounds_walk_next(&walk, &item)) look(&l, &ridges->at[item]);
+  }
+}
