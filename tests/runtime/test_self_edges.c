@@ -135,7 +135,7 @@ START_TEST(three_legs_lie_still)
       fastest = speed > fastest ? speed : fastest;
     }
   }
-  ck_assert_float_le(fastest, 2e-3f);
+  ck_assert_float_le(fastest, 5e-3f);
   scene_free(&s);
 }
 END_TEST
