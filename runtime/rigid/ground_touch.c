@@ -315,6 +315,16 @@ float sbri_ground_touches_off(const sbri_rigid_solving *work) {
   return energy;
 }
 
+void sbri_ground_touches_as_solved(sbri_rigid_solving *work) {
+  for (uint32_t i = 0; i < work->touch_count; i++) {
+    sbri_ground_touch *touch = &work->touches[i];
+    if (!touch->active && is_idle(touch, touch->moved)) continue;
+    float normal, linear;
+    sbf_vec3 was = linear_at(touch, touch->moved, &linear), is = impulse_at(touch, touch->moved, &normal);
+    touch->more = sbri_add_scaled(sbri_sub(was, is), touch->normal, linear - normal);
+  }
+}
+
 void sbri_ground_touches_judge(sbri_rigid_solving *work) {
   for (uint32_t i = 0; i < work->touch_count; i++) {
     sbri_ground_touch *touch = &work->touches[i];

@@ -150,6 +150,8 @@ void sbri_ground_touches_on_the_way(sbri_rigid_solving *work);
 /* By how much what they do at the velocities that the last pass came to is not what they did in its system:
  * the energy, J, by which that would move each body alone; 0 where it makes no difference. */
 float sbri_ground_touches_off(const sbri_rigid_solving *work);
+/* What they give is what the last pass had them give, where passes have ended before both are the same. */
+void sbri_ground_touches_as_solved(sbri_rigid_solving *work);
 /* Who presses, and who slides, by the last pass. */
 void sbri_ground_touches_judge(sbri_rigid_solving *work);
 /* Bounds of friction from what presses by the last pass; whether that makes a difference. */
