@@ -184,7 +184,7 @@ typedef struct fall {
 static fall fall_of(scene *s) {
   static sbf_vec3 before[512], after[512];
   fall f = {0, 0, 1};
-  for (int tick = 0; tick < 300; tick++) {
+  for (int tick = 0; tick < 360; tick++) {
     uint32_t count = sbr_character_surface(s->world, s->character, 0, before, 512);
     scene_ticks(s, 1);
     sbr_character_surface(s->world, s->character, 0, after, 512);
