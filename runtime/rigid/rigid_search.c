@@ -115,8 +115,10 @@ static double moved_by_weight(const sbri_rigid_tick *t, const sbri_rigid_solving
   double mass = 0, speed = (double)(sbri_length(t->gravity) * step_s);
   for (uint32_t i = 0; i < work->system.node_count; i++)
     mass += (double)t->model->bodies[work->system.nodes[i].body].mass;
-  for (uint32_t i = 0; i < work->guest_count; i++) /* to which a trifle of the bodies' is none */
-    mass = fmin(mass, 1 / (double)work->guests[i].is.most_ease);
+  for (uint32_t i = 0; i < work->guest_count; i++) { /* to which a trifle of the bodies' is none */
+    double light = 1 / (double)work->guests[i].is.most_ease;
+    mass = light < mass ? light : mass;
+  }
   return mass * speed * speed;
 }
 
