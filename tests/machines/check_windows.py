@@ -60,7 +60,7 @@ def program_faults(tree, native, bundle):
     for options in RUNS:
         said = {}
         for name, program in (("there", there), ("here", here)):
-            files = [os.path.join(tree, f"{name}.{kind}") for kind in ("pc2", "pose")]
+            files = [os.path.join(tree, f"{name}.{kind}") for kind in ("pc2", "csv")]
             done = run(*program, "run", bundle, *options, "--cache", files[0], "--pose", files[1], "--format", "json")
             said[name] = [TIMED.sub("", done.stdout), *(open(file, "rb").read() for file in files)]
         if "state_hash" not in said["here"][0]:
