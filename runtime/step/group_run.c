@@ -169,8 +169,18 @@ static uint32_t rounded_steps(uint32_t steps) {
   return rounded < MOST_STEPS ? rounded : MOST_STEPS;
 }
 
+/* Whether something is led out from deep within another: that presses evenly, at no more than its speed, and
+ * is no blow that shorter steps would answer better. */
+static bool is_led_out(const sbr_world *world, const sbri_meet_group *group) {
+  const sbri_meet_touch *touches = world->meetings->touches + group->first_touch;
+  bool any = false;
+  for (uint32_t i = 0; i < group->touch_count; i++) any |= touches[i].goes_out || touches[i].goes_through;
+  return any;
+}
+
 static void run_steps(const sbr_world *world, sbri_meet_group *group, uint32_t steps) {
   sbri_meet_member *members = world->meetings->members + group->first_member;
+  bool led_out = is_led_out(world, group);
   float begin = 0, from = 0; /* of the steps that are as long as each other */
   for (uint32_t done = 0; done < steps;) {
     float to = begin + (1 - begin) * ((float)(done + 1) / (float)steps);
@@ -182,7 +192,7 @@ static void run_steps(const sbr_world *world, sbri_meet_group *group, uint32_t s
     }
     done++, from = to;
     uint32_t left = (uint32_t)ceilf((1 - to) * (float)rounded_steps(most) * 0.9999f);
-    if (done == steps || left <= steps - done) continue;
+    if (done == steps || led_out || left <= steps - done) continue;
     begin = to, steps = left, done = 0;
     sbri_meet_go_on(world->meetings, group, (float)world->tick_s * (1 - begin) / (float)steps);
   }

@@ -268,7 +268,7 @@ START_TEST(what_is_deep_inside_finds_its_way_out)
   scene_ticks(&s, 240);
   one = skin_of(&s, s.character), two = skin_of(&s, other);
   ck_assert_double_le(deepest(&s, &one, &two), 5e-4);
-  ck_assert_double_le(meeting_fastest(&s, other), _i ? 0.8 : 0.4);
+  ck_assert_double_le(meeting_fastest(&s, other), 0.4);
   scene_free(&s);
 }
 END_TEST
@@ -277,7 +277,7 @@ END_TEST
  * again. Only the faster of these blows goes deep however it hits. */
 START_TEST(what_is_thrown_down_hard_comes_apart)
 {
-  static const float speeds_m_s[] = {15, 35};
+  static const float speeds_m_s[] = {15, 40};
   bool aslant = _i % 2, fast = _i / 2;
   sbr_character_id other;
   scene s = begin_bar(false, false, 1e5f);
