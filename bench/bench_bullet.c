@@ -32,7 +32,9 @@
 #include "sbrun/sbrun.h"
 
 enum { HALF_A_SECOND = 30, SHORT = 10 }; /* ticks */
+#ifdef BENCH_BULLET
 static const float TICK_S = 1 / 60.0f;
+#endif
 
 /* ---- Scenes ---- */
 

@@ -27,7 +27,10 @@
 #include "sbrun/collision.h"
 #include "sbrun/rigid.h"
 
-static const float TICK_S = 1 / 60.0f, DEGREES = 57.29578f;
+static const float DEGREES = 57.29578f;
+#ifdef BENCH_BULLET
+static const float TICK_S = 1 / 60.0f;
+#endif
 
 typedef struct fall {
   double fall_us, lie_us;

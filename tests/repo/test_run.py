@@ -74,6 +74,14 @@ class Packages(unittest.TestCase):
             self.assertIn(" update", done.stdout)
             self.assertIn("could not install", done.stderr)
 
+    def test_a_package_that_is_only_named_is_missing(self):
+        """dpkg knows packages that others only name in Breaks: "not-installed", and nothing for a second architecture."""
+        for status in ("not-installed ", "config-files ", "not-installed not-installed "):
+            path = self.machine({"dpkg-query": f"printf '{status}'", "id": "echo 0", "apt-get": 'echo "apt-get $*"; exit 7'})
+            done = call("build", path=path)
+            self.assertEqual(done.returncode, 2, status)
+            self.assertIn(" libassimp-dev", done.stdout)
+
     def test_nothing_is_installed_twice(self):
         path = self.machine({"dpkg-query": "printf 'installed '", "id": "echo 0", "apt-get": "echo must not run",
                              **{name: "exit 0" for name in ("ninja", "gcc", "pkg-config", "python3")},
