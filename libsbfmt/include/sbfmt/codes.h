@@ -265,6 +265,9 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_FACING = 958, /* The character did not look along +Z and was turned to. */
   SBF_CODE_IMPORT_TETRAHEDRA_TURNED = 960, /* Tetrahedra were listed the other way round: they have been turned. */
   SBF_CODE_IMPORT_TETRAHEDRA_FLAT = 961, /* Tetrahedra without volume were left out. */
+  SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE = 970, /* Skin weights cannot be computed: give a mesh with a surface, and a rig with bones that move it. */
+  SBF_CODE_IMPORT_RIG_OUTSIDE = 971, /* Less than 60 % of the rig's bone length lies inside the mesh: give the rig of this mesh, or state --unit, --up and --forward. */
+  SBF_CODE_IMPORT_WEIGHTS_COMPUTED = 972, /* The rig has no mesh to take weights from: they were computed. */
   SBF_CODE_EXPORT_EMPTY = 980, /* The asset has nothing that the form to be written could hold. */
   SBF_CODE_EXPORT_LEFT_OUT = 981, /* The form to be written has no place for parts of the asset: they are left out. */
   SBF_CODE_EXPORT_PAGE_MISSING = 982, /* What a page is made of cannot be found: build sbfmt where clang makes WebAssembly or set SBFMT_WEB. */

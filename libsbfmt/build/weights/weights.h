@@ -1,0 +1,64 @@
+/* Skin weights for a mesh and a skeleton that was never bound to it.
+ *
+ * Each point takes the bone that is nearest through the body, and heat spreads those choices over the
+ * surface:
+ *
+ *     (L + c M / d^2) w = (c M / d^2) p       (Baran and Popovic 2007, section 4)
+ *
+ * with L the cotangent Laplacian, M the area of each point, d the distance to its bone, p 1 for that bone and
+ * 0 for others. The nearest bone is found through a grid of voxels (Dionne and de Lasa 2013), so that an arm
+ * beside the hip does not take the hip's bone; a bone reaches farther where the body around it is thicker,
+ * and less far in shells (pieces of surface that share no point) that it does not run through. Small shells
+ * move with one bone. Bones named left lose what leads to the right, and conversely. Lengths are in units of
+ * the longest side of the points' bounding box: the result does not depend on the unit.
+ *
+ * Open, many-shelled, non-manifold and self-touching meshes are welcome. The same input gives the same bits.
+ * Memory grows with points, triangles and bones, not with their products; the grid has a fixed size. */
+#ifndef SBFI_WEIGHTS_H
+#define SBFI_WEIGHTS_H
+
+#include "base/diagnostic.h"
+#include "sbfmt/model.h"
+
+enum { SBFI_WEIGHTS_PER_POINT = 4 };
+
+typedef struct sbfi_weights_input {
+  const sbf_allocator *allocator; /* NULL: malloc */
+  const sbf_vec3 *points;         /* (point_count) asset space, m */
+  const uint32_t (*triangles)[3]; /* (triangle_count) indices into points; any order, any winding */
+  uint32_t point_count, triangle_count;
+  /* (bone_count) Name, head, parent, and rotation (its +Y is the direction of the bone) are used. Length is
+   * used for bones without children; 0 where the rig does not state it: the mesh then limits the bone. */
+  const sbf_bone *bones;
+  uint32_t bone_count;
+  const bool *is_deforming;     /* (bone_count); NULL: all but those named root, armature or master */
+  const int32_t *bone_of_point; /* (point_count) bone that the caller demands, SBF_NONE: computed; or NULL.
+                                 * A shell whose points demand one bone follows it as a whole. */
+} sbfi_weights_input;
+
+typedef struct sbfi_weights_figures {
+  uint32_t shell_count, rigid_shell_count;
+  uint32_t cell_count;        /* of the voxel grid, inside the body or on its surface */
+  uint32_t unused_bone_count; /* deforming bones that hold no point */
+  uint32_t iterations;        /* of the conjugate gradients, the most of any group of bones */
+} sbfi_weights_figures;
+
+/* Arrays of `sbfi_weights_free`'s. */
+typedef struct sbfi_weights {
+  uint32_t (*joints)[SBFI_WEIGHTS_PER_POINT]; /* (point_count) bones, the greatest weight first */
+  float (*weights)[SBFI_WEIGHTS_PER_POINT];   /* (point_count) 0..1, sum 1; 0 where a joint is not used */
+  uint32_t *shell_of_point;                   /* (point_count) numbered by first point */
+  sbfi_weights_figures figures;
+  sbf_allocator allocator;
+  uint32_t point_count;
+} sbfi_weights;
+
+/* Fills `*out`, to be freed with sbfi_weights_free. On failure `*out` is empty and `*error` says why:
+ * IMPORT_WEIGHTS_IMPOSSIBLE for a mesh of fewer than four triangles or without extent, or no deforming bone;
+ * OUT_OF_MEMORY. Points in no triangle follow the nearest point of one. */
+sbf_status sbfi_compute_weights(const sbfi_weights_input *in, sbfi_weights *out, sbf_diagnostic *error);
+
+/* Safe on zeroed weights. */
+void sbfi_weights_free(sbfi_weights *weights);
+
+#endif
