@@ -74,7 +74,7 @@ class Glb:
 
     def skinned(self, worlds, target=None):
         """The vertices of all skinned primitives, in the order of the file, where the joints carry them; as a morph target
-        has them before."""
+        has them before. None for a vertex without weights."""
         points = []
         for node, primitive in self.primitives():
             skin = self.json["skins"][self.nodes[node]["skin"]]
@@ -91,5 +91,5 @@ class Glb:
                                               self.accessor(attributes["WEIGHTS_0"])):
                 there = [(apply(moved[j], place), w) for j, w in zip(joints, weights) if w > 0]
                 total = sum(w for _, w in there)
-                points.append(tuple(sum(p[k] * w for p, w in there) / total for k in range(3)))
+                points.append(tuple(sum(p[k] * w for p, w in there) / total for k in range(3)) if there else None)
         return points

@@ -240,7 +240,8 @@ static const known_clip known_clips[] = {
         -0.927709, true},
     {"snake/snake.glb", "SnakeArmature|Snake_Attack", 4, 0.666667, 17, "LowerMouth", -0.025083, 2.39962,
         0.581074, true},
-    {"walk-dae/walk.dae", "animation", 1, 5.791666, 139, "Hips", 1.37236, 1.007704, 0.0164799, false},
+    {"walk-dae/walk.dae", "animation", 1, 5.791666, 139, "Hips", -0.0164799, 1.007704, 1.37236,
+        false}, /* it looks and walks along +X and is turned to +Z */
     {"mocap/cmu_01_01.bvh", "Motion", 1, 22.92491, 2752, "Hips", 8.8787, 17.8124, 38.5426, false},
 };
 

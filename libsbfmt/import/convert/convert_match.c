@@ -13,7 +13,7 @@ typedef struct place {
 } place;
 
 static place center_of(const sbfi_scene_mesh *mesh, const sbfi_scene *scene, const sbfi_matrix *to_asset) {
-  sbfi_matrix m = sbfi_matrix_multiply(to_asset, &scene->nodes[mesh->node].world);
+  sbfi_matrix world = sbfi_scene_mesh_world(scene, mesh), m = sbfi_matrix_multiply(to_asset, &world);
   place p = {{0, 0, 0}};
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     sbf_vec3 at = sbfi_transform_point(&m, mesh->points[i]);

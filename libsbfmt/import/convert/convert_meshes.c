@@ -19,8 +19,10 @@ typedef struct geometry {
   bool is_flat; /* none of its polygons has an area */
 } geometry;
 
-/* Rest places of a skinned mesh's points: sum of weight * joint * bind, as at run time. */
-static sbf_status place_skinned(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_vec3 *positions) {
+/* Rest positions of a skinned mesh's points: sum of weight * joint * bind, as at run time. A point without
+ * weights stays in the shape that it was bound in. */
+static sbf_status place_skinned(
+    sbfi_conversion *c, const sbfi_scene_mesh *mesh, const sbfi_matrix *unskinned, sbf_vec3 *positions) {
   sbfi_matrix *joints = sbfi_arena_allocate(&c->scratch, mesh->joint_count, sizeof *joints);
   if (!joints) return sbfi_convert_no_memory(c);
   for (uint32_t j = 0; j < mesh->joint_count; j++) {
@@ -28,7 +30,6 @@ static sbf_status place_skinned(sbfi_conversion *c, const sbfi_scene_mesh *mesh,
         sbfi_matrix_multiply(&c->scene->nodes[mesh->joints[j].node].world, &mesh->joints[j].bind);
     joints[j] = sbfi_matrix_multiply(&c->to_asset, &world);
   }
-  sbfi_matrix unskinned = sbfi_matrix_multiply(&c->to_asset, &c->scene->nodes[mesh->node].world);
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     double sum[3] = {0, 0, 0}, total = 0;
     for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++) {
@@ -42,7 +43,7 @@ static sbf_status place_skinned(sbfi_conversion *c, const sbfi_scene_mesh *mesh,
     }
     positions[i] = total > 0
                        ? (sbf_vec3){(float)(sum[0] / total), (float)(sum[1] / total), (float)(sum[2] / total)}
-                       : sbfi_transform_point(&unskinned, mesh->points[i]);
+                       : sbfi_transform_point(unskinned, mesh->points[i]);
   }
   return SBF_OK;
 }
@@ -122,13 +123,11 @@ static sbf_status convert_geometry(sbfi_conversion *c, const sbfi_scene_mesh *me
   g->corner_order = sbfi_arena_allocate(&c->scratch, mesh->corner_count, sizeof *g->corner_order);
   if ((mesh->point_count && !positions) || (mesh->corner_count && (!sizes || !points || !g->corner_order)))
     return sbfi_convert_no_memory(c);
-  sbfi_matrix place = c->scene->nodes[mesh->node].world;
-  if (mesh->joint_count) /* at rest every joint moves a mesh alike, where the rest pose is the bind pose */
-    place = sbfi_matrix_multiply(&c->scene->nodes[mesh->joints[0].node].world, &mesh->joints[0].bind);
+  sbfi_matrix place = sbfi_scene_mesh_world(c->scene, mesh);
   g->to_asset = sbfi_matrix_multiply(&c->to_asset, &place);
   for (uint32_t i = 0; i < mesh->point_count; i++)
     positions[i] = sbfi_transform_point(&g->to_asset, mesh->points[i]);
-  sbf_status status = mesh->joint_count ? place_skinned(c, mesh, positions) : SBF_OK;
+  sbf_status status = mesh->joint_count ? place_skinned(c, mesh, &g->to_asset, positions) : SBF_OK;
   bool mirrored = sbfi_matrix_determinant(&g->to_asset) < 0;
   write_polygons(mesh, mirrored, sizes, points, g->corner_order);
   sbf_polygon_mesh_init(&g->mesh);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "import/scene/bind_space.h"
 #include "import/scene/trs.h"
 
 /* A pose further than this from the bind pose, as sbfi_bind_worlds measures it, is another one. */
@@ -11,21 +12,23 @@ static const double SAME_POSE = 1e-3;
 /* While worlds are worked out their last corner, which is 1 in the end, says where they come from. */
 enum { UNSET = 0, FROM_SKIN = 1, FROM_BELOW = 2 };
 
-/* A skinned mesh stays where its node is, whatever that hangs on; its joints are where they were from there.
- */
-static void set_joints(const sbfi_scene *scene, sbfi_matrix *worlds) {
-  for (uint32_t m = 0; m < scene->mesh_count; m++)
-    if (scene->meshes[m].joint_count)
-      worlds[scene->meshes[m].node] = scene->nodes[scene->meshes[m].node].world;
+/* A joint was where its bind matrix and its skin's bind space put it. */
+static bool set_joints(const sbfi_scene *scene, sbfi_matrix *worlds) {
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &scene->arena.allocator, 0);
+  sbfi_matrix *spaces = sbfi_arena_allocate(&scratch, (size_t)scene->mesh_count + 1, sizeof *spaces);
+  bool good = spaces && sbfi_bind_spaces(scene, spaces);
   /* Later skins first, so that the first one stays. */
-  for (uint32_t m = scene->mesh_count; m-- > 0;) {
+  for (uint32_t m = scene->mesh_count; good && m-- > 0;) {
     const sbfi_scene_mesh *mesh = &scene->meshes[m];
     for (uint32_t j = 0; j < mesh->joint_count; j++) {
       sbfi_matrix to_mesh;
       if (!sbfi_matrix_invert(&mesh->joints[j].bind, &to_mesh)) continue;
-      worlds[mesh->joints[j].node] = sbfi_matrix_multiply(&scene->nodes[mesh->node].world, &to_mesh);
+      worlds[mesh->joints[j].node] = sbfi_matrix_multiply(&spaces[m], &to_mesh);
     }
   }
+  sbfi_arena_free(&scratch);
+  return good;
 }
 
 /* A bone that no skin has, with a joint somewhere below: from its first child, as if that had not moved in it
@@ -80,9 +83,9 @@ static double deviation(const sbfi_scene *scene, const sbfi_matrix *worlds) {
   return size > 0 ? fmax(most_turned, most_moved / size) : most_turned;
 }
 
-double sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds) {
+bool sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds, double *difference) {
   for (uint32_t i = 0; i < scene->node_count; i++) worlds[i].at[3][3] = UNSET;
-  set_joints(scene, worlds);
+  if (!set_joints(scene, worlds)) return false;
   set_bones_above(scene, worlds);
   for (uint32_t i = 0; i < scene->node_count; i++) {
     const sbfi_scene_node *node = &scene->nodes[i];
@@ -91,7 +94,8 @@ double sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds) {
           node->parent == SBF_NONE ? node->local : sbfi_matrix_multiply(&worlds[node->parent], &node->local);
     worlds[i].at[3][3] = 1;
   }
-  return deviation(scene, worlds);
+  *difference = deviation(scene, worlds);
+  return true;
 }
 
 /* --- Taking it as the rest pose --------------------------------------------------------------------- */
@@ -187,7 +191,9 @@ bool sbfi_scene_take_bind_pose(sbfi_scene *scene) {
   sbfi_matrix *worlds = sbfi_arena_allocate(&scene->arena, scene->node_count, sizeof *worlds);
   sbfi_scene_node *nodes = sbfi_arena_copy(&scene->arena, scene->nodes, scene->node_count, sizeof *nodes);
   if (!worlds || !nodes) return false;
-  if (sbfi_bind_worlds(scene, worlds) <= SAME_POSE || !all_usable(scene, worlds)) return true;
+  double difference;
+  if (!sbfi_bind_worlds(scene, worlds, &difference)) return false;
+  if (difference <= SAME_POSE || !all_usable(scene, worlds)) return true;
   if (!complete_clips(scene)) return false;
   for (uint32_t i = 0; i < scene->node_count; i++) {
     sbfi_matrix to_parent;

@@ -5,11 +5,12 @@
 
 #include "import/scene/scene.h"
 
-/* Worlds of all nodes (node_count) in the bind pose: a joint's from the first skin that has it, a bone above
- * joints from what hangs on it, everything below moved along, the rest as at rest. Returns how far that is
- * from the rest pose at most: a bone's displacement as a share of the skeleton's size, or the sine of what it
- * has turned by; rounding alone stays below 1e-4. */
-double sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds);
+/* Fills the worlds of all nodes (node_count) in the bind pose: a joint's from the first skin that has it, a
+ * bone above joints from its first child, everything below moved along, the rest as at rest. Size, direction
+ * and position are those of the saved pose (bind_space.h). `*difference` is how far that is from the rest
+ * pose at most: a bone's displacement as a part of the skeleton's size, or the sine of its rotation; rounding
+ * alone stays below 1e-4. False where memory runs out. */
+bool sbfi_bind_worlds(const sbfi_scene *scene, sbfi_matrix *worlds, double *difference);
 
 /* Makes the bind pose the rest pose of a scene that is not its owner's to share yet, if it is another one,
  * and adds a note of it. Skinned meshes then stand where they were bound. Clips keep what they show: where a

@@ -122,3 +122,8 @@ void sbfi_scene_set_worlds(sbfi_scene_node *nodes, uint32_t node_count) {
     nodes[i].world = parent ? sbfi_matrix_multiply(&parent->world, &nodes[i].local) : nodes[i].local;
   }
 }
+
+sbfi_matrix sbfi_scene_mesh_world(const sbfi_scene *scene, const sbfi_scene_mesh *mesh) {
+  if (!mesh->joint_count) return scene->nodes[mesh->node].world;
+  return sbfi_matrix_multiply(&scene->nodes[mesh->joints[0].node].world, &mesh->joints[0].bind);
+}

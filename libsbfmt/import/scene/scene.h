@@ -203,6 +203,10 @@ bool sbfi_scene_warn(sbfi_scene *scene, sbf_code code, uint32_t line, const char
  * memory runs out. */
 const char *sbfi_scene_string(sbfi_scene *scene, sbfi_span text);
 
+/* Where a mesh's points are in the scene at rest, mesh to scene: the world of its node, which for a skinned
+ * mesh is ignored: there the product of the first joint's world and its bind matrix. */
+sbfi_matrix sbfi_scene_mesh_world(const sbfi_scene *scene, const sbfi_scene_mesh *mesh);
+
 /* Sets the worlds of nodes from their locals; parents stand first. */
 void sbfi_scene_set_worlds(sbfi_scene_node *nodes, uint32_t node_count);
 
