@@ -23,6 +23,42 @@ static sbf_status check_all_used(sbfi_packed_reader *reader) {
   return SBF_OK;
 }
 
+static sbf_status fault_at(sbfi_packed_reader *reader, sbf_code code, uint64_t offset, const char *message) {
+  sbf_status status = sbfi_diagnose(reader->error, code, "%s", message);
+  if (reader->error) reader->error->offset = (int64_t)offset;
+  return status;
+}
+
+/* Gaps hold zeros (spec/packed.md, 1); the table may lie in one. Other versions may use them. */
+static sbf_status check_gap(sbfi_packed_reader *reader, uint64_t begin, uint64_t end) {
+  const sbfi_packed_header *h = &reader->table.header;
+  for (uint64_t at = begin; at < end && !reader->table.newer; at++) {
+    if (at == h->table_offset) at += h->table_size;
+    if (at < end && reader->bytes[at])
+      return fault_at(reader, SBF_CODE_PACKED_TABLE, at,
+          "a byte between two chunks is not zero: the file is damaged, copy it again");
+  }
+  return SBF_OK;
+}
+
+/* Checks what a load does not read: the outline, chunks that are not critical, and the gaps. */
+static sbf_status check_unread(sbfi_packed_reader *reader) {
+  const sbfi_packed_table *table = &reader->table;
+  if (!reader->options.check_crc || reader->options.selection || reader->options.outline) return SBF_OK;
+  uint64_t end = SBFI_PACKED_HEADER_SIZE;
+  for (uint32_t i = 0; i < table->chunk_count; i++) {
+    const sbfi_packed_chunk *chunk = &table->chunks[i];
+    if (!reader->used[i] &&
+        sbfi_crc32(reader->bytes + chunk->offset, (size_t)chunk->stored_size) != chunk->crc)
+      return fault_at(reader, SBF_CODE_PACKED_CRC, chunk->offset,
+          "a chunk does not match its checksum: the file is damaged, copy it again");
+    sbf_status status = check_gap(reader, end, chunk->offset);
+    if (status != SBF_OK) return status;
+    end = chunk->offset + chunk->stored_size;
+  }
+  return check_gap(reader, end, table->header.file_size);
+}
+
 /* Loads from `bytes`; `*in_place` says whether the asset points into them. */
 static sbf_status load(const void *bytes, size_t size, const sbf_load_options *options, sbf_asset **asset,
     bool *in_place, sbf_diagnostic *error) {
@@ -38,6 +74,7 @@ static sbf_status load(const void *bytes, size_t size, const sbf_load_options *o
   if (status == SBF_OK) {
     status = sbfi_packed_read_asset(&reader, made);
     if (status == SBF_OK) status = check_all_used(&reader);
+    if (status == SBF_OK) status = check_unread(&reader);
     *in_place = reader.in_place;
     if (options->read_bytes) *options->read_bytes = reader.read_bytes;
     sbfi_packed_reader_close(&reader);

@@ -58,6 +58,7 @@ class PackedReader:
         for number, entry in enumerate(self.entries):
             if entry.is_known() and not entry.used:
                 raise Fault(f"nothing names chunk {number}")
+        self.check_unread()
         resolve(root)
         return root
 
@@ -118,6 +119,17 @@ class PackedReader:
         first = self.entries[0]
         if first.place() != ("ROOT", 0, NO_LEVEL, 0, 0):
             raise Fault("chunk 0 is not the record of the whole asset")
+
+    def check_unread(self):
+        """The checksums of chunks that nothing has read, and the zeros between all of them."""
+        end, pieces = 64, [(entry.offset, entry.stored) for entry in self.entries]
+        for number, entry in enumerate(self.entries):
+            if not entry.used and zlib.crc32(self.data[entry.offset:entry.offset + entry.stored]) != entry.crc:
+                raise Fault(f"chunk {number} does not match its checksum")
+        for begin, size in sorted(pieces + [self.table, (len(self.data), 0)]):
+            if any(self.data[end:begin]) and not self.newer:
+                raise Fault("a byte between two chunks is not zero")
+            end = max(end, begin + size)
 
     def chunk_bytes(self, number):
         entry = self.entries[number]

@@ -137,6 +137,20 @@ class Forms(ProgramTest):
             self.assertLessEqual({"code", "severity", "message", "path"}, set(message))
             self.assertTrue("line" in message or "offset" in message or message["path"])
 
+    def test_validate_finds_damage_in_what_a_load_does_not_read(self):
+        """The outline's checksum, and the zeros between chunks."""
+        whole = read_bytes(self.packed)
+        count = int.from_bytes(whole[40:44], "little")
+        entries = [whole[64 * (i + 1):64 * (i + 2)] for i in range(count)]
+        places = [(int.from_bytes(e[24:32], "little"), int.from_bytes(e[32:40], "little")) for e in entries]
+        self.assertEqual(entries[-1][:4], b"OUTL")
+        gap = next(begin + size for (begin, size), (after, _) in zip(places, places[1:]) if begin + size < after)
+        for at, code in ((places[-1][0] + 5, "PACKED_CRC"), (gap, "PACKED_TABLE")):
+            damaged = bytearray(whole)
+            damaged[at] ^= 0x10
+            report = self.json_of("validate", write_bytes(self.path("damaged.sbfz"), bytes(damaged)), status=1)
+            self.assertEqual([message["code"] for message in report["messages"] if message["severity"] == "error"], [code])
+
     def test_packing_leaves_nothing_beside(self):
         self.good("pack", self.xml, "-o", self.path("only.sbfz"))
         self.assert_empty_folder(but=["only.sbfz"])

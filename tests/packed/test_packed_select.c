@@ -251,6 +251,45 @@ START_TEST(test_outline_that_lies)
 }
 END_TEST
 
+/* A load of the whole that compares checksums looks at what it does not need as well. */
+START_TEST(test_checksums_of_what_is_not_read)
+{
+  sbf_asset *asset = fill_asset(&(fill_options){.seed = 9, .items = 90}), *loaded;
+  sbf_buffer file;
+  sbf_diagnostic error;
+  ck_assert_int_eq(
+      sbf_packed_save_memory(asset, &(sbf_save_options){.store = true}, NULL, &file, NULL), SBF_OK);
+  uint32_t last = (uint32_t)patch_get(file.at, 40, 4) - 1;
+  ck_assert_int_eq(memcmp(file.at + patch_entry(last, 0), "OUTL", 4), 0);
+  size_t outline = patch_get(file.at, patch_entry(last, PATCH_OFFSET), 8);
+  size_t gap = patch_get(file.at, patch_entry(last - 1, PATCH_OFFSET), 8) +
+               patch_get(file.at, patch_entry(last - 1, PATCH_STORED_SIZE), 8);
+  ck_assert_uint_lt(gap, outline);
+  const struct {
+    size_t at;
+    sbf_code code;
+  } places[] = {{outline, SBF_CODE_PACKED_CRC}, {file.size - 1, SBF_CODE_PACKED_CRC},
+      {gap, SBF_CODE_PACKED_TABLE}, {outline - 1, SBF_CODE_PACKED_TABLE}};
+  sbf_load_options options = fill_load_options(asset);
+  for (int check = 0; check < 2; check++) {
+    options.check_crc = check;
+    ck_assert_int_eq(sbf_packed_load_memory(file.at, file.size, &options, &loaded, &error), SBF_OK);
+    sbf_asset_free(loaded);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+      file.at[places[i].at] ^= 0x55;
+      sbf_status status = sbf_packed_load_memory(file.at, file.size, &options, &loaded, &error);
+      ck_assert_int_eq(status, check ? SBF_BAD_INPUT : SBF_OK);
+      if (check) ck_assert_int_eq(error.code, (int)places[i].code);
+      if (check) ck_assert_uint_eq((size_t)error.offset, i < 2 ? outline : places[i].at);
+      sbf_asset_free(loaded);
+      file.at[places[i].at] ^= 0x55;
+    }
+  }
+  sbf_buffer_free(&file);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("packed_select");
   TCase *tests = tcase_create("packed_select");
@@ -260,6 +299,7 @@ int main(void) {
   tcase_add_test(tests, test_any_kind_alone_is_a_sound_asset);
   tcase_add_test(tests, test_outline);
   tcase_add_test(tests, test_outline_that_lies);
+  tcase_add_test(tests, test_checksums_of_what_is_not_read);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -4,6 +4,7 @@
 
 #include "harness.h"
 #include "model/options.h"
+#include "packed/packed_codec.h"
 #include "packed_patch.h"
 #include "small_asset.h"
 
@@ -181,6 +182,52 @@ START_TEST(test_entry_faults)
 }
 END_TEST
 
+/* The same file with its table behind the chunks, as other writers may place it; `table` is where. */
+static void move_table_behind(size_t *table) {
+  size_t size = (size_t)patch_get(file.at, 32, 8), begin = (file.size + 63) / 64 * 64;
+  uint8_t *moved = calloc(1, begin + size);
+  memcpy(moved, file.at, file.size);
+  memcpy(moved + begin, file.at + 64, size);
+  sbf_buffer_free(&file);
+  file = (sbf_buffer){.at = moved, .size = begin + size};
+  patch_put(file.at, 16, 8, file.size);
+  patch_put(file.at, 24, 8, begin);
+  *table = begin;
+}
+
+static void seal_table(size_t table) {
+  patch_put(file.at, 44, 4, sbfi_crc32(file.at + table, (size_t)patch_get(file.at, 32, 8)));
+  patch_put(file.at, 60, 4, sbfi_crc32(file.at, 60));
+}
+
+/* A chunk may touch the table from either side; a byte in it is too much. */
+START_TEST(test_a_chunk_over_the_table)
+{
+  make_file();
+  size_t table, last = 64 * ((size_t)patch_get(file.at, 40, 4) - 1);
+  /* From above: the first chunk, which comes after no other, begins in the table. */
+  expect_patched(patch_entry(0, PATCH_OFFSET), 8, 64, SBF_CODE_PACKED_TABLE);
+  expect_patched(patch_entry(0, PATCH_OFFSET), 8, 64 + last, SBF_CODE_PACKED_TABLE);
+  /* From below: the last chunk reaches into the table, then only up to it. */
+  move_table_behind(&table);
+  uint8_t *entry = file.at + table + last;
+  uint64_t offset = patch_get(entry, PATCH_OFFSET, 8);
+  patch_put(entry, PATCH_STRIDE, 4, 1);
+  for (int over = 0; over < 2; over++) {
+    uint64_t size = table - offset + (uint64_t)over;
+    patch_put(entry, PATCH_STORED_SIZE, 8, size);
+    patch_put(entry, PATCH_RAW_SIZE, 8, size);
+    patch_put(entry, PATCH_COUNT, 8, size);
+    seal_table(table);
+    if (over)
+      expect(SBF_CODE_PACKED_TABLE, (int64_t)(table + last) + PATCH_OFFSET);
+    else
+      ck_assert_int_eq(read_table(file.at, file.size, NULL), SBF_OK);
+  }
+  free(file.at);
+}
+END_TEST
+
 START_TEST(test_filters_are_for_scalars_of_four_bytes)
 {
   make_file();
@@ -246,6 +293,7 @@ int main(void) {
   tcase_add_test(tests, test_header_faults);
   tcase_add_test(tests, test_count_of_zero);
   tcase_add_test(tests, test_entry_faults);
+  tcase_add_test(tests, test_a_chunk_over_the_table);
   tcase_add_test(tests, test_filters_are_for_scalars_of_four_bytes);
   tcase_add_test(tests, test_unknown_chunks_that_are_not_critical_are_passed_over);
   tcase_add_test(tests, test_a_newer_minor_version_may_use_what_is_reserved);

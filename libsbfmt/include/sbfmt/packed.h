@@ -48,7 +48,8 @@ typedef struct sbf_load_options {
   size_t struct_size;             /* sizeof(sbf_load_options), or 0 for this version's */
   const sbf_allocator *allocator; /* NULL: malloc */
   sbf_limits limits;              /* on what the file may ask for */
-  bool check_crc;                 /* compare each chunk's CRC-32 as it is read */
+  bool check_crc;                 /* compare each chunk's CRC-32 as it is read; a load of the
+                                     whole compares those it does not need as well, and the gaps with zero */
   const char *name;               /* the file's name for messages, with loads from memory; may be NULL */
   const char *const
       *extensions;          /* names of the extensions that the caller understands: a file that requires */
