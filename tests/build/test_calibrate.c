@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "build/levels/jiggle_level.h"
 #include "build/levels/ladder.h"
 #include "harness.h"
 #include "mechanics/static_solve.h"
@@ -400,6 +401,150 @@ START_TEST(what_stands_is_not_made_softer_than_its_weight_allows)
 }
 END_TEST
 
+/* A plate of 1 x 0.2 x 0.04 m, held at one end; `order` says which of its sides lies along x, y and z. */
+static sbf_soft_body *add_plate(const int order[3]) {
+  static const float sides[3] = {1, 0.2f, 0.04f};
+  sbf_polygon_mesh cube = shape_cube(asset, 4, 1, (sbf_vec3){0.5f, 0.5f, 0.5f});
+  sbf_vec3 *at = (sbf_vec3 *)(uintptr_t)cube.positions.at;
+  uint32_t *held = sbf_asset_allocate(asset, cube.positions.count, sizeof *held), count = 0;
+  for (uint32_t i = 0; i < cube.positions.count; i++) {
+    const float corner[3] = {at[i].x, at[i].y, at[i].z};
+    for (int k = 0; k < 3; k++)
+      if (order[k] == 0 && corner[k] < 1e-4f) held[count++] = i;
+    at[i] = (sbf_vec3){corner[0] * sides[order[0]], corner[1] * sides[order[1]], corner[2] * sides[order[2]]};
+  }
+  sbf_soft_body *body = shape_add_body(asset, "plate", &cube, false);
+  body->attributes.young_modulus = 1e8f;
+  sbf_pin_set *pins = sbf_asset_allocate(asset, 1, sizeof *pins);
+  sbf_pin_set_init(pins);
+  pins->points = (sbf_u32_list){held, count};
+  body->pins = (sbf_pin_set_list){pins, 1};
+  return body;
+}
+
+/* What does not give at all is off by how far the reference gives: by the most under any load, be it the
+ * first or the last that is looked at. */
+START_TEST(the_error_is_the_greatest_over_all_loads)
+{
+  static const int orders[3][3] = {{2, 0, 1}, {0, 2, 1}, {0, 1, 2}};
+  sbf_soft_body *body = add_plate(orders[_i]);
+  sbfi_reference r;
+  sbfi_calibration c;
+  ck_assert_int_eq(
+      sbfi_reference_make(&r, body, 1500, asset, &(sbfi_reference_use){true, false, {0}}, NULL), 0);
+  double most = 0;
+  uint32_t load = 0;
+  for (uint32_t l = 0; l < r.statics.load_count; l++) {
+    ck_assert_ptr_nonnull(r.falls[l]);
+    for (uint32_t i = 0; i < body->surface.positions.count; i++) {
+      const double *d = r.falls[l] + 3 * (size_t)i;
+      double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      if (length > most) most = length, load = l;
+    }
+  }
+  ck_assert_uint_eq(load, (uint32_t)_i); /* each is tried as the one that matters */
+  sbf_level level;
+  ck_assert(sbfi_jiggle_level_make(&level, body, 1, SBF_NONE, asset));
+  ck_assert(
+      sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
+  ck_assert_double_eq_tol(c.error, most, 1e-9);
+  ck_assert_float_eq_tol(level.simulation.error, (float)most, 1e-6f);
+  sbfi_reference_free(&r);
+}
+END_TEST
+
+/* A level is fitted to a reference of another modulus: by one factor for all where that is from 1/16 to 4,
+ * else not. */
+START_TEST(one_factor_for_all_has_bounds)
+{
+  static const struct {
+    float times;
+    bool fitted;
+  } cases[] = {{3, true}, {3.9f, true}, {4.3f, false}, {20, false}, {1.0f / 14, true}, {1.0f / 18, false}};
+  sbf_soft_body *body = add_beam(true);
+  sbf_level level;
+  sbfi_reference r;
+  sbfi_calibration c;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    sbf_level fine;
+    grid_level(&fine, 2);
+    grid_level(&level, 2);
+    body->attributes.young_modulus = 1e6f * cases[i].times;
+    ck_assert_int_eq(
+        sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){false, false, {0}}, NULL), 0);
+    body->attributes.young_modulus = 1e6f;
+    ck_assert(
+        sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
+    double wanted = cases[i].fitted ? (double)cases[i].times : 1;
+    ck_assert_double_eq_tol(c.factor, wanted, 0.01 * wanted);
+    ck_assert_double_eq_tol(
+        c.residual, cases[i].fitted ? 0 : fabs((double)cases[i].times - 1), 0.02 * cases[i].times);
+    sbfi_reference_free(&r);
+  }
+}
+END_TEST
+
+/* No element's modulus is more than doubled, however stiff the reference. */
+START_TEST(no_element_takes_more_than_twice_its_modulus)
+{
+  sbf_soft_body *body = add_beam(true);
+  sbf_level fine, level;
+  sbfi_reference r;
+  sbfi_calibration c;
+  grid_level(&fine, 4);
+  grid_level(&level, 2);
+  body->attributes.young_modulus = 2e7f;
+  ck_assert_int_eq(
+      sbfi_reference_take(&r, body, &fine, NULL, asset, &(sbfi_reference_use){false, true, {0}}, NULL), 0);
+  body->attributes.young_modulus = 1e6f;
+  ck_assert(
+      sbfi_level_calibrate(&level, body, NULL, &r, false, 1.0 / 60, asset, &c, (sbfi_progress){0}, NULL));
+  ck_assert_double_le(c.most, 2 + 1e-5);
+  ck_assert_double_gt(c.most, 1.9);
+  sbfi_reference_free(&r);
+}
+END_TEST
+
+/* Springs that are made stiffer or softer are damped as much more or less. */
+START_TEST(damping_of_springs_goes_with_their_stiffness)
+{
+  static float dampings[1000];
+  sbf_soft_body *body = add_beam(true);
+  sbf_weight_map map;
+  sbf_weight_map_init(&map);
+  map.property = SBF_WEIGHT_PROPERTY_STIFFNESS_DAMPING;
+  for (uint32_t i = 0; i < body->surface.positions.count; i++)
+    dampings[i] = 1 + body->surface.positions.at[i].x;
+  map.values = (sbf_f32_list){dampings, body->surface.positions.count};
+  body->weight_maps = (sbf_weight_map_list){&map, 1};
+  body->attributes.stiffness_damping = 0.002f;
+  sbf_asset *built[2];
+  sbf_diagnostic error;
+  for (int fitted = 0; fitted < 2; fitted++) {
+    sbf_build_options options = {
+        .interior = SBF_BUILD_INTERIOR_CENTROID, .levels = 2, .without_calibration = !fitted};
+    ck_assert_msg(sbf_build(asset, &options, &built[fitted], NULL, &error) == SBF_OK, "%s", error.message);
+  }
+  const sbf_spring_set_list *before = &built[0]->soft_bodies.at[0].levels.at[0].springs,
+                            *after = &built[1]->soft_bodies.at[0].levels.at[0].springs;
+  uint32_t changed = 0;
+  ck_assert_uint_eq(before->count, after->count);
+  for (uint32_t s = 0; s < before->count; s++) {
+    const sbf_spring_set *a = &before->at[s], *b = &after->at[s];
+    ck_assert_uint_eq(a->damping.count, a->ends.count);
+    ck_assert_uint_eq(b->damping.count, a->ends.count);
+    for (uint32_t i = 0; i < a->ends.count; i++) {
+      float of_a = a->damping.at[i] / a->stiffness.at[i], of_b = b->damping.at[i] / b->stiffness.at[i];
+      ck_assert_float_eq_tol(of_a, of_b, 1e-4f * of_a);
+      changed += fabsf(b->stiffness.at[i] / a->stiffness.at[i] - 1) > 0.05f;
+    }
+  }
+  ck_assert_uint_gt(changed, 10);
+  sbf_asset_free(built[0]);
+  sbf_asset_free(built[1]);
+}
+END_TEST
+
 static bool stop(void *user, const char *pass, double done) {
   (void)pass;
   *(int *)user += 1;
@@ -448,6 +593,10 @@ static Suite *suite(void) {
   tcase_add_test(c, the_coarsest_that_is_good_enough_is_chosen);
   tcase_add_test(c, levels_go_from_lattices_to_jiggle);
   tcase_add_test(c, a_free_body_is_calibrated_too);
+  tcase_add_loop_test(c, the_error_is_the_greatest_over_all_loads, 0, 3);
+  tcase_add_test(c, one_factor_for_all_has_bounds);
+  tcase_add_test(c, no_element_takes_more_than_twice_its_modulus);
+  tcase_add_test(c, damping_of_springs_goes_with_their_stiffness);
   tcase_add_test(c, a_surface_of_few_points_is_enough);
   tcase_add_test(c, what_stands_is_not_made_softer_than_its_weight_allows);
   tcase_add_test(c, it_can_be_cancelled);

@@ -1,5 +1,7 @@
 #include "build/springs/springs.h"
 
+#include <math.h>
+
 #include "harness.h"
 #include "shapes.h"
 
@@ -78,6 +80,32 @@ START_TEST(triangles)
 }
 END_TEST
 
+/* A fan of seven triangles about point 0. Neighbours at 170 and 185 degrees both see the one at 0 straightest
+ * across the point; it sees that at 185, and is joined with that alone. */
+START_TEST(flexion_is_mutual)
+{
+  static const double degrees[] = {170, 185, 240, 300, 0, 50, 110};
+  sbf_vec3 positions[8] = {{0, 0, 0}};
+  uint32_t sizes[7], corners[21];
+  for (uint32_t i = 0; i < 7; i++) {
+    double angle = degrees[i] * 3.14159265358979 / 180;
+    positions[i + 1] = (sbf_vec3){(float)cos(angle), 0, (float)sin(angle)};
+    sizes[i] = 3;
+    corners[3 * i] = 0, corners[3 * i + 1] = i + 1, corners[3 * i + 2] = (i + 1) % 7 + 1;
+  }
+  sbf_polygon_mesh mesh;
+  sbf_polygon_mesh_init(&mesh);
+  mesh.positions = (sbf_vec3_list){positions, 8};
+  mesh.polygon_sizes = (sbf_u32_list){sizes, 7};
+  mesh.polygon_points = (sbf_u32_list){corners, 21};
+  sbfi_surface_springs springs = surface_springs(&mesh);
+  ck_assert_uint_eq(springs.flexion.count, 3);
+  ck_assert(has(springs.flexion, 2, 5));
+  ck_assert(has(springs.flexion, 3, 6));
+  ck_assert(has(springs.flexion, 4, 7));
+}
+END_TEST
+
 START_TEST(no_pair_twice)
 {
   /* A tetrahedron: every two corners have an edge already. */
@@ -102,6 +130,7 @@ static Suite *suite(void) {
   tcase_add_test(c, single_cube);
   tcase_add_test(c, sheet_of_quads);
   tcase_add_test(c, triangles);
+  tcase_add_test(c, flexion_is_mutual);
   tcase_add_test(c, no_pair_twice);
   suite_add_tcase(s, c);
   return s;

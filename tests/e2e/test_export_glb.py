@@ -38,6 +38,29 @@ def rest_points(bundle):
     return found
 
 
+class Weights(ProgramTest):
+    def test_weights_of_zero(self):
+        """A point whose weights are all 0 goes with the root's own joint; bones of weight 0 are not named, and no set sums to less than 1."""
+        mesh = ("<polygon_mesh target=\"rendering\"><positions>0 0 0 1 0 0 0 1 0</positions><polygon_sizes>3</polygon_sizes>"
+                "<polygon_points>0 1 2</polygon_points></polygon_mesh>")
+        skin = ("<skin><influence_counts>2 2 1</influence_counts><bones>0 1 0 1 1</bones><weights>0 0.5 0 0 0.25</weights></skin>")
+        write_bytes(self.path("a.sbf"), ("<sbf version=\"1.0\"><skeleton><bone id=\"a\" name=\"a\" head=\"0 0 0\" length=\"1\"/>"
+                                         "<bone id=\"b\" name=\"b\" parent=\"a\" head=\"0 1 0\" length=\"1\"/></skeleton>"
+                                         f"<render_mesh id=\"m\" name=\"m\">{mesh}{skin}</render_mesh></sbf>").encode())
+        self.good("export", self.path("a.sbf"), "-o", self.path("a.glb"))
+        glb = Glb(self.path("a.glb"))
+        (_, primitive), = glb.primitives()
+        places, joints, weights = (glb.accessor(primitive["attributes"][name]) for name in ("POSITION", "JOINTS_0", "WEIGHTS_0"))
+        names = [glb.nodes[node].get("name") for node in glb.json["skins"][0]["joints"]]
+        found = {place: {names[j]: w for j, w in zip(joint, weight) if w} for place, joint, weight in zip(places, joints, weights)}
+        self.assertEqual(found[(0, 0, 0)], {"b": 1})
+        self.assertEqual(found[(0, 1, 0)], {"b": 1})
+        (root, weight), = found[(1, 0, 0)].items()
+        self.assertEqual(weight, 1)
+        self.assertNotIn(root, ("a", "b"))
+        self.assertTrue(all(j == 0 for joint, weight in zip(joints, weights) for j, w in zip(joint, weight) if not w))
+
+
 class Motion(ProgramTest):
     """Three characters: one whose skin has weights, one of parts that hang on bones, one that squashes."""
 

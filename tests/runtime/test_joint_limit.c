@@ -110,6 +110,35 @@ START_TEST(what_a_limit_is_ready_for_changes_no_answer)
 }
 END_TEST
 
+static void expect_swing(const sbri_joint_limit *limit, float y, float z, float to_y, float to_z) {
+  sbf_quat q = sbri_swing_twist_join((sbri_swing_twist){.twist = 0.1f, .swing_y = y, .swing_z = z});
+  sbri_swing_twist p = sbri_swing_twist_of(sbri_joint_limit_clamp(limit, q));
+  ck_assert_float_eq_tol(p.swing_y, to_y, 2e-5f);
+  ck_assert_float_eq_tol(p.swing_z, to_z, 2e-5f);
+  ck_assert_float_eq_tol(p.twist, 0.1f, 2e-5f);
+}
+
+/* Bounds of the swings that leave out 0: the box holds where a narrower cone would lead out of it. */
+START_TEST(a_box_without_zero_wins_over_the_cone)
+{
+  sbri_joint_limit limit = {.before = {0, 0, 0, 1},
+      .after = {0, 0, 0, 1},
+      .twist = {-1, 1},
+      .swing_y = {0.3f, 0.6f},
+      .swing_z = {-0.5f, 0.5f},
+      .cone = 3,
+      .active = true};
+  expect_swing(&limit, 0, 0, 0.3f, 0);
+  expect_swing(&limit, -0.4f, 0.2f, 0.3f, 0.2f);
+  expect_swing(&limit, 0.9f, -0.7f, 0.6f, -0.5f);
+  expect_swing(&limit, 0.4f, 0.1f, 0.4f, 0.1f);
+  limit.cone = 0.2f;
+  expect_swing(&limit, 0.4f, 0, 0.3f, 0);
+  expect_swing(&limit, 0.4f, 0.3f, 0.3f, 0.12f); /* z as the cone has it */
+  ck_assert_float_eq_tol(sbri_joint_limit_excess(&limit, (sbf_quat){0, 0, 0, 1}), 0.3f, 1e-5f);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("joint_limit");
   TCase *tests = tcase_create("all");
@@ -118,6 +147,7 @@ int main(void) {
   tcase_add_test(tests, twice_is_once);
   tcase_add_test(tests, a_hinge_keeps_the_turn_about_its_axis);
   tcase_add_test(tests, the_nearer_bound_is_taken_across_half_a_turn);
+  tcase_add_test(tests, a_box_without_zero_wins_over_the_cone);
   tcase_add_test(tests, what_a_limit_is_ready_for_changes_no_answer);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

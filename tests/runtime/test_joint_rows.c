@@ -8,6 +8,11 @@ static const double PI = 3.14159265358979323846;
 
 static const double G = 9.81;
 
+/* An angle's change, taken the shorter way round. */
+static float wrapped(float angle) {
+  return angle - (float)(2 * PI * round((double)angle / (2 * PI)));
+}
+
 static scene begin(void) {
   scene s = rigid_begin();
   s.asset->environment.gravity = (sbf_vec3){0, -9.81f, 0};
@@ -265,6 +270,32 @@ START_TEST(limits_hold)
 }
 END_TEST
 
+/* A hinge may turn by more than half a turn: it passes pi, where its angle is read from the other side, and
+ * stops at its bound of 4 rad, to either side. */
+START_TEST(a_hinge_turns_beyond_half_a_turn)
+{
+  scene s = rigid_begin();
+  s.asset->environment.gravity = (sbf_vec3){0, 0, 0};
+  rigid_box(&s, (sbf_vec3){0.5f, 0, 0}, (sbf_vec3){1, 0.1f, 0.1f}, 2);
+  sbf_joint *joint = rigid_joint(&s, SBF_JOINT_KIND_REVOLUTE, -1, 0, (sbf_vec3){0, 0, 0}, rigid_along_z);
+  rigid_limit(
+      &s, joint, (sbf_limit){.target = SBF_JOINT_AXIS_TWIST, .min = _i ? -4 : -0.5f, .max = _i ? 0.5f : 4});
+  scene_start(&s);
+  float sign = _i ? -1 : 1, turned = 0, last = 0, farthest = 0;
+  push(&s, 0, (sbf_vec3){0, sign * 6, 0}); /* some 4 rad/s */
+  for (int i = 0; i < 150; i++) {
+    sbr_world_tick(s.world);
+    float now = rigid_joint_state(&s, 0).coordinates[SBF_JOINT_AXIS_TWIST];
+    turned += wrapped(now - last);
+    last = now;
+    farthest = sign * turned > farthest ? sign * turned : farthest;
+  }
+  ck_assert_float_eq_tol(farthest, 4, 0.02f);
+  ck_assert_float_le(rigid_joint_state(&s, 0).beyond_angle, 0.002f);
+  scene_free(&s);
+}
+END_TEST
+
 /* A weight on a limit's spring: m g / k beyond the bound, and it never pulls. */
 START_TEST(a_limit_spring_gives_way)
 {
@@ -381,6 +412,7 @@ int main(void) {
   tcase_add_test(tests, a_pulley_is_atwoods_machine);
   tcase_add_test(tests, six_freedoms);
   tcase_add_test(tests, limits_hold);
+  tcase_add_loop_test(tests, a_hinge_turns_beyond_half_a_turn, 0, 2);
   tcase_add_test(tests, a_limit_spring_gives_way);
   tcase_add_test(tests, a_hard_limit_throws_back);
   tcase_add_test(tests, a_drive_answers_a_step);

@@ -62,7 +62,15 @@ START_TEST(turning_about_a_foot_leaves_it_where_it_is)
   s.input.turn = 0.8f;
   sbf_vec3 foot = s.state->feet[0].ground;
   s.state->pivot = 1;
-  gait_stage_ticks(&s, 300);
+  sbf_vec3 arm = sbri_sub(s.state->position, foot);
+  for (int i = 0; i < 300; i++) {
+    gait_stage_ticks(&s, 1);
+    /* The body goes round the foot as far as it turns. */
+    sbf_vec3 now = sbri_sub(s.state->position, foot);
+    sbf_vec3 round = sbri_rotate(sbri_quat_about(sbri_vec3(0, 1, 0), s.state->heading), arm);
+    ck_assert_float_eq_tol(now.x, round.x, 0.02f * sbri_length(arm));
+    ck_assert_float_eq_tol(now.z, round.z, 0.02f * sbri_length(arm));
+  }
   ck_assert_float_le(sbri_length(sbri_sub(s.state->feet[0].ground, foot)), 1e-6f);
   ck_assert_uint_eq(s.state->feet[0].steps_taken, 0);
   ck_assert_uint_ge(s.state->feet[3].steps_taken, 3);

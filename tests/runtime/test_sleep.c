@@ -57,6 +57,16 @@ static void sleep_all(scene *s) {
   ck_assert_uint_eq(sbr_world_awake(s->world), 0);
 }
 
+/* Of what sleeps; whoever wakes goes on from these. */
+static void expect_no_velocity(const scene *s) {
+  sbri_character *c = sbri_character_of(s->world, s->character);
+  for (uint32_t i = 0; i < c->model->island_count; i++) {
+    const sbri_island *island = &c->model->islands[i];
+    const float *velocities = sbri_velocities(c) + 3 * (size_t)island->first_slot;
+    for (uint32_t k = 0; k < 3 * island->free_count; k++) ck_assert_float_eq(velocities[k], 0);
+  }
+}
+
 static uint32_t count_events(const scene *s, sbr_event_kind kind) {
   sbr_event events[64];
   uint32_t count = sbr_world_events(s->world, events, 64), found = 0;
@@ -82,6 +92,7 @@ START_TEST(what_rests_sleeps_without_a_jump_of_energy)
   ck_assert_double_le(energy(&s), before + 1e-6);
   ck_assert_double_ge(energy(&s), before - slow);
   double asleep = energy(&s);
+  expect_no_velocity(&s);
   sbf_vec3 point = scene_point(&s, 0, 3);
   scene_ticks(&s, 300);
   ck_assert_double_eq(energy(&s), asleep);

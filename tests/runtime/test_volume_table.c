@@ -75,6 +75,35 @@ START_TEST(keeping_it_moves_no_body)
 }
 END_TEST
 
+/* A body pressed to a third comes back slowly: each of a substep's four steps asks for a tenth of its volume,
+ * and gains some more as its faces grow. */
+START_TEST(much_volume_comes_back_slowly)
+{
+  scene s = section(SBF_PRESSURE_MODE_VOLUME);
+  s.model_options.free = true;
+  s.model_options.substeps = 1;
+  s.world_definition.has_gravity = true;
+  scene_start(&s);
+  sbri_character *c = sbri_character_of(s.world, s.character);
+  for (uint32_t i = 0; i < c->model->islands[0].free_count; i++) {
+    sbri_point *p = &sbri_positions(c)[i];
+    p->y = 1 + 0.33f * (p->y - 1);
+  }
+  double last = sbr_character_health(s.world, s.character, 0).volume_ratio;
+  ck_assert_double_lt(last, 0.35);
+  uint32_t slow = 0;
+  for (int i = 0; i < 10 && last < 0.99; i++) {
+    scene_ticks(&s, 1);
+    double now = sbr_character_health(s.world, s.character, 0).volume_ratio;
+    ck_assert_double_le(now - last, 0.55);
+    slow += now < 0.9;
+    last = now;
+  }
+  ck_assert_uint_ge(slow, 1);
+  scene_free(&s);
+}
+END_TEST
+
 /* A surface carried by other points than its own: the corners of a box around it. */
 START_TEST(embedded_surfaces_keep_theirs)
 {
@@ -125,6 +154,7 @@ static Suite *suite(void) {
   TCase *c = tcase_create("volume table");
   tcase_add_test(c, the_volume_is_kept_where_it_is_asked_for);
   tcase_add_test(c, keeping_it_moves_no_body);
+  tcase_add_test(c, much_volume_comes_back_slowly);
   tcase_add_test(c, embedded_surfaces_keep_theirs);
   suite_add_tcase(s, c);
   return s;

@@ -63,6 +63,9 @@ END_TEST
 
 START_TEST(test_blends)
 {
+  rules_expect(WORN(EMBEDDED(SKIN, "", ALL_POINTS, ALL_WEIGHTS, "<blends>1 1 1 0.9995</blends>")), "");
+  rules_expect(WORN(EMBEDDED(SKIN, "", ALL_POINTS, ALL_WEIGHTS, "<blends>1 1 1 0.998</blends>")),
+      "EMBEDDING_BLEND /sbf/render_mesh[1]");
   rules_expect(WORN(EMBEDDED(SKIN, "", ALL_POINTS, ALL_WEIGHTS, "<blends>1 1 1 0.9</blends>")),
       "EMBEDDING_BLEND /sbf/render_mesh[1]");
   rules_expect(WORN(EMBEDDED(SKIN, "", ALL_POINTS, ALL_WEIGHTS, "<blends>1 1 1 0</blends>")),

@@ -29,6 +29,35 @@ START_TEST(test_the_rest_pose)
 }
 END_TEST
 
+/* 0.02 rad at rest is let pass, of a twist as of a swing; 1 mm and a hundredth of the arms of a distance. */
+START_TEST(test_the_rest_pose_within_tolerance)
+{
+#define TURNED(kind, rotation) JOINT(kind, "body_a=\"up\"", MEET_A, MEET_B " rotation=\"" rotation "\"", "")
+  rules_expect(TURNED("revolute", "0 0.009 0 0.99996"), "");
+  rules_expect(TURNED("revolute", "0 0.011 0 0.99994"), "JOINT_NOT_AT_REST " PATH("revolute"));
+  rules_expect(TURNED("prismatic", "0.009 0 0 0.99996"), "");
+  rules_expect(TURNED("prismatic", "0.011 0 0 0.99994"), "JOINT_NOT_AT_REST " PATH("prismatic"));
+  rules_expect(JOINT("spherical", "body_a=\"up\"", MEET_A, "position=\"0 0.1029 0\"", ""), "");
+  rules_expect(JOINT("spherical", "body_a=\"up\"", MEET_A, "position=\"0 0.1035 0\"", ""),
+      "JOINT_NOT_AT_REST " PATH("spherical"));
+}
+END_TEST
+
+/* Bounds that leave out 0 are good where the joint is between them at rest. */
+START_TEST(test_limits_without_zero)
+{
+#define TWIST_04 MEET_B " rotation=\"0.19866933 0 0 0.98006658\"" /* 0.4 rad */
+  rules_expect(JOINT("revolute", "body_a=\"up\"", MEET_A, TWIST_04, LIMIT("twist", "0.1", "0.5")), "");
+  rules_expect(JOINT("revolute", "body_a=\"up\"", MEET_A, TWIST_04, LIMIT("twist", "0.45", "0.5")),
+      "LIMIT_EXCLUDES_REST " PATH("revolute") "/limits/limit[1]");
+  rules_expect(JOINT("revolute", "body_a=\"up\"", MEET_A, TWIST_04, LIMIT("twist", "-0.1", "0.3")),
+      "LIMIT_EXCLUDES_REST " PATH("revolute") "/limits/limit[1]");
+  rules_expect(
+      JOINT("six_dof", "body_a=\"up\"", MEET_A, "position=\"0.05 0.1 0\"", LIMIT("linear_x", "0.03", "0.07")),
+      "");
+}
+END_TEST
+
 START_TEST(test_limits)
 {
 #define LIMIT_PATH(kind) PATH(kind) "/limits/limit[1]"
@@ -69,5 +98,5 @@ START_TEST(test_pulleys)
 }
 END_TEST
 
-RULES_MAIN(
-    "joint_rules", test_good_joints, test_bodies, test_the_rest_pose, test_limits, test_drives, test_pulleys)
+RULES_MAIN("joint_rules", test_good_joints, test_bodies, test_the_rest_pose,
+    test_the_rest_pose_within_tolerance, test_limits_without_zero, test_limits, test_drives, test_pulleys)

@@ -1,0 +1,62 @@
+"""Calls on several files: the exit status is the worst of all, in whatever order they are named, and each good one is done."""
+
+import itertools
+import os
+
+from sbfmt_program import ROOT, ProgramTest, call, main, write_bytes
+
+CUBE = """o cube
+v 0 0 0
+v 0.2 0 0
+v 0.2 0.2 0
+v 0 0.2 0
+v 0 0 0.2
+v 0.2 0 0.2
+v 0.2 0.2 0.2
+v 0 0.2 0.2
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+
+
+class ManyInputs(ProgramTest):
+    def expect_worst(self, files, verb, *options):
+        """`files` by name: the status of each alone is that of the call on all of them, where it is the greatest."""
+        alone = {name: call(verb, path, *options).status for name, path in files.items()}
+        self.assertEqual(alone, {"good": 0, "faulty": 1, "absent": 2})
+        for count in (2, 3):
+            for names in itertools.permutations(files, count):
+                with self.subTest(names=names):
+                    done = call(verb, *(files[name] for name in names), *options)
+                    self.assertEqual(done.status, max(alone[name] for name in names), done.err)
+                    yield names, done
+
+    def test_validate(self):
+        good = os.path.join(ROOT, "spec", "samples", "valid", "minimal.sbf")
+        faulty = write_bytes(self.path("faulty.sbf"), b"<sbf version='1.0'><bone/></sbf>")
+        files = {"good": good, "faulty": faulty, "absent": self.path("absent.sbf")}
+        for names, done in self.expect_worst(files, "validate"):
+            self.assertEqual("minimal.sbf: valid" in done.out, "good" in names)
+            self.assertIn(f"{len(names)} files, {sum(name != 'good' for name in names)} not valid", done.out)
+        for threads in ("1", "2"):
+            self.assertEqual(call("validate", self.path("absent.sbf"), *[good] * 5, faulty, "--threads", threads).status, 2)
+            report = self.json_of("validate", faulty, good, "--threads", threads, status=1)
+            self.assertEqual((report["valid"], [one["valid"] for one in report["files"]]), (False, [False, True]))
+
+    def test_convert(self):
+        good = write_bytes(self.path("cube.obj"), CUBE.encode())
+        faulty = write_bytes(self.path("broken.obj"), b"v 0 0 0\nf 1 2 99\n")
+        files = {"good": good, "faulty": faulty, "absent": self.path("absent.obj")}
+        out = self.path("out")
+        for names, _ in self.expect_worst(files, "convert", "--no-build", "--out-dir", out):
+            self.assertEqual(os.listdir(out), ["cube.sbf"] if "good" in names else [])
+            for name in os.listdir(out):
+                os.remove(os.path.join(out, name))
+
+
+if __name__ == "__main__":
+    main()
