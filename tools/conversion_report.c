@@ -73,7 +73,7 @@ static json_t *sources(const conversion_report *of) {
 /* --- What was mended, guessed, lost -------------------------------------------------------------------- */
 
 static const char *const mended[] = {"IMPORT_INSIDE_OUT", "IMPORT_POINTS_JOINED", "IMPORT_POSE",
-    "IMPORT_GROUND", "IMPORT_TETRAHEDRA_TURNED", "IMPORT_TETRAHEDRA_FLAT", "RIG_BONE_REHUNG",
+    "IMPORT_GROUND", "RIG_ALIGNED", "IMPORT_TETRAHEDRA_TURNED", "IMPORT_TETRAHEDRA_FLAT", "RIG_BONE_REHUNG",
     "SECTION_MERGED", NULL};
 static const char *const guessed[] = {"IMPORT_UNIT", "IMPORT_AXES", "IMPORT_NAME_AMBIGUOUS",
     "RIG_SECTION_GUESSED", "RIG_NO_LEGS", "UNIT_LOOKS_WRONG", "MATERIAL_GUESSED", NULL};

@@ -59,8 +59,9 @@ START_TEST(the_lizard_of_obj_and_rig)
   ck_assert_str_eq(a->info.sources.at[0].path, "liz.obj");
   ck_assert_uint_eq(strlen(a->info.sources.at[1].sha256), 64);
   ck_assert_str_eq(a->info.title, "liz");
-  ck_assert_uint_eq(converted_count(&c, SBF_CODE_MATERIAL_GUESSED), 1); /* and nothing else is said */
-  ck_assert_uint_eq(c.note_count, 1);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_MATERIAL_GUESSED), 1);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_WEIGHTS), 1); /* and nothing else is said */
+  ck_assert_uint_eq(c.note_count, 2);
   converted_free(&c);
 }
 END_TEST

@@ -79,7 +79,8 @@ class ConvertOptions(Structure):
                 ("pins", POINTER(ConvertPin)), ("pin_count", c_uint32), ("goal_minimum", c_double),
                 ("goal_maximum", c_double), ("goal_stiffness", c_double),
                 ("summary", c_void_p), ("limits", ctypes.c_int), ("keep_modulus", c_bool), ("holds", POINTER(ConvertPin)),
-                ("hold_count", c_uint32), ("attachments", POINTER(ConvertAttachment)), ("attachment_count", c_uint32)]
+                ("hold_count", c_uint32), ("attachments", POINTER(ConvertAttachment)), ("attachment_count", c_uint32),
+                ("weights", c_char_p)]
 
 
 class ValidateOptions(Structure):

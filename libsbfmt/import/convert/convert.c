@@ -16,6 +16,7 @@
 #include "import/convert/propose_limits.h"
 #include "import/gait/propose_gait.h"
 #include "import/paper/dialect2012.h"
+#include "import/rigging/rigging.h"
 #include "import/scene/bind_pose.h"
 #include "mechanics/plausible_size.h"
 #include "model/options.h"
@@ -120,9 +121,9 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
     sbfi_convert_warn(c, SBF_CODE_IMPORT_NO_RIG,
         "the file holds no skeleton: its objects become bodies that nothing holds; give one with --rig");
   static sbf_status (*const passes[])(sbfi_conversion *) = {describe_sources, sbfi_convert_skeleton,
-      sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials, sbfi_convert_meshes,
-      sbfi_measure_leaf_bones, sbfi_face_ahead, sbfi_propose_gait, sbfi_stand_on_ground, sbfi_convert_joints,
-      sbfi_convert_attachments, sbfi_propose_limits, sbfi_convert_clips};
+      sbfi_rig_input, sbfi_convert_check_pins, sbfi_match_sections, sbfi_convert_materials,
+      sbfi_convert_meshes, sbfi_measure_leaf_bones, sbfi_face_ahead, sbfi_propose_gait, sbfi_stand_on_ground,
+      sbfi_convert_joints, sbfi_convert_attachments, sbfi_propose_limits, sbfi_convert_clips};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     if ((passes[i] == sbfi_face_ahead || passes[i] == sbfi_propose_gait) && options->no_gait) continue;
     sbf_status status = passes[i](c);

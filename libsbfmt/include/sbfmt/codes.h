@@ -221,6 +221,10 @@ typedef enum sbf_code {
   SBF_CODE_PIN_NO_WEIGHT = 763, /* All weights of a pin set are 0, it holds nothing: raise weights or minimum. */
   SBF_CODE_PIN_OFFSET = 764, /* Pins draw points far from where they are at rest: check the offsets, which are in the frame of the bone or body. */
   SBF_CODE_ATTACHMENT_EMPTY = 765, /* An attachment holds no point: place the hull around some, or list them. */
+  SBF_CODE_RIG_ALIGNED = 781, /* The input was scaled, turned or moved to lie over the rig: state its unit and axes if that is wrong. */
+  SBF_CODE_RIG_WEIGHTS = 782, /* Points of the input were given to bones of the rig: by name, by place, by nearness, from the bones or from a file. */
+  SBF_CODE_RIG_MISFIT = 783, /* The rig does not fit the input: give the character's own rig, its unit and axes, or other weights. */
+  SBF_CODE_RIG_WEIGHTS_FILE = 784, /* A file of weights names a bone, a point or a number that cannot be: mend the line given. */
   SBF_CODE_PACKED_MAGIC = 801, /* The file does not begin as a packed file does: it was damaged in transfer, or is another kind. */
   SBF_CODE_PACKED_TRUNCATED = 802, /* The file ends before what its table names: it was cut short. */
   SBF_CODE_PACKED_TABLE = 803, /* The header or the table of contents contradicts itself. */

@@ -93,6 +93,10 @@ typedef struct sbf_convert_options {
   /* What rigid hulls hold: everything of a soft body inside one, on each level that a build makes. */
   const sbf_convert_attachment *attachments; /* (attachment_count) */
   uint32_t attachment_count;                 /* of attachments */
+  /* Where the bones that move each point of the input come from, where the rig is another file: "named"
+   * (objects that are called as nodes of the rig) or "match" (points of the rig's own mesh, by place); NULL:
+   * the first of these that fits each object. */
+  const char *weights;
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names

@@ -1,0 +1,18 @@
+/* Finding how an input lies over a rig. Each returns false where memory runs out. */
+#ifndef SBFI_ALIGN_H
+#define SBFI_ALIGN_H
+
+#include "import/rigging/rigging.h"
+#include "import/rigging/similarity.h"
+
+/* By points that the input and the rig's meshes both have, at least a tenth of the input's. */
+bool sbfi_align_by_points(sbfi_rigging *r, bool *found);
+
+/* Whether `--unit` and `--up` leave a transform as it is. */
+bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matrix *m);
+
+/* How near two points are that are taken for one, m; `quantum` is the step of the input's numbers. */
+double sbfi_match_tolerance(const sbfi_rigging *r, double scale, double quantum);
+double sbfi_input_quantum(const sbfi_rigging *r);
+
+#endif

@@ -1,0 +1,285 @@
+/* Lays an input over the rig's own meshes by points that both have.
+ *
+ * Which point is which is not known: order, unit, axes, handedness and offset may all differ, and either may
+ * hold only a part of the other. Candidates for the transform come from what files usually do (axes swapped,
+ * a usual unit, no offset), from the two bounding boxes, and from triangles of one shape, which give all of
+ * it at once. Each is judged by the share of sampled points that fall onto a point of the rig; earlier ones
+ * win unless a later one is better, so that of a symmetric mesh's transforms the plainest is taken. */
+#include <math.h>
+#include <string.h>
+
+#include "import/rigging/align.h"
+#include "import/rigging/point_finder.h"
+#include "import/rigging/triangle_shapes.h"
+
+enum { SAMPLES = 256, FIRST_SAMPLES = 16, SECOND_SAMPLES = 64, SEED_TRIANGLES = 48, SEED_CANDIDATES = 400 };
+
+/* Points are one where they are this near, as a share of the input's size. */
+static const double TOLERANCE = 1e-4;
+/* So much better a later candidate has to be. */
+static const double BETTER = 5e-3;
+/* The least share of points that says anything. */
+static const double LEAST_SHARE = 0.1;
+
+typedef struct search {
+  const sbfi_rigging *r;
+  sbfi_point_finder finder; /* of the rig's points */
+  uint32_t samples[SAMPLES], sample_count;
+  double quantum; /* of the input's numbers, in its own unit: decimals of its text */
+  sbfi_matrix best;
+  double best_share;
+  uint32_t tried;
+} search;
+
+/* The step in which a text wrote its numbers, where all are whole multiples of one; else 0. */
+static double find_quantum(const sbf_vec3_list points) {
+  for (double steps = 1e3; steps < 2e7; steps *= 10) {
+    bool whole = true;
+    for (uint32_t i = 0; whole && i < points.count; i++) {
+      const float at[3] = {points.at[i].x, points.at[i].y, points.at[i].z};
+      for (int k = 0; whole && k < 3; k++) {
+        double scaled = (double)at[k] * steps;
+        whole = fabs(scaled - floor(scaled + 0.5)) <= 1e-2 + fabs(scaled) * 1.2e-7;
+      }
+    }
+    if (whole) return 1 / steps;
+  }
+  return 0;
+}
+
+double sbfi_match_tolerance(const sbfi_rigging *r, double scale, double quantum) {
+  double size = r->input.size * scale;
+  return fmin(fmax(TOLERANCE * size, 2 * quantum * scale), 20 * TOLERANCE * size);
+}
+
+double sbfi_input_quantum(const sbfi_rigging *r) {
+  return find_quantum(r->input.mesh.positions);
+}
+
+static double share_of(const search *s, const sbfi_matrix *m, uint32_t from, uint32_t to) {
+  double within = sbfi_match_tolerance(s->r, sbfi_similarity_scale(m), s->quantum);
+  uint32_t hits = 0;
+  for (uint32_t i = from; i < to; i++) {
+    sbfi_d3 p = sbfi_d3_of(s->r->input.mesh.positions.at[s->samples[i]]);
+    hits += sbfi_point_nearest(&s->finder, sbfi_similarity_apply(m, p), within, NULL) != UINT32_MAX;
+  }
+  return to > from ? (double)hits / (to - from) : 0;
+}
+
+bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matrix *m) {
+  double scale = sbfi_similarity_scale(m);
+  if (options->unit_m > 0 && fabs(scale / options->unit_m - 1) > 1e-3) return false;
+  int up = options->up == 'z' ? 2 : 1;
+  return !options->up || m->at[1][up] > 0.999 * scale;
+}
+
+static void consider(search *s, const sbfi_matrix *m) {
+  if (!sbfi_alignment_allowed(s->r->c->options, m)) return;
+  uint32_t first = s->sample_count < FIRST_SAMPLES ? s->sample_count : FIRST_SAMPLES;
+  uint32_t second = s->sample_count < SECOND_SAMPLES ? s->sample_count : SECOND_SAMPLES;
+  s->tried++;
+  double share = share_of(s, m, 0, first);
+  if (!(share > 0.4 * s->best_share)) return;
+  share = (share * first + share_of(s, m, first, second) * (second - first)) / second;
+  if (!(share > 0.7 * s->best_share) || share < 0.5 * LEAST_SHARE) return;
+  share = (share * second + share_of(s, m, second, s->sample_count) * (s->sample_count - second)) /
+          s->sample_count;
+  if (share < s->best_share + BETTER) return;
+  s->best = *m;
+  s->best_share = share;
+}
+
+static void take_samples(search *s) {
+  uint32_t count = s->r->input.mesh.positions.count;
+  s->sample_count = count < SAMPLES ? count : SAMPLES;
+  for (uint32_t i = 0; i < s->sample_count;
+       i++) /* steps of the golden ratio: early ones are spread as well */
+    s->samples[i] =
+        count <= SAMPLES ? i : (uint32_t)((double)count * fmod(0.5 + i * 0.6180339887498949, 1.0));
+}
+
+/* Axes swapped, a usual unit, no offset. */
+static void consider_usual(search *s) {
+  for (uint32_t unit = 0; unit < SBFI_USUAL_UNITS; unit++) {
+    double scale = sbfi_usual_units[unit].unit_m, size = s->r->input.size * scale;
+    if (size > 1.5 * s->r->rig.size || size < 0.01 * s->r->rig.size) continue;
+    for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS; i++) {
+      sbfi_matrix axes = sbfi_axis_rotation(i);
+      axes = sbfi_similarity_scaled(&axes, scale, (sbfi_d3){0, 0, 0});
+      consider(s, &axes);
+    }
+  }
+}
+
+/* The whole of one is the whole of the other. */
+static void consider_boxes(search *s) {
+  const sbfi_scene_surface *a = &s->r->input, *b = &s->r->rig;
+  sbfi_d3 low = sbfi_d3_of(a->low), high = sbfi_d3_of(a->high);
+  sbfi_d3 from = sbfi_d3_scale(sbfi_d3_add(low, high), 0.5);
+  sbfi_d3 to = sbfi_d3_scale(sbfi_d3_add(sbfi_d3_of(b->low), sbfi_d3_of(b->high)), 0.5);
+  for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS; i++) {
+    sbfi_matrix m = sbfi_axis_rotation(i);
+    m = sbfi_similarity_scaled(&m, b->size / a->size, (sbfi_d3){0, 0, 0});
+    sbfi_d3 offset = sbfi_d3_sub(to, sbfi_similarity_apply(&m, from));
+    m = sbfi_similarity_scaled(&m, b->size / a->size, offset);
+    consider(s, &m);
+  }
+}
+
+/* --- Triangles of one shape ---------------------------------------------------------------------------- */
+
+typedef struct seed {
+  search *s;
+  const sbfi_shaped_triangle *from;
+  uint32_t candidates;
+} seed;
+
+static bool consider_triangle(void *user, const sbfi_shaped_triangle *to) {
+  seed *at = user;
+  sbfi_d3 a[3], b[3];
+  for (int k = 0; k < 3; k++) {
+    a[k] = sbfi_d3_of(at->s->r->input.mesh.positions.at[at->from->points[k]]);
+    b[k] = sbfi_d3_of(at->s->r->rig.mesh.positions.at[to->points[k]]);
+  }
+  for (int mirrored = 0; mirrored < 2; mirrored++) {
+    sbfi_matrix m;
+    if (!sbfi_similarity_of_triangle(a, b, mirrored, &m)) continue;
+    double scale = sbfi_similarity_scale(&m) * at->s->r->input.size;
+    if (scale > 3 * at->s->r->rig.size || scale < 0.01 * at->s->r->rig.size) continue;
+    /* The triangle's own rounding is magnified by what it is smaller than the whole. */
+    sbfi_matrix snapped = sbfi_similarity_snapped(&m, at->s->r->rig.size, 3e-3);
+    sbfi_d3 moved = sbfi_d3_sub(b[0], sbfi_similarity_apply(&snapped, a[0]));
+    if (sbfi_d3_length(moved) > 1e-5 * at->s->r->rig.size) {
+      sbfi_d3 offset = {snapped.at[0][3] + moved.x, snapped.at[1][3] + moved.y, snapped.at[2][3] + moved.z};
+      snapped = sbfi_similarity_scaled(&snapped, sbfi_similarity_scale(&snapped), offset);
+    }
+    consider(at->s, &snapped);
+    consider(at->s, &m);
+  }
+  return ++at->candidates < SEED_CANDIDATES;
+}
+
+/* Large triangles of rare shapes say most. */
+static double worth(const sbfi_triangle_shapes *rig, const sbfi_shaped_triangle *t) {
+  uint32_t like = sbfi_triangle_shapes_count(rig, t);
+  return like ? (double)t->longest / (1 + sqrt((double)like)) : 0;
+}
+
+static bool consider_triangles(search *s, sbfi_arena *arena) {
+  sbfi_triangle_shapes input, rig;
+  if (!sbfi_triangle_shapes_make(&input, &s->r->input, arena) ||
+      !sbfi_triangle_shapes_make(&rig, &s->r->rig, arena))
+    return false;
+  double *worths = sbfi_arena_allocate(arena, input.count + 1, sizeof *worths);
+  if (!worths) return false;
+  for (uint32_t i = 0; i < input.count; i++) worths[i] = worth(&rig, &input.triangles[i]);
+  for (uint32_t turn = 0; turn < SEED_TRIANGLES && s->best_share < 0.999; turn++) {
+    uint32_t best = 0;
+    for (uint32_t i = 1; i < input.count; i++)
+      if (worths[i] > worths[best]) best = i;
+    if (!input.count || worths[best] <= 0) break;
+    seed at = {s, &input.triangles[best], 0};
+    worths[best] = 0;
+    sbfi_triangle_shapes_find(&rig, at.from, consider_triangle, &at);
+  }
+  return true;
+}
+
+/* --- The best of them, more exactly -------------------------------------------------------------------- */
+
+typedef struct pairs {
+  sbfi_d3 *from, *to;
+  uint32_t count;
+  double squared; /* sum of squared distances */
+} pairs;
+
+static void find_pairs(const search *s, const sbfi_matrix *m, pairs *p) {
+  const sbf_vec3_list points = s->r->input.mesh.positions;
+  double within = sbfi_match_tolerance(s->r, sbfi_similarity_scale(m), s->quantum), distance;
+  p->count = 0;
+  p->squared = 0;
+  for (uint32_t i = 0; i < points.count; i++) {
+    sbfi_d3 from = sbfi_d3_of(points.at[i]), at = sbfi_similarity_apply(m, from);
+    uint32_t near = sbfi_point_nearest(&s->finder, at, within, &distance);
+    if (near == UINT32_MAX) continue;
+    p->from[p->count] = from;
+    p->to[p->count++] = sbfi_d3_of(s->finder.points[near]);
+    p->squared += distance * distance;
+  }
+}
+
+static bool is_mirrored(const sbfi_matrix *m) {
+  return sbfi_matrix_determinant(m) < 0;
+}
+
+/* A nearly symmetric character fits nearly as well the wrong way round: all its points tell, not a sample. */
+static void try_mirrors(search *s, pairs *p) {
+  sbfi_d3 low = sbfi_d3_of(s->r->rig.low), high = sbfi_d3_of(s->r->rig.high);
+  const double middle[3] = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+  sbfi_matrix from = s->best;
+  find_pairs(s, &from, p);
+  uint32_t most = p->count;
+  for (int i = 0; i < 6 && most < s->r->input.mesh.positions.count; i++) {
+    sbfi_matrix mirror = sbfi_matrix_identity(); /* about the middle, or about the origin */
+    mirror.at[i / 2][i / 2] = -1;
+    mirror.at[i / 2][3] = i % 2 ? 0 : 2 * middle[i / 2];
+    sbfi_matrix m = sbfi_matrix_multiply(&mirror, &from);
+    if (!sbfi_alignment_allowed(s->r->c->options, &m)) continue;
+    find_pairs(s, &m, p);
+    if (p->count <= most) continue;
+    most = p->count;
+    s->best = m;
+  }
+}
+
+static bool refine(search *s, sbfi_arena *arena, double *share) {
+  uint32_t count = s->r->input.mesh.positions.count;
+  pairs p = {sbfi_arena_allocate(arena, count, sizeof *p.from),
+      sbfi_arena_allocate(arena, count, sizeof *p.to), 0, 0};
+  if (!p.from || !p.to) return false;
+  try_mirrors(s, &p);
+  find_pairs(s, &s->best, &p);
+  uint32_t most = p.count;
+  double squared = p.squared;
+  bool is_stated = memcmp(&s->best, &s->r->c->to_asset, sizeof s->best) == 0; /* and right: it stays */
+  for (int pass = is_stated ? 4 : 0; pass < 4; pass++) {
+    sbfi_matrix m;
+    if (!sbfi_similarity_fit(p.from, p.to, p.count, is_mirrored(&s->best), s->r->c->options->unit_m, &m))
+      break;
+    if (pass == 3) m = sbfi_similarity_snapped(&s->best, s->r->rig.size, 3e-4);
+    if (pass == 3 && !sbfi_alignment_allowed(s->r->c->options, &m)) break;
+    find_pairs(s, &m, &p);
+    /* A usual transform may be a little worse: rounding is all that speaks for another. */
+    double allowed =
+        squared + (pass == 3 ? 3 * squared + 1e-12 * s->r->rig.size * s->r->rig.size * count : 0);
+    if (p.count < most || (p.count == most && p.squared > allowed)) continue;
+    s->best = m;
+    most = p.count;
+    squared = p.squared;
+  }
+  *share = (double)most / count;
+  return true;
+}
+
+bool sbfi_align_by_points(sbfi_rigging *r, bool *found) {
+  sbfi_arena scratch;
+  search s = {.r = r, .quantum = sbfi_input_quantum(r)};
+  const sbf_vec3_list rig = r->rig.mesh.positions;
+  *found = false;
+  if (!rig.count || !r->input.mesh.positions.count || !(r->input.size > 0) || !(r->rig.size > 0)) return true;
+  sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
+  bool good = sbfi_point_finder_make(&s.finder, rig.at, rig.count, &scratch);
+  take_samples(&s);
+  if (good) {
+    consider(&s, &r->c->to_asset);
+    if (s.best_share < 0.999) consider_usual(&s);
+    if (s.best_share < 0.999) consider_boxes(&s);
+    if (s.best_share < 0.999) good = consider_triangles(&s, &scratch);
+    *found = good && s.best_share >= LEAST_SHARE;
+    if (*found) good = refine(&s, &scratch, &r->alignment.matched);
+    if (*found) r->alignment.to_asset = s.best;
+    r->alignment.is_stated = memcmp(&r->alignment.to_asset, &r->c->to_asset, sizeof s.best) == 0;
+  }
+  sbfi_arena_free(&scratch);
+  return good;
+}

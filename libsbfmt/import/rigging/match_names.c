@@ -1,0 +1,116 @@
+#include <math.h>
+#include <string.h>
+
+#include "import/rigging/weigh.h"
+
+/* How well an object's name stands for a mesh node of the rig; 0: not at all. Blender's OBJ names an object
+ * `<object>_<data block>`. */
+static int name_score(const char *object, const char *node, const char *data) {
+  size_t length = strlen(node);
+  if (strcmp(object, node) == 0) return 4;
+  if (!*node || strncmp(object, node, length) != 0 || object[length] != '_') return 0;
+  return strcmp(object + length + 1, data) == 0 ? 5 : 2;
+}
+
+static void middle_of(
+    const sbfi_scene_surface *s, uint32_t mesh, const sbfi_matrix *to_asset, double middle[3]) {
+  uint32_t from = s->mesh_starts[mesh], to = s->mesh_starts[mesh + 1];
+  middle[0] = middle[1] = middle[2] = 0;
+  for (uint32_t i = from; i < to; i++) {
+    sbf_vec3 p = sbfi_transform_point(to_asset, s->mesh.positions.at[i]);
+    middle[0] += (double)p.x;
+    middle[1] += (double)p.y;
+    middle[2] += (double)p.z;
+  }
+  for (int k = 0; k < 3 && to > from; k++) middle[k] /= to - from;
+}
+
+/* The rig's mesh that an object stands for: the best name, of equals the nearest; SBF_NONE where none fits.
+ */
+static int32_t find_namesake(const sbfi_rigging *r, uint32_t mesh) {
+  const sbfi_scene *rig = r->rig.scene;
+  const char *object = r->input.scene->nodes[r->input.scene->meshes[mesh].node].name;
+  sbfi_matrix same = sbfi_matrix_identity();
+  double here[3], there[3], best_distance = INFINITY;
+  int best_score = 0;
+  int32_t best = SBF_NONE;
+  middle_of(&r->input, mesh, &r->alignment.to_asset, here);
+  for (uint32_t i = 0; i < rig->mesh_count; i++) {
+    int score = name_score(object, rig->nodes[rig->meshes[i].node].name, rig->meshes[i].name);
+    if (score == 0 || score < best_score) continue;
+    middle_of(&r->rig, i, &same, there);
+    double apart = hypot(hypot(here[0] - there[0], here[1] - there[1]), here[2] - there[2]);
+    if (score == best_score && apart >= best_distance) continue;
+    best = (int32_t)i;
+    best_score = score;
+    best_distance = apart;
+  }
+  return best;
+}
+
+static int32_t find_bone(const sbfi_rigging *r, const char *object) {
+  const sbfi_scene *rig = r->rig.scene;
+  for (uint32_t i = 0; i < rig->node_count; i++)
+    if (rig->nodes[i].is_bone && strcmp(rig->nodes[i].name, object) == 0) return (int32_t)i;
+  return SBF_NONE;
+}
+
+static void carry(sbfi_rigging *r, uint32_t mesh, int32_t node) {
+  r->carriers[mesh] = node;
+  r->names[mesh] = r->rig.scene->nodes[node].name;
+  for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++)
+    r->sources[i] = SBFI_WEIGHTS_NAMED;
+}
+
+/* One object may be called Body or Hips and be all of a character: bones' names count where most objects have
+ * some. */
+static void weigh_by_bones(sbfi_rigging *r) {
+  const sbfi_scene *scene = r->input.scene;
+  uint32_t named = 0;
+  for (uint32_t m = 0; m < scene->mesh_count; m++)
+    named += find_bone(r, scene->nodes[scene->meshes[m].node].name) != SBF_NONE;
+  if (named < 2 || 2 * named < scene->mesh_count) return;
+  for (uint32_t m = 0; m < scene->mesh_count; m++) {
+    int32_t bone = find_bone(r, scene->nodes[scene->meshes[m].node].name);
+    if (bone != SBF_NONE) carry(r, m, bone);
+  }
+}
+
+void sbfi_weigh_by_name(sbfi_rigging *r) {
+  const sbfi_scene *rig = r->rig.scene;
+  if (rig->mesh_count == 0) weigh_by_bones(r);
+  for (uint32_t m = 0; rig->mesh_count && m < r->input.scene->mesh_count; m++) {
+    int32_t other = find_namesake(r, m);
+    if (other == SBF_NONE || rig->meshes[other].joint_count) continue;
+    if (r->c->bone_of_node[rig->meshes[other].node] != SBF_NONE) carry(r, m, rig->meshes[other].node);
+  }
+}
+
+/* --- Skins of the input -------------------------------------------------------------------------------- */
+
+/* Weights of a skin whose joints all bear names of the rig's bones; false where one does not. */
+static bool weigh_by_joints(sbfi_rigging *r, uint32_t mesh) {
+  const sbfi_scene *scene = r->input.scene;
+  const sbfi_scene_mesh *from = &scene->meshes[mesh];
+  for (uint32_t i = 0; i < from->skin_starts[from->point_count]; i++)
+    if (find_bone(r, scene->nodes[from->joints[from->skin_joints[i]].node].name) == SBF_NONE) return false;
+  for (uint32_t i = 0; i < from->point_count; i++) {
+    sbfi_influences *to = &r->weights[r->input.mesh_starts[mesh] + i];
+    for (uint32_t s = from->skin_starts[i]; s < from->skin_starts[i + 1]; s++) {
+      int32_t bone = find_bone(r, scene->nodes[from->joints[from->skin_joints[s]].node].name);
+      sbfi_influences_add(to, (uint32_t)bone, (double)from->skin_weights[s]);
+    }
+    sbfi_influences_finish(to);
+    if (to->at[0].weight > 0) r->sources[r->input.mesh_starts[mesh] + i] = SBFI_WEIGHTS_NAMED;
+  }
+  return true;
+}
+
+void sbfi_weigh_by_own_skin(sbfi_rigging *r) {
+  const sbfi_scene *scene = r->input.scene;
+  for (uint32_t m = 0; m < scene->mesh_count; m++)
+    if (scene->meshes[m].joint_count && !weigh_by_joints(r, m))
+      sbfi_convert_warn(r->c, SBF_CODE_IMPORT_IGNORED,
+          "the skin of object '%s' names bones that the rig does not have: its weights are left out",
+          scene->nodes[scene->meshes[m].node].name);
+}

@@ -1,0 +1,117 @@
+/* Weights by place: a point of the input that lies on one of the rig's has its weights. */
+#include <string.h>
+
+#include "import/rigging/align.h"
+#include "import/rigging/point_finder.h"
+#include "import/rigging/weigh.h"
+
+typedef struct matching {
+  const sbfi_rigging *r;
+  const sbfi_scene_surface *moved; /* the input in asset space */
+  sbfi_point_finder finder;
+  double within;
+  /* Of the point at hand: */
+  uint32_t point;
+  uint32_t best;
+  double best_score;
+} matching;
+
+/* How many sides of the input's point lead where sides of the rig's point lead: tells apart points of two
+ * surfaces that meet in one place. Its normal settles what is left. */
+static double score(const matching *m, uint32_t candidate) {
+  const sbfi_scene_surface *a = m->moved, *b = &m->r->rig;
+  double same = 0, squared = m->within * m->within;
+  for (uint32_t i = a->neighbour_starts[m->point]; i < a->neighbour_starts[m->point + 1]; i++) {
+    sbfi_d3 to = sbfi_d3_of(a->mesh.positions.at[a->neighbours[i]]);
+    for (uint32_t k = b->neighbour_starts[candidate]; k < b->neighbour_starts[candidate + 1]; k++) {
+      sbfi_d3 apart = sbfi_d3_sub(sbfi_d3_of(b->mesh.positions.at[b->neighbours[k]]), to);
+      if (sbfi_d3_dot(apart, apart) > squared) continue;
+      same += 1;
+      break;
+    }
+  }
+  return same + 0.4 * sbfi_d3_dot(sbfi_d3_of(a->normals[m->point]), sbfi_d3_of(b->normals[candidate]));
+}
+
+static void weigh_candidate(void *user, uint32_t candidate) {
+  matching *m = user;
+  if (m->best == candidate) return;
+  if (m->best_score < 0) m->best_score = score(m, m->best);
+  double here = score(m, candidate);
+  if (here < m->best_score || (here == m->best_score && candidate > m->best)) return;
+  m->best = candidate;
+  m->best_score = here;
+}
+
+static uint32_t find_match(matching *m, uint32_t point) {
+  double distance;
+  sbfi_d3 place = sbfi_d3_of(m->moved->mesh.positions.at[point]);
+  m->point = point;
+  m->best = sbfi_point_nearest(&m->finder, place, m->within, &distance);
+  m->best_score = -1;
+  if (m->best != UINT32_MAX)
+    sbfi_points_near(&m->finder, place, distance + 0.02 * m->within, weigh_candidate, m);
+  return m->best;
+}
+
+/* --- Whole objects ------------------------------------------------------------------------------------- */
+
+static uint32_t mesh_of_point(const sbfi_scene_surface *s, uint32_t point) {
+  uint32_t low = 0, high = s->scene->mesh_count;
+  while (high - low > 1) {
+    uint32_t middle = (low + high) / 2;
+    if (s->mesh_starts[middle] <= point)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/* The mesh of the rig that all points of an object lie on, where that has no skin: it hangs as that does. */
+static int32_t common_carrier(const sbfi_rigging *r, uint32_t mesh, const uint32_t *matches) {
+  int32_t carrier = SBF_NONE;
+  for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++) {
+    if (matches[i] == UINT32_MAX) return SBF_NONE;
+    const sbfi_scene_mesh *on = &r->rig.scene->meshes[mesh_of_point(&r->rig, matches[i])];
+    if (on->joint_count || (carrier != SBF_NONE && carrier != on->node)) return SBF_NONE;
+    carrier = on->node;
+  }
+  return carrier;
+}
+
+/* Whether an object's polygons face away from the rig's, once those of a mirrored one have been turned. */
+static bool faces_away(
+    const sbfi_rigging *r, const sbfi_scene_surface *moved, uint32_t mesh, const uint32_t *matches) {
+  double sum = 0, sign = sbfi_matrix_determinant(&r->alignment.to_asset) < 0 ? -1 : 1;
+  for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++)
+    if (matches[i] != UINT32_MAX)
+      sum += sign * sbfi_d3_dot(sbfi_d3_of(moved->normals[i]), sbfi_d3_of(r->rig.normals[matches[i]]));
+  return sum < 0;
+}
+
+bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved) {
+  sbfi_arena scratch;
+  sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
+  uint32_t count = r->input.mesh.positions.count;
+  matching m = {.r = r,
+      .moved = moved,
+      .within =
+          sbfi_match_tolerance(r, sbfi_similarity_scale(&r->alignment.to_asset), sbfi_input_quantum(r))};
+  uint32_t *matches = sbfi_arena_allocate(&scratch, count + 1, sizeof *matches);
+  bool good = matches && sbfi_point_finder_make(
+                             &m.finder, r->rig.mesh.positions.at, r->rig.mesh.positions.count, &scratch);
+  for (uint32_t i = 0; good && i < count; i++) matches[i] = find_match(&m, i);
+  for (uint32_t mesh = 0; good && mesh < r->input.scene->mesh_count; mesh++) {
+    r->turned[mesh] = faces_away(r, moved, mesh, matches);
+    if (r->carriers[mesh] != SBF_NONE) continue;
+    r->carriers[mesh] = common_carrier(r, mesh, matches);
+    for (uint32_t i = r->input.mesh_starts[mesh]; i < r->input.mesh_starts[mesh + 1]; i++) {
+      if (matches[i] == UINT32_MAX || r->sources[i] != SBFI_WEIGHTS_NONE) continue;
+      r->weights[i] = r->rig_weights[matches[i]];
+      r->sources[i] = SBFI_WEIGHTS_MATCHED;
+    }
+  }
+  sbfi_arena_free(&scratch);
+  return good;
+}

@@ -1,0 +1,147 @@
+/* Which way each object comes by its bones. */
+#include "import/rigging/rigging.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "import/rigging/align.h"
+#include "import/rigging/rigged_scene.h"
+#include "import/rigging/weigh.h"
+#include "mechanics/vector.h"
+
+typedef enum weights_mode {
+  MODE_ANY,
+  MODE_NAMED,
+  MODE_MATCH,
+  MODE_TRANSFER,
+  MODE_COMPUTE,
+  MODE_FILE
+} weights_mode;
+
+static weights_mode mode_of(const char *weights) {
+  static const char *const words[] = {"named", "match"};
+  if (!weights) return MODE_ANY;
+  for (int i = 0; i < 2; i++)
+    if (strcmp(weights, words[i]) == 0) return (weights_mode)(i + 1);
+  return MODE_ANY;
+}
+
+static bool prepare(sbfi_rigging *r) {
+  sbfi_conversion *c = r->c;
+  sbfi_matrix own = sbfi_matrix_identity();
+  if (!sbfi_surface_gather(&r->input, c->scene, &own, &c->scratch) ||
+      !sbfi_surface_gather(&r->rig, c->rig, &c->rig_to_asset, &c->scratch))
+    return false;
+  uint32_t points = r->input.mesh.positions.count, meshes = c->scene->mesh_count;
+  r->rig_weights = sbfi_rig_weights(c, &r->rig);
+  r->weights = sbfi_arena_allocate(&c->scratch, points + 1, sizeof *r->weights);
+  r->sources = sbfi_arena_allocate(&c->scratch, points + 1, sizeof *r->sources);
+  r->carriers = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->carriers);
+  r->names = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->names);
+  r->turned = sbfi_arena_allocate(&c->scratch, meshes, sizeof *r->turned);
+  if (!r->rig_weights || !r->weights || !r->sources || !r->carriers || !r->names || !r->turned) return false;
+  for (uint32_t m = 0; m < meshes; m++) {
+    r->carriers[m] = SBF_NONE;
+    r->names[m] = c->scene->nodes[c->scene->meshes[m].node].name;
+  }
+  r->alignment = (sbfi_alignment){c->to_asset, 0, true};
+  return true;
+}
+
+static uint32_t count_points(const sbfi_rigging *r, sbfi_weight_source source) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < r->input.mesh.positions.count; i++) count += r->sources[i] == source;
+  return count;
+}
+
+static void say_alignment(const sbfi_rigging *r) {
+  if (r->alignment.is_stated) return;
+  sbfi_similarity_text text = sbfi_similarity_describe(&r->alignment.to_asset, r->rig.size);
+  if (text.at[0])
+    sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
+        "the input was laid over the rig: %s; --unit and --up say otherwise", text.at);
+}
+
+static const char *const SOURCE_TEXTS[SBFI_WEIGHTS_SOURCES] = {[SBFI_WEIGHTS_NONE] = "have none",
+    [SBFI_WEIGHTS_NAMED] = "by the names of objects or bones",
+    [SBFI_WEIGHTS_MATCHED] = "of the rig's own mesh, by place",
+    [SBFI_WEIGHTS_CARRIED] = "carried over from the nearest surface of the rig's mesh",
+    [SBFI_WEIGHTS_ATTACHED] = "of the bone that their piece touches",
+    [SBFI_WEIGHTS_COMPUTED] = "computed from the bones",
+    [SBFI_WEIGHTS_FROM_FILE] = "from the file of weights"};
+
+static void say_weights(const sbfi_rigging *r) {
+  char text[400] = "";
+  for (int s = 0; s < SBFI_WEIGHTS_SOURCES; s++) {
+    uint32_t count = count_points(r, (sbfi_weight_source)s);
+    size_t used = strlen(text);
+    if (count) snprintf(text + used, sizeof text - used, "%s%u %s", used ? ", " : "", count, SOURCE_TEXTS[s]);
+  }
+  sbfi_convert_warn(r->c, SBF_CODE_RIG_WEIGHTS, "weights of %u points: %s; --weights chooses another way",
+      r->input.mesh.positions.count, text);
+}
+
+/* --- Objects that nothing else moves ------------------------------------------------------------------- */
+
+/* The bone whose segment lies nearest to a point; of equals the last, for what lies beyond a bone's end is
+ * its child's. */
+static int32_t nearest_bone(const sbf_asset *asset, sbfi_d3 p) {
+  int32_t best = SBF_NONE;
+  double best_squared = INFINITY;
+  for (uint32_t i = 0; i < asset->bones.count; i++) {
+    const sbf_bone *bone = &asset->bones.at[i];
+    const sbf_quat q = bone->rotation;
+    sbfi_d3 axis = {
+        2 * (q.x * q.y - q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z + q.w * q.x)};
+    sbfi_d3 from_head = sbfi_d3_sub(p, sbfi_d3_of(bone->head));
+    double along = fmin(fmax(sbfi_d3_dot(from_head, axis), 0), (double)bone->length);
+    sbfi_d3 apart = sbfi_d3_sub(from_head, sbfi_d3_scale(axis, along));
+    double squared = sbfi_d3_dot(apart, apart);
+    if (squared > best_squared) continue;
+    best_squared = squared;
+    best = (int32_t)i;
+  }
+  return best;
+}
+
+static void give_to_nearest(sbfi_rigging *r, const sbfi_scene_surface *moved, uint32_t mesh) {
+  uint32_t from = moved->mesh_starts[mesh], to = moved->mesh_starts[mesh + 1];
+  sbfi_d3 middle = {0, 0, 0};
+  for (uint32_t i = from; i < to; i++) {
+    if (r->sources[i] != SBFI_WEIGHTS_NONE) return;
+    middle = sbfi_d3_add(middle, sbfi_d3_of(moved->mesh.positions.at[i]));
+  }
+  if (to > from) middle = sbfi_d3_scale(middle, 1.0 / (to - from));
+  int32_t bone = nearest_bone(r->c->asset, middle);
+  r->carriers[mesh] = (int32_t)r->c->node_of_bone[bone];
+  sbfi_convert_warn(r->c, SBF_CODE_RIG_SECTION_GUESSED,
+      "object '%s' hangs on no bone of the rig by name: it was given to the nearest, '%s'; name it as its "
+      "node in the rig if that is wrong",
+      r->names[mesh], r->c->asset->bones.at[bone].name);
+}
+
+static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
+  sbfi_conversion *c = r->c;
+  sbfi_scene_surface moved;
+  bool found = false;
+  if (!prepare(r) || !sbfi_align_by_points(r, &found) ||
+      !sbfi_surface_move(&moved, &r->input, &r->alignment.to_asset, &c->scratch))
+    return sbfi_convert_no_memory(c);
+  say_alignment(r);
+  if (mode == MODE_ANY || mode == MODE_NAMED) sbfi_weigh_by_name(r);
+  if (mode == MODE_ANY) sbfi_weigh_by_own_skin(r);
+  if (found && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_place(r, &moved))
+    return sbfi_convert_no_memory(c);
+  for (uint32_t m = 0; m < c->scene->mesh_count; m++)
+    if (r->carriers[m] == SBF_NONE) give_to_nearest(r, &moved, m);
+  say_weights(r);
+  return sbfi_rigged_scene_take(r) ? SBF_OK : sbfi_convert_no_memory(c);
+}
+
+sbf_status sbfi_rig_input(sbfi_conversion *c) {
+  weights_mode mode = mode_of(c->options->weights);
+  if (!c->rig || c->asset->bones.count == 0 || c->scene->mesh_count == 0) return SBF_OK;
+  if (c->rig == c->scene) return SBF_OK;
+  sbfi_rigging r = {.c = c};
+  return rig_objects(&r, mode);
+}

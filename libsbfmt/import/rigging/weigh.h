@@ -1,0 +1,18 @@
+/* Ways to weigh the points of an input that have no weights yet. Those that need memory return
+ * false where it runs out. */
+#ifndef SBFI_WEIGH_H
+#define SBFI_WEIGH_H
+
+#include "import/rigging/rigging.h"
+
+/* By name: objects that stand for a mesh of the rig which hangs on a bone. Names only say which object a node
+ * stands for, never which bone it hangs on, because a section and a different bone may bear one name; where
+ * the rig has no mesh, objects named as its bones are theirs. */
+void sbfi_weigh_by_name(sbfi_rigging *r);
+/* Skins that the input has itself, for bones of the same names. */
+void sbfi_weigh_by_own_skin(sbfi_rigging *r);
+
+/* By place: points that lie on points of the rig's meshes. `moved` is the input in asset space. */
+bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved);
+
+#endif
