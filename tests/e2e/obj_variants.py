@@ -1,7 +1,7 @@
 """OBJ files, read, changed as other programs would have written them, and written again.
 
 A point of an Obj knows which points of the first one it came from (`origins`), so that what a conversion makes of a
-variant can be compared with what it makes of the original."""
+variant can be compared with what it makes of the original: its weights are the mean of theirs."""
 
 import random
 
@@ -185,16 +185,16 @@ def subdivided(obj):
             side = tuple(sorted((corner[0], corners[(k + 1) % len(corners)][0])))
             faces_of_side.setdefault(side, []).append(face)
     middles = []
-    for name, material, corners in obj.faces:
+    for _, _, corners in obj.faces:
         middles.append(len(new.points))
         new.points.append(tuple(sum(obj.points[p][k] for p, _, _ in corners) / len(corners) for k in range(3)))
-        new.origins.append([])
+        new.origins.append([o for p, _, _ in corners for o in obj.origins[p]])
     for side, faces in faces_of_side.items():
         ends = [obj.points[i] for i in side]
         around = ends + [new.points[middles[f]] for f in faces] if len(faces) == 2 else ends
         sides[side] = len(new.points)
         new.points.append(tuple(sum(p[k] for p in around) / len(around) for k in range(3)))
-        new.origins.append([])
+        new.origins.append([o for i in side for o in obj.origins[i]])
     for face, (name, material, corners) in enumerate(obj.faces):
         for k, corner in enumerate(corners):
             after = sides[tuple(sorted((corner[0], corners[(k + 1) % len(corners)][0])))]
@@ -207,7 +207,7 @@ def simplified(obj, share=0.5):
     """Shortest sides collapse to their middles until that share of the points is left."""
     tri = triangulated(obj)
     count = len({p for _, _, c in tri.faces for p, _, _ in c})
-    root, points = list(range(len(tri.points))), list(tri.points)
+    root, points, origins = list(range(len(tri.points))), list(tri.points), [list(o) for o in tri.origins]
 
     def top(i):
         while root[i] != i:
@@ -228,6 +228,7 @@ def simplified(obj, share=0.5):
             continue
         grown |= {a, b}
         root[b] = a
+        origins[a] += origins[b]
         points[a] = tuple((x + y) / 2 for x, y in zip(points[a], points[b]))
         left -= 1
     new = Obj(points, [], [], [], library=obj.library)
@@ -236,5 +237,5 @@ def simplified(obj, share=0.5):
         if len(set(ids)) == 3:
             new.faces.append((name, material, [(i, None, None) for i in ids]))
     kept = sorted({p for _, _, c in new.faces for p, _, _ in c})
-    new.origins = [[] for _ in points]
+    new.origins = origins
     return renumbered(new, kept)

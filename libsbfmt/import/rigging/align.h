@@ -8,6 +8,10 @@
 /* By points that the input and the rig's meshes both have, at least a tenth of the input's. */
 bool sbfi_align_by_points(sbfi_rigging *r, bool *found);
 
+/* By the shapes of two surfaces that are like each other. `*error` is the mean distance between them, as a
+ * share of the rig's size, both ways. */
+bool sbfi_align_by_shape(sbfi_rigging *r, double *error);
+
 /* Whether `--unit` and `--up` leave a transform as it is. */
 bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matrix *m);
 

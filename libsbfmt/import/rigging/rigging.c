@@ -19,9 +19,9 @@ typedef enum weights_mode {
 } weights_mode;
 
 static weights_mode mode_of(const char *weights) {
-  static const char *const words[] = {"named", "match"};
+  static const char *const words[] = {"named", "match", "transfer"};
   if (!weights) return MODE_ANY;
-  for (int i = 0; i < 2; i++)
+  for (int i = 0; i < 3; i++)
     if (strcmp(weights, words[i]) == 0) return (weights_mode)(i + 1);
   return MODE_ANY;
 }
@@ -120,18 +120,90 @@ static void give_to_nearest(sbfi_rigging *r, const sbfi_scene_surface *moved, ui
       r->names[mesh], r->c->asset->bones.at[bone].name);
 }
 
+/* --- Which way fits ------------------------------------------------------------------------------------ */
+
+/* Surfaces farther from each other than this share of the rig's size are not alike. */
+static const double ALIKE = 0.03;
+/* The least share of points beside a surface of the rig for all to take weights from it. */
+static const double LEAST_BESIDE = 0.6, LEAST_FORCED = 0.25;
+/* The least share of points on the rig's own for --weights match. */
+static const double LEAST_MATCHED = 0.999;
+
+static bool rig_has_weights(const sbfi_rigging *r) {
+  for (uint32_t i = 0; i < r->rig.mesh.positions.count; i++)
+    if (r->rig_weights[i].at[0].weight > 0) return true;
+  return false;
+}
+
+/* Whether the input lies over the rig's meshes: `*by_points` where they share points. */
+static bool align(sbfi_rigging *r, weights_mode mode, bool *by_points, bool *alike) {
+  double error = INFINITY;
+  sbfi_alignment stated = r->alignment;
+  if (!sbfi_align_by_points(r, by_points)) return false;
+  *alike = *by_points;
+  if (*by_points || !rig_has_weights(r) || mode == MODE_NAMED || mode == MODE_MATCH) return true;
+  if (!sbfi_align_by_shape(r, &error)) return false;
+  *alike = error < ALIKE;
+  if (!*alike) r->alignment = stated;
+  return true;
+}
+
+static bool is_carried(const sbfi_rigging *r, uint32_t point) {
+  for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
+    if (point < r->input.mesh_starts[m + 1]) return r->carriers[m] != SBF_NONE;
+  return false;
+}
+
+/* Points that are still to get bones. */
+static uint32_t count_open(const sbfi_rigging *r) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < r->input.mesh.positions.count; i++)
+    count += r->sources[i] == SBFI_WEIGHTS_NONE && !is_carried(r, i);
+  return count;
+}
+
+static sbf_status refuse_match(const sbfi_rigging *r) {
+  return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
+      "--weights match: %u of %u points of %s lie on no point of the meshes of %s, however it is turned and "
+      "scaled; --weights transfer takes the nearest surface instead",
+      count_open(r), r->input.mesh.positions.count, r->input.scene->file, r->rig.scene->file);
+}
+
+static sbf_status refuse_transfer(const sbfi_rigging *r, double share) {
+  return sbfi_diagnose(r->c->error, SBF_CODE_RIG_MISFIT,
+      "--weights transfer: only %.0f %% of the points of %s lie beside a surface of %s that has weights; "
+      "give "
+      "the rig of this character, or --weights compute",
+      100 * share, r->input.scene->file, r->rig.scene->file);
+}
+
+/* By nearness, where the input is like the rig's mesh or it is asked for. */
+static sbf_status weigh_beside(
+    sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool alike) {
+  double share = 0, least = mode == MODE_TRANSFER ? LEAST_FORCED : LEAST_BESIDE;
+  if ((mode != MODE_ANY && mode != MODE_TRANSFER) || (mode == MODE_ANY && !alike) || !count_open(r))
+    return SBF_OK;
+  if (rig_has_weights(r) && !sbfi_weigh_by_nearness(r, moved, least, &share))
+    return sbfi_convert_no_memory(r->c);
+  return mode == MODE_TRANSFER && share < least ? refuse_transfer(r, share) : SBF_OK;
+}
+
 static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   sbfi_conversion *c = r->c;
   sbfi_scene_surface moved;
-  bool found = false;
-  if (!prepare(r) || !sbfi_align_by_points(r, &found) ||
+  bool by_points = false, alike = false;
+  if (!prepare(r) || !align(r, mode, &by_points, &alike) ||
       !sbfi_surface_move(&moved, &r->input, &r->alignment.to_asset, &c->scratch))
     return sbfi_convert_no_memory(c);
   say_alignment(r);
   if (mode == MODE_ANY || mode == MODE_NAMED) sbfi_weigh_by_name(r);
   if (mode == MODE_ANY) sbfi_weigh_by_own_skin(r);
-  if (found && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_place(r, &moved))
+  if (by_points && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_place(r, &moved))
     return sbfi_convert_no_memory(c);
+  if (mode == MODE_MATCH && count_open(r) > (1 - LEAST_MATCHED) * r->input.mesh.positions.count)
+    return refuse_match(r);
+  sbf_status status = weigh_beside(r, &moved, mode, alike);
+  if (status != SBF_OK) return status;
   for (uint32_t m = 0; m < c->scene->mesh_count; m++)
     if (r->carriers[m] == SBF_NONE) give_to_nearest(r, &moved, m);
   say_weights(r);

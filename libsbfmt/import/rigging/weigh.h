@@ -15,4 +15,9 @@ void sbfi_weigh_by_own_skin(sbfi_rigging *r);
 /* By place: points that lie on points of the rig's meshes. `moved` is the input in asset space. */
 bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved);
 
+/* By nearness: the other points, from the surface of the rig's meshes beside them. `*share` is that of all
+ * points which then have weights; where it is below `least` the input is no mesh like the rig's, and nothing
+ * changes. */
+bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double least, double *share);
+
 #endif

@@ -1,0 +1,254 @@
+/* Weights of a mesh like the rig's own: edited, of another resolution, with clothes or hair.
+ *
+ * A point takes the weights of the nearest surface that faces as it does; where there is none near, as on a
+ * brim or between legs that touch, weights spread along the input's own surface from the points that have
+ * some (Abdrashitov, Raichstat, Monsen, Hill 2023). Pieces of which little lies on the rig's surface, as a
+ * sword, move with the one bone that they touch. */
+#include <math.h>
+
+#include "base/union_find.h"
+#include "import/rigging/surface_finder.h"
+#include "import/rigging/weigh.h"
+
+/* As shares of the rig's size: the farthest surface that gives weights; how much farther than the nearest
+ * surface one may be that faces right; how far from a piece's nearest point its others still touch. */
+static const double FARTHEST = 0.05, DETOUR = 0.03, TOUCHING = 0.01;
+/* The least share of a piece's points with weights for the others to follow them. */
+static const double LEAST_CARRIED = 0.4;
+enum { SPREADING_PASSES = 100 };
+
+typedef struct carrying {
+  sbfi_rigging *r;
+  const sbfi_scene_surface *moved;
+  sbfi_surface_finder finder;
+  uint32_t *pieces; /* (points) the first point of the piece that each belongs to */
+  float *distances; /* (points) from the rig's surface */
+  sbfi_arena *scratch;
+} carrying;
+
+static bool is_open(const carrying *c, uint32_t point) {
+  return c->r->sources[point] == SBFI_WEIGHTS_NONE;
+}
+
+/* Points that share a polygon, and points in one place, are of one piece. */
+static bool find_pieces(carrying *c) {
+  const sbfi_scene_surface *s = c->moved;
+  uint32_t count = s->mesh.positions.count, slots = 16;
+  while (slots < 2 * count) slots *= 2;
+  uint32_t *table = sbfi_arena_allocate(c->scratch, slots, sizeof *table); /* point + 1 */
+  c->pieces = sbfi_arena_allocate(c->scratch, count + 1, sizeof *c->pieces);
+  if (!table || !c->pieces) return false;
+  sbfi_sets_begin(c->pieces, count);
+  for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t k = s->neighbour_starts[i]; k < s->neighbour_starts[i + 1]; k++)
+      sbfi_sets_join(c->pieces, i, s->neighbours[k]);
+    const sbf_vec3 p = s->mesh.positions.at[i];
+    uint64_t hash = 1469598103934665603u;
+    const float at[3] = {p.x, p.y, p.z};
+    for (int k = 0; k < 3; k++) hash = (hash ^ (uint64_t)(int64_t)((double)at[k] * 1e6)) * 1099511628211u;
+    uint32_t slot = (uint32_t)(hash >> 32) & (slots - 1);
+    for (;; slot = (slot + 1) & (slots - 1)) {
+      if (!table[slot]) {
+        table[slot] = i + 1;
+        break;
+      }
+      const sbf_vec3 q = s->mesh.positions.at[table[slot] - 1];
+      if (q.x == p.x && q.y == p.y && q.z == p.z) {
+        sbfi_sets_join(c->pieces, i, table[slot] - 1);
+        break;
+      }
+    }
+  }
+  for (uint32_t i = 0; i < count; i++) c->pieces[i] = sbfi_set_root(c->pieces, i);
+  return true;
+}
+
+/* Whether an object faces away from the rig's surface beside it. */
+static bool faces_away(const carrying *c, uint32_t mesh) {
+  double sum = 0;
+  uint32_t from = c->moved->mesh_starts[mesh], to = c->moved->mesh_starts[mesh + 1];
+  for (uint32_t i = from; i < to; i += 1 + (to - from) / 500) {
+    sbfi_surface_place near;
+    sbfi_d3 place = sbfi_d3_of(c->moved->mesh.positions.at[i]);
+    if (sbfi_surface_nearest(&c->finder, place, NULL, FARTHEST * c->r->rig.size, &near))
+      sum += sbfi_d3_dot(sbfi_surface_normal(&c->r->rig, &near), sbfi_d3_of(c->moved->normals[i]));
+  }
+  return sum < 0;
+}
+
+static void blend(const carrying *c, const sbfi_surface_place *at, sbfi_influences *to) {
+  *to = (sbfi_influences){0};
+  for (int k = 0; k < 3; k++) {
+    const sbfi_influences *from = &c->r->rig_weights[at->points[k]];
+    for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES && from->at[i].weight > 0; i++)
+      sbfi_influences_add(to, from->at[i].node, at->weights[k] * (double)from->at[i].weight);
+  }
+  sbfi_influences_finish(to);
+}
+
+static void carry_point(carrying *c, uint32_t point, double sign) {
+  double size = c->r->rig.size;
+  sbfi_surface_place near, facing;
+  sbfi_d3 place = sbfi_d3_of(c->moved->mesh.positions.at[point]);
+  sbfi_d3 normal = sbfi_d3_scale(sbfi_d3_of(c->moved->normals[point]), sign);
+  c->distances[point] = INFINITY;
+  if (!sbfi_surface_nearest(&c->finder, place, NULL, size, &near)) return;
+  c->distances[point] = (float)near.distance;
+  double within = fmin(FARTHEST * size, near.distance + DETOUR * size);
+  if (near.distance > within ||
+      !sbfi_surface_nearest(&c->finder, place, &normal, within * (1 + 1e-9), &facing))
+    return;
+  blend(c, &facing, &c->r->weights[point]);
+  if (c->r->weights[point].at[0].weight > 0) c->r->sources[point] = SBFI_WEIGHTS_CARRIED;
+}
+
+/* --- Where no surface near faces as the point does ----------------------------------------------------- */
+
+/* The mean of the neighbours' weights, near ones more; false where none has any. */
+static bool mean_of_neighbours(const carrying *c, uint32_t point, sbfi_influences *to) {
+  const sbfi_scene_surface *s = c->moved;
+  sbfi_d3 here = sbfi_d3_of(s->mesh.positions.at[point]);
+  *to = (sbfi_influences){0};
+  for (uint32_t k = s->neighbour_starts[point]; k < s->neighbour_starts[point + 1]; k++) {
+    const sbfi_influences *from = &c->r->weights[s->neighbours[k]];
+    sbfi_d3 there = sbfi_d3_of(s->mesh.positions.at[s->neighbours[k]]);
+    double near = 1 / (sbfi_d3_length(sbfi_d3_sub(there, here)) + 1e-4 * s->size);
+    for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES && from->at[i].weight > 0; i++)
+      sbfi_influences_add(to, from->at[i].node, near * (double)from->at[i].weight);
+  }
+  sbfi_influences_finish(to);
+  return to->at[0].weight > 0;
+}
+
+/* Points unlike all around them found a surface that is not theirs. */
+static bool drop_outliers(carrying *c) {
+  static const double unlike = 0.4; /* of 1: nothing in common is 0 */
+  uint32_t count = c->moved->mesh.positions.count;
+  bool *outlier = sbfi_arena_allocate(c->scratch, count + 1, sizeof *outlier);
+  if (!outlier) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    sbfi_influences mean;
+    double common = 0;
+    if (c->r->sources[i] != SBFI_WEIGHTS_CARRIED || !mean_of_neighbours(c, i, &mean)) continue;
+    const sbfi_influences *own = &c->r->weights[i];
+    for (uint32_t a = 0; a < SBFI_MOST_INFLUENCES && mean.at[a].weight > 0; a++)
+      for (uint32_t b = 0; b < SBFI_MOST_INFLUENCES && own->at[b].weight > 0; b++)
+        if (mean.at[a].node == own->at[b].node)
+          common += fmin((double)mean.at[a].weight, (double)own->at[b].weight);
+    outlier[i] = common < unlike && c->distances[i] > 1e-3f * (float)c->r->rig.size;
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    if (!outlier[i]) continue;
+    c->r->sources[i] = SBFI_WEIGHTS_NONE;
+    c->r->weights[i] = (sbfi_influences){0};
+  }
+  return true;
+}
+
+/* Weights of open points become means of those around them, to and fro, so that news travels both ways. */
+static bool spread(carrying *c) {
+  uint32_t count = c->moved->mesh.positions.count, open_count = 0;
+  uint32_t *open = sbfi_arena_allocate(c->scratch, count + 1, sizeof *open);
+  if (!open) return false;
+  for (uint32_t i = 0; i < count; i++)
+    if (c->r->sources[i] == SBFI_WEIGHTS_NONE) open[open_count++] = i;
+  for (int pass = 0; pass < SPREADING_PASSES; pass++)
+    for (uint32_t n = 0; n < open_count; n++) {
+      uint32_t i = open[pass % 2 ? open_count - 1 - n : n];
+      sbfi_influences mean;
+      if (mean_of_neighbours(c, i, &mean)) c->r->weights[i] = mean;
+    }
+  for (uint32_t n = 0; n < open_count; n++)
+    if (c->r->weights[open[n]].at[0].weight > 0) c->r->sources[open[n]] = SBFI_WEIGHTS_CARRIED;
+  return true;
+}
+
+/* --- Pieces that lie beside the rig's surface, not on it ----------------------------------------------- */
+
+typedef struct piece {
+  uint32_t points, weighted;
+  float nearest; /* to the rig's surface */
+  sbfi_influences touched;
+} piece;
+
+static uint32_t strongest(const sbfi_influences *of) {
+  uint32_t best = 0;
+  for (uint32_t i = 1; i < SBFI_MOST_INFLUENCES && of->at[i].weight > 0; i++)
+    if (of->at[i].weight > of->at[best].weight) best = i;
+  return of->at[best].node;
+}
+
+static void touch(const carrying *c, uint32_t point, piece *to) {
+  sbfi_surface_place near;
+  sbfi_d3 place = sbfi_d3_of(c->moved->mesh.positions.at[point]);
+  if (c->distances[point] > to->nearest + (float)(TOUCHING * c->r->rig.size)) return;
+  if (!sbfi_surface_nearest(&c->finder, place, NULL, c->r->rig.size, &near)) return;
+  for (int k = 0; k < 3; k++) {
+    const sbfi_influences *from = &c->r->rig_weights[near.points[k]];
+    for (uint32_t i = 0; i < SBFI_MOST_INFLUENCES && from->at[i].weight > 0; i++)
+      sbfi_influences_add(&to->touched, from->at[i].node, near.weights[k] * (double)from->at[i].weight);
+  }
+}
+
+static bool attach_pieces(carrying *c) {
+  uint32_t count = c->moved->mesh.positions.count;
+  piece *pieces = sbfi_arena_allocate(c->scratch, count + 1, sizeof *pieces);
+  if (!pieces) return false;
+  for (uint32_t i = 0; i < count; i++) {
+    piece *p = &pieces[c->pieces[i]];
+    if (p->points == 0 || c->distances[i] < p->nearest) p->nearest = c->distances[i];
+    p->points++;
+    p->weighted += c->r->sources[i] != SBFI_WEIGHTS_NONE;
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    piece *p = &pieces[c->pieces[i]];
+    if (p->weighted < LEAST_CARRIED * p->points) touch(c, i, p);
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    const piece *p = &pieces[c->pieces[i]];
+    sbfi_weight_source source = (sbfi_weight_source)c->r->sources[i];
+    if (!(p->touched.at[0].weight > 0) || (source != SBFI_WEIGHTS_NONE && source != SBFI_WEIGHTS_CARRIED))
+      continue;
+    c->r->weights[i] = (sbfi_influences){{{strongest(&p->touched), 1}}};
+    c->r->sources[i] = SBFI_WEIGHTS_ATTACHED;
+  }
+  return true;
+}
+
+/* --- All of it ----------------------------------------------------------------------------------------- */
+
+static double share_of_weighted(const sbfi_rigging *r) {
+  uint32_t count = r->input.mesh.positions.count, weighted = 0;
+  for (uint32_t i = 0; i < count; i++) weighted += r->sources[i] != SBFI_WEIGHTS_NONE;
+  return count ? (double)weighted / count : 0;
+}
+
+static void carry_objects(carrying *c) {
+  sbfi_rigging *r = c->r;
+  for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
+    bool away = faces_away(c, m), mirrored = sbfi_matrix_determinant(&r->alignment.to_asset) < 0;
+    r->turned[m] = away != mirrored; /* a mirrored mesh is turned later in any case */
+    if (r->carriers[m] != SBF_NONE) continue;
+    for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++)
+      if (is_open(c, i)) carry_point(c, i, away ? -1 : 1);
+  }
+}
+
+bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double least, double *share) {
+  sbfi_arena scratch;
+  uint32_t count = moved->mesh.positions.count;
+  sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
+  carrying c = {.r = r, .moved = moved, .scratch = &scratch};
+  c.distances = sbfi_arena_allocate(&scratch, count + 1, sizeof *c.distances);
+  bool good = c.distances && sbfi_surface_finder_make(&c.finder, &r->rig, &scratch) && find_pieces(&c);
+  if (good) carry_objects(&c);
+  *share = good ? share_of_weighted(r) : 0;
+  if (good && *share >= least) good = attach_pieces(&c) && drop_outliers(&c) && spread(&c);
+  for (uint32_t i = 0; *share < least && i < count; i++)
+    if (r->sources[i] == SBFI_WEIGHTS_CARRIED) {
+      r->sources[i] = SBFI_WEIGHTS_NONE;
+      r->weights[i] = (sbfi_influences){0};
+    }
+  sbfi_arena_free(&scratch);
+  return good;
+}

@@ -1,0 +1,157 @@
+"""OBJ files with a rig in another file: where they lie, which bones move them, what is refused."""
+
+import os
+
+import obj_variants as variants
+from rigged_weights import Original, difference, posed_errors, share_of_equal, weights_by_vertex
+from sbfmt_program import ROOT, ProgramTest, main
+
+CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
+SNAKE = os.path.join(ROOT, "examples", "snake", "snake.glb")
+
+
+def same_mesh(obj):
+    """The same mesh as other programs write it, with a word that the conversion has to say of it."""
+    z_up = ("x", "-z", "y")
+    return {
+        "as it is": (obj, None),
+        "centimetres, Z up": (variants.moved(obj, 0.01, z_up), "turned by -90 degrees about x"),
+        "inches, facing -Z, shuffled": (variants.shuffled(variants.moved(obj, 0.0254, ("-x", "y", "-z"))), "inches"),
+        "mirrored with its polygons, elsewhere": (variants.moved(obj, 1, ("-x", "y", "z"), (5, 1, -2)), "moved by"),
+        "mirrored without its polygons": (variants.moved(obj, 1000, ("x", "y", "-z"), turn_mirrored=False), None),
+        "an odd unit": (variants.moved(obj, 0.0371, ("y", "z", "x"), (1, 2, 3)), "scaled by 0.0371"),
+        "triangles": (variants.triangulated(obj), None),
+        "one object, points merged": (variants.merged(variants.one_object(obj)), None),
+        "points doubled at seams": (variants.doubled(obj), None),
+        "objects of materials": (variants.by_material(obj), None),
+    }
+
+
+class ByPlace(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.calf = Original(CALF, cls.class_folder.name)
+
+    def convert(self, obj, *options, rig=CALF, digits=None):
+        variants.write(obj, self.path("in.obj"), digits)
+        return self.good("convert", self.path("in.obj"), "--rig", rig, *options, "-o", self.path("out.sbf"))
+
+    def test_weights_are_those_of_the_rig(self):
+        for name, (obj, said) in same_mesh(self.calf.obj).items():
+            with self.subTest(name):
+                result = self.convert(obj, "--no-build")
+                self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
+                self.assertIn(" of the rig's own mesh, by place", result.err)
+                if said:
+                    self.assertIn(said, result.err)
+
+    def test_it_becomes_what_the_file_of_both_becomes(self):
+        self.good("convert", CALF, "-o", self.path("original.sbf"))
+        self.convert(variants.shuffled(variants.moved(self.calf.obj, 0.01, ("x", "-z", "y"))))
+        reports, walks = [], []
+        for name in "original.sbf", "out.sbf":
+            reports.append(self.json_of("info", self.path(name)))
+            walks.append(self.json_of("run", self.path(name), "--seconds", 4, "--drive", "0.4,0"))
+        self.assertEqual(*(report["gait"] for report in reports))
+        self.assertEqual(*(sorted(s["bone"] for s in report["sections"]) for report in reports))
+        self.assertGreater(walks[0]["distance"], 0.5)
+        self.assertAlmostEqual(walks[1]["distance"] / walks[0]["distance"], 1, delta=0.02)
+
+    def test_numbers_rounded_to_six_decimals(self):
+        obj = variants.moved(self.calf.obj, 1000)  # a calf of a thousandth of a unit
+        self.convert(obj, "--no-build", digits=6)
+        self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.99)
+
+    def test_a_part_of_the_mesh(self):
+        low = min(p[1] for p in self.calf.obj.points)
+        high = max(p[1] for p in self.calf.obj.points)
+        part = self.calf.obj.copy()
+        part.faces = [face for face in part.faces
+                      if all(part.points[p][1] > (low + high) / 2 for p, _, _ in face[2])]
+        part = variants.renumbered(part, sorted({p for _, _, c in part.faces for p, _, _ in c}))
+        obj = variants.shuffled(variants.moved(part, 0.0371, ("z", "x", "y"), (3, 0, 0)))
+        self.convert(obj, "--no-build")
+        self.assertGreaterEqual(share_of_equal(self.calf, obj, self.path("out.sbf")), 0.999)
+
+    def test_normals_uvs_materials_and_order_stay(self):
+        obj = variants.shuffled(variants.moved(self.calf.obj, 0.01, ("x", "-z", "y")))
+        self.convert(obj, "--no-build")
+        self.good("export", self.path("out.sbf"), "-o", self.path("back.obj"))
+        back = variants.read(self.path("back.obj"))
+        self.assertEqual(sorted(weights_by_vertex(self.path("out.sbf"))), list(range(len(obj.points))))
+        self.assertEqual(len(back.points), len(obj.points))
+        self.assertEqual(len(back.faces), len(obj.faces))
+        self.assertEqual([bool(c[0][1]) for _, _, c in back.faces], [bool(c[0][1]) for _, _, c in obj.faces])
+        self.assertEqual({m.rpartition(".")[2] for _, m, _ in back.faces}, {m.rpartition(".")[2] for _, m, _ in obj.faces})
+
+    def test_match_refuses_another_mesh(self):
+        variants.write(variants.jiggled(self.calf.obj, 0.5), self.path("in.obj"))
+        said = self.fails(1, "convert", self.path("in.obj"), "--rig", CALF, "--weights", "match", "-o",
+                          self.path("out.sbf"))
+        self.assertIn("RIG_MISFIT", said)
+        self.assert_empty_folder(but=["in.obj"])
+
+
+class ByNearness(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.calf = Original(CALF, cls.class_folder.name)
+
+    def test_edited_meshes_move_as_the_original(self):
+        kinds = {"a third of its points moved": variants.jiggled, "simplified": variants.simplified,
+                 "subdivided": variants.subdivided}
+        for name, change in kinds.items():
+            with self.subTest(name):
+                obj = variants.moved(change(self.calf.obj), 0.01, ("x", "-z", "y"))
+                variants.write(obj, self.path("in.obj"), 6)
+                result = self.good("convert", self.path("in.obj"), "--rig", CALF, "--no-build", "-o",
+                                   self.path("out.sbf"))
+                self.assertIn("carried over from the nearest surface", result.err)
+                errors = posed_errors(self.calf, obj, self.path("out.sbf"), clips=1, frames=2)
+                self.assertLess(errors[int(0.99 * len(errors))] if errors else 0, 0.01)
+                found = weights_by_vertex(self.path("out.sbf"))
+                unlike = [v for v, (w, _) in found.items() if difference(w, self.calf.expected(obj.origins[v])) > 0.5]
+                self.assertLess(len(unlike), 0.01 * len(found))
+
+    def test_nothing_in_common_but_the_shape(self):
+        obj = variants.moved(variants.jiggled(self.calf.obj, 1, 0.004), 0.01, ("-x", "z", "y"))
+        variants.write(obj, self.path("in.obj"), 6)
+        result = self.good("convert", self.path("in.obj"), "--rig", CALF, "--no-build", "-o", self.path("out.sbf"))
+        self.assertIn("scaled by 0.01 (it is in centimetres)", result.err)
+        found = weights_by_vertex(self.path("out.sbf"))
+        unlike = [v for v, (w, _) in found.items() if difference(w, self.calf.expected(obj.origins[v])) > 0.5]
+        self.assertLess(len(unlike), 0.02 * len(found))
+
+    def test_a_piece_beside_the_body_goes_with_the_bone_it_touches(self):
+        """A pole on the calf's back: all of it moves with one bone, that of the nearest point."""
+        obj = variants.jiggled(self.calf.obj, 0)
+        top = max(range(len(obj.points)), key=lambda i: obj.points[i][1])
+        x, y, z = obj.points[top]
+        size = variants.size_of(obj)
+        base, half = len(obj.points), 0.01 * size
+        for k in range(8):
+            obj.points.append((x + (half if k & 1 else -half), y + (0.3 * size if k & 2 else 0),
+                               z + (half if k & 4 else -half)))
+            obj.origins.append([])
+        for quad in ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)):
+            obj.faces.append(("pole", None, [(base + i, None, None) for i in quad]))
+        variants.write(obj, self.path("in.obj"))
+        self.good("convert", self.path("in.obj"), "--rig", CALF, "--no-build", "-o", self.path("out.sbf"))
+        found = weights_by_vertex(self.path("out.sbf"))
+        poles = [found[v][0] for v in range(base, base + 8)]
+        self.assertEqual({len(weights) for weights in poles}, {1})
+        self.assertEqual({*poles[0]}, {bone for weights in poles for bone in weights})
+        self.assertIn(next(iter(poles[0])), self.calf.weights[top])
+
+    def test_transfer_refuses_another_character(self):
+        variants.write(self.calf.obj, self.path("in.obj"))
+        said = self.fails(1, "convert", self.path("in.obj"), "--rig", SNAKE, "--weights", "transfer", "-o",
+                          self.path("out.sbf"))
+        self.assertIn("RIG_MISFIT", said)
+        self.assert_empty_folder(but=["in.obj"])
+
+
+if __name__ == "__main__":
+    main()
