@@ -134,8 +134,7 @@ static int run(cli_call *call) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
   static const char *const axes[] = {"y", "z"};
   static const char *const animals[] = {"none", "human", "quadruped", "reptile"}; /* as sbf_convert_limits */
-  static const char *const ways[] = {"named", "match", "transfer"};
-  int up = 0, limits = 0, way = 0, status = SBF_FAILED;
+  int up = 0, limits = 0, status = SBF_FAILED;
   pin_options pins;
   sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
   if (!out == !folder)
@@ -147,7 +146,6 @@ static int run(cli_call *call) {
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
   options.keep_modulus = materials_of_all(call);
-  if (cli_value(call, "--weights") && !cli_word(call, "--weights", ways, 3, &way)) return SBF_FAILED;
   options.weights = cli_value(call, "--weights");
   if (cli_value(call, "--up")) options.up = axes[up][0];
   const char *page = cli_value(call, "--report");
@@ -166,10 +164,9 @@ static const cli_option options[] = {
     {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
     {"--out-dir", "DIR", "write each input there, under its own name; made if it is not there"},
     {"--rig", "FILE", "take the skeleton from this file"},
-    {"--weights", "named|match|transfer",
-        "with --rig: points get their bones by the names of objects, by place, or from the nearest surface "
-        "(the "
-        "first that fits)"},
+    {"--weights", "named|match|transfer|FILE",
+        "bones of points by objects' names, by place, from the nearest surface, or of .csv or .json (what "
+        "fits)"},
     {"--motion", "FILE", "carry its clips over to the skeleton; several allowed"},
     {"--unit", "METRES", "metres in a unit of the input (what the file says, else 1)"},
     {"--up", "y|z", "the input's upward axis (what the file says, else y)"},

@@ -31,9 +31,10 @@ static int run(cli_call *call) {
   sbf_export_motion motion = {0};
   if (!out)
     return cli_wrong(call,
-        "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf, OUT.usda, OUT.xml or OUT.pc2");
+        "say where to write: -o OUT.glb, OUT.html, OUT.obj, OUT.tet, OUT.mjcf, OUT.usda, OUT.xml, OUT.csv "
+        "or OUT.pc2");
   static const char *const endings[] = {".glb", ".html", ".obj", ".tet", ".node", ".ele", ".msh", ".vtu",
-      ".mjcf", ".usda", ".xml", ".pc2", ".mdd", NULL};
+      ".mjcf", ".usda", ".xml", ".csv", ".json", ".pc2", ".mdd", NULL};
   if (!output_name_check(call, "-o", endings) || !cli_integer(call, "--render-level", 0, 1000, &render_level))
     return SBF_FAILED;
   bool as_cache = motion_cache_named(out), moves = motion_asked(call) || as_cache;
@@ -61,14 +62,14 @@ static int run(cli_call *call) {
 }
 
 static const cli_option options[] = {
-    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.pc2|.mdd",
+    {"-o", "OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.csv|.json|.pc2|.mdd",
         "where to write; the ending says in which form"},
     {"--render-level", "N", "level of the meshes, 0 the full ones (0); where there are fewer, the last"},
     SESSION_OPTIONS("how much of the motion (.pc2 and .mdd 5, .glb none)", "frames a second (30)"),
     {NULL, NULL, NULL},
 };
 const cli_verb verb_export = {"export",
-    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.pc2|.mdd [--seconds S ...]",
+    "FILE -o OUT.glb|.html|.obj|.tet|.node|.msh|.vtu|.mjcf|.usda|.xml|.csv|.json|.pc2|.mdd [--seconds S ...]",
     "write what other programs read",
     "Writes meshes with skin, joints, materials, shape keys and clips as binary glTF, .glb;\n"
     "meshes at rest as OBJ with its MTL; tetrahedra as PhysX's .tet, TetGen's .node and .ele,\n"
@@ -77,6 +78,8 @@ const cli_verb verb_export = {"export",
     "holds the character with the runtime as "
     "WebAssembly, to be\n"
     "opened without a network: it walks, can be dragged and have balls thrown at it.\n"
+    "A .csv or .json holds the weights of the skins, a row for each vertex and bone, for `convert "
+    "--weights`.\n"
     "Says what the form has no place for. With --seconds, --script or --replay\n"
     "a .glb also holds the motion that `run` would show, 30 frames a second unless --fps says\n"
     "otherwise: joints that move, and what the flesh does beside them as a morph target a frame.\n"

@@ -10,7 +10,8 @@ static const struct {
 } forms[] = {{".xml", sbfi_export_paper}, {".glb", sbfi_export_glb}, {".html", sbfi_export_html},
     {".obj", sbfi_export_obj}, {".tet", sbfi_export_tet}, {".node", sbfi_export_tetgen},
     {".ele", sbfi_export_tetgen}, {".msh", sbfi_export_msh}, {".vtu", sbfi_export_vtu},
-    {".mjcf", sbfi_export_mjcf}, {".usda", sbfi_export_usda}};
+    {".mjcf", sbfi_export_mjcf}, {".usda", sbfi_export_usda}, {".csv", sbfi_export_weights_csv},
+    {".json", sbfi_export_weights_json}};
 
 sbf_status sbf_export(
     const sbf_asset *asset, const char *path, const sbf_export_options *options, sbf_diagnostic *error) {
@@ -36,6 +37,6 @@ sbf_status sbf_export(
   }
   return sbfi_diagnose(error, SBF_CODE_BAD_CALL,
       "%s: the ending says which form to write, and there are .glb, .html, .obj, .tet, .node, .msh, .vtu, "
-      ".mjcf, .usda and .xml (the 2012 dialect)",
+      ".mjcf, .usda, .xml (the 2012 dialect), .csv and .json (skin weights)",
       path);
 }

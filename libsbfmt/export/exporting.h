@@ -31,6 +31,8 @@ sbf_status sbfi_export_msh(sbfi_export *e);
 sbf_status sbfi_export_vtu(sbfi_export *e);
 sbf_status sbfi_export_mjcf(sbfi_export *e);
 sbf_status sbfi_export_usda(sbfi_export *e);
+sbf_status sbfi_export_weights_csv(sbfi_export *e);
+sbf_status sbfi_export_weights_json(sbfi_export *e);
 
 sbf_status sbfi_export_no_memory(sbfi_export *e);
 /* Writes e->text to `path` and empties it. */

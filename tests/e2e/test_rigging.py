@@ -4,7 +4,7 @@ import os
 
 import obj_variants as variants
 from rigged_weights import Original, difference, posed_errors, share_of_equal, weights_by_vertex
-from sbfmt_program import ROOT, ProgramTest, main
+from sbfmt_program import ROOT, ProgramTest, main, read_text, write_bytes
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
 SNAKE = os.path.join(ROOT, "examples", "snake", "snake.glb")
@@ -151,6 +151,75 @@ class ByNearness(ProgramTest):
                           self.path("out.sbf"))
         self.assertIn("RIG_MISFIT", said)
         self.assert_empty_folder(but=["in.obj"])
+
+
+class FromFile(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.calf = Original(CALF, cls.class_folder.name)
+
+    def convert(self, weights, *options):
+        return ("convert", self.calf.obj_path, "--rig", CALF, "--weights", weights, "--no-build", *options, "-o",
+                self.path("out.sbf"))
+
+    def test_what_export_writes_comes_back(self):
+        for ending in "csv", "json":
+            with self.subTest(ending):
+                self.good("export", self.calf.bundle, "-o", self.path("weights." + ending))
+                self.good(*self.convert(self.path("weights." + ending)))
+                self.assertEqual(share_of_equal(self.calf, self.calf.obj, self.path("out.sbf"), 1e-5), 1)
+
+    def test_the_file_decides(self):
+        bones = sorted({bone for weights in self.calf.weights for bone in weights})
+        rows = [f'"{bones[i % 2]}",{i},1' for i in range(len(self.calf.obj.points))]
+        write_bytes(self.path("w.csv"), ("bone,vertex,weight\r\n" + "\r\n".join(rows)).encode())
+        self.good(*self.convert(self.path("w.csv")))
+        for vertex, (weights, _) in weights_by_vertex(self.path("out.sbf")).items():
+            self.assertEqual(weights, {bones[vertex % 2]: 1})
+
+    def test_files_at_fault_are_refused_with_their_line(self):
+        bone = next(iter(self.calf.weights[0]))
+        faults = {
+            "vertex,bone,weight\n0,Nobody,1\n": "line 2|no bone of",
+            f"vertex,bone,weight\n0,{bone},1\n99999999,{bone},1\n": "no vertex 99999999",
+            f"vertex,bone,weight\n0,{bone},-1\n": "is no weight",
+            f"vertex,bone,weight\n0,{bone},nan\n": "is no weight",
+            f"vertex,bone,weight\nx,{bone},1\n": "is no number of a vertex",
+            "vertex,weight\n0,1\n": "no column is called 'bone'",
+            "vertex,bone,weight\n": "gives no vertex a weight",
+            "": "the file is empty",
+        }
+        for text, said in faults.items():
+            with self.subTest(text):
+                write_bytes(self.path("w.csv"), text.encode())
+                error = self.fails(1, *self.convert(self.path("w.csv")))
+                self.assertRegex(error, said)
+                self.assertIn("w.csv", error)
+                self.assertIn("RIG_WEIGHTS_FILE", error)
+                self.assert_empty_folder(but=["w.csv"])
+        for text in "", "[", '{"a": 1}', '[{"vertex": 0}]', '[{"vertex": 0, "bone": "x", "weight": 1}', "[1]", "[" * 99:
+            with self.subTest(text):
+                write_bytes(self.path("w.json"), text.encode())
+                self.assertIn("RIG_WEIGHTS_FILE", self.fails(1, *self.convert(self.path("w.json"))))
+
+    def test_a_file_with_a_skin_of_its_own(self):
+        self.good("export", self.calf.bundle, "-o", self.path("weights.csv"))
+        lines = read_text(self.path("weights.csv")).splitlines()
+        bone = lines[1].split(",")[1]
+        with open(self.path("weights.csv"), "w", encoding="utf-8") as stream:
+            stream.write("vertex,bone,weight\n" + "".join(f"{i},{bone},1\n" for i in range(len(self.calf.places))))
+        self.good("convert", CALF, "--weights", self.path("weights.csv"), "--no-build", "-o", self.path("out.sbf"))
+        self.assertEqual({b for w, _ in weights_by_vertex(self.path("out.sbf")).values() for b in w}, {bone})
+
+    def test_ways_without_anything_to_choose_from(self):
+        self.assertIn("--rig FILE", self.fails(2, "convert", self.calf.obj_path, "--weights", "match", "-o",
+                                               self.path("out.sbf")))
+        self.assertIn("of its own", self.fails(2, "convert", CALF, "--weights", "match", "-o", self.path("out.sbf")))
+        self.assert_empty_folder()
+
+    def test_a_word_that_is_no_way_and_no_file(self):
+        self.assertIn("named, match, transfer", self.fails(2, *self.convert("nearest")))
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ static weights_mode mode_of(const char *weights) {
   if (!weights) return MODE_ANY;
   for (int i = 0; i < 3; i++)
     if (strcmp(weights, words[i]) == 0) return (weights_mode)(i + 1);
-  return MODE_ANY;
+  return MODE_FILE;
 }
 
 static bool prepare(sbfi_rigging *r) {
@@ -112,6 +112,11 @@ static void give_to_nearest(sbfi_rigging *r, const sbfi_scene_surface *moved, ui
     middle = sbfi_d3_add(middle, sbfi_d3_of(moved->mesh.positions.at[i]));
   }
   if (to > from) middle = sbfi_d3_scale(middle, 1.0 / (to - from));
+  const sbfi_scene_mesh *own = &r->input.scene->meshes[mesh];
+  if (r->c->rig == r->c->scene && !own->joint_count && r->c->bone_of_node[own->node] != SBF_NONE) {
+    r->carriers[mesh] = own->node;
+    return;
+  }
   int32_t bone = nearest_bone(r->c->asset, middle);
   r->carriers[mesh] = (int32_t)r->c->node_of_bone[bone];
   sbfi_convert_warn(r->c, SBF_CODE_RIG_SECTION_GUESSED,
@@ -139,6 +144,7 @@ static bool rig_has_weights(const sbfi_rigging *r) {
 static bool align(sbfi_rigging *r, weights_mode mode, bool *by_points, bool *alike) {
   double error = INFINITY;
   sbfi_alignment stated = r->alignment;
+  if (r->c->rig == r->c->scene) return true; /* one space */
   if (!sbfi_align_by_points(r, by_points)) return false;
   *alike = *by_points;
   if (*by_points || !rig_has_weights(r) || mode == MODE_NAMED || mode == MODE_MATCH) return true;
@@ -202,7 +208,8 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
     return sbfi_convert_no_memory(c);
   if (mode == MODE_MATCH && count_open(r) > (1 - LEAST_MATCHED) * r->input.mesh.positions.count)
     return refuse_match(r);
-  sbf_status status = weigh_beside(r, &moved, mode, alike);
+  sbf_status status =
+      mode == MODE_FILE ? sbfi_weigh_by_file(r, c->options->weights) : weigh_beside(r, &moved, mode, alike);
   if (status != SBF_OK) return status;
   for (uint32_t m = 0; m < c->scene->mesh_count; m++)
     if (r->carriers[m] == SBF_NONE) give_to_nearest(r, &moved, m);
@@ -210,10 +217,20 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   return sbfi_rigged_scene_take(r) ? SBF_OK : sbfi_convert_no_memory(c);
 }
 
+/* --weights where there is nothing to choose from. */
+static sbf_status refuse_way(const sbfi_conversion *c) {
+  return sbfi_diagnose(c->error, SBF_CODE_BAD_CALL,
+      c->rig ? "--weights %s is for a skeleton in another file: %s has one of its own"
+             : "--weights %s says which bones move the points, and there are no bones in %s: give --rig FILE",
+      c->options->weights, c->scene->file);
+}
+
 sbf_status sbfi_rig_input(sbfi_conversion *c) {
   weights_mode mode = mode_of(c->options->weights);
+  bool own_rig = c->rig == c->scene;
+  if (mode != MODE_ANY && (!c->rig || (own_rig && mode != MODE_FILE))) return refuse_way(c);
   if (!c->rig || c->asset->bones.count == 0 || c->scene->mesh_count == 0) return SBF_OK;
-  if (c->rig == c->scene) return SBF_OK;
+  if (own_rig && mode == MODE_ANY) return SBF_OK;
   sbfi_rigging r = {.c = c};
   return rig_objects(&r, mode);
 }
