@@ -1,0 +1,36 @@
+/* The body of a mesh as cells of a grid: those that its surface crosses and those inside. Paths between cells
+ * lead from neighbour to neighbour, over corners too. */
+#ifndef SBFI_BODY_GRID_H
+#define SBFI_BODY_GRID_H
+
+#include "build/weights/body_rays.h"
+
+enum { SBFI_BODY_CELLS = 64, SBFI_BODY_WAYS = 26 }; /* cells along the longest side; neighbours of a cell */
+
+/* A straight path over cells outside the body; each stands once for either direction. */
+typedef struct sbfi_body_bridge {
+  uint32_t from, to;
+  float length; /* in cells */
+} sbfi_body_bridge;
+
+typedef struct sbfi_body_grid {
+  uint32_t counts[3]; /* boxes along x, y, z, with a margin of one that holds no cell */
+  uint32_t box_count;
+  int32_t *cell_of_box;  /* (box_count) or SBF_NONE */
+  uint32_t *box_of_cell; /* (cell_count) */
+  uint32_t cell_count;
+  sbfi_body_bridge *bridges; /* (bridge_count) ascending by `from`; none until body_bridges.h makes them */
+  uint32_t bridge_count;
+  int32_t steps[SBFI_BODY_WAYS]; /* to a box's neighbours; the first half leads back, the second ahead */
+  float lengths[SBFI_BODY_WAYS]; /* in cells */
+} sbfi_body_grid;
+
+/* False where memory runs out. */
+bool sbfi_body_grid_make(
+    sbfi_body_grid *grid, const sbfi_weight_mesh *mesh, const sbfi_body_rays *rays, sbfi_arena *arena);
+
+/* Middle of a box; the box of a point, which lies within the mesh's bounding box or is moved there. */
+sbfi_d3 sbfi_body_box_middle(const sbfi_body_grid *grid, uint32_t box);
+uint32_t sbfi_body_box_at(const sbfi_body_grid *grid, sbfi_d3 point);
+
+#endif

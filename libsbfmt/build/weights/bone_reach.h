@@ -1,0 +1,26 @@
+/* What lengthens or shortens a bone's reach: how thick the body is around it, and which shells it runs
+ * through. */
+#ifndef SBFI_BONE_REACH_H
+#define SBFI_BONE_REACH_H
+
+#include "build/weights/bone_segments.h"
+
+/* A bone's share of length within a shell that is closed enough to have an inside; ascending by bone, then
+ * shell. */
+typedef struct sbfi_bone_share {
+  uint32_t bone, shell;
+  float share; /* above 0, up to 1 */
+} sbfi_bone_share;
+
+typedef struct sbfi_bone_reach {
+  double *thickness;       /* (bone_count) radius of the body around each bone */
+  sbfi_bone_share *shares; /* (share_count) */
+  uint32_t share_count;
+  bool *shell_holds_bone; /* (shell_count) holds more than an eighth of some bone */
+} sbfi_bone_reach;
+
+/* False where memory runs out. */
+bool sbfi_bone_reach_find(sbfi_bone_reach *reach, const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
+    const sbfi_body_rays *rays, const sbfi_bone_segment *segments, const uint32_t *sizes, sbfi_arena *arena);
+
+#endif

@@ -1,0 +1,81 @@
+#include "build/weights/bone_roles.h"
+
+#include <string.h>
+
+/* In units of the longest side: how far outside a joint aims rather than holds; how near two are one place.
+ */
+static const double OUTSIDE = 0.05, SAME_PLACE = 0.002;
+
+enum { NAME_SIZE = 64 };
+
+/* The letters of a name, in small. */
+static void take_letters(const char *name, char letters[NAME_SIZE]) {
+  size_t count = 0;
+  for (; name && *name && count + 1 < NAME_SIZE; name++) {
+    char letter = (char)(*name | 0x20);
+    if (letter >= 'a' && letter <= 'z') letters[count++] = letter;
+  }
+  letters[count] = 0;
+}
+
+static bool is_frame_name(const char *letters) {
+  static const char *const names[] = {"root", "armature", "master", "rootjoint", "rootbone", "rootnode"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (strcmp(letters, names[i]) == 0) return true;
+  return false;
+}
+
+static bool is_control_name(const char *letters) {
+  static const char *const parts[] = {"pole", "target", "control", "ctrl", "socket"};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+    if (strstr(letters, parts[i])) return true;
+  return false;
+}
+
+static bool has_child(const sbfi_weights_input *in, uint32_t bone) {
+  for (uint32_t i = bone + 1; i < in->bone_count; i++)
+    if (in->bones[i].parent == (int32_t)bone) return true;
+  return false;
+}
+
+static bool is_on_root(const sbfi_weights_input *in, uint32_t bone) {
+  int32_t parent = in->bones[bone].parent;
+  return parent == SBF_NONE || in->bones[parent].parent == SBF_NONE;
+}
+
+static bool is_outside(const sbfi_body_rays *rays, sbfi_d3 at) {
+  double squared = OUTSIDE * OUTSIDE;
+  return sbfi_triangle_tree_nearest(&rays->tree, sbfi_d3_rounded(at), &squared) == UINT32_MAX &&
+         !sbfi_body_holds(rays, at);
+}
+
+/* Whether a bone that hangs on another limb begins in the same place. */
+static bool pulls_another(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, uint32_t bone) {
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    if (i == bone || (int32_t)i == in->bones[bone].parent || is_on_root(in, i)) continue;
+    sbfi_d3 apart = sbfi_d3_sub(
+        sbfi_weight_mesh_place(mesh, in->bones[i].head), sbfi_weight_mesh_place(mesh, in->bones[bone].head));
+    if (sbfi_d3_length(apart) < SAME_PLACE) return true;
+  }
+  return false;
+}
+
+void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
+    const sbfi_body_rays *rays, bool *is_deforming) {
+  for (uint32_t i = 0; i < in->bone_count; i++)
+    is_deforming[i] = in->is_deforming ? in->is_deforming[i] : true;
+  if (in->is_deforming) return;
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    char letters[NAME_SIZE];
+    int32_t parent = in->bones[i].parent;
+    take_letters(in->bones[i].name, letters);
+    bool is_control = is_control_name(letters);
+    if (!is_control && is_on_root(in, i) && !has_child(in, i))
+      is_control =
+          is_outside(rays, sbfi_weight_mesh_place(mesh, in->bones[i].head)) || pulls_another(in, mesh, i);
+    if (is_control || is_frame_name(letters) || (is_on_root(in, i) && strstr(letters, "root")))
+      is_deforming[i] = false;
+    if (is_control && parent != SBF_NONE && in->bones[parent].parent == SBF_NONE)
+      is_deforming[parent] = false;
+  }
+}

@@ -1,0 +1,124 @@
+#include "build/weights/bone_segments.h"
+
+#include "build/weights/bone_roles.h"
+
+/* Cosine of the angle within which a bone points at its child; distance within which a joint lies on the axis
+ * of a bone without children; how far such a bone goes towards the skin; how near another bone it ends. */
+static const double ALIGNED = 0.9, STRAIGHT = 0.995, ON_AXIS = 0.02, WAY_OUT = 0.9, CLEARANCE = 0.07,
+                    PASSING = 0.6;
+static const double TINY = 1e-6;
+
+static sbfi_d3 axis_of(sbf_quat q) {
+  const double x = q.x, y = q.y, z = q.z, w = q.w;
+  return sbfi_d3_normal((sbfi_d3){2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)});
+}
+
+double sbfi_segment_distance2(const sbfi_bone_segment *s, sbfi_d3 point) {
+  sbfi_d3 along = sbfi_d3_sub(s->tail, s->head), way = sbfi_d3_sub(point, s->head);
+  double squared = sbfi_d3_dot(along, along), t = squared > 0 ? sbfi_d3_dot(way, along) / squared : 0;
+  sbfi_d3 apart = sbfi_d3_sub(way, sbfi_d3_scale(along, t < 0 ? 0 : t > 1 ? 1 : t));
+  return sbfi_d3_dot(apart, apart);
+}
+
+/* The child that continues each bone: the nearest on its axis, else the one best aligned. The first bones of
+ * a left and a right limb, or of an ear, continue none in the middle. */
+static void find_next(const sbfi_weights_input *in, sbfi_bone_segment *segments, double *fit) {
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    int32_t parent = in->bones[i].parent;
+    if (parent == SBF_NONE || !segments[i].is_deforming) continue;
+    sbfi_d3 way = sbfi_d3_sub(segments[i].head, segments[parent].head);
+    double length = sbfi_d3_length(way);
+    if (length < TINY) continue;
+    double cosine = sbfi_d3_dot(way, axis_of(in->bones[parent].rotation)) / length;
+    if (cosine <= STRAIGHT && segments[i].side != segments[parent].side) continue;
+    double score = cosine > ALIGNED ? 2 + 1 / (1 + length) : cosine;
+    if (segments[parent].next != SBF_NONE && score <= fit[parent]) continue;
+    segments[parent].next = (int32_t)i;
+    fit[parent] = score;
+  }
+}
+
+static bool is_below(const sbfi_weights_input *in, uint32_t bone, uint32_t above) {
+  for (int32_t b = (int32_t)bone; b != SBF_NONE; b = in->bones[b].parent)
+    if ((uint32_t)b == above) return true;
+  return false;
+}
+
+/* How far a bone without a next one may run along its axis before it comes to another bone. */
+static double free_length(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone,
+    sbfi_d3 axis, double length) {
+  const int steps = 32;
+  for (int step = 1; step <= steps; step++) {
+    double along = length * step / steps;
+    sbfi_d3 at = sbfi_d3_add(segments[bone].head, sbfi_d3_scale(axis, along));
+    for (uint32_t other = 0; other < in->bone_count; other++) {
+      if (other == bone || !segments[other].is_deforming || is_below(in, bone, other)) continue;
+      if (segments[other].side && segments[other].side == segments[bone].side) continue;
+      double now = sqrt(sbfi_segment_distance2(&segments[other], at));
+      double before = sqrt(sbfi_segment_distance2(&segments[other], segments[bone].head));
+      if (now < CLEARANCE && now < PASSING * before) return along;
+    }
+  }
+  return length;
+}
+
+/* How far an axis stays inside a body that is open ahead. */
+static double length_inside(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 axis) {
+  const double step = 1.0 / 64;
+  double length = 0;
+  while (length < 1 && sbfi_body_holds(rays, sbfi_d3_add(from, sbfi_d3_scale(axis, length + step))))
+    length += step;
+  return length;
+}
+
+/* Along the axis to a joint that lies on it, else nine tenths of the way to the skin. */
+static double leaf_length(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, const sbfi_d3 *heads,
+    const sbfi_body_rays *rays, uint32_t bone, sbfi_d3 axis) {
+  double stated = in->bones[bone].length * mesh->scale, joint = INFINITY;
+  if (stated > TINY) return stated;
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    sbfi_d3 way = sbfi_d3_sub(heads[i], heads[bone]);
+    double along = sbfi_d3_dot(way, axis);
+    sbfi_d3 aside = sbfi_d3_sub(way, sbfi_d3_scale(axis, along));
+    if (along > ON_AXIS && along < joint && sbfi_body_holds(rays, heads[i]) &&
+        sbfi_d3_length(aside) < ON_AXIS)
+      joint = along;
+  }
+  double out = sbfi_body_shell_end(rays, mesh, heads[bone], axis);
+  if (!isfinite(out)) out = length_inside(rays, heads[bone], axis);
+  return joint < out + ON_AXIS ? joint : WAY_OUT * out;
+}
+
+static void take_sides(const sbfi_weights_input *in, sbfi_bone_segment *segments) {
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    int32_t parent = in->bones[i].parent;
+    segments[i].side = in->sides ? in->sides[i] : 0;
+    if (parent != SBF_NONE && segments[parent].side) segments[i].side = segments[parent].side;
+  }
+}
+
+bool sbfi_bone_segments_find(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
+    const sbfi_body_rays *rays, sbfi_bone_segment *segments, sbfi_arena *arena) {
+  sbfi_d3 *heads = sbfi_arena_allocate(arena, in->bone_count, sizeof *heads);
+  double *fit = sbfi_arena_allocate(arena, in->bone_count, sizeof *fit);
+  bool *is_deforming = sbfi_arena_allocate(arena, in->bone_count, sizeof *is_deforming);
+  if (!heads || !fit || !is_deforming) return false;
+  sbfi_bone_roles_find(in, mesh, rays, is_deforming);
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    heads[i] = sbfi_weight_mesh_place(mesh, in->bones[i].head);
+    segments[i] = (sbfi_bone_segment){
+        .head = heads[i], .tail = heads[i], .next = SBF_NONE, .is_deforming = is_deforming[i]};
+  }
+  take_sides(in, segments);
+  find_next(in, segments, fit);
+  for (uint32_t i = 0; i < in->bone_count; i++)
+    if (segments[i].next != SBF_NONE) segments[i].tail = heads[segments[i].next];
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    if (segments[i].next != SBF_NONE || !segments[i].is_deforming) continue;
+    sbfi_d3 axis = axis_of(in->bones[i].rotation);
+    double length = leaf_length(in, mesh, heads, rays, i, axis);
+    length = free_length(in, segments, i, axis, length);
+    segments[i].tail = sbfi_d3_add(heads[i], sbfi_d3_scale(axis, length));
+  }
+  return true;
+}

@@ -1,0 +1,138 @@
+#include "build/weights/shell_weights.h"
+
+#include <string.h>
+
+#include "build/geometry/box_tree.h"
+
+/* Sizes in units of the longest side. A small shell follows its leading bone; a middling one where that bone
+ * leads clearly. */
+static const double SMALL = 0.15, MIDDLING = 0.5, CLEAR_LEAD = 0.85;
+
+static void sort_weights(sbfi_site_weights *w) {
+  for (int i = 1; i < SBFI_SITE_BONES; i++)
+    for (int k = i; k > 0 && w->weights[k] > w->weights[k - 1]; k--) {
+      float weight = w->weights[k];
+      uint32_t bone = w->bones[k];
+      w->weights[k] = w->weights[k - 1], w->bones[k] = w->bones[k - 1];
+      w->weights[k - 1] = weight, w->bones[k - 1] = bone;
+    }
+}
+
+static void set_single(sbfi_site_weights *w, uint32_t bone) {
+  for (int k = 0; k < SBFI_SITE_BONES; k++) w->bones[k] = UINT32_MAX, w->weights[k] = 0;
+  w->bones[0] = bone;
+  w->weights[0] = 1;
+}
+
+/* Where bones of one side weigh more than those of the other, the other's go. */
+static void erase_other_side(const sbfi_bone_segment *segments, sbfi_site_weights *w) {
+  double sums[3] = {0, 0, 0};
+  for (int k = 0; k < SBFI_SITE_BONES; k++)
+    if (w->bones[k] != UINT32_MAX) sums[segments[w->bones[k]].side + 1] += (double)w->weights[k];
+  if (sums[0] == 0 || sums[2] == 0) return;
+  int erased = sums[2] >= sums[0] ? -1 : 1;
+  for (int k = 0; k < SBFI_SITE_BONES; k++)
+    if (w->bones[k] != UINT32_MAX && segments[w->bones[k]].side == erased) w->weights[k] = 0;
+  sort_weights(w);
+}
+
+static void normalise(sbfi_site_weights *w) {
+  double sum = 0;
+  for (int k = 0; k < SBFI_WEIGHTS_PER_POINT; k++) sum += (double)w->weights[k];
+  for (int k = 0; k < SBFI_SITE_BONES; k++) {
+    w->weights[k] = k < SBFI_WEIGHTS_PER_POINT && sum > 0 ? (float)((double)w->weights[k] / sum) : 0;
+    if (!(w->weights[k] > 0)) w->bones[k] = UINT32_MAX;
+  }
+}
+
+static double site_distance(const void *user, uint32_t site, const double point[3]) {
+  const sbf_vec3 *sites = user;
+  sbfi_d3 apart = sbfi_d3_sub(sbfi_d3_of(sites[site]), (sbfi_d3){point[0], point[1], point[2]});
+  return sbfi_d3_dot(apart, apart);
+}
+
+/* Small shells without a bone inside take the weights of the nearest sites that have one, as eyes do in a
+ * head. */
+static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reach *reach,
+    sbfi_site_weights *weights, sbfi_arena *arena) {
+  sbf_vec3 *places = sbfi_arena_allocate(arena, mesh->site_count, sizeof *places);
+  uint32_t *sites = sbfi_arena_allocate(arena, mesh->site_count, sizeof *sites), count = 0;
+  sbfi_box *boxes = sbfi_arena_allocate(arena, mesh->site_count, sizeof *boxes);
+  if (!places || !sites || !boxes) return false;
+  for (uint32_t i = 0; i < mesh->site_count; i++) {
+    if (!reach->shell_holds_bone[mesh->shell_of_site[i]]) continue;
+    sbf_vec3 at = mesh->sites[i];
+    boxes[count] = (sbfi_box){{at.x, at.y, at.z}, {at.x, at.y, at.z}};
+    places[count] = at;
+    sites[count++] = i;
+  }
+  sbfi_box_tree tree;
+  if (count == 0 || count == mesh->site_count) return true;
+  if (!sbfi_box_tree_build(&tree, boxes, count, arena)) return false;
+  for (uint32_t i = 0; i < mesh->site_count; i++) {
+    uint32_t shell = mesh->shell_of_site[i];
+    if (reach->shell_holds_bone[shell] || mesh->shells[shell].size >= SMALL) continue;
+    double nearest = INFINITY;
+    sbf_vec3 at = mesh->sites[i];
+    uint32_t found = sbfi_box_tree_nearest(
+        &tree, (double[]){(double)at.x, (double)at.y, (double)at.z}, site_distance, places, &nearest);
+    if (found != UINT32_MAX) weights[i] = weights[sites[found]];
+  }
+  return true;
+}
+
+/* The bone with the greatest weight over a shell, by area, and its share of all. */
+static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const sbfi_site_weights *weights,
+    double *sums, uint32_t bone_count, double *share) {
+  const uint32_t *sites = mesh->sites_by_shell + mesh->shells[shell].first_site;
+  double whole = 0;
+  memset(sums, 0, bone_count * sizeof *sums);
+  for (uint32_t i = 0; i < mesh->shells[shell].site_count; i++)
+    for (int k = 0; k < SBFI_SITE_BONES && weights[sites[i]].bones[k] != UINT32_MAX; k++) {
+      double weight = (double)weights[sites[i]].weights[k] * mesh->areas[sites[i]];
+      sums[weights[sites[i]].bones[k]] += weight;
+      whole += weight;
+    }
+  uint32_t best = 0;
+  for (uint32_t b = 1; b < bone_count; b++)
+    if (sums[b] > sums[best]) best = b;
+  *share = whole > 0 ? sums[best] / whole : 0;
+  return best;
+}
+
+static bool is_demanded(const sbfi_weight_mesh *mesh, uint32_t shell, const int32_t *bone_of_site) {
+  for (uint32_t i = 0; i < mesh->shells[shell].site_count; i++)
+    if (bone_of_site[mesh->sites_by_shell[mesh->shells[shell].first_site + i]] != SBF_NONE) return true;
+  return false;
+}
+
+static bool stiffen_shells(const sbfi_weight_mesh *mesh, uint32_t bone_count, const int32_t *bone_of_site,
+    sbfi_site_weights *weights, sbfi_weights_figures *figures, sbfi_arena *arena) {
+  double *sums = sbfi_arena_allocate(arena, bone_count, sizeof *sums), share;
+  if (!sums) return false;
+  figures->shell_count = mesh->shell_count;
+  for (uint32_t s = 0; s < mesh->shell_count; s++) {
+    const sbfi_shell *shell = &mesh->shells[s];
+    if (shell->size >= MIDDLING || is_demanded(mesh, s, bone_of_site)) continue;
+    uint32_t bone = leading_bone(mesh, s, weights, sums, bone_count, &share);
+    if (shell->size >= SMALL && share <= CLEAR_LEAD) continue;
+    for (uint32_t i = 0; i < shell->site_count; i++)
+      set_single(&weights[mesh->sites_by_shell[shell->first_site + i]], bone);
+    figures->rigid_shell_count++;
+  }
+  return true;
+}
+
+bool sbfi_shell_weights_repair(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
+    uint32_t bone_count, const sbfi_bone_reach *reach, const int32_t *bone_of_site,
+    sbfi_site_weights *weights, sbfi_weights_figures *figures, sbfi_arena *arena) {
+  if (!copy_from_holders(mesh, reach, weights, arena) ||
+      !stiffen_shells(mesh, bone_count, bone_of_site, weights, figures, arena))
+    return false;
+  for (uint32_t i = 0; i < mesh->site_count; i++) {
+    if (bone_of_site[i] != SBF_NONE) set_single(&weights[i], (uint32_t)bone_of_site[i]);
+    erase_other_side(segments, &weights[i]);
+    normalise(&weights[i]);
+  }
+  return true;
+}
