@@ -95,13 +95,13 @@ def main():
     environment = {**os.environ, "SBFMT_BUILD_DIR": asked.build, "PYTHONDONTWRITEBYTECODE": "1"}
     for name, package, command in checks(asked, folder):
         if not package:
-            print(f"skipped  {name}: it was not made, see above", flush=True)
+            print(f"SKIP {name}: it was not made, see above", flush=True)
             skipped += 1
             continue
         done = subprocess.run([sys.executable, "-B", *command], capture_output=True, text=True, env=environment, check=False)
         said = (done.stdout + done.stderr).strip()
         if done.returncode == SKIPPED:
-            print(f"skipped  {name}: {said.splitlines()[-1].removeprefix('skipped: ') if said else 'it says not why'}", flush=True)
+            print(f"SKIP {name}: {said.splitlines()[-1].removeprefix('skipped: ') if said else 'it gave no reason'}", flush=True)
             skipped += 1
         elif done.returncode:
             print(f"FAILED   {name}\n{said[-6000:]}", flush=True)
