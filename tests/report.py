@@ -8,10 +8,12 @@ STAGES has lines of OUTCOME SECONDS NAME TITLE. FOLDER holds what ctest wrote, o
 something failed or, with --strict, was skipped without being allowed."""
 import collections
 import fnmatch
+import functools
 import glob
 import os
 import re
 import shutil
+import subprocess
 import sys
 from xml.etree import ElementTree
 
@@ -35,6 +37,12 @@ def newer_system():
     return os.path.join(ROOT, "build", "other-system", "usr", "bin")
 
 
+@functools.cache
+def no_registry():
+    """Whether npm is here and its registry out of reach."""
+    return bool(shutil.which("npm")) and subprocess.run(["npm", "ping"], capture_output=True, check=False).returncode != 0
+
+
 # The words of the column WHERE.
 WHERE = {
     "anywhere": lambda: True,
@@ -43,6 +51,7 @@ WHERE = {
     "no-blender": lambda: not shutil.which("blender"),
     "no-newer-blender": lambda: not os.path.exists(os.path.join(newer_system(), "blender")),
     "no-godot": lambda: not shutil.which("godot") and not os.path.exists(os.path.join(newer_system(), "godot")),
+    "no-registry": no_registry,
     "not-root": lambda: os.geteuid() != 0,
 }
 

@@ -146,6 +146,14 @@ class Package:
         foreign = re.findall(r"\b(?:xml[A-Z]|ai[A-Z]|qh_)\w+", table)
         expect(not foreign, f"{program} holds {foreign[:5]}")
 
+    def check_page(self):
+        """The installed program has all parts of a page, where this build could make them."""
+        if self.build and not os.path.exists(os.path.join(self.build, "web", "sbfmt.wasm")):
+            return
+        page = os.path.join(self.scratch, "page.html")
+        run(os.path.join(self.prefix, "bin", "sbfmt"), "export", self.bundle(), "-o", page)
+        expect(os.path.getsize(page) > 200000, "the exported page is too small to hold the runtime")
+
     def bundle(self):
         """A packed lizard, by the installed program."""
         lizard = os.path.join(self.source, "examples", "lizard", "lizard")
@@ -213,6 +221,7 @@ def main():
         say("SDK by find_package and by pkg-config: good")
 
     if package.has_program:
+        package.check_page()
         say(run(os.path.join(package.prefix, "bin", "sbfmt"), "--version").rstrip())
         check_walk(programs, package.bundle())
     else:

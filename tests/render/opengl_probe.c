@@ -2,6 +2,7 @@
 
 #include "opengl_probe.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
