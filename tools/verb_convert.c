@@ -164,9 +164,10 @@ static const cli_option options[] = {
     {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
     {"--out-dir", "DIR", "write each input there, under its own name; made if it is not there"},
     {"--rig", "FILE", "take the skeleton from this file"},
-    {"--weights", "named|match|transfer|FILE",
-        "bones of points by objects' names, by place, from the nearest surface, or of .csv or .json (what "
-        "fits)"},
+    {"--weights", "FILE|named|match|transfer|compute",
+        "bones of points: of .csv or .json, by objects' names, by place, of the nearest surface, from the "
+        "bones "
+        "alone (the first that fits)"},
     {"--motion", "FILE", "carry its clips over to the skeleton; several allowed"},
     {"--unit", "METRES", "metres in a unit of the input (what the file says, else 1)"},
     {"--up", "y|z", "the input's upward axis (what the file says, else y)"},

@@ -3,6 +3,7 @@
 import os
 
 import obj_variants as variants
+from bundle_file import Bundle
 from rigged_weights import Original, difference, posed_errors, share_of_equal, weights_by_vertex
 from sbfmt_program import ROOT, ProgramTest, main, read_text, write_bytes
 
@@ -25,6 +26,39 @@ def same_mesh(obj):
         "points doubled at seams": (variants.doubled(obj), None),
         "objects of materials": (variants.by_material(obj), None),
     }
+
+
+def write_bones(bundle_path, path):
+    """The bundle's bones at rest as a BVH: no mesh, no unit."""
+    bundle = Bundle(bundle_path)
+    children = {}
+    for i, parent in enumerate(bundle.parents):
+        children.setdefault(parent, []).append(i)
+
+    def heads(i):
+        return [row[3] for row in bundle.rest[i]]
+
+    def lines(i, depth):
+        pad, above = "  " * depth, bundle.parents[i]
+        offset = [a - b for a, b in zip(heads(i), heads(above) if above is not None else (0, 0, 0))]
+        kind = "ROOT" if above is None else "JOINT"
+        yield f"{pad}{kind} {bundle.bone_names()[i].replace(' ', '_')}"
+        yield pad + "{"
+        yield f"{pad}  OFFSET {offset[0]:.6f} {offset[1]:.6f} {offset[2]:.6f}"
+        yield f"{pad}  CHANNELS 3 Zrotation Xrotation Yrotation"
+        for child in children.get(i, []):
+            yield from lines(child, depth + 1)
+        if not children.get(i):
+            yield f"{pad}  End Site"
+            yield pad + "  {"
+            yield f"{pad}    OFFSET 0 0 0"
+            yield pad + "  }"
+        yield pad + "}"
+
+    text = ["HIERARCHY", *lines(children[None][0], 0), "MOTION", "Frames: 1", "Frame Time: 0.04",
+            " ".join(["0"] * 3 * len(bundle.bones))]
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write("\n".join(text) + "\n")
 
 
 class ByPlace(ProgramTest):
@@ -220,6 +254,58 @@ class FromFile(ProgramTest):
 
     def test_a_word_that_is_no_way_and_no_file(self):
         self.assertIn("named, match, transfer", self.fails(2, *self.convert("nearest")))
+
+
+class FromBones(ProgramTest):
+    """A rig without a mesh: a BVH of the calf's bones."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.calf = Original(CALF, cls.class_folder.name)
+        cls.bones = cls.made("bones.bvh")
+        write_bones(cls.calf.bundle, cls.bones)
+
+    def convert(self, obj, *options):
+        variants.write(obj, self.path("in.obj"), 6)
+        return ("convert", self.path("in.obj"), "--rig", self.bones, *options, "-o", self.path("out.sbf"))
+
+    def test_unit_and_axes_are_found_by_what_lies_inside(self):
+        for name, (obj, said) in {
+                "as it is": (self.calf.obj, None),
+                "centimetres, Z up": (variants.moved(self.calf.obj, 0.01, ("x", "-z", "y")), "-90 degrees about x"),
+                "an odd unit, elsewhere": (variants.moved(self.calf.obj, 0.37, offset=(3, 0, 5)), "moved by"),
+        }.items():
+            with self.subTest(name):
+                result = self.good(*self.convert(obj, "--no-build"))
+                self.assertIn("computed from the bones", result.err)
+                if said:
+                    self.assertIn(said, result.err)
+                bundle = Bundle(self.path("out.sbf"))
+                sizes = [max(p[1] for p in points) - min(p[1] for p in points) for points in (
+                    [p for mesh in bundle.meshes for p in bundle.positions(mesh)], [tuple(r[3] for r in f) for f in bundle.rest])]
+                self.assertTrue(0.9 <= sizes[0] / sizes[1] < 1.6, sizes)
+
+    def test_a_rig_of_another_character_is_refused(self):
+        pole = variants.Obj([(0.01 * x, y, 0.01 * z) for x in (0, 1) for y in (0, 3) for z in (0, 1)], [], [],
+                            [("pole", None, [(i, None, None) for i in c]) for c in
+                             ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))])
+        said = self.fails(1, *self.convert(pole))
+        self.assertRegex(said, r"only \d+ % of the bones' length lies inside the mesh; outside lie '.*' by .* m")
+        self.assert_empty_folder(but=["in.obj"])
+
+    def test_a_mesh_of_one_triangle_is_refused(self):
+        triangle = variants.Obj([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [],
+                                [("t", None, [(0, None, None), (1, None, None), (2, None, None)])])
+        self.fails(1, *self.convert(triangle))
+        self.assert_empty_folder(but=["in.obj"])
+
+    def test_stated_units_hold(self):
+        """--unit says how large the input is: then the rig is too large for it."""
+        said = self.fails(1, "convert", self.calf.obj_path, "--rig", CALF, "--unit", "0.01", "--weights", "match", "-o",
+                          self.path("out.sbf"))
+        self.assertIn("RIG_MISFIT", said)
+        self.assert_empty_folder()
 
 
 if __name__ == "__main__":

@@ -255,7 +255,7 @@ START_TEST(a_full_disk)
   rmdir(folder);
   ck_assert(WIFEXITED(status));
   if (WEXITSTATUS(status) == SKIPPED)
-    harness_skip("no disk may be mounted here");
+    fprintf(stderr, "skipped: no disk may be mounted here\n");
   else
     ck_assert_int_eq(WEXITSTATUS(status), EXIT_SUCCESS);
 }

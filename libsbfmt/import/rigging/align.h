@@ -12,6 +12,11 @@ bool sbfi_align_by_points(sbfi_rigging *r, bool *found);
  * share of the rig's size, both ways. */
 bool sbfi_align_by_shape(sbfi_rigging *r, double *error);
 
+/* By the share of the bones' length that lies inside the input: what the files state stays where that is most
+ * of it. IMPORT_RIG_OUTSIDE, which names bones and how far outside they are, where it is less than 60 %
+ * anyhow. */
+sbf_status sbfi_align_by_bones(sbfi_rigging *r);
+
 /* Whether `--unit` and `--up` leave a transform as it is. */
 bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matrix *m);
 

@@ -19,9 +19,9 @@ typedef enum weights_mode {
 } weights_mode;
 
 static weights_mode mode_of(const char *weights) {
-  static const char *const words[] = {"named", "match", "transfer"};
+  static const char *const words[] = {"named", "match", "transfer", "compute"};
   if (!weights) return MODE_ANY;
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 4; i++)
     if (strcmp(weights, words[i]) == 0) return (weights_mode)(i + 1);
   return MODE_FILE;
 }
@@ -44,7 +44,7 @@ static bool prepare(sbfi_rigging *r) {
     r->carriers[m] = SBF_NONE;
     r->names[m] = c->scene->nodes[c->scene->meshes[m].node].name;
   }
-  r->alignment = (sbfi_alignment){c->to_asset, 0, true};
+  r->alignment = (sbfi_alignment){.to_asset = c->to_asset, .is_stated = true};
   return true;
 }
 
@@ -56,7 +56,8 @@ static uint32_t count_points(const sbfi_rigging *r, sbfi_weight_source source) {
 
 static void say_alignment(const sbfi_rigging *r) {
   if (r->alignment.is_stated) return;
-  sbfi_similarity_text text = sbfi_similarity_describe(&r->alignment.to_asset, r->rig.size);
+  double size = r->rig.size > 0 ? r->rig.size : r->input.size * sbfi_similarity_scale(&r->alignment.to_asset);
+  sbfi_similarity_text text = sbfi_similarity_describe(&r->alignment.to_asset, size);
   if (text.at[0])
     sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
         "the input was laid over the rig: %s; --unit and --up say otherwise", text.at);
@@ -140,20 +141,6 @@ static bool rig_has_weights(const sbfi_rigging *r) {
   return false;
 }
 
-/* Whether the input lies over the rig's meshes: `*by_points` where they share points. */
-static bool align(sbfi_rigging *r, weights_mode mode, bool *by_points, bool *alike) {
-  double error = INFINITY;
-  sbfi_alignment stated = r->alignment;
-  if (r->c->rig == r->c->scene) return true; /* one space */
-  if (!sbfi_align_by_points(r, by_points)) return false;
-  *alike = *by_points;
-  if (*by_points || !rig_has_weights(r) || mode == MODE_NAMED || mode == MODE_MATCH) return true;
-  if (!sbfi_align_by_shape(r, &error)) return false;
-  *alike = error < ALIKE;
-  if (!*alike) r->alignment = stated;
-  return true;
-}
-
 static bool is_carried(const sbfi_rigging *r, uint32_t point) {
   for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
     if (point < r->input.mesh_starts[m + 1]) return r->carriers[m] != SBF_NONE;
@@ -183,6 +170,12 @@ static sbf_status refuse_transfer(const sbfi_rigging *r, double share) {
       100 * share, r->input.scene->file, r->rig.scene->file);
 }
 
+/* From the bones, where nothing else gives weights. The alignment is found before. */
+static sbf_status weigh_rest(sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode) {
+  if ((mode != MODE_ANY && mode != MODE_COMPUTE) || !count_open(r)) return SBF_OK;
+  return sbfi_weigh_by_bones(r, moved);
+}
+
 /* By nearness, where the input is like the rig's mesh or it is asked for. */
 static sbf_status weigh_beside(
     sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool alike) {
@@ -194,22 +187,46 @@ static sbf_status weigh_beside(
   return mode == MODE_TRANSFER && share < least ? refuse_transfer(r, share) : SBF_OK;
 }
 
+/* Lays what has no bones yet over the rig: by the rig's own meshes where those are alike, else by its bones.
+ */
+static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
+  double error = INFINITY;
+  sbfi_alignment stated = r->alignment;
+  if (*alike || r->c->rig == r->c->scene || mode == MODE_NAMED || mode == MODE_MATCH || !count_open(r))
+    return SBF_OK;
+  if (rig_has_weights(r) && !sbfi_align_by_shape(r, &error)) return sbfi_convert_no_memory(r->c);
+  *alike = error < ALIKE;
+  if (*alike) return SBF_OK;
+  r->alignment = stated;
+  return mode == MODE_TRANSFER ? SBF_OK : sbfi_align_by_bones(r);
+}
+
+static sbf_status weigh_objects(
+    sbfi_rigging *r, const sbfi_scene_surface *moved, weights_mode mode, bool by_points, bool alike) {
+  if (mode == MODE_FILE) return sbfi_weigh_by_file(r, r->c->options->weights);
+  if (by_points && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_place(r, moved))
+    return sbfi_convert_no_memory(r->c);
+  if (mode == MODE_MATCH && count_open(r) > (1 - LEAST_MATCHED) * r->input.mesh.positions.count)
+    return refuse_match(r);
+  sbf_status status = weigh_beside(r, moved, mode, alike);
+  return status == SBF_OK ? weigh_rest(r, moved, mode) : status;
+}
+
 static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   sbfi_conversion *c = r->c;
   sbfi_scene_surface moved;
-  bool by_points = false, alike = false;
-  if (!prepare(r) || !align(r, mode, &by_points, &alike) ||
-      !sbfi_surface_move(&moved, &r->input, &r->alignment.to_asset, &c->scratch))
+  bool by_points = false;
+  if (!prepare(r) || (c->rig != c->scene && !sbfi_align_by_points(r, &by_points)))
     return sbfi_convert_no_memory(c);
-  say_alignment(r);
   if (mode == MODE_ANY || mode == MODE_NAMED) sbfi_weigh_by_name(r);
   if (mode == MODE_ANY) sbfi_weigh_by_own_skin(r);
-  if (by_points && (mode == MODE_ANY || mode == MODE_MATCH) && !sbfi_weigh_by_place(r, &moved))
+  bool alike = by_points;
+  sbf_status status = align_rest(r, mode, &alike);
+  if (status != SBF_OK) return status;
+  say_alignment(r);
+  if (!sbfi_surface_move(&moved, &r->input, &r->alignment.to_asset, &c->scratch))
     return sbfi_convert_no_memory(c);
-  if (mode == MODE_MATCH && count_open(r) > (1 - LEAST_MATCHED) * r->input.mesh.positions.count)
-    return refuse_match(r);
-  sbf_status status =
-      mode == MODE_FILE ? sbfi_weigh_by_file(r, c->options->weights) : weigh_beside(r, &moved, mode, alike);
+  status = weigh_objects(r, &moved, mode, by_points, alike);
   if (status != SBF_OK) return status;
   for (uint32_t m = 0; m < c->scene->mesh_count; m++)
     if (r->carriers[m] == SBF_NONE) give_to_nearest(r, &moved, m);
@@ -228,7 +245,7 @@ static sbf_status refuse_way(const sbfi_conversion *c) {
 sbf_status sbfi_rig_input(sbfi_conversion *c) {
   weights_mode mode = mode_of(c->options->weights);
   bool own_rig = c->rig == c->scene;
-  if (mode != MODE_ANY && (!c->rig || (own_rig && mode != MODE_FILE))) return refuse_way(c);
+  if (mode != MODE_ANY && (!c->rig || (own_rig && mode < MODE_COMPUTE))) return refuse_way(c);
   if (!c->rig || c->asset->bones.count == 0 || c->scene->mesh_count == 0) return SBF_OK;
   if (own_rig && mode == MODE_ANY) return SBF_OK;
   sbfi_rigging r = {.c = c};

@@ -54,6 +54,7 @@ typedef enum sbfi_weight_source {
 typedef struct sbfi_alignment {
   sbfi_matrix to_asset; /* the input's own space to asset space */
   double matched;       /* share of the input's points that lie on one of the rig's */
+  double inside;        /* share of the bones' length that lies inside the input; 0: not looked at */
   bool is_stated;       /* as the files and the options say */
 } sbfi_alignment;
 

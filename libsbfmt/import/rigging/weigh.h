@@ -20,6 +20,9 @@ bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved);
  * changes. */
 bool sbfi_weigh_by_nearness(sbfi_rigging *r, const sbfi_scene_surface *moved, double least, double *share);
 
+/* From the bones alone (build/weights): the other points of objects that no node carries. */
+sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved);
+
 /* From the file of --weights: an error says which line is wrong. */
 sbf_status sbfi_weigh_by_file(sbfi_rigging *r, const char *path);
 

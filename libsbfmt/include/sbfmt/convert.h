@@ -95,8 +95,9 @@ typedef struct sbf_convert_options {
   uint32_t attachment_count;                 /* of attachments */
   /* Where the bones that move each point of the input come from, where the rig is another file: "named"
    * (objects that are called as nodes of the rig), "match" (points of the rig's own mesh, by place),
-   * "transfer" (the nearest surface of a mesh like it), or the path of a file of weights, .csv or .json with
-   * vertex, bone and weight, vertices from 0 as in the OBJ; NULL: the first of these that fits each object.
+   * "transfer" (the nearest surface of a mesh like it), "compute" (the bones alone), or the path of a file of
+   * weights, .csv or .json with vertex, bone and weight, vertices from 0 as in the OBJ; NULL: the first of
+   * these that fits each object.
    */
   const char *weights;
 } sbf_convert_options;

@@ -1,0 +1,249 @@
+/* Lays an input over a rig without a mesh like it: so that its bones lie inside.
+ *
+ * The transform that the files state stays where most of the bones' length lies inside. Else axes, usual
+ * units and offsets are tried, the plainest first, and at last a scale that makes the two as large. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "build/geometry/winding_number.h"
+#include "import/rigging/align.h"
+#include "import/rigging/surface_finder.h"
+
+enum { PER_BONE = 6, NAMED = 4 };
+
+static const double GOOD = 0.85;   /* so much of the length inside is as it should be */
+static const double LEAST = 0.6;   /* and less than this is another character's rig */
+static const double BETTER = 0.08; /* by which a later candidate has to be better */
+
+typedef struct bone_line {
+  sbfi_d3 from, to; /* asset space */
+  uint32_t bone;
+  double length;
+} bone_line;
+
+typedef struct search {
+  const sbfi_rigging *r;
+  sbfi_soup soup;
+  sbfi_winding winding; /* of the input in its own space */
+  bone_line *lines;
+  uint32_t line_count;
+  double total;      /* length */
+  sbfi_d3 low, high; /* of the lines */
+  sbfi_matrix best;
+  double best_share;
+} search;
+
+static bool is_inside(const search *s, sbfi_d3 p) {
+  if (p.x < s->soup.low.x || p.y < s->soup.low.y || p.z < s->soup.low.z || p.x > s->soup.high.x ||
+      p.y > s->soup.high.y || p.z > s->soup.high.z)
+    return false;
+  return sbfi_winding_inside(sbfi_winding_of_closed(&s->winding, p), sbfi_winding_of_caps(&s->winding, p));
+}
+
+static sbfi_d3 along(const bone_line *line, uint32_t sample) {
+  double t = (sample + 0.5) / PER_BONE;
+  return sbfi_d3_add(sbfi_d3_scale(line->from, 1 - t), sbfi_d3_scale(line->to, t));
+}
+
+static double inside_of_line(const search *s, const sbfi_matrix *back, const bone_line *line) {
+  uint32_t inside = 0;
+  for (uint32_t k = 0; k < PER_BONE; k++) inside += is_inside(s, sbfi_similarity_apply(back, along(line, k)));
+  return (double)inside / PER_BONE;
+}
+
+static double share_inside(const search *s, const sbfi_matrix *m) {
+  sbfi_matrix back;
+  double sum = 0, left = s->total;
+  if (!sbfi_matrix_invert(m, &back)) return 0;
+  for (uint32_t i = 0; i < s->line_count; i++) {
+    if (sum + left < s->best_share * s->total) return 0;
+    sum += s->lines[i].length * inside_of_line(s, &back, &s->lines[i]);
+    left -= s->lines[i].length;
+  }
+  return s->total > 0 ? sum / s->total : 1;
+}
+
+static void consider(search *s, const sbfi_matrix *m) {
+  if (!sbfi_alignment_allowed(s->r->c->options, m)) return;
+  double share = share_inside(s, m);
+  if (share < s->best_share + BETTER) return;
+  s->best = *m;
+  s->best_share = share;
+}
+
+/* --- Bones as lines ------------------------------------------------------------------------------------ */
+
+/* Bones that only hold others together, as those that files call so. */
+static bool holds_together(const char *name) {
+  static const char *const names[] = {"root", "armature", "master", "origin", "reference"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    size_t k = 0;
+    while (names[i][k] && (name[k] | 32) == names[i][k]) k++;
+    if (!names[i][k] && !(name[k] >= 'a' && name[k] <= 'z')) return true;
+  }
+  return false;
+}
+
+static void add_line(search *s, uint32_t bone, sbfi_d3 from, sbfi_d3 to) {
+  double length = sbfi_d3_length(sbfi_d3_sub(to, from));
+  if (!(length > 0)) return;
+  s->lines[s->line_count++] = (bone_line){from, to, bone, length};
+  s->total += length;
+}
+
+static bool make_lines(search *s, sbfi_arena *arena) {
+  const sbf_bone_list *bones = &s->r->c->asset->bones;
+  s->lines = sbfi_arena_allocate(arena, 2 * (size_t)bones->count, sizeof *s->lines);
+  if (!s->lines) return false;
+  for (uint32_t b = 0; b < bones->count; b++) {
+    int32_t parent = bones->at[b].parent;
+    if (parent == SBF_NONE || holds_together(bones->at[parent].name) || holds_together(bones->at[b].name))
+      continue;
+    add_line(s, (uint32_t)parent, sbfi_d3_of(bones->at[parent].head), sbfi_d3_of(bones->at[b].head));
+  }
+  for (uint32_t i = 0; i < 2 * s->line_count; i++) {
+    sbfi_d3 p = i % 2 ? s->lines[i / 2].to : s->lines[i / 2].from;
+    s->low = i ? (sbfi_d3){fmin(s->low.x, p.x), fmin(s->low.y, p.y), fmin(s->low.z, p.z)} : p;
+    s->high = i ? (sbfi_d3){fmax(s->high.x, p.x), fmax(s->high.y, p.y), fmax(s->high.z, p.z)} : p;
+  }
+  return true;
+}
+
+/* --- Candidates ---------------------------------------------------------------------------------------- */
+
+/* As it is; middle on middle; standing on the lowest bone, which is an ankle's height above the sole. */
+static void consider_offsets(search *s, const sbfi_matrix *axes, double scale) {
+  sbfi_matrix m = sbfi_similarity_scaled(axes, scale, (sbfi_d3){0, 0, 0});
+  sbfi_d3 bones = sbfi_d3_scale(sbfi_d3_add(s->low, s->high), 0.5);
+  sbfi_d3 input = sbfi_similarity_apply(&m, sbfi_d3_scale(sbfi_d3_add(s->soup.low, s->soup.high), 0.5));
+  sbfi_d3 a = sbfi_similarity_apply(&m, s->soup.low), b = sbfi_similarity_apply(&m, s->soup.high);
+  double height = fabs(b.y - a.y);
+  consider(s, &m);
+  sbfi_d3 offset = sbfi_d3_sub(bones, input);
+  m = sbfi_similarity_scaled(axes, scale, offset);
+  consider(s, &m);
+  offset.y = s->low.y - 0.05 * height - fmin(a.y, b.y);
+  m = sbfi_similarity_scaled(axes, scale, offset);
+  consider(s, &m);
+}
+
+static double longest_side(sbfi_d3 low, sbfi_d3 high) {
+  sbfi_d3 sides = sbfi_d3_sub(high, low);
+  return fmax(sides.x, fmax(sides.y, sides.z));
+}
+
+static void consider_all(search *s) {
+  double bones = longest_side(s->low, s->high), input = longest_side(s->soup.low, s->soup.high);
+  double stated = sbfi_similarity_scale(&s->r->c->to_asset);
+  for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS && s->best_share < GOOD; unit++) {
+    double scale = unit ? sbfi_usual_units[unit - 1].unit_m : stated;
+    if (input * scale < 0.7 * bones || input * scale > 3 * bones) continue;
+    for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS / 2; i++) {
+      sbfi_matrix axes = sbfi_axis_rotation(i);
+      consider_offsets(s, &axes, scale);
+    }
+  }
+  static const double ratios[] = {1.12, 1.3, 1};
+  for (int k = 0; k < 3 && s->best_share < LEAST; k++)
+    for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS / 2; i++) {
+      sbfi_matrix axes = sbfi_axis_rotation(i);
+      consider_offsets(s, &axes, ratios[k] * bones / input);
+    }
+}
+
+/* --- Where they do not fit ----------------------------------------------------------------------------- */
+
+typedef struct outside_bone {
+  uint32_t bone;
+  double distance; /* m, of its farthest sample */
+} outside_bone;
+
+/* Names the bones that are farthest outside. */
+static bool describe_outside(const search *s, char *text, size_t size, sbfi_arena *arena) {
+  sbfi_scene_surface moved;
+  sbfi_surface_finder finder;
+  sbfi_matrix back;
+  outside_bone worst[NAMED] = {{0}};
+  uint32_t count = 0;
+  if (!sbfi_surface_move(&moved, &s->r->input, &s->best, arena) ||
+      !sbfi_surface_finder_make(&finder, &moved, arena))
+    return false;
+  if (!sbfi_matrix_invert(&s->best, &back)) back = sbfi_matrix_identity();
+  for (uint32_t i = 0; i < s->line_count; i++) {
+    outside_bone here = {s->lines[i].bone, 0};
+    for (uint32_t k = 0; k < PER_BONE; k++) {
+      sbfi_d3 p = along(&s->lines[i], k);
+      sbfi_surface_place near;
+      if (is_inside(s, sbfi_similarity_apply(&back, p)) ||
+          !sbfi_surface_nearest(&finder, p, NULL, 1e30, &near))
+        continue;
+      here.distance = fmax(here.distance, near.distance);
+    }
+    if (here.distance <= 0) continue;
+    count++;
+    for (int k = 0; k < NAMED; k++) {
+      if (here.distance <= worst[k].distance) continue;
+      outside_bone other = worst[k];
+      worst[k] = here;
+      here = other;
+    }
+  }
+  for (int k = 0; k < NAMED && worst[k].distance > 0; k++) {
+    size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s'%.40s' by %.3g m", k ? ", " : "",
+        s->r->c->asset->bones.at[worst[k].bone].name, worst[k].distance);
+  }
+  size_t used = strlen(text);
+  if (count > NAMED) snprintf(text + used, size - used, " and %u more", count - NAMED);
+  return true;
+}
+
+static sbf_status refuse(const search *s, sbfi_arena *arena) {
+  char outside[260] = "";
+  if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
+  return sbfi_diagnose(s->r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
+      "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig, or "
+      "--unit "
+      "and --up",
+      100 * s->best_share, outside);
+}
+
+/* Motion capture states no unit, and then the input's counts: the rig is scaled, not the input. */
+static void scale_rig(sbfi_rigging *r) {
+  double factor = sbfi_similarity_scale(&r->c->to_asset) / sbfi_similarity_scale(&r->alignment.to_asset);
+  if (r->rig.scene->unit_known || r->rig.scene->mesh_count || fabs(factor - 1) < 1e-9) return;
+  for (uint32_t b = 0; b < r->c->asset->bones.count; b++) {
+    sbf_bone *bone =
+        (sbf_bone *)(uintptr_t)&r->c->asset->bones.at[b]; /* ours until the asset is handed out */
+    bone->head = sbfi_d3_rounded(sbfi_d3_scale(sbfi_d3_of(bone->head), factor));
+    bone->length = (float)((double)bone->length * factor);
+  }
+  sbfi_matrix *const matrices[] = {&r->c->rig_to_asset, &r->alignment.to_asset};
+  for (int i = 0; i < 2; i++)
+    for (int row = 0; row < 3; row++)
+      for (int k = 0; k < 4; k++) matrices[i]->at[row][k] *= factor;
+  sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
+      "%s states no unit: it was scaled by %.6g, so that its bones lie inside the input", r->rig.scene->file,
+      factor);
+}
+
+sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
+  sbfi_arena scratch;
+  search s = {.r = r, .best = r->alignment.to_asset};
+  sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
+  bool good = sbfi_soup_make(&s.soup, &r->input.mesh, &scratch) &&
+              sbfi_winding_make(&s.winding, &s.soup, &scratch) && make_lines(&s, &scratch);
+  sbf_status status = good ? SBF_OK : sbfi_convert_no_memory(r->c);
+  if (good && s.line_count) {
+    s.best_share = share_inside(&s, &s.best);
+    if (s.best_share < GOOD && r->alignment.is_stated) consider_all(&s);
+    r->alignment.to_asset = s.best;
+    r->alignment.inside = s.best_share;
+    if (s.best_share >= LEAST) scale_rig(r);
+    r->alignment.is_stated = memcmp(&s.best, &r->c->to_asset, sizeof s.best) == 0;
+    if (s.best_share < LEAST) status = refuse(&s, &scratch);
+  }
+  sbfi_arena_free(&scratch);
+  return status;
+}
