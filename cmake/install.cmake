@@ -39,7 +39,7 @@ endif()
 if(TARGET sbfmt-web)
   add_dependencies(products sbfmt-web) # which `sbfmt export -o PAGE.html` makes pages of
   install(DIRECTORY ${PROJECT_BINARY_DIR}/web/ DESTINATION ${CMAKE_INSTALL_DATADIR}/sbfmt/web COMPONENT tools
-    FILES_MATCHING PATTERN sbfmt.* PATTERN viewer*)
+    FILES_MATCHING PATTERN sbfmt.* PATTERN viewer* PATTERN modules/*.js)
 endif()
 if(TARGET sbfmt-manual)
   add_dependencies(products sbfmt-manual)

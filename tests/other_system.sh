@@ -2,8 +2,8 @@
 # Makes a folder with Debian's unstable suite, its Blender and Godot and what draws them without a graphics card, to test the add-on in
 # a newer Blender than the system's, and the extension in Godot:
 #   other_system.sh FOLDER
-# Each of the two is complete or not there; a folder that lacks one gets it. Needs root, debootstrap and Debian's packages; takes some
-# minutes and 1.3 GB.
+# Each of the two is complete or not there; a folder that lacks one gets it. Needs root, debootstrap and Debian's packages: else exit
+# status 77 with the reason. Takes some minutes and 1.3 GB.
 set -eu
 folder=$1
 packages='blender python3-numpy python3-cattr python3-requests libegl1 libgl1 libgl1-mesa-dri'
@@ -13,8 +13,8 @@ packages_godot='godot libgl1 libgl1-mesa-dri libx11-6 libxcursor1 libxinerama1 l
 has_godot() { [ -x "$folder/usr/bin/godot" ] && chroot "$folder" godot --version >/dev/null 2>&1; }
 [ ! -x "$folder/usr/bin/blender" ] || [ "$(id -u)" -ne 0 ] || ! has_godot || exit 0
 if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap >/dev/null 2>&1; then
-  echo "no newer Blender and no Godot: making $folder takes root and debootstrap" >&2
-  exit 0
+  echo "SKIP newer Blender and Godot: making $folder takes root and debootstrap"
+  exit 77
 fi
 
 # get FOLDER PACKAGES: into that system. A snapshot of the suite will do, however old: its lists need not be valid today.
@@ -23,9 +23,9 @@ get() {
 }
 # failed WHAT LOG
 failed() {
-  echo "no $1: debootstrap or apt-get failed; the end of $2 says why:" >&2
   tail -n 3 "$2" >&2
-  exit 0
+  echo "SKIP $1: debootstrap or apt-get failed; the end of $2 stands above"
+  exit 77
 }
 
 if [ ! -x "$folder/usr/bin/blender" ]; then

@@ -233,7 +233,7 @@ END_TEST
 START_TEST(a_comma_locale_changes_nothing)
 {
   if (!setlocale(LC_ALL, "de_DE.UTF-8")) {
-    fprintf(stderr, "skipped: the locale de_DE.UTF-8 is not installed\n");
+    harness_skip("the locale de_DE.UTF-8 is not installed");
     return;
   }
   ck_assert_str_eq(localeconv()->decimal_point, ",");

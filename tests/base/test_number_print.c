@@ -148,7 +148,7 @@ START_TEST(locale_and_rounding_mode_do_not_matter)
   ck_assert_str_eq(printed(0.3f), "0.3");
   fesetround(FE_TONEAREST);
   if (!setlocale(LC_ALL, "de_DE.UTF-8")) {
-    fprintf(stderr, "skipped: the locale de_DE.UTF-8 is not installed\n");
+    harness_skip("the locale de_DE.UTF-8 is not installed");
     return;
   }
   ck_assert_str_eq(localeconv()->decimal_point, ",");

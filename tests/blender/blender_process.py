@@ -56,6 +56,7 @@ class Blender:
                 shutil.copy(one, lib)
         shutil.copytree(HERE, self.tests, ignore=shutil.ignore_patterns("__pycache__", "*.txt"))
         shutil.copy(os.path.join(ROOT, "docs", "blender.md"), os.path.join(self.tests, "page.md"))
+        shutil.copy(os.path.join(ROOT, "tests", "support", "cases.py"), self.tests)
         os.mkdir(self.kept)
         return self
 

@@ -139,8 +139,9 @@ static const known knowns[] = {
     {"mocap/cmu_01_01.bvh", 0, 0, 0, 0, 0, 31, 7, 0, 1, 0, 0},
 };
 
-static bool read_shared(sbfi_scene *scene, const char *file) {
-  const char *path = harness_shared(file);
+#define read_shared(scene, file) read_shared_for(__func__, (scene), (file))
+static bool read_shared_for(const char *function, sbfi_scene *scene, const char *file) {
+  const char *path = harness_shared_for(function, file);
   if (!path) return false;
   sbf_diagnostic error;
   sbf_status status = read_with(scene, path, NULL, &error);

@@ -9,8 +9,9 @@
 #include "sbfmt/io.h"
 
 /* A path of shared data that stays; NULL where it is absent. */
-static const char *shared(const char *path, char *to, size_t size) {
-  const char *found = harness_shared(path);
+#define shared(path, to, size) shared_for(__func__, (path), (to), (size))
+static const char *shared_for(const char *function, const char *path, char *to, size_t size) {
+  const char *found = harness_shared_for(function, path);
   if (!found) return NULL;
   snprintf(to, size, "%s", found);
   return to;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """What a program that is linked with the shared libraries rests on: their calls, and the layout of the public types.
 
-Usage: check_abi.py --source DIR --build DIR [--cc CC] [--accept]
-Builds the shared libraries in the folder --build and compares them with abi.txt beside this script. What is gone, moved or of
+Usage: check_abi.py --source DIR --build DIR [--accept]
+Compares the shared libraries in the folder --build (built with -g) with abi.txt beside this script. What is gone, moved or of
 another type fails, for programs built before would break; but while no version of this soname is released (CHANGELOG.md), there
 are none, and it is only told. What is new is told, and fails nothing. --accept writes abi.txt anew, for a change that is meant
 and at each release. A call of another name than the public ones fails always. Skips (77) without abigail's tools."""
@@ -33,12 +33,7 @@ def run(*command):
     return done.stdout
 
 
-def build(arguments):
-    if not os.path.exists(os.path.join(arguments.build, "build.ninja")):
-        run("cmake", "-G", "Ninja", "-S", arguments.source, "-B", arguments.build, "-DBUILD_SHARED_LIBS=ON",
-            "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DSBFMT_TESTS=OFF", "-DSBFMT_BENCH=OFF",
-            *([f"-DCMAKE_C_COMPILER={arguments.cc}"] if arguments.cc else []))
-    run("cmake", "--build", arguments.build, "-j", "2", "--target", "sbfmt-interchange", "sbrun")
+def libraries_of(arguments):
     found = [os.path.join(arguments.build, folder, f"lib{name}.so") for folder, name in (
         ("libsbfmt", "sbfmt-core"), ("libsbfmt", "sbfmt-mechanics"), ("libsbfmt", "sbfmt-format"),
         ("libsbfmt", "sbfmt-interchange"), ("runtime", "sbrun"))]
@@ -172,14 +167,13 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--source", required=True)
     parser.add_argument("--build", required=True)
-    parser.add_argument("--cc")
     parser.add_argument("--accept", action="store_true")
     arguments = parser.parse_args()
     missing = [name for name in ("abidw", "abidiff") if not shutil.which(name)]
     if missing:
         print(f"skipped: {', '.join(missing)} not installed (abigail-tools)")
         sys.exit(SKIPPED)
-    libraries = build(arguments)
+    libraries = libraries_of(arguments)
     for path in libraries:
         if run("abidiff", path, path).strip():
             sys.exit(f"abidiff finds {path} to differ from itself")

@@ -2,7 +2,6 @@
 """The installed package, used as its users do: find_package and pkg-config, C11 and C++17, moved to another place.
 
 Usage: check_install.py --source DIR --scratch DIR --cc CC [--cxx CXX] --build DIR
-       check_install.py ... --configure -DOPTION...    (builds a tree of its own with these options first)
        check_install.py ... --tarball FILE             (what `./run package` packs, unpacked)"""
 import argparse
 import os
@@ -147,6 +146,14 @@ class Package:
         foreign = re.findall(r"\b(?:xml[A-Z]|ai[A-Z]|qh_)\w+", table)
         expect(not foreign, f"{program} holds {foreign[:5]}")
 
+    def check_page(self):
+        """The installed program has all parts of a page, where this build could make them."""
+        if self.build and not os.path.exists(os.path.join(self.build, "web", "sbfmt.wasm")):
+            return
+        page = os.path.join(self.scratch, "page.html")
+        run(os.path.join(self.prefix, "bin", "sbfmt"), "export", self.bundle(), "-o", page)
+        expect(os.path.getsize(page) > 200000, "the exported page is too small to hold the runtime")
+
     def bundle(self):
         """A packed lizard, by the installed program."""
         lizard = os.path.join(self.source, "examples", "lizard", "lizard")
@@ -171,15 +178,6 @@ def check_walk(programs, bundle):
     expect(code == 1 or code == 2, f"status {code} for a file that is not there")
 
 
-def own_build(arguments):
-    build = os.path.join(arguments.scratch, "build")
-    say(f"building with {' '.join(arguments.configure)}")
-    run("cmake", "-G", "Ninja", "-S", arguments.source, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
-        f"-DCMAKE_C_COMPILER={arguments.cc}", "-DSBFMT_TESTS=OFF", "-DSBFMT_BENCH=OFF", *arguments.configure)
-    run("cmake", "--build", build, "-j", "2")
-    return build
-
-
 def main():
     parser = argparse.ArgumentParser()
     for name in ("source", "scratch", "cc"):
@@ -187,12 +185,11 @@ def main():
     parser.add_argument("--cxx")
     parser.add_argument("--build")
     parser.add_argument("--tarball")
-    parser.add_argument("--configure", nargs=argparse.REMAINDER)
     arguments = parser.parse_args()
     shutil.rmtree(arguments.scratch, ignore_errors=True)
     os.makedirs(arguments.scratch)
 
-    package = Package(arguments, arguments.build or ("" if arguments.tarball else own_build(arguments)))
+    package = Package(arguments, arguments.build or "")
     package.install()
     package.check_tree()
     say("tree: good")
@@ -224,6 +221,7 @@ def main():
         say("SDK by find_package and by pkg-config: good")
 
     if package.has_program:
+        package.check_page()
         say(run(os.path.join(package.prefix, "bin", "sbfmt"), "--version").rstrip())
         check_walk(programs, package.bundle())
     else:

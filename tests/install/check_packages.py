@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """What `./run package` makes, each installed and used where nothing else of this project is.
 
-Usage: check_packages.py --source DIR --build DIR --scratch DIR --cc CC [--cxx CXX] [--packages DIR]
+Usage: check_packages.py --source DIR --build DIR --scratch DIR --cc CC [--cxx CXX] (--shared DIR | --packages DIR)
 
-Without --packages they are made first: of the tree --build, and of one of shared libraries that is built in the scratch folder.
+Without --packages they are made first: of the tree --build, and of --shared, a tree of shared libraries.
 The Debian packages go into a clean system, the tarball into another folder, the npm package into a fresh project under node,
 the add-ons into Blender and Godot as their users install them. A check that lacks its tool, and a package that could not be
 made, says so and is skipped. Exit status: 0 all that ran is good, 1 something is not, 77 nothing could run."""
@@ -21,17 +21,12 @@ SKIPPED = 77
 
 
 def make(asked):
-    out, shared = os.path.join(asked.scratch, "made"), os.path.join(asked.scratch, "shared")
-    commands = [
-        ["cmake", "-G", "Ninja", "-S", asked.source, "-B", shared, "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=ON",
-         "-DCMAKE_INSTALL_PREFIX=/usr", f"-DCMAKE_C_COMPILER={asked.cc}", "-DSBFMT_TESTS=OFF", "-DSBFMT_BENCH=OFF"],
-        ["cmake", "--build", shared, "-j", "2"],
-        [sys.executable, "-B", os.path.join(asked.source, "cmake", "make_packages.py"), "--static", asked.build, "--shared", shared,
-         "--out", out]]
-    for command in commands:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode:
-            sys.exit(f"{' '.join(command)}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
+    out = os.path.join(asked.scratch, "made")
+    command = [sys.executable, "-B", os.path.join(asked.source, "cmake", "make_packages.py"), "--static", asked.build, "--shared",
+               asked.shared, "--out", out]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"{' '.join(command)}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
     print(done.stdout, flush=True)
     return out
 
@@ -86,9 +81,10 @@ def main():
     for name in ("source", "build", "scratch", "cc"):
         parser.add_argument("--" + name, required=True)
     parser.add_argument("--cxx", default="")
+    parser.add_argument("--shared", default="")
     parser.add_argument("--packages", default="")
     asked = parser.parse_args()
-    for name in ("source", "build", "scratch", "packages"):
+    for name in ("source", "build", "scratch", "shared", "packages"):
         value = getattr(asked, name)
         setattr(asked, name, value and os.path.abspath(value))
     os.makedirs(asked.scratch, exist_ok=True)
@@ -99,13 +95,13 @@ def main():
     environment = {**os.environ, "SBFMT_BUILD_DIR": asked.build, "PYTHONDONTWRITEBYTECODE": "1"}
     for name, package, command in checks(asked, folder):
         if not package:
-            print(f"skipped  {name}: it was not made, see above", flush=True)
+            print(f"SKIP {name}: it was not made, see above", flush=True)
             skipped += 1
             continue
         done = subprocess.run([sys.executable, "-B", *command], capture_output=True, text=True, env=environment, check=False)
         said = (done.stdout + done.stderr).strip()
         if done.returncode == SKIPPED:
-            print(f"skipped  {name}: {said.splitlines()[-1].removeprefix('skipped: ') if said else 'it says not why'}", flush=True)
+            print(f"SKIP {name}: {said.splitlines()[-1].removeprefix('skipped: ') if said else 'it gave no reason'}", flush=True)
             skipped += 1
         elif done.returncode:
             print(f"FAILED   {name}\n{said[-6000:]}", flush=True)

@@ -107,7 +107,7 @@ def main():
             root = arm_root(folder) if machine.arm else None
             tree = machine.build(source, folder, root, ("state_hashes", *(ARM_TESTS if machine.arm else ())))
         except Missing as missing:
-            print(f"{machine.name}: skipped, {missing}")
+            print(f"SKIP {machine.name}: {missing}")
             skipped.append(machine.name)
             continue
         found = hashes(machine, tree, (1, arguments.scenes, *arguments.file))

@@ -89,7 +89,7 @@ def main():
     source, tree, native = (os.path.abspath(path) for path in (arguments.source, arguments.build, arguments.native))
     lacks = missing()
     if lacks:
-        print(f"skipped: no {', '.join(lacks)}")
+        print(f"SKIP Windows: no {', '.join(lacks)}")
         sys.exit(SKIPPED)
     began = time.monotonic()
     build(source, tree)

@@ -2,10 +2,11 @@
 #ifndef TEST_OPENGL_PROBE_H
 #define TEST_OPENGL_PROBE_H
 
-#include <stdbool.h>
+/* Finds out, once for the fixture below, in a process of its own: what a driver starts does not survive the
+ * forks of the tests. */
+void opengl_probe(void);
 
-/* Asked in a process of its own, because what a driver starts does not survive the forks of the tests. Says
- * why not on standard error. */
-bool opengl_probe(void);
+/* A checked fixture: ends each case as skipped where nothing can be drawn. */
+void opengl_needed(void);
 
 #endif

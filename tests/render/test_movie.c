@@ -17,12 +17,13 @@ enum { WIDTH = 33, HEIGHT = 21 };
 static uint8_t rgb[WIDTH * HEIGHT * 3];
 static const draw_movie_options gif = {.kind = DRAW_MOVIE_GIF, .width = WIDTH, .height = HEIGHT, .fps = 25};
 
-static bool have_ffmpeg(void) {
+#define have_ffmpeg() have_ffmpeg_for(__func__)
+static bool have_ffmpeg_for(const char *function) {
   char name[] = "ffmpeg", version[] = "-version", said[8];
   char *arguments[] = {name, version, NULL};
   child_pipe child;
   if (child_pipe_start(&child, arguments) != 0) {
-    fprintf(stderr, "skipped: ffmpeg is not in PATH\n");
+    harness_skip_case(function, "ffmpeg is not in PATH");
     return false;
   }
   return child_pipe_finish(&child, said, sizeof said);

@@ -10,7 +10,14 @@ import unittest
 from repo_files import ROOT
 
 RUN = os.path.join(ROOT, "run")
-REAL = ("sh", "dirname", "cat", "sed", "env", "ls", "nproc", "mkdir", "awk", "wc", "date", "tail", "head", "true")
+REAL = ("sh", "dirname", "cat", "sed", "env", "grep", "nproc", "mkdir", "awk", "wc", "date", "tail", "head", "true")
+# apt-get that has lists of packages, or none until it updates them; it notes what it is asked to install.
+WITH_LISTS = 'case $1 in indextargets) echo list ;; *) echo "apt-get $*"; exit 7 ;; esac'
+WITHOUT_LISTS = '''here=$(dirname "$0")
+case "$*" in indextargets*) cat "$here/lists" 2>/dev/null ;; *update*) echo list >"$here/lists" ;; *) echo "apt-get $*"; exit 7 ;; esac'''
+# apt-cache of an archive with clang 19 and all packages but one
+ARCHIVE = '''[ -e "$(dirname "$0")/lists" ] || [ -n "$LISTS" ] || exit 100
+case "$*" in "depends clang") echo "  Depends: clang-19" ;; "show wasi-libc") exit 100 ;; esac'''
 
 
 def call(*arguments, path=None):
@@ -67,12 +74,31 @@ class Packages(unittest.TestCase):
 
     def test_root_and_sudo_install(self):
         for who in ({"id": "echo 0"}, {"id": "echo 1000", "sudo": 'shift; exec "$@"'}):
-            path = self.machine({"dpkg-query": "exit 1", "apt-get": 'echo "apt-get $*"; exit 7', **who})
+            path = self.machine({"dpkg-query": "exit 1", "apt-get": WITH_LISTS, **who})
             done = call("build", path=path)
             self.assertEqual(done.returncode, 2)
             self.assertIn(" install -y --no-install-recommends", done.stdout)
             self.assertIn(" update", done.stdout)
             self.assertIn("could not install", done.stderr)
+
+    def test_names_of_packages_come_from_the_archive(self):
+        """With or without lists at first: clang's runtime has clang's number, and what the archive lacks is done without."""
+        for apt, lists in ((WITH_LISTS, "LISTS=1;"), (WITHOUT_LISTS, "")):
+            path = self.machine({"dpkg-query": "exit 1", "id": "echo 0", "apt-get": apt, "apt-cache": lists + ARCHIVE})
+            command = next(line for line in call("build", path=path).stdout.splitlines() if " install -y" in line)
+            self.assertIn(" libclang-rt-19-dev-wasm32", command)
+            self.assertNotIn("wasi-libc", command)
+            self.assertNotIn("%", command)
+
+    def test_user_without_lists_is_told_one_line_that_asks_for_the_number(self):
+        path = self.machine({"dpkg-query": "exit 1", "id": "echo 1000", "apt-get": WITHOUT_LISTS, "apt-cache": ARCHIVE})
+        lines = [line for line in call("build", path=path).stdout.splitlines() if "apt-get" in line]
+        self.assertEqual(len(lines), 1)
+        words = lines[0].split("--no-install-recommends")[1]
+        typed = subprocess.run(["/bin/sh", "-c", "echo" + words], capture_output=True, text=True, check=True,
+                               env={"PATH": self.machine({"apt-cache": "LISTS=1;" + ARCHIVE})}).stdout
+        self.assertIn(" libclang-rt-19-dev-wasm32", typed)
+        self.assertNotIn("@", typed)
 
     def test_a_package_that_is_only_named_is_missing(self):
         """dpkg knows packages that others only name in Breaks: "not-installed", and nothing for a second architecture."""
@@ -84,7 +110,7 @@ class Packages(unittest.TestCase):
 
     def test_nothing_is_installed_twice(self):
         path = self.machine({"dpkg-query": "printf 'installed '", "id": "echo 0", "apt-get": "echo must not run",
-                             **{name: "exit 0" for name in ("ninja", "gcc", "pkg-config", "python3")},
+                             **{name: "exit 0" for name in ("ninja", "gcc", "pkg-config", "python3", "clang", "wasm-ld")},
                              "cmake": "echo asked to configure; exit 5"})
         done = call("build", path=path)
         self.assertEqual(done.returncode, 1)

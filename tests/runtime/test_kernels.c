@@ -72,7 +72,7 @@ START_TEST(every_width_gives_the_same_bits)
       ck_assert_msg(
           hash_after(instructions, held, scheme) == hash, "%s", sbr_instructions_name(instructions));
     else if (_i == 0)
-      printf("skipped: %s, which this processor does not have\n", sbr_instructions_name(instructions));
+      harness_skip("this processor does not have %s", sbr_instructions_name(instructions));
   }
 }
 END_TEST

@@ -11,19 +11,20 @@
 /* Half a pixel of a screen of 1080, 60 degrees high, two metres away. */
 static const double HALF_PIXEL_M = 0.5 * 2 * 2 * 0.57735 / 1080;
 
-/* From each rung to each but away. */
+/* From each rung to each other one, but away. */
+enum { CHANGES = RUNG_AWAY * (RUNG_AWAY - 1) };
 static uint32_t from_of(int i) {
-  return (uint32_t)i / RUNG_AWAY;
+  return (uint32_t)i / (RUNG_AWAY - 1);
 }
 static uint32_t to_of(int i) {
-  return (uint32_t)i % RUNG_AWAY;
+  uint32_t to = (uint32_t)i % (RUNG_AWAY - 1);
+  return to + (to >= from_of(i));
 }
 
 /* By how much each vertex goes farther in the tick of the change, and in those after, than it would have gone
  * on either rung by itself. */
 START_TEST(the_skin_does_not_jump)
 {
-  if (from_of(_i) == to_of(_i)) return;
   scene s = rung_scene_walking(from_of(_i)), stays = rung_scene_walking(from_of(_i));
   static sbf_vec3 was[RUNG_VERTICES], is[RUNG_VERTICES], stay_was[RUNG_VERTICES], stay_is[RUNG_VERTICES];
   uint32_t count = rung_scene_skin(&s, was);
@@ -268,7 +269,7 @@ int main(void) {
   Suite *s = suite_create("rung change");
   TCase *c = tcase_create("rung change");
   tcase_set_timeout(c, 120);
-  tcase_add_loop_test(c, the_skin_does_not_jump, 0, RUNG_AWAY * RUNG_AWAY);
+  tcase_add_loop_test(c, the_skin_does_not_jump, 0, CHANGES);
   tcase_add_loop_test(c, energy_does_not_rise_and_the_motion_goes_on, 0, 2);
   tcase_add_test(c, what_flies_goes_on_flying);
   tcase_add_loop_test(c, what_spins_goes_on_spinning, 0, 3);

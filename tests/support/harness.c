@@ -1,6 +1,7 @@
 #include "harness.h"
 
 #include <limits.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,7 @@ int harness_run(Suite *suite) {
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_ENV);
   int failed = srunner_ntests_failed(runner);
+  printf("CASES %d\n", srunner_ntests_run(runner));
   srunner_free(runner);
   return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }
@@ -36,11 +38,26 @@ const char *harness_scratch(const char *name) {
   return joined("SBFMT_BUILD_DIR", "build", "/scratch", name);
 }
 
-const char *harness_shared(const char *path_below_data) {
+void harness_skip_case(const char *function, const char *format, ...) {
+  static bool told; /* each case is a process of its own, and may lack several things */
+  if (told) return;
+  told = true;
+  const char *ending = strrchr(function, '_'); /* Check appends _fn to what START_TEST names */
+  int length = ending && strcmp(ending, "_fn") == 0 ? (int)(ending - function) : (int)strlen(function);
+  char reason[600];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(reason, sizeof reason, format, arguments);
+  va_end(arguments);
+  printf("\nSKIP %.*s: %s\n", length, function, reason);
+  fflush(stdout);
+}
+
+const char *harness_shared_for(const char *function, const char *path_below_data) {
   const char *path = joined("SBFMT_SOURCE_DIR", ".", "/../shared/data", path_below_data);
   FILE *file = fopen(path, "rb");
   if (!file) {
-    fprintf(stderr, "skipped: %s is not there (real input beside the checkout)\n", path);
+    harness_skip_case(function, "shared/data/%s is not there", path_below_data);
     return NULL;
   }
   fclose(file);

@@ -9,9 +9,15 @@
 /* Runs the suite and gives the exit status: `int main(void) { return harness_run(my_suite()); }` */
 int harness_run(Suite *suite);
 
-/* Path of a file below the folder of real input that may stand beside the checkout; NULL, with a message
- * on standard error, where that folder is absent: the test then returns. Valid until the next call. */
-const char *harness_shared(const char *path_below_data);
+/* Prints "SKIP case: reason", which tests/report.py counts, once per case; the test then returns. Takes a
+ * printf format. */
+#define harness_skip(...) harness_skip_case(__func__, __VA_ARGS__)
+void harness_skip_case(const char *function, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Path of a file below the folder of real input that may lie beside the checkout. NULL where it is absent:
+ * the case is then skipped, and the test returns. Valid until the next call. */
+#define harness_shared(path_below_data) harness_shared_for(__func__, (path_below_data))
+const char *harness_shared_for(const char *function, const char *path_below_data);
 
 /* Path inside the checkout, and in a folder for files the tests write. Valid until the next call but three.
  */

@@ -116,6 +116,10 @@ void srunner_run_all(SRunner *runner, int how) {
   printf("%s: %d checks, %d failed\n", runner->suite->name, runner->run, runner->failed);
 }
 
+int srunner_ntests_run(SRunner *runner) {
+  return runner->run;
+}
+
 int srunner_ntests_failed(SRunner *runner) {
   return runner->failed;
 }

@@ -33,6 +33,7 @@ void tcase_set_timeout(TCase *tcase, double seconds); /* whoever runs the progra
 
 SRunner *srunner_create(Suite *suite);
 void srunner_run_all(SRunner *runner, int how);
+int srunner_ntests_run(SRunner *runner);
 int srunner_ntests_failed(SRunner *runner);
 void srunner_free(SRunner *runner);
 
