@@ -18,6 +18,7 @@ START_TEST(test_close_words)
   ck_assert_str_eq(closest("polygonpoints"), "polygon_points");
   ck_assert_str_eq(closest("nme"), "name");
   ck_assert_str_eq(closest("ID"), "");
+  ck_assert_str_eq(closest("di"), "id"); /* one swap, not two replacements */
   ck_assert_str_eq(closest("Id"), "id");
 }
 END_TEST

@@ -106,6 +106,34 @@ START_TEST(flexion_is_mutual)
 }
 END_TEST
 
+/* Four quads about point 0, whose other corners are 5 to 8; neighbours are at 0, 170, 220 and 300 degrees.
+ * The one at 170 is straightest across from that at 0, but a polygon holds both: what lies opposite is the
+ * one at 220. */
+START_TEST(flexion_passes_over_corners_of_one_polygon)
+{
+  static const double degrees[] = {0, 170, 220, 300};
+  sbf_vec3 positions[9] = {{0, 0, 0}};
+  const uint32_t sizes[4] = {4, 4, 4, 4};
+  uint32_t corners[16];
+  for (uint32_t i = 0; i < 4; i++) {
+    double angle = degrees[i] * 3.14159265358979 / 180, next = degrees[(i + 1) % 4] + (i == 3 ? 360 : 0),
+           middle = (degrees[i] + next) / 2 * 3.14159265358979 / 180;
+    positions[i + 1] = (sbf_vec3){(float)cos(angle), 0, (float)sin(angle)};
+    positions[i + 5] = (sbf_vec3){(float)(2 * cos(middle)), 0, (float)(2 * sin(middle))};
+    corners[4 * i] = 0, corners[4 * i + 1] = i + 1, corners[4 * i + 2] = i + 5,
+                corners[4 * i + 3] = (i + 1) % 4 + 1;
+  }
+  sbf_polygon_mesh mesh;
+  sbf_polygon_mesh_init(&mesh);
+  mesh.positions = (sbf_vec3_list){positions, 9};
+  mesh.polygon_sizes = (sbf_u32_list){sizes, 4};
+  mesh.polygon_points = (sbf_u32_list){corners, 16};
+  sbfi_surface_springs springs = surface_springs(&mesh);
+  ck_assert(has(springs.flexion, 1, 3));
+  ck_assert(has(springs.flexion, 2, 4));
+}
+END_TEST
+
 START_TEST(no_pair_twice)
 {
   /* A tetrahedron: every two corners have an edge already. */
@@ -131,6 +159,7 @@ static Suite *suite(void) {
   tcase_add_test(c, sheet_of_quads);
   tcase_add_test(c, triangles);
   tcase_add_test(c, flexion_is_mutual);
+  tcase_add_test(c, flexion_passes_over_corners_of_one_polygon);
   tcase_add_test(c, no_pair_twice);
   suite_add_tcase(s, c);
   return s;

@@ -57,6 +57,8 @@ CASES = (
     Case("tube_turned", "cylindrical", {"linear_x": (0.07, (-0.02, 0.1)), "twist": (0.5, (-0.2, 0.8))}, turned=True),
     Case("ball_y", "spherical", {"twist": (0.5, (-0.3, 0.8)), "swing_y": (0.4, (-0.5, 0.6)), "swing_z": (0, None)}),
     Case("ball_z", "spherical", {"twist": (-0.4, (-0.7, 0.5)), "swing_y": (0, None), "swing_z": (0.3, (-0.2, 0.5))}, axes=TURN_B),
+    Case("ball_bent", "spherical", {"twist": (0.5, (-0.3, 0.8)), "swing_y": (0.5, (0.1, 0.7)), "swing_z": (0, None)},
+         offset={"swing_y": 0.3}),
     Case("ball_turned", "spherical", {"twist": (0.3, (-0.6, 0.5)), "swing_y": (0, None), "swing_z": (-0.35, (-0.5, 0.3))}, turned=True),
     Case("line", "point_on_line", {"linear_x": (0.1, (-0.1, 0.15)), "twist": (0.3, None), "swing_y": (0.2, None), "swing_z": (0, None)}),
     Case("plane", "point_in_plane", {"linear_y": (0.1, (-0.1, 0.12)), "linear_z": (-0.05, None), "twist": (0.2, None),
@@ -86,7 +88,8 @@ def add_joint(root, case, number, centers, which):
     shift = rotated(case.axes, (case.offset.get("linear_x", 0), 0, 0))
     for frame, body, at, turn in (("frame_a", bodies[0], anchor, case.axes),
                                   ("frame_b", bodies[1], [a + b for a, b in zip(anchor, shift)],
-                                   product(case.axes, about(0, case.offset.get("twist", 0))))):
+                                   product(product(case.axes, about(1, case.offset.get("swing_y", 0))),
+                                           about(0, case.offset.get("twist", 0))))):
         add(joint, frame, position=words(a - c for a, c in zip(at, centers[body])), rotation=words(turn))
     limits = add(joint, "limits")
     for coordinate, (_, bounds) in case.motions.items():

@@ -1,3 +1,5 @@
+#include <string.h>
+
 #include "harness.h"
 #include "sbfmt/mechanics.h"
 #include "shapes.h"
@@ -37,6 +39,27 @@ START_TEST(volume_by_tributary_area)
   }
   ck_assert_float_eq_tol(least, 8 / 24.0f * 0.75f, 1e-5f);
   ck_assert_float_eq_tol(most, 8 / 24.0f, 1e-5f);
+}
+END_TEST
+
+/* Whether the masses are stated or come from a lattice: what is held carries none of it. */
+START_TEST(held_points_of_other_bodies_have_none)
+{
+  static const sbf_uint4 tetrahedra[] = {{{0, 1, 2, 3}}};
+  static const sbf_vec3 corners[] = {{0, 0, 0}, {0.6f, 0, 0}, {0, 0.1f, 0}, {0, 0, 0.1f}}; /* a litre */
+  float stated[4] = {1, 2, 3, 4};
+  sbf_level other;
+  sbf_level_init(&other);
+  other.positions = (sbf_vec3_list){corners, 4};
+  memset(held, 0, sizeof held);
+  held[1] = 1;
+  other.lattice.tetrahedra = (sbf_uint4_list){tetrahedra, 1};
+  ck_assert_double_eq_tol(sbf_level_masses(body, &other, held, masses), 0.75, 1e-5);
+  ck_assert_float_eq(masses[1], 0);
+  ck_assert_float_eq_tol(masses[2], 0.25f, 1e-6f);
+  other.masses = (sbf_f32_list){stated, 4};
+  ck_assert_double_eq_tol(sbf_level_masses(body, &other, held, masses), 8, 1e-6);
+  ck_assert_float_eq(masses[1], 0);
 }
 END_TEST
 
@@ -159,6 +182,7 @@ static Suite *suite(void) {
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, volume_by_tributary_area);
   tcase_add_test(c, held_points_have_none);
+  tcase_add_test(c, held_points_of_other_bodies_have_none);
   tcase_add_test(c, points_without_area_count_as_the_mean);
   tcase_add_test(c, stated_mass_and_maps);
   tcase_add_test(c, points_in_another_order);

@@ -9,6 +9,7 @@
 #include "harness.h"
 #include "model/asset_box.h"
 #include "model/options.h"
+#include "packed/packed_codec.h"
 #include "packed_patch.h"
 #include "promises.h"
 #include "small_asset.h"
@@ -451,11 +452,50 @@ START_TEST(test_a_bomb_does_not_go_off)
 }
 END_TEST
 
+/* One more chunk of a known kind, which is sound but which no record names; the table stands behind all. */
+START_TEST(test_a_chunk_that_nothing_names)
+{
+  sbf_asset *asset = small_asset(), *loaded;
+  sbf_buffer file;
+  sbf_diagnostic error;
+  ck_assert_int_eq(
+      sbf_packed_save_memory(asset, &(sbf_save_options){.store = true}, NULL, &file, NULL), SBF_OK);
+  uint64_t count = patch_get(file.at, 40, 4), size = 64 * (count + 1), table = (file.size + 63) / 64 * 64;
+  uint8_t *more = calloc(1, table + size), *entry = more + table + 64 * count;
+  memcpy(more, file.at, file.size);
+  memcpy(more + table, file.at + 64, 64 * count);
+  memcpy(entry, file.at + patch_entry((uint32_t)count - 1, 0), 64);
+  patch_put(entry, PATCH_LIST, 2, 999);
+  patch_put(entry, PATCH_OFFSET, 8, table); /* empty, where the table begins */
+  patch_put(entry, PATCH_STORED_SIZE, 8, 0);
+  patch_put(entry, PATCH_RAW_SIZE, 8, 0);
+  patch_put(entry, PATCH_COUNT, 8, 0);
+  patch_put(entry, PATCH_CRC, 4, 0);
+  for (int named = 0; named < 2; named++) {
+    uint64_t entries = count + 1 - (uint64_t)named;
+    patch_put(more, 16, 8, table + 64 * entries);
+    patch_put(more, 24, 8, table);
+    patch_put(more, 32, 8, 64 * entries);
+    patch_put(more, 40, 4, entries);
+    patch_put(more, 44, 4, sbfi_crc32(more + table, (size_t)(64 * entries)));
+    patch_put(more, 60, 4, sbfi_crc32(more, 60));
+    sbf_status status = sbf_packed_load_memory(more, (size_t)(table + 64 * entries), NULL, &loaded, &error);
+    ck_assert_msg(status == (named ? SBF_OK : SBF_BAD_INPUT), "%s", error.message);
+    if (!named) ck_assert_int_eq(error.code, SBF_CODE_PACKED_TABLE);
+    sbf_asset_free(loaded);
+  }
+  free(more);
+  sbf_buffer_free(&file);
+  sbf_asset_free(asset);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("packed_load");
   TCase *tests = tcase_create("packed_load");
   tcase_set_timeout(tests, 120);
   tcase_add_test(tests, test_every_field_comes_back);
+  tcase_add_test(tests, test_a_chunk_that_nothing_names);
   tcase_add_test(tests, test_stored_lists_are_used_in_place);
   tcase_add_test(tests, test_memory_that_is_not_aligned_is_copied);
   tcase_add_test(tests, test_files_are_mapped_or_read_and_stay_as_long_as_the_asset);

@@ -137,6 +137,23 @@ START_TEST(test_header_faults)
 }
 END_TEST
 
+/* Bytes behind the end that the header states, be it one or a whole block. */
+START_TEST(test_something_was_added)
+{
+  make_file();
+  sbf_diagnostic error;
+  uint8_t *longer = calloc(1, file.size + 64);
+  memcpy(longer, file.at, file.size);
+  for (size_t more = 1; more <= 64; more += 21) {
+    ck_assert_int_eq(read_table(longer, file.size + more, &error), SBF_BAD_INPUT);
+    ck_assert_int_eq(error.code, SBF_CODE_PACKED_TABLE);
+    ck_assert_int_eq(error.offset, (int64_t)file.size);
+  }
+  free(longer);
+  free_file();
+}
+END_TEST
+
 START_TEST(test_count_of_zero)
 {
   make_file();
@@ -291,6 +308,7 @@ int main(void) {
   tcase_add_test(tests, test_chunks_of_a_level_are_found_from_the_table);
   tcase_add_test(tests, test_damage_of_a_transfer_is_named);
   tcase_add_test(tests, test_header_faults);
+  tcase_add_test(tests, test_something_was_added);
   tcase_add_test(tests, test_count_of_zero);
   tcase_add_test(tests, test_entry_faults);
   tcase_add_test(tests, test_a_chunk_over_the_table);
