@@ -32,7 +32,7 @@ class Calls(unittest.TestCase):
     def test_help(self):
         done = call("help")
         self.assertEqual(done.returncode, 0)
-        for command in ("demo", "test", "bench", "charts", "build", "fuzz", "coverage", "abi", "format"):
+        for command in ("demo", "test", "bench", "charts", "build", "fuzz", "coverage", "mutants", "abi", "format"):
             self.assertIn(f"\n  {command} ", done.stdout)
         self.assertEqual(call().stdout, done.stdout)
 
