@@ -5,7 +5,8 @@
  * the last: the least of the rounds of the mean over that time, nothing asleep. `apart_mm`: the farthest that
  * a joint's two ends were from each other; `beyond_deg`: by how much the worst limit of a joint was broken;
  * `deep_mm`: how deep the corner of a box was in the ground; `rest_mm_s`: the fastest middle of a part in the
- * last second. `coarse` is the same with rigid_coarse.
+ * last second. `coarse` is the same with rigid_coarse; `undamped` with joints that have neither damping nor
+ * friction, as Bullet's have none.
  *
  * `cloth`: 100 x 100 points 1 cm apart, 0.8 kg, springs of 200 N/m, dropped on a ball of 0.3 m, two seconds.
  * `fall_us` and `lie_us` as above, of the first and the last half second; `deep_mm`: how deep a point was in
@@ -111,7 +112,7 @@ static sbf_vec3 pushed_place(void) {
   return (sbf_vec3){at.x, at.y + RAISE_M + 0.05f, at.z};
 }
 
-static fall our_ragdoll(const sbr_model *model, int ticks) {
+static fall our_ragdoll(const sbr_model *model, bool undamped, int ticks) {
   sbr_world_definition definition = sbr_default_world_definition();
   sbr_character_definition standing = sbr_default_character_definition();
   sbr_world *world;
@@ -123,6 +124,9 @@ static fall our_ragdoll(const sbr_model *model, int ticks) {
   standing.position.y = (double)RAISE_M;
   bench_require(sbr_world_create(&definition, &world, &error), &error);
   bench_require(sbr_character_create(world, model, &standing, &id, &error), &error);
+  sbr_rigid_drive drive = sbr_default_rigid_drive();
+  drive.joint_damping_1_s = drive.joint_friction = 0;
+  if (undamped) sbr_character_rigid_drive(world, id, &drive);
   sbf_vec3 at = pushed_place();
   sbr_character_rigid_push(world, id, PUSHED, (sbr_double3){at.x, at.y, at.z}, PUSH_N_S);
   for (int t = 0; t < ticks; t++) {
@@ -169,8 +173,9 @@ static void print_ragdoll(const char *engine, const char *method, int steps, int
 static void measure_ragdolls(bool quick) {
   static const struct {
     uint32_t steps; /* 0: as many as it takes by itself */
-    bool coarse;
-  } ours[] = {{0, false}, {2, false}, {1, false}, {0, true}};
+    bool coarse, undamped;
+  } ours[] = {{0, false, false}, {2, false, false}, {1, false, false}, {0, true, false}, {0, false, true},
+      {0, true, true}};
   static const int theirs[][2] = {{1, 10}, {1, 50}, {4, 10}, {8, 10}};
   sbf_asset *asset = ragdoll_asset();
   sbf_diagnostic error;
@@ -181,10 +186,11 @@ static void measure_ragdolls(bool quick) {
     fall best = {0};
     bench_require(sbr_model_create(asset, &options, &model, &error), &error);
     for (int r = 0; r < rounds; r++) {
-      fall f = our_ragdoll(model, ticks);
+      fall f = our_ragdoll(model, ours[k].undamped, ticks);
       keep_least(&best, &f, r == 0);
     }
-    print_ragdoll("sbrun", ours[k].coarse ? "coarse" : "direct", (int)ours[k].steps, 1, &best);
+    static const char *const methods[2][2] = {{"direct", "direct undamped"}, {"coarse", "coarse undamped"}};
+    print_ragdoll("sbrun", methods[ours[k].coarse][ours[k].undamped], (int)ours[k].steps, 1, &best);
     if (ours[k].steps == 0 && best.apart_m > 1e-3f)
       bench_fail("our ragdoll comes apart by %g m", (double)best.apart_m);
     if (ours[k].steps == 0 && best.beyond * DEGREES > 1)

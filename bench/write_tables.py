@@ -4,16 +4,20 @@
     bench/write_tables.py [--check]      with --check, says which document is stale and changes nothing
 
 A table stands between the lines `<!-- table NAME MACHINE -->` and `<!-- end of table -->`; it comes from
-bench/results/MACHINE/NAME.csv. New results: ./run bench, then copy out/bench/*.csv there."""
+bench/results/MACHINE/NAME.csv. A figure in a sentence stands between `<!-- figure NAME MACHINE COLUMN KEY=VALUE... -->` and
+`<!-- end -->`: the column in the row of these keys, or the least to the greatest of several rows; `over=COLUMN` and what follows name
+rows whose value it is divided by. New results: ./run bench, then copy out/bench/*.csv there."""
 import csv
 import math
 import os
 import re
+import shlex
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 DOCUMENTS = ("docs/benchmarks.md", "docs/sizes.md", "docs/lattices.md", "docs/solvers.md", "docs/detail.md", "docs/godot.md",
              "docs/rigid.md", "docs/web.md")
+FIGURE = re.compile(r"(<!-- figure ([^>]*?) -->)[^<]*(<!-- end -->)")
 BLOCK = re.compile(r"(<!-- table (\w+) ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -200,9 +204,41 @@ def bias_table(rows):
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
-def table(name, machine):
+def results(name, machine):
     with open(os.path.join(ROOT, "bench/results", machine, name + ".csv"), newline="") as file:
-        rows = list(csv.DictReader(file))
+        return list(csv.DictReader(file))
+
+
+def values(rows, column, keys):
+    """The column's numbers in the rows of these keys."""
+    wanted = dict(key.split("=", 1) for key in keys)
+    found = [float(row[column]) for row in rows if all(row[key] == value for key, value in wanted.items())]
+    if not found:
+        sys.exit(f"no row of bench/results has {' '.join(keys)}")
+    return found
+
+
+def two_digits(value):
+    """Two digits that count: as many as a sentence needs."""
+    digits = max(0, 1 - math.floor(math.log10(abs(value)))) if value else 0
+    return f"{round(value, digits):,.{digits}f}"
+
+
+def figure(words):
+    """What the marker asks for, as text."""
+    name, machine, column, *keys = shlex.split(words)
+    rows = results(name, machine)
+    over = next((i for i, key in enumerate(keys) if key.startswith("over=")), len(keys))
+    found = values(rows, column, keys[:over])
+    if over < len(keys):
+        divisor, = values(rows, keys[over][len("over="):], keys[over + 1:])
+        found = [value / divisor for value in found]
+    low, high = two_digits(min(found)), two_digits(max(found))
+    return low if low == high else f"{low} to {high}"
+
+
+def table(name, machine):
+    rows = results(name, machine)
     if name == "bias":
         return bias_table(rows)
     make_row, head, text_columns = TABLES[name]
@@ -221,6 +257,7 @@ def main():
         with open(os.path.join(ROOT, path)) as file:
             text = file.read()
         fresh = BLOCK.sub(lambda match: match[1] + table(match[2], match[3]) + match[4], text)
+        fresh = FIGURE.sub(lambda match: match[1] + figure(match[2]) + match[3], fresh)
         if fresh == text:
             continue
         stale.append(path)
