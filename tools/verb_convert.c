@@ -75,10 +75,11 @@ static void state_figures(sbf_asset *asset) {
 }
 
 static int convert(cli_call *call, const char *input, const char *out, sbf_convert_options *options) {
-  sbf_asset *asset;
+  sbf_asset *asset, *misfit = NULL;
   sbf_diagnostic error;
   sbf_convert_summary summary = {.source_count = 0};
   options->summary = &summary;
+  options->misfit = &misfit;
   sbf_status status = read_input(call, input, options, &asset, &error);
   if (status == SBF_OK && !materials_apply(call, asset)) {
     sbf_asset_free(asset);
@@ -92,6 +93,9 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
     sbf_asset_free(asset);
   }
   if (status != SBF_OK) cli_print_diagnostic(call, &error);
+  if (misfit && call->messages && write_report(call, input, out, options, misfit, &error) != SBF_OK)
+    cli_print_diagnostic(call, &error);
+  sbf_asset_free(misfit);
   return (int)status;
 }
 

@@ -1,5 +1,6 @@
 """OBJ files with a rig in another file: where they lie, which bones move them, what is refused."""
 
+import json
 import os
 
 import obj_variants as variants
@@ -292,7 +293,14 @@ class FromBones(ProgramTest):
                              ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))])
         said = self.fails(1, *self.convert(pole))
         self.assertRegex(said, r"only \d+ % of the bones' length lies inside the mesh; outside lie '.*' by .* m")
+        self.assertIn("IMPORT_RIG_OUTSIDE", said)
         self.assert_empty_folder(but=["in.obj"])
+        self.fails(1, *self.convert(pole, "--report", self.path("why.json")))
+        self.assert_empty_folder(but=["in.obj", "why.json"])
+        report = json.loads(read_text(self.path("why.json")))
+        self.assertEqual(len(report["bundle"]["bones"]), len(Bundle(self.calf.bundle).bones))
+        self.assertIn("IMPORT_RIG_OUTSIDE", [note["code"] for note in report["notes"]])
+        self.assertTrue(report["pictures"] or report["drawing_failed"])
 
     def test_a_mesh_of_one_triangle_is_refused(self):
         triangle = variants.Obj([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [],

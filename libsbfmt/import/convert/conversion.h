@@ -25,6 +25,7 @@ typedef struct sbfi_conversion {
   uint32_t *node_of_bone;    /* (asset->bones.count) */
   int32_t *bone_of_mesh;     /* (scene->mesh_count) bone that carries each mesh, or SBF_NONE */
   const char **name_of_mesh; /* (scene->mesh_count) what the section is called */
+  bool keep_misfit;          /* it fails, and the asset shows why: the caller of the library gets it */
   const sbf_convert_options *options;
   sbfi_reporter reporter;
   sbf_diagnostic *error;

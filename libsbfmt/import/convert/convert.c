@@ -216,7 +216,10 @@ static sbf_status convert_readings(
   sbfi_array_free(&c.ids.slots);
   sbfi_arena_free(&c.scratch);
   if (status != SBF_OK) {
-    sbf_asset_free(c.asset);
+    if (c.keep_misfit && options->misfit)
+      *options->misfit = c.asset;
+    else
+      sbf_asset_free(c.asset);
     return status;
   }
   *asset = c.asset;

@@ -199,8 +199,35 @@ static bool describe_outside(const search *s, char *text, size_t size, sbfi_aren
   return true;
 }
 
+/* The input as it was laid over the bones at best, for the caller to look at. */
+static bool show(const search *s) {
+  sbfi_conversion *c = s->r->c;
+  const sbf_polygon_mesh *from = &s->r->input.mesh;
+  sbf_render_mesh *mesh = sbfi_convert_allocate(c, 1, sizeof *mesh);
+  sbf_vec3 *positions = sbfi_convert_allocate(c, from->positions.count, sizeof *positions);
+  uint32_t *sizes = sbfi_convert_allocate(c, from->polygon_sizes.count, sizeof *sizes);
+  uint32_t *points = sbfi_convert_allocate(c, from->polygon_points.count, sizeof *points);
+  if (!mesh || !positions || !sizes || !points) return false;
+  for (uint32_t i = 0; i < from->positions.count; i++)
+    positions[i] = sbfi_transform_point(&s->best, from->positions.at[i]);
+  memcpy(sizes, from->polygon_sizes.at, from->polygon_sizes.count * sizeof *sizes);
+  memcpy(points, from->polygon_points.at, from->polygon_points.count * sizeof *points);
+  sbf_render_mesh_init(mesh);
+  mesh->id = sbfi_new_id(c, "mesh", "input");
+  mesh->name = "input";
+  sbf_polygon_mesh_init(&mesh->mesh);
+  mesh->mesh.target = SBF_MESH_TARGET_RENDERING;
+  mesh->mesh.positions = (sbf_vec3_list){positions, from->positions.count};
+  mesh->mesh.polygon_sizes = (sbf_u32_list){sizes, from->polygon_sizes.count};
+  mesh->mesh.polygon_points = (sbf_u32_list){points, from->polygon_points.count};
+  c->asset->render_meshes = (sbf_render_mesh_list){mesh, 1};
+  c->keep_misfit = true;
+  return mesh->id != NULL;
+}
+
 static sbf_status refuse(const search *s, sbfi_arena *arena) {
   char outside[260] = "";
+  if (!show(s)) return sbfi_convert_no_memory(s->r->c);
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
   return sbfi_diagnose(s->r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
       "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig, or "

@@ -100,6 +100,10 @@ typedef struct sbf_convert_options {
    * these that fits each object.
    */
   const char *weights;
+  /* Receives, where the conversion fails because the rig lies outside the input (IMPORT_RIG_OUTSIDE), an
+   * asset of both as they were laid over each other at best: bones and one render mesh, to be looked at, and
+   * freed by the caller. Else it stays as it is; may be NULL. */
+  sbf_asset **misfit;
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""How well an OBJ gets the weights of a rig that has a mesh: cases b (its own mesh, by place) and c (a mesh like it).
+
+Every rigged file is exported as OBJ, changed as other programs would have written it (tests/e2e/obj_variants.py), and
+converted with the file as its rig; the file's own conversion is the truth. Prints CSV, and what is wanted of it:
+
+    case b   weights equal within 1e-3 at >= 99.9 % of points; the same legs and sections; the distance walked in 4 s
+             within 2 %; conversion in at most 1.3 times the time of the original
+    case c   the skin, posed by the file's clips, within 1 % of the longest side of the original's at 99 % of points
+
+    SBFMT_BUILD_DIR=build/release python3 -B bench/bench_rigging.py [FILE.glb ...]
+"""
+
+import glob
+import os
+import statistics
+import sys
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "tests", "e2e"))
+
+import json  # noqa: E402
+
+import obj_variants as variants  # noqa: E402
+from rigged_weights import Original, posed_errors, share_of_equal  # noqa: E402
+from sbfmt_program import call  # noqa: E402
+
+Z_UP = ("x", "-z", "y")
+
+
+def same_meshes(obj):
+    yield "centimetres; Z up; 6 decimals", variants.moved(obj, 0.01, Z_UP), 6
+    yield "inches; shuffled; triangles", variants.triangulated(variants.shuffled(variants.moved(obj, 0.0254))), 6
+    yield "mirrored; elsewhere", variants.moved(obj, 1, ("-x", "y", "z"), (5, 1, -2)), None
+    yield "odd unit; one object; merged", variants.moved(variants.merged(variants.one_object(obj)), 0.0371), None
+    yield "objects by material", variants.by_material(obj), 6
+    names = sorted({name for name, _, _ in obj.faces})
+    if len(names) > 1:
+        yield "one object of several", variants.moved(variants.only(obj, lambda n: n == names[0]), 0.01, Z_UP), 6
+
+
+def like_meshes(obj):
+    yield "a third of points moved by 1 %", variants.jiggled(obj)
+    yield "subdivided once", variants.subdivided(obj)
+    yield "simplified to half", variants.simplified(obj)
+
+
+def convert(path, rig, out, *options):
+    """Seconds of the quicker of two runs."""
+    seconds = []
+    for _ in range(2):
+        start = time.perf_counter()
+        made = call("convert", path, *(["--rig", rig] if rig else []), *options, "-o", out)
+        seconds.append(time.perf_counter() - start)
+        if made.status:
+            raise RuntimeError(made.err.strip().splitlines()[-1])
+    return min(seconds)
+
+
+def described(path):
+    info = json.loads(call("info", path, "--format", "json").out)
+    walk = call("run", path, "--seconds", 4, "--drive", "0.4,0", "--format", "json")
+    distance = json.loads(walk.out).get("distance", 0) if walk.status == 0 and walk.out else 0
+    return info["gait"], sorted(str(section["bone"]) for section in info["sections"]), distance
+
+
+def measure_same(original, folder, rows):
+    source, out = os.path.join(folder, "in.obj"), os.path.join(folder, "out.sbf")
+    whole = os.path.join(folder, "whole.sbf")
+    wanted_seconds = convert(original.path, None, whole)
+    gait, sections, distance = described(whole)
+    for name, obj, digits in same_meshes(original.obj):
+        variants.write(obj, source, digits)
+        try:
+            seconds = convert(source, original.path, out)
+            found = described(out)
+            share = share_of_equal(original, obj, out)
+        except RuntimeError as error:
+            print(f"b,{original.name},{name},{len(obj.points)},0,,,,,{error}".replace("\n", " "), flush=True)
+            rows.append((0, False, 0, 0))
+            continue
+        walked = found[2] / distance if distance else 1.0
+        part = name.startswith("one object of")
+        same = part or (found[0] == gait and (found[1] == sections or "one object" in name))
+        rows.append((share, same, walked if not part else 1.0, seconds / wanted_seconds))
+        print(f"b,{original.name},{name},{len(obj.points)},{100 * share:.2f},{'yes' if same else 'no'},"
+              f"{walked:.3f},{seconds / wanted_seconds:.2f},,", flush=True)
+
+
+def measure_like(original, folder, rows):
+    source, out = os.path.join(folder, "in.obj"), os.path.join(folder, "out.sbf")
+    for name, obj in like_meshes(original.obj):
+        obj = variants.moved(obj, 0.01, Z_UP)
+        variants.write(obj, source, 6)
+        try:
+            convert(source, original.path, out, "--no-build")
+        except RuntimeError as error:
+            print(f"c,{original.name},{name},{len(obj.points)},,,,,,{error}", flush=True)
+            rows.append(1.0)
+            continue
+        errors = posed_errors(original, obj, out, clips=1, frames=2)
+        if not errors:  # no clips, nothing to pose it by
+            continue
+        rows.append(errors[int(0.99 * (len(errors) - 1))])
+        print(f"c,{original.name},{name},{len(obj.points)},,,,,{100 * rows[-1]:.3f},", flush=True)
+
+
+def default_files():
+    zoo = os.path.join(ROOT, os.pardir, "shared", "zoo", "*", "*.glb")
+    return sorted(glob.glob(os.path.join(ROOT, "examples", "*", "*.glb"))) + sorted(glob.glob(zoo))
+
+
+def main():
+    same, like = [], []
+    print("case,file,variant,points,equal_percent,same_kind,distance,time,p99_percent,error")
+    for path in sys.argv[1:] or default_files():
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                original = Original(path, folder)
+            except RuntimeError as error:
+                print(f"-,{os.path.basename(path)},,,,,,,,{str(error).splitlines()[-1]}")
+                continue
+            measure_same(original, folder, same)
+            measure_like(original, folder, like)
+    if same:
+        print(f"# b: equal at 99.9 % of points in {sum(r[0] >= 0.999 for r in same)} of {len(same)}, the same kind in "
+              f"{sum(r[1] for r in same)}, distance within 2 % in {sum(abs(r[2] - 1) <= 0.02 for r in same)}, median "
+              f"time {statistics.median(r[3] for r in same):.2f}, most {max(r[3] for r in same):.2f}")
+    if like:
+        print(f"# c: within 1 % at 99 % of points in {sum(e <= 0.01 for e in like)} of {len(like)}, median "
+              f"{100 * statistics.median(like):.3f} %")
+
+
+if __name__ == "__main__":
+    main()
