@@ -60,7 +60,8 @@ MAY_USE = {
     "runtime/include": [],
     "runtime/hosts": ["runtime/hosts"],
     "tools": ["tools"],
-    "bench": ["bench", "tools", "examples", "runtime/math", "runtime/ik"],  # a thread pool, a crowd; solvers alone are not public
+    "bench": ["bench", "tools", "examples", "runtime/math", "runtime/ik", "libsbfmt/base", "libsbfmt/build/weights",
+              "libsbfmt/motion"],  # a thread pool, a crowd; solvers, weights and poses alone are not public
     "examples": ["examples"],
     "tests": None,  # anything: tests look inside
 }
