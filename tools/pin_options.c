@@ -60,11 +60,23 @@ static bool read_attachments(const cli_call *call, pin_options *pins, sbf_conver
   return good && pins->attachments;
 }
 
+static bool read_shells(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
+  if (!read_names(call, "--shell", &pins->shells, &pins->shell_text, &options->shell_count)) return false;
+  options->shells = pins->shells;
+  for (uint32_t i = 0; i < options->shell_count; i++) {
+    if (pins->shells[i].bone && pins->shells[i].bone[0]) continue;
+    cli_wrong(call, "--shell takes an object and the bone that moves it, as --shell hat=head, not '%s'",
+        pins->shells[i].group);
+    return false;
+  }
+  return true;
+}
+
 bool pin_options_read(const cli_call *call, pin_options *pins, sbf_convert_options *options) {
   *pins = (pin_options){.pins = NULL};
   if (!read_names(call, "--pin", &pins->pins, &pins->text, &options->pin_count) ||
       !read_names(call, "--hold", &pins->holds, &pins->held_text, &options->hold_count) ||
-      !read_attachments(call, pins, options))
+      !read_attachments(call, pins, options) || !read_shells(call, pins, options))
     return false;
   options->pins = pins->pins;
   options->holds = pins->holds;
@@ -76,6 +88,8 @@ void pin_options_free(pin_options *pins) {
   free(pins->text);
   free(pins->holds);
   free(pins->held_text);
+  free(pins->shells);
+  free(pins->shell_text);
   free(pins->attachments);
   free(pins->attached_text);
 }

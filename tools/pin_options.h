@@ -1,5 +1,5 @@
-/* `--pin GROUP[=BONE]`, `--hold`, `--attach BODY=HULL` and the bounds and stiffness of goals, for
- * sbf_convert. */
+/* `--pin GROUP[=BONE]`, `--hold`, `--attach BODY=HULL`, `--shell OBJECT=BONE` and the bounds and stiffness of
+ * goals, for sbf_convert. */
 #ifndef PIN_OPTIONS_H
 #define PIN_OPTIONS_H
 
@@ -19,14 +19,16 @@
           "let everything of a soft body inside the hull of another object, or of a bone's rigid body, be "  \
           "held by "                                                                                         \
           "it; that object is then a rigid body and no longer drawn; may be given again"},                   \
+      {"--shell", "OBJECT[#N]=BONE",                                                                         \
+          "let one bone of the rig move an object, or its shell number N; may be given again"},              \
       {"--goal", "MIN,MAX", "bounds of pin weights; below 1 a pin is a goal spring (0,1)"}, {                \
     "--goal-stiffness", "N/M", "of a goal spring at weight 1 (by the body's modulus)"                        \
   }
 
 typedef struct pin_options {
-  sbf_convert_pin *pins, *holds;
+  sbf_convert_pin *pins, *holds, *shells;
   sbf_convert_attachment *attachments;
-  char *text, *held_text, *attached_text; /* of all names */
+  char *text, *held_text, *attached_text, *shell_text; /* of all names */
 } pin_options;
 
 /* Sets what the call asks for in `*options`; "world", and nothing behind the =, are the world. False, with a

@@ -100,20 +100,14 @@ static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const
   return best;
 }
 
-static bool is_demanded(const sbfi_weight_mesh *mesh, uint32_t shell, const int32_t *bone_of_site) {
-  for (uint32_t i = 0; i < mesh->shells[shell].site_count; i++)
-    if (bone_of_site[mesh->sites_by_shell[mesh->shells[shell].first_site + i]] != SBF_NONE) return true;
-  return false;
-}
-
-static bool stiffen_shells(const sbfi_weight_mesh *mesh, uint32_t bone_count, const int32_t *bone_of_site,
-    sbfi_site_weights *weights, sbfi_weights_figures *figures, sbfi_arena *arena) {
+static bool stiffen_shells(const sbfi_weight_mesh *mesh, uint32_t bone_count, sbfi_site_weights *weights,
+    sbfi_weights_figures *figures, sbfi_arena *arena) {
   double *sums = sbfi_arena_allocate(arena, bone_count, sizeof *sums), share;
   if (!sums) return false;
   figures->shell_count = mesh->shell_count;
   for (uint32_t s = 0; s < mesh->shell_count; s++) {
     const sbfi_shell *shell = &mesh->shells[s];
-    if (shell->size >= MIDDLING || is_demanded(mesh, s, bone_of_site)) continue;
+    if (shell->size >= MIDDLING) continue;
     uint32_t bone = leading_bone(mesh, s, weights, sums, bone_count, &share);
     if (shell->size >= SMALL && share <= CLEAR_LEAD) continue;
     for (uint32_t i = 0; i < shell->site_count; i++)
@@ -124,13 +118,12 @@ static bool stiffen_shells(const sbfi_weight_mesh *mesh, uint32_t bone_count, co
 }
 
 bool sbfi_shell_weights_repair(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
-    uint32_t bone_count, const sbfi_bone_reach *reach, const int32_t *bone_of_site,
-    sbfi_site_weights *weights, sbfi_weights_figures *figures, sbfi_arena *arena) {
+    uint32_t bone_count, const sbfi_bone_reach *reach, sbfi_site_weights *weights,
+    sbfi_weights_figures *figures, sbfi_arena *arena) {
   if (!copy_from_holders(mesh, reach, weights, arena) ||
-      !stiffen_shells(mesh, bone_count, bone_of_site, weights, figures, arena))
+      !stiffen_shells(mesh, bone_count, weights, figures, arena))
     return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
-    if (bone_of_site[i] != SBF_NONE) set_single(&weights[i], (uint32_t)bone_of_site[i]);
     erase_other_side(segments, &weights[i]);
     normalise(&weights[i]);
   }

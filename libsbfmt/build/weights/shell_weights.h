@@ -4,11 +4,11 @@
 
 #include "build/weights/heat_weights.h"
 
-/* `bone_of_site` (mesh->site_count): the bone that the caller demands, or SBF_NONE. Afterwards each site has
+/* Afterwards each site has
  * at most SBFI_WEIGHTS_PER_POINT bones, whose weights sum to one. Fills shells of `figures`. False where
  * memory runs out. */
 bool sbfi_shell_weights_repair(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
-    uint32_t bone_count, const sbfi_bone_reach *reach, const int32_t *bone_of_site,
-    sbfi_site_weights *weights, sbfi_weights_figures *figures, sbfi_arena *arena);
+    uint32_t bone_count, const sbfi_bone_reach *reach, sbfi_site_weights *weights,
+    sbfi_weights_figures *figures, sbfi_arena *arena);
 
 #endif

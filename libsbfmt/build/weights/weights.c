@@ -15,7 +15,6 @@ typedef struct work {
   sbfi_body_grid grid;
   sbfi_nearest_bone *nearest;
   sbfi_site_weights *weights;
-  int32_t *bone_of_site;
 } work;
 
 static bool prepare(work *w) {
@@ -25,12 +24,8 @@ static bool prepare(work *w) {
   w->segments = sbfi_arena_allocate(arena, in->bone_count, sizeof *w->segments);
   w->nearest = sbfi_arena_allocate(arena, w->mesh.site_count, sizeof *w->nearest);
   w->weights = sbfi_arena_allocate(arena, w->mesh.site_count, sizeof *w->weights);
-  w->bone_of_site = sbfi_arena_allocate(arena, w->mesh.site_count, sizeof *w->bone_of_site);
-  if (!w->sizes || !w->segments || !w->nearest || !w->weights || !w->bone_of_site) return false;
+  if (!w->sizes || !w->segments || !w->nearest || !w->weights) return false;
   for (uint32_t t = 0; t < w->mesh.triangle_count; t++) w->sizes[t] = 3;
-  for (uint32_t i = 0; i < w->mesh.site_count; i++) w->bone_of_site[i] = SBF_NONE;
-  for (uint32_t i = 0; in->bone_of_point && i < in->point_count; i++)
-    if (in->bone_of_point[i] != SBF_NONE) w->bone_of_site[w->mesh.site_of_point[i]] = in->bone_of_point[i];
   w->surface = sbfi_weight_mesh_surface(&w->mesh, w->sizes);
   return sbfi_body_rays_make(&w->rays, &w->surface, arena) &&
          sbfi_bone_segments_find(in, &w->mesh, &w->rays, w->segments, arena);
@@ -52,7 +47,7 @@ static bool compute(work *w, sbfi_weights_figures *figures) {
     return false;
   figures->cell_count = w->grid.cell_count;
   return sbfi_shell_weights_repair(
-      &w->mesh, w->segments, in->bone_count, &w->reach, w->bone_of_site, w->weights, figures, arena);
+      &w->mesh, w->segments, in->bone_count, &w->reach, w->weights, figures, arena);
 }
 
 /* The bytes of an output array of `point_count` items of so many bytes; the sizes were checked by the input.

@@ -31,10 +31,8 @@ typedef struct sbfi_weights_input {
    * used for bones without children; 0 where the rig does not state it: the mesh then limits the bone. */
   const sbf_bone *bones;
   uint32_t bone_count;
-  const int8_t *sides;          /* (bone_count) 1 left, -1 right, 0 in the middle; NULL: not known */
-  const bool *is_deforming;     /* (bone_count); NULL: all but those named root, armature or master */
-  const int32_t *bone_of_point; /* (point_count) bone that the caller demands, SBF_NONE: computed; or NULL.
-                                 * A shell whose points demand one bone follows it as a whole. */
+  const int8_t *sides;      /* (bone_count) 1 left, -1 right, 0 in the middle; NULL: not known */
+  const bool *is_deforming; /* (bone_count); NULL: all but those named root, armature or master */
 } sbfi_weights_input;
 
 typedef struct sbfi_weights_figures {

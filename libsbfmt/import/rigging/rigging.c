@@ -221,7 +221,8 @@ static sbf_status rig_objects(sbfi_rigging *r, weights_mode mode) {
   if (mode == MODE_ANY || mode == MODE_NAMED) sbfi_weigh_by_name(r);
   if (mode == MODE_ANY) sbfi_weigh_by_own_skin(r);
   bool alike = by_points;
-  sbf_status status = align_rest(r, mode, &alike);
+  sbf_status status = sbfi_weigh_shells(r);
+  if (status == SBF_OK) status = align_rest(r, mode, &alike);
   if (status != SBF_OK) return status;
   say_alignment(r);
   if (!sbfi_surface_move(&moved, &r->input, &r->alignment.to_asset, &c->scratch))
@@ -246,6 +247,10 @@ sbf_status sbfi_rig_input(sbfi_conversion *c) {
   weights_mode mode = mode_of(c->options->weights);
   bool own_rig = c->rig == c->scene;
   if (mode != MODE_ANY && (!c->rig || (own_rig && mode < MODE_COMPUTE))) return refuse_way(c);
+  if (c->options->shell_count && (!c->rig || own_rig))
+    return sbfi_diagnose(c->error, SBF_CODE_BAD_CALL,
+        "'%s' cannot be given to a bone: that is for a skeleton in another file, --rig FILE",
+        c->options->shells[0].group);
   if (!c->rig || c->asset->bones.count == 0 || c->scene->mesh_count == 0) return SBF_OK;
   if (own_rig && mode == MODE_ANY) return SBF_OK;
   sbfi_rigging r = {.c = c};

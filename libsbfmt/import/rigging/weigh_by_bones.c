@@ -1,6 +1,7 @@
 /* Weights from the bones alone, for points that nothing else gives any. */
 #include "build/weights/weights.h"
 #include "import/rigging/weigh.h"
+#include "motion/carried_motion.h"
 
 static uint32_t (*triangles_of(const sbfi_scene_surface *s, sbfi_arena *arena, uint32_t *count))[3] {
   uint32_t(*triangles)[3] =
@@ -31,6 +32,14 @@ static bool *find_deforming(const sbfi_rigging *r) {
   return any ? deforming : NULL;
 }
 
+/* Which limbs are left and right, by their names. */
+static int8_t *find_sides(const sbfi_rigging *r) {
+  const sbf_bone_list bones = r->c->asset->bones;
+  int8_t *sides = sbfi_arena_allocate(&r->c->scratch, (size_t)bones.count + 1, sizeof *sides);
+  for (uint32_t b = 0; sides && b < bones.count; b++) sides[b] = (int8_t)sbfi_name_side(bones.at[b].name);
+  return sides;
+}
+
 sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved) {
   sbfi_weights computed;
   sbfi_weights_input in = {.allocator = &r->c->scratch.allocator,
@@ -38,9 +47,10 @@ sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved)
       .point_count = moved->mesh.positions.count,
       .bones = r->c->asset->bones.at,
       .bone_count = r->c->asset->bones.count,
+      .sides = find_sides(r),
       .is_deforming = find_deforming(r)};
   in.triangles = (const uint32_t(*)[3])triangles_of(moved, &r->c->scratch, &in.triangle_count);
-  if (!in.triangles) return sbfi_convert_no_memory(r->c);
+  if (!in.triangles || !in.sides) return sbfi_convert_no_memory(r->c);
   sbf_status status = sbfi_compute_weights(&in, &computed, r->c->error);
   for (uint32_t i = 0; status == SBF_OK && i < in.point_count; i++) {
     if (r->sources[i] != SBFI_WEIGHTS_NONE) continue;
@@ -50,6 +60,13 @@ sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved)
     sbfi_influences_finish(&r->weights[i]);
     r->sources[i] = SBFI_WEIGHTS_COMPUTED;
   }
+  if (status == SBF_OK)
+    sbfi_convert_warn(r->c, SBF_CODE_IMPORT_WEIGHTS_COMPUTED,
+        "weights were computed from %u bones: %u of %u shells move with one bone each, %u bones hold no "
+        "point; "
+        "--shell gives one to another",
+        in.bone_count, computed.figures.rigid_shell_count, computed.figures.shell_count,
+        computed.figures.unused_bone_count);
   sbfi_weights_free(&computed);
   return status;
 }

@@ -104,6 +104,11 @@ typedef struct sbf_convert_options {
    * asset of both as they were laid over each other at best: bones and one render mesh, to be looked at, and
    * freed by the caller. Else it stays as it is; may be NULL. */
   sbf_asset **misfit;
+  /* Objects of the input that one bone of a rig in another file is to move, whatever else says so: `group` is
+   * the object's name, or NAME#NUMBER for one of its shells, pieces that share no point, by their first
+   * points from 1; `bone` moves it. */
+  const sbf_convert_pin *shells; /* (shell_count) */
+  uint32_t shell_count;          /* of shells */
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names
