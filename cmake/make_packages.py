@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 """Everything that others install, made of two built trees and listed with its SHA-256 in SHA256SUMS.
 
-Usage: make_packages.py --static DIR [--shared DIR] --out DIR
+Usage: make_packages.py --static DIR [--shared DIR] --out DIR [NAME...]
 
-    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   of the tree of shared libraries (dpkg-shlibdeps is needed)
-    sbfmt-VERSION-SYSTEM.tar.gz         static libraries, headers, CMake package, pkg-config files, the program: to be put anywhere
-    sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (clang, lld, wasi-libc and npm are needed)
-    sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library
-    sbfmt-godot-VERSION-SYSTEM.zip      addons/sbfmt for a Godot project (a Godot 4.6 is needed)
+    debian    libsbfmt_*.deb libsbfmt-dev_*.deb sbfmt_*.deb   of the tree of shared libraries (dpkg-shlibdeps is needed)
+    tarball   sbfmt-VERSION-SYSTEM.tar.gz         static libraries, headers, CMake package, pkg-config files, the program: to be put anywhere
+    npm       sbfmt-npm-VERSION.tgz               the runtime as WebAssembly with its module (clang, lld, wasi-libc and npm are needed)
+    blender   sbfmt-blender-VERSION-SYSTEM.zip    the add-on for Blender, with the library
+    godot     sbfmt-godot-VERSION-SYSTEM.zip      addons/sbfmt for a Godot project (a Godot 4.6 is needed)
 
-What cannot be made here is said with its reason on a line that begins with "skipped", and made on a system that can. The
-folder is made anew, beside its place, and holds what was made alone."""
+Makes those that are named, all without a name, and prints a table of what was made and, with its reason, what was not. Exit status 1 if
+one was not made. The folder is made anew, beside its place, and holds only what was made."""
 import argparse
 import glob
 import gzip
@@ -108,15 +108,16 @@ class Packages:
                 shutil.copy(path, self.out)
         return None
 
-    def installed(self):
+    def tarball(self):
         with tempfile.TemporaryDirectory() as scratch:
             run("cmake", "--install", self.static, "--strip", "--prefix", scratch)
             out = self.path("", ".tar.gz")
             write_tar(scratch, os.path.basename(out)[:-len(".tar.gz")], out)
+        return None
 
     def npm(self):
         if not has_target(self.static, "sbfmt-npm"):
-            return "the tree has no WebAssembly or npm; configuring says what is missing"
+            return "the tree has no WebAssembly or npm: install clang, lld, wasi-libc, libclang-rt-VERSION-dev-wasm32 and npm"
         run("cmake", "--build", self.static, "--target", "sbfmt-npm")
         shutil.copyfile(os.path.join(self.static, f"sbfmt-{self.version}.tgz"), self.path("npm", ".tgz", native=False))
         return None
@@ -124,6 +125,7 @@ class Packages:
     def blender(self):
         run("cmake", "--build", self.static, "--target", "blender-addon")
         shutil.copyfile(os.path.join(self.static, "soft_body_format.zip"), self.path("blender", ".zip"))
+        return None
 
     def godot(self):
         if not has_target(self.static, "sbfmt-godot"):
@@ -135,8 +137,7 @@ class Packages:
         return None
 
 
-KINDS = (("Debian packages", "debian"), ("CMake package and pkg-config", "installed"), ("npm package", "npm"),
-         ("Blender's add-on", "blender"), ("Godot's add-on", "godot"))
+NAMES = ("debian", "tarball", "npm", "blender", "godot")
 
 
 def write_sums(folder):
@@ -148,21 +149,32 @@ def write_sums(folder):
         file.writelines(lines)
 
 
+def make_each(packages, names):
+    """Makes these; prints a row of the table for each. How many could not be made."""
+    missing = 0
+    for name in names:
+        why = getattr(packages, name)()
+        print(f"{name:8}  {'NOT MADE: ' + why if why else 'made'}", flush=True)
+        missing += bool(why)
+    return missing
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--static", required=True)
     parser.add_argument("--shared", default="")
     parser.add_argument("--out", required=True)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(NAMES))
     asked = parser.parse_args()
+    unknown = [name for name in asked.names if name not in NAMES]
+    if unknown:
+        parser.error(f"no package {', '.join(unknown)}; there are {', '.join(NAMES)}")
     out = os.path.abspath(asked.out)
     os.makedirs(os.path.dirname(out), exist_ok=True)
     beside = tempfile.mkdtemp(prefix=os.path.basename(out) + ".", dir=os.path.dirname(out))
     try:
         packages = Packages(os.path.abspath(asked.static), asked.shared and os.path.abspath(asked.shared), beside)
-        for title, kind in KINDS:
-            why = getattr(packages, kind)()
-            if why:
-                print(f"skipped: {title}: {why}", flush=True)
+        missing = make_each(packages, asked.names or NAMES)
         write_sums(beside)
         os.chmod(beside, 0o755)
         shutil.rmtree(out, ignore_errors=True)
@@ -171,6 +183,7 @@ def main():
         shutil.rmtree(beside, ignore_errors=True)
     for path, name in files_below(out):
         print(f"{os.path.getsize(path):>10}  {name}")
+    sys.exit(1 if missing else 0)
 
 
 if __name__ == "__main__":

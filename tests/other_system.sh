@@ -1,17 +1,22 @@
 #!/bin/sh
 # Makes a folder with Debian's unstable suite, its Blender and Godot and what draws them without a graphics card, to test the add-on in
 # a newer Blender than the system's, and the extension in Godot:
-#   other_system.sh FOLDER
-# Each of the two is complete or not there; a folder that lacks one gets it. Needs root, debootstrap and Debian's packages: else exit
+#   other_system.sh FOLDER [blender] [godot]
+# Makes both, or the one that is named. Each is complete or not there; a folder that lacks one gets it. Needs root, debootstrap and Debian's packages: else exit
 # status 77 with the reason. Takes some minutes and 1.3 GB.
 set -eu
 folder=$1
+shift
+wanted=" ${*:-blender godot} "
 packages='blender python3-numpy python3-cattr python3-requests libegl1 libgl1 libgl1-mesa-dri'
 packages_godot='godot libgl1 libgl1-mesa-dri libx11-6 libxcursor1 libxinerama1 libxrandr2 libxi6 libxext6 libxrender1'
 
-# Whether it runs, not whether it lies there: an installation may have been cut short.
-has_godot() { [ -x "$folder/usr/bin/godot" ] && chroot "$folder" godot --version >/dev/null 2>&1; }
-[ ! -x "$folder/usr/bin/blender" ] || [ "$(id -u)" -ne 0 ] || ! has_godot || exit 0
+# has PROGRAM: whether it is not wanted, or runs: that it is there is not enough, an installation may have been cut short.
+has() {
+  case $wanted in *" $1 "*) ;; *) return 0 ;; esac
+  [ -x "$folder/usr/bin/$1" ] && { [ "$(id -u)" -ne 0 ] || chroot "$folder" "$1" --version >/dev/null 2>&1; }
+}
+! has blender || ! has godot || exit 0
 if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap >/dev/null 2>&1; then
   echo "SKIP newer Blender and Godot: making $folder takes root and debootstrap"
   exit 77
@@ -28,13 +33,13 @@ failed() {
   exit 77
 }
 
-if [ ! -x "$folder/usr/bin/blender" ]; then
+if [ ! -d "$folder/usr" ]; then
   made=$folder.unfinished
   rm -rf --one-file-system "$made"
   mkdir -p "$made"
-  debootstrap --variant=minbase unstable "$made" >"$made.log" 2>&1 && get "$made" "$packages" >>"$made.log" 2>&1 ||
-    failed 'newer Blender' "$made.log"
+  debootstrap --variant=minbase unstable "$made" >"$made.log" 2>&1 || failed 'newer system' "$made.log"
   mv "$made" "$folder"
 fi
-has_godot || get "$folder" "$packages_godot" >"$folder.log" 2>&1 || failed 'Godot' "$folder.log"
+has blender || get "$folder" "$packages" >"$folder.log" 2>&1 || failed 'newer Blender' "$folder.log"
+has godot || get "$folder" "$packages_godot" >"$folder.log" 2>&1 || failed 'Godot' "$folder.log"
 chroot "$folder" apt-get clean

@@ -1,13 +1,19 @@
 #!/usr/bin/env python3
 """./run: its calls, and what it does about missing packages, on a machine made of pretended commands."""
+import contextlib
+import io
 import os
 import shutil
 import stat
 import subprocess
+import sys
 import tempfile
 import unittest
 
 from repo_files import ROOT
+
+sys.path.insert(0, os.path.join(ROOT, "cmake"))
+import make_packages  # noqa: E402
 
 RUN = os.path.join(ROOT, "run")
 REAL = ("sh", "dirname", "cat", "sed", "env", "grep", "nproc", "mkdir", "awk", "wc", "date", "tail", "head", "true")
@@ -37,7 +43,8 @@ class Calls(unittest.TestCase):
         self.assertEqual(call().stdout, done.stdout)
 
     def test_wrong_calls(self):
-        for arguments in (["nonsense"], ["test", "--most"], ["fuzz", "long"], ["demo", "now"], ["abi", "now"]):
+        for arguments in (["nonsense"], ["test", "--most"], ["fuzz", "long"], ["demo", "now"], ["abi", "now"], ["package", "rpm"],
+                          ["package", "--check", "deb"], ["test", "--all", "--systems"]):
             done = call(*arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn("run: ", done.stderr)
@@ -100,6 +107,14 @@ class Packages(unittest.TestCase):
         self.assertIn(" libclang-rt-19-dev-wasm32", typed)
         self.assertNotIn("@", typed)
 
+    def test_user_without_a_godot_is_told_what_to_type(self):
+        there = {name: "exit 0" for name in ("ninja", "gcc", "pkg-config", "python3", "cmake", "clang", "wasm-ld", "npm", "debootstrap",
+                                             "dpkg-shlibdeps")}
+        path = self.machine({"dpkg-query": "printf 'installed '", "id": "echo 1000", "sudo": "exit 1", **there})
+        done = call("package", path=path)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stdout, r"(?m)^  sudo tests/other_system.sh /.*/build/other-system godot$")
+
     def test_a_package_that_is_only_named_is_missing(self):
         """dpkg knows packages that others only name in Breaks: "not-installed", and nothing for a second architecture."""
         for status in ("not-installed ", "config-files ", "not-installed not-installed "):
@@ -116,6 +131,16 @@ class Packages(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertNotIn("must not run", done.stdout)
         self.assertIn("configuring failed", done.stderr)
+
+
+class Table(unittest.TestCase):
+    def test_a_package_that_is_not_made_is_counted_and_told(self):
+        class Some:
+            npm, tarball = staticmethod(lambda: "there is no npm"), staticmethod(lambda: None)
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            self.assertEqual(make_packages.make_each(Some, ["npm", "tarball"]), 1)
+        self.assertEqual(said.getvalue(), "npm       NOT MADE: there is no npm\ntarball   made\n")
 
 
 if __name__ == "__main__":
