@@ -58,7 +58,7 @@ CASES = (
     Case("ball_y", "spherical", {"twist": (0.5, (-0.3, 0.8)), "swing_y": (0.4, (-0.5, 0.6)), "swing_z": (0, None)}),
     Case("ball_z", "spherical", {"twist": (-0.4, (-0.7, 0.5)), "swing_y": (0, None), "swing_z": (0.3, (-0.2, 0.5))}, axes=TURN_B),
     Case("ball_bent", "spherical", {"twist": (0.5, (-0.3, 0.8)), "swing_y": (0.5, (0.1, 0.7)), "swing_z": (0, None)},
-         offset={"swing_y": 0.3}),
+         offset={"swing_y": 0.3, "twist": 0.4}),
     Case("ball_turned", "spherical", {"twist": (0.3, (-0.6, 0.5)), "swing_y": (0, None), "swing_z": (-0.35, (-0.5, 0.3))}, turned=True),
     Case("line", "point_on_line", {"linear_x": (0.1, (-0.1, 0.15)), "twist": (0.3, None), "swing_y": (0.2, None), "swing_z": (0, None)}),
     Case("plane", "point_in_plane", {"linear_y": (0.1, (-0.1, 0.12)), "linear_z": (-0.05, None), "twist": (0.2, None),

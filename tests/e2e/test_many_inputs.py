@@ -47,6 +47,13 @@ class ManyInputs(ProgramTest):
             report = self.json_of("validate", faulty, good, "--threads", threads, status=1)
             self.assertEqual((report["valid"], [one["valid"] for one in report["files"]]), (False, [False, True]))
 
+    def test_one_output_takes_one_input(self):
+        good = write_bytes(self.path("cube.obj"), CUBE.encode())
+        other = write_bytes(self.path("other.obj"), CUBE.encode())
+        said = self.fails(2, "convert", good, other, "--no-build", "-o", self.path("out.sbf"))
+        self.assertIn("--out-dir", said)
+        self.assert_empty_folder(but=["cube.obj", "other.obj"])
+
     def test_convert(self):
         good = write_bytes(self.path("cube.obj"), CUBE.encode())
         faulty = write_bytes(self.path("broken.obj"), b"v 0 0 0\nf 1 2 99\n")

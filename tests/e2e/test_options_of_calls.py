@@ -48,7 +48,12 @@ class Pins(ProgramTest):
 
 class Strength(ProgramTest):
     def sag(self, *options):
-        """How far the arm of the case `hinge` sinks in two seconds, m."""
+        """How far the arm of the case `hinge` goes from its height in two seconds at most, m."""
+        heights = self.heights(*options)
+        return max(abs(height - heights[0]) for height in heights)
+
+    def heights(self, *options):
+        """Those of the arm, which no drive and no limit holds, frame by frame."""
         text = joint_files.document().replace('gravity="0 0 0"', 'gravity="0 -9.81 0"')
         root = ElementTree.fromstring(text)
         root.find("rigid_bodies/rigid_body[@id='base']").set("mass", "0")  # stays where it is
@@ -58,8 +63,12 @@ class Strength(ProgramTest):
         write_bytes(self.path("a.sbf"), ElementTree.tostring(root))
         self.good("run", self.path("a.sbf"), "--seconds", "2", "--pose", self.path("a.csv"), *options)
         with open(self.path("a.csv"), encoding="utf-8") as stream:
-            heights = [float(row["py"]) for row in csv.DictReader(stream) if row["bone"] == "hinge"]
-        return max(abs(height - heights[0]) for height in heights)
+            return [float(row["py"]) for row in csv.DictReader(stream) if row["bone"] == "hinge"]
+
+    def test_gravity_is_downward(self):
+        for gravity, sign in (("5", -1), ("-5", 1)):
+            heights = self.heights("--ragdoll", "--gravity", gravity)
+            self.assertGreater(sign * (heights[12] - heights[0]), 1e-3, gravity)
 
     def test_more_strength_holds_better(self):
         """From 1 on a limb is held level by definition; without a bound as well; weaker ones sink the more, as without any."""

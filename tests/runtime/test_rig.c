@@ -113,11 +113,51 @@ START_TEST(a_character_walks_on_pegs)
 }
 END_TEST
 
+/* A knee between two bodies: of several limits of one motion the narrower bounds hold, as of a hinge its
+ * kind's. */
+START_TEST(limits_of_a_joint_narrow_each_other)
+{
+  static const struct { float min, max; } bounds[] = {{-0.4f, 2}, {-1, 0.9f}, {-0.8f, 1.5f}};
+  sbf_asset *asset = make();
+  sbf_rigid_body *bodies = sbf_asset_allocate(asset, 2, sizeof *bodies);
+  sbf_joint *joint = sbf_asset_allocate(asset, 1, sizeof *joint);
+  sbf_limit *limits = sbf_asset_allocate(asset, 3, sizeof *limits);
+  for (int i = 0; i < 2; i++) {
+    sbf_rigid_body_init(&bodies[i]);
+    bodies[i].bone = i + 1;
+    bodies[i].center = rows[i + 1].head;
+  }
+  sbf_joint_init(joint);
+  joint->kind = SBF_JOINT_KIND_REVOLUTE;
+  joint->body_a = 0, joint->body_b = 1;
+  joint->frame_a.position = sbri_sub(rows[2].head, rows[1].head);
+  for (int i = 0; i < 3; i++) {
+    sbf_limit_init(&limits[i]);
+    limits[i].target = SBF_JOINT_AXIS_TWIST;
+    limits[i].min = bounds[i].min, limits[i].max = bounds[i].max;
+  }
+  joint->limits = (sbf_limit_list){limits, 3};
+  asset->rigid_bodies = (sbf_rigid_body_list){bodies, 2};
+  asset->joints = (sbf_joint_list){joint, 1};
+  gait_stage s;
+  gait_stage_begin(&s, asset);
+  const sbri_joint_limit *limit = &s.rig.limits[2];
+  ck_assert(limit->active);
+  ck_assert_float_eq(limit->twist[0], -0.4f);
+  ck_assert_float_eq(limit->twist[1], 0.9f);
+  ck_assert_float_eq(limit->swing_y[0], 0);
+  ck_assert_float_eq(limit->swing_z[1], 0);
+  ck_assert(!s.rig.limits[1].active);
+  gait_stage_end(&s);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("rig");
   TCase *tests = tcase_create("all");
   tcase_add_test(tests, legs_are_three_bones_or_a_peg_or_have_a_toe);
   tcase_add_test(tests, a_character_walks_on_pegs);
+  tcase_add_test(tests, limits_of_a_joint_narrow_each_other);
   suite_add_tcase(suite, tests);
   return harness_run(suite);
 }

@@ -91,6 +91,30 @@ START_TEST(what_is_thrown_about_recovers_and_is_let_go)
 }
 END_TEST
 
+/* One point through the opposite side of its cells: too soft to move fast, and too few to be folded. */
+START_TEST(one_inverted_element_is_trouble)
+{
+  scene s = scene_begin();
+  lattice_box box =
+      lattice_box_make((sbf_vec3){-0.1f, 1, -0.1f}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 2, 2, 2, 1000, 500, 0.3f);
+  scene_lattice(&s, 0, &box);
+  uint32_t middle = lattice_box_point(&box, 1, 1, 1);
+  scene_start(&s);
+  ck_assert(s.model->islands[0].routed);
+  scene_ticks(&s, 2);
+  ck_assert_uint_eq(recovering(&s), 0);
+  sbri_positions(&s.world->characters[0])[s.model->bodies[0].slot_from_point[middle]].x += 0.13f;
+  uint32_t most = 0;
+  for (int i = 0; i < 2; i++) {
+    scene_ticks(&s, 1);
+    most = recovering(&s) > most ? recovering(&s) : most;
+  }
+  ck_assert_uint_ge(most, SBRI_RECOVERING_TICKS - 1);
+  lattice_box_free(&box);
+  scene_free(&s);
+}
+END_TEST
+
 /* Pushed through itself, all of it. */
 START_TEST(what_is_inside_out_is_whole_within_a_second)
 {
@@ -117,6 +141,7 @@ static Suite *suite(void) {
   tcase_add_test(c, what_is_stiff_is_not);
   tcase_add_test(c, what_is_asked_for_is_done);
   tcase_add_test(c, what_is_thrown_about_recovers_and_is_let_go);
+  tcase_add_test(c, one_inverted_element_is_trouble);
   tcase_add_test(c, what_is_inside_out_is_whole_within_a_second);
   suite_add_tcase(s, c);
   return s;
