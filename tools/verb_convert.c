@@ -138,20 +138,22 @@ static int run(cli_call *call) {
   const char *out = cli_value(call, "-o"), *folder = cli_value(call, "--out-dir");
   static const char *const axes[] = {"y", "z"};
   static const char *const animals[] = {"none", "human", "quadruped", "reptile"}; /* as sbf_convert_limits */
-  int up = 0, limits = 0, status = SBF_FAILED;
+  static const char *const fronts[] = {"x", "-x", "y", "-y", "z", "-z"};
+  int up = 0, front = 0, limits = 0, status = SBF_FAILED;
   pin_options pins;
   sbf_convert_options options = {.rig = cli_value(call, "--rig"), .report = report, .user = call};
   if (!out == !folder)
     return cli_wrong(call, "say where to write: -o FILE for one input, --out-dir DIR for many");
   if (out && call->input_count > 1) return cli_wrong(call, "-o takes one input; use --out-dir DIR for many");
   if (!output_name_of_bundle(call, "-o") || !cli_number(call, "--unit", 1e-9, 1e9, &options.unit_m) ||
-      !cli_word(call, "--up", axes, 2, &up) || !cli_word(call, "--limits", animals, 4, &limits) ||
-      !building_check(call) || !materials_check(call))
+      !cli_word(call, "--up", axes, 2, &up) || !cli_word(call, "--forward", fronts, 6, &front) ||
+      !cli_word(call, "--limits", animals, 4, &limits) || !building_check(call) || !materials_check(call))
     return SBF_FAILED;
   options.limits = (sbf_convert_limits)limits;
   options.keep_modulus = materials_of_all(call);
   options.weights = cli_value(call, "--weights");
   if (cli_value(call, "--up")) options.up = axes[up][0];
+  if (cli_value(call, "--forward")) options.forward = fronts[front];
   const char *page = cli_value(call, "--report");
   if (page && call->input_count > 1) return cli_wrong(call, "--report takes one input");
   if (page && !conversion_report_knows(page))
@@ -168,6 +170,7 @@ static const cli_option options[] = {
     {"-o", "OUT.sbf[z]", "where to write, by its ending as XML or packed"},
     {"--out-dir", "DIR", "write each input there, under its own name; made if it is not there"},
     {"--rig", "FILE", "take the skeleton from this file"},
+    {"--forward", "x|-x|y|-y|z|-z", "the input's axis that it looks along (found by its legs)"},
     {"--weights", "FILE|named|match|transfer|compute",
         "bones of points: of .csv or .json, by objects' names, by place, of the nearest surface, from the "
         "bones "

@@ -308,6 +308,17 @@ class FromBones(ProgramTest):
         self.fails(1, *self.convert(triangle))
         self.assert_empty_folder(but=["in.obj"])
 
+    def test_forward_says_where_it_looks(self):
+        """The calf looks along +Z: told that its tail is ahead, it is laid the other way round."""
+        for forward, sign in ("z", 1), ("-z", -1):
+            self.good(*self.convert(self.calf.obj, "--no-build", "--forward", forward))
+            found = weights_by_vertex(self.path("out.sbf"))
+            middle = sum(p[2] for p in self.calf.places) / len(self.calf.places)
+            there = sum(p[2] for _, p in found.values()) / len(found)
+            same = sum((self.calf.places[v][2] - middle) * (p[2] - there) for v, (_, p) in found.items())
+            self.assertGreater(same * sign, 0)
+        self.assertIn("upward axis", self.fails(2, *self.convert(self.calf.obj, "--forward", "y")))
+
     def test_stated_units_hold(self):
         """--unit says how large the input is: then the rig is too large for it."""
         said = self.fails(1, "convert", self.calf.obj_path, "--rig", CALF, "--unit", "0.01", "--weights", "match", "-o",

@@ -80,7 +80,8 @@ class ConvertOptions(Structure):
                 ("goal_maximum", c_double), ("goal_stiffness", c_double),
                 ("summary", c_void_p), ("limits", ctypes.c_int), ("keep_modulus", c_bool), ("holds", POINTER(ConvertPin)),
                 ("hold_count", c_uint32), ("attachments", POINTER(ConvertAttachment)), ("attachment_count", c_uint32),
-                ("weights", c_char_p), ("misfit", POINTER(c_void_p)), ("shells", POINTER(ConvertPin)), ("shell_count", c_uint32)]
+                ("weights", c_char_p), ("misfit", POINTER(c_void_p)), ("shells", POINTER(ConvertPin)), ("shell_count", c_uint32),
+                ("forward", c_char_p)]
 
 
 class ValidateOptions(Structure):

@@ -28,6 +28,14 @@ static sbfi_matrix matrix_to_asset(const sbfi_scene *scene, const sbf_convert_op
     static const sbfi_matrix z_up = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
     m = options->up == 'z' ? z_up : sbfi_matrix_identity();
   }
+  if (options->forward) { /* up stays, forward becomes +Z, and +X is what is left */
+    double forward[3] = {0, 0, 0};
+    forward[options->forward[strlen(options->forward) - 1] - 'x'] = options->forward[0] == '-' ? -1 : 1;
+    for (int k = 0; k < 3; k++) {
+      m.at[2][k] = forward[k];
+      m.at[0][k] = m.at[1][(k + 1) % 3] * forward[(k + 2) % 3] - m.at[1][(k + 2) % 3] * forward[(k + 1) % 3];
+    }
+  }
   double unit = options->unit_m > 0 ? options->unit_m : scene->unit_m;
   for (int r = 0; r < 3; r++)
     for (int k = 0; k < 3; k++) m.at[r][k] *= unit;
@@ -126,6 +134,7 @@ static sbf_status run_passes(sbfi_conversion *c, const sbf_convert_options *opti
       sbfi_convert_joints, sbfi_convert_attachments, sbfi_propose_limits, sbfi_convert_clips};
   for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
     if ((passes[i] == sbfi_face_ahead || passes[i] == sbfi_propose_gait) && options->no_gait) continue;
+    if (passes[i] == sbfi_face_ahead && options->forward) continue;
     sbf_status status = passes[i](c);
     if (status != SBF_OK) return status;
   }
@@ -201,6 +210,10 @@ static sbf_status convert_readings(
   sbfi_array_init(&c.ids.slots, options->allocator, sizeof(char *));
   c.asset = sbf_asset_create(options->allocator);
   sbf_status status = c.asset ? SBF_OK : sbfi_convert_no_memory(&c);
+  if (status == SBF_OK && sbfi_matrix_determinant(&c.to_asset) == 0)
+    status =
+        sbfi_diagnose(error, SBF_CODE_BAD_CALL, "forward %s of %s is its upward axis: state another, or --up",
+            options->forward ? options->forward : "", scene->file);
   if (status == SBF_OK) {
     sbfi_summarize(&c, from->tets, from->paper, options);
     pass_on_warnings(&c, scene);
@@ -272,6 +285,9 @@ sbf_status sbf_convert(
   options = &taken;
   if (options->unit_m < 0 || !isfinite(options->unit_m) || (options->up && !strchr("yz", options->up)))
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "unit must be above 0, up one of y and z");
+  const char *forward = options->forward ? options->forward + (options->forward[0] == '-') : "x";
+  if (strcmp(forward, "x") != 0 && strcmp(forward, "y") != 0 && strcmp(forward, "z") != 0)
+    return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "forward is one of x, -x, y, -y, z and -z");
   if ((unsigned)options->limits > SBF_CONVERT_LIMITS_REPTILE)
     return sbfi_diagnose(error, SBF_CODE_BAD_CALL, "the options name no known kind of limits");
   if (!(options->goal_minimum >= 0 && options->goal_minimum <= 1 && options->goal_maximum >= 0 &&

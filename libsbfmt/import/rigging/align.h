@@ -17,7 +17,7 @@ bool sbfi_align_by_shape(sbfi_rigging *r, double *error);
  * anyhow. */
 sbf_status sbfi_align_by_bones(sbfi_rigging *r);
 
-/* Whether `--unit` and `--up` leave a transform as it is. */
+/* Whether `--unit`, `--up` and `--forward` leave a transform as it is. */
 bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matrix *m);
 
 /* How near two points are that are taken for one, m; `quantum` is the step of the input's numbers. */

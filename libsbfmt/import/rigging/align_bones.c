@@ -12,9 +12,9 @@
 
 enum { PER_BONE = 6, NAMED = 4 };
 
-static const double GOOD = 0.85;   /* so much of the length inside is as it should be */
+static const double GOOD = 0.95;   /* so much of the length inside is as it should be */
 static const double LEAST = 0.6;   /* and less than this is another character's rig */
-static const double BETTER = 0.08; /* by which a later candidate has to be better */
+static const double BETTER = 0.02; /* by which a later candidate has to be better */
 
 typedef struct bone_line {
   sbfi_d3 from, to; /* asset space */
@@ -231,8 +231,7 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
   if (!describe_outside(s, outside, sizeof outside, arena)) return sbfi_convert_no_memory(s->r->c);
   return sbfi_diagnose(s->r->c->error, SBF_CODE_IMPORT_RIG_OUTSIDE,
       "only %.0f %% of the bones' length lies inside the mesh; outside lie %s; give this character's rig, or "
-      "--unit "
-      "and --up",
+      "--unit, --up and --forward",
       100 * s->best_share, outside);
 }
 

@@ -70,7 +70,10 @@ bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matri
   double scale = sbfi_similarity_scale(m);
   if (options->unit_m > 0 && fabs(scale / options->unit_m - 1) > 1e-3) return false;
   int up = options->up == 'z' ? 2 : 1;
-  return !options->up || m->at[1][up] > 0.999 * scale;
+  if (options->up && !(m->at[1][up] > 0.999 * scale)) return false;
+  if (!options->forward) return true;
+  int forward = options->forward[strlen(options->forward) - 1] - 'x';
+  return (options->forward[0] == '-' ? -1 : 1) * m->at[2][forward] > 0.999 * scale;
 }
 
 static void consider(search *s, const sbfi_matrix *m) {

@@ -1,4 +1,5 @@
 /* Weights by place: a point of the input that lies on one of the rig's has its weights. */
+#include <math.h>
 #include <string.h>
 
 #include "import/rigging/align.h"
@@ -10,6 +11,7 @@ typedef struct matching {
   const sbfi_scene_surface *moved; /* the input in asset space */
   sbfi_point_finder finder;
   double within;
+  uint32_t *used; /* (rig points) how many of the input's points took each */
   /* Of the point at hand: */
   uint32_t point;
   uint32_t best;
@@ -38,7 +40,10 @@ static void weigh_candidate(void *user, uint32_t candidate) {
   if (m->best == candidate) return;
   if (m->best_score < 0) m->best_score = score(m, m->best);
   double here = score(m, candidate);
-  if (here < m->best_score || (here == m->best_score && candidate > m->best)) return;
+  bool even = fabs(here - m->best_score) < 1e-6; /* doubled surfaces: to each of the input's its own */
+  bool less_used = m->used[candidate] < m->used[m->best];
+  bool before = m->used[candidate] == m->used[m->best] && candidate < m->best;
+  if (even ? !less_used && !before : here < m->best_score) return;
   m->best = candidate;
   m->best_score = here;
 }
@@ -51,6 +56,7 @@ static uint32_t find_match(matching *m, uint32_t point) {
   m->best_score = -1;
   if (m->best != UINT32_MAX)
     sbfi_points_near(&m->finder, place, distance + 0.02 * m->within, weigh_candidate, m);
+  if (m->best != UINT32_MAX) m->used[m->best]++;
   return m->best;
 }
 
@@ -99,8 +105,10 @@ bool sbfi_weigh_by_place(sbfi_rigging *r, const sbfi_scene_surface *moved) {
       .within =
           sbfi_match_tolerance(r, sbfi_similarity_scale(&r->alignment.to_asset), sbfi_input_quantum(r))};
   uint32_t *matches = sbfi_arena_allocate(&scratch, count + 1, sizeof *matches);
-  bool good = matches && sbfi_point_finder_make(
-                             &m.finder, r->rig.mesh.positions.at, r->rig.mesh.positions.count, &scratch);
+  m.used = sbfi_arena_allocate(&scratch, (size_t)r->rig.mesh.positions.count + 1, sizeof *m.used);
+  bool good =
+      matches && m.used &&
+      sbfi_point_finder_make(&m.finder, r->rig.mesh.positions.at, r->rig.mesh.positions.count, &scratch);
   for (uint32_t i = 0; good && i < count; i++) matches[i] = find_match(&m, i);
   for (uint32_t mesh = 0; good && mesh < r->input.scene->mesh_count; mesh++) {
     r->turned[mesh] = faces_away(r, moved, mesh, matches);

@@ -60,7 +60,7 @@ static void say_alignment(const sbfi_rigging *r) {
   sbfi_similarity_text text = sbfi_similarity_describe(&r->alignment.to_asset, size);
   if (text.at[0])
     sbfi_convert_warn(r->c, SBF_CODE_RIG_ALIGNED,
-        "the input was laid over the rig: %s; --unit and --up say otherwise", text.at);
+        "the input was laid over the rig: %s; --unit, --up and --forward say otherwise", text.at);
 }
 
 static const char *const SOURCE_TEXTS[SBFI_WEIGHTS_SOURCES] = {[SBFI_WEIGHTS_NONE] = "have none",

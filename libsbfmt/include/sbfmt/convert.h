@@ -109,6 +109,9 @@ typedef struct sbf_convert_options {
    * points from 1; `bone` moves it. */
   const sbf_convert_pin *shells; /* (shell_count) */
   uint32_t shell_count;          /* of shells */
+  /* The axis of the input along which it looks, perpendicular to its upward one: "x", "-x", "y", "-y", "z" or
+   * "-z". It becomes +Z, and nothing is turned afterwards; NULL: found by its legs. */
+  const char *forward;
 } sbf_convert_options;
 
 /* Reads `input` (and the rig) into a new asset. Sections are mapped to bones by the rig's node tree; names
