@@ -7,9 +7,12 @@
 enum { LANES = 8, MOST_ITERATIONS = 1000 };
 /* How fast heat flows from the bone; the least distance that counts; the residual at which it is solved,
  * against that of the right side; what is too little to keep. */
-static const double HEAT = 2, LEAST_DISTANCE = 0.02, TOLERANCE = 1e-4, LEAST_WEIGHT = 1e-3;
+static const double HEAT = 2, LEAST_DISTANCE = 0.02, TOLERANCE = 3e-3, LEAST_WEIGHT = 1e-3;
 
-typedef double lanes[LANES];
+/* Single precision: a solution to some thousandths needs no more, and memory is what limits the speed. Sums
+ * are double. */
+typedef float lanes[LANES];
+typedef double sums[LANES];
 
 typedef struct heat_system {
   sbfi_surface_laplacian laplacian;
@@ -38,16 +41,19 @@ static bool make_system(
   return true;
 }
 
-/* q = A v for all lanes. */
-static void multiply(const heat_system *s, lanes *v, lanes *q) {
+/* q = A v for all lanes; `vq` receives the products of v and q. */
+static void multiply(const heat_system *s, lanes *v, lanes *q, sums vq) {
   const sbfi_surface_laplacian *l = &s->laplacian;
+  memset(vq, 0, sizeof(sums));
   for (uint32_t i = 0; i < s->count; i++) {
-    double sum[LANES];
-    for (int k = 0; k < LANES; k++) sum[k] = (l->diagonal[i] + s->heat[i]) * v[i][k];
+    lanes sum;
+    float diagonal = (float)(l->diagonal[i] + s->heat[i]);
+    for (int k = 0; k < LANES; k++) sum[k] = diagonal * v[i][k];
     for (uint32_t at = l->begins[i]; at < l->begins[i + 1]; at++) {
-      const double *other = v[l->columns[at]], value = l->values[at];
+      const float *other = v[l->columns[at]], value = (float)l->values[at];
       for (int k = 0; k < LANES; k++) sum[k] -= value * other[k];
     }
+    for (int k = 0; k < LANES; k++) vq[k] += (double)v[i][k] * (double)sum[k];
     memcpy(q[i], sum, sizeof sum);
   }
 }
@@ -55,54 +61,62 @@ static void multiply(const heat_system *s, lanes *v, lanes *q) {
 /* Starts at x = p, of the bones `first` on. `limits` receives the squared residuals at which lanes are
  * solved. */
 static void begin(
-    heat_system *s, const sbfi_nearest_bone *nearest, const uint32_t bones[LANES], lanes rz, lanes limits) {
-  memset(rz, 0, sizeof(lanes));
-  memset(limits, 0, sizeof(lanes));
+    heat_system *s, const sbfi_nearest_bone *nearest, const uint32_t bones[LANES], sums rz, sums limits) {
+  sums unused;
+  memset(rz, 0, sizeof(sums));
+  memset(limits, 0, sizeof(sums));
   for (uint32_t i = 0; i < s->count; i++)
     for (int k = 0; k < LANES; k++) s->x[i][k] = nearest[i].bone == bones[k];
-  multiply(s, s->x, s->q);
+  multiply(s, s->x, s->q, unused);
   for (uint32_t i = 0; i < s->count; i++)
     for (int k = 0; k < LANES; k++) {
-      double b = s->heat[i] * s->x[i][k];
-      s->r[i][k] = b - s->q[i][k];
-      s->p[i][k] = s->inverse[i] * s->r[i][k];
-      rz[k] += s->r[i][k] * s->p[i][k];
+      double b = s->heat[i] * (double)s->x[i][k], r = b - (double)s->q[i][k];
+      s->r[i][k] = (float)r;
+      s->p[i][k] = (float)(s->inverse[i] * r);
+      rz[k] += r * s->inverse[i] * r;
       limits[k] += b * s->inverse[i] * b;
     }
   for (int k = 0; k < LANES; k++) limits[k] *= TOLERANCE * TOLERANCE;
 }
 
-static void add_scaled(const heat_system *s, const lanes alpha, lanes rz_next) {
-  memset(rz_next, 0, sizeof(lanes));
-  for (uint32_t i = 0; i < s->count; i++)
+static void add_scaled(const heat_system *s, const sums alpha, sums rz_next) {
+  lanes factor;
+  for (int k = 0; k < LANES; k++) factor[k] = (float)alpha[k];
+  memset(rz_next, 0, sizeof(sums));
+  for (uint32_t i = 0; i < s->count; i++) {
     for (int k = 0; k < LANES; k++) {
-      s->x[i][k] += alpha[k] * s->p[i][k];
-      s->r[i][k] -= alpha[k] * s->q[i][k];
-      rz_next[k] += s->r[i][k] * s->inverse[i] * s->r[i][k];
+      s->x[i][k] += factor[k] * s->p[i][k];
+      s->r[i][k] -= factor[k] * s->q[i][k];
     }
+    for (int k = 0; k < LANES; k++) rz_next[k] += (double)s->r[i][k] * s->inverse[i] * (double)s->r[i][k];
+  }
+}
+
+static void turn_search(const heat_system *s, const sums beta) {
+  lanes factor;
+  for (int k = 0; k < LANES; k++) factor[k] = (float)beta[k];
+  for (uint32_t i = 0; i < s->count; i++) {
+    float inverse = (float)s->inverse[i];
+    for (int k = 0; k < LANES; k++) s->p[i][k] = inverse * s->r[i][k] + factor[k] * s->p[i][k];
+  }
 }
 
 /* Preconditioned by the diagonal, each lane with coefficients of its own (Shewchuk 1994, B3). */
 static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const uint32_t bones[LANES]) {
-  lanes rz, limits, pq, alpha, rz_next;
+  sums rz, limits, pq, alpha, beta, rz_next;
   begin(s, nearest, bones, rz, limits);
   for (uint32_t iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
     bool is_solved = true;
     for (int k = 0; k < LANES; k++) is_solved &= rz[k] <= limits[k];
     if (is_solved) return iteration;
-    multiply(s, s->p, s->q);
-    memset(pq, 0, sizeof pq);
-    for (uint32_t i = 0; i < s->count; i++)
-      for (int k = 0; k < LANES; k++) pq[k] += s->p[i][k] * s->q[i][k];
+    multiply(s, s->p, s->q, pq);
     for (int k = 0; k < LANES; k++) alpha[k] = rz[k] > limits[k] && pq[k] > 0 ? rz[k] / pq[k] : 0;
     add_scaled(s, alpha, rz_next);
     for (int k = 0; k < LANES; k++) {
-      double beta = alpha[k] > 0 ? rz_next[k] / rz[k] : 0;
-      pq[k] = beta;
+      beta[k] = alpha[k] > 0 ? rz_next[k] / rz[k] : 0;
       rz[k] = rz_next[k];
     }
-    for (uint32_t i = 0; i < s->count; i++)
-      for (int k = 0; k < LANES; k++) s->p[i][k] = s->inverse[i] * s->r[i][k] + pq[k] * s->p[i][k];
+    turn_search(s, beta);
   }
   return MOST_ITERATIONS;
 }
@@ -140,7 +154,7 @@ bool sbfi_heat_weights_solve(const sbfi_weight_mesh *mesh, const sbfi_nearest_bo
     *iterations = taken > *iterations ? taken : *iterations;
     for (uint32_t i = 0; i < s.count; i++)
       for (uint32_t k = 0; k < count; k++)
-        if (s.x[i][k] > LEAST_WEIGHT) insert(&weights[i], group[k], (float)s.x[i][k]);
+        if ((double)s.x[i][k] > LEAST_WEIGHT) insert(&weights[i], group[k], s.x[i][k]);
   }
   return true;
 }
