@@ -8,6 +8,7 @@ converted with the file as its rig; the file's own conversion is the truth. Prin
              within 2 %; conversion in at most 1.3 times the time of the original
     case c   the skin, posed by the file's clips, within 1 % of the longest side of the original's at 99 % of points
 
+    ./run bench rigging
     SBFMT_BUILD_DIR=build/release python3 -B bench/bench_rigging.py [FILE.glb ...]
 """
 
