@@ -5,7 +5,7 @@ import os
 import xml.etree.ElementTree as ElementTree
 
 import joint_files
-from sbfmt_program import ROOT, ProgramTest, main, read_text, write_bytes
+from sbfmt_program import ROOT, ProgramTest, convert_once, main, read_bytes, read_text, write_bytes
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
 
@@ -44,6 +44,32 @@ class Pins(ProgramTest):
             said = self.fails(2, "convert", CALF, "--no-build", "--pin", "head", *options, "-o", self.path("none.sbf"))
             self.assertIn(options[0], said)
         self.assert_empty_folder()
+
+
+class Soles(ProgramTest):
+    """What a run says of the soles, where feet are put into the ground or aside."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.pup = convert_once(cls.class_folder.name, "pup.sbf", os.path.join(ROOT, "examples", "pup", "pup.glb"))
+
+    def test_feet_in_the_ground(self):
+        standing = self.json_of("run", self.pup, "--seconds", "0.5")
+        self.assertLess(standing["penetration"], 1e-4)
+        sunk = self.json_of("run", self.pup, "--seconds", "0.5", "--raise", "-0.05")
+        self.assertAlmostEqual(sunk["penetration"], 0.05, delta=1e-3)
+
+    def test_feet_that_slide(self):
+        write_bytes(self.path("aside.txt"), b"0.2 teleport 0.06 0 0 0\n")
+        slid = self.json_of("run", self.pup, "--seconds", "0.6", "--script", self.path("aside.txt"))
+        self.assertAlmostEqual(slid["stance_slip"], 0.06, delta=0.01)
+
+    def test_exported_motion_is_where_the_character_is(self):
+        how = ("--seconds", "0.2", "--fps", "30", "--raise", "0.5")
+        self.good("run", self.pup, *how, "--cache", self.path("run.pc2"))
+        self.good("export", self.pup, *how, "-o", self.path("export.pc2"))
+        self.assertEqual(read_bytes(self.path("run.pc2")), read_bytes(self.path("export.pc2")))
 
 
 class Strength(ProgramTest):
