@@ -31,8 +31,12 @@ static bool add_carrier(carry *c, const sbri_body *body, uint32_t vertex, uint32
   return sbfi_array_append(&c->carriers, &(carrier){vertex, slot, weight}, 1);
 }
 
-/* The tetrahedron of those corners, counted in its island; UINT32_MAX: there is none, or it is held all
- * around. */
+static bool is_among(uint32_t point, const uint32_t points[4]) {
+  return point == points[0] || point == points[1] || point == points[2] || point == points[3];
+}
+
+/* A tetrahedron that all the points are corners of, counted in its island; UINT32_MAX: there is none, or it
+ * is held all around. A point may be named several times. */
 static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, const uint32_t points[4]) {
   const sbri_island *island = &model->islands[body->island];
   for (uint32_t i = 0; i < 4; i++) {
@@ -42,9 +46,9 @@ static uint32_t find_tetrahedron(const sbr_model *model, const sbri_body *body, 
          at++) {
       const uint32_t *corners =
           body->level->lattice.tetrahedra.at[island->tears->around[at] - body->first_tetrahedron].at;
-      uint32_t same = 0;
-      for (uint32_t k = 0; k < 16; k++) same += corners[k / 4] == points[k % 4];
-      if (same == 4) return island->tears->around[at];
+      uint32_t found = 0;
+      for (int k = 0; k < 4; k++) found += is_among(points[k], corners);
+      if (found == 4) return island->tears->around[at];
     }
   }
   return UINT32_MAX;
@@ -80,9 +84,8 @@ static bool bind_vertex(carry *c, const sbri_body *body, uint32_t vertex, const 
   sbri_binding binding = {vertex, (uint32_t)c->carriers.count, body->island, found};
   if (!sbfi_array_append(&c->bindings, &binding, 1)) return false;
   for (int k = 0; k < 4; k++) {
-    int from = 0;
-    while (points[from] != corners[k]) from++;
-    carrier one = {vertex, island->first_slot + body->slot_from_point[corners[k]], weights[from]};
+    carrier one = {vertex, island->first_slot + body->slot_from_point[corners[k]], 0};
+    for (int i = 0; i < 4; i++) one.weight += points[i] == corners[k] ? weights[i] : 0;
     if (!sbfi_array_append(&c->carriers, &one, 1)) return false;
   }
   *bound = true;

@@ -3,6 +3,7 @@
 #include "harness.h"
 #include "math/vec3.h"
 #include "scenes.h"
+#include "world/world.h"
 
 /* Two bodies of four points each, a metre apart, and a mesh carried by both. */
 static scene carried(const float *blends) {
@@ -134,6 +135,44 @@ START_TEST(a_body_without_levels_goes_with_its_bone)
 }
 END_TEST
 
+/* A valid embedding may name one point four times, and two points twice: an element that may tear carries it.
+ */
+START_TEST(points_named_several_times_carry_once)
+{
+  static const sbf_vec4 weights[] = {{1, 0, 0, 0}, {0.1f, 0.2f, 0.3f, 0.4f}, {0.25f, 0.25f, 0.25f, 0.25f}};
+  lattice_box box =
+      lattice_box_make((sbf_vec3){0, 0, 0}, (sbf_vec3){0.2f, 0.2f, 0.2f}, 1, 1, 1, 1000, 1e5f, 0.3f);
+  scene s = scene_begin();
+  sbf_level *level = scene_lattice(&s, 0, &box);
+  scene_body(&s, 0)->attributes.tear_strain = 0.5f;
+  const uint32_t *corners = box.tetrahedra[2].at, last = corners[3];
+  const sbf_uint4 points[] = {
+      {{last, last, last, last}}, {{last, last, last, last}}, {{corners[0], last, corners[0], last}}};
+  sbf_embedding *e = sbf_asset_allocate(s.asset, 1, sizeof *e);
+  sbf_embedding_init(e);
+  e->render_mesh = 0;
+  e->points = (sbf_uint4_list){points, 3};
+  e->weights = (sbf_vec4_list){weights, 3};
+  level->embeddings = (sbf_embedding_list){e, 1};
+  sbf_vec3 a = box.positions[last], b = box.positions[corners[0]];
+  const sbf_vec3 rest[] = {a, a, sbri_scale(sbri_add(a, b), 0.5f)};
+  sbf_render_mesh *mesh = sbf_asset_allocate(s.asset, 1, sizeof *mesh);
+  sbf_render_mesh_init(mesh);
+  mesh->id = "m";
+  mesh->mesh.positions = (sbf_vec3_list){rest, 3};
+  s.asset->render_meshes = (sbf_render_mesh_list){mesh, 1};
+  s.character_definition.position.y = 0;
+  scene_start(&s);
+  const sbri_skin *skin = &s.model->skins[0];
+  ck_assert_uint_eq(skin->binding_count, 3);
+  sbf_vec3 p[3];
+  sbr_character_skin(s.world, s.character, 0, p, NULL, NULL, 3);
+  for (int i = 0; i < 3; i++) expect(p[i], rest[i].x, rest[i].y, rest[i].z);
+  scene_free(&s);
+  lattice_box_free(&box);
+}
+END_TEST
+
 static Suite *suite(void) {
   Suite *s = suite_create("skin carry");
   TCase *c = tcase_create("skin carry");
@@ -141,6 +180,7 @@ static Suite *suite(void) {
   tcase_add_test(c, shares_that_do_not_add_up_are_brought_there);
   tcase_add_test(c, skins_follow_bones_where_no_body_carries_them);
   tcase_add_test(c, a_body_without_levels_goes_with_its_bone);
+  tcase_add_test(c, points_named_several_times_carry_once);
   suite_add_tcase(s, c);
   return s;
 }
