@@ -155,10 +155,11 @@ typedef struct sbri_body {
   uint32_t slot_begin, slot_real_end, slot_end; /* free slots; padding from slot_real_end on */
   uint32_t first_spare;      /* of its slots: from here to slot_real_end is room for points that split */
   uint32_t *slot_from_point; /* (level->positions.count) slots of its island */
-  uint32_t first_spring, spring_end;             /* its own springs among the island's */
-  uint32_t first_tetrahedron;                    /* of its own among the island's as they are listed */
-  uint32_t tetrahedron_count;                    /* those of its level, where they are its model; else 0 */
-  const float *moduli;                           /* (tetrahedron_count) Pa */
+  uint32_t first_spring, spring_end; /* its own springs among the island's */
+  uint32_t first_tetrahedron;        /* of its own among the island's as they are listed */
+  uint32_t tetrahedron_count;        /* those of its level, where they are its model; else 0 */
+  float *moduli;         /* (tetrahedron_count) Young's, Pa, as stepped; see prepare/softening.h */
+  float *poisson_ratios; /* (tetrahedron_count) as stepped */
   uint32_t first_region_block, region_block_end; /* of its regions among the island's */
   bool held;                /* by some pin: it is damped relative to its guide; else relative to itself */
   uint32_t guide_frame;     /* of all its points, where `guides` is NULL */
@@ -220,8 +221,11 @@ typedef struct sbri_answers {
       *shares; /* (free slots x 18) blocks of 18 by eight: of each of six speeds, x y z at the step's end */
 } sbri_answers;
 
-/* A body that needs more substeps than this is not one to step explicitly. A power of two. */
+/* The budget of an explicit scheme at rest, in substeps a tick: with more, springs are stepped by another
+ * scheme and tetrahedra are softened (prepare/softening.h). A power of two. */
 enum { SBRI_MOST_SUBSTEPS = 1024 };
+/* The same for a strained body. No tick has more. */
+enum { SBRI_MOST_STRAINED_SUBSTEPS = SBRI_MOST_SUBSTEPS + SBRI_MOST_SUBSTEPS / 2 };
 
 typedef struct sbri_scheme sbri_scheme; /* solvers/scheme.h */
 
@@ -285,14 +289,16 @@ typedef struct sbri_island {
   uint32_t first_thread_cell, first_thread_block, first_thread_link; /* likewise, where it frays */
   float most_acceleration_m_s2; /* of what holds it, that it is made to feel; 0: no bound */
   float most_push_m_s;          /* likewise, of what its velocity changes by at once */
-  double fastest_rad_s;         /* mode at rest */
-  double bound_rad_s;           /* no mode is faster in any state of the springs, the tetrahedra at rest */
-  double outer_rad_s;           /* what gas and bending add to any mode, as a root of squares, at most */
-  bool has_outer;               /* something acts beside springs, tetrahedra and weight */
-  float rest_stretch;           /* greatest share of a spring beyond its rest length, at rest */
-  double stiffness_damping_s;   /* greatest damping over stiffness of its springs */
-  uint32_t substeps;            /* asked for; 0: as many as needed */
-  float step_error_m;           /* of the schemes that control their error */
+  double fastest_rad_s;         /* mode at rest, as stepped */
+  float softened_shear,
+      softened_bulk;          /* least share of a tetrahedron's stated moduli it is stepped with; 1 */
+  double bound_rad_s;         /* no mode is faster in any state of the springs, the tetrahedra at rest */
+  double outer_rad_s;         /* what gas and bending add to any mode, as a root of squares, at most */
+  bool has_outer;             /* something acts beside springs, tetrahedra and weight */
+  float rest_stretch;         /* greatest share of a spring beyond its rest length, at rest */
+  double stiffness_damping_s; /* greatest damping over stiffness of its springs */
+  uint32_t substeps;          /* asked for; 0: as many as needed */
+  float step_error_m;         /* of the schemes that control their error */
   uint32_t substeps_least, substeps_most; /* of a tick, of those; 0: no bound */
   const sbri_visit *visits;               /* (visit_count) of the relaxation scheme, in order */
   uint32_t visit_count;

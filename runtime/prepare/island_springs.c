@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "mechanics/level_points.h"
-#include "prepare/island_maker.h"
+#include "prepare/softening.h"
 #include "solvers/rolling.h"
 #include "solvers/scheme.h"
 
@@ -254,14 +254,9 @@ static bool make_cells(sbri_island_maker *m) {
 
 /* ---- Frequencies ---- */
 
-enum { POWER_ITERATIONS = 40 };
-
 /* Lattices above this size have their lowest mode from above alone: refining it would take longer than a
  * tenth of a second, and what a fine lattice's mode lies above by is little. */
 enum { MOST_REFINED = 3000 };
-
-/* Power iteration comes from below; what it may still lack. */
-static const double POWER_MARGIN = 1.03;
 
 /* Bones that would throw a body's points by more than this share of how far they are from what holds them
  * take it along instead: its springs know no inside and outside, and would not bring back all of it. What
@@ -406,9 +401,9 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
       .anchors = anchors,
       .ends = ends,
       .stiffness = stiffness};
-  if (!sbri_tetrahedra_network(m, &network)) return false;
+  if (!sbri_tetrahedra_network(m, &network) || !sbri_soften(m, &network, scratch)) return false;
   island->bound_rad_s = sbf_network_highest_bound(&network, scratch);
-  island->fastest_rad_s = POWER_MARGIN * sbf_network_highest(&network, POWER_ITERATIONS, scratch);
+  island->fastest_rad_s = sbri_fastest(&network, scratch);
   if (island->fastest_rad_s > island->bound_rad_s) island->fastest_rad_s = island->bound_rad_s;
   double regions = island->region_rad_s * island->region_rad_s; /* no mode is faster by more than their sum */
   island->bound_rad_s = sqrt(island->bound_rad_s * island->bound_rad_s + regions);

@@ -14,11 +14,12 @@ bool sbri_tetrahedra_list(sbri_island_maker *m) {
     body->first_tetrahedron = m->island->tetrahedron_count;
     if (!acts(body)) continue;
     uint32_t count = body->level->lattice.tetrahedra.count;
-    float *moduli = sbri_keep(m, count, sizeof *moduli);
+    float *moduli = sbri_keep(m, count, sizeof *moduli), *ratios = sbri_keep(m, count, sizeof *ratios);
     float *factors = sbri_scratch(m, body->level->positions.count, sizeof *factors);
-    if (!moduli || !factors) return false;
+    if (!moduli || !ratios || !factors) return false;
     sbf_level_moduli(body->source, body->level, factors, moduli);
-    body->moduli = moduli;
+    for (uint32_t t = 0; t < count; t++) ratios[t] = body->source->attributes.poisson_ratio;
+    body->moduli = moduli, body->poisson_ratios = ratios;
     body->tetrahedron_count = count;
     m->island->tetrahedron_count += count;
   }
@@ -39,7 +40,7 @@ bool sbri_tetrahedra_network(sbri_island_maker *m, sbf_spring_network *network) 
         corners->at[k] = body->slot_from_point[body->level->lattice.tetrahedra.at[t].at[k]];
       corners++;
       *moduli++ = body->moduli[t];
-      *ratios++ = body->source->attributes.poisson_ratio;
+      *ratios++ = body->poisson_ratios[t];
     }
   }
   return true;

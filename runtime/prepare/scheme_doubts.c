@@ -24,8 +24,14 @@ static bool doubt(const sbr_model *model, const sbri_island *island, sbf_diagnos
   const char *id = model->bodies[island->bodies[0]].source->id;
   bool solid = island->tetrahedron_count > 0;
   double softness = network_softness(stable, taken);
+  if ((double)island->softened_shear < 1 - TOLD_BIAS || (double)island->softened_bulk < 1 - TOLD_BIAS)
+    sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
+        "body \"%s\" is too stiff for %d substeps a tick and is stepped as a softer one: where that is most, "
+        "with "
+        "%.2g of its bulk modulus and %.2g of its shear modulus; larger or fewer elements would need less",
+        id, (int)SBRI_MOST_SUBSTEPS, (double)island->softened_bulk, (double)island->softened_shear);
   /* The number that is needed has a tenth to spare. */
-  if (island->scheme == &sbri_symplectic && taken + taken / 8 < stable)
+  else if (island->scheme == &sbri_symplectic && taken + taken / 8 < stable)
     sbfi_diagnose(found, SBF_CODE_SCHEME_BIASED,
         "body \"%s\" is stepped by symplectic with %u substeps a tick and is stable with %u: it may burst; "
         "leave "

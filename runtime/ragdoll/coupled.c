@@ -189,8 +189,7 @@ static void act_on_island(sbri_coupled *group, uint32_t index, float step_s, flo
   if (group->falls) tick.gravity = sbri_vec3(0, 0, 0);
   tick.undamped = true;
   tick.reactions = sbri_reactions(c);
-  bool recovers = now.routed && sbri_island_states(c)[index].recovering > 0;
-  (recovers ? &sbri_position_based : now.scheme)->tick(&tick);
+  sbri_router_scheme(&now, sbri_island_states(c)[index].recovering)->tick(&tick);
   sbri_coupled_need_now(group, &tick);
 }
 

@@ -12,7 +12,7 @@
 #include "solvers/tetrahedron_forces.h"
 
 /* More steps of rigid parts than this are not taken in a tick. */
-enum { MOST_STEPS = SBRI_MOST_STRAINED_SOLID_SUBSTEPS };
+enum { MOST_STEPS = SBRI_TROUBLED_SOLID_SUBSTEPS };
 
 /* Way of a point against its guides in a step, as a share of its body's cells. */
 static const float MOST_WAY = 0.25f;

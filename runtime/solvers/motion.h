@@ -225,12 +225,12 @@ static inline void sbri_carry_held(const sbri_island_tick *t, float share) {
   for (size_t i = 0; i < 4 * held; i++) at[i] = from[i] + (to[i] - from[i]) * share;
 }
 
-/* Substeps of the `time_s` seconds to come, by how stiff springs, tetrahedra and gases are now. No more than
- * a model may ask for at rest: a gas that is pressed flat would ask for a million and stop the world; what
+/* Substeps of the `time_s` seconds to come, by how stiff springs, tetrahedra and gases are now. Their
+ * number is bounded: a gas that is pressed flat would ask for a million and stop the world; what
  * goes wrong then is recovered from. */
 static inline uint32_t sbri_substeps_now(const sbri_island_tick *t, float time_s) {
   uint32_t needed = sbri_scheme_substeps(t->island, sbri_stiffened_time(t, time_s), *t->stretch);
-  return needed < SBRI_MOST_SUBSTEPS ? needed : SBRI_MOST_SUBSTEPS;
+  return needed < SBRI_MOST_STRAINED_SUBSTEPS ? needed : SBRI_MOST_STRAINED_SUBSTEPS;
 }
 
 /* Remembers the greatest of the lanes. */

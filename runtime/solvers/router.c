@@ -4,11 +4,10 @@
 #include "solvers/tetrahedron_forces.h"
 
 static uint32_t most_strained(const sbri_island *island, double tick_s) {
-  uint32_t least =
-      island->tetrahedron_count ? SBRI_MOST_STRAINED_SOLID_SUBSTEPS : SBRI_MOST_STRAINED_SUBSTEPS;
+  uint32_t least = island->tetrahedron_count ? SBRI_TROUBLED_SOLID_SUBSTEPS : SBRI_TROUBLED_SUBSTEPS;
   uint32_t at_rest = sbri_stable_substeps(island, tick_s, island->rest_stretch), most = at_rest + at_rest / 2;
   if (most < least) return least;
-  return most < SBRI_MOST_SUBSTEPS ? most : SBRI_MOST_SUBSTEPS;
+  return most < SBRI_MOST_STRAINED_SUBSTEPS ? most : SBRI_MOST_STRAINED_SUBSTEPS;
 }
 
 bool sbri_router_begins_explicit(const sbri_island *island) {
@@ -39,6 +38,10 @@ static float greatest_square(const sbri_island_tick *t) {
   return greatest;
 }
 
+const sbri_scheme *sbri_router_scheme(const sbri_island *island, uint32_t recovering) {
+  return island->routed && recovering > 0 ? &sbri_position_based : island->scheme;
+}
+
 const sbri_scheme *sbri_router_choose(const sbri_island_tick *t, uint32_t *recovering) {
   const sbri_island *island = t->island;
   if (!island->routed) return island->scheme;
@@ -50,5 +53,5 @@ const sbri_scheme *sbri_router_choose(const sbri_island_tick *t, uint32_t *recov
     *recovering = SBRI_RECOVERING_TICKS;
   else if (*recovering > 0)
     --*recovering;
-  return *recovering > 0 ? &sbri_position_based : island->scheme;
+  return sbri_router_scheme(island, *recovering);
 }

@@ -4,16 +4,19 @@
 
 #include "solvers/scheme.h"
 
-/* A body is stepped explicitly as long as that can be done at all (SBRI_MOST_SUBSTEPS at rest): nothing else
- * follows its energy for less. While it is so strained that it needs more than this, and half as many again
- * as at rest, it is in trouble. */
-enum { SBRI_MOST_STRAINED_SUBSTEPS = 192, SBRI_MOST_STRAINED_SOLID_SUBSTEPS = 256 };
+/* A body is stepped explicitly while SBRI_MOST_SUBSTEPS are enough at rest: nothing else follows its energy
+ * for less. A strained body is in trouble when it needs more than half as many again as at rest, and more
+ * than these numbers. */
+enum { SBRI_TROUBLED_SUBSTEPS = 192, SBRI_TROUBLED_SOLID_SUBSTEPS = 256 };
 
 /* For so many ticks after the last sign of trouble the recovering scheme goes on. */
 enum { SBRI_RECOVERING_TICKS = 10 };
 
 /* Whether the island, at rest, is one to step explicitly. */
 bool sbri_router_begins_explicit(const sbri_island *island);
+
+/* The scheme of an island that recovers for so many ticks more. */
+const sbri_scheme *sbri_router_scheme(const sbri_island *island, uint32_t recovering);
 
 /* The scheme of the coming tick. Trouble is: elements so strained that explicit steps would be too many, a
  * tetrahedron inside out, or points that move by more than a cell in a substep against their body;

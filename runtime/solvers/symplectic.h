@@ -53,7 +53,7 @@ static inline void sbri_lanes_symplectic_tick(const sbri_island_tick *t) {
     if (looks && !last && may_stiffen) {
       sbri_outer_look(t);
       uint32_t needed = sbri_substeps_now(t, rest),
-               most = s < SBRI_MOST_SUBSTEPS ? SBRI_MOST_SUBSTEPS - s : 0;
+               most = s < SBRI_MOST_STRAINED_SUBSTEPS ? SBRI_MOST_STRAINED_SUBSTEPS - s : 0;
       needed = needed < most ? needed : most;
       if (needed > left) left = needed, h = rest / (float)left;
     }

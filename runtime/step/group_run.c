@@ -113,8 +113,7 @@ static uint32_t advance_island(
   tick.tick_s *= share, tick.share = share;
   tick.outer_rad_s = &now.outer_rad_s;
   sbri_outer_look(&tick);
-  bool recovers = now.routed && sbri_island_states(c)[index].recovering > 0;
-  (recovers ? &sbri_position_based : now.scheme)->tick(&tick);
+  sbri_router_scheme(&now, sbri_island_states(c)[index].recovering)->tick(&tick);
   if (now.scheme->sweeps || now.substeps) return 0;
   tick.tick_s = m->tick_s, tick.share = 1;
   return steps_of(&tick);

@@ -57,7 +57,9 @@ static const doubt_case cases[] = {
     {false, 1e12f, SBF_SCHEME_AUTOMATIC, 0, "times as far"}, /* nothing else can step it */
     {true, 1e6f, SBF_SCHEME_POSITION_BASED, 0, NULL},
     {true, 1e6f, SBF_SCHEME_POSITION_BASED, 8, "by a tenth or more too far"},
-    {true, 1e9f, SBF_SCHEME_POSITION_BASED, 0, "several times too far"},
+    {true, 1e9f, SBF_SCHEME_POSITION_BASED, 0, NULL}, /* as many as are stable */
+    {true, 1e9f, SBF_SCHEME_POSITION_BASED, 64, "several times too far"},
+    {true, 1e12f, SBF_SCHEME_AUTOMATIC, 0, "of its bulk modulus"},
     {true, 1e6f, SBF_SCHEME_BLOCK_DESCENT, 0, "as through honey"},
     {false, 8e4f, SBF_SCHEME_BLOCK_DESCENT, 0, "loses its swings"},
 };

@@ -1,0 +1,132 @@
+#include "prepare/softening.h"
+
+#include <math.h>
+
+#include "mechanics/neo_hookean.h"
+#include "mechanics/network.h"
+#include "solvers/scheme.h"
+
+enum { POWER_ITERATIONS = 40, MOST_ROUNDS = 8 };
+
+/* Power iteration comes from below; what it may still lack. */
+static const double POWER_MARGIN = 1.03;
+
+/* Bulk modulus is given up down to this Poisson's ratio. */
+static const double LEAST_POISSON = 0.35;
+
+/* The body's fastest mode ends within this share below the limit, and is aimed at the middle of that. */
+static const double NEAR_ENOUGH = 0.97, AIM = 0.985;
+
+double sbri_fastest(const sbf_spring_network *network, double *scratch) {
+  return POWER_MARGIN * sbf_network_highest(network, POWER_ITERATIONS, scratch);
+}
+
+/* The greatest w for which a tick takes no more than the budget. */
+static double find_limit(void) {
+  sbri_island of = {.tetrahedron_count = 1};
+  double low = 0, high = 1e6;
+  for (int i = 0; i < 60; i++) {
+    of.fastest_rad_s = 0.5 * (low + high), of.bound_rad_s = 2 * of.fastest_rad_s;
+    bool fits = sbri_stable_substeps(&of, 1.0 / 60, 0) <= SBRI_MOST_SUBSTEPS;
+    *(fits ? &low : &high) = of.fastest_rad_s;
+  }
+  return low;
+}
+
+/* Volume of the tetrahedra at each point. */
+static void add_volumes(const sbf_spring_network *network, double *volumes) {
+  sbfi_tetrahedron element;
+  for (uint32_t t = 0; t < network->tetrahedron_count; t++)
+    for (int k = 0; k < 4 && sbfi_network_tetrahedron(network, t, &element); k++)
+      volumes[network->tetrahedra[t].at[k]] += element.volume;
+}
+
+/* The square of an element's fastest mode for each Pa of 3 lambda + 2 mu: V |G| over the least mass that it
+ * gives a corner, |G| the Frobenius norm of the Gram matrix of its shape functions' gradients; 0: all its
+ * corners are held. */
+static double find_square_per_pa(
+    const sbf_spring_network *network, uint32_t t, const sbfi_tetrahedron *element, const double *volumes) {
+  double gram = 0, mass = 0;
+  for (int i = 0; i < 4; i++) {
+    uint32_t point = network->tetrahedra[t].at[i];
+    double of = network->masses[point] * element->volume / volumes[point];
+    if (of > 0 && (mass == 0 || of < mass)) mass = of;
+    for (int j = 0; j < 4; j++) {
+      double product = sbfi_d3_dot(element->gradients[i], element->gradients[j]);
+      gram += product * product;
+    }
+  }
+  return mass > 0 ? element->volume * sqrt(gram) / mass : 0;
+}
+
+/* Young's modulus and Poisson's ratio with which 3 lambda + 2 mu is no more than `most`; the shares of the
+ * shear and bulk moduli that are left go into the island. */
+static void soften_element(sbri_island *island, float *young, float *poisson, double most) {
+  double e = (double)*young, nu = (double)*poisson;
+  double mu = e / (2 * (1 + nu)), lambda = 2 * mu * nu / (1 - 2 * nu), bulk = lambda + 2 * mu / 3;
+  double least = mu * 2 * LEAST_POISSON / (1 - 2 * LEAST_POISSON), wanted = (most - 2 * mu) / 3, share = 1;
+  if (!(3 * lambda + 2 * mu > most)) return;
+  if (wanted < least) {
+    wanted = lambda < least ? lambda : least;
+    share = most / (3 * wanted + 2 * mu);
+  }
+  double ratio = 0.5 * wanted / (wanted + mu), bulk_share = share * (wanted + 2 * mu / 3) / bulk;
+  *poisson = (float)ratio, *young = (float)(2 * share * mu * (1 + ratio));
+  if ((float)share < island->softened_shear) island->softened_shear = (float)share;
+  if ((float)bulk_share < island->softened_bulk) island->softened_bulk = (float)bulk_share;
+}
+
+/* What an element is made of as stated, and what 3 lambda + 2 mu is bounded by. */
+typedef struct stated_element {
+  float young, poisson;
+  double square_per_pa;
+} stated_element;
+
+static void soften_all(sbri_island *island, const stated_element *stated, uint32_t count, double cap,
+    float *young, float *poisson) {
+  island->softened_shear = island->softened_bulk = 1;
+  for (uint32_t t = 0; t < count; t++) {
+    young[t] = stated[t].young, poisson[t] = stated[t].poisson;
+    if (stated[t].square_per_pa > 0)
+      soften_element(island, &young[t], &poisson[t], cap / stated[t].square_per_pa);
+  }
+}
+
+static void copy_to_bodies(sbri_island_maker *m, const sbf_spring_network *network) {
+  for (uint32_t b = 0; b < m->island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    for (uint32_t t = 0; t < body->tetrahedron_count; t++) {
+      body->moduli[t] = network->young_modulus[body->first_tetrahedron + t];
+      body->poisson_ratios[t] = network->poisson_ratios[body->first_tetrahedron + t];
+    }
+  }
+}
+
+bool sbri_soften(sbri_island_maker *m, sbf_spring_network *network, double *scratch) {
+  uint32_t count = network->tetrahedron_count;
+  double limit = find_limit(), fastest;
+  m->island->softened_shear = m->island->softened_bulk = 1;
+  bool swept = m->island->scheme == &sbri_position_based && !m->island->substeps;
+  if (!(m->island->routed || swept) || count == 0 || sbri_fastest(network, scratch) <= limit) return true;
+  double *volumes = sbri_scratch(m, network->point_count, sizeof *volumes);
+  stated_element *stated = sbri_scratch(m, count, sizeof *stated);
+  float *young = sbri_scratch(m, count, sizeof *young), *poisson = sbri_scratch(m, count, sizeof *poisson);
+  if (!volumes || !stated || !young || !poisson) return false;
+  add_volumes(network, volumes);
+  for (uint32_t t = 0; t < count; t++) {
+    sbfi_tetrahedron element;
+    stated[t] = (stated_element){network->young_modulus[t], network->poisson_ratios[t], 0};
+    if (sbfi_network_tetrahedron(network, t, &element))
+      stated[t].square_per_pa = find_square_per_pa(network, t, &element, volumes);
+  }
+  network->young_modulus = young, network->poisson_ratios = poisson;
+  double cap = limit * limit; /* enough in any case, and then raised */
+  for (int round = 0; round < MOST_ROUNDS; round++) {
+    soften_all(m->island, stated, count, cap, young, poisson);
+    fastest = sbri_fastest(network, scratch);
+    if (fastest <= limit && fastest >= NEAR_ENOUGH * limit) break;
+    cap *= AIM * limit / fastest * (AIM * limit / fastest);
+  }
+  copy_to_bodies(m, network);
+  return true;
+}
