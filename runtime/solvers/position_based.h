@@ -9,7 +9,8 @@
  * others, Small Steps in Physics Simulation, 2019, for why one sweep of many substeps beats many sweeps of
  * one). Springs go in colours, eight at a time; then tetrahedra (tetrahedron_sweep.h).
  *
- * Stable at any stiffness and any step. Bias against the energy, of a mode of frequency w: damped at the
+ * One spring is stable at any stiffness and any step; tetrahedra that share points need substeps that resolve
+ * their fastest mode (position_based.c). Bias against the energy, of a mode of frequency w: damped at the
  * ratio w h / 2, slow by (w h)^2 / 3, exactly as by implicit Euler; and springs that share points rest softer
  * than they are by about k/m h^2, since each is settled while the others wait (measured: 0.8 % in a hanging
  * chain whose fastest mode turns by 0.19 in a substep). Angular momentum is kept to the second order.

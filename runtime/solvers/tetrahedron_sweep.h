@@ -15,13 +15,13 @@
  *   the rest:      0.6 V (sum w_i |g_i|^2) (mu + |s| (1 + e^2) / 2),    e^2 = max(F:F - 2, F:F / 3)
  *   along cof F:   V (sum w_i |cof F g_i|^2 / c) (mu + lambda c + 2 s J F:F / c)
  *
- * No element overshoots: 0.6 sum w_i |g_i|^2 is more than half of A's greatest eigenvalue, and e is nearly
- * the greatest stretch. (The share 1 / (1 + W^2) would be the implicit step itself where points belong to one
- * element each; where they share theirs, bodies rest four times as far from where they should.) Nothing moves
- * where P is 0, so that the rest state is exact, which two constraints that are projected one after the other
- * (Macklin and Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials, 2021) do not have.
- * Flat and inverted elements are nothing special. Momentum is kept, angular momentum to the second order,
- * since both parts of P F^T are symmetric. No multiplier is accumulated.
+ * No element by itself overshoots: 0.6 sum w_i |g_i|^2 is more than half of A's greatest eigenvalue, and e is
+ * nearly the greatest stretch. (The share 1 / (1 + W^2) would be the implicit step itself where points belong
+ * to one element each; where they share theirs, bodies rest four times as far from where they should.)
+ * Nothing moves where P is 0, so that the rest state is exact, which two constraints that are projected one
+ * after the other (Macklin and Mueller, A Constraint-based Formulation of Stable Neo-Hookean Materials, 2021)
+ * do not have. Flat and inverted elements are nothing special. Momentum is kept, angular momentum to the
+ * second order, since both parts of P F^T are symmetric. No multiplier is accumulated.
  *
  * Every other sweep goes through the blocks backwards, so that neither end of the list is preferred. Written
  * for the lanes of the file that includes it; see model/kernels.h. */
