@@ -142,3 +142,25 @@ class SeveralBones(fixtures.SceneTest):
         for kind in ("SOFT_BODY", "CLOTH"):
             self.scene = fixtures.fresh_scene()
             self.assertEqual(self.held(kind), {"left": [0], "right": [1, 2]}, kind)
+
+
+class Placement(fixtures.SceneTest):
+    def test_the_ground_is_at_height_zero(self):
+        self.scene.soft_body_format.ground = 0.25
+        fixtures.box("b", (1, 1, 1), (0, 0, 0.75)).modifiers.new("s", "SOFT_BODY")
+        self.assertAlmostEqual(min(self.export(build=False).soft_bodies[0].surface.positions[1::3]), 0, places=6)
+
+    def test_texture_corners_go_with_their_points_where_an_object_is_mirrored(self):
+        for mirror in (1, -1):
+            self.scene = fixtures.fresh_scene()
+            made = fixtures.mesh_object("m", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+            layer = made.data.uv_layers.new(name="uv")
+            for loop in made.data.loops:
+                layer.data[loop.index].uv = made.data.vertices[loop.vertex_index].co[:2]
+            made.scale = (mirror, 1, 1)
+            bpy.context.view_layer.update()
+            record = self.export(build=False).render_meshes[0]
+            uv = record.uv_sets[0]
+            for point, corner in zip(record.mesh.polygon_points, uv.corners):
+                x, _, z = record.mesh.positions[3 * point:3 * point + 3]
+                self.assert_near(uv.coordinates[2 * corner:2 * corner + 2], (mirror * x, -z))
