@@ -119,8 +119,10 @@ json_t *cli_diagnostic_json(const sbf_diagnostic *d) {
 int cli_print_json(json_t *object, int status) {
   char *text = object ? json_dumps(object, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
   json_decref(object);
-  if (!text || puts(text) == EOF || fflush(stdout) == EOF) {
-    fprintf(stderr, "sbfmt: error: the report could not be written to standard output\n");
+  if (text) {
+    puts(text);
+  } else {
+    fprintf(stderr, "sbfmt: error: memory ran out for the report\n");
     status = SBF_FAILED;
   }
   free(text);

@@ -125,7 +125,7 @@ static int help(int argc, char **argv) {
   return argc < 2 ? SBF_FAILED : SBF_OK;
 }
 
-int main(int argc, char **argv) {
+static int run_call(int argc, char **argv) {
   if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 ||
       strcmp(argv[1], "-h") == 0)
     return help(argc, argv);
@@ -163,4 +163,12 @@ int main(int argc, char **argv) {
   free(call.given);
   free(call.inputs);
   return status;
+}
+
+/* Whatever was printed has to have arrived: a full disk is told, of text as of JSON. */
+int main(int argc, char **argv) {
+  int status = run_call(argc, argv);
+  if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+  fprintf(stderr, "sbfmt: error: standard output could not be written (is the disk full?)\n");
+  return SBF_FAILED;
 }

@@ -94,10 +94,18 @@ class Calls(ProgramTest):
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full here")
     def test_a_full_standard_output(self):
-        with open("/dev/full", "wb") as full:
-            result = call("info", self.file, "--format", "json", output=full)
-        self.assertEqual(result.status, FAILED)
-        self.assertIn("error", result.err)
+        mesh = write_bytes(self.path("cube.obj"), CUBE)
+        still = ("run", self.file, "--seconds", "0.05", "--hold")
+        for arguments in (("--help",), ("--version",), ("help", "run"), ("run", "--help"), ("info", self.file),
+                          ("info", self.file, "--format", "json"), ("validate", self.file),
+                          ("validate", self.file, "--format", "json"), still, (*still, "--format", "json"),
+                          ("convert", mesh, "-o", self.path("cube.sbf")),
+                          ("build", self.path("cube.sbf"), "-o", self.path("again.sbf")),
+                          ("diff", self.file, self.path("cube.sbf"))):
+            with self.subTest(arguments), open("/dev/full", "wb") as full:
+                result = call(*arguments, output=full)
+                self.assertEqual(result.status, FAILED)
+                self.assertIn("error: standard output could not be written", result.err)
 
     def test_calls_that_are_wrong(self):
         for arguments in ((), ("frobnicate",), ("info",), ("info", self.file, self.file), ("info", "--no-such"),

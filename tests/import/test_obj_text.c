@@ -201,6 +201,31 @@ START_TEST(binary_is_no_obj)
   sbf_diagnostic error = {0};
   ck_assert_int_eq(read_exact(&text, "v 0 0 0\0\n", 9, &error), SBF_BAD_INPUT);
   ck_assert_int_eq(error.code, SBF_CODE_IMPORT_SYNTAX);
+  ck_assert_uint_eq(error.line, 1);
+}
+END_TEST
+
+static void nul_in_line(const char *bytes, size_t size, uint32_t line) {
+  sbfi_obj_text text;
+  sbf_diagnostic error = {0};
+  ck_assert_int_eq(read_exact(&text, bytes, size, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(error.code, SBF_CODE_IMPORT_SYNTAX);
+  ck_assert_uint_eq(error.line, line);
+}
+
+START_TEST(a_nul_is_refused_with_its_line)
+{
+  enum { FAR = 100000 }; /* bytes of comments before it */
+  nul_in_line("v 0 0 0\nv 1 0 0\n\nv 0\0 0 0\n", 27, 4);
+  nul_in_line("v 0 0 0\rv 1 0 0\ro a\0b\r", 22, 3);
+  nul_in_line("v 0 0 0\r\n# a\0b\r\n", 16, 2);
+  char *text = malloc(FAR + 1);
+  ck_assert_ptr_nonnull(text);
+  memset(text, '#', FAR);
+  for (int i = 99; i < FAR; i += 100) text[i] = '\n';
+  text[FAR] = 0;
+  nul_in_line(text, FAR + 1, FAR / 100 + 1);
+  free(text);
 }
 END_TEST
 
@@ -274,6 +299,7 @@ static Suite *obj_text_suite(void) {
   tcase_add_test(tests, other_statements_are_counted);
   tcase_add_test(tests, errors_name_their_line);
   tcase_add_test(tests, binary_is_no_obj);
+  tcase_add_test(tests, a_nul_is_refused_with_its_line);
   tcase_add_test(tests, messages_hold_no_bytes_of_the_file_that_are_no_text);
   tcase_add_test(tests, a_mark_of_utf8_is_passed_over);
   tcase_add_test(tests, cut_off_at_every_byte);

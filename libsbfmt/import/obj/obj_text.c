@@ -396,13 +396,23 @@ static sbf_status check_forward(reader *r) {
   return SBF_OK;
 }
 
+static sbf_status nul_refused(reader *r, const char *bytes, const char *nul) {
+  uint32_t line = 1;
+  for (const char *at = bytes; at < nul; at++) line += *at == r->line_end;
+  return located(r,
+      sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX,
+          "byte %zu of the file is 0, which no OBJ text holds: the file is damaged or of another format",
+          (size_t)(nul - bytes)),
+      line);
+}
+
 static sbf_status read_text(reader *r, const char *bytes, size_t size) {
   if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0) r->at += 3;
   if (size >= 2 && (memcmp(bytes, "\xFF\xFE", 2) == 0 || memcmp(bytes, "\xFE\xFF", 2) == 0))
     return sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX, "the OBJ file is UTF-16 text: save it as UTF-8");
-  if (size && memchr(bytes, 0, size < 65536 ? size : 65536))
-    return sbfi_diagnose(r->error, SBF_CODE_IMPORT_SYNTAX, "the file holds bytes that no OBJ text has");
   if (size && !memchr(bytes, '\n', size)) r->line_end = '\r';
+  const char *nul = size ? memchr(bytes, 0, size) : NULL;
+  if (nul) return nul_refused(r, bytes, nul);
   sbf_status status = begin_run(r, SBF_NONE, SBF_NONE);
   while (!status && r->at < r->end) {
     skip_blank(r);
