@@ -8,6 +8,7 @@
 
 #include "building.h"
 #include "chart/out_folder.h"
+#include "checking.h"
 #include "conversion_report.h"
 #include "material_options.h"
 #include "output_name.h"
@@ -74,6 +75,26 @@ static void state_figures(sbf_asset *asset) {
   asset->info.high = measures.high;
 }
 
+/* Checks the asset as `sbfmt validate` would check the file, and writes it only where it is valid: an invalid
+ * bundle never takes the place of the output. */
+static int save_valid(cli_call *call, const char *input, const char *out, const sbf_asset *asset) {
+  checked found = {.path = out};
+  sbf_diagnostic error;
+  check_loaded(asset, out, &found);
+  sbf_status status = found.status;
+  if (!checked_is_valid(&found, false)) {
+    checked_tell(call, &found, NULL);
+    cli_wrong(call, "%s is not written: what %s gives has %u error%s, listed above; mend the input there",
+        out, input, found.result.errors, found.result.errors == 1 ? "" : "s");
+    if (status == SBF_OK) status = SBF_BAD_INPUT;
+  } else {
+    status = sbf_save_file(asset, out, NULL, &error);
+    if (status != SBF_OK) cli_print_diagnostic(call, &error);
+  }
+  findings_free(&found.found);
+  return (int)status;
+}
+
 static int convert(cli_call *call, const char *input, const char *out, sbf_convert_options *options) {
   sbf_asset *asset, *misfit = NULL;
   sbf_diagnostic error;
@@ -88,9 +109,10 @@ static int convert(cli_call *call, const char *input, const char *out, sbf_conve
   if (status == SBF_OK && cli_switch(call, "--no-build")) state_figures(asset);
   if (status == SBF_OK && !cli_switch(call, "--no-build")) status = building_run(call, &asset, &error);
   if (status == SBF_OK) {
-    status = sbf_save_file(asset, out, NULL, &error);
-    if (status == SBF_OK && call->messages) status = write_report(call, input, out, options, asset, &error);
+    int saved = save_valid(call, input, out, asset);
+    if (saved == SBF_OK && call->messages) status = write_report(call, input, out, options, asset, &error);
     sbf_asset_free(asset);
+    if (saved != SBF_OK) return saved;
   }
   if (status != SBF_OK) cli_print_diagnostic(call, &error);
   if (misfit && call->messages && write_report(call, input, out, options, misfit, &error) != SBF_OK)
@@ -195,5 +217,7 @@ const cli_verb verb_convert = {"convert", "INPUT... (-o OUT.sbf[z] | --out-dir D
     "the 2012 dialect, .xml; a bundle, to add motion to. Objects become sections of the bones they "
     "hang on in\n"
     "the rig's node tree; a skinned mesh becomes the skin; a gait is proposed where legs are found. Then "
-    "builds.",
+    "builds. What `sbfmt validate` would refuse is not written: its findings are listed, and the exit status "
+    "is "
+    "1.",
     options, 1, -1, run};

@@ -104,6 +104,21 @@ size_t sbfi_utf8_cut(const char *text, size_t length, size_t limit) {
   return limit;
 }
 
+bool sbfi_path_leaves_folder(const char *path) {
+  if (path[0] == '/' || strchr(path, '\\') || (path[0] && path[1] == ':')) return true;
+  int depth = 0;
+  for (const char *step = path; *step;) {
+    size_t length = strcspn(step, "/");
+    if (length == 2 && memcmp(step, "..", 2) == 0)
+      depth--;
+    else if (length > 0 && !(length == 1 && *step == '.'))
+      depth++;
+    if (depth < 0) return true;
+    step += length + (step[length] == '/');
+  }
+  return false;
+}
+
 void sbfi_text_init(sbfi_text *text, const sbf_allocator *allocator) {
   *text = (sbfi_text){.allocator = sbfi_allocator_or_default(allocator)};
 }

@@ -32,6 +32,10 @@ size_t sbfi_utf8_check(const char *text, size_t length);
 /* The longest beginning of well-formed text, `limit` bytes at most, that ends between two characters. */
 size_t sbfi_utf8_cut(const char *text, size_t length, size_t limit);
 
+/* Whether a path is absolute, climbs above the folder that it starts in, or has backslashes: a reader must
+ * refuse to open it. Looks at the letters alone. */
+bool sbfi_path_leaves_folder(const char *path);
+
 /* A growing buffer. When memory runs out `failed` is set, what was there stays, and every further append does
  * nothing: a writer may append freely and look once at the end. Not thread safe. */
 typedef struct sbfi_text {

@@ -89,6 +89,15 @@ START_TEST(every_code_point_is_well_formed_and_cut_whole)
 }
 END_TEST
 
+START_TEST(paths_that_leave_their_folder_are_known_by_their_letters)
+{
+  static const char *const leave[] = {"/a", "..", "../a", "a/../../b", "/../LWO", "C:/a.png", "a\\b", "./.."};
+  static const char *const stay[] = {"", "a", "a/b.png", "a/../b", "./a", "a//b", "a..b", "..a"};
+  for (size_t i = 0; i < sizeof leave / sizeof *leave; i++) ck_assert(sbfi_path_leaves_folder(leave[i]));
+  for (size_t i = 0; i < sizeof stay / sizeof *stay; i++) ck_assert(!sbfi_path_leaves_folder(stay[i]));
+}
+END_TEST
+
 START_TEST(the_buffer_takes_every_kind)
 {
   sbfi_text text;
@@ -163,6 +172,9 @@ static Suite *suite(void) {
   tcase_set_timeout(c, 60);
   tcase_add_test(c, utf8_is_checked_to_the_byte);
   tcase_add_test(c, every_code_point_is_well_formed_and_cut_whole);
+  suite_add_tcase(s, c);
+  c = tcase_create("paths");
+  tcase_add_test(c, paths_that_leave_their_folder_are_known_by_their_letters);
   suite_add_tcase(s, c);
   c = tcase_create("buffer");
   tcase_add_test(c, the_buffer_takes_every_kind);

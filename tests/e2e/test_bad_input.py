@@ -58,6 +58,46 @@ class FilesThatBreakOthers(ProgramTest):
         self.assert_empty_folder(but=["lizard.sbf"])
 
 
+class BundlesThatAreNotValid(ProgramTest):
+    OVERLAP = (("o.node", b"5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .1 .1 .8\n"),
+               ("o.ele", b"2 4 0\n1 1 2 3 4\n2 1 2 3 5\n"))
+
+    def test_what_validate_refuses_is_never_written(self):
+        for name, content in self.OVERLAP:
+            write_bytes(self.path(name), content)
+        for ending in ("sbf", "sbfz"):
+            for was in (None, b"what was there"):
+                out = self.path("out." + ending)
+                if was:
+                    write_bytes(out, was)
+                message = self.fails(BAD_INPUT, "convert", self.path("o.ele"), "-o", out)
+                self.assertIn("[LATTICE_OVERLAP]", message)
+                self.assertIn("is not written", message)
+                self.assertEqual(os.path.exists(out) and read_bytes(out), was or False)
+        self.assert_empty_folder(but=["o.node", "o.ele", "out.sbf", "out.sbfz"])
+
+    def test_the_good_ones_of_several_are_written(self):
+        for name, content in (*self.OVERLAP, ("cube.obj", CUBE)):
+            write_bytes(self.path(name), content)
+        self.fails(BAD_INPUT, "convert", self.path("o.ele"), self.path("cube.obj"), "--out-dir", self.path("out"))
+        self.assertEqual(os.listdir(self.path("out")), ["cube.sbf"])
+
+    def test_what_can_be_mended_is_mended_and_told(self):
+        """Repeated tetrahedra, a leaf drawn from both sides, an image path that leads out of the folder."""
+        flat = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 4 3 2 1\n"
+        for name, content in (("r.node", self.OVERLAP[0][1]), ("r.ele", b"2 4 0\n1 1 2 3 4\n2 1 2 3 4\n"),
+                              ("flat.obj", flat), ("lwo.obj", b"mtllib lwo.mtl\nusemtl m\n" + CUBE),
+                              ("lwo.mtl", b"newmtl m\nmap_Kd /../LWO\n")):
+            write_bytes(self.path(name), content)
+        for name, told in (("r.ele", "repeat the four points"), ("flat.obj", ""), ("lwo.obj", "IMPORT_IMAGE")):
+            with self.subTest(name):
+                out = self.path(name + ".sbf")
+                result = call("convert", self.path(name), "-o", out)
+                self.assertEqual(result.status, 0, result.err)
+                self.assertIn(told, result.err)
+                self.good("validate", out)
+
+
 class Calls(ProgramTest):
     @classmethod
     def setUpClass(cls):

@@ -64,6 +64,20 @@ START_TEST(a_tetrahedron_the_other_way_round_is_turned)
 }
 END_TEST
 
+START_TEST(a_tetrahedron_listed_again_is_left_out)
+{
+  sbfi_tet_mesh mesh;
+  put("tet_r.node", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n");
+  ck_assert_int_eq(
+      read_text("tet_r.ele", "4 4 0\n1 1 2 3 4\n2 1 2 3 4\n3 2 1 4 3\n4 2 3 4 5\n", &mesh, NULL), SBF_OK);
+  ck_assert_uint_eq(mesh.tetrahedra.count, 2);
+  ck_assert_uint_eq(mesh.repeat_count, 2);
+  ck_assert_uint_eq(((const sbf_uint4 *)mesh.tetrahedra.at)[0].at[0], 0);
+  ck_assert_uint_eq(((const sbf_uint4 *)mesh.tetrahedra.at)[1].at[0], 1);
+  sbfi_tet_mesh_free(&mesh);
+}
+END_TEST
+
 START_TEST(the_boundary_has_every_outer_side_once_facing_outwards)
 {
   sbfi_tet_mesh mesh;
@@ -216,6 +230,7 @@ int main(void) {
   tcase_set_timeout(tests, 60);
   tcase_add_test(tests, every_form_is_read);
   tcase_add_test(tests, a_tetrahedron_the_other_way_round_is_turned);
+  tcase_add_test(tests, a_tetrahedron_listed_again_is_left_out);
   tcase_add_test(tests, the_boundary_has_every_outer_side_once_facing_outwards);
   tcase_add_test(tests, faults_are_named_with_their_line);
   tcase_add_test(tests, cut_files_are_refused);

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "harness.h"
+#include "mechanics/flat_body.h"
 #include "sbfmt/mechanics.h"
 #include "shapes.h"
 
@@ -144,6 +145,29 @@ START_TEST(sheets)
 }
 END_TEST
 
+/* A fin that is drawn from both sides: closed, and nothing inside. */
+START_TEST(a_closed_surface_that_encloses_nothing_weighs_as_one_layer)
+{
+  static const sbf_vec3 corners[] = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+  static const uint32_t sizes[] = {4, 4}, points[] = {0, 1, 2, 3, 3, 2, 1, 0};
+  sbf_body_measures m;
+  ck_assert(!sbfi_flat_body_weigh(body)); /* the cube */
+  ck_assert_float_eq(body->attributes.area_density, 0);
+  body->surface.positions = (sbf_vec3_list){corners, 4};
+  body->surface.polygon_sizes = (sbf_u32_list){sizes, 2};
+  body->surface.polygon_points = (sbf_u32_list){points, 8};
+  body->attributes.density = 1000;
+  body->attributes.thickness = 0.004f;
+  sbf_body_measure(body, &m);
+  ck_assert(!(m.mass > 0));
+  ck_assert(sbfi_flat_body_weigh(body));
+  sbf_body_measure(body, &m);
+  ck_assert(m.sheet);
+  ck_assert_double_eq_tol(m.mass, 2 * 0.004 * 1000, 1e-5);
+  ck_assert(!sbfi_flat_body_weigh(body)); /* it is stated now */
+}
+END_TEST
+
 START_TEST(depth_is_the_radius_of_a_ball)
 {
   sbf_body_measures m;
@@ -187,6 +211,7 @@ static Suite *suite(void) {
   tcase_add_test(c, stated_mass_and_maps);
   tcase_add_test(c, points_in_another_order);
   tcase_add_test(c, sheets);
+  tcase_add_test(c, a_closed_surface_that_encloses_nothing_weighs_as_one_layer);
   tcase_add_test(c, depth_is_the_radius_of_a_ball);
   tcase_add_test(c, tetrahedra_give_a_quarter);
   tcase_add_test(c, points_alone_are_balls);

@@ -11,6 +11,7 @@
 #include "build/sections/section_merge.h"
 #include "build/sections/section_sole.h"
 #include "mechanics/bearing_modulus.h"
+#include "mechanics/flat_body.h"
 #include "mechanics/vector.h"
 #include "sbfmt/mechanics.h"
 
@@ -154,6 +155,7 @@ static bool make_body(work *w, sbfi_section_cutter *cutter, uint32_t bone, sbf_s
     if (w->guessed_count == 0 || modulus > w->most_guess) w->most_guess = modulus;
     w->guessed_count++;
   }
+  sbfi_flat_body_weigh(body);
   return body->id != NULL;
 }
 

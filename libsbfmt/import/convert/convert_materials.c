@@ -1,12 +1,28 @@
 /* Materials and their images. */
 #include <string.h>
 
+#include "base/text.h"
 #include "import/convert/conversion.h"
+#include "import/quote.h"
 
 static const char *media_type_of(const char *extension) {
   if (strcmp(extension, "png") == 0) return "image/png";
   if (strcmp(extension, "jpg") == 0 || strcmp(extension, "jpeg") == 0) return "image/jpeg";
   return "";
+}
+
+/* Of a path that leaves the folder of the file, as one of the author's disk, the last part: the image is then
+ * looked for beside the bundle. */
+static const char *path_within(sbfi_conversion *c, const char *path) {
+  if (!path) return "";
+  if (!sbfi_path_leaves_folder(path)) return path;
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+  if (sbfi_path_leaves_folder(name)) name = "";
+  sbfi_convert_warn(c, SBF_CODE_IMPORT_IMAGE,
+      "the image path \"%s\" leads out of the file's folder: \"%s\" is taken; put the image beside the "
+      "bundle",
+      sbfi_quote_of(sbfi_span_of(path)).text, sbfi_quote_of(sbfi_span_of(name)).text);
+  return name;
 }
 
 static sbf_status convert_images(sbfi_conversion *c) {
@@ -20,7 +36,7 @@ static sbf_status convert_images(sbfi_conversion *c) {
     sbf_texture_init(texture);
     texture->id = sbfi_new_id(c, "texture", image->name);
     texture->name = sbf_asset_copy_text(c->asset, image->name);
-    texture->path = sbf_asset_copy_text(c->asset, image->path ? image->path : "");
+    texture->path = sbf_asset_copy_text(c->asset, path_within(c, image->path));
     if (!texture->id || !texture->name || !texture->path) return sbfi_convert_no_memory(c);
     if (!image->bytes) continue;
     uint8_t *bytes = sbfi_convert_allocate(c, image->byte_count, 1);

@@ -7,6 +7,7 @@
 
 #include "build/geometry/topology.h"
 #include "import/convert/convert_pins.h"
+#include "mechanics/flat_body.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
 
@@ -359,9 +360,10 @@ static sbf_status fill_body(
   body->bone = skinned ? SBF_NONE : c->bone_of_mesh[place];
   body->surface = g->mesh;
   body->surface.target = SBF_MESH_TARGET_SURFACE;
+  bool flat = sbfi_flat_body_weigh(body);
   if (body->bone != SBF_NONE) { /* flesh on a bone: as drawn when it stands, and of constant volume */
     body->attributes.sag_free = true;
-    body->attributes.pressure_mode = SBF_PRESSURE_MODE_VOLUME;
+    if (!flat) body->attributes.pressure_mode = SBF_PRESSURE_MODE_VOLUME;
   }
   return copy_sources(c, &c->scene->meshes[place], &body->source_points);
 }

@@ -69,6 +69,9 @@ static void say_what_changed(sbfi_conversion *c, const sbfi_tet_mesh *mesh) {
   if (mesh->flat_count)
     sbfi_convert_warn(
         c, SBF_CODE_IMPORT_TETRAHEDRA_FLAT, "%u tetrahedra without volume were left out", mesh->flat_count);
+  if (mesh->repeat_count)
+    sbfi_convert_warn(c, SBF_CODE_IMPORT_IGNORED,
+        "%u tetrahedra that repeat the four points of another were left out", mesh->repeat_count);
   if (mesh->passed_over)
     sbfi_convert_warn(
         c, SBF_CODE_IMPORT_IGNORED, "%u elements that are no tetrahedra were passed over", mesh->passed_over);

@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/diagnostic.h"
 #include "base/file.h"
+#include "build/geometry/key_set.h"
 
 static bool ends_with(const char *text, const char *ending) {
   size_t length = strlen(text), tail = strlen(ending);
@@ -82,7 +84,7 @@ static double volume_of(const sbf_vec3 *points, const uint32_t *p) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error) {
+static sbf_status mend(sbfi_tet_mesh *mesh, sbfi_key_set *known, const char *path, sbf_diagnostic *error) {
   sbf_uint4 *tetrahedra = mesh->tetrahedra.at;
   size_t kept = 0;
   for (size_t i = 0; i < mesh->tetrahedra.count; i++) {
@@ -100,6 +102,12 @@ sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnos
       continue;
     }
     sbf_uint4 whole = tetrahedra[i];
+    uint32_t *seen = sbfi_key_set_find(known, sbfi_key_sorted((sbfi_key){{p[0], p[1], p[2], p[3]}}, 4));
+    if (*seen != UINT32_MAX) {
+      mesh->repeat_count++;
+      continue;
+    }
+    *seen = (uint32_t)kept;
     if (volume < 0) {
       mesh->turned_count++;
       whole.at[2] = p[3];
@@ -111,6 +119,18 @@ sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnos
   if (kept) return SBF_OK;
   sbf_status status = sbfi_diagnose(error, SBF_CODE_IMPORT_EMPTY, "the file holds no tetrahedra");
   if (error) sbfi_copy_text(error->file, sizeof error->file, path);
+  return status;
+}
+
+sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error) {
+  sbfi_arena scratch;
+  sbfi_key_set known;
+  sbfi_arena_init(&scratch, &mesh->allocator, 0);
+  sbf_status status =
+      sbfi_key_set_init(&known, mesh->tetrahedra.count + 1, &scratch)
+          ? mend(mesh, &known, path, error)
+          : sbfi_diagnose(error, SBF_CODE_OUT_OF_MEMORY, "memory ran out while %s was read", path);
+  sbfi_arena_free(&scratch);
   return status;
 }
 

@@ -1,5 +1,6 @@
 /* Tetrahedra of another program: TetGen, Gmsh, VTK, PhysX. What a loaded mesh promises: indices in range,
- * numbers finite, every tetrahedron of positive volume. */
+ * numbers finite, every tetrahedron of positive volume
+ * and listed once. */
 #ifndef SBFI_TET_MESH_H
 #define SBFI_TET_MESH_H
 
@@ -12,6 +13,7 @@ typedef struct sbfi_tet_mesh {
   sbfi_array tetrahedra; /* sbf_uint4 */
   uint32_t turned_count; /* listed the other way round in the file: two corners were exchanged */
   uint32_t flat_count;   /* without volume: left out */
+  uint32_t repeat_count; /* with the four points of another: left out */
   uint32_t passed_over;  /* elements of other kinds */
 } sbfi_tet_mesh;
 
@@ -28,8 +30,8 @@ sbf_status sbfi_tet_mesh_read_memory(sbfi_tet_mesh *mesh, const char *name, sbfi
     const sbf_allocator *allocator, sbf_diagnostic *error);
 void sbfi_tet_mesh_free(sbfi_tet_mesh *mesh);
 
-/* Checks every index, turns what is listed the other way round, leaves out what is flat; an error where
- * nothing is left. `path` is the file's, for messages. */
+/* Checks every index, turns what is listed the other way round, leaves out what is flat or
+ * repeats another; an error where nothing is left. `path` is the file's, for messages. */
 sbf_status sbfi_tet_mesh_mend(sbfi_tet_mesh *mesh, const char *path, sbf_diagnostic *error);
 
 /* Triangles that bound the tetrahedra, each once, facing outwards, in the order of the tetrahedra: appended

@@ -3,23 +3,8 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/text.h"
 #include "validate/validation.h"
-
-/* A path that leaves the file's folder, by its letters alone: a reader must refuse to open it. */
-static bool is_foreign(const char *path) {
-  if (path[0] == '/' || strchr(path, '\\') || (path[0] && path[1] == ':')) return true;
-  int depth = 0;
-  for (const char *step = path; *step;) {
-    size_t length = strcspn(step, "/");
-    if (length == 2 && memcmp(step, "..", 2) == 0)
-      depth--;
-    else if (length > 0 && !(length == 1 && *step == '.'))
-      depth++;
-    if (depth < 0) return true;
-    step += length + (step[length] == '/');
-  }
-  return false;
-}
 
 static bool is_there(const char *folder, const char *path) {
   char whole[4096];
@@ -52,7 +37,7 @@ void sbfi_check_textures(sbfi_validation *v) {
     const sbf_texture *texture = &v->asset->textures.at[i];
     const char *name = *texture->name ? texture->name : texture->id;
     sbfi_path path = sbfi_path_of("/sbf/textures/texture[%u]", i + 1);
-    if (is_foreign(texture->path))
+    if (sbfi_path_leaves_folder(texture->path))
       sbfi_found(
           v, SBF_CODE_TEXTURE_PATH, path.text, -1, "the image '%s' has the path '%s'", name, texture->path);
     else if (*texture->path && !texture->bytes.count && v->options->folder &&
