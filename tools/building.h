@@ -18,7 +18,9 @@
       {"--render-levels", "N", "coarser levels of render meshes, each of half the triangles (none)"},        \
       {"--render-error", "METRES", "no render level farther off than this; alone: as many as that allows"},  \
       {"--no-calibration", NULL, "leave moduli of coarse lattices and springs as they are"},                 \
-      {"--sections", "auto|none", "cut skinned meshes into sections, where no body is on a bone (auto)"}, {  \
+      {"--sections", "auto|none",                                                                            \
+          "cut skinned meshes into sections, where no bodies lie along the skin (auto)"},                    \
+  {                                                                                                          \
     "--overlap", "METRES", "how far sections reach over a cut (half the limb's radius there)"                \
   }
 

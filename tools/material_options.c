@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "sbfmt/build.h"
 #include "sbfmt/materials.h"
 
 /* The material's name; `*body` receives where the body's begins, NULL for all, and `*length` how long it is.
@@ -56,17 +57,6 @@ static uint32_t apply_to_bodies(const sbf_asset *asset, sbf_soft_body *bodies, c
   return found;
 }
 
-/* Whether a build cuts sections: where there is a skin and no body on a bone. */
-static bool is_to_be_cut(const sbf_asset *asset) {
-  bool skinned = false;
-  for (uint32_t i = 0; i < asset->soft_bodies.count; i++)
-    if (asset->soft_bodies.at[i].derived == SBF_NONE && asset->soft_bodies.at[i].bone != SBF_NONE)
-      return false;
-  for (uint32_t i = 0; i < asset->render_meshes.count; i++)
-    skinned = skinned || asset->render_meshes.at[i].skin;
-  return skinned;
-}
-
 /* The recipe of the sections on a bone, a new one, like that of all others, where there is none. */
 static sbf_section_recipe *recipe_for(sbf_asset *asset, sbf_section_recipe *recipes, int32_t bone) {
   sbf_section_recipe *general = NULL, *made = &recipes[asset->section_recipes.count];
@@ -108,12 +98,12 @@ bool materials_apply(const cli_call *call, sbf_asset *asset) {
       own(asset, asset->soft_bodies.at, asset->soft_bodies.count, 0, sizeof *asset->soft_bodies.at);
   sbf_section_recipe *recipes = own(asset, asset->section_recipes.at, asset->section_recipes.count,
       (size_t)asset->bones.count + 1, sizeof *recipes);
-  if (!bodies || !recipes) {
+  bool cut;
+  if (!bodies || !recipes || sbf_build_cuts_sections(asset, &cut) != SBF_OK) {
     cli_wrong(call, "out of memory");
     return false;
   }
   if (asset->soft_bodies.count) asset->soft_bodies.at = bodies;
-  bool cut = is_to_be_cut(asset);
   while ((value = cli_next_value(call, "--material", &at))) {
     const sbf_material_preset *preset = sbf_material_find(divide(value, &name, &length));
     uint32_t found = apply_to_bodies(asset, bodies, name, length, preset);

@@ -265,3 +265,13 @@ sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, s
     sbf_asset_free(b.asset);
   return status;
 }
+
+sbf_status sbf_build_cuts_sections(const sbf_asset *asset, bool *cuts) {
+  sbfi_arena scratch;
+  sbf_asset view;
+  sbfi_arena_init(&scratch, NULL, 0);
+  *cuts = false;
+  bool good = sbfi_source_view(asset, &scratch, &view) && sbfi_sections_are_wanted(&view, cuts, &scratch);
+  sbfi_arena_free(&scratch);
+  return good ? SBF_OK : SBF_FAILED;
+}

@@ -53,7 +53,7 @@ static const sbf_embedding *embedding_of(const sbf_asset *built, uint32_t body) 
 
 START_TEST(a_skin_goes_by_its_weights)
 {
-  const sbf_vec3 positions[] = {{0, 0.6f, 0}, {0.5f, 0.6f, 0}, {2.4f, 0.2f, 0}, {0.5f, 0, 0.5f}, {9, 9, 9}};
+  const sbf_vec3 positions[] = {{0, 0.5f, 0}, {0.5f, 0.5f, 0}, {2.4f, 0.5f, 0}, {0.5f, 0, 0.5f}, {9, 9, 9}};
   const uint32_t counts[] = {1, 2, 2, 3, 1};
   /* 0: bone 0 alone; 1: bones 0 and 1; 2: bone 3, which has no body, and so bone 2, twice; 3: three bones,
    * one of them without any body above it; 4: that one alone. */

@@ -9,6 +9,7 @@
 #include "sbfmt/io.h"
 #include "sbfmt/mechanics.h"
 #include "sbfmt/validate.h"
+#include "shapes.h"
 #include "skin_bend.h"
 #include "skinned_limb.h"
 
@@ -116,16 +117,42 @@ START_TEST(none_where_none_are_wanted)
   ck_assert_str_eq(
       built->derivations.at[0].settings + strlen(built->derivations.at[0].settings) - 13, "sections=none");
   sbf_asset_free(built);
-  /* Nor where somebody made one. */
+  /* Nor where somebody made them: their surfaces lie along the skin. */
   sbf_soft_body *body = sbf_asset_allocate(asset, 1, sizeof *body);
   sbf_soft_body_init(body);
   body->id = "own";
-  body->bone = 1;
-  body->surface.positions = (sbf_vec3_list){asset->render_meshes.at[0].mesh.positions.at, 4};
+  body->bone = 0;
+  body->surface = asset->render_meshes.at[0].mesh;
+  body->surface.target = SBF_MESH_TARGET_SURFACE;
   asset->soft_bodies = (sbf_soft_body_list){body, 1};
   built = build(asset, (sbf_build_options){0});
   ck_assert_uint_eq(built->soft_bodies.count, 1);
   sbf_asset_free(built);
+  sbf_asset_free(asset);
+}
+END_TEST
+
+/* A hat is no section: the limb is cut as it is without it, and nothing of its skin hangs on the hat. */
+START_TEST(what_is_worn_leaves_the_skin_whole)
+{
+  sbf_asset *asset = skinned_limb_make(&smooth);
+  sbf_asset *bare = build(asset, (sbf_build_options){0});
+  sbf_soft_body *hat = sbf_asset_allocate(asset, 1, sizeof *hat);
+  sbf_soft_body_init(hat);
+  hat->id = hat->name = "hat";
+  hat->bone = 0;
+  hat->surface = shape_cube(asset, 2, 0.05f, asset->render_meshes.at[0].mesh.positions.at[0]);
+  asset->soft_bodies = (sbf_soft_body_list){hat, 1};
+  static const sbf_build_sections ways[] = {SBF_BUILD_SECTIONS_AUTOMATIC, SBF_BUILD_SECTIONS_NONE};
+  for (int i = 0; i < 2; i++) {
+    sbf_asset *built = build(asset, (sbf_build_options){.sections = ways[i]});
+    ck_assert_uint_eq(built->soft_bodies.count, 1 + (i == 0 ? bare->soft_bodies.count : 0));
+    const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+    for (uint32_t e = 0; e < level->embeddings.count; e++)
+      ck_assert_int_eq(level->embeddings.at[e].render_mesh, SBF_NONE);
+    sbf_asset_free(built);
+  }
+  sbf_asset_free(bare);
   sbf_asset_free(asset);
 }
 END_TEST
@@ -191,6 +218,7 @@ static Suite *suite(void) {
   tcase_add_loop_test(c, one_skin_over_all, 0, 3);
   tcase_add_test(c, a_build_of_what_was_built_is_the_same);
   tcase_add_test(c, none_where_none_are_wanted);
+  tcase_add_test(c, what_is_worn_leaves_the_skin_whole);
   tcase_add_test(c, a_sliver_joins_and_still_moves);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(s, c);

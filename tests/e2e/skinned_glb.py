@@ -18,6 +18,17 @@ class SkinnedGlb:
                      "skins": [], "accessors": [], "bufferViews": [], "animations": []}
         self.binary = b""
 
+    @classmethod
+    def of(cls, path):
+        """One that continues a file."""
+        made = cls()
+        with open(path, "rb") as stream:
+            content = stream.read()
+        size, = struct.unpack_from("<I", content, 12)
+        made.json.update(json.loads(content[20:20 + size]))
+        made.binary = content[28 + size:]
+        return made
+
     def node(self, name, parent=None, matrix=None, **more):
         number = len(self.json["nodes"])
         self.json["nodes"].append({"name": name, **more})

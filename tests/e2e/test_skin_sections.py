@@ -6,13 +6,20 @@ import os
 import struct
 import xml.etree.ElementTree as ElementTree
 
+from glb_file import Glb
 from sbfmt_program import ROOT, ProgramTest, convert_once, main, read_bytes, shared, write_bytes
+from skinned_glb import SkinnedGlb, box
 
 CALF = os.path.join(ROOT, "examples", "calf", "calf.glb")
 # file, at least so many sections, and whether it walks
 CHARACTERS = ((("fox", "fox.glb"), 15, True), (("greenman", "greenman.glb"), 6, True), (("spider", "spider.glb"), 20, True),
               (("snake", "snake.glb"), 10, False), (("kenney-fbx", "kenney_character.fbx"), 20, True),
               (("walk-dae", "walk.dae"), 18, True))
+# What a calf may wear: the bone, and two corners of each box, where the calf stands
+WORN = {"hat": ("head", ((-0.06, 0.97, 0.45), (0.06, 1.07, 0.57))),
+        "eyes": ("head", ((-0.10, 0.84, 0.54), (-0.07, 0.87, 0.57)), ((0.07, 0.84, 0.54), (0.10, 0.87, 0.57))),
+        "belly": ("spine", ((-0.14, 0.34, -0.12), (0.14, 0.52, 0.12))),
+        "cape": ("chest", ((-0.17, 0.70, -0.25), (0.17, 0.72, 0.20)))}
 ABOUT_THE_SOURCE = {"UNIT_LOOKS_WRONG", "CLIP_EMPTY"}
 
 
@@ -26,6 +33,18 @@ def with_limits(glb, node_name, limits):
     text += b" " * (-len(text) % 4)
     rest = glb[20 + size:]
     return (glb[:8] + struct.pack("<III", 20 + len(text) + len(rest), len(text), 0x4E4F534A)) + text + rest
+
+
+def wearing(path, bone, *boxes):
+    """Writes the calf with boxes on one of its bones."""
+    calf, source = SkinnedGlb.of(CALF), Glb(CALF)
+    skin = calf.json["skins"][0]
+    joint = [n.get("name") for n in calf.json["nodes"]].index(bone)
+    bind = source.accessor(skin["inverseBindMatrices"])[skin["joints"].index(joint)]
+    for number, corners in enumerate(boxes):
+        node = calf.node(f"worn{number}", joint, mesh=calf.mesh(*box(*corners)))
+        calf.json["nodes"][node]["matrix"] = list(bind)  # the mesh's own node is at the origin
+    return calf.write(path)
 
 
 class SkinSections(ProgramTest):
@@ -63,6 +82,33 @@ class SkinSections(ProgramTest):
         for part in (*root.findall("soft_body"), *root.findall("joints/spherical_joint"),
                      *root.findall("rigid_bodies/rigid_body")):
             self.assertIsNotNone(part.get("derived"), part.get("id"))
+
+    def test_a_calf_that_wears_something_is_cut_as_without_it(self):
+        def skin_of(path):
+            """The skin's vertices that each of its sections carries, the worn bodies, and the skin's id."""
+            root = ElementTree.parse(path).getroot()
+            skin = root.find("render_mesh[skin]").get("id")
+            bodies = {b.get("name"): b for b in root.findall("soft_body") if not b.get("name").startswith("worn")}
+            carried = {name: [e.find("vertices").text for e in b.iter("embedding") if e.get("render_mesh") == skin]
+                       for name, b in bodies.items()}
+            return carried, [b for b in root.findall("soft_body") if b.get("name") not in bodies], skin
+
+        bare = skin_of(self.calf)[0]
+        least = self.json_of("run", self.calf, "--seconds", "2", "--drive", "0.3,0")["volume_ratio_least"]
+        for name, (bone, *boxes) in WORN.items():
+            with self.subTest(name):
+                out = self.path(name + ".sbf")
+                self.good("convert", wearing(self.path(name + ".glb"), bone, *boxes), "-o", out, "--material", "tail2=rubber")
+                carried, worn, skin = skin_of(out)
+                self.assertTrue(all(carried.values()))
+                self.assertEqual(carried, bare)
+                self.assertEqual(len(worn), len(boxes))
+                for body in worn:
+                    self.assertNotIn(skin, [e.get("render_mesh") for e in body.iter("embedding")])
+                self.assertEqual([m for m in self.json_of("validate", out)["messages"] if m["severity"] == "error"], [])
+                report = self.json_of("run", out, "--seconds", "2", "--drive", "0.3,0")
+                self.assertTrue(report["valid"])
+                self.assertGreater(report["volume_ratio_least"], least - 1e-3)
 
     def test_none(self):
         plain = self.path("plain.sbf")

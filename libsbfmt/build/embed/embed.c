@@ -5,6 +5,7 @@
 
 #include "build/embed/far_vertices.h"
 #include "build/geometry/topology.h"
+#include "build/sections/authored_sections.h"
 
 /* One body's share in one vertex. */
 typedef struct share {
@@ -24,6 +25,8 @@ typedef struct work {
   uint32_t *finest;       /* (bodies) first target of each; SBFI_NO_INDEX: it has none */
   uint32_t *bone_bodies;  /* (bones) first body of the bone or of its nearest ancestor; SBFI_NO_INDEX: none */
   uint32_t *next_of_bone; /* (bodies) the next body on the same bone */
+  uint32_t *bone_sections; /* (bones) the body cut along the bone; SBFI_NO_INDEX: none */
+  uint8_t *sectioned;      /* (render meshes) the skin has authored sections */
   const sbfi_sections *sections;
   sbfi_array shares;     /* of the mesh at hand, in vertex order */
   sbfi_far_vertices far; /* of it */
@@ -34,7 +37,13 @@ static bool index_bodies(work *w) {
   w->finest = sbfi_arena_allocate(w->scratch, (size_t)bodies + 1, sizeof(uint32_t));
   w->next_of_bone = sbfi_arena_allocate(w->scratch, (size_t)bodies + 1, sizeof(uint32_t));
   w->bone_bodies = sbfi_arena_allocate(w->scratch, (size_t)bones + 1, sizeof(uint32_t));
-  if (!w->finest || !w->next_of_bone || !w->bone_bodies) return false;
+  w->bone_sections = sbfi_arena_allocate(w->scratch, (size_t)bones + 1, sizeof(uint32_t));
+  w->sectioned = sbfi_arena_allocate(w->scratch, (size_t)w->asset->render_meshes.count + 1, 1);
+  if (!w->finest || !w->next_of_bone || !w->bone_bodies || !w->bone_sections || !w->sectioned) return false;
+  uint32_t cut = w->sections ? w->sections->count : 0;
+  if (!sbfi_authored_sections_find(w->asset, bodies - cut, w->sectioned, w->scratch)) return false;
+  memset(w->bone_sections, 0xff, bones * sizeof(uint32_t));
+  for (uint32_t b = bodies - cut; b < bodies; b++) w->bone_sections[w->asset->soft_bodies.at[b].bone] = b;
   memset(w->finest, 0xff, bodies * sizeof(uint32_t));
   memset(w->next_of_bone, 0xff, bodies * sizeof(uint32_t));
   memset(w->bone_bodies, 0xff, bones * sizeof(uint32_t));
@@ -100,7 +109,8 @@ static bool add_share(
   return sbfi_array_append(&w->shares, &(share){vertex, body, blend, mix}, 1);
 }
 
-/* `mixes`: of each weight its place among those of the sections; NULL: none has one. */
+/* `mixes`: of each weight its place among those of the sections that the skin was cut into; NULL: it was not.
+ */
 static bool share_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *skin, const uint32_t *mixes,
     sbfi_progress progress) {
   uint32_t influence = 0;
@@ -109,10 +119,11 @@ static bool share_by_skin(work *w, const sbf_render_mesh *mesh, const sbf_skin *
     double sum = 0;
     if (!sbfi_progress_step(progress, v, mesh->mesh.positions.count)) return false;
     for (uint32_t end = influence + skin->influence_counts.at[v]; influence < end; influence++) {
-      uint32_t first = w->bone_bodies[skin->bones.at[influence]];
+      uint32_t bone = skin->bones.at[influence];
       float weight = skin->weights.at[influence];
-      if (first == SBFI_NO_INDEX || !(weight > 0)) continue;
-      uint32_t body = choose_on_bone(w, first, mesh->mesh.positions.at[v]);
+      uint32_t body = mixes ? w->bone_sections[bone]
+                            : choose_on_bone(w, w->bone_bodies[bone], mesh->mesh.positions.at[v]);
+      if (body == SBFI_NO_INDEX || w->finest[body] == SBFI_NO_INDEX || !(weight > 0)) continue;
       uint32_t number = mixes ? mixes[influence] : SBFI_NO_INDEX;
       const sbfi_mix *mix = number != SBFI_NO_INDEX ? &w->sections->mixes[number] : NULL;
       if (!add_share(w, begin, v, body, weight, mix)) return false;
@@ -284,7 +295,9 @@ static bool embed_mesh(work *w, uint32_t number, sbfi_reporter *reporter, sbfi_p
   /* A skin whose mesh is a body as a whole, pinned by its weights, moves with that. */
   bool by_skin = mixes || (skin && find_body_of(w, mesh) == SBFI_NO_INDEX);
   sbfi_progress sharing = sbfi_progress_part(progress, 0, 0.3);
-  if (!(by_skin ? share_by_skin(w, mesh, skin, mixes, sharing) : share_whole(w, mesh, sharing))) return false;
+  bool by_bones = by_skin && !mixes && !w->sectioned[number];
+  if (!by_bones && !(by_skin ? share_by_skin(w, mesh, skin, mixes, sharing) : share_whole(w, mesh, sharing)))
+    return false;
   if (!hand_out(w, (int32_t)number, &mesh->mesh.positions, sbfi_progress_part(progress, 0.3, 1)))
     return false;
   sbf_diagnostic finding;

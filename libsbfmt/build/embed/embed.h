@@ -24,15 +24,15 @@ typedef struct sbfi_embed_report {
 /* Gives every target an embedding of its body's own surface and of the render meshes it carries, beside those
  * it has already, which stay in place of new ones for the same mesh; marked with `derivation`.
  *
- * A skinned mesh of which a body without a bone has every vertex goes to that. Any other goes by its weights:
- * each bone's share to the body of the bone itself or of its nearest ancestor that has one; shares are scaled
- * to a sum of one, and a vertex none of whose bones has a body is not carried. A mesh with a bone goes to
- * that body, or its ancestor's, whole. A mesh with neither goes to the first body that has a surface point in
- * the place of every vertex, as when mesh and body are one object of the source; else vertex by vertex to the
- * nearest body. Of several bodies on one bone it is the same. Meshes that nothing carries are reported.
- *
- * What `sections` says of a mesh stands in for the weights of its skin (sections.h); they are the last of the
- * asset's bodies. It may be NULL or have no blends.
+ * A skinned mesh of which a body without a bone has every vertex goes to that. One that was cut goes to its
+ * sections, by what `sections` says of its vertices (sections.h; the last of the asset's bodies; may be NULL
+ * or have no blends). One with authored sections (authored_sections.h) goes by its weights: each bone's share
+ * to the body of the bone itself or of its nearest ancestor that has one; shares are scaled to a sum of one,
+ * and a vertex none of whose bones has a body is not carried. Any other skin follows its bones alone: what
+ * hangs on them beside it, as a hat, does not carry it. A mesh with a bone goes to that body, or its
+ * ancestor's, whole. A mesh with neither goes to the first body that has a surface point in the place of
+ * every vertex, as when mesh and body are one object of the source; else vertex by vertex to the nearest
+ * body. Of several bodies on one bone it is the same. Meshes that nothing carries are reported.
  *
  * `asset` is the one under construction that the targets belong to. False where memory runs out or `progress`
  * ends it. */

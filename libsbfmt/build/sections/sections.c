@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "build/sections/authored_sections.h"
 #include "build/sections/section_blend.h"
 #include "build/sections/section_caps.h"
 #include "build/sections/section_cut.h"
@@ -37,12 +38,6 @@ typedef struct work {
   uint32_t guessed_count; /* sections of which nobody says what they are made of */
   float least_guess, most_guess;
 } work;
-
-static bool has_sections(const sbf_asset *asset) {
-  for (uint32_t b = 0; b < asset->soft_bodies.count; b++)
-    if (asset->soft_bodies.at[b].bone != SBF_NONE) return true;
-  return false;
-}
 
 static void report(const work *w, uint32_t bone, sbf_code code, uint32_t sides) {
   sbf_diagnostic finding;
@@ -328,14 +323,30 @@ static bool measure_reaches(work *w) {
   return true;
 }
 
+/* Fills chosen (render meshes) with the skins to cut. */
+static bool choose(const sbf_asset *asset, uint8_t **chosen, bool *wanted, sbfi_arena *scratch) {
+  uint32_t count, meshes = asset->render_meshes.count;
+  *chosen = sbfi_arena_allocate(scratch, (size_t)meshes + 1, 1);
+  uint8_t *sectioned = sbfi_arena_allocate(scratch, (size_t)meshes + 1, 1);
+  if (!*chosen || !sectioned || !sbfi_skins_choose(asset, *chosen, &count, scratch)) return false;
+  *wanted = count > 0 && asset->bones.count > 0;
+  if (!*wanted) return true;
+  if (!sbfi_authored_sections_find(asset, asset->soft_bodies.count, sectioned, scratch)) return false;
+  for (uint32_t m = 0; m < meshes; m++) *wanted = *wanted && !sectioned[m];
+  return true;
+}
+
+bool sbfi_sections_are_wanted(const sbf_asset *asset, bool *wanted, sbfi_arena *scratch) {
+  uint8_t *chosen;
+  return choose(asset, &chosen, wanted, scratch);
+}
+
 /* Which bone's section each polygon of the skin belongs to, and who carries each bone's shares. False in
  * `*wanted` where there is nothing to cut. */
 static bool divide(work *w, bool *wanted) {
   const sbf_asset *asset = w->asset;
-  uint32_t chosen_count;
-  uint8_t *chosen = sbfi_arena_allocate(w->scratch, (size_t)asset->render_meshes.count + 1, 1);
-  if (!chosen || !sbfi_skins_choose(asset, chosen, &chosen_count, w->scratch)) return false;
-  *wanted = chosen_count > 0 && asset->bones.count > 0 && !has_sections(asset);
+  uint8_t *chosen;
+  if (!choose(asset, &chosen, wanted, w->scratch)) return false;
   if (!*wanted) return true;
   if (!sbfi_skin_union_make(&w->skin, asset, chosen, w->scratch)) return false;
   if (!sbfi_topology_build(&w->t, &w->skin.mesh, w->scratch)) return false;

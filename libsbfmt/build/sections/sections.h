@@ -30,9 +30,9 @@ typedef struct sbfi_sections {
 } sbfi_sections;
 
 /* Cuts skinned meshes along their bones, but for pictures of bodies (sbfi_skins_choose), and only where the
- * asset has bones and none of its bodies is on one: that would be a section which somebody made
- * (section_labels.h, section_merge.h, section_cut.h, section_caps.h). What could not be closed is reported.
- * `overlap_m` as sbfi_section_cutter has it.
+ * asset has bones and no skin has sections which somebody made (authored_sections.h). Other bodies on bones,
+ * as a hat or an eye, stay beside the sections (section_labels.h, section_merge.h, section_cut.h,
+ * section_caps.h). What could not be closed is reported. `overlap_m` as sbfi_section_cutter has it.
  *
  * A section is what the asset's section_recipes say, of several for a bone the last. Without one its modulus
  * is 80 kPa, or as much as it takes for a column as high as the section to strain by a
@@ -40,6 +40,9 @@ typedef struct sbfi_sections {
  * `progress` ends it. */
 bool sbfi_sections_make(sbfi_sections *made, sbf_asset *asset, double overlap_m, int32_t derivation,
     sbfi_ids *ids, sbfi_reporter *reporter, sbfi_progress progress, sbfi_arena *scratch);
+
+/* Whether sbfi_sections_make would cut something. False where memory runs out. */
+bool sbfi_sections_are_wanted(const sbf_asset *asset, bool *wanted, sbfi_arena *scratch);
 
 /* For each bone, the one whose section carries what it holds (section_merge.h), in memory of `scratch`; NULL
  * where nothing is to be cut. False where memory runs out. */

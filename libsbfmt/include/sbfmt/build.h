@@ -41,7 +41,7 @@ typedef enum sbf_build_interior {
 /* Whether skinned meshes are cut into sections: soft bodies on bones, each the part of the skin that its bone
  * holds, with an overlap over the cuts and closed by caps. */
 typedef enum sbf_build_sections {
-  SBF_BUILD_SECTIONS_AUTOMATIC = 0, /* where no body of the source is on a bone */
+  SBF_BUILD_SECTIONS_AUTOMATIC = 0, /* where no bodies of the source lie along the skin */
   SBF_BUILD_SECTIONS_NONE = 1
 } sbf_build_sections;
 
@@ -133,6 +133,10 @@ typedef struct sbf_build_report {
  * authored part refers to a derived one that this build does not make. */
 SBF_API sbf_status sbf_build(const sbf_asset *asset, const sbf_build_options *options, sbf_asset **built,
     sbf_build_report *report, sbf_diagnostic *error);
+
+/* Writes to `*cuts` whether sbf_build with default settings cuts skinned meshes of `asset` into sections.
+ * Fails only without memory. */
+SBF_API sbf_status sbf_build_cuts_sections(const sbf_asset *asset, bool *cuts);
 
 #ifdef __cplusplus
 }

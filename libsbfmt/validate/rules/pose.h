@@ -2,6 +2,7 @@
 #ifndef SBFI_POSE_H
 #define SBFI_POSE_H
 
+#include "mechanics/extent.h"
 #include "mechanics/vector.h"
 #include "sbfmt/model.h"
 
@@ -34,17 +35,6 @@ static inline sbfi_rotation sbfi_rotation_product(sbfi_rotation a, sbfi_rotation
 /* Whether the quaternion is of unit length, as nearly as rotations written with three digits are. */
 static inline bool sbfi_is_unit(sbf_quat q) {
   return fabs((double)q.x * q.x + (double)q.y * q.y + (double)q.z * q.z + (double)q.w * q.w - 1) < 1e-3;
-}
-
-/* The length of a set of points: the diagonal of their box. */
-static inline double sbfi_extent(sbf_vec3_list points) {
-  sbfi_d3 low = {0, 0, 0}, high = {0, 0, 0};
-  for (uint32_t i = 0; i < points.count; i++) {
-    sbfi_d3 at = sbfi_d3_of(points.at[i]);
-    low = i ? (sbfi_d3){fmin(low.x, at.x), fmin(low.y, at.y), fmin(low.z, at.z)} : at;
-    high = i ? (sbfi_d3){fmax(high.x, at.x), fmax(high.y, at.y), fmax(high.z, at.z)} : at;
-  }
-  return sbfi_d3_length(sbfi_d3_sub(high, low));
 }
 
 #endif

@@ -1,0 +1,78 @@
+#include "build/sections/authored_sections.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "build/geometry/topology.h"
+#include "build/geometry/triangle_tree.h"
+#include "mechanics/extent.h"
+
+/* At the surface: no farther than this part of the body's extent. */
+static const double AT_SURFACE = 0.05;
+/* The part of a skin that its sections lie along. */
+static const double MOST_OF_IT = 0.5;
+
+typedef struct body_side {
+  sbfi_triangle_tree surface;
+  double squared_reach; /* m2 */
+  uint32_t next;        /* the next body on the same bone; SBFI_NO_INDEX: none */
+} body_side;
+
+typedef struct work {
+  const sbf_asset *asset;
+  body_side *bodies;
+  uint32_t *bone_bodies; /* (bones) first body of the bone or its nearest ancestor; SBFI_NO_INDEX: none */
+} work;
+
+static bool index_bodies(work *w, uint32_t body_count, sbfi_arena *scratch) {
+  const sbf_asset *asset = w->asset;
+  uint32_t bones = asset->bones.count;
+  w->bodies = sbfi_arena_allocate(scratch, (size_t)body_count + 1, sizeof *w->bodies);
+  w->bone_bodies = sbfi_arena_allocate(scratch, (size_t)bones + 1, sizeof *w->bone_bodies);
+  if (!w->bodies || !w->bone_bodies) return false;
+  memset(w->bone_bodies, 0xff, bones * sizeof *w->bone_bodies);
+  for (uint32_t b = body_count; b-- > 0;) {
+    const sbf_soft_body *body = &asset->soft_bodies.at[b];
+    if (body->bone == SBF_NONE) continue;
+    if (!sbfi_triangle_tree_build(&w->bodies[b].surface, &body->surface, scratch)) return false;
+    w->bodies[b].squared_reach = pow(AT_SURFACE * sbfi_extent(body->surface.positions), 2);
+    w->bodies[b].next = w->bone_bodies[body->bone];
+    w->bone_bodies[body->bone] = b;
+  }
+  /* Parents stand before their children. */
+  for (uint32_t i = 0; i < bones; i++)
+    if (w->bone_bodies[i] == SBFI_NO_INDEX && asset->bones.at[i].parent != SBF_NONE)
+      w->bone_bodies[i] = w->bone_bodies[asset->bones.at[i].parent];
+  return true;
+}
+
+static bool lies_at_a_body(const work *w, uint32_t bone, sbf_vec3 vertex) {
+  for (uint32_t b = w->bone_bodies[bone]; b != SBFI_NO_INDEX; b = w->bodies[b].next) {
+    double least = w->bodies[b].squared_reach;
+    if (sbfi_triangle_tree_nearest(&w->bodies[b].surface, vertex, &least) != UINT32_MAX) return true;
+  }
+  return false;
+}
+
+static bool is_sectioned(const work *w, const sbf_render_mesh *mesh) {
+  const sbf_skin *skin = mesh->skin;
+  uint32_t count = mesh->mesh.positions.count, covered = 0;
+  for (uint32_t v = 0, at = 0; v < count; at += skin->influence_counts.at[v++]) {
+    uint32_t most = at;
+    for (uint32_t i = at; i < at + skin->influence_counts.at[v]; i++)
+      if (skin->weights.at[i] > skin->weights.at[most]) most = i;
+    covered +=
+        skin->influence_counts.at[v] && lies_at_a_body(w, skin->bones.at[most], mesh->mesh.positions.at[v]);
+  }
+  return covered > 0 && covered >= MOST_OF_IT * count;
+}
+
+bool sbfi_authored_sections_find(
+    const sbf_asset *asset, uint32_t body_count, uint8_t *sectioned, sbfi_arena *scratch) {
+  work w = {.asset = asset};
+  memset(sectioned, 0, asset->render_meshes.count);
+  if (!index_bodies(&w, body_count, scratch)) return false;
+  for (uint32_t m = 0; m < asset->render_meshes.count; m++)
+    sectioned[m] = asset->render_meshes.at[m].skin && is_sectioned(&w, &asset->render_meshes.at[m]);
+  return true;
+}
