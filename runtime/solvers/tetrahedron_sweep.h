@@ -100,7 +100,7 @@ SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahed
   sbri_wide inverse_volume = sbri_wide_load(block->inverse_volume + lane);
   sbri_wide bulk = sbri_wide_load(block->bulk + lane), shear = sbri_wide_load(block->shear + lane);
   sbri_wide one = sbri_wide_all(1), two = sbri_wide_all(2), tiny = sbri_wide_all(1e-30f);
-  sbri_wide half = sbri_wide_all(0.5f);
+  sbri_wide half = sbri_wide_all(0.5f), zero = sbri_wide_all(0);
   sbri_wide ratio = sbri_wide3_dot(d1, n1) * inverse_volume;
   sbri_wide over_shear = one / sbri_wide_max(shear, tiny);
 #define SBRI_ROW(a, b, c, axis) a *d1.axis + b *d2.axis + c *d3.axis
@@ -118,7 +118,13 @@ SBRI_INLINE void sbri_sweep_lanes(const sbri_island_tick *t, const sbri_tetrahed
       (k22 * k33 - k23 * k23) * n11 + (k33 * k11 - k31 * k31) * n22 + (k11 * k22 - k12 * k12) * n33;
   sbri_wide mixed =
       (k23 * k31 - k12 * k33) * n12 + (k12 * k31 - k23 * k11) * n23 + (k12 * k23 - k31 * k22) * n31;
-  sbri_wide areas = sbri_wide_max((even + two * mixed) * per_stiffness * per_stiffness, tiny);
+  /* In slivers the minors cancel. With x, y, z for the squares of the products of two singular values each,
+   * (x + y + z)^2 >= 3 (xy + yz + zx) is |cof F|^4 >= 3 J^2 F:F, equal at rest: the factor stays below 3, so
+   * that rounding does not choose there. */
+  sbri_wide bound = sbri_wide_max(ratio, zero - ratio) *
+                    sbri_wide_sqrt(sbri_wide_all(2.99f) * sbri_wide_max(squares, zero));
+  sbri_wide areas = sbri_wide_max((even + two * mixed) * per_stiffness * per_stiffness, bound);
+  areas = sbri_wide_max(areas, tiny);
   sbri_wide over_areas = one / areas;
   /* A sixth of s, of 3 mu J / c, and of the pressure-like part of P. */
   sbri_wide s = bulk * (ratio - one) - shear, per_area = ratio * over_areas;
