@@ -233,9 +233,19 @@ static inline void sbri_moves_follow(const sbri_island_tick *t) {
   }
 }
 
+/* Strained tetrahedra are stiffer than at rest, and a sweep must resolve those as well. */
+static inline uint32_t sbri_position_substeps_now(const sbri_island_tick *t) {
+  const sbri_island *island = t->island;
+  uint32_t at_rest = sbri_position_substeps(island, t->tick_s);
+  if (island->substeps || island->tetrahedron_block_count == 0) return at_rest;
+  uint32_t now = sbri_stable_substeps(island, sbri_stiffened_time(t, t->tick_s), island->rest_stretch);
+  now = now < SBRI_MOST_SUBSTEPS ? now : SBRI_MOST_SUBSTEPS;
+  return now > at_rest ? now : at_rest;
+}
+
 static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
   const sbri_island *island = t->island;
-  uint32_t substeps = sbri_position_substeps(island, t->tick_s);
+  uint32_t substeps = sbri_position_substeps_now(t);
   float h = t->tick_s / (float)substeps, stretches[SBRI_BLOCK] = {0};
   bool followed = island->link_limits || island->solid_limits;
   for (uint32_t b = 0; b < island->body_count; b++)
