@@ -6,6 +6,7 @@
 
 #include "output_name.h"
 #include "pose_file.h"
+#include "recovery_report.h"
 #include "rigid_report.h"
 #include "run_text.h"
 #include "sbfmt/export.h"
@@ -18,6 +19,7 @@ typedef struct run_state {
   soles *soles;
   walk_report *walk;
   rigid_report rigid;
+  recovery_report recoveries;
   sbf_vec3 *skin, *normals, *surface, *sample;
   uint32_t skin_count, surface_count;
   sbf_point_cache *cache;
@@ -46,7 +48,7 @@ static bool make_room(run_state *r) {
   r->surface = calloc(r->surface_count + 1, sizeof *r->surface);
   r->sample =
       calloc((r->skin_count > r->surface_count ? r->skin_count : r->surface_count) + 1, sizeof *r->sample);
-  return r->skin && r->normals && r->surface && r->sample;
+  return r->skin && r->normals && r->surface && r->sample && recovery_report_begin(&r->recoveries, asset);
 }
 
 static void read_skin(run_state *r) {
@@ -61,6 +63,7 @@ static void read_health(run_state *r) {
   for (uint32_t i = 0; i < r->s.asset->soft_bodies.count; i++) {
     sbr_body_health health = sbr_character_health(r->s.world, r->s.character, i);
     r->valid = r->valid && health.finite && !health.inverted;
+    recovery_report_measure(&r->recoveries, i, &health);
     r->end_volume = fmin(r->end_volume, (double)health.volume_ratio);
     r->most_strain = fmax(r->most_strain, (double)health.max_strain);
   }
@@ -146,6 +149,7 @@ static json_t *report(const run_state *r) {
   json_object_set_new(o, "us_per_frame", json_real(r->s.frame ? 1e6 * r->busy_s / r->s.frame : 0));
   json_object_set_new(o, "state_hash", json_string(hash));
   json_object_set_new(o, "valid", json_boolean(r->valid));
+  recovery_report_add(&r->recoveries, r->s.asset, o);
   json_object_set_new(o, "energy", json_real(energy(r)));
   json_object_set_new(o, "volume_ratio", json_real(r->end_volume));
   json_object_set_new(o, "volume_ratio_least", json_real(r->least_volume));
@@ -212,6 +216,7 @@ static int run(cli_call *call) {
   if (status == SBF_OK) {
     json_t *object = report(&r);
     status = judge_replay(&r.s.recording, call);
+    recovery_report_warn(&r.recoveries, r.s.asset);
     if (call->json)
       status = cli_print_json(object, status);
     else {
@@ -225,6 +230,7 @@ static int run(cli_call *call) {
   free(r.normals);
   free(r.surface);
   free(r.sample);
+  recovery_report_end(&r.recoveries);
   session_close(&r.s);
   return status;
 }
@@ -240,7 +246,8 @@ static const cli_option options[] = {
 const cli_verb verb_run = {"run", "FILE [--seconds S] [--drive M/S,RAD/S] [--ground KIND] ...",
     "simulate and say how it went",
     "Loads the file, steps it and prints measures: `valid` is true where no number was infinite and no\n"
-    "element inverted at any frame; `volume_ratio` is the least of all sections at the end,\n"
+    "element inverted at any frame; `recoveries` counts how often bodies were put back into their rest\n"
+    "shape, `recovered` names these; `volume_ratio` is the least of all sections at the end,\n"
     "`volume_ratio_least` at any frame; slip and penetration are measured on the skin's soles; docs/gait.md\n"
     "says what else is told of who walks. With --ragdoll or --strength, `limit_excess` is by how many\n"
     "degrees a joint's limit was broken at worst, `joint_gap` how far a joint was off, `rest_time` when\n"

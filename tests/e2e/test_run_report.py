@@ -9,7 +9,7 @@ import threading
 from motion_files import PointCache, read_poses, read_sections
 from sbfmt_program import ProgramTest, call, example, main, read_bytes, write_bytes
 
-KEYS = {"seconds", "steps", "substeps", "us_per_frame", "state_hash", "valid", "energy", "volume_ratio", "max_strain"}
+KEYS = {"seconds", "steps", "substeps", "us_per_frame", "state_hash", "valid", "recoveries", "energy", "volume_ratio", "max_strain"}
 KEYS_OF_WALKERS = {"distance", "steps_taken", "stance_slip", "penetration"}
 
 

@@ -1,0 +1,48 @@
+"""`sbfmt run` tells of bodies that were put back into their rest shape, how often, and which."""
+
+from sbfmt_program import ProgramTest, call, main, write_bytes
+
+EDGES = (-0.1, 0.1)
+FACES = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
+FALL = ("--free", "--raise", "1", "--seconds", "1")
+
+
+class Recoveries(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        source, cls.file = f"{cls.class_folder.name}/cube.obj", f"{cls.class_folder.name}/cube.sbf"
+        points = [f"v {x} {y} {z}\n" for x in EDGES for y in EDGES for z in EDGES]
+        faces = ["f " + " ".join(map(str, face)) + "\n" for face in FACES]
+        write_bytes(source, "".join(points + faces).encode())
+        made = call("convert", source, "-o", cls.file, "--material", "rubber", "--no-calibration")
+        assert made.status == 0, made.err
+
+    def run_json(self, *arguments):
+        return self.json_of("run", self.file, *FALL, *arguments)
+
+    def test_a_run_without_any_is_valid(self):
+        report = self.run_json()
+        self.assertEqual((report["valid"], report["recoveries"]), (True, 0))
+        self.assertNotIn("recovered", report)
+
+    def test_an_explosion_is_counted(self):
+        report = self.run_json("--scheme", "explicit_euler", "--substeps", "1")
+        self.assertFalse(report["valid"])
+        self.assertGreater(report["recoveries"], 0)
+        self.assertEqual(report["recovered"]["cube"]["recoveries"], report["recoveries"])
+
+    def test_a_body_put_back_in_each_tick_is_told(self):
+        """No frame of it is inverted, infinite or even strained: it hangs in the air."""
+        arguments = ("run", self.file, *FALL, "--scheme", "symplectic", "--substeps", "4")
+        report = self.json_of(*arguments)
+        self.assertEqual((report["volume_ratio_least"], report["max_strain"] < 0.01), (1, True))
+        self.assertGreaterEqual(report["recovered"]["cube"]["frames_in_a_row"], 50)
+        told = call(*arguments)
+        self.assertRegex(told.err, r'warning: soft body "cube" was put back into its rest shape in \d+ frames in a row')
+        self.assertRegex(told.out, r"(?m)^recoveries +[1-9][0-9]*$")
+        self.assertRegex(told.out, r"(?m)^  cube +recoveries \d+, frames_in_a_row \d+$")
+
+
+if __name__ == "__main__":
+    main()
