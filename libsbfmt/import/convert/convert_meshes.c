@@ -260,6 +260,24 @@ static sbf_status convert_slots(sbfi_conversion *c, const sbfi_scene_mesh *mesh,
   return SBF_OK;
 }
 
+/* Exporters round weights; where this much of them is missing, they named joints that are not there. */
+static const double LEAST_WEIGHT_SUM = 0.9;
+
+static void report_weights(
+    sbfi_conversion *c, const sbfi_scene_mesh *mesh, uint32_t unweighted, uint32_t lost) {
+  const char *name = c->scene->nodes[mesh->node].name;
+  if (unweighted)
+    sbfi_convert_warn(c, SBF_CODE_RIG_UNWEIGHTED_POINTS,
+        "object '%s': %u points have no weights and were given to the root; paint them in the source", name,
+        unweighted);
+  if (lost)
+    sbfi_convert_warn(c, SBF_CODE_RIG_WEIGHTS_LOST,
+        "object '%s': the weights of %u points sum to less than %g, as where joints are named that the file "
+        "does "
+        "not have; they were scaled to 1: export the skin again",
+        name, lost, LEAST_WEIGHT_SUM);
+}
+
 /* Weights on bones, those of a point summing to one; a point without weights follows the mesh's own place. */
 static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, sbf_render_mesh *render) {
   uint32_t total = mesh->skin_starts[mesh->point_count];
@@ -269,7 +287,7 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
   float *weights = sbfi_convert_allocate(c, total + mesh->point_count, sizeof *weights);
   if (!skin || !counts || !bones || !weights) return sbfi_convert_no_memory(c);
   int32_t home = c->bone_of_node[mesh->node];
-  uint32_t at = 0, unweighted = 0;
+  uint32_t at = 0, unweighted = 0, lost = 0;
   for (uint32_t i = 0; i < mesh->point_count; i++) {
     double sum = 0;
     for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++)
@@ -281,6 +299,7 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
       weights[at++] = 1;
       continue;
     }
+    lost += sum < LEAST_WEIGHT_SUM;
     for (uint32_t s = mesh->skin_starts[i]; s < mesh->skin_starts[i + 1]; s++) {
       int32_t bone = c->bone_of_node[mesh->joints[mesh->skin_joints[s]].node];
       counts[i]++;
@@ -288,10 +307,7 @@ static sbf_status convert_skin(sbfi_conversion *c, const sbfi_scene_mesh *mesh, 
       weights[at++] = (float)((double)mesh->skin_weights[s] / sum);
     }
   }
-  if (unweighted)
-    sbfi_convert_warn(c, SBF_CODE_RIG_UNWEIGHTED_POINTS,
-        "object '%s': %u points have no weights and were given to the root; paint them in the source",
-        c->scene->nodes[mesh->node].name, unweighted);
+  report_weights(c, mesh, unweighted, lost);
   sbf_skin_init(skin);
   skin->influence_counts = (sbf_u32_list){counts, mesh->point_count};
   skin->bones = (sbf_u32_list){bones, at};
