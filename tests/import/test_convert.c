@@ -122,12 +122,13 @@ START_TEST(without_a_rig_bodies_hang_on_nothing)
 }
 END_TEST
 
-START_TEST(objects_without_a_node_go_to_the_nearest_bone)
+START_TEST(named_objects_and_skins_mix)
 {
   sbfi_scene mesh, rig;
   scene_begin(&rig);
   int32_t hips = scene_node(&rig, "hips", SBF_NONE, true, 0, 1, 0);
-  scene_node(&rig, "arm", hips, true, 1, 0, 0);
+  int32_t arm = scene_node(&rig, "arm", hips, true, 1, 0, 0);
+  scene_node(&rig, "hand", arm, true, 0.5, 0, 0);
   scene_box(&rig, scene_node(&rig, "Coat", hips, false, 0, 0, 0), 0.5, 0, 0, 0, false);
   scene_end(&rig);
   scene_begin(&mesh);
@@ -137,9 +138,13 @@ START_TEST(objects_without_a_node_go_to_the_nearest_bone)
   converted c;
   converted_scene(&c, &mesh, &rig, NULL);
   ck_assert_int_eq(body_named(c.asset, "Coat")->bone, 0); /* by name, though the arm is nearer */
-  ck_assert_int_eq(body_named(c.asset, "Glove")->bone, 1);
-  ck_assert_uint_eq(converted_count(&c, SBF_CODE_RIG_SECTION_GUESSED), 1);
-  ck_assert_ptr_nonnull(strstr(converted_note(&c, SBF_CODE_RIG_SECTION_GUESSED)->message, "'Glove'"));
+  const sbf_render_mesh *glove = mesh_named(c.asset, "Glove");
+  ck_assert_ptr_nonnull(glove->skin);
+  check_near(
+      glove->mesh.positions.at[0], 1, 0.75, -0.25, 1e-6); /* a named object shows where the input lies */
+  for (uint32_t i = 0; i < glove->skin->weights.count; i++)
+    if (glove->skin->bones.at[i] != 1) ck_assert_float_lt(glove->skin->weights.at[i], 0.1f);
+  ck_assert_uint_eq(converted_count(&c, SBF_CODE_IMPORT_WEIGHTS_COMPUTED), 1);
   converted_free(&c);
   sbfi_scene_free(&mesh);
   sbfi_scene_free(&rig);
@@ -412,7 +417,7 @@ int main(void) {
   tcase_add_test(tests, the_lizard_of_one_file);
   tcase_add_test(tests, units_are_those_of_the_file);
   tcase_add_test(tests, without_a_rig_bodies_hang_on_nothing);
-  tcase_add_test(tests, objects_without_a_node_go_to_the_nearest_bone);
+  tcase_add_test(tests, named_objects_and_skins_mix);
   tcase_add_test(tests, calls_that_are_wrong);
   tcase_add_test(tests, the_same_input_gives_the_same_bytes);
   tcase_add_test(tests, every_allocation_may_fail);

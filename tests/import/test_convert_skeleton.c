@@ -60,7 +60,8 @@ START_TEST(the_caller_knows_unit_and_axes_better)
   /* What a rig states of itself stands where the mesh is another file. */
   sbfi_scene meshes;
   scene_begin(&meshes);
-  scene_box(&meshes, scene_node(&meshes, "root_box", SBF_NONE, false, 2, 4, 6), 0.5, 0, 0, 0, false);
+  scene_box(&meshes, scene_node(&meshes, "root", SBF_NONE, false, 2, 4, 6), 0.5, 0, 0, 0, false);
+  scene_box(&meshes, scene_node(&meshes, "tip", SBF_NONE, false, 2, 6, 6), 0.5, 0, 0, 0, false);
   scene_end(&meshes);
   converted_scene(&c, &meshes, &scene, &options);
   check_near(c.asset->bones.at[0].head, 1, 2, 3, 1e-6);

@@ -60,11 +60,23 @@ static bool pulls_another(const sbfi_weights_input *in, const sbfi_weight_mesh *
   return false;
 }
 
+static void set_all(bool *is_deforming, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) is_deforming[i] = true;
+}
+
+static bool has_any(const bool *is_deforming, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++)
+    if (is_deforming[i]) return true;
+  return false;
+}
+
 void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_body_rays *rays, bool *is_deforming) {
-  for (uint32_t i = 0; i < in->bone_count; i++)
-    is_deforming[i] = in->is_deforming ? in->is_deforming[i] : true;
-  if (in->is_deforming) return;
+  if (in->is_deforming) {
+    memcpy(is_deforming, in->is_deforming, in->bone_count * sizeof *is_deforming);
+    return;
+  }
+  set_all(is_deforming, in->bone_count);
   for (uint32_t i = 0; i < in->bone_count; i++) {
     char letters[NAME_SIZE];
     int32_t parent = in->bones[i].parent;
@@ -78,4 +90,6 @@ void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *
     if (is_control && parent != SBF_NONE && in->bones[parent].parent == SBF_NONE)
       is_deforming[parent] = false;
   }
+  /* A rig of so few bones has no controls and no frames. */
+  if (!has_any(is_deforming, in->bone_count)) set_all(is_deforming, in->bone_count);
 }

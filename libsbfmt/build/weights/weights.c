@@ -95,7 +95,7 @@ static sbf_status run(work *w, sbfi_weights *out, sbf_diagnostic *error) {
   if (made == SBFI_WEIGHT_MESH_GOOD && (w->in->bone_count == 0 || prepare(w))) {
     if (!has_deforming_bone(w))
       return sbfi_diagnose(error, SBF_CODE_IMPORT_WEIGHTS_IMPOSSIBLE,
-          "none of the %u bones of the rig can hold a point: give a rig with bones beside its root",
+          "none of the %u bones of the rig may hold a point: give a rig with bones that deform",
           (unsigned)w->in->bone_count);
     if (compute(w, &out->figures) && hand_out(w, out) && count_unused(w, out)) return SBF_OK;
   }

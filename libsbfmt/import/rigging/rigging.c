@@ -187,8 +187,14 @@ static sbf_status weigh_beside(
   return mode == MODE_TRANSFER && share < least ? refuse_transfer(r, share) : SBF_OK;
 }
 
+static bool has_named_objects(const sbfi_rigging *r) {
+  for (uint32_t m = 0; m < r->input.scene->mesh_count; m++)
+    if (r->carriers[m] != SBF_NONE) return true;
+  return false;
+}
+
 /* Lays what has no bones yet over the rig: by the rig's own meshes where those are alike, else by its bones.
- */
+ * An input whose objects are named for the rig already stands where its bones are. */
 static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   double error = INFINITY;
   sbfi_alignment stated = r->alignment;
@@ -198,7 +204,7 @@ static sbf_status align_rest(sbfi_rigging *r, weights_mode mode, bool *alike) {
   *alike = error < ALIKE;
   if (*alike) return SBF_OK;
   r->alignment = stated;
-  return mode == MODE_TRANSFER ? SBF_OK : sbfi_align_by_bones(r);
+  return mode == MODE_TRANSFER || has_named_objects(r) ? SBF_OK : sbfi_align_by_bones(r);
 }
 
 static sbf_status weigh_objects(
