@@ -126,6 +126,26 @@ static void add_tetrahedra(const basis *of, double stiffness[FIELDS * FIELDS]) {
   }
 }
 
+static void add_hinges(const basis *of, double stiffness[FIELDS * FIELDS]) {
+  const sbf_spring_network *network = of->network;
+  double phi[MONOMIALS], g[FIELDS];
+  for (uint32_t h = 0; h < network->hinge_count; h++) {
+    memset(g, 0, sizeof g);
+    for (int k = 0; k < 4; k++) {
+      uint32_t point = network->hinges[h].at[k];
+      sbf_vec3 by = network->hinge_gradients[4 * (size_t)h + (size_t)k];
+      if (!(of->scale_of[point] > 0)) continue;
+      evaluate(of, point, phi);
+      for (int m = 0; m < MONOMIALS; m++) {
+        g[3 * m] += (double)by.x * phi[m];
+        g[3 * m + 1] += (double)by.y * phi[m];
+        g[3 * m + 2] += (double)by.z * phi[m];
+      }
+    }
+    add_energy(stiffness, (double)network->hinge_stiffness[h], g);
+  }
+}
+
 static void sum_stiffness(const basis *of, double stiffness[FIELDS * FIELDS]) {
   const sbf_spring_network *network = of->network;
   double from[MONOMIALS], to[MONOMIALS], g[FIELDS];
@@ -154,6 +174,7 @@ static void sum_stiffness(const basis *of, double stiffness[FIELDS * FIELDS]) {
     }
   }
   add_tetrahedra(of, stiffness);
+  add_hinges(of, stiffness);
   for (int a = 0; a < FIELDS; a++)
     for (int b = a + 1; b < FIELDS; b++) stiffness[a * FIELDS + b] = stiffness[b * FIELDS + a];
 }
@@ -246,13 +267,18 @@ static double iterate(const basis *of, double start, const double field[FIELDS],
   return best;
 }
 
+/* Of the square of the bound, what nothing resists stays below: sheets bend a million times as easily as they
+ * stretch. */
+static const double NOTHING = 1e-10, NOTHING_OF_SHEETS = 1e-14;
+
 double sbf_network_lowest(const sbf_spring_network *network, bool refine, double *scratch) {
   basis of;
   double field[FIELDS], bound = sbf_network_highest_bound(network, scratch);
   if (!(bound > 0)) return 0;
   find_scales(network, scratch);
   place_basis(&of, network, scratch);
-  double value = ritz(&of, 1e-10 * bound * bound, field);
+  double nothing = network->hinge_count ? NOTHING_OF_SHEETS : NOTHING;
+  double value = ritz(&of, nothing * bound * bound, field);
   if (!(value > 0)) return 0;
   if (refine && of.null_count <= MOST_NULL) value = iterate(&of, value, field, scratch);
   return sqrt(value);

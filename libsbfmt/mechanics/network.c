@@ -45,6 +45,20 @@ static void apply_tetrahedra(
   }
 }
 
+static void apply_hinges(const sbf_spring_network *network, const double *scale, const double *x, double *y) {
+  for (uint32_t h = 0; h < network->hinge_count; h++) {
+    const uint32_t *at = network->hinges[h].at;
+    const sbf_vec3 *gradients = network->hinge_gradients + 4 * (size_t)h;
+    double scales[4], turned = 0;
+    for (int k = 0; k < 4; k++) {
+      scales[k] = network->masses[at[k]] > 0 ? (scale ? scale[at[k]] : 1) : 0;
+      turned += sbfi_d3_dot(sbfi_d3_of(gradients[k]), load(x, at[k], scales[k]));
+    }
+    double moment = (double)network->hinge_stiffness[h] * turned;
+    for (int k = 0; k < 4; k++) add(y, at[k], sbfi_d3_of(gradients[k]), moment * scales[k]);
+  }
+}
+
 void sbfi_network_apply(const sbf_spring_network *network, const double *scale, const double *x, double *y) {
   for (uint32_t i = 0; i < network->point_count; i++) {
     double anchor = network->anchors && network->masses[i] > 0 ? network->anchors[i] : 0;
@@ -64,6 +78,7 @@ void sbfi_network_apply(const sbf_spring_network *network, const double *scale, 
     add(y, b, way, pull * b_scale);
   }
   apply_tetrahedra(network, scale, x, y);
+  apply_hinges(network, scale, x, y);
 }
 
 void sbfi_network_solve(const sbf_spring_network *network, const double *scale, sbfi_null_fields null_fields,

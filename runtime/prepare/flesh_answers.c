@@ -28,7 +28,7 @@ enum { MOST_DEGREE = 64 };
 /* A bone bears no more than so many times its own mass: what rounding and strain leave over is its own to
  * take. */
 static const float MOST_BORNE = 10;
-/* Nor flesh whose slowest mode has less than this damping ratio. */
+/* Nor flesh whose slowest mode that stretches it has less than this damping ratio. */
 static const float LEAST_DAMPING = 0.03f;
 
 /* The rigid body that all held points and springs of the island go with; -1: they go with several, or none.
@@ -59,7 +59,7 @@ static int32_t carrier_alone(const sbri_island_maker *m) {
 static bool is_damped(const sbri_island_maker *m) {
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     const sbri_body *body = sbri_maker_body(m, b);
-    float w = body->lowest_rad_s, least = body->alpha_1_s;
+    float w = body->stretching_rad_s, least = body->alpha_1_s;
     for (uint32_t slot = body->slot_begin; body->alphas && slot < body->slot_real_end; slot++)
       least = body->alphas[slot] < least ? body->alphas[slot] : least;
     float springs = body->source->attributes.stiffness_damping * w * w;

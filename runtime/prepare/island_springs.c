@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "mechanics/level_points.h"
+#include "prepare/hinges.h"
 #include "prepare/softening.h"
 #include "solvers/rolling.h"
 #include "solvers/scheme.h"
@@ -260,7 +261,8 @@ enum { MOST_REFINED = 3000 };
 
 /* Bones that would throw a body's points by more than this share of how far they are from what holds them
  * take it along instead: its springs know no inside and outside, and would not bring back all of it. What
- * starts at once sways twice as far as what is drawn there slowly. */
+ * starts at once sways twice as far as what is drawn there slowly. A sheet has no inside: how it bends does
+ * not count. */
 static const float MOST_SWAY = 0.25f;
 
 /* Of so many of a body's points its reach is found. */
@@ -292,7 +294,15 @@ static void bound_start(sbri_island *island, float sway, float w) {
   if (first || push < island->most_push_m_s) island->most_push_m_s = push;
 }
 
-static void find_damping(sbri_island_maker *m, sbf_spring_network network, float *masses, double *scratch) {
+/* rad/s, of the body's lowest mode in the network, and by its regions. */
+static double lowest_of(
+    const sbri_island *island, const sbri_body *body, const sbf_spring_network *own, double *scratch) {
+  double elastic = sbf_network_lowest(own, body->tetrahedron_count < MOST_REFINED, scratch);
+  double regions = sbri_regions_lowest(island, body, scratch);
+  return sqrt(elastic * elastic + regions * regions);
+}
+
+static bool find_damping(sbri_island_maker *m, sbf_spring_network network, float *masses, double *scratch) {
   const sbf_environment *environment = &m->model->asset->environment;
   for (uint32_t b = 0; b < m->island->body_count; b++) {
     sbri_body *body = sbri_maker_body(m, b);
@@ -308,11 +318,12 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     own.young_modulus += body->first_tetrahedron;
     own.poisson_ratios += body->first_tetrahedron;
     own.tetrahedron_count = body->tetrahedron_count;
-    double lowest = sbf_network_lowest(&own, body->tetrahedron_count < MOST_REFINED, scratch);
-    double region_lowest = sbri_regions_lowest(m->island, body, scratch);
-    lowest = sqrt(lowest * lowest + region_lowest * region_lowest);
-    bound_start(m->island, MOST_SWAY * reach_of(body, m->island->free_count), (float)lowest);
+    double stretching = lowest_of(m->island, body, &own, scratch);
+    if (!sbri_hinges_add(m->island, body, &m->scratch, &own)) return false;
+    double lowest = own.hinge_count ? lowest_of(m->island, body, &own, scratch) : stretching;
+    bound_start(m->island, MOST_SWAY * reach_of(body, m->island->free_count), (float)stretching);
     body->lowest_rad_s = (float)lowest;
+    body->stretching_rad_s = (float)stretching;
     body->alpha_1_s = is->mass_damping + (float)(2 * is->damping_ratio * lowest);
     body->rolling_share = lowest > 0 ? sbri_rolling_share(0.5f * body->alpha_1_s / (float)lowest) : 0;
     body->media_friction_1_s = is->media_friction + environment->media_friction;
@@ -324,6 +335,7 @@ static void find_damping(sbri_island_maker *m, sbf_spring_network network, float
     const sbf_collision *collision = &body->source->collision;
     body->margin_m = bare ? collision->particle_radius : measures.sheet ? collision->outer_thickness : 0;
   }
+  return true;
 }
 
 /* Damping of each point, where a map scales what mass_damping says; the ratio's part stays as it is. */
@@ -409,8 +421,9 @@ static bool find_frequencies(sbri_island_maker *m, sbf_spring_network *found) {
   island->bound_rad_s = sqrt(island->bound_rad_s * island->bound_rad_s + regions);
   island->fastest_rad_s = sqrt(island->fastest_rad_s * island->fastest_rad_s + regions);
   if (!sbri_island_preload(m, &network)) return false;
-  find_damping(m, network, masses, scratch);
-  if (!find_alphas(m) || !find_frictions(m) || !sbri_flesh_answers_make(m, &network)) return false;
+  if (!find_damping(m, network, masses, scratch) || !find_alphas(m) || !find_frictions(m) ||
+      !sbri_flesh_answers_make(m, &network))
+    return false;
   *found = network;
   return true;
 }

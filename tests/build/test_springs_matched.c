@@ -146,7 +146,7 @@ static double sag(const bar *b, int axis) {
   for (uint32_t i = 0; i < points; i++) masses[i] = held[i] ? 0 : masses[i];
   for (uint32_t i = 0; i < points; i++) forces[3 * i + (uint32_t)axis] = 9.81 * masses[i];
   const sbf_spring_network network = {points, springs, level->positions.at, masses, NULL, joined, stiffness,
-      tetrahedra, level->lattice.tetrahedra.at, moduli, ratios};
+      tetrahedra, level->lattice.tetrahedra.at, moduli, ratios, 0, NULL, NULL, NULL};
   ck_assert_double_lt(sbf_network_static(&network, forces, 1e-8, 20000, moved, scratch), 1e-7);
   for (uint32_t i = 0; i < points; i++) {
     if (level->positions.at[i].x < b->length * (1 - 1e-5f)) continue;

@@ -39,18 +39,30 @@ static sbf_level *strip(scene *s, uint32_t body, sbf_vec3 middle, bool along_z, 
   return level;
 }
 
-/* The middle of a strip's middle square from end to end. */
-static void middle_line(const scene *s, uint32_t body, sbf_vec3 ends[2]) {
-  for (uint32_t e = 0; e < 2; e++)
-    ends[e] = sbri_lerp(scene_point(s, body, 4 + 2 * e), scene_point(s, body, 5 + 2 * e), 0.5f);
+/* The middle of a strip from end to end. */
+static void find_middle_line(const scene *s, uint32_t body, sbf_vec3 line[ROWS]) {
+  for (uint32_t r = 0; r < ROWS; r++)
+    line[r] = sbri_lerp(scene_point(s, body, 2 * r), scene_point(s, body, 2 * r + 1), 0.5f);
 }
 
-/* How far the second is over the first where those lines cross, seen from above. */
+/* How far q is over p where they cross, seen from above; INFINITY where they do not. A line that goes on
+ * beyond its ends would have any height there. */
+static float height_over(const sbf_vec3 p[2], const sbf_vec3 q[2]) {
+  sbf_vec3 along = sbri_sub(p[1], p[0]), other = sbri_sub(q[1], q[0]), off = sbri_sub(q[0], p[0]);
+  float whole = along.x * other.z - along.z * other.x;
+  float t = (off.x * other.z - off.z * other.x) / whole, u = (off.x * along.z - off.z * along.x) / whole;
+  if (!(t >= 0 && t <= 1 && u >= 0 && u <= 1)) return INFINITY;
+  return sbri_lerp(q[0], q[1], u).y - sbri_lerp(p[0], p[1], t).y;
+}
+
+/* The least that the second is over the first, seen from above: any square of any. */
 static float over(const scene *s) {
-  sbf_vec3 p[2], q[2];
-  middle_line(s, 0, p), middle_line(s, 1, q);
-  float u = (q[0].x - p[0].x) / (p[1].x - p[0].x), v = (p[0].z - q[0].z) / (q[1].z - q[0].z);
-  return sbri_lerp(q[0], q[1], v).y - sbri_lerp(p[0], p[1], u).y;
+  sbf_vec3 p[ROWS], q[ROWS];
+  find_middle_line(s, 0, p), find_middle_line(s, 1, q);
+  float least = INFINITY;
+  for (uint32_t i = 0; i + 1 < ROWS; i++)
+    for (uint32_t k = 0; k + 1 < ROWS; k++) least = fminf(least, height_over(p + i, q + k));
+  return least;
 }
 
 /* One falls across the other, which is held at its ends, from 10 cm and at up to 10 m/s, square to it or not

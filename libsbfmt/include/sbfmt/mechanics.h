@@ -200,6 +200,11 @@ typedef struct sbf_spring_network {
   const sbf_uint4 *tetrahedra; /* (tetrahedron_count) positively oriented; others count as not there */
   const float *young_modulus;  /* (tetrahedron_count) Pa */
   const float *poisson_ratios; /* (tetrahedron_count) in (-1, 0.5) */
+
+  uint32_t hinge_count;            /* of hinges; sbf_network_highest_bound leaves them out */
+  const sbf_uint4 *hinges;         /* (hinge_count) the four points of two triangles over one side */
+  const sbf_vec3 *hinge_gradients; /* (hinge_count x 4) 1/m, of the angle by each point */
+  const float *hinge_stiffness;    /* (hinge_count) N m / rad */
 } sbf_spring_network;
 
 /* An angular frequency in rad/s that no mode exceeds: w^2 <= max over the points of
