@@ -1,4 +1,4 @@
-# What levels cost against how far they are off: docs/media/levels.svg from bench/results/xeon-2-cores/levels.csv.
+# What levels cost against how far they are off: docs/media/levels.svg from bench/results/epyc-2-cores/levels.csv.
 #   gnuplot bench/draw_levels.gp        in the checkout's root
 set encoding utf8
 set terminal svg size 800,440 font "DejaVu Sans,13" background "#ffffff"
@@ -15,7 +15,7 @@ unset key
 set xrange [0.3:3e7]
 set yrange [1:100]
 set title "{/:Bold levels}: five levels of one body, 1.7 m" offset 0,-0.3
-results = "bench/results/xeon-2-cores/levels.csv"
+results = "bench/results/epyc-2-cores/levels.csv"
 # The colours of Okabe and Ito.
 plot results using (strcol(2)[1:7] eq "lattice" ? $5 : NaN):4 every ::1 with linespoints pt 7 ps 1 lw 2 lc rgb "#0072b2", \
      results using (strcol(2)[1:7] eq "lattice" ? $5 : NaN):4:(strcol(3)." tetrahedra") every ::1 with labels left offset 1,0.6 font ",12", \
