@@ -45,7 +45,7 @@ OFF_FLAT = {
                **{f"noise, {speed}": {"penetration": 0.0024, "stance_slip": 0.0025} for speed in OFF_FLAT_SPEEDS}},
     "walkdae": {"slope of 20°, 0.1": {"support_margin": -0.062}, "slope of 20°, 0.3": {"support_margin": -0.042},
                 "stairs of a quarter leg, 1": {"body_speed_step": 0.03, "body_turn_step": 1.7},
-                "stairs of a quarter leg, 3": {"body_speed_step": 0.053, "body_turn_step": 3.2}},
+                "stairs of a quarter leg, 3": {"body_speed_step": 0.0531, "body_turn_step": 3.2}},
     "spider": {},
     "fox": {},
 }
