@@ -15,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+import urllib.request
 from xml.etree import ElementTree
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -43,6 +44,22 @@ def no_registry():
     return bool(shutil.which("npm")) and subprocess.run(["npm", "ping"], capture_output=True, check=False).returncode != 0
 
 
+@functools.cache
+def no_archive():
+    """Whether the archive that apt is configured for does not answer for Debian's unstable suite."""
+    if not shutil.which("apt-get"):
+        return True
+    said = subprocess.run(["apt-get", "indextargets", "--format", "$(REPO_URI)", "Created-By: Packages"], capture_output=True,
+                          text=True, check=False).stdout
+    for archive in said.split()[:1]:
+        try:
+            with urllib.request.urlopen(archive.rstrip("/") + "/dists/unstable/Release", timeout=30):
+                return False
+        except (OSError, ValueError):
+            pass
+    return True
+
+
 # The words of the column WHERE.
 WHERE = {
     "anywhere": lambda: True,
@@ -52,6 +69,7 @@ WHERE = {
     "no-newer-blender": lambda: not os.path.exists(os.path.join(newer_system(), "blender")),
     "no-godot": lambda: not shutil.which("godot") and not os.path.exists(os.path.join(newer_system(), "godot")),
     "no-registry": no_registry,
+    "no-archive": no_archive,
     "not-root": lambda: os.geteuid() != 0,
 }
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 from repo_files import ROOT
 
@@ -78,6 +79,14 @@ class Report(unittest.TestCase):
         self.assertIn("1 passed, 1 failed, 1 skipped", done.stdout)
         self.assertIn("  stage/other_system newer Blender and Godot: only root\n", done.stdout)
         self.assertRegex(done.stdout, r"(?m)^skipped +1 s  newer$")
+
+    def test_a_stage_may_be_skipped_only_where_its_system_cannot_be_made(self):
+        for absent in (True, False):
+            allowed = list(report.allowances(os.path.join(ROOT, "tests", "allowed_skips")))
+            with mock.patch.dict(report.WHERE, {"no-archive": lambda: absent, "not-root": lambda: False}):
+                for stage in ("other_system", "first_run", "every_first_run"):
+                    skip = report.Skip("stage/" + stage, "all", "debootstrap failed")
+                    self.assertEqual(report.is_allowed(skip, allowed), absent, stage)
 
     def test_a_stage_that_broke_outside_of_its_tests_has_failed(self):
         done = summed("FAILED 3 strict gcc\n", '<testsuite><testcase name="a/b" status="run"/></testsuite>')
