@@ -60,6 +60,8 @@ make_base() {
     skip "$1" 'debootstrap failed; its last lines stand above'
   fi
   echo force-unsafe-io >"$folder/$1/etc/dpkg/dpkg.cfg.d/thrown-away"
+  # The archive may be a snapshot, whose lists are past their date.
+  echo 'Acquire::Check-Valid-Until "false";' >"$folder/$1/etc/apt/apt.conf.d/snapshot"
   if [ "$1" != "$suite" ]; then
     within "$folder/$1" sh -c "apt-get update -qq && apt-get install -y -qq --no-install-recommends $tools" >>"$folder/$1.log" 2>&1 ||
       fail "$1: installing $tools failed; all of it is in $folder/$1.log"

@@ -16,7 +16,8 @@ sys.path.insert(0, os.path.join(ROOT, "cmake"))
 import make_packages  # noqa: E402
 
 RUN = os.path.join(ROOT, "run")
-REAL = ("sh", "dirname", "cat", "sed", "env", "grep", "nproc", "mkdir", "awk", "wc", "date", "tail", "head", "true")
+REAL = ("sh", "dirname", "cat", "sed", "env", "grep", "nproc", "mkdir", "awk", "wc", "date", "tail", "head", "true",
+        "mktemp", "tee", "rm")
 # apt-get that has lists of packages, or none until it updates them; it notes what it is asked to install.
 WITH_LISTS = 'case $1 in indextargets) echo list ;; *) echo "apt-get $*"; exit 7 ;; esac'
 WITHOUT_LISTS = '''here=$(dirname "$0")
@@ -96,6 +97,16 @@ class Packages(unittest.TestCase):
             self.assertIn(" libclang-rt-19-dev-wasm32", command)
             self.assertNotIn("wasi-libc", command)
             self.assertNotIn("%", command)
+
+    def test_lists_past_their_date_are_used(self):
+        """A snapshot of an archive; other errors of an update stay errors, and only once is asked for the exception."""
+        apt = 'case "$*" in indextargets*) ;; *Valid-Until=false*) echo updated ;; *update*) echo "E: Release file {}"; exit 100 ;; esac'
+        for words, times in (("is expired (invalid since 17d)", 1), ("could not be read", 0)):
+            path = self.machine({"dpkg-query": "exit 1", "id": "echo 0", "apt-get": apt.format(words) + "\nexit 0"})
+            done = call("build", path=path)
+            self.assertEqual(done.stdout.count("updated"), times, done.stdout)
+            self.assertEqual("could not update its lists" in done.stderr, not times)
+            self.assertNotRegex(done.stdout, r"(?m)^[01]$")
 
     def test_user_without_lists_is_told_one_line_that_asks_for_the_number(self):
         path = self.machine({"dpkg-query": "exit 1", "id": "echo 1000", "apt-get": WITHOUT_LISTS, "apt-cache": ARCHIVE})
