@@ -261,7 +261,7 @@ START_TEST(skins_are_normalised)
 }
 END_TEST
 
-/* A section under a skin as large is simulated but not seen; one that sticks out is. */
+/* A section inside a skin is simulated but not drawn; one that sticks out is. */
 START_TEST(covered_sections_are_not_seen)
 {
   static const uint32_t all_first[8] = {0};
@@ -285,6 +285,32 @@ START_TEST(covered_sections_are_not_seen)
   ck_assert_ptr_nonnull(mesh_named(c.asset, "skin")->skin);
   converted_free(&c);
   sbfi_scene_free(&scene);
+}
+END_TEST
+
+/* A cape that lies close to the back, and legs under a skirt that is open below, show: each is drawn. */
+START_TEST(what_shows_beside_a_skin_is_drawn)
+{
+  static const uint32_t all_first[8] = {0};
+  static const struct { double half, y, z; } worn[] = {{0.9, 0, -1.91}, {0.9, 0, 0.12}, {0.7, 0, -0.2}};
+  for (int i = 0; i < 3; i++) {
+    sbfi_scene scene;
+    scene_begin(&scene);
+    int32_t hips = scene_node(&scene, "hips", SBF_NONE, true, 0, 0, 0);
+    int32_t node = scene_node(&scene, "worn", hips, false, 0, 0, 0);
+    int32_t skin = scene_node(&scene, "skin", SBF_NONE, false, 0, 0, 0);
+    scene_box(&scene, node, worn[i].half, 0, worn[i].y, worn[i].z, false);
+    sbfi_scene_mesh *mesh = scene_box(&scene, skin, 1, 0, 0, 0, false);
+    scene_skin(&scene, mesh, 1, &hips, all_first);
+    if (i == 2) mesh->polygon_count = 5, mesh->corner_count = 20; /* without its last side, the one at -z */
+    scene_end(&scene);
+    converted c;
+    converted_scene(&c, &scene, &scene, NULL);
+    ck_assert_uint_eq(c.asset->render_meshes.count, 2);
+    ck_assert_int_eq(mesh_named(c.asset, "worn")->bone, 0);
+    converted_free(&c);
+    sbfi_scene_free(&scene);
+  }
 }
 END_TEST
 
@@ -328,6 +354,7 @@ int main(void) {
   tcase_add_test(tests, uvs_that_leave_corners_out_are_dropped);
   tcase_add_test(tests, skins_are_normalised);
   tcase_add_test(tests, covered_sections_are_not_seen);
+  tcase_add_test(tests, what_shows_beside_a_skin_is_drawn);
   tcase_add_test(tests, shapes_move_with_the_mesh);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -1,12 +1,14 @@
 /* Meshes of the scene to soft bodies and render meshes.
  *
  * A mesh without a skin is a section (or, without a rig, a body of its own): its points and polygons become
- * the body's surface, in source order. It is also what is seen, unless a skinned mesh covers it. */
+ * the body's surface, in source order. It is also drawn, unless a skin hides all of it. */
 #include <math.h>
 #include <string.h>
 
 #include "build/geometry/topology.h"
 #include "import/convert/convert_pins.h"
+#include "import/convert/covered_sections.h"
+#include "mechanics/extent.h"
 #include "mechanics/flat_body.h"
 #include "mechanics/polygon.h"
 #include "sbfmt/mechanics.h"
@@ -83,36 +85,14 @@ static void write_polygons(
   }
 }
 
-typedef struct box {
-  float low[3], high[3];
-  uint32_t points;
-} box;
-
-static void box_add(box *b, sbf_vec3 p) {
-  const float at[3] = {p.x, p.y, p.z};
-  for (int k = 0; k < 3; k++) {
-    b->low[k] = b->points && b->low[k] < at[k] ? b->low[k] : at[k];
-    b->high[k] = b->points && b->high[k] > at[k] ? b->high[k] : at[k];
-  }
-  b->points++;
-}
-
-static double box_diagonal(const box *b) {
-  double squared = 0;
-  for (int k = 0; k < 3; k++) squared += pow((double)b->high[k] - (double)b->low[k], 2);
-  return sqrt(squared);
-}
-
 /* Below this share of its extent squared an area is none: points that were in a line, rounded. */
 static const double LEAST_AREA = 1e-7;
 
 /* All polygons are lines or points: there is nothing to see, and nothing that could have a mass. */
 static bool has_no_area(const sbf_polygon_mesh *mesh) {
   sbf_surface_measures measures;
-  box own = {.points = 0};
-  for (uint32_t i = 0; i < mesh->positions.count; i++) box_add(&own, mesh->positions.at[i]);
   sbf_surface_measure(mesh, NULL, &measures);
-  return mesh->polygon_sizes.count && measures.area <= LEAST_AREA * pow(box_diagonal(&own), 2);
+  return mesh->polygon_sizes.count && measures.area <= LEAST_AREA * pow(sbfi_extent(mesh->positions), 2);
 }
 
 /* Points and polygons in asset space, counter-clockwise from outside: a mirroring transform turns every
@@ -384,30 +364,6 @@ static sbf_status fill_body(
   return copy_sources(c, &c->scene->meshes[place], &body->source_points);
 }
 
-/* Boxes around the points of skinned meshes that each bone holds most: where such a box is about as large as
- * a section of the bone, the section is covered and not seen itself. */
-static box *boxes_of_skin(sbfi_conversion *c, const sbf_render_mesh *meshes, uint32_t count) {
-  box *boxes = sbfi_arena_allocate(&c->scratch, c->asset->bones.count + 1, sizeof *boxes);
-  for (uint32_t m = 0; boxes && m < count; m++) {
-    const sbf_skin *skin = meshes[m].skin;
-    uint32_t at = 0;
-    for (uint32_t i = 0; skin && i < skin->influence_counts.count; at += skin->influence_counts.at[i++]) {
-      uint32_t most = at;
-      for (uint32_t s = at; s < at + skin->influence_counts.at[i]; s++)
-        if (skin->weights.at[s] > skin->weights.at[most]) most = s;
-      if (skin->influence_counts.at[i]) box_add(&boxes[skin->bones.at[most]], meshes[m].mesh.positions.at[i]);
-    }
-  }
-  return boxes;
-}
-
-static bool is_covered(const box *boxes, const sbf_soft_body *body) {
-  if (body->bone < 0 || boxes[body->bone].points < 4) return false;
-  box own = {.points = 0};
-  for (uint32_t i = 0; i < body->surface.positions.count; i++) box_add(&own, body->surface.positions.at[i]);
-  return box_diagonal(&boxes[body->bone]) >= 0.5 * box_diagonal(&own);
-}
-
 sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
   uint32_t count = c->scene->mesh_count, body_count = 0, render_count = 0;
   if (count == 0) return SBF_OK;
@@ -426,8 +382,8 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
   }
   if (status != SBF_OK) return status;
-  const box *boxes = boxes_of_skin(c, renders, render_count);
-  if (!boxes) return sbfi_convert_no_memory(c);
+  sbfi_skins skins;
+  if (!sbfi_skins_make(&skins, renders, render_count, &c->scratch)) return sbfi_convert_no_memory(c);
   for (uint32_t i = 0; i < count && status == SBF_OK; i++) {
     bool skinned = c->scene->meshes[i].joint_count && c->asset->bones.count;
     bool pinned = sbfi_mesh_is_pinned(c, &c->scene->meshes[i]);
@@ -436,7 +392,8 @@ sbf_status sbfi_convert_meshes(sbfi_conversion *c) {
     status = fill_body(c, i, skinned, &geometries[i], body);
     if (status == SBF_OK && pinned && !sbfi_pin_body(c, &c->scene->meshes[i], body))
       status = sbfi_convert_no_memory(c);
-    if (status == SBF_OK && !skinned && !is_covered(boxes, body))
+    bool is_covered = !skinned && body->bone >= 0 && sbfi_skins_hide(&skins, &body->surface);
+    if (status == SBF_OK && !skinned && !is_covered)
       status = fill_render_mesh(c, i, &geometries[i], &renders[render_count++]);
   }
   c->asset->soft_bodies = (sbf_soft_body_list){bodies, body_count};
