@@ -39,6 +39,24 @@ static void make_arm(uint32_t rings, bool open) {
   for (int i = 0; i < 3; i++) tubes_add_bone(tubes, "arm", i - 1, (sbfi_d3){i, 0, 0}, (sbfi_d3){i + 1, 0, 0});
 }
 
+/* Triangles from `first` on share no point with those before, only places. */
+static void give_own_points(uint32_t first) {
+  static uint32_t copies[TUBE_POINTS];
+  uint32_t points = tubes->point_count;
+  memset(copies, 0, sizeof copies);
+  for (uint32_t t = first; t < tubes->triangle_count; t++)
+    for (int k = 0; k < 3; k++) {
+      uint32_t *corner = &tubes->triangles[t][k];
+      if (!copies[*corner]) {
+        ck_assert_uint_lt(tubes->point_count, TUBE_POINTS);
+        copies[*corner] = tubes->point_count;
+        tubes->points[tubes->point_count++] = tubes->points[*corner];
+      }
+      *corner = copies[*corner];
+    }
+  ck_assert_uint_gt(tubes->point_count, points);
+}
+
 static void check_arm(double slack) {
   for (uint32_t i = 0; i < tubes->point_count; i++) {
     double x = (double)tubes->points[i].x;
@@ -194,6 +212,29 @@ START_TEST(small_shells_are_rigid)
 }
 END_TEST
 
+/* A button whose lowest point is in the place of one of the sleeve's: a shell of its own, and rigid. The
+ * sleeve's halves share edges, not points: one shell. */
+START_TEST(shells_that_touch_stay_apart)
+{
+  make_arm(60, false);
+  uint32_t arm = tubes->point_count, above = 0;
+  give_own_points(tubes->triangle_count / 2);
+  for (uint32_t i = 0; i < arm; i++)
+    if (fabs((double)tubes->points[i].x - 1) < 1e-4 && tubes->points[i].y > tubes->points[above].y) above = i;
+  sbfi_d3 touched = sbfi_d3_of(tubes->points[above]);
+  uint32_t button = tubes_add_ball(tubes, sbfi_d3_add(touched, (sbfi_d3){0, 0.05, 0}), 0.05, 8);
+  compute_tubes();
+  ck_assert_uint_eq(weights.figures.shell_count, 2);
+  ck_assert_uint_eq(weights.figures.rigid_shell_count, 1);
+  for (uint32_t i = button; i < tubes->point_count; i++) {
+    ck_assert_uint_eq(weights.shell_of_point[i], 1);
+    ck_assert_float_eq(weights.weights[i][0], 1);
+    ck_assert_uint_eq(weights.joints[i][0], weights.joints[button][0]);
+  }
+  ck_assert_float_lt(weights.weights[above][0], 0.9f);
+}
+END_TEST
+
 /* An eye in a head: no bone runs through it, and the nearest bone is that of a thin ear. */
 START_TEST(eyes_follow_the_head_that_holds_them)
 {
@@ -317,6 +358,7 @@ static Suite *suite(void) {
   tcase_add_test(c, legs_close_together);
   tcase_add_test(c, thick_parts_reach_farther);
   tcase_add_test(c, small_shells_are_rigid);
+  tcase_add_test(c, shells_that_touch_stay_apart);
   tcase_add_test(c, eyes_follow_the_head_that_holds_them);
   tcase_add_test(c, frames_and_controls_hold_nothing);
   tcase_add_test(c, the_unit_does_not_matter);

@@ -2,43 +2,47 @@
 
 #include <string.h>
 
-#include "build/weights/surface_laplacian.h"
+#include "build/weights/heat_preconditioner.h"
+#include "build/weights/laplacian_order.h"
 
-enum { LANES = 8, MOST_ITERATIONS = 1000 };
+enum { LANES = SBFI_HEAT_LANES, MOST_ITERATIONS = 1000 };
 /* How fast heat flows from the bone; the least distance that counts; the residual at which it is solved,
  * against that of the right side; what is too little to keep. */
-static const double HEAT = 2, LEAST_DISTANCE = 0.02, TOLERANCE = 3e-3, LEAST_WEIGHT = 1e-3;
+static const double HEAT = 2, LEAST_DISTANCE = 0.02, TOLERANCE = 1e-3, LEAST_WEIGHT = 5e-4;
 
 /* Single precision: a solution to some thousandths needs no more, and memory is what limits the speed. Sums
  * are double. */
-typedef float lanes[LANES];
+typedef sbfi_heat_lanes lanes;
 typedef double sums[LANES];
 
 typedef struct heat_system {
-  sbfi_surface_laplacian laplacian;
+  sbfi_surface_laplacian laplacian; /* its rows in an order of their own */
   uint32_t count;
+  uint32_t *sites; /* (count) of each row */
   double *heat;    /* (count) c M / d^2 */
-  double *inverse; /* (count) of the diagonal */
-  lanes *x, *r, *p, *q;
+  sbfi_heat_preconditioner preconditioner;
+  lanes *x, *r, *p, *q, *z;
 } heat_system;
 
 static bool make_system(
     heat_system *s, const sbfi_weight_mesh *mesh, const sbfi_nearest_bone *nearest, sbfi_arena *arena) {
   size_t count = s->count = mesh->site_count;
-  if (!sbfi_surface_laplacian_make(&s->laplacian, mesh, arena)) return false;
+  s->sites = sbfi_arena_allocate(arena, count, sizeof *s->sites);
+  if (!s->sites || !sbfi_surface_laplacian_make(&s->laplacian, mesh, arena) ||
+      !sbfi_laplacian_reorder(&s->laplacian, s->count, s->sites, arena))
+    return false;
   s->heat = sbfi_arena_allocate(arena, count, sizeof *s->heat);
-  s->inverse = sbfi_arena_allocate(arena, count, sizeof *s->inverse);
   s->x = sbfi_arena_allocate(arena, count, sizeof *s->x);
   s->r = sbfi_arena_allocate(arena, count, sizeof *s->r);
   s->p = sbfi_arena_allocate(arena, count, sizeof *s->p);
   s->q = sbfi_arena_allocate(arena, count, sizeof *s->q);
-  if (!s->heat || !s->inverse || !s->x || !s->r || !s->p || !s->q) return false;
+  s->z = sbfi_arena_allocate(arena, count, sizeof *s->z);
+  if (!s->heat || !s->x || !s->r || !s->p || !s->q || !s->z) return false;
   for (uint32_t i = 0; i < count; i++) {
-    double distance = fmax((double)nearest[i].distance, LEAST_DISTANCE);
-    s->heat[i] = HEAT * fmax(mesh->areas[i], 1e-12) / (distance * distance);
-    s->inverse[i] = 1 / (s->laplacian.diagonal[i] + s->heat[i]);
+    double distance = fmax((double)nearest[s->sites[i]].distance, LEAST_DISTANCE);
+    s->heat[i] = HEAT * fmax(mesh->areas[s->sites[i]], 1e-12) / (distance * distance);
   }
-  return true;
+  return sbfi_heat_preconditioner_make(&s->preconditioner, &s->laplacian, s->heat, s->count, arena);
 }
 
 /* q = A v for all lanes; `vq` receives the products of v and q. */
@@ -58,50 +62,50 @@ static void multiply(const heat_system *s, lanes *v, lanes *q, sums vq) {
   }
 }
 
-/* Starts at x = p, of the bones `first` on. `limits` receives the squared residuals at which lanes are
- * solved. */
+static void products(const heat_system *s, lanes *a, lanes *b, sums ab) {
+  memset(ab, 0, sizeof(sums));
+  for (uint32_t i = 0; i < s->count; i++)
+    for (int k = 0; k < LANES; k++) ab[k] += (double)a[i][k] * (double)b[i][k];
+}
+
+/* Starts at x = p. `limits` receives the residuals at which lanes are solved. */
 static void begin(
     heat_system *s, const sbfi_nearest_bone *nearest, const uint32_t bones[LANES], sums rz, sums limits) {
   sums unused;
-  memset(rz, 0, sizeof(sums));
-  memset(limits, 0, sizeof(sums));
-  for (uint32_t i = 0; i < s->count; i++)
-    for (int k = 0; k < LANES; k++) s->x[i][k] = nearest[i].bone == bones[k];
-  multiply(s, s->x, s->q, unused);
   for (uint32_t i = 0; i < s->count; i++)
     for (int k = 0; k < LANES; k++) {
-      double b = s->heat[i] * (double)s->x[i][k], r = b - (double)s->q[i][k];
-      s->r[i][k] = (float)r;
-      s->p[i][k] = (float)(s->inverse[i] * r);
-      rz[k] += r * s->inverse[i] * r;
-      limits[k] += b * s->inverse[i] * b;
+      s->x[i][k] = nearest[s->sites[i]].bone == bones[k];
+      s->r[i][k] = (float)s->heat[i] * s->x[i][k];
     }
+  sbfi_heat_precondition(&s->preconditioner, s->r, s->z);
+  products(s, s->r, s->z, limits);
   for (int k = 0; k < LANES; k++) limits[k] *= TOLERANCE * TOLERANCE;
+  multiply(s, s->x, s->q, unused);
+  for (uint32_t i = 0; i < s->count; i++)
+    for (int k = 0; k < LANES; k++) s->r[i][k] -= s->q[i][k];
+  sbfi_heat_precondition(&s->preconditioner, s->r, s->z);
+  products(s, s->r, s->z, rz);
+  memcpy(s->p, s->z, s->count * sizeof *s->p);
 }
 
-static void add_scaled(const heat_system *s, const sums alpha, sums rz_next) {
+static void add_scaled(const heat_system *s, const sums alpha) {
   lanes factor;
   for (int k = 0; k < LANES; k++) factor[k] = (float)alpha[k];
-  memset(rz_next, 0, sizeof(sums));
-  for (uint32_t i = 0; i < s->count; i++) {
+  for (uint32_t i = 0; i < s->count; i++)
     for (int k = 0; k < LANES; k++) {
       s->x[i][k] += factor[k] * s->p[i][k];
       s->r[i][k] -= factor[k] * s->q[i][k];
     }
-    for (int k = 0; k < LANES; k++) rz_next[k] += (double)s->r[i][k] * s->inverse[i] * (double)s->r[i][k];
-  }
 }
 
 static void turn_search(const heat_system *s, const sums beta) {
   lanes factor;
   for (int k = 0; k < LANES; k++) factor[k] = (float)beta[k];
-  for (uint32_t i = 0; i < s->count; i++) {
-    float inverse = (float)s->inverse[i];
-    for (int k = 0; k < LANES; k++) s->p[i][k] = inverse * s->r[i][k] + factor[k] * s->p[i][k];
-  }
+  for (uint32_t i = 0; i < s->count; i++)
+    for (int k = 0; k < LANES; k++) s->p[i][k] = s->z[i][k] + factor[k] * s->p[i][k];
 }
 
-/* Preconditioned by the diagonal, each lane with coefficients of its own (Shewchuk 1994, B3). */
+/* Each lane with coefficients of its own (Shewchuk 1994, B3). */
 static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const uint32_t bones[LANES]) {
   sums rz, limits, pq, alpha, beta, rz_next;
   begin(s, nearest, bones, rz, limits);
@@ -111,7 +115,9 @@ static uint32_t solve(heat_system *s, const sbfi_nearest_bone *nearest, const ui
     if (is_solved) return iteration;
     multiply(s, s->p, s->q, pq);
     for (int k = 0; k < LANES; k++) alpha[k] = rz[k] > limits[k] && pq[k] > 0 ? rz[k] / pq[k] : 0;
-    add_scaled(s, alpha, rz_next);
+    add_scaled(s, alpha);
+    sbfi_heat_precondition(&s->preconditioner, s->r, s->z);
+    products(s, s->r, s->z, rz_next);
     for (int k = 0; k < LANES; k++) {
       beta[k] = alpha[k] > 0 ? rz_next[k] / rz[k] : 0;
       rz[k] = rz_next[k];
@@ -154,7 +160,7 @@ bool sbfi_heat_weights_solve(const sbfi_weight_mesh *mesh, const sbfi_nearest_bo
     *iterations = taken > *iterations ? taken : *iterations;
     for (uint32_t i = 0; i < s.count; i++)
       for (uint32_t k = 0; k < count; k++)
-        if ((double)s.x[i][k] > LEAST_WEIGHT) insert(&weights[i], group[k], s.x[i][k]);
+        if ((double)s.x[i][k] > LEAST_WEIGHT) insert(&weights[s.sites[i]], group[k], s.x[i][k]);
   }
   return true;
 }

@@ -1,24 +1,8 @@
 #include "build/weights/weight_mesh.h"
 
-#include <stdlib.h>
-
 #include "base/union_find.h"
 #include "build/geometry/box_tree.h"
-
-/* Points nearer than this, in units of the longest side, are in one place. */
-static const double JOIN_DISTANCE = 1.0 / (1 << 17);
-
-typedef struct keyed_point {
-  int32_t key[3];
-  uint32_t point;
-} keyed_point;
-
-static int compare_keys(const void *left, const void *right) {
-  const keyed_point *a = left, *b = right;
-  for (int k = 0; k < 3; k++)
-    if (a->key[k] != b->key[k]) return a->key[k] < b->key[k] ? -1 : 1;
-  return a->point < b->point ? -1 : a->point > b->point;
-}
+#include "build/weights/weight_sites.h"
 
 static bool has_corner_twice(const uint32_t corners[3]) {
   return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
@@ -37,43 +21,6 @@ static bool measure(sbfi_weight_mesh *m, const sbfi_weights_input *in) {
   m->low = low;
   m->scale = longest > 0 ? 1 / longest : 0;
   return in->triangle_count > 0 && longest > 0 && isfinite(m->scale) && isfinite(longest);
-}
-
-/* One site for each place; numbered by first point. Points in no triangle keep UINT32_MAX. */
-static bool join_points(sbfi_weight_mesh *m, const sbfi_weights_input *in, sbfi_arena *arena) {
-  keyed_point *keyed = sbfi_arena_allocate(arena, in->point_count, sizeof *keyed);
-  uint32_t *first = sbfi_arena_allocate(arena, in->point_count, sizeof *first);
-  bool *is_used = sbfi_arena_allocate(arena, in->point_count, sizeof *is_used);
-  m->site_of_point = sbfi_arena_allocate(arena, in->point_count, sizeof *m->site_of_point);
-  m->sites = sbfi_arena_allocate(arena, in->point_count, sizeof *m->sites);
-  if (!keyed || !first || !is_used || !m->site_of_point || !m->sites) return false;
-  for (uint32_t t = 0; t < in->triangle_count; t++)
-    for (int k = 0; k < 3; k++) is_used[in->triangles[t][k]] = true;
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < in->point_count; i++) {
-    m->site_of_point[i] = UINT32_MAX;
-    if (!is_used[i]) continue;
-    sbfi_d3 at = sbfi_d3_scale(sbfi_weight_mesh_place(m, in->points[i]), 1 / JOIN_DISTANCE);
-    keyed[count++] = (keyed_point){
-        {(int32_t)floor(at.x + 0.5), (int32_t)floor(at.y + 0.5), (int32_t)floor(at.z + 0.5)}, i};
-  }
-  qsort(keyed, count, sizeof *keyed, compare_keys);
-  for (uint32_t i = 0; i < count; i++) {
-    keyed_point *k = &keyed[i], *before = k - 1;
-    bool same =
-        i && k->key[0] == before->key[0] && k->key[1] == before->key[1] && k->key[2] == before->key[2];
-    first[k->point] = same ? first[before->point] : k->point;
-  }
-  for (uint32_t i = 0; i < in->point_count; i++) {
-    if (!is_used[i]) continue;
-    if (first[i] == i) {
-      m->site_of_point[i] = m->site_count;
-      m->sites[m->site_count++] = sbfi_d3_rounded(sbfi_weight_mesh_place(m, in->points[i]));
-    } else {
-      m->site_of_point[i] = m->site_of_point[first[i]];
-    }
-  }
-  return true;
 }
 
 static sbfi_d3 corner(const sbfi_weight_mesh *m, const uint32_t corners[3], int k) {
@@ -188,7 +135,7 @@ sbfi_weight_mesh_result sbfi_weight_mesh_make(
   *m = (sbfi_weight_mesh){0};
   if (!measure(m, in)) return SBFI_WEIGHT_MESH_TOO_SMALL;
   uint32_t(*triangles)[3] = sbfi_arena_allocate(arena, in->triangle_count, sizeof *triangles), count = 0;
-  if (!triangles || !join_points(m, in, arena)) return SBFI_WEIGHT_MESH_NO_MEMORY;
+  if (!triangles || !sbfi_weight_sites_find(m, in, arena)) return SBFI_WEIGHT_MESH_NO_MEMORY;
   for (uint32_t t = 0; t < in->triangle_count; t++) {
     for (int k = 0; k < 3; k++) triangles[count][k] = m->site_of_point[in->triangles[t][k]];
     count += !has_corner_twice(triangles[count]) && sbfi_d3_length(area_of(m, triangles[count])) > 0;

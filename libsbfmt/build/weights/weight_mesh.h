@@ -1,4 +1,5 @@
-/* A mesh made ready for weights: points of one place joined, in units of its longest side, cut into shells.
+/* A mesh made ready for weights: points of one place and piece joined, in units of its longest side, cut into
+ * shells.
  */
 #ifndef SBFI_WEIGHT_MESH_H
 #define SBFI_WEIGHT_MESH_H
@@ -7,7 +8,7 @@
 #include "build/weights/weights.h"
 #include "mechanics/vector.h"
 
-/* Pieces of surface that share no site with others. */
+/* Pieces of surface that share no edge with others. */
 typedef struct sbfi_shell {
   sbfi_d3 low, high; /* bounding box */
   double size;       /* its longest side */
@@ -15,8 +16,8 @@ typedef struct sbfi_shell {
   uint32_t first_site, site_count; /* places in sites_by_shell */
 } sbfi_shell;
 
-/* A site stands for all points in one place. Lengths are in units of the bounding box's longest side, from
- * its lowest corner. */
+/* A site stands for all points of one shell in one place (weight_sites.h). Lengths are in units of the
+ * bounding box's longest side, from its lowest corner. */
 typedef struct sbfi_weight_mesh {
   sbf_vec3 *sites;          /* (site_count) */
   uint32_t *site_of_point;  /* (point_count) that of the nearest point in a triangle where it is in none */
