@@ -1,5 +1,6 @@
 #include "build/sections/section_cut.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "mechanics/vector.h"
@@ -7,15 +8,42 @@
 static const double NOT_REACHED = -1e300;
 static const double TWO_PI = 6.283185307179586;
 
+/* The polygons of each bone, ascending. */
+static void group_polygons(sbfi_section_cutter *c) {
+  for (uint32_t p = 0; p < c->t->polygon_count; p++)
+    if (c->labels[p] != SBFI_NO_INDEX) c->group_begins[c->labels[p] + 2]++;
+  for (uint32_t b = 2; b < c->bone_count + 2; b++) c->group_begins[b] += c->group_begins[b - 1];
+  /* Each begin moves on to its end, which is the next one's begin. */
+  for (uint32_t p = 0; p < c->t->polygon_count; p++)
+    if (c->labels[p] != SBFI_NO_INDEX) c->grouped[c->group_begins[c->labels[p] + 1]++] = p;
+}
+
 bool sbfi_section_cutter_init(sbfi_section_cutter *c, uint32_t bone_count, sbfi_arena *arena) {
-  size_t points = (size_t)c->t->point_count + 1;
+  size_t points = (size_t)c->t->point_count + 1, polygons = (size_t)c->t->polygon_count + 1;
   c->bone_count = bone_count;
   c->reach = sbfi_arena_allocate(arena, points, sizeof *c->reach);
   c->shared = sbfi_arena_allocate(arena, (size_t)bone_count + 1, sizeof *c->shared);
   c->queue = sbfi_arena_allocate(arena, points, sizeof *c->queue);
   c->new_points = sbfi_arena_allocate(arena, points, sizeof *c->new_points);
   c->queued = sbfi_arena_allocate(arena, points, 1);
-  return c->reach && c->shared && c->queue && c->new_points && c->queued;
+  c->reached = sbfi_arena_allocate(arena, points, sizeof *c->reached);
+  c->border = sbfi_arena_allocate(arena, (size_t)c->t->corner_count + 1, sizeof *c->border);
+  c->taken = sbfi_arena_allocate(arena, polygons, sizeof *c->taken);
+  c->is_candidate = sbfi_arena_allocate(arena, polygons, 1);
+  c->grouped = sbfi_arena_allocate(arena, polygons, sizeof *c->grouped);
+  c->group_begins = sbfi_arena_allocate(arena, (size_t)bone_count + 3, sizeof *c->group_begins);
+  if (!c->reach || !c->shared || !c->queue || !c->new_points || !c->queued || !c->reached || !c->border ||
+      !c->taken || !c->is_candidate || !c->grouped || !c->group_begins)
+    return false;
+  for (uint32_t p = 0; p < c->t->point_count; p++) c->reach[p] = NOT_REACHED;
+  memset(c->new_points, 0xff, points * sizeof *c->new_points);
+  group_polygons(c);
+  return true;
+}
+
+static int by_number(const void *a, const void *b) {
+  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  return (x > y) - (x < y);
 }
 
 static double length_of(const sbfi_section_cutter *c, uint32_t edge) {
@@ -37,27 +65,51 @@ static uint32_t label_beyond(const sbfi_section_cutter *c, uint32_t edge, uint32
   return own ? beyond : SBFI_NO_INDEX;
 }
 
+/* The edges where the bone's part meets another, ascending. */
+static void find_border(sbfi_section_cutter *c, uint32_t bone) {
+  uint32_t kept = 0;
+  c->border_count = 0;
+  for (uint32_t i = c->group_begins[bone]; i < c->group_begins[bone + 1]; i++) {
+    uint32_t polygon = c->grouped[i];
+    for (uint32_t k = c->t->corner_begins[polygon]; k < c->t->corner_begins[polygon + 1]; k++) {
+      uint32_t edge = c->t->corner_edges[k];
+      if (edge == SBFI_NO_INDEX || label_beyond(c, edge, bone) == SBFI_NO_INDEX) continue;
+      c->border[c->border_count++] = edge;
+    }
+  }
+  qsort(c->border, c->border_count, sizeof *c->border, by_number);
+  /* Where several of its polygons share an edge, it was found by each. */
+  for (uint32_t i = 0; i < c->border_count; i++)
+    if (kept == 0 || c->border[kept - 1] != c->border[i]) c->border[kept++] = c->border[i];
+  c->border_count = kept;
+}
+
+static void raise_reach(sbfi_section_cutter *c, uint32_t point, double reach) {
+  if (c->reach[point] <= NOT_REACHED) c->reached[c->reached_count++] = point;
+  c->reach[point] = reach;
+}
+
 /* What each point of the border may spend on its way out. */
 static void begin_at_border(sbfi_section_cutter *c, uint32_t bone) {
-  for (uint32_t p = 0; p < c->t->point_count; p++) c->reach[p] = NOT_REACHED;
-  memset(c->shared, 0, c->bone_count * sizeof *c->shared);
-  for (uint32_t e = 0; e < c->t->edge_count; e++) {
-    uint32_t beyond = label_beyond(c, e, bone);
-    if (beyond != SBFI_NO_INDEX) c->shared[beyond] += length_of(c, e);
-  }
-  for (uint32_t e = 0; e < c->t->edge_count; e++) {
-    uint32_t beyond = label_beyond(c, e, bone);
-    if (beyond == SBFI_NO_INDEX) continue;
-    double reach = c->overlap_m >= 0 ? c->overlap_m : -c->overlap_m * c->shared[beyond] / TWO_PI;
+  find_border(c, bone);
+  c->reached_count = 0;
+  for (uint32_t i = 0; i < c->border_count; i++)
+    c->shared[label_beyond(c, c->border[i], bone)] += length_of(c, c->border[i]);
+  for (uint32_t i = 0; i < c->border_count; i++) {
+    uint32_t edge = c->border[i];
+    double shared = c->shared[label_beyond(c, edge, bone)];
+    double reach = c->overlap_m >= 0 ? c->overlap_m : -c->overlap_m * shared / TWO_PI;
     for (int k = 0; k < 2; k++)
-      if (reach > c->reach[c->t->edges[e].at[k]]) c->reach[c->t->edges[e].at[k]] = reach;
+      if (reach > c->reach[c->t->edges[edge].at[k]]) raise_reach(c, c->t->edges[edge].at[k], reach);
   }
+  for (uint32_t i = 0; i < c->border_count; i++) c->shared[label_beyond(c, c->border[i], bone)] = 0;
 }
 
 /* Spreads the reach along edges: a queue of points whose reach has grown. */
 static void spread(sbfi_section_cutter *c) {
   uint32_t room = c->t->point_count + 1, head = 0, tail = 0;
-  for (uint32_t p = 0; p < c->t->point_count; p++) {
+  for (uint32_t i = 0; i < c->reached_count; i++) {
+    uint32_t p = c->reached[i];
     c->queued[p] = c->reach[p] > 0;
     if (c->queued[p]) c->queue[tail++] = p;
   }
@@ -69,7 +121,7 @@ static void spread(sbfi_section_cutter *c) {
       uint32_t edge = c->t->point_edges[i], other = sbfi_edge_other(c->t, edge, p);
       double left = c->reach[p] - length_of(c, edge);
       if (left <= c->reach[other]) continue;
-      c->reach[other] = left;
+      raise_reach(c, other, left);
       if (left <= 0 || c->queued[other]) continue;
       c->queued[other] = 1;
       c->queue[tail] = other;
@@ -89,25 +141,49 @@ static bool is_taken(const sbfi_section_cutter *c, uint32_t polygon, uint32_t bo
   return sum > 0;
 }
 
+static void consider(sbfi_section_cutter *c, uint32_t polygon) {
+  if (c->is_candidate[polygon]) return;
+  c->is_candidate[polygon] = 1;
+  c->taken[c->taken_count++] = polygon;
+}
+
+/* The bone's polygons and those within reach, ascending. */
+static void find_taken(sbfi_section_cutter *c, uint32_t bone) {
+  uint32_t kept = 0;
+  c->taken_count = 0;
+  for (uint32_t i = c->group_begins[bone]; i < c->group_begins[bone + 1]; i++) consider(c, c->grouped[i]);
+  for (uint32_t i = 0; i < c->reached_count; i++) {
+    uint32_t p = c->reached[i];
+    for (uint32_t k = c->t->point_edge_begins[p]; k < c->t->point_edge_begins[p + 1]; k++) {
+      uint32_t edge = c->t->point_edges[k];
+      for (uint32_t n = c->t->edge_polygon_begins[edge]; n < c->t->edge_polygon_begins[edge + 1]; n++)
+        consider(c, c->t->edge_polygons[n]);
+    }
+  }
+  for (uint32_t i = 0; i < c->taken_count; i++) {
+    c->is_candidate[c->taken[i]] = 0;
+    if (is_taken(c, c->taken[i], bone)) c->taken[kept++] = c->taken[i];
+  }
+  c->taken_count = kept;
+  qsort(c->taken, kept, sizeof *c->taken, by_number);
+}
+
 bool sbfi_section_cut(sbfi_section_cutter *c, uint32_t bone, sbf_polygon_mesh *mesh, sbfi_arena *arena) {
   const sbf_polygon_mesh *from = &c->skin->mesh;
-  uint32_t polygons = 0, corners = 0, points = 0;
+  uint32_t corners = 0, points = 0;
   begin_at_border(c, bone);
   spread(c);
-  for (uint32_t p = 0; p < c->t->polygon_count; p++) {
-    if (!is_taken(c, p, bone)) continue;
-    polygons++;
-    corners += from->polygon_sizes.at[p];
-  }
-  uint32_t *sizes = sbfi_arena_allocate(arena, (size_t)polygons + 1, sizeof *sizes);
+  find_taken(c, bone);
+  for (uint32_t i = 0; i < c->reached_count; i++) c->reach[c->reached[i]] = NOT_REACHED;
+  for (uint32_t i = 0; i < c->taken_count; i++) corners += from->polygon_sizes.at[c->taken[i]];
+  uint32_t *sizes = sbfi_arena_allocate(arena, (size_t)c->taken_count + 1, sizeof *sizes);
   uint32_t *at = sbfi_arena_allocate(arena, (size_t)corners + 1, sizeof *at);
   sbf_vec3 *positions = sbfi_arena_allocate(arena, (size_t)corners + 1, sizeof *positions);
   if (!sizes || !at || !positions) return false;
-  memset(c->new_points, 0xff, c->t->point_count * sizeof *c->new_points);
-  polygons = corners = 0;
-  for (uint32_t p = 0; p < c->t->polygon_count; p++) {
-    if (!is_taken(c, p, bone)) continue;
-    sizes[polygons++] = from->polygon_sizes.at[p];
+  corners = 0;
+  for (uint32_t i = 0; i < c->taken_count; i++) {
+    uint32_t p = c->taken[i];
+    sizes[i] = from->polygon_sizes.at[p];
     for (uint32_t k = c->t->corner_begins[p]; k < c->t->corner_begins[p + 1]; k++) {
       uint32_t point = from->polygon_points.at[k];
       if (c->new_points[point] == SBFI_NO_INDEX) {
@@ -117,8 +193,11 @@ bool sbfi_section_cut(sbfi_section_cutter *c, uint32_t bone, sbf_polygon_mesh *m
       at[corners++] = c->new_points[point];
     }
   }
+  for (uint32_t i = 0; i < c->taken_count; i++)
+    for (uint32_t k = c->t->corner_begins[c->taken[i]]; k < c->t->corner_begins[c->taken[i] + 1]; k++)
+      c->new_points[from->polygon_points.at[k]] = SBFI_NO_INDEX;
   mesh->positions = (sbf_vec3_list){positions, points};
-  mesh->polygon_sizes = (sbf_u32_list){sizes, polygons};
+  mesh->polygon_sizes = (sbf_u32_list){sizes, c->taken_count};
   mesh->polygon_points = (sbf_u32_list){at, corners};
   return true;
 }

@@ -15,6 +15,12 @@ typedef struct sbfi_section_cutter {
   uint32_t *queue, *new_points;
   uint8_t *queued;
   uint32_t bone_count;
+  uint32_t *group_begins, *grouped; /* polygons of each bone: (bones + 2) and (polygons) */
+  /* Of the bone at hand; a cut costs as much as they hold. */
+  uint32_t *border, border_count;   /* edges to other parts */
+  uint32_t *reached, reached_count; /* points with a reach */
+  uint32_t *taken, taken_count;     /* polygons */
+  uint8_t *is_candidate;            /* (polygons) */
 } sbfi_section_cutter;
 
 /* Room for the work; `skin`, `t`, `labels` and `overlap_m` are the caller's to fill first. */

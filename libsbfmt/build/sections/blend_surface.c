@@ -1,0 +1,299 @@
+#include "build/sections/blend_surface.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_SWEEPS = 400, FIXED_SWEEPS = 200 };
+static const double MOST_STRETCH = 1.9; /* leaves room for rounding and for what is dropped */
+static const double FLIPPED = 2.2;
+static const double HARMLESS = 0.37;                         /* see is_harmless() */
+static const double COSINE = 0.5, SINE = 0.8660254037844386; /* of 60 degrees */
+
+/* Weights that a bone and all below it have at the three corners of a triangle: now, and as authored. */
+typedef struct branch {
+  uint32_t bone;
+  double now[3], before[3];
+} branch;
+
+/* Branches of the triangle at hand, ascending by bone. */
+typedef struct branches {
+  branch *at;
+  uint32_t count, capacity;
+} branches;
+
+typedef struct work {
+  sbfi_blend_surface *s;
+  sbfi_arena *arena;
+  branches open;
+  uint8_t *pending;     /* (triangles) to be looked at */
+  const uint8_t *fixed; /* (points) NULL: none, or no longer */
+} work;
+
+static sbfi_d3 axis_of(sbf_quat r, int axis) {
+  double x = r.x, y = r.y, z = r.z, w = r.w, length = sqrt(x * x + y * y + z * z + w * w);
+  if (!(length > 0)) return (sbfi_d3){axis == 0, axis == 1, axis == 2};
+  x /= length, y /= length, z /= length, w /= length;
+  if (axis == 0) return (sbfi_d3){1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)};
+  if (axis == 1) return (sbfi_d3){2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)};
+  return (sbfi_d3){2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
+}
+
+static void fill_turns(sbfi_blend_joint *joint, const sbf_bone *bone) {
+  for (int pose = 0; pose < SBFI_BLEND_POSES; pose++) {
+    sbfi_d3 a = axis_of(bone->rotation, pose % 3);
+    double sine = pose < 3 ? SINE : -SINE, v[3] = {a.x, a.y, a.z};
+    const double k[3][3] = {{0, -a.z, a.y}, {a.z, 0, -a.x}, {-a.y, a.x, 0}};
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++)
+        joint->turns[pose][i][j] = (COSINE - 1) * (i == j) + sine * k[i][j] + (1 - COSINE) * v[i] * v[j];
+  }
+}
+
+sbfi_blend_joint *sbfi_blend_joints_make(const sbf_bone_list *bones, sbfi_arena *arena) {
+  sbfi_blend_joint *joints = sbfi_arena_allocate(arena, (size_t)bones->count + 1, sizeof *joints);
+  for (uint32_t b = 0; joints && b < bones->count; b++) {
+    if (bones->at[b].parent == SBF_NONE) continue;
+    joints[b].head = sbfi_d3_of(bones->at[b].head);
+    fill_turns(&joints[b], &bones->at[b]);
+  }
+  return joints;
+}
+
+bool sbfi_blend_surface_index(sbfi_blend_surface *s, sbfi_arena *arena) {
+  uint32_t points = s->point_count;
+  s->begins = sbfi_arena_allocate(arena, (size_t)points + 2, sizeof *s->begins);
+  s->at_point = sbfi_arena_allocate(arena, 3 * (size_t)s->triangle_count + 1, sizeof *s->at_point);
+  uint32_t *next = sbfi_arena_allocate(arena, (size_t)points + 1, sizeof *next);
+  if (!s->begins || !s->at_point || !next) return false;
+  for (uint32_t i = 0; i < s->triangle_count; i++)
+    for (int k = 0; k < 3; k++) s->begins[s->triangles[i][k] + 1]++;
+  for (uint32_t p = 0; p < points; p++) s->begins[p + 1] += s->begins[p];
+  memcpy(next, s->begins, points * sizeof *next);
+  for (uint32_t i = 0; i < s->triangle_count; i++)
+    for (int k = 0; k < 3; k++) s->at_point[next[s->triangles[i][k]]++] = i;
+  return true;
+}
+
+static sbfi_d3 turned(const double m[3][3], sbfi_d3 p) {
+  return (sbfi_d3){m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z,
+      m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z, m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z};
+}
+
+/* Twice the vector area of the triangle with its corners moved by shares of a turn. */
+static sbfi_d3 moved_normal(
+    const sbfi_blend_joint *c, int pose, const sbfi_d3 corners[3], const double shares[3]) {
+  sbfi_d3 at[3];
+  for (int k = 0; k < 3; k++)
+    at[k] = sbfi_d3_add(
+        corners[k], sbfi_d3_scale(turned(c->turns[pose], sbfi_d3_sub(corners[k], c->head)), shares[k]));
+  return sbfi_d3_cross(sbfi_d3_sub(at[1], at[0]), sbfi_d3_sub(at[2], at[0]));
+}
+
+/* Whether a normal lies against what the turn, by its shares at the corners, makes of the one at rest. */
+static bool is_flipped(
+    const sbfi_blend_joint *c, int pose, sbfi_d3 normal, sbfi_d3 rest, const double shares[3]) {
+  sbfi_d3 turn = sbfi_d3_scale(turned(c->turns[pose], rest), (shares[0] + shares[1] + shares[2]) / 3);
+  return sbfi_d3_dot(normal, sbfi_d3_add(rest, turn)) < 0;
+}
+
+/* The place of the bone among the branches; one without weights is added where there was none. NULL where
+ * memory runs out. */
+static branch *branch_of(work *w, uint32_t bone) {
+  branches *open = &w->open;
+  uint32_t low = 0, high = open->count;
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (open->at[middle].bone < bone)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  if (low < open->count && open->at[low].bone == bone) return &open->at[low];
+  if (open->count == open->capacity) {
+    uint32_t capacity = 2 * open->capacity + 16;
+    branch *grown = sbfi_arena_allocate(w->arena, capacity, sizeof *grown);
+    if (!grown) return NULL;
+    if (open->count) memcpy(grown, open->at, open->count * sizeof *grown);
+    open->at = grown;
+    open->capacity = capacity;
+  }
+  memmove(open->at + low + 1, open->at + low, (open->count - low) * sizeof *open->at);
+  open->count++;
+  open->at[low] = (branch){.bone = bone};
+  return &open->at[low];
+}
+
+static bool open_branches(work *w, const uint32_t points[3]) {
+  w->open.count = 0;
+  for (int k = 0; k < 3; k++) {
+    const sbfi_blend_row *r = &w->s->rows[points[k]];
+    for (uint32_t i = 0; i < r->count; i++) {
+      branch *to = branch_of(w, r->at[i].bone);
+      if (!to) return false;
+      to->now[k] += r->at[i].value;
+    }
+    const sbfi_blend_row *before = &w->s->before[points[k]];
+    for (uint32_t i = 0; i < before->count; i++) {
+      branch *to = branch_of(w, before->at[i].bone);
+      if (!to) return false;
+      to->before[k] += before->at[i].value;
+    }
+  }
+  return true;
+}
+
+/* Whether bends about the head can neither stretch the triangle beyond 1 + HARMLESS nor turn it over. With
+ * the weights s at its corners, T the turn less the unit matrix (of norm 1 for 60 degrees) and A = 1 + s_0 T,
+ * its sides become A e_k + a_k, a_k = (s_k - s_0) T (p_k - head). A stretches nothing, so that the normal is
+ * off cof(A) n by at most q = |a_1| |e_2| + |a_2| |e_1| + |a_1| |a_2|; and cof(A) n on (1 + m T) n, for any
+ * mean weight m, is 3/8 n^2 or more, as both turn by up to 60 degrees and shrink by up to sqrt(3/4). */
+static bool is_harmless(
+    const sbfi_blend_joint *j, const sbfi_d3 corners[3], const double weights[3], double area) {
+  double off[3], side[3];
+  for (int k = 1; k < 3; k++) {
+    off[k] = fabs(weights[k] - weights[0]) * sbfi_d3_length(sbfi_d3_sub(corners[k], j->head));
+    side[k] = sbfi_d3_length(sbfi_d3_sub(corners[k], corners[0]));
+  }
+  return off[1] * side[2] + off[2] * side[1] + off[1] * off[2] < HARMLESS * area;
+}
+
+typedef struct bending {
+  sbfi_d3 corners[3], rest; /* rest: the normal, as long as twice the area */
+  double worst;             /* greatest square of a normal so far */
+  bool flipped;
+} bending;
+
+static void bend(const sbfi_blend_joint *j, const branch *by, bending *b) {
+  for (int pose = 0; pose < SBFI_BLEND_POSES; pose++) {
+    sbfi_d3 here = moved_normal(j, pose, b->corners, by->now);
+    double square = sbfi_d3_dot(here, here);
+    if (square > b->worst) b->worst = square;
+    b->flipped = b->flipped || (is_flipped(j, pose, here, b->rest, by->before) &&
+                                   !is_flipped(j, pose, moved_normal(j, pose, b->corners, by->before),
+                                       b->rest, by->before));
+  }
+}
+
+/* `*stretch` receives the greatest area over that at rest; 1 where nothing differs between the corners. What
+ * is turned over, and by the weights as authored is not, counts as stretched to FLIPPED. Branches are closed
+ * from the tips of the skeleton on, each joining its parent's, until the rest hold all corners alike. */
+static bool find_stretch(work *w, uint32_t triangle, double *stretch) {
+  const uint32_t *points = w->s->triangles[triangle];
+  bending b = {.worst = 0};
+  *stretch = 1;
+  for (int k = 0; k < 3; k++) b.corners[k] = sbfi_d3_of(w->s->positions[points[k]]);
+  b.rest = sbfi_d3_cross(sbfi_d3_sub(b.corners[1], b.corners[0]), sbfi_d3_sub(b.corners[2], b.corners[0]));
+  double area = sbfi_d3_length(b.rest);
+  if (!(area > 0)) return true;
+  if (!open_branches(w, points)) return false;
+  while (w->open.count > 1) {
+    branch last = w->open.at[--w->open.count];
+    int32_t parent = w->s->bones[last.bone].parent;
+    if (parent == SBF_NONE) continue;
+    const sbfi_blend_joint *j = &w->s->joints[last.bone];
+    if ((last.now[0] != last.now[1] || last.now[0] != last.now[2]) &&
+        !(is_harmless(j, b.corners, last.now, area)))
+      bend(j, &last, &b);
+    branch *to = branch_of(w, (uint32_t)parent);
+    if (!to) return false;
+    for (int k = 0; k < 3; k++) to->now[k] += last.now[k], to->before[k] += last.before[k];
+  }
+  if (b.worst > area * area) *stretch = sqrt(b.worst) / area;
+  if (b.flipped && *stretch < FLIPPED) *stretch = FLIPPED;
+  return true;
+}
+
+static double value_in(const sbfi_blend_row *r, uint32_t *next, uint32_t bone) {
+  while (*next < r->count && r->at[*next].bone < bone) ++*next;
+  return *next < r->count && r->at[*next].bone == bone ? r->at[*next].value : 0;
+}
+
+/* What is negligible goes to the greatest, so that rows stay short however far weights spread. */
+static void drop_negligible(sbfi_blend_row *r) {
+  uint32_t kept = 0, greatest = 0;
+  double dropped = 0;
+  for (uint32_t i = 0; i < r->count; i++) {
+    if (r->at[i].value < SBFI_BLEND_NEGLIGIBLE) {
+      dropped += r->at[i].value;
+      continue;
+    }
+    r->at[kept] = r->at[i];
+    if (r->at[kept].value > r->at[greatest].value) greatest = kept;
+    kept++;
+  }
+  if (kept == 0) return;
+  r->at[greatest].value += dropped;
+  r->count = kept;
+}
+
+static bool make_room(sbfi_blend_row *r, uint32_t count, sbfi_arena *arena) {
+  if (r->capacity >= count) return true;
+  uint32_t capacity = 2 * count;
+  sbfi_blend_weight *grown = sbfi_arena_allocate(arena, capacity, sizeof *grown);
+  if (!grown) return false;
+  *r = (sbfi_blend_row){grown, r->count, capacity};
+  return true;
+}
+
+/* Draws the corners towards their mean, or that of those that are fixed, keeping the share of the differences
+ * that would just do. Where all are fixed they differ within what is fixed: there nothing is. */
+static bool contract(work *w, uint32_t triangle, double stretch) {
+  const uint32_t *points = w->s->triangles[triangle];
+  double kept = 0.9 * (MOST_STRETCH - 1) / (stretch - 1);
+  uint32_t fixed = 0, next[3] = {0, 0, 0};
+  for (int k = 0; w->fixed && k < 3; k++) fixed += w->fixed[points[k]];
+  if (fixed == 3) fixed = 0;
+  w->open.count = 0;
+  for (int k = 0; k < 3; k++)
+    for (uint32_t i = 0; i < w->s->rows[points[k]].count; i++)
+      if (!branch_of(w, w->s->rows[points[k]].at[i].bone)) return false;
+  uint32_t count = w->open.count;
+  for (uint32_t i = 0; i < count; i++)
+    for (int k = 0; k < 3; k++)
+      w->open.at[i].now[k] = value_in(&w->s->rows[points[k]], &next[k], w->open.at[i].bone);
+  for (int k = 0; k < 3; k++) {
+    sbfi_blend_row *to = &w->s->rows[points[k]];
+    if (fixed && w->fixed[points[k]]) continue;
+    if (!make_room(to, count, w->arena)) return false;
+    to->count = count;
+    for (uint32_t i = 0; i < count; i++) {
+      double mean = 0;
+      for (int c = 0; c < 3; c++)
+        if (!fixed || w->fixed[points[c]]) mean += w->open.at[i].now[c] / (fixed ? fixed : 3);
+      to->at[i] = (sbfi_blend_weight){w->open.at[i].bone, mean + kept * (w->open.at[i].now[k] - mean)};
+    }
+    drop_negligible(to);
+  }
+  for (int k = 0; k < 3; k++)
+    for (uint32_t i = w->s->begins[points[k]]; i < w->s->begins[points[k] + 1]; i++)
+      w->pending[w->s->at_point[i]] = 1;
+  return true;
+}
+
+static bool sweep_all(work *w, uint32_t *left) {
+  for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
+    *left = 0;
+    if (sweep == FIXED_SWEEPS) w->fixed = NULL;
+    for (uint32_t i = 0; i < w->s->triangle_count; i++) {
+      double stretch;
+      if (!w->pending[i]) continue;
+      w->pending[i] = 0;
+      if (!find_stretch(w, i, &stretch)) return false;
+      if (stretch <= MOST_STRETCH) continue;
+      ++*left;
+      if (!contract(w, i, stretch)) return false;
+      for (int k = 0; k < 3; k++) w->s->changed[w->s->triangles[i][k]] = 1;
+    }
+    if (*left == 0) return true;
+  }
+  return true;
+}
+
+bool sbfi_blend_surface_relax(sbfi_blend_surface *surface, uint32_t *left, sbfi_arena *arena) {
+  work w = {.s = surface, .arena = arena, .fixed = surface->fixed};
+  *left = 0;
+  w.pending = sbfi_arena_allocate(arena, (size_t)surface->triangle_count + 1, 1);
+  if (!w.pending) return false;
+  memset(w.pending, 1, surface->triangle_count);
+  return sweep_all(&w, left);
+}
