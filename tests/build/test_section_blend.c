@@ -72,7 +72,7 @@ START_TEST(a_step_on_a_fine_skin_becomes_a_slope)
   uint32_t left, chosen_count;
   uint8_t chosen[1];
   sbfi_arena_init(&arena, NULL, 0);
-  const skinned_limb of = {.bones = 2, .sides = 160, .rings_a_bone = 160, .radius = 0.2f};
+  const skinned_limb of = {.bones = 2, .sides = 128, .rings_a_bone = 400, .radius = 0.2f};
   sbf_asset *asset = skinned_limb_make(&of);
   ck_assert(sbfi_skins_choose(asset, chosen, &chosen_count, &arena));
   ck_assert(sbfi_skin_union_make(&skin, asset, chosen, &arena));
