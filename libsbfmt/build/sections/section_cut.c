@@ -168,9 +168,17 @@ static void find_taken(sbfi_section_cutter *c, uint32_t bone) {
   qsort(c->taken, kept, sizeof *c->taken, by_number);
 }
 
+/* Of the cut before: its points are asked for until the next one. */
+static void forget_points(sbfi_section_cutter *c) {
+  for (uint32_t i = 0; i < c->taken_count; i++)
+    for (uint32_t k = c->t->corner_begins[c->taken[i]]; k < c->t->corner_begins[c->taken[i] + 1]; k++)
+      c->new_points[c->skin->mesh.polygon_points.at[k]] = SBFI_NO_INDEX;
+}
+
 bool sbfi_section_cut(sbfi_section_cutter *c, uint32_t bone, sbf_polygon_mesh *mesh, sbfi_arena *arena) {
   const sbf_polygon_mesh *from = &c->skin->mesh;
   uint32_t corners = 0, points = 0;
+  forget_points(c);
   begin_at_border(c, bone);
   spread(c);
   find_taken(c, bone);
@@ -193,9 +201,6 @@ bool sbfi_section_cut(sbfi_section_cutter *c, uint32_t bone, sbf_polygon_mesh *m
       at[corners++] = c->new_points[point];
     }
   }
-  for (uint32_t i = 0; i < c->taken_count; i++)
-    for (uint32_t k = c->t->corner_begins[c->taken[i]]; k < c->t->corner_begins[c->taken[i] + 1]; k++)
-      c->new_points[from->polygon_points.at[k]] = SBFI_NO_INDEX;
   mesh->positions = (sbf_vec3_list){positions, points};
   mesh->polygon_sizes = (sbf_u32_list){sizes, c->taken_count};
   mesh->polygon_points = (sbf_u32_list){at, corners};

@@ -12,7 +12,8 @@ typedef struct sbfi_section_cutter {
   double overlap_m;       /* how far sections reach over the cut, along the surface; below 0: see below */
   double *reach;          /* (points) m that are left at each; below 0: beyond */
   double *shared;         /* (bones) length of border */
-  uint32_t *queue, *new_points;
+  uint32_t *queue;
+  uint32_t *new_points; /* (points) in the mesh cut last; SBFI_NO_INDEX: not there */
   uint8_t *queued;
   uint32_t bone_count;
   uint32_t *group_begins, *grouped; /* polygons of each bone: (bones + 2) and (polygons) */
