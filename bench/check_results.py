@@ -4,8 +4,8 @@
     bench/check_results.py --build build/release [--update] [NAME...]     (all tables below where none is named)
 
 A table of bench/results is compared row by row with what its program prints now, in the columns of TABLES; `drawings` compares
-the charts of docs/media with their tables. --update writes those columns and drawings anew and leaves the times, with the commit
-that they were measured at, as they are. Exit status: 0 fresh, 1 stale, 77 a program or gnuplot is missing."""
+the charts of docs/media with their tables, `maps` the maps there with those drawn anew. --update writes those columns and
+drawings anew and leaves the times, with the commit that they were measured at, as they are. Exit status: 0 fresh, 1 stale, 77 a program or gnuplot is missing."""
 import argparse
 import csv
 import glob
@@ -31,6 +31,9 @@ class Table:
     same: str  # columns that are compared
     cases: tuple = ()  # of `sbfmt chart`; none: bench_NAME
     only: tuple = ()  # (column, value) of the rows that are compared
+    example: str = ""  # whose character is charted
+    most_substeps: int = 64
+    from_shared: bool = False  # rows may be of ../shared/data, which is not always there
 
 
 CHARTED = "elements visits_per_frame outcome path_m farthest_m period amplitude shape volume energy path_px farthest_px"
@@ -47,13 +50,19 @@ TABLES = {
                    only=("engine", "sbrun")),
     "knocked": Table("scene steps", "sections bone_mm flesh_mm"),
     "thrown": Table("variant", "tetrahedra polygons joints bend_deg beyond_deg sag_mm swing_mm given_n_s left_deg left_mm"),
+    "lattice": Table("surface by tetrahedra", "least_deg most_deg volume farthest_cells", only=("by", "sbfmt"), from_shared=True),
+    "crowd": Table("character count threads", "elements substeps", from_shared=True),
+    "detail": Table("case lizards", "visits rms_px worst_lizard_px worst_px soft coarser jiggle bones away returned"),
+    "bullet": Table("body engine method steps iterations threads", "points elements error_mm", only=("engine", "sbrun"), from_shared=True),
+    "chart-character": Table(CHART_KEYS, CHARTED, cases=("walk",), example="pup", most_substeps=16),
     "chart-drop": Table(CHART_KEYS, CHARTED, cases=("drop",)),
     "chart-beam": Table(CHART_KEYS, CHARTED, cases=("beam",)),
     "chart-pendulum": Table(CHART_KEYS, CHARTED, cases=("pendulum",)),
     "chart-meshes": Table(CHART_KEYS, CHARTED, cases=("cantilever-meshes",)),
 }
 DRAWINGS = (("chart-meshes", "cantilever-meshes-shape"), ("chart-beam", "beam-amplitude"), ("chart-drop", "drop-volume"),
-            ("chart-pendulum", "pendulum-period"))
+            ("chart-pendulum", "pendulum-period"), ("chart-character", "walk-path_px"))
+MAPS = ("damping", "mass-springs", "poisson")  # drawn anew: they have no times, and no table is kept of them
 
 
 def skip(message):
@@ -82,6 +91,15 @@ def run(command):
     return done.stdout
 
 
+def converted(program, table, folder):
+    """[the file of the table's character], or nothing."""
+    if not table.example:
+        return []
+    path = os.path.join(folder, table.example + ".sbf")
+    run([program, "convert", os.path.join(ROOT, "examples", table.example, table.example + ".glb"), "-o", path])
+    return [path]
+
+
 def measure(build, name):
     """The rows that the table's program prints now."""
     table = TABLES[name]
@@ -92,8 +110,10 @@ def measure(build, name):
         return list(csv.DictReader(io.StringIO(run([program]))))
     rows = []
     with tempfile.TemporaryDirectory() as folder:
+        character = converted(program, table, folder)
         for case in table.cases:
-            run([program, "chart", "--no-svg", "--runs", "1", "--most-substeps", "64", "--case", case, "-o", folder])
+            run([program, "chart", *character, "--no-svg", "--runs", "1", "--most-substeps", str(table.most_substeps), "--case", case,
+                 "-o", folder])
             rows += read_table(os.path.join(folder, case + ".csv"))[1]
     return rows
 
@@ -120,7 +140,7 @@ def compare(name, kept, fresh):
             continue
         found = now.pop(key(row), None)
         if found is None:
-            if "/" not in row.get("file", ""):  # else of ../shared/data, which is not always there
+            if not table.from_shared and "/" not in row.get("file", ""):
                 stale.append(f"{name}: {' '.join(key(row))} is no longer measured")
             continue
         broken = row.get("outcome", "sound") != "sound" and row["outcome"] == found["outcome"]
@@ -160,25 +180,48 @@ def check_table(build, name, update):
 
 
 def without_times(drawing):
-    """The drawing's text without what differs from one gnuplot to the next."""
-    return re.sub(r"<desc>.*?</desc>|gnuplot_plot_\d+\w*|gnuplot [\d.]+ \w+ \d+", "", drawing, flags=re.DOTALL)
+    """The drawing's text without its compiler, commit and date, and what differs from one gnuplot to the next."""
+    return re.sub(r"<desc>.*?</desc>|gnuplot_plot_\d+\w*|gnuplot [\d.]+ \w+ \d+|\d+ lanes, [^<]*", "", drawing, flags=re.DOTALL)
 
 
-def check_drawings(build, update):
+def check_drawing(fresh, kept, update):
+    with open(fresh, encoding="utf-8") as one, open(os.path.join(MEDIA, kept), encoding="utf-8") as other:
+        if without_times(one.read()) == without_times(other.read()):
+            return []
+    if update:
+        shutil.copy(fresh, os.path.join(MEDIA, kept))
+    return [f"docs/media/{kept} is not what would be drawn now"]
+
+
+def draws(build):
+    """The program that draws, where it can."""
     program = os.path.join(build, "tools", "sbfmt")
     if not (shutil.which("gnuplot") and os.access(program, os.X_OK)):
         skip("gnuplot is not installed, or sbfmt is not built")
+    return program
+
+
+def check_drawings(build, update):
+    program = draws(build)
     stale = []
     with tempfile.TemporaryDirectory() as folder:
         for table, drawing in DRAWINGS:
-            run([program, "chart", "--redraw", path_of(table), "-o", folder])
-            with open(os.path.join(folder, drawing + ".svg"), encoding="utf-8") as fresh, \
-                    open(os.path.join(MEDIA, table + ".svg"), encoding="utf-8") as kept:
-                if without_times(fresh.read()) != without_times(kept.read()):
-                    stale.append(f"docs/media/{table}.svg is not what {table}.csv says")
-                    if update:
-                        shutil.copy(os.path.join(folder, drawing + ".svg"), os.path.join(MEDIA, table + ".svg"))
+            run([program, "chart", *converted(program, TABLES[table], folder), "--redraw", path_of(table), "-o", folder])
+            stale += check_drawing(os.path.join(folder, drawing + ".svg"), table + ".svg", update)
     return stale
+
+
+def check_maps(build, update):
+    program = draws(build)
+    stale = []
+    with tempfile.TemporaryDirectory() as folder:
+        run([program, "chart", "--map", *(word for name in MAPS for word in ("--case", name)), "-o", folder])
+        for name in MAPS:
+            stale += check_drawing(os.path.join(folder, f"map-{name}.svg"), f"map-{name}.svg", update)
+    return stale
+
+
+OTHERS = {"drawings": check_drawings, "maps": check_maps}
 
 
 def main():
@@ -187,13 +230,13 @@ def main():
     parser.add_argument("--update", action="store_true")
     parser.add_argument("names", nargs="*")
     asked = parser.parse_args()
-    names = asked.names or [*TABLES, "drawings"]
-    unknown = [name for name in names if name not in TABLES and name != "drawings"]
+    names = asked.names or [*TABLES, *OTHERS]
+    unknown = [name for name in names if name not in TABLES and name not in OTHERS]
     if unknown:
-        parser.error(f"no table {unknown[0]}; there are: {', '.join([*TABLES, 'drawings'])}")
+        parser.error(f"no table {unknown[0]}; there are: {', '.join([*TABLES, *OTHERS])}")
     stale = []
     for name in names:
-        found = check_drawings(asked.build, asked.update) if name == "drawings" else check_table(asked.build, name, asked.update)
+        found = OTHERS[name](asked.build, asked.update) if name in OTHERS else check_table(asked.build, name, asked.update)
         print(f"{name}: {len(found)} stale" if found else f"{name}: fresh", flush=True)
         stale += found
     if stale and not asked.update:

@@ -1,6 +1,6 @@
 #include "base/base64.h"
 
-static const char alphabet[64] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+static const char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 bool sbfi_base64_encode(sbfi_text *to, const uint8_t *bytes, size_t size) {
   if (size > SIZE_MAX / 4 * 3 - 3) {
