@@ -184,6 +184,7 @@ void sbr_character_reset(sbr_world *world, sbr_character_id character) {
   sbri_gait_placement(sbri_gait(c), &place, &heading);
   sbr_double3 origin = sbri_head(c)->origin;
   sbri_head(c)->forward = sbri_head(c)->sideways = sbri_head(c)->turn = 0;
+  memset(sbri_loads(c), 0, SBR_LOAD_CAPACITY * sizeof(sbri_load));
   put(world, c, (sbr_double3){origin.x + (double)place.x, place.y, origin.z + (double)place.z}, heading);
   sbri_rigid_place(c, false);
   sbri_jiggles_place(c);

@@ -7,6 +7,7 @@
 #include "math/usable.h"
 #include "sbrun/animation.h"
 #include "sbrun/rigid.h"
+#include "sbrun/soft_body.h"
 
 static uint32_t u32_at(const unsigned char *from) {
   return from[0] | (uint32_t)from[1] << 8 | (uint32_t)from[2] << 16 | (uint32_t)from[3] << 24;
@@ -59,6 +60,29 @@ static void play_rigid(sbr_world *world, sbri_recorded what, sbr_character_id id
   else
     sbr_character_rigid_push(world, id, whole(n[1]), (sbr_double3){n[2], n[3], n[4]},
         (sbf_vec3){(float)n[5], (float)n[6], (float)n[7]});
+}
+
+static sbf_vec3 vec3_at(const double *n) {
+  return (sbf_vec3){(float)n[0], (float)n[1], (float)n[2]};
+}
+
+/* False where it is none of them. A call that failed while it was recorded fails again. */
+static bool play_soft(sbr_world *world, sbri_recorded what, sbr_character_id id, const double *n) {
+  uint32_t body = whole(n[1]), vertex = whole(n[2]);
+  const sbr_soft_hold hold = {{n[3], n[4], n[5]}, (float)n[6], (float)n[7], (float)n[8]};
+  if (what == SBRI_RECORDED_SOFT_VELOCITY)
+    (void)sbr_character_set_soft_velocity(world, id, body, vec3_at(n + 2), vec3_at(n + 5), NULL);
+  else if (what == SBRI_RECORDED_SOFT_IMPULSE)
+    (void)sbr_character_apply_soft_impulse(world, id, body, vertex, vec3_at(n + 3), NULL);
+  else if (what == SBRI_RECORDED_SOFT_FORCE)
+    (void)sbr_character_apply_soft_force(world, id, body, vertex, vec3_at(n + 3), (float)n[6], NULL);
+  else if (what == SBRI_RECORDED_SOFT_HOLD)
+    (void)sbr_character_hold_vertex(world, id, body, vertex, &hold, NULL);
+  else if (what == SBRI_RECORDED_SOFT_RELEASE)
+    (void)sbr_character_release_vertex(world, id, body, vertex);
+  else
+    return false;
+  return true;
 }
 
 /* `n` has zeros behind its numbers. */
@@ -119,7 +143,7 @@ static void play(sbr_replay *r, sbri_recorded what, const double *n) {
     play_view(r->world, n);
     break;
   default:
-    play_rigid(r->world, what, id, n);
+    if (!play_soft(r->world, what, id, n)) play_rigid(r->world, what, id, n);
     break;
   }
 }

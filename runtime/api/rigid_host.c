@@ -88,12 +88,5 @@ void sbr_character_rigid_push(
     return;
   sbr_double3 origin = sbri_head(c)->origin;
   sbf_vec3 at = {(float)(place.x - origin.x), (float)(place.y - origin.y), (float)(place.z - origin.z)};
-  sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[rigid_body];
-  /* Masses go with the cube of the scale and times with its square root: speeds with the root too. */
-  float share = c->time_scale / (c->scale * c->scale * c->scale);
-  sbf_vec3 own = sbri_scale(impulse, share),
-           arm = sbri_sub(sbri_scale(at, 1 / c->scale), body->pose.position);
-  body->velocity = sbri_add_scaled(body->velocity, own, c->model->rigid.bodies[rigid_body].inverse_mass);
-  body->spin = sbri_add(body->spin, sbri_cross(arm, own));
-  sbri_rigid_wake(c);
+  sbri_rigid_push(c, rigid_body, sbri_scale(at, 1 / c->scale), sbri_scale(impulse, sbri_own_impulse(c)));
 }

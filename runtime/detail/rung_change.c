@@ -59,6 +59,7 @@ static void take_shared(sbri_character *c, const sbri_character *was) {
   uint32_t frames = sbri_first_jiggle_frame(is);
   uint32_t vertices = is->base->first_vertices[is->asset->render_meshes.count];
   memcpy(sbri_head(c), sbri_head(was), sizeof(sbri_character_state));
+  memcpy(sbri_loads(c), sbri_loads(was), SBR_LOAD_CAPACITY * sizeof(sbri_load));
   memcpy(sbri_faded(c), sbri_faded(was), vertices * sizeof(sbri_going));
   memcpy(sbri_gait(c), sbri_gait(was), sbri_gait_state_size(&is->rig));
   memcpy(sbri_pose(c), sbri_pose(was), frames * sizeof(sbr_transform));

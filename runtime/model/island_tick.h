@@ -5,6 +5,7 @@
 #ifndef SBRI_ISLAND_TICK_H
 #define SBRI_ISLAND_TICK_H
 
+#include "model/load.h"
 #include "model/runtime_model.h"
 
 /* Elements that tore in a tick: how many, and the first of them. */
@@ -76,6 +77,8 @@ typedef struct sbri_island_tick {
   sbr_double3 origin;
   float scale;
   const sbr_ground *ground;
+  const sbri_load_now *loads; /* (load_count) of all bodies of the character */
+  uint32_t load_count;
   const struct sbri_collider_set *colliders; /* collide/colliders.h; NULL: there are none */
 
   sbri_point *positions;         /* (slot_count) */

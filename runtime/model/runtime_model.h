@@ -228,6 +228,11 @@ enum { SBRI_MOST_SUBSTEPS = 1024 };
 /* The same for a strained body. No tick has more. */
 enum { SBRI_MOST_STRAINED_SUBSTEPS = SBRI_MOST_SUBSTEPS + SBRI_MOST_SUBSTEPS / 2 };
 
+/* The pin set that holds a slot: of the body's level. UINT32_MAX: padding. */
+typedef struct sbri_pin_of {
+  uint32_t body, set;
+} sbri_pin_of;
+
 typedef struct sbri_scheme sbri_scheme; /* solvers/scheme.h */
 
 typedef struct sbri_island {
@@ -246,6 +251,7 @@ typedef struct sbri_island {
   const float *cell_damping;      /* (cells x 8) N s/m; NULL: no spring is damped or has slack */
   const float *cell_slack;        /* (cells x 8) as sbfi_spring's; NULL: no spring has any */
   const uint32_t *frame_of_held;  /* (slot_count - free_count) */
+  const sbri_pin_of *pin_of_held; /* (slot_count - free_count) */
   const int32_t *carrier_of_held; /* (slot_count - free_count) of model.carrier_of_frame */
   const uint32_t *carriers;       /* (carrier_count) the rigid bodies that may carry what holds it */
   uint32_t carrier_count;
@@ -310,7 +316,7 @@ typedef struct sbri_layout {
   size_t gait, pose, previous_pose, islands, positions, previous_positions, velocities, guide_motions, rests,
       strengths, rotations, solids, torn, origins, masses, inverse_masses, gravity_scales, thread_ends,
       thread_cells, thread_damping, thread_slack, thread_links, thread_blocks, skin_cells, bound_to,
-      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, rigid_kept, faded, jiggles, used_size,
+      torn_polygons, rigid_bodies, rigid_joints, rigid_drive, rigid_kept, faded, jiggles, loads, used_size,
       state_size;
   size_t animated, rigid_targets, reactions, burdens, stepped_pose, rigid_work_size;
   size_t deltas, previous_deltas, gait_before, targets, guide_velocities, begins, velocity_points, planes,
@@ -319,7 +325,7 @@ typedef struct sbri_layout {
   size_t touches, touch_counts, guests, slot_touches, touching, rigid_touching, self_boxes, self_balls,
       self_nodes, self_items, self_edges;
   size_t outer, accelerations, older_velocities, moves, edges, solid_edges, tears;
-  size_t visits, queue, touched, owners, frayed;
+  size_t visits, queue, touched, owners, frayed, loads_now;
   size_t surface_vertices, surface_faces, surface_forces, surface_velocities, sampled, sampled_deltas,
       vertices, faces, sums, offsets, speeds, energies, fading, pulls, scratch_size;
 } sbri_layout;

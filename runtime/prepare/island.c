@@ -28,7 +28,7 @@ static bool read_goals(sbri_island_maker *m, uint32_t place) {
       if (!g) return false;
       float full =
           set->stiffness > 0 ? set->stiffness : sbri_natural_stiffness(body->source, m->masses[place][point]);
-      *g = (sbri_goal){place, point, sbri_pin_frame(m->model, set), weight * full, weight * set->damping,
+      *g = (sbri_goal){place, point, s, sbri_pin_frame(m->model, set), weight * full, weight * set->damping,
           sbri_pin_place(m->model, body->level, set, i)};
     }
   }
@@ -192,6 +192,32 @@ static bool fill_slots(sbri_island_maker *m) {
   return true;
 }
 
+/* Which pin set holds each slot: the first of those that hold its point. */
+static bool list_pins(sbri_island_maker *m) {
+  sbri_island *island = m->island;
+  uint32_t held_count = island->slot_count - island->free_count;
+  sbri_pin_of *pins = sbri_keep(m, held_count, sizeof *pins);
+  if (!pins) return false;
+  for (uint32_t i = 0; i < held_count; i++) pins[i] = (sbri_pin_of){UINT32_MAX, UINT32_MAX};
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    const sbri_body *body = sbri_maker_body(m, b);
+    for (uint32_t s = 0; s < body->level->pins.count; s++) {
+      const sbf_pin_set *set = &body->level->pins.at[s];
+      for (uint32_t i = 0; i < set->points.count; i++) {
+        uint32_t slot = body->slot_from_point[set->points.at[i]];
+        if (slot < island->free_count || sbri_pin_weight(set, i) < 1) continue;
+        sbri_pin_of *pin = &pins[slot - island->free_count];
+        if (pin->body == UINT32_MAX) *pin = (sbri_pin_of){island->bodies[b], s};
+      }
+    }
+  }
+  const sbri_goal *goals = m->goals.at;
+  for (uint32_t g = 0; g < m->goals.count; g++)
+    pins[m->first_goal + g - island->free_count] = (sbri_pin_of){island->bodies[goals[g].body], goals[g].set};
+  island->pin_of_held = pins;
+  return true;
+}
+
 /* ---- All of it ---- */
 
 static bool make(sbri_island_maker *m) {
@@ -202,7 +228,7 @@ static bool make(sbri_island_maker *m) {
   if (!m->frames || !m->places || !m->masses) return false;
   for (uint32_t b = 0; b < count; b++)
     if (!read_body(m, b)) return false;
-  if (!make_slots(m) || !fill_slots(m) || !sbri_island_springs(m)) return false;
+  if (!make_slots(m) || !fill_slots(m) || !list_pins(m) || !sbri_island_springs(m)) return false;
   for (uint32_t b = 0; b < count; b++)
     if (!sbri_guides_make(m->model, m->island, sbri_maker_body(m, b))) return false;
   return true;

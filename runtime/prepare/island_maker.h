@@ -6,7 +6,7 @@
 
 /* A pin of weight below 1: a spring of no rest length to a held slot of its own. */
 typedef struct sbri_goal {
-  uint32_t body, point, frame; /* body: place in the island */
+  uint32_t body, point, set, frame; /* body: place in the island */
   float stiffness, damping;
   sbf_vec3 place;
 } sbri_goal;

@@ -25,6 +25,8 @@ bool sbri_rigid_is_simulated(const sbri_character *c, uint32_t body);
  * task, not in one of their own. */
 bool sbri_island_is_coupled(const sbri_character *c, uint32_t island);
 void sbri_rigid_set_drive(sbri_character *c, const sbr_rigid_drive *drive);
+/* Gives a simulated body an impulse at a place; both in the character's own units. */
+void sbri_rigid_push(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_vec3 impulse);
 /* After any change to modes, drives or motion. */
 void sbri_rigid_wake(sbri_character *c);
 /* Whether nothing of it moves by itself. */

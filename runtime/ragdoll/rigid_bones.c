@@ -20,6 +20,14 @@ void sbri_rigid_put_at(sbri_rigid_body_state *body, sbr_transform place) {
   body->velocity = body->spin = body->fine = sbri_vec3(0, 0, 0);
 }
 
+void sbri_rigid_push(sbri_character *c, uint32_t rigid_body, sbf_vec3 at, sbf_vec3 impulse) {
+  sbri_rigid_body_state *body = &sbri_rigid_bodies(c)[rigid_body];
+  sbf_vec3 arm = sbri_sub(at, body->pose.position);
+  body->velocity = sbri_add_scaled(body->velocity, impulse, c->model->rigid.bodies[rigid_body].inverse_mass);
+  body->spin = sbri_add(body->spin, sbri_cross(arm, impulse));
+  sbri_rigid_wake(c);
+}
+
 void sbri_rigid_wake(sbri_character *c) {
   sbri_rigid_drive_state *drive = sbri_rigid_drive(c);
   drive->asleep = drive->quiet_ticks = drive->slow_ticks = drive->any = 0;

@@ -199,7 +199,7 @@ sbri_shape sbri_shape_of(const sbr_world *world, const sbri_character *c, uint32
   const sbri_point *positions = sbri_positions(c) + island->first_slot;
   const sbri_island_state *state = &sbri_island_states(c)[index];
   bool wild = state->wild;
-  if (is_squeezed(c, island)) return (sbri_shape){.wild = wild};
+  if (is_squeezed(c, island) || sbri_island_is_loaded(c, index)) return (sbri_shape){.wild = wild};
   if (!(state->least_ratio > 0) || encloses_nothing(c, island))
     return (sbri_shape){.folded = true, .heaped = true, .wild = true};
   if (!is_looked_at(island, state)) return (sbri_shape){.folded = false};

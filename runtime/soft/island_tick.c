@@ -63,6 +63,8 @@ sbri_island_tick sbri_island_tick_of(
       .origin = sbri_head(c)->origin,
       .scale = c->scale,
       .ground = &c->ground,
+      .loads = sbri_loads_now(c)->at,
+      .load_count = sbri_loads_now(c)->count,
       .colliders = &world->colliders,
       .positions = sbri_positions(c) + first,
       .velocities = sbri_velocities(c) + 3 * first,

@@ -91,8 +91,8 @@ bool sbri_island_sleeps(const sbr_world *world, sbri_character *c, uint32_t inde
 bool sbri_island_is_quiet(const sbri_character *c, uint32_t index) {
   const sbri_island_state *state = &sbri_island_states(c)[index];
   const sbri_island *island = &c->model->islands[index];
-  return !state->recovering && !state->folded_ticks && !state->wild && sbri_guides_rest(c, island) &&
-         sbri_tears_of(c)[index].count == 0 && is_quiet(c, island);
+  return !state->recovering && !sbri_island_is_loaded(c, index) && !state->folded_ticks && !state->wild &&
+         sbri_guides_rest(c, island) && sbri_tears_of(c)[index].count == 0 && is_quiet(c, island);
 }
 
 void sbri_island_put_to_sleep(const sbr_world *world, sbri_character *c, uint32_t index) {

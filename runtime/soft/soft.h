@@ -41,6 +41,23 @@ void sbri_guides_go_on(sbri_character *c, const sbri_island *island, float tick_
  * momentum is the same, and it turns as fast. */
 void sbri_body_go_on(sbri_character *c, const sbri_character *was, uint32_t soft_body);
 
+/* How its free points move as one rigid body, in the character's own units. */
+sbr_soft_motion sbri_body_motion(const sbri_character *c, const sbri_body *body);
+
+/* ---- soft/host_loads.c ---- */
+
+/* Whether it is simulated, by a scheme that knows forces, and some of it is free. */
+bool sbri_body_feels_forces(const sbri_character *c, const sbri_body *body);
+
+/* The points that carry a vertex of the body's surface; false where none do: it follows bones alone. */
+bool sbri_vertex_carriers(const sbri_character *c, const sbri_body *body, uint32_t vertex, sbri_carriers *to);
+/* Of its free points, in the character's own units. */
+float sbri_body_mass(const sbri_character *c, const sbri_body *body);
+bool sbri_any_loads(const sbri_character *c);
+bool sbri_island_is_loaded(const sbri_character *c, uint32_t island);
+/* When a tick begins: what acts in it. */
+void sbri_loads_begin(const sbr_world *world, sbri_character *c);
+
 /* ---- soft/island_tick.c ---- */
 
 /* Planes of the ground near the island's points, into the character's scratch, as of now. */
@@ -67,6 +84,12 @@ double sbri_region_look(const sbri_region_block *block, const sbri_region_member
     const sbri_point *positions, double *energy_j);
 /* As sbr_character_health has it. */
 sbr_body_health sbri_body_health(const sbr_world *world, const sbri_character *c, uint32_t soft_body);
+
+/* ---- soft/pin_forces.c ---- */
+
+/* Forces of the island's elements on its held slots, as of the last tick, into `element_forces` of its
+ * character: N in its own units. */
+void sbri_pin_forces_find(const sbr_world *world, sbri_character *c, uint32_t island);
 
 /* ---- soft/folded.c ---- */
 

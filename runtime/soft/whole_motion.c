@@ -26,6 +26,14 @@ void sbri_body_go_on(sbri_character *c, const sbri_character *was, uint32_t inde
   }
 }
 
+sbr_soft_motion sbri_body_motion(const sbri_character *c, const sbri_body *body) {
+  const sbri_island now = sbri_island_now(c, &c->model->islands[body->island]);
+  sbri_rigid_motion is = sbri_rigid_motion_find(
+      &now, body, sbri_positions(c) + now.first_slot, sbri_velocities(c) + 3 * (size_t)now.first_slot);
+  return (sbr_soft_motion){
+      .mass = is.mass_kg, .center = is.center, .velocity = is.velocity, .angular_velocity = is.spin};
+}
+
 void sbri_momentum_add(sbri_whole_momentum *to, double mass, sbf_vec3 at, sbf_vec3 velocity) {
   const double x[3] = {(double)at.x, (double)at.y, (double)at.z};
   const double p[3] = {mass * (double)velocity.x, mass * (double)velocity.y, mass * (double)velocity.z};

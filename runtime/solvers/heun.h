@@ -44,7 +44,7 @@ static inline void sbri_heun_predict(const sbri_island_tick *t, float h) {
   }
 }
 
-/* The same for a body whose surface is carried: contacts want all velocities at once. */
+/* The same for a body whose surface is carried, or that a host pushes: that wants all velocities at once. */
 static inline void sbri_heun_correct_carried(
     const sbri_island_tick *t, const sbri_body *body, float h, const sbri_point *first) {
   sbri_wide half = sbri_wide_all(0.5f), half_step = sbri_wide_all(0.5f * h), step = sbri_wide_all(h);
@@ -63,12 +63,16 @@ static inline void sbri_heun_correct_carried(
     sbri_store3(sbri_triple(t->older_velocities, slot), mean);
     sbri_wide_store_points(t->positions + slot, sbri_wide_load_points(t->moves + slot));
   }
-  sbri_touches_answer(t, body, t->older_velocities, &rule);
+  sbri_apply_impulses(t, body, t->older_velocities, &rule);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot);
     sbri_wide3 mean = sbri_load3(sbri_const_triple(t->older_velocities, slot));
     sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
-    x.x = x.x + step * mean.x, x.y = x.y + step * mean.y, x.z = x.z + step * mean.z;
+    if (t->near_ground[slot / SBRI_BLOCK]) /* of a body whose points themselves meet the ground */
+      sbri_contact_move(
+          &x, &mean, t->planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK, &rule, slot);
+    else
+      x.x = x.x + step * mean.x, x.y = x.y + step * mean.y, x.z = x.z + step * mean.z;
     v.x = v.x + mean.x, v.y = v.y + mean.y, v.z = v.z + mean.z;
     sbri_wide_store_points(t->positions + slot, x);
     sbri_store3(sbri_triple(t->velocities, slot), v);
@@ -144,7 +148,7 @@ static inline void sbri_lanes_heun_tick(const sbri_island_tick *t) {
     sbri_heun_evaluate(t, h, NULL);
     for (uint32_t b = 0; b < island->body_count; b++) {
       const sbri_body *body = &t->model->bodies[island->bodies[b]];
-      if (sbri_touch_count(t, body) > 0)
+      if (sbri_is_pushed(t, body))
         sbri_heun_correct_carried(t, body, h, first);
       else
         sbri_heun_correct_body(t, body, h, first);

@@ -13,6 +13,7 @@
 
 #include "contact/contact.h"
 #include "math/trig.h"
+#include "solvers/loads.h"
 #include "solvers/outer_forces.h"
 #include "solvers/reaction.h"
 #include "solvers/region_forces.h"
@@ -180,10 +181,22 @@ static inline sbri_contact_planes sbri_planes_of(const sbri_island_tick *t, uint
   return sbri_planes_load(t->planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK);
 }
 
+/* Whether something acts on the body that wants all its velocities at once. */
+static inline bool sbri_is_pushed(const sbri_island_tick *t, const sbri_body *body) {
+  return sbri_touch_count(t, body) > 0 || sbri_is_loaded(t, body);
+}
+
+/* What a host and what it touches push the body with, into the velocities that it is about to move by. */
+static inline void sbri_apply_impulses(
+    const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule) {
+  if (t->load_count > 0) sbri_loads_act(t, body, velocities, rule->step_s);
+  sbri_touches_answer(t, body, velocities, rule);
+}
+
 static inline void sbri_drift_body(const sbri_island_tick *t, const sbri_body *body, float h) {
   sbri_wide step = sbri_wide_all(h);
   const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
-  sbri_touches_answer(t, body, t->velocities, &rule);
+  sbri_apply_impulses(t, body, t->velocities, &rule);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     uint32_t block = slot / SBRI_BLOCK, lane = slot % SBRI_BLOCK;
     float *velocity = sbri_triple(t->velocities, slot);

@@ -144,13 +144,19 @@ static inline void sbri_moves_end_carried(const sbri_island_tick *t, const sbri_
     v.x = v.x + (u.x - free.x) * rate, v.y = v.y + (u.y - free.y) * rate, v.z = v.z + (u.z - free.z) * rate;
     sbri_store3(sbri_triple(t->velocities, slot), v);
   }
-  sbri_touches_answer(t, body, t->velocities, &rule);
+  sbri_apply_impulses(t, body, t->velocities, &rule);
   for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot += SBRI_LANES) {
     sbri_wide3 v = sbri_load3(sbri_const_triple(t->velocities, slot));
     sbri_wide3 x = sbri_wide_load_points(t->positions + slot),
                begin = sbri_wide_load_points(t->begins + slot);
     sbri_wide4 u = sbri_wide_gather4(t->moves + slot, in_order);
-    x.x = x.x + step * v.x, x.y = x.y + step * v.y, x.z = x.z + step * v.z;
+    if (t->near_ground[slot / SBRI_BLOCK]) {
+      sbri_contact_move(
+          &x, &v, t->planes + 4 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK, &rule, slot);
+      sbri_store3(sbri_triple(t->velocities, slot), v);
+    } else {
+      x.x = x.x + step * v.x, x.y = x.y + step * v.y, x.z = x.z + step * v.z;
+    }
     u.x = x.x - begin.x, u.y = x.y - begin.y, u.z = x.z - begin.z;
     sbri_wide_scatter4(t->moves + slot, in_order, u);
     sbri_wide_store_points(t->positions + slot, x);
@@ -193,8 +199,8 @@ static inline bool sbri_moves_alone(const sbri_island_tick *t) {
                !island->link_damping && !island->tetrahedron_damping;
   for (uint32_t b = 0; b < island->body_count; b++) {
     const sbri_body *body = &t->model->bodies[island->bodies[b]];
-    alone = alone && !body->keeps_volume && (body->held || !(body->alpha_1_s > 0)) &&
-            sbri_touch_count(t, body) == 0;
+    alone =
+        alone && !body->keeps_volume && (body->held || !(body->alpha_1_s > 0)) && !sbri_is_pushed(t, body);
   }
   for (uint32_t block = 0; block < island->free_count / SBRI_BLOCK; block++)
     alone = alone && !t->near_ground[block];
@@ -268,7 +274,7 @@ static inline void sbri_lanes_position_based_tick(const sbri_island_tick *t) {
       const sbri_body *body = &t->model->bodies[island->bodies[b]];
       if (alone && !last)
         sbri_moves_go_on(t, body, h);
-      else if (sbri_touch_count(t, body) > 0)
+      else if (sbri_is_pushed(t, body))
         sbri_moves_end_carried(t, body, h);
       else
         sbri_moves_end_body(t, body, h);

@@ -23,36 +23,42 @@ static inline void sbri_react_at(const sbri_island_tick *t, uint32_t slot, sbf_v
   r->moment = sbri_add(r->moment, sbri_cross(arm, impulse));
 }
 
-/* Of the springs that reach what is held, where they flow and may have split: as sbri_spring_forces has them.
- */
+/* Of one of the springs that reach what is held, which may flow and have split, as sbri_spring_forces has it:
+ * the slot of its held end, and the force there. */
+static inline uint32_t sbri_held_spring_force(const sbri_island_tick *t, uint32_t number, sbf_vec3 *force) {
+  const sbri_island *island = t->island;
+  const sbfi_spring *s = &island->springs[number];
+  uint32_t a = s->a, b = s->b;
+  if (t->rests) { /* a point that has split is another's end */
+    uint32_t at = island->link_of_spring[number];
+    a = island->links[at / SBRI_BLOCK].a[at % SBRI_BLOCK],
+    b = island->links[at / SBRI_BLOCK].b[at % SBRI_BLOCK];
+  }
+  uint32_t held = a >= island->free_count ? a : b, free = a + b - held;
+  const sbri_point *x = &t->positions[held], *y = &t->positions[free];
+  sbf_vec3 d = {y->x - x->x, y->y - x->y, y->z - x->z};
+  float square = sbri_dot(d, d) + SBRI_LENGTH_FLOOR, k = s->stiffness_n_m, damping = s->damping_ns_m;
+  float rest = s->rest_length_m;
+  if (t->rests) {
+    uint32_t link = island->link_of_spring[number];
+    rest = t->rests[link], k *= t->strengths[link], damping *= t->strengths[link];
+  }
+  float share = k - k * rest / sqrtf(square);
+  if (share < 0) share -= share * s->slack;
+  if (damping > 0) {
+    const sbri_point *v = &t->velocity_points[held], *w = &t->velocity_points[free];
+    share += damping * sbri_dot(sbri_vec3(w->x - v->x, w->y - v->y, w->z - v->z), d) / square;
+  }
+  *force = sbri_scale(d, share);
+  return held;
+}
+
 static inline void sbri_react_springs(const sbri_island_tick *t, float h) {
   const sbri_island *island = t->island;
   for (uint32_t i = 0; i < island->held_spring_count; i++) {
-    uint32_t number = island->held_springs[i];
-    const sbfi_spring *s = &island->springs[number];
-    uint32_t a = s->a, b = s->b;
-    if (t->rests) { /* a point that has split is another's end */
-      uint32_t at = island->link_of_spring[number];
-      a = island->links[at / SBRI_BLOCK].a[at % SBRI_BLOCK],
-      b = island->links[at / SBRI_BLOCK].b[at % SBRI_BLOCK];
-    }
-    uint32_t held = a >= island->free_count ? a : b, free = a + b - held;
-    if (island->carrier_of_held[held - island->free_count] < 0) continue;
-    const sbri_point *x = &t->positions[held], *y = &t->positions[free];
-    sbf_vec3 d = {y->x - x->x, y->y - x->y, y->z - x->z};
-    float square = sbri_dot(d, d) + SBRI_LENGTH_FLOOR, k = s->stiffness_n_m, damping = s->damping_ns_m;
-    float rest = s->rest_length_m;
-    if (t->rests) {
-      uint32_t link = island->link_of_spring[number];
-      rest = t->rests[link], k *= t->strengths[link], damping *= t->strengths[link];
-    }
-    float share = k - k * rest / sqrtf(square);
-    if (share < 0) share -= share * s->slack;
-    if (damping > 0) {
-      const sbri_point *v = &t->velocity_points[held], *w = &t->velocity_points[free];
-      share += damping * sbri_dot(sbri_vec3(w->x - v->x, w->y - v->y, w->z - v->z), d) / square;
-    }
-    sbri_react_at(t, held, sbri_scale(d, share), h);
+    sbf_vec3 force;
+    uint32_t held = sbri_held_spring_force(t, island->held_springs[i], &force);
+    sbri_react_at(t, held, force, h);
   }
 }
 

@@ -27,6 +27,7 @@ void sbri_character_tick(sbr_world *world, sbri_character *c) {
   sbri_character_rebase(c);
   sbri_settle(c);
   if (sbri_head(c)->paused) return;
+  sbri_loads_begin(world, c);
   sbri_fade_tick(world, c);
   if (sbri_is_away(c)) {
     sbri_away_tick(world, c);

@@ -66,6 +66,7 @@ static void place_state(sbr_model *model) {
   sbri_layout *l = &model->layout;
   size_t slots = model->slot_count, frames = model->frame_count, end = 0;
   place(&end, 1, sizeof(sbri_character_state));
+  l->loads = place(&end, SBR_LOAD_CAPACITY, sizeof(sbri_load));
   const sbr_model *base = model->base;
   uint32_t meshes = base->rung_count > 1 ? model->asset->render_meshes.count : 0;
   l->faded = place(&end, meshes ? base->first_vertices[meshes] : 0, sizeof(sbri_going));
@@ -148,6 +149,7 @@ static void place_scratch(sbr_model *model, const extents *e) {
   l->vertices = place(&end, padded(e->vertices), sizeof(sbri_point));
   l->faces = place(&end, e->faces * SBRI_BLOCK, sizeof(sbri_point));
   l->sums = place(&end, padded(larger(e->groups, e->vertices)), sizeof(sbri_point));
+  l->loads_now = place(&end, 1, sizeof(sbri_loads_now_list));
   l->visits = place(&end, 2 * (size_t)model->solid_count, sizeof(uint32_t));
   l->queue = place(&end, model->solid_count, sizeof(uint32_t));
   l->touched = place(&end, model->binding_count, 1);

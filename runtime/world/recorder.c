@@ -26,7 +26,12 @@ static const uint8_t counts[SBRI_RECORDED_COUNT] = {[SBRI_RECORDED_HASH] = 3,
     [SBRI_RECORDED_RIGID_FALL] = 4,
     [SBRI_RECORDED_RUNG] = 2,
     [SBRI_RECORDED_SHOWN] = 2,
-    [SBRI_RECORDED_VIEW] = 11};
+    [SBRI_RECORDED_VIEW] = 11,
+    [SBRI_RECORDED_SOFT_VELOCITY] = 8,
+    [SBRI_RECORDED_SOFT_IMPULSE] = 6,
+    [SBRI_RECORDED_SOFT_FORCE] = 7,
+    [SBRI_RECORDED_SOFT_HOLD] = 9,
+    [SBRI_RECORDED_SOFT_RELEASE] = 3};
 
 uint32_t sbri_recorded_count(sbri_recorded what) {
   return counts[what];

@@ -28,6 +28,11 @@ typedef enum sbri_recorded {
   SBRI_RECORDED_RUNG,        /* rung */
   SBRI_RECORDED_SHOWN,       /* how */
   SBRI_RECORDED_VIEW,        /* which, of how many, eye, forward, height, width, lines: without a character */
+  SBRI_RECORDED_SOFT_VELOCITY, /* body, velocity, angular velocity */
+  SBRI_RECORDED_SOFT_IMPULSE,  /* body, vertex, impulse */
+  SBRI_RECORDED_SOFT_FORCE,    /* body, vertex, force, seconds */
+  SBRI_RECORDED_SOFT_HOLD,     /* body, vertex, target, frequency, damping ratio, greatest force */
+  SBRI_RECORDED_SOFT_RELEASE,  /* body, vertex */
   SBRI_RECORDED_COUNT
 } sbri_recorded;
 

@@ -116,6 +116,7 @@ size_t sbri_deltas_size(const sbr_model *model);
     return (type *)(void *)(c->state + (offset));                                                            \
   }
 SBRI_STATE_PART(head, sbri_character_state, 0)
+SBRI_STATE_PART(loads, sbri_load, c->model->layout.loads) /* (SBR_LOAD_CAPACITY) */
 SBRI_STATE_PART(gait, void, c->model->layout.gait)
 SBRI_STATE_PART(pose, sbr_transform, c->model->layout.pose)                          /* (frame_count) */
 SBRI_STATE_PART(previous_pose, sbr_transform, c->model->layout.previous_pose)        /* (frame_count) */
@@ -180,6 +181,7 @@ SBRI_SCRATCH_PART(edges, float, c->model->layout.edges)                         
 SBRI_SCRATCH_PART(solid_edges, float, c->model->layout.solid_edges) /* (tetrahedron_block_count x 72) */
 SBRI_SCRATCH_PART(tears_of, sbri_tears, c->model->layout.tears)     /* (island_count) */
 SBRI_SCRATCH_PART(element_forces, sbri_point, c->model->layout.element_forces) /* (slot_count) */
+SBRI_SCRATCH_PART(loads_now, sbri_loads_now_list, c->model->layout.loads_now)  /* of this tick */
 SBRI_SCRATCH_PART(visits, uint32_t, c->model->layout.visits)                   /* (solid_count x 2) */
 SBRI_SCRATCH_PART(queue, uint32_t, c->model->layout.queue)                     /* (solid_count) */
 SBRI_SCRATCH_PART(touched, uint8_t, c->model->layout.touched)                  /* (binding_count) */
@@ -215,6 +217,12 @@ SBRI_SCRATCH_PART(fading, sbri_point, c->model->layout.fading)   /* (most vertic
 SBRI_SCRATCH_PART(pulls, float, c->model->layout.pulls)          /* (bodies + 1) */
 SBRI_SCRATCH_PART(energies, double, c->model->layout.energies)   /* (bodies) J */
 #undef SBRI_SCRATCH_PART
+
+/* A host's impulse in the character's own units is so many times as great: masses go with the cube of the
+ * scale and times with its square root, speeds with the root too. */
+static inline float sbri_own_impulse(const sbri_character *c) {
+  return c->time_scale / (c->scale * c->scale * c->scale);
+}
 
 static inline void sbri_island_wake(sbri_character *c, uint32_t island) {
   sbri_island_state *state = &sbri_island_states(c)[island];

@@ -5,6 +5,7 @@
 #include "harness.h"
 #include "sbfmt/codes.h"
 #include "sbrun/animation.h"
+#include "sbrun/soft_body.h"
 #include "scenes.h"
 #include "tape.h"
 
@@ -17,6 +18,17 @@ static scene make(sbr_instructions instructions) {
   return s;
 }
 
+static void push(const scene *s, int which) {
+  sbr_soft_hold hold = sbr_default_soft_hold();
+  hold.target = (sbr_double3){12, 901, -3};
+  const sbf_vec3 one = {0.1f, 0.2f, -0.3f};
+  if (which == 0) (void)sbr_character_set_soft_velocity(s->world, s->character, 0, one, one, NULL);
+  if (which == 1) (void)sbr_character_apply_soft_impulse(s->world, s->character, 0, 3, one, NULL);
+  if (which == 2) (void)sbr_character_apply_soft_force(s->world, s->character, 0, 5, one, 0.1f, NULL);
+  if (which == 3) (void)sbr_character_hold_vertex(s->world, s->character, 0, 2, &hold, NULL);
+  if (which == 4) (void)sbr_character_release_vertex(s->world, s->character, 0, 2);
+}
+
 /* Two seconds of all kinds of calls, in frames of uneven length. */
 static uint64_t act(scene *s) {
   for (int i = 0; i < 80; i++) {
@@ -25,6 +37,7 @@ static uint64_t act(scene *s) {
     if (i == 30) sbr_character_pause(s->world, s->character, true);
     if (i == 34) sbr_character_pause(s->world, s->character, false);
     if (i == 40) sbr_character_wake(s->world, s->character);
+    if (i >= 41 && i <= 45) push(s, i - 41);
     if (i == 60) sbr_character_reset(s->world, s->character);
     if (i == 61) sbr_world_tick(s->world);
     sbr_world_step(s->world, 0.01 + 0.0007 * (i % 40));

@@ -225,7 +225,7 @@ SBF_API void sbr_character_drive(
  * definition. */
 SBF_API void sbr_character_teleport(
     sbr_world *world, sbr_character_id character, sbr_double3 position, float heading);
-/* Back to the rest pose where it stands, all speeds zero. */
+/* Back to the rest pose where it stands, all speeds zero; forces and holds (sbrun/soft_body.h) end. */
 SBF_API void sbr_character_reset(sbr_world *world, sbr_character_id character);
 /* Wakes all that sleeps of it: for a host that has changed something which the runtime cannot see. What holds
  * a body, a wish to move, another place and (in a ground of the host's, within four ticks) another ground

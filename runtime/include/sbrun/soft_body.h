@@ -1,0 +1,95 @@
+/* Soft bodies under a host's hand: velocities, impulses, forces, holding a point, reactions of pins.
+ *
+ * `vertex` is a vertex of the body's surface, as sbr_character_surface has them. It stands for the points
+ * that carry it: an impulse J there changes the body's momentum by J and its angular momentum by r x J. What
+ * falls on pinned points goes to the simulated rigid bodies that hold them, or is lost to bones.
+ *
+ * Lengths are world metres; N, N s and N m are the world's, whatever the character's scale. Calls take effect
+ * with the next tick and wake what sleeps. They are recorded (sbrun/record.h), and everything set here is
+ * state, which snapshots hold. SBF_FAILED and BAD_CALL: a character, body or vertex that is not there, a
+ * number that is not finite, a body that is not simulated (on this level of detail, or without one), one
+ * stepped by relaxation, which knows no forces. Nothing has changed then. `error` may be NULL. No call
+ * allocates. */
+#ifndef SBRUN_SOFT_BODY_H
+#define SBRUN_SOFT_BODY_H
+
+#include "sbrun/sbrun.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* In place of a vertex: all points of the body, each by its mass, so that nothing deforms. */
+#define SBR_WHOLE_BODY UINT32_MAX
+/* Forces and holds that act on a character at once. */
+#define SBR_LOAD_CAPACITY 8
+
+/* Motion of a soft body's free points as one rigid body, as of the last tick. */
+typedef struct sbr_soft_motion {
+  float mass;                /* kg, of the free points */
+  sbf_vec3 center;           /* of mass, relative to the character's origin, m */
+  sbf_vec3 velocity;         /* of the centre of mass, m/s */
+  sbf_vec3 angular_velocity; /* rad/s, world axes */
+} sbr_soft_motion;
+/* Zeros where the body is not simulated. */
+SBF_API sbr_soft_motion sbr_character_soft_motion(
+    const sbr_world *world, sbr_character_id character, uint32_t soft_body);
+
+/* Sets the body's motion as a whole: velocity of its centre of mass in m/s, angular velocity in rad/s, world
+ * axes. Its deformation keeps its own motion. */
+SBF_API sbf_status sbr_character_set_soft_velocity(sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, sbf_vec3 velocity, sbf_vec3 angular_velocity, sbf_diagnostic *error);
+
+/* Applies an impulse in N s at a vertex, or to the whole body. */
+SBF_API sbf_status sbr_character_apply_soft_impulse(sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, uint32_t vertex, sbf_vec3 impulse, sbf_diagnostic *error);
+
+/* Applies a constant force in N for `seconds` of the world's ticks, from the next on: an impulse of force *
+ * seconds in all. SBF_FAILED too where SBR_LOAD_CAPACITY act already. */
+SBF_API sbf_status sbr_character_apply_soft_force(sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, uint32_t vertex, sbf_vec3 force, float seconds, sbf_diagnostic *error);
+
+/* How a vertex is drawn to a target: by a damped spring with a bounded force. */
+typedef struct sbr_soft_hold {
+  sbr_double3 target;  /* world, m */
+  float frequency_hz;  /* (0, 100]: of the whole body on that spring; 0: 5 */
+  float damping_ratio; /* [0, 10]: of that swing; 1 does not overshoot */
+  float max_force;     /* N, greater than 0; 0: 20 times the body's weight on earth */
+} sbr_soft_hold;
+/* Target at the world's origin, damping ratio 1, all else 0. */
+SBF_API sbr_soft_hold sbr_default_soft_hold(void);
+/* Holds the vertex until it is released; for one that is held already, moves the target. */
+SBF_API sbf_status sbr_character_hold_vertex(sbr_world *world, sbr_character_id character, uint32_t soft_body,
+    uint32_t vertex, const sbr_soft_hold *hold, sbf_diagnostic *error);
+/* Lets it go, at the velocity that it has. False where it was not held. */
+SBF_API bool sbr_character_release_vertex(
+    sbr_world *world, sbr_character_id character, uint32_t soft_body, uint32_t vertex);
+/* Force on the vertex in N, world axes, mean of the last tick; zeros where it is not held. */
+SBF_API sbf_vec3 sbr_character_hold_force(
+    const sbr_world *world, sbr_character_id character, uint32_t soft_body, uint32_t vertex);
+
+/* Vertex of the body's surface nearest to a position (world), at the sampled moment; SBR_WHOLE_BODY where the
+ * body has none. */
+SBF_API uint32_t sbr_character_nearest_vertex(
+    const sbr_world *world, sbr_character_id character, uint32_t soft_body, sbr_double3 position);
+
+/* What the pins of one set exert on the body, as of the end of the last tick. Of a body that hangs at rest:
+ * its weight, upwards. Forces of weights below 1 (goal springs) count likewise. */
+typedef struct sbr_pin_reaction {
+  uint32_t pin_set;   /* of the simulated level's pins */
+  int32_t bone;       /* what holds; -1: not a bone */
+  int32_t rigid_body; /* likewise; both -1: the world */
+  uint32_t points;    /* pinned by the set; the first set that pins a point has it */
+  sbf_vec3 about;     /* m, relative to the character's origin: mean of the pinned places */
+  sbf_vec3 force;     /* N, world axes */
+  sbf_vec3 torque;    /* N m about `about` */
+} sbr_pin_reaction;
+/* One for each pin set of the simulated level, in the file's order; returns how many there are. 0: the body
+ * is not simulated, or by relaxation. */
+SBF_API uint32_t sbr_character_pin_reactions(const sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, sbr_pin_reaction *reactions, uint32_t capacity);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

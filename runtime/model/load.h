@@ -1,0 +1,44 @@
+/* Forces and holds of a host on soft bodies: as state keeps them, and as a tick has them. */
+#ifndef SBRI_LOAD_H
+#define SBRI_LOAD_H
+
+#include "sbrun/soft_body.h"
+
+typedef enum sbri_load_kind { SBRI_LOAD_NONE, SBRI_LOAD_FORCE, SBRI_LOAD_HOLD } sbri_load_kind;
+
+/* State, in the world's units. No padding: the hash reads it as words. */
+typedef struct sbri_load {
+  sbr_double3 target;                           /* of a hold, m */
+  uint32_t kind;                                /* sbri_load_kind */
+  uint32_t body, vertex;                        /* vertex may be SBR_WHOLE_BODY, of a force */
+  sbf_vec3 force;                               /* N */
+  float seconds;                                /* of a force: left */
+  float frequency_hz, damping_ratio, max_force; /* of a hold; N */
+  float impulse[3];                             /* in the last tick, kg m/s in the character's own units */
+  uint32_t unused;                              /* to the next double */
+} sbri_load;
+
+/* The points that carry a vertex of a surface; weights sum to 1. */
+enum { SBRI_CARRIERS = 16 };
+typedef struct sbri_carriers {
+  uint32_t count, slots[SBRI_CARRIERS]; /* of the island */
+  float weights[SBRI_CARRIERS];
+} sbri_carriers;
+
+/* Scratch, for one tick, in the character's own units. */
+typedef struct sbri_load_now {
+  uint32_t body;
+  bool holds;
+  float inverse_mass;                  /* of the vertex that it acts on, or of the body; 1/kg */
+  sbf_vec3 force;                      /* N, of a force */
+  sbf_vec3 target;                     /* m, of a hold */
+  float stiffness, damping, max_force; /* N/m, N s/m, N, of a hold */
+  float *impulse;                      /* of the load */
+  sbri_carriers at;                    /* none: the whole body */
+} sbri_load_now;
+typedef struct sbri_loads_now_list {
+  uint32_t count;
+  sbri_load_now at[SBR_LOAD_CAPACITY];
+} sbri_loads_now_list;
+
+#endif

@@ -1,0 +1,58 @@
+#include "solvers/loads.h"
+
+#include "math/vec3.h"
+#include "solvers/held_push.h"
+
+static float *velocity_of(float *velocities, uint32_t slot) {
+  return velocities + 3 * (slot / SBRI_BLOCK * SBRI_BLOCK) + slot % SBRI_BLOCK;
+}
+
+static void add(float *v, sbf_vec3 change) {
+  v[0] += change.x, v[SBRI_BLOCK] += change.y, v[2 * SBRI_BLOCK] += change.z;
+}
+
+/* Shares an impulse among the carriers; what pinned ones get goes to the simulated bodies that hold them. */
+static void push(const sbri_island_tick *t, const sbri_carriers *at, float *velocities, sbf_vec3 impulse) {
+  for (uint32_t k = 0; k < at->count; k++) {
+    sbf_vec3 part = sbri_scale(impulse, at->weights[k]);
+    uint32_t slot = at->slots[k];
+    if (slot < t->island->free_count)
+      add(velocity_of(velocities, slot), sbri_scale(part, t->island->inverse_masses[slot]));
+    else
+      sbri_held_push(t, slot, part);
+  }
+}
+
+/* All points gain the same velocity. */
+static void push_body(const sbri_island_tick *t, const sbri_body *body, float *velocities, sbf_vec3 gain) {
+  for (uint32_t slot = body->slot_begin; slot < body->slot_end; slot++)
+    if (t->island->masses[slot] > 0) add(velocity_of(velocities, slot), gain);
+}
+
+static sbf_vec3 hold_impulse(
+    const sbri_island_tick *t, const sbri_load_now *load, const float *velocities, float h) {
+  sbf_vec3 off = sbri_scale(load->target, -1), v = {0, 0, 0};
+  for (uint32_t k = 0; k < load->at.count; k++) {
+    const sbri_point *x = &t->positions[load->at.slots[k]];
+    off = sbri_add_scaled(off, sbri_vec3(x->x, x->y, x->z), load->at.weights[k]);
+    v = sbri_add_scaled(v, sbri_slot_velocity(t, velocities, load->at.slots[k]), load->at.weights[k]);
+  }
+  float k = load->stiffness, kc = h * k + load->damping, most = load->max_force * h;
+  sbf_vec3 impulse =
+      sbri_scale(sbri_add_scaled(sbri_scale(off, k), v, kc), -h / (1 + h * kc * load->inverse_mass));
+  float size = sbri_length(impulse);
+  return size > most ? sbri_scale(impulse, most / size) : impulse;
+}
+
+void sbri_loads_act(const sbri_island_tick *t, const sbri_body *body, float *velocities, float h) {
+  for (uint32_t i = 0; i < t->load_count; i++) {
+    const sbri_load_now *load = &t->loads[i];
+    if (&t->model->bodies[load->body] != body) continue;
+    sbf_vec3 impulse = load->holds ? hold_impulse(t, load, velocities, h) : sbri_scale(load->force, h);
+    if (load->at.count > 0)
+      push(t, &load->at, velocities, impulse);
+    else
+      push_body(t, body, velocities, sbri_scale(impulse, load->inverse_mass));
+    load->impulse[0] += impulse.x, load->impulse[1] += impulse.y, load->impulse[2] += impulse.z;
+  }
+}
