@@ -7,6 +7,7 @@
 #include "output_name.h"
 #include "pose_file.h"
 #include "recovery_report.h"
+#include "result_cache.h"
 #include "rigid_report.h"
 #include "run_text.h"
 #include "sbfmt/export.h"
@@ -23,6 +24,7 @@ typedef struct run_state {
   sbf_vec3 *skin, *normals, *surface, *sample;
   uint32_t skin_count, surface_count;
   sbf_point_cache *cache;
+  result_cache *results;
   bool cache_of_surface;
   pose_file poses;
   double busy_s;                    /* spent stepping and skinning */
@@ -98,6 +100,7 @@ static bool record(run_state *r, sbf_diagnostic *error) {
   if (r->soles) soles_measure(r->soles, &r->s, r->skin);
   if (r->walk) walk_report_measure(r->walk, &r->s, r->skin);
   if (r->cache && !add_to_cache(r, error)) return false;
+  if (r->results && result_cache_add(r->results, &r->s, error) != SBF_OK) return false;
   return !r->poses.file || pose_file_add(&r->poses, &r->s, error) == SBF_OK;
 }
 
@@ -109,7 +112,16 @@ static bool open_outputs(run_state *r, cli_call *call) {
   const char *cache = cli_value(call, "--cache"), *poses = cli_value(call, "--pose");
   r->cache_of_surface = of == 1;
   uint32_t points = of ? r->surface_count : r->skin_count;
-  if (cache &&
+  bool results = cache && result_cache_named(cache);
+  if (results && cli_value(call, "--of")) {
+    cli_wrong(call, "--of is for point caches: %s has the points and elements of all soft bodies", cache);
+    return false;
+  }
+  if (results && !(r->results = result_cache_open(&r->s, cache, &error))) {
+    cli_print_diagnostic(call, &error);
+    return false;
+  }
+  if (cache && !results &&
       sbf_point_cache_open(cache, points, r->s.frame_count + 1, 1 / r->s.fps, &r->cache, &error) != SBF_OK) {
     cli_print_diagnostic(call, &error);
     return false;
@@ -119,6 +131,19 @@ static bool open_outputs(run_state *r, cli_call *call) {
     return false;
   }
   return true;
+}
+
+/* Keeps what was written, or none of it; false where it cannot be kept. */
+static bool close_outputs(run_state *r, bool keep, const cli_call *call) {
+  sbf_diagnostic error;
+  bool good = true;
+  if (r->cache && keep && sbf_point_cache_commit(r->cache, &error) != SBF_OK)
+    cli_print_diagnostic(call, &error), good = false;
+  if (r->results && keep && result_cache_commit(r->results, &error) != SBF_OK)
+    cli_print_diagnostic(call, &error), good = false;
+  if (!keep) sbf_point_cache_abandon(r->cache), result_cache_abandon(r->results);
+  if (pose_file_close(&r->poses, keep, &error) != SBF_OK) cli_print_diagnostic(call, &error), good = false;
+  return good;
 }
 
 static void add_steps(const run_state *r, json_t *o) {
@@ -187,9 +212,8 @@ static int judge_replay(const recording *r, const cli_call *call) {
 
 static int run(cli_call *call) {
   run_state r = {.valid = true, .least_volume = 1, .end_volume = 1};
-  sbf_diagnostic error;
   int status;
-  if (!output_name_check(call, "--cache", (const char *const[]){".pc2", ".mdd", NULL}) ||
+  if (!output_name_check(call, "--cache", (const char *const[]){".pc2", ".mdd", ".pvd", NULL}) ||
       !output_name_check(call, "--pose", (const char *const[]){".csv", NULL}))
     return SBF_FAILED;
   if (!session_open(&r.s, call, 5, 60, &status)) return status;
@@ -202,17 +226,7 @@ static int run(cli_call *call) {
     r.walk = walk_report_create(&r.s, r.soles);
     if (play(&r, call) && session_finish(&r.s, call)) status = SBF_OK;
   }
-  bool keep = status == SBF_OK;
-  if (r.cache && keep && sbf_point_cache_commit(r.cache, &error) != SBF_OK) {
-    cli_print_diagnostic(call, &error);
-    status = SBF_FAILED;
-  } else if (r.cache && !keep) {
-    sbf_point_cache_abandon(r.cache);
-  }
-  if (pose_file_close(&r.poses, keep, &error) != SBF_OK) {
-    cli_print_diagnostic(call, &error);
-    status = SBF_FAILED;
-  }
+  if (!close_outputs(&r, status == SBF_OK, call)) status = SBF_FAILED;
   if (status == SBF_OK) {
     json_t *object = report(&r);
     status = judge_replay(&r.s.recording, call);
@@ -237,7 +251,9 @@ static int run(cli_call *call) {
 
 static const cli_option options[] = {
     SESSION_OPTIONS("how long (5)", "frames a second (60)"),
-    {"--cache", "OUT.pc2|.mdd", "write a point cache, a sample a frame"},
+    {"--cache", "OUT.pc2|.mdd|.pvd",
+        "write a point cache, a sample a frame; .pvd: displacement, stress and strain energy for ParaView, a "
+        "file a frame"},
     {"--of", "skin|surface", "what the cache holds: the skin, or every section's surface (skin)"},
     {"--pose", "OUT.csv", "write every bone's place and rotation, frame by frame"},
     {"--format", "text|json", "how to print (text)"},

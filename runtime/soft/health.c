@@ -7,8 +7,7 @@
 #include "solvers/outer_forces.h"
 #include "solvers/scheme.h"
 
-/* A spring of the island as it is now: yielded, or without stiffness where it is torn. */
-static sbfi_spring spring_now(const sbri_character *c, const sbri_island *island, uint32_t spring) {
+sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, uint32_t spring) {
   sbfi_spring s = island->springs[spring];
   if (!island->link_flows) return s;
   uint32_t at = island->first_flow + island->link_of_spring[spring];
@@ -23,7 +22,7 @@ static sbfi_spring spring_now(const sbri_character *c, const sbri_island *island
 static void look_at_springs(const sbri_character *c, const sbri_island *island, const sbri_body *body,
     const sbri_point *positions, sbr_body_health *health) {
   for (uint32_t i = body->first_spring; i < body->spring_end; i++) {
-    sbfi_spring s = spring_now(c, island, i);
+    sbfi_spring s = sbri_spring_now(c, island, i);
     bool torn = s.stiffness_n_m < island->springs[i].stiffness_n_m;
     health->torn += torn;
     health->elastic_j += sbfi_springs_energy(&s, 1, &positions->x, 4);

@@ -74,6 +74,9 @@ void sbri_island_tell(const sbri_island_tick *tick, sbri_character *c);
 
 /* ---- soft/health.c ---- */
 
+/* A spring of the island as it is now: yielded, or without stiffness where it is torn. */
+sbfi_spring sbri_spring_now(const sbri_character *c, const sbri_island *island, uint32_t spring);
+
 /* Volume within a body's surface as `points` of its character lie; uses scratch of the body's own island, so
  * that tasks may call it side by side. */
 double sbri_surface_volume(const sbri_character *c, const sbri_body *body, const sbri_point *points);

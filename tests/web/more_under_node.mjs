@@ -42,6 +42,25 @@ for (const wrong of [{ ...plane, heights: [1] }, { ...plane, columns: 1 }, { ...
 climber.free();
 uphill.free();
 
+// Soft bodies: pushed, set in motion, held, let go; what is wrong is refused.
+const hands = sbfmt.world(), pushed = hands.add(model), soft = asset.softBodies.find((_, i) => pushed.softMotion(i).mass > 0)?.index ?? -1;
+expect(soft >= 0, 'no soft body is simulated');
+if (soft >= 0) {
+  const { mass } = pushed.softMotion(soft), speed = () => pushed.softMotion(soft).velocity[1];
+  pushed.setSoftVelocity(soft, [0, 1, 0]);
+  expect(Math.abs(speed() - 1) < 1e-4, `set to 1 m/s it moves at ${speed()}`);
+  pushed.applySoftImpulse(soft, [0, 0.5 * mass, 0]);
+  expect(Math.abs(speed() - 1.5) < 1e-4, `half a metre a second more: ${speed()}`);
+  const at = pushed.softMotion(soft).center.map((x, i) => x + pushed.origin[i] + (i === 1)), vertex = pushed.nearestVertex(soft, at);
+  pushed.hold(soft, vertex, at, { maxForce: 1 });
+  hands.step(1 / 60);
+  expect(pushed.release(soft, vertex) && !pushed.release(soft, vertex), 'what is held is released once');
+  throws(() => pushed.hold(soft, 1e6, at), SbfmtError, 'a vertex that is not there');
+  throws(() => pushed.applySoftImpulse(99, [0, 0, 0]), TypeError, 'a body that is not there');
+}
+pushed.free();
+hands.free();
+
 // Rungs: named, changed by hand, and chosen by views.
 const kinds = model.rungs.map((one) => one.kind);
 expect(kinds[0] === 'soft' && kinds.at(-1) === 'away' && kinds.includes('bones'), `rungs ${kinds}`);

@@ -65,6 +65,47 @@ SBF_API sbf_status sbf_point_cache_commit(sbf_point_cache *cache, sbf_diagnostic
 /* Gives it up; NULL does nothing. */
 SBF_API void sbf_point_cache_abandon(sbf_point_cache *cache);
 
+/* Results on a mesh over time, as ParaView reads them: OUT.pvd, which lists a file OUT_00000.vtu for each
+ * frame (VTK XML, unstructured grid, arrays as base64). */
+typedef struct sbf_result_series sbf_result_series;
+
+/* Cells of a series, the same in all its frames. */
+typedef struct sbf_result_mesh {
+  uint32_t point_count;    /* points of all cells */
+  uint32_t cell_count;     /* points, lines and tetrahedra together */
+  const uint32_t *corners; /* of one cell after the other: 1 of a point, 2 of a line, 4 of a tetrahedron */
+  const uint8_t *sizes;    /* (cell_count) how many corners each has */
+} sbf_result_mesh;
+
+/* Values on points or cells. */
+typedef struct sbf_result_array {
+  const char *name;    /* as ParaView lists it */
+  uint32_t width;      /* numbers of one: 1, 3 (a vector) or 6 (a symmetric tensor: xx yy zz xy yz xz) */
+  const float *values; /* (points or cells x width) */
+} sbf_result_array;
+
+/* A frame of a series. */
+typedef struct sbf_result_frame {
+  double time_s;                     /* since the first frame */
+  const double *points;              /* (point_count x 3) m */
+  const sbf_result_array *of_points; /* (point_array_count) */
+  const sbf_result_array *of_cells;  /* (cell_array_count) */
+  uint32_t point_array_count;        /* arrays on points */
+  uint32_t cell_array_count;         /* arrays on cells */
+} sbf_result_frame;
+
+/* `path` ends in .pvd. `mesh` must stay until the series ends. */
+SBF_API sbf_status sbf_result_series_open(
+    const char *path, const sbf_result_mesh *mesh, sbf_result_series **series, sbf_diagnostic *error);
+/* Writes the next frame under a temporary name, OUT_00000.vtu.part. */
+SBF_API sbf_status sbf_result_series_add(
+    sbf_result_series *series, const sbf_result_frame *frame, sbf_diagnostic *error);
+/* Renames all frames, then writes the .pvd. SBF_FAILED where one cannot be written: what stood there before
+ * still does, unless the renaming itself failed. */
+SBF_API sbf_status sbf_result_series_commit(sbf_result_series *series, sbf_diagnostic *error);
+/* Removes the frames; NULL does nothing. */
+SBF_API void sbf_result_series_abandon(sbf_result_series *series);
+
 #ifdef __cplusplus
 }
 #endif

@@ -313,6 +313,19 @@ export interface Character {
   /** An impulse in N s at a place of the world, on a rigid body that is simulated. */
   push(rigidBody: number, place: Vector, impulse: Vector): void;
   rigidState(rigidBody: number): RigidState;
+  /** Vertex of a soft body's surface nearest to a place of the world; -1: it has none. */
+  nearestVertex(softBody: number, position: Vector): number;
+  /** Draws a vertex to a target by a damped spring, until it is released; again to move the target. `frequency` in Hz (0: 5),
+   * `maxForce` in N (0: 20 times the body's weight). */
+  hold(softBody: number, vertex: number, target: Vector, options?: { frequency?: number; maxForce?: number }): void;
+  /** False where it was not held. */
+  release(softBody: number, vertex: number): boolean;
+  /** An impulse in N s at a vertex, or (-1) on the whole body. */
+  applySoftImpulse(softBody: number, impulse: Vector, vertex?: number): void;
+  /** Velocity in m/s of the body as a whole, and angular velocity in rad/s. */
+  setSoftVelocity(softBody: number, velocity: Vector, angularVelocity?: Vector): void;
+  /** Its free points as one rigid body: kg, m relative to the origin, m/s, rad/s. */
+  softMotion(softBody: number): { mass: number; center: number[]; velocity: number[]; angularVelocity: number[] };
   /** The rung that it is on, or goes over to. */
   readonly rung: number;
   /** Puts it on a rung; null: the world chooses. In a world whose bodies meet each other it stays on its own. */

@@ -34,6 +34,12 @@ export class Hands extends Stage {
     if (!hit || !hit.character) return false;
     const rigid = hit.rigidBody >= 0 ? hit.rigidBody : this.rigidOf.get(this.asset.softBodies[hit.softBody]?.bone);
     this.held = { rigid, from: [x, y], target: hit.position, depth: vector.dot(vector.subtract(hit.position, this.eye), this.forward) };
+    const soft = hit.softBody >= 0 && this.character.softMotion(hit.softBody).mass > 0;
+    if (soft && (rigid === undefined || !this.mass)) { // no bone that could be pulled: the flesh itself
+      this.held.vertex = this.character.nearestVertex(hit.softBody, hit.position);
+      this.held.softBody = hit.softBody;
+      return true;
+    }
     if (rigid === undefined || !this.mass) { // nothing that could be pulled: a finger presses
       this.held.finger = this.world.collider({ shape: 'sphere', radius: 0.04 * this.size, position: hit.position });
       return true;
@@ -52,6 +58,7 @@ export class Hands extends Stage {
   }
   release() {
     this.held?.finger?.free();
+    if (this.held?.vertex !== undefined) this.character.release(this.held.softBody, this.held.vertex);
     this.held = undefined;
   }
 
@@ -60,6 +67,7 @@ export class Hands extends Stage {
     const { held } = this;
     if (!held?.pulled) return;
     if (held.finger) return held.finger.move(held.target);
+    if (held.vertex !== undefined) return this.character.hold(held.softBody, held.vertex, held.target);
     if (this.character.posture !== 'falling') this.character.fall();
     const state = this.character.rigidState(held.rigid);
     const place = vector.add(vector.add(this.character.origin, state.position), vector.turn(state.rotation, held.local));

@@ -89,6 +89,30 @@ typedef struct sbr_pin_reaction {
 SBF_API uint32_t sbr_character_pin_reactions(const sbr_world *world, sbr_character_id character,
     uint32_t soft_body, sbr_pin_reaction *reactions, uint32_t capacity);
 
+/* A tetrahedron as of the last tick. */
+typedef struct sbr_tetrahedron_state {
+  float stress[6];      /* Cauchy stress in Pa, world axes: xx, yy, zz, xy, yz, zx */
+  float energy_density; /* strain energy per volume at rest, J/m^3 */
+  float rest_volume;    /* m^3 */
+  float volume_ratio;   /* volume against rest; below 0 inside out */
+  uint32_t corners[4];  /* points of the level, before any tear */
+  bool torn;            /* it bears nothing: stress, energy and volumes are 0 */
+} sbr_tetrahedron_state;
+/* Tetrahedra of the simulated level, in its order; returns how many there are. 0: they are not its model. */
+SBF_API uint32_t sbr_character_tetrahedra(const sbr_world *world, sbr_character_id character,
+    uint32_t soft_body, sbr_tetrahedron_state *tetrahedra, uint32_t capacity);
+
+/* A spring as of the last tick. */
+typedef struct sbr_spring_state {
+  uint32_t ends[2]; /* points of the level, before any tear */
+  float tension;    /* N; below 0 it pushes; damping is left out */
+  float energy;     /* J */
+  bool torn;        /* it bears nothing: tension and energy are 0 */
+} sbr_spring_state;
+/* Springs of the simulated level that act, in the order of its sets; returns how many there are. */
+SBF_API uint32_t sbr_character_springs(const sbr_world *world, sbr_character_id character, uint32_t soft_body,
+    sbr_spring_state *springs, uint32_t capacity);
+
 #ifdef __cplusplus
 }
 #endif

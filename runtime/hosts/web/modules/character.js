@@ -5,7 +5,7 @@ import { SbfmtError } from './sbfmt_error.js';
 const POSTURES = ['up', 'falling', 'rising'];
 const MODES = { kinematic: 0, passive: 1, driven: 2 };
 const SHOWN = ['byViews', 'always', 'never'];
-const RUNG_CHOSEN = 0xffffffff;
+const RUNG_CHOSEN = 0xffffffff, WHOLE_BODY = 0xffffffff;
 
 /** One of the characters of a world: what it is asked, and what it is now. */
 export class Character {
@@ -77,6 +77,40 @@ export class Character {
     const n = Array.from(this.sbfmt.floats(scratch, 18));
     return { mode: Object.keys(MODES)[n[0]], position: n.slice(1, 4), rotation: n.slice(4, 8), center: n.slice(8, 11),
       velocity: n.slice(11, 14), angularVelocity: n.slice(14, 17), mass: n[17] };
+  }
+
+  /** The number of one of its soft bodies. */
+  ofSoft(softBody) {
+    return placeIn(softBody, this.model.asset.softBodies.length, 'softBody');
+  }
+  nearestVertex(softBody, position) {
+    const found = this.calls.web_character_nearest_vertex(this.home, this.id, this.ofSoft(softBody), ...triple(position, 'position')) >>> 0;
+    return found === WHOLE_BODY ? -1 : found;
+  }
+  hold(softBody, vertex, target, { frequency = 0, maxForce = 0 } = {}) {
+    this.done(this.calls.web_character_hold(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex'), ...triple(target, 'target'),
+      number(frequency, 'frequency'), number(maxForce, 'maxForce')));
+  }
+  release(softBody, vertex) {
+    return this.calls.web_character_release(this.home, this.id, this.ofSoft(softBody), number(vertex, 'vertex')) !== 0;
+  }
+  applySoftImpulse(softBody, impulse, vertex = -1) {
+    this.done(this.calls.web_character_soft_impulse(this.home, this.id, this.ofSoft(softBody), vertex === -1 ? WHOLE_BODY : number(vertex, 'vertex'),
+      ...triple(impulse, 'impulse')));
+  }
+  setSoftVelocity(softBody, velocity, angularVelocity = [0, 0, 0]) {
+    this.done(this.calls.web_character_soft_velocity(this.home, this.id, this.ofSoft(softBody), ...triple(velocity, 'velocity'),
+      ...triple(angularVelocity, 'angularVelocity')));
+  }
+  softMotion(softBody) {
+    const { scratch } = this.sbfmt;
+    this.calls.web_character_soft_motion(this.home, this.id, this.ofSoft(softBody), scratch);
+    const n = Array.from(this.sbfmt.floats(scratch, 10));
+    return { mass: n[0], center: n.slice(1, 4), velocity: n.slice(4, 7), angularVelocity: n.slice(7, 10) };
+  }
+  /** Throws what the library refused. */
+  done(good) {
+    if (!good) throw this.sbfmt.failure();
   }
 
   get rung() {

@@ -1,0 +1,47 @@
+/* Soft bodies pushed, held and weighed. What fails leaves its reason in web_failure() and returns 0. */
+#include <string.h>
+
+#include "sbrun/soft_body.h"
+#include "web.h"
+
+static sbr_character_id id_of(uint32_t character) {
+  return (sbr_character_id){character};
+}
+static sbf_diagnostic *begin(void) {
+  memset(web_failure(), 0, sizeof(sbf_diagnostic));
+  return web_failure();
+}
+
+uint32_t WEB_CALL(web_character_nearest_vertex)(
+    const sbr_world *world, uint32_t character, uint32_t soft_body, double x, double y, double z) {
+  return sbr_character_nearest_vertex(world, id_of(character), soft_body, (sbr_double3){x, y, z});
+}
+uint32_t WEB_CALL(web_character_hold)(sbr_world *world, uint32_t character, uint32_t soft_body,
+    uint32_t vertex, double x, double y, double z, float frequency_hz, float max_force) {
+  sbr_soft_hold hold = sbr_default_soft_hold();
+  hold.target = (sbr_double3){x, y, z};
+  hold.frequency_hz = frequency_hz, hold.max_force = max_force;
+  return sbr_character_hold_vertex(world, id_of(character), soft_body, vertex, &hold, begin()) == SBF_OK;
+}
+uint32_t WEB_CALL(web_character_release)(
+    sbr_world *world, uint32_t character, uint32_t soft_body, uint32_t vertex) {
+  return sbr_character_release_vertex(world, id_of(character), soft_body, vertex);
+}
+/* SBR_WHOLE_BODY is 2^32 - 1. */
+uint32_t WEB_CALL(web_character_soft_impulse)(
+    sbr_world *world, uint32_t character, uint32_t soft_body, uint32_t vertex, float x, float y, float z) {
+  return sbr_character_apply_soft_impulse(
+             world, id_of(character), soft_body, vertex, (sbf_vec3){x, y, z}, begin()) == SBF_OK;
+}
+uint32_t WEB_CALL(web_character_soft_velocity)(sbr_world *world, uint32_t character, uint32_t soft_body,
+    float x, float y, float z, float turn_x, float turn_y, float turn_z) {
+  return sbr_character_set_soft_velocity(world, id_of(character), soft_body, (sbf_vec3){x, y, z},
+             (sbf_vec3){turn_x, turn_y, turn_z}, begin()) == SBF_OK;
+}
+/* Ten numbers: mass, centre of mass (3) relative to the origin, velocity (3), angular velocity (3). */
+void WEB_CALL(web_character_soft_motion)(
+    const sbr_world *world, uint32_t character, uint32_t soft_body, float *to) {
+  sbr_soft_motion m = sbr_character_soft_motion(world, id_of(character), soft_body);
+  _Static_assert(sizeof m == 40, "ten numbers");
+  memcpy(to, &m, sizeof m);
+}
