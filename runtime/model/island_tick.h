@@ -150,4 +150,12 @@ static inline uint32_t sbri_touch_count(const sbri_island_tick *t, const sbri_bo
   return t->touch_counts ? t->touch_counts[body - t->model->bodies] : 0;
 }
 
+/* Whether something of the body may touch anything in this tick. */
+static inline bool sbri_may_touch(const sbri_island_tick *t, const sbri_body *body) {
+  bool any = sbri_touch_count(t, body) > 0;
+  for (uint32_t block = body->slot_begin / SBRI_BLOCK; block < body->slot_end / SBRI_BLOCK; block++)
+    any = any || t->near_ground[block];
+  return any;
+}
+
 #endif

@@ -165,6 +165,7 @@ typedef struct sbri_body {
   uint32_t guide_frame;     /* of all its points, where `guides` is NULL */
   const sbri_guide *guides; /* (slot_end - slot_begin), where several frames hold it */
   float lowest_rad_s;       /* slowest mode that deforms it; 0: nothing resists */
+  float sliding_rad_s;      /* what it is damped by where it slides, see solvers/slide_damping.h; 0: not */
   float stretching_rad_s;   /* the same, but of a sheet that does not resist bending */
   float alpha_1_s;          /* mass-proportional damping, that of the damping ratio included */
   const float *alphas;      /* (free slots of the island) of each point, where a map scales it, alpha_1_s the

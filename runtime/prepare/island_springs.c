@@ -332,6 +332,8 @@ static bool find_damping(sbri_island_maker *m, sbf_spring_network network, float
     sbf_body_measures measures;
     sbf_body_measure(body->source, &measures);
     bool bare = body->source->surface.polygon_sizes.count == 0;
+    bool solid = bare ? body->tetrahedron_count > 0 : !measures.sheet;
+    body->sliding_rad_s = solid && !body->held ? body->lowest_rad_s : 0;
     const sbf_collision *collision = &body->source->collision;
     body->margin_m = bare ? collision->particle_radius : measures.sheet ? collision->outer_thickness : 0;
   }

@@ -1,6 +1,6 @@
 /* What every scheme that follows the energy does at the end of a substep, once all points are where it puts
- * them: volumes kept, springs held within their strain limits, then yield and tear, and
- * tetrahedra that are being crushed.
+ * them: volumes kept, springs held within their strain limits, then yield and tear, tetrahedra that are
+ * being crushed, and the deformation of what slides damped.
  *
  * Written for the lanes of the file that includes it; see model/kernels.h. */
 #ifndef SBRI_FINISH_H
@@ -8,6 +8,7 @@
 
 #include "solvers/crush.h"
 #include "solvers/flow.h"
+#include "solvers/slide_damping.h"
 #include "solvers/solid_limits.h"
 #include "solvers/strain_limit.h"
 #include "solvers/touches.h"
@@ -33,8 +34,12 @@ static inline void sbri_finish_substep(const sbri_island_tick *t, float h) {
   if (t->rests) sbri_flow(t, h);
   if (t->island->solid_limits) sbri_limit_solids(t, h);
   if (sbri_is_crushed(t)) sbri_uncrush_above_ground(t, h);
-  for (uint32_t b = 0; b < t->island->body_count; b++)
-    sbri_touches_go_on(t, &t->model->bodies[t->island->bodies[b]], h);
+  for (uint32_t b = 0; b < t->island->body_count; b++) {
+    const sbri_body *body = &t->model->bodies[t->island->bodies[b]];
+    const sbri_contact_rule rule = sbri_contact_rule_of(body, h);
+    if (sbri_may_touch(t, body)) sbri_slide_damp(t, body, &rule);
+    sbri_touches_go_on(t, body, h);
+  }
 }
 
 #endif

@@ -17,6 +17,9 @@ static const float NEAR_M_S = 1;
 /* A point that is no higher over its plane touches it. */
 static const float TOUCHES_M = 1e-5f;
 
+/* Friction at this share of its limit slides. */
+static const float SLIDES_SHARE = 0.999f;
+
 /* A light guest hangs from all that touches it at once. */
 enum { MOST_SWEEPS = 16, MOST_GUEST_SWEEPS = 64 };
 static const float FINER_WITH_GUESTS = 10;
@@ -287,6 +290,21 @@ void sbri_touches_answer(
     float up = lift_of(touch, rule);
     if (up > 0) move(&c, touch, sbri_scale(touch->normal, up), is_felt(&c, touch));
   }
+}
+
+sbri_sliding sbri_touches_sliding(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule) {
+  touching c = touching_of(t, body, t->velocities);
+  sbri_sliding sum = {0, 0, {0, 0, 0}};
+  for (uint32_t i = 0; i < c.count; i++) {
+    const sbri_touch *touch = &c.touches[i];
+    if (!(touch->gain > 0) || touch->collider == SBRI_ITSELF) continue;
+    float mass = touch->sample.mass_kg, limit = friction_of(&c, touch, rule) * touch->gain;
+    sum.load += mass * touch->gain, sum.limit += mass * limit;
+    if (limit > 0 && sbri_length(touch->rub) > SLIDES_SHARE * limit)
+      sum.friction = sbri_add_scaled(sum.friction, touch->rub, mass);
+  }
+  return sum;
 }
 
 void sbri_touches_go_on(const sbri_island_tick *t, const sbri_body *body, float step_s) {

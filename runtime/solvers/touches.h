@@ -19,6 +19,14 @@
 void sbri_touches_answer(
     const sbri_island_tick *t, const sbri_body *body, float *velocities, const sbri_contact_rule *rule);
 
+/* How much of a body's contacts slides, summed over them: N s, or a count where all weigh alike. */
+typedef struct sbri_sliding {
+  float load, limit; /* normal impulses; and these times the coefficient of friction */
+  sbf_vec3 friction; /* impulses of those that slide */
+} sbri_sliding;
+sbri_sliding sbri_touches_sliding(
+    const sbri_island_tick *t, const sbri_body *body, const sbri_contact_rule *rule);
+
 /* Planes go with what they stand for, when a substep is over. */
 void sbri_touches_go_on(const sbri_island_tick *t, const sbri_body *body, float step_s);
 
