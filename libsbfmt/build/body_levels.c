@@ -12,6 +12,7 @@
 #include "build/sections/section_level.h"
 
 enum { MOST_BRUTE_POINTS = 4096, LEAST_SHARE = 100 };
+static const double MOST_ELEMENTS = 1 << 24, ELEMENTS_OF_CELL = 12; /* of all bodies; of a cube of one cell */
 
 /* For a part of the work on one body's levels. */
 static sbfi_progress stretch_of_body(sbfi_build *b, uint32_t number) {
@@ -280,9 +281,41 @@ static void share_elements(sbfi_build *b) {
   b->usual_elements = share > LEAST_SHARE ? share : LEAST_SHARE;
 }
 
+/* Tetrahedra that the options ask for of the body; 0 where nobody sizes it. */
+static double elements_asked_for(const sbfi_build *b, const sbf_soft_body *body) {
+  sbf_build_interior interior = sbfi_body_interior(&b->options, body);
+  bool filled = interior == SBF_BUILD_INTERIOR_AUTOMATIC || interior == SBF_BUILD_INTERIOR_LATTICE ||
+                interior >= SBF_BUILD_INTERIOR_TETRAHEDRA;
+  if (!filled || body->levels.count > 0) return 0;
+  double cell = b->options.cell_m;
+  if (!(cell > 0)) return b->options.elements;
+  sbf_body_measures measures;
+  sbf_body_measure(body, &measures);
+  return measures.sheet ? 0 : ELEMENTS_OF_CELL * fabs(measures.volume) / (cell * cell * cell);
+}
+
+/* Refuses what would take more than memory before any of it is made. */
+static sbf_status check_elements(sbfi_build *b) {
+  double sum = 0, most = 0;
+  uint32_t largest = 0;
+  for (uint32_t i = 0; i < b->asset->soft_bodies.count; i++) {
+    double of = elements_asked_for(b, &b->bodies[i]);
+    sum += of;
+    if (of > most) most = of, largest = i;
+  }
+  if (!(sum > MOST_ELEMENTS)) return SBF_OK;
+  return sbfi_build_report_of_body(b, largest, SBF_CODE_LATTICE_TOO_FINE,
+      "the bodies would get about %.2g tetrahedra, %.2g of them in soft body \"%s\", and %.0f are the most "
+      "for "
+      "all together: give a larger cell (--cell) or fewer elements (--elements)",
+      sum, most, b->bodies[largest].name, MOST_ELEMENTS);
+}
+
 sbf_status sbfi_body_levels_make(sbfi_build *b) {
   uint32_t count = b->asset->soft_bodies.count;
   share_elements(b);
+  sbf_status refused = check_elements(b);
+  if (refused != SBF_OK) return refused;
   for (uint32_t i = 0; i < count; i++) {
     sbf_status status = sbfi_build_tell(b, "levels", 0.2 + 0.4 * i / count);
     if (status != SBF_OK) return status;

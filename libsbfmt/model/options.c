@@ -29,11 +29,17 @@ sbf_load_options sbfi_load_options_of(const sbf_load_options *given) {
   if (given) memcpy(&options, given, given_size(given->struct_size, sizeof options));
   default_u64(&options.limits.file_bytes, 4 * GIBIBYTE);
   default_u64(&options.limits.memory_bytes, 4 * GIBIBYTE);
-  default_u64(&options.limits.inflated_bytes, 4 * GIBIBYTE);
   default_u32(&options.limits.inflate_ratio, 1100);
   default_u32(&options.limits.list_items, 1u << 30);
   default_u32(&options.limits.depth, 32);
   return options;
+}
+
+uint64_t sbfi_inflated_limit(const sbf_limits *limits, uint64_t file_bytes) {
+  const uint64_t least = (uint64_t)64 << 20, most = 4 * GIBIBYTE, factor = 64;
+  if (limits->inflated_bytes) return limits->inflated_bytes;
+  if (file_bytes <= least / factor) return least;
+  return file_bytes < most / factor ? file_bytes * factor : most;
 }
 
 sbf_save_options sbfi_save_options_of(const sbf_save_options *given) {

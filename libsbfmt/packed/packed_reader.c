@@ -1,6 +1,7 @@
 #include "packed/packed_reader.h"
 
 #include "base/diagnostic.h"
+#include "model/options.h"
 #include "packed/packed_filter.h"
 
 /* The table of what is to be read: of an outline, where the file has one, its entry alone. */
@@ -18,13 +19,52 @@ static sbf_status read_table(
   return status;
 }
 
+/* A fault of a chunk as a whole. */
+__attribute__((format(printf, 4, 5))) static sbf_status fault(
+    sbfi_packed_reader *reader, sbf_code code, uint32_t number, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  sbf_status status = sbfi_diagnose_v(reader->error, code, format, arguments);
+  va_end(arguments);
+  if (reader->error) reader->error->offset = (int64_t)reader->table.chunks[number].offset;
+  return status;
+}
+
+static sbf_status inflates_too_far(sbfi_packed_reader *reader, uint32_t number) {
+  const sbfi_packed_chunk *c = &reader->table.chunks[number];
+  return fault(reader, SBF_CODE_PACKED_RATIO, number,
+      "with chunk %u (%s) of %llu bytes the file would inflate to more than %llu: raise the limit if the "
+      "file is trusted",
+      number, sbfi_packed_chunk_name(c).text, (unsigned long long)c->raw_size,
+      (unsigned long long)reader->options.limits.inflated_bytes);
+}
+
+/* Of a file that is read as a whole: refused before any of it is inflated. */
+static sbf_status check_inflated(sbfi_packed_reader *reader) {
+  uint64_t left = reader->options.limits.inflated_bytes;
+  if (reader->options.selection || reader->options.outline) return SBF_OK;
+  for (uint32_t i = 0; i < reader->table.chunk_count; i++) {
+    const sbfi_packed_chunk *c = &reader->table.chunks[i];
+    if (c->codec == SBFI_CODEC_NONE || c->kind == SBFI_PACKED_OUTLINE) continue;
+    if (c->raw_size > left) return inflates_too_far(reader, i);
+    left -= c->raw_size;
+  }
+  return SBF_OK;
+}
+
 sbf_status sbfi_packed_reader_open(sbfi_packed_reader *reader, const uint8_t *bytes, size_t size,
     const sbf_load_options *filled, const sbf_allocator *allocator, sbfi_arena *arena,
     sbf_diagnostic *error) {
   *reader = (sbfi_packed_reader){.bytes = bytes, .options = *filled, .arena = arena, .error = error};
   sbfi_packed_coder_init(&reader->coder, allocator, 0);
+  reader->options.limits.inflated_bytes = sbfi_inflated_limit(&filled->limits, size);
   sbf_status status = read_table(reader, size, allocator, error);
   if (status != SBF_OK) return status;
+  status = check_inflated(reader);
+  if (status != SBF_OK) {
+    sbfi_packed_reader_close(reader);
+    return status;
+  }
   uint32_t chunk_count = reader->table.chunk_count;
   reader->read_bytes = SBFI_PACKED_HEADER_SIZE + (uint64_t)chunk_count * SBFI_PACKED_ENTRY_SIZE;
   reader->used = sbfi_allocate(&reader->coder.allocator, chunk_count);
@@ -41,17 +81,6 @@ void sbfi_packed_reader_close(sbfi_packed_reader *reader) {
   reader->used = NULL;
   sbfi_packed_coder_free(&reader->coder);
   sbfi_packed_table_free(&reader->table);
-}
-
-/* A fault of a chunk as a whole. */
-__attribute__((format(printf, 4, 5))) static sbf_status fault(
-    sbfi_packed_reader *reader, sbf_code code, uint32_t number, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  sbf_status status = sbfi_diagnose_v(reader->error, code, format, arguments);
-  va_end(arguments);
-  if (reader->error) reader->error->offset = (int64_t)reader->table.chunks[number].offset;
-  return status;
 }
 
 sbf_status sbfi_packed_claim(sbfi_packed_reader *reader, uint32_t number, const sbfi_packed_chunk *wanted) {
@@ -85,11 +114,7 @@ static sbf_status admit(sbfi_packed_reader *reader, uint32_t number) {
           number, sbfi_packed_chunk_name(c).text, (unsigned long long)c->stored_size,
           (unsigned long long)c->raw_size, limits->inflate_ratio);
     if (c->raw_size > limits->inflated_bytes - reader->inflated_bytes)
-      return fault(reader, SBF_CODE_PACKED_RATIO, number,
-          "with chunk %u (%s) of %llu bytes the file would inflate to more than %llu: raise the limit if the "
-          "file is trusted",
-          number, sbfi_packed_chunk_name(c).text, (unsigned long long)c->raw_size,
-          (unsigned long long)limits->inflated_bytes);
+      return inflates_too_far(reader, number);
     reader->inflated_bytes += c->raw_size;
   }
   reader->read_bytes += c->stored_size;

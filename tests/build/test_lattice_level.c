@@ -220,6 +220,15 @@ START_TEST(what_goes_wrong_is_said)
   sbf_build_options fine = {.interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .cell_m = 1e-5};
   ck_assert_int_eq(sbf_build(asset, &fine, &built, NULL, &error), SBF_BAD_INPUT);
   ck_assert_int_eq(error.code, SBF_CODE_LATTICE_TOO_FINE);
+  /* Neither is too fine by itself. */
+  sbf_soft_body *more = add_cube(2, false);
+  ck_assert_ptr_nonnull(more);
+  fine.cell_m = 0;
+  fine.elements = 9000000;
+  ck_assert_int_eq(sbf_build(asset, &fine, &built, NULL, &error), SBF_BAD_INPUT);
+  ck_assert_int_eq(error.code, SBF_CODE_LATTICE_TOO_FINE);
+  ck_assert_ptr_nonnull(strstr(error.message, "all together"));
+  fine.elements = 0;
   fine.cell_m = -1;
   ck_assert_int_eq(sbf_build(asset, &fine, &built, NULL, &error), SBF_FAILED);
 }

@@ -286,6 +286,24 @@ START_TEST(every_allocation_may_fail)
 }
 END_TEST
 
+/* Read on, a face of millions would take gigabytes before anything is wrong with it. */
+START_TEST(a_face_has_a_bounded_number_of_corners)
+{
+  sbfi_obj_text text;
+  size_t most = 65535, length = strlen(four);
+  char *bytes = malloc(length + 2 * most + 8);
+  memcpy(bytes, four, length);
+  bytes[length++] = 'f';
+  for (size_t i = 0; i < most; i++) bytes[length++] = ' ', bytes[length++] = (char)('1' + i % 4);
+  sbf_diagnostic error = {0};
+  ck_assert_int_eq(sbfi_obj_text_read(&text, bytes, length, NULL, &error), SBF_OK);
+  sbfi_obj_text_free(&text);
+  memcpy(bytes + length, " 1\n", 4);
+  refused(bytes, SBF_CODE_IMPORT_POLYGON, 10);
+  free(bytes);
+}
+END_TEST
+
 static Suite *obj_text_suite(void) {
   Suite *suite = suite_create("obj_text");
   TCase *tests = tcase_create("all");
@@ -298,6 +316,7 @@ static Suite *obj_text_suite(void) {
   tcase_add_test(tests, runs_and_blocks);
   tcase_add_test(tests, other_statements_are_counted);
   tcase_add_test(tests, errors_name_their_line);
+  tcase_add_test(tests, a_face_has_a_bounded_number_of_corners);
   tcase_add_test(tests, binary_is_no_obj);
   tcase_add_test(tests, a_nul_is_refused_with_its_line);
   tcase_add_test(tests, messages_hold_no_bytes_of_the_file_that_are_no_text);

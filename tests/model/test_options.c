@@ -9,7 +9,9 @@ START_TEST(test_zero_means_the_documented_default)
   sbf_load_options load = sbfi_load_options_of(NULL);
   ck_assert_uint_eq(load.limits.file_bytes, UINT64_C(1) << 32);
   ck_assert_uint_eq(load.limits.memory_bytes, UINT64_C(1) << 32);
-  ck_assert_uint_eq(load.limits.inflated_bytes, UINT64_C(1) << 32);
+  ck_assert_uint_eq(sbfi_inflated_limit(&load.limits, 0), 64 << 20);
+  ck_assert_uint_eq(sbfi_inflated_limit(&load.limits, 3 << 20), 192 << 20);
+  ck_assert_uint_eq(sbfi_inflated_limit(&load.limits, UINT64_MAX), UINT64_C(1) << 32);
   ck_assert_uint_eq(load.limits.inflate_ratio, 1100);
   ck_assert_uint_eq(load.limits.list_items, 1u << 30);
   ck_assert_uint_eq(load.limits.depth, 32);
@@ -23,6 +25,7 @@ START_TEST(test_what_is_given_stays)
   sbf_load_options load = sbfi_load_options_of(
       &(sbf_load_options){.limits = {.inflate_ratio = 7}, .check_crc = true, .copy_file = true});
   ck_assert_uint_eq(load.limits.inflate_ratio, 7);
+  ck_assert_uint_eq(sbfi_inflated_limit(&(sbf_limits){.inflated_bytes = 9}, 1 << 20), 9);
   ck_assert_uint_eq(load.limits.depth, 32);
   ck_assert(load.check_crc && load.copy_file);
   ck_assert_int_eq(sbfi_save_options_of(&(sbf_save_options){.level = 9}).level, 9);

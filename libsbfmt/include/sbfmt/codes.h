@@ -132,7 +132,7 @@ typedef enum sbf_code {
   SBF_CODE_MESH_POINT_UNUSED = 586, /* Points of a render mesh are in no polygon and only cost memory: remove them in the source, or by --fix. */
   SBF_CODE_LATTICE_THIN = 590, /* Parts of a body are thinner than two elements of its lattice, which is thicker there than the body: give a smaller cell, or more elements. */
   SBF_CODE_LATTICE_EMPTY = 591, /* A body encloses nothing that a lattice of that cell could fill: it gets springs over its surface. */
-  SBF_CODE_LATTICE_TOO_FINE = 592, /* The cell is too small for a body of that size: give a larger one. */
+  SBF_CODE_LATTICE_TOO_FINE = 592, /* The cell is too small for a body of that size, or for all bodies together: give a larger one, or fewer elements. */
   SBF_CODE_EMBEDDING_FAR = 593, /* Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell, or take those in no polygon out of the source. */
   SBF_CODE_INTERIOR_TOO_MANY = 594, /* A body has too many points for springs between all of them: give another method. */
   SBF_CODE_LEVEL_ERROR_MISSED = 598, /* No lattice coarser than the reference comes within the error asked for: the body got one as fine as that. */
@@ -238,7 +238,7 @@ typedef enum sbf_code {
   SBF_CODE_IMPORT_SYNTAX = 901, /* A line of a text file of another program is not what its form demands: mend or export it again. */
   SBF_CODE_IMPORT_INDEX = 902, /* A polygon refers to a vertex, normal or texture coordinate that the file does not have. */
   SBF_CODE_IMPORT_NOT_FINITE = 903, /* A number of the imported file is infinite or not a number: export it again. */
-  SBF_CODE_IMPORT_POLYGON = 904, /* A polygon has fewer than three corners. */
+  SBF_CODE_IMPORT_POLYGON = 904, /* A polygon has fewer than three corners, or more than 65,535: divide it. */
   SBF_CODE_IMPORT_EMPTY = 905, /* The imported file holds neither a surface nor bones. */
   SBF_CODE_IMPORT_REFUSED = 906, /* The importer of this form refuses the file: export it as a current FBX, glTF 2.0 or OBJ. */
   SBF_CODE_IMPORT_CRASHED = 907, /* The importer broke down on the file, which is damaged or unusual: export it again or in another form. */

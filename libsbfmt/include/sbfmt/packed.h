@@ -20,7 +20,8 @@ extern "C" {
 typedef struct sbf_limits {
   uint64_t file_bytes;     /* 4 GiB */
   uint64_t memory_bytes;   /* 4 GiB that the asset may take */
-  uint64_t inflated_bytes; /* 4 GiB that packed chunks may inflate to, all together */
+  uint64_t inflated_bytes; /* that packed chunks may inflate to, all together: 64 times the file, at least
+                              64 MiB, at most 4 GiB */
   uint32_t inflate_ratio;  /* 1100 times its stored size for one chunk */
   uint32_t list_items;     /* 2^30 items in one list */
   uint32_t depth;          /* 32 elements inside each other */
