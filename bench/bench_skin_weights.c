@@ -156,10 +156,17 @@ static sbf_asset *with_gait(const sbf_asset *from, const sbfi_weights *weights) 
   return asset;
 }
 
+/* Whether it moves as a snake does: the spine follows its first bone. A tail is no kind of gait. */
+static bool slithers(const sbf_asset *asset) {
+  for (uint32_t i = 0; i < asset->chains.count; i++)
+    if (asset->chains.at[i].kind == SBF_CHAIN_KIND_DISTANCE) return true;
+  return false;
+}
+
 static bool is_gait_same(const rigged_model *m, const sbfi_weights *weights) {
   sbf_asset *painted = with_gait(m->asset, NULL), *computed = with_gait(m->asset, weights);
   bool same = painted->gaits.count == computed->gaits.count && count_legs(painted) == count_legs(computed) &&
-              painted->chains.count == computed->chains.count;
+              slithers(painted) == slithers(computed);
   sbf_asset_free(painted);
   sbf_asset_free(computed);
   return same;

@@ -250,6 +250,28 @@ START_TEST(eyes_follow_the_head_that_holds_them)
 }
 END_TEST
 
+/* A ball of radius 1 with a thin arm, turned around x as one shell. Near the shoulder the arm's bone is
+ * nearer than the ball's. */
+START_TEST(a_thick_part_keeps_its_shoulder)
+{
+  const sbfi_d3 path[] = {{-1, 0, 0}, {3, 0, 0}};
+  tubes_add(tubes, path, 2, 1, 120, false);
+  for (uint32_t i = 0; i < tubes->point_count; i++) {
+    double x = (double)tubes->points[i].x, radius = fmax(0.15, sqrt(fmax(0, 1 - x * x)));
+    tubes->points[i].y *= (float)radius, tubes->points[i].z *= (float)radius;
+  }
+  uint32_t ball = tubes_add_bone(tubes, "ball", SBF_NONE, (sbfi_d3){-0.9, 0, 0}, (sbfi_d3){0.5, 0, 0});
+  uint32_t arm = tubes_add_bone(tubes, "arm", (int32_t)ball, (sbfi_d3){0.5, 0, 0}, (sbfi_d3){2.9, 0, 0});
+  tubes_add_bone(tubes, "other", (int32_t)ball, (sbfi_d3){-0.9, 0, 0}, (sbfi_d3){-1, 0, 0});
+  compute_tubes();
+  for (uint32_t i = 0; i < tubes->point_count; i++) {
+    double x = (double)tubes->points[i].x;
+    if (x > 0.55 && x < 0.85) ck_assert_double_ge(tubes_weight(&weights, i, ball), 0.75);
+    if (x > 2) ck_assert_double_ge(tubes_weight(&weights, i, arm), 0.9);
+  }
+}
+END_TEST
+
 START_TEST(frames_and_controls_hold_nothing)
 {
   make_arm(30, false);
@@ -271,6 +293,85 @@ START_TEST(frames_and_controls_hold_nothing)
     ck_assert_double_eq(tubes_weight(&weights, i, pole), 0);
   }
   ck_assert_uint_eq(weights.figures.unused_bone_count, 0);
+}
+END_TEST
+
+/* The mark of an end holds nothing, and the bone before it runs to it. */
+START_TEST(ends_of_bones_hold_nothing)
+{
+  make_arm(60, false);
+  uint32_t end = tubes_add_bone(tubes, "arm_end", 2, (sbfi_d3){2.9, 0, 0}, (sbfi_d3){2.9, 1, 0});
+  tubes->bones[2].rotation = tubes->bones[end].rotation; /* as of rigs whose bones have no direction */
+  compute_tubes();
+  check_arm(0.1);
+  for (uint32_t i = 0; i < tubes->point_count; i++) ck_assert_double_eq(tubes_weight(&weights, i, end), 0);
+  ck_assert_uint_eq(weights.figures.unused_bone_count, 0);
+}
+END_TEST
+
+/* Handles that an animator pulls a hand by, in a tree of their own: one lies in the place of a joint. */
+START_TEST(trees_of_handles_hold_nothing)
+{
+  make_arm(60, false);
+  uint32_t handle = tubes_add_bone(tubes, "pull", SBF_NONE, (sbfi_d3){2.2, 0.05, 0}, (sbfi_d3){2.2, 0.1, 0});
+  uint32_t turn =
+      tubes_add_bone(tubes, "turn", (int32_t)handle, (sbfi_d3){2.2, 0.1, 0}, (sbfi_d3){2.2, 0, 0});
+  uint32_t wrist = tubes_add_bone(tubes, "lift", (int32_t)turn, (sbfi_d3){2, 0, 0}, (sbfi_d3){2.5, 0, 0});
+  compute_tubes();
+  check_arm(0.1);
+  for (uint32_t i = 0; i < tubes->point_count; i++) {
+    ck_assert_double_eq(tubes_weight(&weights, i, handle), 0);
+    ck_assert_double_eq(tubes_weight(&weights, i, wrist), 0);
+  }
+}
+END_TEST
+
+/* Fingers that begin at the wrist, as in motion capture: the hand runs on beside them. */
+START_TEST(fingers_at_the_wrist_do_not_end_the_hand)
+{
+  make_arm(60, false);
+  uint32_t finger = tubes_add_bone(tubes, "finger", 2, (sbfi_d3){2, 0, 0}, (sbfi_d3){2.2, 0, 0});
+  tubes_add_bone(tubes, "tip", (int32_t)finger, (sbfi_d3){2.2, 0, 0}, (sbfi_d3){2.5, 0, 0});
+  const int8_t sides[] = {1, 1, 1, 1, 1};
+  sbfi_weights_input in = tubes_input(tubes);
+  in.sides = sides;
+  compute(&in);
+  check_arm(0.1);
+}
+END_TEST
+
+/* A jointed doll: balls in the joints of three limbs of three parts each, and plates on both sides of the
+ * middle. */
+static uint32_t add_limb(double y, const char *name, int32_t parent) {
+  uint32_t first = tubes->bone_count;
+  for (int i = 0; i < 3; i++) {
+    const sbfi_d3 part[] = {{i + 0.15, y, 0}, {i + 0.85, y, 0}};
+    tubes_add(tubes, part, 2, 0.12, 6, false);
+    tubes_add_ball(tubes, (sbfi_d3){i, y, 0}, 0.14, 8);
+    tubes_add_bone(
+        tubes, name, i ? (int32_t)tubes->bone_count - 1 : parent, (sbfi_d3){i, y, 0}, (sbfi_d3){i + 1, y, 0});
+  }
+  return first;
+}
+
+START_TEST(machines_are_rigid)
+{
+  uint32_t middle = add_limb(0, "middle", SBF_NONE);
+  uint32_t left = add_limb(1, "left", (int32_t)middle), right = add_limb(-1, "right", (int32_t)middle);
+  ck_assert_uint_eq(left, 3);
+  ck_assert_uint_eq(right, 6);
+  const sbfi_d3 across[] = {{0.5, -1.7, 0.1}, {0.5, 1.7, 0.1}};
+  uint32_t plate = tubes_add(tubes, across, 2, 0.05, 12, false);
+  const int8_t sides[] = {0, 0, 0, 1, 1, 1, -1, -1, -1};
+  sbfi_weights_input in = tubes_input(tubes);
+  in.sides = sides;
+  compute(&in);
+  ck_assert_uint_eq(weights.figures.shell_count, 19);
+  ck_assert_uint_eq(weights.figures.rigid_shell_count, 19);
+  for (uint32_t i = plate; i < tubes->point_count; i++) ck_assert_uint_le(weights.joints[i][0], 2);
+  for (uint32_t shell = 0; shell < 18; shell++)
+    for (uint32_t i = 0; i < plate; i++)
+      if (weights.shell_of_point[i] == shell) ck_assert_uint_eq(weights.joints[i][0], shell / 2);
 }
 END_TEST
 
@@ -361,6 +462,11 @@ static Suite *suite(void) {
   tcase_add_test(c, shells_that_touch_stay_apart);
   tcase_add_test(c, eyes_follow_the_head_that_holds_them);
   tcase_add_test(c, frames_and_controls_hold_nothing);
+  tcase_add_test(c, a_thick_part_keeps_its_shoulder);
+  tcase_add_test(c, ends_of_bones_hold_nothing);
+  tcase_add_test(c, trees_of_handles_hold_nothing);
+  tcase_add_test(c, fingers_at_the_wrist_do_not_end_the_hand);
+  tcase_add_test(c, machines_are_rigid);
   tcase_add_test(c, the_unit_does_not_matter);
   tcase_add_test(c, points_in_no_triangle_follow_the_nearest);
   tcase_add_test(c, refusals);

@@ -76,6 +76,21 @@ static void level_chain(
   }
 }
 
+/* Bones beside their parent, and those after them, reach no farther than it: skin that both could hold is the
+ * parent's. */
+static bool bound_beside(
+    double *thickness, const sbfi_weights_input *in, const sbfi_bone_segment *segments, sbfi_arena *arena) {
+  int32_t *beside = sbfi_arena_allocate(arena, in->bone_count, sizeof *beside);
+  if (!beside) return false;
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    int32_t parent = in->bones[i].parent;
+    beside[i] = parent == SBF_NONE ? SBF_NONE : beside[parent];
+    if (sbfi_bone_is_beside(in, segments, i)) beside[i] = parent;
+    if (beside[i] != SBF_NONE) thickness[i] = fmin(thickness[i], thickness[beside[i]]);
+  }
+  return true;
+}
+
 /* A chain: bones each of which has one child, and the last. */
 static bool find_thickness(sbfi_bone_reach *r, const sbfi_weights_input *in, const sbfi_body_rays *rays,
     const sbfi_bone_segment *segments, sbfi_arena *arena) {
@@ -99,7 +114,7 @@ static bool find_thickness(sbfi_bone_reach *r, const sbfi_weights_input *in, con
     level_chain(bones + first, i - first, segments, r->thickness);
     first = i;
   }
-  return true;
+  return bound_beside(r->thickness, in, segments, arena);
 }
 
 static bool is_within(const sbfi_shell *shell, sbfi_d3 at) {

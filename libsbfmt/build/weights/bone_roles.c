@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "model/bone_ends.h"
+
 /* In units of the longest side: how far outside a joint aims rather than holds; how near two are one place.
  */
 static const double OUTSIDE = 0.05, SAME_PLACE = 0.002;
@@ -38,6 +40,12 @@ static bool has_child(const sbfi_weights_input *in, uint32_t bone) {
   return false;
 }
 
+bool sbfi_bone_is_end(const sbfi_weights_input *in, uint32_t bone) {
+  const char *name = in->bones[bone].name;
+  return name && in->bones[bone].parent != SBF_NONE && !has_child(in, bone) &&
+         sbfi_name_is_end(name, strlen(name));
+}
+
 static bool is_on_root(const sbfi_weights_input *in, uint32_t bone) {
   int32_t parent = in->bones[bone].parent;
   return parent == SBF_NONE || in->bones[parent].parent == SBF_NONE;
@@ -58,6 +66,42 @@ static bool pulls_another(const sbfi_weights_input *in, const sbfi_weight_mesh *
     if (sbfi_d3_length(apart) < SAME_PLACE) return true;
   }
   return false;
+}
+
+static uint32_t root_of(const sbfi_weights_input *in, uint32_t bone) {
+  while (in->bones[bone].parent != SBF_NONE) bone = (uint32_t)in->bones[bone].parent;
+  return bone;
+}
+
+static uint32_t largest_tree(const sbfi_weights_input *in) {
+  uint32_t best = 0, most = 0;
+  for (uint32_t root = 0; root < in->bone_count; root++) {
+    uint32_t count = 0;
+    if (in->bones[root].parent != SBF_NONE) continue;
+    for (uint32_t i = root; i < in->bone_count; i++) count += root_of(in, i) == root;
+    if (count > most) best = root, most = count;
+  }
+  return best;
+}
+
+/* Trees of several bones beside the skeleton's, with a joint in the place of one of the skeleton's: they are
+ * what an animator pulls its feet and hands by. */
+static void drop_helper_trees(
+    const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, bool *is_deforming) {
+  uint32_t skeleton = largest_tree(in);
+  for (uint32_t i = 0; i < in->bone_count; i++) {
+    uint32_t root = root_of(in, i);
+    bool is_helper = false;
+    if (root == skeleton || (i == root && !has_child(in, i))) continue;
+    for (uint32_t k = 0; k < in->bone_count && !is_helper; k++) {
+      if (root_of(in, k) != skeleton) continue;
+      sbfi_d3 apart = sbfi_d3_sub(
+          sbfi_weight_mesh_place(mesh, in->bones[i].head), sbfi_weight_mesh_place(mesh, in->bones[k].head));
+      is_helper = sbfi_d3_length(apart) < SAME_PLACE;
+    }
+    for (uint32_t k = root; is_helper && k < in->bone_count; k++)
+      if (root_of(in, k) == root) is_deforming[k] = false;
+  }
 }
 
 static void set_all(bool *is_deforming, uint32_t count) {
@@ -85,11 +129,13 @@ void sbfi_bone_roles_find(const sbfi_weights_input *in, const sbfi_weight_mesh *
     if (!is_control && is_on_root(in, i) && !has_child(in, i))
       is_control =
           is_outside(rays, sbfi_weight_mesh_place(mesh, in->bones[i].head)) || pulls_another(in, mesh, i);
-    if (is_control || is_frame_name(letters) || (is_on_root(in, i) && strstr(letters, "root")))
+    if (is_control || is_frame_name(letters) || sbfi_bone_is_end(in, i) ||
+        (is_on_root(in, i) && strstr(letters, "root")))
       is_deforming[i] = false;
     if (is_control && parent != SBF_NONE && in->bones[parent].parent == SBF_NONE)
       is_deforming[parent] = false;
   }
+  drop_helper_trees(in, mesh, is_deforming);
   /* A rig of so few bones has no controls and no frames. */
   if (!has_any(is_deforming, in->bone_count)) set_all(is_deforming, in->bone_count);
 }

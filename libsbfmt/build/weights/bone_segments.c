@@ -62,6 +62,21 @@ static double free_length(const sbfi_weights_input *in, const sbfi_bone_segment 
   return length;
 }
 
+bool sbfi_bone_is_beside(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone) {
+  int32_t parent = in->bones[bone].parent;
+  return parent != SBF_NONE && segments[bone].side && segments[bone].side == segments[parent].side &&
+         segments[parent].is_deforming && segments[parent].next == SBF_NONE &&
+         sbfi_d3_length(sbfi_d3_sub(segments[bone].head, segments[parent].head)) < TINY;
+}
+
+/* Whether a bone, or one above it, lies beside `above`. */
+static bool hangs_beside(
+    const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone, uint32_t above) {
+  for (int32_t b = (int32_t)bone; b != SBF_NONE; b = in->bones[b].parent)
+    if (in->bones[b].parent == (int32_t)above) return sbfi_bone_is_beside(in, segments, (uint32_t)b);
+  return false;
+}
+
 /* How far an axis stays inside a body that is open ahead. */
 static double length_inside(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 axis) {
   const double step = 1.0 / 64;
@@ -72,21 +87,30 @@ static double length_inside(const sbfi_body_rays *rays, sbfi_d3 from, sbfi_d3 ax
 }
 
 /* Along the axis to a joint that lies on it, else nine tenths of the way to the skin. */
-static double leaf_length(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh, const sbfi_d3 *heads,
-    const sbfi_body_rays *rays, uint32_t bone, sbfi_d3 axis) {
+static double leaf_length(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
+    const sbfi_bone_segment *segments, const sbfi_body_rays *rays, uint32_t bone, sbfi_d3 axis) {
   double stated = in->bones[bone].length * mesh->scale, joint = INFINITY;
   if (stated > TINY) return stated;
   for (uint32_t i = 0; i < in->bone_count; i++) {
-    sbfi_d3 way = sbfi_d3_sub(heads[i], heads[bone]);
+    sbfi_d3 way = sbfi_d3_sub(segments[i].head, segments[bone].head);
     double along = sbfi_d3_dot(way, axis);
     sbfi_d3 aside = sbfi_d3_sub(way, sbfi_d3_scale(axis, along));
-    if (along > ON_AXIS && along < joint && sbfi_body_holds(rays, heads[i]) &&
-        sbfi_d3_length(aside) < ON_AXIS)
+    if (along > ON_AXIS && along < joint && sbfi_body_holds(rays, segments[i].head) &&
+        sbfi_d3_length(aside) < ON_AXIS && !hangs_beside(in, segments, i, bone))
       joint = along;
   }
-  double out = sbfi_body_shell_end(rays, mesh, heads[bone], axis);
-  if (!isfinite(out)) out = length_inside(rays, heads[bone], axis);
+  double out = sbfi_body_shell_end(rays, mesh, segments[bone].head, axis);
+  if (!isfinite(out)) out = length_inside(rays, segments[bone].head, axis);
   return joint < out + ON_AXIS ? joint : WAY_OUT * out;
+}
+
+/* Where a rig marks the end of a bone, or SBF_NONE. */
+static int32_t marked_end(const sbfi_weights_input *in, const sbfi_d3 *heads, uint32_t bone) {
+  for (uint32_t i = bone + 1; i < in->bone_count; i++)
+    if (in->bones[i].parent == (int32_t)bone && sbfi_bone_is_end(in, i) &&
+        sbfi_d3_length(sbfi_d3_sub(heads[i], heads[bone])) > TINY)
+      return (int32_t)i;
+  return SBF_NONE;
 }
 
 static void take_sides(const sbfi_weights_input *in, sbfi_bone_segment *segments) {
@@ -115,8 +139,13 @@ bool sbfi_bone_segments_find(const sbfi_weights_input *in, const sbfi_weight_mes
     if (segments[i].next != SBF_NONE) segments[i].tail = heads[segments[i].next];
   for (uint32_t i = 0; i < in->bone_count; i++) {
     if (segments[i].next != SBF_NONE || !segments[i].is_deforming) continue;
+    int32_t end = marked_end(in, heads, i);
+    if (end != SBF_NONE) {
+      segments[i].tail = heads[end];
+      continue;
+    }
     sbfi_d3 axis = axis_of(in->bones[i].rotation);
-    double length = leaf_length(in, mesh, heads, rays, i, axis);
+    double length = leaf_length(in, mesh, segments, rays, i, axis);
     length = free_length(in, segments, i, axis, length);
     segments[i].tail = sbfi_d3_add(heads[i], sbfi_d3_scale(axis, length));
   }

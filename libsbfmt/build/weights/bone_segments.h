@@ -16,6 +16,10 @@ typedef struct sbfi_bone_segment {
 bool sbfi_bone_segments_find(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
     const sbfi_body_rays *rays, sbfi_bone_segment *segments, sbfi_arena *arena);
 
+/* Whether a bone of a limb begins where its parent, which has no next bone, begins, as the fingers of motion
+ * capture do at the wrist. It runs beside its parent and does not end it. */
+bool sbfi_bone_is_beside(const sbfi_weights_input *in, const sbfi_bone_segment *segments, uint32_t bone);
+
 /* Squared distance of a point from a segment. */
 double sbfi_segment_distance2(const sbfi_bone_segment *segment, sbfi_d3 point);
 

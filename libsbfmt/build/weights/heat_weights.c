@@ -8,7 +8,7 @@
 enum { LANES = SBFI_HEAT_LANES, MOST_ITERATIONS = 1000 };
 /* How fast heat flows from the bone; the least distance that counts; the residual at which it is solved,
  * against that of the right side; what is too little to keep. */
-static const double HEAT = 2, LEAST_DISTANCE = 0.02, TOLERANCE = 1e-3, LEAST_WEIGHT = 5e-4;
+static const double HEAT = 3, LEAST_DISTANCE = 0.02, TOLERANCE = 5e-4, LEAST_WEIGHT = 5e-4;
 
 /* Single precision: a solution to some thousandths needs no more, and memory is what limits the speed. Sums
  * are double. */

@@ -5,7 +5,7 @@
 /* Paths from cell to cell are longer than straight ones by up to an eleventh. Distances are divided by the
  * root of the body's radius plus this; a shell that holds less than a quarter of a bone is up to eleven times
  * as far from it. */
-static const double DETOUR = 1.1, RADIUS_OFFSET = 0.02, SHARE_WHOLE = 0.25, SHELL_PENALTY = 10;
+static const double DETOUR = 1.1, RADIUS_OFFSET = 0.02, SHARE_WHOLE = 0.25, SHELL_PENALTY = 10, TIE = 1e-5;
 
 /* Factors of the distance from one bone to each shell. */
 static void shell_factors(const sbfi_bone_reach *reach, uint32_t bone, uint32_t *next_share,
@@ -42,7 +42,7 @@ bool sbfi_nearest_bones_find(const sbfi_weights_input *in, const sbfi_weight_mes
       double straight = sqrt(sbfi_segment_distance2(&segments[b], sbfi_d3_of(mesh->sites[i])));
       double path = cells[i] == SBF_NONE ? straight : (double)paths.distances[cells[i]] / SBFI_BODY_CELLS;
       double distance = fmax(path / DETOUR, straight) * scale * factors[mesh->shell_of_site[i]];
-      if (!(distance < least[i])) continue;
+      if (!(distance < least[i] * (1 - TIE))) continue; /* of equals the first */
       least[i] = distance;
       nearest[i] = (sbfi_nearest_bone){b, (float)straight};
     }

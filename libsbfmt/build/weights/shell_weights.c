@@ -7,6 +7,13 @@
 /* Sizes in units of the longest side. A small shell follows its leading bone; a middling one where that bone
  * leads clearly. */
 static const double SMALL = 0.15, MIDDLING = 0.5, CLEAR_LEAD = 0.85;
+/* A machine: the squares of its shells' shares of the area sum to less than one in so many, as those of as
+ * many equal shells do. All its shells are rigid. */
+static const double MACHINE_SHELLS = 12.5;
+/* A shell over which both sides hold so much, the lesser as a share of the greater, is neither's. */
+static const double BOTH_SIDES = 0.5;
+/* How near its middle, as a share of its size, the joint of a hinge lies. */
+static const double HINGE_MIDDLE = 0.025;
 
 static void sort_weights(sbfi_site_weights *w) {
   for (int i = 1; i < SBFI_SITE_BONES; i++)
@@ -51,6 +58,19 @@ static double site_distance(const void *user, uint32_t site, const double point[
   return sbfi_d3_dot(apart, apart);
 }
 
+/* Whether a mesh consists of many parts, as machines and jointed dolls do, and no skin over them. */
+static bool is_machine(const sbfi_weight_mesh *mesh) {
+  double whole = 0, squares = 0;
+  for (uint32_t s = 0; s < mesh->shell_count; s++) {
+    double area = 0;
+    for (uint32_t i = 0; i < mesh->shells[s].site_count; i++)
+      area += mesh->areas[mesh->sites_by_shell[mesh->shells[s].first_site + i]];
+    whole += area;
+    squares += area * area;
+  }
+  return whole * whole > MACHINE_SHELLS * squares;
+}
+
 /* Small shells without a bone inside take the weights of the nearest sites that have one, as eyes do in a
  * head. */
 static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reach *reach,
@@ -71,7 +91,7 @@ static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reac
   if (!sbfi_box_tree_build(&tree, boxes, count, arena)) return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
     uint32_t shell = mesh->shell_of_site[i];
-    if (reach->shell_holds_bone[shell] || mesh->shells[shell].size >= SMALL) continue;
+    if (reach->shell_holds_bone[shell] || (mesh->shells[shell].size >= SMALL && !is_machine(mesh))) continue;
     double nearest = INFINITY;
     sbf_vec3 at = mesh->sites[i];
     uint32_t found = sbfi_box_tree_nearest(
@@ -81,9 +101,18 @@ static bool copy_from_holders(const sbfi_weight_mesh *mesh, const sbfi_bone_reac
   return true;
 }
 
+/* Where bones of both sides hold much of a shell, those in the middle lead, if any holds some. */
+static void drop_sides(const sbfi_bone_segment *segments, double *sums, uint32_t bone_count) {
+  double sides[3] = {0, 0, 0};
+  for (uint32_t b = 0; b < bone_count; b++) sides[segments[b].side + 1] += sums[b];
+  if (sides[1] <= 0 || fmin(sides[0], sides[2]) < BOTH_SIDES * fmax(sides[0], sides[2])) return;
+  for (uint32_t b = 0; b < bone_count; b++)
+    if (segments[b].side) sums[b] = 0;
+}
+
 /* The bone with the greatest weight over a shell, by area, and its share of all. */
-static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const sbfi_site_weights *weights,
-    double *sums, uint32_t bone_count, double *share) {
+static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const sbfi_bone_segment *segments,
+    const sbfi_site_weights *weights, double *sums, uint32_t bone_count, double *share) {
   const uint32_t *sites = mesh->sites_by_shell + mesh->shells[shell].first_site;
   double whole = 0;
   memset(sums, 0, bone_count * sizeof *sums);
@@ -93,6 +122,7 @@ static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const
       sums[weights[sites[i]].bones[k]] += weight;
       whole += weight;
     }
+  drop_sides(segments, sums, bone_count);
   uint32_t best = 0;
   for (uint32_t b = 1; b < bone_count; b++)
     if (sums[b] > sums[best]) best = b;
@@ -100,16 +130,43 @@ static uint32_t leading_bone(const sbfi_weight_mesh *mesh, uint32_t shell, const
   return best;
 }
 
-static bool stiffen_shells(const sbfi_weight_mesh *mesh, uint32_t bone_count, sbfi_site_weights *weights,
-    sbfi_weights_figures *figures, sbfi_arena *arena) {
+/* The one bone that begins in the middle of a shell: that is the ball or the hinge of its joint, and moves
+ * with it. UINT32_MAX: none does, or several. */
+static uint32_t bone_of_hinge(const sbfi_weight_mesh *mesh, const sbfi_shell *shell,
+    const sbfi_bone_segment *segments, uint32_t bone_count) {
+  sbfi_d3 middle = {0, 0, 0};
+  double whole = 0;
+  uint32_t found = UINT32_MAX;
+  for (uint32_t i = 0; i < shell->site_count; i++) {
+    uint32_t site = mesh->sites_by_shell[shell->first_site + i];
+    middle = sbfi_d3_add(middle, sbfi_d3_scale(sbfi_d3_of(mesh->sites[site]), mesh->areas[site]));
+    whole += mesh->areas[site];
+  }
+  if (!(whole > 0)) return UINT32_MAX;
+  middle = sbfi_d3_scale(middle, 1 / whole);
+  for (uint32_t b = 0; b < bone_count; b++) {
+    if (!segments[b].is_deforming ||
+        sbfi_d3_length(sbfi_d3_sub(segments[b].head, middle)) > HINGE_MIDDLE * shell->size)
+      continue;
+    if (found != UINT32_MAX) return UINT32_MAX;
+    found = b;
+  }
+  return found;
+}
+
+static bool stiffen_shells(const sbfi_weight_mesh *mesh, const sbfi_bone_segment *segments,
+    uint32_t bone_count, sbfi_site_weights *weights, sbfi_weights_figures *figures, sbfi_arena *arena) {
+  bool all = is_machine(mesh);
   double *sums = sbfi_arena_allocate(arena, bone_count, sizeof *sums), share;
   if (!sums) return false;
   figures->shell_count = mesh->shell_count;
   for (uint32_t s = 0; s < mesh->shell_count; s++) {
     const sbfi_shell *shell = &mesh->shells[s];
-    if (shell->size >= MIDDLING) continue;
-    uint32_t bone = leading_bone(mesh, s, weights, sums, bone_count, &share);
-    if (shell->size >= SMALL && share <= CLEAR_LEAD) continue;
+    if (shell->size >= MIDDLING && !all) continue;
+    uint32_t bone = leading_bone(mesh, s, segments, weights, sums, bone_count, &share);
+    if (shell->size >= SMALL && share <= CLEAR_LEAD && !all) continue;
+    uint32_t hinge = bone_of_hinge(mesh, shell, segments, bone_count);
+    if (hinge != UINT32_MAX) bone = hinge;
     for (uint32_t i = 0; i < shell->site_count; i++)
       set_single(&weights[mesh->sites_by_shell[shell->first_site + i]], bone);
     figures->rigid_shell_count++;
@@ -121,7 +178,7 @@ bool sbfi_shell_weights_repair(const sbfi_weight_mesh *mesh, const sbfi_bone_seg
     uint32_t bone_count, const sbfi_bone_reach *reach, sbfi_site_weights *weights,
     sbfi_weights_figures *figures, sbfi_arena *arena) {
   if (!copy_from_holders(mesh, reach, weights, arena) ||
-      !stiffen_shells(mesh, bone_count, weights, figures, arena))
+      !stiffen_shells(mesh, segments, bone_count, weights, figures, arena))
     return false;
   for (uint32_t i = 0; i < mesh->site_count; i++) {
     erase_other_side(segments, &weights[i]);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "import/gait/gait_draft.h"
+#include "model/bone_ends.h"
 
 static const double SIDE_SHARE = 0.02; /* of the height: what is nearer to x = 0 is in the middle */
 
@@ -92,12 +93,6 @@ static void see_everything(sbfi_gait_draft *d, extents *e) {
   for (uint32_t i = 0; i < a->bones.count && !d->has_mesh; i++) see(e, sbfi_draft_head(d, (int32_t)i));
 }
 
-static bool is_tip(const sbf_bone *bone) {
-  size_t length = strlen(bone->name);
-  return length > 4 &&
-         (strcmp(bone->name + length - 4, "_end") == 0 || strcmp(bone->name + length - 4, "_End") == 0);
-}
-
 static void widen(sbfi_bone_shape *shape, double least_x, double most_x) {
   shape->least_x = fmin(shape->least_x, least_x);
   shape->most_x = fmax(shape->most_x, most_x);
@@ -110,7 +105,7 @@ static void gather_upwards(sbfi_gait_draft *d, const extents *e) {
     sbfi_bone_shape *shape = &d->shapes[i];
     const sbf_bone *bone = sbfi_draft_bone(d, (int32_t)i);
     if (!d->has_mesh) {
-      shape->bears |= !is_tip(bone);
+      shape->bears |= !sbfi_name_is_end(bone->name, strlen(bone->name));
       shape->low = (double)bone->head.y; /* tips mark how far the bones above them reach */
     }
     shape->bears |= shape->points > 0;

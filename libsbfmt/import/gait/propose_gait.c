@@ -175,13 +175,14 @@ static bool propose_spine(sbfi_conversion *c, sbfi_gait_draft *d) {
   if (!sbfi_draft_spine(d, &c->scratch) || (d->spine_count && !write_spine(c, d))) return false;
   if (d->spine_count)
     sbfi_convert_warn(c, SBF_CODE_RIG_CRAWLS,
-        "no limb of the rig comes down to the ground; the %u bones from '%.40s' to '%.40s' are proposed as a "
+        "no two limbs of the rig come down to the ground; the %u bones from '%.40s' to '%.40s' are proposed "
+        "as a "
         "chain that follows its first, as a snake's",
         (unsigned)d->spine_count, sbfi_draft_bone(d, (int32_t)d->spine[0])->name,
         sbfi_draft_bone(d, (int32_t)d->spine[d->spine_count - 1])->name);
   else
     sbfi_convert_warn(c, SBF_CODE_RIG_NO_LEGS,
-        "no limb of the rig comes down to the ground: no gait is proposed, and the character moves as a "
+        "no two limbs of the rig come down to the ground: no gait is proposed, and the character moves as a "
         "whole; add a gait to the bundle to make it walk");
   return true;
 }
@@ -191,7 +192,7 @@ sbf_status sbfi_propose_gait(sbfi_conversion *c) {
   if (a->bones.count == 0 || a->gaits.count || a->chains.count || a->ik_chains.count) return SBF_OK;
   sbfi_gait_draft d = {.asset = c->asset};
   bool good = sbfi_draft_shapes(&d, &c->scratch) && sbfi_draft_legs(&d, &c->scratch);
-  if (good && d.leg_count)
+  if (good && d.leg_count > 1) /* nothing walks on one: a fish's fin that hangs lowest */
     good = sbfi_draft_row(&d) && sbfi_draft_ends(&d) && write_gait(c, &d);
   else if (good)
     good = propose_spine(c, &d);

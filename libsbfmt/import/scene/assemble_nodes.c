@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "import/scene/assembly.h"
+#include "model/bone_ends.h"
 
 /* assimp splits the transform of an FBX node into a chain of helpers, one for each pivot and offset. */
 static const char pivot_mark[] = "_$AssimpFbx$_";
@@ -18,17 +19,11 @@ bool sbfi_is_folded(const sbfi_assembly *a, uint32_t raw_node) {
   return a->new_from_old[raw_node] == SBF_NONE;
 }
 
-static bool ends_with(sbfi_span text, const char *end) {
-  size_t length = strlen(end);
-  return text.length >= length && memcmp(text.at + text.length - length, end, length) == 0;
-}
-
 /* By name as well as by place: any tool writes leaves that are bones of their own. */
 static void mark_ends(sbfi_assembly *a, uint32_t node_count) {
   for (uint32_t i = 0; i < node_count; i++) {
     sbfi_span name = a->raw->nodes[a->old_from_new[i]].name;
-    a->nodes[i].is_end =
-        ends_with(name, "_end") || ends_with(name, "_End") || sbfi_span_begins(name, "EndSite");
+    a->nodes[i].is_end = sbfi_name_is_end(name.at, name.length);
   }
   for (uint32_t i = 0; i < node_count; i++)
     if (a->nodes[i].parent != SBF_NONE) a->nodes[a->nodes[i].parent].is_end = false;
