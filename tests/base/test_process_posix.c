@@ -53,7 +53,7 @@ static int play(const char *role, int count) {
     return 5;
   }
   if (!strcmp(role, "spin")) {
-    for (volatile unsigned i = 0;; i++) {}
+    for (volatile unsigned i = 0;; i = i + 1) {}
   }
   if (!strcmp(role, "endless")) {
     for (;;) puts("and on");
