@@ -291,7 +291,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("number_parse");
   TCase *c = tcase_create("float32");
-  tcase_set_timeout(c, 120);
   tcase_add_test(c, simple_numbers_are_read);
   tcase_add_test(c, zero_keeps_its_sign);
   tcase_add_test(c, malformed_numbers_are_refused_where_they_break);

@@ -175,7 +175,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("number_print");
   TCase *c = tcase_create("float32");
-  tcase_set_timeout(c, 300);
   tcase_add_test(c, the_layout_is_the_canonical_one);
   tcase_add_test(c, what_is_not_finite_has_no_text);
   tcase_add_test(c, every_exponent_gives_the_shortest_and_nearest);

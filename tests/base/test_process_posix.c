@@ -65,7 +65,7 @@ static int play(const char *role, int count) {
     return 0;
   }
   if (!strcmp(role, "allocate")) {
-    char *much = malloc((size_t)1 << 30);
+    char *volatile much = malloc((size_t)1 << 30); /* that no compiler takes it for granted */
     puts(much ? "granted" : "refused");
     free(much);
     return 0;
@@ -270,7 +270,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("process_posix");
   TCase *c = tcase_create("process");
-  tcase_set_timeout(c, 120);
   tcase_add_test(c, a_status_comes_back);
   tcase_add_test(c, output_is_kept_whole_and_errors_at_their_end);
   tcase_add_test(c, a_crash_is_a_result);

@@ -169,7 +169,6 @@ static Suite *suite(void) {
   tcase_add_test(c, lines_end_in_any_convention);
   suite_add_tcase(s, c);
   c = tcase_create("utf8");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, utf8_is_checked_to_the_byte);
   tcase_add_test(c, every_code_point_is_well_formed_and_cut_whole);
   suite_add_tcase(s, c);

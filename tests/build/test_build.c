@@ -420,7 +420,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("build");
   TCase *c = tcase_create("build");
-  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, reference_lizard);
   tcase_add_test(c, bodies_that_nobody_sizes_share);

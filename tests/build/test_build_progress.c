@@ -126,7 +126,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("build_progress");
   TCase *c = tcase_create("build_progress");
-  tcase_set_timeout(c, 120);
   tcase_add_test(c, springs_on_a_grid);
   tcase_add_test(c, tetrahedra_and_their_levels);
   tcase_add_test(c, render_levels);

@@ -259,7 +259,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("carrier");
   TCase *c = tcase_create("carrier");
-  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, surface_points_carry_themselves);
   tcase_add_test(c, of_equal_points_the_likely_one);

@@ -204,7 +204,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("embed");
   TCase *c = tcase_create("embed");
-  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_skin_goes_by_its_weights);
   tcase_add_test(c, a_mesh_on_a_bone_goes_whole);

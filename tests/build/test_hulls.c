@@ -134,7 +134,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("hulls");
   TCase *c = tcase_create("hulls");
-  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, cube_has_six_faces);
   tcase_add_test(c, points_keep_their_order);

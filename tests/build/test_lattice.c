@@ -209,7 +209,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("lattice");
   TCase *c = tcase_create("lattice");
-  tcase_set_timeout(c, 120);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_cube_of_whole_cells_is_met_exactly);
   tcase_add_test(c, a_ball_is_met_within_the_square_of_the_cell);

@@ -348,7 +348,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("lattice_level");
   TCase *c = tcase_create("lattice_level");
-  tcase_set_timeout(c, 120);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_cube_of_tetrahedra);
   tcase_add_test(c, a_section_is_held_in_its_inner_half);

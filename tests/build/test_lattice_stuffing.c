@@ -164,7 +164,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("lattice_stuffing");
   TCase *c = tcase_create("lattice_stuffing");
-  tcase_set_timeout(c, 120);
   tcase_add_test(c, whatever_the_surface);
   tcase_add_test(c, all_inside_is_the_grid_itself);
   tcase_add_test(c, edges_lead_where_they_say);

@@ -321,7 +321,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("render_levels");
   TCase *c = tcase_create("render_levels");
-  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, halves_and_true_errors);
   tcase_add_test(c, texture_seams_are_kept);

@@ -258,7 +258,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("spring_level");
   TCase *c = tcase_create("spring_level");
-  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, half_the_size_is_not_softer);
   tcase_add_test(c, a_finer_mesh_is_as_stiff);

@@ -209,7 +209,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("springs_matched");
   TCase *c = tcase_create("springs_matched");
-  tcase_set_timeout(c, 120);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, a_body_centred_grid_is_isotropic);
   tcase_add_test(c, energy_is_kept_whatever_the_directions);

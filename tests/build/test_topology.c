@@ -118,7 +118,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("topology");
   TCase *c = tcase_create("topology");
-  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, cube_is_closed);
   tcase_add_test(c, edges_stand_in_the_order_of_the_walk);

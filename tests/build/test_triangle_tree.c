@@ -135,7 +135,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("triangle_tree");
   TCase *c = tcase_create("triangle_tree");
-  tcase_set_timeout(c, 60);
   tcase_add_checked_fixture(c, setup, teardown);
   tcase_add_test(c, nearest_as_by_trying_all);
   tcase_add_test(c, a_bound_is_kept);

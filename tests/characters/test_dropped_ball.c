@@ -15,7 +15,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("dropped_ball");
   TCase *c = tcase_create("dropped_ball");
-  tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, balls_keep_shape_and_energy, 0, BALLS);
   suite_add_tcase(suite, c);
   return harness_run(suite);

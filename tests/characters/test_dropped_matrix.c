@@ -18,7 +18,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("dropped_matrix");
   TCase *c = tcase_create("dropped_matrix");
-  tcase_set_timeout(c, 300);
   tcase_add_loop_test(c, every_preset_at_every_size, 0, PRESETS * RADII * RATIOS * HEIGHTS);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -163,7 +163,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("frame_times");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, every_tick_has_one_state, 0, EXAMPLES);
   tcase_add_loop_test(tests, every_rate_shows_the_same_pose_at_a_time, 0, EXAMPLES);
   suite_add_tcase(suite, tests);

@@ -90,7 +90,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("piled");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 300);
   tcase_add_loop_test(tests, armadillos_dropped_hard_come_apart, 0, 6);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -98,7 +98,6 @@ int main(void) {
   tcase_add_loop_test(c, bodies_die_where_their_stiffest_mode_does, 0, 3);
   tcase_add_test(c, what_does_not_die_is_soft_or_damped);
   tcase_add_test(c, poisson_ratios_move_the_stiffest_mode_alone);
-  tcase_set_timeout(c, 60);
   suite_add_tcase(suite, c);
   return harness_run(suite);
 }

@@ -115,7 +115,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("reference");
   TCase *c = tcase_create("reference");
-  tcase_set_timeout(c, 300);
   tcase_add_test(c, it_takes_more_substeps_until_it_has_converged);
   tcase_add_test(c, a_mesh_is_measured_by_the_pair_that_it_states);
   tcase_add_test(c, where_more_come_no_nearer_it_stays_as_it_is);

@@ -392,7 +392,6 @@ END_TEST
 static Suite *assimp_bridge_suite(void) {
   Suite *suite = suite_create("assimp_bridge");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, a_helper_that_is_not_there);
   tcase_add_test(tests, the_environment_names_a_helper);
   tcase_add_loop_test(tests, however_the_helper_ends, 0, sizeof ends / sizeof *ends);

@@ -147,7 +147,6 @@ END_TEST
 static Suite *bind_pose_suite(void) {
   Suite *suite = suite_create("bind_pose");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, bones_go_back_to_where_they_were_bound);
   tcase_add_test(tests, a_turn_alone_is_another_pose);
   tcase_add_test(tests, clips_show_what_they_showed);

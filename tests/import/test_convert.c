@@ -412,7 +412,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("convert");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 300);
   tcase_add_test(tests, the_lizard_of_obj_and_rig);
   tcase_add_test(tests, the_lizard_of_one_file);
   tcase_add_test(tests, units_are_those_of_the_file);

@@ -274,7 +274,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("convert_clips");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, tracks_are_of_frames_in_their_parents);
   tcase_add_test(tests, tracks_are_as_short_as_they_can_be);
   tcase_add_test(tests, without_bones_nothing_moves);

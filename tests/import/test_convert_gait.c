@@ -80,7 +80,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("convert_gait");
   TCase *tests = tcase_create("convert_gait");
-  tcase_set_timeout(tests, 60);
   tcase_add_loop_test(tests, a_gait_proposed_later_is_the_same, 0, 2);
   tcase_add_test(tests, what_has_no_legs_is_told);
   tcase_add_test(tests, ids_that_are_taken_stay_their_owners);

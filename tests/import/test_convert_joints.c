@@ -168,7 +168,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("convert_joints");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, bones_with_sections_become_bodies_and_joints);
   tcase_add_test(tests, joints_without_limits_are_proposals);
   tcase_add_test(tests, the_build_gives_them_hulls);

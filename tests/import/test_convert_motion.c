@@ -149,7 +149,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("convert_motion");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, a_leg_swings_and_the_hips_go_half_as_far);
   tcase_add_test(tests, a_second_clip_has_an_id_of_its_own);
   tcase_add_test(tests, what_cannot_be_carried_over_is_refused);

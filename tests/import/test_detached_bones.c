@@ -94,7 +94,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("detached_bones");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, a_foot_on_the_root_hangs_on_its_limb);
   tcase_add_test(tests, other_bones_stay);
   tcase_add_test(tests, real_rigs);

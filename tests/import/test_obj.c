@@ -328,7 +328,6 @@ END_TEST
 static Suite *obj_suite(void) {
   Suite *suite = suite_create("obj");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, objects_divide_and_groups_do_not);
   tcase_add_test(tests, groups_divide_where_there_is_no_object);
   tcase_add_test(tests, unused_vertices_stay_with_their_object);

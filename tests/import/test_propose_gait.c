@@ -360,7 +360,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("propose_gait");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, real_rigs, 0, sizeof known_rigs / sizeof *known_rigs);
   tcase_add_test(tests, the_example_lizard);
   tcase_add_test(tests, legs_of_one_bone);

@@ -206,7 +206,6 @@ END_TEST
 static Suite *raw_scene_suite(void) {
   Suite *suite = suite_create("raw_scene");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, everything_is_read);
   tcase_add_test(tests, cut_off_at_every_byte);
   tcase_add_test(tests, nothing_may_follow_the_end);

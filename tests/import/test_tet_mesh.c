@@ -227,7 +227,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("tet_mesh");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, every_form_is_read);
   tcase_add_test(tests, a_tetrahedron_the_other_way_round_is_turned);
   tcase_add_test(tests, a_tetrahedron_listed_again_is_left_out);

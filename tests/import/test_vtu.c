@@ -200,7 +200,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("vtu");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, a_grid_is_read);
   tcase_add_test(tests, faults_are_named);
   tcase_add_test(tests, headers_are_believed_as_far_as_the_bytes_allow);

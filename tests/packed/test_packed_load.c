@@ -518,7 +518,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("packed_load");
   TCase *tests = tcase_create("packed_load");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, test_every_field_comes_back);
   tcase_add_test(tests, test_a_chunk_that_nothing_names);
   tcase_add_test(tests, test_stored_lists_are_used_in_place);

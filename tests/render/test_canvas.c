@@ -94,7 +94,6 @@ int main(void) {
   opengl_probe();
   Suite *suite = suite_create("canvas");
   TCase *tests = tcase_create("canvas");
-  tcase_set_timeout(tests, 60);
   tcase_add_checked_fixture(tests, opengl_needed, NULL);
   tcase_add_loop_test(tests, reads_back_what_was_drawn, 0, 2);
   tcase_add_test(tests, second_canvas_after_the_first);

@@ -188,7 +188,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("movie");
   TCase *tests = tcase_create("movie");
-  tcase_set_timeout(tests, 60);
   tcase_add_loop_test(tests, film_is_whole, 0, 4);
   tcase_add_loop_test(tests, no_ffmpeg, 0, 2);
   tcase_add_loop_test(tests, ffmpeg_fails, 0, 2);

@@ -340,7 +340,6 @@ int main(void) {
   opengl_probe();
   Suite *suite = suite_create("painter");
   TCase *tests = tcase_create("painter");
-  tcase_set_timeout(tests, 60);
   tcase_add_checked_fixture(tests, opengl_needed, NULL);
   tcase_add_checked_fixture(tests, set_up, tear_down);
   tcase_add_loop_test(tests, triangle_in_its_place, 0, 2);

@@ -108,7 +108,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("bad starts");
   TCase *c = tcase_create("bad starts");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, bad_starts_are_survived, 0, SCHEME_COUNT);
   suite_add_tcase(suite, c);
   return harness_run(suite);

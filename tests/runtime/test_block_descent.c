@@ -200,7 +200,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("block descent");
   TCase *c = tcase_create("block descent");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, it_hangs_where_the_energy_is_least);
   tcase_add_test(c, it_damps_as_implicit_euler_does);
   tcase_add_loop_test(c, nothing_is_too_stiff, 0, 2);

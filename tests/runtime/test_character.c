@@ -285,7 +285,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("character");
   TCase *c = tcase_create("character");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, it_stands_where_it_is_put);
   tcase_add_test(c, it_goes_where_it_is_driven_however_far);
   tcase_add_test(c, a_teleport_leaves_the_shape_and_stops_it);

@@ -263,7 +263,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("choose");
   TCase *c = tcase_create("choose");
-  tcase_set_timeout(c, 120);
   tcase_add_test(c, what_is_far_is_coarse_and_what_nobody_sees_goes_away);
   tcase_add_test(c, predicted_pixels_are_those_of_the_measured_error);
   tcase_add_test(c, the_host_may_know_better);

@@ -202,7 +202,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("contact");
   TCase *c = tcase_create("contact");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, a_dropped_body_comes_to_rest_on_the_ground);
   tcase_add_test(c, a_body_thrown_down_is_never_left_in_the_ground);
   tcase_add_test(c, friction_holds_below_its_angle_and_lets_go_above);

@@ -94,7 +94,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("crush");
   TCase *c = tcase_create("crush");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, a_blow_turns_nothing_inside_out, 0, 5);
   tcase_add_loop_test(c, the_wall_keeps_momentum, 0, 2);
   suite_add_tcase(suite, c);

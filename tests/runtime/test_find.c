@@ -311,7 +311,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, a_skin_lies_on_itself);
   tcase_add_test(tests, what_is_apart_at_rest_does_not_fight);
   tcase_add_test(tests, sections_that_touch_at_rest_hang_together);

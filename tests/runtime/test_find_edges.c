@@ -253,7 +253,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_edges");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 220);
   tcase_add_loop_test(tests, bars_that_fall_across_each_other_do_not_pass, 0, sizeof drops / sizeof *drops);
   tcase_add_loop_test(tests, bars_that_fall_across_a_rigid_edge_do_not_pass, 0, sizeof drops / sizeof *drops);
   tcase_add_loop_test(tests, bars_that_fall_across_a_collider_do_not_pass, 0, 36);

@@ -198,7 +198,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_inside");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, thin_limbs_that_cross_come_apart, 0, sizeof places / sizeof *places);
   tcase_add_loop_test(tests, rigid_things_come_out_of_soft_bodies, 0, sizeof rods / sizeof *rods);
   suite_add_tcase(suite, tests);

@@ -196,7 +196,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("find_through");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, bars_that_lie_crosswise_come_apart, 0, sizeof places / sizeof *places);
   tcase_add_test(tests, the_way_out_is_of_the_same_bits);
   tcase_add_loop_test(tests, parts_of_one_that_got_through_each_other_come_apart, 0, 3);

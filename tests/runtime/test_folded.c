@@ -46,7 +46,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("folded");
   TCase *c = tcase_create("folded");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, what_is_pressed_flat_is_left_alone, 0, 2);
   suite_add_tcase(suite, c);
   return harness_run(suite);

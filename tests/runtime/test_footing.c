@@ -283,7 +283,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("footing");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, no_foot_goes_over_an_edge);
   tcase_add_test(tests, slopes_are_walked_unless_they_are_too_steep);
   tcase_add_test(tests, feet_and_body_tilt_with_the_ground);

@@ -471,7 +471,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("gait");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, standing_is_the_rest_pose);
   tcase_add_test(tests, walks_forward_step_by_step);
   tcase_add_test(tests, walks_backward_sideways_and_turns);

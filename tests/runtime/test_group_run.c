@@ -387,7 +387,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("group_run");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, boxes_stand_on_each_other);
   tcase_add_test(tests, a_hit_keeps_momentum);
   tcase_add_loop_test(tests, boxes_bounce_by_their_restitution, 0, 3);

@@ -209,7 +209,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("guest");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, momentum_is_kept, 0, 8);
   tcase_add_loop_test(tests, what_is_dropped_comes_to_rest, 0, 12);
   tcase_add_loop_test(tests, weight_presses_as_it_should, 0, 2);

@@ -81,7 +81,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("hard_solids");
   TCase *c = tcase_create("hard_solids");
-  tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, hard_cases_hold, 0, SCHEME_COUNT * HARD_CASES);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -115,7 +115,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("kernels");
   TCase *c = tcase_create("kernels");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 10);
   tcase_add_test(c, a_model_takes_the_widest);
   tcase_add_test(c, instructions_of_other_processors_are_refused);

@@ -47,7 +47,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("meet_hull");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, cloth_does_not_go_into_a_ball, 0, CLOTHS);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -105,7 +105,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("push");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, a_blow_drives_no_deeper_than_faces_are_looked_for, 0, 2);
   tcase_add_loop_test(tests, cubes_that_fall_on_each_other_stand, 0, 2);
   suite_add_tcase(suite, tests);

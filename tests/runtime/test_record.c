@@ -161,7 +161,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("record");
   TCase *c = tcase_create("record");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, what_is_played_ends_in_the_same_state, 0, 2);
   tcase_add_test(c, another_world_is_told);
   tcase_add_loop_test(c, damaged_recordings_do_no_harm, 0, 2);

@@ -163,7 +163,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("relaxation");
   TCase *c = tcase_create("relaxation");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, the_reference_lizard_on_the_ground);
   tcase_add_test(c, the_reference_lizard_in_the_air);
   tcase_add_test(c, a_scrap_of_our_own);

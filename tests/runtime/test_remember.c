@@ -116,7 +116,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("remember");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, what_pushed_is_known_again);
   tcase_add_test(tests, memories_follow_each_other_by_names);
   suite_add_tcase(suite, tests);

@@ -146,7 +146,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rigid coarse");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, what_falls_coarsely_stays_whole_and_lies, 0, 4);
   tcase_add_test(tests, steps_that_are_asked_for_stay);
   tcase_add_test(tests, threads_change_nothing);

@@ -242,7 +242,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("rigid_guests");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, struck_in_the_middle, 0, 15);
   tcase_add_loop_test(tests, struck_at_an_end, 0, 6);
   tcase_add_loop_test(tests, a_crate_lies_on_a_hull, 0, 10);

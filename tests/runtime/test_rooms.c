@@ -286,7 +286,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("rooms");
   TCase *c = tcase_create("rooms");
-  tcase_set_timeout(c, 120);
   tcase_add_test(c, a_character_holds_what_its_rung_needs);
   tcase_add_test(c, ticks_ask_for_nothing_but_at_a_change);
   tcase_add_loop_test(c, without_memory_it_stays_on_its_rung_and_says_so, 0, 2);

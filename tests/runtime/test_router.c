@@ -136,7 +136,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("router");
   TCase *c = tcase_create("router");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, what_is_soft_is_stepped_explicitly);
   tcase_add_test(c, what_is_stiff_is_not);
   tcase_add_test(c, what_is_asked_for_is_done);

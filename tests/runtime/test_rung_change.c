@@ -268,7 +268,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("rung change");
   TCase *c = tcase_create("rung change");
-  tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, the_skin_does_not_jump, 0, CHANGES);
   tcase_add_loop_test(c, energy_does_not_rise_and_the_motion_goes_on, 0, 2);
   tcase_add_test(c, what_flies_goes_on_flying);

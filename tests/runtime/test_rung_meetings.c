@@ -181,7 +181,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("rung meetings");
   TCase *c = tcase_create("rung meetings");
-  tcase_set_timeout(c, 120);
   tcase_add_test(c, who_is_alone_is_bones_and_comes_back_before_it_is_met);
   tcase_add_test(c, what_the_host_asks_for_waits_until_nobody_is_near);
   tcase_add_test(c, who_touches_changes_its_lattice_and_goes_on_touching);

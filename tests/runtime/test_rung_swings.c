@@ -221,7 +221,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("rung swings");
   TCase *c = tcase_create("rung swings");
-  tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, hardly_anything_of_a_swing_jumps, 0, RUNG_BONES * (RUNG_AWAY - 1));
   tcase_add_loop_test(c, chosen_changes_jump_by_less_than_half_a_pixel, SHAKEN, KNOCKED);
   tcase_add_loop_test(c, chosen_changes_jump_by_less_than_half_a_pixel, TURNED, CALM + 1);

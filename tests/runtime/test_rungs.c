@@ -120,7 +120,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("rungs");
   TCase *c = tcase_create("rungs");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, a_ladder_has_levels_jiggle_bones_and_away);
   tcase_add_test(c, without_a_ladder_or_with_a_body_that_keeps_its_shape_there_is_one_rung);
   tcase_add_test(c, what_nothing_holds_has_soft_rungs_alone);

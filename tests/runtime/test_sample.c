@@ -110,7 +110,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("sample");
   TCase *c = tcase_create("sample");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, every_frame_rate_shows_the_same_motion);
   tcase_add_test(c, uneven_frames_and_a_hitch_change_nothing);
   tcase_add_test(c, between_ticks_lies_the_straight_way);

@@ -333,7 +333,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("scheme_bias");
   TCase *c = tcase_create("scheme_bias");
-  tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, bias_is_within_its_bound, 0, ROW_COUNT * CASE_COUNT);
   suite_add_tcase(suite, c);
   return harness_run(suite);

@@ -300,7 +300,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("scheme stability");
   TCase *c = tcase_create("scheme stability");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, springs_listed_from_the_pins_on_do_not_burst, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, hitches_and_jitter_show_the_same_motion, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, pins_may_jump, 0, SCHEME_COUNT);

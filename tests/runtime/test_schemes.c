@@ -494,7 +494,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("schemes");
   TCase *c = tcase_create("schemes");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, a_spring_swings_and_fades_as_the_scheme_is_predicted_to, 0, SCHEME_COUNT);
   tcase_add_loop_test(c, errors_fall_with_the_order, 0, SCHEME_COUNT);
   tcase_add_test(c, explicit_euler_fails_where_it_must);

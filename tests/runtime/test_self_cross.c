@@ -162,7 +162,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("self_cross");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, a_crumpled_sheet_is_not_through_itself);
   tcase_add_test(tests, what_is_through_itself_at_rest_stays);
   tcase_add_loop_test(tests, what_is_deep_in_itself_comes_out, 0, 4);

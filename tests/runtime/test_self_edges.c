@@ -143,7 +143,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("self_edges");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, rims_meet_their_own_body);
   tcase_add_test(tests, a_strip_folds_to_three_legs);
   tcase_add_loop_test(tests, three_legs_lie_still, 0, 3);

@@ -268,7 +268,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("shape_touch");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, cloth_lies_over_a_ball);
   tcase_add_loop_test(tests, no_point_goes_into_a_ball, 0, 3);
   tcase_add_test(tests, a_fast_ball_takes_a_sheet_along);

@@ -240,7 +240,6 @@ END_TEST
 int main(void) {
   Suite *s = suite_create("sleep");
   TCase *c = tcase_create("sleep");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, what_rests_sleeps_without_a_jump_of_energy);
   tcase_add_test(c, nothing_sleeps_unless_it_may);
   tcase_add_loop_test(c, what_moves_it_wakes_it, 0, 7);

@@ -114,7 +114,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("slide_damping");
   TCase *c = tcase_create("slide_damping");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, a_block_stays_where_friction_holds_it, 0, KINDS * SCHEMES * COEFFICIENTS);
   tcase_add_loop_test(c, a_block_slides_as_coulomb_says, 0, KINDS * SCHEMES * COEFFICIENTS);
   suite_add_tcase(suite, c);

@@ -100,7 +100,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("snapshot");
   TCase *c = tcase_create("snapshot");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, a_restored_world_goes_on_alike, 0, SCHEME_COUNT);
   tcase_add_test(c, two_worlds_agree_to_the_bit);
   tcase_add_test(c, what_does_not_fit_is_refused);

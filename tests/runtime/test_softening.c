@@ -120,7 +120,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("softening");
   TCase *c = tcase_create("softening");
-  tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, what_falls_gains_no_energy, 0, FALLS);
   tcase_add_loop_test(c, no_more_than_the_budget_asks_for, 0, 3);
   tcase_add_test(c, a_sliver_does_not_soften_its_neighbours);

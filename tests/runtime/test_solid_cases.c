@@ -170,7 +170,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("solid_cases");
   TCase *c = tcase_create("solid_cases");
-  tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, stretch_under_its_own_weight, 0, 3);
   tcase_add_loop_test(c, cantilever_with_a_load_at_its_tip, 0, 2);
   tcase_add_loop_test(c, free_fall_keeps_the_shape_anywhere, 0, 3);

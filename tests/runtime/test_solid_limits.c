@@ -190,7 +190,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("solid_limits");
   TCase *c = tcase_create("solid_limits");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, strains_stay_within_their_limits, 0, 3);
   tcase_add_test(c, limits_keep_momentum);
   tcase_add_loop_test(c, yield_flows_as_specified, 0, 4);

@@ -280,7 +280,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("split");
   TCase *c = tcase_create("split");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, a_bar_tears_in_two_where_it_is_weakest, 0, 3);
   tcase_add_test(c, the_skin_opens_and_follows);
   tcase_add_test(c, want_of_room_is_told);

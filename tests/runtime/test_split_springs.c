@@ -248,7 +248,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("split_springs");
   TCase *c = tcase_create("split_springs");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, a_point_between_two_halves_splits, 0, 3);
   tcase_add_loop_test(c, what_never_hung_together_stays, 0, 3);
   tcase_add_loop_test(c, a_snapshot_holds_the_split, 0, 3);

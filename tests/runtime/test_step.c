@@ -136,7 +136,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("step");
   TCase *c = tcase_create("step");
-  tcase_set_timeout(c, 120);
   tcase_add_loop_test(c, any_number_of_threads_gives_the_same_bits, 0, SCHEME_COUNT);
   tcase_add_test(c, numbers_that_are_none_are_recovered_from);
   tcase_add_test(c, a_body_inside_out_comes_back);

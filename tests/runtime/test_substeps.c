@@ -135,7 +135,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("substeps");
   TCase *c = tcase_create("substeps");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, as_many_as_are_needed_and_hardly_more);
   tcase_add_test(c, damped_springs_need_more);
   tcase_add_test(c, stretched_springs_need_more_up_to_a_bound);

@@ -162,7 +162,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("tell");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, a_hit_says_who_where_and_how_hard);
   tcase_add_test(tests, what_rests_is_told_once);
   tcase_add_test(tests, soft_bodies_of_others_are_named);

@@ -389,7 +389,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("tetrahedron_forces");
   TCase *c = tcase_create("tetrahedron_forces");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, forces_are_those_of_the_energy, 0, 2);
   tcase_add_test(c, damping_is_the_second_derivative_times_the_velocity);
   tcase_add_test(c, damping_leaves_turning_alone);

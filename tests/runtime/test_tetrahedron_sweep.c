@@ -299,7 +299,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("tetrahedron_sweep");
   TCase *c = tcase_create("tetrahedron_sweep");
-  tcase_set_timeout(c, 60);
   tcase_add_loop_test(c, a_short_step_follows_the_energy, 0, 3);
   tcase_add_loop_test(c, a_sliver_falls, 0, 3);
   tcase_add_test(c, what_rests_stays);

@@ -264,7 +264,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("tumble");
   TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 120);
   tcase_add_loop_test(tests, a_person_falls_down_stairs, 0, 6);
   tcase_add_loop_test(tests, a_person_falls_down_stairs_of_the_ground, 0, 4);
   tcase_add_loop_test(tests, all_that_fall_down_stairs_of_the_ground_come_to_rest, 0, 2);

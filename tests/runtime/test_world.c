@@ -145,7 +145,6 @@ END_TEST
 static Suite *suite(void) {
   Suite *s = suite_create("world");
   TCase *c = tcase_create("world");
-  tcase_set_timeout(c, 60);
   tcase_add_test(c, frames_add_up_to_ticks);
   tcase_add_test(c, a_hitch_is_cut_short);
   tcase_add_test(c, definitions_are_checked);

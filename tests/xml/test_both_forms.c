@@ -108,7 +108,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("both_forms");
   TCase *tests = tcase_create("both_forms");
-  tcase_set_timeout(tests, 60);
   tcase_add_test(tests, test_filled_assets_go_round);
   tcase_add_test(tests, test_an_empty_asset_goes_round);
   tcase_add_test(tests, test_unknown_extensions);

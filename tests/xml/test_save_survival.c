@@ -265,7 +265,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("save_survival");
   TCase *tests = tcase_create("save_survival");
-  tcase_set_timeout(tests, 120);
   tcase_add_unchecked_fixture(tests, setup, teardown);
   tcase_add_loop_test(tests, a_kill_at_any_moment, 0, FORMS);
   tcase_add_loop_test(tests, an_end_at_any_byte, 0, FORMS);

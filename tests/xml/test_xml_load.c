@@ -447,7 +447,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("xml_load");
   TCase *all = tcase_create("all");
-  tcase_set_timeout(all, 300);
   tcase_add_test(all, test_round_trip_of_every_field);
   tcase_add_test(all, test_round_trip_under_a_comma_locale);
   tcase_add_test(all, test_valid_samples);
