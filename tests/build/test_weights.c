@@ -272,6 +272,24 @@ START_TEST(a_thick_part_keeps_its_shoulder)
 }
 END_TEST
 
+/* A leg that ends below and behind the ankle: the heel is the foot's, though both bones are as far. */
+START_TEST(a_foot_holds_its_heel)
+{
+  const sbfi_d3 leg[] = {{0, 2, 0}, {0, -0.3, 0}};
+  tubes_add(tubes, leg, 2, 0.2, 60, false);
+  uint32_t thigh = tubes_add_bone(tubes, "thigh", SBF_NONE, (sbfi_d3){0, 1.95, 0}, (sbfi_d3){0, 1, 0});
+  uint32_t shin = tubes_add_bone(tubes, "shin", (int32_t)thigh, (sbfi_d3){0, 1, 0}, (sbfi_d3){0, 0, 0});
+  uint32_t foot = tubes_add_bone(tubes, "foot", (int32_t)shin, (sbfi_d3){0, 0, 0}, (sbfi_d3){0, 0, 1});
+  tubes->bones[foot].length = 0.18f;
+  compute_tubes();
+  for (uint32_t i = 0; i < tubes->point_count; i++) {
+    sbf_vec3 at = tubes->points[i];
+    if (at.y < -0.25f && at.z < 0.05f) ck_assert_double_ge(tubes_weight(&weights, i, foot), 0.6);
+    if (at.y > 0.4f && at.y < 0.6f) ck_assert_double_ge(tubes_weight(&weights, i, shin), 0.9);
+  }
+}
+END_TEST
+
 START_TEST(frames_and_controls_hold_nothing)
 {
   make_arm(30, false);
@@ -463,6 +481,7 @@ static Suite *suite(void) {
   tcase_add_test(c, eyes_follow_the_head_that_holds_them);
   tcase_add_test(c, frames_and_controls_hold_nothing);
   tcase_add_test(c, a_thick_part_keeps_its_shoulder);
+  tcase_add_test(c, a_foot_holds_its_heel);
   tcase_add_test(c, ends_of_bones_hold_nothing);
   tcase_add_test(c, trees_of_handles_hold_nothing);
   tcase_add_test(c, fingers_at_the_wrist_do_not_end_the_hand);

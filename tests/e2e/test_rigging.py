@@ -29,7 +29,7 @@ def same_mesh(obj):
     }
 
 
-def write_bones(bundle_path, path):
+def write_bones(bundle_path, path, scale=1):
     """The bundle's bones at rest as a BVH: no mesh, no unit."""
     bundle = Bundle(bundle_path)
     children = {}
@@ -41,7 +41,7 @@ def write_bones(bundle_path, path):
 
     def lines(i, depth):
         pad, above = "  " * depth, bundle.parents[i]
-        offset = [a - b for a, b in zip(heads(i), heads(above) if above is not None else (0, 0, 0))]
+        offset = [scale * (a - b) for a, b in zip(heads(i), heads(above) if above is not None else (0, 0, 0))]
         kind = "ROOT" if above is None else "JOINT"
         yield f"{pad}{kind} {bundle.bone_names()[i].replace(' ', '_')}"
         yield pad + "{"
@@ -286,6 +286,28 @@ class FromBones(ProgramTest):
                 sizes = [max(p[1] for p in points) - min(p[1] for p in points) for points in (
                     [p for mesh in bundle.meshes for p in bundle.positions(mesh)], [tuple(r[3] for r in f) for f in bundle.rest])]
                 self.assertTrue(0.9 <= sizes[0] / sizes[1] < 1.6, sizes)
+
+    def test_bones_without_a_unit_take_the_size_of_the_input(self):
+        """A BVH states no unit: it is scaled, upright, and --unit of the input holds."""
+        for name, scale, unit, told in (("twice as large", 1, "2", "scaled by 2,"), ("an odd scale", 4.95, None, "scaled by"),
+                                        ("an odd scale, small", 0.0731, "1", "scaled by")):
+            with self.subTest(name):
+                write_bones(self.calf.bundle, self.path("scaled.bvh"), scale)
+                variants.write(self.calf.obj, self.path("in.obj"), 6)
+                done = self.good("convert", self.path("in.obj"), "--rig", self.path("scaled.bvh"), "--no-build",
+                                 *(["--unit", unit] if unit else []), "-o", self.path("out.sbf"))
+                self.assertIn("states no unit: it was " + told, done.err)
+                bundle = Bundle(self.path("out.sbf"))
+                found = weights_by_vertex(self.path("out.sbf"))
+                for axis in range(3):  # neither turned nor mirrored
+                    sizes = [(max(p[axis] for p in points) - min(p[axis] for p in points)) for points in (
+                        [p for _, p in found.values()], self.calf.places)]
+                    self.assertAlmostEqual(sizes[0] / sizes[1], float(unit or 1), 3)
+                heads = [tuple(row[3] for row in frame) for frame in bundle.rest]
+                height = max(p[1] for p in heads) - min(p[1] for p in heads)
+                wanted = [tuple(row[3] for row in frame) for frame in Bundle(self.calf.bundle).rest]
+                wanted = max(p[1] for p in wanted) - min(p[1] for p in wanted)
+                self.assertAlmostEqual(height / wanted / float(unit or 1), 1, delta=0.15)
 
     def test_a_rig_of_another_character_is_refused(self):
         pole = variants.Obj([(0.01 * x, y, 0.01 * z) for x in (0, 1) for y in (0, 3) for z in (0, 1)], [], [],

@@ -6,6 +6,8 @@
  * root of the body's radius plus this; a shell that holds less than a quarter of a bone is up to eleven times
  * as far from it. */
 static const double DETOUR = 1.1, RADIUS_OFFSET = 0.02, SHARE_WHOLE = 0.25, SHELL_PENALTY = 10, TIE = 1e-5;
+/* Relative differences: of straight distances to one joint, and of distances that count as even there. */
+static const double AT_JOINT = 1e-4, NEARLY = 0.1;
 
 /* Factors of the distance from one bone to each shell. */
 static void shell_factors(const sbfi_bone_reach *reach, uint32_t bone, uint32_t *next_share,
@@ -18,6 +20,24 @@ static void shell_factors(const sbfi_bone_reach *reach, uint32_t bone, uint32_t 
     double held = fmin(1, (double)share->share / SHARE_WHOLE);
     factors[share->shell] = 1 + SHELL_PENALTY * (1 - held);
   }
+}
+
+/* Whether a point that is nearest to the joint between two bones lies on the far side of it: there the second
+ * bone holds it, as the foot holds the heel. */
+static bool is_past_joint(const sbfi_bone_segment *parent, const sbfi_bone_segment *child, sbfi_d3 at) {
+  sbfi_d3 along = sbfi_d3_add(sbfi_d3_normal(sbfi_d3_sub(parent->tail, parent->head)),
+      sbfi_d3_normal(sbfi_d3_sub(child->tail, child->head)));
+  return sbfi_d3_dot(sbfi_d3_sub(at, child->head), along) > 0;
+}
+
+/* Whether a bone is nearer than the nearest so far. `least` is the distance of that. */
+static bool is_nearer(const sbfi_bone_segment *segments, const sbfi_nearest_bone *nearest, double least,
+    uint32_t bone, double straight, double distance, sbfi_d3 at) {
+  if (isfinite(least) && segments[nearest->bone].next == (int32_t)bone &&
+      fabs(straight - (double)nearest->distance) <= AT_JOINT * straight &&
+      fabs(distance - least) <= NEARLY * least)
+    return is_past_joint(&segments[nearest->bone], &segments[bone], at);
+  return distance < least * (1 - TIE); /* of equals the first */
 }
 
 bool sbfi_nearest_bones_find(const sbfi_weights_input *in, const sbfi_weight_mesh *mesh,
@@ -42,7 +62,8 @@ bool sbfi_nearest_bones_find(const sbfi_weights_input *in, const sbfi_weight_mes
       double straight = sqrt(sbfi_segment_distance2(&segments[b], sbfi_d3_of(mesh->sites[i])));
       double path = cells[i] == SBF_NONE ? straight : (double)paths.distances[cells[i]] / SBFI_BODY_CELLS;
       double distance = fmax(path / DETOUR, straight) * scale * factors[mesh->shell_of_site[i]];
-      if (!(distance < least[i] * (1 - TIE))) continue; /* of equals the first */
+      if (!is_nearer(segments, &nearest[i], least[i], b, straight, distance, sbfi_d3_of(mesh->sites[i])))
+        continue;
       least[i] = distance;
       nearest[i] = (sbfi_nearest_bone){b, (float)straight};
     }

@@ -17,8 +17,14 @@ bool sbfi_align_by_shape(sbfi_rigging *r, double *error);
  * anyhow. */
 sbf_status sbfi_align_by_bones(sbfi_rigging *r);
 
-/* Whether `--unit`, `--up` and `--forward` leave a transform as it is. */
-bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matrix *m);
+/* Whether a rig has neither a unit nor a mesh to be measured by, as motion capture: it takes the input's
+ * size. */
+bool sbfi_rig_has_no_size(const sbfi_rigging *r);
+
+/* Whether a transform is what `--unit`, `--up` and `--forward` say. The scale is free where the rig has no
+ * size.
+ */
+bool sbfi_alignment_allowed(const sbfi_rigging *r, const sbfi_matrix *m);
 
 /* How near two points are that are taken for one, m; `quantum` is the step of the input's numbers. */
 double sbfi_match_tolerance(const sbfi_rigging *r, double scale, double quantum);

@@ -65,7 +65,7 @@ static double share_inside(const search *s, const sbfi_matrix *m) {
 }
 
 static void consider(search *s, const sbfi_matrix *m) {
-  if (!sbfi_alignment_allowed(s->r->c->options, m)) return;
+  if (!sbfi_alignment_allowed(s->r, m)) return;
   double share = share_inside(s, m);
   if (share < s->best_share + BETTER) return;
   s->best = *m;
@@ -144,8 +144,11 @@ static void consider_all(search *s) {
       consider_offsets(s, &axes, scale);
     }
   }
-  static const double ratios[] = {1.12, 1.3, 1};
-  for (int k = 0; k < 3 && s->best_share < LEAST; k++)
+  /* How much longer an input is than its bones. A rig without a size says nothing that would speak against.
+   */
+  static const double ratios[] = {1.12, 1.3, 1, 1.06, 1.2, 1.45};
+  double enough = sbfi_rig_has_no_size(s->r) ? GOOD : LEAST;
+  for (size_t k = 0; k < sizeof ratios / sizeof *ratios && s->best_share < enough; k++)
     for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS / 2; i++) {
       sbfi_matrix axes = sbfi_axis_rotation(i);
       consider_offsets(s, &axes, ratios[k] * bones / input);
@@ -238,7 +241,7 @@ static sbf_status refuse(const search *s, sbfi_arena *arena) {
 /* Motion capture states no unit, and then the input's counts: the rig is scaled, not the input. */
 static void scale_rig(sbfi_rigging *r) {
   double factor = sbfi_similarity_scale(&r->c->to_asset) / sbfi_similarity_scale(&r->alignment.to_asset);
-  if (r->rig.scene->unit_known || r->rig.scene->mesh_count || fabs(factor - 1) < 1e-9) return;
+  if (!sbfi_rig_has_no_size(r) || fabs(factor - 1) < 1e-9) return;
   for (uint32_t b = 0; b < r->c->asset->bones.count; b++) {
     sbf_bone *bone =
         (sbf_bone *)(uintptr_t)&r->c->asset->bones.at[b]; /* ours until the asset is handed out */

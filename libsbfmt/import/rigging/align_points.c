@@ -66,9 +66,15 @@ static double share_of(const search *s, const sbfi_matrix *m, uint32_t from, uin
   return to > from ? (double)hits / (to - from) : 0;
 }
 
-bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matrix *m) {
+bool sbfi_rig_has_no_size(const sbfi_rigging *r) {
+  return !r->rig.scene->unit_known && r->rig.scene->mesh_count == 0;
+}
+
+bool sbfi_alignment_allowed(const sbfi_rigging *r, const sbfi_matrix *m) {
+  const sbf_convert_options *options = r->c->options;
   double scale = sbfi_similarity_scale(m);
-  if (options->unit_m > 0 && fabs(scale / options->unit_m - 1) > 1e-3) return false;
+  if (options->unit_m > 0 && !sbfi_rig_has_no_size(r) && fabs(scale / options->unit_m - 1) > 1e-3)
+    return false;
   int up = options->up == 'z' ? 2 : 1;
   if (options->up && !(m->at[1][up] > 0.999 * scale)) return false;
   if (!options->forward) return true;
@@ -77,7 +83,7 @@ bool sbfi_alignment_allowed(const sbf_convert_options *options, const sbfi_matri
 }
 
 static void consider(search *s, const sbfi_matrix *m) {
-  if (!sbfi_alignment_allowed(s->r->c->options, m)) return;
+  if (!sbfi_alignment_allowed(s->r, m)) return;
   uint32_t first = s->sample_count < FIRST_SAMPLES ? s->sample_count : FIRST_SAMPLES;
   uint32_t second = s->sample_count < SECOND_SAMPLES ? s->sample_count : SECOND_SAMPLES;
   s->tried++;
@@ -227,7 +233,7 @@ static void try_mirrors(search *s, pairs *p) {
     mirror.at[i / 2][i / 2] = -1;
     mirror.at[i / 2][3] = i % 2 ? 0 : 2 * middle[i / 2];
     sbfi_matrix m = sbfi_matrix_multiply(&mirror, &from);
-    if (!sbfi_alignment_allowed(s->r->c->options, &m)) continue;
+    if (!sbfi_alignment_allowed(s->r, &m)) continue;
     find_pairs(s, &m, p);
     if (p->count <= most) continue;
     most = p->count;
@@ -250,7 +256,7 @@ static bool refine(search *s, sbfi_arena *arena, double *share) {
     if (!sbfi_similarity_fit(p.from, p.to, p.count, is_mirrored(&s->best), s->r->c->options->unit_m, &m))
       break;
     if (pass == 3) m = sbfi_similarity_snapped(&s->best, s->r->rig.size, 3e-4);
-    if (pass == 3 && !sbfi_alignment_allowed(s->r->c->options, &m)) break;
+    if (pass == 3 && !sbfi_alignment_allowed(s->r, &m)) break;
     find_pairs(s, &m, &p);
     /* A usual transform may be a little worse: rounding is all that speaks for another. */
     double allowed =

@@ -53,7 +53,7 @@ static double error_of(const search *s, const sbfi_matrix *m, uint32_t samples) 
 }
 
 static void consider(search *s, const sbfi_matrix *m) {
-  if (!sbfi_alignment_allowed(s->r->c->options, m)) return;
+  if (!sbfi_alignment_allowed(s->r, m)) return;
   const candidate *last = &s->best[KEPT - 1];
   if (s->count == KEPT && error_of(s, m, FIRST_SAMPLES) > 1.5 * last->error) return;
   candidate here = {*m, error_of(s, m, SAMPLES)};
@@ -123,11 +123,10 @@ bool sbfi_align_by_shape(sbfi_rigging *r, double *error) {
   for (uint32_t i = 0; good && i < s.count; i++) {
     double size = r->rig.size;
     sbfi_matrix better = drawn(&s, s.best[i].m), snapped = sbfi_similarity_snapped(&better, size, 0.02);
-    if (error_of(&s, &better, SAMPLES) < s.best[i].error * (1 - BETTER) &&
-        sbfi_alignment_allowed(r->c->options, &better))
+    if (error_of(&s, &better, SAMPLES) < s.best[i].error * (1 - BETTER) && sbfi_alignment_allowed(r, &better))
       s.best[i] = (candidate){better, error_of(&s, &better, SAMPLES)};
     if (error_of(&s, &snapped, SAMPLES) < s.best[i].error * (1 + BETTER) &&
-        sbfi_alignment_allowed(r->c->options, &snapped))
+        sbfi_alignment_allowed(r, &snapped))
       s.best[i] = (candidate){snapped, error_of(&s, &snapped, SAMPLES)};
     if (s.best[i].error >= *error * (1 - BETTER)) continue;
     *error = s.best[i].error;
