@@ -5,6 +5,7 @@
 #include "harness.h"
 #include "math/trig.h"
 #include "random.h"
+#include "sbrun/soft_body.h"
 #include "scenes.h"
 
 enum { MOST_POINTS = 60 };
@@ -155,11 +156,56 @@ static scene make(chance *c) {
   return s;
 }
 
+/* Pushed and held hard, and at vertices that may not be there. */
+static void handle(chance *c, scene *s) {
+  sbf_vec3 much = between3(c, -1, 1), turn = between3(c, -30, 30);
+  float times = decades(c, -3, 4), seconds = decades(c, -3, 0);
+  much = (sbf_vec3){times * much.x, times * much.y, times * much.z};
+  uint32_t vertex = likely(c, 3) ? SBR_WHOLE_BODY : roll(c, 30);
+  sbr_soft_hold hold = {.frequency_hz = between(c, 0, 100), .damping_ratio = between(c, 0, 10)};
+  sbr_double3 o = sbr_character_origin(s->world, s->character);
+  hold.target = (sbr_double3){o.x + (double)turn.x, o.y + (double)turn.y, o.z + (double)turn.z};
+  hold.max_force = likely(c, 2) ? times : 0;
+  switch (roll(c, 5)) {
+  case 0:
+    (void)sbr_character_set_soft_velocity(s->world, s->character, 0, turn, turn, NULL);
+    break;
+  case 1:
+    (void)sbr_character_apply_soft_impulse(s->world, s->character, 0, vertex, much, NULL);
+    break;
+  case 2:
+    (void)sbr_character_apply_soft_force(s->world, s->character, 0, vertex, much, seconds, NULL);
+    break;
+  case 3:
+    (void)sbr_character_hold_vertex(s->world, s->character, 0, vertex, &hold, NULL);
+    break;
+  default:
+    for (uint32_t i = 0; i < 30; i++) (void)sbr_character_release_vertex(s->world, s->character, 0, i);
+    break;
+  }
+}
+
+/* What a host reads of elements and pins is a number too. */
+static void check_readings(const scene *s, uint32_t seed, int frame) {
+  sbr_tetrahedron_state tetrahedra[256];
+  sbr_pin_reaction pins[4];
+  sbr_spring_state springs[256];
+  uint32_t count = sbr_character_tetrahedra(s->world, s->character, 0, tetrahedra, 256);
+  float sum = 0;
+  for (uint32_t i = 0; i < count && i < 256; i++)
+    sum += 0 * (tetrahedra[i].stress[0] + tetrahedra[i].energy_density);
+  count = sbr_character_springs(s->world, s->character, 0, springs, 256);
+  for (uint32_t i = 0; i < count && i < 256; i++) sum += 0 * (springs[i].tension + springs[i].energy);
+  count = sbr_character_pin_reactions(s->world, s->character, 0, pins, 4);
+  for (uint32_t i = 0; i < count && i < 4; i++) sum += 0 * (pins[i].force.x + pins[i].torque.y);
+  ck_assert_msg(sum == 0, "seed %u, frame %d: a reading is no number", seed, frame);
+}
+
 static void disturb(chance *c, scene *s) {
   sbr_double3 place;
   place.x = between(c, -2000, 2000), place.y = between(c, -1, 3), place.z = between(c, -50, 50);
   sbf_vec3 wanted;
-  switch (roll(c, 12)) {
+  switch (roll(c, 14)) {
   case 0:
     sbr_character_teleport(s->world, s->character, place, between(c, -3, 3));
     break;
@@ -172,6 +218,10 @@ static void disturb(chance *c, scene *s) {
     break;
   case 3:
     if (likely(c, 4)) sbr_character_reset(s->world, s->character);
+    break;
+  case 4:
+  case 5:
+    handle(c, s);
     break;
   default:
     break;
@@ -202,6 +252,7 @@ uint64_t chance_scene_run(uint32_t seed) {
       ck_assert_msg(sum - sum == 0, "seed %u, frame %d: point %u is no number", seed, f, i);
     }
     ck_assert_msg(sbr_character_health(s.world, s.character, 0).finite, "seed %u, frame %d", seed, f);
+    if (f % 8 == 0) check_readings(&s, seed, f);
   }
   uint64_t hash = sbr_world_state_hash(s.world);
   scene_free(&s);
