@@ -83,6 +83,15 @@ static void measure(sbr_model *model) {
   model->rest_size_m = sqrtf(square);
 }
 
+/* Of bodies that are to tear and have nothing that can: springs between pinned points alone. Their spare
+ * slots are padding then, since no state says where these come from. */
+static void return_spare_slots(const sbr_model *model, const sbri_island *island) {
+  for (uint32_t b = 0; b < island->body_count; b++) {
+    sbri_body *body = &model->bodies[island->bodies[b]];
+    body->slot_real_end = body->first_spare;
+  }
+}
+
 static sbf_status make_islands(sbr_model *model, const sbr_model_options *options, sbf_diagnostic *error) {
   sbf_status status = sbri_islands_group(model, options, error);
   if (status == SBF_OK) measure(model);
@@ -94,6 +103,7 @@ static sbf_status make_islands(sbr_model *model, const sbr_model_options *option
     if (!sbri_tear_table_make(model, island)) return no_memory(error);
     island->splits = island->tears || island->frays;
     model->splits = model->splits || island->splits;
+    if (!island->splits) return_spare_slots(model, island);
     island->first_slot = model->slot_count;
     model->slot_count += island->slot_count;
     island->first_link_block = model->link_block_count;

@@ -237,6 +237,31 @@ START_TEST(want_of_room_is_told)
 }
 END_TEST
 
+/* Two pinned points and a spring between them, and a third on a goal spring, which does not tear. */
+START_TEST(where_nothing_can_tear_no_room_is_kept)
+{
+  s = scene_begin();
+  const sbf_vec3 at[3] = {{0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
+  const float masses[3] = {1, 1, 1}, k = 100;
+  const uint32_t held[3] = {0, 1, 2};
+  static float weights[3] = {1, 1, 0.5f};
+  scene_body(&s, 0)->attributes.tear_strain = 0.1f;
+  sbf_level *level = scene_points(&s, 0, at, masses, 3);
+  scene_springs(&s, level, &(sbf_uint2){{0, 1}}, &k, 1);
+  scene_pin(&s, level, -1, held, 3);
+  sbf_pin_set *set = (sbf_pin_set *)(uintptr_t)level->pins.at;
+  set->weights = (sbf_f32_list){weights, 3};
+  set->stiffness = 200;
+  scene_start(&s);
+  const sbri_body *body = &s.model->bodies[0];
+  ck_assert(!s.model->splits);
+  ck_assert_uint_eq(body->first_spare, body->slot_real_end); /* whose origins would lie beyond the state */
+  scene_ticks(&s, 5);
+  ck_assert(sbr_character_health(s.world, s.character, 0).finite);
+  scene_free(&s);
+}
+END_TEST
+
 START_TEST(memory_may_run_out)
 {
   begin(SBF_SCHEME_SYMPLECTIC, 0);
@@ -253,6 +278,7 @@ int main(void) {
   tcase_add_loop_test(c, a_snapshot_holds_the_split, 0, 3);
   tcase_add_loop_test(c, every_width_gives_the_same_bits, 0, 3);
   tcase_add_test(c, want_of_room_is_told);
+  tcase_add_test(c, where_nothing_can_tear_no_room_is_kept);
   tcase_add_test(c, memory_may_run_out);
   suite_add_tcase(suite, c);
   return harness_run(suite);
