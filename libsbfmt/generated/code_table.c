@@ -215,6 +215,7 @@ static const sbf_code_info table[] = {
   {"RIG_MISFIT", SBF_CODE_RIG_MISFIT, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The rig does not fit the input: give the character's own rig, its unit and axes, or other weights."},
   {"RIG_WEIGHTS_FILE", SBF_CODE_RIG_WEIGHTS_FILE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A file of weights names a bone, a point or a number that cannot be: mend the line given."},
   {"RIG_WEIGHTS_LOST", SBF_CODE_RIG_WEIGHTS_LOST, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Weights of points sum to much less than one, as where they name joints that the file does not have: export the skin again."},
+  {"RIG_OBJECT_APART", SBF_CODE_RIG_OBJECT_APART, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "No bone lies in or beside an object whose weights were computed: convert another character with a rig of its own."},
   {"PACKED_MAGIC", SBF_CODE_PACKED_MAGIC, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file does not begin as a packed file does: it was damaged in transfer, or is another kind."},
   {"PACKED_TRUNCATED", SBF_CODE_PACKED_TRUNCATED, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The file ends before what its table names: it was cut short."},
   {"PACKED_TABLE", SBF_CODE_PACKED_TABLE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The header or the table of contents contradicts itself."},

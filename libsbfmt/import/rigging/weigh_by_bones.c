@@ -1,7 +1,13 @@
 /* Weights from the bones alone, for points that nothing else gives any. */
+#include <math.h>
+
 #include "build/weights/weights.h"
 #include "import/rigging/weigh.h"
+#include "mechanics/vector.h"
 #include "motion/carried_motion.h"
+
+/* Farther than this share of the rig's size an object is no part of its character. */
+static const double BESIDE = 0.15;
 
 static uint32_t (*triangles_of(const sbfi_scene_surface *s, sbfi_arena *arena, uint32_t *count))[3] {
   uint32_t(*triangles)[3] =
@@ -40,6 +46,54 @@ static int8_t *find_sides(const sbfi_rigging *r) {
   return sides;
 }
 
+/* --- Objects beside the rig ---------------------------------------------------------------------------- */
+
+typedef struct box {
+  sbfi_d3 low, high;
+} box;
+
+static void widen(box *b, sbf_vec3 at) {
+  sbfi_d3 p = sbfi_d3_of(at);
+  b->low = (sbfi_d3){fmin(b->low.x, p.x), fmin(b->low.y, p.y), fmin(b->low.z, p.z)};
+  b->high = (sbfi_d3){fmax(b->high.x, p.x), fmax(b->high.y, p.y), fmax(b->high.z, p.z)};
+}
+
+static bool holds(const box *b, sbfi_d3 p, double margin) {
+  return p.x >= b->low.x - margin && p.y >= b->low.y - margin && p.z >= b->low.z - margin &&
+         p.x <= b->high.x + margin && p.y <= b->high.y + margin && p.z <= b->high.z + margin;
+}
+
+/* Whether a joint lies in the object's box, or nearer to it than a share of the rig's size, as a hat's does.
+ */
+static bool is_beside_bones(const sbf_bone_list bones, const box *object, double margin) {
+  for (uint32_t b = 0; b < bones.count; b++)
+    if (holds(object, sbfi_d3_of(bones.at[b].head), margin)) return true;
+  return false;
+}
+
+/* Several characters in one input: the rig is that of one. */
+static void report_apart(const sbfi_rigging *r, const sbfi_scene_surface *moved) {
+  const sbf_bone_list bones = r->c->asset->bones;
+  const sbfi_d3 least = {-INFINITY, -INFINITY, -INFINITY}, most = {INFINITY, INFINITY, INFINITY};
+  box rig = {most, least};
+  for (uint32_t b = 0; b < bones.count; b++) widen(&rig, bones.at[b].head);
+  double margin = BESIDE * sbfi_d3_length(sbfi_d3_sub(rig.high, rig.low));
+  for (uint32_t m = 0; m < r->input.scene->mesh_count; m++) {
+    box object = {most, least};
+    uint32_t count = 0;
+    for (uint32_t i = r->input.mesh_starts[m]; i < r->input.mesh_starts[m + 1]; i++) {
+      widen(&object, moved->mesh.positions.at[i]);
+      count += r->sources[i] == SBFI_WEIGHTS_COMPUTED;
+    }
+    if (!count || is_beside_bones(bones, &object, margin)) continue;
+    sbfi_convert_warn(r->c, SBF_CODE_RIG_OBJECT_APART,
+        "no bone of %s lies in the object '%.60s' or beside it: if it is another character, convert it from "
+        "a "
+        "file of its own with its own rig; --shell gives it to a bone as a whole",
+        r->rig.scene->file, r->names[m]);
+  }
+}
+
 sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved) {
   sbfi_weights computed;
   sbfi_weights_input in = {.allocator = &r->c->scratch.allocator,
@@ -67,6 +121,7 @@ sbf_status sbfi_weigh_by_bones(sbfi_rigging *r, const sbfi_scene_surface *moved)
         "--shell gives one to another",
         in.bone_count, computed.figures.rigid_shell_count, computed.figures.shell_count,
         computed.figures.unused_bone_count);
+  if (status == SBF_OK) report_apart(r, moved);
   sbfi_weights_free(&computed);
   return status;
 }

@@ -226,6 +226,7 @@ typedef enum sbf_code {
   SBF_CODE_RIG_MISFIT = 783, /* The rig does not fit the input: give the character's own rig, its unit and axes, or other weights. */
   SBF_CODE_RIG_WEIGHTS_FILE = 784, /* A file of weights names a bone, a point or a number that cannot be: mend the line given. */
   SBF_CODE_RIG_WEIGHTS_LOST = 785, /* Weights of points sum to much less than one, as where they name joints that the file does not have: export the skin again. */
+  SBF_CODE_RIG_OBJECT_APART = 786, /* No bone lies in or beside an object whose weights were computed: convert another character with a rig of its own. */
   SBF_CODE_PACKED_MAGIC = 801, /* The file does not begin as a packed file does: it was damaged in transfer, or is another kind. */
   SBF_CODE_PACKED_TRUNCATED = 802, /* The file ends before what its table names: it was cut short. */
   SBF_CODE_PACKED_TABLE = 803, /* The header or the table of contents contradicts itself. */

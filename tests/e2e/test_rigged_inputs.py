@@ -1,0 +1,166 @@
+"""What an OBJ may hold besides one mesh, and a rig besides one skin: several characters, vertex colours, free-form curves,
+objects named as bones, a skin of its own, several skins."""
+
+import json
+import os
+
+import obj_variants as variants
+from bundle_file import Bundle
+from rigged_weights import weights_by_vertex
+from skinned_glb import SkinnedGlb, box, inverse_binds, tube
+from sbfmt_program import ProgramTest, main, read_text
+from test_computed_weights import write_arm, write_bones
+
+
+def at(x, y, z):
+    return [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]
+
+
+def obj_of(objects):
+    """{name: (points, triangles)} as an OBJ."""
+    points, faces = [], []
+    for name, (places, triangles) in objects.items():
+        faces += [(name, None, [(len(points) + p, None, None) for p in t]) for t in triangles]
+        points += places
+    return variants.Obj(points, [], [], faces)
+
+
+class Column:
+    """A column of two bones with a skin, and a hat with a skin of its own, which a third bone bends."""
+
+    def __init__(self, names=("low", "high", "plume")):
+        self.glb = SkinnedGlb()
+        self.body, self.hat = tube(0, 2, 0.2), tube(2.1, 2.5, 0.3, 5)
+        worlds = [at(0, 0, 0), at(0, 1, 0), at(0, 2.2, 0)]
+        self.joints = []
+        for name, world, offset in zip(names, worlds, (0, 1, 1.2)):
+            self.joints.append(self.glb.node(name, self.joints[-1] if self.joints else None, at(0, offset, 0)))
+        self.wanted = {}
+        for name, (points, triangles), bones, cut in (("body", self.body, (0, 1), 1.0), ("hat", self.hat, (1, 2), 2.3)):
+            chosen = [0 if p[1] < cut else 1 for p in points]
+            mesh = self.glb.mesh(points, triangles, [(c, 0, 0, 0) for c in chosen], [(1, 0, 0, 0)] * len(points))
+            skin = self.glb.skin([self.joints[b] for b in bones], inverse_binds([worlds[b] for b in bones], at(0, 0, 0)))
+            self.glb.node(name, mesh=mesh, skin=skin)
+            self.wanted[name] = [names[bones[c]] for c in chosen]
+
+    def objects(self):
+        return {"body": self.body, "hat": self.hat}
+
+
+class RiggedInputs(ProgramTest):
+    def convert(self, obj, rig, *options):
+        if isinstance(obj, variants.Obj):
+            variants.write(obj, self.path("in.obj"))
+            obj = self.path("in.obj")
+        done = self.good("convert", obj, "--rig", rig, "--no-build", *options, "-o", self.path("out.sbf"))
+        return [max(w, key=w.get) for _, (w, _) in sorted(weights_by_vertex(self.path("out.sbf")).items())], done.err
+
+    def test_a_rig_with_two_skins(self):
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        wanted = column.wanted["body"] + column.wanted["hat"]
+        for name, obj in {"two objects": obj_of(column.objects()),
+                          "one object, in centimetres": variants.moved(variants.one_object(obj_of(column.objects())), 0.01),
+                          }.items():
+            with self.subTest(name):
+                found, said = self.convert(obj, rig)
+                self.assertEqual(found, wanted)
+                self.assertIn(f"{len(wanted)} of the rig's own mesh, by place", said)
+        found, _ = self.convert(obj_of({"hat": column.hat}), rig)
+        self.assertEqual(found, column.wanted["hat"])
+
+    def test_several_files_with_one_rig(self):
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        for name, mesh in column.objects().items():
+            variants.write(obj_of({name: mesh}), self.path(name + ".obj"))
+        os.mkdir(self.path("out"))
+        self.good("convert", self.path("body.obj"), self.path("hat.obj"), "--rig", rig, "--no-build", "--out-dir",
+                  self.path("out"))
+        for name, wanted in column.wanted.items():
+            found = weights_by_vertex(os.path.join(self.path("out"), name + ".sbf"))
+            self.assertEqual([max(w, key=w.get) for _, (w, _) in sorted(found.items())], wanted)
+
+    def test_several_characters_in_one_file(self):
+        """The rig is that of one: the other is named, and can be given away or left out."""
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        objects = {"body": column.body, "hat": column.hat,
+                   "stranger": ([(x + 4, y, z) for x, y, z in column.body[0]], column.body[1])}
+        found, said = self.convert(obj_of(objects), rig)
+        self.assertEqual(found[:len(column.body[0])], column.wanted["body"])
+        self.assertIn("lies in the object 'stranger' or beside it", said)
+        self.assertIn("RIG_OBJECT_APART", said)
+        self.assertNotIn("object 'hat'", said)
+        _, said = self.convert(obj_of(column.objects()), rig)
+        self.assertNotIn("RIG_OBJECT_APART", said)
+        found, said = self.convert(obj_of(objects), rig, "--shell", "stranger=low")
+        self.assertEqual(set(found[-len(column.body[0]):]), {"low"})
+        self.assertNotIn("RIG_OBJECT_APART", said)
+
+    def test_vertex_colours_change_no_weights(self):
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        variants.write(obj_of(column.objects()), self.path("plain.obj"))
+        lines = read_text(self.path("plain.obj")).splitlines()
+        with open(self.path("colours.obj"), "w", encoding="ascii") as stream:
+            stream.write("\n".join(line + " 0.8 0.2 0.1" if line.startswith("v ") else line for line in lines) + "\n")
+        found, said = self.convert(self.path("colours.obj"), rig)
+        self.assertEqual(found, column.wanted["body"] + column.wanted["hat"])
+        places = [p for mesh in Bundle(self.path("out.sbf")).meshes for p in Bundle(self.path("out.sbf")).positions(mesh)]
+        self.assertEqual(len(places), len(found))
+        self.assertAlmostEqual(max(p[1] for p in places), 2.5, 5)
+
+    def test_free_form_curves_are_reported(self):
+        column = Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        variants.write(obj_of(column.objects()), self.path("free.obj"))
+        with open(self.path("free.obj"), "a", encoding="ascii") as stream:
+            stream.write("cstype bspline\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 0 0 0 1 1 1 1\nend\n")
+        found, said = self.convert(self.path("free.obj"), rig)
+        self.assertEqual(found, column.wanted["body"] + column.wanted["hat"])
+        self.assertIn("5 lines of kinds that make no polygon are passed over, the first is \"cstype\"", said)
+
+    def test_objects_named_as_bones_of_a_rig_without_a_mesh(self):
+        """They are sections of those bones, whatever bone is nearest; the others are computed."""
+        write_bones(self.path("arm.bvh"))
+        objects = {"hand": box((0.2, -0.2, -0.2), (0.8, 0.2, 0.2)), "fore": box((1.2, -0.2, -0.2), (1.8, 0.2, 0.2)),
+                   "other": box((2.2, -0.2, -0.2), (2.8, 0.2, 0.2))}
+        found, said = self.convert(obj_of(objects), self.path("arm.bvh"))
+        self.assertEqual(found, ["hand"] * 8 + ["fore"] * 8 + ["hand"] * 8)
+        self.assertIn("16 by the names of objects or bones, 8 computed from the bones", said)
+
+    def test_a_skin_of_its_own_is_kept(self):
+        """An input whose skin names the bones of the rig keeps it, though the rig's own mesh says otherwise."""
+        column, other = Column(), Column()
+        rig = column.glb.write(self.path("rig.glb"))
+        body = other.glb.json["meshes"][0]["primitives"][0]["attributes"]
+        body["JOINTS_0"] = other.glb.accessor([(1, 0, 0, 0)] * len(other.body[0]), "H", "VEC4")
+        source = other.glb.write(self.path("in.glb"))
+        self.convert(source, rig)
+        bundle = Bundle(self.path("out.sbf"))
+        names, seen = bundle.bone_names(), 0
+        for mesh in bundle.meshes:
+            for (_, y, _), weights in zip(bundle.positions(mesh), bundle.skin(mesh)):
+                self.assertEqual([names[b] for b, _ in weights], ["plume" if y > 2.25 else "high"])
+                seen += 1
+        self.assertEqual(seen, sum(map(len, column.wanted.values())))
+
+
+class ArmOfAnotherFile(ProgramTest):
+    def test_the_report_names_what_lies_apart(self):
+        write_arm(self.path("arm.obj"))
+        write_bones(self.path("arm.bvh"))
+        with open(self.path("arm.obj"), "a", encoding="ascii") as stream:
+            points, triangles = box((0, 5, 0), (0.3, 5.3, 0.3))
+            stream.write("o far\n" + "".join("v %g %g %g\n" % p for p in points) +
+                         "".join("f %d %d %d\n" % tuple(i - 8 for i in t) for t in triangles))
+        self.good("convert", self.path("arm.obj"), "--rig", self.path("arm.bvh"), "--no-build", "--report",
+                  self.path("why.json"), "-o", self.path("out.sbf"))
+        notes = [n for n in json.loads(read_text(self.path("why.json")))["notes"] if n["code"] == "RIG_OBJECT_APART"]
+        self.assertEqual(len(notes), 1)
+        self.assertIn("'far'", notes[0]["message"])
+
+
+if __name__ == "__main__":
+    main()
