@@ -98,7 +98,7 @@ OUTSIDE = [
     (r"(lib)?qhull", ["libsbfmt/build/"], "qhull"),
     (r"meshoptimizer", ["libsbfmt/build/"], "meshoptimizer"),
     (r"Bullet|btBullet", ["bench/"], "Bullet, to compare with"),
-    (r"jansson", ["tools/", "bench/"], "jansson"),
+    (r"jansson", ["libsbfmt/import/assimp/", "tools/", "bench/"], "jansson"),
     (r"(EGL|GL|GLES\d|KHR)/|png\.h", ["tools/render/", "tools/view/"], "drawing"),
     (r"SDL2?/", ["tools/view/"], "SDL"),
     (r"(sys|linux)/.*|unistd\.h|fcntl\.h|signal\.h|spawn\.h|dlfcn\.h|poll\.h|windows\.h",

@@ -6,10 +6,13 @@
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
+#include <assimp/version.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "gltf_order.h"
 #include "import/scene/stream_format.h"
 #include "node_limits.h"
 #include "stream_writer.h"
@@ -254,6 +257,12 @@ static void write_scene(const struct aiScene *scene) {
 static struct aiPropertyStore *properties;
 static const struct aiScene *scene_read;
 
+/* From this version on assimp numbers the vertices of glTF anew. */
+static bool renumbers_gltf(void) {
+  unsigned major = aiGetVersionMajor(), minor = aiGetVersionMinor();
+  return major > 5 || (major == 5 && minor >= 3);
+}
+
 int main(int argument_count, char **arguments) {
   if (argument_count != 2) {
     fprintf(stderr, "usage: sbfmt-import FILE: a part of sbfmt convert, of no use by itself\n");
@@ -267,6 +276,7 @@ int main(int argument_count, char **arguments) {
     fprintf(stderr, "%s\n", message && *message ? message : "the file has no content");
     return message && strstr(message, "bad_alloc") ? SBFI_CHILD_NO_MEMORY : SBFI_CHILD_REFUSED;
   }
+  if (renumbers_gltf()) restore_gltf_order((struct aiScene *)(uintptr_t)scene_read, arguments[1]);
   write_scene(scene_read);
   return write_end() == 0 ? SBFI_CHILD_DONE : SBFI_CHILD_CANNOT_WRITE;
 }
