@@ -3,7 +3,9 @@
 import math
 import os
 
+from bundle_file import Bundle
 from rigged_weights import weights_by_vertex
+from skinned_glb import tube as tube_y
 from sbfmt_program import ProgramTest, main
 
 BONES = (("upper", 0.0), ("fore", 1.0), ("hand", 2.0))
@@ -50,6 +52,44 @@ def write_bones(path, shift=0.0):
         stream.write("\n".join(text))
 
 
+def write_person(obj_path, bvh_path, angle=45):
+    """A body of tubes whose arms hang by an angle, and bones whose arms are stretched out, for two frames."""
+    parts = {"body": (tube_y(0.9, 2.4, 0.25, 13), (0, 0, 0), 0)}
+    for side, name in ((1, "left"), (-1, "right")):
+        parts[name + " leg"] = (tube_y(0, 1.05, 0.12, 9), (side * 0.15, 0, 0), 0)
+        parts[name + " arm"] = (tube_y(-1.4, 0, 0.1, 15), (side * 0.2, 1.85, 0), side * math.radians(90 - angle))
+    lines, first, starts = [], 1, {}
+    for name, ((points, triangles), offset, turn) in parts.items():
+        starts[name] = (first - 1, first - 1 + len(points))
+        c, s = math.cos(turn), math.sin(turn)
+        lines += [f"v {c * x - s * y + offset[0]:.6f} {s * x + c * y + offset[1]:.6f} {z:.6f}" for x, y, z in points]
+        lines += ["f " + " ".join(str(i + first) for i in t) for t in triangles]
+        first += len(points)
+    with open(obj_path, "w", encoding="ascii") as stream:
+        stream.write("\n".join(lines) + "\n")
+    text = ["HIERARCHY", "ROOT Hips", "{", " OFFSET 0 1 0", " CHANNELS 3 Zrotation Xrotation Yrotation"]
+
+    def chain(*joints):
+        for name, *offset in joints:
+            text.append(f" JOINT {name}" if name else " End Site")
+            text.extend([" {", "  OFFSET {} {} {}".format(*offset)])
+            if name:
+                text.append("  CHANNELS 3 Zrotation Xrotation Yrotation")
+        text.extend(["}"] * len(joints))
+
+    for side, name in ((1, "Left"), (-1, "Right")):
+        chain((name + "UpLeg", side * 0.15, 0, 0), (name + "Leg", 0, -0.5, 0), (name + "Foot", 0, -0.45, 0), (None, 0, 0, 0.1))
+    text += [" JOINT Spine", " {", " OFFSET 0 0.8 0", " CHANNELS 3 Zrotation Xrotation Yrotation"]
+    for side, name in ((1, "Left"), (-1, "Right")):
+        chain((name + "Arm", side * 0.2, 0.05, 0), (name + "ForeArm", side * 0.6, 0, 0), (name + "Hand", side * 0.5, 0, 0),
+              (None, side * 0.2, 0, 0))
+    chain(("Head", 0, 0.3, 0), (None, 0, 0.2, 0))
+    text += ["}", "}", "MOTION", "Frames: 2", "Frame Time: 0.04"] + [" ".join(["0"] * 45)] * 2 + [""]
+    with open(bvh_path, "w", encoding="ascii") as stream:
+        stream.write("\n".join(text))
+    return starts
+
+
 class ComputedWeights(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -73,6 +113,32 @@ class ComputedWeights(ProgramTest):
                     self.assertGreater(weights[i].get(name, 0), 0.9, (x, weights[i]))
         for i in range(372, 444):
             self.assertEqual(weights[i], {"upper": 1} if i < 408 else {"fore": 1})
+
+    def test_arms_that_hang_get_the_bones_of_arms_stretched_out(self):
+        """The rig's limbs are turned to lie in the mesh; its clips still say what they said."""
+        ranges = write_person(self.path("person.obj"), self.path("person.bvh"))
+        done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "-o", self.path("person.sbf"))
+        self.assertIn("limbs were turned to lie inside it, 'LeftArm', 'RightArm', each", done.err)
+        weights, bundle = weights_by_vertex(self.path("person.sbf")), Bundle(self.path("person.sbf"))
+        heads = {name: tuple(row[3] for row in frame) for name, frame in zip(bundle.bone_names(), bundle.rest)}
+        for side, name in ((1, "left"), (-1, "right")):
+            arm, fore, hand = (heads[name.capitalize() + part] for part in ("Arm", "ForeArm", "Hand"))
+            for joint, along in ((fore, 0.6), (hand, 1.1)):
+                self.assertAlmostEqual(joint[0] - arm[0], side * along * math.sqrt(0.5), delta=0.1)
+                self.assertAlmostEqual(joint[1] - arm[1], -along * math.sqrt(0.5), delta=0.1)
+            for i in range(*ranges[name + " arm"]):
+                weight, (x, y, _) = weights[i]
+                along = (abs(x - arm[0]) + abs(y - arm[1])) * math.sqrt(0.5)
+                if 0.75 < along < 1:
+                    self.assertGreater(weight.get(name.capitalize() + "ForeArm", 0), 0.8)
+        info = self.json_of("info", self.path("person.sbf"))
+        self.assertEqual(info["gait"]["legs"], 2)
+        keyed = {track.get("bone") for track in bundle.root.iter("track")}
+        self.assertEqual(keyed, {"bone.LeftArm", "bone.RightArm"})  # out again; all else stays at rest
+        write_person(self.path("person.obj"), self.path("person.bvh"), 0)
+        done = self.good("convert", self.path("person.obj"), "--rig", self.path("person.bvh"), "--no-build", "-o",
+                         self.path("person.sbf"))
+        self.assertNotIn("limbs were turned", done.err)
 
     def test_shells_follow_the_bones_they_are_given_to(self):
         weights, _ = self.weights("--shell", "buttons#2=hand")

@@ -2,6 +2,7 @@
 #ifndef SBFI_ALIGN_H
 #define SBFI_ALIGN_H
 
+#include "build/geometry/winding_number.h"
 #include "import/rigging/rigging.h"
 #include "import/rigging/similarity.h"
 
@@ -16,6 +17,11 @@ bool sbfi_align_by_shape(sbfi_rigging *r, double *error);
  * of it. IMPORT_RIG_OUTSIDE, which names bones and how far outside they are, where it is less than 60 %
  * anyhow. */
 sbf_status sbfi_align_by_bones(sbfi_rigging *r);
+
+/* Turns limbs of the rig, in its bones and in a copy of its scene, so that they lie inside the input, whose
+ * winding is in its own space. `turned` receives the names of their first bones, "" for none. False where
+ * memory runs out. */
+bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *turned, size_t size);
 
 /* Whether a rig has neither a unit nor a mesh to be measured by, as motion capture: it takes the input's
  * size. */

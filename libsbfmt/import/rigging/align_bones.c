@@ -10,11 +10,16 @@
 #include "import/rigging/align.h"
 #include "import/rigging/surface_finder.h"
 
-enum { PER_BONE = 6, NAMED = 4 };
+enum { PER_BONE = 6, NAMED = 4, SURFACE_SAMPLES = 1000 };
 
-static const double GOOD = 0.95;   /* so much of the length inside is as it should be */
-static const double LEAST = 0.6;   /* and less than this is another character's rig */
+static const double GOOD = 0.95; /* so much of the length inside is as it should be */
+static const double LEAST = 0.6; /* and less than this is another character's rig */
+/* Shares inside before limbs are turned and after; share of the points that may be without a bone; how thick
+ * a body is around its bones, as a share of its longest side. */
+static const double LEAST_TRUNK = 0.3, LEAST_TURNED = 0.9, MOST_UNCOVERED = 0.2;
+static const double THICK = 0.15;
 static const double BETTER = 0.02; /* by which a later candidate has to be better */
+static const double UNUSUAL = 0.2; /* the same, of one that does not stand on its Y or Z axis */
 
 typedef struct bone_line {
   sbfi_d3 from, to; /* asset space */
@@ -66,8 +71,9 @@ static double share_inside(const search *s, const sbfi_matrix *m) {
 
 static void consider(search *s, const sbfi_matrix *m) {
   if (!sbfi_alignment_allowed(s->r, m)) return;
-  double share = share_inside(s, m);
-  if (share < s->best_share + BETTER) return;
+  double share = share_inside(s, m), scale = sbfi_similarity_scale(m);
+  bool is_usual = m->at[1][1] > 0.9 * scale || m->at[1][2] > 0.9 * scale;
+  if (share < s->best_share + (is_usual ? BETTER : UNUSUAL)) return;
   s->best = *m;
   s->best_share = share;
 }
@@ -136,9 +142,10 @@ static double longest_side(sbfi_d3 low, sbfi_d3 high) {
 static void consider_all(search *s) {
   double bones = longest_side(s->low, s->high), input = longest_side(s->soup.low, s->soup.high);
   double stated = sbfi_similarity_scale(&s->r->c->to_asset);
+  double most = sbfi_rig_has_no_size(s->r) ? 1.5 : 3; /* a small rig lies inside anything */
   for (uint32_t unit = 0; unit <= SBFI_USUAL_UNITS && s->best_share < GOOD; unit++) {
     double scale = unit ? sbfi_usual_units[unit - 1].unit_m : stated;
-    if (input * scale < 0.7 * bones || input * scale > 3 * bones) continue;
+    if (input * scale < 0.7 * bones || input * scale > most * bones) continue;
     for (uint32_t i = 0; i < SBFI_AXIS_ROTATIONS / 2; i++) {
       sbfi_matrix axes = sbfi_axis_rotation(i);
       consider_offsets(s, &axes, scale);
@@ -257,21 +264,84 @@ static void scale_rig(sbfi_rigging *r) {
       factor);
 }
 
+static double distance_to_line(const bone_line *line, sbfi_d3 p) {
+  sbfi_d3 along = sbfi_d3_sub(line->to, line->from), way = sbfi_d3_sub(p, line->from);
+  double t = fmin(fmax(sbfi_d3_dot(way, along) / sbfi_d3_dot(along, along), 0), 1);
+  return sbfi_d3_length(sbfi_d3_sub(way, sbfi_d3_scale(along, t)));
+}
+
+/* Share of the input's points that lie farther from every bone than any part of a body is thick. */
+static double share_uncovered(const search *s) {
+  const sbf_vec3_list points = s->r->input.mesh.positions;
+  double size = longest_side(s->soup.low, s->soup.high) * sbfi_similarity_scale(&s->best);
+  uint32_t samples = points.count < SURFACE_SAMPLES ? points.count : SURFACE_SAMPLES, far = 0;
+  for (uint32_t i = 0; i < samples; i++) {
+    uint32_t at = (uint32_t)((double)points.count * i / samples);
+    sbfi_d3 p = sbfi_similarity_apply(&s->best, sbfi_d3_of(points.at[at]));
+    double nearest = INFINITY;
+    for (uint32_t k = 0; k < s->line_count && nearest > THICK * size; k++)
+      nearest = fmin(nearest, distance_to_line(&s->lines[k], p));
+    far += nearest > THICK * size;
+  }
+  return samples ? (double)far / samples : 0;
+}
+
+/* A rig that stands otherwise than the input, limb by limb. The turns stay where they bring nearly all bones
+ * inside and no large part of the input is left without any: that would be another character. */
+static sbf_status match_limbs(sbfi_rigging *r, search *s, sbfi_arena *arena, bool *matched) {
+  sbfi_conversion *c = r->c;
+  const sbf_bone_list list = c->asset->bones;
+  sbf_bone *bones = (sbf_bone *)(uintptr_t)list.at; /* ours until the asset is handed out */
+  const sbf_bone *before = sbfi_arena_copy(arena, bones, list.count, sizeof *bones);
+  const sbfi_scene *scene = r->rig.scene, *rig = c->rig;
+  char turned[300];
+  double share = s->best_share;
+  *matched = share >= GOOD;
+  if (*matched || share < LEAST_TRUNK) return SBF_OK;
+  r->alignment.to_asset = s->best;
+  s->line_count = 0;
+  s->total = s->best_share = 0;
+  if (!before || !sbfi_align_limbs(r, &s->winding, turned, sizeof turned) || !make_lines(s, arena))
+    return sbfi_convert_no_memory(c);
+  s->best_share = share_inside(s, &s->best);
+  if (turned[0] && s->best_share >= LEAST_TURNED && share_uncovered(s) <= MOST_UNCOVERED) {
+    sbfi_convert_warn(c, SBF_CODE_RIG_ALIGNED,
+        "the rig stands otherwise than the input: limbs were turned to lie inside it, %s, each with all that "
+        "hangs on it",
+        turned);
+    *matched = true;
+    return SBF_OK;
+  }
+  memcpy(bones, before, list.count * sizeof *bones);
+  r->rig.scene = scene;
+  c->rig = rig;
+  s->line_count = 0;
+  s->total = 0;
+  s->best_share = share;
+  return make_lines(s, arena) ? SBF_OK : sbfi_convert_no_memory(c);
+}
+
 sbf_status sbfi_align_by_bones(sbfi_rigging *r) {
   sbfi_arena scratch;
   search s = {.r = r, .best = r->alignment.to_asset};
+  bool is_stated = r->alignment.is_stated;
   sbfi_arena_init(&scratch, &r->c->scratch.allocator, 0);
   bool good = sbfi_soup_make(&s.soup, &r->input.mesh, &scratch) &&
               sbfi_winding_make(&s.winding, &s.soup, &scratch) && make_lines(&s, &scratch);
   sbf_status status = good ? SBF_OK : sbfi_convert_no_memory(r->c);
   if (good && s.line_count) {
     s.best_share = share_inside(&s, &s.best);
-    if (s.best_share < GOOD && r->alignment.is_stated) consider_all(&s);
+    bool matched;
+    status = match_limbs(r, &s, &scratch, &matched);
+    if (status == SBF_OK && !matched && is_stated) {
+      consider_all(&s);
+      status = match_limbs(r, &s, &scratch, &matched);
+    }
     r->alignment.to_asset = s.best;
     r->alignment.inside = s.best_share;
     if (s.best_share >= LEAST) scale_rig(r);
     r->alignment.is_stated = memcmp(&s.best, &r->c->to_asset, sizeof s.best) == 0;
-    if (s.best_share < LEAST) status = refuse(&s, &scratch);
+    if (status == SBF_OK && s.best_share < LEAST) status = refuse(&s, &scratch);
   }
   sbfi_arena_free(&scratch);
   return status;

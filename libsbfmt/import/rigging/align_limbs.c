@@ -1,0 +1,233 @@
+/* Turns limbs of a rig so that they lie inside the input: a rig with its arms stretched out for a mesh whose
+ * arms hang, or the other way round.
+ *
+ * From the trunk to the tips each limb is turned as a whole about its joint: of many directions the nearest
+ * to where it points that brings nearly as much of its length inside as any. Where little is gained it stays.
+ */
+#include "import/rigging/align.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "motion/carried_motion.h"
+#include "motion/turn.h"
+
+enum { DIRECTIONS = 600, PER_BONE = 8, REFINED = 24 };
+
+/* Inside as it should be; what a turn has to gain; how much worse than the best a lesser turn may be; the
+ * greatest turn, as a cosine. All but the last in shares of the limb's length. */
+static const double GOOD = 0.9, GAIN = 0.2, NEARLY = 0.05, FARTHEST = 0.2;
+/* A limb is no more than this share of all bones. */
+static const double LIMB = 0.45;
+/* So far from the middle, as a share of its length, all of a limb lies that no name gives a side. */
+static const double ASIDE = 0.02;
+
+typedef struct limbs {
+  sbfi_rigging *r;
+  const sbfi_winding *winding;
+  sbfi_matrix back; /* asset space to that of the input */
+  sbf_bone *bones;
+  uint32_t bone_count;
+  bool *below;        /* (bone_count) of the limb at hand, its first bone included */
+  double length, all; /* of its bones; of all bones */
+} limbs;
+
+static sbfi_d3 turned(const double turn[4], sbfi_d3 about, sbfi_d3 p) {
+  sbfi_d3 way = sbfi_d3_sub(p, about);
+  double to[3];
+  sbfi_turn_vector(turn, (const double[3]){way.x, way.y, way.z}, to);
+  return sbfi_d3_add(about, (sbfi_d3){to[0], to[1], to[2]});
+}
+
+static bool is_inside(const limbs *l, sbfi_d3 asset_point) {
+  sbfi_d3 p = sbfi_similarity_apply(&l->back, asset_point);
+  return sbfi_winding_inside(sbfi_winding_of_closed(l->winding, p), sbfi_winding_of_caps(l->winding, p));
+}
+
+static sbfi_d3 head_of(const limbs *l, uint32_t bone) {
+  return sbfi_d3_of(l->bones[bone].head);
+}
+
+/* Share of the limb's length inside, turned about its first joint. */
+static double share_inside(const limbs *l, uint32_t first, const double turn[4]) {
+  double inside = 0;
+  for (uint32_t b = first + 1; b < l->bone_count; b++) {
+    if (!l->below[b]) continue;
+    sbfi_d3 from = head_of(l, (uint32_t)l->bones[b].parent), along = sbfi_d3_sub(head_of(l, b), from);
+    double length = sbfi_d3_length(along);
+    for (int k = 0; k < PER_BONE; k++) {
+      sbfi_d3 at = sbfi_d3_add(from, sbfi_d3_scale(along, (k + 0.5) / PER_BONE));
+      inside += length / PER_BONE * is_inside(l, turned(turn, head_of(l, first), at));
+    }
+  }
+  return inside / l->length;
+}
+
+/* The bones that hang on one, their length, and the unit vector to the farthest of their joints. */
+static bool take_limb(limbs *l, uint32_t first, sbfi_d3 *direction) {
+  double farthest = 0;
+  l->length = 0;
+  for (uint32_t b = 0; b < l->bone_count; b++) {
+    int32_t parent = l->bones[b].parent;
+    l->below[b] = b == first || (parent != SBF_NONE && l->below[parent]);
+    if (!l->below[b] || b == first) continue;
+    sbfi_d3 way = sbfi_d3_sub(head_of(l, b), head_of(l, first));
+    l->length += sbfi_d3_length(sbfi_d3_sub(head_of(l, b), head_of(l, (uint32_t)parent)));
+    if (sbfi_d3_length(way) <= farthest) continue;
+    farthest = sbfi_d3_length(way);
+    *direction = sbfi_d3_scale(way, 1 / farthest);
+  }
+  return farthest > 0 && l->bones[first].parent != SBF_NONE && l->length <= LIMB * l->all;
+}
+
+/* Whether a limb is a left or a right one, by its name or because all of it lies on one side of the root: a
+ * spine or a neck is no limb. */
+static bool is_sided(const limbs *l, uint32_t first) {
+  double low = INFINITY, high = -INFINITY, root = (double)l->bones[0].head.x;
+  if (sbfi_name_side(l->bones[first].name)) return true;
+  for (uint32_t b = first; b < l->bone_count; b++) {
+    if (!l->below[b]) continue;
+    low = fmin(low, (double)l->bones[b].head.x - root);
+    high = fmax(high, (double)l->bones[b].head.x - root);
+  }
+  return low > ASIDE * l->length || high < -ASIDE * l->length;
+}
+
+/* Points spread evenly over the unit sphere, along a spiral. */
+static sbfi_d3 spread(uint32_t number) {
+  double x = 1, z = 0, height = 1 - 2 * (number + 0.5) / DIRECTIONS;
+  const double cosine = -0.7373688780783197, sine = 0.6754902942615238; /* of the golden angle */
+  for (uint32_t i = 0; i < number; i++) {
+    double next = cosine * x - sine * z;
+    z = sine * x + cosine * z;
+    x = next;
+  }
+  double radius = sqrt(1 - height * height);
+  return (sbfi_d3){radius * x, height, radius * z};
+}
+
+static void turn_to(sbfi_d3 from, sbfi_d3 to, double turn[4]) {
+  sbfi_turn_between((const double[3]){from.x, from.y, from.z}, (const double[3]){to.x, to.y, to.z}, turn);
+}
+
+/* Of all directions the nearest that is nearly as good as the best; then the best of those around it. */
+static double find_turn(const limbs *l, uint32_t first, sbfi_d3 direction, double turn[4]) {
+  double shares[DIRECTIONS], most = 0, nearest = -1;
+  sbfi_d3 chosen = direction;
+  for (uint32_t i = 0; i < DIRECTIONS; i++) {
+    sbfi_d3 to = spread(i);
+    shares[i] = 0;
+    if (sbfi_d3_dot(to, direction) < FARTHEST) continue;
+    turn_to(direction, to, turn);
+    shares[i] = share_inside(l, first, turn);
+    most = fmax(most, shares[i]);
+  }
+  for (uint32_t i = 0; i < DIRECTIONS; i++) {
+    double cosine = sbfi_d3_dot(spread(i), direction);
+    if (cosine < FARTHEST || shares[i] < most - NEARLY || cosine <= nearest) continue;
+    nearest = cosine;
+    chosen = spread(i);
+  }
+  turn_to(direction, chosen, turn);
+  double best = share_inside(l, first, turn), step = 0.08;
+  for (int i = 0; i < REFINED; i++, step *= 0.85) {
+    sbfi_d3 aside = spread((uint32_t)(i * 173) % DIRECTIONS);
+    sbfi_d3 to = sbfi_d3_normal(sbfi_d3_add(chosen, sbfi_d3_scale(aside, step)));
+    double other[4];
+    turn_to(direction, to, other);
+    double share = share_inside(l, first, other);
+    if (share <= best) continue;
+    best = share;
+    chosen = to;
+    memcpy(turn, other, sizeof other);
+  }
+  return best;
+}
+
+/* --- The turn in bones and nodes ----------------------------------------------------------------------- */
+
+static sbfi_matrix matrix_of(const double turn[4], sbfi_d3 about) {
+  sbfi_matrix m = sbfi_matrix_identity();
+  for (int k = 0; k < 3; k++) {
+    double to[3];
+    sbfi_turn_vector(turn, (const double[3]){k == 0, k == 1, k == 2}, to);
+    for (int row = 0; row < 3; row++) m.at[row][k] = to[row];
+  }
+  sbfi_d3 moved = sbfi_d3_sub(about, sbfi_similarity_apply(&m, about));
+  m.at[0][3] = moved.x, m.at[1][3] = moved.y, m.at[2][3] = moved.z;
+  return m;
+}
+
+static void turn_bones(limbs *l, uint32_t first, const double turn[4]) {
+  sbfi_d3 about = head_of(l, first);
+  for (uint32_t b = first; b < l->bone_count; b++) {
+    if (!l->below[b]) continue;
+    sbf_quat *q = &l->bones[b].rotation;
+    double rotation[4] = {(double)q->x, (double)q->y, (double)q->z, (double)q->w};
+    sbfi_turn_product(turn, rotation, rotation);
+    *q = (sbf_quat){(float)rotation[0], (float)rotation[1], (float)rotation[2], (float)rotation[3]};
+    l->bones[b].head = sbfi_d3_rounded(turned(turn, about, head_of(l, b)));
+  }
+}
+
+/* `matrix` is in asset space; `nodes` are ours. */
+static void turn_nodes(const limbs *l, uint32_t first, const sbfi_matrix *matrix, sbfi_scene_node *nodes) {
+  const sbfi_conversion *c = l->r->c;
+  uint32_t top = c->node_of_bone[first], count = l->r->rig.scene->node_count;
+  sbfi_matrix to_scene, above, turn;
+  if (!sbfi_matrix_invert(&c->rig_to_asset, &to_scene)) return;
+  turn = sbfi_matrix_multiply(matrix, &c->rig_to_asset);
+  turn = sbfi_matrix_multiply(&to_scene, &turn);
+  for (uint32_t n = top; n < count; n++) {
+    int32_t parent = nodes[n].parent;
+    if (n == top) nodes[n].world = sbfi_matrix_multiply(&turn, &nodes[n].world);
+    int32_t up = parent;
+    while (up != SBF_NONE && (uint32_t)up > top) up = nodes[up].parent;
+    if (n != top && up == (int32_t)top)
+      nodes[n].world = sbfi_matrix_multiply(&nodes[parent].world, &nodes[n].local);
+  }
+  if (nodes[top].parent == SBF_NONE)
+    nodes[top].local = nodes[top].world;
+  else if (sbfi_matrix_invert(&nodes[nodes[top].parent].world, &above))
+    nodes[top].local = sbfi_matrix_multiply(&above, &nodes[top].world);
+}
+
+/* A copy of the rig's scene with nodes that may be turned. */
+static sbfi_scene_node *own_nodes(sbfi_rigging *r) {
+  sbfi_arena *arena = &r->c->scratch;
+  sbfi_scene *scene = sbfi_arena_copy(arena, r->rig.scene, 1, sizeof *scene);
+  if (!scene) return NULL;
+  sbfi_scene_node *nodes = sbfi_arena_copy(arena, scene->nodes, scene->node_count, sizeof *nodes);
+  scene->nodes = nodes;
+  if (nodes) r->c->rig = r->rig.scene = scene;
+  return nodes;
+}
+
+bool sbfi_align_limbs(sbfi_rigging *r, const sbfi_winding *winding, char *text, size_t size) {
+  limbs l = {.r = r, .winding = winding, .bone_count = r->c->asset->bones.count};
+  l.bones = (sbf_bone *)(uintptr_t)r->c->asset->bones.at; /* ours until the asset is handed out */
+  l.below = sbfi_arena_allocate(&r->c->scratch, l.bone_count, sizeof *l.below);
+  sbfi_scene_node *nodes = own_nodes(r);
+  text[0] = 0;
+  if (!l.below || !nodes) return false;
+  if (!sbfi_matrix_invert(&r->alignment.to_asset, &l.back)) return true;
+  for (uint32_t b = 0; b < l.bone_count; b++)
+    if (l.bones[b].parent != SBF_NONE)
+      l.all += sbfi_d3_length(sbfi_d3_sub(head_of(&l, b), head_of(&l, (uint32_t)l.bones[b].parent)));
+  for (uint32_t b = 0; b < l.bone_count; b++) {
+    static const double none[4] = {0, 0, 0, 1};
+    sbfi_d3 direction = {0, 0, 0};
+    double turn[4];
+    if (!take_limb(&l, b, &direction) || !is_sided(&l, b)) continue;
+    double before = share_inside(&l, b, none);
+    if (before >= GOOD || !is_inside(&l, head_of(&l, b))) continue;
+    if (find_turn(&l, b, direction, turn) < before + GAIN) continue;
+    sbfi_matrix matrix = matrix_of(turn, head_of(&l, b));
+    turn_nodes(&l, b, &matrix, nodes);
+    turn_bones(&l, b, turn);
+    size_t used = strlen(text);
+    if (used + 60 < size) snprintf(text + used, size - used, "%s'%.40s'", used ? ", " : "", l.bones[b].name);
+  }
+  return true;
+}
