@@ -11,12 +11,19 @@ static json_t *measured(float value) {
   return value > 0 ? json_real((double)value) : json_null();
 }
 
+static json_t *numbers(sbf_f32_list list) {
+  json_t *array = json_array();
+  for (uint32_t i = 0; i < list.count; i++) json_array_append_new(array, json_real((double)list.at[i]));
+  return array;
+}
+
 static json_t *calibration_of(const sbf_level *level) {
   const sbf_calibration *c = level->calibration;
   if (!c) return json_null();
-  return json_pack("{s:o, s:f, s:f, s:f, s:f}", "reference_elements", integer(c->reference_elements),
-      "factor", (double)c->factor, "surface_factor", (double)c->surface_factor, "residual",
-      (double)c->residual, "period_error", (double)c->period_error);
+  return json_pack("{s:o, s:f, s:f, s:f, s:f, s:o, s:o}", "reference_elements",
+      integer(c->reference_elements), "factor", (double)c->factor, "surface_factor",
+      (double)c->surface_factor, "residual", (double)c->residual, "period_error", (double)c->period_error,
+      "load_errors", numbers(c->load_errors), "twist_errors", numbers(c->twist_errors));
 }
 
 json_t *level_description(const sbf_soft_body *body) {

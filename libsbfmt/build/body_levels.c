@@ -108,7 +108,7 @@ static void note_spring_calibration(sbfi_build *b, const sbfi_calibration *c) {
   r->calibrated_springs++;
 }
 
-static void warn_of_unrest(sbfi_build *b, uint32_t number, const sbfi_ladder *ladder) {
+static void warn_of_poor_levels(sbfi_build *b, uint32_t number, const sbfi_ladder *ladder) {
   const char *name = b->bodies[number].name;
   if (ladder->has_reference && ladder->reference.statics.turns)
     sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
@@ -116,13 +116,22 @@ static void warn_of_unrest(sbfi_build *b, uint32_t number, const sbfi_ladder *la
         "nothing "
         "is calibrated and no error stated, pin points beside that line",
         name);
-  for (uint32_t i = 0; i < ladder->unsettled_count; i++)
-    sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
-        "a level of %u tetrahedra of soft body \"%s\" comes to no rest under gravity where a fine one does: "
-        "%s, "
-        "give it more elements (--elements, --cell) or pin more points",
-        (unsigned)ladder->unsettled[i].elements, name,
-        ladder->unsettled[i].is_kept ? "its error is not stated" : "it is left out");
+  for (uint32_t i = 0; i < ladder->poor_count; i++) {
+    const sbfi_poor_level *level = &ladder->poor[i];
+    if (level->off > 0)
+      sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_OFF,
+          "a level of %u tetrahedra of soft body \"%s\" is off by %.0f %% of what its matter gives under one "
+          "of "
+          "the loads: %s, give it more elements (--elements, --cell)",
+          (unsigned)level->elements, name, 100 * level->off,
+          level->is_kept ? "the file states each" : "it is left out");
+    else
+      sbfi_build_report_of_body(b, number, SBF_CODE_LEVEL_UNSETTLED,
+          "a level of %u tetrahedra of soft body \"%s\" comes to no rest under gravity where a fine one "
+          "does: "
+          "%s, give it more elements (--elements, --cell) or pin more points",
+          (unsigned)level->elements, name, level->is_kept ? "its error is not stated" : "it is left out");
+  }
 }
 
 /* The rest of the levels of a body whose finest has been made, and what they are worth. */
@@ -133,7 +142,7 @@ static sbf_status make_ladder(sbfi_build *b, uint32_t number, sbfi_ladder *ladde
   sbf_status status = outcome_status(
       b, number, sbfi_ladder_make(ladder, body->levels.at, of_springs ? map : NULL, &b->scratch));
   if (status != SBF_OK) return status;
-  warn_of_unrest(b, number, ladder);
+  warn_of_poor_levels(b, number, ladder);
   body->levels = (sbf_level_list){ladder->levels, ladder->level_count};
   b->report.levels += ladder->level_count - 1;
   for (uint32_t l = 0; l < ladder->level_count; l++) {

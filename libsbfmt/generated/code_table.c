@@ -124,6 +124,7 @@ static const sbf_code_info table[] = {
   {"LATTICE_TOO_FINE", SBF_CODE_LATTICE_TOO_FINE, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "The cell is too small for a body of that size, or for all bodies together: give a larger one, or fewer elements."},
   {"EMBEDDING_FAR", SBF_CODE_EMBEDDING_FAR, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell, or take those in no polygon out of the source."},
   {"INTERIOR_TOO_MANY", SBF_CODE_INTERIOR_TOO_MANY, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A body has too many points for springs between all of them: give another method."},
+  {"LEVEL_OFF", SBF_CODE_LEVEL_OFF, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A lattice gives by more than a quarter more or less than its matter under some load: give it more elements."},
   {"LEVEL_ERROR_MISSED", SBF_CODE_LEVEL_ERROR_MISSED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "No lattice coarser than the reference comes within the error asked for: the body got one as fine as that."},
   {"LEVEL_UNSETTLED", SBF_CODE_LEVEL_UNSETTLED, SBF_SEVERITY_WARNING, SBF_BAD_INPUT, "A level comes to no rest under gravity, as parts of it turn about what holds them: give it more elements, or pin more points."},
   {"BODY_NO_MASS", SBF_CODE_BODY_NO_MASS, SBF_SEVERITY_ERROR, SBF_BAD_INPUT, "A body that moves has no mass: give it a density, an area density or a mass."},

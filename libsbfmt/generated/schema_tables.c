@@ -419,8 +419,10 @@ static const sbfi_field calibration_fields[] = {
   {.name = "surface_factor", .type = SBFI_FLOAT, .number = 3, .since_minor = 0, .offset = offsetof(sbf_calibration, surface_factor), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1.0f}},
   {.name = "residual", .type = SBFI_FLOAT, .number = 4, .since_minor = 0, .offset = offsetof(sbf_calibration, residual), .width = 1, .unit = "", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = false, .max_open = true},
   {.name = "period_error", .type = SBFI_FLOAT, .number = 5, .since_minor = 0, .offset = offsetof(sbf_calibration, period_error), .width = 1, .unit = ""},
+  {.name = "load_errors", .type = SBFI_LIST, .number = 6, .since_minor = 0, .offset = offsetof(sbf_calibration, load_errors), .width = 1, .unit = "", .item = SBFI_ITEM_F32},
+  {.name = "twist_errors", .type = SBFI_LIST, .number = 7, .since_minor = 0, .offset = offsetof(sbf_calibration, twist_errors), .width = 1, .unit = "", .item = SBFI_ITEM_F32},
 };
-static const sbfi_element calibration_element = {"calibration", "calibration", sizeof(sbf_calibration), 0, 5, calibration_fields, NULL};
+static const sbfi_element calibration_element = {"calibration", "calibration", sizeof(sbf_calibration), 0, 7, calibration_fields, NULL};
 
 static const sbfi_length level_masses_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_level, positions)}}, "positions"}};
 static const sbfi_length level_size = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_level, positions)}}, "positions"};

@@ -341,6 +341,8 @@ calibration
   surface_factor: float default=1 range=(0,inf)
   residual: float range=[0,inf)
   period_error: float
+  load_errors: float[]
+  twist_errors: float[]
 measured
   machine: string
   microseconds: float range=[0,inf)

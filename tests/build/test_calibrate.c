@@ -286,6 +286,20 @@ static void check_moduli(const sbf_level *level) {
   ck_assert_double_eq_tol(sum / whole, 1e6 * (double)level->calibration->factor, 1e3);
 }
 
+/* Stated load by load: gravity along each axis as the greatest residual says, and twists. */
+static void check_errors(const sbf_level *level, uint32_t loads) {
+  const sbf_calibration *c = level->calibration;
+  float most = 0;
+  ck_assert_uint_eq(c->load_errors.count, loads);
+  ck_assert_uint_eq(c->twist_errors.count, 3);
+  for (uint32_t i = 0; i < loads; i++) most = fmaxf(most, fabsf(c->load_errors.at[i]));
+  ck_assert_float_eq_tol(most, c->residual, 1e-6f);
+  for (uint32_t i = 0; i < 3; i++) {
+    ck_assert_float_ne(c->twist_errors.at[i], 0);
+    ck_assert_float_lt(fabsf(c->twist_errors.at[i]), 0.6f);
+  }
+}
+
 START_TEST(a_build_calibrates_what_is_coarse)
 {
   sbf_build_report report;
@@ -298,6 +312,7 @@ START_TEST(a_build_calibrates_what_is_coarse)
   ck_assert_float_lt(level->calibration->factor, 0.95f);
   ck_assert_float_gt(level->calibration->factor, 0.5f);
   check_moduli(level);
+  check_errors(level, 3);
   ck_assert_float_gt(level->simulation.cost, 100);
   sbf_asset_free(built);
   built = build((sbf_build_options){.cell_m = 0.1, .without_calibration = true}, &report);

@@ -1,4 +1,5 @@
 /* A lattice that no static solution stands behind states no error, and the build says so. */
+#include <math.h>
 #include <string.h>
 
 #include "harness.h"
@@ -7,7 +8,7 @@
 
 static sbf_asset *asset;
 static sbf_build_report report;
-static int noted;
+static int noted, noted_off;
 static char said[1024];
 
 static void setup(void) {
@@ -19,7 +20,8 @@ static void teardown(void) {
 
 static void note(void *user, const sbf_diagnostic *finding) {
   (void)user;
-  if (finding->code != SBF_CODE_LEVEL_UNSETTLED) return;
+  noted_off += finding->code == SBF_CODE_LEVEL_OFF;
+  if (finding->code != SBF_CODE_LEVEL_UNSETTLED && finding->code != SBF_CODE_LEVEL_OFF) return;
   noted++;
   memcpy(
       said, finding->message, sizeof finding->message < sizeof said ? sizeof finding->message : sizeof said);
@@ -49,7 +51,7 @@ static sbf_asset *build_bar(const sbf_vec3 *places, uint32_t count, uint32_t ele
   sbf_build_options options = {
       .interior = SBF_BUILD_INTERIOR_TETRAHEDRA, .elements = elements, .levels = levels, .report = note};
   sbf_asset *built;
-  noted = 0;
+  noted = noted_off = 0;
   ck_assert_int_eq(sbf_build(asset, &options, &built, &report, NULL), SBF_OK);
   return built;
 }
@@ -104,6 +106,33 @@ START_TEST(a_coarser_one_is_left_out)
 }
 END_TEST
 
+/* Held at four corners of its end: along itself a coarse one gives by 30 % otherwise. */
+static const sbf_vec3 corners[] = {{0, -0.2f, -0.2f}, {0, 0.2f, -0.2f}, {0, -0.2f, 0.2f}, {0, 0.2f, 0.2f}};
+
+START_TEST(the_finest_that_is_off_is_kept_and_says_so)
+{
+  sbf_asset *built = build_bar(corners, 4, 400, 1);
+  const sbf_level *level = &built->soft_bodies.at[0].levels.at[0];
+  ck_assert_int_eq(noted_off, 1);
+  ck_assert_ptr_nonnull(strstr(said, "the file states each"));
+  ck_assert_float_gt(fabsf(level->calibration->load_errors.at[0]), 0.25f);
+  ck_assert_float_lt(fabsf(level->calibration->load_errors.at[1]), 0.1f);
+  sbf_asset_free(built);
+}
+END_TEST
+
+START_TEST(a_coarser_one_that_is_off_is_left_out)
+{
+  sbf_asset *built = build_bar(corners, 4, 1600, 3);
+  const sbf_level_list *levels = &built->soft_bodies.at[0].levels;
+  ck_assert_int_eq(noted_off, 1);
+  ck_assert_ptr_nonnull(strstr(said, "left out"));
+  ck_assert_uint_eq(levels->count, 2);
+  ck_assert_int_eq(levels->at[1].model, SBF_ELASTIC_MODEL_JIGGLE);
+  sbf_asset_free(built);
+}
+END_TEST
+
 int main(void) {
   Suite *s = suite_create("unsettled_levels");
   TCase *c = tcase_create("unsettled_levels");
@@ -111,6 +140,8 @@ int main(void) {
   tcase_add_test(c, a_body_held_at_a_point_is_warned_of);
   tcase_add_test(c, the_finest_is_kept_without_an_error);
   tcase_add_test(c, a_coarser_one_is_left_out);
+  tcase_add_test(c, the_finest_that_is_off_is_kept_and_says_so);
+  tcase_add_test(c, a_coarser_one_that_is_off_is_left_out);
   suite_add_tcase(s, c);
   return harness_run(s);
 }

@@ -193,6 +193,36 @@ static double residual_of(const work *w, double factor) {
   return most;
 }
 
+/* How much farther the level goes along the way that its reference goes, twisted likewise. */
+static bool find_twists(work *w, double factor) {
+  size_t points = w->body->surface.positions.count, numbers = 3 * (size_t)w->statics.network.point_count;
+  double *forces = sbfi_arena_allocate(w->scratch, numbers + 1, sizeof *forces);
+  double *moved = sbfi_arena_allocate(w->scratch, numbers + 1, sizeof *moved);
+  double *gives = sbfi_arena_allocate(w->scratch, 3 * points + 1, sizeof *gives);
+  if (!forces || !moved || !gives) return false;
+  for (uint32_t k = 0; k < SBFI_TWISTS; k++) {
+    uint32_t push = SBFI_PUSHES - SBFI_TWISTS + k;
+    const double *wanted = w->r->works.gives[push];
+    double along = 0, square = 0;
+    sbfi_level_push(&w->statics, &w->r->works.pushes, push, forces);
+    sbfi_linear_statics_solve(&w->linear, forces, lean_share, moved);
+    sbfi_level_carry(&w->statics, moved, gives);
+    for (size_t i = 0; i < 3 * points; i++) {
+      along += (double)w->r->statics.areas[i / 3] * gives[i] * wanted[i];
+      square += (double)w->r->statics.areas[i / 3] * wanted[i] * wanted[i];
+    }
+    if (square > 0) w->c->twist_errors[k] = along / square / factor - 1;
+  }
+  return true;
+}
+
+static bool find_errors(work *w, double factor) {
+  for (uint32_t l = 0; l < w->statics.load_count; l++)
+    if (own_yielding(w, l) > 0 && wanted_yielding(w, l) > 0)
+      w->c->load_errors[l] = own_yielding(w, l) / factor / wanted_yielding(w, l) - 1;
+  return !w->r->has_works || is_sparse(w) || find_twists(w, factor);
+}
+
 /* Writes the moduli, all times `factor`, and those that they stand for: `stated`. */
 static bool write_moduli(work *w, const float *stated, double factor) {
   sbf_tetrahedron_mesh *lattice = &w->level->lattice;
@@ -331,6 +361,17 @@ static bool compare(work *w, bool gives, double factor) {
   return true;
 }
 
+/* As many as are known from the first on, as floats. */
+static bool list_errors(work *w, const double *errors, uint32_t most, sbf_f32_list *list) {
+  uint32_t count = 0;
+  while (count < most && isfinite(errors[count])) count++;
+  float *at = sbf_asset_allocate(w->asset, (size_t)count + 1, sizeof *at);
+  if (!at) return false;
+  for (uint32_t i = 0; i < count; i++) at[i] = (float)fmin(errors[i], FLT_MAX);
+  *list = (sbf_f32_list){count ? at : NULL, count};
+  return true;
+}
+
 static bool record(work *w) {
   sbf_calibration *made = sbf_asset_allocate(w->asset, 1, sizeof *made);
   if (!made) return false;
@@ -341,7 +382,8 @@ static bool record(work *w) {
   made->residual = (float)fmin(w->c->residual, FLT_MAX);
   if (isfinite(w->c->period_error)) made->period_error = (float)w->c->period_error;
   w->level->calibration = made;
-  return true;
+  return list_errors(w, w->c->load_errors, w->statics.load_count, &made->load_errors) &&
+         list_errors(w, w->c->twist_errors, SBFI_TWISTS, &made->twist_errors);
 }
 
 static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, double tick) {
@@ -358,6 +400,7 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
     if (!sbfi_linear_statics_make(&w->linear, &w->statics.network, w->scratch)) return false;
     if (!(lattice ? fit_lattice(w, &factor) : springs ? fit_springs(w) : find_yieldings(w))) return false;
     if (!springs) w->c->residual = residual_of(w, factor);
+    if (lattice && !find_errors(w, factor)) return false;
     if (load < SBFI_MOST_LOADS && w->frequencies[load] > 0)
       w->c->period_error = w->r->frequencies[load] / (w->frequencies[load] * sqrt(factor)) - 1;
   }
@@ -377,6 +420,13 @@ static bool calibrate(work *w, const sbfi_interior_map *interior, bool springs, 
   return true;
 }
 
+double sbfi_calibration_off(const sbfi_calibration *c) {
+  double most = 0; /* fmax leaves out what is not known */
+  for (uint32_t l = 0; l < SBFI_MOST_LOADS; l++) most = fmax(most, fabs(c->load_errors[l]));
+  for (uint32_t k = 0; k < SBFI_TWISTS; k++) most = fmax(most, fabs(c->twist_errors[k]));
+  return most;
+}
+
 bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbfi_interior_map *interior,
     const sbfi_reference *reference, bool springs, double tick, sbf_asset *asset,
     sbfi_calibration *calibration, sbfi_progress progress, const sbf_allocator *allocator) {
@@ -389,6 +439,8 @@ bool sbfi_level_calibrate(sbf_level *level, const sbf_soft_body *body, const sbf
       .c = calibration,
       .progress = progress};
   *calibration = (sbfi_calibration){.factor = 1, .surface = 1, .least = 1, .most = 1, .period_error = NAN};
+  for (uint32_t l = 0; l < SBFI_MOST_LOADS; l++) calibration->load_errors[l] = NAN;
+  for (uint32_t k = 0; k < SBFI_TWISTS; k++) calibration->twist_errors[k] = NAN;
   sbfi_arena_init(&scratch, allocator, 0);
   bool good = calibrate(&w, interior, springs, tick);
   sbfi_arena_free(&scratch);

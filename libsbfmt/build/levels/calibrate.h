@@ -65,6 +65,9 @@ typedef struct sbfi_calibration {
   double residual;    /* of lattices, the greatest share by which one yields otherwise under one of the small
                          loads; of springs, that by which the surface is displaced otherwise (spring_fit.h) */
   double residual_before; /* of springs, the same before */
+  /* Of lattices, shares by which one gives more (above 0) or less under each of the small loads, and twisted
+   * about x, y and z; NAN: not known. */
+  double load_errors[SBFI_MOST_LOADS], twist_errors[SBFI_TWISTS];
   double period_error; /* share by which it swings slower under the load it yields to most; NAN: not known */
   double error;        /* m, greatest distance of a surface point from where the reference has it under
                           gravity along one of the axes; from small strains, where one of the two has not come to
@@ -73,6 +76,11 @@ typedef struct sbfi_calibration {
   bool unsettled; /* it comes to no rest, as parts of it turn about what holds them, or go so far where the
                      reference's do not: it is left as it was, without a calibration */
 } sbfi_calibration;
+
+/* A level that is farther off than that under a load is none that stands for the body. */
+#define SBFI_MOST_OFF 0.25
+/* The greatest share, of either sign, under any of the loads that are known. */
+double sbfi_calibration_off(const sbfi_calibration *calibration);
 
 /* Calibrates a level of tetrahedra or, where `springs` says so, of springs, whose lists become memory of
  * `asset`, and compares it; another level is compared alone, and one of jiggle as one that does not give.

@@ -52,17 +52,18 @@ static sbfi_lattice_outcome make_reference(sbfi_ladder *l, uint32_t elements) {
 }
 
 /* Compares the last level, where there is something to compare it with, and takes it out again where it comes
- * to no rest, unless it is the finest. */
+ * to no rest or is too far off, unless it is the finest. */
 static sbfi_lattice_outcome measure(
     sbfi_ladder *l, sbf_level *level, const sbfi_interior_map *interior, sbfi_calibration *calibration) {
   if (!sbfi_progress_say(l->progress, 1)) return SBFI_LATTICE_CANCELLED;
   if (!sbfi_level_calibrate(level, l->body, interior, &l->reference, l->recipe->calibrate, l->recipe->tick,
           l->asset, calibration, sbfi_progress_part(l->progress, 0.9, 1), l->allocator))
     return SBFI_LATTICE_NO_MEMORY;
-  if (!calibration->unsettled) return SBFI_LATTICE_MADE;
+  double off = calibration->unsettled ? 0 : sbfi_calibration_off(calibration);
+  if (!calibration->unsettled && !(off > SBFI_MOST_OFF)) return SBFI_LATTICE_MADE;
   uint32_t elements = level->lattice.tetrahedra.count;
   bool is_finest = level == l->levels;
-  l->unsettled[l->unsettled_count++] = (sbfi_unsettled){elements, is_finest};
+  l->poor[l->poor_count++] = (sbfi_poor_level){elements, off, is_finest};
   if (!is_finest) l->level_count--;
   return SBFI_LATTICE_MADE;
 }

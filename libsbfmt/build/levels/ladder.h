@@ -17,11 +17,12 @@ typedef struct sbfi_ladder_recipe {
   int32_t derivation;
 } sbfi_ladder_recipe;
 
-/* A level that comes to no rest. */
-typedef struct sbfi_unsettled {
+/* A level that comes to no rest, or is off by more than SBFI_MOST_OFF. */
+typedef struct sbfi_poor_level {
   uint32_t elements; /* tetrahedra, or of springs those along whose sides they go */
-  bool is_kept;      /* the finest, without a stated error; others are left out */
-} sbfi_unsettled;
+  double off;        /* share, under the load where that is most; 0: it comes to no rest */
+  bool is_kept;      /* the finest; others are left out */
+} sbfi_poor_level;
 
 typedef struct sbfi_ladder {
   const sbf_soft_body *body;
@@ -34,8 +35,8 @@ typedef struct sbfi_ladder {
   sbf_level *levels; /* (level_count) memory of the asset */
   uint32_t level_count;
   sbfi_calibration calibrations[SBFI_MOST_LEVELS]; /* of those that say so */
-  sbfi_unsettled unsettled[SBFI_MOST_LEVELS];
-  uint32_t unsettled_count;
+  sbfi_poor_level poor[SBFI_MOST_LEVELS];
+  uint32_t poor_count;
 } sbfi_ladder;
 
 /* How many of `levels` are lattices, where the finest is one: with three and more the last is jiggle, with
@@ -52,8 +53,8 @@ void sbfi_ladder_free(sbfi_ladder *ladder);
 sbfi_lattice_outcome sbfi_ladder_pick(sbfi_ladder *ladder, uint32_t *elements, bool *met);
 
 /* From the finest level, of springs or tetrahedra, `interior` its map, makes the list of all and measures
- * them. A lattice that finds nothing to fill, is no coarser than the one before or comes to no rest under
- * gravity is left out, and springs that come to none. Springs go
+ * them. A lattice that finds nothing to fill, is no coarser than the one before, comes to no rest under
+ * gravity or is off by more than SBFI_MOST_OFF is left out, and springs that come to none. Springs go
  * along the sides of a lattice, whose tetrahedra they keep until embeddings are made
  * (lattice_springs_level.h). `arena` is scratch. */
 sbfi_lattice_outcome sbfi_ladder_make(

@@ -135,6 +135,7 @@ typedef enum sbf_code {
   SBF_CODE_LATTICE_TOO_FINE = 592, /* The cell is too small for a body of that size, or for all bodies together: give a larger one, or fewer elements. */
   SBF_CODE_EMBEDDING_FAR = 593, /* Vertices lie farther than a cell outside the lattice that carries them: give a smaller cell, or take those in no polygon out of the source. */
   SBF_CODE_INTERIOR_TOO_MANY = 594, /* A body has too many points for springs between all of them: give another method. */
+  SBF_CODE_LEVEL_OFF = 597, /* A lattice gives by more than a quarter more or less than its matter under some load: give it more elements. */
   SBF_CODE_LEVEL_ERROR_MISSED = 598, /* No lattice coarser than the reference comes within the error asked for: the body got one as fine as that. */
   SBF_CODE_LEVEL_UNSETTLED = 599, /* A level comes to no rest under gravity, as parts of it turn about what holds them: give it more elements, or pin more points. */
   SBF_CODE_BODY_NO_MASS = 601, /* A body that moves has no mass: give it a density, an area density or a mass. */

@@ -83,6 +83,10 @@ typedef struct sbf_calibration {
                                  * the mean over the surface is off under one of them, of springs the root of the mean
                                  * square of what is left at the surface's points. [[0, inf)] */
   float period_error;           /* Share by which it swings slower. */
+  sbf_f32_list load_errors;     /* Of lattices: share by which it gives more (above 0) or less under each small load
+                                 * that it was fitted to, gravity along x, y and z; or bent in six ways, where nothing
+                                 * holds the body. */
+  sbf_f32_list twist_errors;    /* Of lattices: the same, twisted about x, y and z; empty: not measured. */
 } sbf_calibration;
 typedef struct sbf_calibration_list { const sbf_calibration *at; uint32_t count; } sbf_calibration_list;
 

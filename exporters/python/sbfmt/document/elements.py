@@ -335,6 +335,8 @@ ELEMENTS = {element.name: element for element in (
         Field('surface_factor', 'float', default=1.0),
         Field('residual', 'float', default=0.0),
         Field('period_error', 'float', default=0.0),
+        Field('load_errors', 'float[]'),
+        Field('twist_errors', 'float[]'),
     )),
     Element('measured', 'measured', (
         Field('machine', 'string', default=''),
