@@ -80,6 +80,13 @@ class Tuned(ProgramTest):
         if chosen["substeps"]:
             self.assertEqual(report["substeps"], chosen["substeps"])
 
+    def test_no_level_is_one_that_run_calls_biased(self):
+        for number in range(len(self.all["levels"])):
+            said = self.good("run", os.path.join(self.place, "all.sbf"), "--seconds", "0.1", "--level", number).err
+            self.assertNotIn("SCHEME_BIASED", said)
+        refused = [trial for trial in self.all["trials"] if trial["outcome"] == "refused"]
+        self.assertTrue(any("is stepped by" in trial["error"]["why"] for trial in refused), refused[:3])
+
     def test_a_goal_takes_the_cheapest_that_keeps_it(self):
         front = sorted((trial for trial in self.all["trials"] if trial["on_front"]), key=lambda trial: trial["visits"])
         self.assertGreater(len(front), 1)

@@ -40,7 +40,13 @@ static tune_trial *add(sweep *s, uint32_t mesh, const chart_setting *setting) {
   return &t->at[t->count++];
 }
 
-/* What a tick of it costs, without a clock; false, with why, where the runtime refuses it. */
+static void keep_finding(void *user, const sbf_diagnostic *finding) {
+  tune_trial *trial = user;
+  snprintf(trial->error.why, sizeof trial->error.why, "%.120s", finding->message);
+}
+
+/* What a tick of it costs, without a clock; false, with why, where the runtime refuses it. What it would call
+ * biased is refused as well, but more substeps may help. */
 static bool count_visits(const sweep *s, tune_trial *trial) {
   const sbf_asset *asset = s->meshes->at[trial->mesh].asset;
   const sbr_model_options options = {.scheme = trial->setting.scheme, .substeps = trial->setting.substeps};
@@ -55,6 +61,7 @@ static bool count_visits(const sweep *s, tune_trial *trial) {
   sbr_model_rungs(model, &rung, 1);
   trial->visits = (double)rung.visits;
   trial->element_visits = chart_visits_of(model, asset, &trial->setting);
+  trial->refused = sbr_model_scheme_doubts(model, keep_finding, trial) > 0;
   sbr_model_destroy(model);
   return true;
 }
