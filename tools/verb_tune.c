@@ -10,9 +10,9 @@
 #include "tune/forecast.h"
 #include "tuning_report.h"
 
-/* Slower and in a curve, lower and oftener, slower and for longer: nothing of what it is tuned by. */
+/* In a curve, higher and oftener, four times as fast: harsher than what it is tuned by, as players are. */
 static const chart_drive OTHER_DRIVE = {
-    .speed = 0.35, .curve_rad_s = 0.6f, .hop = 0.015, .hop_ticks = 26, .turn_rad_s = 2, .turn_ticks = 20};
+    .speed = 0.35, .curve_rad_s = 0.6f, .hop = 0.03, .hop_ticks = 26, .turn_rad_s = 10, .turn_ticks = 20};
 
 static void show(void *user, const char *what, double share) {
   (void)user;
