@@ -1,10 +1,23 @@
 /* Images decoded: whole ones to their pixels, others with a reason. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness.h"
 #include "render/base_image.h"
 #include "render/picture.h"
+
+/* What this build draws beside PNG: as tools/render/CMakeLists.txt found it. */
+#ifdef SBFMT_JPEG
+enum { JPEG_DRAWN = 1 };
+#else
+enum { JPEG_DRAWN = 0 };
+#endif
+#ifdef SBFMT_WEBP
+enum { WEBP_DRAWN = 1 };
+#else
+enum { WEBP_DRAWN = 0 };
+#endif
 
 enum { WIDTH = 5, HEIGHT = 3 };
 
@@ -58,13 +71,85 @@ END_TEST
 
 START_TEST(other_files_are_named)
 {
-  static const uint8_t jpeg[] = {0xff, 0xd8, 0xff, 0xe0, 0, 16, 'J', 'F', 'I', 'F'}, none[] = "GIF89a....";
-  ck_assert_ptr_null(draw_image_decode(jpeg, sizeof jpeg, why));
-  ck_assert_msg(strstr(why, "JPEG"), "%s", why);
+  static const uint8_t none[] = "GIF89a....";
   ck_assert_ptr_null(draw_image_decode(none, sizeof none, why));
-  ck_assert_msg(strstr(why, "no PNG"), "%s", why);
+  ck_assert_msg(strstr(why, "neither PNG nor JPEG nor WebP"), "%s", why);
   ck_assert_ptr_null(draw_image_decode(NULL, 0, why));
-  ck_assert_msg(strstr(why, "no PNG"), "%s", why);
+  ck_assert_msg(strstr(why, "neither PNG nor JPEG nor WebP"), "%s", why);
+}
+END_TEST
+
+/* --- JPEG and WebP: red and green over blue and yellow, each a quarter of 32 by 32 pixels ---------------- */
+
+static const struct {
+  const char *file, *form;
+  int is_drawn, red_alpha;
+} quarters[] = {{"quarters.jpg", "JPEG", JPEG_DRAWN, 255}, {"quarters_progressive.jpg", "JPEG", JPEG_DRAWN, 255},
+    {"quarters_inks.jpg", "JPEG", JPEG_DRAWN, 255}, {"quarters.webp", "WebP", WEBP_DRAWN, 255},
+    {"quarters_alpha.webp", "WebP", WEBP_DRAWN, 64}};
+enum { QUARTERS = sizeof quarters / sizeof *quarters, MOST_BYTES = 4096 };
+
+static uint8_t *read_image(const char *name, size_t *count) {
+  char path[256];
+  snprintf(path, sizeof path, "tests/render/images/%s", name);
+  FILE *file = fopen(harness_source(path), "rb");
+  uint8_t *bytes = malloc(MOST_BYTES);
+  ck_assert_msg(file && bytes, "%s", path);
+  *count = fread(bytes, 1, MOST_BYTES, file);
+  fclose(file);
+  return bytes;
+}
+
+START_TEST(jpeg_and_webp_show_their_colours)
+{
+  static const int expected[4][3] = {{224, 0, 0}, {0, 224, 0}, {0, 0, 224}, {224, 224, 0}};
+  size_t count;
+  uint8_t *bytes = read_image(quarters[_i].file, &count);
+  draw_image *image = draw_image_decode(bytes, count, why);
+  if (quarters[_i].is_drawn) {
+    ck_assert_msg(image, "%s: %s", quarters[_i].file, why);
+    ck_assert_uint_eq(image->width, 32);
+    ck_assert_uint_eq(image->height, 32);
+    for (size_t q = 0; q < 4; q++) {
+      const uint8_t *pixel = image->rgba + 4 * (32 * (q < 2 ? 7 : 24) + (q % 2 ? 24 : 7));
+      for (int k = 0; k < 3; k++) ck_assert_int_le(abs(pixel[k] - expected[q][k]), 6);
+      ck_assert_int_eq(pixel[3], q == 0 ? quarters[_i].red_alpha : 255);
+    }
+  } else {
+    ck_assert_ptr_null(image);
+    ck_assert_ptr_nonnull(strstr(why, quarters[_i].form));
+    ck_assert_ptr_nonnull(strstr(why, "built without"));
+  }
+  draw_image_destroy(image);
+  free(bytes);
+}
+END_TEST
+
+/* Wherever it ends before the last of its data. */
+START_TEST(jpeg_and_webp_cut_short_are_damaged)
+{
+  size_t count;
+  uint8_t *bytes = read_image(quarters[_i].file, &count);
+  if (!quarters[_i].is_drawn) harness_skip("this build draws PNG alone");
+  for (size_t kept = 12; quarters[_i].is_drawn && kept < count - 24; kept++) {
+    uint8_t *part = malloc(kept);
+    ck_assert_ptr_nonnull(part);
+    memcpy(part, bytes, kept);
+    ck_assert_msg(!draw_image_decode(part, kept, why), "%zu bytes of %zu", kept, count);
+    ck_assert_msg(strstr(why, "damaged"), "%s", why);
+    free(part);
+  }
+  free(bytes);
+}
+END_TEST
+
+START_TEST(moving_webp_is_named)
+{
+  size_t count;
+  uint8_t *bytes = read_image("quarters_moving.webp", &count);
+  ck_assert_ptr_null(draw_image_decode(bytes, count, why));
+  ck_assert_ptr_nonnull(strstr(why, WEBP_DRAWN ? "animation" : "built without"));
+  free(bytes);
 }
 END_TEST
 
@@ -89,6 +174,9 @@ int main(void) {
   tcase_add_test(tests, cut_short_is_damaged);
   tcase_add_test(tests, changed_byte_is_damaged);
   tcase_add_test(tests, other_files_are_named);
+  tcase_add_loop_test(tests, jpeg_and_webp_show_their_colours, 0, QUARTERS);
+  tcase_add_loop_test(tests, jpeg_and_webp_cut_short_are_damaged, 0, QUARTERS);
+  tcase_add_test(tests, moving_webp_is_named);
   tcase_add_loop_test(tests, too_large_is_refused, 0, 2);
   suite_add_tcase(suite, tests);
   return harness_run(suite);

@@ -11,8 +11,8 @@ typedef struct draw_image {
   uint8_t rgba[];         /* 4 width height; rows from the top, sRGB, not premultiplied */
 } draw_image;
 
-/* Of the bytes of a PNG file of any kind. NULL where they are none, are damaged, or there is no memory: `why`
- * then says which, without a full stop. */
+/* Decodes a PNG, JPEG or WebP file of any kind. NULL for other files, damaged ones, or where memory runs out:
+ * `why` then says which, without a full stop. */
 draw_image *draw_image_decode(const uint8_t *bytes, size_t size, char why[DRAW_IMAGE_WHY]);
 void draw_image_destroy(draw_image *image); /* NULL is ignored */
 
