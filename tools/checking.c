@@ -30,7 +30,7 @@ void findings_free(findings *f) {
 
 static sbf_status load(checked *result, sbf_asset **asset) {
   sbf_diagnostic *found = calloc(LOAD_FINDINGS, sizeof *found);
-  sbf_load_options loading = {.check_crc = true};
+  sbf_load_options loading = {.check_crc = true, .report = findings_take, .user = &result->found};
   uint32_t count = 0;
   *asset = NULL;
   if (!found) {
@@ -68,8 +68,10 @@ void check_file(const char *path, checked *result) {
   sbf_asset *asset;
   *result = (checked){.path = path};
   result->status = load(result, &asset);
+  uint32_t left_out = (uint32_t)result->found.count; /* of a newer version: a warning, where it loads */
   if (result->status != SBF_OK) return;
   check_loaded(asset, path, result);
+  result->result.warnings += left_out;
   sbf_asset_free(asset);
   if (result->found.count) sbf_locate_findings(path, NULL, result->found.at, (uint32_t)result->found.count);
 }

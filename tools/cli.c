@@ -104,6 +104,10 @@ void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *d) {
   fprintf(stderr, "\n");
 }
 
+void cli_report(void *call, const sbf_diagnostic *d) {
+  cli_print_diagnostic(call, d);
+}
+
 json_t *cli_diagnostic_json(const sbf_diagnostic *d) {
   json_t *object = json_pack("{s:s, s:s, s:s, s:s}", "code", code_name(d->code), "severity",
       severity_word(d->severity), "message", d->message, "path", d->path);

@@ -60,6 +60,8 @@ bool cli_word(const cli_call *call, const char *name, const char *const *words, 
 int cli_wrong(const cli_call *call, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* A diagnostic on standard error, or into the JSON list where there is one. */
+/* The same as a callback, `call` a cli_call: for `report` of loads and the like. */
+void cli_report(void *call, const sbf_diagnostic *diagnostic);
 void cli_print_diagnostic(const cli_call *call, const sbf_diagnostic *diagnostic);
 /* For `messages` alone. */
 void cli_keep_diagnostic(const cli_call *call, const sbf_diagnostic *diagnostic);

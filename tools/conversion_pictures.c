@@ -24,29 +24,32 @@ static void add_polygons(draw_scene *scene, const sbf_polygon_mesh *mesh, const 
   uint32_t *triangles = malloc(room * sizeof *triangles), count = 0;
   bool stated = unwrapped && unwrapped->normal_corners.count == mesh->polygon_points.count && room > 1;
   sbf_vec2 *uvs = look->image ? malloc(room * sizeof *uvs) : NULL;
+  draw_colour *colours = unwrapped && look->has_colours ? malloc(room * sizeof *colours) : NULL;
   sbf_vec3 *normals = stated ? malloc(room * sizeof *normals) : NULL;
   for (uint32_t i = 0, at = 0; triangles && i < mesh->polygon_sizes.count; at += mesh->polygon_sizes.at[i++])
     for (uint32_t k = 2; k < mesh->polygon_sizes.at[i] && (!slots || !slots->count || slots->at[i] == slot);
          k++) {
       const uint32_t corners[3] = {at, at + k - 1, at + k};
       for (int c = 0; c < 3; c++) {
-        if (uvs) uvs[3 * count + (uint32_t)c] = skin_corner_uv(unwrapped, corners[c]);
+        if (uvs) uvs[3 * count + (uint32_t)c] = skin_corner_uv(unwrapped, look, corners[c]);
+        if (colours) colours[3 * count + (uint32_t)c] = skin_corner_colour(unwrapped, look, corners[c]);
         if (normals)
           normals[3 * count + (uint32_t)c] = unwrapped->normals.at[unwrapped->normal_corners.at[corners[c]]];
         triangles[3 * count + (uint32_t)c] = mesh->polygon_points.at[corners[c]];
       }
       count++;
     }
-  if (count)
-    draw_scene_add_mesh(scene, &(draw_mesh){.positions = mesh->positions.at,
-                                   .triangles = triangles,
-                                   .vertex_count = mesh->positions.count,
-                                   .triangle_count = count,
-                                   .colour = look->colour,
-                                   .image = look->image,
-                                   .corner_uvs = uvs,
-                                   .corner_normals = normals,
-                                   .transparency = transparency});
+  draw_mesh drawn = {.positions = mesh->positions.at,
+      .triangles = triangles,
+      .vertex_count = mesh->positions.count,
+      .triangle_count = count,
+      .corner_uvs = uvs,
+      .corner_colours = colours,
+      .corner_normals = normals,
+      .transparency = transparency};
+  skin_look_apply(look, &drawn);
+  if (count) draw_scene_add_mesh(scene, &drawn);
+  free(colours);
   free(triangles);
   free(uvs);
   free(normals);
@@ -89,7 +92,7 @@ static bool add_sections(const subject *of, draw_scene *scene) {
   uint32_t shown = 0;
   for (uint32_t i = 0; i < asset->soft_bodies.count; i++) {
     const sbf_polygon_mesh *surface = &asset->soft_bodies.at[i].surface;
-    skin_look look = {colour_of_section(i), NULL};
+    skin_look look = {.colour = colour_of_section(i)};
     add_polygons(scene, surface, NULL, 0, &look, NULL, 0);
     shown += surface->polygon_sizes.count > 0;
   }

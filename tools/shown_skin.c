@@ -5,9 +5,10 @@
 
 /* The triangles of one mesh that bear one material. */
 typedef struct patch {
-  uint32_t *triangles, *whole;       /* all, and room for those that no tear has opened */
-  uint32_t *polygons;                /* (triangle_count) which each is of */
-  sbf_vec2 *uvs, *whole_uvs;         /* (3 triangle_count) likewise, on the image; NULL: there is none */
+  uint32_t *triangles, *whole;          /* all, and room for those that no tear has opened */
+  uint32_t *polygons;                   /* (triangle_count) which each is of */
+  sbf_vec2 *uvs, *whole_uvs;            /* (3 triangle_count) likewise, on the image; NULL: there is none */
+  draw_colour *colours, *whole_colours; /* (3 triangle_count) likewise; NULL: the look's */
   uint32_t *corners, *whole_corners; /* (3 triangle_count) likewise, of the polygons; NULL: no hard edges */
   uint32_t triangle_count;
   skin_look look;
@@ -83,6 +84,11 @@ static bool cut_patch(
     p->whole_uvs = malloc(most * sizeof *p->whole_uvs);
     if (!p->uvs || !p->whole_uvs) return false;
   }
+  if (p->look.has_colours) {
+    p->colours = malloc(most * sizeof *p->colours);
+    p->whole_colours = malloc(most * sizeof *p->whole_colours);
+    if (!p->colours || !p->whole_colours) return false;
+  }
   if (hard) {
     p->corners = malloc(most * sizeof *p->corners);
     p->whole_corners = malloc(most * sizeof *p->whole_corners);
@@ -98,8 +104,9 @@ static bool cut_patch(
         uint32_t to = 3 * p->triangle_count + c;
         p->triangles[to] = shown->place_of ? shown->place_of[fan[c]] : fan[c];
         if (p->corners) p->corners[to] = corners[c];
-        if (p->uvs)
-          p->uvs[to] = skin_corner_uv(mesh, shown->corner_of ? shown->corner_of[corners[c]] : corners[c]);
+        uint32_t of_full = shown->corner_of ? shown->corner_of[corners[c]] : corners[c];
+        if (p->uvs) p->uvs[to] = skin_corner_uv(mesh, &p->look, of_full);
+        if (p->colours) p->colours[to] = skin_corner_colour(mesh, &p->look, of_full);
       }
       p->polygons[p->triangle_count++] = i;
     }
@@ -184,6 +191,8 @@ static void free_patch(patch *p) {
   free(p->polygons);
   free(p->uvs);
   free(p->whole_uvs);
+  free(p->colours);
+  free(p->whole_colours);
   free(p->corners);
   free(p->whole_corners);
 }
@@ -210,6 +219,8 @@ static uint32_t keep_whole(const patch *p, const uint8_t *torn) {
   for (uint32_t i = 0; i < p->triangle_count; i++) {
     if (torn[p->polygons[i]]) continue;
     if (p->uvs) memcpy(p->whole_uvs + 3 * (size_t)count, p->uvs + 3 * (size_t)i, 3 * sizeof *p->uvs);
+    if (p->colours)
+      memcpy(p->whole_colours + 3 * (size_t)count, p->colours + 3 * (size_t)i, 3 * sizeof *p->colours);
     if (p->corners)
       memcpy(p->whole_corners + 3 * (size_t)count, p->corners + 3 * (size_t)i, 3 * sizeof *p->corners);
     memcpy(p->whole + 3 * (size_t)count++, p->triangles + 3 * (size_t)i, 3 * sizeof *p->whole);
@@ -242,16 +253,17 @@ static void add_mesh(shown_skin *skin, const session *s, uint32_t number, sbf_ve
     const patch *one = &mesh->patches[p];
     uint32_t triangles = keep_whole(one, mesh->torn);
     if (triangles == 0) continue;
-    draw_scene_add_mesh(scene, &(draw_mesh){.positions = skin->positions,
-                                   .normals = skin->normals,
-                                   .corner_normals = normals_of(skin, one, triangles),
-                                   .triangles = one->whole,
-                                   .vertex_count = count,
-                                   .triangle_count = triangles,
-                                   .colour = one->look.colour,
-                                   .image = one->look.image,
-                                   .corner_uvs = one->whole_uvs,
-                                   .transparency = transparency});
+    draw_mesh drawn = {.positions = skin->positions,
+        .normals = skin->normals,
+        .corner_normals = normals_of(skin, one, triangles),
+        .triangles = one->whole,
+        .vertex_count = count,
+        .triangle_count = triangles,
+        .corner_uvs = one->whole_uvs,
+        .corner_colours = one->whole_colours,
+        .transparency = transparency};
+    skin_look_apply(&one->look, &drawn);
+    draw_scene_add_mesh(scene, &drawn);
   }
 }
 

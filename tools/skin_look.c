@@ -98,21 +98,66 @@ void skin_images_free(skin_images *images) {
 
 /* --- Looks --------------------------------------------------------------------------------------------- */
 
+static draw_colour stored(sbf_vec4 linear, draw_alpha alpha) {
+  double opacity = linear.w < 0 ? 0 : linear.w > 1 ? 1 : (double)linear.w;
+  return (draw_colour){srgb(linear.x), srgb(linear.y), srgb(linear.z),
+      alpha == DRAW_OPAQUE ? 255 : (uint8_t)(opacity * 255 + 0.5)};
+}
+
+static bool colours_fit(const sbf_render_mesh *mesh) {
+  return mesh->colors.count &&
+         (mesh->color_corners.count || mesh->colors.count == mesh->mesh.positions.count);
+}
+
+static const sbf_vec4 WHITE = {1, 1, 1, 1};
+
 skin_look skin_look_of(
     const sbf_asset *asset, const skin_images *images, const sbf_render_mesh *mesh, uint32_t slot) {
   int32_t number = slot < mesh->material_slots.count ? mesh->material_slots.at[slot].material : SBF_NONE;
-  if (number < 0) return (skin_look){draw_colour_of_skin(), NULL};
+  skin_look look = {.colour = draw_colour_of_skin(), .base = WHITE, .has_colours = colours_fit(mesh)};
+  if (number < 0) return look;
   const sbf_material *material = &asset->materials.at[number];
-  sbf_vec4 c = material->base_color;
-  skin_look look = {{srgb(c.x), srgb(c.y), srgb(c.z), 255}, NULL};
+  look.base = material->base_color;
+  look.alpha = material->alpha_mode == SBF_ALPHA_MODE_MASK    ? DRAW_MASK
+               : material->alpha_mode == SBF_ALPHA_MODE_BLEND ? DRAW_BLEND
+                                                              : DRAW_OPAQUE;
+  look.cutoff = material->alpha_cutoff;
+  look.one_sided = !material->double_sided;
+  look.colour = stored(look.base, look.alpha);
   int32_t texture = material->base_color_texture;
-  if (texture >= 0 && (uint32_t)texture < images->count && mesh->uv_sets.count)
+  if (texture >= 0 && (uint32_t)texture < images->count && mesh->uv_sets.count) {
     look.image = images->at[texture];
+    look.uv = material->base_color_uv;
+  }
   return look;
 }
 
-sbf_vec2 skin_corner_uv(const sbf_render_mesh *mesh, uint32_t corner) {
+/* As sections 7 of the specification has it: lower left coordinates to those of glTF and back. */
+static sbf_vec2 transformed(const sbf_uv_transform *by, sbf_vec2 uv) {
+  double c = cos((double)by->rotation), s = sin((double)by->rotation);
+  double u = (double)by->scale.x * (double)uv.x, v = (double)by->scale.y * (1 - (double)uv.y);
+  return (sbf_vec2){
+      (float)((double)by->offset.x + u * c + v * s), (float)(1 - ((double)by->offset.y - u * s + v * c))};
+}
+
+sbf_vec2 skin_corner_uv(const sbf_render_mesh *mesh, const skin_look *look, uint32_t corner) {
   const sbf_uv_set *set = &mesh->uv_sets.at[0];
-  return set->coordinates
-      .at[set->corners.count ? set->corners.at[corner] : mesh->mesh.polygon_points.at[corner]];
+  sbf_vec2 uv = set->coordinates
+                    .at[set->corners.count ? set->corners.at[corner] : mesh->mesh.polygon_points.at[corner]];
+  return look->uv ? transformed(look->uv, uv) : uv;
+}
+
+draw_colour skin_corner_colour(const sbf_render_mesh *mesh, const skin_look *look, uint32_t corner) {
+  uint32_t at =
+      mesh->color_corners.count ? mesh->color_corners.at[corner] : mesh->mesh.polygon_points.at[corner];
+  sbf_vec4 own = mesh->colors.at[at], base = look->base;
+  return stored((sbf_vec4){own.x * base.x, own.y * base.y, own.z * base.z, own.w * base.w}, look->alpha);
+}
+
+void skin_look_apply(const skin_look *look, draw_mesh *mesh) {
+  mesh->colour = look->colour;
+  mesh->image = look->image;
+  mesh->alpha = look->alpha;
+  mesh->cutoff = look->cutoff;
+  mesh->one_sided = look->one_sided;
 }

@@ -2,8 +2,7 @@
 #ifndef SKIN_LOOK_H
 #define SKIN_LOOK_H
 
-#include "render/base_image.h"
-#include "render/palette.h"
+#include "render/draw_scene.h"
 #include "sbfmt/asset.h"
 
 /* The images that base colours name. All zero: none are drawn. */
@@ -23,6 +22,12 @@ void skin_images_free(skin_images *images);
 typedef struct skin_look {
   draw_colour colour;
   const draw_image *image; /* NULL: none */
+  sbf_vec4 base;    /* linear: what `colour` is made of, and what colours of points are multiplied by */
+  bool has_colours; /* the mesh has some of its own: skin_corner_colour */
+  const sbf_uv_transform *uv; /* NULL: none */
+  draw_alpha alpha;
+  float cutoff;
+  bool one_sided;
 } skin_look;
 skin_look skin_look_of(
     const sbf_asset *asset, const skin_images *images, const sbf_render_mesh *mesh, uint32_t slot);
@@ -30,6 +35,12 @@ skin_look skin_look_of(
 /* Where on its image a corner of the full mesh lies; the mesh has texture coordinates if its look has an
  * image.
  */
-sbf_vec2 skin_corner_uv(const sbf_render_mesh *mesh, uint32_t corner);
+sbf_vec2 skin_corner_uv(const sbf_render_mesh *mesh, const skin_look *look, uint32_t corner);
+
+/* Its colour, where the look says that the mesh has colours. */
+draw_colour skin_corner_colour(const sbf_render_mesh *mesh, const skin_look *look, uint32_t corner);
+
+/* Fills what the look says of a mesh to be drawn but its images' places and colours. */
+void skin_look_apply(const skin_look *look, draw_mesh *mesh);
 
 #endif

@@ -64,10 +64,6 @@ bool studio_size(cli_call *call, uint32_t *width, uint32_t *height) {
   return false;
 }
 
-static void print_note(void *call, const sbf_diagnostic *note) {
-  cli_print_diagnostic(call, note);
-}
-
 static sbf_status out_of_memory(sbf_diagnostic *error) {
   *error = (sbf_diagnostic){.severity = SBF_SEVERITY_ERROR, .offset = -1, .index = -1};
   snprintf(error->message, sizeof error->message, "memory ran out for the picture");
@@ -77,7 +73,7 @@ static sbf_status out_of_memory(sbf_diagnostic *error) {
 sbf_status studio_dress(studio *st, sbf_diagnostic *error) {
   /* A skin that is seen through shows its colours alone. */
   if (!st->has_images && !(st->show & ~(unsigned)(STAGE_SURFACE | STAGE_FEET))) {
-    skin_images_load(&st->images, st->s.asset, st->call->inputs[0], print_note, st->call);
+    skin_images_load(&st->images, st->s.asset, st->call->inputs[0], cli_report, st->call);
     st->has_images = true;
   }
   stage_destroy(st->stage);

@@ -10,7 +10,8 @@ static int run(cli_call *call) {
     return SBF_FAILED;
   sbf_asset *asset;
   sbf_diagnostic error;
-  sbf_status status = sbf_load_file(call->inputs[0], &(sbf_load_options){.check_crc = true}, &asset, &error);
+  sbf_status status = sbf_load_file(call->inputs[0],
+      &(sbf_load_options){.check_crc = true, .report = cli_report, .user = call}, &asset, &error);
   if (status == SBF_OK && !materials_apply(call, asset)) {
     sbf_asset_free(asset);
     return SBF_FAILED;

@@ -7,7 +7,8 @@ static int run(cli_call *call) {
   sbf_diagnostic error;
   sbf_status status = SBF_OK;
   for (int i = 0; i < 2 && status == SBF_OK; i++) {
-    status = sbf_load_file(call->inputs[i], &(sbf_load_options){.check_crc = true}, &assets[i], &error);
+    status = sbf_load_file(call->inputs[i],
+        &(sbf_load_options){.check_crc = true, .report = cli_report, .user = call}, &assets[i], &error);
     if (status != SBF_OK) cli_print_diagnostic(call, &error);
   }
   int result = SBF_FAILED; /* a file that cannot be compared is neither equal nor different */

@@ -12,7 +12,8 @@ static int transcode(cli_call *call, const char *ending, const sbf_save_options 
   if (!output_name_check(call, "-o", (const char *const[]){ending, NULL})) return SBF_FAILED;
   sbf_asset *asset;
   sbf_diagnostic error;
-  sbf_status status = sbf_load_file(call->inputs[0], &(sbf_load_options){.check_crc = true}, &asset, &error);
+  sbf_status status = sbf_load_file(call->inputs[0],
+      &(sbf_load_options){.check_crc = true, .report = cli_report, .user = call}, &asset, &error);
   if (status == SBF_OK) {
     status = save(asset, out, options, &error);
     sbf_asset_free(asset);

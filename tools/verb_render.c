@@ -133,7 +133,8 @@ const cli_verb verb_render = {"render", "FILE -o OUT.png|gif|mp4|webp [--show LI
     "draw a picture or a film",
     "Draws without a display. A picture shows the moment after --seconds (0), a film the time until then "
     "(5). The\n"
-    "skin turns translucent when what lies under it is shown too; else it wears its base colour images, "
-    "where they\n"
-    "are PNG. Springs are coloured by kind, or by strain.",
+    "skin turns translucent when what lies under it is shown too; else it is drawn as its materials say, "
+    "with "
+    "base\n"
+    "colour images in PNG, JPEG and WebP. Springs are coloured by kind, or by strain.",
     options, 1, 1, run};

@@ -63,8 +63,8 @@ typedef struct sbfi_glb {
   size_t frame_points;           /* of all render meshes */
   uint32_t root_node;            /* that bones hang on */
   bool root_is_joint;            /* it also holds what no bone holds */
-  bool emissive_strength;        /* the extension is used */
-  bool failed;                   /* memory ran out */
+  bool emissive_strength, texture_transform, texture_webp; /* these extensions are used */
+  bool failed;                                             /* memory ran out */
   uint32_t lost_images, lost_tracks;
   double worst_m; /* that the written motion is off, where joints' blends fold a place flat */
 } sbfi_glb;

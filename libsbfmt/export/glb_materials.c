@@ -7,10 +7,11 @@
 
 enum { LARGEST_IMAGE_BYTES = 1 << 28 };
 
-/* By how the bytes begin; NULL: neither form that glTF takes. */
+/* By how the bytes begin; NULL: no form that glTF takes. */
 static const char *media_type(const uint8_t *bytes, size_t size) {
   if (size >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0) return "image/png";
   if (size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0) return "image/jpeg";
+  if (size >= 12 && memcmp(bytes, "RIFF", 4) == 0 && memcmp(bytes + 8, "WEBP", 4) == 0) return "image/webp";
   return NULL;
 }
 
@@ -22,7 +23,10 @@ static bool write_image(sbfi_glb *g, const sbf_texture *texture, const uint8_t *
   sbfi_text_string(text, "{\"name\":");
   sbfi_glb_string(text, *texture->name ? texture->name : texture->id);
   sbfi_export_print(text, ",\"bufferView\":%u,\"mimeType\":\"%s\"}", view, type);
-  sbfi_export_print(sbfi_glb_item(g, SBFI_GLB_TEXTURES, NULL), "{\"source\":%u}", image);
+  bool is_webp = strcmp(type, "image/webp") == 0;
+  g->texture_webp = g->texture_webp || is_webp;
+  sbfi_export_print(sbfi_glb_item(g, SBFI_GLB_TEXTURES, NULL),
+      is_webp ? "{\"extensions\":{\"EXT_texture_webp\":{\"source\":%u}}}" : "{\"source\":%u}", image);
   return true;
 }
 
@@ -57,9 +61,22 @@ static void write_images(sbfi_glb *g) {
   }
 }
 
-static void write_texture(const sbfi_glb *g, sbfi_text *text, const char *key, int32_t texture) {
+static void write_texture(
+    sbfi_glb *g, sbfi_text *text, const char *key, int32_t texture, const sbf_uv_transform *uv) {
   if (texture < 0 || !g->texture_places || g->texture_places[texture] < 0) return;
-  sbfi_export_print(text, ",\"%s\":{\"index\":%d}", key, (int)g->texture_places[texture]);
+  sbfi_export_print(text, ",\"%s\":{\"index\":%d", key, (int)g->texture_places[texture]);
+  if (uv) {
+    g->texture_transform = true;
+    const float offset[2] = {uv->offset.x, uv->offset.y}, scale[2] = {uv->scale.x, uv->scale.y};
+    sbfi_text_string(text, ",\"extensions\":{\"KHR_texture_transform\":{\"offset\":");
+    sbfi_glb_numbers(text, offset, 2);
+    sbfi_text_string(text, ",\"rotation\":");
+    sbfi_text_f32(text, uv->rotation);
+    sbfi_text_string(text, ",\"scale\":");
+    sbfi_glb_numbers(text, scale, 2);
+    sbfi_text_string(text, "}}");
+  }
+  sbfi_text_char(text, '}');
 }
 
 /* Glow beyond 1 is a factor on the colour, by an extension. */
@@ -90,10 +107,10 @@ static void write_material(sbfi_glb *g, const sbf_material *m) {
   sbfi_text_f32(text, m->metallic);
   sbfi_text_string(text, ",\"roughnessFactor\":");
   sbfi_text_f32(text, m->roughness);
-  write_texture(g, text, "baseColorTexture", m->base_color_texture);
-  write_texture(g, text, "metallicRoughnessTexture", m->metallic_roughness_texture);
+  write_texture(g, text, "baseColorTexture", m->base_color_texture, m->base_color_uv);
+  write_texture(g, text, "metallicRoughnessTexture", m->metallic_roughness_texture, m->metallic_roughness_uv);
   sbfi_text_char(text, '}');
-  write_texture(g, text, "normalTexture", m->normal_texture);
+  write_texture(g, text, "normalTexture", m->normal_texture, m->normal_uv);
   write_glow(g, text, m->emissive);
   sbfi_export_print(text, ",\"alphaMode\":\"%s\"", modes[m->alpha_mode]);
   if (m->alpha_mode == SBF_ALPHA_MODE_MASK) {

@@ -26,9 +26,16 @@ static uint32_t coordinate_of(const sbf_render_mesh *m, const sbf_uv_set *set, u
   return set->corners.count ? set->corners.at[corner] : m->mesh.polygon_points.at[corner];
 }
 
+/* Whose place among the colours a corner has; UINT32_MAX: there is none. */
+static uint32_t color_of(const sbf_render_mesh *m, uint32_t corner) {
+  uint32_t at = m->color_corners.count ? m->color_corners.at[corner] : m->mesh.polygon_points.at[corner];
+  return at < m->colors.count ? at : UINT32_MAX;
+}
+
 static bool same_vertex(const vertices *v, uint32_t a, uint32_t b) {
   const sbf_render_mesh *m = v->mesh->shown;
   if (m->normals.count && sbfi_glb_normal_of(m, a) != sbfi_glb_normal_of(m, b)) return false;
+  if (color_of(m, a) != color_of(m, b)) return false;
   for (uint32_t s = 0; s < v->uv_count; s++) {
     const sbf_uv_set *set = &m->uv_sets.at[v->uv_sets[s]];
     if (coordinate_of(m, set, a) != coordinate_of(m, set, b)) return false;
@@ -92,6 +99,16 @@ static uint32_t write_normals(const vertices *v) {
   if (!at) return 0;
   for (uint32_t i = 0; i < v->count; i++) at[i] = unit_normal(v->mesh->shown, v->corners[i]);
   return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC3, SBFI_GLB_VERTICES);
+}
+
+static uint32_t write_colors(const vertices *v) {
+  sbf_vec4 *at = sbfi_glb_room(v->g, v->count, sizeof *at);
+  if (!at) return 0;
+  for (uint32_t i = 0; i < v->count; i++) {
+    uint32_t from = color_of(v->mesh->shown, v->corners[i]);
+    at[i] = from == UINT32_MAX ? (sbf_vec4){1, 1, 1, 1} : v->mesh->shown->colors.at[from];
+  }
+  return sbfi_glb_accessor(v->g, at, v->count, SBFI_GLB_VEC4, SBFI_GLB_VERTICES);
 }
 
 /* Their origin is the upper left corner there. */
@@ -221,6 +238,7 @@ static void write_primitive(vertices *v, sbfi_text *text) {
   const sbf_render_mesh *m = v->mesh->shown;
   sbfi_export_print(text, "{\"attributes\":{\"POSITION\":%u", write_positions(v));
   if (m->normals.count) sbfi_export_print(text, ",\"NORMAL\":%u", write_normals(v));
+  if (m->colors.count) sbfi_export_print(text, ",\"COLOR_0\":%u", write_colors(v));
   for (uint32_t s = 0; s < v->uv_count; s++)
     sbfi_export_print(text, ",\"TEXCOORD_%u\":%u", s, write_coordinates(v, &m->uv_sets.at[v->uv_sets[s]]));
   if (v->mesh->skin) write_skin(v, text);

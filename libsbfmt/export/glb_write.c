@@ -31,8 +31,14 @@ static void write_json(sbfi_glb *g, sbfi_text *json) {
     sbfi_glb_string(json, info->copyright);
   }
   sbfi_text_char(json, '}');
-  if (g->emissive_strength)
-    sbfi_text_string(json, ",\"extensionsUsed\":[\"KHR_materials_emissive_strength\"]");
+  const char *const extensions[] = {g->emissive_strength ? "KHR_materials_emissive_strength" : NULL,
+      g->texture_transform ? "KHR_texture_transform" : NULL, g->texture_webp ? "EXT_texture_webp" : NULL};
+  uint32_t used = 0;
+  for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
+    if (extensions[i])
+      sbfi_export_print(json, "%s\"%s\"", used++ ? "," : ",\"extensionsUsed\":[", extensions[i]);
+  if (used) sbfi_text_char(json, ']');
+  if (g->texture_webp) sbfi_text_string(json, ",\"extensionsRequired\":[\"EXT_texture_webp\"]");
   write_scene(g, json);
   if (g->bytes.length)
     sbfi_export_print(json, ",\"buffers\":[{\"byteLength\":%llu}]", (unsigned long long)g->bytes.length);
@@ -86,7 +92,7 @@ static void say_what_is_left_out(const sbfi_glb *g) {
       {a->ik_chains.count, "inverse kinematics"}, {a->gaits.count, "gaits"}, {a->chains.count, "chains"},
       {a->followers.count, "followers"}, {a->poses.count, "poses"}, {a->bone_masks.count, "bone masks"},
       {a->retarget_chains.count, "retargeting chains"}, {uv_sets, "uv sets beyond four"},
-      {g->lost_images, "images that are neither PNG nor JPEG, or not found"},
+      {g->lost_images, "images that are neither PNG nor JPEG nor WebP, or not found"},
       {g->lost_tracks, "clip tracks without increasing times"},
       {inherit, "bones that take no turn or scale of their parent"}};
   sbfi_export_left_out(g->e, "glTF", things, sizeof things / sizeof *things);

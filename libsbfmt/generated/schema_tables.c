@@ -71,6 +71,13 @@ static const sbfi_field texture_fields[] = {
 };
 static const sbfi_element texture_element = {"texture", "texture", sizeof(sbf_texture), SBFI_KIND('T', 'X', 'T', 'R'), 5, texture_fields, NULL};
 
+static const sbfi_field uv_transform_fields[] = {
+  {.name = "offset", .type = SBFI_VEC2, .number = 1, .since_minor = 0, .offset = offsetof(sbf_uv_transform, offset), .width = 2, .unit = ""},
+  {.name = "rotation", .type = SBFI_FLOAT, .number = 2, .since_minor = 0, .offset = offsetof(sbf_uv_transform, rotation), .width = 1, .unit = "rad"},
+  {.name = "scale", .type = SBFI_VEC2, .number = 3, .since_minor = 0, .offset = offsetof(sbf_uv_transform, scale), .width = 2, .unit = "", .defaults = {1.0f, 1.0f}},
+};
+static const sbfi_element uv_transform_element = {"uv_transform", "uv_transform", sizeof(sbf_uv_transform), 0, 3, uv_transform_fields, NULL};
+
 static const sbfi_field material_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_material, id), .width = 1, .unit = "", .required = true, .default_text = ""},
   {.name = "name", .type = SBFI_STRING, .number = 2, .since_minor = 0, .offset = offsetof(sbf_material, name), .width = 1, .unit = "", .default_text = ""},
@@ -84,8 +91,11 @@ static const sbfi_field material_fields[] = {
   {.name = "base_color_texture", .type = SBFI_REF, .number = 10, .since_minor = 0, .offset = offsetof(sbf_material, base_color_texture), .width = 1, .unit = "", .target = offsetof(sbf_asset, textures), .target_name = "textures"},
   {.name = "metallic_roughness_texture", .type = SBFI_REF, .number = 11, .since_minor = 0, .offset = offsetof(sbf_material, metallic_roughness_texture), .width = 1, .unit = "", .target = offsetof(sbf_asset, textures), .target_name = "textures"},
   {.name = "normal_texture", .type = SBFI_REF, .number = 12, .since_minor = 0, .offset = offsetof(sbf_material, normal_texture), .width = 1, .unit = "", .target = offsetof(sbf_asset, textures), .target_name = "textures"},
+  {.name = "base_color_uv", .type = SBFI_OPTIONAL, .number = 13, .since_minor = 1, .offset = offsetof(sbf_material, base_color_uv), .width = 1, .unit = "", .element = &uv_transform_element, .xml = "base_color_uv"},
+  {.name = "metallic_roughness_uv", .type = SBFI_OPTIONAL, .number = 14, .since_minor = 1, .offset = offsetof(sbf_material, metallic_roughness_uv), .width = 1, .unit = "", .element = &uv_transform_element, .xml = "metallic_roughness_uv"},
+  {.name = "normal_uv", .type = SBFI_OPTIONAL, .number = 15, .since_minor = 1, .offset = offsetof(sbf_material, normal_uv), .width = 1, .unit = "", .element = &uv_transform_element, .xml = "normal_uv"},
 };
-static const sbfi_element material_element = {"material", "material", sizeof(sbf_material), 0, 12, material_fields, NULL};
+static const sbfi_element material_element = {"material", "material", sizeof(sbf_material), 0, 15, material_fields, NULL};
 
 static const sbfi_field bone_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_bone, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -252,6 +262,8 @@ static const sbfi_length render_mesh_normal_corners_index = {1, {{SBFI_TERM_COUN
 static const sbfi_length render_mesh_polygon_materials_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.polygon_sizes)}}, "mesh.polygon_sizes"}};
 static const sbfi_length render_mesh_polygon_materials_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, material_slots)}}, "material_slots"};
 static const sbfi_length render_mesh_source_points_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.positions)}}, "mesh.positions"}};
+static const sbfi_length render_mesh_color_corners_lengths[] = {{1, {{SBFI_TERM_NUMBER, 0, 0}}, "0"}, {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.polygon_points)}}, "mesh.polygon_points"}};
+static const sbfi_length render_mesh_color_corners_index = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, colors)}}, "colors"};
 static const sbfi_length render_mesh_size = {1, {{SBFI_TERM_COUNT, 0, offsetof(sbf_render_mesh, mesh.positions)}}, "mesh.positions"};
 static const sbfi_field render_mesh_fields[] = {
   {.name = "id", .type = SBFI_ID, .number = 1, .since_minor = 0, .offset = offsetof(sbf_render_mesh, id), .width = 1, .unit = "", .required = true, .default_text = ""},
@@ -269,8 +281,10 @@ static const sbfi_field render_mesh_fields[] = {
   {.name = "source_points", .type = SBFI_LIST, .number = 13, .since_minor = 0, .offset = offsetof(sbf_render_mesh, source_points), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_mesh_source_points_lengths},
   {.name = "levels", .type = SBFI_MANY, .number = 14, .since_minor = 0, .offset = offsetof(sbf_render_mesh, levels), .width = 1, .unit = "", .element = &render_level_element, .xml = "render_level"},
   {.name = "pins", .type = SBFI_MANY, .number = 15, .since_minor = 0, .offset = offsetof(sbf_render_mesh, pins), .width = 1, .unit = "", .element = &pin_set_element, .xml = "pin_set", .wrapper = "pins"},
+  {.name = "colors", .type = SBFI_LIST, .number = 16, .since_minor = 1, .offset = offsetof(sbf_render_mesh, colors), .width = 4, .unit = "", .item = SBFI_ITEM_F32, .has_range = true, .min = 0.0, .max = 1.0, .min_open = false, .max_open = false},
+  {.name = "color_corners", .type = SBFI_LIST, .number = 17, .since_minor = 1, .offset = offsetof(sbf_render_mesh, color_corners), .width = 1, .unit = "", .item = SBFI_ITEM_U32, .length_count = 2, .lengths = render_mesh_color_corners_lengths, .index = &render_mesh_color_corners_index},
 };
-static const sbfi_element render_mesh_element = {"render_mesh", "render_mesh", sizeof(sbf_render_mesh), SBFI_KIND('M', 'E', 'S', 'H'), 15, render_mesh_fields, &render_mesh_size};
+static const sbfi_element render_mesh_element = {"render_mesh", "render_mesh", sizeof(sbf_render_mesh), SBFI_KIND('M', 'E', 'S', 'H'), 17, render_mesh_fields, &render_mesh_size};
 
 static const sbfi_field attributes_fields[] = {
   {.name = "density", .type = SBFI_FLOAT, .number = 1, .since_minor = 0, .offset = offsetof(sbf_attributes, density), .width = 1, .unit = "kg/m^3", .has_range = true, .min = 0.0, .max = INFINITY, .min_open = true, .max_open = true, .defaults = {1000.0f}},
@@ -721,6 +735,7 @@ void sbf_source_init(sbf_source *source) { sbfi_element_init(&source_element, so
 void sbf_info_init(sbf_info *info) { sbfi_element_init(&info_element, info); }
 void sbf_derivation_init(sbf_derivation *derivation) { sbfi_element_init(&derivation_element, derivation); }
 void sbf_texture_init(sbf_texture *texture) { sbfi_element_init(&texture_element, texture); }
+void sbf_uv_transform_init(sbf_uv_transform *uv_transform) { sbfi_element_init(&uv_transform_element, uv_transform); }
 void sbf_material_init(sbf_material *material) { sbfi_element_init(&material_element, material); }
 void sbf_bone_init(sbf_bone *bone) { sbfi_element_init(&bone_element, bone); }
 void sbf_polygon_mesh_init(sbf_polygon_mesh *polygon_mesh) { sbfi_element_init(&polygon_mesh_element, polygon_mesh); }

@@ -453,3 +453,17 @@ sbf_status sbfi_check_loaded(const sbf_asset *asset, const sbf_load_options *opt
   sbf_status status = check_first(asset, options, error);
   return status == SBF_OK ? sbfi_check_extensions(asset, options, error) : status;
 }
+
+void sbfi_report_left_out(
+    const sbf_load_options *options, const char *stated, uint32_t left_out, const char *first) {
+  sbf_diagnostic warning;
+  if (!left_out || !options->report) return;
+  sbfi_diagnose(&warning, SBF_CODE_VERSION_NEWER,
+      "the file is of version %.20s, this library knows %s: %u part%s of it %s left out, the first is "
+      "%.120s; "
+      "update the library before you save the file anew",
+      stated, SBF_FORMAT_VERSION, left_out, left_out == 1 ? "" : "s", left_out == 1 ? "was" : "were", first);
+  if (*first == '/') sbfi_copy_text(warning.path, sizeof warning.path, first);
+  if (options->name) sbfi_copy_text(warning.file, sizeof warning.file, options->name);
+  options->report(options->user, &warning);
+}

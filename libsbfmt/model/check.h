@@ -20,4 +20,9 @@ sbf_status sbfi_check_extensions(
 /* What a save does first: the structure alone. A file that could not be loaded again is not written. */
 sbf_status sbfi_check_saved(const sbf_asset *asset, sbf_diagnostic *error);
 
+/* Reports through the load's `report` that `left_out` parts of a newer version were passed over; the first is
+ * `first`. Nothing where there are none. `stated`: the file's version. */
+void sbfi_report_left_out(
+    const sbf_load_options *options, const char *stated, uint32_t left_out, const char *first);
+
 #endif

@@ -81,6 +81,17 @@ static bool take_normals(taking *t) {
   return (mesh->normals.at = taken_of_vertices(t, t->full->normals.at, sizeof(sbf_vec3))) != NULL;
 }
 
+static bool take_colors(taking *t) {
+  sbf_render_mesh *mesh = &t->made->mesh;
+  if (t->full->color_corners.count) {
+    mesh->color_corners.count = t->level->polygon_points.count;
+    return (mesh->color_corners.at = taken_of_corners(t, &t->full->color_corners)) != NULL;
+  }
+  if (t->full->colors.count != t->full->mesh.positions.count || !t->full->colors.count) return true;
+  mesh->colors.count = t->made->vertex_count;
+  return (mesh->colors.at = taken_of_vertices(t, t->full->colors.at, sizeof(sbf_vec4))) != NULL;
+}
+
 static bool take_coordinates(const taking *t, sbf_uv_set *set) {
   if (set->corners.count) {
     set->corners.at = taken_of_corners(t, &set->corners);
@@ -111,5 +122,5 @@ bool sbfi_level_mesh_make(
   mesh->skin = NULL;
   mesh->shape_keys.count = mesh->source_points.count = mesh->levels.count = 0;
   mesh->polygon_materials = level->polygon_materials;
-  return find_vertices(&t) && find_corners(&t) && take_normals(&t) && take_uv_sets(&t);
+  return find_vertices(&t) && find_corners(&t) && take_normals(&t) && take_colors(&t) && take_uv_sets(&t);
 }

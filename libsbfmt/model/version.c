@@ -1,9 +1,10 @@
 #include "model/version.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
-#include "sbfmt/model.h"
+#include "model/defaults.h"
 
 /* Digits only: a sign, which the number reader would take, has no place in a version. */
 static bool read_part(const char **text, uint32_t *value) {
@@ -24,4 +25,31 @@ sbfi_version_verdict sbfi_version_judge(const char *version) {
   if (!read_version(SBF_FORMAT_VERSION, &our_major, &our_minor)) return SBFI_VERSION_MALFORMED;
   if (major > our_major) return SBFI_VERSION_TOO_NEW;
   return major == our_major && minor > our_minor ? SBFI_VERSION_NEWER_MINOR : SBFI_VERSION_KNOWN;
+}
+
+uint32_t sbfi_version_minor(const char *version) {
+  uint32_t major, minor;
+  return read_version(version, &major, &minor) && major == 1 ? minor : 0;
+}
+
+static uint32_t minor_in_use(const sbfi_place *place) {
+  uint32_t most = 0;
+  for (uint32_t i = 0; i < place->element->field_count; i++) {
+    const sbfi_field *field = &place->element->fields[i];
+    if (field->since_minor > most && !sbfi_field_is_default(place, field)) most = field->since_minor;
+    for (uint32_t k = 0; field->element && k < sbfi_child_count(place->object, field); k++) {
+      sbfi_place child = sbfi_place_child(place, field, k);
+      uint32_t below = minor_in_use(&child);
+      most = below > most ? below : most;
+    }
+  }
+  return most;
+}
+
+const char *sbfi_version_to_state(const sbf_asset *asset, char text[SBFI_VERSION_TEXT]) {
+  sbfi_place root = sbfi_place_root(asset);
+  uint32_t minor = minor_in_use(&root);
+  if (minor <= sbfi_version_minor(asset->version)) return asset->version;
+  snprintf(text, SBFI_VERSION_TEXT, "1.%u", minor);
+  return text;
 }

@@ -3,7 +3,7 @@
 #ifndef SBFI_VERSION_H
 #define SBFI_VERSION_H
 
-#include "sbfmt/base.h"
+#include "sbfmt/model.h"
 
 typedef enum sbfi_version_verdict {
   SBFI_VERSION_KNOWN,       /* ours or older */
@@ -13,5 +13,13 @@ typedef enum sbfi_version_verdict {
 } sbfi_version_verdict;
 
 sbfi_version_verdict sbfi_version_judge(const char *version);
+
+/* The minor number of a version 1.x; 0 for others. Fields that a later minor version brought are unknown in a
+ * file of it. */
+uint32_t sbfi_version_minor(const char *version);
+
+/* What a writer states: the asset's own version, or 1.x where a field in use is of that later version. */
+enum { SBFI_VERSION_TEXT = 16 };
+const char *sbfi_version_to_state(const sbf_asset *asset, char text[SBFI_VERSION_TEXT]);
 
 #endif

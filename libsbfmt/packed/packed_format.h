@@ -9,7 +9,7 @@
 
 enum {
   SBFI_PACKED_MAJOR = 1, /* the version of which this library knows everything */
-  SBFI_PACKED_MINOR = 0,
+  SBFI_PACKED_MINOR = 1,
   SBFI_PACKED_HEADER_SIZE = 64,
   SBFI_PACKED_ENTRY_SIZE = 64,
   SBFI_PACKED_ALIGN = 64,       /* chunks begin at multiples of it */

@@ -1,4 +1,6 @@
 /* Packed files to assets. */
+#include <stdio.h>
+
 #include "base/diagnostic.h"
 #include "base/file.h"
 #include "model/asset_box.h"
@@ -41,6 +43,18 @@ static sbf_status check_gap(sbfi_packed_reader *reader, uint64_t begin, uint64_t
   return SBF_OK;
 }
 
+/* Chunks that nothing named, of kinds that a newer version brought. */
+static void count_unknown_chunks(sbfi_packed_reader *reader) {
+  for (uint32_t i = 0; i < reader->table.chunk_count && reader->table.newer; i++) {
+    const sbfi_packed_chunk *chunk = &reader->table.chunks[i];
+    if (reader->used[i] || sbfi_packed_kind_is_known(chunk->kind) || chunk->kind == SBFI_PACKED_OUTLINE)
+      continue;
+    if (reader->left_out++ == 0)
+      snprintf(reader->first_left_out, sizeof reader->first_left_out, "chunk %u (%s)", i,
+          sbfi_packed_chunk_name(chunk).text);
+  }
+}
+
 /* Checks what a load does not read: the outline, chunks that are not critical, and the gaps. */
 static sbf_status check_unread(sbfi_packed_reader *reader) {
   const sbfi_packed_table *table = &reader->table;
@@ -75,6 +89,7 @@ static sbf_status load(const void *bytes, size_t size, const sbf_load_options *o
     status = sbfi_packed_read_asset(&reader, made);
     if (status == SBF_OK) status = check_all_used(&reader);
     if (status == SBF_OK) status = check_unread(&reader);
+    if (status == SBF_OK) count_unknown_chunks(&reader);
     *in_place = reader.in_place;
     if (options->read_bytes) *options->read_bytes = reader.read_bytes;
     sbfi_packed_reader_close(&reader);
@@ -82,8 +97,12 @@ static sbf_status load(const void *bytes, size_t size, const sbf_load_options *o
   if (status == SBF_OK) status = sbfi_check_loaded(made, options, error);
   box->arena.limit_bytes = 0;
   /* What the file says beyond this version has been passed over. */
-  if (status == SBF_OK && sbfi_version_judge(made->version) == SBFI_VERSION_NEWER_MINOR)
-    made->version = SBF_FORMAT_VERSION;
+  if (status == SBF_OK) {
+    char stated[16];
+    snprintf(stated, sizeof stated, "1.%u", reader.table.header.minor);
+    sbfi_report_left_out(options, stated, reader.left_out, reader.first_left_out);
+    if (sbfi_version_judge(made->version) == SBFI_VERSION_NEWER_MINOR) made->version = SBF_FORMAT_VERSION;
+  }
   if (status != SBF_OK) {
     sbf_asset_free(made);
     return status;

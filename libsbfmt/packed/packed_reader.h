@@ -15,8 +15,10 @@ typedef struct sbfi_packed_reader {
   uint8_t *used;            /* a byte a chunk: already referred to */
   uint64_t read_bytes;      /* of the file: header, table and chunks fetched */
   uint64_t inflated_bytes;
-  bool has_outline; /* the file's outline is read, and is chunk 0 */
-  bool in_place;    /* some list points into `bytes` */
+  bool has_outline;  /* the file's outline is read, and is chunk 0 */
+  bool in_place;     /* some list points into `bytes` */
+  uint32_t left_out; /* fields and chunks of a newer version */
+  char first_left_out[160];
   sbf_diagnostic *error;
 } sbfi_packed_reader;
 

@@ -376,12 +376,20 @@ static sbf_status read_fields(const reading *r, span s, field_set set) {
           number, size, left);
     span payload = {s.record, s.at + SBFI_PACKED_FIELD_SIZE, s.at + SBFI_PACKED_FIELD_SIZE + size};
     bool known = number <= element->field_count && is_in(set, &element->fields[number - 1]);
+    if (known && element->fields[number - 1].since_minor > r->reader->table.header.minor)
+      return fault(r, SBF_CODE_VERSION_FIELD, &s, &element->fields[number - 1],
+          "`%s` is of version 1.%u, and the file states 1.%u", element->fields[number - 1].name,
+          element->fields[number - 1].since_minor, r->reader->table.header.minor);
     if (known) {
       sbf_status status = read_field(r, payload, &element->fields[number - 1], form);
       if (status != SBF_OK) return status;
       seen |= (uint64_t)1 << (number - 1);
     } else if (!r->reader->table.newer || number <= element->field_count) {
       return fault(r, SBF_CODE_PACKED_RECORD, &s, NULL, "field %u has no place here", number);
+    } else if (r->reader->left_out++ == 0) {
+      char path[120];
+      sbfi_place_path(r->place, NULL, path, sizeof path);
+      snprintf(r->reader->first_left_out, sizeof r->reader->first_left_out, "field %u of %s", number, path);
     }
     last = number;
     s.at = payload.at + padded;

@@ -1,16 +1,18 @@
 /* Assets to packed files. */
 #include "base/diagnostic.h"
 #include "base/file.h"
-#include "base/number.h"
 #include "model/asset_box.h"
 #include "model/check.h"
 #include "model/options.h"
+#include "model/version.h"
 #include "packed/packed_codec.h"
 #include "packed/packed_filter.h"
 #include "packed/packed_plan.h"
 #include "packed/packed_table.h"
 
 typedef struct layout {
+  sbf_asset stated; /* the asset with the version that the file states */
+  char version[SBFI_VERSION_TEXT];
   sbfi_packed_plan plan;
   sbfi_packed_header header;
   uint8_t *front; /* header and table as bytes */
@@ -33,12 +35,8 @@ static uint64_t align(uint64_t offset) {
   return (offset + SBFI_PACKED_ALIGN - 1) / SBFI_PACKED_ALIGN * SBFI_PACKED_ALIGN;
 }
 
-/* The minor version that the asset states: readers that know it take the file at its word. */
 static uint16_t minor_of(const char *version) {
-  uint32_t minor = 0;
-  size_t used;
-  if (strncmp(version, "1.", 2) != 0) return 0;
-  sbfi_scan_u32(version + 2, strlen(version + 2), &minor, &used);
+  uint32_t minor = sbfi_version_minor(version);
   return (uint16_t)(minor < UINT16_MAX ? minor : UINT16_MAX);
 }
 
@@ -58,7 +56,7 @@ static bool order_bytes(sbfi_packed_plan *plan) {
 }
 
 /* Gives out places: header, table, then the chunks in their order. */
-static sbf_status lay_out(layout *l, const sbf_asset *asset, sbf_diagnostic *error) {
+static sbf_status lay_out(layout *l, sbf_diagnostic *error) {
   size_t count = l->plan.chunks.count;
   l->front_size = SBFI_PACKED_HEADER_SIZE + count * SBFI_PACKED_ENTRY_SIZE;
   l->front = sbfi_arena_allocate(&l->plan.arena, 1, l->front_size);
@@ -73,7 +71,7 @@ static sbf_status lay_out(layout *l, const sbf_asset *asset, sbf_diagnostic *err
     sbfi_packed_chunk_put(table + i * SBFI_PACKED_ENTRY_SIZE, &planned->chunk);
   }
   l->header = (sbfi_packed_header){.major = SBFI_PACKED_MAJOR,
-      .minor = minor_of(asset->version),
+      .minor = minor_of(l->stated.version),
       .least_major = SBFI_PACKED_MAJOR,
       .file_size = offset,
       .table_offset = SBFI_PACKED_HEADER_SIZE,
@@ -88,13 +86,16 @@ static sbf_status make_layout(layout *l, const sbf_asset *asset, const sbf_save_
     const sbf_allocator *allocator, sbf_diagnostic *error) {
   sbf_status status = sbfi_check_saved(asset, error);
   if (status != SBF_OK) return status;
+  l->stated = *asset;
+  l->stated.version = sbfi_version_to_state(asset, l->version);
   sbfi_packed_coder coder;
   sbfi_packed_coder_init(&coder, allocator, options->level);
-  sbfi_planned planned = sbfi_packed_plan_make(&l->plan, asset, options->store ? NULL : &coder, allocator);
+  sbfi_planned planned =
+      sbfi_packed_plan_make(&l->plan, &l->stated, options->store ? NULL : &coder, allocator);
   if (planned == SBFI_PLANNED && !options->store) planned = sbfi_packed_plan_compress(&l->plan, &coder);
   sbfi_packed_coder_free(&coder);
   status = diagnose_plan(planned, error);
-  if (status == SBF_OK) status = lay_out(l, asset, error);
+  if (status == SBF_OK) status = lay_out(l, error);
   if (status != SBF_OK) sbfi_packed_plan_free(&l->plan);
   return status;
 }

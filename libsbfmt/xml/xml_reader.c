@@ -9,6 +9,7 @@
 #include "base/diagnostic.h"
 #include "base/number.h"
 #include "model/asset_box.h"
+#include "model/check.h"
 #include "model/version.h"
 #include "xml/xml_list.h"
 #include "xml/xml_schema.h"
@@ -42,6 +43,9 @@ typedef struct reader {
   sbfi_xml_list list;
   size_t row_bytes;
   bool newer_minor; /* what is unknown is passed over */
+  uint32_t minor;   /* of the file: fields that came later are unknown in it */
+  uint32_t left_out;
+  char first_left_out[200]; /* path of the first */
   sbf_diagnostic *error;
   sbf_status status;
 } reader;
@@ -271,9 +275,17 @@ static bool read_attribute(reader *r, const sbfi_field *field, sbfi_span value, 
   }
 }
 
+static bool leave_out(reader *r, const char *separator, const char *name) {
+  if (r->left_out++ > 0) return true;
+  write_path(r, NULL, r->first_left_out, sizeof r->first_left_out);
+  size_t used = strlen(r->first_left_out);
+  snprintf(r->first_left_out + used, sizeof r->first_left_out - used, "%s%.60s", separator, name);
+  return true;
+}
+
 static bool unknown_attribute(reader *r, const char *name) {
   const open_element *self = top(r);
-  if (r->newer_minor) return true;
+  if (r->newer_minor) return leave_out(r, "/@", name);
   if (self->kind == OPEN_OBJECT) {
     if (sbfi_element_field(self->element, name) && self->field && self->field->by &&
         strcmp(self->field->by, name) == 0)
@@ -293,10 +305,18 @@ static sbfi_span value_of(const sbfi_xml_attribute *attribute) {
   return (sbfi_span){attribute->value, attribute->length};
 }
 
+/* Every reader takes a file alike: what the stated version lacks is refused by later ones too. */
+static bool refuse_later(reader *r, const sbfi_field *field) {
+  return fail(r, SBF_CODE_VERSION_FIELD, field,
+      "`%s` is of version 1.%u, and the file states %.20s: state 1.%u", field->name, field->since_minor,
+      r->asset->version, field->since_minor);
+}
+
 static bool read_attributes(reader *r, const sbfi_xml_attribute *attributes, uint32_t count) {
   open_element *self = top(r);
   for (uint32_t i = 0; i < count; i++) {
     const sbfi_field *field = sbfi_xml_find_attribute(self->element, self->field, attributes[i].name);
+    if (field && field->since_minor > r->minor) return refuse_later(r, field);
     if (!field) {
       if (!unknown_attribute(r, attributes[i].name)) return false;
       continue;
@@ -353,6 +373,7 @@ static bool begin_root(reader *r, const char *name, const sbfi_xml_attribute *at
     if (strcmp(attributes[i].name, version->name) == 0 &&
         !read_attribute(r, version, value_of(&attributes[i]), self->object))
       return false;
+  r->minor = sbfi_version_minor(r->asset->version);
   switch (sbfi_version_judge(r->asset->version)) {
   case SBFI_VERSION_KNOWN:
     break;
@@ -432,7 +453,7 @@ static bool unknown_element(reader *r, const char *name) {
     fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%.60s> stands inside `%s`, which holds only text", name,
         around->field->name);
   } else if (r->newer_minor) {
-    return push(r, OPEN_SKIPPED, NULL) != NULL;
+    return leave_out(r, "/", name) && push(r, OPEN_SKIPPED, NULL) != NULL;
   } else if (around->kind == OPEN_WRAPPER) {
     fail(r, SBF_CODE_XML_UNKNOWN_ELEMENT, NULL, "<%s> holds no <%.60s>%s", around->field->wrapper, name,
         sbfi_xml_suggest_child(around->field, name).at);
@@ -450,6 +471,7 @@ static bool begin_in_object(
   open_element *around = top(r);
   const sbfi_field *field = sbfi_xml_find_element(around->element, name);
   if (!field) return unknown_element(r, name);
+  if (field->since_minor > r->minor) return refuse_later(r, field);
   uint64_t bit = (uint64_t)1 << (field - around->element->fields);
   bool many = field->type == SBFI_MANY && !field->wrapper;
   if (around->seen & bit && !many)
@@ -596,7 +618,10 @@ sbf_status sbfi_xml_read_tree(const sbfi_xml_source *source, const sbf_load_opti
     write_path(&r, NULL, error->path, sizeof error->path);
   else
     status = r.status;
-  if (status == SBF_OK && r.newer_minor) asset->version = SBF_FORMAT_VERSION; /* the rest was passed over */
+  if (status == SBF_OK && r.newer_minor) { /* the rest was passed over */
+    sbfi_report_left_out(options, asset->version, r.left_out, r.first_left_out);
+    asset->version = SBF_FORMAT_VERSION;
+  }
   free_reader(&r);
   return status;
 }

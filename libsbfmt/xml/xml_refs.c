@@ -1,5 +1,6 @@
 /* Turns the ids that references name into places, once everything has been read. */
 #include <stdio.h>
+#include <string.h>
 
 #include "base/diagnostic.h"
 #include "base/suggest.h"
@@ -39,15 +40,25 @@ static void report_unknown(resolver *r, const sbfi_place *place, const sbfi_fiel
   sbfi_place_path(place, field, finding->path, sizeof finding->path);
 }
 
+/* The item of that id in the collection referred to; another may have it too, which the check reports. */
+static int32_t find_repeated(const resolver *r, const sbfi_field *field, const char *text) {
+  uint32_t count = sbfi_ref_count(r->asset, field);
+  for (uint32_t i = 0; i < count; i++)
+    if (strcmp(sbfi_ref_id(r->asset, field, (int32_t)i), text) == 0) return (int32_t)i;
+  return SBF_NONE;
+}
+
 static void resolve_ref(resolver *r, const sbfi_place *place, const sbfi_field *field) {
   int32_t slot = sbfi_get_integer(place->object, field);
   if (slot == SBF_NONE) return;
   const char *text = r->texts[slot];
   const sbfi_id_entry *entry = sbfi_ids_find(&r->ids, text);
-  bool found = entry && entry->collection->offset == field->target;
-  if (!found) report_unknown(r, place, field, text, entry);
+  int32_t index = entry && entry->collection->offset == field->target ? (int32_t)entry->index
+                  : entry                                             ? find_repeated(r, field, text)
+                                                                      : SBF_NONE;
+  if (index == SBF_NONE) report_unknown(r, place, field, text, entry);
   /* the asset was made by the reader, which may write to what is read-only for everybody else */
-  sbfi_set_integer((void *)(uintptr_t)place->object, field, found ? (int32_t)entry->index : SBF_NONE);
+  sbfi_set_integer((void *)(uintptr_t)place->object, field, index);
 }
 
 static void resolve_object(resolver *r, const sbfi_place *place) {

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "model/defaults.h"
 #include "model/ids.h"
+#include "model/version.h"
 
 enum {
   LINE_SCALARS = 12, /* whole items, whether they have one, two, three or four scalars */
@@ -316,9 +317,13 @@ static bool write_object(writer *w, const sbfi_place *place, const char *name, u
 
 sbf_status sbfi_xml_write(const sbf_asset *asset, const sbfi_xml_selection *selection, sbfi_text *text,
     const sbfi_xml_sink *sink, sbf_diagnostic *error) {
-  writer w = {.asset = asset, .text = text, .sink = sink, .error = error};
+  char version[SBFI_VERSION_TEXT];
+  sbf_asset stated = *asset;
+  writer w = {.asset = &stated, .text = text, .sink = sink, .error = error};
   if (selection) w.selection = *selection;
-  sbfi_place root = sbfi_place_root(asset);
+  /* A hash of the source: a material of a later version makes no part stale. */
+  stated.version = w.selection.source_only ? "1.0" : sbfi_version_to_state(asset, version);
+  sbfi_place root = sbfi_place_root(&stated);
   sbfi_text_string(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
   write_object(&w, &root, root.element->xml, 0);
   flush(&w);

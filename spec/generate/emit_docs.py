@@ -7,6 +7,10 @@ XSD_SCALARS = {"bool": "xs:boolean", "int": "xs:int", "uint": "xs:unsignedInt", 
                "string": "xs:string", "text": "xs:string", "id": "id", "ref": "id"}
 
 
+def since(field):
+    return "" if field.since == "1.0" else f" Since {field.since}."
+
+
 def type_text(f):
     return f"{f.type}({f.argument})" if f.argument else f.type
 
@@ -41,7 +45,7 @@ def reference(schema):
                 default = "always `{}`: {}".format(*f.fix.split(":"))
             out.append(f"| {f.number} | {f.name} | {written_as(f, schema)} | {type_text(f)} | {f.unit or ''} | "
                        f"{default} | {range_text(f)} | {' or '.join(length_text(l) for l in f.lengths)} | "
-                       f"{length_text(f.index) if f.index else ''} | {f.meaning} |\n")
+                       f"{length_text(f.index) if f.index else ''} | {f.meaning}{since(f)} |\n")
     return "".join(out)
 
 

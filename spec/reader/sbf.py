@@ -16,7 +16,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from sbf_elements import Fault  # noqa: E402
+from sbf_elements import KNOWN_VERSION, Fault  # noqa: E402
 from sbf_numbers import print_float  # noqa: E402
 from sbf_packed import MAGIC, read_packed  # noqa: E402
 from sbf_rules import check  # noqa: E402
@@ -28,8 +28,8 @@ ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 def load(data):
     """The asset that the bytes hold, checked; raises Fault."""
     root = read_packed(data) if data.startswith(MAGIC) else read_xml(data)
-    if read_version(root["version"]) > (1, 0):
-        root["version"] = "1.0"  # what it says beyond that has been passed over: section 5
+    if read_version(root["version"]) > KNOWN_VERSION:
+        root["version"] = "%d.%d" % KNOWN_VERSION  # what it says beyond that has been passed over: section 5
     check(root)
     return root
 

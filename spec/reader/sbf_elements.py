@@ -3,7 +3,8 @@ schema or from anything made of it, so that it can tell whether those say the sa
 
 A line of ELEMENTS without indentation begins an element: its name, the name XML gives it where that is another, and
 its kind of part. A field's number is its place. `as` is how children are written in XML where that is not the
-field's own name, `length` the lengths a list may have, `below` what its items index.
+field's own name, `length` the lengths a list may have, `below` what its items index, `since` the minor version that
+brought it.
 """
 
 import re
@@ -99,6 +100,13 @@ material
   base_color_texture: ref(textures)
   metallic_roughness_texture: ref(textures)
   normal_texture: ref(textures)
+  base_color_uv: optional(uv_transform) since=1
+  metallic_roughness_uv: optional(uv_transform) since=1
+  normal_uv: optional(uv_transform) since=1
+uv_transform
+  offset: vec2
+  rotation: float
+  scale: vec2 default=1,1
 bone
   id: id required
   name: string
@@ -183,6 +191,8 @@ render_mesh MESH
   source_points: uint[] length=0|mesh.positions
   levels: many(render_level) as=<render_level>
   pins: many(pin_set) as=<pins><pin_set>
+  colors: vec4[] range=[0,1] since=1
+  color_corners: uint[] length=0|mesh.polygon_points below=colors since=1
 uv_set
   name: string
   coordinates: vec2[]
@@ -501,6 +511,7 @@ extension
   data: text
 """
 
+KNOWN_VERSION = (1, 1)  # the version of the format that this reader knows
 WIDTHS = {"vec2": 2, "vec3": 3, "vec4": 4, "quat": 4, "uint2": 2, "uint4": 4}
 CHILDREN = ("one", "optional", "many")
 
@@ -527,6 +538,7 @@ class Field:
         self.default_text = options.get("default")
         self.lengths = options["length"].split("|") if "length" in options else []
         self.below = options.get("below")
+        self.since = int(options.get("since", 0))
         self.fixed = tuple(options["fixed"].split("=")) if "fixed=" in line else None
         self.range = self.read_range(options["range"]) if "range" in options else None
 

@@ -3,7 +3,7 @@
 import struct
 import zlib
 
-from sbf_elements import ELEMENTS, ROOT, WORDS, Fault, Object
+from sbf_elements import ELEMENTS, KNOWN_VERSION, ROOT, WORDS, Fault, Object
 from sbf_numbers import floats_of_bytes, uints_of_bytes
 
 MAGIC = b"\x89SBF\r\n\x1a\n"
@@ -72,11 +72,12 @@ class PackedReader:
             raise Fault("the magic is another")
         if zlib.crc32(data[:60]) != crc:
             raise Fault("the header does not match its checksum")
-        if (least_major, least_minor) > (1, 0):
+        if (least_major, least_minor) > KNOWN_VERSION:
             raise Fault(f"a reader of version {least_major}.{least_minor} is asked for")
         if major != 1:
             raise Fault(f"version {major}.{minor} is of another major version than 1")
-        self.newer = minor > 0
+        self.minor = minor
+        self.newer = (major, minor) > KNOWN_VERSION
         if any(reserved) and not self.newer:
             raise Fault("reserved bytes of the header are set")
         if size != len(data):
@@ -179,6 +180,8 @@ class PackedReader:
                 if not self.newer:
                     raise Fault(f"{target.element.name} has no field {number}")
                 continue
+            if field.since > self.minor:
+                raise Fault(f"{field.name} of {target.element.name} is of version 1.{field.since}")
             in_label = field.kind == "id" or field.name == "name"
             if (label is True and not in_label) or (label is False and in_label):
                 raise Fault(f"{field.name} of {target.element.name} stands in the wrong record")

@@ -5,7 +5,7 @@ import binascii
 import re
 import xml.parsers.expat
 
-from sbf_elements import ROOT, WORDS, Fault, Object
+from sbf_elements import KNOWN_VERSION, ROOT, WORDS, Fault, Object
 from sbf_numbers import read_scalars
 
 SPACE = " \t\r\n"
@@ -100,15 +100,22 @@ class XmlReader:
             raise Fault(f"the root is <{name}>, not <{ROOT.xml}>")
         if "version" not in attributes:
             raise Fault("no version is given")
-        self.newer = read_version(attributes["version"]) > (1, 0)
+        self.newer = read_version(attributes["version"]) > KNOWN_VERSION
+        self.version = read_version(attributes["version"])
         self.root = Object(ROOT)
         self.nodes.append(Node("object", self.root))
         self.read_attributes(self.root, attributes, None)
+
+    def stated(self, field):
+        """What is of a later version than the file states has no place in it, for later readers either: section 5."""
+        if (1, field.since) > max(self.version, (1, 0)):
+            raise Fault(f"{field.name} is of version 1.{field.since}")
 
     def start_list(self, node, name, attributes):
         field = node.object.element.by_name.get(name)
         if field is None or field.is_child or field.is_attribute:
             return False
+        self.stated(field)
         self.once(node, name)
         if attributes and not self.newer:
             raise Fault(f"{name} has no attributes")
@@ -143,6 +150,7 @@ class XmlReader:
 
     def add_child(self, node, field, attributes, by):
         parent = node.object
+        self.stated(field)
         if field.kind == "many":
             child = parent.child(field)
             parent[field.name].append(child)
@@ -169,6 +177,7 @@ class XmlReader:
                 if not self.newer:
                     raise Fault(f"the attribute {name} has no place here")
                 continue
+            self.stated(field)
             target[name] = self.read_value(field, text)
             given.add(name)
         for field in target.element.fields:

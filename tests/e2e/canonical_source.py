@@ -69,6 +69,7 @@ def lines_of(element, depth):
 
 def source_text(path):
     root = ElementTree.parse(path).getroot()
+    root.set("version", "1.0")
     return "\n".join(['<?xml version="1.0" encoding="UTF-8"?>', *lines_of(root, 0), ""])
 
 

@@ -10,6 +10,7 @@ import xml.etree.ElementTree as ElementTree
 
 from bundle_file import apply, inverse, matrix_of, numbers, product, rows
 from glb_file import Glb
+from play_files import blender, has_blender, node, node_folder
 from sbfmt_program import ProgramTest, main, shared
 from skinned_glb import SkinnedGlb, box, inverse_binds, moved, tube
 
@@ -83,6 +84,44 @@ class Character:
         return points
 
 
+def nearest_gap(points, others):
+    """How far the worst of the points is from the nearest of the others."""
+    return max(min(math.dist(p, o) for o in others) for p in points)
+
+
+@unittest.skipUnless(has_blender(), "there is no Blender to be had")
+class FilesOfBlender(ProgramTest):
+    """Saved in the first frame, the bind pose, and in the eighth of a clip: every vertex stands as Blender has it at rest."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.made = blender("blender_armatures.py", cls.class_folder.name)
+
+    def test_every_vertex_at_rest(self):
+        for file, expected in self.made.items():
+            with self.subTest(file):
+                out = self.path("out.sbf")
+                self.good("convert", os.path.join(self.class_folder.name, file), "--no-build", "-o", out)
+                found = [p for _, _, points in placed_points(out) for p in points]
+                rest = [tuple(p) for points in expected["rest"].values() for p in points]
+                gaps = []
+                for turned_by in (quarter(rest, count) for count in range(4)):
+                    lift = min(p[1] for p in found) - min(p[1] for p in turned_by)
+                    lifted = [(p[0], p[1] + lift, p[2]) for p in turned_by]
+                    gaps.append(max(nearest_gap(found, lifted), nearest_gap(lifted, found)))
+                self.assertLess(min(gaps), 2e-3)
+
+    @unittest.skipUnless(node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
+    def test_three_draws_what_blender_drew(self):
+        for file, expected in self.made.items():
+            with self.subTest(file):
+                path = os.path.join(self.class_folder.name, file)
+                compare_with_three(self, path, self.path("bare.glb"))
+                drawn = [p for points in drawn_in_order(Glb(path)) for p in points]
+                self.assertLess(nearest_gap(drawn, [tuple(p) for points in expected["now"].values() for p in points]), 2e-3)
+
+
 class BindSpace(ProgramTest):
     def placed(self, source):
         out = self.path("out.sbf")
@@ -146,6 +185,44 @@ class BindSpace(ProgramTest):
         self.check(c, body=c.add("body", offset, None))
 
 
+def compare_with_three(case, path, bare):
+    """`bare`: where to write the file without its materials, whose images node cannot show."""
+    file = SkinnedGlb.of(path)
+    for key in ("materials", "textures", "images", "samplers", "animations"):
+        file.json.pop(key, None)
+    for mesh in file.json["meshes"]:
+        for primitive in mesh["primitives"]:
+            primitive.pop("material", None)
+    file.write(bare)
+    formula, three = drawn_in_order(Glb(bare)), node("three_gltf.mjs", bare)["meshes"]
+    case.assertEqual([len(points) for points in formula], [len(mesh["now"]) for mesh in three])
+    low, high = ([f(p[k] for points in formula for p in points if p) for k in range(3)] for f in (min, max))
+    for points, mesh in zip(formula, three):
+        off = max((math.dist(a, b) for a, b in zip(points, mesh["now"]) if a), default=0)
+        case.assertLess(off, 1e-5 * math.dist(low, high), mesh["name"])
+
+
+def drawn_in_order(file):
+    """The vertices of each primitive as drawn, in the order in which a walk from the scene's roots meets them."""
+    worlds, found = file.worlds({}, 0), []
+
+    def walk(number):
+        one = file.nodes[number]
+        for primitive in file.json["meshes"][one["mesh"]]["primitives"] if "mesh" in one else ():
+            alone = Glb.__new__(Glb)
+            alone.__dict__.update(file.__dict__)
+            alone.primitives = lambda: iter([(number, primitive)])
+            if "skin" in one:
+                found.append(alone.skinned(worlds))
+            else:
+                found.append([apply(worlds[number], p) for p in file.accessor(primitive["attributes"]["POSITION"])])
+        for child in one.get("children", ()):
+            walk(child)
+    for root in file.json["scenes"][file.json.get("scene", 0)]["nodes"]:
+        walk(root)
+    return found
+
+
 def shared_files():
     found = glob.glob(os.path.join(shared(".."), "**", "*.glb"), recursive=True)
     return sorted(p for p in found if os.path.join("data", "bad") not in p and any(
@@ -183,6 +260,13 @@ class SharedFiles(ProgramTest):
                 self.assertAlmostEqual(size / size_drawn, 1, delta=0.3 if posed else 1e-3)
                 if not posed:
                     self.assert_placed(every, expected, size_drawn)
+
+    @unittest.skipUnless(node_folder(), "node, npm and the packages of tests/e2e/players are not to be had")
+    def test_three_draws_every_vertex_where_the_formula_says(self):
+        """As saved, skinned or not: the formula that the cases above hold conversions to is that of a viewer."""
+        for path in shared_files():
+            with self.subTest(file=os.path.relpath(path, shared(".."))):
+                compare_with_three(self, path, self.path("bare.glb"))
 
     def test_sizes_as_a_viewer_shows_them(self):
         for name, size in (("mannequiny", (1.641, 1.798, 0.316)), ("platformer_player", (1.678, 2.118, 0.636))):

@@ -131,6 +131,7 @@ START_TEST(polygons_keep_their_sides_and_lines_are_left_out)
   stream_u32(&s, 5);
   stream_f32s(&s, positions, 15);
   stream_u32(&s, 0);
+  stream_u32(&s, 0);
   stream_none(&s);
   stream_u32(&s, 4);
   stream_bytes(&s, sizes, sizeof sizes);

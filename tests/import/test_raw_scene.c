@@ -192,6 +192,7 @@ START_TEST(an_index_beyond_the_vertices_is_the_files_fault)
   stream_u32(&s, 1);
   stream_f32s(&s, corner, 3);
   stream_u32(&s, 0);
+  stream_u32(&s, 0);
   stream_none(&s);
   stream_u32(&s, 1);
   stream_u32(&s, 3);

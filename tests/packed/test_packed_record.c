@@ -50,7 +50,7 @@ static uint16_t field_of(const char *collection, const char *name) {
 
 static hand_made with_version(void) {
   hand_made r = {.size = 0};
-  put_text(&r, 1, "1.0", 3);
+  put_text(&r, 1, SBF_FORMAT_VERSION, 3);
   return r;
 }
 
@@ -147,7 +147,7 @@ START_TEST(test_fields_of_a_newer_version_are_passed_over)
   put_text(&r, 999, "hello", 5);
   put_head(&r, 1000, (sbfi_packed_form)77, 0);
   expect(&r, SBF_CODE_PACKED_RECORD, "/sbf");
-  expect_loads(&r, 1);
+  expect_loads(&r, SBFI_PACKED_MINOR + 1);
   r.size = 0;
   put_text(&r, 1, "1.99", 4); /* whatever the header says */
   expect_loads(&r, 99);
@@ -367,7 +367,7 @@ START_TEST(test_chunks_that_nothing_refers_to)
   size_t head = find_reference(last) - 8;
   patch_put(file.at, head, 2, 65535);
   ck_assert_int_eq(load_patched(), SBF_CODE_PACKED_RECORD);
-  patch_put(file.at, 10, 2, 1); /* in a newer version it may be something new */
+  patch_put(file.at, 10, 2, SBFI_PACKED_MINOR + 1); /* in a newer version it may be something new */
   ck_assert_int_eq(load_patched(), 0);
   sbf_buffer_free(&file);
 }

@@ -115,7 +115,7 @@ START_TEST(test_header_faults)
   uint64_t size = file.size, count = patch_get(file.at, 40, 4);
   expect_patched(8, 2, 0, SBF_CODE_PACKED_TABLE);     /* version */
   expect_patched(12, 2, 2, SBF_CODE_VERSION_TOO_NEW); /* least reader */
-  expect_patched(14, 2, 1, SBF_CODE_VERSION_TOO_NEW);
+  expect_patched(14, 2, SBFI_PACKED_MINOR + 1, SBF_CODE_VERSION_TOO_NEW);
   expect_patched(16, 8, size + 1, SBF_CODE_PACKED_TRUNCATED);
   expect_patched(16, 8, size - 1, SBF_CODE_PACKED_TABLE);
   expect_patched(16, 8, UINT64_MAX, SBF_CODE_PACKED_TRUNCATED);
@@ -273,7 +273,7 @@ END_TEST
 START_TEST(test_a_newer_minor_version_may_use_what_is_reserved)
 {
   make_file();
-  patch_put(file.at, 10, 2, 1);
+  patch_put(file.at, 10, 2, SBFI_PACKED_MINOR + 1);
   patch_put(file.at, 48, 4, 1);
   patch_put(file.at, patch_entry(1, PATCH_FLAGS), 2, 5);
   patch_put(file.at, patch_entry(1, PATCH_RESERVED), 4, 1);

@@ -45,6 +45,7 @@ int main(void) {
   OFFSET(sbf_load_options, mendable);
   OFFSET(sbf_load_options, given_lists);
   OFFSET(sbf_load_options, given_list_count);
+  OFFSET(sbf_load_options, report);
   OFFSET(sbf_save_options, level);
   OFFSET(sbf_build_options, interior);
   OFFSET(sbf_build_options, without_hulls);

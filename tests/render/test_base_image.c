@@ -79,14 +79,15 @@ START_TEST(other_files_are_named)
 }
 END_TEST
 
-/* --- JPEG and WebP: red and green over blue and yellow, each a quarter of 32 by 32 pixels ---------------- */
+/* --- JPEG and WebP: red and green over blue and yellow, each a quarter of 32 by 32 pixels ----------------
+ */
 
 static const struct {
   const char *file, *form;
   int is_drawn, red_alpha;
-} quarters[] = {{"quarters.jpg", "JPEG", JPEG_DRAWN, 255}, {"quarters_progressive.jpg", "JPEG", JPEG_DRAWN, 255},
-    {"quarters_inks.jpg", "JPEG", JPEG_DRAWN, 255}, {"quarters.webp", "WebP", WEBP_DRAWN, 255},
-    {"quarters_alpha.webp", "WebP", WEBP_DRAWN, 64}};
+} quarters[] = {{"quarters.jpg", "JPEG", JPEG_DRAWN, 255},
+    {"quarters_progressive.jpg", "JPEG", JPEG_DRAWN, 255}, {"quarters_inks.jpg", "JPEG", JPEG_DRAWN, 255},
+    {"quarters.webp", "WebP", WEBP_DRAWN, 255}, {"quarters_alpha.webp", "WebP", WEBP_DRAWN, 64}};
 enum { QUARTERS = sizeof quarters / sizeof *quarters, MOST_BYTES = 4096 };
 
 static uint8_t *read_image(const char *name, size_t *count) {

@@ -188,8 +188,8 @@ static void fill_field(filler *f, const sbfi_place *place, const sbfi_field *fie
   }
   case SBFI_STRING:
   case SBFI_TEXT:
-  case SBFI_ID: /* one that has a default, as the version, keeps it */
-    if (!*field->default_text) sbfi_set_pointer(object, field, random_text(f, place, field));
+  case SBFI_ID: /* one that has a default is the version: all fields are used */
+    sbfi_set_pointer(object, field, *field->default_text ? SBF_FORMAT_VERSION : random_text(f, place, field));
     break;
   case SBFI_ENUM:
     sbfi_set_integer(object, field, random_enum(f, place, field));

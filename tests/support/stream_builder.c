@@ -85,6 +85,7 @@ void stream_triangles(
   stream_u32(s, 3 * count);
   stream_f32s(s, positions, 9 * (size_t)count);
   stream_u32(s, 0);
+  stream_u32(s, 0);
   stream_none(s);
   stream_u32(s, count);
   for (uint32_t i = 0; i < count; i++) stream_u32(s, 3);
@@ -100,9 +101,13 @@ void stream_material(stream_builder *s, const char *name, const char *image) {
   stream_f32s(s, values, 10);
   stream_u32(s, 0);
   stream_u32(s, 1);
-  stream_string(s, image);
-  stream_string(s, "");
-  stream_string(s, "");
+  const char *const images[] = {image, "", ""};
+  const float in_place[] = {0, 0, 0, 1, 1};
+  for (int k = 0; k < 3; k++) {
+    stream_string(s, images[k]);
+    stream_u32(s, 0);
+    stream_f32s(s, in_place, 5);
+  }
 }
 
 void stream_end(stream_builder *s) {
@@ -115,6 +120,7 @@ void stream_everything(stream_builder *s) {
   static const float quad[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
                      moved[] = {0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 1, 0};
   static const float normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, uvs[] = {0, 0, 1, 0, 1, 1, 0, 1};
+  static const float colors[] = {1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1, 1, 1, 1, 0.5f};
   stream_header(s);
   stream_u32(s, 4);
   static const float bounds[] = {-0.25f, 0.5f, -1, 1};
@@ -134,6 +140,8 @@ void stream_everything(stream_builder *s) {
   stream_f32s(s, quad, 12);
   stream_u32(s, 1);
   stream_f32s(s, normals, 12);
+  stream_u32(s, 1);
+  stream_f32s(s, colors, 16);
   stream_u32(s, 1);
   stream_f32s(s, uvs, 8);
   stream_u32(s, 1);

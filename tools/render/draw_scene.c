@@ -117,7 +117,8 @@ bool draw_scene_make_room(
 }
 
 static bool same_look(const draw_scene_part *a, const draw_scene_part *b) {
-  return a->transparency == b->transparency && a->casts_shadow == b->casts_shadow && a->image == b->image;
+  return a->transparency == b->transparency && a->casts_shadow == b->casts_shadow && a->image == b->image &&
+         a->alpha == b->alpha && a->cutoff == b->cutoff && a->one_sided == b->one_sided;
 }
 
 void draw_scene_close_part(draw_scene *scene, const draw_scene_room *room, uint32_t vertex_count,
@@ -138,11 +139,12 @@ void draw_scene_close_part(draw_scene *scene, const draw_scene_room *room, uint3
     }
   }
   /* Meshes of one look that follow each other are one thing: one call, and one skin when seen through, where
-   * the sections of a body do not show inside each other. What throws no shadow stays apart, to be drawn in
-   * order. */
+   * the sections of a body do not show inside each other. What throws no shadow, and what blends, stays
+   * apart, to be drawn in order. */
   draw_scene_part *last =
       scene->parts.count ? (draw_scene_part *)scene->parts.at + scene->parts.count - 1 : NULL;
-  if (last && same_look(last, &part) && (part.transparency <= 0 || part.casts_shadow)) {
+  if (last && same_look(last, &part) && part.alpha != DRAW_BLEND &&
+      (part.transparency <= 0 || part.casts_shadow)) {
     last->index_count += index_count;
     return;
   }
@@ -237,7 +239,9 @@ static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_sce
       else
         room.normals[count] =
             turned(mesh->place, hard ? hard[3 * (size_t)t + (size_t)k] : normals[triangle[k]]);
-      room.colours[count] = mesh->colours ? mesh->colours[triangle[k]] : mesh->colour;
+      room.colours[count] = mesh->corner_colours ? mesh->corner_colours[3 * (size_t)t + (size_t)k]
+                            : mesh->colours      ? mesh->colours[triangle[k]]
+                                                 : mesh->colour;
       if (look->image) room.uvs[count] = mesh->corner_uvs[3 * (size_t)t + (size_t)k];
       room.indices[count] = room.first_vertex + count;
     }
@@ -250,8 +254,14 @@ static void add_corners(draw_scene *scene, const draw_mesh *mesh, const draw_sce
 void draw_scene_add_mesh(draw_scene *scene, const draw_mesh *mesh) {
   draw_scene_part look = {.transparency = mesh->transparency, .casts_shadow = !mesh->no_shadow};
   if (mesh->triangle_count == 0 || mesh->vertex_count == 0) return;
-  if (mesh->transparency <= 0 && mesh->corner_uvs) look.image = mesh->image;
-  if (mesh->flat || mesh->corner_normals || look.image)
+  if (mesh->transparency <= 0) { /* seen through, it shows its shape alone */
+    look.image = mesh->corner_uvs ? mesh->image : NULL;
+    look.alpha = mesh->alpha;
+    look.cutoff = mesh->cutoff;
+    look.one_sided = mesh->one_sided;
+    look.casts_shadow = look.casts_shadow && mesh->alpha != DRAW_BLEND;
+  }
+  if (mesh->flat || mesh->corner_normals || mesh->corner_colours || look.image)
     add_corners(scene, mesh, &look);
   else
     add_smooth(scene, mesh, &look);

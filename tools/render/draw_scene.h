@@ -22,6 +22,11 @@ typedef struct draw_place {
   sbf_vec3 position;
 } draw_place;
 
+/* What the opacity of colours and images does: nothing, a hole below the cutoff, or a blend with what is
+ * behind.
+ */
+typedef enum draw_alpha { DRAW_OPAQUE, DRAW_MASK, DRAW_BLEND } draw_alpha;
+
 /* A surface of triangles, lit from both sides. Zero means the plain choice everywhere. */
 typedef struct draw_mesh {
   const sbf_vec3 *positions;  /* (vertex_count) */
@@ -33,9 +38,13 @@ typedef struct draw_mesh {
   const draw_image *image;    /* multiplies the colour where it is solid; NULL: none. Not copied: it stays,
                                  unchanged, as long as the painters that have painted it */
   const sbf_vec2 *corner_uvs; /* (3 triangle_count) a place in it for each corner, its lower left 0, 0 */
-  const sbf_vec3 *corner_normals; /* (3 triangle_count) unit, instead of `normals`; NULL: no hard edges */
-  float transparency;             /* 0 solid; 0.75 an x-ray view, which shows what is inside; below 1 */
-  bool flat;                      /* facets keep their edges */
+  const sbf_vec3 *corner_normals;    /* (3 triangle_count) unit, instead of `normals`; NULL: no hard edges */
+  const draw_colour *corner_colours; /* (3 triangle_count) instead of `colours`; NULL: those */
+  draw_alpha alpha;
+  float cutoff;       /* of DRAW_MASK */
+  bool one_sided;     /* not drawn from behind, where its triangles run clockwise */
+  float transparency; /* 0 solid; 0.75 an x-ray view, which shows what is inside; below 1 */
+  bool flat;          /* facets keep their edges */
   bool no_shadow;
   const draw_place *place; /* NULL: positions are in the world */
 } draw_mesh;

@@ -16,7 +16,9 @@ typedef struct draw_scene_part {
   sbf_vec3 middle;         /* to draw the far ones first */
   const draw_image *image; /* NULL: none */
   float transparency;
-  bool casts_shadow;
+  draw_alpha alpha;
+  float cutoff;
+  bool one_sided, casts_shadow;
 } draw_scene_part;
 
 struct draw_scene {
@@ -36,6 +38,7 @@ struct draw_scene {
   draw_scene_list overlay; /* draw_line; x and y from the picture's lower left corner, or where z is 1 from
                               its upper left one, in overlay units */
   uint32_t overlay_rows, note_rows;
+  uint32_t veil_count;            /* parts seen through in the manner of an x-ray: made by the painter */
   bool overlay_from_top;          /* what is added is */
   draw_scene_list placed_overlay; /* draw_line, in the world: made by the painter */
   box3 bounds;

@@ -38,10 +38,11 @@ static void sort_lines(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back) {
 /* Few enough that inserting each at its place is best. */
 static void sort_parts(draw_scene *scene, sbf_vec3 eye, sbf_vec3 back) {
   const draw_scene_part *parts = scene->parts.at;
-  scene->sorted_parts.count = 0;
+  scene->sorted_parts.count = scene->veil_count = 0;
   for (size_t i = 0; i < scene->parts.count; i++) {
-    if (parts[i].transparency <= 0) continue;
+    if (parts[i].transparency <= 0 && parts[i].alpha != DRAW_BLEND) continue;
     if (!draw_scene_list_push(scene, &scene->sorted_parts, 1, sizeof(uint32_t))) return;
+    scene->veil_count += parts[i].transparency > 0;
     uint32_t *order = scene->sorted_parts.at;
     size_t at = scene->sorted_parts.count - 1;
     float depth = v3_dot(v3_sub(eye, parts[i].middle), back);

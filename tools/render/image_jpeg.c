@@ -32,7 +32,8 @@ static void fail(j_common_ptr jpeg) {
   longjmp(reading_of(jpeg)->failed, 1);
 }
 
-/* Data that is missing is a fault, which the library repairs with grey; what else it warns of shows nowhere. */
+/* Data that is missing is a fault, which the library repairs with grey; what else it warns of shows nowhere.
+ */
 static void note(j_common_ptr jpeg, int level) {
   int code = jpeg->err->msg_code;
   if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_NOT_SEQUENTIAL))

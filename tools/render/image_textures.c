@@ -3,14 +3,15 @@
 #include <stdlib.h>
 
 static GLuint make(const gl_api *gl, const draw_image *image) {
+  static const uint8_t white[4] = {255, 255, 255, 255};
   GLint most = 0;
-  GLuint made = 0;
+  GLuint made = 0, width = image ? image->width : 1, height = image ? image->height : 1;
   gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  if (image->width > (GLuint)most || image->height > (GLuint)most) return 0;
+  if (width > (GLuint)most || height > (GLuint)most) return 0;
   gl->GenTextures(1, &made);
   gl->BindTexture(GL_TEXTURE_2D, made);
-  gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, (GLsizei)image->width, (GLsizei)image->height, 0, GL_RGBA,
-      GL_UNSIGNED_BYTE, image->rgba);
+  gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, (GLsizei)width, (GLsizei)height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+      image ? image->rgba : white);
   gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
   gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

@@ -6,6 +6,7 @@
 #include "render/frame_block.h"
 #include "render/image_textures.h"
 #include "render/layers.h"
+#include "render/mesh_parts.h"
 #include "render/programs.h"
 #include "render/scene_buffers.h"
 
@@ -97,12 +98,9 @@ static void draw_indices(const gl_api *gl, size_t first, GLsizei count) {
         GL_TRIANGLES, count, GL_UNSIGNED_INT, (const void *)(uintptr_t)(first * sizeof(uint32_t)));
 }
 
-static void draw_casters(const draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
-  const draw_scene_part *parts = scene->parts.at;
+static mesh_parts parts_of(draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
   gl->BindVertexArray(painter->meshes.array);
-  bool any = !box3_is_empty(&scene->casters); /* else all do */
-  for (size_t i = 0; i < scene->parts.count; i++)
-    if (parts[i].casts_shadow || !any) draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
+  return (mesh_parts){gl, &painter->programs, &painter->images, scene};
 }
 
 static void begin_depth_map(const gl_api *gl, GLuint frame, GLsizei width, GLsizei height, double depth) {
@@ -158,13 +156,13 @@ static void paint_maps(
   gl->Disable(GL_BLEND);
   gl->DepthMask(GL_TRUE);
   gl->DepthFunc(GL_LESS);
-  gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
-  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, place->shadow_clip_from_world.at);
+  const mesh_parts parts = parts_of(painter, gl, scene);
   begin_depth_map(gl, maps->shadow_frame, SHADOW_MAP_SIDE, SHADOW_MAP_SIDE, 1);
-  draw_casters(painter, gl, scene);
-  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, place->heights_clip_from_world.at);
+  mesh_parts_cast(&parts, &place->shadow_clip_from_world);
   begin_depth_map(gl, maps->lowest_frame, HEIGHT_MAP_SIDE, HEIGHT_MAP_SIDE, 1);
-  draw_casters(painter, gl, scene);
+  mesh_parts_cast(&parts, &place->heights_clip_from_world);
+  gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
+  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, place->heights_clip_from_world.at);
   float range = place->high - place->low;
   double level = scene->has_floor ? (scene->floor_height - place->low) / range : 0;
   begin_depth_map(gl, maps->ground_frame, HEIGHT_MAP_SIDE, HEIGHT_MAP_SIDE, level);
@@ -178,17 +176,9 @@ static void paint_maps(
   paint_ground_light(painter, gl);
 }
 
-static void draw_solid(const gl_api *gl, const draw_scene *scene) {
-  const draw_scene_part *parts = scene->parts.at;
-  for (size_t i = 0; i < scene->parts.count; i++)
-    if (parts[i].transparency <= 0) draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
-}
-
 /* Depth alone, a hair behind where it is: colour drawn afterwards passes in front of it, and what lies
  * farther back is never lit, which without a graphics card is most of the work. */
-static void begin_depth_first(const draw_painter *painter, const gl_api *gl) {
-  gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
-  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, painter->frame.clip_from_world.at);
+static void begin_depth_first(const gl_api *gl) {
   gl->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   gl->DepthMask(GL_TRUE);
   gl->DepthFunc(GL_LESS);
@@ -196,33 +186,23 @@ static void begin_depth_first(const draw_painter *painter, const gl_api *gl) {
   gl->PolygonOffset(1, 2);
 }
 
+static void use_depth(const draw_painter *painter, const gl_api *gl) {
+  gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
+  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, painter->frame.clip_from_world.at);
+}
+
 static void end_depth_first(const gl_api *gl) {
   gl->Disable(GL_POLYGON_OFFSET_FILL);
   gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-/* Those with an image on them or those without; an image that this OpenGL cannot hold is as none. */
-static void colour_solid(draw_painter *painter, const gl_api *gl, const draw_scene *scene, bool with_image) {
-  const draw_scene_part *parts = scene->parts.at;
-  gl->UseProgram(painter->programs.at[with_image ? PROGRAM_MESH_IMAGE : PROGRAM_MESH]);
-  gl->ActiveTexture(GL_TEXTURE0 + UNIT_BASE_IMAGE);
-  for (size_t i = 0; i < scene->parts.count; i++) {
-    if (parts[i].transparency > 0) continue;
-    GLuint image = parts[i].image ? image_textures_of(&painter->images, gl, parts[i].image) : 0;
-    if ((image != 0) != with_image) continue;
-    gl->BindTexture(GL_TEXTURE_2D, image);
-    draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
-  }
-}
-
 static void paint_solid(draw_painter *painter, const gl_api *gl, const draw_scene *scene) {
   gl->Enable(GL_DEPTH_TEST);
-  gl->BindVertexArray(painter->meshes.array);
-  begin_depth_first(painter, gl);
-  draw_solid(gl, scene);
+  const mesh_parts parts = parts_of(painter, gl, scene);
+  begin_depth_first(gl);
+  mesh_parts_fill_depth(&parts, &painter->frame.clip_from_world, false);
   end_depth_first(gl);
-  colour_solid(painter, gl, scene, false);
-  colour_solid(painter, gl, scene, true);
+  mesh_parts_colour(&parts);
   /* After what stands before them, so that what is hidden is not painted in vain. */
   gl->UseProgram(painter->programs.at[PROGRAM_GROUND]);
   gl->BindVertexArray(painter->ground.array);
@@ -236,13 +216,14 @@ static void paint_solid(draw_painter *painter, const gl_api *gl, const draw_scen
 /* The nearest layer of a surface that is seen through: depth first, so that its own far side does not pile up
  * in it. */
 static void paint_veil(const draw_painter *painter, const gl_api *gl, const draw_scene_part *part) {
-  begin_depth_first(painter, gl);
-  draw_indices(gl, part->first_index, (GLsizei)part->index_count);
+  use_depth(painter, gl);
+  begin_depth_first(gl);
+  mesh_parts_draw(gl, part);
   end_depth_first(gl);
   gl->UseProgram(painter->programs.at[PROGRAM_VEIL]);
   gl->Uniform1f(painter->programs.opacity, 1 - part->transparency);
   gl->DepthMask(GL_FALSE);
-  draw_indices(gl, part->first_index, (GLsizei)part->index_count);
+  mesh_parts_draw(gl, part);
 }
 
 /* Each line goes to OpenGL four times, a corner of its rectangle each; instancing would say it once, but
@@ -273,7 +254,7 @@ static void paint_veil_depths(const draw_painter *painter, const gl_api *gl, con
   const draw_scene_part *parts = scene->parts.at;
   begin_depth_map(gl, painter->layers.veil_frame, painter->layers.width, painter->layers.height, 1);
   for (size_t i = 0; i < scene->parts.count; i++)
-    if (parts[i].transparency > 0) draw_indices(gl, parts[i].first_index, (GLsizei)parts[i].index_count);
+    if (parts[i].transparency > 0) mesh_parts_draw(gl, &parts[i]);
   bind_texture(gl, UNIT_VEIL_DEPTHS, painter->layers.veil_texture, 0);
 }
 
@@ -281,15 +262,15 @@ static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene
   gl->Enable(GL_DEPTH_TEST);
   gl->DepthMask(GL_TRUE);
   gl->DepthFunc(GL_LESS);
-  gl->UseProgram(painter->programs.at[PROGRAM_DEPTH]);
-  gl->UniformMatrix4fv(painter->programs.map_from_world, 1, GL_FALSE, painter->frame.clip_from_world.at);
-  gl->BindVertexArray(painter->meshes.array);
-  if (scene->sorted_parts.count) paint_veil_depths(painter, gl, scene);
+  const mesh_parts parts = parts_of(painter, gl, scene);
+  use_depth(painter, gl);
+  if (scene->veil_count) paint_veil_depths(painter, gl, scene);
   begin_depth_map(gl, painter->layers.line_frame, painter->layers.width, painter->layers.height, 1);
   gl->ClearColor(0, 0, 0, 0);
   gl->Clear(GL_COLOR_BUFFER_BIT);
   gl->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  draw_solid(gl, scene);
+  mesh_parts_fill_depth(&parts, &painter->frame.clip_from_world, true);
+  use_depth(painter, gl);
   gl->BindVertexArray(painter->ground.array);
   draw_indices(gl, 0, painter->ground_indices);
   gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -298,7 +279,7 @@ static void paint_line_layer(draw_painter *painter, const gl_api *gl, draw_scene
   gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   /* Twice the lines on the same body leave half the room between them. */
   float thinness = fminf(fmaxf(sqrtf(4000 / (float)scene->sorted_lines.count), 0.35f), 1);
-  paint_lines(painter, gl, scene, &scene->sorted_lines, scene->sorted_parts.count ? 1.0f : 0.0f, thinness);
+  paint_lines(painter, gl, scene, &scene->sorted_lines, scene->veil_count ? 1.0f : 0.0f, thinness);
   gl->Disable(GL_BLEND);
   gl->DepthMask(GL_TRUE);
   bind_texture(gl, UNIT_LINE_LAYER, painter->layers.line_texture, 0);
@@ -319,10 +300,15 @@ static void paint_see_through(draw_painter *painter, const gl_api *gl, draw_scen
     gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl->Enable(GL_DEPTH_TEST);
   }
-  gl->BindVertexArray(painter->meshes.array);
+  const mesh_parts meshes = parts_of(painter, gl, scene);
   const uint32_t *order = scene->sorted_parts.at;
   const draw_scene_part *parts = scene->parts.at;
-  for (size_t i = 0; i < scene->sorted_parts.count; i++) paint_veil(painter, gl, &parts[order[i]]);
+  for (size_t i = 0; i < scene->sorted_parts.count; i++) {
+    if (parts[order[i]].transparency > 0)
+      paint_veil(painter, gl, &parts[order[i]]);
+    else
+      mesh_parts_blend(&meshes, &parts[order[i]]);
+  }
   gl->DepthMask(GL_TRUE);
   gl->Disable(GL_DEPTH_TEST);
   paint_lines(painter, gl, scene, &scene->mark_rims, 0, 1);
@@ -388,8 +374,7 @@ sbf_status draw_painter_paint(
   }
   /* What stands inside a veil is to be seen in full light. */
   frame_block_fill(&painter->frame, draw_canvas_width(painter->canvas) * scale,
-      draw_canvas_height(painter->canvas) * scale, camera, &place, ground_radius,
-      scene->sorted_parts.count == 0);
+      draw_canvas_height(painter->canvas) * scale, camera, &place, ground_radius, scene->veil_count == 0);
   gl->BindBuffer(GL_UNIFORM_BUFFER, painter->frame_buffer);
   gl->BufferData(GL_UNIFORM_BUFFER, sizeof painter->frame, &painter->frame, GL_STREAM_DRAW);
   gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, painter->frame_buffer);

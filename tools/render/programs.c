@@ -63,6 +63,7 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
   } texts[PROGRAM_COUNT] = {
       [PROGRAM_BACKDROP] = {shader_backdrop_vert, {"", ""}, shader_backdrop_frag},
       [PROGRAM_DEPTH] = {shader_depth_vert, {"", ""}, shader_depth_frag},
+      [PROGRAM_DEPTH_MASK] = {shader_depth_vert, {"#define ALPHA\n", ""}, shader_depth_frag},
       [PROGRAM_OPEN_SKY] = {shader_backdrop_vert, {"", ""}, shader_open_sky_frag},
       [PROGRAM_GROUND_LIGHT] = {shader_backdrop_vert, {"#define SHADOW_SAMPLES 24\n", shader_light_glsl},
           shader_ground_light_frag},
@@ -73,12 +74,15 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
           shader_mesh_frag},
       [PROGRAM_MESH_IMAGE] = {shader_mesh_vert,
           {"#define SHADOW_SAMPLES 20\n#define BASE_IMAGE\n", shader_light_glsl}, shader_mesh_frag},
+      [PROGRAM_MESH_ALPHA] = {shader_mesh_vert,
+          {"#define SHADOW_SAMPLES 20\n#define BASE_IMAGE\n#define ALPHA\n", shader_light_glsl},
+          shader_mesh_frag},
       [PROGRAM_VEIL] = {shader_mesh_vert, {"#define SHADOW_SAMPLES 0\n", shader_light_glsl},
           shader_mesh_frag},
       [PROGRAM_LINE] = {shader_line_vert, {"", ""}, shader_line_frag},
       [PROGRAM_LAYER] = {shader_backdrop_vert, {"", ""}, shader_layer_frag},
   };
-  *programs = (program_set){{0}, -1, -1, -1, -1};
+  *programs = (program_set){.opacity = -1};
   for (int i = 0; i < PROGRAM_COUNT; i++) {
     programs->at[i] = link(gl, texts[i].vertex, texts[i].included, texts[i].fragment, diagnostic);
     if (!programs->at[i]) {
@@ -91,11 +95,14 @@ sbf_status programs_create(program_set *programs, const gl_api *gl, sbf_diagnost
   programs->murk = gl->GetUniformLocation(programs->at[PROGRAM_LINE], "murk");
   programs->thinness = gl->GetUniformLocation(programs->at[PROGRAM_LINE], "thinness");
   programs->map_from_world = gl->GetUniformLocation(programs->at[PROGRAM_DEPTH], "map_from_world");
+  programs->mask_map_from_world = gl->GetUniformLocation(programs->at[PROGRAM_DEPTH_MASK], "map_from_world");
+  programs->mask_cutoff = gl->GetUniformLocation(programs->at[PROGRAM_DEPTH_MASK], "cutoff");
+  programs->cutoff = gl->GetUniformLocation(programs->at[PROGRAM_MESH_ALPHA], "cutoff");
   return SBF_OK;
 }
 
 void programs_destroy(program_set *programs, const gl_api *gl) {
   for (int i = 0; i < PROGRAM_COUNT; i++)
     if (programs->at[i]) gl->DeleteProgram(programs->at[i]);
-  *programs = (program_set){{0}, -1, -1, -1, -1};
+  *programs = (program_set){.opacity = -1};
 }

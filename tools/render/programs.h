@@ -8,12 +8,14 @@
 typedef enum program_name {
   PROGRAM_BACKDROP,
   PROGRAM_DEPTH,
+  PROGRAM_DEPTH_MASK, /* with holes */
   PROGRAM_OPEN_SKY,
   PROGRAM_GROUND_LIGHT,
   PROGRAM_SOFTEN,
   PROGRAM_GROUND,
   PROGRAM_MESH,
   PROGRAM_MESH_IMAGE, /* with an image on it */
+  PROGRAM_MESH_ALPHA, /* likewise, with holes or blended */
   PROGRAM_VEIL,       /* a mesh that is seen through */
   PROGRAM_LINE,
   PROGRAM_LAYER,
@@ -35,9 +37,11 @@ enum {
 
 typedef struct program_set {
   GLuint at[PROGRAM_COUNT];
-  GLint opacity;        /* uniform of PROGRAM_VEIL */
-  GLint map_from_world; /* uniform of PROGRAM_DEPTH */
-  GLint murk, thinness; /* uniforms of PROGRAM_LINE */
+  GLint opacity;                          /* uniform of PROGRAM_VEIL */
+  GLint map_from_world;                   /* uniform of PROGRAM_DEPTH */
+  GLint mask_map_from_world, mask_cutoff; /* uniforms of PROGRAM_DEPTH_MASK */
+  GLint cutoff;                           /* uniform of PROGRAM_MESH_ALPHA */
+  GLint murk, thinness;                   /* uniforms of PROGRAM_LINE */
 } program_set;
 
 /* On failure what was made is destroyed again. The uniform block Frame is bound to point 0. */

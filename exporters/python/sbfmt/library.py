@@ -49,7 +49,8 @@ class LoadOptions(Structure):
     _fields_ = [("struct_size", c_size_t), ("allocator", c_void_p), ("limits", Limits), ("check_crc", c_bool),
                 ("name", c_char_p), ("extensions", POINTER(c_char_p)), ("extension_count", c_uint32),
                 ("selection", c_void_p), ("copy_file", c_bool), ("read_bytes", POINTER(c_uint64)), ("outline", c_bool),
-                ("mendable", c_bool), ("given_lists", POINTER(GivenList)), ("given_list_count", c_uint32)]
+                ("mendable", c_bool), ("given_lists", POINTER(GivenList)), ("given_list_count", c_uint32),
+                ("report", Report), ("user", c_void_p)]
 
 
 class SaveOptions(Structure):

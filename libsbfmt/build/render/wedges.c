@@ -41,6 +41,14 @@ static sbfi_key key_of_coordinates(const void *user, uint32_t corner) {
   return key;
 }
 
+static sbfi_key key_of_color(const void *user, uint32_t corner) {
+  const sbf_vec4 *at = (const sbf_vec4 *)user + corner;
+  const float numbers[4] = {at->x, at->y, at->z, at->w};
+  uint32_t steps = 0; /* as fine as eight bits are */
+  for (int k = 0; k < 4; k++) steps = steps << 8 | (uint32_t)(numbers[k] * 255 + 0.5f);
+  return (sbfi_key){{0, steps, 0, 0}};
+}
+
 static sbfi_key key_of_normal(const void *user, uint32_t corner) {
   sbfi_key place = sbfi_key_of_place(((const sbf_vec3 *)user)[corner]);
   return (sbfi_key){{0, place.at[0], place.at[1], place.at[2]}};
@@ -63,6 +71,15 @@ static bool split_by_normals(splitting *s, const sbf_render_mesh *mesh) {
   if (!of_corner) return false;
   for (uint32_t c = 0; c < s->corner_count; c++) of_corner[c] = mesh->normals.at[mesh->normal_corners.at[c]];
   return split(s, key_of_normal, of_corner);
+}
+
+/* Colours of points split nothing. */
+static bool split_by_colors(splitting *s, const sbf_render_mesh *mesh) {
+  if (!mesh->color_corners.count) return true;
+  sbf_vec4 *of_corner = sbfi_arena_allocate(s->arena, (size_t)s->corner_count + 1, sizeof *of_corner);
+  if (!of_corner) return false;
+  for (uint32_t c = 0; c < s->corner_count; c++) of_corner[c] = mesh->colors.at[mesh->color_corners.at[c]];
+  return split(s, key_of_color, of_corner);
 }
 
 /* Of each point: the bone that holds most of it, the first of several; UINT32_MAX: none. */
@@ -161,6 +178,7 @@ bool sbfi_wedges_make(
   if (!wedges->of_corner || !slots || !split(&s, key_of_number, wedges->of_corner) ||
       !split_by_materials(&s, mesh, slots))
     return false;
+  if (!split_by_colors(&s, mesh)) return false;
   for (uint32_t u = 0; u < mesh->uv_sets.count; u++)
     if (!split_by_coordinates(&s, mesh, &mesh->uv_sets.at[u])) return false;
   if ((rule.normals && !split_by_normals(&s, mesh)) || (rule.bones && !split_by_bones(&s, mesh)))

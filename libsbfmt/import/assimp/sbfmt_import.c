@@ -7,15 +7,19 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "gltf_order.h"
 #include "import/scene/stream_format.h"
 #include "node_limits.h"
 #include "stream_writer.h"
+#include "text_forms.h"
 
 static void write_ai_string(const struct aiString *text) {
   size_t length = text->length < sizeof text->data ? text->length : sizeof text->data;
@@ -138,6 +142,9 @@ static void write_mesh(const struct aiMesh *mesh) {
   bool has_normals = mesh->mNormals && vertex_count;
   write_u32(has_normals);
   if (has_normals) write_f32s(&mesh->mNormals->x, 3 * (size_t)vertex_count);
+  bool has_colors = mesh->mColors[0] && vertex_count;
+  write_u32(has_colors);
+  if (has_colors) write_f32s(&mesh->mColors[0]->r, 4 * (size_t)vertex_count);
   uint32_t uv_set_count = 0;
   while (uv_set_count < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh->mTextureCoords[uv_set_count]) uv_set_count++;
   write_u32(uv_set_count);
@@ -157,14 +164,32 @@ static bool color_of(const struct aiMaterial *material, const char *key, struct 
   return aiGetMaterialColor(material, key, 0, 0, color) == AI_SUCCESS;
 }
 
+/* assimp turns about the middle of the image and counts upwards; its glTF reader makes up for both in the
+ * translation. Here that is undone. */
+static void write_uv_transform(const struct aiMaterial *material, enum aiTextureType type) {
+  struct aiUVTransform in = {{0, 0}, {1, 1}, 0};
+  aiGetMaterialUVTransform(material, "$tex.uvtrafo", (unsigned)type, 0, &in);
+  float rotation = -in.mRotation, c = cosf(rotation), s = sinf(rotation);
+  float values[] = {in.mTranslation.x - 0.5f * in.mScaling.x * (s - c + 1),
+      0.5f * in.mScaling.y * (s + c - 1) + 1 - in.mScaling.y - in.mTranslation.y, rotation, in.mScaling.x,
+      in.mScaling.y};
+  write_f32s(values, 5);
+}
+
 static void write_image_of(
     const struct aiMaterial *material, enum aiTextureType first, enum aiTextureType second) {
   struct aiString path = {0};
   enum aiTextureType types[] = {first, second};
+  int uv_set = 0, at = 0;
   for (int i = 0; i < 2 && !path.length; i++)
-    if (aiGetMaterialTextureCount(material, types[i]))
+    if (aiGetMaterialTextureCount(material, types[i])) {
       aiGetMaterialTexture(material, types[i], 0, &path, NULL, NULL, NULL, NULL, NULL, NULL);
+      at = i;
+    }
+  aiGetMaterialIntegerArray(material, "$tex.uvwsrc", (unsigned)types[at], 0, &uv_set, NULL);
   write_ai_string(&path);
+  write_u32((uint32_t)uv_set);
+  write_uv_transform(material, types[at]);
 }
 
 static void write_material(const struct aiMaterial *material) {
@@ -189,7 +214,7 @@ static void write_material(const struct aiMaterial *material) {
       float_of(material, "$mat.gltf.alphaCutoff", 0.5f)};
   write_f32s(rest, 3);
   write_u32(alpha_mode);
-  int two_sided = 0;
+  int two_sided = 1; /* what says nothing of it is drawn from both sides by the programs that wrote it */
   aiGetMaterialIntegerArray(material, "$mat.twosided", 0, 0, &two_sided, NULL);
   write_u32(two_sided != 0);
   write_image_of(material, aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE);
@@ -253,6 +278,44 @@ static void write_scene(const struct aiScene *scene) {
   write_u32(SBFI_STREAM_END);
 }
 
+static bool ends_in(const char *path, const char *ending) {
+  size_t length = strlen(path), more = strlen(ending);
+  return length >= more && strcasecmp(path + length - more, ending) == 0;
+}
+
+/* The file's bytes; NULL where they cannot be had. */
+static char *read_whole(const char *path, size_t *size) {
+  FILE *file = fopen(path, "rb");
+  long length = file && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+  char *text = length > 0 && fseek(file, 0, SEEK_SET) == 0 ? malloc((size_t)length) : NULL;
+  *size = text ? fread(text, 1, (size_t)length, file) : 0;
+  if (file) fclose(file);
+  return text;
+}
+
+/* Reads the file with assimp, as it is or put right; a status where text_forms.h refuses it. */
+static int read_scene(const char *path, const struct aiScene **scene, const struct aiPropertyStore *with) {
+  static const char *const of_text[] = {".dae", ".fbx", ".ply", ".bvh", ".x", ".ase", ".stl", ".md5mesh"};
+  char why[TEXT_WHY] = "", *text = NULL, *rewritten = NULL;
+  size_t size = 0, rewritten_size = 0;
+  for (size_t i = 0; !text && i < sizeof of_text / sizeof *of_text; i++)
+    if (ends_in(path, of_text[i])) text = read_whole(path, &size);
+  bool is_text = text && !memchr(text, 0, size); /* others are binary, and hold numbers as they are */
+  text_verdict verdict = is_text ? text_find_not_finite(text, size, why) : TEXT_AS_IT_IS;
+  if (is_text && verdict == TEXT_AS_IT_IS && ends_in(path, ".dae"))
+    verdict = collada_name_joints(text, size, &rewritten, &rewritten_size, why);
+  free(text);
+  if (*why) fprintf(stderr, "%s\n", why);
+  if (verdict == TEXT_REFUSED) return SBFI_CHILD_REFUSED;
+  if (verdict == TEXT_NOT_FINITE) return SBFI_CHILD_NOT_FINITE;
+  if (verdict == TEXT_NO_MEMORY) return SBFI_CHILD_NO_MEMORY;
+  *scene = rewritten ? aiImportFileFromMemoryWithProperties(
+                           rewritten, (unsigned)rewritten_size, 0, strrchr(path, '.') + 1, with)
+                     : aiImportFileExWithProperties(path, 0, NULL, with);
+  free(rewritten);
+  return SBFI_CHILD_DONE;
+}
+
 /* Never freed: to free a damaged scene is a further chance to crash. Static, so that leak checkers see it. */
 static struct aiPropertyStore *properties;
 static const struct aiScene *scene_read;
@@ -270,7 +333,8 @@ int main(int argument_count, char **arguments) {
   }
   properties = aiCreatePropertyStore();
   aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
-  scene_read = aiImportFileExWithProperties(arguments[1], 0, NULL, properties);
+  int status = read_scene(arguments[1], &scene_read, properties);
+  if (status != SBFI_CHILD_DONE) return status;
   if (!scene_read || !scene_read->mRootNode) {
     const char *message = aiGetErrorString();
     fprintf(stderr, "%s\n", message && *message ? message : "the file has no content");

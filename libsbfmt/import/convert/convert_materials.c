@@ -8,6 +8,7 @@
 static const char *media_type_of(const char *extension) {
   if (strcmp(extension, "png") == 0) return "image/png";
   if (strcmp(extension, "jpg") == 0 || strcmp(extension, "jpeg") == 0) return "image/jpeg";
+  if (strcmp(extension, "webp") == 0) return "image/webp";
   return "";
 }
 
@@ -49,6 +50,22 @@ static sbf_status convert_images(sbfi_conversion *c) {
   return SBF_OK;
 }
 
+/* NULL in `*to` where the image lies as it is; false: memory ran out. */
+static bool convert_uv(sbfi_conversion *c, const sbfi_scene_uv_transform *from, const sbf_uv_transform **to) {
+  *to = NULL;
+  if (from->offset[0] == 0 && from->offset[1] == 0 && from->rotation == 0 && from->scale[0] == 1 &&
+      from->scale[1] == 1)
+    return true;
+  sbf_uv_transform *made = sbfi_convert_allocate(c, 1, sizeof *made);
+  if (!made) return false;
+  sbf_uv_transform_init(made);
+  made->offset = (sbf_vec2){from->offset[0], from->offset[1]};
+  made->rotation = from->rotation;
+  made->scale = (sbf_vec2){from->scale[0], from->scale[1]};
+  *to = made;
+  return true;
+}
+
 sbf_status sbfi_convert_materials(sbfi_conversion *c) {
   sbf_status status = convert_images(c);
   uint32_t count = c->scene->material_count;
@@ -73,6 +90,11 @@ sbf_status sbfi_convert_materials(sbfi_conversion *c) {
     to->base_color_texture = from->base_color_image;
     to->metallic_roughness_texture = from->metallic_roughness_image;
     to->normal_texture = from->normal_image;
+    if ((to->base_color_texture >= 0 && !convert_uv(c, &from->base_color_uv, &to->base_color_uv)) ||
+        (to->metallic_roughness_texture >= 0 &&
+            !convert_uv(c, &from->metallic_roughness_uv, &to->metallic_roughness_uv)) ||
+        (to->normal_texture >= 0 && !convert_uv(c, &from->normal_uv, &to->normal_uv)))
+      return sbfi_convert_no_memory(c);
   }
   c->asset->materials = (sbf_material_list){materials, count};
   return SBF_OK;

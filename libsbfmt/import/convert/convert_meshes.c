@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "build/geometry/topology.h"
+#include "import/convert/convert_colors.h"
 #include "import/convert/convert_pins.h"
 #include "import/convert/covered_sections.h"
 #include "mechanics/extent.h"
@@ -192,8 +193,9 @@ static sbf_status convert_uvs(
   if (mesh->uv_set_count == 0 || mesh->corner_count == 0) return SBF_OK;
   sbf_uv_set *sets = sbfi_convert_allocate(c, mesh->uv_set_count, sizeof *sets);
   if (!sets) return sbfi_convert_no_memory(c);
-  uint32_t count = 0;
-  for (uint32_t s = 0; s < mesh->uv_set_count; s++) {
+  uint32_t count = 0, first = sbfi_first_uv_set(c, mesh);
+  for (uint32_t i = 0; i < mesh->uv_set_count; i++) {
+    uint32_t s = i == 0 ? first : i - (i <= first); /* that one, then the others in their order */
     const sbfi_scene_uvs *from = &mesh->uv_sets[s];
     if (from->count == 0) continue;
     uint32_t *corners = sbfi_convert_allocate(c, mesh->corner_count, sizeof *corners);
@@ -339,6 +341,7 @@ static sbf_status fill_render_mesh(
   sbf_status status = copy_sources(c, mesh, &render->source_points);
   if (status == SBF_OK) status = convert_normals(c, mesh, g, render);
   if (status == SBF_OK) status = convert_uvs(c, mesh, g, render);
+  if (status == SBF_OK) status = sbfi_convert_colors(c, mesh, g->corner_order, render);
   if (status == SBF_OK) status = convert_slots(c, mesh, render);
   if (status == SBF_OK && mesh->joint_count) status = convert_skin(c, mesh, render);
   if (status == SBF_OK) status = convert_shapes(c, mesh, g, render);

@@ -20,9 +20,13 @@ sbfi_scene_material sbfi_mtl_default(const char *name) {
       .base_color = {0.8f, 0.8f, 0.8f, 1},
       .roughness = 1,
       .alpha_cutoff = 0.5f,
+      .double_sided = true,
       .base_color_image = SBF_NONE,
       .metallic_roughness_image = SBF_NONE,
-      .normal_image = SBF_NONE};
+      .normal_image = SBF_NONE,
+      .base_color_uv = {.scale = {1, 1}},
+      .metallic_roughness_uv = {.scale = {1, 1}},
+      .normal_uv = {.scale = {1, 1}}};
 }
 
 static bool read_fraction(sbfi_span *rest, float *value) {
@@ -49,28 +53,38 @@ static uint32_t option_arguments(sbfi_span option) {
   return 1;
 }
 
+/* `-o` and `-s` in v upwards, to glTF's transform, where v goes downwards. */
+static void place_image(sbfi_scene_uv_transform *uv, const float offset[3], const float scale[3]) {
+  *uv = (sbfi_scene_uv_transform){
+      .offset = {offset[0], 1 - scale[1] - offset[1]}, .scale = {scale[0], scale[1]}};
+}
+
 /* Leaves the file name of a map: what stands after its options. It may hold blanks. */
-static sbfi_span skip_options(sbfi_span rest) {
+static sbfi_span read_options(sbfi_span rest, sbfi_scene_uv_transform *uv) {
+  float offset[3] = {0, 0, 0}, scale[3] = {1, 1, 1}, ignored[3];
   for (;;) {
+    place_image(uv, offset, scale);
     rest = sbfi_span_trim(rest);
     if (!rest.length || *rest.at != '-') return rest;
     sbfi_span after = rest, option, word;
     sbfi_span_next_word(&after, &option);
     uint32_t count = option_arguments(option);
+    float *values = sbfi_span_is(option, "-o") ? offset : sbfi_span_is(option, "-s") ? scale : ignored;
     for (uint32_t i = 0; i < count; i++) {
       sbfi_span next = after;
       float number;
       if (!sbfi_span_next_word(&next, &word)) return rest;
       bool is_number = sbfi_parse_f32(word.at, word.length, &number) == SBFI_NUMBER_READ;
       if (i > 0 && !is_number) break;
+      if (is_number) values[i] = number;
       after = next;
     }
     rest = after;
   }
 }
 
-static int32_t add_image(library *l, sbfi_span path) {
-  path = skip_options(path);
+static int32_t add_image(library *l, sbfi_span path, sbfi_scene_uv_transform *uv) {
+  path = read_options(path, uv);
   if (!path.length) return SBF_NONE;
   char *copy = (char *)sbfi_scene_string(l->scene, path);
   if (!copy) {
@@ -112,9 +126,9 @@ static void read_statement(library *l, sbfi_span keyword, sbfi_span rest) {
     float root = sqrtf(value < 0 ? 0 : value > 900 ? 900 : value);
     m->roughness = 1 - root / 30;
   } else if (sbfi_span_is(keyword, "map_Kd")) {
-    m->base_color_image = add_image(l, rest);
+    m->base_color_image = add_image(l, rest, &m->base_color_uv);
   } else if (sbfi_span_is(keyword, "norm")) {
-    m->normal_image = add_image(l, rest);
+    m->normal_image = add_image(l, rest, &m->normal_uv);
   }
   if (m->base_color[3] < 1) m->alpha_mode = SBFI_ALPHA_BLEND;
 }

@@ -403,6 +403,11 @@ static const float *normals_of(const sbfi_raw_mesh *part, uint32_t set) {
   return (const float *)part->normals;
 }
 
+static const float *colors_of(const sbfi_raw_mesh *part, uint32_t set) {
+  (void)set;
+  return (const float *)part->colors;
+}
+
 static const float *uvs_of(const sbfi_raw_mesh *part, uint32_t set) {
   return set < part->uv_set_count ? (const float *)part->uvs[set] : NULL;
 }
@@ -437,14 +442,22 @@ static bool take_attribute(joining *j, attribute of, uint32_t set, uint32_t widt
 
 static bool take_attributes(joining *j) {
   sbfi_scene_mesh *to = j->to;
-  bool normals = false;
+  bool normals = false, colors = false;
   int32_t *corners;
   float *values;
-  for (uint32_t i = 0; i < j->part_count; i++) normals = normals || j->parts[i]->normals;
+  for (uint32_t i = 0; i < j->part_count; i++) {
+    normals = normals || j->parts[i]->normals;
+    colors = colors || j->parts[i]->colors;
+  }
   if (normals) {
     if (!take_attribute(j, normals_of, 0, 3, &values, &to->normal_count, &corners)) return false;
     to->normals = (const sbf_vec3 *)values;
     to->corner_normals = corners;
+  }
+  if (colors) {
+    if (!take_attribute(j, colors_of, 0, 4, &values, &to->color_count, &corners)) return false;
+    to->colors = (const sbf_vec4 *)values;
+    to->corner_colors = corners;
   }
   if (!j->uv_set_count) return true;
   sbfi_scene_uvs *sets = room(j, j->uv_set_count, sizeof *sets);

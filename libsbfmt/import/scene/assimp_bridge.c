@@ -93,6 +93,8 @@ static sbf_status judge_exit(const sbfi_process_result *result, sbf_diagnostic *
   case SBFI_CHILD_REFUSED:
     return sbfi_diagnose(error, SBF_CODE_IMPORT_REFUSED,
         "assimp refuses the file: %s; export it as a current FBX (2011 or later), glTF 2.0 or OBJ", words);
+  case SBFI_CHILD_NOT_FINITE:
+    return sbfi_diagnose(error, SBF_CODE_IMPORT_NOT_FINITE, "%s: export the file again", words);
   case SBFI_CHILD_NO_MEMORY:
     return limit_reached(error, "memory");
   default:

@@ -173,8 +173,33 @@ static sbfi_matrix holder_world(const sbfi_scene *scene, int32_t joint) {
   return node == SBF_NONE ? sbfi_matrix_identity() : scene->nodes[node].world;
 }
 
-/* In a saved frame of a movement the mean tells size and direction roughly. What exporters write is exact:
- * vertices bound in the scene's space (Blender), in the armature's, or in the mesh node's (FBX). */
+/* The placement by the joint that stands highest in the tree, which a pose turns least. */
+static const sbfi_matrix *root_placement(const skin_view *view) {
+  const sbfi_scene_joint *joints = view->mesh->joints;
+  uint32_t root = UINT32_MAX; /* parents stand before their children */
+  for (uint32_t j = 0; j < view->mesh->joint_count; j++)
+    if (view->weights[j] > 0 && (root == UINT32_MAX || joints[j].node < joints[root].node)) root = j;
+  return root == UINT32_MAX ? NULL : &view->shown[root];
+}
+
+/* The suggestion nearest to a placement, of those near enough to it; NULL: there is none. */
+static const sbfi_matrix *nearest_suggestion(
+    const skin_view *view, const sbfi_matrix *placement, const sbfi_matrix suggested[SUGGESTIONS]) {
+  const sbfi_matrix *best = NULL;
+  double least = NEAR_PLACEMENT, size = cbrt(fabs(determinant(placement)));
+  for (int i = 0; i < SUGGESTIONS; i++) {
+    double ratio = cbrt(fabs(determinant(&suggested[i]))) / size,
+           apart = difference(view, placement, &suggested[i]);
+    if (!(ratio * NEAR_SCALE >= 1 && ratio <= NEAR_SCALE) || !(apart < least)) continue;
+    best = &suggested[i];
+    least = apart;
+  }
+  return best;
+}
+
+/* In a saved frame of a movement the mean gives size and direction roughly, the root where limbs bend far.
+ * What exporters write is exact: vertices bound in the scene's space (Blender), in the armature's, or in the
+ * mesh node's (FBX). */
 static sbfi_matrix placement_of_frame(
     const sbfi_scene *scene, const skin_view *view, const sbfi_matrix *hint) {
   const sbfi_scene_mesh *mesh = view->mesh;
@@ -182,16 +207,9 @@ static sbfi_matrix placement_of_frame(
       suggested[SUGGESTIONS] = {hint ? *hint : scene->nodes[mesh->node].world, scene->nodes[mesh->node].world,
           holder_world(scene, mesh->joints[0].node), sbfi_matrix_identity()};
   if (!mean_placement(view, &mean)) return suggested[0];
-  const sbfi_matrix *best = &mean;
-  double best_difference = NEAR_PLACEMENT, size = cbrt(fabs(determinant(&mean)));
-  for (int i = 0; i < SUGGESTIONS; i++) {
-    double ratio = cbrt(fabs(determinant(&suggested[i]))) / size,
-           apart = difference(view, &mean, &suggested[i]);
-    if (!(ratio * NEAR_SCALE >= 1 && ratio <= NEAR_SCALE) || !(apart < best_difference)) continue;
-    best = &suggested[i];
-    best_difference = apart;
-  }
-  return *best;
+  const sbfi_matrix *root = root_placement(view), *best = nearest_suggestion(view, &mean, suggested);
+  if (!best && root) best = nearest_suggestion(view, root, suggested);
+  return best ? *best : mean;
 }
 
 /* --- Skins that share joints ------------------------------------------------------------------------- */

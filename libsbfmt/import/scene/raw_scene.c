@@ -204,6 +204,10 @@ static void read_mesh(cursor *c, sbfi_raw_mesh *mesh) {
   if (has_normals > 1) fail(c, "the normals");
   if (has_normals == 1)
     mesh->normals = (const sbf_vec3 *)take_f32s(c, mesh->vertex_count, 3, "the normals", mesh->name);
+  uint32_t has_colors = take_u32(c, "the colours");
+  if (has_colors > 1) fail(c, "the colours");
+  if (has_colors == 1)
+    mesh->colors = (const sbf_vec4 *)take_f32s(c, mesh->vertex_count, 4, "the colours", mesh->name);
   mesh->uv_set_count = take_u32(c, "the uv sets");
   if (mesh->uv_set_count > 64) fail(c, "the uv sets");
   const sbf_vec2 **uvs = make(c, c->status ? 0 : mesh->uv_set_count, sizeof *uvs);
@@ -225,8 +229,19 @@ static void read_meshes(cursor *c, sbfi_raw_scene *scene) {
       fail(c, "the meshes of a node");
 }
 
+static sbfi_span take_image(cursor *c, sbfi_scene_uv_transform *uv, sbfi_span material) {
+  sbfi_span path = take_string(c, "the images of a material");
+  uv->uv_set = take_u32(c, "the images of a material");
+  const float *values = take_f32s(c, 1, 5, "the texture transforms", material);
+  if (!values) return path;
+  memcpy(uv->offset, values, sizeof uv->offset);
+  uv->rotation = values[2];
+  memcpy(uv->scale, values + 3, sizeof uv->scale);
+  return path;
+}
+
 static void read_materials(cursor *c, sbfi_raw_scene *scene) {
-  scene->material_count = take_count(c, 64, "the materials");
+  scene->material_count = take_count(c, 136, "the materials");
   sbfi_raw_material *materials = make(c, scene->material_count, sizeof *materials);
   scene->materials = materials;
   for (uint32_t i = 0; !c->status && i < scene->material_count; i++) {
@@ -234,7 +249,9 @@ static void read_materials(cursor *c, sbfi_raw_scene *scene) {
     m->name = take_string(c, "a material");
     const float *values = take_f32s(c, 1, 10, "the values", m->name);
     uint32_t alpha_mode = take_u32(c, "a material"), double_sided = take_u32(c, "a material");
-    for (int k = 0; k < SBFI_RAW_MAPS; k++) m->images[k] = take_string(c, "the images of a material");
+    sbfi_scene_uv_transform *const uvs[SBFI_RAW_MAPS] = {
+        &m->values.base_color_uv, &m->values.metallic_roughness_uv, &m->values.normal_uv};
+    for (int k = 0; k < SBFI_RAW_MAPS; k++) m->images[k] = take_image(c, uvs[k], m->name);
     if (alpha_mode > SBFI_ALPHA_BLEND) fail(c, "a material");
     if (c->status) return;
     memcpy(m->values.base_color, values, sizeof m->values.base_color);

@@ -36,6 +36,7 @@ typedef struct sbfi_raw_mesh {
   uint32_t vertex_count, uv_set_count, polygon_count, corner_count, bone_count, shape_count;
   const sbf_vec3 *positions;     /* (vertex_count) */
   const sbf_vec3 *normals;       /* (vertex_count), or NULL */
+  const sbf_vec4 *colors;        /* (vertex_count), or NULL */
   const sbf_vec2 *const *uvs;    /* (uv_set_count)(vertex_count) */
   const uint32_t *polygon_sizes; /* (polygon_count) */
   const uint32_t *corners;       /* (corner_count) */

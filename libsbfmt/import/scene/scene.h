@@ -47,6 +47,12 @@ typedef struct sbfi_scene_image {
 
 typedef enum sbfi_alpha_mode { SBFI_ALPHA_OPAQUE, SBFI_ALPHA_MASK, SBFI_ALPHA_BLEND } sbfi_alpha_mode;
 
+/* Where an image lies, as KHR_texture_transform has it. */
+typedef struct sbfi_scene_uv_transform {
+  uint32_t uv_set;
+  float offset[2], rotation, scale[2];
+} sbfi_scene_uv_transform;
+
 typedef struct sbfi_scene_material {
   const char *name;
   float base_color[4]; /* red, green, blue, opacity, 0 to 1 */
@@ -56,6 +62,7 @@ typedef struct sbfi_scene_material {
   float alpha_cutoff; /* of SBFI_ALPHA_MASK */
   bool double_sided;
   int32_t base_color_image, metallic_roughness_image, normal_image; /* index or SBF_NONE */
+  sbfi_scene_uv_transform base_color_uv, metallic_roughness_uv, normal_uv;
 } sbfi_scene_material;
 
 /* Texture coordinates, in the file's own list of them: corners share an entry where the file says so. */
@@ -106,6 +113,9 @@ typedef struct sbfi_scene_mesh {
   uint32_t normal_count;
   const sbf_vec3 *normals;       /* (normal_count), as stored: not always of unit length */
   const int32_t *corner_normals; /* (corner_count) index or SBF_NONE; NULL where the mesh has no normals */
+  uint32_t color_count;
+  const sbf_vec4 *colors;       /* (color_count), as stored: not always in [0, 1] */
+  const int32_t *corner_colors; /* (corner_count) index or SBF_NONE; NULL where the mesh has no colours */
   uint32_t uv_set_count;
   const sbfi_scene_uvs *uv_sets; /* (uv_set_count) */
 

@@ -17,14 +17,16 @@
  *     str name, u32 material
  *     u32 vertex_count, f32 positions[3 * vertex_count]
  *     u32 has_normals (0 or 1), f32 normals[3 * vertex_count] where it is 1
+ *     u32 has_colors (0 or 1), f32 colors[4 * vertex_count] where it is 1
  *     list of uv sets: f32 uv[2 * vertex_count]
  *     list of u32 polygon sizes, list of u32 corners
  *     list of bones: str node name, f32 bind[16], list of u32 vertices, f32 weights[as many]
  *     list of shapes: str name, f32 weight, f32 positions[3 * vertex_count]
  *   list of materials:
  *     str name, f32 base_color[4], emissive[3], metallic, roughness, alpha_cutoff, u32 alpha_mode (as
- *     sbfi_alpha_mode), u32 double_sided, str base colour, metallic-roughness, normal image: path, "*n" for
- *     embedded image n, "" for none
+ *     sbfi_alpha_mode), u32 double_sided, then for the base colour's, the metallic-roughness and the normal
+ *     image: str path, "*n" for embedded image n, "" for none; u32 uv set; f32 offset[2], rotation, scale[2]
+ *     as KHR_texture_transform has them
  *   list of embedded images: str name, str extension, u32 byte_count, bytes up to a whole word
  *   list of clips:
  *     str name, f64 duration, f64 ticks_per_second, list of channels:
@@ -35,7 +37,7 @@
 
 enum {
   SBFI_STREAM_MAGIC = 0x53464253, /* "SBFS" where the low byte comes first */
-  SBFI_STREAM_VERSION = 2,
+  SBFI_STREAM_VERSION = 3,
   SBFI_STREAM_END = 0x21646e65,
   SBFI_STREAM_LIMITS = 3 /* kinds of limits a node may state */
 };
@@ -53,7 +55,8 @@ enum {
   SBFI_CHILD_REFUSED = 1,
   SBFI_CHILD_BAD_CALL = 2,
   SBFI_CHILD_CANNOT_WRITE = 3,
-  SBFI_CHILD_NO_MEMORY = 4
+  SBFI_CHILD_NO_MEMORY = 4,
+  SBFI_CHILD_NOT_FINITE = 5
 };
 
 #endif

@@ -38,6 +38,8 @@ typedef enum sbf_code {
   SBF_CODE_XML_STRAY_TEXT = 208, /* Text stands where only elements belong. */
   SBF_CODE_XML_NOT_SBF = 209, /* The document's root is not <sbf>: this is another kind of XML. */
   SBF_CODE_VERSION_TOO_NEW = 210, /* The file needs a newer version of the library: update, or save it with an older one. */
+  SBF_CODE_VERSION_FIELD = 211, /* A field is of a later version than the file states: state that version. */
+  SBF_CODE_VERSION_NEWER = 212, /* The file is of a newer minor version, and what this library does not know was left out: update it before you save the file anew. */
   SBF_CODE_REQUIRED_MISSING = 301, /* A field that must be given is missing. */
   SBF_CODE_VALUE_OUT_OF_RANGE = 302, /* A number lies outside its range. */
   SBF_CODE_VALUE_NOT_FINITE = 303, /* A number is infinite or not a number. */
@@ -82,7 +84,7 @@ typedef enum sbf_code {
   SBF_CODE_COLORS_COUNT = 527, /* The numbers of elements by colour do not sum to the elements: clear color_counts, or colour again. */
   SBF_CODE_COLORS_SHARED = 528, /* Two elements of one colour share a point, which parallel solvers would move twice at once: clear color_counts, or colour again. */
   SBF_CODE_REGION_REPEATED = 529, /* A shape region names a point twice: name it once. */
-  SBF_CODE_EMBEDDING_SUM = 530, /* Weights of an embedded vertex do not sum to one: divide them by their sum, as --fix does. */
+  SBF_CODE_EMBEDDING_SUM = 530, /* Weights of an embedded vertex do not sum to one: divide them by their sum, as --fix does where the vertex then lies in its place, or build again. */
   SBF_CODE_EMBEDDING_OUTSIDE = 531, /* A vertex lies far outside the element that carries it: embed it in a nearer one. */
   SBF_CODE_EMBEDDING_BLEND = 532, /* Blends of a vertex that several bodies carry do not sum to one: divide them by their sum, as --fix does. */
   SBF_CODE_EMBEDDING_MISSING = 533, /* Vertices of a carried mesh are carried by nothing: build again, or give the mesh a skin. */
@@ -130,6 +132,7 @@ typedef enum sbf_code {
   SBF_CODE_RENDER_LEVEL_CORNER = 582, /* A corner of a render level takes its looks from a corner of the full mesh at another point: name one at the same. */
   SBF_CODE_RENDER_LEVEL_ERROR = 583, /* A render level is farther from the full mesh than it states: state the true distance, or build it again. */
   SBF_CODE_MESH_POINT_UNUSED = 586, /* Points of a render mesh are in no polygon and only cost memory: remove them in the source, or by --fix. */
+  SBF_CODE_COLORS_LENGTH = 588, /* There is not one colour a point: give one each, or name them by color_corners. */
   SBF_CODE_LATTICE_THIN = 590, /* Parts of a body are thinner than two elements of its lattice, which is thicker there than the body: give a smaller cell, or more elements. */
   SBF_CODE_LATTICE_EMPTY = 591, /* A body encloses nothing that a lattice of that cell could fill: it gets springs over its surface. */
   SBF_CODE_LATTICE_TOO_FINE = 592, /* The cell is too small for a body of that size, or for all bodies together: give a larger one, or fewer elements. */

@@ -30,26 +30,41 @@ typedef struct sbf_texture {
 } sbf_texture;
 typedef struct sbf_texture_list { const sbf_texture *at; uint32_t count; } sbf_texture_list;
 
+/* Moves, turns and scales texture coordinates before an image is looked up, as KHR_texture_transform of glTF does. */
+typedef struct sbf_uv_transform {
+  sbf_vec2 offset;  /* Added last; its second number counts downwards. */
+  float rotation;   /* Counter-clockwise about the image's upper left corner, so that the image seems turned clockwise.
+                     * [rad] */
+  sbf_vec2 scale;   /* Multiplies coordinates first; 2 shows the image twice as often. [default 1,1] */
+} sbf_uv_transform;
+typedef struct sbf_uv_transform_list { const sbf_uv_transform *at; uint32_t count; } sbf_uv_transform_list;
+
 /* An appearance: metallic-roughness, as glTF 2.0 defines it. */
 typedef struct sbf_material {
-  const char *id;                      /* Identity. */
-  const char *name;                    /* Name for people. */
-  sbf_vec4 base_color;                 /* Linear red, green, blue and opacity. [[0, 1]; default 1,1,1,1] */
-  float metallic;                      /* 0 dielectric, 1 metal. [[0, 1]; default 0] */
-  float roughness;                     /* 0 mirror, 1 matt. [[0, 1]; default 1] */
-  sbf_vec3 emissive;                   /* Emitted linear colour. [[0, inf)] */
-  sbf_alpha_mode alpha_mode;           /* What opacity means. [default opaque] */
-  float alpha_cutoff;                  /* Below it nothing is drawn, with alpha mode `mask`. [[0, 1]; default 0.5] */
-  bool double_sided;                   /* Seen from behind as well. [default false] */
-  int32_t base_color_texture;          /* Multiplies the base colour. [index into asset.textures, or SBF_NONE] */
-  int32_t metallic_roughness_texture;  /* Roughness in green, metallic in blue.
-                                        * [index into asset.textures, or SBF_NONE] */
-  int32_t normal_texture;              /* Tangent-space normals. [index into asset.textures, or SBF_NONE] */
+  const char *id;                                 /* Identity. */
+  const char *name;                               /* Name for people. */
+  sbf_vec4 base_color;                            /* Linear red, green, blue and opacity. [[0, 1]; default 1,1,1,1] */
+  float metallic;                                 /* 0 dielectric, 1 metal. [[0, 1]; default 0] */
+  float roughness;                                /* 0 mirror, 1 matt. [[0, 1]; default 1] */
+  sbf_vec3 emissive;                              /* Emitted linear colour. [[0, inf)] */
+  sbf_alpha_mode alpha_mode;                      /* What opacity means. [default opaque] */
+  float alpha_cutoff;                             /* Below it nothing is drawn, with alpha mode `mask`.
+                                                   * [[0, 1]; default 0.5] */
+  bool double_sided;                              /* Seen from behind as well. [default false] */
+  int32_t base_color_texture;                     /* Multiplies the base colour.
+                                                   * [index into asset.textures, or SBF_NONE] */
+  int32_t metallic_roughness_texture;             /* Roughness in green, metallic in blue.
+                                                   * [index into asset.textures, or SBF_NONE] */
+  int32_t normal_texture;                         /* Tangent-space normals. [index into asset.textures, or SBF_NONE] */
+  const sbf_uv_transform *base_color_uv;          /* Where the base colour's image lies. */
+  const sbf_uv_transform *metallic_roughness_uv;  /* Where the image of roughness and metal lies. */
+  const sbf_uv_transform *normal_uv;              /* Where the image of normals lies. */
 } sbf_material;
 typedef struct sbf_material_list { const sbf_material *at; uint32_t count; } sbf_material_list;
 
 /* Every field at its default, lists empty, references SBF_NONE. */
 SBF_API void sbf_texture_init(sbf_texture *texture);
+SBF_API void sbf_uv_transform_init(sbf_uv_transform *uv_transform);
 SBF_API void sbf_material_init(sbf_material *material);
 
 /* The word the format uses for a value, or "?" for one out of range. */

@@ -100,6 +100,10 @@ typedef struct sbf_render_mesh {
   sbf_render_level_list levels;           /* Coarser polygons over the same points. */
   sbf_pin_set_list pins;                  /* What sections cut from it hold, on its points; a set without a frame goes
                                            * with the section's bone. */
+  sbf_vec4_list colors;                   /* Linear colours and opacities that multiply the base colour: one a point, or
+                                           * as many as color_corners names; empty: white. [[0, 1]] */
+  sbf_u32_list color_corners;             /* The corners' colours; empty: one colour a point.
+                                           * [length 0 or mesh.polygon_points; index into colors] */
 } sbf_render_mesh;
 typedef struct sbf_render_mesh_list { const sbf_render_mesh *at; uint32_t count; } sbf_render_mesh_list;
 

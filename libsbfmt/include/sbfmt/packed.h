@@ -73,6 +73,11 @@ typedef struct sbf_load_options {
    * files never have it. */
   const sbf_given_list *given_lists;
   uint32_t given_list_count; /* how many of them */
+  /* Called at most once in a load, with a warning (VERSION_NEWER), where the file is of a newer minor version
+   * and holds parts that this library does not know. They are no part of the asset: a save loses them. May be
+   * NULL. */
+  void (*report)(void *user, const sbf_diagnostic *diagnostic);
+  void *user; /* given to `report` */
 } sbf_load_options;
 
 /* Settings of a save. */

@@ -89,6 +89,8 @@ static void renumber_mesh(renumbering *r) {
     renumber_key(r, sbfi_writable(&mesh->shape_keys.at[k]));
   if (mesh->normal_corners.count == 0 && mesh->normals.count == r->count)
     sbfi_list_drop(&mesh->normals, sizeof *mesh->normals.at, r->dropped);
+  if (mesh->color_corners.count == 0 && mesh->colors.count == r->count)
+    sbfi_list_drop(&mesh->colors, sizeof *mesh->colors.at, r->dropped);
   for (uint32_t u = 0; u < mesh->uv_sets.count; u++) {
     sbf_uv_set *set = sbfi_writable(&mesh->uv_sets.at[u]);
     if (set->corners.count == 0 && set->coordinates.count == r->count)

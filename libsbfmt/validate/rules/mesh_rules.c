@@ -26,6 +26,15 @@ static void check_normals(const seen *s) {
   }
 }
 
+static void check_colors(const seen *s) {
+  const sbf_render_mesh *mesh = s->mesh;
+  if (mesh->colors.count && mesh->color_corners.count == 0 &&
+      mesh->colors.count != mesh->mesh.positions.count)
+    sbfi_found(s->v, SBF_CODE_COLORS_LENGTH, sbfi_path_of("%s/colors", s->path.text).text, -1,
+        "'%s' has %u colours and %u points", sbfi_label(mesh->name, mesh->id), mesh->colors.count,
+        mesh->mesh.positions.count);
+}
+
 static void check_uv_sets(const seen *s) {
   for (uint32_t u = 0; u < s->mesh->uv_sets.count; u++) {
     const sbf_uv_set *set = &s->mesh->uv_sets.at[u];
@@ -89,6 +98,7 @@ void sbfi_check_meshes(sbfi_validation *v) {
     seen s = {v, &v->asset->render_meshes.at[m], sbfi_path_of("/sbf/render_mesh[%u]", m + 1)};
     check_points(&s);
     check_normals(&s);
+    check_colors(&s);
     check_uv_sets(&s);
     check_materials(&s);
     check_shape_keys(&s);

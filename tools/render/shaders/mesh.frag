@@ -8,6 +8,9 @@ uniform sampler2D base_image; // its first row is the highest
 #endif
 
 uniform float opacity; // 1: solid
+#ifdef ALPHA
+uniform float cutoff; // nothing is drawn where opacity is below it
+#endif
 
 out vec4 shown;
 
@@ -20,7 +23,12 @@ void main() {
   if (dot(facet, to_eye) < 0.0) facet = -facet;
   vec3 albedo = linear_from_stored(colour.rgb);
 #ifdef BASE_IMAGE
-  albedo *= linear_from_stored(texture(base_image, vec2(on_image.x, 1.0 - on_image.y)).rgb);
+  vec4 on_it = texture(base_image, vec2(on_image.x, 1.0 - on_image.y));
+  albedo *= linear_from_stored(on_it.rgb);
+#endif
+#ifdef ALPHA
+  float alpha = colour.a * on_it.a;
+  if (alpha < cutoff) discard;
 #endif
 
   // The key wraps a little around the body, as light does in something soft.
@@ -47,4 +55,7 @@ void main() {
   // Seen through: clearest where it faces the eye, denser towards its outline, as a bubble is.
   float veil = opacity + (1.0 - opacity) * 0.7 * pow(1.0 - facing_eye, 2.5);
   shown = vec4(stored_from_linear(seen), opacity < 1.0 ? veil * colour.a : 1.0);
+#ifdef ALPHA
+  shown.a = alpha;
+#endif
 }

@@ -2,7 +2,7 @@
 
 from .fields import Element, Field
 
-VERSION = "1.0"
+VERSION = "1.1"
 
 ENUMS = {
     'alpha_mode': ('opaque', 'mask', 'blend'),
@@ -93,6 +93,11 @@ ELEMENTS = {element.name: element for element in (
         Field('media_type', 'string', default=''),
         Field('bytes', 'bytes'),
     )),
+    Element('uv_transform', 'uv_transform', (
+        Field('offset', 'vec2', default=(0.0, 0.0)),
+        Field('rotation', 'float', default=0.0),
+        Field('scale', 'vec2', default=(1.0, 1.0)),
+    )),
     Element('material', 'material', (
         Field('id', 'id', default='', required=True),
         Field('name', 'string', default=''),
@@ -106,6 +111,9 @@ ELEMENTS = {element.name: element for element in (
         Field('base_color_texture', 'ref', 'textures'),
         Field('metallic_roughness_texture', 'ref', 'textures'),
         Field('normal_texture', 'ref', 'textures'),
+        Field('base_color_uv', 'optional', 'uv_transform', xml='base_color_uv'),
+        Field('metallic_roughness_uv', 'optional', 'uv_transform', xml='metallic_roughness_uv'),
+        Field('normal_uv', 'optional', 'uv_transform', xml='normal_uv'),
     )),
     Element('bone', 'bone', (
         Field('id', 'id', default='', required=True),
@@ -158,6 +166,8 @@ ELEMENTS = {element.name: element for element in (
         Field('source_points', 'uint[]'),
         Field('levels', 'many', 'render_level', xml='render_level'),
         Field('pins', 'many', 'pin_set', xml='pin_set', wrapper='pins'),
+        Field('colors', 'vec4[]'),
+        Field('color_corners', 'uint[]'),
     )),
     Element('uv_set', 'uv_set', (
         Field('name', 'string', default=''),
