@@ -4,8 +4,15 @@ import os
 import subprocess
 import sys
 import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+import report  # noqa: E402
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "examples")
+
+# Sines of another system's library differ in their last digit, and with them the bytes of what the scripts make.
+where_they_were_made = unittest.skipUnless(report.debian_12(), "the files were made on Debian 12, whose mathematics rounds its own way")
 
 
 class MadeFiles:
@@ -17,6 +24,7 @@ class MadeFiles:
         script = os.path.join(EXAMPLES, self.script)
         return subprocess.run([sys.executable, "-B", script, *arguments], capture_output=True, text=True, check=False)
 
+    @where_they_were_made
     def test_they_are_up_to_date(self):
         done = self.make("--check")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

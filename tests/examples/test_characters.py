@@ -12,6 +12,7 @@ sys.path.insert(0, os.path.join(EXAMPLES, "modelling"))
 
 from implicit import Body, beyond, mesh_of, paint, refine, within  # noqa: E402
 from quad_mesh import check_mirror, check_surface  # noqa: E402
+from made_files import where_they_were_made  # noqa: E402
 from skin_files import planted, triangles_of  # noqa: E402
 from model_files import Bone  # noqa: E402
 
@@ -24,6 +25,7 @@ def make(name, *arguments):
 
 
 class Files(unittest.TestCase):
+    @where_they_were_made
     def test_they_are_up_to_date(self):
         for name in NAMES:
             done = make(name, "--check")

@@ -15,6 +15,7 @@ LIZARD = os.path.join(ROOT, "examples", "lizard")
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(ROOT, "examples", "modelling"))
 
+from made_files import where_they_were_made  # noqa: E402
 from quad_mesh import QuadMesh, check_mirror, check_section, subdivided  # noqa: E402
 
 
@@ -89,6 +90,7 @@ class Files(unittest.TestCase):
         cls.document, cls.binary = read_glb(os.path.join(LIZARD, "lizard.glb"))
         cls.placed = Placed(cls.document)
 
+    @where_they_were_made
     def test_script_finds_nothing_wrong_and_nothing_stale(self):
         script = os.path.join(LIZARD, "make_lizard.py")
         done = subprocess.run([sys.executable, "-B", script, "--check"], capture_output=True, text=True, check=False)

@@ -39,12 +39,12 @@ within() {
 as_root() {
   where=$1
   shift
-  within "$where" HOME=/srv/first sh -c "cd /srv/first/sbfmt && $*"
+  within "$where" HOME=/srv/first sh -c "cd \$HOME/sbfmt && $*"
 }
 as_user() {
   where=$1
   shift
-  within "$where" HOME=/srv/guest setpriv --reuid guest --regid guest --clear-groups sh -c "cd /srv/guest/sbfmt && $*"
+  within "$where" HOME=/srv/guest setpriv --reuid guest --regid guest --clear-groups sh -c "cd \$HOME/sbfmt && $*"
 }
 
 # make_base SYSTEM: in $folder/SYSTEM
