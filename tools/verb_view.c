@@ -34,9 +34,12 @@ static sbf_status write_shot(viewing *g, const char *path, sbf_diagnostic *error
   return status == SBF_OK ? draw_picture_write_png(path, g->rgb, width, height, error) : status;
 }
 
-static sbf_status take_events(viewer *v, sbf_diagnostic *error) {
+/* The script's, then the window's. */
+static sbf_status take_events(viewer *v, uint32_t frame, const char **shot, sbf_diagnostic *error) {
   SDL_Event event;
   sbf_status status = SBF_OK;
+  while (status == SBF_OK && input_script_next(&v->input, &v->w, frame, &event, shot))
+    status = viewer_take(v, &event, error);
   while (status == SBF_OK && v->w.sdl.PollEvent(&event)) status = viewer_take(v, &event, error);
   return status;
 }
@@ -44,8 +47,8 @@ static sbf_status take_events(viewer *v, sbf_diagnostic *error) {
 /* A frame: what happened, the time since the last, the picture. *more: false after the last. */
 static sbf_status show_frame(viewing *g, uint32_t frame, double seconds, bool *more, sbf_diagnostic *error) {
   viewer *v = &g->v;
-  const char *shot = input_script_play(&v->input, &v->w, frame);
-  sbf_status status = take_events(v, error);
+  const char *shot = NULL;
+  sbf_status status = take_events(v, frame, &shot, error);
   if (status != SBF_OK) return status;
   *more = viewer_step(v, seconds);
   status = viewer_draw(v, error);

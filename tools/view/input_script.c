@@ -101,14 +101,14 @@ void input_script_free(input_script *script) {
   *script = (input_script){.lines = NULL};
 }
 
-static void send_key(const window *w, SDL_Keycode key, bool down) {
+static SDL_Event key_event(SDL_Keycode key, bool down) {
   SDL_Event event = {.type = down ? SDL_KEYDOWN : SDL_KEYUP};
   event.key.keysym.sym = key;
   event.key.state = down ? SDL_PRESSED : SDL_RELEASED;
-  w->sdl.PushEvent(&event);
+  return event;
 }
 
-static void send_pointer(input_script *script, const window *w, const input_line *line) {
+static SDL_Event pointer_event(input_script *script, const window *w, const input_line *line) {
   SDL_Event event = {.type = line->kind == INPUT_PRESS  ? SDL_MOUSEBUTTONDOWN
                              : line->kind == INPUT_MOVE ? SDL_MOUSEMOTION
                                                         : SDL_MOUSEBUTTONUP};
@@ -123,25 +123,32 @@ static void send_pointer(input_script *script, const window *w, const input_line
     event.button.button = SDL_BUTTON_LEFT;
     event.button.x = to[0], event.button.y = to[1];
   }
-  w->sdl.PushEvent(&event);
+  return event;
 }
 
-const char *input_script_play(input_script *script, const window *w, uint32_t frame) {
-  const char *shot = NULL;
+static SDL_Event wheel_event(int notches) {
+  SDL_Event event = {.type = SDL_MOUSEWHEEL};
+  event.wheel.y = notches;
+  return event;
+}
+
+bool input_script_next(
+    input_script *script, const window *w, uint32_t frame, SDL_Event *event, const char **shot) {
   for (; script->next < script->count && script->lines[script->next].frame <= frame; script->next++) {
     const input_line *line = &script->lines[script->next];
     if (line->kind == INPUT_SHOT) {
-      shot = line->shot;
-    } else if (line->kind == INPUT_KEY) {
-      if (line->down) send_key(w, line->key, true);
-      if (line->up) send_key(w, line->key, false);
-    } else if (line->kind == INPUT_WHEEL) {
-      SDL_Event event = {.type = SDL_MOUSEWHEEL};
-      event.wheel.y = line->notches;
-      w->sdl.PushEvent(&event);
-    } else {
-      send_pointer(script, w, line);
+      *shot = line->shot;
+      continue;
     }
+    if (line->kind == INPUT_KEY) {
+      *event = key_event(line->key, line->down && !script->is_pressed);
+      script->is_pressed = line->down && line->up && !script->is_pressed;
+      script->next += !script->is_pressed;
+      return true;
+    }
+    *event = line->kind == INPUT_WHEEL ? wheel_event(line->notches) : pointer_event(script, w, line);
+    script->next++;
+    return true;
   }
-  return shot;
+  return false;
 }

@@ -38,6 +38,7 @@ typedef struct input_script {
   input_line *lines;
   uint32_t count, next;
   float pointer[2]; /* where it last was */
+  bool is_pressed;  /* the key of line `next`, which is to be released at once */
 } input_script;
 
 /* False, with a message and *status set, where the file cannot be read (SBF_FAILED) or is wrong
@@ -46,7 +47,9 @@ bool input_script_load(
     input_script *script, const sdl_api *sdl, const cli_call *call, const char *path, int *status);
 void input_script_free(input_script *script);
 
-/* Sends the events that are due at the frame; returns the picture asked for, or NULL. */
-const char *input_script_play(input_script *script, const window *w, uint32_t frame);
+/* The next event that is due at the frame; false where none is left. `*shot` becomes the path of a picture
+ * that is asked for. Events do not go through SDL's queue: SDL 3 behind SDL 2's calls drops made-up keys. */
+bool input_script_next(
+    input_script *script, const window *w, uint32_t frame, SDL_Event *event, const char **shot);
 
 #endif

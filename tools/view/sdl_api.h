@@ -26,7 +26,6 @@
   X(GetWindowSize)                                                                                           \
   X(Init)                                                                                                    \
   X(PollEvent)                                                                                               \
-  X(PushEvent)                                                                                               \
   X(Quit)                                                                                                    \
   X(SetHint)                                                                                                 \
   X(SetMainReady)                                                                                            \
