@@ -13,8 +13,9 @@ QUADS = {"box.dae", "box.ply", "binary.ply", "box.off", "box.x", "box.ac", "box.
 NAMES = {"box.3ds": "3DSMesh_0", "box.3mf": "Object_1", "box.amf": "0", "box.dae": "n", "binary.ply": "binary",
          "binary.stl": "binary"}
 JOINED = {"IMPORT_POINTS_JOINED"}
+COLORS = "IMPORT_IGNORED"  # those of vertices, but in glTF
 NOTES = {"box.gltf": set(), "box.ply": set(), "binary.ply": set(), "box.off": set(), "box.3mf": {"IMPORT_UNIT"},
-         "box.amf": {"IMPORT_UNIT"}, "box.nff": JOINED | {"IMPORT_INSIDE_OUT"}}
+         "box.amf": {"IMPORT_UNIT", COLORS}, "box.dxf": JOINED | {COLORS}, "box.nff": JOINED | {"IMPORT_INSIDE_OUT"}}
 
 
 def codes(text):

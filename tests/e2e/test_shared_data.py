@@ -45,13 +45,14 @@ CLIPS = {
     "letter-f/letter_f.dae": 1, "letter-f/letter_f_chain3.dae": 1, "mocap/cmu_01_01.bvh": 1,
 }
 JOINED, POSE = "IMPORT_POINTS_JOINED", "IMPORT_POSE"
+COLORS = "IMPORT_IGNORED"  # those of vertices, in an FBX
 NOTES = {
     "armadillo/armadillo_1k.obj": {"IMPORT_MATERIALS_MISSING"},
     "cloth/cloth_25.obj": {"IMPORT_MATERIALS_MISSING"},
     "fox/fox.glb": {JOINED}, "greenman/greenman.glb": {JOINED},
-    "kenney-fbx/kenney_character.fbx": {JOINED, POSE},
+    "kenney-fbx/kenney_character.fbx": {JOINED, POSE, COLORS},
     "letter-f/letter_f.dae": {JOINED}, "letter-f/letter_f_chain3.dae": {JOINED},
-    "lizard/liz.fbx": {JOINED}, "lizard/lizart.fbx": {JOINED},
+    "lizard/liz.fbx": {JOINED, COLORS}, "lizard/lizart.fbx": {JOINED, COLORS},
     "lizard/lizart.glb": {JOINED, "IMPORT_INSIDE_OUT"},
     "mocap/cmu_01_01.bvh": {"IMPORT_NO_MESH", "IMPORT_GROUND"},
     "sausage/sausage_7500_ascii.fbx": {JOINED}, "sausage/sausage_blender_7400.fbx": {JOINED, POSE},
